@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+// One sub-domain on disk: an 8-wide BVH over clusters of at most 8 triangles, ready to be mapped and traced.
+// The byte layout is described in docs/bundle-format.md.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "scene/bounds.h"
+#include "scene/vec.h"
+
+namespace vitrail {
+
+inline constexpr int cluster_width = 8;
+// Marks an empty lane of a cluster, and "no triangle" wherever a triangle id is expected.
+inline constexpr std::uint32_t no_triangle = 0xffffffffu;
+
+// Up to 8 triangles, structure of arrays. The vertices are the uncut triangle's, whatever part of it lies in this
+// domain. Empty lanes hold NaN vertices (every ordered comparison rejects them) and the id `no_triangle`.
+struct alignas(64) Cluster {
+  float vertex[3][3][cluster_width];  // [vertex][axis][lane]
+  std::uint32_t id[cluster_width];    // global triangle id
+};
+static_assert(sizeof(Cluster) == 320);
+
+// 8 child boxes, already inflated, and what is in them. Empty children hold an inverted box (+∞ … −∞).
+struct alignas(64) BvhNode {
+  static constexpr std::uint32_t cluster_bit = 0x80000000u;
+  static constexpr std::uint32_t empty = 0xffffffffu;
+  float lower[3][8];       // [axis][child]
+  float upper[3][8];       // [axis][child]
+  std::uint32_t child[8];  // index of a node, or cluster_bit | index of a cluster, or `empty`
+  std::uint32_t padding[8];
+};
+static_assert(sizeof(BvhNode) == 256);
+
+// Shading normals of a cluster's triangles, octahedrally encoded (encode_normal), [lane][vertex]. A triangle without
+// its own has the three normals equal to no_normal.
+struct ClusterNormals {
+  std::uint32_t normal[cluster_width][3];
+};
+static_assert(sizeof(ClusterNormals) == 96);
+
+// Unit normals as two 16-bit signed octahedral coordinates (Meyer et al. 2010); + − × ÷ √ only.
+inline constexpr std::uint32_t no_normal = 0x80008000u;
+std::uint32_t encode_normal(Normal3d n);
+Normal3f decode_normal(std::uint32_t code);
+
+// The part of a cut triangle that lies in this domain: a convex polygon in the plane of the triangle,
+// vertices [first_vertex, first_vertex + vertex_count) of the piece vertices, in the triangle's own winding.
+struct Piece {
+  std::uint32_t triangle = no_triangle;
+  std::uint32_t first_vertex = 0;
+  std::uint32_t vertex_count = 0;
+};
+
+// What a domain file holds, in memory. Node 0 is the root; an empty domain has no nodes.
+struct DomainContent {
+  std::vector<BvhNode> nodes;
+  std::vector<Cluster> clusters;
+  std::vector<ClusterNormals> normals;  // empty, or one a cluster
+  std::vector<Piece> pieces;
+  std::vector<Point3d> piece_vertices;
+};
+
+// Views into a mapped file (or into a DomainContent); all that tracing touches.
+struct DomainView {
+  std::span<const BvhNode> nodes;
+  std::span<const Cluster> clusters;
+  std::span<const ClusterNormals> normals;
+};
+
+DomainView view_of(const DomainContent& content);
+
+// Writes under a temporary name, syncs and renames. Returns the size in bytes. Throws MachineError.
+std::uint64_t write_domain_file(const std::filesystem::path& file, const DomainContent& content);
+
+// A domain file mapped read-only. Unmapped by the destructor.
+class MappedDomain {
+ public:
+  // Maps the file and verifies header, sizes, checksums of the traced sections and every reference in them.
+  // Anything wrong throws Error with the file's name; a file that cannot be opened throws MachineError.
+  explicit MappedDomain(const std::filesystem::path& file);
+  ~MappedDomain();
+  MappedDomain(const MappedDomain&) = delete;
+  MappedDomain& operator=(const MappedDomain&) = delete;
+
+  const DomainView& view() const { return view_; }
+  std::uint64_t bytes() const { return bytes_; }
+
+  // The cold sections, verified when asked for.
+  std::span<const Piece> pieces() const;
+  std::span<const Point3d> piece_vertices() const;
+
+ private:
+  const std::byte* data_ = nullptr;
+  std::uint64_t bytes_ = 0;
+  std::filesystem::path file_;
+  DomainView view_;
+};
+
+}  // namespace vitrail

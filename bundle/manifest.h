@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+// What every rank knows of a bundle without loading a domain: the kd-tree, the domains' tight bounds, the surfaces,
+// materials and lights, the camera. Coordinates are the bundle's: the world's minus `offset`.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "bundle/domain_file.h"
+#include "scene/bounds.h"
+#include "scene/scene.h"
+
+namespace vitrail {
+
+// Node 0 is the root. A leaf is one domain.
+struct KdNode {
+  static constexpr std::uint32_t leaf_bit = 0x80000000u;
+  float split = 0;                           // coordinate of the interface on `axis`
+  std::uint32_t axis = 0;                    // 0, 1, 2
+  std::uint32_t below = 0, above = leaf_bit;  // index of a node, or leaf_bit | domain
+  bool operator==(const KdNode&) const = default;
+};
+
+struct DomainInfo {
+  std::uint64_t triangles = 0;  // whole triangles and pieces in it
+  std::uint64_t pieces = 0;     // of which pieces
+  std::uint64_t bytes = 0;      // of its file
+  Bounds3f tight_bounds;        // of the triangles' parts in it, padded; empty when it has none
+  bool operator==(const DomainInfo&) const = default;
+};
+
+// Triangles [first_triangle, first_triangle of the next surface) share a material and an emission.
+struct Surface {
+  std::uint32_t first_triangle = 0;
+  std::uint32_t material = 0;
+  std::int32_t area_light = -1;  // index, or −1: no light
+  bool operator==(const Surface&) const = default;
+};
+
+// One triangle that emits, replicated on every rank for light sampling. Wound so that its front emits.
+struct EmissiveTriangle {
+  Point3f p[3];
+  std::uint32_t triangle = 0;    // global id
+  std::uint32_t area_light = 0;  // index
+};
+
+// What the scene needs of a renderer; everything false costs nothing.
+struct Requirements {
+  bool shading_normals = false;
+  bool transmission = false;  // some surface lets light through
+  bool dispersion = false;    // some index of refraction depends on λ
+  bool interfaces = false;    // some surface is InterfaceMaterial
+  bool operator==(const Requirements&) const = default;
+};
+
+struct Manifest {
+  std::uint64_t triangles = 0;      // global ids are [0, triangles)
+  std::uint64_t cut_triangles = 0;  // of which straddle an interface
+  Vector3d offset;                  // world = bundle + offset
+  Bounds3f bounds;                  // of all triangles
+  float scale = 0;                  // greatest |coordinate| of a vertex; paddings scale with it
+  std::vector<KdNode> kd_nodes;     // empty when there is one domain
+  std::vector<DomainInfo> domains;
+  std::vector<Surface> surfaces;    // ascending first_triangle
+  std::vector<Material> materials;
+  std::vector<AreaLight> area_lights;
+  std::vector<EmissiveTriangle> emissive_triangles;
+  std::vector<Light> lights;        // positions and directions in the bundle's coordinates
+  Camera camera;                    // camera_to_world ends in the bundle's coordinates
+  FilmSettings film;
+  RenderSettings settings;
+  Requirements requirements;
+  std::uint64_t scene_hash = 0;     // of all triangles and records, whatever the cuts: equal scenes have equal hashes
+};
+
+// Boxes of clusters are inflated by this, and the walk visits both sides of an interface within `interface_epsilon`.
+// float error of a vertex is 6e-8·scale; ε > padding > error of a hit.
+inline double padding(const Manifest& m) { return 2e-6 * m.scale; }
+inline double interface_epsilon(const Manifest& m) { return 4e-6 * m.scale; }
+
+std::filesystem::path domain_path(const std::filesystem::path& bundle, std::uint32_t domain);
+
+// Writes manifest.json, materials.bin and lights.bin. Throws MachineError.
+void write_manifest(const std::filesystem::path& bundle, const Manifest& manifest);
+
+// Reads and checks everything but the domain files. Throws Error (bad content, with the file's name).
+Manifest read_manifest(const std::filesystem::path& bundle);
+
+}  // namespace vitrail

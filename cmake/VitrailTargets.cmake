@@ -1,0 +1,41 @@
+# SPDX-License-Identifier: Apache-2.0
+# How every target of the project is compiled.
+
+add_library(vitrail_options INTERFACE)
+add_library(vitrail::options ALIAS vitrail_options)
+target_compile_features(vitrail_options INTERFACE cxx_std_20)
+target_include_directories(vitrail_options INTERFACE ${PROJECT_SOURCE_DIR})
+target_compile_options(vitrail_options INTERFACE
+  -Wall -Wextra -Wconversion -Wshadow
+  # The picture has to have the same bits on every machine and in every build: a fused multiply-add rounds once where
+  # a multiply and an add round twice, and the compiler would choose.
+  -ffp-contract=off)
+
+# vitrail_library(NAME SOURCES … LIBRARIES …): the library vitrail::NAME.
+function(vitrail_library name)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;LIBRARIES")
+  add_library(vitrail_${name} STATIC ${arg_SOURCES})
+  add_library(vitrail::${name} ALIAS vitrail_${name})
+  target_link_libraries(vitrail_${name} PUBLIC vitrail::options ${arg_LIBRARIES})
+endfunction()
+
+# vitrail_program(VERB SOURCES … LIBRARIES …): the program vitrail-VERB.
+function(vitrail_program verb)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;LIBRARIES")
+  add_executable(vitrail-${verb} ${arg_SOURCES})
+  target_link_libraries(vitrail-${verb} PRIVATE ${arg_LIBRARIES})
+endfunction()
+
+# vitrail_test(NAME LABEL l SOURCES … LIBRARIES … [TIMEOUT s]): one GoogleTest program, registered with ctest.
+function(vitrail_test name)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "LABEL;TIMEOUT" "SOURCES;LIBRARIES")
+  if(NOT arg_TIMEOUT)
+    set(arg_TIMEOUT 120)
+  endif()
+  add_executable(test_${name} ${arg_SOURCES})
+  target_link_libraries(test_${name} PRIVATE ${arg_LIBRARIES} GTest::gmock GTest::gtest_main)
+  target_compile_definitions(test_${name} PRIVATE
+    VITRAIL_SOURCE_DIR="${PROJECT_SOURCE_DIR}" VITRAIL_BIN_DIR="${CMAKE_RUNTIME_OUTPUT_DIRECTORY}")
+  add_test(NAME ${name} COMMAND test_${name})
+  set_tests_properties(${name} PROPERTIES LABELS ${arg_LABEL} TIMEOUT ${arg_TIMEOUT})
+endfunction()

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is said to the user about the input: errors that stop, and notes on what was approximated or dropped.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace vitrail {
+
+// A place in a file. Lines and columns count from 1; 0 means that the file as a whole is meant.
+struct SourceLocation {
+  std::string file;
+  int line = 0;
+  int column = 0;
+};
+
+// "file:line:column", "file" where the line is 0, "" where the file is unknown.
+std::string to_string(const SourceLocation& where);
+
+// Bad input: exit status 3. Thrown anywhere, caught once in cli/.
+// `excerpt` is the offending text, shown under the message; it may be empty.
+struct Error : std::runtime_error {
+  Error(std::string message, SourceLocation where = {}, std::string excerpt = {});
+  SourceLocation location;
+  std::string excerpt;
+};
+
+// The machine failed: disk full, unwritable directory, too little memory, a lost rank. Exit status 4.
+struct MachineError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+// Wrong usage of a program. Exit status 2.
+struct UsageError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+enum class Fidelity { approximated, dropped };
+
+// One feature of the input that was not imported exactly.
+struct Diagnostic {
+  Fidelity fidelity = Fidelity::approximated;
+  std::string message;  // what, and how or why
+  SourceLocation location;
+};
+
+using Diagnostics = std::vector<Diagnostic>;
+
+// The closest of `candidates` to `word` by edit distance, or "" when none is within a third of its length.
+std::string closest_word(const std::string& word, const std::vector<std::string>& candidates);
+
+}  // namespace vitrail

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+// Spectra: functions of the wavelength. Not to be confused with their samples (SampledSpectrum).
+#pragma once
+
+#include <array>
+#include <variant>
+#include <vector>
+
+namespace vitrail {
+
+// The visible range that everything is sampled on, nm.
+inline constexpr double lambda_min_nm = 360;
+inline constexpr double lambda_max_nm = 830;
+inline constexpr int table_size = 471;  // values at 360, 361 … 830 nm
+
+struct ConstantSpectrum {
+  float value = 0;
+  bool operator==(const ConstantSpectrum&) const = default;
+};
+
+// Reflectance S(λ) = ½ + x/(2√(1+x²)), x = c0·λ² + c1·λ + c2, λ in nm (Jakob & Hanika 2019, eq. 3 and 4).
+// c0 = c1 = 0 and c2 = ±∞ stand for the constants 1 and 0.
+struct SigmoidSpectrum {
+  float c0 = 0, c1 = 0, c2 = 0;
+  bool operator==(const SigmoidSpectrum&) const = default;
+};
+
+// Emission of colour rgb: scale · sigmoid(λ) · D65(λ), D65 normalised so that rgb (1,1,1) has luminance 1:
+// ∫ S ȳ dλ / ∫ ȳ dλ = 1. `scale` is 2·max(rgb), the sigmoid has colour rgb/scale.
+struct RgbIlluminantSpectrum {
+  SigmoidSpectrum shape;
+  float scale = 0;
+  bool operator==(const RgbIlluminantSpectrum&) const = default;
+};
+
+// Values at 360, 361 … 830 nm, linear in between. Always `table_size` values.
+struct TabulatedSpectrum {
+  std::vector<float> values;
+  bool operator==(const TabulatedSpectrum&) const = default;
+};
+
+// Refractive index n² = 1 + Σ bᵢλ²/(λ² − cᵢ), λ in µm (Sellmeier 1871).
+struct SellmeierSpectrum {
+  std::array<double, 3> b{};
+  std::array<double, 3> c_um2{};
+  bool operator==(const SellmeierSpectrum&) const = default;
+};
+
+using Spectrum = std::variant<ConstantSpectrum, SigmoidSpectrum, RgbIlluminantSpectrum, TabulatedSpectrum,
+                              SellmeierSpectrum>;
+
+// Value at a wavelength in nm. Uses + − × ÷ √ only, so it has the same bits on every machine.
+double evaluate(const Spectrum& spectrum, double lambda_nm);
+
+// True where the value does not depend on the wavelength.
+bool is_constant(const Spectrum& spectrum);
+
+// Piecewise linear samples (wavelength in nm, value) in ascending order of wavelength, resampled to 1 nm.
+// Outside their range the spectrum is zero, or held at the end value if `extend`.
+// Unsorted or duplicate wavelengths, non-finite values and an empty list throw Error.
+TabulatedSpectrum tabulate(const std::vector<std::array<double, 2>>& samples, bool extend);
+
+// Planck's law at `kelvin`, normalised to a maximum of 1 over all wavelengths.
+TabulatedSpectrum blackbody(double kelvin);
+
+// The same spectrum times `factor`, staying in its own kind where it can.
+Spectrum scaled(const Spectrum& spectrum, double factor);
+
+// ∫ S(λ) ȳ(λ) dλ / ∫ ȳ(λ) dλ: the luminance-weighted mean, the Y of a pixel that sees radiance S.
+double luminance(const Spectrum& spectrum);
+
+}  // namespace vitrail
