@@ -18,6 +18,8 @@ namespace vitrail {
 inline constexpr int cluster_width = 8;
 // Marks an empty lane of a cluster, and "no triangle" wherever a triangle id is expected.
 inline constexpr std::uint32_t no_triangle = 0xffffffffu;
+// Most levels a tree of nodes may have. A depth-first traversal needs at most 7·64 + 8 stack entries.
+inline constexpr int max_bvh_depth = 64;
 
 // Up to 8 triangles, structure of arrays. The vertices are the uncut triangle's, whatever part of it lies in this
 // domain. Empty lanes hold NaN vertices (every ordered comparison rejects them) and the id `no_triangle`.
@@ -91,6 +93,8 @@ class MappedDomain {
 
   const DomainView& view() const { return view_; }
   std::uint64_t bytes() const { return bytes_; }
+  // Of the header, which holds the checksums of all sections: it stands for the whole content.
+  std::uint64_t hash() const;
 
   // The cold sections, verified when asked for.
   std::span<const Piece> pieces() const;

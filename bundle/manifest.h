@@ -27,6 +27,7 @@ struct DomainInfo {
   std::uint64_t triangles = 0;  // whole triangles and pieces in it
   std::uint64_t pieces = 0;     // of which pieces
   std::uint64_t bytes = 0;      // of its file
+  std::uint64_t hash = 0;       // MappedDomain::hash of its file
   Bounds3f tight_bounds;        // of the triangles' parts in it, padded; empty when it has none
   bool operator==(const DomainInfo&) const = default;
 };
@@ -87,5 +88,9 @@ void write_manifest(const std::filesystem::path& bundle, const Manifest& manifes
 
 // Reads and checks everything but the domain files. Throws Error (bad content, with the file's name).
 Manifest read_manifest(const std::filesystem::path& bundle);
+
+// Throws Error where the mapped file is not the one that the manifest speaks of, or holds triangles it does not have.
+void check_domain(const Manifest& manifest, std::uint32_t domain, const MappedDomain& mapped,
+                  const std::filesystem::path& file);
 
 }  // namespace vitrail

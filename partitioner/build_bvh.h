@@ -4,6 +4,7 @@
 
 #include <array>
 #include <span>
+#include <vector>
 
 #include "bundle/domain_file.h"
 
@@ -11,20 +12,23 @@ namespace vitrail {
 
 // A triangle, or its part in one domain. `bounds` may be smaller than the triangle's where it is cut.
 struct TriangleReference {
-  Bounds3f bounds;                 // of the part in this domain, rounded outwards
+  Bounds3f bounds;                  // of the part in this domain, rounded outwards
   std::array<Point3f, 3> vertices;  // of the uncut triangle
-  std::uint32_t id = 0;            // global triangle id
+  std::uint32_t id = 0;             // global triangle id
 };
 
-// Clusters by Embree's SAH builder (rtcBuildBVH), at most 8 triangles each, and its binary tree collapsed to 8-wide
-// nodes by largest area. Boxes are inflated by `padding` on every side. The result does not depend on the number of
-// threads. Triangles of zero area are kept; no references give no nodes.
-// Fills nodes, clusters and, for each lane, nothing else: see `lane_of` for where each reference went.
+// Invariants: node 0 is the root; a node comes before its children, which keep their order; so do clusters.
+// Within a cluster the lanes are in the order of the references.
 struct ClusteredTriangles {
   std::vector<BvhNode> nodes;
   std::vector<Cluster> clusters;
   std::vector<std::uint32_t> lane_reference;  // [cluster·8 + lane]: index into `references`, or no_triangle
 };
+
+// Clusters by Embree's SAH builder (rtcBuildBVH), at most 8 triangles each, and its binary tree collapsed to 8-wide
+// nodes by largest area. A box holds the bounds of its references, inflated on every side by padding + 10⁻⁶|x|.
+// The result depends neither on the number of threads nor on the instruction set. Triangles of zero area are kept;
+// no references give no nodes. Throws MachineError when Embree fails.
 ClusteredTriangles build_bvh(std::span<const TriangleReference> references, float padding);
 
 }  // namespace vitrail

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+// Little-endian bytes, one value after the other without gaps.
+#pragma once
+
+#include <bit>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <utility>
+#include <vector>
+
+#include "scene/diagnostics.h"
+
+namespace vitrail {
+
+static_assert(std::endian::native == std::endian::little);
+
+template <class T>
+concept Number = std::integral<T> || std::floating_point<T>;
+
+class ByteWriter {
+ public:
+  template <Number T>
+  void put(T value) {
+    const auto* first = reinterpret_cast<const std::byte*>(&value);
+    bytes_.insert(bytes_.end(), first, first + sizeof value);
+  }
+  std::vector<std::byte> take() { return std::move(bytes_); }
+
+ private:
+  std::vector<std::byte> bytes_;
+};
+
+// Reading past the end, or leaving something over, throws Error with the file's name.
+class ByteReader {
+ public:
+  ByteReader(std::vector<std::byte> bytes, std::filesystem::path file)
+      : bytes_(std::move(bytes)), file_(std::move(file)) {}
+
+  template <Number T>
+  T get() {
+    T value;
+    if (sizeof value > bytes_.size() - at_) fail("it ends in the middle of a record");
+    std::memcpy(&value, bytes_.data() + at_, sizeof value);
+    at_ += sizeof value;
+    return value;
+  }
+  // A number of records of at least `least_bytes` bytes each, checked against what is left of the file.
+  std::size_t get_count(std::size_t least_bytes) {
+    const auto count = get<std::uint64_t>();
+    if (count > (bytes_.size() - at_) / least_bytes) fail("it counts more records than it holds");
+    return static_cast<std::size_t>(count);
+  }
+  void expect_end() const {
+    if (at_ != bytes_.size()) fail("something follows its last record");
+  }
+  [[noreturn]] void fail(const char* what) const { throw Error(std::string("damaged file: ") + what, {file_.string()}); }
+
+ private:
+  std::vector<std::byte> bytes_;
+  std::filesystem::path file_;
+  std::size_t at_ = 0;
+};
+
+}  // namespace vitrail

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// The bytes of a domain file: header, section table, sections. See docs/bundle-format.md.
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstdint>
+
+#include "bundle/domain_file.h"
+
+namespace vitrail::layout {
+
+static_assert(std::endian::native == std::endian::little, "domain files are little-endian and mapped as they are");
+
+inline constexpr std::array<char, 8> domain_magic{'V', 'I', 'T', 'R', 'D', 'O', 'M', '\n'};
+inline constexpr std::uint32_t domain_version = 1;
+inline constexpr std::uint64_t section_alignment = 64;
+// Zero bytes that follow each section at least: vector loads may read past the end of an array.
+inline constexpr std::uint64_t section_tail = 16;
+
+enum SectionIndex : std::size_t { nodes, clusters, normals, pieces, piece_vertices, section_count };
+
+inline constexpr std::array<std::uint32_t, section_count> element_size{
+    sizeof(BvhNode), sizeof(Cluster), sizeof(ClusterNormals), sizeof(Piece), sizeof(Point3d)};
+
+struct Section {
+  std::uint64_t offset = 0;    // from the start of the file, a multiple of 64
+  std::uint64_t count = 0;     // elements
+  std::uint64_t checksum = 0;  // of everything up to the next section, its padding included
+  std::uint32_t element_size = 0;
+  std::uint32_t kind = 0;  // a SectionIndex; the sections stand in this order
+};
+static_assert(sizeof(Section) == 32);
+
+struct DomainHeader {
+  std::array<char, 8> magic = domain_magic;
+  std::uint32_t version = domain_version;
+  std::uint32_t sections = section_count;
+  std::uint64_t file_bytes = 0;
+  std::uint64_t header_checksum = 0;  // of this header and the table, with this field 0
+  std::array<Section, section_count> table{};
+};
+static_assert(sizeof(DomainHeader) == 192 && sizeof(DomainHeader) % section_alignment == 0);
+
+// Bytes a section takes in the file, padding included.
+constexpr std::uint64_t padded_bytes(std::uint64_t count, std::uint64_t element) {
+  const std::uint64_t bytes = count * element;
+  return count == 0 ? 0 : (bytes + section_tail + section_alignment - 1) / section_alignment * section_alignment;
+}
+
+std::uint64_t checksum_of(DomainHeader header);
+
+}  // namespace vitrail::layout

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <vector>
+
+namespace vitrail {
+
+// The bytes of an input file: mapped, or inflated where it is gzipped (by content, whatever its name). They stay at
+// their address for the life of the object. A file that cannot be opened or inflated throws Error.
+class InputBytes {
+ public:
+  explicit InputBytes(const std::filesystem::path& file);
+  ~InputBytes();
+  InputBytes(const InputBytes&) = delete;
+  InputBytes& operator=(const InputBytes&) = delete;
+
+  const char* begin() const { return begin_; }
+  const char* end() const { return begin_ + size_; }
+  std::size_t size() const { return size_; }
+
+  // Lets the pages before `position` leave memory; they come back from the file if they are read again.
+  void release_before(const char* position);
+
+ private:
+  void map(int descriptor, std::size_t size);
+  void inflate(const std::filesystem::path& file);
+
+  const char* begin_ = nullptr;
+  std::size_t size_ = 0;
+  std::size_t released_ = 0;
+  bool mapped_ = false;
+  std::vector<char> inflated_;
+};
+
+}  // namespace vitrail

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "scene/diagnostics.h"
+
+namespace vitrail {
+
+// Reads words and numbers of a text and knows where it is. Lines end with \n, \r\n or \r; a backslash before the end
+// of a line joins it with the next one if `continuations` is set.
+class TextCursor {
+ public:
+  TextCursor(std::string file, const char* begin, const char* end, bool continuations = false)
+      : file_(std::move(file)), at_(begin), end_(end), line_begin_(begin), continuations_(continuations) {}
+
+  const char* at() const { return at_; }
+  const char* end() const { return end_; }
+  bool done() const { return at_ == end_; }
+
+  // Skips blanks; true if the line has ended there.
+  bool at_line_end();
+  // Skips blanks and ends of lines; false at the end of the text.
+  bool skip_to_text();
+  void skip_line();
+
+  // The characters up to the next blank; empty at the end of the line.
+  std::string_view word();
+  // The rest of the line without the blanks around it.
+  std::string_view rest_of_line();
+  // A number that ends at a blank or the end of the line; anything else throws Error. `what` names it in the message.
+  double number(const char* what);
+  // Consumes `c` if it comes next.
+  bool accept(char c);
+  // A decimal integer, which must fit; nothing is required to follow it.
+  std::int64_t integer(const char* what);
+
+  SourceLocation location() const { return location(at_); }
+  // Of a position in the present line.
+  SourceLocation location(const char* position) const;
+  // Throws Error at a position in the present line, with the line as the excerpt.
+  [[noreturn]] void fail(std::string message, const char* position) const;
+  [[noreturn]] void fail(std::string message) const { fail(std::move(message), at_); }
+
+ private:
+  bool blank() const { return *at_ == ' ' || *at_ == '\t' || *at_ == '\v' || *at_ == '\f'; }
+  bool line_break() const { return *at_ == '\n' || *at_ == '\r'; }
+  void skip_blanks();
+  void break_line();
+
+  std::string file_;
+  const char* at_;
+  const char* end_;
+  const char* line_begin_;
+  int line_ = 1;
+  bool continuations_;
+};
+
+}  // namespace vitrail

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "partitioner/build_bvh.h"
+
+#include <embree3/rtcore.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <new>
+#include <string>
+#include <utility>
+
+#include "scene/diagnostics.h"
+
+namespace vitrail {
+namespace {
+
+// What Embree builds: a binary tree whose leaves are the clusters. `count` is 0 for an inner node.
+struct BinaryNode {
+  std::uint32_t count = 0;
+  std::uint32_t reference[cluster_width];
+  BinaryNode* child[2];
+  Bounds3f bounds[2];  // of the children
+};
+
+struct Subtree {
+  const BinaryNode* node = nullptr;
+  Bounds3f bounds;
+};
+
+using Device = std::unique_ptr<RTCDeviceTy, decltype(&rtcReleaseDevice)>;
+using Bvh = std::unique_ptr<RTCBVHTy, decltype(&rtcReleaseBVH)>;
+
+BinaryNode* allocate_node(RTCThreadLocalAllocator allocator) {
+  return new (rtcThreadLocalAlloc(allocator, sizeof(BinaryNode), 16)) BinaryNode;
+}
+
+void* create_node(RTCThreadLocalAllocator allocator, unsigned, void*) { return allocate_node(allocator); }
+
+void set_children(void* node, void** children, unsigned count, void*) {
+  for (unsigned i = 0; i < count; ++i) {
+    static_cast<BinaryNode*>(node)->child[i] = static_cast<BinaryNode*>(children[i]);
+  }
+}
+
+void set_bounds(void* node, const RTCBounds** bounds, unsigned count, void*) {
+  for (unsigned i = 0; i < count; ++i) {
+    const RTCBounds& b = *bounds[i];
+    static_cast<BinaryNode*>(node)->bounds[i] = {{b.lower_x, b.lower_y, b.lower_z},
+                                                 {b.upper_x, b.upper_y, b.upper_z}};
+  }
+}
+
+// Embree's parallel partition leaves the references of a leaf in an order that depends on the threads: sort them.
+void* create_leaf(RTCThreadLocalAllocator allocator, const RTCBuildPrimitive* primitives, std::size_t count, void*) {
+  BinaryNode* leaf = allocate_node(allocator);
+  leaf->count = static_cast<std::uint32_t>(count);
+  for (std::size_t i = 0; i < count; ++i) leaf->reference[i] = primitives[i].primID;
+  std::sort(leaf->reference, leaf->reference + count);
+  return leaf;
+}
+
+std::vector<RTCBuildPrimitive> build_primitives(std::span<const TriangleReference> references) {
+  std::vector<RTCBuildPrimitive> primitives(references.size());
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, references.size(), 4096), [&](const auto& range) {
+    for (std::size_t i = range.begin(); i != range.end(); ++i) {
+      const Bounds3f& b = references[i].bounds;
+      primitives[i] = {b.lower.x, b.lower.y, b.lower.z, 0,
+                       b.upper.x, b.upper.y, b.upper.z, static_cast<std::uint32_t>(i)};
+    }
+  });
+  return primitives;
+}
+
+const BinaryNode* build_binary(RTCBVH bvh, std::vector<RTCBuildPrimitive>& primitives) {
+  RTCBuildArguments arguments = rtcDefaultBuildArguments();
+  arguments.buildQuality = RTC_BUILD_QUALITY_MEDIUM;  // binned SAH, no spatial splits
+  arguments.maxDepth = 96;     // the last 8 levels halve what is left, whatever its SAH
+  arguments.sahBlockSize = cluster_width;
+  arguments.maxLeafSize = cluster_width;
+  arguments.bvh = bvh;
+  arguments.primitives = primitives.data();
+  arguments.primitiveCount = primitives.size();
+  arguments.primitiveArrayCapacity = primitives.size();
+  arguments.createNode = create_node;
+  arguments.setNodeChildren = set_children;
+  arguments.setNodeBounds = set_bounds;
+  arguments.createLeaf = create_leaf;
+  return static_cast<const BinaryNode*>(rtcBuildBVH(&arguments));
+}
+
+// x moved by padding + 10⁻⁶|x| towards `towards`, which is ±∞, and rounded the same way.
+float inflate(float x, double padding, float towards) {
+  const double moved = double{x} + std::copysign(padding + 1e-6 * std::abs(double{x}), double{towards});
+  return std::nextafter(static_cast<float>(moved), towards);
+}
+
+// Collapses the binary tree and writes nodes and clusters, depth first.
+class Collapser {
+ public:
+  Collapser(std::span<const TriangleReference> references, double padding, ClusteredTriangles& out)
+      : references_(references), padding_(padding), out_(out) {}
+
+  std::uint32_t add_node(const Subtree* begin, const Subtree* end) {
+    const auto index = static_cast<std::uint32_t>(out_.nodes.size());
+    out_.nodes.push_back(empty_node());
+    for (int i = 0; begin != end; ++begin, ++i) {
+      set_box(out_.nodes[index], i, begin->bounds);
+      const std::uint32_t child =
+          begin->node->count ? BvhNode::cluster_bit | add_cluster(*begin->node) : add_inner(*begin->node);
+      out_.nodes[index].child[i] = child;
+    }
+    return index;
+  }
+
+ private:
+  // Opens the inner node of the largest area until there are 8 children or only clusters.
+  std::uint32_t add_inner(const BinaryNode& root) {
+    Subtree children[8] = {{root.child[0], root.bounds[0]}, {root.child[1], root.bounds[1]}};
+    int count = 2;
+    while (count < 8) {
+      int largest = -1;
+      for (int i = 0; i < count; ++i) {
+        if (children[i].node->count) continue;
+        if (largest < 0 || surface_area(children[i].bounds) > surface_area(children[largest].bounds)) largest = i;
+      }
+      if (largest < 0) break;
+      const BinaryNode& opened = *children[largest].node;
+      children[count++] = {opened.child[1], opened.bounds[1]};
+      children[largest] = {opened.child[0], opened.bounds[0]};
+    }
+    return add_node(children, children + count);
+  }
+
+  std::uint32_t add_cluster(const BinaryNode& leaf) {
+    const auto index = static_cast<std::uint32_t>(out_.clusters.size());
+    Cluster& cluster = out_.clusters.emplace_back();
+    for (std::uint32_t lane = 0; lane < cluster_width; ++lane) {
+      const bool filled = lane < leaf.count;
+      const std::uint32_t reference = filled ? leaf.reference[lane] : no_triangle;
+      out_.lane_reference.push_back(reference);
+      cluster.id[lane] = filled ? references_[reference].id : no_triangle;
+      for (std::size_t vertex = 0; vertex < 3; ++vertex) {
+        for (int axis = 0; axis < 3; ++axis) {
+          cluster.vertex[vertex][axis][lane] =
+              filled ? references_[reference].vertices[vertex][axis] : std::numeric_limits<float>::quiet_NaN();
+        }
+      }
+    }
+    return index;
+  }
+
+  static BvhNode empty_node() {
+    BvhNode node{};
+    std::fill_n(&node.lower[0][0], 24, std::numeric_limits<float>::infinity());
+    std::fill_n(&node.upper[0][0], 24, -std::numeric_limits<float>::infinity());
+    std::fill_n(node.child, 8, BvhNode::empty);
+    return node;
+  }
+
+  void set_box(BvhNode& node, int child, const Bounds3f& bounds) const {
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    for (int axis = 0; axis < 3; ++axis) {
+      node.lower[axis][child] = inflate(bounds.lower[axis], padding_, -infinity);
+      node.upper[axis][child] = inflate(bounds.upper[axis], padding_, infinity);
+    }
+  }
+
+  std::span<const TriangleReference> references_;
+  double padding_;
+  ClusteredTriangles& out_;
+};
+
+}  // namespace
+
+ClusteredTriangles build_bvh(std::span<const TriangleReference> references, float padding) {
+  ClusteredTriangles out;
+  if (references.empty()) return out;
+  const Device device(rtcNewDevice(nullptr), &rtcReleaseDevice);
+  if (!device) throw MachineError("embree cannot start: error " + std::to_string(rtcGetDeviceError(nullptr)));
+  const Bvh bvh(rtcNewBVH(device.get()), &rtcReleaseBVH);
+  std::vector<RTCBuildPrimitive> primitives = build_primitives(references);
+  const BinaryNode* binary = build_binary(bvh.get(), primitives);
+  if (!binary) {
+    throw MachineError("embree cannot build a hierarchy over " + std::to_string(references.size()) +
+                       " triangles: error " + std::to_string(rtcGetDeviceError(device.get())));
+  }
+  Subtree root{binary, {}};
+  for (const TriangleReference& r : references) extend(root.bounds, r.bounds);
+  out.nodes.reserve(references.size() / 24 + 1);
+  out.clusters.reserve(references.size() / 6 + 1);
+  out.lane_reference.reserve(out.clusters.capacity() * cluster_width);
+  Collapser(references, double{padding}, out).add_root(root);
+  return out;
+}
+
+}  // namespace vitrail

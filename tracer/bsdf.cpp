@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tracer/bsdf.h"
+
+#include "tracer/portable_math.h"
+
+namespace vitrail {
+
+Frame::Frame(Vector3d n) : normal(n) {
+  const double sign = std::copysign(1.0, n.z);
+  const double a = -1 / (sign + n.z), b = n.x * n.y * a;
+  tangent = {1 + sign * n.x * n.x * a, sign * b, -sign * n.x};
+  bitangent = {b, sign + n.y * n.y * a, -n.y};
+}
+
+Vector3d sample_cosine_hemisphere(float u, float v) {
+  const double a = 2 * static_cast<double>(u) - 1, b = 2 * static_cast<double>(v) - 1;
+  if (a == 0 && b == 0) return {0, 0, 1};
+  double x, y;
+  if (std::abs(a) > std::abs(b)) {
+    const double phi = pi / 4 * (b / a);
+    x = a * cos_small(phi);
+    y = a * sin_small(phi);
+  } else {
+    const double phi = pi / 4 * (a / b);
+    x = b * sin_small(phi);
+    y = b * cos_small(phi);
+  }
+  return {x, y, safe_sqrt(1 - x * x - y * y)};
+}
+
+double fresnel_dielectric(double cosine, double eta) {
+  const double sin2_transmitted = (1 - cosine * cosine) / (eta * eta);
+  if (sin2_transmitted >= 1) return 1;
+  const double transmitted = safe_sqrt(1 - sin2_transmitted);
+  // At grazing incidence on eta = 1 both cosines vanish and nothing is reflected.
+  const double s_sum = cosine + eta * transmitted, p_sum = eta * cosine + transmitted;
+  if (s_sum <= 0 || p_sum <= 0) return eta == 1 ? 0 : 1;
+  const double s = (cosine - eta * transmitted) / s_sum, p = (eta * cosine - transmitted) / p_sum;
+  return (s * s + p * p) / 2;
+}
+
+bool refract(Vector3d out, Vector3d normal, double eta, Vector3d& refracted) {
+  const double cosine = dot(out, normal);
+  const double sin2_transmitted = std::max(0.0, 1 - cosine * cosine) / (eta * eta);
+  if (sin2_transmitted >= 1) return false;
+  const double transmitted = safe_sqrt(1 - sin2_transmitted);
+  refracted = normalize(out * (-1 / eta) + normal * (cosine / eta - transmitted));
+  return true;
+}
+
+}  // namespace vitrail

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tracer/path_tracer.h"
+
+#include <limits>
+
+#include "tracer/path_state.h"
+#include "tracer/walk.h"
+
+namespace vitrail {
+
+TraceCounters& operator+=(TraceCounters& a, const TraceCounters& b) {
+  a.rays_camera += b.rays_camera;
+  a.rays_indirect += b.rays_indirect;
+  a.rays_shadow += b.rays_shadow;
+  a.crossings += b.crossings;
+  a.nonfinite_samples += b.nonfinite_samples;
+  a.born += b.born;
+  a.died += b.died;
+  return a;
+}
+
+PathTracer::PathTracer(const RenderScene& scene, ResidentViews resident, Film& film, Outbox& outbox,
+                       TraceCounters& counters)
+    : scene_(scene),
+      manifest_(scene.manifest),
+      resident_(resident),
+      kernel_(best_kernel()),
+      film_(film),
+      outbox_(outbox),
+      counters_(counters) {}
+
+SampleKey PathTracer::key_of(std::uint32_t pixel, std::uint32_t sample) const {
+  const auto width = static_cast<std::uint32_t>(film_.width());
+  const auto x = static_cast<std::uint32_t>(film_.crop().x0) + pixel % width;
+  const auto y = static_cast<std::uint32_t>(film_.crop().y0) + pixel / width;
+  return {scene_.seed, y * static_cast<std::uint32_t>(film_.full_width()) + x, sample};
+}
+
+void PathTracer::trace_camera(int x, int y, std::uint32_t sample) {
+  Path path;
+  path.pixel = static_cast<std::uint32_t>((y - film_.crop().y0) * film_.width() + x - film_.crop().x0);
+  path.sample = sample;
+  const std::array<float, 4> u = sample_4d(key_of(path.pixel, sample), sample_set::camera);
+  const Point2d offset = scene_.filter.sample(u[0], u[1]);
+  const CameraRay ray = camera_ray(manifest_.camera, manifest_.film, {x + 0.5 + offset.x, y + 0.5 + offset.y});
+  path.wavelengths = sample_wavelengths(u[2]);
+  path.sensor = sensor_weights(path.wavelengths);
+  path.throughput = filled(1);
+  path.direction = ray.direction;
+  path.ray = {ray.origin, decode_direction(ray.direction), no_triangle};
+  film_.count_sample(path.pixel);
+  ++counters_.rays_camera;
+  ++counters_.born;
+  run(path, std::nullopt);
+}
+
+void PathTracer::resume(const PathRecord& record, std::uint32_t domain) {
+  Path path;
+  path.pixel = record.pixel;
+  path.sample = record.sample_depth >> 8;
+  path.depth = record.sample_depth & 0xff;
+  path.flags = record.flags;
+  path.pdf = pdf_value(record.pdf);
+  for (std::size_t i = 0; i < hero_count; ++i) path.throughput.v[i] = record.throughput[i];
+  path.direction = record.direction;
+  path.ray = {{record.origin[0], record.origin[1], record.origin[2]}, decode_direction(record.direction),
+              record.exclude};
+  path.hit.t = record.hit_t;
+  path.hit.triangle = record.hit_triangle;
+  path.hit_domain = record.hit_domain;
+  path.wavelengths = sample_wavelengths(sample_4d(key_of(path.pixel, path.sample), sample_set::camera)[2]);
+  path.sensor = sensor_weights(path.wavelengths);
+  run(path, domain);
+}
+
+void PathTracer::run(Path& path, std::optional<std::uint32_t> at) {
+  while (find_hit(path, at)) {
+    at.reset();
+    if (!shade(path)) {
+      ++counters_.died;
+      return;
+    }
+    ++counters_.rays_indirect;
+  }
+}
+
+void PathTracer::intersect(Path& path, std::uint32_t domain) {
+  const Hit before = path.hit;
+  kernel_.closest(*resident_[domain], path.ray, path.hit);
+  if (path.hit.t != before.t || path.hit.triangle != before.triangle) path.hit_domain = domain;
+}
+
+// True when the hit, or that there is none, is certain and its domain at hand; false when the path went on elsewhere.
+bool PathTracer::find_hit(Path& path, std::optional<std::uint32_t> at) {
+  bool located = true;  // hit.cluster and hit.lane are known
+  if (at && path.is(path_resolved)) {
+    path.flags &= static_cast<std::uint8_t>(~path_resolved);
+    located = false;
+  } else {
+    DomainWalk walk(manifest_, path.ray);
+    if (at) {
+      const std::uint32_t carried = path.hit.triangle;
+      intersect(path, *at);
+      located = carried == no_triangle || path.hit.triangle != carried || path.hit_domain == *at;
+      walk.skip_past(*at);
+    }
+    bool first = !at;
+    for (DomainWalk::Visit visit; walk.next(path.hit.t, visit);) {
+      if (!resident_[visit.domain]) return forward(path, visit.domain, false);
+      const std::uint32_t holder = path.hit_domain;
+      intersect(path, visit.domain);
+      if (path.hit_domain != holder) located = true;
+      if (!first) ++counters_.crossings;
+      first = false;
+    }
+  }
+  if (path.hit.triangle == no_triangle || located) return true;
+  if (!resident_[path.hit_domain]) return forward(path, path.hit_domain, true);
+  path.hit = {};
+  intersect(path, path.hit_domain);
+  return true;
+}
+
+bool PathTracer::forward(const Path& path, std::uint32_t domain, bool resolved) {
+  PathRecord r;
+  r.hit_t = path.hit.t;
+  r.hit_triangle = path.hit.triangle;
+  r.hit_domain = static_cast<std::uint16_t>(path.hit_domain);
+  r.direction = path.direction;
+  r.origin[0] = path.ray.origin.x;
+  r.origin[1] = path.ray.origin.y;
+  r.origin[2] = path.ray.origin.z;
+  for (std::size_t i = 0; i < hero_count; ++i) r.throughput[i] = path.throughput.v[i];
+  r.exclude = path.ray.exclude;
+  r.pixel = path.pixel;
+  r.sample_depth = path.sample << 8 | path.depth;
+  r.pdf = pdf_code(path.pdf);
+  r.flags = static_cast<std::uint8_t>(path.flags | (resolved ? path_resolved : 0));
+  outbox_.paths.push_back({domain, r});
+  return false;
+}
+
+void PathTracer::resume(const ShadowRecord& record, std::uint32_t domain) {
+  trace_shadow(record, nullptr, domain);
+}
+
+// `at` is given for a ray that was born elsewhere or earlier, whose end is counted.
+void PathTracer::trace_shadow(const ShadowRecord& record, const SensorWeights* weights,
+                              std::optional<std::uint32_t> at) {
+  const Ray ray{{record.origin[0], record.origin[1], record.origin[2]}, decode_direction(record.direction),
+                record.exclude};
+  DomainWalk walk(manifest_, ray);
+  if (at) {
+    if (kernel_.occluded(*resident_[*at], ray, record.tmax)) {
+      ++counters_.died;
+      return;
+    }
+    walk.skip_past(*at);
+  }
+  bool first = !at;
+  for (DomainWalk::Visit visit; walk.next(static_cast<double>(record.tmax), visit);) {
+    if (!resident_[visit.domain]) {
+      outbox_.shadows.push_back({visit.domain, record});
+      if (!at) ++counters_.born;
+      return;
+    }
+    if (!first) ++counters_.crossings;
+    first = false;
+    if (kernel_.occluded(*resident_[visit.domain], ray, record.tmax)) {
+      if (at) ++counters_.died;
+      return;
+    }
+  }
+  SampledSpectrum radiance;
+  for (std::size_t i = 0; i < hero_count; ++i) radiance.v[i] = unpack_radiance(record.radiance[i]);
+  if (weights)
+    deposit(record.pixel, record.sample, *weights, radiance);
+  else
+    deposit(record.pixel, record.sample,
+            sensor_weights(sample_wavelengths(
+                sample_4d(key_of(record.pixel, record.sample), sample_set::camera)[2])),
+            radiance);
+  if (at) ++counters_.died;
+}
+
+void PathTracer::deposit(std::uint32_t pixel, std::uint32_t sample, const SensorWeights& weights,
+                         const SampledSpectrum& radiance) {
+  if (!film_.deposit(pixel, sample, sense(weights, radiance))) ++counters_.nonfinite_samples;
+}
+
+}  // namespace vitrail

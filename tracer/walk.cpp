@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tracer/walk.h"
+
+#include <limits>
+
+namespace vitrail {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+}  // namespace
+
+double enter_box(const Bounds3f& box, Point3d origin, Vector3d reciprocal, double tmax) {
+  double t0 = 0, t1 = tmax;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double a = (static_cast<double>(box.lower[axis]) - origin[axis]) * reciprocal[axis];
+    const double b = (static_cast<double>(box.upper[axis]) - origin[axis]) * reciprocal[axis];
+    t0 = std::max(t0, std::min(a, b));
+    t1 = std::min(t1, std::max(a, b));
+  }
+  return t0 <= t1 * (1 + 1e-12) ? t0 : infinity;
+}
+
+DomainWalk::DomainWalk(const Manifest& manifest, const Ray& ray)
+    : manifest_(manifest),
+      origin_(cast<double>(ray.origin)),
+      direction_(cast<double>(ray.direction)),
+      epsilon_(interface_epsilon(manifest)) {
+  for (int axis = 0; axis < 3; ++axis) {
+    // A component too small to divide by moves the ray by less than ε over any distance that matters.
+    const double d = direction_[axis];
+    reciprocal_[axis] = 1 / (std::abs(d) < 1e-18 ? (d < 0 ? -1e-18 : 1e-18) : d);
+  }
+  stack_[static_cast<std::size_t>(size_++)] = {manifest.kd_nodes.empty() ? KdNode::leaf_bit : 0u, 0, infinity};
+}
+
+bool DomainWalk::next_leaf(Pending& leaf) {
+  while (size_ > 0) {
+    Pending at = stack_[static_cast<std::size_t>(--size_)];
+    while (!(at.reference & KdNode::leaf_bit)) {
+      const KdNode& node = manifest_.kd_nodes[at.reference];
+      const int axis = static_cast<int>(node.axis);
+      const double to_plane = static_cast<double>(node.split) - origin_[axis];
+      const double reciprocal = reciprocal_[axis];
+      const bool ascending = reciprocal > 0;
+      const std::uint32_t near = ascending ? node.below : node.above, far = ascending ? node.above : node.below;
+      // The near side reaches until ε behind the plane, the far side begins ε before it.
+      const double along = ascending ? to_plane : -to_plane, rate = std::abs(reciprocal);
+      const double near_end = (along + epsilon_) * rate, far_begin = (along - epsilon_) * rate;
+      const bool in_near = near_end >= at.t0, in_far = far_begin <= at.t1;
+      if (in_near && in_far)
+        stack_[static_cast<std::size_t>(size_++)] = {far, std::max(at.t0, far_begin), at.t1};
+      if (in_near)
+        at = {near, at.t0, std::min(at.t1, near_end)};
+      else
+        at = {far, std::max(at.t0, far_begin), at.t1};
+    }
+    leaf = at;
+    return true;
+  }
+  return false;
+}
+
+bool DomainWalk::next(double tmax, Visit& visit) {
+  Pending leaf;
+  while (next_leaf(leaf)) {
+    if (leaf.t0 > tmax) continue;
+    const std::uint32_t domain = leaf.reference & ~KdNode::leaf_bit;
+    const DomainInfo& info = manifest_.domains[domain];
+    if (info.triangles == 0) continue;
+    const double entry = enter_box(info.tight_bounds, origin_, reciprocal_, tmax);
+    if (entry == infinity) continue;
+    visit = {domain, std::max(leaf.t0, entry)};
+    return true;
+  }
+  return false;
+}
+
+void DomainWalk::skip_past(std::uint32_t domain) {
+  Pending leaf;
+  while (next_leaf(leaf))
+    if ((leaf.reference & ~KdNode::leaf_bit) == domain) return;
+}
+
+}  // namespace vitrail

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// The order in which a ray meets the sub-domains: front to back through the kd-tree, both sides of an interface where
+// the ray is within ε of it.
+#pragma once
+
+#include <array>
+
+#include "bundle/manifest.h"
+#include "tracer/intersect/ray.h"
+
+namespace vitrail {
+
+// Slab test in double; conservative for boxes that are padded. Returns the entry, or +∞ when missed within [0, tmax].
+double enter_box(const Bounds3f& box, Point3d origin, Vector3d reciprocal, double tmax);
+
+// The leaves of one ray, one after the other. The sequence is a function of the ray and the manifest alone, so a rank
+// that receives a ray finds its place in it again with `skip_to`.
+class DomainWalk {
+ public:
+  struct Visit {
+    std::uint32_t domain;
+    double entry;  // no point of the ray before it lies in the domain
+  };
+
+  DomainWalk(const Manifest& manifest, const Ray& ray);
+
+  // The next domain whose tight bounds the ray enters before tmax; false at the end.
+  bool next(double tmax, Visit& visit);
+  // Goes on behind `domain`, which the walk visits.
+  void skip_past(std::uint32_t domain);
+
+ private:
+  struct Pending {
+    std::uint32_t reference;
+    double t0, t1;
+  };
+  bool next_leaf(Pending& leaf);
+
+  const Manifest& manifest_;
+  Point3d origin_;
+  Vector3d direction_, reciprocal_;
+  double epsilon_;
+  std::array<Pending, 64> stack_;
+  int size_ = 0;
+};
+
+}  // namespace vitrail

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tracer/wavelengths.h"
+
+#include <algorithm>
+
+namespace vitrail {
+
+namespace {
+
+constexpr std::size_t bins = table_size - 1;  // one a nanometre
+constexpr double floor_share = 0.02;          // of the density, uniform: every wavelength can be drawn
+
+struct Density {
+  std::array<double, bins> pdf{};             // nm⁻¹
+  std::array<double, bins + 1> cumulative{};  // 0 … 1
+};
+
+Density make_density() {
+  Density d;
+  double total = 0;
+  for (std::size_t i = 0; i < bins; ++i) {
+    for (std::size_t c = 0; c < 3; ++c) d.pdf[i] += 0.5 * (cie_1931()[i][c] + cie_1931()[i + 1][c]);
+    total += d.pdf[i];
+  }
+  for (std::size_t i = 0; i < bins; ++i) {
+    d.pdf[i] = (1 - floor_share) * d.pdf[i] / total + floor_share / bins;
+    d.cumulative[i + 1] = d.cumulative[i] + d.pdf[i];
+  }
+  d.cumulative[bins] = 1;
+  return d;
+}
+
+const Density& density() {
+  static const Density d = make_density();
+  return d;
+}
+
+}  // namespace
+
+SampledWavelengths sample_wavelengths(float u) {
+  const Density& d = density();
+  SampledWavelengths result;
+  for (std::size_t i = 0; i < hero_count; ++i) {
+    double v = static_cast<double>(u) + static_cast<double>(i) / hero_count;
+    if (v >= 1) v -= 1;
+    const auto above = std::upper_bound(d.cumulative.begin() + 1, d.cumulative.end() - 1, v);
+    const auto bin = static_cast<std::size_t>(above - d.cumulative.begin()) - 1;
+    const double within = std::clamp((v - d.cumulative[bin]) / d.pdf[bin], 0.0, 1.0);
+    result.lambda_nm[i] = static_cast<float>(lambda_min_nm + static_cast<double>(bin) + within);
+    result.pdf[i] = static_cast<float>(d.pdf[bin]);
+  }
+  return result;
+}
+
+SensorWeights sensor_weights(const SampledWavelengths& wavelengths) {
+  SensorWeights w;
+  for (std::size_t i = 0; i < hero_count; ++i) {
+    const double at = std::clamp(static_cast<double>(wavelengths.lambda_nm[i]) - lambda_min_nm, 0.0, bins - 1e-9);
+    const auto bin = static_cast<std::size_t>(at);
+    const double f = at - static_cast<double>(bin);
+    const double scale = 1 / (hero_count * static_cast<double>(wavelengths.pdf[i]) * cie_y_integral_nm);
+    const auto value = [&](std::size_t c) {
+      return static_cast<float>(((1 - f) * cie_1931()[bin][c] + f * cie_1931()[bin + 1][c]) * scale);
+    };
+    w.x[i] = value(0);
+    w.y[i] = value(1);
+    w.z[i] = value(2);
+  }
+  return w;
+}
+
+}  // namespace vitrail

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// Hero wavelengths and what the sensor makes of them.
+#pragma once
+
+#include "scene/color.h"
+#include "scene/sampled_spectrum.h"
+
+namespace vitrail {
+
+// Four wavelengths, stratified: u, u + ¼, u + ½, u + ¾ (mod 1) through the inverse of a cumulative density that is
+// proportional to x̄ + ȳ + z̄ plus a small floor, constant within each nanometre (Wilkie et al. 2014; Radziszewski et
+// al. 2009 for the density). u in [0,1).
+SampledWavelengths sample_wavelengths(float u);
+
+// What a pixel gets of radiance L at the four wavelengths: XYZ = Σᵢ Lᵢ · weight[·][i], unbiased.
+struct SensorWeights {
+  std::array<float, hero_count> x{}, y{}, z{};
+};
+SensorWeights sensor_weights(const SampledWavelengths& wavelengths);
+
+inline XYZ sense(const SensorWeights& w, const SampledSpectrum& radiance) {
+  XYZ sum;
+  for (std::size_t i = 0; i < hero_count; ++i) {
+    const double l = static_cast<double>(radiance.v[i]);
+    sum.x += l * w.x[i];
+    sum.y += l * w.y[i];
+    sum.z += l * w.z[i];
+  }
+  return sum;
+}
+
+inline SampledSpectrum evaluate(const Spectrum& spectrum, const SampledWavelengths& wavelengths) {
+  SampledSpectrum result;
+  for (std::size_t i = 0; i < hero_count; ++i)
+    result.v[i] = static_cast<float>(evaluate(spectrum, static_cast<double>(wavelengths.lambda_nm[i])));
+  return result;
+}
+
+}  // namespace vitrail
