@@ -56,7 +56,9 @@ class ByteReader {
   void expect_end() const {
     if (at_ != bytes_.size()) fail("something follows its last record");
   }
-  [[noreturn]] void fail(const char* what) const { throw Error(std::string("damaged file: ") + what, {file_.string()}); }
+  [[noreturn]] void fail(const char* what) const {
+    throw Error(std::string("damaged file: ") + what, {file_.string()});
+  }
 
  private:
   std::vector<std::byte> bytes_;

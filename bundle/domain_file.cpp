@@ -12,7 +12,9 @@ std::uint64_t layout::checksum_of(DomainHeader header) {
   return checksum(std::as_bytes(std::span(&header, 1)));
 }
 
-DomainView view_of(const DomainContent& content) { return {content.nodes, content.clusters, content.normals}; }
+DomainView view_of(const DomainContent& content) {
+  return {content.nodes, content.clusters, content.normals};
+}
 
 std::uint64_t write_domain_file(const std::filesystem::path& file, const DomainContent& content) {
   const std::array<std::span<const std::byte>, layout::section_count> data{
@@ -31,7 +33,8 @@ std::uint64_t write_domain_file(const std::filesystem::path& file, const DomainC
     Hasher hasher;
     hasher.add(data[i]);
     hasher.add(tails[i]);
-    header.table[i] = {offset, count, hasher.digest(), layout::element_size[i], static_cast<std::uint32_t>(i)};
+    header.table[i] = {offset, count, hasher.digest(), layout::element_size[i],
+                       static_cast<std::uint32_t>(i)};
     offset += bytes;
   }
   header.file_bytes = offset;

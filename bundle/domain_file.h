@@ -18,11 +18,12 @@ namespace vitrail {
 inline constexpr int cluster_width = 8;
 // Marks an empty lane of a cluster, and "no triangle" wherever a triangle id is expected.
 inline constexpr std::uint32_t no_triangle = 0xffffffffu;
-// Most levels a tree of nodes may have. A depth-first traversal needs at most 7·64 + 8 stack entries.
-inline constexpr int max_bvh_depth = 64;
+// Most levels a tree of nodes may have. A depth-first traversal needs at most 7·96 + 8 stack entries.
+inline constexpr int max_bvh_depth = 96;
 
-// Up to 8 triangles, structure of arrays. The vertices are the uncut triangle's, whatever part of it lies in this
-// domain. Empty lanes hold NaN vertices (every ordered comparison rejects them) and the id `no_triangle`.
+// Up to 8 triangles, structure of arrays. The vertices are the uncut triangle's, whatever part of it lies in
+// this domain. Empty lanes hold NaN vertices (every ordered comparison rejects them) and the id
+// `no_triangle`.
 struct alignas(64) Cluster {
   float vertex[3][3][cluster_width];  // [vertex][axis][lane]
   std::uint32_t id[cluster_width];    // global triangle id
@@ -40,8 +41,8 @@ struct alignas(64) BvhNode {
 };
 static_assert(sizeof(BvhNode) == 256);
 
-// Shading normals of a cluster's triangles, octahedrally encoded (encode_normal), [lane][vertex]. A triangle without
-// its own has the three normals equal to no_normal.
+// Shading normals of a cluster's triangles, octahedrally encoded (encode_normal), [lane][vertex]. A triangle
+// without its own has the three normals equal to no_normal.
 struct ClusterNormals {
   std::uint32_t normal[cluster_width][3];
 };

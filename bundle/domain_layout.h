@@ -10,7 +10,8 @@
 
 namespace vitrail::layout {
 
-static_assert(std::endian::native == std::endian::little, "domain files are little-endian and mapped as they are");
+static_assert(std::endian::native == std::endian::little,
+              "domain files are little-endian and mapped as they are");
 
 inline constexpr std::array<char, 8> domain_magic{'V', 'I', 'T', 'R', 'D', 'O', 'M', '\n'};
 inline constexpr std::uint32_t domain_version = 1;
@@ -45,7 +46,8 @@ static_assert(sizeof(DomainHeader) == 192 && sizeof(DomainHeader) % section_alig
 // Bytes a section takes in the file, padding included.
 constexpr std::uint64_t padded_bytes(std::uint64_t count, std::uint64_t element) {
   const std::uint64_t bytes = count * element;
-  return count == 0 ? 0 : (bytes + section_tail + section_alignment - 1) / section_alignment * section_alignment;
+  return count == 0 ? 0
+                    : (bytes + section_tail + section_alignment - 1) / section_alignment * section_alignment;
 }
 
 std::uint64_t checksum_of(DomainHeader header);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What every rank knows of a bundle without loading a domain: the kd-tree, the domains' tight bounds, the surfaces,
-// materials and lights, the camera. Coordinates are the bundle's: the world's minus `offset`.
+// What every rank knows of a bundle without loading a domain: the kd-tree, the domains' tight bounds, the
+// surfaces, materials and lights, the camera. Coordinates are the bundle's: the world's minus `offset`.
 #pragma once
 
 #include <cstdint>
@@ -17,8 +17,8 @@ namespace vitrail {
 // Node 0 is the root. A leaf is one domain.
 struct KdNode {
   static constexpr std::uint32_t leaf_bit = 0x80000000u;
-  float split = 0;                           // coordinate of the interface on `axis`
-  std::uint32_t axis = 0;                    // 0, 1, 2
+  float split = 0;                            // coordinate of the interface on `axis`
+  std::uint32_t axis = 0;                     // 0, 1, 2
   std::uint32_t below = 0, above = leaf_bit;  // index of a node, or leaf_bit | domain
   bool operator==(const KdNode&) const = default;
 };
@@ -64,20 +64,21 @@ struct Manifest {
   float scale = 0;                  // greatest |coordinate| of a vertex; paddings scale with it
   std::vector<KdNode> kd_nodes;     // empty when there is one domain
   std::vector<DomainInfo> domains;
-  std::vector<Surface> surfaces;    // ascending first_triangle
+  std::vector<Surface> surfaces;  // ascending first_triangle
   std::vector<Material> materials;
   std::vector<AreaLight> area_lights;
   std::vector<EmissiveTriangle> emissive_triangles;
-  std::vector<Light> lights;        // positions and directions in the bundle's coordinates
-  Camera camera;                    // camera_to_world ends in the bundle's coordinates
+  std::vector<Light> lights;  // positions and directions in the bundle's coordinates
+  Camera camera;              // camera_to_world ends in the bundle's coordinates
   FilmSettings film;
   RenderSettings settings;
   Requirements requirements;
-  std::uint64_t scene_hash = 0;     // of all triangles and records, whatever the cuts: equal scenes have equal hashes
+  std::uint64_t scene_hash =
+      0;  // of all triangles and records, whatever the cuts: equal scenes have equal hashes
 };
 
-// Boxes of clusters are inflated by this, and the walk visits both sides of an interface within `interface_epsilon`.
-// float error of a vertex is 6e-8·scale; ε > padding > error of a hit.
+// Boxes of clusters are inflated by this, and the walk visits both sides of an interface within
+// `interface_epsilon`. float error of a vertex is 6e-8·scale; ε > padding > error of a hit.
 inline double padding(const Manifest& m) { return 2e-6 * m.scale; }
 inline double interface_epsilon(const Manifest& m) { return 4e-6 * m.scale; }
 
@@ -89,7 +90,8 @@ void write_manifest(const std::filesystem::path& bundle, const Manifest& manifes
 // Reads and checks everything but the domain files. Throws Error (bad content, with the file's name).
 Manifest read_manifest(const std::filesystem::path& bundle);
 
-// Throws Error where the mapped file is not the one that the manifest speaks of, or holds triangles it does not have.
+// Throws Error where the mapped file is not the one that the manifest speaks of, or holds triangles it does
+// not have.
 void check_domain(const Manifest& manifest, std::uint32_t domain, const MappedDomain& mapped,
                   const std::filesystem::path& file);
 

@@ -32,7 +32,8 @@ std::span<const std::byte> map(const std::filesystem::path& file) {
   const int reason = errno;
   ::close(descriptor);
   if (status.st_size == 0) reject(file, "it is empty");
-  if (data == MAP_FAILED) throw MachineError(fmt::format("cannot map {}: {}", file.string(), std::strerror(reason)));
+  if (data == MAP_FAILED)
+    throw MachineError(fmt::format("cannot map {}: {}", file.string(), std::strerror(reason)));
   return {static_cast<const std::byte*>(data), static_cast<std::size_t>(status.st_size)};
 }
 
@@ -56,7 +57,8 @@ void check_header(const std::filesystem::path& file, std::span<const std::byte> 
                             layout::domain_version),
                 {file.string()});
   if (bytes.size() < sizeof(header)) reject(file, "its header is cut short");
-  if (header.header_checksum != layout::checksum_of(header)) reject(file, "the checksum of its header is wrong");
+  if (header.header_checksum != layout::checksum_of(header))
+    reject(file, "the checksum of its header is wrong");
   if (header.file_bytes != bytes.size())
     reject(file, fmt::format("it has {} bytes and should have {}", bytes.size(), header.file_bytes));
   std::uint64_t expected = sizeof(header);
@@ -94,8 +96,8 @@ class OnceEach {
   std::size_t count_ = 0;
 };
 
-// Children come after their parent and every node and cluster hangs in exactly one place, so a traversal ends and its
-// stack is bounded by the depth.
+// Children come after their parent and every node and cluster hangs in exactly one place, so a traversal ends
+// and its stack is bounded by the depth.
 void check_tree(const std::filesystem::path& file, const DomainView& view) {
   OnceEach nodes(view.nodes.size()), clusters(view.clusters.size());
   std::vector<std::uint8_t> depth(view.nodes.size(), 1);
@@ -125,7 +127,8 @@ MappedDomain::MappedDomain(const std::filesystem::path& file) : file_(file) {
   bytes_ = bytes.size();
   try {
     check_header(file, bytes);
-    for (const auto section : {layout::nodes, layout::clusters, layout::normals}) check_section(file, data_, section);
+    for (const auto section : {layout::nodes, layout::clusters, layout::normals})
+      check_section(file, data_, section);
     view_ = {elements<BvhNode>(data_, layout::nodes), elements<Cluster>(data_, layout::clusters),
              elements<ClusterNormals>(data_, layout::normals)};
     if (!view_.normals.empty() && view_.normals.size() != view_.clusters.size())

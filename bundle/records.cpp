@@ -34,10 +34,8 @@ void fields(auto& io, bool& value) {
 
 // Points and vectors.
 template <class V>
-  requires requires(V v) { v.z; }
-void fields(auto& io, V& v) {
-  io(v.x), io(v.y), io(v.z);
-}
+requires requires(V v) { v.z; }
+void fields(auto& io, V& v) { io(v.x), io(v.y), io(v.z); }
 
 void fields(auto& io, ConstantSpectrum& s) { io(s.value); }
 void fields(auto& io, SigmoidSpectrum& s) { io(s.c0), io(s.c1), io(s.c2); }
@@ -90,22 +88,22 @@ void list(auto& io, std::vector<T>& records) {
 }
 
 void materials(auto& io, Manifest& m) { list(io, m.surfaces), list(io, m.materials); }
-void lights(auto& io, Manifest& m) { list(io, m.area_lights), list(io, m.emissive_triangles), list(io, m.lights); }
+void lights(auto& io, Manifest& m) {
+  list(io, m.area_lights), list(io, m.emissive_triangles), list(io, m.lights);
+}
 
 }  // namespace
 
 std::vector<std::byte> encode_materials(const Manifest& manifest) {
   Writer io;
-  Manifest copy{.surfaces = manifest.surfaces, .materials = manifest.materials};
+  Manifest copy = manifest;
   materials(io, copy);
   return io.stream.take();
 }
 
 std::vector<std::byte> encode_lights(const Manifest& manifest) {
   Writer io;
-  Manifest copy{.area_lights = manifest.area_lights,
-                .emissive_triangles = manifest.emissive_triangles,
-                .lights = manifest.lights};
+  Manifest copy = manifest;
   lights(io, copy);
   return io.stream.take();
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The binary records of a bundle: materials.bin (surfaces and materials) and lights.bin (area lights, the triangles
-// that emit, other lights). See docs/bundle-format.md.
+// The binary records of a bundle: materials.bin (surfaces and materials) and lights.bin (area lights, the
+// triangles that emit, other lights). See docs/bundle-format.md.
 #pragma once
 
 #include <cstddef>
@@ -15,11 +15,13 @@ namespace vitrail {
 std::vector<std::byte> encode_materials(const Manifest& manifest);
 std::vector<std::byte> encode_lights(const Manifest& manifest);
 
-// The inverse: fill the manifest's records from the payload of `file`. Whatever cannot be decoded throws Error.
+// The inverse: fill the manifest's records from the payload of `file`. Whatever cannot be decoded throws
+// Error.
 void decode_materials(std::vector<std::byte> payload, const std::filesystem::path& file, Manifest& manifest);
 void decode_lights(std::vector<std::byte> payload, const std::filesystem::path& file, Manifest& manifest);
 
-// Throws Error (with `file`) unless every index in the manifest is in range, every number finite and the kd-tree a tree.
+// Throws Error (with `file`) unless every index in the manifest is in range, every number finite and the
+// kd-tree a tree.
 void check_manifest(const Manifest& manifest, const std::filesystem::path& file);
 
 // Hash of all that decides the picture besides the triangles: records, camera and film.

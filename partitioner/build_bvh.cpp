@@ -23,6 +23,11 @@ struct BinaryNode {
   std::uint32_t reference[cluster_width];
   BinaryNode* child[2];
   Bounds3f bounds[2];  // of the children
+  // The plan of the wide tree. cost[i]: the least sum of the areas of the wide nodes below when the subtree
+  // hangs in its parent as at most i = 1 … 8 children. share[i]: how many of them the first child has; 0: as
+  // with i − 1.
+  float cost[9] = {};
+  std::uint8_t share[9] = {};
 };
 
 struct Subtree {
@@ -53,8 +58,10 @@ void set_bounds(void* node, const RTCBounds** bounds, unsigned count, void*) {
   }
 }
 
-// Embree's parallel partition leaves the references of a leaf in an order that depends on the threads: sort them.
-void* create_leaf(RTCThreadLocalAllocator allocator, const RTCBuildPrimitive* primitives, std::size_t count, void*) {
+// Embree's parallel partition leaves the references of a leaf in an order that depends on the threads: sort
+// them.
+void* create_leaf(RTCThreadLocalAllocator allocator, const RTCBuildPrimitive* primitives, std::size_t count,
+                  void*) {
   BinaryNode* leaf = allocate_node(allocator);
   leaf->count = static_cast<std::uint32_t>(count);
   for (std::size_t i = 0; i < count; ++i) leaf->reference[i] = primitives[i].primID;
@@ -74,10 +81,10 @@ std::vector<RTCBuildPrimitive> build_primitives(std::span<const TriangleReferenc
   return primitives;
 }
 
-const BinaryNode* build_binary(RTCBVH bvh, std::vector<RTCBuildPrimitive>& primitives) {
+BinaryNode* build_binary(RTCBVH bvh, std::vector<RTCBuildPrimitive>& primitives) {
   RTCBuildArguments arguments = rtcDefaultBuildArguments();
   arguments.buildQuality = RTC_BUILD_QUALITY_MEDIUM;  // binned SAH, no spatial splits
-  arguments.maxDepth = 96;     // the last 8 levels halve what is left, whatever its SAH
+  arguments.maxDepth = max_bvh_depth;  // of its last 8 levels each halves what is left, whatever its SAH
   arguments.sahBlockSize = cluster_width;
   arguments.maxLeafSize = cluster_width;
   arguments.bvh = bvh;
@@ -88,7 +95,27 @@ const BinaryNode* build_binary(RTCBVH bvh, std::vector<RTCBuildPrimitive>& primi
   arguments.setNodeChildren = set_children;
   arguments.setNodeBounds = set_bounds;
   arguments.createLeaf = create_leaf;
-  return static_cast<const BinaryNode*>(rtcBuildBVH(&arguments));
+  return static_cast<BinaryNode*>(rtcBuildBVH(&arguments));
+}
+
+// The wide tree of least SAH cost, by dynamic programming from the leaves (Ylitie, Karras & Laine 2017). The
+// clusters are given, so that only the areas of the nodes count.
+void plan_wide_tree(BinaryNode& node, const Bounds3f& bounds) {
+  if (node.count) return;
+  for (int i = 0; i < 2; ++i) plan_wide_tree(*node.child[i], node.bounds[i]);
+  const float *first = node.child[0]->cost, *second = node.child[1]->cost;
+  node.cost[2] = first[1] + second[1];
+  node.share[2] = 1;
+  for (int i = 3; i <= 8; ++i) {
+    node.cost[i] = node.cost[i - 1];
+    for (int share = 1; share < i; ++share) {
+      const float cost = first[share] + second[i - share];
+      if (cost >= node.cost[i]) continue;
+      node.cost[i] = cost;
+      node.share[i] = static_cast<std::uint8_t>(share);
+    }
+  }
+  node.cost[1] = surface_area(bounds) + node.cost[8];
 }
 
 // x moved by padding + 10⁻⁶|x| towards `towards`, which is ±∞, and rounded the same way.
@@ -103,6 +130,11 @@ class Collapser {
   Collapser(std::span<const TriangleReference> references, double padding, ClusteredTriangles& out)
       : references_(references), padding_(padding), out_(out) {}
 
+  void add_root(const Subtree& root) {
+    root.node->count ? add_node(&root, &root + 1) : add_inner(*root.node);
+  }
+
+ private:
   std::uint32_t add_node(const Subtree* begin, const Subtree* end) {
     const auto index = static_cast<std::uint32_t>(out_.nodes.size());
     out_.nodes.push_back(empty_node());
@@ -115,23 +147,24 @@ class Collapser {
     return index;
   }
 
- private:
-  // Opens the inner node of the largest area until there are 8 children or only clusters.
   std::uint32_t add_inner(const BinaryNode& root) {
-    Subtree children[8] = {{root.child[0], root.bounds[0]}, {root.child[1], root.bounds[1]}};
-    int count = 2;
-    while (count < 8) {
-      int largest = -1;
-      for (int i = 0; i < count; ++i) {
-        if (children[i].node->count) continue;
-        if (largest < 0 || surface_area(children[i].bounds) > surface_area(children[largest].bounds)) largest = i;
+    Subtree children[8];
+    return add_node(children, cut(root, 8, children));
+  }
+
+  // The subtrees of a plan; returns their end.
+  static Subtree* cut(const BinaryNode& node, int count, Subtree* out) {
+    while (node.share[count] == 0) --count;
+    const int shares[2] = {node.share[count], count - node.share[count]};
+    for (int i = 0; i < 2; ++i) {
+      const BinaryNode& child = *node.child[i];
+      if (shares[i] == 1 || child.count) {
+        *out++ = {&child, node.bounds[i]};
+      } else {
+        out = cut(child, shares[i], out);
       }
-      if (largest < 0) break;
-      const BinaryNode& opened = *children[largest].node;
-      children[count++] = {opened.child[1], opened.bounds[1]};
-      children[largest] = {opened.child[0], opened.bounds[0]};
     }
-    return add_node(children, children + count);
+    return out;
   }
 
   std::uint32_t add_cluster(const BinaryNode& leaf) {
@@ -144,8 +177,8 @@ class Collapser {
       cluster.id[lane] = filled ? references_[reference].id : no_triangle;
       for (std::size_t vertex = 0; vertex < 3; ++vertex) {
         for (int axis = 0; axis < 3; ++axis) {
-          cluster.vertex[vertex][axis][lane] =
-              filled ? references_[reference].vertices[vertex][axis] : std::numeric_limits<float>::quiet_NaN();
+          cluster.vertex[vertex][axis][lane] = filled ? references_[reference].vertices[vertex][axis]
+                                                      : std::numeric_limits<float>::quiet_NaN();
         }
       }
     }
@@ -182,13 +215,14 @@ ClusteredTriangles build_bvh(std::span<const TriangleReference> references, floa
   if (!device) throw MachineError("embree cannot start: error " + std::to_string(rtcGetDeviceError(nullptr)));
   const Bvh bvh(rtcNewBVH(device.get()), &rtcReleaseBVH);
   std::vector<RTCBuildPrimitive> primitives = build_primitives(references);
-  const BinaryNode* binary = build_binary(bvh.get(), primitives);
+  BinaryNode* binary = build_binary(bvh.get(), primitives);
   if (!binary) {
     throw MachineError("embree cannot build a hierarchy over " + std::to_string(references.size()) +
                        " triangles: error " + std::to_string(rtcGetDeviceError(device.get())));
   }
   Subtree root{binary, {}};
   for (const TriangleReference& r : references) extend(root.bounds, r.bounds);
+  plan_wide_tree(*binary, root.bounds);
   out.nodes.reserve(references.size() / 24 + 1);
   out.clusters.reserve(references.size() / 6 + 1);
   out.lane_reference.reserve(out.clusters.capacity() * cluster_width);

@@ -25,10 +25,10 @@ struct ClusteredTriangles {
   std::vector<std::uint32_t> lane_reference;  // [cluster·8 + lane]: index into `references`, or no_triangle
 };
 
-// Clusters by Embree's SAH builder (rtcBuildBVH), at most 8 triangles each, and its binary tree collapsed to 8-wide
-// nodes by largest area. A box holds the bounds of its references, inflated on every side by padding + 10⁻⁶|x|.
-// The result depends neither on the number of threads nor on the instruction set. Triangles of zero area are kept;
-// no references give no nodes. Throws MachineError when Embree fails.
+// Clusters by Embree's SAH builder (rtcBuildBVH), at most 8 triangles each, and its binary tree collapsed to
+// 8-wide nodes by largest area. A box holds the bounds of its references, inflated on every side by padding +
+// 10⁻⁶|x|. The result does not depend on the number of threads. Triangles of zero area are kept; no
+// references give no nodes. Throws MachineError when Embree fails.
 ClusteredTriangles build_bvh(std::span<const TriangleReference> references, float padding);
 
 }  // namespace vitrail

@@ -28,10 +28,11 @@ struct PartitionStats {
   std::uint64_t peak_rss_bytes = 0;
 };
 
-// Writes the bundle directory `out` (built beside it under a temporary name, renamed when whole; an existing bundle of
-// that name is replaced). `progress` is told the done fraction in [0,1] and what is going on.
-// The domains, their order and every byte depend on the scene and the options, never on the threads.
-PartitionStats partition(const Scene& scene, const std::filesystem::path& out, const PartitionOptions& options,
+// Writes the bundle directory `out` (built beside it under a temporary name, renamed when whole; an existing
+// bundle of that name is replaced). `progress` is told the done fraction in [0,1] and what is going on. The
+// domains, their order and every byte depend on the scene and the options, never on the threads.
+PartitionStats partition(const Scene& scene, const std::filesystem::path& out,
+                         const PartitionOptions& options,
                          const std::function<void(double, const char*)>& progress = {});
 
 }  // namespace vitrail

@@ -14,6 +14,7 @@ struct PathTracer::Path {
   SampledSpectrum throughput;
   DirectionCode direction;
   Ray ray;
+  RayConstants constants;
   Hit hit;
   std::uint32_t hit_domain = 0;
   SampledWavelengths wavelengths;

@@ -86,13 +86,14 @@ void PathTracer::run(Path& path, std::optional<std::uint32_t> at) {
 
 void PathTracer::intersect(Path& path, std::uint32_t domain) {
   const Hit before = path.hit;
-  kernel_.closest(*resident_[domain], path.ray, path.hit);
+  kernel_.closest(*resident_[domain], path.constants, path.hit);
   if (path.hit.t != before.t || path.hit.triangle != before.triangle) path.hit_domain = domain;
 }
 
 // True when the hit, or that there is none, is certain and its domain at hand; false when the path went on elsewhere.
 bool PathTracer::find_hit(Path& path, std::optional<std::uint32_t> at) {
   bool located = true;  // hit.cluster and hit.lane are known
+  path.constants = prepare(path.ray);
   if (at && path.is(path_resolved)) {
     path.flags &= static_cast<std::uint8_t>(~path_resolved);
     located = false;
@@ -149,9 +150,10 @@ void PathTracer::trace_shadow(const ShadowRecord& record, const SensorWeights* w
                               std::optional<std::uint32_t> at) {
   const Ray ray{{record.origin[0], record.origin[1], record.origin[2]}, decode_direction(record.direction),
                 record.exclude};
+  const RayConstants constants = prepare(ray);
   DomainWalk walk(manifest_, ray);
   if (at) {
-    if (kernel_.occluded(*resident_[*at], ray, record.tmax)) {
+    if (kernel_.occluded(*resident_[*at], constants, record.tmax)) {
       ++counters_.died;
       return;
     }
@@ -166,7 +168,7 @@ void PathTracer::trace_shadow(const ShadowRecord& record, const SensorWeights* w
     }
     if (!first) ++counters_.crossings;
     first = false;
-    if (kernel_.occluded(*resident_[visit.domain], ray, record.tmax)) {
+    if (kernel_.occluded(*resident_[visit.domain], constants, record.tmax)) {
       if (at) ++counters_.died;
       return;
     }

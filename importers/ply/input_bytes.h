@@ -7,8 +7,8 @@
 
 namespace vitrail {
 
-// The bytes of an input file: mapped, or inflated where it is gzipped (by content, whatever its name). They stay at
-// their address for the life of the object. A file that cannot be opened or inflated throws Error.
+// The bytes of an input file: mapped, or inflated where it is gzipped (by content, whatever its name). They
+// stay at their address for the life of the object. A file that cannot be opened or inflated throws Error.
 class InputBytes {
  public:
   explicit InputBytes(const std::filesystem::path& file);

@@ -5,25 +5,17 @@
 #include <fmt/format.h>
 
 #include <charconv>
-#include <cmath>
-#include <cstring>
 
 namespace vitrail {
 
-namespace {
-
-// What of a line is shown to the user.
-std::string printable(const char* begin, const char* end) {
-  constexpr std::ptrdiff_t longest = 100;
-  std::string text(begin, begin + std::min(end - begin, longest));
-  for (char& c : text) {
+std::string printable(std::string_view text, std::size_t longest) {
+  std::string shown(text.substr(0, longest));
+  for (char& c : shown) {
     if (c == '\t') c = ' ';
     if (static_cast<unsigned char>(c) < ' ' || c == 127) c = '?';
   }
-  return text;
+  return text.size() > longest ? shown + "…" : shown;
 }
-
-}  // namespace
 
 void TextCursor::break_line() {
   const bool two = *at_ == '\r' && at_ + 1 != end_ && at_[1] == '\n';
@@ -36,7 +28,7 @@ void TextCursor::skip_blanks() {
   while (at_ != end_) {
     if (blank()) {
       ++at_;
-    } else if (continuations_ && *at_ == '\\' && at_ + 1 != end_ && (at_[1] == '\n' || at_[1] == '\r')) {
+    } else if (continuation()) {
       ++at_;
       break_line();
     } else {
@@ -66,7 +58,7 @@ void TextCursor::skip_line() {
 std::string_view TextCursor::word() {
   skip_blanks();
   const char* const begin = at_;
-  while (at_ != end_ && !blank() && !line_break()) ++at_;
+  while (!at_separator()) ++at_;
   return {begin, static_cast<std::size_t>(at_ - begin)};
 }
 
@@ -86,10 +78,11 @@ double TextCursor::number(const char* what) {
   const auto [stop, error] = fast_float::from_chars(digits, end_, value);
   at_ = stop;
   // Numbers too small for a double are zero; those too large have become infinite.
-  if (error == std::errc::invalid_argument || (at_ != end_ && !blank() && !line_break())) {
+  if (error == std::errc::invalid_argument || !at_separator()) {
     at_ = begin;
-    const std::string found(word());
-    fail(found.empty() ? fmt::format("{} is missing", what) : fmt::format("{} is not a number: '{}'", what, found),
+    const std::string found = printable(word());
+    fail(found.empty() ? fmt::format("{} is missing", what)
+                       : fmt::format("{} is not a number: '{}'", what, found),
          begin);
   }
   return value;
@@ -108,7 +101,7 @@ std::int64_t TextCursor::integer(const char* what) {
   const auto [stop, error] = std::from_chars(digits, end_, value);
   if (error != std::errc{}) {
     const char* const begin = at_;
-    const std::string found(word());
+    const std::string found = printable(word());
     fail(found.empty() ? fmt::format("{} is missing", what)
                        : fmt::format("{} is not a whole number of 64 bits: '{}'", what, found),
          begin);
@@ -118,13 +111,15 @@ std::int64_t TextCursor::integer(const char* what) {
 }
 
 SourceLocation TextCursor::location(const char* position) const {
-  return {file_, line_, static_cast<int>(position - line_begin_) + 1};
+  return {std::string(file_), line_, static_cast<int>(position - line_begin_) + 1};
 }
 
 void TextCursor::fail(std::string message, const char* position) const {
-  const char* line_end = line_begin_;
-  while (line_end != end_ && *line_end != '\n' && *line_end != '\r') ++line_end;
-  throw Error(std::move(message), location(position), printable(line_begin_, line_end));
+  constexpr std::ptrdiff_t before = 60, after = 60;  // what of a long line is shown
+  const char* const begin = position - line_begin_ > before ? position - before : line_begin_;
+  const char* stop = position;
+  while (stop != end_ && *stop != '\n' && *stop != '\r' && stop - position < after) ++stop;
+  throw Error(std::move(message), location(position), printable({begin, stop}, before + after));
 }
 
 }  // namespace vitrail

@@ -9,17 +9,25 @@
 
 namespace vitrail {
 
-// Reads words and numbers of a text and knows where it is. Lines end with \n, \r\n or \r; a backslash before the end
-// of a line joins it with the next one if `continuations` is set.
+// A piece of input as it can be shown in a message: shortened to `longest` characters, without control
+// characters.
+std::string printable(std::string_view text, std::size_t longest = 40);
+
+// Reads words and numbers of a text and knows where it is. Lines end with \n, \r\n or \r; a backslash before
+// the end of a line joins it with the next one if `continuations` is set. Cheap to copy; the text and the
+// name outlive it.
 class TextCursor {
  public:
-  TextCursor(std::string file, const char* begin, const char* end, bool continuations = false)
-      : file_(std::move(file)), at_(begin), end_(end), line_begin_(begin), continuations_(continuations) {}
+  TextCursor(std::string_view file, const char* begin, const char* end, bool continuations = false)
+      : file_(file), at_(begin), end_(end), line_begin_(begin), continuations_(continuations) {}
 
   const char* at() const { return at_; }
   const char* end() const { return end_; }
-  bool done() const { return at_ == end_; }
+  // True if `c` comes next.
+  bool sees(char c) const { return at_ != end_ && *at_ == c; }
 
+  // What may follow a word or a number.
+  bool at_separator() const { return at_ == end_ || blank() || line_break() || continuation(); }
   // Skips blanks; true if the line has ended there.
   bool at_line_end();
   // Skips blanks and ends of lines; false at the end of the text.
@@ -30,7 +38,8 @@ class TextCursor {
   std::string_view word();
   // The rest of the line without the blanks around it.
   std::string_view rest_of_line();
-  // A number that ends at a blank or the end of the line; anything else throws Error. `what` names it in the message.
+  // A number that ends at a blank or the end of the line; anything else throws Error. `what` names it in the
+  // message.
   double number(const char* what);
   // Consumes `c` if it comes next.
   bool accept(char c);
@@ -47,10 +56,13 @@ class TextCursor {
  private:
   bool blank() const { return *at_ == ' ' || *at_ == '\t' || *at_ == '\v' || *at_ == '\f'; }
   bool line_break() const { return *at_ == '\n' || *at_ == '\r'; }
+  bool continuation() const {
+    return continuations_ && *at_ == '\\' && at_ + 1 != end_ && (at_[1] == '\n' || at_[1] == '\r');
+  }
   void skip_blanks();
   void break_line();
 
-  std::string file_;
+  std::string_view file_;
   const char* at_;
   const char* end_;
   const char* line_begin_;

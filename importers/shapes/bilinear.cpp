@@ -23,17 +23,22 @@ Corners corners_of(const std::vector<Point3f>& positions, const Patch& patch) {
   return p;
 }
 
-// Distance of the middle of the patch from the planes of its two triangles, in units of its longer diagonal. With
-// n×n cells it falls to 1/n².
-double curvature(const Corners& p) {
+// In units of the patch's longer diagonal: how far its corners are from lying in a plane, and the greatest
+// distance of the patch from its two triangles. With n×n cells that falls to 1/n².
+struct Curvature {
+  double out_of_plane, distance;
+};
+
+Curvature curvature(const Corners& p) {
   const Vector3d normal = normalize(cross(p[3] - p[0], p[2] - p[1]));
   const Vector3d twist = (p[3] - p[1]) - (p[2] - p[0]);
   const double diagonal = std::max(length(p[3] - p[0]), length(p[2] - p[1]));
-  return diagonal > 0 ? std::abs(dot(twist, normal)) / (4 * diagonal) : 0;
+  if (diagonal == 0) return {0, 0};
+  return {std::abs(dot(twist, normal)) / (4 * diagonal), length(twist) / (4 * diagonal)};
 }
 
-// Weights of the four corners at (i/n, j/n). Along an edge they are the same numbers from either end, so that patches
-// which share it agree on its points bit for bit.
+// Weights of the four corners at (i/n, j/n). Along an edge they are the same numbers from either end, so that
+// patches which share it agree on its points bit for bit.
 std::array<double, 4> weights(int i, int j, int n) {
   const double u = static_cast<double>(i) / n, v = static_cast<double>(j) / n;
   const double s = static_cast<double>(n - i) / n, t = static_cast<double>(n - j) / n;
@@ -55,26 +60,30 @@ std::array<T, 4> pick(const std::vector<T>& values, const Patch& patch) {
 void append_vertex(TriangleMesh& mesh, const Corners& p, const std::array<double, 4>& w, const Patch& patch,
                    const std::vector<Normal3f>& normals, const std::vector<Point2f>& uvs) {
   const auto mix = [&](auto component) {
-    return static_cast<float>(w[0] * component(0u) + w[1] * component(1u) + w[2] * component(2u) + w[3] * component(3u));
+    return static_cast<float>(w[0] * component(0u) + w[1] * component(1u) + w[2] * component(2u) +
+                              w[3] * component(3u));
   };
-  mesh.positions.push_back({mix([&](std::size_t i) { return p[i].x; }), mix([&](std::size_t i) { return p[i].y; }),
+  mesh.positions.push_back({mix([&](std::size_t i) { return p[i].x; }),
+                            mix([&](std::size_t i) { return p[i].y; }),
                             mix([&](std::size_t i) { return p[i].z; })});
   if (normals.empty()) {
     mesh.normals.push_back(cast<float>(to_normal(normal_at(p, w))));
   } else {
     const auto n = pick(normals, patch);
-    const Vector3f mixed{mix([&](std::size_t i) { return n[i].x; }), mix([&](std::size_t i) { return n[i].y; }),
+    const Vector3f mixed{mix([&](std::size_t i) { return n[i].x; }),
+                         mix([&](std::size_t i) { return n[i].y; }),
                          mix([&](std::size_t i) { return n[i].z; })};
     mesh.normals.push_back(to_normal(normalize(mixed)));
   }
   if (!uvs.empty()) {
     const auto q = pick(uvs, patch);
-    mesh.uvs.push_back({mix([&](std::size_t i) { return q[i].x; }), mix([&](std::size_t i) { return q[i].y; })});
+    mesh.uvs.push_back(
+        {mix([&](std::size_t i) { return q[i].x; }), mix([&](std::size_t i) { return q[i].y; })});
   }
 }
 
-void append_grid(TriangleMesh& mesh, const Corners& p, const Patch& patch, int n, const std::vector<Normal3f>& normals,
-                 const std::vector<Point2f>& uvs) {
+void append_grid(TriangleMesh& mesh, const Corners& p, const Patch& patch, int n,
+                 const std::vector<Normal3f>& normals, const std::vector<Point2f>& uvs) {
   const auto first = static_cast<std::uint32_t>(mesh.positions.size());
   const auto side = static_cast<std::uint32_t>(n);
   for (int j = 0; j <= n; ++j) {
@@ -111,18 +120,21 @@ TriangleMesh tessellate_bilinear(const std::vector<Point3f>& positions, const st
   for (const Point3f& p : positions) {
     if (!is_finite(p)) throw Error("bilinear mesh: a vertex is not finite");
   }
-  if ((!normals.empty() && normals.size() != positions.size()) || (!uvs.empty() && uvs.size() != positions.size())) {
+  if ((!normals.empty() && normals.size() != positions.size()) ||
+      (!uvs.empty() && uvs.size() != positions.size())) {
     throw Error("bilinear mesh: normals and uvs have to be as many as the vertices");
   }
-  double most = 0;
+  Curvature most{0, 0};
   for (const Patch& patch : patches) {
     for (const std::uint32_t index : patch) {
       if (index >= positions.size()) throw Error("bilinear mesh: an index is beyond the vertices");
     }
-    most = std::max(most, curvature(corners_of(positions, patch)));
+    const Curvature c = curvature(corners_of(positions, patch));
+    most = {std::max(most.out_of_plane, c.out_of_plane), std::max(most.distance, c.distance)};
   }
-  if (most <= planar_tolerance) return flat_mesh(positions, patches, normals, uvs);
-  const double wanted = std::min<double>(std::ceil(std::sqrt(most / surface_tolerance)), most_cells_a_side);
+  if (most.out_of_plane <= planar_tolerance) return flat_mesh(positions, patches, normals, uvs);
+  const double wanted =
+      std::min<double>(std::ceil(std::sqrt(most.distance / surface_tolerance)), most_cells_a_side);
   const double affordable = std::floor(std::sqrt(most_cells / static_cast<double>(patches.size())));
   const int n = static_cast<int>(std::max(1.0, std::min(wanted, affordable)));
   TriangleMesh mesh;

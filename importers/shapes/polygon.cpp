@@ -70,8 +70,8 @@ class EarClipper {
  private:
   double area(std::uint32_t i) const { return orientation(p_[previous_[i]], p_[i], p_[next_[i]]); }
 
-  // A convex corner whose triangle holds no other corner. None exists where the polygon crosses itself or has no
-  // area left: then any convex corner, else any.
+  // A convex corner whose triangle holds no other corner. None exists where the polygon crosses itself or has
+  // no area left: then any convex corner, else any.
   std::uint32_t find_ear(std::uint32_t start, std::size_t left) const {
     std::uint32_t at = start, fallback = start;
     for (std::size_t i = 0; i < left; ++i, at = next_[at]) {
@@ -82,7 +82,8 @@ class EarClipper {
     return fallback;
   }
 
-  // A corner at the very place of one of the triangle's is outside: polygons with a bridge to a hole have such.
+  // A corner at the very place of one of the triangle's is outside: polygons with a bridge to a hole have
+  // such.
   bool is_empty(std::uint32_t ear) const {
     const Point2d a = p_[previous_[ear]], b = p_[ear], c = p_[next_[ear]];
     for (const std::uint32_t i : concave_) {

@@ -24,8 +24,8 @@ void require_finite(double value, const char* shape, const char* quantity) {
   require(std::isfinite(static_cast<float>(value)), shape, quantity, value, "finite in single precision");
 }
 
-// The columns of a surface of revolution: directions from the axis at φ = phimax·i/segments, i = 0 … segments.
-// After a full turn the last is the first.
+// The columns of a surface of revolution: directions from the axis at φ = phimax·i/segments, i = 0 …
+// segments. After a full turn the last is the first.
 struct Columns {
   std::vector<Point2d> directions;
   double u(double i) const { return i / static_cast<double>(directions.size() - 1); }
@@ -46,7 +46,8 @@ Columns columns(double phimax_rad, int segments_of_turn, const char* shape) {
   return result;
 }
 
-// One circle of latitude: all its points have this distance from the axis, this height and this tilt of the normal.
+// One circle of latitude: all its points have this distance from the axis, this height and this tilt of the
+// normal.
 struct Ring {
   double radius, z;
   double normal_across, normal_z;
@@ -59,10 +60,10 @@ void append_ring(TriangleMesh& mesh, const Columns& columns, const Ring& ring) {
   for (std::uint32_t i = 0; i < columns.segments() + (on_axis ? 0 : 1); ++i) {
     const Point2d d = columns.directions[i];
     // Adding zero makes −0 into 0, so that all vertices on the axis have the same bits.
-    mesh.positions.push_back({static_cast<float>(ring.radius * d.x + 0.0), static_cast<float>(ring.radius * d.y + 0.0),
-                              static_cast<float>(ring.z + 0.0)});
-    mesh.normals.push_back({static_cast<float>(ring.normal_across * d.x), static_cast<float>(ring.normal_across * d.y),
-                            static_cast<float>(ring.normal_z)});
+    mesh.positions.push_back({static_cast<float>(ring.radius * d.x + 0.0),
+                              static_cast<float>(ring.radius * d.y + 0.0), static_cast<float>(ring.z + 0.0)});
+    mesh.normals.push_back({static_cast<float>(ring.normal_across * d.x),
+                            static_cast<float>(ring.normal_across * d.y), static_cast<float>(ring.normal_z)});
     mesh.uvs.push_back({static_cast<float>(columns.u(i + (on_axis ? 0.5 : 0.0))), ring.v});
   }
 }
@@ -114,7 +115,8 @@ TriangleMesh tessellate_sphere(double radius, double zmin, double zmax, double p
     const bool pole = angle == 0 || angle == pi;
     const Point2d d = unit_circle(angle);
     const double across = pole ? 0 : d.y, z = -d.x;
-    rings.push_back({radius * across, radius * z, across, z, static_cast<float>(static_cast<double>(j) / rows)});
+    rings.push_back(
+        {radius * across, radius * z, across, z, static_cast<float>(static_cast<double>(j) / rows)});
   }
   return revolve(columns(phimax_rad, sphere_segments, "sphere"), rings);
 }
@@ -134,7 +136,8 @@ TriangleMesh tessellate_cylinder(double radius, double zmin, double zmax, double
   require_finite(zmax, "cylinder", "zmax");
   require(zmin != zmax, "cylinder", "zmin", zmin, "another height than zmax");
   const double bottom = std::min(zmin, zmax), top = std::max(zmin, zmax);
-  return revolve(columns(phimax_rad, cylinder_segments, "cylinder"), {{radius, bottom, 1, 0, 0.f}, {radius, top, 1, 0, 1.f}});
+  return revolve(columns(phimax_rad, cylinder_segments, "cylinder"),
+                 {{radius, bottom, 1, 0, 0.f}, {radius, top, 1, 0, 1.f}});
 }
 
 }  // namespace vitrail

@@ -27,10 +27,14 @@ Point2d unit_circle(double angle_rad) {
   const double rest = angle_rad - quarter * (pi / 2);
   const double c = cosine(rest), s = sine(rest);
   switch (quarter % 4) {
-    case 0: return {c, s};
-    case 1: return {-s, c};
-    case 2: return {-c, -s};
-    default: return {s, -c};
+    case 0:
+      return {c, s};
+    case 1:
+      return {-s, c};
+    case 2:
+      return {-c, -s};
+    default:
+      return {s, -c};
   }
 }
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Exact intersection with one domain. Traversal only culls; a double-precision watertight test on the uncut triangle
-// decides (Woop, Benthin & Wald, JCGT 2013), so every kernel and every decomposition gives the same bits.
+// Exact intersection with one domain. Traversal only culls; a double-precision watertight test on the uncut
+// triangle decides (Woop, Benthin & Wald, JCGT 2013), so every kernel and every decomposition gives the same
+// bits.
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -18,17 +18,41 @@ enum class Kernel { portable, avx2, avx512 };
 std::vector<Kernel> available_kernels();
 std::string_view name(Kernel kernel);
 
-// The functions of one kernel; the fastest available unless VITRAIL_KERNEL names another.
+// The functions of one kernel. All kernels give the same bits.
 struct KernelFunctions {
-  // Lowers `hit` to the least (t, triangle) among it and the domain's triangles; t in (0, hit.t].
-  void (*closest)(const DomainView& domain, const Ray& ray, Hit& hit);
+  // Lowers `hit` to the least (t, triangle) among it and the domain's triangles; t in (0, hit.t]. Of equals
+  // the one already there stays.
+  void closest(const DomainView& domain, const RayConstants& ray, Hit& hit) const {
+    if (!domain.nodes.empty()) tree_closest(domain.nodes.data(), domain.clusters.data(), ray, hit);
+  }
   // Whether any triangle is hit at t in (0, tmax).
-  bool (*occluded)(const DomainView& domain, const Ray& ray, float tmax);
+  bool occluded(const DomainView& domain, const RayConstants& ray, float tmax) const {
+    return !domain.nodes.empty() && tree_occluded(domain.nodes.data(), domain.clusters.data(), ray, tmax);
+  }
+  // For a ray that meets one domain only.
+  void closest(const DomainView& domain, const Ray& ray, Hit& hit) const {
+    closest(domain, prepare(ray), hit);
+  }
+  bool occluded(const DomainView& domain, const Ray& ray, float tmax) const {
+    return occluded(domain, prepare(ray), tmax);
+  }
+
+  void (*tree_closest)(const BvhNode* nodes, const Cluster* clusters, const RayConstants& ray, Hit& hit);
+  bool (*tree_occluded)(const BvhNode* nodes, const Cluster* clusters, const RayConstants& ray, float tmax);
+  // The same with cluster `index` alone.
+  void (*cluster_closest)(const Cluster* clusters, std::uint32_t index, const RayConstants& ray, Hit& hit);
+  bool (*cluster_occluded)(const Cluster* clusters, std::uint32_t index, const RayConstants& ray, float tmax);
 };
+
+// Throws Error when this CPU cannot run the kernel.
 const KernelFunctions& kernel_functions(Kernel kernel);
+// The fastest available, unless the environment's VITRAIL_KERNEL names another; a name that is unknown or
+// cannot be run here throws Error.
 const KernelFunctions& best_kernel();
 
-// The same through Embree over user geometry: the portable reference, built when the domain is loaded.
+// The same through Embree over user geometry: an independent traversal of the same clusters, built when the
+// domain is loaded. It refers to the view's clusters, which have to outlive it. Throws MachineError when
+// Embree fails.
 class EmbreeDomain {
  public:
   explicit EmbreeDomain(const DomainView& domain);

@@ -26,4 +26,21 @@ struct Hit {
   double u = 0, v = 0;
 };
 
+// What every traversal of every domain needs of a ray, computed once by `prepare`.
+// z is the axis of the direction's greatest component, x and y the next ones. Distances inside a traversal
+// are ζ = t·|d_z|, in units of the scene whatever the length of the direction.
+struct RayConstants {
+  float origin[3];             // by axis
+  float inverse_direction[3];  // |d_z|/d_a, its magnitude at most 1e18
+  std::uint32_t
+      near_row[3];  // the row of a BvhNode's boxes where the ray enters on this axis: 0–2 lower, 3–5 upper
+  std::uint32_t x, y, z;   // axes
+  float shear_x, shear_y;  // d_x/d_z, d_y/d_z
+  float sign_z;            // of d_z, ±1
+  std::uint32_t exclude;
+  double exact_shear_x, exact_shear_y;
+  double direction_z;  // d_z
+};
+RayConstants prepare(const Ray& ray);
+
 }  // namespace vitrail

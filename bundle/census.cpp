@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bundle/census.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <tuple>
+
+namespace vitrail {
+
+namespace {
+
+constexpr std::uint8_t seen_whole = 1, seen_as_piece = 2;
+
+std::array<Point3d, 3> triangle_in(const Cluster& cluster, std::size_t lane) {
+  std::array<Point3d, 3> v;
+  for (std::size_t k = 0; k < 3; ++k)
+    v[k] = {cluster.vertex[k][0][lane], cluster.vertex[k][1][lane], cluster.vertex[k][2][lane]};
+  return v;
+}
+
+double longest_edge_squared(const std::array<Point3d, 3>& v) {
+  const auto squared = [](Vector3d e) { return dot(e, e); };
+  return std::max({squared(v[1] - v[0]), squared(v[2] - v[1]), squared(v[0] - v[2])});
+}
+
+}  // namespace
+
+double polygon_area(std::span<const Point3d> polygon) {
+  Vector3d sum;
+  for (std::size_t i = 2; i < polygon.size(); ++i)
+    sum = sum + cross(polygon[i - 1] - polygon[0], polygon[i] - polygon[0]);
+  return length(sum) / 2;
+}
+
+Census::Census(std::uint64_t triangles)
+    : triangles_(triangles), seen_(std::make_unique<std::atomic<std::uint8_t>[]>(triangles)) {}
+
+void Census::add(std::uint32_t domain, const DomainView& view, std::span<const Piece> pieces,
+                 std::span<const Point3d> piece_vertices) {
+  std::vector<std::uint32_t> cut_here, lanes_cut;
+  for (const Piece& p : pieces) cut_here.push_back(p.triangle);
+  std::sort(cut_here.begin(), cut_here.end());
+  std::vector<CutPart> parts;
+  std::uint64_t duplicates = 0;
+  for (const Cluster& cluster : view.clusters)
+    for (std::size_t lane = 0; lane < cluster_width; ++lane) {
+      const std::uint32_t id = cluster.id[lane];
+      if (id >= triangles_) continue;
+      const auto at = std::lower_bound(cut_here.begin(), cut_here.end(), id);
+      const bool cut = at != cut_here.end() && *at == id;
+      const std::uint8_t before = seen_[id].fetch_or(cut ? seen_as_piece : seen_whole);
+      if (cut ? (before & seen_whole) != 0 : before != 0) ++duplicates;
+      if (!cut) continue;
+      lanes_cut.push_back(id);
+      const std::array<Point3d, 3> v = triangle_in(cluster, lane);
+      parts.push_back({id, domain, polygon_area(v), 1e-9 * longest_edge_squared(v), 0});
+    }
+  std::sort(lanes_cut.begin(), lanes_cut.end());
+  for (const auto& ids : {cut_here, lanes_cut})
+    for (std::size_t i = 1; i < ids.size(); ++i) duplicates += ids[i] == ids[i - 1];
+
+  const auto less = [](const CutPart& a, const CutPart& b) { return a.triangle < b.triangle; };
+  std::sort(parts.begin(), parts.end(), less);
+  for (const Piece& p : pieces) {
+    const auto part = std::lower_bound(parts.begin(), parts.end(), CutPart{p.triangle, 0, 0, 0, 0}, less);
+    if (part != parts.end() && part->triangle == p.triangle)
+      part->area += polygon_area(piece_vertices.subspan(p.first_vertex, p.vertex_count));
+  }
+  duplicates_ += duplicates;
+  const std::lock_guard lock(mutex_);
+  parts_.insert(parts_.end(), parts.begin(), parts.end());
+}
+
+CensusResult Census::result() const {
+  CensusResult r{.duplicates = duplicates_, .pieces = parts_.size()};
+  for (std::uint64_t i = 0; i < triangles_; ++i) r.lost += seen_[i] == 0;
+  std::vector<CutPart> parts = parts_;
+  std::sort(parts.begin(), parts.end(), [](const CutPart& a, const CutPart& b) {
+    return std::tie(a.triangle, a.domain) < std::tie(b.triangle, b.domain);
+  });
+  for (std::size_t i = 0; i < parts.size(); ++r.cut_triangles) {
+    const CutPart& first = parts[i];
+    double sum = 0;
+    for (; i < parts.size() && parts[i].triangle == first.triangle; ++i) sum += parts[i].area;
+    const double scale = std::max(first.triangle_area, first.least_area);
+    if (scale > 0) r.area_error = std::max(r.area_error, std::abs(first.triangle_area - sum) / scale);
+  }
+  return r;
+}
+
+}  // namespace vitrail

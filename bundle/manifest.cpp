@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bundle/manifest.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <span>
+
+#include "bundle/checksum.h"
+#include "bundle/manifest_json.h"
+#include "bundle/records.h"
+#include "scene/atomic_file.h"
+#include "scene/diagnostics.h"
+
+namespace vitrail {
+
+namespace {
+
+constexpr int manifest_version = 1;
+
+// ---- The two binary files: 32 bytes of header, then the payload
+// -------------------------------------------------
+
+struct RecordsHeader {
+  std::array<char, 8> magic;
+  std::uint32_t version = 1;
+  std::uint32_t reserved = 0;
+  std::uint64_t payload_bytes = 0;
+  std::uint64_t payload_checksum = 0;
+};
+static_assert(sizeof(RecordsHeader) == 32);
+
+constexpr std::array<char, 8> materials_magic{'V', 'I', 'T', 'R', 'M', 'A', 'T', '\n'};
+constexpr std::array<char, 8> lights_magic{'V', 'I', 'T', 'R', 'L', 'I', 'T', '\n'};
+
+void write_records(const std::filesystem::path& file, std::array<char, 8> magic,
+                   std::span<const std::byte> payload) {
+  const RecordsHeader header{magic, 1, 0, payload.size(), checksum(payload)};
+  AtomicFile out(file);
+  out.write(std::as_bytes(std::span(&header, 1)));
+  out.write(payload);
+  out.commit();
+}
+
+std::vector<std::byte> read_file(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary | std::ios::ate);
+  if (!in) throw MachineError(fmt::format("cannot open {}: {}", file.string(), std::strerror(errno)));
+  const std::streamoff size = in.tellg();
+  if (size < 0) throw MachineError(fmt::format("cannot read {}", file.string()));
+  std::vector<std::byte> bytes(static_cast<std::size_t>(size));
+  in.seekg(0);
+  in.read(reinterpret_cast<char*>(bytes.data()), size);
+  if (!in) throw MachineError(fmt::format("cannot read {}", file.string()));
+  return bytes;
+}
+
+// `expected` is the checksum that the manifest has for this file.
+std::vector<std::byte> read_records(const std::filesystem::path& file, std::array<char, 8> magic,
+                                    const std::string& expected) {
+  std::vector<std::byte> bytes = read_file(file);
+  RecordsHeader header{};
+  if (bytes.size() < sizeof header) throw Error("damaged file: its header is cut short", {file.string()});
+  std::memcpy(&header, bytes.data(), sizeof header);
+  if (header.magic != magic) throw Error("not a file of this bundle", {file.string()});
+  if (header.version != 1)
+    throw Error(fmt::format("version {}; this program reads version 1", header.version), {file.string()});
+  bytes.erase(bytes.begin(), bytes.begin() + sizeof header);
+  if (header.reserved != 0 || header.payload_bytes != bytes.size() ||
+      header.payload_checksum != checksum(bytes))
+    throw Error("damaged file: its size or checksum is wrong; partition the scene again", {file.string()});
+  if (expected != fmt::format("{:016x}", header.payload_checksum))
+    throw Error("this file belongs to another bundle; partition the scene again", {file.string()});
+  return bytes;
+}
+
+// ---- manifest.json: a first line with the checksum of all that follows it
+// ---------------------------------------
+
+std::string checksum_line(std::string_view rest) {
+  return fmt::format("{{\"checksum\": \"{:016x}\",\n", checksum(std::as_bytes(std::span(rest))));
+}
+
+Json parse_manifest(const std::filesystem::path& file) {
+  const std::vector<std::byte> bytes = read_file(file);
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  const std::size_t first_line =
+      text.find('\n') == std::string_view::npos ? text.size() : text.find('\n') + 1;
+  if (text.substr(0, first_line) != checksum_line(text.substr(first_line)))
+    throw Error("the manifest is damaged or was edited: its checksum is wrong; partition the scene again",
+                {file.string()});
+  return Json::parse(text);
+}
+
+void check_version(const Json& json, const std::filesystem::path& file) {
+  if (json.at("format") != "vitrail bundle") throw Error("not the manifest of a bundle", {file.string()});
+  if (json.at("version") != manifest_version)
+    throw Error(fmt::format("bundle of version {}; this program reads version {}", json.at("version").dump(),
+                            manifest_version),
+                {file.string()});
+  for (const Json& feature : json.at("features"))
+    throw Error(fmt::format("the bundle needs {}, which this program does not know", feature.dump()),
+                {file.string()});
+}
+
+}  // namespace
+
+std::filesystem::path domain_path(const std::filesystem::path& bundle, std::uint32_t domain) {
+  return bundle / "domains" / fmt::format("{:06}.dom", domain);
+}
+
+void write_manifest(const std::filesystem::path& bundle, const Manifest& manifest) {
+  const std::filesystem::path file = bundle / "manifest.json";
+  check_manifest(manifest, file);
+  const std::vector<std::byte> materials = encode_materials(manifest), lights = encode_lights(manifest);
+  write_records(bundle / "materials.bin", materials_magic, materials);
+  write_records(bundle / "lights.bin", lights_magic, lights);
+
+  Json json{{"format", "vitrail bundle"}, {"version", manifest_version}, {"features", Json::array()}};
+  json["materials_checksum"] = fmt::format("{:016x}", checksum(materials));
+  json["lights_checksum"] = fmt::format("{:016x}", checksum(lights));
+  json.update(manifest_to_json(manifest));
+  const std::string rest = json.dump(1).substr(2) + "\n";  // without "{\n"
+  const std::string text = checksum_line(rest) + rest;
+  AtomicFile out(file);
+  out.write(std::as_bytes(std::span(text)));
+  out.commit();
+}
+
+Manifest read_manifest(const std::filesystem::path& bundle) {
+  const std::filesystem::path file = bundle / "manifest.json";
+  if (!std::filesystem::exists(file)) throw Error("not a bundle: it has no manifest.json", {bundle.string()});
+  try {
+    const Json json = parse_manifest(file);
+    check_version(json, file);
+    Manifest manifest = manifest_from_json(json);
+    const std::filesystem::path materials = bundle / "materials.bin", lights = bundle / "lights.bin";
+    decode_materials(read_records(materials, materials_magic, json.at("materials_checksum")), materials,
+                     manifest);
+    decode_lights(read_records(lights, lights_magic, json.at("lights_checksum")), lights, manifest);
+    check_manifest(manifest, file);
+    return manifest;
+  } catch (const Json::exception& e) {
+    throw Error(fmt::format("the manifest is not as it should be: {}", e.what()), {file.string()});
+  } catch (const Error& e) {
+    if (!e.location.file.empty()) throw;
+    throw Error(e.what(), {file.string()});
+  }
+}
+
+}  // namespace vitrail

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bundle/manifest_json.h"
+
+#include <fmt/format.h>
+
+namespace vitrail {
+
+namespace {
+
+template <class V>
+Json triple(const V& v) {
+  return {v.x, v.y, v.z};
+}
+
+template <class V>
+V triple_from(const Json& j) {
+  using T = decltype(V{}.x);
+  return {j.at(0).get<T>(), j.at(1).get<T>(), j.at(2).get<T>()};
+}
+
+// Empty boxes are null: JSON has no infinity.
+Json box(const Bounds3f& b) { return b.empty() ? Json(nullptr) : Json{triple(b.lower), triple(b.upper)}; }
+
+Bounds3f box_from(const Json& j) {
+  if (j.is_null()) return {};
+  return {triple_from<Point3f>(j.at(0)), triple_from<Point3f>(j.at(1))};
+}
+
+// 64-bit hashes are hexadecimal strings: many JSON readers keep 53 bits of a number.
+Json hash(std::uint64_t h) { return fmt::format("{:016x}", h); }
+
+std::uint64_t hash_from(const Json& j) {
+  const auto text = j.get<std::string>();
+  if (text.size() != 16 || text.find_first_not_of("0123456789abcdef") != std::string::npos)
+    throw Error(fmt::format("'{}' is not a hash of 16 hexadecimal digits", text));
+  return std::stoull(text, nullptr, 16);
+}
+
+// The kinds of a variant, in the order of its alternatives.
+constexpr std::array camera_kinds{"perspective", "orthographic"};
+constexpr std::array filter_kinds{"box", "triangle", "gaussian"};
+
+template <std::size_t n>
+std::size_t kind_index(const Json& j, const std::array<const char*, n>& kinds) {
+  const auto word = j.at("kind").get<std::string>();
+  for (std::size_t i = 0; i < n; ++i)
+    if (word == kinds[i]) return i;
+  throw Error(fmt::format("unknown kind '{}'", word));
+}
+
+Json filter_to_json(const Filter& filter) {
+  Json j{{"kind", filter_kinds.at(filter.index())}};
+  std::visit([&](const auto& f) { j["radius_px"] = {f.radius_x, f.radius_y}; }, filter);
+  if (const auto* gaussian = std::get_if<GaussianFilter>(&filter)) j["sigma_px"] = gaussian->sigma;
+  return j;
+}
+
+Filter filter_from_json(const Json& j) {
+  const double x = j.at("radius_px").at(0).get<double>(), y = j.at("radius_px").at(1).get<double>();
+  const std::size_t kind = kind_index(j, filter_kinds);
+  if (kind == 0) return BoxFilter{x, y};
+  if (kind == 1) return TriangleFilter{x, y};
+  return GaussianFilter{x, y, j.at("sigma_px").get<double>()};
+}
+
+Camera camera_from_json(const Json& j) {
+  Transform t;
+  for (std::size_t i = 0; i < 16; ++i) t.m[i / 4][i % 4] = j.at("camera_to_world").at(i).get<double>();
+  const auto s = [&](std::size_t i) { return j.at("screen").at(i).get<double>(); };
+  const ScreenWindow screen{s(0), s(1), s(2), s(3)};
+  if (kind_index(j, camera_kinds) == 0) return PerspectiveCamera{t, screen};
+  return OrthographicCamera{t, screen};
+}
+
+FilmSettings film_from_json(const Json& j) {
+  const auto crop = [&](std::size_t i) { return j.at("crop_px").at(i).get<int>(); };
+  return {j.at("width_px").get<int>(),
+          j.at("height_px").get<int>(),
+          {crop(0), crop(1), crop(2), crop(3)},
+          filter_from_json(j.at("filter")),
+          j.at("imaging_ratio").get<double>()};
+}
+
+Json requirements_to_json(const Requirements& r) {
+  return {{"shading_normals", r.shading_normals},
+          {"transmission", r.transmission},
+          {"dispersion", r.dispersion},
+          {"interfaces", r.interfaces}};
+}
+
+Json kd_node_to_json(const KdNode& n) {
+  const auto child = [](std::uint32_t c) -> Json {
+    return c & KdNode::leaf_bit ? Json{{"domain", c & ~KdNode::leaf_bit}} : Json{{"node", c}};
+  };
+  return {{"axis", n.axis}, {"split", n.split}, {"below", child(n.below)}, {"above", child(n.above)}};
+}
+
+KdNode kd_node_from_json(const Json& j) {
+  const auto child = [&](const char* side) {
+    const Json& c = j.at(side);
+    const bool leaf = c.contains("domain");
+    const auto index = c.at(leaf ? "domain" : "node").get<std::uint64_t>();
+    if (index >= KdNode::leaf_bit) throw Error("a node of the kd-tree has a child out of range");
+    return static_cast<std::uint32_t>(index) | (leaf ? KdNode::leaf_bit : 0u);
+  };
+  return {j.at("split").get<float>(), j.at("axis").get<std::uint32_t>(), child("below"), child("above")};
+}
+
+Json domain_to_json(const DomainInfo& d) {
+  return {{"triangles", d.triangles},
+          {"pieces", d.pieces},
+          {"bytes", d.bytes},
+          {"hash", hash(d.hash)},
+          {"tight_bounds", box(d.tight_bounds)}};
+}
+
+DomainInfo domain_from_json(const Json& j) {
+  return {j.at("triangles").get<std::uint64_t>(), j.at("pieces").get<std::uint64_t>(),
+          j.at("bytes").get<std::uint64_t>(), hash_from(j.at("hash")), box_from(j.at("tight_bounds"))};
+}
+
+}  // namespace
+
+Json camera_to_json(const Camera& camera) {
+  Json j{{"kind", camera_kinds.at(camera.index())}};
+  std::visit(
+      [&](const auto& c) {
+        for (const auto& row : c.camera_to_world.m)
+          for (const double x : row) j["camera_to_world"].push_back(x);
+        j["screen"] = {c.screen.x0, c.screen.x1, c.screen.y0, c.screen.y1};
+      },
+      camera);
+  return j;
+}
+
+Json film_to_json(const FilmSettings& f) {
+  return {{"width_px", f.width},
+          {"height_px", f.height},
+          {"crop_px", {f.crop.x0, f.crop.x1, f.crop.y0, f.crop.y1}},
+          {"filter", filter_to_json(f.filter)},
+          {"imaging_ratio", f.imaging_ratio}};
+}
+
+Json manifest_to_json(const Manifest& m) {
+  Json j;
+  j["units"] = {{"length", "scene units"}, {"wavelength", "nm"}, {"radiance", "W·m⁻²·sr⁻¹·nm⁻¹"}};
+  j["scene_hash"] = hash(m.scene_hash);
+  j["triangles"] = m.triangles;
+  j["cut_triangles"] = m.cut_triangles;
+  j["offset"] = triple(m.offset);
+  j["bounds"] = box(m.bounds);
+  j["scale"] = m.scale;
+  j["requirements"] = requirements_to_json(m.requirements);
+  j["camera"] = camera_to_json(m.camera);
+  j["film"] = film_to_json(m.film);
+  j["settings"] = {{"samples_per_pixel", m.settings.samples_per_pixel},
+                   {"max_depth", m.settings.max_depth},
+                   {"direct_only", m.settings.direct_only}};
+  j["kd_nodes"] = Json::array();
+  for (const KdNode& n : m.kd_nodes) j["kd_nodes"].push_back(kd_node_to_json(n));
+  j["domains"] = Json::array();
+  for (const DomainInfo& d : m.domains) j["domains"].push_back(domain_to_json(d));
+  return j;
+}
+
+Manifest manifest_from_json(const Json& j) {
+  Manifest m;
+  m.scene_hash = hash_from(j.at("scene_hash"));
+  m.triangles = j.at("triangles").get<std::uint64_t>();
+  m.cut_triangles = j.at("cut_triangles").get<std::uint64_t>();
+  m.offset = triple_from<Vector3d>(j.at("offset"));
+  m.bounds = box_from(j.at("bounds"));
+  m.scale = j.at("scale").get<float>();
+  const Json& r = j.at("requirements");
+  m.requirements = {r.at("shading_normals").get<bool>(), r.at("transmission").get<bool>(),
+                    r.at("dispersion").get<bool>(), r.at("interfaces").get<bool>()};
+  m.camera = camera_from_json(j.at("camera"));
+  m.film = film_from_json(j.at("film"));
+  const Json& s = j.at("settings");
+  m.settings = {s.at("samples_per_pixel").get<int>(), s.at("max_depth").get<int>(),
+                s.at("direct_only").get<bool>()};
+  for (const Json& n : j.at("kd_nodes")) m.kd_nodes.push_back(kd_node_from_json(n));
+  for (const Json& d : j.at("domains")) m.domains.push_back(domain_from_json(d));
+  return m;
+}
+
+}  // namespace vitrail

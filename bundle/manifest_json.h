@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+// The part of a manifest that is written as JSON.
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "bundle/manifest.h"
+
+namespace vitrail {
+
+using Json = nlohmann::ordered_json;
+
+Json manifest_to_json(const Manifest& manifest);
+Json camera_to_json(const Camera& camera);
+Json film_to_json(const FilmSettings& film);
+
+// Throws nlohmann's exceptions for keys that are missing and values of a wrong type, Error for unknown words.
+Manifest manifest_from_json(const Json& json);
+
+}  // namespace vitrail

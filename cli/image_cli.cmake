@@ -1,0 +1,2 @@
+# SPDX-License-Identifier: Apache-2.0
+# The programs that work on films and images.

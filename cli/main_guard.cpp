@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/main_guard.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <new>
+#include <string>
+
+#include "scene/diagnostics.h"
+
+namespace vitrail {
+
+namespace {
+
+int fail(int status, const std::string& message) {
+  fmt::print(stderr, "vitrail: {}\n", message);
+  return status;
+}
+
+int fail(const Error& e) {
+  const std::string place = to_string(e.location);
+  fmt::print(stderr, "vitrail: {}{}{}\n", place, place.empty() ? "" : ": ", e.what());
+  if (!e.excerpt.empty()) fmt::print(stderr, "  | {}\n", e.excerpt);
+  return exit_bad_input;
+}
+
+}  // namespace
+
+int run_guarded(const std::function<int()>& body) {
+  try {
+    return body();
+  } catch (const Error& e) {
+    return fail(e);
+  } catch (const UsageError& e) {
+    return fail(exit_usage, e.what());
+  } catch (const CLI::ParseError& e) {
+    return fail(exit_usage, e.what());
+  } catch (const std::bad_alloc&) {
+    return fail(exit_machine, "out of memory");
+  } catch (const std::exception& e) {  // MachineError among them
+    return fail(exit_machine, e.what());
+  }
+}
+
+int run_guarded(CLI::App& app, int argc, char** argv, const std::function<int()>& body) {
+  return run_guarded([&] {
+    try {
+      app.parse(argc, argv);
+    } catch (const CLI::Success& e) {  // --help, --version
+      return app.exit(e);
+    } catch (const CLI::ParseError& e) {
+      throw UsageError(fmt::format("{} (see {} --help)", e.what(), app.get_name()));
+    }
+    return body();
+  });
+}
+
+}  // namespace vitrail

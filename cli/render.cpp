@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+
+#include "cli/main_guard.h"
+#include "cli/run_program.h"
+#include "cli/sizes.h"
+#include "farm/agreement.h"
+#include "farm/render.h"
+
+namespace vitrail {
+namespace {
+
+struct Arguments {
+  std::filesystem::path input, output;
+  std::string memory, crop, integrator, progress = "auto";
+  RenderOptions options;
+};
+
+void declare(CLI::App& app, Arguments& a) {
+  RenderOptions& o = a.options;
+  app.add_option("input", a.input, "a bundle (NAME.vit) or a scene, which is partitioned first")->required();
+  app.add_option("-o,--output", a.output, "picture (.exr, .png) or film (.film)")->required();
+  app.add_option("--spp", o.samples_per_pixel, "samples a pixel");
+  app.add_option("--max-depth", o.max_depth, "scattering events of a path; 0: emitters only, 1: direct light");
+  app.add_option("--seed", o.seed, "films of different seeds are independent");
+  app.add_option("--integrator", a.integrator, "path or direct; default as the scene says")
+      ->check(CLI::IsMember({"path", "direct"}));
+  app.add_option("--memory", a.memory, "most memory a rank may use, e.g. 512M or 2G");
+  app.add_option("--threads", o.threads, "worker threads a rank; default: all cores");
+  app.add_option("--crop", a.crop, "x0,x1,y0,y1 in pixels from the top left");
+  app.add_option("--checkpoint-every", o.checkpoint_every_s, "seconds between checkpoints");
+  app.add_flag("--resume", o.resume, "go on from the checkpoint");
+  app.add_option("--time", o.time_limit_s, "stop after this many seconds with what there is");
+  app.add_option("--stats", o.stats, "write statistics as JSON");
+  app.add_option("--progress", a.progress)->check(CLI::IsMember({"auto", "bar", "json", "none"}));
+  app.add_option("--shuffle-delivery", o.shuffle_seed, "process rays in an arbitrary order (for tests)")->group("");
+}
+
+PixelRect parse_crop(const std::string& text) {
+  PixelRect c;
+  char end = 0;
+  if (std::sscanf(text.c_str(), "%d,%d,%d,%d%c", &c.x0, &c.x1, &c.y0, &c.y1, &end) != 4)
+    throw UsageError("--crop takes x0,x1,y0,y1 in pixels, not '" + text + "'");
+  return c;
+}
+
+void interpret(Arguments& a) {
+  const std::string extension = a.output.extension().string();
+  constexpr const char* known[] = {".exr", ".png", ".film"};
+  if (std::ranges::find(known, extension) == std::end(known))
+    throw UsageError("the output must end in .exr, .png or .film: " + a.output.string());
+  a.options.film = std::filesystem::path(a.output).replace_extension(".film");
+  if (!a.memory.empty()) a.options.memory_bytes = parse_bytes(a.memory);
+  if (!a.crop.empty()) a.options.crop = parse_crop(a.crop);
+  if (!a.integrator.empty()) a.options.direct_only = a.integrator == "direct";
+  const bool terminal = ::isatty(STDERR_FILENO);
+  if (a.progress == "json") a.options.progress = ProgressMode::json;
+  if (a.progress == "bar" || (a.progress == "auto" && terminal)) a.options.progress = ProgressMode::bar;
+  const std::filesystem::path folder = std::filesystem::absolute(a.output).parent_path();
+  if (::access(folder.c_str(), W_OK) != 0) throw MachineError("cannot write to " + folder.string());
+}
+
+// A scene becomes a bundle first, beside the picture; it is removed at the end.
+class Bundle {
+ public:
+  Bundle(Transport& transport, Arguments& a) : transport_(transport) {
+    a.options.bundle = a.input;
+    if (std::filesystem::exists(a.input / "manifest.json") || a.input.extension() == ".vit") return;
+    a.options.bundle = temporary_ = std::filesystem::path(a.options.film).replace_extension(".tmp.vit");
+    agree(transport, [&] {
+      if (transport.rank() == 0)
+        run_program("vitrail-partition", {a.input.string(), "-o", temporary_.string(), "--quiet"});
+    });
+  }
+  ~Bundle() {
+    std::error_code ignored;
+    if (!temporary_.empty() && transport_.rank() == 0) std::filesystem::remove_all(temporary_, ignored);
+  }
+  Bundle(const Bundle&) = delete;
+  Bundle& operator=(const Bundle&) = delete;
+
+ private:
+  Transport& transport_;
+  std::filesystem::path temporary_;
+};
+
+int render_job(Transport& transport, Arguments& a) {
+  agree(transport, [&] { interpret(a); });
+  const Bundle bundle(transport, a);
+  const RenderStats stats = render(transport, a.options);
+  if (transport.rank() != 0) return exit_done;
+  if (stats.traced.nonfinite_samples > 0)
+    fmt::print(stderr, "vitrail: {} samples were not finite and count as black\n", stats.traced.nonfinite_samples);
+  if (stats.complete) {
+    if (a.output.extension() != ".film")
+      run_program("vitrail-develop", {a.options.film.string(), "-o", a.output.string()});
+  } else {
+    fmt::print(stderr, "vitrail: stopped; {}.partial holds what was done, go on with --resume\n",
+               a.options.film.string());
+  }
+  return exit_done;
+}
+
+// A job of several ranks says which one speaks.
+int guarded_job(Transport& transport, Arguments& a) {
+  const std::string who =
+      transport.size() > 1 ? fmt::format("rank {} of {}: ", transport.rank(), transport.size()) : "";
+  try {
+    return render_job(transport, a);
+  } catch (const OtherRankFailed& failed) {
+    return failed.bad_input ? exit_bad_input : exit_machine;
+  } catch (const Error& error) {
+    throw Error(who + error.what(), error.location, error.excerpt);
+  } catch (const UsageError& error) {
+    throw UsageError(who + error.what());
+  } catch (const std::exception& error) {
+    throw MachineError(who + error.what());
+  }
+}
+
+}  // namespace
+}  // namespace vitrail
+
+int main(int argc, char** argv) {
+  using namespace vitrail;
+  CLI::App app("renders a bundle or a scene, alone or as the ranks of an MPI job", "vitrail render");
+  Arguments arguments;
+  declare(app, arguments);
+  return run_guarded(app, argc, argv, [&] {
+    const auto transport = make_transport(&argc, &argv);
+    return run_guarded([&] { return guarded_job(*transport, arguments); });
+  });
+}

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/run_program.h"
+
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+
+#include "cli/main_guard.h"
+#include "scene/diagnostics.h"
+
+namespace vitrail {
+
+std::filesystem::path program_folder() { return std::filesystem::read_symlink("/proc/self/exe").parent_path(); }
+
+void run_program(const std::string& name, const std::vector<std::string>& arguments) {
+  std::string program = (program_folder() / name).string();
+  std::vector<std::string> words = arguments;
+  std::vector<char*> argv{program.data()};
+  for (std::string& word : words) argv.push_back(word.data());
+  argv.push_back(nullptr);
+  pid_t child = 0;
+  if (const int error = ::posix_spawn(&child, program.c_str(), nullptr, nullptr, argv.data(), environ))
+    throw MachineError("cannot run " + program + ": " + std::strerror(error));
+  int status = 0;
+  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  if (WIFEXITED(status) && WEXITSTATUS(status) == exit_done) return;
+  if (WIFEXITED(status) && WEXITSTATUS(status) == exit_bad_input) throw Error(name + " refused its input");
+  throw MachineError(name + " failed");
+}
+
+}  // namespace vitrail

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+// Rays of one kind that wait for one domain: a queue entry, and a message as it travels.
+#pragma once
+
+#include <cstddef>
+#include <cstring>
+#include <span>
+#include <vector>
+
+#include "tracer/records.h"
+
+namespace vitrail {
+
+enum class RayKind : std::uint32_t { path, shadow };
+
+template <class Record>
+constexpr RayKind kind_of() {
+  return std::is_same_v<Record, PathRecord> ? RayKind::path : RayKind::shadow;
+}
+
+// A header of 8 bytes, then records without gaps.
+class RayBatch {
+ public:
+  static constexpr std::size_t header_bytes = 8;
+  static constexpr std::size_t full_bytes = 64 * 1024;
+
+  RayBatch() = default;
+  RayBatch(std::uint32_t domain, RayKind kind) : bytes_(header_bytes) {
+    std::memcpy(bytes_.data(), &domain, 4);
+    std::memcpy(bytes_.data() + 4, &kind, 4);
+  }
+  explicit RayBatch(std::vector<std::byte> received) : bytes_(std::move(received)) {}
+
+  std::uint32_t domain() const { return read<std::uint32_t>(0); }
+  RayKind kind() const { return read<RayKind>(4); }
+  std::size_t count() const {
+    return bytes_.empty() ? 0
+                          : (bytes_.size() - header_bytes) /
+                                (kind() == RayKind::path ? sizeof(PathRecord) : sizeof(ShadowRecord));
+  }
+  bool full() const { return bytes_.size() + sizeof(PathRecord) > full_bytes; }
+
+  template <class Record>
+  void append(const Record& record) {
+    const auto* raw = reinterpret_cast<const std::byte*>(&record);
+    bytes_.insert(bytes_.end(), raw, raw + sizeof(Record));
+  }
+  template <class Record>
+  std::span<Record> records() {
+    return {reinterpret_cast<Record*>(bytes_.data() + header_bytes), count()};
+  }
+  const std::vector<std::byte>& bytes() const { return bytes_; }
+
+ private:
+  template <class T>
+  T read(std::size_t at) const {
+    T value;
+    std::memcpy(&value, bytes_.data() + at, sizeof(T));
+    return value;
+  }
+  std::vector<std::byte> bytes_;
+};
+
+}  // namespace vitrail

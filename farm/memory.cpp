@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "farm/memory.h"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <fstream>
+
+#include "scene/diagnostics.h"
+#include "tracer/records.h"
+
+namespace vitrail {
+
+namespace {
+
+constexpr std::uint64_t mib = 1 << 20;
+// Stacks, outboxes, buffers in flight, what the allocator keeps.
+constexpr std::uint64_t slack_bytes = 4 * mib, slack_a_thread = mib;
+constexpr std::uint64_t least_queue_bytes = 2 * mib, most_queue_bytes = 512 * mib;
+
+}  // namespace
+
+std::uint64_t resident_bytes() {
+  std::ifstream statm("/proc/self/statm");
+  std::uint64_t size = 0, resident = 0;
+  statm >> size >> resident;
+  return resident * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
+}
+
+std::uint64_t peak_resident_bytes() {
+  rusage usage{};
+  ::getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
+}
+
+MemoryPlan plan_memory(std::uint64_t budget, std::uint64_t base, int threads, std::uint64_t largest_domain,
+                       std::uint64_t all_domains) {
+  if (budget == 0) return {all_domains, most_queue_bytes};
+  const std::uint64_t fixed = base + slack_bytes + slack_a_thread * static_cast<std::uint64_t>(threads);
+  const std::uint64_t least = fixed + least_queue_bytes + largest_domain;
+  if (budget < least)
+    throw MachineError(fmt::format(
+        "--memory {:.0f}M is too little: {:.0f}M for the program and the film, {:.0f}M for the largest domain; "
+        "at least {:.0f}M is needed, or more domains",
+        static_cast<double>(budget) / mib, static_cast<double>(fixed) / mib, static_cast<double>(largest_domain) / mib,
+        static_cast<double>(least + mib - 1) / mib));
+  const std::uint64_t free = budget - fixed;
+  const std::uint64_t queues = std::clamp(free / 5, least_queue_bytes, std::min(most_queue_bytes, free - largest_domain));
+  return {free - queues, queues};
+}
+
+std::int64_t rays_allowed(const MemoryPlan& plan) {
+  // A growing batch holds up to twice its rays, and while it is sent or received once more.
+  return static_cast<std::int64_t>(plan.queue_bytes / (3 * sizeof(PathRecord)));
+}
+
+}  // namespace vitrail

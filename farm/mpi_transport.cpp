@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+// The C interface only.
+#define OMPI_SKIP_MPICXX 1
+#include <mpi.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <list>
+
+#include "farm/transport.h"
+#include "scene/diagnostics.h"
+
+namespace vitrail {
+
+namespace {
+
+// Buffers of collectives are cut into parts, so that the library's own copies stay small.
+constexpr std::size_t collective_part = 1 << 18;
+
+class MpiTransport final : public Transport {
+ public:
+  MpiTransport(int* argc, char*** argv) {
+    // On machines with more ranks than cores a rank that spins takes the core from one that works.
+    ::setenv("OMPI_MCA_mpi_yield_when_idle", "1", 0);
+    int provided = 0;
+    MPI_Init_thread(argc, argv, MPI_THREAD_FUNNELED, &provided);
+    if (provided < MPI_THREAD_FUNNELED) throw MachineError("this MPI does not allow threads beside the one that calls it");
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
+    MPI_Comm_size(MPI_COMM_WORLD, &size_);
+  }
+  ~MpiTransport() override { MPI_Finalize(); }
+
+  int rank() const override { return rank_; }
+  int size() const override { return size_; }
+
+  void send(int to, RayBatch batch) override {
+    complete_sends();
+    Sending& s = sending_.emplace_back(Sending{std::move(batch), MPI_REQUEST_NULL});
+    MPI_Isend(s.batch.bytes().data(), static_cast<int>(s.batch.bytes().size()), MPI_BYTE, to, 0, MPI_COMM_WORLD,
+              &s.request);
+  }
+
+  std::optional<RayBatch> receive() override {
+    complete_sends();
+    int arrived = 0;
+    MPI_Message message;
+    MPI_Status status;
+    MPI_Improbe(MPI_ANY_SOURCE, 0, MPI_COMM_WORLD, &arrived, &message, &status);
+    if (!arrived) return std::nullopt;
+    int bytes = 0;
+    MPI_Get_count(&status, MPI_BYTE, &bytes);
+    std::vector<std::byte> buffer(static_cast<std::size_t>(bytes));
+    MPI_Mrecv(buffer.data(), bytes, MPI_BYTE, &message, MPI_STATUS_IGNORE);
+    return RayBatch(std::move(buffer));
+  }
+
+  void start_round(const RoundSums& mine) override {
+    mine_ = mine;
+    MPI_Iallreduce(&mine_, &sums_, static_cast<int>(round_values), MPI_INT64_T, MPI_SUM, MPI_COMM_WORLD, &round_);
+  }
+
+  std::optional<RoundSums> finish_round() override {
+    int done = 0;
+    MPI_Test(&round_, &done, MPI_STATUS_IGNORE);
+    if (!done) return std::nullopt;
+    return sums_;
+  }
+
+  void sum_to_root(std::span<std::int64_t> values) override { reduce(values, MPI_INT64_T, MPI_SUM); }
+  void sum_to_root(std::span<std::uint32_t> values) override { reduce(values, MPI_UINT32_T, MPI_SUM); }
+  void sum_to_root(std::span<double> values) override { reduce(values, MPI_DOUBLE, MPI_SUM); }
+  void max_to_root(std::span<std::int64_t> values) override { reduce(values, MPI_INT64_T, MPI_MAX); }
+
+  void broadcast_from_root(std::span<std::uint64_t> values) override {
+    for (std::size_t at = 0; at < values.size(); at += collective_part)
+      MPI_Bcast(values.data() + at, static_cast<int>(std::min(collective_part, values.size() - at)), MPI_UINT64_T, 0,
+                MPI_COMM_WORLD);
+  }
+
+ private:
+  struct Sending {
+    RayBatch batch;
+    MPI_Request request;
+  };
+
+  void complete_sends() {
+    std::erase_if(sending_, [](Sending& s) {
+      int done = 0;
+      MPI_Test(&s.request, &done, MPI_STATUS_IGNORE);
+      return done != 0;
+    });
+  }
+
+  template <class T>
+  void reduce(std::span<T> values, MPI_Datatype type, MPI_Op operation) {
+    for (std::size_t at = 0; at < values.size(); at += collective_part) {
+      const int count = static_cast<int>(std::min(collective_part, values.size() - at));
+      MPI_Reduce(rank_ == 0 ? MPI_IN_PLACE : values.data() + at, values.data() + at, count, type, operation, 0,
+                 MPI_COMM_WORLD);
+    }
+    if (rank_ != 0) std::ranges::fill(values, T{});
+  }
+
+  int rank_ = 0, size_ = 1;
+  std::list<Sending> sending_;
+  RoundSums mine_, sums_;
+  MPI_Request round_ = MPI_REQUEST_NULL;
+};
+
+}  // namespace
+
+std::unique_ptr<Transport> make_mpi_transport(int* argc, char*** argv) {
+  return std::make_unique<MpiTransport>(argc, argv);
+}
+
+}  // namespace vitrail

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "scene/scene.h"
+
+namespace vitrail {
+
+enum class ProgressMode { none, bar, json };
+
+// What `vitrail render` is asked for. Empty optionals: as the scene says.
+struct RenderOptions {
+  std::filesystem::path bundle;
+  std::filesystem::path film;  // where the finished film goes; the checkpoint lies beside it as FILM.partial
+  std::optional<int> samples_per_pixel;
+  std::optional<int> max_depth;
+  std::optional<bool> direct_only;
+  std::optional<PixelRect> crop;
+  std::uint64_t seed = 0;
+  std::uint64_t memory_bytes = 0;  // a rank; 0: no limit
+  int threads = 0;                 // a rank; 0: one a core
+  double checkpoint_every_s = 0;   // 0: only when asked by a signal
+  double time_limit_s = 0;         // 0: none. The film then holds what was done
+  bool resume = false;
+  std::filesystem::path stats;     // empty: none
+  ProgressMode progress = ProgressMode::none;
+  // Processes rays in an arbitrary order, for tests: no picture may depend on it.
+  std::optional<std::uint64_t> shuffle_seed;
+};
+
+}  // namespace vitrail

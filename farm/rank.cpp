@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "farm/rank.h"
+
+#include <bit>
+#include <thread>
+
+#include "farm/agreement.h"
+#include "farm/signals.h"
+
+namespace vitrail {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using namespace std::chrono_literals;
+
+constexpr auto round_interval = 1ms;
+// Rays for other ranks leave when this many wait, when a worker here has nothing to do, or after this time.
+constexpr std::size_t rays_worth_sending = 4096;
+constexpr auto longest_wait = 2ms;
+// The loop naps while nothing moves, longer and longer: a rank that spins takes the core from one that works.
+constexpr auto shortest_nap = 20us, longest_nap = 1000us;
+
+std::uint64_t bits_set(const std::vector<std::uint64_t>& words) {
+  std::uint64_t sum = 0;
+  for (std::uint64_t word : words) sum += static_cast<std::uint64_t>(std::popcount(word));
+  return sum;
+}
+
+}  // namespace
+
+Rank::Rank(Transport& transport, RankState& state, const RenderOptions& options, Resumed resumed,
+           std::int64_t rays_allowed)
+    : transport_(transport),
+      state_(state),
+      options_(options),
+      progress_(transport.rank() == 0 ? options.progress : ProgressMode::none, state.plan.items(),
+                bits_set(resumed.done)),
+      done_((state.plan.items() + 63) / 64),
+      time_before_s_(resumed.render_time_s),
+      rays_allowed_(rays_allowed),
+      start_(Clock::now()),
+      last_checkpoint_(start_),
+      last_sent_(start_) {
+  state_.share = share_of(state.plan, resumed.done, transport.rank(), transport.size());
+  if (transport.rank() == 0) {
+    items_before_ = bits_set(resumed.done);
+    if (!resumed.done.empty()) done_ = std::move(resumed.done);
+  }
+}
+
+double Rank::elapsed_s() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+
+bool Rank::run() {
+  auto nap = std::chrono::microseconds(shortest_nap);
+  auto last_round = Clock::now() - round_interval;
+  bool in_round = false;
+  for (;;) {
+    bool moved = move_rays();
+    watch_clock();
+    if (in_round) {
+      if (const auto sums = transport_.finish_round()) {
+        in_round = false;
+        progress_.show(*sums);
+        const Decision decision = decide(*sums);
+        if (decision != Decision::go_on) {
+          const bool finish = decision == Decision::finish;
+          write(finish ? options_.film : checkpoint_path(options_.film));
+          if (decision != Decision::checkpoint) {
+            progress_.finish();
+            return finish;
+          }
+        }
+      }
+    } else if (Clock::now() - last_round >= round_interval) {
+      last_round = Clock::now();
+      transport_.start_round(contribution());
+      in_round = moved = true;
+    }
+    if (moved) {
+      nap = shortest_nap;
+    } else {
+      std::this_thread::sleep_for(nap);
+      nap = std::min<std::chrono::microseconds>(nap * 2, longest_nap);
+    }
+  }
+}
+
+// Takes what has arrived and sends what waits for other ranks. Returns whether anything moved.
+bool Rank::move_rays() {
+  if (transport_.size() == 1) return false;
+  bool moved = false;
+  while (auto batch = transport_.receive()) {
+    ++received_;
+    moved = true;
+    const std::lock_guard lock(state_.mutex);
+    state_.queues.push(std::move(*batch));
+    state_.work_available.notify_one();
+    state_.load_wanted.notify_one();
+  }
+  std::vector<RayBatch> batches;
+  {
+    const std::lock_guard lock(state_.mutex);
+    const bool due = state_.outgoing_rays >= rays_worth_sending || state_.workers_waiting > 0 ||
+                     Clock::now() - last_sent_ > longest_wait;
+    if (state_.outgoing_rays == 0 || !due) return moved;
+    for (std::uint32_t d = 0; d < state_.scene.manifest.domains.size(); ++d)
+      while (state_.outgoing.waiting(d) > 0) batches.push_back(state_.outgoing.pop(d));
+    state_.outgoing_rays = 0;
+  }
+  last_sent_ = Clock::now();
+  for (RayBatch& batch : batches) {
+    ++messages_;
+    sent_bytes_ += batch.bytes().size();
+    const int home = state_.residency.home(batch.domain());
+    transport_.send(home, std::move(batch));
+  }
+  return true;
+}
+
+void Rank::watch_clock() {
+  if (take_checkpoint_signal()) want_checkpoint_ = true;
+  if (stop_signalled()) want_stop_ = true;
+  if (transport_.rank() != 0) return;
+  const auto since_checkpoint = std::chrono::duration<double>(Clock::now() - last_checkpoint_).count();
+  if (options_.checkpoint_every_s > 0 && since_checkpoint >= options_.checkpoint_every_s) want_checkpoint_ = true;
+  if (options_.time_limit_s > 0 && elapsed_s() >= options_.time_limit_s) time_is_up_ = want_stop_ = true;
+}
+
+RoundSums Rank::contribution() {
+  const std::lock_guard lock(state_.mutex);
+  RoundSums mine;
+  mine.born = static_cast<std::int64_t>(state_.counters.born);
+  mine.died = static_cast<std::int64_t>(state_.counters.died);
+  mine.quiet = state_.quiet();
+  mine.pause = want_checkpoint_;
+  mine.stop = want_stop_;
+  mine.time_is_up = time_is_up_;
+  if (state_.failure) (is_bad_input(state_.failure) ? mine.bad_input : mine.machine_failure) = 1;
+  mine.items_done = static_cast<std::int64_t>(items_before_ + state_.next_item - state_.items_in_hand);
+  const TraceCounters& c = state_.counters;
+  mine.rays_traced = static_cast<std::int64_t>(c.rays_camera + c.rays_indirect + c.rays_shadow);
+  mine.domain_loads = static_cast<std::int64_t>(state_.residency.loads());
+  return mine;
+}
+
+// The same on every rank, since the sums are.
+Rank::Decision Rank::decide(const RoundSums& sums) {
+  if (sums.bad_input + sums.machine_failure > 0) {
+    leave_together();
+    leave(state_.failure, sums);
+  }
+  const std::int64_t alive = sums.born - sums.died;
+  // Twice in a row nothing was alive and nothing new was born in between: then nothing was alive at one moment between
+  // the two rounds, and nothing can begin (Mattern 1987, the four-counter method).
+  const bool calm = alive == 0 && sums.quiet == transport_.size();
+  const bool over = calm && calm_ && sums.born == born_then_;
+  calm_ = calm;
+  born_then_ = sums.born;
+  {
+    const std::lock_guard lock(state_.mutex);
+    state_.allowance = (rays_allowed_ - alive) / transport_.size();
+    state_.paused = sums.pause + sums.stop > 0;
+  }
+  state_.work_available.notify_all();
+  if (!over) return Decision::go_on;
+  if (sums.items_done == static_cast<std::int64_t>(state_.plan.items()) || sums.time_is_up > 0) return Decision::finish;
+  return sums.stop > 0 ? Decision::stop : Decision::checkpoint;
+}
+
+void Rank::write(const std::filesystem::path& file) {
+  const double render_time_s = time_before_s_ + elapsed_s();
+  {
+    const std::lock_guard lock(state_.mutex);
+    for (; reported_ < state_.next_item; ++reported_) {
+      const std::uint64_t item = state_.share[reported_];
+      done_[item / 64] |= std::uint64_t{1} << (item % 64);
+    }
+  }
+  write_job_film(transport_, file, state_.film, done_, state_.plan, render_time_s);
+  want_checkpoint_ = calm_ = false;
+  last_checkpoint_ = Clock::now();
+}
+
+// After a failure: no rank may end while a message to it or from it is under way. Batches sent and received are
+// counted until the sums agree.
+void Rank::leave_together() {
+  {
+    const std::lock_guard lock(state_.mutex);
+    state_.finished = true;
+  }
+  state_.work_available.notify_all();
+  for (;;) {
+    RoundSums mine;
+    mine.born = static_cast<std::int64_t>(messages_);
+    mine.died = static_cast<std::int64_t>(received_);
+    transport_.start_round(mine);
+    std::optional<RoundSums> sums;
+    while (!(sums = transport_.finish_round())) {
+      while (transport_.receive()) ++received_;
+      std::this_thread::sleep_for(shortest_nap);
+    }
+    if (sums->born == sums->died) return;
+  }
+}
+
+void Rank::add_to(RenderStats& stats) const {
+  stats.traced = state_.counters;
+  stats.load_s = state_.load_s;
+  stats.trace_s = state_.trace_s;
+  stats.idle_s = state_.idle_s;
+  stats.forwarded_rays = state_.forwarded_rays;
+  stats.forwarded_bytes = sent_bytes_;
+  stats.messages = messages_;
+  stats.domain_loads = state_.residency.loads();
+  stats.evictions = state_.residency.evictions();
+}
+
+}  // namespace vitrail

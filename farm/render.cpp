@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "farm/render.h"
+
+#define XXH_INLINE_ALL
+#include <malloc.h>
+#include <sys/resource.h>
+#include <xxhash.h>
+
+#include <algorithm>
+#include <thread>
+
+#include "farm/agreement.h"
+#include "farm/memory.h"
+#include "farm/rank.h"
+#include "farm/signals.h"
+#include "scene/atomic_file.h"
+
+namespace vitrail {
+
+namespace {
+
+double cpu_seconds() {
+  rusage usage{};
+  ::getrusage(RUSAGE_SELF, &usage);
+  const auto seconds = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  };
+  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
+Manifest read_with_overrides(const RenderOptions& options) {
+  Manifest m = read_manifest(options.bundle);
+  if (m.domains.size() > max_domains)
+    throw Error("more than 65535 domains", {options.bundle.string()});
+  if (options.samples_per_pixel) m.settings.samples_per_pixel = *options.samples_per_pixel;
+  if (options.max_depth) m.settings.max_depth = *options.max_depth;
+  if (options.direct_only) m.settings.direct_only = *options.direct_only;
+  if (m.settings.samples_per_pixel < 1 || static_cast<std::uint32_t>(m.settings.samples_per_pixel) >= max_samples)
+    throw UsageError("samples a pixel must be between 1 and 16777215");
+  if (m.settings.max_depth < 0) throw UsageError("the depth must not be negative");
+  m.settings.max_depth = std::min(m.settings.max_depth, max_path_depth);
+  if (options.crop) m.film.crop = *options.crop;
+  const PixelRect& c = m.film.crop;
+  if (c.x0 < 0 || c.y0 < 0 || c.x1 > m.film.width || c.y1 > m.film.height || c.x0 >= c.x1 || c.y0 >= c.y1)
+    throw UsageError("the crop lies outside the film or is empty");
+  return m;
+}
+
+// Of what changes the picture and is neither in the scene hash nor the seed or the sample count.
+std::uint64_t settings_hash(const Manifest& m) {
+  const std::int32_t values[] = {m.settings.max_depth, m.settings.direct_only, m.film.crop.x0, m.film.crop.x1,
+                                 m.film.crop.y0,       m.film.crop.y1};
+  return XXH3_64bits(values, sizeof values);
+}
+
+struct Job {
+  RenderScene scene;
+  Film film;
+  WorkPlan plan;
+};
+
+Job set_up(const RenderOptions& options) {
+  Manifest manifest = read_with_overrides(options);
+  const FilmKey key{manifest.scene_hash, settings_hash(manifest), options.seed};
+  Film film(manifest.film, key);
+  const WorkPlan plan =
+      make_work_plan(manifest.film.crop, static_cast<std::uint32_t>(manifest.settings.samples_per_pixel));
+  return {make_render_scene(std::move(manifest), options.seed), std::move(film), plan};
+}
+
+MemoryPlan plan_for(const Manifest& manifest, const RenderOptions& options, int threads, std::uint64_t base) {
+  std::uint64_t largest = 0, all = 0;
+  for (const DomainInfo& d : manifest.domains) {
+    largest = std::max(largest, d.bytes);
+    all += d.bytes;
+  }
+  return plan_memory(options.memory_bytes, base, threads, largest, all);
+}
+
+void write_stats(const std::filesystem::path& file, const RenderStats& stats) {
+  AtomicFile out(file);
+  const std::string json = to_json(stats) + "\n";
+  out.write(std::as_bytes(std::span(json)));
+  out.commit();
+}
+
+}  // namespace
+
+RenderStats render(Transport& transport, const RenderOptions& options) {
+  const auto start = std::chrono::steady_clock::now();
+  ::mallopt(M_ARENA_MAX, 2);  // an arena a thread would keep memory that the budget does not know of
+  catch_signals();
+  const int threads = options.threads > 0 ? options.threads
+                                          : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  RenderStats stats;
+  std::optional<Job> job;
+  MemoryPlan memory;
+  agree(transport, [&] {
+    job = set_up(options);
+    stats.base_rss_bytes = resident_bytes();
+    memory = plan_for(job->scene.manifest, options, threads, stats.base_rss_bytes);
+  });
+  const Manifest& manifest = job->scene.manifest;
+  Resumed resumed;
+  const std::filesystem::path checkpoint = checkpoint_path(options.film);
+  if (options.resume) resumed = read_checkpoint(transport, checkpoint, job->film, job->plan);
+
+  RankState state(job->scene, job->film, job->plan, RayQueues(manifest.domains.size(), options.shuffle_seed),
+                  Residency(manifest, options.bundle, memory.domains_bytes, home_ranks(manifest, transport.size()),
+                            transport.rank()));
+  Rank rank(transport, state, options, std::move(resumed), rays_allowed(memory));
+  {
+    const Workers workers(state, threads);
+    stats.complete = rank.run();
+  }
+  rank.add_to(stats);
+  stats.ranks = transport.size();
+  stats.threads = threads;
+  stats.spp = static_cast<std::uint64_t>(manifest.settings.samples_per_pixel);
+  stats.seed = options.seed;
+  stats.domains_total = manifest.domains.size();
+  stats.memory_budget_bytes = options.memory_bytes;
+  stats.peak_rss_bytes = peak_resident_bytes();
+  stats.cpu_s = cpu_seconds();
+  stats.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  gather_stats(transport, stats, state.residency.touched());
+  if (transport.rank() != 0) return stats;
+
+  for (std::uint32_t count : job->film.counts()) stats.samples += count;
+  stats.film_hash = job->film.hash();
+  if (stats.complete) std::filesystem::remove(checkpoint);
+  if (!options.stats.empty()) write_stats(options.stats, stats);
+  return stats;
+}
+
+}  // namespace vitrail

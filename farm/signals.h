@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+// TERM and INT ask a rank to stop cleanly, USR1 to write a checkpoint and go on.
+#pragma once
+
+namespace vitrail {
+
+void catch_signals();
+bool stop_signalled();
+// True once for each USR1 (or several in one).
+bool take_checkpoint_signal();
+
+}  // namespace vitrail

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "farm/stats.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+namespace vitrail {
+
+void gather_stats(Transport& transport, RenderStats& s, const std::vector<bool>& touched) {
+  std::uint64_t* const summed[] = {&s.traced.rays_camera, &s.traced.rays_indirect, &s.traced.rays_shadow,
+                                   &s.traced.crossings, &s.traced.nonfinite_samples, &s.forwarded_rays,
+                                   &s.forwarded_bytes, &s.messages, &s.domain_loads, &s.evictions};
+  std::vector<std::int64_t> counts;
+  for (const std::uint64_t* value : summed) counts.push_back(static_cast<std::int64_t>(*value));
+  transport.sum_to_root(std::span(counts));
+  for (std::size_t i = 0; i < counts.size(); ++i) *summed[i] = static_cast<std::uint64_t>(counts[i]);
+
+  std::vector<std::int64_t> anywhere(touched.begin(), touched.end());
+  transport.max_to_root(anywhere);
+  s.domains_touched = static_cast<std::uint64_t>(std::ranges::count(anywhere, 1));
+
+  double times[] = {s.cpu_s, s.load_s, s.trace_s, s.idle_s};
+  transport.sum_to_root(std::span(times));
+  s.cpu_s = times[0];
+  s.load_s = times[1];
+  s.trace_s = times[2];
+  s.idle_s = times[3];
+
+  std::int64_t memory[] = {static_cast<std::int64_t>(s.peak_rss_bytes), static_cast<std::int64_t>(s.base_rss_bytes)};
+  transport.max_to_root(memory);
+  s.peak_rss_bytes = static_cast<std::uint64_t>(memory[0]);
+  s.base_rss_bytes = static_cast<std::uint64_t>(memory[1]);
+}
+
+std::string to_json(const RenderStats& s) {
+  nlohmann::ordered_json json = {{"ranks", s.ranks},
+                                 {"threads", s.threads},
+                                 {"spp", s.spp},
+                                 {"seed", s.seed},
+                                 {"samples", s.samples},
+                                 {"complete", s.complete},
+                                 {"wall_s", s.wall_s},
+                                 {"cpu_s", s.cpu_s},
+                                 {"load_s", s.load_s},
+                                 {"trace_s", s.trace_s},
+                                 {"idle_s", s.idle_s},
+                                 {"rays_camera", s.traced.rays_camera},
+                                 {"rays_indirect", s.traced.rays_indirect},
+                                 {"rays_shadow", s.traced.rays_shadow},
+                                 {"crossings", s.traced.crossings},
+                                 {"forwarded_rays", s.forwarded_rays},
+                                 {"forwarded_bytes", s.forwarded_bytes},
+                                 {"messages", s.messages},
+                                 {"domains_total", s.domains_total},
+                                 {"domains_touched", s.domains_touched},
+                                 {"domain_loads", s.domain_loads},
+                                 {"evictions", s.evictions},
+                                 {"memory_budget_bytes", s.memory_budget_bytes},
+                                 {"peak_rss_bytes", s.peak_rss_bytes},
+                                 {"base_rss_bytes", s.base_rss_bytes},
+                                 {"nonfinite_samples", s.traced.nonfinite_samples},
+                                 {"film_hash", fmt::format("{:016x}", s.film_hash)}};
+  return json.dump(1);
+}
+
+}  // namespace vitrail

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "farm/transport.h"
+#include "tracer/path_tracer.h"
+
+namespace vitrail {
+
+// The statistics of a render, of one rank and, after `gather_stats`, of the job: sums, and maxima for the memory.
+struct RenderStats {
+  int ranks = 1, threads = 1;
+  std::uint64_t spp = 0, seed = 0, samples = 0;
+  double wall_s = 0, cpu_s = 0, load_s = 0, trace_s = 0, idle_s = 0;
+  TraceCounters traced;
+  std::uint64_t forwarded_rays = 0, forwarded_bytes = 0, messages = 0;
+  std::uint64_t domains_total = 0, domains_touched = 0, domain_loads = 0, evictions = 0;
+  std::uint64_t memory_budget_bytes = 0, peak_rss_bytes = 0, base_rss_bytes = 0;
+  std::uint64_t film_hash = 0;
+  bool complete = false;  // false: stopped before its end
+};
+
+// All ranks together; the job's on rank 0. `touched`: a bit a domain, of this rank.
+void gather_stats(Transport& transport, RenderStats& stats, const std::vector<bool>& touched);
+
+// One flat JSON object with the keys of the stats contract.
+std::string to_json(const RenderStats& stats);
+
+}  // namespace vitrail

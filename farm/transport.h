@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// How ranks reach each other. One implementation speaks MPI, the other is a rank alone.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+
+#include "farm/batch.h"
+
+namespace vitrail {
+
+// What every rank adds to a round; the sums are what all ranks decide by, so they decide alike.
+struct RoundSums {
+  std::int64_t born = 0, died = 0;       // rays
+  std::int64_t quiet = 0;                // 1: nothing will be generated before the next decision
+  std::int64_t pause = 0, stop = 0;      // requests: a checkpoint, an end
+  std::int64_t time_is_up = 0;           // the end asked for is the time limit
+  std::int64_t bad_input = 0, machine_failure = 0;
+  std::int64_t items_done = 0;
+  std::int64_t rays_traced = 0;
+  std::int64_t domain_loads = 0;
+};
+inline constexpr std::size_t round_values = sizeof(RoundSums) / sizeof(std::int64_t);
+
+class Transport {
+ public:
+  virtual ~Transport() = default;
+  virtual int rank() const = 0;
+  virtual int size() const = 0;
+
+  // None of these waits.
+  virtual void send(int to, RayBatch batch) = 0;
+  virtual std::optional<RayBatch> receive() = 0;
+  // Joins the next round; one at a time. `finish_round` gives its sums once every rank has joined.
+  virtual void start_round(const RoundSums& mine) = 0;
+  virtual std::optional<RoundSums> finish_round() = 0;
+
+  // These wait for all ranks; called when no ray is alive.
+  // Elementwise sums into rank 0's buffer; the others' become zero.
+  virtual void sum_to_root(std::span<std::int64_t> values) = 0;
+  virtual void sum_to_root(std::span<std::uint32_t> values) = 0;
+  virtual void sum_to_root(std::span<double> values) = 0;
+  virtual void max_to_root(std::span<std::int64_t> values) = 0;
+  virtual void broadcast_from_root(std::span<std::uint64_t> values) = 0;
+};
+
+// Speaks MPI when launched by mpirun or srun, else alone.
+std::unique_ptr<Transport> make_transport(int* argc, char*** argv);
+std::unique_ptr<Transport> make_mpi_transport(int* argc, char*** argv);
+
+}  // namespace vitrail

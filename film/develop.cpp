@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "film/develop.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "scene/diagnostics.h"
+
+namespace vitrail {
+
+Picture develop(const Film& film) {
+  if (film.saturated())
+    throw Error(
+        "the film is saturated: radiances are too large for its sums; scale the lights down and render "
+        "again");
+  Picture picture;
+  picture.rgb = black_image(film.width(), film.height(), 3);
+  picture.variance = black_image(film.width(), film.height(), 1);
+  picture.window = film.crop();
+  picture.full_width = film.full_width();
+  picture.full_height = film.full_height();
+  std::uint64_t most_samples = 0;
+  for (std::uint32_t p = 0; p < film.counts().size(); ++p) {
+    const RGB c = xyz_to_srgb(film.mean(p));
+    float* out = &picture.rgb.values[3 * std::size_t{p}];
+    out[0] = static_cast<float>(c.r), out[1] = static_cast<float>(c.g), out[2] = static_cast<float>(c.b);
+    picture.variance.values[p] = static_cast<float>(film.variance_of_mean(p));
+    most_samples = std::max(most_samples, film.samples(p));
+  }
+  picture.samples_per_pixel = static_cast<int>(std::min<std::uint64_t>(most_samples, 0x7fffffff));
+  return picture;
+}
+
+void expose(Picture& picture, double ev) {
+  const auto factor = static_cast<float>(std::exp2(ev));
+  for (float& v : picture.rgb.values) v *= factor;
+  for (float& v : picture.variance.values) v *= factor * factor;
+}
+
+}  // namespace vitrail

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// A film becomes a picture.
+#pragma once
+
+#include "film/film.h"
+#include "scene/image.h"
+
+namespace vitrail {
+
+// An image and what is known of how it came to be. Zero stands for unknown.
+struct Picture {
+  Image rgb;       // linear sRGB
+  Image variance;  // of the mean luminance of each pixel, one channel; 0 × 0 where unknown
+  PixelRect window;
+  int full_width = 0, full_height = 0;
+  int samples_per_pixel = 0;
+  double render_time_s = 0;
+};
+
+// The means of the film in linear sRGB, not clamped, and the variances of their luminance;
+// `samples_per_pixel` is the most that a pixel has. Throws Error if the film is saturated.
+Picture develop(const Film& film);
+
+// Brighter by `ev` stops: values times 2^ev, variances times 4^ev.
+void expose(Picture& picture, double ev);
+
+}  // namespace vitrail

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: Apache-2.0
+// The film file, little-endian: a header with the checksum of what comes before it, then three arrays, each
+// followed by its xxh3: the words of FilmProgress::done, the sums, the counts.
+#include <fmt/format.h>
+
+#define XXH_INLINE_ALL
+#include <xxhash.h>
+
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstring>
+#include <fstream>
+
+#include "film/film.h"
+#include "scene/atomic_file.h"
+#include "scene/diagnostics.h"
+
+namespace vitrail {
+
+static_assert(std::endian::native == std::endian::little, "files are written as they lie in memory");
+
+namespace {
+
+constexpr char film_magic[8] = {'v', 'i', 't', 'f', 'i', 'l', 'm', '\n'};
+constexpr std::uint32_t film_version = 1;
+constexpr std::int32_t max_extent = 1 << 20;  // pixels a side
+
+struct Header {
+  char magic[8];
+  std::uint32_t version;
+  std::int32_t full_width, full_height;
+  std::int32_t x0, x1, y0, y1;
+  std::uint32_t zero;
+  double imaging_ratio;
+  std::uint64_t scene_hash, settings_hash, seed;
+  std::uint64_t items, samples_per_pixel;
+  double render_time_s;
+  std::uint64_t checksum;  // of all before it
+};
+static_assert(sizeof(Header) == 104);
+
+std::uint64_t checksum(const Header& h) { return XXH3_64bits(&h, offsetof(Header, checksum)); }
+
+std::uint64_t words_of(std::uint64_t items) { return items / 64 + (items % 64 != 0 ? 1 : 0); }
+
+template <class T>
+void write_array(AtomicFile& out, const std::vector<T>& array) {
+  const auto bytes = std::as_bytes(std::span(array));
+  const std::uint64_t sum = XXH3_64bits(bytes.data(), bytes.size());
+  out.write(bytes);
+  out.write(std::as_bytes(std::span(&sum, 1)));
+}
+
+class Reader {
+ public:
+  explicit Reader(const std::filesystem::path& file) : file_(file.string()), in_(file, std::ios::binary) {
+    std::error_code unreadable;
+    size_ = std::filesystem::file_size(file, unreadable);
+    if (!in_ || unreadable) throw Error("cannot open the film", {file_});
+  }
+
+  [[noreturn]] void fail(const std::string& what) const { throw Error(what, {file_}); }
+  std::uint64_t size() const { return size_; }
+
+  void read(void* to, std::uint64_t bytes) {
+    if (!in_.read(static_cast<char*>(to), static_cast<std::streamsize>(bytes)))
+      fail("the film file is truncated");
+  }
+
+  template <class T>
+  void read_array(std::vector<T>& array, std::uint64_t count, const char* what) {
+    array.resize(count);
+    read(array.data(), count * sizeof(T));
+    std::uint64_t expected;
+    read(&expected, sizeof expected);
+    if (XXH3_64bits(array.data(), count * sizeof(T)) != expected)
+      fail(fmt::format("the film file is corrupt: the checksum of its {} is wrong", what));
+  }
+
+ private:
+  std::string file_;
+  std::ifstream in_;
+  std::uint64_t size_ = 0;
+};
+
+Header read_header(Reader& in) {
+  Header h;
+  if (in.size() < sizeof h) in.fail("this is not a film file: it is too short");
+  in.read(&h, sizeof h);
+  if (std::memcmp(h.magic, film_magic, sizeof film_magic) != 0) in.fail("this is not a film file");
+  if (h.version != film_version)
+    in.fail(
+        fmt::format("film file of version {}, but this program reads version {}", h.version, film_version));
+  if (h.checksum != checksum(h)) in.fail("the film file is corrupt: the checksum of its header is wrong");
+  const bool sizes_in_order = 0 <= h.x0 && h.x0 < h.x1 && h.x1 <= h.full_width &&
+                              h.full_width <= max_extent && 0 <= h.y0 && h.y0 < h.y1 &&
+                              h.y1 <= h.full_height && h.full_height <= max_extent;
+  if (!sizes_in_order || !std::isfinite(h.imaging_ratio) || !(h.render_time_s >= 0))
+    in.fail("the film file is corrupt: its header makes no sense");
+  return h;
+}
+
+}  // namespace
+
+bool FilmProgress::complete() const {
+  std::uint64_t finished = 0;
+  for (const std::uint64_t word : done) finished += static_cast<std::uint64_t>(std::popcount(word));
+  return finished == items;
+}
+
+void write_film(const std::filesystem::path& file, const Film& film, const FilmProgress& progress) {
+  Header h{};
+  std::memcpy(h.magic, film_magic, sizeof film_magic);
+  h.version = film_version;
+  h.full_width = film.full_width_, h.full_height = film.full_height_;
+  h.x0 = film.crop_.x0, h.x1 = film.crop_.x1, h.y0 = film.crop_.y0, h.y1 = film.crop_.y1;
+  h.imaging_ratio = film.imaging_ratio_;
+  h.scene_hash = film.key_.scene_hash, h.settings_hash = film.key_.settings_hash, h.seed = film.key_.seed;
+  h.items = progress.items, h.samples_per_pixel = progress.samples_per_pixel;
+  h.render_time_s = progress.render_time_s;
+  h.checksum = checksum(h);
+  AtomicFile out(file);
+  out.write(std::as_bytes(std::span(&h, 1)));
+  write_array(out, progress.done);
+  write_array(out, film.sums_);
+  write_array(out, film.counts_);
+  out.commit();
+}
+
+Film read_film(const std::filesystem::path& file, FilmProgress* progress) {
+  Reader in(file);
+  const Header h = read_header(in);
+  const auto pixels = static_cast<std::uint64_t>(h.x1 - h.x0) * static_cast<std::uint64_t>(h.y1 - h.y0);
+  const std::uint64_t planes = 2 + luminance_groups;
+  const std::uint64_t arrays = pixels * (planes * sizeof(std::int64_t) + sizeof(std::uint32_t)) + 3 * 8;
+  if (in.size() - sizeof h < arrays || (in.size() - sizeof h - arrays) % 8 != 0 ||
+      (in.size() - sizeof h - arrays) / 8 != words_of(h.items))
+    in.fail(fmt::format("the film file is truncated or has bytes too many: {} bytes", in.size()));
+  FilmProgress read{h.items, h.samples_per_pixel, {}, h.render_time_s};
+  in.read_array(read.done, words_of(h.items), "progress");
+  if (h.items % 64 != 0 && read.done.back() >> (h.items % 64) != 0)
+    in.fail("the film file is corrupt: it has work done beyond its work items");
+  Film film;
+  film.crop_ = {h.x0, h.x1, h.y0, h.y1};
+  film.full_width_ = h.full_width, film.full_height_ = h.full_height;
+  film.imaging_ratio_ = h.imaging_ratio;
+  film.key_ = {h.scene_hash, h.settings_hash, h.seed};
+  in.read_array(film.sums_, planes * pixels, "sums");
+  in.read_array(film.counts_, pixels, "counts");
+  if (progress) *progress = std::move(read);
+  return film;
+}
+
+}  // namespace vitrail

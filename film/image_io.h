@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// Pictures as files. Apart from the film's own library, because it brings OpenImageIO, which `render` must
+// not load.
+#pragma once
+
+#include <filesystem>
+
+#include "film/develop.h"
+
+namespace vitrail {
+
+// Writes .exr (32-bit float, linear; `Variance.Y` beside R, G, B if the picture has variances) or .png (8
+// bits, sRGB transfer function, clamped, rounded to nearest). The file appears whole or not at all, and its
+// date is SOURCE_DATE_EPOCH or 1970, so equal pictures give equal files. Other extensions throw UsageError.
+void write_picture(const std::filesystem::path& file, const Picture& picture);
+
+// Reads any format OpenImageIO knows: channels R, G, B, else the first three, or one for grey. Integer pixels
+// are decoded from sRGB. Throws Error with the file's name.
+Picture read_picture(const std::filesystem::path& file);
+
+}  // namespace vitrail

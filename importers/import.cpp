@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "importers/import.h"
+
+#include <algorithm>
+#include <cctype>
+
+#include "importers/default_view.h"
+#include "importers/obj/obj.h"
+#include "importers/pbrt/pbrt.h"
+#include "importers/ply/ply.h"
+
+namespace vitrail {
+
+namespace {
+
+// ".pbrt" of "a.pbrt" and of "a.PBRT.gz".
+std::string format_of(std::filesystem::path file) {
+  const auto lower = [](std::string word) {
+    std::transform(word.begin(), word.end(), word.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return word;
+  };
+  const std::string extension = lower(file.extension().string());
+  return extension == ".gz" ? lower(file.stem().extension().string()) : extension;
+}
+
+ImportedScene mesh_alone(const std::filesystem::path& file) {
+  ImportedScene imported;
+  imported.scene.meshes.push_back(read_ply(file, &imported.diagnostics));
+  imported.scene.materials.push_back(DiffuseMaterial{});
+  imported.scene.shapes.push_back({});
+  return imported;
+}
+
+}  // namespace
+
+ImportedScene import_scene(const std::filesystem::path& file) {
+  const std::string format = format_of(file);
+  if (format == ".pbrt") return read_pbrt(file);
+  ImportedScene imported;
+  if (format == ".obj") imported = read_obj(file);
+  else if (format == ".ply") imported = mesh_alone(file);
+  else throw Error("unknown format: the name has to end in .pbrt, .obj or .ply, or one of these and .gz", {file.string()});
+  add_default_view(imported, file);
+  return imported;
+}
+
+}  // namespace vitrail

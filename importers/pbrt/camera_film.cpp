@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "importers/pbrt/camera_film.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string_view>
+
+namespace vitrail::pbrt {
+
+namespace {
+
+bool is_one_of(std::string_view word, std::initializer_list<std::string_view> words) {
+  return std::find(words.begin(), words.end(), word) != words.end();
+}
+
+std::optional<std::array<double, 4>> four(ParameterSet& parameters, std::string_view name) {
+  const Parameter* parameter = parameters.find_numbers(name);
+  if (!parameter) return std::nullopt;
+  const std::vector<double>& v = parameter->numbers;
+  if (v.size() != 4)
+    fail(fmt::format("parameter \"{}\" needs 4 values, has {}", name, v.size()), parameter->place);
+  return std::array<double, 4>{v[0], v[1], v[2], v[3]};
+}
+
+double positive(ParameterSet& parameters, std::string_view name, double otherwise) {
+  const double value = parameters.number(name, otherwise);
+  if (!(value > 0)) fail(fmt::format("\"{}\" is {}, but has to be above 0", name, value), parameters.place());
+  return value;
+}
+
+int resolution(ParameterSet& parameters, std::string_view name, int otherwise) {
+  constexpr int most = 1 << 20;
+  const int pixels = parameters.integer(name, otherwise);
+  if (pixels < 1 || pixels > most)
+    fail(fmt::format("\"{}\" is {}, which is not between 1 and {}", name, pixels, most), parameters.place());
+  return pixels;
+}
+
+// pbrt's rounding: a pixel is inside if its upper edge is past the lower bound.
+int cropped(double fraction, int pixels) {
+  return static_cast<int>(std::ceil(std::clamp(fraction, 0.0, 1.0) * pixels));
+}
+
+void read_crop(ParameterSet& parameters, FilmSettings& film) {
+  film.crop = {0, film.width, 0, film.height};
+  const auto bounds = four(parameters, "pixelbounds"), window = four(parameters, "cropwindow");
+  if (bounds) {
+    const auto clamped = [](double value, int most) {
+      return static_cast<int>(std::clamp(value, 0.0, static_cast<double>(most)));
+    };
+    film.crop = {clamped((*bounds)[0], film.width), clamped((*bounds)[1], film.width),
+                 clamped((*bounds)[2], film.height), clamped((*bounds)[3], film.height)};
+  }
+  if (window) {
+    const auto [x0, x1] = std::minmax((*window)[0], (*window)[1]);
+    const auto [y0, y1] = std::minmax((*window)[2], (*window)[3]);
+    film.crop = {cropped(x0, film.width), cropped(x1, film.width), cropped(y0, film.height),
+                 cropped(y1, film.height)};
+  }
+  if (film.crop.x0 >= film.crop.x1 || film.crop.y0 >= film.crop.y1)
+    fail("the crop of the film leaves no pixels", parameters.place());
+}
+
+}  // namespace
+
+ViewSettings default_view(Version version) {
+  ViewSettings view;
+  if (version == Version::v3) {
+    view.film.width = 640;
+    view.film.height = 480;
+    view.film.filter = BoxFilter{};
+  }
+  view.film.crop = {0, view.film.width, 0, view.film.height};
+  return view;
+}
+
+void read_camera(const std::string& kind, ParameterSet& parameters, const Transform& ctm, Context& context,
+                 ViewSettings& view) {
+  view.has_camera = true;
+  view.camera_to_world = inverse(ctm);
+  view.orthographic = kind == "orthographic";
+  if (!is_one_of(kind, {"perspective", "orthographic"})) {
+    context.report.dropped(
+        fmt::format("camera \"{}\" is not supported: a perspective camera at its place stands for it", kind),
+        parameters.place());
+    parameters.ignore({"lensfile", "aperturediameter", "aperture", "simpleweighting", "mapping"});
+  }
+  view.fov_deg = parameters.number("fov", 90);
+  const double half = parameters.number("halffov", -1);
+  if (half > 0) view.fov_deg = 2 * half;
+  if (!(view.fov_deg > 0 && view.fov_deg < 180))
+    fail(fmt::format("the field of view is {} degrees, which is not between 0 and 180", view.fov_deg),
+         parameters.place());
+  if (parameters.find_numbers("frameaspectratio")) view.frame_aspect = positive(parameters, "frameaspectratio", 1);
+  if (const auto w = four(parameters, "screenwindow")) {
+    view.window = ScreenWindow{(*w)[0], (*w)[1], (*w)[2], (*w)[3]};
+    if ((*w)[0] == (*w)[1] || (*w)[2] == (*w)[3]) fail("the screen window is empty", parameters.place());
+  }
+  if (parameters.number("lensradius", 0) > 0)
+    context.report.approximated("the lens becomes a pinhole: everything is in focus", parameters.place());
+  parameters.ignore({"focaldistance"});
+  view.shutter_s = parameters.number("shutterclose", 1) - parameters.number("shutteropen", 0);
+  parameters.report_unused(context.report);
+}
+
+void read_film(const std::string& kind, ParameterSet& parameters, Context& context, ViewSettings& view) {
+  const FilmSettings defaults = default_view(context.version).film;
+  if (!is_one_of(kind, {"rgb", "image", "gbuffer", "spectral"}))
+    context.report.approximated(fmt::format("film \"{}\" is not known and read as \"rgb\"", kind), parameters.place());
+  if (is_one_of(kind, {"gbuffer", "spectral"}))
+    context.report.dropped(fmt::format("film \"{}\": only its colours are kept", kind), parameters.place());
+  view.film.width = resolution(parameters, "xresolution", defaults.width);
+  view.film.height = resolution(parameters, "yresolution", defaults.height);
+  read_crop(parameters, view.film);
+  view.exposure = parameters.number("iso", 100) / 100 * parameters.number("scale", 1);
+  view.exposure *= parameters.number("exposuretime", 1);
+  const std::string sensor = parameters.text("sensor", "cie1931");
+  if (sensor != "cie1931")
+    context.report.approximated(fmt::format("sensor \"{}\" becomes the CIE 1931 observer", sensor),
+                                parameters.place());
+  if (parameters.find("whitebalance", {ParameterType::number}))
+    context.report.dropped("the film's white balance is left out", parameters.place());
+  for (const char* limit : {"maxcomponentvalue", "maxsampleluminance"})
+    if (parameters.find(limit, {ParameterType::number}))
+      context.report.dropped(fmt::format("\"{}\": bright samples are not clamped", limit), parameters.place());
+  parameters.ignore({"filename", "savefp16", "diagonal", "coordinatesystem", "nbuckets", "lambdamin", "lambdamax"});
+  parameters.report_unused(context.report);
+}
+
+void read_filter(const std::string& kind, ParameterSet& parameters, Context& context, ViewSettings& view) {
+  const auto radius = [&](char axis, double otherwise) {
+    const std::string v4{axis}, v3{axis};
+    return positive(parameters, v4 + "radius", positive(parameters, v3 + "width", otherwise));
+  };
+  const bool v3 = context.version == Version::v3;
+  if (kind == "box") {
+    view.film.filter = BoxFilter{radius('x', 0.5), radius('y', 0.5)};
+  } else if (kind == "triangle") {
+    view.film.filter = TriangleFilter{radius('x', 2), radius('y', 2)};
+  } else if (kind == "gaussian") {
+    const double size = v3 ? 2 : 1.5;
+    GaussianFilter filter{radius('x', size), radius('y', size), parameters.number("sigma", 0.5)};
+    if (v3 || parameters.find("alpha", {ParameterType::number}))  // exp(−α r²) = exp(−r²/(2σ²))
+      filter.sigma = 1 / std::sqrt(2 * positive(parameters, "alpha", 2));
+    if (!(filter.sigma > 0)) fail("the filter's sigma has to be above 0", parameters.place());
+    view.film.filter = filter;
+  } else {
+    parameters.ignore({"xradius", "yradius", "xwidth", "ywidth", "B", "C", "tau"});
+    context.report.approximated(fmt::format("filter \"{}\" becomes a Gaussian of sigma 0.5", kind),
+                                parameters.place());
+    view.film.filter = GaussianFilter{};
+  }
+  parameters.report_unused(context.report);
+}
+
+void read_sampler(const std::string&, ParameterSet& parameters, Context& context, ViewSettings& view) {
+  const int x = parameters.integer("xsamples", 0), y = parameters.integer("ysamples", 0);
+  const int samples = parameters.integer("pixelsamples", 16);
+  const double count = x > 0 || y > 0 ? static_cast<double>(x > 0 ? x : 4) * (y > 0 ? y : 4) : samples;
+  if (count < 1 || count > 1 << 30)
+    fail(fmt::format("{} samples a pixel cannot be taken", count), parameters.place());
+  view.render.samples_per_pixel = static_cast<int>(count);
+  parameters.ignore({"seed", "randomization", "jitter", "dimensions"});
+  parameters.report_unused(context.report);
+}
+
+void read_integrator(const std::string& kind, ParameterSet& parameters, Context& context, ViewSettings& view) {
+  const int depth = parameters.integer("maxdepth", 5);
+  if (depth < 0) fail("\"maxdepth\" is negative", parameters.place());
+  view.render.max_depth = depth;
+  view.render.direct_only = is_one_of(kind, {"directlighting", "whitted"});
+  const bool same_picture =
+      view.render.direct_only ||
+      is_one_of(kind, {"path", "volpath", "bdpt", "mlt", "sppm", "simplepath", "simplevolpath", "lightpath", "randomwalk"});
+  if (!same_picture)
+    context.report.approximated(fmt::format("integrator \"{}\" becomes a path tracer", kind), parameters.place());
+  if (parameters.boolean("regularize", false))
+    context.report.dropped("rough paths are not regularised", parameters.place());
+  parameters.ignore({"rrthreshold", "lightsampler", "lightsamplestrategy", "samplelights", "samplebsdf", "strategy",
+                     "visualizestrategies", "visualizeweights", "bootstrapsamples", "chains", "mutationsperpixel",
+                     "largestepprobability", "sigma", "photonsperiteration", "radius", "seed", "iterations",
+                     "numiterations", "imagewritefrequency"});
+  parameters.report_unused(context.report);
+}
+
+namespace {
+
+ScreenWindow screen_of(const ViewSettings& view) {
+  ScreenWindow screen;
+  const double aspect =
+      view.frame_aspect > 0 ? view.frame_aspect : static_cast<double>(view.film.width) / view.film.height;
+  if (view.window) screen = *view.window;
+  else if (aspect > 1) screen = {-aspect, aspect, -1, 1};
+  else screen = {-1, 1, -1 / aspect, 1 / aspect};
+  const double scale = view.orthographic ? 1 : std::tan(view.fov_deg / 2 * std::numbers::pi / 180);
+  return {screen.x0 * scale, screen.x1 * scale, screen.y0 * scale, screen.y1 * scale};
+}
+
+}  // namespace
+
+void apply(const ViewSettings& view, Version version, Scene& scene) {
+  const ScreenWindow screen = screen_of(view);
+  if (view.orthographic) scene.camera = OrthographicCamera{view.camera_to_world, screen};
+  else scene.camera = PerspectiveCamera{view.camera_to_world, screen};
+  scene.film = view.film;
+  // v3's shutter only blurs; v4's exposes.
+  scene.film.imaging_ratio = view.exposure * (version == Version::v4 ? view.shutter_s : 1);
+  scene.settings = view.render;
+}
+
+}  // namespace vitrail::pbrt

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// The directives before WorldBegin that say how the picture is taken.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+
+#include "importers/pbrt/context.h"
+#include "importers/pbrt/parameters.h"
+#include "scene/scene.h"
+
+namespace vitrail::pbrt {
+
+// What Camera, Film, PixelFilter, Sampler and Integrator said. The camera's screen depends on the film's resolution
+// and the film's exposure on the camera's shutter, so both are completed at the end.
+struct ViewSettings {
+  bool has_camera = false, orthographic = false;
+  Transform camera_to_world;
+  double fov_deg = 90, frame_aspect = 0;  // 0: the film's
+  std::optional<ScreenWindow> window;
+  double shutter_s = 1;
+
+  FilmSettings film;
+  double exposure = 1;  // iso / 100, or v3's film scale
+  RenderSettings render;
+};
+
+// The defaults of a version.
+ViewSettings default_view(Version version);
+
+void read_camera(const std::string& kind, ParameterSet& parameters, const Transform& ctm, Context& context,
+                 ViewSettings& view);
+void read_film(const std::string& kind, ParameterSet& parameters, Context& context, ViewSettings& view);
+void read_filter(const std::string& kind, ParameterSet& parameters, Context& context, ViewSettings& view);
+void read_sampler(const std::string& kind, ParameterSet& parameters, Context& context, ViewSettings& view);
+void read_integrator(const std::string& kind, ParameterSet& parameters, Context& context, ViewSettings& view);
+
+// Puts camera, film and settings into the scene.
+void apply(const ViewSettings& view, Version version, Scene& scene);
+
+}  // namespace vitrail::pbrt

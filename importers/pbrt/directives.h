@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+// Executes the directives of a pbrt file, one after the other, on the graphics state and the scene.
+#pragma once
+
+#include <map>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "importers/pbrt/camera_film.h"
+#include "importers/pbrt/graphics_state.h"
+#include "importers/pbrt/materials.h"
+#include "importers/pbrt/named_slots.h"
+#include "importers/pbrt/shapes.h"
+#include "importers/pbrt/textures.h"
+#include "importers/pbrt/token_stream.h"
+
+namespace vitrail::pbrt {
+
+class Interpreter {
+ public:
+  Interpreter(TokenStream& tokens, Context& context);
+
+  // Reads everything.
+  Scene run();
+
+  // Of what was read:
+  bool had_world() const { return world_ != World::before; }
+  bool had_camera() const { return view_.has_camera; }
+
+ private:
+  using Handler = void (Interpreter::*)(const Place&);
+  static const std::map<std::string, Handler, std::less<>>& handlers();
+
+  // What opened a saved state, and where.
+  enum class Block { attribute, transform, object, import };
+  struct Saved {
+    Block block;
+    Place place;
+    GraphicsState state;
+  };
+  enum class World { before, inside, ended };
+
+  void execute(const Token& directive);
+
+  // Reading arguments.
+  std::string read_text(const char* what);
+  std::vector<double> read_numbers(std::size_t count, const Place& directive);
+  ParameterSet read_set(const std::string& directive, const std::string& kind, const Place& place,
+                        const char* defaults = nullptr);
+  Scope scope() { return {{context_, state_.color_space}, textures_}; }
+
+  // Transforms.
+  void identity(const Place&);
+  void translate(const Place&);
+  void scale(const Place&);
+  void rotate(const Place&);
+  void look_at(const Place&);
+  void transform(const Place&);
+  void concat_transform(const Place&);
+  void coordinate_system(const Place&);
+  void coord_sys_transform(const Place&);
+  void active_transform(const Place&);
+  void transform_times(const Place&);
+  void set_ctm(const Transform& ctm, const Place& place);
+  void apply_transform(const Transform& by, const Place& place) { set_ctm(state_.ctm * by, place); }
+  Transform read_matrix(const Place& place);
+
+  // Blocks.
+  void attribute_begin(const Place&);
+  void attribute_end(const Place&);
+  void transform_begin(const Place&);
+  void transform_end(const Place&);
+  void object_begin(const Place&);
+  void object_end(const Place&);
+  void world_begin(const Place&);
+  void world_end(const Place&);
+  void open(Block block, const Place& place);
+  GraphicsState close(Block block, const char* directive, const char* opener, const Place& place);
+
+  // Files.
+  void include(const Place&);
+  void import(const Place&);
+  void end_import(const Place&);
+
+  // Settings before the world.
+  void camera(const Place&);
+  void film(const Place&);
+  void pixel_filter(const Place&);
+  void sampler(const Place&);
+  void integrator(const Place&);
+  void accelerator(const Place&);
+  void option(const Place&);
+  void color_space(const Place&);
+
+  // The world.
+  void attribute(const Place&);
+  void reverse_orientation(const Place&);
+  void material(const Place&);
+  void make_named_material(const Place&);
+  void named_material(const Place&);
+  void make_named_medium(const Place&);
+  void medium_interface(const Place&);
+  void texture(const Place&);
+  void light_source(const Place&);
+  void area_light_source(const Place&);
+  void shape(const Place&);
+  void object_instance(const Place&);
+
+  void define_material(std::uint32_t slot, const std::string& kind, ParameterSet parameters);
+  Id<Material> shape_material();
+  std::optional<Id<AreaLight>> shape_light(const ShapeGeometry& geometry, const Place& place);
+  double area_per_part(const ShapeGeometry& geometry, const Place& place);
+
+  // The end.
+  void check_blocks_are_closed();
+  void resolve_materials();
+  void drop_lights_of_interfaces();
+  void resolve_instances();
+
+  TokenStream& tokens_;
+  Context& context_;
+  Scene scene_;
+  ViewSettings view_;
+  GraphicsState state_;
+  std::vector<Saved> saved_;
+  World world_ = World::before;
+  std::map<std::string, Transform> coordinate_systems_;
+  TextureTable textures_;
+  ShapeMaker shapes_;
+
+  // Materials by number; named ones may be used before they are defined.
+  struct DeferredMaterial {
+    std::uint32_t slot;
+    std::string kind, color_space;
+    ParameterSet parameters;
+  };
+  NamedSlots material_names_{"material"};
+  std::vector<std::variant<std::monostate, Material, MaterialAlias>> materials_;
+  std::vector<DeferredMaterial> deferred_;
+  std::optional<Id<Material>> default_material_;
+
+  NamedSlots object_names_{"object"};
+  std::optional<std::uint32_t> current_object_;
+};
+
+}  // namespace vitrail::pbrt

@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "importers/pbrt/parameters.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace vitrail::pbrt {
+
+namespace {
+
+struct TypeName {
+  std::string_view name;
+  ParameterType type;
+};
+
+constexpr std::array<TypeName, 19> type_names{{{"bool", ParameterType::boolean},
+                                               {"integer", ParameterType::integer},
+                                               {"float", ParameterType::number},
+                                               {"point", ParameterType::tuple},
+                                               {"point2", ParameterType::tuple},
+                                               {"point3", ParameterType::tuple},
+                                               {"vector", ParameterType::tuple},
+                                               {"vector2", ParameterType::tuple},
+                                               {"vector3", ParameterType::tuple},
+                                               {"normal", ParameterType::tuple},
+                                               {"normal3", ParameterType::tuple},
+                                               {"rgb", ParameterType::rgb},
+                                               {"color", ParameterType::rgb},
+                                               {"xyz", ParameterType::xyz},
+                                               {"blackbody", ParameterType::blackbody},
+                                               {"spectrum", ParameterType::spectrum},
+                                               {"string", ParameterType::text},
+                                               {"texture", ParameterType::texture},
+                                               {"int", ParameterType::integer}}};
+
+std::string with_suggestion(std::string message, const std::string& word, const std::vector<std::string>& known) {
+  const std::string closest = closest_word(word, known);
+  return closest.empty() || closest == word ? message : fmt::format("{}; did you mean \"{}\"?", message, closest);
+}
+
+// "type name" → an empty parameter of that type and name.
+Parameter parse_declaration(const Token& token) {
+  constexpr std::string_view blanks = " \t";
+  const auto type_begin = token.text.find_first_not_of(blanks);
+  const auto type_end = token.text.find_first_of(blanks, type_begin);
+  const auto name_begin = token.text.find_first_not_of(blanks, type_end);
+  if (type_begin == std::string_view::npos || name_begin == std::string_view::npos)
+    fail(fmt::format("expected a parameter \"type name\", found {}", describe(token)), token.place);
+  const std::string type(token.text.substr(type_begin, type_end - type_begin));
+  const auto name_end = token.text.find_last_not_of(blanks) + 1;
+  const auto known = std::find_if(type_names.begin(), type_names.end(),
+                                  [&](const TypeName& entry) { return entry.name == type; });
+  if (known == type_names.end()) {
+    std::vector<std::string> names;
+    for (const TypeName& entry : type_names) names.emplace_back(entry.name);
+    fail(with_suggestion(fmt::format("unknown parameter type \"{}\"", type), type, names), token.place);
+  }
+  Parameter parameter;
+  parameter.type = known->type;
+  parameter.name = token.text.substr(name_begin, name_end - name_begin);
+  parameter.place = token.place;
+  return parameter;
+}
+
+// Adds the value that `token` is; false if the type of the parameter has no such values.
+bool add_value(Parameter& parameter, const Token& token) {
+  const bool string = token.kind == TokenKind::text;
+  switch (parameter.type) {
+    case ParameterType::boolean:
+      if (token.text != "true" && token.text != "false") return false;
+      parameter.numbers.push_back(token.text == "true" ? 1 : 0);
+      return true;
+    case ParameterType::text:
+    case ParameterType::texture:
+    case ParameterType::spectrum:
+      if (string) parameter.strings.emplace_back(token.text);
+      return string;
+    default: return false;
+  }
+}
+
+const char* expected_value(ParameterType type) {
+  switch (type) {
+    case ParameterType::boolean: return "true or false";
+    case ParameterType::text:
+    case ParameterType::texture: return "a string";
+    case ParameterType::spectrum: return "a number or a string";
+    default: return "a number";
+  }
+}
+
+void read_values(TokenStream& tokens, Parameter& parameter) {
+  const bool numeric = parameter.type != ParameterType::boolean && parameter.type != ParameterType::text &&
+                       parameter.type != ParameterType::texture;
+  double value = 0;
+  if (numeric && tokens.next_number(value)) {
+    parameter.numbers.push_back(value);
+    return;
+  }
+  const auto unexpected = [&](const Token& token) {
+    fail(fmt::format("expected {} for parameter \"{}\", found {}", expected_value(parameter.type),
+                     parameter.name, describe(token)),
+         token.place);
+  };
+  Token token = tokens.next();
+  if (token.kind != TokenKind::open) {
+    if (!add_value(parameter, token)) unexpected(token);
+    return;
+  }
+  for (;;) {
+    if (numeric)
+      while (tokens.next_number(value)) parameter.numbers.push_back(value);
+    token = tokens.next();
+    if (token.kind == TokenKind::close) break;
+    if (!add_value(parameter, token)) unexpected(token);
+  }
+}
+
+// Whole numbers of 32 bits. A fraction is cut off, as pbrt-v3 does.
+void check_integers(Parameter& parameter, Report& report) {
+  for (double& value : parameter.numbers) {
+    if (std::abs(value) > std::numeric_limits<int>::max())
+      fail(fmt::format("integer parameter \"{}\" has the value {}, which is out of range", parameter.name, value),
+           parameter.place);
+    if (value == std::trunc(value)) continue;
+    value = std::trunc(value);
+    report.approximated(fmt::format("integer parameter \"{}\": fractions are cut off", parameter.name),
+                        parameter.place);
+  }
+}
+
+}  // namespace
+
+std::vector<Parameter> read_parameters(TokenStream& tokens, Report& report) {
+  std::vector<Parameter> parameters;
+  while (tokens.text_follows()) {
+    Parameter parameter = parse_declaration(tokens.next());
+    read_values(tokens, parameter);
+    if (parameter.type == ParameterType::integer) check_integers(parameter, report);
+    if (parameter.type == ParameterType::spectrum && !parameter.strings.empty() && !parameter.numbers.empty())
+      fail(fmt::format("spectrum parameter \"{}\" mixes numbers and strings", parameter.name), parameter.place);
+    parameters.push_back(std::move(parameter));
+  }
+  return parameters;
+}
+
+ParameterSet::ParameterSet(std::string owner, const Place& place, std::vector<Parameter> parameters,
+                           const std::vector<Parameter>* defaults)
+    : owner_(std::move(owner)), place_(place), parameters_(std::move(parameters)) {
+  if (defaults) parameters_.insert(parameters_.begin(), defaults->begin(), defaults->end());
+}
+
+const Parameter* ParameterSet::find(std::string_view name, std::initializer_list<ParameterType> types) {
+  asked_.emplace_back(name);
+  for (auto parameter = parameters_.rbegin(); parameter != parameters_.rend(); ++parameter) {
+    if (parameter->name != name || std::find(types.begin(), types.end(), parameter->type) == types.end())
+      continue;
+    parameter->used = true;
+    return &*parameter;
+  }
+  return nullptr;
+}
+
+const Parameter* ParameterSet::find_spectrum(std::string_view name) {
+  return find(name, {ParameterType::number, ParameterType::rgb, ParameterType::xyz, ParameterType::blackbody,
+                     ParameterType::spectrum});
+}
+
+const Parameter* ParameterSet::find_numbers(std::string_view name) {
+  return find(name, {ParameterType::number, ParameterType::integer, ParameterType::tuple});
+}
+
+namespace {
+
+void require_count(const Parameter& parameter, std::size_t found, std::size_t expected) {
+  if (found != expected)
+    fail(fmt::format("parameter \"{}\" needs {} value{}, has {}", parameter.name, expected,
+                     expected == 1 ? "" : "s", found),
+         parameter.place);
+}
+
+}  // namespace
+
+double ParameterSet::number(std::string_view name, double otherwise) {
+  const Parameter* parameter = find(name, {ParameterType::number, ParameterType::integer});
+  if (!parameter) return otherwise;
+  require_count(*parameter, parameter->numbers.size(), 1);
+  return parameter->numbers[0];
+}
+
+int ParameterSet::integer(std::string_view name, int otherwise) {
+  const Parameter* parameter = find(name, {ParameterType::integer});
+  if (!parameter) return otherwise;
+  require_count(*parameter, parameter->numbers.size(), 1);
+  return static_cast<int>(parameter->numbers[0]);
+}
+
+bool ParameterSet::boolean(std::string_view name, bool otherwise) {
+  const Parameter* parameter = find(name, {ParameterType::boolean});
+  if (!parameter) return otherwise;
+  require_count(*parameter, parameter->numbers.size(), 1);
+  return parameter->numbers[0] != 0;
+}
+
+std::string ParameterSet::text(std::string_view name, const std::string& otherwise) {
+  const Parameter* parameter = find(name, {ParameterType::text});
+  if (!parameter) return otherwise;
+  require_count(*parameter, parameter->strings.size(), 1);
+  return parameter->strings[0];
+}
+
+std::optional<std::array<double, 3>> ParameterSet::triple(std::string_view name) {
+  const Parameter* parameter = find_numbers(name);
+  if (!parameter) return std::nullopt;
+  require_count(*parameter, parameter->numbers.size(), 3);
+  return std::array<double, 3>{parameter->numbers[0], parameter->numbers[1], parameter->numbers[2]};
+}
+
+void ParameterSet::ignore(std::initializer_list<std::string_view> names) {
+  for (const std::string_view name : names) {
+    asked_.emplace_back(name);
+    for (Parameter& parameter : parameters_)
+      if (parameter.name == name) parameter.used = true;
+  }
+}
+
+void ParameterSet::report_unused(Report& report) const {
+  for (const Parameter& parameter : parameters_) {
+    if (parameter.used || parameter.from_attribute) continue;
+    const bool known = std::find(asked_.begin(), asked_.end(), parameter.name) != asked_.end();
+    const std::string message = fmt::format("parameter \"{}\" of {} {}", parameter.name, owner_,
+                                            known ? "is given more than once or has a type that is not read here"
+                                                  : "is not used");
+    report.dropped(known ? message : with_suggestion(message, parameter.name, asked_), parameter.place);
+  }
+}
+
+}  // namespace vitrail::pbrt

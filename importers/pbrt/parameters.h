@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+// Parameter lists: "type name" followed by one value or by values in brackets.
+#pragma once
+
+#include <array>
+#include <initializer_list>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "importers/pbrt/report.h"
+#include "importers/pbrt/token_stream.h"
+
+namespace vitrail::pbrt {
+
+enum class ParameterType { boolean, integer, number, tuple, rgb, xyz, blackbody, spectrum, text, texture };
+
+// `numbers` holds all values that are not strings; true is 1. A spectrum has strings (a name or a file) or numbers
+// (wavelength in nm and value, alternating).
+struct Parameter {
+  ParameterType type = ParameterType::number;
+  std::string name;
+  Place place;
+  std::vector<double> numbers;
+  std::vector<std::string> strings;
+  bool from_attribute = false;
+  bool used = false;
+};
+
+// Reads the list that follows a directive. Types of v4 and v3 (point, color …) are both known; a point, vector or
+// normal of any size is a tuple. Malformed values throw Error.
+std::vector<Parameter> read_parameters(TokenStream& tokens, Report& report);
+
+// The parameters of one directive. Remembers which were used and which names were asked for.
+class ParameterSet {
+ public:
+  // `owner` and `place` are the directive's: "Shape \"sphere\"". Of parameters with one name the last counts;
+  // those of `defaults` (Attribute) count only where the directive has none.
+  ParameterSet(std::string owner, const Place& place, std::vector<Parameter> parameters,
+               const std::vector<Parameter>* defaults = nullptr);
+
+  // The parameter of that name if its type is one of those given, else nothing. Marks it as used.
+  const Parameter* find(std::string_view name, std::initializer_list<ParameterType> types);
+  const Parameter* find_spectrum(std::string_view name);  // number, rgb, xyz, blackbody or spectrum
+  const Parameter* find_numbers(std::string_view name);   // numbers, integers or tuples
+
+  // One value; the default where there is none. A wrong count throws Error.
+  double number(std::string_view name, double otherwise);
+  int integer(std::string_view name, int otherwise);
+  bool boolean(std::string_view name, bool otherwise);
+  std::string text(std::string_view name, const std::string& otherwise);
+  std::optional<std::array<double, 3>> triple(std::string_view name);
+
+  // Marks parameters that change nothing in the picture as used.
+  void ignore(std::initializer_list<std::string_view> names);
+  // A diagnostic for each parameter that was neither used nor ignored.
+  void report_unused(Report& report) const;
+
+  const std::string& owner() const { return owner_; }
+  const Place& place() const { return place_; }
+  const std::vector<Parameter>& all() const { return parameters_; }
+
+ private:
+  std::string owner_;
+  Place place_;
+  std::vector<Parameter> parameters_;
+  std::vector<std::string> asked_;
+};
+
+}  // namespace vitrail::pbrt

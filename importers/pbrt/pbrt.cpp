@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "importers/pbrt/pbrt.h"
+
+#include "importers/default_view.h"
+#include "importers/pbrt/directives.h"
+
+namespace vitrail {
+
+ImportedScene read_pbrt(const std::filesystem::path& file) {
+  pbrt::Context context;
+  context.version = pbrt::detect_version(file);
+  context.directory = file.parent_path();
+  pbrt::TokenStream tokens(file);
+  pbrt::Interpreter interpreter(tokens, context);
+  ImportedScene imported;
+  imported.scene = interpreter.run();
+  imported.diagnostics = context.report.take();
+  if (!interpreter.had_world()) add_default_view(imported, file);
+  return imported;
+}
+
+}  // namespace vitrail

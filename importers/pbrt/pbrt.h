@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+// The scene files of pbrt, versions 3 and 4.
+#pragma once
+
+#include <filesystem>
+
+#include "scene/scene.h"
+
+namespace vitrail {
+
+// Reads a scene with all that it includes, plain or gzipped. Both syntaxes are read; where a word means different
+// things, the version decides that the main file's first tell-tale word belongs to (importers/README.md).
+// Bad input throws Error with its place. A file without WorldBegin is a part of a scene: it gets a camera and a sky.
+ImportedScene read_pbrt(const std::filesystem::path& file);
+
+}  // namespace vitrail

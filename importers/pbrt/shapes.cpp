@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "importers/pbrt/shapes.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "importers/ply/ply.h"
+#include "importers/shapes/shapes.h"
+
+namespace vitrail::pbrt {
+
+namespace {
+
+// Floats of a parameter in groups of `size`; values too large for a float throw Error.
+template <class T, std::size_t size>
+std::vector<T> tuples(const Parameter& parameter) {
+  const std::vector<double>& values = parameter.numbers;
+  if (values.size() % size != 0)
+    fail(fmt::format("parameter \"{}\" has {} numbers, which is not a multiple of {}", parameter.name,
+                     values.size(), size),
+         parameter.place);
+  std::vector<T> result(values.size() / size);
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (!std::isfinite(static_cast<float>(values[i])))
+      fail(fmt::format("value {} of parameter \"{}\" is too large", i, parameter.name), parameter.place);
+  for (std::size_t i = 0; i < result.size(); ++i) {
+    const double* v = &values[i * size];
+    result[i].x = static_cast<float>(v[0]);
+    result[i].y = static_cast<float>(v[1]);
+    if constexpr (size == 3) result[i].z = static_cast<float>(v[2]);
+  }
+  return result;
+}
+
+template <std::size_t size>
+std::vector<std::array<std::uint32_t, size>> index_groups(const Parameter& parameter, std::size_t vertex_count) {
+  const std::vector<double>& values = parameter.numbers;
+  if (values.size() % size != 0)
+    fail(fmt::format("parameter \"{}\" has {} numbers, which is not a multiple of {}", parameter.name,
+                     values.size(), size),
+         parameter.place);
+  std::vector<std::array<std::uint32_t, size>> groups(values.size() / size);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (values[i] < 0 || values[i] >= static_cast<double>(vertex_count))
+      fail(fmt::format("value {} of parameter \"{}\" is {}, but there are {} vertices (counted from 0)", i,
+                       parameter.name, values[i], vertex_count),
+           parameter.place);
+    groups[i / size][i % size] = static_cast<std::uint32_t>(values[i]);
+  }
+  return groups;
+}
+
+// Values a vertex; empty where the parameter is absent.
+template <class T, std::size_t size>
+std::vector<T> vertex_values(const Parameter* parameter, std::size_t vertex_count) {
+  if (!parameter) return {};
+  std::vector<T> values = tuples<T, size>(*parameter);
+  if (values.size() != vertex_count)
+    fail(fmt::format("parameter \"{}\" has values for {} vertices, but there are {}", parameter->name, values.size(),
+                     vertex_count),
+         parameter->place);
+  return values;
+}
+
+const Parameter& required(ParameterSet& parameters, std::string_view name) {
+  const Parameter* parameter = parameters.find_numbers(name);
+  if (!parameter || parameter->numbers.empty())
+    fail(fmt::format("{} needs a parameter \"{}\"", parameters.owner(), name), parameters.place());
+  return *parameter;
+}
+
+const Parameter* texture_coordinates(ParameterSet& parameters) {
+  const Parameter* uv = parameters.find_numbers("uv");
+  return uv ? uv : parameters.find_numbers("st");
+}
+
+// The corners of one triangle or patch where no indices are given.
+template <std::size_t size>
+std::vector<std::array<std::uint32_t, size>> groups_of(ParameterSet& parameters, std::size_t vertex_count) {
+  if (const Parameter* indices = parameters.find_numbers("indices"))
+    return index_groups<size>(*indices, vertex_count);
+  if (vertex_count != size)
+    fail(fmt::format("{} needs a parameter \"indices\" unless it has exactly {} points", parameters.owner(), size),
+         parameters.place());
+  std::array<std::uint32_t, size> all{};
+  for (std::size_t i = 0; i < size; ++i) all[i] = static_cast<std::uint32_t>(i);
+  return {all};
+}
+
+Vector3d corner_normal_sum(const TriangleMesh& mesh, const std::array<std::uint32_t, 3>& triangle) {
+  Vector3d sum;
+  for (const std::uint32_t corner : triangle)
+    sum = sum + normalize(to_vector(cast<double>(mesh.normals[corner])));
+  return sum;
+}
+
+Vector3d winding_normal(const TriangleMesh& mesh, const std::array<std::uint32_t, 3>& triangle) {
+  const Point3d a = cast<double>(mesh.positions[triangle[0]]), b = cast<double>(mesh.positions[triangle[1]]),
+                c = cast<double>(mesh.positions[triangle[2]]);
+  return cross(b - a, c - a);
+}
+
+}  // namespace
+
+void orient_by_normals(TriangleMesh& mesh) {
+  if (mesh.normals.empty()) return;
+  for (auto& triangle : mesh.triangles)
+    if (dot(winding_normal(mesh, triangle), corner_normal_sum(mesh, triangle)) < 0)
+      std::swap(triangle[1], triangle[2]);
+}
+
+Id<TriangleMesh> ShapeMaker::add(TriangleMesh mesh) {
+  meshes_.push_back(std::move(mesh));
+  return {static_cast<std::uint32_t>(meshes_.size() - 1)};
+}
+
+ShapeGeometry ShapeMaker::triangle_mesh(ParameterSet& parameters) {
+  TriangleMesh mesh;
+  mesh.positions = tuples<Point3f, 3>(required(parameters, "P"));
+  mesh.triangles = groups_of<3>(parameters, mesh.positions.size());
+  mesh.normals = vertex_values<Normal3f, 3>(parameters.find_numbers("N"), mesh.positions.size());
+  mesh.uvs = vertex_values<Point2f, 2>(texture_coordinates(parameters), mesh.positions.size());
+  orient_by_normals(mesh);
+  const std::size_t parts = mesh.triangles.size();
+  return {add(std::move(mesh)), false, parts};
+}
+
+ShapeGeometry ShapeMaker::ply_mesh(ParameterSet& parameters) {
+  const Parameter* filename = parameters.find("filename", {ParameterType::text});
+  if (!filename || filename->strings.size() != 1)
+    fail("Shape \"plymesh\" needs a parameter \"string filename\"", parameters.place());
+  const std::filesystem::path path = context_.resolve(filename->strings.front());
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored))
+    fail(fmt::format("cannot find the file \"{}\"", path.string()), filename->place);
+  const auto [known, is_new] = ply_files_.try_emplace(path.string());
+  if (is_new) {
+    Diagnostics diagnostics;
+    TriangleMesh mesh = read_ply(path, &diagnostics);
+    for (Diagnostic& diagnostic : diagnostics) context_.report.add(std::move(diagnostic));
+    orient_by_normals(mesh);
+    known->second = add(std::move(mesh));
+  }
+  return {known->second, false, meshes_[known->second.value].triangles.size()};
+}
+
+ShapeGeometry ShapeMaker::bilinear_mesh(ParameterSet& parameters) {
+  const std::vector<Point3f> positions = tuples<Point3f, 3>(required(parameters, "P"));
+  const auto patches = groups_of<4>(parameters, positions.size());
+  const auto normals = vertex_values<Normal3f, 3>(parameters.find_numbers("N"), positions.size());
+  const auto uvs = vertex_values<Point2f, 2>(texture_coordinates(parameters), positions.size());
+  TriangleMesh mesh = tessellate_bilinear(positions, patches, normals, uvs);
+  if (mesh.triangles.size() > 2 * patches.size())
+    context_.report.approximated("curved bilinear patches become triangles, at most 2e-4 of their size off",
+                                 parameters.place());
+  orient_by_normals(mesh);
+  return {add(std::move(mesh)), false, patches.size()};
+}
+
+// pbrt's normals of a subdivided mesh point against its winding (the ring of a vertex is walked clockwise), and its
+// front follows them.
+ShapeGeometry ShapeMaker::loop_subdivision(ParameterSet& parameters) {
+  constexpr int most_levels = 10;
+  TriangleMesh cage;
+  cage.positions = tuples<Point3f, 3>(required(parameters, "P"));
+  cage.triangles = index_groups<3>(required(parameters, "indices"), cage.positions.size());
+  const int levels = parameters.integer("levels", parameters.integer("nlevels", 3));
+  if (levels < 0 || levels > most_levels)
+    fail(fmt::format("subdivision levels are {}, which is not between 0 and {}", levels, most_levels),
+         parameters.place());
+  parameters.ignore({"scheme"});
+  TriangleMesh mesh;
+  try {
+    mesh = loop_subdivide(cage, levels);
+  } catch (const Error& error) {
+    fail(error.what(), parameters.place());
+  }
+  for (Normal3f& normal : mesh.normals) normal = -normal;
+  for (auto& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
+  const std::size_t parts = mesh.triangles.size();
+  return {add(std::move(mesh)), false, parts};
+}
+
+std::optional<ShapeGeometry> ShapeMaker::quadric(const std::string& kind, ParameterSet& parameters) {
+  const double radius = parameters.number("radius", 1);
+  const bool sphere = kind == "sphere";
+  const double phimax = parameters.number("phimax", 360);
+  QuadricKey key;
+  if (kind == "disk") {
+    key = {kind, radius, parameters.number("height", 0), parameters.number("innerradius", 0), phimax};
+  } else {
+    const double extent = sphere ? radius : 1;
+    key = {kind, radius, parameters.number("zmin", -extent), parameters.number("zmax", extent), phimax};
+  }
+  const auto [known, is_new] = quadrics_.try_emplace(key);
+  if (is_new) {
+    const double a = std::get<2>(key), b = std::get<3>(key), phimax_rad = phimax * std::numbers::pi / 180;
+    try {
+      known->second = add(sphere           ? tessellate_sphere(radius, a, b, phimax_rad)
+                          : kind == "disk" ? tessellate_disk(a, radius, b, phimax_rad)
+                                           : tessellate_cylinder(radius, a, b, phimax_rad));
+    } catch (const Error& error) {
+      fail(error.what(), parameters.place());
+    }
+  }
+  context_.report.approximated(
+      fmt::format("each {} becomes triangles, {} for a full turn", kind,
+                  sphere ? sphere_segments : kind == "disk" ? disk_segments : cylinder_segments),
+      parameters.place());
+  return ShapeGeometry{known->second, true, 1};
+}
+
+std::optional<ShapeGeometry> ShapeMaker::make(const std::string& kind, ParameterSet& parameters) {
+  parameters.ignore({"S", "faceIndices"});
+  for (const char* name : {"alpha", "shadowalpha"}) {
+    const Parameter* alpha = parameters.find(name, {ParameterType::number, ParameterType::texture});
+    if (!alpha) continue;
+    if (alpha->type == ParameterType::texture || alpha->numbers != std::vector<double>{1})
+      context_.report.dropped(fmt::format("\"{}\" of shapes is not rendered: they are opaque", name), alpha->place);
+  }
+  std::optional<ShapeGeometry> geometry;
+  if (kind == "trianglemesh") geometry = triangle_mesh(parameters);
+  else if (kind == "plymesh") geometry = ply_mesh(parameters);
+  else if (kind == "bilinearmesh") geometry = bilinear_mesh(parameters);
+  else if (kind == "loopsubdiv") geometry = loop_subdivision(parameters);
+  else if (kind == "sphere" || kind == "disk" || kind == "cylinder") geometry = quadric(kind, parameters);
+  if (geometry) {
+    parameters.report_unused(context_.report);
+    return geometry;
+  }
+  const std::string closest = closest_word(
+      kind, {"trianglemesh", "plymesh", "bilinearmesh", "loopsubdiv", "sphere", "disk", "cylinder"});
+  context_.report.dropped(fmt::format("shape \"{}\" is not supported{}", kind,
+                                      closest.empty() ? "" : fmt::format("; did you mean \"{}\"?", closest)),
+                          parameters.place());
+  return std::nullopt;
+}
+
+}  // namespace vitrail::pbrt

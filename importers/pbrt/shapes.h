@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <tuple>
+
+#include "importers/pbrt/context.h"
+#include "importers/pbrt/parameters.h"
+#include "scene/scene.h"
+
+namespace vitrail::pbrt {
+
+// The triangles of a Shape directive.
+struct ShapeGeometry {
+  Id<TriangleMesh> mesh;
+  // Analytic shapes: their front under a mirroring transform is on the other side than that of meshes.
+  bool quadric = false;
+  // How many shapes pbrt makes of it, each with the whole `power` of an area light: triangles, patches, or 1.
+  std::size_t parts = 1;
+};
+
+// Makes meshes and keeps those that come again (the same file, the same sphere).
+class ShapeMaker {
+ public:
+  ShapeMaker(Context& context, std::vector<TriangleMesh>& meshes) : context_(context), meshes_(meshes) {}
+
+  // Nothing where the kind cannot be represented and is dropped with a diagnostic, or where nothing of it shows.
+  // The triangles' own orientation is pbrt's front side before ReverseOrientation and the transform.
+  std::optional<ShapeGeometry> make(const std::string& kind, ParameterSet& parameters);
+
+ private:
+  ShapeGeometry triangle_mesh(ParameterSet& parameters);
+  ShapeGeometry ply_mesh(ParameterSet& parameters);
+  ShapeGeometry bilinear_mesh(ParameterSet& parameters);
+  ShapeGeometry loop_subdivision(ParameterSet& parameters);
+  std::optional<ShapeGeometry> quadric(const std::string& kind, ParameterSet& parameters);
+  Id<TriangleMesh> add(TriangleMesh mesh);
+
+  using QuadricKey = std::tuple<std::string, double, double, double, double>;
+  Context& context_;
+  std::vector<TriangleMesh>& meshes_;
+  std::map<std::string, Id<TriangleMesh>> ply_files_;
+  std::map<QuadricKey, Id<TriangleMesh>> quadrics_;
+};
+
+// Turns triangles whose corner normals, summed, point away from their own normal. pbrt's fronts follow the normals.
+void orient_by_normals(TriangleMesh& mesh);
+
+}  // namespace vitrail::pbrt

@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "importers/pbrt/spectra.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "importers/pbrt/spectrum_names.h"
+#include "importers/ply/input_bytes.h"
+#include "scene/color.h"
+#include "scene/rgb_to_spectrum.h"
+
+namespace vitrail::pbrt {
+
+namespace {
+
+using Samples = std::vector<std::array<double, 2>>;
+
+// A table whose values are all the same is a constant.
+Spectrum simplified(TabulatedSpectrum table) {
+  const float first = table.values.front();
+  if (std::all_of(table.values.begin(), table.values.end(), [&](float v) { return v == first; }))
+    return ConstantSpectrum{first};
+  return table;
+}
+
+template <class Function>
+Spectrum tabulated(Function value) {
+  TabulatedSpectrum table;
+  table.values.reserve(table_size);
+  for (int i = 0; i < table_size; ++i) table.values.push_back(static_cast<float>(value(lambda_min_nm + i)));
+  return simplified(std::move(table));
+}
+
+Samples pairs(const std::vector<double>& numbers, const Place& place) {
+  if (numbers.empty() || numbers.size() % 2 != 0)
+    fail(fmt::format("a spectrum needs pairs of wavelength and value, has {} numbers", numbers.size()), place);
+  Samples samples;
+  for (std::size_t i = 0; i < numbers.size(); i += 2) samples.push_back({numbers[i], numbers[i + 1]});
+  return samples;
+}
+
+Samples read_spectrum_file(const std::string& name, const Context& context, const Place& place) {
+  const std::filesystem::path path = context.resolve(name);
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored))
+    fail(fmt::format("\"{}\" is neither a spectrum that is known by name nor a file", name), place);
+  const InputBytes bytes(path);
+  const std::string file = path.string();
+  Lexer lexer(&file, bytes.begin(), bytes.end());
+  std::vector<double> numbers;
+  for (double number = 0; lexer.next_number(number);) numbers.push_back(number);
+  const Token rest = lexer.next();
+  if (rest.kind != TokenKind::end)
+    fail(fmt::format("expected a number in a spectrum file, found {}", describe(rest)), rest.place);
+  return pairs(numbers, {&file, 0, 0});
+}
+
+// Samples become a table; v3 sorts them and holds the ends, v4 wants them sorted and is zero outside.
+Spectrum sampled(Samples samples, bool hold_ends, const Context& context, const Place& place) {
+  if (context.version == Version::v3) std::sort(samples.begin(), samples.end());
+  try {
+    return simplified(tabulate(samples, hold_ends));
+  } catch (const Error& error) {
+    fail(error.what(), place);
+  }
+}
+
+Spectrum read_named(const Parameter& parameter, bool hold_ends, Context& context) {
+  const std::string& name = parameter.strings.front();
+  if (const auto named = find_named_spectrum(name)) {
+    if (!named->approximation.empty())
+      context.report.approximated(fmt::format("spectrum \"{}\": {} stands for it", name, named->approximation),
+                                  parameter.place);
+    return named->spectrum;
+  }
+  return sampled(read_spectrum_file(name, context, parameter.place), hold_ends, context, parameter.place);
+}
+
+// Of parameters of type spectrum.
+Spectrum read_spectrum(const Parameter& parameter, bool hold_ends, Context& context) {
+  if (!parameter.strings.empty()) return read_named(parameter, hold_ends, context);
+  return sampled(pairs(parameter.numbers, parameter.place), hold_ends, context, parameter.place);
+}
+
+void require(const Parameter& parameter, std::size_t least, std::size_t most) {
+  if (parameter.numbers.size() >= least && parameter.numbers.size() <= most) return;
+  fail(fmt::format("parameter \"{}\" needs {} value{}, has {}", parameter.name, least, least == 1 ? "" : "s",
+                   parameter.numbers.size()),
+       parameter.place);
+}
+
+// The linear sRGB colour of an rgb or xyz parameter; components outside [0, limit] are clamped and reported.
+RGB read_color(const Parameter& parameter, double limit, SpectrumScope scope) {
+  require(parameter, 3, 3);
+  const std::vector<double>& v = parameter.numbers;
+  const RGB color = parameter.type == ParameterType::xyz
+                        ? xyz_to_srgb({v[0], v[1], v[2]})
+                        : to_srgb({v[0], v[1], v[2]}, scope.color_space.c_str());
+  constexpr double tolerance = 1e-6;  // of the conversion of whites and greys
+  const auto clamped = [&](double x) {
+    if (x < -tolerance || x > limit + tolerance)
+      scope.context.report.approximated(
+          fmt::format("colour \"{}\" is outside {} and clamped to it", parameter.name,
+                      limit == 1 ? "[0,1] in linear sRGB" : "linear sRGB (a component is negative)"),
+          parameter.place);
+    return std::clamp(x, 0.0, limit);
+  };
+  return {clamped(color.r), clamped(color.g), clamped(color.b)};
+}
+
+TabulatedSpectrum read_blackbody(const Parameter& parameter) {
+  require(parameter, 1, 2);
+  if (!(parameter.numbers[0] > 0)) fail("a blackbody needs a temperature above 0 K", parameter.place);
+  return blackbody(parameter.numbers[0]);
+}
+
+double blackbody_scale(const Parameter& parameter, const Context& context) {
+  return context.version == Version::v3 && parameter.numbers.size() == 2 ? parameter.numbers[1] : 1;
+}
+
+Spectrum constant(const Parameter& parameter) {
+  require(parameter, 1, 1);
+  return ConstantSpectrum{static_cast<float>(parameter.numbers[0])};
+}
+
+Spectrum with_unit_luminance(const Spectrum& spectrum, const Place& place, Context& context) {
+  const double y = luminance(spectrum);
+  if (y > 0) return scaled(spectrum, 1 / y);
+  context.report.dropped("the spectrum of a light has no luminance to normalise: the light is black", place);
+  return ConstantSpectrum{0};
+}
+
+}  // namespace
+
+Spectrum read_reflectance(const Parameter& parameter, SpectrumScope scope) {
+  switch (parameter.type) {
+    case ParameterType::rgb:
+    case ParameterType::xyz: return reflectance_from_rgb(read_color(parameter, 1, scope));
+    case ParameterType::blackbody:
+      return scaled(read_blackbody(parameter), blackbody_scale(parameter, scope.context));
+    case ParameterType::spectrum:
+      return read_spectrum(parameter, scope.context.version == Version::v3, scope.context);
+    default: return constant(parameter);
+  }
+}
+
+Spectrum read_emission(const Parameter& parameter, SpectrumScope scope) {
+  const bool v4 = scope.context.version == Version::v4;
+  switch (parameter.type) {
+    case ParameterType::rgb:
+    case ParameterType::xyz:
+      return emission_from_rgb(read_color(parameter, std::numeric_limits<float>::max(), scope));
+    case ParameterType::blackbody: {
+      const TabulatedSpectrum spectrum = read_blackbody(parameter);
+      return v4 ? with_unit_luminance(spectrum, parameter.place, scope.context)
+                : scaled(spectrum, blackbody_scale(parameter, scope.context));
+    }
+    case ParameterType::spectrum: {
+      const Spectrum spectrum = read_spectrum(parameter, !v4, scope.context);
+      return v4 ? with_unit_luminance(spectrum, parameter.place, scope.context) : spectrum;
+    }
+    default: return constant(parameter);
+  }
+}
+
+Spectrum read_refraction(const Parameter& parameter, SpectrumScope scope) {
+  if (parameter.type == ParameterType::number) return constant(parameter);
+  if (parameter.type == ParameterType::spectrum) {
+    const Spectrum spectrum = read_spectrum(parameter, true, scope.context);
+    const std::vector<double>& numbers = parameter.numbers;
+    if (scope.context.version == Version::v4 && !numbers.empty() &&
+        (numbers.front() > lambda_min_nm || numbers[numbers.size() - 2] < lambda_max_nm))
+      scope.context.report.approximated(
+          fmt::format("refractive index \"{}\" is held constant outside of its samples", parameter.name),
+          parameter.place);
+    return spectrum;
+  }
+  double sum = 0;
+  for (const double value : parameter.numbers) sum += value;
+  require(parameter, 3, 3);
+  scope.context.report.approximated(
+      fmt::format("refractive index \"{}\" is a colour: its mean stands for it", parameter.name), parameter.place);
+  return ConstantSpectrum{static_cast<float>(sum / 3)};
+}
+
+Spectrum weighted_sum(const Spectrum& a, double weight_a, const Spectrum& b, double weight_b) {
+  if (weight_b == 0) return scaled(a, weight_a);
+  if (weight_a == 0) return scaled(b, weight_b);
+  return tabulated([&](double l) { return weight_a * evaluate(a, l) + weight_b * evaluate(b, l); });
+}
+
+Spectrum product(const Spectrum& a, const Spectrum& b) {
+  if (is_constant(a)) return scaled(b, evaluate(a, lambda_min_nm));
+  if (is_constant(b)) return scaled(a, evaluate(b, lambda_min_nm));
+  return tabulated([&](double l) { return evaluate(a, l) * evaluate(b, l); });
+}
+
+Spectrum conductor_reflectance(const Spectrum& n, const Spectrum& k) {
+  return tabulated([&](double l) {
+    const double eta = evaluate(n, l), kappa = evaluate(k, l);
+    return ((eta - 1) * (eta - 1) + kappa * kappa) / ((eta + 1) * (eta + 1) + kappa * kappa);
+  });
+}
+
+}  // namespace vitrail::pbrt

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// Parameters that are spectra: numbers, rgb, xyz, blackbody, samples, files, names.
+#pragma once
+
+#include <string>
+
+#include "importers/pbrt/context.h"
+#include "importers/pbrt/parameters.h"
+#include "scene/spectrum.h"
+
+namespace vitrail::pbrt {
+
+struct SpectrumScope {
+  Context& context;
+  const std::string& color_space;  // of rgb values
+};
+
+// In [0,1] where it is given as a colour.
+Spectrum read_reflectance(const Parameter& parameter, SpectrumScope scope);
+
+// Emission, in the units of the version. v4 divides every light by its own luminance, so that only `scale` and the
+// like set it: spectra and blackbodies get luminance 1, rgb keeps its magnitude. v3 keeps spectra as they are and
+// normalises blackbodies to a maximum of 1, times their second value.
+Spectrum read_emission(const Parameter& parameter, SpectrumScope scope);
+
+// An index of refraction; held constant outside of its samples.
+Spectrum read_refraction(const Parameter& parameter, SpectrumScope scope);
+
+// a·weight_a + b·weight_b and a·b; constants stay constants.
+Spectrum weighted_sum(const Spectrum& a, double weight_a, const Spectrum& b, double weight_b);
+Spectrum product(const Spectrum& a, const Spectrum& b);
+
+// The reflectance of a smooth conductor at normal incidence, ((n−1)² + k²) / ((n+1)² + k²).
+Spectrum conductor_reflectance(const Spectrum& n, const Spectrum& k);
+
+}  // namespace vitrail::pbrt

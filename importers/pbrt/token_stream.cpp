@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "importers/pbrt/token_stream.h"
+
+#include <fmt/format.h>
+
+namespace vitrail::pbrt {
+
+TokenStream::Source::Source(const std::filesystem::path& path, const std::string* name, bool imported)
+    : bytes(path),
+      lexer(name, bytes.begin(), bytes.end()),
+      identity(std::filesystem::weakly_canonical(path)),
+      import(imported) {}
+
+TokenStream::TokenStream(const std::filesystem::path& file) {
+  names_.push_back(file.string());
+  sources_.push_back(std::make_unique<Source>(file, &names_.back(), false));
+}
+
+void TokenStream::include(const std::filesystem::path& file, bool import, const Place& where) {
+  constexpr std::size_t depth_limit = 64;
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(file, ignored))
+    fail(fmt::format("cannot find the included file \"{}\"", file.string()), where);
+  const std::filesystem::path identity = std::filesystem::weakly_canonical(file);
+  for (const auto& source : sources_)
+    if (source->identity == identity)
+      fail(fmt::format("\"{}\" includes itself, directly or through others", file.string()), where);
+  if (sources_.size() > depth_limit)
+    fail(fmt::format("files are included more than {} levels deep", depth_limit), where);
+  names_.push_back(file.string());
+  sources_.push_back(std::make_unique<Source>(file, &names_.back(), import));
+}
+
+Lexer& TokenStream::current() {
+  while (sources_.size() > 1 && !sources_.back()->import && sources_.back()->lexer.peek() == '\0' &&
+         sources_.back()->lexer.position() == sources_.back()->bytes.end())
+    sources_.pop_back();
+  return sources_.back()->lexer;
+}
+
+Token TokenStream::next() {
+  Token token = current().next();
+  if (token.kind == TokenKind::end && sources_.back()->import) {
+    token.kind = TokenKind::end_of_import;
+    sources_.pop_back();
+  }
+  return token;
+}
+
+bool TokenStream::next_number(double& value) { return current().next_number(value); }
+
+bool TokenStream::text_follows() { return current().peek() == '"'; }
+
+void TokenStream::release() { sources_.back()->bytes.release_before(sources_.back()->lexer.position()); }
+
+}  // namespace vitrail::pbrt

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <deque>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "importers/pbrt/lexer.h"
+#include "importers/ply/input_bytes.h"
+
+namespace vitrail::pbrt {
+
+// The tokens of a file and of all that it includes, as one text. The end of an imported file is a token of
+// its own.
+class TokenStream {
+ public:
+  explicit TokenStream(const std::filesystem::path& file);
+
+  // Continues with `file`, then comes back. Cycles and more than 64 levels throw Error at `where`.
+  void include(const std::filesystem::path& file, bool import, const Place& where);
+
+  Token next();
+  bool next_number(double& value);
+  // True if the next token is a quoted string.
+  bool text_follows();
+  // Lets go of the memory of what has been read.
+  void release();
+
+ private:
+  struct Source {
+    Source(const std::filesystem::path& path, const std::string* name, bool imported);
+    InputBytes bytes;
+    Lexer lexer;
+    std::filesystem::path identity;  // canonical
+    bool import;
+  };
+
+  // The lexer that has something left, or the outermost one; stops at the end of an import.
+  Lexer& current();
+
+  std::deque<std::string> names_;
+  std::vector<std::unique_ptr<Source>> sources_;
+};
+
+}  // namespace vitrail::pbrt

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "importers/ply/ply_header.h"
+#include "scene/scene.h"
+
+namespace vitrail::ply {
+
+// Which property of the vertex element has each of x y z, nx ny nz, u v. The first three are always set, the
+// others as complete groups or not at all.
+struct VertexLayout {
+  static constexpr std::size_t slots = 8;
+  std::array<std::optional<std::size_t>, slots> property;
+  bool has_normals() const { return property[3].has_value(); }
+  bool has_uvs() const { return property[6].has_value(); }
+};
+
+struct BodyPlan {
+  std::size_t vertex_element = 0;
+  VertexLayout vertex;
+  std::size_t face_element = 0;
+  std::size_t corner_list = 0;  // property of the face element
+};
+
+struct Body {
+  TriangleMesh mesh;
+  std::uint64_t dropped_faces = 0;  // with fewer than three corners
+};
+
+// `cursor` stands at the first byte of the body.
+Body read_body(InputBytes& bytes, const TextCursor& cursor, const Header& header, const BodyPlan& plan);
+
+}  // namespace vitrail::ply

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// A bundle that appears whole or not at all.
+#pragma once
+
+#include <filesystem>
+
+namespace vitrail {
+
+// Makes `target`.tmp<pid> with its domains/ beside the target; `commit` renames it to the target, where it
+// replaces an older bundle. Without a commit the destructor removes it. A target that exists and is not a
+// bundle is never touched: UsageError. What the machine refuses throws MachineError.
+class BundleDirectory {
+ public:
+  explicit BundleDirectory(std::filesystem::path target);
+  ~BundleDirectory();
+  BundleDirectory(const BundleDirectory&) = delete;
+  BundleDirectory& operator=(const BundleDirectory&) = delete;
+
+  const std::filesystem::path& path() const { return temporary_; }
+  void commit();
+
+ private:
+  std::filesystem::path target_, temporary_;
+  bool committed_ = false;
+};
+
+}  // namespace vitrail

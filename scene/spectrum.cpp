@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/spectrum.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "scene/color.h"
+#include "scene/diagnostics.h"
+
+namespace vitrail {
+
+namespace {
+
+template <class... F>
+struct Overloaded : F... {
+  using F::operator()...;
+};
+template <class... F>
+Overloaded(F...) -> Overloaded<F...>;
+
+// Linear between the two nearest of 360, 361 … 830 nm; the end values beyond.
+template <class Values>
+double interpolate(const Values& values, double lambda_nm) {
+  const double x = std::clamp(lambda_nm - lambda_min_nm, 0.0, lambda_max_nm - lambda_min_nm);
+  const auto i = std::min(static_cast<std::size_t>(x), std::size_t{table_size - 2});
+  const double f = x - static_cast<double>(i);
+  return (1 - f) * static_cast<double>(values[i]) + f * static_cast<double>(values[i + 1]);
+}
+
+double sigmoid(const SigmoidSpectrum& s, double lambda_nm) {
+  const double c0 = s.c0, c1 = s.c1, c2 = s.c2;
+  if (std::isinf(c2)) return c2 > 0 ? 1 : 0;
+  const double x = (c0 * lambda_nm + c1) * lambda_nm + c2;
+  return 0.5 + x / (2 * std::sqrt(1 + x * x));
+}
+
+double sellmeier(const SellmeierSpectrum& s, double lambda_nm) {
+  const double l2 = lambda_nm * lambda_nm * 1e-6;  // µm²
+  double n2 = 1;
+  for (std::size_t i = 0; i < 3; ++i) n2 += s.b[i] * l2 / (l2 - s.c_um2[i]);
+  return std::sqrt(n2);
+}
+
+template <class F>
+TabulatedSpectrum tabulate_each_nm(F&& value) {
+  TabulatedSpectrum t;
+  t.values.resize(table_size);
+  for (std::size_t i = 0; i < table_size; ++i)
+    t.values[i] = static_cast<float>(value(lambda_min_nm + static_cast<double>(i)));
+  return t;
+}
+
+}  // namespace
+
+double evaluate(const Spectrum& spectrum, double lambda_nm) {
+  return std::visit(Overloaded{
+                        [](const ConstantSpectrum& s) { return static_cast<double>(s.value); },
+                        [&](const SigmoidSpectrum& s) { return sigmoid(s, lambda_nm); },
+                        [&](const RgbIlluminantSpectrum& s) {
+                          return static_cast<double>(s.scale) * sigmoid(s.shape, lambda_nm) *
+                                 interpolate(cie_d65(), lambda_nm);
+                        },
+                        [&](const TabulatedSpectrum& s) { return interpolate(s.values, lambda_nm); },
+                        [&](const SellmeierSpectrum& s) { return sellmeier(s, lambda_nm); },
+                    },
+                    spectrum);
+}
+
+bool is_constant(const Spectrum& spectrum) {
+  return std::visit(Overloaded{
+                        [](const ConstantSpectrum&) { return true; },
+                        [](const SigmoidSpectrum& s) { return s.c0 == 0 && s.c1 == 0; },
+                        [](const RgbIlluminantSpectrum& s) { return s.scale == 0; },
+                        [](const TabulatedSpectrum& s) {
+                          return std::adjacent_find(s.values.begin(), s.values.end(),
+                                                    std::not_equal_to<>{}) == s.values.end();
+                        },
+                        [](const SellmeierSpectrum& s) { return s.b == std::array<double, 3>{}; },
+                    },
+                    spectrum);
+}
+
+TabulatedSpectrum tabulate(const std::vector<std::array<double, 2>>& samples, bool extend) {
+  if (samples.empty())
+    throw Error("a spectrum needs at least one sample: give pairs of wavelength in nm and value");
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const auto [lambda, value] = samples[i];
+    if (!std::isfinite(lambda) || !std::isfinite(value))
+      throw Error(fmt::format("sample {} of a spectrum is not finite: {} nm, {}", i + 1, lambda, value));
+    if (i > 0 && !(samples[i - 1][0] < lambda))
+      throw Error(fmt::format("the wavelengths of a spectrum must ascend, but {} nm follows {} nm", lambda,
+                              samples[i - 1][0]));
+  }
+  const double outside_below = extend ? samples.front()[1] : 0;
+  const double outside_above = extend ? samples.back()[1] : 0;
+  return tabulate_each_nm([&](double lambda) {
+    if (lambda < samples.front()[0]) return outside_below;
+    if (lambda > samples.back()[0]) return outside_above;
+    const auto above = std::upper_bound(samples.begin(), samples.end(), lambda,
+                                        [](double l, const std::array<double, 2>& s) { return l < s[0]; });
+    const auto [l0, v0] = *(above - 1);
+    if (above == samples.end()) return v0;
+    const auto [l1, v1] = *above;
+    return v0 + (v1 - v0) * ((lambda - l0) / (l1 - l0));
+  });
+}
+
+// B(λ,T)/B(λₘ,T) with B ∝ λ⁻⁵/(exp(c₂/λT) − 1), c₂ = hc/k (CODATA 2018), and λₘ = c₂/(w·T) the maximum by
+// Wien's law.
+TabulatedSpectrum blackbody(double kelvin) {
+  if (!std::isfinite(kelvin) || kelvin <= 0)
+    throw Error(fmt::format("a blackbody needs a temperature above 0 K, not {}", kelvin));
+  constexpr double c2_nm_kelvin = 1.438776877e7;
+  constexpr double w = 4.965114231744276;  // root of w = 5(1 − e⁻ʷ)
+  return tabulate_each_nm([&](double lambda) {
+    const double r = c2_nm_kelvin / (w * kelvin) / lambda;  // λₘ/λ
+    return std::min(1.0, r * r * r * r * r * std::expm1(w) / std::expm1(w * r));
+  });
+}
+
+Spectrum scaled(const Spectrum& spectrum, double factor) {
+  const auto product = [factor](float v) { return static_cast<float>(static_cast<double>(v) * factor); };
+  if (factor == 1) return spectrum;
+  if (auto* s = std::get_if<ConstantSpectrum>(&spectrum)) return ConstantSpectrum{product(s->value)};
+  if (auto* s = std::get_if<RgbIlluminantSpectrum>(&spectrum))
+    return RgbIlluminantSpectrum{s->shape, product(s->scale)};
+  if (is_constant(spectrum))
+    return ConstantSpectrum{static_cast<float>(evaluate(spectrum, lambda_min_nm) * factor)};
+  return tabulate_each_nm([&](double lambda) { return evaluate(spectrum, lambda) * factor; });
+}
+
+double luminance(const Spectrum& spectrum) { return to_xyz(spectrum).y; }
+
+}  // namespace vitrail

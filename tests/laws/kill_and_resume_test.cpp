@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+// A run that is killed loses at most what came after its last checkpoint, and ends in the same film.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <random>
+#include <sstream>
+#include <thread>
+
+#include "tests/support/command.h"
+#include "tests/support/temporary_directory.h"
+
+namespace vitrail::test {
+namespace {
+
+using namespace std::chrono_literals;
+
+// A command started in the background, in a process group of its own.
+class Background {
+ public:
+  explicit Background(const std::string& command) : pid_(::fork()) {
+    if (pid_ != 0) return;
+    ::setpgid(0, 0);
+    ::execl("/bin/sh", "sh", "-c", ("exec " + command + " 2>/dev/null").c_str(), nullptr);
+    ::_exit(127);
+  }
+  bool running() {
+    if (!ended_ && ::waitpid(pid_, &status_, WNOHANG) == pid_) ended_ = true;
+    return !ended_;
+  }
+  int wait() {
+    if (!ended_) ::waitpid(pid_, &status_, 0);
+    ended_ = true;
+    return WIFEXITED(status_) ? WEXITSTATUS(status_) : 128 + WTERMSIG(status_);
+  }
+  // The render processes below it.
+  std::vector<pid_t> ranks() const {
+    std::istringstream pids(run(fmt::format("pgrep -g {} -f vitrail-render; pgrep -P {}", pid_, pid_)).output);
+    std::vector<pid_t> found;
+    for (pid_t pid; pids >> pid;)
+      if (pid != pid_ && std::ranges::find(found, pid) == found.end()) found.push_back(pid);
+    return found;
+  }
+  pid_t pid() const { return pid_; }
+
+ private:
+  pid_t pid_;
+  int status_ = 0;
+  bool ended_ = false;
+};
+
+class KillAndResume : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    bundle_ = directory_ / "box.vit";
+    const CommandResult made = run(fmt::format("{} '{}/examples/cornell-box/cornell-box.pbrt' -o '{}' --domains 8",
+                                               vitrail("partition"), VITRAIL_SOURCE_DIR, bundle_.string()));
+    ASSERT_EQ(made.status, 0) << made.output;
+  }
+  std::string command(const std::string& film, const std::string& more) const {
+    return fmt::format("{} '{}' -o '{}' --crop 0,128,0,128 --spp 256 --threads 1 --stats '{}' {}",
+                       mpi_vitrail("render", 2), bundle_.string(), (directory_ / film).string(),
+                       (directory_ / (film + ".json")).string(), more);
+  }
+  nlohmann::json stats(const std::string& film) const { return read_json(directory_ / (film + ".json")); }
+
+  TemporaryDirectory directory_;
+  std::filesystem::path bundle_;
+};
+
+TEST_F(KillAndResume, KilledRanksLeaveTheSameFilm) {
+  const auto start = std::chrono::steady_clock::now();
+  ASSERT_EQ(run(command("whole.film", "")).status, 0);
+  const auto whole = std::chrono::steady_clock::now() - start;
+
+  std::mt19937 random(20260711);
+  const auto partial = directory_ / "killed.film.partial";
+  int killed = 0;
+  for (int attempt = 0; attempt < 5; ++attempt) {
+    const bool resume = std::filesystem::exists(partial);
+    Background job(command("killed.film", std::string("--checkpoint-every 0.2") + (resume ? " --resume" : "")));
+    const auto moment = whole * std::uniform_real_distribution(0.15, 0.45)(random);
+    std::this_thread::sleep_for(std::chrono::duration_cast<std::chrono::milliseconds>(moment));
+    const std::vector<pid_t> ranks = job.ranks();
+    if (!job.running()) break;
+    ASSERT_FALSE(ranks.empty());
+    ::kill(ranks[random() % ranks.size()], SIGKILL);
+    EXPECT_NE(job.wait(), 0);
+    ++killed;
+    EXPECT_FALSE(std::filesystem::exists(directory_ / "killed.film"));
+  }
+  EXPECT_EQ(killed, 5);
+  ASSERT_TRUE(std::filesystem::exists(partial));
+  const CommandResult finished = run(command("killed.film", "--resume"));
+  ASSERT_EQ(finished.status, 0) << finished.output;
+  EXPECT_EQ(stats("killed.film")["film_hash"], stats("whole.film")["film_hash"]);
+  EXPECT_EQ(stats("killed.film")["samples"], 128 * 128 * 256);
+  EXPECT_FALSE(std::filesystem::exists(partial));
+}
+
+TEST_F(KillAndResume, TermWritesACheckpointAndExitsCleanly) {
+  for (const bool alone : {true, false}) {
+    std::string line = command("stopped.film", "");
+    if (alone) line = line.substr(line.find(" '"  VITRAIL_BIN_DIR) + 1);
+    Background job(line);
+    std::this_thread::sleep_for(1500ms);
+    ASSERT_TRUE(job.running());
+    for (pid_t pid : alone ? std::vector{job.pid()} : job.ranks()) ::kill(pid, SIGTERM);
+    EXPECT_EQ(job.wait(), 0);
+    EXPECT_TRUE(std::filesystem::exists(directory_ / "stopped.film.partial"));
+    EXPECT_FALSE(std::filesystem::exists(directory_ / "stopped.film"));
+    ASSERT_EQ(run(command("stopped.film", "--resume")).status, 0);
+    ASSERT_EQ(run(command("whole.film", "")).status, 0);
+    EXPECT_EQ(stats("stopped.film")["film_hash"], stats("whole.film")["film_hash"]);
+    std::filesystem::remove(directory_ / "stopped.film");
+  }
+}
+
+TEST_F(KillAndResume, RefusesAnotherJobsCheckpoint) {
+  Background job(command("other.film", "--checkpoint-every 0.1"));
+  while (job.running() && !std::filesystem::exists(directory_ / "other.film.partial")) std::this_thread::sleep_for(10ms);
+  for (pid_t pid : job.ranks()) ::kill(pid, SIGKILL);
+  job.wait();
+  ASSERT_TRUE(std::filesystem::exists(directory_ / "other.film.partial"));
+  for (const char* change : {"--seed 7", "--max-depth 2", "--spp 8"}) {
+    const CommandResult refused = run(command("other.film", std::string("--resume ") + change));
+    EXPECT_EQ(refused.status, 3) << change << refused.output;
+    EXPECT_THAT(refused.output, ::testing::HasSubstr("cannot be resumed")) << change;
+  }
+}
+
+}  // namespace
+}  // namespace vitrail::test

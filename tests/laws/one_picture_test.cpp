@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+// One scene, seed and sample count give one film, bit for bit, whatever the number of sub-domains, ranks and threads,
+// the memory, and the order in which rays arrive.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "bundle/manifest.h"
+#include "tests/support/command.h"
+#include "tests/support/temporary_directory.h"
+
+namespace vitrail::test {
+namespace {
+
+constexpr std::uint64_t mib = 1 << 20;
+
+struct Bundle {
+  std::filesystem::path path;
+  std::uint64_t bytes = 0, largest = 0;
+};
+
+Bundle make_bundle(const TemporaryDirectory& directory, const std::filesystem::path& scene, int domains) {
+  Bundle bundle;
+  bundle.path = directory / fmt::format("{}.vit", domains);
+  const CommandResult made =
+      run(fmt::format("{} '{}' -o '{}' --domains {}", vitrail("partition"), scene.string(), bundle.path.string(), domains));
+  EXPECT_EQ(made.status, 0) << made.output;
+  for (const DomainInfo& d : read_manifest(bundle.path).domains) {
+    bundle.bytes += d.bytes;
+    bundle.largest = std::max(bundle.largest, d.bytes);
+  }
+  return bundle;
+}
+
+nlohmann::json render(const TemporaryDirectory& directory, const Bundle& bundle, int ranks, int threads,
+                      const std::string& more) {
+  const auto stats = directory / "stats.json";
+  const CommandResult done =
+      run(fmt::format("{} '{}' -o '{}' --crop 0,48,0,32 --spp 2 --threads {} --stats '{}' {}", mpi_vitrail("render", ranks),
+                      bundle.path.string(), (directory / "picture.film").string(), threads, stats.string(), more));
+  EXPECT_EQ(done.status, 0) << done.output;
+  return done.status == 0 ? read_json(stats) : nlohmann::json();
+}
+
+// What a quarter of the bundle, but no less than its largest domain, needs beside the program itself.
+std::uint64_t quarter(const Bundle& bundle, const nlohmann::json& everything, int threads) {
+  const std::uint64_t domains = std::max(bundle.bytes / 4, bundle.largest);
+  return everything["base_rss_bytes"].get<std::uint64_t>() + (4 + 2) * mib + static_cast<std::uint64_t>(threads) * mib +
+         domains + domains / 4 + 3 * mib;
+}
+
+void expect_one_picture(const TemporaryDirectory& directory, const std::filesystem::path& scene) {
+  std::string hash;
+  int runs = 0;
+  std::uint64_t forwarded = 0, evictions = 0;
+  const auto check = [&](const nlohmann::json& stats, const std::string& what) {
+    ASSERT_FALSE(stats.is_null()) << what;
+    if (hash.empty()) hash = stats["film_hash"];
+    EXPECT_EQ(stats["film_hash"], hash) << what;
+    EXPECT_EQ(stats["nonfinite_samples"], 0) << what;
+    forwarded += stats["forwarded_rays"].get<std::uint64_t>();
+    evictions += stats["evictions"].get<std::uint64_t>();
+    const auto budget = stats["memory_budget_bytes"].get<std::uint64_t>();
+    if (budget > 0) EXPECT_LE(stats["peak_rss_bytes"].get<std::uint64_t>(), budget) << what;
+    ++runs;
+  };
+  for (const int domains : {1, 8, 64}) {
+    const Bundle bundle = make_bundle(directory, scene, domains);
+    for (const int ranks : {1, 2, 4})
+      for (const int threads : {1, 2}) {
+        const std::string what = fmt::format("{} domains, {} ranks, {} threads", domains, ranks, threads);
+        const nlohmann::json all = render(directory, bundle, ranks, threads, "");
+        check(all, what);
+        if (all.is_null()) return;
+        EXPECT_EQ(all["forwarded_rays"], 0) << what;
+        const std::string memory = fmt::format("--memory {}", quarter(bundle, all, threads));
+        check(render(directory, bundle, ranks, threads, memory), what + ", a quarter of the memory");
+        if (domains == 64 && ranks == 2 && threads == 2)
+          for (const int seed : {1, 2})
+            check(render(directory, bundle, ranks, threads, fmt::format("{} --shuffle-delivery {}", memory, seed)),
+                  what + ", shuffled");
+      }
+  }
+  EXPECT_GT(forwarded, 0u) << "no run ever sent a ray";
+  EXPECT_GT(evictions, 0u) << "no run ever evicted a domain";
+  fmt::print("{} runs, film {}, {} rays forwarded, {} evictions\n", runs, hash, forwarded, evictions);
+}
+
+std::filesystem::path generate(const TemporaryDirectory& directory, const std::string& example,
+                               const std::string& arguments) {
+  const CommandResult made = run(fmt::format("python3 '{}/examples/{}/generate.py' -o '{}' {}", VITRAIL_SOURCE_DIR,
+                                             example, (directory / example).string(), arguments));
+  EXPECT_EQ(made.status, 0) << made.output;
+  return directory / example / (example + ".pbrt");
+}
+
+TEST(OnePicture, HotelRoom) {
+  const TemporaryDirectory directory;
+  expect_one_picture(directory, generate(directory, "hotel-room", "--detail 0.1 --width 48 --height 32"));
+}
+
+TEST(OnePicture, CornellBox) {
+  const TemporaryDirectory directory;
+  expect_one_picture(directory, VITRAIL_SOURCE_DIR "/examples/cornell-box/cornell-box.pbrt");
+}
+
+TEST(OnePicture, Adversarial) {
+  const TemporaryDirectory directory;
+  expect_one_picture(directory, generate(directory, "adversarial", ""));
+}
+
+}  // namespace
+}  // namespace vitrail::test

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// Scenes for tests of the partitioner.
+#pragma once
+
+#include <filesystem>
+
+#include "scene/scene.h"
+
+namespace vitrail::test {
+
+// A closed manifold torus with bumps: 2n² triangles, every vertex with a normal.
+TriangleMesh bumpy_torus(int n);
+
+// Centred on the origin, with all that cutting may stumble over: small random triangles, giants, slivers,
+// triangles of zero area, three grids of unit squares on integer coordinates (one for each axis: interfaces
+// fall into their planes), and a second copy of everything.
+TriangleMesh adversarial_soup();
+
+// One shape with a grey diffuse material, and a camera.
+Scene scene_of(TriangleMesh mesh);
+
+// An empty directory that is removed with everything in it.
+class TemporaryDirectory {
+ public:
+  TemporaryDirectory();
+  ~TemporaryDirectory();
+  TemporaryDirectory(const TemporaryDirectory&) = delete;
+  TemporaryDirectory& operator=(const TemporaryDirectory&) = delete;
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+}  // namespace vitrail::test

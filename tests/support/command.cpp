@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/support/command.h"
+
+#include <sys/wait.h>
+
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+
+namespace vitrail::test {
+
+CommandResult run(const std::string& command) {
+  CommandResult result;
+  FILE* pipe = ::popen((command + " 2>&1").c_str(), "r");
+  if (!pipe) return result;
+  std::array<char, 4096> buffer{};
+  while (const std::size_t n = std::fread(buffer.data(), 1, buffer.size(), pipe)) result.output.append(buffer.data(), n);
+  const int status = ::pclose(pipe);
+  result.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  return result;
+}
+
+std::string vitrail(const std::string& verb) { return std::string("'" VITRAIL_BIN_DIR "/vitrail' ") + verb; }
+
+std::string mpi_vitrail(const std::string& verb, int ranks) {
+  return "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1 "
+         "OMPI_MCA_mpi_yield_when_idle=1 OMPI_MCA_hwloc_base_binding_policy=none mpirun -np " +
+         std::to_string(ranks) + " " + vitrail(verb);
+}
+
+nlohmann::json read_json(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  return nlohmann::json::parse(in);
+}
+
+std::filesystem::path corpus() {
+  const char* named = std::getenv("VITRAIL_CORPUS");
+  const std::filesystem::path path = named ? named : VITRAIL_SOURCE_DIR "/../shared/corpus";
+  return std::filesystem::exists(path / "INDEX.tsv") ? path : std::filesystem::path();
+}
+
+}  // namespace vitrail::test

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+// Triangles as a domain in memory, for tests of the intersection.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "partitioner/build_bvh.h"
+#include "tracer/intersect/exact_test.h"
+#include "tracer/intersect/intersector.h"
+
+namespace vitrail::test {
+
+using Triangle = std::array<Point3f, 3>;
+using Triangles = std::vector<Triangle>;
+
+inline float greatest_coordinate(const Triangles& triangles) {
+  float greatest = 0;
+  for (const Triangle& triangle : triangles) {
+    for (const Point3f p : triangle)
+      greatest = std::max({greatest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+  }
+  return greatest;
+}
+
+// Ids are the positions in the list. Padded as manifest.h says.
+inline ClusteredTriangles cluster(const Triangles& triangles) {
+  std::vector<TriangleReference> references(triangles.size());
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    references[i].vertices = triangles[i];
+    references[i].id = static_cast<std::uint32_t>(i);
+    for (const Point3f p : triangles[i]) extend(references[i].bounds, p);
+  }
+  return build_bvh(references, 2e-6f * greatest_coordinate(triangles));
+}
+
+inline DomainView view_of(const ClusteredTriangles& clustered) {
+  return {clustered.nodes, clustered.clusters, {}};
+}
+
+// Every triangle of every cluster, by the exact test alone.
+inline Hit brute_force(const DomainView& domain, const Ray& ray) {
+  const RayConstants constants = prepare(ray);
+  Hit hit;
+  for (std::uint32_t c = 0; c < domain.clusters.size(); ++c) {
+    for (std::uint32_t lane = 0; lane < cluster_width; ++lane) {
+      const std::uint32_t id = domain.clusters[c].id[lane];
+      ExactHit exact;
+      if (id == no_triangle || id == ray.exclude || !exact_hit(constants, domain.clusters[c], lane, exact))
+        continue;
+      if (exact.t < hit.t || (exact.t == hit.t && id < hit.triangle))
+        hit = {exact.t, id, c, lane, exact.u, exact.v};
+    }
+  }
+  return hit;
+}
+
+// The same triangle at the same point, to the last bit, wherever it is stored.
+inline bool same(const Hit& a, const Hit& b) {
+  return a.t == b.t && a.triangle == b.triangle && a.u == b.u && a.v == b.v;
+}
+
+}  // namespace vitrail::test

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tracer/intersect/exact_test.h"
+
+#include <cmath>
+
+namespace vitrail {
+namespace {
+
+std::uint32_t greatest_axis(Vector3f d) {
+  const float x = std::abs(d.x), y = std::abs(d.y), z = std::abs(d.z);
+  if (x > y) return x > z ? 0 : 2;
+  return y > z ? 1 : 2;
+}
+
+// A vertex as the sheared ray sees it: the ray runs along the third axis through 0.
+struct Sheared {
+  double x, y, z;
+};
+
+Sheared shear(const RayConstants& r, const float vertex[3][cluster_width], unsigned lane) {
+  const double z = double{vertex[r.z][lane]} - double{r.origin[r.z]};
+  const double x = double{vertex[r.x][lane]} - double{r.origin[r.x]};
+  const double y = double{vertex[r.y][lane]} - double{r.origin[r.y]};
+  return {x - r.exact_shear_x * z, y - r.exact_shear_y * z, z};
+}
+
+double max3(double a, double b, double c) { return std::max(std::max(a, b), c); }
+double min3(double a, double b, double c) { return std::min(std::min(a, b), c); }
+double lateral(Sheared a) { return std::max(std::abs(a.x), std::abs(a.y)); }
+
+double greatest_coordinate(const Cluster& cluster, unsigned lane) {
+  double greatest = 0;
+  for (const auto& vertex : cluster.vertex) {
+    for (const auto& axis : vertex) greatest = std::max(greatest, std::abs(double{axis[lane]}));
+  }
+  return greatest;
+}
+
+// Whether det is great enough for t to be trusted: of vertices up to m from the origin, w away and s beside
+// the ray, |det| > s·w·(5e-9·depth/m + 6e-15). The first term keeps t so near to the true triangle's that the
+// padding of the boxes, 2e-6·m at least, makes up for the rest; the second is the rounding of det itself, so
+// that a triangle without area is never hit. docs/exact-intersection.md has the derivation.
+bool well_conditioned(double det, Sheared a, Sheared b, Sheared c, double m) {
+  const double s = max3(lateral(a), lateral(b), lateral(c));
+  const double w = s + max3(std::abs(a.z), std::abs(b.z), std::abs(c.z));
+  const double depth = max3(a.z, b.z, c.z) - min3(a.z, b.z, c.z);
+  return std::abs(det) * m > s * w * (5e-9 * depth + 6e-15 * m);
+}
+
+}  // namespace
+
+RayConstants prepare(const Ray& ray) {
+  RayConstants r;
+  r.z = greatest_axis(ray.direction);
+  r.x = r.z == 2 ? 0 : r.z + 1;
+  r.y = r.x == 2 ? 0 : r.x + 1;
+  const float dz = ray.direction[static_cast<int>(r.z)];
+  for (int axis = 0; axis < 3; ++axis) {
+    const float d = ray.direction[axis];
+    const bool along = std::abs(d) * 1e18f > std::abs(dz);
+    r.origin[axis] = ray.origin[axis];
+    r.inverse_direction[axis] = along ? std::abs(dz) / d : std::copysign(1e18f, d);
+    r.near_row[axis] = static_cast<std::uint32_t>(std::signbit(d) ? axis + 3 : axis);
+  }
+  r.exact_shear_x = double{ray.direction[static_cast<int>(r.x)]} / double{dz};
+  r.exact_shear_y = double{ray.direction[static_cast<int>(r.y)]} / double{dz};
+  r.shear_x = static_cast<float>(r.exact_shear_x);
+  r.shear_y = static_cast<float>(r.exact_shear_y);
+  r.sign_z = std::copysign(1.0f, dz);
+  r.exclude = ray.exclude;
+  r.direction_z = double{dz};
+  return r;
+}
+
+bool exact_hit(const RayConstants& ray, const Cluster& cluster, unsigned lane, ExactHit& hit) {
+  const Sheared a = shear(ray, cluster.vertex[0], lane);
+  const Sheared b = shear(ray, cluster.vertex[1], lane);
+  const Sheared c = shear(ray, cluster.vertex[2], lane);
+  const double u = c.x * b.y - c.y * b.x;
+  const double v = a.x * c.y - a.y * c.x;
+  const double w = b.x * a.y - b.y * a.x;
+  if (min3(u, v, w) < 0 && max3(u, v, w) > 0) return false;
+  const double det = u + v + w;
+  if (!well_conditioned(det, a, b, c, greatest_coordinate(cluster, lane))) return false;
+  const double t = (u * a.z + v * b.z + w * c.z) / det / ray.direction_z;
+  if (!(t > 0)) return false;
+  hit = {t, v / det, w / det};
+  return true;
+}
+
+}  // namespace vitrail

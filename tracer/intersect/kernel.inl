@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: Apache-2.0
+// The kernel's text, over the eight lanes (Floats, Lanes) that the including file has defined. Included
+// inside a namespace without a name, after kernels.h and exact_test.h: nothing here may be seen by code that
+// is compiled for another instruction set. Bounds of the rounding errors are derived in
+// docs/exact-intersection.md.
+
+constexpr float unit_roundoff = 0x1p-24f;
+
+// ---- Clusters
+// ------------------------------------------------------------------------------------------------
+
+// The float twin of the exact test. `error` bounds the distance of u, v, w from those of the exact test.
+struct Edges {
+  Floats u, v, w, az, bz, cz, least, greatest, error;
+};
+
+inline Edges edges_of(const Cluster& cluster, const RayConstants& ray) {
+  const Floats ox = fill(ray.origin[ray.x]), oy = fill(ray.origin[ray.y]), oz = fill(ray.origin[ray.z]);
+  const Floats sx = fill(ray.shear_x), sy = fill(ray.shear_y);
+  Edges e;
+  e.az = sub(load(cluster.vertex[0][ray.z]), oz);
+  e.bz = sub(load(cluster.vertex[1][ray.z]), oz);
+  e.cz = sub(load(cluster.vertex[2][ray.z]), oz);
+  const Floats ax = sub_mul(sub(load(cluster.vertex[0][ray.x]), ox), sx, e.az);
+  const Floats ay = sub_mul(sub(load(cluster.vertex[0][ray.y]), oy), sy, e.az);
+  const Floats bx = sub_mul(sub(load(cluster.vertex[1][ray.x]), ox), sx, e.bz);
+  const Floats by = sub_mul(sub(load(cluster.vertex[1][ray.y]), oy), sy, e.bz);
+  const Floats cx = sub_mul(sub(load(cluster.vertex[2][ray.x]), ox), sx, e.cz);
+  const Floats cy = sub_mul(sub(load(cluster.vertex[2][ray.y]), oy), sy, e.cz);
+  e.u = sub_mul(mul(cx, by), cy, bx);
+  e.v = sub_mul(mul(ax, cy), ay, cx);
+  e.w = sub_mul(mul(bx, ay), by, ax);
+  const Floats s = max(max(max(abs(ax), abs(ay)), max(abs(bx), abs(by))), max(abs(cx), abs(cy)));
+  const Floats z = max(max(abs(e.az), abs(e.bz)), abs(e.cz));
+  const Floats w = add(s, z);
+  const Floats uw = mul(fill(20 * unit_roundoff), w);
+  e.error = mul_add(uw, mul_add(fill(4 * unit_roundoff), w, s), fill(1e-30f));
+  e.least = min(min(e.u, e.v), e.w);
+  e.greatest = max(max(e.u, e.v), e.w);
+  return e;
+}
+
+// Lanes that the exact test might accept.
+inline Lanes may_hit(const Edges& e) {
+  const Floats zero = fill(0);
+  return either(less_equal(sub(zero, e.error), e.least), less_equal(e.greatest, e.error));
+}
+
+// ζ of the hits, as fractions: ζ·det lies within earliest … latest. Only lanes in `known` say anything.
+struct Depths {
+  Floats det, earliest, latest;
+  Lanes known;
+};
+
+inline Depths depths_of(const Edges& e, const RayConstants& ray) {
+  const Floats sign = fill(ray.sign_z);
+  const Floats a = mul(e.az, sign), b = mul(e.bz, sign), c = mul(e.cz, sign);
+  const Floats nearest = min(min(a, b), c), farthest = max(max(a, b), c);
+  const Floats signed_det = add(add(e.u, e.v), e.w);
+  const Floats zeta = flip_by(mul_add(e.u, a, mul_add(e.v, b, mul(e.w, c))), signed_det);
+  Depths d;
+  d.det = abs(signed_det);
+  const Floats rounding = mul(mul(fill(40 * unit_roundoff), max(abs(nearest), abs(farthest))), d.det);
+  const Floats error = mul_add(mul(fill(20), e.error), sub(farthest, nearest), rounding);
+  d.earliest = sub(zeta, error);
+  d.latest = add(zeta, error);
+  // The second condition keeps overflow out: with it |ζ·det| is finite too.
+  d.known = both(less_equal(mul(fill(8), e.error), d.det), less_equal(error, fill(1e30f)));
+  return d;
+}
+
+// Lanes whose ζ is certainly not in (0, limit].
+inline Lanes out_of_range(const Depths& d, float limit) {
+  const Floats behind = mul(fill(limit * (1 + 1e-6f)), d.det);
+  return both(d.known, either(less_equal(d.latest, fill(0)), less_equal(behind, d.earliest)));
+}
+
+// ζ of hit.t, and enough more that no equal or lesser t is lost in float.
+inline float zeta_limit(const RayConstants& ray, double t) {
+  return static_cast<float>(t * __builtin_fabs(ray.direction_z)) * (1 + 2e-6f);
+}
+
+// Returns the limit on ζ that holds afterwards.
+inline float closest_in_cluster(const Cluster* clusters, std::uint32_t index, const RayConstants& ray,
+                                float limit, Hit& hit) {
+  const Cluster& cluster = clusters[index];
+  const Edges e = edges_of(cluster, ray);
+  unsigned lanes = bits(may_hit(e));
+  if (!lanes) return limit;
+  lanes &= ~bits(out_of_range(depths_of(e, ray), limit));
+  for (; lanes; lanes &= lanes - 1) {
+    const unsigned lane = static_cast<unsigned>(__builtin_ctz(lanes));
+    const std::uint32_t id = cluster.id[lane];
+    ExactHit exact;
+    if (id == ray.exclude || !exact_hit(ray, cluster, lane, exact)) continue;
+    if (!(exact.t < hit.t || (exact.t == hit.t && id < hit.triangle))) continue;
+    hit.t = exact.t;
+    hit.triangle = id;
+    hit.cluster = index;
+    hit.lane = lane;
+    hit.u = exact.u;
+    hit.v = exact.v;
+    limit = zeta_limit(ray, hit.t);
+  }
+  return limit;
+}
+
+inline bool occluded_in_cluster(const Cluster& cluster, const RayConstants& ray, float tmax) {
+  const Edges e = edges_of(cluster, ray);
+  unsigned lanes = bits(may_hit(e));
+  if (!lanes) return false;
+  const Depths d = depths_of(e, ray);
+  const float limit = zeta_limit(ray, tmax);
+  lanes &= ~bits(out_of_range(d, limit));
+  if (!lanes) return false;
+  // Lanes that the exact test certainly accepts.
+  const Floats zero = fill(0);
+  const Lanes inside = either(less_equal(e.error, e.least), less_equal(e.greatest, sub(zero, e.error)));
+  const Lanes in_range =
+      both(less_equal(fill(1e-37f), d.earliest), less_equal(d.latest, mul(fill(limit * (1 - 6e-6f)), d.det)));
+  const unsigned certain = bits(both(both(inside, in_range), d.known));
+  for (; lanes; lanes &= lanes - 1) {
+    const unsigned lane = static_cast<unsigned>(__builtin_ctz(lanes));
+    if (cluster.id[lane] == ray.exclude) continue;
+    ExactHit exact;
+    if (certain >> lane & 1 || (exact_hit(ray, cluster, lane, exact) && exact.t < double{tmax})) return true;
+  }
+  return false;
+}
+
+// ---- Trees
+// ---------------------------------------------------------------------------------------------------
+
+// A subtree to visit: the bits of its entry ζ ≥ 0, which order as ζ does, above its reference.
+using Pending = std::uint64_t;
+constexpr int stack_size = 7 * max_bvh_depth + 8;
+
+inline Pending pending(float zeta, std::uint32_t reference) {
+  return static_cast<Pending>(__builtin_bit_cast(std::uint32_t, zeta)) << 32 | reference;
+}
+inline std::uint32_t reference_of(Pending p) { return static_cast<std::uint32_t>(p); }
+inline float zeta_of(Pending p) { return __builtin_bit_cast(float, static_cast<std::uint32_t>(p >> 32)); }
+
+// A box is hit where its greatest entry is at most its least exit. Entry and exit each take three roundings,
+// so the exit is scaled by more than the six together.
+struct Slabs {
+  explicit Slabs(const RayConstants& ray) {
+    for (int a = 0; a < 3; ++a) {
+      origin[a] = fill(ray.origin[a]);
+      entry_scale[a] = fill(ray.inverse_direction[a]);
+      exit_scale[a] = fill(ray.inverse_direction[a] * (1 + 16 * unit_roundoff));
+      near[a] = ray.near_row[a] * 8;
+      far[a] = (static_cast<std::uint32_t>(a) * 2 + 3) * 8 - near[a];
+    }
+  }
+  Floats origin[3], entry_scale[3], exit_scale[3];
+  std::uint32_t near[3], far[3];  // offsets into the boxes of a node, in floats
+};
+
+// Children that the ray enters at ζ in [0, limit]; `entry` is where.
+inline unsigned entered_children(const BvhNode& node, const Slabs& ray, float limit, Floats& entry) {
+  const float* rows = &node.lower[0][0];
+  const Floats n0 = mul(sub(load(rows + ray.near[0]), ray.origin[0]), ray.entry_scale[0]);
+  const Floats n1 = mul(sub(load(rows + ray.near[1]), ray.origin[1]), ray.entry_scale[1]);
+  const Floats n2 = mul(sub(load(rows + ray.near[2]), ray.origin[2]), ray.entry_scale[2]);
+  const Floats f0 = mul(sub(load(rows + ray.far[0]), ray.origin[0]), ray.exit_scale[0]);
+  const Floats f1 = mul(sub(load(rows + ray.far[1]), ray.origin[1]), ray.exit_scale[1]);
+  const Floats f2 = mul(sub(load(rows + ray.far[2]), ray.origin[2]), ray.exit_scale[2]);
+  entry = max(max(n0, n1), max(n2, fill(0)));
+  return bits(less_equal(entry, min(min(f0, f1), min(f2, fill(limit)))));
+}
+
+inline void prefetch(const BvhNode* nodes, const Cluster* clusters, std::uint32_t reference) {
+  const char* at = reference & BvhNode::cluster_bit
+                       ? reinterpret_cast<const char*>(clusters + (reference & ~BvhNode::cluster_bit))
+                       : reinterpret_cast<const char*>(nodes + reference);
+  for (int line = 0; line < 4; ++line) __builtin_prefetch(at + 64 * line);
+}
+
+// Puts the children on the stack, the nearest on top.
+inline Pending* push_nearest_last(const BvhNode& node, unsigned children, const float* entry, Pending* top) {
+  Pending* const bottom = top;
+  for (; children; children &= children - 1) {
+    const int child = __builtin_ctz(children);
+    const Pending p = pending(entry[child], node.child[child]);
+    Pending* place = top++;
+    for (; place != bottom && place[-1] < p; --place) *place = place[-1];
+    *place = p;
+  }
+  return top;
+}
+
+void tree_closest(const BvhNode* nodes, const Cluster* clusters, const RayConstants& ray, Hit& hit) {
+  const Slabs slabs(ray);
+  float limit = zeta_limit(ray, hit.t);
+  Pending stack[stack_size];
+  Pending* top = stack;
+  std::uint32_t at = 0;
+  for (;;) {
+    if (at & BvhNode::cluster_bit) {
+      limit = closest_in_cluster(clusters, at & ~BvhNode::cluster_bit, ray, limit, hit);
+    } else {
+      const BvhNode& node = nodes[at];
+      Floats entry;
+      const unsigned children = entered_children(node, slabs, limit, entry);
+      if (children && !(children & (children - 1))) {
+        at = node.child[__builtin_ctz(children)];
+        continue;
+      }
+      if (children) {
+        alignas(32) float zeta[8];
+        store(zeta, entry);
+        Pending* const before = top;
+        top = push_nearest_last(node, children, zeta, top);
+        for (Pending* p = before; p != top; ++p) prefetch(nodes, clusters, reference_of(*p));
+        at = reference_of(*--top);
+        continue;
+      }
+    }
+    do {
+      if (top == stack) return;
+      --top;
+    } while (zeta_of(*top) > limit);
+    at = reference_of(*top);
+  }
+}
+
+bool tree_occluded(const BvhNode* nodes, const Cluster* clusters, const RayConstants& ray, float tmax) {
+  const Slabs slabs(ray);
+  const float limit = zeta_limit(ray, tmax);
+  std::uint32_t stack[stack_size];
+  std::uint32_t* top = stack;
+  std::uint32_t at = 0;
+  for (;;) {
+    if (at & BvhNode::cluster_bit) {
+      if (occluded_in_cluster(clusters[at & ~BvhNode::cluster_bit], ray, tmax)) return true;
+    } else {
+      const BvhNode& node = nodes[at];
+      Floats entry;
+      unsigned children = entered_children(node, slabs, limit, entry);
+      for (; children; children &= children - 1) {
+        *top = node.child[__builtin_ctz(children)];
+        prefetch(nodes, clusters, *top++);
+      }
+    }
+    if (top == stack) return false;
+    at = *--top;
+  }
+}
+
+void cluster_closest(const Cluster* clusters, std::uint32_t index, const RayConstants& ray, Hit& hit) {
+  closest_in_cluster(clusters, index, ray, zeta_limit(ray, hit.t), hit);
+}
+
+bool cluster_occluded(const Cluster* clusters, std::uint32_t index, const RayConstants& ray, float tmax) {
+  return occluded_in_cluster(clusters[index], ray, tmax);
+}

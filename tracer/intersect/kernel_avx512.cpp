@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <immintrin.h>
+
+#include "tracer/intersect/exact_test.h"
+#include "tracer/intersect/kernels.h"
+
+namespace vitrail {
+namespace {
+
+#include "tracer/intersect/lanes_avx512.h"
+
+#include "tracer/intersect/kernel.inl"
+
+}  // namespace
+
+const KernelFunctions avx512_kernel{tree_closest, tree_occluded, cluster_closest, cluster_occluded};
+
+}  // namespace vitrail

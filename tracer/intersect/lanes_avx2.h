@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// Eight floats in one AVX register. For kernel.inl; the including file puts it into a namespace of its own.
+
+using Floats = __m256;
+using Lanes = __m256;  // all bits of a lane set or none
+
+inline Floats load(const float* p) { return _mm256_load_ps(p); }
+inline Floats fill(float x) { return _mm256_set1_ps(x); }
+inline void store(float* p, Floats a) { _mm256_store_ps(p, a); }
+inline Floats add(Floats a, Floats b) { return _mm256_add_ps(a, b); }
+inline Floats sub(Floats a, Floats b) { return _mm256_sub_ps(a, b); }
+inline Floats mul(Floats a, Floats b) { return _mm256_mul_ps(a, b); }
+inline Floats mul_add(Floats a, Floats b, Floats c) { return _mm256_fmadd_ps(a, b, c); }   // a·b + c
+inline Floats sub_mul(Floats c, Floats a, Floats b) { return _mm256_fnmadd_ps(a, b, c); }  // c − a·b
+inline Floats min(Floats a, Floats b) { return _mm256_min_ps(a, b); }
+inline Floats max(Floats a, Floats b) { return _mm256_max_ps(a, b); }
+inline Floats abs(Floats a) { return _mm256_andnot_ps(_mm256_set1_ps(-0.0f), a); }
+inline Floats flip_by(Floats a, Floats sign) {  // −a where the sign bit is set
+  return _mm256_xor_ps(a, _mm256_and_ps(_mm256_set1_ps(-0.0f), sign));
+}
+inline Lanes less_equal(Floats a, Floats b) { return _mm256_cmp_ps(a, b, _CMP_LE_OQ); }
+inline Lanes both(Lanes a, Lanes b) { return _mm256_and_ps(a, b); }
+inline Lanes either(Lanes a, Lanes b) { return _mm256_or_ps(a, b); }
+inline unsigned bits(Lanes a) { return static_cast<unsigned>(_mm256_movemask_ps(a)); }

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+// Eight floats as two vectors of four, which every SIMD instruction set has. For kernel.inl; the including
+// file puts it into a namespace of its own.
+
+typedef float Quad __attribute__((vector_size(16), may_alias));
+typedef std::int32_t QuadBits __attribute__((vector_size(16), may_alias));
+
+struct Floats {
+  Quad low, high;
+};
+struct Lanes {  // all bits of a lane set or none
+  QuadBits low, high;
+};
+
+inline unsigned bits(QuadBits a) {
+#if defined(__SSE__)
+  return static_cast<unsigned>(_mm_movemask_ps(reinterpret_cast<__m128>(a)));
+#else
+  const QuadBits chosen = a & QuadBits{1, 2, 4, 8};
+  return static_cast<unsigned>(chosen[0] | chosen[1] | chosen[2] | chosen[3]);
+#endif
+}
+inline QuadBits as_bits(Quad a) { return reinterpret_cast<QuadBits>(a); }
+inline Quad as_floats(QuadBits a) { return reinterpret_cast<Quad>(a); }
+inline QuadBits sign_bits() { return as_bits(Quad{-0.0f, -0.0f, -0.0f, -0.0f}); }
+
+inline Floats load(const float* p) {
+  return {*reinterpret_cast<const Quad*>(p), *reinterpret_cast<const Quad*>(p + 4)};
+}
+inline Floats fill(float x) { return {Quad{x, x, x, x}, Quad{x, x, x, x}}; }
+inline void store(float* p, Floats a) {
+  *reinterpret_cast<Quad*>(p) = a.low;
+  *reinterpret_cast<Quad*>(p + 4) = a.high;
+}
+inline Floats add(Floats a, Floats b) { return {a.low + b.low, a.high + b.high}; }
+inline Floats sub(Floats a, Floats b) { return {a.low - b.low, a.high - b.high}; }
+inline Floats mul(Floats a, Floats b) { return {a.low * b.low, a.high * b.high}; }
+inline Floats mul_add(Floats a, Floats b, Floats c) { return add(mul(a, b), c); }  // a·b + c
+inline Floats sub_mul(Floats c, Floats a, Floats b) { return sub(c, mul(a, b)); }  // c − a·b
+inline Floats min(Floats a, Floats b) {
+  return {a.low < b.low ? a.low : b.low, a.high < b.high ? a.high : b.high};
+}
+inline Floats max(Floats a, Floats b) {
+  return {a.low > b.low ? a.low : b.low, a.high > b.high ? a.high : b.high};
+}
+inline Floats abs(Floats a) {
+  return {as_floats(as_bits(a.low) & ~sign_bits()), as_floats(as_bits(a.high) & ~sign_bits())};
+}
+inline Floats flip_by(Floats a, Floats sign) {  // −a where the sign bit is set
+  return {as_floats(as_bits(a.low) ^ (as_bits(sign.low) & sign_bits())),
+          as_floats(as_bits(a.high) ^ (as_bits(sign.high) & sign_bits()))};
+}
+inline Lanes less_equal(Floats a, Floats b) { return {a.low <= b.low, a.high <= b.high}; }
+inline Lanes both(Lanes a, Lanes b) { return {a.low & b.low, a.high & b.high}; }
+inline Lanes either(Lanes a, Lanes b) { return {a.low | b.low, a.high | b.high}; }
+inline unsigned bits(Lanes a) { return bits(a.low) | bits(a.high) << 4; }
