@@ -68,6 +68,7 @@ void check_kd_tree(const Checker& c, const Manifest& m) {
   c.require(!m.domains.empty() && m.kd_nodes.size() == m.domains.size() - 1,
             "the kd-tree does not have one leaf a domain");
   std::vector<bool> nodes(m.kd_nodes.size(), false), domains(m.domains.size(), false);
+  std::vector<int> depth(m.kd_nodes.size(), 1);
   for (std::size_t i = 0; i < m.kd_nodes.size(); ++i) {
     const KdNode& n = m.kd_nodes[i];
     c.require(n.axis < 3 && std::isfinite(n.split), "a node of the kd-tree has no plane");
@@ -77,6 +78,8 @@ void check_kd_tree(const Checker& c, const Manifest& m) {
       std::vector<bool>& seen = leaf ? domains : nodes;
       c.require(index < seen.size() && !seen[index] && (leaf || index > i), "the kd-tree is not a tree");
       seen[index] = true;
+      if (!leaf) depth[index] = depth[i] + 1;
+      c.require(depth[i] <= max_kd_depth, "the kd-tree is too deep");
     }
   }
 }

@@ -82,6 +82,9 @@ struct Manifest {
 inline double padding(const Manifest& m) { return 2e-6 * m.scale; }
 inline double interface_epsilon(const Manifest& m) { return 4e-6 * m.scale; }
 
+// Most planes on the way from the root of a kd-tree to a domain.
+inline constexpr int max_kd_depth = 62;
+
 std::filesystem::path domain_path(const std::filesystem::path& bundle, std::uint32_t domain);
 
 // Writes manifest.json, materials.bin and lights.bin. Throws MachineError.

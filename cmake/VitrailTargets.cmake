@@ -33,7 +33,7 @@ function(vitrail_test name)
     set(arg_TIMEOUT 120)
   endif()
   add_executable(test_${name} ${arg_SOURCES})
-  target_link_libraries(test_${name} PRIVATE ${arg_LIBRARIES} GTest::gmock GTest::gtest_main)
+  target_link_libraries(test_${name} PRIVATE vitrail::options ${arg_LIBRARIES} GTest::gmock GTest::gtest_main)
   target_compile_definitions(test_${name} PRIVATE
     VITRAIL_SOURCE_DIR="${PROJECT_SOURCE_DIR}" VITRAIL_BIN_DIR="${CMAKE_RUNTIME_OUTPUT_DIRECTORY}")
   add_test(NAME ${name} COMMAND test_${name})

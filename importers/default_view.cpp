@@ -36,12 +36,14 @@ void add_default_view(ImportedScene& imported, const std::filesystem::path& file
   const Vector3d from = normalize(Vector3d{0.4, 0.35, 1});
   PerspectiveCamera camera;
   camera.camera_to_world = look_at(target + from * (radius / std::sin(half_angle_rad)), target, {0, 1, 0});
-  const double half = std::tan(half_angle_rad), aspect = static_cast<double>(scene.film.width) / scene.film.height;
+  const double half = std::tan(half_angle_rad),
+               aspect = static_cast<double>(scene.film.width) / scene.film.height;
   const double wide = std::max(aspect, 1.0), tall = std::max(1 / aspect, 1.0);
   camera.screen = {-half * wide, half * wide, -half * tall, half * tall};
   scene.camera = camera;
   const SourceLocation place{file.string()};
-  imported.diagnostics.push_back({Fidelity::approximated, "there is no camera: one that sees everything is added", place});
+  imported.diagnostics.push_back(
+      {Fidelity::approximated, "there is no camera: one that sees everything is added", place});
   if (!scene.lights.empty() || !scene.area_lights.empty()) return;
   scene.lights.push_back(InfiniteLight{emission_from_rgb({1, 1, 1})});
   imported.diagnostics.push_back({Fidelity::approximated, "there is no light: a white sky is added", place});

@@ -38,9 +38,13 @@ ImportedScene import_scene(const std::filesystem::path& file) {
   const std::string format = format_of(file);
   if (format == ".pbrt") return read_pbrt(file);
   ImportedScene imported;
-  if (format == ".obj") imported = read_obj(file);
-  else if (format == ".ply") imported = mesh_alone(file);
-  else throw Error("unknown format: the name has to end in .pbrt, .obj or .ply, or one of these and .gz", {file.string()});
+  if (format == ".obj")
+    imported = read_obj(file);
+  else if (format == ".ply")
+    imported = mesh_alone(file);
+  else
+    throw Error("unknown format: the name has to end in .pbrt, .obj or .ply, or one of these and .gz",
+                {file.string()});
   add_default_view(imported, file);
   return imported;
 }

@@ -131,7 +131,11 @@ class Collapser {
       : references_(references), padding_(padding), out_(out) {}
 
   void add_root(const Subtree& root) {
-    root.node->count ? add_node(&root, &root + 1) : add_inner(*root.node);
+    if (root.node->count) {
+      add_node(&root, &root + 1);
+    } else {
+      add_inner(*root.node);
+    }
   }
 
  private:

@@ -29,13 +29,12 @@ Vector3d sample_cosine_hemisphere(float u, float v) {
 }
 
 double fresnel_dielectric(double cosine, double eta) {
+  if (eta == 1) return 0;  // also at grazing incidence, where both cosines vanish
   const double sin2_transmitted = (1 - cosine * cosine) / (eta * eta);
   if (sin2_transmitted >= 1) return 1;
-  const double transmitted = safe_sqrt(1 - sin2_transmitted);
-  // At grazing incidence on eta = 1 both cosines vanish and nothing is reflected.
-  const double s_sum = cosine + eta * transmitted, p_sum = eta * cosine + transmitted;
-  if (s_sum <= 0 || p_sum <= 0) return eta == 1 ? 0 : 1;
-  const double s = (cosine - eta * transmitted) / s_sum, p = (eta * cosine - transmitted) / p_sum;
+  const double transmitted = safe_sqrt(1 - sin2_transmitted);  // > 0, so the sums below are
+  const double s = (cosine - eta * transmitted) / (cosine + eta * transmitted);
+  const double p = (eta * cosine - transmitted) / (eta * cosine + transmitted);
   return (s * s + p * p) / 2;
 }
 

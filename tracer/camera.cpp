@@ -8,7 +8,6 @@ namespace vitrail {
 namespace {
 
 // The filter along one axis at distance x from its centre, not normalised.
-double value(const BoxFilter&, double, double) { return 1; }
 double value(const TriangleFilter&, double radius, double x) { return std::max(0.0, radius - std::abs(x)); }
 double value(const GaussianFilter& f, double radius, double x) {
   const auto gauss = [&](double d) { return portable_exp(std::max(-700.0, -d * d / (2 * f.sigma * f.sigma))); };

@@ -20,11 +20,11 @@ TraceCounters& operator+=(TraceCounters& a, const TraceCounters& b) {
 }
 
 PathTracer::PathTracer(const RenderScene& scene, ResidentViews resident, Film& film, Outbox& outbox,
-                       TraceCounters& counters)
+                       TraceCounters& counters, const KernelFunctions& kernel)
     : scene_(scene),
       manifest_(scene.manifest),
       resident_(resident),
-      kernel_(best_kernel()),
+      kernel_(kernel),
       film_(film),
       outbox_(outbox),
       counters_(counters) {}

@@ -46,7 +46,8 @@ using ResidentViews = std::span<const DomainView* const>;
 class PathTracer {
  public:
   // All references outlive the tracer. One tracer a thread; the film is shared.
-  PathTracer(const RenderScene& scene, ResidentViews resident, Film& film, Outbox& outbox, TraceCounters& counters);
+  PathTracer(const RenderScene& scene, ResidentViews resident, Film& film, Outbox& outbox, TraceCounters& counters,
+             const KernelFunctions& kernel = best_kernel());
 
   // Sample `sample` of the pixel (x, y) of the whole film, which lies in the crop.
   void trace_camera(int x, int y, std::uint32_t sample);

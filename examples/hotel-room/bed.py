@@ -24,8 +24,8 @@ def relief(s, t):
     """Height of the duvet's folds and quilting over its smooth shape."""
     rng = generator("duvet-relief")
     z = 0.012 * waves(s, t, rng, 10, 0.5, 1.6)
-    z += 0.017 * creases(s, t, rng, 70, (-1.2, 1.2, -0.4, 1.6), 0.26, 0.030, 0.6, 2.2)
-    z += 0.006 * creases(s, t, rng, 120, (-1.2, 1.2, -0.4, 1.6), 0.12, 0.014)
+    z += 0.022 * creases(s, t, rng, 70, (-1.2, 1.2, -0.4, 1.6), 0.28, 0.036, 0.6, 2.2)
+    z += 0.007 * creases(s, t, rng, 120, (-1.2, 1.2, -0.4, 1.6), 0.12, 0.014)
     # The filling swells between seams 30 cm apart.
     return z + 0.016 * np.abs(np.sin(np.pi * s / 0.31) * np.sin(np.pi * (t + 0.05) / 0.33)) ** 0.7
 

@@ -98,7 +98,6 @@ def house(k, x, y, width, depth, floors):
             pale += [box((x - 0.1, w - 0.62, z - 0.12), (x + 0.12, w + 0.62, z)), box((x - 0.1, w - 0.03, z), (x + 0.05, w + 0.03, z + 1.6))]
         for w in np.arange(x - depth + 2, x - 1, 2.8):
             dark.append(box((w - 0.5, a - 0.03, z), (w + 0.5, a + 0.1, z + 1.6)))
-            pale.append(box((w - 0.62, a - 0.12, z - 0.12), (w + 0.62, a + 0.1, z)))
     ridge = x - depth / 2
     v = np.array([(x + 0.4, a - 0.4, top + 0.2), (x + 0.4, b + 0.4, top + 0.2), (x - depth - 0.4, b + 0.4, top + 0.2),
                   (x - depth - 0.4, a - 0.4, top + 0.2), (ridge, a + 1.5, top + 3.2), (ridge, b - 1.5, top + 3.2)])

@@ -58,7 +58,7 @@ def bedside(x):
 
 def cushion(lo, hi, radius, swell, detail, name, cells=26):
     """A soft box whose top and front bulge."""
-    mesh = soft_box(lo, hi, radius, 4, steps(cells, detail))
+    mesh = soft_box(lo, hi, radius, 3, steps(cells, detail))
     lo, hi = np.asarray(lo), np.asarray(hi)
     c = 2 * (mesh.v - lo) / (hi - lo) - 1
     rng = generator(name)

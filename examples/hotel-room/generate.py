@@ -17,7 +17,7 @@ from decor import decor
 from exterior import exterior
 from furniture import furniture
 from materials import MATERIALS
-from meshes import join, write_ply
+from meshes import join, settled, write_ply
 from room import curtains, door, floor, mouldings, panes, shell, window_frame
 from textiles import rug
 
@@ -27,17 +27,18 @@ SUN_TRAVELS = (0.826, 0.334, -0.454)  # 27° above the horizon
 SUN = (38.0, 33.5, 27.0)              # irradiance across its direction, linear sRGB
 SKY = (0.62, 0.80, 1.05)
 LEAST_DETAIL = 0.1
+PLAIN_SHARE = 0.04                    # of the full scene's triangles: what is flat enough to stay as it is
 
 
 def collect(detail):
-    """Meshes and emissions by file name, in a fixed order."""
+    """The room with all that bends at `detail`: meshes and emissions by file name, in a fixed order."""
     parts = (shell() + floor() + mouldings() + window_frame() + panes() + curtains(detail) + door() + rug(detail)
              + bed(detail) + furniture(detail) + decor(detail) + exterior(detail))
     groups = defaultdict(list)
     for part in parts:
         flat = "" if part.mesh.n is not None else "-flat"
         groups[f"{part.name}-{part.material}{flat}"].append(part)
-    return {name: (group[0].material, join([p.mesh for p in group]), group[0].radiance) for name, group in groups.items()}
+    return {name: (group[0].material, settled(join([p.mesh for p in group])), group[0].radiance) for name, group in groups.items()}
 
 
 def numbers(values):
@@ -80,7 +81,7 @@ def shape(name, material_name, radiance):
 def write_scene(folder, detail, width, height, spp):
     """Returns the number of triangles."""
     (folder / "meshes").mkdir(parents=True, exist_ok=True)
-    objects = collect(max(detail, LEAST_DETAIL))
+    objects = collect((max(detail, LEAST_DETAIL) - PLAIN_SHARE) / (1 - PLAIN_SHARE))
     for name, (_, mesh, _) in objects.items():
         write_ply(folder / "meshes" / f"{name}.ply", mesh)
     used = sorted({m for m, _, _ in objects.values()})

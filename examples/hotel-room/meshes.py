@@ -48,6 +48,13 @@ def weld(mesh, tolerance=1e-6):
     return Mesh(mesh.v[first], f[keep])
 
 
+def settled(mesh):
+    """Rounded to a micrometre, so that files do not depend on a CPU's last bit, without triangles of no area."""
+    v, n = np.round(mesh.v, 6), None if mesh.n is None else np.round(mesh.n, 5)
+    a, b, c = (v[mesh.f[:, k]] for k in range(3))
+    return Mesh(v, mesh.f[np.linalg.norm(np.cross(b - a, c - a), axis=1) > 1e-12], n)
+
+
 def grid(p, wrap_u=False, wrap_v=False):
     """Surface over points p[u, v] of shape (nu,nv,3); its front is ∂p/∂u × ∂p/∂v."""
     nu, nv = p.shape[:2]
@@ -161,7 +168,7 @@ def sphere(centre, radius, segments=24):
 
 
 def prism(outline, z0, z1):
-    """Upright prism over a convex outline (k,2), counter-clockwise from above; closed."""
+    """Upright prism over a convex outline (k,2), counter-clockwise from above; open below."""
     outline = np.asarray(outline, float)
     k = len(outline)
     v = np.concatenate([np.column_stack([outline, np.full(k, z)]) for z in (z0, z1)])
@@ -169,7 +176,7 @@ def prism(outline, z0, z1):
     j = (i + 1) % k
     fan = np.arange(1, k - 1)
     f = np.concatenate([np.stack([i, j, j + k], 1), np.stack([i, j + k, i + k], 1),
-                        np.stack([0 * fan + k, fan + k, fan + k + 1], 1), np.stack([0 * fan, fan + 1, fan], 1)])
+                        np.stack([0 * fan + k, fan + k, fan + k + 1], 1)])
     return Mesh(v, f)
 
 
@@ -201,12 +208,12 @@ def creases(x, y, rng, count, extent, length, width, heading=0.0, spread=np.pi):
 # ---- Files -----------------------------------------------------------------------------------------------------
 
 def write_ply(path, mesh):
-    """Binary little-endian PLY. Rounded to a micrometre, so that files do not depend on the CPU's last bit."""
+    """Binary little-endian PLY."""
     names = ["x", "y", "z"]
-    columns = np.round(mesh.v, 6)
+    columns = mesh.v
     if mesh.n is not None:
         names += ["nx", "ny", "nz"]
-        columns = np.concatenate([columns, np.round(mesh.n, 5)], axis=1)
+        columns = np.concatenate([columns, mesh.n], axis=1)
     faces = np.empty(len(mesh.f), dtype=[("count", "u1"), ("indices", "<i4", 3)])
     faces["count"], faces["indices"] = 3, mesh.f
     header = ["ply", "format binary_little_endian 1.0", f"element vertex {len(mesh.v)}"]

@@ -133,10 +133,10 @@ def curtain(name, y0, y1, folds, detail):
     phase = 2 * np.pi * (folds * u + 0.35 * waves(3 * u, 0 * v, rng, 6, 0.5, 2.0)) + wander
     depth = 0.042 + 0.022 * fall + 0.010 * waves(4 * u, 1.2 * v, rng, 6, 0.5, 2.0)
     y = y0 + (y1 - y0) * u + 0.012 * (0.4 + fall) * np.sin(2 * phase) + 0.02 * (u - 0.5) * fall
-    x = 0.165 + depth * np.sin(phase) + 0.004 * np.sin(2 * np.pi * 100 * u) * np.sin(2 * np.pi * 75 * v) * 0.4
-    z = 0.015 + 2.645 * v
+    x, z = 0.165 + depth * np.sin(phase), 0.015 + 2.645 * v
     cloth = smooth(grid(np.stack([x, y, z], axis=-1)))
-    return Part("curtains", "curtain", cloth)
+    threads = 0.0011 * np.sin(2 * np.pi * 60 * u) + 0.0006 * np.sin(2 * np.pi * 45 * v) * np.sin(2 * np.pi * 30 * u)
+    return Part("curtains", "curtain", smooth(cloth._replace(v=cloth.v + threads.reshape(-1, 1) * cloth.n)))
 
 
 def curtains(detail):

@@ -7,7 +7,7 @@ from meshes import Mesh, box, generator, waves
 from parts import Part
 
 EXTENT = (1.55, 5.05, 1.25, 4.45)
-TUFTS_AT_DETAIL_1 = 310_000
+TUFTS_AT_DETAIL_1 = 300_000
 
 
 def pattern(x, y):

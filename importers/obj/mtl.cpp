@@ -78,7 +78,7 @@ class MtlReader {
       open_->has_map_kd = true;
     }
     const std::string word = printable(keyword);
-    note(word, Fidelity::dropped, fmt::format("{} of material {}", word, open_->name));
+    note(word, Fidelity::dropped, fmt::format("{} of material {}", word, printable(open_->name)));
   }
 
   void note(const std::string& key, Fidelity fidelity, std::string message) {
@@ -98,7 +98,7 @@ class MtlReader {
     const std::string_view first = ahead.word();
     if (first == "spectral" || first == "xyz") {
       note(fmt::format("{} {}", keyword, first), Fidelity::dropped,
-           fmt::format("{} {} of material {}", keyword, first, open_->name));
+           fmt::format("{} {} of material {}", keyword, first, printable(open_->name)));
       return {};
     }
     RGB color;
@@ -124,7 +124,8 @@ class MtlReader {
 
   Material surface(const Statements& s) {
     if (s.d && s.tr && *s.d != 1 - *s.tr) {
-      note("d and Tr", Fidelity::dropped, fmt::format("Tr of material {}: its d says otherwise", s.name));
+      note("d and Tr", Fidelity::dropped,
+           fmt::format("Tr of material {}: its d says otherwise", printable(s.name)));
     }
     const double opacity = s.d ? *s.d : s.tr ? 1 - *s.tr : 1;
     const bool glass = s.illum == 4 || s.illum == 6 || s.illum == 7 || s.illum == 9;
@@ -134,11 +135,12 @@ class MtlReader {
     if (opacity <= 0) return InterfaceMaterial{};
     if (opacity < 1) {
       note("d", Fidelity::approximated,
-           fmt::format("material {} is {} opaque and has no Ni above 1: taken as opaque", s.name, opacity));
+           fmt::format("material {} is {} opaque and has no Ni above 1: taken as opaque", printable(s.name),
+                       opacity));
     }
     if (s.illum > 2) {
       note(fmt::format("illum {}", s.illum), Fidelity::approximated,
-           fmt::format("illum {} of material {}: taken as diffuse", s.illum, s.name));
+           fmt::format("illum {} of material {}: taken as diffuse", s.illum, printable(s.name)));
     }
     return diffuse(s);
   }
@@ -147,8 +149,9 @@ class MtlReader {
     const double unset = s.has_map_kd ? 0.5 : 0;
     const RGB kd = s.kd.value_or(RGB{unset, unset, unset});
     if (std::min({kd.r, kd.g, kd.b}) < 0 || std::max({kd.r, kd.g, kd.b}) > 1) {
-      note("Kd range", Fidelity::approximated,
-           fmt::format("Kd {} {} {} of material {} is clamped to 0 … 1", kd.r, kd.g, kd.b, s.name));
+      note(
+          "Kd range", Fidelity::approximated,
+          fmt::format("Kd {} {} {} of material {} is clamped to 0 … 1", kd.r, kd.g, kd.b, printable(s.name)));
     }
     return DiffuseMaterial{reflectance_from_rgb(kd)};
   }

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "importers/obj/mtl.h"
+#include "importers/ply/text_cursor.h"
 #include "scene/bounds.h"
 
 namespace vitrail::obj {
@@ -41,7 +42,7 @@ void add_library(const std::filesystem::path& file, Library& library, Diagnostic
     const std::string name = material.name;
     if (!library.try_emplace(name, std::move(material)).second) {
       diagnostics.push_back(
-          {Fidelity::dropped, fmt::format("second definition of material {}", name), where});
+          {Fidelity::dropped, fmt::format("second definition of material {}", printable(name)), where});
     }
   }
 }
@@ -59,7 +60,7 @@ Library read_libraries(const Geometry& geometry, const std::filesystem::path& fo
         add_library(folder / name, library, diagnostics);
       } else {
         diagnostics.push_back({Fidelity::dropped,
-                               fmt::format("material library '{}': there is no such file", name),
+                               fmt::format("material library '{}': there is no such file", printable(name)),
                                statement.location});
       }
     }
@@ -84,7 +85,8 @@ Surface add_surface(const Mention& use, const Library& library, ImportedScene& r
     if (use.location.line > 0) {
       result.diagnostics.push_back(
           {Fidelity::approximated,
-           fmt::format("material '{}' is not defined: diffuse, reflectance 0.5", use.name), use.location});
+           fmt::format("material '{}' is not defined: diffuse, reflectance 0.5", printable(use.name)),
+           use.location});
     }
     return {append(result.scene.materials, DiffuseMaterial{}), {}};
   }

@@ -94,7 +94,8 @@ void read_camera(const std::string& kind, ParameterSet& parameters, const Transf
   if (!(view.fov_deg > 0 && view.fov_deg < 180))
     fail(fmt::format("the field of view is {} degrees, which is not between 0 and 180", view.fov_deg),
          parameters.place());
-  if (parameters.find_numbers("frameaspectratio")) view.frame_aspect = positive(parameters, "frameaspectratio", 1);
+  if (parameters.find_numbers("frameaspectratio"))
+    view.frame_aspect = positive(parameters, "frameaspectratio", 1);
   if (const auto w = four(parameters, "screenwindow")) {
     view.window = ScreenWindow{(*w)[0], (*w)[1], (*w)[2], (*w)[3]};
     if ((*w)[0] == (*w)[1] || (*w)[2] == (*w)[3]) fail("the screen window is empty", parameters.place());
@@ -109,7 +110,8 @@ void read_camera(const std::string& kind, ParameterSet& parameters, const Transf
 void read_film(const std::string& kind, ParameterSet& parameters, Context& context, ViewSettings& view) {
   const FilmSettings defaults = default_view(context.version).film;
   if (!is_one_of(kind, {"rgb", "image", "gbuffer", "spectral"}))
-    context.report.approximated(fmt::format("film \"{}\" is not known and read as \"rgb\"", kind), parameters.place());
+    context.report.approximated(fmt::format("film \"{}\" is not known and read as \"rgb\"", kind),
+                                parameters.place());
   if (is_one_of(kind, {"gbuffer", "spectral"}))
     context.report.dropped(fmt::format("film \"{}\": only its colours are kept", kind), parameters.place());
   view.film.width = resolution(parameters, "xresolution", defaults.width);
@@ -125,15 +127,17 @@ void read_film(const std::string& kind, ParameterSet& parameters, Context& conte
     context.report.dropped("the film's white balance is left out", parameters.place());
   for (const char* limit : {"maxcomponentvalue", "maxsampleluminance"})
     if (parameters.find(limit, {ParameterType::number}))
-      context.report.dropped(fmt::format("\"{}\": bright samples are not clamped", limit), parameters.place());
-  parameters.ignore({"filename", "savefp16", "diagonal", "coordinatesystem", "nbuckets", "lambdamin", "lambdamax"});
+      context.report.dropped(fmt::format("\"{}\": bright samples are not clamped", limit),
+                             parameters.place());
+  parameters.ignore(
+      {"filename", "savefp16", "diagonal", "coordinatesystem", "nbuckets", "lambdamin", "lambdamax"});
   parameters.report_unused(context.report);
 }
 
 void read_filter(const std::string& kind, ParameterSet& parameters, Context& context, ViewSettings& view) {
   const auto radius = [&](char axis, double otherwise) {
-    const std::string v4{axis}, v3{axis};
-    return positive(parameters, v4 + "radius", positive(parameters, v3 + "width", otherwise));
+    const std::string name{axis};
+    return positive(parameters, name + "radius", positive(parameters, name + "width", otherwise));
   };
   const bool v3 = context.version == Version::v3;
   if (kind == "box") {
@@ -167,22 +171,24 @@ void read_sampler(const std::string&, ParameterSet& parameters, Context& context
   parameters.report_unused(context.report);
 }
 
-void read_integrator(const std::string& kind, ParameterSet& parameters, Context& context, ViewSettings& view) {
+void read_integrator(const std::string& kind, ParameterSet& parameters, Context& context,
+                     ViewSettings& view) {
   const int depth = parameters.integer("maxdepth", 5);
   if (depth < 0) fail("\"maxdepth\" is negative", parameters.place());
   view.render.max_depth = depth;
   view.render.direct_only = is_one_of(kind, {"directlighting", "whitted"});
   const bool same_picture =
-      view.render.direct_only ||
-      is_one_of(kind, {"path", "volpath", "bdpt", "mlt", "sppm", "simplepath", "simplevolpath", "lightpath", "randomwalk"});
+      view.render.direct_only || is_one_of(kind, {"path", "volpath", "bdpt", "mlt", "sppm", "simplepath",
+                                                  "simplevolpath", "lightpath", "randomwalk"});
   if (!same_picture)
-    context.report.approximated(fmt::format("integrator \"{}\" becomes a path tracer", kind), parameters.place());
+    context.report.approximated(fmt::format("integrator \"{}\" becomes a path tracer", kind),
+                                parameters.place());
   if (parameters.boolean("regularize", false))
     context.report.dropped("rough paths are not regularised", parameters.place());
-  parameters.ignore({"rrthreshold", "lightsampler", "lightsamplestrategy", "samplelights", "samplebsdf", "strategy",
-                     "visualizestrategies", "visualizeweights", "bootstrapsamples", "chains", "mutationsperpixel",
-                     "largestepprobability", "sigma", "photonsperiteration", "radius", "seed", "iterations",
-                     "numiterations", "imagewritefrequency"});
+  parameters.ignore({"rrthreshold", "lightsampler", "lightsamplestrategy", "samplelights", "samplebsdf",
+                     "strategy", "visualizestrategies", "visualizeweights", "bootstrapsamples", "chains",
+                     "mutationsperpixel", "largestepprobability", "sigma", "photonsperiteration", "radius",
+                     "seed", "iterations", "numiterations", "imagewritefrequency"});
   parameters.report_unused(context.report);
 }
 
@@ -192,9 +198,12 @@ ScreenWindow screen_of(const ViewSettings& view) {
   ScreenWindow screen;
   const double aspect =
       view.frame_aspect > 0 ? view.frame_aspect : static_cast<double>(view.film.width) / view.film.height;
-  if (view.window) screen = *view.window;
-  else if (aspect > 1) screen = {-aspect, aspect, -1, 1};
-  else screen = {-1, 1, -1 / aspect, 1 / aspect};
+  if (view.window)
+    screen = *view.window;
+  else if (aspect > 1)
+    screen = {-aspect, aspect, -1, 1};
+  else
+    screen = {-1, 1, -1 / aspect, 1 / aspect};
   const double scale = view.orthographic ? 1 : std::tan(view.fov_deg / 2 * std::numbers::pi / 180);
   return {screen.x0 * scale, screen.x1 * scale, screen.y0 * scale, screen.y1 * scale};
 }
@@ -203,8 +212,10 @@ ScreenWindow screen_of(const ViewSettings& view) {
 
 void apply(const ViewSettings& view, Version version, Scene& scene) {
   const ScreenWindow screen = screen_of(view);
-  if (view.orthographic) scene.camera = OrthographicCamera{view.camera_to_world, screen};
-  else scene.camera = PerspectiveCamera{view.camera_to_world, screen};
+  if (view.orthographic)
+    scene.camera = OrthographicCamera{view.camera_to_world, screen};
+  else
+    scene.camera = PerspectiveCamera{view.camera_to_world, screen};
   scene.film = view.film;
   // v3's shutter only blurs; v4's exposes.
   scene.film.imaging_ratio = view.exposure * (version == Version::v4 ? view.shutter_s : 1);

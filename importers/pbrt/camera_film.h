@@ -12,8 +12,8 @@
 
 namespace vitrail::pbrt {
 
-// What Camera, Film, PixelFilter, Sampler and Integrator said. The camera's screen depends on the film's resolution
-// and the film's exposure on the camera's shutter, so both are completed at the end.
+// What Camera, Film, PixelFilter, Sampler and Integrator said. The camera's screen depends on the film's
+// resolution and the film's exposure on the camera's shutter, so both are completed at the end.
 struct ViewSettings {
   bool has_camera = false, orthographic = false;
   Transform camera_to_world;

@@ -12,8 +12,17 @@ namespace vitrail::pbrt {
 
 struct Context {
   Version version = Version::v4;
+  bool version_is_certain = true;
   std::filesystem::path directory;  // of the main file
   Report report;
+
+  // Said of what v3 and v4 take differently, in a file that does not tell which it is.
+  void note_version(const char* what, const Place& place) {
+    if (!version_is_certain)
+      report.approximated(
+          std::string("nothing tells whether the file is of pbrt-v3 or v4: ") + what + " is read as v4 does",
+          place);
+  }
 
   // Where a file that the scene names is: beside the main file, or in the working directory.
   std::filesystem::path resolve(const std::string& name) const {

@@ -3,11 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
-
-#include "scene/color.h"
-
 namespace vitrail::pbrt {
 
 const std::map<std::string, Interpreter::Handler, std::less<>>& Interpreter::handlers() {
@@ -58,7 +53,10 @@ const std::map<std::string, Interpreter::Handler, std::less<>>& Interpreter::han
 }
 
 Interpreter::Interpreter(TokenStream& tokens, Context& context)
-    : tokens_(tokens), context_(context), view_(default_view(context.version)), shapes_(context, scene_.meshes) {}
+    : tokens_(tokens),
+      context_(context),
+      view_(default_view(context.version)),
+      shapes_(context, scene_.meshes) {}
 
 Scene Interpreter::run() {
   for (Token token = tokens_.next(); token.kind != TokenKind::end; token = tokens_.next()) {
@@ -71,7 +69,7 @@ Scene Interpreter::run() {
   }
   check_blocks_are_closed();
   if (world_ == World::inside && context_.version == Version::v3)
-    context_.report.approximated("there is no WorldEnd: the file may be incomplete", {});
+    context_.report.approximated("there is no WorldEnd: the file may be incomplete", world_place_);
   resolve_materials();
   drop_lights_of_interfaces();
   resolve_instances();
@@ -94,7 +92,7 @@ void Interpreter::execute(const Token& directive) {
        directive.place);
 }
 
-// ---- Reading arguments ----------------------------------------------------------------------------------------
+// ---- Reading arguments --------------------------------------------------------------------------
 
 std::string Interpreter::read_text(const char* what) {
   const Token token = tokens_.next();
@@ -134,91 +132,12 @@ ParameterSet Interpreter::read_set(const std::string& directive, const std::stri
                                    const char* defaults) {
   const std::vector<Parameter>* known = nullptr;
   if (defaults && state_.defaults)
-    if (const auto found = state_.defaults->find(defaults); found != state_.defaults->end()) known = &found->second;
+    if (const auto found = state_.defaults->find(defaults); found != state_.defaults->end())
+      known = &found->second;
   return {fmt::format("{} \"{}\"", directive, kind), place, read_parameters(tokens_, context_.report), known};
 }
 
-// ---- Transforms -----------------------------------------------------------------------------------------------
-
-void Interpreter::set_ctm(const Transform& ctm, const Place& place) {
-  if (!state_.transform_start || !state_.transform_end)
-    context_.report.approximated("motion: the transform at the start of the shutter holds for the whole picture",
-                                 place);
-  if (!state_.transform_start) return;
-  if (!is_invertible(ctm)) fail("the transform becomes singular here: it has no inverse", place);
-  state_.ctm = ctm;
-}
-
-void Interpreter::identity(const Place& place) { set_ctm({}, place); }
-
-void Interpreter::translate(const Place& place) {
-  const auto v = read_numbers(3, place);
-  apply_transform(vitrail::translate({v[0], v[1], v[2]}), place);
-}
-
-void Interpreter::scale(const Place& place) {
-  const auto v = read_numbers(3, place);
-  apply_transform(vitrail::scale({v[0], v[1], v[2]}), place);
-}
-
-void Interpreter::rotate(const Place& place) {
-  constexpr double radians = 0.017453292519943295;
-  const auto v = read_numbers(4, place);
-  const Vector3d axis{v[1], v[2], v[3]};
-  if (!(length(axis) > 0)) fail("the axis of the rotation is zero", place);
-  apply_transform(vitrail::rotate(v[0] * radians, axis), place);
-}
-
-void Interpreter::look_at(const Place& place) {
-  const auto v = read_numbers(9, place);
-  const Transform camera_to_world =
-      vitrail::look_at({v[0], v[1], v[2]}, {v[3], v[4], v[5]}, {v[6], v[7], v[8]});
-  if (!is_invertible(camera_to_world))
-    fail("LookAt has no direction: eye and target coincide, or up is along the view", place);
-  apply_transform(inverse(camera_to_world), place);
-}
-
-// Files list matrices by columns.
-Transform Interpreter::read_matrix(const Place& place) {
-  const auto v = read_numbers(16, place);
-  Transform t;
-  for (std::size_t i = 0; i < 16; ++i) t.m[i % 4][i / 4] = v[i];
-  return t;
-}
-
-void Interpreter::transform(const Place& place) { set_ctm(read_matrix(place), place); }
-
-void Interpreter::concat_transform(const Place& place) { apply_transform(read_matrix(place), place); }
-
-void Interpreter::coordinate_system(const Place&) {
-  coordinate_systems_[read_text("the name of a coordinate system")] = state_.ctm;
-}
-
-void Interpreter::coord_sys_transform(const Place& place) {
-  const std::string name = read_text("the name of a coordinate system");
-  const auto found = coordinate_systems_.find(name);
-  if (found != coordinate_systems_.end()) return set_ctm(found->second, place);
-  std::vector<std::string> known;
-  for (const auto& entry : coordinate_systems_) known.push_back(entry.first);
-  const std::string closest = closest_word(name, known);
-  context_.report.dropped(fmt::format("coordinate system \"{}\" is not defined: CoordSysTransform has no effect{}",
-                                      name, closest.empty() ? "" : fmt::format("; did you mean \"{}\"?", closest)),
-                          place);
-}
-
-void Interpreter::active_transform(const Place& place) {
-  const Token token = tokens_.next();
-  const bool all = token.text == "All", start = token.text == "StartTime", end = token.text == "EndTime";
-  if (token.kind != TokenKind::word || !(all || start || end))
-    fail(fmt::format("expected All, StartTime or EndTime, found {}", describe(token)),
-         token.kind == TokenKind::end ? place : token.place);
-  state_.transform_start = all || start;
-  state_.transform_end = all || end;
-}
-
-void Interpreter::transform_times(const Place& place) { read_numbers(2, place); }
-
-// ---- Blocks ---------------------------------------------------------------------------------------------------
+// ---- Blocks -------------------------------------------------------------------------------------
 
 void Interpreter::open(Block block, const Place& place) {
   constexpr std::size_t depth_limit = 100'000;
@@ -229,8 +148,9 @@ void Interpreter::open(Block block, const Place& place) {
 GraphicsState Interpreter::close(Block block, const char* directive, const char* opener, const Place& place) {
   if (saved_.empty() || saved_.back().block != block)
     fail(fmt::format("{} without {}{}", directive, opener,
-                     saved_.empty() ? "" : fmt::format(" in the block that begins at {}",
-                                                       to_string(location(saved_.back().place)))),
+                     saved_.empty() ? ""
+                                    : fmt::format(" in the block that begins at {}",
+                                                  to_string(location(saved_.back().place)))),
          place);
   GraphicsState state = std::move(saved_.back().state);
   saved_.pop_back();
@@ -248,8 +168,10 @@ void Interpreter::transform_begin(const Place& place) { open(Block::transform, p
 // v3 restores the transform only.
 void Interpreter::transform_end(const Place& place) {
   GraphicsState before = close(Block::transform, "TransformEnd", "TransformBegin", place);
-  if (context_.version == Version::v4) state_ = std::move(before);
-  else state_.ctm = before.ctm;
+  if (context_.version == Version::v4)
+    state_ = std::move(before);
+  else
+    state_.ctm = before.ctm;
 }
 
 void Interpreter::object_begin(const Place& place) {
@@ -261,8 +183,8 @@ void Interpreter::object_begin(const Place& place) {
   if (slot == next) scene_.prototypes.push_back({});
   scene_.prototypes[slot].name = name;
   if (redefined)
-    context_.report.approximated(fmt::format("object \"{}\" is defined again, for the instances after it", name),
-                                 place);
+    context_.report.approximated(
+        fmt::format("object \"{}\" is defined again, for the instances after it", name), place);
   current_object_ = slot;
 }
 
@@ -274,6 +196,7 @@ void Interpreter::object_end(const Place& place) {
 void Interpreter::world_begin(const Place& place) {
   if (world_ != World::before) fail("WorldBegin comes a second time", place);
   world_ = World::inside;
+  world_place_ = place;
   state_.ctm = {};
   state_.transform_start = state_.transform_end = true;
   coordinate_systems_["world"] = {};
@@ -281,6 +204,9 @@ void Interpreter::world_begin(const Place& place) {
 
 void Interpreter::world_end(const Place& place) {
   if (world_ != World::inside) fail("WorldEnd without WorldBegin", place);
+  if (context_.version == Version::v4)
+    context_.report.approximated("WorldEnd is pbrt-v3's, but the file is read as v4 by an earlier word",
+                                 place);
   if (!saved_.empty() && saved_.back().block != Block::import) {
     context_.report.approximated("a block is not closed before WorldEnd", saved_.back().place);
     saved_.clear();
@@ -293,7 +219,7 @@ void Interpreter::check_blocks_are_closed() {
   fail("the file ends before this block is closed", saved_.back().place);
 }
 
-// ---- Files ----------------------------------------------------------------------------------------------------
+// ---- Files --------------------------------------------------------------------------------------
 
 void Interpreter::include(const Place& place) {
   const std::string name = read_text("the name of a file");
@@ -310,81 +236,6 @@ void Interpreter::end_import(const Place& place) {
   if (saved_.back().block != Block::import)
     fail("the imported file ends before this block is closed", saved_.back().place);
   state_ = close(Block::import, "the end of the file", "Import", place);
-}
-
-// ---- Settings -------------------------------------------------------------------------------------------------
-
-void Interpreter::camera(const Place& place) {
-  const std::string kind = read_text("a kind of camera");
-  ParameterSet parameters = read_set("Camera", kind, place);
-  read_camera(kind, parameters, state_.ctm, context_, view_);
-  coordinate_systems_["camera"] = view_.camera_to_world;
-}
-
-void Interpreter::film(const Place& place) {
-  const std::string kind = read_text("a kind of film");
-  ParameterSet parameters = read_set("Film", kind, place);
-  read_film(kind, parameters, context_, view_);
-  if (state_.color_space != "srgb")
-    context_.report.approximated(fmt::format("the film's colour space \"{}\" becomes \"srgb\"", state_.color_space),
-                                 place);
-}
-
-void Interpreter::pixel_filter(const Place& place) {
-  const std::string kind = read_text("a kind of filter");
-  ParameterSet parameters = read_set("PixelFilter", kind, place);
-  read_filter(kind, parameters, context_, view_);
-}
-
-void Interpreter::sampler(const Place& place) {
-  const std::string kind = read_text("a kind of sampler");
-  ParameterSet parameters = read_set("Sampler", kind, place);
-  read_sampler(kind, parameters, context_, view_);
-}
-
-void Interpreter::integrator(const Place& place) {
-  const std::string kind = read_text("a kind of integrator");
-  ParameterSet parameters = read_set("Integrator", kind, place);
-  read_integrator(kind, parameters, context_, view_);
-}
-
-// No accelerator changes the picture.
-void Interpreter::accelerator(const Place& place) {
-  const std::string kind = read_text("a kind of accelerator");
-  read_set("Accelerator", kind, place);
-}
-
-void Interpreter::option(const Place& place) {
-  for (const Parameter& parameter : read_parameters(tokens_, context_.report))
-    for (const char* name : {"disablepixeljitter", "disablewavelengthjitter", "disabletexturefiltering",
-                             "forcediffuse", "pixelstats", "msereferenceimage"})
-      if (parameter.name == name && parameter.numbers != std::vector<double>{0})
-        context_.report.dropped(fmt::format("option \"{}\" has no effect", name), place);
-}
-
-void Interpreter::color_space(const Place& place) {
-  std::string name = read_text("the name of a colour space");
-  try {
-    to_srgb({}, name.c_str());
-  } catch (const Error& error) {
-    fail(error.what(), place);
-  }
-  state_.color_space = std::move(name);
-}
-
-void Interpreter::attribute(const Place& place) {
-  const std::string target = read_text("what the attribute is for");
-  std::vector<Parameter> parameters = read_parameters(tokens_, context_.report);
-  constexpr std::array<const char*, 5> targets{"shape", "light", "material", "medium", "texture"};
-  if (std::find(targets.begin(), targets.end(), target) == targets.end())
-    fail(fmt::format("expected shape, light, material, medium or texture, found \"{}\"", target), place);
-  std::map<std::string, std::vector<Parameter>> defaults;
-  if (state_.defaults) defaults = *state_.defaults;
-  for (Parameter& parameter : parameters) {
-    parameter.from_attribute = true;
-    defaults[target].push_back(std::move(parameter));
-  }
-  state_.defaults = std::make_shared<const std::map<std::string, std::vector<Parameter>>>(std::move(defaults));
 }
 
 }  // namespace vitrail::pbrt

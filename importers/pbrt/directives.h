@@ -125,6 +125,7 @@ class Interpreter {
   GraphicsState state_;
   std::vector<Saved> saved_;
   World world_ = World::before;
+  Place world_place_;
   std::map<std::string, Transform> coordinate_systems_;
   TextureTable textures_;
   ShapeMaker shapes_;

@@ -148,7 +148,11 @@ bool Lexer::next_number(double& value) {
 }
 
 void Lexer::skip_list() {
-  for (Token token = next(); token.kind != TokenKind::close && token.kind != TokenKind::end;) token = next();
+  for (peek(); at_ != end_; peek()) {
+    at_ = std::find_if(at_, end_, [](char c) { return c == ']' || c == '#'; });
+    if (at_ == end_ || *at_++ == ']') return;
+    at_ = std::find_if(at_, end_, [](char c) { return c == '\n' || c == '\r'; });
+  }
 }
 
 }  // namespace vitrail::pbrt

@@ -42,7 +42,7 @@ class Lexer {
   bool next_number(double& value);
   // Skips blanks and comments; the next character, or 0 at the end.
   char peek();
-  // Skips to after the next ] that is not in a comment or a string.
+  // Skips to after the next ] that is not in a comment. Places are not kept.
   void skip_list();
 
   const char* position() const { return at_; }

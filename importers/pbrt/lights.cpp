@@ -66,7 +66,8 @@ Light point_light(const Maker& m) {
   return PointLight{position, m.emission("I", power_factor(m, 4 * pi))};
 }
 
-// Cone angles and images only dim a point light in some directions: it is imported with its greatest intensity.
+// Cone angles and images only dim a point light in some directions: it is imported with its greatest
+// intensity.
 Light spot_light(const Maker& m) {
   const double full = m.parameters.number("coneangle", 30) * pi / 180;
   const double delta = m.parameters.number("conedeltaangle", m.parameters.number("conedelta", 5)) * pi / 180;
@@ -89,7 +90,8 @@ Light distant_light(const Maker& m) {
   const auto to = m.parameters.triple("to").value_or(std::array<double, 3>{0, 0, 1});
   const Vector3d way{to[0] - from[0], to[1] - from[1], to[2] - from[2]};
   const Vector3d direction = normalize(transform_vector(m.ctm, way));
-  if (!(length(direction) > 0)) fail("a distant light needs two different points from and to", m.parameters.place());
+  if (!(length(direction) > 0))
+    fail("a distant light needs two different points from and to", m.parameters.place());
   const double illuminance = m.parameters.number("illuminance", -1);
   return DistantLight{direction, m.emission("L", illuminance > 0 ? illuminance : 1)};
 }
@@ -110,16 +112,22 @@ std::optional<Light> make_light(const std::string& kind, ParameterSet& parameter
                                 SpectrumScope scope) {
   const Maker maker{kind, parameters, ctm, scope};
   std::optional<Light> light;
-  if (kind == "point") light = point_light(maker);
-  else if (kind == "spot") light = spot_light(maker);
-  else if (kind == "goniometric" || kind == "projection") light = image_light(maker);
-  else if (kind == "distant") light = distant_light(maker);
-  else if (kind == "infinite" || kind == "exinfinite") light = infinite_light(maker);
+  if (kind == "point")
+    light = point_light(maker);
+  else if (kind == "spot")
+    light = spot_light(maker);
+  else if (kind == "goniometric" || kind == "projection")
+    light = image_light(maker);
+  else if (kind == "distant")
+    light = distant_light(maker);
+  else if (kind == "infinite" || kind == "exinfinite")
+    light = infinite_light(maker);
   if (light) {
     parameters.report_unused(scope.context.report);
     return light;
   }
-  const std::string closest = closest_word(kind, {"point", "spot", "goniometric", "projection", "distant", "infinite"});
+  const std::string closest =
+      closest_word(kind, {"point", "spot", "goniometric", "projection", "distant", "infinite"});
   scope.context.report.dropped(
       fmt::format("light \"{}\" is not known{}", kind,
                   closest.empty() ? "" : fmt::format("; did you mean \"{}\"?", closest)),

@@ -13,8 +13,8 @@ namespace vitrail::pbrt {
 std::optional<Light> make_light(const std::string& kind, ParameterSet& parameters, const Transform& ctm,
                                 SpectrumScope scope);
 
-// An AreaLightSource directive. If `power` is above 0, radiance is 1 / (π · area), times 1/2 if two-sided, for the unit
-// of power; the area is that of the shape which has the light.
+// An AreaLightSource directive. If `power` is above 0, radiance is 1 / (π · area), times 1/2 if two-sided,
+// for the unit of power; the area is that of the shape which has the light.
 struct AreaEmission {
   AreaLight light;
   double power = 0;

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <functional>
 
 #include "importers/pbrt/spectrum_names.h"
 #include "scene/rgb_to_spectrum.h"
@@ -30,7 +29,8 @@ struct Maker {
     for (const std::string_view name : {"displacement", "normalmap", "bumpmap"})
       if (const Parameter* p =
               parameters.find(name, {ParameterType::texture, ParameterType::text, ParameterType::number}))
-        scope.context.report.dropped(fmt::format("material \"{}\": \"{}\" is not rendered", kind, name), p->place);
+        scope.context.report.dropped(fmt::format("material \"{}\": \"{}\" is not rendered", kind, name),
+                                     p->place);
   }
 };
 
@@ -49,15 +49,17 @@ bool is_rough(const Maker& m) {
 }
 
 Spectrum refraction(const Maker& m) {
-  return spectrum_value(m.parameters, {"eta", "index"}, Quantity::refraction, ConstantSpectrum{1.5f}, m.scope);
+  return spectrum_value(m.parameters, {"eta", "index"}, Quantity::refraction, ConstantSpectrum{1.5f},
+                        m.scope);
 }
 
 Material dielectric_material(const Maker& m) {
   if (is_rough(m)) m.approximated("the rough surface becomes a smooth one");
   for (const std::string_view name : {"Kr", "Kt"}) {
     const Spectrum factor = m.reflectance({name}, 1);
-    if (!(factor == Spectrum{ConstantSpectrum{1}}))
-      m.approximated(fmt::format("{} becomes 1: reflection and transmission follow Fresnel's equations", name));
+    if (!is_constant(factor) || evaluate(factor, lambda_min_nm) != 1)
+      m.approximated(
+          fmt::format("{} becomes 1: reflection and transmission follow Fresnel's equations", name));
   }
   return DielectricMaterial{refraction(m)};
 }
@@ -71,8 +73,8 @@ Material thin_dielectric_material(const Maker& m) {
 }
 
 Material coated_material(const Maker& m) {
-  m.parameters.ignore({"roughness", "uroughness", "vroughness", "remaproughness", "thickness", "eta", "albedo", "g",
-                       "maxdepth", "nsamples", "Ks", "Kr", "d"});
+  m.parameters.ignore({"roughness", "uroughness", "vroughness", "remaproughness", "thickness", "eta",
+                       "albedo", "g", "maxdepth", "nsamples", "Ks", "Kr", "d"});
   m.approximated("becomes diffuse with its reflectance; the coating or gloss is left out");
   const bool substrate_like = m.kind == "substrate" || m.kind == "coateddiffuse";
   return DiffuseMaterial{m.reflectance({"reflectance", "Kd"}, substrate_like ? 0.5 : 0.25)};
@@ -83,19 +85,22 @@ Material uber_material(const Maker& m) {
   const Spectrum diffuse = m.reflectance({"Kd"}, 0.25);
   const double transmitted = luminance(m.reflectance({"Kt"}, 0));
   if (luminance(m.reflectance({"opacity"}, 1)) < 0.5) {
-    m.approximated("is mostly transparent (opacity below 0.5) and becomes an interface that light passes unchanged");
+    m.approximated(
+        "is mostly transparent (opacity below 0.5) and becomes an interface that light passes unchanged");
     return InterfaceMaterial{};
   }
   if (transmitted > luminance(diffuse)) {
     m.approximated("Kt outweighs Kd: becomes a smooth dielectric");
     return DielectricMaterial{refraction(m)};
   }
-  m.parameters.ignore({"Ks", "Kr", "roughness", "uroughness", "vroughness", "remaproughness", "eta", "index"});
+  m.parameters.ignore(
+      {"Ks", "Kr", "roughness", "uroughness", "vroughness", "remaproughness", "eta", "index"});
   m.approximated("becomes diffuse with Kd; gloss, mirror and transmission are left out");
   return DiffuseMaterial{diffuse};
 }
 
-// The reflectance at normal incidence: as given, of a metal by name, or from eta and k; pbrt's default is copper.
+// The reflectance at normal incidence: as given, of a metal by name, or from eta and k; pbrt's default is
+// copper.
 Spectrum metal_spectrum(const Maker& m, const std::string& prefix) {
   const std::string reflectance = "reflectance", eta = prefix + "eta", k = prefix + "k";
   if (!prefix.empty() || m.kind == "conductor")
@@ -139,7 +144,8 @@ Material transmitting_material(const Maker& m) {
 Material other_material(const Maker& m) {
   const Spectrum reflectance = m.reflectance({"reflectance", "color", "Kd", "diffuse"}, 0.5);
   for (const Parameter& p : m.parameters.all()) m.parameters.ignore({p.name});
-  m.approximated(fmt::format("becomes diffuse with a reflectance of {:.2f} on average", luminance(reflectance)));
+  m.approximated(
+      fmt::format("becomes diffuse with a reflectance of {:.2f} on average", luminance(reflectance)));
   return DiffuseMaterial{reflectance};
 }
 
@@ -156,7 +162,7 @@ MaterialAlias heavier_of_mix(const Maker& m) {
   const double amount = luminance(m.reflectance({"amount"}, 0.5));
   const bool first = m.scope.context.version == Version::v4 ? amount <= 0.5 : amount >= 0.5;
   m.approximated(fmt::format("the heavier of two, \"{}\", stands for the mix", names[first ? 0 : 1]));
-  return {names[first ? 0 : 1]};
+  return {names[first ? 0 : 1], m.parameters.place()};
 }
 
 struct Kind {
@@ -211,7 +217,8 @@ std::variant<Material, MaterialAlias> make_material(const std::string& kind, Par
   std::vector<std::string> names;
   for (const Kind& known : kinds) names.emplace_back(known.name);
   const std::string closest = closest_word(kind, names);
-  maker.approximated(closest.empty() ? "is not known" : fmt::format("is not known; did you mean \"{}\"?", closest));
+  maker.approximated(closest.empty() ? "is not known"
+                                     : fmt::format("is not known; did you mean \"{}\"?", closest));
   return other_material(maker);
 }
 

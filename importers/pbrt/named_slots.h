@@ -20,8 +20,8 @@ class NamedSlots {
     return entry->second.slot;
   }
 
-  // The number to define the name under: that of its uses, or `next_free` if it was defined before (`redefined`), which
-  // later uses then get.
+  // The number to define the name under: that of its uses, or `next_free` if it was defined before
+  // (`redefined`), which later uses then get.
   struct Definition {
     std::uint32_t slot;
     bool redefined;

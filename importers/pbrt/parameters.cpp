@@ -36,9 +36,11 @@ constexpr std::array<TypeName, 19> type_names{{{"bool", ParameterType::boolean},
                                                {"texture", ParameterType::texture},
                                                {"int", ParameterType::integer}}};
 
-std::string with_suggestion(std::string message, const std::string& word, const std::vector<std::string>& known) {
+std::string with_suggestion(std::string message, const std::string& word,
+                            const std::vector<std::string>& known) {
   const std::string closest = closest_word(word, known);
-  return closest.empty() || closest == word ? message : fmt::format("{}; did you mean \"{}\"?", message, closest);
+  return closest.empty() || closest == word ? message
+                                            : fmt::format("{}; did you mean \"{}\"?", message, closest);
 }
 
 // "type name" → an empty parameter of that type and name.
@@ -78,17 +80,22 @@ bool add_value(Parameter& parameter, const Token& token) {
     case ParameterType::spectrum:
       if (string) parameter.strings.emplace_back(token.text);
       return string;
-    default: return false;
+    default:
+      return false;
   }
 }
 
 const char* expected_value(ParameterType type) {
   switch (type) {
-    case ParameterType::boolean: return "true or false";
+    case ParameterType::boolean:
+      return "true or false";
     case ParameterType::text:
-    case ParameterType::texture: return "a string";
-    case ParameterType::spectrum: return "a number or a string";
-    default: return "a number";
+    case ParameterType::texture:
+      return "a string";
+    case ParameterType::spectrum:
+      return "a number or a string";
+    default:
+      return "a number";
   }
 }
 
@@ -123,7 +130,8 @@ void read_values(TokenStream& tokens, Parameter& parameter) {
 void check_integers(Parameter& parameter, Report& report) {
   for (double& value : parameter.numbers) {
     if (std::abs(value) > std::numeric_limits<int>::max())
-      fail(fmt::format("integer parameter \"{}\" has the value {}, which is out of range", parameter.name, value),
+      fail(fmt::format("integer parameter \"{}\" has the value {}, which is out of range", parameter.name,
+                       value),
            parameter.place);
     if (value == std::trunc(value)) continue;
     value = std::trunc(value);
@@ -141,7 +149,8 @@ std::vector<Parameter> read_parameters(TokenStream& tokens, Report& report) {
     read_values(tokens, parameter);
     if (parameter.type == ParameterType::integer) check_integers(parameter, report);
     if (parameter.type == ParameterType::spectrum && !parameter.strings.empty() && !parameter.numbers.empty())
-      fail(fmt::format("spectrum parameter \"{}\" mixes numbers and strings", parameter.name), parameter.place);
+      fail(fmt::format("spectrum parameter \"{}\" mixes numbers and strings", parameter.name),
+           parameter.place);
     parameters.push_back(std::move(parameter));
   }
   return parameters;
@@ -153,7 +162,7 @@ ParameterSet::ParameterSet(std::string owner, const Place& place, std::vector<Pa
   if (defaults) parameters_.insert(parameters_.begin(), defaults->begin(), defaults->end());
 }
 
-const Parameter* ParameterSet::find(std::string_view name, std::initializer_list<ParameterType> types) {
+Parameter* ParameterSet::find(std::string_view name, std::initializer_list<ParameterType> types) {
   asked_.emplace_back(name);
   for (auto parameter = parameters_.rbegin(); parameter != parameters_.rend(); ++parameter) {
     if (parameter->name != name || std::find(types.begin(), types.end(), parameter->type) == types.end())
@@ -164,12 +173,12 @@ const Parameter* ParameterSet::find(std::string_view name, std::initializer_list
   return nullptr;
 }
 
-const Parameter* ParameterSet::find_spectrum(std::string_view name) {
+Parameter* ParameterSet::find_spectrum(std::string_view name) {
   return find(name, {ParameterType::number, ParameterType::rgb, ParameterType::xyz, ParameterType::blackbody,
                      ParameterType::spectrum});
 }
 
-const Parameter* ParameterSet::find_numbers(std::string_view name) {
+Parameter* ParameterSet::find_numbers(std::string_view name) {
   return find(name, {ParameterType::number, ParameterType::integer, ParameterType::tuple});
 }
 
@@ -231,9 +240,9 @@ void ParameterSet::report_unused(Report& report) const {
   for (const Parameter& parameter : parameters_) {
     if (parameter.used || parameter.from_attribute) continue;
     const bool known = std::find(asked_.begin(), asked_.end(), parameter.name) != asked_.end();
-    const std::string message = fmt::format("parameter \"{}\" of {} {}", parameter.name, owner_,
-                                            known ? "is given more than once or has a type that is not read here"
-                                                  : "is not used");
+    const std::string message =
+        fmt::format("parameter \"{}\" of {} {}", parameter.name, owner_,
+                    known ? "is given more than once or has a type that is not read here" : "is not used");
     report.dropped(known ? message : with_suggestion(message, parameter.name, asked_), parameter.place);
   }
 }

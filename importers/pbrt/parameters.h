@@ -16,8 +16,8 @@ namespace vitrail::pbrt {
 
 enum class ParameterType { boolean, integer, number, tuple, rgb, xyz, blackbody, spectrum, text, texture };
 
-// `numbers` holds all values that are not strings; true is 1. A spectrum has strings (a name or a file) or numbers
-// (wavelength in nm and value, alternating).
+// `numbers` holds all values that are not strings; true is 1. A spectrum has strings (a name or a file) or
+// numbers (wavelength in nm and value, alternating).
 struct Parameter {
   ParameterType type = ParameterType::number;
   std::string name;
@@ -28,8 +28,8 @@ struct Parameter {
   bool used = false;
 };
 
-// Reads the list that follows a directive. Types of v4 and v3 (point, color …) are both known; a point, vector or
-// normal of any size is a tuple. Malformed values throw Error.
+// Reads the list that follows a directive. Types of v4 and v3 (point, color …) are both known; a point,
+// vector or normal of any size is a tuple. Malformed values throw Error.
 std::vector<Parameter> read_parameters(TokenStream& tokens, Report& report);
 
 // The parameters of one directive. Remembers which were used and which names were asked for.
@@ -41,9 +41,9 @@ class ParameterSet {
                const std::vector<Parameter>* defaults = nullptr);
 
   // The parameter of that name if its type is one of those given, else nothing. Marks it as used.
-  const Parameter* find(std::string_view name, std::initializer_list<ParameterType> types);
-  const Parameter* find_spectrum(std::string_view name);  // number, rgb, xyz, blackbody or spectrum
-  const Parameter* find_numbers(std::string_view name);   // numbers, integers or tuples
+  Parameter* find(std::string_view name, std::initializer_list<ParameterType> types);
+  Parameter* find_spectrum(std::string_view name);  // number, rgb, xyz, blackbody or spectrum
+  Parameter* find_numbers(std::string_view name);   // numbers, integers or tuples
 
   // One value; the default where there is none. A wrong count throws Error.
   double number(std::string_view name, double otherwise);

@@ -8,7 +8,9 @@ namespace vitrail {
 
 ImportedScene read_pbrt(const std::filesystem::path& file) {
   pbrt::Context context;
-  context.version = pbrt::detect_version(file);
+  const pbrt::DetectedVersion detected = pbrt::detect_version(file);
+  context.version = detected.version;
+  context.version_is_certain = detected.certain;
   context.directory = file.parent_path();
   pbrt::TokenStream tokens(file);
   pbrt::Interpreter interpreter(tokens, context);

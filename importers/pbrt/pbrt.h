@@ -8,9 +8,10 @@
 
 namespace vitrail {
 
-// Reads a scene with all that it includes, plain or gzipped. Both syntaxes are read; where a word means different
-// things, the version decides that the main file's first tell-tale word belongs to (importers/README.md).
-// Bad input throws Error with its place. A file without WorldBegin is a part of a scene: it gets a camera and a sky.
+// Reads a scene with all that it includes, plain or gzipped. Both syntaxes are read; where a word means
+// different things, the version decides that the main file's first tell-tale word belongs to
+// (importers/README.md). Bad input throws Error with its place. A file without WorldBegin is a part of a
+// scene: it gets a camera and a sky.
 ImportedScene read_pbrt(const std::filesystem::path& file);
 
 }  // namespace vitrail

@@ -9,8 +9,8 @@
 
 namespace vitrail::pbrt {
 
-// Collects diagnostics in the order of the file. A message that comes again is counted, not repeated: the place is
-// that of its first occurrence.
+// Collects diagnostics in the order of the file. A message that comes again is counted, not repeated: the
+// place is that of its first occurrence.
 class Report {
  public:
   void approximated(const std::string& message, const Place& place) {

@@ -9,23 +9,28 @@
 
 #include "importers/ply/ply.h"
 #include "importers/shapes/shapes.h"
+#include "scene/bounds.h"
 
 namespace vitrail::pbrt {
 
 namespace {
 
+void require_groups(const Parameter& parameter, std::size_t size) {
+  if (parameter.numbers.size() % size == 0) return;
+  fail(fmt::format("parameter \"{}\" has {} numbers, which is not a multiple of {}", parameter.name,
+                   parameter.numbers.size(), size),
+       parameter.place);
+}
+
 // Floats of a parameter in groups of `size`; values too large for a float throw Error.
 template <class T, std::size_t size>
 std::vector<T> tuples(const Parameter& parameter) {
+  require_groups(parameter, size);
   const std::vector<double>& values = parameter.numbers;
-  if (values.size() % size != 0)
-    fail(fmt::format("parameter \"{}\" has {} numbers, which is not a multiple of {}", parameter.name,
-                     values.size(), size),
-         parameter.place);
-  std::vector<T> result(values.size() / size);
   for (std::size_t i = 0; i < values.size(); ++i)
     if (!std::isfinite(static_cast<float>(values[i])))
       fail(fmt::format("value {} of parameter \"{}\" is too large", i, parameter.name), parameter.place);
+  std::vector<T> result(values.size() / size);
   for (std::size_t i = 0; i < result.size(); ++i) {
     const double* v = &values[i * size];
     result[i].x = static_cast<float>(v[0]);
@@ -36,12 +41,10 @@ std::vector<T> tuples(const Parameter& parameter) {
 }
 
 template <std::size_t size>
-std::vector<std::array<std::uint32_t, size>> index_groups(const Parameter& parameter, std::size_t vertex_count) {
+std::vector<std::array<std::uint32_t, size>> index_groups(const Parameter& parameter,
+                                                          std::size_t vertex_count) {
+  require_groups(parameter, size);
   const std::vector<double>& values = parameter.numbers;
-  if (values.size() % size != 0)
-    fail(fmt::format("parameter \"{}\" has {} numbers, which is not a multiple of {}", parameter.name,
-                     values.size(), size),
-         parameter.place);
   std::vector<std::array<std::uint32_t, size>> groups(values.size() / size);
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (values[i] < 0 || values[i] >= static_cast<double>(vertex_count))
@@ -59,14 +62,14 @@ std::vector<T> vertex_values(const Parameter* parameter, std::size_t vertex_coun
   if (!parameter) return {};
   std::vector<T> values = tuples<T, size>(*parameter);
   if (values.size() != vertex_count)
-    fail(fmt::format("parameter \"{}\" has values for {} vertices, but there are {}", parameter->name, values.size(),
-                     vertex_count),
+    fail(fmt::format("parameter \"{}\" has values for {} vertices, but there are {}", parameter->name,
+                     values.size(), vertex_count),
          parameter->place);
   return values;
 }
 
-const Parameter& required(ParameterSet& parameters, std::string_view name) {
-  const Parameter* parameter = parameters.find_numbers(name);
+Parameter& required(ParameterSet& parameters, std::string_view name) {
+  Parameter* parameter = parameters.find_numbers(name);
   if (!parameter || parameter->numbers.empty())
     fail(fmt::format("{} needs a parameter \"{}\"", parameters.owner(), name), parameters.place());
   return *parameter;
@@ -83,7 +86,8 @@ std::vector<std::array<std::uint32_t, size>> groups_of(ParameterSet& parameters,
   if (const Parameter* indices = parameters.find_numbers("indices"))
     return index_groups<size>(*indices, vertex_count);
   if (vertex_count != size)
-    fail(fmt::format("{} needs a parameter \"indices\" unless it has exactly {} points", parameters.owner(), size),
+    fail(fmt::format("{} needs a parameter \"indices\" unless it has exactly {} points", parameters.owner(),
+                     size),
          parameters.place());
   std::array<std::uint32_t, size> all{};
   for (std::size_t i = 0; i < size; ++i) all[i] = static_cast<std::uint32_t>(i);
@@ -112,6 +116,25 @@ void orient_by_normals(TriangleMesh& mesh) {
       std::swap(triangle[1], triangle[2]);
 }
 
+namespace {
+
+// Floats keep 24 bits: of a mesh that lies so far from the origin that more than ten are lost, positions are
+// moved to it while they are still doubles. Nearer ones stay, so that meshes which touch still share their
+// vertices exactly.
+Vector3d move_to_origin(std::vector<double>& positions) {
+  constexpr double far = 1024;  // distance over half extent
+  Bounds3d bounds;
+  for (std::size_t i = 0; i + 2 < positions.size(); i += 3)
+    extend(bounds, Point3d{positions[i], positions[i + 1], positions[i + 2]});
+  const double half = length(extent(bounds)) / 2;
+  const Vector3d away = cast<double>(cast<float>(center(bounds) - Point3d{}));
+  if (bounds.empty() || !(half > 0 && length(away) > far * half)) return {};
+  for (std::size_t i = 0; i < positions.size(); ++i) positions[i] -= away[static_cast<int>(i % 3)];
+  return away;
+}
+
+}  // namespace
+
 Id<TriangleMesh> ShapeMaker::add(TriangleMesh mesh) {
   meshes_.push_back(std::move(mesh));
   return {static_cast<std::uint32_t>(meshes_.size() - 1)};
@@ -119,13 +142,16 @@ Id<TriangleMesh> ShapeMaker::add(TriangleMesh mesh) {
 
 ShapeGeometry ShapeMaker::triangle_mesh(ParameterSet& parameters) {
   TriangleMesh mesh;
-  mesh.positions = tuples<Point3f, 3>(required(parameters, "P"));
+  Parameter& positions = required(parameters, "P");
+  require_groups(positions, 3);
+  const Vector3d offset = move_to_origin(positions.numbers);
+  mesh.positions = tuples<Point3f, 3>(positions);
   mesh.triangles = groups_of<3>(parameters, mesh.positions.size());
   mesh.normals = vertex_values<Normal3f, 3>(parameters.find_numbers("N"), mesh.positions.size());
   mesh.uvs = vertex_values<Point2f, 2>(texture_coordinates(parameters), mesh.positions.size());
   orient_by_normals(mesh);
   const std::size_t parts = mesh.triangles.size();
-  return {add(std::move(mesh)), false, parts};
+  return {add(std::move(mesh)), false, offset, parts};
 }
 
 ShapeGeometry ShapeMaker::ply_mesh(ParameterSet& parameters) {
@@ -144,7 +170,7 @@ ShapeGeometry ShapeMaker::ply_mesh(ParameterSet& parameters) {
     orient_by_normals(mesh);
     known->second = add(std::move(mesh));
   }
-  return {known->second, false, meshes_[known->second.value].triangles.size()};
+  return {known->second, false, {}, meshes_[known->second.value].triangles.size()};
 }
 
 ShapeGeometry ShapeMaker::bilinear_mesh(ParameterSet& parameters) {
@@ -157,11 +183,11 @@ ShapeGeometry ShapeMaker::bilinear_mesh(ParameterSet& parameters) {
     context_.report.approximated("curved bilinear patches become triangles, at most 2e-4 of their size off",
                                  parameters.place());
   orient_by_normals(mesh);
-  return {add(std::move(mesh)), false, patches.size()};
+  return {add(std::move(mesh)), false, {}, patches.size()};
 }
 
-// pbrt's normals of a subdivided mesh point against its winding (the ring of a vertex is walked clockwise), and its
-// front follows them.
+// pbrt's normals of a subdivided mesh point against its winding (the ring of a vertex is walked clockwise),
+// and its front follows them.
 ShapeGeometry ShapeMaker::loop_subdivision(ParameterSet& parameters) {
   constexpr int most_levels = 10;
   TriangleMesh cage;
@@ -181,7 +207,7 @@ ShapeGeometry ShapeMaker::loop_subdivision(ParameterSet& parameters) {
   for (Normal3f& normal : mesh.normals) normal = -normal;
   for (auto& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
   const std::size_t parts = mesh.triangles.size();
-  return {add(std::move(mesh)), false, parts};
+  return {add(std::move(mesh)), false, {}, parts};
 }
 
 std::optional<ShapeGeometry> ShapeMaker::quadric(const std::string& kind, ParameterSet& parameters) {
@@ -206,11 +232,12 @@ std::optional<ShapeGeometry> ShapeMaker::quadric(const std::string& kind, Parame
       fail(error.what(), parameters.place());
     }
   }
-  context_.report.approximated(
-      fmt::format("each {} becomes triangles, {} for a full turn", kind,
-                  sphere ? sphere_segments : kind == "disk" ? disk_segments : cylinder_segments),
-      parameters.place());
-  return ShapeGeometry{known->second, true, 1};
+  context_.report.approximated(fmt::format("each {} becomes triangles, {} for a full turn", kind,
+                                           sphere           ? sphere_segments
+                                           : kind == "disk" ? disk_segments
+                                                            : cylinder_segments),
+                               parameters.place());
+  return ShapeGeometry{known->second, true, {}, 1};
 }
 
 std::optional<ShapeGeometry> ShapeMaker::make(const std::string& kind, ParameterSet& parameters) {
@@ -218,15 +245,23 @@ std::optional<ShapeGeometry> ShapeMaker::make(const std::string& kind, Parameter
   for (const char* name : {"alpha", "shadowalpha"}) {
     const Parameter* alpha = parameters.find(name, {ParameterType::number, ParameterType::texture});
     if (!alpha) continue;
+    if (alpha->numbers == std::vector<double>{0} && alpha->name == "alpha")
+      return std::nullopt;  // nothing shows
     if (alpha->type == ParameterType::texture || alpha->numbers != std::vector<double>{1})
-      context_.report.dropped(fmt::format("\"{}\" of shapes is not rendered: they are opaque", name), alpha->place);
+      context_.report.dropped(fmt::format("\"{}\" of shapes is not rendered: they are opaque", name),
+                              alpha->place);
   }
   std::optional<ShapeGeometry> geometry;
-  if (kind == "trianglemesh") geometry = triangle_mesh(parameters);
-  else if (kind == "plymesh") geometry = ply_mesh(parameters);
-  else if (kind == "bilinearmesh") geometry = bilinear_mesh(parameters);
-  else if (kind == "loopsubdiv") geometry = loop_subdivision(parameters);
-  else if (kind == "sphere" || kind == "disk" || kind == "cylinder") geometry = quadric(kind, parameters);
+  if (kind == "trianglemesh")
+    geometry = triangle_mesh(parameters);
+  else if (kind == "plymesh")
+    geometry = ply_mesh(parameters);
+  else if (kind == "bilinearmesh")
+    geometry = bilinear_mesh(parameters);
+  else if (kind == "loopsubdiv")
+    geometry = loop_subdivision(parameters);
+  else if (kind == "sphere" || kind == "disk" || kind == "cylinder")
+    geometry = quadric(kind, parameters);
   if (geometry) {
     parameters.report_unused(context_.report);
     return geometry;

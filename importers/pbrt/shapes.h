@@ -17,6 +17,8 @@ struct ShapeGeometry {
   Id<TriangleMesh> mesh;
   // Analytic shapes: their front under a mirroring transform is on the other side than that of meshes.
   bool quadric = false;
+  // Where the mesh lies, if far from the origin: its positions are relative to this point.
+  Vector3d offset;
   // How many shapes pbrt makes of it, each with the whole `power` of an area light: triangles, patches, or 1.
   std::size_t parts = 1;
 };
@@ -26,8 +28,8 @@ class ShapeMaker {
  public:
   ShapeMaker(Context& context, std::vector<TriangleMesh>& meshes) : context_(context), meshes_(meshes) {}
 
-  // Nothing where the kind cannot be represented and is dropped with a diagnostic, or where nothing of it shows.
-  // The triangles' own orientation is pbrt's front side before ReverseOrientation and the transform.
+  // Nothing where the kind cannot be represented and is dropped with a diagnostic, or where nothing of it
+  // shows. The triangles' own orientation is pbrt's front side before ReverseOrientation and the transform.
   std::optional<ShapeGeometry> make(const std::string& kind, ParameterSet& parameters);
 
  private:
@@ -45,7 +47,8 @@ class ShapeMaker {
   std::map<QuadricKey, Id<TriangleMesh>> quadrics_;
 };
 
-// Turns triangles whose corner normals, summed, point away from their own normal. pbrt's fronts follow the normals.
+// Turns triangles whose corner normals, summed, point away from their own normal. pbrt's fronts follow the
+// normals.
 void orient_by_normals(TriangleMesh& mesh);
 
 }  // namespace vitrail::pbrt

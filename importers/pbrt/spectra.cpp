@@ -35,7 +35,8 @@ Spectrum tabulated(Function value) {
 
 Samples pairs(const std::vector<double>& numbers, const Place& place) {
   if (numbers.empty() || numbers.size() % 2 != 0)
-    fail(fmt::format("a spectrum needs pairs of wavelength and value, has {} numbers", numbers.size()), place);
+    fail(fmt::format("a spectrum needs pairs of wavelength and value, has {} numbers", numbers.size()),
+         place);
   Samples samples;
   for (std::size_t i = 0; i < numbers.size(); i += 2) samples.push_back({numbers[i], numbers[i + 1]});
   return samples;
@@ -71,8 +72,8 @@ Spectrum read_named(const Parameter& parameter, bool hold_ends, Context& context
   const std::string& name = parameter.strings.front();
   if (const auto named = find_named_spectrum(name)) {
     if (!named->approximation.empty())
-      context.report.approximated(fmt::format("spectrum \"{}\": {} stands for it", name, named->approximation),
-                                  parameter.place);
+      context.report.approximated(
+          fmt::format("spectrum \"{}\": {} stands for it", name, named->approximation), parameter.place);
     return named->spectrum;
   }
   return sampled(read_spectrum_file(name, context, parameter.place), hold_ends, context, parameter.place);
@@ -137,12 +138,14 @@ Spectrum with_unit_luminance(const Spectrum& spectrum, const Place& place, Conte
 Spectrum read_reflectance(const Parameter& parameter, SpectrumScope scope) {
   switch (parameter.type) {
     case ParameterType::rgb:
-    case ParameterType::xyz: return reflectance_from_rgb(read_color(parameter, 1, scope));
+    case ParameterType::xyz:
+      return reflectance_from_rgb(read_color(parameter, 1, scope));
     case ParameterType::blackbody:
       return scaled(read_blackbody(parameter), blackbody_scale(parameter, scope.context));
     case ParameterType::spectrum:
       return read_spectrum(parameter, scope.context.version == Version::v3, scope.context);
-    default: return constant(parameter);
+    default:
+      return constant(parameter);
   }
 }
 
@@ -153,15 +156,18 @@ Spectrum read_emission(const Parameter& parameter, SpectrumScope scope) {
     case ParameterType::xyz:
       return emission_from_rgb(read_color(parameter, std::numeric_limits<float>::max(), scope));
     case ParameterType::blackbody: {
+      scope.context.note_version("the magnitude of a light's blackbody", parameter.place);
       const TabulatedSpectrum spectrum = read_blackbody(parameter);
       return v4 ? with_unit_luminance(spectrum, parameter.place, scope.context)
                 : scaled(spectrum, blackbody_scale(parameter, scope.context));
     }
     case ParameterType::spectrum: {
+      scope.context.note_version("the magnitude of a light's spectrum", parameter.place);
       const Spectrum spectrum = read_spectrum(parameter, !v4, scope.context);
       return v4 ? with_unit_luminance(spectrum, parameter.place, scope.context) : spectrum;
     }
-    default: return constant(parameter);
+    default:
+      return constant(parameter);
   }
 }
 
@@ -181,7 +187,8 @@ Spectrum read_refraction(const Parameter& parameter, SpectrumScope scope) {
   for (const double value : parameter.numbers) sum += value;
   require(parameter, 3, 3);
   scope.context.report.approximated(
-      fmt::format("refractive index \"{}\" is a colour: its mean stands for it", parameter.name), parameter.place);
+      fmt::format("refractive index \"{}\" is a colour: its mean stands for it", parameter.name),
+      parameter.place);
   return ConstantSpectrum{static_cast<float>(sum / 3)};
 }
 

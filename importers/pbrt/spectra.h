@@ -18,9 +18,9 @@ struct SpectrumScope {
 // In [0,1] where it is given as a colour.
 Spectrum read_reflectance(const Parameter& parameter, SpectrumScope scope);
 
-// Emission, in the units of the version. v4 divides every light by its own luminance, so that only `scale` and the
-// like set it: spectra and blackbodies get luminance 1, rgb keeps its magnitude. v3 keeps spectra as they are and
-// normalises blackbodies to a maximum of 1, times their second value.
+// Emission, in the units of the version. v4 divides every light by its own luminance, so that only `scale`
+// and the like set it: spectra and blackbodies get luminance 1, rgb keeps its magnitude. v3 keeps spectra as
+// they are and normalises blackbodies to a maximum of 1, times their second value.
 Spectrum read_emission(const Parameter& parameter, SpectrumScope scope);
 
 // An index of refraction; held constant outside of its samples.

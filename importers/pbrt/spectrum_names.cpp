@@ -50,7 +50,8 @@ std::optional<NamedSpectrum> find_named_spectrum(const std::string& name) {
   if (const auto known = named_spectrum(name)) return NamedSpectrum{*known, {}};
   for (const Illuminant& illuminant : illuminants)
     if (name == illuminant.name)
-      return NamedSpectrum{blackbody(illuminant.kelvin), fmt::format("a blackbody of {} K", illuminant.kelvin)};
+      return NamedSpectrum{blackbody(illuminant.kelvin),
+                           fmt::format("a blackbody of {} K", illuminant.kelvin)};
   return std::nullopt;
 }
 

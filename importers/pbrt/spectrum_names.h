@@ -19,7 +19,8 @@ struct NamedSpectrum {
 // Of named_spectrum, or an illuminant that a blackbody stands for. Empty when unknown.
 std::optional<NamedSpectrum> find_named_spectrum(const std::string& name);
 
-// Linear sRGB reflectance at normal incidence of pbrt's metals, by the name of either of their spectra: "metal-Cu-eta".
+// Linear sRGB reflectance at normal incidence of pbrt's metals, by the name of either of their spectra:
+// "metal-Cu-eta".
 std::optional<RGB> metal_reflectance(std::string_view name);
 
 }  // namespace vitrail::pbrt

@@ -83,13 +83,14 @@ constexpr double dots_coverage = 0.5 * 3.14159265358979 * 0.35 * 0.35;
 
 }  // namespace
 
-Spectrum spectrum_value(ParameterSet& parameters, std::initializer_list<std::string_view> names, Quantity quantity,
-                        const Spectrum& otherwise, const Scope& scope) {
+Spectrum spectrum_value(ParameterSet& parameters, std::initializer_list<std::string_view> names,
+                        Quantity quantity, const Spectrum& otherwise, const Scope& scope) {
   for (const std::string_view name : names) {
     if (const Parameter* texture = parameters.find(name, {ParameterType::texture}))
       return use_texture(*texture, true, scope);
     if (const Parameter* value = parameters.find_spectrum(name))
-      return quantity == Quantity::reflectance ? read_reflectance(*value, scope) : read_refraction(*value, scope);
+      return quantity == Quantity::reflectance ? read_reflectance(*value, scope)
+                                               : read_refraction(*value, scope);
   }
   return otherwise;
 }
@@ -116,7 +117,8 @@ Texture make_texture(const std::string& kind, bool spectral, ParameterSet& param
     return {value, stands()};
   }
   if (kind == "scale") {  // v4: tex · scale; v3: tex1 · tex2
-    Spectrum value = product(inputs.value("tex", 1), product(inputs.value("tex1", 1), inputs.value("tex2", 1)));
+    Spectrum value =
+        product(inputs.value("tex", 1), product(inputs.value("tex1", 1), inputs.value("tex2", 1)));
     value = scaled(value, inputs.number("scale", 1));
     return {value, stands()};
   }
@@ -129,7 +131,8 @@ Texture make_texture(const std::string& kind, bool spectral, ParameterSet& param
   if (kind == "dots") return mean_of(inputs, "outside", 0, "inside", 1, dots_coverage);
   if (kind == "bilerp") return bilinear_corners(inputs);
   const double grey = 0.5 * parameters.number("scale", 1);
-  return {ConstantSpectrum{static_cast<float>(grey)}, fmt::format("the constant {} stands for the {}", grey, kind)};
+  return {ConstantSpectrum{static_cast<float>(grey)},
+          fmt::format("the constant {} stands for the {}", grey, kind)};
 }
 
 }  // namespace vitrail::pbrt

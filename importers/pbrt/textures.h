@@ -25,10 +25,10 @@ struct Scope : SpectrumScope {
 
 enum class Quantity { reflectance, refraction };
 
-// The first of `names` that the parameters have, as a value or a texture; else `otherwise`. The use of a texture that
-// is not constant is reported; one that is not defined throws Error.
-Spectrum spectrum_value(ParameterSet& parameters, std::initializer_list<std::string_view> names, Quantity quantity,
-                        const Spectrum& otherwise, const Scope& scope);
+// The first of `names` that the parameters have, as a value or a texture; else `otherwise`. The use of a
+// texture that is not constant is reported; one that is not defined throws Error.
+Spectrum spectrum_value(ParameterSet& parameters, std::initializer_list<std::string_view> names,
+                        Quantity quantity, const Spectrum& otherwise, const Scope& scope);
 double number_value(ParameterSet& parameters, std::string_view name, double otherwise, const Scope& scope);
 
 // True if every texture that the parameters refer to is in the table.

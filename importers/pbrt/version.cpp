@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <optional>
 
 #include "importers/ply/input_bytes.h"
@@ -72,20 +73,20 @@ std::optional<Version> hint_of_text(std::string_view directive, bool is_kind, st
 
 }  // namespace
 
-Version detect_version(const std::filesystem::path& file) {
+DetectedVersion detect_version(const std::filesystem::path& file) {
   const InputBytes bytes(file);
   const std::string name = file.string();
   Lexer lexer(&name, bytes.begin(), bytes.end());
   std::string directive, previous;
   bool is_kind = false;
   for (;;) {
-    double number = 0;
-    while (lexer.next_number(number)) {
-    }
     const Token token = lexer.next();
     std::optional<Version> hint;
-    if (token.kind == TokenKind::end) return Version::v4;
-    if (token.kind == TokenKind::word && token.text != "true" && token.text != "false") {
+    if (token.kind == TokenKind::end) return {};
+    if (token.kind == TokenKind::open && lexer.peek() != '"') {
+      lexer.skip_list();
+    } else if (token.kind == TokenKind::word &&
+               std::isupper(static_cast<unsigned char>(token.text.front()))) {
       hint = hint_of_directive(token.text);
       directive = token.text;
       is_kind = true;
@@ -96,7 +97,7 @@ Version detect_version(const std::filesystem::path& file) {
       previous = token.text;
       is_kind = false;
     }
-    if (hint) return *hint;
+    if (hint) return {*hint, true};
   }
 }
 

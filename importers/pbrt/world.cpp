@@ -10,9 +10,11 @@
 
 namespace vitrail::pbrt {
 
-void Interpreter::reverse_orientation(const Place&) { state_.reverse_orientation = !state_.reverse_orientation; }
+void Interpreter::reverse_orientation(const Place&) {
+  state_.reverse_orientation = !state_.reverse_orientation;
+}
 
-// ---- Materials and textures -------------------------------------------------------------------------------------
+// ---- Materials and textures ---------------------------------------------------------------------
 
 // v4 lets materials name textures that come later; they wait for the end.
 void Interpreter::define_material(std::uint32_t slot, const std::string& kind, ParameterSet parameters) {
@@ -20,7 +22,8 @@ void Interpreter::define_material(std::uint32_t slot, const std::string& kind, P
     deferred_.push_back({slot, kind, state_.color_space, std::move(parameters)});
     return;
   }
-  std::visit([&](auto&& made) { materials_[slot] = std::move(made); }, make_material(kind, parameters, scope()));
+  std::visit([&](auto&& made) { materials_[slot] = std::move(made); },
+             make_material(kind, parameters, scope()));
 }
 
 void Interpreter::material(const Place& place) {
@@ -34,13 +37,15 @@ void Interpreter::material(const Place& place) {
 void Interpreter::make_named_material(const Place& place) {
   const std::string name = read_text("the name of a material");
   ParameterSet parameters = read_set("material", name, place, "material");
-  const std::string kind = parameters.text("type", context_.version == Version::v3 ? "matte" : "");
+  if (!parameters.find("type", {ParameterType::text}))
+    fail("a named material needs a \"string type\"", place);
+  const std::string kind = parameters.text("type", "");
   const auto next = static_cast<std::uint32_t>(materials_.size());
   const auto [slot, redefined] = material_names_.define(name, place, next);
   if (slot == next) materials_.emplace_back();
   if (redefined)
-    context_.report.approximated(fmt::format("material \"{}\" is defined again, for the shapes after it", name),
-                                 place);
+    context_.report.approximated(
+        fmt::format("material \"{}\" is defined again, for the shapes after it", name), place);
   define_material(slot, kind, std::move(parameters));
 }
 
@@ -75,18 +80,20 @@ void Interpreter::medium_interface(const Place&) {
   if (tokens_.text_follows()) read_text("the name of a medium");
 }
 
-// ---- Lights -----------------------------------------------------------------------------------------------------
+// ---- Lights -------------------------------------------------------------------------------------
 
 void Interpreter::light_source(const Place& place) {
   const std::string kind = read_text("a kind of light");
   ParameterSet parameters = read_set("LightSource", kind, place, "light");
-  if (auto light = make_light(kind, parameters, state_.ctm, scope())) scene_.lights.push_back(std::move(*light));
+  if (auto light = make_light(kind, parameters, state_.ctm, scope()))
+    scene_.lights.push_back(std::move(*light));
 }
 
 void Interpreter::area_light_source(const Place& place) {
   const std::string kind = read_text("a kind of light");
   ParameterSet parameters = read_set("AreaLightSource", kind, place, "light");
-  state_.area_light = std::make_shared<AreaLightState>(make_area_emission(kind, parameters, scope()), std::nullopt);
+  state_.area_light =
+      std::make_shared<AreaLightState>(make_area_emission(kind, parameters, scope()), std::nullopt);
 }
 
 // The area in the world of each of the shapes that pbrt makes of a mesh, which all emit the whole power.
@@ -127,7 +134,7 @@ std::optional<Id<AreaLight>> Interpreter::shape_light(const ShapeGeometry& geome
   return state.id;
 }
 
-// ---- Shapes and instances ---------------------------------------------------------------------------------------
+// ---- Shapes and instances -----------------------------------------------------------------------
 
 Id<Material> Interpreter::shape_material() {
   if (state_.material) return *state_.material;
@@ -147,12 +154,13 @@ void Interpreter::shape(const Place& place) {
   shape.mesh = geometry->mesh;
   shape.material = shape_material();
   shape.area_light = shape_light(*geometry, place);
-  shape.object_to_world = state_.ctm;
-  // Meshes: pbrt flips the winding normal of the world, so that the object's front stays the front. Analytic shapes:
-  // it flips the normal of the object and then transforms it, so a mirror turns them inside out; their light does
-  // not turn, and one that shines goes by its light.
+  shape.object_to_world = state_.ctm * vitrail::translate(geometry->offset);
+  // Meshes: pbrt flips the winding normal of the world, so that the object's front stays the front. Analytic
+  // shapes: it flips the normal of the object and then transforms it, so a mirror turns them inside out;
+  // their light does not turn, and one that shines goes by its light.
   const bool mirrored = swaps_handedness(state_.ctm);
-  shape.flip_orientation = state_.reverse_orientation != (mirrored && (!geometry->quadric || shape.area_light));
+  shape.flip_orientation =
+      state_.reverse_orientation != (mirrored && (!geometry->quadric || shape.area_light));
   if (mirrored && geometry->quadric && shape.area_light)
     context_.report.approximated("a mirrored shape that shines has its front where it shines", place);
   (current_object_ ? scene_.prototypes[*current_object_].shapes : scene_.shapes).push_back(std::move(shape));
@@ -167,29 +175,32 @@ void Interpreter::object_instance(const Place& place) {
   scene_.instances.push_back({Id<Prototype>{slot}, state_.ctm});
 }
 
-// ---- The end ----------------------------------------------------------------------------------------------------
+// ---- The end ------------------------------------------------------------------------------------
 
 void Interpreter::resolve_materials() {
   for (DeferredMaterial& deferred : deferred_)
-    std::visit([&](auto&& made) { materials_[deferred.slot] = std::move(made); },
-               make_material(deferred.kind, deferred.parameters, {{context_, deferred.color_space}, textures_}));
-  std::vector<bool> alias(materials_.size());
+    std::visit(
+        [&](auto&& made) { materials_[deferred.slot] = std::move(made); },
+        make_material(deferred.kind, deferred.parameters, {{context_, deferred.color_space}, textures_}));
   for (std::size_t i = 0; i < materials_.size(); ++i) {
     std::size_t at = i;
     for (std::size_t steps = 0; const auto* other = std::get_if<MaterialAlias>(&materials_[at]); ++steps) {
-      at = material_names_.use(other->name, {}, static_cast<std::uint32_t>(materials_.size()));
+      at = material_names_.use(other->name, other->place, static_cast<std::uint32_t>(materials_.size()));
       if (at == materials_.size()) material_names_.require_definitions();
-      if (steps > materials_.size()) throw Error(fmt::format("mix materials name each other, \"{}\" too", other->name));
+      if (steps > materials_.size()) fail("this mix of materials contains itself", other->place);
     }
-    if (const auto* material = std::get_if<Material>(&materials_[at])) scene_.materials.push_back(*material);
-    else material_names_.require_definitions();
+    if (const auto* material = std::get_if<Material>(&materials_[at]))
+      scene_.materials.push_back(*material);
+    else
+      material_names_.require_definitions();
   }
 }
 
 // Without a surface there is nothing to emit; pbrt leaves such lights out.
 void Interpreter::drop_lights_of_interfaces() {
   for (Shape& shape : scene_.shapes)
-    if (shape.area_light && std::holds_alternative<InterfaceMaterial>(scene_.materials[shape.material.value])) {
+    if (shape.area_light &&
+        std::holds_alternative<InterfaceMaterial>(scene_.materials[shape.material.value])) {
       context_.report.dropped("an area light on the material \"interface\" does not shine, as in pbrt", {});
       shape.area_light.reset();
     }

@@ -11,6 +11,7 @@
 #include <cerrno>
 #include <cstring>
 #include <memory>
+#include <new>
 
 #include "scene/diagnostics.h"
 
@@ -33,11 +34,13 @@ InputBytes::InputBytes(const std::filesystem::path& file) {
     if (descriptor >= 0) ::close(descriptor);
     throw Error(fmt::format("cannot open the file: {}", std::strerror(reason)), {file.string()});
   }
+  // zlib's reader, which closes what it is given, passes what is not gzipped through as it is: pipes too.
+  const std::unique_ptr<gzFile_s, int (*)(gzFile)> reader(::gzdopen(descriptor, "rb"), &::gzclose);
+  if (!reader) throw std::bad_alloc();
+  if (S_ISDIR(status.st_mode)) throw Error("this is a directory, not a file", {file.string()});
   const bool mappable = S_ISREG(status.st_mode) && status.st_size > 0 && !starts_gzip(descriptor);
   if (mappable) map(descriptor, static_cast<std::size_t>(status.st_size));
-  ::close(descriptor);
-  if (S_ISDIR(status.st_mode)) throw Error("this is a directory, not a file", {file.string()});
-  if (!mapped_) inflate(file);
+  if (!mapped_) inflate(reader.get(), file);
 }
 
 InputBytes::~InputBytes() {
@@ -53,18 +56,15 @@ void InputBytes::map(int descriptor, std::size_t size) {
   mapped_ = true;
 }
 
-// zlib's reader passes files that are not gzipped through as they are.
-void InputBytes::inflate(const std::filesystem::path& file) {
-  const std::unique_ptr<gzFile_s, int (*)(gzFile)> input(::gzopen(file.c_str(), "rb"), &::gzclose);
-  if (!input) throw Error("cannot open the file", {file.string()});
+void InputBytes::inflate(gzFile_s* input, const std::filesystem::path& file) {
   constexpr unsigned chunk = 1u << 20;
-  ::gzbuffer(input.get(), chunk);
+  ::gzbuffer(input, chunk);
   const auto buffer = std::make_unique<char[]>(chunk);
   for (;;) {
-    const int got = ::gzread(input.get(), buffer.get(), chunk);
+    const int got = ::gzread(input, buffer.get(), chunk);
     if (got > 0) inflated_.insert(inflated_.end(), buffer.get(), buffer.get() + got);
     int code = Z_OK;
-    const char* const reason = ::gzerror(input.get(), &code);
+    const char* const reason = ::gzerror(input, &code);
     if (got < 0 || (code != Z_OK && code != Z_STREAM_END)) {
       throw Error(fmt::format("cannot inflate the file after {} bytes: {}", inflated_.size(), reason),
                   {file.string()});

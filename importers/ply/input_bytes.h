@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <vector>
 
+struct gzFile_s;
+
 namespace vitrail {
 
 // The bytes of an input file: mapped, or inflated where it is gzipped (by content, whatever its name). They
@@ -25,7 +27,7 @@ class InputBytes {
 
  private:
   void map(int descriptor, std::size_t size);
-  void inflate(const std::filesystem::path& file);
+  void inflate(gzFile_s* input, const std::filesystem::path& file);
 
   const char* begin_ = nullptr;
   std::size_t size_ = 0;

@@ -225,8 +225,11 @@ void read_common_faces(Source& source, const Element& element, std::size_t list,
       corners[k] = load<std::uint32_t, Source::swapped>(at + 1 + 4 * k);
       greatest = std::max(greatest, corners[k]);
     }
-    if (length > 0 && greatest >= vertices)
-      source.fail(element, out_of_range(static_cast<std::int32_t>(greatest), vertices), at);
+    if (length > 0 && greatest >= vertices) {
+      const bool is_signed = element.properties[list].type == Type::int32;
+      const double index = is_signed ? static_cast<double>(static_cast<std::int32_t>(greatest)) : greatest;
+      source.fail(element, out_of_range(index, vertices), at);
+    }
     sink.add({corners.data(), length});
     source.skip(before + 1 + 4 * length + after);
     if (row % chunk_rows == 0) source.release_read();

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "importers/shapes/polygon.h"
 
+#include <algorithm>
+#include <cmath>
 #include <numeric>
 
 namespace vitrail {
@@ -42,27 +44,32 @@ std::vector<Point2d> project(std::span<const Point3d> p, Vector3d normal) {
 class EarClipper {
  public:
   explicit EarClipper(std::vector<Point2d> corners)
-      : p_(std::move(corners)), next_(p_.size()), previous_(p_.size()) {
+      : p_(std::move(corners)), next_(p_.size()), previous_(p_.size()), is_concave_(p_.size()) {
     std::iota(next_.begin(), next_.end(), 1u);
     next_.back() = 0;
     for (std::uint32_t i = 0; i < next_.size(); ++i) previous_[next_[i]] = i;
     for (std::uint32_t i = 0; i < next_.size(); ++i) {
-      if (area(i) <= 0) concave_.push_back(i);
+      is_concave_[i] = area(i) <= 0;
+      if (is_concave_[i]) concave_.push_back(i);
     }
+    const auto [left, right] = std::ranges::minmax(p_, {}, &Point2d::x);
+    const auto [bottom, top] = std::ranges::minmax(p_, {}, &Point2d::y);
+    long_axis_ = right.x - left.x >= top.y - bottom.y ? &Point2d::x : &Point2d::y;
+    std::ranges::sort(concave_, {}, [&](std::uint32_t i) { return p_[i].*long_axis_; });
   }
 
   void clip(std::vector<CornerTriple>& triangles) {
     std::uint32_t at = 0;
     for (std::size_t left = p_.size(); left > 3; --left) {
-      const std::uint32_t ear = find_ear(at, left);
-      triangles.push_back({previous_[ear], ear, next_[ear]});
-      next_[previous_[ear]] = next_[ear];
-      previous_[next_[ear]] = previous_[ear];
+      const std::uint32_t ear = find_ear(at, left), before = previous_[ear], after = next_[ear];
+      triangles.push_back({before, ear, after});
+      next_[before] = after;
+      previous_[after] = before;
+      is_concave_[ear] = false;
+      // Corners only ever become more convex.
+      for (const std::uint32_t i : {before, after}) is_concave_[i] = is_concave_[i] && area(i) <= 0;
       // Going on behind the next corner cuts ears all around instead of a fan of slivers.
-      at = next_[next_[ear]];
-      std::erase_if(concave_, [&](std::uint32_t i) {
-        return i == ear || ((i == previous_[ear] || i == next_[ear]) && area(i) > 0);
-      });
+      at = next_[after];
     }
     triangles.push_back({previous_[at], at, next_[at]});
   }
@@ -86,9 +93,11 @@ class EarClipper {
   // such.
   bool is_empty(std::uint32_t ear) const {
     const Point2d a = p_[previous_[ear]], b = p_[ear], c = p_[next_[ear]];
-    for (const std::uint32_t i : concave_) {
-      const Point2d q = p_[i];
-      if (q == a || q == b || q == c) continue;
+    const auto [low, high] = std::minmax({a.*long_axis_, b.*long_axis_, c.*long_axis_});
+    auto at = std::ranges::lower_bound(concave_, low, {}, [&](std::uint32_t i) { return p_[i].*long_axis_; });
+    for (; at != concave_.end() && p_[*at].*long_axis_ <= high; ++at) {
+      const Point2d q = p_[*at];
+      if (!is_concave_[*at] || q == a || q == b || q == c) continue;
       if (orientation(a, b, q) >= 0 && orientation(b, c, q) >= 0 && orientation(c, a, q) >= 0) return false;
     }
     return true;
@@ -96,7 +105,9 @@ class EarClipper {
 
   std::vector<Point2d> p_;
   std::vector<std::uint32_t> next_, previous_;
-  std::vector<std::uint32_t> concave_;  // corners of what is left that are not strictly convex
+  std::vector<bool> is_concave_;        // not strictly convex, and not clipped yet
+  std::vector<std::uint32_t> concave_;  // those which began so, along the longer axis
+  double Point2d::*long_axis_ = nullptr;
 };
 
 }  // namespace

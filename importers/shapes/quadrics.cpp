@@ -42,7 +42,7 @@ Columns columns(double phimax_rad, int segments_of_turn, const char* shape) {
   const double phimax = whole ? 2 * pi : phimax_rad;
   const int n = share(segments_of_turn, phimax, 2 * pi);
   Columns result;
-  for (int i = 0; i <= n; ++i) result.directions.push_back(unit_circle(whole && i == n ? 0 : phimax * i / n));
+  for (int i = 0; i <= n; ++i) result.directions.push_back(unit_circle(phimax * i / n));
   return result;
 }
 
@@ -112,9 +112,8 @@ TriangleMesh tessellate_sphere(double radius, double zmin, double zmax, double p
   std::vector<Ring> rings;
   for (int j = 0; j <= rows; ++j) {
     const double angle = j == rows ? last : first + (last - first) * j / rows;
-    const bool pole = angle == 0 || angle == pi;
-    const Point2d d = unit_circle(angle);
-    const double across = pole ? 0 : d.y, z = -d.x;
+    const Point2d d = unit_circle(angle);  // exactly (±1, 0) at the poles
+    const double across = d.y, z = -d.x;
     rings.push_back(
         {radius * across, radius * z, across, z, static_cast<float>(static_cast<double>(j) / rows)});
   }

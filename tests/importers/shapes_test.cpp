@@ -294,6 +294,20 @@ TEST(Loop, LimitPointsDoNotMove) {
   }
 }
 
+// Valence 3, where Warren's weight is 3/16: the limit takes 1/5 of each neighbour, refined before or not.
+TEST(Loop, Tetrahedron) {
+  const TriangleMesh cage{{{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}},
+                          {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}},
+                          {},
+                          {}};
+  for (const int levels : {0, 1, 4}) {
+    const TriangleMesh mesh = loop_subdivide(cage, levels);
+    EXPECT_NEAR(mesh.positions[0].x, 0.2, 1e-6) << levels;
+    EXPECT_NEAR(mesh.normals[0].x, std::sqrt(1.0 / 3), 1e-6) << levels;
+    expect_fronts_follow_normals(mesh);
+  }
+}
+
 // Normals of the limit surface agree with its fine triangles, inside and on boundaries of every valence.
 TEST(Loop, NormalsAreThoseOfTheSurface) {
   TriangleMesh fan{{{0, 0, 0.5f}}, {}, {}, {}};

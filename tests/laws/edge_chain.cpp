@@ -31,6 +31,9 @@ class Vertices {
     }
   }
 
+  // All, ascending along x.
+  std::span<const Point3d> all() const { return sorted_[0]; }
+
   // Within the slab around the edge that holds the fewest.
   std::span<const Point3d> near(const DirectedEdge& e, double tolerance) const {
     std::span<const Point3d> best;
@@ -50,6 +53,25 @@ class Vertices {
  private:
   std::array<std::vector<Point3d>, 3> sorted_;
 };
+
+// Each vertex becomes the first one of those within `radius` of it.
+std::vector<DirectedEdge> with_close_vertices_merged(const std::vector<DirectedEdge>& edges, double radius) {
+  const Vertices vertices(edges);
+  const std::span<const Point3d> all = vertices.all();
+  std::map<std::array<double, 3>, Point3d> first;
+  const auto key = [](Point3d p) { return std::array{p.x, p.y, p.z}; };
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (!first.try_emplace(key(all[i]), all[i]).second) continue;
+    for (std::size_t j = i + 1; j < all.size() && all[j].x <= all[i].x + radius; ++j)
+      if (length(all[j] - all[i]) <= radius) first.try_emplace(key(all[j]), all[i]);
+  }
+  std::vector<DirectedEdge> merged;
+  for (const DirectedEdge& e : edges) {
+    const DirectedEdge m{first.at(key(e.from)), first.at(key(e.to))};
+    if (!(m.from == m.to)) merged.push_back(m);
+  }
+  return merged;
+}
 
 }  // namespace
 
@@ -87,7 +109,7 @@ std::vector<DirectedEdge> EdgeChain::edges() const {
 }
 
 EdgeChain EdgeChain::refined(double tolerance) const {
-  const std::vector<DirectedEdge> all = edges();
+  const std::vector<DirectedEdge> all = with_close_vertices_merged(edges(), tolerance / 10);
   const Vertices vertices(all);
   EdgeChain result;
   for (const DirectedEdge& e : all) {

@@ -43,11 +43,11 @@ TEST(WhiteFurnace, ClosedBoxOfAlbedoOne) {
   EXPECT_LT(error, 0.005 * expected);
 }
 
-// A white object under a uniform sky cannot be seen, whether it scatters or refracts. Depth is bounded, so a little
-// of the light that stays in the glass is missing.
+// A white object under a uniform sky cannot be seen, whether it scatters or refracts. Depth is bounded, so a
+// little of the light that stays in the glass is missing.
 TEST(WhiteFurnace, ObjectsVanishUnderAUniformSky) {
-  const Material materials[] = {DiffuseMaterial{ConstantSpectrum{1}}, DielectricMaterial{ConstantSpectrum{1.5f}},
-                                DielectricMaterial{bk7()}};
+  const Material materials[] = {DiffuseMaterial{ConstantSpectrum{1}},
+                                DielectricMaterial{ConstantSpectrum{1.5f}}, DielectricMaterial{bk7()}};
   for (const Material& material : materials) {
     Scene scene;
     add_shape(scene, add_quads(scene, box_faces({-0.5f, -0.5f, -0.5f}, {0.5f, 0.5f, 0.5f})), material);
@@ -73,8 +73,8 @@ TEST(PointLight, OnAPlane) {
   EXPECT_NEAR(result.mean, expected, 4 * result.standard_error + 2e-4 * expected);
 }
 
-// A square light of radiance 1 seen from a point of a parallel plane: the configuration factor of a rectangle over a
-// point under its corner (Howell, Menguc & Daun, catalogue B-4), four corners together.
+// A square light of radiance 1 seen from a point of a parallel plane: the configuration factor of a rectangle
+// over a point under its corner (Howell, Menguc & Daun, catalogue B-4), four corners together.
 TEST(AreaLight, SquareOverAPlane) {
   Scene scene;
   add_shape(scene, add_quads(scene, {{{{-10, -10, 0}, {10, -10, 0}, {10, 10, 0}, {-10, 10, 0}}}}),

@@ -40,7 +40,8 @@ class Background {
   }
   // The render processes below it.
   std::vector<pid_t> ranks() const {
-    std::istringstream pids(run(fmt::format("pgrep -g {} -f vitrail-render; pgrep -P {}", pid_, pid_)).output);
+    std::istringstream pids(
+        run(fmt::format("pgrep -g {} -f vitrail-render; pgrep -P {}", pid_, pid_)).output);
     std::vector<pid_t> found;
     for (pid_t pid; pids >> pid;)
       if (pid != pid_ && std::ranges::find(found, pid) == found.end()) found.push_back(pid);
@@ -58,8 +59,9 @@ class KillAndResume : public ::testing::Test {
  protected:
   void SetUp() override {
     bundle_ = directory_ / "box.vit";
-    const CommandResult made = run(fmt::format("{} '{}/examples/cornell-box/cornell-box.pbrt' -o '{}' --domains 8",
-                                               vitrail("partition"), VITRAIL_SOURCE_DIR, bundle_.string()));
+    const CommandResult made =
+        run(fmt::format("{} '{}/examples/cornell-box/cornell-box.pbrt' -o '{}' --domains 8",
+                        vitrail("partition"), VITRAIL_SOURCE_DIR, bundle_.string()));
     ASSERT_EQ(made.status, 0) << made.output;
   }
   std::string command(const std::string& film, const std::string& more) const {
@@ -83,7 +85,8 @@ TEST_F(KillAndResume, KilledRanksLeaveTheSameFilm) {
   int killed = 0;
   for (int attempt = 0; attempt < 5; ++attempt) {
     const bool resume = std::filesystem::exists(partial);
-    Background job(command("killed.film", std::string("--checkpoint-every 0.2") + (resume ? " --resume" : "")));
+    Background job(
+        command("killed.film", std::string("--checkpoint-every 0.2") + (resume ? " --resume" : "")));
     const auto moment = whole * std::uniform_real_distribution(0.15, 0.45)(random);
     std::this_thread::sleep_for(std::chrono::duration_cast<std::chrono::milliseconds>(moment));
     const std::vector<pid_t> ranks = job.ranks();
@@ -106,7 +109,7 @@ TEST_F(KillAndResume, KilledRanksLeaveTheSameFilm) {
 TEST_F(KillAndResume, TermWritesACheckpointAndExitsCleanly) {
   for (const bool alone : {true, false}) {
     std::string line = command("stopped.film", "");
-    if (alone) line = line.substr(line.find(" '"  VITRAIL_BIN_DIR) + 1);
+    if (alone) line = line.substr(line.find(" '" VITRAIL_BIN_DIR) + 1);
     Background job(line);
     std::this_thread::sleep_for(1500ms);
     ASSERT_TRUE(job.running());
@@ -123,7 +126,8 @@ TEST_F(KillAndResume, TermWritesACheckpointAndExitsCleanly) {
 
 TEST_F(KillAndResume, RefusesAnotherJobsCheckpoint) {
   Background job(command("other.film", "--checkpoint-every 0.1"));
-  while (job.running() && !std::filesystem::exists(directory_ / "other.film.partial")) std::this_thread::sleep_for(10ms);
+  while (job.running() && !std::filesystem::exists(directory_ / "other.film.partial"))
+    std::this_thread::sleep_for(10ms);
   for (pid_t pid : job.ranks()) ::kill(pid, SIGKILL);
   job.wait();
   ASSERT_TRUE(std::filesystem::exists(directory_ / "other.film.partial"));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One scene, seed and sample count give one film, bit for bit, whatever the number of sub-domains, ranks and threads,
-// the memory, and the order in which rays arrive.
+// One scene, seed and sample count give one film, bit for bit, whatever the number of sub-domains, ranks and
+// threads, the memory, and the order in which rays arrive.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -21,8 +21,8 @@ struct Bundle {
 Bundle make_bundle(const TemporaryDirectory& directory, const std::filesystem::path& scene, int domains) {
   Bundle bundle;
   bundle.path = directory / fmt::format("{}.vit", domains);
-  const CommandResult made =
-      run(fmt::format("{} '{}' -o '{}' --domains {}", vitrail("partition"), scene.string(), bundle.path.string(), domains));
+  const CommandResult made = run(fmt::format("{} '{}' -o '{}' --domains {}", vitrail("partition"),
+                                             scene.string(), bundle.path.string(), domains));
   EXPECT_EQ(made.status, 0) << made.output;
   for (const DomainInfo& d : read_manifest(bundle.path).domains) {
     bundle.bytes += d.bytes;
@@ -34,9 +34,9 @@ Bundle make_bundle(const TemporaryDirectory& directory, const std::filesystem::p
 nlohmann::json render(const TemporaryDirectory& directory, const Bundle& bundle, int ranks, int threads,
                       const std::string& more) {
   const auto stats = directory / "stats.json";
-  const CommandResult done =
-      run(fmt::format("{} '{}' -o '{}' --crop 0,48,0,32 --spp 2 --threads {} --stats '{}' {}", mpi_vitrail("render", ranks),
-                      bundle.path.string(), (directory / "picture.film").string(), threads, stats.string(), more));
+  const CommandResult done = run(fmt::format(
+      "{} '{}' -o '{}' --crop 0,48,0,32 --spp 2 --threads {} --stats '{}' {}", mpi_vitrail("render", ranks),
+      bundle.path.string(), (directory / "picture.film").string(), threads, stats.string(), more));
   EXPECT_EQ(done.status, 0) << done.output;
   return done.status == 0 ? read_json(stats) : nlohmann::json();
 }
@@ -44,8 +44,8 @@ nlohmann::json render(const TemporaryDirectory& directory, const Bundle& bundle,
 // What a quarter of the bundle, but no less than its largest domain, needs beside the program itself.
 std::uint64_t quarter(const Bundle& bundle, const nlohmann::json& everything, int threads) {
   const std::uint64_t domains = std::max(bundle.bytes / 4, bundle.largest);
-  return everything["base_rss_bytes"].get<std::uint64_t>() + (4 + 2) * mib + static_cast<std::uint64_t>(threads) * mib +
-         domains + domains / 4 + 3 * mib;
+  return everything["base_rss_bytes"].get<std::uint64_t>() + (4 + 2) * mib +
+         static_cast<std::uint64_t>(threads) * mib + domains + domains / 4 + 3 * mib;
 }
 
 void expect_one_picture(const TemporaryDirectory& directory, const std::filesystem::path& scene) {
@@ -60,7 +60,9 @@ void expect_one_picture(const TemporaryDirectory& directory, const std::filesyst
     forwarded += stats["forwarded_rays"].get<std::uint64_t>();
     evictions += stats["evictions"].get<std::uint64_t>();
     const auto budget = stats["memory_budget_bytes"].get<std::uint64_t>();
-    if (budget > 0) EXPECT_LE(stats["peak_rss_bytes"].get<std::uint64_t>(), budget) << what;
+    if (budget > 0) {
+      EXPECT_LE(stats["peak_rss_bytes"].get<std::uint64_t>(), budget) << what;
+    }
     ++runs;
   };
   for (const int domains : {1, 8, 64}) {
@@ -76,7 +78,8 @@ void expect_one_picture(const TemporaryDirectory& directory, const std::filesyst
         check(render(directory, bundle, ranks, threads, memory), what + ", a quarter of the memory");
         if (domains == 64 && ranks == 2 && threads == 2)
           for (const int seed : {1, 2})
-            check(render(directory, bundle, ranks, threads, fmt::format("{} --shuffle-delivery {}", memory, seed)),
+            check(render(directory, bundle, ranks, threads,
+                         fmt::format("{} --shuffle-delivery {}", memory, seed)),
                   what + ", shuffled");
       }
   }
@@ -87,8 +90,9 @@ void expect_one_picture(const TemporaryDirectory& directory, const std::filesyst
 
 std::filesystem::path generate(const TemporaryDirectory& directory, const std::string& example,
                                const std::string& arguments) {
-  const CommandResult made = run(fmt::format("python3 '{}/examples/{}/generate.py' -o '{}' {}", VITRAIL_SOURCE_DIR,
-                                             example, (directory / example).string(), arguments));
+  const CommandResult made =
+      run(fmt::format("python3 '{}/examples/{}/generate.py' -o '{}' {}", VITRAIL_SOURCE_DIR, example,
+                      (directory / example).string(), arguments));
   EXPECT_EQ(made.status, 0) << made.output;
   return directory / example / (example + ".pbrt");
 }

@@ -11,7 +11,7 @@ namespace vitrail::test {
 namespace {
 
 constexpr double apex = pi / 3;
-constexpr double incidence = 0.86;      // rad, near minimum deviation
+constexpr double incidence = 0.86;  // rad, near minimum deviation
 constexpr double screen_distance = 500;
 
 // Exit angle against the normal of the second face, and what the two faces let through.
@@ -36,8 +36,8 @@ Passage through_prism(double lambda_nm) {
 // Deviation from the incident direction.
 double deviation(double lambda_nm) { return incidence + through_prism(lambda_nm).exit_angle - apex; }
 
-// The prism stands on the plane y = 0 with its apex up; the beam comes from −x and is bent down, towards its base.
-// A strip on a far screen shines from the deviation at `lambda0` to that at `lambda1`.
+// The prism stands on the plane y = 0 with its apex up; the beam comes from −x and is bent down, towards its
+// base. A strip on a far screen shines from the deviation at `lambda0` to that at `lambda1`.
 Scene prism_scene(double lambda0, double lambda1) {
   Scene scene;
   const double half = std::tan(apex / 2);
@@ -49,7 +49,8 @@ Scene prism_scene(double lambda0, double lambda1) {
   add_shape(scene, add_quads(scene, {{{a0, a1, c1, c0}}, {{b0, c0, c1, b1}}, {{a0, b0, b1, a1}}}),
             DielectricMaterial{bk7()});
 
-  // The left face's outward normal makes the angle apex/2 with −x, up; incidence is measured from it, from below.
+  // The left face's outward normal makes the angle apex/2 with −x, up; incidence is measured from it, from
+  // below.
   const double tilt = incidence - apex / 2;  // of the beam above the horizontal
   const Vector3d beam{std::cos(tilt), std::sin(tilt), 0};
   const Point3d target{-half / 2, -0.5, 0};

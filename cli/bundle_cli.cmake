@@ -1,0 +1,7 @@
+# SPDX-License-Identifier: Apache-2.0
+# The programs that make bundles and look into files.
+target_sources(vitrail_cli PRIVATE diagnostics_report.cpp)
+vitrail_program(partition SOURCES partition.cpp
+  LIBRARIES vitrail::cli vitrail::importers vitrail::partitioner nlohmann_json::nlohmann_json)
+vitrail_program(inspect SOURCES inspect.cpp inspect_bundle.cpp inspect_scene.cpp report_text.cpp
+  LIBRARIES vitrail::cli vitrail::bundle vitrail::film vitrail::importers vitrail::partitioner nlohmann_json::nlohmann_json)

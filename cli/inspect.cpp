@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/inspect.h"
+
+#include <fmt/format.h>
+
+#include <fstream>
+
+#include "cli/main_guard.h"
+
+namespace vitrail {
+namespace {
+
+bool begins_with(const std::filesystem::path& file, std::string_view magic) {
+  std::string head(magic.size(), '\0');
+  std::ifstream(file, std::ios::binary).read(head.data(), static_cast<std::streamsize>(head.size()));
+  return head == magic;
+}
+
+Report inspect(const std::filesystem::path& file) {
+  if (!std::filesystem::exists(file)) throw Error("no such file", {file.string()});
+  if (std::filesystem::is_directory(file)) return inspect_bundle(file);
+  if (file.extension() == ".dom" || begins_with(file, "VITRDOM\n")) return inspect_domain(file);
+  if (file.extension() == ".film") return inspect_film(file);
+  return inspect_scene(file);
+}
+
+// 0, or 3 where a bundle was read without an error but breaks a law.
+int status_of(const Report& report) {
+  return report.contains("ghost_free") && report["ghost_free"] == false ? exit_bad_input : exit_done;
+}
+
+}  // namespace
+}  // namespace vitrail
+
+int main(int argc, char** argv) {
+  using namespace vitrail;
+  CLI::App app("says what a scene, bundle, sub-domain or film holds, and verifies it", "vitrail inspect");
+  std::filesystem::path file;
+  bool json = false;
+  app.add_option("file", file, "scene file, bundle (NAME.vit), sub-domain (.dom) or film (.film)")
+      ->required();
+  app.add_flag("--json", json, "print JSON");
+  return run_guarded(app, argc, argv, [&] {
+    const Report report = inspect(file);
+    fmt::print("{}", json ? report.dump(1) + "\n" : to_text(report));
+    return status_of(report);
+  });
+}

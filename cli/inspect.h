@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// What `vitrail inspect` finds, as JSON; its text form is the same, laid out.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "bundle/manifest.h"
+
+namespace vitrail {
+
+using Report = nlohmann::ordered_json;
+
+// Each reads and verifies everything of its file, and throws Error where something is wrong.
+Report inspect_scene(const std::filesystem::path& file);
+Report inspect_bundle(const std::filesystem::path& bundle);
+Report inspect_domain(const std::filesystem::path& file);
+Report inspect_film(const std::filesystem::path& file);
+
+// Shared by scenes and bundles: bounds, requirements and their reasons, materials, lights, camera and film.
+Report describe(const Manifest& manifest);
+
+// "key: value" lines, nested by indentation; lists of records as tables.
+std::string to_text(const Report& report);
+
+}  // namespace vitrail

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <numbers>
+
+#include "bundle/census.h"
+#include "cli/inspect.h"
+#include "film/film.h"
+#include "importers/import.h"
+#include "partitioner/flatten.h"
+#include "scene/spectrum.h"
+
+namespace vitrail {
+
+namespace {
+
+constexpr std::array spectrum_kinds{"constant", "sigmoid", "RGB illuminant", "tabulated", "Sellmeier"};
+constexpr std::array light_kinds{"point", "distant", "infinite"};
+
+Report triple(const auto& v) { return {v.x, v.y, v.z}; }
+
+// Where a spectrum lies: its values at blue, green and red.
+std::string in_words(const Spectrum& s) {
+  if (const auto* constant = std::get_if<ConstantSpectrum>(&s)) return fmt::format("{:.4g}", constant->value);
+  return fmt::format("{}: {:.4g} at 450 nm, {:.4g} at 550 nm, {:.4g} at 650 nm", spectrum_kinds.at(s.index()),
+                     evaluate(s, 450), evaluate(s, 550), evaluate(s, 650));
+}
+
+Report describe(const Material& material) {
+  if (const auto* diffuse = std::get_if<DiffuseMaterial>(&material))
+    return {{"kind", "diffuse"}, {"reflectance or index", in_words(diffuse->reflectance)}};
+  if (const auto* dielectric = std::get_if<DielectricMaterial>(&material))
+    return {{"kind", "dielectric"}, {"reflectance or index", in_words(dielectric->eta)}};
+  return {{"kind", "interface"}, {"reflectance or index", nullptr}};
+}
+
+// Emitting area of each area light, scene units².
+std::vector<double> emitting_areas(const Manifest& m) {
+  std::vector<double> areas(m.area_lights.size(), 0);
+  for (const EmissiveTriangle& t : m.emissive_triangles)
+    areas[t.area_light] +=
+        polygon_area(std::array{cast<double>(t.p[0]), cast<double>(t.p[1]), cast<double>(t.p[2])});
+  return areas;
+}
+
+// `power` is ȳ-weighted: π·A·L of an area light (twice that if two-sided), 4π·I of a point light.
+Report describe_lights(const Manifest& m) {
+  Report lights = Report::array();
+  const std::vector<double> areas = emitting_areas(m);
+  for (std::size_t i = 0; i < areas.size(); ++i) {
+    const AreaLight& l = m.area_lights[i];
+    const double y = luminance(l.radiance);
+    lights.push_back({{"kind", l.two_sided ? "area, both sides" : "area"},
+                      {"luminance", y},
+                      {"area", areas[i]},
+                      {"power", std::numbers::pi * areas[i] * y * (l.two_sided ? 2 : 1)}});
+  }
+  for (const Light& light : m.lights) {
+    Report power = nullptr;
+    double y = 0;
+    if (const auto* point = std::get_if<PointLight>(&light)) {
+      y = luminance(point->intensity);
+      power = 4 * std::numbers::pi * y;
+    } else if (const auto* distant = std::get_if<DistantLight>(&light)) {
+      y = luminance(distant->irradiance);
+    } else {
+      y = luminance(std::get<InfiniteLight>(light).radiance);
+    }
+    lights.push_back(
+        {{"kind", light_kinds.at(light.index())}, {"luminance", y}, {"area", nullptr}, {"power", power}});
+  }
+  return lights;
+}
+
+template <class Condition>
+std::string materials_that(const Manifest& m, const char* what, Condition condition) {
+  std::size_t count = 0, first = 0;
+  for (std::size_t i = 0; i < m.materials.size(); ++i)
+    if (condition(m.materials[i]) && count++ == 0) first = i;
+  return fmt::format("yes: {} of {} materials {}, the first is number {}", count, m.materials.size(), what,
+                     first);
+}
+
+// What the scene asks of a renderer, and why.
+Report describe_requirements(const Manifest& m) {
+  const Requirements& r = m.requirements;
+  const auto dielectric = [](const Material& x) { return std::holds_alternative<DielectricMaterial>(x); };
+  const auto interface = [](const Material& x) { return std::holds_alternative<InterfaceMaterial>(x); };
+  const auto disperses = [](const Material& x) {
+    const auto* d = std::get_if<DielectricMaterial>(&x);
+    return d && !is_constant(d->eta);
+  };
+  return {{"shading_normals", r.shading_normals ? "yes: a mesh in use has normals at its vertices" : "no"},
+          {"transmission", r.transmission ? materials_that(m, "are dielectric", dielectric) : "no"},
+          {"dispersion", r.dispersion ? materials_that(m, "refract by wavelength", disperses) : "no"},
+          {"interfaces", r.interfaces ? materials_that(m, "are interfaces", interface) : "no"}};
+}
+
+Report describe_view(const Manifest& m) {
+  const FilmSettings& f = m.film;
+  return {{"camera", std::holds_alternative<PerspectiveCamera>(m.camera) ? "perspective" : "orthographic"},
+          {"pixels", fmt::format("{} × {}", f.width, f.height)},
+          {"crop", {f.crop.x0, f.crop.x1, f.crop.y0, f.crop.y1}},
+          {"samples_per_pixel", m.settings.samples_per_pixel},
+          {"max_depth", m.settings.max_depth}};
+}
+
+Report describe_diagnostics(const Diagnostics& diagnostics) {
+  Report list = Report::array();
+  for (const Diagnostic& d : diagnostics)
+    list.push_back({{"fidelity", d.fidelity == Fidelity::dropped ? "dropped" : "approximated"},
+                    {"where", to_string(d.location)},
+                    {"what", d.message}});
+  return list;
+}
+
+}  // namespace
+
+Report describe(const Manifest& m) {
+  Report r;
+  r["scene_hash"] = fmt::format("{:016x}", m.scene_hash);
+  r["triangles"] = m.triangles;
+  r["surfaces"] = m.surfaces.size();
+  if (!m.bounds.empty()) {
+    r["bounds_lower"] = triple(cast<double>(m.bounds.lower) + m.offset);
+    r["bounds_upper"] = triple(cast<double>(m.bounds.upper) + m.offset);
+  }
+  r["requires"] = describe_requirements(m);
+  r["materials"] = Report::array();
+  for (const Material& material : m.materials) r["materials"].push_back(describe(material));
+  r["emissive_triangles"] = m.emissive_triangles.size();
+  r["lights"] = describe_lights(m);
+  r["view"] = describe_view(m);
+  return r;
+}
+
+Report inspect_scene(const std::filesystem::path& file) {
+  const ImportedScene imported = import_scene(file);
+  const Scene& s = imported.scene;
+  Report r{{"file", file.string()}, {"kind", "scene"}};
+  r["meshes"] = s.meshes.size();
+  r["shapes"] = s.shapes.size();
+  r["prototypes"] = s.prototypes.size();
+  r["instances"] = s.instances.size();
+  r.update(describe(flatten(s).manifest));
+  r["not_exact"] = describe_diagnostics(imported.diagnostics);
+  return r;
+}
+
+Report inspect_film(const std::filesystem::path& file) {
+  FilmProgress progress;
+  const Film film = read_film(file, &progress);
+  const auto pixels = static_cast<std::uint32_t>(film.counts().size());
+  std::uint64_t least = pixels ? film.samples(0) : 0, most = 0, sum = 0;
+  double luminance = 0;
+  for (std::uint32_t i = 0; i < pixels; ++i) {
+    least = std::min(least, film.samples(i));
+    most = std::max(most, film.samples(i));
+    sum += film.samples(i);
+    luminance += film.mean(i).y;
+  }
+  const PixelRect& crop = film.crop();
+  return {{"file", file.string()},
+          {"kind", "film"},
+          {"pixels", fmt::format("{} × {}", film.full_width(), film.full_height())},
+          {"crop", {crop.x0, crop.x1, crop.y0, crop.y1}},
+          {"complete", progress.complete()},
+          {"samples_per_pixel_asked", progress.samples_per_pixel},
+          {"samples_per_pixel_least", least},
+          {"samples_per_pixel_most", most},
+          {"samples", sum},
+          {"mean_luminance", pixels ? luminance / pixels : 0},
+          {"saturated", film.saturated()},
+          {"render_time_s", progress.render_time_s},
+          {"seed", film.key().seed},
+          {"scene_hash", fmt::format("{:016x}", film.key().scene_hash)},
+          {"settings_hash", fmt::format("{:016x}", film.key().settings_hash)},
+          {"film_hash", fmt::format("{:016x}", film.hash())}};
+}
+
+}  // namespace vitrail

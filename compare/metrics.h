@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// How far an image is from a reference. Images are linear sRGB, 3 channels, of the same size.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "scene/image.h"
+
+namespace vitrail {
+
+// Errors of one channel, a the image and b the reference.
+double squared_error(double a, double b);   // (a − b)²
+double absolute_error(double a, double b);  // |a − b|
+// (a − b)²/(b² + ε) with ε = 0.01 against division by black (after Rousselle, Knaus, Zwicker 2011).
+double relative_squared_error(double a, double b);
+// 2|a − b|/(|a| + |b|), 0 where both are 0 (Makridakis 1993).
+double symmetric_relative_error(double a, double b);
+
+// The mean of a channel error over the channels of each pixel; NaN in pixels that are not finite in either
+// image. Throws Error if the sizes differ.
+std::vector<double> error_map(const Image& image, const Image& reference,
+                              const std::function<double(double, double)>& channel_error);
+
+// 1 in pixels with any bit different, else 0: NaN equals itself, −0 differs from 0.
+std::vector<double> difference_map(const Image& image, const Image& reference);
+
+// The mean of the values that are not NaN; NaN if all are.
+double mean_of_valid(std::span<const double> values);
+
+// 10 log₁₀(1/MSE) dB, for a peak of 1; ∞ for equal images.
+double psnr_of_mse(double mse);
+
+// Pixels with a channel that is not finite.
+std::size_t count_nonfinite(const Image& image);
+
+// Means of the image over means of the reference, over the pixels that are finite in both: 1 without bias.
+// NaN where the reference is black.
+struct MeanRatios {
+  double luminance = 0, red = 0, green = 0, blue = 0;
+};
+MeanRatios mean_ratios(const Image& image, const Image& reference);
+
+void require_same_size(const Image& image, const Image& reference);
+
+}  // namespace vitrail

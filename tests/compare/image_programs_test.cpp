@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+// develop and compare as a user runs them.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "film/image_io.h"
+#include "tests/support/command.h"
+#include "tests/support/temporary_directory.h"
+
+namespace vitrail::test {
+namespace {
+
+using testing::HasSubstr;
+
+class ImagePrograms : public testing::Test {
+ protected:
+  // A film of 16 samples a pixel, the luminance of sample s being 1 or 3 in turn; returns its name, quoted.
+  std::string film(const std::string& name, std::uint64_t seed, std::uint64_t scene = 1) {
+    FilmSettings settings;
+    settings.width = settings.height = 8;
+    settings.crop = {0, 8, 0, 8};
+    Film f(settings, {scene, 2, seed});
+    for (std::uint32_t p = 0; p < 64; ++p)
+      for (std::uint32_t s = 0; s < 16; ++s) {
+        f.count_sample(p);
+        f.deposit(p, s, srgb_to_xyz(s % 2 == 0 ? RGB{1, 1, 1} : RGB{3, 3, 3}));
+      }
+    write_film(directory_ / name, f, {1, 16, {1}, 1});
+    return quoted(name);
+  }
+  std::string quoted(const std::string& name) const { return '\'' + (directory_ / name).string() + '\''; }
+
+  CommandResult develop(const std::string& arguments) { return run(vitrail("develop") + ' ' + arguments); }
+  CommandResult compare(const std::string& arguments) { return run(vitrail("compare") + ' ' + arguments); }
+
+  TemporaryDirectory directory_;
+};
+
+TEST_F(ImagePrograms, DevelopMergesSeedsInAnyOrder) {
+  const std::string a = film("a.film", 1), b = film("b.film", 2);
+  ASSERT_EQ(develop(a + ' ' + b + " -o " + quoted("ab.exr")).status, 0);
+  ASSERT_EQ(develop(b + ' ' + a + " -o " + quoted("ba.exr")).status, 0);
+  EXPECT_EQ(run("cmp " + quoted("ab.exr") + ' ' + quoted("ba.exr")).status, 0);
+  const Picture picture = read_picture(directory_ / "ab.exr");
+  EXPECT_EQ(picture.samples_per_pixel, 32);
+  EXPECT_NEAR(picture.rgb.values[0], 2, 1e-5);
+}
+
+TEST_F(ImagePrograms, DevelopExposes) {
+  ASSERT_EQ(develop(film("a.film", 1) + " -o " + quoted("a.exr") + " --exposure -1 --variance").status, 0);
+  const Picture picture = read_picture(directory_ / "a.exr");
+  EXPECT_NEAR(picture.rgb.values[0], 1, 1e-5);
+  EXPECT_EQ(picture.variance.pixels(), 64u);
+}
+
+TEST_F(ImagePrograms, DevelopRefusesDoubleSeedsAndStrangers) {
+  const std::string a = film("a.film", 1), again = film("again.film", 1), other = film("other.film", 2, 9);
+  const CommandResult twice = develop(a + ' ' + again + " -o " + quoted("x.exr"));
+  EXPECT_EQ(twice.status, 3);
+  EXPECT_THAT(twice.output, HasSubstr("seed 1"));
+  const CommandResult mixed = develop(a + ' ' + other + " -o " + quoted("x.exr"));
+  EXPECT_EQ(mixed.status, 3);
+  EXPECT_THAT(mixed.output, HasSubstr("different scenes"));
+  EXPECT_FALSE(std::filesystem::exists(directory_ / "x.exr"));
+}
+
+TEST_F(ImagePrograms, WrongUsageIsTwoAndHelpIsZero) {
+  EXPECT_EQ(develop("").status, 2);
+  EXPECT_EQ(develop("--help").status, 0);
+  EXPECT_EQ(develop(film("a.film", 1) + " -o " + quoted("a.gif")).status, 2);
+  EXPECT_EQ(compare("a b --metric nonsense").status, 2);
+  EXPECT_EQ(compare("a b --metric psnr --fail-above 3").status, 2);
+  EXPECT_EQ(compare(quoted("no.exr") + ' ' + quoted("no.exr")).status, 3);
+}
+
+TEST_F(ImagePrograms, CompareTakesFilmsAndImages) {
+  const std::string a = film("a.film", 1);
+  ASSERT_EQ(develop(a + " -o " + quoted("a.exr")).status, 0);
+  EXPECT_EQ(compare(a + ' ' + quoted("a.exr") + " --metric bitwise").status, 0);
+  EXPECT_EQ(compare(a + ' ' + quoted("a.exr") + " --metric ztest").status, 0);
+  const CommandResult json = compare(a + ' ' + quoted("a.exr") + " --json");
+  EXPECT_THAT(json.output, HasSubstr("\"value\":0.0"));
+}
+
+TEST_F(ImagePrograms, CompareFailsAboveTheThresholdAndShowsWhere) {
+  ASSERT_EQ(develop(film("a.film", 1) + " -o " + quoted("a.exr")).status, 0);
+  ASSERT_EQ(develop(film("a.film", 1) + " -o " + quoted("b.exr") + " --exposure 0.1").status, 0);
+  const std::string both = quoted("b.exr") + ' ' + quoted("a.exr");
+  EXPECT_EQ(compare(both).status, 0);
+  const CommandResult failed = compare(both + " --fail-above 0.001 --heatmap " + quoted("heat.png"));
+  EXPECT_EQ(failed.status, 1);
+  EXPECT_THAT(failed.output, HasSubstr("luminance 1.0717"));
+  EXPECT_EQ(read_picture(directory_ / "heat.png").rgb.width, 8);
+  EXPECT_EQ(compare(both + " --metric bitwise").status, 1);
+  EXPECT_EQ(compare(both + " --metric ztest").status, 2);
+}
+
+TEST_F(ImagePrograms, DamagedFilmsAreBadInput) {
+  const std::string a = film("a.film", 1);
+  std::filesystem::resize_file(directory_ / "a.film", 200);
+  const CommandResult result = develop(a + " -o " + quoted("a.exr"));
+  EXPECT_EQ(result.status, 3);
+  EXPECT_THAT(result.output, HasSubstr("a.film: the film file is truncated"));
+}
+
+}  // namespace
+}  // namespace vitrail::test

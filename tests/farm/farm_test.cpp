@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "farm/memory.h"
+#include "farm/queues.h"
+#include "farm/residency.h"
+#include "farm/work.h"
+#include "scene/diagnostics.h"
+
+namespace vitrail {
+namespace {
+
+TEST(Work, EverySampleBelongsToOneItem) {
+  const WorkPlan plan = make_work_plan({3, 50, 7, 41}, 300);
+  std::set<std::tuple<int, int, std::uint32_t>> seen;
+  for (std::uint64_t i = 0; i < plan.items(); ++i) {
+    const WorkItem item = plan.item(i);
+    for (int y = item.pixels.y0; y < item.pixels.y1; ++y)
+      for (int x = item.pixels.x0; x < item.pixels.x1; ++x)
+        for (std::uint32_t s = item.sample0; s < item.sample1; ++s) EXPECT_TRUE(seen.emplace(x, y, s).second);
+  }
+  EXPECT_EQ(seen.size(), 47u * 34 * 300);
+}
+
+TEST(Work, SharesAreDisjointCompleteAndEven) {
+  const WorkPlan plan = make_work_plan({0, 100, 0, 100}, 5);
+  std::vector<std::uint64_t> done((plan.items() + 63) / 64);
+  for (const std::uint64_t item : {0, 5, 64, 200}) done[static_cast<std::size_t>(item / 64)] |= 1ull << (item % 64);
+  std::set<std::uint64_t> all;
+  for (int rank = 0; rank < 3; ++rank) {
+    const auto share = share_of(plan, done, rank, 3);
+    EXPECT_NEAR(static_cast<double>(share.size()), static_cast<double>(plan.items() - 4) / 3, 30);
+    for (const std::uint64_t item : share) EXPECT_TRUE(all.insert(item).second);
+  }
+  EXPECT_EQ(all.size(), plan.items() - 4);
+  EXPECT_FALSE(all.contains(5));
+}
+
+TEST(Queues, KeepEveryRayOfBothKinds) {
+  for (const auto seed : {std::optional<std::uint64_t>(), std::optional<std::uint64_t>(9)}) {
+    RayQueues queues(3, seed);
+    for (std::uint32_t i = 0; i < 5000; ++i) {
+      PathRecord path{};
+      path.pixel = i;
+      queues.push(1, path);
+      ShadowRecord shadow{};
+      shadow.pixel = i;
+      queues.push(1, shadow);
+    }
+    EXPECT_EQ(queues.waiting(1), 10000u);
+    std::multiset<std::uint32_t> paths, shadows;
+    while (queues.waiting(1) > 0) {
+      RayBatch batch = queues.pop(1);
+      EXPECT_LE(batch.bytes().size(), RayBatch::full_bytes);
+      EXPECT_EQ(batch.domain(), 1u);
+      if (batch.kind() == RayKind::path)
+        for (const PathRecord& r : batch.records<PathRecord>()) paths.insert(r.pixel);
+      else
+        for (const ShadowRecord& r : batch.records<ShadowRecord>()) shadows.insert(r.pixel);
+    }
+    EXPECT_EQ(paths.size(), 5000u);
+    EXPECT_EQ(std::set(paths.begin(), paths.end()).size(), 5000u);
+    EXPECT_EQ(shadows, paths);
+  }
+}
+
+TEST(WireSizes, FramingIncluded) {
+  RayBatch paths(0, RayKind::path), shadows(0, RayKind::shadow);
+  while (!paths.full()) paths.append(PathRecord{});
+  while (!shadows.full()) shadows.append(ShadowRecord{});
+  EXPECT_LE(static_cast<double>(paths.bytes().size()) / static_cast<double>(paths.count()), 64);
+  EXPECT_LE(static_cast<double>(shadows.bytes().size()) / static_cast<double>(shadows.count()), 48);
+}
+
+TEST(Memory, BudgetIsSharedOutOrRefused) {
+  constexpr std::uint64_t m = 1 << 20;
+  const MemoryPlan plan = plan_memory(200 * m, 50 * m, 2, 20 * m, 500 * m);
+  EXPECT_LE(plan.domains_bytes + plan.queue_bytes + 50 * m, 200 * m);
+  EXPECT_GE(plan.domains_bytes, 20 * m);
+  EXPECT_THROW(plan_memory(70 * m, 50 * m, 2, 20 * m, 500 * m), MachineError);
+  EXPECT_EQ(plan_memory(0, 50 * m, 2, 20 * m, 500 * m).domains_bytes, 500 * m);
+}
+
+Manifest of_domains(std::vector<std::uint64_t> bytes) {
+  Manifest m;
+  for (const std::uint64_t b : bytes) {
+    DomainInfo info;
+    info.bytes = b;
+    m.domains.push_back(info);
+  }
+  return m;
+}
+
+TEST(Residency, HomesAreContiguousAndBalanced) {
+  const Manifest m = of_domains(std::vector<std::uint64_t>(64, 100));
+  const auto home = home_ranks(m, 4);
+  EXPECT_TRUE(std::ranges::is_sorted(home));
+  for (int rank = 0; rank < 4; ++rank) EXPECT_EQ(std::ranges::count(home, rank), 16);
+}
+
+TEST(Residency, TakesTheFullestAndKeepsWithinItsBudget) {
+  const Manifest m = of_domains({100, 100, 100});
+  Residency residency(m, "none.vit", 200, {0, 0, 0}, 0);
+  std::vector<std::size_t> waiting{5, 9, 7};
+  const auto count = [&](std::uint32_t d) { return waiting[d]; };
+  EXPECT_EQ(residency.reserve(count, true), 1u);
+  // Not inserted yet, but its room is taken: one more fits, the third does not.
+  waiting[1] = 0;
+  EXPECT_EQ(residency.reserve(count, true), 2u);
+  waiting[2] = 0;
+  EXPECT_EQ(residency.reserve(count, true), std::nullopt);
+}
+
+TEST(Residency, KeepsAnothersDomainOnlyIfMuchAskedFor) {
+  const Manifest m = of_domains({100, 100});
+  Residency residency(m, "none.vit", 150, {0, 1}, 0);
+  EXPECT_TRUE(residency.is_local(0));
+  EXPECT_FALSE(residency.is_local(1));
+  residency.note_forwarded(1, 1000000);
+  EXPECT_FALSE(residency.is_local(1)) << "it does not fit beside the rank's own";
+  const Manifest three = of_domains({100, 100, 100});
+  Residency roomy(three, "none.vit", 220, {0, 1, 1}, 0);
+  roomy.note_forwarded(1, 10);
+  EXPECT_FALSE(roomy.is_local(1));
+  roomy.note_forwarded(1, 1000000);
+  EXPECT_TRUE(roomy.is_local(1));
+  roomy.note_forwarded(2, 1000000);
+  EXPECT_FALSE(roomy.is_local(2)) << "the room is taken";
+}
+
+}  // namespace
+}  // namespace vitrail

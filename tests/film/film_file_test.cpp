@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "film/film.h"
+#include "scene/diagnostics.h"
+#include "tests/support/temporary_directory.h"
+
+namespace vitrail {
+namespace {
+
+class FilmFile : public testing::Test {
+ protected:
+  FilmFile() {
+    FilmSettings settings;
+    settings.width = 10, settings.height = 8;
+    settings.crop = {2, 7, 1, 4};
+    settings.imaging_ratio = 0.25;
+    film_ = Film(settings, {11, 22, 33});
+    for (std::uint32_t p = 0; p < 15; ++p) {
+      film_.count_sample(p);
+      film_.deposit(p, p, {0.1 * p, 0.2 * p, 0.3 * p});
+    }
+    progress_ = {70, 16, {0xff, 0x3f}, 1.5};
+    write_film(file_, film_, progress_);
+  }
+
+  std::string bytes() const {
+    std::ifstream in(file_, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
+  void overwrite(const std::string& bytes) const {
+    std::filesystem::remove(file_);  // a file system may sync a file that is truncated
+    std::ofstream(file_, std::ios::binary) << bytes;
+  }
+  void expect_error(const std::string& message) const {
+    try {
+      read_film(file_, nullptr);
+      ADD_FAILURE() << "no error";
+    } catch (const Error& e) {
+      EXPECT_THAT(e.what(), testing::HasSubstr(message));
+      EXPECT_EQ(e.location.file, file_.string());
+    }
+  }
+
+  test::TemporaryDirectory directory_;
+  std::filesystem::path file_ = directory_ / "a.film";
+  Film film_;
+  FilmProgress progress_;
+};
+
+TEST_F(FilmFile, ComesBackAsItWas) {
+  FilmProgress progress;
+  const Film film = read_film(file_, &progress);
+  EXPECT_EQ(film.hash(), film_.hash());
+  EXPECT_EQ(film.key(), film_.key());
+  EXPECT_EQ(film.crop(), film_.crop());
+  EXPECT_EQ(film.full_width(), 10);
+  EXPECT_EQ(film.full_height(), 8);
+  EXPECT_EQ(film.imaging_ratio(), 0.25);
+  EXPECT_EQ(progress.items, 70u);
+  EXPECT_EQ(progress.samples_per_pixel, 16u);
+  EXPECT_EQ(progress.done, progress_.done);
+  EXPECT_EQ(progress.render_time_s, 1.5);
+  EXPECT_FALSE(progress.complete());
+}
+
+TEST_F(FilmFile, EqualFilmsGiveEqualFiles) {
+  const std::string first = bytes();
+  write_film(file_, film_, progress_);
+  EXPECT_EQ(bytes(), first);
+}
+
+TEST_F(FilmFile, EveryChangedByteIsFound) {
+  const std::string good = bytes();
+  for (std::size_t i = 0; i < good.size(); ++i) {
+    std::string bad = good;
+    bad[i] = static_cast<char>(bad[i] ^ 0x10);
+    overwrite(bad);
+    EXPECT_THROW(read_film(file_, nullptr), Error) << "byte " << i;
+  }
+}
+
+TEST_F(FilmFile, EveryTruncationIsFound) {
+  const std::string good = bytes();
+  for (std::size_t length = 0; length < good.size(); ++length) {
+    overwrite(good.substr(0, length));
+    EXPECT_THROW(read_film(file_, nullptr), Error) << length << " bytes";
+  }
+  overwrite(good + '\0');
+  EXPECT_THROW(read_film(file_, nullptr), Error);
+}
+
+TEST_F(FilmFile, SaysWhatIsWrong) {
+  const std::string good = bytes();
+  std::string other_version = good;
+  other_version[8] = 9;
+  overwrite(other_version);
+  expect_error("version 9");
+  overwrite(
+      "not a film but long enough to hold a header, which is one hundred and four bytes long, and a little "
+      "more");
+  expect_error("not a film file");
+  std::string bad_sum = good;
+  bad_sum[good.size() - 20] ^= 1;
+  overwrite(bad_sum);
+  expect_error("corrupt");
+  std::filesystem::remove(file_);
+  expect_error("cannot open");
+}
+
+TEST_F(FilmFile, RefusesWorkBeyondItsItems) {
+  progress_.done[1] = 0x40;
+  write_film(file_, film_, progress_);
+  expect_error("beyond");
+}
+
+TEST_F(FilmFile, UnwritableFolderIsTheMachinesFault) {
+  EXPECT_THROW(write_film(directory_ / "nowhere/a.film", film_, progress_), MachineError);
+}
+
+TEST(FilmProgress, IsCompleteWhenAllItemsAre) {
+  EXPECT_TRUE((FilmProgress{66, 1, {~0ull, 3}, 0}.complete()));
+  EXPECT_FALSE((FilmProgress{66, 1, {~0ull, 1}, 0}.complete()));
+}
+
+}  // namespace
+}  // namespace vitrail

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "film/image_io.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+
+#include "scene/diagnostics.h"
+#include "tests/support/temporary_directory.h"
+
+namespace vitrail {
+namespace {
+
+Picture picture() {
+  Picture p;
+  p.rgb = {2, 1, 3, {0, 0.5f, 1, -2, 1e-7f, 3e4f}};
+  p.variance = {2, 1, 1, {0.25f, 4}};
+  p.window = {3, 5, 1, 2};
+  p.full_width = 8, p.full_height = 6;
+  p.samples_per_pixel = 16;
+  p.render_time_s = 2.5;
+  return p;
+}
+
+std::string bytes(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+TEST(ImageIo, ExrKeepsEveryBitAndTheMetadata) {
+  const test::TemporaryDirectory directory;
+  write_picture(directory / "a.exr", picture());
+  const Picture back = read_picture(directory / "a.exr");
+  EXPECT_EQ(back.rgb, picture().rgb);
+  EXPECT_EQ(back.variance, picture().variance);
+  EXPECT_EQ(back.window, picture().window);
+  EXPECT_EQ(back.full_width, 8);
+  EXPECT_EQ(back.full_height, 6);
+  EXPECT_EQ(back.samples_per_pixel, 16);
+  EXPECT_EQ(back.render_time_s, 2.5);
+}
+
+TEST(ImageIo, ExrWithoutVariance) {
+  const test::TemporaryDirectory directory;
+  Picture p = picture();
+  p.variance = {};
+  write_picture(directory / "a.exr", p);
+  const Picture back = read_picture(directory / "a.exr");
+  EXPECT_EQ(back.rgb, p.rgb);
+  EXPECT_EQ(back.variance.pixels(), 0u);
+}
+
+TEST(ImageIo, EqualPicturesGiveEqualFilesAndNothingElse) {
+  const test::TemporaryDirectory directory;
+  for (const char* extension : {".exr", ".png"}) {
+    write_picture(directory / (std::string("a") + extension), picture());
+    write_picture(directory / (std::string("b") + extension), picture());
+    EXPECT_EQ(bytes(directory / (std::string("a") + extension)),
+              bytes(directory / (std::string("b") + extension)));
+  }
+  const auto files = std::filesystem::directory_iterator(directory.path());
+  EXPECT_EQ(std::distance(begin(files), end(files)), 4);
+}
+
+TEST(ImageIo, TheDateIsFixed) {
+  const test::TemporaryDirectory directory;
+  write_picture(directory / "a.exr", picture());
+  EXPECT_NE(bytes(directory / "a.exr").find("1970:01:01 00:00:00"), std::string::npos);
+  ::setenv("SOURCE_DATE_EPOCH", "1000000000", 1);
+  write_picture(directory / "b.exr", picture());
+  ::unsetenv("SOURCE_DATE_EPOCH");
+  EXPECT_NE(bytes(directory / "b.exr").find("2001:09:09 01:46:40"), std::string::npos);
+}
+
+TEST(ImageIo, PngIsEncodedAndDecodedAsSrgb) {
+  const test::TemporaryDirectory directory;
+  Picture p;
+  p.rgb = {2, 1, 3, {0, 1, 0.2158605f, -1, 7, 0.5f}};
+  write_picture(directory / "a.png", p);
+  const Picture back = read_picture(directory / "a.png");
+  const std::vector<float> expected{0, 1, 0.2158605f, 0, 1, 0.5028865f};
+  for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(back.rgb.values[i], expected[i], 1e-6);
+}
+
+TEST(ImageIo, WhatCannotBeReadIsNamed) {
+  const test::TemporaryDirectory directory;
+  std::ofstream(directory / "a.exr") << "no image";
+  try {
+    read_picture(directory / "a.exr");
+    ADD_FAILURE();
+  } catch (const Error& e) {
+    EXPECT_EQ(e.location.file, (directory / "a.exr").string());
+  }
+  EXPECT_THROW(write_picture(directory / "a.jpg", picture()), UsageError);
+  EXPECT_THROW(write_picture(directory / "nowhere/a.exr", picture()), MachineError);
+}
+
+}  // namespace
+}  // namespace vitrail

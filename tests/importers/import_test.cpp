@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+// The door for all formats, and the view that geometry alone gets.
+#include "importers/import.h"
+
+#include "pbrt_text.h"
+#include "scene/spectrum.h"
+
+namespace vitrail {
+namespace {
+
+const std::string ply =
+    "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+    "element face 1\nproperty list uchar int vertex_indices\nend_header\n100 0 0\n101 0 0\n100 5 0\n3 0 1 "
+    "2\n";
+
+// Camera space coordinates of a point, by depth.
+Point3d seen(const Scene& scene, Point3d p) {
+  const Point3d c = transform_point(inverse(std::get<PerspectiveCamera>(scene.camera).camera_to_world), p);
+  return {c.x / c.z, c.y / c.z, c.z};
+}
+
+TEST(ImportScene, GoesByTheNameOfTheFile) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(import_scene(folder.write("a.pbrt", "Film \"rgb\" WorldBegin " + triangle)).scene.shapes.size(),
+            1u);
+  EXPECT_EQ(import_scene(folder.write("a.PLY", ply)).scene.shapes.size(), 1u);
+  EXPECT_EQ(import_scene(folder.write("a.ply.gz", ply)).scene.shapes.size(), 1u);
+  EXPECT_EQ(import_scene(folder.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")).scene.shapes.size(),
+            1u);
+  EXPECT_THROW(import_scene(folder.write("a.blend", ply)), Error);
+  EXPECT_THROW(import_scene(folder.path() / "none.pbrt"), Error);
+}
+
+TEST(ImportScene, ShowsAllOfGeometryAloneUnderASky) {
+  const TemporaryFolder folder;
+  const ImportedScene imported = import_scene(folder.write("a.ply", ply));
+  EXPECT_TRUE(mentions(imported.diagnostics, "no camera"));
+  EXPECT_TRUE(mentions(imported.diagnostics, "no light"));
+  const ScreenWindow screen = std::get<PerspectiveCamera>(imported.scene.camera).screen;
+  EXPECT_NEAR((screen.x1 - screen.x0) / (screen.y1 - screen.y0), 1280.0 / 720, 1e-9);
+  for (const Point3d p : {Point3d{100, 0, 0}, Point3d{101, 0, 0}, Point3d{100, 5, 0}}) {
+    const Point3d s = seen(imported.scene, p);
+    EXPECT_GT(s.z, 0);
+    EXPECT_LT(std::abs(s.x), screen.x1);
+    EXPECT_LT(std::abs(s.y), screen.y1);
+  }
+  EXPECT_GT(seen(imported.scene, {100, 5, 0}).y, seen(imported.scene, {100, 0, 0}).y) << "+y is up";
+  EXPECT_GT(seen(imported.scene, {101, 0, 0}).x, seen(imported.scene, {100, 0, 0}).x)
+      << "and +x right: not mirrored";
+  ASSERT_EQ(imported.scene.lights.size(), 1u);
+  EXPECT_NEAR(luminance(std::get<InfiniteLight>(imported.scene.lights[0]).radiance), 1, 1e-3);
+}
+
+TEST(ImportScene, AddsNoSkyWhereSomethingShines) {
+  const TemporaryFolder folder;
+  const ImportedScene imported =
+      read_pbrt(folder.write("part.pbrt", "AreaLightSource \"diffuse\" " + triangle));
+  EXPECT_TRUE(imported.scene.lights.empty());
+  EXPECT_FALSE(mentions(imported.diagnostics, "no light"));
+}
+
+}  // namespace
+}  // namespace vitrail

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+// How the picture is taken.
+#include <cmath>
+#include <numbers>
+
+#include "pbrt_text.h"
+
+namespace vitrail {
+namespace {
+
+ImportedScene settings(const std::string& text) { return import_text(text + "\nWorldBegin\n" + triangle); }
+
+PerspectiveCamera perspective(const std::string& text) {
+  return std::get<PerspectiveCamera>(settings(text).scene.camera);
+}
+
+void expect_screen(const ScreenWindow& s, double x0, double x1, double y0, double y1) {
+  EXPECT_NEAR(s.x0, x0, 1e-12);
+  EXPECT_NEAR(s.x1, x1, 1e-12);
+  EXPECT_NEAR(s.y0, y0, 1e-12);
+  EXPECT_NEAR(s.y1, y1, 1e-12);
+}
+
+TEST(PbrtCamera, FovIsOfTheShorterAxis) {
+  const double t = std::tan(30 * std::numbers::pi / 180);
+  const std::string camera = "Camera \"perspective\" \"float fov\" 60 ";
+  expect_screen(
+      perspective(camera + "Film \"rgb\" \"integer xresolution\" 200 \"integer yresolution\" 100").screen,
+      -2 * t, 2 * t, -t, t);
+  expect_screen(
+      perspective(camera + "Film \"rgb\" \"integer xresolution\" 100 \"integer yresolution\" 200").screen, -t,
+      t, -2 * t, 2 * t);
+  expect_screen(
+      perspective("Camera \"perspective\" \"float fov\" 60 \"float frameaspectratio\" 3 Film \"rgb\"").screen,
+      -3 * t, 3 * t, -t, t);
+  expect_screen(
+      perspective("Camera \"perspective\" \"float fov\" 60 \"float screenwindow\" [-1 .5 -2 3] Film \"rgb\"")
+          .screen,
+      -t, .5 * t, -2 * t, 3 * t);
+  expect_screen(perspective("Camera \"perspective\" \"float halffov\" 30 Film \"image\" \"integer "
+                            "xresolution\" 4 \"integer yresolution\" 4")
+                    .screen,
+                -t, t, -t, t);
+}
+
+TEST(PbrtCamera, OrthographicScreensAreInTheWorld) {
+  const Camera camera =
+      settings("Camera \"orthographic\" \"float screenwindow\" [-3.2 3.2 -2.4 2.4] Film \"rgb\"")
+          .scene.camera;
+  expect_screen(std::get<OrthographicCamera>(camera).screen, -3.2, 3.2, -2.4, 2.4);
+}
+
+TEST(PbrtCamera, StandsWhereTheTransformPutsIt) {
+  const PerspectiveCamera plain =
+      perspective("LookAt 1 2 -3 1 2 0 0 1 0 Camera \"perspective\" Film \"rgb\"");
+  EXPECT_EQ(transform_point(plain.camera_to_world, {0, 0, 0}), (Point3d{1, 2, -3}));
+  EXPECT_EQ(transform_vector(plain.camera_to_world, {0, 0, 1}), (Vector3d{0, 0, 1}));
+  EXPECT_EQ(transform_vector(plain.camera_to_world, {1, 0, 0}), (Vector3d{1, 0, 0}));
+  const PerspectiveCamera mirrored =
+      perspective("Scale -1 1 1 LookAt 1 2 -3 1 2 0 0 1 0 Camera \"perspective\" Film \"rgb\"");
+  EXPECT_EQ(transform_point(mirrored.camera_to_world, {0, 0, 0}), (Point3d{1, 2, -3}));
+  EXPECT_EQ(transform_vector(mirrored.camera_to_world, {1, 0, 0}), (Vector3d{-1, 0, 0}));
+}
+
+TEST(PbrtCamera, WhatItLosesIsReported) {
+  EXPECT_TRUE(mentions(
+      settings("Camera \"perspective\" \"float lensradius\" .1 \"float focaldistance\" 3 Film \"rgb\"")
+          .diagnostics,
+      "pinhole"));
+  const ImportedScene spherical = settings("Translate 0 0 4 Camera \"spherical\" Film \"rgb\"");
+  EXPECT_TRUE(mentions(spherical.diagnostics, "camera \"spherical\" is not supported"));
+  EXPECT_EQ(transform_point(std::get<PerspectiveCamera>(spherical.scene.camera).camera_to_world, {}),
+            (Point3d{0, 0, -4}));
+}
+
+TEST(PbrtFilm, HasTheResolutionAndTheCrop) {
+  const auto film = [](const std::string& parameters) {
+    return settings("Film \"rgb\" \"integer xresolution\" 100 \"integer yresolution\" 50 " + parameters)
+        .scene.film;
+  };
+  EXPECT_EQ(film("").crop, (PixelRect{0, 100, 0, 50}));
+  EXPECT_EQ(film("\"float cropwindow\" [.1 .5 0 .25]").crop, (PixelRect{10, 50, 0, 13}));
+  EXPECT_EQ(film("\"integer pixelbounds\" [10 20 30 500]").crop, (PixelRect{10, 20, 30, 50}));
+  const FilmSettings v4 = settings("Film \"rgb\"").scene.film, v3 = settings("Film \"image\"").scene.film;
+  EXPECT_EQ(v4.width * 10000 + v4.height, 12800720);
+  EXPECT_EQ(v3.width * 10000 + v3.height, 6400480);
+}
+
+TEST(PbrtFilm, ExposesByShutterAndIsoInV4AndByScaleInV3) {
+  const auto ratio = [](const std::string& text) { return settings(text).scene.film.imaging_ratio; };
+  EXPECT_DOUBLE_EQ(ratio("Film \"rgb\""), 1);
+  EXPECT_DOUBLE_EQ(ratio("Film \"rgb\" \"float iso\" 50"), .5);
+  EXPECT_DOUBLE_EQ(ratio("Camera \"perspective\" \"float shutteropen\" .25 \"float shutterclose\" .5 Film "
+                         "\"rgb\" \"float iso\" 400"),
+                   1);
+  EXPECT_DOUBLE_EQ(ratio("Camera \"perspective\" \"float shutterclose\" .5 Film \"image\" \"float scale\" 3"),
+                   3);
+}
+
+TEST(PbrtFilm, WhatItLosesIsReported) {
+  EXPECT_TRUE(
+      mentions(settings("Film \"rgb\" \"string sensor\" \"canon_eos_100d\"").diagnostics, "canon_eos_100d"));
+  EXPECT_TRUE(mentions(settings("Film \"rgb\" \"float maxcomponentvalue\" 10").diagnostics, "not clamped"));
+  EXPECT_TRUE(mentions(settings("Film \"spectral\" \"integer nbuckets\" 16").diagnostics, "spectral"));
+  EXPECT_TRUE(mentions(settings("Film \"rgb\" \"float whitebalance\" 5000").diagnostics, "white balance"));
+  EXPECT_TRUE(mentions(settings("Film \"rgb\" \"integer xresoluton\" 3").diagnostics,
+                       "did you mean \"xresolution\""));
+}
+
+TEST(PbrtFilter, KindsAndDefaultsAreThoseOfTheVersion) {
+  const auto filter = [](const std::string& text) { return settings(text).scene.film.filter; };
+  EXPECT_EQ(filter("Film \"rgb\""), Filter{GaussianFilter{}});
+  EXPECT_EQ(filter("Film \"image\""), Filter{BoxFilter{}});
+  EXPECT_EQ(filter("Film \"rgb\" PixelFilter \"box\""), Filter{BoxFilter{}});
+  EXPECT_EQ(filter("Film \"rgb\" PixelFilter \"triangle\" \"float xradius\" 3"),
+            (Filter{TriangleFilter{3, 2}}));
+  EXPECT_EQ(filter("Film \"image\" PixelFilter \"triangle\" \"float xwidth\" 1 \"float ywidth\" 1"),
+            (Filter{TriangleFilter{1, 1}}));
+  EXPECT_EQ(filter("Film \"rgb\" PixelFilter \"gaussian\" \"float sigma\" .75"),
+            (Filter{GaussianFilter{1.5, 1.5, .75}}));
+  EXPECT_EQ(filter("Film \"image\" PixelFilter \"gaussian\""), (Filter{GaussianFilter{2, 2, .5}}))
+      << "alpha 2";
+  EXPECT_EQ(filter("Film \"image\" PixelFilter \"gaussian\" \"float alpha\" .5"),
+            (Filter{GaussianFilter{2, 2, 1}}));
+  EXPECT_EQ(filter("Film \"rgb\" PixelFilter \"mitchell\""), Filter{GaussianFilter{}});
+  EXPECT_TRUE(mentions(settings("Film \"rgb\" PixelFilter \"sinc\"").diagnostics, "becomes a Gaussian"));
+}
+
+TEST(PbrtSettings, SamplesAndDepth) {
+  const auto render = [](const std::string& text) { return settings(text).scene.settings; };
+  EXPECT_EQ(render("Film \"rgb\""), RenderSettings{});
+  EXPECT_EQ(
+      render("Sampler \"zsobol\" \"integer pixelsamples\" 256 Integrator \"path\" \"integer maxdepth\" 12"),
+      (RenderSettings{256, 12, false}));
+  EXPECT_EQ(
+      render("Sampler \"stratified\" \"integer xsamples\" 3 \"integer ysamples\" [5]").samples_per_pixel, 15);
+  EXPECT_EQ(render("Sampler \"stratified\" \"integer pixelsamples\" 64").samples_per_pixel, 64);
+  EXPECT_TRUE(render("Integrator \"directlighting\"").direct_only);
+  EXPECT_FALSE(render("Integrator \"bdpt\"").direct_only);
+  EXPECT_TRUE(mentions(settings("Integrator \"ambientocclusion\" Film \"rgb\"").diagnostics,
+                       "becomes a path tracer"));
+  EXPECT_TRUE(mentions(settings("Integrator \"path\" \"integer maxdept\" 3 Film \"rgb\"").diagnostics,
+                       "did you mean \"maxdepth\""));
+}
+
+}  // namespace
+}  // namespace vitrail

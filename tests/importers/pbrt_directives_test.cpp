@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: Apache-2.0
+// Transforms, blocks, files, objects and the order of definitions.
+#include <zlib.h>
+
+#include <numbers>
+
+#include "pbrt_text.h"
+
+namespace vitrail {
+namespace {
+
+void expect_near(Point3d found, Point3d expected) {
+  EXPECT_NEAR(found.x, expected.x, 1e-12);
+  EXPECT_NEAR(found.y, expected.y, 1e-12);
+  EXPECT_NEAR(found.z, expected.z, 1e-12);
+}
+
+// Where `directives` take the point (1, 2, 3).
+Point3d moved(const std::string& directives) {
+  const ImportedScene imported = import_v4(directives + "\n" + triangle);
+  expect_no_diagnostics(imported);
+  return transform_point(imported.scene.shapes.at(0).object_to_world, {1, 2, 3});
+}
+
+TEST(PbrtTransforms, ComposeFromTheRight) {
+  expect_near(moved("Translate 10 20 30"), {11, 22, 33});
+  expect_near(moved("Scale 2 3 -4"), {2, 6, -12});
+  expect_near(moved("Translate 10 0 0 Scale 2 2 2"), {12, 4, 6});
+  expect_near(moved("Rotate 90 0 0 1"), {-2, 1, 3});
+  expect_near(moved("Rotate [90 0 0 2]"), {-2, 1, 3});
+  expect_near(moved("Translate 9 9 9 Identity"), {1, 2, 3});
+  expect_near(moved("Translate [1 1 1]"), {2, 3, 4});
+}
+
+TEST(PbrtTransforms, MatricesAreListedByColumns) {
+  const std::string matrix = "[1 0 0 0  0 1 0 0  0 0 2 0  5 6 7 1]";
+  expect_near(moved("Transform " + matrix), {6, 8, 13});
+  expect_near(moved("Translate 100 0 0 Transform " + matrix), {6, 8, 13});
+  expect_near(moved("Translate 100 0 0 ConcatTransform " + matrix), {106, 8, 13});
+}
+
+TEST(PbrtTransforms, LookAtTakesTheWorldToTheCamera) {
+  // From (0,0,-5) along +z with +y up nothing turns: right is +x.
+  expect_near(moved("LookAt 0 0 -5  0 0 0  0 1 0"), {1, 2, 8});
+}
+
+TEST(PbrtTransforms, CoordinateSystemsAreRemembered) {
+  expect_near(moved("Translate 1 0 0 CoordinateSystem \"here\" Identity CoordSysTransform \"here\""),
+              {2, 2, 3});
+  expect_near(moved("Translate 1 0 0 CoordSysTransform \"world\""), {1, 2, 3});
+  const ImportedScene camera = import_text(
+      "Film \"rgb\" Translate 0 0 5 Camera \"perspective\"\nWorldBegin "
+      "CoordSysTransform \"camera\" " +
+      triangle);
+  expect_near(transform_point(camera.scene.shapes[0].object_to_world, {}), {0, 0, -5});
+  EXPECT_TRUE(
+      mentions(import_v4("CoordSysTransform \"wrld\" " + triangle).diagnostics, "did you mean \"world\""));
+}
+
+TEST(PbrtTransforms, WorldBeginResets) {
+  const ImportedScene imported = import_text("Film \"rgb\" Scale -1 1 1\nWorldBegin " + triangle);
+  EXPECT_EQ(imported.scene.shapes[0].object_to_world, Transform{});
+}
+
+TEST(PbrtTransforms, MotionKeepsItsStart) {
+  const ImportedScene imported = import_v4(
+      "TransformTimes 0 1 ActiveTransform StartTime Translate 1 0 0 ActiveTransform EndTime Translate 2 0 0 "
+      "ActiveTransform All Translate 10 0 0 " +
+      triangle);
+  expect_near(transform_point(imported.scene.shapes[0].object_to_world, {}), {11, 0, 0});
+  ASSERT_EQ(imported.diagnostics.size(), 1u);
+  EXPECT_THAT(imported.diagnostics[0].message, ::testing::HasSubstr("motion"));
+}
+
+// ---- Blocks
+// -------------------------------------------------------------------------------------------------------
+
+TEST(PbrtBlocks, AttributesAreRestored) {
+  const Scene scene = import_v4(
+                          "AttributeBegin Translate 1 0 0 ReverseOrientation Material \"interface\" "
+                          "AreaLightSource \"diffuse\" "
+                          "AttributeEnd " +
+                          triangle)
+                          .scene;
+  EXPECT_EQ(scene.shapes[0].object_to_world, Transform{});
+  EXPECT_FALSE(scene.shapes[0].flip_orientation);
+  EXPECT_FALSE(scene.shapes[0].area_light);
+  EXPECT_EQ(scene.materials[scene.shapes[0].material.value], Material{DiffuseMaterial{}});
+}
+
+TEST(PbrtBlocks, TransformEndRestoresTheTransformAloneInV3) {
+  const std::string world = "TransformBegin Translate 1 0 0 ReverseOrientation TransformEnd " + triangle;
+  const Shape v3 = import_v3(world).scene.shapes[0], v4 = import_v4(world).scene.shapes[0];
+  EXPECT_EQ(v3.object_to_world, Transform{});
+  EXPECT_EQ(v4.object_to_world, Transform{});
+  EXPECT_TRUE(v3.flip_orientation);
+  EXPECT_FALSE(v4.flip_orientation);
+}
+
+TEST(PbrtBlocks, AttributeSetsDefaultsThatExplicitValuesBeat) {
+  const ImportedScene imported = import_v4(
+      "AttributeBegin Attribute \"shape\" \"float radius\" 2 Attribute \"material\" \"float reflectance\" "
+      "[.25] "
+      "Attribute \"light\" \"float scale\" 3 Material \"diffuse\" "
+      "Shape \"disk\" Shape \"disk\" \"float radius\" 5 LightSource \"infinite\" \"float L\" 1 AttributeEnd "
+      "Shape \"disk\"");
+  const auto reach = [&](std::size_t i) {
+    float most = 0;
+    for (const Point3f& p : imported.scene.meshes[imported.scene.shapes[i].mesh.value].positions)
+      most = std::max(most, p.x);
+    return most;
+  };
+  EXPECT_FLOAT_EQ(reach(0), 2);
+  EXPECT_FLOAT_EQ(reach(1), 5);
+  EXPECT_FLOAT_EQ(reach(2), 1);
+  EXPECT_EQ(imported.scene.materials[0], Material{DiffuseMaterial{ConstantSpectrum{.25f}}});
+  EXPECT_EQ(std::get<InfiniteLight>(imported.scene.lights.at(0)).radiance, Spectrum{ConstantSpectrum{3}});
+  EXPECT_FALSE(mentions(imported.diagnostics, "not used"));
+}
+
+TEST(PbrtBlocks, WhatFollowsWorldEndIsReported) {
+  EXPECT_TRUE(
+      mentions(import_text("Film \"image\" WorldBegin " + triangle + " WorldEnd WorldBegin").diagnostics,
+               "another scene"));
+  EXPECT_TRUE(mentions(import_text("Film \"image\" WorldBegin " + triangle).diagnostics, "no WorldEnd"));
+  EXPECT_TRUE(mentions(import_v3("AttributeBegin " + triangle).diagnostics, "not closed before WorldEnd"));
+}
+
+// ---- Files
+// --------------------------------------------------------------------------------------------------------
+
+TEST(PbrtFiles, IncludesAreTextualAndRelativeToTheMainFile) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder.path() / "a");
+  folder.write("a/outer.pbrt", "Translate 1 0 0 Include \"a/inner.pbrt\" Shape \"disk\"");
+  folder.write("a/inner.pbrt", "Translate 2 0 0");
+  const Scene scene = read_pbrt(folder.write("main.pbrt",
+                                             "Film \"rgb\" WorldBegin Include \"a/outer.pbrt\" "
+                                             "\"float radius\" 7 " +
+                                                 triangle))
+                          .scene;
+  ASSERT_EQ(scene.shapes.size(), 2u);
+  expect_near(transform_point(scene.shapes[1].object_to_world, {}), {3, 0, 0});
+  EXPECT_FLOAT_EQ(scene.meshes[0].positions[0].x, 7) << "a list of parameters may go on after an include";
+}
+
+TEST(PbrtFiles, ImportsDoNotLeakTheirState) {
+  const TemporaryFolder folder;
+  folder.write("part.pbrt",
+               "Translate 1 0 0 MakeNamedMaterial \"m\" \"string type\" \"interface\" " + triangle);
+  const Scene scene = read_pbrt(folder.write("main.pbrt",
+                                             "Film \"rgb\" WorldBegin Translate 0 5 0 Import \"part.pbrt\" "
+                                             "NamedMaterial \"m\" " +
+                                                 triangle))
+                          .scene;
+  expect_near(transform_point(scene.shapes.at(0).object_to_world, {}), {1, 5, 0});
+  expect_near(transform_point(scene.shapes.at(1).object_to_world, {}), {0, 5, 0});
+  EXPECT_EQ(scene.materials[scene.shapes[1].material.value], Material{InterfaceMaterial{}});
+}
+
+TEST(PbrtFiles, MayBeGzipped) {
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "scene.pbrt.gz";
+  const std::string text = "Film \"rgb\"\nWorldBegin\n" + triangle;
+  const gzFile out = ::gzopen(file.c_str(), "wb");
+  ::gzwrite(out, text.data(), static_cast<unsigned>(text.size()));
+  ::gzclose(out);
+  EXPECT_EQ(read_pbrt(file).scene.shapes.size(), 1u);
+}
+
+TEST(PbrtFiles, PartsOfScenesGetACameraAndASky) {
+  const ImportedScene imported = import_text("Translate 100 0 0 " + triangle);
+  EXPECT_TRUE(mentions(imported.diagnostics, "no camera"));
+  EXPECT_TRUE(mentions(imported.diagnostics, "no light"));
+  const auto& camera = std::get<PerspectiveCamera>(imported.scene.camera);
+  const Point3d seen = transform_point(inverse(camera.camera_to_world), {100, 0, 0});
+  EXPECT_GT(seen.z, 0);
+  EXPECT_LT(std::abs(seen.x / seen.z), camera.screen.x1);
+}
+
+// ---- Objects
+// ------------------------------------------------------------------------------------------------------
+
+TEST(PbrtObjects, AreKeptOnceAndPlacedByInstances) {
+  const ImportedScene imported =
+      import_v4("Translate 1 0 0 ObjectBegin \"tree\" Scale 2 2 2 " + triangle + triangle +
+                "ObjectEnd Translate 10 0 0 ObjectInstance \"tree\" Identity "
+                "ObjectInstance \"tree\"");
+  expect_no_diagnostics(imported);
+  const Scene& scene = imported.scene;
+  EXPECT_TRUE(scene.shapes.empty());
+  ASSERT_EQ(scene.prototypes.size(), 1u);
+  EXPECT_EQ(scene.prototypes[0].name, "tree");
+  ASSERT_EQ(scene.prototypes[0].shapes.size(), 2u);
+  expect_near(transform_point(scene.prototypes[0].shapes[0].object_to_world, {1, 0, 0}), {3, 0, 0});
+  ASSERT_EQ(scene.instances.size(), 2u);
+  expect_near(transform_point(scene.instances[0].prototype_to_world, {}), {11, 0, 0});
+  expect_near(transform_point(scene.instances[1].prototype_to_world, {}), {0, 0, 0});
+}
+
+TEST(PbrtObjects, MayBeUsedBeforeTheyAreDefined) {
+  const Scene scene = import_v4("ObjectInstance \"b\" ObjectInstance \"a\" ObjectBegin \"a\" " + triangle +
+                                "ObjectEnd ObjectBegin \"b\" ObjectEnd")
+                          .scene;
+  ASSERT_EQ(scene.instances.size(), 1u) << "b is empty";
+  EXPECT_EQ(scene.prototypes[scene.instances[0].prototype.value].name, "a");
+}
+
+TEST(PbrtObjects, TheirAreaLightsAreDropped) {
+  const ImportedScene imported = import_v4("ObjectBegin \"lamp\" AreaLightSource \"diffuse\" " + triangle +
+                                           "ObjectEnd ObjectInstance \"lamp\"");
+  EXPECT_FALSE(imported.scene.prototypes[0].shapes[0].area_light);
+  EXPECT_TRUE(imported.scene.area_lights.empty());
+  EXPECT_TRUE(mentions(imported.diagnostics, "do not shine"));
+}
+
+TEST(PbrtObjects, ASecondDefinitionHoldsForLaterInstances) {
+  const ImportedScene imported = import_v4("ObjectBegin \"o\" " + triangle +
+                                           "ObjectEnd ObjectInstance \"o\" "
+                                           "ObjectBegin \"o\" " +
+                                           triangle + triangle + "ObjectEnd ObjectInstance \"o\"");
+  const Scene& scene = imported.scene;
+  EXPECT_EQ(scene.prototypes[scene.instances[0].prototype.value].shapes.size(), 1u);
+  EXPECT_EQ(scene.prototypes[scene.instances[1].prototype.value].shapes.size(), 2u);
+  EXPECT_TRUE(mentions(imported.diagnostics, "defined again"));
+}
+
+// ---- Materials by name
+// ----------------------------------------------------------------------------------------------
+
+TEST(PbrtNames, MaterialsMayPrecedeTheirDefinition) {
+  const ImportedScene imported =
+      import_v4("NamedMaterial \"late\" " + triangle +
+                "MakeNamedMaterial \"late\" \"string type\" \"dielectric\" \"float eta\" 1.25");
+  expect_no_diagnostics(imported);
+  EXPECT_EQ(imported.scene.materials[imported.scene.shapes[0].material.value],
+            Material{DielectricMaterial{ConstantSpectrum{1.25f}}});
+}
+
+TEST(PbrtNames, ASecondDefinitionHoldsForLaterShapes) {
+  const Scene scene =
+      import_v3("MakeNamedMaterial \"m\" \"string type\" \"none\" NamedMaterial \"m\" " + triangle +
+                "MakeNamedMaterial \"m\" \"string type\" \"glass\" NamedMaterial \"m\" " + triangle)
+          .scene;
+  EXPECT_EQ(scene.materials[scene.shapes[0].material.value], Material{InterfaceMaterial{}});
+  EXPECT_EQ(scene.materials[scene.shapes[1].material.value], Material{DielectricMaterial{}});
+}
+
+TEST(PbrtNames, SettingsThatChangeNoPictureAreSilent) {
+  expect_no_diagnostics(import_text(
+      "Option \"bool disablepixeljitter\" false Option \"integer seed\" 3 ColorSpace \"srgb\" Accelerator "
+      "\"kdtree\" "
+      "\"integer foo\" 3 Film \"rgb\" \"string filename\" \"x.exr\" \"bool savefp16\" false "
+      "Sampler \"zsobol\" \"integer seed\" 3 Integrator \"volpath\" \"string lightsampler\" \"bvh\" "
+      "MakeNamedMaterial \"m\" \"string type\" \"diffuse\"\nWorldBegin MediumInterface \"\" \"\" " +
+      triangle));
+  EXPECT_TRUE(mentions(
+      import_text("Option \"bool forcediffuse\" true Film \"rgb\" WorldBegin " + triangle).diagnostics,
+      "forcediffuse"));
+  EXPECT_TRUE(
+      mentions(import_v4("MakeNamedMedium \"fog\" \"string type\" \"homogeneous\" " + triangle).diagnostics,
+               "media are not rendered"));
+}
+
+}  // namespace
+}  // namespace vitrail

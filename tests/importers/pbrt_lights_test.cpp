@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a pixel that sees a light shows, and where lights are, in v3 and v4.
+#include <fstream>
+#include <numbers>
+
+#include "pbrt_text.h"
+#include "scene/color.h"
+#include "scene/named_spectra.h"
+
+namespace vitrail {
+namespace {
+
+using std::numbers::pi;
+
+Spectrum infinite(const ImportedScene& imported) {
+  return std::get<InfiniteLight>(imported.scene.lights.at(0)).radiance;
+}
+Spectrum infinite_v4(const std::string& parameters) {
+  return infinite(import_v4("LightSource \"infinite\" " + parameters));
+}
+Spectrum infinite_v3(const std::string& parameters) {
+  return infinite(import_v3("LightSource \"infinite\" " + parameters));
+}
+
+void expect_color(const Spectrum& spectrum, RGB expected, double tolerance) {
+  const RGB found = xyz_to_srgb(to_xyz(spectrum));
+  EXPECT_NEAR(found.r, expected.r, tolerance);
+  EXPECT_NEAR(found.g, expected.g, tolerance);
+  EXPECT_NEAR(found.b, expected.b, tolerance);
+}
+
+TEST(PbrtEmission, OfRgbIsWhatThePixelShowsInBothVersions) {
+  for (const char* type : {"rgb", "color"}) {
+    const std::string parameters = std::string("\"") + type + " L\" [2 1 .5]";
+    expect_color(infinite_v4(parameters), {2, 1, .5}, 2e-2);
+    expect_color(infinite_v3(parameters), {2, 1, .5}, 2e-2);
+  }
+  EXPECT_NEAR(luminance(infinite_v4("\"rgb L\" [3 3 3]")), 3, 1e-3);
+  EXPECT_NEAR(luminance(infinite_v4("")), 1, 1e-3);
+  EXPECT_NEAR(luminance(infinite_v3("")), 1, 1e-3);
+}
+
+TEST(PbrtEmission, OfXyzIsConverted) {
+  expect_color(infinite_v3("\"xyz L\" [.95047 1 1.08883]"), {1, 1, 1}, 1e-2);
+}
+
+TEST(PbrtEmission, OfSpectraHasUnitLuminanceTimesScaleInV4) {
+  for (const char* samples : {"[360 1 830 1]", "[360 7 830 7]", "[400 0 500 8 600 15.6 700 18.4]"})
+    EXPECT_NEAR(luminance(infinite_v4(std::string("\"spectrum L\" ") + samples + " \"float scale\" 2.5")),
+                2.5, 1e-5);
+  EXPECT_NEAR(luminance(infinite_v4("\"spectrum L\" \"stdillum-D65\" \"float scale\" .5")), .5, 1e-5);
+  EXPECT_NEAR(luminance(infinite_v4("\"blackbody L\" [5000 3]")), 1, 1e-5);
+  EXPECT_NEAR(luminance(infinite_v4("\"float L\" 4")), 4, 1e-5);
+}
+
+TEST(PbrtEmission, OfSpectraIsAbsoluteInV3) {
+  EXPECT_NEAR(luminance(infinite_v3("\"spectrum L\" [360 7 830 7]")), 7, 1e-5);
+  EXPECT_NEAR(luminance(infinite_v3("\"spectrum L\" [830 7 360 7]")), 7, 1e-5) << "v3 sorts samples";
+  EXPECT_NEAR(luminance(infinite_v3("\"blackbody L\" [5000 3]")), 3 * luminance(blackbody(5000)), 1e-4);
+  EXPECT_NEAR(luminance(infinite_v3("\"rgb L\" [1 1 1] \"rgb scale\" [2 2 2]")), 2, 1e-3);
+}
+
+TEST(PbrtEmission, IsZeroOutsideOfSamplesInV4AndHeldInV3) {
+  const std::string samples = "\"spectrum L\" [500 1 600 1]";
+  EXPECT_EQ(evaluate(infinite_v4(samples), 450), 0);
+  EXPECT_GT(evaluate(infinite_v4(samples), 550), 0);
+  EXPECT_EQ(evaluate(infinite_v3(samples), 450), 1);
+}
+
+TEST(PbrtEmission, MayComeFromFiles) {
+  const TemporaryFolder folder;
+  folder.write("lamp.spd", "# nm value\n400 1\n700, 3");
+  EXPECT_THROW(read_pbrt(folder.write(
+                   "s.pbrt", "Film \"rgb\" WorldBegin LightSource \"infinite\" \"spectrum L\" \"lamp.spd\"")),
+               Error);
+  folder.write("lamp.spd", "# nm value\n400 1\n700 3");
+  const Spectrum v3 = infinite(read_pbrt(folder.write(
+      "s.pbrt", "Film \"image\" WorldBegin LightSource \"infinite\" \"spectrum L\" \"lamp.spd\" WorldEnd")));
+  EXPECT_NEAR(evaluate(v3, 550), 2, 1e-5);
+}
+
+TEST(PbrtEmission, OfAFileThatIsNeitherV3NorV4IsReported) {
+  EXPECT_TRUE(mentions(
+      import_text("WorldBegin LightSource \"infinite\" \"spectrum L\" [360 7 830 7] " + triangle).diagnostics,
+      "nothing tells whether"));
+}
+
+TEST(PbrtEmission, OutsideOfSrgbIsReported) {
+  EXPECT_TRUE(
+      mentions(import_v4("ColorSpace \"rec2020\" LightSource \"infinite\" \"rgb L\" [0 1 0]").diagnostics,
+               "outside linear sRGB"));
+  EXPECT_FALSE(mentions(
+      import_v4("ColorSpace \"rec2020\" LightSource \"infinite\" \"rgb L\" [1 1 1]").diagnostics, "outside"));
+}
+
+TEST(PbrtLights, PointsHaveThePowerTheyAreGiven) {
+  const auto intensity = [](const std::string& parameters) {
+    return luminance(
+        std::get<PointLight>(import_v4("LightSource \"point\" " + parameters).scene.lights.at(0)).intensity);
+  };
+  EXPECT_NEAR(intensity("\"rgb I\" [2 2 2]"), 2, 1e-3);
+  EXPECT_NEAR(intensity("\"blackbody I\" [2700] \"float power\" 40"), 40 / (4 * pi), 1e-5);
+  EXPECT_NEAR(intensity("\"rgb I\" [2 2 2] \"float power\" 40 \"float scale\" 3"), 2 * 3 * 40 / (4 * pi),
+              1e-2);
+}
+
+TEST(PbrtLights, PointsStandWhereTheirVersionPutsThem) {
+  const std::string world = "Scale 2 2 2 Translate 10 0 0 LightSource \"point\" \"point3 from\" [1 0 0]";
+  EXPECT_EQ(std::get<PointLight>(import_v4(world).scene.lights.at(0)).position, (Point3d{22, 0, 0}));
+  EXPECT_EQ(std::get<PointLight>(import_v3(world).scene.lights.at(0)).position, (Point3d{21, 0, 0}));
+}
+
+TEST(PbrtLights, DistantOnesGoFromFromToTo) {
+  const auto light = [](const std::string& world) {
+    return std::get<DistantLight>(import_v4(world).scene.lights.at(0));
+  };
+  EXPECT_EQ(light("LightSource \"distant\"").direction, (Vector3d{0, 0, 1}));
+  EXPECT_EQ(light("LightSource \"distant\" \"point3 from\" [0 5 0] \"point3 to\" [0 1 0]").direction,
+            (Vector3d{0, -1, 0}));
+  const Vector3d turned =
+      light("Rotate 90 0 0 1 LightSource \"distant\" \"point3 from\" [-2 0 0] \"point3 to\" [0 0 0]")
+          .direction;
+  EXPECT_NEAR(turned.y, 1, 1e-12);
+  EXPECT_NEAR(
+      luminance(light("LightSource \"distant\" \"spectrum L\" \"stdillum-D65\" \"float illuminance\" [.5]")
+                    .irradiance),
+      .5, 1e-5);
+  EXPECT_NEAR(luminance(light("LightSource \"distant\" \"rgb L\" [2 2 2] \"float scale\" 3").irradiance), 6,
+              1e-2);
+}
+
+TEST(PbrtLights, InfiniteOnesHaveTheIlluminanceTheyAreGiven) {
+  EXPECT_NEAR(luminance(infinite_v4("\"float illuminance\" 2")), 2 / pi, 1e-3);
+  EXPECT_TRUE(mentions(import_v4("LightSource \"infinite\" \"string filename\" \"sky.exr\"").diagnostics,
+                       "environment image"));
+}
+
+TEST(PbrtLights, OtherKindsAreReported) {
+  const ImportedScene spot = import_v4("LightSource \"spot\" \"point3 from\" [1 2 3] \"rgb I\" [2 2 2]");
+  EXPECT_EQ(std::get<PointLight>(spot.scene.lights.at(0)).position, (Point3d{1, 2, 3}));
+  EXPECT_TRUE(mentions(spot.diagnostics, "shines in all directions"));
+  const ImportedScene unknown = import_v4("LightSource \"pont\"");
+  EXPECT_TRUE(unknown.scene.lights.empty());
+  EXPECT_TRUE(mentions(unknown.diagnostics, "did you mean \"point\""));
+}
+
+// ---- Area lights
+// ----------------------------------------------------------------------------------------------------
+
+const std::string square =
+    "Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 1 1 0 0 1 0] \"integer indices\" [0 1 2 0 2 3]\n";
+
+double area_radiance(const ImportedScene& imported) {
+  return luminance(
+      imported.scene.area_lights.at(imported.scene.shapes.at(0).area_light.value().value).radiance);
+}
+
+TEST(PbrtAreaLights, AreSharedByTheShapesThatFollow) {
+  const ImportedScene imported =
+      import_v3("AreaLightSource \"area\" \"rgb L\" [17 12 4] \"integer nsamples\" 4 " + square + square);
+  expect_no_diagnostics(imported);
+  ASSERT_EQ(imported.scene.area_lights.size(), 1u);
+  EXPECT_EQ(imported.scene.shapes[1].area_light, imported.scene.shapes[0].area_light);
+  expect_color(imported.scene.area_lights[0].radiance, {17, 12, 4}, .2);
+  EXPECT_FALSE(imported.scene.area_lights[0].two_sided);
+}
+
+TEST(PbrtAreaLights, DivideTheirPowerByTheirArea) {
+  const std::string light =
+      "Scale 3 3 3 AreaLightSource \"diffuse\" \"blackbody L\" [4000] \"float power\" 10 ";
+  // pbrt makes two shapes of the square, each of half its area and with the whole power.
+  EXPECT_NEAR(area_radiance(import_v4(light + square)), 10 / (pi * 9 / 2), 1e-4);
+  EXPECT_NEAR(area_radiance(import_v4(light + "\"bool twosided\" true " + square)), 10 / (2 * pi * 9 / 2),
+              1e-4);
+  EXPECT_NEAR(
+      area_radiance(import_v4(light + "Shape \"bilinearmesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0 1 1 0]")),
+      10 / (pi * 9), 1e-4);
+  EXPECT_NEAR(area_radiance(import_v4(light + "Shape \"disk\"")) / (10 / (pi * pi * 9)), 1, 1e-4);
+  const ImportedScene several = import_v4(light + square + "Shape \"disk\"");
+  EXPECT_EQ(several.scene.area_lights.size(), 2u);
+}
+
+TEST(PbrtAreaLights, DoNotShineOnInterfaces) {
+  const ImportedScene imported = import_v4("Material \"interface\" AreaLightSource \"diffuse\" " + square);
+  EXPECT_FALSE(imported.scene.shapes[0].area_light);
+  EXPECT_TRUE(mentions(imported.diagnostics, "does not shine"));
+}
+
+}  // namespace
+}  // namespace vitrail

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: Apache-2.0
+// Shapes and, above all, which side of them is the front.
+#include "pbrt_text.h"
+
+namespace vitrail {
+namespace {
+
+// The front's normal of triangle `t` of a shape in the world, by the rule of scene.h.
+Vector3d front(const Scene& scene, const Shape& shape, std::size_t t = 0, const Transform& to_world = {}) {
+  const TriangleMesh& mesh = scene.meshes[shape.mesh.value];
+  const Transform transform = to_world * shape.object_to_world;
+  const auto corner = [&](std::size_t i) {
+    return transform_point(transform, cast<double>(mesh.positions[mesh.triangles[t][i]]));
+  };
+  const Vector3d normal = normalize(cross(corner(1) - corner(0), corner(2) - corner(0)));
+  return shape.flip_orientation ? -normal : normal;
+}
+
+Vector3d front_of(const std::string& world) {
+  const Scene scene = import_v4(world).scene;
+  return front(scene, scene.shapes.at(0));
+}
+
+// The front of a closed shape around the origin: +1 if outside.
+double outwardness(const std::string& world) {
+  const Scene scene = import_v4(world).scene;
+  const Shape& shape = scene.shapes.at(0);
+  const TriangleMesh& mesh = scene.meshes[shape.mesh.value];
+  double least = 1, greatest = -1;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const Point3d p =
+        transform_point(shape.object_to_world, cast<double>(mesh.positions[mesh.triangles[t][0]]));
+    const double side = dot(front(scene, shape, t), p - Point3d{}) > 0 ? 1 : -1;
+    least = std::min(least, side);
+    greatest = std::max(greatest, side);
+  }
+  EXPECT_EQ(least, greatest) << "the sides differ";
+  return least;
+}
+
+const Vector3d up{0, 0, 1}, down{0, 0, -1};
+const std::string points =
+    "Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0] \"integer indices\" [0 1 2] ";
+const std::string facing_up = points + "\"normal N\" [0 0 1 0 0 1 0 0 1]";
+const std::string facing_down = points + "\"normal N\" [0 0 -1 0 0 -1 0 0 -1]";
+
+TEST(PbrtOrientation, MeshesFaceWhereTheyWindInTheObject) {
+  EXPECT_EQ(front_of(points), up);
+  EXPECT_EQ(front_of("ReverseOrientation " + points), down);
+  EXPECT_EQ(front_of("ReverseOrientation ReverseOrientation " + points), up);
+  EXPECT_EQ(front_of("Scale -1 1 1 " + points), up) << "a mirror keeps the side";
+  EXPECT_EQ(front_of("Scale 1 1 -1 " + points), down) << "the side itself is mirrored";
+  EXPECT_EQ(front_of("Scale -1 1 1 ReverseOrientation " + points), down);
+}
+
+TEST(PbrtOrientation, MeshesWithNormalsFaceWhereTheNormalsPoint) {
+  EXPECT_EQ(front_of(facing_up), up);
+  EXPECT_EQ(front_of(facing_down), down);
+  EXPECT_EQ(front_of("Scale -1 1 1 " + facing_down), down);
+  EXPECT_EQ(front_of("Scale 1 1 -1 " + facing_down), up);
+  EXPECT_EQ(front_of("ReverseOrientation " + facing_down), up);
+}
+
+TEST(PbrtOrientation, OfEachTriangleIsItsOwn) {
+  const Scene scene =
+      import_v4(
+          "Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 1 1 0 0 0 5 1 0 5 1 1 5] \"integer indices\" "
+          "[0 1 2 3 4 5] \"normal N\" [0 0 1 0 0 1 0 0 1 0 0 -1 0 0 -1 0 0 -1]")
+          .scene;
+  EXPECT_EQ(front(scene, scene.shapes[0], 0), up);
+  EXPECT_EQ(front(scene, scene.shapes[0], 1), down);
+}
+
+TEST(PbrtOrientation, PatchesFaceTheCrossProductOfTheirEdges) {
+  const std::string patch = "Shape \"bilinearmesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0 1 1 0] ";
+  EXPECT_EQ(front_of(patch), up);
+  EXPECT_EQ(front_of("ReverseOrientation " + patch), down);
+  EXPECT_EQ(front_of("Scale -1 1 1 " + patch), up);
+  EXPECT_EQ(front_of(patch + "\"normal N\" [0 0 -1 0 0 -1 0 0 -1 0 0 -1]"), down);
+}
+
+TEST(PbrtOrientation, DisksFaceUpAndSpheresOutside) {
+  EXPECT_EQ(front_of("Shape \"disk\""), up);
+  EXPECT_EQ(front_of("ReverseOrientation Shape \"disk\""), down);
+  EXPECT_EQ(outwardness("Shape \"sphere\""), 1);
+  EXPECT_EQ(outwardness("ReverseOrientation Shape \"sphere\""), -1);
+  EXPECT_EQ(outwardness("Shape \"cylinder\""), 1);
+}
+
+TEST(PbrtOrientation, MirrorsTurnAnalyticShapesInsideOut) {
+  EXPECT_EQ(outwardness("Scale -1 1 1 Shape \"sphere\""), -1) << "as pbrt renders glass";
+  EXPECT_EQ(outwardness("Scale -1 1 1 ReverseOrientation Shape \"sphere\""), 1);
+  EXPECT_EQ(outwardness("Scale -1 1 1 AreaLightSource \"diffuse\" Shape \"sphere\""), 1)
+      << "but not their light";
+}
+
+TEST(PbrtOrientation, SubdividedMeshesFaceAgainstTheirWinding) {
+  const std::string cube =
+      "Shape \"loopsubdiv\" \"integer levels\" 2 \"integer indices\" [0 2 1 0 3 2 4 5 6 4 6 7 0 1 5 0 5 4 1 "
+      "2 6 1 6 5 2 3 7 "
+      "2 7 6 3 0 4 3 4 7] \"point3 P\" [-1 -1 -1 1 -1 -1 1 1 -1 -1 1 -1 -1 -1 1 1 -1 1 1 1 1 -1 1 1]";
+  EXPECT_EQ(outwardness(cube), -1) << "pbrt's normals of a cage that winds outside point inside";
+  EXPECT_EQ(outwardness("ReverseOrientation " + cube), 1);
+  const Scene scene = import_v4(cube).scene;
+  const TriangleMesh& mesh = scene.meshes.at(0);
+  EXPECT_EQ(mesh.triangles.size(), 12u * 16u);
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i)
+    EXPECT_LT(dot(to_vector(mesh.normals[i]), mesh.positions[i] - Point3f{}), 0);
+}
+
+TEST(PbrtOrientation, PrototypesKeepTheirSides) {
+  const Scene scene =
+      import_v4("ObjectBegin \"o\" " + points + "ObjectEnd Scale -1 1 1 ObjectInstance \"o\"").scene;
+  EXPECT_FALSE(scene.prototypes[0].shapes[0].flip_orientation);
+  EXPECT_EQ(front(scene, scene.prototypes[0].shapes[0]), up);
+}
+
+// ---- Meshes and files
+// -----------------------------------------------------------------------------------------------
+
+TEST(PbrtShapes, MeshesKeepTheirVertices) {
+  const ImportedScene imported = import_v3(
+      "Shape \"trianglemesh\" \"point P\" [0 0 0 1 0 0 0 1 .5] \"float uv\" [0 0 1 0 0 1] "
+      "\"integer indices\" [2 0 1] \"vector S\" [1 0 0 1 0 0 1 0 0]");
+  expect_no_diagnostics(imported);
+  const TriangleMesh& mesh = imported.scene.meshes.at(0);
+  EXPECT_EQ(mesh.positions, (std::vector<Point3f>{{0, 0, 0}, {1, 0, 0}, {0, 1, .5f}}));
+  EXPECT_EQ(mesh.uvs, (std::vector<Point2f>{{0, 0}, {1, 0}, {0, 1}}));
+  EXPECT_EQ(mesh.triangles, (std::vector<std::array<std::uint32_t, 3>>{{2, 0, 1}}));
+}
+
+TEST(PbrtShapes, OneTriangleNeedsNoIndices) {
+  EXPECT_EQ(import_v4("Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0]")
+                .scene.meshes.at(0)
+                .triangles.size(),
+            1u);
+}
+
+TEST(PbrtShapes, MeshesFarAwayKeepTheirDetail) {
+  const Scene scene =
+      import_v4(
+          "Translate 1 0 0 Shape \"trianglemesh\" \"point3 P\" [1000000.0625 0 0 1000000.125 0 0 "
+          "1000000.0625 .001 0]")
+          .scene;
+  const TriangleMesh& mesh = scene.meshes.at(0);
+  const auto world = [&](std::size_t i) {
+    return transform_point(scene.shapes[0].object_to_world, cast<double>(mesh.positions[i]));
+  };
+  EXPECT_NEAR(world(0).x, 1000001.0625, 1e-8);
+  EXPECT_NEAR(world(1).x, 1000001.125, 1e-8);
+  EXPECT_NEAR(world(2).y, .001, 1e-8);
+}
+
+TEST(PbrtShapes, PlyFilesAreReadOnce) {
+  const TemporaryFolder folder;
+  folder.write(
+      "t.ply",
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+      "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+  const Scene scene =
+      read_pbrt(folder.write("s.pbrt",
+                             "Film \"rgb\" WorldBegin Shape \"plymesh\" \"string filename\" \"t.ply\" "
+                             "ReverseOrientation Shape \"plymesh\" \"string filename\" [\"t.ply\"]"))
+          .scene;
+  ASSERT_EQ(scene.shapes.size(), 2u);
+  EXPECT_EQ(scene.meshes.size(), 1u);
+  EXPECT_EQ(front(scene, scene.shapes[0]), up);
+  EXPECT_EQ(front(scene, scene.shapes[1]), down);
+}
+
+TEST(PbrtShapes, CurvedOnesAreReportedOnceAKind) {
+  const ImportedScene imported = import_v4(
+      "Shape \"sphere\" Shape \"sphere\" Shape \"sphere\" \"float radius\" 2 Shape \"disk\" "
+      "Shape \"curve\" \"point3 P\" [0 0 0] Shape \"curve\"");
+  EXPECT_EQ(imported.scene.meshes.size(), 3u) << "equal spheres share a mesh";
+  EXPECT_EQ(imported.scene.shapes.size(), 4u);
+  ASSERT_EQ(imported.diagnostics.size(), 3u);
+  EXPECT_EQ(imported.diagnostics[0].fidelity, Fidelity::approximated);
+  EXPECT_EQ(imported.diagnostics[2].fidelity, Fidelity::dropped);
+  EXPECT_THAT(imported.diagnostics[2].message, ::testing::HasSubstr("curve"));
+}
+
+TEST(PbrtShapes, HolesByAlphaAreReported) {
+  EXPECT_TRUE(mentions(import_v4(points + "\"float alpha\" .5").diagnostics, "opaque"));
+  expect_no_diagnostics(import_v4(points + "\"float alpha\" 1"));
+  EXPECT_TRUE(import_v4(points + "\"float alpha\" 0").scene.shapes.empty());
+}
+
+}  // namespace
+}  // namespace vitrail

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+// Data flows one way: which folder may include which.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <set>
+#include <string>
+
+namespace vitrail {
+namespace {
+
+const std::map<std::string, std::set<std::string>>& allowed() {
+  static const std::map<std::string, std::set<std::string>> folders{
+      {"scene", {}},
+      {"importers", {"scene"}},
+      {"bundle", {"scene"}},
+      {"partitioner", {"scene", "bundle"}},
+      {"film", {"scene"}},
+      {"tracer", {"scene", "bundle", "film"}},
+      {"farm", {"scene", "bundle", "film", "tracer"}},
+      {"compare", {"scene", "film"}},
+      {"cli", {"scene", "importers", "bundle", "partitioner", "film", "tracer", "farm", "compare"}}};
+  return folders;
+}
+
+bool is_source(const std::filesystem::path& file) {
+  const std::string extension = file.extension().string();
+  return extension == ".h" || extension == ".cpp" || extension == ".inl";
+}
+
+TEST(IncludeDirection, FoldersDependOnlyOnThoseBelow) {
+  const std::filesystem::path root = VITRAIL_SOURCE_DIR;
+  const std::regex include(R"rx(^\s*#\s*include\s*"([a-z]+)/)rx");
+  int seen = 0;
+  for (const auto& [folder, may] : allowed())
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(root / folder)) {
+      if (!is_source(entry.path())) continue;
+      std::ifstream in(entry.path());
+      int number = 0;
+      for (std::string line; std::getline(in, line);) {
+        ++number;
+        std::smatch found;
+        if (!std::regex_search(line, found, include)) continue;
+        ++seen;
+        const std::string target = found[1];
+        EXPECT_TRUE(target == folder || may.contains(target))
+            << entry.path().string() << ':' << number << " includes " << target << '/';
+      }
+    }
+  EXPECT_GT(seen, 100);
+}
+
+TEST(IncludeDirection, OnlyTheFarmSpeaksMpi) {
+  const std::filesystem::path root = VITRAIL_SOURCE_DIR;
+  for (const auto& [folder, may] : allowed())
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(root / folder)) {
+      if (!is_source(entry.path()) || folder == "farm") continue;
+      std::ifstream in(entry.path());
+      const std::string text(std::istreambuf_iterator<char>(in), {});
+      EXPECT_EQ(text.find("<mpi.h>"), std::string::npos) << entry.path().string();
+    }
+}
+
+TEST(Sources, CarryTheirLicence) {
+  const std::filesystem::path root = VITRAIL_SOURCE_DIR;
+  for (const char* folder : {"scene", "importers", "bundle", "partitioner", "film", "tracer", "farm", "compare", "cli",
+                             "tests", "scripts", "examples", "cmake"})
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(root / folder)) {
+      const std::string extension = entry.path().extension().string();
+      constexpr const char* kinds[] = {".h", ".cpp", ".inl", ".py", ".cmake"};
+      if (std::ranges::find(kinds, extension) == std::end(kinds)) continue;
+      std::ifstream in(entry.path());
+      std::string first, second;
+      std::getline(in, first);
+      std::getline(in, second);
+      EXPECT_NE((first + second).find("SPDX-License-Identifier: Apache-2.0"), std::string::npos)
+          << entry.path().string();
+    }
+}
+
+}  // namespace
+}  // namespace vitrail

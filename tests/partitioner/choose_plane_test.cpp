@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "partitioner/choose_plane.h"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "tests/partitioner/test_scenes.h"
+
+namespace vitrail {
+
+namespace {
+
+CellContent all_of(const std::vector<Triangle>& triangles) {
+  CellContent content;
+  content.whole.resize(triangles.size());
+  std::iota(content.whole.begin(), content.whole.end(), 0u);
+  return content;
+}
+
+// A flat n × m grid of unit squares, z = 0.
+std::vector<Triangle> grid(int n, int m) {
+  std::vector<Triangle> triangles;
+  const auto at = [](int x, int y) { return Point3f{static_cast<float>(x), static_cast<float>(y), 0}; };
+  for (int x = 0; x < n; ++x)
+    for (int y = 0; y < m; ++y) {
+      triangles.push_back({at(x, y), at(x + 1, y), at(x + 1, y + 1)});
+      triangles.push_back({at(x, y), at(x + 1, y + 1), at(x, y + 1)});
+    }
+  return triangles;
+}
+
+TEST(ChoosePlane, NothingToPart) {
+  EXPECT_FALSE(choose_plane({}, {}, {}));
+  const std::vector<Triangle> point(5, Triangle{});
+  EXPECT_FALSE(choose_plane(all_of(point), point, {}));
+}
+
+// The long axis has the smaller section, and its grid lines cut no triangle.
+TEST(ChoosePlane, FollowsTheMeshAcrossTheLongAxis) {
+  const std::vector<Triangle> triangles = grid(40, 10);
+  const auto plane = choose_plane(all_of(triangles), triangles, {1, 1, 0.1});
+  ASSERT_TRUE(plane);
+  EXPECT_EQ(plane->axis, 0);
+  EXPECT_EQ(plane->split, 20);
+  const auto [below, above] = cut(all_of(triangles), triangles, *plane);
+  EXPECT_EQ(below.size(), 400u);
+  EXPECT_TRUE(below.pieces.empty());
+}
+
+TEST(ChoosePlane, SharesTheLoadByLeaves) {
+  const std::vector<Triangle> triangles = grid(50, 5);
+  for (const std::uint32_t leaves_below : {1u, 2u, 3u, 4u}) {
+    const auto plane = choose_plane(all_of(triangles), triangles, {leaves_below, 5 - leaves_below, 0.02});
+    ASSERT_TRUE(plane);
+    EXPECT_EQ(plane->split, static_cast<float>(10 * leaves_below));
+  }
+}
+
+// All triangles lie in two planes: the only way between them is one that no triangle names.
+TEST(ChoosePlane, PartsParallelSheets) {
+  std::vector<Triangle> triangles;
+  for (int i = 0; i < 100; ++i) {
+    const auto x = static_cast<float>(i % 2);
+    triangles.push_back({Point3f{x, 0, 0}, Point3f{x, 1, 0}, Point3f{x, 0, 1}});
+  }
+  const auto plane = choose_plane(all_of(triangles), triangles, {1, 1, 0.05});
+  ASSERT_TRUE(plane);
+  EXPECT_EQ(plane->axis, 0);
+  const auto [below, above] = cut(all_of(triangles), triangles, *plane);
+  EXPECT_EQ(below.whole.size(), 50u);
+  EXPECT_EQ(above.whole.size(), 50u);
+}
+
+// Most triangles in a tiny corner: even spacing alone would put nearly all on one side.
+TEST(ChoosePlane, BalancesUnevenScenes) {
+  std::vector<Triangle> triangles = grid(30, 30);
+  for (Triangle& t : triangles)
+    for (Point3f& p : t) p = {p.x * 1e-4f, p.y * 1e-4f, p.z};
+  triangles.push_back({Point3f{1000, 0, 0}, Point3f{1000, 1, 0}, Point3f{1000, 0, 1}});
+  const auto plane = choose_plane(all_of(triangles), triangles, {1, 1, 0.1});
+  ASSERT_TRUE(plane);
+  const auto [below, above] = cut(all_of(triangles), triangles, *plane);
+  EXPECT_LT(std::max(below.size(), above.size()), 1.1 * static_cast<double>(triangles.size()) / 2);
+}
+
+}  // namespace
+
+}  // namespace vitrail

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "partitioner/cut.h"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "bundle/census.h"
+
+namespace vitrail {
+
+namespace {
+
+CellContent all_of(const std::vector<Triangle>& triangles) {
+  CellContent content;
+  content.whole.resize(triangles.size());
+  std::iota(content.whole.begin(), content.whole.end(), 0u);
+  return content;
+}
+
+double area_of(const CellContent& content) {
+  double sum = 0;
+  for (const Piece& p : content.pieces) sum += polygon_area(content.polygon(p));
+  return sum;
+}
+
+TEST(Cut, StraddlingTriangleBecomesTwoPieces) {
+  const std::vector<Triangle> triangles{{Point3f{-1, 0, 0}, Point3f{3, 0, 0}, Point3f{0, 2, 0}}};
+  const auto [below, above] = cut(all_of(triangles), triangles, {0, 1});
+  EXPECT_TRUE(below.whole.empty() && above.whole.empty());
+  ASSERT_EQ(below.pieces.size(), 1u);
+  ASSERT_EQ(above.pieces.size(), 1u);
+  EXPECT_EQ(below.pieces[0].vertex_count, 4u);
+  EXPECT_EQ(above.pieces[0].vertex_count, 3u);
+  EXPECT_DOUBLE_EQ(area_of(below) + area_of(above), 4);
+  for (const Point3d& p : above.piece_vertices) EXPECT_GE(p.x, 1);
+}
+
+TEST(Cut, TouchingTrianglesStayWhole) {
+  const std::vector<Triangle> triangles{
+      {Point3f{0, 0, 0}, Point3f{1, 0, 0}, Point3f{1, 1, 0}},    // touches x = 1 from below
+      {Point3f{1, 0, 0}, Point3f{2, 0, 0}, Point3f{1, 1, 0}},    // and from above
+      {Point3f{1, 0, 0}, Point3f{1, 1, 0}, Point3f{1, 0, 1}},    // lies in it
+      {Point3f{-1, 0, 0}, Point3f{-2, 0, 0}, Point3f{-1, 1, 0}}  // far below
+  };
+  const auto [below, above] = cut(all_of(triangles), triangles, {0, 1});
+  EXPECT_EQ(below.whole, (std::vector<std::uint32_t>{0, 2, 3}));
+  EXPECT_EQ(above.whole, (std::vector<std::uint32_t>{1}));
+  EXPECT_TRUE(below.pieces.empty() && above.pieces.empty());
+}
+
+TEST(Cut, VertexInThePlaneBelongsToBothPieces) {
+  const std::vector<Triangle> triangles{{Point3f{0, 0, 0}, Point3f{1, 1, 0}, Point3f{2, 0, 0}}};
+  const auto [below, above] = cut(all_of(triangles), triangles, {0, 1});
+  const Point3d apex{1, 1, 0}, foot{1, 0, 0};
+  EXPECT_EQ(below.piece_vertices, (std::vector<Point3d>{{0, 0, 0}, apex, foot}));
+  EXPECT_EQ(above.piece_vertices, (std::vector<Point3d>{apex, {2, 0, 0}, foot}));
+}
+
+// Neighbours run along their common edge in opposite directions.
+TEST(Cut, NeighboursGetTheSameBits) {
+  const Point3f p{0.1f, 0.7f, -0.3f}, q{0.9f, -0.2f, 0.8f};
+  const std::vector<Triangle> triangles{{p, q, Point3f{5, 5, 5}}, {q, p, Point3f{-5, 5, 5}}};
+  for (const float split : {0.2f, 0.3f, 0.5f, 0.77f}) {
+    const CellContent below = cut(all_of(triangles), triangles, {0, split}).first;
+    const Point3d on_edge = crossing(cast<double>(p), cast<double>(q), {0, split});
+    EXPECT_EQ(on_edge.x, double{split});
+    for (const Piece& piece : below.pieces) {
+      const auto polygon = below.polygon(piece);
+      EXPECT_NE(std::find(polygon.begin(), polygon.end(), on_edge), polygon.end());
+    }
+  }
+}
+
+// Rounding must not push a cut vertex out of the cell that earlier cuts made.
+TEST(Cut, CutVerticesStayWithinTheirSegment) {
+  for (int i = 1; i < 2000; ++i) {
+    const double edge = 1.0 / i;
+    const Point3d below{edge, -1.0 / 3, 0.1}, above{edge * 0.99, i * 0.7, 0.1};
+    const Point3d p = crossing(below, above, {1, 0.1f / static_cast<float>(i)});
+    EXPECT_LE(p.x, below.x);
+    EXPECT_GE(p.x, above.x);
+    EXPECT_EQ(p.z, 0.1);
+  }
+}
+
+TEST(Cut, PiecesStayInOrderAndWinding) {
+  std::vector<Triangle> triangles;
+  for (int i = 0; i < 10; ++i) {
+    const auto y = static_cast<float>(i);
+    triangles.push_back({Point3f{-2, y, 0}, Point3f{2, y, 0}, Point3f{0, y + 1, 0}});
+  }
+  const auto halves = cut(all_of(triangles), triangles, {0, -1});
+  const auto [below, above] = cut(halves.second, triangles, {0, 1});
+  ASSERT_EQ(below.pieces.size(), 10u);
+  for (std::uint32_t i = 0; i < 10; ++i) {
+    EXPECT_EQ(below.pieces[i].triangle, i);
+    const auto v = below.polygon(below.pieces[i]);
+    EXPECT_GT(cross(v[1] - v[0], v[2] - v[0]).z, 0);
+  }
+}
+
+}  // namespace
+
+}  // namespace vitrail

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "partitioner/partition.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <limits>
+#include <map>
+#include <sstream>
+
+#include "tests/partitioner/test_scenes.h"
+
+namespace vitrail {
+
+namespace {
+
+namespace fs = std::filesystem;
+using test::bumpy_torus;
+using test::scene_of;
+
+std::map<std::string, std::string> contents(const fs::path& bundle) {
+  std::map<std::string, std::string> files;
+  for (const auto& entry : fs::recursive_directory_iterator(bundle)) {
+    if (!entry.is_regular_file()) continue;
+    std::ostringstream text;
+    text << std::ifstream(entry.path(), std::ios::binary).rdbuf();
+    files[fs::relative(entry.path(), bundle).string()] = text.str();
+  }
+  return files;
+}
+
+std::vector<std::string> names_in(const fs::path& directory) {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(directory))
+    names.push_back(entry.path().filename().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+class Partition : public ::testing::Test {
+ protected:
+  test::TemporaryDirectory directory;
+  fs::path out = directory.path() / "scene.vit";
+};
+
+TEST_F(Partition, BytesDoNotDependOnTheThreads) {
+  const Scene scene = scene_of(test::adversarial_soup());
+  std::map<std::string, std::string> first;
+  for (const int threads : {1, 2, 5}) {
+    partition(scene, out, {.domains = 11, .threads = threads});
+    const auto files = contents(out);
+    EXPECT_EQ(files.size(), 11u + 3u);
+    if (first.empty()) first = files;
+    EXPECT_TRUE(files == first) << threads << " threads give another bundle";
+  }
+}
+
+TEST_F(Partition, DomainsAreBalanced) {
+  const Scene scene = scene_of(bumpy_torus(150));
+  for (const std::uint32_t domains : {2u, 3u, 8u, 23u, 64u, 150u}) {
+    const PartitionStats s = partition(scene, out, {.domains = domains});
+    EXPECT_EQ(s.domains, domains);
+    EXPECT_EQ(s.input_triangles, 45000u);
+    EXPECT_LT(static_cast<double>(s.triangles_max), 1.3 * s.triangles_mean) << domains << " domains";
+    EXPECT_EQ(s.duplicates, 0u);
+    EXPECT_LT(s.area_error, 1e-6);
+  }
+}
+
+TEST_F(Partition, StatisticsAgreeWithTheManifest) {
+  const PartitionStats s = partition(scene_of(bumpy_torus(100)), out, {.domains = 16});
+  const Manifest m = read_manifest(out);
+  std::uint64_t triangles = 0, pieces = 0, bytes = 0;
+  for (const DomainInfo& d : m.domains) {
+    triangles += d.triangles;
+    pieces += d.pieces;
+  }
+  for (const auto& [name, text] : contents(out)) bytes += text.size();
+  EXPECT_EQ(s.pieces, pieces);
+  EXPECT_EQ(s.cut_triangles, m.cut_triangles);
+  EXPECT_EQ(triangles, s.input_triangles - s.cut_triangles + s.pieces);
+  EXPECT_EQ(s.triangles_mean, static_cast<double>(triangles) / 16);
+  EXPECT_EQ(s.bundle_bytes, bytes);
+  EXPECT_GT(s.peak_rss_bytes, 0u);
+}
+
+TEST_F(Partition, SceneHashDoesNotDependOnTheCuts) {
+  const Scene scene = scene_of(bumpy_torus(30));
+  partition(scene, out, {.domains = 1});
+  const std::uint64_t hash = read_manifest(out).scene_hash;
+  partition(scene, out, {.domains = 9});
+  EXPECT_EQ(read_manifest(out).scene_hash, hash);
+}
+
+TEST_F(Partition, DomainsGetTheSizeAskedFor) {
+  const PartitionStats s = partition(scene_of(bumpy_torus(150)), out, {.domain_bytes = 200'000});
+  EXPECT_GT(s.domains, 10u);
+  for (const DomainInfo& d : read_manifest(out).domains) EXPECT_LT(d.bytes, 1.25 * 200'000);
+  EXPECT_EQ(partition(scene_of(bumpy_torus(20)), out, {}).domains, 1u);
+}
+
+TEST_F(Partition, MoreDomainsThanTriangles) {
+  TriangleMesh mesh;
+  mesh.positions.assign(3, {1, 2, 3});
+  mesh.triangles = {{0, 1, 2}, {0, 1, 2}};
+  EXPECT_EQ(partition(scene_of(mesh), out, {.domains = 7}).triangles_max, 2u);
+  const Manifest m = read_manifest(out);
+  EXPECT_EQ(m.domains.size(), 7u);
+  for (std::uint32_t i = 0; i < 7; ++i)
+    check_domain(m, i, MappedDomain(domain_path(out, i)), domain_path(out, i));
+  EXPECT_EQ(partition(scene_of({}), out, {.domains = 5}).triangles_max, 0u);
+  EXPECT_EQ(read_manifest(out).domains.size(), 5u);
+}
+
+TEST_F(Partition, TightBoundsHoldEveryPart) {
+  partition(scene_of(bumpy_torus(60)), out, {.domains = 8});
+  const Manifest m = read_manifest(out);
+  Bounds3f all;
+  for (std::uint32_t i = 0; i < 8; ++i) {
+    const MappedDomain mapped(domain_path(out, i));
+    const Bounds3f tight = m.domains[i].tight_bounds;
+    for (const Point3d& p : mapped.piece_vertices())
+      for (int axis = 0; axis < 3; ++axis) {
+        EXPECT_GT(p[axis], tight.lower[axis]);
+        EXPECT_LT(p[axis], tight.upper[axis]);
+      }
+    extend(all, tight);
+  }
+  for (int axis = 0; axis < 3; ++axis) EXPECT_LT(all.lower[axis], m.bounds.lower[axis]);
+}
+
+TEST_F(Partition, ReplacesAnOlderBundleAndLeavesNothingElse) {
+  const Scene scene = scene_of(bumpy_torus(20));
+  partition(scene, out, {.domains = 4});
+  partition(scene, out / "", {.domains = 2});
+  EXPECT_EQ(read_manifest(out).domains.size(), 2u);
+  EXPECT_EQ(contents(out).size(), 5u);
+  EXPECT_EQ(names_in(directory.path()), std::vector<std::string>{"scene.vit"});
+}
+
+TEST_F(Partition, NeverTouchesWhatIsNotABundle) {
+  fs::create_directory(out);
+  std::ofstream(out / "thesis.txt") << "years of work";
+  EXPECT_THROW(partition(scene_of(bumpy_torus(20)), out, {}), UsageError);
+  EXPECT_EQ(names_in(out), std::vector<std::string>{"thesis.txt"});
+  EXPECT_EQ(names_in(directory.path()), std::vector<std::string>{"scene.vit"});
+}
+
+TEST_F(Partition, FailureLeavesTheOldBundle) {
+  Scene scene = scene_of(bumpy_torus(20));
+  partition(scene, out, {.domains = 3});
+  const auto before = contents(out);
+  scene.film.width = 0;  // found when the manifest is written, after the domains
+  EXPECT_THROW(partition(scene, out, {.domains = 2}), Error);
+  EXPECT_TRUE(contents(out) == before);
+  EXPECT_EQ(names_in(directory.path()), std::vector<std::string>{"scene.vit"});
+}
+
+TEST_F(Partition, ProgressRisesToOne) {
+  double last = 0;
+  bool rises = true;
+  partition(scene_of(bumpy_torus(30)), out, {.domains = 6}, [&](double fraction, const char*) {
+    rises &= fraction >= last;
+    last = fraction;
+  });
+  EXPECT_TRUE(rises);
+  EXPECT_DOUBLE_EQ(last, 1);
+}
+
+TEST_F(Partition, TooManyDomains) {
+  EXPECT_THROW(partition(scene_of(bumpy_torus(10)), out, {.domains = 1'000'000}), UsageError);
+}
+
+}  // namespace
+
+}  // namespace vitrail

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tracer/records.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "tracer/bsdf.h"
+#include "tracer/portable_math.h"
+#include "tracer/wavelengths.h"
+
+namespace vitrail {
+namespace {
+
+TEST(Direction, SurvivesItsCode) {
+  std::mt19937 random(1);
+  std::normal_distribution<double> normal;
+  double worst = 0;
+  for (int i = 0; i < 100000; ++i) {
+    const Vector3d d = normalize(Vector3d{normal(random), normal(random), normal(random)});
+    const Vector3f back = decode_direction(encode_direction(d));
+    worst = std::max(worst, length(cast<double>(back) - d));
+    EXPECT_NEAR(length(cast<double>(back)), 1, 2e-7);
+  }
+  EXPECT_LT(worst, 3e-7);
+}
+
+TEST(Direction, AxesAreExact) {
+  for (int axis = 0; axis < 3; ++axis)
+    for (const double sign : {-1.0, 1.0}) {
+      Vector3d d;
+      d[axis] = sign;
+      EXPECT_EQ(decode_direction(encode_direction(d)), cast<float>(d));
+    }
+}
+
+TEST(Records, PdfAndRadianceRoundWithoutBias) {
+  std::mt19937 random(2);
+  std::uniform_real_distribution<float> exponent(-20, 20);
+  double radiance_sum = 0, pdf_sum = 0;
+  constexpr int n = 100000;
+  for (int i = 0; i < n; ++i) {
+    const float value = std::exp2(exponent(random));
+    std::uint8_t packed[3];
+    pack_radiance(value, packed);
+    const double radiance = unpack_radiance(packed) / static_cast<double>(value) - 1;
+    const double pdf = pdf_value(pdf_code(value)) / static_cast<double>(value) - 1;
+    EXPECT_LE(std::abs(radiance), 0x1p-17);
+    EXPECT_LE(std::abs(pdf), 0x1p-8);
+    radiance_sum += radiance / n;
+    pdf_sum += pdf / n;
+  }
+  EXPECT_LT(std::abs(radiance_sum), 1e-7);
+  EXPECT_LT(std::abs(pdf_sum), 1e-4);
+  std::uint8_t zero[3];
+  pack_radiance(0, zero);
+  EXPECT_EQ(unpack_radiance(zero), 0);
+  EXPECT_EQ(pdf_value(pdf_code(0)), 0);
+}
+
+TEST(PortableMath, AgreesWithTheLibrary) {
+  for (double x = -pi / 4; x <= pi / 4; x += 1e-3) {
+    EXPECT_NEAR(sin_small(x), std::sin(x), 2e-16);
+    EXPECT_NEAR(cos_small(x), std::cos(x), 2e-16);
+  }
+  for (double x = -600; x <= 600; x += 0.37) EXPECT_NEAR(portable_exp(x) / std::exp(x), 1, 2e-14) << x;
+}
+
+TEST(Fresnel, KnownValues) {
+  EXPECT_NEAR(fresnel_dielectric(1, 1.5), 0.04, 1e-15);
+  EXPECT_NEAR(fresnel_dielectric(1, 1 / 1.5), 0.04, 1e-15);
+  EXPECT_EQ(fresnel_dielectric(0.1, 1 / 1.5), 1);
+  EXPECT_EQ(fresnel_dielectric(0, 1.5), 1);
+  EXPECT_EQ(fresnel_dielectric(0, 1), 0);
+  // At Brewster's angle only s is reflected: ((n² − 1)/(n² + 1))² / 2.
+  EXPECT_NEAR(fresnel_dielectric(std::cos(std::atan(1.5)), 1.5), std::pow((2.25 - 1) / (2.25 + 1), 2) / 2, 1e-14);
+}
+
+TEST(Refract, FollowsSnell) {
+  for (const double eta : {1.0000001, 1.5, 4.0, 1 / 1.5})
+    for (double angle = 0; angle < 1.57; angle += 0.01) {
+      Vector3d refracted;
+      if (!refract({std::sin(angle), 0, std::cos(angle)}, {0, 0, 1}, eta, refracted)) {
+        EXPECT_GE(std::sin(angle), eta * (1 - 1e-12));
+        continue;
+      }
+      EXPECT_NEAR(length(refracted), 1, 1e-14);
+      EXPECT_NEAR(-refracted.x * eta, std::sin(angle), 1e-13);
+      EXPECT_LE(refracted.z, 0);
+    }
+}
+
+TEST(Wavelengths, IntegrateToTheSensorsNormalisation) {
+  // The mean over u of the weights is the integral of the observer over ∫ȳ; for a constant spectrum Y is 1.
+  XYZ mean;
+  constexpr int n = 10000;
+  for (int i = 0; i < n; ++i) {
+    const SampledWavelengths w = sample_wavelengths((static_cast<float>(i) + 0.5f) / n);
+    for (std::size_t k = 0; k < hero_count; ++k) {
+      EXPECT_GE(w.lambda_nm[k], lambda_min_nm);
+      EXPECT_LE(w.lambda_nm[k], lambda_max_nm);
+      EXPECT_GT(w.pdf[k], 0);
+    }
+    const XYZ sensed = sense(sensor_weights(w), filled(1));
+    mean.x += sensed.x / n;
+    mean.y += sensed.y / n;
+    mean.z += sensed.z / n;
+  }
+  const XYZ expected = to_xyz(ConstantSpectrum{1});
+  EXPECT_NEAR(mean.x, expected.x, 2e-4);
+  EXPECT_NEAR(mean.y, 1, 2e-4);
+  EXPECT_NEAR(mean.z, expected.z, 2e-4);
+}
+
+TEST(Hemisphere, IsCosineWeighted) {
+  // Moments of cosθ under pdf cosθ/π: E[cos] = 2/3, E[cos²] = 1/2.
+  double first = 0, second = 0, x = 0;
+  constexpr int n = 512;
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j) {
+      const Vector3d d = sample_cosine_hemisphere((static_cast<float>(i) + 0.5f) / n, (static_cast<float>(j) + 0.5f) / n);
+      EXPECT_NEAR(length(d), 1, 1e-12);
+      first += d.z / (n * n);
+      second += d.z * d.z / (n * n);
+      x += d.x / (n * n);
+    }
+  EXPECT_NEAR(first, 2.0 / 3, 1e-4);
+  EXPECT_NEAR(second, 0.5, 1e-4);
+  EXPECT_NEAR(x, 0, 1e-12);
+}
+
+}  // namespace
+}  // namespace vitrail
