@@ -3,7 +3,7 @@
 
 #include "bundle/checksum.h"
 #include "bundle/domain_layout.h"
-#include "scene/atomic_file.h"
+#include "bundle/write_file.h"
 
 namespace vitrail {
 
@@ -40,13 +40,9 @@ std::uint64_t write_domain_file(const std::filesystem::path& file, const DomainC
   header.file_bytes = offset;
   header.header_checksum = layout::checksum_of(header);
 
-  AtomicFile out(file);
-  out.write(std::as_bytes(std::span(&header, 1)));
-  for (std::size_t i = 0; i < layout::section_count; ++i) {
-    out.write(data[i]);
-    out.write(tails[i]);
-  }
-  out.commit();
+  std::vector<std::span<const std::byte>> parts{std::as_bytes(std::span(&header, 1))};
+  for (std::size_t i = 0; i < layout::section_count; ++i) parts.insert(parts.end(), {data[i], tails[i]});
+  write_file(file, parts);
   return offset;
 }
 

@@ -79,7 +79,7 @@ struct DomainView {
 
 DomainView view_of(const DomainContent& content);
 
-// Writes under a temporary name, syncs and renames. Returns the size in bytes. Throws MachineError.
+// Returns the size in bytes. Throws MachineError, and then leaves no file. Not synced.
 std::uint64_t write_domain_file(const std::filesystem::path& file, const DomainContent& content);
 
 // A domain file mapped read-only. Unmapped by the destructor.

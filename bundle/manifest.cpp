@@ -12,7 +12,7 @@
 #include "bundle/checksum.h"
 #include "bundle/manifest_json.h"
 #include "bundle/records.h"
-#include "scene/atomic_file.h"
+#include "bundle/write_file.h"
 #include "scene/diagnostics.h"
 
 namespace vitrail {
@@ -39,10 +39,7 @@ constexpr std::array<char, 8> lights_magic{'V', 'I', 'T', 'R', 'L', 'I', 'T', '\
 void write_records(const std::filesystem::path& file, std::array<char, 8> magic,
                    std::span<const std::byte> payload) {
   const RecordsHeader header{magic, 1, 0, payload.size(), checksum(payload)};
-  AtomicFile out(file);
-  out.write(std::as_bytes(std::span(&header, 1)));
-  out.write(payload);
-  out.commit();
+  write_file(file, std::array{std::as_bytes(std::span(&header, 1)), payload});
 }
 
 std::vector<std::byte> read_file(const std::filesystem::path& file) {
@@ -124,9 +121,7 @@ void write_manifest(const std::filesystem::path& bundle, const Manifest& manifes
   json.update(manifest_to_json(manifest));
   const std::string rest = json.dump(1).substr(2) + "\n";  // without "{\n"
   const std::string text = checksum_line(rest) + rest;
-  AtomicFile out(file);
-  out.write(std::as_bytes(std::span(text)));
-  out.commit();
+  write_file(file, std::array{std::as_bytes(std::span(text))});
 }
 
 Manifest read_manifest(const std::filesystem::path& bundle) {

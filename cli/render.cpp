@@ -36,7 +36,8 @@ void declare(CLI::App& app, Arguments& a) {
   app.add_option("--time", o.time_limit_s, "stop after this many seconds with what there is");
   app.add_option("--stats", o.stats, "write statistics as JSON");
   app.add_option("--progress", a.progress)->check(CLI::IsMember({"auto", "bar", "json", "none"}));
-  app.add_option("--shuffle-delivery", o.shuffle_seed, "process rays in an arbitrary order (for tests)")->group("");
+  app.add_option("--shuffle-delivery", o.shuffle_seed)->group("");
+  app.add_option("--domain-memory", o.domain_memory_bytes)->group("");
 }
 
 PixelRect parse_crop(const std::string& text) {

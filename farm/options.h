@@ -26,7 +26,9 @@ struct RenderOptions {
   bool resume = false;
   std::filesystem::path stats;     // empty: none
   ProgressMode progress = ProgressMode::none;
-  // Processes rays in an arbitrary order, for tests: no picture may depend on it.
+  // For tests: at most this for domains, whatever memory_bytes leaves; 0: no such limit.
+  std::uint64_t domain_memory_bytes = 0;
+  // For tests: processes rays in an arbitrary order: no picture may depend on it.
   std::optional<std::uint64_t> shuffle_seed;
 };
 

@@ -74,7 +74,10 @@ MemoryPlan plan_for(const Manifest& manifest, const RenderOptions& options, int 
     largest = std::max(largest, d.bytes);
     all += d.bytes;
   }
-  return plan_memory(options.memory_bytes, base, threads, largest, all);
+  MemoryPlan plan = plan_memory(options.memory_bytes, base, threads, largest, all);
+  if (options.domain_memory_bytes > 0)
+    plan.domains_bytes = std::max(largest, std::min(plan.domains_bytes, options.domain_memory_bytes));
+  return plan;
 }
 
 void write_stats(const std::filesystem::path& file, const RenderStats& stats) {

@@ -35,7 +35,10 @@ void add_default_view(ImportedScene& imported, const std::filesystem::path& file
   const double radius = std::max(length(extent(bounds)) / 2, 1e-6);
   const Vector3d from = normalize(Vector3d{0.4, 0.35, 1});
   PerspectiveCamera camera;
-  camera.camera_to_world = look_at(target + from * (radius / std::sin(half_angle_rad)), target, {0, 1, 0});
+  // look_at puts +x left of who looks along −z with +y up: turned, so that right-handed geometry is not
+  // mirrored.
+  camera.camera_to_world =
+      look_at(target + from * (radius / std::sin(half_angle_rad)), target, {0, 1, 0}) * scale({-1, 1, 1});
   const double half = std::tan(half_angle_rad),
                aspect = static_cast<double>(scene.film.width) / scene.film.height;
   const double wide = std::max(aspect, 1.0), tall = std::max(1 / aspect, 1.0);

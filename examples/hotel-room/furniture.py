@@ -10,7 +10,7 @@ from room import DEPTH, HEIGHT
 
 LAMP = (2.1, 1.45, 0.80)     # radiance of the bedside shades
 PENDANT = (1.05, 0.95, 0.80)
-SOFTBOX = (4.0, 3.8, 3.5)
+SOFTBOX = (4.6, 4.4, 4.1)
 
 
 def leg(x, y, height, top=0.022, foot=0.013, lean=(0, 0)):

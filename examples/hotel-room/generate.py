@@ -24,8 +24,8 @@ from textiles import rug
 EYE, TARGET = (5.95, 0.32, 1.45), (2.33, 4.95, 1.12)
 VERTICAL_FOV = 46.0
 SUN_TRAVELS = (0.826, 0.334, -0.454)  # 27° above the horizon
-SUN = (38.0, 33.5, 27.0)              # irradiance across its direction, linear sRGB
-SKY = (0.62, 0.80, 1.05)
+SUN = (32.0, 28.2, 22.8)              # irradiance across its direction, linear sRGB
+SKY = (0.84, 1.06, 1.38)
 LEAST_DETAIL = 0.1
 PLAIN_SHARE = 0.04                    # of the full scene's triangles: what is flat enough to stay as it is
 

@@ -34,9 +34,6 @@ struct ForwardFace {
   std::size_t material;
 };
 
-// Statements that change nothing in a picture of polygons.
-constexpr std::array<std::string_view, 2> idle_keywords{"o", "g"};
-
 class Parser {
  public:
   Parser(InputBytes& bytes, const std::string& file, int base, Geometry& geometry)
@@ -62,8 +59,7 @@ class Parser {
   }
 
  private:
-  // ---- Statements
-  // --------------------------------------------------------------------------------------------
+  // ---- Statements -------------------------------------------------------------------------------
 
   void read_statement() {
     start_ = cursor_;
@@ -97,7 +93,7 @@ class Parser {
       if (group != "off" && group != "0" && !smoothing_) smoothing_ = start_.location();
       skip_statement();
     } else {
-      if (std::ranges::count(idle_keywords, keyword) == 0) drop(keyword);
+      if (keyword != "o" && keyword != "g") drop(keyword);
       skip_statement();
     }
   }
@@ -144,8 +140,7 @@ class Parser {
     }
   }
 
-  // ---- Vertices
-  // ----------------------------------------------------------------------------------------------
+  // ---- Vertices ---------------------------------------------------------------------------------
 
   double finite_number(const char* what) {
     cursor_.at_line_end();
@@ -177,8 +172,7 @@ class Parser {
     return uv;
   }
 
-  // ---- Faces
-  // -------------------------------------------------------------------------------------------------
+  // ---- Faces ------------------------------------------------------------------------------------
 
   Counts counts() const {
     return {geometry_.positions.size(), geometry_.uvs.size(), geometry_.normals.size()};

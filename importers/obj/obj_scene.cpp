@@ -15,8 +15,7 @@ namespace vitrail::obj {
 
 namespace {
 
-// ---- Materials
-// -----------------------------------------------------------------------------------------------
+// ---- Materials ----------------------------------------------------------------------------------
 
 // The names in a mtllib statement: blanks divide them, unless a backslash stands before.
 std::vector<std::string> split_names(const std::string& text) {
@@ -95,8 +94,7 @@ Surface add_surface(const Mention& use, const Library& library, ImportedScene& r
   return surface;
 }
 
-// ---- Meshes
-// --------------------------------------------------------------------------------------------------
+// ---- Meshes -------------------------------------------------------------------------------------
 
 // Where a file's coordinates are much larger than its extent, floats would not hold its shape: what to
 // subtract.

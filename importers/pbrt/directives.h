@@ -129,6 +129,7 @@ class Interpreter {
   std::map<std::string, Transform> coordinate_systems_;
   TextureTable textures_;
   ShapeMaker shapes_;
+  std::vector<Place> area_light_places_;  // one for each of the scene's area lights
 
   // Materials by number; named ones may be used before they are defined.
   struct DeferredMaterial {

@@ -92,8 +92,8 @@ void Interpreter::light_source(const Place& place) {
 void Interpreter::area_light_source(const Place& place) {
   const std::string kind = read_text("a kind of light");
   ParameterSet parameters = read_set("AreaLightSource", kind, place, "light");
-  state_.area_light =
-      std::make_shared<AreaLightState>(make_area_emission(kind, parameters, scope()), std::nullopt);
+  state_.area_light = std::make_shared<AreaLightState>(
+      AreaLightState{make_area_emission(kind, parameters, scope()), std::nullopt});
 }
 
 // The area in the world of each of the shapes that pbrt makes of a mesh, which all emit the whole power.
@@ -131,6 +131,7 @@ std::optional<Id<AreaLight>> Interpreter::shape_light(const ShapeGeometry& geome
   }
   state.id = Id<AreaLight>{static_cast<std::uint32_t>(scene_.area_lights.size())};
   scene_.area_lights.push_back(std::move(light));
+  area_light_places_.push_back(state.emission.place);
   return state.id;
 }
 
@@ -201,7 +202,8 @@ void Interpreter::drop_lights_of_interfaces() {
   for (Shape& shape : scene_.shapes)
     if (shape.area_light &&
         std::holds_alternative<InterfaceMaterial>(scene_.materials[shape.material.value])) {
-      context_.report.dropped("an area light on the material \"interface\" does not shine, as in pbrt", {});
+      context_.report.dropped("an area light on the material \"interface\" does not shine, as in pbrt",
+                              area_light_places_[shape.area_light->value]);
       shape.area_light.reset();
     }
 }

@@ -40,8 +40,7 @@ void skip_element(Source& source, const Element& element) {
       source, element, [](std::size_t, double) {}, [](std::size_t, const std::vector<double>&) {});
 }
 
-// ---- Vertices
-// ------------------------------------------------------------------------------------------------
+// ---- Vertices -----------------------------------------------------------------------------------
 
 // Rows of floats on their way into a mesh: slots 0–2 position, 3–5 normal, 6–7 uv.
 struct VertexChunk {
@@ -163,8 +162,7 @@ void read_vertices(Source& source, const Element& element, const VertexLayout& l
   read_vertex_rows(source, element, layout, mesh);
 }
 
-// ---- Faces
-// ---------------------------------------------------------------------------------------------------
+// ---- Faces --------------------------------------------------------------------------------------
 
 // Takes corners that are in range.
 class FaceSink {

@@ -4,17 +4,47 @@
 #include <fast_float/fast_float.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 
 namespace vitrail {
 
-std::string printable(std::string_view text, std::size_t longest) {
-  std::string shown(text.substr(0, longest));
-  for (char& c : shown) {
-    if (c == '\t') c = ' ';
-    if (static_cast<unsigned char>(c) < ' ' || c == 127) c = '?';
+namespace {
+
+// Bytes of the well-formed UTF-8 character that `text` begins with (Unicode 15, table 3-7); 0 if there is
+// none.
+std::size_t utf8_size(std::string_view text) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  const unsigned first = byte(0);
+  if (first < 0x80) return 1;
+  const std::size_t size = first < 0xc2 ? 0 : first < 0xe0 ? 2 : first < 0xf0 ? 3 : first < 0xf5 ? 4 : 0;
+  if (size == 0 || text.size() < size) return 0;
+  const unsigned low = first == 0xe0 ? 0xa0 : first == 0xf0 ? 0x90 : 0x80;
+  const unsigned high = first == 0xed ? 0x9f : first == 0xf4 ? 0x8f : 0xbf;
+  if (byte(1) < low || byte(1) > high) return 0;
+  for (std::size_t i = 2; i < size; ++i) {
+    if (byte(i) < 0x80 || byte(i) > 0xbf) return 0;
   }
-  return text.size() > longest ? shown + "…" : shown;
+  return size;
+}
+
+}  // namespace
+
+std::string printable(std::string_view text, std::size_t longest) {
+  std::string shown;
+  while (!text.empty() && shown.size() < longest) {
+    const std::size_t size = utf8_size(text);
+    const char c = text.front();
+    if (size > 1) {
+      shown += text.substr(0, size);
+    } else if (c == '\t') {
+      shown += ' ';
+    } else {
+      shown += size == 0 || static_cast<unsigned char>(c) < ' ' || c == 127 ? '?' : c;
+    }
+    text.remove_prefix(std::max<std::size_t>(size, 1));
+  }
+  return text.empty() ? shown : shown + "…";
 }
 
 void TextCursor::break_line() {

@@ -48,8 +48,7 @@ class Obj : public testing::Test {
   ImportedScene imported_;
 };
 
-// ---- Geometry
-// ------------------------------------------------------------------------------------------------
+// ---- Geometry -----------------------------------------------------------------------------------
 
 TEST_F(Obj, AllFormsOfFaces) {
   const std::string attributes = "vt .5 .25\nvt 1 0 0\nvn 0 0 1\n";
@@ -196,8 +195,7 @@ TEST_F(Obj, Deterministic) {
   EXPECT_EQ(a.scene.materials, b.scene.materials);
 }
 
-// ---- What has to be refused
-// ----------------------------------------------------------------------------------
+// ---- What has to be refused ---------------------------------------------------------------------
 
 TEST_F(Obj, ErrorsHaveTheirPlace) {
   struct Case {
@@ -240,10 +238,17 @@ TEST_F(Obj, LongLinesAndControlCharactersAreShownShort) {
   EXPECT_THAT(error.excerpt, HasSubstr("f 1 2 ?xxx"));
 }
 
+// Names in Latin-1 or cut off must not reach a report as they are: it is JSON.
+TEST_F(Obj, MessagesAreWellFormedText) {
+  const ImportedScene imported =
+      read(square + "usemtl gr\xfcn\xc3\nf 1 2 3\nusemtl gr\xc3\xbcn \xe2\x82\xac\xed\xa0\x80\nf 1 2 3\n");
+  EXPECT_THAT(imported.diagnostics, says("'gr?n?'"));
+  EXPECT_THAT(imported.diagnostics, says("'gr\xc3\xbcn \xe2\x82\xac???'"));
+}
+
 TEST_F(Obj, FilesThatAreNotThere) { EXPECT_THROW(read_obj(folder_.path() / "none.obj"), Error); }
 
-// ---- Materials
-// -----------------------------------------------------------------------------------------------
+// ---- Materials ----------------------------------------------------------------------------------
 
 TEST_F(Obj, Diffuse) {
   EXPECT_EQ(material("  Kd .2 .4 .6\nKa 0 0 0\nKs 0 0 0\nNs 10\nillum 2\nd 1\nTf 1 1 1\nNi 1.5\nKe 0 0 0\n"),
@@ -321,8 +326,7 @@ TEST_F(Obj, LibrariesAndTheirNames) {
   EXPECT_THAT(missing.diagnostics, says("'none.mtl'"));
 }
 
-// ---- Files of others
-// -----------------------------------------------------------------------------------------
+// ---- Files of others ----------------------------------------------------------------------------
 
 TEST(ObjCorpus, AllAreReadOrRefusedWithTheirPlace) {
   const char* const named = std::getenv("VITRAIL_CORPUS");

@@ -218,8 +218,7 @@ TEST_F(Ply, GzippedIsTheSame) {
 
 TEST_F(Ply, Deterministic) { EXPECT_EQ(read(ascii_square), read(ascii_square)); }
 
-// ---- What has to be refused
-// ----------------------------------------------------------------------------------
+// ---- What has to be refused ---------------------------------------------------------------------
 
 TEST_F(Ply, EveryTruncationIsAnError) {
   for (const std::string& whole : {binary_triangle(false), binary_triangle(true), ascii_square}) {

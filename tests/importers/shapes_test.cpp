@@ -101,8 +101,7 @@ TEST(UnitCircle, AgreesWithTheLibrary) {
   EXPECT_EQ(unit_circle(pi / 2), (Point2d{0, 1}));
 }
 
-// ---- Quadrics
-// ------------------------------------------------------------------------------------------------
+// ---- Quadrics -----------------------------------------------------------------------------------
 
 TEST(Sphere, CloseToTheTrueOneAsTheHeaderSays) {
   const TriangleMesh mesh = tessellate_sphere(2, -2, 2, 2 * pi);
@@ -198,8 +197,7 @@ TEST(Quadrics, Deterministic) {
   EXPECT_EQ(tessellate_sphere(1.1, -0.3, 0.9, 5), tessellate_sphere(1.1, -0.3, 0.9, 5));
 }
 
-// ---- Bilinear patches
-// ----------------------------------------------------------------------------------------
+// ---- Bilinear patches ---------------------------------------------------------------------------
 
 TEST(Bilinear, PlanarPatchIsTwoTriangles) {
   const TriangleMesh mesh =
@@ -259,8 +257,7 @@ TEST(Bilinear, DegenerateAndWrong) {
                Error);
 }
 
-// ---- Loop subdivision
-// ----------------------------------------------------------------------------------------
+// ---- Loop subdivision ---------------------------------------------------------------------------
 
 TriangleMesh octahedron() {
   return {{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}},
@@ -356,8 +353,7 @@ TEST(Loop, CagesThatAreNoSurface) {
 
 TEST(Loop, Deterministic) { EXPECT_EQ(loop_subdivide(octahedron(), 3), loop_subdivide(octahedron(), 3)); }
 
-// ---- Polygons
-// ------------------------------------------------------------------------------------------------
+// ---- Polygons -----------------------------------------------------------------------------------
 
 // Triangles are n − 2, none is turned over, and together they have the polygon's area.
 void expect_tiles(const std::vector<Point3d>& p, double expected_area) {

@@ -41,11 +41,12 @@ nlohmann::json render(const TemporaryDirectory& directory, const Bundle& bundle,
   return done.status == 0 ? read_json(stats) : nlohmann::json();
 }
 
-// What a quarter of the bundle, but no less than its largest domain, needs beside the program itself.
-std::uint64_t quarter(const Bundle& bundle, const nlohmann::json& everything, int threads) {
+// A quarter of the bundle for domains (the largest has to fit), and a budget for the whole rank to keep.
+std::string quarter(const Bundle& bundle, const nlohmann::json& everything, int threads) {
   const std::uint64_t domains = std::max(bundle.bytes / 4, bundle.largest);
-  return everything["base_rss_bytes"].get<std::uint64_t>() + (4 + 2) * mib +
-         static_cast<std::uint64_t>(threads) * mib + domains + domains / 4 + 3 * mib;
+  const std::uint64_t rank = everything["base_rss_bytes"].get<std::uint64_t>() +
+                             (9 + static_cast<unsigned>(threads)) * mib + domains + domains / 4;
+  return fmt::format("--memory {} --domain-memory {}", rank, domains);
 }
 
 void expect_one_picture(const TemporaryDirectory& directory, const std::filesystem::path& scene) {
@@ -74,7 +75,7 @@ void expect_one_picture(const TemporaryDirectory& directory, const std::filesyst
         check(all, what);
         if (all.is_null()) return;
         EXPECT_EQ(all["forwarded_rays"], 0) << what;
-        const std::string memory = fmt::format("--memory {}", quarter(bundle, all, threads));
+        const std::string memory = quarter(bundle, all, threads);
         check(render(directory, bundle, ranks, threads, memory), what + ", a quarter of the memory");
         if (domains == 64 && ranks == 2 && threads == 2)
           for (const int seed : {1, 2})

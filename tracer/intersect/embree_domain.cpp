@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <embree3/rtcore.h>
 
-#include <cmath>
+#include <bit>
+#include <limits>
 #include <string>
 
 #include "scene/diagnostics.h"
@@ -20,33 +21,70 @@ RTCDevice shared_device() {
 }
 
 // What the callbacks need of a query. `context` has to come first: Embree hands back a pointer to it.
+// Embree culls with a ray of its own: the direction divided by a power of two, which is exact, to near unit
+// length, and the origin moved along it to where the ray enters the domain, so that Embree's rounding is in
+// proportion to the domain, which the padding of the boxes makes up for, and not to the distance of the
+// origin.
 struct Query {
   RTCIntersectContext context;
   const KernelFunctions* kernel;
   const Cluster* clusters;
   RayConstants ray;
-  int exponent;  // of the direction's greatest component
   Hit* hit = nullptr;
   float tmax = 0;
+  double power = 1;  // the power of two
+  double entry = 0;  // where Embree's ray begins, in units of its direction
 };
 
-// Embree's ray is the ray with its direction divided by a power of two, which is exact, and near unit length.
-// Its tfar lies a little beyond t, so that no equal or lesser t is lost in float.
+// Embree's tfar lies a little beyond t, so that no equal or lesser t is lost in float.
 float embree_tfar(const Query& query, double t) {
-  return static_cast<float>(std::ldexp(t, query.exponent)) * (1 + 2e-6f);
+  return static_cast<float>(t * query.power * (1 + 2e-6) - query.entry);
 }
 
-RTCRay embree_ray(const Query& query, const Ray& ray, double tmax) {
-  RTCRay r{};
-  r.org_x = ray.origin.x;
-  r.org_y = ray.origin.y;
-  r.org_z = ray.origin.z;
-  r.dir_x = std::ldexp(ray.direction.x, -query.exponent);
-  r.dir_y = std::ldexp(ray.direction.y, -query.exponent);
-  r.dir_z = std::ldexp(ray.direction.z, -query.exponent);
+bool contains(const Bounds3f& box, const Point3f& p) {
+  return box.lower.x <= p.x && box.lower.y <= p.y && box.lower.z <= p.z && p.x <= box.upper.x &&
+         p.y <= box.upper.y && p.z <= box.upper.z;
+}
+
+// The greatest that is not above |x|; x is a float in double, so neither 0 nor subnormal.
+double power_of_two_below(double x) {
+  return std::bit_cast<double>(std::bit_cast<std::uint64_t>(x) & 0x7ff0000000000000u);
+}
+
+// Where the ray enters the box, 0 inside; +∞ when it misses.
+double enter_box(const Bounds3f& box, const Point3f& origin, const Vector3d& direction) {
+  if (contains(box, origin)) return 0;
+  double entry = 0, exit = std::numeric_limits<double>::infinity();
+  for (int axis = 0; axis < 3; ++axis) {
+    const double lower = double{box.lower[axis]} - double{origin[axis]};
+    const double upper = double{box.upper[axis]} - double{origin[axis]};
+    if (direction[axis] == 0 && (lower > 0 || upper < 0)) return std::numeric_limits<double>::infinity();
+    if (direction[axis] == 0) continue;
+    const double a = lower / direction[axis], b = upper / direction[axis];
+    entry = std::max(entry, std::min(a, b));
+    exit = std::min(exit, std::max(a, b));
+  }
+  return entry <= exit ? entry : std::numeric_limits<double>::infinity();
+}
+
+// Embree's ray as far as tmax. False when it has no part in the box of the domain.
+bool begin_query(Query& query, const Ray& ray, const Bounds3f& box, double tmax, RTCRay& r) {
+  rtcInitIntersectContext(&query.context);
+  query.power = power_of_two_below(query.ray.direction_z);
+  const Vector3d direction = cast<double>(ray.direction) * (1 / query.power);
+  query.entry = enter_box(box, ray.origin, direction);
   r.tfar = embree_tfar(query, tmax);
+  if (!(r.tfar >= 0)) return false;
+  const Point3f origin = cast<float>(cast<double>(ray.origin) + direction * query.entry);
+  r.org_x = origin.x;
+  r.org_y = origin.y;
+  r.org_z = origin.z;
+  r.dir_x = static_cast<float>(direction.x);
+  r.dir_y = static_cast<float>(direction.y);
+  r.dir_z = static_cast<float>(direction.z);
+  r.tnear = 0;
   r.mask = 0xffffffffu;
-  return r;
+  return true;
 }
 
 void closest_in_cluster(const RTCIntersectFunctionNArguments* arguments) {
@@ -80,13 +118,10 @@ void bounds_of_cluster(const RTCBoundsFunctionArguments* arguments) {
   *arguments->bounds_o = static_cast<const RTCBounds*>(arguments->geometryUserPtr)[arguments->primID];
 }
 
-EmbreeScene commit_clusters(const DomainView& domain) {
+EmbreeScene commit_clusters(std::vector<RTCBounds> bounds) {
   const RTCDevice device = shared_device();
   EmbreeScene scene(rtcNewScene(device), &rtcReleaseScene);
-  // Robust: Embree's other box test loses boxes when the origin is far away.
-  rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_ROBUST);
   const RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
-  std::vector<RTCBounds> bounds = cluster_bounds(domain);
   rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(bounds.size()));
   rtcSetGeometryUserData(geometry, bounds.data());
   rtcSetGeometryBoundsFunction(geometry, bounds_of_cluster, nullptr);
@@ -107,35 +142,38 @@ EmbreeScene commit_clusters(const DomainView& domain) {
 
 struct EmbreeDomain::Implementation {
   const Cluster* clusters;
+  Bounds3f box;
   EmbreeScene scene;
   const KernelFunctions& kernel;
-
-  Query query(const Ray& ray) const {
-    Query q{{}, &kernel, clusters, prepare(ray), 0};
-    rtcInitIntersectContext(&q.context);
-    q.exponent = std::ilogb(q.ray.direction_z);
-    return q;
-  }
 };
 
-EmbreeDomain::EmbreeDomain(const DomainView& domain)
-    : implementation_(new Implementation{domain.clusters.data(), commit_clusters(domain), best_kernel()}) {}
+EmbreeDomain::EmbreeDomain(const DomainView& domain) {
+  const std::vector<RTCBounds> bounds = cluster_bounds(domain);
+  Bounds3f box;
+  for (const RTCBounds& b : bounds) {
+    extend(box, Bounds3f{{b.lower_x, b.lower_y, b.lower_z}, {b.upper_x, b.upper_y, b.upper_z}});
+  }
+  implementation_.reset(
+      new Implementation{domain.clusters.data(), box, commit_clusters(bounds), best_kernel()});
+}
 
 EmbreeDomain::~EmbreeDomain() = default;
 
 void EmbreeDomain::closest(const Ray& ray, Hit& hit) const {
-  Query query = implementation_->query(ray);
-  query.hit = &hit;
-  RTCRayHit r{embree_ray(query, ray, hit.t), {}};
+  const Implementation& self = *implementation_;
+  Query query{{}, &self.kernel, self.clusters, prepare(ray), &hit};
+  RTCRayHit r{};
+  if (!begin_query(query, ray, self.box, hit.t, r.ray)) return;
   r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  rtcIntersect1(implementation_->scene.get(), &query.context, &r);
+  rtcIntersect1(self.scene.get(), &query.context, &r);
 }
 
 bool EmbreeDomain::occluded(const Ray& ray, float tmax) const {
-  Query query = implementation_->query(ray);
-  query.tmax = tmax;
-  RTCRay r = embree_ray(query, ray, double{tmax});
-  rtcOccluded1(implementation_->scene.get(), &query.context, &r);
+  const Implementation& self = *implementation_;
+  Query query{{}, &self.kernel, self.clusters, prepare(ray), nullptr, tmax};
+  RTCRay r{};
+  if (!begin_query(query, ray, self.box, double{tmax}, r)) return false;
+  rtcOccluded1(self.scene.get(), &query.context, &r);
   return r.tfar < 0;
 }
 

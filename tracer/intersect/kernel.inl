@@ -6,8 +6,7 @@
 
 constexpr float unit_roundoff = 0x1p-24f;
 
-// ---- Clusters
-// ------------------------------------------------------------------------------------------------
+// ---- Clusters ----------------------------------------------------------------------------
 
 // The float twin of the exact test. `error` bounds the distance of u, v, w from those of the exact test.
 struct Edges {
@@ -41,10 +40,7 @@ inline Edges edges_of(const Cluster& cluster, const RayConstants& ray) {
 }
 
 // Lanes that the exact test might accept.
-inline Lanes may_hit(const Edges& e) {
-  const Floats zero = fill(0);
-  return either(less_equal(sub(zero, e.error), e.least), less_equal(e.greatest, e.error));
-}
+inline Lanes may_hit(const Edges& e) { return less_equal(min(e.greatest, sub(fill(0), e.least)), e.error); }
 
 // ζ of the hits, as fractions: ζ·det lies within earliest … latest. Only lanes in `known` say anything.
 struct Depths {
@@ -128,8 +124,7 @@ inline bool occluded_in_cluster(const Cluster& cluster, const RayConstants& ray,
   return false;
 }
 
-// ---- Trees
-// ---------------------------------------------------------------------------------------------------
+// ---- Trees -------------------------------------------------------------------------------
 
 // A subtree to visit: the bits of its entry ζ ≥ 0, which order as ζ does, above its reference.
 using Pending = std::uint64_t;
@@ -141,31 +136,34 @@ inline Pending pending(float zeta, std::uint32_t reference) {
 inline std::uint32_t reference_of(Pending p) { return static_cast<std::uint32_t>(p); }
 inline float zeta_of(Pending p) { return __builtin_bit_cast(float, static_cast<std::uint32_t>(p >> 32)); }
 
-// A box is hit where its greatest entry is at most its least exit. Entry and exit each take three roundings,
-// so the exit is scaled by more than the six together.
+// The ray against boxes: ζ = x·scale + offset is where it meets the plane at x, less (entry) or more (exit) a
+// bound of what rounding does: 8u|o·scale|, and the boxes' own inflation by 10⁻⁶|x| for what is proportional
+// to x.
 struct Slabs {
   explicit Slabs(const RayConstants& ray) {
     for (int a = 0; a < 3; ++a) {
-      origin[a] = fill(ray.origin[a]);
-      entry_scale[a] = fill(ray.inverse_direction[a]);
-      exit_scale[a] = fill(ray.inverse_direction[a] * (1 + 16 * unit_roundoff));
+      const float scale_a = ray.inverse_direction[a], offset = -ray.origin[a] * scale_a;
+      const float rounding = 8 * unit_roundoff * __builtin_fabsf(offset);
+      scale[a] = fill(scale_a);
+      entry_offset[a] = fill(offset - rounding);
+      exit_offset[a] = fill(offset + rounding);
       near[a] = ray.near_row[a] * 8;
       far[a] = (static_cast<std::uint32_t>(a) * 2 + 3) * 8 - near[a];
     }
   }
-  Floats origin[3], entry_scale[3], exit_scale[3];
+  Floats scale[3], entry_offset[3], exit_offset[3];
   std::uint32_t near[3], far[3];  // offsets into the boxes of a node, in floats
 };
 
 // Children that the ray enters at ζ in [0, limit]; `entry` is where.
 inline unsigned entered_children(const BvhNode& node, const Slabs& ray, float limit, Floats& entry) {
   const float* rows = &node.lower[0][0];
-  const Floats n0 = mul(sub(load(rows + ray.near[0]), ray.origin[0]), ray.entry_scale[0]);
-  const Floats n1 = mul(sub(load(rows + ray.near[1]), ray.origin[1]), ray.entry_scale[1]);
-  const Floats n2 = mul(sub(load(rows + ray.near[2]), ray.origin[2]), ray.entry_scale[2]);
-  const Floats f0 = mul(sub(load(rows + ray.far[0]), ray.origin[0]), ray.exit_scale[0]);
-  const Floats f1 = mul(sub(load(rows + ray.far[1]), ray.origin[1]), ray.exit_scale[1]);
-  const Floats f2 = mul(sub(load(rows + ray.far[2]), ray.origin[2]), ray.exit_scale[2]);
+  const Floats n0 = mul_add(load(rows + ray.near[0]), ray.scale[0], ray.entry_offset[0]);
+  const Floats n1 = mul_add(load(rows + ray.near[1]), ray.scale[1], ray.entry_offset[1]);
+  const Floats n2 = mul_add(load(rows + ray.near[2]), ray.scale[2], ray.entry_offset[2]);
+  const Floats f0 = mul_add(load(rows + ray.far[0]), ray.scale[0], ray.exit_offset[0]);
+  const Floats f1 = mul_add(load(rows + ray.far[1]), ray.scale[1], ray.exit_offset[1]);
+  const Floats f2 = mul_add(load(rows + ray.far[2]), ray.scale[2], ray.exit_offset[2]);
   entry = max(max(n0, n1), max(n2, fill(0)));
   return bits(less_equal(entry, min(min(f0, f1), min(f2, fill(limit)))));
 }
@@ -177,17 +175,31 @@ inline void prefetch(const BvhNode* nodes, const Cluster* clusters, std::uint32_
   for (int line = 0; line < 4; ++line) __builtin_prefetch(at + 64 * line);
 }
 
-// Puts the children on the stack, the nearest on top.
-inline Pending* push_nearest_last(const BvhNode& node, unsigned children, const float* entry, Pending* top) {
+// Puts the entered children (one at least) on the stack, the nearer the later, but for the nearest, which is
+// returned.
+inline std::uint32_t push_but_nearest(const BvhNode* nodes, const Cluster* clusters, const BvhNode& node,
+                                      unsigned children, Floats entry, Pending*& top) {
+  unsigned rest = children & (children - 1);
+  if (!rest) return first_of(node.child, children);
+  alignas(32) float zeta[8];
+  store(zeta, entry);
+  const auto first = [&](unsigned lanes) {
+    const int i = __builtin_ctz(lanes);
+    return pending(zeta[i], node.child[i]);
+  };
+  Pending nearest = first(children);
   Pending* const bottom = top;
-  for (; children; children &= children - 1) {
-    const int child = __builtin_ctz(children);
-    const Pending p = pending(entry[child], node.child[child]);
+  do {  // insertion sort, with the nearest kept apart
+    const Pending p = first(rest);
+    const Pending farther = p > nearest ? p : nearest;
+    nearest = p > nearest ? nearest : p;
+    prefetch(nodes, clusters, reference_of(farther));
     Pending* place = top++;
-    for (; place != bottom && place[-1] < p; --place) *place = place[-1];
-    *place = p;
-  }
-  return top;
+    for (; place != bottom && place[-1] < farther; --place) *place = place[-1];
+    *place = farther;
+    rest &= rest - 1;
+  } while (rest);
+  return reference_of(nearest);
 }
 
 void tree_closest(const BvhNode* nodes, const Cluster* clusters, const RayConstants& ray, Hit& hit) {
@@ -200,20 +212,10 @@ void tree_closest(const BvhNode* nodes, const Cluster* clusters, const RayConsta
     if (at & BvhNode::cluster_bit) {
       limit = closest_in_cluster(clusters, at & ~BvhNode::cluster_bit, ray, limit, hit);
     } else {
-      const BvhNode& node = nodes[at];
       Floats entry;
-      const unsigned children = entered_children(node, slabs, limit, entry);
-      if (children && !(children & (children - 1))) {
-        at = node.child[__builtin_ctz(children)];
-        continue;
-      }
+      const unsigned children = entered_children(nodes[at], slabs, limit, entry);
       if (children) {
-        alignas(32) float zeta[8];
-        store(zeta, entry);
-        Pending* const before = top;
-        top = push_nearest_last(node, children, zeta, top);
-        for (Pending* p = before; p != top; ++p) prefetch(nodes, clusters, reference_of(*p));
-        at = reference_of(*--top);
+        at = push_but_nearest(nodes, clusters, nodes[at], children, entry, top);
         continue;
       }
     }

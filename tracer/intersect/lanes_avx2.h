@@ -22,3 +22,5 @@ inline Lanes less_equal(Floats a, Floats b) { return _mm256_cmp_ps(a, b, _CMP_LE
 inline Lanes both(Lanes a, Lanes b) { return _mm256_and_ps(a, b); }
 inline Lanes either(Lanes a, Lanes b) { return _mm256_or_ps(a, b); }
 inline unsigned bits(Lanes a) { return static_cast<unsigned>(_mm256_movemask_ps(a)); }
+// row[i] of the lowest set bit i.
+inline std::uint32_t first_of(const std::uint32_t* row, unsigned bits) { return row[__builtin_ctz(bits)]; }

@@ -23,3 +23,9 @@ inline Lanes less_equal(Floats a, Floats b) { return _mm256_cmp_ps_mask(a, b, _C
 inline Lanes both(Lanes a, Lanes b) { return static_cast<Lanes>(a & b); }
 inline Lanes either(Lanes a, Lanes b) { return static_cast<Lanes>(a | b); }
 inline unsigned bits(Lanes a) { return a; }
+// row[i] of the lowest set bit i.
+inline std::uint32_t first_of(const std::uint32_t* row, unsigned bits) {
+  const __m256i all = _mm256_load_si256(reinterpret_cast<const __m256i*>(row));
+  const __m256i chosen = _mm256_maskz_compress_epi32(static_cast<__mmask8>(bits), all);
+  return static_cast<std::uint32_t>(_mm256_cvtsi256_si32(chosen));
+}

@@ -54,3 +54,5 @@ inline Lanes less_equal(Floats a, Floats b) { return {a.low <= b.low, a.high <= 
 inline Lanes both(Lanes a, Lanes b) { return {a.low & b.low, a.high & b.high}; }
 inline Lanes either(Lanes a, Lanes b) { return {a.low | b.low, a.high | b.high}; }
 inline unsigned bits(Lanes a) { return bits(a.low) | bits(a.high) << 4; }
+// row[i] of the lowest set bit i.
+inline std::uint32_t first_of(const std::uint32_t* row, unsigned bits) { return row[__builtin_ctz(bits)]; }

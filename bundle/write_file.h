@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <span>
+
+namespace vitrail {
+
+// Writes the parts one after the other, without syncing. A failure (no space, no permission) throws MachineError with
+// the file and the reason, and removes the file.
+void write_file(const std::filesystem::path& file, std::span<const std::span<const std::byte>> parts);
+
+}  // namespace vitrail

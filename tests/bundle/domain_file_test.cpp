@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bundle/domain_file.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <functional>
+
+#include "bundle/manifest.h"
+#include "scene/diagnostics.h"
+#include "tests/bundle/sample_bundle.h"
+
+namespace vitrail {
+
+namespace {
+
+using test::sample_domain;
+
+template <class T>
+bool same_bytes(std::span<const T> a, const std::vector<T>& b) {
+  return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size_bytes()) == 0);
+}
+
+class DomainFile : public ::testing::Test {
+ protected:
+  test::TestDirectory directory;
+  std::filesystem::path file = directory.path() / "000000.dom";
+};
+
+TEST_F(DomainFile, ComesBackAsItWas) {
+  const DomainContent content = sample_domain();
+  EXPECT_EQ(write_domain_file(file, content), std::filesystem::file_size(file));
+  const MappedDomain mapped(file);
+  EXPECT_TRUE(same_bytes(mapped.view().nodes, content.nodes));
+  EXPECT_TRUE(same_bytes(mapped.view().clusters, content.clusters));
+  EXPECT_TRUE(same_bytes(mapped.view().normals, content.normals));
+  EXPECT_TRUE(same_bytes(mapped.pieces(), content.pieces));
+  EXPECT_TRUE(same_bytes(mapped.piece_vertices(), content.piece_vertices));
+}
+
+TEST_F(DomainFile, SectionsAreAlignedAndPadded) {
+  write_domain_file(file, sample_domain());
+  const MappedDomain mapped(file);
+  EXPECT_EQ(reinterpret_cast<std::uintptr_t>(mapped.view().nodes.data()) % 64, 0u);
+  EXPECT_EQ(reinterpret_cast<std::uintptr_t>(mapped.view().clusters.data()) % 64, 0u);
+  EXPECT_EQ(reinterpret_cast<std::uintptr_t>(mapped.view().normals.data()) % 64, 0u);
+  const auto* end = reinterpret_cast<const std::byte*>(mapped.view().clusters.data() + 2);
+  EXPECT_GE(reinterpret_cast<const std::byte*>(mapped.view().normals.data()) - end, 16);
+}
+
+TEST_F(DomainFile, MayBeEmpty) {
+  write_domain_file(file, {});
+  const MappedDomain mapped(file);
+  EXPECT_TRUE(mapped.view().nodes.empty() && mapped.view().clusters.empty() && mapped.pieces().empty());
+}
+
+TEST_F(DomainFile, EqualContentEqualHash) {
+  DomainContent content = sample_domain();
+  write_domain_file(file, content);
+  const std::uint64_t hash = MappedDomain(file).hash();
+  write_domain_file(file, content);
+  EXPECT_EQ(MappedDomain(file).hash(), hash);
+  content.piece_vertices[0].x = 1e-300;
+  write_domain_file(file, content);
+  EXPECT_NE(MappedDomain(file).hash(), hash);
+}
+
+TEST_F(DomainFile, MissingFileIsTheMachine) { EXPECT_THROW(MappedDomain{file}, MachineError); }
+
+// Files whose checksums are right and whose references are not.
+TEST_F(DomainFile, WrongReferencesAreFound) {
+  constexpr std::uint32_t cluster = BvhNode::cluster_bit;
+  const std::vector<std::function<void(DomainContent&)>> harms{
+      [](DomainContent& d) { d.nodes[0].child[0] = 0; },            // a loop
+      [](DomainContent& d) { d.nodes[1].child[1] = 1; },            // a loop
+      [](DomainContent& d) { d.nodes[0].child[0] = 2; },            // beyond the nodes
+      [](DomainContent& d) { d.nodes[0].child[1] = cluster | 2; },  // beyond the clusters
+      [](DomainContent& d) { d.nodes[0].child[1] = cluster | 0; },  // one cluster twice, one never
+      [](DomainContent& d) { d.nodes[0].child[2] = 1; },            // one node twice
+      [](DomainContent& d) { d.nodes.clear(); },                    // clusters without a tree
+      [](DomainContent& d) { d.clusters.pop_back(); },
+      [](DomainContent& d) { d.normals.pop_back(); },
+      [](DomainContent& d) { d.pieces[0].first_vertex = 1; },
+      [](DomainContent& d) { d.pieces[0].vertex_count = 0xffffffff; },
+      [](DomainContent& d) { d.pieces[0].vertex_count = 2; },
+  };
+  for (std::size_t i = 0; i < harms.size(); ++i) {
+    DomainContent content = sample_domain();
+    harms[i](content);
+    write_domain_file(file, content);
+    EXPECT_THROW(MappedDomain(file).pieces(), Error) << "harm " << i;
+  }
+}
+
+TEST_F(DomainFile, TreeMayNotBeTooDeep) {
+  const auto chain = [&](int levels) {
+    DomainContent content = sample_domain();
+    const BvhNode last = content.nodes[1];
+    content.nodes.resize(1);
+    for (int i = 1; i + 1 < levels; ++i) {
+      content.nodes.push_back(last);
+      content.nodes.back().child[0] = static_cast<std::uint32_t>(i + 1);
+    }
+    content.nodes.push_back(last);
+    write_domain_file(file, content);
+  };
+  chain(max_bvh_depth);
+  EXPECT_NO_THROW(MappedDomain{file});
+  chain(max_bvh_depth + 1);
+  EXPECT_THROW(MappedDomain{file}, Error);
+}
+
+}  // namespace
+
+}  // namespace vitrail

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bundle/manifest.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <limits>
+
+#include "bundle/checksum.h"
+#include "bundle/records.h"
+#include "scene/diagnostics.h"
+#include "tests/bundle/sample_bundle.h"
+
+namespace vitrail {
+
+namespace {
+
+using test::sample_manifest;
+
+class ManifestFile : public ::testing::Test {
+ protected:
+  test::TestDirectory directory;
+  Manifest written_and_read(const Manifest& m) {
+    write_manifest(directory.path(), m);
+    return read_manifest(directory.path());
+  }
+};
+
+TEST_F(ManifestFile, ComesBackAsItWas) {
+  const Manifest m = sample_manifest(), r = written_and_read(m);
+  EXPECT_EQ(r.triangles, m.triangles);
+  EXPECT_EQ(r.cut_triangles, m.cut_triangles);
+  EXPECT_EQ(r.offset, m.offset);
+  EXPECT_EQ(r.bounds, m.bounds);
+  EXPECT_EQ(r.scale, m.scale);
+  EXPECT_EQ(r.kd_nodes, m.kd_nodes);
+  EXPECT_EQ(r.domains, m.domains);
+  EXPECT_EQ(r.surfaces, m.surfaces);
+  EXPECT_EQ(r.materials, m.materials);
+  EXPECT_EQ(r.area_lights, m.area_lights);
+  EXPECT_EQ(encode_lights(r), encode_lights(m));
+  EXPECT_EQ(r.lights, m.lights);
+  EXPECT_EQ(r.camera, m.camera);
+  EXPECT_EQ(r.film, m.film);
+  EXPECT_EQ(r.settings, m.settings);
+  EXPECT_EQ(r.requirements, m.requirements);
+  EXPECT_EQ(r.scene_hash, m.scene_hash);
+}
+
+TEST_F(ManifestFile, EveryFilterAndCamera) {
+  Manifest m = sample_manifest();
+  m.camera = PerspectiveCamera{scale({1e-7, 2, 3}), {-0.1, 0.2, -0.3, 0.4}};
+  for (const Filter filter :
+       {Filter{BoxFilter{0.1, 0.2}}, Filter{TriangleFilter{1, 2}}, Filter{GaussianFilter{}}}) {
+    m.film.filter = filter;
+    const Manifest r = written_and_read(m);
+    EXPECT_EQ(r.film, m.film);
+    EXPECT_EQ(r.camera, m.camera);
+  }
+}
+
+TEST_F(ManifestFile, WithoutAnyTriangle) {
+  Manifest m;
+  m.domains.resize(1);
+  const Manifest r = written_and_read(m);
+  EXPECT_TRUE(r.bounds.empty());
+  EXPECT_TRUE(r.kd_nodes.empty());
+}
+
+TEST_F(ManifestFile, MissingBundle) {
+  EXPECT_THROW(read_manifest(directory.path()), Error);
+  EXPECT_THROW(read_manifest(directory.path() / "nowhere"), Error);
+}
+
+// A manifest that cannot be rendered is refused when it is written and would be when it is read.
+TEST_F(ManifestFile, WrongContentIsFound) {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  constexpr std::uint32_t leaf = KdNode::leaf_bit;
+  const std::vector<std::function<void(Manifest&)>> harms{
+      [](Manifest& m) { m.kd_nodes[0].below = 0; },         // a loop
+      [](Manifest& m) { m.kd_nodes[0].below = leaf | 0; },  // a domain twice, a node never
+      [](Manifest& m) { m.kd_nodes[1].above = leaf | 3; },
+      [](Manifest& m) { m.kd_nodes[1].axis = 3; },
+      [](Manifest& m) { m.kd_nodes[0].split = std::numeric_limits<float>::infinity(); },
+      [](Manifest& m) { m.kd_nodes.pop_back(); },
+      [](Manifest& m) { m.domains.clear(); },
+      [](Manifest& m) { m.triangles = 1ull << 32; },
+      [](Manifest& m) { m.cut_triangles = 12; },
+      [](Manifest& m) { m.surfaces[0].first_triangle = 1; },
+      [](Manifest& m) { m.surfaces[2].first_triangle = 4; },
+      [](Manifest& m) { m.surfaces[2].first_triangle = 11; },
+      [](Manifest& m) { m.surfaces[1].material = 3; },
+      [](Manifest& m) { m.surfaces[1].area_light = 2; },
+      [](Manifest& m) { m.surfaces[1].area_light = -2; },
+      [](Manifest& m) { m.emissive_triangles[0].triangle = 11; },
+      [](Manifest& m) { m.emissive_triangles[0].area_light = 2; },
+      [](Manifest& m) { m.offset.y = nan; },
+      [](Manifest& m) { std::get<PointLight>(m.lights[0]).position.x = nan; },
+      [](Manifest& m) { std::get<OrthographicCamera>(m.camera).camera_to_world.m[1][1] = nan; },
+      [](Manifest& m) { m.film.crop.x1 = 641; },
+      [](Manifest& m) {
+        m.film.filter = BoxFilter{0, 1};
+      },
+      [](Manifest& m) { m.settings.samples_per_pixel = 0; },
+  };
+  for (std::size_t i = 0; i < harms.size(); ++i) {
+    Manifest m = sample_manifest();
+    harms[i](m);
+    EXPECT_THROW(write_manifest(directory.path(), m), Error) << "harm " << i;
+  }
+}
+
+TEST_F(ManifestFile, KdTreeMayNotBeTooDeep) {
+  const auto chain = [](std::uint32_t levels) {
+    Manifest m;
+    m.domains.resize(levels + 1);
+    for (std::uint32_t i = 0; i < levels; ++i)
+      m.kd_nodes.push_back({0, 0, i + 1 < levels ? i + 1 : KdNode::leaf_bit | levels, KdNode::leaf_bit | i});
+    return m;
+  };
+  EXPECT_NO_THROW(write_manifest(directory.path(), chain(max_kd_depth)));
+  EXPECT_THROW(write_manifest(directory.path(), chain(max_kd_depth + 1)), Error);
+}
+
+TEST_F(ManifestFile, AnotherVersionIsNamed) {
+  write_manifest(directory.path(), sample_manifest());
+  const auto file = directory.path() / "manifest.json";
+  std::string text = test::read_text(file);
+  text.replace(text.find("\"version\": 1"), 12, "\"version\": 7");
+  const std::string rest = text.substr(text.find('\n') + 1);
+  char line[64];
+  std::snprintf(line, sizeof line, "{\"checksum\": \"%016llx\",\n",
+                static_cast<unsigned long long>(checksum(std::as_bytes(std::span(rest)))));
+  test::write_text(file, line + rest);
+  try {
+    read_manifest(directory.path());
+    FAIL();
+  } catch (const Error& e) {
+    EXPECT_NE(std::string(e.what()).find("version 7"), std::string::npos) << e.what();
+  }
+}
+
+}  // namespace
+
+}  // namespace vitrail

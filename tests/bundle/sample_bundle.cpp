@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/bundle/sample_bundle.h"
+
+#include <stdlib.h>
+
+#include <algorithm>
+#include <fstream>
+#include <limits>
+#include <sstream>
+#include <stdexcept>
+
+namespace vitrail::test {
+
+namespace {
+
+constexpr float infinity = std::numeric_limits<float>::infinity();
+
+Cluster cluster_of(std::uint32_t first_id, std::uint32_t triangles) {
+  Cluster c;
+  for (std::uint32_t lane = 0; lane < cluster_width; ++lane) {
+    const bool filled = lane < triangles;
+    c.id[lane] = filled ? first_id + lane : no_triangle;
+    for (std::uint32_t k = 0; k < 3; ++k)
+      for (std::uint32_t axis = 0; axis < 3; ++axis)
+        c.vertex[k][axis][lane] =
+            filled ? static_cast<float>(lane + (k == axis ? 1 : 0)) : std::numeric_limits<float>::quiet_NaN();
+  }
+  return c;
+}
+
+BvhNode node_over(std::initializer_list<std::uint32_t> children) {
+  BvhNode n{};
+  std::fill_n(&n.lower[0][0], 24, infinity);
+  std::fill_n(&n.upper[0][0], 24, -infinity);
+  std::fill_n(n.child, 8, BvhNode::empty);
+  std::size_t i = 0;
+  for (const std::uint32_t child : children) {
+    for (int axis = 0; axis < 3; ++axis) {
+      n.lower[axis][i] = -10;
+      n.upper[axis][i] = 10;
+    }
+    n.child[i++] = child;
+  }
+  return n;
+}
+
+}  // namespace
+
+DomainContent sample_domain() {
+  DomainContent d;
+  d.nodes = {node_over({1, BvhNode::cluster_bit | 1}), node_over({BvhNode::cluster_bit | 0})};
+  d.clusters = {cluster_of(0, 8), cluster_of(8, 3)};
+  d.normals.resize(2);
+  for (ClusterNormals& n : d.normals) std::fill_n(&n.normal[0][0], 24, encode_normal({0, 0, 1}));
+  d.pieces = {{3, 0, 3}};
+  d.piece_vertices = {{0, 0, 0}, {0.1, 0, 1.0 / 3}, {0, 1, 0}};
+  return d;
+}
+
+Manifest sample_manifest() {
+  Manifest m;
+  m.triangles = 11;
+  m.cut_triangles = 1;
+  m.offset = {1e7, -0.1, 1.0 / 3};
+  m.bounds = {{-1.1f, -2, -3}, {1, 2.2f, 3}};
+  m.scale = 3;
+  m.kd_nodes = {{0.1f, 0, 1, KdNode::leaf_bit | 2}, {-1e-20f, 2, KdNode::leaf_bit | 0, KdNode::leaf_bit | 1}};
+  m.domains = {{11, 1, 1, 1, {{-1, -2, -3}, {1.0f / 3, 2, 3}}}, {11, 1, 1, 1, {}}, {11, 1, 1, 1, {}}};
+  m.surfaces = {{0, 1, -1}, {4, 2, 0}, {9, 0, 1}};
+  TabulatedSpectrum table;
+  for (int i = 0; i < table_size; ++i) table.values.push_back(static_cast<float>(i) / 7);
+  m.materials = {DiffuseMaterial{SigmoidSpectrum{0.1f, -0.2f, infinity}},
+                 DielectricMaterial{SellmeierSpectrum{{1.03, 0.23, 1.01}, {0.006, 0.02, 103.56}}},
+                 InterfaceMaterial{}};
+  m.area_lights = {{table, true}, {RgbIlluminantSpectrum{{1e-5f, 2, 3}, 4}, false}};
+  m.emissive_triangles = {{{{0, 0, 0}, {1, 0, 0}, {0, 1.1f, 0}}, 5, 0},
+                          {{{0, 0, 0}, {0, 1, 0}, {0, 0, 1}}, 10, 1}};
+  m.lights = {PointLight{{1, 2, 1.0 / 3}, ConstantSpectrum{1.5f}},
+              DistantLight{{0, 0, -1}, ConstantSpectrum{0.1f}}, InfiniteLight{ConstantSpectrum{2}}};
+  m.camera = OrthographicCamera{translate({0.1, 1e-300, 3}), {-1.0 / 3, 1, -2, 2}};
+  m.film = {640, 480, {10, 600, 20, 400}, GaussianFilter{1.25, 1.5, 0.1}, 0.7};
+  m.settings = {33, 7, true};
+  m.requirements = {true, true, true, true};
+  m.scene_hash = 0xfedcba9876543210u;
+  return m;
+}
+
+void write_sample_bundle(const std::filesystem::path& bundle) {
+  Manifest m = sample_manifest();
+  std::filesystem::create_directories(bundle / "domains");
+  for (std::uint32_t i = 0; i < m.domains.size(); ++i) {
+    m.domains[i].bytes = write_domain_file(domain_path(bundle, i), sample_domain());
+    m.domains[i].hash = MappedDomain(domain_path(bundle, i)).hash();
+  }
+  write_manifest(bundle, m);
+}
+
+std::string read_text(const std::filesystem::path& file) {
+  std::ostringstream text;
+  text << std::ifstream(file, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+void write_text(const std::filesystem::path& file, const std::string& text) {
+  std::ofstream(file, std::ios::binary) << text;
+}
+
+TestDirectory::TestDirectory() {
+  std::string name = (std::filesystem::temp_directory_path() / "vitrail-test-XXXXXX").string();
+  if (!::mkdtemp(name.data())) throw std::runtime_error("cannot create " + name);
+  path_ = name;
+}
+
+TestDirectory::~TestDirectory() {
+  std::error_code ignored;
+  std::filesystem::remove_all(path_, ignored);
+}
+
+}  // namespace vitrail::test

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// A small bundle made by hand, with something in every field.
+#pragma once
+
+#include <filesystem>
+
+#include "bundle/manifest.h"
+
+namespace vitrail::test {
+
+// Two clusters under a root, normals, and one piece.
+DomainContent sample_domain();
+// Three domains, all kinds of materials, lights and spectra.
+Manifest sample_manifest();
+// Writes the manifest and three copies of the domain to the empty directory `bundle`, and enters them in the
+// manifest.
+void write_sample_bundle(const std::filesystem::path& bundle);
+
+std::string read_text(const std::filesystem::path& file);
+void write_text(const std::filesystem::path& file, const std::string& text);
+
+// A directory of its own for the running test, removed at the end.
+class TestDirectory {
+ public:
+  TestDirectory();
+  ~TestDirectory();
+  TestDirectory(const TestDirectory&) = delete;
+  TestDirectory& operator=(const TestDirectory&) = delete;
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+}  // namespace vitrail::test

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+
+#include "scene/atomic_file.h"
+#include "scene/diagnostics.h"
+#include "tests/support/temporary_directory.h"
+
+namespace vitrail {
+namespace {
+
+std::string content(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+void write(AtomicFile& file, std::string_view text) { file.write(std::as_bytes(std::span(text))); }
+
+TEST(AtomicFile, AppearsOnCommitAlone) {
+  const test::TemporaryDirectory directory;
+  std::ofstream(directory / "a") << "old";
+  {
+    AtomicFile file(directory / "a");
+    write(file, "new ");
+    write(file, "text");
+    EXPECT_EQ(file.size(), 8u);
+    EXPECT_EQ(content(directory / "a"), "old");
+    file.commit();
+  }
+  EXPECT_EQ(content(directory / "a"), "new text");
+}
+
+TEST(AtomicFile, LeavesNothingWithoutCommit) {
+  const test::TemporaryDirectory directory;
+  {
+    AtomicFile file(directory / "a");
+    write(file, "half");
+  }
+  EXPECT_TRUE(std::filesystem::is_empty(directory.path()));
+  EXPECT_THROW(AtomicFile(directory / "nowhere/a"), MachineError);
+}
+
+TEST(AtomicFile, AFullDiskIsSaid) {
+  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
+  const test::TemporaryDirectory directory;
+  // The name that the temporary file will have leads to the full device.
+  std::filesystem::create_symlink("/dev/full", directory / ("a.tmp" + std::to_string(::getpid())));
+  AtomicFile file(directory / "a");
+  EXPECT_THROW(write(file, "text"), MachineError);
+}
+
+TEST(SourceLocation, NamesAsMuchAsIsKnown) {
+  EXPECT_EQ(to_string({"a.pbrt", 3, 7}), "a.pbrt:3:7");
+  EXPECT_EQ(to_string({"a.pbrt", 0, 0}), "a.pbrt");
+  EXPECT_EQ(to_string({}), "");
+}
+
+TEST(ClosestWord, FindsTyposOnly) {
+  const std::vector<std::string> words{"diffuse", "dielectric", "conductor"};
+  EXPECT_EQ(closest_word("difuse", words), "diffuse");
+  EXPECT_EQ(closest_word("dieletcric", words), "dielectric");
+  EXPECT_EQ(closest_word("mirror", words), "");
+}
+
+}  // namespace
+}  // namespace vitrail
