@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "scene/color.h"
 #include "scene/diagnostics.h"

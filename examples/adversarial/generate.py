@@ -17,7 +17,13 @@ import numpy as np
 
 HALF = 8.0
 LIKELY_PLANES = (0.0, -4.0, 4.0, -2.0, 6.0)
-COLOURS = {"chalk": (0.75, 0.75, 0.72), "brick": (0.60, 0.22, 0.14), "moss": (0.25, 0.45, 0.15), "sea": (0.15, 0.35, 0.60), "sun": (0.75, 0.60, 0.15)}
+COLOURS = {
+    "chalk": (0.75, 0.75, 0.72),
+    "brick": (0.60, 0.22, 0.14),
+    "moss": (0.25, 0.45, 0.15),
+    "sea": (0.15, 0.35, 0.60),
+    "sun": (0.75, 0.60, 0.15),
+}
 
 
 def soup(triangles):
@@ -34,7 +40,10 @@ def unit(rng, count):
 def giants():
     """Floor and back wall of two triangles each, and beams that run from corner to corner of the scene."""
     h = HALF
-    quads = [((-h, -h, -h), (-h, -h, h), (h, -h, h), (h, -h, -h)), ((-h, -h, h), (-h, h, h), (h, h, h), (h, -h, h))]
+    quads = [
+        ((-h, -h, -h), (-h, -h, h), (h, -h, h), (h, -h, -h)),
+        ((-h, -h, h), (-h, h, h), (h, h, h), (h, -h, h)),
+    ]
     triangles = [t for a, b, c, d in quads for t in ((a, b, c), (a, c, d))]
     for s, t in ((1, 1), (1, -1), (-1, 1), (-1, -1)):
         triangles.append(((-h * s, -h * t, h), (h * s, h * t, -h), (h * s, h * t - 0.25 * t, -h)))
@@ -74,7 +83,12 @@ def grids(cells):
 def spheres(rings):
     """Latitude and longitude about each quarter point; poles and equators have vertices exactly on the planes."""
     theta, phi = np.linspace(0, np.pi, rings + 1), np.linspace(0, 2 * np.pi, 2 * rings + 1)
-    p = np.stack(np.broadcast_arrays(np.sin(theta)[:, None] * np.cos(phi), np.sin(theta)[:, None] * np.sin(phi), np.cos(theta)[:, None]), axis=-1)
+    p = np.stack(
+        np.broadcast_arrays(
+            np.sin(theta)[:, None] * np.cos(phi), np.sin(theta)[:, None] * np.sin(phi), np.cos(theta)[:, None]
+        ),
+        axis=-1,
+    )
     p = np.round(p * 4096) / 4096
     a, b, c, d = p[:-1, :-1], p[1:, :-1], p[1:, 1:], p[:-1, 1:]
     one = np.concatenate([np.stack([a, b, c], 2).reshape(-1, 3, 3), np.stack([a, c, d], 2).reshape(-1, 3, 3)])
@@ -116,8 +130,10 @@ def cube(lo, hi):
 def write_ply(path, v, f):
     faces = np.empty(len(f), dtype=[("count", "u1"), ("indices", "<i4", 3)])
     faces["count"], faces["indices"] = 3, f
-    header = (f"ply\nformat binary_little_endian 1.0\nelement vertex {len(v)}\nproperty float x\nproperty float y\n"
-              f"property float z\nelement face {len(f)}\nproperty list uchar int vertex_indices\nend_header\n")
+    header = (
+        f"ply\nformat binary_little_endian 1.0\nelement vertex {len(v)}\nproperty float x\nproperty float y\n"
+        f"property float z\nelement face {len(f)}\nproperty list uchar int vertex_indices\nend_header\n"
+    )
     path.write_bytes(header.encode() + v.astype("<f4").tobytes() + faces.tobytes())
 
 
@@ -125,10 +141,16 @@ def objects(detail):
     """(name, material, mesh) in a fixed order."""
     rng = np.random.default_rng(20140)
     many = lambda count: max(4, int(count * detail))
-    return [("giants", "chalk", giants()), ("slivers", "sea", slivers(rng, many(6000))),
-            ("grids", "moss", grids(4 * max(2, int(6 * detail ** 0.5)))), ("spheres", "brick", spheres(max(4, int(20 * detail ** 0.5)))),
-            ("tiny", "sun", tiny(rng, many(8000))), ("duplicates", "sea", duplicates(rng, many(1200))),
-            ("degenerate", "brick", degenerate(rng, many(600))), ("glass", "glass", cube(-1.0, 1.0))]
+    return [
+        ("giants", "chalk", giants()),
+        ("slivers", "sea", slivers(rng, many(6000))),
+        ("grids", "moss", grids(4 * max(2, int(6 * detail**0.5)))),
+        ("spheres", "brick", spheres(max(4, int(20 * detail**0.5)))),
+        ("tiny", "sun", tiny(rng, many(8000))),
+        ("duplicates", "sea", duplicates(rng, many(1200))),
+        ("degenerate", "brick", degenerate(rng, many(600))),
+        ("glass", "glass", cube(-1.0, 1.0)),
+    ]
 
 
 def scene_text(parts, width, height, spp):
@@ -149,7 +171,9 @@ LightSource "point" "point3 from" [2.5 4.5 -6] "rgb I" [14 13 11]
 MakeNamedMaterial "glass" "string type" "dielectric" "spectrum eta" "glass-BK7"
 """]
     for name, rgb in COLOURS.items():
-        lines.append(f'MakeNamedMaterial "{name}" "string type" "diffuse" "rgb reflectance" [{rgb[0]} {rgb[1]} {rgb[2]}]')
+        lines.append(
+            f'MakeNamedMaterial "{name}" "string type" "diffuse" "rgb reflectance" [{rgb[0]} {rgb[1]} {rgb[2]}]'
+        )
     for name, material, _ in parts:
         lines.append(f'NamedMaterial "{material}"\nShape "plymesh" "string filename" "meshes/{name}.ply"')
     lines.append("""
@@ -167,7 +191,9 @@ AttributeEnd
 def main():
     parser = argparse.ArgumentParser(description="writes adversarial.pbrt and its meshes")
     parser.add_argument("-o", "--output", type=Path, required=True, metavar="DIR")
-    parser.add_argument("--detail", type=float, default=1.0, metavar="D", help="scales the triangle count (default 1)")
+    parser.add_argument(
+        "--detail", type=float, default=1.0, metavar="D", help="scales the triangle count (default 1)"
+    )
     parser.add_argument("--width", type=int, default=480)
     parser.add_argument("--height", type=int, default=360)
     parser.add_argument("--spp", type=int, default=64, help="samples per pixel (default 64)")

@@ -24,21 +24,36 @@ from textiles import rug
 EYE, TARGET = (5.95, 0.32, 1.45), (2.33, 4.95, 1.12)
 VERTICAL_FOV = 46.0
 SUN_TRAVELS = (0.826, 0.334, -0.454)  # 27° above the horizon
-SUN = (32.0, 28.2, 22.8)              # irradiance across its direction, linear sRGB
+SUN = (32.0, 28.2, 22.8)  # irradiance across its direction, linear sRGB
 SKY = (0.84, 1.06, 1.38)
 LEAST_DETAIL = 0.1
-PLAIN_SHARE = 0.04                    # of the full scene's triangles: what is flat enough to stay as it is
+PLAIN_SHARE = 0.04  # of the full scene's triangles: what is flat enough to stay as it is
 
 
 def collect(detail):
     """The room with all that bends at `detail`: meshes and emissions by file name, in a fixed order."""
-    parts = (shell() + floor() + mouldings() + window_frame() + panes() + curtains(detail) + door() + rug(detail)
-             + bed(detail) + furniture(detail) + decor(detail) + exterior(detail))
+    parts = (
+        shell()
+        + floor()
+        + mouldings()
+        + window_frame()
+        + panes()
+        + curtains(detail)
+        + door()
+        + rug(detail)
+        + bed(detail)
+        + furniture(detail)
+        + decor(detail)
+        + exterior(detail)
+    )
     groups = defaultdict(list)
     for part in parts:
         flat = "" if part.mesh.n is not None else "-flat"
         groups[f"{part.name}-{part.material}{flat}"].append(part)
-    return {name: (group[0].material, settled(join([p.mesh for p in group])), group[0].radiance) for name, group in groups.items()}
+    return {
+        name: (group[0].material, settled(join([p.mesh for p in group])), group[0].radiance)
+        for name, group in groups.items()
+    }
 
 
 def numbers(values):
@@ -67,15 +82,19 @@ LightSource "infinite" "rgb L" [{numbers(SKY)}]
 def material(name):
     if name == "glass":
         return 'MakeNamedMaterial "glass" "string type" "dielectric" "spectrum eta" "glass-BK7"'
-    return f'MakeNamedMaterial "{name}" "string type" "diffuse" "rgb reflectance" [{numbers(MATERIALS[name])}]'
+    return (
+        f'MakeNamedMaterial "{name}" "string type" "diffuse" "rgb reflectance" [{numbers(MATERIALS[name])}]'
+    )
 
 
 def shape(name, material_name, radiance):
     mesh = f'Shape "plymesh" "string filename" "meshes/{name}.ply"'
     if radiance is None:
         return f'NamedMaterial "{material_name}"\n{mesh}'
-    return (f'AttributeBegin\n  NamedMaterial "{material_name}"\n  AreaLightSource "diffuse" "rgb L" [{numbers(radiance)}]'
-            f' "bool twosided" true\n  {mesh}\nAttributeEnd')
+    return (
+        f'AttributeBegin\n  NamedMaterial "{material_name}"\n  AreaLightSource "diffuse" "rgb L" [{numbers(radiance)}]'
+        f' "bool twosided" true\n  {mesh}\nAttributeEnd'
+    )
 
 
 def write_scene(folder, detail, width, height, spp):
@@ -94,7 +113,13 @@ def write_scene(folder, detail, width, height, spp):
 def main():
     parser = argparse.ArgumentParser(description="writes hotel-room.pbrt and its meshes")
     parser.add_argument("-o", "--output", type=Path, required=True, metavar="DIR")
-    parser.add_argument("--detail", type=float, default=1.0, metavar="D", help="scales the triangle count; at least 0.1 (default 1)")
+    parser.add_argument(
+        "--detail",
+        type=float,
+        default=1.0,
+        metavar="D",
+        help="scales the triangle count; at least 0.1 (default 1)",
+    )
     parser.add_argument("--width", type=int, default=960)
     parser.add_argument("--height", type=int, default=540)
     parser.add_argument("--spp", type=int, default=64, help="samples per pixel (default 64)")

@@ -9,6 +9,7 @@ import numpy as np
 
 class Mesh(NamedTuple):
     """v: (n,3) positions; f: (m,3) indices, counter-clockwise seen from outside; n: (n,3) shading normals or None."""
+
     v: np.ndarray
     f: np.ndarray
     n: Optional[np.ndarray] = None
@@ -19,7 +20,13 @@ def generator(name):
     return np.random.default_rng(zlib.crc32(name.encode()))
 
 
+def steps(count, detail):
+    """Points along one side of a surface that has `count` of them at detail 1: its triangles scale with the detail."""
+    return max(8, int(round(count * np.sqrt(detail))))
+
+
 # ---- Building blocks -------------------------------------------------------------------------------------------
+
 
 def join(meshes):
     """One mesh; shading normals are kept only if all parts have them."""
@@ -34,25 +41,34 @@ def smooth(mesh):
     """Shading normals: the area-weighted mean of the faces around each vertex."""
     a, b, c = (mesh.v[mesh.f[:, k]] for k in range(3))
     face = np.cross(b - a, c - a)
-    n = np.stack([sum(np.bincount(mesh.f[:, k], face[:, axis], len(mesh.v)) for k in range(3))
-                  for axis in range(3)], axis=1)
+    n = np.stack(
+        [sum(np.bincount(mesh.f[:, k], face[:, axis], len(mesh.v)) for k in range(3)) for axis in range(3)],
+        axis=1,
+    )
     return mesh._replace(n=n / np.maximum(np.linalg.norm(n, axis=1, keepdims=True), 1e-30))
 
 
 def weld(mesh, tolerance=1e-6):
     """Makes vertices that coincide within the tolerance one vertex and drops triangles that collapse."""
-    _, first, same = np.unique(np.round(mesh.v / tolerance).astype(np.int64), axis=0,
-                               return_index=True, return_inverse=True)
+    _, first, same = np.unique(
+        np.round(mesh.v / tolerance).astype(np.int64), axis=0, return_index=True, return_inverse=True
+    )
     f = same.reshape(-1)[mesh.f]
     keep = (f[:, 0] != f[:, 1]) & (f[:, 1] != f[:, 2]) & (f[:, 2] != f[:, 0])
     return Mesh(mesh.v[first], f[keep])
 
 
 def settled(mesh):
-    """Rounded to a micrometre, so that files do not depend on a CPU's last bit, without triangles of no area."""
-    v, n = np.round(mesh.v, 6), None if mesh.n is None else np.round(mesh.n, 5)
+    """Rounded to a micrometre, so that files do not depend on a CPU's last bit.
+
+    Without triangles of no area and without vertices that nothing uses.
+    """
+    v = np.round(mesh.v, 6)
     a, b, c = (v[mesh.f[:, k]] for k in range(3))
-    return Mesh(v, mesh.f[np.linalg.norm(np.cross(b - a, c - a), axis=1) > 1e-12], n)
+    f = mesh.f[np.linalg.norm(np.cross(b - a, c - a), axis=1) > 1e-12]
+    used = np.zeros(len(v), bool)
+    used[f] = True
+    return Mesh(v[used], (np.cumsum(used) - 1)[f], None if mesh.n is None else np.round(mesh.n, 5)[used])
 
 
 def grid(p, wrap_u=False, wrap_v=False):
@@ -84,6 +100,7 @@ def turned(mesh, degrees, axis="z", about=(0, 0, 0)):
 
 # ---- Solids ----------------------------------------------------------------------------------------------------
 
+
 def box(lo, hi):
     """Closed axis-aligned box: 8 vertices, 12 triangles, outward."""
     corners = [[(lo, hi)[k >> axis & 1][axis] for axis in range(3)] for k in range(8)]
@@ -97,8 +114,16 @@ def soft_box(lo, hi, radius, rounds=3, cells=2):
     lo, hi = np.asarray(lo, float), np.asarray(hi, float)
     inner_lo, inner_hi = lo + radius, hi - radius
     bend = radius * np.tan(np.linspace(np.pi / 4, 0, rounds + 1))
-    sides = [np.concatenate([inner_lo[k] - bend, np.linspace(inner_lo[k], inner_hi[k], cells + 1)[1:-1],
-                             inner_hi[k] + bend[::-1]]) for k in range(3)]
+    sides = [
+        np.concatenate(
+            [
+                inner_lo[k] - bend,
+                np.linspace(inner_lo[k], inner_hi[k], cells + 1)[1:-1],
+                inner_hi[k] + bend[::-1],
+            ]
+        )
+        for k in range(3)
+    ]
     faces = []
     for axis in range(3):
         u, v = (axis + 1) % 3, (axis + 2) % 3
@@ -134,7 +159,7 @@ def rounded(profile, radius, rounds=4):
         r = min(radius, np.linalg.norm(b - a) / 2.1, np.linalg.norm(c - b) / 2.1)
         start = b + (a - b) * r / np.linalg.norm(a - b)
         end = b + (c - b) * r / np.linalg.norm(c - b)
-        out.append((1 - t) ** 2 * start + 2 * t * (1 - t) * b + t ** 2 * end)
+        out.append((1 - t) ** 2 * start + 2 * t * (1 - t) * b + t**2 * end)
     return np.concatenate(out + [profile[-1:]])
 
 
@@ -175,12 +200,18 @@ def prism(outline, z0, z1):
     i = np.arange(k)
     j = (i + 1) % k
     fan = np.arange(1, k - 1)
-    f = np.concatenate([np.stack([i, j, j + k], 1), np.stack([i, j + k, i + k], 1),
-                        np.stack([0 * fan + k, fan + k, fan + k + 1], 1)])
+    f = np.concatenate(
+        [
+            np.stack([i, j, j + k], 1),
+            np.stack([i, j + k, i + k], 1),
+            np.stack([0 * fan + k, fan + k, fan + k + 1], 1),
+        ]
+    )
     return Mesh(v, f)
 
 
 # ---- Relief ----------------------------------------------------------------------------------------------------
+
 
 def waves(x, y, rng, count, shortest, longest):
     """A smooth random function of (x, y), variance about ½: plane waves of random direction, length and phase."""
@@ -201,11 +232,12 @@ def creases(x, y, rng, count, extent, length, width, heading=0.0, spread=np.pi):
         bend, l, w = rng.normal(0, 0.6), length * rng.uniform(0.5, 1.5), width * rng.uniform(0.6, 1.6)
         along = (x - cx) * np.cos(turn) + (y - cy) * np.sin(turn)
         across = (y - cy) * np.cos(turn) - (x - cx) * np.sin(turn) - bend * along * along
-        total += rng.choice([1, 1, -0.7]) * np.exp(-(along / l) ** 2 - (across / w) ** 2)
+        total += rng.choice([1, 1, -0.7]) * np.exp(-((along / l) ** 2) - (across / w) ** 2)
     return total
 
 
 # ---- Files -----------------------------------------------------------------------------------------------------
+
 
 def write_ply(path, mesh):
     """Binary little-endian PLY."""

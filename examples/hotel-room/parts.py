@@ -8,6 +8,7 @@ from meshes import Mesh
 
 class Part(NamedTuple):
     """A piece of the object `name`. Pieces of one object and one material share a file."""
+
     name: str
     material: str
     mesh: Mesh

@@ -51,7 +51,9 @@ def rug(detail):
         return root + lean * t * t + rise + side * (across * breadth / 2)[:, None]
 
     one = np.ones(count)
-    v = np.stack([at(0, -one), at(0, one), at(0.62, -0.85 * one), at(0.62, 0.85 * one), at(1.0, 0 * one)], axis=1)
+    v = np.stack(
+        [at(0, -one), at(0, one), at(0.62, -0.85 * one), at(0.62, 0.85 * one), at(1.0, 0 * one)], axis=1
+    )
     f = np.array([(0, 1, 3), (0, 3, 2), (2, 3, 4)])
     index = pattern(x, y)
     parts = [Part("rug", "sand", box((x0, y0, 0), (x1, y1, 0.005)))]

@@ -29,7 +29,8 @@ class DomainFile : public ::testing::Test {
 
 TEST_F(DomainFile, ComesBackAsItWas) {
   const DomainContent content = sample_domain();
-  EXPECT_EQ(write_domain_file(file, content), std::filesystem::file_size(file));
+  const std::uint64_t bytes = write_domain_file(file, content);
+  EXPECT_EQ(bytes, std::filesystem::file_size(file));
   const MappedDomain mapped(file);
   EXPECT_TRUE(same_bytes(mapped.view().nodes, content.nodes));
   EXPECT_TRUE(same_bytes(mapped.view().clusters, content.clusters));

@@ -17,6 +17,7 @@ Manifest sample_manifest();
 void write_sample_bundle(const std::filesystem::path& bundle);
 
 std::string read_text(const std::filesystem::path& file);
+// Overwrites a file that exists.
 void write_text(const std::filesystem::path& file, const std::string& text);
 
 // A directory of its own for the running test, removed at the end.

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
+#include <barrier>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -90,19 +90,20 @@ TEST(Film, SaturationIsSeenAndStays) {
 }
 
 TEST(Film, ThreadsAndOrderDoNotMatter) {
-  Film forward = film_of(1), together = film_of(1);
+  constexpr std::uint32_t samples = 100000, thread_count = 4;
+  Film forward = film_of(1, 1, 1), together = film_of(1, 1, 1);
   const auto deposit = [](Film& film, std::uint32_t s) {
-    for (std::uint32_t p = 0; p < film.counts().size(); ++p) {
-      film.count_sample(p);
-      film.deposit(p, s, {std::sin(s + p), std::cos(s * p), 1.0 / (1 + s)});
-    }
+    film.count_sample(0);
+    film.deposit(0, s, {0.001 * s, 1.0 / (1 + s), -0.003 * s});
   };
-  for (std::uint32_t s = 0; s < 4000; ++s) deposit(forward, s);
+  for (std::uint32_t s = 0; s < samples; ++s) deposit(forward, s);
+  std::barrier start(thread_count);
   std::vector<std::thread> threads;
-  for (std::uint32_t t = 0; t < 4; ++t)
+  for (std::uint32_t t = 0; t < thread_count; ++t)
     threads.emplace_back([&, t] {
-      for (std::uint32_t s = 4000; s-- > 0;)
-        if (s % 4 == t) deposit(together, s);
+      start.arrive_and_wait();
+      for (std::uint32_t s = samples; s-- > 0;)
+        if (s % thread_count == t) deposit(together, s);
     });
   for (std::thread& t : threads) t.join();
   EXPECT_EQ(forward.hash(), together.hash());
