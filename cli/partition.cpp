@@ -26,10 +26,10 @@ void declare(CLI::App& app, Arguments& a) {
   app.add_option("input", a.input, "scene file")->required();
   app.add_option("-o,--output", a.output, "bundle to write (NAME.vit)")->required();
   auto* domains =
-      app.add_option("--domains", a.options.domains, "number of sub-domains")->check(CLI::PositiveNumber);
+      app.add_option("--domains", a.options.domains, "number of sub-domains")->check(CLI::Range(1, 999'999));
   app.add_option("--domain-bytes", a.domain_bytes, "size of a sub-domain, e.g. 64M (the default)")
       ->excludes(domains);
-  app.add_option("--threads", a.options.threads, "threads; default: all cores")->check(CLI::PositiveNumber);
+  app.add_option("--threads", a.options.threads, "threads; default: all cores")->check(CLI::Range(1, 4096));
   app.add_option("--stats", a.stats, "write statistics as JSON");
   app.add_flag("--strict", a.strict, "fail if anything in the scene is not imported exactly");
   app.add_flag("--quiet", a.quiet, "no progress and no summary");

@@ -26,6 +26,10 @@ void check_target(const fs::path& target) {
         fmt::format("{} exists and is not a bundle; choose another name or remove it", target.string()));
 }
 
+[[noreturn]] void fail(const fs::filesystem_error& e) {
+  throw MachineError(fmt::format("cannot write {}: {}", e.path1().string(), e.code().message()));
+}
+
 }  // namespace
 
 BundleDirectory::BundleDirectory(fs::path target) : target_(std::move(target)) {
@@ -37,7 +41,7 @@ BundleDirectory::BundleDirectory(fs::path target) : target_(std::move(target)) {
     fs::remove_all(temporary_);
     fs::create_directories(temporary_ / "domains");
   } catch (const fs::filesystem_error& e) {
-    throw MachineError(e.what());
+    fail(e);
   }
 }
 
@@ -61,7 +65,7 @@ void BundleDirectory::commit() {
     committed_ = true;
     if (replaces) fs::remove_all(old);
   } catch (const fs::filesystem_error& e) {
-    throw MachineError(e.what());
+    fail(e);
   }
 }
 

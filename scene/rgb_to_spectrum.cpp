@@ -136,8 +136,9 @@ Fit fit(Column3 p, const Column3& target_lab) {
 // x of the constant reflectance v: the inverse of ½ + x/(2√(1+x²)).
 double constant_coefficient(double v) { return (v - 0.5) / std::sqrt(v * (1 - v)); }
 
-// Walks from the grey of equal luminance to the colour, each point started from the solution before it: from
-// grey alone Newton's method does not reach saturated colours.
+// Walks from the grey of equal luminance to the colour, in one step where that converges: almost everywhere.
+// Newton's method stalls on the way to some dark saturated colours, and then each point starts from the
+// solution before it.
 Fit fit_by_continuation(RGB c) {
   const double grey = std::clamp(srgb_to_xyz(c).y, 1e-12, 1 - 1e-12);
   const auto fit_at = [&](const Column3& start, double s) {

@@ -46,4 +46,26 @@ inline Vector3f decode_direction(DirectionCode code) {
   return cast<float>(normalize(Vector3d{x, y, z}));
 }
 
+// The orientation of a face, either side: two 10-bit octahedral coordinates, to 0.24°.
+struct FaceCode {
+  std::uint32_t bits = 0;
+};
+
+inline FaceCode encode_face(Vector3d normal) {
+  const DirectionCode code = encode_direction(normal.z < 0 ? -normal : normal);
+  const std::uint32_t a = static_cast<std::uint32_t>(code.word[0]) >> 6;
+  const std::uint32_t b = (static_cast<std::uint32_t>(code.word[1]) & 0xff) << 2 | code.word[2] >> 14;
+  return {a << 10 | b};
+}
+
+// Whether a face is parallel to the one encoded, to 0.5°. A wedge of that angle in glass spreads the visible spectrum
+// by less than 1e-4 rad.
+inline bool is_parallel(FaceCode code, Vector3d normal) {
+  const DirectionCode centre{{static_cast<std::uint16_t>((code.bits >> 10) << 6 | 32),
+                              static_cast<std::uint16_t>(code.bits >> 2 & 0xff),
+                              static_cast<std::uint16_t>((code.bits & 3) << 14 | 1 << 13)}};
+  const Vector3d face = cast<double>(decode_direction(centre));
+  return length(cross(face, normal)) < 0.0045;
+}
+
 }  // namespace vitrail

@@ -11,6 +11,7 @@ struct PathTracer::Path {
   std::uint32_t depth = 0;
   std::uint8_t flags = 0;
   float pdf = 0;  // of the last scattering, solid angle, already rounded; 0: specular or camera
+  FaceCode entered_by;  // in a pane: the face it came in through
   SampledSpectrum throughput;
   DirectionCode direction;
   Ray ray;
@@ -21,6 +22,15 @@ struct PathTracer::Path {
   SensorWeights sensor;
 
   bool is(PathFlags flag) const { return flags & flag; }
+  void set(PathFlags flag) { flags = static_cast<std::uint8_t>(flags | flag); }
+  void clear(PathFlags flag) { flags = static_cast<std::uint8_t>(flags & ~flag); }
+  // Ends the secondary wavelengths: their ways part from the hero's here.
+  void disperse() {
+    clear(path_in_pane);
+    if (is(path_dispersed)) return;
+    set(path_dispersed);
+    throughput = {{throughput[0] * hero_count, 0, 0, 0}};
+  }
 };
 
 struct PathTracer::Interaction {

@@ -59,8 +59,11 @@ void PathTracer::resume(const PathRecord& record, std::uint32_t domain) {
   path.pixel = record.pixel;
   path.sample = record.sample_depth >> 8;
   path.depth = record.sample_depth & 0xff;
-  path.flags = record.flags;
-  path.pdf = pdf_value(record.pdf);
+  path.flags = record.flags & 0xf;
+  if (path.is(path_in_pane))
+    path.entered_by = {static_cast<std::uint32_t>(record.flags >> 4) << 16 | record.pdf};
+  else
+    path.pdf = pdf_value(record.pdf);
   for (std::size_t i = 0; i < hero_count; ++i) path.throughput.v[i] = record.throughput[i];
   path.direction = record.direction;
   path.ray = {{record.origin[0], record.origin[1], record.origin[2]}, decode_direction(record.direction),
@@ -95,7 +98,7 @@ bool PathTracer::find_hit(Path& path, std::optional<std::uint32_t> at) {
   bool located = true;  // hit.cluster and hit.lane are known
   path.constants = prepare(path.ray);
   if (at && path.is(path_resolved)) {
-    path.flags &= static_cast<std::uint8_t>(~path_resolved);
+    path.clear(path_resolved);
     located = false;
   } else {
     DomainWalk walk(manifest_, path.ray);
@@ -135,8 +138,9 @@ bool PathTracer::forward(const Path& path, std::uint32_t domain, bool resolved) 
   r.exclude = path.ray.exclude;
   r.pixel = path.pixel;
   r.sample_depth = path.sample << 8 | path.depth;
-  r.pdf = pdf_code(path.pdf);
-  r.flags = static_cast<std::uint8_t>(path.flags | (resolved ? path_resolved : 0));
+  const std::uint32_t face = path.is(path_in_pane) ? path.entered_by.bits : 0;
+  r.pdf = path.is(path_in_pane) ? static_cast<std::uint16_t>(face) : pdf_code(path.pdf);
+  r.flags = static_cast<std::uint8_t>(path.flags | (resolved ? path_resolved : 0) | face >> 16 << 4);
   outbox_.paths.push_back({domain, r});
   return false;
 }

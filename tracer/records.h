@@ -23,6 +23,7 @@ enum PathFlags : std::uint8_t {
   path_dispersed = 1,   // only the hero wavelength is left
   path_connection = 2,  // on its way to a distant light through panes; `throughput` is the radiance it will deposit
   path_resolved = 4,    // the hit is certain: to be shaded in hit_domain
+  path_in_pane = 8,     // inside a dispersive medium, all wavelengths alive: the face it entered by is known
 };
 
 #pragma pack(push, 1)
@@ -37,8 +38,9 @@ struct PathRecord {
   std::uint32_t exclude;       // triangle it starts on
   std::uint32_t pixel;
   std::uint32_t sample_depth;  // sample << 8 | depth
-  std::uint16_t pdf;           // of the last scattering, solid angle, as pdf_code; 0: specular or camera
-  std::uint8_t flags;
+  std::uint16_t pdf;           // of the last scattering, solid angle, as pdf_code; 0: specular or camera.
+                               // In a pane: low 16 bits of the FaceCode
+  std::uint8_t flags;          // PathFlags, and above them 4 bits: high bits of the FaceCode
 };
 
 // A ray to a point on a light. It deposits `radiance` unless something is hit in (0, tmax).

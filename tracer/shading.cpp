@@ -54,6 +54,7 @@ PathTracer::Interaction PathTracer::interaction_at(const Path& path) const {
 // False when the path ends here.
 bool PathTracer::shade(Path& path) {
   if (path.hit.triangle == no_triangle) {
+    if (path.is(path_in_pane)) path.disperse();
     if (!path.is(path_connection))
       deposit(path.pixel, path.sample, path.sensor,
               path.throughput * sky_radiance(scene_.lights, manifest_, path.wavelengths));
@@ -65,9 +66,11 @@ bool PathTracer::shade(Path& path) {
   if (path.is(path_connection)) return connect_onwards(path, at);
 
   const Surface& surface = surface_of(manifest_, path.hit.triangle);
+  const Material& material = manifest_.materials[surface.material];
+  // Only the far face of a pane lets the wavelengths out the way they came in.
+  if (path.is(path_in_pane) && (at.front || !std::holds_alternative<DielectricMaterial>(material))) path.disperse();
   if (surface.area_light >= 0)
     add_emission(path, at, manifest_.area_lights[static_cast<std::size_t>(surface.area_light)], surface.area_light);
-  const Material& material = manifest_.materials[surface.material];
   if (std::holds_alternative<InterfaceMaterial>(material)) {
     continue_from(path, at, -at.out);
     path.pdf = 0;  // shadow rays end at the interface, so this path alone finds the lights behind it
@@ -141,7 +144,7 @@ void PathTracer::connect_to_light(const Path& path, const Interaction& at, const
   ++counters_.rays_shadow;
   if (distant && (manifest_.requirements.transmission || manifest_.requirements.interfaces)) {
     Path connection = path;
-    connection.flags |= path_connection;
+    connection.set(path_connection);
     connection.throughput = radiance;
     connection.depth = 0;
     continue_from(connection, at, light->to_light);
@@ -202,37 +205,53 @@ bool PathTracer::connect_onwards(Path& path, const Interaction& at) {
   return true;
 }
 
+// Dispersion ends the secondary wavelengths where their ways part. Through a pane of parallel faces they do not: all
+// leave in the direction they came, micrometres apart. So they stay until the path meets a face that is not parallel
+// to the one it entered by.
 bool PathTracer::scatter_dielectric(Path& path, const Interaction& at, const DielectricMaterial& material) {
-  const SampledSpectrum eta = relative_index(material, path.wavelengths, at.front);
   const Vector3d normal = at.shading * (at.front ? 1.0 : -1.0);
-  const double cosine = dot(at.out, normal);
-  const bool disperses = !is_constant(material.eta) && !path.is(path_dispersed);
+  if (path.is(path_in_pane) && !is_parallel(path.entered_by, normal)) path.disperse();
+  const bool in_pane = path.is(path_in_pane);
+  const SampledSpectrum eta = relative_index(material, path.wavelengths, at.front);
+  const double hero_eta = static_cast<double>(eta[0]), cosine = dot(at.out, normal);
+  // Inside a pane the wavelengths differ in their angle, but share the one outside; reflectance is the same from both
+  // sides.
+  const double outside = safe_sqrt(1 - (1 - cosine * cosine) / (hero_eta * hero_eta));
 
   // One choice for all wavelengths, by their mean reflectance: no weight exceeds their number.
   SampledSpectrum reflectance;
   const std::size_t active = path.is(path_dispersed) ? 1 : hero_count;
   double mean = 0;
   for (std::size_t i = 0; i < active; ++i) {
-    reflectance.v[i] = static_cast<float>(fresnel_dielectric(cosine, static_cast<double>(eta.v[i])));
+    const double e = static_cast<double>(eta.v[i]);
+    reflectance.v[i] =
+        static_cast<float>(in_pane ? fresnel_dielectric(outside, 1 / e) : fresnel_dielectric(cosine, e));
     mean += static_cast<double>(reflectance.v[i]) / static_cast<double>(active);
   }
   const float u = sample_4d(key_of(path.pixel, path.sample), sample_set::scatter(path.depth))[2];
+  const double side = at.front ? 1 : -1;
   Vector3d direction;
   if (static_cast<double>(u) < mean) {
     direction = normal * (2 * cosine) - at.out;
-    if (dot(direction, at.geometric) * (at.front ? 1 : -1) <= 0) return false;
+    if (dot(direction, at.geometric) * side <= 0) return false;
     path.throughput = path.throughput * reflectance * static_cast<float>(1 / mean);
   } else {
-    const double hero_eta = static_cast<double>(eta[0]);
     if (!refract(at.out, normal, hero_eta, direction)) return false;
-    if (dot(direction, at.geometric) * (at.front ? 1 : -1) >= 0) return false;
+    if (dot(direction, at.geometric) * side >= 0) return false;
     // Radiance is compressed into the smaller solid angle by 1/η² (Veach 1997, §5.2).
-    for (std::size_t i = 0; i < active; ++i)
-      path.throughput.v[i] *= static_cast<float>((1 - static_cast<double>(reflectance.v[i])) / (1 - mean) /
-                                                 (hero_eta * hero_eta));
-    if (disperses) {
-      path.throughput = {{path.throughput[0] * hero_count, 0, 0, 0}};
-      path.flags |= path_dispersed;
+    for (std::size_t i = 0; i < active; ++i) {
+      const double e = static_cast<double>(eta.v[i]);
+      path.throughput.v[i] *= static_cast<float>((1 - static_cast<double>(reflectance.v[i])) / (1 - mean) / (e * e));
+    }
+    if (in_pane) {
+      path.clear(path_in_pane);
+    } else if (!is_constant(material.eta) && !path.is(path_dispersed)) {
+      if (at.front) {
+        path.set(path_in_pane);
+        path.entered_by = encode_face(normal);
+      } else {
+        path.disperse();
+      }
     }
   }
   if (is_black(path.throughput)) return false;

@@ -130,7 +130,7 @@ Continued continue_rays(const Rays& rays, const Triangles& triangles, const Doma
   Continued next;
   for (const Ray& ray : rays) {
     Hit hit;
-    best_kernel().closest(domain, ray, hit);
+    best_kernel().closest(domain, prepare(ray), hit);
     if (hit.triangle == no_triangle) continue;
     const Triangle& triangle = triangles[hit.triangle];
     Vector3f n = normalize(cross(triangle[1] - triangle[0], triangle[2] - triangle[0]));
@@ -209,11 +209,11 @@ void compare_traversals(const Triangles& triangles, const DomainView& domain, RT
     const KernelFunctions& functions = kernel_functions(kernel);
     closest.push_back(variant(name(kernel).data(), [&](const Ray& r) {
       Hit hit;
-      functions.closest(domain, r, hit);
+      functions.closest(domain, prepare(r), hit);
       return answer(hit);
     }));
-    shadow.push_back(
-        variant(name(kernel).data(), [&](const Ray& r) { return functions.occluded(domain, r, 1); }));
+    shadow.push_back(variant(name(kernel).data(),
+                             [&](const Ray& r) { return functions.occluded(domain, prepare(r), 1); }));
   }
   const Rays primary = primary_rays(700);
   const Continued first = continue_rays(primary, triangles, domain);

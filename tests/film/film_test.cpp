@@ -90,11 +90,11 @@ TEST(Film, SaturationIsSeenAndStays) {
 }
 
 TEST(Film, ThreadsAndOrderDoNotMatter) {
-  constexpr std::uint32_t samples = 100000, thread_count = 4;
+  constexpr std::uint32_t samples = 1000000, thread_count = 4;
   Film forward = film_of(1, 1, 1), together = film_of(1, 1, 1);
   const auto deposit = [](Film& film, std::uint32_t s) {
     film.count_sample(0);
-    film.deposit(0, s, {0.001 * s, 1.0 / (1 + s), -0.003 * s});
+    film.deposit(0, s, {1e-5 * s, 1.0 / (1 + s), -3e-5 * s});
   };
   for (std::uint32_t s = 0; s < samples; ++s) deposit(forward, s);
   std::barrier start(thread_count);

@@ -2,6 +2,7 @@
 // Scenes whose picture is known in closed form.
 #include <gtest/gtest.h>
 
+#include "scene/color.h"
 #include "scene/named_spectra.h"
 #include "tests/support/render.h"
 #include "tracer/portable_math.h"
@@ -109,6 +110,26 @@ TEST(DistantLight, ThroughAPane) {
   const double expected = 0.5 / pi * 3 * cosine * transmitted * transmitted;
   const Brightness result = brightness(render(scene, 64).film);
   EXPECT_NEAR(result.mean, expected, 1e-3 * expected + 4 * result.standard_error);
+}
+
+// A pane of dispersive glass disperses nothing: every sample keeps its four wavelengths, so the colour of a sky seen
+// through it is as smooth as without. With one wavelength a sample the scatter of Z would be ten times this.
+TEST(Pane, KeepsAllWavelengths) {
+  Scene scene;
+  add_shape(scene, add_quads(scene, box_faces({-10, -10, 1}, {10, 10, 1.006f})), DielectricMaterial{bk7()});
+  scene.lights.push_back(InfiniteLight{ConstantSpectrum{1}});
+  set_camera(scene, {0, 0, 0}, {0.3, 0.2, 1}, {0, 1, 0}, 0.1, 16, 16);
+  scene.settings.max_depth = 20;
+  const Film film = render(scene, 4).film;
+  const XYZ expected = to_xyz(ConstantSpectrum{1});
+  double mean = 0, scatter = 0;
+  for (std::uint32_t i = 0; i < 256; ++i) {
+    const double error = film.mean(i).z - expected.z;
+    mean += error / 256;
+    scatter += error * error / 256;
+  }
+  EXPECT_NEAR(mean, 0, 0.02);
+  EXPECT_LT(std::sqrt(scatter), 0.15);
 }
 
 }  // namespace

@@ -21,7 +21,7 @@ Hit closest(const ClusteredTriangles& clustered, const Ray& ray, const Hit& befo
   EmbreeDomain(domain).closest(ray, reference);
   for (const Kernel kernel : available_kernels()) {
     Hit hit = before;
-    kernel_functions(kernel).closest(domain, ray, hit);
+    kernel_functions(kernel).closest(domain, prepare(ray), hit);
     EXPECT_TRUE(same(hit, reference)) << name(kernel);
     EXPECT_EQ(hit.cluster, reference.cluster);
     EXPECT_EQ(hit.lane, reference.lane);
@@ -33,7 +33,7 @@ bool occluded(const ClusteredTriangles& clustered, const Ray& ray, float tmax) {
   const DomainView domain = view_of(clustered);
   const bool reference = EmbreeDomain(domain).occluded(ray, tmax);
   for (const Kernel kernel : available_kernels()) {
-    EXPECT_EQ(kernel_functions(kernel).occluded(domain, ray, tmax), reference) << name(kernel);
+    EXPECT_EQ(kernel_functions(kernel).occluded(domain, prepare(ray), tmax), reference) << name(kernel);
   }
   return reference;
 }
@@ -103,9 +103,9 @@ TEST(Intersect, TrianglesWithoutAreaAreNotHit) {
       const Ray ray{origin, target - origin};
       for (const Kernel kernel : available_kernels()) {
         Hit hit;
-        kernel_functions(kernel).closest(view_of(c), ray, hit);
+        kernel_functions(kernel).closest(view_of(c), prepare(ray), hit);
         ASSERT_EQ(hit.triangle, no_triangle);
-        ASSERT_FALSE(kernel_functions(kernel).occluded(view_of(c), ray, infinity));
+        ASSERT_FALSE(kernel_functions(kernel).occluded(view_of(c), prepare(ray), infinity));
       }
     }
   }
@@ -175,9 +175,9 @@ TEST(Intersect, ClosedSurfaceIsWatertight) {
         for (const Kernel kernel : available_kernels()) {
           const Ray ray{origin, target - origin};
           Hit hit;
-          kernel_functions(kernel).closest(view_of(c), ray, hit);
+          kernel_functions(kernel).closest(view_of(c), prepare(ray), hit);
           ASSERT_NE(hit.triangle, no_triangle);
-          ASSERT_TRUE(kernel_functions(kernel).occluded(view_of(c), ray, infinity));
+          ASSERT_TRUE(kernel_functions(kernel).occluded(view_of(c), prepare(ray), infinity));
         }
       }
     }
@@ -214,10 +214,10 @@ TEST(Intersect, SameAsTestingEveryTriangle) {
       for (const Kernel kernel : available_kernels()) {
         const KernelFunctions& functions = kernel_functions(kernel);
         Hit hit;
-        functions.closest(domain, ray, hit);
+        functions.closest(domain, prepare(ray), hit);
         ASSERT_TRUE(same(hit, reference)) << name(kernel);
-        ASSERT_EQ(functions.occluded(domain, ray, beyond), reference.triangle != no_triangle);
-        ASSERT_FALSE(functions.occluded(domain, ray, before));
+        ASSERT_EQ(functions.occluded(domain, prepare(ray), beyond), reference.triangle != no_triangle);
+        ASSERT_FALSE(functions.occluded(domain, prepare(ray), before));
       }
     }
   }

@@ -35,6 +35,20 @@ TEST(Direction, AxesAreExact) {
     }
 }
 
+TEST(Face, IsParallelToItselfOnly) {
+  std::mt19937 random(4);
+  std::normal_distribution<double> normal;
+  for (int i = 0; i < 20000; ++i) {
+    const Vector3d n = normalize(Vector3d{normal(random), normal(random), normal(random)});
+    const FaceCode code = encode_face(n);
+    EXPECT_LT(code.bits, 1u << 20);
+    EXPECT_TRUE(is_parallel(code, n));
+    EXPECT_TRUE(is_parallel(code, -n));
+    const Vector3d turned = normalize(n + Frame(n).tangent * 0.01);
+    EXPECT_FALSE(is_parallel(code, turned));
+  }
+}
+
 TEST(Records, PdfAndRadianceRoundWithoutBias) {
   std::mt19937 random(2);
   std::uniform_real_distribution<float> exponent(-20, 20);

@@ -29,13 +29,6 @@ struct KernelFunctions {
   bool occluded(const DomainView& domain, const RayConstants& ray, float tmax) const {
     return !domain.nodes.empty() && tree_occluded(domain.nodes.data(), domain.clusters.data(), ray, tmax);
   }
-  // For a ray that meets one domain only.
-  void closest(const DomainView& domain, const Ray& ray, Hit& hit) const {
-    closest(domain, prepare(ray), hit);
-  }
-  bool occluded(const DomainView& domain, const Ray& ray, float tmax) const {
-    return occluded(domain, prepare(ray), tmax);
-  }
 
   void (*tree_closest)(const BvhNode* nodes, const Cluster* clusters, const RayConstants& ray, Hit& hit);
   bool (*tree_occluded)(const BvhNode* nodes, const Cluster* clusters, const RayConstants& ray, float tmax);
