@@ -29,7 +29,7 @@ void cut_polygon(std::uint32_t triangle, std::span<const Point3d> polygon, Plane
     const Point3d p = polygon[i], q = polygon[(i + 1) % polygon.size()];
     const double x = p[plane.axis], y = q[plane.axis];
     if (x <= c) low.add(p);
-    if (x > c) high.add(p);
+    if (x >= c) high.add(p);
     if ((x < c && y > c) || (x > c && y < c)) {
       const Point3d between = x < c ? crossing(p, q, plane) : crossing(q, p, plane);
       low.add(between);
