@@ -7,8 +7,8 @@
 
 namespace vitrail {
 
-// Writes the parts one after the other, without syncing. A failure (no space, no permission) throws MachineError with
-// the file and the reason, and removes the file.
+// Writes the parts one after the other, without syncing. A failure (no space, no permission) throws
+// MachineError with the file and the reason, and removes the file.
 void write_file(const std::filesystem::path& file, std::span<const std::span<const std::byte>> parts);
 
 }  // namespace vitrail

@@ -14,7 +14,7 @@ namespace vitrail {
 namespace {
 
 constexpr std::size_t sample_size = 8192;  // quantiles are known to about 0.6 %
-constexpr int quantile_steps = 8;           // on each side of the balanced split
+constexpr int quantile_steps = 8;          // on each side of the balanced split
 constexpr int even_planes = 16;
 
 using Range = tbb::blocked_range<std::size_t>;

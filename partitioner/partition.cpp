@@ -23,7 +23,8 @@ namespace {
 
 constexpr std::uint64_t default_domain_bytes = 64ull << 20;
 constexpr std::uint32_t most_domains = 999'999;  // six digits in a file name
-// Bytes of a triangle in a domain file: nodes, clusters and pieces, and its three normals (docs/partitioning.md).
+// Bytes of a triangle in a domain file: nodes, clusters and pieces, and its three normals
+// (docs/partitioning.md).
 constexpr double bytes_per_triangle = 62, bytes_per_normals = 16;
 // No domain should have more than this many times its even share of triangles.
 constexpr double most_load = 1.2;

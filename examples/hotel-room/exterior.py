@@ -173,15 +173,14 @@ def house(k, x, y, width, depth, floors):
 
 
 def land():
-    ground = box((-420, -300, GROUND - 1), (60, 420, GROUND))
-    street = box((-24, -300, GROUND - 0.5), (-15, 420, GROUND + 0.02))
-    y = np.linspace(-300, 620, 90)
-    crest = GROUND + 30 + 11 * waves(y / 200, 0 * y, generator("hill"), 6, 0.5, 2.5)
-    low, high = (
-        np.stack([np.full_like(y, x), y, z], axis=-1)
-        for x, z in ((-330, np.full_like(y, GROUND)), (-415, crest))
-    )
-    hill = smooth(grid(np.stack([low, (low + high) / 2 + [0, 0, 4], high], axis=1)))
+    # Centred on the room: importers that shift a scene to its middle then keep the room's coordinates precise.
+    ground = box((-217, -217, GROUND - 1), (223, 223, GROUND))
+    street = box((-24, -217, GROUND - 0.5), (-15, 223, GROUND + 0.02))
+    y = np.linspace(-20, 222, 60)
+    crest = GROUND + 18 + 6 * waves(y / 110, 0 * y, generator("hill"), 6, 0.5, 2.5)
+    foot, brow = np.full_like(y, -168), np.full_like(y, -214)
+    low, high = np.stack([foot, y, 0 * y + GROUND], axis=-1), np.stack([brow, y, crest], axis=-1)
+    hill = smooth(grid(np.stack([low, (low + high) / 2 + [0, 0, 2], high], axis=1)))
     return [Part("land", "lawn", ground), Part("land", "street", street), Part("land", "hill", hill)]
 
 

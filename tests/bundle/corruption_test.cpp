@@ -7,6 +7,7 @@
 #include "bundle/manifest.h"
 #include "scene/diagnostics.h"
 #include "tests/bundle/sample_bundle.h"
+#include "tests/support/temporary_directory.h"
 
 namespace vitrail {
 
@@ -40,7 +41,7 @@ class Corruption : public ::testing::TestWithParam<const char*> {
     return false;
   }
 
-  test::TestDirectory directory;
+  test::TemporaryDirectory directory;
   std::filesystem::path bundle = directory.path() / "sample.vit";
   std::filesystem::path file = bundle / GetParam();
   std::string original;
@@ -81,7 +82,7 @@ INSTANTIATE_TEST_SUITE_P(Files, Corruption,
 
 // A whole file, but of another bundle.
 TEST(CorruptionOfBundle, ExchangedFilesAreFound) {
-  const test::TestDirectory directory;
+  const test::TemporaryDirectory directory;
   const auto bundle = directory.path() / "a.vit";
   test::write_sample_bundle(bundle);
   DomainContent other = test::sample_domain();
@@ -100,7 +101,7 @@ TEST(CorruptionOfBundle, ExchangedFilesAreFound) {
 }
 
 TEST(CorruptionOfBundle, TriangleThatTheSceneDoesNotHave) {
-  const test::TestDirectory directory;
+  const test::TemporaryDirectory directory;
   test::write_sample_bundle(directory.path());
   Manifest m = read_manifest(directory.path());
   const auto file = domain_path(directory.path(), 0);

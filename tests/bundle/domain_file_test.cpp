@@ -9,6 +9,7 @@
 #include "bundle/manifest.h"
 #include "scene/diagnostics.h"
 #include "tests/bundle/sample_bundle.h"
+#include "tests/support/temporary_directory.h"
 
 namespace vitrail {
 
@@ -23,7 +24,7 @@ bool same_bytes(std::span<const T> a, const std::vector<T>& b) {
 
 class DomainFile : public ::testing::Test {
  protected:
-  test::TestDirectory directory;
+  test::TemporaryDirectory directory;
   std::filesystem::path file = directory.path() / "000000.dom";
 };
 

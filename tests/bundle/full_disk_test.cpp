@@ -5,6 +5,7 @@
 #include "bundle/manifest.h"
 #include "scene/diagnostics.h"
 #include "tests/bundle/sample_bundle.h"
+#include "tests/support/temporary_directory.h"
 
 namespace vitrail {
 
@@ -35,7 +36,7 @@ DomainContent large_domain() {
 }
 
 TEST(FullDisk, IsTheMachineAndLeavesNoFile) {
-  const test::TestDirectory directory;
+  const test::TemporaryDirectory directory;
   const SmallDisk disk(directory.path());
   if (!disk.mounted()) GTEST_SKIP() << "mounting a small disk takes root";
   EXPECT_NO_THROW(write_domain_file(directory.path() / "small.dom", test::sample_domain()));

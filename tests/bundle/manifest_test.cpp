@@ -10,6 +10,7 @@
 #include "bundle/records.h"
 #include "scene/diagnostics.h"
 #include "tests/bundle/sample_bundle.h"
+#include "tests/support/temporary_directory.h"
 
 namespace vitrail {
 
@@ -19,7 +20,7 @@ using test::sample_manifest;
 
 class ManifestFile : public ::testing::Test {
  protected:
-  test::TestDirectory directory;
+  test::TemporaryDirectory directory;
   Manifest written_and_read(const Manifest& m) {
     write_manifest(directory.path(), m);
     return read_manifest(directory.path());

@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/bundle/sample_bundle.h"
 
-#include <stdlib.h>
-
 #include <algorithm>
 #include <fstream>
 #include <limits>
 #include <sstream>
-#include <stdexcept>
 
 namespace vitrail::test {
 
@@ -105,17 +102,6 @@ void write_text(const std::filesystem::path& file, const std::string& text) {
   // Overwrites in place: file systems flush a file that was truncated to nothing, which is slow.
   std::ofstream(file, std::ios::binary | std::ios::in | std::ios::out) << text;
   std::filesystem::resize_file(file, text.size());
-}
-
-TestDirectory::TestDirectory() {
-  std::string name = (std::filesystem::temp_directory_path() / "vitrail-test-XXXXXX").string();
-  if (!::mkdtemp(name.data())) throw std::runtime_error("cannot create " + name);
-  path_ = name;
-}
-
-TestDirectory::~TestDirectory() {
-  std::error_code ignored;
-  std::filesystem::remove_all(path_, ignored);
 }
 
 }  // namespace vitrail::test

@@ -20,17 +20,4 @@ std::string read_text(const std::filesystem::path& file);
 // Overwrites a file that exists.
 void write_text(const std::filesystem::path& file, const std::string& text);
 
-// A directory of its own for the running test, removed at the end.
-class TestDirectory {
- public:
-  TestDirectory();
-  ~TestDirectory();
-  TestDirectory(const TestDirectory&) = delete;
-  TestDirectory& operator=(const TestDirectory&) = delete;
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
-
 }  // namespace vitrail::test

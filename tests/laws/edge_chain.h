@@ -26,8 +26,9 @@ class EdgeChain {
   // Each as often as it is left.
   std::vector<DirectedEdge> edges() const;
 
-  // The same chain with every edge split at those vertices of the chain that lie on it, within `tolerance`, and with
-  // vertices closer than a tenth of that made one: cancels collinear edges that are divided in different ways.
+  // The same chain with every edge split at those vertices of the chain that lie on it, within `tolerance`,
+  // and with vertices closer than a tenth of that made one: cancels collinear edges that are divided in
+  // different ways.
   EdgeChain refined(double tolerance) const;
 
  private:

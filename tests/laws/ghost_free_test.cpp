@@ -15,6 +15,7 @@
 #include "partitioner/partition.h"
 #include "tests/laws/edge_chain.h"
 #include "tests/partitioner/test_scenes.h"
+#include "tests/support/temporary_directory.h"
 
 namespace vitrail::test {
 

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "tests/partitioner/test_scenes.h"
+#include "tests/support/temporary_directory.h"
 
 namespace vitrail {
 

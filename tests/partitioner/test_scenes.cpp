@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/partitioner/test_scenes.h"
 
-#include <stdlib.h>
-
 #include <cmath>
 #include <numbers>
 #include <random>
-#include <stdexcept>
-#include <string>
 
 namespace vitrail::test {
 
@@ -103,17 +99,6 @@ Scene scene_of(TriangleMesh mesh) {
   scene.materials.emplace_back(DiffuseMaterial{});
   scene.shapes.push_back({Id<TriangleMesh>{0}, Id<Material>{0}, {}, {}, false});
   return scene;
-}
-
-TemporaryDirectory::TemporaryDirectory() {
-  std::string name = (std::filesystem::temp_directory_path() / "vitrail-test-XXXXXX").string();
-  if (!::mkdtemp(name.data())) throw std::runtime_error("cannot create " + name);
-  path_ = name;
-}
-
-TemporaryDirectory::~TemporaryDirectory() {
-  std::error_code ignored;
-  std::filesystem::remove_all(path_, ignored);
 }
 
 }  // namespace vitrail::test

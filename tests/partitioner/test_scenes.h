@@ -2,8 +2,6 @@
 // Scenes for tests of the partitioner.
 #pragma once
 
-#include <filesystem>
-
 #include "scene/scene.h"
 
 namespace vitrail::test {
@@ -18,18 +16,5 @@ TriangleMesh adversarial_soup();
 
 // One shape with a grey diffuse material, and a camera.
 Scene scene_of(TriangleMesh mesh);
-
-// An empty directory that is removed with everything in it.
-class TemporaryDirectory {
- public:
-  TemporaryDirectory();
-  ~TemporaryDirectory();
-  TemporaryDirectory(const TemporaryDirectory&) = delete;
-  TemporaryDirectory& operator=(const TemporaryDirectory&) = delete;
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
 
 }  // namespace vitrail::test
