@@ -24,7 +24,8 @@ void declare(CLI::App& app, Arguments& a) {
   app.add_option("input", a.input, "a bundle (NAME.vit) or a scene, which is partitioned first")->required();
   app.add_option("-o,--output", a.output, "picture (.exr, .png) or film (.film)")->required();
   app.add_option("--spp", o.samples_per_pixel, "samples a pixel");
-  app.add_option("--max-depth", o.max_depth, "scattering events of a path; 0: emitters only, 1: direct light");
+  app.add_option("--max-depth", o.max_depth,
+                 "scattering events of a path; 0: emitters only, 1: direct light");
   app.add_option("--seed", o.seed, "films of different seeds are independent");
   app.add_option("--integrator", a.integrator, "path or direct; default as the scene says")
       ->check(CLI::IsMember({"path", "direct"}));
@@ -94,7 +95,8 @@ int render_job(Transport& transport, Arguments& a) {
   const RenderStats stats = render(transport, a.options);
   if (transport.rank() != 0) return exit_done;
   if (stats.traced.nonfinite_samples > 0)
-    fmt::print(stderr, "vitrail: {} samples were not finite and count as black\n", stats.traced.nonfinite_samples);
+    fmt::print(stderr, "vitrail: {} samples were not finite and count as black\n",
+               stats.traced.nonfinite_samples);
   if (stats.complete) {
     if (a.output.extension() != ".film")
       run_program("vitrail-develop", {a.options.film.string(), "-o", a.output.string()});

@@ -13,7 +13,9 @@
 
 namespace vitrail {
 
-std::filesystem::path program_folder() { return std::filesystem::read_symlink("/proc/self/exe").parent_path(); }
+std::filesystem::path program_folder() {
+  return std::filesystem::read_symlink("/proc/self/exe").parent_path();
+}
 
 void run_program(const std::string& name, const std::vector<std::string>& arguments) {
   std::string program = (program_folder() / name).string();

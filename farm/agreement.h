@@ -8,8 +8,8 @@
 
 namespace vitrail {
 
-// Runs `step` on every rank and waits for all. If it failed anywhere, the ranks where it did throw what happened, the
-// others OtherRankFailed.
+// Runs `step` on every rank and waits for all. If it failed anywhere, the ranks where it did throw what
+// happened, the others OtherRankFailed.
 void agree(Transport& transport, const std::function<void()>& step);
 
 // Throws `own` where it is set, OtherRankFailed elsewhere.

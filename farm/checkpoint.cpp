@@ -37,7 +37,8 @@ std::string mismatch(const Film& read, const FilmProgress& progress, const Film&
 
 }  // namespace
 
-Resumed read_checkpoint(Transport& transport, const std::filesystem::path& file, Film& film, const WorkPlan& plan) {
+Resumed read_checkpoint(Transport& transport, const std::filesystem::path& file, Film& film,
+                        const WorkPlan& plan) {
   Resumed resumed;
   resumed.done.resize((plan.items() + 63) / 64);
   agree(transport, [&] {

@@ -10,18 +10,19 @@ namespace vitrail {
 
 std::filesystem::path checkpoint_path(const std::filesystem::path& film);
 
-// Gathers all ranks' films and item bits on rank 0, whose film then holds everything and the others' nothing, and
-// writes them there. To be called by all ranks together while no ray is alive. `done` is the rank's own bits, and
-// becomes the job's on rank 0 and empty elsewhere.
+// Gathers all ranks' films and item bits on rank 0, whose film then holds everything and the others' nothing,
+// and writes them there. To be called by all ranks together while no ray is alive. `done` is the rank's own
+// bits, and becomes the job's on rank 0 and empty elsewhere.
 void write_job_film(Transport& transport, const std::filesystem::path& file, Film& film,
                     std::vector<std::uint64_t>& done, const WorkPlan& plan, double render_time_s);
 
-// Rank 0 reads the checkpoint into `film`; every rank gets the items it holds. Throws Error when it is of another
-// scene, of other settings or of another sample count.
+// Rank 0 reads the checkpoint into `film`; every rank gets the items it holds. Throws Error when it is of
+// another scene, of other settings or of another sample count.
 struct Resumed {
   std::vector<std::uint64_t> done;
   double render_time_s = 0;  // known to rank 0
 };
-Resumed read_checkpoint(Transport& transport, const std::filesystem::path& file, Film& film, const WorkPlan& plan);
+Resumed read_checkpoint(Transport& transport, const std::filesystem::path& file, Film& film,
+                        const WorkPlan& plan);
 
 }  // namespace vitrail

@@ -41,13 +41,15 @@ MemoryPlan plan_memory(std::uint64_t budget, std::uint64_t base, int threads, st
   const std::uint64_t fixed = base + slack_bytes + slack_a_thread * static_cast<std::uint64_t>(threads);
   const std::uint64_t least = fixed + least_queue_bytes + largest_domain;
   if (budget < least)
-    throw MachineError(fmt::format(
-        "--memory {:.0f}M is too little: {:.0f}M for the program and the film, {:.0f}M for the largest domain; "
-        "at least {:.0f}M is needed, or more domains",
-        static_cast<double>(budget) / mib, static_cast<double>(fixed) / mib, static_cast<double>(largest_domain) / mib,
-        static_cast<double>(least + mib - 1) / mib));
+    throw MachineError(
+        fmt::format("--memory {:.0f}M is too little: {:.0f}M for the program and the film, {:.0f}M for the "
+                    "largest domain; "
+                    "at least {:.0f}M is needed, or more domains",
+                    static_cast<double>(budget) / mib, static_cast<double>(fixed) / mib,
+                    static_cast<double>(largest_domain) / mib, static_cast<double>(least + mib - 1) / mib));
   const std::uint64_t free = budget - fixed;
-  const std::uint64_t queues = std::clamp(free / 5, least_queue_bytes, std::min(most_queue_bytes, free - largest_domain));
+  const std::uint64_t queues =
+      std::clamp(free / 5, least_queue_bytes, std::min(most_queue_bytes, free - largest_domain));
   return {free - queues, queues};
 }
 

@@ -24,7 +24,8 @@ class MpiTransport final : public Transport {
     ::setenv("OMPI_MCA_mpi_yield_when_idle", "1", 0);
     int provided = 0;
     MPI_Init_thread(argc, argv, MPI_THREAD_FUNNELED, &provided);
-    if (provided < MPI_THREAD_FUNNELED) throw MachineError("this MPI does not allow threads beside the one that calls it");
+    if (provided < MPI_THREAD_FUNNELED)
+      throw MachineError("this MPI does not allow threads beside the one that calls it");
     MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
     MPI_Comm_size(MPI_COMM_WORLD, &size_);
   }
@@ -36,8 +37,8 @@ class MpiTransport final : public Transport {
   void send(int to, RayBatch batch) override {
     complete_sends();
     Sending& s = sending_.emplace_back(Sending{std::move(batch), MPI_REQUEST_NULL});
-    MPI_Isend(s.batch.bytes().data(), static_cast<int>(s.batch.bytes().size()), MPI_BYTE, to, 0, MPI_COMM_WORLD,
-              &s.request);
+    MPI_Isend(s.batch.bytes().data(), static_cast<int>(s.batch.bytes().size()), MPI_BYTE, to, 0,
+              MPI_COMM_WORLD, &s.request);
   }
 
   std::optional<RayBatch> receive() override {
@@ -56,7 +57,8 @@ class MpiTransport final : public Transport {
 
   void start_round(const RoundSums& mine) override {
     mine_ = mine;
-    MPI_Iallreduce(&mine_, &sums_, static_cast<int>(round_values), MPI_INT64_T, MPI_SUM, MPI_COMM_WORLD, &round_);
+    MPI_Iallreduce(&mine_, &sums_, static_cast<int>(round_values), MPI_INT64_T, MPI_SUM, MPI_COMM_WORLD,
+                   &round_);
   }
 
   std::optional<RoundSums> finish_round() override {
@@ -73,8 +75,8 @@ class MpiTransport final : public Transport {
 
   void broadcast_from_root(std::span<std::uint64_t> values) override {
     for (std::size_t at = 0; at < values.size(); at += collective_part)
-      MPI_Bcast(values.data() + at, static_cast<int>(std::min(collective_part, values.size() - at)), MPI_UINT64_T, 0,
-                MPI_COMM_WORLD);
+      MPI_Bcast(values.data() + at, static_cast<int>(std::min(collective_part, values.size() - at)),
+                MPI_UINT64_T, 0, MPI_COMM_WORLD);
   }
 
  private:
@@ -95,8 +97,8 @@ class MpiTransport final : public Transport {
   void reduce(std::span<T> values, MPI_Datatype type, MPI_Op operation) {
     for (std::size_t at = 0; at < values.size(); at += collective_part) {
       const int count = static_cast<int>(std::min(collective_part, values.size() - at));
-      MPI_Reduce(rank_ == 0 ? MPI_IN_PLACE : values.data() + at, values.data() + at, count, type, operation, 0,
-                 MPI_COMM_WORLD);
+      MPI_Reduce(rank_ == 0 ? MPI_IN_PLACE : values.data() + at, values.data() + at, count, type, operation,
+                 0, MPI_COMM_WORLD);
     }
     if (rank_ != 0) std::ranges::fill(values, T{});
   }

@@ -11,7 +11,8 @@ namespace vitrail {
 
 class RayQueues {
  public:
-  // With a `shuffle_seed`, batches and the rays in them leave in an arbitrary order: no picture may depend on it.
+  // With a `shuffle_seed`, batches and the rays in them leave in an arbitrary order: no picture may depend on
+  // it.
   RayQueues(std::size_t domains, std::optional<std::uint64_t> shuffle_seed);
 
   template <class Record>

@@ -123,7 +123,8 @@ void Rank::watch_clock() {
   if (stop_signalled()) want_stop_ = true;
   if (transport_.rank() != 0) return;
   const auto since_checkpoint = std::chrono::duration<double>(Clock::now() - last_checkpoint_).count();
-  if (options_.checkpoint_every_s > 0 && since_checkpoint >= options_.checkpoint_every_s) want_checkpoint_ = true;
+  if (options_.checkpoint_every_s > 0 && since_checkpoint >= options_.checkpoint_every_s)
+    want_checkpoint_ = true;
   if (options_.time_limit_s > 0 && elapsed_s() >= options_.time_limit_s) time_is_up_ = want_stop_ = true;
 }
 
@@ -151,8 +152,8 @@ Rank::Decision Rank::decide(const RoundSums& sums) {
     leave(state_.failure, sums);
   }
   const std::int64_t alive = sums.born - sums.died;
-  // Twice in a row nothing was alive and nothing new was born in between: then nothing was alive at one moment between
-  // the two rounds, and nothing can begin (Mattern 1987, the four-counter method).
+  // Twice in a row nothing was alive and nothing new was born in between: then nothing was alive at one
+  // moment between the two rounds, and nothing can begin (Mattern 1987, the four-counter method).
   const bool calm = alive == 0 && sums.quiet == transport_.size();
   const bool over = calm && calm_ && sums.born == born_then_;
   calm_ = calm;
@@ -164,7 +165,8 @@ Rank::Decision Rank::decide(const RoundSums& sums) {
   }
   state_.work_available.notify_all();
   if (!over) return Decision::go_on;
-  if (sums.items_done == static_cast<std::int64_t>(state_.plan.items()) || sums.time_is_up > 0) return Decision::finish;
+  if (sums.items_done == static_cast<std::int64_t>(state_.plan.items()) || sums.time_is_up > 0)
+    return Decision::finish;
   return sums.stop > 0 ? Decision::stop : Decision::checkpoint;
 }
 
@@ -182,8 +184,8 @@ void Rank::write(const std::filesystem::path& file) {
   last_checkpoint_ = Clock::now();
 }
 
-// After a failure: no rank may end while a message to it or from it is under way. Batches sent and received are
-// counted until the sums agree.
+// After a failure: no rank may end while a message to it or from it is under way. Batches sent and received
+// are counted until the sums agree.
 void Rank::leave_together() {
   {
     const std::lock_guard lock(state_.mutex);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One rank of a job: moves rays between ranks, watches for the end, writes checkpoints. The only thread that speaks to
-// the transport.
+// One rank of a job: moves rays between ranks, watches for the end, writes checkpoints. The only thread that
+// speaks to the transport.
 #pragma once
 
 #include <chrono>
@@ -19,9 +19,9 @@ class Rank {
   Rank(Transport& transport, RankState& state, const RenderOptions& options, Resumed resumed,
        std::int64_t rays_allowed);
 
-  // Until the picture is whole, the time is up or the job is told to stop. Returns whether the final film was written
-  // (on rank 0); if not, a checkpoint was. Throws what went wrong here, or OtherRankFailed,
-  // after all ranks have agreed to end.
+  // Until the picture is whole, the time is up or the job is told to stop. Returns whether the final film was
+  // written (on rank 0); if not, a checkpoint was. Throws what went wrong here, or OtherRankFailed, after all
+  // ranks have agreed to end.
   bool run();
 
   void add_to(RenderStats& stats) const;
@@ -41,13 +41,14 @@ class Rank {
   RankState& state_;
   const RenderOptions& options_;
   Progress progress_;
-  std::vector<std::uint64_t> done_;   // bits of finished items that rank 0 does not hold yet; all of them on rank 0
-  std::size_t reported_ = 0;          // items of the share already in done_
-  std::uint64_t items_before_ = 0;    // on rank 0: done by earlier runs
-  double time_before_s_ = 0;          // render time of earlier runs
+  std::vector<std::uint64_t>
+      done_;                  // bits of finished items that rank 0 does not hold yet; all of them on rank 0
+  std::size_t reported_ = 0;  // items of the share already in done_
+  std::uint64_t items_before_ = 0;  // on rank 0: done by earlier runs
+  double time_before_s_ = 0;        // render time of earlier runs
   std::int64_t rays_allowed_ = 0;
   bool want_checkpoint_ = false, want_stop_ = false, time_is_up_ = false;
-  bool calm_ = false;                 // the last round saw no ray alive and nothing to generate
+  bool calm_ = false;  // the last round saw no ray alive and nothing to generate
   std::int64_t born_then_ = -1;
   std::uint64_t messages_ = 0, received_ = 0, sent_bytes_ = 0;
   std::chrono::steady_clock::time_point start_, last_checkpoint_, last_sent_;

@@ -30,12 +30,12 @@ double cpu_seconds() {
 
 Manifest read_with_overrides(const RenderOptions& options) {
   Manifest m = read_manifest(options.bundle);
-  if (m.domains.size() > max_domains)
-    throw Error("more than 65535 domains", {options.bundle.string()});
+  if (m.domains.size() > max_domains) throw Error("more than 65535 domains", {options.bundle.string()});
   if (options.samples_per_pixel) m.settings.samples_per_pixel = *options.samples_per_pixel;
   if (options.max_depth) m.settings.max_depth = *options.max_depth;
   if (options.direct_only) m.settings.direct_only = *options.direct_only;
-  if (m.settings.samples_per_pixel < 1 || static_cast<std::uint32_t>(m.settings.samples_per_pixel) >= max_samples)
+  if (m.settings.samples_per_pixel < 1 ||
+      static_cast<std::uint32_t>(m.settings.samples_per_pixel) >= max_samples)
     throw UsageError("samples a pixel must be between 1 and 16777215");
   if (m.settings.max_depth < 0) throw UsageError("the depth must not be negative");
   m.settings.max_depth = std::min(m.settings.max_depth, max_path_depth);
@@ -48,8 +48,8 @@ Manifest read_with_overrides(const RenderOptions& options) {
 
 // Of what changes the picture and is neither in the scene hash nor the seed or the sample count.
 std::uint64_t settings_hash(const Manifest& m) {
-  const std::int32_t values[] = {m.settings.max_depth, m.settings.direct_only, m.film.crop.x0, m.film.crop.x1,
-                                 m.film.crop.y0,       m.film.crop.y1};
+  const std::int32_t values[] = {m.settings.max_depth, m.settings.direct_only, m.film.crop.x0,
+                                 m.film.crop.x1,       m.film.crop.y0,         m.film.crop.y1};
   return XXH3_64bits(values, sizeof values);
 }
 
@@ -93,8 +93,9 @@ RenderStats render(Transport& transport, const RenderOptions& options) {
   const auto start = std::chrono::steady_clock::now();
   ::mallopt(M_ARENA_MAX, 2);  // an arena a thread would keep memory that the budget does not know of
   catch_signals();
-  const int threads = options.threads > 0 ? options.threads
-                                          : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  const int threads = options.threads > 0
+                          ? options.threads
+                          : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   RenderStats stats;
   std::optional<Job> job;
   MemoryPlan memory;
@@ -109,8 +110,8 @@ RenderStats render(Transport& transport, const RenderOptions& options) {
   if (options.resume) resumed = read_checkpoint(transport, checkpoint, job->film, job->plan);
 
   RankState state(job->scene, job->film, job->plan, RayQueues(manifest.domains.size(), options.shuffle_seed),
-                  Residency(manifest, options.bundle, memory.domains_bytes, home_ranks(manifest, transport.size()),
-                            transport.rank()));
+                  Residency(manifest, options.bundle, memory.domains_bytes,
+                            home_ranks(manifest, transport.size()), transport.rank()));
   Rank rank(transport, state, options, std::move(resumed), rays_allowed(memory));
   {
     const Workers workers(state, threads);

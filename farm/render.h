@@ -16,9 +16,9 @@ struct OtherRankFailed : std::runtime_error {
   bool bad_input;
 };
 
-// Called by every rank with the same options. Writes the film, or a checkpoint if it is stopped before the end, and the
-// statistics; all on rank 0. The job's statistics are returned on rank 0. Errors end the job on all ranks: the rank
-// that failed throws what happened, the others OtherRankFailed.
+// Called by every rank with the same options. Writes the film, or a checkpoint if it is stopped before the
+// end, and the statistics; all on rank 0. The job's statistics are returned on rank 0. Errors end the job on
+// all ranks: the rank that failed throws what happened, the others OtherRankFailed.
 RenderStats render(Transport& transport, const RenderOptions& options);
 
 }  // namespace vitrail

@@ -8,7 +8,8 @@ namespace vitrail {
 namespace {
 
 constexpr std::uint64_t rays_that_earn_a_replica = 16384;
-// Without need, a resident domain makes room only for one with this many times its rays, and this many at least.
+// Without need, a resident domain makes room only for one with this many times its rays, and this many at
+// least.
 constexpr std::size_t worth_a_swap = 4, rays_worth_a_load = 4096;
 
 }  // namespace
@@ -71,7 +72,8 @@ bool Residency::make_room(std::uint64_t bytes, std::size_t candidate_waiting,
     }
     if (!victim || in_table + bytes <= budget_) return false;
     const std::size_t fewest = waiting(*victim);
-    const bool worthwhile = candidate_waiting >= rays_worth_a_load && fewest * worth_a_swap <= candidate_waiting;
+    const bool worthwhile =
+        candidate_waiting >= rays_worth_a_load && fewest * worth_a_swap <= candidate_waiting;
     if (fewest >= candidate_waiting || !(starving || worthwhile)) return false;
     ++evictions_;
     replace(*victim, nullptr);
@@ -81,8 +83,11 @@ bool Residency::make_room(std::uint64_t bytes, std::size_t candidate_waiting,
 
 std::shared_ptr<const MappedDomain> Residency::load(std::uint32_t domain) {
   const std::uint64_t bytes = manifest_.domains[domain].bytes;
-  return {new MappedDomain(domain_path(bundle_, domain)), [held = held_, bytes](const MappedDomain* mapped) {
-            delete mapped;
+  const std::filesystem::path file = domain_path(bundle_, domain);
+  auto mapped = std::make_unique<const MappedDomain>(file);
+  check_domain(manifest_, domain, *mapped, file);
+  return {mapped.release(), [held = held_, bytes](const MappedDomain* evicted) {
+            delete evicted;
             *held -= bytes;
           }};
 }
@@ -107,7 +112,9 @@ std::vector<int> home_ranks(const Manifest& manifest, int ranks) {
   std::uint64_t before = 0;
   for (const DomainInfo& d : manifest.domains) {
     const std::uint64_t middle = before + d.bytes / 2;
-    home.push_back(total == 0 ? 0 : std::min(ranks - 1, static_cast<int>(middle * static_cast<std::uint64_t>(ranks) / total)));
+    home.push_back(total == 0 ? 0
+                              : std::min(ranks - 1, static_cast<int>(
+                                                        middle * static_cast<std::uint64_t>(ranks) / total)));
     before += d.bytes;
   }
   return home;

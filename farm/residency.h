@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which domains a rank keeps in memory. Loads run in the background; the domain with the most waiting rays is loaded,
-// the one with the fewest makes room.
+// Which domains a rank keeps in memory. Loads run in the background; the domain with the most waiting rays is
+// loaded, the one with the fewest makes room.
 #pragma once
 
 #include <atomic>
@@ -14,8 +14,8 @@
 
 namespace vitrail {
 
-// The resident domains at one moment. A worker keeps its own reference while it traces, so a domain that is evicted
-// meanwhile is unmapped when the last worker lets go of it.
+// The resident domains at one moment. A worker keeps its own reference while it traces, so a domain that is
+// evicted meanwhile is unmapped when the last worker lets go of it.
 struct ResidentTable {
   std::vector<std::shared_ptr<const MappedDomain>> domains;
   std::vector<const DomainView*> views;
@@ -36,9 +36,10 @@ class Residency {
   // Tells that rays for a domain of another rank left: a domain much asked for is kept here too, if it fits.
   void note_forwarded(std::uint32_t domain, std::uint64_t rays);
 
-  // The domain to load now, room made for it and reserved; empty while there is none or until workers let go of what
-  // was evicted. `waiting(d)` counts the rays for d; `starving`: the workers have nothing else to do.
-  std::optional<std::uint32_t> reserve(const std::function<std::size_t(std::uint32_t)>& waiting, bool starving);
+  // The domain to load now, room made for it and reserved; empty while there is none or until workers let go
+  // of what was evicted. `waiting(d)` counts the rays for d; `starving`: the workers have nothing else to do.
+  std::optional<std::uint32_t> reserve(const std::function<std::size_t(std::uint32_t)>& waiting,
+                                       bool starving);
   // Maps and verifies; may be called without the mutex.
   std::shared_ptr<const MappedDomain> load(std::uint32_t domain);
   void insert(std::uint32_t domain, std::shared_ptr<const MappedDomain> mapped);
@@ -59,12 +60,14 @@ class Residency {
   std::vector<int> home_;
   std::vector<bool> local_, touched_;
   std::vector<std::uint64_t> forwarded_;
-  std::shared_ptr<std::atomic<std::uint64_t>> held_;  // bytes mapped or reserved, evicted ones until they are let go
+  std::shared_ptr<std::atomic<std::uint64_t>>
+      held_;  // bytes mapped or reserved, evicted ones until they are let go
   std::shared_ptr<const ResidentTable> table_;
   std::uint64_t loads_ = 0, evictions_ = 0;
 };
 
-// Contiguous runs of domains in kd order, of about equal bytes: neighbours share a rank and rays stay home longer.
+// Contiguous runs of domains in kd order, of about equal bytes: neighbours share a rank and rays stay home
+// longer.
 std::vector<int> home_ranks(const Manifest& manifest, int ranks);
 
 }  // namespace vitrail

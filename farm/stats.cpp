@@ -9,9 +9,16 @@
 namespace vitrail {
 
 void gather_stats(Transport& transport, RenderStats& s, const std::vector<bool>& touched) {
-  std::uint64_t* const summed[] = {&s.traced.rays_camera, &s.traced.rays_indirect, &s.traced.rays_shadow,
-                                   &s.traced.crossings, &s.traced.nonfinite_samples, &s.forwarded_rays,
-                                   &s.forwarded_bytes, &s.messages, &s.domain_loads, &s.evictions};
+  std::uint64_t* const summed[] = {&s.traced.rays_camera,
+                                   &s.traced.rays_indirect,
+                                   &s.traced.rays_shadow,
+                                   &s.traced.crossings,
+                                   &s.traced.nonfinite_samples,
+                                   &s.forwarded_rays,
+                                   &s.forwarded_bytes,
+                                   &s.messages,
+                                   &s.domain_loads,
+                                   &s.evictions};
   std::vector<std::int64_t> counts;
   for (const std::uint64_t* value : summed) counts.push_back(static_cast<std::int64_t>(*value));
   transport.sum_to_root(std::span(counts));
@@ -28,7 +35,8 @@ void gather_stats(Transport& transport, RenderStats& s, const std::vector<bool>&
   s.trace_s = times[2];
   s.idle_s = times[3];
 
-  std::int64_t memory[] = {static_cast<std::int64_t>(s.peak_rss_bytes), static_cast<std::int64_t>(s.base_rss_bytes)};
+  std::int64_t memory[] = {static_cast<std::int64_t>(s.peak_rss_bytes),
+                           static_cast<std::int64_t>(s.base_rss_bytes)};
   transport.max_to_root(memory);
   s.peak_rss_bytes = static_cast<std::uint64_t>(memory[0]);
   s.base_rss_bytes = static_cast<std::uint64_t>(memory[1]);

@@ -8,7 +8,8 @@
 
 namespace vitrail {
 
-// The statistics of a render, of one rank and, after `gather_stats`, of the job: sums, and maxima for the memory.
+// The statistics of a render, of one rank and, after `gather_stats`, of the job: sums, and maxima for the
+// memory.
 struct RenderStats {
   int ranks = 1, threads = 1;
   std::uint64_t spp = 0, seed = 0, samples = 0;

@@ -7,7 +7,9 @@ namespace vitrail {
 
 namespace {
 
-std::uint64_t tiles(int extent) { return static_cast<std::uint64_t>((extent + WorkPlan::tile - 1) / WorkPlan::tile); }
+std::uint64_t tiles(int extent) {
+  return static_cast<std::uint64_t>((extent + WorkPlan::tile - 1) / WorkPlan::tile);
+}
 
 }  // namespace
 
@@ -33,14 +35,16 @@ WorkPlan make_work_plan(const PixelRect& crop, std::uint32_t samples) {
   return {crop, samples, std::clamp(samples / 128, 1u, 16u)};
 }
 
-std::vector<std::uint64_t> share_of(const WorkPlan& plan, const std::vector<std::uint64_t>& done, int rank, int ranks) {
+std::vector<std::uint64_t> share_of(const WorkPlan& plan, const std::vector<std::uint64_t>& done, int rank,
+                                    int ranks) {
   std::vector<std::uint64_t> share;
   std::uint64_t open = 0;
   for (std::uint64_t i = 0; i < plan.items(); ++i) {
     if (!done.empty() && (done[i / 64] >> (i % 64) & 1)) continue;
     // A shift by one each row keeps the tiles of a rank from lining up in columns.
     const std::uint64_t row = i / plan.tiles_x();
-    if ((open++ + row) % static_cast<std::uint64_t>(ranks) == static_cast<std::uint64_t>(rank)) share.push_back(i);
+    if ((open++ + row) % static_cast<std::uint64_t>(ranks) == static_cast<std::uint64_t>(rank))
+      share.push_back(i);
   }
   return share;
 }

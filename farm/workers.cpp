@@ -49,7 +49,8 @@ Task take_task(RankState& s) {
     task.item = s.plan.item(s.share[s.next_item++]);
     ++s.items_in_hand;
     const PixelRect& p = task.item->pixels;
-    s.allowance -= static_cast<std::int64_t>(p.x1 - p.x0) * (p.y1 - p.y0) * (task.item->sample1 - task.item->sample0);
+    s.allowance -=
+        static_cast<std::int64_t>(p.x1 - p.x0) * (p.y1 - p.y0) * (task.item->sample1 - task.item->sample0);
   }
   return task;
 }
@@ -59,7 +60,8 @@ void perform(const Task& task, PathTracer& tracer) {
     const WorkItem& item = *task.item;
     for (int y = item.pixels.y0; y < item.pixels.y1; ++y)
       for (int x = item.pixels.x0; x < item.pixels.x1; ++x)
-        for (std::uint32_t sample = item.sample0; sample < item.sample1; ++sample) tracer.trace_camera(x, y, sample);
+        for (std::uint32_t sample = item.sample0; sample < item.sample1; ++sample)
+          tracer.trace_camera(x, y, sample);
     return;
   }
   RayBatch batch = *task.batch;
@@ -83,8 +85,8 @@ void route(RankState& s, const std::vector<Entry>& entries) {
   }
 }
 
-// The mutex is held. Rays are counted as born before another thread or rank can see them, and as dead in the same
-// step, so that the sums of a round never miss one that is alive.
+// The mutex is held. Rays are counted as born before another thread or rank can see them, and as dead in the
+// same step, so that the sums of a round never miss one that is alive.
 void publish(RankState& s, const Task& task, Outbox& outbox, TraceCounters& counters) {
   s.counters += counters;
   route(s, outbox.paths);
@@ -161,8 +163,8 @@ void guarded(RankState& s, void (*body)(RankState&)) {
 
 }  // namespace
 
-RankState::RankState(const RenderScene& the_scene, Film& the_film, const WorkPlan& the_plan, RayQueues the_queues,
-                     Residency the_residency)
+RankState::RankState(const RenderScene& the_scene, Film& the_film, const WorkPlan& the_plan,
+                     RayQueues the_queues, Residency the_residency)
     : scene(the_scene),
       film(the_film),
       plan(the_plan),

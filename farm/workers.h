@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The threads of a rank: workers that generate and trace rays, one that loads domains. They share the rank's state
-// under one mutex that is held for moments; tracing runs outside it.
+// The threads of a rank: workers that generate and trace rays, one that loads domains. They share the rank's
+// state under one mutex that is held for moments; tracing runs outside it.
 #pragma once
 
 #include <condition_variable>
@@ -17,7 +17,8 @@ namespace vitrail {
 
 // Everything the threads of a rank share. `mutex` guards all of it but the film and the scene.
 struct RankState {
-  RankState(const RenderScene& scene, Film& film, const WorkPlan& plan, RayQueues queues, Residency residency);
+  RankState(const RenderScene& scene, Film& film, const WorkPlan& plan, RayQueues queues,
+            Residency residency);
 
   const RenderScene& scene;
   Film& film;
@@ -25,9 +26,9 @@ struct RankState {
 
   std::mutex mutex;
   std::condition_variable work_available, load_wanted;
-  RayQueues queues;        // of local domains
+  RayQueues queues;  // of local domains
   Residency residency;
-  RayQueues outgoing;      // of the others' domains
+  RayQueues outgoing;  // of the others' domains
   std::size_t outgoing_rays = 0;
 
   std::vector<std::uint64_t> share;  // items of this rank

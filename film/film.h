@@ -14,8 +14,9 @@
 
 namespace vitrail {
 
-// Samples of a pixel are dealt into this many groups (sample index modulo it) whose luminance sums are kept apart: their
-// scatter estimates the variance of the pixel, which single deposits, being parts of samples, cannot.
+// Samples of a pixel are dealt into this many groups (sample index modulo it) whose luminance sums are kept
+// apart: their scatter estimates the variance of the pixel, which single deposits, being parts of samples,
+// cannot.
 inline constexpr int luminance_groups = 8;
 
 // Identifies what a film is of. Films of the same key but different seeds merge; a resume needs all equal.
@@ -33,15 +34,16 @@ class Film {
   Film(const FilmSettings& settings, const FilmKey& key);
 
   const PixelRect& crop() const { return crop_; }
-  int width() const { return crop_.x1 - crop_.x0; }    // of the crop
-  int height() const { return crop_.y1 - crop_.y0; }   // of the crop
+  int width() const { return crop_.x1 - crop_.x0; }   // of the crop
+  int height() const { return crop_.y1 - crop_.y0; }  // of the crop
   int full_width() const { return full_width_; }
   int full_height() const { return full_height_; }
   double imaging_ratio() const { return imaging_ratio_; }
   const FilmKey& key() const { return key_; }
 
-  // Adds to a pixel, each component rounded once to 2⁻³². Safe from many threads. `pixel` = y·width + x within the
-  // crop. Returns false, and adds nothing, if the value is not finite or too large for the fixed point.
+  // Adds to a pixel, each component rounded once to 2⁻³². Safe from many threads. `pixel` = y·width + x
+  // within the crop. Returns false, and adds nothing, if the value is not finite or too large for the fixed
+  // point.
   bool deposit(std::uint32_t pixel, std::uint32_t sample, const XYZ& value);
   // Counts one sample of a pixel, whatever it deposits.
   void count_sample(std::uint32_t pixel);
@@ -69,7 +71,8 @@ class Film {
 
  private:
   friend Film read_film(const std::filesystem::path& file, struct FilmProgress* progress);
-  friend void write_film(const std::filesystem::path& file, const Film& film, const struct FilmProgress& progress);
+  friend void write_film(const std::filesystem::path& file, const Film& film,
+                         const struct FilmProgress& progress);
   PixelRect crop_{};
   int full_width_ = 0, full_height_ = 0;
   double imaging_ratio_ = 1;
@@ -78,7 +81,8 @@ class Film {
   std::vector<std::uint32_t> counts_;
 };
 
-// Which samples a film holds: bit i of `done` is work item i of `items` (see farm/work.h). A finished film has all.
+// Which samples a film holds: bit i of `done` is work item i of `items` (see farm/work.h). A finished film
+// has all.
 struct FilmProgress {
   std::uint64_t items = 0;
   std::uint64_t samples_per_pixel = 0;

@@ -9,8 +9,9 @@
 
 namespace vitrail {
 
-// Appends to a temporary file beside `target`; `commit` syncs it and renames it to the target. Without a commit the
-// destructor removes it. Every failure (no space, no permission) throws MachineError with the file and the reason.
+// Appends to a temporary file beside `target`; `commit` syncs it and renames it to the target. Without a
+// commit the destructor removes it. Every failure (no space, no permission) throws MachineError with the file
+// and the reason.
 class AtomicFile {
  public:
   explicit AtomicFile(std::filesystem::path target);

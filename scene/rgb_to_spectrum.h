@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// RGB → smooth spectra after Jakob & Hanika, "A Low-Dimensional Function Space for Efficient Spectral Upsampling" (2019).
+// RGB → smooth spectra after Jakob & Hanika, "A Low-Dimensional Function Space for Efficient Spectral
+// Upsampling" (2019).
 #pragma once
 
 #include "scene/color.h"

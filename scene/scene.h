@@ -16,10 +16,12 @@
 
 namespace vitrail {
 
-// ---- Geometry ------------------------------------------------------------------------------------------------
+// ---- Geometry
+// ------------------------------------------------------------------------------------------------
 
 // Object-space triangles. `normals` and `uvs` are empty or have one entry a position.
-// All indices are in range and all positions finite: importers guarantee it, with the place of the first offender.
+// All indices are in range and all positions finite: importers guarantee it, with the place of the first
+// offender.
 struct TriangleMesh {
   std::vector<Point3f> positions;
   std::vector<std::array<std::uint32_t, 3>> triangles;
@@ -28,7 +30,8 @@ struct TriangleMesh {
   bool operator==(const TriangleMesh&) const = default;
 };
 
-// ---- Materials -----------------------------------------------------------------------------------------------
+// ---- Materials
+// -----------------------------------------------------------------------------------------------
 
 // Lambertian on both sides: f = reflectance/π.
 struct DiffuseMaterial {
@@ -49,7 +52,8 @@ struct InterfaceMaterial {
 
 using Material = std::variant<DiffuseMaterial, DielectricMaterial, InterfaceMaterial>;
 
-// ---- Lights --------------------------------------------------------------------------------------------------
+// ---- Lights
+// --------------------------------------------------------------------------------------------------
 
 // Emission of a surface: radiance, W·m⁻²·sr⁻¹·nm⁻¹, from its front side or from both.
 struct AreaLight {
@@ -80,7 +84,8 @@ struct InfiniteLight {
 
 using Light = std::variant<PointLight, DistantLight, InfiniteLight>;
 
-// ---- Placement -----------------------------------------------------------------------------------------------
+// ---- Placement
+// -----------------------------------------------------------------------------------------------
 
 // The front of a triangle is the side from which its vertices, taken to the world, run counter-clockwise;
 // `flip_orientation` swaps the sides.
@@ -107,10 +112,11 @@ struct Instance {
   bool operator==(const Instance&) const = default;
 };
 
-// ---- Camera and film -----------------------------------------------------------------------------------------
+// ---- Camera and film
+// -----------------------------------------------------------------------------------------
 
-// Camera space: +z is the view, +x raster right, +y up. The raster covers `screen` (in units of the plane z = 1 for
-// the perspective camera, of the world for the orthographic one): x0 at the left edge, y1 at the top.
+// Camera space: +z is the view, +x raster right, +y up. The raster covers `screen` (in units of the plane z =
+// 1 for the perspective camera, of the world for the orthographic one): x0 at the left edge, y1 at the top.
 struct ScreenWindow {
   double x0 = -1, x1 = 1, y0 = -1, y1 = 1;
   bool operator==(const ScreenWindow&) const = default;
@@ -130,8 +136,8 @@ struct OrthographicCamera {
 
 using Camera = std::variant<PerspectiveCamera, OrthographicCamera>;
 
-// Pixel reconstruction filters, all normalised; radii and σ in pixels. The Gaussian is pbrt's: lowered to reach 0 at
-// its radius.
+// Pixel reconstruction filters, all normalised; radii and σ in pixels. The Gaussian is pbrt's: lowered to
+// reach 0 at its radius.
 struct BoxFilter {
   double radius_x = 0.5, radius_y = 0.5;
   bool operator==(const BoxFilter&) const = default;
@@ -160,8 +166,8 @@ struct FilmSettings {
   bool operator==(const FilmSettings&) const = default;
 };
 
-// What the scene file asks for; the command line overrides it. Depth counts scattering events as pbrt does: 0 shows
-// emitters only, 1 adds direct light.
+// What the scene file asks for; the command line overrides it. Depth counts scattering events as pbrt does: 0
+// shows emitters only, 1 adds direct light.
 struct RenderSettings {
   int samples_per_pixel = 16;
   int max_depth = 5;
@@ -169,7 +175,8 @@ struct RenderSettings {
   bool operator==(const RenderSettings&) const = default;
 };
 
-// ---- The scene -----------------------------------------------------------------------------------------------
+// ---- The scene
+// -----------------------------------------------------------------------------------------------
 
 struct Scene {
   std::vector<TriangleMesh> meshes;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Affine and projective 4×4 transforms in double precision. Importers compose them here and round only at the end.
+// Affine and projective 4×4 transforms in double precision. Importers compose them here and round only at the
+// end.
 #pragma once
 
 #include <array>
@@ -20,9 +21,9 @@ Transform translate(Vector3d by);
 Transform scale(Vector3d by);
 // Right-handed rotation by `angle_rad` about `axis` (any length; zero gives the identity).
 Transform rotate(double angle_rad, Vector3d axis);
-// Camera-to-world of a camera at `eye` looking at `target`: +z is the view direction, +y is up and +x is pbrt's
-// raster right, up × view. A degenerate frame (eye = target, up parallel to the view) gives nothing finite to
-// return: the caller checks with `is_invertible`.
+// Camera-to-world of a camera at `eye` looking at `target`: +z is the view direction, +y is up and +x is
+// pbrt's raster right, up × view. A degenerate frame (eye = target, up parallel to the view) gives nothing
+// finite to return: the caller checks with `is_invertible`.
 Transform look_at(Point3d eye, Point3d target, Vector3d up);
 
 // Inverse by cofactors; `is_invertible` says beforehand whether it exists.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Scattering at a surface. Directions point away from the surface, in the local frame whose +z is the shading normal.
+// Scattering at a surface. Directions point away from the surface, in the local frame whose +z is the shading
+// normal.
 #pragma once
 
 #include "scene/sampled_spectrum.h"
@@ -11,18 +12,20 @@ namespace vitrail {
 struct Frame {
   Vector3d tangent, bitangent, normal;
   explicit Frame(Vector3d unit_normal);
-  Vector3d to_world(Vector3d local) const { return tangent * local.x + bitangent * local.y + normal * local.z; }
+  Vector3d to_world(Vector3d local) const {
+    return tangent * local.x + bitangent * local.y + normal * local.z;
+  }
 };
 
 // Cosine-weighted direction on the upper hemisphere, pdf cosθ/π: Shirley & Chiu's (1997) disk lifted up.
 Vector3d sample_cosine_hemisphere(float u, float v);
 
-// Unpolarised reflectance of a smooth interface; cosine ≥ 0 on the side of incidence, eta = index behind / index in
-// front. 1 under total internal reflection. (Born & Wolf, §1.5.2)
+// Unpolarised reflectance of a smooth interface; cosine ≥ 0 on the side of incidence, eta = index behind /
+// index in front. 1 under total internal reflection. (Born & Wolf, §1.5.2)
 double fresnel_dielectric(double cosine, double eta);
 
-// Direction refracted by Snell's law, for `out` (unit, away from the surface) on the side of the unit normal; false
-// under total internal reflection. eta as above.
+// Direction refracted by Snell's law, for `out` (unit, away from the surface) on the side of the unit normal;
+// false under total internal reflection. eta as above.
 bool refract(Vector3d out, Vector3d normal, double eta, Vector3d& refracted);
 
 }  // namespace vitrail

@@ -10,7 +10,9 @@ namespace {
 // The filter along one axis at distance x from its centre, not normalised.
 double value(const TriangleFilter&, double radius, double x) { return std::max(0.0, radius - std::abs(x)); }
 double value(const GaussianFilter& f, double radius, double x) {
-  const auto gauss = [&](double d) { return portable_exp(std::max(-700.0, -d * d / (2 * f.sigma * f.sigma))); };
+  const auto gauss = [&](double d) {
+    return portable_exp(std::max(-700.0, -d * d / (2 * f.sigma * f.sigma)));
+  };
   return std::max(0.0, gauss(x) - gauss(radius));
 }
 
@@ -27,7 +29,8 @@ FilterSampler::FilterSampler(const Filter& filter) {
             const double step = 2 * axis->radius / resolution;
             for (std::size_t i = 0; i < resolution; ++i)
               axis->cumulative[i + 1] =
-                  axis->cumulative[i] + value(f, axis->radius, (static_cast<double>(i) + 0.5) * step - axis->radius);
+                  axis->cumulative[i] +
+                  value(f, axis->radius, (static_cast<double>(i) + 0.5) * step - axis->radius);
             const double total = axis->cumulative.back();
             if (!(total > 0)) axis->cumulative.clear();
             for (double& c : axis->cumulative) c /= total;
@@ -52,7 +55,8 @@ Point2d FilterSampler::sample(float u, float v) const {
 
 CameraRay camera_ray(const Camera& camera, const FilmSettings& film, Point2d raster) {
   const auto on_screen = [&](const ScreenWindow& s) {
-    return Point2d{s.x0 + raster.x / film.width * (s.x1 - s.x0), s.y1 - raster.y / film.height * (s.y1 - s.y0)};
+    return Point2d{s.x0 + raster.x / film.width * (s.x1 - s.x0),
+                   s.y1 - raster.y / film.height * (s.y1 - s.y0)};
   };
   Point3d origin;
   Vector3d direction;

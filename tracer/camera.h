@@ -6,8 +6,8 @@
 
 namespace vitrail {
 
-// Inverse cumulative distributions of a separable reconstruction filter, so that a sample lands in one pixel with
-// weight 1 (Ernst, Stamminger & Greiner 2006).
+// Inverse cumulative distributions of a separable reconstruction filter, so that a sample lands in one pixel
+// with weight 1 (Ernst, Stamminger & Greiner 2006).
 class FilterSampler {
  public:
   explicit FilterSampler(const Filter& filter);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Directions in 48 bits: two 24-bit octahedral coordinates (Meyer et al. 2010), resolution 1.2e-7 rad. Every ray takes
-// its direction through this code when it is made, so that a ray sent to another rank is bit for bit the ray kept here.
-// The axes are exact.
+// Directions in 48 bits: two 24-bit octahedral coordinates (Meyer et al. 2010), resolution 1.2e-7 rad. Every
+// ray takes its direction through this code when it is made, so that a ray sent to another rank is bit for
+// bit the ray kept here. The axes are exact.
 #pragma once
 
 #include <cstdint>
@@ -58,8 +58,8 @@ inline FaceCode encode_face(Vector3d normal) {
   return {a << 10 | b};
 }
 
-// Whether a face is parallel to the one encoded, to 0.5°. A wedge of that angle in glass spreads the visible spectrum
-// by less than 1e-4 rad.
+// Whether a face is parallel to the one encoded, to 0.5°. A wedge of that angle in glass spreads the visible
+// spectrum by less than 1e-4 rad.
 inline bool is_parallel(FaceCode code, Vector3d normal) {
   const DirectionCode centre{{static_cast<std::uint16_t>((code.bits >> 10) << 6 | 32),
                               static_cast<std::uint16_t>(code.bits >> 2 & 0xff),

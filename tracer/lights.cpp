@@ -10,7 +10,8 @@ namespace vitrail {
 namespace {
 
 double area(const EmissiveTriangle& t) {
-  return 0.5 * length(cross(cast<double>(t.p[1]) - cast<double>(t.p[0]), cast<double>(t.p[2]) - cast<double>(t.p[0])));
+  return 0.5 * length(cross(cast<double>(t.p[1]) - cast<double>(t.p[0]),
+                            cast<double>(t.p[2]) - cast<double>(t.p[0])));
 }
 
 }  // namespace
@@ -42,8 +43,10 @@ LightSampler make_light_sampler(const Manifest& manifest) {
 namespace {
 
 std::optional<LightSample> sample_triangle(const LightSampler& s, const Manifest& manifest, Point3d p,
-                                           const std::array<float, 4>& u, const SampledWavelengths& wavelengths) {
-  const auto above = std::upper_bound(s.cumulative.begin() + 1, s.cumulative.end() - 1, static_cast<double>(u[2]));
+                                           const std::array<float, 4>& u,
+                                           const SampledWavelengths& wavelengths) {
+  const auto above =
+      std::upper_bound(s.cumulative.begin() + 1, s.cumulative.end() - 1, static_cast<double>(u[2]));
   const auto at = static_cast<std::size_t>(above - s.cumulative.begin()) - 1;
   const EmissiveTriangle& t = manifest.emissive_triangles[s.triangles[at]];
   const AreaLight& light = manifest.area_lights[t.area_light];
@@ -74,7 +77,8 @@ std::optional<LightSample> sample_triangle(const LightSampler& s, const Manifest
 }  // namespace
 
 std::optional<LightSample> sample_light(const LightSampler& s, const Manifest& manifest, Point3d p,
-                                        const std::array<float, 4>& u, const SampledWavelengths& wavelengths) {
+                                        const std::array<float, 4>& u,
+                                        const SampledWavelengths& wavelengths) {
   const std::size_t choices = s.choices();
   if (choices == 0) return std::nullopt;
   const auto choice = std::min(static_cast<std::size_t>(u[3] * static_cast<float>(choices)), choices - 1);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Choosing a point on a light to connect to. Constant infinite lights are left to the BSDF's own samples, which find
-// them with weight 1: for a diffuse surface nothing is better.
+// Choosing a point on a light to connect to. Constant infinite lights are left to the BSDF's own samples,
+// which find them with weight 1: for a diffuse surface nothing is better.
 #pragma once
 
 #include <array>
@@ -12,14 +12,14 @@
 
 namespace vitrail {
 
-// All emissive triangles together are one choice, every point and every distant light one each; all equally likely.
-// Within the triangles one is taken with probability ∝ area · luminance.
+// All emissive triangles together are one choice, every point and every distant light one each; all equally
+// likely. Within the triangles one is taken with probability ∝ area · luminance.
 struct LightSampler {
   std::vector<std::uint32_t> delta;      // indices into Manifest::lights
   std::vector<std::uint32_t> triangles;  // indices into Manifest::emissive_triangles, those with power
   std::vector<double> cumulative;        // of them, 0 … 1, one more than triangles
-  std::vector<float> area_pdf;           // per area light: density of its points, per unit area, the choice included
-  std::vector<std::uint32_t> infinite;   // indices into Manifest::lights
+  std::vector<float> area_pdf;  // per area light: density of its points, per unit area, the choice included
+  std::vector<std::uint32_t> infinite;  // indices into Manifest::lights
 
   std::size_t choices() const { return delta.size() + (triangles.empty() ? 0 : 1); }
 };
@@ -27,10 +27,11 @@ struct LightSampler {
 LightSampler make_light_sampler(const Manifest& manifest);
 
 struct LightSample {
-  Vector3d to_light;         // unit
-  double distance = 0;       // ∞ for distant lights
-  SampledSpectrum radiance;  // for points on triangles: radiance; for delta lights: irradiance across the direction
-  double pdf = 0;            // triangles: solid angle, the choice included; delta lights: probability of the choice
+  Vector3d to_light;    // unit
+  double distance = 0;  // ∞ for distant lights
+  SampledSpectrum
+      radiance;    // for points on triangles: radiance; for delta lights: irradiance across the direction
+  double pdf = 0;  // triangles: solid angle, the choice included; delta lights: probability of the choice
   bool is_delta = false;
 };
 

@@ -10,7 +10,7 @@ struct PathTracer::Path {
   std::uint32_t pixel = 0, sample = 0;
   std::uint32_t depth = 0;
   std::uint8_t flags = 0;
-  float pdf = 0;  // of the last scattering, solid angle, already rounded; 0: specular or camera
+  float pdf = 0;        // of the last scattering, solid angle, already rounded; 0: specular or camera
   FaceCode entered_by;  // in a pane: the face it came in through
   SampledSpectrum throughput;
   DirectionCode direction;
@@ -35,11 +35,11 @@ struct PathTracer::Path {
 
 struct PathTracer::Interaction {
   Point3d p;
-  Vector3d out;         // unit, back along the ray
-  Vector3d geometric;   // unit normal of the front side
-  Vector3d shading;     // unit, on the same side as `geometric`
+  Vector3d out;        // unit, back along the ray
+  Vector3d geometric;  // unit normal of the front side
+  Vector3d shading;    // unit, on the same side as `geometric`
   std::uint32_t triangle = no_triangle;
-  bool front = false;   // the ray came from the front side
+  bool front = false;  // the ray came from the front side
 };
 
 }  // namespace vitrail

@@ -42,7 +42,8 @@ void PathTracer::trace_camera(int x, int y, std::uint32_t sample) {
   path.sample = sample;
   const std::array<float, 4> u = sample_4d(key_of(path.pixel, sample), sample_set::camera);
   const Point2d offset = scene_.filter.sample(u[0], u[1]);
-  const CameraRay ray = camera_ray(manifest_.camera, manifest_.film, {x + 0.5 + offset.x, y + 0.5 + offset.y});
+  const CameraRay ray =
+      camera_ray(manifest_.camera, manifest_.film, {x + 0.5 + offset.x, y + 0.5 + offset.y});
   path.wavelengths = sample_wavelengths(u[2]);
   path.sensor = sensor_weights(path.wavelengths);
   path.throughput = filled(1);
@@ -66,7 +67,8 @@ void PathTracer::resume(const PathRecord& record, std::uint32_t domain) {
     path.pdf = pdf_value(record.pdf);
   for (std::size_t i = 0; i < hero_count; ++i) path.throughput.v[i] = record.throughput[i];
   path.direction = record.direction;
-  path.ray = {{record.origin[0], record.origin[1], record.origin[2]}, decode_direction(record.direction),
+  path.ray = {{record.origin[0], record.origin[1], record.origin[2]},
+              decode_direction(record.direction),
               record.exclude};
   path.hit.t = record.hit_t;
   path.hit.triangle = record.hit_triangle;
@@ -93,7 +95,8 @@ void PathTracer::intersect(Path& path, std::uint32_t domain) {
   if (path.hit.t != before.t || path.hit.triangle != before.triangle) path.hit_domain = domain;
 }
 
-// True when the hit, or that there is none, is certain and its domain at hand; false when the path went on elsewhere.
+// True when the hit, or that there is none, is certain and its domain at hand; false when the path went on
+// elsewhere.
 bool PathTracer::find_hit(Path& path, std::optional<std::uint32_t> at) {
   bool located = true;  // hit.cluster and hit.lane are known
   path.constants = prepare(path.ray);
@@ -152,7 +155,8 @@ void PathTracer::resume(const ShadowRecord& record, std::uint32_t domain) {
 // `at` is given for a ray that was born elsewhere or earlier, whose end is counted.
 void PathTracer::trace_shadow(const ShadowRecord& record, const SensorWeights* weights,
                               std::optional<std::uint32_t> at) {
-  const Ray ray{{record.origin[0], record.origin[1], record.origin[2]}, decode_direction(record.direction),
+  const Ray ray{{record.origin[0], record.origin[1], record.origin[2]},
+                decode_direction(record.direction),
                 record.exclude};
   const RayConstants constants = prepare(ray);
   DomainWalk walk(manifest_, ray);
@@ -183,8 +187,8 @@ void PathTracer::trace_shadow(const ShadowRecord& record, const SensorWeights* w
     deposit(record.pixel, record.sample, *weights, radiance);
   else
     deposit(record.pixel, record.sample,
-            sensor_weights(sample_wavelengths(
-                sample_4d(key_of(record.pixel, record.sample), sample_set::camera)[2])),
+            sensor_weights(
+                sample_wavelengths(sample_4d(key_of(record.pixel, record.sample), sample_set::camera)[2])),
             radiance);
   if (at) ++counters_.died;
 }

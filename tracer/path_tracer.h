@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Spectral path tracing through whatever sub-domains are resident: next-event estimation with multiple importance
-// sampling (Veach 1997), Russian roulette, dispersion by the hero wavelength. A ray that needs an absent domain is put
-// into the outbox; nothing about the picture depends on which ones were absent.
+// Spectral path tracing through whatever sub-domains are resident: next-event estimation with multiple
+// importance sampling (Veach 1997), Russian roulette, dispersion by the hero wavelength. A ray that needs an
+// absent domain is put into the outbox; nothing about the picture depends on which ones were absent.
 #pragma once
 
 #include <cstdint>
@@ -46,8 +46,8 @@ using ResidentViews = std::span<const DomainView* const>;
 class PathTracer {
  public:
   // All references outlive the tracer. One tracer a thread; the film is shared.
-  PathTracer(const RenderScene& scene, ResidentViews resident, Film& film, Outbox& outbox, TraceCounters& counters,
-             const KernelFunctions& kernel = best_kernel());
+  PathTracer(const RenderScene& scene, ResidentViews resident, Film& film, Outbox& outbox,
+             TraceCounters& counters, const KernelFunctions& kernel = best_kernel());
 
   // Sample `sample` of the pixel (x, y) of the whole film, which lies in the crop.
   void trace_camera(int x, int y, std::uint32_t sample);
@@ -72,7 +72,8 @@ class PathTracer {
   bool scatter_dielectric(Path& path, const Interaction& at, const DielectricMaterial& material);
   void continue_from(Path& path, const Interaction& at, Vector3d direction) const;
   Point3f offset_origin(const Interaction& at, Vector3d direction) const;
-  void trace_shadow(const ShadowRecord& record, const SensorWeights* weights, std::optional<std::uint32_t> at);
+  void trace_shadow(const ShadowRecord& record, const SensorWeights* weights,
+                    std::optional<std::uint32_t> at);
   void deposit(std::uint32_t pixel, std::uint32_t sample, const SensorWeights& weights,
                const SampledSpectrum& radiance);
   SampleKey key_of(std::uint32_t pixel, std::uint32_t sample) const;

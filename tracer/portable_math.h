@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Elementary functions from + − × ÷ √ alone: the C library picks variants of sin and exp by CPU, and a picture must
-// have the same bits on every machine. Double precision, errors below 1e-15 on the stated ranges.
+// Elementary functions from + − × ÷ √ alone: the C library picks variants of sin and exp by CPU, and a
+// picture must have the same bits on every machine. Double precision, errors below 1e-15 on the stated
+// ranges.
 #pragma once
 
 #include <cmath>
@@ -28,7 +29,8 @@ constexpr double cos_small(double x) {
 // eˣ for |x| ≤ 700: x = n·ln2 + r, Taylor of eʳ to r¹⁸.
 inline double portable_exp(double x) {
   const double n = std::nearbyint(x * 1.4426950408889634);
-  const double r = (x - n * 0x1.62e42feep-1) - n * 1.9082149292705877e-10;  // ln2 in two parts, the first of 32 bits
+  const double r =
+      (x - n * 0x1.62e42feep-1) - n * 1.9082149292705877e-10;  // ln2 in two parts, the first of 32 bits
   double sum = 1;
   for (int k = 18; k >= 1; --k) sum = 1 + sum * r / k;
   return std::ldexp(sum, static_cast<int>(n));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The state of a ray between domains: what waits in queues and travels between ranks. Packed, trivially copyable,
-// little-endian. Wavelengths and random numbers are functions of (seed, pixel, sample), so they do not travel.
+// The state of a ray between domains: what waits in queues and travels between ranks. Packed, trivially
+// copyable, little-endian. Wavelengths and random numbers are functions of (seed, pixel, sample), so they do
+// not travel.
 #pragma once
 
 #include <bit>
@@ -20,22 +21,23 @@ inline constexpr int max_path_depth = 254;
 inline constexpr std::uint32_t max_domains = 0xffff;
 
 enum PathFlags : std::uint8_t {
-  path_dispersed = 1,   // only the hero wavelength is left
-  path_connection = 2,  // on its way to a distant light through panes; `throughput` is the radiance it will deposit
-  path_resolved = 4,    // the hit is certain: to be shaded in hit_domain
-  path_in_pane = 8,     // inside a dispersive medium, all wavelengths alive: the face it entered by is known
+  path_dispersed = 1,  // only the hero wavelength is left
+  path_connection =
+      2,  // on its way to a distant light through panes; `throughput` is the radiance it will deposit
+  path_resolved = 4,  // the hit is certain: to be shaded in hit_domain
+  path_in_pane = 8,   // inside a dispersive medium, all wavelengths alive: the face it entered by is known
 };
 
 #pragma pack(push, 1)
 // A path on its way to its next hit, with the best hit so far.
 struct PathRecord {
-  double hit_t;                // ∞: none yet
+  double hit_t;  // ∞: none yet
   std::uint32_t hit_triangle;
-  std::uint16_t hit_domain;    // which domain found it
+  std::uint16_t hit_domain;  // which domain found it
   DirectionCode direction;
   float origin[3];
   float throughput[hero_count];
-  std::uint32_t exclude;       // triangle it starts on
+  std::uint32_t exclude;  // triangle it starts on
   std::uint32_t pixel;
   std::uint32_t sample_depth;  // sample << 8 | depth
   std::uint16_t pdf;           // of the last scattering, solid angle, as pdf_code; 0: specular or camera.
@@ -57,13 +59,15 @@ struct ShadowRecord {
 static_assert(sizeof(PathRecord) == 63 && std::is_trivially_copyable_v<PathRecord>);
 static_assert(sizeof(ShadowRecord) == 46 && std::is_trivially_copyable_v<ShadowRecord>);
 
-// A pdf ≥ 0 rounded to bfloat16. Both strategies of multiple importance sampling use the rounded value, so their
-// weights still add up to 1.
+// A pdf ≥ 0 rounded to bfloat16. Both strategies of multiple importance sampling use the rounded value, so
+// their weights still add up to 1.
 inline std::uint16_t pdf_code(float pdf) {
   const std::uint32_t bits = std::bit_cast<std::uint32_t>(pdf);
   return static_cast<std::uint16_t>((bits + 0x7fff + ((bits >> 16) & 1)) >> 16);
 }
-inline float pdf_value(std::uint16_t code) { return std::bit_cast<float>(static_cast<std::uint32_t>(code) << 16); }
+inline float pdf_value(std::uint16_t code) {
+  return std::bit_cast<float>(static_cast<std::uint32_t>(code) << 16);
+}
 
 // A radiance ≥ 0 rounded to 8 bits of exponent and 16 of mantissa: relative error ≤ 2⁻¹⁷, unbiased over many.
 inline void pack_radiance(float value, std::uint8_t out[3]) {
@@ -73,7 +77,8 @@ inline void pack_radiance(float value, std::uint8_t out[3]) {
   out[2] = static_cast<std::uint8_t>(bits >> 24);
 }
 inline float unpack_radiance(const std::uint8_t in[3]) {
-  const std::uint32_t bits = static_cast<std::uint32_t>(in[0]) << 8 | static_cast<std::uint32_t>(in[1]) << 16 |
+  const std::uint32_t bits = static_cast<std::uint32_t>(in[0]) << 8 |
+                             static_cast<std::uint32_t>(in[1]) << 16 |
                              static_cast<std::uint32_t>(in[2]) << 24;
   return std::bit_cast<float>(bits >> 1);
 }

@@ -12,8 +12,8 @@ constexpr std::uint32_t reverse_bits(std::uint32_t x) {
   return (x & 0x55555555u) << 1 | (x >> 1 & 0x55555555u);
 }
 
-// Direction numbers v₁…v₃₂ of the first four Sobol' dimensions: primitive polynomials and initial values of Joe & Kuo
-// (2008), new-joe-kuo-6.21201. The first dimension is the radical inverse.
+// Direction numbers v₁…v₃₂ of the first four Sobol' dimensions: primitive polynomials and initial values of
+// Joe & Kuo (2008), new-joe-kuo-6.21201. The first dimension is the radical inverse.
 using Directions = std::array<std::uint32_t, 32>;
 
 constexpr Directions directions(int degree, std::uint32_t polynomial, std::array<std::uint32_t, 3> initial) {
@@ -48,8 +48,8 @@ constexpr std::array<ByteTable, 3> tables{byte_table(directions(1, 0, {1, 0, 0})
                                           byte_table(directions(2, 1, {1, 3, 0})),
                                           byte_table(directions(3, 1, {1, 3, 1}))};
 
-// An Owen scramble of the bits of x read from the least significant one: each bit is flipped by a hash of the bits
-// below it. Constants from N. Vegdahl, "Building a Better LK Hash" (2021).
+// An Owen scramble of the bits of x read from the least significant one: each bit is flipped by a hash of the
+// bits below it. Constants from N. Vegdahl, "Building a Better LK Hash" (2021).
 constexpr std::uint32_t scramble_reversed(std::uint32_t x, std::uint32_t seed) {
   x ^= x * 0x3d20adeau;
   x += seed;
@@ -74,13 +74,15 @@ std::array<float, 4> sample_4d(const SampleKey& key, std::uint32_t set) {
   const std::uint64_t h =
       mix(mix(key.seed + 0x9e3779b97f4a7c15ull) ^ (static_cast<std::uint64_t>(key.pixel) << 32 | set));
   const std::uint64_t h2 = mix(h + 0x9e3779b97f4a7c15ull), h3 = mix(h + 2 * 0x9e3779b97f4a7c15ull);
-  // Shuffling is an Owen scramble of the index: every power-of-two prefix stays one aligned, stratified block.
+  // Shuffling is an Owen scramble of the index: every power-of-two prefix stays one aligned, stratified
+  // block.
   const std::uint32_t index =
       reverse_bits(scramble_reversed(reverse_bits(key.sample), static_cast<std::uint32_t>(h)));
   std::array<std::uint32_t, 4> bits{index, 0, 0, 0};  // reversed; the first dimension is the radical inverse
   for (std::size_t d = 0; d < 3; ++d) {
     const ByteTable& t = tables[d];
-    bits[d + 1] = reverse_bits(t[0][index & 0xff] ^ t[1][index >> 8 & 0xff] ^ t[2][index >> 16 & 0xff] ^ t[3][index >> 24]);
+    bits[d + 1] = reverse_bits(t[0][index & 0xff] ^ t[1][index >> 8 & 0xff] ^ t[2][index >> 16 & 0xff] ^
+                               t[3][index >> 24]);
   }
   const std::array<std::uint32_t, 4> seeds{
       static_cast<std::uint32_t>(h2), static_cast<std::uint32_t>(h2 >> 32), static_cast<std::uint32_t>(h3),

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Stateless random numbers: Owen-scrambled Sobol' points, padded in sets of four dimensions (Burley, "Practical
-// Hash-based Owen Scrambling", JCGT 2020). Every number is a pure function of (seed, pixel, sample, set).
+// Stateless random numbers: Owen-scrambled Sobol' points, padded in sets of four dimensions (Burley,
+// "Practical Hash-based Owen Scrambling", JCGT 2020). Every number is a pure function of (seed, pixel,
+// sample, set).
 #pragma once
 
 #include <array>
@@ -10,7 +11,7 @@ namespace vitrail {
 
 struct SampleKey {
   std::uint64_t seed = 0;
-  std::uint32_t pixel = 0;   // of the whole film, so that a crop samples as the full picture does
+  std::uint32_t pixel = 0;  // of the whole film, so that a crop samples as the full picture does
   std::uint32_t sample = 0;
 };
 
@@ -21,8 +22,12 @@ std::array<float, 4> sample_4d(const SampleKey& key, std::uint32_t set);
 // Which set is for what: one for the camera, two a bounce.
 namespace sample_set {
 inline constexpr std::uint32_t camera = 0;  // film x, film y, wavelength, unused
-constexpr std::uint32_t scatter(std::uint32_t depth) { return 1 + 2 * depth; }  // direction u, v, lobe, roulette
-constexpr std::uint32_t light(std::uint32_t depth) { return 2 + 2 * depth; }    // point u, v, which light, which kind
+constexpr std::uint32_t scatter(std::uint32_t depth) {
+  return 1 + 2 * depth;
+}  // direction u, v, lobe, roulette
+constexpr std::uint32_t light(std::uint32_t depth) {
+  return 2 + 2 * depth;
+}  // point u, v, which light, which kind
 }  // namespace sample_set
 
 }  // namespace vitrail

@@ -68,20 +68,24 @@ bool PathTracer::shade(Path& path) {
   const Surface& surface = surface_of(manifest_, path.hit.triangle);
   const Material& material = manifest_.materials[surface.material];
   // Only the far face of a pane lets the wavelengths out the way they came in.
-  if (path.is(path_in_pane) && (at.front || !std::holds_alternative<DielectricMaterial>(material))) path.disperse();
+  if (path.is(path_in_pane) && (at.front || !std::holds_alternative<DielectricMaterial>(material)))
+    path.disperse();
   if (surface.area_light >= 0)
-    add_emission(path, at, manifest_.area_lights[static_cast<std::size_t>(surface.area_light)], surface.area_light);
+    add_emission(path, at, manifest_.area_lights[static_cast<std::size_t>(surface.area_light)],
+                 surface.area_light);
   if (std::holds_alternative<InterfaceMaterial>(material)) {
     continue_from(path, at, -at.out);
     path.pdf = 0;  // shadow rays end at the interface, so this path alone finds the lights behind it
     return true;
   }
   if (path.depth >= static_cast<std::uint32_t>(manifest_.settings.max_depth)) return false;
-  if (const auto* diffuse = std::get_if<DiffuseMaterial>(&material)) return scatter_diffuse(path, at, *diffuse);
+  if (const auto* diffuse = std::get_if<DiffuseMaterial>(&material))
+    return scatter_diffuse(path, at, *diffuse);
   return scatter_dielectric(path, at, std::get<DielectricMaterial>(material));
 }
 
-void PathTracer::add_emission(const Path& path, const Interaction& at, const AreaLight& light, std::int32_t index) {
+void PathTracer::add_emission(const Path& path, const Interaction& at, const AreaLight& light,
+                              std::int32_t index) {
   if (!at.front && !light.two_sided) return;
   double weight = 1;
   if (path.pdf > 0) {
@@ -123,7 +127,8 @@ bool PathTracer::scatter_diffuse(Path& path, const Interaction& at, const Diffus
   return true;
 }
 
-void PathTracer::connect_to_light(const Path& path, const Interaction& at, const SampledSpectrum& reflectance) {
+void PathTracer::connect_to_light(const Path& path, const Interaction& at,
+                                  const SampledSpectrum& reflectance) {
   const std::array<float, 4> u = sample_4d(key_of(path.pixel, path.sample), sample_set::light(path.depth));
   const auto light = sample_light(scene_.lights, manifest_, at.p, u, path.wavelengths);
   if (!light) return;
@@ -175,7 +180,8 @@ void PathTracer::connect_to_light(const Path& path, const Interaction& at, const
 namespace {
 
 // Indices behind over before the interface at the four wavelengths.
-SampledSpectrum relative_index(const DielectricMaterial& material, const SampledWavelengths& wavelengths, bool front) {
+SampledSpectrum relative_index(const DielectricMaterial& material, const SampledWavelengths& wavelengths,
+                               bool front) {
   SampledSpectrum eta = evaluate(material.eta, wavelengths);
   if (!front)
     for (float& e : eta.v) e = 1 / e;
@@ -184,8 +190,8 @@ SampledSpectrum relative_index(const DielectricMaterial& material, const Sampled
 
 }  // namespace
 
-// A connection goes straight through every pane: refracted in and out by the hero's index. All wavelengths leave a
-// pane with parallel faces in the direction they came, so all four stay.
+// A connection goes straight through every pane: refracted in and out by the hero's index. All wavelengths
+// leave a pane with parallel faces in the direction they came, so all four stay.
 bool PathTracer::connect_onwards(Path& path, const Interaction& at) {
   const Surface& surface = surface_of(manifest_, path.hit.triangle);
   const Material& material = manifest_.materials[surface.material];
@@ -196,7 +202,8 @@ bool PathTracer::connect_onwards(Path& path, const Interaction& at) {
     if (!refract(at.out, normal, static_cast<double>(eta[0]), direction)) return false;
     const double cosine = dot(at.out, normal);
     for (std::size_t i = 0; i < hero_count; ++i)
-      path.throughput.v[i] *= static_cast<float>(1 - fresnel_dielectric(cosine, static_cast<double>(eta.v[i])));
+      path.throughput.v[i] *=
+          static_cast<float>(1 - fresnel_dielectric(cosine, static_cast<double>(eta.v[i])));
   } else if (!std::holds_alternative<InterfaceMaterial>(material)) {
     return false;
   }
@@ -205,17 +212,17 @@ bool PathTracer::connect_onwards(Path& path, const Interaction& at) {
   return true;
 }
 
-// Dispersion ends the secondary wavelengths where their ways part. Through a pane of parallel faces they do not: all
-// leave in the direction they came, micrometres apart. So they stay until the path meets a face that is not parallel
-// to the one it entered by.
+// Dispersion ends the secondary wavelengths where their ways part. Through a pane of parallel faces they do
+// not: all leave in the direction they came, micrometres apart. So they stay until the path meets a face that
+// is not parallel to the one it entered by.
 bool PathTracer::scatter_dielectric(Path& path, const Interaction& at, const DielectricMaterial& material) {
   const Vector3d normal = at.shading * (at.front ? 1.0 : -1.0);
   if (path.is(path_in_pane) && !is_parallel(path.entered_by, normal)) path.disperse();
   const bool in_pane = path.is(path_in_pane);
   const SampledSpectrum eta = relative_index(material, path.wavelengths, at.front);
   const double hero_eta = static_cast<double>(eta[0]), cosine = dot(at.out, normal);
-  // Inside a pane the wavelengths differ in their angle, but share the one outside; reflectance is the same from both
-  // sides.
+  // Inside a pane the wavelengths differ in their angle, but share the one outside; reflectance is the same
+  // from both sides.
   const double outside = safe_sqrt(1 - (1 - cosine * cosine) / (hero_eta * hero_eta));
 
   // One choice for all wavelengths, by their mean reflectance: no weight exceeds their number.
@@ -241,7 +248,8 @@ bool PathTracer::scatter_dielectric(Path& path, const Interaction& at, const Die
     // Radiance is compressed into the smaller solid angle by 1/η² (Veach 1997, §5.2).
     for (std::size_t i = 0; i < active; ++i) {
       const double e = static_cast<double>(eta.v[i]);
-      path.throughput.v[i] *= static_cast<float>((1 - static_cast<double>(reflectance.v[i])) / (1 - mean) / (e * e));
+      path.throughput.v[i] *=
+          static_cast<float>((1 - static_cast<double>(reflectance.v[i])) / (1 - mean) / (e * e));
     }
     if (in_pane) {
       path.clear(path_in_pane);
@@ -261,14 +269,16 @@ bool PathTracer::scatter_dielectric(Path& path, const Interaction& at, const Die
   return true;
 }
 
-// Starts the next ray at the hit. The triangle it leaves is excluded by id; the offset keeps it from its neighbours.
+// Starts the next ray at the hit. The triangle it leaves is excluded by id; the offset keeps it from its
+// neighbours.
 void PathTracer::continue_from(Path& path, const Interaction& at, Vector3d direction) const {
   path.direction = encode_direction(direction);
   path.ray = {offset_origin(at, direction), decode_direction(path.direction), at.triangle};
   path.hit = {};
 }
 
-// Moves the hit along the normal, to the side of `direction`, by more than rounding to float can move it back.
+// Moves the hit along the normal, to the side of `direction`, by more than rounding to float can move it
+// back.
 Point3f PathTracer::offset_origin(const Interaction& at, Vector3d direction) const {
   const double rounding = 0x1p-24 * (std::abs(at.geometric.x * at.p.x) + std::abs(at.geometric.y * at.p.y) +
                                      std::abs(at.geometric.z * at.p.z));

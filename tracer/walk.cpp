@@ -32,7 +32,8 @@ DomainWalk::DomainWalk(const Manifest& manifest, const Ray& ray)
     const double d = direction_[axis];
     reciprocal_[axis] = 1 / (std::abs(d) < 1e-18 ? (d < 0 ? -1e-18 : 1e-18) : d);
   }
-  stack_[static_cast<std::size_t>(size_++)] = {manifest.kd_nodes.empty() ? KdNode::leaf_bit : 0u, 0, infinity};
+  stack_[static_cast<std::size_t>(size_++)] = {manifest.kd_nodes.empty() ? KdNode::leaf_bit : 0u, 0,
+                                               infinity};
 }
 
 bool DomainWalk::next_leaf(Pending& leaf) {
@@ -44,7 +45,8 @@ bool DomainWalk::next_leaf(Pending& leaf) {
       const double to_plane = static_cast<double>(node.split) - origin_[axis];
       const double reciprocal = reciprocal_[axis];
       const bool ascending = reciprocal > 0;
-      const std::uint32_t near = ascending ? node.below : node.above, far = ascending ? node.above : node.below;
+      const std::uint32_t near = ascending ? node.below : node.above,
+                          far = ascending ? node.above : node.below;
       // The near side reaches until ε behind the plane, the far side begins ε before it.
       const double along = ascending ? to_plane : -to_plane, rate = std::abs(reciprocal);
       const double near_end = (along + epsilon_) * rate, far_begin = (along - epsilon_) * rate;

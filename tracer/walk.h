@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The order in which a ray meets the sub-domains: front to back through the kd-tree, both sides of an interface where
-// the ray is within ε of it.
+// The order in which a ray meets the sub-domains: front to back through the kd-tree, both sides of an
+// interface where the ray is within ε of it.
 #pragma once
 
 #include <array>
@@ -10,11 +10,12 @@
 
 namespace vitrail {
 
-// Slab test in double; conservative for boxes that are padded. Returns the entry, or +∞ when missed within [0, tmax].
+// Slab test in double; conservative for boxes that are padded. Returns the entry, or +∞ when missed within
+// [0, tmax].
 double enter_box(const Bounds3f& box, Point3d origin, Vector3d reciprocal, double tmax);
 
-// The leaves of one ray, one after the other. The sequence is a function of the ray and the manifest alone, so a rank
-// that receives a ray finds its place in it again with `skip_to`.
+// The leaves of one ray, one after the other. The sequence is a function of the ray and the manifest alone,
+// so a rank that receives a ray finds its place in it again with `skip_to`.
 class DomainWalk {
  public:
   struct Visit {

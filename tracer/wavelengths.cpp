@@ -55,7 +55,8 @@ SampledWavelengths sample_wavelengths(float u) {
 SensorWeights sensor_weights(const SampledWavelengths& wavelengths) {
   SensorWeights w;
   for (std::size_t i = 0; i < hero_count; ++i) {
-    const double at = std::clamp(static_cast<double>(wavelengths.lambda_nm[i]) - lambda_min_nm, 0.0, bins - 1e-9);
+    const double at =
+        std::clamp(static_cast<double>(wavelengths.lambda_nm[i]) - lambda_min_nm, 0.0, bins - 1e-9);
     const auto bin = static_cast<std::size_t>(at);
     const double f = at - static_cast<double>(bin);
     const double scale = 1 / (hero_count * static_cast<double>(wavelengths.pdf[i]) * cie_y_integral_nm);

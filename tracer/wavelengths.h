@@ -7,9 +7,9 @@
 
 namespace vitrail {
 
-// Four wavelengths, stratified: u, u + ¼, u + ½, u + ¾ (mod 1) through the inverse of a cumulative density that is
-// proportional to x̄ + ȳ + z̄ plus a small floor, constant within each nanometre (Wilkie et al. 2014; Radziszewski et
-// al. 2009 for the density). u in [0,1).
+// Four wavelengths, stratified: u, u + ¼, u + ½, u + ¾ (mod 1) through the inverse of a cumulative density
+// that is proportional to x̄ + ȳ + z̄ plus a small floor, constant within each nanometre (Wilkie et al. 2014;
+// Radziszewski et al. 2009 for the density). u in [0,1).
 SampledWavelengths sample_wavelengths(float u);
 
 // What a pixel gets of radiance L at the four wavelengths: XYZ = Σᵢ Lᵢ · weight[·][i], unbiased.

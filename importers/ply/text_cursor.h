@@ -9,8 +9,8 @@
 
 namespace vitrail {
 
-// A piece of input as it can be shown in a message: about `longest` bytes of it, as well-formed UTF-8 (reports are
-// JSON) without control characters.
+// A piece of input as it can be shown in a message: about `longest` bytes of it, as well-formed UTF-8
+// (reports are JSON) without control characters.
 std::string printable(std::string_view text, std::size_t longest = 40);
 
 // Reads words and numbers of a text and knows where it is. Lines end with \n, \r\n or \r; a backslash before

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a whole render costs beside the intersections it cannot do without, what sub-domains cost, what a second rank
-// gains; all as ratios within one run. Seconds on a shared machine mean little by themselves.
+// What a whole render costs beside the intersections it cannot do without, what sub-domains cost, what a
+// second rank gains; all as ratios within one run. Seconds on a shared machine mean little by themselves.
 //
 //   bench_render [--spp N]
 #include <fmt/format.h>
@@ -47,7 +47,8 @@ void add_bumpy_sphere(Scene& scene, Point3f centre, float radius, std::uint32_t 
       if (i + 1 < rings) mesh.triangles.push_back({b, a + sectors, b + sectors});
     }
   scene.meshes.push_back(std::move(mesh));
-  add_shape(scene, {static_cast<std::uint32_t>(scene.meshes.size() - 1)}, DiffuseMaterial{ConstantSpectrum{0.7f}});
+  add_shape(scene, {static_cast<std::uint32_t>(scene.meshes.size() - 1)},
+            DiffuseMaterial{ConstantSpectrum{0.7f}});
 }
 
 // Eight bumpy spheres in a room with a lamp: 1.06 million triangles.
@@ -146,7 +147,8 @@ nlohmann::json run_once(const TemporaryDirectory& directory, int domains, int ra
 void domains_and_ranks(const TemporaryDirectory& directory, int spp) {
   std::vector<double> one, many, solo, pair;
   for (int i = 0; i < 3; ++i) {
-    const auto a = run_once(directory, 1, 1, spp), b = run_once(directory, 64, 1, spp), c = run_once(directory, 1, 2, spp);
+    const auto a = run_once(directory, 1, 1, spp), b = run_once(directory, 64, 1, spp),
+               c = run_once(directory, 1, 2, spp);
     if (a["film_hash"] != b["film_hash"] || a["film_hash"] != c["film_hash"]) fmt::print("FILMS DIFFER\n");
     one.push_back(a["cpu_s"]);
     many.push_back(b["cpu_s"]);

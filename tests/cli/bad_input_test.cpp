@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a user sees when the input or the machine is bad: a message with its place, the right exit status, and nothing
-// under the final name.
+// What a user sees when the input or the machine is bad: a message with its place, the right exit status, and
+// nothing under the final name.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -18,7 +18,9 @@ using ::testing::HasSubstr;
 
 class BadInput : public ::testing::Test {
  protected:
-  void write(const std::string& name, const std::string& text) const { std::ofstream(directory_ / name) << text; }
+  void write(const std::string& name, const std::string& text) const {
+    std::ofstream(directory_ / name) << text;
+  }
   CommandResult partition(const std::string& scene, const std::string& out = "out.vit") const {
     return run(fmt::format("{} '{}' -o '{}' --domains 4", vitrail("partition"), (directory_ / scene).string(),
                            (directory_ / out).string()));
@@ -38,8 +40,9 @@ class BadInput : public ::testing::Test {
   // A bundle of the cornell box to damage.
   std::filesystem::path good_bundle() const {
     const auto bundle = directory_ / "good.vit";
-    const CommandResult made = run(fmt::format("{} '{}/examples/cornell-box/cornell-box.pbrt' -o '{}' --domains 4",
-                                               vitrail("partition"), VITRAIL_SOURCE_DIR, bundle.string()));
+    const CommandResult made =
+        run(fmt::format("{} '{}/examples/cornell-box/cornell-box.pbrt' -o '{}' --domains 4",
+                        vitrail("partition"), VITRAIL_SOURCE_DIR, bundle.string()));
     EXPECT_EQ(made.status, 0) << made.output;
     return bundle;
   }
@@ -60,14 +63,16 @@ TEST_F(BadInput, MissingInclude) {
 }
 
 TEST_F(BadInput, TruncatedPly) {
-  write("t.ply", "ply\nformat binary_little_endian 1.0\nelement vertex 1000\nproperty float x\nproperty float y\n"
-                 "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\nabc");
+  write("t.ply",
+        "ply\nformat binary_little_endian 1.0\nelement vertex 1000\nproperty float x\nproperty float y\n"
+        "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\nabc");
   write("a.pbrt", head + "Shape \"plymesh\" \"string filename\" \"t.ply\"\n");
   expect_refused("a.pbrt", "t.ply", "");
 }
 
 TEST_F(BadInput, IndexOutOfRange) {
-  write("a.pbrt", head + "Shape \"trianglemesh\" \"integer indices\" [0 1 7] \"point3 P\" [0 0 0 1 0 0 0 1 0]\n");
+  write("a.pbrt",
+        head + "Shape \"trianglemesh\" \"integer indices\" [0 1 7] \"point3 P\" [0 0 0 1 0 0 0 1 0]\n");
   expect_refused("a.pbrt", "a.pbrt:2:", "7");
 }
 
@@ -150,8 +155,8 @@ TEST_F(BadInput, DirectoryThatDoesNotExistOrCannotBeWritten) {
   EXPECT_EQ(picture.status, 4) << picture.output;
   EXPECT_THAT(picture.output, HasSubstr("no/such/folder"));
   write("a.pbrt", head + "Shape \"sphere\"\n");
-  const CommandResult bundled =
-      run(fmt::format("{} '{}' -o /proc/nowhere/out.vit", vitrail("partition"), (directory_ / "a.pbrt").string()));
+  const CommandResult bundled = run(fmt::format("{} '{}' -o /proc/nowhere/out.vit", vitrail("partition"),
+                                                (directory_ / "a.pbrt").string()));
   EXPECT_EQ(bundled.status, 4) << bundled.output;
   EXPECT_THAT(bundled.output, HasSubstr("/proc/nowhere"));
 }

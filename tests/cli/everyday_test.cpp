@@ -22,13 +22,14 @@ TEST(Everyday, SceneToPictureInOneStep) {
   EXPECT_EQ(made.status, 0) << made.output;
   EXPECT_TRUE(std::filesystem::exists(out));
   EXPECT_TRUE(std::filesystem::exists(directory / "picture.film"));
-  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(directory.path()), {}), 2) << "something was left over";
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(directory.path()), {}), 2)
+      << "something was left over";
 }
 
 TEST(Everyday, SilentUnlessAsked) {
   const TemporaryDirectory directory;
-  const std::string line =
-      fmt::format("{} '{}' -o '{}' --spp 16 --crop 0,128,0,128", vitrail("render"), scene, (directory / "a.film").string());
+  const std::string line = fmt::format("{} '{}' -o '{}' --spp 16 --crop 0,128,0,128", vitrail("render"),
+                                       scene, (directory / "a.film").string());
   const CommandResult quiet = run(line);
   EXPECT_EQ(quiet.status, 0);
   EXPECT_EQ(quiet.output, "");
@@ -36,8 +37,9 @@ TEST(Everyday, SilentUnlessAsked) {
 
 TEST(Everyday, ProgressAsJsonLines) {
   const TemporaryDirectory directory;
-  const CommandResult result = run(fmt::format("{} '{}' -o '{}' --spp 65536 --crop 0,64,0,64 --time 2.5 --progress json",
-                                               vitrail("render"), scene, (directory / "a.film").string()));
+  const CommandResult result =
+      run(fmt::format("{} '{}' -o '{}' --spp 65536 --crop 0,64,0,64 --time 2.5 --progress json",
+                      vitrail("render"), scene, (directory / "a.film").string()));
   EXPECT_EQ(result.status, 0) << result.output;
   std::istringstream lines(result.output);
   int objects = 0;
@@ -66,7 +68,8 @@ TEST(Everyday, FilmsOfDifferentSeedsMerge) {
   EXPECT_EQ(run(fmt::format("{} '{}' '{}' --metric bitwise", vitrail("compare"), ab, ba)).status, 0);
   EXPECT_EQ(run(fmt::format("{} '{}' '{}' -o '{}'", vitrail("develop"), one, one, ab)).status, 3)
       << "the same seed twice";
-  const CommandResult differs = run(fmt::format("{} '{}' '{}' --metric bitwise", vitrail("compare"), one, two));
+  const CommandResult differs =
+      run(fmt::format("{} '{}' '{}' --metric bitwise", vitrail("compare"), one, two));
   EXPECT_EQ(differs.status, 1) << differs.output;
 }
 
@@ -82,23 +85,44 @@ TEST(Everyday, InspectSaysWhatASceneRequires) {
 TEST(Everyday, StatisticsKeepTheirContract) {
   const TemporaryDirectory directory;
   const auto bundle = directory / "a.vit", p = directory / "p.json", r = directory / "r.json";
-  ASSERT_EQ(run(fmt::format("{} '{}' -o '{}' --domains 4 --stats '{}'", vitrail("partition"), scene, bundle.string(),
-                            p.string()))
+  ASSERT_EQ(run(fmt::format("{} '{}' -o '{}' --domains 4 --stats '{}'", vitrail("partition"), scene,
+                            bundle.string(), p.string()))
                 .status,
             0);
   ASSERT_EQ(run(fmt::format("{} '{}' -o '{}' --spp 1 --stats '{}'", vitrail("render"), bundle.string(),
                             (directory / "a.film").string(), r.string()))
                 .status,
             0);
-  for (const char* key : {"input_triangles", "cut_triangles", "pieces", "domains", "triangles_min", "triangles_mean",
-                          "triangles_max", "bundle_bytes", "duplicates", "area_error", "wall_s", "cpu_s",
-                          "peak_rss_bytes"})
-    EXPECT_TRUE(read_json(p).contains(key)) << key;
   for (const char* key :
-       {"ranks", "threads", "spp", "seed", "samples", "wall_s", "cpu_s", "load_s", "trace_s", "idle_s", "rays_camera",
-        "rays_indirect", "rays_shadow", "crossings", "forwarded_rays", "forwarded_bytes", "messages", "domains_total",
-        "domains_touched", "domain_loads", "evictions", "memory_budget_bytes", "peak_rss_bytes", "base_rss_bytes",
-        "nonfinite_samples", "film_hash"})
+       {"input_triangles", "cut_triangles", "pieces", "domains", "triangles_min", "triangles_mean",
+        "triangles_max", "bundle_bytes", "duplicates", "area_error", "wall_s", "cpu_s", "peak_rss_bytes"})
+    EXPECT_TRUE(read_json(p).contains(key)) << key;
+  for (const char* key : {"ranks",
+                          "threads",
+                          "spp",
+                          "seed",
+                          "samples",
+                          "wall_s",
+                          "cpu_s",
+                          "load_s",
+                          "trace_s",
+                          "idle_s",
+                          "rays_camera",
+                          "rays_indirect",
+                          "rays_shadow",
+                          "crossings",
+                          "forwarded_rays",
+                          "forwarded_bytes",
+                          "messages",
+                          "domains_total",
+                          "domains_touched",
+                          "domain_loads",
+                          "evictions",
+                          "memory_budget_bytes",
+                          "peak_rss_bytes",
+                          "base_rss_bytes",
+                          "nonfinite_samples",
+                          "film_hash"})
     EXPECT_TRUE(read_json(r).contains(key)) << key;
 }
 

@@ -29,7 +29,8 @@ TEST(Work, EverySampleBelongsToOneItem) {
 TEST(Work, SharesAreDisjointCompleteAndEven) {
   const WorkPlan plan = make_work_plan({0, 100, 0, 100}, 5);
   std::vector<std::uint64_t> done((plan.items() + 63) / 64);
-  for (const std::uint64_t item : {0, 5, 64, 200}) done[static_cast<std::size_t>(item / 64)] |= 1ull << (item % 64);
+  for (const std::uint64_t item : {0, 5, 64, 200})
+    done[static_cast<std::size_t>(item / 64)] |= 1ull << (item % 64);
   std::set<std::uint64_t> all;
   for (int rank = 0; rank < 3; ++rank) {
     const auto share = share_of(plan, done, rank, 3);

@@ -112,8 +112,9 @@ TEST(DistantLight, ThroughAPane) {
   EXPECT_NEAR(result.mean, expected, 1e-3 * expected + 4 * result.standard_error);
 }
 
-// A pane of dispersive glass disperses nothing: every sample keeps its four wavelengths, so the colour of a sky seen
-// through it is as smooth as without. With one wavelength a sample the scatter of Z would be ten times this.
+// A pane of dispersive glass disperses nothing: every sample keeps its four wavelengths, so the colour of a
+// sky seen through it is as smooth as without. With one wavelength a sample the scatter of Z would be ten
+// times this.
 TEST(Pane, KeepsAllWavelengths) {
   Scene scene;
   add_shape(scene, add_quads(scene, box_faces({-10, -10, 1}, {10, 10, 1.006f})), DielectricMaterial{bk7()});

@@ -9,8 +9,8 @@
 namespace vitrail::test {
 
 struct CommandResult {
-  int status = -1;      // exit status; 128 + signal where one ended it
-  std::string output;   // standard output and error together
+  int status = -1;     // exit status; 128 + signal where one ended it
+  std::string output;  // standard output and error together
 };
 
 // Through the shell.
@@ -23,7 +23,8 @@ std::string mpi_vitrail(const std::string& verb, int ranks);
 
 nlohmann::json read_json(const std::filesystem::path& file);
 
-// The corpus of foreign scenes: VITRAIL_CORPUS, else ../shared/corpus beside the source; empty where there is none.
+// The corpus of foreign scenes: VITRAIL_CORPUS, else ../shared/corpus beside the source; empty where there is
+// none.
 std::filesystem::path corpus();
 
 }  // namespace vitrail::test

@@ -25,7 +25,8 @@ Rendered render(const Scene& scene, int samples_per_pixel, std::uint32_t domains
   return result;
 }
 
-void set_camera(Scene& scene, Point3d eye, Point3d target, Vector3d up, double fov_rad, int width, int height) {
+void set_camera(Scene& scene, Point3d eye, Point3d target, Vector3d up, double fov_rad, int width,
+                int height) {
   PerspectiveCamera camera;
   camera.camera_to_world = look_at(eye, target, up);
   const double tangent = std::tan(fov_rad / 2), shorter = std::min(width, height);
@@ -50,7 +51,8 @@ Id<TriangleMesh> add_quads(Scene& scene, const std::vector<std::array<Point3f, 4
   return {static_cast<std::uint32_t>(scene.meshes.size() - 1)};
 }
 
-void add_shape(Scene& scene, Id<TriangleMesh> mesh, const Material& material, const std::optional<AreaLight>& light) {
+void add_shape(Scene& scene, Id<TriangleMesh> mesh, const Material& material,
+               const std::optional<AreaLight>& light) {
   Shape shape;
   shape.mesh = mesh;
   shape.material = {static_cast<std::uint32_t>(scene.materials.size())};

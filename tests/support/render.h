@@ -17,7 +17,8 @@ struct Rendered {
 Rendered render(const Scene& scene, int samples_per_pixel, std::uint32_t domains = 1, std::uint64_t seed = 0);
 
 // A pinhole at `eye` that sees `fov_rad` on the shorter axis; a box filter of one pixel.
-void set_camera(Scene& scene, Point3d eye, Point3d target, Vector3d up, double fov_rad, int width, int height);
+void set_camera(Scene& scene, Point3d eye, Point3d target, Vector3d up, double fov_rad, int width,
+                int height);
 
 // Two triangles a quadrilateral, counter-clockwise seen from the front. Returns the mesh's id.
 Id<TriangleMesh> add_quads(Scene& scene, const std::vector<std::array<Point3f, 4>>& quads);

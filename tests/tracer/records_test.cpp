@@ -88,7 +88,8 @@ TEST(Fresnel, KnownValues) {
   EXPECT_EQ(fresnel_dielectric(0, 1.5), 1);
   EXPECT_EQ(fresnel_dielectric(0, 1), 0);
   // At Brewster's angle only s is reflected: ((n² − 1)/(n² + 1))² / 2.
-  EXPECT_NEAR(fresnel_dielectric(std::cos(std::atan(1.5)), 1.5), std::pow((2.25 - 1) / (2.25 + 1), 2) / 2, 1e-14);
+  EXPECT_NEAR(fresnel_dielectric(std::cos(std::atan(1.5)), 1.5), std::pow((2.25 - 1) / (2.25 + 1), 2) / 2,
+              1e-14);
 }
 
 TEST(Refract, FollowsSnell) {
@@ -133,7 +134,8 @@ TEST(Hemisphere, IsCosineWeighted) {
   constexpr int n = 512;
   for (int i = 0; i < n; ++i)
     for (int j = 0; j < n; ++j) {
-      const Vector3d d = sample_cosine_hemisphere((static_cast<float>(i) + 0.5f) / n, (static_cast<float>(j) + 0.5f) / n);
+      const Vector3d d =
+          sample_cosine_hemisphere((static_cast<float>(i) + 0.5f) / n, (static_cast<float>(j) + 0.5f) / n);
       EXPECT_NEAR(length(d), 1, 1e-12);
       first += d.z / (n * n);
       second += d.z * d.z / (n * n);

@@ -22,11 +22,13 @@ TEST(Sampler, EveryDimensionIsStratified) {
           ASSERT_LT(u, 1);
           ++hits[static_cast<std::size_t>(u * static_cast<float>(count))];
         }
-        EXPECT_TRUE(std::ranges::all_of(hits, [](int n) { return n == 1; })) << "set " << set << " dimension " << d;
+        EXPECT_TRUE(std::ranges::all_of(hits, [](int n) { return n == 1; }))
+            << "set " << set << " dimension " << d;
       }
 }
 
-// Dimensions 0 and 1 form a (0,2)-sequence: one of the first 256 points in each cell of every 2ᵃ × 2ᵇ grid, a + b = 8.
+// Dimensions 0 and 1 form a (0,2)-sequence: one of the first 256 points in each cell of every 2ᵃ × 2ᵇ grid, a
+// + b = 8.
 TEST(Sampler, FirstPairIsANet) {
   for (int a = 0; a <= 8; ++a) {
     std::vector<int> hits(256);

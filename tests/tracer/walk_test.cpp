@@ -97,7 +97,9 @@ TEST(Walk, GoesOnWhereItWasInterrupted) {
       DomainWalk::Visit v;
       const bool more = walk.next(std::numeric_limits<double>::infinity(), v);
       ASSERT_EQ(more, i + 1 < visits.size());
-      if (more) { EXPECT_EQ(v.domain, visits[i + 1].domain); }
+      if (more) {
+        EXPECT_EQ(v.domain, visits[i + 1].domain);
+      }
     }
   }
 }
