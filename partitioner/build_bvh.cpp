@@ -4,8 +4,8 @@
 #include <embree3/rtcore.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -216,9 +216,7 @@ class Collapser {
 ClusteredTriangles build_bvh(std::span<const TriangleReference> references, float padding) {
   ClusteredTriangles out;
   if (references.empty()) return out;
-  // Embree limits all of TBB to the threads of its devices: as many as the caller may use.
-  const std::string configuration = "threads=" + std::to_string(tbb::this_task_arena::max_concurrency());
-  const Device device(rtcNewDevice(configuration.c_str()), &rtcReleaseDevice);
+  const Device device(rtcNewDevice(nullptr), &rtcReleaseDevice);
   if (!device) throw MachineError("embree cannot start: error " + std::to_string(rtcGetDeviceError(nullptr)));
   const Bvh bvh(rtcNewBVH(device.get()), &rtcReleaseBVH);
   std::vector<RTCBuildPrimitive> primitives = build_primitives(references);

@@ -11,6 +11,7 @@
 #include "tests/laws/awkward_rays.h"
 #include "tests/laws/exact_oracle.h"
 #include "tests/partitioner/test_scenes.h"
+#include "tests/support/temporary_directory.h"
 #include "tracer/walk.h"
 
 namespace vitrail::test {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tracer/intersect/exact_test.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace vitrail {
