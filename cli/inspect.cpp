@@ -20,7 +20,8 @@ Report inspect(const std::filesystem::path& file) {
   if (!std::filesystem::exists(file)) throw Error("no such file", {file.string()});
   if (std::filesystem::is_directory(file)) return inspect_bundle(file);
   if (file.extension() == ".dom" || begins_with(file, "VITRDOM\n")) return inspect_domain(file);
-  if (file.extension() == ".film") return inspect_film(file);
+  // A checkpoint is a film too.
+  if (file.extension() == ".film" || file.extension() == ".partial") return inspect_film(file);
   return inspect_scene(file);
 }
 

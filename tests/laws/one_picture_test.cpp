@@ -92,7 +92,7 @@ void expect_one_picture(const TemporaryDirectory& directory, const std::filesyst
 std::filesystem::path generate(const TemporaryDirectory& directory, const std::string& example,
                                const std::string& arguments) {
   const CommandResult made =
-      run(fmt::format("python3 '{}/examples/{}/generate.py' -o '{}' {}", VITRAIL_SOURCE_DIR, example,
+      run(fmt::format("/usr/bin/python3 '{}/examples/{}/generate.py' -o '{}' {}", VITRAIL_SOURCE_DIR, example,
                       (directory / example).string(), arguments));
   EXPECT_EQ(made.status, 0) << made.output;
   return directory / example / (example + ".pbrt");
