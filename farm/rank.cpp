@@ -161,6 +161,7 @@ Rank::Decision Rank::decide(const RoundSums& sums) {
   {
     const std::lock_guard lock(state_.mutex);
     state_.allowance = (rays_allowed_ - alive) / transport_.size();
+    state_.alive = static_cast<std::size_t>(std::max<std::int64_t>(0, alive));
     state_.paused = sums.pause + sums.stop > 0;
   }
   state_.work_available.notify_all();

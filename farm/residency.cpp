@@ -46,7 +46,7 @@ void Residency::note_forwarded(std::uint32_t domain, std::uint64_t rays) {
 }
 
 std::optional<std::uint32_t> Residency::reserve(const std::function<std::size_t(std::uint32_t)>& waiting,
-                                                bool starving) {
+                                                std::size_t alive, bool starving) {
   std::optional<std::uint32_t> best;
   std::size_t most = 0;
   for (std::uint32_t d = 0; d < local_.size(); ++d)
@@ -54,13 +54,15 @@ std::optional<std::uint32_t> Residency::reserve(const std::function<std::size_t(
       most = waiting(d);
       best = d;
     }
-  if (!best || !make_room(manifest_.domains[*best].bytes, most, waiting, starving)) return std::nullopt;
+  if (!best || !make_room(manifest_.domains[*best].bytes, most, waiting, alive, starving))
+    return std::nullopt;
   *held_ += manifest_.domains[*best].bytes;
   return best;
 }
 
 bool Residency::make_room(std::uint64_t bytes, std::size_t candidate_waiting,
-                          const std::function<std::size_t(std::uint32_t)>& waiting, bool starving) {
+                          const std::function<std::size_t(std::uint32_t)>& waiting, std::size_t alive,
+                          bool starving) {
   while (*held_ + bytes > budget_) {
     // What was evicted before and is still held by a worker will come free without further evictions.
     std::uint64_t in_table = 0;
@@ -74,7 +76,11 @@ bool Residency::make_room(std::uint64_t bytes, std::size_t candidate_waiting,
     const std::size_t fewest = waiting(*victim);
     const bool worthwhile =
         candidate_waiting >= rays_worth_a_load && fewest * worth_a_swap <= candidate_waiting;
-    if (fewest >= candidate_waiting || !(starving || worthwhile)) return false;
+    // Even in need a swap waits until a domain has its even share of the rays alive: a rank with little to do
+    // would else swap for a handful of rays over and over while the others work. The domain with the most
+    // rays always has its share, so somewhere work goes on.
+    const bool needed = starving && candidate_waiting * local_.size() >= alive;
+    if (fewest >= candidate_waiting || !(needed || worthwhile)) return false;
     ++evictions_;
     replace(*victim, nullptr);
   }

@@ -37,9 +37,10 @@ class Residency {
   void note_forwarded(std::uint32_t domain, std::uint64_t rays);
 
   // The domain to load now, room made for it and reserved; empty while there is none or until workers let go
-  // of what was evicted. `waiting(d)` counts the rays for d; `starving`: the workers have nothing else to do.
+  // of what was evicted. `waiting(d)` counts the rays for d, `alive` those in the whole job; `starving`: the
+  // workers have nothing else to do.
   std::optional<std::uint32_t> reserve(const std::function<std::size_t(std::uint32_t)>& waiting,
-                                       bool starving);
+                                       std::size_t alive, bool starving);
   // Maps and verifies; may be called without the mutex.
   std::shared_ptr<const MappedDomain> load(std::uint32_t domain);
   void insert(std::uint32_t domain, std::shared_ptr<const MappedDomain> mapped);
@@ -51,7 +52,7 @@ class Residency {
 
  private:
   bool make_room(std::uint64_t bytes, std::size_t candidate_waiting,
-                 const std::function<std::size_t(std::uint32_t)>& waiting, bool starving);
+                 const std::function<std::size_t(std::uint32_t)>& waiting, std::size_t alive, bool starving);
   void replace(std::uint32_t domain, std::shared_ptr<const MappedDomain> mapped);
 
   const Manifest& manifest_;

@@ -134,7 +134,7 @@ void load(RankState& s) {
   std::unique_lock lock(s.mutex);
   const auto waiting = [&](std::uint32_t domain) { return s.queues.waiting(domain); };
   while (!s.finished) {
-    const auto domain = s.residency.reserve(waiting, s.workers_waiting == s.workers);
+    const auto domain = s.residency.reserve(waiting, s.alive, s.workers_waiting == s.workers);
     if (!domain) {
       // An evicted domain comes free without a notice, when its last worker lets go of it.
       s.load_wanted.wait_for(lock, std::chrono::milliseconds(2));

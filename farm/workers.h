@@ -35,6 +35,7 @@ struct RankState {
   std::size_t next_item = 0;         // index into `share`
   std::size_t items_in_hand = 0;     // taken and not yet published
   std::int64_t allowance = 0;        // rays that may be generated before the next round
+  std::size_t alive = 0;             // rays in the whole job, at the last round
   bool paused = false, finished = false;
 
   TraceCounters counters;

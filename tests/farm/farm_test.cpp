@@ -108,12 +108,12 @@ TEST(Residency, TakesTheFullestAndKeepsWithinItsBudget) {
   Residency residency(m, "none.vit", 200, {0, 0, 0}, 0);
   std::vector<std::size_t> waiting{5, 9, 7};
   const auto count = [&](std::uint32_t d) { return waiting[d]; };
-  EXPECT_EQ(residency.reserve(count, true), 1u);
+  EXPECT_EQ(residency.reserve(count, 14, true), 1u);
   // Not inserted yet, but its room is taken: one more fits, the third does not.
   waiting[1] = 0;
-  EXPECT_EQ(residency.reserve(count, true), 2u);
+  EXPECT_EQ(residency.reserve(count, 14, true), 2u);
   waiting[2] = 0;
-  EXPECT_EQ(residency.reserve(count, true), std::nullopt);
+  EXPECT_EQ(residency.reserve(count, 14, true), std::nullopt);
 }
 
 TEST(Residency, KeepsAnothersDomainOnlyIfMuchAskedFor) {
