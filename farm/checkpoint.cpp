@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <cstdio>
+
 #include "farm/agreement.h"
 
 namespace vitrail {
@@ -43,6 +45,10 @@ Resumed read_checkpoint(Transport& transport, const std::filesystem::path& file,
   resumed.done.resize((plan.items() + 63) / 64);
   agree(transport, [&] {
     if (transport.rank() != 0) return;
+    if (!std::filesystem::exists(file)) {
+      fmt::print(stderr, "vitrail: there is no checkpoint {}; starting from the beginning\n", file.string());
+      return;
+    }
     FilmProgress progress;
     const Film read = read_film(file, &progress);
     const std::string reason = mismatch(read, progress, film, plan);

@@ -160,7 +160,8 @@ Rank::Decision Rank::decide(const RoundSums& sums) {
   born_then_ = sums.born;
   {
     const std::lock_guard lock(state_.mutex);
-    state_.allowance = (rays_allowed_ - alive) / transport_.size();
+    state_.allowance =
+        alive < rays_allowed_ ? std::max<std::int64_t>(1, (rays_allowed_ - alive) / transport_.size()) : 0;
     state_.alive = static_cast<std::size_t>(std::max<std::int64_t>(0, alive));
     state_.paused = sums.pause + sums.stop > 0;
   }
