@@ -22,7 +22,7 @@ constexpr RayKind kind_of() {
 class RayBatch {
  public:
   static constexpr std::size_t header_bytes = 8;
-  static constexpr std::size_t full_bytes = 64 * 1024;
+  static constexpr std::size_t full_bytes = 1 << 16;
 
   RayBatch() = default;
   RayBatch(std::uint32_t domain, RayKind kind) : bytes_(header_bytes) {
