@@ -11,8 +11,22 @@
 namespace vitrail {
 
 struct DirectionCode {
-  std::uint16_t word[3]{};
+  // Two numbers of three bytes, least significant first. Bytes, since records hold it unaligned.
+  std::uint8_t byte[6]{};
   bool operator==(const DirectionCode&) const = default;
+
+  static DirectionCode of(std::uint32_t a, std::uint32_t b) {
+    const auto at = [](std::uint32_t n, int shift) { return static_cast<std::uint8_t>(n >> shift); };
+    return {{at(a, 0), at(a, 8), at(a, 16), at(b, 0), at(b, 8), at(b, 16)}};
+  }
+  std::uint32_t first() const { return number(0); }
+  std::uint32_t second() const { return number(3); }
+
+ private:
+  std::uint32_t number(int i) const {
+    return byte[i] | static_cast<std::uint32_t>(byte[i + 1]) << 8 |
+           static_cast<std::uint32_t>(byte[i + 2]) << 16;
+  }
 };
 
 // `d` finite and not zero; any length.
@@ -27,15 +41,12 @@ inline DirectionCode encode_direction(Vector3d d) {
   const auto quantise = [](double v) {
     return static_cast<std::uint32_t>(std::nearbyint(std::clamp((v + 1) * 8388607.0, 0.0, 16777214.0)));
   };
-  const std::uint32_t a = quantise(x), b = quantise(y);
-  return {{static_cast<std::uint16_t>(a >> 8), static_cast<std::uint16_t>((a & 0xff) << 8 | b >> 16),
-           static_cast<std::uint16_t>(b)}};
+  return DirectionCode::of(quantise(x), quantise(y));
 }
 
 // Unit vector, rounded to float.
 inline Vector3f decode_direction(DirectionCode code) {
-  const std::uint32_t a = static_cast<std::uint32_t>(code.word[0]) << 8 | code.word[1] >> 8;
-  const std::uint32_t b = (static_cast<std::uint32_t>(code.word[1]) & 0xff) << 16 | code.word[2];
+  const std::uint32_t a = code.first(), b = code.second();
   double x = a / 8388607.0 - 1, y = b / 8388607.0 - 1;
   const double z = 1 - std::abs(x) - std::abs(y);
   if (z < 0) {
@@ -53,17 +64,14 @@ struct FaceCode {
 
 inline FaceCode encode_face(Vector3d normal) {
   const DirectionCode code = encode_direction(normal.z < 0 ? -normal : normal);
-  const std::uint32_t a = static_cast<std::uint32_t>(code.word[0]) >> 6;
-  const std::uint32_t b = (static_cast<std::uint32_t>(code.word[1]) & 0xff) << 2 | code.word[2] >> 14;
-  return {a << 10 | b};
+  return {(code.first() >> 14) << 10 | code.second() >> 14};
 }
 
 // Whether a face is parallel to the one encoded, to 0.5°. A wedge of that angle in glass spreads the visible
 // spectrum by less than 1e-4 rad.
 inline bool is_parallel(FaceCode code, Vector3d normal) {
-  const DirectionCode centre{{static_cast<std::uint16_t>((code.bits >> 10) << 6 | 32),
-                              static_cast<std::uint16_t>(code.bits >> 2 & 0xff),
-                              static_cast<std::uint16_t>((code.bits & 3) << 14 | 1 << 13)}};
+  const DirectionCode centre =
+      DirectionCode::of((code.bits >> 10) << 14 | 1 << 13, (code.bits & 0x3ff) << 14 | 1 << 13);
   const Vector3d face = cast<double>(decode_direction(centre));
   return length(cross(face, normal)) < 0.0045;
 }
