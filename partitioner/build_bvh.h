@@ -26,8 +26,8 @@ struct ClusteredTriangles {
 };
 
 // Clusters by Embree's SAH builder (rtcBuildBVH), at most 8 triangles each, and its binary tree collapsed to
-// 8-wide nodes by largest area. A box holds the bounds of its references, inflated on every side by padding +
-// 10⁻⁶|x|. The result does not depend on the number of threads. Triangles of zero area are kept; no
+// 8-wide nodes of least SAH cost. A box holds the bounds of its references, inflated on every side by padding
+// + 10⁻⁶|x|. The result does not depend on the number of threads. Triangles of zero area are kept; no
 // references give no nodes. Throws MachineError when Embree fails.
 ClusteredTriangles build_bvh(std::span<const TriangleReference> references, float padding);
 

@@ -10,9 +10,7 @@ namespace vitrail {
 
 inline constexpr int hero_count = 4;
 
-// Wavelengths in nm and their pdfs in nm⁻¹. Index 0 is the hero. When dispersion has ended the secondary
-// ones, their pdf is 0 and the hero's is a quarter of what it was: the mean over four then still has the
-// right weight.
+// Wavelengths in nm and their pdfs in nm⁻¹. Index 0 is the hero: the one that is left after dispersion.
 struct SampledWavelengths {
   std::array<float, hero_count> lambda_nm{};
   std::array<float, hero_count> pdf{};

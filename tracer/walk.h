@@ -15,7 +15,7 @@ namespace vitrail {
 double enter_box(const Bounds3f& box, Point3d origin, Vector3d reciprocal, double tmax);
 
 // The leaves of one ray, one after the other. The sequence is a function of the ray and the manifest alone,
-// so a rank that receives a ray finds its place in it again with `skip_to`.
+// so a rank that receives a ray finds its place in it again with `skip_past`.
 class DomainWalk {
  public:
   struct Visit {
