@@ -33,7 +33,7 @@ bool finite(const Spectrum& s) {
 bool finite(Point3d p) { return is_finite(p); }
 bool finite(Vector3d v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
-bool finite(const Camera& camera) {
+bool finite(const bundle::Camera& camera) {
   return std::visit(
       [](const auto& c) {
         bool all = std::isfinite(c.screen.x0) && std::isfinite(c.screen.x1) && std::isfinite(c.screen.y0) &&
@@ -61,6 +61,11 @@ void check_film(const Checker& c, const FilmSettings& f) {
   if (const auto* gaussian = std::get_if<GaussianFilter>(&f.filter))
     c.require(gaussian->sigma > 0 && std::isfinite(gaussian->sigma),
               "σ of the pixel filter is not a positive number");
+  if (const auto* mitchell = std::get_if<MitchellFilter>(&f.filter))
+    c.require(std::isfinite(mitchell->b) && std::isfinite(mitchell->c),
+              "B or C of the pixel filter is not finite");
+  if (const auto* sinc = std::get_if<SincFilter>(&f.filter))
+    c.require(sinc->tau > 0 && std::isfinite(sinc->tau), "τ of the pixel filter is not a positive number");
 }
 
 // Every node and every domain hangs in exactly one place, children after their parents.
@@ -103,21 +108,21 @@ void check_surfaces(const Checker& c, const Manifest& m) {
 
 void check_lights(const Checker& c, const Manifest& m) {
   const char* const what = "an emission is not finite";
-  for (const AreaLight& l : m.area_lights) c.require(finite(l.radiance), what);
+  for (const bundle::AreaLight& l : m.area_lights) c.require(finite(l.radiance), what);
   for (const EmissiveTriangle& t : m.emissive_triangles) {
     c.require(t.triangle < m.triangles && t.area_light < m.area_lights.size(), "a light shines from nowhere");
     for (const Point3f& p : t.p) c.require(is_finite(p), "a light has a vertex that is not finite");
   }
-  for (const Light& light : m.lights) {
-    if (const auto* point = std::get_if<PointLight>(&light)) {
+  for (const bundle::Light& light : m.lights) {
+    if (const auto* point = std::get_if<bundle::PointLight>(&light)) {
       c.require(finite(point->position), "the position of a light is not finite");
       c.require(finite(point->intensity), what);
-    } else if (const auto* distant = std::get_if<DistantLight>(&light)) {
+    } else if (const auto* distant = std::get_if<bundle::DistantLight>(&light)) {
       c.require(finite(distant->direction) && length(distant->direction) > 0,
                 "a distant light has no direction");
       c.require(finite(distant->irradiance), what);
     } else {
-      c.require(finite(std::get<InfiniteLight>(light).radiance), what);
+      c.require(finite(std::get<bundle::InfiniteLight>(light).radiance), what);
     }
   }
 }
@@ -134,10 +139,10 @@ void check_manifest(const Manifest& m, const std::filesystem::path& file) {
   check_kd_tree(c, m);
   check_surfaces(c, m);
   check_lights(c, m);
-  for (const Material& material : m.materials) {
-    if (const auto* diffuse = std::get_if<DiffuseMaterial>(&material))
+  for (const bundle::Material& material : m.materials) {
+    if (const auto* diffuse = std::get_if<bundle::DiffuseMaterial>(&material))
       c.require(finite(diffuse->reflectance), "a reflectance is not finite");
-    if (const auto* dielectric = std::get_if<DielectricMaterial>(&material))
+    if (const auto* dielectric = std::get_if<bundle::DielectricMaterial>(&material))
       c.require(finite(dielectric->eta), "an index of refraction is not finite");
   }
 }

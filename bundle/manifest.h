@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "bundle/appearance.h"
 #include "bundle/domain_file.h"
 #include "scene/bounds.h"
 #include "scene/scene.h"
@@ -52,7 +53,7 @@ struct Requirements {
   bool shading_normals = false;
   bool transmission = false;  // some surface lets light through
   bool dispersion = false;    // some index of refraction depends on λ
-  bool interfaces = false;    // some surface is InterfaceMaterial
+  bool interfaces = false;    // some surface is bundle::InterfaceMaterial
   bool operator==(const Requirements&) const = default;
 };
 
@@ -65,11 +66,11 @@ struct Manifest {
   std::vector<KdNode> kd_nodes;     // empty when there is one domain
   std::vector<DomainInfo> domains;
   std::vector<Surface> surfaces;  // ascending first_triangle
-  std::vector<Material> materials;
-  std::vector<AreaLight> area_lights;
+  std::vector<bundle::Material> materials;
+  std::vector<bundle::AreaLight> area_lights;
   std::vector<EmissiveTriangle> emissive_triangles;
-  std::vector<Light> lights;  // positions and directions in the bundle's coordinates
-  Camera camera;              // camera_to_world ends in the bundle's coordinates
+  std::vector<bundle::Light> lights;  // positions and directions in the bundle's coordinates
+  bundle::Camera camera;              // camera_to_world ends in the bundle's coordinates
   FilmSettings film;
   RenderSettings settings;
   Requirements requirements;

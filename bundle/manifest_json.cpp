@@ -38,7 +38,7 @@ std::uint64_t hash_from(const Json& j) {
 
 // The kinds of a variant, in the order of its alternatives.
 constexpr std::array camera_kinds{"perspective", "orthographic"};
-constexpr std::array filter_kinds{"box", "triangle", "gaussian"};
+constexpr std::array filter_kinds{"box", "triangle", "gaussian", "mitchell", "sinc"};
 
 template <std::size_t n>
 std::size_t kind_index(const Json& j, const std::array<const char*, n>& kinds) {
@@ -52,6 +52,8 @@ Json filter_to_json(const Filter& filter) {
   Json j{{"kind", filter_kinds.at(filter.index())}};
   std::visit([&](const auto& f) { j["radius_px"] = {f.radius_x, f.radius_y}; }, filter);
   if (const auto* gaussian = std::get_if<GaussianFilter>(&filter)) j["sigma_px"] = gaussian->sigma;
+  if (const auto* mitchell = std::get_if<MitchellFilter>(&filter)) j["b_c"] = {mitchell->b, mitchell->c};
+  if (const auto* sinc = std::get_if<SincFilter>(&filter)) j["tau"] = sinc->tau;
   return j;
 }
 
@@ -60,10 +62,13 @@ Filter filter_from_json(const Json& j) {
   const std::size_t kind = kind_index(j, filter_kinds);
   if (kind == 0) return BoxFilter{x, y};
   if (kind == 1) return TriangleFilter{x, y};
-  return GaussianFilter{x, y, j.at("sigma_px").get<double>()};
+  if (kind == 2) return GaussianFilter{x, y, j.at("sigma_px").get<double>()};
+  if (kind == 3)
+    return MitchellFilter{x, y, j.at("b_c").at(0).get<double>(), j.at("b_c").at(1).get<double>()};
+  return SincFilter{x, y, j.at("tau").get<double>()};
 }
 
-Camera camera_from_json(const Json& j) {
+bundle::Camera camera_from_json(const Json& j) {
   Transform t;
   for (std::size_t i = 0; i < 16; ++i) t.m[i / 4][i % 4] = j.at("camera_to_world").at(i).get<double>();
   const auto s = [&](std::size_t i) { return j.at("screen").at(i).get<double>(); };
@@ -121,7 +126,7 @@ DomainInfo domain_from_json(const Json& j) {
 
 }  // namespace
 
-Json camera_to_json(const Camera& camera) {
+Json camera_to_json(const bundle::Camera& camera) {
   Json j{{"kind", camera_kinds.at(camera.index())}};
   std::visit(
       [&](const auto& c) {

@@ -37,9 +37,11 @@ template <class V>
 requires requires(V v) { v.z; }
 void fields(auto& io, V& v) { io(v.x), io(v.y), io(v.z); }
 
+// The colour that a sigmoid was fitted to is for writing scenes: it stays behind.
 void fields(auto& io, ConstantSpectrum& s) { io(s.value); }
 void fields(auto& io, SigmoidSpectrum& s) { io(s.c0), io(s.c1), io(s.c2); }
 void fields(auto& io, RgbIlluminantSpectrum& s) { fields(io, s.shape), io(s.scale); }
+void fields(auto& io, RgbUnboundedSpectrum& s) { fields(io, s.shape), io(s.scale); }
 void fields(auto& io, TabulatedSpectrum& s) {
   s.values.resize(table_size);
   for (float& value : s.values) io(value);
@@ -49,7 +51,15 @@ void fields(auto& io, SellmeierSpectrum& s) {
   for (double& c : s.c_um2) io(c);
 }
 
-void fields(auto&, InterfaceMaterial&) {}
+// These are resolved before they come here.
+template <class T>
+concept Unresolved = std::same_as<T, BlackbodySpectrum> || std::same_as<T, NamedSpectrum>;
+void fields(auto& io, Unresolved auto&) {
+  if constexpr (std::decay_t<decltype(io)>::reads) io.stream.fail("a spectrum is not resolved");
+  throw std::logic_error("a bundle takes resolved spectra");
+}
+
+void fields(auto&, bundle::InterfaceMaterial&) {}
 
 // A variant is its index in one byte, then the fields of that alternative.
 template <class... Alternatives>
@@ -64,12 +74,12 @@ void fields(auto& io, std::variant<Alternatives...>& v) {
   std::visit([&](auto& alternative) { fields(io, alternative); }, v);
 }
 
-void fields(auto& io, DiffuseMaterial& m) { fields(io, m.reflectance); }
-void fields(auto& io, DielectricMaterial& m) { fields(io, m.eta); }
-void fields(auto& io, AreaLight& l) { fields(io, l.radiance), fields(io, l.two_sided); }
-void fields(auto& io, PointLight& l) { fields(io, l.position), fields(io, l.intensity); }
-void fields(auto& io, DistantLight& l) { fields(io, l.direction), fields(io, l.irradiance); }
-void fields(auto& io, InfiniteLight& l) { fields(io, l.radiance); }
+void fields(auto& io, bundle::DiffuseMaterial& m) { fields(io, m.reflectance); }
+void fields(auto& io, bundle::DielectricMaterial& m) { fields(io, m.eta); }
+void fields(auto& io, bundle::AreaLight& l) { fields(io, l.radiance), fields(io, l.two_sided); }
+void fields(auto& io, bundle::PointLight& l) { fields(io, l.position), fields(io, l.intensity); }
+void fields(auto& io, bundle::DistantLight& l) { fields(io, l.direction), fields(io, l.irradiance); }
+void fields(auto& io, bundle::InfiniteLight& l) { fields(io, l.radiance); }
 void fields(auto& io, Surface& s) { io(s.first_triangle), io(s.material), io(s.area_light); }
 void fields(auto& io, EmissiveTriangle& t) {
   for (Point3f& p : t.p) fields(io, p);

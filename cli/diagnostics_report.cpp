@@ -4,6 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
+#include <set>
+#include <string_view>
 
 namespace vitrail {
 
@@ -15,13 +18,19 @@ std::string summarise(const Diagnostics& diagnostics, Fidelity fidelity, const c
   const auto count = static_cast<std::size_t>(std::count_if(
       diagnostics.begin(), diagnostics.end(), [&](const auto& d) { return d.fidelity == fidelity; }));
   if (count == 0) return {};
+  std::map<std::string_view, std::size_t> times;  // that a message comes
+  for (const Diagnostic& d : diagnostics)
+    if (d.fidelity == fidelity) ++times[d.message];
   std::string text = fmt::format("{} {}:\n", count, word);
   std::size_t shown = 0;
+  std::set<std::string_view> seen;
   for (const Diagnostic& d : diagnostics) {
-    if (d.fidelity != fidelity || shown == shown_of_each) continue;
+    if (d.fidelity != fidelity || seen.size() == shown_of_each || !seen.insert(d.message).second) continue;
     const std::string place = to_string(d.location);
-    text += fmt::format("  {}{}{}\n", place, place.empty() ? "" : ": ", d.message);
-    ++shown;
+    const std::size_t more = times[d.message] - 1;
+    text += fmt::format("  {}{}{}{}\n", place, place.empty() ? "" : ": ", d.message,
+                        more ? fmt::format(" (and {} more)", more) : "");
+    shown += more + 1;
   }
   if (count > shown) text += fmt::format("  and {} more\n", count - shown);
   return text;

@@ -7,6 +7,7 @@
 #include "cli/inspect.h"
 #include "film/film.h"
 #include "importers/import.h"
+#include "partitioner/appearance.h"
 #include "partitioner/flatten.h"
 #include "scene/spectrum.h"
 
@@ -26,10 +27,10 @@ std::string in_words(const Spectrum& s) {
                      evaluate(s, 450), evaluate(s, 550), evaluate(s, 650));
 }
 
-Report describe(const Material& material) {
-  if (const auto* diffuse = std::get_if<DiffuseMaterial>(&material))
+Report describe(const bundle::Material& material) {
+  if (const auto* diffuse = std::get_if<bundle::DiffuseMaterial>(&material))
     return {{"kind", "diffuse"}, {"reflectance or index", in_words(diffuse->reflectance)}};
-  if (const auto* dielectric = std::get_if<DielectricMaterial>(&material))
+  if (const auto* dielectric = std::get_if<bundle::DielectricMaterial>(&material))
     return {{"kind", "dielectric"}, {"reflectance or index", in_words(dielectric->eta)}};
   return {{"kind", "interface"}, {"reflectance or index", nullptr}};
 }
@@ -48,23 +49,23 @@ Report describe_lights(const Manifest& m) {
   Report lights = Report::array();
   const std::vector<double> areas = emitting_areas(m);
   for (std::size_t i = 0; i < areas.size(); ++i) {
-    const AreaLight& l = m.area_lights[i];
+    const bundle::AreaLight& l = m.area_lights[i];
     const double y = luminance(l.radiance);
     lights.push_back({{"kind", l.two_sided ? "area, both sides" : "area"},
                       {"luminance", y},
                       {"area", areas[i]},
                       {"power", std::numbers::pi * areas[i] * y * (l.two_sided ? 2 : 1)}});
   }
-  for (const Light& light : m.lights) {
+  for (const bundle::Light& light : m.lights) {
     Report power = nullptr;
     double y = 0;
-    if (const auto* point = std::get_if<PointLight>(&light)) {
+    if (const auto* point = std::get_if<bundle::PointLight>(&light)) {
       y = luminance(point->intensity);
       power = 4 * std::numbers::pi * y;
-    } else if (const auto* distant = std::get_if<DistantLight>(&light)) {
+    } else if (const auto* distant = std::get_if<bundle::DistantLight>(&light)) {
       y = luminance(distant->irradiance);
     } else {
-      y = luminance(std::get<InfiniteLight>(light).radiance);
+      y = luminance(std::get<bundle::InfiniteLight>(light).radiance);
     }
     lights.push_back(
         {{"kind", light_kinds.at(light.index())}, {"luminance", y}, {"area", nullptr}, {"power", power}});
@@ -84,10 +85,14 @@ std::string materials_that(const Manifest& m, const char* what, Condition condit
 // What the scene asks of a renderer, and why.
 Report describe_requirements(const Manifest& m) {
   const Requirements& r = m.requirements;
-  const auto dielectric = [](const Material& x) { return std::holds_alternative<DielectricMaterial>(x); };
-  const auto interface = [](const Material& x) { return std::holds_alternative<InterfaceMaterial>(x); };
-  const auto disperses = [](const Material& x) {
-    const auto* d = std::get_if<DielectricMaterial>(&x);
+  const auto dielectric = [](const bundle::Material& x) {
+    return std::holds_alternative<bundle::DielectricMaterial>(x);
+  };
+  const auto interface = [](const bundle::Material& x) {
+    return std::holds_alternative<bundle::InterfaceMaterial>(x);
+  };
+  const auto disperses = [](const bundle::Material& x) {
+    const auto* d = std::get_if<bundle::DielectricMaterial>(&x);
     return d && !is_constant(d->eta);
   };
   return {{"shading_normals", r.shading_normals ? "yes: a mesh in use has normals at its vertices" : "no"},
@@ -127,7 +132,7 @@ Report describe(const Manifest& m) {
   }
   r["requires"] = describe_requirements(m);
   r["materials"] = Report::array();
-  for (const Material& material : m.materials) r["materials"].push_back(describe(material));
+  for (const bundle::Material& material : m.materials) r["materials"].push_back(describe(material));
   r["emissive_triangles"] = m.emissive_triangles.size();
   r["lights"] = describe_lights(m);
   r["view"] = describe_view(m);
@@ -144,6 +149,7 @@ Report inspect_scene(const std::filesystem::path& file) {
   r["instances"] = s.instances.size();
   r.update(describe(flatten(s).manifest));
   r["not_exact"] = describe_diagnostics(imported.diagnostics);
+  r["not_rendered_exactly"] = describe_diagnostics(appearance_of(s).diagnostics);
   return r;
 }
 

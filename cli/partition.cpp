@@ -4,12 +4,15 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "cli/diagnostics_report.h"
 #include "cli/main_guard.h"
 #include "cli/sizes.h"
 #include "importers/import.h"
+#include "partitioner/appearance.h"
 #include "scene/atomic_file.h"
 
 namespace vitrail {
@@ -77,8 +80,10 @@ int run(Arguments& a) {
     if (a.options.domain_bytes == 0) throw UsageError("--domain-bytes has to be more than 0");
   }
   const ImportedScene imported = import_scene(a.input);
-  fmt::print(stderr, "{}", summarise(imported.diagnostics));
-  if (a.strict) require_exact(imported.diagnostics);
+  Diagnostics diagnostics = imported.diagnostics;
+  std::ranges::copy(appearance_of(imported.scene).diagnostics, std::back_inserter(diagnostics));
+  fmt::print(stderr, "{}", summarise(diagnostics));
+  if (a.strict) require_exact(diagnostics);
   std::function<void(double, const char*)> progress;
   if (!a.quiet && ::isatty(STDERR_FILENO)) progress = show_progress;
   const PartitionStats stats = partition(imported.scene, a.output, a.options, progress);

@@ -6,7 +6,7 @@ add_library(vitrail::options ALIAS vitrail_options)
 target_compile_features(vitrail_options INTERFACE cxx_std_20)
 target_include_directories(vitrail_options INTERFACE ${PROJECT_SOURCE_DIR})
 target_compile_options(vitrail_options INTERFACE
-  -Wall -Wextra -Wconversion -Wshadow
+  -Wall -Wextra -Wno-missing-field-initializers -Wconversion -Wshadow
   # The picture has to have the same bits on every machine and in every build: a fused multiply-add rounds once where
   # a multiply and an add round twice, and the compiler would choose.
   -ffp-contract=off)

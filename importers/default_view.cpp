@@ -48,7 +48,7 @@ void add_default_view(ImportedScene& imported, const std::filesystem::path& file
   imported.diagnostics.push_back(
       {Fidelity::approximated, "there is no camera: one that sees everything is added", place});
   if (!scene.lights.empty() || !scene.area_lights.empty()) return;
-  scene.lights.push_back(InfiniteLight{emission_from_rgb({1, 1, 1})});
+  scene.lights.push_back({InfiniteLight{emission_from_rgb({1, 1, 1})}});
   imported.diagnostics.push_back({Fidelity::approximated, "there is no light: a white sky is added", place});
 }
 

@@ -27,7 +27,7 @@ std::string format_of(std::filesystem::path file) {
 ImportedScene mesh_alone(const std::filesystem::path& file) {
   ImportedScene imported;
   imported.scene.meshes.push_back(read_ply(file, &imported.diagnostics));
-  imported.scene.materials.push_back(DiffuseMaterial{});
+  imported.scene.materials.push_back({DiffuseMaterial{}});
   imported.scene.shapes.push_back({});
   return imported;
 }

@@ -11,6 +11,7 @@
 
 #include "bundle/checksum.h"
 #include "bundle/records.h"
+#include "partitioner/appearance.h"
 
 namespace vitrail {
 
@@ -138,9 +139,9 @@ struct Compacted {
   }
 };
 
-void make_surfaces(const Scene& scene, const std::vector<Placement>& placements, Manifest& m) {
-  Compacted<Material> materials{scene.materials, m.materials};
-  Compacted<AreaLight> area_lights{scene.area_lights, m.area_lights};
+void make_surfaces(const Appearance& appearance, const std::vector<Placement>& placements, Manifest& m) {
+  Compacted<bundle::Material> materials{appearance.materials, m.materials};
+  Compacted<bundle::AreaLight> area_lights{appearance.area_lights, m.area_lights};
   for (const Placement& p : placements) {
     Surface surface{static_cast<std::uint32_t>(p.first_triangle), materials.id(p.shape->material.value), -1};
     if (p.shape->area_light)
@@ -170,14 +171,14 @@ void make_emissive_triangles(FlatScene& flat) {
   }
 }
 
-Requirements requirements_of(const std::vector<Placement>& placements, const Scene& scene) {
+Requirements requirements_of(const std::vector<Placement>& placements, const Appearance& appearance) {
   Requirements r;
   for (const Placement& p : placements) {
-    const Material& material = scene.materials.at(p.shape->material.value);
-    const bool interface = std::holds_alternative<InterfaceMaterial>(material);
+    const bundle::Material& material = appearance.materials.at(p.shape->material.value);
+    const bool interface = std::holds_alternative<bundle::InterfaceMaterial>(material);
     r.interfaces |= interface;
     r.shading_normals |= !interface && !p.mesh->normals.empty();
-    if (const auto* dielectric = std::get_if<DielectricMaterial>(&material)) {
+    if (const auto* dielectric = std::get_if<bundle::DielectricMaterial>(&material)) {
       r.transmission = true;
       r.dispersion |= !is_constant(dielectric->eta);
     }
@@ -185,11 +186,11 @@ Requirements requirements_of(const std::vector<Placement>& placements, const Sce
   return r;
 }
 
-void move_records(const Scene& scene, Manifest& m) {
-  m.lights = scene.lights;
-  for (Light& light : m.lights)
-    if (auto* point = std::get_if<PointLight>(&light)) point->position = point->position - m.offset;
-  m.camera = scene.camera;
+void move_records(const Scene& scene, const Appearance& appearance, Manifest& m) {
+  m.lights = appearance.lights;
+  for (bundle::Light& light : m.lights)
+    if (auto* point = std::get_if<bundle::PointLight>(&light)) point->position = point->position - m.offset;
+  m.camera = appearance.camera;
   std::visit([&](auto& c) { c.camera_to_world = translate(-m.offset) * c.camera_to_world; }, m.camera);
   m.film = scene.film;
   m.settings = scene.settings;
@@ -209,9 +210,10 @@ std::uint64_t scene_hash(const FlatScene& flat) {
 FlatScene flatten(const Scene& scene) {
   FlatScene flat;
   Manifest& m = flat.manifest;
+  const Appearance appearance = appearance_of(scene);
   const std::vector<Placement> placements = place(scene, m.triangles);
   m.offset = offset_of(placements);
-  m.requirements = requirements_of(placements, scene);
+  m.requirements = requirements_of(placements, appearance);
   flat.triangles.resize(m.triangles);
   if (m.requirements.shading_normals) flat.normals.assign(m.triangles, {no_normal, no_normal, no_normal});
   for (const Placement& p : placements) {
@@ -222,9 +224,9 @@ FlatScene flatten(const Scene& scene) {
     for (const Point3f& v : t) extend(m.bounds, v);
   for (int axis = 0; axis < 3 && m.triangles > 0; ++axis)
     m.scale = std::max({m.scale, std::abs(m.bounds.lower[axis]), std::abs(m.bounds.upper[axis])});
-  make_surfaces(scene, placements, m);
+  make_surfaces(appearance, placements, m);
   make_emissive_triangles(flat);
-  move_records(scene, m);
+  move_records(scene, appearance, m);
   m.scene_hash = scene_hash(flat);
   return flat;
 }

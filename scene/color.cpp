@@ -133,9 +133,10 @@ double srgb_decode(double encoded) {
 }
 
 XYZ to_xyz(const Spectrum& emission) {
+  const Spectrum known = resolved(emission);
   XYZ sum;
   for (std::size_t i = 0; i < table_size; ++i) {
-    const double value = evaluate(emission, lambda_min_nm + static_cast<double>(i));
+    const double value = evaluate(known, lambda_min_nm + static_cast<double>(i));
     const auto& cmf = cie_1931()[i];
     sum.x += value * static_cast<double>(cmf[0]);
     sum.y += value * static_cast<double>(cmf[1]);

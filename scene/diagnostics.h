@@ -43,6 +43,7 @@ struct Diagnostic {
   Fidelity fidelity = Fidelity::approximated;
   std::string message;  // what, and how or why
   SourceLocation location;
+  SourceLocation item;  // the directive or element that it is about, where a record's Origin points to
 };
 
 using Diagnostics = std::vector<Diagnostic>;

@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/named_spectra.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cmath>
 #include <map>
+#include <span>
 
 #include "scene/color.h"
+#include "scene/metal_tables.h"
 
 namespace vitrail {
 
@@ -46,14 +51,32 @@ Spectrum illuminant_a() {
   return scaled(s, 1 / luminance(s));
 }
 
+Spectrum tabulated(std::span<const std::array<float, 2>> table) {
+  std::vector<std::array<double, 2>> samples;
+  for (const auto& [lambda, value] : table) samples.push_back({lambda, value});
+  return tabulate(samples, true);
+}
+
 }  // namespace
 
 std::optional<Spectrum> named_spectrum(const std::string& name) {
   if (name == "stdillum-D65") return TabulatedSpectrum{{cie_d65().begin(), cie_d65().end()}};
   if (name == "stdillum-A") return illuminant_a();
-  const auto glass = glasses().find(name);
-  if (glass == glasses().end()) return std::nullopt;
-  return glass->second;
+  if (const auto glass = glasses().find(name); glass != glasses().end()) return glass->second;
+  for (const MetalTable& metal : metal_tables()) {
+    if (name == fmt::format("metal-{}-eta", metal.name)) return tabulated(metal.eta);
+    if (name == fmt::format("metal-{}-k", metal.name)) return tabulated(metal.k);
+  }
+  return std::nullopt;
+}
+
+std::vector<std::string> spectrum_names() {
+  std::vector<std::string> names{"stdillum-D65", "stdillum-A"};
+  for (const auto& glass : glasses()) names.push_back(glass.first);
+  for (const MetalTable& metal : metal_tables())
+    for (const char* part : {"eta", "k"}) names.push_back(fmt::format("metal-{}-{}", metal.name, part));
+  std::sort(names.begin(), names.end());
+  return names;
 }
 
 SellmeierSpectrum bk7() {

@@ -3,13 +3,19 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "scene/spectrum.h"
 
 namespace vitrail {
 
-// Spectra that scene files refer to by name: "stdillum-D65", "glass-BK7" and its aliases. Empty when unknown.
+// The values of a spectrum that scene files refer to by name, never a NamedSpectrum: illuminants
+// ("stdillum-D65"), glasses ("glass-BK7" and its aliases), and the index of refraction of metals
+// ("metal-Cu-eta", "metal-Cu-k", any of metal_tables). Empty when unknown.
 std::optional<Spectrum> named_spectrum(const std::string& name);
+
+// All names that named_spectrum knows, sorted.
+std::vector<std::string> spectrum_names();
 
 // Schott N-BK7, n(λ) by the Sellmeier coefficients of its data sheet.
 SellmeierSpectrum bk7();

@@ -177,17 +177,39 @@ SigmoidSpectrum constant_reflectance(double v) {
 
 }  // namespace
 
-SigmoidSpectrum reflectance_from_rgb(RGB c) {
-  c = {std::clamp(c.r, 0.0, 1.0), std::clamp(c.g, 0.0, 1.0), std::clamp(c.b, 0.0, 1.0)};
-  if (c.r == c.g && c.g == c.b) return constant_reflectance(c.r);
-  return in_nm(fit_by_continuation(c).p);
+namespace {
+
+// Colours are kept as floats: what is fitted is the colour that is kept.
+RGB to_color(const std::array<float, 3>& c) { return {c[0], c[1], c[2]}; }
+
+std::array<float, 3> at_least_zero(RGB c) {
+  const auto component = [](double v) { return static_cast<float>(std::max(v, 0.0)); };
+  return {component(c.r), component(c.g), component(c.b)};
 }
 
-RgbIlluminantSpectrum emission_from_rgb(RGB c) {
-  c = {std::max(c.r, 0.0), std::max(c.g, 0.0), std::max(c.b, 0.0)};
+template <class Scaled>
+Scaled scaled_reflectance(RGB c) {
+  const std::array<float, 3> rgb = at_least_zero(c);
+  c = to_color(rgb);
   const double scale = 2 * std::max({c.r, c.g, c.b});
-  if (scale == 0) return {};
-  return {reflectance_from_rgb({c.r / scale, c.g / scale, c.b / scale}), static_cast<float>(scale)};
+  if (!(scale > 0)) return {};
+  return {reflectance_from_rgb({c.r / scale, c.g / scale, c.b / scale}), static_cast<float>(scale), rgb};
 }
+
+}  // namespace
+
+SigmoidSpectrum reflectance_from_rgb(RGB c) {
+  std::array<float, 3> rgb = at_least_zero(c);
+  for (float& v : rgb) v = std::min(v, 1.0f);
+  c = to_color(rgb);
+  SigmoidSpectrum fit =
+      c.r == c.g && c.g == c.b ? constant_reflectance(c.r) : in_nm(fit_by_continuation(c).p);
+  fit.rgb = rgb;
+  return fit;
+}
+
+RgbIlluminantSpectrum emission_from_rgb(RGB c) { return scaled_reflectance<RgbIlluminantSpectrum>(c); }
+
+RgbUnboundedSpectrum unbounded_from_rgb(RGB c) { return scaled_reflectance<RgbUnboundedSpectrum>(c); }
 
 }  // namespace vitrail

@@ -9,6 +9,8 @@
 
 #include "scene/color.h"
 #include "scene/diagnostics.h"
+#include "scene/named_spectra.h"
+#include "scene/rgb_to_spectrum.h"
 
 namespace vitrail {
 
@@ -65,8 +67,26 @@ double evaluate(const Spectrum& spectrum, double lambda_nm) {
                         },
                         [&](const TabulatedSpectrum& s) { return interpolate(s.values, lambda_nm); },
                         [&](const SellmeierSpectrum& s) { return sellmeier(s, lambda_nm); },
+                        [&](const RgbUnboundedSpectrum& s) {
+                          return static_cast<double>(s.scale) * sigmoid(s.shape, lambda_nm);
+                        },
+                        [&](const BlackbodySpectrum&) { return evaluate(resolved(spectrum), lambda_nm); },
+                        [&](const NamedSpectrum&) { return evaluate(resolved(spectrum), lambda_nm); },
                     },
                     spectrum);
+}
+
+Spectrum resolved(const Spectrum& spectrum) {
+  if (const auto* s = std::get_if<BlackbodySpectrum>(&spectrum)) {
+    const Spectrum shape = blackbody(static_cast<double>(s->kelvin));
+    const double visible = luminance(shape);  // 0 where it is too cold to glow
+    return visible > 0 ? scaled(shape, static_cast<double>(s->luminance) / visible) : ConstantSpectrum{0};
+  }
+  if (const auto* s = std::get_if<NamedSpectrum>(&spectrum)) {
+    if (const auto known = named_spectrum(s->name)) return *known;
+    throw Error(fmt::format("no spectrum is known by the name \"{}\"", s->name));
+  }
+  return spectrum;
 }
 
 bool is_constant(const Spectrum& spectrum) {
@@ -79,6 +99,9 @@ bool is_constant(const Spectrum& spectrum) {
                                                     std::not_equal_to<>{}) == s.values.end();
                         },
                         [](const SellmeierSpectrum& s) { return s.b == std::array<double, 3>{}; },
+                        [](const RgbUnboundedSpectrum& s) { return s.scale == 0 || is_constant(s.shape); },
+                        [](const BlackbodySpectrum& s) { return s.luminance == 0; },
+                        [](const NamedSpectrum&) { return false; },
                     },
                     spectrum);
 }
@@ -125,11 +148,45 @@ Spectrum scaled(const Spectrum& spectrum, double factor) {
   const auto product = [factor](float v) { return static_cast<float>(static_cast<double>(v) * factor); };
   if (factor == 1) return spectrum;
   if (auto* s = std::get_if<ConstantSpectrum>(&spectrum)) return ConstantSpectrum{product(s->value)};
-  if (auto* s = std::get_if<RgbIlluminantSpectrum>(&spectrum))
-    return RgbIlluminantSpectrum{s->shape, product(s->scale)};
+  const auto color = [factor](const std::array<float, 3>& c) {
+    return RGB{factor * static_cast<double>(c[0]), factor * static_cast<double>(c[1]),
+               factor * static_cast<double>(c[2])};
+  };
+  if (auto* s = std::get_if<RgbIlluminantSpectrum>(&spectrum); s && factor >= 0)
+    return emission_from_rgb(color(s->rgb));
+  if (auto* s = std::get_if<RgbUnboundedSpectrum>(&spectrum); s && factor >= 0)
+    return unbounded_from_rgb(color(s->rgb));
+  if (auto* s = std::get_if<BlackbodySpectrum>(&spectrum))
+    return BlackbodySpectrum{s->kelvin, product(s->luminance)};
   if (is_constant(spectrum))
     return ConstantSpectrum{static_cast<float>(evaluate(spectrum, lambda_min_nm) * factor)};
-  return tabulate_each_nm([&](double lambda) { return evaluate(spectrum, lambda) * factor; });
+  const Spectrum known = resolved(spectrum);
+  return tabulate_each_nm([&](double lambda) { return evaluate(known, lambda) * factor; });
+}
+
+namespace {
+
+// A table whose values are all the same is a constant.
+Spectrum simplified(TabulatedSpectrum table) {
+  if (is_constant(table)) return ConstantSpectrum{table.values.front()};
+  return table;
+}
+
+}  // namespace
+
+Spectrum weighted_sum(const Spectrum& a, double weight_a, const Spectrum& b, double weight_b) {
+  if (weight_b == 0) return scaled(a, weight_a);
+  if (weight_a == 0) return scaled(b, weight_b);
+  const Spectrum first = resolved(a), second = resolved(b);
+  return simplified(tabulate_each_nm(
+      [&](double l) { return weight_a * evaluate(first, l) + weight_b * evaluate(second, l); }));
+}
+
+Spectrum product(const Spectrum& a, const Spectrum& b) {
+  if (is_constant(a)) return scaled(b, evaluate(a, lambda_min_nm));
+  if (is_constant(b)) return scaled(a, evaluate(b, lambda_min_nm));
+  const Spectrum first = resolved(a), second = resolved(b);
+  return simplified(tabulate_each_nm([&](double l) { return evaluate(first, l) * evaluate(second, l); }));
 }
 
 double luminance(const Spectrum& spectrum) { return to_xyz(spectrum).y; }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <string>
 #include <variant>
 #include <vector>
 
@@ -19,9 +20,11 @@ struct ConstantSpectrum {
 };
 
 // Reflectance S(λ) = ½ + x/(2√(1+x²)), x = c0·λ² + c1·λ + c2, λ in nm (Jakob & Hanika 2019, eq. 3 and 4).
-// c0 = c1 = 0 and c2 = ±∞ stand for the constants 1 and 0.
+// c0 = c1 = 0 and c2 = ±∞ stand for the constants 1 and 0. `rgb` is the linear sRGB colour that it was fitted
+// to.
 struct SigmoidSpectrum {
   float c0 = 0, c1 = 0, c2 = 0;
+  std::array<float, 3> rgb{};
   bool operator==(const SigmoidSpectrum&) const = default;
 };
 
@@ -30,7 +33,16 @@ struct SigmoidSpectrum {
 struct RgbIlluminantSpectrum {
   SigmoidSpectrum shape;
   float scale = 0;
+  std::array<float, 3> rgb{};
   bool operator==(const RgbIlluminantSpectrum&) const = default;
+};
+
+// A quantity of colour rgb that may exceed 1 (a coefficient, a factor): scale · sigmoid(λ), as above.
+struct RgbUnboundedSpectrum {
+  SigmoidSpectrum shape;
+  float scale = 0;
+  std::array<float, 3> rgb{};
+  bool operator==(const RgbUnboundedSpectrum&) const = default;
 };
 
 // Values at 360, 361 … 830 nm, linear in between. Always `table_size` values.
@@ -46,8 +58,25 @@ struct SellmeierSpectrum {
   bool operator==(const SellmeierSpectrum&) const = default;
 };
 
+// Planck's law at `kelvin`, of luminance `luminance` (∫ S ȳ dλ / ∫ ȳ dλ).
+struct BlackbodySpectrum {
+  float kelvin = 6500;
+  float luminance = 1;
+  bool operator==(const BlackbodySpectrum&) const = default;
+};
+
+// One of `named_spectrum` (scene/named_spectra.h), by pbrt's name for it: "glass-BK7", "metal-Cu-eta". Kept
+// by name so that it can be written by name; renderers take `resolved`.
+struct NamedSpectrum {
+  std::string name;
+  bool operator==(const NamedSpectrum&) const = default;
+};
+
 using Spectrum = std::variant<ConstantSpectrum, SigmoidSpectrum, RgbIlluminantSpectrum, TabulatedSpectrum,
-                              SellmeierSpectrum>;
+                              SellmeierSpectrum, RgbUnboundedSpectrum, BlackbodySpectrum, NamedSpectrum>;
+
+// The same values without names and blackbodies: cheap to evaluate.
+Spectrum resolved(const Spectrum& spectrum);
 
 // Value at a wavelength in nm. Uses + − × ÷ √ only, so it has the same bits on every machine.
 double evaluate(const Spectrum& spectrum, double lambda_nm);
@@ -65,6 +94,11 @@ TabulatedSpectrum blackbody(double kelvin);
 
 // The same spectrum times `factor`, staying in its own kind where it can.
 Spectrum scaled(const Spectrum& spectrum, double factor);
+
+// a·weight_a + b·weight_b and a·b; where the result is constant, or one of the two times a number, it stays
+// of its kind.
+Spectrum weighted_sum(const Spectrum& a, double weight_a, const Spectrum& b, double weight_b);
+Spectrum product(const Spectrum& a, const Spectrum& b);
 
 // ∫ S(λ) ȳ(λ) dλ / ∫ ȳ(λ) dλ: the luminance-weighted mean, the Y of a pixel that sees radiance S.
 double luminance(const Spectrum& spectrum);

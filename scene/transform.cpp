@@ -117,6 +117,34 @@ Normal3d transform_normal(const Transform& t, Normal3d n) {
   return {row(0), row(1), row(2)};
 }
 
+namespace {
+
+// 2⁻⁴⁰ of the power of two above `greatest`; 0 has no rounding.
+double rounded_to_40_bits(double value, double greatest) {
+  if (!(greatest > 0) || !std::isfinite(greatest)) return value;
+  int exponent = 0;
+  std::frexp(greatest, &exponent);
+  return std::ldexp(std::nearbyint(std::ldexp(value, 40 - exponent)), exponent - 40) + 0.0;
+}
+
+}  // namespace
+
+Transform snapped(const Transform& t) {
+  Transform result = t;
+  double greatest = 0, farthest = 0;
+  for (std::size_t row = 0; row < 3; ++row) {
+    for (std::size_t column = 0; column < 3; ++column)
+      greatest = std::max(greatest, std::abs(t.m[row][column]));
+    farthest = std::max(farthest, std::abs(t.m[row][3]));
+  }
+  for (std::size_t row = 0; row < 3; ++row) {
+    for (std::size_t column = 0; column < 3; ++column)
+      result.m[row][column] = rounded_to_40_bits(t.m[row][column], greatest);
+    result.m[row][3] = rounded_to_40_bits(t.m[row][3], farthest);
+  }
+  return result;
+}
+
 double determinant3(const Transform& t) {
   return t.m[0][0] * cofactor3(t, 0, 0) + t.m[0][1] * cofactor3(t, 0, 1) + t.m[0][2] * cofactor3(t, 0, 2);
 }

@@ -37,6 +37,11 @@ Vector3d transform_vector(const Transform& t, Vector3d v);
 // singular transforms. The sign follows det > 0; for mirrors the normal keeps its side. Not normalised.
 Normal3d transform_normal(const Transform& t, Normal3d n);
 
+// Rounded to 40 bits of the greatest entry of the 3×3 block, and of that of the translation: the noise that
+// inverting a matrix leaves is gone, so that a camera that one file gives as its inverse and another as it is
+// comes out equal.
+Transform snapped(const Transform& t);
+
 double determinant3(const Transform& t);
 // Mirrors: the handedness of the upper 3×3 block changes.
 bool swaps_handedness(const Transform& t);

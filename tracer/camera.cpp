@@ -16,6 +16,20 @@ double value(const GaussianFilter& f, double radius, double x) {
   return std::max(0.0, gauss(x) - gauss(radius));
 }
 
+// The negative lobes of the next two cannot be sampled by importance: they are left out.
+
+// Mitchell and Netravali 1988, eq. 8, with x stretched so that it ends at the radius.
+double value(const MitchellFilter& f, double radius, double x) {
+  const double b = f.b, c = f.c, t = 2 * std::abs(x) / radius;
+  const double inner = ((12 - 9 * b - 6 * c) * t + (-18 + 12 * b + 6 * c)) * t * t + (6 - 2 * b);
+  const double outer =
+      (((-b - 6 * c) * t + (6 * b + 30 * c)) * t + (-12 * b - 48 * c)) * t + (8 * b + 24 * c);
+  return std::max(0.0, t < 1 ? inner : t < 2 ? outer : 0.0);
+}
+
+double sinc(double x) { return std::abs(x) < 1e-5 ? 1 : sin_pi(x) / (pi * x); }
+double value(const SincFilter& f, double, double x) { return std::max(0.0, sinc(x) * sinc(x / f.tau)); }
+
 }  // namespace
 
 FilterSampler::FilterSampler(const Filter& filter) {
@@ -53,7 +67,7 @@ Point2d FilterSampler::sample(float u, float v) const {
   return {x_.sample(static_cast<double>(u)), y_.sample(static_cast<double>(v))};
 }
 
-CameraRay camera_ray(const Camera& camera, const FilmSettings& film, Point2d raster) {
+CameraRay camera_ray(const bundle::Camera& camera, const FilmSettings& film, Point2d raster) {
   const auto on_screen = [&](const ScreenWindow& s) {
     return Point2d{s.x0 + raster.x / film.width * (s.x1 - s.x0),
                    s.y1 - raster.y / film.height * (s.y1 - s.y0)};

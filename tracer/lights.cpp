@@ -19,10 +19,10 @@ double area(const EmissiveTriangle& t) {
 LightSampler make_light_sampler(const Manifest& manifest) {
   LightSampler s;
   for (std::uint32_t i = 0; i < manifest.lights.size(); ++i)
-    (std::holds_alternative<InfiniteLight>(manifest.lights[i]) ? s.infinite : s.delta).push_back(i);
+    (std::holds_alternative<bundle::InfiniteLight>(manifest.lights[i]) ? s.infinite : s.delta).push_back(i);
 
   std::vector<double> brightness;
-  for (const AreaLight& light : manifest.area_lights) brightness.push_back(luminance(light.radiance));
+  for (const bundle::AreaLight& light : manifest.area_lights) brightness.push_back(luminance(light.radiance));
   s.cumulative.push_back(0);
   for (std::uint32_t i = 0; i < manifest.emissive_triangles.size(); ++i) {
     const EmissiveTriangle& t = manifest.emissive_triangles[i];
@@ -49,7 +49,7 @@ std::optional<LightSample> sample_triangle(const LightSampler& s, const Manifest
       std::upper_bound(s.cumulative.begin() + 1, s.cumulative.end() - 1, static_cast<double>(u[2]));
   const auto at = static_cast<std::size_t>(above - s.cumulative.begin()) - 1;
   const EmissiveTriangle& t = manifest.emissive_triangles[s.triangles[at]];
-  const AreaLight& light = manifest.area_lights[t.area_light];
+  const bundle::AreaLight& light = manifest.area_lights[t.area_light];
 
   // Uniform on the triangle (Heitz 2019): a low-distortion map of the square.
   double b0 = static_cast<double>(u[0]) / 2, b1 = static_cast<double>(u[1]) / 2;
@@ -87,14 +87,14 @@ std::optional<LightSample> sample_light(const LightSampler& s, const Manifest& m
   LightSample sample;
   sample.is_delta = true;
   sample.pdf = 1 / static_cast<double>(choices);
-  const Light& light = manifest.lights[s.delta[choice]];
-  if (const auto* distant = std::get_if<DistantLight>(&light)) {
+  const bundle::Light& light = manifest.lights[s.delta[choice]];
+  if (const auto* distant = std::get_if<bundle::DistantLight>(&light)) {
     sample.to_light = -distant->direction;
     sample.distance = std::numeric_limits<double>::infinity();
     sample.radiance = evaluate(distant->irradiance, wavelengths);
     return sample;
   }
-  const auto& point = std::get<PointLight>(light);
+  const auto& point = std::get<bundle::PointLight>(light);
   const Vector3d towards = point.position - p;
   sample.distance = length(towards);
   if (!(sample.distance > 0)) return std::nullopt;
@@ -108,7 +108,7 @@ SampledSpectrum sky_radiance(const LightSampler& s, const Manifest& manifest,
                              const SampledWavelengths& wavelengths) {
   SampledSpectrum sum;
   for (std::uint32_t i : s.infinite)
-    sum = sum + evaluate(std::get<InfiniteLight>(manifest.lights[i]).radiance, wavelengths);
+    sum = sum + evaluate(std::get<bundle::InfiniteLight>(manifest.lights[i]).radiance, wavelengths);
   return sum;
 }
 
@@ -116,7 +116,7 @@ bool points_at_distant_light(const LightSampler& s, const Manifest& manifest, Ve
   // Each refraction rounds the direction by about 1.2e-7; a pane makes two.
   constexpr double tolerance = 4e-6;
   for (std::uint32_t i : s.delta)
-    if (const auto* distant = std::get_if<DistantLight>(&manifest.lights[i]))
+    if (const auto* distant = std::get_if<bundle::DistantLight>(&manifest.lights[i]))
       if (length(direction + distant->direction) < tolerance) return true;
   return false;
 }

@@ -66,10 +66,11 @@ class PathTracer {
   Interaction interaction_at(const Path& path) const;
   bool shade(Path& path);
   bool connect_onwards(Path& path, const Interaction& at);
-  void add_emission(const Path& path, const Interaction& at, const AreaLight& light, std::int32_t index);
-  bool scatter_diffuse(Path& path, const Interaction& at, const DiffuseMaterial& material);
+  void add_emission(const Path& path, const Interaction& at, const bundle::AreaLight& light,
+                    std::int32_t index);
+  bool scatter_diffuse(Path& path, const Interaction& at, const bundle::DiffuseMaterial& material);
   void connect_to_light(const Path& path, const Interaction& at, const SampledSpectrum& reflectance);
-  bool scatter_dielectric(Path& path, const Interaction& at, const DielectricMaterial& material);
+  bool scatter_dielectric(Path& path, const Interaction& at, const bundle::DielectricMaterial& material);
   void continue_from(Path& path, const Interaction& at, Vector3d direction) const;
   Point3f offset_origin(const Interaction& at, Vector3d direction) const;
   void trace_shadow(const ShadowRecord& record, const SensorWeights* weights,

@@ -26,6 +26,16 @@ constexpr double cos_small(double x) {
   return 1 + sum;
 }
 
+// sin(πx) for |x| < 2⁵¹.
+inline double sin_pi(double x) {
+  const double quarters = std::nearbyint(2 * x);
+  const double r = pi * (x - quarters / 2);  // |r| ≤ π/4
+  const double turn = quarters - 4 * std::floor(quarters / 4);
+  if (turn == 0) return sin_small(r);
+  if (turn == 1) return cos_small(r);
+  return turn == 2 ? -sin_small(r) : -cos_small(r);
+}
+
 // eˣ for |x| ≤ 700: x = n·ln2 + r, Taylor of eʳ to r¹⁸.
 inline double portable_exp(double x) {
   const double n = std::nearbyint(x * 1.4426950408889634);

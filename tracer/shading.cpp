@@ -66,25 +66,25 @@ bool PathTracer::shade(Path& path) {
   if (path.is(path_connection)) return connect_onwards(path, at);
 
   const Surface& surface = surface_of(manifest_, path.hit.triangle);
-  const Material& material = manifest_.materials[surface.material];
+  const bundle::Material& material = manifest_.materials[surface.material];
   // Only the far face of a pane lets the wavelengths out the way they came in.
-  if (path.is(path_in_pane) && (at.front || !std::holds_alternative<DielectricMaterial>(material)))
+  if (path.is(path_in_pane) && (at.front || !std::holds_alternative<bundle::DielectricMaterial>(material)))
     path.disperse();
   if (surface.area_light >= 0)
     add_emission(path, at, manifest_.area_lights[static_cast<std::size_t>(surface.area_light)],
                  surface.area_light);
-  if (std::holds_alternative<InterfaceMaterial>(material)) {
+  if (std::holds_alternative<bundle::InterfaceMaterial>(material)) {
     continue_from(path, at, -at.out);
     path.pdf = 0;  // shadow rays end at the interface, so this path alone finds the lights behind it
     return true;
   }
   if (path.depth >= static_cast<std::uint32_t>(manifest_.settings.max_depth)) return false;
-  if (const auto* diffuse = std::get_if<DiffuseMaterial>(&material))
+  if (const auto* diffuse = std::get_if<bundle::DiffuseMaterial>(&material))
     return scatter_diffuse(path, at, *diffuse);
-  return scatter_dielectric(path, at, std::get<DielectricMaterial>(material));
+  return scatter_dielectric(path, at, std::get<bundle::DielectricMaterial>(material));
 }
 
-void PathTracer::add_emission(const Path& path, const Interaction& at, const AreaLight& light,
+void PathTracer::add_emission(const Path& path, const Interaction& at, const bundle::AreaLight& light,
                               std::int32_t index) {
   if (!at.front && !light.two_sided) return;
   double weight = 1;
@@ -99,7 +99,7 @@ void PathTracer::add_emission(const Path& path, const Interaction& at, const Are
           path.throughput * evaluate(light.radiance, path.wavelengths) * static_cast<float>(weight));
 }
 
-bool PathTracer::scatter_diffuse(Path& path, const Interaction& at, const DiffuseMaterial& material) {
+bool PathTracer::scatter_diffuse(Path& path, const Interaction& at, const bundle::DiffuseMaterial& material) {
   const SampledSpectrum reflectance = evaluate(material.reflectance, path.wavelengths);
   if (is_black(path.throughput * reflectance)) return false;
   if (scene_.lights.choices() > 0) connect_to_light(path, at, reflectance);
@@ -180,8 +180,8 @@ void PathTracer::connect_to_light(const Path& path, const Interaction& at,
 namespace {
 
 // Indices behind over before the interface at the four wavelengths.
-SampledSpectrum relative_index(const DielectricMaterial& material, const SampledWavelengths& wavelengths,
-                               bool front) {
+SampledSpectrum relative_index(const bundle::DielectricMaterial& material,
+                               const SampledWavelengths& wavelengths, bool front) {
   SampledSpectrum eta = evaluate(material.eta, wavelengths);
   if (!front)
     for (float& e : eta.v) e = 1 / e;
@@ -194,9 +194,9 @@ SampledSpectrum relative_index(const DielectricMaterial& material, const Sampled
 // leave a pane with parallel faces in the direction they came, so all four stay.
 bool PathTracer::connect_onwards(Path& path, const Interaction& at) {
   const Surface& surface = surface_of(manifest_, path.hit.triangle);
-  const Material& material = manifest_.materials[surface.material];
+  const bundle::Material& material = manifest_.materials[surface.material];
   Vector3d direction = -at.out;
-  if (const auto* dielectric = std::get_if<DielectricMaterial>(&material)) {
+  if (const auto* dielectric = std::get_if<bundle::DielectricMaterial>(&material)) {
     const SampledSpectrum eta = relative_index(*dielectric, path.wavelengths, at.front);
     const Vector3d normal = at.shading * (at.front ? 1.0 : -1.0);
     if (!refract(at.out, normal, static_cast<double>(eta[0]), direction)) return false;
@@ -204,7 +204,7 @@ bool PathTracer::connect_onwards(Path& path, const Interaction& at) {
     for (std::size_t i = 0; i < hero_count; ++i)
       path.throughput.v[i] *=
           static_cast<float>(1 - fresnel_dielectric(cosine, static_cast<double>(eta.v[i])));
-  } else if (!std::holds_alternative<InterfaceMaterial>(material)) {
+  } else if (!std::holds_alternative<bundle::InterfaceMaterial>(material)) {
     return false;
   }
   if (++path.depth > max_panes_crossed) return false;
@@ -215,7 +215,8 @@ bool PathTracer::connect_onwards(Path& path, const Interaction& at) {
 // Dispersion ends the secondary wavelengths where their ways part. Through a pane of parallel faces they do
 // not: all leave in the direction they came, micrometres apart. So they stay until the path meets a face that
 // is not parallel to the one it entered by.
-bool PathTracer::scatter_dielectric(Path& path, const Interaction& at, const DielectricMaterial& material) {
+bool PathTracer::scatter_dielectric(Path& path, const Interaction& at,
+                                    const bundle::DielectricMaterial& material) {
   const Vector3d normal = at.shading * (at.front ? 1.0 : -1.0);
   if (path.is(path_in_pane) && !is_parallel(path.entered_by, normal)) path.disperse();
   const bool in_pane = path.is(path_in_pane);

@@ -130,9 +130,9 @@ class MtlReader {
     const double opacity = s.d ? *s.d : s.tr ? 1 - *s.tr : 1;
     const bool glass = s.illum == 4 || s.illum == 6 || s.illum == 7 || s.illum == 9;
     if ((opacity < 1 || glass) && s.ni && *s.ni > 1) {
-      return DielectricMaterial{ConstantSpectrum{static_cast<float>(*s.ni)}};
+      return {DielectricMaterial{ConstantSpectrum{static_cast<float>(*s.ni)}}};
     }
-    if (opacity <= 0) return InterfaceMaterial{};
+    if (opacity <= 0) return {InterfaceMaterial{}};
     if (opacity < 1) {
       note("d", Fidelity::approximated,
            fmt::format("material {} is {} opaque and has no Ni above 1: taken as opaque", printable(s.name),
@@ -153,7 +153,7 @@ class MtlReader {
           "Kd range", Fidelity::approximated,
           fmt::format("Kd {} {} {} of material {} is clamped to 0 … 1", kd.r, kd.g, kd.b, printable(s.name)));
     }
-    return DiffuseMaterial{reflectance_from_rgb(kd)};
+    return {DiffuseMaterial{reflectance_from_rgb(kd)}};
   }
 
   TextCursor cursor_;

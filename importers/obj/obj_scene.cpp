@@ -87,7 +87,7 @@ Surface add_surface(const Mention& use, const Library& library, ImportedScene& r
            fmt::format("material '{}' is not defined: diffuse, reflectance 0.5", printable(use.name)),
            use.location});
     }
-    return {append(result.scene.materials, DiffuseMaterial{}), {}};
+    return {append(result.scene.materials, Material{DiffuseMaterial{}}), {}};
   }
   Surface surface{append(result.scene.materials, found->second.material), {}};
   if (found->second.light) surface.light = append(result.scene.area_lights, *found->second.light);

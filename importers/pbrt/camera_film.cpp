@@ -80,13 +80,24 @@ ViewSettings default_view(Version version) {
 void read_camera(const std::string& kind, ParameterSet& parameters, const Transform& ctm, Context& context,
                  ViewSettings& view) {
   view.has_camera = true;
-  view.camera_to_world = inverse(ctm);
-  view.orthographic = kind == "orthographic";
-  if (!is_one_of(kind, {"perspective", "orthographic"})) {
+  view.camera_to_world = snapped(inverse(ctm));
+  using Projection = ViewSettings::Projection;
+  view.projection = Projection::perspective;
+  if (kind == "orthographic") view.projection = Projection::orthographic;
+  if (is_one_of(kind, {"spherical", "environment"})) {
+    view.projection = Projection::spherical;
+    const bool v3 = context.version == Version::v3;
+    const std::string mapping = parameters.text("mapping", v3 ? "equirectangular" : "equalarea");
+    if (!is_one_of(mapping, {"equalarea", "equirectangular"}))
+      fail(fmt::format("expected the mapping equalarea or equirectangular, found \"{}\"", mapping),
+           parameters.place());
+    view.sphere = mapping == "equalarea" ? SphericalCamera::Projection::equal_area
+                                         : SphericalCamera::Projection::latitude_longitude;
+  } else if (!is_one_of(kind, {"perspective", "orthographic"})) {
     context.report.dropped(
         fmt::format("camera \"{}\" is not supported: a perspective camera at its place stands for it", kind),
         parameters.place());
-    parameters.ignore({"lensfile", "aperturediameter", "aperture", "simpleweighting", "mapping"});
+    parameters.ignore({"lensfile", "aperturediameter", "aperture", "simpleweighting"});
   }
   view.fov_deg = parameters.number("fov", 90);
   const double half = parameters.number("halffov", -1);
@@ -100,9 +111,10 @@ void read_camera(const std::string& kind, ParameterSet& parameters, const Transf
     view.window = ScreenWindow{(*w)[0], (*w)[1], (*w)[2], (*w)[3]};
     if ((*w)[0] == (*w)[1] || (*w)[2] == (*w)[3]) fail("the screen window is empty", parameters.place());
   }
-  if (parameters.number("lensradius", 0) > 0)
-    context.report.approximated("the lens becomes a pinhole: everything is in focus", parameters.place());
-  parameters.ignore({"focaldistance"});
+  view.lens.radius = parameters.number("lensradius", 0);
+  view.lens.focal_distance = parameters.number("focaldistance", 1e6);
+  if (!(view.lens.radius >= 0 && view.lens.focal_distance > 0))
+    fail("\"lensradius\" is negative or \"focaldistance\" not above 0", parameters.place());
   view.shutter_s = parameters.number("shutterclose", 1) - parameters.number("shutteropen", 0);
   parameters.report_unused(context.report);
 }
@@ -151,10 +163,17 @@ void read_filter(const std::string& kind, ParameterSet& parameters, Context& con
       filter.sigma = 1 / std::sqrt(2 * positive(parameters, "alpha", 2));
     if (!(filter.sigma > 0)) fail("the filter's sigma has to be above 0", parameters.place());
     view.film.filter = filter;
+  } else if (kind == "mitchell") {
+    view.film.filter = MitchellFilter{radius('x', 2), radius('y', 2), parameters.number("B", 1.0 / 3),
+                                      parameters.number("C", 1.0 / 3)};
+  } else if (kind == "sinc") {
+    view.film.filter = SincFilter{radius('x', 4), radius('y', 4), positive(parameters, "tau", 3)};
   } else {
-    parameters.ignore({"xradius", "yradius", "xwidth", "ywidth", "B", "C", "tau"});
-    context.report.approximated(fmt::format("filter \"{}\" becomes a Gaussian of sigma 0.5", kind),
-                                parameters.place());
+    const std::string closest = closest_word(kind, {"box", "triangle", "gaussian", "mitchell", "sinc"});
+    context.report.approximated(
+        fmt::format("filter \"{}\" is not known and becomes a Gaussian of sigma 0.5{}", kind,
+                    closest.empty() ? "" : fmt::format("; did you mean \"{}\"?", closest)),
+        parameters.place());
     view.film.filter = GaussianFilter{};
   }
   parameters.report_unused(context.report);
@@ -194,6 +213,9 @@ void read_integrator(const std::string& kind, ParameterSet& parameters, Context&
 
 namespace {
 
+// tan 45° is 1, so that a screen window can be given as it is.
+double tan_half(double fov_deg) { return fov_deg == 90 ? 1 : std::tan(fov_deg / 2 * std::numbers::pi / 180); }
+
 ScreenWindow screen_of(const ViewSettings& view) {
   ScreenWindow screen;
   const double aspect =
@@ -204,7 +226,7 @@ ScreenWindow screen_of(const ViewSettings& view) {
     screen = {-aspect, aspect, -1, 1};
   else
     screen = {-1, 1, -1 / aspect, 1 / aspect};
-  const double scale = view.orthographic ? 1 : std::tan(view.fov_deg / 2 * std::numbers::pi / 180);
+  const double scale = view.projection == ViewSettings::Projection::orthographic ? 1 : tan_half(view.fov_deg);
   return {screen.x0 * scale, screen.x1 * scale, screen.y0 * scale, screen.y1 * scale};
 }
 
@@ -212,10 +234,12 @@ ScreenWindow screen_of(const ViewSettings& view) {
 
 void apply(const ViewSettings& view, Version version, Scene& scene) {
   const ScreenWindow screen = screen_of(view);
-  if (view.orthographic)
-    scene.camera = OrthographicCamera{view.camera_to_world, screen};
+  if (view.projection == ViewSettings::Projection::spherical)
+    scene.camera = SphericalCamera{view.camera_to_world, view.sphere};
+  else if (view.projection == ViewSettings::Projection::orthographic)
+    scene.camera = OrthographicCamera{view.camera_to_world, screen, view.lens};
   else
-    scene.camera = PerspectiveCamera{view.camera_to_world, screen};
+    scene.camera = PerspectiveCamera{view.camera_to_world, screen, view.lens};
   scene.film = view.film;
   // v3's shutter only blurs; v4's exposes.
   scene.film.imaging_ratio = view.exposure * (version == Version::v4 ? view.shutter_s : 1);

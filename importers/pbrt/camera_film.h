@@ -15,8 +15,12 @@ namespace vitrail::pbrt {
 // What Camera, Film, PixelFilter, Sampler and Integrator said. The camera's screen depends on the film's
 // resolution and the film's exposure on the camera's shutter, so both are completed at the end.
 struct ViewSettings {
-  bool has_camera = false, orthographic = false;
+  enum class Projection { perspective, orthographic, spherical };
+  bool has_camera = false;
+  Projection projection = Projection::perspective;
+  SphericalCamera::Projection sphere = SphericalCamera::Projection::equal_area;
   Transform camera_to_world;
+  Lens lens;
   double fov_deg = 90, frame_aspect = 0;  // 0: the film's
   std::optional<ScreenWindow> window;
   double shutter_s = 1;

@@ -71,13 +71,22 @@ Scene Interpreter::run() {
   if (world_ == World::inside && context_.version == Version::v3)
     context_.report.approximated("there is no WorldEnd: the file may be incomplete", world_place_);
   resolve_materials();
+  resolve_media();
   drop_lights_of_interfaces();
   resolve_instances();
   apply(view_, context_.version, scene_);
   return std::move(scene_);
 }
 
+Origin Interpreter::origin(const Place& place) {
+  const auto [number, is_new] =
+      file_numbers_.try_emplace(place.file, static_cast<std::uint32_t>(scene_.files.size()));
+  if (is_new) scene_.files.push_back(*place.file);
+  return {number->second, static_cast<std::uint32_t>(place.line), static_cast<std::uint32_t>(place.column)};
+}
+
 void Interpreter::execute(const Token& directive) {
+  context_.report.begin_item(directive.place);
   if (directive.kind == TokenKind::end_of_import) return end_import(directive.place);
   const auto handler = handlers().find(directive.text);
   if (directive.kind == TokenKind::word && handler != handlers().end())
@@ -182,6 +191,7 @@ void Interpreter::object_begin(const Place& place) {
   const auto [slot, redefined] = object_names_.define(name, place, next);
   if (slot == next) scene_.prototypes.push_back({});
   scene_.prototypes[slot].name = name;
+  scene_.prototypes[slot].origin = origin(place);
   if (redefined)
     context_.report.approximated(
         fmt::format("object \"{}\" is defined again, for the instances after it", name), place);

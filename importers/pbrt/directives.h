@@ -4,12 +4,12 @@
 
 #include <map>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "importers/pbrt/camera_film.h"
 #include "importers/pbrt/graphics_state.h"
 #include "importers/pbrt/materials.h"
+#include "importers/pbrt/media.h"
 #include "importers/pbrt/named_slots.h"
 #include "importers/pbrt/shapes.h"
 #include "importers/pbrt/textures.h"
@@ -48,7 +48,10 @@ class Interpreter {
   std::vector<double> read_numbers(std::size_t count, const Place& directive);
   ParameterSet read_set(const std::string& directive, const std::string& kind, const Place& place,
                         const char* defaults = nullptr);
-  Scope scope() { return {{context_, state_.color_space}, textures_}; }
+  Scope scope(const Place& place) {
+    return {{context_, state_.color_space}, textures_, scene_.textures, origin(place)};
+  }
+  Origin origin(const Place& place);
 
   // Transforms.
   void identity(const Place&);
@@ -107,14 +110,20 @@ class Interpreter {
   void shape(const Place&);
   void object_instance(const Place&);
 
-  void define_material(std::uint32_t slot, const std::string& kind, ParameterSet parameters);
+  void define_material(std::uint32_t slot, const std::string& kind, ParameterSet parameters,
+                       const Place& place);
+  Material made_material(const std::string& kind, ParameterSet& parameters, const Scope& scope);
+  std::uint32_t add_material(Material material);
   Id<Material> shape_material();
+  Id<Material> masked(Id<Material> material, const FloatParameter& opacity, const Place& place);
+  std::optional<Id<Medium>> medium_named(const std::string& name, const Place& place);
   std::optional<Id<AreaLight>> shape_light(const ShapeGeometry& geometry, const Place& place);
   double area_per_part(const ShapeGeometry& geometry, const Place& place);
 
   // The end.
   void check_blocks_are_closed();
   void resolve_materials();
+  void resolve_media();
   void drop_lights_of_interfaces();
   void resolve_instances();
 
@@ -126,6 +135,7 @@ class Interpreter {
   std::vector<Saved> saved_;
   World world_ = World::before;
   Place world_place_;
+  std::map<const std::string*, std::uint32_t> file_numbers_;
   std::map<std::string, Transform> coordinate_systems_;
   TextureTable textures_;
   ShapeMaker shapes_;
@@ -136,11 +146,17 @@ class Interpreter {
     std::uint32_t slot;
     std::string kind, color_space;
     ParameterSet parameters;
+    Place place;
   };
   NamedSlots material_names_{"material"};
-  std::vector<std::variant<std::monostate, Material, MaterialAlias>> materials_;
+  std::vector<std::optional<Material>> materials_;
   std::vector<DeferredMaterial> deferred_;
+  std::map<std::uint32_t, std::string> named_slots_;
   std::optional<Id<Material>> default_material_;
+  std::vector<std::pair<MaskMaterial, Id<Material>>> masks_;  // those of shapes with "alpha"
+
+  NamedSlots medium_names_{"medium"};
+  std::vector<std::optional<Medium>> media_;
 
   NamedSlots object_names_{"object"};
   std::optional<std::uint32_t> current_object_;

@@ -25,6 +25,7 @@ struct GraphicsState {
   bool transform_start = true, transform_end = true;  // ActiveTransform
   bool reverse_orientation = false;
   std::optional<Id<Material>> material;  // none: pbrt's default, diffuse 0.5
+  std::optional<Id<Medium>> interior, exterior;
   std::shared_ptr<AreaLightState> area_light;
   std::string color_space = "srgb";
   // Attribute: defaults of the parameters of "shape", "light", "material", "medium" and "texture".

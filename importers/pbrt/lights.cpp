@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -18,33 +19,35 @@ struct Maker {
   const std::string& kind;
   ParameterSet& parameters;
   const Transform& ctm;
-  SpectrumScope scope;
+  const Scope& scope;
 
   // The emission under `name`, white of luminance 1 where it is not given, times `scale` and `factor`.
   Spectrum emission(std::string_view name, double factor = 1) const {
     const Parameter* parameter = parameters.find_spectrum(name);
-    const Spectrum spectrum =
-        parameter ? read_emission(*parameter, scope) : Spectrum{emission_from_rgb({1, 1, 1})};
     const Parameter* scale = parameters.find_spectrum("scale");  // in v3 a spectrum
-    if (!scale) return scaled(spectrum, factor);
-    if (scale->type == ParameterType::number) return scaled(spectrum, factor * parameters.number("scale", 1));
-    const Spectrum product_of_both = product(spectrum, read_scale(*scale));
-    return scaled(product_of_both, factor);
+    const bool plain = !scale || scale->type == ParameterType::number;
+    const double total = scale && plain ? factor * parameters.number("scale", 1) : factor;
+    const Spectrum spectrum = parameter ? read_emission(*parameter, total, scope)
+                                        : Spectrum{emission_from_rgb({total, total, total})};
+    return plain ? spectrum : product(spectrum, read_unbounded(*scale, scope));
   }
-
+  // What an image is multiplied by: `scale` and the rest of the light's spectrum, 1 where there is none.
+  Spectrum factor_of_image(std::string_view name) const {
+    const bool colored = parameters.find_spectrum(name) != nullptr;
+    if (colored) return emission(name);
+    const Parameter* scale = parameters.find_spectrum("scale");
+    return scale ? read_unbounded(*scale, scope) : Spectrum{ConstantSpectrum{1}};
+  }
+  const Parameter* image() const {
+    const Parameter* filename = parameters.find("filename", {ParameterType::text});
+    return filename ? filename : parameters.find("mapname", {ParameterType::text});
+  }
+  std::optional<float> optional_number(std::string_view name) const {
+    const double value = parameters.number(name, -1);
+    return value > 0 ? std::optional(static_cast<float>(value)) : std::nullopt;
+  }
   void approximated(const std::string& how) const {
     scope.context.report.approximated(fmt::format("light \"{}\": {}", kind, how), parameters.place());
-  }
-
- private:
-  // Grey factors, whatever their size, are exact; a colour is a reflectance times its greatest component.
-  Spectrum read_scale(const Parameter& parameter) const {
-    double greatest = 0;
-    for (const double value : parameter.numbers) greatest = std::max(greatest, value);
-    if (parameter.type != ParameterType::rgb || greatest <= 0) return read_reflectance(parameter, scope);
-    Parameter color = parameter;
-    for (double& value : color.numbers) value /= greatest;
-    return scaled(read_reflectance(color, scope), greatest);
   }
 };
 
@@ -61,31 +64,63 @@ Point3d origin(const Maker& m) {
   return transform_point(m.ctm, {0, 0, 0}) + Vector3d{from[0], from[1], from[2]};
 }
 
-Light point_light(const Maker& m) {
+LightModel point_light(const Maker& m) {
   const Point3d position = origin(m);
   return PointLight{position, m.emission("I", power_factor(m, 4 * pi))};
 }
 
-// Cone angles and images only dim a point light in some directions: it is imported with its greatest
-// intensity.
-Light spot_light(const Maker& m) {
-  const double full = m.parameters.number("coneangle", 30) * pi / 180;
-  const double delta = m.parameters.number("conedeltaangle", m.parameters.number("conedelta", 5)) * pi / 180;
-  const double end = std::cos(full), start = std::cos(full - delta);
+// Takes +z to `z` (unit) and is the identity where they agree.
+Transform frame(Vector3d z) {
+  const double sign = std::copysign(1.0, z.z);  // Duff et al. 2017: 1 + |z.z| ≥ 1
+  const double a = -1 / (sign + z.z), b = z.x * z.y * a;
+  const Vector3d x{1 + sign * z.x * z.x * a, sign * b, -sign * z.x}, y{b, sign + z.y * z.y * a, -z.y};
+  return {{{{x.x, y.x, z.x, 0}, {x.y, y.y, z.y, 0}, {x.z, y.z, z.z, 0}, {0, 0, 0, 1}}}};
+}
+
+LightModel spot_light(const Maker& m) {
+  const bool v3 = m.scope.context.version == Version::v3;
+  const double full = m.parameters.number("coneangle", 30);
+  const double delta = m.parameters.number("conedeltaangle", m.parameters.number("conedelta", 5));
   const auto from = m.parameters.triple("from").value_or(std::array<double, 3>{});
-  m.parameters.ignore({"to"});
-  m.approximated("shines in all directions, like its middle");
-  return PointLight{transform_point(m.ctm, {from[0], from[1], from[2]}),
-                    m.emission("I", power_factor(m, 2 * pi * ((1 - start) + (start - end) / 2)))};
+  const auto to = m.parameters.triple("to").value_or(std::array<double, 3>{0, 0, 1});
+  const Vector3d along{to[0] - from[0], to[1] - from[1], to[2] - from[2]};
+  if (!(length(along) > 0)) fail("a spot light needs two different points from and to", m.parameters.place());
+  const double end = std::cos(full * pi / 180), start = std::cos((full - delta) * pi / 180);
+  SpotLight light;
+  light.light_to_world = m.ctm * translate({from[0], from[1], from[2]}) * frame(normalize(along));
+  light.intensity = m.emission("I", power_factor(m, 2 * pi * ((1 - start) + (start - end) / 2)));
+  light.cutoff_deg = static_cast<float>(full);
+  light.beam_deg = static_cast<float>(full - delta);
+  light.falloff = v3 ? SpotLight::Falloff::quartic : SpotLight::Falloff::smoothstep;
+  return light;
 }
 
-Light image_light(const Maker& m) {
-  m.parameters.ignore({"filename", "mapname", "fov", "power"});
-  m.approximated("shines in all directions; its image is left out");
-  return PointLight{transform_point(m.ctm, {0, 0, 0}), m.emission("I")};
+LightModel projection_light(const Maker& m) {
+  ProjectionLight light;
+  light.light_to_world = m.ctm;
+  const Parameter* file = m.image();
+  if (!file) fail("a projection light needs a \"string filename\"", m.parameters.place());
+  light.image = add_image(*file, Encoding::automatic, m.scope);
+  light.scale = m.factor_of_image("I");
+  light.fov_deg =
+      static_cast<float>(m.parameters.number("fov", m.scope.context.version == Version::v3 ? 45 : 90));
+  light.power = m.optional_number("power");
+  return light;
 }
 
-Light distant_light(const Maker& m) {
+LightModel goniometric_light(const Maker& m) {
+  GoniometricLight light;
+  light.light_to_world = m.ctm;
+  const Parameter* file = m.image();
+  if (!file) return PointLight{transform_point(m.ctm, {0, 0, 0}), m.emission("I", power_factor(m, 4 * pi))};
+  light.filename = find_file(*file, m.scope.context);
+  light.intensity = m.emission("I");
+  light.latitude_longitude = m.scope.context.version == Version::v3;
+  light.power = m.optional_number("power");
+  return light;
+}
+
+LightModel distant_light(const Maker& m) {
   const auto from = m.parameters.triple("from").value_or(std::array<double, 3>{0, 0, 0});
   const auto to = m.parameters.triple("to").value_or(std::array<double, 3>{0, 0, 1});
   const Vector3d way{to[0] - from[0], to[1] - from[1], to[2] - from[2]};
@@ -96,38 +131,62 @@ Light distant_light(const Maker& m) {
   return DistantLight{direction, m.emission("L", illuminance > 0 ? illuminance : 1)};
 }
 
-Light infinite_light(const Maker& m) {
-  m.parameters.ignore({"nsamples", "samples"});
-  for (const char* name : {"filename", "mapname"})
-    if (m.parameters.find(name, {ParameterType::text}))
-      m.approximated("the constant L (1 where it is not given) stands for the environment image");
-  if (m.parameters.find_numbers("portal")) m.approximated("the portal is left out");
-  const double illuminance = m.parameters.number("illuminance", -1);
-  return InfiniteLight{m.emission("L", illuminance > 0 ? illuminance / pi : 1)};
+std::optional<std::array<Point3d, 4>> read_portal(const Maker& m) {
+  const Parameter* portal = m.parameters.find_numbers("portal");
+  if (!portal) return std::nullopt;
+  if (portal->numbers.size() != 12) fail("a portal needs four points", portal->place);
+  std::array<Point3d, 4> corners;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const double* v = &portal->numbers[3 * i];
+    corners[i] = transform_point(m.ctm, {v[0], v[1], v[2]});
+  }
+  return corners;
 }
+
+LightModel infinite_light(const Maker& m) {
+  m.parameters.ignore({"nsamples", "samples"});
+  const Parameter* file = m.image();
+  if (!file) {
+    const double illuminance = m.parameters.number("illuminance", -1);
+    return InfiniteLight{m.emission("L", illuminance > 0 ? illuminance / pi : 1)};
+  }
+  EnvironmentLight light;
+  light.filename = find_file(*file, m.scope.context);
+  light.light_to_world = m.ctm;
+  light.projection = m.scope.context.version == Version::v3 ? EnvironmentLight::Projection::latitude_longitude
+                                                            : EnvironmentLight::Projection::equal_area;
+  light.scale = m.factor_of_image("L");
+  light.illuminance = m.optional_number("illuminance");
+  light.portal = read_portal(m);
+  return light;
+}
+
+struct Kind {
+  std::string_view name;
+  LightModel (*make)(const Maker&);
+};
+constexpr std::array<Kind, 7> kinds{{{"point", point_light},
+                                     {"spot", spot_light},
+                                     {"projection", projection_light},
+                                     {"goniometric", goniometric_light},
+                                     {"distant", distant_light},
+                                     {"infinite", infinite_light},
+                                     {"exinfinite", infinite_light}}};
 
 }  // namespace
 
 std::optional<Light> make_light(const std::string& kind, ParameterSet& parameters, const Transform& ctm,
-                                SpectrumScope scope) {
+                                const Scope& scope) {
   const Maker maker{kind, parameters, ctm, scope};
-  std::optional<Light> light;
-  if (kind == "point")
-    light = point_light(maker);
-  else if (kind == "spot")
-    light = spot_light(maker);
-  else if (kind == "goniometric" || kind == "projection")
-    light = image_light(maker);
-  else if (kind == "distant")
-    light = distant_light(maker);
-  else if (kind == "infinite" || kind == "exinfinite")
-    light = infinite_light(maker);
-  if (light) {
+  std::vector<std::string> names;
+  for (const Kind& known : kinds) {
+    names.emplace_back(known.name);
+    if (kind != known.name) continue;
+    Light light{known.make(maker), scope.origin};
     parameters.report_unused(scope.context.report);
     return light;
   }
-  const std::string closest =
-      closest_word(kind, {"point", "spot", "goniometric", "projection", "distant", "infinite"});
+  const std::string closest = closest_word(kind, names);
   scope.context.report.dropped(
       fmt::format("light \"{}\" is not known{}", kind,
                   closest.empty() ? "" : fmt::format("; did you mean \"{}\"?", closest)),
@@ -135,7 +194,7 @@ std::optional<Light> make_light(const std::string& kind, ParameterSet& parameter
   return std::nullopt;
 }
 
-AreaEmission make_area_emission(const std::string& kind, ParameterSet& parameters, SpectrumScope scope) {
+AreaEmission make_area_emission(const std::string& kind, ParameterSet& parameters, const Scope& scope) {
   const Transform identity;
   const Maker maker{kind, parameters, identity, scope};
   if (kind != "diffuse" && kind != "area") maker.approximated("is not known and read as \"diffuse\"");
@@ -144,9 +203,13 @@ AreaEmission make_area_emission(const std::string& kind, ParameterSet& parameter
   emission.place = parameters.place();
   emission.power = parameters.number("power", 0);
   emission.light.two_sided = parameters.boolean("twosided", false);
-  emission.light.radiance = maker.emission("L");
-  if (parameters.find("filename", {ParameterType::text}))
-    maker.approximated("the constant L (1 where it is not given) stands for the image");
+  emission.light.origin = scope.origin;
+  if (const Parameter* file = maker.image()) {
+    emission.light.radiance = add_image(*file, Encoding::automatic, scope);
+    emission.light.scale = static_cast<float>(parameters.number("scale", 1));
+  } else {
+    emission.light.radiance = maker.emission("L");
+  }
   parameters.report_unused(scope.context.report);
   return emission;
 }

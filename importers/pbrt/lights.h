@@ -4,14 +4,14 @@
 #include <optional>
 #include <string>
 
-#include "importers/pbrt/spectra.h"
+#include "importers/pbrt/textures.h"
 #include "scene/scene.h"
 
 namespace vitrail::pbrt {
 
 // A light of a LightSource directive; nothing where its kind is unknown and it is dropped.
 std::optional<Light> make_light(const std::string& kind, ParameterSet& parameters, const Transform& ctm,
-                                SpectrumScope scope);
+                                const Scope& scope);
 
 // An AreaLightSource directive. If `power` is above 0, radiance is 1 / (π · area), times 1/2 if two-sided,
 // for the unit of power; the area is that of the shape which has the light.
@@ -21,6 +21,6 @@ struct AreaEmission {
   Place place;
 };
 
-AreaEmission make_area_emission(const std::string& kind, ParameterSet& parameters, SpectrumScope scope);
+AreaEmission make_area_emission(const std::string& kind, ParameterSet& parameters, const Scope& scope);
 
 }  // namespace vitrail::pbrt

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "importers/pbrt/materials.h"
 
-#include <fmt/format.h>
-
 #include <array>
+#include <cmath>
 
+#include "importers/pbrt/material_parameters.h"
 #include "importers/pbrt/spectrum_names.h"
 #include "scene/rgb_to_spectrum.h"
 
@@ -12,145 +12,152 @@ namespace vitrail::pbrt {
 
 namespace {
 
-struct Maker {
-  const std::string& kind;
-  ParameterSet& parameters;
-  const Scope& scope;
+// v4: √r. v3: its polynomial in ln r, which it also clamps below 1e-3.
+double remapped(double roughness, bool v3) {
+  if (!v3) return std::sqrt(std::max(roughness, 0.0));
+  const double x = std::log(std::max(roughness, 1e-3));
+  return 1.62142 + 0.819955 * x + 0.1734 * x * x + 0.0171201 * x * x * x + 0.000640711 * x * x * x * x;
+}
 
-  Spectrum reflectance(std::initializer_list<std::string_view> names, double otherwise) const {
-    return spectrum_value(parameters, names, Quantity::reflectance,
-                          ConstantSpectrum{static_cast<float>(otherwise)}, scope);
+}  // namespace
+
+Roughness MaterialMaker::roughness(double otherwise, const std::string& prefix) const {
+  const FloatParameter both = number(prefix + "roughness", otherwise);
+  const auto of = [&](const std::string& axis) {
+    const std::string name = prefix + axis + "roughness";
+    const bool given =
+        parameters.find(name, {ParameterType::number, ParameterType::integer, ParameterType::texture});
+    return given ? number(name, otherwise) : both;
+  };
+  Roughness r{of("u"), of("v")};
+  const bool remap = parameters.boolean("remaproughness", true);
+  for (FloatParameter* alpha : {&r.alpha_u, &r.alpha_v}) {
+    if (auto* value = std::get_if<float>(alpha)) {
+      if (remap && *value != 0) *value = static_cast<float>(remapped(static_cast<double>(*value), v3()));
+    } else if (remap) {
+      r.square_root = true;
+      if (v3()) approximated("the square root of its roughness texture stands for v3's remapping");
+    }
   }
-  void approximated(const std::string& how) const {
-    scope.context.report.approximated(fmt::format("material \"{}\": {}", kind, how), parameters.place());
+  return r;
+}
+
+Metal MaterialMaker::metal(const std::string& prefix) const {
+  const std::string eta = prefix + "eta", k = prefix + "k";
+  const bool by_index = parameters.find_spectrum(eta) || parameters.find_spectrum(k) ||
+                        parameters.find(eta, {ParameterType::texture}) ||
+                        parameters.find(k, {ParameterType::texture});
+  if (!by_index && !v3() &&
+      (parameters.find_spectrum("reflectance") || parameters.find("reflectance", {ParameterType::texture})))
+    return NormalReflectance{reflectance({"reflectance"}, 0.5)};
+  for (const std::string& name : {eta, k})
+    if (const Parameter* p = parameters.find_spectrum(name); p && !p->strings.empty())
+      if (const auto color = metal_reflectance(p->strings.front())) {
+        approximated(fmt::format("\"{}\" has no table here: its colour stands for it", p->strings.front()));
+        parameters.ignore({eta, k});
+        return NormalReflectance{Spectrum{reflectance_from_rgb(*color)}};
+      }
+  return ComplexIndex{
+      spectrum_parameter(parameters, {eta}, Quantity::unbounded, NamedSpectrum{"metal-Cu-eta"}, scope),
+      spectrum_parameter(parameters, {k}, Quantity::unbounded, NamedSpectrum{"metal-Cu-k"}, scope)};
+}
+
+CoatingVolume MaterialMaker::coating() const {
+  CoatingVolume c;
+  c.thickness = number("thickness", 0.01);
+  c.g = number("g", 0);
+  c.albedo = reflectance({"albedo"}, 0);
+  c.max_depth = parameters.integer("maxdepth", 10);
+  c.samples = parameters.integer("nsamples", 1);
+  return c;
+}
+
+namespace {
+
+using Maker = MaterialMaker;
+
+MaterialModel diffuse(const Maker& m) { return DiffuseMaterial{m.reflectance({"reflectance"}, 0.5)}; }
+
+MaterialModel dielectric(const Maker& m) {
+  DielectricMaterial d;
+  d.eta = m.index({"eta"}, 1.5);
+  d.roughness = m.roughness(0);
+  return d;
+}
+
+MaterialModel thin_dielectric(const Maker& m) {
+  ThinDielectricMaterial d;
+  d.eta = m.index({"eta"}, 1.5);
+  return d;
+}
+
+MaterialModel interface(const Maker&) { return InterfaceMaterial{}; }
+
+MaterialModel coated_diffuse(const Maker& m) {
+  return CoatedDiffuseMaterial{m.reflectance({"reflectance"}, 0.5), m.index({"eta"}, 1.5), m.roughness(0),
+                               m.coating()};
+}
+
+MaterialModel conductor(const Maker& m) { return ConductorMaterial{m.metal(), m.roughness(0)}; }
+
+MaterialModel coated_conductor(const Maker& m) {
+  return CoatedConductorMaterial{m.metal("conductor."), m.roughness(0, "conductor."),
+                                 m.index({"interface.eta"}, 1.5), m.roughness(0, "interface."), m.coating()};
+}
+
+MaterialModel diffuse_transmission(const Maker& m) {
+  return DiffuseTransmissionMaterial{m.reflectance({"reflectance"}, 0.25),
+                                     m.reflectance({"transmittance"}, 0.25),
+                                     static_cast<float>(m.parameters.number("scale", 1))};
+}
+
+MaterialModel subsurface(const Maker& m) {
+  SubsurfaceMaterial s;
+  s.scale = static_cast<float>(m.parameters.number("scale", 1));
+  s.g = static_cast<float>(m.parameters.number("g", 0));
+  s.eta = m.index({"eta", "index"}, 1.33);
+  s.roughness = m.roughness(0);
+  if (const std::string name = m.parameters.text("name", ""); !name.empty()) {
+    s.interior = SubsurfaceMaterial::Named{name};
+  } else if (m.kind == "kdsubsurface" || m.parameters.find_spectrum("reflectance") ||
+             m.parameters.find("reflectance", {ParameterType::texture})) {
+    s.interior = SubsurfaceMaterial::Effective{m.reflectance({"reflectance", "Kd"}, 0.5),
+                                               m.unbounded({"mfp"}, Maker::grey(1))};
+  } else {  // of skim milk, per mm: pbrt's defaults
+    s.interior = SubsurfaceMaterial::Coefficients{
+        m.unbounded({"sigma_a"}, unbounded_from_rgb({0.0011, 0.0024, 0.014})),
+        m.unbounded({"sigma_s"}, unbounded_from_rgb({2.55, 3.21, 3.77}))};
   }
-  // Surface detail that only ever perturbs normals.
-  void drop_bumps() const {
-    for (const std::string_view name : {"displacement", "normalmap", "bumpmap"})
-      if (const Parameter* p =
-              parameters.find(name, {ParameterType::texture, ParameterType::text, ParameterType::number}))
-        scope.context.report.dropped(fmt::format("material \"{}\": \"{}\" is not rendered", kind, name),
-                                     p->place);
-  }
-};
-
-Material diffuse_material(const Maker& m) {
-  if (number_value(m.parameters, "sigma", 0, m.scope) != 0)
-    m.approximated("sigma (Oren-Nayar roughness) becomes 0, Lambertian");
-  return DiffuseMaterial{m.reflectance({"reflectance", "Kd"}, 0.5)};
+  return s;
 }
 
-bool is_rough(const Maker& m) {
-  bool rough = false;
-  for (const std::string_view name : {"roughness", "uroughness", "vroughness"})
-    rough = number_value(m.parameters, name, 0, m.scope) != 0 || rough;
-  m.parameters.ignore({"remaproughness"});
-  return rough;
+MaterialModel hair(const Maker& m) {
+  HairMaterial h;
+  const auto is_given = [&](const char* name) {
+    return m.parameters.find_spectrum(name) || m.parameters.find(name, {ParameterType::texture});
+  };
+  if (is_given("sigma_a")) h.sigma_a = m.unbounded({"sigma_a"}, Maker::grey(0));
+  for (const char* color : {"reflectance", "color"})
+    if (is_given(color)) h.color = m.reflectance({color}, 0.5);
+  if (is_given("eumelanin")) h.eumelanin = m.number("eumelanin", 0);
+  if (is_given("pheomelanin")) h.pheomelanin = m.number("pheomelanin", 0);
+  if (!h.sigma_a && !h.color && !h.eumelanin && !h.pheomelanin) h.eumelanin = 1.3f;  // brown, pbrt's default
+  h.eta = static_cast<float>(m.parameters.number("eta", 1.55));
+  h.beta_m = m.number("beta_m", 0.3);
+  h.beta_n = m.number("beta_n", 0.3);
+  h.alpha_deg = m.number("alpha", 2);
+  return h;
 }
 
-Spectrum refraction(const Maker& m) {
-  return spectrum_value(m.parameters, {"eta", "index"}, Quantity::refraction, ConstantSpectrum{1.5f},
-                        m.scope);
-}
-
-Material dielectric_material(const Maker& m) {
-  if (is_rough(m)) m.approximated("the rough surface becomes a smooth one");
-  for (const std::string_view name : {"Kr", "Kt"}) {
-    const Spectrum factor = m.reflectance({name}, 1);
-    if (!is_constant(factor) || evaluate(factor, lambda_min_nm) != 1)
-      m.approximated(
-          fmt::format("{} becomes 1: reflection and transmission follow Fresnel's equations", name));
-  }
-  return DielectricMaterial{refraction(m)};
-}
-
-Material interface_material(const Maker&) { return InterfaceMaterial{}; }
-
-Material thin_dielectric_material(const Maker& m) {
-  refraction(m);
-  m.approximated("light goes straight through, without the reflection of the thin sheet");
-  return InterfaceMaterial{};
-}
-
-Material coated_material(const Maker& m) {
-  m.parameters.ignore({"roughness", "uroughness", "vroughness", "remaproughness", "thickness", "eta",
-                       "albedo", "g", "maxdepth", "nsamples", "Ks", "Kr", "d"});
-  m.approximated("becomes diffuse with its reflectance; the coating or gloss is left out");
-  const bool substrate_like = m.kind == "substrate" || m.kind == "coateddiffuse";
-  return DiffuseMaterial{m.reflectance({"reflectance", "Kd"}, substrate_like ? 0.5 : 0.25)};
-}
-
-// Of uber's lobes the strongest one stands for all.
-Material uber_material(const Maker& m) {
-  const Spectrum diffuse = m.reflectance({"Kd"}, 0.25);
-  const double transmitted = luminance(m.reflectance({"Kt"}, 0));
-  if (luminance(m.reflectance({"opacity"}, 1)) < 0.5) {
-    m.approximated(
-        "is mostly transparent (opacity below 0.5) and becomes an interface that light passes unchanged");
-    return InterfaceMaterial{};
-  }
-  if (transmitted > luminance(diffuse)) {
-    m.approximated("Kt outweighs Kd: becomes a smooth dielectric");
-    return DielectricMaterial{refraction(m)};
-  }
-  m.parameters.ignore(
-      {"Ks", "Kr", "roughness", "uroughness", "vroughness", "remaproughness", "eta", "index"});
-  m.approximated("becomes diffuse with Kd; gloss, mirror and transmission are left out");
-  return DiffuseMaterial{diffuse};
-}
-
-// The reflectance at normal incidence: as given, of a metal by name, or from eta and k; pbrt's default is
-// copper.
-Spectrum metal_spectrum(const Maker& m, const std::string& prefix) {
-  const std::string reflectance = "reflectance", eta = prefix + "eta", k = prefix + "k";
-  if (!prefix.empty() || m.kind == "conductor")
-    if (const Parameter* p = m.parameters.find_spectrum(reflectance)) return read_reflectance(*p, m.scope);
-  const Parameter* index = m.parameters.find_spectrum(eta);
-  const Parameter* absorption = m.parameters.find_spectrum(k);
-  for (const Parameter* p : {index, absorption})
-    if (p && !p->strings.empty())
-      if (const auto known = metal_reflectance(p->strings.front())) return reflectance_from_rgb(*known);
-  if (index && absorption)
-    return conductor_reflectance(read_refraction(*index, m.scope), read_refraction(*absorption, m.scope));
-  if (m.parameters.find(reflectance, {ParameterType::texture})) return m.reflectance({reflectance}, 0.5);
-  return reflectance_from_rgb(*metal_reflectance("metal-Cu-eta"));
-}
-
-Material metal_material(const Maker& m) {
-  const bool coated = m.kind == "coatedconductor";
-  const Spectrum reflectance = metal_spectrum(m, coated ? "conductor." : "");
-  m.parameters.ignore({"roughness", "uroughness", "vroughness", "remaproughness", "interface.roughness",
-                       "interface.uroughness", "interface.vroughness", "interface.eta", "conductor.roughness",
-                       "conductor.uroughness", "conductor.vroughness", "thickness", "albedo", "g", "maxdepth",
-                       "nsamples"});
-  m.approximated(fmt::format("becomes diffuse with its reflectance at normal incidence, {:.2f} on average",
-                             luminance(reflectance)));
-  return DiffuseMaterial{reflectance};
-}
-
-Material mirror_material(const Maker& m) {
-  const Spectrum reflectance = m.reflectance({"Kr"}, 0.9);
-  m.approximated(fmt::format("becomes diffuse with Kr, {:.2f} on average", luminance(reflectance)));
-  return DiffuseMaterial{reflectance};
-}
-
-Material transmitting_material(const Maker& m) {
-  m.parameters.ignore({"transmittance", "scale", "Ks", "reflect", "transmit", "roughness", "remaproughness"});
-  m.approximated("becomes diffuse with its reflectance; transmission is left out");
-  return DiffuseMaterial{m.reflectance({"reflectance", "Kd"}, 0.25)};
-}
-
-// Models whose look follows from measurements or volumes: a colour if one is given.
-Material other_material(const Maker& m) {
-  const Spectrum reflectance = m.reflectance({"reflectance", "color", "Kd", "diffuse"}, 0.5);
-  for (const Parameter& p : m.parameters.all()) m.parameters.ignore({p.name});
-  m.approximated(
-      fmt::format("becomes diffuse with a reflectance of {:.2f} on average", luminance(reflectance)));
-  return DiffuseMaterial{reflectance};
+MaterialModel measured(const Maker& m) {
+  const Parameter* file = m.parameters.find("filename", {ParameterType::text});
+  if (!file || file->strings.size() != 1)
+    fail("a measured material needs a \"string filename\"", m.parameters.place());
+  return MeasuredMaterial{find_file(*file, m.scope.context)};
 }
 
 // v4's amount weights the second material, v3's the first.
-MaterialAlias heavier_of_mix(const Maker& m) {
+MaterialModel mix(const Maker& m) {
   std::array<std::string, 2> names;
   if (const Parameter* both = m.parameters.find("materials", {ParameterType::text})) {
     if (both->strings.size() != 2) fail("a mix needs two materials", both->place);
@@ -159,67 +166,75 @@ MaterialAlias heavier_of_mix(const Maker& m) {
     names = {m.parameters.text("namedmaterial1", ""), m.parameters.text("namedmaterial2", "")};
     if (names[0].empty() || names[1].empty()) fail("a mix needs two materials by name", m.parameters.place());
   }
-  const double amount = luminance(m.reflectance({"amount"}, 0.5));
-  const bool first = m.scope.context.version == Version::v4 ? amount <= 0.5 : amount >= 0.5;
-  m.approximated(fmt::format("the heavier of two, \"{}\", stands for the mix", names[first ? 0 : 1]));
-  return {names[first ? 0 : 1], m.parameters.place()};
+  if (m.v3()) std::swap(names[0], names[1]);
+  FloatParameter amount = 0.5f;
+  if (const Parameter* color = m.parameters.find_spectrum("amount");
+      color && color->type != ParameterType::number) {
+    const Spectrum value = read_reflectance(*color, m.scope);
+    if (!is_constant(value)) m.approximated("its amount is a colour: its luminance stands for it");
+    amount = static_cast<float>(luminance(value));
+  } else {
+    amount = m.number("amount", 0.5);
+  }
+  return BlendMaterial{m.slots.named(names[0]), m.slots.named(names[1]), amount};
 }
 
 struct Kind {
   std::string_view name;
-  Material (*make)(const Maker&);
+  MaterialModel (*make)(const Maker&);
 };
 
-constexpr std::array<Kind, 25> kinds{{{"diffuse", diffuse_material},
-                                      {"matte", diffuse_material},
-                                      {"dielectric", dielectric_material},
-                                      {"glass", dielectric_material},
-                                      {"interface", interface_material},
-                                      {"none", interface_material},
-                                      {"", interface_material},
-                                      {"thindielectric", thin_dielectric_material},
-                                      {"coateddiffuse", coated_material},
-                                      {"plastic", coated_material},
-                                      {"substrate", coated_material},
-                                      {"uber", uber_material},
-                                      {"conductor", metal_material},
-                                      {"metal", metal_material},
-                                      {"coatedconductor", metal_material},
-                                      {"mirror", mirror_material},
-                                      {"diffusetransmission", transmitting_material},
-                                      {"translucent", transmitting_material},
-                                      {"subsurface", other_material},
-                                      {"kdsubsurface", other_material},
-                                      {"hair", other_material},
-                                      {"measured", other_material},
-                                      {"fourier", other_material},
-                                      {"disney", other_material},
-                                      {"principled", other_material}}};
+constexpr std::array<Kind, 15> kinds{{{"diffuse", diffuse},
+                                      {"dielectric", dielectric},
+                                      {"thindielectric", thin_dielectric},
+                                      {"interface", interface},
+                                      {"none", interface},
+                                      {"", interface},
+                                      {"coateddiffuse", coated_diffuse},
+                                      {"conductor", conductor},
+                                      {"coatedconductor", coated_conductor},
+                                      {"diffusetransmission", diffuse_transmission},
+                                      {"subsurface", subsurface},
+                                      {"kdsubsurface", subsurface},
+                                      {"hair", hair},
+                                      {"measured", measured},
+                                      {"mix", mix}}};
+
+MaterialModel make_model(const Maker& m) {
+  for (const Kind& known : kinds)
+    if (m.kind == known.name) return known.make(m);
+  if (auto model = make_v3_material(m)) return *model;
+  std::vector<std::string> names{"matte", "plastic",     "substrate", "uber",   "glass",
+                                 "metal", "translucent", "mirror",    "disney", "fourier"};
+  for (const Kind& known : kinds) names.emplace_back(known.name);
+  const std::string closest = closest_word(m.kind, names);
+  m.approximated(closest.empty()
+                     ? "is not known and becomes diffuse"
+                     : fmt::format("is not known and becomes diffuse; did you mean \"{}\"?", closest));
+  const MaterialModel model = DiffuseMaterial{m.reflectance({"reflectance", "color", "Kd", "diffuse"}, 0.5)};
+  for (const Parameter& p : m.parameters.all()) m.parameters.ignore({p.name});
+  return model;
+}
+
+void read_bumps(const Maker& m, Material& material) {
+  for (const char* name : {"displacement", "bumpmap"})
+    if (m.parameters.find(name, {ParameterType::texture, ParameterType::number}))
+      material.displacement = m.number(name, 0);
+  if (const Parameter* file = m.parameters.find("normalmap", {ParameterType::text}))
+    material.normal_map = add_image(*file, Encoding::linear, m.scope);
+}
 
 }  // namespace
 
-std::variant<Material, MaterialAlias> make_material(const std::string& kind, ParameterSet& parameters,
-                                                    const Scope& scope) {
-  const Maker maker{kind, parameters, scope};
+Material make_material(const std::string& kind, ParameterSet& parameters, const Scope& scope,
+                       const MaterialSlots& slots) {
+  const Maker maker{kind, parameters, scope, slots};
   parameters.ignore({"type"});
-  maker.drop_bumps();
-  if (kind == "mix") {
-    const MaterialAlias alias = heavier_of_mix(maker);
-    parameters.report_unused(scope.context.report);
-    return alias;
-  }
-  for (const Kind& known : kinds) {
-    if (kind != known.name) continue;
-    const Material material = known.make(maker);
-    parameters.report_unused(scope.context.report);
-    return material;
-  }
-  std::vector<std::string> names;
-  for (const Kind& known : kinds) names.emplace_back(known.name);
-  const std::string closest = closest_word(kind, names);
-  maker.approximated(closest.empty() ? "is not known"
-                                     : fmt::format("is not known; did you mean \"{}\"?", closest));
-  return other_material(maker);
+  Material material{make_model(maker)};
+  material.origin = scope.origin;
+  read_bumps(maker, material);
+  parameters.report_unused(scope.context.report);
+  return material;
 }
 
 }  // namespace vitrail::pbrt

@@ -1,23 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <string>
-#include <variant>
 
 #include "importers/pbrt/textures.h"
 #include "scene/scene.h"
 
 namespace vitrail::pbrt {
 
-// The name of the material that stands for another one.
-struct MaterialAlias {
-  std::string name;
-  Place place;
+// How materials refer to each other before all of them have ids.
+struct MaterialSlots {
+  std::function<Id<Material>(const std::string& name)>
+      named;                                  // of a material of that name, defined or to come
+  std::function<Id<Material>(Material)> add;  // of one more material
 };
 
-// The material of v3's or v4's kind `kind`. Kinds that are not diffuse, smooth dielectric or interface become
-// the nearest of these, and the report says how.
-std::variant<Material, MaterialAlias> make_material(const std::string& kind, ParameterSet& parameters,
-                                                    const Scope& scope);
+// The material of v3's or v4's kind `kind`. v3's become v4's models, or blends of them; what they cannot keep
+// is reported. An unknown kind is diffuse.
+Material make_material(const std::string& kind, ParameterSet& parameters, const Scope& scope,
+                       const MaterialSlots& slots);
 
 }  // namespace vitrail::pbrt

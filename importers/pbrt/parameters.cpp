@@ -128,6 +128,7 @@ void read_values(TokenStream& tokens, Parameter& parameter) {
 
 // Whole numbers of 32 bits. A fraction is cut off, as pbrt-v3 does.
 void check_integers(Parameter& parameter, Report& report) {
+  bool cut = false;
   for (double& value : parameter.numbers) {
     if (std::abs(value) > std::numeric_limits<int>::max())
       fail(fmt::format("integer parameter \"{}\" has the value {}, which is out of range", parameter.name,
@@ -135,9 +136,11 @@ void check_integers(Parameter& parameter, Report& report) {
            parameter.place);
     if (value == std::trunc(value)) continue;
     value = std::trunc(value);
+    cut = true;
+  }
+  if (cut)
     report.approximated(fmt::format("integer parameter \"{}\": fractions are cut off", parameter.name),
                         parameter.place);
-  }
 }
 
 }  // namespace

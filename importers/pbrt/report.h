@@ -2,32 +2,29 @@
 #pragma once
 
 #include <string>
-#include <unordered_map>
-#include <vector>
 
 #include "importers/pbrt/lexer.h"
 
 namespace vitrail::pbrt {
 
-// Collects diagnostics in the order of the file. A message that comes again is counted, not repeated: the
-// place is that of its first occurrence.
+// Collects diagnostics in the order of the file.
 class Report {
  public:
   void approximated(const std::string& message, const Place& place) {
-    add({Fidelity::approximated, message, location(place)});
+    add({Fidelity::approximated, message, location(place), {}});
   }
   void dropped(const std::string& message, const Place& place) {
-    add({Fidelity::dropped, message, location(place)});
+    add({Fidelity::dropped, message, location(place), {}});
   }
   void add(Diagnostic diagnostic);
+  // What comes is about the directive there.
+  void begin_item(const Place& place) { item_ = place; }
 
-  // All of them, with " (and N more)" where a message came again. Leaves the report empty.
-  Diagnostics take();
+  Diagnostics take() { return std::move(diagnostics_); }
 
  private:
+  Place item_;
   Diagnostics diagnostics_;
-  std::vector<int> repetitions_;
-  std::unordered_map<std::string, std::size_t> index_;
 };
 
 }  // namespace vitrail::pbrt

@@ -15,12 +15,15 @@ void Interpreter::camera(const Place& place) {
   ParameterSet parameters = read_set("Camera", kind, place);
   read_camera(kind, parameters, state_.ctm, context_, view_);
   coordinate_systems_["camera"] = view_.camera_to_world;
+  scene_.camera_origin = origin(place);
+  scene_.camera_medium = state_.exterior;
 }
 
 void Interpreter::film(const Place& place) {
   const std::string kind = read_text("a kind of film");
   ParameterSet parameters = read_set("Film", kind, place);
   read_film(kind, parameters, context_, view_);
+  scene_.film_origin = origin(place);
   if (state_.color_space != "srgb")
     context_.report.approximated(
         fmt::format("the film's colour space \"{}\" becomes \"srgb\"", state_.color_space), place);

@@ -242,15 +242,9 @@ std::optional<ShapeGeometry> ShapeMaker::quadric(const std::string& kind, Parame
 
 std::optional<ShapeGeometry> ShapeMaker::make(const std::string& kind, ParameterSet& parameters) {
   parameters.ignore({"S", "faceIndices"});
-  for (const char* name : {"alpha", "shadowalpha"}) {
-    const Parameter* alpha = parameters.find(name, {ParameterType::number, ParameterType::texture});
-    if (!alpha) continue;
-    if (alpha->numbers == std::vector<double>{0} && alpha->name == "alpha")
-      return std::nullopt;  // nothing shows
-    if (alpha->type == ParameterType::texture || alpha->numbers != std::vector<double>{1})
-      context_.report.dropped(fmt::format("\"{}\" of shapes is not rendered: they are opaque", name),
-                              alpha->place);
-  }
+  if (const Parameter* alpha =
+          parameters.find("shadowalpha", {ParameterType::number, ParameterType::texture}))
+    context_.report.dropped("\"shadowalpha\" of shapes: shadows follow \"alpha\"", alpha->place);
   std::optional<ShapeGeometry> geometry;
   if (kind == "trianglemesh")
     geometry = triangle_mesh(parameters);

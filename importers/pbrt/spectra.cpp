@@ -9,6 +9,7 @@
 #include "importers/pbrt/spectrum_names.h"
 #include "importers/ply/input_bytes.h"
 #include "scene/color.h"
+#include "scene/named_spectra.h"
 #include "scene/rgb_to_spectrum.h"
 
 namespace vitrail::pbrt {
@@ -23,14 +24,6 @@ Spectrum simplified(TabulatedSpectrum table) {
   if (std::all_of(table.values.begin(), table.values.end(), [&](float v) { return v == first; }))
     return ConstantSpectrum{first};
   return table;
-}
-
-template <class Function>
-Spectrum tabulated(Function value) {
-  TabulatedSpectrum table;
-  table.values.reserve(table_size);
-  for (int i = 0; i < table_size; ++i) table.values.push_back(static_cast<float>(value(lambda_min_nm + i)));
-  return simplified(std::move(table));
 }
 
 Samples pairs(const std::vector<double>& numbers, const Place& place) {
@@ -70,11 +63,11 @@ Spectrum sampled(Samples samples, bool hold_ends, const Context& context, const 
 
 Spectrum read_named(const Parameter& parameter, bool hold_ends, Context& context) {
   const std::string& name = parameter.strings.front();
-  if (const auto named = find_named_spectrum(name)) {
-    if (!named->approximation.empty())
-      context.report.approximated(
-          fmt::format("spectrum \"{}\": {} stands for it", name, named->approximation), parameter.place);
-    return named->spectrum;
+  if (named_spectrum(name)) return NamedSpectrum{name};
+  if (const auto kelvin = illuminant_temperature(name)) {
+    context.report.approximated(
+        fmt::format("spectrum \"{}\": a blackbody of {} K stands for it", name, *kelvin), parameter.place);
+    return BlackbodySpectrum{static_cast<float>(*kelvin), 1};
   }
   return sampled(read_spectrum_file(name, context, parameter.place), hold_ends, context, parameter.place);
 }
@@ -111,14 +104,19 @@ RGB read_color(const Parameter& parameter, double limit, SpectrumScope scope) {
   return {clamped(color.r), clamped(color.g), clamped(color.b)};
 }
 
-TabulatedSpectrum read_blackbody(const Parameter& parameter) {
+double read_kelvin(const Parameter& parameter) {
   require(parameter, 1, 2);
   if (!(parameter.numbers[0] > 0)) fail("a blackbody needs a temperature above 0 K", parameter.place);
-  return blackbody(parameter.numbers[0]);
+  return parameter.numbers[0];
 }
 
-double blackbody_scale(const Parameter& parameter, const Context& context) {
-  return context.version == Version::v3 && parameter.numbers.size() == 2 ? parameter.numbers[1] : 1;
+// With a maximum of 1, times v3's second value.
+Spectrum read_blackbody(const Parameter& parameter, const Context& context) {
+  const double kelvin = read_kelvin(parameter);
+  const double scale =
+      context.version == Version::v3 && parameter.numbers.size() == 2 ? parameter.numbers[1] : 1;
+  return BlackbodySpectrum{static_cast<float>(kelvin),
+                           static_cast<float>(luminance(blackbody(kelvin)) * scale)};
 }
 
 Spectrum constant(const Parameter& parameter) {
@@ -126,10 +124,13 @@ Spectrum constant(const Parameter& parameter) {
   return ConstantSpectrum{static_cast<float>(parameter.numbers[0])};
 }
 
-Spectrum with_unit_luminance(const Spectrum& spectrum, const Place& place, Context& context) {
-  const double y = luminance(spectrum);
-  if (y > 0) return scaled(spectrum, 1 / y);
-  context.report.dropped("the spectrum of a light has no luminance to normalise: the light is black", place);
+// One factor, so that a spectrum whose scale is its own luminance stays as it is, bit for bit.
+Spectrum with_luminance(const Spectrum& spectrum, double y, const Place& place, Context& context) {
+  const double own = luminance(spectrum);
+  if (own > 0) return scaled(spectrum, y / own);
+  if (y > 0)
+    context.report.dropped("the spectrum of a light has no luminance to normalise: the light is black",
+                           place);
   return ConstantSpectrum{0};
 }
 
@@ -141,7 +142,7 @@ Spectrum read_reflectance(const Parameter& parameter, SpectrumScope scope) {
     case ParameterType::xyz:
       return reflectance_from_rgb(read_color(parameter, 1, scope));
     case ParameterType::blackbody:
-      return scaled(read_blackbody(parameter), blackbody_scale(parameter, scope.context));
+      return read_blackbody(parameter, scope.context);
     case ParameterType::spectrum:
       return read_spectrum(parameter, scope.context.version == Version::v3, scope.context);
     default:
@@ -149,25 +150,34 @@ Spectrum read_reflectance(const Parameter& parameter, SpectrumScope scope) {
   }
 }
 
-Spectrum read_emission(const Parameter& parameter, SpectrumScope scope) {
+Spectrum read_unbounded(const Parameter& parameter, SpectrumScope scope) {
+  if (parameter.type != ParameterType::rgb && parameter.type != ParameterType::xyz)
+    return read_reflectance(parameter, scope);
+  const RGB color = read_color(parameter, std::numeric_limits<float>::max(), scope);
+  if (std::max({color.r, color.g, color.b}) <= 1) return reflectance_from_rgb(color);
+  return unbounded_from_rgb(color);
+}
+
+Spectrum read_emission(const Parameter& parameter, double factor, SpectrumScope scope) {
   const bool v4 = scope.context.version == Version::v4;
   switch (parameter.type) {
     case ParameterType::rgb:
-    case ParameterType::xyz:
-      return emission_from_rgb(read_color(parameter, std::numeric_limits<float>::max(), scope));
-    case ParameterType::blackbody: {
-      scope.context.note_version("the magnitude of a light's blackbody", parameter.place);
-      const TabulatedSpectrum spectrum = read_blackbody(parameter);
-      return v4 ? with_unit_luminance(spectrum, parameter.place, scope.context)
-                : scaled(spectrum, blackbody_scale(parameter, scope.context));
+    case ParameterType::xyz: {
+      const RGB c = read_color(parameter, std::numeric_limits<float>::max(), scope);
+      return emission_from_rgb({c.r * factor, c.g * factor, c.b * factor});
     }
+    case ParameterType::blackbody:
+      scope.context.note_version("the magnitude of a light's blackbody", parameter.place);
+      if (v4)
+        return BlackbodySpectrum{static_cast<float>(read_kelvin(parameter)), static_cast<float>(factor)};
+      return scaled(read_blackbody(parameter, scope.context), factor);
     case ParameterType::spectrum: {
       scope.context.note_version("the magnitude of a light's spectrum", parameter.place);
       const Spectrum spectrum = read_spectrum(parameter, !v4, scope.context);
-      return v4 ? with_unit_luminance(spectrum, parameter.place, scope.context) : spectrum;
+      return v4 ? with_luminance(spectrum, factor, parameter.place, scope.context) : scaled(spectrum, factor);
     }
     default:
-      return constant(parameter);
+      return scaled(constant(parameter), factor);
   }
 }
 
@@ -192,23 +202,12 @@ Spectrum read_refraction(const Parameter& parameter, SpectrumScope scope) {
   return ConstantSpectrum{static_cast<float>(sum / 3)};
 }
 
-Spectrum weighted_sum(const Spectrum& a, double weight_a, const Spectrum& b, double weight_b) {
-  if (weight_b == 0) return scaled(a, weight_a);
-  if (weight_a == 0) return scaled(b, weight_b);
-  return tabulated([&](double l) { return weight_a * evaluate(a, l) + weight_b * evaluate(b, l); });
-}
-
-Spectrum product(const Spectrum& a, const Spectrum& b) {
-  if (is_constant(a)) return scaled(b, evaluate(a, lambda_min_nm));
-  if (is_constant(b)) return scaled(a, evaluate(b, lambda_min_nm));
-  return tabulated([&](double l) { return evaluate(a, l) * evaluate(b, l); });
-}
-
-Spectrum conductor_reflectance(const Spectrum& n, const Spectrum& k) {
-  return tabulated([&](double l) {
-    const double eta = evaluate(n, l), kappa = evaluate(k, l);
-    return ((eta - 1) * (eta - 1) + kappa * kappa) / ((eta + 1) * (eta + 1) + kappa * kappa);
-  });
+std::string find_file(const Parameter& parameter, Context& context) {
+  const std::filesystem::path path = std::filesystem::absolute(context.resolve(parameter.strings.front()));
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored))
+    context.report.approximated(fmt::format("cannot find the file \"{}\"", path.string()), parameter.place);
+  return path.lexically_normal().string();
 }
 
 }  // namespace vitrail::pbrt

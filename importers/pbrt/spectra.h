@@ -18,19 +18,18 @@ struct SpectrumScope {
 // In [0,1] where it is given as a colour.
 Spectrum read_reflectance(const Parameter& parameter, SpectrumScope scope);
 
-// Emission, in the units of the version. v4 divides every light by its own luminance, so that only `scale`
-// and the like set it: spectra and blackbodies get luminance 1, rgb keeps its magnitude. v3 keeps spectra as
-// they are and normalises blackbodies to a maximum of 1, times their second value.
-Spectrum read_emission(const Parameter& parameter, SpectrumScope scope);
+// A factor or coefficient: as above, but colours may exceed 1.
+Spectrum read_unbounded(const Parameter& parameter, SpectrumScope scope);
+
+// Emission times `factor`, in the units of the version. v4 divides every light by its own luminance, so that
+// only `scale` and the like set it: spectra and blackbodies get luminance 1, rgb keeps its magnitude. v3
+// keeps spectra as they are and normalises blackbodies to a maximum of 1, times their second value.
+Spectrum read_emission(const Parameter& parameter, double factor, SpectrumScope scope);
 
 // An index of refraction; held constant outside of its samples.
 Spectrum read_refraction(const Parameter& parameter, SpectrumScope scope);
 
-// a·weight_a + b·weight_b and a·b; constants stay constants.
-Spectrum weighted_sum(const Spectrum& a, double weight_a, const Spectrum& b, double weight_b);
-Spectrum product(const Spectrum& a, const Spectrum& b);
-
-// The reflectance of a smooth conductor at normal incidence, ((n−1)² + k²) / ((n+1)² + k²).
-Spectrum conductor_reflectance(const Spectrum& n, const Spectrum& k);
+// Where an image file that a parameter names is; a diagnostic where it is not there.
+std::string find_file(const Parameter& parameter, Context& context);
 
 }  // namespace vitrail::pbrt

@@ -16,21 +16,41 @@ void Interpreter::reverse_orientation(const Place&) {
 
 // ---- Materials and textures ---------------------------------------------------------------------
 
+std::uint32_t Interpreter::add_material(Material material) {
+  materials_.emplace_back(std::move(material));
+  return static_cast<std::uint32_t>(materials_.size() - 1);
+}
+
+Material Interpreter::made_material(const std::string& kind, ParameterSet& parameters, const Scope& scope) {
+  const auto named = [&](const std::string& name) {
+    const auto next = static_cast<std::uint32_t>(materials_.size());
+    const std::uint32_t slot = material_names_.use(name, parameters.place(), next);
+    if (slot == next) materials_.emplace_back();
+    return Id<Material>{slot};
+  };
+  const auto add = [&](Material material) {
+    material.origin = scope.origin;
+    return Id<Material>{add_material(std::move(material))};
+  };
+  return make_material(kind, parameters, scope, {named, add});
+}
+
 // v4 lets materials name textures that come later; they wait for the end.
-void Interpreter::define_material(std::uint32_t slot, const std::string& kind, ParameterSet parameters) {
+void Interpreter::define_material(std::uint32_t slot, const std::string& kind, ParameterSet parameters,
+                                  const Place& place) {
   if (!textures_are_known(parameters, textures_)) {
-    deferred_.push_back({slot, kind, state_.color_space, std::move(parameters)});
+    deferred_.push_back({slot, kind, state_.color_space, std::move(parameters), place});
     return;
   }
-  std::visit([&](auto&& made) { materials_[slot] = std::move(made); },
-             make_material(kind, parameters, scope()));
+  Material made = made_material(kind, parameters, scope(place));
+  materials_[slot] = std::move(made);
 }
 
 void Interpreter::material(const Place& place) {
   const std::string kind = read_text("a kind of material");
   const auto slot = static_cast<std::uint32_t>(materials_.size());
   materials_.emplace_back();
-  define_material(slot, kind, read_set("Material", kind, place, "material"));
+  define_material(slot, kind, read_set("Material", kind, place, "material"), place);
   state_.material = Id<Material>{slot};
 }
 
@@ -46,7 +66,8 @@ void Interpreter::make_named_material(const Place& place) {
   if (redefined)
     context_.report.approximated(
         fmt::format("material \"{}\" is defined again, for the shapes after it", name), place);
-  define_material(slot, kind, std::move(parameters));
+  named_slots_[slot] = name;
+  define_material(slot, kind, std::move(parameters), place);
 }
 
 void Interpreter::named_material(const Place& place) {
@@ -64,20 +85,44 @@ void Interpreter::texture(const Place& place) {
   const bool spectral = type == "spectrum" || type == "color";
   if (!spectral && type != "float")
     fail(fmt::format("expected a texture of type float or spectrum, found \"{}\"", type), place);
-  Texture made = make_texture(kind, spectral, parameters, scope());
-  if (made.approximation.empty()) parameters.report_unused(context_.report);
-  (spectral ? textures_.spectra : textures_.numbers).insert_or_assign(name, std::move(made));
+  if (spectral)
+    textures_.spectra.insert_or_assign(
+        name, make_spectrum_texture(kind, name, parameters, state_.ctm, scope(place)));
+  else
+    textures_.numbers.insert_or_assign(name,
+                                       make_float_texture(kind, name, parameters, state_.ctm, scope(place)));
 }
+
+// ---- Media --------------------------------------------------------------------------------------
 
 void Interpreter::make_named_medium(const Place& place) {
   const std::string name = read_text("the name of a medium");
-  read_set("medium", name, place);
-  context_.report.dropped(fmt::format("medium \"{}\": media are not rendered", name), place);
+  ParameterSet parameters = read_set("medium", name, place, "medium");
+  const std::string kind = parameters.text("type", "homogeneous");
+  Medium medium = make_medium(kind, name, parameters, state_.ctm, scope(place));
+  const auto next = static_cast<std::uint32_t>(media_.size());
+  const auto [slot, redefined] = medium_names_.define(name, place, next);
+  if (redefined)
+    context_.report.approximated(fmt::format("medium \"{}\" is defined again, for what follows", name),
+                                 place);
+  if (slot == next) media_.emplace_back();
+  media_[slot] = std::move(medium);
 }
 
-void Interpreter::medium_interface(const Place&) {
-  read_text("the name of a medium");
-  if (tokens_.text_follows()) read_text("the name of a medium");
+std::optional<Id<Medium>> Interpreter::medium_named(const std::string& name, const Place& place) {
+  if (name.empty()) return std::nullopt;
+  const auto next = static_cast<std::uint32_t>(media_.size());
+  const std::uint32_t slot = medium_names_.use(name, place, next);
+  if (slot == next) media_.emplace_back();
+  return Id<Medium>{slot};
+}
+
+// One name stands for both sides.
+void Interpreter::medium_interface(const Place& place) {
+  const std::string inside = read_text("the name of a medium");
+  const std::string outside = tokens_.text_follows() ? read_text("the name of a medium") : inside;
+  state_.interior = medium_named(inside, place);
+  state_.exterior = medium_named(outside, place);
 }
 
 // ---- Lights -------------------------------------------------------------------------------------
@@ -85,7 +130,7 @@ void Interpreter::medium_interface(const Place&) {
 void Interpreter::light_source(const Place& place) {
   const std::string kind = read_text("a kind of light");
   ParameterSet parameters = read_set("LightSource", kind, place, "light");
-  if (auto light = make_light(kind, parameters, state_.ctm, scope()))
+  if (auto light = make_light(kind, parameters, state_.ctm, scope(place)))
     scene_.lights.push_back(std::move(*light));
 }
 
@@ -93,7 +138,7 @@ void Interpreter::area_light_source(const Place& place) {
   const std::string kind = read_text("a kind of light");
   ParameterSet parameters = read_set("AreaLightSource", kind, place, "light");
   state_.area_light = std::make_shared<AreaLightState>(
-      AreaLightState{make_area_emission(kind, parameters, scope()), std::nullopt});
+      AreaLightState{make_area_emission(kind, parameters, scope(place)), std::nullopt});
 }
 
 // The area in the world of each of the shapes that pbrt makes of a mesh, which all emit the whole power.
@@ -127,7 +172,12 @@ std::optional<Id<AreaLight>> Interpreter::shape_light(const ShapeGeometry& geome
   if (state.emission.power > 0) {
     const double area = area_per_part(geometry, place) * (light.two_sided ? 2 : 1);
     if (!(area > 0)) fail("an area light with a power needs a shape with an area", place);
-    light.radiance = scaled(light.radiance, state.emission.power / (area * std::numbers::pi));
+    const double factor = state.emission.power / (area * std::numbers::pi);
+    if (const auto* radiance = std::get_if<Spectrum>(&light.radiance))
+      light.radiance = scaled(*radiance, factor);
+    else
+      context_.report.approximated("the power of an area light with an image: the image counts by its scale",
+                                   place);
   }
   state.id = Id<AreaLight>{static_cast<std::uint32_t>(scene_.area_lights.size())};
   scene_.area_lights.push_back(std::move(light));
@@ -146,14 +196,32 @@ Id<Material> Interpreter::shape_material() {
   return *default_material_;
 }
 
+// Shapes of one material with the same "alpha" share their mask.
+Id<Material> Interpreter::masked(Id<Material> material, const FloatParameter& opacity, const Place& place) {
+  if (opacity == FloatParameter{1.0f}) return material;
+  const MaskMaterial mask{opacity, material};
+  for (const auto& [known, id] : masks_)
+    if (known == mask) return id;
+  Material record{mask};
+  record.origin = origin(place);
+  const Id<Material> id{add_material(std::move(record))};
+  masks_.emplace_back(mask, id);
+  return id;
+}
+
 void Interpreter::shape(const Place& place) {
   const std::string kind = read_text("a kind of shape");
   ParameterSet parameters = read_set("Shape", kind, place, "shape");
+  const FloatParameter alpha = float_parameter(parameters, {"alpha"}, 1, scope(place));
+  if (alpha == FloatParameter{0.0f}) return;  // nothing shows
   const auto geometry = shapes_.make(kind, parameters);
   if (!geometry || scene_.meshes[geometry->mesh.value].triangles.empty()) return;
   Shape shape;
   shape.mesh = geometry->mesh;
-  shape.material = shape_material();
+  shape.material = masked(shape_material(), alpha, place);
+  shape.interior = state_.interior;
+  shape.exterior = state_.exterior;
+  shape.origin = origin(place);
   shape.area_light = shape_light(*geometry, place);
   shape.object_to_world = state_.ctm * vitrail::translate(geometry->offset);
   // Meshes: pbrt flips the winding normal of the world, so that the object's front stays the front. Analytic
@@ -173,35 +241,78 @@ void Interpreter::object_instance(const Place& place) {
   const auto next = static_cast<std::uint32_t>(scene_.prototypes.size());
   const std::uint32_t slot = object_names_.use(name, place, next);
   if (slot == next) scene_.prototypes.push_back({});
-  scene_.instances.push_back({Id<Prototype>{slot}, state_.ctm});
+  scene_.instances.push_back({Id<Prototype>{slot}, state_.ctm, origin(place)});
 }
 
 // ---- The end ------------------------------------------------------------------------------------
 
-void Interpreter::resolve_materials() {
-  for (DeferredMaterial& deferred : deferred_)
-    std::visit(
-        [&](auto&& made) { materials_[deferred.slot] = std::move(made); },
-        make_material(deferred.kind, deferred.parameters, {{context_, deferred.color_space}, textures_}));
-  for (std::size_t i = 0; i < materials_.size(); ++i) {
-    std::size_t at = i;
-    for (std::size_t steps = 0; const auto* other = std::get_if<MaterialAlias>(&materials_[at]); ++steps) {
-      at = material_names_.use(other->name, other->place, static_cast<std::uint32_t>(materials_.size()));
-      if (at == materials_.size()) material_names_.require_definitions();
-      if (steps > materials_.size()) fail("this mix of materials contains itself", other->place);
-    }
-    if (const auto* material = std::get_if<Material>(&materials_[at]))
-      scene_.materials.push_back(*material);
-    else
-      material_names_.require_definitions();
+namespace {
+
+// Calls `use` with each material that `material` refers to.
+template <class Use>
+void for_each_reference(Material& material, Use&& use) {
+  if (auto* blend = std::get_if<BlendMaterial>(&material.model)) use(blend->first), use(blend->second);
+  if (auto* mask = std::get_if<MaskMaterial>(&material.model)) use(mask->material);
+}
+
+// Materials in an order in which each comes after those that it refers to.
+class MaterialOrder {
+ public:
+  MaterialOrder(const std::vector<std::optional<Material>>& slots, Scene& scene)
+      : slots_(slots), scene_(scene), ids_(slots.size(), none) {}
+
+  Id<Material> place(std::uint32_t slot, int depth = 0) {
+    constexpr int most_nested = 64;
+    const auto refuse = [&](const char* why) {
+      throw Error(fmt::format("the mix of materials \"{}\" {}", slots_[slot]->name, why),
+                  location(scene_, slots_[slot]->origin));
+    };
+    if (ids_[slot] < open) return {ids_[slot]};
+    if (ids_[slot] == open) refuse("contains itself");
+    if (depth > most_nested) refuse("is nested too deeply");
+    ids_[slot] = open;
+    Material material = *slots_[slot];
+    for_each_reference(material, [&](Id<Material>& id) { id = place(id.value, depth + 1); });
+    ids_[slot] = static_cast<std::uint32_t>(scene_.materials.size());
+    scene_.materials.push_back(std::move(material));
+    return {ids_[slot]};
   }
+
+ private:
+  static constexpr std::uint32_t none = 0xffffffffu, open = 0xfffffffeu;
+  const std::vector<std::optional<Material>>& slots_;
+  Scene& scene_;
+  std::vector<std::uint32_t> ids_;
+};
+
+}  // namespace
+
+void Interpreter::resolve_materials() {
+  for (DeferredMaterial& deferred : deferred_) {
+    const Scope where{{context_, deferred.color_space}, textures_, scene_.textures, origin(deferred.place)};
+    Material made = made_material(deferred.kind, deferred.parameters, where);
+    materials_[deferred.slot] = std::move(made);
+  }
+  material_names_.require_definitions();
+  for (const auto& [slot, name] : named_slots_) materials_[slot]->name = name;
+  MaterialOrder order(materials_, scene_);
+  for (std::uint32_t slot = 0; slot < materials_.size(); ++slot) order.place(slot);
+  const auto renumber = [&](Shape& shape) { shape.material = order.place(shape.material.value); };
+  for (Shape& shape : scene_.shapes) renumber(shape);
+  for (Prototype& prototype : scene_.prototypes)
+    for (Shape& shape : prototype.shapes) renumber(shape);
+}
+
+void Interpreter::resolve_media() {
+  medium_names_.require_definitions();
+  for (std::optional<Medium>& medium : media_) scene_.media.push_back(std::move(*medium));
 }
 
 // Without a surface there is nothing to emit; pbrt leaves such lights out.
 void Interpreter::drop_lights_of_interfaces() {
   for (Shape& shape : scene_.shapes)
     if (shape.area_light &&
-        std::holds_alternative<InterfaceMaterial>(scene_.materials[shape.material.value])) {
+        std::holds_alternative<InterfaceMaterial>(scene_.materials[shape.material.value].model)) {
       context_.report.dropped("an area light on the material \"interface\" does not shine, as in pbrt",
                               area_light_places_[shape.area_light->value]);
       shape.area_light.reset();

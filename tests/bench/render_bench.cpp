@@ -48,7 +48,7 @@ void add_bumpy_sphere(Scene& scene, Point3f centre, float radius, std::uint32_t 
     }
   scene.meshes.push_back(std::move(mesh));
   add_shape(scene, {static_cast<std::uint32_t>(scene.meshes.size() - 1)},
-            DiffuseMaterial{ConstantSpectrum{0.7f}});
+            Material{DiffuseMaterial{ConstantSpectrum{0.7f}}});
 }
 
 // Eight bumpy spheres in a room with a lamp: 1.06 million triangles.
@@ -58,9 +58,9 @@ Scene bench_scene() {
     add_bumpy_sphere(scene, {i & 1 ? 1.2f : -1.2f, i & 2 ? 1.2f : -1.2f, i & 4 ? 1.2f : -1.2f}, 1.05f, 182);
   auto walls = box_faces({-3, -3, -3}, {3, 3, 3});
   for (auto& face : walls) std::swap(face[1], face[3]);
-  add_shape(scene, add_quads(scene, walls), DiffuseMaterial{ConstantSpectrum{0.6f}});
+  add_shape(scene, add_quads(scene, walls), Material{DiffuseMaterial{ConstantSpectrum{0.6f}}});
   add_shape(scene, add_quads(scene, {{{{-1, 2.95f, -1}, {1, 2.95f, -1}, {1, 2.95f, 1}, {-1, 2.95f, 1}}}}),
-            DiffuseMaterial{ConstantSpectrum{0}}, AreaLight{ConstantSpectrum{10}, true});
+            Material{DiffuseMaterial{ConstantSpectrum{0}}}, AreaLight{ConstantSpectrum{10}, true});
   set_camera(scene, {0, 0, -2.9}, {0, 0, 0}, {0, 1, 0}, 1.4, 256, 256);
   return scene;
 }

@@ -96,7 +96,7 @@ TEST_F(ManifestFile, WrongContentIsFound) {
       [](Manifest& m) { m.emissive_triangles[0].triangle = 11; },
       [](Manifest& m) { m.emissive_triangles[0].area_light = 2; },
       [](Manifest& m) { m.offset.y = nan; },
-      [](Manifest& m) { std::get<PointLight>(m.lights[0]).position.x = nan; },
+      [](Manifest& m) { std::get<bundle::PointLight>(m.lights[0]).position.x = nan; },
       [](Manifest& m) { std::get<OrthographicCamera>(m.camera).camera_to_world.m[1][1] = nan; },
       [](Manifest& m) { m.film.crop.x1 = 641; },
       [](Manifest& m) {

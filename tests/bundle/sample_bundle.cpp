@@ -66,14 +66,15 @@ Manifest sample_manifest() {
   m.surfaces = {{0, 1, -1}, {4, 2, 0}, {9, 0, 1}};
   TabulatedSpectrum table;
   for (int i = 0; i < table_size; ++i) table.values.push_back(static_cast<float>(i) / 7);
-  m.materials = {DiffuseMaterial{SigmoidSpectrum{0.1f, -0.2f, infinity}},
-                 DielectricMaterial{SellmeierSpectrum{{1.03, 0.23, 1.01}, {0.006, 0.02, 103.56}}},
-                 InterfaceMaterial{}};
+  m.materials = {bundle::DiffuseMaterial{SigmoidSpectrum{0.1f, -0.2f, infinity}},
+                 bundle::DielectricMaterial{SellmeierSpectrum{{1.03, 0.23, 1.01}, {0.006, 0.02, 103.56}}},
+                 bundle::InterfaceMaterial{}};
   m.area_lights = {{table, true}, {RgbIlluminantSpectrum{{1e-5f, 2, 3}, 4}, false}};
   m.emissive_triangles = {{{{0, 0, 0}, {1, 0, 0}, {0, 1.1f, 0}}, 5, 0},
                           {{{0, 0, 0}, {0, 1, 0}, {0, 0, 1}}, 10, 1}};
-  m.lights = {PointLight{{1, 2, 1.0 / 3}, ConstantSpectrum{1.5f}},
-              DistantLight{{0, 0, -1}, ConstantSpectrum{0.1f}}, InfiniteLight{ConstantSpectrum{2}}};
+  m.lights = {bundle::PointLight{{1, 2, 1.0 / 3}, ConstantSpectrum{1.5f}},
+              bundle::DistantLight{{0, 0, -1}, ConstantSpectrum{0.1f}},
+              bundle::InfiniteLight{ConstantSpectrum{2}}};
   m.camera = OrthographicCamera{translate({0.1, 1e-300, 3}), {-1.0 / 3, 1, -2, 2}};
   m.film = {640, 480, {10, 600, 20, 400}, GaussianFilter{1.25, 1.5, 0.1}, 0.7};
   m.settings = {33, 7, true};

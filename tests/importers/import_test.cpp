@@ -48,7 +48,7 @@ TEST(ImportScene, ShowsAllOfGeometryAloneUnderASky) {
   EXPECT_GT(seen(imported.scene, {101, 0, 0}).x, seen(imported.scene, {100, 0, 0}).x)
       << "and +x right: not mirrored";
   ASSERT_EQ(imported.scene.lights.size(), 1u);
-  EXPECT_NEAR(luminance(std::get<InfiniteLight>(imported.scene.lights[0]).radiance), 1, 1e-3);
+  EXPECT_NEAR(luminance(std::get<InfiniteLight>(imported.scene.lights[0].model).radiance), 1, 1e-3);
 }
 
 TEST(ImportScene, AddsNoSkyWhereSomethingShines) {

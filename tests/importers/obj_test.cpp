@@ -267,7 +267,7 @@ TEST_F(Obj, Diffuse) {
 }
 
 TEST_F(Obj, Dielectric) {
-  const Material glass = DielectricMaterial{ConstantSpectrum{1.5f}};
+  const Material glass = Material{DielectricMaterial{ConstantSpectrum{1.5f}}};
   for (const std::string text : {"d 0.1\nNi 1.5\n", "Tr 0.9\nNi 1.5\n", "illum 4\nNi 1.5\n",
                                  "illum 6\nNi 1.5\n", "illum 7\nNi 1.5\n", "illum 9\nNi 1.5\n"}) {
     EXPECT_EQ(material(text), glass) << text;
@@ -310,7 +310,7 @@ TEST_F(Obj, BadMaterials) {
 
 TEST_F(Obj, LibrariesAndTheirNames) {
   const std::string faces = "usemtl my red\nf 1 2 3\n";
-  const Material red = DiffuseMaterial{reflectance_from_rgb({1, 0, 0})};
+  const Material red = Material{DiffuseMaterial{reflectance_from_rgb({1, 0, 0})}};
   folder_.write("a b.mtl", "newmtl  my red \nKd 1 0 0\nnewmtl my red\nKd 0 1 0\n");
   folder_.write("c.mtl", "newmtl c\n");
   for (const std::string line : {"mtllib a b.mtl", "mtllib a\\ b.mtl", "mtllib c.mtl a\\ b.mtl",

@@ -62,15 +62,24 @@ TEST(PbrtCamera, StandsWhereTheTransformPutsIt) {
   EXPECT_EQ(transform_vector(mirrored.camera_to_world, {1, 0, 0}), (Vector3d{-1, 0, 0}));
 }
 
-TEST(PbrtCamera, WhatItLosesIsReported) {
-  EXPECT_TRUE(mentions(
-      settings("Camera \"perspective\" \"float lensradius\" .1 \"float focaldistance\" 3 Film \"rgb\"")
-          .diagnostics,
-      "pinhole"));
-  const ImportedScene spherical = settings("Translate 0 0 4 Camera \"spherical\" Film \"rgb\"");
-  EXPECT_TRUE(mentions(spherical.diagnostics, "camera \"spherical\" is not supported"));
-  EXPECT_EQ(transform_point(std::get<PerspectiveCamera>(spherical.scene.camera).camera_to_world, {}),
-            (Point3d{0, 0, -4}));
+TEST(PbrtCamera, LensesAndSpheresAreKept) {
+  EXPECT_EQ(
+      perspective("Camera \"perspective\" \"float lensradius\" .125 \"float focaldistance\" 3 Film \"rgb\"")
+          .lens,
+      (Lens{.125, 3}));
+  const auto spherical = std::get<SphericalCamera>(
+      settings("Translate 0 0 4 Camera \"spherical\" \"string mapping\" \"equirectangular\" Film \"rgb\"")
+          .scene.camera);
+  EXPECT_EQ(transform_point(spherical.camera_to_world, {}), (Point3d{0, 0, -4}));
+  EXPECT_EQ(spherical.projection, SphericalCamera::Projection::latitude_longitude);
+  EXPECT_TRUE(mentions(settings("Camera \"realistic\" Film \"rgb\"").diagnostics,
+                       "camera \"realistic\" is not supported"));
+}
+
+TEST(PbrtCamera, NoiseOfTheInverseIsRoundedOff) {
+  const PerspectiveCamera camera =
+      perspective("LookAt .1 .2 .3 1 2 3 0 0 1 Camera \"perspective\" Film \"rgb\"");
+  EXPECT_EQ(camera.camera_to_world, snapped(look_at({.1, .2, .3}, {1, 2, 3}, {0, 0, 1})));
 }
 
 TEST(PbrtFilm, HasTheResolutionAndTheCrop) {
@@ -122,8 +131,11 @@ TEST(PbrtFilter, KindsAndDefaultsAreThoseOfTheVersion) {
       << "alpha 2";
   EXPECT_EQ(filter("Film \"image\" PixelFilter \"gaussian\" \"float alpha\" .5"),
             (Filter{GaussianFilter{2, 2, 1}}));
-  EXPECT_EQ(filter("Film \"rgb\" PixelFilter \"mitchell\""), Filter{GaussianFilter{}});
-  EXPECT_TRUE(mentions(settings("Film \"rgb\" PixelFilter \"sinc\"").diagnostics, "becomes a Gaussian"));
+  EXPECT_EQ(filter("Film \"rgb\" PixelFilter \"mitchell\" \"float B\" .5"),
+            (Filter{MitchellFilter{2, 2, .5, 1.0 / 3}}));
+  EXPECT_EQ(filter("Film \"rgb\" PixelFilter \"sinc\" \"float tau\" 2"), (Filter{SincFilter{4, 4, 2}}));
+  EXPECT_TRUE(
+      mentions(settings("Film \"rgb\" PixelFilter \"mitchel\"").diagnostics, "did you mean \"mitchell\""));
 }
 
 TEST(PbrtSettings, SamplesAndDepth) {

@@ -165,15 +165,15 @@ TEST(PbrtParameters, TheLastOfANameCountsAndUnusedOnesAreReported) {
   for (const Diagnostic& d : diagnostics) EXPECT_EQ(d.fidelity, Fidelity::dropped);
 }
 
-TEST(PbrtReport, CountsWhatComesAgain) {
+TEST(PbrtReport, SaysWhichDirectiveItIsAbout) {
+  const std::string file = "scene.pbrt";
   Report report;
-  for (int line = 3; line < 6; ++line) report.dropped("curves", {nullptr, line, 1});
-  report.approximated("spheres", {nullptr, 9, 1});
+  report.begin_item({&file, 7, 2});
+  report.dropped("curves", {&file, 8, 1});
   const Diagnostics diagnostics = report.take();
-  ASSERT_EQ(diagnostics.size(), 2u);
-  EXPECT_EQ(diagnostics[0].message, "curves (and 2 more)");
-  EXPECT_EQ(diagnostics[0].location.line, 3);
-  EXPECT_EQ(diagnostics[1].message, "spheres");
+  ASSERT_EQ(diagnostics.size(), 1u);
+  EXPECT_EQ(to_string(diagnostics[0].location), "scene.pbrt:8:1");
+  EXPECT_EQ(to_string(diagnostics[0].item), "scene.pbrt:7:2");
 }
 
 // ---- Versions

@@ -6,6 +6,7 @@
 #include "pbrt_text.h"
 #include "scene/color.h"
 #include "scene/named_spectra.h"
+#include "scene/rgb_to_spectrum.h"
 
 namespace vitrail {
 namespace {
@@ -13,7 +14,7 @@ namespace {
 using std::numbers::pi;
 
 Spectrum infinite(const ImportedScene& imported) {
-  return std::get<InfiniteLight>(imported.scene.lights.at(0)).radiance;
+  return std::get<InfiniteLight>(imported.scene.lights.at(0).model).radiance;
 }
 Spectrum infinite_v4(const std::string& parameters) {
   return infinite(import_v4("LightSource \"infinite\" " + parameters));
@@ -96,7 +97,8 @@ TEST(PbrtEmission, OutsideOfSrgbIsReported) {
 TEST(PbrtLights, PointsHaveThePowerTheyAreGiven) {
   const auto intensity = [](const std::string& parameters) {
     return luminance(
-        std::get<PointLight>(import_v4("LightSource \"point\" " + parameters).scene.lights.at(0)).intensity);
+        std::get<PointLight>(import_v4("LightSource \"point\" " + parameters).scene.lights.at(0).model)
+            .intensity);
   };
   EXPECT_NEAR(intensity("\"rgb I\" [2 2 2]"), 2, 1e-3);
   EXPECT_NEAR(intensity("\"blackbody I\" [2700] \"float power\" 40"), 40 / (4 * pi), 1e-5);
@@ -106,13 +108,13 @@ TEST(PbrtLights, PointsHaveThePowerTheyAreGiven) {
 
 TEST(PbrtLights, PointsStandWhereTheirVersionPutsThem) {
   const std::string world = "Scale 2 2 2 Translate 10 0 0 LightSource \"point\" \"point3 from\" [1 0 0]";
-  EXPECT_EQ(std::get<PointLight>(import_v4(world).scene.lights.at(0)).position, (Point3d{22, 0, 0}));
-  EXPECT_EQ(std::get<PointLight>(import_v3(world).scene.lights.at(0)).position, (Point3d{21, 0, 0}));
+  EXPECT_EQ(std::get<PointLight>(import_v4(world).scene.lights.at(0).model).position, (Point3d{22, 0, 0}));
+  EXPECT_EQ(std::get<PointLight>(import_v3(world).scene.lights.at(0).model).position, (Point3d{21, 0, 0}));
 }
 
 TEST(PbrtLights, DistantOnesGoFromFromToTo) {
   const auto light = [](const std::string& world) {
-    return std::get<DistantLight>(import_v4(world).scene.lights.at(0));
+    return std::get<DistantLight>(import_v4(world).scene.lights.at(0).model);
   };
   EXPECT_EQ(light("LightSource \"distant\"").direction, (Vector3d{0, 0, 1}));
   EXPECT_EQ(light("LightSource \"distant\" \"point3 from\" [0 5 0] \"point3 to\" [0 1 0]").direction,
@@ -131,14 +133,43 @@ TEST(PbrtLights, DistantOnesGoFromFromToTo) {
 
 TEST(PbrtLights, InfiniteOnesHaveTheIlluminanceTheyAreGiven) {
   EXPECT_NEAR(luminance(infinite_v4("\"float illuminance\" 2")), 2 / pi, 1e-3);
-  EXPECT_TRUE(mentions(import_v4("LightSource \"infinite\" \"string filename\" \"sky.exr\"").diagnostics,
-                       "environment image"));
 }
 
-TEST(PbrtLights, OtherKindsAreReported) {
-  const ImportedScene spot = import_v4("LightSource \"spot\" \"point3 from\" [1 2 3] \"rgb I\" [2 2 2]");
-  EXPECT_EQ(std::get<PointLight>(spot.scene.lights.at(0)).position, (Point3d{1, 2, 3}));
-  EXPECT_TRUE(mentions(spot.diagnostics, "shines in all directions"));
+TEST(PbrtLights, ImagesOfEnvironmentsAreKept) {
+  const ImportedScene imported = import_v4(
+      "Rotate 90 0 0 1 LightSource \"infinite\" \"string filename\" \"sky.exr\" \"float scale\" 2 \"float "
+      "illuminance\" 7");
+  EXPECT_TRUE(mentions(imported.diagnostics, "cannot find the file"));
+  const auto& light = std::get<EnvironmentLight>(imported.scene.lights.at(0).model);
+  EXPECT_EQ(light.projection, EnvironmentLight::Projection::equal_area);
+  EXPECT_EQ(light.scale, Spectrum{ConstantSpectrum{2}});
+  EXPECT_EQ(light.illuminance, 7.0f);
+  EXPECT_EQ(light.light_to_world, rotate(pi / 2, {0, 0, 1}));
+  EXPECT_EQ(std::filesystem::path(light.filename).filename(), "sky.exr");
+  const auto v3 = import_v3("LightSource \"infinite\" \"string mapname\" \"sky.exr\" \"rgb L\" [2 2 2]");
+  const auto& old = std::get<EnvironmentLight>(v3.scene.lights.at(0).model);
+  EXPECT_EQ(old.projection, EnvironmentLight::Projection::latitude_longitude);
+}
+
+TEST(PbrtLights, SpotsKeepTheirCone) {
+  const ImportedScene imported = import_v4(
+      "LightSource \"spot\" \"point3 from\" [1 2 3] \"point3 to\" [1 2 9] \"rgb I\" [2 2 2] \"float "
+      "coneangle\" 40 "
+      "\"float conedeltaangle\" 10");
+  expect_no_diagnostics(imported);
+  const auto& spot = std::get<SpotLight>(imported.scene.lights.at(0).model);
+  EXPECT_EQ(spot.light_to_world, translate({1, 2, 3})) << "along +z the frame is the identity, bit for bit";
+  EXPECT_EQ(spot.cutoff_deg, 40);
+  EXPECT_EQ(spot.beam_deg, 30);
+  EXPECT_EQ(spot.intensity, Spectrum{emission_from_rgb({2, 2, 2})});
+  const auto turned = import_v4("LightSource \"spot\" \"point3 from\" [1 2 3] \"point3 to\" [-1 5 2.5]");
+  const Transform& t = std::get<SpotLight>(turned.scene.lights.at(0).model).light_to_world;
+  const Vector3d z = transform_vector(t, {0, 0, 1}), way = normalize(Vector3d{-2, 3, -.5});
+  EXPECT_NEAR(length(z - way), 0, 1e-15);
+  EXPECT_NEAR(determinant3(t), 1, 1e-14);
+}
+
+TEST(PbrtLights, UnknownKindsAreReported) {
   const ImportedScene unknown = import_v4("LightSource \"pont\"");
   EXPECT_TRUE(unknown.scene.lights.empty());
   EXPECT_TRUE(mentions(unknown.diagnostics, "did you mean \"point\""));
@@ -151,8 +182,8 @@ const std::string square =
     "Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 1 1 0 0 1 0] \"integer indices\" [0 1 2 0 2 3]\n";
 
 double area_radiance(const ImportedScene& imported) {
-  return luminance(
-      imported.scene.area_lights.at(imported.scene.shapes.at(0).area_light.value().value).radiance);
+  return luminance(std::get<Spectrum>(
+      imported.scene.area_lights.at(imported.scene.shapes.at(0).area_light.value().value).radiance));
 }
 
 TEST(PbrtAreaLights, AreSharedByTheShapesThatFollow) {
@@ -161,7 +192,7 @@ TEST(PbrtAreaLights, AreSharedByTheShapesThatFollow) {
   expect_no_diagnostics(imported);
   ASSERT_EQ(imported.scene.area_lights.size(), 1u);
   EXPECT_EQ(imported.scene.shapes[1].area_light, imported.scene.shapes[0].area_light);
-  expect_color(imported.scene.area_lights[0].radiance, {17, 12, 4}, .2);
+  expect_color(std::get<Spectrum>(imported.scene.area_lights[0].radiance), {17, 12, 4}, .2);
   EXPECT_FALSE(imported.scene.area_lights[0].two_sided);
 }
 

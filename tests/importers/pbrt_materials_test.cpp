@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Materials of both versions, exact and approximated, and the textures that stand behind them.
+// Materials of both versions in the Scene's terms.
 #include "pbrt_text.h"
 #include "scene/color.h"
-#include "scene/named_spectra.h"
 #include "scene/rgb_to_spectrum.h"
 
 namespace vitrail {
@@ -22,47 +21,53 @@ Material exact_v3(const std::string& directives) {
   expect_no_diagnostics(imported);
   return material_of(imported);
 }
-// Mean reflectance of what becomes diffuse with a diagnostic.
-double approximated(const std::string& directives, bool v3 = false) {
-  const ImportedScene imported =
-      v3 ? import_v3(directives + " " + triangle) : import_v4(directives + " " + triangle);
-  EXPECT_FALSE(imported.diagnostics.empty()) << directives;
-  for (const Diagnostic& d : imported.diagnostics) EXPECT_EQ(d.location.line, 3) << d.message;
-  return luminance(std::get<DiffuseMaterial>(material_of(imported)).reflectance);
+template <class Model>
+Model model_of(const ImportedScene& imported) {
+  return std::get<Model>(material_of(imported).model);
+}
+template <class Model>
+Model exact(const std::string& directives, bool v3 = false) {
+  return std::get<Model>((v3 ? exact_v3(directives) : exact_v4(directives)).model);
 }
 
-Material grey(float value) { return DiffuseMaterial{ConstantSpectrum{value}}; }
+Material grey(float value) { return Material{DiffuseMaterial{ConstantSpectrum{value}}}; }
+Spectrum number(float value) { return ConstantSpectrum{value}; }
 
 TEST(PbrtMaterials, DiffuseOnesAreExact) {
   EXPECT_EQ(exact_v4(""), grey(.5f));
   EXPECT_EQ(exact_v4("Material \"diffuse\""), grey(.5f));
   EXPECT_EQ(exact_v4("Material \"diffuse\" \"float reflectance\" .25"), grey(.25f));
-  EXPECT_EQ(exact_v3("Material \"matte\" \"color Kd\" [.63 .065 .05] \"float sigma\" 0"),
-            Material{DiffuseMaterial{reflectance_from_rgb({.63, .065, .05})}});
-  const Spectrum sampled =
-      std::get<DiffuseMaterial>(exact_v4("Material \"diffuse\" \"spectrum reflectance\" [400 .2 700 .8]"))
-          .reflectance;
-  EXPECT_NEAR(evaluate(sampled, 550), .5, 1e-6);
-  EXPECT_EQ(evaluate(sampled, 380), 0) << "v4 is zero outside of inline samples";
-  const Spectrum held =
-      std::get<DiffuseMaterial>(exact_v3("Material \"matte\" \"spectrum Kd\" [400 .2 700 .8]")).reflectance;
-  EXPECT_FLOAT_EQ(static_cast<float>(evaluate(held, 380)), .2f) << "v3 holds the ends";
+  EXPECT_EQ(exact_v3("Material \"matte\" \"color Kd\" [.63 .065 .05] \"float sigma\" 20"),
+            (Material{DiffuseMaterial{reflectance_from_rgb({.63, .065, .05}), 20.0f}}));
+  const auto value = [](const DiffuseMaterial& m, double nm) {
+    return evaluate(std::get<Spectrum>(m.reflectance), nm);
+  };
+  const auto sampled =
+      exact<DiffuseMaterial>("Material \"diffuse\" \"spectrum reflectance\" [400 .2 700 .8]");
+  EXPECT_NEAR(value(sampled, 550), .5, 1e-6);
+  EXPECT_EQ(value(sampled, 380), 0) << "v4 is zero outside of inline samples";
+  const auto held = exact<DiffuseMaterial>("Material \"matte\" \"spectrum Kd\" [400 .2 700 .8]", true);
+  EXPECT_FLOAT_EQ(static_cast<float>(value(held, 380)), .2f) << "v3 holds the ends";
   EXPECT_EQ(exact_v4("Material \"diffuse\" \"spectrum reflectance\" [360 .75 830 .75]"), grey(.75f));
 }
 
 TEST(PbrtMaterials, DielectricsAreExact) {
   EXPECT_EQ(exact_v4("Material \"dielectric\""), Material{DielectricMaterial{}});
-  EXPECT_EQ(exact_v4("Material \"dielectric\" \"float eta\" 1.25"),
-            Material{DielectricMaterial{ConstantSpectrum{1.25f}}});
-  EXPECT_EQ(exact_v3("Material \"glass\" \"float index\" 1.25 \"rgb Kr\" [1 1 1]"),
-            Material{DielectricMaterial{ConstantSpectrum{1.25f}}});
-  EXPECT_EQ(exact_v3("Material \"glass\" \"float eta\" 1.25"),
-            Material{DielectricMaterial{ConstantSpectrum{1.25f}}});
-  EXPECT_EQ(exact_v4("Material \"dielectric\" \"spectrum eta\" \"glass-BK7\""),
-            Material{DielectricMaterial{bk7()}});
-  const auto flint =
-      std::get<DielectricMaterial>(exact_v4("Material \"dielectric\" \"spectrum eta\" \"glass-F11\"")).eta;
+  for (const char* index : {"eta", "index"})
+    EXPECT_EQ(
+        exact_v3("Material \"glass\" \"float " + std::string(index) + "\" 1.25 \"rgb Kr\" [1 1 1]").model,
+        exact_v4("Material \"dielectric\" \"float eta\" 1.25 ").model)
+        << index;
+  const auto flint = exact<DielectricMaterial>("Material \"dielectric\" \"spectrum eta\" \"glass-F11\"").eta;
+  EXPECT_EQ(flint, Spectrum{NamedSpectrum{"glass-F11"}});
   EXPECT_NEAR(evaluate(flint, 587.56), 1.7847, 2e-4) << "Schott's SF11";
+  const auto tinted = exact<DielectricMaterial>("Material \"glass\" \"rgb Kt\" [.5 1 1]", true);
+  EXPECT_EQ(tinted.transmittance_factor, SpectrumParameter{reflectance_from_rgb({.5, 1, 1})});
+  EXPECT_EQ(exact<ThinDielectricMaterial>("Material \"thindielectric\" \"float eta\" 1.25").eta,
+            number(1.25f));
+  EXPECT_TRUE(mentions(
+      import_v4("Material \"dielectric\" \"spectrum eta\" [400 1.5 700 1.4] " + triangle).diagnostics,
+      "held constant"));
 }
 
 TEST(PbrtMaterials, InterfacesAreExact) {
@@ -70,142 +75,181 @@ TEST(PbrtMaterials, InterfacesAreExact) {
     EXPECT_EQ(exact_v4("Material \"" + std::string(kind) + "\""), Material{InterfaceMaterial{}}) << kind;
 }
 
-TEST(PbrtMaterials, RoughOrTintedGlassIsReported) {
-  for (const char* parameter : {"\"float roughness\" .1", "\"float uroughness\" .1", "\"rgb Kt\" [.5 1 1]"}) {
-    const ImportedScene imported =
-        import_v4("Material \"dielectric\" " + std::string(parameter) + " " + triangle);
-    EXPECT_EQ(material_of(imported), Material{DielectricMaterial{}});
-    EXPECT_EQ(imported.diagnostics.size(), 1u) << parameter;
-  }
-  EXPECT_TRUE(mentions(
-      import_v4("Material \"dielectric\" \"spectrum eta\" [400 1.5 700 1.4] " + triangle).diagnostics,
-      "held constant"));
+TEST(PbrtMaterials, RoughnessBecomesAlpha) {
+  const auto roughness = [](const std::string& parameters) {
+    return exact<DielectricMaterial>("Material \"dielectric\" " + parameters).roughness;
+  };
+  EXPECT_EQ(roughness("\"float roughness\" .25"), (Roughness{.5f, .5f})) << "v4: the square root";
+  EXPECT_EQ(roughness("\"float roughness\" .25 \"bool remaproughness\" false"), (Roughness{.25f, .25f}));
+  EXPECT_EQ(roughness("\"float uroughness\" .25 \"float vroughness\" .04"), (Roughness{.5f, .2f}));
+  const auto v3 = exact<ConductorMaterial>("Material \"metal\" \"float roughness\" .1", true).roughness;
+  // pbrt-v3's polynomial at ln 0.1.
+  EXPECT_NEAR(std::get<float>(v3.alpha_u), .46176, 1e-5);
+  const ImportedScene textured = import_v4(
+      "Texture \"r\" \"float\" \"imagemap\" \"string filename\" \"r.png\" Material \"dielectric\" \"texture "
+      "roughness\" \"r\" " +
+      triangle);
+  const Roughness& r = model_of<DielectricMaterial>(textured).roughness;
+  EXPECT_EQ(r.alpha_u, FloatParameter{Id<Texture>{0}});
+  EXPECT_TRUE(r.square_root);
 }
 
-TEST(PbrtMaterials, OthersBecomeTheNearest) {
-  EXPECT_NEAR(approximated("Material \"matte\" \"rgb Kd\" [.3 .3 .3] \"float sigma\" 20"), .3, 1e-4);
-  EXPECT_NEAR(approximated("Material \"coateddiffuse\" \"rgb reflectance\" [.3 .3 .3]"), .3, 1e-4);
-  EXPECT_NEAR(approximated("Material \"plastic\"", true), .25, 1e-4);
-  EXPECT_NEAR(approximated("Material \"substrate\"", true), .5, 1e-4);
-  EXPECT_NEAR(approximated("Material \"uber\" \"rgb Kd\" [.6 .6 .6] \"rgb Ks\" [1 1 1]", true), .6, 1e-4);
-  EXPECT_NEAR(approximated("Material \"mirror\" \"rgb Kr\" [.8 .8 .8]", true), .8, 1e-4);
-  EXPECT_NEAR(approximated("Material \"diffusetransmission\""), .25, 1e-4);
-  EXPECT_NEAR(approximated("Material \"disney\" \"rgb color\" [.7 .7 .7] \"float metallic\" 1", true), .7,
-              1e-4);
-  EXPECT_NEAR(approximated("Material \"subsurface\" \"string name\" \"Skimmilk\""), .5, 1e-4);
-  EXPECT_NEAR(approximated("Material \"difuse\""), .5, 1e-4);
+TEST(PbrtMaterials, MetalsAreKeptByName) {
+  const auto silver = exact<ConductorMaterial>(
+      "Material \"conductor\" \"spectrum eta\" \"metal-Ag-eta\" \"spectrum k\" \"metal-Ag-k\"");
+  EXPECT_EQ(silver.metal, (Metal{ComplexIndex{NamedSpectrum{"metal-Ag-eta"}, NamedSpectrum{"metal-Ag-k"}}}));
+  EXPECT_EQ(exact<ConductorMaterial>("Material \"metal\"", true).metal, Metal{ComplexIndex{}}) << "copper";
+  EXPECT_EQ(exact<ConductorMaterial>("Material \"conductor\" \"rgb reflectance\" [.4 .4 .4]").metal,
+            Metal{NormalReflectance{reflectance_from_rgb({.4, .4, .4})}});
+  const auto mirror = exact<ConductorMaterial>("Material \"mirror\" \"rgb Kr\" [.8 .8 .8]", true);
+  EXPECT_EQ(mirror.metal, Metal{PerfectReflector{}});
+  EXPECT_EQ(mirror.reflectance_factor, SpectrumParameter{reflectance_from_rgb({.8, .8, .8})});
+  const auto coated = exact<CoatedConductorMaterial>(
+      "Material \"coatedconductor\" \"float conductor.eta\" 1.5 \"float conductor.k\" 2 \"float "
+      "interface.roughness\" "
+      ".25 \"float thickness\" .5 \"integer nsamples\" 3");
+  EXPECT_EQ(coated.metal, (Metal{ComplexIndex{number(1.5f), number(2)}}));
+  EXPECT_EQ(coated.interface_roughness, (Roughness{.5f, .5f}));
+  EXPECT_EQ(coated.volume.thickness, FloatParameter{.5f});
+  EXPECT_EQ(coated.volume.samples, 3);
 }
 
-TEST(PbrtMaterials, MetalsReflectWhatTheyDoAtNormalIncidence) {
-  EXPECT_NEAR(
-      approximated("Material \"conductor\" \"spectrum eta\" \"metal-Ag-eta\" \"spectrum k\" \"metal-Ag-k\""),
-      .96, .02);
-  EXPECT_NEAR(approximated("Material \"metal\"", true), .68, .05) << "copper";
-  EXPECT_NEAR(approximated("Material \"conductor\" \"rgb reflectance\" [.4 .4 .4]"), .4, 1e-4);
-  // ((1.5 − 1)² + 2²) / ((1.5 + 1)² + 2²)
-  EXPECT_NEAR(approximated("Material \"conductor\" \"float eta\" 1.5 \"float k\" 2"), 4.25 / 10.25, 1e-4);
-  EXPECT_NEAR(
-      approximated("Material \"coatedconductor\" \"float conductor.eta\" 1.5 \"float conductor.k\" 2"),
-      4.25 / 10.25, 1e-4);
+TEST(PbrtMaterials, OthersOfV4AreExact) {
+  const auto coated =
+      exact<CoatedDiffuseMaterial>("Material \"coateddiffuse\" \"rgb albedo\" [.3 .3 .3] \"float g\" .5");
+  EXPECT_EQ(coated.volume.g, FloatParameter{.5f});
+  EXPECT_EQ(coated.volume.albedo, SpectrumParameter{reflectance_from_rgb({.3, .3, .3})});
+  const auto through =
+      exact<DiffuseTransmissionMaterial>("Material \"diffusetransmission\" \"float scale\" 2");
+  EXPECT_EQ(through, (DiffuseTransmissionMaterial{number(.25f), number(.25f), 2}));
+  const auto milk =
+      exact<SubsurfaceMaterial>("Material \"subsurface\" \"string name\" \"Skimmilk\" \"float scale\" 10");
+  EXPECT_EQ(std::get<SubsurfaceMaterial::Named>(milk.interior).name, "Skimmilk");
+  EXPECT_EQ(milk.scale, 10);
+  const auto skin =
+      exact<SubsurfaceMaterial>("Material \"subsurface\" \"rgb reflectance\" [.5 .4 .3] \"rgb mfp\" [1 2 3]");
+  EXPECT_EQ(std::get<SubsurfaceMaterial::Effective>(skin.interior).mean_free_path,
+            SpectrumParameter{unbounded_from_rgb({1, 2, 3})});
+  const auto hair = exact<HairMaterial>("Material \"hair\" \"float eumelanin\" .5 \"float beta_m\" .25");
+  EXPECT_EQ(hair.eumelanin, FloatParameter{.5f});
+  EXPECT_EQ(hair.beta_m, FloatParameter{.25f});
+  EXPECT_FALSE(hair.color || hair.sigma_a || hair.pheomelanin);
 }
 
-TEST(PbrtMaterials, TransparentOnesLetLightThrough) {
-  EXPECT_EQ(material_of(import_v4("Material \"thindielectric\" " + triangle)), Material{InterfaceMaterial{}});
-  EXPECT_EQ(material_of(import_v3("Material \"uber\" \"rgb opacity\" [.1 .1 .1] " + triangle)),
-            Material{InterfaceMaterial{}});
-  EXPECT_EQ(material_of(import_v3(
-                "Material \"uber\" \"rgb Kd\" [0 0 0] \"rgb Kt\" [1 1 1] \"float index\" 1.25 " + triangle)),
-            Material{DielectricMaterial{ConstantSpectrum{1.25f}}});
+TEST(PbrtMaterials, OfV3AreMappedWithoutDroppingParts) {
+  const ImportedScene plastic = import_v3("Material \"plastic\" \"rgb Kd\" [.5 .5 .5] " + triangle);
+  EXPECT_EQ(model_of<CoatedDiffuseMaterial>(plastic).reflectance,
+            SpectrumParameter{reflectance_from_rgb({.5, .5, .5})});
+  EXPECT_TRUE(mentions(plastic.diagnostics, "Ks"));
+  const auto disney =
+      exact<PrincipledMaterial>("Material \"disney\" \"float metallic\" .75 \"bool thin\" true", true);
+  EXPECT_EQ(disney.metallic, FloatParameter{.75f});
+  EXPECT_TRUE(disney.thin);
+  const ImportedScene translucent = import_v3("Material \"translucent\" \"rgb reflect\" [1 1 1] " + triangle);
+  const auto leaf = model_of<DiffuseTransmissionMaterial>(translucent);
+  EXPECT_NEAR(luminance(std::get<Spectrum>(leaf.reflectance)), .25, 1e-4);
+  EXPECT_NEAR(luminance(std::get<Spectrum>(leaf.transmittance)), .125, 1e-4);
 }
 
-TEST(PbrtMaterials, OfAMixTheHeavierStands) {
+TEST(PbrtMaterials, UberKeepsOpacityMirrorAndTransmission) {
+  const std::string kinds = "Material \"uber\" \"rgb Ks\" [0 0 0] ";
+  const ImportedScene masked = import_v3(kinds + "\"rgb opacity\" [.25 .25 .25] " + triangle);
+  expect_no_diagnostics(masked);
+  const auto mask = model_of<MaskMaterial>(masked);
+  EXPECT_EQ(mask.opacity, FloatParameter{.25f});
+  EXPECT_LT(mask.material.value, masked.scene.shapes[0].material.value) << "materials refer to smaller ids";
+  EXPECT_TRUE(std::holds_alternative<DiffuseMaterial>(masked.scene.materials.at(mask.material.value).model));
+
+  const ImportedScene mirrored =
+      import_v3(kinds + "\"rgb Kd\" [.25 .25 .25] \"rgb Kr\" [.75 .75 .75] " + triangle);
+  const auto blend = model_of<BlendMaterial>(mirrored);
+  EXPECT_NEAR(std::get<float>(blend.amount), .75, 1e-4);
+  const auto& mirror = std::get<ConductorMaterial>(mirrored.scene.materials.at(blend.second.value).model);
+  EXPECT_EQ(mirror.metal, Metal{PerfectReflector{}});
+  EXPECT_TRUE(mentions(mirrored.diagnostics, "Kr"));
+
+  const ImportedScene clear =
+      import_v3(kinds + "\"rgb Kd\" [0 0 0] \"rgb Kt\" [1 1 1] \"float index\" 1.25 " + triangle);
+  EXPECT_EQ(model_of<DielectricMaterial>(clear).eta, number(1.25f));
+}
+
+TEST(PbrtMaterials, MixesReferToTheirParts) {
   const std::string two =
       "MakeNamedMaterial \"a\" \"string type\" \"none\" MakeNamedMaterial \"b\" \"string type\" \"matte\" ";
-  const std::string v4 = "Material \"mix\" \"string materials\" [\"a\" \"b\"] \"float amount\" ";
-  const std::string v3 =
-      "Material \"mix\" \"string namedmaterial1\" \"a\" \"string namedmaterial2\" \"b\" \"rgb amount\" ";
-  EXPECT_EQ(material_of(import_v4(two + v4 + ".9 " + triangle)), grey(.5f)) << "v4 weights the second";
-  EXPECT_EQ(material_of(import_v4(two + v4 + ".1 " + triangle)), Material{InterfaceMaterial{}});
-  EXPECT_EQ(material_of(import_v3(two + v3 + "[.9 .9 .9] " + triangle)), Material{InterfaceMaterial{}})
-      << "v3 weights the first";
+  const auto parts = [](const ImportedScene& imported) {
+    const auto blend = model_of<BlendMaterial>(imported);
+    return std::pair(imported.scene.materials.at(blend.first.value).name,
+                     imported.scene.materials.at(blend.second.value).name);
+  };
+  const ImportedScene v4 = import_v4(
+      "Material \"mix\" \"string materials\" [\"a\" \"b\"] \"float amount\" .875 " + triangle + two);
+  EXPECT_EQ(parts(v4), std::pair(std::string("a"), std::string("b")));
+  EXPECT_EQ(model_of<BlendMaterial>(v4).amount, FloatParameter{.875f}) << "of the second";
+  const ImportedScene v3 = import_v3(two +
+                                     "Material \"mix\" \"string namedmaterial1\" \"a\" \"string "
+                                     "namedmaterial2\" \"b\" \"rgb amount\" [.9 .9 .9] " +
+                                     triangle);
+  EXPECT_EQ(parts(v3), std::pair(std::string("b"), std::string("a"))) << "v3's amount weights the first";
+}
+
+TEST(PbrtMaterials, MixesThatContainThemselvesAreErrors) {
+  EXPECT_THROW(import_v4("MakeNamedMaterial \"a\" \"string type\" \"mix\" \"string materials\" [\"a\" \"a\"] "
+                         "NamedMaterial \"a\" " +
+                         triangle),
+               Error);
+  std::string chain = "MakeNamedMaterial \"m0\" \"string type\" \"diffuse\" ";
+  for (int i = 1; i < 1000; ++i)
+    chain += "MakeNamedMaterial \"m" + std::to_string(i) +
+             "\" \"string type\" \"mix\" \"string materials\" [\"m" + std::to_string(i - 1) + "\" \"m" +
+             std::to_string(i - 1) + "\"]\n";
+  EXPECT_NO_THROW(import_v4(chain + "NamedMaterial \"m999\" " + triangle))
+      << "in order there is nothing to descend into";
+}
+
+TEST(PbrtMaterials, AlphaOfShapesBecomesAMask) {
+  const std::string half = "\"float alpha\" .5 ";
+  const ImportedScene imported =
+      import_v4("Material \"dielectric\" " + triangle + half + triangle + half + triangle);
+  expect_no_diagnostics(imported);
+  EXPECT_EQ(model_of<MaskMaterial>(imported).opacity, FloatParameter{.5f});
+  EXPECT_EQ(imported.scene.shapes[0].material, imported.scene.shapes[1].material);
+  EXPECT_EQ(imported.scene.shapes[2].material, model_of<MaskMaterial>(imported).material);
+  EXPECT_TRUE(import_v4(triangle + "\"float alpha\" 0").scene.shapes.empty()) << "nothing shows";
+}
+
+TEST(PbrtMaterials, BumpsAreKept) {
+  const ImportedScene imported = import_v4(
+      "Texture \"d\" \"float\" \"fbm\" Material \"diffuse\" \"texture displacement\" \"d\" \"string "
+      "normalmap\" "
+      "\"n.png\" " +
+      triangle);
+  const Material material = material_of(imported);
+  EXPECT_EQ(material.displacement, FloatParameter{Id<Texture>{0}});
+  const auto& image =
+      std::get<ImageTexture>(imported.scene.textures.at(material.normal_map.value().value).model);
+  EXPECT_EQ(image.encoding, Encoding::linear);
 }
 
 TEST(PbrtMaterials, ColoursAreClampedToReflectances) {
   const ImportedScene imported = import_v4("Material \"diffuse\" \"rgb reflectance\" [2 .5 .5] " + triangle);
   EXPECT_TRUE(mentions(imported.diagnostics, "clamped"));
-  EXPECT_EQ(material_of(imported), Material{DiffuseMaterial{reflectance_from_rgb({1, .5, .5})}});
+  EXPECT_EQ(material_of(imported), (Material{DiffuseMaterial{reflectance_from_rgb({1, .5, .5})}}));
 }
 
-TEST(PbrtMaterials, UnusedParametersAreReported) {
+TEST(PbrtMaterials, UnknownWordsAreReported) {
   const ImportedScene imported = import_v4(
-      "Material \"diffuse\" \"rgb reflectanse\" [1 0 0] \"texture displacement\" \"t\" " + triangle);
+      "Texture \"t\" \"float\" \"fbm\" Material \"diffuse\" \"rgb reflectanse\" [1 0 0] \"texture "
+      "displacement\" \"t\" " +
+      triangle);
   EXPECT_TRUE(mentions(imported.diagnostics, "did you mean \"reflectance\""));
+  EXPECT_TRUE(mentions(import_v4("Material \"difuse\" " + triangle).diagnostics, "did you mean \"diffuse\""));
 }
 
-// ---- Textures
-// -------------------------------------------------------------------------------------------------------
-
-double textured(const std::string& textures, bool is_exact) {
-  const ImportedScene imported =
-      import_v4(textures + " Material \"diffuse\" \"texture reflectance\" \"t\" " + triangle);
-  EXPECT_EQ(imported.diagnostics.empty(), is_exact) << textures;
-  return luminance(std::get<DiffuseMaterial>(material_of(imported)).reflectance);
-}
-
-TEST(PbrtTextures, OfConstantsAreExact) {
-  EXPECT_NEAR(textured("Texture \"t\" \"spectrum\" \"constant\" \"rgb value\" [.3 .3 .3]", true), .3, 1e-4);
-  EXPECT_NEAR(textured("Texture \"c\" \"spectrum\" \"constant\" \"rgb value\" [.8 .8 .8] "
-                       "Texture \"t\" \"spectrum\" \"scale\" \"texture tex\" \"c\" \"float scale\" .5",
-                       true),
-              .4, 1e-4);
-  EXPECT_NEAR(
-      textured("Texture \"t\" \"color\" \"scale\" \"rgb tex1\" [.5 .5 .5] \"rgb tex2\" [.5 .5 .5]", true),
-      .25, 1e-4);
-  EXPECT_NEAR(textured("Texture \"t\" \"spectrum\" \"mix\" \"rgb tex1\" [.2 .2 .2] \"rgb tex2\" [.6 .6 .6] "
-                       "\"float amount\" .25",
-                       true),
-              .3, 1e-4);
-  EXPECT_NEAR(
-      textured("Texture \"t\" \"spectrum\" \"checkerboard\" \"rgb tex1\" [.2 .2 .2] \"rgb tex2\" [.2 .2 .2]",
-               true),
-      .2, 1e-4);
-}
-
-TEST(PbrtTextures, OthersAreRepresentedByTheirMean) {
-  EXPECT_NEAR(
-      textured("Texture \"t\" \"spectrum\" \"checkerboard\" \"rgb tex1\" [.2 .2 .2] \"rgb tex2\" [.6 .6 .6]",
-               false),
-      .4, 1e-4);
-  EXPECT_NEAR(textured("Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"x.png\"", false), .5,
-              1e-4);
-  EXPECT_NEAR(
-      textured("Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"x.png\" \"float scale\" .5",
-               false),
-      .25, 1e-4);
-  EXPECT_NEAR(textured("Texture \"i\" \"spectrum\" \"imagemap\" \"string filename\" \"x.png\" "
-                       "Texture \"t\" \"spectrum\" \"scale\" \"texture tex\" \"i\" \"float scale\" .5",
-                       false),
-              .25, 1e-4);
-  EXPECT_NEAR(textured("Texture \"t\" \"spectrum\" \"bilerp\"", false), .5, 1e-4);
-  EXPECT_NEAR(
-      textured("Texture \"t\" \"spectrum\" \"dots\" \"rgb inside\" [0 0 0] \"rgb outside\" [1 1 1]", false),
-      .81, .01);
-}
-
-TEST(PbrtTextures, MayFollowTheMaterialsThatUseThem) {
-  const ImportedScene imported = import_v4("Material \"diffuse\" \"texture reflectance\" \"t\" " + triangle +
-                                           "Texture \"t\" \"spectrum\" \"constant\" \"float value\" .125");
-  EXPECT_EQ(material_of(imported), grey(.125f));
-}
-
-TEST(PbrtTextures, OfNumbersAndOfSpectraHaveNamesOfTheirOwn) {
-  const ImportedScene imported = import_v4(
-      "Texture \"t\" \"float\" \"constant\" \"float value\" 0 Texture \"t\" \"spectrum\" \"constant\" "
-      "\"float value\" .125 "
-      "Material \"dielectric\" \"texture roughness\" \"t\" " +
-      triangle + "Material \"diffuse\" \"texture reflectance\" \"t\" " + triangle);
-  expect_no_diagnostics(imported);
-  EXPECT_EQ(imported.scene.materials.at(imported.scene.shapes.at(1).material.value), grey(.125f));
+TEST(PbrtMaterials, DiagnosticsSayWhichDirectiveTheyAreAbout) {
+  const ImportedScene imported = import_v3("Material \"plastic\"\n  \"rgb Kq\" [.5 .5 .5] " + triangle);
+  ASSERT_FALSE(imported.diagnostics.empty());
+  for (const Diagnostic& d : imported.diagnostics) EXPECT_EQ(d.item.line, 3) << d.message;
+  EXPECT_EQ(location(imported.scene, material_of(imported).origin).line, 3);
 }
 
 }  // namespace

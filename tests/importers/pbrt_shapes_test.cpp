@@ -168,22 +168,15 @@ TEST(PbrtShapes, PlyFilesAreReadOnce) {
   EXPECT_EQ(front(scene, scene.shapes[1]), down);
 }
 
-TEST(PbrtShapes, CurvedOnesAreReportedOnceAKind) {
+TEST(PbrtShapes, CurvedOnesAreReported) {
   const ImportedScene imported = import_v4(
-      "Shape \"sphere\" Shape \"sphere\" Shape \"sphere\" \"float radius\" 2 Shape \"disk\" "
-      "Shape \"curve\" \"point3 P\" [0 0 0] Shape \"curve\"");
+      "Shape \"sphere\" Shape \"sphere\" Shape \"sphere\" \"float radius\" 2 Shape \"disk\" Shape \"nurbs\"");
   EXPECT_EQ(imported.scene.meshes.size(), 3u) << "equal spheres share a mesh";
   EXPECT_EQ(imported.scene.shapes.size(), 4u);
-  ASSERT_EQ(imported.diagnostics.size(), 3u);
+  ASSERT_EQ(imported.diagnostics.size(), 5u);
   EXPECT_EQ(imported.diagnostics[0].fidelity, Fidelity::approximated);
-  EXPECT_EQ(imported.diagnostics[2].fidelity, Fidelity::dropped);
-  EXPECT_THAT(imported.diagnostics[2].message, ::testing::HasSubstr("curve"));
-}
-
-TEST(PbrtShapes, HolesByAlphaAreReported) {
-  EXPECT_TRUE(mentions(import_v4(points + "\"float alpha\" .5").diagnostics, "opaque"));
-  expect_no_diagnostics(import_v4(points + "\"float alpha\" 1"));
-  EXPECT_TRUE(import_v4(points + "\"float alpha\" 0").scene.shapes.empty());
+  EXPECT_EQ(imported.diagnostics[4].fidelity, Fidelity::dropped);
+  EXPECT_THAT(imported.diagnostics[4].message, ::testing::HasSubstr("nurbs"));
 }
 
 }  // namespace

@@ -15,7 +15,8 @@ double closed_box(double albedo, int depth, double* expected, double* standard_e
   Scene scene;
   auto faces = box_faces({-1, -1, -1}, {1, 1, 1});
   for (auto& face : faces) std::swap(face[1], face[3]);  // fronts inwards
-  add_shape(scene, add_quads(scene, faces), DiffuseMaterial{ConstantSpectrum{static_cast<float>(albedo)}},
+  add_shape(scene, add_quads(scene, faces),
+            Material{DiffuseMaterial{ConstantSpectrum{static_cast<float>(albedo)}}},
             AreaLight{ConstantSpectrum{1}, false});
   set_camera(scene, {0.1, 0.2, -0.3}, {0.4, 0, 1}, {0, 1, 0}, 1.2, 16, 16);
   scene.settings.max_depth = depth;
@@ -47,16 +48,17 @@ TEST(WhiteFurnace, ClosedBoxOfAlbedoOne) {
 // A white object under a uniform sky cannot be seen, whether it scatters or refracts. Depth is bounded, so a
 // little of the light that stays in the glass is missing.
 TEST(WhiteFurnace, ObjectsVanishUnderAUniformSky) {
-  const Material materials[] = {DiffuseMaterial{ConstantSpectrum{1}},
-                                DielectricMaterial{ConstantSpectrum{1.5f}}, DielectricMaterial{bk7()}};
+  const Material materials[] = {Material{DiffuseMaterial{ConstantSpectrum{1}}},
+                                Material{DielectricMaterial{ConstantSpectrum{1.5f}}},
+                                Material{DielectricMaterial{bk7()}}};
   for (const Material& material : materials) {
     Scene scene;
     add_shape(scene, add_quads(scene, box_faces({-0.5f, -0.5f, -0.5f}, {0.5f, 0.5f, 0.5f})), material);
-    scene.lights.push_back(InfiniteLight{ConstantSpectrum{1}});
+    scene.lights.push_back(Light{InfiniteLight{ConstantSpectrum{1}}});
     set_camera(scene, {1.3, 1.7, -2}, {0, 0, 0}, {0, 1, 0}, 0.5, 16, 16);
     scene.settings.max_depth = 100;
     const Brightness result = brightness(render(scene, 256).film);
-    EXPECT_NEAR(result.mean, 1, 4 * result.standard_error + 1e-4) << material.index();
+    EXPECT_NEAR(result.mean, 1, 4 * result.standard_error + 1e-4) << material.model.index();
   }
 }
 
@@ -65,8 +67,8 @@ TEST(PointLight, OnAPlane) {
   Scene scene;
   constexpr float albedo = 0.6f;
   add_shape(scene, add_quads(scene, {{{{-10, -10, 0}, {10, -10, 0}, {10, 10, 0}, {-10, 10, 0}}}}),
-            DiffuseMaterial{ConstantSpectrum{albedo}});
-  scene.lights.push_back(PointLight{{0.5, 0.25, 2}, ConstantSpectrum{7}});
+            Material{DiffuseMaterial{ConstantSpectrum{albedo}}});
+  scene.lights.push_back(Light{PointLight{{0.5, 0.25, 2}, ConstantSpectrum{7}}});
   set_camera(scene, {0, 0, 5}, {0, 0, 0}, {0, 1, 0}, 0.02, 8, 8);
   const Film film = render(scene, 64).film;
   const double d2 = 0.25 + 0.0625 + 4, expected = albedo / pi * 7 * (2 / std::sqrt(d2)) / d2;
@@ -79,9 +81,9 @@ TEST(PointLight, OnAPlane) {
 TEST(AreaLight, SquareOverAPlane) {
   Scene scene;
   add_shape(scene, add_quads(scene, {{{{-10, -10, 0}, {10, -10, 0}, {10, 10, 0}, {-10, 10, 0}}}}),
-            DiffuseMaterial{ConstantSpectrum{0.5f}});
+            Material{DiffuseMaterial{ConstantSpectrum{0.5f}}});
   add_shape(scene, add_quads(scene, {{{{-1, -1, 1.5f}, {-1, 1, 1.5f}, {1, 1, 1.5f}, {1, -1, 1.5f}}}}),
-            DiffuseMaterial{ConstantSpectrum{0}}, AreaLight{ConstantSpectrum{1}, false});
+            Material{DiffuseMaterial{ConstantSpectrum{0}}}, AreaLight{ConstantSpectrum{1}, false});
   set_camera(scene, {0, 0, 0.75}, {0, 0, 0}, {0, 1, 0}, 0.02, 8, 8);
   scene.settings.max_depth = 1;
   const double a = 1 / 1.5, r = std::sqrt(1 + a * a);
@@ -95,11 +97,11 @@ TEST(AreaLight, SquareOverAPlane) {
 TEST(DistantLight, ThroughAPane) {
   Scene scene;
   add_shape(scene, add_quads(scene, {{{{-10, -10, 0}, {10, -10, 0}, {10, 10, 0}, {-10, 10, 0}}}}),
-            DiffuseMaterial{ConstantSpectrum{0.5f}});
+            Material{DiffuseMaterial{ConstantSpectrum{0.5f}}});
   add_shape(scene, add_quads(scene, box_faces({-10, -10, 1}, {10, 10, 1.006f})),
-            DielectricMaterial{ConstantSpectrum{1.5f}});
+            Material{DielectricMaterial{ConstantSpectrum{1.5f}}});
   const Vector3d direction = normalize(Vector3d{0.3, 0.2, -1});
-  scene.lights.push_back(DistantLight{direction, ConstantSpectrum{3}});
+  scene.lights.push_back(Light{DistantLight{direction, ConstantSpectrum{3}}});
   set_camera(scene, {0, 0, 0.5}, {0, 0, 0}, {0, 1, 0}, 0.1, 8, 8);
   scene.settings.max_depth = 1;
   const double cosine = -direction.z, sine = std::sqrt(1 - cosine * cosine);
@@ -117,8 +119,9 @@ TEST(DistantLight, ThroughAPane) {
 // times this.
 TEST(Pane, KeepsAllWavelengths) {
   Scene scene;
-  add_shape(scene, add_quads(scene, box_faces({-10, -10, 1}, {10, 10, 1.006f})), DielectricMaterial{bk7()});
-  scene.lights.push_back(InfiniteLight{ConstantSpectrum{1}});
+  add_shape(scene, add_quads(scene, box_faces({-10, -10, 1}, {10, 10, 1.006f})),
+            Material{DielectricMaterial{bk7()}});
+  scene.lights.push_back(Light{InfiniteLight{ConstantSpectrum{1}}});
   set_camera(scene, {0, 0, 0}, {0.3, 0.2, 1}, {0, 1, 0}, 0.1, 16, 16);
   scene.settings.max_depth = 20;
   const Film film = render(scene, 4).film;

@@ -47,7 +47,7 @@ Scene prism_scene(double lambda0, double lambda1) {
   const Point3f a0 = prism_point(-half, -1, -1), b0 = prism_point(half, -1, -1), c0 = prism_point(0, 0, -1);
   const Point3f a1 = prism_point(-half, -1, 1), b1 = prism_point(half, -1, 1), c1 = prism_point(0, 0, 1);
   add_shape(scene, add_quads(scene, {{{a0, a1, c1, c0}}, {{b0, c0, c1, b1}}, {{a0, b0, b1, a1}}}),
-            DielectricMaterial{bk7()});
+            Material{DielectricMaterial{bk7()}});
 
   // The left face's outward normal makes the angle apex/2 with −x, up; incidence is measured from it, from
   // below.
@@ -78,7 +78,7 @@ Scene prism_scene(double lambda0, double lambda1) {
   add_shape(scene,
             add_quads(scene, {{{on_screen(lambda0, -10), on_screen(lambda0, 10), on_screen(lambda1, 10),
                                 on_screen(lambda1, -10)}}}),
-            DiffuseMaterial{ConstantSpectrum{0}}, AreaLight{ConstantSpectrum{1}, true});
+            Material{DiffuseMaterial{ConstantSpectrum{0}}}, AreaLight{ConstantSpectrum{1}, true});
   return scene;
 }
 

@@ -28,11 +28,11 @@ Transform mirror_x() { return scale({-1, 1, 1}); }
 TEST(Flatten, MovesTheWorldToItsCentre) {
   Scene scene = scene_of(triangle_facing_z());
   scene.shapes[0].object_to_world = translate({1e7, -2e7, 3e7 + 0.5});
-  scene.lights.emplace_back(PointLight{{1e7 + 3, -2e7, 3e7}, ConstantSpectrum{1}});
+  scene.lights.emplace_back(Light{PointLight{{1e7 + 3, -2e7, 3e7}, ConstantSpectrum{1}}});
   const FlatScene flat = flatten(scene);
   EXPECT_EQ(flat.triangles[0], (Triangle{Point3f{-1, -1, 0.5f}, Point3f{1, -1, 0.5f}, Point3f{0, 1, 0.5f}}));
   EXPECT_EQ(flat.manifest.offset, (Vector3d{1e7, -2e7, 3e7}));
-  EXPECT_EQ(std::get<PointLight>(flat.manifest.lights[0]).position, (Point3d{3, 0, 0}));
+  EXPECT_EQ(std::get<bundle::PointLight>(flat.manifest.lights[0]).position, (Point3d{3, 0, 0}));
   EXPECT_EQ(std::get<PerspectiveCamera>(flat.manifest.camera).camera_to_world, translate({-1e7, 2e7, -3e7}));
   EXPECT_EQ(flat.manifest.bounds, (Bounds3f{{-1, -1, 0.5f}, {1, 1, 0.5f}}));
   EXPECT_EQ(flat.manifest.scale, 1);
@@ -89,16 +89,17 @@ TEST(Flatten, ZeroNormalMeansNone) {
 
 TEST(Flatten, KeepsOnlyWhatIsUsedAndMergesSurfaces) {
   Scene scene = scene_of(triangle_facing_z());
-  scene.materials = {InterfaceMaterial{}, DielectricMaterial{}, DiffuseMaterial{}};
-  scene.area_lights = {{ConstantSpectrum{1}, false}, {ConstantSpectrum{2}, true}};
+  scene.materials = {Material{InterfaceMaterial{}}, Material{DielectricMaterial{}},
+                     Material{DiffuseMaterial{}}};
+  scene.area_lights = {{ConstantSpectrum{1}, 1, false}, {ConstantSpectrum{2}, 1, true}};
   Shape shape = scene.shapes[0];
   shape.material = {2};
   scene.shapes = {shape, shape, shape};
   scene.shapes[2].area_light = Id<AreaLight>{1};
   const Manifest m = flatten(scene).manifest;
   EXPECT_EQ(m.triangles, 3u);
-  EXPECT_EQ(m.materials, std::vector<Material>{DiffuseMaterial{}});
-  EXPECT_EQ(m.area_lights, std::vector<AreaLight>{scene.area_lights[1]});
+  EXPECT_EQ(m.materials, std::vector<bundle::Material>{bundle::DiffuseMaterial{}});
+  EXPECT_EQ(m.area_lights, (std::vector<bundle::AreaLight>{{ConstantSpectrum{2}, true}}));
   EXPECT_EQ(m.surfaces, (std::vector<Surface>{{0, 0, -1}, {2, 0, 0}}));
   ASSERT_EQ(m.emissive_triangles.size(), 1u);
   EXPECT_EQ(m.emissive_triangles[0].triangle, 2u);
@@ -107,10 +108,10 @@ TEST(Flatten, KeepsOnlyWhatIsUsedAndMergesSurfaces) {
 
 TEST(Flatten, RequirementsFollowTheMaterials) {
   Scene scene = scene_of(triangle_facing_z());
-  scene.materials = {DielectricMaterial{SellmeierSpectrum{{1, 0, 0}, {0.01, 0, 0}}}};
+  scene.materials = {Material{DielectricMaterial{SellmeierSpectrum{{1, 0, 0}, {0.01, 0, 0}}}}};
   const Requirements glass = flatten(scene).manifest.requirements;
   EXPECT_TRUE(glass.transmission && glass.dispersion && !glass.interfaces);
-  scene.materials = {InterfaceMaterial{}};
+  scene.materials = {Material{InterfaceMaterial{}}};
   const Requirements interface = flatten(scene).manifest.requirements;
   EXPECT_TRUE(!interface.transmission && interface.interfaces);
 }
@@ -130,8 +131,8 @@ TEST(Flatten, HashSeesEveryRecord) {
   std::vector<Scene> others(6, scene);
   others[0].meshes[0].positions[7].x += 0.01f;
   others[1].meshes[0].normals[7].x += 0.1f;
-  others[2].materials[0] = DiffuseMaterial{ConstantSpectrum{0.25f}};
-  others[3].lights.emplace_back(InfiniteLight{ConstantSpectrum{1}});
+  others[2].materials[0] = Material{DiffuseMaterial{ConstantSpectrum{0.25f}}};
+  others[3].lights.emplace_back(Light{InfiniteLight{ConstantSpectrum{1}}});
   std::get<PerspectiveCamera>(others[4].camera).screen.x0 = -2;
   others[5].film.width = 1281;
   for (const Scene& other : others) EXPECT_NE(flatten(other).manifest.scene_hash, hash);

@@ -9,6 +9,7 @@
 #include "scene/color.h"
 #include "scene/diagnostics.h"
 #include "scene/named_spectra.h"
+#include "scene/rgb_to_spectrum.h"
 
 namespace vitrail {
 namespace {
@@ -65,7 +66,10 @@ TEST(Constancy, FollowsTheKind) {
 
 TEST(Scaled, KeepsTheKindAndScalesTheValues) {
   EXPECT_EQ(scaled(ConstantSpectrum{2}, 3), Spectrum{ConstantSpectrum{6}});
-  EXPECT_EQ(scaled(RgbIlluminantSpectrum{{1, 2, 3}, 4}, 0.5), Spectrum(RgbIlluminantSpectrum{{1, 2, 3}, 2}));
+  EXPECT_EQ(scaled(emission_from_rgb({1, 2, 3}), 0.5), Spectrum{emission_from_rgb({.5, 1, 1.5})});
+  EXPECT_EQ(scaled(unbounded_from_rgb({1, 2, 3}), 0.5), Spectrum{unbounded_from_rgb({.5, 1, 1.5})});
+  EXPECT_EQ(scaled(BlackbodySpectrum{5000, 2}, 3), (Spectrum{BlackbodySpectrum{5000, 6}}));
+  EXPECT_NEAR(luminance(BlackbodySpectrum{5000, 2}), 2, 1e-6);
   EXPECT_EQ(scaled(SigmoidSpectrum{0, 0, 0}, 3), Spectrum{ConstantSpectrum{1.5f}});
   const Spectrum sigmoid = SigmoidSpectrum{1e-5f, 0, -3};
   for (const double lambda : {360.0, 555.0, 830.0})

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "importers/mesh_files.h"
+
+#include <fmt/format.h>
+
+#include "importers/ply/write_ply.h"
+
+namespace vitrail {
+
+MeshFiles::MeshFiles(const Scene& scene, const std::filesystem::path& scene_file)
+    : scene_(scene),
+      directory_(scene_file.parent_path()),
+      folder_(scene_file.stem().string() + "-meshes"),
+      names_(scene.meshes.size()) {}
+
+const std::string& MeshFiles::name(Id<TriangleMesh> mesh) {
+  std::string& name = names_.at(mesh.value);
+  if (!name.empty()) return name;
+  std::error_code error;
+  std::filesystem::create_directories(directory_ / folder_, error);
+  if (error)
+    throw MachineError(fmt::format("cannot create {}: {}", (directory_ / folder_).string(), error.message()));
+  const std::filesystem::path file = folder_ / fmt::format("{:06}.ply", mesh.value);
+  write_ply(scene_.meshes[mesh.value], directory_ / file);
+  return name = file.generic_string();
+}
+
+std::string relative_name(const std::string& file, const std::filesystem::path& directory) {
+  std::error_code error;
+  const std::filesystem::path base = std::filesystem::weakly_canonical(
+      directory.empty() ? std::filesystem::current_path() : std::filesystem::absolute(directory), error);
+  if (error) return file;
+  const std::filesystem::path relative =
+      std::filesystem::weakly_canonical(file, error).lexically_relative(base);
+  return error || relative.empty() ? file : relative.generic_string();
+}
+
+}  // namespace vitrail

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "scene/scene.h"
+
+namespace vitrail {
+
+// The meshes that a written scene refers to: OUT.pbrt has them in OUT-meshes/000000.ply, 000001.ply …, each
+// written once, when it is first asked for.
+class MeshFiles {
+ public:
+  MeshFiles(const Scene& scene, const std::filesystem::path& scene_file);
+
+  // The file's path relative to the scene's. Throws MachineError.
+  const std::string& name(Id<TriangleMesh> mesh);
+
+ private:
+  const Scene& scene_;
+  std::filesystem::path directory_, folder_;  // of the scene; of the meshes, relative to it
+  std::vector<std::string> names_;
+};
+
+// `file` (absolute) as a scene in `directory` refers to it: relative where it is below or beside, with / on
+// every system.
+std::string relative_name(const std::string& file, const std::filesystem::path& directory);
+
+}  // namespace vitrail

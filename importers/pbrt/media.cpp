@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "importers/pbrt/media.h"
+
+#include <fmt/format.h>
+
+#include <array>
+
+#include "scene/rgb_to_spectrum.h"
+
+namespace vitrail::pbrt {
+
+namespace {
+
+struct Maker {
+  const std::string& kind;
+  ParameterSet& parameters;
+  const Scope& scope;
+
+  float number(std::string_view name, double otherwise) const {
+    return static_cast<float>(parameters.number(name, otherwise));
+  }
+  Spectrum coefficient(std::string_view name, const Spectrum& otherwise) const {
+    return spectrum_value(parameters, {name}, Quantity::unbounded, otherwise, scope);
+  }
+  bool has(std::string_view name) const {
+    return parameters.find_spectrum(name) || parameters.find_numbers(name);
+  }
+  Point3d point(std::string_view name, Point3d otherwise) const {
+    const auto v = parameters.triple(name);
+    return v ? Point3d{(*v)[0], (*v)[1], (*v)[2]} : otherwise;
+  }
+  Bounds3d bounds() const { return {point("p0", {0, 0, 0}), point("p1", {1, 1, 1})}; }
+};
+
+// Of pbrt's defaults: skim milk, per mm.
+AbsorptionScattering coefficients(const Maker& m, const Spectrum& sigma_a, const Spectrum& sigma_s) {
+  return {m.coefficient("sigma_a", sigma_a), m.coefficient("sigma_s", sigma_s)};
+}
+
+// nx·ny·nz values of `channels` floats under `name`.
+Grid grid(const Maker& m, std::string_view name, int channels) {
+  Grid g;
+  g.nx = m.parameters.integer("nx", 1);
+  g.ny = m.parameters.integer("ny", 1);
+  g.nz = m.parameters.integer("nz", 1);
+  g.channels = channels;
+  g.bounds = m.bounds();
+  const Parameter* values = m.parameters.find_numbers(name);
+  if (!values) values = m.parameters.find_spectrum(name);
+  if (!values)
+    fail(fmt::format("{} needs a parameter \"{}\"", m.parameters.owner(), name), m.parameters.place());
+  const double wanted = static_cast<double>(g.nx) * g.ny * g.nz * channels;
+  if (g.nx < 1 || g.ny < 1 || g.nz < 1 || wanted != static_cast<double>(values->numbers.size()))
+    fail(fmt::format("a grid of {} × {} × {} needs {} values, but \"{}\" has {}", g.nx, g.ny, g.nz, wanted,
+                     name, values->numbers.size()),
+         values->place);
+  for (const double v : values->numbers) g.values.push_back(static_cast<float>(v));
+  return g;
+}
+
+void read_emission_of(const Maker& m, Medium& medium) {
+  if (const Parameter* le = m.parameters.find_spectrum("Le"))
+    medium.emission = read_emission(*le, 1, m.scope);
+}
+
+// Temperatures and what goes with them.
+void read_temperature(const Maker& m, Medium& medium) {
+  medium.temperature_scale = m.number("temperaturescale", 1);
+  medium.temperature_offset = m.number("temperatureoffset", m.parameters.number("temperaturecutoff", 0));
+}
+
+void homogeneous(const Maker& m, Medium& medium) {
+  const std::string preset = m.parameters.text("preset", "");
+  if (!preset.empty())
+    medium.coefficients = NamedMedium{preset};
+  else
+    medium.coefficients =
+        coefficients(m, unbounded_from_rgb({0.0011, 0.0024, 0.014}), unbounded_from_rgb({2.55, 3.21, 3.77}));
+  read_emission_of(m, medium);
+  medium.emission_factor = m.number("Lescale", 1);
+}
+
+void uniform_grid(const Maker& m, Medium& medium) {
+  medium.coefficients = coefficients(m, ConstantSpectrum{1}, ConstantSpectrum{1});
+  medium.density = grid(m, "density", 1);
+  read_emission_of(m, medium);
+  if (m.has("temperature")) medium.temperature = grid(m, "temperature", 1);
+  if (const Parameter* scale = m.parameters.find_numbers("Lescale"); scale && scale->numbers.size() > 1)
+    medium.emission_scale = grid(m, "Lescale", 1);
+  else
+    medium.emission_factor = m.number("Lescale", 1);
+  read_temperature(m, medium);
+}
+
+void rgb_grid(const Maker& m, Medium& medium) {
+  AbsorptionScattering c;
+  if (m.has("sigma_a")) c.sigma_a = grid(m, "sigma_a", 3);
+  if (m.has("sigma_s")) c.sigma_s = grid(m, "sigma_s", 3);
+  medium.coefficients = c;
+  if (m.has("Le")) {
+    medium.emission = ConstantSpectrum{1};
+    medium.emission_scale = grid(m, "Le", 3);
+  }
+  medium.emission_factor = m.number("Lescale", 1);
+}
+
+void cloud(const Maker& m, Medium& medium) {
+  medium.coefficients = coefficients(m, ConstantSpectrum{1}, ConstantSpectrum{1});
+  medium.density =
+      CloudDensity{m.bounds(), m.number("density", 1), m.number("wispiness", 1), m.number("frequency", 5)};
+}
+
+void nanovdb(const Maker& m, Medium& medium) {
+  medium.coefficients = coefficients(m, ConstantSpectrum{1}, ConstantSpectrum{1});
+  const Parameter* file = m.parameters.find("filename", {ParameterType::text});
+  if (!file || file->strings.size() != 1)
+    fail("a nanovdb medium needs a \"string filename\"", m.parameters.place());
+  Grid density;
+  density.filename = find_file(*file, m.scope.context);
+  density.field = "density";
+  medium.density = density;
+  medium.emission_factor = m.number("Lescale", 1);
+  read_temperature(m, medium);
+}
+
+struct Kind {
+  std::string_view name;
+  void (*read)(const Maker&, Medium&);
+};
+constexpr std::array<Kind, 6> kinds{{{"homogeneous", homogeneous},
+                                     {"uniformgrid", uniform_grid},
+                                     {"heterogeneous", uniform_grid},
+                                     {"rgbgrid", rgb_grid},
+                                     {"cloud", cloud},
+                                     {"nanovdb", nanovdb}}};
+
+}  // namespace
+
+Medium make_medium(const std::string& kind, const std::string& name, ParameterSet& parameters,
+                   const Transform& ctm, const Scope& scope) {
+  const Maker maker{kind, parameters, scope};
+  Medium medium;
+  medium.name = name;
+  medium.origin = scope.origin;
+  medium.medium_to_world = ctm;
+  medium.scale = maker.number("scale", 1);
+  medium.g = maker.number("g", 0);
+  parameters.ignore({"type"});
+  std::vector<std::string> names;
+  for (const Kind& known : kinds) {
+    names.emplace_back(known.name);
+    if (kind != known.name) continue;
+    known.read(maker, medium);
+    parameters.report_unused(scope.context.report);
+    return medium;
+  }
+  const std::string closest = closest_word(kind, names);
+  fail(fmt::format("medium \"{}\" is of the unknown kind \"{}\"{}", name, kind,
+                   closest.empty() ? "" : fmt::format("; did you mean \"{}\"?", closest)),
+       parameters.place());
+}
+
+}  // namespace vitrail::pbrt

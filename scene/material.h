@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: Apache-2.0
+// How surfaces scatter light, as the scene files say it: the union of what pbrt and Mitsuba can express, in
+// the terms of the model that each comes from. Materials refer to others only by a smaller id.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <variant>
+
+#include "scene/texture.h"
+
+namespace vitrail {
+
+struct Material;
+
+// Microfacets. α is the width of the distribution along the two tangents (0: a smooth surface), whatever the
+// file calls roughness.
+struct Roughness {
+  enum class Distribution : std::uint8_t { ggx, beckmann };
+  FloatParameter alpha_u = 0.0f, alpha_v = 0.0f;
+  bool square_root = false;  // α is the square root of what a texture gives (pbrt's remapped roughness)
+  Distribution distribution = Distribution::ggx;
+  bool operator==(const Roughness&) const = default;
+};
+
+// Lambert where sigma is 0, else Oren and Nayar (1994) with facets of slope deviation `sigma_deg`, in
+// degrees.
+struct DiffuseMaterial {
+  SpectrumParameter reflectance = ConstantSpectrum{0.5f};
+  FloatParameter sigma_deg = 0.0f;
+  bool operator==(const DiffuseMaterial&) const = default;
+};
+
+// The interface between a medium of index `exterior_eta` (on the front side) and one of index `eta` behind.
+// The two factors stray from physics where they are not 1.
+struct DielectricMaterial {
+  Spectrum eta = ConstantSpectrum{1.5f};
+  Spectrum exterior_eta = ConstantSpectrum{1};
+  Roughness roughness;
+  SpectrumParameter reflectance_factor = ConstantSpectrum{1}, transmittance_factor = ConstantSpectrum{1};
+  bool operator==(const DielectricMaterial&) const = default;
+};
+
+// A thin sheet of it: light leaves in the direction in which it came.
+struct ThinDielectricMaterial {
+  Spectrum eta = ConstantSpectrum{1.5f};
+  Spectrum exterior_eta = ConstantSpectrum{1};
+  SpectrumParameter reflectance_factor = ConstantSpectrum{1}, transmittance_factor = ConstantSpectrum{1};
+  bool operator==(const ThinDielectricMaterial&) const = default;
+};
+
+// What a metal reflects: by its index of refraction eta + i·k …
+struct ComplexIndex {
+  SpectrumParameter eta = NamedSpectrum{"metal-Cu-eta"}, k = NamedSpectrum{"metal-Cu-k"};
+  bool operator==(const ComplexIndex&) const = default;
+};
+// … by its reflectance r at normal incidence: eta = 1, k = 2√r/√(1−r) …
+struct NormalReflectance {
+  SpectrumParameter reflectance;
+  bool operator==(const NormalReflectance&) const = default;
+};
+// … or all of the light, at every angle.
+struct PerfectReflector {
+  bool operator==(const PerfectReflector&) const = default;
+};
+using Metal = std::variant<ComplexIndex, NormalReflectance, PerfectReflector>;
+
+struct ConductorMaterial {
+  Metal metal;
+  Roughness roughness;
+  SpectrumParameter reflectance_factor = ConstantSpectrum{1};
+  bool operator==(const ConductorMaterial&) const = default;
+};
+
+// Mitsuba's plastic: a dielectric boundary over a diffuse base; light scattered between the two is accounted
+// for, with its shift of colour if `nonlinear`.
+struct PlasticMaterial {
+  SpectrumParameter diffuse_reflectance = ConstantSpectrum{0.5f}, specular_reflectance = ConstantSpectrum{1};
+  float eta = 1.49f, exterior_eta = 1.000277f;
+  Roughness roughness;  // isotropic
+  bool nonlinear = false;
+  bool operator==(const PlasticMaterial&) const = default;
+};
+
+// pbrt's layers: what is between a coating and its base, and how many random walks sample them.
+struct CoatingVolume {
+  FloatParameter thickness = 0.01f;
+  FloatParameter g = 0.0f;  // of Henyey and Greenstein
+  SpectrumParameter albedo = ConstantSpectrum{0};
+  int max_depth = 10, samples = 1;
+  bool operator==(const CoatingVolume&) const = default;
+};
+
+struct CoatedDiffuseMaterial {
+  SpectrumParameter reflectance = ConstantSpectrum{0.5f};
+  Spectrum eta = ConstantSpectrum{1.5f};
+  Roughness roughness;
+  CoatingVolume volume;
+  bool operator==(const CoatedDiffuseMaterial&) const = default;
+};
+
+struct CoatedConductorMaterial {
+  Metal metal;
+  Roughness conductor_roughness;
+  Spectrum interface_eta = ConstantSpectrum{1.5f};
+  Roughness interface_roughness;
+  CoatingVolume volume;
+  bool operator==(const CoatedConductorMaterial&) const = default;
+};
+
+// Lambertian reflection and transmission.
+struct DiffuseTransmissionMaterial {
+  SpectrumParameter reflectance = ConstantSpectrum{0.25f}, transmittance = ConstantSpectrum{0.25f};
+  float scale = 1;
+  bool operator==(const DiffuseTransmissionMaterial&) const = default;
+};
+
+// Disney's (Burley 2012, 2015) as Mitsuba has it. `thin`: a sheet, with `diff_trans` and without an interior.
+struct PrincipledMaterial {
+  SpectrumParameter base_color = ConstantSpectrum{0.5f};
+  FloatParameter roughness = 0.5f, anisotropic = 0.0f, metallic = 0.0f, spec_trans = 0.0f, spec_tint = 0.0f,
+                 sheen = 0.0f, sheen_tint = 0.0f, flatness = 0.0f, clearcoat = 0.0f, clearcoat_gloss = 0.0f,
+                 diff_trans = 0.0f;
+  float eta = 1.5f;
+  bool thin = false;
+  bool operator==(const PrincipledMaterial&) const = default;
+};
+
+// A dielectric boundary with a scattering interior; coefficients are per unit of length, times `scale`.
+struct SubsurfaceMaterial {
+  struct Coefficients {
+    SpectrumParameter sigma_a, sigma_s;
+    bool operator==(const Coefficients&) const = default;
+  };
+  struct Effective {  // the diffuse reflectance and the mean free path that lead to the coefficients
+    SpectrumParameter reflectance, mean_free_path;
+    bool operator==(const Effective&) const = default;
+  };
+  struct Named {  // of pbrt's list of measured media: "Skin1"
+    std::string name;
+    bool operator==(const Named&) const = default;
+  };
+  std::variant<Coefficients, Effective, Named> interior;
+  float scale = 1, g = 0;
+  Spectrum eta = ConstantSpectrum{1.33f};
+  Roughness roughness;
+  bool operator==(const SubsurfaceMaterial&) const = default;
+};
+
+// A fibre (Chiang et al. 2016). Its absorption comes from the first of these that is given.
+struct HairMaterial {
+  std::optional<SpectrumParameter> sigma_a, color;
+  std::optional<FloatParameter> eumelanin, pheomelanin;
+  float eta = 1.55f, exterior_eta = 1;
+  FloatParameter beta_m = 0.3f, beta_n = 0.3f, alpha_deg = 2.0f;
+  bool operator==(const HairMaterial&) const = default;
+};
+
+// A table of measurements in a file of its own format (pbrt's and Mitsuba's .bsdf, Dupuy and Jakob 2018).
+struct MeasuredMaterial {
+  std::string filename;  // absolute
+  bool operator==(const MeasuredMaterial&) const = default;
+};
+
+// No interface at all: rays go through unchanged.
+struct InterfaceMaterial {
+  bool operator==(const InterfaceMaterial&) const = default;
+};
+
+// (1 − amount)·first + amount·second.
+struct BlendMaterial {
+  Id<Material> first, second;
+  FloatParameter amount = 0.5f;
+  bool operator==(const BlendMaterial&) const = default;
+};
+
+// `material` where there is something: of all light, 1 − opacity goes through unchanged.
+struct MaskMaterial {
+  FloatParameter opacity = 1.0f;
+  Id<Material> material;
+  bool operator==(const MaskMaterial&) const = default;
+};
+
+// Different sides. (A material that reflects only to its front has `two_sided` false instead.)
+struct TwoSidedMaterial {
+  Id<Material> front, back;
+  bool operator==(const TwoSidedMaterial&) const = default;
+};
+
+using MaterialModel =
+    std::variant<DiffuseMaterial, DielectricMaterial, ThinDielectricMaterial, ConductorMaterial,
+                 PlasticMaterial, CoatedDiffuseMaterial, CoatedConductorMaterial, DiffuseTransmissionMaterial,
+                 PrincipledMaterial, SubsurfaceMaterial, HairMaterial, MeasuredMaterial, InterfaceMaterial,
+                 BlendMaterial, MaskMaterial, TwoSidedMaterial>;
+
+struct Material {
+  MaterialModel model;
+  // Whether an opaque surface scatters on its back as on its front (pbrt), or is black there (Mitsuba's bare
+  // ones). Means nothing for models that transmit.
+  bool two_sided = true;
+  std::optional<FloatParameter> displacement;  // bump map: a height in scene units that only tilts normals
+  std::optional<Id<Texture>> normal_map;       // tangent-space normals, (rgb·2 − 1)
+  std::string name;                            // "" where the file gives none
+  Origin origin;
+  bool operator==(const Material&) const = default;
+};
+
+}  // namespace vitrail

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "scene/vec.h"
+
+namespace vitrail {
+
+// Values that a texture can read by name (Mitsuba's mesh attributes): `channels` floats a vertex or a face.
+struct MeshAttribute {
+  std::string name;  // "vertex_…" or "face_…"
+  bool per_face = false;
+  int channels = 3;  // 1 or 3; colours are linear sRGB
+  std::vector<float> values;
+  bool operator==(const MeshAttribute&) const = default;
+};
+
+// Object-space triangles. `normals` and `uvs` are empty or have one entry a position.
+// All indices are in range and all positions finite: importers guarantee it, with the place of the first
+// offender.
+struct TriangleMesh {
+  std::vector<Point3f> positions;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  std::vector<Normal3f> normals;  // shading normals, not necessarily unit length
+  std::vector<Point2f> uvs;  // as the file gives them; a texture's mapping says where (0,0) is in its image
+  std::vector<MeshAttribute> attributes;
+  bool operator==(const TriangleMesh&) const = default;
+};
+
+}  // namespace vitrail

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+// Values that vary over surfaces. Textures form a graph without cycles: a texture refers only to ones with a
+// smaller id.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <variant>
+
+#include "scene/id.h"
+#include "scene/origin.h"
+#include "scene/spectrum.h"
+#include "scene/transform.h"
+
+namespace vitrail {
+
+struct Texture;
+
+// A parameter that is one value, or looked up in a texture where it is used.
+using FloatParameter = std::variant<float, Id<Texture>>;
+using SpectrumParameter = std::variant<Spectrum, Id<Texture>>;
+
+// ---- From a point of a surface to the (s,t) of a texture
+
+// s = a·u + b·v + c, t = d·u + e·v + f.
+struct UvMapping {
+  float a = 1, b = 0, c = 0, d = 0, e = 1, f = 0;
+  bool operator==(const UvMapping&) const = default;
+};
+// t = acos(z)/π, s = atan2(y,x)/2π of the direction of the point in texture space.
+struct SphericalMapping {
+  Transform world_to_texture;
+  bool operator==(const SphericalMapping&) const = default;
+};
+// s = atan2(y,x)/2π, t = z in texture space.
+struct CylindricalMapping {
+  Transform world_to_texture;
+  bool operator==(const CylindricalMapping&) const = default;
+};
+// s = p·v1 + offset_s, t = p·v2 + offset_t in texture space.
+struct PlanarMapping {
+  Transform world_to_texture;
+  Vector3d v1{1, 0, 0}, v2{0, 1, 0};
+  double offset_s = 0, offset_t = 0;
+  bool operator==(const PlanarMapping&) const = default;
+};
+using TextureMapping = std::variant<UvMapping, SphericalMapping, CylindricalMapping, PlanarMapping>;
+
+// ---- Kinds of texture
+
+enum class Wrap : std::uint8_t { repeat, mirror, clamp, black };
+enum class TextureFilter : std::uint8_t { nearest, bilinear, trilinear, anisotropic };
+// How the numbers of the file become values: `automatic` is sRGB for 8-bit colour files and linear for
+// others.
+enum class Encoding : std::uint8_t { automatic, srgb, linear, gamma };
+
+// (s,t) = (0,0) is the lower left corner of the image, (1,1) the upper right one.
+struct ImageTexture {
+  std::string filename;  // absolute
+  TextureMapping mapping;
+  Wrap wrap = Wrap::repeat;
+  TextureFilter filter = TextureFilter::bilinear;
+  Encoding encoding = Encoding::automatic;
+  float gamma = 1;      // of Encoding::gamma: value = file^gamma
+  float scale = 1;      // multiplies the values
+  bool invert = false;  // 1 − value, after the scale
+  bool operator==(const ImageTexture&) const = default;
+};
+
+// Cells of size 1 in (s,t), or in three dimensions of texture space where `solid`: `even` holds (0,0).
+struct CheckerboardTexture {
+  SpectrumParameter even, odd;
+  TextureMapping mapping;
+  bool solid = false;
+  Transform world_to_texture;  // of a solid one
+  bool operator==(const CheckerboardTexture&) const = default;
+};
+
+// first · second.
+struct ProductTexture {
+  SpectrumParameter first, second;
+  bool operator==(const ProductTexture&) const = default;
+};
+
+// (1 − amount)·first + amount·second.
+struct MixTexture {
+  SpectrumParameter first, second;
+  FloatParameter amount = 0.5f;
+  bool operator==(const MixTexture&) const = default;
+};
+
+// As a mix, by amount = |n·direction| of the shading normal n: `first` where they are parallel.
+struct DirectionMixTexture {
+  SpectrumParameter first, second;
+  Vector3d direction{0, 1, 0};  // world
+  bool operator==(const DirectionMixTexture&) const = default;
+};
+
+// Bilinear between the values at (s,t) = (0,0), (0,1), (1,0), (1,1).
+struct BilinearTexture {
+  SpectrumParameter v00, v01, v10, v11;
+  TextureMapping mapping;
+  bool operator==(const BilinearTexture&) const = default;
+};
+
+// Discs at random places in half of the unit cells of (s,t).
+struct DotsTexture {
+  SpectrumParameter inside, outside;
+  TextureMapping mapping;
+  bool operator==(const DotsTexture&) const = default;
+};
+
+// Sums of Perlin noise in texture space (pbrt's fbm, wrinkled, windy, marble).
+struct NoiseTexture {
+  enum class Kind : std::uint8_t { fbm, wrinkled, windy, marble };
+  Kind kind = Kind::fbm;
+  Transform world_to_texture;
+  int octaves = 8;
+  float roughness = 0.5f;
+  float scale = 1, variation = 0.2f;  // of marble
+  bool operator==(const NoiseTexture&) const = default;
+};
+
+// A texture by face of a subdivision surface, in Ptex's own files.
+struct PtexTexture {
+  std::string filename;
+  Encoding encoding = Encoding::automatic;
+  float gamma = 1;
+  float scale = 1;
+  bool operator==(const PtexTexture&) const = default;
+};
+
+// The mesh's attribute of that name.
+struct MeshAttributeTexture {
+  std::string name;
+  float scale = 1;
+  bool operator==(const MeshAttributeTexture&) const = default;
+};
+
+// The colour (frac s, frac t, 0) (pbrt-v3's uv).
+struct UvTexture {
+  TextureMapping mapping;
+  bool operator==(const UvTexture&) const = default;
+};
+
+using TextureModel =
+    std::variant<ImageTexture, CheckerboardTexture, ProductTexture, MixTexture, DirectionMixTexture,
+                 BilinearTexture, DotsTexture, NoiseTexture, PtexTexture, MeshAttributeTexture, UvTexture>;
+
+// A texture is either a colour or one number (`is_float`: a colour image counts by its mean); inputs of a
+// number are numbers, as constant spectra or other such textures. What a colour means (a reflectance in
+// [0,1], a factor without bound, an emission) follows from where it is used.
+struct Texture {
+  TextureModel model;
+  bool is_float = false;
+  std::string name;  // "" where the file gives none
+  Origin origin;
+  bool operator==(const Texture&) const = default;
+};
+
+}  // namespace vitrail

@@ -1,0 +1,52 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Writes scene/metal_tables.cpp: complex indices of refraction of metals and other absorbing solids.
+
+    pip install mitsuba==3.9.1
+    python3 scripts/generate_metal_tables.py > scene/metal_tables.cpp
+
+The values are those of the luxpop.com and SOPRA collections that the Mitsuba 3 wheel carries in data/ior (one file of
+wavelengths in nm and values for each of n and k). Samples outside 360-830 nm are left out but for the nearest one on
+either side; values are linear in between and held beyond the ends.
+"""
+import pathlib
+import mitsuba
+
+FOLDER = pathlib.Path(mitsuba.__file__).parent / "data" / "ior"
+
+
+def samples(path):
+    rows = [line.split() for line in path.read_text().splitlines() if line.strip() and not line.startswith("#")]
+    pairs = sorted({float(l): float(v) for l, v in rows}.items())
+    first = max((i for i, (l, _) in enumerate(pairs) if l <= 360), default=0)
+    last = min((i for i, (l, _) in enumerate(pairs) if l >= 830), default=len(pairs) - 1)
+    return pairs[first:last + 1]
+
+
+def literal(value):
+    text = f"{value:.7g}"
+    return text + ("f" if "." in text or "e" in text else ".0f")
+
+
+def main():
+    names = sorted(p.name.removesuffix(".eta.spd") for p in FOLDER.glob("*.eta.spd"))
+    print("// SPDX-License-Identifier: Apache-2.0")
+    print("// Written by scripts/generate_metal_tables.py.")
+    print('#include "scene/metal_tables.h"\n')
+    print("// clang-format off")
+    print("namespace vitrail {\n\nnamespace {\n")
+    rows = []
+    for number, name in enumerate(names):
+        for kind in ("eta", "k"):
+            text = [f"{{{literal(l)}, {literal(v)}}}" for l, v in samples(FOLDER / f"{name}.{kind}.spd")]
+            print(f"constexpr std::array<float, 2> {kind}_{number}[] = {{")
+            for i in range(0, len(text), 6):
+                print("    " + ", ".join(text[i:i + 6]) + ",")
+            print("};")
+        rows.append(f'    {{"{name}", eta_{number}, k_{number}}},')
+    print("\nconstexpr MetalTable tables[] = {")
+    print("\n".join(rows))
+    print("};\n\n}  // namespace\n")
+    print("std::span<const MetalTable> metal_tables() { return tables; }\n\n}  // namespace vitrail")
+
+
+main()

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+// Textures of pbrt in the Scene's terms.
+#include "pbrt_text.h"
+#include "scene/rgb_to_spectrum.h"
+
+namespace vitrail {
+namespace {
+
+// The texture "t" after `directives`, as a material uses it.
+SpectrumParameter used(const ImportedScene& imported) {
+  const Material& material = imported.scene.materials.at(imported.scene.shapes.at(0).material.value);
+  return std::get<DiffuseMaterial>(material.model).reflectance;
+}
+const std::string user = " Material \"diffuse\" \"texture reflectance\" \"t\" " + triangle;
+
+template <class Model>
+Model model(const std::string& directives) {
+  const ImportedScene imported = import_v4(directives + user);
+  return std::get<Model>(imported.scene.textures.at(std::get<Id<Texture>>(used(imported)).value).model);
+}
+
+TEST(PbrtTextures, ConstantsAreTheirValue) {
+  const ImportedScene imported =
+      import_v4("Texture \"t\" \"spectrum\" \"constant\" \"rgb value\" [.3 .2 .1]" + user);
+  expect_no_diagnostics(imported);
+  EXPECT_EQ(used(imported), SpectrumParameter{reflectance_from_rgb({.3, .2, .1})});
+  EXPECT_TRUE(imported.scene.textures.empty());
+}
+
+TEST(PbrtTextures, ImagesKeepHowTheyAreRead) {
+  const auto image = model<ImageTexture>(
+      "Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"x.png\" \"float uscale\" 2 \"float "
+      "vdelta\" .25 "
+      "\"string wrap\" \"clamp\" \"string filter\" \"point\" \"string encoding\" \"gamma 2.2\" \"float "
+      "scale\" .5 \"bool "
+      "invert\" true");
+  EXPECT_EQ(std::filesystem::path(image.filename).filename(), "x.png");
+  EXPECT_TRUE(std::filesystem::path(image.filename).is_absolute());
+  EXPECT_EQ(image.mapping, (TextureMapping{UvMapping{2, 0, 0, 0, 1, .25f}}));
+  EXPECT_EQ(image.wrap, Wrap::clamp);
+  EXPECT_EQ(image.filter, TextureFilter::nearest);
+  EXPECT_EQ(image.encoding, Encoding::gamma);
+  EXPECT_EQ(image.gamma, 2.2f);
+  EXPECT_EQ(image.scale, .5f);
+  EXPECT_TRUE(image.invert);
+}
+
+TEST(PbrtTextures, OthersKeepTheirInputs) {
+  const Spectrum red = reflectance_from_rgb({1, 0, 0});
+  const auto board = model<CheckerboardTexture>(
+      "Texture \"t\" \"spectrum\" \"checkerboard\" \"rgb tex1\" [1 0 0] \"float uscale\" 4");
+  EXPECT_EQ(board.even, SpectrumParameter{red});
+  EXPECT_EQ(board.odd, SpectrumParameter{ConstantSpectrum{0}});
+  const auto mix = model<MixTexture>(
+      "Texture \"a\" \"float\" \"wrinkled\" \"integer octaves\" 3 Texture \"t\" \"spectrum\" \"mix\" \"rgb "
+      "tex2\" [1 0 0] "
+      "\"texture amount\" \"a\"");
+  EXPECT_EQ(mix.amount, FloatParameter{Id<Texture>{0}});
+  EXPECT_EQ(mix.second, SpectrumParameter{red});
+  const auto scaled = model<ProductTexture>(
+      "Texture \"i\" \"spectrum\" \"imagemap\" \"string filename\" \"x.png\" "
+      "Texture \"t\" \"spectrum\" \"scale\" \"texture tex\" \"i\" \"float scale\" .5");
+  EXPECT_EQ(scaled.first, SpectrumParameter{Id<Texture>{0}});
+  EXPECT_EQ(scaled.second, SpectrumParameter{ConstantSpectrum{.5f}});
+  EXPECT_EQ(model<NoiseTexture>("Texture \"t\" \"spectrum\" \"marble\" \"float variation\" .5").variation,
+            .5f);
+  const auto dots = model<DotsTexture>("Texture \"t\" \"spectrum\" \"dots\" \"rgb inside\" [1 0 0]");
+  EXPECT_EQ(dots.inside, SpectrumParameter{red});
+}
+
+TEST(PbrtTextures, TextureSpaceFollowsTheTransform) {
+  const auto board = model<CheckerboardTexture>(
+      "Scale 2 2 2 Texture \"t\" \"spectrum\" \"checkerboard\" \"integer dimension\" 3 Identity");
+  EXPECT_TRUE(board.solid);
+  EXPECT_EQ(board.world_to_texture, scale({.5, .5, .5}));
+}
+
+TEST(PbrtTextures, MayFollowTheMaterialsThatUseThem) {
+  const ImportedScene imported =
+      import_v4(user + "Texture \"t\" \"spectrum\" \"constant\" \"float value\" .125");
+  EXPECT_EQ(used(imported), SpectrumParameter{ConstantSpectrum{.125f}});
+}
+
+TEST(PbrtTextures, OfNumbersAndOfSpectraHaveNamesOfTheirOwn) {
+  const ImportedScene imported = import_v4(
+      "Texture \"t\" \"float\" \"constant\" \"float value\" 0 Texture \"t\" \"spectrum\" \"constant\" "
+      "\"float value\" .125 " +
+      user + "Material \"dielectric\" \"texture roughness\" \"t\" " + triangle);
+  expect_no_diagnostics(imported);
+  EXPECT_EQ(used(imported), SpectrumParameter{ConstantSpectrum{.125f}});
+}
+
+TEST(PbrtTextures, UnknownNamesAndKindsAreErrorsWithASuggestion) {
+  const auto message = [](const std::string& directives) {
+    try {
+      import_v4(directives);
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+    return std::string("no error");
+  };
+  EXPECT_NE(
+      message(
+          "Texture \"wood\" \"spectrum\" \"bilerp\" Material \"diffuse\" \"texture reflectance\" \"woot\" " +
+          triangle)
+          .find("did you mean \"wood\""),
+      std::string::npos);
+  EXPECT_NE(message("Texture \"t\" \"spectrum\" \"imagmap\"" + user).find("did you mean \"imagemap\""),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace vitrail
