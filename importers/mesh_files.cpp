@@ -13,7 +13,9 @@ MeshFiles::MeshFiles(const Scene& scene, const std::filesystem::path& scene_file
       folder_(scene_file.stem().string() + "-meshes"),
       names_(scene.meshes.size()) {}
 
-const std::string& MeshFiles::name(Id<TriangleMesh> mesh) {
+const std::string& MeshFiles::name(Id<TriangleMesh> mesh) { return name(mesh, scene_.meshes.at(mesh.value)); }
+
+const std::string& MeshFiles::name(Id<TriangleMesh> mesh, const TriangleMesh& instead) {
   std::string& name = names_.at(mesh.value);
   if (!name.empty()) return name;
   std::error_code error;
@@ -21,7 +23,7 @@ const std::string& MeshFiles::name(Id<TriangleMesh> mesh) {
   if (error)
     throw MachineError(fmt::format("cannot create {}: {}", (directory_ / folder_).string(), error.message()));
   const std::filesystem::path file = folder_ / fmt::format("{:06}.ply", mesh.value);
-  write_ply(scene_.meshes[mesh.value], directory_ / file);
+  write_ply(instead, directory_ / file);
   return name = file.generic_string();
 }
 

@@ -17,6 +17,8 @@ class MeshFiles {
 
   // The file's path relative to the scene's. Throws MachineError.
   const std::string& name(Id<TriangleMesh> mesh);
+  // Where the format needs another form of the mesh.
+  const std::string& name(Id<TriangleMesh> mesh, const TriangleMesh& instead);
 
  private:
   const Scene& scene_;

@@ -210,6 +210,9 @@ SigmoidSpectrum reflectance_from_rgb(RGB c) {
 
 RgbIlluminantSpectrum emission_from_rgb(RGB c) { return scaled_reflectance<RgbIlluminantSpectrum>(c); }
 
-RgbUnboundedSpectrum unbounded_from_rgb(RGB c) { return scaled_reflectance<RgbUnboundedSpectrum>(c); }
+Spectrum unbounded_from_rgb(RGB c) {
+  if (std::max({c.r, c.g, c.b}) <= 1) return reflectance_from_rgb(c);
+  return scaled_reflectance<RgbUnboundedSpectrum>(c);
+}
 
 }  // namespace vitrail

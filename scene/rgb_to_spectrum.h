@@ -15,7 +15,8 @@ SigmoidSpectrum reflectance_from_rgb(RGB c);
 // Emission of linear sRGB colour c; components may exceed 1, negative ones count as 0.
 RgbIlluminantSpectrum emission_from_rgb(RGB c);
 
-// A coefficient or factor of linear sRGB colour c, which may exceed 1; negative components count as 0.
-RgbUnboundedSpectrum unbounded_from_rgb(RGB c);
+// A coefficient or factor of linear sRGB colour c; negative components count as 0. Where none exceeds 1, it
+// is the reflectance of that colour.
+Spectrum unbounded_from_rgb(RGB c);
 
 }  // namespace vitrail

@@ -30,17 +30,17 @@ struct UvMapping {
 };
 // t = acos(z)/π, s = atan2(y,x)/2π of the direction of the point in texture space.
 struct SphericalMapping {
-  Transform world_to_texture;
+  Transform texture_to_world;
   bool operator==(const SphericalMapping&) const = default;
 };
 // s = atan2(y,x)/2π, t = z in texture space.
 struct CylindricalMapping {
-  Transform world_to_texture;
+  Transform texture_to_world;
   bool operator==(const CylindricalMapping&) const = default;
 };
 // s = p·v1 + offset_s, t = p·v2 + offset_t in texture space.
 struct PlanarMapping {
-  Transform world_to_texture;
+  Transform texture_to_world;
   Vector3d v1{1, 0, 0}, v2{0, 1, 0};
   double offset_s = 0, offset_t = 0;
   bool operator==(const PlanarMapping&) const = default;
@@ -73,7 +73,7 @@ struct CheckerboardTexture {
   SpectrumParameter even, odd;
   TextureMapping mapping;
   bool solid = false;
-  Transform world_to_texture;  // of a solid one
+  Transform texture_to_world;  // of a solid one
   bool operator==(const CheckerboardTexture&) const = default;
 };
 
@@ -115,7 +115,7 @@ struct DotsTexture {
 struct NoiseTexture {
   enum class Kind : std::uint8_t { fbm, wrinkled, windy, marble };
   Kind kind = Kind::fbm;
-  Transform world_to_texture;
+  Transform texture_to_world;
   int octaves = 8;
   float roughness = 0.5f;
   float scale = 1, variation = 0.2f;  // of marble

@@ -70,6 +70,9 @@ Vector3<T> normalize(Vector3<T> v) {
   return l > T(0) && std::isfinite(l) ? v * (T(1) / l) : v;
 }
 
+// normalize, but v itself where its length is 1 to rounding: what is written and read again stays as it is.
+inline Vector3<double> unit(Vector3<double> v) { return std::abs(dot(v, v) - 1) < 1e-15 ? v : normalize(v); }
+
 template <class To, class From>
 constexpr Vector3<To> cast(Vector3<From> v) {
   return {static_cast<To>(v.x), static_cast<To>(v.y), static_cast<To>(v.z)};

@@ -124,7 +124,7 @@ LightModel distant_light(const Maker& m) {
   const auto from = m.parameters.triple("from").value_or(std::array<double, 3>{0, 0, 0});
   const auto to = m.parameters.triple("to").value_or(std::array<double, 3>{0, 0, 1});
   const Vector3d way{to[0] - from[0], to[1] - from[1], to[2] - from[2]};
-  const Vector3d direction = normalize(transform_vector(m.ctm, way));
+  const Vector3d direction = unit(transform_vector(m.ctm, way));
   if (!(length(direction) > 0))
     fail("a distant light needs two different points from and to", m.parameters.place());
   const double illuminance = m.parameters.number("illuminance", -1);

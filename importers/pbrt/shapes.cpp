@@ -109,11 +109,35 @@ Vector3d winding_normal(const TriangleMesh& mesh, const std::array<std::uint32_t
 
 }  // namespace
 
+namespace {
+
+bool faces_away(const TriangleMesh& mesh, const std::array<std::uint32_t, 3>& triangle) {
+  return dot(winding_normal(mesh, triangle), corner_normal_sum(mesh, triangle)) < 0;
+}
+
+}  // namespace
+
 void orient_by_normals(TriangleMesh& mesh) {
   if (mesh.normals.empty()) return;
   for (auto& triangle : mesh.triangles)
-    if (dot(winding_normal(mesh, triangle), corner_normal_sum(mesh, triangle)) < 0)
-      std::swap(triangle[1], triangle[2]);
+    if (faces_away(mesh, triangle)) std::swap(triangle[1], triangle[2]);
+}
+
+bool fronts_follow_normals(const TriangleMesh& mesh) {
+  return mesh.normals.empty() ||
+         std::none_of(mesh.triangles.begin(), mesh.triangles.end(),
+                      [&](const auto& triangle) { return faces_away(mesh, triangle); });
+}
+
+TriangleMesh with_normals_in_front(TriangleMesh mesh) {
+  std::vector<char> turned(mesh.positions.size(), 0);
+  for (const auto& triangle : mesh.triangles)
+    if (faces_away(mesh, triangle))
+      for (const std::uint32_t corner : triangle) turned[corner] = 1;
+  for (std::size_t i = 0; i < turned.size(); ++i)
+    if (turned[i]) mesh.normals[i] = -mesh.normals[i];
+  if (!fronts_follow_normals(mesh)) mesh.normals.clear();
+  return mesh;
 }
 
 namespace {

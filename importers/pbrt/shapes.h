@@ -51,4 +51,9 @@ class ShapeMaker {
 // normals.
 void orient_by_normals(TriangleMesh& mesh);
 
+// Whether orient_by_normals would leave the mesh as it is; and the mesh with its normals turned so that it
+// would, or without them where a vertex has faces on both of its sides.
+bool fronts_follow_normals(const TriangleMesh& mesh);
+TriangleMesh with_normals_in_front(TriangleMesh mesh);
+
 }  // namespace vitrail::pbrt

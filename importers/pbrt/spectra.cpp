@@ -153,9 +153,7 @@ Spectrum read_reflectance(const Parameter& parameter, SpectrumScope scope) {
 Spectrum read_unbounded(const Parameter& parameter, SpectrumScope scope) {
   if (parameter.type != ParameterType::rgb && parameter.type != ParameterType::xyz)
     return read_reflectance(parameter, scope);
-  const RGB color = read_color(parameter, std::numeric_limits<float>::max(), scope);
-  if (std::max({color.r, color.g, color.b}) <= 1) return reflectance_from_rgb(color);
-  return unbounded_from_rgb(color);
+  return unbounded_from_rgb(read_color(parameter, std::numeric_limits<float>::max(), scope));
 }
 
 Spectrum read_emission(const Parameter& parameter, double factor, SpectrumScope scope) {

@@ -99,18 +99,17 @@ struct Maker {
   float number(std::string_view of, double otherwise) const {
     return static_cast<float>(parameters.number(of, otherwise));
   }
-  Transform world_to_texture() const { return inverse(texture_to_world); }
 
   TextureMapping mapping() const {
     const std::string by = parameters.text("mapping", "uv");
-    if (by == "spherical") return SphericalMapping{world_to_texture()};
-    if (by == "cylindrical") return CylindricalMapping{world_to_texture()};
+    if (by == "spherical") return SphericalMapping{texture_to_world};
+    if (by == "cylindrical") return CylindricalMapping{texture_to_world};
     if (by == "planar") {
       const auto vector = [&](const char* of, Vector3d otherwise) {
         const auto v = parameters.triple(of);
         return v ? Vector3d{(*v)[0], (*v)[1], (*v)[2]} : otherwise;
       };
-      return PlanarMapping{world_to_texture(), vector("v1", {1, 0, 0}), vector("v2", {0, 1, 0}),
+      return PlanarMapping{texture_to_world, vector("v1", {1, 0, 0}), vector("v2", {0, 1, 0}),
                            parameters.number("udelta", 0), parameters.number("vdelta", 0)};
     }
     if (by != "uv") approximated(fmt::format("mapping \"{}\" is not known and read as \"uv\"", by));
@@ -191,7 +190,7 @@ TextureModel checkerboard_texture(const Maker& m) {
   CheckerboardTexture t{m.input("tex1", 1), m.input("tex2", 0)};
   t.solid = m.parameters.integer("dimension", 2) == 3;
   if (t.solid)
-    t.world_to_texture = m.world_to_texture();
+    t.texture_to_world = m.texture_to_world;
   else
     t.mapping = m.mapping();
   m.parameters.ignore({"aamode"});
@@ -209,7 +208,7 @@ TextureModel mix_texture(const Maker& m) {
 TextureModel direction_mix_texture(const Maker& m) {
   const auto v = m.parameters.triple("dir").value_or(std::array<double, 3>{0, 1, 0});
   return DirectionMixTexture{m.input("tex1", 0), m.input("tex2", 1),
-                             normalize(transform_vector(m.texture_to_world, {v[0], v[1], v[2]}))};
+                             unit(transform_vector(m.texture_to_world, {v[0], v[1], v[2]}))};
 }
 
 // v4: tex · scale, a float; v3: tex1 · tex2.
@@ -234,7 +233,7 @@ TextureModel noise_texture(const Maker& m) {
            : m.kind == "windy"  ? NoiseTexture::Kind::windy
            : m.kind == "marble" ? NoiseTexture::Kind::marble
                                 : NoiseTexture::Kind::fbm;
-  t.world_to_texture = m.world_to_texture();
+  t.texture_to_world = m.texture_to_world;
   t.octaves = std::clamp(m.parameters.integer("octaves", 8), 1, 64);
   t.roughness = m.number("roughness", 0.5);
   t.scale = m.number("scale", 1);

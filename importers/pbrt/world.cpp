@@ -179,7 +179,12 @@ std::optional<Id<AreaLight>> Interpreter::shape_light(const ShapeGeometry& geome
       context_.report.approximated("the power of an area light with an image: the image counts by its scale",
                                    place);
   }
-  state.id = Id<AreaLight>{static_cast<std::uint32_t>(scene_.area_lights.size())};
+  // An equal one that came not long ago is shared.
+  constexpr std::size_t looked_back = 16;
+  const std::size_t count = scene_.area_lights.size();
+  for (std::size_t i = count; i-- > count - std::min(count, looked_back);)
+    if (scene_.area_lights[i] == light) return state.id = Id<AreaLight>{static_cast<std::uint32_t>(i)};
+  state.id = Id<AreaLight>{static_cast<std::uint32_t>(count)};
   scene_.area_lights.push_back(std::move(light));
   area_light_places_.push_back(state.emission.place);
   return state.id;

@@ -72,7 +72,7 @@ TEST(PbrtTextures, TextureSpaceFollowsTheTransform) {
   const auto board = model<CheckerboardTexture>(
       "Scale 2 2 2 Texture \"t\" \"spectrum\" \"checkerboard\" \"integer dimension\" 3 Identity");
   EXPECT_TRUE(board.solid);
-  EXPECT_EQ(board.world_to_texture, scale({.5, .5, .5}));
+  EXPECT_EQ(board.texture_to_world, scale({2, 2, 2}));
 }
 
 TEST(PbrtTextures, MayFollowTheMaterialsThatUseThem) {

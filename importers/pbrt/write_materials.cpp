@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "importers/pbrt/writer.h"
+
+namespace vitrail::pbrt {
+
+namespace {
+
+bool is_one(const SpectrumParameter& p) {
+  const auto* s = std::get_if<Spectrum>(&p);
+  return s && is_constant(*s) && evaluate(*s, lambda_min_nm) == 1;
+}
+
+bool is_zero(const FloatParameter& p) { return p == FloatParameter{0.0f}; }
+
+float mean(const FloatParameter& p) {
+  const auto* value = std::get_if<float>(&p);
+  return value ? *value : 0.5f;
+}
+
+// Writes the parameters of one material and gives its type.
+class MaterialWriter {
+ public:
+  explicit MaterialWriter(Parameters& p) : p_(p) {}
+
+  const char* operator()(const DiffuseMaterial& m) {
+    if (!is_zero(m.sigma_deg)) p_.approximated("sigma (Oren-Nayar roughness) becomes 0: pbrt-v4 has none");
+    p_.spectrum("reflectance", m.reflectance);
+    return "diffuse";
+  }
+  const char* operator()(const DielectricMaterial& m) {
+    relative_index(m.eta, m.exterior_eta);
+    roughness(m.roughness);
+    factors(m.reflectance_factor, m.transmittance_factor);
+    return "dielectric";
+  }
+  const char* operator()(const ThinDielectricMaterial& m) {
+    relative_index(m.eta, m.exterior_eta);
+    factors(m.reflectance_factor, m.transmittance_factor);
+    return "thindielectric";
+  }
+  const char* operator()(const ConductorMaterial& m) {
+    const bool perfect = std::holds_alternative<PerfectReflector>(m.metal);
+    if (perfect) {
+      p_.approximated("a mirror becomes a metal of its reflectance at normal incidence");
+      p_.spectrum("reflectance", m.reflectance_factor);
+    } else {
+      metal(m.metal);
+      if (!is_one(m.reflectance_factor)) p_.approximated("the factor of its reflection becomes 1");
+    }
+    roughness(m.roughness);
+    return "conductor";
+  }
+  const char* operator()(const PlasticMaterial& m) {
+    p_.approximated("Mitsuba's plastic becomes pbrt's layered coateddiffuse");
+    if (!is_one(m.specular_reflectance)) p_.approximated("the factor of its reflection becomes 1");
+    p_.spectrum("reflectance", m.diffuse_reflectance);
+    p_.number("eta", m.eta / std::max(m.exterior_eta, 1e-3f));
+    roughness(m.roughness);
+    return "coateddiffuse";
+  }
+  const char* operator()(const CoatedDiffuseMaterial& m) {
+    p_.spectrum("reflectance", m.reflectance);
+    index("eta", m.eta);
+    roughness(m.roughness);
+    coating(m.volume);
+    return "coateddiffuse";
+  }
+  const char* operator()(const CoatedConductorMaterial& m) {
+    metal(m.metal, "conductor.");
+    index("interface.eta", m.interface_eta);
+    roughness(m.conductor_roughness, "conductor.");
+    roughness(m.interface_roughness, "interface.");
+    coating(m.volume);
+    return "coatedconductor";
+  }
+  const char* operator()(const DiffuseTransmissionMaterial& m) {
+    p_.spectrum("reflectance", m.reflectance)
+        .spectrum("transmittance", m.transmittance)
+        .number("scale", m.scale);
+    return "diffusetransmission";
+  }
+  const char* operator()(const PrincipledMaterial& m) {
+    const Roughness surface{squared(m.roughness), squared(m.roughness)};
+    if (mean(m.spec_trans) > 0.5f) {
+      p_.approximated("the principled model becomes rough glass");
+      p_.number("eta", m.eta);
+      roughness(surface);
+      return m.thin ? "thindielectric" : "dielectric";
+    }
+    if (mean(m.metallic) > 0.5f) {
+      p_.approximated("the principled model becomes a metal of its base colour");
+      p_.spectrum("reflectance", m.base_color);
+      roughness(surface);
+      return "conductor";
+    }
+    p_.approximated("the principled model becomes a coat over its base colour");
+    p_.spectrum("reflectance", m.base_color).number("eta", m.eta);
+    roughness(surface);
+    return "coateddiffuse";
+  }
+  const char* operator()(const SubsurfaceMaterial& m) {
+    if (const auto* named = std::get_if<SubsurfaceMaterial::Named>(&m.interior))
+      p_.text("name", named->name);
+    else if (const auto* effective = std::get_if<SubsurfaceMaterial::Effective>(&m.interior))
+      p_.spectrum("reflectance", effective->reflectance).spectrum("mfp", effective->mean_free_path);
+    else
+      p_.spectrum("sigma_a", std::get<SubsurfaceMaterial::Coefficients>(m.interior).sigma_a)
+          .spectrum("sigma_s", std::get<SubsurfaceMaterial::Coefficients>(m.interior).sigma_s);
+    p_.number("scale", m.scale).number("g", m.g);
+    index("eta", m.eta);
+    roughness(m.roughness);
+    return "subsurface";
+  }
+  const char* operator()(const HairMaterial& m) {
+    if (m.sigma_a) p_.spectrum("sigma_a", *m.sigma_a);
+    if (m.color) p_.spectrum("reflectance", *m.color);
+    if (m.eumelanin) p_.number("eumelanin", *m.eumelanin);
+    if (m.pheomelanin) p_.number("pheomelanin", *m.pheomelanin);
+    p_.number("eta", m.eta / std::max(m.exterior_eta, 1e-3f));
+    if (m.exterior_eta != 1) p_.approximated("the index around it becomes 1, its own the ratio of the two");
+    p_.number("beta_m", m.beta_m).number("beta_n", m.beta_n).number("alpha", m.alpha_deg);
+    return "hair";
+  }
+  const char* operator()(const MeasuredMaterial& m) {
+    p_.file("filename", m.filename);
+    return "measured";
+  }
+  const char* operator()(const InterfaceMaterial&) { return "interface"; }
+  const char* operator()(const BlendMaterial& m) {
+    const std::vector<std::string>& names = p_.writer().materials;
+    p_.texts("materials", {names.at(m.first.value), names.at(m.second.value)}).number("amount", m.amount);
+    return "mix";
+  }
+  // Written with the shapes (surface_of); where another material refers to it, it is what it masks.
+  const char* operator()(const MaskMaterial&) { return nullptr; }
+  const char* operator()(const TwoSidedMaterial& m) {
+    const Material& front = p_.writer().scene.materials.at(m.front.value);
+    if (m.front != m.back) p_.approximated("the front's material is on both sides");
+    return std::visit(*this, front.model);
+  }
+
+ private:
+  static FloatParameter squared(const FloatParameter& roughness) {
+    const auto* value = std::get_if<float>(&roughness);
+    return value ? FloatParameter{*value * *value} : roughness;
+  }
+  void index(const std::string& name, const Spectrum& eta) {
+    if (const auto* constant = std::get_if<ConstantSpectrum>(&eta))
+      p_.number(name, constant->value);
+    else
+      p_.spectrum(name, eta);
+  }
+  void relative_index(const Spectrum& eta, const Spectrum& exterior) {
+    if (exterior == Spectrum{ConstantSpectrum{1}}) return index("eta", eta);
+    p_.approximated("the index of refraction around it becomes 1, its own the ratio of the two");
+    if (is_constant(eta) && is_constant(exterior)) {
+      const double outside = evaluate(exterior, lambda_min_nm);
+      p_.number("eta", static_cast<float>(evaluate(eta, lambda_min_nm) / (outside > 0 ? outside : 1)));
+      return;
+    }
+    const Spectrum inside = resolved(eta), outside = resolved(exterior);
+    TabulatedSpectrum ratio;
+    for (double l = lambda_min_nm; l <= lambda_max_nm; ++l)
+      ratio.values.push_back(static_cast<float>(evaluate(inside, l) / std::max(1e-3, evaluate(outside, l))));
+    p_.spectrum("eta", Spectrum{ratio});
+  }
+  void factors(const SpectrumParameter& reflectance, const SpectrumParameter& transmittance) {
+    if (!is_one(reflectance) || !is_one(transmittance))
+      p_.approximated("the factors of reflection and transmission become 1: pbrt has none");
+  }
+  void metal(const Metal& metal, const std::string& prefix = "") {
+    if (const auto* index = std::get_if<ComplexIndex>(&metal)) {
+      p_.spectrum(prefix + "eta", index->eta).spectrum(prefix + "k", index->k);
+    } else if (const auto* normal = std::get_if<NormalReflectance>(&metal)) {
+      p_.spectrum("reflectance", normal->reflectance);
+    } else {
+      p_.approximated("a mirror becomes a metal that reflects all at normal incidence");
+      p_.spectrum("reflectance", Spectrum{ConstantSpectrum{1}});
+    }
+  }
+  void roughness(const Roughness& r, const std::string& prefix = "") {
+    const bool rough = !is_zero(r.alpha_u) || !is_zero(r.alpha_v);
+    if (rough && r.distribution == Roughness::Distribution::beckmann)
+      p_.approximated("Beckmann's distribution of facets becomes GGX");
+    const auto put = [&](const std::string& name, const FloatParameter& alpha) {
+      const auto* value = std::get_if<float>(&alpha);
+      p_.number(prefix + name, value && r.square_root ? FloatParameter{*value * *value} : alpha);
+    };
+    if (r.alpha_u == r.alpha_v)
+      put("roughness", r.alpha_u);
+    else
+      put("uroughness", r.alpha_u), put("vroughness", r.alpha_v);
+    if (remap_ && *remap_ != r.square_root)
+      p_.approximated("one of two roughness textures is remapped as the other");
+    if (!remap_) p_.boolean("remaproughness", r.square_root);
+    remap_ = r.square_root;
+  }
+  void coating(const CoatingVolume& c) {
+    p_.number("thickness", c.thickness).number("g", c.g).spectrum("albedo", c.albedo);
+    p_.integer("maxdepth", c.max_depth).integer("nsamples", c.samples);
+  }
+
+  Parameters& p_;
+  std::optional<bool> remap_;
+};
+
+void bumps(Parameters& p, const Material& m) {
+  if (m.displacement) p.number("displacement", *m.displacement);
+  if (!m.normal_map) return;
+  const auto* image = std::get_if<ImageTexture>(&p.writer().scene.textures.at(m.normal_map->value).model);
+  if (!image) return p.dropped("a normal map that is not an image");
+  p.file("normalmap", image->filename);
+  if (image->mapping != TextureMapping{UvMapping{}} || image->scale != 1)
+    p.approximated("the mapping and scale of its normal map are left out");
+}
+
+}  // namespace
+
+ShapeSurface surface_of(const Scene& scene, Id<Material> material) {
+  if (const auto* mask = std::get_if<MaskMaterial>(&scene.materials.at(material.value).model))
+    return {mask->material, mask->opacity};
+  return {material};
+}
+
+void write_materials(Writer& w) {
+  for (std::size_t i = 0; i < w.scene.materials.size(); ++i) {
+    const Material& material = w.scene.materials[i];
+    Parameters p(w, fmt::format("material \"{}\"", w.materials[i]), material.origin);
+    MaterialWriter writer(p);
+    const char* type = std::visit(writer, material.model);
+    if (const auto* mask = std::get_if<MaskMaterial>(&material.model)) {
+      w.materials[i] = w.materials.at(mask->material.value);
+      continue;
+    }
+    const bool opaque = !std::holds_alternative<DielectricMaterial>(material.model) &&
+                        !std::holds_alternative<ThinDielectricMaterial>(material.model) &&
+                        !std::holds_alternative<InterfaceMaterial>(material.model);
+    if (!material.two_sided && opaque) p.approximated("its black back becomes as its front");
+    bumps(p, material);
+    w.line(fmt::format("MakeNamedMaterial {} \"string type\" \"{}\"{}", in_quotes(w.materials[i]), type,
+                       p.list()));
+  }
+}
+
+}  // namespace vitrail::pbrt

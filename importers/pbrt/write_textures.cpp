@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "importers/pbrt/writer.h"
+
+namespace vitrail::pbrt {
+
+namespace {
+
+// Writes the parameters of one texture; gives its kind, or nothing where pbrt has no such texture.
+class TextureWriter {
+ public:
+  TextureWriter(Parameters& p, bool is_float) : p_(p), is_float_(is_float) {}
+
+  const Transform& texture_to_world() const { return texture_to_world_; }
+
+  const char* operator()(const ImageTexture& t) {
+    mapping(t.mapping);
+    p_.file("filename", t.filename).number("scale", t.scale).boolean("invert", t.invert);
+    p_.text("wrap", t.wrap == Wrap::clamp ? "clamp" : t.wrap == Wrap::black ? "black" : "repeat");
+    if (t.wrap == Wrap::mirror) p_.approximated("mirrored repetition becomes plain repetition");
+    constexpr std::array filters{"point", "bilinear", "trilinear", "ewa"};
+    p_.text("filter", filters.at(static_cast<std::size_t>(t.filter)));
+    encoding(t.encoding, t.gamma);
+    return "imagemap";
+  }
+  const char* operator()(const PtexTexture& t) {
+    p_.file("filename", t.filename).number("scale", t.scale);
+    encoding(t.encoding, t.gamma);
+    return "ptex";
+  }
+  const char* operator()(const CheckerboardTexture& t) {
+    input("tex1", t.even), input("tex2", t.odd);
+    p_.integer("dimension", t.solid ? 3 : 2);
+    if (t.solid)
+      texture_to_world_ = t.texture_to_world;
+    else
+      mapping(t.mapping);
+    return "checkerboard";
+  }
+  const char* operator()(const ProductTexture& t) {
+    const auto* factor = std::get_if<Spectrum>(&t.second);
+    const bool is_number = factor ? std::holds_alternative<ConstantSpectrum>(*factor)
+                                  : p_.writer().scene.textures.at(std::get<Id<Texture>>(t.second).value).is_float;
+    input("tex", t.first);
+    if (!is_number) {
+      p_.approximated("pbrt multiplies a texture by numbers only: the luminance of a colour, 1 for a texture");
+      p_.number("scale", factor ? static_cast<float>(luminance(*factor)) : 1.0f);
+      return "scale";
+    }
+    p_.input("scale", t.second, true);
+    return "scale";
+  }
+  const char* operator()(const MixTexture& t) {
+    input("tex1", t.first), input("tex2", t.second);
+    p_.number("amount", t.amount);
+    return "mix";
+  }
+  const char* operator()(const DirectionMixTexture& t) {
+    input("tex1", t.first), input("tex2", t.second);
+    p_.numbers("vector3 dir", std::array{t.direction.x, t.direction.y, t.direction.z});
+    return "directionmix";
+  }
+  const char* operator()(const BilinearTexture& t) {
+    input("v00", t.v00), input("v01", t.v01), input("v10", t.v10), input("v11", t.v11);
+    mapping(t.mapping);
+    return "bilerp";
+  }
+  const char* operator()(const DotsTexture& t) {
+    input("inside", t.inside), input("outside", t.outside);
+    mapping(t.mapping);
+    return "dots";
+  }
+  const char* operator()(const NoiseTexture& t) {
+    texture_to_world_ = t.texture_to_world;
+    p_.integer("octaves", t.octaves).number("roughness", t.roughness);
+    if (t.kind == NoiseTexture::Kind::marble) p_.number("scale", t.scale).number("variation", t.variation);
+    constexpr std::array kinds{"fbm", "wrinkled", "windy", "marble"};
+    return kinds.at(static_cast<std::size_t>(t.kind));
+  }
+  const char* operator()(const MeshAttributeTexture& t) {
+    p_.dropped(fmt::format("pbrt has no attributes of meshes; 0.5 stands for \"{}\"", t.name));
+    return nullptr;
+  }
+  const char* operator()(const UvTexture&) {
+    p_.dropped("pbrt-v4 has no texture that shows (u,v); 0.5 stands for it");
+    return nullptr;
+  }
+
+ private:
+  void input(std::string_view name, const SpectrumParameter& value) { p_.input(name, value, is_float_); }
+
+  void encoding(Encoding encoding, float gamma) {
+    if (encoding == Encoding::srgb) p_.text("encoding", "sRGB");
+    if (encoding == Encoding::linear) p_.text("encoding", "linear");
+    if (encoding == Encoding::gamma) p_.text("encoding", fmt::format("gamma {}", gamma));
+  }
+  void mapping(const TextureMapping& mapping) {
+    if (const auto* uv = std::get_if<UvMapping>(&mapping)) {
+      if (uv->b != 0 || uv->d != 0) p_.approximated("the turn or shear of its (u,v) is left out");
+      p_.number("uscale", uv->a).number("vscale", uv->e).number("udelta", uv->c).number("vdelta", uv->f);
+    } else if (const auto* sphere = std::get_if<SphericalMapping>(&mapping)) {
+      texture_to_world_ = sphere->texture_to_world;
+      p_.text("mapping", "spherical");
+    } else if (const auto* cylinder = std::get_if<CylindricalMapping>(&mapping)) {
+      texture_to_world_ = cylinder->texture_to_world;
+      p_.text("mapping", "cylindrical");
+    } else {
+      const auto& plane = std::get<PlanarMapping>(mapping);
+      texture_to_world_ = plane.texture_to_world;
+      p_.text("mapping", "planar").number("udelta", plane.offset_s).number("vdelta", plane.offset_t);
+      p_.numbers("vector3 v1", std::array{plane.v1.x, plane.v1.y, plane.v1.z});
+      p_.numbers("vector3 v2", std::array{plane.v2.x, plane.v2.y, plane.v2.z});
+    }
+  }
+
+  Parameters& p_;
+  bool is_float_;
+  Transform texture_to_world_;
+};
+
+}  // namespace
+
+void write_textures(Writer& w) {
+  for (std::size_t i = 0; i < w.scene.textures.size(); ++i) {
+    const Texture& texture = w.scene.textures[i];
+    Parameters p(w, fmt::format("texture \"{}\"", w.textures[i]), texture.origin);
+    TextureWriter writer(p, texture.is_float);
+    const char* kind = std::visit(writer, texture.model);
+    if (!kind) {
+      kind = "constant";
+      p.input("value", ConstantSpectrum{0.5f}, texture.is_float);
+    }
+    const bool moved = writer.texture_to_world() != Transform{};
+    if (moved) w.begin("AttributeBegin"), w.transform(writer.texture_to_world());
+    w.line(fmt::format("Texture {} \"{}\" \"{}\"{}", in_quotes(w.textures[i]),
+                       texture.is_float ? "float" : "spectrum", kind, p.list()));
+    if (moved) w.end("AttributeEnd");
+  }
+}
+
+}  // namespace vitrail::pbrt

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "importers/pbrt/writer.h"
+
+#include <algorithm>
+#include <array>
+#include <set>
+
+#include "scene/named_spectra.h"
+
+namespace vitrail::pbrt {
+
+namespace {
+
+// The record's own name where it has one that is free, else one with its number.
+template <class Records>
+std::vector<std::string> unique_names(const Records& records, std::string_view fallback) {
+  std::vector<std::string> names;
+  std::set<std::string, std::less<>> taken;
+  for (const auto& record : records)
+    if (!record.name.empty()) taken.insert(record.name);
+  std::set<std::string, std::less<>> given;
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    std::string name = records[i].name;
+    for (std::size_t n = i; name.empty() || given.contains(name); ++n) {
+      const std::string candidate =
+          fmt::format("{}-{}", records[i].name.empty() ? fallback : records[i].name, n);
+      if (!taken.contains(candidate)) name = candidate;
+    }
+    given.insert(name);
+    names.push_back(std::move(name));
+  }
+  return names;
+}
+
+// The spectra that pbrt-v4 has by name and that are kept by name in a Scene.
+bool is_known_to_pbrt(std::string_view name) {
+  constexpr std::array names{
+      "glass-BK7",    "glass-BAF10",  "glass-FK51A", "glass-LASF9",   "glass-F5",    "glass-F10",
+      "glass-F11",    "metal-Ag-eta", "metal-Ag-k",  "metal-Al-eta",  "metal-Al-k",  "metal-Au-eta",
+      "metal-Au-k",   "metal-Cu-eta", "metal-Cu-k",  "metal-MgO-eta", "metal-MgO-k", "metal-TiO2-eta",
+      "metal-TiO2-k", "stdillum-A",   "stdillum-D65"};
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+TabulatedSpectrum each_nm(const Spectrum& spectrum) {
+  const Spectrum known = resolved(spectrum);
+  TabulatedSpectrum table;
+  for (int i = 0; i < table_size; ++i)
+    table.values.push_back(static_cast<float>(evaluate(known, lambda_min_nm + i)));
+  return table;
+}
+
+}  // namespace
+
+Writer::Writer(const Scene& s, const std::filesystem::path& out)
+    : scene(s),
+      directory(out.parent_path()),
+      meshes(s, out),
+      materials(unique_names(s.materials, "material")),
+      textures(unique_names(s.textures, "texture")),
+      media(unique_names(s.media, "medium")),
+      objects(unique_names(s.prototypes, "object")) {}
+
+void Writer::transform(const Transform& t) {
+  if (t == Transform{}) return;
+  std::array<double, 16> columns;
+  for (std::size_t i = 0; i < 16; ++i) columns[i] = t.m[i % 4][i / 4];
+  line(fmt::format("Transform [ {} ]", fmt::join(columns, " ")));
+}
+
+std::string in_quotes(std::string_view text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') result += '\\';
+    if (c == '\n')
+      result += "\\n";
+    else
+      result += c;
+  }
+  return result + '"';
+}
+
+Parameters& Parameters::text(std::string_view name, std::string_view value) {
+  list_ += fmt::format(" \"string {}\" {}", name, in_quotes(value));
+  return *this;
+}
+
+Parameters& Parameters::texts(std::string_view name, std::initializer_list<std::string_view> values) {
+  list_ += fmt::format(" \"string {}\" [", name);
+  for (const std::string_view value : values) list_ += " " + in_quotes(value);
+  list_ += " ]";
+  return *this;
+}
+
+Parameters& Parameters::file(std::string_view name, const std::string& absolute) {
+  return text(name, relative_name(absolute, writer_.directory));
+}
+
+Parameters& Parameters::boolean(std::string_view name, bool value) {
+  list_ += fmt::format(" \"bool {}\" {}", name, value);
+  return *this;
+}
+
+Parameters& Parameters::integer(std::string_view name, int value) {
+  list_ += fmt::format(" \"integer {}\" {}", name, value);
+  return *this;
+}
+
+Parameters& Parameters::number(std::string_view name, float value) {
+  list_ += fmt::format(" \"float {}\" {}", name, value);
+  return *this;
+}
+
+Parameters& Parameters::number(std::string_view name, double value) {
+  list_ += fmt::format(" \"float {}\" {}", name, value);
+  return *this;
+}
+
+Parameters& Parameters::number(std::string_view name, const FloatParameter& value) {
+  if (const auto* constant = std::get_if<float>(&value)) return number(name, *constant);
+  list_ += fmt::format(" \"texture {}\" {}", name,
+                       in_quotes(writer_.textures.at(std::get<Id<Texture>>(value).value)));
+  return *this;
+}
+
+void Parameters::tabulated(std::string_view name, const TabulatedSpectrum& table) {
+  list_ += fmt::format(" \"spectrum {}\" [", name);
+  for (std::size_t i = 0; i < table.values.size(); ++i)
+    list_ += fmt::format(" {} {}", static_cast<int>(lambda_min_nm) + static_cast<int>(i), table.values[i]);
+  list_ += " ]";
+}
+
+Parameters& Parameters::spectrum(std::string_view name, const SpectrumParameter& value) {
+  if (const auto* texture = std::get_if<Id<Texture>>(&value)) {
+    list_ += fmt::format(" \"texture {}\" {}", name, in_quotes(writer_.textures.at(texture->value)));
+    return *this;
+  }
+  const auto& spectrum = std::get<Spectrum>(value);
+  const auto rgb = [&](const std::array<float, 3>& c) { numbers(fmt::format("rgb {}", name), c); };
+  if (const auto* constant = std::get_if<ConstantSpectrum>(&spectrum)) {
+    list_ += fmt::format(" \"spectrum {}\" [ 360 {} 830 {} ]", name, constant->value, constant->value);
+  } else if (const auto* sigmoid = std::get_if<SigmoidSpectrum>(&spectrum)) {
+    rgb(sigmoid->rgb);
+  } else if (const auto* unbounded = std::get_if<RgbUnboundedSpectrum>(&spectrum)) {
+    rgb(unbounded->rgb);
+  } else if (const auto* table = std::get_if<TabulatedSpectrum>(&spectrum)) {
+    tabulated(name, *table);
+  } else if (const auto* named = std::get_if<NamedSpectrum>(&spectrum);
+             named && is_known_to_pbrt(named->name)) {
+    list_ += fmt::format(" \"spectrum {}\" {}", name, in_quotes(named->name));
+  } else {
+    approximated(fmt::format("its \"{}\" is written as samples of 1 nm", name));
+    tabulated(name, each_nm(spectrum));
+  }
+  return *this;
+}
+
+Parameters& Parameters::input(std::string_view name, const SpectrumParameter& value, bool is_float) {
+  const auto* spectrum = std::get_if<Spectrum>(&value);
+  if (!is_float || !spectrum) return this->spectrum(name, value);
+  return number(name, static_cast<float>(is_constant(*spectrum) ? evaluate(*spectrum, lambda_min_nm)
+                                                                : luminance(*spectrum)));
+}
+
+Parameters& Parameters::emission(std::string_view name, const Spectrum& value) {
+  if (const auto* color = std::get_if<RgbIlluminantSpectrum>(&value))
+    return numbers(fmt::format("rgb {}", name), color->rgb);
+  if (const auto* hot = std::get_if<BlackbodySpectrum>(&value)) {
+    list_ += fmt::format(" \"blackbody {}\" {}", name, hot->kelvin);
+    return number("scale", hot->luminance);
+  }
+  spectrum(name, value);
+  return number("scale", luminance(value));
+}
+
+}  // namespace vitrail::pbrt

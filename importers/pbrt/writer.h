@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the parts of the pbrt writer share.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "importers/mesh_files.h"
+#include "scene/scene.h"
+
+namespace vitrail::pbrt {
+
+struct Writer {
+  const Scene& scene;
+  std::filesystem::path directory;  // of the scene's file
+  MeshFiles meshes;
+  std::string text;
+  Diagnostics diagnostics;
+  std::vector<std::string> materials, textures, media, objects;  // names
+
+  Writer(const Scene& scene, const std::filesystem::path& out);
+
+  // ---- Text
+  void line(std::string_view what) { text += fmt::format("{:{}}{}\n", "", indent, what); }
+  void begin(std::string_view block) { line(block), indent += 4; }
+  void end(std::string_view block) { indent -= 4, line(block); }
+  void transform(const Transform& t);  // nothing for the identity
+  int indent = 0;
+
+  // ---- Diagnostics
+  void approximated(std::string message, const Origin& origin) {
+    note(Fidelity::approximated, std::move(message), origin);
+  }
+  void dropped(std::string message, const Origin& origin) {
+    note(Fidelity::dropped, std::move(message), origin);
+  }
+
+ private:
+  void note(Fidelity fidelity, std::string message, const Origin& origin) {
+    const SourceLocation place = location(scene, origin);
+    diagnostics.push_back({fidelity, std::move(message), place, place});
+  }
+};
+
+std::string in_quotes(std::string_view text);
+
+// A parameter list that is being written; `owner` is what its diagnostics are about.
+class Parameters {
+ public:
+  Parameters(Writer& writer, std::string owner, const Origin& origin)
+      : writer_(writer), owner_(std::move(owner)), origin_(origin) {}
+
+  Parameters& text(std::string_view name, std::string_view value);
+  Parameters& texts(std::string_view name, std::initializer_list<std::string_view> values);
+  Parameters& file(std::string_view name, const std::string& absolute);
+  Parameters& boolean(std::string_view name, bool value);
+  Parameters& integer(std::string_view name, int value);
+  Parameters& number(std::string_view name, float value);
+  Parameters& number(std::string_view name, double value);
+  Parameters& numbers(std::string_view type_and_name, const auto& values) {
+    list_ += fmt::format(" \"{}\" [ {} ]", type_and_name, fmt::join(values, " "));
+    return *this;
+  }
+  Parameters& number(std::string_view name, const FloatParameter& value);
+  Parameters& spectrum(std::string_view name, const SpectrumParameter& value);
+  // An input of a texture of the kind that `is_float` says.
+  Parameters& input(std::string_view name, const SpectrumParameter& value, bool is_float);
+  // Of a light: pbrt sets spectra and blackbodies to luminance 1, times "scale".
+  Parameters& emission(std::string_view name, const Spectrum& value);
+
+  void approximated(std::string_view how) {
+    writer_.approximated(fmt::format("{}: {}", owner_, how), origin_);
+  }
+  void dropped(std::string_view why) { writer_.dropped(fmt::format("{}: {}", owner_, why), origin_); }
+  const std::string& list() const { return list_; }
+  Writer& writer() { return writer_; }
+
+ private:
+  void tabulated(std::string_view name, const TabulatedSpectrum& table);
+
+  Writer& writer_;
+  std::string owner_;
+  Origin origin_;
+  std::string list_;
+};
+
+// ---- The parts, in the order of the file
+void write_view(Writer& writer);
+void write_media(Writer& writer);
+void write_textures(Writer& writer);
+void write_materials(Writer& writer);
+void write_lights(Writer& writer);
+void write_shapes(Writer& writer);
+
+// The Shape's own parameters that come from its material: pbrt's masks are the "alpha" of shapes.
+struct ShapeSurface {
+  Id<Material> material;
+  FloatParameter alpha = 1.0f;
+};
+ShapeSurface surface_of(const Scene& scene, Id<Material> material);
+
+}  // namespace vitrail::pbrt

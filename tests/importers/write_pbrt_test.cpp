@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: Apache-2.0
+// pbrt → Scene → pbrt → Scene gives an equal Scene.
+#include "importers/pbrt/write_pbrt.h"
+
+#include <fstream>
+
+#include "pbrt_text.h"
+#include "tests/support/equal_scenes.h"
+
+namespace vitrail {
+namespace {
+
+struct RoundTrip {
+  ImportedScene first, second;
+  Diagnostics written;
+  std::string text;
+};
+RoundTrip round_trip(const std::string& text) {
+  const TemporaryFolder folder;
+  RoundTrip result;
+  result.first = read_pbrt(folder.write("scene.pbrt", text));
+  const std::filesystem::path out = folder / "out.pbrt";
+  result.written = write_pbrt(result.first.scene, out);
+  std::ifstream file(out);
+  result.text.assign(std::istreambuf_iterator<char>(file), {});
+  result.second = read_pbrt(out);
+  return result;
+}
+
+// Nothing is lost in writing, and what is read again is the same.
+void expect_exact(const std::string& text) {
+  const RoundTrip trip = round_trip(text);
+  for (const Diagnostic& d : trip.written) ADD_FAILURE() << d.message;
+  EXPECT_EQ(test::difference(trip.first.scene, trip.second.scene), "") << text << "\n became\n" << trip.text;
+}
+void expect_exact_world(const std::string& world) { expect_exact("Film \"rgb\"\nWorldBegin\n" + world); }
+void expect_exact_material(const std::string& directives) { expect_exact_world(directives + " " + triangle); }
+
+TEST(WritePbrt, Cameras) {
+  for (const char* camera :
+       {"LookAt 1 2 3 4 5.5 6 0 0 1 Camera \"perspective\" \"float fov\" 36.7",
+        "Scale -1 1 1 LookAt .1 .2 .3 4 5 6 0 1 0 Camera \"perspective\"",
+        "Rotate 33 1 2 3 Camera \"perspective\" \"float screenwindow\" [-1 .5 -.25 .75] \"float fov\" 60",
+        "Translate 1e6 2e5 .3 Rotate 10 0 1 .1 Camera \"perspective\" \"float lensradius\" .01 \"float "
+        "focaldistance\" 4",
+        "Camera \"perspective\" \"float frameaspectratio\" 3",
+        "Camera \"orthographic\" \"float screenwindow\" [-3 3 -2 2]", "Camera \"orthographic\"",
+        "Camera \"spherical\" \"string mapping\" \"equirectangular\""})
+    for (const char* film : {"\"integer xresolution\" 300 \"integer yresolution\" 700", ""})
+      expect_exact(std::string(camera) + " Film \"rgb\" " + film + " WorldBegin " + triangle);
+}
+
+TEST(WritePbrt, FilmsFiltersAndSettings) {
+  for (const char* settings :
+       {"Film \"rgb\" \"integer pixelbounds\" [10 20 30 50] \"float iso\" 150 PixelFilter \"box\"",
+        "Film \"rgb\" PixelFilter \"mitchell\" \"float B\" .3 \"float xradius\" 1.7 Sampler \"sobol\" "
+        "\"integer "
+        "pixelsamples\" 77",
+        "Film \"rgb\" PixelFilter \"sinc\" Integrator \"volpath\" \"integer maxdepth\" 17",
+        "Film \"rgb\" PixelFilter \"gaussian\" \"float sigma\" .7", "Film \"rgb\" PixelFilter \"triangle\""})
+    expect_exact(std::string(settings) + " WorldBegin " + triangle);
+}
+
+TEST(WritePbrt, Materials) {
+  for (const char* material :
+       {"Material \"diffuse\" \"rgb reflectance\" [.1 .2 .3]",
+        "Material \"diffuse\" \"spectrum reflectance\" [400 .2 700 .8]",
+        "Material \"diffuse\" \"float reflectance\" .3",
+        "Material \"dielectric\" \"spectrum eta\" \"glass-BK7\"",
+        "Material \"dielectric\" \"float eta\" 1.31 \"float uroughness\" .2 \"float vroughness\" .3",
+        "Material \"thindielectric\" \"float eta\" 1.31",
+        "Material \"conductor\" \"float roughness\" .1",
+        "Material \"conductor\" \"spectrum eta\" \"metal-Au-eta\" \"spectrum k\" \"metal-Au-k\"",
+        "Material \"conductor\" \"rgb reflectance\" [.9 .8 .7]",
+        "Material \"coateddiffuse\" \"rgb reflectance\" [.9 .8 .7] \"float thickness\" .3 \"rgb albedo\" [.1 "
+        ".2 .3]",
+        "Material \"coatedconductor\" \"float conductor.roughness\" .3 \"float interface.roughness\" .1",
+        "Material \"diffusetransmission\" \"rgb transmittance\" [.1 .4 .3] \"float scale\" .7",
+        "Material \"subsurface\" \"string name\" \"Skin1\"",
+        "Material \"subsurface\" \"rgb sigma_a\" [.1 2 3]",
+        "Material \"subsurface\" \"rgb mfp\" [1 2 3] \"rgb reflectance\" [.1 .2 .3]",
+        "Material \"hair\" \"rgb reflectance\" [.1 .2 .3]",
+        "Material \"hair\" \"float eumelanin\" .7",
+        "Material \"measured\" \"string filename\" \"paper.bsdf\"",
+        "Material \"interface\"",
+        "MakeNamedMaterial \"a \\\"b\\\"\" \"string type\" \"diffuse\" MakeNamedMaterial \"c\" \"string "
+        "type\" \"conductor\" "
+        "Material \"mix\" \"string materials\" [\"a \\\"b\\\"\" \"c\"] \"float amount\" .3",
+        "Material \"diffuse\" \"string normalmap\" \"n.png\""})
+    expect_exact_material(material);
+}
+
+TEST(WritePbrt, NamesOfMaterialsSurvive) {
+  const RoundTrip trip = round_trip(
+      "Film \"rgb\" WorldBegin MakeNamedMaterial \"brick wall\" \"string type\" \"diffuse\" "
+      "NamedMaterial \"brick wall\" " +
+      triangle + "Material \"diffuse\" " + triangle);
+  const Scene& scene = trip.second.scene;
+  EXPECT_EQ(scene.materials.at(scene.shapes.at(0).material.value).name, "brick wall");
+  EXPECT_NE(scene.materials.at(scene.shapes.at(1).material.value).name, "brick wall");
+}
+
+TEST(WritePbrt, Textures) {
+  const std::string use = " Material \"diffuse\" \"texture reflectance\" \"t\" " + triangle;
+  for (const char* texture :
+       {"Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"tex/a b.png\" \"float uscale\" 3.3 "
+        "\"string "
+        "encoding\" \"gamma 1.9\"",
+        "Texture \"t\" \"spectrum\" \"checkerboard\" \"rgb tex1\" [.1 .2 .3] \"float vdelta\" .1",
+        "Rotate 30 1 2 3 Texture \"t\" \"spectrum\" \"checkerboard\" \"integer dimension\" 3",
+        "Translate 1 2 3 Texture \"t\" \"spectrum\" \"marble\" \"float variation\" .3 Identity",
+        "Scale 3 3 3 Texture \"t\" \"spectrum\" \"bilerp\" \"string mapping\" \"spherical\" \"rgb v00\" [1 0 "
+        "0]",
+        "Texture \"t\" \"spectrum\" \"dots\" \"string mapping\" \"planar\" \"vector3 v1\" [1 2 3] \"float "
+        "udelta\" .7",
+        "Texture \"f\" \"float\" \"fbm\" Texture \"t\" \"spectrum\" \"mix\" \"rgb tex1\" [3 2 1] \"texture "
+        "amount\" \"f\"",
+        "Texture \"f\" \"float\" \"wrinkled\" Texture \"f\" \"float\" \"scale\" \"texture tex\" \"f\" "
+        "\"float scale\" 2 "
+        "Texture \"t\" \"spectrum\" \"scale\" \"rgb tex\" [.3 .2 .1] \"texture scale\" \"f\"",
+        "Texture \"t\" \"spectrum\" \"directionmix\" \"vector3 dir\" [1 2 3]",
+        "Texture \"t\" \"spectrum\" \"ptex\" \"string filename\" \"a.ptx\""})
+    expect_exact_world(texture + use);
+  expect_exact_material(
+      "Texture \"r\" \"float\" \"imagemap\" \"string filename\" \"r.png\" Material \"conductor\" \"texture "
+      "uroughness\" \"r\" \"float vroughness\" .25 \"texture displacement\" \"r\"");
+}
+
+TEST(WritePbrt, Lights) {
+  for (const char* light :
+       {"LightSource \"point\" \"rgb I\" [1 2 3] \"point3 from\" [.1 .2 .3] \"float scale\" .7",
+        "LightSource \"point\" \"blackbody I\" 5000 \"float power\" 77",
+        "LightSource \"point\" \"spectrum I\" [400 1 700 3]",
+        "LightSource \"point\" \"spectrum I\" \"stdillum-D65\" \"float scale\" 3",
+        "LightSource \"point\" \"spectrum I\" [300 2 900 2] \"float scale\" .3",
+        "Rotate 20 1 2 3 LightSource \"spot\" \"point3 from\" [1 2 3] \"point3 to\" [3 3 3] \"float "
+        "coneangle\" 33.3",
+        "Scale 2 2 2 LightSource \"distant\" \"point3 from\" [1 2 3] \"point3 to\" [3 4 7] \"float "
+        "illuminance\" 3",
+        "LightSource \"infinite\" \"rgb L\" [.1 .2 .3]",
+        "Rotate 20 1 2 3 LightSource \"infinite\" \"string filename\" \"sky.exr\" \"float scale\" .3 \"float "
+        "illuminance\" 9",
+        "Translate 1 2 3 LightSource \"projection\" \"string filename\" \"slide.png\" \"float fov\" 33 "
+        "\"float power\" 9",
+        "Translate 1 2 3 LightSource \"goniometric\" \"string filename\" \"lamp.exr\" \"rgb I\" [3 2 1]"})
+    expect_exact_world(light + std::string(" ") + triangle);
+}
+
+TEST(WritePbrt, AreaLights) {
+  for (const char* light : {"AreaLightSource \"diffuse\" \"rgb L\" [3 2 1] \"bool twosided\" true",
+                            "AreaLightSource \"diffuse\" \"blackbody L\" 3000",
+                            "AreaLightSource \"diffuse\" \"spectrum L\" [400 1 700 3] \"float power\" 30",
+                            "AreaLightSource \"diffuse\" \"string filename\" \"sign.png\" \"float scale\" 4"})
+    expect_exact_world(light + std::string(" ") + triangle + "Translate 1 2 3 " + triangle);
+}
+
+TEST(WritePbrt, ShapesAndInstances) {
+  expect_exact_world(
+      "Scale -1 1 1 " + triangle + "ReverseOrientation " + triangle +
+      "Shape \"sphere\" Rotate 33 1 2 3 Shape \"loopsubdiv\" \"integer indices\" [0 1 2 0 2 3 0 3 1 1 3 2] "
+      "\"point3 P\" [0 0 0 1 0 0 0 1 0 0 0 1]");
+  expect_exact_world(
+      "Shape \"trianglemesh\" \"point3 P\" [0 0 0 1e-3 0.1 0 0 1 .33] \"normal N\" [0 0 1 0 1 1 0 0 3] "
+      "\"point2 uv\" [.1 .2 .3 .4 .5 .6] \"float alpha\" .3");
+  expect_exact_world("Shape \"trianglemesh\" \"point3 P\" [1e6 1e6 0 1000001 1e6 0 1e6 1000001.25 0]");
+  expect_exact_world("ObjectBegin \"o\" Translate 1 2 3 " + triangle +
+                     "Shape \"disk\" ObjectEnd ObjectInstance \"o\" "
+                     "Scale -1 2 3 ObjectInstance \"o\"");
+}
+
+TEST(WritePbrt, Media) {
+  const std::string use = "MediumInterface \"m\" \"\" Material \"interface\" " + triangle;
+  for (const char* medium :
+       {"\"string type\" \"homogeneous\" \"rgb sigma_a\" [.1 .2 .3] \"rgb sigma_s\" [3 2 1] \"float g\" .3 "
+        "\"float scale\" 7",
+        "\"string type\" \"homogeneous\" \"string preset\" \"Ketchup\" \"rgb Le\" [1 2 3] \"float Lescale\" "
+        "3",
+        "\"string type\" \"uniformgrid\" \"integer nx\" 2 \"integer ny\" 1 \"integer nz\" 1 \"float "
+        "density\" [.1 .2] \"point3 "
+        "p1\" [2 3 4]",
+        "\"string type\" \"cloud\" \"float density\" 3",
+        "\"string type\" \"nanovdb\" \"string filename\" \"fire.nvdb\"",
+        "\"string type\" \"rgbgrid\" \"rgb sigma_s\" [1 2 3] \"rgb sigma_a\" [.3 .2 .1]"})
+    expect_exact_world("Translate 1 2 3 MakeNamedMedium \"m\" " + std::string(medium) + " " + use);
+  expect_exact(
+      "MediumInterface \"\" \"fog\" Camera \"perspective\" Film \"rgb\" MakeNamedMedium \"fog\" \"string "
+      "type\" "
+      "\"homogeneous\" WorldBegin " +
+      triangle);
+}
+
+TEST(WritePbrt, WhatV4CannotSayIsReported) {
+  const RoundTrip trip = round_trip("Film \"image\" WorldBegin Material \"matte\" \"float sigma\" 20\n" +
+                                    triangle + "Material \"mirror\" " + triangle +
+                                    "Material \"glass\" \"rgb Kt\" [.5 1 1] " + triangle + "WorldEnd");
+  EXPECT_TRUE(mentions(trip.written, "sigma"));
+  EXPECT_TRUE(mentions(trip.written, "mirror"));
+  EXPECT_TRUE(mentions(trip.written, "factors of reflection"));
+  for (const Diagnostic& d : trip.written) EXPECT_GT(d.location.line, 0) << d.message;
+}
+
+}  // namespace
+}  // namespace vitrail
