@@ -10,7 +10,8 @@ namespace vitrail {
 
 // Polygons, their normals and texture coordinates; one mesh and one shape for each material (two or more
 // where some of its faces have normals or texture coordinates and others have not). Objects and groups carry
-// nothing that shows. Materials (mtl.h); faces without one are diffuse, 0.5. The camera and the lights
+// nothing that shows. Vertices are in the order of the file where all corners have one index for everything,
+// else in that of their use. Materials (mtl.h); faces without one are diffuse, 0.5. The camera and the lights
 // besides Ke are left at their defaults. A file that lies far from the origin is moved to it, its place kept
 // in object_to_world: vertices are floats. Points, lines, curves and surfaces are dropped with diagnostics;
 // wrong indices and numbers throw Error. A face with vertex index 0 can only come from a program that counts

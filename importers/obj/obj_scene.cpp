@@ -3,13 +3,12 @@
 
 #include <fmt/format.h>
 
-#include <limits>
 #include <map>
 #include <set>
 
 #include "importers/obj/mtl.h"
+#include "importers/obj/obj_meshes.h"
 #include "importers/ply/text_cursor.h"
-#include "scene/bounds.h"
 
 namespace vitrail::obj {
 
@@ -94,96 +93,24 @@ Surface add_surface(const Mention& use, const Library& library, ImportedScene& r
   return surface;
 }
 
-// ---- Meshes -------------------------------------------------------------------------------------
-
-// Where a file's coordinates are much larger than its extent, floats would not hold its shape: what to
-// subtract.
-Vector3d offset_of(const std::vector<Point3d>& positions) {
-  constexpr double far = 16;  // distance over half extent: four bits lost
-  Bounds3d bounds;
-  for (const Point3d& p : positions) extend(bounds, p);
-  if (bounds.empty()) return {};
-  const Vector3d away = center(bounds) - Point3d{}, half = extent(bounds) * 0.5;
-  const bool is_far = length(away) > far * length(half) && length(half) > 0;
-  return is_far ? cast<double>(cast<float>(away)) : Vector3d{};
-}
-
-class MeshBuilder {
- public:
-  MeshBuilder(const Geometry& geometry, Vector3d offset)
-      : geometry_(geometry), offset_(offset), first_(geometry.positions.size(), none) {}
-
-  // Corners that agree in all indices become one vertex.
-  TriangleMesh build(const Group& group) {
-    mesh_ = {};
-    vertices_.clear();
-    const std::size_t step = group.indices_a_corner();
-    mesh_.triangles.reserve(group.corners.size() / step / 3);
-    std::array<std::uint32_t, 3> triangle{};
-    for (std::size_t i = 0, corner = 0; i < group.corners.size(); i += step) {
-      const std::uint32_t* index = &group.corners[i];
-      const std::uint32_t position = *index++;
-      const std::uint32_t uv = group.has_uvs ? *index++ : none;
-      triangle[corner] = vertex({position, uv, group.has_normals ? *index : none, none});
-      if (++corner == 3) {
-        mesh_.triangles.push_back(triangle);
-        corner = 0;
-      }
-    }
-    for (const Vertex& v : vertices_) first_[v.position] = none;
-    return std::move(mesh_);
-  }
-
- private:
-  static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
-
-  struct Vertex {
-    std::uint32_t position, uv, normal;
-    std::uint32_t next;  // of the mesh's vertices at the same position
-  };
-
-  std::uint32_t vertex(Vertex wanted) {
-    std::uint32_t* link = &first_[wanted.position];
-    for (; *link != none; link = &vertices_[*link].next) {
-      const Vertex& v = vertices_[*link];
-      if (v.uv == wanted.uv && v.normal == wanted.normal) return *link;
-    }
-    const auto index = static_cast<std::uint32_t>(vertices_.size());
-    *link = index;
-    vertices_.push_back(wanted);
-    mesh_.positions.push_back(cast<float>(geometry_.positions[wanted.position] - offset_));
-    if (wanted.uv != none) mesh_.uvs.push_back(geometry_.uvs[wanted.uv]);
-    if (wanted.normal != none) mesh_.normals.push_back(geometry_.normals[wanted.normal]);
-    return index;
-  }
-
-  const Geometry& geometry_;
-  Vector3d offset_;
-  std::vector<std::uint32_t> first_;  // of the mesh's vertices at each position
-  std::vector<Vertex> vertices_;
-  TriangleMesh mesh_;
-};
-
 }  // namespace
 
-ImportedScene to_scene(Geometry&& geometry, const std::filesystem::path& file) {
+ImportedScene to_scene(Geometry&& geometry, Vector3d offset, const std::filesystem::path& file) {
   ImportedScene result;
   result.diagnostics = std::move(geometry.diagnostics);
   const Library library = read_libraries(geometry, file.parent_path(), result.diagnostics);
-  const Vector3d offset = offset_of(geometry.positions);
-  MeshBuilder builder(geometry, offset);
   std::vector<std::optional<Surface>> surfaces(geometry.materials.size());
-  for (Group& group : geometry.groups) {
+  for (const Group& group : geometry.groups) {
     std::optional<Surface>& surface = surfaces[group.material];
     if (!surface) surface = add_surface(geometry.materials[group.material], library, result);
     Shape shape;
-    shape.mesh = append(result.scene.meshes, builder.build(group));
+    shape.mesh = {static_cast<std::uint32_t>(result.scene.shapes.size())};
     shape.material = surface->material;
     shape.area_light = surface->light;
     shape.object_to_world = translate(offset);
     result.scene.shapes.push_back(shape);
-    group.corners = {};
   }
+  result.scene.meshes = to_meshes(std::move(geometry));
   return result;
 }
 

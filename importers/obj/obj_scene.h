@@ -7,8 +7,8 @@
 
 namespace vitrail::obj {
 
-// One mesh and shape a group, with the materials that are used. Libraries are sought beside `file`; those
-// that are not there are reported.
-ImportedScene to_scene(Geometry&& geometry, const std::filesystem::path& file);
+// One mesh and shape a group, with the materials that are used; `offset` is what was subtracted from
+// positions. Libraries are sought beside `file`; those that are not there are reported.
+ImportedScene to_scene(Geometry&& geometry, Vector3d offset, const std::filesystem::path& file);
 
 }  // namespace vitrail::obj

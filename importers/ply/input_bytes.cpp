@@ -76,10 +76,11 @@ void InputBytes::inflate(gzFile_s* input, const std::filesystem::path& file) {
 }
 
 void InputBytes::release_before(const char* position) {
-  constexpr std::size_t step = std::size_t{16} << 20;  // a multiple of every page size
+  constexpr std::size_t step = std::size_t{4} << 20;  // a multiple of every page size
   const auto consumed = static_cast<std::size_t>(position - begin_) / step * step;
-  if (!mapped_ || consumed <= released_) return;
-  ::madvise(const_cast<char*>(begin_) + released_, consumed - released_, MADV_DONTNEED);
+  if (mapped_ && consumed > released_) {
+    ::madvise(const_cast<char*>(begin_) + released_, consumed - released_, MADV_DONTNEED);
+  }
   released_ = consumed;
 }
 

@@ -23,6 +23,7 @@ class InputBytes {
   std::size_t size() const { return size_; }
 
   // Lets the pages before `position` leave memory; they come back from the file if they are read again.
+  // Positions increase, or begin anew where the file is read once more.
   void release_before(const char* position);
 
  private:

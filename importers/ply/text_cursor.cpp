@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <charconv>
 
+#include "importers/ply/plain_decimal.h"
+
 namespace vitrail {
 
 namespace {
@@ -104,6 +106,11 @@ double TextCursor::number(const char* what) {
   skip_blanks();
   const char* const begin = at_;
   double value = 0;
+  if (const char* const stop = plain_decimal(at_, end_, value)) {
+    at_ = stop;
+    if (at_separator()) return value;
+    at_ = begin;
+  }
   const char* const digits = at_ != end_ && *at_ == '+' ? at_ + 1 : at_;
   const auto [stop, error] = fast_float::from_chars(digits, end_, value);
   at_ = stop;

@@ -14,15 +14,17 @@ namespace vitrail {
 std::string printable(std::string_view text, std::size_t longest = 40);
 
 // Reads words and numbers of a text and knows where it is. Lines end with \n, \r\n or \r; a backslash before
-// the end of a line joins it with the next one if `continuations` is set. Cheap to copy; the text and the
-// name outlive it.
+// the end of a line joins it with the next one if `continuations` is set. Cheap to copy; the text, of
+// which `begin` starts a line, and the name outlive it.
 class TextCursor {
  public:
-  TextCursor(std::string_view file, const char* begin, const char* end, bool continuations = false)
-      : file_(file), at_(begin), end_(end), line_begin_(begin), continuations_(continuations) {}
+  TextCursor(std::string_view file, const char* begin, const char* end, bool continuations = false,
+             int line = 1)
+      : file_(file), at_(begin), end_(end), line_begin_(begin), line_(line), continuations_(continuations) {}
 
   const char* at() const { return at_; }
   const char* end() const { return end_; }
+  int line() const { return line_; }
   // True if `c` comes next.
   bool sees(char c) const { return at_ != end_ && *at_ == c; }
 
@@ -66,7 +68,7 @@ class TextCursor {
   const char* at_;
   const char* end_;
   const char* line_begin_;
-  int line_ = 1;
+  int line_;
   bool continuations_;
 };
 
