@@ -8,6 +8,7 @@
 #include <unistd.h>
 #include <zlib.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <memory>
@@ -22,6 +23,16 @@ namespace {
 bool starts_gzip(int descriptor) {
   unsigned char magic[2] = {};
   return ::pread(descriptor, magic, 2, 0) == 2 && magic[0] == 0x1f && magic[1] == 0x8b;
+}
+
+// What a gzipped file or a pipe may hold. Text and meshes deflate to between a third and a twentieth; a bomb
+// of one byte repeated to a thousandth. And half of the machine's memory, because all of it is held.
+std::size_t most_inflated(const struct stat& status) {
+  constexpr std::size_t always = std::size_t{64} << 20, most_ratio = 128;
+  const auto pages = static_cast<std::size_t>(::sysconf(_SC_PHYS_PAGES));
+  const std::size_t half_memory = pages * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE)) / 2;
+  if (!S_ISREG(status.st_mode)) return half_memory;
+  return std::min(half_memory, std::max(always, most_ratio * static_cast<std::size_t>(status.st_size)));
 }
 
 }  // namespace
@@ -40,7 +51,7 @@ InputBytes::InputBytes(const std::filesystem::path& file) {
   if (S_ISDIR(status.st_mode)) throw Error("this is a directory, not a file", {file.string()});
   const bool mappable = S_ISREG(status.st_mode) && status.st_size > 0 && !starts_gzip(descriptor);
   if (mappable) map(descriptor, static_cast<std::size_t>(status.st_size));
-  if (!mapped_) inflate(reader.get(), file);
+  if (!mapped_) inflate(reader.get(), file, most_inflated(status));
 }
 
 InputBytes::~InputBytes() {
@@ -56,32 +67,47 @@ void InputBytes::map(int descriptor, std::size_t size) {
   mapped_ = true;
 }
 
-void InputBytes::inflate(gzFile_s* input, const std::filesystem::path& file) {
+void InputBytes::inflate(gzFile_s* input, const std::filesystem::path& file, std::size_t limit) {
   constexpr unsigned chunk = 1u << 20;
   ::gzbuffer(input, chunk);
   const auto buffer = std::make_unique<char[]>(chunk);
   for (;;) {
     const int got = ::gzread(input, buffer.get(), chunk);
-    if (got > 0) inflated_.insert(inflated_.end(), buffer.get(), buffer.get() + got);
+    if (got > 0) inflated_.append({buffer.get(), static_cast<std::size_t>(got)});
     int code = Z_OK;
     const char* const reason = ::gzerror(input, &code);
     if (got < 0 || (code != Z_OK && code != Z_STREAM_END)) {
       throw Error(fmt::format("cannot inflate the file after {} bytes: {}", inflated_.size(), reason),
                   {file.string()});
     }
+    if (inflated_.size() > limit) {
+      throw Error(
+          fmt::format(
+              "the file inflates to more than {} MiB, which no mesh or scene of its size does: inflate "
+              "it first if it is sound",
+              limit >> 20),
+          {file.string()});
+    }
     if (got == 0) break;
   }
-  begin_ = inflated_.data();
+  begin_ = inflated_.begin();
   size_ = inflated_.size();
 }
 
 void InputBytes::release_before(const char* position) {
+  const char* begin = begin_ + released_;
+  if (position < begin) begin = begin_;
+  release(begin, position);
+  released_ = static_cast<std::size_t>(begin - begin_);
+}
+
+void InputBytes::release(const char*& begin, const char* end) const {
   constexpr std::size_t step = std::size_t{4} << 20;  // a multiple of every page size
-  const auto consumed = static_cast<std::size_t>(position - begin_) / step * step;
-  if (mapped_ && consumed > released_) {
-    ::madvise(const_cast<char*>(begin_) + released_, consumed - released_, MADV_DONTNEED);
-  }
-  released_ = consumed;
+  const std::size_t from = (static_cast<std::size_t>(begin - begin_) + step - 1) / step * step;
+  const std::size_t to = static_cast<std::size_t>(end - begin_) / step * step;
+  if (to <= from) return;
+  if (mapped_) ::madvise(const_cast<char*>(begin_) + from, to - from, MADV_DONTNEED);
+  begin = begin_ + to;
 }
 
 }  // namespace vitrail

@@ -3,14 +3,16 @@
 
 #include <cstddef>
 #include <filesystem>
-#include <vector>
+
+#include "importers/ply/growing_array.h"
 
 struct gzFile_s;
 
 namespace vitrail {
 
 // The bytes of an input file: mapped, or inflated where it is gzipped (by content, whatever its name). They
-// stay at their address for the life of the object. A file that cannot be opened or inflated throws Error.
+// stay at their address for the life of the object. A file that cannot be opened or inflated, or inflates to
+// more than 128 times its size (and 64 MiB) or than half of the machine's memory, throws Error.
 class InputBytes {
  public:
   explicit InputBytes(const std::filesystem::path& file);
@@ -25,16 +27,19 @@ class InputBytes {
   // Lets the pages before `position` leave memory; they come back from the file if they are read again.
   // Positions increase, or begin anew where the file is read once more.
   void release_before(const char* position);
+  // The same between two positions, once they are a few megabytes apart: `begin` then moves on. Threads may
+  // each release what they have read themselves.
+  void release(const char*& begin, const char* end) const;
 
  private:
   void map(int descriptor, std::size_t size);
-  void inflate(gzFile_s* input, const std::filesystem::path& file);
+  void inflate(gzFile_s* input, const std::filesystem::path& file, std::size_t limit);
 
   const char* begin_ = nullptr;
   std::size_t size_ = 0;
   std::size_t released_ = 0;
   bool mapped_ = false;
-  std::vector<char> inflated_;
+  GrowingArray<char> inflated_;
 };
 
 }  // namespace vitrail

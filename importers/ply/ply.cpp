@@ -53,33 +53,50 @@ VertexLayout find_layout(const Element& vertex) {
   return layout;
 }
 
-BodyPlan make_plan(const Header& header, const TextCursor& cursor) {
-  const auto vertex = find_element(header, "vertex"), face = find_element(header, "face");
-  if (!vertex) cursor.fail("the file has no element vertex");
-  if (!face) cursor.fail("the file has no element face: a cloud of points has no surface");
-  BodyPlan plan{*vertex, find_layout(header.elements[*vertex]), *face, 0};
-  const Element& faces = header.elements[*face];
+BodyPlan::Faces find_corners(const Header& header, std::size_t element) {
+  const Element& faces = header.elements[element];
   auto list = find_property(faces, "vertex_indices", true);
   if (!list) list = find_property(faces, "vertex_index", true);
   if (!list || !is_integer(faces.properties[*list].type)) {
-    throw Error("element face needs a list of integers vertex_indices", faces.location, faces.excerpt);
+    throw Error(fmt::format("element {} needs a list of integers vertex_indices", faces.name), faces.location,
+                faces.excerpt);
   }
-  plan.corner_list = *list;
+  return {element, *list};
+}
+
+BodyPlan make_plan(const Header& header, const TextCursor& cursor) {
+  const auto vertex = find_element(header, "vertex");
+  if (!vertex) cursor.fail("the file has no element vertex");
+  BodyPlan plan{*vertex, find_layout(header.elements[*vertex]), {}, {}};
+  if (const auto face = find_element(header, "face")) plan.faces = find_corners(header, *face);
+  if (const auto strips = find_element(header, "tristrips")) plan.strips = find_corners(header, *strips);
+  if (!plan.faces && !plan.strips)
+    cursor.fail("the file has no element face or tristrips: a cloud of points has no surface");
   return plan;
+}
+
+bool is_used(const BodyPlan& plan, std::size_t element) {
+  return element == plan.vertex_element || (plan.faces && element == plan.faces->element) ||
+         (plan.strips && element == plan.strips->element);
+}
+
+bool is_used(const BodyPlan& plan, std::size_t element, std::size_t property) {
+  if (element == plan.vertex_element)
+    return std::ranges::count(plan.vertex.property, std::optional(property)) > 0;
+  return std::ranges::any_of(std::array{plan.faces, plan.strips}, [&](const auto& faces) {
+    return faces && faces->element == element && faces->corner_list == property;
+  });
 }
 
 void report_skipped(const Header& header, const BodyPlan& plan, Diagnostics& diagnostics) {
   for (std::size_t e = 0; e < header.elements.size(); ++e) {
     const Element& element = header.elements[e];
-    if (e != plan.vertex_element && e != plan.face_element) {
+    if (!is_used(plan, e)) {
       diagnostics.push_back({Fidelity::dropped, fmt::format("element {}", element.name), element.location});
       continue;
     }
     for (std::size_t i = 0; i < element.properties.size(); ++i) {
-      const bool used = e == plan.face_element
-                            ? i == plan.corner_list
-                            : std::ranges::count(plan.vertex.property, std::optional(i)) > 0;
-      if (used) continue;
+      if (is_used(plan, e, i)) continue;
       const Property& property = element.properties[i];
       diagnostics.push_back({Fidelity::dropped,
                              fmt::format("property {} of element {}", property.name, element.name),
@@ -91,7 +108,7 @@ void report_skipped(const Header& header, const BodyPlan& plan, Diagnostics& dia
 }  // namespace
 
 TriangleMesh read_ply(const std::filesystem::path& file, Diagnostics* diagnostics) {
-  InputBytes bytes(file);
+  const InputBytes bytes(file);
   const std::string name = file.string();
   TextCursor cursor(name, bytes.begin(), bytes.end());
   const Header header = read_header(cursor);
@@ -102,7 +119,7 @@ TriangleMesh read_ply(const std::filesystem::path& file, Diagnostics* diagnostic
     if (body.dropped_faces > 0) {
       diagnostics->push_back({Fidelity::dropped,
                               fmt::format("{} faces with fewer than three corners", body.dropped_faces),
-                              header.elements[plan.face_element].location});
+                              header.elements[plan.faces->element].location});
     }
   }
   return std::move(body.mesh);

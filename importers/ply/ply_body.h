@@ -21,8 +21,12 @@ struct VertexLayout {
 struct BodyPlan {
   std::size_t vertex_element = 0;
   VertexLayout vertex;
-  std::size_t face_element = 0;
-  std::size_t corner_list = 0;  // property of the face element
+  // Faces or strips of triangles or both.
+  struct Faces {
+    std::size_t element = 0;
+    std::size_t corner_list = 0;  // property of the element
+  };
+  std::optional<Faces> faces, strips;
 };
 
 struct Body {
@@ -31,6 +35,6 @@ struct Body {
 };
 
 // `cursor` stands at the first byte of the body.
-Body read_body(InputBytes& bytes, const TextCursor& cursor, const Header& header, const BodyPlan& plan);
+Body read_body(const InputBytes& bytes, const TextCursor& cursor, const Header& header, const BodyPlan& plan);
 
 }  // namespace vitrail::ply

@@ -51,8 +51,8 @@ class BinarySource {
  public:
   static constexpr bool binary = true, swapped = big_endian;
 
-  BinarySource(InputBytes& bytes, const TextCursor& cursor)
-      : bytes_(&bytes), at_(cursor.at()), end_(cursor.end()), last_(at_) {}
+  BinarySource(const InputBytes& bytes, const TextCursor& cursor)
+      : bytes_(&bytes), at_(cursor.at()), end_(cursor.end()), last_(at_), released_(at_) {}
 
   double number(const Element& element, const Property& property) { return next(element, property.type); }
 
@@ -66,13 +66,16 @@ class BinarySource {
     return static_cast<std::uint64_t>(length);
   }
 
+  bool has_room(const Element& element) const {
+    const std::size_t size = element.row_size();
+    return size == 0 || element.count <= left() / size;
+  }
   // Before memory is claimed for the rows of an element.
   void require_room(const Element& element) const {
-    const std::size_t size = element.row_size();
-    if (size > 0 && element.count > left() / size) {
+    if (!has_room(element)) {
       fail(element,
            fmt::format("element {} announces {} rows of {} bytes or more, but only {} bytes are left",
-                       element.name, element.count, size, left()),
+                       element.name, element.count, element.row_size(), left()),
            at_);
     }
   }
@@ -80,7 +83,7 @@ class BinarySource {
   const char* at() const { return at_; }
   std::size_t left() const { return static_cast<std::size_t>(end_ - at_); }
   void skip(std::size_t size) { at_ += size; }
-  void release_read() { bytes_->release_before(at_); }
+  void release_read() { bytes_->release(released_, at_); }
 
   [[noreturn]] void fail(const Element& element, const std::string& message, const char* position) const {
     throw Error(fmt::format("{} (byte {} of the file)", message, position - bytes_->begin()),
@@ -99,21 +102,25 @@ class BinarySource {
     return with_type(type, [&](auto t) { return static_cast<double>(load<decltype(t), big_endian>(last_)); });
   }
 
-  InputBytes* bytes_;
+  const InputBytes* bytes_;
   const char* at_;
   const char* end_;
   const char* last_;
+  const char* released_;
 };
 
 class AsciiSource {
  public:
   static constexpr bool binary = false;
 
-  AsciiSource(InputBytes&, const TextCursor& cursor) : cursor_(cursor), last_(cursor) {}
+  AsciiSource(const InputBytes& bytes, const TextCursor& cursor)
+      : bytes_(&bytes), cursor_(cursor), last_(cursor.at()), released_(last_) {}
 
   double number(const Element& element, const Property& property) {
+    double value = 0;
+    if (cursor_.next_plain_number(value, last_)) return value;
     if (!cursor_.skip_to_text()) cursor_.fail(fmt::format("the file ends within element {}", element.name));
-    last_ = cursor_;
+    last_ = cursor_.at();
     return cursor_.number(property.name.c_str());
   }
 
@@ -137,12 +144,15 @@ class AsciiSource {
   }
 
   std::size_t left() const { return static_cast<std::size_t>(cursor_.end() - cursor_.at()); }
-  void release_read() {}
+  void release_read() { bytes_->release(released_, cursor_.at()); }
 
-  [[noreturn]] void fail(const Element&, const std::string& message) const { last_.fail(message); }
+  [[noreturn]] void fail(const Element&, const std::string& message) const { cursor_.fail(message, last_); }
 
  private:
-  TextCursor cursor_, last_;
+  const InputBytes* bytes_;
+  TextCursor cursor_;
+  const char* last_;  // the value that was read last: in the cursor's line
+  const char* released_;
 };
 
 }  // namespace vitrail::ply

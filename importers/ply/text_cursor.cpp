@@ -7,8 +7,6 @@
 #include <algorithm>
 #include <charconv>
 
-#include "importers/ply/plain_decimal.h"
-
 namespace vitrail {
 
 namespace {

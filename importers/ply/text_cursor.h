@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "importers/ply/plain_decimal.h"
 #include "scene/diagnostics.h"
 
 namespace vitrail {
@@ -43,6 +44,20 @@ class TextCursor {
   // A number that ends at a blank or the end of the line; anything else throws Error. `what` names it in the
   // message.
   double number(const char* what);
+  // The next number if it is a plain one (plain_decimal.h) behind spaces and line feeds; its place goes to
+  // `begin`. Otherwise false, and perhaps blanks have been skipped.
+  bool next_plain_number(double& value, const char*& begin) {
+    for (; at_ != end_ && (*at_ == ' ' || *at_ == '\n'); ++at_) {
+      if (*at_ != '\n') continue;
+      line_begin_ = at_ + 1;
+      ++line_;
+    }
+    const char* const stop = plain_decimal(at_, end_, value);
+    if (!stop || (stop != end_ && *stop != ' ' && *stop != '\n')) return false;
+    begin = at_;
+    at_ = stop;
+    return true;
+  }
   // Consumes `c` if it comes next.
   bool accept(char c);
   // A decimal integer, which must fit; nothing is required to follow it.

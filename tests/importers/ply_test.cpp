@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "importers/ply/ply.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <zlib.h>
 
@@ -184,6 +185,107 @@ TEST_F(Ply, ManyVertices) {
     const auto f = static_cast<float>(10 * i);
     ASSERT_EQ(mesh.positions[static_cast<std::size_t>(i)], (Point3f{f, f + 1, f + 2}));
     ASSERT_EQ(mesh.normals[static_cast<std::size_t>(i)], (Normal3f{f + 3, f + 4, f + 5}));
+  }
+}
+
+// Large files are read by two threads, in chunks of rows that hold triangles alone, and row by row elsewhere.
+class LargePly : public Ply {
+ protected:
+  static constexpr int vertices = 100'000, faces = 30'000;
+
+  // Of a face: others follow it. The vertices lie on a parabola, on which floats are exact as far as faces
+  // go.
+  static int first(int face) { return face % 3000; }
+
+  // Most faces are triangles, those of some stretches have up to `most_corners`.
+  static std::string large(bool big, int most_corners, std::int32_t last_index = 0, float last_z = 0) {
+    std::string s = header(big ? "binary_big_endian" : "binary_little_endian",
+                           fmt::format("element vertex {}\n{}element face {}\nproperty uchar flags\n{}",
+                                       vertices, xyz, faces, corner_list));
+    for (int i = 0; i < vertices; ++i) {
+      const auto f = static_cast<float>(i);
+      s += bytes_of(f, big) + bytes_of(f * f, big) + bytes_of(i + 1 == vertices ? last_z : 0.f, big);
+    }
+    for (int i = 0; i < faces; ++i) {
+      const int corners = i % 7000 < 5000 ? 3 : 3 + i % (most_corners - 2);
+      s += '\7';
+      s += static_cast<char>(corners);
+      for (int k = 0; k + 1 < corners; ++k) s += bytes_of(first(i) + k, big);
+      s += bytes_of(i + 1 == faces ? last_index : first(i) + corners - 1, big);
+    }
+    return s;
+  }
+};
+
+TEST_F(LargePly, TrianglesAmongPolygons) {
+  for (const bool big : {false, true}) {
+    for (const int most : {3, 6}) {
+      const TriangleMesh mesh = read(large(big, most, first(faces - 1) + 2));
+      ASSERT_EQ(mesh.positions.size(), std::size_t{vertices});
+      EXPECT_EQ(mesh.positions[777], (Point3f{777, 777 * 777, 0}));
+      std::size_t at = 0;
+      for (int i = 0; i < faces; ++i) {
+        const int corners = i % 7000 < 5000 ? 3 : 3 + i % (most - 2);
+        for (int k = 1; k + 1 < corners; ++k, ++at) {
+          const auto a = static_cast<std::uint32_t>(first(i)), next = a + static_cast<std::uint32_t>(k);
+          ASSERT_EQ(mesh.triangles.at(at), (Triangle{a, next, next + 1})) << i;
+        }
+      }
+      EXPECT_EQ(mesh.triangles.size(), at);
+    }
+  }
+}
+
+TEST_F(LargePly, WhatIsWrongIsFoundInItsTurn) {
+  for (const bool big : {false, true}) {
+    EXPECT_THAT(error_of(large(big, 3, vertices)).what(), HasSubstr("vertex index 100000"));
+    EXPECT_THAT(error_of(large(big, 6, -1)).what(), HasSubstr("vertex index -1"));
+    for (int i = 0; i < 20; ++i) {
+      EXPECT_THAT(error_of(large(big, 3, -1, std::numeric_limits<float>::infinity())).what(),
+                  HasSubstr("z of vertex 99999"));
+    }
+    const std::string whole = large(big, 3);
+    EXPECT_THROW(read(whole.substr(0, whole.size() - 1)), Error);
+  }
+}
+
+TEST_F(Ply, StripsOfTriangles) {
+  const std::string declared =
+      "element vertex 6\n" + xyz + "element tristrips 1\nproperty list int int vertex_indices\n";
+  const std::string vertices = "0 0 0\n0 1 0\n1 0 0\n1 1 0\n2 0 0\n2 1 0\n";
+  const std::string head = header("ascii", declared) + vertices;
+  const auto triangles = [&](const std::string& strip) { return read(head + strip).triangles; };
+  EXPECT_THAT(triangles("5 0 2 1 3 5\n"),
+              ElementsAre(Triangle{0, 2, 1}, Triangle{1, 2, 3}, Triangle{1, 3, 5}));
+  EXPECT_THAT(triangles("9 0 2 1 -1 2 4 3 5 -1\n"),
+              ElementsAre(Triangle{0, 2, 1}, Triangle{2, 4, 3}, Triangle{3, 4, 5}));
+  // Corners that come twice lead on; they turn the next triangle all the same.
+  EXPECT_THAT(triangles("7 0 2 1 1 3 3 5\n"), ElementsAre(Triangle{0, 2, 1}));
+  EXPECT_THAT(triangles("2 0 1\n"), testing::IsEmpty());
+  EXPECT_THAT(error_of(head + "3 0 1 6\n").what(), HasSubstr("vertex index 6"));
+  EXPECT_THAT(error_of(head + "4 0 1\n").what(), HasSubstr("bytes are left"));
+  const std::string both =
+      header("ascii", "element tristrips 1\nproperty list int int vertex_indices\nelement vertex 6\n" + xyz +
+                          "element face 1\n" + corner_list);
+  EXPECT_THAT(read(both + "4 0 2 1 3\n" + vertices + "3 2 4 3\n").triangles,
+              ElementsAre(Triangle{2, 4, 3}, Triangle{0, 2, 1}, Triangle{1, 2, 3}));
+  Diagnostics diagnostics;
+  read(both + "4 0 2 1 3\n" + vertices + "3 2 4 3\n", &diagnostics);
+  EXPECT_THAT(diagnostics, testing::IsEmpty());
+}
+
+TEST_F(Ply, BombsOfGzipAreRefused) {
+  const std::filesystem::path file = folder_.path() / "bomb.ply.gz";
+  const gzFile out = gzopen(file.c_str(), "wb9");
+  const std::vector<char> zeros(1 << 20);
+  gzwrite(out, ascii_square.data(), static_cast<unsigned>(ascii_square.size()));
+  for (int i = 0; i < 70; ++i) gzwrite(out, zeros.data(), static_cast<unsigned>(zeros.size()));
+  gzclose(out);
+  try {
+    read_ply(file);
+    ADD_FAILURE() << "inflated 70 MiB from " << std::filesystem::file_size(file);
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("inflates to more than"));
   }
 }
 
