@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "importers/ply/plain_decimal.h"
 #include "scene/diagnostics.h"
 
 namespace vitrail::pbrt {
@@ -40,6 +41,16 @@ class Lexer {
   Token next();
   // Reads a number if one comes next. Numbers that are malformed or not finite throw Error.
   bool next_number(double& value);
+  // The same for numbers as most are: plain decimals (plain_decimal.h) behind and before spaces, line feeds
+  // and brackets. False for others, perhaps after some blanks.
+  bool next_plain_number(double& value) {
+    for (; at_ != end_ && (*at_ == ' ' || *at_ == '\n'); ++at_)
+      if (*at_ == '\n') new_line();
+    const char* const stop = plain_decimal(at_, end_, value);
+    if (!stop || stop == end_ || (*stop != ' ' && *stop != '\n' && *stop != ']')) return false;
+    at_ = stop;
+    return true;
+  }
   // Skips blanks and comments; the next character, or 0 at the end.
   char peek();
   // Skips to after the next ] that is not in a comment. Places are not kept.

@@ -99,7 +99,58 @@ const char* expected_value(ParameterType type) {
   }
 }
 
-void read_values(TokenStream& tokens, Parameter& parameter) {
+// A whole number of 32 bits. A fraction is cut off, as pbrt-v3 does.
+std::int32_t checked_integer(double value, const Parameter& parameter, bool& cut) {
+  if (std::abs(value) > std::numeric_limits<std::int32_t>::max())
+    fail(fmt::format("integer parameter \"{}\" has the value {}, which is out of range", parameter.name,
+                     value),
+         parameter.place);
+  const auto whole = static_cast<std::int32_t>(value);
+  cut |= whole != value;
+  return whole;
+}
+
+void report_cut(const Parameter& parameter, Report& report) {
+  report.approximated(fmt::format("integer parameter \"{}\": fractions are cut off", parameter.name),
+                      parameter.place);
+}
+
+constexpr std::size_t most_in_numbers = 4096;  // longer lists are long ones
+
+// What a list of this kind may be narrowed to: pbrt itself has floats. Points keep doubles, because meshes
+// far from the origin are moved before they are rounded.
+LongList empty_list(const Parameter& parameter) {
+  if (parameter.type == ParameterType::integer) return GrowingArray<std::int32_t>();
+  const bool narrow = parameter.type == ParameterType::tuple && parameter.name != "P";
+  if (narrow) return GrowingArray<float>();
+  return GrowingArray<double>();
+}
+
+// The rest of a list of which the first are in `numbers`.
+void read_long_list(TokenStream& tokens, Parameter& parameter, Report& report) {
+  constexpr std::size_t release_interval = 1u << 16;
+  bool cut = false;
+  parameter.long_list = empty_list(parameter);
+  std::visit(
+      [&]<class T>(GrowingArray<T>& list) {
+        const auto add = [&](double value) {
+          if constexpr (std::is_integral_v<T>)
+            list.push_back(checked_integer(value, parameter, cut));
+          else
+            list.push_back(static_cast<T>(value));
+        };
+        for (const double value : parameter.numbers) add(value);
+        for (double value = 0; tokens.next_number(value);) {
+          add(value);
+          if (list.size() % release_interval == 0) tokens.release();
+        }
+      },
+      *parameter.long_list);
+  if (cut) report_cut(parameter, report);
+  parameter.numbers = {};
+}
+
+void read_values(TokenStream& tokens, Parameter& parameter, Report& report) {
   const bool numeric = parameter.type != ParameterType::boolean && parameter.type != ParameterType::text &&
                        parameter.type != ParameterType::texture;
   double value = 0;
@@ -119,39 +170,37 @@ void read_values(TokenStream& tokens, Parameter& parameter) {
   }
   for (;;) {
     if (numeric)
-      while (tokens.next_number(value)) parameter.numbers.push_back(value);
+      while (parameter.numbers.size() < most_in_numbers && tokens.next_number(value))
+        parameter.numbers.push_back(value);
+    if (parameter.numbers.size() == most_in_numbers) read_long_list(tokens, parameter, report);
     token = tokens.next();
     if (token.kind == TokenKind::close) break;
     if (!add_value(parameter, token)) unexpected(token);
   }
 }
 
-// Whole numbers of 32 bits. A fraction is cut off, as pbrt-v3 does.
+// The integers of a short list; long ones have been looked at as they were read.
 void check_integers(Parameter& parameter, Report& report) {
   bool cut = false;
-  for (double& value : parameter.numbers) {
-    if (std::abs(value) > std::numeric_limits<int>::max())
-      fail(fmt::format("integer parameter \"{}\" has the value {}, which is out of range", parameter.name,
-                       value),
-           parameter.place);
-    if (value == std::trunc(value)) continue;
-    value = std::trunc(value);
-    cut = true;
-  }
-  if (cut)
-    report.approximated(fmt::format("integer parameter \"{}\": fractions are cut off", parameter.name),
-                        parameter.place);
+  for (double& value : parameter.numbers) value = checked_integer(value, parameter, cut);
+  if (cut) report_cut(parameter, report);
 }
 
 }  // namespace
+
+std::size_t number_count(const Parameter& parameter) {
+  if (!parameter.long_list) return parameter.numbers.size();
+  return std::visit([](const auto& list) { return list.size(); }, *parameter.long_list);
+}
 
 std::vector<Parameter> read_parameters(TokenStream& tokens, Report& report) {
   std::vector<Parameter> parameters;
   while (tokens.text_follows()) {
     Parameter parameter = parse_declaration(tokens.next());
-    read_values(tokens, parameter);
+    read_values(tokens, parameter, report);
     if (parameter.type == ParameterType::integer) check_integers(parameter, report);
-    if (parameter.type == ParameterType::spectrum && !parameter.strings.empty() && !parameter.numbers.empty())
+    if (parameter.type == ParameterType::spectrum && !parameter.strings.empty() &&
+        number_count(parameter) > 0)
       fail(fmt::format("spectrum parameter \"{}\" mixes numbers and strings", parameter.name),
            parameter.place);
     parameters.push_back(std::move(parameter));
@@ -165,7 +214,7 @@ ParameterSet::ParameterSet(std::string owner, const Place& place, std::vector<Pa
   if (defaults) parameters_.insert(parameters_.begin(), defaults->begin(), defaults->end());
 }
 
-Parameter* ParameterSet::find(std::string_view name, std::initializer_list<ParameterType> types) {
+Parameter* ParameterSet::find_as_it_is(std::string_view name, std::initializer_list<ParameterType> types) {
   asked_.emplace_back(name);
   for (auto parameter = parameters_.rbegin(); parameter != parameters_.rend(); ++parameter) {
     if (parameter->name != name || std::find(types.begin(), types.end(), parameter->type) == types.end())
@@ -176,6 +225,18 @@ Parameter* ParameterSet::find(std::string_view name, std::initializer_list<Param
   return nullptr;
 }
 
+Parameter* ParameterSet::find(std::string_view name, std::initializer_list<ParameterType> types) {
+  Parameter* const parameter = find_as_it_is(name, types);
+  if (parameter && parameter->long_list) {
+    std::vector<double> numbers;
+    numbers.reserve(number_count(*parameter));
+    consume_numbers(*parameter, 1,
+                    [&](auto values) { numbers.insert(numbers.end(), values.begin(), values.end()); });
+    parameter->numbers = std::move(numbers);
+  }
+  return parameter;
+}
+
 Parameter* ParameterSet::find_spectrum(std::string_view name) {
   return find(name, {ParameterType::number, ParameterType::rgb, ParameterType::xyz, ParameterType::blackbody,
                      ParameterType::spectrum});
@@ -183,6 +244,10 @@ Parameter* ParameterSet::find_spectrum(std::string_view name) {
 
 Parameter* ParameterSet::find_numbers(std::string_view name) {
   return find(name, {ParameterType::number, ParameterType::integer, ParameterType::tuple});
+}
+
+Parameter* ParameterSet::find_list(std::string_view name) {
+  return find_as_it_is(name, {ParameterType::number, ParameterType::integer, ParameterType::tuple});
 }
 
 namespace {

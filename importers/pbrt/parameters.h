@@ -5,10 +5,12 @@
 #include <array>
 #include <initializer_list>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "importers/pbrt/long_list.h"
 #include "importers/pbrt/report.h"
 #include "importers/pbrt/token_stream.h"
 
@@ -18,15 +20,28 @@ enum class ParameterType { boolean, integer, number, tuple, rgb, xyz, blackbody,
 
 // `numbers` holds all values that are not strings; true is 1. A spectrum has strings (a name or a file) or
 // numbers (wavelength in nm and value, alternating).
+// Lists of very many numbers are in `long_list`, and move to `numbers` when they are asked for there.
 struct Parameter {
   ParameterType type = ParameterType::number;
   std::string name;
   Place place;
   std::vector<double> numbers;
+  std::optional<LongList> long_list;
   std::vector<std::string> strings;
   bool from_attribute = false;
   bool used = false;
 };
+
+std::size_t number_count(const Parameter& parameter);
+
+// Calls visit(span) with the numbers in order, in spans of a multiple of `group` but for the last. A long
+// list is gone then.
+template <class Visit>
+void consume_numbers(Parameter& parameter, std::size_t group, Visit&& visit) {
+  if (!parameter.long_list) return visit(std::span<const double>(parameter.numbers));
+  std::visit([&](auto& list) { list.consume(visit, group); }, *parameter.long_list);
+  parameter.long_list.reset();
+}
 
 // Reads the list that follows a directive. Types of v4 and v3 (point, color …) are both known; a point,
 // vector or normal of any size is a tuple. Malformed values throw Error.
@@ -44,6 +59,7 @@ class ParameterSet {
   Parameter* find(std::string_view name, std::initializer_list<ParameterType> types);
   Parameter* find_spectrum(std::string_view name);  // number, rgb, xyz, blackbody or spectrum
   Parameter* find_numbers(std::string_view name);   // numbers, integers or tuples
+  Parameter* find_list(std::string_view name);      // the same, as a long list if it is one
 
   // One value; the default where there is none. A wrong count throws Error.
   double number(std::string_view name, double otherwise);
@@ -62,6 +78,8 @@ class ParameterSet {
   const std::vector<Parameter>& all() const { return parameters_; }
 
  private:
+  Parameter* find_as_it_is(std::string_view name, std::initializer_list<ParameterType> types);
+
   std::string owner_;
   Place place_;
   std::vector<Parameter> parameters_;

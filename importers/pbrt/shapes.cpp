@@ -16,49 +16,64 @@ namespace vitrail::pbrt {
 namespace {
 
 void require_groups(const Parameter& parameter, std::size_t size) {
-  if (parameter.numbers.size() % size == 0) return;
+  if (number_count(parameter) % size == 0) return;
   fail(fmt::format("parameter \"{}\" has {} numbers, which is not a multiple of {}", parameter.name,
-                   parameter.numbers.size(), size),
+                   number_count(parameter), size),
        parameter.place);
 }
 
-// Floats of a parameter in groups of `size`; values too large for a float throw Error.
+// Floats of a parameter in groups of `size`, less the offset; values too large for a float throw Error.
 template <class T, std::size_t size>
-std::vector<T> tuples(const Parameter& parameter) {
+std::vector<T> tuples(Parameter& parameter, Vector3d offset = {}) {
   require_groups(parameter, size);
-  const std::vector<double>& values = parameter.numbers;
-  for (std::size_t i = 0; i < values.size(); ++i)
-    if (!std::isfinite(static_cast<float>(values[i])))
-      fail(fmt::format("value {} of parameter \"{}\" is too large", i, parameter.name), parameter.place);
-  std::vector<T> result(values.size() / size);
-  for (std::size_t i = 0; i < result.size(); ++i) {
-    const double* v = &values[i * size];
-    result[i].x = static_cast<float>(v[0]);
-    result[i].y = static_cast<float>(v[1]);
-    if constexpr (size == 3) result[i].z = static_cast<float>(v[2]);
-  }
+  std::vector<T> result;
+  result.reserve(number_count(parameter) / size);
+  prefer_huge_pages(result.data(), result.capacity());
+  consume_numbers(parameter, size, [&](auto values) {
+    for (std::size_t i = 0; i < values.size(); i += size) {
+      std::array<float, size> v;
+      for (std::size_t k = 0; k < size; ++k) {
+        v[k] = static_cast<float>(static_cast<double>(values[i + k]) - offset[static_cast<int>(k)]);
+        if (!std::isfinite(v[k]))
+          fail(fmt::format("value {} of parameter \"{}\" is too large", size * result.size() + k,
+                           parameter.name),
+               parameter.place);
+      }
+      if constexpr (size == 3)
+        result.push_back({v[0], v[1], v[2]});
+      else
+        result.push_back({v[0], v[1]});
+    }
+  });
   return result;
 }
 
 template <std::size_t size>
-std::vector<std::array<std::uint32_t, size>> index_groups(const Parameter& parameter,
-                                                          std::size_t vertex_count) {
+std::vector<std::array<std::uint32_t, size>> index_groups(Parameter& parameter, std::size_t vertex_count) {
   require_groups(parameter, size);
-  const std::vector<double>& values = parameter.numbers;
-  std::vector<std::array<std::uint32_t, size>> groups(values.size() / size);
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    if (values[i] < 0 || values[i] >= static_cast<double>(vertex_count))
-      fail(fmt::format("value {} of parameter \"{}\" is {}, but there are {} vertices (counted from 0)", i,
-                       parameter.name, values[i], vertex_count),
-           parameter.place);
-    groups[i / size][i % size] = static_cast<std::uint32_t>(values[i]);
-  }
+  std::vector<std::array<std::uint32_t, size>> groups;
+  groups.reserve(number_count(parameter) / size);
+  prefer_huge_pages(groups.data(), groups.capacity());
+  consume_numbers(parameter, size, [&](auto values) {
+    for (std::size_t i = 0; i < values.size(); i += size) {
+      std::array<std::uint32_t, size> group;
+      for (std::size_t k = 0; k < size; ++k) {
+        const auto index = static_cast<double>(values[i + k]);
+        if (index < 0 || index >= static_cast<double>(vertex_count))
+          fail(fmt::format("value {} of parameter \"{}\" is {}, but there are {} vertices (counted from 0)",
+                           size * groups.size() + k, parameter.name, index, vertex_count),
+               parameter.place);
+        group[k] = static_cast<std::uint32_t>(index);
+      }
+      groups.push_back(group);
+    }
+  });
   return groups;
 }
 
 // Values a vertex; empty where the parameter is absent.
 template <class T, std::size_t size>
-std::vector<T> vertex_values(const Parameter* parameter, std::size_t vertex_count) {
+std::vector<T> vertex_values(Parameter* parameter, std::size_t vertex_count) {
   if (!parameter) return {};
   std::vector<T> values = tuples<T, size>(*parameter);
   if (values.size() != vertex_count)
@@ -68,23 +83,22 @@ std::vector<T> vertex_values(const Parameter* parameter, std::size_t vertex_coun
   return values;
 }
 
-Parameter& required(ParameterSet& parameters, std::string_view name) {
-  Parameter* parameter = parameters.find_numbers(name);
-  if (!parameter || parameter->numbers.empty())
+Parameter& required_list(ParameterSet& parameters, std::string_view name) {
+  Parameter* parameter = parameters.find_list(name);
+  if (!parameter || number_count(*parameter) == 0)
     fail(fmt::format("{} needs a parameter \"{}\"", parameters.owner(), name), parameters.place());
   return *parameter;
 }
 
-const Parameter* texture_coordinates(ParameterSet& parameters) {
-  const Parameter* uv = parameters.find_numbers("uv");
-  return uv ? uv : parameters.find_numbers("st");
+Parameter* texture_coordinates(ParameterSet& parameters) {
+  Parameter* uv = parameters.find_list("uv");
+  return uv ? uv : parameters.find_list("st");
 }
 
 // The corners of one triangle or patch where no indices are given.
 template <std::size_t size>
 std::vector<std::array<std::uint32_t, size>> groups_of(ParameterSet& parameters, std::size_t vertex_count) {
-  if (const Parameter* indices = parameters.find_numbers("indices"))
-    return index_groups<size>(*indices, vertex_count);
+  if (Parameter* indices = parameters.find_list("indices")) return index_groups<size>(*indices, vertex_count);
   if (vertex_count != size)
     fail(fmt::format("{} needs a parameter \"indices\" unless it has exactly {} points", parameters.owner(),
                      size),
@@ -111,8 +125,13 @@ Vector3d winding_normal(const TriangleMesh& mesh, const std::array<std::uint32_t
 
 namespace {
 
+// Lengths of normals do not matter where all three agree, as they do nearly everywhere.
 bool faces_away(const TriangleMesh& mesh, const std::array<std::uint32_t, 3>& triangle) {
-  return dot(winding_normal(mesh, triangle), corner_normal_sum(mesh, triangle)) < 0;
+  const Vector3d winding = winding_normal(mesh, triangle);
+  const bool all_agree = std::ranges::all_of(triangle, [&](std::uint32_t corner) {
+    return dot(winding, to_vector(cast<double>(mesh.normals[corner]))) > 0;
+  });
+  return !all_agree && dot(winding, corner_normal_sum(mesh, triangle)) < 0;
 }
 
 }  // namespace
@@ -145,16 +164,21 @@ namespace {
 // Floats keep 24 bits: of a mesh that lies so far from the origin that more than ten are lost, positions are
 // moved to it while they are still doubles. Nearer ones stay, so that meshes which touch still share their
 // vertices exactly.
-Vector3d move_to_origin(std::vector<double>& positions) {
+Vector3d offset_of(const Parameter& parameter) {
   constexpr double far = 1024;  // distance over half extent
   Bounds3d bounds;
-  for (std::size_t i = 0; i + 2 < positions.size(); i += 3)
-    extend(bounds, Point3d{positions[i], positions[i + 1], positions[i + 2]});
+  const auto extend_by = [&](const auto& p) {
+    for (std::size_t i = 0; i + 2 < p.size(); i += 3)
+      extend(bounds, Point3d{static_cast<double>(p[i]), static_cast<double>(p[i + 1]),
+                             static_cast<double>(p[i + 2])});
+  };
+  if (parameter.long_list)
+    std::visit(extend_by, *parameter.long_list);
+  else
+    extend_by(parameter.numbers);
   const double half = length(extent(bounds)) / 2;
   const Vector3d away = cast<double>(cast<float>(center(bounds) - Point3d{}));
-  if (bounds.empty() || !(half > 0 && length(away) > far * half)) return {};
-  for (std::size_t i = 0; i < positions.size(); ++i) positions[i] -= away[static_cast<int>(i % 3)];
-  return away;
+  return !bounds.empty() && half > 0 && length(away) > far * half ? away : Vector3d{};
 }
 
 }  // namespace
@@ -166,12 +190,12 @@ Id<TriangleMesh> ShapeMaker::add(TriangleMesh mesh) {
 
 ShapeGeometry ShapeMaker::triangle_mesh(ParameterSet& parameters) {
   TriangleMesh mesh;
-  Parameter& positions = required(parameters, "P");
+  Parameter& positions = required_list(parameters, "P");
   require_groups(positions, 3);
-  const Vector3d offset = move_to_origin(positions.numbers);
-  mesh.positions = tuples<Point3f, 3>(positions);
+  const Vector3d offset = offset_of(positions);
+  mesh.positions = tuples<Point3f, 3>(positions, offset);
   mesh.triangles = groups_of<3>(parameters, mesh.positions.size());
-  mesh.normals = vertex_values<Normal3f, 3>(parameters.find_numbers("N"), mesh.positions.size());
+  mesh.normals = vertex_values<Normal3f, 3>(parameters.find_list("N"), mesh.positions.size());
   mesh.uvs = vertex_values<Point2f, 2>(texture_coordinates(parameters), mesh.positions.size());
   orient_by_normals(mesh);
   const std::size_t parts = mesh.triangles.size();
@@ -198,9 +222,9 @@ ShapeGeometry ShapeMaker::ply_mesh(ParameterSet& parameters) {
 }
 
 ShapeGeometry ShapeMaker::bilinear_mesh(ParameterSet& parameters) {
-  const std::vector<Point3f> positions = tuples<Point3f, 3>(required(parameters, "P"));
+  const std::vector<Point3f> positions = tuples<Point3f, 3>(required_list(parameters, "P"));
   const auto patches = groups_of<4>(parameters, positions.size());
-  const auto normals = vertex_values<Normal3f, 3>(parameters.find_numbers("N"), positions.size());
+  const auto normals = vertex_values<Normal3f, 3>(parameters.find_list("N"), positions.size());
   const auto uvs = vertex_values<Point2f, 2>(texture_coordinates(parameters), positions.size());
   TriangleMesh mesh = tessellate_bilinear(positions, patches, normals, uvs);
   if (mesh.triangles.size() > 2 * patches.size())
@@ -215,8 +239,8 @@ ShapeGeometry ShapeMaker::bilinear_mesh(ParameterSet& parameters) {
 ShapeGeometry ShapeMaker::loop_subdivision(ParameterSet& parameters) {
   constexpr int most_levels = 10;
   TriangleMesh cage;
-  cage.positions = tuples<Point3f, 3>(required(parameters, "P"));
-  cage.triangles = index_groups<3>(required(parameters, "indices"), cage.positions.size());
+  cage.positions = tuples<Point3f, 3>(required_list(parameters, "P"));
+  cage.triangles = index_groups<3>(required_list(parameters, "indices"), cage.positions.size());
   const int levels = parameters.integer("levels", parameters.integer("nlevels", 3));
   if (levels < 0 || levels > most_levels)
     fail(fmt::format("subdivision levels are {}, which is not between 0 and {}", levels, most_levels),

@@ -47,8 +47,6 @@ Token TokenStream::next() {
   return token;
 }
 
-bool TokenStream::next_number(double& value) { return current().next_number(value); }
-
 bool TokenStream::text_follows() { return current().peek() == '"'; }
 
 void TokenStream::release() { sources_.back()->bytes.release_before(sources_.back()->lexer.position()); }

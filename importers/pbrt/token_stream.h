@@ -22,7 +22,9 @@ class TokenStream {
   void include(const std::filesystem::path& file, bool import, const Place& where);
 
   Token next();
-  bool next_number(double& value);
+  bool next_number(double& value) {
+    return sources_.back()->lexer.next_plain_number(value) || current().next_number(value);
+  }
   // True if the next token is a quoted string.
   bool text_follows();
   // Lets go of the memory of what has been read.

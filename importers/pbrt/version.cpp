@@ -74,7 +74,7 @@ std::optional<Version> hint_of_text(std::string_view directive, bool is_kind, st
 }  // namespace
 
 DetectedVersion detect_version(const std::filesystem::path& file) {
-  const InputBytes bytes(file);
+  InputBytes bytes(file);
   const std::string name = file.string();
   Lexer lexer(&name, bytes.begin(), bytes.end());
   std::string directive, previous;
@@ -85,6 +85,7 @@ DetectedVersion detect_version(const std::filesystem::path& file) {
     if (token.kind == TokenKind::end) return {};
     if (token.kind == TokenKind::open && lexer.peek() != '"') {
       lexer.skip_list();
+      bytes.release_before(lexer.position());
     } else if (token.kind == TokenKind::word &&
                std::isupper(static_cast<unsigned char>(token.text.front()))) {
       hint = hint_of_directive(token.text);

@@ -36,7 +36,9 @@ class GrowingArray {
  public:
   GrowingArray() = default;
   ~GrowingArray() { std::free(data_); }
+  GrowingArray(const GrowingArray& other) { append({other.data_, other.size_}); }
   GrowingArray(GrowingArray&& other) noexcept { swap(other); }
+  GrowingArray& operator=(const GrowingArray& other) { return *this = GrowingArray(other); }
   GrowingArray& operator=(GrowingArray&& other) noexcept {
     GrowingArray gone(std::move(other));
     swap(gone);
@@ -63,10 +65,11 @@ class GrowingArray {
     size_ += values.size();
   }
 
-  // Calls visit(span) with all in order and lets go of the memory behind; the array is empty then.
+  // Calls visit(span) with all in order, in spans of a multiple of `group` but for the last, and lets go of
+  // the memory behind; the array is empty then.
   template <class Visit>
-  void consume(Visit&& visit) {
-    constexpr std::size_t piece = (std::size_t{4} << 20) / sizeof(T);
+  void consume(Visit&& visit, std::size_t group = 1) {
+    const std::size_t piece = (std::size_t{4} << 20) / (sizeof(T) * group) * group;
     for (std::size_t i = 0; i < size_; i += piece) {
       const std::span<const T> next(data_ + i, std::min(piece, size_ - i));
       visit(next);
