@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "importers/shapes/polygon.h"
 
-#include <algorithm>
 #include <cmath>
+#include <deque>
+#include <limits>
 #include <numeric>
+#include <optional>
+
+#include "importers/shapes/point_tree.h"
 
 namespace vitrail {
 
 namespace {
-
-// Twice the signed area of a triangle in the plane.
-double orientation(Point2d a, Point2d b, Point2d c) {
-  return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-}
 
 // Twice the area vector of the polygon (Newell's method, about corner 0).
 Vector3d area_vector(std::span<const Point3d> p) {
@@ -40,74 +39,112 @@ std::vector<Point2d> project(std::span<const Point3d> p, Vector3d normal) {
   return flat;
 }
 
-// The polygon that is left, as a ring of corners.
+// The polygon that is left, as a ring of corners. A convex corner is an ear if its triangle holds no concave
+// one. It is tested when its triangle has changed or the corner that was found in it is concave no longer, so
+// that hardly any test is made twice.
 class EarClipper {
  public:
   explicit EarClipper(std::vector<Point2d> corners)
-      : p_(std::move(corners)), next_(p_.size()), previous_(p_.size()), is_concave_(p_.size()) {
+      : p_(std::move(corners)),
+        next_(p_.size()),
+        previous_(p_.size()),
+        version_(p_.size()),
+        is_concave_(p_.size()),
+        blocked_(p_.size(), none) {
     std::iota(next_.begin(), next_.end(), 1u);
     next_.back() = 0;
     for (std::uint32_t i = 0; i < next_.size(); ++i) previous_[next_[i]] = i;
+    std::vector<std::uint32_t> concave;
     for (std::uint32_t i = 0; i < next_.size(); ++i) {
       is_concave_[i] = area(i) <= 0;
-      if (is_concave_[i]) concave_.push_back(i);
+      if (is_concave_[i]) {
+        concave.push_back(i);
+      } else {
+        tests_.push_back({i, 0});
+      }
     }
-    const auto [left, right] = std::ranges::minmax(p_, {}, &Point2d::x);
-    const auto [bottom, top] = std::ranges::minmax(p_, {}, &Point2d::y);
-    long_axis_ = right.x - left.x >= top.y - bottom.y ? &Point2d::x : &Point2d::y;
-    std::ranges::sort(concave_, {}, [&](std::uint32_t i) { return p_[i].*long_axis_; });
+    concave_.emplace(p_, std::move(concave));
   }
 
   void clip(std::vector<CornerTriple>& triangles) {
-    std::uint32_t at = 0;
-    for (std::size_t left = p_.size(); left > 3; --left) {
-      const std::uint32_t ear = find_ear(at, left), before = previous_[ear], after = next_[ear];
+    std::uint32_t left = 0;  // a corner of what is left
+    for (std::size_t count = p_.size(); count > 3; --count) {
+      const std::uint32_t ear = find_ear(left), before = previous_[ear], after = next_[ear];
       triangles.push_back({before, ear, after});
       next_[before] = after;
       previous_[after] = before;
-      is_concave_[ear] = false;
-      // Corners only ever become more convex.
-      for (const std::uint32_t i : {before, after}) is_concave_[i] = is_concave_[i] && area(i) <= 0;
-      // Going on behind the next corner cuts ears all around instead of a fan of slivers.
-      at = next_[after];
+      ++version_[ear];
+      if (is_concave_[ear]) is_no_longer_concave(ear);
+      // Behind all that wait: cutting ears all around makes no fan of slivers.
+      for (const std::uint32_t i : {before, after}) has_changed(i);
+      left = after;
     }
-    triangles.push_back({previous_[at], at, next_[at]});
+    triangles.push_back({previous_[left], left, next_[left]});
   }
 
  private:
-  double area(std::uint32_t i) const { return orientation(p_[previous_[i]], p_[i], p_[next_[i]]); }
+  static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
-  // A convex corner whose triangle holds no other corner. None exists where the polygon crosses itself or has
-  // no area left: then any convex corner, else any.
-  std::uint32_t find_ear(std::uint32_t start, std::size_t left) const {
-    std::uint32_t at = start, fallback = start;
-    for (std::size_t i = 0; i < left; ++i, at = next_[at]) {
-      if (area(at) <= 0) continue;
-      if (is_empty(at)) return at;
-      fallback = at;
-    }
-    return fallback;
+  // Of a corner as it was then; it has been superseded if the version is another.
+  struct Test {
+    std::uint32_t corner, version;
+  };
+
+  double area(std::uint32_t i) const { return orientation(p_[previous_[i]], p_[i], p_[next_[i]]); }
+  bool is_valid(const Test& test) const { return version_[test.corner] == test.version; }
+
+  void has_changed(std::uint32_t corner) {
+    ++version_[corner];
+    if (area(corner) <= 0) return;  // convex corners can become flat only where the polygon crosses itself
+    if (is_concave_[corner]) is_no_longer_concave(corner);
+    tests_.push_back({corner, version_[corner]});
   }
 
-  // A corner at the very place of one of the triangle's is outside: polygons with a bridge to a hole have
-  // such.
-  bool is_empty(std::uint32_t ear) const {
-    const Point2d a = p_[previous_[ear]], b = p_[ear], c = p_[next_[ear]];
-    const auto [low, high] = std::minmax({a.*long_axis_, b.*long_axis_, c.*long_axis_});
-    auto at = std::ranges::lower_bound(concave_, low, {}, [&](std::uint32_t i) { return p_[i].*long_axis_; });
-    for (; at != concave_.end() && p_[*at].*long_axis_ <= high; ++at) {
-      const Point2d q = p_[*at];
-      if (!is_concave_[*at] || q == a || q == b || q == c) continue;
-      if (orientation(a, b, q) >= 0 && orientation(b, c, q) >= 0 && orientation(c, a, q) >= 0) return false;
+  // What it stood in the way of is tested again.
+  void is_no_longer_concave(std::uint32_t corner) {
+    is_concave_[corner] = false;
+    concave_->remove(corner);
+    for (std::uint32_t i = blocked_[corner]; i != none; i = next_blocked_[i]) {
+      tests_.push_back(blocked_tests_[i]);
     }
-    return true;
+    blocked_[corner] = none;
+  }
+
+  // None exists where the polygon crosses itself or has no area left: then any convex corner, else `any`.
+  std::uint32_t find_ear(std::uint32_t any) {
+    for (; !tests_.empty(); tests_.pop_front()) {
+      const Test test = tests_.front();
+      if (!is_valid(test)) continue;
+      const std::uint32_t i = test.corner;
+      const auto inside = concave_->find_within(p_[previous_[i]], p_[i], p_[next_[i]]);
+      if (!inside) {
+        tests_.pop_front();
+        return i;
+      }
+      block(test, *inside);
+    }
+    while (first_blocked_ < blocked_tests_.size()) {
+      const Test test = blocked_tests_[first_blocked_++];
+      if (is_valid(test)) return test.corner;
+    }
+    return any;
+  }
+
+  void block(const Test& test, std::uint32_t by) {
+    const auto index = static_cast<std::uint32_t>(blocked_tests_.size());
+    blocked_tests_.push_back(test);
+    next_blocked_.push_back(blocked_[by]);
+    blocked_[by] = index;
   }
 
   std::vector<Point2d> p_;
-  std::vector<std::uint32_t> next_, previous_;
-  std::vector<bool> is_concave_;        // not strictly convex, and not clipped yet
-  std::vector<std::uint32_t> concave_;  // those which began so, along the longer axis
-  double Point2d::*long_axis_ = nullptr;
+  std::vector<std::uint32_t> next_, previous_, version_;
+  std::vector<bool> is_concave_;  // not strictly convex, and not clipped yet
+  std::optional<PointTree> concave_;
+  std::deque<Test> tests_;
+  std::vector<Test> blocked_tests_;                    // all that have failed
+  std::vector<std::uint32_t> blocked_, next_blocked_;  // by each corner: lists of them
+  std::size_t first_blocked_ = 0;
 };
 
 }  // namespace

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "scene/vec.h"
+
+namespace vitrail {
+
+// Twice the signed area of a triangle in the plane.
+inline double orientation(Point2d a, Point2d b, Point2d c) {
+  return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+}
+
+// Points in the plane of which some are asked for by triangle and removed one by one: a kd-tree whose nodes
+// know their bounds and how many of their points are left.
+class PointTree {
+ public:
+  // The points of `indices`. They outlive the tree.
+  PointTree(std::span<const Point2d> points, std::vector<std::uint32_t> indices);
+
+  // Of a point that is in the tree. O(depth).
+  void remove(std::uint32_t index);
+
+  // A point in the closed counter-clockwise triangle, but at none of its corners. In O(√n) for slender
+  // triangles.
+  std::optional<std::uint32_t> find_within(Point2d a, Point2d b, Point2d c) const;
+
+ private:
+  struct Node {
+    Point2d lower, upper;
+    std::uint32_t begin, end;  // of indices_
+    std::uint32_t parent;
+    std::uint32_t left;  // the right one follows it; 0 in leaves
+    std::uint32_t alive;
+  };
+
+  void split(std::uint32_t node);
+
+  std::span<const Point2d> points_;
+  std::vector<std::uint32_t> indices_;
+  std::vector<Node> nodes_;
+  std::vector<std::uint32_t> leaf_;  // of each point; `removed` for those that are not there
+};
+
+}  // namespace vitrail
