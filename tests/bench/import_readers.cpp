@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <bit>
@@ -37,11 +38,22 @@ std::uint64_t process_memory(const std::string& name) {
   throw std::runtime_error("no " + name + " in /proc/self/status");
 }
 
+double cpu_seconds() {
+  rusage usage{};
+  ::getrusage(RUSAGE_SELF, &usage);
+  const auto seconds = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  };
+  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
 template <class Read>
 auto timed(Measurement& measurement, Read&& read) {
   const std::uint64_t before = process_memory("VmHWM:");
   const auto start = std::chrono::steady_clock::now();
+  const double cpu_before = cpu_seconds();
   auto result = read();
+  measurement.cpu_seconds = cpu_seconds() - cpu_before;
   measurement.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   measurement.peak_bytes = process_memory("VmHWM:") - before;
   return result;

@@ -12,6 +12,7 @@ namespace vitrail::bench {
 // What a reader did with a file, measured in a process of its own.
 struct Measurement {
   double seconds = 0;
+  double cpu_seconds = 0;         // of all threads
   std::uint64_t peak_bytes = 0;   // resident, above what the process held before
   std::uint64_t final_bytes = 0;  // of the mesh; 0 for what makes none of ours
   std::uint64_t triangles = 0;
