@@ -121,10 +121,6 @@ Vector3d winding_normal(const TriangleMesh& mesh, const std::array<std::uint32_t
   return cross(b - a, c - a);
 }
 
-}  // namespace
-
-namespace {
-
 // Lengths of normals do not matter where all three agree, as they do nearly everywhere.
 bool faces_away(const TriangleMesh& mesh, const std::array<std::uint32_t, 3>& triangle) {
   const Vector3d winding = winding_normal(mesh, triangle);
