@@ -1,0 +1,360 @@
+// SPDX-License-Identifier: Apache-2.0
+// POV-Ray itself shows of the files that are written what the Scene says.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <numbers>
+
+#include "tests/importers/povray_render.h"
+
+namespace vitrail {
+namespace {
+
+using std::numbers::pi;
+
+class PovrayOracle : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (!has_povray()) GTEST_SKIP() << "povray is not installed: nothing was rendered";
+  }
+
+  // `expected(x, y)` is the radiance at a point of the plane z = 0, in one channel or three.
+  template <class Expected>
+  void expect_plane(const Scene& scene, Expected&& expected, double tolerance = 0.005) {
+    const PovPicture picture = render_povray(scene, folder_);
+    ASSERT_FALSE(picture.values.empty());
+    for (const int x : {2, 9, 16, 24, 30})
+      for (const int y : {1, 12, 17, 29}) {
+        const std::array<double, 3> seen = picture.at(x, y), wanted = expected(plane_x(x), plane_y(y));
+        for (std::size_t c = 0; c < 3; ++c)
+          EXPECT_NEAR(seen[c], wanted[c], tolerance * wanted[c] + 2e-5) << x << ' ' << y << ' ' << c;
+      }
+  }
+
+  // The colours at the middles of the four quarters: upper left, upper right, lower left, lower right.
+  std::vector<std::array<double, 3>> quarters(const Scene& scene) {
+    const PovPicture picture = render_povray(scene, folder_);
+    if (picture.values.empty()) return {};
+    const int w = picture.width, h = picture.height;
+    return {picture.at(w / 4, h / 4), picture.at(3 * w / 4, h / 4), picture.at(w / 4, 3 * h / 4),
+            picture.at(3 * w / 4, 3 * h / 4)};
+  }
+
+  TemporaryFolder folder_;
+};
+
+using Colors = std::vector<std::array<double, 3>>;
+const std::array<double, 3> black{0, 0, 0}, red{1, 0, 0}, green{0, 1, 0}, blue{0, 0, 1}, white{1, 1, 1};
+
+Scene plane(RGB reflectance = {.8, .5, .25}) {
+  Scene scene = empty_scene();
+  add(scene, square(-5, 5, -5, 5, 0), diffuse(reflectance));
+  return scene;
+}
+
+// ---- Radiometry ---------------------------------------------------------------------------------
+
+TEST_F(PovrayOracle, PointLight) {
+  Scene scene = plane();
+  scene.lights.push_back({PointLight{{.5, -.25, 1.5}, emission_from_rgb({4, 3, 2})}});
+  expect_plane(scene, [](double x, double y) -> std::array<double, 3> {
+    const double dx = x - .5, dy = y + .25, d2 = dx * dx + dy * dy + 2.25;
+    const double factor = 1.5 / std::sqrt(d2) / d2 / pi;
+    return {4 * .8 * factor, 3 * .5 * factor, 2 * .25 * factor};
+  });
+}
+
+TEST_F(PovrayOracle, DistantLightAndImagingRatio) {
+  Scene scene = plane();
+  scene.film.imaging_ratio = 0.5;
+  scene.lights.push_back({DistantLight{normalize(Vector3d{1, 2, -2}), emission_from_rgb({3, 2, 1})}});
+  expect_plane(scene, [](double, double) -> std::array<double, 3> {
+    const double factor = 0.5 * (2.0 / 3) / pi;
+    return {3 * .8 * factor, 2 * .5 * factor, 1 * .25 * factor};
+  });
+}
+
+TEST_F(PovrayOracle, SpotLightFallsAsTheSmoothstepOfTheCosine) {
+  Scene scene = plane();
+  SpotLight spot;
+  spot.light_to_world = translate({0, 0, 2}) * scale({1, 1, -1});
+  spot.intensity = emission_from_rgb({3, 3, 3});
+  spot.beam_deg = 15;
+  spot.cutoff_deg = 45;
+  scene.lights.push_back({spot});
+  expect_plane(scene, [](double x, double y) -> std::array<double, 3> {
+    const double d2 = x * x + y * y + 4, c = 2 / std::sqrt(d2);
+    const double outer = std::cos(pi / 4), inner = std::cos(pi / 12);
+    const double s = std::clamp((c - outer) / (inner - outer), 0.0, 1.0);
+    const double factor = 3 * c / d2 / pi * s * s * (3 - 2 * s);
+    return {.8 * factor, .5 * factor, .25 * factor};
+  });
+}
+
+// ∫ L cos θ cos θ' / d² dA over the square of side 1 around (3,0,2) that faces down, at (x,y,0).
+double irradiance_of_square(double x, double y) {
+  constexpr int n = 100;
+  double sum = 0;
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j) {
+      const double dx = 2.5 + (i + .5) / n - x, dy = -.5 + (j + .5) / n - y, d2 = dx * dx + dy * dy + 4;
+      sum += 4 / d2 / d2 / (n * n);
+    }
+  return sum;
+}
+
+TEST_F(PovrayOracle, SquareLight) {
+  for (const bool flipped : {false, true}) {
+    Scene scene = plane();
+    TriangleMesh lamp = square(2.5f, 3.5f, -.5f, .5f, 2);
+    if (!flipped) std::swap(lamp.positions[1], lamp.positions[3]);
+    add_emitter(scene, lamp, {4, 3, 2}).flip_orientation = flipped;
+    expect_plane(scene, [](double x, double y) -> std::array<double, 3> {
+      const double factor = irradiance_of_square(x, y) / pi;
+      return {4 * .8 * factor, 3 * .5 * factor, 2 * .25 * factor};
+    });
+  }
+}
+
+TEST_F(PovrayOracle, SquareLightsShineAndAreSeenFromTheirFrontOnly) {
+  for (const bool two_sided : {false, true}) {
+    Scene scene = empty_scene();
+    add_emitter(scene, square(-1.8f, -.2f, -1.8f, 1.8f, 0), {.6, .4, .2});  // faces the camera
+    TriangleMesh away = square(.2f, 1.8f, -1.8f, 1.8f, 0);
+    for (auto& t : away.triangles) std::swap(t[1], t[2]);
+    add_emitter(scene, away, {.6, .4, .2});
+    scene.area_lights.back().two_sided = two_sided;
+    const Colors seen = quarters(scene);
+    ASSERT_EQ(seen.size(), 4u);
+    EXPECT_NEAR(seen[0][1], .4, 1e-3);
+    EXPECT_NEAR(seen[1][1], two_sided ? .4 : 0, 1e-3);
+  }
+}
+
+TEST_F(PovrayOracle, ConstantEnvironmentByRadiosity) {
+  Scene scene = plane();
+  scene.lights.push_back({InfiniteLight{emission_from_rgb({.5, .75, 1})}});
+  expect_plane(
+      scene,
+      [](double, double) -> std::array<double, 3> {
+        return {.8 * .5, .5 * .75, .25 * 1};
+      },
+      0.02);
+}
+
+// What POV-Ray's absolute tolerances, and its floats far from the origin, would spoil.
+TEST_F(PovrayOracle, SmallAndDistantScenes) {
+  for (const auto& [size, place] : {std::pair{1e-4, 0.0}, {1.0, 1e6}, {1e6, 0.0}}) {
+    Scene scene = plane();
+    const Transform t = translate({place, place, 0}) * vitrail::scale({size, size, size});
+    scene.shapes[0].object_to_world = t;
+    auto& camera = std::get<PerspectiveCamera>(scene.camera);
+    camera.camera_to_world = t * camera.camera_to_world;
+    scene.lights.push_back(
+        {PointLight{transform_point(t, {.5, -.25, 1.5}), emission_from_rgb(RGB{4 * size * size, 0, 0})}});
+    expect_plane(scene, [](double x, double y) -> std::array<double, 3> {
+      const double dx = x - .5, dy = y + .25, d2 = dx * dx + dy * dy + 2.25;
+      return {4 * .8 * 1.5 / std::sqrt(d2) / d2 / pi, 0, 0};
+    });
+  }
+}
+
+TEST_F(PovrayOracle, Mirror) {
+  Scene scene = empty_scene();
+  add(scene, square(-5, 5, -5, 5, 0), ConductorMaterial{PerfectReflector{}});
+  scene.lights.push_back({InfiniteLight{emission_from_rgb({.5, .75, 1})}});
+  scene.settings.max_depth = 3;
+  expect_plane(
+      scene,
+      [](double, double) -> std::array<double, 3> {
+        return {.5, .75, 1};
+      },
+      0.002);
+}
+
+// Glass absorbs nothing: in a sky of one colour it cannot be seen.
+TEST_F(PovrayOracle, GlassInAFurnace) {
+  Scene scene = empty_scene();
+  TriangleMesh slab = square(-5, 5, -5, 5, 0), below = square(-5, 5, -5, 5, -1);
+  for (auto& t : below.triangles) std::swap(t[1], t[2]);
+  for (auto& t : below.triangles) slab.triangles.push_back({t[0] + 4, t[1] + 4, t[2] + 4});
+  slab.positions.insert(slab.positions.end(), below.positions.begin(), below.positions.end());
+  slab.uvs.insert(slab.uvs.end(), below.uvs.begin(), below.uvs.end());
+  add(scene, slab, DielectricMaterial{});
+  scene.lights.push_back({InfiniteLight{emission_from_rgb({.5, .5, .5})}});
+  scene.settings.max_depth = 20;
+  expect_plane(
+      scene,
+      [](double, double) -> std::array<double, 3> {
+        return {.5, .5, .5};
+      },
+      0.01);
+}
+
+// ---- Places -------------------------------------------------------------------------------------
+
+// A lamp in the upper right quarter of the picture.
+Scene corner_lamp() {
+  Scene scene = empty_scene();
+  add_emitter(scene, square(.2f, 1.8f, .2f, 1.8f, 0), {1, 0, 0});
+  return scene;
+}
+
+TEST_F(PovrayOracle, CameraOfEitherHandedness) {
+  Scene scene = corner_lamp();
+  EXPECT_EQ(quarters(scene), (Colors{black, red, black, black}));
+  auto& camera = std::get<PerspectiveCamera>(scene.camera);
+  camera.camera_to_world = camera.camera_to_world * scale({-1, 1, 1});
+  EXPECT_EQ(quarters(scene), (Colors{red, black, black, black}));
+  camera.camera_to_world = camera.camera_to_world * rotate(pi / 2, {0, 0, 1});
+  EXPECT_EQ(std::ranges::count(quarters(scene), red), 1);
+  camera.camera_to_world = camera.camera_to_world * scale({1, -1, 1}) * rotate(-pi / 2, {0, 0, 1});
+  EXPECT_EQ(std::ranges::count(quarters(scene), red), 1);
+}
+
+TEST_F(PovrayOracle, ScreenWindowsAndOrthographicCameras) {
+  Scene scene = corner_lamp();
+  std::get<PerspectiveCamera>(scene.camera).screen = {0, .5, -.5, 0};  // the lower right quarter
+  EXPECT_EQ(quarters(scene), (Colors{black, black, black, black}));
+  std::get<PerspectiveCamera>(scene.camera).screen = {0, .5, 0, .5};
+  EXPECT_EQ(quarters(scene), (Colors{red, red, red, red}));
+  OrthographicCamera camera;
+  camera.camera_to_world = std::get<PerspectiveCamera>(scene.camera).camera_to_world;
+  camera.screen = {-2, 2, -2, 2};
+  scene.camera = camera;
+  EXPECT_EQ(quarters(scene), (Colors{black, red, black, black}));
+  camera.screen = {0, 2, -2, 2};
+  scene.camera = camera;
+  EXPECT_EQ(quarters(scene), (Colors{red, red, black, black}));
+}
+
+TEST_F(PovrayOracle, OptionsOfTheFilm) {
+  Scene scene = corner_lamp();
+  scene.film.width = 40;
+  scene.film.height = 20;
+  scene.film.crop = {0, 40, 0, 10};
+  const PovPicture picture = render_povray(scene, folder_);
+  EXPECT_EQ(picture.width, 40);
+  EXPECT_EQ(picture.height, 20);
+  EXPECT_EQ(picture.at(30, 5), red);
+}
+
+TEST_F(PovrayOracle, ImagesLieWithTheirLowerLeftCornerAtZero) {
+  folder_.write("image.ppm", "P3\n2 2\n255\n255 0 0  0 255 0  0 0 255  255 255 255\n");
+  Scene scene = empty_scene();
+  scene.textures.push_back({ImageTexture{(folder_ / "image.ppm").string()}});
+  std::get<ImageTexture>(scene.textures[0].model).filter = TextureFilter::nearest;
+  add(scene, square(-2, 2, -2, 2, 0), DiffuseMaterial{Id<Texture>{0}});
+  scene.lights.push_back({DistantLight{{0, 0, -1}, emission_from_rgb({pi, pi, pi})}});
+  const auto near = [&](const Colors& expected) {
+    const Colors seen = quarters(scene);
+    ASSERT_EQ(seen.size(), 4u);
+    for (std::size_t q = 0; q < 4; ++q)
+      for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(seen[q][c], expected[q][c], 2e-3) << q << ' ' << c;
+  };
+  near({red, green, blue, white});
+  auto& mapping = std::get<UvMapping>(std::get<ImageTexture>(scene.textures[0].model).mapping);
+  mapping = {1, 0, 0, 0, -1, 1};  // t = 1 − v
+  near({blue, white, red, green});
+  mapping = {1, 0, .5f, 0, 1, 0};  // s = u + ½
+  near({green, red, white, blue});
+  mapping = {0, 1, 0, 1, 0, 0};  // s = v, t = u
+  near({white, green, blue, red});
+  mapping = {};
+  scene.meshes[0].uvs.clear();  // pbrt's own: (0,0), (1,0), (1,1) for each triangle
+  near({white, green, blue, white});
+}
+
+TEST_F(PovrayOracle, ProductsOfTextures) {
+  folder_.write("image.ppm", "P3\n2 2\n255\n255 0 0  0 255 0  0 0 255  255 255 255\n");
+  Scene scene = empty_scene();
+  ImageTexture image{(folder_ / "image.ppm").string()};
+  image.filter = TextureFilter::nearest;
+  scene.textures.push_back({image});
+  scene.textures.push_back(
+      {ProductTexture{SpectrumParameter{unbounded_from_rgb({.25, .5, .75})}, Id<Texture>{0}}});
+  add(scene, square(-2, 2, -2, 2, 0), DiffuseMaterial{Id<Texture>{1}});
+  scene.lights.push_back({DistantLight{{0, 0, -1}, emission_from_rgb({pi, pi, pi})}});
+  const Colors seen = quarters(scene);
+  ASSERT_EQ(seen.size(), 4u);
+  const Colors expected{{.25, 0, 0}, {0, .5, 0}, {0, 0, .75}, {.25, .5, .75}};
+  for (std::size_t q = 0; q < 4; ++q)
+    for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(seen[q][c], expected[q][c], 2e-3);
+}
+
+TEST_F(PovrayOracle, InstancesAndTheirMeshFiles) {
+  Scene scene = empty_scene();
+  TriangleMesh many = square(.1f, .2f, .1f, .2f, 0);
+  while (many.triangles.size() < 100) many.triangles.push_back(many.triangles[many.triangles.size() % 2]);
+  Shape shape = make_shape(scene, many, DiffuseMaterial{ConstantSpectrum{1}});
+  shape.object_to_world = scale({10, 10, 1});  // 1 … 2
+  scene.prototypes.push_back({"p", {shape}});
+  const Transform half = translate({-.5, -.5, 0});
+  scene.instances.push_back({{0}, half});
+  scene.instances.push_back({{0}, scale({-1, -1, 1}) * half});
+  scene.lights.push_back({DistantLight{{0, 0, -1}, emission_from_rgb({pi, pi, pi})}});
+  const Colors seen = quarters(scene);
+  ASSERT_EQ(seen.size(), 4u);
+  EXPECT_NEAR(seen[1][0], 1, 1e-3);
+  EXPECT_NEAR(seen[2][1], 1, 1e-3);
+  EXPECT_EQ(seen[0], black);
+  EXPECT_EQ(seen[3], black);
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "scene-meshes" / "000000.inc"));
+}
+
+// An image of the whole sphere in which each octant of directions has its own colour.
+std::array<double, 3> octant_color(Vector3d d) {
+  return {d.x > 0 ? 1.0 : 0.0, d.y > 0 ? 1.0 : 0.0, d.z > 0 ? 1.0 : 0.0};
+}
+
+template <class Direction>
+std::string sphere_image(int width, int height, Direction&& direction) {
+  std::string text = fmt::format("P3\n{} {}\n255\n", width, height);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const auto c = octant_color(direction((x + .5) / width, (y + .5) / height));
+      text += fmt::format("{:.0f} {:.0f} {:.0f}\n", c[0] * 255, c[1] * 255, c[2] * 255);
+    }
+  return text;
+}
+
+// Clarberg 2008: from the square to the sphere, u right and v down the image.
+Vector3d equal_area_direction(double px, double py) {
+  const double u = 2 * px - 1, v = 2 * py - 1, up = std::abs(u), vp = std::abs(v);
+  const double signed_distance = 1 - (up + vp), d = std::abs(signed_distance), r = 1 - d;
+  const double phi = (r == 0 ? 1 : (vp - up) / r + 1) * pi / 4;
+  const double z = std::copysign(1 - r * r, signed_distance), s = r * std::sqrt(std::max(0.0, 2 - r * r));
+  return {std::copysign(std::cos(phi), u) * s, std::copysign(std::sin(phi), v) * s, z};
+}
+
+TEST_F(PovrayOracle, EnvironmentsFaceTheRightWay) {
+  folder_.write("square.ppm", sphere_image(64, 64, equal_area_direction));
+  folder_.write("map.ppm", sphere_image(64, 32, [](double u, double v) -> Vector3d {
+                  const double phi = 2 * pi * u, theta = pi * v;
+                  return {std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)};
+                }));
+  const Transform turned = rotate(.7, {1, 2, 3}) * scale({1, 1, -1});
+  for (const bool is_map : {true, false})
+    for (const Transform& light_to_world : {Transform{}, turned}) {
+      Scene scene = empty_scene();
+      scene.settings.max_depth = 0;
+      EnvironmentLight light;
+      light.filename = (folder_ / (is_map ? "map.ppm" : "square.ppm")).string();
+      light.light_to_world = light_to_world;
+      if (is_map) light.projection = EnvironmentLight::Projection::latitude_longitude;
+      scene.lights.push_back({light});
+      for (const Vector3d view : {Vector3d{1, 2, 3}, {-1, 1, 2}, {2, -2, -1}}) {
+        auto& camera = std::get<PerspectiveCamera>(scene.camera);
+        camera.camera_to_world = look_at({}, Point3d{} + transform_vector(light_to_world, view), {0, .1, 1});
+        camera.screen = {-.01, .01, -.01, .01};
+        const PovPicture picture = render_povray(scene, folder_);
+        ASSERT_FALSE(picture.values.empty());
+        for (std::size_t c = 0; c < 3; ++c)
+          EXPECT_NEAR(picture.at(16, 16)[c], octant_color(view)[c], .02)
+              << is_map << ' ' << view.x << ' ' << view.y << ' ' << view.z << ' ' << c;
+      }
+    }
+}
+
+}  // namespace
+}  // namespace vitrail
