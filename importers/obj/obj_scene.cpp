@@ -34,6 +34,12 @@ std::vector<std::string> split_names(const std::string& text) {
 
 using Library = std::map<std::string, MtlMaterial>;
 
+// In the OBJ file, which is the first of the Scene's.
+Origin origin_of(const Mention& mention) {
+  return {0, static_cast<std::uint32_t>(mention.location.line),
+          static_cast<std::uint32_t>(mention.location.column)};
+}
+
 void add_library(const std::filesystem::path& file, Library& library, Diagnostics& diagnostics) {
   for (MtlMaterial& material : read_mtl(file, diagnostics)) {
     const SourceLocation where = material.location;
@@ -66,48 +72,44 @@ Library read_libraries(const Geometry& geometry, const std::filesystem::path& fo
   return library;
 }
 
-struct Surface {
-  Id<Material> material;
-  std::optional<Id<AreaLight>> light;
-};
-
 template <class T, class Value>
 Id<T> append(std::vector<T>& to, Value value) {
   to.push_back(std::move(value));
   return {static_cast<std::uint32_t>(to.size() - 1)};
 }
 
-Surface add_surface(const Mention& use, const Library& library, ImportedScene& result) {
+MtlSurface add_surface(const Mention& use, const Library& library, ImportedScene& result) {
   const auto found = library.find(use.name);
-  if (found == library.end()) {
-    if (use.location.line > 0) {
-      result.diagnostics.push_back(
-          {Fidelity::approximated,
-           fmt::format("material '{}' is not defined: diffuse, reflectance 0.5", printable(use.name)),
-           use.location});
-    }
-    return {append(result.scene.materials, Material{DiffuseMaterial{}}), {}};
+  if (found != library.end()) return add_mtl_material(found->second, result.scene, result.diagnostics);
+  if (use.location.line > 0) {
+    result.diagnostics.push_back(
+        {Fidelity::approximated,
+         fmt::format("material '{}' is not defined: diffuse, reflectance 0.5", printable(use.name)),
+         use.location, use.location});
   }
-  Surface surface{append(result.scene.materials, found->second.material), {}};
-  if (found->second.light) surface.light = append(result.scene.area_lights, *found->second.light);
-  return surface;
+  Material material{DiffuseMaterial{}};
+  material.name = use.name;
+  material.origin = origin_of(use);
+  return {append(result.scene.materials, std::move(material)), {}};
 }
 
 }  // namespace
 
 ImportedScene to_scene(Geometry&& geometry, Vector3d offset, const std::filesystem::path& file) {
   ImportedScene result;
+  result.scene.files = {file.string()};
   result.diagnostics = std::move(geometry.diagnostics);
   const Library library = read_libraries(geometry, file.parent_path(), result.diagnostics);
-  std::vector<std::optional<Surface>> surfaces(geometry.materials.size());
+  std::vector<std::optional<MtlSurface>> surfaces(geometry.materials.size());
   for (const Group& group : geometry.groups) {
-    std::optional<Surface>& surface = surfaces[group.material];
+    std::optional<MtlSurface>& surface = surfaces[group.material];
     if (!surface) surface = add_surface(geometry.materials[group.material], library, result);
     Shape shape;
     shape.mesh = {static_cast<std::uint32_t>(result.scene.shapes.size())};
     shape.material = surface->material;
     shape.area_light = surface->light;
     shape.object_to_world = translate(offset);
+    shape.origin = origin_of(geometry.materials[group.material]);
     result.scene.shapes.push_back(shape);
   }
   result.scene.meshes = to_meshes(std::move(geometry));

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+
+#include "importers/obj/mtl.h"
+#include "importers/ply/text_cursor.h"
+
+namespace vitrail::obj {
+
+// Reads the options and the name that follow a keyword such as map_Kd. The name is sought in `folder`;
+// nothing is returned where it is not there. `note(key, fidelity, message)` reports.
+using Note = std::function<void(const std::string&, Fidelity, std::string)>;
+std::optional<MtlMap> read_map(TextCursor& cursor, const std::string& keyword,
+                               const std::filesystem::path& folder, const Note& note);
+
+}  // namespace vitrail::obj
