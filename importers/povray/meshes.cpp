@@ -1,39 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "importers/povray/meshes.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <iterator>
 
-#include "scene/atomic_file.h"
+#include "importers/text_sink.h"
 
 namespace vitrail::povray {
 
 namespace {
 
 using Triangle = std::array<std::uint32_t, 3>;
-
-// Text that goes to a file, if there is one, whenever a piece is full.
-class Sink {
- public:
-  explicit Sink(AtomicFile* file) : file_(file) {}
-  template <class... Values>
-  void put(fmt::format_string<Values...> form, Values&&... values) {
-    fmt::format_to(std::back_inserter(text_), form, std::forward<Values>(values)...);
-    constexpr std::size_t piece = 1 << 20;
-    if (file_ && text_.size() > piece) flush();
-  }
-  void flush() {
-    file_->write(std::as_bytes(std::span(text_.data(), text_.size())));
-    text_.clear();
-  }
-  std::string text() const { return fmt::to_string(text_); }
-
- private:
-  AtomicFile* file_;
-  fmt::memory_buffer text_;
-};
 
 Point3f position(const MeshText& text, std::uint32_t i) {
   return cast<float>(transform_point(text.to_pov, cast<double>(text.mesh.positions[i])));
@@ -47,13 +23,13 @@ Vector3d area_vector(const MeshText& text, const Triangle& t) {
 
 bool counts(const MeshText& text, const Triangle& t) { return length(area_vector(text, t)) > 0; }
 
-void put_positions(const MeshText& text, Sink& out) {
-  out.put("vertex_vectors {{ {}", text.mesh.positions.size());
+void put_positions(const MeshText& text, TextSink& out) {
+  out.put(FMT_COMPILE("vertex_vectors {{ {}"), text.mesh.positions.size());
   for (std::uint32_t i = 0; i < text.mesh.positions.size(); ++i) {
     const Point3f p = position(text, i);
-    out.put(",\n<{},{},{}>", p.x, p.y, p.z);
+    out.put(FMT_COMPILE(",\n<{},{},{}>"), p.x, p.y, p.z);
   }
-  out.put(" }}\n");
+  out.put(FMT_COMPILE(" }}\n"));
 }
 
 // Shading normals on the front side: there POV-Ray looks for the outside of a smooth triangle.
@@ -73,36 +49,36 @@ std::vector<Normal3f> front_normals(const MeshText& text) {
   return normals;
 }
 
-void put_normals(const MeshText& text, Sink& out) {
-  out.put("normal_vectors {{ {}", text.mesh.normals.size());
-  for (const Normal3f& n : front_normals(text)) out.put(",\n<{},{},{}>", n.x, n.y, n.z);
-  out.put(" }}\n");
+void put_normals(const MeshText& text, TextSink& out) {
+  out.put(FMT_COMPILE("normal_vectors {{ {}"), text.mesh.normals.size());
+  for (const Normal3f& n : front_normals(text)) out.put(FMT_COMPILE(",\n<{},{},{}>"), n.x, n.y, n.z);
+  out.put(FMT_COMPILE(" }}\n"));
 }
 
-void put_uvs(const MeshText& text, Sink& out) {
-  if (text.mesh.uvs.empty()) return out.put("uv_vectors {{ 3, <0,0>, <1,0>, <1,1> }}\n");
-  out.put("uv_vectors {{ {}", text.mesh.uvs.size());
-  for (const Point2f& uv : text.mesh.uvs) out.put(",\n<{},{}>", uv.x, uv.y);
-  out.put(" }}\n");
+void put_uvs(const MeshText& text, TextSink& out) {
+  if (text.mesh.uvs.empty()) return out.put(FMT_COMPILE("uv_vectors {{ 3, <0,0>, <1,0>, <1,1> }}\n"));
+  out.put(FMT_COMPILE("uv_vectors {{ {}"), text.mesh.uvs.size());
+  for (const Point2f& uv : text.mesh.uvs) out.put(FMT_COMPILE(",\n<{},{}>"), uv.x, uv.y);
+  out.put(FMT_COMPILE(" }}\n"));
 }
 
 // The outside of a flat triangle is where its vertices run clockwise (in a right-handed reading of the
 // coordinates): POV-Ray's own space is left-handed.
-void put_faces(const MeshText& text, Sink& out) {
+void put_faces(const MeshText& text, TextSink& out) {
   const auto count =
       std::ranges::count_if(text.mesh.triangles, [&](const Triangle& t) { return counts(text, t); });
   const std::size_t second = text.flip ? 1 : 2, third = 3 - second;
-  out.put("face_indices {{ {}", count);
+  out.put(FMT_COMPILE("face_indices {{ {}"), count);
   for (const Triangle& t : text.mesh.triangles)
-    if (counts(text, t)) out.put(",\n<{},{},{}>", t[0], t[second], t[third]);
-  out.put(" }}\n");
+    if (counts(text, t)) out.put(FMT_COMPILE(",\n<{},{},{}>"), t[0], t[second], t[third]);
+  out.put(FMT_COMPILE(" }}\n"));
   if (!text.with_uvs || !text.mesh.uvs.empty()) return;
-  out.put("uv_indices {{ {}", count);
-  for (std::ptrdiff_t i = 0; i < count; ++i) out.put(",\n<0,{},{}>", second, third);
-  out.put(" }}\n");
+  out.put(FMT_COMPILE("uv_indices {{ {}"), count);
+  for (std::ptrdiff_t i = 0; i < count; ++i) out.put(FMT_COMPILE(",\n<0,{},{}>"), second, third);
+  out.put(FMT_COMPILE(" }}\n"));
 }
 
-void put_mesh(const MeshText& text, Sink& out) {
+void put_mesh(const MeshText& text, TextSink& out) {
   put_positions(text, out);
   if (!text.mesh.normals.empty()) put_normals(text, out);
   if (text.with_uvs) put_uvs(text, out);
@@ -116,14 +92,14 @@ bool has_area(const MeshText& text) {
 }
 
 std::string mesh_text(const MeshText& text) {
-  Sink out(nullptr);
+  TextSink out;
   put_mesh(text, out);
   return out.text();
 }
 
 void write_mesh_text(const MeshText& text, const std::filesystem::path& path) {
   AtomicFile file(path);
-  Sink out(&file);
+  TextSink out(&file);
   put_mesh(text, out);
   out.flush();
   file.commit();

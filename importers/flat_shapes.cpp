@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "importers/flat_shapes.h"
+
+#include <fmt/format.h>
+
+namespace vitrail {
+
+std::vector<FlatShape> flat_shapes(const Scene& scene) {
+  std::vector<FlatShape> flat;
+  for (const Shape& shape : scene.shapes)
+    flat.push_back({shape, shape.object_to_world, shape.flip_orientation});
+  for (const Instance& instance : scene.instances) {
+    // A mirrored instance keeps the fronts of its prototype.
+    const bool mirrors = swaps_handedness(instance.prototype_to_world);
+    for (const Shape& shape : scene.prototypes.at(instance.prototype.value).shapes)
+      flat.push_back(
+          {shape, instance.prototype_to_world * shape.object_to_world, shape.flip_orientation != mirrors});
+  }
+  return flat;
+}
+
+void note_geometry_only(const Scene& scene, Diagnostics& diagnostics) {
+  const auto note = [&](Fidelity fidelity, std::string message, const Origin& origin) {
+    const SourceLocation where = location(scene, origin);
+    diagnostics.push_back({fidelity, std::move(message), where, where});
+  };
+  if (scene.camera_origin.line > 0)
+    note(Fidelity::dropped, "camera: the format has none", scene.camera_origin);
+  if (scene.film_origin.line > 0) note(Fidelity::dropped, "film: the format has none", scene.film_origin);
+  for (const Light& light : scene.lights)
+    note(Fidelity::dropped, "light: the format has surfaces only", light.origin);
+  for (const Medium& medium : scene.media)
+    note(Fidelity::dropped, fmt::format("medium {}: the format has surfaces only", medium.name),
+         medium.origin);
+  if (!scene.instances.empty())
+    note(Fidelity::approximated,
+         fmt::format("{} instances: each is written with triangles of its own", scene.instances.size()),
+         scene.instances.front().origin);
+}
+
+}  // namespace vitrail

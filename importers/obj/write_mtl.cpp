@@ -1,0 +1,333 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "importers/obj/write_mtl.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "importers/export_colors.h"
+#include "importers/mesh_files.h"
+#include "scene/atomic_file.h"
+
+namespace vitrail {
+
+namespace {
+
+// The text of one material.
+class Writer {
+ public:
+  Writer(const Scene& scene, const std::filesystem::path& folder, Diagnostics& diagnostics)
+      : scene_(scene), folder_(folder), diagnostics_(diagnostics) {}
+
+  std::string write(const std::string& name, const MtlKey& key) {
+    text_ = fmt::format("newmtl {}\n", name);
+    put(Id<Material>{key.first});
+    if (key.second) put(scene_.area_lights.at(*key.second));
+    return text_ + "\n";
+  }
+
+ private:
+  // ---- Pieces -----------------------------------------------------------------------------------
+
+  void approximated(std::string message) { note(Fidelity::approximated, std::move(message)); }
+  void note(Fidelity fidelity, std::string message) {
+    const SourceLocation where = location(scene_, origin_);
+    if (noted_.insert(to_string(where) + '\n' + message).second)
+      diagnostics_.push_back({fidelity, std::move(message), where, where});
+  }
+
+  void line(const char* keyword, RGB c) {
+    // The Scene's colours are floats.
+    text_ += fmt::format("{} {} {} {}\n", keyword, static_cast<float>(c.r), static_cast<float>(c.g),
+                         static_cast<float>(c.b));
+  }
+  void line(const char* keyword, double value) { text_ += fmt::format("{} {}\n", keyword, value); }
+  // Floats by the digits that they need, not those of the double that they become.
+  void line(const char* keyword, float value) { text_ += fmt::format("{} {}\n", keyword, value); }
+
+  const Texture& texture(Id<Texture> id) const { return scene_.textures.at(id.value); }
+
+  // "keyword options name" of an image; `scale` goes into -mm, or -bm. False where it is no image.
+  bool map(const char* keyword, Id<Texture> id, Encoding expected, const char* scale_option) {
+    const auto* image = std::get_if<ImageTexture>(&texture(id).model);
+    if (!image) return false;
+    std::string options;
+    const auto* uv = std::get_if<UvMapping>(&image->mapping);
+    if (!uv || uv->b != 0 || uv->d != 0) {
+      approximated(fmt::format("mapping of the image of {}: the uv themselves", keyword));
+    } else {
+      if (uv->a != 1 || uv->e != 1) options += fmt::format("-s {} {} 1 ", uv->a, uv->e);
+      if (uv->c != 0 || uv->f != 0) options += fmt::format("-o {} {} 0 ", uv->c, uv->f);
+    }
+    if (image->wrap == Wrap::clamp) options += "-clamp on ";
+    if (image->wrap == Wrap::mirror || image->wrap == Wrap::black)
+      approximated(fmt::format("image of {} that is mirrored or black outside: it repeats", keyword));
+    if (image->encoding != expected) approximated(fmt::format("encoding of the image of {}", keyword));
+    if (image->invert) approximated(fmt::format("inverted image of {}: as it is in the file", keyword));
+    if (scale_option && image->scale != 1) options += fmt::format("{} {} ", scale_option, image->scale);
+    text_ += fmt::format("{} {}{}\n", keyword, options, relative_name(image->filename, folder_));
+    return true;
+  }
+
+  // A colour, with the image that it multiplies.
+  void color(const char* keyword, const char* map_keyword, const SpectrumParameter& parameter,
+             RGB (*rgb)(const Spectrum&) = factor_rgb, double factor = 1) {
+    if (const auto* spectrum = std::get_if<Spectrum>(&parameter)) {
+      if (!is_rgb(*spectrum)) approximated("spectrum: written as its colour in linear sRGB");
+      const RGB c = rgb(*spectrum);
+      return line(keyword, RGB{c.r * factor, c.g * factor, c.b * factor});
+    }
+    const auto id = std::get<Id<Texture>>(parameter);
+    const TextureModel& model = texture(id).model;
+    if (const auto* image = std::get_if<ImageTexture>(&model)) {
+      const double scale = image->scale * factor;
+      line(keyword, RGB{scale, scale, scale});
+      map(map_keyword, id, Encoding::automatic, nullptr);
+      return;
+    }
+    if (const auto* product = std::get_if<ProductTexture>(&model)) {
+      const auto* constant = std::get_if<Spectrum>(&product->first);
+      const auto* second = std::get_if<Id<Texture>>(&product->second);
+      if (constant && second && std::holds_alternative<ImageTexture>(texture(*second).model)) {
+        const double scale = std::get<ImageTexture>(texture(*second).model).scale * factor;
+        const RGB c = factor_rgb(*constant);
+        line(keyword, RGB{c.r * scale, c.g * scale, c.b * scale});
+        map(map_keyword, *second, Encoding::automatic, nullptr);
+        return;
+      }
+    }
+    approximated(fmt::format("texture of {} that is no image: 0.5", keyword));
+    line(keyword, RGB{0.5 * factor, 0.5 * factor, 0.5 * factor});
+  }
+
+  double constant(const FloatParameter& parameter, const char* what) {
+    if (const auto* value = std::get_if<float>(&parameter)) return *value;
+    approximated(fmt::format("texture of the {}: 0.5", what));
+    return 0.5;
+  }
+
+  void number(const char* keyword, const char* map_keyword, const FloatParameter& parameter) {
+    if (const auto* value = std::get_if<float>(&parameter)) return line(keyword, *value);
+    if (map_keyword && map(map_keyword, std::get<Id<Texture>>(parameter), Encoding::linear, "-mm 0")) return;
+    approximated(fmt::format("texture of {}: 0.5", keyword));
+    line(keyword, 0.5);
+  }
+
+  double alpha_of(const Roughness& roughness) {
+    const double u = constant(roughness.alpha_u, "roughness"), v = constant(roughness.alpha_v, "roughness");
+    if (u != v) approximated("anisotropic roughness: the mean of the two");
+    return (u + v) / 2;
+  }
+
+  // Readers take an index above 1 together with d < 1 as glass.
+  void coat_index(float eta) {
+    if (!is_veiled_) return line("Ni", eta);
+    if (eta != 1.5f) approximated("index of a coat that is partly transparent: 1.5");
+  }
+
+  // Phong's exponent of the same width as microfacets of width α.
+  void shininess(const Roughness& roughness) {
+    const double alpha = alpha_of(roughness);
+    if (roughness.distribution != Roughness::Distribution::beckmann)
+      approximated("GGX microfacets: Beckmann's of the same width, or Phong's lobe");
+    constexpr double smoothest = 1e6;
+    if (alpha < 1e-3) approximated("smooth surface: Ns 1000000");
+    line("Ns", alpha < 1e-3 ? smoothest : std::max(0.0, 2 / (alpha * alpha) - 2));
+  }
+
+  // ---- Models -----------------------------------------------------------------------------------
+
+  void put(Id<Material> id) {
+    const Material& material = scene_.materials.at(id.value);
+    origin_ = material.origin;
+    std::visit([this](const auto& model) { put(model); }, material.model);
+    if (!material.two_sided) approximated("one-sided material: MTL has no sides");
+    if (material.displacement) {
+      const auto* texture = std::get_if<Id<Texture>>(&*material.displacement);
+      if (texture && !map("map_Bump", *texture, Encoding::linear, "-bm"))
+        note(Fidelity::dropped, "displacement that is no image");
+    }
+    if (material.normal_map && !map("norm", *material.normal_map, Encoding::linear, nullptr))
+      note(Fidelity::dropped, "normal map that is no image");
+  }
+
+  void put(const DiffuseMaterial& m) {
+    color("Kd", "map_Kd", m.reflectance);
+    if (m.sigma_deg != FloatParameter{0.0f}) approximated("Oren and Nayar's reflection: Lambert's");
+  }
+
+  void put_glass(double eta, const SpectrumParameter& tint, const Roughness& roughness) {
+    text_ += "Kd 0 0 0\nKs 1 1 1\nillum 7\n";
+    if (!(eta > 1)) approximated("index of refraction of 1 or less: readers take it as opaque");
+    line("Ni", static_cast<float>(eta));
+    const auto* factor = std::get_if<Spectrum>(&tint);
+    if (!factor) approximated("texture of the transmitted light: clear");
+    if (factor && *factor != Spectrum{ConstantSpectrum{1}}) line("Tf", factor_rgb(*factor));
+    const double alpha = alpha_of(roughness);
+    if (alpha > 0) line("Pr", std::sqrt(alpha));
+  }
+  void put(const DielectricMaterial& m) {
+    const double eta = index_of_refraction(m.eta), outside = index_of_refraction(m.exterior_eta);
+    if (!is_constant(m.eta)) approximated("dispersion: the index at 587.6 nm");
+    if (m.reflectance_factor != SpectrumParameter{ConstantSpectrum{1}})
+      note(Fidelity::dropped, "factor of reflection");
+    put_glass(outside > 0 ? eta / outside : eta, m.transmittance_factor, m.roughness);
+  }
+  void put(const ThinDielectricMaterial&) {
+    approximated("thin dielectric: a clear surface, without its reflection");
+    text_ += "Kd 0 0 0\nd 0\n";
+  }
+
+  void put_metal(const Metal& metal, const Roughness& roughness) {
+    text_ += "Kd 0 0 0\nillum 3\n";
+    const auto* normal = std::get_if<NormalReflectance>(&metal);
+    if (normal) {
+      color("Ks", "map_Ks", normal->reflectance);
+    } else {
+      approximated("conductor: by its colour at normal incidence");
+      line("Ks", normal_reflectance_rgb(metal));
+    }
+    shininess(roughness);
+  }
+  void put(const ConductorMaterial& m) {
+    if (m.reflectance_factor != SpectrumParameter{ConstantSpectrum{1}})
+      note(Fidelity::dropped, "factor of a conductor's reflection");
+    put_metal(m.metal, m.roughness);
+  }
+  void put(const CoatedConductorMaterial& m) {
+    approximated("coated conductor: without its coating");
+    put_metal(m.metal, m.conductor_roughness);
+  }
+
+  void put(const PlasticMaterial& m) {
+    color("Kd", "map_Kd", m.diffuse_reflectance);
+    color("Ks", "map_Ks", m.specular_reflectance);
+    coat_index(m.exterior_eta > 0 ? m.eta / m.exterior_eta : m.eta);
+    shininess(m.roughness);
+    if (m.nonlinear) approximated("shift of colour below a coat: without it");
+  }
+  void put(const CoatedDiffuseMaterial& m) {
+    approximated("coated diffuse: its two layers");
+    color("Kd", "map_Kd", m.reflectance);
+    text_ += "Ks 1 1 1\n";
+    coat_index(static_cast<float>(index_of_refraction(m.eta)));
+    shininess(m.roughness);
+  }
+  void put(const DiffuseTransmissionMaterial& m) {
+    approximated("diffuse transmission: reflection only");
+    color("Kd", "map_Kd", m.reflectance, factor_rgb, m.scale);
+  }
+
+  void put(const PrincipledMaterial& m) {
+    color("Kd", "map_Kd", m.base_color);
+    number("Pr", "map_Pr", m.roughness);
+    number("Pm", "map_Pm", m.metallic);
+    number("Ps", "map_Ps", m.sheen);
+    if (m.clearcoat != FloatParameter{0.0f}) {
+      number("Pc", nullptr, m.clearcoat);
+      line("Pcr", static_cast<float>(1 - constant(m.clearcoat_gloss, "gloss of the clearcoat")));
+    }
+    if (m.anisotropic != FloatParameter{0.0f}) number("aniso", nullptr, m.anisotropic);
+    coat_index(m.eta);
+    for (const auto& [parameter, what] : {std::pair{&m.spec_trans, "transmission"},
+                                          {&m.spec_tint, "tint of the reflection"},
+                                          {&m.sheen_tint, "tint of the sheen"},
+                                          {&m.flatness, "flatness"},
+                                          {&m.diff_trans, "diffuse transmission"}})
+      if (*parameter != FloatParameter{0.0f})
+        note(Fidelity::dropped, fmt::format("{} of a principled material", what));
+  }
+
+  void put_grey(const char* what, double grey) {
+    approximated(fmt::format("{}: diffuse, {}", what, grey));
+    line("Kd", RGB{grey, grey, grey});
+  }
+  void put(const SubsurfaceMaterial& m) {
+    const auto* effective = std::get_if<SubsurfaceMaterial::Effective>(&m.interior);
+    if (!effective) return put_grey("subsurface scattering", 0.5);
+    approximated("subsurface scattering: diffuse, of its reflectance");
+    color("Kd", "map_Kd", effective->reflectance);
+  }
+  void put(const HairMaterial& m) {
+    if (!m.color) return put_grey("hair", 0.2);
+    approximated("hair: diffuse, of its colour");
+    color("Kd", "map_Kd", *m.color);
+  }
+  void put(const MeasuredMaterial&) { put_grey("measured material", 0.5); }
+  void put(const InterfaceMaterial&) { text_ += "Kd 0 0 0\nd 0\n"; }
+
+  void put(const BlendMaterial& m) {
+    const bool second = constant(m.amount, "amount of a blend") > 0.5;
+    approximated(fmt::format("blend of materials: the {} alone", second ? "second" : "first"));
+    put_part(second ? m.second : m.first);
+  }
+  void put(const TwoSidedMaterial& m) {
+    approximated("two-sided material: its front");
+    put_part(m.front);
+  }
+  void put(const MaskMaterial& m) {
+    const auto* opacity = std::get_if<float>(&m.opacity);
+    is_veiled_ = opacity && *opacity < 1;
+    put_part(m.material);
+    is_veiled_ = false;
+    number("d", "map_d", m.opacity);
+  }
+  void put_part(Id<Material> id) {
+    const Origin outer = origin_;
+    put(id);
+    origin_ = outer;
+  }
+
+  // ---- Emission ---------------------------------------------------------------------------------
+
+  void put(const AreaLight& light) {
+    origin_ = light.origin;
+    color("Ke", "map_Ke", light.radiance, emission_rgb, light.scale);
+    if (!light.two_sided) approximated("one-sided light: shines from both sides, since MTL has none");
+    if (light.directional) approximated("light along the normal only: shines in all directions");
+  }
+
+  const Scene& scene_;
+  const std::filesystem::path folder_;
+  Diagnostics& diagnostics_;
+  Origin origin_;
+  bool is_veiled_ = false;  // by a constant opacity below 1
+  std::set<std::string> noted_;
+  std::string text_;
+};
+
+// One line without blanks at its ends.
+std::string cleaned(std::string name) {
+  std::ranges::replace_if(
+      name, [](char c) { return static_cast<unsigned char>(c) < ' '; }, '_');
+  const auto begin = name.find_first_not_of(' ');
+  return begin == std::string::npos ? "" : name.substr(begin, name.find_last_not_of(' ') - begin + 1);
+}
+
+}  // namespace
+
+MtlNames write_mtl(const Scene& scene, const std::vector<FlatShape>& shapes,
+                   const std::filesystem::path& path, Diagnostics& diagnostics) {
+  MtlNames names;
+  std::set<std::string> taken;
+  std::string text;
+  Writer writer(scene, path.parent_path(), diagnostics);
+  for (const FlatShape& flat : shapes) {
+    const MtlKey key = surface_key(flat.shape);
+    if (names.contains(key)) continue;
+    std::string name = cleaned(scene.materials.at(key.first).name);
+    if (name.empty()) name = fmt::format("material_{}", key.first);
+    const std::string wanted = name;
+    for (int i = 2; !taken.insert(name).second; ++i) name = fmt::format("{}_{}", wanted, i);
+    text += writer.write(name, key);
+    names.emplace(key, name);
+  }
+  AtomicFile file(path);
+  file.write(std::as_bytes(std::span(text)));
+  file.commit();
+  return names;
+}
+
+}  // namespace vitrail

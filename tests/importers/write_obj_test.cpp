@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "importers/obj/write_obj.h"
+
+#include <gmock/gmock.h>
+
+#include "importers/obj/obj.h"
+#include "scene/rgb_to_spectrum.h"
+#include "tests/importers/temporary_folder.h"
+
+namespace vitrail {
+namespace {
+
+using testing::Contains;
+using testing::Field;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::SizeIs;
+using Triangle = std::array<std::uint32_t, 3>;
+
+auto says(const std::string& text) { return Contains(Field(&Diagnostic::message, HasSubstr(text))); }
+
+class WriteObj : public testing::Test {
+ protected:
+  Scene written(const Scene& scene) {
+    diagnostics_ = write_obj(scene, folder_ / "out.obj");
+    return read_obj(folder_ / "out.obj").scene;
+  }
+
+  // What is read stays as it is.
+  void expect_same(const std::string& obj, const std::string& mtl = "") {
+    folder_.write("m.mtl", mtl);
+    const Scene scene = read_obj(folder_.write("in.obj", "mtllib m.mtl\n" + obj)).scene;
+    const Scene again = written(scene);
+    EXPECT_EQ(again.meshes, scene.meshes) << mtl;
+    EXPECT_EQ(again.textures, scene.textures) << mtl;
+    EXPECT_EQ(again.area_lights, scene.area_lights) << mtl;
+    ASSERT_EQ(again.materials.size(), scene.materials.size()) << mtl;
+    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+      if (mtl.empty()) continue;  // the 0.5 of faces without a material is constant, that of Kd a colour
+      EXPECT_EQ(again.materials[i].model, scene.materials[i].model) << mtl;
+      EXPECT_EQ(again.materials[i].displacement, scene.materials[i].displacement) << mtl;
+      EXPECT_EQ(again.materials[i].normal_map, scene.materials[i].normal_map) << mtl;
+      if (!scene.materials[i].name.empty()) {
+        EXPECT_EQ(again.materials[i].name, scene.materials[i].name);
+      }
+    }
+    ASSERT_EQ(again.shapes.size(), scene.shapes.size());
+    for (std::size_t i = 0; i < scene.shapes.size(); ++i) {
+      EXPECT_EQ(again.shapes[i].object_to_world, scene.shapes[i].object_to_world);
+      EXPECT_EQ(again.shapes[i].area_light, scene.shapes[i].area_light);
+    }
+  }
+
+  static Scene triangle() {
+    Scene scene;
+    TriangleMesh mesh;
+    mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    mesh.triangles = {{0, 1, 2}};
+    scene.meshes.push_back(mesh);
+    scene.materials.push_back(Material{DiffuseMaterial{}});
+    scene.shapes.push_back({});
+    return scene;
+  }
+
+  const std::string square_ = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+  TemporaryFolder folder_;
+  Diagnostics diagnostics_;
+};
+
+TEST_F(WriteObj, GeometryOfItsOwnReaderStaysBitForBit) {
+  expect_same(
+      "v .1 .2 .3\nv 1e-30 16777217 -3.4e38\nv 0.333333333 1e10 7\nvt .1 .7\nvn .1 .2 .9\nf 1 2 3\n"
+      "usemtl a\nf 1/1 2/1 3/1\nusemtl b\nf 1//1 2//1 3//1\nf 1/1/1 2/1/1 3/1/1\nf 3 2 1\n");
+  EXPECT_THAT(diagnostics_, IsEmpty());
+}
+
+TEST_F(WriteObj, FarFromTheOriginToo) {
+  expect_same("v 5000000.001 0 .125\nv 5000000.002 0 0\nv 5000000.001 0.0017 0\nf 1 2 3\n");
+  expect_same("v 123456.789 98765.4321 -4321.5\nv 123457.1 98765.5 -4322\nv 123456.8 98766 -4321\nf 1 2 3\n");
+}
+
+TEST_F(WriteObj, MaterialsOfItsOwnReaderStay) {
+  folder_.write("a b.png", "");
+  folder_.write("c.png", "");
+  for (const std::string text : {"Kd .2 .4 .6\n",
+                                 "Kd 0.1 0.123456789 1\nKe 2 3 .1\n",
+                                 "Kd .5\nKs .25 .5 .125\nNs 37.5\nNi 1.45\n",
+                                 "Kd .5\nKs 1 1 1\nNs 0\n",
+                                 "Kd 0 0 0\nKs .9 .8 .1\nNs 198\nillum 3\n",
+                                 "illum 7\nNi 1.5\n",
+                                 "d .1\nNi 1.33\nTf .5 1 .25\n",
+                                 "illum 7\nNi 1.5\nPr .3\n",
+                                 "d 0\n",
+                                 "Kd 1 1 1\nd .25\n",
+                                 "Kd 1 1 1\nKs .5\nNs 10\nd .25\n",
+                                 "Kd 1 1 1\nNi 1.45\nmap_d c.png\n",
+                                 "Kd 1 1 1\nd .5\nmap_d c.png\n",
+                                 "map_Kd a b.png\n",
+                                 "Kd .25 .25 .25\nmap_Kd -s 2 3 1 -o .5 .25 0 -clamp on a b.png\n",
+                                 "Kd .2 .4 .6\nmap_Kd a b.png\n",
+                                 "Kd 1 1 1\nKs .5\nmap_Ks c.png\nNs 5\n",
+                                 "Kd 1 1 1\nmap_Bump -bm .25 c.png\nnorm c.png\n",
+                                 "Kd 1 1 1\nKe 2 2 2\nmap_Ke c.png\n",
+                                 "Kd .2 .4 .6\nPr .25\nPm .5\nPs .125\nPc 1\nPcr .25\naniso .75\nNi 1.6\n",
+                                 "Kd .2 .4 .6\nmap_Pr c.png\nmap_Pm -mm 0 .5 c.png\n"}) {
+    expect_same(square_ + "usemtl my m\nf 1 2 3 4\n", "newmtl my m\n" + text);
+    EXPECT_THAT(diagnostics_, IsEmpty()) << text << diagnostics_[0].message;
+  }
+}
+
+TEST_F(WriteObj, TransformsFlipsAndInstances) {
+  Scene scene = triangle();
+  scene.meshes[0].normals = {{0, 0, 1}, {0, 0, 1}, {0, 0, 1}};
+  scene.shapes[0].object_to_world = scale({2, 1, 1});
+  scene.shapes[0].flip_orientation = true;
+  scene.prototypes.push_back({"p", {scene.shapes[0]}});
+  scene.shapes.clear();
+  scene.instances.push_back({{0}, translate({0, 0, 5}) * scale({1, -1, 1})});
+  const Scene again = written(scene);
+  ASSERT_THAT(again.meshes, SizeIs(1));
+  const TriangleMesh& mesh = again.meshes[0];
+  const auto at = [&](int corner) {
+    return transform_point(again.shapes[0].object_to_world,
+                           cast<double>(mesh.positions[mesh.triangles[0][static_cast<std::size_t>(corner)]]));
+  };
+  EXPECT_EQ(at(0), (Point3d{0, 0, 5}));
+  // Clockwise was its front; the mirror turns that to counter-clockwise.
+  EXPECT_EQ(at(1), (Point3d{2, 0, 5}));
+  EXPECT_EQ(at(2), (Point3d{0, -1, 5}));
+  EXPECT_THAT(diagnostics_, says("1 instances"));
+}
+
+TEST_F(WriteObj, NamesAreUniqueAndOnOneLine) {
+  Scene scene = triangle();
+  scene.materials[0].name = "a";
+  scene.materials.push_back({DiffuseMaterial{reflectance_from_rgb({1, 0, 0})}});
+  scene.materials[1].name = "a";
+  scene.materials.push_back({DiffuseMaterial{reflectance_from_rgb({0, 1, 0})}});
+  scene.materials[2].name = " b\nc ";
+  for (std::uint32_t i = 1; i < 3; ++i) {
+    scene.shapes.push_back({});
+    scene.shapes[i].material = {i};
+  }
+  scene.shapes[0].name = "one two";
+  const Scene again = written(scene);
+  ASSERT_THAT(again.materials, SizeIs(3));
+  EXPECT_EQ(again.materials[1].name, "a_2");
+  EXPECT_EQ(again.materials[2].name, "b_c");
+  for (std::size_t i = 0; i < 3; ++i)
+    if (i > 0) {
+      EXPECT_EQ(again.materials[i].model, scene.materials[i].model);
+    }
+  std::ifstream in(folder_ / "out.obj");
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  EXPECT_THAT(text, HasSubstr("o one_two\n"));
+}
+
+TEST_F(WriteObj, WhatIsLostIsSaidWithItsPlace) {
+  Scene scene = triangle();
+  scene.files = {"in.pbrt"};
+  scene.camera_origin = {0, 1, 1};
+  scene.lights.push_back({PointLight{{0, 0, 1}, ConstantSpectrum{1}}, {0, 5, 3}});
+  scene.media.push_back({"fog"});
+  scene.materials[0] = {CoatedDiffuseMaterial{}};
+  scene.materials[0].origin = {0, 7, 2};
+  scene.materials[0].two_sided = false;
+  scene.area_lights.push_back({Spectrum{BlackbodySpectrum{}}});
+  scene.shapes[0].area_light = Id<AreaLight>{0};
+  const Scene again = written(scene);
+  for (const std::string text : {"camera", "light: ", "medium fog", "coated diffuse", "MTL has no sides",
+                                 "GGX", "smooth surface", "spectrum", "one-sided light"})
+    EXPECT_THAT(diagnostics_, says(text));
+  for (const Diagnostic& d : diagnostics_) {
+    if (d.message.starts_with("light: ")) {
+      EXPECT_EQ(to_string(d.location), "in.pbrt:5:3");
+    }
+    if (d.message.starts_with("coated")) {
+      EXPECT_EQ(to_string(d.item), "in.pbrt:7:2");
+    }
+  }
+  EXPECT_THAT(again.area_lights, SizeIs(1));
+}
+
+// Every kind of material becomes something, and textures never refer to nothing.
+TEST_F(WriteObj, AllMaterials) {
+  std::vector<MaterialModel> models{DiffuseMaterial{},
+                                    DielectricMaterial{},
+                                    ThinDielectricMaterial{},
+                                    ConductorMaterial{},
+                                    PlasticMaterial{},
+                                    CoatedDiffuseMaterial{},
+                                    CoatedConductorMaterial{},
+                                    DiffuseTransmissionMaterial{},
+                                    PrincipledMaterial{},
+                                    SubsurfaceMaterial{},
+                                    HairMaterial{},
+                                    MeasuredMaterial{},
+                                    InterfaceMaterial{}};
+  Scene scene = triangle();
+  for (MaterialModel& model : models) scene.materials.push_back({std::move(model)});
+  scene.materials.push_back({BlendMaterial{{1}, {2}, 0.75f}});
+  scene.materials.push_back({MaskMaterial{0.5f, {3}}});
+  scene.materials.push_back({TwoSidedMaterial{{4}, {5}}});
+  for (std::uint32_t i = 1; i < scene.materials.size(); ++i) {
+    scene.shapes.push_back({});
+    scene.shapes.back().material = {i};
+  }
+  EXPECT_THAT(written(scene).shapes, SizeIs(scene.shapes.size()));
+}
+
+}  // namespace
+}  // namespace vitrail
