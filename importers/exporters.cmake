@@ -6,10 +6,10 @@ vitrail_library(export_support
 
 vitrail_library(povray_exporter
   SOURCES
-    povray/camera.cpp povray/environment.cpp povray/images.cpp povray/lights.cpp povray/material_uses.cpp
+    povray/camera.cpp povray/emitters.cpp povray/environment.cpp povray/images.cpp povray/lights.cpp povray/material_uses.cpp
     povray/materials.cpp povray/meshes.cpp povray/pigments.cpp povray/units.cpp povray/write_povray.cpp
   LIBRARIES vitrail::export_support vitrail::scene fmt::fmt)
 
 vitrail_library(obj_exporter
-  SOURCES obj/write_mtl.cpp obj/write_obj.cpp
+  SOURCES obj/mtl_text.cpp obj/write_mtl.cpp obj/write_obj.cpp
   LIBRARIES vitrail::export_support vitrail::scene fmt::fmt)

@@ -7,8 +7,7 @@
 #include <cmath>
 #include <set>
 
-#include "importers/export_colors.h"
-#include "importers/mesh_files.h"
+#include "importers/obj/mtl_text.h"
 #include "scene/atomic_file.h"
 
 namespace vitrail {
@@ -16,104 +15,20 @@ namespace vitrail {
 namespace {
 
 // The text of one material.
-class Writer {
+class Writer : MtlText {
  public:
   Writer(const Scene& scene, const std::filesystem::path& folder, Diagnostics& diagnostics)
-      : scene_(scene), folder_(folder), diagnostics_(diagnostics) {}
+      : MtlText(scene, folder, diagnostics), scene_(scene) {}
 
   std::string write(const std::string& name, const MtlKey& key) {
-    text_ = fmt::format("newmtl {}\n", name);
+    text = fmt::format("newmtl {}\n", name);
     put(Id<Material>{key.first});
     if (key.second) put(scene_.area_lights.at(*key.second));
-    return text_ + "\n";
+    return text + "\n";
   }
 
  private:
   // ---- Pieces -----------------------------------------------------------------------------------
-
-  void approximated(std::string message) { note(Fidelity::approximated, std::move(message)); }
-  void note(Fidelity fidelity, std::string message) {
-    const SourceLocation where = location(scene_, origin_);
-    if (noted_.insert(to_string(where) + '\n' + message).second)
-      diagnostics_.push_back({fidelity, std::move(message), where, where});
-  }
-
-  void line(const char* keyword, RGB c) {
-    // The Scene's colours are floats.
-    text_ += fmt::format("{} {} {} {}\n", keyword, static_cast<float>(c.r), static_cast<float>(c.g),
-                         static_cast<float>(c.b));
-  }
-  void line(const char* keyword, double value) { text_ += fmt::format("{} {}\n", keyword, value); }
-  // Floats by the digits that they need, not those of the double that they become.
-  void line(const char* keyword, float value) { text_ += fmt::format("{} {}\n", keyword, value); }
-
-  const Texture& texture(Id<Texture> id) const { return scene_.textures.at(id.value); }
-
-  // "keyword options name" of an image; `scale` goes into -mm, or -bm. False where it is no image.
-  bool map(const char* keyword, Id<Texture> id, Encoding expected, const char* scale_option) {
-    const auto* image = std::get_if<ImageTexture>(&texture(id).model);
-    if (!image) return false;
-    std::string options;
-    const auto* uv = std::get_if<UvMapping>(&image->mapping);
-    if (!uv || uv->b != 0 || uv->d != 0) {
-      approximated(fmt::format("mapping of the image of {}: the uv themselves", keyword));
-    } else {
-      if (uv->a != 1 || uv->e != 1) options += fmt::format("-s {} {} 1 ", uv->a, uv->e);
-      if (uv->c != 0 || uv->f != 0) options += fmt::format("-o {} {} 0 ", uv->c, uv->f);
-    }
-    if (image->wrap == Wrap::clamp) options += "-clamp on ";
-    if (image->wrap == Wrap::mirror || image->wrap == Wrap::black)
-      approximated(fmt::format("image of {} that is mirrored or black outside: it repeats", keyword));
-    if (image->encoding != expected) approximated(fmt::format("encoding of the image of {}", keyword));
-    if (image->invert) approximated(fmt::format("inverted image of {}: as it is in the file", keyword));
-    if (scale_option && image->scale != 1) options += fmt::format("{} {} ", scale_option, image->scale);
-    text_ += fmt::format("{} {}{}\n", keyword, options, relative_name(image->filename, folder_));
-    return true;
-  }
-
-  // A colour, with the image that it multiplies.
-  void color(const char* keyword, const char* map_keyword, const SpectrumParameter& parameter,
-             RGB (*rgb)(const Spectrum&) = factor_rgb, double factor = 1) {
-    if (const auto* spectrum = std::get_if<Spectrum>(&parameter)) {
-      if (!is_rgb(*spectrum)) approximated("spectrum: written as its colour in linear sRGB");
-      const RGB c = rgb(*spectrum);
-      return line(keyword, RGB{c.r * factor, c.g * factor, c.b * factor});
-    }
-    const auto id = std::get<Id<Texture>>(parameter);
-    const TextureModel& model = texture(id).model;
-    if (const auto* image = std::get_if<ImageTexture>(&model)) {
-      const double scale = image->scale * factor;
-      line(keyword, RGB{scale, scale, scale});
-      map(map_keyword, id, Encoding::automatic, nullptr);
-      return;
-    }
-    if (const auto* product = std::get_if<ProductTexture>(&model)) {
-      const auto* constant = std::get_if<Spectrum>(&product->first);
-      const auto* second = std::get_if<Id<Texture>>(&product->second);
-      if (constant && second && std::holds_alternative<ImageTexture>(texture(*second).model)) {
-        const double scale = std::get<ImageTexture>(texture(*second).model).scale * factor;
-        const RGB c = factor_rgb(*constant);
-        line(keyword, RGB{c.r * scale, c.g * scale, c.b * scale});
-        map(map_keyword, *second, Encoding::automatic, nullptr);
-        return;
-      }
-    }
-    approximated(fmt::format("texture of {} that is no image: 0.5", keyword));
-    line(keyword, RGB{0.5 * factor, 0.5 * factor, 0.5 * factor});
-  }
-
-  double constant(const FloatParameter& parameter, const char* what) {
-    if (const auto* value = std::get_if<float>(&parameter)) return *value;
-    approximated(fmt::format("texture of the {}: 0.5", what));
-    return 0.5;
-  }
-
-  void number(const char* keyword, const char* map_keyword, const FloatParameter& parameter) {
-    if (const auto* value = std::get_if<float>(&parameter)) return line(keyword, *value);
-    if (map_keyword && map(map_keyword, std::get<Id<Texture>>(parameter), Encoding::linear, "-mm 0")) return;
-    approximated(fmt::format("texture of {}: 0.5", keyword));
-    line(keyword, 0.5);
-  }
 
   double alpha_of(const Roughness& roughness) {
     const double u = constant(roughness.alpha_u, "roughness"), v = constant(roughness.alpha_v, "roughness");
@@ -141,7 +56,7 @@ class Writer {
 
   void put(Id<Material> id) {
     const Material& material = scene_.materials.at(id.value);
-    origin_ = material.origin;
+    origin = material.origin;
     std::visit([this](const auto& model) { put(model); }, material.model);
     if (!material.two_sided) approximated("one-sided material: MTL has no sides");
     if (material.displacement) {
@@ -159,7 +74,7 @@ class Writer {
   }
 
   void put_glass(double eta, const SpectrumParameter& tint, const Roughness& roughness) {
-    text_ += "Kd 0 0 0\nKs 1 1 1\nillum 7\n";
+    text += "Kd 0 0 0\nKs 1 1 1\nillum 7\n";
     if (!(eta > 1)) approximated("index of refraction of 1 or less: readers take it as opaque");
     line("Ni", static_cast<float>(eta));
     const auto* factor = std::get_if<Spectrum>(&tint);
@@ -177,11 +92,11 @@ class Writer {
   }
   void put(const ThinDielectricMaterial&) {
     approximated("thin dielectric: a clear surface, without its reflection");
-    text_ += "Kd 0 0 0\nd 0\n";
+    text += "Kd 0 0 0\nd 0\n";
   }
 
   void put_metal(const Metal& metal, const Roughness& roughness) {
-    text_ += "Kd 0 0 0\nillum 3\n";
+    text += "Kd 0 0 0\nillum 3\n";
     const auto* normal = std::get_if<NormalReflectance>(&metal);
     if (normal) {
       color("Ks", "map_Ks", normal->reflectance);
@@ -211,7 +126,7 @@ class Writer {
   void put(const CoatedDiffuseMaterial& m) {
     approximated("coated diffuse: its two layers");
     color("Kd", "map_Kd", m.reflectance);
-    text_ += "Ks 1 1 1\n";
+    text += "Ks 1 1 1\n";
     coat_index(static_cast<float>(index_of_refraction(m.eta)));
     shininess(m.roughness);
   }
@@ -256,7 +171,7 @@ class Writer {
     color("Kd", "map_Kd", *m.color);
   }
   void put(const MeasuredMaterial&) { put_grey("measured material", 0.5); }
-  void put(const InterfaceMaterial&) { text_ += "Kd 0 0 0\nd 0\n"; }
+  void put(const InterfaceMaterial&) { text += "Kd 0 0 0\nd 0\n"; }
 
   void put(const BlendMaterial& m) {
     const bool second = constant(m.amount, "amount of a blend") > 0.5;
@@ -275,27 +190,22 @@ class Writer {
     number("d", "map_d", m.opacity);
   }
   void put_part(Id<Material> id) {
-    const Origin outer = origin_;
+    const Origin outer = origin;
     put(id);
-    origin_ = outer;
+    origin = outer;
   }
 
   // ---- Emission ---------------------------------------------------------------------------------
 
   void put(const AreaLight& light) {
-    origin_ = light.origin;
+    origin = light.origin;
     color("Ke", "map_Ke", light.radiance, emission_rgb, light.scale);
     if (!light.two_sided) approximated("one-sided light: shines from both sides, since MTL has none");
     if (light.directional) approximated("light along the normal only: shines in all directions");
   }
 
   const Scene& scene_;
-  const std::filesystem::path folder_;
-  Diagnostics& diagnostics_;
-  Origin origin_;
   bool is_veiled_ = false;  // by a constant opacity below 1
-  std::set<std::string> noted_;
-  std::string text_;
 };
 
 // One line without blanks at its ends.

@@ -36,10 +36,11 @@ std::string text_of(Context& context, const PerspectiveCamera& camera) {
   std::string lens;
   if (camera.lens.radius > 0) {
     context.approximated("lens: POV-Ray samples a grid of points on it", context.scene.camera_origin);
+    // POV-Ray's aperture is twice the diameter of the disk (measured: the blur of an edge far behind).
     const Point3d focus = f.location + view * camera.lens.focal_distance;
     lens =
         fmt::format("  aperture {}\n  focal_point {}\n  blur_samples 37 variance 0\n",
-                    exact(2 * camera.lens.radius * length(f.right) / (camera.screen.x1 - camera.screen.x0)),
+                    exact(4 * camera.lens.radius * length(f.right) / (camera.screen.x1 - camera.screen.x0)),
                     exact(focus - Point3d{}));
   }
   return "camera {\n  perspective\n" + vectors(f) + lens + "}\n";
@@ -53,11 +54,19 @@ std::string text_of(Context& context, const OrthographicCamera& camera) {
   return "camera {\n  orthographic\n" + vectors(f) + "}\n";
 }
 
+// The middle of the raster looks along −x, its right is −z. POV-Ray turns `direction` about `up` and `right`
+// in senses of its own: the raster's right is where up × direction points.
 std::string text_of(Context& context, const SphericalCamera& camera) {
   if (camera.projection == SphericalCamera::Projection::equal_area)
     context.approximated("equal-area spherical camera: by latitude and longitude",
                          context.scene.camera_origin);
-  const Frame f = frame_of(context, camera.camera_to_world, ScreenWindow{-0.5, 0.5, -0.5, 0.5});
+  const Transform t = context.units.to_pov * camera.camera_to_world;
+  const auto along = [&](Vector3d v) { return normalize(transform_vector(t, v)); };
+  Frame f{transform_point(t, {0, 0, 0}), along({0, 0, -1}), along({0, 1, 0}), along({-1, 0, 0}), {}};
+  if (dot(cross(f.up, f.view), f.right) < 0) {
+    f.up = -f.up;
+    f.right = -f.right;
+  }
   return "camera {\n  spherical\n" + vectors(f) + "  angle 360 180\n}\n";
 }
 

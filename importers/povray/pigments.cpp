@@ -43,7 +43,7 @@ Transform affine(const UvMapping& m) {
 
 // Patterns are looked up at the inverse of their transform.
 std::string undoing(const Transform& pov_to_texture) {
-  return pov_to_texture == Transform{} ? "" : " " + matrix(inverse(pov_to_texture));
+  return pov_to_texture == Transform{} ? "" : fmt::format(" {}", matrix(inverse(pov_to_texture)));
 }
 
 // p = to_texture(inverse(to_pov)(q)) of the point q of POV-Ray's space.

@@ -142,6 +142,47 @@ TEST_F(PovrayOracle, ConstantEnvironmentByRadiosity) {
       0.02);
 }
 
+// A disk of radius 1 at height 2 over the middle: E = πL·r²/(r² + h²) there.
+TEST_F(PovrayOracle, LightsThatAreNoRectanglesByRadiosity) {
+  Scene scene = plane();
+  TriangleMesh disk;
+  disk.positions.push_back({0, 0, 2});
+  constexpr std::uint32_t n = 64;
+  for (std::uint32_t i = 0; i < n; ++i) {
+    const double phi = 2 * pi * i / n;
+    disk.positions.push_back({static_cast<float>(std::cos(phi)), static_cast<float>(std::sin(phi)), 2});
+    disk.triangles.push_back({0, 1 + (i + 1) % n, 1 + i});
+  }
+  add_emitter(scene, disk, {1, 1, 1});
+  // Seen from below the disk.
+  auto& camera = std::get<PerspectiveCamera>(scene.camera);
+  camera.camera_to_world = translate({0, 0, -2.5}) * camera.camera_to_world;
+  camera.screen = {-.1, .1, -.1, .1};
+  const PovPicture picture = render_povray(scene, folder_);
+  ASSERT_FALSE(picture.values.empty());
+  EXPECT_NEAR(picture.at(16, 16)[0], .8 / 5, .05 * .8 / 5);
+}
+
+// In a closed box of radiance e and reflectance ρ all is e/(1 − ρ).
+TEST_F(PovrayOracle, LightBetweenSurfacesByRadiosity) {
+  Scene scene = empty_scene();
+  TriangleMesh box;
+  box.positions = {{-3, -3, -3}, {3, -3, -3}, {-3, 3, -3}, {3, 3, -3},
+                   {-3, -3, 3},  {3, -3, 3},  {-3, 3, 3},  {3, 3, 3}};
+  box.triangles = {{0, 1, 3}, {0, 3, 2}, {4, 7, 5}, {4, 6, 7}, {0, 5, 1}, {0, 4, 5},
+                   {2, 3, 7}, {2, 7, 6}, {0, 2, 6}, {0, 6, 4}, {1, 5, 7}, {1, 7, 3}};
+  add_emitter(scene, box, {.25, .25, .25});
+  scene.materials[0].model = DiffuseMaterial{ConstantSpectrum{.5f}};
+  auto& camera = std::get<PerspectiveCamera>(scene.camera);
+  camera.camera_to_world = translate({0, 0, -3}) * camera.camera_to_world;
+  scene.settings.max_depth = 5;
+  scene.film.width = scene.film.height = 12;
+  scene.film.crop = {0, 12, 0, 12};
+  const PovPicture picture = render_povray(scene, folder_);
+  ASSERT_FALSE(picture.values.empty());
+  for (const int x : {1, 6, 11}) EXPECT_NEAR(picture.at(x, 4)[1], .5, .03 * .5);
+}
+
 // What POV-Ray's absolute tolerances, and its floats far from the origin, would spoil.
 TEST_F(PovrayOracle, SmallAndDistantScenes) {
   for (const auto& [size, place] : {std::pair{1e-4, 0.0}, {1.0, 1e6}, {1e6, 0.0}}) {
@@ -226,6 +267,52 @@ TEST_F(PovrayOracle, ScreenWindowsAndOrthographicCameras) {
   camera.screen = {0, 2, -2, 2};
   scene.camera = camera;
   EXPECT_EQ(quarters(scene), (Colors{red, red, black, black}));
+}
+
+// Latitude and longitude as in pbrt: from the left edge, +x, +z, −x, −z; +y at the top.
+TEST_F(PovrayOracle, SphericalCameras) {
+  for (const Transform& turn :
+       {Transform{}, scale({-1, 1, 1}), rotate(1, {1, 2, 3}), rotate(1, {1, 2, 3}) * scale({1, 1, -1})}) {
+    Scene scene = empty_scene();
+    SphericalCamera camera;
+    camera.camera_to_world = turn;
+    camera.projection = SphericalCamera::Projection::latitude_longitude;
+    scene.camera = camera;
+    TriangleMesh lamp = quad_mesh({3, 1, .5f}, {1, 1, 3}, {1, 3, 3}, {3, 3, .5f});
+    add_emitter(scene, lamp, {1, 0, 0}).object_to_world = turn;
+    scene.area_lights[0].two_sided = true;
+    const PovPicture picture = render_povray(scene, folder_);
+    ASSERT_FALSE(picture.values.empty());
+    const auto at = [&](Vector3d d) {
+      double u = std::atan2(d.z, d.x) / (2 * pi);
+      if (u < 0) u += 1;
+      return picture.at(static_cast<int>(u * 32), static_cast<int>(std::acos(d.y / length(d)) / pi * 32));
+    };
+    EXPECT_EQ(at({2, 2, 1.75}), red);
+    EXPECT_EQ(at({2, -2, 1.75}), black);
+    EXPECT_EQ(at({-2, 2, 1.75}), black);
+    EXPECT_EQ(at({2, 2, -1.75}), black);
+  }
+}
+
+// An edge far behind the plane in focus is blurred as far as the lens is wide, seen from that plane.
+TEST_F(PovrayOracle, LensesBlur) {
+  Scene scene = empty_scene();
+  auto& camera = std::get<PerspectiveCamera>(scene.camera);
+  camera.camera_to_world = {};
+  camera.lens = {.25, 1};
+  add_emitter(scene, square(-1e3f, 0, -1e3f, 1e3f, 1e3f), {1, 0, 0});
+  scene.area_lights[0].two_sided = true;
+  const PovPicture picture = render_povray(scene, folder_);
+  ASSERT_FALSE(picture.values.empty());
+  double mean = 0, variance = 0;
+  for (int x = 1; x < 32; ++x) {
+    const double weight = picture.at(x - 1, 16)[0] - picture.at(x, 16)[0], at = (x - 16) / 32.0;
+    mean += weight * at;
+    variance += weight * at * at;
+  }
+  EXPECT_NEAR(mean, 0, .01);
+  EXPECT_NEAR(2 * std::sqrt(variance), .25, .02);  // the deviation of a disk is half its radius
 }
 
 TEST_F(PovrayOracle, OptionsOfTheFilm) {
