@@ -3,6 +3,8 @@
 
 #include <gmock/gmock.h>
 
+#include <cstdlib>
+
 #include "importers/obj/obj.h"
 #include "scene/rgb_to_spectrum.h"
 #include "tests/importers/temporary_folder.h"
@@ -206,6 +208,60 @@ TEST_F(WriteObj, AllMaterials) {
     scene.shapes.back().material = {i};
   }
   EXPECT_THAT(written(scene).shapes, SizeIs(scene.shapes.size()));
+}
+
+// ---- Files of others ----------------------------------------------------------------------------
+
+// Vertices that no face uses are not written. Far from the origin they have a part in the place that a file
+// is moved to: another one rounds the positions differently.
+void expect_same_places(const Scene& a, const Scene& b, const std::string& what) {
+  ASSERT_EQ(a.meshes.size(), b.meshes.size()) << what;
+  for (std::size_t i = 0; i < a.shapes.size(); ++i) {
+    const TriangleMesh &m = a.meshes[i], &n = b.meshes[i];
+    const Transform &t = a.shapes[i].object_to_world, &u = b.shapes[i].object_to_world;
+    if (t == u) {
+      EXPECT_EQ(m, n) << what;
+      continue;
+    }
+    EXPECT_EQ(m.triangles, n.triangles) << what;
+    ASSERT_EQ(m.positions.size(), n.positions.size()) << what;
+    for (std::size_t k = 0; k < m.positions.size(); ++k) {
+      const Point3d p = transform_point(t, cast<double>(m.positions[k]));
+      EXPECT_LE(length(p - transform_point(u, cast<double>(n.positions[k]))), 1e-7 * length(p - Point3d{}))
+          << what;
+    }
+  }
+}
+
+TEST(WriteObjCorpus, MeshesAndMaterialsComeBack) {
+  const char* const named = std::getenv("VITRAIL_CORPUS");
+  const std::filesystem::path corpus = named ? named : VITRAIL_SOURCE_DIR "/../shared/corpus";
+  if (!std::filesystem::is_directory(corpus / "obj"))
+    GTEST_SKIP() << "no corpus at " << corpus << " (set VITRAIL_CORPUS)";
+  const TemporaryFolder folder;
+  int count = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(corpus / "obj")) {
+    if (entry.path().extension() != ".obj") continue;
+    Scene scene;
+    try {
+      scene = read_obj(entry.path()).scene;
+    } catch (const Error&) {
+      continue;
+    }
+    write_obj(scene, folder / "out.obj");
+    const Scene again = read_obj(folder / "out.obj").scene;
+    expect_same_places(scene, again, entry.path().string());
+    EXPECT_EQ(again.textures, scene.textures) << entry.path();
+    EXPECT_EQ(again.area_lights, scene.area_lights) << entry.path();
+    ASSERT_EQ(again.materials.size(), scene.materials.size()) << entry.path();
+    for (std::size_t i = 0; i < scene.materials.size(); ++i)
+      if (scene.materials[i].origin.line > 0 &&
+          scene.materials[i].model != MaterialModel{DiffuseMaterial{}}) {
+        EXPECT_EQ(again.materials[i].model, scene.materials[i].model) << entry.path();
+      }
+    ++count;
+  }
+  EXPECT_GT(count, 0);
 }
 
 }  // namespace
