@@ -88,7 +88,8 @@ std::string options_text(Context& context, const std::string& pov_name) {
   const double side = std::sqrt(std::max(1, context.scene.settings.samples_per_pixel));
   const int depth = std::clamp(static_cast<int>(std::lround(side)), 1, 9);
   std::string text = fmt::format(
-      "; In this folder: povray {}\nInput_File_Name={}\nWidth={}\nHeight={}\nOutput_File_Type=E\nOutput_Alpha=Off\n"
+      "; In this folder: povray "
+      "{}\nInput_File_Name={}\nWidth={}\nHeight={}\nOutput_File_Type=E\nOutput_Alpha=Off\n"
       "Antialias=On\nSampling_Method=1\nAntialias_Threshold=0\nAntialias_Depth={}\nJitter=Off\n",
       std::filesystem::path(pov_name).replace_extension(".ini").generic_string(), pov_name, film.width,
       film.height, depth);

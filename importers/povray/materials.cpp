@@ -10,7 +10,6 @@ namespace vitrail::povray {
 
 namespace {
 
-constexpr const char* clear = "texture { pigment { rgbt 1 } finish { diffuse 0 } }\n";
 constexpr double smooth_alpha = 0.01;  // below it, microfacets do not show
 
 class Builder {
@@ -21,8 +20,7 @@ class Builder {
 
   Surface build() {
     Surface surface = std::visit([this](const auto& model) { return surface_of(model); }, material_.model);
-    if (!material_.two_sided && surface.back.empty() && is_opaque())
-      surface.back = "texture { pigment { rgb 0 } finish { diffuse 0 } }\n";
+    if (!material_.two_sided && surface.back.empty() && is_opaque()) surface.back = "texture { Black }\n";
     return surface;
   }
 
@@ -270,7 +268,7 @@ class Builder {
     return {diffuse(pigment(*m.color)), "", ""};
   }
   Surface surface_of(const MeasuredMaterial&) { return opaque_instead("measured material", 0.5); }
-  Surface surface_of(const InterfaceMaterial&) { return {clear, "", ""}; }
+  Surface surface_of(const InterfaceMaterial&) { return {"texture { Clear }\n", "", ""}; }
 
   // ---- Made of others ---------------------------------------------------------------------------
 

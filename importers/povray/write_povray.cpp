@@ -112,7 +112,9 @@ class Writer {
     std::ranges::for_each(scene().shapes, add);
     for (const Prototype& prototype : scene().prototypes) std::ranges::for_each(prototype.shapes, add);
     surfaces_.resize(scene().materials.size());
-    std::string text = "#declare Clear = texture { pigment { rgbt 1 } finish { diffuse 0 } }\n";
+    std::string text =
+        "#declare Clear = texture { pigment { rgbt 1 } finish { diffuse 0 } }\n"
+        "#declare Black = texture { pigment { rgb 0 } finish { diffuse 0 } }\n";
     for (const std::uint32_t i : used) {
       Surface& surface = surfaces_[i] = surface_of(context_, {i});
       const std::string& name = scene().materials[i].name;

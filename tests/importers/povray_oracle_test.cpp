@@ -131,6 +131,14 @@ TEST_F(PovrayOracle, SquareLightsShineAndAreSeenFromTheirFrontOnly) {
   }
 }
 
+TEST_F(PovrayOracle, SurfacesThatReflectAndShine) {
+  Scene scene = plane();
+  scene.lights.push_back({DistantLight{{0, 0, -1}, emission_from_rgb({pi / 2, pi / 2, pi / 2})}});
+  scene.area_lights.push_back({emission_from_rgb({.1, .2, .3})});
+  scene.shapes[0].area_light = Id<AreaLight>{0};
+  expect_plane(scene, [](double, double) -> std::array<double, 3> { return {.4 + .1, .25 + .2, .125 + .3}; });
+}
+
 TEST_F(PovrayOracle, ConstantEnvironmentByRadiosity) {
   Scene scene = plane();
   scene.lights.push_back({InfiniteLight{emission_from_rgb({.5, .75, 1})}});
