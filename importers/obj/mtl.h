@@ -39,6 +39,9 @@ struct MtlMaterial {
 // where the file cannot be opened.
 std::vector<MtlMaterial> read_mtl(const std::filesystem::path& file, Diagnostics& diagnostics);
 
+// Materials are named as text that can be shown: well-formed UTF-8, of about so many bytes.
+inline constexpr std::size_t longest_mtl_name = 200;
+
 struct MtlSurface {
   Id<Material> material;
   std::optional<Id<AreaLight>> light;

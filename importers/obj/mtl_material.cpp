@@ -34,7 +34,7 @@ class Builder {
       material.displacement = texture(*map, map->gain * map->bump_multiplier, true, Encoding::linear);
     if (const MtlMap* map = find("norm")) material.normal_map = texture(*map, 1, false, Encoding::linear);
     material = masked(std::move(material));
-    material.name = mtl_.name;
+    material.name = printable(mtl_.name, longest_mtl_name);
     const Id<Material> id = append(scene_.materials, std::move(material));
     return {id, light()};
   }

@@ -88,7 +88,7 @@ MtlSurface add_surface(const Mention& use, const Library& library, ImportedScene
          use.location, use.location});
   }
   Material material{DiffuseMaterial{}};
-  material.name = use.name;
+  material.name = printable(use.name, longest_mtl_name);
   material.origin = origin_of(use);
   return {append(result.scene.materials, std::move(material)), {}};
 }

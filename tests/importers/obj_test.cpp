@@ -251,6 +251,7 @@ TEST_F(Obj, MessagesAreWellFormedText) {
   const ImportedScene imported =
       read(square + "usemtl gr\xfcn\xc3\nf 1 2 3\nusemtl gr\xc3\xbcn \xe2\x82\xac\xed\xa0\x80\nf 1 2 3\n");
   EXPECT_THAT(imported.diagnostics, says("'gr?n?'"));
+  EXPECT_EQ(imported.scene.materials.at(0).name, "gr?n?");
   EXPECT_THAT(imported.diagnostics, says("'gr\xc3\xbcn \xe2\x82\xac?"
                                          "?"
                                          "?'"));
