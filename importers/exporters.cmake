@@ -13,3 +13,17 @@ vitrail_library(povray_exporter
 vitrail_library(obj_exporter
   SOURCES obj/mtl_text.cpp obj/write_mtl.cpp obj/write_obj.cpp
   LIBRARIES vitrail::export_support vitrail::scene fmt::fmt)
+
+# Images in another form than a scene has them. Brings OpenImageIO.
+vitrail_library(environment_images
+  SOURCES images/environment_images.cpp images/image_files.cpp
+  LIBRARIES vitrail::scene OpenImageIO::OpenImageIO fmt::fmt)
+
+vitrail_library(mitsuba_exporter
+  SOURCES
+    mitsuba/write_camera.cpp mitsuba/write_context.cpp mitsuba/write_film.cpp mitsuba/write_images.cpp
+    mitsuba/write_lights.cpp mitsuba/write_materials.cpp mitsuba/write_media.cpp mitsuba/write_mitsuba.cpp
+    mitsuba/write_models.cpp mitsuba/write_shapes.cpp mitsuba/write_sides.cpp mitsuba/write_spectra.cpp
+    mitsuba/write_textures.cpp
+  LIBRARIES vitrail::export_support vitrail::environment_images vitrail::scene pugixml::pugixml fmt::fmt)
+target_compile_definitions(vitrail_mitsuba_exporter PRIVATE VITRAIL_VERSION="${PROJECT_VERSION}")

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "importers/images/environment_images.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "scene/color.h"
+
+namespace vitrail {
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+using enum EnvironmentLight::Projection;
+
+// The equal-area map of the sphere to a square of Clarberg, "Fast Equal-Area Mapping of the (Hemi)Sphere
+// using SIMD" (2008): each quadrant of the square is an octant above its diagonal and one below.
+Vector3d equal_area_direction(Point2d point) {
+  const double x = 2 * point.x - 1, y = 2 * point.y - 1;
+  const double above = 1 - (std::abs(x) + std::abs(y));  // of the diagonal: the upper hemisphere
+  const double radius = 1 - std::abs(above);
+  const double angle = radius > 0 ? ((std::abs(y) - std::abs(x)) / radius + 1) * pi / 4 : pi / 4;
+  const double z = std::copysign(1 - radius * radius, above);
+  const double across = radius * std::sqrt(2 - radius * radius);  // √(1 − z²), radius in [0,1]
+  return {std::copysign(across * std::cos(angle), x), std::copysign(across * std::sin(angle), y), z};
+}
+
+Point2d equal_area_point(Vector3d d) {
+  const double x = std::abs(d.x), y = std::abs(d.y);
+  const double radius = std::sqrt(std::max(0.0, 1 - std::abs(d.z)));
+  const double angle = std::atan2(y, x) * 2 / pi;  // [0,1]
+  double v = angle * radius, u = radius - v;
+  if (d.z < 0) {
+    const double folded = 1 - u;
+    u = 1 - v;
+    v = folded;
+  }
+  return {(std::copysign(u, d.x) + 1) / 2, (std::copysign(v, d.y) + 1) / 2};
+}
+
+// The pixel that continues the picture beyond its edges.
+std::size_t pixel_index(const Image& image, EnvironmentProjection projection, int x, int y) {
+  const int w = image.width, h = image.height;
+  if (projection == latitude_longitude) {
+    if (y < 0 || y >= h) x += w / 2;  // over the pole
+    y = y < 0 ? -1 - y : y >= h ? 2 * h - 1 - y : y;
+    x = ((x % w) + w) % w;
+  } else {  // each edge is folded onto itself about its middle
+    if (x < 0 || x >= w) {
+      x = x < 0 ? -1 - x : 2 * w - 1 - x;
+      y = h - 1 - y;
+    }
+    if (y < 0 || y >= h) {
+      y = y < 0 ? -1 - y : 2 * h - 1 - y;
+      x = w - 1 - x;
+    }
+  }
+  return static_cast<std::size_t>(std::clamp(y, 0, h - 1)) * static_cast<std::size_t>(w) +
+         static_cast<std::size_t>(std::clamp(x, 0, w - 1));
+}
+
+// Proportional to the solid angle of a small piece of the picture.
+double density(EnvironmentProjection projection, Point2d point) {
+  return projection == latitude_longitude ? std::sin(pi * point.y) : 1;
+}
+
+}  // namespace
+
+Vector3d direction_of(EnvironmentProjection projection, Point2d point) {
+  if (projection == equal_area) return equal_area_direction(point);
+  const double theta = pi * point.y, phi = 2 * pi * point.x;
+  return {std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)};
+}
+
+Point2d point_of(EnvironmentProjection projection, Vector3d d) {
+  if (projection == equal_area) return equal_area_point(d);
+  const double u = std::atan2(d.y, d.x) / (2 * pi);
+  return {u < 0 ? u + 1 : u, std::acos(std::clamp(d.z, -1.0, 1.0)) / pi};
+}
+
+double environment_lookup(const Image& image, EnvironmentProjection projection, Point2d point, int channel) {
+  const double x = point.x * image.width - 0.5, y = point.y * image.height - 0.5;
+  const int x0 = static_cast<int>(std::floor(x)), y0 = static_cast<int>(std::floor(y));
+  const double fx = x - x0, fy = y - y0;
+  const auto value = [&](int dx, int dy) {
+    const std::size_t pixel = pixel_index(image, projection, x0 + dx, y0 + dy);
+    return static_cast<double>(
+        image.values[pixel * static_cast<std::size_t>(image.channels) + static_cast<std::size_t>(channel)]);
+  };
+  return (1 - fy) * ((1 - fx) * value(0, 0) + fx * value(1, 0)) +
+         fy * ((1 - fx) * value(0, 1) + fx * value(1, 1));
+}
+
+Image reproject(const Image& image, EnvironmentProjection from, EnvironmentProjection to) {
+  constexpr int side = 4;  // samples across a pixel
+  const int height = image.height;
+  Image result = black_image(to == latitude_longitude ? 2 * height : height, height, image.channels);
+  const auto channels = static_cast<std::size_t>(image.channels);
+  std::vector<double> sum(channels);
+  for (std::size_t pixel = 0; pixel < result.pixels(); ++pixel) {
+    const auto width = static_cast<std::size_t>(result.width);
+    std::fill(sum.begin(), sum.end(), 0.0);
+    double weights = 0;
+    for (int s = 0; s < side * side; ++s) {
+      const Point2d point{(static_cast<double>(pixel % width) + (s % side + 0.5) / side) / result.width,
+                          (static_cast<double>(pixel / width) + (s / side + 0.5) / side) / height};
+      const double weight = density(to, point);
+      const Point2d source = point_of(from, direction_of(to, point));
+      weights += weight;
+      for (std::size_t c = 0; c < channels; ++c)
+        sum[c] += weight * environment_lookup(image, from, source, static_cast<int>(c));
+    }
+    for (std::size_t c = 0; c < channels; ++c)
+      result.values[pixel * channels + c] = static_cast<float>(sum[c] / weights);
+  }
+  return result;
+}
+
+double upward_illuminance(const Image& image, EnvironmentProjection projection) {
+  double sum = 0, weights = 0;
+  for (std::size_t pixel = 0; pixel < image.pixels(); ++pixel) {
+    const auto width = static_cast<std::size_t>(image.width);
+    const Point2d point{(static_cast<double>(pixel % width) + 0.5) / image.width,
+                        (static_cast<double>(pixel / width) + 0.5) / image.height};
+    const double weight = density(projection, point);
+    const float* rgb = &image.values[pixel * static_cast<std::size_t>(image.channels)];
+    const RGB color = image.channels < 3 ? RGB{rgb[0], rgb[0], rgb[0]} : RGB{rgb[0], rgb[1], rgb[2]};
+    weights += weight;
+    sum += weight * std::max(0.0, direction_of(projection, point).z) * srgb_to_xyz(color).y;
+  }
+  return weights > 0 ? 4 * pi * sum / weights : 0;
+}
+
+}  // namespace vitrail

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// Pictures that a scene refers to, where a format needs them in another form. Brings OpenImageIO.
+#pragma once
+
+#include <filesystem>
+
+#include "scene/image.h"
+
+namespace vitrail {
+
+// The numbers as the file stores them, integers taken to [0,1] and nothing decoded: R, G, B, or one channel
+// of a grey picture. `integer` where they are integers.
+struct StoredImage {
+  Image image;
+  bool integer = false;
+};
+
+// What a file holds, without reading its pixels.
+struct ImageLayout {
+  int width = 0, height = 0, channels = 0;  // of a StoredImage
+  bool integer = false;
+};
+
+// These throw Error with the file's name.
+ImageLayout read_image_layout(const std::filesystem::path& file);
+StoredImage read_stored_image(const std::filesystem::path& file);
+
+// The linear values: integers are decoded from sRGB.
+Image read_linear_image(const std::filesystem::path& file);
+
+// Linear 32-bit floats. The file appears whole or not at all, and equal images give equal files. Throws
+// MachineError.
+void write_exr_image(const std::filesystem::path& file, const Image& image);
+
+}  // namespace vitrail

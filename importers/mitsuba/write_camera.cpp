@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "importers/mitsuba/write_camera.h"
+
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <numbers>
+
+#include "importers/mitsuba/write_film.h"
+#include "scene/bounds.h"
+
+namespace vitrail::mitsuba_writer {
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+double half_width_of(double fov_deg) { return std::tan(fov_deg / 2 * pi / 180); }
+
+struct ClipRange {
+  double near_clip = 1e-2, far_clip = 1e4;
+};
+
+// Mitsuba cuts away what is nearer or farther: so wide that nothing of the scene is.
+ClipRange clip_range(const Scene& scene, const Transform& camera_to_world) {
+  Bounds3d box;
+  const auto include = [&](const Shape& shape, const Transform& to_world) {
+    Bounds3f own;
+    for (const Point3f p : scene.meshes[shape.mesh.value].positions) extend(own, p);
+    for (int corner = 0; !own.empty() && corner < 8; ++corner) {
+      const Point3d p{corner & 1 ? own.upper.x : own.lower.x, corner & 2 ? own.upper.y : own.lower.y,
+                      corner & 4 ? own.upper.z : own.lower.z};
+      extend(box, transform_point(to_world, transform_point(shape.object_to_world, p)));
+    }
+  };
+  for (const Shape& shape : scene.shapes) include(shape, {});
+  for (const Instance& instance : scene.instances)
+    for (const Shape& shape : scene.prototypes[instance.prototype.value].shapes)
+      include(shape, instance.prototype_to_world);
+  extend(box, transform_point(camera_to_world, {0, 0, 0}));
+  const double reach = 2 * length(extent(box));
+  if (!(reach > 0) || !std::isfinite(reach)) return {};
+  const double far_clip = std::pow(10, std::ceil(std::log10(reach)));
+  return {far_clip * 1e-6, far_clip};
+}
+
+// Camera space is mirrored in x between the Scene and Mitsuba.
+Transform mirrored(const Transform& camera_to_world) { return camera_to_world * scale({-1, 1, 1}); }
+
+double column_length(const Transform& t, std::size_t column) {
+  return std::hypot(t.m[0][column], t.m[1][column], t.m[2][column]);
+}
+
+// Mitsuba refuses scales in perspective cameras: they go to the screen and the lens.
+PerspectiveCamera without_scale(const PerspectiveCamera& camera) {
+  const double x = column_length(camera.camera_to_world, 0), y = column_length(camera.camera_to_world, 1),
+               z = column_length(camera.camera_to_world, 2);
+  constexpr double tolerance = 1e-6;
+  const auto is_unit = [](double l) { return std::abs(l - 1) <= tolerance; };
+  if ((is_unit(x) && is_unit(y) && is_unit(z)) || !(x > 0 && y > 0 && z > 0)) return camera;
+  PerspectiveCamera unit = camera;
+  unit.camera_to_world = camera.camera_to_world * scale({1 / x, 1 / y, 1 / z});
+  unit.screen = {camera.screen.x0 * x / z, camera.screen.x1 * x / z, camera.screen.y0 * y / z,
+                 camera.screen.y1 * y / z};
+  unit.lens.radius *= x;
+  unit.lens.focal_distance *= z;
+  return unit;
+}
+
+bool nearly(double a, double b) { return std::abs(a - b) <= 1e-9 * std::max(std::abs(a), std::abs(b)); }
+
+void add_field_of_view(Context& context, Element sensor, const ScreenWindow& screen) {
+  const double width = context.scene.film.width, height = context.scene.film.height;
+  const double x = (screen.x1 - screen.x0) / 2, y = (screen.y1 - screen.y0) / 2;
+  const bool from_x = y == x * height / width || y == x / (width / height);
+  const bool from_y = x == y * width / height || x == y * (width / height) || x == y / (height / width);
+  const bool by_y = !from_x && from_y;
+  if (!nearly(x * height, y * width))
+    context.approximated("Mitsuba's pixels are square: the picture's height follows from its width");
+  add_float(sensor, "fov", field_of_view_deg(by_y ? y : x));
+  add_string(sensor, "fov_axis", by_y ? "y" : "x");
+}
+
+bool is_centred(const ScreenWindow& s) { return s.x0 == -s.x1 && s.y0 == -s.y1; }
+
+Element write(Context& context, Element root, const PerspectiveCamera& scaled_camera) {
+  const PerspectiveCamera camera = without_scale(scaled_camera);
+  const ScreenWindow& screen = camera.screen;
+  const bool lens = camera.lens.radius > 0 && is_centred(screen);
+  if (camera.lens.radius > 0 && !lens)
+    context.dropped("depth of field: Mitsuba's lens cannot look past the picture's centre");
+  Element sensor = add(root, "sensor", lens ? "thinlens" : "perspective");
+  add_transform(sensor, mirrored(camera.camera_to_world));
+  add_field_of_view(context, sensor, screen);
+  if (lens) {
+    add_float(sensor, "aperture_radius", camera.lens.radius);
+    add_float(sensor, "focus_distance", camera.lens.focal_distance);
+  } else if (!is_centred(screen)) {
+    add_float(sensor, "principal_point_offset_x", (screen.x0 + screen.x1) / 2 / (screen.x1 - screen.x0));
+    add_float(sensor, "principal_point_offset_y", -(screen.y0 + screen.y1) / 2 / (screen.y1 - screen.y0));
+  }
+  return sensor;
+}
+
+// Mitsuba's screen is ±1 wide and as high as the film's shape wants; other windows go to the transform.
+Element write(Context& context, Element root, const OrthographicCamera& camera) {
+  if (camera.lens.radius > 0) context.dropped("depth of field: Mitsuba has none in orthographic cameras");
+  const ScreenWindow& s = camera.screen;
+  const double width = context.scene.film.width, height = context.scene.film.height;
+  const bool natural = s.x0 == -1 && s.x1 == 1 && nearly(s.y1, height / width) && s.y0 == -s.y1;
+  Transform window;
+  if (!natural)
+    window = translate({(s.x0 + s.x1) / 2, (s.y0 + s.y1) / 2, 0}) *
+             scale({(s.x1 - s.x0) / 2, (s.y1 - s.y0) / 2 * width / height, 1});
+  Element sensor = add(root, "sensor", "orthographic");
+  add_transform(sensor, mirrored(natural ? camera.camera_to_world : camera.camera_to_world * window));
+  return sensor;
+}
+
+Element write(Context& context, Element root, const SphericalCamera& camera) {
+  context.dropped("Mitsuba has no camera that sees all directions: a perspective one of 90 degrees");
+  const double y = static_cast<double>(context.scene.film.height) / context.scene.film.width;
+  return write(context, root, PerspectiveCamera{camera.camera_to_world, {-1, 1, -y, y}, {}});
+}
+
+}  // namespace
+
+double field_of_view_deg(double half_width) {
+  const double nearest = 2 * std::atan(half_width) * 180 / pi;
+  for (int digits = 1; digits <= std::numeric_limits<double>::max_digits10; ++digits) {
+    const double rounded = std::strtod(fmt::format("{:.{}g}", nearest, digits).c_str(), nullptr);
+    if (half_width_of(rounded) == half_width) return rounded;
+  }
+  double below = nearest, above = nearest;
+  for (int step = 0; step < 16; ++step) {
+    below = std::nextafter(below, 0.0);
+    above = std::nextafter(above, 180.0);
+    if (half_width_of(below) == half_width) return below;
+    if (half_width_of(above) == half_width) return above;
+  }
+  return nearest;
+}
+
+void write_integrator(Context& context, Element root) {
+  const Scene& scene = context.scene;
+  if (scene.settings.direct_only) {
+    context.origin = {};
+    context.approximated("Mitsuba's direct integrator ends at the first surface, specular or not");
+    Element element = add(root, "integrator", "direct");
+    add_integer(element, "emitter_samples", 1);
+    add_integer(element, "bsdf_samples", 1);
+    return add_boolean(element, "hide_emitters", false);
+  }
+  const bool media = !scene.media.empty() || !context.interiors.empty();
+  Element element = add(root, "integrator", media ? "volpath" : "path");
+  const int depth = scene.settings.max_depth;
+  add_integer(element, "max_depth",
+              depth >= unlimited_depth ? -1 : depth + 1);  // Mitsuba counts the eye's ray
+  add_integer(element, "rr_depth", 5);
+  add_boolean(element, "hide_emitters", false);
+}
+
+void write_camera(Context& context, Element root) {
+  const Scene& scene = context.scene;
+  context.origin = scene.camera_origin;
+  Element sensor = std::visit([&](const auto& camera) { return write(context, root, camera); }, scene.camera);
+  const ClipRange clip =
+      std::visit([&](const auto& camera) { return clip_range(scene, camera.camera_to_world); }, scene.camera);
+  add_float(sensor, "near_clip", clip.near_clip);
+  add_float(sensor, "far_clip", clip.far_clip);
+  if (scene.camera_medium) add_reference(sensor, context.medium_ids[scene.camera_medium->value], "medium");
+  write_film(context, sensor);
+  Element sampler = add(sensor, "sampler", "independent");
+  add_integer(sampler, "sample_count", scene.settings.samples_per_pixel);
+}
+
+}  // namespace vitrail::mitsuba_writer

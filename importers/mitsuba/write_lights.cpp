@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "importers/mitsuba/write_lights.h"
+
+#include <cmath>
+
+#include "importers/images/environment_images.h"
+#include "importers/images/image_files.h"
+
+namespace vitrail::mitsuba_writer {
+
+namespace {
+
+constexpr const char* brightness = "the brightness of this light";
+
+void write(Context&, Element root, const PointLight& light) {
+  Element element = add(root, "emitter", "point");
+  add_coordinates(element, "point", "position", light.position);
+  add_spectrum(element, "intensity", light.intensity, Meaning::emission);
+}
+
+void write(Context& context, Element root, const SpotLight& light) {
+  Element element = add(root, "emitter", "spot");
+  add_transform(element, light.light_to_world);
+  add_spectrum(element, "intensity", light.intensity, Meaning::emission);
+  add_float(element, "cutoff_angle", light.cutoff_deg);
+  add_float(element, "beam_width", light.beam_deg);
+  if (light.falloff != SpotLight::Falloff::linear)
+    context.approximated(
+        "between beam and cutoff Mitsuba's spot falls linearly with the angle; the end angles agree");
+  if (!light.texture) return;
+  const SpectrumParameter texture = *light.texture;
+  if (value_of(context, texture))
+    return context.dropped("the texture of a spot light: Mitsuba takes an image");
+  add_parameter(context, element, "texture", texture, Meaning::reflectance);
+}
+
+// Mitsuba's projector is a camera: its image has +x on the left and +y at the top. pbrt's image has −x on the
+// left and −y at the top.
+void write(Context& context, Element root, const ProjectionLight& light) {
+  const auto* image = std::get_if<Id<Texture>>(&light.image);
+  if (!image || value_of(context, light.image)) return context.dropped("a projection light without an image");
+  Element element = add(root, "emitter", "projector");
+  add_transform(element, light.light_to_world * scale({-1, light.irradiance ? 1.0 : -1.0, 1}));
+  add_parameter(context, element, "irradiance", light.image, Meaning::emission);
+  add_float(element, "fov", light.fov_deg);
+  add_string(element, "fov_axis", light.irradiance ? "x" : "smaller");
+  add_float(element, "scale", static_cast<float>(number_of(context, light.scale, brightness)));
+  if (!light.irradiance)
+    context.approximated(
+        "the image of a projector is irradiance in Mitsuba: brighter off its axis by 1/cos³");
+  if (light.power) context.dropped("the power of a projection light: its image counts as it is");
+}
+
+void write(Context& context, Element root, const GoniometricLight& light) {
+  context.approximated("Mitsuba has no goniometric light: the same intensity in all directions");
+  if (light.power) context.dropped("the power of a goniometric light");
+  const auto& m = light.light_to_world.m;
+  write(context, root, PointLight{{m[0][3], m[1][3], m[2][3]}, light.intensity});
+}
+
+void write(Context&, Element root, const DistantLight& light) {
+  Element element = add(root, "emitter", "directional");
+  add_coordinates(element, "vector", "direction", light.direction);
+  add_spectrum(element, "irradiance", light.irradiance, Meaning::emission);
+}
+
+void write(Context&, Element root, const InfiniteLight& light) {
+  add_spectrum(add(root, "emitter", "constant"), "radiance", light.radiance, Meaning::emission);
+}
+
+// Mitsuba looks at its map with y up and u = atan2(x, −z)/2π: a direction m of it is (−z, x, y) here.
+Transform mitsuba_to_light() {
+  Transform t;
+  t.m[0] = {0, 0, -1, 0};
+  t.m[1] = {1, 0, 0, 0};
+  t.m[2] = {0, 1, 0, 0};
+  return t;
+}
+
+bool is_grey(RGB c) { return c.r == c.g && c.g == c.b; }
+
+struct WrittenEnvironment {
+  std::string filename;
+  double scale = 1;
+};
+
+// The map as it is where Mitsuba can read it so, else resampled and coloured.
+WrittenEnvironment environment(Context& context, const EnvironmentLight& light) {
+  using enum EnvironmentLight::Projection;
+  const RGB color = color_of(light.scale);
+  const bool as_is = light.projection == latitude_longitude && is_grey(color);
+  if (as_is && !light.illuminance) return {context.relative(light.filename), color.r};
+  Image image = read_linear_image(light.filename);
+  double factor = is_grey(color) ? color.r : 1;
+  if (light.illuminance) {
+    const double natural = upward_illuminance(image, light.projection);
+    if (natural > 0) factor *= static_cast<double>(*light.illuminance) / natural;
+  }
+  if (as_is) return {context.relative(light.filename), factor};
+  if (light.projection == equal_area) {
+    image = reproject(image, equal_area, latitude_longitude);
+    context.approximated("the equal-area environment map is resampled to latitude and longitude");
+  }
+  if (!is_grey(color) && image.channels == 3) {
+    const std::array scale{color.r, color.g, color.b};
+    for (std::size_t i = 0; i < image.values.size(); ++i)
+      image.values[i] = static_cast<float>(static_cast<double>(image.values[i]) * scale[i % 3]);
+    context.approximated("the colour of an environment light is multiplied into its image");
+  }
+  const std::string name = context.new_file("images", "exr", context.derived_images);
+  write_exr_image(context.file.parent_path() / name, image);
+  return {name, factor};
+}
+
+void write(Context& context, Element root, const EnvironmentLight& light) {
+  if (light.portal) context.dropped("the portal of an environment light: its light comes from everywhere");
+  try {
+    const WrittenEnvironment written = environment(context, light);
+    Element element = add(root, "emitter", "envmap");
+    add_transform(element, light.light_to_world * mitsuba_to_light());
+    add_string(element, "filename", written.filename);
+    add_float(element, "scale", static_cast<float>(written.scale));
+  } catch (const Error& error) {
+    context.dropped(fmt::format("an environment light: {}", error.what()));
+  }
+}
+
+}  // namespace
+
+void write_lights(Context& context, Element root) {
+  for (const Light& light : context.scene.lights) {
+    context.origin = light.origin;
+    std::visit([&](const auto& model) { write(context, root, model); }, light.model);
+  }
+}
+
+// The radiance of an image has to be told to be under D65; Mitsuba would take the colours for flat spectra.
+void write_area_light(Context& context, Element shape, const AreaLight& light) {
+  context.origin = light.origin;
+  Element element = add(shape, "emitter", light.directional ? "directionalarea" : "area");
+  if (const auto radiance = value_of(context, light.radiance))
+    return add_spectrum(element, "radiance", scaled(*radiance, static_cast<double>(light.scale)),
+                        Meaning::emission);
+  Element lit = add(element, "texture", "d65", "radiance");
+  add_parameter(context, lit, "nested", light.radiance, Meaning::emission);
+  add_float(lit, "scale", light.scale);
+}
+
+}  // namespace vitrail::mitsuba_writer

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "importers/mitsuba/write_shapes.h"
+
+#include <algorithm>
+
+#include "importers/mitsuba/write_lights.h"
+#include "importers/mitsuba/write_materials.h"
+#include "importers/mitsuba/write_media.h"
+#include "importers/mitsuba/write_sides.h"
+
+namespace vitrail::mitsuba_writer {
+
+namespace {
+
+bool sides_matter(const Context& context, const Shape& shape) {
+  return shape.area_light || shape.interior || shape.exterior ||
+         has_sides(context.scene, context.scene.materials[shape.material.value]);
+}
+
+Element add_mesh(Context& context, Element parent, const Shape& shape, const MeshFile& file,
+                 const std::string& id) {
+  const TriangleMesh& mesh = context.scene.meshes[shape.mesh.value];
+  Element element = add(parent, "shape", "ply", "", id);
+  add_string(element, "filename", file.filename);
+  add_transform(element, shape.object_to_world);
+  add_boolean(element, "face_normals", mesh.normals.empty());
+  add_boolean(element, "flip_normals", file.flip_normals);
+  add_reference(element, context.material_ids[shape.material.value], "bsdf");
+  return element;
+}
+
+void add_media(const Context& context, Element element, const Shape& shape) {
+  const std::string inside =
+      shape.interior ? context.medium_ids[shape.interior->value] : interior_of(context, shape.material);
+  if (!inside.empty()) add_reference(element, inside, "interior");
+  if (shape.exterior) add_reference(element, context.medium_ids[shape.exterior->value], "exterior");
+}
+
+void write_shape(Context& context, Element parent, const Shape& shape, std::size_t index) {
+  context.origin = shape.origin;
+  const std::string id = shape.name.empty() ? "" : context.new_id(shape.name, "shape", index);
+  Element element =
+      add_mesh(context, parent, shape, mesh_file(context, shape, sides_matter(context, shape)), id);
+  add_media(context, element, shape);
+  if (!shape.area_light) return;
+  const AreaLight& light = context.scene.area_lights[shape.area_light->value];
+  write_area_light(context, element, light);
+  if (!light.two_sided) return;
+  context.approximated(
+      "Mitsuba's area lights shine to one side: a copy of the surface right behind it shines to the other");
+  write_area_light(context, add_mesh(context, parent, shape, back_of(context, shape), ""), light);
+}
+
+// Mitsuba allows no area lights in shape groups: they are written with every instance.
+bool stays_in_group(const Shape& shape) { return !shape.area_light; }
+
+bool has_group(const Prototype& prototype) {
+  return std::any_of(prototype.shapes.begin(), prototype.shapes.end(), stays_in_group);
+}
+
+void write_prototype(Context& context, Element root, const Prototype& prototype, std::size_t index) {
+  context.origin = prototype.origin;
+  std::string& id = context.prototype_ids[index];
+  id = context.new_id(prototype.name, "shapegroup", index);
+  if (!has_group(prototype)) return;
+  Element group = add(root, "shape", "shapegroup", "", id);
+  for (std::size_t i = 0; i < prototype.shapes.size(); ++i)
+    if (stays_in_group(prototype.shapes[i])) write_shape(context, group, prototype.shapes[i], i);
+}
+
+void write_instance(Context& context, Element root, const Instance& instance) {
+  const Prototype& prototype = context.scene.prototypes[instance.prototype.value];
+  if (has_group(prototype)) {
+    Element element = add(root, "shape", "instance");
+    add_reference(element, context.prototype_ids[instance.prototype.value]);
+    add_transform(element, instance.prototype_to_world);
+  }
+  for (std::size_t i = 0; i < prototype.shapes.size(); ++i) {
+    if (stays_in_group(prototype.shapes[i])) continue;
+    Shape shape = prototype.shapes[i];
+    shape.object_to_world = instance.prototype_to_world * shape.object_to_world;
+    if (swaps_handedness(instance.prototype_to_world)) shape.flip_orientation = !shape.flip_orientation;
+    shape.name.clear();
+    write_shape(context, root, shape, i);
+    context.origin = instance.origin;
+    context.approximated("Mitsuba instances no area lights: this one is a shape of its own");
+  }
+}
+
+}  // namespace
+
+void write_shapes(Context& context, Element root) {
+  const Scene& scene = context.scene;
+  context.prototype_ids.resize(scene.prototypes.size());
+  std::size_t next = 0;
+  const auto first_mesh = [](const Prototype& prototype) {
+    return prototype.shapes.empty() ? 0u : prototype.shapes.front().mesh.value;
+  };
+  for (std::size_t i = 0; i < scene.shapes.size(); ++i) {
+    while (next < scene.prototypes.size() &&
+           first_mesh(scene.prototypes[next]) < scene.shapes[i].mesh.value) {
+      write_prototype(context, root, scene.prototypes[next], next);
+      ++next;
+    }
+    write_shape(context, root, scene.shapes[i], i);
+  }
+  for (; next < scene.prototypes.size(); ++next) write_prototype(context, root, scene.prototypes[next], next);
+  for (const Instance& instance : scene.instances) {
+    context.origin = instance.origin;
+    write_instance(context, root, instance);
+  }
+}
+
+}  // namespace vitrail::mitsuba_writer

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "importers/mitsuba/write_sides.h"
+
+#include <utility>
+
+#include "importers/ply/write_ply.h"
+#include "scene/bounds.h"
+
+namespace vitrail::mitsuba_writer {
+
+namespace {
+
+Vector3d vector(Normal3f n) { return {n.x, n.y, n.z}; }
+
+Vector3d winding_normal(const TriangleMesh& mesh, std::size_t triangle) {
+  const auto& t = mesh.triangles[triangle];
+  const auto p = [&](int i) { return cast<double>(mesh.positions[t[static_cast<std::size_t>(i)]]); };
+  return cross(p(1) - p(0), p(2) - p(0));
+}
+
+// Whether most shading normals point away from the side where the triangles run counter-clockwise.
+bool normals_oppose_winding(const TriangleMesh& mesh) {
+  std::int64_t balance = 0;
+  for (std::size_t i = 0; !mesh.normals.empty() && i < mesh.triangles.size(); ++i) {
+    const auto& t = mesh.triangles[i];
+    const Vector3d n = vector(mesh.normals[t[0]]) + vector(mesh.normals[t[1]]) + vector(mesh.normals[t[2]]);
+    const double side = dot(n, winding_normal(mesh, i));
+    balance += side > 0 ? 1 : side < 0 ? -1 : 0;
+  }
+  return balance < 0;
+}
+
+std::string write_derived(Context& context, const TriangleMesh& mesh) {
+  const std::string name = context.new_file("meshes", "sides.ply", context.derived_meshes);
+  write_ply(mesh, context.file.parent_path() / name);
+  return name;
+}
+
+void reverse_winding(TriangleMesh& mesh) {
+  for (auto& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
+}
+
+// Mitsuba transforms normals so that they keep their side where the transform mirrors, and the winding does
+// not.
+bool normals_point_behind(const TriangleMesh& mesh, const Shape& shape) {
+  return !mesh.normals.empty() && normals_oppose_winding(mesh) != swaps_handedness(shape.object_to_world);
+}
+
+}  // namespace
+
+MeshFile mesh_file(Context& context, const Shape& shape, bool sides_matter) {
+  const TriangleMesh& mesh = context.scene.meshes[shape.mesh.value];
+  if (!sides_matter || !normals_point_behind(mesh, shape))
+    return {context.meshes.name(shape.mesh), shape.flip_orientation};
+  TriangleMesh copy = mesh;
+  reverse_winding(copy);
+  return {write_derived(context, copy), !shape.flip_orientation};
+}
+
+MeshFile back_of(Context& context, const Shape& shape) {
+  constexpr double gap = 1e-4;  // of the diagonal
+  TriangleMesh copy = context.scene.meshes[shape.mesh.value];
+  bool flip = shape.flip_orientation;
+  if (normals_point_behind(copy, shape)) {
+    reverse_winding(copy);
+    flip = !flip;
+  }
+  Bounds3f box;
+  for (const Point3f p : copy.positions) extend(box, p);
+  const double depth = gap * length(cast<double>(extent(box)));
+  std::vector<Vector3d> normals(copy.positions.size());
+  for (std::size_t i = 0; i < copy.triangles.size(); ++i)
+    for (const std::uint32_t v : copy.triangles[i]) normals[v] = normals[v] + winding_normal(copy, i);
+  const double behind = flip != swaps_handedness(shape.object_to_world) ? depth : -depth;
+  for (std::size_t v = 0; v < normals.size(); ++v)
+    copy.positions[v] = cast<float>(cast<double>(copy.positions[v]) + behind * normalize(normals[v]));
+  return {write_derived(context, copy), !flip};
+}
+
+}  // namespace vitrail::mitsuba_writer

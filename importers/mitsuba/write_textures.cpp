@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "importers/mitsuba/write_textures.h"
+
+#include <array>
+#include <cmath>
+
+#include "importers/mitsuba/write_images.h"
+#include "scene/rgb_to_spectrum.h"
+
+namespace vitrail::mitsuba_writer {
+
+namespace {
+
+Spectrum spectrum_of(RGB color) {
+  if (color.r == color.g && color.g == color.b) return ConstantSpectrum{static_cast<float>(color.r)};
+  return unbounded_from_rgb(color);
+}
+
+// What a texture is on the whole, for where Mitsuba cannot have it.
+RGB mean_of(const Context& context, const SpectrumParameter& value);
+
+RGB mix(RGB a, RGB b, double amount) {
+  return {a.r + (b.r - a.r) * amount, a.g + (b.g - a.g) * amount, a.b + (b.b - a.b) * amount};
+}
+
+double mean_of(const Context& context, const FloatParameter& value) {
+  if (const auto* number = std::get_if<float>(&value)) return static_cast<double>(*number);
+  return mean_of(context, SpectrumParameter{std::get<Id<Texture>>(value)}).g;
+}
+
+RGB mean_of(const Context& context, const TextureModel& model) {
+  const auto mean = [&](const auto& value) { return mean_of(context, value); };
+  return std::visit(
+      Overloaded{
+          [&](const ImageTexture& t) { return mean_color(t); },
+          [&](const CheckerboardTexture& t) { return mix(mean(t.even), mean(t.odd), 0.5); },
+          [&](const ProductTexture& t) {
+            const RGB a = mean(t.first), b = mean(t.second);
+            return RGB{a.r * b.r, a.g * b.g, a.b * b.b};
+          },
+          [&](const MixTexture& t) { return mix(mean(t.first), mean(t.second), mean(t.amount)); },
+          [&](const DirectionMixTexture& t) { return mix(mean(t.first), mean(t.second), 0.5); },
+          [&](const BilinearTexture& t) {
+            return mix(mix(mean(t.v00), mean(t.v01), 0.5), mix(mean(t.v10), mean(t.v11), 0.5), 0.5);
+          },
+          [&](const DotsTexture& t) { return mean(t.outside); },
+          [](const UvTexture&) {
+            return RGB{0.5, 0.5, 0};
+          },
+          [](const auto&) {
+            return RGB{0.5, 0.5, 0.5};
+          },
+      },
+      model);
+}
+
+RGB mean_of(const Context& context, const SpectrumParameter& value) {
+  if (const auto* spectrum = std::get_if<Spectrum>(&value)) return color_of(*spectrum);
+  return mean_of(context, context.scene.textures[std::get<Id<Texture>>(value).value].model);
+}
+
+// a·u + b·v + c, d·u + e·v + f as Mitsuba wants it: 4×4, with the offsets in the last column.
+void add_to_uv(Element parent, const std::array<double, 6>& m) {
+  Transform to_uv;
+  to_uv.m[0] = {m[0], m[1], 0, m[2]};
+  to_uv.m[1] = {m[3], m[4], 0, m[5]};
+  add_transform(parent, to_uv, "to_uv");
+}
+
+UvMapping uv_mapping(Context& context, const TextureMapping& mapping) {
+  if (const auto* uv = std::get_if<UvMapping>(&mapping)) return *uv;
+  context.approximated("Mitsuba looks textures up by uv only: this mapping by position is replaced by uv");
+  return {};
+}
+
+// The image's rows run down: its t is 1 − the Scene's.
+void write_image(Context& context, Element root, const Texture& texture, const ImageTexture& image,
+                 const std::string& id) {
+  const MitsubaImage written = image_for_mitsuba(context, image, texture.is_float);
+  Element element = add(root, "texture", "bitmap", "", id);
+  add_string(element, "filename", written.filename);
+  add_boolean(element, "raw", written.raw);
+  add_string(element, "filter_type", image.filter == TextureFilter::nearest ? "nearest" : "bilinear");
+  if (image.filter > TextureFilter::bilinear)
+    context.approximated("Mitsuba does not filter textures by footprint: bilinear");
+  if (image.wrap == Wrap::black)
+    context.approximated("black outside of an image is not in Mitsuba: its edge goes on");
+  const std::array wraps{"repeat", "mirror", "clamp", "clamp"};
+  add_string(element, "wrap_mode", wraps.at(static_cast<std::size_t>(image.wrap)));
+  const UvMapping m = uv_mapping(context, image.mapping);
+  const auto down = [](float value) { return value == 0 ? 0.0 : -static_cast<double>(value); };
+  add_to_uv(element, {m.a, m.b, m.c, down(m.d), down(m.e), 1 - static_cast<double>(m.f)});
+}
+
+// Mitsuba's cells are half a unit wide.
+void write_checkerboard(Context& context, Element root, const CheckerboardTexture& board,
+                        const std::string& id) {
+  Element element = add(root, "texture", "checkerboard", "", id);
+  add_parameter(context, element, "color0", board.even, Meaning::reflectance);
+  add_parameter(context, element, "color1", board.odd, Meaning::reflectance);
+  const UvMapping m = uv_mapping(context, board.mapping);
+  std::array<double, 6> to_uv{m.a, m.b, m.c, m.d, m.e, m.f};
+  for (double& entry : to_uv) entry /= 2;
+  add_to_uv(element, to_uv);
+}
+
+bool is_number(const std::optional<Spectrum>& value, double number) {
+  return value && is_constant(*value) && evaluate(*value, 550) == number;
+}
+
+// The same texture in simpler terms, where there is one: 1·x, a mix by 0 or 1, constants.
+std::optional<WrittenTexture> simplified(const Context& context, const TextureModel& model) {
+  const auto written = [&](const SpectrumParameter& value) -> WrittenTexture {
+    if (const auto* spectrum = std::get_if<Spectrum>(&value)) return *spectrum;
+    return context.textures[std::get<Id<Texture>>(value).value];
+  };
+  if (const auto* product = std::get_if<ProductTexture>(&model)) {
+    const auto first = value_of(context, product->first), second = value_of(context, product->second);
+    if (is_number(first, 1)) return written(product->second);
+    if (is_number(second, 1)) return written(product->first);
+    if (first && second && is_constant(*first)) return scaled(*second, evaluate(*first, 550));
+    if (first && second && is_constant(*second)) return scaled(*first, evaluate(*second, 550));
+    if (first && second)
+      return tabulated([&, a = resolved(*first), b = resolved(*second)](double lambda) {
+        return evaluate(a, lambda) * evaluate(b, lambda);
+      });
+  }
+  if (const auto* blend = std::get_if<MixTexture>(&model)) {
+    const auto amount = value_of(context, blend->amount);
+    if (amount == 0.0f) return written(blend->first);
+    if (amount == 1.0f) return written(blend->second);
+    const auto first = value_of(context, blend->first), second = value_of(context, blend->second);
+    if (first && second && amount)
+      return tabulated([&, a = resolved(*first), b = resolved(*second)](double lambda) {
+        const double x = evaluate(a, lambda), y = evaluate(b, lambda);
+        return x + (y - x) * static_cast<double>(*amount);
+      });
+  }
+  return std::nullopt;
+}
+
+WrittenTexture write_texture(Context& context, Element root, const Texture& texture, std::size_t index) {
+  if (const auto simple = simplified(context, texture.model)) return *simple;
+  const auto new_id = [&] { return context.new_id(texture.name, "texture", index); };
+  if (const auto* image = std::get_if<ImageTexture>(&texture.model)) {
+    const std::string id = new_id();
+    write_image(context, root, texture, *image, id);
+    return id;
+  }
+  if (const auto* board = std::get_if<CheckerboardTexture>(&texture.model); board && !board->solid) {
+    const std::string id = new_id();
+    write_checkerboard(context, root, *board, id);
+    return id;
+  }
+  if (const auto* attribute = std::get_if<MeshAttributeTexture>(&texture.model)) {
+    const std::string id = new_id();
+    Element element = add(root, "texture", "mesh_attribute", "", id);
+    add_string(element, "name", attribute->name);
+    add_float(element, "scale", attribute->scale);
+    return id;
+  }
+  const RGB mean = mean_of(context, texture.model);
+  context.approximated(fmt::format(
+      "Mitsuba has no such texture: replaced by its mean, rgb {:.4g} {:.4g} {:.4g}", mean.r, mean.g, mean.b));
+  return spectrum_of(mean);
+}
+
+}  // namespace
+
+void write_textures(Context& context, Element root) {
+  for (std::size_t i = 0; i < context.scene.textures.size(); ++i) {
+    context.origin = context.scene.textures[i].origin;
+    context.textures.push_back(write_texture(context, root, context.scene.textures[i], i));
+  }
+}
+
+std::optional<Spectrum> value_of(const Context& context, const SpectrumParameter& value) {
+  if (const auto* spectrum = std::get_if<Spectrum>(&value)) return *spectrum;
+  const WrittenTexture& texture = context.textures[std::get<Id<Texture>>(value).value];
+  if (const auto* spectrum = std::get_if<Spectrum>(&texture)) return *spectrum;
+  return std::nullopt;
+}
+
+std::optional<float> value_of(const Context& context, const FloatParameter& value) {
+  if (const auto* number = std::get_if<float>(&value)) return *number;
+  const auto spectrum = value_of(context, SpectrumParameter{std::get<Id<Texture>>(value)});
+  if (!spectrum) return std::nullopt;
+  return static_cast<float>(is_constant(*spectrum) ? evaluate(*spectrum, 550) : color_of(*spectrum).g);
+}
+
+void add_parameter(Context& context, Element parent, const std::string& name, const SpectrumParameter& value,
+                   Meaning meaning) {
+  if (const auto spectrum = value_of(context, value)) return add_spectrum(parent, name, *spectrum, meaning);
+  add_reference(parent, std::get<std::string>(context.textures[std::get<Id<Texture>>(value).value]), name);
+}
+
+void add_parameter(Context& context, Element parent, const std::string& name, const FloatParameter& value) {
+  if (const auto number = value_of(context, value)) return add_float(parent, name, *number);
+  add_reference(parent, std::get<std::string>(context.textures[std::get<Id<Texture>>(value).value]), name);
+}
+
+Spectrum constant_of(Context& context, const SpectrumParameter& value, const char* what) {
+  if (const auto spectrum = value_of(context, value)) return *spectrum;
+  context.approximated(fmt::format("{} takes no texture in Mitsuba: its mean", what));
+  return spectrum_of(mean_of(context, value));
+}
+
+float constant_of(Context& context, const FloatParameter& value, const char* what) {
+  if (const auto number = value_of(context, value)) return *number;
+  context.approximated(fmt::format("{} takes no texture in Mitsuba: its mean", what));
+  return static_cast<float>(mean_of(context, value));
+}
+
+}  // namespace vitrail::mitsuba_writer
