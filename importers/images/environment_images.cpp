@@ -118,16 +118,20 @@ Image reproject(const Image& image, EnvironmentProjection from, EnvironmentProje
 }
 
 double upward_illuminance(const Image& image, EnvironmentProjection projection) {
+  constexpr int side = 4;  // samples across a pixel
   double sum = 0, weights = 0;
   for (std::size_t pixel = 0; pixel < image.pixels(); ++pixel) {
     const auto width = static_cast<std::size_t>(image.width);
-    const Point2d point{(static_cast<double>(pixel % width) + 0.5) / image.width,
-                        (static_cast<double>(pixel / width) + 0.5) / image.height};
-    const double weight = density(projection, point);
     const float* rgb = &image.values[pixel * static_cast<std::size_t>(image.channels)];
-    const RGB color = image.channels < 3 ? RGB{rgb[0], rgb[0], rgb[0]} : RGB{rgb[0], rgb[1], rgb[2]};
-    weights += weight;
-    sum += weight * std::max(0.0, direction_of(projection, point).z) * srgb_to_xyz(color).y;
+    const double y =
+        srgb_to_xyz(image.channels < 3 ? RGB{rgb[0], rgb[0], rgb[0]} : RGB{rgb[0], rgb[1], rgb[2]}).y;
+    for (int s = 0; s < side * side; ++s) {
+      const Point2d point{(static_cast<double>(pixel % width) + (s % side + 0.5) / side) / image.width,
+                          (static_cast<double>(pixel / width) + (s / side + 0.5) / side) / image.height};
+      const double weight = density(projection, point);
+      weights += weight;
+      sum += weight * y * std::max(0.0, direction_of(projection, point).z);
+    }
   }
   return weights > 0 ? 4 * pi * sum / weights : 0;
 }

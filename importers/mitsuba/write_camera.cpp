@@ -40,8 +40,8 @@ ClipRange clip_range(const Scene& scene, const Transform& camera_to_world) {
   extend(box, transform_point(camera_to_world, {0, 0, 0}));
   const double reach = 2 * length(extent(box));
   if (!(reach > 0) || !std::isfinite(reach)) return {};
-  const double far_clip = std::pow(10, std::ceil(std::log10(reach)));
-  return {far_clip * 1e-6, far_clip};
+  const double digits = std::ceil(std::log10(reach));
+  return {std::pow(10, std::min(digits - 6, -2.0)), std::pow(10, digits)};
 }
 
 // Camera space is mirrored in x between the Scene and Mitsuba.

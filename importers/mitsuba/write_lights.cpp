@@ -2,6 +2,7 @@
 #include "importers/mitsuba/write_lights.h"
 
 #include <cmath>
+#include <numbers>
 
 #include "importers/images/environment_images.h"
 #include "importers/images/image_files.h"
@@ -9,6 +10,13 @@
 namespace vitrail::mitsuba_writer {
 
 namespace {
+
+// The colours of an image under D65: Mitsuba would take white for a flat spectrum.
+void add_lit_image(Context& context, Element emitter, const char* name, const SpectrumParameter& image, float scale) {
+  Element lit = add(emitter, "texture", "d65", name);
+  add_parameter(context, lit, "nested", image, Meaning::emission);
+  add_float(lit, "scale", scale);
+}
 
 constexpr const char* brightness = "the brightness of this light";
 
@@ -34,20 +42,26 @@ void write(Context& context, Element root, const SpotLight& light) {
   add_parameter(context, element, "texture", texture, Meaning::reflectance);
 }
 
-// Mitsuba's projector is a camera: its image has +x on the left and +y at the top. pbrt's image has −x on the
-// left and −y at the top.
+// Mitsuba's projector is a camera: u = 0 on the left, at +x, and v = 0 at the top, at +y. pbrt has u = 0 at
+// −x, and the image's upper row at −y. The image times π is the irradiance at distance 1.
 void write(Context& context, Element root, const ProjectionLight& light) {
   const auto* image = std::get_if<Id<Texture>>(&light.image);
   if (!image || value_of(context, light.image)) return context.dropped("a projection light without an image");
   Element element = add(root, "emitter", "projector");
-  add_transform(element, light.light_to_world * scale({-1, light.irradiance ? 1.0 : -1.0, 1}));
-  add_parameter(context, element, "irradiance", light.image, Meaning::emission);
+  add_transform(element, light.light_to_world * scale({-1, 1, 1}));
+  if (light.irradiance)
+    add_parameter(context, element, "irradiance", light.image, Meaning::emission);
+  else
+    add_lit_image(context, element, "irradiance", light.image, 1);
   add_float(element, "fov", light.fov_deg);
   add_string(element, "fov_axis", light.irradiance ? "x" : "smaller");
-  add_float(element, "scale", static_cast<float>(number_of(context, light.scale, brightness)));
+  const double factor = number_of(context, light.scale, brightness);
+  add_float(element, "scale", static_cast<float>(light.irradiance ? factor : factor / std::numbers::pi));
   if (!light.irradiance)
     context.approximated(
-        "the image of a projector is irradiance in Mitsuba: brighter off its axis by 1/cos³");
+        "the image of a projector is irradiance in Mitsuba: brighter off its axis by 1/cos³, and its white "
+        "is a flat "
+        "spectrum");
   if (light.power) context.dropped("the power of a projection light: its image counts as it is");
 }
 
@@ -134,16 +148,13 @@ void write_lights(Context& context, Element root) {
   }
 }
 
-// The radiance of an image has to be told to be under D65; Mitsuba would take the colours for flat spectra.
 void write_area_light(Context& context, Element shape, const AreaLight& light) {
   context.origin = light.origin;
   Element element = add(shape, "emitter", light.directional ? "directionalarea" : "area");
   if (const auto radiance = value_of(context, light.radiance))
     return add_spectrum(element, "radiance", scaled(*radiance, static_cast<double>(light.scale)),
                         Meaning::emission);
-  Element lit = add(element, "texture", "d65", "radiance");
-  add_parameter(context, lit, "nested", light.radiance, Meaning::emission);
-  add_float(lit, "scale", light.scale);
+  add_lit_image(context, element, "radiance", light.radiance, light.scale);
 }
 
 }  // namespace vitrail::mitsuba_writer

@@ -5,6 +5,7 @@
 
 #include <bit>
 #include <string>
+#include <string_view>
 
 #include "scene/atomic_file.h"
 
@@ -14,10 +15,12 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "values are written as they lie in memory");
 
+// Mitsuba finds an attribute by the element that it belongs to, and by a suffix for its channel.
 void declare(std::string& header, const MeshAttribute& attribute) {
-  for (int c = 0; c < attribute.channels; ++c)
-    header += attribute.channels == 1 ? fmt::format("property float {}\n", attribute.name)
-                                      : fmt::format("property float {}_{}\n", attribute.name, c);
+  const std::string_view element = attribute.per_face ? "face_" : "vertex_";
+  std::string_view name = attribute.name;
+  if (name.starts_with(element)) name.remove_prefix(element.size());
+  for (int c = 0; c < attribute.channels; ++c) header += fmt::format("property float {}_{}\n", name, c);
 }
 
 std::string header_of(const TriangleMesh& mesh) {

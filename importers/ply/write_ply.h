@@ -8,8 +8,9 @@
 namespace vitrail {
 
 // Binary little-endian PLY: float x y z [nx ny nz] [u v] [attributes by vertex], then faces `uchar int`
-// vertex_indices [attributes by face]. A channel of an attribute is a property NAME_0, NAME_1 … (NAME alone
-// where there is one). read_ply gives the same mesh back, bit for bit. Throws MachineError.
+// vertex_indices [attributes by face]. The channels of an attribute "vertex_NAME" or "face_NAME" are
+// properties NAME_0, NAME_1 … of its element, as Mitsuba reads them. read_ply gives the same mesh back, bit
+// for bit. Throws MachineError.
 void write_ply(const TriangleMesh& mesh, const std::filesystem::path& file);
 
 }  // namespace vitrail

@@ -1,0 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
+vitrail_test(importers_mitsuba_oracle LABEL conformance TIMEOUT 300
+  SOURCES mitsuba_lights_test.cpp mitsuba_oracle_test.cpp
+  LIBRARIES vitrail::mitsuba_exporter nlohmann_json::nlohmann_json)
