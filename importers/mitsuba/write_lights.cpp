@@ -12,7 +12,8 @@ namespace vitrail::mitsuba_writer {
 namespace {
 
 // The colours of an image under D65: Mitsuba would take white for a flat spectrum.
-void add_lit_image(Context& context, Element emitter, const char* name, const SpectrumParameter& image, float scale) {
+void add_lit_image(Context& context, Element emitter, const char* name, const SpectrumParameter& image,
+                   float scale) {
   Element lit = add(emitter, "texture", "d65", name);
   add_parameter(context, lit, "nested", image, Meaning::emission);
   add_float(lit, "scale", scale);

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "importers/images/environment_images.h"
+
+#include <gmock/gmock.h>
+
+#include <chrono>
+#include <cmath>
+#include <numbers>
+
+#include "importers/images/image_files.h"
+#include "scene/diagnostics.h"
+#include "tests/importers/temporary_folder.h"
+
+namespace vitrail {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+constexpr EnvironmentProjection projections[] = {EnvironmentProjection::equal_area,
+                                                 EnvironmentProjection::latitude_longitude};
+
+template <class F>
+Image image_of(EnvironmentProjection projection, int height, F&& f) {
+  Image image = black_image(projection == EnvironmentProjection::equal_area ? height : 2 * height, height, 1);
+  for (std::size_t pixel = 0; pixel < image.pixels(); ++pixel) {
+    const auto width = static_cast<std::size_t>(image.width);
+    image.values[pixel] = static_cast<float>(
+        f(direction_of(projection, {(static_cast<double>(pixel % width) + 0.5) / image.width,
+                                    (static_cast<double>(pixel / width) + 0.5) / height})));
+  }
+  return image;
+}
+
+// ∫ L dω by the midpoints of the pixels, over 64 parts of each.
+double total(const Image& image, EnvironmentProjection projection) {
+  double sum = 0, weights = 0;
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x)
+      for (int part = 0; part < 8; ++part) {
+        const double v = (y + (part + 0.5) / 8) / image.height;
+        const double weight = projection == EnvironmentProjection::equal_area ? 1 : std::sin(pi * v);
+        weights += weight;
+        sum += weight * static_cast<double>(image.values[static_cast<std::size_t>(y * image.width + x)]);
+      }
+  return 4 * pi * sum / weights;
+}
+
+TEST(EnvironmentImages, DirectionsAndPointsAreInverse) {
+  for (const auto projection : projections)
+    for (int i = 0; i < 400; ++i) {
+      const double z = 1 - 2 * (i + 0.5) / 400, phi = 2.4 * i, r = std::sqrt(1 - z * z);
+      const Vector3d d{r * std::cos(phi), r * std::sin(phi), z};
+      const Vector3d back = direction_of(projection, point_of(projection, d));
+      EXPECT_LT(length(back - d), 1e-7) << d.x << ' ' << d.y << ' ' << d.z;
+    }
+}
+
+// Corners and centre of the square: Clarberg 2008, figure 2.
+TEST(EnvironmentImages, LandmarksOfTheMaps) {
+  const auto near = [](Vector3d a, Vector3d b) { return length(a - b) < 1e-9; };
+  EXPECT_TRUE(near(direction_of(projections[0], {0.5, 0.5}), {0, 0, 1}));
+  EXPECT_TRUE(near(direction_of(projections[0], {0, 0}), {0, 0, -1}));
+  EXPECT_TRUE(near(direction_of(projections[0], {1, 0.5}), {1, 0, 0}));
+  EXPECT_TRUE(near(direction_of(projections[0], {0.5, 1}), {0, 1, 0}));
+  EXPECT_TRUE(near(direction_of(projections[1], {0, 0.5}), {1, 0, 0}));
+  EXPECT_TRUE(near(direction_of(projections[1], {0.25, 0.5}), {0, 1, 0}));
+  EXPECT_TRUE(near(direction_of(projections[1], {0.6, 0}), {0, 0, 1}));
+}
+
+// Equal pieces of the square are equal solid angles: the mean of z², and of z over a half.
+TEST(EnvironmentImages, TheSquareIsOfEqualArea) {
+  const Image z2 = image_of(projections[0], 256, [](Vector3d d) { return d.z * d.z; });
+  EXPECT_NEAR(total(z2, projections[0]), 4 * pi / 3, 1e-3);
+}
+
+TEST(EnvironmentImages, LookupsGoOnAcrossTheEdges) {
+  const auto smooth = [](Vector3d d) { return 2 + d.x + 0.5 * d.y * d.z; };
+  for (const auto projection : projections) {
+    const Image image = image_of(projection, 64, smooth);
+    for (int i = 0; i <= 100; ++i) {
+      const double a = i / 100.0;
+      for (const Point2d p : {Point2d{a, 0}, Point2d{a, 1}, Point2d{0, a}, Point2d{1, a}, Point2d{a, a}})
+        EXPECT_NEAR(environment_lookup(image, projection, p, 0), smooth(direction_of(projection, p)), 0.05)
+            << p.x << ' ' << p.y;
+    }
+  }
+}
+
+TEST(EnvironmentImages, ReprojectionKeepsValuesAndEnergy) {
+  const auto smooth = [](Vector3d d) { return 1 + d.x + std::exp(20 * (d.y - 1)); };
+  for (int i = 0; i < 2; ++i) {
+    const auto from = projections[i], to = projections[1 - i];
+    const Image source = image_of(from, 128, smooth), result = reproject(source, from, to);
+    EXPECT_EQ(result.width, to == EnvironmentProjection::equal_area ? 128 : 256);
+    const Image expected = image_of(to, 128, smooth);
+    for (std::size_t p = 0; p < expected.values.size(); ++p)
+      ASSERT_NEAR(result.values[p], expected.values[p], 0.03) << p;
+    EXPECT_NEAR(total(result, to) / total(source, from), 1, 5e-3);
+  }
+}
+
+// A sun of a few pixels, anywhere, the poles and seams too.
+TEST(EnvironmentImages, EnergyOfASmallSun) {
+  for (int i = 0; i < 2; ++i)
+    for (const Vector3d sun : {Vector3d{0.3, 0.5, 0.8}, Vector3d{0, 0, 1}, Vector3d{0, 0, -1},
+                               Vector3d{1, 0, 0}, Vector3d{-1, -0.01, 0}}) {
+      const auto from = projections[i], to = projections[1 - i];
+      const Image source = image_of(
+          from, 128, [s = normalize(sun)](Vector3d d) { return dot(s, d) > std::cos(0.06) ? 1000 : 0; });
+      const Image result = reproject(source, from, to);
+      EXPECT_NEAR(total(result, to) / total(source, from), 1, 5e-3)
+          << i << ": " << sun.x << ' ' << sun.y << ' ' << sun.z;
+    }
+}
+
+TEST(EnvironmentImages, Illuminance) {
+  for (const auto projection : projections) {
+    EXPECT_NEAR(upward_illuminance(image_of(projection, 64, [](Vector3d) { return 2.0; }), projection),
+                2 * pi, 5e-3);
+    EXPECT_NEAR(upward_illuminance(image_of(projection, 64, [](Vector3d d) { return 1 + d.z; }), projection),
+                pi + 2 * pi / 3, 5e-3);
+  }
+}
+
+TEST(ImageFiles, RoundTripAndErrors) {
+  TemporaryFolder folder;
+  Image image = black_image(3, 2, 3);
+  for (std::size_t i = 0; i < image.values.size(); ++i) image.values[i] = 0.1f * static_cast<float>(i);
+  write_exr_image(folder / "a.exr", image);
+  EXPECT_EQ(read_linear_image(folder / "a.exr"), image);
+  EXPECT_FALSE(read_stored_image(folder / "a.exr").integer);
+  const ImageLayout layout = read_image_layout(folder / "a.exr");
+  EXPECT_EQ(layout.width, 3);
+  EXPECT_EQ(layout.channels, 3);
+  folder.write("b.exr", "no image");
+  EXPECT_THROW(read_stored_image(folder / "b.exr"), Error);
+  EXPECT_THROW(read_image_layout(folder / "none.png"), Error);
+  EXPECT_THROW(write_exr_image(folder / "none" / "a.exr", image), MachineError);
+}
+
+}  // namespace
+}  // namespace vitrail
