@@ -14,14 +14,10 @@ bool is_zero(const FloatParameter& value) {
 
 const Material& material_of(const Scene& scene, Id<Material> id) { return scene.materials[id.value]; }
 
-bool wants_two_sided(Context& context, const Material& material) {
-  if (!material.two_sided || std::holds_alternative<TwoSidedMaterial>(material.model)) return false;
-  if (const auto* blend =
-          std::get_if<BlendMaterial>(&material.model))  // its parts have wrappers of their own
-    if (material_of(context.scene, blend->first).two_sided &&
-        material_of(context.scene, blend->second).two_sided && transmits(context.scene, material))
-      return false;
-  return !transmits(context.scene, material);
+// Mitsuba's bare opaque BSDFs are black on their back; those that transmit have both sides anyway.
+bool wants_two_sided(const Context& context, const Material& material) {
+  return material.two_sided && !std::holds_alternative<TwoSidedMaterial>(material.model) &&
+         !transmits(context.scene, material);
 }
 
 void write_material(Context& context, Element parent, const Material& material, std::string id) {
