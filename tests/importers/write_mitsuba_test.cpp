@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The text that the Mitsuba writer makes. What Mitsuba makes of it: mitsuba_oracle_test.cpp.
+// The text that the Mitsuba writer makes. What Mitsuba makes of it: mitsuba_oracle.h.
 #include "importers/mitsuba/write_mitsuba.h"
 
 #include <gmock/gmock.h>
