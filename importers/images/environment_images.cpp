@@ -2,6 +2,7 @@
 #include "importers/images/environment_images.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -60,6 +61,30 @@ std::size_t pixel_index(const Image& image, EnvironmentProjection projection, in
          static_cast<std::size_t>(std::clamp(x, 0, w - 1));
 }
 
+// The four pixels around a point, and their shares of its value.
+struct Neighbours {
+  std::array<std::size_t, 4> pixels{};
+  std::array<double, 4> shares{};
+};
+
+Neighbours neighbours(const Image& image, EnvironmentProjection projection, Point2d point) {
+  const double x = point.x * image.width - 0.5, y = point.y * image.height - 0.5;
+  const double left = std::floor(x), top = std::floor(y), fx = x - left, fy = y - top;
+  const int x0 = static_cast<int>(left), y0 = static_cast<int>(top);
+  const auto pixel = [&](int dx, int dy) { return pixel_index(image, projection, x0 + dx, y0 + dy); };
+  return {{pixel(0, 0), pixel(1, 0), pixel(0, 1), pixel(1, 1)},
+          {(1 - fx) * (1 - fy), fx * (1 - fy), (1 - fx) * fy, fx * fy}};
+}
+
+double value_at(const Image& image, const Neighbours& near, std::size_t channel) {
+  double sum = 0;
+  for (std::size_t i = 0; i < 4; ++i)
+    sum += near.shares[i] *
+           static_cast<double>(
+               image.values[near.pixels[i] * static_cast<std::size_t>(image.channels) + channel]);
+  return sum;
+}
+
 // Proportional to the solid angle of a small piece of the picture.
 double density(EnvironmentProjection projection, Point2d point) {
   return projection == latitude_longitude ? std::sin(pi * point.y) : 1;
@@ -80,16 +105,7 @@ Point2d point_of(EnvironmentProjection projection, Vector3d d) {
 }
 
 double environment_lookup(const Image& image, EnvironmentProjection projection, Point2d point, int channel) {
-  const double x = point.x * image.width - 0.5, y = point.y * image.height - 0.5;
-  const int x0 = static_cast<int>(std::floor(x)), y0 = static_cast<int>(std::floor(y));
-  const double fx = x - x0, fy = y - y0;
-  const auto value = [&](int dx, int dy) {
-    const std::size_t pixel = pixel_index(image, projection, x0 + dx, y0 + dy);
-    return static_cast<double>(
-        image.values[pixel * static_cast<std::size_t>(image.channels) + static_cast<std::size_t>(channel)]);
-  };
-  return (1 - fy) * ((1 - fx) * value(0, 0) + fx * value(1, 0)) +
-         fy * ((1 - fx) * value(0, 1) + fx * value(1, 1));
+  return value_at(image, neighbours(image, projection, point), static_cast<std::size_t>(channel));
 }
 
 Image reproject(const Image& image, EnvironmentProjection from, EnvironmentProjection to) {
@@ -106,10 +122,9 @@ Image reproject(const Image& image, EnvironmentProjection from, EnvironmentProje
       const Point2d point{(static_cast<double>(pixel % width) + (s % side + 0.5) / side) / result.width,
                           (static_cast<double>(pixel / width) + (s / side + 0.5) / side) / height};
       const double weight = density(to, point);
-      const Point2d source = point_of(from, direction_of(to, point));
+      const Neighbours near = neighbours(image, from, point_of(from, direction_of(to, point)));
       weights += weight;
-      for (std::size_t c = 0; c < channels; ++c)
-        sum[c] += weight * environment_lookup(image, from, source, static_cast<int>(c));
+      for (std::size_t c = 0; c < channels; ++c) sum[c] += weight * value_at(image, near, c);
     }
     for (std::size_t c = 0; c < channels; ++c)
       result.values[pixel * channels + c] = static_cast<float>(sum[c] / weights);

@@ -23,6 +23,13 @@ std::string Context::new_id(const std::string& name, const char* kind, std::size
   return unique;
 }
 
+std::string Context::relative(const std::string& other) {
+  std::string name = relative_name(other, file.parent_path());
+  if (name.find('$') != std::string::npos)
+    dropped(fmt::format("{}: Mitsuba takes $ for the start of a parameter: rename the file", name));
+  return name;
+}
+
 std::string Context::new_file(const char* kind, const char* extension, std::size_t& counter) const {
   const std::filesystem::path folder = fmt::format("{}-{}", file.stem().string(), kind);
   std::error_code error;

@@ -50,7 +50,8 @@ struct Context {
 
   // An id for a record called `name`; a record without a name gets one that starts with "_unnamed_".
   std::string new_id(const std::string& name, const char* kind, std::size_t index);
-  std::string relative(const std::string& other) const { return relative_name(other, file.parent_path()); }
+  // A file as the scene refers to it.
+  std::string relative(const std::string& other);
   // The path of a new file in OUT-`kind`/, which is created; relative to the scene's.
   std::string new_file(const char* kind, const char* extension, std::size_t& counter) const;
 

@@ -315,6 +315,13 @@ TEST_F(WriteMitsuba, MappingsAndImages) {
   EXPECT_THAT(diagnostics_, approximates("black outside"));
 }
 
+TEST_F(WriteMitsuba, FilesThatMitsubaCannotName) {
+  Scene scene = square_scene({});
+  scene.textures = {{ImageTexture{"/a$b.png"}, false, "i", {}}};
+  write(scene);
+  EXPECT_THAT(diagnostics_, drops("rename the file"));
+}
+
 // ---- Shapes, media, camera
 
 TEST_F(WriteMitsuba, SidesAreReversedOnlyWhereTheyShow) {
