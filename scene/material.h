@@ -18,8 +18,8 @@ struct Material;
 struct Roughness {
   enum class Distribution : std::uint8_t { ggx, beckmann };
   FloatParameter alpha_u = 0.0f, alpha_v = 0.0f;
-  bool square_root = false;  // α is the square root of what a texture gives (pbrt's remapped roughness)
   Distribution distribution = Distribution::ggx;
+  bool square_root = false;  // α is the square root of what a texture gives (pbrt's remapped roughness)
   bool operator==(const Roughness&) const = default;
 };
 

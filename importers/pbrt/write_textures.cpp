@@ -38,11 +38,13 @@ class TextureWriter {
   }
   const char* operator()(const ProductTexture& t) {
     const auto* factor = std::get_if<Spectrum>(&t.second);
-    const bool is_number = factor ? std::holds_alternative<ConstantSpectrum>(*factor)
-                                  : p_.writer().scene.textures.at(std::get<Id<Texture>>(t.second).value).is_float;
+    const bool is_number =
+        factor ? std::holds_alternative<ConstantSpectrum>(*factor)
+               : p_.writer().scene.textures.at(std::get<Id<Texture>>(t.second).value).is_float;
     input("tex", t.first);
     if (!is_number) {
-      p_.approximated("pbrt multiplies a texture by numbers only: the luminance of a colour, 1 for a texture");
+      p_.approximated(
+          "pbrt multiplies a texture by numbers only: the luminance of a colour, 1 for a texture");
       p_.number("scale", factor ? static_cast<float>(luminance(*factor)) : 1.0f);
       return "scale";
     }

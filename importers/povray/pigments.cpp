@@ -47,8 +47,8 @@ std::string undoing(const Transform& pov_to_texture) {
 }
 
 // p = to_texture(inverse(to_pov)(q)) of the point q of POV-Ray's space.
-Transform from_pov(const Context& context, const Transform& world_to_texture) {
-  return world_to_texture * inverse(context.units.to_pov);
+Transform from_pov(const Context& context, const Transform& texture_to_world) {
+  return texture_to_world * inverse(context.units.to_pov);
 }
 
 Placement place(Context& context, const TextureMapping& mapping, const Origin& origin) {
@@ -62,17 +62,17 @@ Placement place(Context& context, const TextureMapping& mapping, const Origin& o
   Transform t, to_image;
   std::string map_type = "map_type 0 ";
   if (const auto* m = std::get_if<SphericalMapping>(&mapping)) {
-    t = m->world_to_texture;
+    t = inverse(m->texture_to_world);
     // POV-Ray: around +y, from +x towards +z, the image's lower edge at −y. Ours: t = 0 at +z.
     to_image.m = {{{1, 0, 0, 0}, {0, 0, -1, 0}, {0, 1, 0, 0}, {0, 0, 0, 1}}};
     map_type = "map_type 1 ";
   } else if (const auto* c = std::get_if<CylindricalMapping>(&mapping)) {
-    t = c->world_to_texture;
+    t = inverse(c->texture_to_world);
     to_image.m = {{{1, 0, 0, 0}, {0, 0, 1, 0}, {0, 1, 0, 0}, {0, 0, 0, 1}}};
     map_type = "map_type 2 ";
   } else {
     const auto& p = std::get<PlanarMapping>(mapping);
-    t = p.world_to_texture;
+    t = inverse(p.texture_to_world);
     const Vector3d across = cross(p.v1, p.v2);
     to_image.m = {{{p.v1.x, p.v1.y, p.v1.z, p.offset_s},
                    {p.v2.x, p.v2.y, p.v2.z, p.offset_t},
@@ -127,7 +127,7 @@ Pigment checkerboard(Context& context, const CheckerboardTexture& texture, const
                      const Use& use) {
   Placement placement;
   if (texture.solid) {
-    const Transform t = from_pov(context, texture.world_to_texture);
+    const Transform t = from_pov(context, inverse(texture.texture_to_world));
     if (is_invertible(t)) placement.transform = undoing(t);
   } else {
     placement = place(context, texture.mapping, origin);
