@@ -3,5 +3,7 @@
 target_sources(vitrail_cli PRIVATE diagnostics_report.cpp)
 vitrail_program(partition SOURCES partition.cpp
   LIBRARIES vitrail::cli vitrail::importers vitrail::partitioner nlohmann_json::nlohmann_json)
+vitrail_program(convert SOURCES convert.cpp conversion_report.cpp
+  LIBRARIES vitrail::cli vitrail::exporters vitrail::importers nlohmann_json::nlohmann_json)
 vitrail_program(inspect SOURCES inspect.cpp inspect_bundle.cpp inspect_scene.cpp report_text.cpp
   LIBRARIES vitrail::cli vitrail::bundle vitrail::film vitrail::importers vitrail::partitioner nlohmann_json::nlohmann_json)

@@ -10,6 +10,7 @@ namespace {
 
 constexpr const char* usage = R"(usage: vitrail VERB ...
 
+  convert     a scene from one format to another
   inspect     what is in a scene, a bundle, a domain file or a film, and what it needs
   partition   a scene into a bundle of sub-domains, one file each
   render      a bundle or a scene, alone or under mpirun

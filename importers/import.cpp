@@ -5,6 +5,7 @@
 #include <cctype>
 
 #include "importers/default_view.h"
+#include "importers/mitsuba/mitsuba.h"
 #include "importers/obj/obj.h"
 #include "importers/pbrt/pbrt.h"
 #include "importers/ply/ply.h"
@@ -37,13 +38,14 @@ ImportedScene mesh_alone(const std::filesystem::path& file) {
 ImportedScene import_scene(const std::filesystem::path& file) {
   const std::string format = format_of(file);
   if (format == ".pbrt") return read_pbrt(file);
+  if (format == ".xml") return read_mitsuba(file);
   ImportedScene imported;
   if (format == ".obj")
     imported = read_obj(file);
   else if (format == ".ply")
     imported = mesh_alone(file);
   else
-    throw Error("unknown format: the name has to end in .pbrt, .obj or .ply, or one of these and .gz",
+    throw Error("unknown format: the name has to end in .pbrt, .xml, .obj or .ply; .gz may follow",
                 {file.string()});
   add_default_view(imported, file);
   return imported;

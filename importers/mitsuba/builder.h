@@ -20,6 +20,7 @@ struct Builder {
   Scene& scene;
   Report& report;
   std::map<const Object*, Id<Material>> materials;
+  std::vector<bool> transmitting;  // one for each of the scene's materials (scene/transmission.h)
   std::map<const Object*, Id<Medium>> media;
   std::map<std::pair<const Object*, bool>, Id<Texture>>
       textures;  // by object and whether it is read as a number

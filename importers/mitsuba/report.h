@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "scene/scene.h"
@@ -14,8 +15,8 @@ class Report {
  public:
   explicit Report(const std::vector<std::string>& files) : files_(files) {}
 
-  // What comes is about the object there.
-  void begin_item(const Origin& origin) { item_ = origin; }
+  // What comes is about the object there. Gives what it was about before.
+  Origin begin_item(const Origin& origin) { return std::exchange(item_, origin); }
   void approximated(std::string message, const Origin& place) {
     add(Fidelity::approximated, std::move(message), place);
   }

@@ -15,6 +15,7 @@
 
 #include "importers/mesh_files.h"
 #include "scene/scene.h"
+#include "scene/transmission.h"
 
 namespace vitrail::mitsuba_writer {
 
@@ -30,11 +31,16 @@ using WrittenTexture = std::variant<std::string, Spectrum>;
 
 struct Context {
   Context(const Scene& scene_to_write, const std::filesystem::path& out)
-      : scene(scene_to_write), file(out), meshes(scene_to_write, out) {}
+      : scene(scene_to_write),
+        file(out),
+        meshes(scene_to_write, out),
+        transmitting(vitrail::transmitting(scene_to_write.materials)) {}
 
   const Scene& scene;
   std::filesystem::path file;  // of the scene
   MeshFiles meshes;
+  std::vector<bool> transmitting;  // Mitsuba allows no `twosided` around such materials
+  std::vector<bool> sided;         // with_sides
   Diagnostics diagnostics;
   Origin origin;  // of the record that is being written
 

@@ -7,25 +7,34 @@ namespace vitrail::mitsuba_writer {
 
 namespace {
 
-bool is_zero(const FloatParameter& value) {
-  const auto* number = std::get_if<float>(&value);
-  return number && *number == 0;
-}
-
-const Material& material_of(const Scene& scene, Id<Material> id) { return scene.materials[id.value]; }
-
 // Mitsuba's bare opaque BSDFs are black on their back; those that transmit have both sides anyway.
-bool wants_two_sided(const Context& context, const Material& material) {
+bool wants_two_sided(const Context& context, std::size_t index) {
+  const Material& material = context.scene.materials[index];
   return material.two_sided && !std::holds_alternative<TwoSidedMaterial>(material.model) &&
-         !transmits(context.scene, material);
+         !context.transmitting[index];
 }
 
-void write_material(Context& context, Element parent, const Material& material, std::string id) {
+// A height that is a texture times a number goes into the map's own scale.
+void add_height(Context& context, Element parent, const FloatParameter& height) {
+  const auto* id = std::get_if<Id<Texture>>(&height);
+  const auto* product = id ? std::get_if<ProductTexture>(&context.scene.textures[id->value].model) : nullptr;
+  const auto* texture = product ? std::get_if<Id<Texture>>(&product->first) : nullptr;
+  const auto factor = product ? value_of(context, product->second) : std::nullopt;
+  if (texture && factor && is_constant(*factor)) {
+    add_float(parent, "scale", static_cast<float>(evaluate(*factor, 550)));
+    return add_parameter(context, parent, "texture", FloatParameter{*texture});
+  }
+  add_float(parent, "scale", 1.0);
+  add_parameter(context, parent, "texture", height);
+}
+
+void write_material(Context& context, Element parent, std::size_t index, std::string id) {
+  const Material& material = context.scene.materials[index];
   const auto wrap = [&](const char* type) {
     parent = add(parent, "bsdf", type, "", id);
     id.clear();
   };
-  if (wants_two_sided(context, material)) wrap("twosided");
+  if (wants_two_sided(context, index)) wrap("twosided");
   if (material.normal_map) {
     const WrittenTexture& texture = context.textures[material.normal_map->value];
     if (const auto* reference = std::get_if<std::string>(&texture)) {
@@ -37,46 +46,26 @@ void write_material(Context& context, Element parent, const Material& material, 
   }
   if (material.displacement && !value_of(context, *material.displacement)) {
     wrap("bumpmap");
-    add_float(parent, "scale", 1.0);
-    add_parameter(context, parent, "texture", *material.displacement);
+    add_height(context, parent, *material.displacement);
   }
   write_model(context, parent, material, id);
 }
 
 }  // namespace
 
-bool transmits(const Scene& scene, const Material& material) {
-  return std::visit(Overloaded{
-                        [](const DielectricMaterial&) { return true; },
-                        [](const ThinDielectricMaterial&) { return true; },
-                        [](const DiffuseTransmissionMaterial&) { return true; },
-                        [](const PrincipledMaterial& m) { return m.thin || !is_zero(m.spec_trans); },
-                        [](const SubsurfaceMaterial&) { return true; },
-                        [](const HairMaterial&) { return true; },
-                        [](const InterfaceMaterial&) { return true; },
-                        [](const MaskMaterial&) { return true; },
-                        [&](const BlendMaterial& m) {
-                          return transmits(scene, material_of(scene, m.first)) ||
-                                 transmits(scene, material_of(scene, m.second));
-                        },
-                        [&](const TwoSidedMaterial& m) {
-                          return transmits(scene, material_of(scene, m.front)) ||
-                                 transmits(scene, material_of(scene, m.back));
-                        },
-                        [](const auto&) { return false; },
-                    },
-                    material.model);
-}
-
-bool has_sides(const Scene& scene, const Material& material) {
-  if (std::holds_alternative<InterfaceMaterial>(material.model)) return false;
-  if (const auto* mask = std::get_if<MaskMaterial>(&material.model))
-    return has_sides(scene, material_of(scene, mask->material));
-  if (const auto* blend = std::get_if<BlendMaterial>(&material.model))
-    return has_sides(scene, material_of(scene, blend->first)) ||
-           has_sides(scene, material_of(scene, blend->second));
-  return !material.two_sided || transmits(scene, material) ||
-         std::holds_alternative<TwoSidedMaterial>(material.model);
+std::vector<bool> with_sides(const Context& context) {
+  std::vector<bool> sided;
+  for (std::size_t i = 0; i < context.scene.materials.size(); ++i) {
+    const Material& material = context.scene.materials[i];
+    bool sides = !material.two_sided || context.transmitting[i] ||
+                 std::holds_alternative<TwoSidedMaterial>(material.model);
+    if (std::holds_alternative<InterfaceMaterial>(material.model)) sides = false;
+    if (const auto* mask = std::get_if<MaskMaterial>(&material.model)) sides = sided.at(mask->material.value);
+    if (const auto* blend = std::get_if<BlendMaterial>(&material.model))
+      sides = sided.at(blend->first.value) || sided.at(blend->second.value);
+    sided.push_back(sides);
+  }
+  return sided;
 }
 
 void write_materials(Context& context, Element root) {
@@ -84,7 +73,7 @@ void write_materials(Context& context, Element root) {
     const Material& material = context.scene.materials[i];
     context.origin = material.origin;
     context.material_ids.push_back(context.new_id(material.name, "material", i));
-    write_material(context, root, material, context.material_ids.back());
+    write_material(context, root, i, context.material_ids.back());
   }
 }
 

@@ -24,6 +24,10 @@ const char* name_of(Roughness::Distribution distribution) {
 void add_roughness(Context& context, Element element, const Roughness& r) {
   if (is_smooth(context, r)) return;
   add_string(element, "distribution", name_of(r.distribution));
+  const bool textured = !value_of(context, r.alpha_u) || !value_of(context, r.alpha_v);
+  if (r.square_root && textured)
+    context.approximated(
+        "a texture of the roughness is taken as its square root, which is not in Mitsuba: as it is");
   if (r.alpha_u == r.alpha_v) return add_parameter(context, element, "alpha", r.alpha_u);
   add_parameter(context, element, "alpha_u", r.alpha_u);
   add_parameter(context, element, "alpha_v", r.alpha_v);
@@ -245,9 +249,7 @@ void write(Context& context, Element parent, ElementId id, const MaskMaterial& m
 }
 
 void write(Context& context, Element parent, ElementId id, const TwoSidedMaterial& m) {
-  const auto through = [&](Id<Material> side) {
-    return transmits(context.scene, context.scene.materials[side.value]);
-  };
+  const auto through = [&](Id<Material> side) { return bool{context.transmitting[side.value]}; };
   if (through(m.front) || through(m.back)) {
     context.approximated("Mitsuba's sides must be opaque: the front's material on both");
     Element element = add(parent, "bsdf", "blendbsdf", "", id);

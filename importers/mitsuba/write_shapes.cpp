@@ -13,8 +13,7 @@ namespace vitrail::mitsuba_writer {
 namespace {
 
 bool sides_matter(const Context& context, const Shape& shape) {
-  return shape.area_light || shape.interior || shape.exterior ||
-         has_sides(context.scene, context.scene.materials[shape.material.value]);
+  return shape.area_light || shape.interior || shape.exterior || context.sided[shape.material.value];
 }
 
 Element add_mesh(Context& context, Element parent, const Shape& shape, const MeshFile& file,

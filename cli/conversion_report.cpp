@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/conversion_report.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <span>
+
+#include "scene/atomic_file.h"
+
+namespace vitrail {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string named(std::string_view kind, const std::string& name) {
+  return name.empty() ? std::string(kind) : fmt::format("{} \"{}\"", kind, name);
+}
+
+class Items {
+ public:
+  explicit Items(const Scene& scene) : scene_(scene) {}
+
+  void add(std::string what, const Origin& origin) { add(std::move(what), location(scene_, origin)); }
+  void add(std::string what, SourceLocation place) {
+    by_place_.try_emplace(to_string(place), items.size());
+    items.push_back({std::move(what), std::move(place), {}});
+  }
+  void note(const Diagnostic& diagnostic) {
+    const SourceLocation& place = diagnostic.item.file.empty() ? diagnostic.location : diagnostic.item;
+    if (!by_place_.contains(to_string(place))) add("directive", place);
+    items[by_place_.at(to_string(place))].notes.push_back(&diagnostic);
+  }
+
+  std::vector<ConversionItem> items;
+
+ private:
+  const Scene& scene_;
+  std::map<std::string, std::size_t> by_place_;
+};
+
+void add_shapes(Items& items, const std::vector<Shape>& shapes) {
+  for (const Shape& shape : shapes) items.add(named("shape", shape.name), shape.origin);
+}
+
+Fidelity worst(const std::vector<const Diagnostic*>& notes) {
+  for (const Diagnostic* note : notes)
+    if (note->fidelity == Fidelity::dropped) return Fidelity::dropped;
+  return Fidelity::approximated;
+}
+
+const char* word(Fidelity fidelity) { return fidelity == Fidelity::dropped ? "dropped" : "approximated"; }
+
+void put_place(Json& json, const SourceLocation& place) {
+  json["file"] = place.file;
+  json["line"] = place.line;
+  json["column"] = place.column;
+}
+
+}  // namespace
+
+std::vector<ConversionItem> conversion_items(const Scene& scene, const Diagnostics& diagnostics) {
+  constexpr std::array lights{"point light",   "spot light",     "projection light", "goniometric light",
+                              "distant light", "infinite light", "environment light"};
+  static_assert(lights.size() == std::variant_size_v<LightModel>);
+  Items items(scene);
+  items.add("camera", scene.camera_origin);
+  items.add("film", scene.film_origin);
+  for (const Texture& texture : scene.textures) items.add(named("texture", texture.name), texture.origin);
+  for (const Material& material : scene.materials)
+    items.add(named("material", material.name), material.origin);
+  for (const Medium& medium : scene.media) items.add(named("medium", medium.name), medium.origin);
+  for (const AreaLight& light : scene.area_lights) items.add("area light", light.origin);
+  for (const Light& light : scene.lights) items.add(lights.at(light.model.index()), light.origin);
+  add_shapes(items, scene.shapes);
+  for (const Prototype& prototype : scene.prototypes) {
+    items.add(named("object", prototype.name), prototype.origin);
+    add_shapes(items, prototype.shapes);
+  }
+  for (const Instance& instance : scene.instances) items.add("instance", instance.origin);
+  for (const Diagnostic& diagnostic : diagnostics) items.note(diagnostic);
+  return std::move(items.items);
+}
+
+ConversionCounts count(const std::vector<ConversionItem>& items) {
+  ConversionCounts counts;
+  for (const ConversionItem& item : items)
+    ++(item.notes.empty()                            ? counts.exact
+       : worst(item.notes) == Fidelity::approximated ? counts.approximated
+                                                     : counts.dropped);
+  return counts;
+}
+
+void write_conversion_report(const std::filesystem::path& file, const std::filesystem::path& in,
+                             const std::filesystem::path& out, const std::vector<ConversionItem>& items) {
+  const ConversionCounts counts = count(items);
+  Json report{{"input", in.string()},      {"output", out.string()},
+              {"exact", counts.exact},     {"approximated", counts.approximated},
+              {"dropped", counts.dropped}, {"items", Json::array()}};
+  for (const ConversionItem& item : items) {
+    Json entry{{"item", item.what}, {"fidelity", item.notes.empty() ? "exact" : word(worst(item.notes))}};
+    put_place(entry, item.location);
+    if (!item.notes.empty()) entry["notes"] = Json::array();
+    for (const Diagnostic* note : item.notes) {
+      Json& said =
+          entry["notes"].emplace_back(Json{{"fidelity", word(note->fidelity)}, {"what", note->message}});
+      put_place(said, note->location);
+    }
+    report["items"].push_back(std::move(entry));
+  }
+  const std::string text = report.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+  AtomicFile target(file);
+  target.write(std::as_bytes(std::span(text)));
+  target.commit();
+}
+
+}  // namespace vitrail

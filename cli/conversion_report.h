@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// What became of each item of a converted scene.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "scene/scene.h"
+
+namespace vitrail {
+
+// A record of the scene, or a directive that made none. With notes, it is as inexact as the worst of them.
+struct ConversionItem {
+  std::string what;  // "material \"floor\"", "shape"
+  SourceLocation location;
+  std::vector<const Diagnostic*> notes;
+};
+
+// The records of the scene in the order of their kinds, then what the diagnostics speak of besides; the items
+// refer to `diagnostics`.
+std::vector<ConversionItem> conversion_items(const Scene& scene, const Diagnostics& diagnostics);
+
+struct ConversionCounts {
+  std::size_t exact = 0, approximated = 0, dropped = 0;  // items
+};
+ConversionCounts count(const std::vector<ConversionItem>& items);
+
+// {input, output, exact, approximated, dropped, items: [{item, fidelity, file, line, column, notes:
+// [{fidelity, what, file, line, column}]}]}. Throws MachineError.
+void write_conversion_report(const std::filesystem::path& file, const std::filesystem::path& in,
+                             const std::filesystem::path& out, const std::vector<ConversionItem>& items);
+
+}  // namespace vitrail

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+
+#include "cli/conversion_report.h"
+#include "cli/diagnostics_report.h"
+#include "cli/main_guard.h"
+#include "importers/export.h"
+#include "importers/import.h"
+
+namespace vitrail {
+namespace {
+
+struct Arguments {
+  std::filesystem::path input, output, report;
+  bool strict = false, quiet = false;
+};
+
+void declare(CLI::App& app, Arguments& a) {
+  app.add_option("input", a.input, "scene file: .pbrt, .xml, .obj, .ply")->required();
+  app.add_option("output", a.output, "scene file: .pbrt (v4), .xml (Mitsuba 3), .pov, .obj, .ply")
+      ->required();
+  app.add_option("--report", a.report, "write what became of each item as JSON");
+  app.add_flag("--strict", a.strict, "exit with status 3 if anything is not exact");
+  app.add_flag("--quiet", a.quiet, "no summary");
+}
+
+// With --strict nothing is written where the input is not read exactly already.
+int run(const Arguments& a) {
+  require_export_format(a.output);
+  std::error_code ignored;
+  if (std::filesystem::equivalent(a.input, a.output, ignored))
+    throw UsageError("the scene would be written over the file that it is read from");
+  ImportedScene imported = import_scene(a.input);
+  Diagnostics& diagnostics = imported.diagnostics;
+  const bool refused = a.strict && !diagnostics.empty();
+  if (!refused) std::ranges::move(export_scene(imported.scene, a.output), std::back_inserter(diagnostics));
+  const std::vector<ConversionItem> items = conversion_items(imported.scene, diagnostics);
+  if (!a.report.empty()) write_conversion_report(a.report, a.input, a.output, items);
+  fmt::print(stderr, "{}", summarise(diagnostics));
+  if (!a.quiet) {
+    const ConversionCounts counts = count(items);
+    fmt::print("{}: {} items exact, {} approximated, {} dropped\n",
+               refused ? "not written" : a.output.string(), counts.exact, counts.approximated,
+               counts.dropped);
+  }
+  if (a.strict) require_exact(diagnostics);
+  return exit_done;
+}
+
+}  // namespace
+}  // namespace vitrail
+
+int main(int argc, char** argv) {
+  using namespace vitrail;
+  CLI::App app("converts a scene from one format to another, and says what is not exact", "vitrail convert");
+  Arguments arguments;
+  declare(app, arguments);
+  return run_guarded(app, argc, argv, [&] { return run(arguments); });
+}

@@ -1,0 +1,400 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "importers/mitsuba/builder.h"
+#include "scene/named_spectra.h"
+#include "scene/transmission.h"
+
+namespace vitrail::mitsuba {
+
+namespace {
+
+// Indices of refraction by the names that Mitsuba documents.
+struct NamedIndex {
+  std::string_view name;
+  double value;
+};
+constexpr std::array<NamedIndex, 25> indices{
+    {{"vacuum", 1.0},      {"helium", 1.00004},         {"hydrogen", 1.00013},
+     {"air", 1.000277},    {"carbon dioxide", 1.00045}, {"water", 1.3330},
+     {"acetone", 1.36},    {"ethanol", 1.361},          {"carbon tetrachloride", 1.461},
+     {"glycerol", 1.4729}, {"benzene", 1.501},          {"silicone oil", 1.52045},
+     {"bromine", 1.661},   {"water ice", 1.31},         {"fused quartz", 1.458},
+     {"pyrex", 1.470},     {"acrylic glass", 1.49},     {"polypropylene", 1.49},
+     {"bk7", 1.5046},      {"sodium chloride", 1.544},  {"amber", 1.55},
+     {"pet", 1.5750},      {"diamond", 2.419},          {"silicon", 3.42},
+     {"glass", 1.5046}}};
+
+// A number, or the name of a substance.
+float index_of(Builder& b, const Object& o, const char* name, const char* otherwise) {
+  const Property* property = o.find(name);
+  const auto* text = property ? std::get_if<std::string>(&property->value) : nullptr;
+  if (property && !text) return static_cast<float>(o.number(name, 1, b.report));
+  const std::string wanted = text ? *text : otherwise;
+  std::vector<std::string> names;
+  for (const NamedIndex& known : indices) {
+    if (known.name == wanted) return static_cast<float>(known.value);
+    names.emplace_back(known.name);
+  }
+  const std::string closest = closest_word(wanted, names);
+  b.report.fail(fmt::format("no index of refraction is known for \"{}\"{}", wanted,
+                            closest.empty() ? "" : fmt::format("; did you mean \"{}\"?", closest)),
+                property ? property->origin : o.origin);
+}
+
+Spectrum index_spectrum(Builder& b, const Object& o, const char* name, const char* otherwise) {
+  return ConstantSpectrum{index_of(b, o, name, otherwise)};
+}
+
+Roughness roughness_of(Builder& b, const Object& o) {
+  Roughness r;
+  const std::string distribution = o.text("distribution", "beckmann", b.report);
+  r.distribution = distribution == "ggx" ? Roughness::Distribution::ggx : Roughness::Distribution::beckmann;
+  if (distribution != "ggx" && distribution != "beckmann")
+    b.report.approximated(fmt::format("distribution \"{}\" becomes \"beckmann\"", distribution), o.origin);
+  r.alpha_u = r.alpha_v = float_parameter(b, o, "alpha", 0.1);
+  if (o.has("alpha_u")) r.alpha_u = float_parameter(b, o, "alpha_u", 0.1);
+  if (o.has("alpha_v")) r.alpha_v = float_parameter(b, o, "alpha_v", 0.1);
+  o.ignore({"sample_visible"});
+  return r;
+}
+
+SpectrumParameter reflectance(Builder& b, const Object& o, const char* name, double otherwise) {
+  return spectrum_parameter(b, o, name, Quantity::reflectance,
+                            ConstantSpectrum{static_cast<float>(otherwise)});
+}
+SpectrumParameter factor(Builder& b, const Object& o, const char* name) {
+  return spectrum_parameter(b, o, name, Quantity::unbounded, ConstantSpectrum{1});
+}
+
+MaterialModel diffuse(Builder& b, const Object& o) {
+  return DiffuseMaterial{reflectance(b, o, "reflectance", 0.5)};
+}
+
+// 0.6's Oren-Nayar: its alpha is the slope's deviation; √2·σ there.
+MaterialModel rough_diffuse(Builder& b, const Object& o) {
+  DiffuseMaterial m{reflectance(b, o, "reflectance", 0.5)};
+  const FloatParameter alpha = float_parameter(b, o, "alpha", 0.2);
+  o.ignore({"use_fast_approx"});
+  constexpr double degrees = 180 / 3.14159265358979323846;
+  if (const auto* value = std::get_if<float>(&alpha))
+    m.sigma_deg = static_cast<float>(std::atan(static_cast<double>(*value) / std::sqrt(2.0)) * degrees);
+  else
+    b.report.approximated("the texture of its roughness is left out", o.origin);
+  return m;
+}
+
+MaterialModel dielectric(Builder& b, const Object& o) {
+  DielectricMaterial m;
+  m.eta = index_spectrum(b, o, "int_ior", "bk7");
+  m.exterior_eta = index_spectrum(b, o, "ext_ior", "air");
+  if (o.type == "roughdielectric") m.roughness = roughness_of(b, o);
+  m.reflectance_factor = factor(b, o, "specular_reflectance");
+  m.transmittance_factor = factor(b, o, "specular_transmittance");
+  return m;
+}
+
+MaterialModel thin_dielectric(Builder& b, const Object& o) {
+  ThinDielectricMaterial m;
+  m.eta = index_spectrum(b, o, "int_ior", "bk7");
+  m.exterior_eta = index_spectrum(b, o, "ext_ior", "air");
+  m.reflectance_factor = factor(b, o, "specular_reflectance");
+  m.transmittance_factor = factor(b, o, "specular_transmittance");
+  return m;
+}
+
+Metal metal_of(Builder& b, const Object& o) {
+  if (o.has("eta") || o.has("k"))
+    return ComplexIndex{spectrum_parameter(b, o, "eta", Quantity::unbounded, ConstantSpectrum{0}),
+                        spectrum_parameter(b, o, "k", Quantity::unbounded, ConstantSpectrum{1})};
+  const std::string name = o.text("material", "none", b.report);
+  if (name == "none") return PerfectReflector{};
+  const std::string eta = fmt::format("metal-{}-eta", name), k = fmt::format("metal-{}-k", name);
+  if (named_spectrum(eta) && named_spectrum(k)) return ComplexIndex{NamedSpectrum{eta}, NamedSpectrum{k}};
+  std::vector<std::string> known{"none"};
+  for (const std::string& other : spectrum_names())
+    if (other.starts_with("metal-") && other.ends_with("-k"))
+      known.push_back(other.substr(6, other.size() - 8));
+  const std::string closest = closest_word(name, known);
+  b.report.approximated(fmt::format("no metal is known by the name \"{}\": copper stands for it{}", name,
+                                    closest.empty() ? "" : fmt::format("; did you mean \"{}\"?", closest)),
+                        o.origin);
+  return ComplexIndex{};
+}
+
+MaterialModel conductor(Builder& b, const Object& o) {
+  ConductorMaterial m;
+  m.metal = metal_of(b, o);
+  if (o.has("ext_eta") || o.has("ext_ior"))
+    b.report.approximated("the index around a metal becomes 1", o.origin);
+  o.ignore({"ext_eta", "ext_ior"});
+  if (o.type == "roughconductor") m.roughness = roughness_of(b, o);
+  m.reflectance_factor = factor(b, o, "specular_reflectance");
+  return m;
+}
+
+MaterialModel plastic(Builder& b, const Object& o) {
+  PlasticMaterial m;
+  m.diffuse_reflectance = reflectance(b, o, "diffuse_reflectance", 0.5);
+  m.specular_reflectance = factor(b, o, "specular_reflectance");
+  m.eta = index_of(b, o, "int_ior", "polypropylene");
+  m.exterior_eta = index_of(b, o, "ext_ior", "air");
+  m.nonlinear = o.boolean("nonlinear", false, b.report);
+  if (o.type != "plastic") m.roughness = roughness_of(b, o);
+  if (o.type == "pplastic")
+    b.report.approximated("a polarising plastic becomes the one that does not polarise", o.origin);
+  return m;
+}
+
+// 0.6's: an exponent n of the cosine is about α = √(2/(n+2)).
+MaterialModel phong(Builder& b, const Object& o) {
+  b.report.approximated(fmt::format("\"{}\" becomes rough plastic", o.type), o.origin);
+  PlasticMaterial m;
+  m.diffuse_reflectance = reflectance(b, o, "diffuse_reflectance", 0.5);
+  m.specular_reflectance = factor(b, o, "specular_reflectance");
+  if (o.type == "ward") {
+    m.roughness = {float_parameter(b, o, "alpha_u", 0.1), float_parameter(b, o, "alpha_v", 0.1)};
+    o.ignore({"variant"});
+  } else {
+    const FloatParameter exponent = float_parameter(b, o, "exponent", 30);
+    const double n =
+        std::holds_alternative<float>(exponent) ? static_cast<double>(std::get<float>(exponent)) : 30;
+    m.roughness.alpha_u = m.roughness.alpha_v = static_cast<float>(std::sqrt(2 / (std::max(n, 0.0) + 2)));
+  }
+  return m;
+}
+
+MaterialModel diffuse_transmitter(Builder& b, const Object& o) {
+  return DiffuseTransmissionMaterial{ConstantSpectrum{0}, reflectance(b, o, "transmittance", 0.5), 1};
+}
+
+// "specular" s is another way to say eta: s·0.08 is the reflectance at normal incidence.
+float principled_eta(Builder& b, const Object& o) {
+  if (!o.has("specular")) return static_cast<float>(o.number("eta", 1.5, b.report));
+  const double specular = std::clamp(o.number("specular", 0.5, b.report), 1e-3, 12.0);
+  return static_cast<float>(2 / (1 - std::sqrt(0.08 * specular)) - 1);
+}
+
+MaterialModel principled(Builder& b, const Object& o) {
+  PrincipledMaterial m;
+  m.thin = o.type == "principledthin";
+  m.base_color = reflectance(b, o, "base_color", 0.5);
+  m.roughness = float_parameter(b, o, "roughness", 0.5);
+  m.anisotropic = float_parameter(b, o, "anisotropic", 0);
+  m.spec_trans = float_parameter(b, o, "spec_trans", 0);
+  m.spec_tint = float_parameter(b, o, "spec_tint", 0);
+  m.sheen = float_parameter(b, o, "sheen", 0);
+  m.sheen_tint = float_parameter(b, o, "sheen_tint", 0);
+  m.flatness = float_parameter(b, o, "flatness", 0);
+  m.eta = principled_eta(b, o);
+  if (m.thin) {
+    m.diff_trans = float_parameter(b, o, "diff_trans", 0);
+  } else {
+    m.metallic = float_parameter(b, o, "metallic", 0);
+    m.clearcoat = float_parameter(b, o, "clearcoat", 0);
+    m.clearcoat_gloss = float_parameter(b, o, "clearcoat_gloss", 0);
+  }
+  o.ignore({"diffuse_reflectance_sampling_rate", "specular_reflectance_sampling_rate",
+            "main_specular_sampling_rate", "clearcoat_sampling_rate", "specular_transmittance_sampling_rate",
+            "diffuse_sampling_rate", "spec_refl_sampling_rate", "spec_trans_sampling_rate",
+            "diff_trans_sampling_rate", "diff_refl_sampling_rate"});
+  return m;
+}
+
+MaterialModel hair(Builder& b, const Object& o) {
+  HairMaterial m;
+  m.eta = index_of(b, o, "int_ior", "amber");
+  m.exterior_eta = index_of(b, o, "ext_ior", "air");
+  m.beta_m = float_parameter(b, o, "longitudinal_roughness", 0.3);
+  m.beta_n = float_parameter(b, o, "azimuthal_roughness", 0.3);
+  m.alpha_deg = float_parameter(b, o, "scale_tilt", 2);
+  if (o.has("sigma_a")) {
+    m.sigma_a = spectrum_parameter(b, o, "sigma_a", Quantity::unbounded, ConstantSpectrum{0});
+    return m;
+  }
+  m.eumelanin = float_parameter(b, o, "eumelanin", o.has("pheomelanin") ? 0 : 1.3);
+  m.pheomelanin = float_parameter(b, o, "pheomelanin", 0);
+  for (auto* melanin : {&m.eumelanin, &m.pheomelanin})
+    if (*melanin == FloatParameter{0.0f}) melanin->reset();
+  if (!m.eumelanin && !m.pheomelanin) m.eumelanin = 0.0f;
+  return m;
+}
+
+MaterialModel measured(Builder& b, const Object& o) {
+  MeasuredMaterial m{o.text("filename", "", b.report)};
+  if (m.filename.empty()) b.report.fail("a measured material needs a \"filename\"", o.origin);
+  o.ignore({"alpha_sample", "wavelength"});
+  if (o.type == "measured_polarized")
+    b.report.approximated("what it does to polarisation is left out", o.origin);
+  return m;
+}
+
+MaterialModel nothing(Builder&, const Object&) { return InterfaceMaterial{}; }
+
+MaterialModel polarizing(Builder& b, const Object& o) {
+  b.report.dropped(fmt::format("\"{}\": light has no polarisation here, and passes it unchanged", o.type),
+                   o.origin);
+  for (const Property& p : o.properties) o.find(p.name);
+  return InterfaceMaterial{};
+}
+
+std::vector<Id<Material>> nested(Builder& b, const Object& o, std::size_t least, std::size_t most) {
+  std::vector<Id<Material>> ids;
+  for (const Property* child : o.children("bsdf"))
+    ids.push_back(add_material(b, *std::get<ObjectPtr>(child->value)));
+  if (ids.size() < least || ids.size() > most)
+    b.report.fail(fmt::format("\"{}\" needs {} nested bsdf{}, has {}", o.type, least, least == 1 ? "" : "s",
+                              ids.size()),
+                  o.origin);
+  return ids;
+}
+
+MaterialModel mask(Builder& b, const Object& o) {
+  const Id<Material> material = nested(b, o, 1, 1).front();
+  return MaskMaterial{float_parameter(b, o, "opacity", 0.5), material};
+}
+
+MaterialModel blend(Builder& b, const Object& o) {
+  const std::vector<Id<Material>> both = nested(b, o, 2, 2);
+  return BlendMaterial{both[0], both[1], float_parameter(b, o, "weight", 0.5)};
+}
+
+struct Kind {
+  std::string_view name;
+  MaterialModel (*make)(Builder&, const Object&);
+};
+constexpr std::array<Kind, 27> kinds{{{"diffuse", diffuse},
+                                      {"roughdiffuse", rough_diffuse},
+                                      {"dielectric", dielectric},
+                                      {"roughdielectric", dielectric},
+                                      {"thindielectric", thin_dielectric},
+                                      {"conductor", conductor},
+                                      {"roughconductor", conductor},
+                                      {"plastic", plastic},
+                                      {"roughplastic", plastic},
+                                      {"pplastic", plastic},
+                                      {"phong", phong},
+                                      {"ward", phong},
+                                      {"difftrans", diffuse_transmitter},
+                                      {"principled", principled},
+                                      {"principledthin", principled},
+                                      {"hair", hair},
+                                      {"measured", measured},
+                                      {"measured_polarized", measured},
+                                      {"null", nothing},
+                                      {"polarizer", polarizing},
+                                      {"retarder", polarizing},
+                                      {"circular", polarizing},
+                                      {"mask", mask},
+                                      {"blendbsdf", blend},
+                                      {"mixturebsdf", blend},
+                                      {"lambertian", diffuse},
+                                      {"mirror", conductor}}};
+
+// Adapters change the material inside of them: they have no record of their own.
+constexpr std::array adapters{"twosided", "bumpmap", "bump", "normalmap", "coating", "roughcoating"};
+
+Material unknown(Builder& b, const Object& o) {
+  std::vector<std::string> names(adapters.begin(), adapters.end());
+  for (const Kind& kind : kinds) names.emplace_back(kind.name);
+  const std::string closest = closest_word(o.type, names);
+  b.report.approximated(fmt::format("bsdf \"{}\" is not known and becomes diffuse{}", o.type,
+                                    closest.empty() ? "" : fmt::format("; did you mean \"{}\"?", closest)),
+                        o.origin);
+  for (const Property& p : o.properties) o.find(p.name);
+  return Material{DiffuseMaterial{}};
+}
+
+Material make_material(Builder& b, const Object& o);
+
+// The material inside of an adapter, which changes it.
+Material inner(Builder& b, const Object& o) {
+  const Object* bsdf = o.child("bsdf");
+  if (!bsdf) b.report.fail(fmt::format("\"{}\" needs a nested bsdf", o.type), o.origin);
+  return make_material(b, *bsdf);
+}
+
+Material two_sided(Builder& b, const Object& o) {
+  const std::vector<const Property*> sides = o.children("bsdf");
+  if (sides.size() == 2) {
+    const std::vector<Id<Material>> ids = nested(b, o, 2, 2);
+    return Material{TwoSidedMaterial{ids[0], ids[1]}};
+  }
+  Material material = inner(b, o);
+  material.two_sided = true;
+  return material;
+}
+
+// The height of a bump map times its scale.
+Material bump_map(Builder& b, const Object& o) {
+  Material material = inner(b, o);
+  const double scale = o.number("scale", 1, b.report);
+  const Object* texture = o.child("texture");
+  if (!texture) {
+    b.report.dropped("a bump map without a texture", o.origin);
+    return material;
+  }
+  Id<Texture> height = add_texture(b, *texture, true);
+  if (scale != 1) {
+    b.scene.textures.push_back(
+        {ProductTexture{height, ConstantSpectrum{static_cast<float>(scale)}}, true, "", o.origin});
+    height = {static_cast<std::uint32_t>(b.scene.textures.size() - 1)};
+  }
+  if (material.displacement) b.report.dropped("a second bump map on one material", o.origin);
+  material.displacement = height;
+  return material;
+}
+
+Material normal_map(Builder& b, const Object& o) {
+  Material material = inner(b, o);
+  const Object* texture = o.child("texture");
+  if (texture) material.normal_map = add_texture(b, *texture, false);
+  if (!texture) b.report.dropped("a normal map without a texture", o.origin);
+  return material;
+}
+
+Material make_material(Builder& b, const Object& o) {
+  Material material;
+  if (o.type == "twosided") {
+    material = two_sided(b, o);
+  } else if (o.type == "bumpmap" || o.type == "bump") {
+    material = bump_map(b, o);
+  } else if (o.type == "normalmap") {
+    material = normal_map(b, o);
+  } else if (o.type == "coating" || o.type == "roughcoating") {
+    material = inner(b, o);
+    b.report.approximated("a coating is left out: the surface under it shows", o.origin);
+    o.ignore({"int_ior", "ext_ior", "thickness", "sigma_a", "alpha", "distribution", "specular_reflectance"});
+  } else {
+    const auto kind =
+        std::find_if(kinds.begin(), kinds.end(), [&](const Kind& k) { return k.name == o.type; });
+    material = kind == kinds.end() ? unknown(b, o) : Material{kind->make(b, o)};
+    material.two_sided = transmits(material, b.transmitting);
+  }
+  report_unused(o, b.report,
+                {"reflectance", "diffuse_reflectance", "specular_reflectance", "alpha", "int_ior", "ext_ior",
+                 "eta", "k", "material", "opacity", "weight", "base_color", "roughness"});
+  material.origin = o.origin;
+  return material;
+}
+
+}  // namespace
+
+Id<Material> add_material(Builder& b, const Object& o) {
+  if (const auto known = b.materials.find(&o); known != b.materials.end()) return known->second;
+  const Origin before = b.report.begin_item(o.origin);
+  Material material = make_material(b, o);
+  material.name = o.id.starts_with("_unnamed_") ? "" : o.id;
+  b.transmitting.push_back(transmits(material, b.transmitting));
+  b.scene.materials.push_back(std::move(material));
+  b.report.begin_item(before);
+  const Id<Material> id{static_cast<std::uint32_t>(b.scene.materials.size() - 1)};
+  b.materials[&o] = id;
+  return id;
+}
+
+}  // namespace vitrail::mitsuba

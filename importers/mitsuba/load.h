@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+
+#include "importers/mitsuba/object.h"
+
+namespace vitrail::mitsuba {
+
+// The <scene> of a file, with everything that it includes: defaults put in, references resolved, spellings of
+// versions 0.5 to 2 translated to those of 3. `files` gets the names that Origins speak of. Malformed XML and
+// values, cycles of includes or references, unknown tags, names without a definition, and expansions or
+// nesting without end throw Error.
+ObjectPtr load(const std::filesystem::path& file, std::vector<std::string>& files, Report& report);
+
+}  // namespace vitrail::mitsuba

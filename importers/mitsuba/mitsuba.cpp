@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "importers/mitsuba/mitsuba.h"
+
+#include <fmt/format.h>
+
+#include "importers/default_view.h"
+#include "importers/mitsuba/builder.h"
+#include "importers/mitsuba/load.h"
+
+namespace vitrail {
+
+namespace mitsuba {
+
+static void build(Builder& b, const Object& root) {
+  // Objects that others refer to come first, so that they have their places in the order of the file.
+  for (const Property& p : root.properties) {
+    const auto* object = std::get_if<ObjectPtr>(&p.value);
+    if (!object) continue;
+    b.report.begin_item((*object)->origin);
+    const std::string& tag = (*object)->tag;
+    if (tag == "bsdf") add_material(b, **object);
+    if (tag == "medium") add_medium(b, **object);
+    if (tag == "bsdf" || tag == "medium" || tag == "texture" || tag == "spectrum" || tag == "volume" ||
+        tag == "phase")
+      p.queried = true;  // used where something refers to it
+  }
+  for (const Property* p : root.children("integrator")) read_integrator(b, *std::get<ObjectPtr>(p->value));
+  const std::vector<const Property*> sensors = root.children("sensor");
+  if (sensors.size() > 1) b.report.dropped("a scene has one camera: the first sensor", sensors[1]->origin);
+  if (!sensors.empty()) {
+    b.report.begin_item(sensors.front()->origin);
+    read_sensor(b, *std::get<ObjectPtr>(sensors.front()->value));
+  }
+  for (const Property& p : root.properties) {
+    const auto* object = std::get_if<ObjectPtr>(&p.value);
+    if (!object) continue;
+    b.report.begin_item((*object)->origin);
+    if ((*object)->tag == "emitter") p.queried = true, add_emitter(b, **object);
+    if ((*object)->tag == "shape") p.queried = true, add_shape(b, **object);
+  }
+  root.ignore({"camera", "version"});
+  root.children("sampler");
+  root.children("film");
+  report_unused(root, b.report);
+}
+
+}  // namespace mitsuba
+
+ImportedScene read_mitsuba(const std::filesystem::path& file) {
+  ImportedScene imported;
+  mitsuba::Report report(imported.scene.files);
+  const mitsuba::ObjectPtr root = mitsuba::load(file, imported.scene.files, report);
+  mitsuba::Builder builder{imported.scene, report};
+  build(builder, *root);
+  imported.diagnostics = report.take();
+  if (root->children("sensor").empty()) add_default_view(imported, file);
+  return imported;
+}
+
+}  // namespace vitrail

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <array>
+#include <filesystem>
+
+#include "importers/mitsuba/builder.h"
+
+namespace vitrail::mitsuba {
+
+namespace {
+
+// (s,t) of the Scene from (u,v): by the 2×3 part of to_uv.
+UvMapping mapping_of(const Transform& t) {
+  const auto entry = [&](std::size_t row, std::size_t column) {
+    return static_cast<float>(t.m[row][column]);
+  };
+  return {entry(0, 0), entry(0, 1), entry(0, 3), entry(1, 0), entry(1, 1), entry(1, 3)};
+}
+
+// Mitsuba's image begins at its top row, the Scene's at its bottom row: t = 1 − v.
+UvMapping flipped(const UvMapping& m) {
+  const auto negated = [](float v) { return v == 0 ? 0.0f : -v; };
+  return {m.a, m.b, m.c, negated(m.d), negated(m.e), static_cast<float>(1 - static_cast<double>(m.f))};
+}
+
+// Cells of a checkerboard are half a unit.
+UvMapping doubled(const UvMapping& m) { return {2 * m.a, 2 * m.b, 2 * m.c, 2 * m.d, 2 * m.e, 2 * m.f}; }
+
+TextureModel bitmap(Builder& b, const Object& o, bool) {
+  ImageTexture image;
+  image.filename = o.text("filename", "", b.report);
+  if (image.filename.empty()) b.report.fail("a bitmap needs a \"filename\"", o.origin);
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(image.filename, ignored))
+    b.report.approximated(fmt::format("cannot find the file \"{}\"", image.filename), o.origin);
+  if (o.boolean("raw", false, b.report)) image.encoding = Encoding::linear;
+  const double gamma = o.number("gamma", 0, b.report);  // 0.6: 0 stands for the file's own
+  if (gamma > 0) image.encoding = Encoding::gamma, image.gamma = static_cast<float>(gamma);
+  if (gamma < 0) image.encoding = Encoding::srgb;
+  const std::string filter = o.text("filter_type", "bilinear", b.report);
+  image.filter = filter == "nearest"     ? TextureFilter::nearest
+                 : filter == "trilinear" ? TextureFilter::trilinear
+                 : filter == "ewa"       ? TextureFilter::anisotropic
+                                         : TextureFilter::bilinear;
+  const std::string wrap = o.text("wrap_mode", "repeat", b.report);
+  if (wrap == "mirror") image.wrap = Wrap::mirror;
+  if (wrap == "clamp") image.wrap = Wrap::clamp;
+  if (wrap != "mirror" && wrap != "clamp" && wrap != "repeat")
+    b.report.approximated(fmt::format("wrap_mode \"{}\" becomes \"repeat\"", wrap), o.origin);
+  image.mapping = flipped(mapping_of(o.transform("to_uv", b.report)));
+  o.ignore({"format", "accel", "max_anisotropy", "cache"});
+  return image;
+}
+
+SpectrumParameter input(Builder& b, const Object& o, const char* name, double otherwise, bool as_float) {
+  if (!as_float)
+    return spectrum_parameter(b, o, name, Quantity::reflectance,
+                              ConstantSpectrum{static_cast<float>(otherwise)});
+  const FloatParameter value = float_parameter(b, o, name, otherwise);
+  if (const auto* id = std::get_if<Id<Texture>>(&value)) return *id;
+  return ConstantSpectrum{std::get<float>(value)};
+}
+
+TextureModel checkerboard(Builder& b, const Object& o, bool as_float) {
+  CheckerboardTexture board{input(b, o, "color0", 0.4, as_float), input(b, o, "color1", 0.2, as_float)};
+  board.mapping = doubled(mapping_of(o.transform("to_uv", b.report)));
+  return board;
+}
+
+TextureModel mesh_attribute(Builder& b, const Object& o, bool) {
+  MeshAttributeTexture attribute;
+  attribute.name = o.text("name", "", b.report);
+  attribute.scale = static_cast<float>(o.number("scale", 1, b.report));
+  if (attribute.name.empty()) b.report.fail("a mesh_attribute needs a \"name\"", o.origin);
+  return attribute;
+}
+
+// 0.6: a texture times a factor.
+TextureModel scaled_texture(Builder& b, const Object& o, bool as_float) {
+  const Object* nested = o.child("texture");
+  SpectrumParameter first = ConstantSpectrum{1};
+  if (nested) first = add_texture(b, *nested, as_float);
+  return ProductTexture{first, input(b, o, "scale", 1, as_float)};
+}
+
+struct Kind {
+  std::string_view name;
+  TextureModel (*make)(Builder&, const Object&, bool);
+};
+constexpr std::array<Kind, 5> kinds{{{"bitmap", bitmap},
+                                     {"checkerboard", checkerboard},
+                                     {"mesh_attribute", mesh_attribute},
+                                     {"vertexcolors", mesh_attribute},
+                                     {"scale", scaled_texture}}};
+
+TextureModel make_model(Builder& b, const Object& o, bool as_float) {
+  std::vector<std::string> names;
+  for (const Kind& kind : kinds) {
+    names.emplace_back(kind.name);
+    if (o.type != kind.name) continue;
+    TextureModel model = kind.make(b, o, as_float);
+    report_unused(
+        o, b.report,
+        {"filename", "filter_type", "wrap_mode", "raw", "to_uv", "color0", "color1", "name", "scale"});
+    return model;
+  }
+  const std::string closest = closest_word(o.type, names);
+  b.report.dropped(fmt::format("texture \"{}\" is not supported and becomes 0.5{}", o.type,
+                               closest.empty() ? "" : fmt::format("; did you mean \"{}\"?", closest)),
+                   o.origin);
+  return ProductTexture{ConstantSpectrum{0.5f}, ConstantSpectrum{1}};
+}
+
+}  // namespace
+
+Id<Texture> add_texture(Builder& b, const Object& o, bool as_float) {
+  const auto known = b.textures.find({&o, as_float});
+  if (known != b.textures.end()) return known->second;
+  Texture texture{make_model(b, o, as_float), as_float, o.id.starts_with("_unnamed_") ? "" : o.id, o.origin};
+  const Id<Texture> id{static_cast<std::uint32_t>(b.scene.textures.size())};
+  b.scene.textures.push_back(std::move(texture));
+  b.textures[{&o, as_float}] = id;
+  return id;
+}
+
+}  // namespace vitrail::mitsuba

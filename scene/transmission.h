@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "scene/material.h"
+
+namespace vitrail {
+
+// Whether light can go through a surface of the material. `others` says it of the materials that it refers
+// to, which come before it.
+bool transmits(const Material& material, const std::vector<bool>& others);
+
+// The same of each material of a scene.
+std::vector<bool> transmitting(const std::vector<Material>& materials);
+
+}  // namespace vitrail

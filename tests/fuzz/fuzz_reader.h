@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+// Gives a fuzzer's bytes to a reader as a file. A reader may throw Error and MachineError, and nothing else;
+// what it imports has to keep the Scene's promises.
+#pragma once
+
+#include <unistd.h>
+
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+
+#include "scene/scene.h"
+
+namespace vitrail::fuzz {
+
+// In memory; a folder of its own for each process, with nothing else in it.
+inline const std::filesystem::path& folder() {
+  static const std::filesystem::path path = [] {
+    const std::filesystem::path made = "/dev/shm/vitrail-fuzz-" + std::to_string(::getpid());
+    std::filesystem::create_directories(made);
+    std::atexit([] { std::filesystem::remove_all(folder()); });
+    return made;
+  }();
+  return path;
+}
+
+inline std::filesystem::path write(const char* name, const std::uint8_t* data, std::size_t size) {
+  const std::filesystem::path file = folder() / name;
+  std::FILE* out = std::fopen(file.c_str(), "wb");
+  if (!out || std::fwrite(data, 1, size, out) != size || std::fclose(out) != 0) std::abort();
+  return file;
+}
+
+inline void require(bool condition) {
+  if (!condition) __builtin_trap();
+}
+
+inline void check(const Scene& scene) {
+  for (const TriangleMesh& mesh : scene.meshes) {
+    for (const auto& triangle : mesh.triangles)
+      for (const std::uint32_t index : triangle) require(index < mesh.positions.size());
+    for (const Point3f& p : mesh.positions) require(is_finite(p));
+    require(mesh.normals.empty() || mesh.normals.size() == mesh.positions.size());
+    require(mesh.uvs.empty() || mesh.uvs.size() == mesh.positions.size());
+  }
+  const auto check_shape = [&](const Shape& shape) {
+    require(shape.mesh.value < scene.meshes.size() && shape.material.value < scene.materials.size());
+    require(!shape.area_light || shape.area_light->value < scene.area_lights.size());
+  };
+  for (const Shape& shape : scene.shapes) check_shape(shape);
+  for (const Prototype& prototype : scene.prototypes)
+    for (const Shape& shape : prototype.shapes) check_shape(shape);
+  for (const Instance& instance : scene.instances)
+    require(instance.prototype.value < scene.prototypes.size());
+}
+
+template <class Read>
+int run(Read&& read) {
+  try {
+    check(read());
+  } catch (const Error&) {
+  } catch (const MachineError&) {
+  }
+  return 0;
+}
+
+}  // namespace vitrail::fuzz
