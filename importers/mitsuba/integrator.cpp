@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "importers/mitsuba/builder.h"
+#include "importers/mitsuba/properties.h"
+#include "importers/mitsuba/suggestion.h"
+
+namespace vitrail::mitsuba {
+
+namespace {
+
+// What converges to the picture of a path tracer, Mitsuba 0.6's too.
+const std::vector<std::string> path_tracers{
+    "path",           "volpath", "volpathmis", "ptracer", "prb",  "prb_basic", "prbvolpath", "prb_projective",
+    "volpath_simple", "bdpt",    "mlt",        "pssmlt",  "erpt", "sppm",      "ppm",        "vpl",
+    "photonmapper",   "adaptive"};
+const std::vector<std::string> direct_only{"direct", "direct_projective", "emission"};
+// Around another integrator whose picture is the first of what they write.
+const std::vector<std::string> wrappers{"moment", "aov", "stokes", "multichannel"};
+
+bool is_one_of(const std::string& word, const std::vector<std::string>& words) {
+  return std::find(words.begin(), words.end(), word) != words.end();
+}
+
+std::vector<std::string> all_kinds() {
+  std::vector<std::string> all = path_tracers;
+  all.insert(all.end(), direct_only.begin(), direct_only.end());
+  all.insert(all.end(), wrappers.begin(), wrappers.end());
+  return all;
+}
+
+// Mitsuba counts the eye's ray, and −1 is without end.
+int read_depth(const Object& integrator, Report& report) {
+  const int depth = integrator.integer("max_depth", -1, report);
+  const Origin place = place_of(integrator, "max_depth");
+  if (depth < -1)
+    report.fail(fmt::format("\"max_depth\" is {}, but has to be -1 (without end) or at least 0", depth),
+                place);
+  if (depth == 0) report.approximated("\"max_depth\" is 0: emitters are shown all the same", place);
+  if (depth < 0 || depth > unlimited_depth) return unlimited_depth;
+  return std::max(depth - 1, 0);
+}
+
+void report_kind(const Object& integrator, Report& report) {
+  if (is_one_of(integrator.type, path_tracers) || is_one_of(integrator.type, direct_only)) return;
+  const bool wrapper = is_one_of(integrator.type, wrappers);
+  report.approximated(
+      fmt::format("integrator \"{}\" becomes a path tracer{}", integrator.type,
+                  wrapper ? ": it has none inside" : suggestion(integrator.type, all_kinds())),
+      integrator.origin);
+}
+
+}  // namespace
+
+void read_integrator(Builder& builder, const Object& integrator) {
+  Report& report = builder.report;
+  report.begin_item(integrator.origin);
+  const Object* nested = is_one_of(integrator.type, wrappers) ? integrator.child("integrator") : nullptr;
+  if (nested) {
+    integrator.ignore({"aovs"});
+    report_unused(integrator, report);
+    return read_integrator(builder, *nested);
+  }
+  report_kind(integrator, report);
+  RenderSettings& settings = builder.scene.settings;
+  settings.direct_only = is_one_of(integrator.type, direct_only);
+  // Mitsuba's direct light ends at the first surface, specular or not.
+  settings.max_depth = settings.direct_only ? 1 : read_depth(integrator, report);
+  if (integrator.type == "emission") settings.max_depth = 0;
+  if (integrator.boolean("hide_emitters", false, report))
+    report.dropped("\"hide_emitters\": emitters are seen", place_of(integrator, "hide_emitters"));
+  integrator.ignore({"rr_depth", "emitter_samples", "bsdf_samples", "shading_samples", "samples_per_pass",
+                     "block_size", "timeout", "strict_normals", "use_mis", "aovs"});
+  report_unused(integrator, report, {"max_depth", "hide_emitters", "rr_depth"});
+}
+
+}  // namespace vitrail::mitsuba

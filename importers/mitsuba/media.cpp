@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "importers/mitsuba/builder.h"
+#include "importers/mitsuba/properties.h"
+#include "importers/mitsuba/suggestion.h"
+#include "importers/mitsuba/volume_file.h"
+
+namespace vitrail::mitsuba {
+
+namespace {
+
+const Bounds3d unit_cube{{0, 0, 0}, {1, 1, 1}};
+
+// The grids of a medium share its frame, which is that of the first of them.
+struct MediumReader {
+  Builder& builder;
+  const Object& object;
+  Medium& medium;
+  bool has_frame = false;
+};
+
+Bounds3d transformed(const Transform& t, const Bounds3d& box) {
+  const Point3d a = transform_point(t, box.lower), b = transform_point(t, box.upper);
+  return {{std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)},
+          {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)}};
+}
+
+// Whether the transform only moves and stretches along the axes.
+bool keeps_axes(const Transform& t) {
+  constexpr double tolerance = 1e-9;
+  double largest = 0, crossed = 0;
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 3; ++j) {
+      if (i == j && !(t.m[i][j] > 0)) return false;
+      (i == j ? largest : crossed) = std::max(i == j ? largest : crossed, std::abs(t.m[i][j]));
+    }
+  return crossed <= tolerance * largest;
+}
+
+void place_grid(MediumReader& reader, Grid& grid, const Transform& to_world, const Origin& place) {
+  Transform& frame = reader.medium.medium_to_world;
+  if (!reader.has_frame) {
+    frame = to_world;
+    reader.has_frame = true;
+  } else if (frame != to_world) {
+    const Transform relative = inverse(frame) * to_world;
+    if (keeps_axes(relative))
+      grid.bounds = transformed(relative, grid.bounds);
+    else
+      reader.builder.report.approximated(
+          "a medium whose grids are turned against each other: all lie as the first", place);
+  }
+}
+
+void read_lookup(const Object& volume, Grid& grid, Report& report) {
+  const std::string wrap = volume.text("wrap_mode", "clamp", report),
+                    filter = volume.text("filter_type", "trilinear", report);
+  grid.clamp = wrap != "repeat";
+  if (wrap != "repeat" && wrap != "clamp")
+    report.approximated(fmt::format("the wrap_mode \"{}\" of a grid becomes \"clamp\"", wrap),
+                        place_of(volume, "wrap_mode"));
+  if (filter != "trilinear")
+    report.approximated(fmt::format("the filter_type \"{}\" of a grid becomes \"trilinear\"", filter),
+                        place_of(volume, "filter_type"));
+}
+
+// Mitsuba's grids fill the unit cube of their own space, or the box of their file.
+Grid read_grid(MediumReader& reader, const Object& volume) {
+  Report& report = reader.builder.report;
+  const std::string file = existing_file(reader.builder, volume, "filename");
+  Grid grid;
+  try {
+    grid = read_volume_header(file);
+  } catch (const std::runtime_error& error) {
+    report.fail(error.what(), place_of(volume, "filename"));
+  }
+  if (!volume.boolean("use_grid_bbox", false, report)) grid.bounds = unit_cube;
+  const Transform to_world = volume.transform("to_world", report);
+  if (!is_invertible(to_world))
+    report.fail("the to_world of a grid has no inverse", place_of(volume, "to_world"));
+  place_grid(reader, grid, to_world, volume.origin);
+  read_lookup(volume, grid, report);
+  volume.ignore({"raw", "accel"});
+  report_unused(volume, report, {"filename", "to_world", "use_grid_bbox", "wrap_mode", "filter_type"});
+  return grid;
+}
+
+VolumeParameter read_volume(MediumReader& reader, std::string_view name, Quantity quantity,
+                            const Spectrum& otherwise) {
+  Builder& builder = reader.builder;
+  const Object* volume = object_of(reader.object, name);
+  if (!volume || volume->tag != "volume")
+    return spectrum_value(builder, reader.object, name, quantity, otherwise);
+  if (volume->type == "gridvolume") return read_grid(reader, *volume);
+  if (volume->type != "constvolume") {
+    builder.report.approximated(
+        fmt::format("volume \"{}\" is not known: the default stands for it{}", volume->type,
+                    suggestion(volume->type, {"constvolume", "gridvolume"})),
+        volume->origin);
+    return otherwise;
+  }
+  Spectrum value = spectrum_value(builder, *volume, "value", quantity, otherwise);
+  volume->ignore({"to_world"});
+  report_unused(*volume, builder.report, {"value"});
+  return value;
+}
+
+float read_phase(const Object& medium, Report& report) {
+  const Object* phase = medium.child("phase");
+  if (!phase) return 0;
+  double g = 0;
+  if (phase->type == "hg") {
+    g = phase->number("g", 0.8, report);
+    if (!(std::abs(g) < 1))
+      report.fail(fmt::format("\"g\" is {}, which is not between -1 and 1", g), place_of(*phase, "g"));
+  } else if (phase->type != "isotropic") {
+    report.approximated(fmt::format("phase function \"{}\" becomes isotropic{}", phase->type,
+                                    suggestion(phase->type, {"isotropic", "hg"})),
+                        phase->origin);
+    return 0;
+  }
+  report_unused(*phase, report, {"g"});
+  return static_cast<float>(g);
+}
+
+// Mitsuba 0.6 takes a list of measured media, absorption and scattering, or the density by itself, too.
+void read_coefficients(MediumReader& reader) {
+  const Object& object = reader.object;
+  const Spectrum one = ConstantSpectrum{1};
+  if (object.has("material")) {
+    reader.medium.coefficients = NamedMedium{object.text("material", "", reader.builder.report)};
+  } else if (object.has("sigma_a") || object.has("sigma_s")) {
+    AbsorptionScattering c;
+    c.sigma_a = read_volume(reader, "sigma_a", Quantity::unbounded, one);
+    c.sigma_s = read_volume(reader, "sigma_s", Quantity::unbounded, one);
+    reader.medium.coefficients = c;
+  } else {
+    ExtinctionAlbedo c;
+    c.sigma_t = read_volume(reader, object.has("density") ? "density" : "sigma_t", Quantity::unbounded, one);
+    c.albedo = read_volume(reader, "albedo", Quantity::reflectance, ConstantSpectrum{0.75f});
+    reader.medium.coefficients = c;
+  }
+}
+
+bool is_named(const Object& object) { return !object.id.empty() && !object.id.starts_with("_unnamed_"); }
+
+}  // namespace
+
+Id<Medium> add_medium(Builder& builder, const Object& object) {
+  if (const auto known = builder.media.find(&object); known != builder.media.end()) return known->second;
+  Report& report = builder.report;
+  report.begin_item(object.origin);
+  if (object.type != "homogeneous" && object.type != "heterogeneous")
+    report.approximated(fmt::format("medium \"{}\" is not known and read as \"homogeneous\"{}", object.type,
+                                    suggestion(object.type, {"homogeneous", "heterogeneous"})),
+                        object.origin);
+  Medium medium;
+  medium.origin = object.origin;
+  if (is_named(object)) medium.name = object.id;
+  MediumReader reader{builder, object, medium};
+  read_coefficients(reader);
+  medium.scale = static_cast<float>(object.number("scale", 1, report));
+  medium.g = read_phase(object, report);
+  object.ignore({"sample_emitters", "has_spectral_extinction", "method", "step_size", "strategy",
+                 "majorant_resolution_factor"});
+  report_unused(object, report, {"sigma_t", "albedo", "sigma_a", "sigma_s", "scale", "material"});
+  const Id<Medium> id{static_cast<std::uint32_t>(builder.scene.media.size())};
+  builder.scene.media.push_back(std::move(medium));
+  builder.media.emplace(&object, id);
+  return id;
+}
+
+}  // namespace vitrail::mitsuba
