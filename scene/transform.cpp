@@ -137,6 +137,9 @@ Transform snapped(const Transform& t) {
       greatest = std::max(greatest, std::abs(t.m[row][column]));
     farthest = std::max(farthest, std::abs(t.m[row][3]));
   }
+  // Rounding may reach the next power of two, which a second call would start from.
+  greatest = rounded_to_40_bits(greatest, greatest);
+  farthest = rounded_to_40_bits(farthest, farthest);
   for (std::size_t row = 0; row < 3; ++row) {
     for (std::size_t column = 0; column < 3; ++column)
       result.m[row][column] = rounded_to_40_bits(t.m[row][column], greatest);

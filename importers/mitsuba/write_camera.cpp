@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "importers/mitsuba/write_camera.h"
 
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
 #include <numbers>
 
+#include "importers/mitsuba/screen.h"
 #include "importers/mitsuba/write_film.h"
 #include "scene/bounds.h"
 
@@ -15,7 +17,10 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-double half_width_of(double fov_deg) { return std::tan(fov_deg / 2 * pi / 180); }
+using mitsuba::half_screen_of_height;
+using mitsuba::half_screen_of_width;
+using mitsuba::HalfScreen;
+using mitsuba::tan_half;
 
 struct ClipRange {
   double near_clip = 1e-2, far_clip = 1e4;
@@ -69,16 +74,58 @@ PerspectiveCamera without_scale(const PerspectiveCamera& camera) {
 
 bool nearly(double a, double b) { return std::abs(a - b) <= 1e-9 * std::max(std::abs(a), std::abs(b)); }
 
-void add_field_of_view(Context& context, Element sensor, const ScreenWindow& screen) {
+// The numbers from which readers get the window back, to the bit where there are such.
+struct WrittenScreen {
+  bool by_height = false;
+  double fov_deg = 90, offset_x = 0, offset_y = 0;
+};
+
+// The value and those that differ from it in the last digits, the nearest first.
+std::array<double, 9> neighbours(double value) {
+  std::array<double, 9> all{value};
+  double below = value, above = value;
+  for (std::size_t i = 1; i < all.size(); i += 2) {
+    all[i] = below = std::nextafter(below, -HUGE_VAL);
+    all[i + 1] = above = std::nextafter(above, HUGE_VAL);
+  }
+  return all;
+}
+
+// The offset that moves ±`half` to [lower, upper], in parts of its width.
+std::optional<double> exact_offset(double lower, double upper, double half) {
+  for (const double centre : neighbours((lower + upper) / 2)) {
+    if (centre - half != lower || centre + half != upper) continue;
+    for (const double offset : neighbours(centre / (2 * half)))
+      if (offset * 2 * half == centre) return offset;
+  }
+  return std::nullopt;
+}
+
+WrittenScreen written_screen(const ScreenWindow& s, double aspect) {
+  const double x = (s.x1 - s.x0) / 2, y = (s.y1 - s.y0) / 2;
+  const bool first_by_height =
+      half_screen_of_width(x, aspect).y != y && half_screen_of_height(y, aspect).x == x;
+  for (const bool by_height : {first_by_height, !first_by_height})
+    for (const double size : neighbours(by_height ? y : x)) {
+      const double fov = field_of_view_deg(size);
+      if (tan_half(fov) != size) continue;
+      const HalfScreen half =
+          by_height ? half_screen_of_height(size, aspect) : half_screen_of_width(size, aspect);
+      const auto offset_x = exact_offset(s.x0, s.x1, half.x), offset_y = exact_offset(-s.y1, -s.y0, half.y);
+      if (offset_x && offset_y) return {by_height, fov, *offset_x, *offset_y};
+    }
+  return {first_by_height, field_of_view_deg(first_by_height ? y : x), (s.x0 + s.x1) / 2 / (s.x1 - s.x0),
+          -(s.y0 + s.y1) / 2 / (s.y1 - s.y0)};
+}
+
+WrittenScreen add_field_of_view(Context& context, Element sensor, const ScreenWindow& screen) {
   const double width = context.scene.film.width, height = context.scene.film.height;
-  const double x = (screen.x1 - screen.x0) / 2, y = (screen.y1 - screen.y0) / 2;
-  const bool from_x = y == x * height / width || y == x / (width / height);
-  const bool from_y = x == y * width / height || x == y * (width / height) || x == y / (height / width);
-  const bool by_y = !from_x && from_y;
-  if (!nearly(x * height, y * width))
+  if (!nearly((screen.x1 - screen.x0) * height, (screen.y1 - screen.y0) * width))
     context.approximated("Mitsuba's pixels are square: the picture's height follows from its width");
-  add_float(sensor, "fov", field_of_view_deg(by_y ? y : x));
-  add_string(sensor, "fov_axis", by_y ? "y" : "x");
+  const WrittenScreen written = written_screen(screen, width / height);
+  add_float(sensor, "fov", written.fov_deg);
+  add_string(sensor, "fov_axis", written.by_height ? "y" : "x");
+  return written;
 }
 
 bool is_centred(const ScreenWindow& s) { return s.x0 == -s.x1 && s.y0 == -s.y1; }
@@ -91,13 +138,13 @@ Element write(Context& context, Element root, const PerspectiveCamera& scaled_ca
     context.dropped("depth of field: Mitsuba's lens cannot look past the picture's centre");
   Element sensor = add(root, "sensor", lens ? "thinlens" : "perspective");
   add_transform(sensor, mirrored(camera.camera_to_world));
-  add_field_of_view(context, sensor, screen);
+  const WrittenScreen written = add_field_of_view(context, sensor, screen);
   if (lens) {
     add_float(sensor, "aperture_radius", camera.lens.radius);
     add_float(sensor, "focus_distance", camera.lens.focal_distance);
   } else if (!is_centred(screen)) {
-    add_float(sensor, "principal_point_offset_x", (screen.x0 + screen.x1) / 2 / (screen.x1 - screen.x0));
-    add_float(sensor, "principal_point_offset_y", -(screen.y0 + screen.y1) / 2 / (screen.y1 - screen.y0));
+    add_float(sensor, "principal_point_offset_x", written.offset_x);
+    add_float(sensor, "principal_point_offset_y", written.offset_y);
   }
   return sensor;
 }
@@ -129,14 +176,14 @@ double field_of_view_deg(double half_width) {
   const double nearest = 2 * std::atan(half_width) * 180 / pi;
   for (int digits = 1; digits <= std::numeric_limits<double>::max_digits10; ++digits) {
     const double rounded = std::strtod(fmt::format("{:.{}g}", nearest, digits).c_str(), nullptr);
-    if (half_width_of(rounded) == half_width) return rounded;
+    if (tan_half(rounded) == half_width) return rounded;
   }
   double below = nearest, above = nearest;
   for (int step = 0; step < 16; ++step) {
     below = std::nextafter(below, 0.0);
     above = std::nextafter(above, 180.0);
-    if (half_width_of(below) == half_width) return below;
-    if (half_width_of(above) == half_width) return above;
+    if (tan_half(below) == half_width) return below;
+    if (tan_half(above) == half_width) return above;
   }
   return nearest;
 }

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: Apache-2.0
+// Media from Mitsuba's, by definition and back from what write_mitsuba writes; volume files.
+#include <gmock/gmock.h>
+
+#include <array>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+
+#include "importers/mitsuba/volume_file.h"
+#include "importers/mitsuba/write_mitsuba.h"
+#include "tests/importers/mitsuba_objects.h"
+#include "tests/importers/temporary_folder.h"
+#include "tests/importers/written_scenes.h"
+
+namespace vitrail::mitsuba {
+namespace {
+
+using testing::Contains;
+using testing::Field;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::SizeIs;
+
+// A volume file of zeros.
+std::string volume(std::array<std::int32_t, 4> counts, std::size_t values, std::int32_t encoding = 1,
+                   const std::string& magic = "VOL\3") {
+  const std::array<float, 6> bounds{-1, -2, -3, 1, 2, 3};
+  std::string bytes = magic;
+  const auto append = [&](const void* data, std::size_t size) {
+    bytes.append(static_cast<const char*>(data), size);
+  };
+  append(&encoding, 4);
+  append(counts.data(), sizeof counts);
+  append(bounds.data(), sizeof bounds);
+  return bytes + std::string(values * 4, '\0');
+}
+
+class MitsubaMedia : public testing::Test {
+ protected:
+  void read(const Object& root) {
+    TestBuilder test;
+    test.scene.files = {(folder_ / "scene.xml").string()};
+    read_all(test.builder, root);
+    scene_ = test.scene;
+    diagnostics_ = test.report.take();
+  }
+  Medium medium(const std::string& properties, const std::string& type = "homogeneous") {
+    read(load_objects_of_text("<medium type='" + type + "' id='m'>" + properties + "</medium>"));
+    return scene_.media.at(0);
+  }
+  Scene written_and_read(const Scene& scene) {
+    write_mitsuba(scene, folder_ / "scene.xml");
+    read(load_objects(folder_ / "scene.xml"));
+    return scene_;
+  }
+  std::string grid(const std::string& name, const std::string& more = "") {
+    return "<volume type='gridvolume' name='" + name + "'><string name='filename' value='a.vol'/>" + more +
+           "</volume>";
+  }
+  static auto says(const std::string& text) { return Contains(Field(&Diagnostic::message, HasSubstr(text))); }
+
+  TemporaryFolder folder_;
+  Scene scene_;
+  Diagnostics diagnostics_;
+};
+
+TEST_F(MitsubaMedia, WrittenMediaComeBack) {
+  Scene original = empty_scene();
+  folder_.write("a.vol", volume({2, 3, 4, 1}, 24));
+  folder_.write("b.vol", volume({2, 2, 1, 3}, 12));
+  Medium fog{"fog",
+             ExtinctionAlbedo{Spectrum{ConstantSpectrum{3}}, Spectrum{reflectance_from_rgb({0.1, 0.8, 0.3})}},
+             2.5f};
+  fog.g = -0.4f;
+  Medium dust{
+      "", ExtinctionAlbedo{Spectrum{unbounded_from_rgb({0.5, 0.25, 1})}, Spectrum{ConstantSpectrum{0.5f}}}};
+  Medium cloud{"cloud", {}};
+  Grid a, b;
+  a.filename = (folder_ / "a.vol").string();
+  a.nx = 2, a.ny = 3, a.nz = 4;
+  b.filename = (folder_ / "b.vol").string();
+  b.nx = 2, b.ny = 2, b.nz = 1, b.channels = 3, b.clamp = false;
+  cloud.coefficients = ExtinctionAlbedo{a, b};
+  cloud.medium_to_world = translate({1, 2, 3}) * rotate(0.3, {1, 2, 0}) * scale({2, 3, 4});
+  original.media = {fog, dust, cloud};
+  EXPECT_EQ(written_and_read(original).media, original.media);
+  EXPECT_THAT(diagnostics_, IsEmpty());
+}
+
+TEST_F(MitsubaMedia, Defaults) {
+  const Medium m = medium("");
+  EXPECT_EQ(m, (Medium{"m", ExtinctionAlbedo{}}));
+  EXPECT_FLOAT_EQ(medium("<phase type='hg'/>").g, 0.8f);  // Mitsuba 3.9.1
+  EXPECT_EQ(medium("<phase type='isotropic'/>").g, 0);
+}
+
+TEST_F(MitsubaMedia, OlderForms) {
+  EXPECT_EQ(medium("<float name='sigma_a' value='2'/><float name='sigma_s' value='3'/>").coefficients,
+            (decltype(Medium::coefficients){
+                AbsorptionScattering{Spectrum{ConstantSpectrum{2}}, Spectrum{ConstantSpectrum{3}}}}));
+  EXPECT_EQ(medium("<string name='material' value='Skin1'/>").coefficients,
+            (decltype(Medium::coefficients){NamedMedium{"Skin1"}}));
+  EXPECT_EQ(medium("<volume type='constvolume' name='density'><float name='value' value='7'/></volume>",
+                   "heterogeneous")
+                .coefficients,
+            (decltype(Medium::coefficients){ExtinctionAlbedo{Spectrum{ConstantSpectrum{7}}}}));
+  EXPECT_THAT(diagnostics_, IsEmpty());
+}
+
+TEST_F(MitsubaMedia, GridsLieInTheUnitCubeOrTheirBox) {
+  folder_.write("a.vol", volume({2, 3, 4, 1}, 24));
+  const auto bounds = [&](const Medium& m) {
+    return std::get<Grid>(std::get<ExtinctionAlbedo>(m.coefficients).sigma_t).bounds;
+  };
+  EXPECT_EQ(bounds(medium(grid("sigma_t"), "heterogeneous")), (Bounds3d{{0, 0, 0}, {1, 1, 1}}));
+  const std::string box = "<boolean name='use_grid_bbox' value='true'/>";
+  EXPECT_EQ(bounds(medium(grid("sigma_t", box), "heterogeneous")), (Bounds3d{{-1, -2, -3}, {1, 2, 3}}));
+}
+
+TEST_F(MitsubaMedia, TheSecondGridIsInTheFrameOfTheFirst) {
+  folder_.write("a.vol", volume({2, 3, 4, 1}, 24));
+  const auto frame = [](const std::string& matrix) {
+    return "<transform name='to_world'><matrix value='" + matrix + "'/></transform>";
+  };
+  const Medium m = medium(grid("sigma_t", frame("2 0 0 0 0 2 0 0 0 0 2 0 0 0 0 1")) +
+                              grid("albedo", frame("4 0 0 2 0 4 0 4 0 0 4 0 0 0 0 1")),
+                          "heterogeneous");
+  const auto& c = std::get<ExtinctionAlbedo>(m.coefficients);
+  EXPECT_EQ(std::get<Grid>(c.albedo).bounds, (Bounds3d{{1, 2, 0}, {3, 4, 2}}));
+  EXPECT_EQ(m.medium_to_world, scale({2, 2, 2}));
+  EXPECT_THAT(diagnostics_, IsEmpty());
+  medium(grid("sigma_t") + grid("albedo", frame("0 1 0 0 -1 0 0 0 0 0 1 0 0 0 0 1")), "heterogeneous");
+  EXPECT_THAT(diagnostics_, says("turned against each other"));
+}
+
+TEST_F(MitsubaMedia, WhatIsNotExactIsSaid) {
+  folder_.write("a.vol", volume({2, 3, 4, 1}, 24));
+  medium("<phase type='rayleigh'/>");
+  EXPECT_THAT(diagnostics_, says("\"rayleigh\" becomes isotropic"));
+  medium("<phase type='isotropc'/>");
+  EXPECT_THAT(diagnostics_, says("did you mean \"isotropic\""));
+  medium("", "homogenous");
+  EXPECT_THAT(diagnostics_, says("did you mean \"homogeneous\""));
+  medium("<volume type='hgrid' name='sigma_t'/>", "heterogeneous");
+  EXPECT_THAT(diagnostics_, says("volume \"hgrid\""));
+  medium(grid("sigma_t",
+              "<string name='wrap_mode' value='mirror'/><string name='filter_type' value='nearest'/>"),
+         "heterogeneous");
+  EXPECT_THAT(diagnostics_, SizeIs(2));
+  EXPECT_THROW(medium("<phase type='hg'><float name='g' value='1'/></phase>"), Error);
+  EXPECT_THROW(medium(grid("sigma_t", "<transform name='to_world'><scale x='0' y='1' z='1'/></transform>")),
+               Error);
+}
+
+TEST_F(MitsubaMedia, WrongVolumeFilesAreErrors) {
+  const std::string good = volume({2, 3, 4, 1}, 24);
+  const std::int32_t most = std::numeric_limits<std::int32_t>::max();
+  EXPECT_NO_THROW(read_volume_header(folder_.write("a.vol", good)));
+  for (const std::string& bytes :
+       {std::string(), good.substr(0, 47), volume({2, 3, 4, 1}, 23), volume({2, 3, 4, 1}, 24, 2),
+        volume({2, 3, 4, 1}, 24, 1, "VOL\4"), volume({2, 3, 4, 1}, 24, 1, "vol\3"), volume({0, 3, 4, 1}, 24),
+        volume({2, -3, -4, 1}, 24), volume({most, most, most, most}, 24),
+        volume({most, most, most, 1}, 24)}) {
+    folder_.write("a.vol", bytes);
+    try {
+      medium(grid("sigma_t"), "heterogeneous");
+      ADD_FAILURE() << bytes.size();
+    } catch (const Error& error) {
+      EXPECT_GT(error.location.column, 0);
+      EXPECT_THAT(error.what(), HasSubstr("a.vol"));
+    }
+  }
+  std::string infinite = good;
+  const float infinity = std::numeric_limits<float>::infinity();
+  std::memcpy(infinite.data() + 24, &infinity, 4);
+  EXPECT_THROW(read_volume_header(folder_.write("a.vol", infinite)), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace vitrail::mitsuba
