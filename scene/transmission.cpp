@@ -33,6 +33,21 @@ bool transmits(const Material& material, const std::vector<bool>& others) {
   return std::visit(Transmits{others}, material.model);
 }
 
+bool has_sides(const Material& material, bool lets_through, const std::vector<bool>& others) {
+  if (std::holds_alternative<InterfaceMaterial>(material.model)) return false;
+  if (const auto* mask = std::get_if<MaskMaterial>(&material.model)) return others.at(mask->material.value);
+  if (const auto* blend = std::get_if<BlendMaterial>(&material.model))
+    return others.at(blend->first.value) || others.at(blend->second.value);
+  return !material.two_sided || lets_through || std::holds_alternative<TwoSidedMaterial>(material.model);
+}
+
+std::vector<bool> with_sides(const std::vector<Material>& materials) {
+  const std::vector<bool> through = transmitting(materials);
+  std::vector<bool> result;
+  for (std::size_t i = 0; i < materials.size(); ++i) result.push_back(has_sides(materials[i], through[i], result));
+  return result;
+}
+
 std::vector<bool> transmitting(const std::vector<Material>& materials) {
   std::vector<bool> result;
   for (const Material& material : materials) result.push_back(transmits(material, result));

@@ -389,7 +389,9 @@ Id<Material> add_material(Builder& b, const Object& o) {
   const Origin before = b.report.begin_item(o.origin);
   Material material = make_material(b, o);
   material.name = o.id.starts_with("_unnamed_") ? "" : o.id;
-  b.transmitting.push_back(transmits(material, b.transmitting));
+  const bool through = transmits(material, b.transmitting);
+  b.transmitting.push_back(through);
+  b.sided.push_back(has_sides(material, through, b.sided));
   b.scene.materials.push_back(std::move(material));
   b.report.begin_item(before);
   const Id<Material> id{static_cast<std::uint32_t>(b.scene.materials.size() - 1)};

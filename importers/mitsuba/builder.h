@@ -3,6 +3,7 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <string>
 #include <string_view>
 #include <tuple>
@@ -20,13 +21,14 @@ struct Builder {
   Scene& scene;
   Report& report;
   std::map<const Object*, Id<Material>> materials;
-  std::vector<bool> transmitting;  // one for each of the scene's materials (scene/transmission.h)
+  std::vector<bool> transmitting, sided;  // one for each of the scene's materials (scene/transmission.h)
   std::map<const Object*, Id<Medium>> media;
   std::map<std::pair<const Object*, bool>, Id<Texture>>
       textures;  // by object and whether it is read as a number
   std::map<const Object*, Id<Prototype>> prototypes;
   std::map<std::tuple<std::string, int, int>, Id<TriangleMesh>>
       mesh_files;  // path, index in it, variant of reading
+  std::set<std::uint32_t> smoothed_meshes{};  // whose normals were made here
 };
 
 // ---- spectra.cpp, textures.cpp

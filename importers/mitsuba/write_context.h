@@ -34,7 +34,8 @@ struct Context {
       : scene(scene_to_write),
         file(out),
         meshes(scene_to_write, out),
-        transmitting(vitrail::transmitting(scene_to_write.materials)) {}
+        transmitting(vitrail::transmitting(scene_to_write.materials)),
+        sided(with_sides(scene_to_write.materials)) {}
 
   const Scene& scene;
   std::filesystem::path file;  // of the scene

@@ -53,21 +53,6 @@ void write_material(Context& context, Element parent, std::size_t index, std::st
 
 }  // namespace
 
-std::vector<bool> with_sides(const Context& context) {
-  std::vector<bool> sided;
-  for (std::size_t i = 0; i < context.scene.materials.size(); ++i) {
-    const Material& material = context.scene.materials[i];
-    bool sides = !material.two_sided || context.transmitting[i] ||
-                 std::holds_alternative<TwoSidedMaterial>(material.model);
-    if (std::holds_alternative<InterfaceMaterial>(material.model)) sides = false;
-    if (const auto* mask = std::get_if<MaskMaterial>(&material.model)) sides = sided.at(mask->material.value);
-    if (const auto* blend = std::get_if<BlendMaterial>(&material.model))
-      sides = sided.at(blend->first.value) || sided.at(blend->second.value);
-    sided.push_back(sides);
-  }
-  return sided;
-}
-
 void write_materials(Context& context, Element root) {
   for (std::size_t i = 0; i < context.scene.materials.size(); ++i) {
     const Material& material = context.scene.materials[i];

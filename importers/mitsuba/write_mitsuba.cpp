@@ -26,7 +26,6 @@ struct TextWriter : pugi::xml_writer {
 Diagnostics write_mitsuba(const Scene& scene, const std::filesystem::path& out) {
   using namespace mitsuba_writer;
   Context context(scene, out);
-  context.sided = with_sides(context);
   pugi::xml_document document;
   document.append_child(pugi::node_comment)
       .set_value(fmt::format(" Written by Vitrail {} for Mitsuba 3 ", VITRAIL_VERSION).c_str());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "importers/obj/obj.h"
 
+#include "importers/obj/obj_meshes.h"
 #include "importers/obj/obj_parser.h"
 #include "importers/obj/obj_scene.h"
 
@@ -18,24 +19,37 @@ Vector3d offset_of(const Bounds3d& bounds) {
   return is_far ? cast<double>(cast<float>(away)) : Vector3d{};
 }
 
+// Counts from 0 where the file does.
+obj::Geometry parse(InputBytes& bytes, const std::string& name, obj::ParseOptions& options) {
+  std::optional<obj::Geometry> geometry = obj::parse(bytes, name, options);
+  if (geometry) return std::move(*geometry);
+  options.base = 0;
+  return std::move(obj::parse(bytes, name, options).value());
+}
+
 }  // namespace
 
 ImportedScene read_obj(const std::filesystem::path& file) {
   InputBytes bytes(file);
-  const std::string name = file.string();
   obj::ParseOptions options;
-  std::optional<obj::Geometry> geometry = obj::parse(bytes, name, options);
-  if (!geometry) {
-    options.base = 0;
-    geometry = obj::parse(bytes, name, options);
-  }
-  options.offset = offset_of(geometry->bounds);
+  obj::Geometry geometry = parse(bytes, file.string(), options);
+  options.offset = offset_of(geometry.bounds);
   if (options.offset != Vector3d{}) {
-    geometry.reset();
-    geometry = obj::parse(bytes, name, options);
+    geometry = {};
+    geometry = parse(bytes, file.string(), options);
   }
   bytes.release_before(bytes.end());
-  return obj::to_scene(std::move(*geometry), options.offset, file);
+  return obj::to_scene(std::move(geometry), options.offset, file);
+}
+
+ObjGeometry read_obj_geometry(const std::filesystem::path& file) {
+  InputBytes bytes(file);
+  obj::ParseOptions options;
+  options.one_material = true;
+  obj::Geometry geometry = parse(bytes, file.string(), options);
+  bytes.release_before(bytes.end());
+  Diagnostics diagnostics = std::move(geometry.diagnostics);
+  return {obj::to_meshes(std::move(geometry)), std::move(diagnostics)};
 }
 
 }  // namespace vitrail

@@ -18,4 +18,11 @@ namespace vitrail {
 // from 0: the whole file is then read so.
 ImportedScene read_obj(const std::filesystem::path& file);
 
+// The geometry alone, whatever its materials and wherever it lies.
+struct ObjGeometry {
+  std::vector<TriangleMesh> meshes;  // by whether their faces have normals and texture coordinates
+  Diagnostics diagnostics;
+};
+ObjGeometry read_obj_geometry(const std::filesystem::path& file);
+
 }  // namespace vitrail

@@ -106,6 +106,7 @@ void StatementReader::skip_statement() {
 
 void StatementReader::use_material() {
   const std::string name(cursor_.rest_of_line());
+  if (options_.one_material) return;
   const auto [entry, is_new] = material_of_name_.try_emplace(name, geometry_.materials.size());
   if (is_new) geometry_.materials.push_back({name, start_.location()});
   material_ = entry->second;

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "importers/mitsuba/shape_geometry.h"
+#include "importers/shapes/vertex_normals.h"
+
+namespace vitrail::mitsuba {
+
+namespace {
+
+const std::vector<std::string> kinds{"obj",      "ply",         "serialized",   "rectangle", "sphere",
+                                     "cube",     "disk",        "cylinder",     "instance",  "shapegroup",
+                                     "merge",    "linearcurve", "bsplinecurve", "sdfgrid",   "heightfield",
+                                     "hair",     "deformable",  "ellipsoids",   "ellipsoidsmesh"};
+
+const std::vector<std::string> parameters{"to_world",    "bsdf",         "emitter",         "interior",
+                                          "exterior",    "flip_normals", "face_normals",    "filename",
+                                          "shape_index", "radius",       "flip_tex_coords", "center"};
+
+// What the programs that write Mitsuba's files call records without a name.
+std::string name_of(const Object& object) { return object.id.starts_with("_unnamed_") ? "" : object.id; }
+
+Id<Material> material_of(Builder& builder, const Object& shape) {
+  const auto bsdfs = shape.children("bsdf");
+  if (bsdfs.size() > 1)
+    builder.report.dropped("more than one bsdf of a shape: the first counts", bsdfs[1]->origin);
+  if (!bsdfs.empty()) return add_material(builder, *std::get<ObjectPtr>(bsdfs.front()->value));
+  const auto [known, is_new] = builder.materials.try_emplace(nullptr);
+  if (is_new) {
+    Material material{DiffuseMaterial{}};
+    material.two_sided = false;
+    material.origin = shape.origin;
+    known->second = {static_cast<std::uint32_t>(builder.scene.materials.size())};
+    builder.scene.materials.push_back(std::move(material));
+  }
+  return known->second;
+}
+
+void add_media(Builder& builder, const Object& object, Shape& shape) {
+  for (const Property* medium : object.children("medium")) {
+    if (medium->name == "interior" || medium->name == "exterior")
+      (medium->name == "interior" ? shape.interior : shape.exterior) =
+          add_medium(builder, *std::get<ObjectPtr>(medium->value));
+    else
+      builder.report.dropped("a medium that is neither \"interior\" nor \"exterior\"", medium->origin);
+  }
+}
+
+void add_emission(Builder& builder, const Object& object, bool in_group, Shape& shape) {
+  const auto emitters = object.children("emitter");
+  if (emitters.empty()) return;
+  if (in_group)
+    return builder.report.dropped("emitters in shape groups: Mitsuba allows none", emitters[0]->origin);
+  if (emitters.size() > 1)
+    builder.report.dropped("more than one emitter of a shape: the first counts", emitters[1]->origin);
+  shape.area_light = add_area_light(builder, *std::get<ObjectPtr>(emitters.front()->value));
+}
+
+bool sides_matter(const Builder& builder, const Shape& shape) {
+  return shape.area_light || shape.interior || shape.exterior || builder.sided.at(shape.material.value);
+}
+
+Transform to_world(Builder& builder, const Object& object) {
+  const Transform t = object.transform("to_world", builder.report);
+  for (const auto& row : t.m)
+    for (const double entry : row)
+      if (!std::isfinite(entry))
+        builder.report.fail("the transform is not finite", object.find("to_world")->origin);
+  return t;
+}
+
+void add_geometry(Builder& builder, const Object& object, const ShapeGeometry& geometry, bool in_group,
+                  std::vector<Shape>& shapes) {
+  Shape shape;
+  shape.mesh = geometry.mesh;
+  shape.name = name_of(object);
+  shape.origin = object.origin;
+  shape.object_to_world = to_world(builder, object);
+  if (geometry.mesh_to_object != Transform{})
+    shape.object_to_world = shape.object_to_world * geometry.mesh_to_object;
+  shape.material = material_of(builder, object);
+  add_media(builder, object, shape);
+  add_emission(builder, object, in_group, shape);
+  shape.flip_orientation = object.boolean("flip_normals", false, builder.report);
+  if (geometry.front_by_normals && sides_matter(builder, shape)) {
+    const bool opposed = normals_oppose_winding(builder.scene.meshes[shape.mesh.value]);
+    if (opposed != swaps_handedness(shape.object_to_world)) shape.flip_orientation = !shape.flip_orientation;
+  }
+  shapes.push_back(std::move(shape));
+}
+
+void drop(Builder& builder, const Object& object) {
+  const std::string kind = kind_of(object);
+  const bool known = std::ranges::count(kinds, kind) > 0;
+  const std::string closest = known ? "" : closest_word(kind, kinds);
+  builder.report.dropped(fmt::format("shape \"{}\" {}{}", object.type,
+                                     known ? "is not supported" : "is unknown",
+                                     closest.empty() ? "" : fmt::format("; did you mean \"{}\"?", closest)),
+                         object.origin);
+}
+
+void add_shapes(Builder& builder, const Object& object, bool in_group, std::vector<Shape>& shapes);
+
+void add_children(Builder& builder, const Object& object, bool in_group, std::vector<Shape>& shapes) {
+  for (const Property* child : object.children("shape"))
+    add_shapes(builder, *std::get<ObjectPtr>(child->value), in_group, shapes);
+}
+
+Id<Prototype> prototype_of(Builder& builder, const Object& group) {
+  if (const auto known = builder.prototypes.find(&group); known != builder.prototypes.end())
+    return known->second;
+  Prototype prototype;
+  prototype.name = name_of(group);
+  prototype.origin = group.origin;
+  add_children(builder, group, true, prototype.shapes);
+  builder.report.begin_item(group.origin);
+  report_unused(group, builder.report);
+  const Id<Prototype> id{static_cast<std::uint32_t>(builder.scene.prototypes.size())};
+  builder.scene.prototypes.push_back(std::move(prototype));
+  builder.prototypes.emplace(&group, id);
+  return id;
+}
+
+void add_instance(Builder& builder, const Object& object) {
+  const auto groups = object.children("shape");
+  const Object* group = groups.empty() ? nullptr : std::get<ObjectPtr>(groups.front()->value).get();
+  if (!group || kind_of(*group) != "shapegroup")
+    builder.report.fail("an instance needs a shape \"shapegroup\"", object.origin);
+  object.ignore({"flip_normals"});
+  Instance instance;
+  instance.prototype = prototype_of(builder, *group);
+  builder.report.begin_item(object.origin);
+  instance.prototype_to_world = to_world(builder, object);
+  instance.origin = object.origin;
+  builder.scene.instances.push_back(instance);
+  report_unused(object, builder.report, {"to_world"});
+}
+
+void add_shapes(Builder& builder, const Object& object, bool in_group, std::vector<Shape>& shapes) {
+  builder.report.begin_item(object.origin);
+  const std::string kind = kind_of(object);
+  if (kind == "shapegroup" || kind == "instance") {
+    if (in_group)
+      return builder.report.dropped(fmt::format("a shape \"{}\" inside of another shape", kind), object.origin);
+    kind == "instance" ? add_instance(builder, object) : static_cast<void>(prototype_of(builder, object));
+    return;
+  }
+  if (kind == "merge") {
+    add_children(builder, object, in_group, shapes);
+    return report_unused(object, builder.report);
+  }
+  object.ignore({"silhouette_sampling_weight"});
+  auto geometry = analytic_shape(builder, object);
+  if (!geometry) geometry = shape_of_file(builder, object);
+  if (!geometry) geometry = curve_shape(builder, object);
+  if (!geometry) return drop(builder, object);
+  add_geometry(builder, object, *geometry, in_group, shapes);
+  builder.report.begin_item(object.origin);
+  report_unused(object, builder.report, parameters);
+}
+
+}  // namespace
+
+void add_shape(Builder& builder, const Object& shape) {
+  add_shapes(builder, shape, false, builder.scene.shapes);
+}
+
+}  // namespace vitrail::mitsuba

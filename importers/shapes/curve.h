@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// Curves with a radius as triangle meshes: tubes, and ribbons of twice the radius as their width.
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "scene/mesh.h"
+
+namespace vitrail {
+
+struct CurvePoint {
+  Point3d position;
+  double radius = 0;
+};
+
+// Cubic, by its Bézier control points; radii are interpolated like positions.
+using CurveSegment = std::array<CurvePoint, 4>;
+
+// The segments of a curve with these control points: none where they are too few for one.
+std::vector<CurveSegment> linear_segments(std::span<const CurvePoint> points);             // n − 1
+std::vector<CurveSegment> bspline_segments(std::span<const CurvePoint> points);            // n − 3, cubic
+std::vector<CurveSegment> quadratic_bspline_segments(std::span<const CurvePoint> points);  // n − 2
+std::vector<CurveSegment> bezier_segments(std::span<const CurvePoint> points);             // (n − 1) / 3
+std::vector<CurveSegment> quadratic_bezier_segments(std::span<const CurvePoint> points);   // (n − 1) / 2
+
+// How finely curves are cut: steps along a segment, corners around a tube.
+struct CurveDetail {
+  int steps = 8, corners = 16;
+};
+// Finer for few segments, so that meshes stay within a few million triangles; 1 step where all are straight.
+// Throws Error for so many segments that no mesh can hold them.
+CurveDetail curve_detail(std::size_t segments, bool straight);
+
+// Appends the tube around a curve; its front is outside. u runs around it from 0 to 1, beginning at the
+// second axis of Duff's frame (2017) around the first tangent; v runs along it from `v_first` to `v_last`,
+// equally for all segments. `round_ends` adds half a sphere at either end, else the ends are open.
+void append_tube(std::span<const CurveSegment> segments, const CurveDetail& detail, double v_first,
+                 double v_last, bool round_ends, TriangleMesh& mesh);
+
+// Appends a ribbon across a curve: it is perpendicular to the normals, one a segment's end (segments + 1),
+// which are interpolated on the sphere. Its front is where they point; u runs along it, v across.
+void append_ribbon(std::span<const CurveSegment> segments, std::span<const Vector3d> normals,
+                   const CurveDetail& detail, TriangleMesh& mesh);
+
+}  // namespace vitrail
