@@ -44,7 +44,8 @@ bool has_sides(const Material& material, bool lets_through, const std::vector<bo
 std::vector<bool> with_sides(const std::vector<Material>& materials) {
   const std::vector<bool> through = transmitting(materials);
   std::vector<bool> result;
-  for (std::size_t i = 0; i < materials.size(); ++i) result.push_back(has_sides(materials[i], through[i], result));
+  for (std::size_t i = 0; i < materials.size(); ++i)
+    result.push_back(has_sides(materials[i], through[i], result));
   return result;
 }
 

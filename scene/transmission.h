@@ -11,7 +11,8 @@ namespace vitrail {
 // to, which come before it.
 bool transmits(const Material& material, const std::vector<bool>& others);
 
-// Whether its surface looks different from its two sides; `lets_through` is whether it transmits, `others` as above.
+// Whether its surface looks different from its two sides; `lets_through` is whether it transmits, `others` as
+// above.
 bool has_sides(const Material& material, bool lets_through, const std::vector<bool>& others);
 
 // The same of each material of a scene.

@@ -31,9 +31,9 @@ TriangleMesh cube() {
     Point3f corner;
     Vector3f u, v;
   };
-  constexpr Face faces[] = {{{1, -1, -1}, {0, 0, 2}, {-2, 0, 0}},  {{1, 1, -1}, {-2, 0, 0}, {0, 0, 2}},
-                            {{1, -1, -1}, {0, 2, 0}, {0, 0, 2}},   {{1, -1, 1}, {0, 2, 0}, {-2, 0, 0}},
-                            {{-1, -1, 1}, {0, 2, 0}, {0, 0, -2}},  {{1, 1, -1}, {0, -2, 0}, {-2, 0, 0}}};
+  constexpr Face faces[] = {{{1, -1, -1}, {0, 0, 2}, {-2, 0, 0}}, {{1, 1, -1}, {-2, 0, 0}, {0, 0, 2}},
+                            {{1, -1, -1}, {0, 2, 0}, {0, 0, 2}},  {{1, -1, 1}, {0, 2, 0}, {-2, 0, 0}},
+                            {{-1, -1, 1}, {0, 2, 0}, {0, 0, -2}}, {{1, 1, -1}, {0, -2, 0}, {-2, 0, 0}}};
   TriangleMesh mesh;
   for (const Face& face : faces) {
     const auto first = static_cast<std::uint32_t>(mesh.positions.size());
@@ -105,9 +105,7 @@ void report_triangles(Builder& builder, const Object& shape, int segments) {
 
 std::optional<ShapeGeometry> analytic_shape(Builder& builder, const Object& shape) {
   const std::string kind = kind_of(shape);
-  const auto shared = [&](TriangleMesh (*make)()) {
-    return shared_mesh(builder, shape, {kind, 0, 0}, make);
-  };
+  const auto shared = [&](TriangleMesh (*make)()) { return shared_mesh(builder, shape, {kind, 0, 0}, make); };
   if (kind == "rectangle") return ShapeGeometry{shared(rectangle), {}, true};
   if (kind == "cube") return ShapeGeometry{shared(cube), {}, true};
   if (kind == "disk") {
@@ -123,8 +121,7 @@ std::optional<ShapeGeometry> analytic_shape(Builder& builder, const Object& shap
   if (kind == "cylinder") {
     const Transform to_object = cylinder_to_object(builder, shape);
     report_triangles(builder, shape, cylinder_segments);
-    return ShapeGeometry{shared([] { return tessellate_cylinder(1, 0, 1, 2 * pi); }), to_object,
-                         true};
+    return ShapeGeometry{shared([] { return tessellate_cylinder(1, 0, 1, 2 * pi); }), to_object, true};
   }
   return std::nullopt;
 }

@@ -27,7 +27,7 @@ struct Builder {
       textures;  // by object and whether it is read as a number
   std::map<const Object*, Id<Prototype>> prototypes;
   std::map<std::tuple<std::string, int, int>, Id<TriangleMesh>>
-      mesh_files;  // path, index in it, variant of reading
+      mesh_files;                             // path, index in it, variant of reading
   std::set<std::uint32_t> smoothed_meshes{};  // whose normals were made here
 };
 

@@ -89,8 +89,8 @@ std::optional<ShapeGeometry> curve_shape(Builder& builder, const Object& shape) 
   const bool linear = kind == "linearcurve";
   if (!linear && kind != "bsplinecurve") return std::nullopt;
   const std::filesystem::path path = shape_file(builder, shape);
-  const Id<TriangleMesh> mesh = shared_mesh(
-      builder, shape, {path.string(), linear, 0}, [&] { return tubes(read_curves(path, linear ? 2 : 4), linear); });
+  const Id<TriangleMesh> mesh = shared_mesh(builder, shape, {path.string(), linear, 0},
+                                            [&] { return tubes(read_curves(path, linear ? 2 : 4), linear); });
   builder.report.approximated("curves become tubes of triangles", shape.origin);
   return ShapeGeometry{mesh, {}, true};
 }

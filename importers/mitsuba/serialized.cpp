@@ -131,8 +131,8 @@ std::vector<T> read_rows(Inflater& in, std::uint64_t count, bool doubles, const 
     }
     for (std::size_t i = 0; i < n; ++i)
       if (!std::isfinite(values[i]))
-        place.fail(fmt::format("value {} of its {} is not a finite single-precision number",
-                               done * width + i, what));
+        place.fail(fmt::format("value {} of its {} is not a finite single-precision number", done * width + i,
+                               what));
     rows.resize(done + rows_now);
     std::memcpy(static_cast<void*>(rows.data() + done), values.data(), rows_now * sizeof(T));
   }
@@ -189,8 +189,8 @@ Extent extent_of(const InputBytes& bytes, int version, int index, const Place& p
   const std::size_t offset_size = version == 4 ? sizeof(std::uint64_t) : sizeof(std::uint32_t);
   const auto count = load<std::uint32_t>(bytes.end() - sizeof(std::uint32_t));
   if (count > (bytes.size() - sizeof(std::uint32_t)) / offset_size)
-    place.fail(fmt::format("the file of {} bytes cannot hold the {} meshes that it announces", bytes.size(),
-                           count));
+    place.fail(
+        fmt::format("the file of {} bytes cannot hold the {} meshes that it announces", bytes.size(), count));
   if (index < 0 || static_cast<std::uint32_t>(index) >= count)
     place.fail(fmt::format("shape_index is {}, but the file has {} meshes (counted from 0)", index, count));
   const std::size_t table = bytes.size() - sizeof(std::uint32_t) - count * offset_size;

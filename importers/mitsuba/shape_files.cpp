@@ -26,7 +26,8 @@ bool apply(const Reading& reading, TriangleMesh& mesh) {
   return !reading.face_normals && mesh.normals.empty();
 }
 
-// Mitsuba makes them of what the transform leaves of the triangles, and so on the side of their winding there.
+// Mitsuba makes them of what the transform leaves of the triangles, and so on the side of their winding
+// there.
 void report_smoothing(Builder& builder, const Object& shape) {
   const Transform t = shape.transform("to_world", builder.report);
   const auto column = [&](std::size_t i) { return Vector3d{t.m[0][i], t.m[1][i], t.m[2][i]}; };

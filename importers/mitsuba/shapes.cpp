@@ -11,10 +11,10 @@ namespace vitrail::mitsuba {
 
 namespace {
 
-const std::vector<std::string> kinds{"obj",      "ply",         "serialized",   "rectangle", "sphere",
-                                     "cube",     "disk",        "cylinder",     "instance",  "shapegroup",
-                                     "merge",    "linearcurve", "bsplinecurve", "sdfgrid",   "heightfield",
-                                     "hair",     "deformable",  "ellipsoids",   "ellipsoidsmesh"};
+const std::vector<std::string> kinds{"obj",   "ply",         "serialized",   "rectangle",     "sphere",
+                                     "cube",  "disk",        "cylinder",     "instance",      "shapegroup",
+                                     "merge", "linearcurve", "bsplinecurve", "sdfgrid",       "heightfield",
+                                     "hair",  "deformable",  "ellipsoids",   "ellipsoidsmesh"};
 
 const std::vector<std::string> parameters{"to_world",    "bsdf",         "emitter",         "interior",
                                           "exterior",    "flip_normals", "face_normals",    "filename",
@@ -96,10 +96,10 @@ void drop(Builder& builder, const Object& object) {
   const std::string kind = kind_of(object);
   const bool known = std::ranges::count(kinds, kind) > 0;
   const std::string closest = known ? "" : closest_word(kind, kinds);
-  builder.report.dropped(fmt::format("shape \"{}\" {}{}", object.type,
-                                     known ? "is not supported" : "is unknown",
-                                     closest.empty() ? "" : fmt::format("; did you mean \"{}\"?", closest)),
-                         object.origin);
+  builder.report.dropped(
+      fmt::format("shape \"{}\" {}{}", object.type, known ? "is not supported" : "is unknown",
+                  closest.empty() ? "" : fmt::format("; did you mean \"{}\"?", closest)),
+      object.origin);
 }
 
 void add_shapes(Builder& builder, const Object& object, bool in_group, std::vector<Shape>& shapes);
@@ -144,7 +144,8 @@ void add_shapes(Builder& builder, const Object& object, bool in_group, std::vect
   const std::string kind = kind_of(object);
   if (kind == "shapegroup" || kind == "instance") {
     if (in_group)
-      return builder.report.dropped(fmt::format("a shape \"{}\" inside of another shape", kind), object.origin);
+      return builder.report.dropped(fmt::format("a shape \"{}\" inside of another shape", kind),
+                                    object.origin);
     kind == "instance" ? add_instance(builder, object) : static_cast<void>(prototype_of(builder, object));
     return;
   }

@@ -20,8 +20,8 @@ struct Mention {
 };
 
 struct ParseOptions {
-  int base = 1;     // of vertex indices: 1 or 0
-  Vector3d offset;  // is subtracted from positions while they are doubles
+  int base = 1;               // of vertex indices: 1 or 0
+  Vector3d offset;            // is subtracted from positions while they are doubles
   bool one_material = false;  // usemtl and mtllib mean nothing
 };
 

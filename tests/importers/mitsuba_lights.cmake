@@ -1,4 +1,4 @@
 # SPDX-License-Identifier: Apache-2.0
 vitrail_test(importers_mitsuba_lights LABEL unit
-  SOURCES mitsuba_emitters_test.cpp mitsuba_media_test.cpp mitsuba_objects.cpp mitsuba_sensor_test.cpp mitsuba_stubs.cpp
-  LIBRARIES vitrail::mitsuba_lights vitrail::mitsuba_exporter pugixml::pugixml)
+  SOURCES mitsuba_emitters_test.cpp mitsuba_media_test.cpp mitsuba_objects.cpp mitsuba_sensor_test.cpp
+  LIBRARIES vitrail::mitsuba vitrail::mitsuba_exporter pugixml::pugixml)
