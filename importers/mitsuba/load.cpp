@@ -171,6 +171,19 @@ class Loader {
 
   // ---- Attributes
 
+  // The name of the first variable in the text that has no default.
+  std::string undefined_in(const std::string& text) const {
+    for (std::size_t at = text.find('$'); at != std::string::npos; at = text.find('$', at + 1)) {
+      std::size_t end = at + 1;
+      while (end < text.size() && (std::isalnum(static_cast<unsigned char>(text[end])) || text[end] == '_'))
+        ++end;
+      std::size_t length = end - at - 1;
+      while (length > 0 && !defaults_.contains(text.substr(at + 1, length))) --length;
+      if (length == 0) return text.substr(at + 1, end - at - 1);
+    }
+    return "";
+  }
+
   // Replaces $name by its default.
   std::string expanded(const std::string& text, const Origin& place) {
     if (text.find('$') == std::string::npos) return text;
@@ -253,6 +266,12 @@ class Loader {
     const Fail fails = failing_at(place);
     const auto value = [&] { return required(node, "value", place); };
     const auto put = [&](Value v) { add(*parent, name_of(node, source, place), std::move(v), place); };
+    // Mitsuba takes such values from its command line.
+    if (const std::string name = undefined_in(node.attribute("value").value()); !name.empty()) {
+      report_.dropped(fmt::format("\"${}\" has no <default>: the value is left at its plugin's own", name),
+                      place);
+      return;
+    }
     if (tag == "include")
       return read_file(resolve(required(node, "filename", place)), parent, place, depth + 1);
     if (tag == "default") {

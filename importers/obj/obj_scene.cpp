@@ -55,12 +55,17 @@ Library read_libraries(const Geometry& geometry, const std::filesystem::path& fo
                        Diagnostics& diagnostics) {
   Library library;
   std::set<std::string> seen;
+  // Names too long for the file system are no files either.
+  const auto is_file = [](const std::filesystem::path& path) {
+    std::error_code ignored;
+    return std::filesystem::is_regular_file(path, ignored);
+  };
   for (const Mention& statement : geometry.libraries) {
     // A name may hold blanks without backslashes.
-    const bool is_one_name = std::filesystem::is_regular_file(folder / statement.name);
+    const bool is_one_name = is_file(folder / statement.name);
     for (const std::string& name : is_one_name ? std::vector{statement.name} : split_names(statement.name)) {
       if (!seen.insert(name).second) continue;
-      if (std::filesystem::is_regular_file(folder / name)) {
+      if (is_file(folder / name)) {
         add_library(folder / name, library, diagnostics);
       } else {
         diagnostics.push_back({Fidelity::dropped,
