@@ -75,7 +75,7 @@ TriangleMesh obj_mesh(Builder& builder, const std::filesystem::path& path) {
 
 TriangleMesh ply_mesh(Builder& builder, const std::filesystem::path& path) {
   Diagnostics diagnostics;
-  TriangleMesh mesh = read_ply(path, &diagnostics);
+  TriangleMesh mesh = read_ply(path, &diagnostics, PlyAttributes::read);
   builder.report.add(std::move(diagnostics));
   return mesh;
 }

@@ -7,6 +7,7 @@
 #include <span>
 #include <string_view>
 
+#include "importers/ply/ply_attributes.h"
 #include "importers/ply/ply_body.h"
 
 namespace vitrail {
@@ -80,7 +81,13 @@ bool is_used(const BodyPlan& plan, std::size_t element) {
          (plan.strips && element == plan.strips->element);
 }
 
-bool is_used(const BodyPlan& plan, std::size_t element, std::size_t property) {
+using Attributes = std::vector<AttributePlan>;
+
+bool is_used(const BodyPlan& plan, const Attributes& attributes, std::size_t element, std::size_t property) {
+  if (std::ranges::any_of(attributes, [&](const AttributePlan& a) {
+        return a.element == element && std::ranges::count(a.properties, property) > 0;
+      }))
+    return true;
   if (element == plan.vertex_element)
     return std::ranges::count(plan.vertex.property, std::optional(property)) > 0;
   return std::ranges::any_of(std::array{plan.faces, plan.strips}, [&](const auto& faces) {
@@ -88,7 +95,8 @@ bool is_used(const BodyPlan& plan, std::size_t element, std::size_t property) {
   });
 }
 
-void report_skipped(const Header& header, const BodyPlan& plan, Diagnostics& diagnostics) {
+void report_skipped(const Header& header, const BodyPlan& plan, const Attributes& attributes,
+                    Diagnostics& diagnostics) {
   for (std::size_t e = 0; e < header.elements.size(); ++e) {
     const Element& element = header.elements[e];
     if (!is_used(plan, e)) {
@@ -96,7 +104,7 @@ void report_skipped(const Header& header, const BodyPlan& plan, Diagnostics& dia
       continue;
     }
     for (std::size_t i = 0; i < element.properties.size(); ++i) {
-      if (is_used(plan, e, i)) continue;
+      if (is_used(plan, attributes, e, i)) continue;
       const Property& property = element.properties[i];
       diagnostics.push_back({Fidelity::dropped,
                              fmt::format("property {} of element {}", property.name, element.name),
@@ -107,15 +115,17 @@ void report_skipped(const Header& header, const BodyPlan& plan, Diagnostics& dia
 
 }  // namespace
 
-TriangleMesh read_ply(const std::filesystem::path& file, Diagnostics* diagnostics) {
+TriangleMesh read_ply(const std::filesystem::path& file, Diagnostics* diagnostics, PlyAttributes wanted) {
   const InputBytes bytes(file);
   const std::string name = file.string();
   TextCursor cursor(name, bytes.begin(), bytes.end());
   const Header header = read_header(cursor);
   const BodyPlan plan = make_plan(header, cursor);
+  const Attributes attributes = wanted == PlyAttributes::read ? plan_attributes(header, plan) : Attributes{};
   Body body = read_body(bytes, cursor, header, plan);
+  read_attributes(bytes, cursor, header, plan, attributes, body.mesh);
   if (diagnostics) {
-    report_skipped(header, plan, *diagnostics);
+    report_skipped(header, plan, attributes, *diagnostics);
     if (body.dropped_faces > 0) {
       diagnostics->push_back({Fidelity::dropped,
                               fmt::format("{} faces with fewer than three corners", body.dropped_faces),

@@ -12,10 +12,13 @@ namespace vitrail {
 // The mesh of a PLY file: vertex x y z, nx ny nz, (u v | s t | texture_u texture_v | texture_s texture_t),
 // and the lists vertex_indices | vertex_index of faces and of tristrips (-1 ends a strip). Polygons become
 // triangles (see shapes/polygon.h), in the order of the file; a face of fewer than three corners is dropped.
-// Everything else in the file is skipped; `diagnostics`, if given, gets one entry for each property or
+// Everything else in the file is skipped, but for attributes (ply_attributes.h) where they are asked for;
+// `diagnostics`, if given, gets one entry for each property or
 // element skipped. Bad input throws Error: in ASCII with the place of the offender, in binary with its byte
 // offset in the message and the line of the header that declares it. Memory is claimed only for what the
 // bytes of the file can hold.
-TriangleMesh read_ply(const std::filesystem::path& file, Diagnostics* diagnostics = nullptr);
+enum class PlyAttributes { skip, read };
+TriangleMesh read_ply(const std::filesystem::path& file, Diagnostics* diagnostics = nullptr,
+                      PlyAttributes wanted = PlyAttributes::skip);
 
 }  // namespace vitrail

@@ -9,6 +9,8 @@
 
 #include "importers/mitsuba/builder.h"
 #include "importers/mitsuba/serialized.h"
+#include "importers/ply/ply.h"
+#include "importers/ply/write_ply.h"
 #include "tests/importers/temporary_folder.h"
 
 namespace vitrail::mitsuba {
@@ -190,6 +192,42 @@ TEST(MitsubaShapes, ObjIsOneMeshWithItsTextureCoordinatesTurned) {
   EXPECT_NEAR(n.y, -0.4472136f, 1e-6f);
   EXPECT_NEAR(reading.mesh().normals[0].x, -0.23570228f, 1e-6f);
   EXPECT_THAT(reading.report.take(), testing::IsEmpty());
+}
+
+TEST(MitsubaShapes, PlyFilesKeepTheirAttributes) {
+  TemporaryFolder folder;
+  const auto file = folder.write(
+      "a.ply",
+      "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float "
+      "z\nproperty "
+      "uchar red\nproperty uchar green\nproperty uchar blue\nproperty float w_0\nproperty float quality\n"
+      "property float n_r\nproperty float n_g\nproperty float n_b\nelement face 2\nproperty float c_0\n"
+      "property list uchar int vertex_indices\nproperty float p_0\nproperty float p_1\nend_header\n"
+      "0 0 0 1 2 3 .5 9 7 8 9\n1 0 0 4 5 6 .6 9 7 8 9\n1 1 0 7 8 9 .7 9 7 8 9\n0 1 0 10 11 12 .8 9 7 8 9\n"
+      ".25 4 0 1 2 3 0 0\n.75 3 0 1 2 0 0\n");
+  Reading reading;
+  reading.add(shape("ply", {{"filename", file.string(), {}}}));
+  const auto& attributes = reading.mesh().attributes;
+  ASSERT_EQ(attributes.size(), 4u);
+  EXPECT_EQ(attributes[0],
+            (MeshAttribute{"vertex_color", false, 3, {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12}}));
+  EXPECT_EQ(attributes[1], (MeshAttribute{"vertex_w", false, 1, {.5f, .6f, .7f, .8f}}));
+  EXPECT_EQ(attributes[2].name, "vertex_n_color");
+  EXPECT_EQ(attributes[3], (MeshAttribute{"face_c", true, 1, {.25f, .25f, .75f}}));
+  EXPECT_EQ(reading.report.take().size(), 3u);  // quality, p_0 and p_1
+}
+
+TEST(MitsubaShapes, AttributesSurviveWritingAndReading) {
+  TemporaryFolder folder;
+  TriangleMesh mesh;
+  mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  mesh.triangles = {{0, 1, 2}, {2, 1, 0}};
+  mesh.uvs = {{0, 0}, {1, 0}, {0, 1}};
+  mesh.attributes = {{"vertex_color", false, 3, {1, 2, 3, 4, 5, 6, 7, 8, 9}},
+                     {"vertex_wear", false, 1, {1, 2, 3}},
+                     {"face_color", true, 3, {1, 2, 3, 4, 5, 6}}};
+  write_ply(mesh, folder / "a.ply");
+  EXPECT_EQ(read_ply(folder / "a.ply", nullptr, PlyAttributes::read), mesh);
 }
 
 TEST(MitsubaShapes, ShapesHaveNamesMediaLightsAndPlaces) {
