@@ -290,6 +290,11 @@ std::optional<ShapeGeometry> ShapeMaker::make(const std::string& kind, Parameter
           parameters.find("shadowalpha", {ParameterType::number, ParameterType::texture}))
     context_.report.dropped("\"shadowalpha\" of shapes: shadows follow \"alpha\"", alpha->place);
   std::optional<ShapeGeometry> geometry;
+  if (kind == "curve") {
+    geometry = curve(parameters);
+    parameters.report_unused(context_.report);
+    return geometry;
+  }
   if (kind == "trianglemesh")
     geometry = triangle_mesh(parameters);
   else if (kind == "plymesh")
@@ -305,7 +310,7 @@ std::optional<ShapeGeometry> ShapeMaker::make(const std::string& kind, Parameter
     return geometry;
   }
   const std::string closest = closest_word(
-      kind, {"trianglemesh", "plymesh", "bilinearmesh", "loopsubdiv", "sphere", "disk", "cylinder"});
+      kind, {"trianglemesh", "plymesh", "bilinearmesh", "loopsubdiv", "curve", "sphere", "disk", "cylinder"});
   context_.report.dropped(fmt::format("shape \"{}\" is not supported{}", kind,
                                       closest.empty() ? "" : fmt::format("; did you mean \"{}\"?", closest)),
                           parameters.place());

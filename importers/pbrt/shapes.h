@@ -37,6 +37,7 @@ class ShapeMaker {
   ShapeGeometry ply_mesh(ParameterSet& parameters);
   ShapeGeometry bilinear_mesh(ParameterSet& parameters);
   ShapeGeometry loop_subdivision(ParameterSet& parameters);
+  std::optional<ShapeGeometry> curve(ParameterSet& parameters);
   std::optional<ShapeGeometry> quadric(const std::string& kind, ParameterSet& parameters);
   Id<TriangleMesh> add(TriangleMesh mesh);
 

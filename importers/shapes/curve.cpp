@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -216,6 +217,53 @@ void append_tube(std::span<const CurveSegment> segments, const CurveDetail& deta
     if (j > 0)
       join_rings(static_cast<std::uint32_t>(mesh.positions.size() - 2 * row), detail.corners,
                  rings[j - 1].radius == 0, rings[j].radius == 0, mesh);
+  }
+}
+
+int steps_within(std::span<const CurveSegment> segments, double tolerance, int most) {
+  double bend = 0;  // the greatest second difference
+  for (const CurveSegment& s : segments)
+    for (std::size_t i = 0; i < 2; ++i)
+      bend = std::max(bend,
+                      length((s[i + 2].position - s[i + 1].position) - (s[i + 1].position - s[i].position)));
+  const double steps = std::sqrt(0.75 * bend / tolerance);
+  return steps < most ? std::max(1, static_cast<int>(std::ceil(steps))) : most;
+}
+
+namespace {
+
+Vector3d interpolate_on_sphere(Vector3d a, Vector3d b, double t) {
+  const double angle = std::atan2(length(cross(a, b)), dot(a, b)), sine = std::sin(angle);
+  if (!(sine > 1e-6)) return normalize(a * (1 - t) + b * t);
+  return a * (std::sin((1 - t) * angle) / sine) + b * (std::sin(t * angle) / sine);
+}
+
+}  // namespace
+
+void append_ribbon(std::span<const CurveSegment> segments, std::span<const Vector3d> normals,
+                   const CurveDetail& detail, TriangleMesh& mesh) {
+  const std::vector<Sample> samples = samples_of(segments, detail.steps);
+  if (samples.size() < 2) return;
+  require_room(mesh, 2 * samples.size());
+  const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+  for (const Sample& s : samples) {
+    const auto segment = std::min(static_cast<std::size_t>(s.along), segments.size() - 1);
+    const Vector3d normal = interpolate_on_sphere(
+        normalize(normals[segment]), normalize(normals[segment + 1]), s.along - static_cast<double>(segment));
+    const Vector3d across = normalize(cross(normal, s.tangent));
+    const auto u = static_cast<float>(s.along / static_cast<double>(segments.size()));
+    for (const double side : {-1.0, 1.0}) {
+      const Point3f p = cast<float>(s.center + across * (side * s.radius));
+      if (!is_finite(p)) throw Error("curves: a point is not finite in single precision");
+      mesh.positions.push_back(p);
+      mesh.normals.push_back(cast<float>(to_normal(cross(s.tangent, across))));
+      mesh.uvs.push_back({u, side < 0 ? 0.f : 1.f});
+    }
+  }
+  for (std::uint32_t j = 0; j + 1 < samples.size(); ++j) {
+    const std::uint32_t a = first + 2 * j;
+    mesh.triangles.push_back({a, a + 2, a + 3});
+    mesh.triangles.push_back({a, a + 3, a + 1});
   }
 }
 

@@ -33,6 +33,9 @@ struct CurveDetail {
 // Throws Error for so many segments that no mesh can hold them.
 CurveDetail curve_detail(std::size_t segments, bool straight);
 
+// Steps a segment after which chords are this near to the curve (Wang 1984), at most `most`.
+int steps_within(std::span<const CurveSegment> segments, double tolerance, int most);
+
 // Appends the tube around a curve; its front is outside. u runs around it from 0 to 1, beginning at the
 // second axis of Duff's frame (2017) around the first tangent; v runs along it from `v_first` to `v_last`,
 // equally for all segments. `round_ends` adds half a sphere at either end, else the ends are open.

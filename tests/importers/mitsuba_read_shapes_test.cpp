@@ -11,6 +11,7 @@
 #include "importers/mitsuba/serialized.h"
 #include "importers/ply/ply.h"
 #include "importers/ply/write_ply.h"
+#include "importers/shapes/curve.h"
 #include "tests/importers/temporary_folder.h"
 
 namespace vitrail::mitsuba {
@@ -300,6 +301,53 @@ TEST(MitsubaShapes, CurvesBecomeTubes) {
   EXPECT_NEAR(area(linear.mesh()), 2 * pi * 3 * (.1 + .2) + 4 * pi * (.01 + .04), 0.1);
   for (const TriangleMesh* mesh : {&bspline.mesh(), &linear.mesh()})
     for (const Point2f uv : mesh->uvs) ASSERT_TRUE(uv.x >= 0 && uv.x <= 1 && uv.y >= 0 && uv.y <= 1);
+}
+
+TEST(Curves, BasesAgreeWhereTheyDescribeOneCurve) {
+  const std::vector<CurvePoint> points{{{0, 0, 0}, 1}, {{1, 2, 0}, 2}, {{3, 2, 1}, 1}, {{4, 0, 0}, 3}};
+  const auto cubic = bspline_segments(points);
+  ASSERT_EQ(cubic.size(), 1u);
+  // (p0 + 4·p1 + p2) / 6 and (p1 + 4·p2 + p3) / 6
+  EXPECT_NEAR(cubic[0][0].position.x, 7.0 / 6, 1e-15);
+  EXPECT_NEAR(cubic[0][0].radius, 10.0 / 6, 1e-15);
+  EXPECT_NEAR(cubic[0][3].position.y, 10.0 / 6, 1e-15);
+  const auto quadratic = quadratic_bspline_segments(points);
+  ASSERT_EQ(quadratic.size(), 2u);
+  EXPECT_EQ(quadratic[0][3].position, quadratic[1][0].position);
+  EXPECT_EQ(quadratic[0][0].position, (Point3d{0.5, 1, 0}));
+  const auto bezier = quadratic_bezier_segments(std::span(points).first(3));
+  EXPECT_NEAR(bezier[0][1].position.y, 4.0 / 3, 1e-15);
+  EXPECT_EQ(bezier_segments(points).size(), 1u);
+  EXPECT_EQ(linear_segments(points).size(), 3u);
+  EXPECT_EQ(bspline_segments(std::span(points).first(3)).size(), 0u);
+}
+
+TEST(Curves, TubesThatBendTurnBackOrEndInAPointKeepTheirFront) {
+  const std::vector<CurvePoint> bent{{{0, 0, 0}, .1}, {{0, 0, 1}, .1}, {{0, 1, 1}, .1}, {{1, 1, 0}, 0}};
+  TriangleMesh mesh;
+  append_tube(bezier_segments(bent), {16, 12}, 0, 1, false, mesh);
+  expect_fronts_follow_normals(mesh);
+  TriangleMesh back;
+  const std::vector<CurvePoint> hairpin{{{0, 0, 0}, .1}, {{1, 0, 0}, .1}, {{0, 0, 0}, .1}, {{0, 0, 0}, .1}};
+  append_tube(linear_segments(hairpin), {1, 4}, 0, 1, true, back);
+  for (const Normal3f n : back.normals) ASSERT_TRUE(std::isfinite(n.x + n.y + n.z));
+  TriangleMesh none;
+  const std::vector<CurvePoint> point(4, {{1, 1, 1}, 1});
+  append_tube(bezier_segments(point), {4, 4}, 0, 1, true, none);
+  EXPECT_TRUE(none.triangles.empty());
+  EXPECT_THROW(curve_detail(1000000000, false), Error);
+}
+
+TEST(Curves, RibbonsFaceTheirNormals) {
+  const std::vector<CurvePoint> straight{{{0, 0, 0}, .5}, {{1, 0, 0}, .5}, {{2, 0, 0}, .5}, {{3, 0, 0}, .5}};
+  const std::vector<Vector3d> normals{{0, 0, 1}, {0, 2, 0}};
+  TriangleMesh mesh;
+  append_ribbon(bezier_segments(straight), normals, {8, 0}, mesh);
+  expect_fronts_follow_normals(mesh);
+  EXPECT_EQ(mesh.positions.size(), 18u);
+  EXPECT_NEAR(mesh.normals[8].y, std::sqrt(0.5), 1e-6);  // half-way
+  EXPECT_EQ(mesh.uvs[17], (Point2f{1, 1}));
+  EXPECT_EQ(mesh.positions[0], (Point3f{0, -.5f, 0}));
 }
 
 TEST(MitsubaShapes, BadCurvesAreErrorsWithTheirPlace) {

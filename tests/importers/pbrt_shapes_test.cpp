@@ -179,5 +179,34 @@ TEST(PbrtShapes, CurvedOnesAreReported) {
   EXPECT_THAT(imported.diagnostics[4].message, ::testing::HasSubstr("nurbs"));
 }
 
+TEST(PbrtCurves, BecomeTubesAndRibbons) {
+  const std::string p = " \"point3 P\" [0 0 0 1 0 0 2 0 0 3 0 0] \"float width\" 2 ";
+  const auto mesh_of = [](const std::string& world) { return import_v4(world).scene.meshes.at(0); };
+  const TriangleMesh tube = mesh_of("Shape \"curve\" \"string type\" \"cylinder\"" + p);
+  EXPECT_EQ(tube.triangles.size(), 12u);  // straight: one step
+  EXPECT_EQ(tube.positions[0].x, 0);
+  EXPECT_NEAR(std::hypot(tube.positions[0].y, tube.positions[0].z), 1, 1e-6);
+  EXPECT_EQ(tube.uvs.back(), (Point2f{1, 1}));
+  EXPECT_EQ(tube.positions.back().x, 3);
+  const TriangleMesh ribbon =
+      mesh_of("Shape \"curve\" \"string type\" \"ribbon\" \"normal N\" [0 0 1 0 0 1] \"float width1\" 0" + p);
+  EXPECT_EQ(ribbon.triangles.size(), 2u);
+  EXPECT_EQ(ribbon.positions[0], (Point3f{0, -1, 0}));
+  EXPECT_EQ(ribbon.positions[3], (Point3f{3, 0, 0}));
+  EXPECT_EQ(mesh_of("Shape \"curve\" \"string basis\" \"bspline\" \"integer degree\" 2" + p).positions[0].x,
+            0.5f);
+  const ImportedScene flat = import_v4("Shape \"curve\"" + p);
+  EXPECT_EQ(flat.diagnostics.size(), 1u);
+}
+
+TEST(PbrtCurves, AreRefusedWhereTheyMakeNoSense) {
+  for (const char* bad : {"\"point3 P\" [0 0 0 1 0 0 2 0 0]", "\"point3 P\" [0 0 0 1 0 0 2 0 0 3 0 0 4 0 0]",
+                          "\"point3 P\" [0 0 0 1 0 0 2 0 0 3 0 0] \"float width\" -1",
+                          "\"point3 P\" [0 0 0 1 0 0 2 0 0 3 0 0] \"integer degree\" 4",
+                          "\"point3 P\" [0 0 0 1 0 0 2 0 0 3 0 0] \"string basis\" \"hermite\"",
+                          "\"point3 P\" [0 0 0 1 0 0 2 0 0 3 0 0] \"string type\" \"ribbon\""})
+    EXPECT_THROW(import_v4(std::string("Shape \"curve\" ") + bad), Error) << bad;
+}
+
 }  // namespace
 }  // namespace vitrail
