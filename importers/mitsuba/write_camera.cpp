@@ -101,6 +101,23 @@ std::optional<double> exact_offset(double lower, double upper, double half) {
   return std::nullopt;
 }
 
+HalfScreen half_screen(bool by_height, double size, double aspect) {
+  return by_height ? half_screen_of_height(size, aspect) : half_screen_of_width(size, aspect);
+}
+
+// The nearest where no numbers give exactly the window.
+WrittenScreen nearest_screen(const ScreenWindow& s, bool by_height) {
+  const double size = by_height ? (s.y1 - s.y0) / 2 : (s.x1 - s.x0) / 2;
+  return {by_height, field_of_view_deg(size), (s.x0 + s.x1) / 2 / (s.x1 - s.x0),
+          -(s.y0 + s.y1) / 2 / (s.y1 - s.y0)};
+}
+
+double error_of(const WrittenScreen& written, const ScreenWindow& s, double aspect) {
+  const HalfScreen half = half_screen(written.by_height, tan_half(written.fov_deg), aspect);
+  const ScreenWindow r = mitsuba::screen_window(half, written.offset_x, written.offset_y);
+  return std::abs(r.x0 - s.x0) + std::abs(r.x1 - s.x1) + std::abs(r.y0 - s.y0) + std::abs(r.y1 - s.y1);
+}
+
 WrittenScreen written_screen(const ScreenWindow& s, double aspect) {
   const double x = (s.x1 - s.x0) / 2, y = (s.y1 - s.y0) / 2;
   const bool first_by_height =
@@ -109,13 +126,12 @@ WrittenScreen written_screen(const ScreenWindow& s, double aspect) {
     for (const double size : neighbours(by_height ? y : x)) {
       const double fov = field_of_view_deg(size);
       if (tan_half(fov) != size) continue;
-      const HalfScreen half =
-          by_height ? half_screen_of_height(size, aspect) : half_screen_of_width(size, aspect);
+      const HalfScreen half = half_screen(by_height, size, aspect);
       const auto offset_x = exact_offset(s.x0, s.x1, half.x), offset_y = exact_offset(-s.y1, -s.y0, half.y);
       if (offset_x && offset_y) return {by_height, fov, *offset_x, *offset_y};
     }
-  return {first_by_height, field_of_view_deg(first_by_height ? y : x), (s.x0 + s.x1) / 2 / (s.x1 - s.x0),
-          -(s.y0 + s.y1) / 2 / (s.y1 - s.y0)};
+  const WrittenScreen by_width = nearest_screen(s, false), by_height = nearest_screen(s, true);
+  return error_of(by_height, s, aspect) < error_of(by_width, s, aspect) ? by_height : by_width;
 }
 
 WrittenScreen add_field_of_view(Context& context, Element sensor, const ScreenWindow& screen) {

@@ -168,7 +168,7 @@ TEST_F(MitsubaEmitters, WhatIsDroppedIsSaid) {
   EXPECT_THAT(diagnostics_, says("did you mean \"point\""));
   EXPECT_THAT(diagnostics_, says("belongs into a shape"));
   for (const Diagnostic& diagnostic : diagnostics_) EXPECT_GT(diagnostic.item.column, 0);
-  read_text("<shape type='sphere'><emitter type='aera'/></shape>");
+  read_text("<shape type='sphere'><emitter type='aree'/></shape>");
   EXPECT_THAT(scene_.area_lights, IsEmpty());
   EXPECT_THAT(diagnostics_, says("did you mean \"area\""));
   read_text("<emitter type='point'><float name='foo' value='1'/></emitter>");
