@@ -81,6 +81,11 @@ Lens read_lens(const Object& sensor, const Report& report) {
   return lens;
 }
 
+bool is_sound(const ScreenWindow& s) {
+  const double width = s.x1 - s.x0, height = s.y1 - s.y0;
+  return width > 0 && height > 0 && std::isfinite(width) && std::isfinite(height);
+}
+
 Camera perspective(const Object& sensor, const FilmSettings& film, const Report& report) {
   PerspectiveCamera camera{read_camera_to_world(sensor, report), {}, {}};
   const HalfScreen half = read_half_screen(sensor, aspect_of(film), report);
@@ -88,6 +93,7 @@ Camera perspective(const Object& sensor, const FilmSettings& film, const Report&
   const double x = lens ? 0 : sensor.number("principal_point_offset_x", 0, report),
                y = lens ? 0 : sensor.number("principal_point_offset_y", 0, report);
   camera.screen = screen_window(half, x, y);
+  if (!is_sound(camera.screen)) report.fail("the camera's screen is empty or without end", sensor.origin);
   if (lens) camera.lens = read_lens(sensor, report);
   return camera;
 }

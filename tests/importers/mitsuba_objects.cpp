@@ -51,14 +51,14 @@ Value spectrum_of(const std::string& text) {
   return spectrum;
 }
 
-ObjectPtr object_from(pugi::xml_node element, Known& known, const std::string& text);
+ObjectPtr object_from(pugi::xml_node element, Known& known);
 
 // The places are offsets in the text: line 1, column = offset.
 Origin origin_of(pugi::xml_node element) {
   return {0, 1, static_cast<std::uint32_t>(element.offset_debug())};
 }
 
-Value value_of(pugi::xml_node element, Known& known, const std::string& text) {
+Value value_of(pugi::xml_node element, Known& known) {
   const std::string tag = element.name(), value = element.attribute("value").value();
   if (tag == "float") return std::strtod(value.c_str(), nullptr);
   if (tag == "integer") return static_cast<long long>(std::stoll(value));
@@ -75,10 +75,10 @@ Value value_of(pugi::xml_node element, Known& known, const std::string& text) {
     return RgbValue{{c.at(0), c.at(1), c.at(2)}};
   }
   if (tag == "spectrum" && !value.empty()) return spectrum_of(value);
-  return object_from(element, known, text);
+  return object_from(element, known);
 }
 
-ObjectPtr object_from(pugi::xml_node element, Known& known, const std::string& text) {
+ObjectPtr object_from(pugi::xml_node element, Known& known) {
   auto object = std::make_shared<Object>();
   object->tag = element.name();
   object->type = element.attribute("type").value();
@@ -87,7 +87,7 @@ ObjectPtr object_from(pugi::xml_node element, Known& known, const std::string& t
   for (const pugi::xml_node child : element)
     if (child.type() == pugi::node_element)
       object->properties.push_back(
-          {child.attribute("name").value(), value_of(child, known, text), origin_of(child), false});
+          {child.attribute("name").value(), value_of(child, known), origin_of(child), false});
   if (!object->id.empty()) known[object->id] = object;
   return object;
 }
@@ -97,7 +97,7 @@ Object root_of(const pugi::xml_document& document) {
   // Media may stand after what refers to them in hand-made files; written ones come after the sensor.
   for (const pugi::xml_node element : document.child("scene"))
     if (element.name() == std::string_view("medium") || element.name() == std::string_view("texture"))
-      object_from(element, known, "");
+      object_from(element, known);
   Object root;
   root.tag = "scene";
   for (const pugi::xml_node element : document.child("scene")) {
@@ -105,7 +105,7 @@ Object root_of(const pugi::xml_document& document) {
     const std::string id = element.attribute("id").value();
     const bool made = known.contains(id) && known.at(id)->tag == element.name();
     root.properties.push_back(
-        {"", made ? known.at(id) : object_from(element, known, ""), origin_of(element), false});
+        {"", made ? known.at(id) : object_from(element, known), origin_of(element), false});
   }
   return root;
 }

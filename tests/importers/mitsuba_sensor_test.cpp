@@ -153,7 +153,7 @@ class WrittenCameras : public testing::Test {
 };
 
 TEST_F(WrittenCameras, PerspectiveComesBackToTheBit) {
-  for (int i = 0; i < 100; ++i) {
+  for (int i = 0; i < 50; ++i) {
     Scene original = scene();
     const double fov = i == 0 ? 90 : uniform(1, 170);
     const double half = fov == 90 ? 1 : std::tan(fov / 2 * std::numbers::pi / 180);
@@ -169,7 +169,7 @@ TEST_F(WrittenCameras, PerspectiveComesBackToTheBit) {
 
 TEST_F(WrittenCameras, OffCentreWindowsComeBack) {
   int exact = 0;
-  constexpr int count = 200;
+  constexpr int count = 60;
   for (int i = 0; i < count; ++i) {
     Scene original = scene();
     const ScreenWindow whole = natural(original.film, uniform(0.1, 2));
@@ -187,12 +187,11 @@ TEST_F(WrittenCameras, OffCentreWindowsComeBack) {
     // What has been read once comes back to the bit.
     EXPECT_EQ(written_and_read(again).scene.camera, again.camera) << "camera " << i;
   }
-  RecordProperty("exact", exact);
-  std::printf("off-centre windows equal to the bit: %d of %d\n", exact, count);
+  EXPECT_GT(exact, count / 2);  // four edges, each rounded by itself, follow from three numbers
 }
 
 TEST_F(WrittenCameras, Orthographic) {
-  for (int i = 0; i < 50; ++i) {
+  for (int i = 0; i < 15; ++i) {
     Scene original = scene();
     const double aspect = static_cast<double>(original.film.width) / original.film.height;
     original.camera = OrthographicCamera{rigid(), {-1, 1, -1 / aspect, 1 / aspect}, {}};
@@ -282,7 +281,9 @@ TEST(MitsubaSensor, MistakesAreErrorsWithTheirPlace) {
         sensor("perspective", "<string name='focal_length' value='50cm'/>"),
         sensor("perspective", "<string name='focal_length' value='-1mm'/>"),
         sensor("perspective", "<float name='fov' value='50'/><string name='fov_axis' value='z'/>"),
-        sensor("thinlens", ""), sensor("thinlens", lens + "<float name='focus_distance' value='0'/>"),
+        sensor("perspective", "<string name='focal_length' value='1e-320'/>"),
+        sensor("perspective", "<float name='principal_point_offset_x' value='inf'/>"), sensor("thinlens", ""),
+        sensor("thinlens", lens + "<float name='focus_distance' value='0'/>"),
         sensor("perspective",
                "<sampler type='independent'><integer name='sample_count' value='0'/></sampler>"),
         sensor("perspective", "", 0, 4), sensor("perspective", "", 1 << 30, 4), sensor("batch", "")}) {
