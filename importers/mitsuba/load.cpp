@@ -118,6 +118,11 @@ class Loader {
     for (auto folder = search_.rbegin(); folder != search_.rend(); ++folder)
       if (std::filesystem::exists(*folder / name, ignored))
         return std::filesystem::absolute(*folder / name).lexically_normal();
+    // Collections of scenes keep what they share in a folder "common" above them.
+    std::filesystem::path above = std::filesystem::absolute(search_.front());
+    for (int levels = 0; levels < 4 && above.has_relative_path(); ++levels, above = above.parent_path())
+      if (std::filesystem::exists(above / "common" / name, ignored))
+        return (above / "common" / name).lexically_normal();
     return std::filesystem::absolute(search_.front() / name).lexically_normal();
   }
 
