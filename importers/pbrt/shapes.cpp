@@ -261,25 +261,29 @@ std::optional<ShapeGeometry> ShapeMaker::quadric(const std::string& kind, Parame
   QuadricKey key;
   if (kind == "disk") {
     key = {kind, radius, parameters.number("height", 0), parameters.number("innerradius", 0), phimax};
+  } else if (kind == "cone") {
+    key = {kind, radius, parameters.number("height", 1), 0, phimax};
   } else {
-    const double extent = sphere ? radius : 1;
-    key = {kind, radius, parameters.number("zmin", -extent), parameters.number("zmax", extent), phimax};
+    const double extent = sphere ? radius : 1, bottom = kind == "paraboloid" ? 0 : -extent;
+    key = {kind, radius, parameters.number("zmin", bottom), parameters.number("zmax", extent), phimax};
   }
   const auto [known, is_new] = quadrics_.try_emplace(key);
   if (is_new) {
     const double a = std::get<2>(key), b = std::get<3>(key), phimax_rad = phimax * std::numbers::pi / 180;
     try {
-      known->second = add(sphere           ? tessellate_sphere(radius, a, b, phimax_rad)
-                          : kind == "disk" ? tessellate_disk(a, radius, b, phimax_rad)
-                                           : tessellate_cylinder(radius, a, b, phimax_rad));
+      known->second = add(sphere                 ? tessellate_sphere(radius, a, b, phimax_rad)
+                          : kind == "disk"       ? tessellate_disk(a, radius, b, phimax_rad)
+                          : kind == "cone"       ? tessellate_cone(radius, a, phimax_rad)
+                          : kind == "paraboloid" ? tessellate_paraboloid(radius, a, b, phimax_rad)
+                                                 : tessellate_cylinder(radius, a, b, phimax_rad));
     } catch (const Error& error) {
       fail(error.what(), parameters.place());
     }
   }
   context_.report.approximated(fmt::format("each {} becomes triangles, {} for a full turn", kind,
-                                           sphere           ? sphere_segments
-                                           : kind == "disk" ? disk_segments
-                                                            : cylinder_segments),
+                                           sphere || kind == "paraboloid" ? sphere_segments
+                                           : kind == "disk"               ? disk_segments
+                                                                          : cylinder_segments),
                                parameters.place());
   return ShapeGeometry{known->second, true, {}, 1};
 }
@@ -303,14 +307,15 @@ std::optional<ShapeGeometry> ShapeMaker::make(const std::string& kind, Parameter
     geometry = bilinear_mesh(parameters);
   else if (kind == "loopsubdiv")
     geometry = loop_subdivision(parameters);
-  else if (kind == "sphere" || kind == "disk" || kind == "cylinder")
+  else if (kind == "sphere" || kind == "disk" || kind == "cylinder" || kind == "cone" || kind == "paraboloid")
     geometry = quadric(kind, parameters);
   if (geometry) {
     parameters.report_unused(context_.report);
     return geometry;
   }
-  const std::string closest = closest_word(
-      kind, {"trianglemesh", "plymesh", "bilinearmesh", "loopsubdiv", "curve", "sphere", "disk", "cylinder"});
+  const std::string closest =
+      closest_word(kind, {"trianglemesh", "plymesh", "bilinearmesh", "loopsubdiv", "curve", "sphere", "disk",
+                          "cylinder", "cone", "paraboloid"});
   context_.report.dropped(fmt::format("shape \"{}\" is not supported{}", kind,
                                       closest.empty() ? "" : fmt::format("; did you mean \"{}\"?", closest)),
                           parameters.place());

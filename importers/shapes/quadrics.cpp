@@ -139,4 +139,30 @@ TriangleMesh tessellate_cylinder(double radius, double zmin, double zmax, double
                  {{radius, bottom, 1, 0, 0.f}, {radius, top, 1, 0, 1.f}});
 }
 
+TriangleMesh tessellate_cone(double radius, double height, double phimax_rad) {
+  require_size(radius, "cone", "radius");
+  require_size(height, "cone", "height");
+  const double slant = std::hypot(radius, height), across = height / slant, up = radius / slant;
+  return revolve(columns(phimax_rad, cylinder_segments, "cone"),
+                 {{radius, 0, across, up, 0.f}, {0, height, across, up, 1.f}});
+}
+
+TriangleMesh tessellate_paraboloid(double radius, double zmin, double zmax, double phimax_rad) {
+  require_size(radius, "paraboloid", "radius");
+  const double bottom = std::min(zmin, zmax), top = std::max(zmin, zmax);
+  require_size(top, "paraboloid", "zmax");
+  require(bottom >= 0 && bottom < top, "paraboloid", "zmin", bottom, "at least 0 and below zmax");
+  constexpr int rows = 64;
+  const double first = radius * std::sqrt(bottom / top);
+  std::vector<Ring> rings;
+  for (int j = 0; j <= rows; ++j) {
+    const double r = first + (radius - first) * j / rows,
+                 z = j == 0 ? bottom : top * (r / radius) * (r / radius);
+    const double slope = 2 * top * r / (radius * radius), across = slope / std::hypot(1, slope);  // dz/dr
+    rings.push_back(
+        {r, z, across, -1 / std::hypot(1, slope), static_cast<float>((z - bottom) / (top - bottom))});
+  }
+  return revolve(columns(phimax_rad, sphere_segments, "paraboloid"), rings);
+}
+
 }  // namespace vitrail

@@ -34,6 +34,11 @@ TriangleMesh tessellate_disk(double height, double radius, double inner_radius, 
 // Without caps; u as above, v = 0 at zmin and 1 at zmax, which are sorted.
 TriangleMesh tessellate_cylinder(double radius, double zmin, double zmax, double phimax_rad);
 
+// pbrt-v3's, without caps, u as above: from the circle at z = 0 (v = 0) to the apex at z = height; and
+// z = zmax·(r/radius)² between zmin and zmax, which are sorted, v linear in z. The front is outside.
+TriangleMesh tessellate_cone(double radius, double height, double phimax_rad);
+TriangleMesh tessellate_paraboloid(double radius, double zmin, double zmax, double phimax_rad);
+
 // Four indices a patch: the corners at (u,v) = (0,0), (1,0), (0,1), (1,1). `normals` and `uvs` are empty or
 // have one entry a position. Planar patches become two triangles; if any patch is curved, all become n×n
 // grids, with the patch's own normals where none are given, and n such that the distance to the surface is ≤

@@ -12,6 +12,7 @@
 #include "importers/ply/ply.h"
 #include "importers/ply/write_ply.h"
 #include "importers/shapes/curve.h"
+#include "importers/shapes/shapes.h"
 #include "tests/importers/temporary_folder.h"
 
 namespace vitrail::mitsuba {
@@ -336,6 +337,18 @@ TEST(Curves, TubesThatBendTurnBackOrEndInAPointKeepTheirFront) {
   append_tube(bezier_segments(point), {4, 4}, 0, 1, true, none);
   EXPECT_TRUE(none.triangles.empty());
   EXPECT_THROW(curve_detail(1000000000, false), Error);
+}
+
+TEST(SurfacesOfRevolution, ConesAndParaboloidsFaceOutwards) {
+  const TriangleMesh cone = tessellate_cone(3, 4, 2 * pi),
+                     paraboloid = tessellate_paraboloid(2, 0, 1, 2 * pi);
+  expect_fronts_follow_normals(cone);
+  expect_fronts_follow_normals(paraboloid);
+  EXPECT_NEAR(area(cone), pi * 3 * 5, 0.01);
+  EXPECT_NEAR(area(paraboloid), pi * 8 / 3 * (std::pow(2, 1.5) - 1), 0.01);  // z = r²/4 up to r = 2
+  EXPECT_GT(tessellate_paraboloid(2, 0.25, 1, 1).positions[0].z, 0.2f);
+  EXPECT_THROW(tessellate_cone(-1, 1, 1), Error);
+  EXPECT_THROW(tessellate_paraboloid(1, -1, 1, 1), Error);
 }
 
 TEST(Curves, RibbonsFaceTheirNormals) {
