@@ -30,7 +30,8 @@ Id<Material> material_of(Builder& builder, const Object& shape) {
   if (!bsdfs.empty()) return add_material(builder, *std::get<ObjectPtr>(bsdfs.front()->value));
   const auto [known, is_new] = builder.materials.try_emplace(nullptr);
   if (is_new) {
-    Material material{DiffuseMaterial{}};
+    Material material;
+    material.model = DiffuseMaterial{};
     material.two_sided = false;
     material.origin = shape.origin;
     known->second = {static_cast<std::uint32_t>(builder.scene.materials.size())};
