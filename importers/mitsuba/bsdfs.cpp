@@ -352,8 +352,14 @@ Material bump_map(Builder& b, const Object& o) {
 Material normal_map(Builder& b, const Object& o) {
   Material material = inner(b, o);
   const Object* texture = o.child("texture");
-  if (texture) material.normal_map = add_texture(b, *texture, false);
-  if (!texture) b.report.dropped("a normal map without a texture", o.origin);
+  if (!texture) {
+    b.report.dropped("a normal map without a texture", o.origin);
+  } else if (texture->type == "rawconstant") {
+    const bool is_flat = texture->vector("value", b.report) == Vector3d{0.5, 0.5, 1};
+    if (!is_flat) b.report.dropped("a normal map that is the same everywhere", texture->origin);
+  } else {
+    material.normal_map = add_texture(b, *texture, false);
+  }
   return material;
 }
 

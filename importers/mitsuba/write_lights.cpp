@@ -46,8 +46,8 @@ void write(Context& context, Element root, const SpotLight& light) {
 // Mitsuba's projector is a camera: u = 0 on the left, at +x, and v = 0 at the top, at +y. pbrt has u = 0 at
 // −x, and the image's upper row at −y. The image times π is the irradiance at distance 1.
 void write(Context& context, Element root, const ProjectionLight& light) {
-  const auto* image = std::get_if<Id<Texture>>(&light.image);
-  if (!image || value_of(context, light.image)) return context.dropped("a projection light without an image");
+  if (!light.irradiance && value_of(context, light.image))
+    return context.dropped("a projection light without an image");
   Element element = add(root, "emitter", "projector");
   add_transform(element, light.light_to_world * scale({-1, 1, 1}));
   if (light.irradiance)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "importers/mitsuba/write_textures.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -165,11 +166,26 @@ WrittenTexture write_texture(Context& context, Element root, const Texture& text
   return spectrum_of(mean);
 }
 
+
+// A texture times a number that is the height of a bump map is written with the map (write_materials.cpp).
+const Id<Texture>* scaled_height(const Scene& scene, std::size_t index) {
+  const auto* product = std::get_if<ProductTexture>(&scene.textures[index].model);
+  const bool by_number = product && std::holds_alternative<Spectrum>(product->second);
+  const FloatParameter self = Id<Texture>{static_cast<std::uint32_t>(index)};
+  const bool is_height = std::any_of(scene.materials.begin(), scene.materials.end(),
+                                     [&](const Material& material) { return material.displacement == self; });
+  return by_number && is_height ? std::get_if<Id<Texture>>(&product->first) : nullptr;
+}
+
 }  // namespace
 
 void write_textures(Context& context, Element root) {
   for (std::size_t i = 0; i < context.scene.textures.size(); ++i) {
     context.origin = context.scene.textures[i].origin;
+    if (const auto* height = scaled_height(context.scene, i)) {
+      context.textures.push_back(context.textures.at(height->value));
+      continue;
+    }
     context.textures.push_back(write_texture(context, root, context.scene.textures[i], i));
   }
 }
