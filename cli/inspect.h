@@ -21,6 +21,15 @@ Report inspect_film(const std::filesystem::path& file);
 // Shared by scenes and bundles: bounds, requirements and their reasons, materials, lights, camera and film.
 Report describe(const Manifest& manifest);
 
+// What a scene says in its own terms: materials, textures (images with their pixels), media; and what it
+// needs of a renderer beyond the requirements of what is partitioned.
+Report describe_materials(const Scene& scene);
+Report describe_textures(const Scene& scene);
+Report describe_media(const Scene& scene);
+Report describe_needs(const Scene& scene);
+// Of all meshes, each once.
+std::uint64_t mesh_bytes(const Scene& scene);
+
 // "key: value" lines, nested by indentation; lists of records as tables.
 std::string to_text(const Report& report);
 

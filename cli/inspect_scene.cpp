@@ -147,6 +147,11 @@ Report inspect_scene(const std::filesystem::path& file) {
   r["shapes"] = s.shapes.size();
   r["prototypes"] = s.prototypes.size();
   r["instances"] = s.instances.size();
+  r["mesh_bytes"] = mesh_bytes(s);
+  r["needs"] = describe_needs(s);
+  r["materials_of_the_scene"] = describe_materials(s);
+  r["textures"] = describe_textures(s);
+  r["media"] = describe_media(s);
   r.update(describe(flatten(s).manifest));
   r["not_exact"] = describe_diagnostics(imported.diagnostics);
   r["not_rendered_exactly"] = describe_diagnostics(appearance_of(s).diagnostics);

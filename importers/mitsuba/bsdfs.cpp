@@ -390,19 +390,21 @@ Material make_material(Builder& b, const Object& o) {
 
 }  // namespace
 
+Id<Material> append(Builder& b, Material material) {
+  const bool through = transmits(material, b.transmitting);
+  b.transmitting.push_back(through);
+  b.sided.push_back(has_sides(material, through, b.sided));
+  b.scene.materials.push_back(std::move(material));
+  return {static_cast<std::uint32_t>(b.scene.materials.size() - 1)};
+}
+
 Id<Material> add_material(Builder& b, const Object& o) {
   if (const auto known = b.materials.find(&o); known != b.materials.end()) return known->second;
   const Origin before = b.report.begin_item(o.origin);
   Material material = make_material(b, o);
   material.name = o.id.starts_with("_unnamed_") ? "" : o.id;
-  const bool through = transmits(material, b.transmitting);
-  b.transmitting.push_back(through);
-  b.sided.push_back(has_sides(material, through, b.sided));
-  b.scene.materials.push_back(std::move(material));
   b.report.begin_item(before);
-  const Id<Material> id{static_cast<std::uint32_t>(b.scene.materials.size() - 1)};
-  b.materials[&o] = id;
-  return id;
+  return b.materials[&o] = append(b, std::move(material));
 }
 
 }  // namespace vitrail::mitsuba

@@ -44,6 +44,8 @@ Spectrum spectrum_value(Builder& builder, const Object& object, std::string_view
 Id<Texture> add_texture(Builder& builder, const Object& texture, bool as_float);
 
 // ---- bsdfs.cpp
+// Adds a record that is made here; those that it refers to have been added.
+Id<Material> append(Builder& builder, Material material);
 // The material of a <bsdf>; the same object gives the same material.
 Id<Material> add_material(Builder& builder, const Object& bsdf);
 

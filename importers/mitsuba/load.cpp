@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cmath>
 #include <map>
 #include <pugixml.hpp>
 #include <set>
@@ -43,6 +44,17 @@ std::string snake_case(const std::string& name) {
     result += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   }
   return result;
+}
+
+// Rodrigues' formula with the axis as it is: since version 2 Mitsuba does not make it a unit vector, and
+// files depend on that.
+Transform rotate_about(Vector3d a, double angle_rad) {
+  const double s = std::sin(angle_rad), c = std::cos(angle_rad), d = 1 - c;
+  Transform t;
+  t.m[0] = {a.x * a.x * d + c, a.x * a.y * d - a.z * s, a.x * a.z * d + a.y * s, 0};
+  t.m[1] = {a.y * a.x * d + a.z * s, a.y * a.y * d + c, a.y * a.z * d - a.x * s, 0};
+  t.m[2] = {a.z * a.x * d - a.y * s, a.z * a.y * d + a.x * s, a.z * a.z * d + c, 0};
+  return t;
 }
 
 // Where the lines of a text begin.
@@ -393,13 +405,15 @@ class Loader {
     return t;
   }
 
-  Transform read_step(pugi::xml_node node, const Origin& place) {
+  Transform read_step(pugi::xml_node node, const Source& source, const Origin& place) {
     const std::string tag = snake_case(node.name());
     if (tag == "translate") return translate(read_triple(node, 0, place));
     if (tag == "scale") return scale(read_triple(node, 1, place));
     if (tag == "rotate") {
-      const double angle = parse_number(required(node, "angle", place), failing_at(place));
-      return rotate(angle * 3.14159265358979323846 / 180, read_triple(node, 0, place));
+      const double angle =
+          parse_number(required(node, "angle", place), failing_at(place)) * 3.14159265358979323846 / 180;
+      const Vector3d axis = read_triple(node, 0, place);
+      return source.is_old ? rotate(angle, axis) : rotate_about(axis, angle);
     }
     if (tag == "matrix") return read_matrix(node, place);
     if (tag == "lookat" || tag == "look_at") return read_look_at(node, place);
@@ -413,7 +427,7 @@ class Loader {
   Transform read_transform(pugi::xml_node node, const Source& source) {
     Transform total;
     for (const pugi::xml_node step : node.children())
-      if (step.type() == pugi::node_element) total = read_step(step, origin(source, step)) * total;
+      if (step.type() == pugi::node_element) total = read_step(step, source, origin(source, step)) * total;
     return total;
   }
 

@@ -34,8 +34,7 @@ Id<Material> material_of(Builder& builder, const Object& shape) {
     material.model = DiffuseMaterial{};
     material.two_sided = false;
     material.origin = shape.origin;
-    known->second = {static_cast<std::uint32_t>(builder.scene.materials.size())};
-    builder.scene.materials.push_back(std::move(material));
+    known->second = append(builder, std::move(material));
   }
   return known->second;
 }

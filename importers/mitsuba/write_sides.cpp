@@ -52,7 +52,8 @@ MeshFile mesh_file(Context& context, const Shape& shape, bool sides_matter) {
   const TriangleMesh& mesh = context.scene.meshes[shape.mesh.value];
   if (!sides_matter || !normals_point_behind(mesh, shape))
     return {context.meshes.name(shape.mesh), shape.flip_orientation};
-  context.approximated("Mitsuba goes by the shading normals: a copy of the mesh is written, wound the other way");
+  context.approximated(
+      "Mitsuba goes by the shading normals: a copy of the mesh is written, wound the other way");
   TriangleMesh copy = mesh;
   reverse_winding(copy);
   return {write_derived(context, copy), !shape.flip_orientation};

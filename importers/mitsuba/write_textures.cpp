@@ -166,7 +166,6 @@ WrittenTexture write_texture(Context& context, Element root, const Texture& text
   return spectrum_of(mean);
 }
 
-
 // A texture times a number that is the height of a bump map is written with the map (write_materials.cpp).
 const Id<Texture>* scaled_height(const Scene& scene, std::size_t index) {
   const auto* product = std::get_if<ProductTexture>(&scene.textures[index].model);

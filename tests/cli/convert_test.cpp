@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+// vitrail convert as a user runs it: the report, --strict, the exit status.
+#include <gmock/gmock.h>
+
+#include <fstream>
+
+#include "tests/support/command.h"
+#include "tests/support/temporary_directory.h"
+
+namespace vitrail {
+namespace {
+
+using ::testing::HasSubstr;
+
+class Convert : public ::testing::Test {
+ protected:
+  std::string write(const std::string& name, const std::string& text) {
+    std::ofstream(folder_ / name) << text;
+    return (folder_ / name).string();
+  }
+  std::string path(const char* name) const { return (folder_ / name).string(); }
+  test::CommandResult convert(const std::string& arguments) {
+    return test::run(test::vitrail("convert") + " " + arguments);
+  }
+
+  const std::string triangle_ = "Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0]\n";
+  test::TemporaryDirectory folder_;
+};
+
+TEST_F(Convert, SaysWhatBecameOfEachItem) {
+  const std::string in =
+      write("in.pbrt",
+            "Film \"rgb\"\nWorldBegin\nMaterial \"diffuse\"\n" + triangle_ +
+                "MakeNamedMaterial \"coat\"\n \"string type\" \"coateddiffuse\"\nNamedMaterial \"coat\"\n" +
+                triangle_);
+  const auto result = convert(in + " " + path("out.xml") + " --report " + path("report.json"));
+  EXPECT_EQ(result.status, 0) << result.output;
+  EXPECT_THAT(result.output, HasSubstr("1 approximated, 0 dropped"));
+  EXPECT_THAT(result.output, HasSubstr("in.pbrt:5:1"));
+  const nlohmann::json report = test::read_json(path("report.json"));
+  EXPECT_EQ(report.at("approximated"), 1);
+  bool found = false;
+  for (const auto& item : report.at("items")) {
+    if (item.at("item") != "material \"coat\"") continue;
+    found = true;
+    EXPECT_EQ(item.at("fidelity"), "approximated");
+    EXPECT_EQ(item.at("line"), 5);
+    EXPECT_THAT(item.at("notes").at(0).at("what").get<std::string>(), HasSubstr("plastic"));
+  }
+  EXPECT_TRUE(found) << report.dump(1);
+}
+
+TEST_F(Convert, WritesEveryFormat) {
+  const std::string in = write("in.pbrt", "Film \"rgb\" WorldBegin LightSource \"point\" " + triangle_);
+  for (const char* out : {"out.pbrt", "out.xml", "out.pov", "out.obj", "out.ply"}) {
+    const auto result = convert(in + " " + path(out));
+    EXPECT_EQ(result.status, 0) << out << result.output;
+    EXPECT_TRUE(std::filesystem::exists(path(out))) << out;
+  }
+}
+
+TEST_F(Convert, StrictIsForWhatIsExact) {
+  const std::string exact = write("exact.pbrt", "Film \"rgb\" WorldBegin LightSource \"point\" " + triangle_);
+  EXPECT_EQ(convert(exact + " " + path("exact.xml") + " --strict").status, 0);
+  const std::string sphere = write("sphere.pbrt", "Film \"rgb\" WorldBegin Shape \"sphere\"");
+  const auto result = convert(sphere + " " + path("sphere.xml") + " --strict");
+  EXPECT_EQ(result.status, 3) << result.output;
+  EXPECT_FALSE(std::filesystem::exists(path("sphere.xml")))
+      << "nothing is written of what is not read exactly";
+}
+
+TEST_F(Convert, MistakesHaveTheirStatus) {
+  const std::string in = write("in.pbrt", "Film \"rgb\" WorldBegin " + triangle_);
+  EXPECT_EQ(convert(in + " " + path("out.blend")).status, 2);
+  EXPECT_EQ(convert(in + " " + in).status, 2) << "over itself";
+  EXPECT_EQ(convert(path("none.pbrt") + " " + path("out.xml")).status, 3);
+  EXPECT_EQ(convert(in + " /proc/none/out.xml").status, 4);
+}
+
+}  // namespace
+}  // namespace vitrail

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+// What surrounds the plugins of a Mitsuba file: includes, defaults, references, old spellings, and input that
+// means harm.
+#include <gmock/gmock.h>
+
+#include "importers/mitsuba/mitsuba.h"
+#include "scene/rgb_to_spectrum.h"
+#include "temporary_folder.h"
+
+namespace vitrail {
+namespace {
+
+const std::string head = "<scene version=\"3.0.0\">", tail = "</scene>";
+const std::string floor = "<shape type=\"rectangle\"><ref id=\"m\"/></shape>";
+
+class MitsubaLoad : public ::testing::Test {
+ protected:
+  ImportedScene read(const std::string& inside) {
+    return read_mitsuba(folder_.write("scene.xml", head + inside + tail));
+  }
+  Material material(const std::string& inside) {
+    imported_ = read(inside + floor);
+    return imported_.scene.materials.at(imported_.scene.shapes.at(0).material.value);
+  }
+  std::string error(const std::string& text) {
+    try {
+      read_mitsuba(folder_.write("scene.xml", text));
+    } catch (const Error& e) {
+      EXPECT_FALSE(e.location.file.empty()) << e.what();
+      return e.what();
+    }
+    return "no error";
+  }
+  std::string error_inside(const std::string& inside) { return error(head + inside + tail); }
+  bool mentions(const std::string& words) const {
+    return std::any_of(imported_.diagnostics.begin(), imported_.diagnostics.end(),
+                       [&](const Diagnostic& d) { return d.message.find(words) != std::string::npos; });
+  }
+  TemporaryFolder folder_;
+  ImportedScene imported_;
+};
+
+const std::string red = "<rgb name=\"reflectance\" value=\"1 0 0\"/>";
+
+TEST_F(MitsubaLoad, BareOpaqueMaterialsHaveOneSide) {
+  const Material bare = material("<bsdf type=\"diffuse\" id=\"m\">" + red + "</bsdf>");
+  EXPECT_EQ(std::get<DiffuseMaterial>(bare.model).reflectance,
+            SpectrumParameter{reflectance_from_rgb({1, 0, 0})});
+  EXPECT_FALSE(bare.two_sided);
+  EXPECT_EQ(bare.name, "m");
+  EXPECT_EQ(bare.origin.line, 1u);
+  EXPECT_TRUE(material("<bsdf type=\"twosided\" id=\"m\"><bsdf type=\"diffuse\"/></bsdf>").two_sided);
+  EXPECT_TRUE(material("<bsdf type=\"dielectric\" id=\"m\"/>").two_sided);
+}
+
+TEST_F(MitsubaLoad, DefaultsReferencesAliasesAndIncludes) {
+  folder_.write("part.xml", head +
+                                "<default name=\"tone\" value=\"0.75\"/><bsdf type=\"diffuse\" id=\"part\">"
+                                "<spectrum name=\"reflectance\" value=\"$tone\"/></bsdf>" +
+                                tail);
+  const Material m = material(
+      "<default name=\"tone\" value=\"0.25\"/><include filename=\"part.xml\"/><alias id=\"part\" as=\"m\"/>");
+  EXPECT_EQ(std::get<DiffuseMaterial>(m.model).reflectance, SpectrumParameter{ConstantSpectrum{0.25f}})
+      << "the first default counts";
+  EXPECT_EQ(imported_.scene.files.size(), 2u);
+  EXPECT_EQ(m.origin.file, 1u);
+}
+
+TEST_F(MitsubaLoad, OldSpellings) {
+  const std::string old =
+      "<scene version=\"0.5.0\"><bsdf type=\"diffuse\" id=\"m\"><texture type=\"checkerboard\" "
+      "name=\"diffuseReflectance\">"
+      "<float name=\"uscale\" value=\"2\"/><float name=\"voffset\" value=\"0.5\"/></texture></bsdf>"
+      "<shape type=\"rectangle\"><transform name=\"toWorld\"><translate x=\"3\"/></transform><ref "
+      "id=\"m\"/></shape></scene>";
+  const ImportedScene imported = read_mitsuba(folder_.write("scene.xml", old));
+  EXPECT_EQ(transform_point(imported.scene.shapes.at(0).object_to_world, {0, 0, 0}), (Point3d{3, 0, 0}));
+  const auto& board = std::get<CheckerboardTexture>(imported.scene.textures.at(0).model);
+  EXPECT_EQ(board.mapping, (TextureMapping{UvMapping{4, 0, 0, 0, 2, 1}})) << "cells are half a unit";
+}
+
+TEST_F(MitsubaLoad, WhatIsNotUsedIsReportedWithASuggestion) {
+  material("<bsdf type=\"diffuse\" id=\"m\"><rgb name=\"reflectanse\" value=\"1 0 0\"/></bsdf>");
+  EXPECT_TRUE(mentions("did you mean \"reflectance\""));
+  material("<bsdf type=\"difuse\" id=\"m\"/>");
+  EXPECT_TRUE(mentions("did you mean \"diffuse\""));
+  material(
+      "<integrator type=\"path\"><integer name=\"max_depth\" value=\"$depth\"/></integrator><bsdf "
+      "type=\"diffuse\" id=\"m\"/>");
+  EXPECT_TRUE(mentions("\"$depth\" has no <default>"));
+}
+
+TEST_F(MitsubaLoad, MistakesAreErrorsWithTheirPlace) {
+  EXPECT_THAT(error("<scene version=\"3.0.0\"><shape></scene>"), ::testing::HasSubstr("not XML"));
+  EXPECT_THAT(error("<scene/>"), ::testing::HasSubstr("no version"));
+  EXPECT_THAT(error("<teapot/>"), ::testing::HasSubstr("not a Mitsuba scene"));
+  EXPECT_THAT(error_inside("<shap type=\"sphere\"/>"), ::testing::HasSubstr("did you mean <shape>"));
+  EXPECT_THAT(
+      error_inside("<bsdf type=\"diffuse\" id=\"wood\"/><shape type=\"sphere\"><ref id=\"wod\"/></shape>"),
+      ::testing::HasSubstr("did you mean \"wood\""));
+  EXPECT_THAT(error_inside("<shape type=\"sphere\"><float name=\"radius\" value=\"nan\"/></shape>"),
+              ::testing::HasSubstr("finite number"));
+  EXPECT_THAT(
+      error_inside("<shape type=\"ply\"><string name=\"filename\" value=\"../../../../none.ply\"/></shape>"),
+      ::testing::HasSubstr("none.ply"));
+  EXPECT_THAT(error_inside("<shape type=\"ply\"><string name=\"filename\" value=\"/dev/zero\"/></shape>"),
+              ::testing::HasSubstr("/dev/zero"));
+  EXPECT_THAT(error_inside("<bsdf type=\"diffuse\" id=\"a\"/><bsdf type=\"diffuse\" id=\"a\"/>"),
+              ::testing::HasSubstr("twice"));
+}
+
+TEST_F(MitsubaLoad, HarmIsBounded) {
+  EXPECT_THAT(error_inside("<include filename=\"scene.xml\"/>"), ::testing::HasSubstr("includes itself"));
+  EXPECT_THAT(error_inside("<bsdf type=\"twosided\" id=\"a\"><ref id=\"b\"/></bsdf><bsdf type=\"twosided\" "
+                           "id=\"b\"><ref id=\"a\"/></bsdf>"),
+              ::testing::HasSubstr("contains itself"));
+  EXPECT_THAT(error_inside("<alias id=\"a\" as=\"b\"/><alias id=\"b\" as=\"a\"/><shape type=\"sphere\"><ref "
+                           "id=\"a\"/></shape>"),
+              ::testing::HasSubstr("stands for itself"));
+  std::string deep, close;
+  for (int i = 0; i < 100'000; ++i) deep += "<bsdf type=\"twosided\">", close += "</bsdf>";
+  EXPECT_THAT(error_inside(deep + close), ::testing::HasSubstr("nested too deeply"));
+  std::string laughs = "<default name=\"a0\" value=\"ha ha ha ha ha ha ha ha\"/>";
+  for (int i = 1; i < 40; ++i) {
+    const std::string before = "$a" + std::to_string(i - 1) + " ";
+    laughs += "<default name=\"a" + std::to_string(i) + "\" value=\"";
+    for (int k = 0; k < 10; ++k) laughs += before;
+    laughs += "\"/>";
+  }
+  EXPECT_THAT(error_inside(laughs), ::testing::HasSubstr("without bound"));
+  std::string blends = "<bsdf type=\"diffuse\" id=\"b0\"/>";
+  for (int i = 1; i < 60; ++i) {
+    const std::string ref = "<ref id=\"b" + std::to_string(i - 1) + "\"/>";
+    blends += "<bsdf type=\"blendbsdf\" id=\"b" + std::to_string(i) + "\">" + ref + ref + "</bsdf>";
+  }
+  EXPECT_EQ(read(blends).scene.materials.size(), 60u) << "sharing is not copying";
+}
+
+}  // namespace
+}  // namespace vitrail
