@@ -30,7 +30,7 @@ class Convert : public ::testing::Test {
 TEST_F(Convert, SaysWhatBecameOfEachItem) {
   const std::string in =
       write("in.pbrt",
-            "Film \"rgb\"\nWorldBegin\nMaterial \"diffuse\"\n" + triangle_ +
+            "Film \"rgb\" PixelFilter \"box\"\nWorldBegin\nMaterial \"diffuse\"\n" + triangle_ +
                 "MakeNamedMaterial \"coat\"\n \"string type\" \"coateddiffuse\"\nNamedMaterial \"coat\"\n" +
                 triangle_);
   const auto result = convert(in + " " + path("out.xml") + " --report " + path("report.json"));
@@ -51,7 +51,8 @@ TEST_F(Convert, SaysWhatBecameOfEachItem) {
 }
 
 TEST_F(Convert, WritesEveryFormat) {
-  const std::string in = write("in.pbrt", "Film \"rgb\" WorldBegin LightSource \"point\" " + triangle_);
+  const std::string in =
+      write("in.pbrt", "Film \"rgb\" PixelFilter \"box\" WorldBegin LightSource \"point\" " + triangle_);
   for (const char* out : {"out.pbrt", "out.xml", "out.pov", "out.obj", "out.ply"}) {
     const auto result = convert(in + " " + path(out));
     EXPECT_EQ(result.status, 0) << out << result.output;
@@ -60,9 +61,11 @@ TEST_F(Convert, WritesEveryFormat) {
 }
 
 TEST_F(Convert, StrictIsForWhatIsExact) {
-  const std::string exact = write("exact.pbrt", "Film \"rgb\" WorldBegin LightSource \"point\" " + triangle_);
+  const std::string exact =
+      write("exact.pbrt", "Film \"rgb\" PixelFilter \"box\" WorldBegin LightSource \"point\" " + triangle_);
   EXPECT_EQ(convert(exact + " " + path("exact.xml") + " --strict").status, 0);
-  const std::string sphere = write("sphere.pbrt", "Film \"rgb\" WorldBegin Shape \"sphere\"");
+  const std::string sphere =
+      write("sphere.pbrt", "Film \"rgb\" PixelFilter \"box\" WorldBegin Shape \"sphere\"");
   const auto result = convert(sphere + " " + path("sphere.xml") + " --strict");
   EXPECT_EQ(result.status, 3) << result.output;
   EXPECT_FALSE(std::filesystem::exists(path("sphere.xml")))
@@ -70,7 +73,7 @@ TEST_F(Convert, StrictIsForWhatIsExact) {
 }
 
 TEST_F(Convert, MistakesHaveTheirStatus) {
-  const std::string in = write("in.pbrt", "Film \"rgb\" WorldBegin " + triangle_);
+  const std::string in = write("in.pbrt", "Film \"rgb\" PixelFilter \"box\" WorldBegin " + triangle_);
   EXPECT_EQ(convert(in + " " + path("out.blend")).status, 2);
   EXPECT_EQ(convert(in + " " + in).status, 2) << "over itself";
   EXPECT_EQ(convert(path("none.pbrt") + " " + path("out.xml")).status, 3);

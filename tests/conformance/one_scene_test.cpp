@@ -96,11 +96,15 @@ TEST_F(OneScene, HasTheSameSurfacesInObj) {
   // What OBJ itself can say comes back as it is: a scene of OBJ in every format.
   again = through(again, "objects.obj");
   for (const char* name : {"objects.pbrt", "objects.xml", "more.obj"}) {
-    Scene other = through(again, name);
-    other.camera = again.camera, other.lights = again.lights;
-    other.film = again.film, other.settings = again.settings;
-    EXPECT_EQ(test::difference(again, other), "") << name;
-    EXPECT_EQ(film_hash(other), film_hash(again)) << name;
+    Scene said = again;
+    // OBJ's lights shine to both sides, Mitsuba's to one: they are left out there.
+    if (std::string_view(name).ends_with(".xml"))
+      for (Shape& shape : said.shapes) shape.area_light.reset();
+    Scene other = through(said, name);
+    other.camera = said.camera, other.lights = said.lights;
+    other.film = said.film, other.settings = said.settings;
+    EXPECT_EQ(test::difference(said, other), "") << name;
+    EXPECT_EQ(film_hash(other), film_hash(said)) << name;
   }
 }
 
