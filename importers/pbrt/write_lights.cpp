@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <array>
 
+#include "importers/images/environment_images.h"
+#include "importers/images/image_files.h"
 #include "importers/pbrt/writer.h"
 
 namespace vitrail::pbrt {
@@ -65,9 +67,7 @@ class LightWriter {
   }
   const char* operator()(const EnvironmentLight& l) {
     light_to_world_ = l.light_to_world;
-    if (l.projection != EnvironmentLight::Projection::equal_area)
-      p_.approximated("its image is of latitude and longitude, but pbrt-v4 reads it as the equal-area map");
-    p_.file("filename", l.filename);
+    p_.file("filename", l.projection == EnvironmentLight::Projection::equal_area ? l.filename : resampled(l));
     scale_of_image(l.scale);
     if (l.illuminance) p_.number("illuminance", *l.illuminance);
     if (l.portal) portal(*l.portal);
@@ -79,6 +79,21 @@ class LightWriter {
     if (!is_constant(scale)) p_.approximated("the colour that multiplies its image becomes its luminance");
     p_.number("scale",
               static_cast<float>(is_constant(scale) ? evaluate(scale, lambda_min_nm) : luminance(scale)));
+  }
+  // pbrt-v4 reads equal-area maps alone.
+  std::string resampled(const EnvironmentLight& l) {
+    using enum EnvironmentLight::Projection;
+    Writer& w = p_.writer();
+    try {
+      const Image image = reproject(read_linear_image(l.filename), latitude_longitude, equal_area);
+      const std::filesystem::path file = std::filesystem::absolute(w.new_image());
+      write_exr_image(file, image);
+      p_.approximated("its image of latitude and longitude is resampled to the equal-area map");
+      return file.string();
+    } catch (const Error& error) {
+      p_.dropped(fmt::format("its image cannot be resampled to the equal-area map: {}", error.what()));
+      return l.filename;
+    }
   }
   void portal(const std::array<Point3d, 4>& corners) {
     const Transform to_light = inverse(light_to_world_);

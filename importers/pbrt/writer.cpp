@@ -59,13 +59,21 @@ Writer::Writer(const Scene& s, const std::filesystem::path& out)
       materials(unique_names(s.materials, "material")),
       textures(unique_names(s.textures, "texture")),
       media(unique_names(s.media, "medium")),
-      objects(unique_names(s.prototypes, "object")) {}
+      objects(unique_names(s.prototypes, "object")),
+      images_(out.parent_path() / (out.stem().string() + "-images")) {}
 
 void Writer::transform(const Transform& t) {
   if (t == Transform{}) return;
   std::array<double, 16> columns;
   for (std::size_t i = 0; i < 16; ++i) columns[i] = t.m[i % 4][i / 4];
   line(fmt::format("Transform [ {} ]", fmt::join(columns, " ")));
+}
+
+std::filesystem::path Writer::new_image() {
+  std::error_code error;
+  std::filesystem::create_directories(images_, error);
+  if (error) throw MachineError(fmt::format("cannot create {}: {}", images_.string(), error.message()));
+  return images_ / fmt::format("{:06}.exr", image_count_++);
 }
 
 std::string in_quotes(std::string_view text) {

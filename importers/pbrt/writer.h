@@ -31,6 +31,9 @@ struct Writer {
   void transform(const Transform& t);  // nothing for the identity
   int indent = 0;
 
+  // The path of a new image in OUT-images/, which is created.
+  std::filesystem::path new_image();
+
   // ---- Diagnostics
   void approximated(std::string message, const Origin& origin) {
     note(Fidelity::approximated, std::move(message), origin);
@@ -40,6 +43,9 @@ struct Writer {
   }
 
  private:
+  std::filesystem::path images_;  // OUT-images
+  int image_count_ = 0;
+
   void note(Fidelity fidelity, std::string message, const Origin& origin) {
     const SourceLocation place = location(scene, origin);
     diagnostics.push_back({fidelity, std::move(message), place, place});

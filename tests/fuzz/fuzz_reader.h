@@ -20,7 +20,6 @@ inline const std::filesystem::path& folder() {
   static const std::filesystem::path path = [] {
     const std::filesystem::path made = "/dev/shm/vitrail-fuzz-" + std::to_string(::getpid());
     std::filesystem::create_directories(made);
-    std::atexit([] { std::filesystem::remove_all(folder()); });
     return made;
   }();
   return path;
