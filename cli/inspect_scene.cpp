@@ -15,7 +15,9 @@ namespace vitrail {
 
 namespace {
 
-constexpr std::array spectrum_kinds{"constant", "sigmoid", "RGB illuminant", "tabulated", "Sellmeier"};
+constexpr std::array spectrum_kinds{"constant",  "sigmoid",       "RGB illuminant", "tabulated",
+                                    "Sellmeier", "unbounded RGB", "blackbody",      "named"};
+static_assert(spectrum_kinds.size() == std::variant_size_v<Spectrum>);
 constexpr std::array light_kinds{"point", "distant", "infinite"};
 
 Report triple(const auto& v) { return {v.x, v.y, v.z}; }

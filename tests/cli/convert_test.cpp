@@ -72,6 +72,17 @@ TEST_F(Convert, StrictIsForWhatIsExact) {
       << "nothing is written of what is not read exactly";
 }
 
+TEST_F(Convert, InspectKnowsEverySpectrum) {
+  const std::string in =
+      write("in.pbrt",
+            "Film \"rgb\" WorldBegin Texture \"t\" \"spectrum\" \"constant\" \"rgb value\" [3 2 1] "
+            "Material \"diffuse\" \"texture reflectance\" \"t\" " +
+                triangle_);
+  const auto result = test::run(test::vitrail("inspect") + " " + in);
+  EXPECT_EQ(result.status, 0) << result.output;
+  EXPECT_THAT(result.output, HasSubstr("unbounded RGB"));
+}
+
 TEST_F(Convert, MistakesHaveTheirStatus) {
   const std::string in = write("in.pbrt", "Film \"rgb\" PixelFilter \"box\" WorldBegin " + triangle_);
   EXPECT_EQ(convert(in + " " + path("out.blend")).status, 2);
