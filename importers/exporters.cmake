@@ -25,5 +25,6 @@ vitrail_library(mitsuba_exporter
     mitsuba/write_lights.cpp mitsuba/write_materials.cpp mitsuba/write_media.cpp mitsuba/write_mitsuba.cpp
     mitsuba/write_models.cpp mitsuba/write_shapes.cpp mitsuba/write_sides.cpp mitsuba/write_spectra.cpp
     mitsuba/write_textures.cpp
-  LIBRARIES vitrail::export_support vitrail::environment_images vitrail::scene pugixml::pugixml fmt::fmt)
+  LIBRARIES vitrail::export_support vitrail::environment_images vitrail::geometry_importers vitrail::scene
+            pugixml::pugixml fmt::fmt)
 target_compile_definitions(vitrail_mitsuba_exporter PRIVATE VITRAIL_VERSION="${PROJECT_VERSION}")

@@ -4,30 +4,17 @@
 #include <utility>
 
 #include "importers/ply/write_ply.h"
+#include "importers/shapes/vertex_normals.h"
 #include "scene/bounds.h"
 
 namespace vitrail::mitsuba_writer {
 
 namespace {
 
-Vector3d vector(Normal3f n) { return {n.x, n.y, n.z}; }
-
 Vector3d winding_normal(const TriangleMesh& mesh, std::size_t triangle) {
   const auto& t = mesh.triangles[triangle];
   const auto p = [&](int i) { return cast<double>(mesh.positions[t[static_cast<std::size_t>(i)]]); };
   return cross(p(1) - p(0), p(2) - p(0));
-}
-
-// Whether most shading normals point away from the side where the triangles run counter-clockwise.
-bool normals_oppose_winding(const TriangleMesh& mesh) {
-  std::int64_t balance = 0;
-  for (std::size_t i = 0; !mesh.normals.empty() && i < mesh.triangles.size(); ++i) {
-    const auto& t = mesh.triangles[i];
-    const Vector3d n = vector(mesh.normals[t[0]]) + vector(mesh.normals[t[1]]) + vector(mesh.normals[t[2]]);
-    const double side = dot(n, winding_normal(mesh, i));
-    balance += side > 0 ? 1 : side < 0 ? -1 : 0;
-  }
-  return balance < 0;
 }
 
 std::string write_derived(Context& context, const TriangleMesh& mesh) {
