@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# What every writer shares, and the writers that have no reader of their own library.
+# What writers share, and the writers that need no library of their reader.
 vitrail_library(export_support
   SOURCES export_colors.cpp flat_shapes.cpp mesh_files.cpp ply/write_ply.cpp ply/write_ply_scene.cpp
   LIBRARIES vitrail::scene fmt::fmt)

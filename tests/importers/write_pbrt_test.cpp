@@ -4,6 +4,9 @@
 
 #include <fstream>
 
+#include "importers/images/environment_images.h"
+#include "importers/images/image_files.h"
+
 #include "pbrt_text.h"
 #include "tests/support/equal_scenes.h"
 
@@ -144,6 +147,33 @@ TEST(WritePbrt, Lights) {
         "\"float power\" 9",
         "Translate 1 2 3 LightSource \"goniometric\" \"string filename\" \"lamp.exr\" \"rgb I\" [3 2 1]"})
     expect_exact_world(light + std::string(" ") + triangle);
+}
+
+// pbrt-v4 reads equal-area maps alone: one bright patch stays where it is.
+TEST(WritePbrt, EnvironmentsByLatitudeAreResampled) {
+  using enum EnvironmentLight::Projection;
+  const TemporaryFolder folder;
+  Image sky = black_image(64, 32, 3);
+  for (int y = 4; y < 12; ++y)
+    for (int x = 8; x < 20; ++x)
+      for (int c = 0; c < 3; ++c) sky.values[static_cast<std::size_t>((y * 64 + x) * 3 + c)] = 2;
+  write_exr_image(folder / "sky.exr", sky);
+  Scene scene = read_pbrt(folder.write("in.pbrt", "Film \"rgb\" WorldBegin " + triangle)).scene;
+  EnvironmentLight light;
+  light.filename = (folder / "sky.exr").string();
+  light.projection = latitude_longitude;
+  scene.lights = {{light}};
+  EXPECT_TRUE(mentions(write_pbrt(scene, folder / "out.pbrt"), "resampled"));
+  const auto again = std::get<EnvironmentLight>(read_pbrt(folder / "out.pbrt").scene.lights.at(0).model);
+  EXPECT_EQ(again.projection, equal_area);
+  const Image image = read_linear_image(again.filename);
+  const auto shown = [&](double x, double y) {
+    return environment_lookup(image, equal_area,
+                              point_of(equal_area, direction_of(latitude_longitude, {x, y})), 0);
+  };
+  EXPECT_NEAR(shown(14 / 64.0, 8 / 32.0), 2, 0.05) << "in the patch";
+  EXPECT_NEAR(shown(50 / 64.0, 8 / 32.0), 0, 0.05) << "across from it";
+  EXPECT_NEAR(shown(14 / 64.0, 24 / 32.0), 0, 0.05) << "below it";
 }
 
 TEST(WritePbrt, AreaLights) {
