@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "importers/mesh_files.h"
+#include "scene/color.h"
 #include "scene/scene.h"
 #include "scene/transmission.h"
 
@@ -48,6 +49,7 @@ struct Context {
   std::unordered_set<std::string> taken_ids;  // Mitsuba has one name space for everything
   std::vector<std::string> material_ids, medium_ids, prototype_ids;
   std::vector<WrittenTexture> textures;
+  mutable std::unordered_map<std::uint32_t, RGB> means;  // of the textures whose mean was asked for
   std::unordered_map<std::size_t, std::string>
       interiors;  // media inside of subsurface materials, by material
   std::size_t derived_meshes = 0, derived_images = 0, derived_volumes = 0;

@@ -57,7 +57,12 @@ RGB mean_of(const Context& context, const TextureModel& model) {
 
 RGB mean_of(const Context& context, const SpectrumParameter& value) {
   if (const auto* spectrum = std::get_if<Spectrum>(&value)) return color_of(*spectrum);
-  return mean_of(context, context.scene.textures[std::get<Id<Texture>>(value).value].model);
+  // Textures may share their inputs: each is looked at once.
+  const std::uint32_t id = std::get<Id<Texture>>(value).value;
+  if (const auto known = context.means.find(id); known != context.means.end()) return known->second;
+  const RGB mean = mean_of(context, context.scene.textures[id].model);
+  context.means[id] = mean;
+  return mean;
 }
 
 // a·u + b·v + c, d·u + e·v + f as Mitsuba wants it: 4×4, with the offsets in the last column.
