@@ -2,7 +2,7 @@
 // What happens at a hit: emission, connections to lights, scattering.
 #include <limits>
 
-#include "tracer/bsdf.h"
+#include "tracer/bsdf/local.h"
 #include "tracer/path_state.h"
 #include "tracer/path_tracer.h"
 #include "tracer/portable_math.h"

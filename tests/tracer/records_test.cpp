@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-#include "tracer/bsdf.h"
+#include "tracer/bsdf/local.h"
 #include "tracer/portable_math.h"
 #include "tracer/wavelengths.h"
 

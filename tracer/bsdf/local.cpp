@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tracer/bsdf.h"
+#include "tracer/bsdf/local.h"
 
 #include "tracer/portable_math.h"
 

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// What scattering at a point is asked for. Directions are unit and point away from the surface, in the local
+// frame whose +z is the shading normal and whose +x follows dp/du. A model that only reflects is asked with
+// `out` above (out.z > 0): who calls it turns the frame over on the back of a two-sided surface. One that
+// transmits is asked from either side: z > 0 is the front of the surface.
+//
+// Each model is a plain record of its parameters at one point and at the wavelengths of one path, with three
+// functions:
+//
+//   BsdfValue eval(const Model&, Vector3d out, Vector3d in);
+//   double pdf(const Model&, Vector3d out, Vector3d in);
+//   std::optional<BsdfSample> sample(const Model&, Vector3d out, float u_lobe, Point2f u);
+#pragma once
+
+#include "scene/sampled_spectrum.h"
+#include "scene/vec.h"
+
+namespace vitrail {
+
+struct BsdfValue {
+  SampledSpectrum value;  // f(out, in)·|cos θ_in|, without specular (delta) parts; radiance, so ∝ 1/η² across
+                          // an interface
+  double pdf = 0;  // of `sample` giving `in`, solid angle, the choice of the lobe included
+};
+
+struct BsdfSample {
+  Vector3d in;             // where the path goes on; unit
+  SampledSpectrum weight;  // f·|cos θ_in| / pdf
+  double pdf = 0;          // solid angle; 0 where `specular`
+  bool specular = false;   // a delta: eval and pdf know nothing of it
+};
+
+}  // namespace vitrail

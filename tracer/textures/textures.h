@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// Looking textures up. A bundle keeps the scene's texture graph; its images are files of tiles
+// (bundle/texture_file.h), read on demand within a budget of memory.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "scene/color.h"
+#include "scene/sampled_spectrum.h"
+#include "scene/texture.h"
+
+namespace vitrail {
+
+// A point of a surface as textures see it.
+struct TexturePoint {
+  Point2d uv;
+  Point3d p;            // in the bundle's coordinates, which the transforms of a bundle's textures end in
+  Vector3d normal;      // shading, unit, in the bundle's coordinates
+  double uv_width = 0;  // of the ray's cone, in units of uv; 0: the finest level
+  std::span<const std::array<float, 3>> attributes{};  // interpolated mesh attributes, by slot
+};
+
+// The textures of a bundle. Values are pure functions of the point, whatever is in memory. Safe to use from
+// many threads.
+class Textures {
+ public:
+  // `textures` outlives it. `budget_bytes` for tiles in memory. Throws Error for files that are damaged.
+  Textures(const std::vector<Texture>& textures, const std::filesystem::path& bundle,
+           std::uint64_t budget_bytes);
+  ~Textures();
+  Textures(Textures&&) noexcept;
+
+  SampledSpectrum spectrum(const SpectrumParameter& parameter, const TexturePoint& at,
+                           const SampledWavelengths& wavelengths) const;
+  double number(const FloatParameter& parameter, const TexturePoint& at) const;
+  // Of a normal map: the file's three numbers.
+  std::array<double, 3> vector(Id<Texture> texture, const TexturePoint& at) const;
+
+ private:
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace vitrail
