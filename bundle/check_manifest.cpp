@@ -5,6 +5,7 @@
 
 #include "bundle/checksum.h"
 #include "bundle/manifest_json.h"
+#include "bundle/record_fields.h"
 #include "bundle/records.h"
 #include "scene/diagnostics.h"
 
@@ -20,30 +21,28 @@ struct Checker {
   }
 };
 
-bool finite(const Spectrum& s) {
-  // Constant 1 and 0 reflectances are sigmoids at ±∞, so coefficients may be infinite where values are not.
-  if (const auto* table = std::get_if<TabulatedSpectrum>(&s)) {
-    for (const float v : table->values)
-      if (!std::isfinite(v)) return false;
-    return table->values.size() == table_size;
+}  // namespace
+
+namespace records {
+
+struct FieldChecker {
+  static constexpr bool reads = false;
+  const vitrail::Checker& check;
+  std::size_t textures = 0, materials = 0;  // that may be referred to
+  template <Number T>
+  void operator()(T value) const {
+    if constexpr (std::floating_point<T>) check.require(std::isfinite(value), "a number is not finite");
   }
-  return std::isfinite(evaluate(s, lambda_min_nm)) && std::isfinite(evaluate(s, lambda_max_nm));
-}
+  void operator()(Id<Texture> id) const { check.require(id.value < textures, "a texture is not there"); }
+  void operator()(Id<Material> id) const { check.require(id.value < materials, "a material is not there"); }
+  void may_be_infinite(float value) const { check.require(!std::isnan(value), "a number is not a number"); }
+};
 
-bool finite(Point3d p) { return is_finite(p); }
+}  // namespace records
+
+namespace {
+
 bool finite(Vector3d v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
-
-bool finite(const bundle::Camera& camera) {
-  return std::visit(
-      [](const auto& c) {
-        bool all = std::isfinite(c.screen.x0) && std::isfinite(c.screen.x1) && std::isfinite(c.screen.y0) &&
-                   std::isfinite(c.screen.y1);
-        for (const auto& row : c.camera_to_world.m)
-          for (const double x : row) all = all && std::isfinite(x);
-        return all;
-      },
-      camera);
-}
 
 void check_film(const Checker& c, const FilmSettings& f) {
   c.require(f.width > 0 && f.height > 0, "the film has no pixels");
@@ -101,29 +100,53 @@ void check_surfaces(const Checker& c, const Manifest& m) {
         s.first_triangle < m.triangles && (i == 0 || s.first_triangle > m.surfaces[i - 1].first_triangle),
         "its surfaces are out of order");
     c.require(s.material < m.materials.size(), "a surface has no material");
+    for (const std::int32_t medium : {s.interior, s.exterior})
+      c.require(medium >= -1 && medium < static_cast<std::int64_t>(m.media.size()),
+                "a surface has a medium that is not there");
     c.require(s.area_light >= -1 && s.area_light < static_cast<std::int64_t>(m.area_lights.size()),
               "a surface has a light that is not there");
   }
 }
 
+// Whatever the records hold, by their lists of fields: numbers are finite, ids refer to what is there.
+void check_records(const Checker& c, const Manifest& m) {
+  records::FieldChecker io{c};
+  for (const Texture& t : m.textures) records::fields(io, t), ++io.textures;
+  for (const Material& material : m.materials) records::fields(io, material), ++io.materials;
+  records::list(io, m.media), records::list(io, m.area_lights), records::list(io, m.lights);
+  records::list(io, m.emissive_triangles);
+  records::fields(io, m.camera);
+}
+
 void check_lights(const Checker& c, const Manifest& m) {
-  const char* const what = "an emission is not finite";
-  for (const bundle::AreaLight& l : m.area_lights) c.require(finite(l.radiance), what);
-  for (const EmissiveTriangle& t : m.emissive_triangles) {
+  for (const EmissiveTriangle& t : m.emissive_triangles)
     c.require(t.triangle < m.triangles && t.area_light < m.area_lights.size(), "a light shines from nowhere");
-    for (const Point3f& p : t.p) c.require(is_finite(p), "a light has a vertex that is not finite");
-  }
-  for (const bundle::Light& light : m.lights) {
-    if (const auto* point = std::get_if<bundle::PointLight>(&light)) {
-      c.require(finite(point->position), "the position of a light is not finite");
-      c.require(finite(point->intensity), what);
-    } else if (const auto* distant = std::get_if<bundle::DistantLight>(&light)) {
-      c.require(finite(distant->direction) && length(distant->direction) > 0,
-                "a distant light has no direction");
-      c.require(finite(distant->irradiance), what);
-    } else {
-      c.require(finite(std::get<bundle::InfiniteLight>(light).radiance), what);
-    }
+  for (const Light& light : m.lights)
+    if (const auto* distant = std::get_if<DistantLight>(&light.model))
+      c.require(length(distant->direction) > 0, "a distant light has no direction");
+}
+
+void check_media(const Checker& c, const Manifest& m) {
+  const auto check_grid = [&](const Grid& g) {
+    c.require(g.nx > 0 && g.ny > 0 && g.nz > 0 && (g.channels == 1 || g.channels == 3),
+              "a grid has no cells");
+    c.require(g.values.size() == static_cast<std::size_t>(g.nx) * static_cast<std::size_t>(g.ny) *
+                                     static_cast<std::size_t>(g.nz) * static_cast<std::size_t>(g.channels),
+              "a grid does not have one value a cell");
+    c.require(!g.bounds.empty(), "a grid has no bounds");
+  };
+  const auto check_volume = [&](const VolumeParameter& v) {
+    if (const auto* grid = std::get_if<Grid>(&v)) check_grid(*grid);
+  };
+  for (const Medium& medium : m.media) {
+    if (const auto* k = std::get_if<AbsorptionScattering>(&medium.coefficients))
+      check_volume(k->sigma_a), check_volume(k->sigma_s);
+    if (const auto* k = std::get_if<ExtinctionAlbedo>(&medium.coefficients))
+      check_volume(k->sigma_t), check_volume(k->albedo);
+    if (const auto* grid = std::get_if<Grid>(&medium.density)) check_grid(*grid);
+    if (medium.emission_scale) check_grid(*medium.emission_scale);
+    c.require(medium.g > -1 && medium.g < 1, "g of a medium is not between -1 and 1");
+    c.require(is_invertible(medium.medium_to_world), "the transform of a medium cannot be inverted");
   }
 }
 
@@ -132,19 +155,17 @@ void check_lights(const Checker& c, const Manifest& m) {
 void check_manifest(const Manifest& m, const std::filesystem::path& file) {
   const Checker c{file};
   c.require(finite(m.offset) && std::isfinite(m.scale) && m.scale >= 0, "its coordinates are not finite");
-  c.require(finite(m.camera), "the camera is not finite");
   c.require(m.settings.samples_per_pixel > 0 && m.settings.max_depth >= 0,
             "the samples a pixel or the depth is out of range");
   check_film(c, m.film);
   check_kd_tree(c, m);
   check_surfaces(c, m);
+  check_records(c, m);
   check_lights(c, m);
-  for (const bundle::Material& material : m.materials) {
-    if (const auto* diffuse = std::get_if<bundle::DiffuseMaterial>(&material))
-      c.require(finite(diffuse->reflectance), "a reflectance is not finite");
-    if (const auto* dielectric = std::get_if<bundle::DielectricMaterial>(&material))
-      c.require(finite(dielectric->eta), "an index of refraction is not finite");
-  }
+  check_media(c, m);
+  c.require(m.attributes <= max_attributes, "its textures read more than 8 mesh attributes");
+  c.require(m.camera_medium >= -1 && m.camera_medium < static_cast<std::int64_t>(m.media.size()),
+            "the camera is in a medium that is not there");
 }
 
 void check_domain(const Manifest& manifest, std::uint32_t domain, const MappedDomain& mapped,
@@ -153,7 +174,10 @@ void check_domain(const Manifest& manifest, std::uint32_t domain, const MappedDo
   if (mapped.hash() != info.hash || mapped.bytes() != info.bytes)
     throw Error("this file is not the one that the bundle was made with; partition the scene again",
                 {file.string()});
-  for (const Cluster& cluster : mapped.view().clusters)
+  const DomainView& view = mapped.view();
+  if (view.attributes.size() != view.clusters.size() * manifest.attributes)
+    throw Error("it does not hold the mesh attributes that the scene has", {file.string()});
+  for (const Cluster& cluster : view.clusters)
     for (const std::uint32_t id : cluster.id)
       if (id != no_triangle && id >= manifest.triangles)
         throw Error(fmt::format("it holds triangle {}, which the scene does not have", id), {file.string()});
@@ -165,6 +189,7 @@ std::uint64_t hash_of_records(const Manifest& manifest) {
   hasher.add(encode_materials(manifest));
   hasher.add(encode_lights(manifest));
   hasher.add(std::as_bytes(std::span(text)));
+  for (const TextureFileEntry& t : manifest.texture_files) hasher.add(std::as_bytes(std::span(&t.hash, 1)));
   return hasher.digest();
 }
 

@@ -48,6 +48,18 @@ struct ClusterNormals {
 };
 static_assert(sizeof(ClusterNormals) == 96);
 
+// (u,v) of a cluster's triangles, [lane][vertex][u, v]; 0 where a triangle has none.
+struct ClusterUvs {
+  float uv[cluster_width][3][2];
+};
+static_assert(sizeof(ClusterUvs) == 192);
+
+// One mesh attribute of a cluster's triangles, [lane][vertex][channel]; 0 where a triangle has none.
+struct ClusterAttributes {
+  float value[cluster_width][3][3];
+};
+static_assert(sizeof(ClusterAttributes) == 288);
+
 // Unit normals as two 16-bit signed octahedral coordinates (Meyer et al. 2010); + − × ÷ √ only.
 inline constexpr std::uint32_t no_normal = 0x80008000u;
 std::uint32_t encode_normal(Normal3d n);
@@ -65,7 +77,9 @@ struct Piece {
 struct DomainContent {
   std::vector<BvhNode> nodes;
   std::vector<Cluster> clusters;
-  std::vector<ClusterNormals> normals;  // empty, or one a cluster
+  std::vector<ClusterNormals> normals;        // empty, or one a cluster
+  std::vector<ClusterUvs> uvs;                // empty, or one a cluster
+  std::vector<ClusterAttributes> attributes;  // as many a cluster as the manifest has slots
   std::vector<Piece> pieces;
   std::vector<Point3d> piece_vertices;
 };
@@ -75,6 +89,8 @@ struct DomainView {
   std::span<const BvhNode> nodes;
   std::span<const Cluster> clusters;
   std::span<const ClusterNormals> normals;
+  std::span<const ClusterUvs> uvs;
+  std::span<const ClusterAttributes> attributes;
 };
 
 DomainView view_of(const DomainContent& content);

@@ -19,7 +19,7 @@ namespace vitrail {
 
 namespace {
 
-constexpr int manifest_version = 1;
+constexpr int manifest_version = 2;
 
 // ---- The two binary files: 32 bytes of header, then the payload
 // -------------------------------------------------

@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "bundle/appearance.h"
 #include "bundle/domain_file.h"
 #include "scene/bounds.h"
 #include "scene/scene.h"
@@ -33,17 +32,22 @@ struct DomainInfo {
   bool operator==(const DomainInfo&) const = default;
 };
 
-// Triangles [first_triangle, first_triangle of the next surface) share a material and an emission.
+// Triangles [first_triangle, first_triangle of the next surface) share a material, an emission and the media
+// on their sides.
 struct Surface {
   std::uint32_t first_triangle = 0;
   std::uint32_t material = 0;
   std::int32_t area_light = -1;  // index, or −1: no light
+  // Indices of the media behind and in front, −1: vacuum. Where the two are the same the surface stands in a
+  // medium and does not bound one.
+  std::int32_t interior = -1, exterior = -1;
   bool operator==(const Surface&) const = default;
 };
 
 // One triangle that emits, replicated on every rank for light sampling. Wound so that its front emits.
 struct EmissiveTriangle {
   Point3f p[3];
+  Point2f uv[3];
   std::uint32_t triangle = 0;    // global id
   std::uint32_t area_light = 0;  // index
 };
@@ -51,11 +55,24 @@ struct EmissiveTriangle {
 // What the scene needs of a renderer; everything false costs nothing.
 struct Requirements {
   bool shading_normals = false;
-  bool transmission = false;  // some surface lets light through
-  bool dispersion = false;    // some index of refraction depends on λ
-  bool interfaces = false;    // some surface is bundle::InterfaceMaterial
+  bool uv = false;           // some texture, tangent or light is looked up by (u,v)
+  bool filtering = false;    // some image is filtered by the width of the ray's cone
+  bool dispersion = false;   // some smooth surface refracts by an index that depends on λ
+  bool refraction = false;   // some smooth surface refracts
+  bool see_through = false;  // some surface lets light straight through: interfaces, masks, thin sheets
+  bool media = false;
   bool operator==(const Requirements&) const = default;
 };
+
+// A file of textures/.
+struct TextureFileEntry {
+  std::string name;  // "textures/000003.tex"
+  std::uint64_t bytes = 0, hash = 0;
+  bool operator==(const TextureFileEntry&) const = default;
+};
+
+// Mesh attributes that the textures of a bundle read, at most.
+inline constexpr std::uint32_t max_attributes = 8;
 
 struct Manifest {
   std::uint64_t triangles = 0;      // global ids are [0, triangles)
@@ -66,11 +83,18 @@ struct Manifest {
   std::vector<KdNode> kd_nodes;     // empty when there is one domain
   std::vector<DomainInfo> domains;
   std::vector<Surface> surfaces;  // ascending first_triangle
-  std::vector<bundle::Material> materials;
-  std::vector<bundle::AreaLight> area_lights;
+  // The scene's own records, their spectra `resolved`, their transforms ending in the bundle's coordinates,
+  // their filenames naming texture files.
+  std::vector<Material> materials;
+  std::vector<Texture> textures;
+  std::vector<Medium> media;
+  std::vector<AreaLight> area_lights;
   std::vector<EmissiveTriangle> emissive_triangles;
-  std::vector<bundle::Light> lights;  // positions and directions in the bundle's coordinates
-  bundle::Camera camera;              // camera_to_world ends in the bundle's coordinates
+  std::vector<Light> lights;
+  Camera camera;
+  std::int32_t camera_medium = -1;  // index, or −1: vacuum
+  std::vector<TextureFileEntry> texture_files;
+  std::uint32_t attributes = 0;  // mesh attributes that textures read: slots a vertex
   FilmSettings film;
   RenderSettings settings;
   Requirements requirements;

@@ -37,7 +37,8 @@ std::uint64_t hash_from(const Json& j) {
 }
 
 // The kinds of a variant, in the order of its alternatives.
-constexpr std::array camera_kinds{"perspective", "orthographic"};
+constexpr std::array camera_kinds{"perspective", "orthographic", "spherical"};
+constexpr std::array projection_kinds{"equal-area", "latitude-longitude"};
 constexpr std::array filter_kinds{"box", "triangle", "gaussian", "mitchell", "sinc"};
 
 template <std::size_t n>
@@ -68,13 +69,20 @@ Filter filter_from_json(const Json& j) {
   return SincFilter{x, y, j.at("tau").get<double>()};
 }
 
-bundle::Camera camera_from_json(const Json& j) {
+Camera camera_from_json(const Json& j) {
   Transform t;
   for (std::size_t i = 0; i < 16; ++i) t.m[i / 4][i % 4] = j.at("camera_to_world").at(i).get<double>();
+  const std::size_t kind = kind_index(j, camera_kinds);
+  if (kind == 2) {
+    const bool equal_area = j.at("projection") == projection_kinds[0];
+    return SphericalCamera{t, equal_area ? SphericalCamera::Projection::equal_area
+                                         : SphericalCamera::Projection::latitude_longitude};
+  }
   const auto s = [&](std::size_t i) { return j.at("screen").at(i).get<double>(); };
   const ScreenWindow screen{s(0), s(1), s(2), s(3)};
-  if (kind_index(j, camera_kinds) == 0) return PerspectiveCamera{t, screen};
-  return OrthographicCamera{t, screen};
+  const Lens lens{j.at("lens_radius").get<double>(), j.at("focal_distance").get<double>()};
+  if (kind == 0) return PerspectiveCamera{t, screen, lens};
+  return OrthographicCamera{t, screen, lens};
 }
 
 FilmSettings film_from_json(const Json& j) {
@@ -86,11 +94,33 @@ FilmSettings film_from_json(const Json& j) {
           j.at("imaging_ratio").get<double>()};
 }
 
+// The names of the requirements, for both directions.
+constexpr std::array requirement_names{std::pair{"shading_normals", &Requirements::shading_normals},
+                                       std::pair{"uv", &Requirements::uv},
+                                       std::pair{"filtering", &Requirements::filtering},
+                                       std::pair{"dispersion", &Requirements::dispersion},
+                                       std::pair{"refraction", &Requirements::refraction},
+                                       std::pair{"see_through", &Requirements::see_through},
+                                       std::pair{"media", &Requirements::media}};
+
 Json requirements_to_json(const Requirements& r) {
-  return {{"shading_normals", r.shading_normals},
-          {"transmission", r.transmission},
-          {"dispersion", r.dispersion},
-          {"interfaces", r.interfaces}};
+  Json j;
+  for (const auto& [name, member] : requirement_names) j[name] = r.*member;
+  return j;
+}
+
+Requirements requirements_from_json(const Json& j) {
+  Requirements r;
+  for (const auto& [name, member] : requirement_names) r.*member = j.at(name).get<bool>();
+  return r;
+}
+
+Json texture_file_to_json(const TextureFileEntry& t) {
+  return {{"name", t.name}, {"bytes", t.bytes}, {"hash", hash(t.hash)}};
+}
+
+TextureFileEntry texture_file_from_json(const Json& j) {
+  return {j.at("name").get<std::string>(), j.at("bytes").get<std::uint64_t>(), hash_from(j.at("hash"))};
 }
 
 Json kd_node_to_json(const KdNode& n) {
@@ -126,13 +156,19 @@ DomainInfo domain_from_json(const Json& j) {
 
 }  // namespace
 
-Json camera_to_json(const bundle::Camera& camera) {
+Json camera_to_json(const Camera& camera) {
   Json j{{"kind", camera_kinds.at(camera.index())}};
   std::visit(
       [&](const auto& c) {
         for (const auto& row : c.camera_to_world.m)
           for (const double x : row) j["camera_to_world"].push_back(x);
-        j["screen"] = {c.screen.x0, c.screen.x1, c.screen.y0, c.screen.y1};
+        if constexpr (requires { c.screen; }) {
+          j["screen"] = {c.screen.x0, c.screen.x1, c.screen.y0, c.screen.y1};
+          j["lens_radius"] = c.lens.radius;
+          j["focal_distance"] = c.lens.focal_distance;
+        } else {
+          j["projection"] = projection_kinds.at(static_cast<std::size_t>(c.projection));
+        }
       },
       camera);
   return j;
@@ -156,7 +192,11 @@ Json manifest_to_json(const Manifest& m) {
   j["bounds"] = box(m.bounds);
   j["scale"] = m.scale;
   j["requirements"] = requirements_to_json(m.requirements);
+  j["attributes"] = m.attributes;
   j["camera"] = camera_to_json(m.camera);
+  j["camera_medium"] = m.camera_medium;
+  j["texture_files"] = Json::array();
+  for (const TextureFileEntry& t : m.texture_files) j["texture_files"].push_back(texture_file_to_json(t));
   j["film"] = film_to_json(m.film);
   j["settings"] = {{"samples_per_pixel", m.settings.samples_per_pixel},
                    {"max_depth", m.settings.max_depth},
@@ -176,9 +216,10 @@ Manifest manifest_from_json(const Json& j) {
   m.offset = triple_from<Vector3d>(j.at("offset"));
   m.bounds = box_from(j.at("bounds"));
   m.scale = j.at("scale").get<float>();
-  const Json& r = j.at("requirements");
-  m.requirements = {r.at("shading_normals").get<bool>(), r.at("transmission").get<bool>(),
-                    r.at("dispersion").get<bool>(), r.at("interfaces").get<bool>()};
+  m.requirements = requirements_from_json(j.at("requirements"));
+  m.attributes = j.at("attributes").get<std::uint32_t>();
+  m.camera_medium = j.at("camera_medium").get<std::int32_t>();
+  for (const Json& t : j.at("texture_files")) m.texture_files.push_back(texture_file_from_json(t));
   m.camera = camera_from_json(j.at("camera"));
   m.film = film_from_json(j.at("film"));
   const Json& s = j.at("settings");

@@ -11,7 +11,7 @@ namespace vitrail {
 using Json = nlohmann::ordered_json;
 
 Json manifest_to_json(const Manifest& manifest);
-Json camera_to_json(const bundle::Camera& camera);
+Json camera_to_json(const Camera& camera);
 Json film_to_json(const FilmSettings& film);
 
 // Throws nlohmann's exceptions for keys that are missing and values of a wrong type, Error for unknown words.

@@ -127,12 +127,16 @@ MappedDomain::MappedDomain(const std::filesystem::path& file) : file_(file) {
   bytes_ = bytes.size();
   try {
     check_header(file, bytes);
-    for (const auto section : {layout::nodes, layout::clusters, layout::normals})
+    for (const auto section :
+         {layout::nodes, layout::clusters, layout::normals, layout::uvs, layout::attributes})
       check_section(file, data_, section);
     view_ = {elements<BvhNode>(data_, layout::nodes), elements<Cluster>(data_, layout::clusters),
-             elements<ClusterNormals>(data_, layout::normals)};
+             elements<ClusterNormals>(data_, layout::normals), elements<ClusterUvs>(data_, layout::uvs),
+             elements<ClusterAttributes>(data_, layout::attributes)};
     if (!view_.normals.empty() && view_.normals.size() != view_.clusters.size())
       reject(file, "it does not have one group of normals a cluster");
+    if (!view_.uvs.empty() && view_.uvs.size() != view_.clusters.size())
+      reject(file, "it does not have one group of (u,v) a cluster");
     check_tree(file, view_);
   } catch (...) {
     ::munmap(const_cast<std::byte*>(data_), bytes_);

@@ -1,24 +1,34 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the renderer shows of a scene: its materials, lights, textures and camera in the terms of
-// bundle/appearance.h.
+// What a bundle keeps of a scene besides its triangles: the scene's own records, made ready for rendering.
 #pragma once
 
+#include <filesystem>
+#include <string>
 #include <vector>
 
-#include "bundle/appearance.h"
+#include "bundle/manifest.h"
+#include "partitioner/bake_textures.h"
 #include "scene/scene.h"
 
 namespace vitrail {
 
+// Spectra are resolved, images baked, transforms still the world's. Only what some shape uses is there:
+// `material_ids`, `area_light_ids` and `medium_ids` say where, by the ids of the scene; −1: not used.
 struct Appearance {
-  std::vector<bundle::Material> materials;     // one a material of the scene
-  std::vector<bundle::AreaLight> area_lights;  // one an area light of the scene
-  std::vector<bundle::Light> lights;           // one a light of the scene
-  bundle::Camera camera;
-  Diagnostics diagnostics;  // what stands for something else, and what is left out; about what is in use only
+  std::vector<Material> materials;
+  std::vector<Texture> textures;
+  std::vector<Medium> media;
+  std::vector<AreaLight> area_lights;
+  std::vector<Light> lights;
+  std::vector<std::int32_t> material_ids, area_light_ids, medium_ids;
+  std::vector<std::int32_t> material_interiors;  // index of the medium that a material of the scene brings
+  std::vector<AttributeSlot> attributes;         // the mesh attributes that textures read
+  std::vector<TextureFileEntry> texture_files;
+  Diagnostics diagnostics;  // what stands for something else, and what is left out
 };
 
-// Models that the renderer does not have become the nearest of those it has; textures become their mean.
-Appearance appearance_of(const Scene& scene);
+// Writes textures/ into the bundle where images are in use; nothing where `bundle` is empty. Throws Error for
+// images and volumes that cannot be read.
+Appearance appearance_of(const Scene& scene, const std::filesystem::path& bundle);
 
 }  // namespace vitrail

@@ -7,11 +7,11 @@
 #include <tbb/parallel_reduce.h>
 
 #include <cmath>
-#include <map>
 
 #include "bundle/checksum.h"
 #include "bundle/records.h"
 #include "partitioner/appearance.h"
+#include "partitioner/requirements.h"
 
 namespace vitrail {
 
@@ -126,29 +126,55 @@ void place_normals(const Placement& p, FlatScene& flat) {
   });
 }
 
-// Gives the records that are used new ids in the order of their first use.
-template <class T>
-struct Compacted {
-  const std::vector<T>& all;
-  std::vector<T>& used;
-  std::map<std::uint32_t, std::uint32_t> ids{};
-  std::uint32_t id(std::uint32_t old) {
-    const auto [at, is_new] = ids.try_emplace(old, static_cast<std::uint32_t>(used.size()));
-    if (is_new) used.push_back(all.at(old));
-    return at->second;
+void place_uvs(const Placement& p, FlatScene& flat) {
+  if (p.mesh->uvs.empty()) return;
+  tbb::parallel_for(Range(0, p.mesh->triangles.size(), 8192), [&](const Range& range) {
+    for (std::size_t i = range.begin(); i != range.end(); ++i) {
+      std::array<Point2f, 3>& uv = flat.uvs[p.first_triangle + i];
+      for (std::size_t k = 0; k < 3; ++k) uv[k] = p.mesh->uvs[p.mesh->triangles[i][k]];
+      if (p.flip) std::swap(uv[1], uv[2]);
+    }
+  });
+}
+
+void place_attribute(const Placement& p, const AttributeSlot& slot,
+                     std::vector<std::array<std::array<float, 3>, 3>>& values) {
+  for (const MeshAttribute& attribute : p.mesh->attributes) {
+    if (attribute.name != slot.name) continue;
+    const auto channels = static_cast<std::size_t>(attribute.channels);
+    for (std::size_t i = 0; i < p.mesh->triangles.size(); ++i) {
+      auto& corners = values[p.first_triangle + i];
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::size_t at = attribute.per_face ? i : p.mesh->triangles[i][k];
+        const float* value = &attribute.values[at * channels];
+        corners[k] =
+            attribute_value({value[0], value[channels > 1 ? 1 : 0], value[channels > 2 ? 2 : 0]}, slot.use);
+      }
+      if (p.flip) std::swap(corners[1], corners[2]);
+    }
   }
-};
+}
+
+std::int32_t new_id(const std::vector<std::int32_t>& ids, const auto& old) {
+  return old ? ids.at(old->value) : -1;
+}
 
 void make_surfaces(const Appearance& appearance, const std::vector<Placement>& placements, Manifest& m) {
-  Compacted<bundle::Material> materials{appearance.materials, m.materials};
-  Compacted<bundle::AreaLight> area_lights{appearance.area_lights, m.area_lights};
   for (const Placement& p : placements) {
-    Surface surface{static_cast<std::uint32_t>(p.first_triangle), materials.id(p.shape->material.value), -1};
-    if (p.shape->area_light)
-      surface.area_light = static_cast<std::int32_t>(area_lights.id(p.shape->area_light->value));
-    const bool same = !m.surfaces.empty() && m.surfaces.back().material == surface.material &&
-                      m.surfaces.back().area_light == surface.area_light;
-    if (!same) m.surfaces.push_back(surface);
+    const std::uint32_t material = p.shape->material.value;
+    Surface surface{static_cast<std::uint32_t>(p.first_triangle),
+                    static_cast<std::uint32_t>(appearance.material_ids.at(material)),
+                    new_id(appearance.area_light_ids, p.shape->area_light),
+                    new_id(appearance.medium_ids, p.shape->interior),
+                    new_id(appearance.medium_ids, p.shape->exterior)};
+    if (!p.shape->interior && appearance.material_interiors.at(material) >= 0)
+      surface.interior = appearance.material_interiors[material];
+    if (!m.surfaces.empty()) {
+      Surface same = m.surfaces.back();
+      same.first_triangle = surface.first_triangle;
+      if (same == surface) continue;
+    }
+    m.surfaces.push_back(surface);
   }
 }
 
@@ -163,35 +189,50 @@ void make_emissive_triangles(FlatScene& flat) {
       const Triangle& t = flat.triangles[id];
       const Vector3d normal =
           cross(cast<double>(t[1]) - cast<double>(t[0]), cast<double>(t[2]) - cast<double>(t[0]));
-      if (length(normal) > 0)
-        m.emissive_triangles.push_back({{t[0], t[1], t[2]},
-                                        static_cast<std::uint32_t>(id),
-                                        static_cast<std::uint32_t>(m.surfaces[s].area_light)});
+      if (!(length(normal) > 0)) continue;
+      EmissiveTriangle& e = m.emissive_triangles.emplace_back();
+      std::copy(t.begin(), t.end(), e.p);
+      if (!flat.uvs.empty()) std::copy(flat.uvs[id].begin(), flat.uvs[id].end(), e.uv);
+      e.triangle = static_cast<std::uint32_t>(id);
+      e.area_light = static_cast<std::uint32_t>(m.surfaces[s].area_light);
     }
   }
 }
 
-Requirements requirements_of(const std::vector<Placement>& placements, const Appearance& appearance) {
-  Requirements r;
-  for (const Placement& p : placements) {
-    const bundle::Material& material = appearance.materials.at(p.shape->material.value);
-    const bool interface = std::holds_alternative<bundle::InterfaceMaterial>(material);
-    r.interfaces |= interface;
-    r.shading_normals |= !interface && !p.mesh->normals.empty();
-    if (const auto* dielectric = std::get_if<bundle::DielectricMaterial>(&material)) {
-      r.transmission = true;
-      r.dispersion |= !is_constant(dielectric->eta);
-    }
-  }
-  return r;
+bool has_normals(const std::vector<Placement>& placements, const Scene& scene) {
+  return std::ranges::any_of(placements, [&](const Placement& p) {
+    const MaterialModel& model = scene.materials.at(p.shape->material.value).model;
+    return !p.mesh->normals.empty() && !std::holds_alternative<InterfaceMaterial>(model);
+  });
 }
 
-void move_records(const Scene& scene, const Appearance& appearance, Manifest& m) {
-  m.lights = appearance.lights;
-  for (bundle::Light& light : m.lights)
-    if (auto* point = std::get_if<bundle::PointLight>(&light)) point->position = point->position - m.offset;
-  m.camera = appearance.camera;
+// Moves what stands in the world to the bundle's coordinates.
+struct LightMover {
+  Vector3d offset;
+  void operator()(PointLight& l) const { l.position = l.position - offset; }
+  void operator()(EnvironmentLight& l) const {
+    if (!l.portal) return;
+    for (Point3d& corner : *l.portal) corner = corner - offset;
+  }
+  void operator()(DistantLight&) const {}
+  void operator()(InfiniteLight&) const {}
+  void operator()(auto& l) const { l.light_to_world = translate(-offset) * l.light_to_world; }
+};
+
+void move_records(const Scene& scene, Appearance& appearance, Manifest& m) {
+  m.materials = std::move(appearance.materials);
+  m.area_lights = std::move(appearance.area_lights);
+  m.media = std::move(appearance.media);
+  for (Medium& medium : m.media) medium.medium_to_world = translate(-m.offset) * medium.medium_to_world;
+  m.textures = std::move(appearance.textures);
+  move(m.textures, -m.offset);
+  m.lights = std::move(appearance.lights);
+  for (Light& light : m.lights) std::visit(LightMover{m.offset}, light.model);
+  m.texture_files = std::move(appearance.texture_files);
+  m.attributes = static_cast<std::uint32_t>(appearance.attributes.size());
+  m.camera = scene.camera;
   std::visit([&](auto& c) { c.camera_to_world = translate(-m.offset) * c.camera_to_world; }, m.camera);
+  m.camera_medium = new_id(appearance.medium_ids, scene.camera_medium);
   m.film = scene.film;
   m.settings = scene.settings;
 }
@@ -201,32 +242,41 @@ std::uint64_t scene_hash(const FlatScene& flat) {
   Hasher hasher;
   hasher.add(std::as_bytes(std::span(flat.triangles)));
   hasher.add(std::as_bytes(std::span(flat.normals)));
+  hasher.add(std::as_bytes(std::span(flat.uvs)));
+  for (const auto& slot : flat.attributes) hasher.add(std::as_bytes(std::span(slot)));
   hasher.add(std::as_bytes(std::span(&records, 1)));
   return hasher.digest();
 }
 
 }  // namespace
 
-FlatScene flatten(const Scene& scene) {
+FlatScene flatten(const Scene& scene, const std::filesystem::path& bundle, bool everything) {
   FlatScene flat;
   Manifest& m = flat.manifest;
-  const Appearance appearance = appearance_of(scene);
+  Appearance appearance = appearance_of(scene, bundle);
   const std::vector<Placement> placements = place(scene, m.triangles);
   m.offset = offset_of(placements);
-  m.requirements = requirements_of(placements, appearance);
+  make_surfaces(appearance, placements, m);
+  const std::vector<AttributeSlot> slots = std::move(appearance.attributes);
+  move_records(scene, appearance, m);
+  m.requirements = everything ? all_requirements() : requirements_of(m, has_normals(placements, scene));
+
   flat.triangles.resize(m.triangles);
   if (m.requirements.shading_normals) flat.normals.assign(m.triangles, {no_normal, no_normal, no_normal});
+  if (m.requirements.uv) flat.uvs.resize(m.triangles);
+  flat.attributes.resize(slots.size());
+  for (auto& slot : flat.attributes) slot.resize(m.triangles);
   for (const Placement& p : placements) {
     place_triangles(p, m.offset, flat.triangles);
     if (m.requirements.shading_normals) place_normals(p, flat);
+    if (m.requirements.uv) place_uvs(p, flat);
+    for (std::size_t i = 0; i < slots.size(); ++i) place_attribute(p, slots[i], flat.attributes[i]);
   }
   for (const Triangle& t : flat.triangles)
     for (const Point3f& v : t) extend(m.bounds, v);
   for (int axis = 0; axis < 3 && m.triangles > 0; ++axis)
     m.scale = std::max({m.scale, std::abs(m.bounds.lower[axis]), std::abs(m.bounds.upper[axis])});
-  make_surfaces(appearance, placements, m);
   make_emissive_triangles(flat);
-  move_records(scene, appearance, m);
   m.scene_hash = scene_hash(flat);
   return flat;
 }

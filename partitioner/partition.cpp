@@ -25,7 +25,8 @@ constexpr std::uint64_t default_domain_bytes = 64ull << 20;
 constexpr std::uint32_t most_domains = 999'999;  // six digits in a file name
 // Bytes of a triangle in a domain file: nodes, clusters and pieces, and its three normals
 // (docs/partitioning.md).
-constexpr double bytes_per_triangle = 62, bytes_per_normals = 16;
+constexpr double bytes_per_triangle = 62, bytes_per_normals = 16, bytes_per_uvs = 32,
+                 bytes_per_attribute = 48;
 // No domain should have more than this many times its even share of triangles.
 constexpr double most_load = 1.2;
 
@@ -51,7 +52,9 @@ std::uint32_t number_of_domains(const FlatScene& scene, const PartitionOptions& 
   if (options.domains == 0) {
     const double bytes =
         static_cast<double>(options.domain_bytes ? options.domain_bytes : default_domain_bytes);
-    const double each = bytes_per_triangle + (scene.normals.empty() ? 0 : bytes_per_normals);
+    const double each = bytes_per_triangle + (scene.normals.empty() ? 0 : bytes_per_normals) +
+                        (scene.uvs.empty() ? 0 : bytes_per_uvs) +
+                        bytes_per_attribute * static_cast<double>(scene.attributes.size());
     domains = std::max(1.0, std::ceil(static_cast<double>(scene.triangles.size()) * each / bytes));
   }
   if (domains > most_domains)
@@ -159,7 +162,7 @@ PartitionStats write_bundle(const Scene& scene, const std::filesystem::path& bun
                             const PartitionOptions& options,
                             const std::function<void(double, const char*)>& progress) {
   if (progress) progress(0, "placing triangles");
-  FlatScene flat = flatten(scene);
+  FlatScene flat = flatten(scene, bundle, options.everything);
   const std::uint32_t domains = number_of_domains(flat, options);
   if (progress) progress(0.2, "cutting and writing domains");
   Divider divider(flat, bundle, domains, progress);

@@ -15,6 +15,7 @@ struct PartitionOptions {
   std::uint32_t domains = 0;       // number of leaves; 0: chosen by domain_bytes
   std::uint64_t domain_bytes = 0;  // target size of a domain file; 0 with domains = 0: 64 MiB
   int threads = 0;                 // 0: all
+  bool everything = false;         // as if the scene required all that there is, for measuring
 };
 
 // The statistics contract of `partition --stats`.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "partitioner/write_domain.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -55,15 +56,26 @@ Bounds3f tight_bounds(const DomainContent& content) {
 DomainContent make_domain(const FlatScene& scene, const CellContent& cell) {
   ClusteredTriangles built =
       build_bvh(references_of(scene, cell), static_cast<float>(padding(scene.manifest)));
-  DomainContent content{
-      std::move(built.nodes), std::move(built.clusters), {}, cell.pieces, cell.piece_vertices};
-  if (scene.normals.empty()) return content;
-  content.normals.resize(content.clusters.size());
+  DomainContent content{std::move(built.nodes), std::move(built.clusters), {}, {}, {}, cell.pieces,
+                        cell.piece_vertices};
+  const std::size_t slots = scene.attributes.size();
+  if (!scene.normals.empty()) content.normals.resize(content.clusters.size());
+  if (!scene.uvs.empty()) content.uvs.resize(content.clusters.size());
+  content.attributes.resize(content.clusters.size() * slots);
   for (std::size_t c = 0; c < content.clusters.size(); ++c)
     for (std::size_t lane = 0; lane < cluster_width; ++lane) {
       const std::uint32_t id = content.clusters[c].id[lane];
-      for (std::size_t k = 0; k < 3; ++k)
-        content.normals[c].normal[lane][k] = id == no_triangle ? no_normal : scene.normals[id][k];
+      for (std::size_t k = 0; k < 3; ++k) {
+        if (!content.normals.empty())
+          content.normals[c].normal[lane][k] = id == no_triangle ? no_normal : scene.normals[id][k];
+        if (id == no_triangle) continue;
+        if (!content.uvs.empty()) {
+          content.uvs[c].uv[lane][k][0] = scene.uvs[id][k].x;
+          content.uvs[c].uv[lane][k][1] = scene.uvs[id][k].y;
+        }
+        for (std::size_t s = 0; s < slots; ++s)
+          std::ranges::copy(scene.attributes[s][id][k], content.attributes[c * slots + s].value[lane][k]);
+      }
     }
   return content;
 }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// A path while it is being traced, unpacked from its record, and a hit made ready for shading.
+// A path while it is being traced, unpacked from its record.
 #pragma once
 
+#include "tracer/interaction.h"
 #include "tracer/path_tracer.h"
 
 namespace vitrail {
@@ -12,6 +13,9 @@ struct PathTracer::Path {
   std::uint8_t flags = 0;
   float pdf = 0;        // of the last scattering, solid angle, already rounded; 0: specular or camera
   FaceCode entered_by;  // in a pane: the face it came in through
+  double travelled = 0;  // since the last scattering, straight through surfaces; already rounded
+  std::uint8_t medium = 0;  // index + 1, 0: vacuum
+  std::uint8_t cone = 0;    // cone_code
   SampledSpectrum throughput;
   DirectionCode direction;
   Ray ray;
@@ -33,13 +37,5 @@ struct PathTracer::Path {
   }
 };
 
-struct PathTracer::Interaction {
-  Point3d p;
-  Vector3d out;        // unit, back along the ray
-  Vector3d geometric;  // unit normal of the front side
-  Vector3d shading;    // unit, on the same side as `geometric`
-  std::uint32_t triangle = no_triangle;
-  bool front = false;  // the ray came from the front side
-};
 
 }  // namespace vitrail

@@ -4,6 +4,7 @@
 // not travel.
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <cstdint>
 #include <type_traits>
@@ -19,30 +20,36 @@ static_assert(std::endian::native == std::endian::little);
 inline constexpr std::uint32_t max_samples = 1u << 24;
 inline constexpr int max_path_depth = 254;
 inline constexpr std::uint32_t max_domains = 0xffff;
+inline constexpr std::size_t max_media = 254;
 
 enum PathFlags : std::uint8_t {
   path_dispersed = 1,  // only the hero wavelength is left
   path_connection =
-      2,  // on its way to a distant light through panes; `throughput` is the radiance it will deposit
+      2,  // on its way to a light through what lets light straight through; `throughput` is the radiance that
+          // it will deposit
   path_resolved = 4,  // the hit is certain: to be shaded in hit_domain
   path_in_pane = 8,   // inside a dispersive medium, all wavelengths alive: the face it entered by is known
 };
 
 #pragma pack(push, 1)
-// A path on its way to its next hit, with the best hit so far.
+// A path on its way to its next hit, with the best hit so far. Or a connection: it ends at hit_t, where its
+// light is, without a hit.
 struct PathRecord {
   double hit_t;  // ∞: none yet
   std::uint32_t hit_triangle;
   std::uint16_t hit_domain;  // which domain found it
   DirectionCode direction;
   float origin[3];
-  float throughput[hero_count];
-  std::uint32_t exclude;  // triangle it starts on
+  std::uint8_t throughput[hero_count][3];  // as radiance_code
+  std::uint32_t exclude;                   // triangle it starts on
   std::uint32_t pixel;
   std::uint32_t sample_depth;  // sample << 8 | depth
   std::uint16_t pdf;           // of the last scattering, solid angle, as pdf_code; 0: specular or camera.
                                // In a pane: low 16 bits of the FaceCode
   std::uint8_t flags;          // PathFlags, and above them 4 bits: high bits of the FaceCode
+  std::uint8_t travelled[3];   // since the last scattering, straight through surfaces; as radiance_code
+  std::uint8_t medium;         // index + 1 of what the ray is in, 0: vacuum
+  std::uint8_t cone;           // width of the ray's cone where it starts, as cone_code
 };
 
 // A ray to a point on a light. It deposits `radiance` unless something is hit in (0, tmax).
@@ -56,7 +63,7 @@ struct ShadowRecord {
   std::uint32_t sample;
 };
 #pragma pack(pop)
-static_assert(sizeof(PathRecord) == 63 && std::is_trivially_copyable_v<PathRecord>);
+static_assert(sizeof(PathRecord) == 64 && std::is_trivially_copyable_v<PathRecord>);
 static_assert(sizeof(ShadowRecord) == 46 && std::is_trivially_copyable_v<ShadowRecord>);
 
 // A pdf ≥ 0 rounded to bfloat16. Both strategies of multiple importance sampling use the rounded value, so
@@ -67,6 +74,17 @@ inline std::uint16_t pdf_code(float pdf) {
 }
 inline float pdf_value(std::uint16_t code) {
   return std::bit_cast<float>(static_cast<std::uint32_t>(code) << 16);
+}
+
+// A width relative to the scene's scale: 3 bits of mantissa, from 2⁻²⁶ to 2⁶; 0: none.
+inline std::uint8_t cone_code(double relative_width) {
+  constexpr int least = (127 - 26) << 3;
+  const auto bits = static_cast<int>(std::bit_cast<std::uint32_t>(static_cast<float>(relative_width)) >> 20);
+  return static_cast<std::uint8_t>(std::clamp(bits - least, 0, 255));
+}
+inline double cone_value(std::uint8_t code) {
+  constexpr std::uint32_t least = (127 - 26) << 3;
+  return code == 0 ? 0 : static_cast<double>(std::bit_cast<float>((code + least) << 20));
 }
 
 // A radiance ≥ 0 rounded to 8 bits of exponent and 16 of mantissa: relative error ≤ 2⁻¹⁷, unbiased over many.
@@ -81,6 +99,11 @@ inline float unpack_radiance(const std::uint8_t in[3]) {
                              static_cast<std::uint32_t>(in[1]) << 16 |
                              static_cast<std::uint32_t>(in[2]) << 24;
   return std::bit_cast<float>(bits >> 1);
+}
+inline float rounded_radiance(float value) {
+  std::uint8_t packed[3];
+  pack_radiance(value, packed);
+  return unpack_radiance(packed);
 }
 
 }  // namespace vitrail

@@ -70,6 +70,20 @@ float to_unit(std::uint32_t bits) { return static_cast<float>(bits >> 8) * 0x1p-
 
 }  // namespace
 
+std::uint64_t stream_seed(const SampleKey& key, std::uint64_t a, std::uint64_t b) {
+  const std::uint64_t sample = static_cast<std::uint64_t>(key.pixel) << 32 | key.sample;
+  return mix(mix(mix(key.seed + 0x9e3779b97f4a7c15ull) ^ sample) + mix(a + 0x632be59bd9b4e019ull) * 3 + b);
+}
+
+float hashed_1d(const SampleKey& key, std::uint32_t a, std::uint32_t b) {
+  return to_unit(static_cast<std::uint32_t>(mix(stream_seed(key, a, b)) >> 32));
+}
+
+double RandomStream::next() {
+  state_ += 0x9e3779b97f4a7c15ull;
+  return static_cast<double>(mix(state_) >> 11) * 0x1p-53;
+}
+
 std::array<float, 4> sample_4d(const SampleKey& key, std::uint32_t set) {
   const std::uint64_t h =
       mix(mix(key.seed + 0x9e3779b97f4a7c15ull) ^ (static_cast<std::uint64_t>(key.pixel) << 32 | set));

@@ -19,7 +19,22 @@ struct SampleKey {
 // (seed, pixel, set). Sets are statistically independent of each other.
 std::array<float, 4> sample_4d(const SampleKey& key, std::uint32_t set);
 
-// Which set is for what: one for the camera, two a bounce.
+// One number in [0,1) for anything else that is decided along a path, a function of (key, a, b).
+float hashed_1d(const SampleKey& key, std::uint32_t a, std::uint32_t b);
+
+// As many numbers in [0,1) as it takes (SplitMix64, Steele et al. 2014), from a seed of `stream_seed`.
+class RandomStream {
+ public:
+  explicit RandomStream(std::uint64_t seed) : state_(seed) {}
+  double next();
+
+ private:
+  std::uint64_t state_;
+};
+// A function of (key, a, b).
+std::uint64_t stream_seed(const SampleKey& key, std::uint64_t a, std::uint64_t b);
+
+// Which set is for what: one for the camera and one for its lens, two a bounce.
 namespace sample_set {
 inline constexpr std::uint32_t camera = 0;  // film x, film y, wavelength, unused
 constexpr std::uint32_t scatter(std::uint32_t depth) {
@@ -28,6 +43,7 @@ constexpr std::uint32_t scatter(std::uint32_t depth) {
 constexpr std::uint32_t light(std::uint32_t depth) {
   return 2 + 2 * depth;
 }  // point u, v, which light, which kind
+inline constexpr std::uint32_t lens = 1024;  // lens u, v
 }  // namespace sample_set
 
 }  // namespace vitrail

@@ -1,0 +1,349 @@
+// SPDX-License-Identifier: Apache-2.0
+// The fields of the records of materials.bin and lights.bin, listed once for whoever goes through them: a
+// writer, a reader, a checker. `io` is called with every number, and with every Id; its type is of this
+// namespace, so that all overloads are found. Names, origins and the
+// colours that sigmoids were fitted to are for writing scenes: they stay behind.
+#pragma once
+
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "bundle/byte_stream.h"
+#include "bundle/manifest.h"
+
+namespace vitrail::records {
+
+// T, or const T.
+template <class A, class T>
+concept Is = std::same_as<std::remove_const_t<A>, T>;
+
+template <class IO>
+constexpr bool reads = std::decay_t<IO>::reads;
+
+// ---- Building blocks, declared first: they call each other
+
+template <class... Alternatives>
+void fields(auto& io, std::variant<Alternatives...>& v);
+template <class... Alternatives>
+void fields(auto& io, const std::variant<Alternatives...>& v);
+template <class T>
+void fields(auto& io, std::optional<T>& value);
+template <class T>
+void fields(auto& io, const std::optional<T>& value);
+
+template <Number T>
+requires(!Is<T, bool>) void fields(auto& io, T& value) { io(value); }
+
+void fields(auto& io, Is<bool> auto& value) {
+  auto byte = static_cast<std::uint8_t>(value);
+  io(byte);
+  if constexpr (reads<decltype(io)>) value = byte != 0;
+}
+
+// The greatest value of each enumeration.
+template <class E>
+inline constexpr E last_of = E{};
+template <>
+inline constexpr auto last_of<Roughness::Distribution> = Roughness::Distribution::beckmann;
+template <>
+inline constexpr auto last_of<Wrap> = Wrap::black;
+template <>
+inline constexpr auto last_of<TextureFilter> = TextureFilter::anisotropic;
+template <>
+inline constexpr auto last_of<SphericalCamera::Projection> = SphericalCamera::Projection::latitude_longitude;
+template <>
+inline constexpr auto last_of<SpotLight::Falloff> = SpotLight::Falloff::linear;
+template <>
+inline constexpr auto last_of<EnvironmentLight::Projection> =
+    EnvironmentLight::Projection::latitude_longitude;
+
+template <class E>
+requires std::is_enum_v<E>
+void fields(auto& io, E& value) {
+  auto byte = static_cast<std::uint8_t>(value);
+  io(byte);
+  if constexpr (reads<decltype(io)>) {
+    if (byte > static_cast<std::uint8_t>(last_of<E>)) io.stream.fail("a record has an unknown choice");
+    value = static_cast<E>(byte);
+  }
+}
+
+template <class T>
+void fields(auto& io, Id<T>& id) {
+  io(id);
+}
+template <class T>
+void fields(auto& io, const Id<T>& id) {
+  io(id);
+}
+
+void fields(auto& io, Is<std::string> auto& text) {
+  if constexpr (reads<decltype(io)>)
+    text.resize(io.stream.get_count(1));
+  else
+    io(static_cast<std::uint64_t>(text.size()));
+  for (auto& c : text) io(c);
+}
+
+// Points and vectors of two or three dimensions, colours.
+template <class V>
+requires requires(V v) { v.x, v.y; }
+void fields(auto& io, V& v) {
+  io(v.x), io(v.y);
+  if constexpr (requires { v.z; }) io(v.z);
+}
+
+template <class T, std::size_t n>
+void fields(auto& io, std::array<T, n>& values) {
+  for (T& value : values) fields(io, value);
+}
+template <class T, std::size_t n>
+void fields(auto& io, const std::array<T, n>& values) {
+  for (const T& value : values) fields(io, value);
+}
+
+// A list is its length in 8 bytes, then its records.
+template <class List>
+void list(auto& io, List& records) {
+  if constexpr (reads<decltype(io)>)
+    records.resize(io.stream.get_count(1));
+  else
+    io(static_cast<std::uint64_t>(records.size()));
+  for (auto& record : records) fields(io, record);
+}
+
+void fields(auto& io, Is<Transform> auto& t) { fields(io, t.m); }
+template <class T>
+void fields(auto& io, Bounds3<T>& b) {
+  fields(io, b.lower), fields(io, b.upper);
+}
+template <class T>
+void fields(auto& io, const Bounds3<T>& b) {
+  fields(io, b.lower), fields(io, b.upper);
+}
+void fields(auto&, Is<std::monostate> auto&) {}
+
+// ---- Spectra
+
+void fields(auto& io, Is<ConstantSpectrum> auto& s) { io(s.value); }
+// c2 is ±∞ for the constants 1 and 0.
+void fields(auto& io, Is<SigmoidSpectrum> auto& s) { io(s.c0), io(s.c1), io.may_be_infinite(s.c2); }
+void fields(auto& io, Is<RgbIlluminantSpectrum> auto& s) { fields(io, s.shape), io(s.scale); }
+void fields(auto& io, Is<RgbUnboundedSpectrum> auto& s) { fields(io, s.shape), io(s.scale); }
+void fields(auto& io, Is<TabulatedSpectrum> auto& s) {
+  if constexpr (reads<decltype(io)>) s.values.resize(table_size);
+  if (s.values.size() != table_size) throw std::logic_error("a tabulated spectrum has 471 values");
+  for (auto& value : s.values) io(value);
+}
+void fields(auto& io, Is<SellmeierSpectrum> auto& s) { fields(io, s.b), fields(io, s.c_um2); }
+// These are resolved before they come here.
+template <class T>
+concept Unresolved = Is<T, BlackbodySpectrum> || Is<T, NamedSpectrum>;
+void fields(auto& io, Unresolved auto&) {
+  if constexpr (reads<decltype(io)>) io.stream.fail("a spectrum is not resolved");
+  throw std::logic_error("a bundle takes resolved spectra");
+}
+
+// ---- Textures
+
+void fields(auto& io, Is<UvMapping> auto& m) { io(m.a), io(m.b), io(m.c), io(m.d), io(m.e), io(m.f); }
+void fields(auto& io, Is<SphericalMapping> auto& m) { fields(io, m.texture_to_world); }
+void fields(auto& io, Is<CylindricalMapping> auto& m) { fields(io, m.texture_to_world); }
+void fields(auto& io, Is<PlanarMapping> auto& m) {
+  fields(io, m.texture_to_world), fields(io, m.v1), fields(io, m.v2), io(m.offset_s), io(m.offset_t);
+}
+// What its file holds is final: encoding, scale and inversion are applied.
+void fields(auto& io, Is<ImageTexture> auto& t) {
+  fields(io, t.filename), fields(io, t.mapping), fields(io, t.wrap), fields(io, t.filter);
+}
+void fields(auto& io, Is<CheckerboardTexture> auto& t) {
+  fields(io, t.even), fields(io, t.odd), fields(io, t.mapping), fields(io, t.solid);
+  fields(io, t.texture_to_world);
+}
+void fields(auto& io, Is<ProductTexture> auto& t) { fields(io, t.first), fields(io, t.second); }
+void fields(auto& io, Is<MixTexture> auto& t) {
+  fields(io, t.first), fields(io, t.second), fields(io, t.amount);
+}
+void fields(auto& io, Is<DirectionMixTexture> auto& t) {
+  fields(io, t.first), fields(io, t.second), fields(io, t.direction);
+}
+void fields(auto& io, Is<BilinearTexture> auto& t) {
+  fields(io, t.v00), fields(io, t.v01), fields(io, t.v10), fields(io, t.v11), fields(io, t.mapping);
+}
+void fields(auto& io, Is<MeshAttributeTexture> auto& t) { fields(io, t.name), io(t.scale); }
+void fields(auto& io, Is<UvTexture> auto& t) { fields(io, t.mapping); }
+// These are their means in a bundle.
+template <class T>
+concept Unbaked = Is<T, DotsTexture> || Is<T, NoiseTexture> || Is<T, PtexTexture>;
+void fields(auto& io, Unbaked auto&) {
+  if constexpr (reads<decltype(io)>) io.stream.fail("a texture is not baked");
+  throw std::logic_error("a bundle takes baked textures");
+}
+void fields(auto& io, Is<Texture> auto& t) { fields(io, t.model), fields(io, t.is_float); }
+
+// ---- Materials
+
+void fields(auto& io, Is<Roughness> auto& r) {
+  fields(io, r.alpha_u), fields(io, r.alpha_v), fields(io, r.distribution), fields(io, r.square_root);
+}
+void fields(auto& io, Is<DiffuseMaterial> auto& m) { fields(io, m.reflectance), fields(io, m.sigma_deg); }
+void fields(auto& io, Is<DielectricMaterial> auto& m) {
+  fields(io, m.eta), fields(io, m.exterior_eta), fields(io, m.roughness);
+  fields(io, m.reflectance_factor), fields(io, m.transmittance_factor);
+}
+void fields(auto& io, Is<ThinDielectricMaterial> auto& m) {
+  fields(io, m.eta), fields(io, m.exterior_eta);
+  fields(io, m.reflectance_factor), fields(io, m.transmittance_factor);
+}
+void fields(auto& io, Is<ComplexIndex> auto& m) { fields(io, m.eta), fields(io, m.k); }
+void fields(auto& io, Is<NormalReflectance> auto& m) { fields(io, m.reflectance); }
+void fields(auto&, Is<PerfectReflector> auto&) {}
+void fields(auto& io, Is<ConductorMaterial> auto& m) {
+  fields(io, m.metal), fields(io, m.roughness), fields(io, m.reflectance_factor);
+}
+void fields(auto& io, Is<PlasticMaterial> auto& m) {
+  fields(io, m.diffuse_reflectance), fields(io, m.specular_reflectance), io(m.eta), io(m.exterior_eta);
+  fields(io, m.roughness), fields(io, m.nonlinear);
+}
+void fields(auto& io, Is<CoatingVolume> auto& v) {
+  fields(io, v.thickness), fields(io, v.g), fields(io, v.albedo), io(v.max_depth), io(v.samples);
+}
+void fields(auto& io, Is<CoatedDiffuseMaterial> auto& m) {
+  fields(io, m.reflectance), fields(io, m.eta), fields(io, m.roughness), fields(io, m.volume);
+}
+void fields(auto& io, Is<CoatedConductorMaterial> auto& m) {
+  fields(io, m.metal), fields(io, m.conductor_roughness), fields(io, m.interface_eta);
+  fields(io, m.interface_roughness), fields(io, m.volume);
+}
+void fields(auto& io, Is<DiffuseTransmissionMaterial> auto& m) {
+  fields(io, m.reflectance), fields(io, m.transmittance), io(m.scale);
+}
+void fields(auto& io, Is<PrincipledMaterial> auto& m) {
+  fields(io, m.base_color);
+  for (auto* p : {&m.roughness, &m.anisotropic, &m.metallic, &m.spec_trans, &m.spec_tint, &m.sheen,
+                  &m.sheen_tint, &m.flatness, &m.clearcoat, &m.clearcoat_gloss, &m.diff_trans})
+    fields(io, *p);
+  io(m.eta), fields(io, m.thin);
+}
+void fields(auto&, Is<InterfaceMaterial> auto&) {}
+void fields(auto& io, Is<BlendMaterial> auto& m) {
+  fields(io, m.first), fields(io, m.second), fields(io, m.amount);
+}
+void fields(auto& io, Is<MaskMaterial> auto& m) { fields(io, m.opacity), fields(io, m.material); }
+void fields(auto& io, Is<TwoSidedMaterial> auto& m) { fields(io, m.front), fields(io, m.back); }
+// Other materials stand for these in a bundle.
+template <class T>
+concept Replaced = Is<T, SubsurfaceMaterial> || Is<T, HairMaterial> || Is<T, MeasuredMaterial>;
+void fields(auto& io, Replaced auto&) {
+  if constexpr (reads<decltype(io)>) io.stream.fail("a material is of a kind that bundles do not have");
+  throw std::logic_error("a bundle does not take this material");
+}
+void fields(auto& io, Is<Material> auto& m) {
+  fields(io, m.model), fields(io, m.two_sided), fields(io, m.displacement), fields(io, m.normal_map);
+}
+void fields(auto& io, Is<Surface> auto& s) {
+  io(s.first_triangle), io(s.material), io(s.area_light), io(s.interior), io(s.exterior);
+}
+
+// ---- Media
+
+void fields(auto& io, Is<Grid> auto& g) {
+  io(g.nx), io(g.ny), io(g.nz), io(g.channels), list(io, g.values);
+  fields(io, g.bounds), fields(io, g.clamp);
+}
+void fields(auto& io, Is<AbsorptionScattering> auto& c) { fields(io, c.sigma_a), fields(io, c.sigma_s); }
+void fields(auto& io, Is<ExtinctionAlbedo> auto& c) { fields(io, c.sigma_t), fields(io, c.albedo); }
+template <class T>
+concept Unknown = Is<T, NamedMedium> || Is<T, CloudDensity>;
+void fields(auto& io, Unknown auto&) {
+  if constexpr (reads<decltype(io)>) io.stream.fail("a medium is of a kind that bundles do not have");
+  throw std::logic_error("a bundle does not take this medium");
+}
+void fields(auto& io, Is<Medium> auto& m) {
+  fields(io, m.coefficients), io(m.scale), fields(io, m.density), fields(io, m.emission);
+  fields(io, m.emission_scale), io(m.g), fields(io, m.medium_to_world);
+}
+
+// ---- Lights
+
+void fields(auto& io, Is<AreaLight> auto& l) {
+  fields(io, l.radiance), io(l.scale), fields(io, l.two_sided), fields(io, l.directional);
+}
+void fields(auto& io, Is<PointLight> auto& l) { fields(io, l.position), fields(io, l.intensity); }
+void fields(auto& io, Is<SpotLight> auto& l) {
+  fields(io, l.light_to_world), fields(io, l.intensity), io(l.beam_deg), io(l.cutoff_deg);
+  fields(io, l.falloff), fields(io, l.texture);
+}
+void fields(auto& io, Is<ProjectionLight> auto& l) {
+  fields(io, l.light_to_world), fields(io, l.image), fields(io, l.scale), io(l.fov_deg);
+  fields(io, l.irradiance), fields(io, l.power);
+}
+void fields(auto& io, Is<GoniometricLight> auto& l) {
+  fields(io, l.light_to_world), fields(io, l.intensity), fields(io, l.filename);
+  fields(io, l.latitude_longitude), fields(io, l.power);
+}
+void fields(auto& io, Is<DistantLight> auto& l) { fields(io, l.direction), fields(io, l.irradiance); }
+void fields(auto& io, Is<InfiniteLight> auto& l) { fields(io, l.radiance); }
+void fields(auto& io, Is<EnvironmentLight> auto& l) {
+  fields(io, l.filename), fields(io, l.light_to_world), fields(io, l.projection), fields(io, l.scale);
+  fields(io, l.illuminance), fields(io, l.portal);
+}
+void fields(auto& io, Is<Light> auto& l) { fields(io, l.model); }
+void fields(auto& io, Is<EmissiveTriangle> auto& t) {
+  for (auto& p : t.p) fields(io, p);
+  for (auto& uv : t.uv) fields(io, uv);
+  io(t.triangle), io(t.area_light);
+}
+
+// ---- Cameras: kept in the manifest
+
+void fields(auto& io, Is<ScreenWindow> auto& s) { io(s.x0), io(s.x1), io(s.y0), io(s.y1); }
+void fields(auto& io, Is<Lens> auto& l) { io(l.radius), io(l.focal_distance); }
+template <class T>
+concept Framed = Is<T, PerspectiveCamera> || Is<T, OrthographicCamera>;
+void fields(auto& io, Framed auto& c) {
+  fields(io, c.camera_to_world), fields(io, c.screen), fields(io, c.lens);
+}
+void fields(auto& io, Is<SphericalCamera> auto& c) {
+  fields(io, c.camera_to_world), fields(io, c.projection);
+}
+
+// ---- Building blocks, defined
+
+// A variant is its index in one byte, then the fields of that alternative.
+template <class... Alternatives>
+void fields(auto& io, std::variant<Alternatives...>& v) {
+  auto index = static_cast<std::uint8_t>(v.index());
+  io(index);
+  if constexpr (reads<decltype(io)>) {
+    if (index >= sizeof...(Alternatives)) io.stream.fail("a record is of an unknown kind");
+    std::uint8_t i = 0;
+    ((i++ == index ? static_cast<void>(v = Alternatives{}) : void()), ...);
+  }
+  std::visit([&](auto& alternative) { fields(io, alternative); }, v);
+}
+template <class... Alternatives>
+void fields(auto& io, const std::variant<Alternatives...>& v) {
+  io(static_cast<std::uint8_t>(v.index()));
+  std::visit([&](const auto& alternative) { fields(io, alternative); }, v);
+}
+
+template <class T>
+void fields(auto& io, std::optional<T>& value) {
+  auto given = static_cast<std::uint8_t>(value.has_value());
+  io(given);
+  if constexpr (reads<decltype(io)>) {
+    if (given) value.emplace();
+  }
+  if (value) fields(io, *value);
+}
+template <class T>
+void fields(auto& io, const std::optional<T>& value) {
+  io(static_cast<std::uint8_t>(value.has_value()));
+  if (value) fields(io, *value);
+}
+
+}  // namespace vitrail::records

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+// The media of a bundle.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scene/medium.h"
+
+namespace vitrail {
+
+// A medium made ready for rendering: spectra resolved, grids read into memory, coefficients in the form
+// σ_a, σ_s or σ_t, albedo. Empty where nothing of it can be shown; `notes` say what stands for something
+// else. Throws Error for files that cannot be read.
+std::optional<Medium> bake_medium(const Medium& medium, std::vector<std::string>& notes);
+
+}  // namespace vitrail

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tracer/bsdf_of.h"
+
+#include <algorithm>
+
+#include "tracer/bsdf/fresnel.h"
+#include "tracer/portable_math.h"
+#include "tracer/wavelengths.h"
+
+namespace vitrail {
+
+namespace {
+
+SampledSpectrum ratio(const SampledSpectrum& a, const SampledSpectrum& b) {
+  SampledSpectrum r;
+  for (std::size_t i = 0; i < hero_count; ++i) r.v[i] = b.v[i] > 0 ? a.v[i] / b.v[i] : a.v[i];
+  return r;
+}
+
+double mean(const SampledSpectrum& s) {
+  return static_cast<double>((s.v[0] + s.v[1] + s.v[2] + s.v[3]) / hero_count);
+}
+
+}  // namespace
+
+bool transmits(const MaterialModel& model) {
+  if (const auto* principled = std::get_if<PrincipledMaterial>(&model))
+    return principled->thin || principled->spec_trans != FloatParameter{0.0f};
+  return std::holds_alternative<DielectricMaterial>(model) ||
+         std::holds_alternative<ThinDielectricMaterial>(model) ||
+         std::holds_alternative<DiffuseTransmissionMaterial>(model);
+}
+
+SampledSpectrum BsdfMaker::spectrum(const SpectrumParameter& p) const {
+  return textures.spectrum(p, at, wavelengths);
+}
+double BsdfMaker::number(const FloatParameter& p) const { return textures.number(p, at); }
+
+Microfacets BsdfMaker::microfacets(const Roughness& r, Masking masking) const {
+  const auto alpha = [&](const FloatParameter& p) {
+    const double value = std::max(0.0, number(p));
+    // Remapped textures give roughness; constants are α already.
+    return r.square_root && std::holds_alternative<Id<Texture>>(p) ? std::sqrt(value) : value;
+  };
+  return make_microfacets(alpha(r.alpha_u), alpha(r.alpha_v), r.distribution, masking);
+}
+
+Bsdf BsdfMaker::operator()(const DiffuseMaterial& m) const {
+  const double sigma = m.sigma_deg == FloatParameter{0.0f} ? 0 : number(m.sigma_deg);
+  if (sigma > 0) return OrenNayarBsdf{spectrum(m.reflectance), sigma * pi / 180};
+  return LambertBsdf{spectrum(m.reflectance)};
+}
+
+Bsdf BsdfMaker::operator()(const DielectricMaterial& m) const {
+  const SampledSpectrum eta = ratio(evaluate(m.eta, wavelengths), evaluate(m.exterior_eta, wavelengths));
+  return DielectricBsdf{static_cast<double>(eta[0]), microfacets(m.roughness, Masking::separable),
+                        spectrum(m.reflectance_factor), spectrum(m.transmittance_factor)};
+}
+
+ThinDielectricBsdf BsdfMaker::thin(const ThinDielectricMaterial& m) const {
+  return {ratio(evaluate(m.eta, wavelengths), evaluate(m.exterior_eta, wavelengths)),
+          spectrum(m.reflectance_factor), spectrum(m.transmittance_factor)};
+}
+
+// Of a metal's reflectance r at normal incidence: η = 1, k = 2√(r/(1 − r)), r < 1.
+ConductorBsdf BsdfMaker::metal(const Metal& metal) const {
+  ConductorBsdf b;
+  if (const auto* index = std::get_if<ComplexIndex>(&metal)) {
+    b.eta = spectrum(index->eta);
+    b.k = spectrum(index->k);
+  } else if (const auto* normal = std::get_if<NormalReflectance>(&metal)) {
+    b.eta = filled(1);
+    const SampledSpectrum r = spectrum(normal->reflectance);
+    for (std::size_t i = 0; i < hero_count; ++i) {
+      const float below_one = std::clamp(r.v[i], 0.0f, 0.9999f);
+      b.k.v[i] = 2 * std::sqrt(below_one / (1 - below_one));
+    }
+  } else {
+    b.perfect = true;
+  }
+  return b;
+}
+
+Bsdf BsdfMaker::operator()(const ConductorMaterial& m) const {
+  ConductorBsdf b = metal(m.metal);
+  b.microfacets = microfacets(m.roughness, Masking::separable);
+  b.factor = spectrum(m.reflectance_factor);
+  return b;
+}
+
+Bsdf BsdfMaker::operator()(const PlasticMaterial& m) const {
+  const double eta = static_cast<double>(m.eta) / static_cast<double>(m.exterior_eta);
+  if (m.roughness.alpha_u == FloatParameter{0.0f})
+    return PlasticBsdf{spectrum(m.diffuse_reflectance), spectrum(m.specular_reflectance), eta,
+                       plastic_internal_reflectance, m.nonlinear};
+  return RoughPlasticBsdf{spectrum(m.diffuse_reflectance),
+                          spectrum(m.specular_reflectance),
+                          eta,
+                          microfacets(m.roughness, Masking::separable),
+                          plastic_tables,
+                          m.nonlinear};
+}
+
+Bsdf BsdfMaker::operator()(const DiffuseTransmissionMaterial& m) const {
+  return DiffuseTransmissionBsdf{spectrum(m.reflectance) * m.scale, spectrum(m.transmittance) * m.scale};
+}
+
+Bsdf BsdfMaker::operator()(const PrincipledMaterial& m) const {
+  const SampledSpectrum color = spectrum(m.base_color);
+  const auto n = [&](const FloatParameter& p) { return number(p); };
+  if (m.thin)
+    return PrincipledThinBsdf{color,           mean(color),       static_cast<double>(m.eta),
+                              n(m.roughness),  n(m.anisotropic),  n(m.spec_trans),
+                              n(m.spec_tint),  n(m.sheen),        n(m.sheen_tint),
+                              n(m.flatness),   n(m.diff_trans)};
+  return PrincipledBsdf{color,          mean(color),      static_cast<double>(m.eta), n(m.roughness),
+                        n(m.anisotropic), n(m.metallic),  n(m.spec_trans),            n(m.spec_tint),
+                        n(m.sheen),     n(m.sheen_tint),  n(m.flatness),              n(m.clearcoat),
+                        n(m.clearcoat_gloss)};
+}
+
+}  // namespace vitrail

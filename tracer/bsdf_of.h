@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// From a material's record to its model of scattering at one point: every parameter is looked up.
+#pragma once
+
+#include "scene/material.h"
+#include "tracer/scattering.h"
+#include "tracer/textures/textures.h"
+
+namespace vitrail {
+
+// Whether light gets to the other side, so that the model knows which one it is asked from.
+bool transmits(const MaterialModel& model);
+
+struct BsdfMaker {
+  const Textures& textures;
+  TexturePoint at;
+  const SampledWavelengths& wavelengths;
+  bool from_front;
+  const RoughPlasticTables* plastic_tables;  // of the material, where it is a rough plastic
+
+  Bsdf operator()(const DiffuseMaterial& m) const;
+  Bsdf operator()(const DielectricMaterial& m) const;
+  Bsdf operator()(const ThinDielectricMaterial& m) const { return thin(m); }
+  Bsdf operator()(const ConductorMaterial& m) const;
+  Bsdf operator()(const PlasticMaterial& m) const;
+  Bsdf operator()(const CoatedDiffuseMaterial& m) const;
+  Bsdf operator()(const CoatedConductorMaterial& m) const;
+  Bsdf operator()(const DiffuseTransmissionMaterial& m) const;
+  Bsdf operator()(const PrincipledMaterial& m) const;
+  // Those that are made of others, and those that bundles do not have: black.
+  Bsdf operator()(const auto&) const { return LambertBsdf{}; }
+
+  ThinDielectricBsdf thin(const ThinDielectricMaterial& m) const;
+
+ private:
+  SampledSpectrum spectrum(const SpectrumParameter& p) const;
+  double number(const FloatParameter& p) const;
+  Microfacets microfacets(const Roughness& r, Masking masking) const;
+  ConductorBsdf metal(const Metal& metal) const;
+};
+
+}  // namespace vitrail

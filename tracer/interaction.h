@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// A hit made ready for shading.
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "bundle/manifest.h"
+#include "tracer/intersect/ray.h"
+#include "tracer/textures/textures.h"
+
+namespace vitrail {
+
+struct Interaction {
+  Point3d p;
+  Vector3d out;        // unit, back along the ray
+  Vector3d geometric;  // unit normal of the front side
+  Vector3d shading;    // unit, on the same side as `geometric`
+  std::uint32_t triangle = no_triangle;
+  bool front = false;  // the ray came from the front side
+
+  // Of surfaces that textures are looked up on.
+  Point2d uv;
+  Vector3d dpdu, dpdv;  // 0 where the triangle's (u,v) do not span a plane
+  double uv_width = 0;  // of the ray's cone
+  std::uint32_t attribute_count = 0;
+  std::array<std::array<float, 3>, max_attributes> attributes;
+
+  double side() const { return front ? 1 : -1; }
+  TexturePoint texture_point() const {
+    return {uv, p, shading, uv_width, std::span(attributes).first(attribute_count)};
+  }
+};
+
+// `direction` of the ray, `cone_width` of its cone at the hit (0: none).
+Interaction make_interaction(const DomainView& domain, const Hit& hit, Vector3f direction, double cone_width,
+                             std::uint32_t attributes);
+
+}  // namespace vitrail

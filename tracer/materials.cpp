@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tracer/materials.h"
+
+#include <map>
+
+#include "tracer/bsdf/fresnel.h"
+#include "tracer/bsdf_of.h"
+#include "tracer/portable_math.h"
+#include "tracer/wavelengths.h"
+
+namespace vitrail {
+
+namespace {
+
+bool is_zero(const FloatParameter& p) { return p == FloatParameter{0.0f}; }
+
+MaterialKind kind_of(const Material& material) {
+  MaterialKind kind;
+  kind.is_interface = std::holds_alternative<InterfaceMaterial>(material.model);
+  if (const auto* d = std::get_if<DielectricMaterial>(&material.model)) {
+    kind.smooth_dielectric = is_zero(d->roughness.alpha_u) && is_zero(d->roughness.alpha_v);
+    kind.dispersive = !is_constant(d->eta) || !is_constant(d->exterior_eta);
+  }
+  return kind;
+}
+
+// n + ∇h: the normal of a surface that is raised by a height h(u,v) along n (Blinn 1978).
+Vector3d bumped(const FloatParameter& height, const Interaction& at, Vector3d n, const Textures& textures) {
+  constexpr double step = 1.0 / 4096;  // in u and v
+  TexturePoint point = at.texture_point();
+  const double here = textures.number(height, point);
+  const auto slope = [&](double du, double dv) {
+    TexturePoint moved = point;
+    moved.uv = {point.uv.x + du, point.uv.y + dv};
+    moved.p = point.p + at.dpdu * du + at.dpdv * dv;
+    return (textures.number(height, moved) - here) / step;
+  };
+  const auto along_surface = [&](Vector3d d) { return d - n * dot(n, d); };
+  const Vector3d u = along_surface(at.dpdu) + n * slope(step, 0), v = along_surface(at.dpdv) + n * slope(0, step);
+  const Vector3d turned = normalize(cross(u, v));
+  return dot(turned, n) < 0 ? -turned : turned;
+}
+
+Vector3d mapped(Id<Texture> map, const Interaction& at, Vector3d n, const Textures& textures) {
+  const std::array<double, 3> c = textures.vector(map, at.texture_point());
+  const Vector3d local = normalize(Vector3d{2 * c[0] - 1, 2 * c[1] - 1, 2 * c[2] - 1});
+  const Vector3d tangent = normalize(at.dpdu - n * dot(n, at.dpdu));
+  return normalize(tangent * local.x + cross(n, tangent) * local.y + n * local.z);
+}
+
+ShadingFrame frame_around(Vector3d n, const Interaction& at, double side) {
+  ShadingFrame frame;
+  frame.tangent = at.dpdu - n * dot(n, at.dpdu);
+  if (dot(frame.tangent, frame.tangent) > 1e-12 * dot(at.dpdu, at.dpdu)) {
+    frame.tangent = normalize(frame.tangent);
+    frame.bitangent = cross(n, frame.tangent);
+  } else {
+    const Frame any(n);
+    frame.tangent = any.tangent;
+    frame.bitangent = any.bitangent;
+  }
+  frame.normal = n * side;
+  return frame;
+}
+
+}  // namespace
+
+Materials::Materials(const Manifest& manifest, const Textures& textures)
+    : manifest_(manifest), textures_(textures), plastic_table_(manifest.materials.size()) {
+  std::map<std::tuple<float, float, Roughness::Distribution>, std::uint32_t> known;
+  for (std::size_t i = 0; i < manifest.materials.size(); ++i) {
+    kinds_.push_back(kind_of(manifest.materials[i]));
+    const auto* plastic = std::get_if<PlasticMaterial>(&manifest.materials[i].model);
+    if (!plastic || is_zero(plastic->roughness.alpha_u)) continue;
+    // A textured width is tabulated by what it is in the middle.
+    const auto* alpha = std::get_if<float>(&plastic->roughness.alpha_u);
+    const float eta = plastic->eta / plastic->exterior_eta, width = alpha ? *alpha : 0.3f;
+    const auto [at, is_new] = known.try_emplace({width, eta, plastic->roughness.distribution},
+                                                static_cast<std::uint32_t>(plastic_tables_.size()));
+    if (is_new)
+      plastic_tables_.push_back(make_rough_plastic_tables(
+          std::max(least_alpha, static_cast<double>(width)), static_cast<double>(eta),
+          plastic->roughness.distribution));
+    plastic_table_[i] = at->second;
+  }
+}
+
+const Material* Materials::choose(std::uint32_t material, const Interaction& at, const SampleKey& key,
+                                  std::uint32_t depth) const {
+  for (std::uint32_t level = 0;; ++level) {
+    const Material& m = manifest_.materials[material];
+    const auto chance = [&] { return static_cast<double>(hashed_1d(key, at.triangle, depth << 8 | level)); };
+    if (const auto* sided = std::get_if<TwoSidedMaterial>(&m.model)) {
+      material = (at.front ? sided->front : sided->back).value;
+    } else if (const auto* blend = std::get_if<BlendMaterial>(&m.model)) {
+      const double amount = textures_.number(blend->amount, at.texture_point());
+      material = (chance() < amount ? blend->second : blend->first).value;
+    } else if (const auto* mask = std::get_if<MaskMaterial>(&m.model)) {
+      if (chance() >= textures_.number(mask->opacity, at.texture_point())) return nullptr;
+      material = mask->material.value;
+    } else {
+      return std::holds_alternative<InterfaceMaterial>(m.model) ? nullptr : &m;
+    }
+  }
+}
+
+SampledSpectrum Materials::passes_straight(std::uint32_t material, const Interaction& at,
+                                           const SampledWavelengths& wavelengths) const {
+  const Material& m = manifest_.materials[material];
+  const auto part = [&](Id<Material> id) { return passes_straight(id.value, at, wavelengths); };
+  const auto share = [&](const FloatParameter& p) {
+    return static_cast<float>(std::clamp(textures_.number(p, at.texture_point()), 0.0, 1.0));
+  };
+  if (const auto* sided = std::get_if<TwoSidedMaterial>(&m.model))
+    return part(at.front ? sided->front : sided->back);
+  if (const auto* blend = std::get_if<BlendMaterial>(&m.model)) {
+    const float amount = share(blend->amount);
+    return part(blend->first) * (1 - amount) + part(blend->second) * amount;
+  }
+  if (const auto* mask = std::get_if<MaskMaterial>(&m.model)) {
+    const float opacity = share(mask->opacity);
+    return filled(1 - opacity) + part(mask->material) * opacity;
+  }
+  if (std::holds_alternative<InterfaceMaterial>(m.model)) return filled(1);
+  if (const auto* thin = std::get_if<ThinDielectricMaterial>(&m.model)) {
+    const BsdfMaker maker{textures_, at.texture_point(), wavelengths, at.front, nullptr};
+    return straight_transmittance(maker.thin(*thin), std::abs(dot(at.out, at.shading)));
+  }
+  return {};
+}
+
+Vector3d Materials::shading_normal(const Material& material, const Interaction& at) const {
+  Vector3d n = at.shading;
+  if (dot(at.dpdu, at.dpdu) > 0) {
+    if (material.normal_map) n = mapped(*material.normal_map, at, n, textures_);
+    if (material.displacement) n = bumped(*material.displacement, at, n, textures_);
+  }
+  // A normal that the ray sees from the other side than the surface cannot be used.
+  return dot(n, n) > 0.5 && (dot(at.out, n) > 0) == at.front ? n : at.shading;
+}
+
+std::optional<Scattering> Materials::scattering_at(const Material& material, const Interaction& at,
+                                                   const SampledWavelengths& wavelengths) const {
+  const bool both_sides = transmits(material.model);
+  if (!both_sides && !material.two_sided && !at.front) return std::nullopt;
+  const Vector3d normal = shading_normal(material, at);
+  const BsdfMaker maker{textures_, at.texture_point(), wavelengths, at.front,
+                        plastic_tables_.empty() ? nullptr : &plastic_tables_[plastic_table_[index_of(material)]]};
+  return Scattering{std::visit(maker, material.model),
+                    frame_around(normal, at, both_sides ? 1.0 : at.side())};
+}
+
+SampledSpectrum relative_index(const DielectricMaterial& material, const SampledWavelengths& wavelengths,
+                               bool from_front) {
+  const SampledSpectrum behind = evaluate(material.eta, wavelengths),
+                        before = evaluate(material.exterior_eta, wavelengths);
+  SampledSpectrum eta;
+  for (std::size_t i = 0; i < hero_count; ++i)
+    eta.v[i] = from_front ? behind.v[i] / before.v[i] : before.v[i] / behind.v[i];
+  return eta;
+}
+
+}  // namespace vitrail

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// The materials of a bundle: from a record and a point to what scatters there.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "bundle/manifest.h"
+#include "tracer/interaction.h"
+#include "tracer/sampler.h"
+#include "tracer/scattering.h"
+
+namespace vitrail {
+
+// What a path has to know of a surface's material before anything is looked up.
+struct MaterialKind {
+  bool is_interface = false;       // nothing is there
+  bool smooth_dielectric = false;  // bends light as it is: of panes and connections through them
+  bool dispersive = false;         // its index depends on λ
+};
+
+class Materials {
+ public:
+  // Both outlive it.
+  Materials(const Manifest& manifest, const Textures& textures);
+
+  const MaterialKind& kind(std::uint32_t material) const { return kinds_[material]; }
+
+  // The material that a path meets: of two sides the one it sees, of a blend one by chance, of a mask the
+  // material or, null, nothing: light goes straight through.
+  const Material* choose(std::uint32_t material, const Interaction& at, const SampleKey& key,
+                         std::uint32_t depth) const;
+  // The share of the light that goes straight through, by no chance.
+  SampledSpectrum passes_straight(std::uint32_t material, const Interaction& at,
+                                  const SampledWavelengths& wavelengths) const;
+
+  // Whether a chosen material turns wavelengths into different directions.
+  bool disperses(const Material& material) const { return kind(index_of(material)).dispersive; }
+  // Of a chosen material; empty where it is black: the back of a one-sided surface.
+  std::optional<Scattering> scattering_at(const Material& material, const Interaction& at,
+                                          const SampledWavelengths& wavelengths) const;
+  // The normal as bump and normal maps turn it; on the same side as at.geometric.
+  Vector3d shading_normal(const Material& material, const Interaction& at) const;
+
+ private:
+  std::uint32_t index_of(const Material& material) const {
+    return static_cast<std::uint32_t>(&material - manifest_.materials.data());
+  }
+  const Manifest& manifest_;
+  const Textures& textures_;
+  std::vector<MaterialKind> kinds_;
+  std::vector<RoughPlasticTables> plastic_tables_;
+  std::vector<std::uint32_t> plastic_table_;  // of a material: index into plastic_tables_
+};
+
+// Index behind over index in front at the four wavelengths, for light that comes from the front or the back.
+SampledSpectrum relative_index(const DielectricMaterial& material, const SampledWavelengths& wavelengths,
+                               bool from_front);
+
+}  // namespace vitrail

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tracer/media/phase.h"
+
+#include <algorithm>
+
+#include "tracer/bsdf/local.h"
+#include "tracer/portable_math.h"
+
+namespace vitrail {
+
+double phase(double g, Vector3d out, Vector3d in) {
+  // ≥ (1 − |g|)² > 0.
+  const double base = std::max(1 + g * g + 2 * g * dot(out, in), (1 - std::abs(g)) * (1 - std::abs(g)));
+  return (1 - g * g) / (4 * pi * base * std::sqrt(base));
+}
+
+Vector3d sample_phase(double g, Vector3d out, float u, float v) {
+  const double x = static_cast<double>(u);
+  double cosine;
+  if (std::abs(g) < 1e-3) {
+    // The inversion divides by g; to first order in g it is this.
+    const double isotropic = 2 * x - 1;
+    cosine = isotropic + 1.5 * g * (1 - isotropic * isotropic);
+  } else {
+    const double s = (1 - g * g) / (1 - g + 2 * g * x);
+    cosine = (1 + g * g - s * s) / (2 * g);
+  }
+  cosine = std::clamp(cosine, -1.0, 1.0);
+  const double sine = safe_sqrt(1 - cosine * cosine), turn = 2 * static_cast<double>(v);
+  return Frame(-out).to_world({sine * sin_pi(turn + 0.5), sine * sin_pi(turn), cosine});
+}
+
+}  // namespace vitrail

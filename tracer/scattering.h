@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// Scattering at one point of a surface: a model with its parameters looked up, and the frame it is meant in.
+#pragma once
+
+#include <variant>
+
+#include "tracer/bsdf/conductor.h"
+#include "tracer/bsdf/dielectric.h"
+#include "tracer/bsdf/diffuse.h"
+#include "tracer/bsdf/layered.h"
+#include "tracer/bsdf/plastic.h"
+#include "tracer/bsdf/principled.h"
+
+namespace vitrail {
+
+using Bsdf = std::variant<LambertBsdf, OrenNayarBsdf, DiffuseTransmissionBsdf, ConductorBsdf, DielectricBsdf,
+                          ThinDielectricBsdf, PlasticBsdf, RoughPlasticBsdf, PrincipledBsdf,
+                          PrincipledThinBsdf, CoatedDiffuseBsdf, CoatedConductorBsdf>;
+
+inline BsdfValue eval(const Bsdf& bsdf, Vector3d out, Vector3d in) {
+  return std::visit([&](const auto& b) { return eval(b, out, in); }, bsdf);
+}
+inline std::optional<BsdfSample> sample(const Bsdf& bsdf, Vector3d out, float u_lobe, Point2f u) {
+  return std::visit([&](const auto& b) { return sample(b, out, u_lobe, u); }, bsdf);
+}
+
+// Orthonormal. On the back of a surface that scatters there as in front, the normal is turned over and the
+// tangents stay: it is left-handed.
+struct ShadingFrame {
+  Vector3d tangent, bitangent, normal;
+  Vector3d to_world(Vector3d v) const { return tangent * v.x + bitangent * v.y + normal * v.z; }
+  Vector3d to_local(Vector3d v) const { return {dot(v, tangent), dot(v, bitangent), dot(v, normal)}; }
+};
+
+struct Scattering {
+  Bsdf bsdf;
+  ShadingFrame frame;
+};
+
+}  // namespace vitrail
