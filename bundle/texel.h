@@ -45,15 +45,17 @@ inline constexpr std::size_t max_tile_words = 4096;
 constexpr std::uint32_t tile_width(TexelFormat format) { return words_per_texel(format) == 3 ? 32 : 64; }
 constexpr std::uint32_t tile_height(TexelFormat format) { return words_per_texel(format) == 1 ? 64 : 32; }
 
-// A real number in 21 bits: sign, 5 bits of exponent (bias 15), 15 of fraction. Relative error 2⁻¹⁷ from 2⁻¹⁴
-// on, magnitude at most real21_max.
-inline constexpr float real21_max = 131068;
-// Rounded to nearest even; what is larger, ±∞ too, becomes ±real21_max. NaN becomes 0.
+// A real number in 21 bits: sign, 5 bits of exponent (bias 15), 15 of fraction, for magnitudes from 2⁻¹⁴ to
+// real21_max, with a relative error below 2⁻¹⁶; and 0.
+inline constexpr float real21_max = 131070;
+// To nearest even; what is larger, ±∞ too, becomes ±real21_max, NaN becomes 0.
 inline std::uint32_t encode_real21(float value) {
   if (!(value == value)) return 0;
   const std::uint32_t sign = std::signbit(value) ? 1u << 20 : 0;
-  const float magnitude = std::fmin(std::fabs(value), real21_max);
-  // 2⁻¹¹² moves the exponent's bias from 127 to 15; what falls below 2⁻¹²⁶ is subnormal in both.
+  float magnitude = std::fmin(std::fabs(value), real21_max);
+  if (magnitude < 0x1p-15f) return 0;  // the processor may be set to take subnormal numbers for 0
+  magnitude = std::fmax(magnitude, 0x1p-14f);
+  // 2⁻¹¹² moves the exponent's bias from 127 to 15.
   const auto bits = std::bit_cast<std::uint32_t>(magnitude * 0x1p-112f);
   return sign | ((bits + 0x7f + ((bits >> 8) & 1)) >> 8);
 }
