@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+// How the texels of a baked image are stored: as 1, 2 or 3 words of 32 bits.
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+#include "scene/spectrum.h"
+
+namespace vitrail {
+
+// Spectra are kept as x at 360, 595 and 830 nm, of the sigmoid S = ½ + x/(2√(1+x²)): x(λ) is a parabola, so
+// it is linear in the three.
+enum class TexelFormat : std::uint32_t {
+  number,        // a float; as a spectrum: that constant
+  vector_8,      // three integers of 8 bits, value = i/255
+  vector_16,     // three integers of 16 bits, value = i/65535
+  vector_float,  // three floats
+  reflectance,   // three Real21: x
+  unbounded,     // the same, and a float: scale. Value: scale · S
+  illuminant,    // the same times D65
+};
+inline constexpr std::uint32_t texel_format_count = 7;
+
+constexpr std::uint32_t words_per_texel(TexelFormat format) {
+  switch (format) {
+    case TexelFormat::number:
+    case TexelFormat::vector_8:
+      return 1;
+    case TexelFormat::vector_16:
+    case TexelFormat::reflectance:
+      return 2;
+    default:
+      return 3;
+  }
+}
+
+using TexelWords = std::array<std::uint32_t, 3>;  // of which words_per_texel count
+
+// Tiles of all formats take at most 16 KiB.
+inline constexpr std::size_t max_tile_words = 4096;
+constexpr std::uint32_t tile_width(TexelFormat format) { return words_per_texel(format) == 3 ? 32 : 64; }
+constexpr std::uint32_t tile_height(TexelFormat format) { return words_per_texel(format) == 1 ? 64 : 32; }
+
+// A real number in 21 bits: sign, 5 bits of exponent (bias 15), 15 of fraction, for magnitudes from 2⁻¹⁴ to
+// real21_max, with a relative error below 2⁻¹⁶; and 0.
+inline constexpr float real21_max = 131070;
+// To nearest even; what is larger, ±∞ too, becomes ±real21_max, NaN becomes 0.
+inline std::uint32_t encode_real21(float value) {
+  if (!(value == value)) return 0;
+  const std::uint32_t sign = std::signbit(value) ? 1u << 20 : 0;
+  float magnitude = std::fmin(std::fabs(value), real21_max);
+  if (magnitude < 0x1p-15f) return 0;  // the processor may be set to take subnormal numbers for 0
+  magnitude = std::fmax(magnitude, 0x1p-14f);
+  // 2⁻¹¹² moves the exponent's bias from 127 to 15.
+  const auto bits = std::bit_cast<std::uint32_t>(magnitude * 0x1p-112f);
+  return sign | ((bits + 0x7f + ((bits >> 8) & 1)) >> 8);
+}
+inline float decode_real21(std::uint32_t code) {
+  const std::uint32_t magnitude = (code & 0xfffffu) << 8;
+  const std::uint32_t sign = (code << 11) & 0x80000000u;
+  return std::bit_cast<float>(magnitude | sign) * 0x1p112f;
+}
+
+// x at 360, 595 and 830 nm of a sigmoid; ±∞ (the constants 1 and 0) becomes ±real21_max, off by 2e-11.
+using SigmoidNodes = std::array<float, 3>;
+SigmoidNodes nodes_of(const SigmoidSpectrum& sigmoid);
+
+struct SpectralTexel {
+  SigmoidNodes x{};
+  float scale = 1;
+};
+
+inline TexelWords pack(const SpectralTexel& texel) {
+  const std::uint64_t bits = static_cast<std::uint64_t>(encode_real21(texel.x[0])) |
+                             static_cast<std::uint64_t>(encode_real21(texel.x[1])) << 21 |
+                             static_cast<std::uint64_t>(encode_real21(texel.x[2])) << 42;
+  return {static_cast<std::uint32_t>(bits), static_cast<std::uint32_t>(bits >> 32),
+          std::bit_cast<std::uint32_t>(texel.scale)};
+}
+
+inline SigmoidNodes unpack_nodes(const std::uint32_t* words) {
+  const std::uint64_t bits = words[0] | static_cast<std::uint64_t>(words[1]) << 32;
+  constexpr std::uint64_t mask = (1u << 21) - 1;
+  return {decode_real21(static_cast<std::uint32_t>(bits & mask)),
+          decode_real21(static_cast<std::uint32_t>((bits >> 21) & mask)),
+          decode_real21(static_cast<std::uint32_t>((bits >> 42) & mask))};
+}
+
+}  // namespace vitrail

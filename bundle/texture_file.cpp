@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bundle/texture_file.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+
+#include "bundle/checksum.h"
+#include "bundle/write_file.h"
+#include "scene/diagnostics.h"
+
+namespace vitrail {
+
+namespace {
+
+static_assert(std::endian::native == std::endian::little);
+
+constexpr std::array<char, 8> texture_magic{'V', 'I', 'T', 'R', 'T', 'E', 'X', '\n'};
+constexpr std::uint32_t texture_version = 1;
+
+struct Header {
+  std::array<char, 8> magic = texture_magic;
+  std::uint32_t version = texture_version;
+  TextureFileInfo info;
+  std::uint32_t zero = 0;
+  std::uint64_t file_bytes = 0;
+  std::uint64_t tiles = 0;
+  std::uint64_t checksum = 0;  // of this header, with this field 0, and the table of the tiles' checksums
+  std::uint64_t reserved = 0;
+};
+static_assert(sizeof(Header) == 64);
+
+std::uint64_t header_checksum(Header header, std::span<const std::uint64_t> table) {
+  header.checksum = 0;
+  Hasher hasher;
+  hasher.add(std::as_bytes(std::span(&header, 1)));
+  hasher.add(std::as_bytes(table));
+  return hasher.digest();
+}
+
+constexpr std::uint32_t ceil_div(std::uint32_t a, std::uint32_t b) { return (a + b - 1) / b; }
+
+// The part of a tile that its level has, and where it is.
+struct TilePlace {
+  std::uint32_t width, height;
+  std::uint64_t offset, words;
+};
+TilePlace place_of(TexelFormat format, const TextureLevel& level, std::uint32_t tile_x,
+                   std::uint32_t tile_y) {
+  const std::uint32_t x = tile_x * tile_width(format), y = tile_y * tile_height(format);
+  const std::uint32_t width = std::min(tile_width(format), level.width - x);
+  const std::uint32_t height = std::min(tile_height(format), level.height - y);
+  const std::uint64_t texels_before =
+      static_cast<std::uint64_t>(y) * level.width + static_cast<std::uint64_t>(x) * height;
+  const std::uint64_t words = words_per_texel(format);
+  return {width, height, level.offset + texels_before * words * 4, words * width * height};
+}
+
+// A file descriptor that is closed.
+class OpenFile {
+ public:
+  explicit OpenFile(const std::filesystem::path& file)
+      : descriptor_(::open(file.c_str(), O_RDONLY | O_CLOEXEC)) {
+    if (descriptor_ < 0)
+      throw MachineError(fmt::format("cannot open {}: {}", file.string(), std::strerror(errno)));
+  }
+  ~OpenFile() { ::close(descriptor_); }
+  OpenFile(const OpenFile&) = delete;
+  OpenFile& operator=(const OpenFile&) = delete;
+
+  std::uint64_t size() const {
+    struct stat status {};
+    return ::fstat(descriptor_, &status) == 0 ? static_cast<std::uint64_t>(status.st_size) : 0;
+  }
+  // False where the file ends before.
+  bool read(void* to, std::uint64_t bytes, std::uint64_t offset) const {
+    auto* at = static_cast<std::byte*>(to);
+    while (bytes > 0) {
+      const ssize_t n = ::pread(descriptor_, at, bytes, static_cast<off_t>(offset));
+      if (n < 0 && errno == EINTR) continue;
+      if (n <= 0) return false;
+      at += n;
+      offset += static_cast<std::uint64_t>(n);
+      bytes -= static_cast<std::uint64_t>(n);
+    }
+    return true;
+  }
+
+ private:
+  int descriptor_;
+};
+
+[[noreturn]] void fail(const std::filesystem::path& file, const std::string& what) {
+  throw Error("damaged texture file: " + what, {file.string()});
+}
+
+}  // namespace
+
+std::uint32_t texture_level_count(std::uint32_t width, std::uint32_t height) {
+  std::uint32_t levels = 1;
+  for (std::uint32_t size = std::max(width, height); size > 1; size /= 2) ++levels;
+  return levels;
+}
+
+TextureFileLayout texture_file_layout(const TextureFileInfo& info) {
+  TextureFileLayout layout;
+  std::uint64_t texels = 0;
+  for (std::uint32_t l = 0; l < info.levels; ++l) {
+    TextureLevel level{std::max(info.width >> l, 1u), std::max(info.height >> l, 1u)};
+    level.tiles_x = ceil_div(level.width, tile_width(info.format));
+    level.tiles_y = ceil_div(level.height, tile_height(info.format));
+    level.first_tile = layout.tiles;
+    level.offset = texels * words_per_texel(info.format) * 4;
+    texels += static_cast<std::uint64_t>(level.width) * level.height;
+    layout.tiles += static_cast<std::uint64_t>(level.tiles_x) * level.tiles_y;
+    layout.levels.push_back(level);
+  }
+  const std::uint64_t start = sizeof(Header) + layout.tiles * sizeof(std::uint64_t);
+  for (TextureLevel& level : layout.levels) level.offset += start;
+  layout.file_bytes = start + texels * words_per_texel(info.format) * 4;
+  return layout;
+}
+
+WrittenTextureFile write_texture_file(const std::filesystem::path& file, const TextureFileInfo& info,
+                                      const TexelSource& texel) {
+  const TextureFileLayout layout = texture_file_layout(info);
+  const std::size_t words = words_per_texel(info.format);
+  std::vector<std::uint64_t> table;
+  table.reserve(layout.tiles);
+  std::vector<std::uint32_t> content;
+  content.reserve((layout.file_bytes - layout.levels.front().offset) / 4);
+  for (std::uint32_t l = 0; l < info.levels; ++l) {
+    const TextureLevel& level = layout.levels[l];
+    for (std::uint32_t ty = 0; ty < level.tiles_y; ++ty)
+      for (std::uint32_t tx = 0; tx < level.tiles_x; ++tx) {
+        const TilePlace place = place_of(info.format, level, tx, ty);
+        const std::size_t first = content.size();
+        for (std::uint32_t y = 0; y < place.height; ++y)
+          for (std::uint32_t x = 0; x < place.width; ++x) {
+            const TexelWords value =
+                texel(l, tx * tile_width(info.format) + x, ty * tile_height(info.format) + y);
+            content.insert(content.end(), value.begin(), value.begin() + words);
+          }
+        table.push_back(checksum(std::as_bytes(std::span(content).subspan(first))));
+      }
+  }
+  Header header;
+  header.info = info;
+  header.file_bytes = layout.file_bytes;
+  header.tiles = layout.tiles;
+  header.checksum = header_checksum(header, table);
+  const std::array<std::span<const std::byte>, 3> parts{std::as_bytes(std::span(&header, 1)),
+                                                        std::as_bytes(std::span(table)),
+                                                        std::as_bytes(std::span(content))};
+  write_file(file, parts);
+  return {layout.file_bytes, header.checksum};
+}
+
+TextureFile::TextureFile(std::filesystem::path file) : file_(std::move(file)) {
+  const OpenFile in(file_);
+  Header header;
+  if (!in.read(&header, sizeof header, 0)) fail(file_, "it is shorter than its header");
+  if (header.magic != texture_magic) fail(file_, "it does not begin as one");
+  if (header.version != texture_version)
+    fail(file_, fmt::format("version {} is not known, only {}", header.version, texture_version));
+  info_ = header.info;
+  const bool known = static_cast<std::uint32_t>(info_.format) < texel_format_count;
+  const bool sized = info_.width >= 1 && info_.width <= max_texture_size && info_.height >= 1 &&
+                     info_.height <= max_texture_size;
+  if (!known || !sized || info_.levels < 1 || info_.levels > texture_level_count(info_.width, info_.height))
+    fail(file_, "its header makes no sense");
+  layout_ = texture_file_layout(info_);
+  if (header.tiles != layout_.tiles || header.file_bytes != layout_.file_bytes ||
+      in.size() != layout_.file_bytes)
+    fail(file_, "its size is not what its header says");
+  checksums_.resize(layout_.tiles);
+  if (!in.read(checksums_.data(), layout_.tiles * sizeof(std::uint64_t), sizeof header))
+    fail(file_, "it ends in its table");
+  hash_ = header_checksum(header, checksums_);
+  if (hash_ != header.checksum) fail(file_, "wrong checksum of the header");
+}
+
+TextureFile::Tile TextureFile::read_tile(std::uint32_t level, std::uint32_t tile_x, std::uint32_t tile_y,
+                                         std::span<std::uint32_t, max_tile_words> words) const {
+  const TextureLevel& of = layout_.levels.at(level);
+  const TilePlace place = place_of(info_.format, of, tile_x, tile_y);
+  const OpenFile in(file_);
+  if (!in.read(words.data(), place.words * 4, place.offset)) fail(file_, "it has become shorter");
+  const std::uint64_t tile = of.first_tile + static_cast<std::uint64_t>(tile_y) * of.tiles_x + tile_x;
+  if (checksum(std::as_bytes(words.first(place.words))) != checksums_.at(tile))
+    fail(file_, fmt::format("wrong checksum of tile {}, {} of level {}", tile_x, tile_y, level));
+  return {place.width, place.height, static_cast<std::size_t>(place.words)};
+}
+
+}  // namespace vitrail

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+// A baked image: its MIP levels, each in tiles that are read one by one. The byte layout and its reasons are
+// in docs/textures.md.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "bundle/texel.h"
+
+namespace vitrail {
+
+// Texel (0,0) of every level is the lower left one.
+struct TextureFileInfo {
+  TexelFormat format = TexelFormat::number;
+  std::uint32_t width = 1, height = 1;  // of level 0
+  std::uint32_t levels = 1;
+  bool operator==(const TextureFileInfo&) const = default;
+};
+
+inline constexpr std::uint32_t max_texture_size = 1u << 20;
+
+// Where the tiles of one level are. Tiles stand row by row from the lower left corner; those at the right and
+// upper edge are cut to the level.
+struct TextureLevel {
+  std::uint32_t width = 1, height = 1;
+  std::uint32_t tiles_x = 1, tiles_y = 1;
+  std::uint64_t first_tile = 0;  // counted over all levels
+  std::uint64_t offset = 0;      // of its first byte in the file
+};
+
+// Of an image and its levels, all of it a function of the TextureFileInfo.
+struct TextureFileLayout {
+  std::vector<TextureLevel> levels;
+  std::uint64_t tiles = 0;
+  std::uint64_t file_bytes = 0;
+};
+TextureFileLayout texture_file_layout(const TextureFileInfo& info);
+
+// Number of levels down to one texel: each is half of the one before it, rounded down.
+std::uint32_t texture_level_count(std::uint32_t width, std::uint32_t height);
+
+// Writes the file; `texel(level, x, y)` gives the words of each texel. Returns the hash of the file: that of
+// its header, which holds the checksums of the tiles. Throws MachineError.
+struct WrittenTextureFile {
+  std::uint64_t bytes = 0, hash = 0;
+};
+using TexelSource = std::function<TexelWords(std::uint32_t level, std::uint32_t x, std::uint32_t y)>;
+WrittenTextureFile write_texture_file(const std::filesystem::path& file, const TextureFileInfo& info,
+                                      const TexelSource& texel);
+
+// A texture file whose header has been verified; its tiles are when they are read.
+class TextureFile {
+ public:
+  // Throws Error with the file's name where anything is wrong, MachineError where it cannot be opened.
+  explicit TextureFile(std::filesystem::path file);
+
+  const TextureFileInfo& info() const { return info_; }
+  const TextureFileLayout& layout() const { return layout_; }
+  std::uint64_t hash() const { return hash_; }
+
+  // The words of a tile of `level`, row by row from the bottom; rows are `width` texels wide. Opens the file
+  // for each: there is no limit to how many textures a scene has. Throws Error. Safe from many threads.
+  struct Tile {
+    std::uint32_t width = 0, height = 0;
+    std::size_t words = 0;
+  };
+  Tile read_tile(std::uint32_t level, std::uint32_t tile_x, std::uint32_t tile_y,
+                 std::span<std::uint32_t, max_tile_words> words) const;
+
+ private:
+  std::filesystem::path file_;
+  TextureFileInfo info_;
+  TextureFileLayout layout_;
+  std::vector<std::uint64_t> checksums_;  // a tile
+  std::uint64_t hash_ = 0;
+};
+
+}  // namespace vitrail

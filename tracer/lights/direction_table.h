@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "tracer/lights/sphere_map.h"
+
+namespace vitrail {
+
+// A density of directions that is constant per solid angle in each cell of a grid over a sphere's picture.
+class DirectionTable {
+ public:
+  DirectionTable() = default;
+  // density(x, y) ≥ 0 of the cells, per solid angle; any unit. All 0 is as all 1.
+  DirectionTable(SphereProjection projection, int width, int height,
+                 const std::function<double(int, int)>& density);
+
+  int width() const { return width_; }
+  int height() const { return height_; }
+  double cell_solid_angle(int row) const;
+  // ∫ max(0, z) dω of a cell.
+  double cell_upward_cosine(int column, int row) const;
+
+  Vector3d sample(double u, double v) const;  // u, v in [0,1)
+  double pdf(Vector3d direction) const;       // solid angle; `direction` unit
+
+ private:
+  SphereProjection projection_ = SphereProjection::equal_area;
+  int width_ = 1, height_ = 1;
+  std::vector<double>
+      row_z_;  // of latitude_longitude: the z of the rows' upper edges, and of the last lower one
+  std::vector<double> rows_;     // cumulative, 0 … 1, height + 1
+  std::vector<double> columns_;  // of each row: cumulative, 0 … 1, width + 1
+};
+
+}  // namespace vitrail

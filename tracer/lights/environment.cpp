@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tracer/lights/environment.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tracer/portable_math.h"
+#include "tracer/wavelengths.h"
+
+namespace vitrail {
+
+namespace {
+
+using enum EnvironmentLight::Projection;
+
+constexpr int max_table_width = 1024, max_table_height = 512;
+constexpr int min_table_width = 64, min_table_height = 32;  // of images that are interpolated
+// Of the mean density, in every cell: it is an estimate that decides where to look, not what is there.
+constexpr double density_floor = 0.01;
+
+struct TexelPlace {
+  double s = 0, t = 0;  // bilinear lookup
+  int x = 0, y = 0;     // nearest, y up
+};
+
+TexelPlace place_of(Point2d point, int width, int height) {
+  TexelPlace place;
+  place.s = point.x;
+  place.t = 1 - (point.y * (height - 1) + 0.5) / height;
+  place.x = std::clamp(static_cast<int>(point.x * width), 0, width - 1);
+  place.y = height - 1 - std::clamp(static_cast<int>(point.y * height), 0, height - 1);
+  return place;
+}
+
+}  // namespace
+
+DirectionFrame::DirectionFrame(const Transform& light_to_world) {
+  const auto column = [&](Vector3d axis) { return normalize(transform_vector(light_to_world, axis)); };
+  const Vector3d cz = column({0, 0, 1}), cy = column({0, 1, 0}), cx = column({1, 0, 0});
+  const Vector3d flat = normalize(cx - cz * dot(cx, cz));
+  const Vector3d last = cross(cz, flat);
+  if (!(std::abs(dot(last, last) - 1) < 1e-6)) return;
+  z = cz;
+  x = flat;
+  y = dot(last, cy) < 0 ? -last : last;
+}
+
+SampledSpectrum look_up(const LightImage& image, SphereProjection projection, Vector3d local,
+                        const SampledWavelengths& wavelengths) {
+  const int width = image.width(0), height = image.height(0);
+  const TexelPlace place = place_of(sphere_point(projection, local), width, height);
+  return projection == equal_area ? image.texel(place.x, place.y, wavelengths)
+                                  : image.bilinear(place.s, place.t, wavelengths);
+}
+
+SampledSpectrum radiance(const Environment& e, Vector3d direction, const SampledWavelengths& wavelengths) {
+  return look_up(*e.image, e.projection, e.frame.to_light(direction), wavelengths) *
+         evaluate(e.scale, wavelengths) * e.factor;
+}
+
+namespace {
+
+// Luminances of one level, y down from the top, looked up as the image is.
+class LuminanceGrid {
+ public:
+  LuminanceGrid(const LightImage& image, SphereProjection projection, int level)
+      : projection_(projection), width_(image.width(level)), height_(image.height(level)) {
+    for (int y = 0; y < height_; ++y)
+      for (int x = 0; x < width_; ++x) {
+        const double l = image.luminance(x, height_ - 1 - y, level);
+        values_.push_back(l > 0 && std::isfinite(l) ? l : 0);
+      }
+  }
+
+  int width() const { return width_; }
+  int height() const { return height_; }
+
+  double at(Point2d point) const {
+    if (projection_ == equal_area)
+      return value(std::clamp(static_cast<int>(point.x * width_), 0, width_ - 1),
+                   std::clamp(static_cast<int>(point.y * height_), 0, height_ - 1));
+    const double x = point.x * width_ - 0.5, y = point.y * (height_ - 1);
+    const double left = std::floor(x), top = std::floor(y), fx = x - left, fy = y - top;
+    const int x0 = (static_cast<int>(left) + width_) % width_, x1 = (x0 + 1) % width_;
+    const int y0 = std::clamp(static_cast<int>(top), 0, height_ - 1), y1 = std::min(y0 + 1, height_ - 1);
+    return (value(x0, y0) * (1 - fx) + value(x1, y0) * fx) * (1 - fy) +
+           (value(x0, y1) * (1 - fx) + value(x1, y1) * fx) * fy;
+  }
+
+ private:
+  double value(int x, int y) const {
+    return values_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
+                   static_cast<std::size_t>(x)];
+  }
+  SphereProjection projection_;
+  int width_, height_;
+  std::vector<double> values_;
+};
+
+}  // namespace
+
+ImageTable tabulate_image(const LightImage& image, SphereProjection projection) {
+  int level = 0;
+  while (level + 1 < image.levels() &&
+         (image.width(level) > max_table_width || image.height(level) > max_table_height))
+    ++level;
+  const LuminanceGrid grid(image, projection, level);
+  const bool interpolated = projection == latitude_longitude;
+  const int width = std::clamp(grid.width(), interpolated ? min_table_width : 1, max_table_width);
+  const int height = std::clamp(grid.height(), interpolated ? min_table_height : 1, max_table_height);
+
+  ImageTable result;
+  const DirectionTable cells(projection, width, height, [](int, int) { return 1.0; });
+  std::vector<double> density;
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      double sum = 0;  // over 2 × 2 points
+      for (int i = 0; i < 4; ++i)
+        sum += grid.at({(x + 0.25 + 0.5 * (i & 1)) / width, (y + 0.25 + 0.5 * (i >> 1)) / height});
+      density.push_back(sum / 4);
+      result.flux += density.back() * cells.cell_solid_angle(y);
+      result.upward_flux += density.back() * cells.cell_upward_cosine(x, y);
+    }
+  const double floor = density_floor * result.flux / (4 * pi);
+  result.table = DirectionTable(projection, width, height, [&](int x, int y) {
+    return floor + density[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+                           static_cast<std::size_t>(x)];
+  });
+  return result;
+}
+
+Environment make_environment(const EnvironmentLight& light, std::shared_ptr<const LightImage> image) {
+  Environment e;
+  e.image = std::move(image);
+  e.projection = light.projection;
+  e.frame = DirectionFrame(light.light_to_world);
+  ImageTable sampled = tabulate_image(*e.image, e.projection);
+  e.table = std::move(sampled.table);
+  e.scale = light.scale;
+  if (light.illuminance && sampled.upward_flux > 0)
+    e.factor = static_cast<float>(static_cast<double>(*light.illuminance) / sampled.upward_flux);
+  e.mean_luminance = sampled.flux / (4 * pi) * luminance(e.scale) * static_cast<double>(e.factor);
+  return e;
+}
+
+}  // namespace vitrail

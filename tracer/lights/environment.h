@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// Images of radiance around the scene.
+#pragma once
+
+#include <memory>
+
+#include "scene/light.h"
+#include "tracer/lights/direction_table.h"
+#include "tracer/lights/light_image.h"
+
+namespace vitrail {
+
+// A rotation, perhaps with a mirror, of directions: the transform's, made orthonormal from its z axis on.
+struct DirectionFrame {
+  Vector3d x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};  // of the light, in the world
+  explicit DirectionFrame(const Transform& light_to_world);
+  DirectionFrame() = default;
+  Vector3d to_light(Vector3d d) const { return {dot(d, x), dot(d, y), dot(d, z)}; }
+  Vector3d to_world(Vector3d d) const { return x * d.x + y * d.y + z * d.z; }
+};
+
+struct Environment {
+  std::shared_ptr<const LightImage> image;
+  SphereProjection projection = SphereProjection::equal_area;
+  DirectionFrame frame;
+  Spectrum scale = ConstantSpectrum{1};
+  float factor = 1;  // beside `scale`
+  DirectionTable table;
+  double mean_luminance = 0;  // over all directions, all factors included
+};
+
+Environment make_environment(const EnvironmentLight& light, std::shared_ptr<const LightImage> image);
+
+// `direction` unit, from the scene outwards, in the world.
+SampledSpectrum radiance(const Environment& environment, Vector3d direction,
+                         const SampledWavelengths& wavelengths);
+
+// The image at a direction of its own frame: the nearest texel of an equal-area map, as pbrt-v4 looks it up;
+// by latitude and longitude bilinear as in Mitsuba, where the first and the last row lie on the poles.
+SampledSpectrum look_up(const LightImage& image, SphereProjection projection, Vector3d local,
+                        const SampledWavelengths& wavelengths);
+
+// A density for sampling that image, about its luminance, with a floor; `flux` and `upward_flux` become
+// ∫ Y dω and ∫ Y max(0,z) dω.
+struct ImageTable {
+  DirectionTable table;
+  double flux = 0, upward_flux = 0;
+};
+ImageTable tabulate_image(const LightImage& image, SphereProjection projection);
+
+}  // namespace vitrail

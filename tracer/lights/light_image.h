@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <memory>
+
+#include "scene/sampled_spectrum.h"
+
+namespace vitrail {
+
+class TileCache;
+
+// What lights ask of an image. Texel (0,0) is the lower left one; level 0 is the finest, each next one has
+// half the width and height, rounded down.
+class LightImage {
+ public:
+  virtual ~LightImage() = default;
+  virtual int width(int level) const = 0;
+  virtual int height(int level) const = 0;
+  virtual int levels() const = 0;
+  virtual SampledSpectrum texel(int x, int y, const SampledWavelengths& wavelengths) const = 0;
+  // Between the centres of four texels of level 0: repeats in s, t within the outermost centres.
+  virtual SampledSpectrum bilinear(double s, double t, const SampledWavelengths& wavelengths) const = 0;
+  // About the Y of a texel.
+  virtual double luminance(int x, int y, int level) const = 0;
+};
+
+}  // namespace vitrail

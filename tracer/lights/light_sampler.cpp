@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tracer/lights/light_sampler.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "tracer/portable_math.h"
+#include "tracer/wavelengths.h"
+
+namespace vitrail {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+struct TriangleFrame {
+  Point3d p0;
+  Vector3d e1, e2, normal;  // normal unit
+  double area = 0;
+
+  explicit TriangleFrame(const LightTriangle& t) : p0(cast<double>(t.p[0])) {
+    e1 = cast<double>(t.p[1]) - p0;
+    e2 = cast<double>(t.p[2]) - p0;
+    const Vector3d across = cross(e1, e2);
+    const double twice = length(across);
+    area = twice / 2;
+    normal = twice > 0 ? across * (1 / twice) : across;
+  }
+};
+
+TexturePoint texture_point(const LightTriangle& t, const TriangleFrame& frame, double b1, double b2) {
+  const auto mix = [&](float x0, float x1, float x2) {
+    return static_cast<double>(x0) * (1 - b1 - b2) + static_cast<double>(x1) * b1 +
+           static_cast<double>(x2) * b2;
+  };
+  return {{mix(t.uv[0].x, t.uv[1].x, t.uv[2].x), mix(t.uv[0].y, t.uv[1].y, t.uv[2].y)},
+          frame.p0 + frame.e1 * b1 + frame.e2 * b2,
+          frame.normal};
+}
+
+SampledSpectrum surface_radiance(const LightSampler& s, const AreaLight& light, const TexturePoint& at,
+                                 const SampledWavelengths& wavelengths) {
+  if (const auto* spectrum = std::get_if<Spectrum>(&light.radiance))
+    return evaluate(*spectrum, wavelengths) * light.scale;
+  if (!s.scene.textures) return filled(0);
+  return s.scene.textures->spectrum(light.radiance, at, wavelengths) * light.scale;
+}
+
+// A directional light shines from where p lies on the triangle, seen along its normal.
+std::optional<LightSample> sample_directional(const LightSampler& s, const LightTriangle& t, Point3d p,
+                                              const SampledWavelengths& wavelengths) {
+  const TriangleFrame frame(t);
+  if (!(frame.area > 0)) return std::nullopt;
+  const AreaLight& light = s.scene.area_lights[t.area_light];
+  const Vector3d from = p - frame.p0;
+  const double height = dot(from, frame.normal);
+  if (height == 0 || (height < 0 && !light.two_sided)) return std::nullopt;
+  const double twice = 2 * frame.area;
+  const double b1 = dot(cross(from, frame.e2), frame.normal) / twice,
+               b2 = dot(cross(frame.e1, from), frame.normal) / twice;
+  if (b1 < 0 || b2 < 0 || b1 + b2 > 1) return std::nullopt;
+  LightSample sample;
+  sample.to_light = frame.normal * (height > 0 ? -1.0 : 1.0);
+  sample.distance = std::abs(height);
+  sample.radiance = surface_radiance(s, light, texture_point(t, frame, b1, b2), wavelengths);
+  sample.pdf = 1;
+  sample.is_delta = true;
+  sample.light = t.area_light;
+  return sample;
+}
+
+// pdf: given the triangle.
+std::optional<LightSample> sample_triangle(const LightSampler& s, const LightTriangle& t, Point3d p, float u,
+                                           float v, const SampledWavelengths& wavelengths) {
+  const AreaLight& light = s.scene.area_lights[t.area_light];
+  if (light.directional) return sample_directional(s, t, p, wavelengths);
+
+  // Uniform on the triangle (Heitz 2019): a low-distortion map of the square.
+  double b1 = static_cast<double>(u) / 2, b2 = static_cast<double>(v) / 2;
+  const double offset = b2 - b1;
+  if (offset > 0)
+    b2 += offset;
+  else
+    b1 -= offset;
+  const TriangleFrame frame(t);
+  const Vector3d towards = (frame.p0 + frame.e1 * b1 + frame.e2 * b2) - p;
+  const double distance2 = dot(towards, towards);
+  if (!(distance2 > 0)) return std::nullopt;
+
+  LightSample sample;
+  sample.distance = std::sqrt(distance2);
+  sample.to_light = towards * (1 / sample.distance);
+  const double cosine = -dot(sample.to_light, frame.normal);  // > 0: its front is seen
+  if (cosine == 0 || (cosine < 0 && !light.two_sided)) return std::nullopt;
+  sample.pdf = distance2 / (std::abs(cosine) * frame.area);
+  sample.radiance = surface_radiance(s, light, texture_point(t, frame, b1, b2), wavelengths);
+  sample.light = t.area_light;
+  return sample;
+}
+
+std::optional<LightSample> sample_emitter(const LightSampler& s, std::size_t index, Point3d p,
+                                          const SampledWavelengths& wavelengths) {
+  const PointEmitter& e = s.emitters[index];
+  const Vector3d towards = e.position - p;
+  const double distance2 = dot(towards, towards);
+  if (!(distance2 > 0)) return std::nullopt;
+  LightSample sample;
+  sample.distance = std::sqrt(distance2);
+  sample.to_light = towards * (1 / sample.distance);
+  sample.radiance =
+      intensity(e, -sample.to_light, s.scene.textures, wavelengths) * static_cast<float>(1 / distance2);
+  sample.pdf = 1;
+  sample.is_delta = true;
+  sample.light = s.emitter_light[index];
+  return sample;
+}
+
+std::optional<LightSample> sample_tree(const LightSampler& s, Point3d p, const std::array<float, 4>& u,
+                                       double choice, const SampledWavelengths& wavelengths) {
+  const auto chosen = s.tree.choose(p, choice);
+  if (!chosen) return std::nullopt;
+  const std::size_t triangles = s.scene.triangles.size();
+  auto sample = chosen->light < triangles
+                    ? sample_triangle(s, s.scene.triangles[chosen->light], p, u[0], u[1], wavelengths)
+                    : sample_emitter(s, chosen->light - triangles, p, wavelengths);
+  if (sample) sample->pdf *= chosen->probability * s.share[0];
+  return sample;
+}
+
+}  // namespace
+
+std::optional<LightSample> sample_light(const LightSampler& s, Point3d p, const std::array<float, 4>& u,
+                                        const SampledWavelengths& wavelengths) {
+  if (s.share.empty()) return std::nullopt;
+  double rest = static_cast<double>(u[3]);
+  std::size_t kind = 0;
+  while (kind + 1 < s.share.size() && rest >= s.share[kind]) rest -= s.share[kind++];
+  const double share = s.share[kind];
+  if (!(share > 0)) return std::nullopt;
+
+  LightSample sample;
+  if (kind == 0) {
+    // What is left of u[3] refines u[2]: 24 bits cannot reach every one of many lights.
+    const double fine = std::clamp(rest / share, 0.0, 0x1.fffffp-1);
+    const double choice = std::min(static_cast<double>(u[2]) + fine * 0x1p-24, 0x1.fffffffffffffp-1);
+    return sample_tree(s, p, u, choice, wavelengths);
+  }
+  if (kind <= s.distant.size()) {
+    const LightSampler::Distant& distant = s.distant[kind - 1];
+    sample.to_light = -distant.direction;
+    sample.distance = infinity;
+    sample.radiance =
+        evaluate(std::get<DistantLight>(s.scene.lights[distant.light].model).irradiance, wavelengths);
+    sample.pdf = share;
+    sample.is_delta = true;
+    sample.light = distant.light;
+    return sample;
+  }
+  const std::size_t index = kind - 1 - s.distant.size();
+  const Environment& e = s.environments[index];
+  sample.to_light = e.frame.to_world(e.table.sample(static_cast<double>(u[0]), static_cast<double>(u[1])));
+  sample.distance = infinity;
+  sample.pdf = environment_pdf(s, p, sample.to_light);
+  if (!(sample.pdf > 0)) return std::nullopt;
+  sample.radiance = environment_radiance(s, sample.to_light, wavelengths);
+  sample.light = s.environment_light[index];
+  return sample;
+}
+
+double triangle_pdf(const LightSampler& s, Point3d from, std::uint32_t triangle, double distance,
+                    double cosine) {
+  const auto above =
+      std::upper_bound(s.runs.begin(), s.runs.end(), triangle,
+                       [](std::uint32_t id, const LightSampler::Run& r) { return id < r.first; });
+  if (above == s.runs.begin() || s.share.empty()) return 0;
+  const LightSampler::Run& run = *(above - 1);
+  if (triangle - run.first >= run.count) return 0;
+  const std::uint32_t index = run.index + (triangle - run.first);
+  const LightTriangle& t = s.scene.triangles[index];
+  const AreaLight& light = s.scene.area_lights[t.area_light];
+  if (light.directional || (cosine <= 0 && !light.two_sided)) return 0;
+  const double area = TriangleFrame(t).area;
+  if (!(area > 0)) return 0;
+  return s.share[0] * s.tree.probability(from, index) * distance * distance /
+         (std::max(std::abs(cosine), 1e-12) * area);
+}
+
+double environment_pdf(const LightSampler& s, Point3d, Vector3d direction) {
+  double sum = 0;
+  for (std::size_t i = 0; i < s.environments.size(); ++i) {
+    const Environment& e = s.environments[i];
+    sum += s.share[1 + s.distant.size() + i] * e.table.pdf(e.frame.to_light(direction));
+  }
+  return sum;
+}
+
+SampledSpectrum emitted(const LightSampler& s, std::uint32_t area_light, const TexturePoint& at,
+                        double cosine, const SampledWavelengths& wavelengths) {
+  const AreaLight& light = s.scene.area_lights[area_light];
+  if (light.directional || (cosine <= 0 && !light.two_sided)) return filled(0);
+  return surface_radiance(s, light, at, wavelengths);
+}
+
+SampledSpectrum environment_radiance(const LightSampler& s, Vector3d direction,
+                                     const SampledWavelengths& wavelengths) {
+  SampledSpectrum sum = filled(0);
+  for (const std::uint32_t i : s.infinite)
+    sum = sum + evaluate(std::get<InfiniteLight>(s.scene.lights[i].model).radiance, wavelengths);
+  for (const Environment& e : s.environments) sum = sum + radiance(e, direction, wavelengths);
+  return sum;
+}
+
+bool points_at_distant_light(const LightSampler& s, Vector3d direction) {
+  // Each refraction rounds the direction by about 1.2e-7; a pane makes two.
+  constexpr double tolerance = 4e-6;
+  for (const LightSampler::Distant& d : s.distant)
+    if (length(direction + d.direction) < tolerance) return true;
+  return false;
+}
+
+}  // namespace vitrail

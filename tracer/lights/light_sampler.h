@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+// Choosing a light and a point on it to connect to, and what lights emit where a ray finds them.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "scene/bounds.h"
+#include "scene/light.h"
+#include "tracer/lights/environment.h"
+#include "tracer/lights/light_tree.h"
+#include "tracer/lights/point_emitter.h"
+#include "tracer/textures/textures.h"
+
+namespace vitrail {
+
+// A triangle that emits, wound so that its front does.
+struct LightTriangle {
+  Point3f p[3];
+  Point2f uv[3];
+  std::uint32_t triangle = 0;    // global id
+  std::uint32_t area_light = 0;  // index
+};
+
+// All of what a scene's light comes from. Spectra are resolved, positions and transforms end in the bundle's
+// coordinates, filenames are baked files of the bundle. What the spans show outlives the sampler.
+struct LightScene {
+  std::span<const AreaLight> area_lights;
+  std::span<const LightTriangle> triangles;
+  std::span<const Light> lights;
+  const Textures* textures = nullptr;        // null: no light has a texture
+  std::span<const Texture> texture_records;  // of `textures`: for the shape of a projected image
+  std::shared_ptr<TileCache> tiles;          // of the lights' own images
+  Bounds3f bounds;                           // of the scene
+};
+
+// One choice is the tree over all triangles and point-like lights; every distant light and every environment
+// image is one more. Each has a share: half of them equal, half by power. Constant infinite lights are left
+// to the BSDF's own samples, which find them with weight 1.
+struct LightSampler {
+  LightScene scene;
+  LightTree tree;  // lights: the triangles, then the emitters
+  std::vector<PointEmitter> emitters;
+  std::vector<std::uint32_t> emitter_light;  // index into scene.lights
+  struct Distant {
+    Vector3d direction;
+    std::uint32_t light = 0;
+  };
+  std::vector<Distant> distant;
+  std::vector<Environment> environments;
+  std::vector<std::uint32_t> environment_light;
+  std::vector<std::uint32_t> infinite;
+  std::vector<double> share;  // of the tree, the distant lights, the environments; sums to 1, empty: no light
+
+  // Triangles [first, first + count) of the global ids are the scene.triangles from `index` on.
+  struct Run {
+    std::uint32_t first = 0, count = 0, index = 0;
+  };
+  std::vector<Run> runs;  // ascending
+
+  // Whether sample_light may ever give something.
+  bool can_sample() const { return !share.empty(); }
+};
+
+// Opens an image by its name in the records.
+using ImageSource = std::function<std::shared_ptr<const LightImage>(const std::string& filename)>;
+
+// Throws Error where an image is damaged.
+LightSampler make_light_sampler(const LightScene& scene, const std::filesystem::path& bundle,
+                                LightChoice choice = LightChoice::tree);
+LightSampler make_light_sampler(const LightScene& scene, const ImageSource& images,
+                                LightChoice choice = LightChoice::tree);
+
+struct LightSample {
+  Vector3d to_light;         // unit
+  double distance = 0;       // ∞ for distant lights and environments
+  SampledSpectrum radiance;  // of delta lights: irradiance across the direction
+  double pdf = 0;            // solid angle, the choice included; delta lights: probability of the choice
+  bool is_delta = false;
+  std::uint32_t light = 0;  // index into LightScene::lights, or of triangles into area_lights
+};
+
+// A connection from p. u[0], u[1] are for the point, u[2], u[3] for the light. Empty where nothing arrives.
+std::optional<LightSample> sample_light(const LightSampler& sampler, Point3d p, const std::array<float, 4>& u,
+                                        const SampledWavelengths& wavelengths);
+
+// The density, per solid angle and with the choice included, with which sample_light(from) gives a point of
+// the triangle (global id) at that distance, seen at `cosine` from its normal (> 0: its front).
+double triangle_pdf(const LightSampler& sampler, Point3d from, std::uint32_t triangle, double distance,
+                    double cosine);
+// The same of a direction, unit, that leaves the scene.
+double environment_pdf(const LightSampler& sampler, Point3d from, Vector3d direction);
+
+// Radiance of an emitter's surface where a ray meets it, seen at `cosine` from its normal. 0 of directional
+// ones.
+SampledSpectrum emitted(const LightSampler& sampler, std::uint32_t area_light, const TexturePoint& at,
+                        double cosine, const SampledWavelengths& wavelengths);
+// Sum of constant and image environments; `direction` unit, outwards.
+SampledSpectrum environment_radiance(const LightSampler& sampler, Vector3d direction,
+                                     const SampledWavelengths& wavelengths);
+
+// Whether light of some distant source travels against `direction`, to the precision of ray directions.
+bool points_at_distant_light(const LightSampler& sampler, Vector3d direction);
+
+}  // namespace vitrail

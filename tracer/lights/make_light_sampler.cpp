@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+
+#include "tracer/lights/light_sampler.h"
+#include "tracer/portable_math.h"
+
+namespace vitrail {
+
+namespace {
+
+// Mean luminance over a triangle, by four points of it.
+double mean_luminance(const AreaLight& light, const LightTriangle& t, const Textures* textures) {
+  constexpr std::array<std::array<double, 2>, 4> points{
+      {{1 / 3.0, 1 / 3.0}, {1 / 6.0, 1 / 6.0}, {2 / 3.0, 1 / 6.0}, {1 / 6.0, 2 / 3.0}}};
+  double sum = 0;
+  for (const auto& b : points) {
+    TexturePoint at;
+    const auto mix = [&](auto&& f) { return f(0) * (1 - b[0] - b[1]) + f(1) * b[0] + f(2) * b[1]; };
+    at.uv = {mix([&](int i) { return static_cast<double>(t.uv[i].x); }),
+             mix([&](int i) { return static_cast<double>(t.uv[i].y); })};
+    const Point3d p0 = cast<double>(t.p[0]);
+    at.p = p0 + (cast<double>(t.p[1]) - p0) * b[0] + (cast<double>(t.p[2]) - p0) * b[1];
+    sum += luminance_at(light.radiance, at, textures, 2);
+  }
+  return sum / 4;
+}
+
+// Flux of all triangles, π·A·L a side. A texture may be dark where it was asked and bright elsewhere: none of
+// its triangles counts for less than a tenth of what all of them have for their area.
+std::vector<LightBounds> bounds_of_triangles(const LightScene& scene) {
+  struct Sum {
+    double area = 0, power = 0;
+    std::optional<double> luminance;  // where it is the same everywhere
+  };
+  std::vector<Sum> sums(scene.area_lights.size());
+  for (std::size_t i = 0; i < sums.size(); ++i)
+    if (const auto* spectrum = std::get_if<Spectrum>(&scene.area_lights[i].radiance))
+      sums[i].luminance = luminance(*spectrum);
+
+  std::vector<LightBounds> all;
+  std::vector<double> areas;
+  for (const LightTriangle& t : scene.triangles) {
+    const AreaLight& light = scene.area_lights[t.area_light];
+    LightBounds b;
+    for (const Point3f& p : t.p) extend(b.box, cast<double>(p));
+    const Point3d p0 = cast<double>(t.p[0]);
+    const Vector3d across = cross(cast<double>(t.p[1]) - p0, cast<double>(t.p[2]) - p0);
+    const double area = length(across) / 2;
+    if (area > 0) b.axis = across * (0.5 / area);
+    b.theta_e_rad = pi / 2;
+    b.two_sided = light.two_sided;
+    Sum& sum = sums[t.area_light];
+    const double radiance = (sum.luminance ? *sum.luminance : mean_luminance(light, t, scene.textures)) *
+                            static_cast<double>(light.scale);
+    b.power = area * radiance * pi * (light.two_sided ? 2 : 1);
+    if (!(b.power > 0) || !std::isfinite(b.power)) b.power = 0;
+    sum.area += area;
+    sum.power += b.power;
+    areas.push_back(area);
+    all.push_back(b);
+  }
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const Sum& sum = sums[scene.triangles[i].area_light];
+    if (!sum.luminance && sum.area > 0)
+      all[i].power = std::max(all[i].power, 0.1 * sum.power / sum.area * areas[i]);
+  }
+  return all;
+}
+
+std::vector<LightSampler::Run> runs_of(std::span<const LightTriangle> triangles) {
+  std::vector<LightSampler::Run> runs;
+  for (std::uint32_t i = 0; i < triangles.size(); ++i) {
+    const std::uint32_t id = triangles[i].triangle;
+    if (!runs.empty() && runs.back().first + runs.back().count == id)
+      ++runs.back().count;
+    else
+      runs.push_back({id, 1, i});
+  }
+  std::sort(runs.begin(), runs.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  return runs;
+}
+
+// Width over height of what an image texture shows; 1 of others.
+double aspect_of(const SpectrumParameter& image, const LightScene& scene, const ImageSource& images) {
+  const auto* id = std::get_if<Id<Texture>>(&image);
+  if (!id || id->value >= scene.texture_records.size()) return 1;
+  const auto* file = std::get_if<ImageTexture>(&scene.texture_records[id->value].model);
+  if (!file) return 1;
+  const auto opened = images(file->filename);
+  return static_cast<double>(opened->width(0)) / opened->height(0);
+}
+
+// Sorts the lights by how they are chosen.
+struct Sorter {
+  LightSampler& s;
+  const ImageSource& images;
+  double cross_section;  // of the scene
+  std::uint32_t light = 0;
+  std::vector<double> distant_power{}, environment_power{};
+
+  void operator()(const PointLight& l) { add(make_emitter(l)); }
+  void operator()(const SpotLight& l) { add(make_emitter(l)); }
+  void operator()(const ProjectionLight& l) {
+    add(make_emitter(l, aspect_of(l.image, s.scene, images), s.scene.textures));
+  }
+  void operator()(const GoniometricLight& l) { add(make_emitter(l, images(l.filename))); }
+  void operator()(const DistantLight& l) {
+    const Vector3d along = unit(l.direction);
+    const double power = luminance(l.irradiance) * cross_section;
+    if (!(power > 0) || !(length(along) > 0.5)) return;
+    s.distant.push_back({along, light});
+    distant_power.push_back(power);
+  }
+  void operator()(const InfiniteLight&) { s.infinite.push_back(light); }
+  void operator()(const EnvironmentLight& l) {
+    Environment e = make_environment(l, images(l.filename));
+    if (!(e.mean_luminance > 0)) return;
+    environment_power.push_back(4 * pi * e.mean_luminance * cross_section);
+    s.environments.push_back(std::move(e));
+    s.environment_light.push_back(light);
+  }
+
+ private:
+  void add(PointEmitter e) {
+    s.emitters.push_back(std::move(e));
+    s.emitter_light.push_back(light);
+  }
+};
+
+}  // namespace
+
+LightSampler make_light_sampler(const LightScene& scene, const ImageSource& images, LightChoice choice) {
+  LightSampler s;
+  s.scene = scene;
+  const double diagonal = scene.bounds.empty() ? 1 : length(cast<double>(extent(scene.bounds)));
+  Sorter sorter{s, images, pi * std::max(diagonal * diagonal / 4, 1e-30)};
+  for (; sorter.light < scene.lights.size(); ++sorter.light)
+    std::visit(sorter, scene.lights[sorter.light].model);
+
+  std::vector<LightBounds> local = bounds_of_triangles(scene);
+  for (const PointEmitter& e : s.emitters) local.push_back(e.bounds);
+  s.tree = LightTree(local, choice);
+  s.runs = runs_of(scene.triangles);
+
+  std::vector<double> power{s.tree.power()};
+  power.insert(power.end(), sorter.distant_power.begin(), sorter.distant_power.end());
+  power.insert(power.end(), sorter.environment_power.begin(), sorter.environment_power.end());
+  double total = 0;
+  std::size_t choices = 0;
+  for (const double p : power) total += p, choices += p > 0;
+  if (choices == 0) return s;
+  for (const double p : power)
+    s.share.push_back(p > 0 ? 0.5 / static_cast<double>(choices) + 0.5 * p / total : 0);
+  return s;
+}
+
+}  // namespace vitrail

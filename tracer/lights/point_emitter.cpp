@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tracer/lights/point_emitter.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "scene/color.h"
+#include "tracer/lights/environment.h"
+#include "tracer/portable_math.h"
+#include "tracer/wavelengths.h"
+
+namespace vitrail {
+
+namespace {
+
+constexpr double radians = pi / 180;
+
+SampledSpectrum value_of(const SpectrumParameter& parameter, const TexturePoint& at, const Textures* textures,
+                         const SampledWavelengths& wavelengths) {
+  if (const auto* spectrum = std::get_if<Spectrum>(&parameter)) return evaluate(*spectrum, wavelengths);
+  return textures ? textures->spectrum(parameter, at, wavelengths) : filled(0);
+}
+
+// The part of the intensity that depends on the direction (x,y,z), unit, in the light's frame.
+struct DirectionalPart {
+  Vector3d d;
+  const Textures* textures;
+  const SampledWavelengths& wavelengths;
+
+  SampledSpectrum operator()(const PointEmitter::Everywhere&) const { return filled(1); }
+
+  SampledSpectrum operator()(const PointEmitter::Spot& spot) const {
+    if (!(d.z > spot.cos_cutoff)) return filled(0);
+    const auto falling = static_cast<float>(falloff(spot));
+    if (!spot.texture || !(d.z > 0)) return filled(falling);
+    const double scale = 0.5 / (d.z * spot.frame);
+    const TexturePoint at{{0.5 + d.x * scale, 0.5 + d.y * scale}, {}, {}};
+    return value_of(*spot.texture, at, textures, wavelengths) * falling;
+  }
+
+  SampledSpectrum operator()(const PointEmitter::Projection& p) const {
+    if (!(d.z > 1e-9)) return filled(0);
+    const double s = 0.5 + 0.5 * d.x / (d.z * p.half.x), t = 0.5 + 0.5 * d.y / (d.z * p.half.y);
+    if (!(s >= 0 && s <= 1 && t >= 0 && t <= 1)) return filled(0);
+    // Mitsuba's textures count v from the top.
+    const TexturePoint at{{s, p.irradiance ? 1 - t : t}, {}, {}};
+    const SampledSpectrum image = value_of(p.image, at, textures, wavelengths);
+    // Mitsuba's numbers are the radiance of a white diffuse plane at z = 1: E = π·image = I cos³θ.
+    return p.irradiance ? image * static_cast<float>(pi / (d.z * d.z * d.z)) : image;
+  }
+
+  // The map's +z is the light's +y (pbrt).
+  SampledSpectrum operator()(const PointEmitter::Goniometric& g) const {
+    return look_up(*g.image,
+                   g.latitude_longitude ? SphereProjection::latitude_longitude : SphereProjection::equal_area,
+                   {d.x, d.z, d.y}, wavelengths);
+  }
+
+ private:
+  // 1 within the beam, 0 beyond the cutoff; its ends are apart wherever the cosine is between them.
+  double falloff(const PointEmitter::Spot& spot) const {
+    if (d.z >= spot.cos_beam) return 1;
+    if (spot.falloff == SpotLight::Falloff::linear) {
+      const double width = spot.cutoff_rad - spot.beam_rad;
+      return width > 0 ? std::clamp((spot.cutoff_rad - portable_acos(d.z)) / width, 0.0, 1.0) : 1;
+    }
+    const double x = (d.z - spot.cos_cutoff) / (spot.cos_beam - spot.cos_cutoff);
+    return spot.falloff == SpotLight::Falloff::quartic ? x * x * x * x : x * x * (3 - 2 * x);
+  }
+};
+
+PointEmitter placed(const Transform& light_to_world) {
+  PointEmitter e;
+  e.position = transform_point(light_to_world, {0, 0, 0});
+  if (is_invertible(light_to_world)) e.world_to_light = inverse(light_to_world);
+  e.bounds.axis = normalize(transform_vector(light_to_world, {0, 0, 1}));
+  if (!(length(e.bounds.axis) > 0.5)) e.bounds.axis = {0, 0, 1};
+  extend(e.bounds.box, e.position);
+  return e;
+}
+
+bool is_rigid(const Transform& t) {
+  const auto column = [&](Vector3d axis) { return transform_vector(t, axis); };
+  const Vector3d x = column({1, 0, 0}), y = column({0, 1, 0}), z = column({0, 0, 1});
+  const double s = dot(z, z);
+  return std::abs(dot(x, x) - s) < 1e-6 * s && std::abs(dot(y, y) - s) < 1e-6 * s &&
+         std::abs(dot(x, y)) < 1e-6 * s && std::abs(dot(y, z)) < 1e-6 * s && std::abs(dot(z, x)) < 1e-6 * s;
+}
+
+// Light within `half_rad` of the axis: all of the cone counts alike, and nothing outside of it.
+void bound_cone(PointEmitter& e, double half_rad, const Transform& light_to_world) {
+  e.bounds.theta_o_rad = is_rigid(light_to_world) ? std::min(pi, half_rad + 0.01) : pi;
+  e.bounds.theta_e_rad = e.bounds.theta_o_rad < pi ? 0.01 : pi / 2;
+}
+
+}  // namespace
+
+SampledSpectrum intensity(const PointEmitter& e, Vector3d direction, const Textures* textures,
+                          const SampledWavelengths& wavelengths) {
+  const Vector3d local = normalize(transform_vector(e.world_to_light, direction));
+  const SampledSpectrum part = std::visit(DirectionalPart{local, textures, wavelengths}, e.shape);
+  if (is_black(part)) return filled(0);
+  return part * (evaluate(e.intensity, wavelengths) * e.factor);
+}
+
+double luminance_at(const SpectrumParameter& parameter, const TexturePoint& at, const Textures* textures,
+                    int groups) {
+  if (const auto* spectrum = std::get_if<Spectrum>(&parameter)) return luminance(*spectrum);
+  constexpr int first_nm = 400, last_nm = 720;
+  const int count = groups * hero_count;
+  double sum = 0, weights = 0;
+  for (int group = 0; group < groups; ++group) {
+    SampledWavelengths wavelengths;
+    std::array<double, hero_count> weight{};
+    for (std::size_t i = 0; i < hero_count; ++i) {
+      const int k = static_cast<int>(i) * groups + group;
+      const int nm = first_nm + (2 * k + 1) * (last_nm - first_nm) / (2 * count);
+      wavelengths.lambda_nm[i] = static_cast<float>(nm);
+      weight[i] = static_cast<double>(cie_1931()[static_cast<std::size_t>(nm - 360)][1]);
+    }
+    const SampledSpectrum value = value_of(parameter, at, textures, wavelengths);
+    for (std::size_t i = 0; i < hero_count; ++i) {
+      sum += weight[i] * std::max(0.0, static_cast<double>(value.v[i]));
+      weights += weight[i];
+    }
+  }
+  return sum / weights;
+}
+
+PointEmitter make_emitter(const PointLight& light) {
+  PointEmitter e;
+  e.position = light.position;
+  extend(e.bounds.box, e.position);
+  e.intensity = light.intensity;
+  e.bounds.theta_o_rad = pi;
+  e.bounds.theta_e_rad = pi / 2;
+  e.bounds.power = 4 * pi * luminance(light.intensity);
+  return e;
+}
+
+PointEmitter make_emitter(const SpotLight& light) {
+  PointEmitter e = placed(light.light_to_world);
+  e.intensity = light.intensity;
+  PointEmitter::Spot spot;
+  spot.falloff = light.falloff;
+  spot.cutoff_rad = std::clamp(static_cast<double>(light.cutoff_deg) * radians, 0.0, pi);
+  spot.beam_rad = std::clamp(static_cast<double>(light.beam_deg) * radians, 0.0, spot.cutoff_rad);
+  spot.cos_cutoff = portable_cos(spot.cutoff_rad);
+  spot.cos_beam = portable_cos(spot.beam_rad);
+  spot.texture = light.texture;
+  spot.frame = std::max(1e-9, portable_tan(std::min(spot.cutoff_rad, 0.4999 * pi)));
+  // The falloff is half on the mean.
+  e.bounds.power = 2 * pi * (1 - (spot.cos_beam + spot.cos_cutoff) / 2) * luminance(e.intensity);
+  bound_cone(e, spot.cutoff_rad, light.light_to_world);
+  e.shape = spot;
+  return e;
+}
+
+PointEmitter make_emitter(const ProjectionLight& light, double aspect, const Textures* textures) {
+  PointEmitter e = placed(light.light_to_world);
+  e.intensity = light.scale;
+  PointEmitter::Projection p;
+  p.image = light.image;
+  p.irradiance = light.irradiance;
+  if (!(aspect > 0)) aspect = 1;
+  const double fov = std::clamp(static_cast<double>(light.fov_deg), 1e-3, 179.9);
+  const double half = portable_tan(fov / 2 * radians);
+  p.half = light.irradiance || aspect < 1 ? Point2d{half, half / aspect} : Point2d{half * aspect, half};
+
+  // ∫ I dω over the rectangle, dω = cos³θ dA.
+  constexpr int steps = 64;
+  double flux = 0;
+  for (int y = 0; y < steps; ++y)
+    for (int x = 0; x < steps; ++x) {
+      const double s = (x + 0.5) / steps, t = (y + 0.5) / steps;
+      const double px = (2 * s - 1) * p.half.x, py = (2 * t - 1) * p.half.y;
+      const double cosine = 1 / std::sqrt(1 + px * px + py * py);
+      const TexturePoint at{{s, p.irradiance ? 1 - t : t}, {}, {}};
+      flux += luminance_at(p.image, at, textures, 16) * (p.irradiance ? pi : cosine * cosine * cosine);
+    }
+  flux *= 4 * p.half.x * p.half.y / (steps * steps);
+  if (light.power && flux > 0) e.factor = static_cast<float>(static_cast<double>(*light.power) / flux);
+  e.bounds.power = flux * static_cast<double>(e.factor) * luminance(light.scale);
+  const double corner = std::sqrt(p.half.x * p.half.x + p.half.y * p.half.y);
+  bound_cone(e, portable_atan2(corner, 1), light.light_to_world);
+  e.shape = p;
+  return e;
+}
+
+PointEmitter make_emitter(const GoniometricLight& light, std::shared_ptr<const LightImage> image) {
+  PointEmitter e = placed(light.light_to_world);
+  e.intensity = light.intensity;
+  const double flux = tabulate_image(*image, light.latitude_longitude ? SphereProjection::latitude_longitude
+                                                                      : SphereProjection::equal_area)
+                          .flux;
+  if (light.power && flux > 0) e.factor = static_cast<float>(static_cast<double>(*light.power) / flux);
+  e.bounds.power = flux * static_cast<double>(e.factor) * luminance(light.intensity);
+  e.bounds.theta_o_rad = pi;
+  e.bounds.theta_e_rad = pi / 2;
+  e.shape = PointEmitter::Goniometric{std::move(image), light.latitude_longitude};
+  return e;
+}
+
+}  // namespace vitrail

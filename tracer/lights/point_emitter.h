@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// Lights that shine from one point: point, spot, projection, goniometric.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <variant>
+
+#include "scene/light.h"
+#include "tracer/lights/light_image.h"
+#include "tracer/lights/light_tree.h"
+#include "tracer/textures/textures.h"
+
+namespace vitrail {
+
+// Everything that a light's intensity needs, prepared.
+struct PointEmitter {
+  struct Everywhere {};
+  struct Spot {
+    SpotLight::Falloff falloff = SpotLight::Falloff::smoothstep;
+    double cos_beam = 1, cos_cutoff = 0, cutoff_rad = 0, beam_rad = 0;
+    double frame = 1;  // half width of the texture's square at z = 1; 0: no texture
+    std::optional<Id<Texture>> texture;
+  };
+  // A rectangle at z = 1 of half widths `half`.
+  struct Projection {
+    SpectrumParameter image;
+    Point2d half{1, 1};
+    bool irradiance = false;
+  };
+  struct Goniometric {
+    std::shared_ptr<const LightImage> image;
+    bool latitude_longitude = false;
+  };
+
+  Point3d position;
+  Transform world_to_light;  // its 3×3 block
+  Spectrum intensity;        // multiplies all that follows
+  float factor = 1;          // beside it
+  std::variant<Everywhere, Spot, Projection, Goniometric> shape;
+  LightBounds bounds;  // power: luminous flux
+};
+
+// `image`: of a goniometric light. `aspect`: width over height of a projection's image.
+PointEmitter make_emitter(const PointLight& light);
+PointEmitter make_emitter(const SpotLight& light);
+PointEmitter make_emitter(const ProjectionLight& light, double aspect, const Textures* textures);
+PointEmitter make_emitter(const GoniometricLight& light, std::shared_ptr<const LightImage> image);
+
+// Radiant intensity, W·sr⁻¹·nm⁻¹. `direction` unit, from the light, in the world. `textures` may be null
+// where no emitter has one.
+SampledSpectrum intensity(const PointEmitter& emitter, Vector3d direction, const Textures* textures,
+                          const SampledWavelengths& wavelengths);
+
+// The luminance of the parameter's value, of a texture by 4·`groups` wavelengths: 2 gives a guess, 16 (every
+// 5 nm) about a thousandth.
+double luminance_at(const SpectrumParameter& parameter, const TexturePoint& at, const Textures* textures,
+                    int groups);
+
+}  // namespace vitrail

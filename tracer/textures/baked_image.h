@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// Lookups in one baked image by (s,t): (0,0) is its lower left corner, (1,1) the upper right one.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+
+#include "bundle/texture_file.h"
+#include "scene/sampled_spectrum.h"
+#include "scene/texture.h"
+
+namespace vitrail {
+
+// Tiles in memory, shared by images and threads (tracer/textures/tile_cache.h).
+class TileCache;
+
+// Values are pure functions of the arguments, whatever is in memory. Safe to use from many threads. A damaged
+// tile throws Error when it is read.
+class BakedImage {
+ public:
+  // Throws Error with the file's name where its header is damaged. One cache for all of a rank's images:
+  // std::make_shared<TileCache>(budget_bytes), or Textures::tiles().
+  BakedImage(const std::filesystem::path& file, std::shared_ptr<TileCache> cache);
+  ~BakedImage();
+  BakedImage(BakedImage&&) noexcept;
+
+  int width() const { return static_cast<int>(file().info().width); }  // of level 0
+  int height() const { return static_cast<int>(file().info().height); }
+  int levels() const { return static_cast<int>(file().info().levels); }
+  TexelFormat format() const { return file().info().format; }
+  int width(int level) const;
+  int height(int level) const;
+
+  // Texel (x,y) covers [x, x+1)/width × [y, y+1)/height; level 0 is the finest. `bilinear` blends the spectra
+  // of the four texels whose centres surround (s,t). An image of vectors is 0 as a spectrum.
+  SampledSpectrum nearest(double s, double t, Wrap wrap, int level, const SampledWavelengths&) const;
+  SampledSpectrum bilinear(double s, double t, Wrap wrap, int level, const SampledWavelengths&) const;
+  // The texel itself, 0 ≤ x < width(level), 0 ≤ y < height(level), y up from the bottom.
+  SampledSpectrum texel(int x, int y, int level, const SampledWavelengths&) const;
+
+  // The three numbers of a vector; of an image of numbers three times that number; of spectra 0.
+  std::array<double, 3> nearest_vector(double s, double t, Wrap wrap, int level) const;
+  std::array<double, 3> bilinear_vector(double s, double t, Wrap wrap, int level) const;
+
+  // About the luminance of a texel (Y of D65 = 1): for importance sampling. Never negative.
+  double luminance(int x, int y, int level) const;
+
+  const TextureFile& file() const;
+
+ private:
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace vitrail

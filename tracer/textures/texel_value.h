@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the words of a texel say at the wavelengths of a path.
+#pragma once
+
+#include <bit>
+
+#include "bundle/texel.h"
+#include "scene/color.h"
+#include "scene/sampled_spectrum.h"
+
+namespace vitrail {
+
+// x(λ) = Σ l[k]·x_k of the parabola through x at 360, 595 and 830 nm (Lagrange).
+struct NodeWeights {
+  std::array<std::array<float, hero_count>, 3> l;
+  explicit NodeWeights(const SampledWavelengths& wavelengths) {
+    for (std::size_t i = 0; i < hero_count; ++i) {
+      const float t = (wavelengths.lambda_nm[i] - 595) * (1.0f / 235);
+      l[0][i] = 0.5f * t * (t - 1);
+      l[1][i] = 1 - t * t;
+      l[2][i] = 0.5f * t * (t + 1);
+    }
+  }
+};
+
+inline SampledSpectrum sigmoid_of(const SigmoidNodes& x, const NodeWeights& weights) {
+  SampledSpectrum s;
+  for (std::size_t i = 0; i < hero_count; ++i) {
+    const float at = weights.l[0][i] * x[0] + weights.l[1][i] * x[1] + weights.l[2][i] * x[2];
+    s.v[i] = 0.5f + at / (2 * std::sqrt(1 + at * at));
+  }
+  return s;
+}
+
+// Of an image of spectra or numbers; D65 is left to the caller.
+inline SampledSpectrum spectrum_of(TexelFormat format, const TexelWords& words, const NodeWeights& weights) {
+  switch (format) {
+    case TexelFormat::number:
+      return filled(std::bit_cast<float>(words[0]));
+    case TexelFormat::reflectance:
+      return sigmoid_of(unpack_nodes(words.data()), weights);
+    case TexelFormat::unbounded:
+    case TexelFormat::illuminant:
+      return sigmoid_of(unpack_nodes(words.data()), weights) * std::bit_cast<float>(words[2]);
+    default:
+      return {};
+  }
+}
+
+// D65 between the two nearest nanometres.
+inline SampledSpectrum d65_at(const SampledWavelengths& wavelengths) {
+  SampledSpectrum result;
+  for (std::size_t i = 0; i < hero_count; ++i) {
+    const float x = wavelengths.lambda_nm[i] - static_cast<float>(lambda_min_nm);
+    const float clamped = x > 0 ? (x < table_size - 1 ? x : table_size - 1) : 0;
+    const std::size_t below = clamped < table_size - 2 ? static_cast<std::size_t>(clamped) : table_size - 2;
+    const float f = clamped - static_cast<float>(below);
+    result.v[i] = (1 - f) * cie_d65()[below] + f * cie_d65()[below + 1];
+  }
+  return result;
+}
+
+inline std::array<double, 3> vector_of(TexelFormat format, const TexelWords& words) {
+  const auto part = [&](std::uint32_t word, int shift, std::uint32_t mask) {
+    return static_cast<double>((word >> shift) & mask) / mask;
+  };
+  const auto real = [&](std::size_t i) { return static_cast<double>(std::bit_cast<float>(words[i])); };
+  switch (format) {
+    case TexelFormat::number:
+      return {real(0), real(0), real(0)};
+    case TexelFormat::vector_8:
+      return {part(words[0], 0, 0xff), part(words[0], 8, 0xff), part(words[0], 16, 0xff)};
+    case TexelFormat::vector_16:
+      return {part(words[0], 0, 0xffff), part(words[0], 16, 0xffff), part(words[1], 0, 0xffff)};
+    case TexelFormat::vector_float:
+      return {real(0), real(1), real(2)};
+    default:
+      return {};
+  }
+}
+
+}  // namespace vitrail

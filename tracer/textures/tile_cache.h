@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <mutex>
+#include <span>
+
+#include "bundle/texture_file.h"
+
+namespace vitrail {
+
+// Memory for tiles: a fixed number of slots of 16 KiB, given to the tiles in use by the clock algorithm.
+// Reading takes no lock (a sequence lock a slot, Lameter 2005): a reader copies the texels that it wants and
+// then looks whether the slot has been given away meanwhile; if so, it reads the file.
+class TileCache {
+ public:
+  // At least one slot. The system gives the memory when it is first used. Throws MachineError.
+  explicit TileCache(std::uint64_t budget_bytes);
+  ~TileCache();
+  TileCache(const TileCache&) = delete;
+  TileCache& operator=(const TileCache&) = delete;
+
+  // Where a tile of an image is: slot (upper half) and the slot's sequence number then. 0: nowhere.
+  using Entry = std::atomic<std::uint64_t>;
+
+  struct Tile {
+    const TextureFile& file;
+    Entry& entry;
+    std::uint32_t level, x, y;
+  };
+  // Copies the words of the texels with these indices, row by row in the tile, into out[i]. Throws Error for
+  // a damaged tile.
+  void read(const Tile& tile, std::span<const std::uint32_t> texels, TexelWords* out) {
+    if (!read_resident(tile, texels, out)) read_and_store(tile, texels, out);
+  }
+
+  std::uint64_t tile_loads() const { return loads_.load(std::memory_order_relaxed); }
+  std::uint64_t resident_bytes() const { return resident_.load(std::memory_order_relaxed); }
+  std::uint64_t budget_bytes() const { return slot_count_ * slot_bytes; }
+
+  static constexpr std::uint64_t slot_bytes = max_tile_words * sizeof(std::uint32_t);
+
+ private:
+  struct Slot {
+    std::atomic<std::uint32_t> sequence;  // of the tile in it, counted from 1; 0: it never held one
+    std::atomic<std::uint32_t> used;      // since the clock's hand was there
+  };
+
+  bool is_resident(std::uint64_t entry) const;
+  bool read_resident(const Tile& tile, std::span<const std::uint32_t> texels, TexelWords* out) {
+    const std::uint64_t entry = tile.entry.load(std::memory_order_acquire);
+    if (entry == 0) return false;
+    Slot& slot = slots_[entry >> 32];
+    const std::atomic<std::uint32_t>* const words = words_ + (entry >> 32) * max_tile_words;
+    const std::uint32_t count = words_per_texel(tile.file.info().format);
+    for (std::size_t i = 0; i < texels.size(); ++i)
+      for (std::uint32_t w = 0; w < count; ++w)
+        out[i][w] = words[texels[i] * count + w].load(std::memory_order_acquire);
+    if (slot.sequence.load(std::memory_order_relaxed) != static_cast<std::uint32_t>(entry)) return false;
+    if (slot.used.load(std::memory_order_relaxed) == 0) slot.used.store(1, std::memory_order_relaxed);
+    return true;
+  }
+  void read_and_store(const Tile& tile, std::span<const std::uint32_t> texels, TexelWords* out);
+  void store(Entry& entry, std::span<const std::uint32_t> words);
+
+  std::uint64_t slot_count_;
+  Slot* slots_ = nullptr;
+  std::atomic<std::uint32_t>* words_ = nullptr;
+  std::mutex mutex_;        // of the hand, and of all writing to slots
+  std::uint64_t hand_ = 0;  // the slot that is considered next
+  std::atomic<std::uint64_t> loads_{0}, resident_{0};
+};
+
+}  // namespace vitrail
