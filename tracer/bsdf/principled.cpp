@@ -161,6 +161,7 @@ std::optional<BsdfSample> sample(const PrincipledBsdf& b, Vector3d out, float u_
     in = sample_cosine_hemisphere(u.x, u.y);
   } else if (choice < w.diffuse + w.clearcoat) {
     in = mirrored(out, sample_gtr1(clearcoat_alpha(b), u));
+    if (!(in.z > 0)) return std::nullopt;
   } else {
     const bool front = out.z > 0;
     const Vector3d up = front ? out : -out;
