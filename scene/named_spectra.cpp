@@ -9,6 +9,7 @@
 #include <span>
 
 #include "scene/color.h"
+#include "scene/illuminant_tables.h"
 #include "scene/metal_tables.h"
 
 namespace vitrail {
@@ -51,6 +52,15 @@ Spectrum illuminant_a() {
   return scaled(s, 1 / luminance(s));
 }
 
+// The values beyond a table are those at its ends. Of luminance 1.
+Spectrum tabulated(const IlluminantTable& table) {
+  std::vector<std::array<double, 2>> samples;
+  for (std::size_t i = 0; i < table.values.size(); ++i)
+    samples.push_back({table.first_nm + 5 * static_cast<double>(i), table.values[i]});
+  const Spectrum s = tabulate(samples, true);
+  return scaled(s, 1 / luminance(s));
+}
+
 Spectrum tabulated(std::span<const std::array<float, 2>> table) {
   std::vector<std::array<double, 2>> samples;
   for (const auto& [lambda, value] : table) samples.push_back({lambda, value});
@@ -62,6 +72,9 @@ Spectrum tabulated(std::span<const std::array<float, 2>> table) {
 std::optional<Spectrum> named_spectrum(const std::string& name) {
   if (name == "stdillum-D65") return TabulatedSpectrum{{cie_d65().begin(), cie_d65().end()}};
   if (name == "stdillum-A") return illuminant_a();
+  if (name == "stdillum-E") return ConstantSpectrum{1};
+  for (const IlluminantTable& illuminant : illuminant_tables())
+    if (name == illuminant.name) return tabulated(illuminant);
   if (const auto glass = glasses().find(name); glass != glasses().end()) return glass->second;
   for (const MetalTable& metal : metal_tables()) {
     if (name == fmt::format("metal-{}-eta", metal.name)) return tabulated(metal.eta);
@@ -71,7 +84,8 @@ std::optional<Spectrum> named_spectrum(const std::string& name) {
 }
 
 std::vector<std::string> spectrum_names() {
-  std::vector<std::string> names{"stdillum-D65", "stdillum-A"};
+  std::vector<std::string> names{"stdillum-D65", "stdillum-A", "stdillum-E"};
+  for (const IlluminantTable& illuminant : illuminant_tables()) names.emplace_back(illuminant.name);
   for (const auto& glass : glasses()) names.push_back(glass.first);
   for (const MetalTable& metal : metal_tables())
     for (const char* part : {"eta", "k"}) names.push_back(fmt::format("metal-{}-{}", metal.name, part));

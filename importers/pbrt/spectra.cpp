@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "importers/pbrt/spectrum_names.h"
 #include "importers/ply/input_bytes.h"
 #include "scene/color.h"
 #include "scene/named_spectra.h"
@@ -64,11 +63,6 @@ Spectrum sampled(Samples samples, bool hold_ends, const Context& context, const 
 Spectrum read_named(const Parameter& parameter, bool hold_ends, Context& context) {
   const std::string& name = parameter.strings.front();
   if (named_spectrum(name)) return NamedSpectrum{name};
-  if (const auto kelvin = illuminant_temperature(name)) {
-    context.report.approximated(
-        fmt::format("spectrum \"{}\": a blackbody of {} K stands for it", name, *kelvin), parameter.place);
-    return BlackbodySpectrum{static_cast<float>(*kelvin), 1};
-  }
   return sampled(read_spectrum_file(name, context, parameter.place), hold_ends, context, parameter.place);
 }
 

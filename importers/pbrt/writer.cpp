@@ -35,10 +35,13 @@ std::vector<std::string> unique_names(const Records& records, std::string_view f
 // The spectra that pbrt-v4 has by name and that are kept by name in a Scene.
 bool is_known_to_pbrt(std::string_view name) {
   constexpr std::array names{
-      "glass-BK7",    "glass-BAF10",  "glass-FK51A", "glass-LASF9",   "glass-F5",    "glass-F10",
-      "glass-F11",    "metal-Ag-eta", "metal-Ag-k",  "metal-Al-eta",  "metal-Al-k",  "metal-Au-eta",
-      "metal-Au-k",   "metal-Cu-eta", "metal-Cu-k",  "metal-MgO-eta", "metal-MgO-k", "metal-TiO2-eta",
-      "metal-TiO2-k", "stdillum-A",   "stdillum-D65"};
+      "glass-BK7",    "glass-BAF10",    "glass-FK51A",  "glass-LASF9",    "glass-F5",     "glass-F10",
+      "glass-F11",    "metal-Ag-eta",   "metal-Ag-k",   "metal-Al-eta",   "metal-Al-k",   "metal-Au-eta",
+      "metal-Au-k",   "metal-Cu-eta",   "metal-Cu-k",   "metal-CuZn-eta", "metal-CuZn-k", "metal-MgO-eta",
+      "metal-MgO-k",  "metal-TiO2-eta", "metal-TiO2-k", "illum-acesD60",  "stdillum-A",   "stdillum-D50",
+      "stdillum-D65", "stdillum-F1",    "stdillum-F2",  "stdillum-F3",    "stdillum-F4",  "stdillum-F5",
+      "stdillum-F6",  "stdillum-F7",    "stdillum-F8",  "stdillum-F9",    "stdillum-F10", "stdillum-F11",
+      "stdillum-F12"};
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 

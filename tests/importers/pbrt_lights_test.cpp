@@ -54,6 +54,13 @@ TEST(PbrtEmission, OfSpectraHasUnitLuminanceTimesScaleInV4) {
   EXPECT_NEAR(luminance(infinite_v4("\"float L\" 4")), 4, 1e-5);
 }
 
+TEST(PbrtEmission, OfFluorescentLampsIsTheirSpectrum) {
+  const Spectrum lamp = infinite_v4("\"spectrum L\" \"stdillum-F11\"");
+  const Spectrum f11 = *named_spectrum("stdillum-F11");
+  for (const double nm : {435.0, 545.0, 560.0, 610.0})
+    EXPECT_NEAR(evaluate(lamp, nm), evaluate(f11, nm), 1e-5) << nm;
+}
+
 TEST(PbrtEmission, OfSpectraIsAbsoluteInV3) {
   EXPECT_NEAR(luminance(infinite_v3("\"spectrum L\" [360 7 830 7]")), 7, 1e-5);
   EXPECT_NEAR(luminance(infinite_v3("\"spectrum L\" [830 7 360 7]")), 7, 1e-5) << "v3 sorts samples";

@@ -99,6 +99,10 @@ TEST(PbrtMaterials, MetalsAreKeptByName) {
       "Material \"conductor\" \"spectrum eta\" \"metal-Ag-eta\" \"spectrum k\" \"metal-Ag-k\"");
   EXPECT_EQ(silver.metal, (Metal{ComplexIndex{NamedSpectrum{"metal-Ag-eta"}, NamedSpectrum{"metal-Ag-k"}}}));
   EXPECT_EQ(exact<ConductorMaterial>("Material \"metal\"", true).metal, Metal{ComplexIndex{}}) << "copper";
+  const auto brass = exact<ConductorMaterial>(
+      "Material \"conductor\" \"spectrum eta\" \"metal-CuZn-eta\" \"spectrum k\" \"metal-CuZn-k\"");
+  EXPECT_EQ(brass.metal,
+            (Metal{ComplexIndex{NamedSpectrum{"metal-CuZn-eta"}, NamedSpectrum{"metal-CuZn-k"}}}));
   EXPECT_EQ(exact<ConductorMaterial>("Material \"conductor\" \"rgb reflectance\" [.4 .4 .4]").metal,
             Metal{NormalReflectance{reflectance_from_rgb({.4, .4, .4})}});
   const auto mirror = exact<ConductorMaterial>("Material \"mirror\" \"rgb Kr\" [.8 .8 .8]", true);

@@ -1,0 +1,7 @@
+# SPDX-License-Identifier: Apache-2.0
+# What every model of scattering obeys; links GoogleTest's macros.
+add_library(vitrail_bsdf_laws STATIC ${CMAKE_CURRENT_LIST_DIR}/bsdf_laws.cpp ${CMAKE_CURRENT_LIST_DIR}/sphere_cells.cpp)
+target_link_libraries(vitrail_bsdf_laws PUBLIC vitrail::options vitrail::bsdf GTest::gtest)
+
+vitrail_test(diffuse_laws LABEL law SOURCES ${CMAKE_CURRENT_LIST_DIR}/diffuse_laws_test.cpp
+  LIBRARIES vitrail_bsdf_laws fmt::fmt)

@@ -1,0 +1,2 @@
+# SPDX-License-Identifier: Apache-2.0
+target_sources(vitrail_bsdf PRIVATE principled.cpp principled_lobes.cpp principled_thin.cpp)

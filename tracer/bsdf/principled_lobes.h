@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// What both principled models are made of.
+#pragma once
+
+#include "tracer/bsdf/bsdf.h"
+#include "tracer/bsdf/microfacet.h"
+
+namespace vitrail::principled {
+
+// (1 − cosθ)⁵ (Schlick 1994); 0 ≤ cosine ≤ 1.
+double schlick_weight(double cosine);
+
+// F₀ + (1 − F₀)·weight, of the angle on the side of the smaller index. eta = index behind / index in front.
+double schlick_weight(double cosine, double eta);
+SampledSpectrum schlick(const SampledSpectrum& normal_reflectance, double weight);
+
+// ((η − 1)/(η + 1))².
+double normal_reflectance(double eta);
+
+// lerp(1, base_color/luminance, amount), 1 where the luminance is 0.
+SampledSpectrum tint(const SampledSpectrum& base_color, double luminance, double amount);
+
+Microfacets microfacets(double roughness, double anisotropic);
+
+// π·f/base_color: diffuse and retro-reflection (Burley 2015, §5.3), and the flat form after Hanrahan and
+// Krueger (Burley 2012, §5.3). Cosines of both directions, > 0, and of half the angle between them.
+struct DiffuseCosines {
+  double out, in, half;
+};
+double diffuse(double roughness, double flatness, DiffuseCosines cosines);
+
+// GTR₁ (Burley 2012, Eq. 4): D(m) in sr⁻¹, and its sampling with pdf D(m)·m.z. 0 < alpha < 1.
+double gtr1(double alpha, Vector3d m);
+Vector3d sample_gtr1(double alpha, Point2f u);
+
+// Direction mirrored about m.
+inline Vector3d mirrored(Vector3d out, Vector3d m) { return m * (2 * dot(out, m)) - out; }
+
+}  // namespace vitrail::principled
