@@ -6,7 +6,10 @@
 #include <filesystem>
 
 #include "cli/main_guard.h"
+#include "cli/rectangle.h"
 #include "compare/comparison.h"
+#include "compare/mask.h"
+#include "compare/variance.h"
 #include "film/image_io.h"
 #include "scene/diagnostics.h"
 
@@ -15,8 +18,9 @@ using namespace vitrail;
 namespace {
 
 struct Options {
-  std::string image, reference, metric = "relmse", variance, heatmap;
-  std::optional<double> fail_above;
+  std::string image, reference, metric = "relmse", variance, mask, heatmap;
+  std::vector<std::string> ignored;
+  std::optional<double> variance_samples, fail_above, mean_within;
   bool json = false;
 };
 
@@ -43,21 +47,43 @@ void add_estimated_variance(ZTestInput& test, const Picture& picture) {
       test.degrees_of_freedom == 0 ? groups - 1 : std::min(test.degrees_of_freedom, groups - 1);
 }
 
+// Of the mean that a picture of `samples` has, after Mitsuba's image of the variance of one; the image's own,
+// where it is known, counts where it is larger.
+void add_mitsuba_variance(ZTestInput& test, const Image& of_sample, const Picture& image,
+                          std::optional<double> samples) {
+  if (!samples && image.samples_per_pixel > 0) samples = image.samples_per_pixel;
+  if (!samples)
+    throw UsageError("the image does not say how many samples a pixel has: give --variance-samples");
+  test.variance = mitsuba_variance(of_sample, *samples);
+  if (image.variance.pixels() > 0) widen(test.variance, luminance_variance(image.variance));
+}
+
 void find_variances(ZTestInput& test, const Picture& image, const Picture& reference,
-                    const std::string& file) {
+                    const Options& options) {
+  const std::string& file = options.variance;
   if (image.variance.pixels() + reference.variance.pixels() == 0 && file.empty())
     throw UsageError("ztest needs a variance: give --variance, a film, or an image of develop --variance");
+  Picture given;
+  if (!file.empty()) {
+    given = read_picture(file);
+    require_same_size(given.rgb, reference.rgb);
+    if (count_nonfinite(given.rgb) > 0) throw Error("a variance is not a number", {file});
+    if (given.variance.pixels() == 0)
+      return add_mitsuba_variance(test, given.rgb, image, options.variance_samples);
+  }
   test.variance.resize(image.rgb.pixels());
   add_estimated_variance(test, image);
-  if (file.empty()) return add_estimated_variance(test, reference);
-  const Picture given = read_picture(file);
-  const Image& plane = given.variance.pixels() > 0 ? given.variance : given.rgb;
-  require_same_size(plane, reference.rgb);
-  const std::vector<double> variance = luminance_variance(plane);
-  for (std::size_t p = 0; p < variance.size(); ++p) {
-    if (!(variance[p] >= 0)) throw Error("a variance is negative or not a number", {file});
-    test.variance[p] += variance[p];
-  }
+  add_estimated_variance(test, file.empty() ? reference : given);
+  if (std::any_of(test.variance.begin(), test.variance.end(), [](double v) { return !(v >= 0); }))
+    throw Error("a variance is negative or not a number", {file});
+  add_rounding(test.variance, reference.rgb);
+}
+
+Mask mask_of(const Options& options, const Image& image) {
+  std::vector<PixelRect> ignored;
+  for (const std::string& text : options.ignored) ignored.push_back(parse_rectangle("--ignore", text));
+  return make_mask(image.width, image.height, ignored,
+                   options.mask.empty() ? Image{} : read_picture(options.mask).rgb);
 }
 
 int run(const Options& options) {
@@ -66,11 +92,15 @@ int run(const Options& options) {
     throw UsageError("psnr grows as images get closer: use --metric mse with --fail-above");
   const Picture image = load(options.image), reference = load(options.reference);
   require_same_size(image.rgb, reference.rgb);
+  const Mask mask = mask_of(options, image.rgb);
   ZTestInput test{&image.rgb, &reference.rgb, {}, 0};
-  if (metric == Metric::ztest) find_variances(test, image, reference, options.variance);
-  const Comparison comparison = compare(test, *metric, options.fail_above);
+  if (metric == Metric::ztest) find_variances(test, image, reference, options);
+  const Image image_part = without(image.rgb, mask), reference_part = without(reference.rgb, mask);
+  test = {&image_part, &reference_part, without(test.variance, mask), test.degrees_of_freedom};
+  Comparison comparison = compare(test, *metric, options.fail_above, options.mean_within);
   fmt::print("{}", options.json ? to_json(comparison) : to_text(comparison));
   if (!options.heatmap.empty()) {
+    comparison.error_map = spread(comparison.error_map, mask);
     Picture picture;
     picture.rgb = heatmap(comparison, image.rgb.width, image.rgb.height);
     write_picture(options.heatmap, picture);
@@ -88,8 +118,17 @@ int main(int argc, char** argv) {
   app.add_option("--metric", options.metric, "relmse, mse, mae, psnr, smape, ztest or bitwise")
       ->check(CLI::IsMember(metric_names()))
       ->capture_default_str();
-  app.add_option("--variance", options.variance,
-                 "variances of the reference's pixels (of their means), for ztest");
+  app.add_option(
+      "--variance", options.variance,
+      "for ztest: the reference's Variance.Y of develop --variance, or the variances of one sample "
+      "that Mitsuba's tests keep as NAME_var.exr: then X, Y and Z are tested apart");
+  app.add_option("--variance-samples", options.variance_samples,
+                 "samples a pixel that IMAGE has; default: as it says");
+  app.add_option("--mean-within", options.mean_within,
+                 "exit with 1 if the mean of X, Y or Z is off by more than this fraction");
+  app.add_option("--ignore", options.ignored, "x0,x1,y0,y1 in pixels from the top left: left out")
+      ->allow_extra_args(false);
+  app.add_option("--mask", options.mask, "an image; pixels that are black in it are left out");
   app.add_option("--fail-above", options.fail_above, "exit with 1 if the value is greater");
   app.add_flag("--json", options.json, "print one flat JSON object");
   app.add_option("--heatmap", options.heatmap, "write the error of each pixel as an image");

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "cli/main_guard.h"
+#include "cli/rectangle.h"
 #include "cli/run_program.h"
 #include "cli/sizes.h"
 #include "farm/agreement.h"
@@ -41,14 +42,6 @@ void declare(CLI::App& app, Arguments& a) {
   app.add_option("--domain-memory", o.domain_memory_bytes)->group("");
 }
 
-PixelRect parse_crop(const std::string& text) {
-  PixelRect c;
-  char end = 0;
-  if (std::sscanf(text.c_str(), "%d,%d,%d,%d%c", &c.x0, &c.x1, &c.y0, &c.y1, &end) != 4)
-    throw UsageError("--crop takes x0,x1,y0,y1 in pixels, not '" + text + "'");
-  return c;
-}
-
 void interpret(Arguments& a) {
   const std::string extension = a.output.extension().string();
   constexpr const char* known[] = {".exr", ".png", ".film"};
@@ -56,7 +49,7 @@ void interpret(Arguments& a) {
     throw UsageError("the output must end in .exr, .png or .film: " + a.output.string());
   a.options.film = std::filesystem::path(a.output).replace_extension(".film");
   if (!a.memory.empty()) a.options.memory_bytes = parse_bytes(a.memory);
-  if (!a.crop.empty()) a.options.crop = parse_crop(a.crop);
+  if (!a.crop.empty()) a.options.crop = parse_rectangle("--crop", a.crop);
   if (!a.integrator.empty()) a.options.direct_only = a.integrator == "direct";
   const bool terminal = ::isatty(STDERR_FILENO);
   if (a.progress == "json") a.options.progress = ProgressMode::json;

@@ -51,32 +51,42 @@ void measure(Comparison& c, const ZTestInput& input) {
     case Metric::ztest:
       ZTest test = ztest(input);
       c.error_map = std::move(test.z);
-      c.value = static_cast<double>(test.failed) / static_cast<double>(c.error_map.size());
+      c.value = static_cast<double>(test.failed) / static_cast<double>(test.values);
       if (!c.threshold) c.threshold = ztest_tolerated;
       return;
   }
 }
 
+bool means_agree(const Comparison& c) {
+  const auto near_one = [&](double ratio) { return std::abs(ratio - 1) <= *c.mean_within; };
+  return !c.mean_within || (near_one(c.ratios.x) && near_one(c.ratios.luminance) && near_one(c.ratios.z));
+}
+
 }  // namespace
 
-Comparison compare(const ZTestInput& input, Metric metric, std::optional<double> threshold) {
+Comparison compare(const ZTestInput& input, Metric metric, std::optional<double> threshold,
+                   std::optional<double> mean_within) {
   Comparison c;
   c.metric = metric;
   c.threshold = threshold;
+  c.mean_within = mean_within;
   c.nonfinite_image = count_nonfinite(*input.image);
   c.nonfinite_reference = count_nonfinite(*input.reference);
   c.ratios = mean_ratios(*input.image, *input.reference);
   measure(c, input);
   const bool within = !c.threshold || c.value <= *c.threshold;
-  c.passed = within && c.nonfinite_image == 0 && c.nonfinite_reference == 0;
+  c.passed = within && means_agree(c) && c.nonfinite_image == 0 && c.nonfinite_reference == 0;
   return c;
 }
 
 std::string to_text(const Comparison& c) {
   std::string text = fmt::format("{} {:.9g}", name_of(c.metric), c.value);
   if (c.threshold) text += fmt::format(" (at most {:.9g})", *c.threshold);
-  text += fmt::format("\nmean ratio: luminance {:.6f}, red {:.6f}, green {:.6f}, blue {:.6f}\n",
-                      c.ratios.luminance, c.ratios.red, c.ratios.green, c.ratios.blue);
+  text +=
+      fmt::format("\nmean ratio: X {:.6f}, luminance {:.6f}, Z {:.6f}, red {:.6f}, green {:.6f}, blue {:.6f}",
+                  c.ratios.x, c.ratios.luminance, c.ratios.z, c.ratios.red, c.ratios.green, c.ratios.blue);
+  if (c.mean_within) text += fmt::format(" (X, Y, Z within {:.9g})", *c.mean_within);
+  text += '\n';
   if (c.nonfinite_image + c.nonfinite_reference > 0)
     text += fmt::format("pixels that are not finite: {} of the image, {} of the reference\n",
                         c.nonfinite_image, c.nonfinite_reference);
@@ -91,11 +101,16 @@ std::string to_json(const Comparison& c) {
                               {"pixels", c.error_map.size()},
                               {"nonfinite_image", c.nonfinite_image},
                               {"nonfinite_reference", c.nonfinite_reference},
+                              {"mean_ratio_x", c.ratios.x},
+                              {"mean_ratio_y", c.ratios.luminance},
+                              {"mean_ratio_z", c.ratios.z},
+                              {"mean_within", nullptr},
                               {"luminance_ratio", c.ratios.luminance},
                               {"red_ratio", c.ratios.red},
                               {"green_ratio", c.ratios.green},
                               {"blue_ratio", c.ratios.blue}};
   if (c.threshold) json["threshold"] = *c.threshold;
+  if (c.mean_within) json["mean_within"] = *c.mean_within;
   return json.dump() + "\n";
 }
 

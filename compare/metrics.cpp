@@ -97,7 +97,9 @@ MeanRatios mean_ratios(const Image& image, const Image& reference) {
     add(b, reference);
   }
   const auto ratio = [](double x, double y) { return y == 0 ? nan : x / y; };
-  return {ratio(srgb_to_xyz(a).y, srgb_to_xyz(b).y), ratio(a.r, b.r), ratio(a.g, b.g), ratio(a.b, b.b)};
+  const XYZ xyz_a = srgb_to_xyz(a), xyz_b = srgb_to_xyz(b);
+  return {ratio(xyz_a.x, xyz_b.x), ratio(xyz_a.y, xyz_b.y), ratio(xyz_a.z, xyz_b.z),
+          ratio(a.r, b.r),         ratio(a.g, b.g),         ratio(a.b, b.b)};
 }
 
 }  // namespace vitrail

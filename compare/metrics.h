@@ -39,7 +39,7 @@ std::size_t count_nonfinite(const Image& image);
 // Means of the image over means of the reference, over the pixels that are finite in both: 1 without bias.
 // NaN where the reference is black.
 struct MeanRatios {
-  double luminance = 0, red = 0, green = 0, blue = 0;
+  double x = 0, luminance = 0, z = 0, red = 0, green = 0, blue = 0;
 };
 MeanRatios mean_ratios(const Image& image, const Image& reference);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "compare/ztest.h"
 
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -11,9 +12,13 @@ namespace vitrail {
 
 namespace {
 
-double luminance_at(const Image& image, std::size_t p) {
+// X, Y and Z of a pixel, or Y first where it alone is tested.
+std::array<double, 3> tested_values(const Image& image, std::size_t p, std::size_t channels) {
   const float* v = &image.values[3 * p];
-  return srgb_to_xyz({static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2])}).y;
+  const XYZ c =
+      srgb_to_xyz({static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2])});
+  if (channels == 1) return {c.y, 0, 0};
+  return {c.x, c.y, c.z};
 }
 
 }  // namespace
@@ -32,35 +37,23 @@ double two_sided_p(double t, int degrees_of_freedom) {
   return 1 - (odd ? 2 / std::numbers::pi * (theta + inside) : inside);
 }
 
-std::vector<double> luminance_variance(const Image& variance) {
-  const RGB weight{srgb_to_xyz({1, 0, 0}).y, srgb_to_xyz({0, 1, 0}).y, srgb_to_xyz({0, 0, 1}).y};
-  std::vector<double> result(variance.pixels());
-  for (std::size_t p = 0; p < result.size(); ++p) {
-    if (variance.channels == 1) {
-      result[p] = static_cast<double>(variance.values[p]);
-      continue;
-    }
-    const float* v = &variance.values[3 * p];
-    const auto sigma = [v](int c) { return std::sqrt(static_cast<double>(v[c])); };
-    const double s = weight.r * sigma(0) + weight.g * sigma(1) + weight.b * sigma(2);
-    result[p] = s * s;
-  }
-  return result;
-}
-
 ZTest ztest(const ZTestInput& input) {
   require_same_size(*input.image, *input.reference);
   const std::size_t pixels = input.image->pixels();
+  const std::size_t channels = input.variance.size() / pixels;
   ZTest result;
   result.z.resize(pixels);
+  result.values = channels * pixels;
   // 1 − (1 − α)^(1/N)
-  result.pixel_significance = -std::expm1(std::log1p(-ztest_significance) / static_cast<double>(pixels));
+  result.value_significance = -std::expm1(std::log1p(-ztest_significance) / static_cast<double>(pixels));
   for (std::size_t p = 0; p < pixels; ++p) {
-    const double y = luminance_at(*input.reference, p);
-    const double rounding = std::abs(y) * 0x1p-11 + 0x1p-24;
-    const double sigma = std::sqrt(input.variance[p] + rounding * rounding);
-    result.z[p] = std::abs(luminance_at(*input.image, p) - y) / sigma;
-    if (!(two_sided_p(result.z[p], input.degrees_of_freedom) > result.pixel_significance)) ++result.failed;
+    const std::array<double, 3> a = tested_values(*input.image, p, channels),
+                                b = tested_values(*input.reference, p, channels);
+    for (std::size_t c = 0; c < channels; ++c) {
+      const double z = a[c] == b[c] ? 0 : std::abs(a[c] - b[c]) / std::sqrt(input.variance[channels * p + c]);
+      if (!(z <= result.z[p])) result.z[p] = z;
+      if (!(two_sided_p(z, input.degrees_of_freedom) > result.value_significance)) ++result.failed;
+    }
   }
   return result;
 }

@@ -97,6 +97,33 @@ TEST_F(ImagePrograms, CompareFailsAboveTheThresholdAndShowsWhere) {
   EXPECT_EQ(compare(both + " --metric ztest").status, 2);
 }
 
+TEST_F(ImagePrograms, CompareByMitsubasRule) {
+  ASSERT_EQ(develop(film("a.film", 1) + " -o " + quoted("a.exr")).status, 0);
+  ASSERT_EQ(develop(film("a.film", 1) + " -o " + quoted("b.exr") + " --exposure 0.05").status, 0);
+  const std::string both = quoted("b.exr") + ' ' + quoted("a.exr");
+  const std::string rule = both + " --metric ztest --variance " + quoted("a.exr") + " --json";
+  const CommandResult json = compare(rule);  // a.exr: the variance of a sample is 2, its mean is off by 0.07
+  EXPECT_EQ(json.status, 0) << json.output;
+  EXPECT_THAT(json.output, HasSubstr("\"mean_ratio_z\":1.035"));
+  EXPECT_EQ(compare(rule + " --mean-within 0.01").status, 1);
+  EXPECT_EQ(compare(rule + " --variance-samples 10000").status, 1);
+}
+
+TEST_F(ImagePrograms, CompareLeavesOutPixels) {
+  ASSERT_EQ(develop(film("a.film", 1) + " -o " + quoted("a.exr")).status, 0);
+  Picture picture = read_picture(directory_ / "a.exr");
+  picture.rgb.values[3 * 9] = 7;  // of the pixel (1, 1)
+  write_picture(directory_ / "b.exr", picture);
+  picture.rgb.values[3 * 9] = picture.rgb.values[3 * 9 + 1] = picture.rgb.values[3 * 9 + 2] = 0;
+  write_picture(directory_ / "mask.exr", picture);
+  const std::string both = quoted("b.exr") + ' ' + quoted("a.exr") + " --metric bitwise";
+  EXPECT_EQ(compare(both).status, 1);
+  EXPECT_EQ(compare(both + " --ignore 1,2,1,2 --heatmap " + quoted("heat.png")).status, 0);
+  EXPECT_EQ(compare(both + " --mask " + quoted("mask.exr")).status, 0);
+  EXPECT_EQ(compare(both + " --ignore 2,3,1,2").status, 1);
+  EXPECT_EQ(compare(both + " --ignore 1,2,1").status, 2);
+}
+
 TEST_F(ImagePrograms, DamagedFilmsAreBadInput) {
   const std::string a = film("a.film", 1);
   std::filesystem::resize_file(directory_ / "a.film", 200);

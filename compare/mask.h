@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// Leaving pixels out of a comparison. What remains of an image is one row of pixels, which every metric
+// takes.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "scene/camera.h"
+#include "scene/image.h"
+
+namespace vitrail {
+
+// True: the pixel is left out.
+using Mask = std::vector<bool>;
+
+// Leaves out the pixels of the rectangles, and those that are black in `kept`, unless it is 0 × 0. Throws
+// Error if nothing remains, a rectangle leaves the image or the sizes differ.
+Mask make_mask(int width, int height, std::span<const PixelRect> ignored, const Image& kept);
+
+Image without(const Image& image, const Mask& mask);
+// `values` has so many a pixel of the mask.
+std::vector<double> without(const std::vector<double>& values, const Mask& mask);
+// One value a pixel that remained becomes one a pixel of the image, 0 in those left out.
+std::vector<double> spread(const std::vector<double>& values, const Mask& mask);
+
+}  // namespace vitrail

@@ -1,0 +1,14 @@
+# SPDX-License-Identifier: Apache-2.0
+# Pictures of the corpus against those of the renderers that its scenes were written for.
+vitrail_library(corpus_render SOURCES corpus_render.cpp
+  LIBRARIES vitrail::test_support nlohmann_json::nlohmann_json fmt::fmt GTest::gtest)
+
+function(vitrail_appearance_test name)
+  vitrail_test(${name} LABEL conformance-appearance TIMEOUT 600 SOURCES ${name}_test.cpp
+    LIBRARIES vitrail::corpus_render vitrail::image ${ARGN})
+  add_dependencies(test_${name} vitrail vitrail-partition vitrail-render vitrail-develop vitrail-compare)
+  # To be enabled when materials, textures and lights are rendered as the files say.
+  set_tests_properties(${name} PROPERTIES DISABLED TRUE)
+endfunction()
+
+vitrail_appearance_test(mitsuba_reference)

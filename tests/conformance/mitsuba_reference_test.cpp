@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// Every scene that Mitsuba 3 tests its renderers with, by its own rule: two million samples a picture, each
+// value of X, Y and Z against the mean and the variance of the spectral reference. The rule alone forgives 3
+// % on pictures this dark, so the means of X, Y and Z have to be within 1 % as well.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+
+#include "film/image_io.h"
+#include "tests/conformance/corpus_render.h"
+#include "tests/support/command.h"
+
+namespace vitrail::test {
+namespace {
+
+constexpr std::size_t sample_budget = 2'000'000;
+
+// The sdfgrid of one scene, and what stands in its shadow.
+const std::string left_out(const CorpusScene& scene) {
+  return scene.name() == "test_various_shapes_path" ? "--ignore 280,420,300,440" : "";
+}
+
+std::filesystem::path reference_of(const CorpusScene& scene, const std::string& ending) {
+  for (const std::string& file : scene.references)
+    if (file.ends_with(ending)) return corpus() / file;
+  return {};
+}
+
+class MitsubaReference : public ::testing::TestWithParam<CorpusScene> {};
+
+TEST_P(MitsubaReference, IsMatched) {
+  const CorpusScene& scene = GetParam();
+  const auto mean = reference_of(scene, "_ref_spectral.exr"),
+             variance = reference_of(scene, "_ref_spectral_var.exr");
+  const TemporaryDirectory directory;
+  const auto start = std::chrono::steady_clock::now();
+  const std::size_t samples = sample_budget / read_picture(mean).rgb.pixels();
+  const std::string wrong =
+      render_scene(corpus() / scene.path, directory / "picture.film", fmt::format("--spp {}", samples));
+  if (!wrong.empty()) return conclude(false, scene.name(), wrong);
+  const nlohmann::json result =
+      compare_pictures(directory / "picture.film", mean,
+                       fmt::format("--metric ztest --variance '{}' {}", variance.string(), left_out(scene)));
+  ASSERT_TRUE(result.is_object());
+  const double failed = result["value"];
+  const MeanXyz means = mean_xyz(result);
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  conclude(failed <= 0.0025 && means.worst <= 0.01 && result["nonfinite_image"] == 0, scene.name(),
+           fmt::format("values passed {:7.3f} %   mean ratios X Y Z{}   {:.1f} s", 100 * (1 - failed),
+                       means.text, seconds));
+}
+
+std::vector<CorpusScene> scenes_with_variance() {
+  std::vector<CorpusScene> scenes;
+  for (const CorpusScene& scene : corpus_scenes())
+    if (scene.reference_kind.starts_with("mean+var")) scenes.push_back(scene);
+  return scenes;
+}
+
+GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(MitsubaReference);
+INSTANTIATE_TEST_SUITE_P(Corpus, MitsubaReference, ::testing::ValuesIn(scenes_with_variance()),
+                         [](const auto& scene) { return case_name(scene.param.name()); });
+
+}  // namespace
+}  // namespace vitrail::test
