@@ -7,35 +7,11 @@
 
 #include "cli/inspect.h"
 #include "importers/images/image_files.h"
+#include "scene/kinds.h"
 
 namespace vitrail {
 
 namespace {
-
-constexpr std::array material_kinds{"diffuse",
-                                    "dielectric",
-                                    "thin dielectric",
-                                    "conductor",
-                                    "plastic",
-                                    "coated diffuse",
-                                    "coated conductor",
-                                    "diffuse transmission",
-                                    "principled",
-                                    "subsurface",
-                                    "hair",
-                                    "measured",
-                                    "interface",
-                                    "blend",
-                                    "mask",
-                                    "two-sided"};
-constexpr std::array texture_kinds{"image",         "checkerboard",   "product", "mix",
-                                   "direction mix", "bilinear",       "dots",    "noise",
-                                   "ptex",          "mesh attribute", "uv"};
-constexpr std::array light_kinds{"point",   "spot",     "projection", "goniometric",
-                                 "distant", "infinite", "environment"};
-static_assert(material_kinds.size() == std::variant_size_v<MaterialModel>);
-static_assert(texture_kinds.size() == std::variant_size_v<TextureModel>);
-static_assert(light_kinds.size() == std::variant_size_v<LightModel>);
 
 std::string file_of(const Texture& texture) {
   if (const auto* image = std::get_if<ImageTexture>(&texture.model)) return image->filename;
@@ -82,7 +58,7 @@ Report describe_materials(const Scene& scene) {
   Report table = Report::array();
   for (const Material& m : scene.materials)
     table.push_back({{"name", m.name.empty() ? "-" : m.name},
-                     {"kind", material_kinds.at(m.model.index())},
+                     {"kind", kind_of(m.model)},
                      {"sides", m.two_sided ? "both" : "front"},
                      {"bumps", m.displacement || m.normal_map ? "yes" : "no"},
                      {"where", to_string(location(scene, m.origin))}});
@@ -94,7 +70,7 @@ Report describe_textures(const Scene& scene) {
   for (const Texture& t : scene.textures) {
     const std::string file = file_of(t);
     table.push_back({{"name", t.name.empty() ? "-" : t.name},
-                     {"kind", texture_kinds.at(t.model.index())},
+                     {"kind", kind_of(t.model)},
                      {"values", t.is_float ? "numbers" : "colours"},
                      {"pixels", file.empty() ? "-" : pixels_of(file)},
                      {"file", file.empty() ? "-" : file}});
@@ -117,12 +93,12 @@ Report describe_media(const Scene& scene) {
 Report describe_needs(const Scene& scene) {
   Report needs;
   needs["materials_beyond_diffuse_and_smooth_glass"] = yes_or_no(
-      kinds_beyond(scene.materials, [](const Material& m) { return material_kinds.at(m.model.index()); },
+      kinds_beyond(scene.materials, [](const Material& m) { return kind_of(m.model); },
                    {"diffuse", "dielectric", "interface"}));
   needs["textures"] = yes_or_no(
-      kinds_beyond(scene.textures, [](const Texture& t) { return texture_kinds.at(t.model.index()); }, {}));
+      kinds_beyond(scene.textures, [](const Texture& t) { return kind_of(t.model); }, {}));
   needs["lights_beyond_point_distant_and_constant"] =
-      yes_or_no(kinds_beyond(scene.lights, [](const Light& l) { return light_kinds.at(l.model.index()); },
+      yes_or_no(kinds_beyond(scene.lights, [](const Light& l) { return kind_of(l.model); },
                              {"point", "distant", "infinite"}));
   needs["media"] = yes_or_no(scene.media.empty() ? "" : fmt::format("{} of them", scene.media.size()));
   needs["instances"] =

@@ -9,33 +9,13 @@
 #include "importers/import.h"
 #include "partitioner/appearance.h"
 #include "partitioner/flatten.h"
-#include "scene/spectrum.h"
+#include "scene/kinds.h"
 
 namespace vitrail {
 
 namespace {
 
-constexpr std::array spectrum_kinds{"constant",  "sigmoid",       "RGB illuminant", "tabulated",
-                                    "Sellmeier", "unbounded RGB", "blackbody",      "named"};
-static_assert(spectrum_kinds.size() == std::variant_size_v<Spectrum>);
-constexpr std::array light_kinds{"point", "distant", "infinite"};
-
 Report triple(const auto& v) { return {v.x, v.y, v.z}; }
-
-// Where a spectrum lies: its values at blue, green and red.
-std::string in_words(const Spectrum& s) {
-  if (const auto* constant = std::get_if<ConstantSpectrum>(&s)) return fmt::format("{:.4g}", constant->value);
-  return fmt::format("{}: {:.4g} at 450 nm, {:.4g} at 550 nm, {:.4g} at 650 nm", spectrum_kinds.at(s.index()),
-                     evaluate(s, 450), evaluate(s, 550), evaluate(s, 650));
-}
-
-Report describe(const bundle::Material& material) {
-  if (const auto* diffuse = std::get_if<bundle::DiffuseMaterial>(&material))
-    return {{"kind", "diffuse"}, {"reflectance or index", in_words(diffuse->reflectance)}};
-  if (const auto* dielectric = std::get_if<bundle::DielectricMaterial>(&material))
-    return {{"kind", "dielectric"}, {"reflectance or index", in_words(dielectric->eta)}};
-  return {{"kind", "interface"}, {"reflectance or index", nullptr}};
-}
 
 // Emitting area of each area light, scene units².
 std::vector<double> emitting_areas(const Manifest& m) {
@@ -46,31 +26,47 @@ std::vector<double> emitting_areas(const Manifest& m) {
   return areas;
 }
 
+// The luminance of what has one value; null where an image decides.
+Report luminance_of(const SpectrumParameter& p) {
+  const auto* spectrum = std::get_if<Spectrum>(&p);
+  return spectrum ? Report(luminance(*spectrum)) : Report(nullptr);
+}
+
+struct LightDescriber {
+  Report operator()(const PointLight& l) const { return of(l.intensity, 4 * std::numbers::pi); }
+  Report operator()(const SpotLight& l) const { return of(l.intensity); }
+  Report operator()(const ProjectionLight& l) const { return of(l.scale); }
+  Report operator()(const GoniometricLight& l) const { return of(l.intensity); }
+  Report operator()(const DistantLight& l) const { return of(l.irradiance); }
+  Report operator()(const InfiniteLight& l) const { return of(l.radiance); }
+  Report operator()(const EnvironmentLight& l) const { return of(l.scale); }
+
+ private:
+  // `flux`: over the luminance; 0: not told.
+  static Report of(const Spectrum& s, double flux = 0) {
+    const double y = luminance(s);
+    return {{"luminance", y}, {"area", nullptr}, {"power", flux > 0 ? Report(flux * y) : Report(nullptr)}};
+  }
+};
+
 // `power` is ȳ-weighted: π·A·L of an area light (twice that if two-sided), 4π·I of a point light.
 Report describe_lights(const Manifest& m) {
   Report lights = Report::array();
   const std::vector<double> areas = emitting_areas(m);
   for (std::size_t i = 0; i < areas.size(); ++i) {
-    const bundle::AreaLight& l = m.area_lights[i];
-    const double y = luminance(l.radiance);
-    lights.push_back({{"kind", l.two_sided ? "area, both sides" : "area"},
-                      {"luminance", y},
-                      {"area", areas[i]},
-                      {"power", std::numbers::pi * areas[i] * y * (l.two_sided ? 2 : 1)}});
-  }
-  for (const bundle::Light& light : m.lights) {
-    Report power = nullptr;
-    double y = 0;
-    if (const auto* point = std::get_if<bundle::PointLight>(&light)) {
-      y = luminance(point->intensity);
-      power = 4 * std::numbers::pi * y;
-    } else if (const auto* distant = std::get_if<bundle::DistantLight>(&light)) {
-      y = luminance(distant->irradiance);
-    } else {
-      y = luminance(std::get<bundle::InfiniteLight>(light).radiance);
-    }
+    const AreaLight& l = m.area_lights[i];
+    const Report y = luminance_of(l.radiance);
+    const double sides = l.two_sided ? 2 : 1;
     lights.push_back(
-        {{"kind", light_kinds.at(light.index())}, {"luminance", y}, {"area", nullptr}, {"power", power}});
+        {{"kind", l.two_sided ? "area, both sides" : "area"},
+         {"luminance", y},
+         {"area", areas[i]},
+         {"power", y.is_null() ? y : Report(std::numbers::pi * areas[i] * y.get<double>() * sides)}});
+  }
+  for (const Light& light : m.lights) {
+    Report described{{"kind", kind_of(light.model)}};
+    described.update(std::visit(LightDescriber{}, light.model));
+    lights.push_back(std::move(described));
   }
   return lights;
 }
@@ -84,28 +80,36 @@ std::string materials_that(const Manifest& m, const char* what, Condition condit
                      first);
 }
 
+template <class Model>
+bool is(const Material& material) {
+  return std::holds_alternative<Model>(material.model);
+}
+
 // What the scene asks of a renderer, and why.
 Report describe_requirements(const Manifest& m) {
   const Requirements& r = m.requirements;
-  const auto dielectric = [](const bundle::Material& x) {
-    return std::holds_alternative<bundle::DielectricMaterial>(x);
+  const auto sheer = [](const Material& x) {
+    return is<InterfaceMaterial>(x) || is<MaskMaterial>(x) || is<ThinDielectricMaterial>(x);
   };
-  const auto interface = [](const bundle::Material& x) {
-    return std::holds_alternative<bundle::InterfaceMaterial>(x);
+  const auto disperses = [](const Material& x) {
+    const auto* d = std::get_if<DielectricMaterial>(&x.model);
+    return d && !(is_constant(d->eta) && is_constant(d->exterior_eta));
   };
-  const auto disperses = [](const bundle::Material& x) {
-    const auto* d = std::get_if<bundle::DielectricMaterial>(&x);
-    return d && !is_constant(d->eta);
-  };
-  return {{"shading_normals", r.shading_normals ? "yes: a mesh in use has normals at its vertices" : "no"},
-          {"transmission", r.transmission ? materials_that(m, "are dielectric", dielectric) : "no"},
-          {"dispersion", r.dispersion ? materials_that(m, "refract by wavelength", disperses) : "no"},
-          {"interfaces", r.interfaces ? materials_that(m, "are interfaces", interface) : "no"}};
+  return {
+      {"shading_normals", r.shading_normals ? "yes: a mesh in use has normals at its vertices" : "no"},
+      {"uv", r.uv ? "yes: a texture, a tangent or a bump is looked up by (u,v)" : "no"},
+      {"filtering", r.filtering ? "yes: an image asks for it" : "no"},
+      {"textures", m.texture_files.empty() ? "no" : fmt::format("yes: {} images", m.texture_files.size())},
+      {"mesh_attributes", m.attributes == 0 ? "no" : fmt::format("yes: {} values a vertex", m.attributes)},
+      {"refraction", r.refraction ? materials_that(m, "are dielectric", is<DielectricMaterial>) : "no"},
+      {"dispersion", r.dispersion ? materials_that(m, "refract by wavelength", disperses) : "no"},
+      {"see_through", r.see_through ? materials_that(m, "let light straight through", sheer) : "no"},
+      {"media", r.media ? fmt::format("yes: {}", m.media.size()) : "no"}};
 }
 
 Report describe_view(const Manifest& m) {
   const FilmSettings& f = m.film;
-  return {{"camera", std::holds_alternative<PerspectiveCamera>(m.camera) ? "perspective" : "orthographic"},
+  return {{"camera", kind_of(m.camera)},
           {"pixels", fmt::format("{} × {}", f.width, f.height)},
           {"crop", {f.crop.x0, f.crop.x1, f.crop.y0, f.crop.y1}},
           {"samples_per_pixel", m.settings.samples_per_pixel},
@@ -134,7 +138,7 @@ Report describe(const Manifest& m) {
   }
   r["requires"] = describe_requirements(m);
   r["materials"] = Report::array();
-  for (const bundle::Material& material : m.materials) r["materials"].push_back(describe(material));
+  for (const Material& material : m.materials) r["materials"].push_back(kind_of(material.model));
   r["emissive_triangles"] = m.emissive_triangles.size();
   r["lights"] = describe_lights(m);
   r["view"] = describe_view(m);
@@ -154,9 +158,9 @@ Report inspect_scene(const std::filesystem::path& file) {
   r["materials_of_the_scene"] = describe_materials(s);
   r["textures"] = describe_textures(s);
   r["media"] = describe_media(s);
-  r.update(describe(flatten(s).manifest));
+  r.update(describe(flatten(s, {}).manifest));
   r["not_exact"] = describe_diagnostics(imported.diagnostics);
-  r["not_rendered_exactly"] = describe_diagnostics(appearance_of(s).diagnostics);
+  r["not_rendered_exactly"] = describe_diagnostics(appearance_of(s, {}).diagnostics);
   return r;
 }
 

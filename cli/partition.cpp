@@ -30,6 +30,8 @@ void declare(CLI::App& app, Arguments& a) {
   app.add_option("-o,--output", a.output, "bundle to write (NAME.vit)")->required();
   auto* domains =
       app.add_option("--domains", a.options.domains, "number of sub-domains")->check(CLI::Range(1, 999'999));
+  app.add_flag("--require-everything", a.options.everything,
+               "as if the scene required all that there is: to measure what the analysis saves");
   app.add_option("--domain-bytes", a.domain_bytes, "size of a sub-domain, e.g. 64M (the default)")
       ->excludes(domains);
   app.add_option("--threads", a.options.threads, "threads; default: all cores")->check(CLI::Range(1, 4096));
@@ -81,7 +83,7 @@ int run(Arguments& a) {
   }
   const ImportedScene imported = import_scene(a.input);
   Diagnostics diagnostics = imported.diagnostics;
-  std::ranges::copy(appearance_of(imported.scene).diagnostics, std::back_inserter(diagnostics));
+  std::ranges::copy(appearance_of(imported.scene, {}).diagnostics, std::back_inserter(diagnostics));
   fmt::print(stderr, "{}", summarise(diagnostics));
   if (a.strict) require_exact(diagnostics);
   std::function<void(double, const char*)> progress;

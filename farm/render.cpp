@@ -54,10 +54,19 @@ std::uint64_t settings_hash(const Manifest& m) {
 }
 
 struct Job {
-  RenderScene scene;
+  std::unique_ptr<RenderScene> scene;
   Film film;
   WorkPlan plan;
+  std::uint64_t texture_bytes = 0;
 };
+
+// For tiles of images: all of them if there is no limit, else a quarter of it at most.
+std::uint64_t texture_budget(const Manifest& m, std::uint64_t memory_bytes) {
+  std::uint64_t all = 0;
+  for (const TextureFileEntry& t : m.texture_files) all += t.bytes;
+  all *= 2;  // tiles at an edge are smaller in the file than in memory
+  return memory_bytes == 0 ? all : std::min(all, memory_bytes / 4);
+}
 
 Job set_up(const RenderOptions& options) {
   Manifest manifest = read_with_overrides(options);
@@ -65,7 +74,9 @@ Job set_up(const RenderOptions& options) {
   Film film(manifest.film, key);
   const WorkPlan plan =
       make_work_plan(manifest.film.crop, static_cast<std::uint32_t>(manifest.settings.samples_per_pixel));
-  return {make_render_scene(std::move(manifest), options.seed), std::move(film), plan};
+  const std::uint64_t textures = texture_budget(manifest, options.memory_bytes);
+  return {std::make_unique<RenderScene>(std::move(manifest), options.bundle, textures, options.seed), std::move(film),
+          plan, textures};
 }
 
 MemoryPlan plan_for(const Manifest& manifest, const RenderOptions& options, int threads, std::uint64_t base) {
@@ -102,14 +113,14 @@ RenderStats render(Transport& transport, const RenderOptions& options) {
   agree(transport, [&] {
     job = set_up(options);
     stats.base_rss_bytes = resident_bytes();
-    memory = plan_for(job->scene.manifest, options, threads, stats.base_rss_bytes);
+    memory = plan_for(job->scene->manifest, options, threads, stats.base_rss_bytes + job->texture_bytes);
   });
-  const Manifest& manifest = job->scene.manifest;
+  const Manifest& manifest = job->scene->manifest;
   Resumed resumed;
   const std::filesystem::path checkpoint = checkpoint_path(options.film);
   if (options.resume) resumed = read_checkpoint(transport, checkpoint, job->film, job->plan);
 
-  RankState state(job->scene, job->film, job->plan, RayQueues(manifest.domains.size(), options.shuffle_seed),
+  RankState state(*job->scene, job->film, job->plan, RayQueues(manifest.domains.size(), options.shuffle_seed),
                   Residency(manifest, options.bundle, memory.domains_bytes,
                             home_ranks(manifest, transport.size()), transport.rank()));
   Rank rank(transport, state, options, std::move(resumed), rays_allowed(memory));

@@ -3,33 +3,14 @@
 
 #include <fmt/format.h>
 
-#include <array>
-
 #include "partitioner/bake_materials.h"
 #include "partitioner/bake_media.h"
 #include "partitioner/bake_textures.h"
+#include "scene/kinds.h"
 
 namespace vitrail {
 
 namespace {
-
-constexpr std::array material_kinds{"diffuse",
-                                    "dielectric",
-                                    "thin dielectric",
-                                    "conductor",
-                                    "plastic",
-                                    "coated diffuse",
-                                    "coated conductor",
-                                    "diffuse transmission",
-                                    "principled",
-                                    "subsurface",
-                                    "hair",
-                                    "measured",
-                                    "interface",
-                                    "blend",
-                                    "mask",
-                                    "two-sided"};
-static_assert(material_kinds.size() == std::variant_size_v<MaterialModel>);
 
 class Notes {
  public:
@@ -115,7 +96,7 @@ void bake_materials(const Scene& scene, const Used& used, TextureBaker& textures
     const std::string name = material.name.empty() ? "" : fmt::format(" \"{}\"", material.name);
     for (const std::string& note : baked.notes)
       report.approximated(
-          fmt::format("material{} ({}): {}", name, material_kinds[material.model.index()], note),
+          fmt::format("material{} ({}): {}", name, kind_of(material.model), note),
           material.origin);
     return true;
   });

@@ -92,7 +92,7 @@ Bsdf BsdfMaker::operator()(const PlasticMaterial& m) const {
   const double eta = static_cast<double>(m.eta) / static_cast<double>(m.exterior_eta);
   if (m.roughness.alpha_u == FloatParameter{0.0f})
     return PlasticBsdf{spectrum(m.diffuse_reflectance), spectrum(m.specular_reflectance), eta,
-                       plastic_internal_reflectance, m.nonlinear};
+                       plastic_tables->internal_reflectance, m.nonlinear};
   return RoughPlasticBsdf{spectrum(m.diffuse_reflectance),
                           spectrum(m.specular_reflectance),
                           eta,

@@ -16,15 +16,13 @@ struct BsdfMaker {
   TexturePoint at;
   const SampledWavelengths& wavelengths;
   bool from_front;
-  const RoughPlasticTables* plastic_tables;  // of the material, where it is a rough plastic
+  const RoughPlasticTables* plastic_tables;  // of the material, where it is a plastic
 
   Bsdf operator()(const DiffuseMaterial& m) const;
   Bsdf operator()(const DielectricMaterial& m) const;
   Bsdf operator()(const ThinDielectricMaterial& m) const { return thin(m); }
   Bsdf operator()(const ConductorMaterial& m) const;
   Bsdf operator()(const PlasticMaterial& m) const;
-  Bsdf operator()(const CoatedDiffuseMaterial& m) const;
-  Bsdf operator()(const CoatedConductorMaterial& m) const;
   Bsdf operator()(const DiffuseTransmissionMaterial& m) const;
   Bsdf operator()(const PrincipledMaterial& m) const;
   // Those that are made of others, and those that bundles do not have: black.

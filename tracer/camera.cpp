@@ -67,7 +67,7 @@ Point2d FilterSampler::sample(float u, float v) const {
   return {x_.sample(static_cast<double>(u)), y_.sample(static_cast<double>(v))};
 }
 
-CameraRay camera_ray(const bundle::Camera& camera, const FilmSettings& film, Point2d raster) {
+CameraRay camera_ray(const Camera& camera, const FilmSettings& film, Point2d raster) {
   const auto on_screen = [&](const ScreenWindow& s) {
     return Point2d{s.x0 + raster.x / film.width * (s.x1 - s.x0),
                    s.y1 - raster.y / film.height * (s.y1 - s.y0)};

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "bundle/appearance.h"
 #include "scene/scene.h"
 #include "tracer/direction.h"
 
@@ -31,6 +30,6 @@ struct CameraRay {
 };
 
 // The ray through raster position (x, y), in pixels of the whole film from the top left.
-CameraRay camera_ray(const bundle::Camera& camera, const FilmSettings& film, Point2d raster);
+CameraRay camera_ray(const Camera& camera, const FilmSettings& film, Point2d raster);
 
 }  // namespace vitrail

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "tracer/bsdf/local.h"
+#include "tracer/media/phase.h"
 #include "tracer/path_state.h"
 #include "tracer/path_tracer.h"
 
@@ -17,17 +18,6 @@ constexpr double shadow_end = 1 - 1e-4;
 constexpr double far_away = 1e30;  // ends of rays to environments
 
 }  // namespace
-
-void PathTracer::connect_surface(const Path& path, const Interaction& at, const Surface& surface,
-                                 const Scattering& scattering, Vector3d out) {
-  connect(path, at.p, [&](Vector3d direction) -> std::optional<Connection> {
-    const Vector3d in = scattering.frame.to_local(direction);
-    // As for the samples of the BSDF: shading normals let no light leak.
-    if ((dot(direction, at.geometric) > 0) != (dot(at.out, at.geometric) * out.z * in.z > 0))
-      return std::nullopt;
-    return Connection{eval(scattering.bsdf, out, in), departure(path, at, surface, direction)};
-  });
-}
 
 // `scatter(direction)` gives the value and the density of scattering to there.
 template <class Scatter>
@@ -54,6 +44,24 @@ void PathTracer::connect(const Path& path, Point3d p, const Scatter& scatter) {
     send_shadow_ray(path, *connection, *light, radiance);
 }
 
+void PathTracer::connect_surface(const Path& path, const Interaction& at, const Surface& surface,
+                                 const Scattering& scattering, Vector3d out) {
+  connect(path, at.p, [&](Vector3d direction) -> std::optional<Connection> {
+    const Vector3d in = scattering.frame.to_local(direction);
+    // As for the samples of the BSDF: shading normals let no light leak.
+    if ((dot(direction, at.geometric) > 0) != (dot(at.out, at.geometric) * out.z * in.z > 0))
+      return std::nullopt;
+    return Connection{eval(scattering.bsdf, out, in), departure(path, at, surface, direction)};
+  });
+}
+
+void PathTracer::connect_medium(const Path& path, const Departure& from, double g, Vector3d out) {
+  connect(path, from.p, [&](Vector3d in) -> std::optional<Connection> {
+    const double value = phase(g, out, in);
+    return Connection{{filled(static_cast<float>(value)), value}, from};
+  });
+}
+
 void PathTracer::send_connection(const Path& path, const Connection& connection, const LightSample& light,
                                  const SampledSpectrum& radiance, bool refracts) {
   Path sent = path;
@@ -62,7 +70,7 @@ void PathTracer::send_connection(const Path& path, const Connection& connection,
   sent.throughput = radiance;
   depart(sent, connection.from, light.to_light);
   set_end(sent, refracts ? 0 : std::min(light.distance * shadow_end, far_away));
-  sent.depth = path.depth + 1;
+  sent.depth = refracts ? 0 : path.depth + 1;
   sent.pdf = 0;
   const std::size_t waiting = outbox_.paths.size();
   const std::uint64_t died = counters_.died, indirect = counters_.rays_indirect;
@@ -129,14 +137,15 @@ bool PathTracer::connect_onwards(Path& path) {
     if (!kind.is_interface) {
       path.throughput =
           path.throughput * scene_.materials.passes_straight(surface.material, at, path.wavelengths);
-      // Surfaces that are not mere interfaces count for the depth of a path.
-      ++path.depth;
+      ++path.depth;  // as for paths: mere interfaces do not count
     }
     if (is_black(path.throughput)) return false;
-    continue_from(path, at, surface, cast<double>(path.ray.direction), true);
+    continue_straight(path, at, surface);
     set_end(path, left);
   }
-  return kind.is_interface || path.depth <= static_cast<std::uint32_t>(manifest_.settings.max_depth);
+  if (kind.is_interface) return true;
+  return path.depth <= (refracts ? max_surfaces_crossed
+                                 : static_cast<std::uint32_t>(manifest_.settings.max_depth));
 }
 
 bool PathTracer::refract_connection(Path& path, const Interaction& at, const Surface& surface) const {
@@ -152,6 +161,7 @@ bool PathTracer::refract_connection(Path& path, const Interaction& at, const Sur
   path.throughput = path.throughput * scene_.textures.spectrum(material.transmittance_factor,
                                                                at.texture_point(), path.wavelengths);
   if (is_black(path.throughput)) return false;
+  ++path.depth;
   continue_from(path, at, surface, direction);
   set_end(path, 0);
   return true;

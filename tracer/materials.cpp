@@ -4,6 +4,7 @@
 #include <map>
 
 #include "tracer/bsdf/fresnel.h"
+#include "tracer/bsdf/local.h"
 #include "tracer/bsdf_of.h"
 #include "tracer/portable_math.h"
 #include "tracer/wavelengths.h"
@@ -48,6 +49,13 @@ Vector3d mapped(Id<Texture> map, const Interaction& at, Vector3d n, const Textur
   return normalize(tangent * local.x + cross(n, tangent) * local.y + n * local.z);
 }
 
+RoughPlasticTables plastic_tables(double alpha, double eta, Roughness::Distribution distribution) {
+  if (alpha > 0) return make_rough_plastic_tables(std::max(least_alpha, alpha), eta, distribution);
+  RoughPlasticTables smooth;
+  smooth.internal_reflectance = fresnel_diffuse(1 / eta);
+  return smooth;
+}
+
 ShadingFrame frame_around(Vector3d n, const Interaction& at, double side) {
   ShadingFrame frame;
   frame.tangent = at.dpdu - n * dot(n, at.dpdu);
@@ -71,16 +79,15 @@ Materials::Materials(const Manifest& manifest, const Textures& textures)
   for (std::size_t i = 0; i < manifest.materials.size(); ++i) {
     kinds_.push_back(kind_of(manifest.materials[i]));
     const auto* plastic = std::get_if<PlasticMaterial>(&manifest.materials[i].model);
-    if (!plastic || is_zero(plastic->roughness.alpha_u)) continue;
+    if (!plastic) continue;
     // A textured width is tabulated by what it is in the middle.
     const auto* alpha = std::get_if<float>(&plastic->roughness.alpha_u);
     const float eta = plastic->eta / plastic->exterior_eta, width = alpha ? *alpha : 0.3f;
     const auto [at, is_new] = known.try_emplace({width, eta, plastic->roughness.distribution},
                                                 static_cast<std::uint32_t>(plastic_tables_.size()));
     if (is_new)
-      plastic_tables_.push_back(make_rough_plastic_tables(
-          std::max(least_alpha, static_cast<double>(width)), static_cast<double>(eta),
-          plastic->roughness.distribution));
+      plastic_tables_.push_back(plastic_tables(static_cast<double>(width), static_cast<double>(eta),
+                                               plastic->roughness.distribution));
     plastic_table_[i] = at->second;
   }
 }

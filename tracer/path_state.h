@@ -28,6 +28,11 @@ struct PathTracer::Path {
   bool is(PathFlags flag) const { return flags & flag; }
   void set(PathFlags flag) { flags = static_cast<std::uint8_t>(flags | flag); }
   void clear(PathFlags flag) { flags = static_cast<std::uint8_t>(flags & ~flag); }
+  std::size_t active_wavelengths() const { return is(path_dispersed) ? 1 : hero_count; }
+  // About the point of the last scattering.
+  Point3d scattered_from() const {
+    return cast<double>(ray.origin) - cast<double>(ray.direction) * travelled;
+  }
   // Ends the secondary wavelengths: their ways part from the hero's here.
   void disperse() {
     clear(path_in_pane);

@@ -47,6 +47,7 @@ void PathTracer::trace_camera(int x, int y, std::uint32_t sample) {
   path.wavelengths = sample_wavelengths(u[2]);
   path.sensor = sensor_weights(path.wavelengths);
   path.throughput = filled(1);
+  path.medium = static_cast<std::uint8_t>(manifest_.camera_medium + 1);
   path.direction = ray.direction;
   path.ray = {ray.origin, decode_direction(ray.direction), no_triangle};
   film_.count_sample(path.pixel);
@@ -65,7 +66,10 @@ void PathTracer::resume(const PathRecord& record, std::uint32_t domain) {
     path.entered_by = {static_cast<std::uint32_t>(record.flags >> 4) << 16 | record.pdf};
   else
     path.pdf = pdf_value(record.pdf);
-  for (std::size_t i = 0; i < hero_count; ++i) path.throughput.v[i] = record.throughput[i];
+  for (std::size_t i = 0; i < hero_count; ++i) path.throughput.v[i] = unpack_radiance(record.throughput[i]);
+  path.travelled = static_cast<double>(unpack_radiance(record.travelled));
+  path.medium = record.medium;
+  path.cone = record.cone;
   path.direction = record.direction;
   path.ray = {{record.origin[0], record.origin[1], record.origin[2]},
               decode_direction(record.direction),
@@ -137,7 +141,10 @@ bool PathTracer::forward(const Path& path, std::uint32_t domain, bool resolved) 
   r.origin[0] = path.ray.origin.x;
   r.origin[1] = path.ray.origin.y;
   r.origin[2] = path.ray.origin.z;
-  for (std::size_t i = 0; i < hero_count; ++i) r.throughput[i] = path.throughput.v[i];
+  for (std::size_t i = 0; i < hero_count; ++i) pack_radiance(path.throughput.v[i], r.throughput[i]);
+  pack_radiance(static_cast<float>(path.travelled), r.travelled);
+  r.medium = path.medium;
+  r.cone = path.cone;
   r.exclude = path.ray.exclude;
   r.pixel = path.pixel;
   r.sample_depth = path.sample << 8 | path.depth;

@@ -14,6 +14,7 @@
 #include "tracer/records.h"
 #include "tracer/render_scene.h"
 #include "tracer/sampler.h"
+#include "tracer/wavelengths.h"
 
 namespace vitrail {
 
@@ -43,6 +44,20 @@ TraceCounters& operator+=(TraceCounters& a, const TraceCounters& b);
 // Indexed by domain; null: not resident.
 using ResidentViews = std::span<const DomainView* const>;
 
+// Where a ray starts.
+struct Departure {
+  Point3d p;       // what it leaves
+  Point3f origin;  // beside it
+  std::uint32_t exclude = no_triangle;
+  std::uint8_t medium = 0;  // index + 1, 0: vacuum
+};
+
+// What a connection begins with: scattering towards the light, and where its ray starts.
+struct Connection {
+  BsdfValue scattered;
+  Departure from;
+};
+
 class PathTracer {
  public:
   // All references outlive the tracer. One tracer a thread; the film is shared.
@@ -57,22 +72,49 @@ class PathTracer {
 
  private:
   struct Path;
-  struct Interaction;
 
   void run(Path& path, std::optional<std::uint32_t> at);
   bool find_hit(Path& path, std::optional<std::uint32_t> at);
   void intersect(Path& path, std::uint32_t domain);
   bool forward(const Path& path, std::uint32_t domain, bool resolved);
-  Interaction interaction_at(const Path& path) const;
+
+  // shading.cpp
   bool shade(Path& path);
-  bool connect_onwards(Path& path, const Interaction& at);
-  void add_emission(const Path& path, const Interaction& at, const bundle::AreaLight& light,
-                    std::int32_t index);
-  bool scatter_diffuse(Path& path, const Interaction& at, const bundle::DiffuseMaterial& material);
-  void connect_to_light(const Path& path, const Interaction& at, const SampledSpectrum& reflectance);
-  bool scatter_dielectric(Path& path, const Interaction& at, const bundle::DielectricMaterial& material);
-  void continue_from(Path& path, const Interaction& at, Vector3d direction) const;
+  bool shade_surface(Path& path);
+  bool scatter_dielectric(Path& path, const Interaction& at, const Surface& surface);
+  bool scatter_in_medium(Path& path, Point3d p);
+  bool go_on(Path& path, float u, bool specular) const;
+  void add_emission(const Path& path, const Interaction& at, std::uint32_t light);
+  void add_environment(const Path& path);
+
+  // departure.cpp
+  Departure departure(const Path& path, const Interaction& at, const Surface& surface,
+                      Vector3d direction) const;
+  void depart(Path& path, const Departure& from, Vector3d direction) const;
+  void continue_from(Path& path, const Interaction& at, const Surface& surface, Vector3d direction) const;
+  void continue_straight(Path& path, const Interaction& at, const Surface& surface) const;
+  void pass_straight(Path& path, const Interaction& at, const Surface& surface) const;
   Point3f offset_origin(const Interaction& at, Vector3d direction) const;
+  Interaction interaction_at(const Path& path) const;
+  Flight flight_of(const Path& path) const;
+  std::uint64_t stream_of(const Path& path) const;
+  double cone_unit() const;
+  double cone_width(const Path& path) const;
+
+  // connections.cpp
+  void connect_surface(const Path& path, const Interaction& at, const Surface& surface,
+                       const Scattering& scattering, Vector3d out);
+  void connect_medium(const Path& path, const Departure& from, double g, Vector3d out);
+  template <class Scatter>
+  void connect(const Path& path, Point3d p, const Scatter& scatter);
+  void send_connection(const Path& path, const Connection& connection, const LightSample& light,
+                       const SampledSpectrum& radiance, bool refracts);
+  void send_shadow_ray(const Path& path, const Connection& connection, const LightSample& light,
+                       const SampledSpectrum& radiance);
+  static void set_end(Path& connection, double distance);
+  bool connect_onwards(Path& path);
+  bool refract_connection(Path& path, const Interaction& at, const Surface& surface) const;
+
   void trace_shadow(const ShadowRecord& record, const SensorWeights* weights,
                     std::optional<std::uint32_t> at);
   void deposit(std::uint32_t pixel, std::uint32_t sample, const SensorWeights& weights,

@@ -3,12 +3,40 @@
 
 #include <algorithm>
 
+#include "tracer/records.h"
+
 namespace vitrail {
 
-RenderScene make_render_scene(Manifest manifest, std::uint64_t seed) {
-  FilterSampler filter(manifest.film.filter);
-  LightSampler lights = make_light_sampler(manifest);
-  return {std::move(manifest), std::move(filter), std::move(lights), seed};
+namespace {
+
+double pixel_angle(const Manifest& m) {
+  const auto* perspective = std::get_if<PerspectiveCamera>(&m.camera);
+  return perspective ? (perspective->screen.y1 - perspective->screen.y0) / m.film.height : 0;
+}
+
+LightScene light_scene(const Manifest& m, const Textures& textures) {
+  return {.area_lights = m.area_lights,
+          .triangles = m.emissive_triangles,
+          .lights = m.lights,
+          .textures = &textures,
+          .texture_records = m.textures,
+          .tiles = textures.tiles(),
+          .bounds = m.bounds};
+}
+
+}  // namespace
+
+RenderScene::RenderScene(Manifest the_manifest, const std::filesystem::path& bundle,
+                         std::uint64_t texture_bytes, std::uint64_t the_seed)
+    : manifest(std::move(the_manifest)),
+      filter(manifest.film.filter),
+      textures(manifest.textures, bundle, texture_bytes),
+      materials(manifest, textures),
+      media(prepare(manifest.media)),
+      lights(make_light_sampler(light_scene(manifest, textures), bundle)),
+      pixel_angle(vitrail::pixel_angle(manifest)),
+      seed(the_seed) {
+  if (manifest.media.size() > max_media) throw Error("more than 254 media", {bundle.string()});
 }
 
 const Surface& surface_of(const Manifest& manifest, std::uint32_t triangle) {

@@ -2,20 +2,32 @@
 // What every rank holds of the scene besides domains, prepared for tracing.
 #pragma once
 
+#include <filesystem>
+
 #include "bundle/manifest.h"
 #include "tracer/camera.h"
-#include "tracer/lights.h"
+#include "tracer/lights/light_sampler.h"
+#include "tracer/materials.h"
+#include "tracer/media/medium.h"
 
 namespace vitrail {
 
 struct RenderScene {
+  // `texture_bytes`: for tiles of images in memory. Throws Error for texture files that are damaged.
+  RenderScene(Manifest manifest, const std::filesystem::path& bundle, std::uint64_t texture_bytes,
+              std::uint64_t seed);
+  RenderScene(const RenderScene&) = delete;  // its parts refer to each other
+  RenderScene& operator=(const RenderScene&) = delete;
+
   Manifest manifest;
   FilterSampler filter;
+  Textures textures;
+  Materials materials;
+  std::vector<PreparedMedium> media;
   LightSampler lights;
+  double pixel_angle = 0;  // between neighbouring camera rays in the middle of the picture, rad
   std::uint64_t seed = 0;
 };
-
-RenderScene make_render_scene(Manifest manifest, std::uint64_t seed);
 
 // The surface that a triangle belongs to.
 const Surface& surface_of(const Manifest& manifest, std::uint32_t triangle);

@@ -38,20 +38,6 @@ bool PathTracer::shade(Path& path) {
   return shade_surface(path);
 }
 
-Flight PathTracer::flight_of(const Path& path) const {
-  const Vector3d d = cast<double>(path.ray.direction);
-  const double scale = length(d);
-  return {cast<double>(path.ray.origin), d * (1 / scale), path.hit.t * scale};
-}
-
-// A function of the ray, wherever it is traced.
-std::uint64_t PathTracer::stream_of(const Path& path) const {
-  const auto bits = [](float x) { return std::uint64_t{std::bit_cast<std::uint32_t>(x)}; };
-  const Point3f o = path.ray.origin;
-  return stream_seed(key_of(path.pixel, path.sample), bits(o.x) << 32 | bits(o.y),
-                     bits(o.z) << 32 | path.direction.first() << 8 | path.direction.second());
-}
-
 void PathTracer::add_environment(const Path& path) {
   const Vector3d direction = normalize(cast<double>(path.ray.direction));
   const SampledSpectrum radiance = environment_radiance(scene_.lights, direction, path.wavelengths);
@@ -92,7 +78,7 @@ bool PathTracer::shade_surface(Path& path) {
   if (!scattering) return false;
   const std::array<float, 4> u = sample_4d(key, sample_set::scatter(path.depth));
   const Vector3d out = scattering->frame.to_local(at.out);
-  if (scene_.lights.any()) connect_surface(path, at, surface, *scattering, out);
+  if (scene_.lights.can_sample()) connect_surface(path, at, surface, *scattering, out);
   const std::optional<BsdfSample> chosen = sample(scattering->bsdf, out, u[2], {u[0], u[1]});
   if (!chosen) return false;
   path.throughput = path.throughput * chosen->weight;
@@ -132,14 +118,14 @@ bool PathTracer::go_on(Path& path, float u, bool specular) const {
 
 void PathTracer::add_emission(const Path& path, const Interaction& at, std::uint32_t light) {
   const SampledSpectrum radiance =
-      emitted(scene_.lights, light, at.texture_point(), at.front, path.wavelengths);
+      emitted(scene_.lights, light, at.texture_point(), dot(at.out, at.geometric), path.wavelengths);
   if (is_black(radiance)) return;
   double weight = 1;
   if (path.pdf > 0) {
     const double distance = path.travelled + path.hit.t * length(cast<double>(path.ray.direction));
     const double pdf = static_cast<double>(path.pdf);
     weight = pdf / (pdf + triangle_pdf(scene_.lights, path.scattered_from(), at.triangle, distance,
-                                       std::abs(dot(at.out, at.geometric))));
+                                       dot(at.out, at.geometric)));
   }
   deposit(path.pixel, path.sample, path.sensor, path.throughput * radiance * static_cast<float>(weight));
 }
@@ -150,11 +136,7 @@ bool PathTracer::scatter_in_medium(Path& path, Point3d p) {
   const double g = scene_.media[path.medium - 1u].g;
   const Vector3d out = normalize(-cast<double>(path.ray.direction));
   const Departure from{p, cast<float>(p), no_triangle, path.medium};
-  if (scene_.lights.any())
-    connect(path, p, [&](Vector3d in) -> std::optional<Connection> {
-      const double value = phase(g, out, in);
-      return Connection{{filled(static_cast<float>(value)), value}, from};
-    });
+  if (scene_.lights.can_sample()) connect_medium(path, from, g, out);
   const std::array<float, 4> u = sample_4d(key_of(path.pixel, path.sample), sample_set::scatter(path.depth));
   const Vector3d in = sample_phase(g, out, u[0], u[1]);
   path.pdf = pdf_value(pdf_code(static_cast<float>(phase(g, out, in))));
@@ -162,21 +144,6 @@ bool PathTracer::scatter_in_medium(Path& path, Point3d p) {
   depart(path, from, in);
   return true;
 }
-
-namespace {
-
-// Indices behind over before the interface at the four wavelengths.
-SampledSpectrum relative_index(const DielectricMaterial& material, const SampledWavelengths& wavelengths,
-                               bool front) {
-  const SampledSpectrum behind = evaluate(material.eta, wavelengths),
-                        before = evaluate(material.exterior_eta, wavelengths);
-  SampledSpectrum eta;
-  for (std::size_t i = 0; i < hero_count; ++i)
-    eta.v[i] = front ? behind.v[i] / before.v[i] : before.v[i] / behind.v[i];
-  return eta;
-}
-
-}  // namespace
 
 // Dispersion ends the secondary wavelengths where their ways part. Through a pane of parallel faces they do
 // not: all leave in the direction they came, micrometres apart. So they stay until the path meets a face that
@@ -238,71 +205,6 @@ bool PathTracer::scatter_dielectric(Path& path, const Interaction& at, const Sur
   go_on(path, 0, true);
   continue_from(path, at, surface, direction);
   return true;
-}
-
-// On the other side of a surface, as if it was not there. Connections go through it too, so the path keeps
-// the density of the scattering that it comes from.
-void PathTracer::pass_straight(Path& path, const Interaction& at, const Surface& surface) const {
-  path.travelled = path.pdf > 0 ? static_cast<double>(rounded_radiance(static_cast<float>(
-                                      path.travelled + path.hit.t * length(cast<double>(path.ray.direction)))))
-                                : 0;
-  continue_from(path, at, surface, cast<double>(path.ray.direction), true);
-}
-
-void PathTracer::continue_from(Path& path, const Interaction& at, const Surface& surface, Vector3d direction,
-                               bool straight) const {
-  Departure from = departure(path, at, surface, direction);
-  const DirectionCode kept = path.direction;
-  depart(path, from, direction);
-  if (!straight) return;
-  path.direction = kept;  // encoding once more might turn it
-  path.ray.direction = decode_direction(kept);
-}
-
-Departure PathTracer::departure(const Path& path, const Interaction& at, const Surface& surface,
-                                Vector3d direction) const {
-  Departure from{at.p, offset_origin(at, direction), at.triangle, path.medium};
-  if (surface.interior != surface.exterior)
-    from.medium = static_cast<std::uint8_t>(
-        (dot(direction, at.geometric) > 0 ? surface.exterior : surface.interior) + 1);
-  return from;
-}
-
-// Starts the next ray. The triangle it leaves is excluded by id.
-void PathTracer::depart(Path& path, const Departure& from, Vector3d direction) const {
-  if (manifest_.requirements.filtering) path.cone = cone_code(cone_width(path) / cone_unit());
-  path.direction = encode_direction(direction);
-  path.ray = {from.origin, decode_direction(path.direction), from.exclude};
-  path.hit = {};
-  path.medium = from.medium;
-  for (float& x : path.throughput.v) x = rounded_radiance(x);
-}
-
-// Moves the hit along the normal, to the side of `direction`, by more than rounding to float can move it
-// back: so it keeps from the neighbours of the triangle that it leaves.
-Point3f PathTracer::offset_origin(const Interaction& at, Vector3d direction) const {
-  const double rounding = 0x1p-24 * (std::abs(at.geometric.x * at.p.x) + std::abs(at.geometric.y * at.p.y) +
-                                     std::abs(at.geometric.z * at.p.z));
-  const double distance = 3 * rounding + 1e-9 * static_cast<double>(manifest_.scale);
-  const double side = dot(direction, at.geometric) >= 0 ? 1 : -1;
-  return cast<float>(at.p + at.geometric * (side * distance));
-}
-
-Interaction PathTracer::interaction_at(const Path& path) const {
-  const double width = manifest_.requirements.filtering ? cone_width(path) : 0;
-  return make_interaction(*resident_[path.hit_domain], path.hit, path.ray.direction, width,
-                          manifest_.attributes);
-}
-
-double PathTracer::cone_unit() const { return std::max(1e-30, static_cast<double>(manifest_.scale)); }
-
-// Where the path arrives (Akenine-Möller et al., "Texture Level of Detail Strategies for Real-Time Ray
-// Tracing", 2019): it widens by the angle of a pixel, and after a scattering by a tenth of the width of a
-// lobe of that density.
-double PathTracer::cone_width(const Path& path) const {
-  const double angle = path.pdf > 0 ? std::max(scene_.pixel_angle, 0.1 / std::sqrt(static_cast<double>(path.pdf)))
-                                    : scene_.pixel_angle;
-  return cone_value(path.cone) * cone_unit() + std::min(angle, 1.0) * path.hit.t;
 }
 
 }  // namespace vitrail

@@ -118,7 +118,7 @@ double replay(const DomainView& view) {
 }
 
 void against_the_bare_intersector(const std::filesystem::path& bundle, int spp) {
-  const RenderScene scene = make_render_scene(read_manifest(bundle), 0);
+  const RenderScene scene(read_manifest(bundle), bundle, 1 << 30, 0);
   const MappedDomain domain(domain_path(bundle, 0));
   const KernelFunctions recording_kernel = recorder();
   trace_all(scene, &domain.view(), recording_kernel, spp);

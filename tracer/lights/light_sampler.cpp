@@ -19,7 +19,7 @@ struct TriangleFrame {
   Vector3d e1, e2, normal;  // normal unit
   double area = 0;
 
-  explicit TriangleFrame(const LightTriangle& t) : p0(cast<double>(t.p[0])) {
+  explicit TriangleFrame(const EmissiveTriangle& t) : p0(cast<double>(t.p[0])) {
     e1 = cast<double>(t.p[1]) - p0;
     e2 = cast<double>(t.p[2]) - p0;
     const Vector3d across = cross(e1, e2);
@@ -29,7 +29,7 @@ struct TriangleFrame {
   }
 };
 
-TexturePoint texture_point(const LightTriangle& t, const TriangleFrame& frame, double b1, double b2) {
+TexturePoint texture_point(const EmissiveTriangle& t, const TriangleFrame& frame, double b1, double b2) {
   const auto mix = [&](float x0, float x1, float x2) {
     return static_cast<double>(x0) * (1 - b1 - b2) + static_cast<double>(x1) * b1 +
            static_cast<double>(x2) * b2;
@@ -48,7 +48,7 @@ SampledSpectrum surface_radiance(const LightSampler& s, const AreaLight& light, 
 }
 
 // A directional light shines from where p lies on the triangle, seen along its normal.
-std::optional<LightSample> sample_directional(const LightSampler& s, const LightTriangle& t, Point3d p,
+std::optional<LightSample> sample_directional(const LightSampler& s, const EmissiveTriangle& t, Point3d p,
                                               const SampledWavelengths& wavelengths) {
   const TriangleFrame frame(t);
   if (!(frame.area > 0)) return std::nullopt;
@@ -71,7 +71,7 @@ std::optional<LightSample> sample_directional(const LightSampler& s, const Light
 }
 
 // pdf: given the triangle.
-std::optional<LightSample> sample_triangle(const LightSampler& s, const LightTriangle& t, Point3d p, float u,
+std::optional<LightSample> sample_triangle(const LightSampler& s, const EmissiveTriangle& t, Point3d p, float u,
                                            float v, const SampledWavelengths& wavelengths) {
   const AreaLight& light = s.scene.area_lights[t.area_light];
   if (light.directional) return sample_directional(s, t, p, wavelengths);
@@ -177,7 +177,7 @@ double triangle_pdf(const LightSampler& s, Point3d from, std::uint32_t triangle,
   const LightSampler::Run& run = *(above - 1);
   if (triangle - run.first >= run.count) return 0;
   const std::uint32_t index = run.index + (triangle - run.first);
-  const LightTriangle& t = s.scene.triangles[index];
+  const EmissiveTriangle& t = s.scene.triangles[index];
   const AreaLight& light = s.scene.area_lights[t.area_light];
   if (light.directional || (cosine <= 0 && !light.two_sided)) return 0;
   const double area = TriangleFrame(t).area;

@@ -11,6 +11,7 @@
 #include <span>
 #include <vector>
 
+#include "bundle/manifest.h"
 #include "scene/bounds.h"
 #include "scene/light.h"
 #include "tracer/lights/environment.h"
@@ -20,19 +21,11 @@
 
 namespace vitrail {
 
-// A triangle that emits, wound so that its front does.
-struct LightTriangle {
-  Point3f p[3];
-  Point2f uv[3];
-  std::uint32_t triangle = 0;    // global id
-  std::uint32_t area_light = 0;  // index
-};
-
 // All of what a scene's light comes from. Spectra are resolved, positions and transforms end in the bundle's
 // coordinates, filenames are baked files of the bundle. What the spans show outlives the sampler.
 struct LightScene {
   std::span<const AreaLight> area_lights;
-  std::span<const LightTriangle> triangles;
+  std::span<const EmissiveTriangle> triangles;
   std::span<const Light> lights;
   const Textures* textures = nullptr;        // null: no light has a texture
   std::span<const Texture> texture_records;  // of `textures`: for the shape of a projected image

@@ -10,7 +10,7 @@ namespace vitrail {
 namespace {
 
 // Mean luminance over a triangle, by four points of it.
-double mean_luminance(const AreaLight& light, const LightTriangle& t, const Textures* textures) {
+double mean_luminance(const AreaLight& light, const EmissiveTriangle& t, const Textures* textures) {
   constexpr std::array<std::array<double, 2>, 4> points{
       {{1 / 3.0, 1 / 3.0}, {1 / 6.0, 1 / 6.0}, {2 / 3.0, 1 / 6.0}, {1 / 6.0, 2 / 3.0}}};
   double sum = 0;
@@ -40,7 +40,7 @@ std::vector<LightBounds> bounds_of_triangles(const LightScene& scene) {
 
   std::vector<LightBounds> all;
   std::vector<double> areas;
-  for (const LightTriangle& t : scene.triangles) {
+  for (const EmissiveTriangle& t : scene.triangles) {
     const AreaLight& light = scene.area_lights[t.area_light];
     LightBounds b;
     for (const Point3f& p : t.p) extend(b.box, cast<double>(p));
@@ -68,7 +68,7 @@ std::vector<LightBounds> bounds_of_triangles(const LightScene& scene) {
   return all;
 }
 
-std::vector<LightSampler::Run> runs_of(std::span<const LightTriangle> triangles) {
+std::vector<LightSampler::Run> runs_of(std::span<const EmissiveTriangle> triangles) {
   std::vector<LightSampler::Run> runs;
   for (std::uint32_t i = 0; i < triangles.size(); ++i) {
     const std::uint32_t id = triangles[i].triangle;

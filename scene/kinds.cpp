@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/kinds.h"
+
+#include <array>
+
+namespace vitrail {
+
+namespace {
+
+template <class Variant, std::size_t n>
+const char* name_of(const Variant& v, const std::array<const char*, n>& names) {
+  static_assert(n == std::variant_size_v<Variant>);
+  return names[v.index()];
+}
+
+}  // namespace
+
+const char* kind_of(const Spectrum& spectrum) {
+  return name_of(spectrum, std::array{"constant", "sigmoid", "RGB illuminant", "tabulated", "Sellmeier",
+                                      "unbounded RGB", "blackbody", "named"});
+}
+
+const char* kind_of(const TextureModel& model) {
+  return name_of(model, std::array{"image", "checkerboard", "product", "mix", "direction mix", "bilinear",
+                                   "dots", "noise", "ptex", "mesh attribute", "uv"});
+}
+
+const char* kind_of(const MaterialModel& model) {
+  return name_of(model, std::array{"diffuse", "dielectric", "thin dielectric", "conductor", "plastic",
+                                   "coated diffuse", "coated conductor", "diffuse transmission",
+                                   "principled", "subsurface", "hair", "measured", "interface", "blend",
+                                   "mask", "two-sided"});
+}
+
+const char* kind_of(const LightModel& model) {
+  return name_of(model, std::array{"point", "spot", "projection", "goniometric", "distant", "infinite",
+                                   "environment"});
+}
+
+const char* kind_of(const Camera& camera) {
+  return name_of(camera, std::array{"perspective", "orthographic", "spherical"});
+}
+
+}  // namespace vitrail

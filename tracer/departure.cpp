@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where rays start and what they take along.
+#include <bit>
+
+#include "tracer/path_state.h"
+#include "tracer/path_tracer.h"
+
+namespace vitrail {
+
+Flight PathTracer::flight_of(const Path& path) const {
+  const Vector3d d = cast<double>(path.ray.direction);
+  const double scale = length(d);
+  return {cast<double>(path.ray.origin), d * (1 / scale), path.hit.t * scale};
+}
+
+// A function of the ray, wherever it is traced.
+std::uint64_t PathTracer::stream_of(const Path& path) const {
+  const auto bits = [](float x) { return std::uint64_t{std::bit_cast<std::uint32_t>(x)}; };
+  const Point3f o = path.ray.origin;
+  return stream_seed(key_of(path.pixel, path.sample), bits(o.x) << 32 | bits(o.y),
+                     bits(o.z) << 32 | path.direction.first() << 8 | path.direction.second());
+}
+
+// On the other side of a surface, as if it was not there. Connections go through it too, so the path keeps
+// the density of the scattering that it comes from.
+void PathTracer::pass_straight(Path& path, const Interaction& at, const Surface& surface) const {
+  path.travelled = path.pdf > 0 ? static_cast<double>(rounded_radiance(static_cast<float>(
+                                      path.travelled + path.hit.t * length(cast<double>(path.ray.direction)))))
+                                : 0;
+  continue_straight(path, at, surface);
+}
+
+void PathTracer::continue_from(Path& path, const Interaction& at, const Surface& surface,
+                               Vector3d direction) const {
+  depart(path, departure(path, at, surface, direction), direction);
+}
+
+// Keeps the direction to the bit: encoding it once more might turn it.
+void PathTracer::continue_straight(Path& path, const Interaction& at, const Surface& surface) const {
+  const DirectionCode kept = path.direction;
+  continue_from(path, at, surface, cast<double>(path.ray.direction));
+  path.direction = kept;
+  path.ray.direction = decode_direction(kept);
+}
+
+Departure PathTracer::departure(const Path& path, const Interaction& at, const Surface& surface,
+                                Vector3d direction) const {
+  Departure from{at.p, offset_origin(at, direction), at.triangle, path.medium};
+  if (surface.interior != surface.exterior)
+    from.medium = static_cast<std::uint8_t>(
+        (dot(direction, at.geometric) > 0 ? surface.exterior : surface.interior) + 1);
+  return from;
+}
+
+// Starts the next ray. The triangle it leaves is excluded by id.
+void PathTracer::depart(Path& path, const Departure& from, Vector3d direction) const {
+  if (manifest_.requirements.filtering) path.cone = cone_code(cone_width(path) / cone_unit());
+  path.direction = encode_direction(direction);
+  path.ray = {from.origin, decode_direction(path.direction), from.exclude};
+  path.hit = {};
+  path.medium = from.medium;
+  for (float& x : path.throughput.v) x = rounded_radiance(x);
+}
+
+// Moves the hit along the normal, to the side of `direction`, by more than rounding to float can move it
+// back: so it keeps from the neighbours of the triangle that it leaves.
+Point3f PathTracer::offset_origin(const Interaction& at, Vector3d direction) const {
+  const double rounding = 0x1p-24 * (std::abs(at.geometric.x * at.p.x) + std::abs(at.geometric.y * at.p.y) +
+                                     std::abs(at.geometric.z * at.p.z));
+  const double distance = 3 * rounding + 1e-9 * static_cast<double>(manifest_.scale);
+  const double side = dot(direction, at.geometric) >= 0 ? 1 : -1;
+  return cast<float>(at.p + at.geometric * (side * distance));
+}
+
+Interaction PathTracer::interaction_at(const Path& path) const {
+  const double width = manifest_.requirements.filtering ? cone_width(path) : 0;
+  return make_interaction(*resident_[path.hit_domain], path.hit, path.ray.direction, width,
+                          manifest_.attributes);
+}
+
+double PathTracer::cone_unit() const { return std::max(1e-30, static_cast<double>(manifest_.scale)); }
+
+// Where the path arrives (Akenine-Möller et al., "Texture Level of Detail Strategies for Real-Time Ray
+// Tracing", 2019): it widens by the angle of a pixel, and after a scattering by a tenth of the width of a
+// lobe of that density.
+double PathTracer::cone_width(const Path& path) const {
+  const double angle = path.pdf > 0 ? std::max(scene_.pixel_angle, 0.1 / std::sqrt(static_cast<double>(path.pdf)))
+                                    : scene_.pixel_angle;
+  return cone_value(path.cone) * cone_unit() + std::min(angle, 1.0) * path.hit.t;
+}
+
+}  // namespace vitrail
