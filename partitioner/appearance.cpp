@@ -105,6 +105,7 @@ void bake_materials(const Scene& scene, const Used& used, TextureBaker& textures
 // The images of lights are baked like any other.
 struct LightBaker {
   TextureBaker& textures;
+  SourceLocation where;
 
   LightModel operator()(PointLight l) const {
     l.intensity = resolved(l.intensity);
@@ -125,7 +126,7 @@ struct LightBaker {
   }
   LightModel operator()(GoniometricLight l) const {
     l.intensity = resolved(l.intensity);
-    l.filename = textures.bake_image(l.filename, Encoding::automatic, 1, TextureUse::illuminant);
+    l.filename = textures.bake_image(l.filename, Encoding::automatic, 1, TextureUse::illuminant, where);
     return l;
   }
   LightModel operator()(DistantLight l) const {
@@ -138,7 +139,7 @@ struct LightBaker {
   }
   LightModel operator()(EnvironmentLight l) const {
     l.scale = resolved(l.scale);
-    l.filename = textures.bake_image(l.filename, Encoding::automatic, 1, TextureUse::illuminant);
+    l.filename = textures.bake_image(l.filename, Encoding::automatic, 1, TextureUse::illuminant, where);
     return l;
   }
 };
@@ -159,7 +160,7 @@ Appearance appearance_of(const Scene& scene, const std::filesystem::path& bundle
     return true;
   });
   for (const Light& light : scene.lights)
-    result.lights.push_back({std::visit(LightBaker{textures}, light.model), {}});
+    result.lights.push_back({std::visit(LightBaker{textures, location(scene, light.origin)}, light.model), {}});
   result.attributes = textures.attributes();
   result.texture_files = textures.files();
   result.textures = textures.take_textures();

@@ -137,7 +137,7 @@ void place_uvs(const Placement& p, FlatScene& flat) {
   });
 }
 
-void place_attribute(const Placement& p, const AttributeSlot& slot,
+void place_attribute(const Placement& p, const TextureBaker::Attribute& slot, const ReflectanceFitter& fitter,
                      std::vector<std::array<std::array<float, 3>, 3>>& values) {
   for (const MeshAttribute& attribute : p.mesh->attributes) {
     if (attribute.name != slot.name) continue;
@@ -148,7 +148,7 @@ void place_attribute(const Placement& p, const AttributeSlot& slot,
         const std::size_t at = attribute.per_face ? i : p.mesh->triangles[i][k];
         const float* value = &attribute.values[at * channels];
         corners[k] =
-            attribute_value({value[0], value[channels > 1 ? 1 : 0], value[channels > 2 ? 2 : 0]}, slot.use);
+            attribute_value({value[0], value[channels > 1 ? 1 : 0], value[channels > 2 ? 2 : 0]}, slot.use, fitter);
       }
       if (p.flip) std::swap(corners[1], corners[2]);
     }
@@ -257,10 +257,11 @@ FlatScene flatten(const Scene& scene, const std::filesystem::path& bundle, bool 
   const std::vector<Placement> placements = place(scene, m.triangles);
   m.offset = offset_of(placements);
   make_surfaces(appearance, placements, m);
-  const std::vector<AttributeSlot> slots = std::move(appearance.attributes);
+  const std::vector<TextureBaker::Attribute> slots = std::move(appearance.attributes);
   move_records(scene, appearance, m);
   m.requirements = everything ? all_requirements() : requirements_of(m, has_normals(placements, scene));
 
+  const ReflectanceFitter fitter;
   flat.triangles.resize(m.triangles);
   if (m.requirements.shading_normals) flat.normals.assign(m.triangles, {no_normal, no_normal, no_normal});
   if (m.requirements.uv) flat.uvs.resize(m.triangles);
@@ -270,7 +271,7 @@ FlatScene flatten(const Scene& scene, const std::filesystem::path& bundle, bool 
     place_triangles(p, m.offset, flat.triangles);
     if (m.requirements.shading_normals) place_normals(p, flat);
     if (m.requirements.uv) place_uvs(p, flat);
-    for (std::size_t i = 0; i < slots.size(); ++i) place_attribute(p, slots[i], flat.attributes[i]);
+    for (std::size_t i = 0; i < slots.size(); ++i) place_attribute(p, slots[i], fitter, flat.attributes[i]);
   }
   for (const Triangle& t : flat.triangles)
     for (const Point3f& v : t) extend(m.bounds, v);
