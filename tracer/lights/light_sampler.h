@@ -29,7 +29,7 @@ struct LightScene {
   std::span<const Light> lights;
   const Textures* textures = nullptr;        // null: no light has a texture
   std::span<const Texture> texture_records;  // of `textures`: for the shape of a projected image
-  std::shared_ptr<TileCache> tiles;          // of the lights' own images
+  std::shared_ptr<TileCache> tiles;          // of the lights' own images; null: 16 MiB of their own
   Bounds3f bounds;                           // of the scene
 };
 

@@ -2,8 +2,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tracer/lights/baked_light_image.h"
 #include "tracer/lights/light_sampler.h"
 #include "tracer/portable_math.h"
+#include "tracer/textures/tile_cache.h"
 
 namespace vitrail {
 
@@ -153,6 +155,17 @@ LightSampler make_light_sampler(const LightScene& scene, const ImageSource& imag
   for (const double p : power)
     s.share.push_back(p > 0 ? 0.5 / static_cast<double>(choices) + 0.5 * p / total : 0);
   return s;
+}
+
+LightSampler make_light_sampler(const LightScene& scene, const std::filesystem::path& bundle,
+                                LightChoice choice) {
+  constexpr std::uint64_t default_tile_bytes = 16 << 20;
+  std::shared_ptr<TileCache> tiles = scene.tiles;
+  const ImageSource images = [&](const std::string& filename) {
+    if (!tiles) tiles = std::make_shared<TileCache>(default_tile_bytes);
+    return open_light_image(bundle / filename, tiles);
+  };
+  return make_light_sampler(scene, images, choice);
 }
 
 }  // namespace vitrail
