@@ -200,7 +200,8 @@ Json manifest_to_json(const Manifest& m) {
   j["film"] = film_to_json(m.film);
   j["settings"] = {{"samples_per_pixel", m.settings.samples_per_pixel},
                    {"max_depth", m.settings.max_depth},
-                   {"direct_only", m.settings.direct_only}};
+                   {"direct_only", m.settings.direct_only},
+                   {"straight_counts", m.settings.straight_counts}};
   j["kd_nodes"] = Json::array();
   for (const KdNode& n : m.kd_nodes) j["kd_nodes"].push_back(kd_node_to_json(n));
   j["domains"] = Json::array();
@@ -224,7 +225,7 @@ Manifest manifest_from_json(const Json& j) {
   m.film = film_from_json(j.at("film"));
   const Json& s = j.at("settings");
   m.settings = {s.at("samples_per_pixel").get<int>(), s.at("max_depth").get<int>(),
-                s.at("direct_only").get<bool>()};
+                s.at("direct_only").get<bool>(), s.at("straight_counts").get<bool>()};
   for (const Json& n : j.at("kd_nodes")) m.kd_nodes.push_back(kd_node_from_json(n));
   for (const Json& d : j.at("domains")) m.domains.push_back(domain_from_json(d));
   return m;

@@ -48,7 +48,7 @@ Manifest read_with_overrides(const RenderOptions& options) {
 
 // Of what changes the picture and is neither in the scene hash nor the seed or the sample count.
 std::uint64_t settings_hash(const Manifest& m) {
-  const std::int32_t values[] = {m.settings.max_depth, m.settings.direct_only, m.film.crop.x0,
+  const std::int32_t values[] = {m.settings.max_depth, m.settings.direct_only, m.settings.straight_counts, m.film.crop.x0,
                                  m.film.crop.x1,       m.film.crop.y0,         m.film.crop.y1};
   return XXH3_64bits(values, sizeof values);
 }

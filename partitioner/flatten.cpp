@@ -127,7 +127,12 @@ void place_normals(const Placement& p, FlatScene& flat) {
 }
 
 void place_uvs(const Placement& p, FlatScene& flat) {
-  if (p.mesh->uvs.empty()) return;
+  if (p.mesh->uvs.empty()) {  // pbrt's, which every triangle has
+    for (std::size_t i = 0; i < p.mesh->triangles.size(); ++i)
+      flat.uvs[p.first_triangle + i] = {{{0, 0}, p.flip ? Point2f{1, 1} : Point2f{1, 0},
+                                         p.flip ? Point2f{1, 0} : Point2f{1, 1}}};
+    return;
+  }
   tbb::parallel_for(Range(0, p.mesh->triangles.size(), 8192), [&](const Range& range) {
     for (std::size_t i = range.begin(); i != range.end(); ++i) {
       std::array<Point2f, 3>& uv = flat.uvs[p.first_triangle + i];
@@ -257,7 +262,7 @@ FlatScene flatten(const Scene& scene, const std::filesystem::path& bundle, bool 
   const std::vector<Placement> placements = place(scene, m.triangles);
   m.offset = offset_of(placements);
   make_surfaces(appearance, placements, m);
-  const std::vector<TextureBaker::Attribute> slots = std::move(appearance.attributes);
+  const std::vector<TextureBaker::Attribute>& slots = appearance.attributes;
   move_records(scene, appearance, m);
   m.requirements = everything ? all_requirements() : requirements_of(m, has_normals(placements, scene));
 

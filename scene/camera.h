@@ -97,6 +97,9 @@ struct RenderSettings {
   int samples_per_pixel = 16;
   int max_depth = 5;
   bool direct_only = false;  // direct light at the first diffuse hit; specular chains go on
+  // Whether going straight through a mask or a thin sheet is a scattering event, too. Mitsuba's volumetric
+  // integrators do not count it.
+  bool straight_counts = true;
   bool operator==(const RenderSettings&) const = default;
 };
 

@@ -137,7 +137,7 @@ bool PathTracer::connect_onwards(Path& path) {
     if (!kind.is_interface) {
       path.throughput =
           path.throughput * scene_.materials.passes_straight(surface.material, at, path.wavelengths);
-      ++path.depth;  // as for paths: mere interfaces do not count
+      path.depth += manifest_.settings.straight_counts || refracts;
     }
     if (is_black(path.throughput)) return false;
     continue_straight(path, at, surface);

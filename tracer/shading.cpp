@@ -69,7 +69,7 @@ bool PathTracer::shade_surface(Path& path) {
   const SampleKey key = key_of(path.pixel, path.sample);
   const Material* material = scene_.materials.choose(surface.material, at, key, path.depth);
   if (!material) {
-    ++path.depth;
+    path.depth += manifest_.settings.straight_counts;
     pass_straight(path, at, surface);
     return true;
   }
@@ -84,7 +84,7 @@ bool PathTracer::shade_surface(Path& path) {
   path.throughput = path.throughput * chosen->weight;
   if (is_black(path.throughput)) return false;
   if (chosen->specular && chosen->in == -out) {
-    ++path.depth;
+    path.depth += manifest_.settings.straight_counts;
     pass_straight(path, at, surface);
     return true;
   }
@@ -175,12 +175,16 @@ bool PathTracer::scatter_dielectric(Path& path, const Interaction& at, const Sur
   Vector3d direction;
   if (static_cast<double>(u) < mean) {
     direction = normal * (2 * cosine) - at.out;
-    if (dot(direction, at.geometric) * side <= 0) return false;
+    // Where the shading normal would send light to the wrong side of the surface, its own normal decides.
+    if (dot(direction, at.geometric) * side <= 0)
+      direction = at.geometric * (2 * dot(at.out, at.geometric)) - at.out;
     path.throughput = path.throughput * reflectance * static_cast<float>(1 / mean) *
                       scene_.textures.spectrum(material.reflectance_factor, at.texture_point(), path.wavelengths);
   } else {
     if (!refract(at.out, normal, hero_eta, direction)) return false;
-    if (dot(direction, at.geometric) * side >= 0) return false;
+    if (dot(direction, at.geometric) * side >= 0 &&
+        !refract(at.out, at.geometric * side, hero_eta, direction))
+      return false;
     // Radiance is compressed into the smaller solid angle by 1/η² (Veach 1997, §5.2).
     for (std::size_t i = 0; i < active; ++i) {
       const double e = static_cast<double>(eta.v[i]);

@@ -16,6 +16,7 @@ const std::vector<std::string> path_tracers{
     "path",           "volpath", "volpathmis", "ptracer", "prb",  "prb_basic", "prbvolpath", "prb_projective",
     "volpath_simple", "bdpt",    "mlt",        "pssmlt",  "erpt", "sppm",      "ppm",        "vpl",
     "photonmapper",   "adaptive"};
+const std::vector<std::string> volumetric{"volpath", "volpathmis", "volpath_simple", "prbvolpath"};
 const std::vector<std::string> direct_only{"direct", "direct_projective", "emission"};
 // Around another integrator whose picture is the first of what they write.
 const std::vector<std::string> wrappers{"moment", "aov", "stokes", "multichannel"};
@@ -69,6 +70,7 @@ void read_integrator(Builder& builder, const Object& integrator) {
   // Mitsuba's direct light ends at the first surface, specular or not.
   settings.max_depth = settings.direct_only ? 1 : read_depth(integrator, report);
   if (integrator.type == "emission") settings.max_depth = 0;
+  settings.straight_counts = !is_one_of(integrator.type, volumetric);
   if (integrator.boolean("hide_emitters", false, report))
     report.dropped("\"hide_emitters\": emitters are seen", place_of(integrator, "hide_emitters"));
   integrator.ignore({"rr_depth", "emitter_samples", "bsdf_samples", "shading_samples", "samples_per_pass",

@@ -108,6 +108,19 @@ VolumeParameter read_volume(MediumReader& reader, std::string_view name, Quantit
   return value;
 }
 
+// A heterogeneous medium is where the volume of its extinction is: a constant one fills the unit cube of its
+// own space.
+void bound_by_volume(MediumReader& reader) {
+  const Object* volume = object_of(reader.object, "sigma_t");
+  if (!volume || volume->tag != "volume" || volume->type != "constvolume") return;
+  Grid cell;
+  cell.nx = cell.ny = cell.nz = 1;
+  cell.values = {1};
+  cell.bounds = unit_cube;
+  place_grid(reader, cell, volume->transform("to_world", reader.builder.report), volume->origin);
+  reader.medium.density = cell;
+}
+
 float read_phase(const Object& medium, Report& report) {
   const Object* phase = medium.child("phase");
   if (!phase) return 0;
@@ -164,6 +177,7 @@ Id<Medium> add_medium(Builder& builder, const Object& object) {
   read_coefficients(reader);
   medium.scale = static_cast<float>(object.number("scale", 1, report));
   medium.g = read_phase(object, report);
+  if (object.type == "heterogeneous") bound_by_volume(reader);
   object.ignore({"sample_emitters", "has_spectral_extinction", "method", "step_size", "strategy",
                  "majorant_resolution_factor"});
   report_unused(object, report, {"sigma_t", "albedo", "sigma_a", "sigma_s", "scale", "material"});

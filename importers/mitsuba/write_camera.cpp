@@ -215,7 +215,7 @@ void write_integrator(Context& context, Element root) {
     return add_boolean(element, "hide_emitters", false);
   }
   const bool media = !scene.media.empty() || !context.interiors.empty();
-  Element element = add(root, "integrator", media ? "volpath" : "path");
+  Element element = add(root, "integrator", media || !scene.settings.straight_counts ? "volpath" : "path");
   const int depth = scene.settings.max_depth;
   add_integer(element, "max_depth",
               depth >= unlimited_depth ? -1 : depth + 1);  // Mitsuba counts the eye's ray

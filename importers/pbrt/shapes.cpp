@@ -217,12 +217,27 @@ ShapeGeometry ShapeMaker::ply_mesh(ParameterSet& parameters) {
   return {known->second, false, {}, meshes_[known->second.value].triangles.size()};
 }
 
+namespace {
+
+// (u,v) of the vertices 00, 10, 01, 11 of each patch, none of which two share.
+std::vector<Point2f> unit_squares(const std::vector<std::array<std::uint32_t, 4>>& patches) {
+  std::vector<Point2f> uvs(4 * patches.size());
+  for (const auto& patch : patches)
+    for (std::size_t k = 0; k < 4; ++k)
+      uvs[patch[k]] = {static_cast<float>(k % 2), static_cast<float>(k / 2)};
+  return uvs;
+}
+
+}  // namespace
+
 ShapeGeometry ShapeMaker::bilinear_mesh(ParameterSet& parameters) {
   const std::vector<Point3f> positions = tuples<Point3f, 3>(required_list(parameters, "P"));
   const auto patches = groups_of<4>(parameters, positions.size());
   const auto normals = vertex_values<Normal3f, 3>(parameters.find_list("N"), positions.size());
   const auto uvs = vertex_values<Point2f, 2>(texture_coordinates(parameters), positions.size());
-  TriangleMesh mesh = tessellate_bilinear(positions, patches, normals, uvs);
+  // A patch without its own (u,v) is the unit square; vertices that patches share cannot say so.
+  const bool apart = uvs.empty() && positions.size() == 4 * patches.size();
+  TriangleMesh mesh = tessellate_bilinear(positions, patches, normals, apart ? unit_squares(patches) : uvs);
   if (mesh.triangles.size() > 2 * patches.size())
     context_.report.approximated("curved bilinear patches become triangles, at most 2e-4 of their size off",
                                  parameters.place());

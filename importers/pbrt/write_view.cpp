@@ -134,7 +134,7 @@ void write_view(Writer& w) {
                    w.scene.camera_origin);
     depth = 1;
   }
-  w.line(fmt::format("Integrator \"{}\" \"integer maxdepth\" {}", w.scene.media.empty() ? "path" : "volpath",
+  w.line(fmt::format("Integrator \"{}\" \"integer maxdepth\" {}", w.scene.media.empty() && s.straight_counts ? "path" : "volpath",
                      depth));
 }
 

@@ -157,7 +157,9 @@ PreparedMedium prepare(const Medium& medium) {
   m.medium = &medium;
   m.to_medium = inverse(medium.medium_to_world);
   m.g = static_cast<double>(medium.g);
-  // Outside of a density there is nothing; the coefficients' own grids go on.
+  // Outside of a density and of a grid of extinction there is nothing.
+  if (const auto* e = std::get_if<ExtinctionAlbedo>(&medium.coefficients))
+    if (const auto* grid = std::get_if<Grid>(&e->sigma_t)) m.bounds = grid->bounds;
   if (const auto* grid = std::get_if<Grid>(&medium.density)) {
     m.homogeneous = false;
     m.bounds = grid->bounds;
