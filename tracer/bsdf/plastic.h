@@ -28,7 +28,7 @@ std::optional<BsdfSample> sample(const PlasticBsdf& bsdf, Vector3d out, float u_
 // What a rough coat does, for a material: computed when it is loaded.
 struct RoughPlasticTables {
   static constexpr int count = 64;
-  std::array<float, count> external_transmittance{};  // 1 − albedo of its reflection at cosines i/(count − 1)
+  std::array<float, count> external_transmittance{};  // of light at cosine i/(count − 1)
   double internal_reflectance = 0;
 };
 // For alpha ≥ least_alpha. Takes about 30 ms.

@@ -9,23 +9,31 @@ namespace vitrail {
 
 namespace {
 
-// ∫ f·cosθ_in d in of facets with the dielectric's reflectance, out at that cosine: the mean over visible
-// normals of F·G₁(in). Both halves on either side of the plane of incidence are the same.
-double facet_albedo(const Microfacets& mf, double cosine, double eta) {
+// Of light at that cosine, what part facets reflect (at once, back above the surface) and what part they let
+// through: the means over visible normals of F·G₁(reflected) and (1 − F)·G₁(refracted).
+struct Shares {
+  double reflected = 0, transmitted = 0;
+};
+
+Shares shares(const Microfacets& mf, double cosine, double eta) {
   const Vector3d out{safe_sqrt(1 - cosine * cosine), 0, cosine};
   const bool ggx = mf.distribution == Roughness::Distribution::ggx;
-  constexpr int halves = 12, others = 32;
-  double sum = 0;
+  // Both halves on either side of the plane of incidence are the same.
+  const int halves = ggx ? 8 : 16, others = ggx ? 64 : 40;
+  Shares sum;
   for (int i = 0; i < halves; ++i)
     for (int j = 0; j < others; ++j) {
-      const float half = (static_cast<float>(i) + 0.5f) / (2 * halves);
-      const float other = (static_cast<float>(j) + 0.5f) / others;
+      const float half = (static_cast<float>(i) + 0.5f) / (2 * static_cast<float>(halves));
+      const float other = (static_cast<float>(j) + 0.5f) / static_cast<float>(others);
       const Vector3d m = sample_visible_normal(mf, out, ggx ? Point2f{half, other} : Point2f{other, half});
-      const Vector3d in = mirror(out, m);
-      if (in.z > 0)
-        sum += fresnel_dielectric(std::clamp(dot(out, m), 0.0, 1.0), eta) * in.z / visible_area(mf, in);
+      const double f = fresnel_dielectric(std::clamp(dot(out, m), 0.0, 1.0), eta);
+      const Vector3d reflected = mirror(out, m);
+      Vector3d refracted;
+      if (reflected.z > 0) sum.reflected += f * reflected.z / visible_area(mf, reflected);
+      if (refract(out, m, eta, refracted) && refracted.z < 0)
+        sum.transmitted += (1 - f) * -refracted.z / visible_area(mf, -refracted);
     }
-  return sum / (halves * others);
+  return {sum.reflected / (halves * others), sum.transmitted / (halves * others)};
 }
 
 }  // namespace
@@ -38,8 +46,8 @@ RoughPlasticTables make_rough_plastic_tables(double alpha, double eta, Roughness
   for (int i = 0; i < count; ++i) {
     const double cosine = std::max(1e-6, static_cast<double>(i) / (count - 1));
     tables.external_transmittance[static_cast<std::size_t>(i)] =
-        static_cast<float>(1 - facet_albedo(mf, cosine, eta));
-    internal += facet_albedo(mf, cosine, 1 / eta) * cosine;
+        static_cast<float>(shares(mf, cosine, eta).transmitted);
+    internal += shares(mf, cosine, 1 / eta).reflected * cosine;
   }
   tables.internal_reflectance = 2 * internal / count;  // a plain mean over the cosines, as Mitsuba takes it
   return tables;
