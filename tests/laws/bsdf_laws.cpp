@@ -17,6 +17,7 @@ namespace {
 constexpr double pi = std::numbers::pi;
 constexpr double significance = 1.005e-5;  // 1 − (1 − 1 %)^(1/1000)
 constexpr double expected_in_bin = 50;
+constexpr double negligible = 1e-6;  // weight of a sample
 constexpr int reciprocal_pairs = 300;
 
 // Uniform in [0, 1), stratified as a whole: a lattice of three dimensions (Roberts 2018's generalised golden
@@ -54,8 +55,9 @@ bool plausible(const BsdfSample& s) {
          std::abs(length(s.in) - 1) < 1e-6;
 }
 
-double relative_difference(double a, double b) {
-  return a == b ? 0 : std::abs(a - b) / std::max({std::abs(a), std::abs(b), 1e-30});
+// Of what is above `floor`.
+double relative_difference(double a, double b, double floor = 1e-30) {
+  return a == b ? 0 : std::abs(a - b) / std::max({std::abs(a), std::abs(b), floor});
 }
 
 struct Draw {
@@ -99,8 +101,9 @@ void expect_consistent(const Subject& subject, Vector3d out, const Draw& d, doub
     worst_pdf = std::max(worst_pdf, relative_difference(density, s.pdf));
     worst_eval = std::max(worst_eval, relative_difference(density, value.pdf));
     for (int i = 0; i < hero_count; ++i)
-      worst_value = std::max(worst_value, relative_difference(static_cast<double>(value.value[i]),
-                                                              static_cast<double>(s.weight[i]) * s.pdf));
+      worst_value = std::max(
+          worst_value, relative_difference(static_cast<double>(value.value[i]),
+                                           static_cast<double>(s.weight[i]) * s.pdf, negligible * s.pdf));
   }
   EXPECT_LE(worst_pdf, tolerance) << "the pdf of a sample is not what pdf says";
   EXPECT_LE(worst_eval, 1e-6) << "the pdf that eval gives is not what pdf says";
@@ -116,7 +119,8 @@ void expect_reciprocal(const Subject& subject, Vector3d out, const Draw& d, doub
       const double index = index_at(subject, a);
       return static_cast<double>(subject.eval(a, b).value[0]) / (std::abs(b.z) * index * index);
     };
-    worst = std::max(worst, relative_difference(f(out, in), f(in, out)));
+    worst = std::max(
+        worst, relative_difference(f(out, in), f(in, out), negligible * d.scattered[i].pdf / std::abs(in.z)));
   }
   EXPECT_LE(worst, tolerance) << "not reciprocal";
 }
@@ -130,7 +134,7 @@ double chi_square_tail(double chi_square, int degrees) {
 
 void expect_distribution(const Subject& subject, Vector3d out, const Draw& d, const Tolerances& tolerances) {
   const Draw other = draw(subject, out, tolerances.samples, 77);
-  const SphereCells cells(directions(other), out);
+  const SphereCells cells(directions(other));
   const auto expected = cells.integrate([&](Vector3d in) { return subject.pdf(out, in); });
   std::vector<double> observed(cells.size());
   for (const BsdfSample& s : d.scattered) observed[cells.cell_of(s.in)] += 1;
@@ -208,7 +212,7 @@ Albedo albedo(const Subject& subject, Vector3d out, int samples) {
 }
 
 double integrated_pdf(const Subject& subject, Vector3d out) {
-  const SphereCells cells(directions(draw(subject, out, 20000, 77)), out);
+  const SphereCells cells(directions(draw(subject, out, 20000, 77)));
   double sum = 0;
   for (double x : cells.integrate([&](Vector3d in) { return subject.pdf(out, in); })) sum += x;
   return sum;
@@ -217,7 +221,7 @@ double integrated_pdf(const Subject& subject, Vector3d out) {
 void expect_laws(const Subject& subject, Vector3d out, const Tolerances& tolerances) {
   const Albedo energy = albedo(subject, out, tolerances.samples);
   EXPECT_LE(energy.mean, 1 + tolerances.energy + 4 * energy.standard_error) << "energy";
-  EXPECT_LT(energy.standard_error, 0.02) << "the albedo is too uncertain to tell";
+  EXPECT_LT(energy.standard_error, 0.05) << "the albedo is too uncertain to tell";
   const Draw d = draw(subject, out, tolerances.samples, 1234);
   expect_consistent(subject, out, d, tolerances.consistency);
   if (tolerances.reciprocal) expect_reciprocal(subject, out, d, tolerances.reciprocity);

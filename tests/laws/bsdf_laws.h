@@ -32,9 +32,9 @@ struct Tolerances {
   double energy = 1e-4;       // of the albedo above 1
   double reciprocity = 1e-4;  // relative
   double consistency = 1e-3;  // relative, of a sample's weight and pdf against eval and pdf
-  double density = 2e-3;      // absolute, of the integral of the pdf
+  double density = 4e-3;      // absolute, of the integral of the pdf
   bool reciprocal = true;     // false: not asked for
-  int samples = 20000;        // a direction
+  int samples = 10000;        // a direction
 };
 
 // Unit directions at cosines 1 to cos 89.99° on azimuths off the axes, as seen from above.

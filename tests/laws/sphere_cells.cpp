@@ -11,7 +11,7 @@ namespace vitrail::laws {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr std::size_t samples_in_cell = 8;
+constexpr std::size_t samples_in_cell = 4;
 constexpr int deepest_cell = 80, deepest_integral = 7;
 constexpr double absolute_tolerance = 2e-7, relative_tolerance = 1e-3;  // of one cell's integral
 
@@ -21,29 +21,38 @@ constexpr std::array<double, 4> node = {0.069431844202973712, 0.3300094782075718
 constexpr std::array<double, 4> weight = {0.173927422568726929, 0.326072577431273071, 0.326072577431273071,
                                           0.173927422568726929};
 
+// Onto [−1, 1]²; the pole is the centre. 2·π of solid angle over an area of 4.
+Point2d to_square(Vector3d d) {
+  const double s = std::hypot(d.x, d.y);
+  const double r = s / std::sqrt(1 + std::abs(d.z));
+  if (s == 0) return {};
+  const double ax = std::abs(d.x), ay = std::abs(d.y);
+  const double turn = 4 / pi * std::atan2(std::min(ax, ay), std::max(ax, ay));
+  const Point2d p = ax > ay ? Point2d{r, r * turn} : Point2d{r * turn, r};
+  return {std::copysign(p.x, d.x), std::copysign(p.y, d.y)};
+}
+
+Vector3d to_direction(double x, double y, double side) {
+  const double r = std::max(std::abs(x), std::abs(y));
+  if (r == 0) return {0, 0, side};
+  const double turn = pi / 4 * std::min(std::abs(x), std::abs(y)) / r;
+  const double s = r * std::sqrt(2 - r * r);
+  const double major = s * std::cos(turn), minor = s * std::sin(turn);
+  const bool along_x = std::abs(x) > std::abs(y);
+  return {std::copysign(along_x ? major : minor, x), std::copysign(along_x ? minor : major, y),
+          side * (1 - r * r)};
+}
+
 }  // namespace
 
-SphereCells::SphereCells(const std::vector<Vector3d>& samples, Vector3d seam)
-    : seam_azimuth_(std::atan2(seam.y, seam.x)) {
-  nodes_.push_back({.axis = 1, .at = 0});  // no cell crosses the surface
+SphereCells::SphereCells(const std::vector<Vector3d>& samples) {
+  nodes_.emplace_back();  // which side of the surface
   std::vector<Point2d> below, above;
-  for (Vector3d s : samples) (s.z < 0 ? below : above).push_back(coordinates(s));
-  const std::size_t lower = build({0, 2 * pi, -1, 0}, std::move(below), 0);
-  const std::size_t upper = build({0, 2 * pi, 0, 1}, std::move(above), 0);
+  for (Vector3d s : samples) (s.z < 0 ? below : above).push_back(to_square(s));
+  const std::size_t lower = build({-1, -1, 1, -1, 1}, std::move(below), 0);
+  const std::size_t upper = build({1, -1, 1, -1, 1}, std::move(above), 0);
   nodes_[0].below = lower;
   nodes_[0].above = upper;
-}
-
-Point2d SphereCells::coordinates(Vector3d d) const {
-  double phi = std::atan2(d.y, d.x) - seam_azimuth_;
-  if (phi < 0) phi += 2 * pi;
-  if (phi < 0) phi += 2 * pi;
-  return {phi, d.z};
-}
-
-Vector3d SphereCells::direction(double phi, double z) const {
-  const double s = std::sqrt(std::max(0.0, (1 - z) * (1 + z)));
-  return {s * std::cos(phi + seam_azimuth_), s * std::sin(phi + seam_azimuth_), z};
 }
 
 std::size_t SphereCells::build(const Box& box, std::vector<Point2d> points, int depth) {
@@ -55,17 +64,17 @@ std::size_t SphereCells::build(const Box& box, std::vector<Point2d> points, int 
     return self;
   }
   // Halved across the axis along which the samples are closer together.
-  const auto [x0, x1] =
+  const auto [left, right] =
       std::minmax_element(points.begin(), points.end(), [](Point2d a, Point2d b) { return a.x < b.x; });
-  const auto [y0, y1] =
+  const auto [bottom, top] =
       std::minmax_element(points.begin(), points.end(), [](Point2d a, Point2d b) { return a.y < b.y; });
-  const double spread_phi = (x1->x - x0->x) / (box.phi1 - box.phi0);
-  const double spread_z = (y1->y - y0->y) / (box.z1 - box.z0);
-  const int axis = spread_phi < spread_z ? 0 : 1;
-  const double at = axis == 0 ? (box.phi0 + box.phi1) / 2 : (box.z0 + box.z1) / 2;
+  const double spread_x = (right->x - left->x) / (box.x1 - box.x0);
+  const double spread_y = (top->y - bottom->y) / (box.y1 - box.y0);
+  const int axis = spread_x < spread_y ? 0 : 1;
+  const double at = axis == 0 ? (box.x0 + box.x1) / 2 : (box.y0 + box.y1) / 2;
   Box low = box, high = box;
-  (axis == 0 ? low.phi1 : low.z1) = at;
-  (axis == 0 ? high.phi0 : high.z0) = at;
+  (axis == 0 ? low.x1 : low.y1) = at;
+  (axis == 0 ? high.x0 : high.y0) = at;
   const auto middle =
       std::partition(points.begin(), points.end(), [&](Point2d p) { return (axis == 0 ? p.x : p.y) < at; });
   std::vector<Point2d> upper(middle, points.end());
@@ -77,26 +86,27 @@ std::size_t SphereCells::build(const Box& box, std::vector<Point2d> points, int 
 }
 
 std::size_t SphereCells::cell_of(Vector3d d) const {
-  const Point2d p = coordinates(d);
-  const Node* n = nodes_.data();
+  const Point2d p = to_square(d);
+  const Node* n = &nodes_[d.z < 0 ? nodes_[0].below : nodes_[0].above];
   while (n->axis >= 0) n = &nodes_[(n->axis == 0 ? p.x : p.y) < n->at ? n->below : n->above];
   return n->below;
 }
 
 double SphereCells::gauss(const std::function<double(Vector3d)>& f, const Box& box) const {
-  const double dphi = box.phi1 - box.phi0, dz = box.z1 - box.z0;
+  const double dx = box.x1 - box.x0, dy = box.y1 - box.y0;
   double sum = 0;
   for (std::size_t i = 0; i < node.size(); ++i)
     for (std::size_t j = 0; j < node.size(); ++j)
-      sum += weight[i] * weight[j] * f(direction(box.phi0 + dphi * node[i], box.z0 + dz * node[j]));
-  return sum * dphi * dz;
+      sum += weight[i] * weight[j] * f(to_direction(box.x0 + dx * node[i], box.y0 + dy * node[j], box.side));
+  return sum * dx * dy * (pi / 2);
 }
 
 double SphereCells::adaptive(const std::function<double(Vector3d)>& f, const Box& box, double coarse,
                              int depth) const {
-  const double phi = (box.phi0 + box.phi1) / 2, z = (box.z0 + box.z1) / 2;
-  const std::array<Box, 4> quarters = {Box{box.phi0, phi, box.z0, z}, Box{phi, box.phi1, box.z0, z},
-                                       Box{box.phi0, phi, z, box.z1}, Box{phi, box.phi1, z, box.z1}};
+  const double x = (box.x0 + box.x1) / 2, y = (box.y0 + box.y1) / 2;
+  const std::array<Box, 4> quarters = {
+      Box{box.side, box.x0, x, box.y0, y}, Box{box.side, x, box.x1, box.y0, y},
+      Box{box.side, box.x0, x, y, box.y1}, Box{box.side, x, box.x1, y, box.y1}};
   std::array<double, 4> part{};
   double fine = 0;
   for (std::size_t i = 0; i < 4; ++i) fine += part[i] = gauss(f, quarters[i]);

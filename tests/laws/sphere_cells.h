@@ -9,12 +9,12 @@
 
 namespace vitrail::laws {
 
-// Cells are boxes of azimuth and z, halved until few samples are left in each: the integrand that the samples
-// follow is smooth within a cell, however narrow its peaks.
+// Each hemisphere is mapped to a square without changing areas (Shirley & Chiu 1997), and that is halved
+// until few samples are left in each cell: the integrand that the samples follow is smooth within a cell,
+// however narrow its peaks.
 class SphereCells {
  public:
-  // The azimuths' seam lies on the side of `seam`.
-  SphereCells(const std::vector<Vector3d>& samples, Vector3d seam);
+  explicit SphereCells(const std::vector<Vector3d>& samples);
 
   std::size_t size() const { return boxes_.size(); }
   std::size_t cell_of(Vector3d direction) const;
@@ -23,7 +23,7 @@ class SphereCells {
 
  private:
   struct Box {
-    double phi0, phi1, z0, z1;
+    double side, x0, x1, y0, y1;  // side: the sign of z
   };
   struct Node {  // axis −1: a leaf, `below` its cell
     int axis = -1;
@@ -31,13 +31,10 @@ class SphereCells {
     std::size_t below = 0, above = 0;
   };
 
-  Point2d coordinates(Vector3d direction) const;
-  Vector3d direction(double phi, double z) const;
   std::size_t build(const Box& box, std::vector<Point2d> points, int depth);
   double gauss(const std::function<double(Vector3d)>& f, const Box& box) const;
   double adaptive(const std::function<double(Vector3d)>& f, const Box& box, double coarse, int depth) const;
 
-  double seam_azimuth_;
   std::vector<Node> nodes_;
   std::vector<Box> boxes_;
 };

@@ -44,18 +44,17 @@ double sample_beckmann_slope(double cosine, double sine, double u) {
   };
   const double target = std::max(u, 1e-9) * beckmann_area(cosine, sine);
   double low = -1, high = limit, t = -1 + std::max(u, 1e-9) * (1 + limit);
-  constexpr int most_steps = 12;
-  double x = 0;
-  for (int step = 0; step < most_steps; ++step) {
-    x = inverse_erf(t);
-    const double error = cumulative(t, x) - target;
+  constexpr int most_steps = 12;  // about four are taken
+  bool close = false;
+  for (int step = 0; step < most_steps && !close; ++step) {
+    const double x = inverse_erf(t), error = cumulative(t, x) - target;
     (error > 0 ? high : low) = t;
+    close = std::abs(error) < 1e-4 * target;  // and 1e-8 a step later
     const double slope = (cosine - x * sine) / 2;
-    if (std::abs(error) < 1e-8 * target) break;
-    t = slope > 0 ? t - error / slope : low;
-    if (!(t > low && t < high)) t = (low + high) / 2;
+    const double next = slope > 0 ? t - error / slope : low;
+    t = close ? std::clamp(next, low, high) : next > low && next < high ? next : (low + high) / 2;
   }
-  return -x;
+  return -inverse_erf(t);
 }
 
 Vector3d sample_beckmann(const Microfacets& mf, Vector3d v, Point2f u) {
@@ -72,7 +71,9 @@ Vector3d sample_beckmann(const Microfacets& mf, Vector3d v, Point2f u) {
 
 Microfacets make_microfacets(double alpha_u, double alpha_v, Distribution distribution, Masking masking) {
   const bool smooth = !(alpha_u > 0) && !(alpha_v > 0);
-  const auto width = [&](double alpha) { return smooth ? 0 : std::clamp(alpha, least_alpha, 1e4); };
+  const auto width = [&](double alpha) {
+    return smooth ? 0 : alpha > least_alpha ? std::min(alpha, 1e4) : least_alpha;
+  };
   return {width(alpha_u), width(alpha_v), distribution, masking};
 }
 
