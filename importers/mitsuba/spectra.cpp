@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include "importers/mitsuba/builder.h"
 #include "importers/mitsuba/values.h"
+#include "importers/spectra/spectrum_file.h"
 #include "scene/named_spectra.h"
 #include "scene/rgb_to_spectrum.h"
 
@@ -39,9 +41,22 @@ Spectrum from_samples(const std::vector<std::array<double, 2>>& samples, const O
   }
 }
 
-Spectrum from_value(const SpectrumValue& value, const Origin& place, const Report& report) {
-  const Fail fail = [&](const std::string& message) { report.fail(message, place); };
-  if (!value.filename.empty()) return from_samples(read_spectrum_file(value.filename, fail), place, report);
+Spectrum from_file(const std::string& name, SpectrumPart part, const Origin& place, Report& report) {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(name, ignored))
+    report.fail(fmt::format("cannot find the file \"{}\"", name), place);
+  const SpectrumFile file = read_spectrum_file(name);
+  for (const std::string& repair : file.repairs)
+    report.approximated(fmt::format("spectrum \"{}\": {}", name, repair), place);
+  try {
+    return spectrum_of(file, part, false);
+  } catch (const Error& error) {
+    report.fail(error.what(), place);
+  }
+}
+
+Spectrum from_value(const SpectrumValue& value, SpectrumPart part, const Origin& place, Report& report) {
+  if (!value.filename.empty()) return from_file(value.filename, part, place, report);
   if (!value.samples.empty()) return from_samples(value.samples, place, report);
   return ConstantSpectrum{static_cast<float>(value.constant)};
 }
@@ -138,7 +153,8 @@ SpectrumParameter spectrum_parameter(Builder& b, const Object& object, std::stri
     return from_number(static_cast<double>(*v), quantity, place, b.report);
   if (const auto* v = std::get_if<RgbValue>(&property->value))
     return from_color(v->color, quantity, place, b.report);
-  if (const auto* v = std::get_if<SpectrumValue>(&property->value)) return from_value(*v, place, b.report);
+  if (const auto* v = std::get_if<SpectrumValue>(&property->value))
+    return from_value(*v, name == "k" ? SpectrumPart::k : SpectrumPart::n, place, b.report);
   if (const auto* nested = std::get_if<ObjectPtr>(&property->value)) {
     if (is_spectrum_plugin(**nested)) {
       const Spectrum spectrum = from_plugin(b, **nested, quantity);

@@ -6,9 +6,7 @@
 
 #include <charconv>
 #include <cmath>
-#include <filesystem>
 
-#include "importers/ply/input_bytes.h"
 #include "scene/color.h"
 
 namespace vitrail::mitsuba {
@@ -109,27 +107,6 @@ SpectrumValue parse_spectrum(const std::string& text, const Fail& fail) {
         {parse_number(word.substr(0, colon), fail), parse_number(word.substr(colon + 1), fail)});
   }
   return spectrum;
-}
-
-std::vector<std::array<double, 2>> read_spectrum_file(const std::string& file, const Fail& fail) {
-  std::error_code ignored;
-  if (!std::filesystem::is_regular_file(file, ignored))
-    fail(fmt::format("cannot find the file \"{}\"", file));
-  const InputBytes bytes(file);
-  constexpr std::size_t most_bytes = 64 << 20;
-  if (bytes.size() > most_bytes) fail(fmt::format("the spectrum \"{}\" is larger than 64 MiB", file));
-  std::vector<std::array<double, 2>> samples;
-  for (const char* at = bytes.begin(); at < bytes.end();) {
-    const char* end = std::find(at, bytes.end(), '\n');
-    const std::string line(at, std::find(at, end, '#'));
-    at = end + 1;
-    const std::vector<double> numbers = parse_numbers(line, fail);
-    if (numbers.empty()) continue;
-    if (numbers.size() != 2)
-      fail(fmt::format("a line of \"{}\" has {} numbers instead of 2", file, numbers.size()));
-    samples.push_back({numbers[0], numbers[1]});
-  }
-  return samples;
 }
 
 }  // namespace vitrail::mitsuba

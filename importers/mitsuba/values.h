@@ -22,7 +22,5 @@ std::vector<double> parse_numbers(const std::string& text, const Fail& fail);
 RGB parse_rgb(const std::string& text, const Fail& fail);
 // One number, or "wavelength:value, …".
 SpectrumValue parse_spectrum(const std::string& text, const Fail& fail);
-// The samples of an .spd file: two numbers a line, # begins a comment.
-std::vector<std::array<double, 2>> read_spectrum_file(const std::string& file, const Fail& fail);
 
 }  // namespace vitrail::mitsuba

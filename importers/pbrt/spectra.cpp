@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "importers/ply/input_bytes.h"
+#include "importers/spectra/spectrum_file.h"
 #include "scene/color.h"
 #include "scene/named_spectra.h"
 #include "scene/rgb_to_spectrum.h"
@@ -34,20 +34,21 @@ Samples pairs(const std::vector<double>& numbers, const Place& place) {
   return samples;
 }
 
-Samples read_spectrum_file(const std::string& name, const Context& context, const Place& place) {
+Spectrum from_file(const Parameter& parameter, bool hold_ends, Context& context) {
+  const std::string& name = parameter.strings.front();
   const std::filesystem::path path = context.resolve(name);
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(path, ignored))
-    fail(fmt::format("\"{}\" is neither a spectrum that is known by name nor a file", name), place);
-  const InputBytes bytes(path);
-  const std::string file = path.string();
-  Lexer lexer(&file, bytes.begin(), bytes.end());
-  std::vector<double> numbers;
-  for (double number = 0; lexer.next_number(number);) numbers.push_back(number);
-  const Token rest = lexer.next();
-  if (rest.kind != TokenKind::end)
-    fail(fmt::format("expected a number in a spectrum file, found {}", describe(rest)), rest.place);
-  return pairs(numbers, {&file, 0, 0});
+    fail(fmt::format("\"{}\" is neither a spectrum that is known by name nor a file", name), parameter.place);
+  const SpectrumFile file = read_spectrum_file(path);
+  for (const std::string& repair : file.repairs)
+    context.report.approximated(fmt::format("spectrum \"{}\": {}", name, repair), parameter.place);
+  const bool is_k = parameter.name == "k" || parameter.name.ends_with(".k");
+  try {
+    return spectrum_of(file, is_k ? SpectrumPart::k : SpectrumPart::n, hold_ends);
+  } catch (const Error& error) {
+    fail(error.what(), parameter.place);
+  }
 }
 
 // Samples become a table; v3 sorts them and holds the ends, v4 wants them sorted and is zero outside.
@@ -63,7 +64,7 @@ Spectrum sampled(Samples samples, bool hold_ends, const Context& context, const 
 Spectrum read_named(const Parameter& parameter, bool hold_ends, Context& context) {
   const std::string& name = parameter.strings.front();
   if (named_spectrum(name)) return NamedSpectrum{name};
-  return sampled(read_spectrum_file(name, context, parameter.place), hold_ends, context, parameter.place);
+  return from_file(parameter, hold_ends, context);
 }
 
 // Of parameters of type spectrum.

@@ -77,7 +77,7 @@ TEST(PbrtEmission, IsZeroOutsideOfSamplesInV4AndHeldInV3) {
 
 TEST(PbrtEmission, MayComeFromFiles) {
   const TemporaryFolder folder;
-  folder.write("lamp.spd", "# nm value\n400 1\n700, 3");
+  folder.write("lamp.spd", "# nm value\n400 1\n700 three");
   EXPECT_THROW(read_pbrt(folder.write(
                    "s.pbrt", "Film \"rgb\" WorldBegin LightSource \"infinite\" \"spectrum L\" \"lamp.spd\"")),
                Error);

@@ -1,2 +1,3 @@
 # SPDX-License-Identifier: Apache-2.0
-target_sources(vitrail_bsdf PRIVATE principled.cpp principled_lobes.cpp principled_thin.cpp)
+target_sources(vitrail_bsdf PRIVATE
+  coating.cpp layered.cpp layered_base.cpp principled.cpp principled_lobes.cpp principled_thin.cpp)

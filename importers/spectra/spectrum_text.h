@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "importers/spectra/spectrum_file.h"
+
+namespace vitrail {
+
+// A number with blanks around it, perhaps zeros or a plus sign before it; false for anything else and for
+// what is not finite.
+bool parse_padded_number(std::string_view text, double& number);
+
+// Rows in the order of the file, which may be empty. `name` of the file is for errors.
+SpectrumFile parse_spectrum_text(std::string_view text, const std::string& name);
+
+}  // namespace vitrail

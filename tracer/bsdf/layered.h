@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// A base under a dielectric coating, as pbrt-v4 has it (after Guo, Hašan and Zhao 2018): light refracts into
+// a slab of `thickness` mean free paths, walks at random between its interface and the base, and leaves.
+// Values are estimates of the mean over such walks, whose random numbers are a hash of both directions: they
+// are functions of the directions, bit for bit. What is sampled is of one walk, too: its weight agrees with
+// eval and pdf in the mean only. pdf is near that of sample, not exactly it: it serves to weigh strategies
+// against each other. Both models only reflect. Reciprocal and conserving energy in the mean.
+//
+// As in pbrt, eval does not find paths that collide in the layer and then meet a smooth metal under a smooth
+// interface; sample does. Unlike in pbrt, the ways out through a rough interface are weighed against each
+// other by densities of the same direction (Veach 1997, §9.2), so that eval agrees with sample: pbrt's eval
+// is brighter, its sample the same.
+#pragma once
+
+#include <optional>
+
+#include "tracer/bsdf/bsdf.h"
+#include "tracer/bsdf/microfacet.h"
+
+namespace vitrail {
+
+// Between interface and base, of extinction 1: it absorbs where the albedo is 0.
+struct LayerVolume {
+  double thickness = 0.01;
+  double g = 0;  // of Henyey and Greenstein, in (−1, 1)
+  SampledSpectrum albedo;
+  int max_depth = 10;  // of crossings and collisions in a walk
+  int samples = 1;     // walks an eval
+};
+
+struct CoatedDiffuseBsdf {
+  SampledSpectrum reflectance;
+  double eta = 1.5;  // of the coating / of what is in front
+  Microfacets interface;
+  LayerVolume volume;
+};
+
+struct CoatedConductorBsdf {
+  SampledSpectrum eta, k;  // of the metal against vacuum
+  Microfacets conductor;
+  double interface_eta = 1.5;
+  Microfacets interface;
+  LayerVolume volume;
+};
+
+BsdfValue eval(const CoatedDiffuseBsdf& bsdf, Vector3d out, Vector3d in);
+double pdf(const CoatedDiffuseBsdf& bsdf, Vector3d out, Vector3d in);
+std::optional<BsdfSample> sample(const CoatedDiffuseBsdf& bsdf, Vector3d out, float u_lobe, Point2f u);
+
+BsdfValue eval(const CoatedConductorBsdf& bsdf, Vector3d out, Vector3d in);
+double pdf(const CoatedConductorBsdf& bsdf, Vector3d out, Vector3d in);
+std::optional<BsdfSample> sample(const CoatedConductorBsdf& bsdf, Vector3d out, float u_lobe, Point2f u);
+
+}  // namespace vitrail
