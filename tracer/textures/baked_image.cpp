@@ -11,11 +11,21 @@ namespace vitrail {
 
 namespace {
 
+// floor without a call of the C library, for |x| < 2³¹.
+int floor_to_int(double x) {
+  const int i = static_cast<int>(x);
+  return i - (x < i);
+}
+
 // s or t where the image is repeated, so that what follows fits an int; beyond, in [-1, 2].
 double folded(double s, Wrap wrap) {
-  if (!std::isfinite(s)) return 0;
-  if (wrap == Wrap::repeat) return s - std::floor(s);
-  if (wrap == Wrap::mirror) return s - 2 * std::floor(s / 2);
+  if (!(std::abs(s) < 1e9)) {
+    if (!std::isfinite(s)) return 0;
+    if (wrap == Wrap::repeat) return s - std::floor(s);
+    if (wrap == Wrap::mirror) return s - 2 * std::floor(s / 2);
+  }
+  if (wrap == Wrap::repeat) return s - floor_to_int(s);
+  if (wrap == Wrap::mirror) return s - 2.0 * floor_to_int(s / 2);
   return std::clamp(s, -1.0, 2.0);
 }
 
@@ -35,21 +45,24 @@ int wrapped(int i, int n, Wrap wrap) {
   }
 }
 
-// The two texels of a row around a coordinate; weight of the second.
+// The two texels of a row around a coordinate, and their weights: 0 for black ones, which any texel stands
+// for.
 struct Pair {
-  int first, second;
-  float weight;
+  std::array<std::uint32_t, 2> texel;
+  std::array<float, 2> weight;
 };
 Pair pair_at(double s, int n, Wrap wrap) {
   const double x = folded(s, wrap) * n - 0.5;
-  const double below = std::floor(x);
-  const int i = static_cast<int>(below);
-  return {wrapped(i, n, wrap), wrapped(i + 1, n, wrap), static_cast<float>(x - below)};
+  const int below = floor_to_int(x);
+  const int i = wrapped(below, n, wrap), j = wrapped(below + 1, n, wrap);
+  const auto f = static_cast<float>(x - below);
+  return {{static_cast<std::uint32_t>(i < 0 ? 0 : i), static_cast<std::uint32_t>(j < 0 ? 0 : j)},
+          {i < 0 ? 0 : 1 - f, j < 0 ? 0 : f}};
 }
 
-int single_at(double s, int n, Wrap wrap) {
-  return wrapped(static_cast<int>(std::floor(folded(s, wrap) * n)), n, wrap);
-}
+int single_at(double s, int n, Wrap wrap) { return wrapped(floor_to_int(folded(s, wrap) * n), n, wrap); }
+
+constexpr int shift_of(std::uint32_t size) { return std::countr_zero(size); }
 
 }  // namespace
 
@@ -58,60 +71,58 @@ struct BakedImage::Implementation {
       : file(std::move(opened)),
         cache(std::move(tiles)),
         entries(std::make_unique<TileCache::Entry[]>(file.layout().tiles)),
-        format(file.info().format) {}
+        levels(file.layout().levels.data()),
+        format(file.info().format),
+        shift_x(shift_of(tile_width(format))),
+        shift_y(shift_of(tile_height(format))) {}
 
-  // Texels (x[i], y[i]) of one tile, or of as many as there are.
-  void read(int level, const std::array<int, 4>& x, const std::array<int, 4>& y, int count,
-            std::array<TexelWords, 4>& out) const {
-    const TextureLevel& of = file.layout().levels[static_cast<std::size_t>(level)];
-    const std::uint32_t tile_w = tile_width(format), tile_h = tile_height(format);
-    std::array<std::uint32_t, 4> tile, index, tile_x, tile_y;
-    bool same = true;
-    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
-      const auto tx = static_cast<std::uint32_t>(x[i]), ty = static_cast<std::uint32_t>(y[i]);
-      tile_x[i] = tx / tile_w, tile_y[i] = ty / tile_h;
-      tile[i] = tile_y[i] * of.tiles_x + tile_x[i];
-      const std::uint32_t row = std::min(tile_w, of.width - tile_x[i] * tile_w);
-      index[i] = (ty - tile_y[i] * tile_h) * row + (tx - tile_x[i] * tile_w);
-      same = same && tile[i] == tile[0];
+  // Texels x[i % 2], y[i / 2] for i in [0, 4), which often lie in one tile.
+  void read(int level, const std::array<std::uint32_t, 2>& x, const std::array<std::uint32_t, 2>& y,
+            std::array<TexelWords, 4>& words) const {
+    const TextureLevel& of = levels[level];
+    if (((x[0] ^ x[1]) >> shift_x | (y[0] ^ y[1]) >> shift_y) != 0) {
+      for (std::size_t i = 0; i < 4; ++i) words[i] = one(x[i % 2], y[i / 2], level);
+      return;
     }
-    const auto from_tile = [&](std::size_t i, std::size_t n) {
-      cache->read(
-          {file, entries[of.first_tile + tile[i]], static_cast<std::uint32_t>(level), tile_x[i], tile_y[i]},
-          std::span(index).subspan(i, n), &out[i]);
-    };
-    if (same) return from_tile(0, static_cast<std::size_t>(count));
-    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) from_tile(i, 1);
+    const std::uint32_t tile_x = x[0] >> shift_x, tile_y = y[0] >> shift_y;
+    const std::uint32_t first_x = tile_x << shift_x, first_y = tile_y << shift_y;
+    const std::uint32_t row = std::min(1u << shift_x, of.width - first_x);
+    const std::uint32_t row0 = (y[0] - first_y) * row, row1 = (y[1] - first_y) * row;
+    const std::array<std::uint32_t, 4> index{row0 + x[0] - first_x, row0 + x[1] - first_x,
+                                             row1 + x[0] - first_x, row1 + x[1] - first_x};
+    read_tile(level, tile_x, tile_y, index, words.data());
   }
 
-  // Calls add(words, weight) for the texels around (s,t) that are not black.
+  TexelWords one(std::uint32_t x, std::uint32_t y, int level) const {
+    const std::uint32_t tile_x = x >> shift_x, tile_y = y >> shift_y;
+    const std::uint32_t first_x = tile_x << shift_x, first_y = tile_y << shift_y;
+    const std::uint32_t row = std::min(1u << shift_x, levels[level].width - first_x);
+    const std::array<std::uint32_t, 1> index{(y - first_y) * row + x - first_x};
+    TexelWords words;
+    read_tile(level, tile_x, tile_y, index, &words);
+    return words;
+  }
+  TexelWords one(int x, int y, int level) const {
+    return one(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), level);
+  }
+
+  template <std::size_t N>
+  void read_tile(int level, std::uint32_t tile_x, std::uint32_t tile_y,
+                 const std::array<std::uint32_t, N>& index, TexelWords* words) const {
+    const TextureLevel& of = levels[level];
+    const std::uint64_t tile = of.first_tile + static_cast<std::uint64_t>(tile_y) * of.tiles_x + tile_x;
+    cache->read({file, entries[tile], format, static_cast<std::uint32_t>(level), tile_x, tile_y}, index,
+                words);
+  }
+
+  // Calls add(words, weight) for the texels around (s,t).
   template <class Add>
   void blend(double s, double t, Wrap wrap, int level, Add&& add) const {
-    const TextureLevel& of = file.layout().levels[static_cast<std::size_t>(level)];
-    const Pair h = pair_at(s, static_cast<int>(of.width), wrap);
-    const Pair v = pair_at(t, static_cast<int>(of.height), wrap);
-    std::array<int, 4> x{h.first, h.second, h.first, h.second}, y{v.first, v.first, v.second, v.second};
-    std::array<float, 4> weight{(1 - h.weight) * (1 - v.weight), h.weight * (1 - v.weight),
-                                (1 - h.weight) * v.weight, h.weight * v.weight};
-    int count = 4;
-    if (wrap == Wrap::black) {
-      count = 0;
-      for (std::size_t i = 0; i < 4; ++i) {
-        if (x[i] < 0 || y[i] < 0) continue;
-        const auto to = static_cast<std::size_t>(count++);
-        x[to] = x[i], y[to] = y[i], weight[to] = weight[i];
-      }
-      if (count == 0) return;
-    }
+    const Pair h = pair_at(s, static_cast<int>(levels[level].width), wrap);
+    const Pair v = pair_at(t, static_cast<int>(levels[level].height), wrap);
     std::array<TexelWords, 4> words;
-    read(level, x, y, count, words);
-    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) add(words[i], weight[i]);
-  }
-
-  TexelWords one(int x, int y, int level) const {
-    std::array<TexelWords, 4> words;
-    read(level, {x}, {y}, 1, words);
-    return words[0];
+    read(level, h.texel, v.texel, words);
+    for (std::size_t i = 0; i < 4; ++i) add(words[i], h.weight[i % 2] * v.weight[i / 2]);
   }
 
   SampledSpectrum lit(const SampledSpectrum& value, const SampledWavelengths& wavelengths) const {
@@ -121,7 +132,9 @@ struct BakedImage::Implementation {
   TextureFile file;
   std::shared_ptr<TileCache> cache;
   std::unique_ptr<TileCache::Entry[]> entries;  // a tile
+  const TextureLevel* levels;
   TexelFormat format;
+  int shift_x, shift_y;  // of a tile's size
 };
 
 BakedImage::BakedImage(const std::filesystem::path& file, std::shared_ptr<TileCache> cache)
@@ -156,7 +169,7 @@ SampledSpectrum BakedImage::bilinear(double s, double t, Wrap wrap, int level,
   const NodeWeights weights(wavelengths);
   SampledSpectrum sum;
   image.blend(s, t, wrap, level, [&](const TexelWords& words, float weight) {
-    sum = sum + spectrum_of(image.format, words, weights) * weight;
+    add_texel(image.format, words, weights, weight, sum);
   });
   return image.lit(sum, wavelengths);
 }

@@ -23,28 +23,46 @@ struct NodeWeights {
   }
 };
 
+// sum += factor · S
+inline void add_sigmoid(const SigmoidNodes& x, const NodeWeights& weights, float factor,
+                        SampledSpectrum& sum) {
+  const float x0 = x[0], x1 = x[1], x2 = x[2];
+#pragma GCC unroll 1  // GCC vectorises loops, but not what is left of them
+  for (std::size_t i = 0; i < hero_count; ++i) {
+    const float at = weights.l[0][i] * x0 + weights.l[1][i] * x1 + weights.l[2][i] * x2;
+    sum.v[i] += factor * (0.5f + at / (2 * std::sqrt(1 + at * at)));
+  }
+}
+
 inline SampledSpectrum sigmoid_of(const SigmoidNodes& x, const NodeWeights& weights) {
   SampledSpectrum s;
-  for (std::size_t i = 0; i < hero_count; ++i) {
-    const float at = weights.l[0][i] * x[0] + weights.l[1][i] * x[1] + weights.l[2][i] * x[2];
-    s.v[i] = 0.5f + at / (2 * std::sqrt(1 + at * at));
-  }
+  add_sigmoid(x, weights, 1, s);
   return s;
 }
 
-// Of an image of spectra or numbers; D65 is left to the caller.
-inline SampledSpectrum spectrum_of(TexelFormat format, const TexelWords& words, const NodeWeights& weights) {
+// sum += factor · the texel of an image of spectra or numbers; D65 is left to the caller.
+inline void add_texel(TexelFormat format, const TexelWords& words, const NodeWeights& weights, float factor,
+                      SampledSpectrum& sum) {
   switch (format) {
     case TexelFormat::number:
-      return filled(std::bit_cast<float>(words[0]));
+      sum = sum + filled(std::bit_cast<float>(words[0]) * factor);
+      return;
     case TexelFormat::reflectance:
-      return sigmoid_of(unpack_nodes(words.data()), weights);
+      add_sigmoid(unpack_nodes(words.data()), weights, factor, sum);
+      return;
     case TexelFormat::unbounded:
     case TexelFormat::illuminant:
-      return sigmoid_of(unpack_nodes(words.data()), weights) * std::bit_cast<float>(words[2]);
+      add_sigmoid(unpack_nodes(words.data()), weights, factor * std::bit_cast<float>(words[2]), sum);
+      return;
     default:
-      return {};
+      return;
   }
+}
+
+inline SampledSpectrum spectrum_of(TexelFormat format, const TexelWords& words, const NodeWeights& weights) {
+  SampledSpectrum value;
+  add_texel(format, words, weights, 1, value);
+  return value;
 }
 
 // D65 between the two nearest nanometres.

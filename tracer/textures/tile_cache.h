@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
@@ -28,11 +29,13 @@ class TileCache {
   struct Tile {
     const TextureFile& file;
     Entry& entry;
+    TexelFormat format;
     std::uint32_t level, x, y;
   };
   // Copies the words of the texels with these indices, row by row in the tile, into out[i]. Throws Error for
   // a damaged tile.
-  void read(const Tile& tile, std::span<const std::uint32_t> texels, TexelWords* out) {
+  template <std::size_t N>
+  void read(const Tile& tile, const std::array<std::uint32_t, N>& texels, TexelWords* out) {
     if (!read_resident(tile, texels, out)) read_and_store(tile, texels, out);
   }
 
@@ -49,18 +52,32 @@ class TileCache {
   };
 
   bool is_resident(std::uint64_t entry) const;
-  bool read_resident(const Tile& tile, std::span<const std::uint32_t> texels, TexelWords* out) {
+  template <std::size_t N>
+  bool read_resident(const Tile& tile, const std::array<std::uint32_t, N>& texels, TexelWords* out) {
     const std::uint64_t entry = tile.entry.load(std::memory_order_acquire);
     if (entry == 0) return false;
     Slot& slot = slots_[entry >> 32];
     const std::atomic<std::uint32_t>* const words = words_ + (entry >> 32) * max_tile_words;
-    const std::uint32_t count = words_per_texel(tile.file.info().format);
-    for (std::size_t i = 0; i < texels.size(); ++i)
-      for (std::uint32_t w = 0; w < count; ++w)
-        out[i][w] = words[texels[i] * count + w].load(std::memory_order_acquire);
+    switch (words_per_texel(tile.format)) {
+      case 1:
+        copy<1>(words, texels, out);
+        break;
+      case 2:
+        copy<2>(words, texels, out);
+        break;
+      default:
+        copy<3>(words, texels, out);
+    }
     if (slot.sequence.load(std::memory_order_relaxed) != static_cast<std::uint32_t>(entry)) return false;
     if (slot.used.load(std::memory_order_relaxed) == 0) slot.used.store(1, std::memory_order_relaxed);
     return true;
+  }
+  template <std::uint32_t Words, std::size_t N>
+  static void copy(const std::atomic<std::uint32_t>* from, const std::array<std::uint32_t, N>& texels,
+                   TexelWords* out) {
+    for (std::size_t i = 0; i < N; ++i)
+      for (std::uint32_t w = 0; w < Words; ++w)
+        out[i][w] = from[texels[i] * Words + w].load(std::memory_order_acquire);
   }
   void read_and_store(const Tile& tile, std::span<const std::uint32_t> texels, TexelWords* out);
   void store(Entry& entry, std::span<const std::uint32_t> words);
