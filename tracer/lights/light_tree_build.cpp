@@ -75,9 +75,11 @@ double cost(const Cluster& c) {
   return c.power * (surface_area(c.box) + 1e-3 * dot(e, e)) * solid_angle(c);
 }
 
+// Lights whose θ_e is less emit nothing beyond θ_o, as far as a node tells.
+constexpr double narrow_rad = 0.014;
 constexpr int buckets = 12;
-// From here on by number, which needs at most 16 more levels for 2³² lights; a trail has room for 32.
-constexpr int deepest_by_cost = 15;
+// From here on by number, which needs at most 11 more levels for 2³² lights; a trail has room for 21.
+constexpr int deepest_by_cost = 10;
 
 }  // namespace
 
@@ -89,7 +91,6 @@ class LightTreeBuilder {
     for (std::uint32_t i = 0; i < lights_.size(); ++i)
       if (lights_[i].power > 0 && std::isfinite(lights_[i].power)) order_.push_back(i);
     tree_.trail_.assign(lights_.size(), 0);
-    tree_.depth_.assign(lights_.size(), 0);
     if (order_.empty()) return;
     Bounds3d all;
     for (const std::uint32_t i : order_) {
@@ -187,7 +188,9 @@ class LightTreeBuilder {
     while (count < LightNode::width) {
       const auto largest = std::max_element(parts.begin(), parts.begin() + static_cast<std::ptrdiff_t>(count),
                                             [](Range a, Range b) { return a.size() < b.size(); });
-      if (largest->size() < 2) break;
+      // The last level but one has as few nodes as hold its lights.
+      if (largest->size() < 2 || (all.size() > LightNode::width && largest->size() <= LightNode::width))
+        break;
       parts[count] = split_off(*largest, depth);
       ++count;
     }
@@ -196,12 +199,11 @@ class LightTreeBuilder {
     for (std::size_t lane = 0; lane < count; ++lane) {
       const Range r = parts[lane];
       set_lane(index, lane, bounds_of(r));
-      const std::uint64_t way = trail | static_cast<std::uint64_t>(lane) << 2 * depth;
+      const std::uint64_t way = trail | static_cast<std::uint64_t>(lane) << 3 * depth;
       std::int32_t child;
       if (r.size() == 1) {
         const std::uint32_t light = order_[r.begin];
-        tree_.trail_[light] = way;
-        tree_.depth_[light] = static_cast<std::uint8_t>(depth + 1);
+        tree_.trail_[light] = way | std::uint64_t{1} << 3 * (depth + 1);
         child = static_cast<std::int32_t>(~light);
       } else {
         child = build_node(r, depth + 1, way);
@@ -211,25 +213,28 @@ class LightTreeBuilder {
     return index;
   }
 
-  // Angles grow by what rounding to float may lose.
+  // Angles grow by what rounding may lose: 1/32767 of an axis, and of a cosine as much as θ_o needs.
   void set_lane(std::int32_t index, std::size_t lane, const Cluster& c) {
     LightNode& node = tree_.nodes_[static_cast<std::size_t>(index)];
     const Point3f middle = tree_.local(center(c.box));
     node.center_x[lane] = middle.x;
     node.center_y[lane] = middle.y;
     node.center_z[lane] = middle.z;
-    const double radius = length(extent(c.box)) / 2 * tree_.scale_ * (1 + 1e-6);
-    node.radius2[lane] = static_cast<float>(radius * radius);
-    node.axis_x[lane] = static_cast<float>(c.cone.axis.x);
-    node.axis_y[lane] = static_cast<float>(c.cone.axis.y);
-    node.axis_z[lane] = static_cast<float>(c.cone.axis.z);
-    const double half = std::min(pi, c.cone.half_rad + 1e-6);
-    node.cos_o[lane] = static_cast<float>(half < pi ? portable_cos(half) : -1);
-    node.sin_o[lane] = static_cast<float>(half < pi ? portable_sin(half) : 0);
-    node.cos_e[lane] = static_cast<float>(std::max(0.0, portable_cos(std::min(pi, c.theta_e_rad + 1e-6))));
-    node.two_sided[lane] = c.two_sided ? 1 : 0;
+    const double radius = length(extent(c.box)) / 2 * tree_.scale_ * (1 + 1e-6) + 1e-7;
+    node.radius2[lane] = static_cast<float>(radius * radius) * (c.two_sided ? -1.0f : 1.0f);
+    const auto integer = [](double x) {
+      return static_cast<std::int16_t>(std::nearbyint(x * static_cast<double>(LightNode::unit)));
+    };
+    node.axis_x[lane] = integer(c.cone.axis.x);
+    node.axis_y[lane] = integer(c.cone.axis.y);
+    node.axis_z[lane] = integer(c.cone.axis.z);
+    const double half = c.cone.half_rad + 4e-5;
+    const double cosine = half < pi ? portable_cos(half) : -1;
+    node.cos_o[lane] = static_cast<std::int16_t>(
+        std::max(-32767.0, std::floor(cosine * static_cast<double>(LightNode::unit))));
     // Of a bounded size, so that sums do not overflow; enough to be above 0.
-    node.power[lane] = static_cast<float>(std::max(c.power / tree_.power_, 1e-30));
+    const auto power = static_cast<float>(std::max(c.power / tree_.power_, 1e-30));
+    node.power[lane] = c.theta_e_rad < narrow_rad ? -power : power;
   }
 
   LightTree& tree_;
