@@ -6,7 +6,7 @@
 #include <map>
 
 #include "cli/inspect.h"
-#include "importers/images/image_files.h"
+#include "images/image_files.h"
 
 namespace vitrail {
 

@@ -16,8 +16,8 @@ vitrail_library(obj_exporter
 
 # Images in another form than a scene has them. Brings OpenImageIO.
 vitrail_library(environment_images
-  SOURCES images/environment_images.cpp images/image_files.cpp
-  LIBRARIES vitrail::scene OpenImageIO::OpenImageIO fmt::fmt)
+  SOURCES images/environment_images.cpp
+  LIBRARIES vitrail::image_files vitrail::scene)
 
 vitrail_library(mitsuba_exporter
   SOURCES

@@ -28,12 +28,12 @@ struct UvMapping {
   float a = 1, b = 0, c = 0, d = 0, e = 1, f = 0;
   bool operator==(const UvMapping&) const = default;
 };
-// t = acos(z)/π, s = atan2(y,x)/2π of the direction of the point in texture space.
+// s = acos(z)/π, t = atan2(y,x)/2π (+1 below 0) of the direction of the point in texture space, as in pbrt.
 struct SphericalMapping {
   Transform texture_to_world;
   bool operator==(const SphericalMapping&) const = default;
 };
-// s = atan2(y,x)/2π, t = z in texture space.
+// s = ½ + atan2(y,x)/2π, t = z in texture space, as in pbrt.
 struct CylindricalMapping {
   Transform texture_to_world;
   bool operator==(const CylindricalMapping&) const = default;

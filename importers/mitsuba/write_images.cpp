@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "importers/images/image_files.h"
+#include "images/image_files.h"
 
 namespace vitrail::mitsuba_writer {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <array>
 
+#include "images/image_files.h"
 #include "importers/images/environment_images.h"
-#include "importers/images/image_files.h"
 #include "importers/pbrt/writer.h"
 
 namespace vitrail::pbrt {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "importers/images/image_files.h"
+#include "images/image_files.h"
 #include "scene/diagnostics.h"
 #include "tests/importers/temporary_folder.h"
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "images/image_files.h"
 #include "importers/images/environment_images.h"
-#include "importers/images/image_files.h"
 #include "scene/color.h"
 #include "tests/importers/mitsuba_oracle.h"
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "importers/images/image_files.h"
+#include "images/image_files.h"
 #include "tests/importers/mitsuba_oracle.h"
 
 namespace vitrail {

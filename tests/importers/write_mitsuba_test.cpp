@@ -10,7 +10,7 @@
 #include <numbers>
 #include <pugixml.hpp>
 
-#include "importers/images/image_files.h"
+#include "images/image_files.h"
 #include "importers/mitsuba/write_camera.h"
 #include "tests/importers/temporary_folder.h"
 #include "tests/importers/written_scenes.h"

@@ -4,8 +4,8 @@
 
 #include <fstream>
 
+#include "images/image_files.h"
 #include "importers/images/environment_images.h"
-#include "importers/images/image_files.h"
 
 #include "pbrt_text.h"
 #include "tests/support/equal_scenes.h"

@@ -16,14 +16,16 @@ namespace {
 const std::map<std::string, std::set<std::string>>& allowed() {
   static const std::map<std::string, std::set<std::string>> folders{
       {"scene", {}},
-      {"importers", {"scene"}},
+      {"images", {"scene"}},
+      {"importers", {"scene", "images"}},
       {"bundle", {"scene"}},
-      {"partitioner", {"scene", "bundle"}},
+      {"partitioner", {"scene", "images", "bundle"}},
       {"film", {"scene"}},
       {"tracer", {"scene", "bundle", "film"}},
       {"farm", {"scene", "bundle", "film", "tracer"}},
       {"compare", {"scene", "film"}},
-      {"cli", {"scene", "importers", "bundle", "partitioner", "film", "tracer", "farm", "compare"}}};
+      {"cli",
+       {"scene", "images", "importers", "bundle", "partitioner", "film", "tracer", "farm", "compare"}}};
   return folders;
 }
 
@@ -67,8 +69,8 @@ TEST(IncludeDirection, OnlyTheFarmSpeaksMpi) {
 
 TEST(Sources, CarryTheirLicence) {
   const std::filesystem::path root = VITRAIL_SOURCE_DIR;
-  for (const char* folder : {"scene", "importers", "bundle", "partitioner", "film", "tracer", "farm",
-                             "compare", "cli", "tests", "scripts", "examples", "cmake"})
+  for (const char* folder : {"scene", "images", "importers", "bundle", "partitioner", "film", "tracer",
+                             "farm", "compare", "cli", "tests", "scripts", "examples", "cmake"})
     for (const auto& entry : std::filesystem::recursive_directory_iterator(root / folder)) {
       const std::string extension = entry.path().extension().string();
       constexpr const char* kinds[] = {".h", ".cpp", ".inl", ".py", ".cmake"};

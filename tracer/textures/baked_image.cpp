@@ -54,8 +54,8 @@ int single_at(double s, int n, Wrap wrap) {
 }  // namespace
 
 struct BakedImage::Implementation {
-  Implementation(const std::filesystem::path& path, std::shared_ptr<TileCache> tiles)
-      : file(path),
+  Implementation(TextureFile opened, std::shared_ptr<TileCache> tiles)
+      : file(std::move(opened)),
         cache(std::move(tiles)),
         entries(std::make_unique<TileCache::Entry[]>(file.layout().tiles)),
         format(file.info().format) {}
@@ -125,7 +125,9 @@ struct BakedImage::Implementation {
 };
 
 BakedImage::BakedImage(const std::filesystem::path& file, std::shared_ptr<TileCache> cache)
-    : implementation_(std::make_unique<Implementation>(file, std::move(cache))) {}
+    : BakedImage(TextureFile(file), std::move(cache)) {}
+BakedImage::BakedImage(TextureFile file, std::shared_ptr<TileCache> cache)
+    : implementation_(std::make_unique<Implementation>(std::move(file), std::move(cache))) {}
 BakedImage::~BakedImage() = default;
 BakedImage::BakedImage(BakedImage&&) noexcept = default;
 

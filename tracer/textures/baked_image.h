@@ -23,6 +23,7 @@ class BakedImage {
   // Throws Error with the file's name where its header is damaged. One cache for all of a rank's images:
   // std::make_shared<TileCache>(budget_bytes), or Textures::tiles().
   BakedImage(const std::filesystem::path& file, std::shared_ptr<TileCache> cache);
+  BakedImage(TextureFile file, std::shared_ptr<TileCache> cache);
   ~BakedImage();
   BakedImage(BakedImage&&) noexcept;
 
@@ -48,6 +49,8 @@ class BakedImage {
   double luminance(int x, int y, int level) const;
 
   const TextureFile& file() const;
+  // What a tile costs while it is not in memory: its checksum and where it would be.
+  static constexpr std::uint64_t table_bytes_per_tile = 16;
 
  private:
   struct Implementation;

@@ -16,12 +16,14 @@
 
 namespace vitrail {
 
+class TileCache;
+
 // A point of a surface as textures see it.
 struct TexturePoint {
   Point2d uv;
   Point3d p;            // in the bundle's coordinates, which the transforms of a bundle's textures end in
   Vector3d normal;      // shading, unit, in the bundle's coordinates
-  double uv_width = 0;  // of the ray's cone, in units of uv; 0: the finest level
+  double uv_width = 0;  // diameter of the ray's cone, in units of uv; 0: the finest level
   std::span<const std::array<float, 3>> attributes{};  // interpolated mesh attributes, by slot
 };
 
@@ -29,7 +31,8 @@ struct TexturePoint {
 // many threads.
 class Textures {
  public:
-  // `textures` outlives it. `budget_bytes` for tiles in memory. Throws Error for files that are damaged.
+  // `textures` are the bundle's (partitioner/bake_textures.h) and outlive it. `budget_bytes` for tiles and
+  // the tables that find them. Throws Error for files that are damaged and textures that make no sense.
   Textures(const std::vector<Texture>& textures, const std::filesystem::path& bundle,
            std::uint64_t budget_bytes);
   ~Textures();
@@ -40,6 +43,11 @@ class Textures {
   double number(const FloatParameter& parameter, const TexturePoint& at) const;
   // Of a normal map: the file's three numbers.
   std::array<double, 3> vector(Id<Texture> texture, const TexturePoint& at) const;
+
+  // For a rank's other images: BakedImage(file, tiles()). Counts of tiles read, and bytes of tiles in memory.
+  const std::shared_ptr<TileCache>& tiles() const;
+  std::uint64_t tile_loads() const;
+  std::uint64_t resident_bytes() const;
 
  private:
   struct Implementation;

@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: Apache-2.0
+// Texture graphs: baked by the partitioner, evaluated by the tracer.
+#include <numbers>
+
+#include "scene/diagnostics.h"
+#include "tests/partitioner/baked_scene.h"
+#include "tracer/textures/tile_cache.h"
+
+namespace vitrail {
+
+namespace {
+
+using test::at_uv;
+using test::some_wavelengths;
+
+Spectrum color(double r, double g, double b) { return unbounded_from_rgb({r, g, b}); }
+
+// 2 × 2 numbers: below 1 2, above 3 4.
+void write_four(const std::filesystem::path& file) { write_exr_image(file, {2, 2, 1, {3, 4, 1, 2}}); }
+
+TEST(TextureGraph, Checkerboards) {
+  test::BakedScene s;
+  const Spectrum red = color(0.8, 0.1, 0.1);
+  CheckerboardTexture flat{red, ConstantSpectrum{0.25f}, UvMapping{2, 0, 0.5f, 0, 3, 0}}, solid = flat;
+  solid.solid = true;
+  solid.texture_to_world = scale({2, 2, 2});
+  const Id<Texture> a = s.add(flat), b = s.add(solid);
+  TextureBaker& baker = s.bake();
+  const SpectrumParameter board = baker.bake(a, TextureUse::reflectance),
+                          cubes = baker.bake(b, TextureUse::reflectance);
+  const FloatParameter number = baker.bake(FloatParameter{a});
+  const Textures textures = s.look_up();
+  const auto at = [&](double u, double v) { return textures.spectrum(board, at_uv(u, v), some_wavelengths); };
+  test::expect_near(at(0.1, 0.1), red, 1e-6);                      // cell (0, 0)
+  test::expect_near(at(0.3, 0.1), ConstantSpectrum{0.25f}, 1e-6);  // cell (1, 0)
+  test::expect_near(at(0.3, 0.4), red, 1e-6);                      // cell (1, 1)
+  test::expect_near(at(-0.3, 0.1), ConstantSpectrum{0.25f}, 1e-6);
+  EXPECT_NEAR(textures.number(number, at_uv(0.3, 0.1)), 0.25, 1e-7);
+  EXPECT_NEAR(textures.number(number, at_uv(0.1, 0.1)), luminance(red), 1e-6);
+  TexturePoint p;
+  p.p = {1.9, 0.1, 2.1};  // cells (0, 0, 1)
+  test::expect_near(textures.spectrum(cubes, p, some_wavelengths), ConstantSpectrum{0.25f}, 1e-6);
+  p.p = {-0.1, 0.1, 2.1};
+  test::expect_near(textures.spectrum(cubes, p, some_wavelengths), red, 1e-6);
+}
+
+TEST(TextureGraph, SumsAndProducts) {
+  test::BakedScene s;
+  write_four(s.directory / "four.exr");
+  const Id<Texture> four = s.add(s.image("four.exr"), true);
+  const Spectrum red = color(0.8, 0.1, 0.1), blue = color(0.1, 0.2, 0.9);
+  const Id<Texture> product = s.add(ProductTexture{red, four}), mix = s.add(MixTexture{red, blue, 0.25f});
+  const Id<Texture> by_image = s.add(MixTexture{ConstantSpectrum{1}, ConstantSpectrum{5}, four}, true);
+  const Id<Texture> facing = s.add(DirectionMixTexture{red, blue, {0, 0, 1}});
+  const Id<Texture> corners = s.add(BilinearTexture{ConstantSpectrum{1}, ConstantSpectrum{2},
+                                                    ConstantSpectrum{3}, ConstantSpectrum{7}, UvMapping{}},
+                                    true);
+  TextureBaker& baker = s.bake();
+  const auto use = TextureUse::reflectance;
+  const SpectrumParameter baked_product = baker.bake(product, use), baked_mix = baker.bake(mix, use),
+                          baked_facing = baker.bake(facing, use);
+  const FloatParameter baked_by_image = baker.bake(FloatParameter{by_image}),
+                       baked_corners = baker.bake(FloatParameter{corners});
+  const Textures textures = s.look_up();
+  TexturePoint at = at_uv(0.75, 0.25);  // the lower right number, 2
+  at.normal = {0, 0.8, -0.6};
+  test::expect_near(textures.spectrum(baked_product, at, some_wavelengths), scaled(red, 2), 1e-3);
+  test::expect_near(textures.spectrum(baked_mix, at, some_wavelengths), weighted_sum(red, 0.75, blue, 0.25),
+                    3e-5);
+  test::expect_near(textures.spectrum(baked_facing, at, some_wavelengths), weighted_sum(red, 0.6, blue, 0.4),
+                    1e-6);
+  EXPECT_NEAR(textures.number(baked_by_image, at), (1 - 2) * 1 + 2 * 5, 1e-9);
+  EXPECT_NEAR(textures.number(baked_corners, at),
+              0.25 * 0.75 * 1 + 0.25 * 0.25 * 2 + 0.75 * 0.75 * 3 + 0.75 * 0.25 * 7, 1e-9);
+}
+
+TEST(TextureGraph, ColorsMeanWhatTheyAreUsedFor) {
+  test::BakedScene s;
+  const Spectrum bright = color(3, 1, 0.5);
+  const Id<Texture> board = s.add(CheckerboardTexture{bright, bright, UvMapping{}});
+  TextureBaker& baker = s.bake();
+  const SpectrumParameter reflectance = baker.bake(board, TextureUse::reflectance),
+                          factor = baker.bake(board, TextureUse::unbounded),
+                          emission = baker.bake(board, TextureUse::illuminant);
+  const Textures textures = s.look_up();
+  const auto at = [&](const SpectrumParameter& p) {
+    return textures.spectrum(p, at_uv(0.1, 0.1), some_wavelengths);
+  };
+  test::expect_near(at(reflectance), reflectance_from_rgb({1, 1, 0.5}), 1e-6);
+  test::expect_near(at(factor), bright, 1e-5);
+  test::expect_near(at(emission), emission_from_rgb({3, 1, 0.5}), 1e-5);
+}
+
+TEST(TextureGraph, MappingsByPosition) {
+  test::BakedScene s;
+  const Transform place = translate({10, 0, 0}) * scale({2, 2, 2});
+  const auto corners = [&](const TextureMapping& mapping) {  // shows s + 10·t
+    return s.add(BilinearTexture{ConstantSpectrum{0}, ConstantSpectrum{10}, ConstantSpectrum{1},
+                                 ConstantSpectrum{11}, mapping},
+                 true);
+  };
+  const Id<Texture> sphere = corners(SphericalMapping{place}), cylinder = corners(CylindricalMapping{place}),
+                    plane = corners(PlanarMapping{place, {1, 0, 0}, {0, 0, 2}, 0.5, 0.25});
+  TextureBaker& baker = s.bake();
+  const FloatParameter on_sphere = baker.bake(FloatParameter{sphere}),
+                       on_cylinder = baker.bake(FloatParameter{cylinder}),
+                       on_plane = baker.bake(FloatParameter{plane});
+  std::vector<Texture> moved = baker.take_textures();
+  move(moved, {-10, 1, 0});
+  const Textures textures(moved, s.directory / "b.vit", 0);
+  TexturePoint at;
+  at.p = {0.6, 1 - 0.6, 0};  // (0.3, −0.3, 0) in texture space
+  EXPECT_NEAR(textures.number(on_sphere, at), 0.5 + 10 * 0.875, 1e-12);
+  EXPECT_NEAR(textures.number(on_cylinder, at), 0.5 - 0.125, 1e-12);
+  EXPECT_NEAR(textures.number(on_plane, at), 0.3 + 0.5 + 10 * 0.25, 1e-12);
+  at.p = {0, 1, 0};  // the origin
+  EXPECT_NEAR(textures.number(on_sphere, at), 0, 1e-12);
+}
+
+TEST(TextureGraph, AttributesOfMeshes) {
+  test::BakedScene s;
+  const Id<Texture> a = s.add(MeshAttributeTexture{"color", 0.5f}),
+                    b = s.add(MeshAttributeTexture{"wear"}, true);
+  TextureBaker& baker = s.bake();
+  const SpectrumParameter reflectance = baker.bake(a, TextureUse::reflectance),
+                          emission = baker.bake(a, TextureUse::illuminant);
+  const FloatParameter wear = baker.bake(FloatParameter{b}), number = baker.bake(FloatParameter{a});
+  using Attribute = TextureBaker::Attribute;
+  EXPECT_EQ(baker.attributes(), (std::vector<Attribute>{{"color", TextureUse::reflectance},
+                                                        {"wear", TextureUse::number},
+                                                        {"color", TextureUse::number}}));
+  const RGB green{0.1, 0.7, 0.2};
+  const std::array attributes{baker.attribute_value(green, TextureUse::reflectance),
+                              baker.attribute_value({0.25, 0.5, 0.75}, TextureUse::number),
+                              baker.attribute_value(green, TextureUse::number)};
+  const std::array<float, 3> black = baker.attribute_value({0, 0, 0}, TextureUse::reflectance);
+  EXPECT_EQ(black, (std::array<float, 3>{-16, -16, -16}));
+  const Textures textures = s.look_up();
+  TexturePoint at;
+  at.attributes = attributes;
+  const Spectrum expected = reflectance_from_rgb(green);
+  test::expect_near(textures.spectrum(reflectance, at, some_wavelengths), scaled(expected, 0.5), 1e-4);
+  test::expect_near(textures.spectrum(emission, at, some_wavelengths),
+                    product(scaled(expected, 0.5), emission_from_rgb({1, 1, 1})), 1e-4);
+  EXPECT_NEAR(textures.number(wear, at), 0.5, 1e-7);
+  EXPECT_NEAR(textures.number(number, at), 0.5 / 3, 1e-7);
+  at.attributes = {};
+  EXPECT_EQ(textures.number(wear, at), 0);
+}
+
+TEST(TextureGraph, UvAsAColor) {
+  test::BakedScene s;
+  const Id<Texture> uv = s.add(UvTexture{});
+  const SpectrumParameter baked = s.bake().bake(uv, TextureUse::reflectance);
+  const Textures textures = s.look_up();
+  test::expect_near(textures.spectrum(baked, at_uv(2.3, 0.75), some_wavelengths),
+                    reflectance_from_rgb({0.3, 0.75, 0}), 0.02);
+}
+
+TEST(TextureGraph, FiltersByFootprint) {
+  test::BakedScene s;
+  Image stripes = black_image(256, 256, 1);
+  for (std::size_t i = 0; i < stripes.values.size(); i += 2) stripes.values[i] = 1;
+  write_exr_image(s.directory / "a.exr", stripes);
+  ImageTexture image = s.image("a.exr");
+  image.filter = TextureFilter::trilinear;
+  image.mapping = UvMapping{2, 0, 0, 0, 1, 0};
+  const Id<Texture> id = s.add(image, true);
+  const FloatParameter baked = s.bake().bake(FloatParameter{id});
+  const Textures textures = s.look_up();
+  TexturePoint at = at_uv(0.25 / 256, 0.5);  // the centre of texel 0 in s
+  EXPECT_NEAR(textures.number(baked, at), 1, 1e-6);
+  at.uv_width = 1.0 / 512;  // one texel in s
+  EXPECT_NEAR(textures.number(baked, at), 1, 1e-6);
+  at.uv_width = std::numbers::sqrt2 / 512;  // half way to the level of greys
+  EXPECT_NEAR(textures.number(baked, at), 0.75, 1e-6);
+  for (const double width : {2.0 / 512, 0.1, 1.0, 1e30, double(INFINITY)}) {
+    at.uv_width = width;
+    EXPECT_NEAR(textures.number(baked, at), 0.5, 1e-6);
+  }
+}
+
+TEST(TextureGraph, WithinItsBudget) {
+  test::BakedScene s;
+  write_exr_image(s.directory / "a.exr", black_image(512, 512, 1));
+  write_four(s.directory / "four.exr");
+  const Id<Texture> a = s.add(s.image("a.exr"), true), b = s.add(s.image("four.exr"), true);
+  TextureBaker& baker = s.bake();
+  const FloatParameter first = baker.bake(FloatParameter{a}), second = baker.bake(FloatParameter{b});
+  constexpr std::uint64_t budget = 100'000;
+  const Textures textures = s.look_up(budget);
+  for (int i = 0; i < 2000; ++i) {
+    textures.number(first, at_uv(i * 0.377, i * 0.119));
+    ASSERT_EQ(textures.number(second, at_uv(0.25, 0.25)), 1);
+  }
+  EXPECT_GT(textures.tile_loads(), 64u);
+  EXPECT_LE(textures.resident_bytes(), budget);
+  EXPECT_GT(textures.resident_bytes(), budget / 2);
+}
+
+TEST(TextureGraph, GraphsThatMakeNoSense) {
+  const test::TemporaryDirectory directory;
+  const auto refused = [&](const std::vector<Texture>& textures) {
+    EXPECT_THROW(Textures(textures, directory.path(), 1 << 20), Error);
+  };
+  std::vector<Texture> one(1);
+  one[0].model = ProductTexture{Id<Texture>{0}, ConstantSpectrum{1}};
+  refused(one);
+  one[0].model = MeshAttributeTexture{"x"};
+  refused(one);
+  one[0].model =
+      CheckerboardTexture{ConstantSpectrum{1}, ConstantSpectrum{0}, SphericalMapping{scale({0, 0, 0})}};
+  refused(one);
+  std::vector<Texture> doubling(41);
+  doubling[0].model = BilinearTexture{};
+  for (std::uint32_t i = 1; i < doubling.size(); ++i)
+    doubling[i].model = ProductTexture{Id<Texture>{i - 1}, Id<Texture>{i - 1}};
+  refused(doubling);
+}
+
+}  // namespace
+
+}  // namespace vitrail

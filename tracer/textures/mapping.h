@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// From a point of a surface to the (s,t) of a texture.
+#pragma once
+
+#include "scene/texture.h"
+#include "tracer/portable_math.h"
+
+namespace vitrail {
+
+// A TextureMapping as it is looked up: transforms inverted.
+struct PreparedMapping {
+  TextureMapping mapping;
+  Transform world_to_texture;  // of all but uv
+};
+
+struct MappedPoint {
+  double s = 0, t = 0;
+};
+
+inline MappedPoint map_point(const PreparedMapping& prepared, Point2d uv, Point3d p) {
+  if (const auto* m = std::get_if<UvMapping>(&prepared.mapping))
+    return {static_cast<double>(m->a) * uv.x + static_cast<double>(m->b) * uv.y + static_cast<double>(m->c),
+            static_cast<double>(m->d) * uv.x + static_cast<double>(m->e) * uv.y + static_cast<double>(m->f)};
+  const Point3d q = transform_point(prepared.world_to_texture, p);
+  if (const auto* m = std::get_if<PlanarMapping>(&prepared.mapping)) {
+    const Vector3d v{q.x, q.y, q.z};
+    return {m->offset_s + dot(v, m->v1), m->offset_t + dot(v, m->v2)};
+  }
+  const double turn = portable_atan2(q.y, q.x) / (2 * pi);
+  if (std::holds_alternative<CylindricalMapping>(prepared.mapping)) return {0.5 + turn, q.z};
+  const double r = std::sqrt(q.x * q.x + q.y * q.y + q.z * q.z);
+  return {portable_acos(r > 0 ? q.z / r : 1) / pi, turn < 0 ? turn + 1 : turn};
+}
+
+// Greatest size in (s,t) of a circle of diameter 1 in uv, along s and t. 0 where it is not known.
+inline MappedPoint stretch(const TextureMapping& mapping) {
+  const auto* m = std::get_if<UvMapping>(&mapping);
+  if (!m) return {};
+  const auto norm = [](float x, float y) {
+    return std::sqrt(static_cast<double>(x) * static_cast<double>(x) +
+                     static_cast<double>(y) * static_cast<double>(y));
+  };
+  return {norm(m->a, m->b), norm(m->d, m->e)};
+}
+
+}  // namespace vitrail
