@@ -5,9 +5,10 @@
 #include <bit>
 
 #include "bundle/texture_file.h"
-#include "scene/diagnostics.h"
+#include "scene/rgb_to_spectrum.h"
 #include "tests/support/temporary_directory.h"
 #include "tests/tracer/light_fixtures.h"
+#include "tracer/lights/luminance_of.h"
 #include "tracer/portable_math.h"
 
 namespace vitrail {
@@ -207,6 +208,36 @@ TEST(LightTextures, AMissingImageIsAnErrorWithItsName) {
   LightScene scene;
   scene.lights = lights;
   EXPECT_ANY_THROW(make_light_sampler(scene, directory.path()));
+}
+
+// In lux, whatever the colours.
+TEST(LightTextures, ColouredEnvironmentsHaveTheirIlluminance) {
+  const test::TemporaryDirectory directory;
+  std::filesystem::create_directories(directory.path() / "textures");
+  constexpr std::uint32_t size = 8;
+  write_texture_file(directory.path() / file, {TexelFormat::illuminant, size, size, 1},
+                     [&](std::uint32_t, std::uint32_t x, std::uint32_t y) {
+                       const RGB c{0.1 + 0.1 * x, y == 4 ? 3.0 : 0.02, x == 3 ? 0.9 : 0.05};
+                       const RgbIlluminantSpectrum e = emission_from_rgb(c);
+                       return pack({nodes_of(e.shape), e.scale});
+                     });
+  EnvironmentLight light;
+  light.filename = file;
+  light.illuminance = 100.0f;
+  const std::vector<Light> lights{{light, {}}};
+  LightScene scene;
+  scene.lights = lights;
+  const LightSampler s = make_light_sampler(scene, directory.path());
+  double up = 0;
+  constexpr int n = 128;
+  for (int y = 0; y < n; ++y)
+    for (int x = 0; x < n; ++x) {
+      const Vector3d d = sphere_direction(SphereProjection::equal_area, {(x + 0.5) / n, (y + 0.5) / n});
+      if (d.z > 0)
+        up += luminance_of([&](const SampledWavelengths& w) { return environment_radiance(s, d, w); }, 16) *
+              d.z * 4 * pi / (n * n);
+    }
+  EXPECT_NEAR(up, 100, 0.3);
 }
 
 }  // namespace vitrail
