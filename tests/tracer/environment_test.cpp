@@ -132,7 +132,7 @@ TEST(Environment, IlluminanceIsThatOfAnUpwardPlane) {
         const Vector3d d = sphere_direction(equal_area, {(x + 0.5) / n, (y + 0.5) / n});
         up += static_cast<double>(radiance(e, d, w)[1]) * std::max(0.0, d.z) * 4 * pi / (n * n);
       }
-    EXPECT_NEAR(up, 3 * 50, 1.5);
+    EXPECT_NEAR(up, 3 * 50, 0.5);
   }
 }
 

@@ -41,16 +41,6 @@ double DirectionTable::cell_solid_angle(int row) const {
   return 2 * pi / width_ * (row_z_[y] - row_z_[y + 1]);
 }
 
-double DirectionTable::cell_upward_cosine(int column, int row) const {
-  if (projection_ == SphereProjection::equal_area) {
-    const Point2d middle{(column + 0.5) / width_, (row + 0.5) / height_};
-    return cell_solid_angle(row) * std::max(0.0, sphere_direction(projection_, middle).z);
-  }
-  const auto y = static_cast<std::size_t>(row);
-  const double above = std::max(0.0, row_z_[y]), below = std::max(0.0, row_z_[y + 1]);
-  return pi / width_ * (above * above - below * below);
-}
-
 namespace {
 
 struct Step {

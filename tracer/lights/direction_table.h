@@ -19,8 +19,6 @@ class DirectionTable {
   int width() const { return width_; }
   int height() const { return height_; }
   double cell_solid_angle(int row) const;
-  // ∫ max(0, z) dω of a cell.
-  double cell_upward_cosine(int column, int row) const;
 
   Vector3d sample(double u, double v) const;  // u, v in [0,1)
   double pdf(Vector3d direction) const;       // solid angle; `direction` unit

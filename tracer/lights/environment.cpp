@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tracer/lights/luminance_of.h"
 #include "tracer/portable_math.h"
 #include "tracer/wavelengths.h"
 
@@ -119,7 +120,6 @@ ImageTable tabulate_image(const LightImage& image, SphereProjection projection) 
         sum += grid.at({(x + 0.25 + 0.5 * (i & 1)) / width, (y + 0.25 + 0.5 * (i >> 1)) / height});
       density.push_back(sum / 4);
       result.flux += density.back() * cells.cell_solid_angle(y);
-      result.upward_flux += density.back() * cells.cell_upward_cosine(x, y);
     }
   const double floor = density_floor * result.flux / (4 * pi);
   result.table = DirectionTable(projection, width, height, [&](int x, int y) {
@@ -127,6 +127,22 @@ ImageTable tabulate_image(const LightImage& image, SphereProjection projection) 
                            static_cast<std::size_t>(x)];
   });
   return result;
+}
+
+double exact_flux(const LightImage& image, SphereProjection projection, const DirectionTable& table,
+                  bool upward) {
+  constexpr int count = 1 << 14;
+  double sum = 0;
+  for (int i = 0; i < count; ++i) {
+    double bits = 0;  // van der Corput's sequence
+    for (int k = i, digit = count / 2; k > 0; k >>= 1, digit >>= 1) bits += (k & 1) * digit;
+    const Vector3d d = table.sample((i + 0.5) / count, (bits + 0.5) / count);
+    const double weight = upward ? d.z : 1;
+    if (weight > 0)
+      sum += weight / table.pdf(d) *
+             luminance_of([&](const SampledWavelengths& w) { return look_up(image, projection, d, w); }, 8);
+  }
+  return sum / count;
 }
 
 Environment make_environment(const EnvironmentLight& light, std::shared_ptr<const LightImage> image) {
@@ -137,8 +153,10 @@ Environment make_environment(const EnvironmentLight& light, std::shared_ptr<cons
   ImageTable sampled = tabulate_image(*e.image, e.projection);
   e.table = std::move(sampled.table);
   e.scale = light.scale;
-  if (light.illuminance && sampled.upward_flux > 0)
-    e.factor = static_cast<float>(static_cast<double>(*light.illuminance) / sampled.upward_flux);
+  if (light.illuminance) {
+    const double up = exact_flux(*e.image, e.projection, e.table, true);
+    if (up > 0) e.factor = static_cast<float>(static_cast<double>(*light.illuminance) / up);
+  }
   e.mean_luminance = sampled.flux / (4 * pi) * luminance(e.scale) * static_cast<double>(e.factor);
   return e;
 }

@@ -40,12 +40,15 @@ SampledSpectrum radiance(const Environment& environment, Vector3d direction,
 SampledSpectrum look_up(const LightImage& image, SphereProjection projection, Vector3d local,
                         const SampledWavelengths& wavelengths);
 
-// A density for sampling that image, about its luminance, with a floor; `flux` and `upward_flux` become
-// ∫ Y dω and ∫ Y max(0,z) dω.
+// A density for sampling that image, about its luminance, with a floor. `flux`: ∫ Y dω within about 1 %.
 struct ImageTable {
   DirectionTable table;
-  double flux = 0, upward_flux = 0;
+  double flux = 0;
 };
 ImageTable tabulate_image(const LightImage& image, SphereProjection projection);
+
+// ∫ Y dω, of max(0,z)·Y where `upward`, within about a thousandth.
+double exact_flux(const LightImage& image, SphereProjection projection, const DirectionTable& table,
+                  bool upward);
 
 }  // namespace vitrail

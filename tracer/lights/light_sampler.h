@@ -27,9 +27,8 @@ struct LightScene {
   std::span<const AreaLight> area_lights;
   std::span<const EmissiveTriangle> triangles;
   std::span<const Light> lights;
-  const Textures* textures = nullptr;        // null: no light has a texture
+  const Textures* textures = nullptr;        // null: no light has a texture; images get 16 MiB
   std::span<const Texture> texture_records;  // of `textures`: for the shape of a projected image
-  std::shared_ptr<TileCache> tiles;          // of the lights' own images; null: 16 MiB of their own
   Bounds3f bounds;                           // of the scene
 };
 

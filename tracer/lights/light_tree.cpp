@@ -12,29 +12,57 @@ namespace {
 constexpr float least_distance2 = 1e-12f;
 constexpr double farthest = 1e15;
 
+// By value and without branches, so that the compiler can take the lanes side by side.
+float larger(float a, float b) { return a > b ? a : b; }
+float smaller(float a, float b) { return a < b ? a : b; }
+
 // Power · cos θ′ / d², θ′ = θ − θ_o − θ_u the least angle between a normal of the child and the direction to
 // p, θ_u the half angle of its sphere from p; 0 where θ′ ≥ θ_e. All angles by cosines and sines.
-LightNode::Lanes importance(const LightNode& node, Point3f p) {
-  LightNode::Lanes result;
+void importance(const LightNode& node, Point3f p, float* __restrict result) {
+  constexpr float of_unit = 1 / LightNode::unit;
   for (std::size_t i = 0; i < LightNode::width; ++i) {
     const float x = p.x - node.center_x[i], y = p.y - node.center_y[i], z = p.z - node.center_z[i];
-    const float d2 = std::max(x * x + y * y + z * z, least_distance2);
+    const float d2 = larger(x * x + y * y + z * z, least_distance2);
     const float inverse_d = 1 / std::sqrt(d2);
-    float cosine = (x * node.axis_x[i] + y * node.axis_y[i] + z * node.axis_z[i]) * inverse_d;
-    cosine = node.two_sided[i] > 0 ? std::abs(cosine) : cosine;
-    const float sine = std::sqrt(std::max(0.0f, 1 - cosine * cosine));
-    const float sin2_u = std::min(1.0f, node.radius2[i] * inverse_d * inverse_d);
+    const float scale = inverse_d * of_unit;
+    const float along = (x * static_cast<float>(node.axis_x[i]) + y * static_cast<float>(node.axis_y[i]) +
+                         z * static_cast<float>(node.axis_z[i])) *
+                        scale;
+    const float turned = node.radius2[i] < 0 ? -along : along;
+    const float cosine = larger(along, turned);
+    const float sine = std::sqrt(larger(0, 1 - cosine * cosine));
+    const float radius2 = std::abs(node.radius2[i]);
+    const float sin2_u = smaller(1, radius2 * inverse_d * inverse_d);
     const float sin_u = std::sqrt(sin2_u), cos_u = std::sqrt(1 - sin2_u);
+    const float cos_o = static_cast<float>(node.cos_o[i]) * of_unit;
+    const float sin_o = std::sqrt(larger(0, 1 - cos_o * cos_o));
 
-    const bool in_cone = cosine >= node.cos_o[i];
-    const float cos1 = in_cone ? 1 : cosine * node.cos_o[i] + sine * node.sin_o[i];
-    const float sin1 = in_cone ? 0 : sine * node.cos_o[i] - cosine * node.sin_o[i];
-    const bool in_sphere = cos1 >= cos_u || node.radius2[i] >= d2;
-    const float cos2 = in_sphere ? 1 : cos1 * cos_u + sin1 * sin_u;
-    const float reached = cos2 > node.cos_e[i] ? cos2 : 0;
-    result[i] = node.power[i] * reached / std::max(d2, node.radius2[i]);
+    const float cos_beyond_o = cosine * cos_o + sine * sin_o;
+    const float sin_beyond_o = sine * cos_o - cosine * sin_o;
+    const float cos1 = cosine >= cos_o ? 1.0f : cos_beyond_o;
+    const float sin1 = cosine >= cos_o ? 0.0f : sin_beyond_o;
+    const float cos_beyond_u = cos1 * cos_u + sin1 * sin_u;
+    const float cos_outside = cos1 >= cos_u ? 1.0f : cos_beyond_u;
+    const float cos2 = radius2 >= d2 ? 1.0f : cos_outside;
+    const float cos_e = node.power[i] < 0 ? 1 - 1e-4f : 0.0f;
+    const float reached = cos2 > cos_e ? cos2 : 0.0f;
+    result[i] = std::abs(node.power[i]) * reached / larger(d2, radius2);
   }
-  return result;
+}
+
+struct Weights {
+  LightNode::Lanes lane;
+  float total;
+};
+Weights weigh(const LightNode& node, Point3f p, LightChoice choice) {
+  Weights w;
+  if (choice == LightChoice::tree)
+    importance(node, p, w.lane.data());
+  else
+    for (std::size_t i = 0; i < LightNode::width; ++i) w.lane[i] = std::abs(node.power[i]);
+  const LightNode::Lanes& l = w.lane;
+  w.total = ((l[0] + l[4]) + (l[1] + l[5])) + ((l[2] + l[6]) + (l[3] + l[7]));
+  return w;
 }
 
 }  // namespace
@@ -52,8 +80,7 @@ std::optional<LightTree::Chosen> LightTree::choose(Point3d p, double u) const {
   double probability = 1;
   for (std::int32_t n = 0;;) {
     const LightNode& node = nodes_[static_cast<std::size_t>(n)];
-    const LightNode::Lanes weight = choice_ == LightChoice::tree ? importance(node, at) : node.power;
-    const float total = weight[0] + weight[1] + weight[2] + weight[3];
+    const auto [weight, total] = weigh(node, at, choice_);
     if (!(total > 0)) return std::nullopt;
     double rest = u * static_cast<double>(total);
     std::size_t lane = 0, last = 0;
@@ -74,17 +101,15 @@ std::optional<LightTree::Chosen> LightTree::choose(Point3d p, double u) const {
 }
 
 double LightTree::probability(Point3d p, std::uint32_t light) const {
-  if (light >= depth_.size() || depth_[light] == 0) return 0;
+  if (light >= trail_.size() || trail_[light] == 0) return 0;
   const Point3f at = local(p);
   double probability = 1;
-  std::uint64_t trail = trail_[light];
   std::int32_t n = 0;
-  for (int level = 0; level < depth_[light]; ++level, trail >>= 2) {
+  for (std::uint64_t trail = trail_[light]; trail > 1; trail >>= 3) {
     const LightNode& node = nodes_[static_cast<std::size_t>(n)];
-    const LightNode::Lanes weight = choice_ == LightChoice::tree ? importance(node, at) : node.power;
-    const float total = weight[0] + weight[1] + weight[2] + weight[3];
+    const auto [weight, total] = weigh(node, at, choice_);
     if (!(total > 0)) return 0;
-    const std::size_t lane = trail & 3;
+    const std::size_t lane = trail & 7;
     probability *= static_cast<double>(weight[lane]) / static_cast<double>(total);
     n = node.child[lane];
   }

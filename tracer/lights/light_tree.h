@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Choosing one of many lights by how much it can send to a point: Conty Estevez & Kulla, "Importance Sampling
-// of Many Lights with Adaptive Tree Splitting" (2018), without the splitting, with four children a node.
+// of Many Lights with Adaptive Tree Splitting" (2018), without the splitting, with eight children a node.
 #pragma once
 
 #include <array>
@@ -24,19 +24,21 @@ struct LightBounds {
 
 enum class LightChoice : std::uint8_t { tree, power };
 
-// What a child of a node can send to a point. Coordinates are the tree's: the box of all lights has its
-// centre at 0 and its greatest half edge is 1. A child without power does not exist.
+// What each child of a node can send to a point, in four cache lines. Coordinates are the tree's: the box of
+// all lights has its centre at 0 and its greatest half edge is 1. A child without power does not exist.
 struct alignas(64) LightNode {
-  static constexpr int width = 4;
+  static constexpr int width = 8;
+  static constexpr float unit = 32767;  // of the integers
   using Lanes = std::array<float, width>;
+  using Integers = std::array<std::int16_t, width>;
   Lanes center_x{}, center_y{}, center_z{};
-  Lanes radius2{};  // of a sphere around the child
-  Lanes axis_x{}, axis_y{}, axis_z{};
-  Lanes cos_o{}, sin_o{}, cos_e{};
-  Lanes two_sided{};  // 1 or 0
-  Lanes power{};
+  Lanes radius2{};                          // of a sphere around the child; < 0: two-sided
+  Lanes power{};                            // < 0: nothing leaves beyond θ_o, else θ_e = 90°
   std::array<std::int32_t, width> child{};  // a node, or ~light
+  Integers axis_x{}, axis_y{}, axis_z{};    // in units of 1/unit
+  Integers cos_o{};
 };
+static_assert(sizeof(LightNode) == 256);
 
 class LightTree {
  public:
@@ -61,9 +63,10 @@ class LightTree {
   friend class LightTreeBuilder;
   Point3f local(Point3d p) const;
 
-  std::vector<LightNode> nodes_;      // 0 is the root
-  std::vector<std::uint64_t> trail_;  // of each light: the lanes from the root, two bits each, lowest first
-  std::vector<std::uint8_t> depth_;   // of each light: how many lanes; 0: it is not in the tree
+  std::vector<LightNode> nodes_;  // 0 is the root
+  // Of each light: the lanes from the root, three bits each, lowest first, and a 1 above them; 0: it is not
+  // in the tree.
+  std::vector<std::uint64_t> trail_;
   Point3d center_;
   double scale_ = 1;
   double power_ = 0;

@@ -160,7 +160,7 @@ LightSampler make_light_sampler(const LightScene& scene, const ImageSource& imag
 LightSampler make_light_sampler(const LightScene& scene, const std::filesystem::path& bundle,
                                 LightChoice choice) {
   constexpr std::uint64_t default_tile_bytes = 16 << 20;
-  std::shared_ptr<TileCache> tiles = scene.tiles;
+  std::shared_ptr<TileCache> tiles = scene.textures ? scene.textures->tiles() : nullptr;
   const ImageSource images = [&](const std::string& filename) {
     if (!tiles) tiles = std::make_shared<TileCache>(default_tile_bytes);
     return open_light_image(bundle / filename, tiles);

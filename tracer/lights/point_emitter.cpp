@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scene/color.h"
 #include "tracer/lights/environment.h"
+#include "tracer/lights/luminance_of.h"
 #include "tracer/portable_math.h"
 #include "tracer/wavelengths.h"
 
@@ -106,25 +106,8 @@ SampledSpectrum intensity(const PointEmitter& e, Vector3d direction, const Textu
 double luminance_at(const SpectrumParameter& parameter, const TexturePoint& at, const Textures* textures,
                     int groups) {
   if (const auto* spectrum = std::get_if<Spectrum>(&parameter)) return luminance(*spectrum);
-  constexpr int first_nm = 400, last_nm = 720;
-  const int count = groups * hero_count;
-  double sum = 0, weights = 0;
-  for (int group = 0; group < groups; ++group) {
-    SampledWavelengths wavelengths;
-    std::array<double, hero_count> weight{};
-    for (std::size_t i = 0; i < hero_count; ++i) {
-      const int k = static_cast<int>(i) * groups + group;
-      const int nm = first_nm + (2 * k + 1) * (last_nm - first_nm) / (2 * count);
-      wavelengths.lambda_nm[i] = static_cast<float>(nm);
-      weight[i] = static_cast<double>(cie_1931()[static_cast<std::size_t>(nm - 360)][1]);
-    }
-    const SampledSpectrum value = value_of(parameter, at, textures, wavelengths);
-    for (std::size_t i = 0; i < hero_count; ++i) {
-      sum += weight[i] * std::max(0.0, static_cast<double>(value.v[i]));
-      weights += weight[i];
-    }
-  }
-  return sum / weights;
+  return luminance_of([&](const SampledWavelengths& w) { return value_of(parameter, at, textures, w); },
+                      groups);
 }
 
 PointEmitter make_emitter(const PointLight& light) {
@@ -170,7 +153,7 @@ PointEmitter make_emitter(const ProjectionLight& light, double aspect, const Tex
   p.half = light.irradiance || aspect < 1 ? Point2d{half, half / aspect} : Point2d{half * aspect, half};
 
   // ∫ I dω over the rectangle, dω = cos³θ dA.
-  constexpr int steps = 64;
+  const int steps = light.power ? 256 : 32, groups = light.power ? 8 : 2;
   double flux = 0;
   for (int y = 0; y < steps; ++y)
     for (int x = 0; x < steps; ++x) {
@@ -178,7 +161,7 @@ PointEmitter make_emitter(const ProjectionLight& light, double aspect, const Tex
       const double px = (2 * s - 1) * p.half.x, py = (2 * t - 1) * p.half.y;
       const double cosine = 1 / std::sqrt(1 + px * px + py * py);
       const TexturePoint at{{s, p.irradiance ? 1 - t : t}, {}, {}};
-      flux += luminance_at(p.image, at, textures, 16) * (p.irradiance ? pi : cosine * cosine * cosine);
+      flux += luminance_at(p.image, at, textures, groups) * (p.irradiance ? pi : cosine * cosine * cosine);
     }
   flux *= 4 * p.half.x * p.half.y / (steps * steps);
   if (light.power && flux > 0) e.factor = static_cast<float>(static_cast<double>(*light.power) / flux);
@@ -192,9 +175,10 @@ PointEmitter make_emitter(const ProjectionLight& light, double aspect, const Tex
 PointEmitter make_emitter(const GoniometricLight& light, std::shared_ptr<const LightImage> image) {
   PointEmitter e = placed(light.light_to_world);
   e.intensity = light.intensity;
-  const double flux = tabulate_image(*image, light.latitude_longitude ? SphereProjection::latitude_longitude
-                                                                      : SphereProjection::equal_area)
-                          .flux;
+  const auto projection =
+      light.latitude_longitude ? SphereProjection::latitude_longitude : SphereProjection::equal_area;
+  const ImageTable about = tabulate_image(*image, projection);
+  const double flux = light.power ? exact_flux(*image, projection, about.table, false) : about.flux;
   if (light.power && flux > 0) e.factor = static_cast<float>(static_cast<double>(*light.power) / flux);
   e.bounds.power = flux * static_cast<double>(e.factor) * luminance(light.intensity);
   e.bounds.theta_o_rad = pi;

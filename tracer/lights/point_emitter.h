@@ -52,8 +52,7 @@ PointEmitter make_emitter(const GoniometricLight& light, std::shared_ptr<const L
 SampledSpectrum intensity(const PointEmitter& emitter, Vector3d direction, const Textures* textures,
                           const SampledWavelengths& wavelengths);
 
-// The luminance of the parameter's value, of a texture by 4·`groups` wavelengths: 2 gives a guess, 16 (every
-// 5 nm) about a thousandth.
+// The luminance of the parameter's value; of a texture by that many groups of wavelengths (luminance_of.h).
 double luminance_at(const SpectrumParameter& parameter, const TexturePoint& at, const Textures* textures,
                     int groups);
 
