@@ -59,7 +59,6 @@ struct InfiniteLight {
 
 using Light = std::variant<PointLight, DistantLight, InfiniteLight>;
 
-// Pinholes: their `lens` is left at its default.
-using Camera = std::variant<PerspectiveCamera, OrthographicCamera>;
+using Camera = vitrail::Camera;
 
 }  // namespace vitrail::bundle

@@ -36,8 +36,11 @@ bool finite(Vector3d v) { return std::isfinite(v.x) && std::isfinite(v.y) && std
 bool finite(const bundle::Camera& camera) {
   return std::visit(
       [](const auto& c) {
-        bool all = std::isfinite(c.screen.x0) && std::isfinite(c.screen.x1) && std::isfinite(c.screen.y0) &&
-                   std::isfinite(c.screen.y1);
+        bool all = true;
+        if constexpr (requires { c.screen; })
+          for (const double x :
+               {c.screen.x0, c.screen.x1, c.screen.y0, c.screen.y1, c.lens.radius, c.lens.focal_distance})
+            all = all && std::isfinite(x);
         for (const auto& row : c.camera_to_world.m)
           for (const double x : row) all = all && std::isfinite(x);
         return all;
@@ -133,6 +136,13 @@ void check_manifest(const Manifest& m, const std::filesystem::path& file) {
   const Checker c{file};
   c.require(finite(m.offset) && std::isfinite(m.scale) && m.scale >= 0, "its coordinates are not finite");
   c.require(finite(m.camera), "the camera is not finite");
+  std::visit(
+      [&](const auto& camera) {
+        if constexpr (requires { camera.lens; })
+          c.require(camera.lens.radius >= 0 && camera.lens.focal_distance > 0,
+                    "the lens has a negative radius or nothing in focus in front of it");
+      },
+      m.camera);
   c.require(m.settings.samples_per_pixel > 0 && m.settings.max_depth >= 0,
             "the samples a pixel or the depth is out of range");
   check_film(c, m.film);

@@ -37,7 +37,8 @@ std::uint64_t hash_from(const Json& j) {
 }
 
 // The kinds of a variant, in the order of its alternatives.
-constexpr std::array camera_kinds{"perspective", "orthographic"};
+constexpr std::array camera_kinds{"perspective", "orthographic", "spherical"};
+constexpr std::array sphere_kinds{"equal area", "latitude longitude"};
 constexpr std::array filter_kinds{"box", "triangle", "gaussian", "mitchell", "sinc"};
 
 template <std::size_t n>
@@ -71,10 +72,17 @@ Filter filter_from_json(const Json& j) {
 bundle::Camera camera_from_json(const Json& j) {
   Transform t;
   for (std::size_t i = 0; i < 16; ++i) t.m[i / 4][i % 4] = j.at("camera_to_world").at(i).get<double>();
+  const std::size_t kind = kind_index(j, camera_kinds);
+  if (kind == 2)
+    return SphericalCamera{
+        t, static_cast<SphericalCamera::Projection>(kind_index(j.at("projection"), sphere_kinds))};
   const auto s = [&](std::size_t i) { return j.at("screen").at(i).get<double>(); };
   const ScreenWindow screen{s(0), s(1), s(2), s(3)};
-  if (kind_index(j, camera_kinds) == 0) return PerspectiveCamera{t, screen};
-  return OrthographicCamera{t, screen};
+  Lens lens;
+  if (j.contains("lens"))
+    lens = {j["lens"].at("radius").get<double>(), j["lens"].at("focal_distance").get<double>()};
+  if (kind == 0) return PerspectiveCamera{t, screen, lens};
+  return OrthographicCamera{t, screen, lens};
 }
 
 FilmSettings film_from_json(const Json& j) {
@@ -132,7 +140,13 @@ Json camera_to_json(const bundle::Camera& camera) {
       [&](const auto& c) {
         for (const auto& row : c.camera_to_world.m)
           for (const double x : row) j["camera_to_world"].push_back(x);
-        j["screen"] = {c.screen.x0, c.screen.x1, c.screen.y0, c.screen.y1};
+        if constexpr (requires { c.projection; }) {
+          j["projection"] = {{"kind", sphere_kinds.at(static_cast<std::size_t>(c.projection))}};
+        } else {
+          j["screen"] = {c.screen.x0, c.screen.x1, c.screen.y0, c.screen.y1};
+          if (c.lens != Lens{})
+            j["lens"] = {{"radius", c.lens.radius}, {"focal_distance", c.lens.focal_distance}};
+        }
       },
       camera);
   return j;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <array>
 #include <numbers>
 
 #include "bundle/census.h"
@@ -103,9 +104,14 @@ Report describe_requirements(const Manifest& m) {
           {"interfaces", r.interfaces ? materials_that(m, "are interfaces", interface) : "no"}};
 }
 
+const char* camera_kind(const bundle::Camera& camera) {
+  constexpr std::array kinds{"perspective", "orthographic", "spherical"};
+  return kinds.at(camera.index());
+}
+
 Report describe_view(const Manifest& m) {
   const FilmSettings& f = m.film;
-  return {{"camera", std::holds_alternative<PerspectiveCamera>(m.camera) ? "perspective" : "orthographic"},
+  return {{"camera", camera_kind(m.camera)},
           {"pixels", fmt::format("{} × {}", f.width, f.height)},
           {"crop", {f.crop.x0, f.crop.x1, f.crop.y0, f.crop.y1}},
           {"samples_per_pixel", m.settings.samples_per_pixel},

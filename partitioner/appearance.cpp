@@ -279,23 +279,6 @@ struct LightReducer {
   }
 };
 
-bundle::Camera reduce_camera(const Scene& scene, Notes& report) {
-  const auto without_lens = [&](auto camera) -> bundle::Camera {
-    if (camera.lens.radius > 0)
-      report.approximated("the lens becomes a pinhole: everything is in focus", scene.camera_origin);
-    camera.lens = {};
-    return camera;
-  };
-  if (const auto* perspective = std::get_if<PerspectiveCamera>(&scene.camera))
-    return without_lens(*perspective);
-  if (const auto* orthographic = std::get_if<OrthographicCamera>(&scene.camera))
-    return without_lens(*orthographic);
-  report.dropped("a spherical camera is not supported: a perspective camera at its place stands for it",
-                 scene.camera_origin);
-  const double aspect = static_cast<double>(scene.film.width) / scene.film.height;
-  return PerspectiveCamera{std::get<SphericalCamera>(scene.camera).camera_to_world, {-aspect, aspect, -1, 1}};
-}
-
 }  // namespace
 
 Appearance appearance_of(const Scene& scene) {
@@ -317,11 +300,7 @@ Appearance appearance_of(const Scene& scene) {
   for (const std::uint32_t id : media)
     report.dropped(fmt::format("medium \"{}\": light passes it unchanged", scene.media.at(id).name),
                    scene.media[id].origin);
-  result.camera = reduce_camera(scene, report);
-  const bool has_lobes = std::holds_alternative<MitchellFilter>(scene.film.filter) ||
-                         std::holds_alternative<SincFilter>(scene.film.filter);
-  if (has_lobes)
-    report.approximated("the negative lobes of the pixel filter are left out", scene.film_origin);
+  result.camera = scene.camera;
   return result;
 }
 

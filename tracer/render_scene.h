@@ -5,6 +5,7 @@
 #include "bundle/manifest.h"
 #include "tracer/camera.h"
 #include "tracer/lights.h"
+#include "tracer/pixel_filter.h"
 
 namespace vitrail {
 

@@ -19,7 +19,7 @@ struct SampleKey {
 // (seed, pixel, set). Sets are statistically independent of each other.
 std::array<float, 4> sample_4d(const SampleKey& key, std::uint32_t set);
 
-// Which set is for what: one for the camera, two a bounce.
+// Which set is for what: one or two for the camera, two a bounce.
 namespace sample_set {
 inline constexpr std::uint32_t camera = 0;  // film x, film y, wavelength, unused
 constexpr std::uint32_t scatter(std::uint32_t depth) {
@@ -28,6 +28,7 @@ constexpr std::uint32_t scatter(std::uint32_t depth) {
 constexpr std::uint32_t light(std::uint32_t depth) {
   return 2 + 2 * depth;
 }  // point u, v, which light, which kind
+inline constexpr std::uint32_t lens = 0xffffffffu;  // point u, v, unused, unused
 }  // namespace sample_set
 
 }  // namespace vitrail
