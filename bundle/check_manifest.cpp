@@ -155,6 +155,13 @@ void check_media(const Checker& c, const Manifest& m) {
 void check_manifest(const Manifest& m, const std::filesystem::path& file) {
   const Checker c{file};
   c.require(finite(m.offset) && std::isfinite(m.scale) && m.scale >= 0, "its coordinates are not finite");
+  std::visit(
+      [&](const auto& camera) {
+        if constexpr (requires { camera.lens; })
+          c.require(camera.lens.radius >= 0 && camera.lens.focal_distance > 0,
+                    "the lens has a negative radius or nothing in focus in front of it");
+      },
+      m.camera);
   c.require(m.settings.samples_per_pixel > 0 && m.settings.max_depth >= 0,
             "the samples a pixel or the depth is out of range");
   check_film(c, m.film);

@@ -38,7 +38,7 @@ std::uint64_t hash_from(const Json& j) {
 
 // The kinds of a variant, in the order of its alternatives.
 constexpr std::array camera_kinds{"perspective", "orthographic", "spherical"};
-constexpr std::array projection_kinds{"equal-area", "latitude-longitude"};
+constexpr std::array sphere_kinds{"equal area", "latitude longitude"};
 constexpr std::array filter_kinds{"box", "triangle", "gaussian", "mitchell", "sinc"};
 
 template <std::size_t n>
@@ -73,14 +73,14 @@ Camera camera_from_json(const Json& j) {
   Transform t;
   for (std::size_t i = 0; i < 16; ++i) t.m[i / 4][i % 4] = j.at("camera_to_world").at(i).get<double>();
   const std::size_t kind = kind_index(j, camera_kinds);
-  if (kind == 2) {
-    const bool equal_area = j.at("projection") == projection_kinds[0];
-    return SphericalCamera{t, equal_area ? SphericalCamera::Projection::equal_area
-                                         : SphericalCamera::Projection::latitude_longitude};
-  }
+  if (kind == 2)
+    return SphericalCamera{
+        t, static_cast<SphericalCamera::Projection>(kind_index(j.at("projection"), sphere_kinds))};
   const auto s = [&](std::size_t i) { return j.at("screen").at(i).get<double>(); };
   const ScreenWindow screen{s(0), s(1), s(2), s(3)};
-  const Lens lens{j.at("lens_radius").get<double>(), j.at("focal_distance").get<double>()};
+  Lens lens;
+  if (j.contains("lens"))
+    lens = {j["lens"].at("radius").get<double>(), j["lens"].at("focal_distance").get<double>()};
   if (kind == 0) return PerspectiveCamera{t, screen, lens};
   return OrthographicCamera{t, screen, lens};
 }
@@ -162,12 +162,12 @@ Json camera_to_json(const Camera& camera) {
       [&](const auto& c) {
         for (const auto& row : c.camera_to_world.m)
           for (const double x : row) j["camera_to_world"].push_back(x);
-        if constexpr (requires { c.screen; }) {
-          j["screen"] = {c.screen.x0, c.screen.x1, c.screen.y0, c.screen.y1};
-          j["lens_radius"] = c.lens.radius;
-          j["focal_distance"] = c.lens.focal_distance;
+        if constexpr (requires { c.projection; }) {
+          j["projection"] = {{"kind", sphere_kinds.at(static_cast<std::size_t>(c.projection))}};
         } else {
-          j["projection"] = projection_kinds.at(static_cast<std::size_t>(c.projection));
+          j["screen"] = {c.screen.x0, c.screen.x1, c.screen.y0, c.screen.y1};
+          if (c.lens != Lens{})
+            j["lens"] = {{"radius", c.lens.radius}, {"focal_distance", c.lens.focal_distance}};
         }
       },
       camera);

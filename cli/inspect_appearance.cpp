@@ -92,14 +92,13 @@ Report describe_media(const Scene& scene) {
 
 Report describe_needs(const Scene& scene) {
   Report needs;
-  needs["materials_beyond_diffuse_and_smooth_glass"] = yes_or_no(
-      kinds_beyond(scene.materials, [](const Material& m) { return kind_of(m.model); },
-                   {"diffuse", "dielectric", "interface"}));
-  needs["textures"] = yes_or_no(
-      kinds_beyond(scene.textures, [](const Texture& t) { return kind_of(t.model); }, {}));
-  needs["lights_beyond_point_distant_and_constant"] =
-      yes_or_no(kinds_beyond(scene.lights, [](const Light& l) { return kind_of(l.model); },
-                             {"point", "distant", "infinite"}));
+  needs["materials_beyond_diffuse_and_smooth_glass"] =
+      yes_or_no(kinds_beyond(scene.materials, [](const Material& m) { return kind_of(m.model); },
+                             {"diffuse", "dielectric", "interface"}));
+  needs["textures"] =
+      yes_or_no(kinds_beyond(scene.textures, [](const Texture& t) { return kind_of(t.model); }, {}));
+  needs["lights_beyond_point_distant_and_constant"] = yes_or_no(kinds_beyond(
+      scene.lights, [](const Light& l) { return kind_of(l.model); }, {"point", "distant", "infinite"}));
   needs["media"] = yes_or_no(scene.media.empty() ? "" : fmt::format("{} of them", scene.media.size()));
   needs["instances"] =
       yes_or_no(scene.instances.empty()

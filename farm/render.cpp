@@ -48,8 +48,9 @@ Manifest read_with_overrides(const RenderOptions& options) {
 
 // Of what changes the picture and is neither in the scene hash nor the seed or the sample count.
 std::uint64_t settings_hash(const Manifest& m) {
-  const std::int32_t values[] = {m.settings.max_depth, m.settings.direct_only, m.settings.straight_counts, m.film.crop.x0,
-                                 m.film.crop.x1,       m.film.crop.y0,         m.film.crop.y1};
+  const std::int32_t values[] = {m.settings.max_depth, m.settings.direct_only, m.settings.straight_counts,
+                                 m.film.crop.x0,       m.film.crop.x1,         m.film.crop.y0,
+                                 m.film.crop.y1};
   return XXH3_64bits(values, sizeof values);
 }
 
@@ -75,8 +76,8 @@ Job set_up(const RenderOptions& options) {
   const WorkPlan plan =
       make_work_plan(manifest.film.crop, static_cast<std::uint32_t>(manifest.settings.samples_per_pixel));
   const std::uint64_t textures = texture_budget(manifest, options.memory_bytes);
-  return {std::make_unique<RenderScene>(std::move(manifest), options.bundle, textures, options.seed), std::move(film),
-          plan, textures};
+  return {std::make_unique<RenderScene>(std::move(manifest), options.bundle, textures, options.seed),
+          std::move(film), plan, textures};
 }
 
 MemoryPlan plan_for(const Manifest& manifest, const RenderOptions& options, int threads, std::uint64_t base) {

@@ -95,9 +95,8 @@ void bake_materials(const Scene& scene, const Used& used, TextureBaker& textures
     result.materials.push_back(std::move(baked.material));
     const std::string name = material.name.empty() ? "" : fmt::format(" \"{}\"", material.name);
     for (const std::string& note : baked.notes)
-      report.approximated(
-          fmt::format("material{} ({}): {}", name, kind_of(material.model), note),
-          material.origin);
+      report.approximated(fmt::format("material{} ({}): {}", name, kind_of(material.model), note),
+                          material.origin);
     return true;
   });
 }
@@ -160,7 +159,8 @@ Appearance appearance_of(const Scene& scene, const std::filesystem::path& bundle
     return true;
   });
   for (const Light& light : scene.lights)
-    result.lights.push_back({std::visit(LightBaker{textures, location(scene, light.origin)}, light.model), {}});
+    result.lights.push_back(
+        {std::visit(LightBaker{textures, location(scene, light.origin)}, light.model), {}});
   result.attributes = textures.attributes();
   result.texture_files = textures.files();
   result.textures = textures.take_textures();

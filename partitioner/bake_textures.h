@@ -20,8 +20,8 @@ namespace vitrail {
 // `resolved`; images keep mapping, wrap and filter, and name a file of the bundle: "textures/000003.tex".
 class TextureBaker {
  public:
-  // Where `bundle` is empty nothing is written. Makes `bundle`/textures where there is something to put in it. What cannot be said exactly is added to
-  // the diagnostics. The scene and the diagnostics outlive it.
+  // Where `bundle` is empty nothing is written. Makes `bundle`/textures where there is something to put in
+  // it. What cannot be said exactly is added to the diagnostics. The scene and the diagnostics outlive it.
   TextureBaker(const Scene& scene, std::filesystem::path bundle, Diagnostics& diagnostics);
 
   // These throw Error, with the texture's place in the scene file, for images that cannot be read, and

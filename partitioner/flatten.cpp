@@ -129,8 +129,8 @@ void place_normals(const Placement& p, FlatScene& flat) {
 void place_uvs(const Placement& p, FlatScene& flat) {
   if (p.mesh->uvs.empty()) {  // pbrt's, which every triangle has
     for (std::size_t i = 0; i < p.mesh->triangles.size(); ++i)
-      flat.uvs[p.first_triangle + i] = {{{0, 0}, p.flip ? Point2f{1, 1} : Point2f{1, 0},
-                                         p.flip ? Point2f{1, 0} : Point2f{1, 1}}};
+      flat.uvs[p.first_triangle + i] = {
+          {{0, 0}, p.flip ? Point2f{1, 1} : Point2f{1, 0}, p.flip ? Point2f{1, 0} : Point2f{1, 1}}};
     return;
   }
   tbb::parallel_for(Range(0, p.mesh->triangles.size(), 8192), [&](const Range& range) {
@@ -152,8 +152,8 @@ void place_attribute(const Placement& p, const TextureBaker::Attribute& slot, co
       for (std::size_t k = 0; k < 3; ++k) {
         const std::size_t at = attribute.per_face ? i : p.mesh->triangles[i][k];
         const float* value = &attribute.values[at * channels];
-        corners[k] =
-            attribute_value({value[0], value[channels > 1 ? 1 : 0], value[channels > 2 ? 2 : 0]}, slot.use, fitter);
+        corners[k] = attribute_value({value[0], value[channels > 1 ? 1 : 0], value[channels > 2 ? 2 : 0]},
+                                     slot.use, fitter);
       }
       if (p.flip) std::swap(corners[1], corners[2]);
     }

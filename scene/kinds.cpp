@@ -26,15 +26,15 @@ const char* kind_of(const TextureModel& model) {
 }
 
 const char* kind_of(const MaterialModel& model) {
-  return name_of(model, std::array{"diffuse", "dielectric", "thin dielectric", "conductor", "plastic",
-                                   "coated diffuse", "coated conductor", "diffuse transmission",
-                                   "principled", "subsurface", "hair", "measured", "interface", "blend",
-                                   "mask", "two-sided"});
+  return name_of(
+      model, std::array{"diffuse", "dielectric", "thin dielectric", "conductor", "plastic", "coated diffuse",
+                        "coated conductor", "diffuse transmission", "principled", "subsurface", "hair",
+                        "measured", "interface", "blend", "mask", "two-sided"});
 }
 
 const char* kind_of(const LightModel& model) {
-  return name_of(model, std::array{"point", "spot", "projection", "goniometric", "distant", "infinite",
-                                   "environment"});
+  return name_of(
+      model, std::array{"point", "spot", "projection", "goniometric", "distant", "infinite", "environment"});
 }
 
 const char* kind_of(const Camera& camera) {

@@ -101,6 +101,26 @@ Bsdf BsdfMaker::operator()(const PlasticMaterial& m) const {
                           m.nonlinear};
 }
 
+LayerVolume BsdfMaker::coating(const CoatingVolume& v) const {
+  return {number(v.thickness), number(v.g), spectrum(v.albedo), v.max_depth, v.samples};
+}
+
+Bsdf BsdfMaker::operator()(const CoatedDiffuseMaterial& m) const {
+  return CoatedDiffuseBsdf{spectrum(m.reflectance),
+                           evaluate(m.eta, static_cast<double>(wavelengths.lambda_nm[0])),
+                           microfacets(m.roughness, Masking::correlated), coating(m.volume)};
+}
+
+Bsdf BsdfMaker::operator()(const CoatedConductorMaterial& m) const {
+  const ConductorBsdf base = metal(m.metal);
+  return CoatedConductorBsdf{base.eta,
+                             base.k,
+                             microfacets(m.conductor_roughness, Masking::correlated),
+                             evaluate(m.interface_eta, static_cast<double>(wavelengths.lambda_nm[0])),
+                             microfacets(m.interface_roughness, Masking::correlated),
+                             coating(m.volume)};
+}
+
 Bsdf BsdfMaker::operator()(const DiffuseTransmissionMaterial& m) const {
   return DiffuseTransmissionBsdf{spectrum(m.reflectance) * m.scale, spectrum(m.transmittance) * m.scale};
 }
@@ -109,13 +129,22 @@ Bsdf BsdfMaker::operator()(const PrincipledMaterial& m) const {
   const SampledSpectrum color = spectrum(m.base_color);
   const auto n = [&](const FloatParameter& p) { return number(p); };
   if (m.thin)
-    return PrincipledThinBsdf{color,           mean(color),       static_cast<double>(m.eta),
-                              n(m.roughness),  n(m.anisotropic),  n(m.spec_trans),
-                              n(m.spec_tint),  n(m.sheen),        n(m.sheen_tint),
-                              n(m.flatness),   n(m.diff_trans)};
-  return PrincipledBsdf{color,          mean(color),      static_cast<double>(m.eta), n(m.roughness),
-                        n(m.anisotropic), n(m.metallic),  n(m.spec_trans),            n(m.spec_tint),
-                        n(m.sheen),     n(m.sheen_tint),  n(m.flatness),              n(m.clearcoat),
+    return PrincipledThinBsdf{color,          mean(color),      static_cast<double>(m.eta),
+                              n(m.roughness), n(m.anisotropic), n(m.spec_trans),
+                              n(m.spec_tint), n(m.sheen),       n(m.sheen_tint),
+                              n(m.flatness),  n(m.diff_trans)};
+  return PrincipledBsdf{color,
+                        mean(color),
+                        static_cast<double>(m.eta),
+                        n(m.roughness),
+                        n(m.anisotropic),
+                        n(m.metallic),
+                        n(m.spec_trans),
+                        n(m.spec_tint),
+                        n(m.sheen),
+                        n(m.sheen_tint),
+                        n(m.flatness),
+                        n(m.clearcoat),
                         n(m.clearcoat_gloss)};
 }
 

@@ -23,6 +23,8 @@ struct BsdfMaker {
   Bsdf operator()(const ThinDielectricMaterial& m) const { return thin(m); }
   Bsdf operator()(const ConductorMaterial& m) const;
   Bsdf operator()(const PlasticMaterial& m) const;
+  Bsdf operator()(const CoatedDiffuseMaterial& m) const;
+  Bsdf operator()(const CoatedConductorMaterial& m) const;
   Bsdf operator()(const DiffuseTransmissionMaterial& m) const;
   Bsdf operator()(const PrincipledMaterial& m) const;
   // Those that are made of others, and those that bundles do not have: black.
@@ -35,6 +37,7 @@ struct BsdfMaker {
   double number(const FloatParameter& p) const;
   Microfacets microfacets(const Roughness& r, Masking masking) const;
   ConductorBsdf metal(const Metal& metal) const;
+  LayerVolume coating(const CoatingVolume& v) const;
 };
 
 }  // namespace vitrail

@@ -1,90 +1,101 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tracer/camera.h"
 
+#include <cmath>
+
 #include "tracer/portable_math.h"
 
 namespace vitrail {
 
 namespace {
 
-// The filter along one axis at distance x from its centre, not normalised.
-double value(const TriangleFilter&, double radius, double x) { return std::max(0.0, radius - std::abs(x)); }
-double value(const GaussianFilter& f, double radius, double x) {
-  const auto gauss = [&](double d) {
-    return portable_exp(std::max(-700.0, -d * d / (2 * f.sigma * f.sigma)));
-  };
-  return std::max(0.0, gauss(x) - gauss(radius));
+// Of camera space.
+struct LocalRay {
+  Point3d origin;
+  Vector3d direction;  // not 0, of any length
+};
+
+Point2d on_screen(const ScreenWindow& s, const FilmSettings& film, Point2d raster) {
+  return {s.x0 + raster.x / film.width * (s.x1 - s.x0), s.y1 - raster.y / film.height * (s.y1 - s.y0)};
 }
 
-// The negative lobes of the next two cannot be sampled by importance: they are left out.
-
-// Mitchell and Netravali 1988, eq. 8, with x stretched so that it ends at the radius.
-double value(const MitchellFilter& f, double radius, double x) {
-  const double b = f.b, c = f.c, t = 2 * std::abs(x) / radius;
-  const double inner = ((12 - 9 * b - 6 * c) * t + (-18 + 12 * b + 6 * c)) * t * t + (6 - 2 * b);
-  const double outer =
-      (((-b - 6 * c) * t + (6 * b + 30 * c)) * t + (-12 * b - 48 * c)) * t + (8 * b + 24 * c);
-  return std::max(0.0, t < 1 ? inner : t < 2 ? outer : 0.0);
+// Through a point of the lens to where the ray of the pinhole meets the plane in focus.
+LocalRay through_lens(const Lens& lens, LocalRay ray, Point2d u) {
+  if (!(lens.radius > 0)) return ray;
+  const Point2d p = concentric_disk(u);
+  const Point3d start{lens.radius * p.x, lens.radius * p.y, 0};
+  return {start, ray.origin + lens.focal_distance * ray.direction - start};
 }
 
-double sinc(double x) { return std::abs(x) < 1e-5 ? 1 : sin_pi(x) / (pi * x); }
-double value(const SincFilter& f, double, double x) { return std::max(0.0, sinc(x) * sinc(x / f.tau)); }
+LocalRay local_ray(const PerspectiveCamera& camera, const FilmSettings& film, Point2d raster, Point2d lens) {
+  const Point2d p = on_screen(camera.screen, film, raster);
+  return through_lens(camera.lens, {{0, 0, 0}, {p.x, p.y, 1}}, lens);
+}
+
+LocalRay local_ray(const OrthographicCamera& camera, const FilmSettings& film, Point2d raster, Point2d lens) {
+  const Point2d p = on_screen(camera.screen, film, raster);
+  return through_lens(camera.lens, {{p.x, p.y, 0}, {0, 0, 1}}, lens);
+}
+
+// Over the edges of the octahedral square one comes back half a turn on.
+Point2d wrapped(Point2d p) {
+  if (p.x < 0 || p.x > 1) p = {p.x < 0 ? -p.x : 2 - p.x, 1 - p.y};
+  if (p.y < 0 || p.y > 1) p = {1 - p.x, p.y < 0 ? -p.y : 2 - p.y};
+  return p;
+}
+
+// The square [0,1]² to the sphere, area by area, +z in the middle (Clarberg 2008).
+Vector3d equal_area_direction(Point2d p) {
+  const double u = 2 * p.x - 1, v = 2 * p.y - 1;
+  const double au = std::abs(u), av = std::abs(v);
+  const double inside = 1 - (au + av);  // > 0: the upper hemisphere
+  const double r = 1 - std::abs(inside);
+  const double phi = r > 0 ? pi / 4 * ((av - au) / r + 1) : 0;  // |av − au| ≤ r
+  const double sine = r * std::sqrt(std::max(0.0, 2 - r * r));
+  return {std::copysign(sine * portable_cos(phi), u), std::copysign(sine * portable_sin(phi), v),
+          std::copysign(1 - r * r, inside)};
+}
+
+Vector3d latitude_longitude_direction(Point2d p) {
+  const double theta = pi * p.y, phi = 2 * pi * p.x;
+  const double sine = portable_sin(theta);
+  return {sine * portable_cos(phi), sine * portable_sin(phi), portable_cos(theta)};
+}
+
+LocalRay local_ray(const SphericalCamera& camera, const FilmSettings& film, Point2d raster, Point2d) {
+  const Point2d p{raster.x / film.width, raster.y / film.height};
+  const Vector3d up_is_z = camera.projection == SphericalCamera::Projection::equal_area
+                               ? equal_area_direction(wrapped(p))
+                               : latitude_longitude_direction(p);
+  return {{0, 0, 0}, {up_is_z.x, up_is_z.z, up_is_z.y}};
+}
 
 }  // namespace
 
-FilterSampler::FilterSampler(const Filter& filter) {
-  std::visit(
-      [&](const auto& f) {
-        x_.radius = f.radius_x;
-        y_.radius = f.radius_y;
-        if constexpr (!std::is_same_v<std::decay_t<decltype(f)>, BoxFilter>) {
-          for (Axis* axis : {&x_, &y_}) {
-            axis->cumulative.assign(resolution + 1, 0);
-            const double step = 2 * axis->radius / resolution;
-            for (std::size_t i = 0; i < resolution; ++i)
-              axis->cumulative[i + 1] =
-                  axis->cumulative[i] +
-                  value(f, axis->radius, (static_cast<double>(i) + 0.5) * step - axis->radius);
-            const double total = axis->cumulative.back();
-            if (!(total > 0)) axis->cumulative.clear();
-            for (double& c : axis->cumulative) c /= total;
-          }
-        }
+Point2d concentric_disk(Point2d u) {
+  const double x = 2 * u.x - 1, y = 2 * u.y - 1;
+  if (x == 0 && y == 0) return {0, 0};
+  const bool wide = std::abs(x) > std::abs(y);  // the larger of the two, which divides, is not 0
+  const double radius = wide ? x : y;
+  const double angle = wide ? pi / 4 * (y / x) : pi / 2 - pi / 4 * (x / y);
+  return {radius * portable_cos(angle), radius * portable_sin(angle)};
+}
+
+bool has_lens(const Camera& camera) {
+  if (const auto* perspective = std::get_if<PerspectiveCamera>(&camera)) return perspective->lens.radius > 0;
+  if (const auto* orthographic = std::get_if<OrthographicCamera>(&camera))
+    return orthographic->lens.radius > 0;
+  return false;
+}
+
+CameraRay camera_ray(const Camera& camera, const FilmSettings& film, Point2d raster, Point2d lens) {
+  return std::visit(
+      [&](const auto& c) -> CameraRay {
+        const LocalRay ray = local_ray(c, film, raster, lens);
+        return {cast<float>(transform_point(c.camera_to_world, ray.origin)),
+                encode_direction(transform_vector(c.camera_to_world, ray.direction))};
       },
-      filter);
-}
-
-double FilterSampler::Axis::sample(double u) const {
-  if (cumulative.empty()) return (2 * u - 1) * radius;
-  const auto above = std::upper_bound(cumulative.begin() + 1, cumulative.end() - 1, u);
-  const auto bin = static_cast<std::size_t>(above - cumulative.begin()) - 1;
-  const double width = cumulative[bin + 1] - cumulative[bin];
-  const double within = width > 0 ? std::clamp((u - cumulative[bin]) / width, 0.0, 1.0) : 0.5;
-  return (static_cast<double>(bin) + within) * (2 * radius / resolution) - radius;
-}
-
-Point2d FilterSampler::sample(float u, float v) const {
-  return {x_.sample(static_cast<double>(u)), y_.sample(static_cast<double>(v))};
-}
-
-CameraRay camera_ray(const Camera& camera, const FilmSettings& film, Point2d raster) {
-  const auto on_screen = [&](const ScreenWindow& s) {
-    return Point2d{s.x0 + raster.x / film.width * (s.x1 - s.x0),
-                   s.y1 - raster.y / film.height * (s.y1 - s.y0)};
-  };
-  Point3d origin;
-  Vector3d direction;
-  if (const auto* perspective = std::get_if<PerspectiveCamera>(&camera)) {
-    const Point2d p = on_screen(perspective->screen);
-    origin = transform_point(perspective->camera_to_world, {0, 0, 0});
-    direction = transform_vector(perspective->camera_to_world, {p.x, p.y, 1});
-  } else {
-    const auto& orthographic = std::get<OrthographicCamera>(camera);
-    const Point2d p = on_screen(orthographic.screen);
-    origin = transform_point(orthographic.camera_to_world, {p.x, p.y, 0});
-    direction = transform_vector(orthographic.camera_to_world, {0, 0, 1});
-  }
-  return {cast<float>(origin), encode_direction(direction)};
+      camera);
 }
 
 }  // namespace vitrail

@@ -6,30 +6,19 @@
 
 namespace vitrail {
 
-// Inverse cumulative distributions of a separable reconstruction filter, so that a sample lands in one pixel
-// with weight 1 (Ernst, Stamminger & Greiner 2006).
-class FilterSampler {
- public:
-  explicit FilterSampler(const Filter& filter);
-  // Offset from the pixel's centre, in pixels, for u, v in [0,1).
-  Point2d sample(float u, float v) const;
-
- private:
-  static constexpr std::size_t resolution = 256;
-  struct Axis {
-    double radius = 0;
-    std::vector<double> cumulative;  // resolution + 1 values from 0 to 1; empty: uniform
-    double sample(double u) const;
-  };
-  Axis x_, y_;
-};
-
 struct CameraRay {
   Point3f origin;
   DirectionCode direction;
 };
 
-// The ray through raster position (x, y), in pixels of the whole film from the top left.
-CameraRay camera_ray(const Camera& camera, const FilmSettings& film, Point2d raster);
+// Whether rays of the camera need a point of its lens.
+bool has_lens(const Camera& camera);
+
+// The ray through raster position (x, y), in pixels of the whole film from the top left. `lens`, in [0,1)²,
+// chooses the point of the lens, if there is one.
+CameraRay camera_ray(const Camera& camera, const FilmSettings& film, Point2d raster, Point2d lens);
+
+// The square [0,1]² to the unit disk, area by area, neighbours staying neighbours (Shirley & Chiu 1997).
+Point2d concentric_disk(Point2d u);
 
 }  // namespace vitrail

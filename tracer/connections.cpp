@@ -125,8 +125,7 @@ bool PathTracer::connect_onwards(Path& path) {
   const Interaction at = interaction_at(path);
   const Surface& surface = surface_of(manifest_, path.hit.triangle);
   const MaterialKind& kind = scene_.materials.kind(surface.material);
-  const double left =
-      refracts ? 0 : path.travelled - path.hit.t * length(cast<double>(path.ray.direction));
+  const double left = refracts ? 0 : path.travelled - path.hit.t * length(cast<double>(path.ray.direction));
   if (!refracts && left <= 0) {
     deposit(path.pixel, path.sample, path.sensor, path.throughput);
     return false;
@@ -144,8 +143,8 @@ bool PathTracer::connect_onwards(Path& path) {
     set_end(path, left);
   }
   if (kind.is_interface) return true;
-  return path.depth <= (refracts ? max_surfaces_crossed
-                                 : static_cast<std::uint32_t>(manifest_.settings.max_depth));
+  return path.depth <=
+         (refracts ? max_surfaces_crossed : static_cast<std::uint32_t>(manifest_.settings.max_depth));
 }
 
 bool PathTracer::refract_connection(Path& path, const Interaction& at, const Surface& surface) const {

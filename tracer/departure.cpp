@@ -24,9 +24,10 @@ std::uint64_t PathTracer::stream_of(const Path& path) const {
 // On the other side of a surface, as if it was not there. Connections go through it too, so the path keeps
 // the density of the scattering that it comes from.
 void PathTracer::pass_straight(Path& path, const Interaction& at, const Surface& surface) const {
-  path.travelled = path.pdf > 0 ? static_cast<double>(rounded_radiance(static_cast<float>(
-                                      path.travelled + path.hit.t * length(cast<double>(path.ray.direction)))))
-                                : 0;
+  path.travelled = path.pdf > 0
+                       ? static_cast<double>(rounded_radiance(static_cast<float>(
+                             path.travelled + path.hit.t * length(cast<double>(path.ray.direction)))))
+                       : 0;
   continue_straight(path, at, surface);
 }
 
@@ -84,8 +85,9 @@ double PathTracer::cone_unit() const { return std::max(1e-30, static_cast<double
 // Tracing", 2019): it widens by the angle of a pixel, and after a scattering by a tenth of the width of a
 // lobe of that density.
 double PathTracer::cone_width(const Path& path) const {
-  const double angle = path.pdf > 0 ? std::max(scene_.pixel_angle, 0.1 / std::sqrt(static_cast<double>(path.pdf)))
-                                    : scene_.pixel_angle;
+  const double angle = path.pdf > 0
+                           ? std::max(scene_.pixel_angle, 0.1 / std::sqrt(static_cast<double>(path.pdf)))
+                           : scene_.pixel_angle;
   return cone_value(path.cone) * cone_unit() + std::min(angle, 1.0) * path.hit.t;
 }
 

@@ -37,7 +37,8 @@ Vector3d bumped(const FloatParameter& height, const Interaction& at, Vector3d n,
     return (textures.number(height, moved) - here) / step;
   };
   const auto along_surface = [&](Vector3d d) { return d - n * dot(n, d); };
-  const Vector3d u = along_surface(at.dpdu) + n * slope(step, 0), v = along_surface(at.dpdv) + n * slope(0, step);
+  const Vector3d u = along_surface(at.dpdu) + n * slope(step, 0),
+                 v = along_surface(at.dpdv) + n * slope(0, step);
   const Vector3d turned = normalize(cross(u, v));
   return dot(turned, n) < 0 ? -turned : turned;
 }
@@ -151,8 +152,9 @@ std::optional<Scattering> Materials::scattering_at(const Material& material, con
   const bool both_sides = transmits(material.model);
   if (!both_sides && !material.two_sided && !at.front) return std::nullopt;
   const Vector3d normal = shading_normal(material, at);
-  const BsdfMaker maker{textures_, at.texture_point(), wavelengths, at.front,
-                        plastic_tables_.empty() ? nullptr : &plastic_tables_[plastic_table_[index_of(material)]]};
+  const BsdfMaker maker{
+      textures_, at.texture_point(), wavelengths, at.front,
+      plastic_tables_.empty() ? nullptr : &plastic_tables_[plastic_table_[index_of(material)]]};
   return Scattering{std::visit(maker, material.model),
                     frame_around(normal, at, both_sides ? 1.0 : at.side())};
 }

@@ -11,9 +11,9 @@ struct PathTracer::Path {
   std::uint32_t pixel = 0, sample = 0;
   std::uint32_t depth = 0;
   std::uint8_t flags = 0;
-  float pdf = 0;        // of the last scattering, solid angle, already rounded; 0: specular or camera
-  FaceCode entered_by;  // in a pane: the face it came in through
-  double travelled = 0;  // since the last scattering, straight through surfaces; already rounded
+  float pdf = 0;            // of the last scattering, solid angle, already rounded; 0: specular or camera
+  FaceCode entered_by;      // in a pane: the face it came in through
+  double travelled = 0;     // since the last scattering, straight through surfaces; already rounded
   std::uint8_t medium = 0;  // index + 1, 0: vacuum
   std::uint8_t cone = 0;    // cone_code
   SampledSpectrum throughput;
@@ -41,6 +41,5 @@ struct PathTracer::Path {
     throughput = {{throughput[0] * hero_count, 0, 0, 0}};
   }
 };
-
 
 }  // namespace vitrail

@@ -36,16 +36,27 @@ SampleKey PathTracer::key_of(std::uint32_t pixel, std::uint32_t sample) const {
   return {scene_.seed, y * static_cast<std::uint32_t>(film_.full_width()) + x, sample};
 }
 
+// Of a sample whose numbers for the camera are `camera`.
+SensorWeights PathTracer::sensor_of(const std::array<float, 4>& camera,
+                                    const SampledWavelengths& wavelengths) const {
+  return sensor_weights(wavelengths, scene_.filter.weight(camera[0], camera[1]));
+}
+
 void PathTracer::trace_camera(int x, int y, std::uint32_t sample) {
   Path path;
   path.pixel = static_cast<std::uint32_t>((y - film_.crop().y0) * film_.width() + x - film_.crop().x0);
   path.sample = sample;
   const std::array<float, 4> u = sample_4d(key_of(path.pixel, sample), sample_set::camera);
-  const Point2d offset = scene_.filter.sample(u[0], u[1]);
+  const Point2d offset = scene_.filter.sample(u[0], u[1]).offset;
+  Point2d lens;
+  if (has_lens(manifest_.camera)) {
+    const std::array<float, 4> point = sample_4d(key_of(path.pixel, sample), sample_set::lens);
+    lens = {static_cast<double>(point[0]), static_cast<double>(point[1])};
+  }
   const CameraRay ray =
-      camera_ray(manifest_.camera, manifest_.film, {x + 0.5 + offset.x, y + 0.5 + offset.y});
+      camera_ray(manifest_.camera, manifest_.film, {x + 0.5 + offset.x, y + 0.5 + offset.y}, lens);
   path.wavelengths = sample_wavelengths(u[2]);
-  path.sensor = sensor_weights(path.wavelengths);
+  path.sensor = sensor_of(u, path.wavelengths);
   path.throughput = filled(1);
   path.medium = static_cast<std::uint8_t>(manifest_.camera_medium + 1);
   path.direction = ray.direction;
@@ -77,8 +88,9 @@ void PathTracer::resume(const PathRecord& record, std::uint32_t domain) {
   path.hit.t = record.hit_t;
   path.hit.triangle = record.hit_triangle;
   path.hit_domain = record.hit_domain;
-  path.wavelengths = sample_wavelengths(sample_4d(key_of(path.pixel, path.sample), sample_set::camera)[2]);
-  path.sensor = sensor_weights(path.wavelengths);
+  const std::array<float, 4> u = sample_4d(key_of(path.pixel, path.sample), sample_set::camera);
+  path.wavelengths = sample_wavelengths(u[2]);
+  path.sensor = sensor_of(u, path.wavelengths);
   run(path, domain);
 }
 
@@ -190,13 +202,12 @@ void PathTracer::trace_shadow(const ShadowRecord& record, const SensorWeights* w
   }
   SampledSpectrum radiance;
   for (std::size_t i = 0; i < hero_count; ++i) radiance.v[i] = unpack_radiance(record.radiance[i]);
-  if (weights)
+  if (weights) {
     deposit(record.pixel, record.sample, *weights, radiance);
-  else
-    deposit(record.pixel, record.sample,
-            sensor_weights(
-                sample_wavelengths(sample_4d(key_of(record.pixel, record.sample), sample_set::camera)[2])),
-            radiance);
+  } else {
+    const std::array<float, 4> u = sample_4d(key_of(record.pixel, record.sample), sample_set::camera);
+    deposit(record.pixel, record.sample, sensor_of(u, sample_wavelengths(u[2])), radiance);
+  }
   if (at) ++counters_.died;
 }
 

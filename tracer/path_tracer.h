@@ -119,6 +119,7 @@ class PathTracer {
                     std::optional<std::uint32_t> at);
   void deposit(std::uint32_t pixel, std::uint32_t sample, const SensorWeights& weights,
                const SampledSpectrum& radiance);
+  SensorWeights sensor_of(const std::array<float, 4>& camera, const SampledWavelengths& wavelengths) const;
   SampleKey key_of(std::uint32_t pixel, std::uint32_t sample) const;
 
   const RenderScene& scene_;

@@ -23,12 +23,11 @@ inline constexpr std::uint32_t max_domains = 0xffff;
 inline constexpr std::size_t max_media = 254;
 
 enum PathFlags : std::uint8_t {
-  path_dispersed = 1,  // only the hero wavelength is left
-  path_connection =
-      2,  // on its way to a light through what lets light straight through; `throughput` is the radiance that
-          // it will deposit
-  path_resolved = 4,  // the hit is certain: to be shaded in hit_domain
-  path_in_pane = 8,   // inside a dispersive medium, all wavelengths alive: the face it entered by is known
+  path_dispersed = 1,   // only the hero wavelength is left
+  path_connection = 2,  // on its way to a light through what lets light straight through; `throughput` is the
+                        // radiance that it will deposit
+  path_resolved = 4,    // the hit is certain: to be shaded in hit_domain
+  path_in_pane = 8,     // inside a dispersive medium, all wavelengths alive: the face it entered by is known
 };
 
 #pragma pack(push, 1)

@@ -9,6 +9,7 @@
 #include "tracer/lights/light_sampler.h"
 #include "tracer/materials.h"
 #include "tracer/media/medium.h"
+#include "tracer/pixel_filter.h"
 
 namespace vitrail {
 

@@ -47,8 +47,7 @@ void PathTracer::add_environment(const Path& path) {
     const double pdf = static_cast<double>(path.pdf);
     weight = pdf / (pdf + environment_pdf(scene_.lights, path.scattered_from(), direction));
   }
-  deposit(path.pixel, path.sample, path.sensor,
-          path.throughput * radiance * static_cast<float>(weight));
+  deposit(path.pixel, path.sample, path.sensor, path.throughput * radiance * static_cast<float>(weight));
 }
 
 bool PathTracer::shade_surface(Path& path) {
@@ -178,8 +177,9 @@ bool PathTracer::scatter_dielectric(Path& path, const Interaction& at, const Sur
     // Where the shading normal would send light to the wrong side of the surface, its own normal decides.
     if (dot(direction, at.geometric) * side <= 0)
       direction = at.geometric * (2 * dot(at.out, at.geometric)) - at.out;
-    path.throughput = path.throughput * reflectance * static_cast<float>(1 / mean) *
-                      scene_.textures.spectrum(material.reflectance_factor, at.texture_point(), path.wavelengths);
+    path.throughput =
+        path.throughput * reflectance * static_cast<float>(1 / mean) *
+        scene_.textures.spectrum(material.reflectance_factor, at.texture_point(), path.wavelengths);
   } else {
     if (!refract(at.out, normal, hero_eta, direction)) return false;
     if (dot(direction, at.geometric) * side >= 0 &&

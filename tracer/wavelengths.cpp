@@ -52,16 +52,16 @@ SampledWavelengths sample_wavelengths(float u) {
   return result;
 }
 
-SensorWeights sensor_weights(const SampledWavelengths& wavelengths) {
+SensorWeights sensor_weights(const SampledWavelengths& wavelengths, double scale) {
   SensorWeights w;
   for (std::size_t i = 0; i < hero_count; ++i) {
     const double at =
         std::clamp(static_cast<double>(wavelengths.lambda_nm[i]) - lambda_min_nm, 0.0, bins - 1e-9);
     const auto bin = static_cast<std::size_t>(at);
     const double f = at - static_cast<double>(bin);
-    const double scale = 1 / (hero_count * static_cast<double>(wavelengths.pdf[i]) * cie_y_integral_nm);
+    const double each = scale / (hero_count * static_cast<double>(wavelengths.pdf[i]) * cie_y_integral_nm);
     const auto value = [&](std::size_t c) {
-      return static_cast<float>(((1 - f) * cie_1931()[bin][c] + f * cie_1931()[bin + 1][c]) * scale);
+      return static_cast<float>(((1 - f) * cie_1931()[bin][c] + f * cie_1931()[bin + 1][c]) * each);
     };
     w.x[i] = value(0);
     w.y[i] = value(1);

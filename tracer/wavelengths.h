@@ -16,7 +16,8 @@ SampledWavelengths sample_wavelengths(float u);
 struct SensorWeights {
   std::array<float, hero_count> x{}, y{}, z{};
 };
-SensorWeights sensor_weights(const SampledWavelengths& wavelengths);
+// `scale` multiplies them.
+SensorWeights sensor_weights(const SampledWavelengths& wavelengths, double scale = 1);
 
 inline XYZ sense(const SensorWeights& w, const SampledSpectrum& radiance) {
   XYZ sum;

@@ -58,6 +58,11 @@ TEST_F(ManifestFile, EveryFilterAndCamera) {
     EXPECT_EQ(r.film, m.film);
     EXPECT_EQ(r.camera, m.camera);
   }
+  using Projection = SphericalCamera::Projection;
+  for (const Projection projection : {Projection::equal_area, Projection::latitude_longitude}) {
+    m.camera = SphericalCamera{translate({1, 2, 3}), projection};
+    EXPECT_EQ(written_and_read(m).camera, m.camera);
+  }
 }
 
 TEST_F(ManifestFile, WithoutAnyTriangle) {

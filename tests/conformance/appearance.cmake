@@ -2,6 +2,7 @@
 # Pictures of the corpus against those of the renderers that its scenes were written for.
 vitrail_library(corpus_render SOURCES corpus_render.cpp
   LIBRARIES vitrail::test_support nlohmann_json::nlohmann_json fmt::fmt GTest::gtest)
+vitrail_library(nori_scene SOURCES nori_scene.cpp LIBRARIES pugixml::pugixml fmt::fmt)
 
 function(vitrail_appearance_test name)
   vitrail_test(${name} LABEL conformance-appearance TIMEOUT 600 SOURCES ${name}_test.cpp
@@ -12,3 +13,5 @@ function(vitrail_appearance_test name)
 endfunction()
 
 vitrail_appearance_test(mitsuba_reference)
+vitrail_appearance_test(picture_reference vitrail::nori_scene)
+vitrail_appearance_test(nori_radiance vitrail::nori_scene vitrail::importers)

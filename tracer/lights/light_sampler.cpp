@@ -71,8 +71,8 @@ std::optional<LightSample> sample_directional(const LightSampler& s, const Emiss
 }
 
 // pdf: given the triangle.
-std::optional<LightSample> sample_triangle(const LightSampler& s, const EmissiveTriangle& t, Point3d p, float u,
-                                           float v, const SampledWavelengths& wavelengths) {
+std::optional<LightSample> sample_triangle(const LightSampler& s, const EmissiveTriangle& t, Point3d p,
+                                           float u, float v, const SampledWavelengths& wavelengths) {
   const AreaLight& light = s.scene.area_lights[t.area_light];
   if (light.directional) return sample_directional(s, t, p, wavelengths);
 

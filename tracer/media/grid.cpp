@@ -32,10 +32,10 @@ double look_up(const Grid& grid, Point3d p, int channel) {
   };
   const Between x = axis(0, grid.nx), y = axis(1, grid.ny), z = axis(2, grid.nz);
   const auto value = [&](int i, int j, int k) {
-    const auto at = (static_cast<std::size_t>(k) * static_cast<std::size_t>(grid.ny) +
-                     static_cast<std::size_t>(j)) *
-                        static_cast<std::size_t>(grid.nx) +
-                    static_cast<std::size_t>(i);
+    const auto at =
+        (static_cast<std::size_t>(k) * static_cast<std::size_t>(grid.ny) + static_cast<std::size_t>(j)) *
+            static_cast<std::size_t>(grid.nx) +
+        static_cast<std::size_t>(i);
     return static_cast<double>(
         grid.values[at * static_cast<std::size_t>(grid.channels) + static_cast<std::size_t>(channel)]);
   };
@@ -47,9 +47,8 @@ double look_up(const Grid& grid, Point3d p, int channel) {
 }
 
 double greatest_value(const Grid& grid) {
-  return grid.values.empty()
-             ? 0
-             : static_cast<double>(*std::max_element(grid.values.begin(), grid.values.end()));
+  return grid.values.empty() ? 0
+                             : static_cast<double>(*std::max_element(grid.values.begin(), grid.values.end()));
 }
 
 }  // namespace vitrail

@@ -209,8 +209,8 @@ FlightSample sample_flight(const PreparedMedium& m, const Flight& flight,
     if (!is_black(glow)) {
       const double scale = m.medium->emission_scale ? look_up(*m.medium->emission_scale, p, 0) : 1;
       for (std::size_t i = 0; i < active; ++i)
-        s.emitted.v[i] += s.weight.v[i] * glow.v[i] *
-                          static_cast<float>(scale * (sigma_t[i] - sigma_s[i]) / majorant);
+        s.emitted.v[i] +=
+            s.weight.v[i] * glow.v[i] * static_cast<float>(scale * (sigma_t[i] - sigma_s[i]) / majorant);
     }
     const bool is_real = random.next() < p_real;  // so that p of what happens is above 0
     for (std::size_t i = 0; i < active; ++i)

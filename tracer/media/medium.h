@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Free flight through a medium. Homogeneous media are sampled in closed form, by a wavelength chosen at random
-// and weighted by the mean density of all; grids by null collisions (Woodcock et al. 1965; for spectra Kutz et
-// al., "Spectral and Decomposition Tracking", 2017).
+// Free flight through a medium. Homogeneous media are sampled in closed form, by a wavelength chosen at
+// random and weighted by the mean density of all; grids by null collisions (Woodcock et al. 1965; for spectra
+// Kutz et al., "Spectral and Decomposition Tracking", 2017).
 #pragma once
 
 #include <optional>
@@ -18,7 +18,7 @@ struct PreparedMedium {
   const Medium* medium = nullptr;  // outlives it
   bool homogeneous = true;
   Transform to_medium;
-  Bounds3d bounds;      // in the medium's space: 0 outside; of grids
+  Bounds3d bounds;         // in the medium's space: 0 outside; of grids
   double density_max = 1;  // of what varies
   double g = 0;
 };

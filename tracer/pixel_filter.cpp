@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tracer/pixel_filter.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tracer/portable_math.h"
+
+namespace vitrail {
+
+namespace {
+
+// The filter along one axis at distance x from its centre, not normalised.
+double value(const TriangleFilter&, double radius, double x) { return std::max(0.0, radius - std::abs(x)); }
+double value(const GaussianFilter& f, double radius, double x) {
+  const auto gauss = [&](double d) {
+    return portable_exp(std::max(-700.0, -d * d / (2 * f.sigma * f.sigma)));
+  };
+  return std::max(0.0, gauss(x) - gauss(radius));
+}
+
+// Mitchell and Netravali 1988, eq. 8, with x stretched so that it ends at the radius.
+double value(const MitchellFilter& f, double radius, double x) {
+  const double b = f.b, c = f.c, t = 2 * std::abs(x) / radius;
+  const double inner = ((12 - 9 * b - 6 * c) * t + (-18 + 12 * b + 6 * c)) * t * t + (6 - 2 * b);
+  const double outer =
+      (((-b - 6 * c) * t + (6 * b + 30 * c)) * t + (-12 * b - 48 * c)) * t + (8 * b + 24 * c);
+  return t < 1 ? inner : t < 2 ? outer : 0.0;
+}
+
+double sinc(double x) { return std::abs(x) < 1e-5 ? 1 : sin_pi(x) / (pi * x); }
+double value(const SincFilter& f, double, double x) {
+  return std::abs(x) < f.tau ? sinc(x) * sinc(x / f.tau) : 0;
+}
+
+}  // namespace
+
+void FilterSampler::Axis::tabulate(auto&& f) {
+  cumulative.assign(resolution + 1, 0);
+  std::vector<bool> below(resolution, false);
+  double sum = 0, total = 0;
+  for (std::size_t i = 0; i < resolution; ++i) {
+    const double v = f((static_cast<double>(i) + 0.5) * (2 * radius / resolution) - radius);
+    below[i] = v < 0;
+    sum += v;
+    total += std::abs(v);
+    cumulative[i + 1] = total;
+  }
+  if (!(sum > 0)) return cumulative.clear();  // no filter at all: a box
+  for (double& c : cumulative) c /= total;
+  if (std::find(below.begin(), below.end(), true) == below.end()) return;
+  total_weight = total / sum;
+  negative = std::move(below);
+}
+
+FilterSampler::FilterSampler(const Filter& filter) {
+  std::visit(
+      [&](const auto& f) {
+        x_.radius = f.radius_x;
+        y_.radius = f.radius_y;
+        if constexpr (!std::is_same_v<std::decay_t<decltype(f)>, BoxFilter>)
+          for (Axis* axis : {&x_, &y_}) axis->tabulate([&](double x) { return value(f, axis->radius, x); });
+      },
+      filter);
+}
+
+FilterSample FilterSampler::Axis::sample(double u) const {
+  if (cumulative.empty()) return {{(2 * u - 1) * radius, 0}, 1};
+  const auto above = std::upper_bound(cumulative.begin() + 1, cumulative.end() - 1, u);
+  const auto bin = static_cast<std::size_t>(above - cumulative.begin()) - 1;
+  const double width = cumulative[bin + 1] - cumulative[bin];
+  const double within = width > 0 ? std::clamp((u - cumulative[bin]) / width, 0.0, 1.0) : 0.5;
+  const double offset = (static_cast<double>(bin) + within) * (2 * radius / resolution) - radius;
+  return {{offset, 0}, !negative.empty() && negative[bin] ? -total_weight : total_weight};
+}
+
+FilterSample FilterSampler::sample(float u, float v) const {
+  const FilterSample x = x_.sample(static_cast<double>(u)), y = y_.sample(static_cast<double>(v));
+  return {{x.offset.x, y.offset.x}, x.weight * y.weight};
+}
+
+}  // namespace vitrail

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "scene/camera.h"
+#include "scene/vec.h"
+
+namespace vitrail {
+
+struct FilterSample {
+  Point2d offset;     // from the pixel's centre, in pixels
+  double weight = 1;  // of what the sample deposits: f/pdf, its mean is 1
+};
+
+// Sampling by a separable reconstruction filter f, so that a sample lands in one pixel (Ernst, Stamminger &
+// Greiner 2006): offsets are distributed as |f|, with weight ∫|f|/∫f, negative in f's negative lobes; 1 where
+// it has none.
+class FilterSampler {
+ public:
+  explicit FilterSampler(const Filter& filter);
+  FilterSample sample(float u, float v) const;                                             // u, v in [0,1)
+  double weight(float u, float v) const { return has_lobes() ? sample(u, v).weight : 1; }  // of that sample
+
+ private:
+  static constexpr std::size_t resolution = 256;
+  struct Axis {
+    double radius = 0;
+    double total_weight = 1;         // ∫|f|/∫f
+    std::vector<double> cumulative;  // of |f|: resolution + 1 values from 0 to 1; empty: uniform
+    std::vector<bool> negative;      // f of each bin is; empty: nowhere
+    void tabulate(auto&& f);
+    FilterSample sample(double u) const;  // along this axis, as offset.x
+  };
+  bool has_lobes() const { return !x_.negative.empty() || !y_.negative.empty(); }
+  Axis x_, y_;
+};
+
+}  // namespace vitrail
