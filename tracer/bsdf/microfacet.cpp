@@ -89,8 +89,8 @@ double normal_density(const Microfacets& mf, Vector3d m) {
     const double q = x * x + y * y + m.z * m.z;  // > 0
     return 1 / (area * q * q);
   }
-  const double z2 = m.z * m.z, exponent = (x * x + y * y) / z2;
-  return exponent < 700 ? quick_exp(-exponent) / (area * z2 * z2) : 0;
+  const double z2 = m.z * m.z, r2 = x * x + y * y;
+  return r2 < 700 * z2 ? quick_exp(-r2 / z2) / (area * z2 * z2) : 0;
 }
 
 double visible_area(const Microfacets& mf, Vector3d v) {
