@@ -86,6 +86,23 @@ TEST(DirectionTable, DensityIntegratesToOneAndSamplesHaveIt) {
   }
 }
 
+// One cell is the sphere: Σ z² and Σ |x| over uniform directions are 1/3 and 1/2.
+TEST(DirectionTable, IsUniformPerSolidAngleWithinACell) {
+  Random random(6);
+  for (const auto projection : {equal_area, latitude_longitude}) {
+    const DirectionTable table(projection, 1, 1, [](int, int) { return 1.0; });
+    double z2 = 0, x = 0;
+    constexpr int samples = 40000;
+    for (int i = 0; i < samples; ++i) {
+      const Vector3d d = table.sample(random(), random());
+      z2 += d.z * d.z / samples;
+      x += std::abs(d.x) / samples;
+    }
+    EXPECT_NEAR(z2, 1 / 3.0, 0.007);
+    EXPECT_NEAR(x, 0.5, 0.007);
+  }
+}
+
 TEST(Environment, SampledRadianceIsUnbiasedAndOfLowVariance) {
   Random random(3);
   for (const auto projection : {equal_area, latitude_longitude}) {
