@@ -22,7 +22,7 @@ using Column3 = std::array<double, 3>;
 constexpr int step_nm = 5;
 constexpr std::size_t node_count = (table_size - 1) / step_nm + 1;
 constexpr std::size_t lanes = 5;
-static_assert(node_count == 95 && node_count % lanes == 0);
+static_assert(node_count % lanes == 0);
 
 // XYZ under D65 = Σ weight·S(λ) at 360, 365 … 830 nm. Between these S counts as a cubic (Lagrange), so that
 // the sum is that over every nanometre with D65 and the observer as they are.
@@ -56,29 +56,30 @@ struct Linearised {
   std::array<Column3, 3> jacobian{};  // ∂xyz[row]/∂x[column]
 };
 
+// Two loops, of which the first has the √ and ÷ and no sums, which would keep it from being vectorised.
 Linearised linearise(const Rule& rule, const Column3& x) {
-  std::array<std::array<double, lanes>, 3> xyz{};
-  std::array<std::array<double, lanes>, 9> d{};
-  for (std::size_t j = 0; j < node_count; j += lanes)
-    for (std::size_t i = 0; i < lanes; ++i) {
-      const double b0 = rule.basis[0][j + i], b1 = rule.basis[1][j + i], b2 = rule.basis[2][j + i];
-      const double v = b0 * x[0] + b1 * x[1] + b2 * x[2];
-      const double y = 1 / std::sqrt(1 + v * v);
-      const double s = 0.5 + 0.5 * v * y, slope = 0.5 * y * y * y;
-      for (std::size_t c = 0; c < 3; ++c) {
-        const double w = rule.weight[c][j + i];
-        xyz[c][i] += w * s;
-        d[3 * c][i] += w * slope * b0;
-        d[3 * c + 1][i] += w * slope * b1;
-        d[3 * c + 2][i] += w * slope * b2;
-      }
-    }
+  std::array<double, node_count> s, slope;
+  const double x0 = x[0], x1 = x[1], x2 = x[2];
+  for (std::size_t j = 0; j < node_count; ++j) {
+    const double v = rule.basis[0][j] * x0 + rule.basis[1][j] * x1 + rule.basis[2][j] * x2;
+    const double y = 1 / std::sqrt(1 + v * v);
+    s[j] = 0.5 + 0.5 * v * y;
+    slope[j] = 0.5 * y * y * y;
+  }
   Linearised sum;
-  for (std::size_t i = 0; i < lanes; ++i)
-    for (std::size_t c = 0; c < 3; ++c) {
-      sum.xyz[c] += xyz[c][i];
-      for (std::size_t k = 0; k < 3; ++k) sum.jacobian[c][k] += d[3 * c + k][i];
+  for (std::size_t c = 0; c < 3; ++c) {
+    std::array<std::array<double, lanes>, 4> part{};
+    for (std::size_t j = 0; j < node_count; j += lanes)
+      for (std::size_t i = 0; i < lanes; ++i) {
+        const double w = rule.weight[c][j + i], d = w * slope[j + i];
+        part[0][i] += w * s[j + i];
+        for (std::size_t k = 0; k < 3; ++k) part[k + 1][i] += d * rule.basis[k][j + i];
+      }
+    for (std::size_t i = 0; i < lanes; ++i) {
+      sum.xyz[c] += part[0][i];
+      for (std::size_t k = 0; k < 3; ++k) sum.jacobian[c][k] += part[k + 1][i];
     }
+  }
   return sum;
 }
 

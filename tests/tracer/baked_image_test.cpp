@@ -198,9 +198,13 @@ TEST(TileCache, KeepsWhatIsUsed) {
   const std::filesystem::path path = write_numbers(directory / "a.tex", 64 * 8, 64);  // 8 tiles
   const auto cache = std::make_shared<TileCache>(4 * TileCache::slot_bytes);
   const BakedImage image(path, cache);
-  // Of three lookups, one is in tile 0.
-  for (int i = 0; i < 300; ++i) image.texel(i % 3 == 0 ? 5 : 64 * (1 + i % 7) + 5, 5, 0, some_wavelengths);
-  EXPECT_LT(cache->tile_loads(), 1 + 200u + 60u);
+  // Every other lookup is in tile 0; the others go round seven tiles, for which three slots are left.
+  constexpr int rounds = 300;
+  for (int i = 0; i < rounds; ++i) {
+    image.texel(5, 5, 0, some_wavelengths);
+    image.texel(64 * (1 + i % 7) + 5, 5, 0, some_wavelengths);
+  }
+  EXPECT_LE(cache->tile_loads(), 1 + rounds + 1u);
   EXPECT_EQ(cache->resident_bytes(), 4 * TileCache::slot_bytes);
 }
 
