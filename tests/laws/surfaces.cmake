@@ -10,3 +10,4 @@ endforeach()
 vitrail_test(fresnel LABEL law SOURCES ${CMAKE_CURRENT_LIST_DIR}/fresnel_test.cpp LIBRARIES vitrail::bsdf)
 vitrail_test(mitsuba_bsdf LABEL conformance TIMEOUT 300 SOURCES ${CMAKE_CURRENT_LIST_DIR}/mitsuba_bsdf_test.cpp
   LIBRARIES vitrail_bsdf_laws vitrail::mitsuba_exporter nlohmann_json::nlohmann_json)
+vitrail_test(quick_math LABEL unit SOURCES ${CMAKE_CURRENT_LIST_DIR}/../tracer/quick_math_test.cpp LIBRARIES vitrail::bsdf)

@@ -16,11 +16,6 @@ bool scatters(const ConductorBsdf& bsdf, Vector3d out, Vector3d in) {
   return out.z > 0 && in.z > 0 && !bsdf.microfacets.smooth();
 }
 
-// Visible normals, reflected: dm/d in = 1/(4·out·m).
-double density(const ConductorBsdf& bsdf, Vector3d out, double facets) {
-  return facets / (4 * visible_area(bsdf.microfacets, out));
-}
-
 }  // namespace
 
 BsdfValue eval(const ConductorBsdf& bsdf, Vector3d out, Vector3d in) {
@@ -28,13 +23,15 @@ BsdfValue eval(const ConductorBsdf& bsdf, Vector3d out, Vector3d in) {
   const Vector3d m = normalize(out + in);
   const double facets = normal_density(bsdf.microfacets, m);
   if (facets <= 0) return {};
-  const double value = facets * shadowing_over_cosines(bsdf.microfacets, out, in) * in.z / 4;
-  return {reflectance(bsdf, dot(out, m)) * static_cast<float>(value), density(bsdf, out, facets)};
+  const double area = visible_area(bsdf.microfacets, out);
+  const double value = facets * shadowing_over_cosines(bsdf.microfacets, out, area, in) * in.z / 4;
+  return {reflectance(bsdf, dot(out, m)) * static_cast<float>(value), facets / (4 * area)};
 }
 
+// Visible normals, reflected: dm/d in = 1/(4·out·m).
 double pdf(const ConductorBsdf& bsdf, Vector3d out, Vector3d in) {
   if (!scatters(bsdf, out, in)) return 0;
-  return density(bsdf, out, normal_density(bsdf.microfacets, normalize(out + in)));
+  return normal_density(bsdf.microfacets, normalize(out + in)) / (4 * visible_area(bsdf.microfacets, out));
 }
 
 std::optional<BsdfSample> sample(const ConductorBsdf& bsdf, Vector3d out, float, Point2f u) {
@@ -44,9 +41,9 @@ std::optional<BsdfSample> sample(const ConductorBsdf& bsdf, Vector3d out, float,
     return BsdfSample{.in = {-out.x, -out.y, out.z}, .weight = reflectance(bsdf, out.z), .specular = true};
   const Vector3d m = sample_visible_normal(mf, out, u);
   const Vector3d in = mirror(out, m);
-  const double probability = density(bsdf, out, normal_density(mf, m));
+  const double area = visible_area(mf, out), probability = normal_density(mf, m) / (4 * area);
   if (!(in.z > 0 && dot(out, m) > 0 && probability > 0)) return std::nullopt;
-  const double seen = shadowing_over_cosines(mf, out, in) * in.z * visible_area(mf, out);  // G₂/G₁
+  const double seen = shadowing_over_cosines(mf, out, area, in) * in.z * area;  // G₂/G₁
   return BsdfSample{
       .in = in, .weight = reflectance(bsdf, dot(out, m)) * static_cast<float>(seen), .pdf = probability};
 }

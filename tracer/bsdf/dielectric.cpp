@@ -51,23 +51,27 @@ struct Facet {
   bool valid;          // both directions see the sides of the facet that they see of the surface
 };
 
-Facet facet_between(Vector3d out, Vector3d in, double eta) {
+Facet facet_of(Vector3d out, Vector3d in, Vector3d m, double eta) {
   const bool reflected = in.z > 0;
-  Vector3d m = normalize(reflected ? out + in : out + in * eta);
-  if (m.z < 0) m = -m;
   const double out_m = dot(out, m), in_m = dot(in, m);
   const double sum = out_m + eta * in_m;  // ≠ 0 as eta ≠ 1
   const double jacobian = reflected ? 1 / (4 * out_m) : eta * eta * std::abs(in_m) / (sum * sum);
   return {m, out_m, in_m, jacobian, m.z > 0 && out_m > 0 && (reflected ? in_m > 0 : in_m < 0)};
 }
 
-double facet_pdf(const Microfacets& mf, Vector3d out, const Facet& facet) {
-  return visible_normal_pdf(mf, out, facet.m) * facet.jacobian;
+Facet facet_between(Vector3d out, Vector3d in, double eta) {
+  const Vector3d m = normalize(in.z > 0 ? out + in : out + in * eta);
+  return facet_of(out, in, m.z < 0 ? -m : m, eta);
+}
+
+// area = σ(out).
+double facet_pdf(const Microfacets& mf, double area, const Facet& facet) {
+  return facet.out_m * normal_density(mf, facet.m) / area * facet.jacobian;
 }
 
 // G₂/G₁(out): what part of the light from a visible facet is seen by `in` too.
-double seen(const Microfacets& mf, Vector3d out, Vector3d in) {
-  return shadowing_over_cosines(mf, out, in) * std::abs(in.z) * visible_area(mf, out);
+double seen(const Microfacets& mf, Vector3d out, double area, Vector3d in) {
+  return shadowing_over_cosines(mf, out, area, in) * std::abs(in.z) * area;
 }
 
 }  // namespace
@@ -79,9 +83,10 @@ BsdfValue eval(const DielectricBsdf& bsdf, Vector3d out, Vector3d in) {
   const Facet facet = facet_between(s.out, to, s.eta);
   if (!facet.valid) return {};
   const auto choice = choose(bsdf, facet.out_m, s.eta);
-  const double density = facet_pdf(bsdf.microfacets, s.out, facet);
+  const double area = visible_area(bsdf.microfacets, s.out);
+  const double density = facet_pdf(bsdf.microfacets, area, facet);
   if (!choice || !(density > 0)) return {};
-  const double share = density * seen(bsdf.microfacets, s.out, to);
+  const double share = density * seen(bsdf.microfacets, s.out, area, to);
   if (to.z > 0)
     return {bsdf.reflectance_factor * static_cast<float>(share * choice->reflectance),
             density * choice->reflection_probability};
@@ -98,7 +103,7 @@ double pdf(const DielectricBsdf& bsdf, Vector3d out, Vector3d in) {
   const auto choice = choose(bsdf, facet.out_m, s.eta);
   if (!choice) return 0;
   const double lobe = to.z > 0 ? choice->reflection_probability : 1 - choice->reflection_probability;
-  return lobe * facet_pdf(bsdf.microfacets, s.out, facet);
+  return lobe * facet_pdf(bsdf.microfacets, visible_area(bsdf.microfacets, s.out), facet);
 }
 
 std::optional<BsdfSample> sample(const DielectricBsdf& bsdf, Vector3d out, float u_lobe, Point2f u) {
@@ -123,11 +128,10 @@ std::optional<BsdfSample> sample(const DielectricBsdf& bsdf, Vector3d out, float
                             : bsdf.transmittance_factor *
                                   (choice->transmission_weight() / static_cast<float>(s.eta * s.eta));
   if (specular) return result;
-  const double in_m = dot(in, m), sum = out_m + s.eta * in_m;
-  const double jacobian = reflected ? 1 / (4 * out_m) : s.eta * s.eta * std::abs(in_m) / (sum * sum);
-  result.pdf = visible_normal_pdf(mf, s.out, m) * jacobian *
+  const double area = visible_area(mf, s.out);
+  result.pdf = facet_pdf(mf, area, facet_of(s.out, in, m, s.eta)) *
                (reflected ? choice->reflection_probability : 1 - choice->reflection_probability);
-  result.weight = result.weight * static_cast<float>(seen(mf, s.out, in));
+  result.weight = result.weight * static_cast<float>(seen(mf, s.out, area, in));
   if (!(result.pdf > 0)) return std::nullopt;
   return result;
 }

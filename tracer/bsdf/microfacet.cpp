@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tracer/bsdf/microfacet.h"
 
+#include "tracer/bsdf/quick_math.h"
 #include "tracer/portable_math.h"
 
 namespace vitrail {
@@ -15,8 +16,9 @@ constexpr double sqrt_pi = 1.77245385090551602730;
 // Eq. 26's exact form; Heitz 2014, Eq. 66).
 double beckmann_area(double z, double s) {
   if (std::abs(z) >= 6 * s) return std::max(z, 0.0);  // 1 − erf 6 < 3e-17
-  const double a = z / s;                             // |z| < 6·s, so s > 0
-  return (z * (1 + portable_erf(a)) + s / sqrt_pi * portable_exp(-a * a)) / 2;
+  const double a = std::abs(z) / s;                   // |z| < 6·s, so s > 0
+  const double gauss = quick_exp(-a * a), erf = quick_erf(a, gauss);
+  return (z * (1 + (z < 0 ? -erf : erf)) + s / sqrt_pi * gauss) / 2;
 }
 
 double stretched_length(const Microfacets& mf, Vector3d v) {
@@ -26,32 +28,34 @@ double stretched_length(const Microfacets& mf, Vector3d v) {
 
 Vector3d sample_ggx(const Microfacets& mf, Vector3d v, Point2f u) {
   const Vector3d w = normalize(Vector3d{mf.alpha_u * v.x, mf.alpha_v * v.y, v.z});
-  const double phi = 2 * static_cast<double>(u.x);  // in units of π
+  const auto [cosine, sine] = quick_circle(static_cast<double>(u.x));
   const double z = (1 - static_cast<double>(u.y)) * (1 + w.z) - w.z;
   const double s = safe_sqrt(1 - z * z);
   // Its z is (1 − u.y)·(1 + w.z) > 0.
-  const Vector3d h = w + Vector3d{s * sin_pi(phi + 0.5), s * sin_pi(phi), z};
+  const Vector3d h = w + Vector3d{s * cosine, s * sine, z};
   return normalize(Vector3d{mf.alpha_u * h.x, mf.alpha_v * h.y, h.z});
 }
 
 // Slope towards the viewer at polar angle θ on a surface of unit width: its density is in proportion to
 // max(0, cosθ + x·sinθ)·exp(−x²). Solved for t = erf(−x), in which the cumulative distribution
-// cosθ·(1 + t)/2 + sinθ·exp(−x²)/(2√π) is concave, by Newton's method kept within a bracket.
+// cosθ·(1 + t)/2 + sinθ·exp(−x²)/(2√π) is concave, by Halley's method kept within a bracket.
 double sample_beckmann_slope(double cosine, double sine, double u) {
-  const double limit = cosine < 4 * sine ? portable_erf(cosine / sine) : 1;
-  const auto cumulative = [&](double t, double x) {
-    return (cosine * (1 + t) + sine / sqrt_pi * portable_exp(-x * x)) / 2;
-  };
-  const double target = std::max(u, 1e-9) * beckmann_area(cosine, sine);
-  double low = -1, high = limit, t = -1 + std::max(u, 1e-9) * (1 + limit);
-  constexpr int most_steps = 12;  // about four are taken
+  const double cotangent = cosine < 6 * sine ? cosine / sine : 6;
+  const double gauss = quick_exp(-cotangent * cotangent), limit = quick_erf(cotangent, gauss);
+  const double share = std::max(u, 1e-9);
+  const double target = share * (cosine * (1 + limit) + sine / sqrt_pi * gauss) / 2;
+  const double grazing = std::sqrt(-quick_log(share));  // −x where sinθ = 1
+  double low = -1, high = limit, t = limit - (1 + limit) * quick_erf(grazing, share);
+  constexpr int most_steps = 12;  // two are usual
   bool close = false;
   for (int step = 0; step < most_steps && !close; ++step) {
-    const double x = inverse_erf(t), error = cumulative(t, x) - target;
+    const double x = inverse_erf(t), bell = quick_exp(-x * x);
+    const double error = (cosine * (1 + t) + sine / sqrt_pi * bell) / 2 - target;
     (error > 0 ? high : low) = t;
-    close = std::abs(error) < 1e-4 * target;  // and 1e-8 a step later
-    const double slope = (cosine - x * sine) / 2;
-    const double next = slope > 0 ? t - error / slope : low;
+    close = std::abs(error) < 1e-3 * target;  // and 1e-5 a step later
+    const double slope = (cosine - x * sine) / 2, curvature = -sine * sqrt_pi / (4 * bell);
+    const double denominator = 2 * slope * slope - error * curvature;
+    const double next = denominator > 0 ? t - 2 * error * slope / denominator : low;
     t = close ? std::clamp(next, low, high) : next > low && next < high ? next : (low + high) / 2;
   }
   return -inverse_erf(t);
@@ -85,8 +89,8 @@ double normal_density(const Microfacets& mf, Vector3d m) {
     const double q = x * x + y * y + m.z * m.z;  // > 0
     return 1 / (area * q * q);
   }
-  const double z2 = m.z * m.z, exponent = (x * x + y * y) / z2;
-  return exponent < 700 ? portable_exp(-exponent) / (area * z2 * z2) : 0;
+  const double z2 = m.z * m.z, r2 = x * x + y * y;
+  return r2 < 700 * z2 ? quick_exp(-r2 / z2) / (area * z2 * z2) : 0;
 }
 
 double visible_area(const Microfacets& mf, Vector3d v) {
@@ -101,10 +105,9 @@ double masking(const Microfacets& mf, Vector3d v, Vector3d m) {
   return above.z / visible_area(mf, above);
 }
 
-double shadowing_over_cosines(const Microfacets& mf, Vector3d a, Vector3d b) {
-  if (a.z < 0) a = -a;
+double shadowing_over_cosines(const Microfacets& mf, Vector3d a, double area_a, Vector3d b) {
   if (b.z < 0) b = -b;
-  const double area_a = visible_area(mf, a), area_b = visible_area(mf, b);
+  const double area_b = visible_area(mf, b);
   if (mf.masking == Masking::separable) return 1 / (area_a * area_b);
   const double product = area_a * b.z + area_b * a.z - a.z * b.z;  // ≥ a.z·b.z, as σ(v) ≥ v.z
   return product > 0 ? 1 / product : 0;
@@ -119,18 +122,12 @@ double visible_normal_pdf(const Microfacets& mf, Vector3d v, Vector3d m) {
 }
 
 double inverse_erf(double y) {
-  const auto polynomial = [](const auto& coefficients, double w) {
-    double sum = 0;
-    for (double c : coefficients) sum = c + sum * w;
-    return sum;
-  };
-  constexpr double central[] = {2.81022636e-08,  3.43273939e-07, -3.5233877e-06,
-                                -4.39150654e-06, 0.00021858087,  -0.00125372503,
-                                -0.00417768164,  0.246640727,    1.50140941};
-  constexpr double tail[] = {-0.000200214257, 0.000100950558, 0.00134934322, -0.00367342844, 0.00573950773,
-                             -0.0076224613,   0.00943887047,  1.00167406,    2.83297682};
-  const double w = -portable_log(std::max((1 - y) * (1 + y), 1e-15));
-  return y * (w < 5 ? polynomial(central, w - 2.5) : polynomial(tail, std::sqrt(w) - 3));
+  const double w = -quick_log(std::max((1 - y) * (1 + y), 1e-15));
+  return y *
+         (w < 5 ? polynomial(w - 2.5, 1.50140941, 0.246640727, -0.00417768164, -0.00125372503, 0.00021858087,
+                             -4.39150654e-06, -3.5233877e-06, 3.43273939e-07, 2.81022636e-08)
+                : polynomial(std::sqrt(w) - 3, 2.83297682, 1.00167406, 0.00943887047, -0.0076224613,
+                             0.00573950773, -0.00367342844, 0.00134934322, 0.000100950558, -0.000200214257));
 }
 
 }  // namespace vitrail

@@ -41,8 +41,12 @@ double visible_area(const Microfacets& microfacets, Vector3d v);
 double masking(const Microfacets& microfacets, Vector3d v, Vector3d m);
 
 // G₂(a, b)/(|a.z|·|b.z|): finite at grazing directions. That a and b see the sides of m that they should is
-// for the caller to know.
-double shadowing_over_cosines(const Microfacets& microfacets, Vector3d a, Vector3d b);
+// for the caller to know. area_a = σ(a), a.z ≥ 0.
+double shadowing_over_cosines(const Microfacets& microfacets, Vector3d a, double area_a, Vector3d b);
+inline double shadowing_over_cosines(const Microfacets& microfacets, Vector3d a, Vector3d b) {
+  if (a.z < 0) a = -a;
+  return shadowing_over_cosines(microfacets, a, visible_area(microfacets, a), b);
+}
 
 // Normals as seen from v, v.z > 0: pdf D(m)·max(0, v·m)/σ(v), in solid angle of m (Heitz & d'Eon 2014). The
 // GGX ones by caps of spheres (Dupuy & Benyoub 2023), Beckmann's by inverting the distribution of slopes.

@@ -83,14 +83,15 @@ BsdfValue eval(const RoughPlasticBsdf& bsdf, Vector3d out, Vector3d in) {
   if (!reflects(out, in)) return {};
   const Vector3d m = normalize(out + in);
   const double facets = normal_density(bsdf.microfacets, m);
+  const double area = visible_area(bsdf.microfacets, out);
   const double t_out = transmittance(bsdf, out.z);
   const double coat = fresnel_dielectric(std::min(dot(out, m), 1.0), bsdf.eta) * facets *
-                      shadowing_over_cosines(bsdf.microfacets, out, in) * in.z / 4;
+                      shadowing_over_cosines(bsdf.microfacets, out, area, in) * in.z / 4;
   const double diffuse = t_out * transmittance(bsdf, in.z) * in.z / pi;
   const double specular = specular_probability(bsdf, 1 - t_out);
   return {bsdf.specular_reflectance * static_cast<float>(coat) +
               base(bsdf, bsdf.tables->internal_reflectance) * static_cast<float>(diffuse),
-          specular * facets / (4 * visible_area(bsdf.microfacets, out)) + (1 - specular) * in.z / pi};
+          specular * facets / (4 * area) + (1 - specular) * in.z / pi};
 }
 
 double pdf(const RoughPlasticBsdf& bsdf, Vector3d out, Vector3d in) {
