@@ -7,6 +7,7 @@
 #include <string>
 #include <variant>
 
+#include "scene/measured_sheet.h"
 #include "scene/texture.h"
 
 namespace vitrail {
@@ -156,9 +157,11 @@ struct HairMaterial {
   bool operator==(const HairMaterial&) const = default;
 };
 
-// A table of measurements in a file of its own format (pbrt's and Mitsuba's .bsdf, Dupuy and Jakob 2018).
+// A table of measurements in a file of its own format (pbrt's and Mitsuba's .bsdf, Dupuy and Jakob 2018), or
+// a sheet of glass, whose table is here.
 struct MeasuredMaterial {
   std::string filename;  // absolute
+  std::optional<MeasuredSheet> sheet{};
   bool operator==(const MeasuredMaterial&) const = default;
 };
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "importers/mitsuba/builder.h"
+#include "importers/spectra/measured_sheet.h"
 #include "scene/named_spectra.h"
 #include "scene/transmission.h"
 
@@ -228,6 +229,11 @@ MaterialModel measured(Builder& b, const Object& o) {
   MeasuredMaterial m{o.text("filename", "", b.report)};
   if (m.filename.empty()) b.report.fail("a measured material needs a \"filename\"", o.origin);
   o.ignore({"alpha_sample", "wavelength"});
+  if (is_measured_sheet(m.filename)) {
+    MeasuredSheetFile file = read_measured_sheet(m.filename);
+    for (const std::string& repair : file.repairs) b.report.approximated(repair, o.origin);
+    m.sheet = std::move(file.sheet);
+  }
   if (o.type == "measured_polarized")
     b.report.approximated("what it does to polarisation is left out", o.origin);
   return m;

@@ -228,6 +228,8 @@ void write(Context& context, Element parent, ElementId id, const HairMaterial& m
 }
 
 void write(Context& context, Element parent, ElementId id, const MeasuredMaterial& m) {
+  if (m.sheet)
+    context.approximated("Mitsuba does not read tables of measured glass: it keeps the file's name");
   add_string(add(parent, "bsdf", "measured", "", id), "filename", context.relative(m.filename));
 }
 

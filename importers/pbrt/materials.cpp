@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "importers/pbrt/material_parameters.h"
+#include "importers/spectra/measured_sheet.h"
 #include "scene/rgb_to_spectrum.h"
 
 namespace vitrail::pbrt {
@@ -145,7 +146,13 @@ MaterialModel measured(const Maker& m) {
   const Parameter* file = m.parameters.find("filename", {ParameterType::text});
   if (!file || file->strings.size() != 1)
     fail("a measured material needs a \"string filename\"", m.parameters.place());
-  return MeasuredMaterial{find_file(*file, m.scope.context)};
+  MeasuredMaterial material{find_file(*file, m.scope.context)};
+  if (is_measured_sheet(material.filename)) {
+    MeasuredSheetFile table = read_measured_sheet(material.filename);
+    for (const std::string& repair : table.repairs) m.scope.context.report.approximated(repair, file->place);
+    material.sheet = std::move(table.sheet);
+  }
+  return material;
 }
 
 // v4's amount weights the second material, v3's the first.

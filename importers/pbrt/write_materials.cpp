@@ -126,6 +126,7 @@ class MaterialWriter {
     return "hair";
   }
   const char* operator()(const MeasuredMaterial& m) {
+    if (m.sheet) p_.approximated("pbrt does not read tables of measured glass: it keeps the file's name");
     p_.file("filename", m.filename);
     return "measured";
   }

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// A sheet of glass by its measured reflectance and transmittance (docs/measured-glass.md): deltas only.
+#pragma once
+
+#include <optional>
+
+#include "scene/measured_sheet.h"
+#include "tracer/bsdf/bsdf.h"
+
+namespace vitrail {
+
+// Both from either side.
+struct MeasuredSheetBsdf {
+  const MeasuredSheet* table = nullptr;  // outlives it
+  SampledWavelengths wavelengths;
+};
+
+struct SheetFractions {
+  SampledSpectrum reflected, transmitted;
+};
+
+// Bilinear in the wavelength and in the cosine of the angle of incidence, in [0, 1].
+SheetFractions sheet_fractions(const MeasuredSheet& table, const SampledWavelengths& wavelengths,
+                               double cosine);
+
+BsdfValue eval(const MeasuredSheetBsdf& bsdf, Vector3d out, Vector3d in);
+double pdf(const MeasuredSheetBsdf& bsdf, Vector3d out, Vector3d in);
+std::optional<BsdfSample> sample(const MeasuredSheetBsdf& bsdf, Vector3d out, float u_lobe, Point2f u);
+
+}  // namespace vitrail
