@@ -61,16 +61,23 @@ int main(int argc, char** argv) {
   std::vector<std::string> films;
   std::string output;
   double exposure_ev = 0;
-  bool with_variance = false;
+  bool with_variance = false, spectral = false;
   app.add_option("FILM", films, "films of one scene, each of its own seed")->required();
   app.add_option("-o,--output", output, "image to write: .exr (linear) or .png (sRGB)")->required();
   app.add_option("--exposure", exposure_ev, "brighten by this many stops");
   app.add_flag("--variance", with_variance,
                "add the channel Variance.Y: variance of each pixel's mean luminance");
+  app.add_flag("--spectral", spectral,
+               "add the spectrum of each pixel, for films of render --spectral; .exr only");
   return run_guarded(app, argc, argv, [&] {
+    if (spectral && std::filesystem::path(output).extension() != ".exr")
+      throw UsageError("spectra are written as .exr only");
     const Exposed sum = merge_all(films);
     Picture picture = develop(sum.film);
     picture.render_time_s = sum.render_time_s;
+    if (spectral && picture.bins.count == 0)
+      throw Error("the film keeps no spectra: render with --spectral N", {sum.file.string()});
+    if (!spectral) picture.spectrum = {};
     expose(picture, exposure_ev);
     if (!with_variance) picture.variance = {};
     write_picture(output, picture);

@@ -16,6 +16,7 @@ namespace {
 
 struct Arguments {
   std::filesystem::path input, output;
+  int bins = 0;
   std::string memory, crop, integrator, progress = "auto";
   RenderOptions options;
 };
@@ -33,6 +34,8 @@ void declare(CLI::App& app, Arguments& a) {
   app.add_option("--memory", a.memory, "most memory a rank may use, e.g. 512M or 2G");
   app.add_option("--threads", o.threads, "worker threads a rank; default: all cores");
   app.add_option("--crop", a.crop, "x0,x1,y0,y1 in pixels from the top left");
+  app.add_option("--spectral", a.bins, "keep the spectrum of each pixel in this many bins over 360 to 830 nm")
+      ->check(CLI::Range(1, max_spectral_bins));
   app.add_option("--checkpoint-every", o.checkpoint_every_s, "seconds between checkpoints");
   app.add_flag("--resume", o.resume, "go on from the checkpoint");
   app.add_option("--time", o.time_limit_s, "stop after this many seconds with what there is");
@@ -50,6 +53,7 @@ void interpret(Arguments& a) {
   a.options.film = std::filesystem::path(a.output).replace_extension(".film");
   if (!a.memory.empty()) a.options.memory_bytes = parse_bytes(a.memory);
   if (!a.crop.empty()) a.options.crop = parse_rectangle("--crop", a.crop);
+  if (a.bins > 0) a.options.bins = SpectralBins{a.bins};
   if (!a.integrator.empty()) a.options.direct_only = a.integrator == "direct";
   const bool terminal = ::isatty(STDERR_FILENO);
   if (a.progress == "json") a.options.progress = ProgressMode::json;
@@ -91,8 +95,11 @@ int render_job(Transport& transport, Arguments& a) {
     fmt::print(stderr, "vitrail: {} samples were not finite and count as black\n",
                stats.traced.nonfinite_samples);
   if (stats.complete) {
-    if (a.output.extension() != ".film")
-      run_program("vitrail-develop", {a.options.film.string(), "-o", a.output.string()});
+    if (a.output.extension() != ".film") {
+      std::vector<std::string> arguments{a.options.film.string(), "-o", a.output.string()};
+      if (a.bins > 0 && a.output.extension() == ".exr") arguments.push_back("--spectral");
+      run_program("vitrail-develop", arguments);
+    }
   } else {
     fmt::print(stderr, "vitrail: stopped; {}.partial holds what was done, go on with --resume\n",
                a.options.film.string());

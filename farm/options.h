@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "scene/scene.h"
+#include "scene/spectral_bins.h"
 
 namespace vitrail {
 
@@ -18,6 +19,7 @@ struct RenderOptions {
   std::optional<int> max_depth;
   std::optional<bool> direct_only;
   std::optional<PixelRect> crop;
+  std::optional<SpectralBins> bins;
   std::uint64_t seed = 0;
   std::uint64_t memory_bytes = 0;  // a rank; 0: no limit
   int threads = 0;                 // a rank; 0: one a core

@@ -47,10 +47,17 @@ Manifest read_with_overrides(const RenderOptions& options) {
 }
 
 // Of what changes the picture and is neither in the scene hash nor the seed or the sample count.
-std::uint64_t settings_hash(const Manifest& m) {
-  const std::int32_t values[] = {m.settings.max_depth, m.settings.direct_only, m.settings.straight_counts,
-                                 m.film.crop.x0,       m.film.crop.x1,         m.film.crop.y0,
-                                 m.film.crop.y1};
+std::uint64_t settings_hash(const Manifest& m, const SpectralBins& bins) {
+  const double values[] = {static_cast<double>(m.settings.max_depth),
+                           static_cast<double>(m.settings.direct_only),
+                           static_cast<double>(m.settings.straight_counts),
+                           static_cast<double>(m.film.crop.x0),
+                           static_cast<double>(m.film.crop.x1),
+                           static_cast<double>(m.film.crop.y0),
+                           static_cast<double>(m.film.crop.y1),
+                           static_cast<double>(bins.count),
+                           bins.min_nm,
+                           bins.max_nm};
   return XXH3_64bits(values, sizeof values);
 }
 
@@ -71,8 +78,9 @@ std::uint64_t texture_budget(const Manifest& m, std::uint64_t memory_bytes) {
 
 Job set_up(const RenderOptions& options) {
   Manifest manifest = read_with_overrides(options);
-  const FilmKey key{manifest.scene_hash, settings_hash(manifest), options.seed};
-  Film film(manifest.film, key);
+  const SpectralBins bins = options.bins.value_or(SpectralBins{});
+  const FilmKey key{manifest.scene_hash, settings_hash(manifest, bins), options.seed};
+  Film film(manifest.film, key, bins);
   const WorkPlan plan =
       make_work_plan(manifest.film.crop, static_cast<std::uint32_t>(manifest.settings.samples_per_pixel));
   const std::uint64_t textures = texture_budget(manifest, options.memory_bytes);

@@ -16,6 +16,9 @@ Picture develop(const Film& film) {
   Picture picture;
   picture.rgb = black_image(film.width(), film.height(), 3);
   picture.variance = black_image(film.width(), film.height(), 1);
+  picture.bins = film.bins();
+  picture.spectrum = black_image(film.width(), film.height(), film.bins().count);
+  if (film.bins().count == 0) picture.spectrum = {};
   picture.window = film.crop();
   picture.full_width = film.full_width();
   picture.full_height = film.full_height();
@@ -25,6 +28,9 @@ Picture develop(const Film& film) {
     float* out = &picture.rgb.values[3 * std::size_t{p}];
     out[0] = static_cast<float>(c.r), out[1] = static_cast<float>(c.g), out[2] = static_cast<float>(c.b);
     picture.variance.values[p] = static_cast<float>(film.variance_of_mean(p));
+    const auto bins = static_cast<std::size_t>(film.bins().count);
+    for (std::size_t b = 0; b < bins; ++b)
+      picture.spectrum.values[bins * p + b] = static_cast<float>(film.mean_of_bin(p, b));
     most_samples = std::max(most_samples, film.samples(p));
   }
   picture.samples_per_pixel = static_cast<int>(std::min<std::uint64_t>(most_samples, 0x7fffffff));
@@ -34,6 +40,7 @@ Picture develop(const Film& film) {
 void expose(Picture& picture, double ev) {
   const auto factor = static_cast<float>(std::exp2(ev));
   for (float& v : picture.rgb.values) v *= factor;
+  for (float& v : picture.spectrum.values) v *= factor;
   for (float& v : picture.variance.values) v *= factor * factor;
 }
 

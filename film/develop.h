@@ -11,6 +11,8 @@ namespace vitrail {
 struct Picture {
   Image rgb;       // linear sRGB
   Image variance;  // of the mean luminance of each pixel, one channel; 0 × 0 where unknown
+  Image spectrum;  // mean radiance of each bin, one channel a bin; 0 × 0 where unknown
+  SpectralBins bins;
   PixelRect window;
   int full_width = 0, full_height = 0;
   int samples_per_pixel = 0;
@@ -21,7 +23,7 @@ struct Picture {
 // `samples_per_pixel` is the most that a pixel has. Throws Error if the film is saturated.
 Picture develop(const Film& film);
 
-// Brighter by `ev` stops: values times 2^ev, variances times 4^ev.
+// Brighter by `ev` stops: values and spectra times 2^ev, variances times 4^ev.
 void expose(Picture& picture, double ev);
 
 }  // namespace vitrail

@@ -22,9 +22,11 @@ constexpr double value_limit = 1 << 30;                    // so that a deposit 
 constexpr std::int64_t sum_limit = std::int64_t{1} << 62;  // beyond it one more deposit could overflow
 
 constexpr std::size_t plane_count = 2 + luminance_groups;
-constexpr std::size_t x_plane = 0, z_plane = 1, y_planes = 2;
+constexpr std::size_t x_plane = 0, z_plane = 1, y_planes = 2, bin_planes = plane_count;
 
 bool fits(double value) { return std::abs(value) < value_limit; }  // false for NaN
+
+std::int64_t fixed(double v) { return static_cast<std::int64_t>(std::nearbyint(v * fixed_one)); }
 
 bool near_overflow(std::int64_t sum) { return sum >= sum_limit || sum <= -sum_limit; }
 
@@ -49,11 +51,12 @@ std::uint64_t samples_of_group(std::uint64_t n, std::size_t group) {
 
 }  // namespace
 
-Film::Film(const FilmSettings& settings, const FilmKey& key)
+Film::Film(const FilmSettings& settings, const FilmKey& key, const SpectralBins& bins)
     : crop_(settings.crop),
       full_width_(settings.width),
       full_height_(settings.height),
       imaging_ratio_(settings.imaging_ratio),
+      bins_(bins),
       key_(key) {
   if (crop_.x0 < 0 || crop_.y0 < 0 || crop_.x1 <= crop_.x0 || crop_.y1 <= crop_.y0 ||
       crop_.x1 > full_width_ || crop_.y1 > full_height_)
@@ -63,18 +66,24 @@ Film::Film(const FilmSettings& settings, const FilmKey& key)
   if (pixels > std::numeric_limits<std::uint32_t>::max())
     throw Error(
         fmt::format("a film of {}×{} pixels is too large: at most 2³² − 1 pixels", width(), height()));
-  sums_.resize(plane_count * pixels);
+  if (bins.count < 0 || bins.count > max_spectral_bins || !(bins.min_nm < bins.max_nm))
+    throw Error(fmt::format("a film keeps at most {} spectral bins over an interval of wavelengths",
+                            max_spectral_bins));
+  sums_.resize((plane_count + static_cast<std::size_t>(bins.count)) * pixels);
   counts_.resize(pixels);
 }
 
 bool Film::deposit(std::uint32_t pixel, std::uint32_t sample, const XYZ& value) {
   if (!fits(value.x) || !fits(value.y) || !fits(value.z)) return false;
-  const auto fixed = [](double v) { return static_cast<std::int64_t>(std::nearbyint(v * fixed_one)); };
   const std::size_t pixels = counts_.size();
   const bool x = add(sums_[x_plane * pixels + pixel], fixed(value.x));
   const bool z = add(sums_[z_plane * pixels + pixel], fixed(value.z));
   const bool y = add(sums_[(y_planes + sample % luminance_groups) * pixels + pixel], fixed(value.y));
   return x && y && z;
+}
+
+bool Film::deposit_bin(std::uint32_t pixel, std::size_t bin, double value) {
+  return fits(value) && add(sums_[(bin_planes + bin) * counts_.size() + pixel], fixed(value));
 }
 
 void Film::count_sample(std::uint32_t pixel) {
@@ -85,7 +94,8 @@ void Film::merge(const Film& other) {
   if (crop_ != other.crop_ || full_width_ != other.full_width_ || full_height_ != other.full_height_)
     throw Error("the films differ in size or crop");
   if (key_.scene_hash != other.key_.scene_hash) throw Error("the films are of different scenes");
-  if (key_.settings_hash != other.key_.settings_hash || imaging_ratio_ != other.imaging_ratio_)
+  if (key_.settings_hash != other.key_.settings_hash || imaging_ratio_ != other.imaging_ratio_ ||
+      bins_ != other.bins_)
     throw Error("the films were rendered with different settings");
   const bool same_samples = key_.seed == other.key_.seed;
   const std::size_t pixels = counts_.size();
@@ -100,6 +110,7 @@ void Film::merge(const Film& other) {
     take(z_plane, z_plane);
     for (std::size_t g = 0; g < luminance_groups; ++g)
       take(y_planes + (g + shift) % luminance_groups, y_planes + g);
+    for (std::size_t plane = bin_planes; plane * pixels < sums_.size(); ++plane) take(plane, plane);
     if (__builtin_add_overflow(counts_[p], other.counts_[p], &counts_[p]))
       throw Error("the films hold more than 2³² − 1 samples a pixel together");
   }
@@ -114,6 +125,13 @@ XYZ Film::mean(std::uint32_t pixel) const {
     y = saturating_sum(y, sums_[(y_planes + g) * pixels + pixel]);
   return {weight * static_cast<double>(sums_[x_plane * pixels + pixel]), weight * static_cast<double>(y),
           weight * static_cast<double>(sums_[z_plane * pixels + pixel])};
+}
+
+double Film::mean_of_bin(std::uint32_t pixel, std::size_t bin) const {
+  const std::size_t pixels = counts_.size();
+  if (counts_[pixel] == 0) return 0;
+  return imaging_ratio_ / (fixed_one * static_cast<double>(counts_[pixel])) *
+         static_cast<double>(sums_[(bin_planes + bin) * pixels + pixel]);
 }
 
 // With Y_g the sum of the n_g samples of group g, E[Y_g] = n_g μ and Var[Y_g] = n_g σ²; so

@@ -11,6 +11,7 @@
 
 #include "scene/color.h"
 #include "scene/scene.h"
+#include "scene/spectral_bins.h"
 
 namespace vitrail {
 
@@ -31,7 +32,7 @@ struct FilmKey {
 class Film {
  public:
   Film() = default;
-  Film(const FilmSettings& settings, const FilmKey& key);
+  Film(const FilmSettings& settings, const FilmKey& key, const SpectralBins& bins = {});
 
   const PixelRect& crop() const { return crop_; }
   int width() const { return crop_.x1 - crop_.x0; }   // of the crop
@@ -39,12 +40,15 @@ class Film {
   int full_width() const { return full_width_; }
   int full_height() const { return full_height_; }
   double imaging_ratio() const { return imaging_ratio_; }
+  const SpectralBins& bins() const { return bins_; }
   const FilmKey& key() const { return key_; }
 
   // Adds to a pixel, each component rounded once to 2⁻³². Safe from many threads. `pixel` = y·width + x
   // within the crop. Returns false, and adds nothing, if the value is not finite or too large for the fixed
   // point.
   bool deposit(std::uint32_t pixel, std::uint32_t sample, const XYZ& value);
+  // Adds to a bin of a pixel's spectrum, as above: radiance over (pdf of its wavelength · width of the bin).
+  bool deposit_bin(std::uint32_t pixel, std::size_t bin, double value);
   // Counts one sample of a pixel, whatever it deposits.
   void count_sample(std::uint32_t pixel);
 
@@ -53,6 +57,8 @@ class Film {
 
   // Mean of the samples: Σ/count, imaging ratio applied; black where the count is 0.
   XYZ mean(std::uint32_t pixel) const;
+  // Mean radiance of a bin, W·m⁻²·sr⁻¹·nm⁻¹, imaging ratio applied.
+  double mean_of_bin(std::uint32_t pixel, std::size_t bin) const;
   // Variance of that mean's Y, from the scatter of the groups; 0 where fewer than two groups have samples.
   double variance_of_mean(std::uint32_t pixel) const;
   std::uint64_t samples(std::uint32_t pixel) const;
@@ -62,7 +68,8 @@ class Film {
   // xxh3 over all sums and counts.
   std::uint64_t hash() const;
 
-  // The raw planes, for exchange between ranks: X, Z, Y₀…Y₇, each width·height.
+  // The raw planes, for exchange between ranks: X, Z, Y₀…Y₇, then one a spectral bin,
+  // each width·height.
   std::span<std::int64_t> sums() { return sums_; }
   std::span<const std::int64_t> sums() const { return sums_; }
   std::span<std::uint32_t> counts() { return counts_; }
@@ -76,6 +83,7 @@ class Film {
   PixelRect crop_{};
   int full_width_ = 0, full_height_ = 0;
   double imaging_ratio_ = 1;
+  SpectralBins bins_;
   FilmKey key_{};
   std::vector<std::int64_t> sums_;
   std::vector<std::uint32_t> counts_;

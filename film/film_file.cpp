@@ -23,7 +23,7 @@ static_assert(std::endian::native == std::endian::little, "files are written as 
 namespace {
 
 constexpr char film_magic[8] = {'v', 'i', 't', 'f', 'i', 'l', 'm', '\n'};
-constexpr std::uint32_t film_version = 1;
+constexpr std::uint32_t film_version = 2;
 constexpr std::int32_t max_extent = 1 << 20;  // pixels a side
 
 struct Header {
@@ -31,14 +31,15 @@ struct Header {
   std::uint32_t version;
   std::int32_t full_width, full_height;
   std::int32_t x0, x1, y0, y1;
-  std::uint32_t zero;
+  std::int32_t bins;
   double imaging_ratio;
+  double bins_min_nm, bins_max_nm;
   std::uint64_t scene_hash, settings_hash, seed;
   std::uint64_t items, samples_per_pixel;
   double render_time_s;
   std::uint64_t checksum;  // of all before it
 };
-static_assert(sizeof(Header) == 104);
+static_assert(sizeof(Header) == 120);
 
 std::uint64_t checksum(const Header& h) { return XXH3_64bits(&h, offsetof(Header, checksum)); }
 
@@ -96,7 +97,9 @@ Header read_header(Reader& in) {
   const bool sizes_in_order = 0 <= h.x0 && h.x0 < h.x1 && h.x1 <= h.full_width &&
                               h.full_width <= max_extent && 0 <= h.y0 && h.y0 < h.y1 &&
                               h.y1 <= h.full_height && h.full_height <= max_extent;
-  if (!sizes_in_order || !std::isfinite(h.imaging_ratio) || !(h.render_time_s >= 0))
+  const bool bins_in_order = 0 <= h.bins && h.bins <= max_spectral_bins && h.bins_min_nm < h.bins_max_nm &&
+                             std::isfinite(h.bins_max_nm - h.bins_min_nm);
+  if (!sizes_in_order || !bins_in_order || !std::isfinite(h.imaging_ratio) || !(h.render_time_s >= 0))
     in.fail("the film file is corrupt: its header makes no sense");
   return h;
 }
@@ -116,6 +119,7 @@ void write_film(const std::filesystem::path& file, const Film& film, const FilmP
   h.full_width = film.full_width_, h.full_height = film.full_height_;
   h.x0 = film.crop_.x0, h.x1 = film.crop_.x1, h.y0 = film.crop_.y0, h.y1 = film.crop_.y1;
   h.imaging_ratio = film.imaging_ratio_;
+  h.bins = film.bins_.count, h.bins_min_nm = film.bins_.min_nm, h.bins_max_nm = film.bins_.max_nm;
   h.scene_hash = film.key_.scene_hash, h.settings_hash = film.key_.settings_hash, h.seed = film.key_.seed;
   h.items = progress.items, h.samples_per_pixel = progress.samples_per_pixel;
   h.render_time_s = progress.render_time_s;
@@ -132,7 +136,7 @@ Film read_film(const std::filesystem::path& file, FilmProgress* progress) {
   Reader in(file);
   const Header h = read_header(in);
   const auto pixels = static_cast<std::uint64_t>(h.x1 - h.x0) * static_cast<std::uint64_t>(h.y1 - h.y0);
-  const std::uint64_t planes = 2 + luminance_groups;
+  const std::uint64_t planes = 2 + luminance_groups + static_cast<std::uint64_t>(h.bins);
   const std::uint64_t arrays = pixels * (planes * sizeof(std::int64_t) + sizeof(std::uint32_t)) + 3 * 8;
   if (in.size() - sizeof h < arrays || (in.size() - sizeof h - arrays) % 8 != 0 ||
       (in.size() - sizeof h - arrays) / 8 != words_of(h.items))
@@ -145,6 +149,7 @@ Film read_film(const std::filesystem::path& file, FilmProgress* progress) {
   film.crop_ = {h.x0, h.x1, h.y0, h.y1};
   film.full_width_ = h.full_width, film.full_height_ = h.full_height;
   film.imaging_ratio_ = h.imaging_ratio;
+  film.bins_ = {h.bins, h.bins_min_nm, h.bins_max_nm};
   film.key_ = {h.scene_hash, h.settings_hash, h.seed};
   in.read_array(film.sums_, planes * pixels, "sums");
   in.read_array(film.counts_, pixels, "counts");

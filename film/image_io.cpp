@@ -5,10 +5,13 @@
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 
+#include <fast_float/fast_float.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <ctime>
+#include <optional>
 
 #include "scene/atomic_file.h"
 #include "scene/diagnostics.h"
@@ -49,22 +52,60 @@ void write_file(const std::filesystem::path& file, const OIIO::ImageSpec& spec, 
   target.commit();
 }
 
+// The layout of Fichet, Pacanowski & Wilkie 2021: the wavelength of a bin's centre, with a decimal comma.
+std::string spectral_channel(double nm) {
+  std::string name = fmt::format("S0.{:.6f}nm", nm);
+  name[name.find('.', 3)] = ',';
+  return name;
+}
+
+// The wavelength of an unpolarised channel of that layout in nm; none for other channels.
+std::optional<double> wavelength_of(std::string name) {
+  if (!name.starts_with("S0.") || !name.ends_with("nm")) return std::nullopt;
+  name = name.substr(3, name.size() - 5);
+  std::replace(name.begin(), name.end(), ',', '.');
+  double nm = 0;
+  const auto [end, error] = fast_float::from_chars(name.data(), name.data() + name.size(), nm);
+  if (error != std::errc() || end != name.data() + name.size()) return std::nullopt;
+  return nm;
+}
+
+struct Plane {
+  std::string name;
+  const Image* image;
+  std::size_t channel;
+};
+
+std::vector<Plane> planes_of(const Picture& picture) {
+  std::vector<Plane> planes{{"R", &picture.rgb, 0}, {"G", &picture.rgb, 1}, {"B", &picture.rgb, 2}};
+  if (picture.variance.pixels() > 0) planes.push_back({"Variance.Y", &picture.variance, 0});
+  if (picture.spectrum.pixels() > 0)
+    for (int bin = 0; bin < picture.bins.count; ++bin)
+      planes.push_back(
+          {spectral_channel(picture.bins.centre_nm(bin)), &picture.spectrum, static_cast<std::size_t>(bin)});
+  return planes;
+}
+
 void write_exr(const std::filesystem::path& file, const Picture& picture) {
-  const bool with_variance = picture.variance.pixels() > 0;
-  OIIO::ImageSpec spec = spec_of(picture, with_variance ? 4 : 3, OIIO::TypeDesc::FLOAT);
+  const std::vector<Plane> planes = planes_of(picture);
+  OIIO::ImageSpec spec = spec_of(picture, static_cast<int>(planes.size()), OIIO::TypeDesc::FLOAT);
   spec.attribute("compression", "zip");
   if (picture.samples_per_pixel > 0) spec.attribute("samplesPerPixel", picture.samples_per_pixel);
   if (picture.render_time_s > 0)
     spec.attribute("renderTimeSeconds", static_cast<float>(picture.render_time_s));
-  if (!with_variance) return write_file(file, spec, picture.rgb.values.data());
-  spec.channelnames = {"R", "G", "B", "Variance.Y"};
-  spec.alpha_channel = -1;
-  std::vector<float> pixels;
-  pixels.reserve(4 * picture.rgb.pixels());
-  for (std::size_t p = 0; p < picture.rgb.pixels(); ++p) {
-    pixels.insert(pixels.end(), &picture.rgb.values[3 * p], &picture.rgb.values[3 * p] + 3);
-    pixels.push_back(picture.variance.values[p]);
+  if (picture.spectrum.pixels() > 0) {
+    spec.attribute("spectralLayoutVersion", "1.0");
+    spec.attribute("emissiveUnits", "W.m^-2.sr^-1");
   }
+  spec.channelnames.clear();
+  for (const Plane& plane : planes) spec.channelnames.push_back(plane.name);
+  spec.alpha_channel = spec.z_channel = -1;
+  std::vector<float> pixels;
+  pixels.reserve(planes.size() * picture.rgb.pixels());
+  for (std::size_t p = 0; p < picture.rgb.pixels(); ++p)
+    for (const Plane& plane : planes)
+      pixels.push_back(
+          plane.image->values[p * static_cast<std::size_t>(plane.image->channels) + plane.channel]);
   write_file(file, spec, pixels.data());
 }
 
@@ -97,6 +138,22 @@ Image select_channels(const OIIO::ImageSpec& spec, const std::vector<float>& val
   return image;
 }
 
+// Channels of a spectral layout, by ascending wavelength, taken for equal bins around them.
+void read_spectrum(Picture& picture, const OIIO::ImageSpec& spec, const std::vector<float>& values) {
+  std::vector<std::pair<double, int>> found;
+  for (int c = 0; c < spec.nchannels; ++c)
+    if (const auto nm = wavelength_of(spec.channelnames[static_cast<std::size_t>(c)]))
+      found.emplace_back(*nm, c);
+  if (found.size() < 2) return;
+  std::sort(found.begin(), found.end());
+  std::vector<int> channels;
+  for (const auto& [nm, channel] : found) channels.push_back(channel);
+  const double width = (found.back().first - found.front().first) / static_cast<double>(found.size() - 1);
+  picture.bins = {static_cast<int>(found.size()), found.front().first - width / 2,
+                  found.back().first + width / 2};
+  picture.spectrum = select_channels(spec, values, channels);
+}
+
 }  // namespace
 
 void write_picture(const std::filesystem::path& file, const Picture& picture) {
@@ -119,6 +176,7 @@ Picture read_picture(const std::filesystem::path& file) {
     for (float& v : picture.rgb.values) v = static_cast<float>(srgb_decode(static_cast<double>(v)));
   if (const int variance = spec.channelindex("Variance.Y"); variance >= 0)
     picture.variance = select_channels(spec, values, std::span(&variance, 1));
+  read_spectrum(picture, spec, values);
   picture.window = {spec.x, spec.x + spec.width, spec.y, spec.y + spec.height};
   picture.full_width = spec.full_width;
   picture.full_height = spec.full_height;

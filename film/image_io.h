@@ -9,7 +9,8 @@
 
 namespace vitrail {
 
-// Writes .exr (32-bit float, linear; `Variance.Y` beside R, G, B if the picture has variances) or .png (8
+// Writes .exr (32-bit float, linear; beside R, G, B `Variance.Y` if the picture has variances, and
+// `S0.580,000000nm` and the like if it has spectra) or .png (8
 // bits, sRGB transfer function, clamped, rounded to nearest). The file appears whole or not at all, and its
 // date is SOURCE_DATE_EPOCH or 1970, so equal pictures give equal files. Other extensions throw UsageError.
 void write_picture(const std::filesystem::path& file, const Picture& picture);

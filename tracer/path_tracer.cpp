@@ -39,7 +39,7 @@ SampleKey PathTracer::key_of(std::uint32_t pixel, std::uint32_t sample) const {
 // Of a sample whose numbers for the camera are `camera`.
 SensorWeights PathTracer::sensor_of(const std::array<float, 4>& camera,
                                     const SampledWavelengths& wavelengths) const {
-  return sensor_weights(wavelengths, scene_.filter.weight(camera[0], camera[1]));
+  return sensor_weights(wavelengths, scene_.filter.weight(camera[0], camera[1]), film_.bins());
 }
 
 void PathTracer::trace_camera(int x, int y, std::uint32_t sample) {
@@ -213,7 +213,15 @@ void PathTracer::trace_shadow(const ShadowRecord& record, const SensorWeights* w
 
 void PathTracer::deposit(std::uint32_t pixel, std::uint32_t sample, const SensorWeights& weights,
                          const SampledSpectrum& radiance) {
-  if (!film_.deposit(pixel, sample, sense(weights, radiance))) ++counters_.nonfinite_samples;
+  if (!film_.deposit(pixel, sample, sense(weights, radiance))) {
+    ++counters_.nonfinite_samples;
+    return;
+  }
+  if (film_.bins().count == 0) return;
+  for (std::size_t i = 0; i < hero_count; ++i) {
+    const double value = static_cast<double>(radiance.v[i]) * static_cast<double>(weights.spectral[i]);
+    if (value != 0 && !film_.deposit_bin(pixel, weights.bin[i], value)) ++counters_.nonfinite_samples;
+  }
 }
 
 }  // namespace vitrail

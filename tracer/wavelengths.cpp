@@ -52,8 +52,25 @@ SampledWavelengths sample_wavelengths(float u) {
   return result;
 }
 
-SensorWeights sensor_weights(const SampledWavelengths& wavelengths, double scale) {
+namespace {
+
+// 1/(N · pdf · width) for N wavelengths.
+void add_bins(SensorWeights& w, const SampledWavelengths& wavelengths, double scale,
+              const SpectralBins& into) {
+  for (std::size_t i = 0; i < hero_count; ++i) {
+    const double at = (static_cast<double>(wavelengths.lambda_nm[i]) - into.min_nm) / into.width_nm();
+    if (!(at >= 0 && at < into.count)) continue;
+    w.bin[i] = static_cast<std::uint16_t>(at);
+    w.spectral[i] =
+        static_cast<float>(scale / (hero_count * static_cast<double>(wavelengths.pdf[i]) * into.width_nm()));
+  }
+}
+
+}  // namespace
+
+SensorWeights sensor_weights(const SampledWavelengths& wavelengths, double scale, const SpectralBins& into) {
   SensorWeights w;
+  if (into.count > 0) add_bins(w, wavelengths, scale, into);
   for (std::size_t i = 0; i < hero_count; ++i) {
     const double at =
         std::clamp(static_cast<double>(wavelengths.lambda_nm[i]) - lambda_min_nm, 0.0, bins - 1e-9);

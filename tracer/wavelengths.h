@@ -2,8 +2,11 @@
 // Hero wavelengths and what the sensor makes of them.
 #pragma once
 
+#include <cstdint>
+
 #include "scene/color.h"
 #include "scene/sampled_spectrum.h"
+#include "scene/spectral_bins.h"
 
 namespace vitrail {
 
@@ -12,12 +15,17 @@ namespace vitrail {
 // Radziszewski et al. 2009 for the density). u in [0,1).
 SampledWavelengths sample_wavelengths(float u);
 
-// What a pixel gets of radiance L at the four wavelengths: XYZ = Σᵢ Lᵢ · weight[·][i], unbiased.
+// What a pixel gets of radiance L at the four wavelengths: XYZ = Σᵢ Lᵢ · weight[·][i], unbiased; and where
+// the film keeps spectral bins, Lᵢ·spectral[i] for bin[i], so that the sum's mean is the mean of L over the
+// bin.
 struct SensorWeights {
   std::array<float, hero_count> x{}, y{}, z{};
+  std::array<float, hero_count> spectral{};  // 0: in no bin
+  std::array<std::uint16_t, hero_count> bin{};
 };
 // `scale` multiplies them.
-SensorWeights sensor_weights(const SampledWavelengths& wavelengths, double scale = 1);
+SensorWeights sensor_weights(const SampledWavelengths& wavelengths, double scale = 1,
+                             const SpectralBins& bins = {});
 
 inline XYZ sense(const SensorWeights& w, const SampledSpectrum& radiance) {
   XYZ sum;

@@ -15,3 +15,6 @@ endfunction()
 vitrail_appearance_test(mitsuba_reference)
 vitrail_appearance_test(picture_reference vitrail::nori_scene)
 vitrail_appearance_test(nori_radiance vitrail::nori_scene vitrail::importers)
+vitrail_test(spectral_picture LABEL conformance SOURCES spectral_picture_test.cpp
+  LIBRARIES vitrail::corpus_render vitrail::image)
+add_dependencies(test_spectral_picture vitrail vitrail-partition vitrail-render vitrail-develop)

@@ -20,10 +20,11 @@ class FilmFile : public testing::Test {
     settings.width = 10, settings.height = 8;
     settings.crop = {2, 7, 1, 4};
     settings.imaging_ratio = 0.25;
-    film_ = Film(settings, {11, 22, 33});
+    film_ = Film(settings, {11, 22, 33}, {3, 400, 700});
     for (std::uint32_t p = 0; p < 15; ++p) {
       film_.count_sample(p);
       film_.deposit(p, p, {0.1 * p, 0.2 * p, 0.3 * p});
+      film_.deposit_bin(p, p % 3, 0.5 * p);
     }
     progress_ = {70, 16, {0xff, 0x3f}, 1.5};
     write_film(file_, film_, progress_);
