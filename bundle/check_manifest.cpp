@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "bundle/checksum.h"
@@ -118,6 +119,20 @@ void check_records(const Checker& c, const Manifest& m) {
   records::fields(io, m.camera);
 }
 
+void check_sheets(const Checker& c, const Manifest& m) {
+  for (const Material& material : m.materials) {
+    const auto* measured = std::get_if<MeasuredMaterial>(&material.model);
+    if (!measured) continue;
+    c.require(measured->sheet.has_value(), "a measured material has no measurements");
+    const MeasuredSheet& s = *measured->sheet;
+    const std::size_t cells = s.wavelengths_nm.size() * s.cosines.size();
+    c.require(cells > 0 && s.reflectance.size() == cells && s.transmittance.size() == cells,
+              "a table of measurements is not whole");
+    c.require(std::ranges::is_sorted(s.wavelengths_nm) && std::ranges::is_sorted(s.cosines),
+              "a table of measurements is out of order");
+  }
+}
+
 void check_lights(const Checker& c, const Manifest& m) {
   for (const EmissiveTriangle& t : m.emissive_triangles)
     c.require(t.triangle < m.triangles && t.area_light < m.area_lights.size(), "a light shines from nowhere");
@@ -168,6 +183,7 @@ void check_manifest(const Manifest& m, const std::filesystem::path& file) {
   check_kd_tree(c, m);
   check_surfaces(c, m);
   check_records(c, m);
+  check_sheets(c, m);
   check_lights(c, m);
   check_media(c, m);
   c.require(m.attributes <= max_attributes, "its textures read more than 8 mesh attributes");

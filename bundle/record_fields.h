@@ -234,9 +234,13 @@ void fields(auto& io, Is<BlendMaterial> auto& m) {
 }
 void fields(auto& io, Is<MaskMaterial> auto& m) { fields(io, m.opacity), fields(io, m.material); }
 void fields(auto& io, Is<TwoSidedMaterial> auto& m) { fields(io, m.front), fields(io, m.back); }
+void fields(auto& io, Is<MeasuredSheet> auto& s) {
+  list(io, s.wavelengths_nm), list(io, s.cosines), list(io, s.reflectance), list(io, s.transmittance);
+}
+void fields(auto& io, Is<MeasuredMaterial> auto& m) { fields(io, m.sheet); }
 // Other materials stand for these in a bundle.
 template <class T>
-concept Replaced = Is<T, SubsurfaceMaterial> || Is<T, HairMaterial> || Is<T, MeasuredMaterial>;
+concept Replaced = Is<T, SubsurfaceMaterial> || Is<T, HairMaterial>;
 void fields(auto& io, Replaced auto&) {
   if constexpr (reads<decltype(io)>) io.stream.fail("a material is of a kind that bundles do not have");
   throw std::logic_error("a bundle does not take this material");

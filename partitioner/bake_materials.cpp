@@ -78,7 +78,10 @@ class MaterialBaker {
     note("becomes diffuse with its colour");
     return (*this)(DiffuseMaterial{*m.color});
   }
-  MaterialModel operator()(const MeasuredMaterial&) { return grey("its measurements"); }
+  MaterialModel operator()(const MeasuredMaterial& m) {
+    if (m.sheet) return MeasuredMaterial{"", m.sheet};
+    return grey("its measurements");
+  }
   MaterialModel operator()(const InterfaceMaterial& m) { return m; }
   MaterialModel operator()(BlendMaterial m) {
     part(m.first), part(m.second), number(m.amount);

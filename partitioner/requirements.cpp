@@ -69,6 +69,7 @@ struct MaterialNeeds {
   }
   void operator()(const PrincipledMaterial& m) { r.uv |= !is_zero(m.anisotropic); }
   void operator()(const ThinDielectricMaterial&) { r.see_through = true; }
+  void operator()(const MeasuredMaterial&) { r.see_through = true; }
   void operator()(const InterfaceMaterial&) { r.see_through = true; }
   void operator()(const MaskMaterial& m) { r.see_through |= m.opacity != FloatParameter{1.0f}; }
   void operator()(const auto&) {}

@@ -28,7 +28,8 @@ bool transmits(const MaterialModel& model) {
     return principled->thin || principled->spec_trans != FloatParameter{0.0f};
   return std::holds_alternative<DielectricMaterial>(model) ||
          std::holds_alternative<ThinDielectricMaterial>(model) ||
-         std::holds_alternative<DiffuseTransmissionMaterial>(model);
+         std::holds_alternative<DiffuseTransmissionMaterial>(model) ||
+         std::holds_alternative<MeasuredMaterial>(model);
 }
 
 SampledSpectrum BsdfMaker::spectrum(const SpectrumParameter& p) const {

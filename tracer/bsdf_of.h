@@ -27,6 +27,7 @@ struct BsdfMaker {
   Bsdf operator()(const CoatedConductorMaterial& m) const;
   Bsdf operator()(const DiffuseTransmissionMaterial& m) const;
   Bsdf operator()(const PrincipledMaterial& m) const;
+  Bsdf operator()(const MeasuredMaterial& m) const { return MeasuredSheetBsdf{&*m.sheet, wavelengths}; }
   // Those that are made of others, and those that bundles do not have: black.
   Bsdf operator()(const auto&) const { return LambertBsdf{}; }
 

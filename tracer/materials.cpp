@@ -22,6 +22,10 @@ MaterialKind kind_of(const Material& material) {
     kind.smooth_dielectric = is_zero(d->roughness.alpha_u) && is_zero(d->roughness.alpha_v);
     kind.dispersive = !is_constant(d->eta) || !is_constant(d->exterior_eta);
   }
+  if (const auto* coated = std::get_if<CoatedDiffuseMaterial>(&material.model))
+    kind.dispersive = !is_constant(coated->eta);
+  if (const auto* coated = std::get_if<CoatedConductorMaterial>(&material.model))
+    kind.dispersive = !is_constant(coated->interface_eta);
   return kind;
 }
 
@@ -130,6 +134,8 @@ SampledSpectrum Materials::passes_straight(std::uint32_t material, const Interac
     return filled(1 - opacity) + part(mask->material) * opacity;
   }
   if (std::holds_alternative<InterfaceMaterial>(m.model)) return filled(1);
+  if (const auto* measured = std::get_if<MeasuredMaterial>(&m.model))
+    return sheet_fractions(*measured->sheet, wavelengths, std::abs(dot(at.out, at.shading))).transmitted;
   if (const auto* thin = std::get_if<ThinDielectricMaterial>(&m.model)) {
     const BsdfMaker maker{textures_, at.texture_point(), wavelengths, at.front, nullptr};
     return straight_transmittance(maker.thin(*thin), std::abs(dot(at.out, at.shading)));

@@ -8,6 +8,7 @@
 #include "tracer/bsdf/dielectric.h"
 #include "tracer/bsdf/diffuse.h"
 #include "tracer/bsdf/layered.h"
+#include "tracer/bsdf/measured.h"
 #include "tracer/bsdf/plastic.h"
 #include "tracer/bsdf/principled.h"
 
@@ -15,7 +16,7 @@ namespace vitrail {
 
 using Bsdf = std::variant<LambertBsdf, OrenNayarBsdf, DiffuseTransmissionBsdf, ConductorBsdf, DielectricBsdf,
                           ThinDielectricBsdf, PlasticBsdf, RoughPlasticBsdf, PrincipledBsdf,
-                          PrincipledThinBsdf, CoatedDiffuseBsdf, CoatedConductorBsdf>;
+                          PrincipledThinBsdf, CoatedDiffuseBsdf, CoatedConductorBsdf, MeasuredSheetBsdf>;
 
 inline BsdfValue eval(const Bsdf& bsdf, Vector3d out, Vector3d in) {
   return std::visit([&](const auto& b) { return eval(b, out, in); }, bsdf);
