@@ -92,7 +92,7 @@ TEST(CorruptionOfBundle, ExchangedFilesAreFound) {
 
   test::write_sample_bundle(bundle);
   Manifest changed = test::sample_manifest();
-  changed.materials[0] = bundle::DiffuseMaterial{ConstantSpectrum{0.1f}};
+  changed.materials[0] = Material{DiffuseMaterial{ConstantSpectrum{0.1f}}};
   std::filesystem::create_directories(directory.path() / "b.vit");
   write_manifest(directory.path() / "b.vit", changed);
   std::filesystem::copy_file(directory.path() / "b.vit/materials.bin", bundle / "materials.bin",

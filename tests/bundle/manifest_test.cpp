@@ -98,10 +98,18 @@ TEST_F(ManifestFile, WrongContentIsFound) {
       [](Manifest& m) { m.surfaces[1].material = 3; },
       [](Manifest& m) { m.surfaces[1].area_light = 2; },
       [](Manifest& m) { m.surfaces[1].area_light = -2; },
+      [](Manifest& m) { m.surfaces[0].interior = 2; },
+      [](Manifest& m) { m.camera_medium = 2; },
+      [](Manifest& m) { m.materials[0].normal_map = Id<Texture>{2}; },
+      [](Manifest& m) { std::get<BlendMaterial>(m.materials[2].model).first = {2}; },  // itself
+      [](Manifest& m) { std::get<CheckerboardTexture>(m.textures[1].model).odd = Id<Texture>{1}; },
+      [](Manifest& m) { m.media[0].g = 1; },
+      [](Manifest& m) { std::get<Grid>(std::get<ExtinctionAlbedo>(m.media[1].coefficients).sigma_t).nx = 3; },
+      [](Manifest& m) { m.attributes = max_attributes + 1; },
       [](Manifest& m) { m.emissive_triangles[0].triangle = 11; },
       [](Manifest& m) { m.emissive_triangles[0].area_light = 2; },
       [](Manifest& m) { m.offset.y = nan; },
-      [](Manifest& m) { std::get<bundle::PointLight>(m.lights[0]).position.x = nan; },
+      [](Manifest& m) { std::get<PointLight>(m.lights[0].model).position.x = nan; },
       [](Manifest& m) { std::get<OrthographicCamera>(m.camera).camera_to_world.m[1][1] = nan; },
       [](Manifest& m) { m.film.crop.x1 = 641; },
       [](Manifest& m) {
@@ -132,7 +140,7 @@ TEST_F(ManifestFile, AnotherVersionIsNamed) {
   write_manifest(directory.path(), sample_manifest());
   const auto file = directory.path() / "manifest.json";
   std::string text = test::read_text(file);
-  text.replace(text.find("\"version\": 1"), 12, "\"version\": 7");
+  text.replace(text.find("\"version\": 2"), 12, "\"version\": 7");
   const std::string rest = text.substr(text.find('\n') + 1);
   char line[64];
   std::snprintf(line, sizeof line, "{\"checksum\": \"%016llx\",\n",

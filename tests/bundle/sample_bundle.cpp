@@ -63,22 +63,36 @@ Manifest sample_manifest() {
   m.scale = 3;
   m.kd_nodes = {{0.1f, 0, 1, KdNode::leaf_bit | 2}, {-1e-20f, 2, KdNode::leaf_bit | 0, KdNode::leaf_bit | 1}};
   m.domains = {{11, 1, 1, 1, {{-1, -2, -3}, {1.0f / 3, 2, 3}}}, {11, 1, 1, 1, {}}, {11, 1, 1, 1, {}}};
-  m.surfaces = {{0, 1, -1}, {4, 2, 0}, {9, 0, 1}};
+  m.surfaces = {{0, 1, -1, 0, -1}, {4, 2, 0, -1, -1}, {9, 0, 1, -1, 1}};
   TabulatedSpectrum table;
   for (int i = 0; i < table_size; ++i) table.values.push_back(static_cast<float>(i) / 7);
-  m.materials = {bundle::DiffuseMaterial{SigmoidSpectrum{0.1f, -0.2f, infinity}},
-                 bundle::DielectricMaterial{SellmeierSpectrum{{1.03, 0.23, 1.01}, {0.006, 0.02, 103.56}}},
-                 bundle::InterfaceMaterial{}};
-  m.area_lights = {{table, true}, {RgbIlluminantSpectrum{{1e-5f, 2, 3}, 4}, false}};
-  m.emissive_triangles = {{{{0, 0, 0}, {1, 0, 0}, {0, 1.1f, 0}}, 5, 0},
-                          {{{0, 0, 0}, {0, 1, 0}, {0, 0, 1}}, 10, 1}};
-  m.lights = {bundle::PointLight{{1, 2, 1.0 / 3}, ConstantSpectrum{1.5f}},
-              bundle::DistantLight{{0, 0, -1}, ConstantSpectrum{0.1f}},
-              bundle::InfiniteLight{ConstantSpectrum{2}}};
+  CheckerboardTexture board{ConstantSpectrum{0.1f}, Id<Texture>{0}, UvMapping{1, 2, 3, 4, 5, 6}};
+  m.textures = {Texture{ImageTexture{"textures/000000.tex", {}, Wrap::mirror, TextureFilter::trilinear}},
+                Texture{board}};
+  Material mixed{BlendMaterial{{1}, {0}, Id<Texture>{1}}};
+  mixed.two_sided = false;
+  mixed.displacement = Id<Texture>{1};
+  m.materials = {Material{DiffuseMaterial{SigmoidSpectrum{0.1f, -0.2f, infinity}, 0.5f}},
+                 Material{DielectricMaterial{SellmeierSpectrum{{1.03, 0.23, 1.01}, {0.006, 0.02, 103.56}}}},
+                 mixed};
+  Medium grid;
+  grid.coefficients = ExtinctionAlbedo{Grid{"", "", 2, 1, 1, 1, {0.5f, 0.25f}}, ConstantSpectrum{0.9f}};
+  grid.medium_to_world = translate({1, 2, 3});
+  m.media = {Medium{.coefficients = AbsorptionScattering{table, ConstantSpectrum{2}}, .g = 0.5f}, grid};
+  m.area_lights = {{table, 1, true}, {RgbIlluminantSpectrum{{1e-5f, 2, 3}, 4}, 2, false, true}};
+  m.emissive_triangles = {{{{0, 0, 0}, {1, 0, 0}, {0, 1.1f, 0}}, {{0, 1}, {2, 3}, {4, 5}}, 5, 0},
+                          {{{0, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {}, 10, 1}};
+  m.lights = {Light{PointLight{{1, 2, 1.0 / 3}, ConstantSpectrum{1.5f}}},
+              Light{DistantLight{{0, 0, -1}, ConstantSpectrum{0.1f}}},
+              Light{InfiniteLight{ConstantSpectrum{2}}},
+              Light{SpotLight{translate({0, 1, 0}), ConstantSpectrum{3}, 10, 20, SpotLight::Falloff::linear,
+                              Id<Texture>{1}}}};
+  m.camera_medium = 1;
+  m.texture_files = {{"textures/000000.tex", 12, 0x123456789abcdef0u}};
   m.camera = OrthographicCamera{translate({0.1, 1e-300, 3}), {-1.0 / 3, 1, -2, 2}, {0.1, 1.0 / 3}};
   m.film = {640, 480, {10, 600, 20, 400}, GaussianFilter{1.25, 1.5, 0.1}, 0.7};
-  m.settings = {33, 7, true};
-  m.requirements = {true, true, true, true};
+  m.settings = {33, 7, true, false};
+  m.requirements = {true, false, true, false, true, true, true};
   m.scene_hash = 0xfedcba9876543210u;
   return m;
 }
