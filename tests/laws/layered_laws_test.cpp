@@ -147,6 +147,16 @@ TEST(Layered, Reciprocal) {
   expect_reciprocal(copper(.3, .4, volume(.3, .7f)), .02, "metal");
 }
 
+// pbrt-v4's weights of the ways out do not add up to 1.
+TEST(Layered, UnbalancedIsBrighter) {
+  CoatedDiffuseBsdf b{.reflectance = filled(.5f), .interface = rough(.1), .volume = volume(.01)};
+  b.volume.samples = 100000;
+  const Vector3d out = direction(60, 0), in = direction(70, 100);
+  const auto balanced = static_cast<double>(eval(b, out, in).value[0]);
+  b.volume.balanced = false;
+  EXPECT_NEAR(static_cast<double>(eval(b, out, in).value[0]), 1.07 * balanced, .02 * balanced);
+}
+
 TEST(Layered, ConservesEnergyAndWhiteIsWhite) {
   for (const Vector3d out : laws::incidences()) {
     SCOPED_TRACE(out.z);

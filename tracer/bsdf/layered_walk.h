@@ -61,7 +61,7 @@ inline bool dies(int depth, SampledSpectrum& weight, WalkRandom& random) {
 template <class Base>
 SampledSpectrum walk_value(const Layer<Base>& layer, Vector3d out, Vector3d in, WalkRandom& random) {
   const Coating& coating = layer.coating;
-  const auto& [thickness, g, albedo, max_depth, samples] = layer.volume;
+  const auto& [thickness, g, albedo, max_depth, samples, balanced] = layer.volume;
   const auto wos = sample_coating_transmission(coating, out, random.uniform_pair());
   const auto wis = sample_coating_transmission(coating, in, random.uniform_pair());
   SampledSpectrum sum{};
@@ -74,6 +74,9 @@ SampledSpectrum walk_value(const Layer<Base>& layer, Vector3d out, Vector3d in, 
   };
   const auto weigh = [&](double chosen, double other) {
     return rough_exit ? power_heuristic(chosen, other) : 1;
+  };
+  const auto exit_pdf = [&](Vector3d w) {
+    return balanced ? coating_transmitted_pdf(coating, in, -w) : coating_transmitted_pdf(coating, -w, in);
   };
 
   WalkState s{thickness, wos->in, filled(static_cast<float>(wos->weight))};
@@ -90,7 +93,7 @@ SampledSpectrum walk_value(const Layer<Base>& layer, Vector3d out, Vector3d in, 
       s.w = next;
       if (s.w.z > 0 && rough_exit)
         add(s.weight, coating_transmission(coating, -s.w, in) * slab_transmittance(thickness - s.z, s.w) *
-                          power_heuristic(next_pdf, coating_transmitted_pdf(coating, in, -s.w)));
+                          power_heuristic(next_pdf, exit_pdf(s.w)));
     } else if (s.z > 0) {  // at the interface, from below
       const auto reflected = sample_coating_reflection(coating, -s.w, random.uniform_pair());
       if (!reflected) break;
@@ -106,9 +109,7 @@ SampledSpectrum walk_value(const Layer<Base>& layer, Vector3d out, Vector3d in, 
       s.weight = s.weight * reflected->weight;
       s.w = reflected->in;
       if (rough_exit) {
-        const double chosen =
-            layer.base.smooth() ? 1
-                                : power_heuristic(reflected->pdf, coating_transmitted_pdf(coating, in, -s.w));
+        const double chosen = layer.base.smooth() ? 1 : power_heuristic(reflected->pdf, exit_pdf(s.w));
         add(s.weight, coating_transmission(coating, -s.w, in) * slab_transmittance(thickness, s.w) * chosen);
       }
     }
@@ -126,7 +127,7 @@ struct WalkEnd {
 template <class Base>
 std::optional<WalkEnd> sample_walk(const Layer<Base>& layer, Vector3d out, float u_lobe, Point2f u) {
   const Coating& coating = layer.coating;
-  const auto& [thickness, g, albedo, max_depth, samples] = layer.volume;
+  const auto& [thickness, g, albedo, max_depth, samples, balanced] = layer.volume;
   auto entered = sample_coating(coating, out, static_cast<double>(u_lobe), u);
   if (!entered) return std::nullopt;
   WalkState s{thickness, entered->in, filled(static_cast<float>(entered->weight))};
