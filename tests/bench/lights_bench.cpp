@@ -18,8 +18,8 @@ double cpu_seconds() {
 }
 
 // Small lamps all over a flat room of 20 × 20 × 4, each shining down; `spread`: of their power, e-folds.
-std::vector<LightTriangle> lamps(std::uint32_t count, Random& random) {
-  std::vector<LightTriangle> all;
+std::vector<EmissiveTriangle> lamps(std::uint32_t count, Random& random) {
+  std::vector<EmissiveTriangle> all;
   for (std::uint32_t i = 0; i < count; ++i) {
     const Point3d p{random.between(-10, 10), random.between(-10, 10), random.between(0, 4)};
     const double size = 0.02 + 0.05 * random();
@@ -32,14 +32,14 @@ std::vector<LightTriangle> lamps(std::uint32_t count, Random& random) {
 }
 
 // A sphere of radius 1 that shines, as a mesh.
-std::vector<LightTriangle> sphere(std::uint32_t count) {
+std::vector<EmissiveTriangle> sphere(std::uint32_t count) {
   const auto rings = static_cast<int>(std::max(2.0, std::sqrt(count / 4.0)));
   const int sectors = 2 * rings;
   const auto at = [&](int i, int j) {
     const double t = 3.14159265358979 * i / rings, f = 6.28318530717959 * (j % sectors) / sectors;
     return cast<float>(Point3d{std::sin(t) * std::cos(f), std::sin(t) * std::sin(f), std::cos(t) + 2});
   };
-  std::vector<LightTriangle> all;
+  std::vector<EmissiveTriangle> all;
   for (int i = 0; i < rings; ++i)
     for (int j = 0; j < sectors; ++j)
       for (int half = 0; half < 2; ++half)
@@ -51,7 +51,7 @@ std::vector<LightTriangle> sphere(std::uint32_t count) {
   return all;
 }
 
-void run(const char* what, const std::vector<LightTriangle>& triangles, LightChoice choice) {
+void run(const char* what, const std::vector<EmissiveTriangle>& triangles, LightChoice choice) {
   AreaLight light;
   light.radiance = Spectrum{ConstantSpectrum{1}};
   LightScene scene;
