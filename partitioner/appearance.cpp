@@ -125,7 +125,7 @@ struct LightBaker {
   }
   LightModel operator()(GoniometricLight l) const {
     l.intensity = resolved(l.intensity);
-    l.filename = textures.bake_image(l.filename, Encoding::automatic, 1, TextureUse::illuminant, where);
+    l.filename = textures.bake_image(l.filename, Encoding::automatic, 1, TextureUse::number, where);
     return l;
   }
   LightModel operator()(DistantLight l) const {
