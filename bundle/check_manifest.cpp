@@ -51,6 +51,10 @@ void check_film(const Checker& c, const FilmSettings& f) {
                 f.crop.y0 < f.crop.y1 && f.crop.y1 <= f.height,
             "the crop window is empty or not within the film");
   c.require(std::isfinite(f.imaging_ratio), "the imaging ratio is not finite");
+  const SpectralBins& bins = f.spectrum;
+  c.require(bins.count >= 0 && bins.count <= max_spectral_bins && bins.min_nm < bins.max_nm &&
+                std::isfinite(bins.max_nm - bins.min_nm),
+            "the film's spectral bins are too many or empty");
   std::visit(
       [&](const auto& filter) {
         c.require(

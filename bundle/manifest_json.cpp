@@ -85,13 +85,17 @@ Camera camera_from_json(const Json& j) {
   return OrthographicCamera{t, screen, lens};
 }
 
+SpectralBins bins_from_json(const Json& film) {
+  if (!film.contains("spectrum")) return {};
+  const Json& j = film["spectrum"];
+  return {j.at("bins").get<int>(), j.at("min_nm").get<double>(), j.at("max_nm").get<double>()};
+}
+
 FilmSettings film_from_json(const Json& j) {
   const auto crop = [&](std::size_t i) { return j.at("crop_px").at(i).get<int>(); };
-  return {j.at("width_px").get<int>(),
-          j.at("height_px").get<int>(),
-          {crop(0), crop(1), crop(2), crop(3)},
-          filter_from_json(j.at("filter")),
-          j.at("imaging_ratio").get<double>()};
+  return {j.at("width_px").get<int>(),          j.at("height_px").get<int>(),
+          {crop(0), crop(1), crop(2), crop(3)}, filter_from_json(j.at("filter")),
+          j.at("imaging_ratio").get<double>(),  bins_from_json(j)};
 }
 
 // The names of the requirements, for both directions.
@@ -175,11 +179,15 @@ Json camera_to_json(const Camera& camera) {
 }
 
 Json film_to_json(const FilmSettings& f) {
-  return {{"width_px", f.width},
-          {"height_px", f.height},
-          {"crop_px", {f.crop.x0, f.crop.x1, f.crop.y0, f.crop.y1}},
-          {"filter", filter_to_json(f.filter)},
-          {"imaging_ratio", f.imaging_ratio}};
+  Json j{{"width_px", f.width},
+         {"height_px", f.height},
+         {"crop_px", {f.crop.x0, f.crop.x1, f.crop.y0, f.crop.y1}},
+         {"filter", filter_to_json(f.filter)},
+         {"imaging_ratio", f.imaging_ratio}};
+  if (f.spectrum.count > 0)
+    j["spectrum"] = {
+        {"bins", f.spectrum.count}, {"min_nm", f.spectrum.min_nm}, {"max_nm", f.spectrum.max_nm}};
+  return j;
 }
 
 Json manifest_to_json(const Manifest& m) {

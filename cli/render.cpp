@@ -34,7 +34,9 @@ void declare(CLI::App& app, Arguments& a) {
   app.add_option("--memory", a.memory, "most memory a rank may use, e.g. 512M or 2G");
   app.add_option("--threads", o.threads, "worker threads a rank; default: all cores");
   app.add_option("--crop", a.crop, "x0,x1,y0,y1 in pixels from the top left");
-  app.add_option("--spectral", a.bins, "keep the spectrum of each pixel in this many bins over 360 to 830 nm")
+  app.add_option(
+         "--spectral", a.bins,
+         "keep the spectrum of each pixel in this many bins over 360 to 830 nm; default: as the scene says")
       ->check(CLI::Range(1, max_spectral_bins));
   app.add_option("--checkpoint-every", o.checkpoint_every_s, "seconds between checkpoints");
   app.add_flag("--resume", o.resume, "go on from the checkpoint");
@@ -97,7 +99,7 @@ int render_job(Transport& transport, Arguments& a) {
   if (stats.complete) {
     if (a.output.extension() != ".film") {
       std::vector<std::string> arguments{a.options.film.string(), "-o", a.output.string()};
-      if (a.bins > 0 && a.output.extension() == ".exr") arguments.push_back("--spectral");
+      if (stats.spectral_bins > 0 && a.output.extension() == ".exr") arguments.push_back("--spectral");
       run_program("vitrail-develop", arguments);
     }
   } else {

@@ -5,7 +5,6 @@
 #include <optional>
 
 #include "scene/scene.h"
-#include "scene/spectral_bins.h"
 
 namespace vitrail {
 

@@ -40,6 +40,7 @@ Manifest read_with_overrides(const RenderOptions& options) {
   if (m.settings.max_depth < 0) throw UsageError("the depth must not be negative");
   m.settings.max_depth = std::min(m.settings.max_depth, max_path_depth);
   if (options.crop) m.film.crop = *options.crop;
+  if (options.bins) m.film.spectrum = *options.bins;
   const PixelRect& c = m.film.crop;
   if (c.x0 < 0 || c.y0 < 0 || c.x1 > m.film.width || c.y1 > m.film.height || c.x0 >= c.x1 || c.y0 >= c.y1)
     throw UsageError("the crop lies outside the film or is empty");
@@ -47,7 +48,8 @@ Manifest read_with_overrides(const RenderOptions& options) {
 }
 
 // Of what changes the picture and is neither in the scene hash nor the seed or the sample count.
-std::uint64_t settings_hash(const Manifest& m, const SpectralBins& bins) {
+std::uint64_t settings_hash(const Manifest& m) {
+  const SpectralBins& bins = m.film.spectrum;
   const double values[] = {static_cast<double>(m.settings.max_depth),
                            static_cast<double>(m.settings.direct_only),
                            static_cast<double>(m.settings.straight_counts),
@@ -78,9 +80,8 @@ std::uint64_t texture_budget(const Manifest& m, std::uint64_t memory_bytes) {
 
 Job set_up(const RenderOptions& options) {
   Manifest manifest = read_with_overrides(options);
-  const SpectralBins bins = options.bins.value_or(SpectralBins{});
-  const FilmKey key{manifest.scene_hash, settings_hash(manifest, bins), options.seed};
-  Film film(manifest.film, key, bins);
+  const FilmKey key{manifest.scene_hash, settings_hash(manifest), options.seed};
+  Film film(manifest.film, key);
   const WorkPlan plan =
       make_work_plan(manifest.film.crop, static_cast<std::uint32_t>(manifest.settings.samples_per_pixel));
   const std::uint64_t textures = texture_budget(manifest, options.memory_bytes);
@@ -140,6 +141,7 @@ RenderStats render(Transport& transport, const RenderOptions& options) {
   rank.add_to(stats);
   stats.ranks = transport.size();
   stats.threads = threads;
+  stats.spectral_bins = manifest.film.spectrum.count;
   stats.spp = static_cast<std::uint64_t>(manifest.settings.samples_per_pixel);
   stats.seed = options.seed;
   stats.domains_total = manifest.domains.size();

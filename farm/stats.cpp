@@ -48,6 +48,7 @@ std::string to_json(const RenderStats& s) {
                                  {"spp", s.spp},
                                  {"seed", s.seed},
                                  {"samples", s.samples},
+                                 {"spectral_bins", s.spectral_bins},
                                  {"complete", s.complete},
                                  {"wall_s", s.wall_s},
                                  {"cpu_s", s.cpu_s},

@@ -11,7 +11,7 @@ namespace vitrail {
 // The statistics of a render, of one rank and, after `gather_stats`, of the job: sums, and maxima for the
 // memory.
 struct RenderStats {
-  int ranks = 1, threads = 1;
+  int ranks = 1, threads = 1, spectral_bins = 0;
   std::uint64_t spp = 0, seed = 0, samples = 0;
   double wall_s = 0, cpu_s = 0, load_s = 0, trace_s = 0, idle_s = 0;
   TraceCounters traced;

@@ -51,12 +51,12 @@ std::uint64_t samples_of_group(std::uint64_t n, std::size_t group) {
 
 }  // namespace
 
-Film::Film(const FilmSettings& settings, const FilmKey& key, const SpectralBins& bins)
+Film::Film(const FilmSettings& settings, const FilmKey& key)
     : crop_(settings.crop),
       full_width_(settings.width),
       full_height_(settings.height),
       imaging_ratio_(settings.imaging_ratio),
-      bins_(bins),
+      bins_(settings.spectrum),
       key_(key) {
   if (crop_.x0 < 0 || crop_.y0 < 0 || crop_.x1 <= crop_.x0 || crop_.y1 <= crop_.y0 ||
       crop_.x1 > full_width_ || crop_.y1 > full_height_)
@@ -66,10 +66,10 @@ Film::Film(const FilmSettings& settings, const FilmKey& key, const SpectralBins&
   if (pixels > std::numeric_limits<std::uint32_t>::max())
     throw Error(
         fmt::format("a film of {}×{} pixels is too large: at most 2³² − 1 pixels", width(), height()));
-  if (bins.count < 0 || bins.count > max_spectral_bins || !(bins.min_nm < bins.max_nm))
+  if (bins_.count < 0 || bins_.count > max_spectral_bins || !(bins_.min_nm < bins_.max_nm))
     throw Error(fmt::format("a film keeps at most {} spectral bins over an interval of wavelengths",
                             max_spectral_bins));
-  sums_.resize((plane_count + static_cast<std::size_t>(bins.count)) * pixels);
+  sums_.resize((plane_count + static_cast<std::size_t>(bins_.count)) * pixels);
   counts_.resize(pixels);
 }
 

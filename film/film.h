@@ -11,7 +11,6 @@
 
 #include "scene/color.h"
 #include "scene/scene.h"
-#include "scene/spectral_bins.h"
 
 namespace vitrail {
 
@@ -32,7 +31,7 @@ struct FilmKey {
 class Film {
  public:
   Film() = default;
-  Film(const FilmSettings& settings, const FilmKey& key, const SpectralBins& bins = {});
+  Film(const FilmSettings& settings, const FilmKey& key);
 
   const PixelRect& crop() const { return crop_; }
   int width() const { return crop_.x1 - crop_.x0; }   // of the crop

@@ -214,7 +214,7 @@ std::array<float, 3> attribute_value(RGB color, TextureUse use, const Reflectanc
     return {mean, mean, mean};
   }
   SigmoidNodes x = fitter(color);
-  for (float& v : x) v = std::clamp(v, -16.0f, 16.0f);
+  for (float& v : x) v = std::clamp(v, -200.0f, 200.0f);
   return x;
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <variant>
 
+#include "scene/spectral_bins.h"
 #include "scene/transform.h"
 
 namespace vitrail {
@@ -86,6 +87,7 @@ struct FilmSettings {
   PixelRect crop{0, 1280, 0, 720};
   Filter filter = GaussianFilter{};
   double imaging_ratio = 1;  // every pixel is multiplied by it (pbrt: exposure time · ISO / 100)
+  SpectralBins spectrum;     // kept beside the colours; none: colours alone
   bool operator==(const FilmSettings&) const = default;
 };
 

@@ -87,10 +87,13 @@ bool PathTracer::shade_surface(Path& path) {
     pass_straight(path, at, surface);
     return true;
   }
-  const Vector3d direction = scattering->frame.to_world(chosen->in);
-  // The shading normal must not let light through the surface, nor reflect it into it.
-  if ((dot(direction, at.geometric) > 0) != (dot(at.out, at.geometric) * out.z * chosen->in.z > 0))
-    return false;
+  Vector3d direction = scattering->frame.to_world(chosen->in);
+  // The shading normal must not let light through the surface, nor reflect it into it: for a mirror the
+  // surface's own normal decides then.
+  if ((dot(direction, at.geometric) > 0) != (dot(at.out, at.geometric) * out.z * chosen->in.z > 0)) {
+    if (!chosen->specular || out.z * chosen->in.z <= 0) return false;
+    direction = at.geometric * (2 * dot(at.out, at.geometric)) - at.out;
+  }
   path.pdf = chosen->specular ? 0 : pdf_value(pdf_code(static_cast<float>(chosen->pdf)));
   if (!chosen->specular && !(path.pdf > 0)) return false;
   if (!go_on(path, u[3], chosen->specular)) return false;
@@ -150,7 +153,8 @@ bool PathTracer::scatter_in_medium(Path& path, Point3d p) {
 bool PathTracer::scatter_dielectric(Path& path, const Interaction& at, const Surface& surface) {
   const Material& record = manifest_.materials[surface.material];
   const auto& material = std::get<DielectricMaterial>(record.model);
-  const Vector3d normal = scene_.materials.shading_normal(record, at) * at.side();
+  Vector3d normal = scene_.materials.shading_normal(record, at) * at.side();
+  if (dot(at.out, normal) <= 0) normal = at.shading * at.side();
   if (path.is(path_in_pane) && !is_parallel(path.entered_by, normal)) path.disperse();
   const bool in_pane = path.is(path_in_pane);
   const SampledSpectrum eta = relative_index(material, path.wavelengths, at.front);

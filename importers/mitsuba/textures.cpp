@@ -62,8 +62,10 @@ SpectrumParameter input(Builder& b, const Object& o, const char* name, double ot
   return ConstantSpectrum{std::get<float>(value)};
 }
 
+// Where Mitsuba looks up a number, its checkerboard has the two values the other way round.
 TextureModel checkerboard(Builder& b, const Object& o, bool as_float) {
   CheckerboardTexture board{input(b, o, "color0", 0.4, as_float), input(b, o, "color1", 0.2, as_float)};
+  if (as_float) std::swap(board.even, board.odd);
   board.mapping = doubled(mapping_of(o.transform("to_uv", b.report)));
   return board;
 }

@@ -155,7 +155,9 @@ WrittenTexture write_texture(Context& context, Element root, const Texture& text
   }
   if (const auto* board = std::get_if<CheckerboardTexture>(&texture.model); board && !board->solid) {
     const std::string id = new_id();
-    write_checkerboard(context, root, *board, id);
+    CheckerboardTexture written = *board;
+    if (texture.is_float) std::swap(written.even, written.odd);  // as Mitsuba looks numbers up
+    write_checkerboard(context, root, written, id);
     return id;
   }
   if (const auto* attribute = std::get_if<MeshAttributeTexture>(&texture.model)) {

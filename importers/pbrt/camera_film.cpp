@@ -64,6 +64,19 @@ void read_crop(ParameterSet& parameters, FilmSettings& film) {
     fail("the crop of the film leaves no pixels", parameters.place());
 }
 
+void read_bins(ParameterSet& parameters, FilmSettings& film) {
+  const SpectralBins visible{16};
+  film.spectrum = {parameters.integer("nbuckets", visible.count),
+                   parameters.number("lambdamin", visible.min_nm),
+                   parameters.number("lambdamax", visible.max_nm)};
+  if (film.spectrum.count < 1 || film.spectrum.count > max_spectral_bins)
+    fail(fmt::format("\"nbuckets\" is {}, which is not between 1 and {}", film.spectrum.count,
+                     max_spectral_bins),
+         parameters.place());
+  if (!(film.spectrum.min_nm < film.spectrum.max_nm))
+    fail("\"lambdamin\" is not below \"lambdamax\"", parameters.place());
+}
+
 }  // namespace
 
 ViewSettings default_view(Version version) {
@@ -124,7 +137,9 @@ void read_film(const std::string& kind, ParameterSet& parameters, Context& conte
   if (!is_one_of(kind, {"rgb", "image", "gbuffer", "spectral"}))
     context.report.approximated(fmt::format("film \"{}\" is not known and read as \"rgb\"", kind),
                                 parameters.place());
-  if (is_one_of(kind, {"gbuffer", "spectral"}))
+  view.film.spectrum = {};
+  if (kind == "spectral") read_bins(parameters, view.film);
+  if (kind == "gbuffer")
     context.report.dropped(fmt::format("film \"{}\": only its colours are kept", kind), parameters.place());
   view.film.width = resolution(parameters, "xresolution", defaults.width);
   view.film.height = resolution(parameters, "yresolution", defaults.height);
@@ -141,8 +156,7 @@ void read_film(const std::string& kind, ParameterSet& parameters, Context& conte
     if (parameters.find(limit, {ParameterType::number}))
       context.report.dropped(fmt::format("\"{}\": bright samples are not clamped", limit),
                              parameters.place());
-  parameters.ignore(
-      {"filename", "savefp16", "diagonal", "coordinatesystem", "nbuckets", "lambdamin", "lambdamax"});
+  parameters.ignore({"filename", "savefp16", "diagonal", "coordinatesystem"});
   parameters.report_unused(context.report);
 }
 

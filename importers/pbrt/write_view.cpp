@@ -117,7 +117,12 @@ void write_film(Writer& w) {
   if (c != PixelRect{0, f.width, 0, f.height})
     p.numbers("integer pixelbounds", std::array{c.x0, c.x1, c.y0, c.y1});
   if (f.imaging_ratio != 1) p.number("iso", iso_of(f.imaging_ratio));
-  w.line(fmt::format("Film \"rgb\"{} \"string filename\" \"render.exr\"", p.list()));
+  if (f.spectrum.count > 0)
+    p.integer("nbuckets", f.spectrum.count)
+        .number("lambdamin", f.spectrum.min_nm)
+        .number("lambdamax", f.spectrum.max_nm);
+  w.line(fmt::format("Film \"{}\"{} \"string filename\" \"render.exr\"",
+                     f.spectrum.count > 0 ? "spectral" : "rgb", p.list()));
 }
 
 }  // namespace

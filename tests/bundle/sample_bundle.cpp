@@ -90,7 +90,7 @@ Manifest sample_manifest() {
   m.camera_medium = 1;
   m.texture_files = {{"textures/000000.tex", 12, 0x123456789abcdef0u}};
   m.camera = OrthographicCamera{translate({0.1, 1e-300, 3}), {-1.0 / 3, 1, -2, 2}, {0.1, 1.0 / 3}};
-  m.film = {640, 480, {10, 600, 20, 400}, GaussianFilter{1.25, 1.5, 0.1}, 0.7};
+  m.film = {640, 480, {10, 600, 20, 400}, GaussianFilter{1.25, 1.5, 0.1}, 0.7, {5, 400, 700}};
   m.settings = {33, 7, true, false};
   m.requirements = {true, false, true, false, true, true, true};
   m.scene_hash = 0xfedcba9876543210u;

@@ -20,7 +20,8 @@ class FilmFile : public testing::Test {
     settings.width = 10, settings.height = 8;
     settings.crop = {2, 7, 1, 4};
     settings.imaging_ratio = 0.25;
-    film_ = Film(settings, {11, 22, 33}, {3, 400, 700});
+    settings.spectrum = {3, 400, 700};
+    film_ = Film(settings, {11, 22, 33});
     for (std::uint32_t p = 0; p < 15; ++p) {
       film_.count_sample(p);
       film_.deposit(p, p, {0.1 * p, 0.2 * p, 0.3 * p});

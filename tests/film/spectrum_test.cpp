@@ -16,7 +16,8 @@ Film film(std::uint64_t seed, const SpectralBins& kept = bins) {
   settings.width = 3, settings.height = 2;
   settings.crop = {0, 3, 0, 2};
   settings.imaging_ratio = 0.5;
-  return Film(settings, {1, 2, seed}, kept);
+  settings.spectrum = kept;
+  return Film(settings, {1, 2, seed});
 }
 
 TEST(SpectralFilm, KeepsMeansBesideXyz) {

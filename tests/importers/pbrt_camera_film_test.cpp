@@ -110,7 +110,13 @@ TEST(PbrtFilm, WhatItLosesIsReported) {
   EXPECT_TRUE(
       mentions(settings("Film \"rgb\" \"string sensor\" \"canon_eos_100d\"").diagnostics, "canon_eos_100d"));
   EXPECT_TRUE(mentions(settings("Film \"rgb\" \"float maxcomponentvalue\" 10").diagnostics, "not clamped"));
-  EXPECT_TRUE(mentions(settings("Film \"spectral\" \"integer nbuckets\" 16").diagnostics, "spectral"));
+  const ImportedScene spectral =
+      settings("Film \"spectral\" \"integer nbuckets\" 5 \"float lambdamin\" 400 \"float lambdamax\" 700");
+  EXPECT_EQ(spectral.scene.film.spectrum, (SpectralBins{5, 400, 700}));
+  EXPECT_TRUE(spectral.diagnostics.empty());
+  EXPECT_EQ(settings("Film \"spectral\"").scene.film.spectrum, (SpectralBins{16, 360, 830}));
+  EXPECT_EQ(settings("Film \"rgb\"").scene.film.spectrum.count, 0);
+  EXPECT_TRUE(mentions(settings("Film \"gbuffer\"").diagnostics, "gbuffer"));
   EXPECT_TRUE(mentions(settings("Film \"rgb\" \"float whitebalance\" 5000").diagnostics, "white balance"));
   EXPECT_TRUE(mentions(settings("Film \"rgb\" \"integer xresoluton\" 3").diagnostics,
                        "did you mean \"xresolution\""));
