@@ -130,10 +130,11 @@ TEST(TextureGraph, AttributesOfMeshes) {
                                                         {"wear", TextureUse::number},
                                                         {"color", TextureUse::number}}));
   const RGB green{0.1, 0.7, 0.2};
-  const std::array attributes{baker.attribute_value(green, TextureUse::reflectance),
-                              baker.attribute_value({0.25, 0.5, 0.75}, TextureUse::number),
-                              baker.attribute_value(green, TextureUse::number)};
-  const std::array<float, 3> black = baker.attribute_value({0, 0, 0}, TextureUse::reflectance);
+  const ReflectanceFitter fitter;
+  const std::array attributes{attribute_value(green, TextureUse::reflectance, fitter),
+                              attribute_value({0.25, 0.5, 0.75}, TextureUse::number, fitter),
+                              attribute_value(green, TextureUse::number, fitter)};
+  const std::array<float, 3> black = attribute_value({0, 0, 0}, TextureUse::reflectance, fitter);
   EXPECT_EQ(black, (std::array<float, 3>{-16, -16, -16}));
   const Textures textures = s.look_up();
   TexturePoint at;

@@ -135,7 +135,7 @@ TEST(LightTextures, TexturedAreaLightsAreUnbiased) {
   light.scale = 2;
   const Point3f a{-1, -1, 0}, b{1, -1, 0}, c{1, 1, 0}, d{-1, 1, 0};
   const std::vector<EmissiveTriangle> triangles{{{a, b, c}, {{0, 0}, {1, 0}, {1, 1}}, 7, 0},
-                                             {{a, c, d}, {{0, 0}, {1, 1}, {0, 1}}, 8, 0}};
+                                                {{a, c, d}, {{0, 0}, {1, 1}, {0, 1}}, 8, 0}};
   LightScene scene = bundle.scene({});
   scene.area_lights = {&light, 1};
   scene.triangles = triangles;
