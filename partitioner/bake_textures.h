@@ -70,7 +70,7 @@ class TextureBaker {
 };
 
 // What a vertex has in a slot of that use. Numbers: the mean of the colour. Spectra: x at 360, 595 and 830 nm
-// of the sigmoid, within ±16 (S from 0.001 to 0.999) so that it may be interpolated; a colour outside [0,1]
+// of the sigmoid, within ±200, as Mitsuba holds them, so that it may be interpolated; a colour outside [0,1]
 // is clamped.
 std::array<float, 3> attribute_value(RGB color, TextureUse use, const ReflectanceFitter& fitter);
 

@@ -151,8 +151,7 @@ bool PathTracer::refract_connection(Path& path, const Interaction& at, const Sur
   const Material& record = manifest_.materials[surface.material];
   const auto& material = std::get<DielectricMaterial>(record.model);
   const SampledSpectrum eta = relative_index(material, path.wavelengths, at.front);
-  Vector3d normal = scene_.materials.shading_normal(record, at) * at.side();
-  if (dot(at.out, normal) <= 0) normal = at.shading * at.side();
+  const Vector3d normal = scene_.materials.shading_normal(record, at) * at.side();
   Vector3d direction;
   if (!refract(at.out, normal, static_cast<double>(eta[0]), direction)) return false;
   const double cosine = dot(at.out, normal);

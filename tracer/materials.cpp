@@ -149,7 +149,8 @@ Vector3d Materials::shading_normal(const Material& material, const Interaction& 
     if (material.normal_map) n = mapped(*material.normal_map, at, n, textures_);
     if (material.displacement) n = bumped(*material.displacement, at, n, textures_);
   }
-  return dot(n, n) > 0.5 ? n : at.shading;
+  // A normal that the ray sees from the other side than the surface cannot be used.
+  return dot(n, n) > 0.5 && (dot(at.out, n) > 0) == at.front ? n : at.shading;
 }
 
 std::optional<Scattering> Materials::scattering_at(const Material& material, const Interaction& at,
@@ -157,8 +158,6 @@ std::optional<Scattering> Materials::scattering_at(const Material& material, con
   const bool both_sides = transmits(material.model);
   if (!both_sides && !material.two_sided && !at.front) return std::nullopt;
   const Vector3d normal = shading_normal(material, at);
-  // Maps may turn the normal away from the ray: nothing is seen of such a facet.
-  if ((dot(at.out, normal) > 0) != at.front) return std::nullopt;
   const BsdfMaker maker{
       textures_, at.texture_point(), wavelengths, at.front,
       plastic_tables_.empty() ? nullptr : &plastic_tables_[plastic_table_[index_of(material)]]};

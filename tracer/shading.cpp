@@ -62,7 +62,14 @@ bool PathTracer::shade_surface(Path& path) {
     pass_straight(path, at, surface);
     return true;
   }
-  if (is_last) return false;
+  if (is_last) {
+    if (manifest_.settings.straight_counts || !manifest_.requirements.see_through) return false;
+    path.throughput =
+        path.throughput * scene_.materials.passes_straight(surface.material, at, path.wavelengths);
+    if (is_black(path.throughput)) return false;
+    pass_straight(path, at, surface);
+    return true;
+  }
   if (kind.smooth_dielectric) return scatter_dielectric(path, at, surface);
 
   const SampleKey key = key_of(path.pixel, path.sample);
@@ -153,8 +160,7 @@ bool PathTracer::scatter_in_medium(Path& path, Point3d p) {
 bool PathTracer::scatter_dielectric(Path& path, const Interaction& at, const Surface& surface) {
   const Material& record = manifest_.materials[surface.material];
   const auto& material = std::get<DielectricMaterial>(record.model);
-  Vector3d normal = scene_.materials.shading_normal(record, at) * at.side();
-  if (dot(at.out, normal) <= 0) normal = at.shading * at.side();
+  const Vector3d normal = scene_.materials.shading_normal(record, at) * at.side();
   if (path.is(path_in_pane) && !is_parallel(path.entered_by, normal)) path.disperse();
   const bool in_pane = path.is(path_in_pane);
   const SampledSpectrum eta = relative_index(material, path.wavelengths, at.front);

@@ -135,7 +135,7 @@ TEST(TextureGraph, AttributesOfMeshes) {
                               attribute_value({0.25, 0.5, 0.75}, TextureUse::number, fitter),
                               attribute_value(green, TextureUse::number, fitter)};
   const std::array<float, 3> black = attribute_value({0, 0, 0}, TextureUse::reflectance, fitter);
-  EXPECT_EQ(black, (std::array<float, 3>{-16, -16, -16}));
+  EXPECT_EQ(black, (std::array<float, 3>{-200, -200, -200}));
   const Textures textures = s.look_up();
   TexturePoint at;
   at.attributes = attributes;
