@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "partitioner/bake_media.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <fstream>
@@ -37,6 +38,8 @@ bool bake_grid(Grid& grid, std::vector<std::string>& notes) {
     read_values(grid);
   }
   grid.filename.clear();
+  constexpr const char* grey = "the colours of its grids become grey, their means";
+  if (grid.channels > 1 && std::ranges::find(notes, grey) == notes.end()) notes.push_back(grey);
   for (const float v : grid.values)
     if (!std::isfinite(v) || v < 0) throw Error("a grid has a value that is negative or not finite");
   return true;

@@ -108,6 +108,24 @@ TEST(OnePicture, CornellBox) {
   expect_one_picture(directory, VITRAIL_SOURCE_DIR "/examples/cornell-box/cornell-box.pbrt");
 }
 
+// Every material, texture, light and medium, in a file of each format that has some alone.
+TEST(OnePicture, Appearance) {
+  const TemporaryDirectory directory;
+  expect_one_picture(directory, generate(directory, "appearance", "--width 48 --height 32"));
+}
+
+TEST(OnePicture, AppearanceOfMitsuba) {
+  const TemporaryDirectory directory;
+  const auto scene = generate(directory, "appearance", "--width 48 --height 32");
+  expect_one_picture(directory, scene.parent_path() / "appearance.xml");
+}
+
+TEST(OnePicture, AppearanceOfPbrt3) {
+  const TemporaryDirectory directory;
+  const auto scene = generate(directory, "appearance", "--width 48 --height 32");
+  expect_one_picture(directory, scene.parent_path() / "appearance-v3.pbrt");
+}
+
 TEST(OnePicture, Adversarial) {
   const TemporaryDirectory directory;
   expect_one_picture(directory, generate(directory, "adversarial", ""));

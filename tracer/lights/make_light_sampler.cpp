@@ -93,6 +93,10 @@ double aspect_of(const SpectrumParameter& image, const LightScene& scene, const 
   return static_cast<double>(opened->width(0)) / opened->height(0);
 }
 
+// What a point gets of a light depends on its intensity I, whatever its cone: the power that counts for the
+// tree is π·I, as that of a small Lambertian surface of this intensity along its normal.
+void by_intensity(LightBounds& emitter) { emitter.power *= 0.5 / (1 - portable_cos(emitter.theta_o_rad)); }
+
 // Sorts the lights by how they are chosen.
 struct Sorter {
   LightSampler& s;
@@ -142,10 +146,15 @@ LightSampler make_light_sampler(const LightScene& scene, const ImageSource& imag
 
   std::vector<LightBounds> local = bounds_of_triangles(scene);
   for (const PointEmitter& e : s.emitters) local.push_back(e.bounds);
+  double flux = 0;
+  for (const LightBounds& b : local)
+    if (std::isfinite(b.power)) flux += b.power;
+  if (choice == LightChoice::tree)
+    for (std::size_t i = scene.triangles.size(); i < local.size(); ++i) by_intensity(local[i]);
   s.tree = LightTree(local, choice);
   s.runs = runs_of(scene.triangles);
 
-  std::vector<double> power{s.tree.power()};
+  std::vector<double> power{flux};
   power.insert(power.end(), sorter.distant_power.begin(), sorter.distant_power.end());
   power.insert(power.end(), sorter.environment_power.begin(), sorter.environment_power.end());
   double total = 0;
