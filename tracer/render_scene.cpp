@@ -20,7 +20,6 @@ LightScene light_scene(const Manifest& m, const Textures& textures) {
           .lights = m.lights,
           .textures = &textures,
           .texture_records = m.textures,
-          .tiles = textures.tiles(),
           .bounds = m.bounds};
 }
 
