@@ -2,6 +2,8 @@
 // A path while it is being traced, unpacked from its record.
 #pragma once
 
+#include <array>
+
 #include "tracer/interaction.h"
 #include "tracer/path_tracer.h"
 
@@ -22,6 +24,8 @@ struct PathTracer::Path {
   RayConstants constants;
   Hit hit;
   std::uint32_t hit_domain = 0;
+  std::array<float, 4> camera{};  // its sample's numbers for the camera; wavelengths follow from them
+  bool has_wavelengths = false;   // only what sees anything needs them
   SampledWavelengths wavelengths;
   SensorWeights sensor;
 

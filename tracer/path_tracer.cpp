@@ -36,6 +36,13 @@ SampleKey PathTracer::key_of(std::uint32_t pixel, std::uint32_t sample) const {
   return {scene_.seed, y * static_cast<std::uint32_t>(film_.full_width()) + x, sample};
 }
 
+void PathTracer::find_wavelengths(Path& path) const {
+  if (path.has_wavelengths) return;
+  path.has_wavelengths = true;
+  path.wavelengths = sample_wavelengths(path.camera[2]);
+  path.sensor = sensor_of(path.camera, path.wavelengths);
+}
+
 // Of a sample whose numbers for the camera are `camera`.
 SensorWeights PathTracer::sensor_of(const std::array<float, 4>& camera,
                                     const SampledWavelengths& wavelengths) const {
@@ -55,8 +62,7 @@ void PathTracer::trace_camera(int x, int y, std::uint32_t sample) {
   }
   const CameraRay ray =
       camera_ray(manifest_.camera, manifest_.film, {x + 0.5 + offset.x, y + 0.5 + offset.y}, lens);
-  path.wavelengths = sample_wavelengths(u[2]);
-  path.sensor = sensor_of(u, path.wavelengths);
+  path.camera = u;
   path.throughput = filled(1);
   path.medium = static_cast<std::uint8_t>(manifest_.camera_medium + 1);
   path.direction = ray.direction;
@@ -88,9 +94,7 @@ void PathTracer::resume(const PathRecord& record, std::uint32_t domain) {
   path.hit.t = record.hit_t;
   path.hit.triangle = record.hit_triangle;
   path.hit_domain = record.hit_domain;
-  const std::array<float, 4> u = sample_4d(key_of(path.pixel, path.sample), sample_set::camera);
-  path.wavelengths = sample_wavelengths(u[2]);
-  path.sensor = sensor_of(u, path.wavelengths);
+  path.camera = sample_4d(key_of(path.pixel, path.sample), sample_set::camera);
   run(path, domain);
 }
 

@@ -120,6 +120,7 @@ class PathTracer {
   void deposit(std::uint32_t pixel, std::uint32_t sample, const SensorWeights& weights,
                const SampledSpectrum& radiance);
   SensorWeights sensor_of(const std::array<float, 4>& camera, const SampledWavelengths& wavelengths) const;
+  void find_wavelengths(Path& path) const;
   SampleKey key_of(std::uint32_t pixel, std::uint32_t sample) const;
 
   const RenderScene& scene_;

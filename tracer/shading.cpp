@@ -18,6 +18,9 @@ constexpr std::uint32_t roulette_depth = 3;
 
 // False when the path ends here.
 bool PathTracer::shade(Path& path) {
+  const bool escapes = path.hit.triangle == no_triangle && !path.medium && !path.is(path_connection);
+  if (escapes && !scene_.lights.has_background()) return false;
+  find_wavelengths(path);
   if (path.is(path_connection)) return connect_onwards(path);
   if (path.medium) {
     const Flight flight = flight_of(path);

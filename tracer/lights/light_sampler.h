@@ -58,6 +58,8 @@ struct LightSampler {
 
   // Whether sample_light may ever give something.
   bool can_sample() const { return !share.empty(); }
+  // Whether environment_radiance may be other than 0.
+  bool has_background() const { return !infinite.empty() || !environments.empty(); }
 };
 
 // Opens an image by its name in the records.
