@@ -18,6 +18,22 @@ namespace {
 
 Report triple(const auto& v) { return {v.x, v.y, v.z}; }
 
+// Where a spectrum lies: its values at blue, green and red.
+std::string in_words(const Spectrum& s) {
+  if (const auto* constant = std::get_if<ConstantSpectrum>(&s)) return fmt::format("{:.4g}", constant->value);
+  return fmt::format("{}: {:.4g} at 450 nm, {:.4g} at 550 nm, {:.4g} at 650 nm", kind_of(s), evaluate(s, 450),
+                     evaluate(s, 550), evaluate(s, 650));
+}
+
+Report describe(const Material& material) {
+  Report value = nullptr;
+  if (const auto* diffuse = std::get_if<DiffuseMaterial>(&material.model))
+    if (const auto* spectrum = std::get_if<Spectrum>(&diffuse->reflectance)) value = in_words(*spectrum);
+  if (const auto* dielectric = std::get_if<DielectricMaterial>(&material.model))
+    value = in_words(dielectric->eta);
+  return {{"kind", kind_of(material.model)}, {"reflectance or index", value}};
+}
+
 // Emitting area of each area light, scene units².
 std::vector<double> emitting_areas(const Manifest& m) {
   std::vector<double> areas(m.area_lights.size(), 0);
@@ -139,7 +155,7 @@ Report describe(const Manifest& m) {
   }
   r["requires"] = describe_requirements(m);
   r["materials"] = Report::array();
-  for (const Material& material : m.materials) r["materials"].push_back(kind_of(material.model));
+  for (const Material& material : m.materials) r["materials"].push_back(describe(material));
   r["emissive_triangles"] = m.emissive_triangles.size();
   r["lights"] = describe_lights(m);
   r["view"] = describe_view(m);

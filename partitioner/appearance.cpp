@@ -155,12 +155,18 @@ Appearance appearance_of(const Scene& scene, const std::filesystem::path& bundle
   result.area_light_ids = renumbered(used.area_lights, [&](std::size_t i, const auto&) {
     AreaLight light = scene.area_lights[i];
     light.radiance = textures.bake(light.radiance, TextureUse::illuminant);
+    if (std::holds_alternative<Spectrum>(light.radiance)) light.scale = 1;  // it is of a texture
     result.area_lights.push_back(std::move(light));
     return true;
   });
-  for (const Light& light : scene.lights)
+  for (const Light& light : scene.lights) {
     result.lights.push_back(
         {std::visit(LightBaker{textures, location(scene, light.origin)}, light.model), {}});
+    const auto* environment = std::get_if<EnvironmentLight>(&light.model);
+    if (environment && environment->portal)
+      report.approximated("environment light: its portal is not looked at, it shines from everywhere",
+                          light.origin);
+  }
   result.attributes = textures.attributes();
   result.texture_files = textures.files();
   result.textures = textures.take_textures();

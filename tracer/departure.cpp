@@ -24,10 +24,9 @@ std::uint64_t PathTracer::stream_of(const Path& path) const {
 // On the other side of a surface, as if it was not there. Connections go through it too, so the path keeps
 // the density of the scattering that it comes from.
 void PathTracer::pass_straight(Path& path, const Interaction& at, const Surface& surface) const {
-  path.travelled = path.pdf > 0
-                       ? static_cast<double>(rounded_radiance(static_cast<float>(
-                             path.travelled + path.hit.t * length(cast<double>(path.ray.direction)))))
-                       : 0;
+  const double travelled = path.travelled + path.hit.t * length(cast<double>(path.ray.direction));
+  path.travelled =
+      path.pdf > 0 ? static_cast<double>(rounded_distance(static_cast<float>(travelled), has_cone(path))) : 0;
   continue_straight(path, at, surface);
 }
 

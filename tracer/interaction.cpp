@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tracer/interaction.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace vitrail {
@@ -66,8 +67,8 @@ Interaction make_interaction(const DomainView& domain, const Hit& hit, Vector3f 
   for (std::uint32_t slot = 0; slot < attributes; ++slot) {
     const auto& v = domain.attributes[hit.cluster * std::size_t{attributes} + slot].value[hit.lane];
     const auto u = static_cast<float>(hit.u), w = static_cast<float>(hit.v);
-    for (std::size_t c = 0; c < 3; ++c)
-      at.attributes[slot][c] = v[0][c] * (1 - u - w) + v[1][c] * u + v[2][c] * w;
+    at.attributes[slot].weights = {1 - u - w, u, w};
+    for (std::size_t k = 0; k < 3; ++k) std::ranges::copy(v[k], at.attributes[slot].corners[k].begin());
   }
   return at;
 }

@@ -24,7 +24,7 @@ struct Interaction {
   Vector3d dpdu, dpdv;  // 0 where the triangle's (u,v) do not span a plane
   double uv_width = 0;  // of the ray's cone
   std::uint32_t attribute_count = 0;
-  std::array<std::array<float, 3>, max_attributes> attributes;
+  std::array<AttributeValue, max_attributes> attributes;
 
   double side() const { return front ? 1 : -1; }
   TexturePoint texture_point() const {

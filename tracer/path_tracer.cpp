@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tracer/path_tracer.h"
 
+#include <array>
 #include <limits>
+#include <utility>
 
 #include "tracer/path_state.h"
 #include "tracer/walk.h"
@@ -84,9 +86,10 @@ void PathTracer::resume(const PathRecord& record, std::uint32_t domain) {
   else
     path.pdf = pdf_value(record.pdf);
   for (std::size_t i = 0; i < hero_count; ++i) path.throughput.v[i] = unpack_radiance(record.throughput[i]);
-  path.travelled = static_cast<double>(unpack_radiance(record.travelled));
+  std::array<std::uint8_t, 3> travelled = std::to_array(record.travelled);
+  if (has_cone(path)) path.cone = std::exchange(travelled[0], std::uint8_t{0});
+  path.travelled = static_cast<double>(unpack_radiance(travelled.data()));
   path.medium = record.medium;
-  path.cone = record.cone;
   path.direction = record.direction;
   path.ray = {{record.origin[0], record.origin[1], record.origin[2]},
               decode_direction(record.direction),
@@ -96,6 +99,10 @@ void PathTracer::resume(const PathRecord& record, std::uint32_t domain) {
   path.hit_domain = record.hit_domain;
   path.camera = sample_4d(key_of(path.pixel, path.sample), sample_set::camera);
   run(path, domain);
+}
+
+bool PathTracer::has_cone(const Path& path) const {
+  return manifest_.requirements.filtering && !path.is(path_connection);
 }
 
 void PathTracer::run(Path& path, std::optional<std::uint32_t> at) {
@@ -159,8 +166,8 @@ bool PathTracer::forward(const Path& path, std::uint32_t domain, bool resolved) 
   r.origin[2] = path.ray.origin.z;
   for (std::size_t i = 0; i < hero_count; ++i) pack_radiance(path.throughput.v[i], r.throughput[i]);
   pack_radiance(static_cast<float>(path.travelled), r.travelled);
+  if (has_cone(path)) r.travelled[0] = path.cone;
   r.medium = path.medium;
-  r.cone = path.cone;
   r.exclude = path.ray.exclude;
   r.pixel = path.pixel;
   r.sample_depth = path.sample << 8 | path.depth;

@@ -99,6 +99,7 @@ class PathTracer {
   Flight flight_of(const Path& path) const;
   std::uint64_t stream_of(const Path& path) const;
   double cone_unit() const;
+  bool has_cone(const Path& path) const;
   double cone_width(const Path& path) const;
 
   // connections.cpp

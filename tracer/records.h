@@ -46,9 +46,10 @@ struct PathRecord {
   std::uint16_t pdf;           // of the last scattering, solid angle, as pdf_code; 0: specular or camera.
                                // In a pane: low 16 bits of the FaceCode
   std::uint8_t flags;          // PathFlags, and above them 4 bits: high bits of the FaceCode
-  std::uint8_t travelled[3];   // since the last scattering, straight through surfaces; as radiance_code
-  std::uint8_t medium;         // index + 1 of what the ray is in, 0: vacuum
-  std::uint8_t cone;           // width of the ray's cone where it starts, as cone_code
+  // Since the last scattering, straight through surfaces; of a connection, what is left to its light; as
+  // radiance_code. Where images are filtered, a path has the cone_code of its ray's width in the lowest byte.
+  std::uint8_t travelled[3];
+  std::uint8_t medium;  // index + 1 of what the ray is in, 0: vacuum
 };
 
 // A ray to a point on a light. It deposits `radiance` unless something is hit in (0, tmax).
@@ -62,7 +63,7 @@ struct ShadowRecord {
   std::uint32_t sample;
 };
 #pragma pack(pop)
-static_assert(sizeof(PathRecord) == 64 && std::is_trivially_copyable_v<PathRecord>);
+static_assert(sizeof(PathRecord) == 63 && std::is_trivially_copyable_v<PathRecord>);
 static_assert(sizeof(ShadowRecord) == 46 && std::is_trivially_copyable_v<ShadowRecord>);
 
 // A pdf ≥ 0 rounded to bfloat16. Both strategies of multiple importance sampling use the rounded value, so
@@ -102,6 +103,14 @@ inline float unpack_radiance(const std::uint8_t in[3]) {
 inline float rounded_radiance(float value) {
   std::uint8_t packed[3];
   pack_radiance(value, packed);
+  return unpack_radiance(packed);
+}
+
+// A distance rounded as it travels: with 16 bits of mantissa, or 8 beside a cone.
+inline float rounded_distance(float value, bool beside_cone) {
+  std::uint8_t packed[3];
+  pack_radiance(value, packed);
+  if (beside_cone) packed[0] = 0;
   return unpack_radiance(packed);
 }
 

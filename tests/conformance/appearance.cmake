@@ -8,8 +8,6 @@ function(vitrail_appearance_test name)
   vitrail_test(${name} LABEL conformance-appearance TIMEOUT 600 SOURCES ${name}_test.cpp
     LIBRARIES vitrail::corpus_render vitrail::image ${ARGN})
   add_dependencies(test_${name} vitrail vitrail-partition vitrail-render vitrail-develop vitrail-compare)
-  # To be enabled when materials, textures and lights are rendered as the files say.
-  set_tests_properties(${name} PROPERTIES DISABLED TRUE)
 endfunction()
 
 vitrail_appearance_test(mitsuba_reference)

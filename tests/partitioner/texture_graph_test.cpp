@@ -131,9 +131,12 @@ TEST(TextureGraph, AttributesOfMeshes) {
                                                         {"color", TextureUse::number}}));
   const RGB green{0.1, 0.7, 0.2};
   const ReflectanceFitter fitter;
-  const std::array attributes{attribute_value(green, TextureUse::reflectance, fitter),
-                              attribute_value({0.25, 0.5, 0.75}, TextureUse::number, fitter),
-                              attribute_value(green, TextureUse::number, fitter)};
+  const auto everywhere = [](std::array<float, 3> v) {
+    return AttributeValue{{v, v, v}, {0.25f, 0.25f, 0.5f}};
+  };
+  const std::array attributes{everywhere(attribute_value(green, TextureUse::reflectance, fitter)),
+                              everywhere(attribute_value({0.25, 0.5, 0.75}, TextureUse::number, fitter)),
+                              everywhere(attribute_value(green, TextureUse::number, fitter))};
   const std::array<float, 3> black = attribute_value({0, 0, 0}, TextureUse::reflectance, fitter);
   EXPECT_EQ(black, (std::array<float, 3>{-200, -200, -200}));
   const Textures textures = s.look_up();

@@ -90,8 +90,14 @@ struct SpectrumLookup {
   Value bilinear(const BakedImage& image, MappedPoint p, Wrap wrap, int level) const {
     return image.bilinear(p.s, p.t, wrap, level, wavelengths);
   }
-  Value attribute(const std::array<float, 3>& value, const Texture& texture) const {
-    return texture.is_float ? filled(value[0]) : sigmoid_of(value, NodeWeights(wavelengths));
+  Value attribute(const AttributeValue& value, const Texture& texture) const {
+    const NodeWeights nodes(wavelengths);
+    SampledSpectrum sum;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::array<float, 3>& corner = value.corners[k];
+      sum = sum + (texture.is_float ? filled(corner[0]) : sigmoid_of(corner, nodes)) * value.weights[k];
+    }
+    return sum;
   }
   static Value scaled(const Value& v, double factor) { return v * static_cast<float>(factor); }
 };
@@ -108,8 +114,11 @@ struct NumberLookup {
   Value bilinear(const BakedImage& image, MappedPoint p, Wrap wrap, int level) const {
     return image.bilinear_vector(p.s, p.t, wrap, level)[0];
   }
-  Value attribute(const std::array<float, 3>& value, const Texture&) const {
-    return static_cast<double>(value[0]);
+  Value attribute(const AttributeValue& value, const Texture&) const {
+    double sum = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+      sum += static_cast<double>(value.corners[k][0]) * static_cast<double>(value.weights[k]);
+    return sum;
   }
   static Value scaled(Value v, double factor) { return v * factor; }
 };

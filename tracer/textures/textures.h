@@ -18,13 +18,20 @@ namespace vitrail {
 
 class TileCache;
 
+// A mesh attribute at the corners of a triangle, and how much each counts at a point. Spectra are blended as
+// spectra, as Mitsuba does, not as the sigmoids that the corners hold.
+struct AttributeValue {
+  std::array<std::array<float, 3>, 3> corners{};
+  std::array<float, 3> weights{1, 0, 0};
+};
+
 // A point of a surface as textures see it.
 struct TexturePoint {
   Point2d uv;
   Point3d p;            // in the bundle's coordinates, which the transforms of a bundle's textures end in
   Vector3d normal;      // shading, unit, in the bundle's coordinates
   double uv_width = 0;  // diameter of the ray's cone, in units of uv; 0: the finest level
-  std::span<const std::array<float, 3>> attributes{};  // interpolated mesh attributes, by slot
+  std::span<const AttributeValue> attributes{};  // mesh attributes, by slot
 };
 
 // The textures of a bundle. Values are pure functions of the point, whatever is in memory. Safe to use from
