@@ -34,8 +34,6 @@ struct Allowed {
 };
 
 Allowed allowed(const std::string& scene) {
-  // Colours are blended between vertices as sigmoids, in Mitsuba as spectra: they come out more saturated.
-  if (scene == "test_mesh_attributes_3_vertex_direct") return {0.07, 0.016};
   // Mitsuba shadows bumps by microfacets (Estevez et al. 2019), which is not in the model here.
   if (scene == "test_normalmap_path") return {0.0025, 0.012};
   // At the sharp rim of the glass the shading normals that cannot be used are others than in Mitsuba.
