@@ -192,7 +192,7 @@ void fields(auto& io, Is<Roughness> auto& r) {
 void fields(auto& io, Is<DiffuseMaterial> auto& m) { fields(io, m.reflectance), fields(io, m.sigma_deg); }
 void fields(auto& io, Is<DielectricMaterial> auto& m) {
   fields(io, m.eta), fields(io, m.exterior_eta), fields(io, m.roughness);
-  fields(io, m.reflectance_factor), fields(io, m.transmittance_factor);
+  fields(io, m.reflectance_factor), fields(io, m.transmittance_factor), io(m.priority);
 }
 void fields(auto& io, Is<ThinDielectricMaterial> auto& m) {
   fields(io, m.eta), fields(io, m.exterior_eta);

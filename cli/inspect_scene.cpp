@@ -106,7 +106,9 @@ bool is(const Material& material) {
 Report describe_requirements(const Manifest& m) {
   const Requirements& r = m.requirements;
   const auto sheer = [](const Material& x) {
-    return is<InterfaceMaterial>(x) || is<MaskMaterial>(x) || is<ThinDielectricMaterial>(x);
+    const auto* d = std::get_if<DielectricMaterial>(&x.model);
+    return (d && d->priority != 0) || is<InterfaceMaterial>(x) || is<MaskMaterial>(x) ||
+           is<ThinDielectricMaterial>(x);
   };
   const auto disperses = [](const Material& x) {
     const auto* d = std::get_if<DielectricMaterial>(&x.model);

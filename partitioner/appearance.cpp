@@ -93,6 +93,12 @@ void bake_materials(const Scene& scene, const Used& used, TextureBaker& textures
       result.media.push_back(std::move(*baked.interior));
     }
     result.materials.push_back(std::move(baked.material));
+    for (const Id<Material> part : parts_of(material)) {
+      const auto* dielectric = std::get_if<DielectricMaterial>(&scene.materials[part.value].model);
+      if (dielectric && dielectric->priority != 0)
+        report.approximated("the priority of a dielectric that is part of another material is not looked at",
+                            material.origin);
+    }
     const std::string name = material.name.empty() ? "" : fmt::format(" \"{}\"", material.name);
     for (const std::string& note : baked.notes)
       report.approximated(fmt::format("material{} ({}): {}", name, kind_of(material.model), note),

@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "bundle/checksum.h"
+#include "bundle/interiors.h"
 #include "bundle/records.h"
 #include "partitioner/appearance.h"
 #include "partitioner/requirements.h"
@@ -264,6 +265,7 @@ FlatScene flatten(const Scene& scene, const std::filesystem::path& bundle, bool 
   make_surfaces(appearance, placements, m);
   const std::vector<TextureBaker::Attribute>& slots = appearance.attributes;
   move_records(scene, appearance, m);
+  static_cast<void>(Interiors(m));  // throws where there are too many
   m.requirements = everything ? all_requirements() : requirements_of(m, has_normals(placements, scene));
 
   const ReflectanceFitter fitter;

@@ -61,6 +61,7 @@ struct MaterialNeeds {
     r.uv |= !is_isotropic(m.roughness);
     r.refraction |= is_smooth(m.roughness);
     r.dispersion |= !is_constant(m.eta) || !is_constant(m.exterior_eta);
+    r.see_through |= m.priority != 0;
   }
   void operator()(const ConductorMaterial& m) { r.uv |= !is_isotropic(m.roughness); }
   void operator()(const CoatedDiffuseMaterial& m) { r.uv |= !is_isotropic(m.roughness); }

@@ -39,6 +39,9 @@ struct DielectricMaterial {
   Spectrum exterior_eta = ConstantSpectrum{1};
   Roughness roughness;
   SpectrumParameter reflectance_factor = ConstantSpectrum{1}, transmittance_factor = ConstantSpectrum{1};
+  // Where the insides of several overlap, the greatest is there and faces of the others in it are not;
+  // exterior_eta then counts where nothing else is in front. 0: it takes no part.
+  int priority = 0;
   bool operator==(const DielectricMaterial&) const = default;
 };
 

@@ -53,7 +53,8 @@ Bsdf BsdfMaker::operator()(const DiffuseMaterial& m) const {
 }
 
 Bsdf BsdfMaker::operator()(const DielectricMaterial& m) const {
-  const SampledSpectrum eta = ratio(evaluate(m.eta, wavelengths), evaluate(m.exterior_eta, wavelengths));
+  const SampledSpectrum eta = ratio(evaluate(m.eta, wavelengths),
+                                    evaluate(exterior_eta ? *exterior_eta : m.exterior_eta, wavelengths));
   return DielectricBsdf{static_cast<double>(eta[0]), microfacets(m.roughness, Masking::separable),
                         spectrum(m.reflectance_factor), spectrum(m.transmittance_factor)};
 }

@@ -15,7 +15,7 @@ struct BsdfMaker {
   const Textures& textures;
   TexturePoint at;
   const SampledWavelengths& wavelengths;
-  bool from_front;
+  const Spectrum* exterior_eta;              // as of an Interaction
   const RoughPlasticTables* plastic_tables;  // of the material, where it is a plastic
 
   Bsdf operator()(const DiffuseMaterial& m) const;

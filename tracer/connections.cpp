@@ -66,6 +66,7 @@ void PathTracer::send_connection(const Path& path, const Connection& connection,
                                  const SampledSpectrum& radiance, bool refracts) {
   Path sent = path;
   sent.clear(path_in_pane);
+  sent.cone = 0;
   sent.set(path_connection);
   sent.throughput = radiance;
   depart(sent, connection.from, light.to_light);
@@ -110,10 +111,9 @@ void PathTracer::send_shadow_ray(const Path& path, const Connection& connection,
 // interface, refracted by the hero's index. All wavelengths leave a pane with parallel faces in the direction
 // they came, so all four stay.
 bool PathTracer::connect_onwards(Path& path) {
-  if (path.medium) {
+  if (const PreparedMedium* medium = medium_of(path)) {
     RandomStream random(stream_of(path));
-    path.throughput = path.throughput * transmittance(scene_.media[path.medium - 1u], flight_of(path),
-                                                      path.wavelengths, random);
+    path.throughput = path.throughput * transmittance(*medium, flight_of(path), path.wavelengths, random);
     if (is_black(path.throughput)) return false;
   }
   const bool refracts = path.travelled == 0;
@@ -122,18 +122,19 @@ bool PathTracer::connect_onwards(Path& path) {
       deposit(path.pixel, path.sample, path.sensor, path.throughput);
     return false;
   }
-  const Interaction at = interaction_at(path);
+  Interaction at = interaction_at(path);
   const Surface& surface = surface_of(manifest_, path.hit.triangle);
   const MaterialKind& kind = scene_.materials.kind(surface.material);
+  const bool passes = kind.is_interface || !is_there(path, surface, at);
   const double left = refracts ? 0 : path.travelled - path.hit.t * length(cast<double>(path.ray.direction));
   if (!refracts && left <= 0) {
     deposit(path.pixel, path.sample, path.sensor, path.throughput);
     return false;
   }
-  if (refracts && kind.smooth_dielectric) {
+  if (refracts && kind.smooth_dielectric && !passes) {
     if (!refract_connection(path, at, surface)) return false;
   } else {
-    if (!kind.is_interface) {
+    if (!passes) {
       path.throughput =
           path.throughput * scene_.materials.passes_straight(surface.material, at, path.wavelengths);
       path.depth += manifest_.settings.straight_counts || refracts;
@@ -142,7 +143,7 @@ bool PathTracer::connect_onwards(Path& path) {
     continue_straight(path, at, surface);
     set_end(path, left);
   }
-  if (kind.is_interface) return true;
+  if (passes) return true;
   return path.depth <=
          (refracts ? max_surfaces_crossed : static_cast<std::uint32_t>(manifest_.settings.max_depth));
 }
@@ -150,7 +151,7 @@ bool PathTracer::connect_onwards(Path& path) {
 bool PathTracer::refract_connection(Path& path, const Interaction& at, const Surface& surface) const {
   const Material& record = manifest_.materials[surface.material];
   const auto& material = std::get<DielectricMaterial>(record.model);
-  const SampledSpectrum eta = relative_index(material, path.wavelengths, at.front);
+  const SampledSpectrum eta = relative_index(material, at, path.wavelengths);
   const Vector3d normal = scene_.materials.shading_normal(record, at) * at.side();
   Vector3d direction;
   if (!refract(at.out, normal, static_cast<double>(eta[0]), direction)) return false;

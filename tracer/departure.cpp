@@ -13,6 +13,11 @@ Flight PathTracer::flight_of(const Path& path) const {
   return {cast<double>(path.ray.origin), d * (1 / scale), path.hit.t * scale};
 }
 
+const PreparedMedium* PathTracer::medium_of(const Path& path) const {
+  const std::int32_t medium = scene_.interiors.medium(path.inside);
+  return medium < 0 ? nullptr : &scene_.media[static_cast<std::size_t>(medium)];
+}
+
 // A function of the ray, wherever it is traced.
 std::uint64_t PathTracer::stream_of(const Path& path) const {
   const auto bits = [](float x) { return std::uint64_t{std::bit_cast<std::uint32_t>(x)}; };
@@ -45,20 +50,17 @@ void PathTracer::continue_straight(Path& path, const Interaction& at, const Surf
 
 Departure PathTracer::departure(const Path& path, const Interaction& at, const Surface& surface,
                                 Vector3d direction) const {
-  Departure from{at.p, offset_origin(at, direction), at.triangle, path.medium};
-  if (surface.interior != surface.exterior)
-    from.medium = static_cast<std::uint8_t>(
-        (dot(direction, at.geometric) > 0 ? surface.exterior : surface.interior) + 1);
-  return from;
+  const bool front_side = dot(direction, at.geometric) > 0;
+  return {at.p, offset_origin(at, direction), at.triangle,
+          scene_.interiors.beside(path.inside, surface, front_side, front_side != at.front)};
 }
 
 // Starts the next ray. The triangle it leaves is excluded by id.
 void PathTracer::depart(Path& path, const Departure& from, Vector3d direction) const {
-  if (manifest_.requirements.filtering) path.cone = cone_code(cone_width(path) / cone_unit());
   path.direction = encode_direction(direction);
   path.ray = {from.origin, decode_direction(path.direction), from.exclude};
   path.hit = {};
-  path.medium = from.medium;
+  path.inside = from.inside;
   for (float& x : path.throughput.v) x = rounded_radiance(x);
 }
 
@@ -73,21 +75,26 @@ Point3f PathTracer::offset_origin(const Interaction& at, Vector3d direction) con
 }
 
 Interaction PathTracer::interaction_at(const Path& path) const {
-  const double width = manifest_.requirements.filtering ? cone_width(path) : 0;
+  const double width = manifest_.requirements.filtering ? cone_width(path, path.hit.t) : 0;
   return make_interaction(*resident_[path.hit_domain], path.hit, path.ray.direction, width,
                           manifest_.attributes);
 }
 
 double PathTracer::cone_unit() const { return std::max(1e-30, static_cast<double>(manifest_.scale)); }
 
-// Where the path arrives (Akenine-Möller et al., "Texture Level of Detail Strategies for Real-Time Ray
+// At a distance (Akenine-Möller et al., "Texture Level of Detail Strategies for Real-Time Ray
 // Tracing", 2019): it widens by the angle of a pixel, and after a scattering by a tenth of the width of a
 // lobe of that density.
-double PathTracer::cone_width(const Path& path) const {
+double PathTracer::cone_width(const Path& path, double distance) const {
   const double angle = path.pdf > 0
                            ? std::max(scene_.pixel_angle, 0.1 / std::sqrt(static_cast<double>(path.pdf)))
                            : scene_.pixel_angle;
-  return cone_value(path.cone) * cone_unit() + std::min(angle, 1.0) * path.hit.t;
+  return cone_value(path.cone) * cone_unit() + std::min(angle, 1.0) * distance;
+}
+
+// To where it starts next.
+void PathTracer::widen_cone(Path& path, double distance) const {
+  if (manifest_.requirements.filtering) path.cone = cone_code(cone_width(path, distance) / cone_unit());
 }
 
 }  // namespace vitrail

@@ -18,6 +18,8 @@ struct Interaction {
   Vector3d shading;    // unit, on the same side as `geometric`
   std::uint32_t triangle = no_triangle;
   bool front = false;  // the ray came from the front side
+  // In front of a dielectric with a priority; null: the material's own.
+  const Spectrum* exterior_eta = nullptr;
 
   // Of surfaces that textures are looked up on.
   Point2d uv;

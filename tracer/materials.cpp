@@ -137,7 +137,7 @@ SampledSpectrum Materials::passes_straight(std::uint32_t material, const Interac
   if (const auto* measured = std::get_if<MeasuredMaterial>(&m.model))
     return sheet_fractions(*measured->sheet, wavelengths, std::abs(dot(at.out, at.shading))).transmitted;
   if (const auto* thin = std::get_if<ThinDielectricMaterial>(&m.model)) {
-    const BsdfMaker maker{textures_, at.texture_point(), wavelengths, at.front, nullptr};
+    const BsdfMaker maker{textures_, at.texture_point(), wavelengths, nullptr, nullptr};
     return straight_transmittance(maker.thin(*thin), std::abs(dot(at.out, at.shading)));
   }
   return {};
@@ -159,19 +159,20 @@ std::optional<Scattering> Materials::scattering_at(const Material& material, con
   if (!both_sides && !material.two_sided && !at.front) return std::nullopt;
   const Vector3d normal = shading_normal(material, at);
   const BsdfMaker maker{
-      textures_, at.texture_point(), wavelengths, at.front,
+      textures_, at.texture_point(), wavelengths, at.exterior_eta,
       plastic_tables_.empty() ? nullptr : &plastic_tables_[plastic_table_[index_of(material)]]};
   return Scattering{std::visit(maker, material.model),
                     frame_around(normal, at, both_sides ? 1.0 : at.side())};
 }
 
-SampledSpectrum relative_index(const DielectricMaterial& material, const SampledWavelengths& wavelengths,
-                               bool from_front) {
+SampledSpectrum relative_index(const DielectricMaterial& material, const Interaction& at,
+                               const SampledWavelengths& wavelengths) {
   const SampledSpectrum behind = evaluate(material.eta, wavelengths),
-                        before = evaluate(material.exterior_eta, wavelengths);
+                        before =
+                            evaluate(at.exterior_eta ? *at.exterior_eta : material.exterior_eta, wavelengths);
   SampledSpectrum eta;
   for (std::size_t i = 0; i < hero_count; ++i)
-    eta.v[i] = from_front ? behind.v[i] / before.v[i] : before.v[i] / behind.v[i];
+    eta.v[i] = at.front ? behind.v[i] / before.v[i] : before.v[i] / behind.v[i];
   return eta;
 }
 

@@ -35,7 +35,9 @@ class Materials {
                                   const SampledWavelengths& wavelengths) const;
 
   // Whether a chosen material turns wavelengths into different directions.
-  bool disperses(const Material& material) const { return kind(index_of(material)).dispersive; }
+  bool disperses(const Material& material, const Interaction& at) const {
+    return kind(index_of(material)).dispersive || (at.exterior_eta && !is_constant(*at.exterior_eta));
+  }
   // Of a chosen material; empty where it is black: the back of a one-sided surface.
   std::optional<Scattering> scattering_at(const Material& material, const Interaction& at,
                                           const SampledWavelengths& wavelengths) const;
@@ -53,8 +55,8 @@ class Materials {
   std::vector<std::uint32_t> plastic_table_;  // of a material: index into plastic_tables_
 };
 
-// Index behind over index in front at the four wavelengths, for light that comes from the front or the back.
-SampledSpectrum relative_index(const DielectricMaterial& material, const SampledWavelengths& wavelengths,
-                               bool from_front);
+// Index behind over index in front at the four wavelengths, seen from where the ray came.
+SampledSpectrum relative_index(const DielectricMaterial& material, const Interaction& at,
+                               const SampledWavelengths& wavelengths);
 
 }  // namespace vitrail

@@ -16,8 +16,8 @@ struct PathTracer::Path {
   float pdf = 0;            // of the last scattering, solid angle, already rounded; 0: specular or camera
   FaceCode entered_by;      // in a pane: the face it came in through
   double travelled = 0;     // since the last scattering, straight through surfaces; already rounded
-  std::uint8_t medium = 0;  // index + 1, 0: vacuum
-  std::uint8_t cone = 0;    // cone_code
+  std::uint8_t inside = 0;  // state of Interiors
+  std::uint8_t cone = 0;    // cone_code of its width where it starts; 0 of connections
   SampledSpectrum throughput;
   DirectionCode direction;
   Ray ray;

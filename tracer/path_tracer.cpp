@@ -66,7 +66,7 @@ void PathTracer::trace_camera(int x, int y, std::uint32_t sample) {
       camera_ray(manifest_.camera, manifest_.film, {x + 0.5 + offset.x, y + 0.5 + offset.y}, lens);
   path.camera = u;
   path.throughput = filled(1);
-  path.medium = static_cast<std::uint8_t>(manifest_.camera_medium + 1);
+  path.inside = scene_.interiors.state_in(manifest_.camera_medium);
   path.direction = ray.direction;
   path.ray = {ray.origin, decode_direction(ray.direction), no_triangle};
   film_.count_sample(path.pixel);
@@ -89,7 +89,7 @@ void PathTracer::resume(const PathRecord& record, std::uint32_t domain) {
   std::array<std::uint8_t, 3> travelled = std::to_array(record.travelled);
   if (has_cone(path)) path.cone = std::exchange(travelled[0], std::uint8_t{0});
   path.travelled = static_cast<double>(unpack_radiance(travelled.data()));
-  path.medium = record.medium;
+  path.inside = record.inside;
   path.direction = record.direction;
   path.ray = {{record.origin[0], record.origin[1], record.origin[2]},
               decode_direction(record.direction),
@@ -167,7 +167,7 @@ bool PathTracer::forward(const Path& path, std::uint32_t domain, bool resolved) 
   for (std::size_t i = 0; i < hero_count; ++i) pack_radiance(path.throughput.v[i], r.throughput[i]);
   pack_radiance(static_cast<float>(path.travelled), r.travelled);
   if (has_cone(path)) r.travelled[0] = path.cone;
-  r.medium = path.medium;
+  r.inside = path.inside;
   r.exclude = path.ray.exclude;
   r.pixel = path.pixel;
   r.sample_depth = path.sample << 8 | path.depth;

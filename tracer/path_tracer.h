@@ -49,7 +49,7 @@ struct Departure {
   Point3d p;       // what it leaves
   Point3f origin;  // beside it
   std::uint32_t exclude = no_triangle;
-  std::uint8_t medium = 0;  // index + 1, 0: vacuum
+  std::uint8_t inside = 0;  // state of Interiors
 };
 
 // What a connection begins with: scattering towards the light, and where its ray starts.
@@ -84,6 +84,7 @@ class PathTracer {
   bool scatter_dielectric(Path& path, const Interaction& at, const Surface& surface);
   bool scatter_in_medium(Path& path, Point3d p);
   bool go_on(Path& path, float u, bool specular) const;
+  bool is_there(const Path& path, const Surface& surface, Interaction& at) const;
   void add_emission(const Path& path, const Interaction& at, std::uint32_t light);
   void add_environment(const Path& path);
 
@@ -97,10 +98,12 @@ class PathTracer {
   Point3f offset_origin(const Interaction& at, Vector3d direction) const;
   Interaction interaction_at(const Path& path) const;
   Flight flight_of(const Path& path) const;
+  const PreparedMedium* medium_of(const Path& path) const;
   std::uint64_t stream_of(const Path& path) const;
   double cone_unit() const;
   bool has_cone(const Path& path) const;
-  double cone_width(const Path& path) const;
+  double cone_width(const Path& path, double distance) const;
+  void widen_cone(Path& path, double distance) const;
 
   // connections.cpp
   void connect_surface(const Path& path, const Interaction& at, const Surface& surface,

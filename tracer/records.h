@@ -20,7 +20,6 @@ static_assert(std::endian::native == std::endian::little);
 inline constexpr std::uint32_t max_samples = 1u << 24;
 inline constexpr int max_path_depth = 254;
 inline constexpr std::uint32_t max_domains = 0xffff;
-inline constexpr std::size_t max_media = 254;
 
 enum PathFlags : std::uint8_t {
   path_dispersed = 1,   // only the hero wavelength is left
@@ -49,7 +48,7 @@ struct PathRecord {
   // Since the last scattering, straight through surfaces; of a connection, what is left to its light; as
   // radiance_code. Where images are filtered, a path has the cone_code of its ray's width in the lowest byte.
   std::uint8_t travelled[3];
-  std::uint8_t medium;  // index + 1 of what the ray is in, 0: vacuum
+  std::uint8_t inside;  // state of Interiors
 };
 
 // A ray to a point on a light. It deposits `radiance` unless something is hit in (0, tmax).

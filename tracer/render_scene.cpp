@@ -28,15 +28,14 @@ LightScene light_scene(const Manifest& m, const Textures& textures) {
 RenderScene::RenderScene(Manifest the_manifest, const std::filesystem::path& bundle,
                          std::uint64_t texture_bytes, std::uint64_t the_seed)
     : manifest(std::move(the_manifest)),
+      interiors(manifest),
       filter(manifest.film.filter),
       textures(manifest.textures, bundle, texture_bytes),
       materials(manifest, textures),
       media(prepare(manifest.media)),
       lights(make_light_sampler(light_scene(manifest, textures), bundle)),
       pixel_angle(vitrail::pixel_angle(manifest)),
-      seed(the_seed) {
-  if (manifest.media.size() > max_media) throw Error("more than 254 media", {bundle.string()});
-}
+      seed(the_seed) {}
 
 const Surface& surface_of(const Manifest& manifest, std::uint32_t triangle) {
   const auto behind =

@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "bundle/manifest.h"
+#include "bundle/interiors.h"
 #include "tracer/camera.h"
 #include "tracer/lights/light_sampler.h"
 #include "tracer/materials.h"
@@ -21,6 +21,7 @@ struct RenderScene {
   RenderScene& operator=(const RenderScene&) = delete;
 
   Manifest manifest;
+  Interiors interiors;
   FilterSampler filter;
   Textures textures;
   Materials materials;

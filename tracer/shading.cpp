@@ -18,20 +18,24 @@ constexpr std::uint32_t roulette_depth = 3;
 
 // False when the path ends here.
 bool PathTracer::shade(Path& path) {
-  const bool escapes = path.hit.triangle == no_triangle && !path.medium && !path.is(path_connection);
+  const PreparedMedium* medium = medium_of(path);
+  const bool escapes = path.hit.triangle == no_triangle && !medium && !path.is(path_connection);
   if (escapes && !scene_.lights.has_background()) return false;
   find_wavelengths(path);
   if (path.is(path_connection)) return connect_onwards(path);
-  if (path.medium) {
+  if (medium) {
     const Flight flight = flight_of(path);
     RandomStream random(stream_of(path));
-    const FlightSample flown = sample_flight(scene_.media[path.medium - 1u], flight, path.wavelengths,
-                                             path.active_wavelengths(), path.throughput, random);
+    const FlightSample flown =
+        sample_flight(*medium, flight, path.wavelengths, path.active_wavelengths(), path.throughput, random);
     if (!is_black(flown.emitted))
       deposit(path.pixel, path.sample, path.sensor, path.throughput * flown.emitted);
     path.throughput = path.throughput * flown.weight;
     if (is_black(path.throughput)) return false;
-    if (flown.scattered_at) return scatter_in_medium(path, flight.p + flight.d * *flown.scattered_at);
+    if (flown.scattered_at) {
+      widen_cone(path, *flown.scattered_at);
+      return scatter_in_medium(path, flight.p + flight.d * *flown.scattered_at);
+    }
   }
   if (path.hit.triangle == no_triangle) {
     if (path.is(path_in_pane)) path.disperse();
@@ -56,6 +60,11 @@ void PathTracer::add_environment(const Path& path) {
 bool PathTracer::shade_surface(Path& path) {
   const Surface& surface = surface_of(manifest_, path.hit.triangle);
   Interaction at = interaction_at(path);
+  widen_cone(path, path.hit.t);
+  if (!is_there(path, surface, at)) {
+    pass_straight(path, at, surface);
+    return true;
+  }
   const MaterialKind& kind = scene_.materials.kind(surface.material);
   // Only the far face of a pane lets the wavelengths out the way they came in.
   if (path.is(path_in_pane) && (at.front || !kind.smooth_dielectric)) path.disperse();
@@ -82,7 +91,7 @@ bool PathTracer::shade_surface(Path& path) {
     pass_straight(path, at, surface);
     return true;
   }
-  if (scene_.materials.disperses(*material)) path.disperse();
+  if (scene_.materials.disperses(*material, at)) path.disperse();
   const auto scattering = scene_.materials.scattering_at(*material, at, path.wavelengths);
   if (!scattering) return false;
   const std::array<float, 4> u = sample_4d(key, sample_set::scatter(path.depth));
@@ -109,6 +118,14 @@ bool PathTracer::shade_surface(Path& path) {
   if (!go_on(path, u[3], chosen->specular)) return false;
   continue_from(path, at, surface, direction);
   return true;
+}
+
+// False for the face of an interior that lies in one of higher priority.
+bool PathTracer::is_there(const Path& path, const Surface& surface, Interaction& at) const {
+  if (!scene_.interiors.has_priority(surface)) return true;
+  const auto face = scene_.interiors.face(path.inside, surface, at.front);
+  if (face) at.exterior_eta = face->exterior_eta;
+  return face.has_value();
 }
 
 // Counts a scattering event, and decides by roulette whether the path lives on.
@@ -145,9 +162,9 @@ void PathTracer::add_emission(const Path& path, const Interaction& at, std::uint
 bool PathTracer::scatter_in_medium(Path& path, Point3d p) {
   if (path.depth >= static_cast<std::uint32_t>(manifest_.settings.max_depth)) return false;
   if (path.is(path_in_pane)) path.disperse();
-  const double g = scene_.media[path.medium - 1u].g;
+  const double g = medium_of(path)->g;
   const Vector3d out = normalize(-cast<double>(path.ray.direction));
-  const Departure from{p, cast<float>(p), no_triangle, path.medium};
+  const Departure from{p, cast<float>(p), no_triangle, path.inside};
   if (scene_.lights.can_sample()) connect_medium(path, from, g, out);
   const std::array<float, 4> u = sample_4d(key_of(path.pixel, path.sample), sample_set::scatter(path.depth));
   const Vector3d in = sample_phase(g, out, u[0], u[1]);
@@ -166,7 +183,7 @@ bool PathTracer::scatter_dielectric(Path& path, const Interaction& at, const Sur
   const Vector3d normal = scene_.materials.shading_normal(record, at) * at.side();
   if (path.is(path_in_pane) && !is_parallel(path.entered_by, normal)) path.disperse();
   const bool in_pane = path.is(path_in_pane);
-  const SampledSpectrum eta = relative_index(material, path.wavelengths, at.front);
+  const SampledSpectrum eta = relative_index(material, at, path.wavelengths);
   const double hero_eta = static_cast<double>(eta[0]), cosine = dot(at.out, normal);
   // Inside a pane the wavelengths differ in their angle, but share the one outside; reflectance is the same
   // from both sides.
@@ -208,8 +225,8 @@ bool PathTracer::scatter_dielectric(Path& path, const Interaction& at, const Sur
                                                                  at.texture_point(), path.wavelengths);
     if (in_pane) {
       path.clear(path_in_pane);
-    } else if (scene_.materials.kind(surface.material).dispersive && !path.is(path_dispersed)) {
-      if (at.front) {
+    } else if (scene_.materials.disperses(record, at) && !path.is(path_dispersed)) {
+      if (at.front && !at.exterior_eta) {
         path.set(path_in_pane);
         path.entered_by = encode_face(normal);
       } else {

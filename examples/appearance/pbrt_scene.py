@@ -54,6 +54,7 @@ Texture "tiles" "spectrum" "checkerboard" "texture tex1" "bright" "texture tex2"
 Texture "faded" "spectrum" "scale" "texture tex" "plaster" "float scale" [0.8]
 Texture "spots" "float" "imagemap" "string filename" "textures/spots.png" "float uscale" [2]
 Texture "leaf" "float" "imagemap" "string filename" "textures/leaf.png" "string wrap" "black"
+  "string filter" "trilinear"
 Texture "bumps" "float" "imagemap" "string filename" "textures/brick-height.png" "float scale" [0.02]
   "float uscale" [6] "float vscale" [5] "string encoding" "linear"
 Texture "waves" "float" "imagemap" "string filename" "textures/waves.png" "string encoding" "linear"
@@ -139,7 +140,10 @@ def objects():
         (
             "sphere",
             'MakeNamedMedium "amber" "string type" "homogeneous" "rgb sigma_a" [0.6 3 9] "rgb sigma_s" [0 0 0]\n'
-            '  MediumInterface "amber" ""\n  Material "dielectric" "float eta" [1.55]',
+            '  MediumInterface "amber" ""\n  AttributeBegin\n    Translate 0.5 0.3 0.2\n    Scale 0.6 0.6 0.6\n'
+            '    Material "dielectric" "float eta" [1.33] "integer priority" [2]\n    MediumInterface "" ""\n'
+            '    Shape "plymesh" "string filename" "meshes/box.ply"\n  AttributeEnd\n'
+            '  Material "dielectric" "float eta" [1.55] "integer priority" [1]',
         ),
         (
             "vase",

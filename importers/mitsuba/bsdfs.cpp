@@ -96,6 +96,7 @@ MaterialModel dielectric(Builder& b, const Object& o) {
   if (o.type == "roughdielectric") m.roughness = roughness_of(b, o);
   m.reflectance_factor = factor(b, o, "specular_reflectance");
   m.transmittance_factor = factor(b, o, "specular_transmittance");
+  m.priority = o.integer("priority", 0, b.report);
   return m;
 }
 

@@ -52,6 +52,7 @@ void write(Context& context, Element parent, ElementId id, const DielectricMater
   add_roughness(context, element, m.roughness);
   add_parameter(context, element, "specular_reflectance", m.reflectance_factor, Meaning::unbounded);
   add_parameter(context, element, "specular_transmittance", m.transmittance_factor, Meaning::unbounded);
+  if (m.priority != 0) context.dropped("its priority among overlapping interiors: Mitsuba has none");
 }
 
 void write(Context& context, Element parent, ElementId id, const ThinDielectricMaterial& m) {

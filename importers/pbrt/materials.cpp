@@ -75,6 +75,7 @@ MaterialModel dielectric(const Maker& m) {
   DielectricMaterial d;
   d.eta = m.index({"eta"}, 1.5);
   d.roughness = m.roughness(0);
+  d.priority = m.parameters.integer("priority", 0);
   return d;
 }
 

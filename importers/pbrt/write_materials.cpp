@@ -35,6 +35,7 @@ class MaterialWriter {
     relative_index(m.eta, m.exterior_eta);
     roughness(m.roughness);
     factors(m.reflectance_factor, m.transmittance_factor);
+    if (m.priority != 0) p_.dropped("its priority among overlapping interiors: pbrt has none");
     return "dielectric";
   }
   const char* operator()(const ThinDielectricMaterial& m) {

@@ -95,11 +95,23 @@ FlightSample sample_homogeneous(const Coefficients& coefficients, double t_max, 
                                 const SampledSpectrum& glow, RandomStream& random) {
   Values sigma_t, sigma_s;
   coefficients.at({}, sigma_t, sigma_s);
+  FlightSample s;
+  // ∫₀^{t_max} e^{−σ_t x} σ_a L dx = (1 − e^{−σ_t t_max})·(1 − σ_s/σ_t)·L.
+  if (!is_black(glow))
+    for (std::size_t i = 0; i < active; ++i)
+      if (sigma_t[i] > 0)
+        s.emitted.v[i] = glow.v[i] * static_cast<float>((1 - attenuation(sigma_t[i], t_max)) *
+                                                        (1 - sigma_s[i] / sigma_t[i]));
+  // What only absorbs is no matter of chance: Beer and Lambert.
+  if (std::all_of(sigma_s.begin(), sigma_s.end(), [](double x) { return x == 0; })) {
+    for (std::size_t i = 0; i < active; ++i)
+      s.weight.v[i] = static_cast<float>(attenuation(sigma_t[i], t_max));
+    return s;
+  }
   const auto n = static_cast<double>(active);
   const auto chosen = std::min(static_cast<std::size_t>(random.next() * n), active - 1);
   const double distance = exponential(random.next());
   const double t = sigma_t[chosen] > 0 ? distance / sigma_t[chosen] : infinity;
-  FlightSample s;
   const bool arrives = t >= t_max;
   if (!arrives) s.scattered_at = t;
   double pdf = 0;
@@ -111,12 +123,6 @@ FlightSample sample_homogeneous(const Coefficients& coefficients, double t_max, 
   // The chosen wavelength has a density above 0 here, unless it underflowed.
   for (std::size_t i = 0; i < active && pdf > 0; ++i)
     s.weight.v[i] = static_cast<float>((arrives ? through[i] : through[i] * sigma_s[i]) / pdf);
-  // ∫₀^{t_max} e^{−σ_t x} σ_a L dx = (1 − e^{−σ_t t_max})·(1 − σ_s/σ_t)·L.
-  if (!is_black(glow))
-    for (std::size_t i = 0; i < active; ++i)
-      if (sigma_t[i] > 0)
-        s.emitted.v[i] = glow.v[i] * static_cast<float>((1 - attenuation(sigma_t[i], t_max)) *
-                                                        (1 - sigma_s[i] / sigma_t[i]));
   return s;
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Free flight through a medium. Homogeneous media are sampled in closed form, by a wavelength chosen at
-// random and weighted by the mean density of all; grids by null collisions (Woodcock et al. 1965; for spectra
-// Kutz et al., "Spectral and Decomposition Tracking", 2017).
+// random and weighted by the mean density of all, or not at all where they only absorb; grids by null
+// collisions (Woodcock et al. 1965; for spectra Kutz et al., "Spectral and Decomposition Tracking", 2017).
 #pragma once
 
 #include <optional>
