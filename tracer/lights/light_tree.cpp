@@ -21,6 +21,13 @@ float smaller(float a, float b) { return a < b ? a : b; }
 // than a factor of 1.7 from the middle, the cosine by 25 %.
 constexpr float alike_ratio = 4;
 
+float lower_integer(std::uint32_t pair) {
+  return static_cast<float>(static_cast<std::int32_t>(pair << 16) >> 16);
+}
+float upper_integer(std::uint32_t pair) { return static_cast<float>(static_cast<std::int32_t>(pair) >> 16); }
+float lower_float(std::uint32_t pair) { return std::bit_cast<float>(pair << 16); }
+float upper_float(std::uint32_t pair) { return std::bit_cast<float>(pair & 0xffff0000u); }
+
 struct Weights {
   LightNode::Lanes lane;
   LightNode::Lanes alike;  // > 0: its lights are alike
@@ -28,24 +35,26 @@ struct Weights {
 
 // Power · cos θ′ / d², θ′ = θ − θ_o − θ_u the least angle between a normal of the child and the direction to
 // p, θ_u the half angle of its sphere from p; 0 where θ′ ≥ θ_e. All angles by cosines and sines.
-void weigh(const LightNode& node, Point3f p, Weights& __restrict result) {
+[[gnu::always_inline]] inline void weigh_lanes(const LightNode& __restrict node, Point3f p,
+                                               Weights& __restrict result) {
   constexpr float of_unit = 1 / LightNode::unit;
   for (std::size_t i = 0; i < LightNode::width; ++i) {
     const float x = p.x - node.center_x[i], y = p.y - node.center_y[i], z = p.z - node.center_z[i];
     const float d2 = larger(x * x + y * y + z * z, least_distance2);
     const float inverse_d = 1 / std::sqrt(d2);
     const float scale = inverse_d * of_unit;
-    const float along = (x * static_cast<float>(node.axis_x[i]) + y * static_cast<float>(node.axis_y[i]) +
-                         z * static_cast<float>(node.axis_z[i])) *
+    const float along = (x * lower_integer(node.axis_xy[i]) + y * upper_integer(node.axis_xy[i]) +
+                         z * lower_integer(node.axis_z_cos_o[i])) *
                         scale;
-    const auto bits = static_cast<std::uint32_t>(node.radius2[i]) << 16;
-    const float radius2 = std::abs(std::bit_cast<float>(bits));
-    const float turned = std::bit_cast<float>(bits) < 0 ? -along : along;
+    const float signed_radius2 = lower_float(node.radius2_power[i]),
+                power = upper_float(node.radius2_power[i]);
+    const float radius2 = std::abs(signed_radius2);
+    const float turned = signed_radius2 < 0 ? -along : along;
     const float cosine = larger(along, turned);
     const float sine = std::sqrt(larger(0, 1 - cosine * cosine));
     const float sin2_u = smaller(1, radius2 * inverse_d * inverse_d);
     const float sin_u = std::sqrt(sin2_u), cos_u = std::sqrt(1 - sin2_u);
-    const float cos_o = static_cast<float>(node.cos_o[i]) * of_unit;
+    const float cos_o = upper_integer(node.axis_z_cos_o[i]) * of_unit;
     const float sin_o = std::sqrt(larger(0, 1 - cos_o * cos_o));
 
     const float cos_beyond_o = cosine * cos_o + sine * sin_o;
@@ -55,12 +64,27 @@ void weigh(const LightNode& node, Point3f p, Weights& __restrict result) {
     const float cos_beyond_u = cos1 * cos_u + sin1 * sin_u;
     const float cos_outside = cos1 >= cos_u ? 1.0f : cos_beyond_u;
     const float cos2 = radius2 >= d2 ? 1.0f : cos_outside;
-    const float cos_e = node.power[i] < 0 ? 1 - 1e-4f : 0.0f;
+    const float cos_e = power < 0 ? 1 - 1e-4f : 0.0f;
     const float reached = cos2 > cos_e ? cos2 : 0.0f;
-    result.lane[i] = std::abs(node.power[i]) * reached / larger(d2, radius2);
+    result.lane[i] = std::abs(power) * reached / larger(d2, radius2);
     result.alike[i] = cosine - alike_ratio * (sin_u + sin_o);
   }
 }
+
+void weigh_portable(const LightNode& __restrict node, Point3f p, Weights& __restrict result) {
+  weigh_lanes(node, p, result);
+}
+
+// Eight lanes at once; the same bits.
+#if defined(__x86_64__)
+[[gnu::target("avx2")]] void weigh_avx2(const LightNode& __restrict node, Point3f p,
+                                        Weights& __restrict result) {
+  weigh_lanes(node, p, result);
+}
+const auto weigh = __builtin_cpu_supports("avx2") ? weigh_avx2 : weigh_portable;
+#else
+constexpr auto weigh = weigh_portable;
+#endif
 
 using Sums = std::array<double, LightNode::width>;
 Sums sums_of(const LightNode::Lanes& weight) {

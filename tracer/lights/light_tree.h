@@ -32,13 +32,12 @@ struct alignas(64) LightNode {
   static constexpr float unit = 32767;       // of the integers
   static constexpr std::uint8_t alike = 64;  // of `below`: see LightTree
   using Lanes = std::array<float, width>;
-  using Integers = std::array<std::int16_t, width>;
+  using Pairs = std::array<std::uint32_t, width>;
   Lanes center_x{}, center_y{}, center_z{};
-  Lanes power{};                          // < 0: nothing leaves beyond θ_o, else θ_e = 90°
-  Integers axis_x{}, axis_y{}, axis_z{};  // in units of 1/unit
-  Integers cos_o{};
-  std::array<std::uint16_t, width>
-      radius2{};  // of a sphere around the child, a float's upper bits; < 0: two-sided
+  // Two a lane, the first in the lower bits. The upper bits of floats: radius² of a sphere around the child,
+  // < 0: two-sided; power, < 0: nothing leaves beyond θ_o, else θ_e = 90°. Integers in units of 1/unit: the
+  // axis, and cos θ_o.
+  Pairs radius2_power{}, axis_xy{}, axis_z_cos_o{};
   std::array<std::uint32_t, width + 1> first{};
   std::uint32_t children = 0;  // the first node of the children of several lights, which are together
   std::array<std::uint8_t, width> below{};  // of such a child: its node after `children`

@@ -75,6 +75,16 @@ double cost(const Slab& s) {
 constexpr double narrow_rad = 0.014;
 // Of all power: lights with less are lost in a sum, so they are never chosen by one.
 constexpr double least_share = 1e-12;
+
+std::uint32_t pair(double lower, double upper) {
+  return (static_cast<std::uint32_t>(static_cast<std::int32_t>(lower)) & 0xffffu) |
+         static_cast<std::uint32_t>(static_cast<std::int32_t>(upper)) << 16;
+}
+// Of the least float of eight bits' precision that is not below x ≥ 0.
+std::uint32_t upper_bits(double x) {
+  return (std::bit_cast<std::uint32_t>(static_cast<float>(x)) + 0xffffu) >> 16;
+}
+
 constexpr int buckets = 12;
 // From here on by number, which needs at most 11 more levels for 2³² lights.
 constexpr int deepest_by_cost = 10;
@@ -229,22 +239,17 @@ class LightTreeBuilder {
     node.center_y[lane] = middle.y;
     node.center_z[lane] = middle.z;
     const double radius = length(extent(c.box)) / 2 * tree_.scale_ * (1 + 1e-6) + 1e-7;
-    const auto bits = std::bit_cast<std::uint32_t>(static_cast<float>(radius * radius));
-    node.radius2[lane] = static_cast<std::uint16_t>((bits + 0xffff) >> 16 | (c.two_sided ? 0x8000u : 0u));
-    const auto integer = [](double x) {
-      return static_cast<std::int16_t>(std::nearbyint(x * static_cast<double>(LightNode::unit)));
-    };
-    node.axis_x[lane] = integer(c.cone.axis.x);
-    node.axis_y[lane] = integer(c.cone.axis.y);
-    node.axis_z[lane] = integer(c.cone.axis.z);
     const double half = c.cone.half_rad + 4e-5;
     const double cosine = half < pi ? portable_cos(half) : -1;
-    node.cos_o[lane] = static_cast<std::int16_t>(
-        std::max(-32767.0, std::floor(cosine * static_cast<double>(LightNode::unit))));
-    // Of a bounded size, so that sums do not overflow; enough to be above 0.
-    const auto power = static_cast<float>(std::max(c.power / tree_.power_, 1e-30));
+    constexpr auto unit = static_cast<double>(LightNode::unit);
+    const auto integer = [](double x) { return std::nearbyint(x * unit); };
+    node.axis_xy[lane] = pair(integer(c.cone.axis.x), integer(c.cone.axis.y));
+    node.axis_z_cos_o[lane] = pair(integer(c.cone.axis.z), std::max(-32767.0, std::floor(cosine * unit)));
+    // Power is of a bounded size, so that sums do not overflow; enough to be above 0.
     const bool narrow = c.theta_e_rad < narrow_rad;
-    node.power[lane] = narrow ? -power : power;
+    node.radius2_power[lane] = upper_bits(radius * radius) | (c.two_sided ? 0x8000u : 0u) |
+                               (upper_bits(std::max(c.power / tree_.power_, 1e-30)) | (narrow ? 0x8000u : 0u))
+                                   << 16;
     if (!narrow && cosine > 0 && c.least_power >= least_share * tree_.power_)
       node.below[lane] |= LightNode::alike;
   }
