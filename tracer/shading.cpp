@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // What happens where a path arrives: in a medium, at a surface, outside of the scene.
-#include <limits>
-
 #include "tracer/bsdf/local.h"
 #include "tracer/media/phase.h"
 #include "tracer/path_state.h"
