@@ -38,6 +38,13 @@ struct LightScene {
 struct LightSampler {
   LightScene scene;
   LightTree tree;  // lights: the triangles, then the emitters
+  // What sampling reads of a triangle, in one cache line.
+  struct alignas(64) Slot {
+    std::array<Point3f, 3> p;
+    std::uint32_t light = 0;  // of the tree
+    std::uint32_t area_light = 0;
+  };
+  std::vector<Slot> slots;  // in the tree's order
   std::vector<PointEmitter> emitters;
   std::vector<std::uint32_t> emitter_light;  // index into scene.lights
   struct Distant {
