@@ -170,9 +170,10 @@ std::optional<LightSample> sample_light(const LightSampler& s, Point3d p, const 
   const Environment& e = s.environments[index];
   sample.to_light = e.frame.to_world(e.table.sample(static_cast<double>(u[0]), static_cast<double>(u[1])));
   sample.distance = infinity;
-  sample.pdf = environment_pdf(s, p, sample.to_light);
-  if (!(sample.pdf > 0)) return std::nullopt;
-  sample.radiance = environment_radiance(s, sample.to_light, wavelengths);
+  const Background seen = background(s, sample.to_light, wavelengths);
+  if (!(seen.pdf > 0)) return std::nullopt;
+  sample.pdf = seen.pdf;
+  sample.radiance = seen.radiance;
   sample.light = s.environment_light[index];
   return sample;
 }
@@ -195,15 +196,6 @@ double triangle_pdf(const LightSampler& s, Point3d from, std::uint32_t triangle,
          (std::max(std::abs(cosine), 1e-12) * area);
 }
 
-double environment_pdf(const LightSampler& s, Point3d, Vector3d direction) {
-  double sum = 0;
-  for (std::size_t i = 0; i < s.environments.size(); ++i) {
-    const Environment& e = s.environments[i];
-    sum += s.share[1 + s.distant.size() + i] * e.table.pdf(e.frame.to_light(direction));
-  }
-  return sum;
-}
-
 SampledSpectrum emitted(const LightSampler& s, std::uint32_t area_light, const TexturePoint& at,
                         double cosine, const SampledWavelengths& wavelengths) {
   const AreaLight& light = s.scene.area_lights[area_light];
@@ -211,12 +203,17 @@ SampledSpectrum emitted(const LightSampler& s, std::uint32_t area_light, const T
   return surface_radiance(s, light, at, wavelengths);
 }
 
-SampledSpectrum environment_radiance(const LightSampler& s, Vector3d direction,
-                                     const SampledWavelengths& wavelengths) {
-  SampledSpectrum sum = filled(0);
+Background background(const LightSampler& s, Vector3d direction, const SampledWavelengths& wavelengths) {
+  Background sum{filled(0)};
   for (const std::uint32_t i : s.infinite)
-    sum = sum + evaluate(std::get<InfiniteLight>(s.scene.lights[i].model).radiance, wavelengths);
-  for (const Environment& e : s.environments) sum = sum + radiance(e, direction, wavelengths);
+    sum.radiance =
+        sum.radiance + evaluate(std::get<InfiniteLight>(s.scene.lights[i].model).radiance, wavelengths);
+  for (std::size_t i = 0; i < s.environments.size(); ++i) {
+    const Environment& e = s.environments[i];
+    const Point2d at = sphere_point(e.projection, e.frame.to_light(direction));
+    sum.radiance = sum.radiance + radiance(e, at, wavelengths);
+    sum.pdf += s.share[1 + s.distant.size() + i] * e.table.pdf(at);
+  }
   return sum;
 }
 
