@@ -45,12 +45,12 @@ bool PathTracer::shade(Path& path) {
 
 void PathTracer::add_environment(const Path& path) {
   const Vector3d direction = normalize(cast<double>(path.ray.direction));
-  const SampledSpectrum radiance = environment_radiance(scene_.lights, direction, path.wavelengths);
+  const auto [radiance, light_pdf] = background(scene_.lights, direction, path.wavelengths);
   if (is_black(radiance)) return;
   double weight = 1;
   if (path.pdf > 0) {
     const double pdf = static_cast<double>(path.pdf);
-    weight = pdf / (pdf + environment_pdf(scene_.lights, path.scattered_from(), direction));
+    weight = pdf / (pdf + light_pdf);
   }
   deposit(path.pixel, path.sample, path.sensor, path.throughput * radiance * static_cast<float>(weight));
 }
