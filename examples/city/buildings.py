@@ -59,7 +59,7 @@ def _storeys(design, rect, z0, floors, storey, look, bay, sides=(True,) * 4, bal
                 Wall((x, y, z0), heading, length, bays, floors, storey, look, balconies if k in (0, 2) else 0)
             )
         else:
-            dx, dy = np.cos(heading) * length, np.sin(heading) * length
+            dx, dy = round(np.cos(heading)) * length, round(np.sin(heading)) * length
             design.blind.append((x, y, x + dx, y + dy, z0, z0 + floors * storey, material))
 
 
@@ -199,10 +199,10 @@ def build(seed, plan, budget):
     x0, y0, x1, y1 = 0.3, 0.3, plan.lot.width - 0.3, plan.lot.depth - 0.3
     parts.add("concrete", level(x0, y0, x1, y1, 0.05))
     rng = np.random.default_rng([*seed, 2])
-    left, cells = budget - parts.count(), plan.cells()
+    left, cells = budget - parts.triangles, plan.cells()
     for wall in plan.walls:
-        before = parts.count()
+        before = parts.triangles
         facade(parts, rng, wall, max(left / cells, 0))
-        left -= parts.count() - before
+        left -= parts.triangles - before
         cells -= wall.cells()
     return parts

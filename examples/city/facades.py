@@ -4,11 +4,12 @@
 A cell's frame: x along the wall, y into the building, z up; its origin is the cell's lower left corner outside.
 """
 
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
 
-from meshes import Mesh, Parts, box, boxes, grid, join, quad, rings, tile
+from meshes import Mesh, Parts, box, boxes, grid_faces, join, quad, rings, tile
 
 
 class Look(NamedTuple):
@@ -103,23 +104,29 @@ def _room(w, h, depth):
 
 
 def _curtain(w, h, look, columns, closed):
-    """A folded sheet behind the glass that covers the share `closed` of it, from both sides; 2 triangles a column."""
+    """Folded sheets behind the glass of each window, from both sides; 2 triangles a column.
+
+    closed: the share of each window that they cover. Returns cells of one mesh, (windows, vertices, 3), and its faces.
+    """
     x0, z0, x1, z1 = _opening(w, h, look)
-    right = max(columns // 2, 1) if columns > 1 else 0
-    sheets = []
+    right = columns // 2
+    v, faces, first = [], [], 0
     for n, edge, inward in ((columns - right, x0, 1), (right, x1, -1)):
         if n == 0:
             continue
-        s = np.linspace(0, 1, n + 1)
-        x = edge + inward * s * closed * (x1 - x0) * (0.5 if right else 1.0)
-        y = look.reveal + 0.2 + 0.05 * np.sin(np.pi * np.arange(n + 1) / (2 if n < 40 else n / 20))
-        p = np.empty((n + 1, 2, 3))
-        p[..., 0], p[..., 1] = x[:, None], y[:, None]
-        p[:, 0, 2], p[:, 1, 2] = z0 - 0.1, z1 + 0.1
-        sheets.append(grid(p))
-    return join(sheets)
+        k = np.arange(n + 1)
+        p = np.empty((len(closed), n + 1, 2, 3))
+        reach = inward * (x1 - x0) * (0.5 if right else 1.0) * closed
+        p[..., 0] = (edge + reach[:, None] * (k / n))[..., None]
+        p[..., 1] = (look.reveal + 0.2 + 0.05 * np.sin(np.pi * k / (2 if n < 40 else n / 20)))[:, None]
+        p[..., 0, 2], p[..., 1, 2] = z0 - 0.1, z1 + 0.1
+        v.append(p.reshape(len(closed), -1, 3))
+        faces.append(grid_faces(n + 1, 2) + np.int32(first))
+        first += 2 * (n + 1)
+    return np.concatenate(v, axis=1), np.concatenate(faces)
 
 
+@lru_cache(maxsize=64)
 def _balcony(w, look, fine):
     parts = Parts()
     d = look.balcony
@@ -133,8 +140,9 @@ def _balcony(w, look, fine):
     return parts
 
 
-def _cell(w, h, look, budget, behind):
-    """The parts of a cell of at most about `budget` triangles without its curtains."""
+@lru_cache(maxsize=64)
+def _cell(w, h, look, budget):
+    """The parts of a cell of at most about `budget` triangles without its curtains; "behind" is its room."""
     level = PLAIN if budget < RECESSED else RECESSED if budget < OPEN else OPEN
     parts = _wall(w, h, look, level)
     if level < OPEN:
@@ -157,9 +165,9 @@ def _cell(w, h, look, budget, behind):
         if material:
             parts.add(material, mesh)
     if room:
-        parts.add(behind, _room(w, h, 2.2))
+        parts.add("behind", _room(w, h, 2.2))
     else:
-        parts.add(behind, quad(*_loop(0.05, 0.05, w - 0.05, h - 0.15, look.reveal + 0.5)))
+        parts.add("behind", quad(*_loop(0.05, 0.05, w - 0.05, h - 0.15, look.reveal + 0.5)))
     return parts
 
 
@@ -173,28 +181,28 @@ def _curtains(parts, rng, wall, origins, turn, columns):
     whole = int(columns)
     n = np.full(len(origins), whole)
     n[rng.permutation(len(origins))[: int(round((columns - whole) * len(origins)))]] += 1
-    style = rng.integers(3, size=len(origins))
-    closed = rng.uniform(0.2, 0.55, 3) * np.array([1, 1, 1.6])
-    curtain = CURTAINS[rng.integers(3)]
+    closed = rng.uniform(0.15, 0.9, len(origins))
+    curtain = CURTAINS[rng.integers(len(CURTAINS))]
     for k in (whole, whole + 1):
-        for s in range(3):
-            if k > 0:
-                chosen = origins[(n == k) & (style == s)]
-                if len(chosen):
-                    parts.add(curtain, tile(_curtain(w, h, wall.look, k, closed[s]), chosen, turn))
+        chosen = n == k
+        if k > 0 and chosen.any():
+            v, f = _curtain(w, h, wall.look, k, closed[chosen])
+            v = v @ turn.T + origins[chosen][:, None]
+            f = f + (v.shape[1] * np.arange(len(v), dtype=np.int32))[:, None, None]
+            parts.add(curtain, Mesh(v.reshape(-1, 3), f.reshape(-1, 3)))
 
 
 def facade(parts, rng, wall, budget):
     """Builds the wall's cells in about `budget` triangles each."""
     w, h = wall.length / wall.bays, wall.storey
-    c, s = np.cos(wall.heading), np.sin(wall.heading)
+    c, s = round(np.cos(wall.heading)), round(np.sin(wall.heading))  # walls stand square
     turn = np.array([[c, -s, 0], [s, c, 0], [0, 0, 1.0]])
-    i, j = np.meshgrid(np.arange(wall.bays), np.arange(wall.floors), indexing="ij")
-    origins = np.stack([i.ravel() * (w * c), i.ravel() * (w * s), j.ravel() * h], axis=1) + wall.start
+    j, i = np.divmod(np.arange(wall.cells()), wall.bays)
+    origins = np.outer(i, (w * c, w * s, 0)) + np.outer(j, (0, 0, h)) + wall.start
     if wall.balconies and budget >= OPEN + 16:
-        at = (i.ravel() % wall.balconies == wall.balconies // 2) & (j.ravel() > 0)
+        at = (i % wall.balconies == wall.balconies // 2) & (j > 0)
         built = _balcony(w, wall.look, budget > 70)
-        share = at.sum() * built.count() / len(origins)
+        share = at.sum() * built.triangles / len(origins)
         if share < 0.5 * (budget - OPEN):
             budget -= share
             for material, meshes in built.by_material.items():
@@ -202,9 +210,8 @@ def facade(parts, rng, wall, budget):
     if budget < OPEN:  # the lower storeys are the richer ones
         below, above = (PLAIN, RECESSED) if budget < RECESSED else (RECESSED, OPEN)
         rich = int(np.clip(round(len(origins) * (budget - below) / (above - below)), 0, len(origins)))
-        order = np.argsort(j.ravel(), kind="stable")
-        for chosen, level in ((order[:rich], above), (order[rich:], below)):
-            _tile_cell(parts, rng, wall, origins[chosen], turn, level)
+        _tile_cell(parts, rng, wall, origins[:rich], turn, above)
+        _tile_cell(parts, rng, wall, origins[rich:], turn, below)
         return
     used = _tile_cell(parts, rng, wall, origins, turn, budget)
     if budget - used > 0.5:
@@ -214,13 +221,13 @@ def facade(parts, rng, wall, budget):
 def _tile_cell(parts, rng, wall, origins, turn, budget):
     """Triangles a cell."""
     w, h = wall.length / wall.bays, wall.storey
-    cell = _cell(w, h, wall.look, budget, "behind")
-    interior = rng.integers(len(INTERIORS), size=len(origins))
+    cell = _cell(w, h, wall.look, int(budget))
+    interior = rng.integers(3, size=len(origins))
     for material, meshes in cell.by_material.items():
         mesh = join(meshes)
         if material != "behind":
             parts.add(material, tile(mesh, origins, turn))
             continue
-        for k, name in enumerate(INTERIORS):
+        for k, name in enumerate(rng.permutation(INTERIORS)[:3]):
             parts.add(name, tile(mesh, origins[interior == k], turn))
-    return cell.count()
+    return cell.triangles

@@ -11,7 +11,7 @@ Sample runs:
 
 import argparse
 import sys
-from collections import Counter
+from collections import Counter, defaultdict
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "shared"))
@@ -24,12 +24,12 @@ from buildings import build, design  # noqa: E402
 from landscape import landscape  # noqa: E402
 from layout import City, size_for  # noqa: E402
 from materials import all_materials  # noqa: E402
-from meshes import rotation  # noqa: E402
+from meshes import Parts, join, rotations, tile  # noqa: E402
 from scene_writer import SceneWriter, numbers  # noqa: E402
-from streets import KERB, ground, standing  # noqa: E402
+from streets import KERB, TREE_SHAPES, ground, standing  # noqa: E402
 
 LEAST, MOST = 50_000, 1_000_000_000
-TREE_SHARE, TREE_SHAPES, LEAVES = 0.28, 9, 3
+TREE_SHARE, LEAVES = 0.28, 3
 SUN_TRAVELS = (0.25, 0.60, -0.76)
 SUN, SKY = (3.6, 3.25, 2.75), (0.46, 0.60, 0.86)  # irradiance across its direction; radiance
 
@@ -88,7 +88,7 @@ class Generator:
         self.things = {("lamp", 0): props.lamp(fine)}
         for k in range(props.CAR_SHAPES * len(props.CAR_COLOURS)):
             self.things["car", k] = props.car(*divmod(k, len(props.CAR_COLOURS)), fine)
-        self.cost = {key: parts.count() for key, parts in self.things.items()}
+        self.cost = {key: parts.triangles for key, parts in self.things.items()}
         self.land = landscape(self.city, args.seed)
         self._plan()
         args.output.mkdir(parents=True, exist_ok=True)
@@ -99,11 +99,11 @@ class Generator:
 
     def _plan(self):
         """Counts windows and all that does not depend on the budget."""
-        fixed, tree_count, cells = self.land.count(), 0, 0
+        fixed, tree_count, cells = self.land.triangles, 0, 0
         self.buildings = 0
         self.uses, self.cells_of = Counter(), {}
         for block in self.city.blocks():
-            fixed += self._ground(block).count()
+            fixed += self._ground(block).triangles
             for s in standing(block, self.city.size, self.seed):
                 tree_count += s.kind == "tree"
                 fixed += self.cost.get((s.kind, s.variant), 0)
@@ -124,13 +124,11 @@ class Generator:
         self.trees = tree_count
         self.budget = Budget(n - fixed - tree_count * self.tree_cost, cells)
 
-    def _tree(self, rng, leaf):
-        return trees.broadleaf(rng, rng.uniform(7.0, 12.5), self.tree_cost, f"leaf-{leaf}")
-
     def _objects(self):
+        for k in range(TREE_SHAPES):
+            rng = np.random.default_rng([self.seed, 7, k])
+            self.things["tree", k] = trees.broadleaf(rng, rng.uniform(7.0, 12.5), self.tree_cost, f"leaf-{k % LEAVES}")
         if self.tree_instances:
-            for k in range(TREE_SHAPES * LEAVES):
-                self.writer.add_object(f"tree-{k}", self._tree(np.random.default_rng([self.seed, 7, k]), k % LEAVES))
             for (kind, k), parts in self.things.items():
                 self.writer.add_object(f"{kind}-{k}", parts)
         self.library = {}
@@ -146,23 +144,31 @@ class Generator:
         plan = design(item.seed, item.lot)
         weight = plan.cells()
         parts = build(item.seed, plan, self.budget.share(weight))
-        self.budget.spend(uses * parts.count(), uses * weight)
+        self.budget.spend(uses * parts.triangles, uses * weight)
         return parts
 
     def _place_building(self, item):
         if self.city.library:
             self.writer.place(self.library[tuple(item.seed)], (item.x, item.y, KERB), 90 * item.quarters)
             return
-        turn = np.round(rotation(item.quarters * np.pi / 2))
+        turn = np.round(rotations([90 * item.quarters])[0])
         self.writer.add(self._building(item, 1), turn, np.array([item.x, item.y, KERB]))
 
-    def _place(self, rng, s):
+    def _place_things(self, things):
         if self.tree_instances:
-            k = s.variant % (TREE_SHAPES * LEAVES) if s.kind == "tree" else s.variant
-            self.writer.place(f"{s.kind}-{k}", (s.x, s.y, s.z), s.degrees)
+            for s in things:
+                self.writer.place(f"{s.kind}-{s.variant}", (s.x, s.y, s.z), s.degrees)
             return
-        parts = self._tree(rng, s.variant % LEAVES) if s.kind == "tree" else self.things[s.kind, s.variant]
-        self.writer.add(parts, rotation(np.radians(s.degrees)), np.array([s.x, s.y, s.z]))
+        alike = defaultdict(list)
+        for s in things:
+            alike[s.kind, s.variant].append(s)
+        for key, group in alike.items():
+            turns = rotations([s.degrees for s in group])
+            origins = np.array([(s.x, s.y, s.z) for s in group])
+            copies = Parts()
+            for material, meshes in self.things[key].by_material.items():
+                copies.add(material, tile(join(meshes), origins, turns))
+            self.writer.add(copies)
 
     def run(self):
         self._objects()
@@ -171,9 +177,7 @@ class Generator:
             self.writer.add(self._ground(block))
             for item in self.city.items(block):
                 self._place_building(item)
-            rng = np.random.default_rng([self.seed, 8, *block.index])
-            for s in standing(block, self.city.size, self.seed):
-                self._place(rng, s)
+            self._place_things(standing(block, self.city.size, self.seed))
         size = self.city.size
         return self.writer.close(
             asked=self.args.triangles,

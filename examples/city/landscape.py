@@ -3,7 +3,7 @@
 
 import numpy as np
 
-from meshes import Mesh, Parts, grid, level
+from meshes import Mesh, Parts, compacted, grid, level
 
 FIELDS = 4  # materials
 HILLS = 240
@@ -42,7 +42,7 @@ def _fields(parts, rng, extent, reach):
     outside = (u < 12) | (u >= 18) | (v < 14) | (v >= 22)
     kind = np.repeat(np.where(outside, rng.integers(FIELDS, size=u.shape), -1).ravel(), 2)
     for k in range(FIELDS):
-        parts.add(f"land-{k}", Mesh(mesh.v, mesh.f[kind == k]))
+        parts.add(f"land-{k}", compacted(Mesh(mesh.v, mesh.f[kind == k])))
 
 
 def _hills(parts, rng, reach):

@@ -10,6 +10,7 @@ from meshes import Mesh, Parts, grid, level, rectangle, rings
 from props import CAR_COLOURS, CAR_SHAPES
 
 KERB = 0.15  # height of the sidewalks
+TREE_SHAPES = 24
 
 
 class Standing(NamedTuple):
@@ -100,7 +101,7 @@ def standing(block, size, seed):
 
         for s in np.arange(9.0, length - 8, 9.0 / size.busy):
             x, y = at(s + rng.uniform(-0.5, 0.5), -1.1)
-            out.append(Standing("tree", int(rng.integers(1 << 16)), x, y, KERB, float(rng.uniform(0, 360))))
+            out.append(Standing("tree", int(rng.integers(TREE_SHAPES)), x, y, KERB, float(rng.uniform(0, 360))))
         for s in np.arange(4.5, length - 4, 27.0 if size.busy > 0.5 else 40.0):
             out.append(Standing("lamp", 0, *at(s, -0.5), KERB, outward))
         for s in np.arange(10.0, length - 11, 6.2):
@@ -126,6 +127,6 @@ def _scattered(rng, count, x0, y0, x1, y1):
     if x1 <= x0 or y1 <= y0:
         return []
     return [
-        Standing("tree", int(rng.integers(1 << 16)), float(rng.uniform(x0, x1)), float(rng.uniform(y0, y1)), KERB, 0.0)
+        Standing("tree", int(rng.integers(TREE_SHAPES)), float(rng.uniform(x0, x1)), float(rng.uniform(y0, y1)), KERB, 0.0)
         for _ in range(count)
     ]

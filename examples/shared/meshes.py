@@ -15,42 +15,44 @@ class Mesh(NamedTuple):
     f: np.ndarray
 
 
+def cross(a, b):
+    """As np.cross of (…,3) arrays, without its overhead."""
+    ax, ay, az, bx, by, bz = a[..., 0], a[..., 1], a[..., 2], b[..., 0], b[..., 1], b[..., 2]
+    return np.stack([ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx], axis=-1)
+
+
 class Parts:
     """Meshes by material."""
 
     def __init__(self):
         self.by_material = defaultdict(list)
+        self.triangles = 0
 
     def add(self, material, mesh):
         if len(mesh.f):
             self.by_material[material].append(mesh)
-
-    def count(self):
-        return sum(len(m.f) for meshes in self.by_material.values() for m in meshes)
-
-    def placed(self, turn, offset):
-        """Rotated by (3,3) `turn`, then moved."""
-        out = Parts()
-        for material, meshes in self.by_material.items():
-            mesh = join(meshes)
-            out.add(material, Mesh(mesh.v @ turn.T + offset, mesh.f))
-        return out
+            self.triangles += len(mesh.f)
 
 
-def rotation(angle):
-    """About z."""
-    c, s = np.cos(angle), np.sin(angle)
-    return np.array([[c, -s, 0], [s, c, 0], [0, 0, 1.0]])
+def rotations(degrees):
+    """About z, (k,3,3)."""
+    angle = np.radians(degrees)
+    turns = np.zeros((len(angle), 3, 3))
+    turns[:, 0, 0] = turns[:, 1, 1] = np.cos(angle)
+    turns[:, 1, 0] = np.sin(angle)
+    turns[:, 0, 1] = -turns[:, 1, 0]
+    turns[:, 2, 2] = 1
+    return turns
 
 
 def join(meshes):
     if len(meshes) == 1:
         return meshes[0]
-    first = np.cumsum([0] + [len(m.v) for m in meshes[:-1]])
-    return Mesh(
-        np.concatenate([m.v for m in meshes]),
-        np.concatenate([m.f + np.int32(k) for m, k in zip(meshes, first)]),
-    )
+    faces, first = [], 0
+    for mesh in meshes:
+        faces.append(mesh.f + np.int32(first))
+        first += len(mesh.v)
+    return Mesh(np.concatenate([m.v for m in meshes]), np.concatenate(faces))
 
 
 def tile(mesh, origins, turn=None):
@@ -63,7 +65,7 @@ def tile(mesh, origins, turn=None):
     elif turn.ndim == 2:
         v = (mesh.v @ turn.T)[None] + origins[:, None]
     else:
-        v = np.einsum("nj,kij->kni", mesh.v, turn) + origins[:, None]
+        v = mesh.v @ turn.transpose(0, 2, 1) + origins[:, None]
     f = mesh.f[None] + (n * np.arange(k, dtype=np.int32))[:, None, None]
     return Mesh(v.reshape(-1, 3), f.reshape(-1, 3))
 
@@ -169,12 +171,19 @@ def tubes(paths, radius, sides):
     along = paths[:, -1] - paths[:, 0]
     along /= np.linalg.norm(along, axis=1, keepdims=True)
     other = np.where(np.abs(along[:, 2:]) < 0.9, np.array([[0, 0, 1.0]]), np.array([[1.0, 0, 0]]))
-    e1 = np.cross(other, along)
+    e1 = cross(other, along)
     e1 /= np.linalg.norm(e1, axis=1, keepdims=True)
-    e2 = np.cross(along, e1)
+    e2 = cross(along, e1)
     c = circle(sides)
     ring = c[:, :1] * e1[:, None] + c[:, 1:] * e2[:, None]  # (k, sides, 3)
     r = np.broadcast_to(radius, (k, m))
     p = paths[:, :, None] + r[..., None, None] * ring[:, None]
     f = _ring_faces(m, sides) + (m * sides * np.arange(k, dtype=np.int32))[:, None, None]
     return Mesh(p.reshape(-1, 3), f.reshape(-1, 3))
+
+
+def compacted(mesh):
+    """Without the vertices that no triangle uses."""
+    used = np.zeros(len(mesh.v), bool)
+    used[mesh.f] = True
+    return Mesh(mesh.v[used], (np.cumsum(used, dtype=np.int32) - 1)[mesh.f])

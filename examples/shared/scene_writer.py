@@ -3,7 +3,7 @@
 
 import json
 import shutil
-from collections import defaultdict
+from collections import Counter, defaultdict
 
 import numpy as np
 
@@ -40,7 +40,7 @@ class SceneWriter:
         (folder / "meshes").mkdir(parents=True)
         self.scene = open(folder / f"{name}.pbrt", "w")
         self.scene.write(header)
-        self.held, self.held_count = defaultdict(list), 0
+        self.held, self.held_count = defaultdict(list), Counter()
         self.files = self.instances = self.unique = self.total = 0
         self.objects = {}  # triangles of each
 
@@ -50,9 +50,9 @@ class SceneWriter:
             mesh = join(meshes)
             v = mesh.v if turn is None else mesh.v @ turn.T
             self.held[material].append(mesh._replace(v=(v + offset).astype(np.float32)))
-            self.held_count += len(mesh.f)
-        while self.held_count > HELD_TRIANGLES:
-            self._flush(max(self.held, key=lambda m: sum(len(mesh.f) for mesh in self.held[m])))
+            self.held_count[material] += len(mesh.f)
+        while sum(self.held_count.values()) > HELD_TRIANGLES:
+            self._flush(max(self.held_count, key=self.held_count.get))
 
     def add_object(self, name, parts):
         """A prototype to be placed by `place`. Meshes that are held back stay outside of it."""
@@ -60,7 +60,7 @@ class SceneWriter:
         for material in sorted(parts.by_material):
             self._shape(material, join(parts.by_material[material]))
         self.scene.write("ObjectEnd\n")
-        self.objects[name] = parts.count()
+        self.objects[name] = parts.triangles
         self.unique += self.objects[name]
 
     def place(self, name, offset, degrees=0.0):
@@ -71,7 +71,7 @@ class SceneWriter:
 
     def _flush(self, material):
         mesh = join(self.held.pop(material))
-        self.held_count -= len(mesh.f)
+        del self.held_count[material]
         self.unique += len(mesh.f)
         self.total += len(mesh.f)
         self._shape(material, mesh)

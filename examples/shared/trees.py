@@ -3,7 +3,7 @@
 
 import numpy as np
 
-from meshes import Mesh, Parts, tubes
+from meshes import Mesh, Parts, cross, tubes
 
 LEAST_TRIANGLES = 80
 
@@ -17,10 +17,10 @@ def _leaves(rng, centres, radius, shell, count, area):
     p = centres[which] + out * r * np.array([1, 1, 0.8])
     along = rng.normal(size=(count, 3)) + 0.4 * out
     along /= np.linalg.norm(along, axis=1, keepdims=True)
-    across = np.cross(along, np.array([0.1, 0.2, 1.0]) + 0.5 * out)
+    across = cross(along, np.array([0.1, 0.2, 1.0]) + 0.5 * out)
     across /= np.linalg.norm(across, axis=1, keepdims=True) + 1e-12
     size = np.sqrt(area / count) * rng.uniform(0.8, 1.25, (count, 1))
-    fold = np.cross(along, across) * (0.12 * size)
+    fold = cross(along, across) * (0.12 * size)
     v = np.stack(
         [p - 0.8 * size * along, p + 0.5 * size * across + fold, p + 0.8 * size * along, p - 0.5 * size * across + fold],
         axis=1,
@@ -90,9 +90,9 @@ def broadleaf(rng, height, triangles, leaf="leaf-0"):
         parts.add("bark", tubes(np.stack([base, tip], axis=1), np.array([[0.012, 0.005]]) * height / 8, 3))
         centres = np.concatenate([centres, tip])
 
-    left = triangles - parts.count()
+    left = triangles - parts.triangles
     clumps = min(int(0.3 * left / len(CLUMP.f)), 24) if triangles < 5000 else 0
-    leaf_count = lambda: max((triangles - parts.count()) // 2, 8)
+    leaf_count = lambda: max((triangles - parts.triangles) // 2, 8)
     if clumps:  # the leaves are on them
         at = centres[rng.permutation(len(centres))[:clumps]]
         radius = crown * (0.75, 0.62, 0.5, 0.42)[min(clumps // 4, 3)] * rng.uniform(0.75, 1.15, (clumps, 1))
@@ -109,7 +109,7 @@ def conifer(rng, height, triangles, leaf="needle"):
     t = np.linspace(0, 1, 4)
     trunk = np.stack([0 * t, 0 * t, height * t], axis=1)
     parts.add("bark", tubes(trunk[None], (0.018 * height * (1.03 - t))[None], 5))
-    tufts = max((triangles - parts.count()) // 2, 12)
+    tufts = max((triangles - parts.triangles) // 2, 12)
     u = 1 - np.sqrt(rng.random(tufts))  # denser below, as the cone is wider
     z = height * (0.12 + 0.86 * u)
     whorl = np.round(z / (0.06 * height)) * 0.06 * height
