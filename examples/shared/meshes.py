@@ -182,6 +182,28 @@ def tubes(paths, radius, sides):
     return Mesh(p.reshape(-1, 3), f.reshape(-1, 3))
 
 
+@lru_cache(maxsize=8)
+def ball(level):
+    """The unit sphere: an octahedron whose faces are split in four `level` times."""
+    v = [(1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1)]
+    f = [(a, b, c) if (a + b + c) % 2 == 0 else (a, c, b) for a in (0, 1) for b in (2, 3) for c in (4, 5)]
+    for _ in range(level):
+        middles, faces = {}, []
+        for corners in f:
+            edges = []
+            for a, b in zip(corners, corners[1:] + corners[:1]):
+                key = min(a, b), max(a, b)
+                if key not in middles:
+                    middles[key] = len(v)
+                    m = np.add(v[a], v[b])
+                    v.append(tuple(m / np.sqrt((m * m).sum())))
+                edges.append(middles[key])
+            (a, b, c), (ab, bc, ca) = corners, edges
+            faces += [(a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca)]
+        f = faces
+    return Mesh(np.array(v, float), np.array(f, np.int32))
+
+
 def compacted(mesh):
     """Without the vertices that no triangle uses."""
     used = np.zeros(len(mesh.v), bool)

@@ -10,7 +10,7 @@ import numpy as np
 from meshes import join
 
 HELD_TRIANGLES = 400_000  # of all materials together; the largest mesh is written when there are more
-INSTANCE = "AttributeBegin Translate {} {} {} Rotate {} 0 0 1 ObjectInstance \"{}\" AttributeEnd\n"
+INSTANCE = "AttributeBegin Translate {} {} {} Rotate {} 0 0 1{} ObjectInstance \"{}\" AttributeEnd\n"
 
 
 def numbers(values):
@@ -63,9 +63,10 @@ class SceneWriter:
         self.objects[name] = parts.triangles
         self.unique += self.objects[name]
 
-    def place(self, name, offset, degrees=0.0):
+    def place(self, name, offset, degrees=0.0, scale=1.0):
         x, y, z = (f"{c:.6g}" for c in offset)
-        self.scene.write(INSTANCE.format(x, y, z, f"{degrees:.6g}", name))
+        size = "" if scale == 1 else f" Scale {scale:.6g} {scale:.6g} {scale:.6g}"
+        self.scene.write(INSTANCE.format(x, y, z, f"{degrees:.6g}", size, name))
         self.instances += 1
         self.total += self.objects[name]
 
@@ -82,10 +83,14 @@ class SceneWriter:
         write_ply(self.folder / file, mesh)
         self.scene.write(f'NamedMaterial "{material}" Shape "plymesh" "string filename" "{file}"\n')
 
-    def close(self, **more):
-        """Writes what is held, and NAME.json with the counts."""
+    def flush(self):
+        """Writes what is held."""
         for material in sorted(self.held):
             self._flush(material)
+
+    def close(self, **more):
+        """Writes NAME.json with the counts, too."""
+        self.flush()
         self.scene.close()
         counts = {
             "triangles": self.total,

@@ -3,7 +3,7 @@
 
 import numpy as np
 
-from meshes import Mesh, Parts, cross, tubes
+from meshes import Mesh, Parts, ball, cross, tubes
 
 LEAST_TRIANGLES = 80
 
@@ -29,27 +29,7 @@ def _leaves(rng, centres, radius, shell, count, area):
     return Mesh(v.reshape(-1, 3), f.reshape(-1, 3))
 
 
-def _ball():
-    """An octahedron whose faces are split in four, on the unit sphere."""
-    v = [(1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1)]
-    f = [(a, b, c) if s > 0 else (a, c, b) for a in (0, 1) for b in (2, 3) for c in (4, 5)
-         for s in [(-1) ** (a + b + c)]]  # fmt: skip
-    middles, faces = {}, []
-
-    def middle(a, b):
-        key = min(a, b), max(a, b)
-        if key not in middles:
-            middles[key] = len(v)
-            v.append(tuple(np.add(v[a], v[b]) / np.sqrt(2)))
-        return middles[key]
-
-    for a, b, c in f:
-        ab, bc, ca = middle(a, b), middle(b, c), middle(c, a)
-        faces += [(a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca)]
-    return Mesh(np.array(v, float), np.array(faces, np.int32))
-
-
-CLUMP = _ball()
+CLUMP = ball(1)
 
 
 def _clumps(rng, centres, radius):
