@@ -99,7 +99,7 @@ def standing(block, size, seed):
         def at(s, out_by):
             return cx + ax * s + ox * out_by, cy + ay * s + oy * out_by
 
-        for s in np.arange(9.0, length - 8, 9.0 / size.busy):
+        for s in np.arange(9.0, length - 8, 10.0 / size.busy):
             x, y = at(s + rng.uniform(-0.5, 0.5), -1.1)
             out.append(Standing("tree", int(rng.integers(TREE_SHAPES)), x, y, KERB, float(rng.uniform(0, 360))))
         for s in np.arange(4.5, length - 4, 27.0 if size.busy > 0.5 else 40.0):

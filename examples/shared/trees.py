@@ -29,14 +29,11 @@ def _leaves(rng, centres, radius, shell, count, area):
     return Mesh(v.reshape(-1, 3), f.reshape(-1, 3))
 
 
-CLUMP = ball(1)
-
-
-def _clumps(rng, centres, radius):
-    """Dented balls that stand for the inner foliage of a tree of few triangles."""
-    r = radius[:, None] * rng.uniform(0.7, 1.1, (len(centres), len(CLUMP.v), 1))
-    v = CLUMP.v * np.array([1, 1, 0.75]) * r + centres[:, None]
-    f = CLUMP.f + (len(CLUMP.v) * np.arange(len(centres), dtype=np.int32))[:, None, None]
+def _clumps(rng, lump, centres, radius):
+    """Rough balls that stand for the inner foliage of a tree of few triangles."""
+    r = radius[:, None] * rng.uniform(0.68, 1.08, (len(centres), len(lump.v), 1))
+    v = lump.v * np.array([1, 1, 0.8]) * r + centres[:, None]
+    f = lump.f + (len(lump.v) * np.arange(len(centres), dtype=np.int32))[:, None, None]
     return Mesh(v.reshape(-1, 3), f.reshape(-1, 3))
 
 
@@ -71,13 +68,14 @@ def broadleaf(rng, height, triangles, leaf="leaf-0"):
         centres = np.concatenate([centres, tip])
 
     left = triangles - parts.triangles
-    clumps = min(int(0.3 * left / len(CLUMP.f)), 24) if triangles < 5000 else 0
+    lump = ball(2 if triangles > 700 else 1)
+    clumps = min(int(0.45 * left / len(lump.f)), 24) if triangles < 8000 else 0
     leaf_count = lambda: max((triangles - parts.triangles) // 2, 8)
     if clumps:  # the leaves are on them
         at = centres[rng.permutation(len(centres))[:clumps]]
-        radius = crown * (0.75, 0.62, 0.5, 0.42)[min(clumps // 4, 3)] * rng.uniform(0.75, 1.15, (clumps, 1))
-        parts.add(leaf, _clumps(rng, at, 0.8 * radius))
-        parts.add(leaf, _leaves(rng, at, radius, (0.8, 1.1), leaf_count(), 1.6 * (radius**2).sum()))
+        radius = crown * (0.75, 0.6, 0.5, 0.42)[min(clumps // 4, 3)] * rng.uniform(0.75, 1.15, (clumps, 1))
+        parts.add(leaf, _clumps(rng, lump, at, radius))
+        parts.add(leaf, _leaves(rng, at, radius, (0.8, 1.08), leaf_count(), 2.2 * (radius**2).sum()))
     else:
         parts.add(leaf, _leaves(rng, centres, np.full((len(centres), 1), 0.42 * crown), (0, 1), leaf_count(), 11 * crown**2))
     return parts

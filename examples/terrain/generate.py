@@ -24,7 +24,6 @@ from rocks import boulder  # noqa: E402
 from scene_writer import SceneWriter, numbers  # noqa: E402
 
 LEAST, MOST = 20_000, 1_000_000_000
-EXTENT = 6000.0  # metres, a side
 TILE = 320  # cells a side, at most
 COARSE = 256  # cells a side of the grid on which plants and rocks are shared out
 PLANT_SHARE, ROCK_SHARE, PLANT_SHAPES = 0.25, 0.08, 16
@@ -36,11 +35,12 @@ class Sites:
     """Places of things, in the order of the tiles that they stand on."""
 
     def __init__(self, rng, count, weight, edges):
+        extent = edges[-1] - edges[0]
         """weight: (COARSE, COARSE) expected share of each cell; edges: of the tiles, along either axis."""
         share = np.cumsum(weight.ravel() / weight.sum())
         cell = np.minimum(np.searchsorted(share, rng.random(count)), COARSE**2 - 1)
-        step = EXTENT / COARSE
-        self.xy = (np.stack(np.divmod(cell, COARSE), axis=1) + rng.random((count, 2))) * step - EXTENT / 2
+        step = extent / COARSE
+        self.xy = (np.stack(np.divmod(cell, COARSE), axis=1) + rng.random((count, 2))) * step + edges[0]
         tiles = [np.clip(np.searchsorted(edges, self.xy[:, k], side="right") - 1, 0, len(edges) - 2) for k in (0, 1)]
         key = tiles[0] * (len(edges) - 1) + tiles[1]
         order = np.argsort(key, kind="stable")
@@ -54,6 +54,7 @@ class Sites:
 class Generator:
     def __init__(self, args):
         self.args, n = args, args.triangles
+        self.extent = float(np.clip(3200 * (n / 1e6) ** 0.25, 1500, 12000))  # metres, a side
         plants = args.plants != "none"
         rock_level = 2 if n < 300_000 else 3 if n < 10_000_000 else 4
         rock_cost = 8 * 4**rock_level
@@ -67,8 +68,8 @@ class Generator:
         self.rocks, self.rock_level = rock_count, rock_level
         self.tiles = -(-self.cells // TILE)
         self.cuts = [round(k * self.cells / self.tiles) for k in range(self.tiles + 1)]
-        self.line = (np.arange(self.cells + 1) / self.cells - 0.5) * EXTENT
-        self.land = Land(args.seed, EXTENT, EXTENT / self.cells)
+        self.line = (np.arange(self.cells + 1) / self.cells - 0.5) * self.extent
+        self.land = Land(args.seed, self.extent, self.extent / self.cells)
         self._survey()
         args.output.mkdir(parents=True, exist_ok=True)
         self.writer = SceneWriter(args.output, "terrain", self._header())
@@ -79,19 +80,19 @@ class Generator:
 
     def _survey(self):
         """The lake's level, the eye, and where plants and rocks stand: from the heights of a coarse grid."""
-        middle = ((np.arange(COARSE) + 0.5) / COARSE - 0.5) * EXTENT
+        middle = ((np.arange(COARSE) + 0.5) / COARSE - 0.5) * self.extent
         z = self.land.heights(middle, middle)
         x, y = middle[:, None], middle[None]
-        basin = ((x / EXTENT + 0.05) / 0.2) ** 2 + ((y / EXTENT + 0.16) / 0.13) ** 2 < 1
+        basin = ((x / self.extent + 0.05) / 0.2) ** 2 + ((y / self.extent + 0.16) / 0.13) ** 2 < 1
         self.lake = float(np.quantile(z[basin], 0.62))
         self.top = float(z.max())
-        eye = np.array([-0.10 * EXTENT, -0.40 * EXTENT])
+        eye = np.array([-0.10 * self.extent, -0.40 * self.extent])
         ground = float(self.land.heights(eye[:1], eye[1:])[0, 0])
-        self.eye = (*eye, max(ground, self.lake) + 45)
+        self.eye = (*eye, max(ground, self.lake) + 12 + 0.006 * self.extent)
         if self.args.view == "aerial":
-            self.eye = (-0.35 * EXTENT, -0.66 * EXTENT, self.top + 0.16 * EXTENT)
-        slope = np.hypot(*np.gradient(z, EXTENT / COARSE))
-        near = 1 / (1 + ((x - eye[0]) ** 2 + (y - eye[1]) ** 2) / (0.12 * EXTENT) ** 2)
+            self.eye = (-0.12 * self.extent, -0.5 * self.extent, self.top + 0.10 * self.extent)
+        slope = np.hypot(*np.gradient(z, self.extent / COARSE))
+        near = 1 / (1 + ((x - eye[0]) ** 2 + (y - eye[1]) ** 2) / (0.12 * self.extent) ** 2)
         rise = (z - self.lake) / (self.top - self.lake)
         fit = (rise > 0.02) & (rise < 0.42) & (slope < 0.7)
         edges = self.line[self.cuts]
@@ -100,14 +101,14 @@ class Generator:
         self.rock_sites = Sites(rng, self.rocks, (rise > -0.01) * (0.1 + np.minimum(slope, 1)) * near**2 + 1e-12, edges)
 
     def _header(self):
-        target = (0.02 * EXTENT, 0.2 * EXTENT, self.lake + 0.02 * EXTENT)
+        target = (0.02 * self.extent, 0.2 * self.extent, self.lake + 0.02 * self.extent)
         if self.args.view == "aerial":
-            target = (0, -0.05 * EXTENT, self.lake)
+            target = (0, 0.06 * self.extent, self.lake)
         return f"""# A mountain lake. Metres, z up, right-handed. Written by generate.py; licence: Apache-2.0.
 
 Scale -1 1 1  # pbrt's camera is left-handed: without this the picture is mirrored
 LookAt {numbers(self.eye)}  {numbers(target)}  0 0 1
-Camera "perspective" "float fov" [46]
+Camera "perspective" "float fov" [40]
 Film "rgb" "string filename" "terrain.exr" "integer xresolution" [{self.args.width}] "integer yresolution" [{self.args.height}]
 PixelFilter "gaussian"
 Sampler "independent" "integer pixelsamples" [{self.args.spp}]

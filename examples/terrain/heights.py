@@ -124,7 +124,7 @@ class Land:
         """A hollow off the middle that holds a lake, and a fall towards the viewer."""
         s = self.extent
         r2 = ((x[:, None] + 0.05 * s) / (0.24 * s)) ** 2 + ((y[None] + 0.16 * s) / (0.17 * s)) ** 2
-        return (-0.09 * s / ((1 + r2) * (1 + r2)) + 0.06 * y[None]).astype(np.float32)
+        return (-0.09 * s / ((1 + r2) * (1 + r2)) + 0.05 * y[None] + 0.25 * np.maximum(y, 0)[None] ** 2 / s).astype(np.float32)
 
 
 def _ridge(n, dx, dy):
