@@ -55,9 +55,8 @@ def _storeys(design, rect, z0, floors, storey, look, bay, sides=(True,) * 4, bal
     for k, ((x, y), heading, length) in enumerate(_four_sides(*rect)):
         if sides[k]:
             bays = max(int(round(length / bay)), 1)
-            design.walls.append(
-                Wall((x, y, z0), heading, length, bays, floors, storey, look, balconies if k in (0, 2) else 0)
-            )
+            every = balconies if k in (0, 2) else 0
+            design.walls.append(Wall((x, y, z0), heading, length, bays, floors, storey, look, every))
         else:
             dx, dy = round(np.cos(heading)) * length, round(np.sin(heading)) * length
             design.blind.append((x, y, x + dx, y + dy, z0, z0 + floors * storey, material))
@@ -121,7 +120,8 @@ def slab(rng, lot):
     if back:
         upper = (0.8, 2.2, lot.width - 0.8, lot.depth - 2.2)
         _storeys(design, upper, top, back, storey, look._replace(balcony=0.0), 1.15 * lot.bay)
-        design.roofs.append((flat_roof, (rng.integers(1 << 30), upper, top + back * storey, wall, "concrete", lot.busy)))
+        top += back * storey
+        design.roofs.append((flat_roof, (rng.integers(1 << 30), upper, top, wall, "concrete", lot.busy)))
     return design
 
 
@@ -133,7 +133,8 @@ def tower(rng, lot):
     look = Look(metal, metal, "frame-dark", 0.92, rng.uniform(0.5, 1.1), 0.96, 0.10, int(rng.integers(1, 3)), 1,
                 spandrel=panel)  # fmt: skip
     if rng.random() < 0.4:  # piers of stone
-        look = look._replace(wall=("stone-0", "stone-1", "brick-0", "concrete")[rng.integers(4)], width=0.62, reveal=0.3)
+        stone = ("stone-0", "stone-1", "brick-0", "concrete")[rng.integers(4)]
+        look = look._replace(wall=stone, width=0.62, reveal=0.3)
     lobby = Look("stone-1", "metal", "frame-dark", 0.92, 0.15, 0.9, 0.2, 2, 1)
     storey = rng.uniform(3.5, 4.0)
     rect = (0, 0, lot.width, lot.depth)
@@ -149,7 +150,8 @@ def tower(rng, lot):
         _storeys(design, rect, z, floors, storey, look, 1.05 * lot.bay)
         z += floors * storey
         last = left < 1
-        design.roofs.append((flat_roof, (rng.integers(1 << 30), rect, z, look.wall, metal, lot.busy if last else 0, last)))
+        busy = lot.busy if last else 0
+        design.roofs.append((flat_roof, (rng.integers(1 << 30), rect, z, look.wall, metal, busy, last)))
         if last:
             break
         inset = rng.uniform(2.0, 4.5) if k == 0 else rng.uniform(0.8, 2.8)

@@ -46,6 +46,7 @@ class Wall(NamedTuple):
 
 
 PLAIN, RECESSED, OPEN = 10, 18, 20  # triangles of the three simplest cells
+WITH_ROOM = 62  # least triangles of a cell that has more than a back wall
 
 
 def _opening(w, h, look):
@@ -85,7 +86,7 @@ def _bars(w, h, look):
     zs = np.linspace(z0, z1, look.transoms + 2)[1:-1]
     lo = [(x - t, y0, z0) for x in xs] + [(x0, y0 + 0.005, z - t) for z in zs]
     hi = [(x + t, y1, z1) for x in xs] + [(x1, y1 - 0.005, z + t) for z in zs]
-    return boxes(lo, hi) if lo else None
+    return boxes(lo, hi)
 
 
 def _surround(w, h, look):
@@ -147,27 +148,21 @@ def _cell(w, h, look, budget):
     parts = _wall(w, h, look, level)
     if level < OPEN:
         return parts
-    room = budget >= 62
-    extra = [("", 8)] if room else []
-    extra += [(look.frame, _frame(w, h, look))]
-    extra += [(look.trim, box((*_opening(w, h, look)[:1], -0.07, look.sill - 0.09),
-                              (_opening(w, h, look)[2], look.reveal, look.sill + 0.015)))]
-    extra += [(look.frame, _bars(w, h, look))] if look.mullions + look.transoms else []
-    extra += [(look.trim, _surround(w, h, look))] if look.surround else []
+    x0, _, x1, _ = _opening(w, h, look)
+    shallow = quad(*_loop(0.05, 0.05, w - 0.05, h - 0.15, look.reveal + 0.5))
+    parts.add("behind", _room(w, h, 2.2) if budget >= WITH_ROOM else shallow)
+    sill = box((x0, -0.07, look.sill - 0.09), (x1, look.reveal, look.sill + 0.015))
+    extras = [(look.frame, _frame(w, h, look)), (look.trim, sill)]
+    if look.mullions + look.transoms:
+        extras.append((look.frame, _bars(w, h, look)))
+    if look.surround:
+        extras.append((look.trim, _surround(w, h, look)))
     if look.spandrel:
-        extra += [(look.spandrel, box((0.04, -0.03, 0.02), (w - 0.04, 0.05, look.sill - 0.02)))]
-    used = OPEN
-    for material, mesh in extra:
-        cost = mesh if isinstance(mesh, int) else len(mesh.f)
-        if used + cost > budget:
+        extras.append((look.spandrel, box((0.04, -0.03, 0.02), (w - 0.04, 0.05, look.sill - 0.02))))
+    for material, mesh in extras:
+        if parts.triangles + len(mesh.f) > budget:
             break
-        used += cost
-        if material:
-            parts.add(material, mesh)
-    if room:
-        parts.add("behind", _room(w, h, 2.2))
-    else:
-        parts.add("behind", quad(*_loop(0.05, 0.05, w - 0.05, h - 0.15, look.reveal + 0.5)))
+        parts.add(material, mesh)
     return parts
 
 

@@ -26,11 +26,16 @@ def landscape(city, seed):
     return parts
 
 
+def _lines(a, b, reach, outside, inside):
+    """From a − reach to b + reach, with `outside` steps beyond either end of [a, b] and `inside` within."""
+    spans = ((a - reach, a, outside), (a, b, inside), (b, b + reach, outside))
+    return np.concatenate([np.linspace(lo, hi, n, endpoint=False) for lo, hi, n in spans] + [[b + reach]])
+
+
 def _fields(parts, rng, extent, reach):
     """Unequal oblong fields with a hole where the city is."""
     x0, y0, x1, y1 = extent
-    xs = np.concatenate([np.linspace(x0 - reach, x0, 13), np.linspace(x0, x1, 7)[1:], np.linspace(x1, x1 + reach, 13)[1:]])
-    ys = np.concatenate([np.linspace(y0 - reach, y0, 15), np.linspace(y0, y1, 9)[1:], np.linspace(y1, y1 + reach, 15)[1:]])
+    xs, ys = _lines(x0, x1, reach, 12, 6), _lines(y0, y1, reach, 14, 8)
     p = np.stack(np.broadcast_arrays(xs[:, None], ys[None], 0.0), axis=-1).copy()
     inner_x, inner_y = slice(12, 19), slice(14, 23)
     step = reach / 14

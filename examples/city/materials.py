@@ -63,7 +63,8 @@ PAINT = {
 }
 OTHERS = (
     'MakeNamedMaterial "glass" "string type" "thindielectric" "float eta" [1.5]',
-    'MakeNamedMaterial "dark-glass" "string type" "coateddiffuse" "rgb reflectance" [0.03 0.035 0.04] "float roughness" [0]',
+    'MakeNamedMaterial "dark-glass" "string type" "coateddiffuse" "rgb reflectance" [0.03 0.035 0.04]'
+    ' "float roughness" [0]',
     'MakeNamedMaterial "metal" "string type" "conductor" "spectrum eta" "metal-Al-eta" "spectrum k" "metal-Al-k"'
     ' "float roughness" [0.35]',
 )

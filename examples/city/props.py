@@ -46,7 +46,8 @@ def car(shape, colour, fine):
     wheel = lathe([(0.31, 0.0), (0.31, 0.2)], 12 if fine else 8)
     hub = lathe([(0.17, -0.01), (0.17, 0.21)], 6)
     upright = np.array([[1.0, 0, 0], [0, 0, 1], [0, -1, 0]])
-    axles = np.array([[x, y, 0.31] for x in (0.62 * body[0, 0], 0.66 * body[-1, 0]) for y in (-half - 0.01, half - 0.19)])
+    xs, ys = (0.62 * body[0, 0], 0.66 * body[-1, 0]), (-half - 0.01, half - 0.19)
+    axles = np.array([[x, y, 0.31] for x in xs for y in ys])
     parts.add("tyre", tile(wheel, axles, upright))
     if not fine:
         return parts

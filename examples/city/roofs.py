@@ -131,5 +131,6 @@ def gable_roof(parts, seed, rect, z, wall):
     _chimneys(parts, rng, (x0, middle - 3.5, x1, middle + 3.5), ridge - 1.2, "brick-1", 1)
     for x in (x0 + 0.3 * (x1 - x0), x0 + 0.7 * (x1 - x0)):  # skylights
         y = y0 + 0.45 * (middle - y0)
-        p = [(x + a, y + b, z + pitch * (y + b - y0) + t + 0.03) for a, b in ((-0.4, 0), (0.4, 0), (0.4, 1.0), (-0.4, 1.0))]
+        corners = ((-0.4, 0), (0.4, 0), (0.4, 1.0), (-0.4, 1.0))
+        p = [(x + a, y + b, z + pitch * (y + b - y0) + t + 0.03) for a, b in corners]
         parts.add("dark-glass", quad(*p))

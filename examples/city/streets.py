@@ -126,7 +126,6 @@ def _car(rng, x, y, heading):
 def _scattered(rng, count, x0, y0, x1, y1):
     if x1 <= x0 or y1 <= y0:
         return []
-    return [
-        Standing("tree", int(rng.integers(TREE_SHAPES)), float(rng.uniform(x0, x1)), float(rng.uniform(y0, y1)), KERB, 0.0)
-        for _ in range(count)
-    ]
+    shapes = rng.integers(TREE_SHAPES, size=count)
+    places = rng.uniform((x0, y0), (x1, y1), (count, 2))
+    return [Standing("tree", int(k), float(x), float(y), KERB, 0.0) for k, (x, y) in zip(shapes, places)]

@@ -9,7 +9,7 @@ import numpy as np
 
 from meshes import join
 
-HELD_TRIANGLES = 400_000  # of all materials together; the largest mesh is written when there are more
+HELD_TRIANGLES = 700_000  # of all materials together; the largest mesh is written when there are more
 INSTANCE = "AttributeBegin Translate {} {} {} Rotate {} 0 0 1{} ObjectInstance \"{}\" AttributeEnd\n"
 
 

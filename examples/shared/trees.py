@@ -6,6 +6,7 @@ import numpy as np
 from meshes import Mesh, Parts, ball, cross, tubes
 
 LEAST_TRIANGLES = 80
+FINE = 9000  # from here on all is round, and there are twigs
 
 
 def _leaves(rng, centres, radius, shell, count, area):
@@ -19,10 +20,10 @@ def _leaves(rng, centres, radius, shell, count, area):
     along /= np.linalg.norm(along, axis=1, keepdims=True)
     across = cross(along, np.array([0.1, 0.2, 1.0]) + 0.5 * out)
     across /= np.linalg.norm(across, axis=1, keepdims=True) + 1e-12
-    size = np.sqrt(area / count) * rng.uniform(0.8, 1.25, (count, 1))
-    fold = cross(along, across) * (0.12 * size)
+    size = 0.8 * np.sqrt(area / count) * rng.uniform(0.8, 1.25, (count, 1))
+    fold = cross(along, across) * (0.15 * size)
     v = np.stack(
-        [p - 0.8 * size * along, p + 0.5 * size * across + fold, p + 0.8 * size * along, p - 0.5 * size * across + fold],
+        [p - size * along, p + 0.6 * size * across + fold, p + size * along, p - 0.6 * size * across + fold],
         axis=1,
     )
     f = np.array([[0, 1, 2], [0, 2, 3]], np.int32) + (4 * np.arange(count, dtype=np.int32))[:, None, None]
@@ -40,9 +41,9 @@ def _clumps(rng, lump, centres, radius):
 def broadleaf(rng, height, triangles, leaf="leaf-0"):
     """About its foot; of exactly `triangles` if that is even, else of one less."""
     parts = Parts()
-    sides = 5 if triangles < 2000 else 8
+    sides = 5 if triangles < FINE else 8
     crown = height * rng.uniform(0.30, 0.38)
-    t = np.linspace(0, 1, 4 if triangles < 2000 else 8)
+    t = np.linspace(0, 1, 4 if triangles < FINE else 8)
     lean = rng.normal(0, 0.03, 2) * height
     trunk = np.stack([lean[0] * t**2, lean[1] * t**2, 0.8 * height * t], axis=1)
     radius = 0.028 * height * (1 - 0.85 * t) * (1 + 0.5 * np.exp(-12 * t))
@@ -54,13 +55,13 @@ def broadleaf(rng, height, triangles, leaf="leaf-0"):
     reach = crown * np.sqrt(np.maximum(1 - ((at - 0.62) / 0.42) ** 2, 0.15)) * rng.uniform(0.75, 1.1, count)
     start = np.stack([np.interp(at, t, trunk[:, k]) for k in range(3)], axis=1)
     aim = np.stack([np.cos(turn) * reach, np.sin(turn) * reach, 0.45 * reach + 0.06 * height], axis=1)
-    s = np.linspace(0, 1, 2 if triangles < 2000 else 5)[None, :, None]
+    s = np.linspace(0, 1, 2 if triangles < FINE else 5)[None, :, None]
     path = start[:, None] + aim[:, None] * s - np.array([0, 0, 0.25]) * reach[:, None, None] * s**2
     slim = 0.012 * height * (1 - 0.85 * s[..., 0]) * (reach / crown)[:, None]
     if triangles >= 400:
-        parts.add("bark", tubes(path, slim, 3 if triangles < 2000 else 5))
+        parts.add("bark", tubes(path, slim, 3 if triangles < FINE else 5))
     centres = np.concatenate([path[:, -1], 0.5 * (path[:, 0] + path[:, -1]) + [0, 0, 0.1 * crown]])
-    if triangles >= 2000:  # twigs
+    if triangles >= FINE:  # twigs
         per = 6
         base = np.repeat(path[:, 2:].mean(axis=1), per, axis=0)
         tip = base + rng.normal(0, 0.28 * crown, base.shape)
@@ -69,7 +70,7 @@ def broadleaf(rng, height, triangles, leaf="leaf-0"):
 
     left = triangles - parts.triangles
     lump = ball(2 if triangles > 700 else 1)
-    clumps = min(int(0.45 * left / len(lump.f)), 24) if triangles < 8000 else 0
+    clumps = min(int(0.45 * left / len(lump.f)), 24) if triangles < FINE else 0
     leaf_count = lambda: max((triangles - parts.triangles) // 2, 8)
     if clumps:  # the leaves are on them
         at = centres[rng.permutation(len(centres))[:clumps]]
@@ -77,7 +78,8 @@ def broadleaf(rng, height, triangles, leaf="leaf-0"):
         parts.add(leaf, _clumps(rng, lump, at, radius))
         parts.add(leaf, _leaves(rng, at, radius, (0.8, 1.08), leaf_count(), 2.2 * (radius**2).sum()))
     else:
-        parts.add(leaf, _leaves(rng, centres, np.full((len(centres), 1), 0.42 * crown), (0, 1), leaf_count(), 11 * crown**2))
+        radius = np.full((len(centres), 1), 0.42 * crown)
+        parts.add(leaf, _leaves(rng, centres, radius, (0, 1), leaf_count(), 11 * crown**2))
     return parts
 
 

@@ -104,12 +104,13 @@ class Generator:
         target = (0.02 * self.extent, 0.2 * self.extent, self.lake + 0.02 * self.extent)
         if self.args.view == "aerial":
             target = (0, 0.06 * self.extent, self.lake)
+        width, height = self.args.width, self.args.height
         return f"""# A mountain lake. Metres, z up, right-handed. Written by generate.py; licence: Apache-2.0.
 
 Scale -1 1 1  # pbrt's camera is left-handed: without this the picture is mirrored
 LookAt {numbers(self.eye)}  {numbers(target)}  0 0 1
 Camera "perspective" "float fov" [40]
-Film "rgb" "string filename" "terrain.exr" "integer xresolution" [{self.args.width}] "integer yresolution" [{self.args.height}]
+Film "rgb" "string filename" "terrain.exr" "integer xresolution" [{width}] "integer yresolution" [{height}]
 PixelFilter "gaussian"
 Sampler "independent" "integer pixelsamples" [{self.args.spp}]
 Integrator "path" "integer maxdepth" [8]

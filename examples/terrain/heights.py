@@ -121,10 +121,11 @@ class Land:
         return z + self._basin(x, y)
 
     def _basin(self, x, y):
-        """A hollow off the middle that holds a lake, and a fall towards the viewer."""
+        """A hollow off the middle that holds a lake, and a rise to the mountains behind it."""
         s = self.extent
         r2 = ((x[:, None] + 0.05 * s) / (0.24 * s)) ** 2 + ((y[None] + 0.16 * s) / (0.17 * s)) ** 2
-        return (-0.09 * s / ((1 + r2) * (1 + r2)) + 0.05 * y[None] + 0.25 * np.maximum(y, 0)[None] ** 2 / s).astype(np.float32)
+        rise = 0.05 * y[None] + 0.25 * np.maximum(y, 0)[None] ** 2 / s
+        return (rise - 0.09 * s / ((1 + r2) * (1 + r2))).astype(np.float32)
 
 
 def _ridge(n, dx, dy):
