@@ -81,13 +81,14 @@ class Generator:
     def _survey(self):
         """The lake's level, the eye, and where plants and rocks stand: from the heights of a coarse grid."""
         middle = ((np.arange(COARSE) + 0.5) / COARSE - 0.5) * self.extent
-        z = self.land.heights(middle, middle)
+        coarse = Land(self.args.seed, self.extent, self.extent / COARSE)
+        z = coarse.heights(middle, middle)
         x, y = middle[:, None], middle[None]
         basin = ((x / self.extent + 0.05) / 0.2) ** 2 + ((y / self.extent + 0.16) / 0.13) ** 2 < 1
         self.lake = float(np.quantile(z[basin], 0.62))
         self.top = float(z.max())
         eye = np.array([-0.10 * self.extent, -0.40 * self.extent])
-        ground = float(self.land.heights(eye[:1], eye[1:])[0, 0])
+        ground = float(coarse.heights(eye[:1], eye[1:])[0, 0])
         self.eye = (*eye, max(ground, self.lake) + 12 + 0.006 * self.extent)
         if self.args.view == "aerial":
             self.eye = (-0.12 * self.extent, -0.5 * self.extent, self.top + 0.10 * self.extent)
@@ -142,13 +143,15 @@ LightSource "infinite" "rgb L" [{numbers(SKY)}]
         i, j = i.T
         return (1 - u) * ((1 - v) * z[i, j] + v * z[i, j + 1]) + u * ((1 - v) * z[i + 1, j] + v * z[i + 1, j + 1])
 
-    def _rocks(self, parts, rng, xy, ground):
+    def _rocks(self, rng, xy, ground):
         for (x, y), z in zip(xy, ground):
             radius = 0.9 / np.sqrt(rng.uniform(0.012, 1))
             rock = boulder(rng, radius, self.rock_level)
-            parts.add(f"rock-{rng.integers(2)}", Mesh(rock.v + (x, y, z + 0.15 * radius), rock.f))
+            parts = Parts()
+            parts.add(f"rock-{rng.integers(2)}", rock)
+            self.writer.add(parts, offset=np.array([x, y, z + 0.15 * radius]))
 
-    def _plants(self, parts, rng, xy, ground, first):
+    def _plants(self, rng, xy, ground, first):
         """Shapes take turns, so that each stands equally often."""
         turns, sizes = 360 * rng.random(len(xy)), rng.uniform(0.7, 1.25, len(xy))
         at = np.column_stack([xy, ground - 0.2])
@@ -158,11 +161,12 @@ LightSource "infinite" "rgb L" [{numbers(SKY)}]
                 self.writer.place(f"plant-{k}", place, turn, size)
             return
         for k in range(PLANT_SHAPES):
-            chosen = shape == k
+            chosen, parts = shape == k, Parts()
             scaled = rotations(turns[chosen]) * sizes[chosen, None, None]
             for material, meshes in self.shapes[k].by_material.items():
                 for mesh in meshes:
                     parts.add(material, tile(mesh, at[chosen], scaled))
+            self.writer.add(parts)
 
     def run(self):
         if self.args.plants == "instances":
@@ -182,14 +186,14 @@ LightSource "infinite" "rgb L" [{numbers(SKY)}]
         z = self.land.heights(x, y)
         parts, number = Parts(), i * self.tiles + j
         self._field(parts, x, y, z)
-        rng = np.random.default_rng([self.args.seed, 3, i, j])
-        xy = self.rock_sites.on(number)
-        self._rocks(parts, rng, xy, self._ground_at(xy, x, y, z))
-        xy = self.plant_sites.on(number)
-        self._plants(parts, rng, xy, self._ground_at(xy, x, y, z), int(self.plant_sites.first[number]))
         if z.min() < self.lake:
             parts.add("water", level(x[0], y[0], x[-1], y[-1], self.lake))
         self.writer.add(parts)
+        rng = np.random.default_rng([self.args.seed, 3, i, j])
+        xy = self.rock_sites.on(number)
+        self._rocks(rng, xy, self._ground_at(xy, x, y, z))
+        xy = self.plant_sites.on(number)
+        self._plants(rng, xy, self._ground_at(xy, x, y, z), int(self.plant_sites.first[number]))
         self.writer.flush()
 
 
