@@ -71,7 +71,8 @@ def _markings(parts, side0, side1, from_, to, z, level_road):
         else:
             lo += [(line, d) for d in dashes]
             hi += [(line + 0.12, d + 2.5) for d in dashes]
-    for stop, a, b in ((from_ + 5.0, middle + 0.3, side1 - 0.3), (to - 5.4, side0 + 0.3, middle - 0.3)):
+    halves = (side0 + 0.3, middle - 0.3), (middle + 0.3, side1 - 0.3)
+    for stop, (a, b) in zip((from_ + 5.0, to - 5.4), halves[::-1] if level_road else halves):  # lines to stop at
         lo.append((a, stop)), hi.append((b, stop + 0.35))
     lo, hi = np.array(lo), np.array(hi)
     v = np.empty((len(lo), 4, 3))
@@ -93,7 +94,7 @@ def standing(block, size, seed):
     sides = [((x0, y0), (1, 0), (0, -1), x1 - x0), ((x1, y0), (0, 1), (1, 0), y1 - y0),
              ((x1, y1), (-1, 0), (0, 1), x1 - x0), ((x0, y1), (0, -1), (-1, 0), y1 - y0)]  # fmt: skip
     for (cx, cy), (ax, ay), (ox, oy), length in sides:
-        heading = float(np.degrees(np.arctan2(ay, ax)))
+        heading = float(np.degrees(np.arctan2(-ay, -ax)))  # traffic keeps to the right
         outward = float(np.degrees(np.arctan2(oy, ox)))
 
         def at(s, out_by):

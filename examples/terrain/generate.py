@@ -160,13 +160,15 @@ LightSource "infinite" "rgb L" [{numbers(SKY)}]
             for k, place, turn, size in zip(shape, at, turns, sizes):
                 self.writer.place(f"plant-{k}", place, turn, size)
             return
+        scaled = rotations(turns) * sizes[:, None, None]
         for k in range(PLANT_SHAPES):
-            chosen, parts = shape == k, Parts()
-            scaled = rotations(turns[chosen]) * sizes[chosen, None, None]
-            for material, meshes in self.shapes[k].by_material.items():
-                for mesh in meshes:
-                    parts.add(material, tile(mesh, at[chosen], scaled))
-            self.writer.add(parts)
+            alike = np.nonzero(shape == k)[0]
+            for some in np.split(alike, range(64, len(alike), 64)):
+                parts = Parts()
+                for material, meshes in self.shapes[k].by_material.items():
+                    for mesh in meshes:
+                        parts.add(material, tile(mesh, at[some], scaled[some]))
+                self.writer.add(parts)
 
     def run(self):
         if self.args.plants == "instances":
