@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// The generators of large scenes: they write the triangles asked for, sound ones, in little memory, the same each time.
+// The generators of large scenes: they write the triangles asked for, sound ones, in little memory, the same
+// each time.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <map>
+#include <ostream>
 
 #include "importers/import.h"
 #include "tests/support/command.h"
@@ -22,6 +26,10 @@ std::string name_of(const testing::TestParamInfo<Case>& info) {
   std::string name = fmt::format("{}{}{}", info.param.example, info.param.triangles, info.param.options);
   std::erase_if(name, [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); });
   return name;
+}
+
+void PrintTo(const Case& c, std::ostream* out) {
+  *out << c.example << " --triangles " << c.triangles << ' ' << c.options;
 }
 
 struct Generated {
@@ -100,16 +108,17 @@ TEST_P(Generators, WriteWhatTheySay) {
   EXPECT_EQ(digest(directory / "first"), digest(directory / "second"));
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Examples, Generators,
-    testing::Values(Case{"city", 60'000, ""}, Case{"city", 200'000, "--trees flattened --seed 3"},
-                    Case{"city", 300'000, "--buildings instances"}, Case{"terrain", 60'000, ""},
-                    Case{"terrain", 300'000, "--plants flattened --seed 3"},
-                    Case{"terrain", 100'000, "--plants none"}),
-    name_of);
+INSTANTIATE_TEST_SUITE_P(Examples, Generators,
+                         testing::Values(Case{"city", 60'000, ""},
+                                         Case{"city", 200'000, "--trees flattened --seed 3"},
+                                         Case{"city", 300'000, "--buildings instances"},
+                                         Case{"terrain", 60'000, ""},
+                                         Case{"terrain", 300'000, "--plants flattened --seed 3"},
+                                         Case{"terrain", 100'000, "--plants none"}),
+                         name_of);
 
-// Neighbouring tiles share their border's vertices to the last bit: the edges that one triangle alone has lie on
-// the outer border.
+// Neighbouring tiles share their border's vertices to the last bit: the edges that one triangle alone has lie
+// on the outer border.
 TEST(Terrain, TilesMeet) {
   const TemporaryDirectory directory;
   const Generated made = generate(directory / "terrain", {"terrain", 500'000, "--plants none"});
@@ -132,7 +141,8 @@ TEST(Terrain, TilesMeet) {
   std::size_t inside = 0, outside = 0;
   for (const auto& [e, count] : uses) {
     if (count == 2) continue;
-    const bool on_border = (e[0] == e[3] && std::abs(e[0]) == edge) || (e[1] == e[4] && std::abs(e[1]) == edge);
+    const bool on_border =
+        (e[0] == e[3] && std::abs(e[0]) == edge) || (e[1] == e[4] && std::abs(e[1]) == edge);
     ++(on_border ? outside : inside);
   }
   EXPECT_EQ(inside, 0u);
