@@ -28,7 +28,7 @@ from meshes import Parts, join, rotations, tile  # noqa: E402
 from scene_writer import SceneWriter, numbers  # noqa: E402
 from streets import KERB, TREE_SHAPES, ground, standing  # noqa: E402
 
-LEAST, MOST = 50_000, 1_000_000_000
+LEAST, MOST = 80_000, 1_000_000_000
 TREE_SHARE, LEAVES = 0.32, 3
 SUN_TRAVELS = (0.25, 0.60, -0.76)
 SUN, SKY = (3.6, 3.25, 2.75), (0.46, 0.60, 0.86)  # irradiance across its direction; radiance

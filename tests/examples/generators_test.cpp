@@ -109,7 +109,7 @@ TEST_P(Generators, WriteWhatTheySay) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Examples, Generators,
-                         testing::Values(Case{"city", 60'000, ""},
+                         testing::Values(Case{"city", 80'000, ""},
                                          Case{"city", 200'000, "--trees flattened --seed 3"},
                                          Case{"city", 300'000, "--buildings instances"},
                                          Case{"terrain", 60'000, ""},
