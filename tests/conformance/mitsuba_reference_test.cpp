@@ -37,8 +37,8 @@ Allowed allowed(const std::string& scene) {
   // At the sharp rim of the glass.
   if (scene == "test_homo_dielectric_envmap_volpath") return {0.01, 0.01};
   // Mitsuba's table of sigmoids makes the albedo (.99, .999, .99) 0.9972 at 450 nm and 0.9978 at 650 nm; the
-  // spectrum that has that colour is 0.9938 and 0.9916 there, and five scatterings show it. With Mitsuba's own
-  // numbers for the albedo the means are 0.992.
+  // spectrum that has that colour is 0.9938 and 0.9916 there, and five scatterings show it. With Mitsuba's
+  // own numbers for the albedo the means are 0.992.
   if (scene == "test_homo_area_light_volpath") return {0.0025, 0.015};
   return {};
 }
