@@ -34,6 +34,11 @@ TEST(ConcentricDisk, CoversTheDiskEvenly) {
   EXPECT_EQ(concentric_disk({0.5, 0.5}), (Point2d{0, 0}));
 }
 
+CameraRay camera_ray(const Camera& camera, Point2d raster, Point2d lens) {
+  return CameraSampler(camera, film).ray(raster, lens);
+}
+bool has_lens(const Camera& camera) { return CameraSampler(camera, film).has_lens(); }
+
 // Where a ray of the camera, which looks along +z, meets the plane z.
 Point2d at_plane(const CameraRay& ray, double z) {
   const Vector3d d = cast<double>(decode_direction(ray.direction));
@@ -45,12 +50,12 @@ Point2d at_plane(const CameraRay& ray, double z) {
 template <class Camera>
 void expect_focus(Camera camera) {
   const Point2d raster{70.25, 10.5};
-  const Point2d sharp = at_plane(camera_ray(camera, film, raster, {}), 4);
+  const Point2d sharp = at_plane(camera_ray(camera, raster, {}), 4);
   camera.lens = {0.3, 4};
   ASSERT_TRUE(has_lens(camera));
   double squares = 0;
   for_each_cell([&](Point2d u) {
-    const CameraRay ray = camera_ray(camera, film, raster, u);
+    const CameraRay ray = camera_ray(camera, raster, u);
     const Point2d start{static_cast<double>(ray.origin.x), static_cast<double>(ray.origin.y)};
     EXPECT_EQ(ray.origin.z, 0);
     squares += start.x * start.x + start.y * start.y;
@@ -70,8 +75,7 @@ TEST(ThinLens, APinholeHasNone) {
   EXPECT_FALSE(has_lens(PerspectiveCamera{}));
   EXPECT_FALSE(has_lens(SphericalCamera{}));
   const PerspectiveCamera camera{{}, {-2, 2, -1, 1}, {}};
-  const CameraRay a = camera_ray(camera, film, {20, 10}, {0.1, 0.9}),
-                  b = camera_ray(camera, film, {20, 10}, {});
+  const CameraRay a = camera_ray(camera, {20, 10}, {0.1, 0.9}), b = camera_ray(camera, {20, 10}, {});
   EXPECT_EQ(a.origin, b.origin);
   EXPECT_EQ(a.direction, b.direction);
   const Point2d p = at_plane(a, 1);  // a fifth from the left, a fifth from the top
@@ -82,7 +86,7 @@ TEST(ThinLens, APinholeHasNone) {
 Vector3d seen(SphericalCamera::Projection projection, Point2d p) {
   const SphericalCamera camera{{}, projection};
   return cast<double>(
-      decode_direction(camera_ray(camera, film, {p.x * film.width, p.y * film.height}, {}).direction));
+      decode_direction(camera_ray(camera, {p.x * film.width, p.y * film.height}, {}).direction));
 }
 
 void expect_direction(Vector3d a, Vector3d b) {
