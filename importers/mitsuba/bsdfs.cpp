@@ -338,7 +338,8 @@ Material two_sided(Builder& b, const Object& o) {
 
 // Since 3.7.1.
 void read_bump_shadowing(Builder& b, const Object& o, Material& material) {
-  material.bump_shadowing = o.boolean("use_shadowing_function", o.type != "bump", b.report);
+  const bool wanted = o.boolean("use_shadowing_function", o.type != "bump", b.report);
+  material.bump_shadowing = wanted && (material.displacement || material.normal_map);
   if (!o.boolean("flip_invalid_normals", true, b.report))
     b.report.approximated("normals that are turned away are never used", o.origin);
 }
@@ -366,7 +367,6 @@ Material bump_map(Builder& b, const Object& o) {
 
 Material normal_map(Builder& b, const Object& o) {
   Material material = inner(b, o);
-  read_bump_shadowing(b, o, material);
   const Object* texture = o.child("texture");
   if (!texture) {
     b.report.dropped("a normal map without a texture", o.origin);
@@ -376,6 +376,7 @@ Material normal_map(Builder& b, const Object& o) {
   } else {
     material.normal_map = add_texture(b, *texture, false);
   }
+  read_bump_shadowing(b, o, material);
   return material;
 }
 
