@@ -18,7 +18,7 @@ struct MemoryPlan {
 
 struct MemoryNeeds {
   std::uint64_t budget_bytes = 0;
-  std::uint64_t used_bytes = 0;    // already
+  std::uint64_t mesh_bytes = 0;    // of the budget, already in use
   std::uint32_t domains = 0;       // 0: by domain_bytes
   std::uint64_t domain_bytes = 0;  // of a file; 0: 64 MiB, or less where that is more than 1/32 of the budget
   int threads = 1;
@@ -27,8 +27,6 @@ struct MemoryNeeds {
 // Throws UsageError where not even one domain fits, and for too many domains.
 MemoryPlan plan_memory(const Manifest& manifest, const MemoryNeeds& needs);
 
-// Resident now; of the machine.
-std::uint64_t resident_bytes();
 std::uint64_t machine_bytes();
 
 }  // namespace vitrail
