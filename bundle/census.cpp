@@ -46,14 +46,16 @@ void Census::add(std::uint32_t domain, const DomainView& view, std::span<const P
   std::vector<std::uint32_t> cut_here, lanes_cut;
   for (const Piece& p : pieces) cut_here.push_back(p.triangle);
   std::sort(cut_here.begin(), cut_here.end());
+  std::vector<bool> may_be_cut(1u << 16);
+  for (const std::uint32_t id : cut_here) may_be_cut[id % may_be_cut.size()] = true;
   std::vector<CutPart> parts;
   std::uint64_t duplicates = 0;
   for (const Cluster& cluster : view.clusters)
     for (std::size_t lane = 0; lane < cluster_width; ++lane) {
       const std::uint32_t id = cluster.id[lane];
       if (id >= triangles_) continue;
-      const auto at = std::lower_bound(cut_here.begin(), cut_here.end(), id);
-      const bool cut = at != cut_here.end() && *at == id;
+      const bool cut =
+          may_be_cut[id % may_be_cut.size()] && std::binary_search(cut_here.begin(), cut_here.end(), id);
       const std::uint32_t before = mark(id, cut ? seen_as_piece : seen_whole);
       if (cut ? (before & seen_whole) != 0 : before != 0) ++duplicates;
       if (!cut) continue;

@@ -33,6 +33,7 @@ void declare(CLI::App& app, Arguments& a) {
   app.add_option("-o,--output", a.output, "bundle to write (NAME.vit)")->required();
   auto* domains =
       app.add_option("--domains", a.options.domains, "number of sub-domains")->check(CLI::Range(1, 999'999));
+  app.add_option("--domains-at-once", a.options.domains_at_once)->group("");
   app.add_flag("--require-everything", a.options.everything,
                "as if the scene required all that there is: to measure what the analysis saves");
   app.add_option("--domain-bytes", a.domain_bytes, "size of a sub-domain, e.g. 64M (the default)")
@@ -127,7 +128,8 @@ int run(Arguments& a) {
     if (a.options.domain_bytes == 0) throw UsageError("--domain-bytes has to be more than 0");
   }
   a.options.memory_bytes = a.memory.empty() ? default_memory_bytes() : parse_bytes(a.memory);
-  const ImportedScene imported = import_scene(a.input, MeshMemory(mesh_bytes_within(a.options.memory_bytes)));
+  const ImportedScene imported = import_scene(
+      a.input, MeshMemory(a.options.domains_at_once > 0 ? 0 : mesh_bytes_within(a.options.memory_bytes)));
   Diagnostics diagnostics = imported.diagnostics;
   std::ranges::copy(appearance_of(imported.scene, {}).diagnostics, std::back_inserter(diagnostics));
   fmt::print(stderr, "{}", summarise(diagnostics));

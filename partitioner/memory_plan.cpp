@@ -61,8 +61,8 @@ MemoryPlan plan_memory(const Manifest& m, const MemoryNeeds& needs) {
   const double build = costs.built * domain;
   const double least = costs.placed * domain + build;
   if (triangles > 0 && left < least)
-    throw UsageError(fmt::format(
-        "{:.0f} MiB of memory are too little for domains of {:.0f} triangles: {:.0f} MiB are needed, or more "
+    throw MachineError(fmt::format(
+        "{:.0f} MiB of memory are too little for domains of {:.0f} triangles: {:.0f} MiB is needed, or more "
         "and smaller domains (--domains, --domain-bytes)",
         static_cast<double>(needs.budget_bytes) / mib, domain,
         (static_cast<double>(needs.budget_bytes) - left + least) / mib + 1));

@@ -24,7 +24,7 @@ struct MemoryNeeds {
   int threads = 1;
 };
 
-// Throws UsageError where not even one domain fits, and for too many domains.
+// Throws MachineError where not even one domain fits, UsageError for too many domains.
 MemoryPlan plan_memory(const Manifest& manifest, const MemoryNeeds& needs);
 
 std::uint64_t machine_bytes();

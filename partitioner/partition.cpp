@@ -107,6 +107,8 @@ class Partitioner {
     const auto threads = static_cast<std::uint32_t>(tbb::this_task_arena::max_concurrency());
     plan_ = plan_memory(world_.manifest, {options.memory_bytes, resident_mesh_bytes(scene), options.domains,
                                           options.domain_bytes, static_cast<int>(threads)});
+    if (options.domains_at_once > 0)
+      plan_.domains_at_once = std::min(plan_.domains_at_once, options.domains_at_once);
     world_.manifest.domains.resize(plan_.domains);
     world_.manifest.kd_nodes.resize(plan_.domains - 1);
   }

@@ -12,11 +12,12 @@
 namespace vitrail {
 
 struct PartitionOptions {
-  std::uint32_t domains = 0;       // number of leaves; 0: chosen by domain_bytes
-  std::uint64_t domain_bytes = 0;  // target size of a domain file; 0 with domains = 0: 64 MiB
-  std::uint64_t memory_bytes = 0;  // most resident memory; 0: three quarters of the machine's
-  int threads = 0;                 // 0: all
-  bool everything = false;         // as if the scene required all that there is, for measuring
+  std::uint32_t domains = 0;          // number of leaves; 0: chosen by domain_bytes
+  std::uint64_t domain_bytes = 0;     // target size of a domain file; 0 with domains = 0: 64 MiB
+  std::uint64_t memory_bytes = 0;     // most resident memory; 0: three quarters of the machine's
+  std::uint32_t domains_at_once = 0;  // as if no more fitted into memory, for tests; 0: as many as fit
+  int threads = 0;                    // 0: all
+  bool everything = false;            // as if the scene required all that there is, for measuring
 };
 
 // The statistics contract of `partition --stats`.
@@ -42,7 +43,7 @@ std::uint64_t default_memory_bytes();
 // which are written to disk and divided one after the other. `progress` is told the done fraction in [0,1]
 // and what is going on, from any thread but one at a time; what it throws stops the work. The domains, their
 // order and every byte depend on the scene and the options, never on the threads. Throws Error for bad input,
-// UsageError for too little memory, MachineError.
+// UsageError, and MachineError, for too little memory too.
 PartitionStats partition(const Scene& scene, const std::filesystem::path& out,
                          const PartitionOptions& options,
                          const std::function<void(double, const char*)>& progress = {});
