@@ -66,6 +66,15 @@ MemoryPlan plan_memory(const Manifest& m, const MemoryNeeds& needs) {
         "and smaller domains (--domains, --domain-bytes)",
         static_cast<double>(needs.budget_bytes) / mib, domain,
         (static_cast<double>(needs.budget_bytes) - left + least) / mib + 1));
+  // With its vertices placed, and with the blocks on their way to disk.
+  const double mesh = static_cast<double>(needs.largest_mesh) * 1.5;
+  if (mesh > left * 3 / 4)
+    throw MachineError(
+        fmt::format("{:.0f} MiB of memory are too little for a mesh of {:.0f} MiB: {:.0f} MiB is needed, or "
+                    "the mesh split "
+                    "into several files",
+                    static_cast<double>(needs.budget_bytes) / mib, mesh / 1.5 / mib,
+                    (static_cast<double>(needs.budget_bytes) - left + mesh * 4 / 3) / mib + 1));
   // All at once, or half of what is left for a bucket's triangles.
   const double threads = std::min<double>(needs.threads, plan.domains);
   const bool all_fit = costs.placed * triangles + threads * build <= left || plan.domains == 1;

@@ -19,12 +19,13 @@ struct MemoryPlan {
 struct MemoryNeeds {
   std::uint64_t budget_bytes = 0;
   std::uint64_t mesh_bytes = 0;    // of the budget, already in use
+  std::uint64_t largest_mesh = 0;  // bytes of one that is in its file
   std::uint32_t domains = 0;       // 0: by domain_bytes
   std::uint64_t domain_bytes = 0;  // of a file; 0: 64 MiB, or less where that is more than 1/32 of the budget
   int threads = 1;
 };
 
-// Throws MachineError where not even one domain fits, UsageError for too many domains.
+// Throws MachineError where not even one domain or one mesh fits, UsageError for too many domains.
 MemoryPlan plan_memory(const Manifest& manifest, const MemoryNeeds& needs);
 
 std::uint64_t machine_bytes();

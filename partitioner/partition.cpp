@@ -104,9 +104,17 @@ class Partitioner {
   Partitioner(const Scene& scene, std::filesystem::path bundle, const PartitionOptions& options,
               const ProgressFunction& progress)
       : bundle_(std::move(bundle)), phases_(progress), world_(world_of(scene, bundle_, options.everything)) {
-    const auto threads = static_cast<std::uint32_t>(tbb::this_task_arena::max_concurrency());
-    plan_ = plan_memory(world_.manifest, {options.memory_bytes, resident_mesh_bytes(scene), options.domains,
-                                          options.domain_bytes, static_cast<int>(threads)});
+    MemoryNeeds needs{options.memory_bytes,
+                      0,
+                      0,
+                      options.domains,
+                      options.domain_bytes,
+                      tbb::this_task_arena::max_concurrency()};
+    for (const TriangleMesh& mesh : scene.meshes) {
+      needs.mesh_bytes += bytes_of(mesh);
+      if (mesh.deferred) needs.largest_mesh = std::max(needs.largest_mesh, mesh.deferred->bytes);
+    }
+    plan_ = plan_memory(world_.manifest, needs);
     if (options.domains_at_once > 0)
       plan_.domains_at_once = std::min(plan_.domains_at_once, options.domains_at_once);
     world_.manifest.domains.resize(plan_.domains);
@@ -175,12 +183,6 @@ class Partitioner {
 
   DomainWriter writer(Census& census) {
     return {bundle_, manifest_, census, plan_.domains_in_work, [&](std::uint64_t n) { phases_.advance(n); }};
-  }
-
-  static std::uint64_t resident_mesh_bytes(const Scene& scene) {
-    std::uint64_t bytes = 0;
-    for (const TriangleMesh& mesh : scene.meshes) bytes += bytes_of(mesh);
-    return bytes;
   }
 
   std::filesystem::path bundle_;
