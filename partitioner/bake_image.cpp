@@ -103,9 +103,8 @@ std::vector<TexelWords> words_of(const Image& image, TexelFormat format, const R
     Color color;
     TexelWords words;
   };
-  constexpr std::size_t known_count = 8192;
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, words.size(), 1 << 16), [&](const auto& range) {
-    std::vector<Known> known(known_count,
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, words.size(), 1 << 20), [&](const auto& range) {
+    std::vector<Known> known(std::min(std::bit_ceil(range.size()), std::size_t{1} << 16),
                              Known{Color{-1, -1, -1}, {}});  // colours of spectra are not negative
     for (std::size_t p = range.begin(); p != range.end(); ++p) {
       const Color c = color_at(image, p);
@@ -116,7 +115,7 @@ std::vector<TexelWords> words_of(const Image& image, TexelFormat format, const R
       } else {
         std::uint32_t hash = 0;
         for (const float v : c) hash = (hash ^ std::bit_cast<std::uint32_t>(v)) * 0x9e3779b1u;
-        Known& k = known[(hash >> 16) % known_count];
+        Known& k = known[hash >> 16 & (known.size() - 1)];
         if (k.color != c) k = {c, spectral_words(c, format, fitter)};
         words[p] = k.words;
       }

@@ -127,6 +127,7 @@ BakedMaterial bake_material(const Material& material, const std::vector<std::int
                             TextureBaker& textures) {
   BakedMaterial result;
   result.material.two_sided = material.two_sided;
+  result.material.bump_shadowing = material.bump_shadowing;
   result.material.model = std::visit(MaterialBaker(ids, textures, result), material.model);
   if (material.displacement) result.material.displacement = textures.bake(*material.displacement);
   if (material.normal_map) result.material.normal_map = textures.bake_vector(*material.normal_map);

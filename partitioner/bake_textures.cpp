@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <limits>
 
 #include "images/image_files.h"
 #include "scene/rgb_to_spectrum.h"
@@ -42,12 +44,22 @@ Image values_of(const ImageTexture& texture, StoredImage stored, TextureUse use)
   const bool automatic = texture.encoding == Encoding::automatic && use != TextureUse::vector;
   const bool srgb = texture.encoding == Encoding::srgb || (automatic && stored.integer);
   const auto gamma = static_cast<double>(texture.gamma), scale = static_cast<double>(texture.scale);
-  for (float& stored_value : stored.image.values) {
-    auto value = static_cast<double>(stored_value);
+  const auto decoded = [&](float of) {
+    auto value = static_cast<double>(of);
     if (srgb) value = srgb_decode(std::clamp(value, 0.0, 1.0));
     if (texture.encoding == Encoding::gamma) value = std::pow(std::max(value, 0.0), gamma);
     value *= scale;
-    stored_value = static_cast<float>(texture.invert ? 1 - value : value);
+    return static_cast<float>(texture.invert ? 1 - value : value);
+  };
+  // Most images have few different values.
+  struct Known {
+    float stored = std::numeric_limits<float>::quiet_NaN(), value = 0;
+  };
+  std::vector<Known> known(4096);
+  for (float& value : stored.image.values) {
+    Known& k = known[std::bit_cast<std::uint32_t>(value) * 0x9e3779b1u >> 20];
+    if (k.stored != value) k = {value, decoded(value)};
+    value = k.value;
   }
   return std::move(stored.image);
 }

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "tracer/bsdf/fresnel.h"
 #include "tracer/portable_math.h"
 #include "tracer/wavelengths.h"
 

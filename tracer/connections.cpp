@@ -49,7 +49,8 @@ void PathTracer::connect_surface(const Path& path, const Interaction& at, const 
   connect(path, at.p, [&](Vector3d direction) -> std::optional<Connection> {
     const Vector3d in = scattering.frame.to_local(direction);
     // As for the samples of the BSDF: shading normals let no light leak.
-    if ((dot(direction, at.geometric) > 0) != (dot(at.out, at.geometric) * out.z * in.z > 0))
+    if (!scattering.transmits &&
+        (dot(direction, at.geometric) > 0) != (dot(at.out, at.geometric) * out.z * in.z > 0))
       return std::nullopt;
     BsdfValue scattered = eval(scattering.bsdf, out, in);
     scattered.value =

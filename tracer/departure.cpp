@@ -23,7 +23,7 @@ std::uint64_t PathTracer::stream_of(const Path& path) const {
   const auto bits = [](float x) { return std::uint64_t{std::bit_cast<std::uint32_t>(x)}; };
   const Point3f o = path.ray.origin;
   return stream_seed(key_of(path.pixel, path.sample), bits(o.x) << 32 | bits(o.y),
-                     bits(o.z) << 32 | path.direction.first() << 8 | path.direction.second());
+                     bits(o.z) << 32 ^ std::uint64_t{path.direction.first()} << 24 ^ path.direction.second());
 }
 
 // On the other side of a surface, as if it was not there. Connections go through it too, so the path keeps

@@ -162,7 +162,7 @@ std::optional<Scattering> Materials::scattering_at(const Material& material, con
       textures_, at.texture_point(), wavelengths, at.exterior_eta,
       plastic_tables_.empty() ? nullptr : &plastic_tables_[plastic_table_[index_of(material)]]};
   return Scattering{std::visit(maker, material.model), frame_around(normal, at, both_sides ? 1.0 : at.side()),
-                    material.bump_shadowing ? bump_alpha2(dot(normal, at.shading)) : 0};
+                    both_sides, material.bump_shadowing ? bump_alpha2(dot(normal, at.shading)) : 0};
 }
 
 namespace {

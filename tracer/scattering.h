@@ -36,6 +36,7 @@ struct ShadingFrame {
 struct Scattering {
   Bsdf bsdf;
   ShadingFrame frame;
+  bool transmits = false;
   double bump_alpha2 = 0;  // of bump_shadowing
 
   // What is left of light from a direction that makes this cosine with the surface's smooth normal.

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // What happens where a path arrives: in a medium, at a surface, outside of the scene.
-#include <limits>
-
 #include "tracer/bsdf/local.h"
 #include "tracer/media/phase.h"
 #include "tracer/path_state.h"
@@ -47,12 +45,12 @@ bool PathTracer::shade(Path& path) {
 
 void PathTracer::add_environment(const Path& path) {
   const Vector3d direction = normalize(cast<double>(path.ray.direction));
-  const SampledSpectrum radiance = environment_radiance(scene_.lights, direction, path.wavelengths);
+  const auto [radiance, light_pdf] = background(scene_.lights, direction, path.wavelengths);
   if (is_black(radiance)) return;
   double weight = 1;
   if (path.pdf > 0) {
     const double pdf = static_cast<double>(path.pdf);
-    weight = pdf / (pdf + environment_pdf(scene_.lights, path.scattered_from(), direction));
+    weight = pdf / (pdf + light_pdf);
   }
   deposit(path.pixel, path.sample, path.sensor, path.throughput * radiance * static_cast<float>(weight));
 }
@@ -111,7 +109,8 @@ bool PathTracer::shade_surface(Path& path) {
       path.throughput * static_cast<float>(scattering->bump_shadowing(dot(direction, at.shading)));
   // The shading normal must not let light through the surface, nor reflect it into it: for a mirror the
   // surface's own normal decides then.
-  if ((dot(direction, at.geometric) > 0) != (dot(at.out, at.geometric) * out.z * chosen->in.z > 0)) {
+  if (!scattering->transmits &&
+      (dot(direction, at.geometric) > 0) != (dot(at.out, at.geometric) * out.z * chosen->in.z > 0)) {
     if (!chosen->specular || out.z * chosen->in.z <= 0) return false;
     direction = at.geometric * (2 * dot(at.out, at.geometric)) - at.out;
   }
@@ -202,21 +201,14 @@ bool PathTracer::scatter_dielectric(Path& path, const Interaction& at, const Sur
     mean += static_cast<double>(reflectance.v[i]) / static_cast<double>(active);
   }
   const float u = sample_4d(key_of(path.pixel, path.sample), sample_set::scatter(path.depth))[2];
-  const double side = at.side();
   Vector3d direction;
   if (static_cast<double>(u) < mean) {
     direction = normal * (2 * cosine) - at.out;
-    // Where the shading normal would send light to the wrong side of the surface, its own normal decides.
-    if (dot(direction, at.geometric) * side <= 0)
-      direction = at.geometric * (2 * dot(at.out, at.geometric)) - at.out;
     path.throughput =
         path.throughput * reflectance * static_cast<float>(1 / mean) *
         scene_.textures.spectrum(material.reflectance_factor, at.texture_point(), path.wavelengths);
   } else {
     if (!refract(at.out, normal, hero_eta, direction)) return false;
-    if (dot(direction, at.geometric) * side >= 0 &&
-        !refract(at.out, at.geometric * side, hero_eta, direction))
-      return false;
     // Radiance is compressed into the smaller solid angle by 1/η² (Veach 1997, §5.2).
     for (std::size_t i = 0; i < active; ++i) {
       const double e = static_cast<double>(eta.v[i]);

@@ -34,12 +34,11 @@ struct Allowed {
 };
 
 Allowed allowed(const std::string& scene) {
-  // Mitsuba shadows bumps by microfacets (Estevez et al. 2019), which is not in the model here.
-  if (scene == "test_normalmap_path") return {0.0025, 0.012};
-  // At the sharp rim of the glass the shading normals that cannot be used are others than in Mitsuba.
-  if (scene == "test_homo_dielectric_envmap_volpath") return {0.01, 0.0105};
+  // At the sharp rim of the glass.
+  if (scene == "test_homo_dielectric_envmap_volpath") return {0.01, 0.01};
   // Mitsuba's table of sigmoids makes the albedo (.99, .999, .99) 0.9972 at 450 nm and 0.9978 at 650 nm; the
-  // spectrum that has that colour is 0.9938 and 0.9916 there, and five scatterings show it.
+  // spectrum that has that colour is 0.9938 and 0.9916 there, and five scatterings show it. With Mitsuba's
+  // own numbers for the albedo the means are 0.992.
   if (scene == "test_homo_area_light_volpath") return {0.0025, 0.015};
   return {};
 }
@@ -52,7 +51,9 @@ TEST_P(MitsubaReference, IsMatched) {
              variance = reference_of(scene, "_ref_spectral_var.exr");
   const TemporaryDirectory directory;
   const auto start = std::chrono::steady_clock::now();
-  const std::size_t samples = sample_budget / read_picture(mean).rgb.pixels();
+  // Where a narrow lobe finds the light by chance the mean has a standard error of 0.5 % at the usual budget.
+  const std::size_t budget = sample_budget * (scene.name() == "test_roughdielectric_path" ? 8 : 1);
+  const std::size_t samples = budget / read_picture(mean).rgb.pixels();
   const std::string wrong =
       render_scene(corpus() / scene.path, directory / "picture.film", fmt::format("--spp {}", samples));
   if (!wrong.empty()) return conclude(false, scene.name(), wrong);

@@ -224,8 +224,8 @@ TEST(LightSampler, AllKindsTogetherAreUnbiased) {
     for (int y = 0; y < n; ++y)
       for (int x = 0; x < n; ++x) {
         const Vector3d d = sphere_direction(SphereProjection::equal_area, {(x + 0.5) / n, (y + 0.5) / n});
-        expected += static_cast<double>(environment_radiance(s, d, w)[0]) * std::max(0.0, dot(d, normal)) *
-                    4 * pi / (n * n);
+        expected += static_cast<double>(background(s, d, w).radiance[0]) * std::max(0.0, dot(d, normal)) * 4 *
+                    pi / (n * n);
       }
     const Estimate got = estimate(s, p, normal, 200000, random);
     EXPECT_NEAR(got.mean, expected, 4.5 * got.error + 2e-3 * expected);
@@ -253,8 +253,9 @@ TEST(LightSampler, EnvironmentPdfIsThatOfItsSamples) {
   for (int i = 0; i < 20000; ++i) {
     const auto light = sample_light(s, {1, 2, 3}, random.four(), test::some_wavelengths());
     ASSERT_TRUE(light);
-    EXPECT_EQ(light->pdf, environment_pdf(s, {1, 2, 3}, light->to_light));
-    EXPECT_EQ(light->radiance, environment_radiance(s, light->to_light, test::some_wavelengths()));
+    const Background seen = background(s, light->to_light, test::some_wavelengths());
+    EXPECT_EQ(light->pdf, seen.pdf);
+    EXPECT_EQ(light->radiance, seen.radiance);
     EXPECT_TRUE(std::isinf(light->distance));
     inverse += 1 / light->pdf / 20000;
   }
@@ -267,8 +268,9 @@ TEST(LightSampler, ConstantSkiesAreLeftToTheBsdf) {
   const LightSampler s = make(world);
   EXPECT_FALSE(s.can_sample());
   EXPECT_FALSE(sample_light(s, {0, 0, 0}, {}, test::some_wavelengths()));
-  EXPECT_EQ(environment_pdf(s, {0, 0, 0}, {0, 0, 1}), 0);
-  EXPECT_EQ(environment_radiance(s, {0, 0, 1}, test::some_wavelengths())[3], 2);
+  const Background seen = background(s, {0, 0, 1}, test::some_wavelengths());
+  EXPECT_EQ(seen.pdf, 0);
+  EXPECT_EQ(seen.radiance[3], 2);
 }
 
 // A square that shines only along its normal lights the prism before it, evenly.

@@ -234,7 +234,7 @@ TEST(LightTextures, ColouredEnvironmentsHaveTheirIlluminance) {
     for (int x = 0; x < n; ++x) {
       const Vector3d d = sphere_direction(SphereProjection::equal_area, {(x + 0.5) / n, (y + 0.5) / n});
       if (d.z > 0)
-        up += luminance_of([&](const SampledWavelengths& w) { return environment_radiance(s, d, w); }, 16) *
+        up += luminance_of([&](const SampledWavelengths& w) { return background(s, d, w).radiance; }, 16) *
               d.z * 4 * pi / (n * n);
     }
   EXPECT_NEAR(up, 100, 0.3);

@@ -80,9 +80,9 @@ TEST(LightTree, ChoosesWithTheProbabilityThatItSays) {
     std::vector<int> counts(lights.size() + 1, 0);
     for (int s = 0; s < samples; ++s) {
       const auto chosen = tree.choose(p, (s + 0.5) / samples);
-      ++counts[chosen ? chosen->light : lights.size()];
+      ++counts[chosen ? tree.order()[chosen->slot] : lights.size()];
       if (chosen) {
-        ASSERT_EQ(chosen->probability, tree.probability(p, chosen->light));
+        ASSERT_EQ(chosen->probability, tree.probability(p, tree.order()[chosen->slot]));
         ASSERT_GT(chosen->probability, 0);
       }
     }
@@ -106,8 +106,8 @@ TEST(LightTree, ChoosesAmongLightsThatAreAlikeWithTheProbabilityThatItSays) {
       for (int s = 0; s < samples; ++s) {
         const auto chosen = tree.choose(p, (s + 0.5) / samples);
         ASSERT_TRUE(chosen);
-        ++counts[chosen->light];
-        ASSERT_EQ(chosen->probability, tree.probability(p, chosen->light));
+        ++counts[tree.order()[chosen->slot]];
+        ASSERT_EQ(chosen->probability, tree.probability(p, tree.order()[chosen->slot]));
       }
       double sum = 0;
       for (std::uint32_t l = 0; l < lights.size(); ++l) {

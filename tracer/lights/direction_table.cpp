@@ -8,6 +8,19 @@
 
 namespace vitrail {
 
+namespace {
+
+void fill_guide(const double* sums, std::size_t steps, std::uint16_t* guide) {
+  std::size_t step = 0;
+  for (std::size_t part = 0; part < steps; ++part) {
+    const double u = static_cast<double>(part) / static_cast<double>(steps);
+    while (step + 1 < steps && sums[step + 1] <= u) ++step;
+    guide[part] = static_cast<std::uint16_t>(step);
+  }
+}
+
+}  // namespace
+
 DirectionTable::DirectionTable(SphereProjection projection, int width, int height,
                                const std::function<double(int, int)>& density)
     : projection_(projection), width_(std::max(1, width)), height_(std::max(1, height)) {
@@ -33,6 +46,10 @@ DirectionTable::DirectionTable(SphereProjection projection, int width, int heigh
     rows_[y] = total > 0                                     ? rows_[y] / total
                : projection_ == SphereProjection::equal_area ? static_cast<double>(y) / static_cast<double>(h)
                                                              : (1 - row_z_[y]) / 2;
+  row_guide_.resize(h);
+  fill_guide(rows_.data(), h, row_guide_.data());
+  column_guide_.resize(h * w);
+  for (std::size_t y = 0; y < h; ++y) fill_guide(&columns_[y * (w + 1)], w, &column_guide_[y * w]);
 }
 
 double DirectionTable::cell_solid_angle(int row) const {
@@ -48,10 +65,10 @@ struct Step {
   double fraction = 0;
 };
 
-// The step of a cumulative sum from 0 to 1 that holds u; never one of height 0.
-Step find_step(const double* sums, std::size_t steps, double u) {
-  const double* above = std::upper_bound(sums + 1, sums + steps, u);
-  auto i = static_cast<std::size_t>(above - sums) - 1;
+// The step of a cumulative sum from 0 to 1 that holds u in [0,1); never one of height 0.
+Step find_step(const double* sums, std::size_t steps, const std::uint16_t* guide, double u) {
+  std::size_t i = guide[static_cast<std::size_t>(u * static_cast<double>(steps))];
+  while (i + 1 < steps && sums[i + 1] <= u) ++i;
   while (i > 0 && !(sums[i + 1] > sums[i])) --i;
   const double height = sums[i + 1] - sums[i];
   return {i, height > 0 ? std::clamp((u - sums[i]) / height, 0.0, 1.0) : 0.5};
@@ -61,8 +78,8 @@ Step find_step(const double* sums, std::size_t steps, double u) {
 
 Vector3d DirectionTable::sample(double u, double v) const {
   const auto w = static_cast<std::size_t>(width_), h = static_cast<std::size_t>(height_);
-  const Step row = find_step(rows_.data(), h, v);
-  const Step column = find_step(&columns_[row.index * (w + 1)], w, u);
+  const Step row = find_step(rows_.data(), h, row_guide_.data(), v);
+  const Step column = find_step(&columns_[row.index * (w + 1)], w, &column_guide_[row.index * w], u);
   const double x = (static_cast<double>(column.index) + column.fraction) / width_;
   if (projection_ == SphereProjection::equal_area)
     return sphere_direction(projection_, {x, (static_cast<double>(row.index) + row.fraction) / height_});
@@ -71,9 +88,8 @@ Vector3d DirectionTable::sample(double u, double v) const {
   return {across * portable_cos(2 * pi * x), across * portable_sin(2 * pi * x), z};
 }
 
-double DirectionTable::pdf(Vector3d direction) const {
+double DirectionTable::pdf(Point2d at) const {
   if (rows_.empty()) return 0;
-  const Point2d at = sphere_point(projection_, direction);
   const auto column = static_cast<std::size_t>(std::clamp(static_cast<int>(at.x * width_), 0, width_ - 1));
   const auto row = static_cast<std::size_t>(std::clamp(static_cast<int>(at.y * height_), 0, height_ - 1));
   const double* sums = &columns_[row * (static_cast<std::size_t>(width_) + 1)];

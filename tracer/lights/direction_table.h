@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <vector>
 
@@ -21,7 +22,10 @@ class DirectionTable {
   double cell_solid_angle(int row) const;
 
   Vector3d sample(double u, double v) const;  // u, v in [0,1)
-  double pdf(Vector3d direction) const;       // solid angle; `direction` unit
+  double pdf(Point2d point) const;            // solid angle; by the sphere's picture
+  double pdf(Vector3d direction) const {
+    return pdf(sphere_point(projection_, direction));
+  }  // `direction` unit
 
  private:
   SphereProjection projection_ = SphereProjection::equal_area;
@@ -30,6 +34,9 @@ class DirectionTable {
       row_z_;  // of latitude_longitude: the z of the rows' upper edges, and of the last lower one
   std::vector<double> rows_;     // cumulative, 0 … 1, height + 1
   std::vector<double> columns_;  // of each row: cumulative, 0 … 1, width + 1
+  // Of as many equal parts of [0,1) as there are steps: the step that holds the part's lower end (Chen & Asau
+  // 1974).
+  std::vector<std::uint16_t> row_guide_, column_guide_;
 };
 
 }  // namespace vitrail

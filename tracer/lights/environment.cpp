@@ -46,17 +46,16 @@ DirectionFrame::DirectionFrame(const Transform& light_to_world) {
   y = dot(last, cy) < 0 ? -last : last;
 }
 
-SampledSpectrum look_up(const LightImage& image, SphereProjection projection, Vector3d local,
+SampledSpectrum look_up(const LightImage& image, SphereProjection projection, Point2d at,
                         const SampledWavelengths& wavelengths) {
   const int width = image.width(0), height = image.height(0);
-  const TexelPlace place = place_of(sphere_point(projection, local), width, height);
+  const TexelPlace place = place_of(at, width, height);
   return projection == equal_area ? image.texel(place.x, place.y, wavelengths)
                                   : image.bilinear(place.s, place.t, wavelengths);
 }
 
-SampledSpectrum radiance(const Environment& e, Vector3d direction, const SampledWavelengths& wavelengths) {
-  return look_up(*e.image, e.projection, e.frame.to_light(direction), wavelengths) *
-         evaluate(e.scale, wavelengths) * e.factor;
+SampledSpectrum radiance(const Environment& e, Point2d at, const SampledWavelengths& wavelengths) {
+  return look_up(*e.image, e.projection, at, wavelengths) * evaluate(e.scale, wavelengths) * e.factor;
 }
 
 namespace {
@@ -138,9 +137,10 @@ double exact_flux(const LightImage& image, SphereProjection projection, const Di
     for (int k = i, digit = count / 2; k > 0; k >>= 1, digit >>= 1) bits += (k & 1) * digit;
     const Vector3d d = table.sample((i + 0.5) / count, (bits + 0.5) / count);
     const double weight = upward ? d.z : 1;
+    const Point2d at = sphere_point(projection, d);
     if (weight > 0)
-      sum += weight / table.pdf(d) *
-             luminance_of([&](const SampledWavelengths& w) { return look_up(image, projection, d, w); }, 8);
+      sum += weight / table.pdf(at) *
+             luminance_of([&](const SampledWavelengths& w) { return look_up(image, projection, at, w); }, 8);
   }
   return sum / count;
 }

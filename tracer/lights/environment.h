@@ -31,13 +31,12 @@ struct Environment {
 
 Environment make_environment(const EnvironmentLight& light, std::shared_ptr<const LightImage> image);
 
-// `direction` unit, from the scene outwards, in the world.
-SampledSpectrum radiance(const Environment& environment, Vector3d direction,
-                         const SampledWavelengths& wavelengths);
+// At a point of the sphere's picture.
+SampledSpectrum radiance(const Environment& environment, Point2d at, const SampledWavelengths& wavelengths);
 
-// The image at a direction of its own frame: the nearest texel of an equal-area map, as pbrt-v4 looks it up;
-// by latitude and longitude bilinear as in Mitsuba, where the first and the last row lie on the poles.
-SampledSpectrum look_up(const LightImage& image, SphereProjection projection, Vector3d local,
+// The image at a point of the sphere's picture: the nearest texel of an equal-area map, as pbrt-v4 looks it
+// up; by latitude and longitude bilinear as in Mitsuba, where the first and the last row lie on the poles.
+SampledSpectrum look_up(const LightImage& image, SphereProjection projection, Point2d at,
                         const SampledWavelengths& wavelengths);
 
 // A density for sampling that image, about its luminance, with a floor. `flux`: ∫ Y dω within about 1 %.

@@ -19,9 +19,9 @@ struct TriangleFrame {
   Vector3d e1, e2, normal;  // normal unit
   double area = 0;
 
-  explicit TriangleFrame(const EmissiveTriangle& t) : p0(cast<double>(t.p[0])) {
-    e1 = cast<double>(t.p[1]) - p0;
-    e2 = cast<double>(t.p[2]) - p0;
+  explicit TriangleFrame(std::span<const Point3f, 3> p) : p0(cast<double>(p[0])) {
+    e1 = cast<double>(p[1]) - p0;
+    e2 = cast<double>(p[2]) - p0;
     const Vector3d across = cross(e1, e2);
     const double twice = length(across);
     area = twice / 2;
@@ -47,10 +47,19 @@ SampledSpectrum surface_radiance(const LightSampler& s, const AreaLight& light, 
   return s.scene.textures->spectrum(light.radiance, at, wavelengths) * light.scale;
 }
 
+SampledSpectrum radiance_at(const LightSampler& s, const LightSampler::Slot& t, const TriangleFrame& frame,
+                            double b1, double b2, const SampledWavelengths& wavelengths) {
+  const AreaLight& light = s.scene.area_lights[t.area_light];
+  TexturePoint at;  // of no use to a plain spectrum
+  if (!std::holds_alternative<Spectrum>(light.radiance))
+    at = texture_point(s.scene.triangles[t.light], frame, b1, b2);
+  return surface_radiance(s, light, at, wavelengths);
+}
+
 // A directional light shines from where p lies on the triangle, seen along its normal.
-std::optional<LightSample> sample_directional(const LightSampler& s, const EmissiveTriangle& t, Point3d p,
+std::optional<LightSample> sample_directional(const LightSampler& s, const LightSampler::Slot& t, Point3d p,
                                               const SampledWavelengths& wavelengths) {
-  const TriangleFrame frame(t);
+  const TriangleFrame frame(t.p);
   if (!(frame.area > 0)) return std::nullopt;
   const AreaLight& light = s.scene.area_lights[t.area_light];
   const Vector3d from = p - frame.p0;
@@ -63,7 +72,7 @@ std::optional<LightSample> sample_directional(const LightSampler& s, const Emiss
   LightSample sample;
   sample.to_light = frame.normal * (height > 0 ? -1.0 : 1.0);
   sample.distance = std::abs(height);
-  sample.radiance = surface_radiance(s, light, texture_point(t, frame, b1, b2), wavelengths);
+  sample.radiance = radiance_at(s, t, frame, b1, b2, wavelengths);
   sample.pdf = 1;
   sample.is_delta = true;
   sample.light = t.area_light;
@@ -71,7 +80,7 @@ std::optional<LightSample> sample_directional(const LightSampler& s, const Emiss
 }
 
 // pdf: given the triangle.
-std::optional<LightSample> sample_triangle(const LightSampler& s, const EmissiveTriangle& t, Point3d p,
+std::optional<LightSample> sample_triangle(const LightSampler& s, const LightSampler::Slot& t, Point3d p,
                                            float u, float v, const SampledWavelengths& wavelengths) {
   const AreaLight& light = s.scene.area_lights[t.area_light];
   if (light.directional) return sample_directional(s, t, p, wavelengths);
@@ -83,7 +92,7 @@ std::optional<LightSample> sample_triangle(const LightSampler& s, const Emissive
     b2 += offset;
   else
     b1 -= offset;
-  const TriangleFrame frame(t);
+  const TriangleFrame frame(t.p);
   const Vector3d towards = (frame.p0 + frame.e1 * b1 + frame.e2 * b2) - p;
   const double distance2 = dot(towards, towards);
   if (!(distance2 > 0)) return std::nullopt;
@@ -94,7 +103,7 @@ std::optional<LightSample> sample_triangle(const LightSampler& s, const Emissive
   const double cosine = -dot(sample.to_light, frame.normal);  // > 0: its front is seen
   if (cosine == 0 || (cosine < 0 && !light.two_sided)) return std::nullopt;
   sample.pdf = distance2 / (std::abs(cosine) * frame.area);
-  sample.radiance = surface_radiance(s, light, texture_point(t, frame, b1, b2), wavelengths);
+  sample.radiance = radiance_at(s, t, frame, b1, b2, wavelengths);
   sample.light = t.area_light;
   return sample;
 }
@@ -120,10 +129,10 @@ std::optional<LightSample> sample_tree(const LightSampler& s, Point3d p, const s
                                        double choice, const SampledWavelengths& wavelengths) {
   const auto chosen = s.tree.choose(p, choice);
   if (!chosen) return std::nullopt;
+  const LightSampler::Slot& slot = s.slots[chosen->slot];
   const std::size_t triangles = s.scene.triangles.size();
-  auto sample = chosen->light < triangles
-                    ? sample_triangle(s, s.scene.triangles[chosen->light], p, u[0], u[1], wavelengths)
-                    : sample_emitter(s, chosen->light - triangles, p, wavelengths);
+  auto sample = slot.light < triangles ? sample_triangle(s, slot, p, u[0], u[1], wavelengths)
+                                       : sample_emitter(s, slot.light - triangles, p, wavelengths);
   if (sample) sample->pdf *= chosen->probability * s.share[0];
   return sample;
 }
@@ -161,9 +170,10 @@ std::optional<LightSample> sample_light(const LightSampler& s, Point3d p, const 
   const Environment& e = s.environments[index];
   sample.to_light = e.frame.to_world(e.table.sample(static_cast<double>(u[0]), static_cast<double>(u[1])));
   sample.distance = infinity;
-  sample.pdf = environment_pdf(s, p, sample.to_light);
-  if (!(sample.pdf > 0)) return std::nullopt;
-  sample.radiance = environment_radiance(s, sample.to_light, wavelengths);
+  const Background seen = background(s, sample.to_light, wavelengths);
+  if (!(seen.pdf > 0)) return std::nullopt;
+  sample.pdf = seen.pdf;
+  sample.radiance = seen.radiance;
   sample.light = s.environment_light[index];
   return sample;
 }
@@ -180,19 +190,10 @@ double triangle_pdf(const LightSampler& s, Point3d from, std::uint32_t triangle,
   const EmissiveTriangle& t = s.scene.triangles[index];
   const AreaLight& light = s.scene.area_lights[t.area_light];
   if (light.directional || (cosine <= 0 && !light.two_sided)) return 0;
-  const double area = TriangleFrame(t).area;
+  const double area = TriangleFrame(t.p).area;
   if (!(area > 0)) return 0;
   return s.share[0] * s.tree.probability(from, index) * distance * distance /
          (std::max(std::abs(cosine), 1e-12) * area);
-}
-
-double environment_pdf(const LightSampler& s, Point3d, Vector3d direction) {
-  double sum = 0;
-  for (std::size_t i = 0; i < s.environments.size(); ++i) {
-    const Environment& e = s.environments[i];
-    sum += s.share[1 + s.distant.size() + i] * e.table.pdf(e.frame.to_light(direction));
-  }
-  return sum;
 }
 
 SampledSpectrum emitted(const LightSampler& s, std::uint32_t area_light, const TexturePoint& at,
@@ -202,12 +203,17 @@ SampledSpectrum emitted(const LightSampler& s, std::uint32_t area_light, const T
   return surface_radiance(s, light, at, wavelengths);
 }
 
-SampledSpectrum environment_radiance(const LightSampler& s, Vector3d direction,
-                                     const SampledWavelengths& wavelengths) {
-  SampledSpectrum sum = filled(0);
+Background background(const LightSampler& s, Vector3d direction, const SampledWavelengths& wavelengths) {
+  Background sum{filled(0)};
   for (const std::uint32_t i : s.infinite)
-    sum = sum + evaluate(std::get<InfiniteLight>(s.scene.lights[i].model).radiance, wavelengths);
-  for (const Environment& e : s.environments) sum = sum + radiance(e, direction, wavelengths);
+    sum.radiance =
+        sum.radiance + evaluate(std::get<InfiniteLight>(s.scene.lights[i].model).radiance, wavelengths);
+  for (std::size_t i = 0; i < s.environments.size(); ++i) {
+    const Environment& e = s.environments[i];
+    const Point2d at = sphere_point(e.projection, e.frame.to_light(direction));
+    sum.radiance = sum.radiance + radiance(e, at, wavelengths);
+    sum.pdf += s.share[1 + s.distant.size() + i] * e.table.pdf(at);
+  }
   return sum;
 }
 

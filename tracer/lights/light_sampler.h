@@ -38,6 +38,13 @@ struct LightScene {
 struct LightSampler {
   LightScene scene;
   LightTree tree;  // lights: the triangles, then the emitters
+  // What sampling reads of a triangle, in one cache line.
+  struct alignas(64) Slot {
+    std::array<Point3f, 3> p;
+    std::uint32_t light = 0;  // of the tree
+    std::uint32_t area_light = 0;
+  };
+  std::vector<Slot> slots;  // in the tree's order
   std::vector<PointEmitter> emitters;
   std::vector<std::uint32_t> emitter_light;  // index into scene.lights
   struct Distant {
@@ -58,7 +65,7 @@ struct LightSampler {
 
   // Whether sample_light may ever give something.
   bool can_sample() const { return !share.empty(); }
-  // Whether environment_radiance may be other than 0.
+  // Whether background's radiance may be other than 0.
   bool has_background() const { return !infinite.empty() || !environments.empty(); }
 };
 
@@ -88,16 +95,18 @@ std::optional<LightSample> sample_light(const LightSampler& sampler, Point3d p, 
 // the triangle (global id) at that distance, seen at `cosine` from its normal (> 0: its front).
 double triangle_pdf(const LightSampler& sampler, Point3d from, std::uint32_t triangle, double distance,
                     double cosine);
-// The same of a direction, unit, that leaves the scene.
-double environment_pdf(const LightSampler& sampler, Point3d from, Vector3d direction);
-
 // Radiance of an emitter's surface where a ray meets it, seen at `cosine` from its normal. 0 of directional
 // ones.
 SampledSpectrum emitted(const LightSampler& sampler, std::uint32_t area_light, const TexturePoint& at,
                         double cosine, const SampledWavelengths& wavelengths);
-// Sum of constant and image environments; `direction` unit, outwards.
-SampledSpectrum environment_radiance(const LightSampler& sampler, Vector3d direction,
-                                     const SampledWavelengths& wavelengths);
+// What a ray finds that leaves the scene: the sum of constant and image environments, and the density, as of
+// triangle_pdf, with which sample_light gives the direction.
+struct Background {
+  SampledSpectrum radiance;
+  double pdf = 0;
+};
+// `direction` unit, outwards.
+Background background(const LightSampler& sampler, Vector3d direction, const SampledWavelengths& wavelengths);
 
 // Whether light of some distant source travels against `direction`, to the precision of ray directions.
 bool points_at_distant_light(const LightSampler& sampler, Vector3d direction);

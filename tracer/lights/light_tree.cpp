@@ -133,7 +133,7 @@ std::optional<LightTree::Chosen> LightTree::choose(Point3d p, double u) const {
     u = std::min((target - (lane > 0 ? sums[lane - 1] : 0)) / w, below_one);
     probability *= w / total;
     const Slots slots{node.first[lane], node.first[lane + 1]};
-    if (slots.end - slots.begin == 1) return Chosen{slots_[slots.begin].light, probability};
+    if (slots.end - slots.begin == 1) return Chosen{slots.begin, probability};
     if (are_alike(node, weights, lane)) {
       auto chosen = choose_by_power(slots, u);
       if (chosen) chosen->probability *= probability;
@@ -167,32 +167,32 @@ double LightTree::probability(Point3d p, std::uint32_t light) const {
 
 // The search begins where the slot is if all have the same power, in steps that double.
 std::optional<LightTree::Chosen> LightTree::choose_by_power(Slots slots, double u) const {
-  const double first = slots_[slots.begin].sum, total = slots_[slots.end].sum - first;
+  const double first = sums_[slots.begin], total = sums_[slots.end] - first;
   if (!(total > 0)) return std::nullopt;
   const double target = first + u * total;
-  std::uint32_t low = slots.begin, high = slots.end;  // low.sum ≤ target
+  std::uint32_t low = slots.begin, high = slots.end;  // sums_[low] ≤ target
   auto at = low + static_cast<std::uint32_t>(u * (high - low));
-  if (slots_[at].sum > target) {
-    for (std::uint32_t step = 1; at > low && slots_[at].sum > target; step *= 2)
+  if (sums_[at] > target) {
+    for (std::uint32_t step = 1; at > low && sums_[at] > target; step *= 2)
       high = at, at = at - low > step ? at - step : low;
     low = at;
   } else {
-    for (std::uint32_t step = 1; at < high && !(slots_[at].sum > target); step *= 2)
+    for (std::uint32_t step = 1; at < high && !(sums_[at] > target); step *= 2)
       low = at, at = high - at > step ? at + step : high;
     high = at;
   }
   while (high - low > 1) {
     const std::uint32_t middle = low + (high - low) / 2;
-    (slots_[middle].sum > target ? high : low) = middle;
+    (sums_[middle] > target ? high : low) = middle;
   }
   const double share = share_of_power(slots, low);
   if (!(share > 0)) return std::nullopt;  // by rounding, at the end
-  return Chosen{slots_[low].light, share};
+  return Chosen{low, share};
 }
 
 double LightTree::share_of_power(Slots slots, std::uint32_t slot) const {
-  const double total = slots_[slots.end].sum - slots_[slots.begin].sum;
-  return total > 0 ? (slots_[slot + 1].sum - slots_[slot].sum) / total : 0;
+  const double total = sums_[slots.end] - sums_[slots.begin];
+  return total > 0 ? (sums_[slot + 1] - sums_[slot]) / total : 0;
 }
 
 }  // namespace vitrail

@@ -54,7 +54,7 @@ class LightTree {
   LightTree(std::span<const LightBounds> lights, LightChoice choice);
 
   struct Chosen {
-    std::uint32_t light = 0;
+    std::uint32_t slot = 0;
     double probability = 0;
   };
   // u in [0,1). Empty where no light reaches p, as far as the bounds can tell.
@@ -62,27 +62,26 @@ class LightTree {
   // The probability with which `choose` would give that light.
   double probability(Point3d p, std::uint32_t light) const;
 
+  // The light of each slot.
+  std::span<const std::uint32_t> order() const { return order_; }
   bool empty() const { return nodes_.empty(); }
   double power() const { return power_; }  // of all lights
   std::size_t nodes() const { return nodes_.size(); }
 
  private:
   friend class LightTreeBuilder;
-  struct Slot {
-    double sum = 0;  // of the power of the slots before, of 1
-    std::uint32_t light = 0;
-  };
   struct Slots {
     std::uint32_t begin = 0, end = 0;
   };
   static constexpr std::uint32_t absent = ~0u;
-  Slots all() const { return {0, static_cast<std::uint32_t>(slots_.size() - 1)}; }
+  Slots all() const { return {0, static_cast<std::uint32_t>(order_.size())}; }
   Point3f local(Point3d p) const;
   std::optional<Chosen> choose_by_power(Slots slots, double u) const;
   double share_of_power(Slots slots, std::uint32_t slot) const;
 
-  std::vector<LightNode> nodes_;     // 0 is the root
-  std::vector<Slot> slots_;          // and one after the last
+  std::vector<LightNode> nodes_;  // 0 is the root
+  std::vector<double> sums_;      // of each slot: the power of those before, of 1; and of all
+  std::vector<std::uint32_t> order_;
   std::vector<std::uint32_t> slot_;  // of each light, or `absent`
   Point3d center_;
   double scale_ = 1;

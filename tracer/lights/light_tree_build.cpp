@@ -224,12 +224,13 @@ class LightTreeBuilder {
 
   void list_slots() {
     double sum = 0;
-    for (const std::uint32_t light : order_) {
-      tree_.slot_[light] = static_cast<std::uint32_t>(tree_.slots_.size());
-      tree_.slots_.push_back({sum / tree_.power_, light});
-      sum += lights_[light].power;
+    for (std::uint32_t slot = 0; slot < order_.size(); ++slot) {
+      tree_.slot_[order_[slot]] = slot;
+      tree_.sums_.push_back(sum / tree_.power_);
+      sum += lights_[order_[slot]].power;
     }
-    tree_.slots_.push_back({sum / tree_.power_, 0});
+    tree_.sums_.push_back(sum / tree_.power_);
+    tree_.order_ = std::move(order_);
   }
 
   // Angles grow by what rounding may lose: 1/32767 of an axis, and of a cosine as much as θ_o needs.

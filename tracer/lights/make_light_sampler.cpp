@@ -152,6 +152,14 @@ LightSampler make_light_sampler(const LightScene& scene, const ImageSource& imag
   if (choice == LightChoice::tree)
     for (std::size_t i = scene.triangles.size(); i < local.size(); ++i) by_intensity(local[i]);
   s.tree = LightTree(local, choice);
+  for (const std::uint32_t light : s.tree.order()) {
+    LightSampler::Slot& slot = s.slots.emplace_back();
+    slot.light = light;
+    if (light >= scene.triangles.size()) continue;
+    const EmissiveTriangle& t = scene.triangles[light];
+    std::copy(std::begin(t.p), std::end(t.p), slot.p.begin());
+    slot.area_light = t.area_light;
+  }
   s.runs = runs_of(scene.triangles);
 
   std::vector<double> power{flux};

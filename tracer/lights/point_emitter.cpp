@@ -51,9 +51,9 @@ struct DirectionalPart {
 
   // The map's +z is the light's +y (pbrt).
   SampledSpectrum operator()(const PointEmitter::Goniometric& g) const {
-    return look_up(*g.image,
-                   g.latitude_longitude ? SphereProjection::latitude_longitude : SphereProjection::equal_area,
-                   {d.x, d.z, d.y}, wavelengths);
+    const SphereProjection projection =
+        g.latitude_longitude ? SphereProjection::latitude_longitude : SphereProjection::equal_area;
+    return look_up(*g.image, projection, sphere_point(projection, {d.x, d.z, d.y}), wavelengths);
   }
 
  private:
