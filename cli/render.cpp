@@ -85,7 +85,10 @@ class Bundle {
  private:
   std::vector<std::string> partition_arguments(const Arguments& a) const {
     std::vector<std::string> arguments{a.input.string(), "-o", temporary_.string(), "--quiet"};
-    if (!a.memory.empty()) arguments.insert(arguments.end(), {"--memory", a.memory});
+    // It links what reads images, of more than 100 MiB, and is gone when rendering begins.
+    constexpr std::uint64_t least = 256u << 20;
+    if (!a.memory.empty())
+      arguments.insert(arguments.end(), {"--memory", std::to_string(std::max(parse_bytes(a.memory), least))});
     if (a.options.threads > 0)
       arguments.insert(arguments.end(), {"--threads", std::to_string(a.options.threads)});
     return arguments;
