@@ -10,7 +10,7 @@ namespace vitrail {
 
 namespace {
 
-constexpr std::uint8_t seen_whole = 1, seen_as_piece = 2;
+constexpr std::uint32_t seen_whole = 1, seen_as_piece = 2;
 
 std::array<Point3d, 3> triangle_in(const Cluster& cluster, std::size_t lane) {
   std::array<Point3d, 3> v;
@@ -34,22 +34,29 @@ double polygon_area(std::span<const Point3d> polygon) {
 }
 
 Census::Census(std::uint64_t triangles)
-    : triangles_(triangles), seen_(std::make_unique<std::atomic<std::uint8_t>[]>(triangles)) {}
+    : triangles_(triangles), seen_(std::make_unique<std::atomic<std::uint32_t>[]>((triangles + 15) / 16)) {}
+
+std::uint32_t Census::mark(std::uint32_t triangle, std::uint32_t bits) {
+  const std::uint32_t shift = 2 * (triangle % 16);
+  return (seen_[triangle / 16].fetch_or(bits << shift, std::memory_order_relaxed) >> shift) & 3;
+}
 
 void Census::add(std::uint32_t domain, const DomainView& view, std::span<const Piece> pieces,
                  std::span<const Point3d> piece_vertices) {
   std::vector<std::uint32_t> cut_here, lanes_cut;
   for (const Piece& p : pieces) cut_here.push_back(p.triangle);
   std::sort(cut_here.begin(), cut_here.end());
+  std::vector<bool> may_be_cut(1u << 16);
+  for (const std::uint32_t id : cut_here) may_be_cut[id % may_be_cut.size()] = true;
   std::vector<CutPart> parts;
   std::uint64_t duplicates = 0;
   for (const Cluster& cluster : view.clusters)
     for (std::size_t lane = 0; lane < cluster_width; ++lane) {
       const std::uint32_t id = cluster.id[lane];
       if (id >= triangles_) continue;
-      const auto at = std::lower_bound(cut_here.begin(), cut_here.end(), id);
-      const bool cut = at != cut_here.end() && *at == id;
-      const std::uint8_t before = seen_[id].fetch_or(cut ? seen_as_piece : seen_whole);
+      const bool cut =
+          may_be_cut[id % may_be_cut.size()] && std::binary_search(cut_here.begin(), cut_here.end(), id);
+      const std::uint32_t before = mark(id, cut ? seen_as_piece : seen_whole);
       if (cut ? (before & seen_whole) != 0 : before != 0) ++duplicates;
       if (!cut) continue;
       lanes_cut.push_back(id);
@@ -72,10 +79,8 @@ void Census::add(std::uint32_t domain, const DomainView& view, std::span<const P
   parts_.insert(parts_.end(), parts.begin(), parts.end());
 }
 
-CensusResult Census::result() const {
-  CensusResult r{.duplicates = duplicates_, .pieces = parts_.size()};
-  for (std::uint64_t i = 0; i < triangles_; ++i) r.lost += seen_[i] == 0;
-  std::vector<CutPart> parts = parts_;
+void Census::sum_up(std::vector<CutPart> parts, CensusResult& r) {
+  r.pieces += parts.size();
   std::sort(parts.begin(), parts.end(), [](const CutPart& a, const CutPart& b) {
     return std::tie(a.triangle, a.domain) < std::tie(b.triangle, b.domain);
   });
@@ -86,6 +91,25 @@ CensusResult Census::result() const {
     const double scale = std::max(first.triangle_area, first.least_area);
     if (scale > 0) r.area_error = std::max(r.area_error, std::abs(first.triangle_area - sum) / scale);
   }
+}
+
+void Census::settle(std::span<const std::uint32_t> open) {
+  const std::lock_guard lock(mutex_);
+  const auto from = parts_.begin() + static_cast<std::ptrdiff_t>(open_);
+  const auto first_settled = std::partition(from, parts_.end(), [&](const CutPart& part) {
+    return std::binary_search(open.begin(), open.end(), part.triangle);
+  });
+  sum_up({first_settled, parts_.end()}, settled_);
+  parts_.erase(first_settled, parts_.end());
+  open_ = parts_.size();
+}
+
+CensusResult Census::result() const {
+  CensusResult r = settled_;
+  r.duplicates = duplicates_;
+  for (std::uint64_t i = 0; i < triangles_; ++i)
+    r.lost += ((seen_[i / 16].load(std::memory_order_relaxed) >> (2 * (i % 16))) & 3) == 0;
+  sum_up(parts_, r);
   return r;
 }
 

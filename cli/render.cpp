@@ -72,8 +72,7 @@ class Bundle {
     if (std::filesystem::exists(a.input / "manifest.json") || a.input.extension() == ".vit") return;
     a.options.bundle = temporary_ = std::filesystem::path(a.options.film).replace_extension(".tmp.vit");
     agree(transport, [&] {
-      if (transport.rank() == 0)
-        run_program("vitrail-partition", {a.input.string(), "-o", temporary_.string(), "--quiet"});
+      if (transport.rank() == 0) run_program("vitrail-partition", partition_arguments(a));
     });
   }
   ~Bundle() {
@@ -84,6 +83,17 @@ class Bundle {
   Bundle& operator=(const Bundle&) = delete;
 
  private:
+  std::vector<std::string> partition_arguments(const Arguments& a) const {
+    std::vector<std::string> arguments{a.input.string(), "-o", temporary_.string(), "--quiet"};
+    // It links what reads images, of more than 100 MiB, and is gone when rendering begins.
+    constexpr std::uint64_t least = 256u << 20;
+    if (!a.memory.empty())
+      arguments.insert(arguments.end(), {"--memory", std::to_string(std::max(parse_bytes(a.memory), least))});
+    if (a.options.threads > 0)
+      arguments.insert(arguments.end(), {"--threads", std::to_string(a.options.threads)});
+    return arguments;
+  }
+
   Transport& transport_;
   std::filesystem::path temporary_;
 };

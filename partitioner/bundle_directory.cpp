@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "partitioner/bundle_directory.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <string>
 #include <utility>
 
 #include "scene/diagnostics.h"
@@ -26,6 +30,32 @@ void check_target(const fs::path& target) {
         fmt::format("{} exists and is not a bundle; choose another name or remove it", target.string()));
 }
 
+// −1 where another process has it.
+int lock_directory(const fs::path& directory) {
+  const int descriptor = ::open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0 || ::flock(descriptor, LOCK_EX | LOCK_NB) == 0) return descriptor;
+  ::close(descriptor);
+  return -1;
+}
+
+// Of processes that were killed.
+void remove_leftovers(const fs::path& target) {
+  const fs::path folder = target.has_parent_path() ? target.parent_path() : ".";
+  if (!fs::exists(folder)) return;
+  const std::string prefix = fmt::format("{}.tmp", target.filename().string());
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    if (!name.starts_with(prefix) || name.size() == prefix.size() ||
+        !std::all_of(name.begin() + static_cast<std::ptrdiff_t>(prefix.size()), name.end(),
+                     [](char c) { return c >= '0' && c <= '9'; }))
+      continue;
+    const int lock = lock_directory(entry.path());
+    if (lock < 0) continue;
+    fs::remove_all(entry.path());
+    ::close(lock);
+  }
+}
+
 [[noreturn]] void fail(const fs::filesystem_error& e) {
   throw MachineError(fmt::format("cannot write {}: {}", e.path1().string(), e.code().message()));
 }
@@ -38,8 +68,9 @@ BundleDirectory::BundleDirectory(fs::path target) : target_(std::move(target)) {
   temporary_ = beside(target_, "tmp");
   try {
     check_target(target_);
-    fs::remove_all(temporary_);
+    remove_leftovers(target_);
     fs::create_directories(temporary_ / "domains");
+    lock_ = lock_directory(temporary_);
   } catch (const fs::filesystem_error& e) {
     fail(e);
   }
@@ -48,6 +79,7 @@ BundleDirectory::BundleDirectory(fs::path target) : target_(std::move(target)) {
 BundleDirectory::~BundleDirectory() {
   std::error_code ignored;
   if (!committed_) fs::remove_all(temporary_, ignored);
+  if (lock_ >= 0) ::close(lock_);
 }
 
 void BundleDirectory::commit() {

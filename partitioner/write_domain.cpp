@@ -26,15 +26,16 @@ Bounds3f bounds_of(std::span<const Point3d> polygon) {
           {rounded_up(b.upper.x), rounded_up(b.upper.y), rounded_up(b.upper.z)}};
 }
 
-std::vector<TriangleReference> references_of(const FlatScene& scene, const CellContent& cell) {
+// Whose ids are indices into `triangles` for now.
+std::vector<TriangleReference> references_of(const NumberedTriangles& triangles, const CellContent& cell) {
   std::vector<TriangleReference> references;
   references.reserve(cell.size());
-  for (const std::uint32_t id : cell.whole) {
-    TriangleReference& r = references.emplace_back(TriangleReference{{}, scene.triangles[id], id});
+  for (const std::uint32_t i : cell.whole) {
+    TriangleReference& r = references.emplace_back(TriangleReference{{}, triangles.triangles[i], i});
     for (const Point3f& v : r.vertices) extend(r.bounds, v);
   }
   for (const Piece& p : cell.pieces)
-    references.push_back({bounds_of(cell.polygon(p)), scene.triangles[p.triangle], p.triangle});
+    references.push_back({bounds_of(cell.polygon(p)), triangles.triangles[p.triangle], p.triangle});
   return references;
 }
 
@@ -53,41 +54,42 @@ Bounds3f tight_bounds(const DomainContent& content) {
 
 }  // namespace
 
-DomainContent make_domain(const FlatScene& scene, const CellContent& cell) {
-  ClusteredTriangles built =
-      build_bvh(references_of(scene, cell), static_cast<float>(padding(scene.manifest)));
+DomainContent make_domain(const Manifest& manifest, const NumberedTriangles& triangles,
+                          const CellContent& cell) {
+  ClusteredTriangles built = build_bvh(references_of(triangles, cell), static_cast<float>(padding(manifest)));
   DomainContent content{std::move(built.nodes), std::move(built.clusters), {}, {}, {}, cell.pieces,
                         cell.piece_vertices};
-  const std::size_t slots = scene.attributes.size();
-  if (!scene.normals.empty()) content.normals.resize(content.clusters.size());
-  if (!scene.uvs.empty()) content.uvs.resize(content.clusters.size());
+  for (Piece& p : content.pieces) p.triangle = triangles.ids[p.triangle];
+  const std::size_t slots = triangles.attributes.size();
+  if (!triangles.normals.empty()) content.normals.resize(content.clusters.size());
+  if (!triangles.uvs.empty()) content.uvs.resize(content.clusters.size());
   content.attributes.resize(content.clusters.size() * slots);
   for (std::size_t c = 0; c < content.clusters.size(); ++c)
     for (std::size_t lane = 0; lane < cluster_width; ++lane) {
-      const std::uint32_t id = content.clusters[c].id[lane];
+      std::uint32_t& id = content.clusters[c].id[lane];
+      const std::uint32_t i = id;
+      if (i != no_triangle) id = triangles.ids[i];
       for (std::size_t k = 0; k < 3; ++k) {
         if (!content.normals.empty())
-          content.normals[c].normal[lane][k] = id == no_triangle ? no_normal : scene.normals[id][k];
-        if (id == no_triangle) continue;
+          content.normals[c].normal[lane][k] = i == no_triangle ? no_normal : triangles.normals[i][k];
+        if (i == no_triangle) continue;
         if (!content.uvs.empty()) {
-          content.uvs[c].uv[lane][k][0] = scene.uvs[id][k].x;
-          content.uvs[c].uv[lane][k][1] = scene.uvs[id][k].y;
+          content.uvs[c].uv[lane][k][0] = triangles.uvs[i][k].x;
+          content.uvs[c].uv[lane][k][1] = triangles.uvs[i][k].y;
         }
         for (std::size_t s = 0; s < slots; ++s)
-          std::ranges::copy(scene.attributes[s][id][k], content.attributes[c * slots + s].value[lane][k]);
+          std::ranges::copy(triangles.attributes[s][i][k], content.attributes[c * slots + s].value[lane][k]);
       }
     }
   return content;
 }
 
-DomainInfo write_domain(const FlatScene& scene, const CellContent& cell, const std::filesystem::path& bundle,
-                        std::uint32_t index, Census& census) {
-  const DomainContent content = make_domain(scene, cell);
+DomainInfo write_domain(const Manifest& manifest, const NumberedTriangles& triangles, const CellContent& cell,
+                        const std::filesystem::path& bundle, std::uint32_t index, Census& census) {
+  const DomainContent content = make_domain(manifest, triangles, cell);
   census.add(index, view_of(content), content.pieces, content.piece_vertices);
-  const std::filesystem::path file = domain_path(bundle, index);
-  DomainInfo info{cell.size(), cell.pieces.size(), write_domain_file(file, content), 0,
-                  tight_bounds(content)};
-  info.hash = MappedDomain(file).hash();
+  DomainInfo info{cell.size(), cell.pieces.size(), 0, 0, tight_bounds(content)};
+  info.bytes = write_domain_file(domain_path(bundle, index), content, &info.hash);
   return info;
 }
 

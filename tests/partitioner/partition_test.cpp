@@ -6,8 +6,8 @@
 #include <fstream>
 #include <limits>
 #include <map>
-#include <sstream>
 
+#include "tests/partitioner/bundle_contents.h"
 #include "tests/partitioner/test_scenes.h"
 #include "tests/support/temporary_directory.h"
 
@@ -17,18 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 using test::bumpy_torus;
+using test::contents;
 using test::scene_of;
-
-std::map<std::string, std::string> contents(const fs::path& bundle) {
-  std::map<std::string, std::string> files;
-  for (const auto& entry : fs::recursive_directory_iterator(bundle)) {
-    if (!entry.is_regular_file()) continue;
-    std::ostringstream text;
-    text << std::ifstream(entry.path(), std::ios::binary).rdbuf();
-    files[fs::relative(entry.path(), bundle).string()] = text.str();
-  }
-  return files;
-}
 
 std::vector<std::string> names_in(const fs::path& directory) {
   std::vector<std::string> names;

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// A scene, ready to be placed.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "bundle/manifest.h"
+#include "partitioner/placement.h"
+#include "scene/scene.h"
+
+namespace vitrail {
+
+struct World {
+  // All but what is known when triangles have been placed (SceneTally), and the kd-tree and its domains.
+  Manifest manifest;
+  std::vector<Placement> placements;  // by id
+  std::vector<TextureBaker::Attribute> attributes;
+
+  PlacementRule rule() const {
+    return {manifest.offset, manifest.requirements.shading_normals, manifest.requirements.uv, attributes};
+  }
+};
+
+// Composes all transforms in double. `offset`, to be taken from the world's coordinates, is the centre of the
+// meshes' boxes, a point of floats. Ids run in scene order: the shapes, then each instance's shapes.
+// Materials and area lights that no triangle uses are left out. Throws Error for shapes that floats cannot
+// hold, and for 2³² − 1 triangles or more. Images are baked into the directory `bundle`, unless it is empty.
+// `everything`: as if the scene required all that there is, for measuring. The scene outlives the world.
+World world_of(const Scene& scene, const std::filesystem::path& bundle, bool everything = false);
+
+}  // namespace vitrail
