@@ -31,4 +31,7 @@ struct ClusteredTriangles {
 // references give no nodes. Throws MachineError when Embree fails.
 ClusteredTriangles build_bvh(std::span<const TriangleReference> references, float padding);
 
+// The same tree with a leaf for each of the boxes, BvhNode::cluster_bit | its position.
+std::vector<BvhNode> build_tree(std::span<const Bounds3f> boxes, float padding);
+
 }  // namespace vitrail
