@@ -2,24 +2,16 @@
 // Scene → one list of world triangles around the origin.
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <vector>
+#include <filesystem>
 
 #include "bundle/manifest.h"
+#include "partitioner/placement.h"
 #include "scene/scene.h"
 
 namespace vitrail {
 
-using Triangle = std::array<Point3f, 3>;
-
 // Global triangle ids are indices into `triangles`.
-struct FlatScene {
-  std::vector<Triangle> triangles;  // wound so that the front is where they run counter-clockwise
-  std::vector<std::array<std::uint32_t, 3>> normals;  // encode_normal; empty, or one a triangle
-  std::vector<std::array<Point2f, 3>> uvs;            // empty, or one a triangle
-  // [slot][triangle][vertex][channel] of the mesh attributes that textures read.
-  std::vector<std::vector<std::array<std::array<float, 3>, 3>>> attributes;
+struct FlatScene : PlacedTriangles {
   Manifest manifest;  // all but the kd-tree, the domains and cut_triangles
 };
 

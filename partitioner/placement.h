@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// One mesh where it stands in the world, and its triangles in the bundle's coordinates.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "partitioner/appearance.h"
+#include "scene/bounds.h"
+#include "scene/mesh.h"
+
+namespace vitrail {
+
+using Triangle = std::array<Point3f, 3>;
+using CornerNormals = std::array<std::uint32_t, 3>;  // encode_normal
+using CornerUvs = std::array<Point2f, 3>;
+using CornerValues = std::array<std::array<float, 3>, 3>;  // [vertex][channel]
+
+struct Placement {
+  const TriangleMesh* mesh = nullptr;
+  const Shape* shape = nullptr;
+  Transform to_world;
+  bool flip = false;                 // the world winding shows the back
+  std::uint64_t first_triangle = 0;  // global id
+};
+
+struct PlacedTriangles {
+  std::vector<Triangle> triangles;     // wound so that the front is where they run counter-clockwise
+  std::vector<CornerNormals> normals;  // empty, or one a triangle
+  std::vector<CornerUvs> uvs;          // empty, or one a triangle
+  std::vector<std::vector<CornerValues>>
+      attributes;  // [slot][triangle] of the mesh attributes that textures read
+};
+
+// What of the triangles is kept. `offset` is taken from the world's coordinates.
+struct PlacementRule {
+  Vector3d offset;
+  bool normals = false, uvs = false;
+  std::span<const TextureBaker::Attribute> attributes;
+};
+
+// `outer`: what the shape's own transform is followed by. Where it mirrors, the front sides stay.
+Placement placement_of(const TriangleMesh& mesh, const Shape& shape, const Transform& outer,
+                       std::uint64_t first_triangle);
+
+// In the world. Throws Error for vertices that are not finite there.
+Bounds3d world_bounds(const Placement& placement);
+
+PlacedTriangles make_room(const PlacementRule& rule, std::uint64_t triangles);
+
+// Writes all triangles of the mesh to `out` from `at` on. Composed in double, rounded once. Shading normals
+// are turned to their triangle's front; a triangle with one that is zero has none.
+void place(const Placement& placement, const PlacementRule& rule, const ReflectanceFitter& fitter,
+           PlacedTriangles& out, std::uint64_t at);
+
+Surface surface_of(const Placement& placement, const Appearance& appearance);
+
+}  // namespace vitrail
