@@ -33,8 +33,23 @@ double polygon_area(std::span<const Point3d> polygon) {
   return length(sum) / 2;
 }
 
-Census::Census(std::uint64_t triangles)
-    : triangles_(triangles), seen_(std::make_unique<std::atomic<std::uint8_t>[]>(triangles)) {}
+Census::Census(std::uint64_t triangles, std::vector<IdRange> absent)
+    : absent_(std::move(absent)), ids_(triangles), triangles_(triangles) {
+  for (const IdRange& range : absent_) {
+    absent_before_.push_back(ids_ - triangles_);
+    triangles_ -= range.count;
+  }
+  seen_ = std::make_unique<std::atomic<std::uint8_t>[]>(triangles_);
+}
+
+std::optional<std::uint64_t> Census::place_of(std::uint32_t id) const {
+  if (id >= ids_) return std::nullopt;
+  const auto after = std::ranges::upper_bound(absent_, std::uint64_t{id}, {}, &IdRange::first);
+  if (after == absent_.begin()) return id;
+  const IdRange& range = after[-1];
+  if (id < range.first + range.count) return std::nullopt;
+  return id - absent_before_[static_cast<std::size_t>(after - absent_.begin()) - 1] - range.count;
+}
 
 void Census::add(std::uint32_t domain, const DomainView& view, std::span<const Piece> pieces,
                  std::span<const Point3d> piece_vertices) {
@@ -46,10 +61,11 @@ void Census::add(std::uint32_t domain, const DomainView& view, std::span<const P
   for (const Cluster& cluster : view.clusters)
     for (std::size_t lane = 0; lane < cluster_width; ++lane) {
       const std::uint32_t id = cluster.id[lane];
-      if (id >= triangles_) continue;
+      const auto place = place_of(id);
+      if (!place) continue;
       const auto at = std::lower_bound(cut_here.begin(), cut_here.end(), id);
       const bool cut = at != cut_here.end() && *at == id;
-      const std::uint8_t before = seen_[id].fetch_or(cut ? seen_as_piece : seen_whole);
+      const std::uint8_t before = seen_[*place].fetch_or(cut ? seen_as_piece : seen_whole);
       if (cut ? (before & seen_whole) != 0 : before != 0) ++duplicates;
       if (!cut) continue;
       lanes_cut.push_back(id);

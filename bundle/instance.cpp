@@ -68,6 +68,17 @@ Bounds3f placed_bounds(const Affine& a, const Bounds3f& box) {
   return out;
 }
 
+Bounds3f box_of(const InstanceRef& ref) {
+  return {{ref.lower[0], ref.lower[1], ref.lower[2]}, {ref.upper[0], ref.upper[1], ref.upper[2]}};
+}
+
+void set_box(InstanceRef& ref, const Bounds3f& box) {
+  for (int axis = 0; axis < 3; ++axis) {
+    ref.lower[axis] = box.lower[axis];
+    ref.upper[axis] = box.upper[axis];
+  }
+}
+
 std::uint32_t placed_normal(const Affine& m, std::uint32_t code) {
   if (code == no_normal) return no_normal;
   return encode_normal(transform_normal(transform_of(m), cast<double>(decode_normal(code))));

@@ -53,4 +53,7 @@ struct InstanceRef {
 };
 static_assert(sizeof(InstanceRef) == 128);
 
+Bounds3f box_of(const InstanceRef& ref);
+void set_box(InstanceRef& ref, const Bounds3f& box);
+
 }  // namespace vitrail

@@ -250,6 +250,16 @@ ClusteredTriangles build_bvh(std::span<const TriangleReference> references, floa
   return out;
 }
 
+Bounds3f inflated(const Bounds3f& box, float padding) {
+  constexpr float infinity = std::numeric_limits<float>::infinity();
+  Bounds3f out;
+  for (int axis = 0; axis < 3; ++axis) {
+    out.lower[axis] = inflate(box.lower[axis], double{padding}, -infinity);
+    out.upper[axis] = inflate(box.upper[axis], double{padding}, infinity);
+  }
+  return out;
+}
+
 std::vector<BvhNode> build_tree(std::span<const Bounds3f> boxes, float padding) {
   std::vector<BvhNode> nodes;
   if (!boxes.empty())

@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "bundle/checksum.h"
 #include "bundle/interiors.h"
@@ -15,68 +17,54 @@ namespace vitrail {
 
 namespace {
 
-std::vector<Placement> placements_of(const Scene& scene, std::uint64_t& triangles) {
-  std::vector<Placement> placements;
-  triangles = 0;
-  const auto add = [&](const Shape& shape, const Transform& outer) {
-    const TriangleMesh& mesh = scene.meshes.at(shape.mesh.value);
-    if (mesh.triangles.empty()) return;
-    placements.push_back(placement_of(mesh, shape, outer, triangles));
-    triangles += mesh.triangles.size();
-  };
-  for (const Shape& shape : scene.shapes) add(shape, {});
-  for (const Instance& instance : scene.instances)
-    for (const Shape& shape : scene.prototypes.at(instance.prototype.value).shapes)
-      add(shape, instance.prototype_to_world);
-  if (triangles >= no_triangle)
-    throw Error(fmt::format("the scene has {} triangles with all instances; the most is {}", triangles,
-                            no_triangle - 1));
-  return placements;
-}
-
-Vector3d offset_of(const std::vector<Placement>& placements) {
-  Bounds3d bounds;
-  for (const Placement& p : placements) extend(bounds, world_bounds(p));
-  if (bounds.empty()) return {};
-  const Point3f c = cast<float>(center(bounds));
-  return {c.x, c.y, c.z};
-}
-
 std::int32_t new_id(const std::vector<std::int32_t>& ids, const auto& old) {
   return old ? ids.at(old->value) : -1;
 }
 
-void make_surfaces(const Appearance& appearance, const std::vector<Placement>& placements, Manifest& m) {
+// Returns how many.
+std::uint32_t make_surfaces(const Appearance& appearance, const std::vector<Placement>& placements,
+                            Manifest& m) {
+  const std::size_t first = m.surfaces.size();
   for (const Placement& p : placements) {
     const Surface surface = surface_of(p, appearance);
-    if (!m.surfaces.empty()) {
+    if (m.surfaces.size() > first) {
       Surface same = m.surfaces.back();
       same.first_triangle = surface.first_triangle;
       if (same == surface) continue;
     }
     m.surfaces.push_back(surface);
   }
+  return static_cast<std::uint32_t>(m.surfaces.size() - first);
 }
 
-// Triangles without area emit nothing and are left out.
-void make_emissive_triangles(FlatScene& flat) {
-  Manifest& m = flat.manifest;
-  for (std::size_t s = 0; s < m.surfaces.size(); ++s) {
-    if (m.surfaces[s].area_light < 0) continue;
-    const std::uint64_t end =
-        s + 1 < m.surfaces.size() ? m.surfaces[s + 1].first_triangle : flat.triangles.size();
-    for (std::uint64_t id = m.surfaces[s].first_triangle; id < end; ++id) {
-      const Triangle& t = flat.triangles[id];
-      const Vector3d normal =
-          cross(cast<double>(t[1]) - cast<double>(t[0]), cast<double>(t[2]) - cast<double>(t[0]));
-      if (!(length(normal) > 0)) continue;
-      EmissiveTriangle& e = m.emissive_triangles.emplace_back();
-      std::copy(t.begin(), t.end(), e.p);
-      if (!flat.uvs.empty()) std::copy(flat.uvs[id].begin(), flat.uvs[id].end(), e.uv);
-      e.triangle = static_cast<std::uint32_t>(id);
-      e.area_light = static_cast<std::uint32_t>(m.surfaces[s].area_light);
-    }
+// Triangles without area emit nothing and are left out. `at`: where the placement's are.
+void add_emissive(const Placement& p, std::int32_t area_light, const PlacedTriangles& placed,
+                  std::uint64_t at, std::vector<EmissiveTriangle>& out) {
+  for (std::uint64_t i = 0; i < p.mesh->triangles.size(); ++i) {
+    const Triangle& t = placed.triangles[at + i];
+    const Vector3d normal =
+        cross(cast<double>(t[1]) - cast<double>(t[0]), cast<double>(t[2]) - cast<double>(t[0]));
+    if (!(length(normal) > 0)) continue;
+    EmissiveTriangle& e = out.emplace_back();
+    std::copy(t.begin(), t.end(), e.p);
+    if (!placed.uvs.empty()) std::copy(placed.uvs[at + i].begin(), placed.uvs[at + i].end(), e.uv);
+    e.triangle = static_cast<std::uint32_t>(p.first_triangle + i);
+    e.area_light = static_cast<std::uint32_t>(area_light);
   }
+}
+
+// Of everything that shines, in the order of ids: the instances' triangles too.
+void make_emissive_triangles(const ScenePlan& plan, const Appearance& appearance, const PlacementRule& rule,
+                             const ReflectanceFitter& fitter, Manifest& m) {
+  const auto shines = [&](const Placement& p) { return surface_of(p, appearance).area_light >= 0; };
+  std::vector<Placement> placements = expanded(plan, shines);
+  std::ranges::copy_if(plan.scene.placements, std::back_inserter(placements), shines);
+  for (const Placement& p : placements) {
+    PlacedTriangles placed = make_room(rule, p.mesh->triangles.size());
+    place(p, rule, fitter, placed, 0);
+    add_emissive(p, surface_of(p, appearance).area_light, placed, 0, m.emissive_triangles);
+  }
+  std::ranges::sort(m.emissive_triangles, {}, &EmissiveTriangle::triangle);
 }
 
 bool has_normals(const std::vector<Placement>& placements, const Scene& scene) {
@@ -117,40 +105,82 @@ void move_records(const Scene& scene, Appearance& appearance, Manifest& m) {
   m.settings = scene.settings;
 }
 
+void add(Hasher& hasher, const PlacedTriangles& placed) {
+  hasher.add(std::as_bytes(std::span(placed.triangles)));
+  hasher.add(std::as_bytes(std::span(placed.normals)));
+  hasher.add(std::as_bytes(std::span(placed.uvs)));
+  for (const auto& slot : placed.attributes) hasher.add(std::as_bytes(std::span(slot)));
+}
+
 std::uint64_t scene_hash(const FlatScene& flat) {
   const std::uint64_t records = hash_of_records(flat.manifest);
   Hasher hasher;
-  hasher.add(std::as_bytes(std::span(flat.triangles)));
-  hasher.add(std::as_bytes(std::span(flat.normals)));
-  hasher.add(std::as_bytes(std::span(flat.uvs)));
-  for (const auto& slot : flat.attributes) hasher.add(std::as_bytes(std::span(slot)));
+  add(hasher, flat);
+  for (const FlatObject& object : flat.objects) add(hasher, object);
+  for (const Assembly& a : flat.plan.objects) hasher.add(std::as_bytes(std::span(a.uses)));
+  hasher.add(std::as_bytes(std::span(flat.plan.scene.uses)));
   hasher.add(std::as_bytes(std::span(&records, 1)));
   return hasher.digest();
 }
 
+// All of an assembly's own triangles.
+void place_all(const std::vector<Placement>& placements, const PlacementRule& rule,
+               const ReflectanceFitter& fitter, NumberedTriangles& out) {
+  std::uint64_t triangles = 0;
+  for (const Placement& p : placements) triangles += p.mesh->triangles.size();
+  static_cast<PlacedTriangles&>(out) = make_room(rule, triangles);
+  out.ids.reserve(triangles);
+  for (const Placement& p : placements) {
+    place(p, rule, fitter, out, out.ids.size());
+    for (std::uint64_t i = 0; i < p.mesh->triangles.size(); ++i)
+      out.ids.push_back(static_cast<std::uint32_t>(p.first_triangle + i));
+  }
+}
+
+// Copies instead of instances.
+void expand_all(ScenePlan& plan) {
+  std::vector<Placement> all = expanded(plan, [](const Placement&) { return true; });
+  all.insert(all.end(), plan.scene.placements.begin(), plan.scene.placements.end());
+  std::ranges::sort(all, {}, &Placement::first_triangle);
+  plan.scene.placements = std::move(all);
+  plan.scene.uses.clear();
+  plan.objects.clear();
+}
+
 }  // namespace
 
-FlatScene flatten(const Scene& scene, const std::filesystem::path& bundle, bool everything) {
+FlatScene flatten(const Scene& scene, const std::filesystem::path& bundle, const FlattenOptions& options) {
   FlatScene flat;
   Manifest& m = flat.manifest;
   Appearance appearance = appearance_of(scene, bundle);
-  const std::vector<Placement> placements = placements_of(scene, m.triangles);
-  m.offset = offset_of(placements);
-  make_surfaces(appearance, placements, m);
-  move_records(scene, appearance, m);
-  static_cast<void>(Interiors(m));  // throws where there are too many
-  m.requirements = everything ? all_requirements() : requirements_of(m, has_normals(placements, scene));
-
-  const PlacementRule rule{m.offset, m.requirements.shading_normals, m.requirements.uv,
-                           appearance.attributes};
-  static_cast<PlacedTriangles&>(flat) = make_room(rule, m.triangles);
-  const ReflectanceFitter fitter;
-  for (const Placement& p : placements) place(p, rule, fitter, flat, p.first_triangle);
-  for (const Triangle& t : flat.triangles)
-    for (const Point3f& v : t) extend(m.bounds, v);
+  ScenePlan& plan = flat.plan = plan_scene(scene);
+  m.triangles = plan.scene.triangles;
+  m.offset = plan.scene.centre;
+  m.bounds = plan.scene.bounds;
   for (int axis = 0; axis < 3 && m.triangles > 0; ++axis)
     m.scale = std::max({m.scale, std::abs(m.bounds.lower[axis]), std::abs(m.bounds.upper[axis])});
-  make_emissive_triangles(flat);
+  bool normals = has_normals(plan.scene.placements, scene);
+  for (const Assembly& object : plan.objects) normals = normals || has_normals(object.placements, scene);
+  if (!options.keep_instances) expand_all(plan);
+
+  make_surfaces(appearance, plan.scene.placements, m);
+  for (const Assembly& object : plan.objects) {
+    FlatObject& o = flat.objects.emplace_back();
+    o.first_surface = static_cast<std::uint32_t>(m.surfaces.size());
+    o.surface_count = make_surfaces(appearance, object.placements, m);
+  }
+  move_records(scene, appearance, m);
+  static_cast<void>(Interiors(m));  // throws where there are too many
+  m.requirements = options.everything ? all_requirements() : requirements_of(m, normals);
+
+  PlacementRule rule{m.offset, m.requirements.shading_normals, m.requirements.uv, appearance.attributes};
+  const ReflectanceFitter fitter;
+  place_all(plan.scene.placements, rule, fitter, flat);
+  make_emissive_triangles(plan, appearance, rule, fitter, m);
+  for (std::size_t i = 0; i < plan.objects.size(); ++i) {
+    rule.offset = plan.objects[i].centre;
+    place_all(plan.objects[i].placements, rule, fitter, flat.objects[i]);
+  }
   m.scene_hash = scene_hash(flat);
   return flat;
 }

@@ -6,9 +6,11 @@
 #include <tbb/parallel_invoke.h>
 #include <tbb/task_arena.h>
 
+#include <algorithm>
 #include <bit>
 #include <chrono>
 #include <cmath>
+#include <iterator>
 #include <mutex>
 #include <numeric>
 #include <stdexcept>
@@ -16,6 +18,7 @@
 #include "partitioner/bundle_directory.h"
 #include "partitioner/choose_plane.h"
 #include "partitioner/write_domain.h"
+#include "partitioner/write_objects.h"
 
 namespace vitrail {
 
@@ -70,18 +73,38 @@ struct Subtree {
   std::uint32_t node = 0, first_domain = 0, leaves = 1;
 };
 
+// The ids of the scene's instances.
+std::vector<IdRange> ids_of(const ScenePlan& plan) {
+  std::vector<IdRange> ranges;
+  for (const ObjectUse& use : plan.scene.uses)
+    ranges.push_back({use.first_triangle, plan.objects[use.object].triangles});
+  return ranges;
+}
+
+void add_stand_ins(const std::vector<InstanceRef>& instances, std::vector<Triangle>& triangles) {
+  for (const InstanceRef& ref : instances) {
+    const Bounds3f box = box_of(ref);
+    triangles.push_back({box.lower, box.upper, box.upper});
+  }
+}
+
 class Divider {
  public:
-  Divider(FlatScene& scene, std::filesystem::path bundle, std::uint32_t domains,
-          const std::function<void(double, const char*)>& progress)
-      : scene_(scene), bundle_(std::move(bundle)), progress_(progress), census_(scene.triangles.size()) {
+  // The instances have stand-ins behind the scene's triangles, so that cuts heed them.
+  Divider(FlatScene& scene, const InstanceDealer& instances, std::filesystem::path bundle,
+          std::uint32_t domains, const std::function<void(double, const char*)>& progress)
+      : scene_(scene),
+        instances_(instances),
+        bundle_(std::move(bundle)),
+        progress_(progress),
+        census_(scene.manifest.triangles, ids_of(scene.plan)) {
     scene_.manifest.domains.resize(domains);
     scene_.manifest.kd_nodes.resize(domains - 1);
     most_triangles_ = most_load * static_cast<double>(scene.triangles.size()) / domains;
   }
 
   void divide(CellContent content, const Subtree& s) {
-    if (s.leaves == 1) return finish(content, s.first_domain);
+    if (s.leaves == 1) return finish(content, s);
     const std::uint32_t below = s.leaves / 2, above = s.leaves - below;
     const Plane plane = choose(content, s, below, above);
     const std::uint32_t below_node = s.node + 1, above_node = s.node + below;
@@ -114,14 +137,31 @@ class Divider {
     return {axis, std::midpoint(s.cell.lower[axis], s.cell.upper[axis])};
   }
 
-  void finish(const CellContent& content, std::uint32_t domain) {
-    scene_.manifest.domains[domain] = write_domain(scene_, content, bundle_, domain, census_);
+  void finish(const CellContent& content, const Subtree& s) {
+    scene_.manifest.domains[s.first_domain] = write_domain(
+        scene_, without_stand_ins(content), instances_.in(s.cell), bundle_, s.first_domain, census_);
     const std::lock_guard lock(mutex_);
     const auto all = static_cast<double>(scene_.manifest.domains.size());
     if (progress_) progress_(0.2 + 0.8 * ++finished_ / all, "cutting and writing domains");
   }
 
+  CellContent without_stand_ins(const CellContent& content) const {
+    if (scene_.triangles.size() == scene_.ids.size()) return content;
+    CellContent own;
+    std::ranges::copy_if(content.whole, std::back_inserter(own.whole),
+                         [&](std::uint32_t i) { return i < scene_.ids.size(); });
+    for (Piece p : content.pieces) {
+      if (p.triangle >= scene_.ids.size()) continue;
+      const auto polygon = content.polygon(p);
+      p.first_vertex = static_cast<std::uint32_t>(own.piece_vertices.size());
+      own.piece_vertices.insert(own.piece_vertices.end(), polygon.begin(), polygon.end());
+      own.pieces.push_back(p);
+    }
+    return own;
+  }
+
   FlatScene& scene_;
+  const InstanceDealer& instances_;
   std::filesystem::path bundle_;
   const std::function<void(double, const char*)>& progress_;
   Census census_;
@@ -147,11 +187,13 @@ PartitionStats statistics(const Manifest& m, const CensusResult& census,
   s.triangles_min = m.domains[0].triangles;
   std::uint64_t sum = 0;
   for (const DomainInfo& d : m.domains) {
+    s.instances += d.instances;
     s.triangles_min = std::min(s.triangles_min, d.triangles);
     s.triangles_max = std::max(s.triangles_max, d.triangles);
     sum += d.triangles;
   }
   s.triangles_mean = static_cast<double>(sum) / static_cast<double>(m.domains.size());
+  s.objects = m.objects.size();
   s.bundle_bytes = directory_bytes(bundle);
   s.duplicates = census.duplicates;
   s.area_error = census.area_error;
@@ -162,10 +204,14 @@ PartitionStats write_bundle(const Scene& scene, const std::filesystem::path& bun
                             const PartitionOptions& options,
                             const std::function<void(double, const char*)>& progress) {
   if (progress) progress(0, "placing triangles");
-  FlatScene flat = flatten(scene, bundle, options.everything);
+  FlatScene flat = flatten(scene, bundle, {!options.flatten, options.everything});
+  const std::uint64_t most_bytes = options.domain_bytes ? options.domain_bytes : default_domain_bytes;
+  const InstanceDealer instances(write_objects(flat, bundle, most_bytes),
+                                 static_cast<float>(padding(flat.manifest)));
+  add_stand_ins(instances.all(), flat.triangles);
   const std::uint32_t domains = number_of_domains(flat, options);
   if (progress) progress(0.2, "cutting and writing domains");
-  Divider divider(flat, bundle, domains, progress);
+  Divider divider(flat, instances, bundle, domains, progress);
   CellContent all;
   all.whole.resize(flat.triangles.size());
   std::iota(all.whole.begin(), all.whole.end(), 0u);

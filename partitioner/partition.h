@@ -15,6 +15,7 @@ struct PartitionOptions {
   std::uint32_t domains = 0;       // number of leaves; 0: chosen by domain_bytes
   std::uint64_t domain_bytes = 0;  // target size of a domain file; 0 with domains = 0: 64 MiB
   int threads = 0;                 // 0: all
+  bool flatten = false;            // copies instead of instances
   bool everything = false;         // as if the scene required all that there is, for measuring
 };
 
@@ -25,6 +26,7 @@ struct PartitionStats {
   double triangles_mean = 0;
   std::uint64_t bundle_bytes = 0, duplicates = 0;
   double area_error = 0;
+  std::uint64_t objects = 0, instances = 0;  // files of objects; references to them in all domains
   double wall_s = 0, cpu_s = 0;
   std::uint64_t peak_rss_bytes = 0;
 };

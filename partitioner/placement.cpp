@@ -76,6 +76,17 @@ void place_attribute(const Placement& p, const MeshAttribute& attribute, Texture
   }
 }
 
+// What was placed in an object's space, where the object stands.
+template <class T>
+std::array<T, 3> stood(const Standing& standing, const std::array<T, 3>& corners, const auto& stand) {
+  std::array<T, 3> there;
+  const bool mirrored = mirrors(standing.to_bundle);
+  for (std::size_t k = 0; k < 3; ++k) there[k] = stand(corners[source_corner(mirrored, k)]);
+  return there;
+}
+
+constexpr auto as_it_is = [](const auto& value) { return value; };
+
 std::int32_t new_id(const std::vector<std::int32_t>& ids, const auto& old) {
   return old ? ids.at(old->value) : -1;
 }
@@ -110,6 +121,23 @@ Bounds3d world_bounds(const Placement& p) {
       });
 }
 
+namespace {
+
+void stand(const Standing& s, PlacedTriangles& out, std::uint64_t at, std::size_t count) {
+  tbb::parallel_for(Range(at, at + count, grain), [&](const Range& range) {
+    for (std::size_t i = range.begin(); i != range.end(); ++i) {
+      out.triangles[i] = stood(s, out.triangles[i], [&](Point3f p) { return placed(s.to_bundle, p); });
+      if (!out.normals.empty())
+        out.normals[i] =
+            stood(s, out.normals[i], [&](std::uint32_t code) { return placed_normal(s.to_bundle, code); });
+      if (!out.uvs.empty()) out.uvs[i] = stood(s, out.uvs[i], as_it_is);
+      for (auto& slot : out.attributes) slot[i] = stood(s, slot[i], as_it_is);
+    }
+  });
+}
+
+}  // namespace
+
 PlacedTriangles make_room(const PlacementRule& rule, std::uint64_t triangles) {
   PlacedTriangles placed;
   placed.triangles.resize(triangles);
@@ -125,7 +153,8 @@ void place(const Placement& p, const PlacementRule& rule, const ReflectanceFitte
   const std::size_t count = p.mesh->triangles.size();
   tbb::parallel_for(Range(0, count, grain), [&](const Range& range) {
     for (std::size_t i = range.begin(); i != range.end(); ++i) {
-      const Triangle t = out.triangles[at + i] = place_triangle(p, i, rule.offset);
+      const Triangle t = out.triangles[at + i] =
+          place_triangle(p, i, p.standing ? p.standing->centre : rule.offset);
       if (rule.normals) out.normals[at + i] = place_normals(p, i, t);
       if (rule.uvs) out.uvs[at + i] = place_uvs(p, i);
     }
@@ -135,6 +164,7 @@ void place(const Placement& p, const PlacementRule& rule, const ReflectanceFitte
       if (attribute.name == rule.attributes[slot].name)
         place_attribute(p, attribute, rule.attributes[slot].use, fitter,
                         std::span(out.attributes[slot]).subspan(at, count));
+  if (p.standing) stand(*p.standing, out, at, count);
 }
 
 Surface surface_of(const Placement& p, const Appearance& appearance) {

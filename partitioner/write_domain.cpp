@@ -26,68 +26,100 @@ Bounds3f bounds_of(std::span<const Point3d> polygon) {
           {rounded_up(b.upper.x), rounded_up(b.upper.y), rounded_up(b.upper.z)}};
 }
 
-std::vector<TriangleReference> references_of(const FlatScene& scene, const CellContent& cell) {
+// Whose ids are indices into `triangles` for now.
+std::vector<TriangleReference> references_of(const NumberedTriangles& triangles, const CellContent& cell) {
   std::vector<TriangleReference> references;
   references.reserve(cell.size());
-  for (const std::uint32_t id : cell.whole) {
-    TriangleReference& r = references.emplace_back(TriangleReference{{}, scene.triangles[id], id});
+  for (const std::uint32_t i : cell.whole) {
+    TriangleReference& r = references.emplace_back(TriangleReference{{}, triangles.triangles[i], i});
     for (const Point3f& v : r.vertices) extend(r.bounds, v);
   }
   for (const Piece& p : cell.pieces)
-    references.push_back({bounds_of(cell.polygon(p)), scene.triangles[p.triangle], p.triangle});
+    references.push_back({bounds_of(cell.polygon(p)), triangles.triangles[p.triangle], p.triangle});
   return references;
 }
 
 // Of the boxes of the root's children, which are padded already.
-Bounds3f tight_bounds(const DomainContent& content) {
-  Bounds3f b;
-  if (content.nodes.empty()) return b;
-  const BvhNode& root = content.nodes[0];
+void extend_by_root(Bounds3f& b, std::span<const BvhNode> nodes) {
+  if (nodes.empty()) return;
+  const BvhNode& root = nodes[0];
   for (std::size_t i = 0; i < 8; ++i) {
     if (root.child[i] == BvhNode::empty) continue;
     extend(b, Bounds3f{{root.lower[0][i], root.lower[1][i], root.lower[2][i]},
                        {root.upper[0][i], root.upper[1][i], root.upper[2][i]}});
   }
-  return b;
+}
+
+// Of the objects of these instances and of all that they need, ascending.
+std::vector<std::uint32_t> needed_objects(const Manifest& m, std::span<const InstanceRef> instances) {
+  std::vector<bool> needed(m.objects.size());
+  for (const InstanceRef& ref : instances) needed[ref.object] = true;
+  std::vector<std::uint32_t> objects;
+  for (std::size_t i = needed.size(); i-- > 0;)
+    if (needed[i]) {
+      objects.insert(objects.begin(), static_cast<std::uint32_t>(i));
+      for (const std::uint32_t inner : m.objects[i].objects) needed[inner] = true;
+    }
+  return objects;
 }
 
 }  // namespace
 
-DomainContent make_domain(const FlatScene& scene, const CellContent& cell) {
-  ClusteredTriangles built =
-      build_bvh(references_of(scene, cell), static_cast<float>(padding(scene.manifest)));
-  DomainContent content{std::move(built.nodes), std::move(built.clusters), {}, {}, {}, cell.pieces,
-                        cell.piece_vertices};
-  const std::size_t slots = scene.attributes.size();
-  if (!scene.normals.empty()) content.normals.resize(content.clusters.size());
-  if (!scene.uvs.empty()) content.uvs.resize(content.clusters.size());
+DomainContent make_domain(const NumberedTriangles& triangles, const CellContent& cell, float padding) {
+  ClusteredTriangles built = build_bvh(references_of(triangles, cell), padding);
+  DomainContent content;
+  content.nodes = std::move(built.nodes);
+  content.clusters = std::move(built.clusters);
+  content.pieces = cell.pieces;
+  content.piece_vertices = cell.piece_vertices;
+  for (Piece& p : content.pieces) p.triangle = triangles.ids[p.triangle];
+  const std::size_t slots = triangles.attributes.size();
+  if (!triangles.normals.empty()) content.normals.resize(content.clusters.size());
+  if (!triangles.uvs.empty()) content.uvs.resize(content.clusters.size());
   content.attributes.resize(content.clusters.size() * slots);
   for (std::size_t c = 0; c < content.clusters.size(); ++c)
     for (std::size_t lane = 0; lane < cluster_width; ++lane) {
-      const std::uint32_t id = content.clusters[c].id[lane];
+      std::uint32_t& id = content.clusters[c].id[lane];
+      const std::uint32_t i = id;
+      if (i != no_triangle) id = triangles.ids[i];
       for (std::size_t k = 0; k < 3; ++k) {
         if (!content.normals.empty())
-          content.normals[c].normal[lane][k] = id == no_triangle ? no_normal : scene.normals[id][k];
-        if (id == no_triangle) continue;
+          content.normals[c].normal[lane][k] = i == no_triangle ? no_normal : triangles.normals[i][k];
+        if (i == no_triangle) continue;
         if (!content.uvs.empty()) {
-          content.uvs[c].uv[lane][k][0] = scene.uvs[id][k].x;
-          content.uvs[c].uv[lane][k][1] = scene.uvs[id][k].y;
+          content.uvs[c].uv[lane][k][0] = triangles.uvs[i][k].x;
+          content.uvs[c].uv[lane][k][1] = triangles.uvs[i][k].y;
         }
         for (std::size_t s = 0; s < slots; ++s)
-          std::ranges::copy(scene.attributes[s][id][k], content.attributes[c * slots + s].value[lane][k]);
+          std::ranges::copy(triangles.attributes[s][i][k], content.attributes[c * slots + s].value[lane][k]);
       }
     }
   return content;
 }
 
-DomainInfo write_domain(const FlatScene& scene, const CellContent& cell, const std::filesystem::path& bundle,
-                        std::uint32_t index, Census& census) {
-  const DomainContent content = make_domain(scene, cell);
+void add_instances(std::vector<InstanceRef> instances, float padding, DomainContent& content) {
+  std::vector<Bounds3f> boxes;
+  for (InstanceRef& ref : instances) {
+    boxes.push_back(box_of(ref));
+    set_box(ref, inflated(boxes.back(), padding));
+  }
+  content.instances = std::move(instances);
+  content.instance_nodes = build_tree(boxes, padding);
+}
+
+DomainInfo write_domain(const FlatScene& scene, const CellContent& cell, std::vector<InstanceRef> instances,
+                        const std::filesystem::path& bundle, std::uint32_t index, Census& census) {
+  const auto pad = static_cast<float>(padding(scene.manifest));
+  DomainContent content = make_domain(scene, cell, pad);
+  add_instances(std::move(instances), pad, content);
   census.add(index, view_of(content), content.pieces, content.piece_vertices);
   const std::filesystem::path file = domain_path(bundle, index);
-  DomainInfo info{cell.size(), cell.pieces.size(), write_domain_file(file, content), 0,
-                  tight_bounds(content)};
+  DomainInfo info{cell.size(), cell.pieces.size(), write_domain_file(file, content), 0, {}};
+  extend_by_root(info.tight_bounds, content.nodes);
+  extend_by_root(info.tight_bounds, content.instance_nodes);
   info.hash = MappedDomain(file).hash();
+  info.instances = content.instances.size();
+  info.objects = needed_objects(scene.manifest, content.instances);
   return info;
 }
 
