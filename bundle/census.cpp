@@ -10,7 +10,7 @@ namespace vitrail {
 
 namespace {
 
-constexpr std::uint8_t seen_whole = 1, seen_as_piece = 2;
+constexpr std::uint32_t seen_whole = 1, seen_as_piece = 2;
 
 std::array<Point3d, 3> triangle_in(const Cluster& cluster, std::size_t lane) {
   std::array<Point3d, 3> v;
@@ -39,7 +39,7 @@ Census::Census(std::uint64_t triangles, std::vector<IdRange> absent)
     absent_before_.push_back(ids_ - triangles_);
     triangles_ -= range.count;
   }
-  seen_ = std::make_unique<std::atomic<std::uint8_t>[]>(triangles_);
+  seen_ = std::make_unique<std::atomic<std::uint32_t>[]>((triangles_ + 15) / 16);
 }
 
 std::optional<std::uint64_t> Census::place_of(std::uint32_t id) const {
@@ -49,6 +49,11 @@ std::optional<std::uint64_t> Census::place_of(std::uint32_t id) const {
   const IdRange& range = after[-1];
   if (id < range.first + range.count) return std::nullopt;
   return id - absent_before_[static_cast<std::size_t>(after - absent_.begin()) - 1] - range.count;
+}
+
+std::uint32_t Census::mark(std::uint64_t place, std::uint32_t bits) {
+  const auto shift = static_cast<std::uint32_t>(2 * (place % 16));
+  return (seen_[place / 16].fetch_or(bits << shift, std::memory_order_relaxed) >> shift) & 3;
 }
 
 void Census::add(std::uint32_t domain, const DomainView& view, std::span<const Piece> pieces,
@@ -65,7 +70,7 @@ void Census::add(std::uint32_t domain, const DomainView& view, std::span<const P
       if (!place) continue;
       const auto at = std::lower_bound(cut_here.begin(), cut_here.end(), id);
       const bool cut = at != cut_here.end() && *at == id;
-      const std::uint8_t before = seen_[*place].fetch_or(cut ? seen_as_piece : seen_whole);
+      const std::uint32_t before = mark(*place, cut ? seen_as_piece : seen_whole);
       if (cut ? (before & seen_whole) != 0 : before != 0) ++duplicates;
       if (!cut) continue;
       lanes_cut.push_back(id);
@@ -88,10 +93,8 @@ void Census::add(std::uint32_t domain, const DomainView& view, std::span<const P
   parts_.insert(parts_.end(), parts.begin(), parts.end());
 }
 
-CensusResult Census::result() const {
-  CensusResult r{.duplicates = duplicates_, .pieces = parts_.size()};
-  for (std::uint64_t i = 0; i < triangles_; ++i) r.lost += seen_[i] == 0;
-  std::vector<CutPart> parts = parts_;
+void Census::sum_up(std::vector<CutPart> parts, CensusResult& r) {
+  r.pieces += parts.size();
   std::sort(parts.begin(), parts.end(), [](const CutPart& a, const CutPart& b) {
     return std::tie(a.triangle, a.domain) < std::tie(b.triangle, b.domain);
   });
@@ -102,6 +105,25 @@ CensusResult Census::result() const {
     const double scale = std::max(first.triangle_area, first.least_area);
     if (scale > 0) r.area_error = std::max(r.area_error, std::abs(first.triangle_area - sum) / scale);
   }
+}
+
+void Census::settle(std::span<const std::uint32_t> open) {
+  const std::lock_guard lock(mutex_);
+  const auto from = parts_.begin() + static_cast<std::ptrdiff_t>(open_);
+  const auto first_settled = std::partition(from, parts_.end(), [&](const CutPart& part) {
+    return std::binary_search(open.begin(), open.end(), part.triangle);
+  });
+  sum_up({first_settled, parts_.end()}, settled_);
+  parts_.erase(first_settled, parts_.end());
+  open_ = parts_.size();
+}
+
+CensusResult Census::result() const {
+  CensusResult r = settled_;
+  r.duplicates = duplicates_;
+  for (std::uint64_t i = 0; i < triangles_; ++i)
+    r.lost += ((seen_[i / 16].load(std::memory_order_relaxed) >> (2 * (i % 16))) & 3) == 0;
+  sum_up(parts_, r);
   return r;
 }
 

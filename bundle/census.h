@@ -41,6 +41,10 @@ class Census {
   void add(std::uint32_t domain, const DomainView& view, std::span<const Piece> pieces,
            std::span<const Point3d> piece_vertices);
 
+  // Of the cut triangles that came since the last call no more parts will come, but of these, ascending: what
+  // is known of the others takes no more memory.
+  void settle(std::span<const std::uint32_t> open);
+
   CensusResult result() const;
 
  private:
@@ -49,16 +53,22 @@ class Census {
     double triangle_area, least_area, area;
   };
 
+  // Adds what the parts, of any order, say of their triangles.
+  static void sum_up(std::vector<CutPart> parts, CensusResult& result);
   // Where an id is marked; none for one that no domain should hold.
   std::optional<std::uint64_t> place_of(std::uint32_t id) const;
+  std::uint32_t mark(std::uint64_t place, std::uint32_t bits);
 
   std::vector<IdRange> absent_;
-  std::vector<std::uint64_t> absent_before_;           // each of them
-  std::uint64_t ids_, triangles_;                      // without the absent
-  std::unique_ptr<std::atomic<std::uint8_t>[]> seen_;  // bit 0: whole, bit 1: as a piece
+  std::vector<std::uint64_t> absent_before_;  // each of them
+  std::uint64_t ids_, triangles_;             // without the absent
+  // Sixteen triangles each; of a triangle bit 0: whole, bit 1: as a piece.
+  std::unique_ptr<std::atomic<std::uint32_t>[]> seen_;
   std::atomic<std::uint64_t> duplicates_{0};
   std::mutex mutex_;
-  std::vector<CutPart> parts_;
+  std::vector<CutPart> parts_;  // of what is not settled
+  std::size_t open_ = 0;        // of them, the first are open after `settle`
+  CensusResult settled_;        // what pieces add to the result
 };
 
 }  // namespace vitrail

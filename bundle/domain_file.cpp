@@ -17,7 +17,8 @@ DomainView view_of(const DomainContent& content) {
           content.attributes, content.instances, content.instance_nodes, {}};
 }
 
-std::uint64_t write_domain_file(const std::filesystem::path& file, const DomainContent& content) {
+std::uint64_t write_domain_file(const std::filesystem::path& file, const DomainContent& content,
+                                std::uint64_t* hash) {
   const std::array<std::span<const std::byte>, layout::section_count> data{
       std::as_bytes(std::span(content.nodes)),          std::as_bytes(std::span(content.clusters)),
       std::as_bytes(std::span(content.normals)),        std::as_bytes(std::span(content.uvs)),
@@ -42,6 +43,7 @@ std::uint64_t write_domain_file(const std::filesystem::path& file, const DomainC
   }
   header.file_bytes = offset;
   header.header_checksum = layout::checksum_of(header);
+  if (hash) *hash = header.header_checksum;
 
   std::vector<std::span<const std::byte>> parts{std::as_bytes(std::span(&header, 1))};
   for (std::size_t i = 0; i < layout::section_count; ++i) parts.insert(parts.end(), {data[i], tails[i]});

@@ -103,8 +103,10 @@ struct DomainView {
 
 DomainView view_of(const DomainContent& content);
 
-// Returns the size in bytes. Throws MachineError, and then leaves no file. Not synced.
-std::uint64_t write_domain_file(const std::filesystem::path& file, const DomainContent& content);
+// Returns the size in bytes; `hash`, if given, gets what MappedDomain::hash will be. Throws MachineError, and
+// then leaves no file. Not synced.
+std::uint64_t write_domain_file(const std::filesystem::path& file, const DomainContent& content,
+                                std::uint64_t* hash = nullptr);
 
 // A domain file mapped read-only. Unmapped by the destructor.
 class MappedDomain {

@@ -247,6 +247,7 @@ void fields(auto& io, Replaced auto&) {
 }
 void fields(auto& io, Is<Material> auto& m) {
   fields(io, m.model), fields(io, m.two_sided), fields(io, m.displacement), fields(io, m.normal_map);
+  fields(io, m.bump_shadowing);
 }
 void fields(auto& io, Is<Surface> auto& s) {
   io(s.first_triangle), io(s.material), io(s.area_light), io(s.interior), io(s.exterior);

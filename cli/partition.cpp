@@ -5,6 +5,9 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <csignal>
 #include <iterator>
 #include <nlohmann/json.hpp>
 
@@ -20,7 +23,7 @@ namespace {
 
 struct Arguments {
   std::filesystem::path input, output, stats;
-  std::string domain_bytes;
+  std::string domain_bytes, memory;
   bool strict = false, quiet = false;
   PartitionOptions options;
 };
@@ -35,16 +38,49 @@ void declare(CLI::App& app, Arguments& a) {
   app.add_flag("--flatten", a.options.flatten, "copy what instances place instead of keeping them");
   app.add_option("--domain-bytes", a.domain_bytes, "size of a sub-domain, e.g. 64M (the default)")
       ->excludes(domains);
+  app.add_option(
+      "--memory", a.memory,
+      "most memory to use, e.g. 512M; default: three quarters of the machine's. A larger scene goes to "
+      "disk beside the bundle on its way");
   app.add_option("--threads", a.options.threads, "threads; default: all cores")->check(CLI::Range(1, 4096));
   app.add_option("--stats", a.stats, "write statistics as JSON");
   app.add_flag("--strict", a.strict, "fail if anything in the scene is not imported exactly");
   app.add_flag("--quiet", a.quiet, "no progress and no summary");
 }
 
-void show_progress(double fraction, const char* what) {
-  fmt::print(stderr, "\r{:3.0f} % {:<30}{}", 100 * fraction, what, fraction >= 1 ? "\n" : "");
-  std::fflush(stderr);
+std::atomic<bool> stop_signalled{false};
+
+void on_signal(int) { stop_signalled = true; }
+
+void catch_signals() {
+  struct sigaction action {};
+  action.sa_handler = on_signal;
+  for (const int number : {SIGINT, SIGTERM}) ::sigaction(number, &action, nullptr);
 }
+
+// Stops the work on a signal; on a terminal shows where it stands.
+class Watch {
+ public:
+  explicit Watch(bool visible) : visible_(visible), start_(Clock::now()), shown_(start_) {}
+
+  void operator()(double fraction, const char* what) {
+    if (stop_signalled) throw MachineError("interrupted; nothing is left of the bundle");
+    const auto now = Clock::now();
+    if (!visible_ || (fraction < 1 && now - shown_ < std::chrono::milliseconds(100))) return;
+    shown_ = now;
+    const double elapsed_s = std::chrono::duration<double>(now - start_).count();
+    const bool known = fraction > 0.02 && fraction < 1;
+    fmt::print(stderr, "\r\033[K{:3.0f} % {}{}{}", 100 * fraction, what,
+               known ? fmt::format("  {:.0f} s left", elapsed_s * (1 - fraction) / fraction) : "",
+               fraction >= 1 ? "\n" : "");
+    std::fflush(stderr);
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  bool visible_;
+  Clock::time_point start_, shown_;
+};
 
 void write_stats(const std::filesystem::path& file, const PartitionStats& s) {
   const nlohmann::ordered_json json{{"input_triangles", s.input_triangles},
@@ -61,7 +97,11 @@ void write_stats(const std::filesystem::path& file, const PartitionStats& s) {
                                     {"instances", s.instances},
                                     {"wall_s", s.wall_s},
                                     {"cpu_s", s.cpu_s},
-                                    {"peak_rss_bytes", s.peak_rss_bytes}};
+                                    {"peak_rss_bytes", s.peak_rss_bytes},
+                                    {"memory_budget_bytes", s.memory_budget_bytes},
+                                    {"buckets", s.buckets},
+                                    {"spill_bytes", s.spill_bytes},
+                                    {"triangles_per_s", s.triangles_per_s}};
   const std::string text = json.dump(1) + "\n";
   AtomicFile out(file);
   out.write(std::as_bytes(std::span(text)));
@@ -76,8 +116,13 @@ void print_summary(const PartitionStats& s, const std::filesystem::path& bundle)
   fmt::print("  {} triangles were cut into {} pieces; {} duplicates, area error {:.2g}\n", s.cut_triangles,
              s.pieces, s.duplicates, s.area_error);
   if (s.objects > 0) fmt::print("  {} instances of {} objects are kept\n", s.instances, s.objects);
-  fmt::print("  {:.2f} s, {:.2f} s of processor time, at most {} of memory\n", s.wall_s, s.cpu_s,
-             format_bytes(s.peak_rss_bytes));
+  fmt::print("  {:.2f} s, {:.2f} s of processor time, {:.2f} million triangles a second\n", s.wall_s, s.cpu_s,
+             s.triangles_per_s * 1e-6);
+  fmt::print("  at most {} of memory of {} allowed; {}\n", format_bytes(s.peak_rss_bytes),
+             format_bytes(s.memory_budget_bytes),
+             s.buckets > 1
+                 ? fmt::format("in {} parts, {} on disk on the way", s.buckets, format_bytes(s.spill_bytes))
+                 : "all triangles at once");
 }
 
 int run(Arguments& a) {
@@ -85,14 +130,15 @@ int run(Arguments& a) {
     a.options.domain_bytes = parse_bytes(a.domain_bytes);
     if (a.options.domain_bytes == 0) throw UsageError("--domain-bytes has to be more than 0");
   }
-  const ImportedScene imported = import_scene(a.input);
+  a.options.memory_bytes = a.memory.empty() ? default_memory_bytes() : parse_bytes(a.memory);
+  const ImportedScene imported = import_scene(a.input, MeshMemory(mesh_bytes_within(a.options.memory_bytes)));
   Diagnostics diagnostics = imported.diagnostics;
   std::ranges::copy(appearance_of(imported.scene, {}).diagnostics, std::back_inserter(diagnostics));
   fmt::print(stderr, "{}", summarise(diagnostics));
   if (a.strict) require_exact(diagnostics);
-  std::function<void(double, const char*)> progress;
-  if (!a.quiet && ::isatty(STDERR_FILENO)) progress = show_progress;
-  const PartitionStats stats = partition(imported.scene, a.output, a.options, progress);
+  catch_signals();
+  Watch watch(!a.quiet && ::isatty(STDERR_FILENO));
+  const PartitionStats stats = partition(imported.scene, a.output, a.options, std::ref(watch));
   if (!a.stats.empty()) write_stats(a.stats, stats);
   if (!a.quiet) print_summary(stats, a.output);
   return exit_done;

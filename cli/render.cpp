@@ -72,8 +72,7 @@ class Bundle {
     if (std::filesystem::exists(a.input / "manifest.json") || a.input.extension() == ".vit") return;
     a.options.bundle = temporary_ = std::filesystem::path(a.options.film).replace_extension(".tmp.vit");
     agree(transport, [&] {
-      if (transport.rank() == 0)
-        run_program("vitrail-partition", {a.input.string(), "-o", temporary_.string(), "--quiet"});
+      if (transport.rank() == 0) run_program("vitrail-partition", partition_arguments(a));
     });
   }
   ~Bundle() {
@@ -84,6 +83,14 @@ class Bundle {
   Bundle& operator=(const Bundle&) = delete;
 
  private:
+  std::vector<std::string> partition_arguments(const Arguments& a) const {
+    std::vector<std::string> arguments{a.input.string(), "-o", temporary_.string(), "--quiet"};
+    if (!a.memory.empty()) arguments.insert(arguments.end(), {"--memory", a.memory});
+    if (a.options.threads > 0)
+      arguments.insert(arguments.end(), {"--threads", std::to_string(a.options.threads)});
+    return arguments;
+  }
+
   Transport& transport_;
   std::filesystem::path temporary_;
 };

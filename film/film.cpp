@@ -26,7 +26,7 @@ constexpr std::size_t x_plane = 0, z_plane = 1, y_planes = 2, bin_planes = plane
 
 bool fits(double value) { return std::abs(value) < value_limit; }  // false for NaN
 
-std::int64_t fixed(double v) { return static_cast<std::int64_t>(std::nearbyint(v * fixed_one)); }
+std::int64_t fixed(double v) { return std::llrint(v * fixed_one); }
 
 bool near_overflow(std::int64_t sum) { return sum >= sum_limit || sum <= -sum_limit; }
 

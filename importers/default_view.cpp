@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "scene/bounds.h"
+#include "scene/deferred_mesh.h"
 #include "scene/nesting.h"
 #include "scene/rgb_to_spectrum.h"
 
@@ -13,7 +14,8 @@ namespace {
 
 void extend_by(Bounds3d& bounds, const Scene& scene, const Shape& shape, const Transform& to_world) {
   const Transform transform = to_world * shape.object_to_world;
-  for (const Point3f& p : scene.meshes[shape.mesh.value].positions)
+  TriangleMesh storage;
+  for (const Point3f& p : loaded(scene.meshes[shape.mesh.value], storage).positions)
     extend(bounds, transform_point(transform, cast<double>(p)));
 }
 

@@ -25,9 +25,10 @@ std::string format_of(std::filesystem::path file) {
   return extension == ".gz" ? lower(file.stem().extension().string()) : extension;
 }
 
-ImportedScene mesh_alone(const std::filesystem::path& file) {
+ImportedScene mesh_alone(const std::filesystem::path& file, MeshMemory& memory) {
   ImportedScene imported;
-  imported.scene.meshes.push_back(read_ply(file, &imported.diagnostics));
+  imported.scene.meshes.push_back(
+      memory.keep(read_ply(file, &imported.diagnostics), [file] { return read_ply(file); }));
   imported.scene.materials.push_back({DiffuseMaterial{}});
   imported.scene.shapes.push_back({});
   return imported;
@@ -35,15 +36,15 @@ ImportedScene mesh_alone(const std::filesystem::path& file) {
 
 }  // namespace
 
-ImportedScene import_scene(const std::filesystem::path& file) {
+ImportedScene import_scene(const std::filesystem::path& file, MeshMemory memory) {
   const std::string format = format_of(file);
-  if (format == ".pbrt") return read_pbrt(file);
-  if (format == ".xml") return read_mitsuba(file);
+  if (format == ".pbrt") return read_pbrt(file, std::move(memory));
+  if (format == ".xml") return read_mitsuba(file, std::move(memory));
   ImportedScene imported;
   if (format == ".obj")
     imported = read_obj(file);
   else if (format == ".ply")
-    imported = mesh_alone(file);
+    imported = mesh_alone(file, memory);
   else
     throw Error("unknown format: the name has to end in .pbrt, .xml, .obj or .ply; .gz may follow",
                 {file.string()});

@@ -4,13 +4,15 @@
 
 #include <filesystem>
 
+#include "scene/deferred_mesh.h"
 #include "scene/scene.h"
 
 namespace vitrail {
 
 // Reads a scene in the format that the file name says (.pbrt, .pbrt.gz, .obj, .ply). Bad input throws Error
 // with its place. A file of geometry alone gets a camera that sees all of it and a constant sky, and
-// diagnostics that say so.
-ImportedScene import_scene(const std::filesystem::path& file);
+// diagnostics that say so. Meshes with files of their own are in memory up to the limit; the others are read
+// and stay in their files (scene/deferred_mesh.h).
+ImportedScene import_scene(const std::filesystem::path& file, MeshMemory memory = MeshMemory{});
 
 }  // namespace vitrail

@@ -5,52 +5,19 @@
 
 namespace vitrail {
 
-namespace {
-
-// Appends polygons to one side, pieces in ascending order of their triangles.
-struct PieceBuilder {
-  CellContent& out;
-  void begin(std::uint32_t triangle) {
-    out.pieces.push_back({triangle, static_cast<std::uint32_t>(out.piece_vertices.size()), 0});
-  }
-  void add(Point3d p) {
-    out.piece_vertices.push_back(p);
-    ++out.pieces.back().vertex_count;
-  }
-};
-
-void cut_polygon(std::uint32_t triangle, std::span<const Point3d> polygon, Plane plane, CellContent& below,
-                 CellContent& above) {
-  PieceBuilder low{below}, high{above};
-  low.begin(triangle);
-  high.begin(triangle);
-  const double c = plane.split;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Point3d p = polygon[i], q = polygon[(i + 1) % polygon.size()];
-    const double x = p[plane.axis], y = q[plane.axis];
-    if (x <= c) low.add(p);
-    if (x >= c) high.add(p);
-    if ((x < c && y > c) || (x > c && y < c)) {
-      const Point3d between = x < c ? crossing(p, q, plane) : crossing(q, p, plane);
-      low.add(between);
-      high.add(between);
-    }
-  }
+void CellContent::add(std::uint32_t triangle, std::span<const Point3d> polygon) {
+  pieces.push_back({triangle, static_cast<std::uint32_t>(piece_vertices.size()),
+                    static_cast<std::uint32_t>(polygon.size())});
+  piece_vertices.insert(piece_vertices.end(), polygon.begin(), polygon.end());
 }
 
-void copy_piece(const CellContent& from, const Piece& piece, CellContent& to) {
-  PieceBuilder builder{to};
-  builder.begin(piece.triangle);
-  for (const Point3d& p : from.polygon(piece)) builder.add(p);
+void CellContent::append(const CellContent& next, std::uint32_t first) {
+  const auto first_vertex = static_cast<std::uint32_t>(piece_vertices.size());
+  for (const std::uint32_t triangle : next.whole) whole.push_back(triangle + first);
+  for (const Piece& p : next.pieces)
+    pieces.push_back({p.triangle + first, p.first_vertex + first_vertex, p.vertex_count});
+  piece_vertices.insert(piece_vertices.end(), next.piece_vertices.begin(), next.piece_vertices.end());
 }
-
-// Pieces of triangles first cut here stand behind the older ones: brings both into one order.
-void sort_pieces(CellContent& content) {
-  std::sort(content.pieces.begin(), content.pieces.end(),
-            [](const Piece& a, const Piece& b) { return a.triangle < b.triangle; });
-}
-
-}  // namespace
 
 Interval interval(const Triangle& t, int axis) {
   return {std::min({t[0][axis], t[1][axis], t[2][axis]}), std::max({t[0][axis], t[1][axis], t[2][axis]})};
@@ -72,34 +39,86 @@ Point3d crossing(Point3d below, Point3d above, Plane plane) {
           plane.axis == 2 ? c : between(below.z, above.z)};
 }
 
-std::pair<CellContent, CellContent> cut(const CellContent& content, std::span<const Triangle> triangles,
-                                        Plane plane) {
-  CellContent below, above;
-  for (const Piece& piece : content.pieces) {
-    const Interval i = interval(content.polygon(piece), plane.axis);
-    if (!reaches_above(i, plane.split)) {
-      copy_piece(content, piece, below);
-    } else if (!reaches_below(i, plane.split)) {
-      copy_piece(content, piece, above);
-    } else {
-      cut_polygon(piece.triangle, content.polygon(piece), plane, below, above);
+void split_polygon(std::span<const Point3d> polygon, Plane plane, std::vector<Point3d>& below,
+                   std::vector<Point3d>& above) {
+  const double c = plane.split;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Point3d p = polygon[i], q = polygon[(i + 1) % polygon.size()];
+    const double x = p[plane.axis], y = q[plane.axis];
+    if (x <= c) below.push_back(p);
+    if (x >= c) above.push_back(p);
+    if ((x < c && y > c) || (x > c && y < c)) {
+      const Point3d between = x < c ? crossing(p, q, plane) : crossing(q, p, plane);
+      below.push_back(between);
+      above.push_back(between);
     }
   }
-  for (const std::uint32_t id : content.whole) {
-    const Triangle& t = triangles[id];
-    const Interval i = interval(t, plane.axis);
-    if (!reaches_above(i, plane.split)) {
-      below.whole.push_back(id);
-    } else if (!reaches_below(i, plane.split)) {
-      above.whole.push_back(id);
-    } else {
-      const std::array<Point3d, 3> polygon{cast<double>(t[0]), cast<double>(t[1]), cast<double>(t[2])};
-      cut_polygon(id, polygon, plane, below, above);
+}
+
+namespace {
+
+Plane plane_of(const KdNode& node) { return {static_cast<int>(node.axis), node.split}; }
+
+class Router {
+ public:
+  Router(std::span<const KdNode> nodes, std::span<CellContent> leaves) : nodes_(nodes), leaves_(leaves) {}
+
+  void whole(std::uint32_t index, const Triangle& t) {
+    std::uint32_t at = root();
+    while (!(at & KdNode::leaf_bit)) {
+      const KdNode& node = nodes_[at];
+      const auto axis = static_cast<int>(node.axis);
+      const float a = t[0][axis], b = t[1][axis], c = t[2][axis];
+      const float lower = std::min({a, b, c}), upper = std::max({a, b, c});
+      if (!(upper > node.split)) {
+        at = node.below;
+      } else if (!(lower < node.split)) {
+        at = node.above;
+      } else {
+        const std::array<Point3d, 3> polygon{cast<double>(t[0]), cast<double>(t[1]), cast<double>(t[2])};
+        return piece(index, polygon, at);
+      }
     }
+    leaves_[at & ~KdNode::leaf_bit].whole.push_back(index);
   }
-  sort_pieces(below);
-  sort_pieces(above);
-  return {std::move(below), std::move(above)};
+
+  void piece(std::uint32_t index, std::span<const Point3d> polygon, std::uint32_t at) {
+    while (!(at & KdNode::leaf_bit)) {
+      const KdNode& node = nodes_[at];
+      const Interval i = interval(polygon, static_cast<int>(node.axis));
+      if (!reaches_above(i, node.split)) {
+        at = node.below;
+      } else if (!reaches_below(i, node.split)) {
+        at = node.above;
+      } else {
+        std::vector<Point3d> below, above;
+        split_polygon(polygon, plane_of(node), below, above);
+        piece(index, below, node.below);
+        return piece(index, above, node.above);
+      }
+    }
+    leaves_[at & ~KdNode::leaf_bit].add(index, polygon);
+  }
+
+  std::uint32_t root() const { return nodes_.empty() ? KdNode::leaf_bit : 0; }
+
+ private:
+  std::span<const KdNode> nodes_;
+  std::span<CellContent> leaves_;
+};
+
+}  // namespace
+
+void route(std::span<const Triangle> triangles, std::uint32_t begin, std::uint32_t end,
+           const CellContent& cut_before, std::span<const KdNode> nodes, std::span<CellContent> leaves) {
+  Router router(nodes, leaves);
+  auto piece = std::ranges::lower_bound(cut_before.pieces, begin, {}, &Piece::triangle);
+  for (std::uint32_t i = begin; i < end; ++i) {
+    if (piece != cut_before.pieces.end() && piece->triangle == i)
+      router.piece(i, cut_before.polygon(*piece++), router.root());
+    else
+      router.whole(i, triangles[i]);
+  }
 }
 
 }  // namespace vitrail

@@ -4,11 +4,11 @@
 
 #include <cstdint>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "bundle/domain_file.h"
-#include "partitioner/flatten.h"
+#include "bundle/manifest.h"
+#include "partitioner/placement.h"
 
 namespace vitrail {
 
@@ -18,8 +18,14 @@ struct Plane {
   float split = 0;
 };
 
-// What lies in one cell of the kd-tree: triangles that no interface has cut, and pieces of those that one
-// has. Ascending by id. Each triangle is here once at most.
+// Placed triangles with their global ids, ascending. In what speaks of them a triangle is an index into
+// these.
+struct NumberedTriangles : PlacedTriangles {
+  std::vector<std::uint32_t> ids;
+};
+
+// Triangles in one cell of the kd-tree: those that no interface has cut, and pieces of those that one has.
+// Ascending. Each triangle is here once at most.
 struct CellContent {
   std::vector<std::uint32_t> whole;
   std::vector<Piece> pieces;
@@ -29,6 +35,9 @@ struct CellContent {
   std::span<const Point3d> polygon(const Piece& p) const {
     return std::span(piece_vertices).subspan(p.first_vertex, p.vertex_count);
   }
+  void add(std::uint32_t triangle, std::span<const Point3d> polygon);
+  // What comes behind in the order of triangles, whose indices there are less by `first`.
+  void append(const CellContent& next, std::uint32_t first = 0);
 };
 
 // Extent along an axis.
@@ -48,9 +57,15 @@ inline bool reaches_below(Interval i, float split) { return i.lower < split || i
 // within the segment's.
 Point3d crossing(Point3d below, Point3d above, Plane plane);
 
-// The parts below and above. What straddles is cut into convex polygons in its own winding; vertices in the
-// plane belong to both sides as they are.
-std::pair<CellContent, CellContent> cut(const CellContent& content, std::span<const Triangle> triangles,
-                                        Plane plane);
+// The convex parts of a convex polygon below and above, in its own winding; vertices in the plane belong to
+// both as they are.
+void split_polygon(std::span<const Point3d> polygon, Plane plane, std::vector<Point3d>& below,
+                   std::vector<Point3d>& above);
+
+// Sends triangles [begin, end) of a cell down a kd-tree whose leaf i is `leaves[i]`: a child is the index of
+// a node, or KdNode::leaf_bit | leaf; without nodes there is one leaf. Of `cut_before` the pieces alone
+// count: what the cell has of its cut triangles.
+void route(std::span<const Triangle> triangles, std::uint32_t begin, std::uint32_t end,
+           const CellContent& cut_before, std::span<const KdNode> nodes, std::span<CellContent> leaves);
 
 }  // namespace vitrail

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <functional>
 
+#include "scene/deferred_mesh.h"
+
 namespace vitrail {
 
 namespace {
@@ -35,6 +37,29 @@ Bounds3d transformed(const Transform& t, const Bounds3d& box) {
            transform_point(t, {(corner & 1 ? box.upper : box.lower).x, (corner & 2 ? box.upper : box.lower).y,
                                (corner & 4 ? box.upper : box.lower).z}));
   return out;
+}
+
+// Throws Error for a box that floats cannot hold: with the vertex, where there is one.
+Bounds3d checked(const Bounds3d& box, const Placement& p) {
+  if (box.empty() || (is_finite(cast<float>(box.lower)) && is_finite(cast<float>(box.upper)))) return box;
+  TriangleMesh storage;
+  const TriangleMesh& mesh = loaded(*p.mesh, storage);
+  const PlacementRule rule;
+  const ReflectanceFitter fitter;
+  PlacedTriangles placed = make_room(rule, mesh.triangles.size());
+  MeshPlacer(p, mesh, rule, fitter).place(0, mesh.triangles.size(), placed, 0);
+  throw Error("a shape reaches beyond 3.4e38 in the world", {});
+}
+
+// The box of the corners of the mesh's own.
+Bounds3d world_bounds(const Placement& p) {
+  const Bounds3f own = bounds_of(*p.mesh);
+  Bounds3d box;
+  for (int corner = 0; corner < 8 && !own.empty(); ++corner) {
+    const auto at = [&](int axis) { return double{(corner >> axis & 1 ? own.upper : own.lower)[axis]}; };
+    extend(box, transform_point(p.to_world, {at(0), at(1), at(2)}));
+  }
+  return checked(box, p);
 }
 
 class Planner {
@@ -79,7 +104,7 @@ class Planner {
 
   static double own_triangles(const Assembly& a) {
     double sum = 0;
-    for (const Placement& p : a.placements) sum += static_cast<double>(p.mesh->triangles.size());
+    for (const Placement& p : a.placements) sum += static_cast<double>(triangles_of(*p.mesh));
     return sum;
   }
 
@@ -87,9 +112,9 @@ class Planner {
            const Transform& outer) {
     for (const Shape& shape : shapes) {
       const TriangleMesh& mesh = scene_.meshes.at(shape.mesh.value);
-      if (mesh.triangles.empty()) continue;
+      if (triangles_of(mesh) == 0) continue;
       a.placements.push_back(placement_of(mesh, shape, outer, a.triangles));
-      a.triangles += mesh.triangles.size();
+      a.triangles += triangles_of(mesh);
     }
     for (const Instance& instance : instances) {
       const Prototype& prototype = scene_.prototypes[instance.prototype.value];
@@ -119,7 +144,6 @@ class Planner {
     a.centre = {c.x, c.y, c.z};
     for (ObjectUse& use : a.uses)
       for (int axis = 0; axis < 3; ++axis) use.to_parent.m[axis][3] -= a.centre[axis];
-    // Rounding is monotone: the bounds of the rounded are the rounded bounds.
     if (!own.empty()) a.bounds = {cast<float>(own.lower - a.centre), cast<float>(own.upper - a.centre)};
     for (const ObjectUse& use : a.uses)
       extend(a.bounds, placed_bounds(use.to_parent, plan_.objects[use.object].bounds));

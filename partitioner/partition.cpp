@@ -2,38 +2,31 @@
 #include "partitioner/partition.h"
 
 #include <fmt/format.h>
+#include <malloc.h>
 #include <sys/resource.h>
-#include <tbb/parallel_invoke.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
-#include <bit>
 #include <chrono>
-#include <cmath>
-#include <iterator>
 #include <mutex>
-#include <numeric>
 #include <stdexcept>
 
 #include "partitioner/bundle_directory.h"
-#include "partitioner/choose_plane.h"
-#include "partitioner/write_domain.h"
-#include "partitioner/write_objects.h"
+#include "partitioner/divide_cell.h"
+#include "partitioner/flatten.h"
+#include "partitioner/memory_plan.h"
+#include "partitioner/spill_scene.h"
+#include "scene/deferred_mesh.h"
 
 namespace vitrail {
 
 namespace {
 
-constexpr std::uint64_t default_domain_bytes = 64ull << 20;
-constexpr std::uint32_t most_domains = 999'999;  // six digits in a file name
-// Bytes of a triangle in a domain file: nodes, clusters and pieces, and its three normals
-// (docs/partitioning.md).
-constexpr double bytes_per_triangle = 62, bytes_per_normals = 16, bytes_per_uvs = 32,
-                 bytes_per_attribute = 48;
-// No domain should have more than this many times its even share of triangles.
-constexpr double most_load = 1.2;
-
 using Clock = std::chrono::steady_clock;
+
+constexpr std::uint64_t most_object_bytes = 64ull << 20;
+// In a domain file with its place in the tree, and here while domains are written.
+constexpr std::uint64_t bytes_of_reference = 192;
 
 double cpu_seconds() {
   rusage u{};
@@ -49,126 +42,6 @@ std::uint64_t peak_rss_bytes() {
   ::getrusage(RUSAGE_SELF, &u);
   return static_cast<std::uint64_t>(u.ru_maxrss) * 1024;
 }
-
-std::uint32_t number_of_domains(const FlatScene& scene, const PartitionOptions& options) {
-  double domains = options.domains;
-  if (options.domains == 0) {
-    const double bytes =
-        static_cast<double>(options.domain_bytes ? options.domain_bytes : default_domain_bytes);
-    const double each = bytes_per_triangle + (scene.normals.empty() ? 0 : bytes_per_normals) +
-                        (scene.uvs.empty() ? 0 : bytes_per_uvs) +
-                        bytes_per_attribute * static_cast<double>(scene.attributes.size());
-    domains = std::max(1.0, std::ceil(static_cast<double>(scene.triangles.size()) * each / bytes));
-  }
-  if (domains > most_domains)
-    throw UsageError(fmt::format("{:.0f} domains are asked for; the most is {}", domains, most_domains));
-  return static_cast<std::uint32_t>(domains);
-}
-
-// Part of the kd-tree to be made: `leaves` domains from `first_domain` on, their inner nodes from `node` on.
-// Nodes are numbered in preorder, so that every subtree knows its numbers beforehand and threads cannot
-// change them.
-struct Subtree {
-  Bounds3f cell;
-  std::uint32_t node = 0, first_domain = 0, leaves = 1;
-};
-
-// The ids of the scene's instances.
-std::vector<IdRange> ids_of(const ScenePlan& plan) {
-  std::vector<IdRange> ranges;
-  for (const ObjectUse& use : plan.scene.uses)
-    ranges.push_back({use.first_triangle, plan.objects[use.object].triangles});
-  return ranges;
-}
-
-void add_stand_ins(const std::vector<InstanceRef>& instances, std::vector<Triangle>& triangles) {
-  for (const InstanceRef& ref : instances) {
-    const Bounds3f box = box_of(ref);
-    triangles.push_back({box.lower, box.upper, box.upper});
-  }
-}
-
-class Divider {
- public:
-  // The instances have stand-ins behind the scene's triangles, so that cuts heed them.
-  Divider(FlatScene& scene, const InstanceDealer& instances, std::filesystem::path bundle,
-          std::uint32_t domains, const std::function<void(double, const char*)>& progress)
-      : scene_(scene),
-        instances_(instances),
-        bundle_(std::move(bundle)),
-        progress_(progress),
-        census_(scene.manifest.triangles, ids_of(scene.plan)) {
-    scene_.manifest.domains.resize(domains);
-    scene_.manifest.kd_nodes.resize(domains - 1);
-    most_triangles_ = most_load * static_cast<double>(scene.triangles.size()) / domains;
-  }
-
-  void divide(CellContent content, const Subtree& s) {
-    if (s.leaves == 1) return finish(content, s);
-    const std::uint32_t below = s.leaves / 2, above = s.leaves - below;
-    const Plane plane = choose(content, s, below, above);
-    const std::uint32_t below_node = s.node + 1, above_node = s.node + below;
-    const auto child = [](std::uint32_t leaves, std::uint32_t node, std::uint32_t domain) {
-      return leaves == 1 ? KdNode::leaf_bit | domain : node;
-    };
-    scene_.manifest.kd_nodes[s.node] = {plane.split, static_cast<std::uint32_t>(plane.axis),
-                                        child(below, below_node, s.first_domain),
-                                        child(above, above_node, s.first_domain + below)};
-    auto sides = cut(content, scene_.triangles, plane);
-    content = {};
-    Subtree low_tree{s.cell, below_node, s.first_domain, below};
-    Subtree high_tree{s.cell, above_node, s.first_domain + below, above};
-    low_tree.cell.upper[plane.axis] = high_tree.cell.lower[plane.axis] = plane.split;
-    tbb::parallel_invoke([&] { divide(std::move(sides.first), low_tree); },
-                         [&] { divide(std::move(sides.second), high_tree); });
-  }
-
-  CensusResult census() const { return census_.result(); }
-
- private:
-  // A cell in which nothing can be parted is halved: some of its domains stay empty.
-  Plane choose(const CellContent& content, const Subtree& s, std::uint32_t below, std::uint32_t above) const {
-    const double spare = most_triangles_ * s.leaves / std::max(1.0, static_cast<double>(content.size()));
-    const double tolerance = std::max(0.01, std::pow(spare, 1.0 / std::bit_width(s.leaves - 1)) - 1);
-    if (const auto plane = choose_plane(content, scene_.triangles, {below, above, tolerance})) return *plane;
-    if (s.cell.empty()) return {};
-    const Vector3f e = extent(s.cell);
-    const int axis = e.x >= e.y && e.x >= e.z ? 0 : e.y >= e.z ? 1 : 2;
-    return {axis, std::midpoint(s.cell.lower[axis], s.cell.upper[axis])};
-  }
-
-  void finish(const CellContent& content, const Subtree& s) {
-    scene_.manifest.domains[s.first_domain] = write_domain(
-        scene_, without_stand_ins(content), instances_.in(s.cell), bundle_, s.first_domain, census_);
-    const std::lock_guard lock(mutex_);
-    const auto all = static_cast<double>(scene_.manifest.domains.size());
-    if (progress_) progress_(0.2 + 0.8 * ++finished_ / all, "cutting and writing domains");
-  }
-
-  CellContent without_stand_ins(const CellContent& content) const {
-    if (scene_.triangles.size() == scene_.ids.size()) return content;
-    CellContent own;
-    std::ranges::copy_if(content.whole, std::back_inserter(own.whole),
-                         [&](std::uint32_t i) { return i < scene_.ids.size(); });
-    for (Piece p : content.pieces) {
-      if (p.triangle >= scene_.ids.size()) continue;
-      const auto polygon = content.polygon(p);
-      p.first_vertex = static_cast<std::uint32_t>(own.piece_vertices.size());
-      own.piece_vertices.insert(own.piece_vertices.end(), polygon.begin(), polygon.end());
-      own.pieces.push_back(p);
-    }
-    return own;
-  }
-
-  FlatScene& scene_;
-  const InstanceDealer& instances_;
-  std::filesystem::path bundle_;
-  const std::function<void(double, const char*)>& progress_;
-  Census census_;
-  double most_triangles_ = 0;
-  std::mutex mutex_;
-  double finished_ = 0;
-};
 
 std::uint64_t directory_bytes(const std::filesystem::path& directory) {
   std::uint64_t bytes = 0;
@@ -200,45 +73,174 @@ PartitionStats statistics(const Manifest& m, const CensusResult& census,
   return s;
 }
 
-PartitionStats write_bundle(const Scene& scene, const std::filesystem::path& bundle,
-                            const PartitionOptions& options,
-                            const std::function<void(double, const char*)>& progress) {
-  if (progress) progress(0, "placing triangles");
-  FlatScene flat = flatten(scene, bundle, {!options.flatten, options.everything});
-  const std::uint64_t most_bytes = options.domain_bytes ? options.domain_bytes : default_domain_bytes;
-  const InstanceDealer instances(write_objects(flat, bundle, most_bytes),
-                                 static_cast<float>(padding(flat.manifest)));
-  add_stand_ins(instances.all(), flat.triangles);
-  const std::uint32_t domains = number_of_domains(flat, options);
-  if (progress) progress(0.2, "cutting and writing domains");
-  Divider divider(flat, instances, bundle, domains, progress);
-  CellContent all;
-  all.whole.resize(flat.triangles.size());
-  std::iota(all.whole.begin(), all.whole.end(), 0u);
-  divider.divide(std::move(all), {flat.manifest.bounds, 0, 0, domains});
-  const CensusResult census = divider.census();
-  if (census.lost != 0)
-    throw std::logic_error(fmt::format("partitioning lost {} triangles; please report this", census.lost));
-  flat.manifest.cut_triangles = census.cut_triangles;
-  write_manifest(bundle, flat.manifest);
-  return statistics(flat.manifest, census, bundle);
-}
+using ProgressFunction = std::function<void(double, const char*)>;
+
+// Phases in order, each with its share of the whole; work is counted from any thread.
+class Phases {
+ public:
+  explicit Phases(const ProgressFunction& report) : report_(report) {}
+
+  void begin(const char* name, double share, std::uint64_t work) {
+    const std::lock_guard lock(mutex_);
+    before_ += share_;
+    name_ = name, share_ = share, work_ = std::max<std::uint64_t>(work, 1), done_ = 0;
+    if (report_) report_(before_, name_);
+  }
+  void advance(std::uint64_t work) {
+    const std::lock_guard lock(mutex_);
+    done_ = std::min(done_ + work, work_);
+    if (report_) report_(before_ + share_ * static_cast<double>(done_) / static_cast<double>(work_), name_);
+  }
+  void end() {
+    const std::lock_guard lock(mutex_);
+    if (report_) report_(1, name_);
+  }
+
+ private:
+  const ProgressFunction& report_;
+  std::mutex mutex_;
+  const char* name_ = "";
+  double before_ = 0, share_ = 0;
+  std::uint64_t work_ = 1, done_ = 0;
+};
+
+// What one call of `partition` works with.
+class Partitioner {
+ public:
+  Partitioner(const Scene& scene, std::filesystem::path bundle, const PartitionOptions& options,
+              const ProgressFunction& progress)
+      : bundle_(std::move(bundle)),
+        phases_(progress),
+        world_(world_of(scene, bundle_, {!options.flatten, options.everything})),
+        refs_(write_objects(world_, world_.manifest, bundle_,
+                            options.domain_bytes ? options.domain_bytes : most_object_bytes)) {
+    const auto threads = static_cast<std::uint32_t>(tbb::this_task_arena::max_concurrency());
+    plan_ = plan_memory(world_.manifest, {options.memory_bytes, world_.own_triangles,
+                                          refs_.size() * bytes_of_reference, resident_mesh_bytes(scene),
+                                          options.domains, options.domain_bytes, static_cast<int>(threads)});
+    world_.manifest.domains.resize(plan_.domains);
+    world_.manifest.kd_nodes.resize(plan_.domains - 1);
+  }
+
+  PartitionStats run() {
+    Census census(world_.manifest.triangles, ids_of_instances());
+    if (plan_.domains_at_once >= plan_.domains)
+      at_once(census);
+    else
+      by_buckets(census);
+    const CensusResult found = census.result();
+    if (found.lost != 0)
+      throw std::logic_error(fmt::format("partitioning lost {} triangles; please report this", found.lost));
+    manifest_.cut_triangles = found.cut_triangles;
+    write_manifest(bundle_, manifest_);
+    phases_.end();
+    PartitionStats stats = statistics(manifest_, found, bundle_);
+    stats.buckets = buckets_;
+    stats.spill_bytes = spill_bytes_;
+    return stats;
+  }
+
+ private:
+  void at_once(Census& census) {
+    const std::uint64_t triangles = world_.own_triangles;
+    phases_.begin("placing triangles", 0.2, triangles);
+    FlatScene flat =
+        flatten(std::move(world_), plan_.load_bytes, [&](std::uint64_t n) { phases_.advance(n); });
+    manifest_ = std::move(flat.manifest);
+    phases_.begin("cutting and writing domains", 0.8, triangles);
+    const InstanceDealer instances = dealer();
+    divide_cell(flat, {}, {manifest_.bounds, 0, 0, plan_.domains}, writer(census, instances));
+  }
+
+  void by_buckets(Census& census) {
+    // What is let go of is to leave memory; where memory is plenty that would cost a tenth of the time.
+    ::mallopt(M_MMAP_THRESHOLD, 1 << 20);
+    ::malloc_trim(0);
+    const std::uint64_t triangles = world_.own_triangles;
+    phases_.begin("planning", 0.01, 1);
+    std::vector<Bounds3f> sample = sample_of(world_);
+    const std::size_t chosen = sample.size();
+    for (std::size_t i = 0; i < refs_.size(); ++i)
+      if (triangles == 0 || mixed(2, i) % triangles < chosen) sample.push_back(box_of(refs_[i]));
+    Bounds3f bounds;
+    for (const Bounds3f& b : sample) extend(bounds, b);
+    const double share = static_cast<double>(sample.size()) / plan_.domains;
+    const KdPlan top = plan_kd_tree(std::move(sample), {bounds, 0, 0, plan_.domains}, share,
+                                    plan_.domains_at_once, world_.manifest.kd_nodes);
+    buckets_ = top.leaves.size();
+    phases_.begin("sorting triangles into parts", 0.4, triangles);
+    Spill spill(bundle_ / "spill", buckets_, world_.rule(), plan_.spill_bytes / buckets_);
+    SceneTally tally(world_);
+    spill_scene(world_, top, plan_.load_bytes, spill, tally, [&](std::uint64_t n) { phases_.advance(n); });
+    tally.finish(world_.manifest);
+    spill_bytes_ = spill.bytes();
+    ::malloc_trim(0);
+    manifest_ = std::move(world_.manifest);
+    const InstanceDealer instances = dealer();
+    phases_.begin("cutting and writing domains", 0.59, triangles);
+    for (std::size_t i = 0; i < buckets_; ++i) {
+      const LoadedCell cell = spill.take(i);
+      divide_cell(cell.triangles, cell.cut, top.leaves[i], writer(census, instances));
+      std::vector<std::uint32_t> open;
+      for (const Piece& p : cell.cut.pieces) open.push_back(cell.triangles.ids[p.triangle]);
+      census.settle(open);
+    }
+  }
+
+  DomainWriter writer(Census& census, const InstanceDealer& instances) {
+    return {bundle_, manifest_, census, instances, items_, plan_.domains_in_work, [&](std::uint64_t n) {
+              phases_.advance(n);
+            }};
+  }
+
+  // The manifest knows the scene's scale.
+  InstanceDealer dealer() { return {std::move(refs_), static_cast<float>(padding(manifest_))}; }
+
+  std::vector<IdRange> ids_of_instances() const {
+    std::vector<IdRange> ranges;
+    for (const ObjectUse& use : world_.uses)
+      ranges.push_back({use.first_triangle, world_.objects[use.object].assembly.triangles});
+    return ranges;
+  }
+
+  static std::uint64_t resident_mesh_bytes(const Scene& scene) {
+    std::uint64_t bytes = 0;
+    for (const TriangleMesh& mesh : scene.meshes) bytes += bytes_of(mesh);
+    return bytes;
+  }
+
+  std::filesystem::path bundle_;
+  Phases phases_;
+  World world_;
+  std::vector<InstanceRef> refs_;
+  std::uint64_t items_ = world_.own_triangles + refs_.size();
+  MemoryPlan plan_;
+  Manifest manifest_;
+  std::uint64_t buckets_ = 1, spill_bytes_ = 0;
+};
 
 }  // namespace
+
+std::uint64_t default_memory_bytes() { return machine_bytes() / 4 * 3; }
+std::uint64_t mesh_bytes_within(std::uint64_t memory_bytes) { return memory_bytes / 8; }
 
 PartitionStats partition(const Scene& scene, const std::filesystem::path& out,
                          const PartitionOptions& options,
                          const std::function<void(double, const char*)>& progress) {
   const auto start = Clock::now();
   const double cpu_start = cpu_seconds();
+  PartitionOptions chosen = options;
+  if (chosen.memory_bytes == 0) chosen.memory_bytes = default_memory_bytes();
   BundleDirectory directory(out);
   tbb::task_arena arena(options.threads > 0 ? options.threads : tbb::task_arena::automatic);
   PartitionStats stats =
-      arena.execute([&] { return write_bundle(scene, directory.path(), options, progress); });
+      arena.execute([&] { return Partitioner(scene, directory.path(), chosen, progress).run(); });
   directory.commit();
   stats.wall_s = std::chrono::duration<double>(Clock::now() - start).count();
   stats.cpu_s = cpu_seconds() - cpu_start;
   stats.peak_rss_bytes = peak_rss_bytes();
+  stats.memory_budget_bytes = chosen.memory_bytes;
+  stats.triangles_per_s = static_cast<double>(stats.input_triangles) / std::max(stats.wall_s, 1e-9);
   return stats;
 }
 

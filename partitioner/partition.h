@@ -14,6 +14,7 @@ namespace vitrail {
 struct PartitionOptions {
   std::uint32_t domains = 0;       // number of leaves; 0: chosen by domain_bytes
   std::uint64_t domain_bytes = 0;  // target size of a domain file; 0 with domains = 0: 64 MiB
+  std::uint64_t memory_bytes = 0;  // most resident memory; 0: three quarters of the machine's
   int threads = 0;                 // 0: all
   bool flatten = false;            // copies instead of instances
   bool everything = false;         // as if the scene required all that there is, for measuring
@@ -28,12 +29,22 @@ struct PartitionStats {
   double area_error = 0;
   std::uint64_t objects = 0, instances = 0;  // files of objects; references to them in all domains
   double wall_s = 0, cpu_s = 0;
-  std::uint64_t peak_rss_bytes = 0;
+  std::uint64_t peak_rss_bytes = 0, memory_budget_bytes = 0;
+  std::uint64_t buckets = 1;      // parts of the scene that were in memory one after the other
+  std::uint64_t spill_bytes = 0;  // written to disk on the way to them
+  double triangles_per_s = 0;     // of the input
 };
 
+// Meshes that an importer should keep in memory (MeshMemory) for a budget of so many bytes.
+std::uint64_t mesh_bytes_within(std::uint64_t memory_bytes);
+std::uint64_t default_memory_bytes();
+
 // Writes the bundle directory `out` (built beside it under a temporary name, renamed when whole; an existing
-// bundle of that name is replaced). `progress` is told the done fraction in [0,1] and what is going on. The
-// domains, their order and every byte depend on the scene and the options, never on the threads.
+// bundle of that name is replaced). A scene that does not fit into the memory is divided into buckets first,
+// which are written to disk and divided one after the other. `progress` is told the done fraction in [0,1]
+// and what is going on, from any thread but one at a time; what it throws stops the work. The domains, their
+// order and every byte depend on the scene and the options, never on the threads. Throws Error for bad input,
+// UsageError for too little memory, MachineError.
 PartitionStats partition(const Scene& scene, const std::filesystem::path& out,
                          const PartitionOptions& options,
                          const std::function<void(double, const char*)>& progress = {});

@@ -27,7 +27,7 @@ struct Standing {
 };
 
 struct Placement {
-  const TriangleMesh* mesh = nullptr;
+  const TriangleMesh* mesh = nullptr;  // may be deferred
   const Shape* shape = nullptr;
   Transform to_world;                // or to the object's space
   bool flip = false;                 // the winding there shows the back
@@ -54,14 +54,36 @@ struct PlacementRule {
 Placement placement_of(const TriangleMesh& mesh, const Shape& shape, const Transform& outer,
                        std::uint64_t first_triangle);
 
-// In the world. Throws Error for vertices that are not finite there.
-Bounds3d world_bounds(const Placement& placement);
-
 PlacedTriangles make_room(const PlacementRule& rule, std::uint64_t triangles);
 
-// Writes all triangles of the mesh to `out` from `at` on. Composed in double, rounded once; what stands as an
-// object does is rounded in the object's space and once more where it stands, as tracing does it. Shading
-// normals are turned to their triangle's front; a triangle with one that is zero has none.
+// Places triangles of one mesh. Composed in double, rounded once; what stands as an object does is rounded in
+// the object's space and once more where it stands, as tracing does it. Shading normals are turned to their
+// triangle's front; a triangle with one that is zero has none. What it is made of outlives it.
+class MeshPlacer {
+ public:
+  // `mesh`: the placement's, loaded.
+  MeshPlacer(const Placement& placement, const TriangleMesh& mesh, const PlacementRule& rule,
+             const ReflectanceFitter& fitter);
+
+  // Triangles [begin, end) of the mesh, to `out` from `at` on. From any thread. Throws Error for vertices
+  // that are not finite in the world.
+  void place(std::size_t begin, std::size_t end, PlacedTriangles& out, std::uint64_t at) const;
+
+ private:
+  Triangle triangle(std::size_t i) const;
+  CornerNormals normals(std::size_t i, const Triangle& placed) const;
+  CornerUvs uvs(std::size_t i) const;
+  CornerValues values(std::size_t i, const MeshAttribute& attribute, TextureUse use) const;
+  [[noreturn]] void reject(std::size_t i) const;
+
+  const Placement& placement_;
+  const TriangleMesh& mesh_;
+  const PlacementRule& rule_;
+  const ReflectanceFitter& fitter_;
+  std::vector<Point3f> vertices_;  // in the bundle's coordinates
+};
+
+// All triangles of the placement's mesh, which is loaded.
 void place(const Placement& placement, const PlacementRule& rule, const ReflectanceFitter& fitter,
            PlacedTriangles& out, std::uint64_t at);
 

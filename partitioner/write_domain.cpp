@@ -107,19 +107,19 @@ void add_instances(std::vector<InstanceRef> instances, float padding, DomainCont
   content.instance_nodes = build_tree(boxes, padding);
 }
 
-DomainInfo write_domain(const FlatScene& scene, const CellContent& cell, std::vector<InstanceRef> instances,
-                        const std::filesystem::path& bundle, std::uint32_t index, Census& census) {
-  const auto pad = static_cast<float>(padding(scene.manifest));
-  DomainContent content = make_domain(scene, cell, pad);
+DomainInfo write_domain(const Manifest& manifest, const NumberedTriangles& triangles, const CellContent& cell,
+                        std::vector<InstanceRef> instances, const std::filesystem::path& bundle,
+                        std::uint32_t index, Census& census) {
+  const auto pad = static_cast<float>(padding(manifest));
+  DomainContent content = make_domain(triangles, cell, pad);
   add_instances(std::move(instances), pad, content);
   census.add(index, view_of(content), content.pieces, content.piece_vertices);
-  const std::filesystem::path file = domain_path(bundle, index);
-  DomainInfo info{cell.size(), cell.pieces.size(), write_domain_file(file, content), 0, {}};
+  DomainInfo info{cell.size(), cell.pieces.size(), 0, 0, {}};
+  info.bytes = write_domain_file(domain_path(bundle, index), content, &info.hash);
   extend_by_root(info.tight_bounds, content.nodes);
   extend_by_root(info.tight_bounds, content.instance_nodes);
-  info.hash = MappedDomain(file).hash();
   info.instances = content.instances.size();
-  info.objects = needed_objects(scene.manifest, content.instances);
+  info.objects = needed_objects(manifest, content.instances);
   return info;
 }
 

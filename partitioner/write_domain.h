@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "bundle/census.h"
+#include "bundle/manifest.h"
 #include "partitioner/cut.h"
 
 namespace vitrail {
@@ -15,7 +16,8 @@ void add_instances(std::vector<InstanceRef> instances, float padding, DomainCont
 
 // Writes domain `index` of the bundle directory and counts it in the census. Returns its line in the
 // manifest, whose objects are known.
-DomainInfo write_domain(const FlatScene& scene, const CellContent& cell, std::vector<InstanceRef> instances,
-                        const std::filesystem::path& bundle, std::uint32_t index, Census& census);
+DomainInfo write_domain(const Manifest& manifest, const NumberedTriangles& triangles, const CellContent& cell,
+                        std::vector<InstanceRef> instances, const std::filesystem::path& bundle,
+                        std::uint32_t index, Census& census);
 
 }  // namespace vitrail

@@ -8,6 +8,7 @@
 
 #include "partitioner/build_bvh.h"
 #include "partitioner/write_domain.h"
+#include "scene/deferred_mesh.h"
 
 namespace vitrail {
 
@@ -72,16 +73,32 @@ std::vector<std::uint32_t> objects_of(const std::vector<InstanceRef>& refs) {
   return objects;
 }
 
+// An object's own triangles, in its coordinates.
+NumberedTriangles placed_alone(const World& world, const Assembly& object) {
+  PlacementRule rule = world.rule();
+  rule.offset = object.centre;
+  const ReflectanceFitter fitter;
+  std::uint64_t triangles = 0;
+  for (const Placement& p : object.placements) triangles += triangles_of(*p.mesh);
+  NumberedTriangles out{make_room(rule, triangles), {}};
+  for (Placement p : object.placements) {
+    TriangleMesh storage;
+    p.mesh = &loaded(*p.mesh, storage);
+    place(p, rule, fitter, out, out.ids.size());
+    for (std::uint64_t i = 0; i < p.mesh->triangles.size(); ++i)
+      out.ids.push_back(static_cast<std::uint32_t>(p.first_triangle + i));
+  }
+  return out;
+}
+
 }  // namespace
 
-std::vector<InstanceRef> write_objects(FlatScene& scene, const std::filesystem::path& bundle,
+std::vector<InstanceRef> write_objects(const World& world, Manifest& m, const std::filesystem::path& bundle,
                                        std::uint64_t most_bytes) {
-  Manifest& m = scene.manifest;
   Files files{{0}, {}};
-  if (!scene.objects.empty()) std::filesystem::create_directories(bundle / "objects");
-  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
-    FlatObject& object = scene.objects[i];
-    const Assembly& assembly = scene.plan.objects[i];
+  if (!world.objects.empty()) std::filesystem::create_directories(bundle / "objects");
+  for (const WorldObject& o : world.objects) {
+    const NumberedTriangles object = placed_alone(world, o.assembly);
     const double bytes = bytes_of(object) * static_cast<double>(object.ids.size());
     Indices all(object.ids.size());
     std::iota(all.begin(), all.end(), 0u);
@@ -90,26 +107,23 @@ std::vector<InstanceRef> write_objects(FlatScene& scene, const std::filesystem::
            static_cast<std::size_t>(std::max(1.0, std::ceil(bytes / static_cast<double>(most_bytes)))),
            parts);
     for (std::size_t part = 0; part < parts.size(); ++part) {
-      const auto number = static_cast<std::uint32_t>(m.objects.size());
       std::vector<InstanceRef> refs;
-      if (part == 0) refs = references(assembly.uses, files);
+      if (part == 0) refs = references(o.assembly.uses, files);
       Bounds3f box;
       for (const std::uint32_t t : parts[part])
         for (const Point3f& v : object.triangles[t]) extend(box, v);
       for (const InstanceRef& ref : refs) extend(box, box_of(ref));
       DomainContent content = make_domain(object, {std::move(parts[part]), {}, {}}, 0);
-      ObjectInfo info{assembly.triangles, 0, 0, object.first_surface, object.surface_count, objects_of(refs)};
+      ObjectInfo info{o.assembly.triangles, 0, 0, o.first_surface, o.surface_count, objects_of(refs)};
       add_instances(std::move(refs), 0, content);
-      const std::filesystem::path file = object_path(bundle, number);
-      info.bytes = write_domain_file(file, content);
-      info.hash = MappedDomain(file).hash();
+      info.bytes = write_domain_file(object_path(bundle, static_cast<std::uint32_t>(m.objects.size())),
+                                     content, &info.hash);
       m.objects.push_back(std::move(info));
       files.bounds.push_back(box);
     }
     files.first.push_back(static_cast<std::uint32_t>(m.objects.size()));
-    static_cast<NumberedTriangles&>(object) = {};
   }
-  return references(scene.plan.scene.uses, files);
+  return references(world.uses, files);
 }
 
 InstanceDealer::InstanceDealer(std::vector<InstanceRef> instances, float padding)

@@ -5,14 +5,14 @@
 #include <filesystem>
 #include <vector>
 
-#include "partitioner/flatten.h"
+#include "partitioner/world.h"
 
 namespace vitrail {
 
-// Writes the scene's objects, those of more than `most_bytes` in parts, and their lines in the manifest.
+// Writes the world's objects, those of more than `most_bytes` in parts, and their lines in the manifest.
 // Returns the instances of the scene, one for each part, in the order of ids; their boxes are not inflated.
-std::vector<InstanceRef> write_objects(FlatScene& scene, const std::filesystem::path& bundle,
-                                       std::uint64_t most_bytes);
+std::vector<InstanceRef> write_objects(const World& world, Manifest& manifest,
+                                       const std::filesystem::path& bundle, std::uint64_t most_bytes);
 
 // Finds the instances that reach into a cell.
 class InstanceDealer {

@@ -206,6 +206,7 @@ struct Material {
   bool two_sided = true;
   std::optional<FloatParameter> displacement;  // bump map: a height in scene units that only tilts normals
   std::optional<Id<Texture>> normal_map;       // tangent-space normals, (rgb·2 − 1)
+  bool bump_shadowing = false;                 // the two darken what they turn from the surface's normal
   std::string name;                            // "" where the file gives none
   Origin origin;
   bool operator==(const Material&) const = default;

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,8 @@ struct MeshAttribute {
   bool operator==(const MeshAttribute&) const = default;
 };
 
+struct DeferredMesh;
+
 // Object-space triangles. `normals` and `uvs` are empty or have one entry a position.
 // All indices are in range and all positions finite: importers guarantee it, with the place of the first
 // offender.
@@ -28,6 +31,7 @@ struct TriangleMesh {
   std::vector<Normal3f> normals;  // shading normals, not necessarily unit length
   std::vector<Point2f> uvs;  // as the file gives them; a texture's mapping says where (0,0) is in its image
   std::vector<MeshAttribute> attributes;
+  std::shared_ptr<const DeferredMesh> deferred;  // if it stays in its file: all the rest is empty
   bool operator==(const TriangleMesh&) const = default;
 };
 

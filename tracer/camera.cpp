@@ -81,21 +81,52 @@ Point2d concentric_disk(Point2d u) {
   return {radius * portable_cos(angle), radius * portable_sin(angle)};
 }
 
-bool has_lens(const Camera& camera) {
-  if (const auto* perspective = std::get_if<PerspectiveCamera>(&camera)) return perspective->lens.radius > 0;
-  if (const auto* orthographic = std::get_if<OrthographicCamera>(&camera))
-    return orthographic->lens.radius > 0;
-  return false;
-}
+namespace {
 
-CameraRay camera_ray(const Camera& camera, const FilmSettings& film, Point2d raster, Point2d lens) {
+struct WorldRay {
+  Point3d origin;
+  Vector3d direction;
+};
+
+WorldRay world_ray(const Camera& camera, const FilmSettings& film, Point2d raster, Point2d lens) {
   return std::visit(
-      [&](const auto& c) -> CameraRay {
+      [&](const auto& c) -> WorldRay {
         const LocalRay ray = local_ray(c, film, raster, lens);
-        return {cast<float>(transform_point(c.camera_to_world, ray.origin)),
-                encode_direction(transform_vector(c.camera_to_world, ray.direction))};
+        return {transform_point(c.camera_to_world, ray.origin),
+                transform_vector(c.camera_to_world, ray.direction)};
       },
       camera);
+}
+
+}  // namespace
+
+CameraSampler::CameraSampler(const Camera& camera, const FilmSettings& film) : camera_(camera), film_(film) {
+  std::visit(
+      [&](const auto& c) {
+        if constexpr (requires { c.lens; }) {
+          has_lens_ = c.lens.radius > 0;
+          is_linear_ = !has_lens_;
+        }
+      },
+      camera);
+  if (!is_linear_) return;
+  const double w = film.width, h = film.height;
+  const WorldRay corner = world_ray(camera, film, {0, 0}, {}), right = world_ray(camera, film, {w, 0}, {}),
+                 below = world_ray(camera, film, {0, h}, {});
+  const auto linear = [&](Vector3d at, Vector3d at_right, Vector3d at_below) {
+    return Linear{at, (at_right - at) * (1 / w), (at_below - at) * (1 / h)};
+  };
+  origin_ = linear(corner.origin - Point3d{}, right.origin - Point3d{}, below.origin - Point3d{});
+  direction_ = linear(corner.direction, right.direction, below.direction);
+}
+
+CameraRay CameraSampler::ray(Point2d raster, Point2d lens) const {
+  if (is_linear_) {
+    const Vector3d o = origin_.at(raster);
+    return {cast<float>(Point3d{o.x, o.y, o.z}), encode_direction(direction_.at(raster))};
+  }
+  const WorldRay ray = world_ray(camera_, film_, raster, lens);
+  return {cast<float>(ray.origin), encode_direction(ray.direction)};
 }
 
 }  // namespace vitrail

@@ -11,12 +11,29 @@ struct CameraRay {
   DirectionCode direction;
 };
 
-// Whether rays of the camera need a point of its lens.
-bool has_lens(const Camera& camera);
+class CameraSampler {
+ public:
+  // Both outlive it.
+  CameraSampler(const Camera& camera, const FilmSettings& film);
 
-// The ray through raster position (x, y), in pixels of the whole film from the top left. `lens`, in [0,1)²,
-// chooses the point of the lens, if there is one.
-CameraRay camera_ray(const Camera& camera, const FilmSettings& film, Point2d raster, Point2d lens);
+  // Whether rays need a point of the lens.
+  bool has_lens() const { return has_lens_; }
+  // The ray through raster position (x, y), in pixels of the whole film from the top left. `lens`, in [0,1)²,
+  // chooses the point of the lens, if there is one.
+  CameraRay ray(Point2d raster, Point2d lens) const;
+
+ private:
+  const Camera& camera_;
+  const FilmSettings& film_;
+  bool has_lens_ = false;
+  // Of a pinhole and of parallel rays: both are linear in the raster position.
+  bool is_linear_ = false;
+  struct Linear {
+    Vector3d at_corner, per_x, per_y;
+    Vector3d at(Point2d raster) const { return at_corner + per_x * raster.x + per_y * raster.y; }
+  };
+  Linear origin_, direction_;
+};
 
 // The square [0,1]² to the unit disk, area by area, neighbours staying neighbours (Shirley & Chiu 1997).
 Point2d concentric_disk(Point2d u);

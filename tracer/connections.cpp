@@ -51,7 +51,10 @@ void PathTracer::connect_surface(const Path& path, const Interaction& at, const 
     // As for the samples of the BSDF: shading normals let no light leak.
     if ((dot(direction, at.geometric) > 0) != (dot(at.out, at.geometric) * out.z * in.z > 0))
       return std::nullopt;
-    return Connection{eval(scattering.bsdf, out, in), departure(path, at, surface, direction)};
+    BsdfValue scattered = eval(scattering.bsdf, out, in);
+    scattered.value =
+        scattered.value * static_cast<float>(scattering.bump_shadowing(dot(direction, at.shading)));
+    return Connection{scattered, departure(path, at, surface, direction)};
   });
 }
 

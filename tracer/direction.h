@@ -39,7 +39,8 @@ inline DirectionCode encode_direction(Vector3d d) {
     x = folded;
   }
   const auto quantise = [](double v) {
-    return static_cast<std::uint32_t>(std::nearbyint(std::clamp((v + 1) * 8388607.0, 0.0, 16777214.0)));
+    return static_cast<std::uint32_t>(
+        static_cast<std::int32_t>(std::clamp((v + 1) * 8388607.0, 0.0, 16777214.0) + 0.5));
   };
   return DirectionCode::of(quantise(x), quantise(y));
 }

@@ -161,8 +161,23 @@ std::optional<Scattering> Materials::scattering_at(const Material& material, con
   const BsdfMaker maker{
       textures_, at.texture_point(), wavelengths, at.exterior_eta,
       plastic_tables_.empty() ? nullptr : &plastic_tables_[plastic_table_[index_of(material)]]};
-  return Scattering{std::visit(maker, material.model),
-                    frame_around(normal, at, both_sides ? 1.0 : at.side())};
+  return Scattering{std::visit(maker, material.model), frame_around(normal, at, both_sides ? 1.0 : at.side()),
+                    material.bump_shadowing ? bump_alpha2(dot(normal, at.shading)) : 0};
+}
+
+namespace {
+
+double tangent2(double cosine) {
+  const double c2 = std::clamp(cosine * cosine, 1e-12, 1.0);
+  return (1 - c2) / c2;
+}
+
+}  // namespace
+
+double bump_alpha2(double cosine) { return std::min(0.125 * tangent2(cosine), 1.0); }
+
+double Scattering::bump_shadowing(double cosine) const {
+  return bump_alpha2 > 0 ? 2 / (1 + std::sqrt(1 + bump_alpha2 * tangent2(cosine))) : 1;
 }
 
 SampledSpectrum relative_index(const DielectricMaterial& material, const Interaction& at,

@@ -58,12 +58,11 @@ void PathTracer::trace_camera(int x, int y, std::uint32_t sample) {
   const std::array<float, 4> u = sample_4d(key_of(path.pixel, sample), sample_set::camera);
   const Point2d offset = scene_.filter.sample(u[0], u[1]).offset;
   Point2d lens;
-  if (has_lens(manifest_.camera)) {
+  if (scene_.camera.has_lens()) {
     const std::array<float, 4> point = sample_4d(key_of(path.pixel, sample), sample_set::lens);
     lens = {static_cast<double>(point[0]), static_cast<double>(point[1])};
   }
-  const CameraRay ray =
-      camera_ray(manifest_.camera, manifest_.film, {x + 0.5 + offset.x, y + 0.5 + offset.y}, lens);
+  const CameraRay ray = scene_.camera.ray({x + 0.5 + offset.x, y + 0.5 + offset.y}, lens);
   path.camera = u;
   path.throughput = filled(1);
   path.inside = scene_.interiors.state_in(manifest_.camera_medium);

@@ -48,6 +48,7 @@ void FilterSampler::Axis::tabulate(auto&& f) {
   }
   if (!(sum > 0)) return cumulative.clear();  // no filter at all: a box
   for (double& c : cumulative) c /= total;
+  guide = GuideTable(cumulative, 2 * resolution);
   if (std::find(below.begin(), below.end(), true) == below.end()) return;
   total_weight = total / sum;
   negative = std::move(below);
@@ -66,8 +67,7 @@ FilterSampler::FilterSampler(const Filter& filter) {
 
 FilterSample FilterSampler::Axis::sample(double u) const {
   if (cumulative.empty()) return {{(2 * u - 1) * radius, 0}, 1};
-  const auto above = std::upper_bound(cumulative.begin() + 1, cumulative.end() - 1, u);
-  const auto bin = static_cast<std::size_t>(above - cumulative.begin()) - 1;
+  const std::size_t bin = guide.bin(cumulative, u);
   const double width = cumulative[bin + 1] - cumulative[bin];
   const double within = width > 0 ? std::clamp((u - cumulative[bin]) / width, 0.0, 1.0) : 0.5;
   const double offset = (static_cast<double>(bin) + within) * (2 * radius / resolution) - radius;

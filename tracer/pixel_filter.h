@@ -5,6 +5,7 @@
 
 #include "scene/camera.h"
 #include "scene/vec.h"
+#include "tracer/guide_table.h"
 
 namespace vitrail {
 
@@ -28,7 +29,8 @@ class FilterSampler {
     double radius = 0;
     double total_weight = 1;         // ∫|f|/∫f
     std::vector<double> cumulative;  // of |f|: resolution + 1 values from 0 to 1; empty: uniform
-    std::vector<bool> negative;      // f of each bin is; empty: nowhere
+    GuideTable guide;
+    std::vector<bool> negative;  // f of each bin is; empty: nowhere
     void tabulate(auto&& f);
     FilterSample sample(double u) const;  // along this axis, as offset.x
   };

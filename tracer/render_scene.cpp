@@ -29,6 +29,7 @@ RenderScene::RenderScene(Manifest the_manifest, const std::filesystem::path& bun
                          std::uint64_t texture_bytes, std::uint64_t the_seed)
     : manifest(std::move(the_manifest)),
       interiors(manifest),
+      camera(manifest.camera, manifest.film),
       filter(manifest.film.filter),
       textures(manifest.textures, bundle, texture_bytes),
       materials(manifest, textures),

@@ -22,6 +22,7 @@ struct RenderScene {
 
   Manifest manifest;
   Interiors interiors;
+  CameraSampler camera;
   FilterSampler filter;
   Textures textures;
   Materials materials;

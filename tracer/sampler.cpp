@@ -32,7 +32,8 @@ constexpr Directions directions(int degree, std::uint32_t polynomial, std::array
   return v;
 }
 
-// Contribution of each byte of the index to each dimension: 4 exclusive-ors a number instead of up to 32.
+// Contribution of each byte of the index to each dimension, its bits reversed: 4 exclusive-ors a number
+// instead of up to 32.
 using ByteTable = std::array<std::array<std::uint32_t, 256>, 4>;
 
 constexpr ByteTable byte_table(const Directions& v) {
@@ -40,7 +41,7 @@ constexpr ByteTable byte_table(const Directions& v) {
   for (std::size_t byte = 0; byte < 4; ++byte)
     for (std::size_t value = 0; value < 256; ++value)
       for (std::size_t bit = 0; bit < 8; ++bit)
-        if (value >> bit & 1) table[byte][value] ^= v[byte * 8 + bit];
+        if (value >> bit & 1) table[byte][value] ^= reverse_bits(v[byte * 8 + bit]);
   return table;
 }
 
@@ -95,8 +96,7 @@ std::array<float, 4> sample_4d(const SampleKey& key, std::uint32_t set) {
   std::array<std::uint32_t, 4> bits{index, 0, 0, 0};  // reversed; the first dimension is the radical inverse
   for (std::size_t d = 0; d < 3; ++d) {
     const ByteTable& t = tables[d];
-    bits[d + 1] = reverse_bits(t[0][index & 0xff] ^ t[1][index >> 8 & 0xff] ^ t[2][index >> 16 & 0xff] ^
-                               t[3][index >> 24]);
+    bits[d + 1] = t[0][index & 0xff] ^ t[1][index >> 8 & 0xff] ^ t[2][index >> 16 & 0xff] ^ t[3][index >> 24];
   }
   const std::array<std::uint32_t, 4> seeds{
       static_cast<std::uint32_t>(h2), static_cast<std::uint32_t>(h2 >> 32), static_cast<std::uint32_t>(h3),

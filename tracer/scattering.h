@@ -36,6 +36,15 @@ struct ShadingFrame {
 struct Scattering {
   Bsdf bsdf;
   ShadingFrame frame;
+  double bump_alpha2 = 0;  // of bump_shadowing
+
+  // What is left of light from a direction that makes this cosine with the surface's smooth normal.
+  double bump_shadowing(double cosine) const;
 };
+
+// α² of microfacets among which a normal that a bump has turned, at this cosine to the smooth one, would be
+// usual (Conty Estevez, Lecocq and Stein, "A Microfacet-Based Shadowing Function to Solve the Bump Terminator
+// Problem", 2019). Such facets shadow light by Smith's function: bump_shadowing.
+double bump_alpha2(double cosine);
 
 }  // namespace vitrail

@@ -107,6 +107,8 @@ bool PathTracer::shade_surface(Path& path) {
     return true;
   }
   Vector3d direction = scattering->frame.to_world(chosen->in);
+  path.throughput =
+      path.throughput * static_cast<float>(scattering->bump_shadowing(dot(direction, at.shading)));
   // The shading normal must not let light through the surface, nor reflect it into it: for a mirror the
   // surface's own normal decides then.
   if ((dot(direction, at.geometric) > 0) != (dot(at.out, at.geometric) * out.z * chosen->in.z > 0)) {

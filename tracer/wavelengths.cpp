@@ -2,6 +2,9 @@
 #include "tracer/wavelengths.h"
 
 #include <algorithm>
+#include <cmath>
+
+#include "tracer/guide_table.h"
 
 namespace vitrail {
 
@@ -11,18 +14,9 @@ constexpr std::size_t bins = table_size - 1;  // one a nanometre
 constexpr double floor_share = 0.02;          // of the density, uniform: every wavelength can be drawn
 
 struct Density {
-  static constexpr std::size_t cells = 1024;
   std::array<double, bins> pdf{};             // nm⁻¹
   std::array<double, bins + 1> cumulative{};  // 0 … 1
-  // Where the search for v begins, by ⌊v·cells⌋: the bin that holds the cell's lower end (Chen & Asau 1974).
-  std::array<std::uint16_t, cells> guide{};
-
-  // The bin that holds v in [0,1).
-  std::size_t bin_of(double v) const {
-    std::size_t bin = guide[static_cast<std::size_t>(v * cells)];
-    while (bin + 1 < bins && cumulative[bin + 1] <= v) ++bin;
-    return bin;
-  }
+  GuideTable guide;
 };
 
 Density make_density() {
@@ -37,11 +31,7 @@ Density make_density() {
     d.cumulative[i + 1] = d.cumulative[i] + d.pdf[i];
   }
   d.cumulative[bins] = 1;
-  std::size_t bin = 0;
-  for (std::size_t cell = 0; cell < Density::cells; ++cell) {
-    while (bin + 1 < bins && d.cumulative[bin + 1] <= static_cast<double>(cell) / Density::cells) ++bin;
-    d.guide[cell] = static_cast<std::uint16_t>(bin);
-  }
+  d.guide = GuideTable(d.cumulative, 1024);
   return d;
 }
 
@@ -49,6 +39,18 @@ const Density& density() {
   static const Density d = make_density();
   return d;
 }
+
+// Between the two nearest of 360, 361 … 830 nm.
+struct TablePlace {
+  explicit TablePlace(float lambda_nm) {
+    const float x = std::clamp(lambda_nm - static_cast<float>(lambda_min_nm), 0.0f, static_cast<float>(bins));
+    below = static_cast<std::size_t>(std::min(static_cast<int>(x), static_cast<int>(bins) - 1));
+    f = x - static_cast<float>(below);
+  }
+  float between(float a, float b) const { return (1 - f) * a + f * b; }
+  std::size_t below;
+  float f;
+};
 
 }  // namespace
 
@@ -58,7 +60,7 @@ SampledWavelengths sample_wavelengths(float u) {
   for (std::size_t i = 0; i < hero_count; ++i) {
     double v = static_cast<double>(u) + static_cast<double>(i) / hero_count;
     if (v >= 1) v -= 1;
-    const std::size_t bin = d.bin_of(v);
+    const std::size_t bin = d.guide.bin(d.cumulative, v);
     const double within = std::clamp((v - d.cumulative[bin]) / d.pdf[bin], 0.0, 1.0);
     result.lambda_nm[i] = static_cast<float>(lambda_min_nm + static_cast<double>(bin) + within);
     result.pdf[i] = static_cast<float>(d.pdf[bin]);
@@ -86,20 +88,58 @@ SensorWeights sensor_weights(const SampledWavelengths& wavelengths, double scale
   SensorWeights w;
   if (into.count > 0) add_bins(w, wavelengths, scale, into);
   const auto& observer = cie_1931();
+  const auto all = static_cast<float>(scale / (hero_count * cie_y_integral_nm));
   for (std::size_t i = 0; i < hero_count; ++i) {
-    const double at =
-        std::clamp(static_cast<double>(wavelengths.lambda_nm[i]) - lambda_min_nm, 0.0, bins - 1e-9);
-    const auto bin = static_cast<std::size_t>(at);
-    const double f = at - static_cast<double>(bin);
-    const double each = scale / (hero_count * static_cast<double>(wavelengths.pdf[i]) * cie_y_integral_nm);
-    const auto value = [&](std::size_t c) {
-      return static_cast<float>(((1 - f) * observer[bin][c] + f * observer[bin + 1][c]) * each);
-    };
-    w.x[i] = value(0);
-    w.y[i] = value(1);
-    w.z[i] = value(2);
+    const TablePlace at(wavelengths.lambda_nm[i]);
+    const float each = all / wavelengths.pdf[i];
+    w.x[i] = each * at.between(observer[at.below][0], observer[at.below + 1][0]);
+    w.y[i] = each * at.between(observer[at.below][1], observer[at.below + 1][1]);
+    w.z[i] = each * at.between(observer[at.below][2], observer[at.below + 1][2]);
   }
   return w;
+}
+
+namespace {
+
+// ½ + x/(2√(1 + x²)), x = (c₀λ + c₁)λ + c₂: by ½/(√(1 + x²)(√(1 + x²) + |x|)), which is that from its nearer
+// end and does not cancel.
+SampledSpectrum sigmoid(const SigmoidSpectrum& s, const SampledWavelengths& wavelengths) {
+  if (std::isinf(s.c2)) return filled(s.c2 > 0 ? 1 : 0);
+  SampledSpectrum result;
+  for (std::size_t i = 0; i < hero_count; ++i) {
+    const auto l = static_cast<double>(wavelengths.lambda_nm[i]);
+    const auto x = static_cast<float>(std::clamp((s.c0 * l + s.c1) * l + s.c2, -1e18, 1e18));
+    const float root = std::sqrt(1 + x * x);
+    const float rest = 0.5f / (root * (root + std::abs(x)));
+    result.v[i] = x < 0 ? rest : 1 - rest;
+  }
+  return result;
+}
+
+SampledSpectrum table_values(const float* values, const SampledWavelengths& wavelengths) {
+  SampledSpectrum result;
+  for (std::size_t i = 0; i < hero_count; ++i) {
+    const TablePlace at(wavelengths.lambda_nm[i]);
+    result.v[i] = at.between(values[at.below], values[at.below + 1]);
+  }
+  return result;
+}
+
+}  // namespace
+
+SampledSpectrum evaluate(const Spectrum& spectrum, const SampledWavelengths& wavelengths) {
+  if (const auto* s = std::get_if<ConstantSpectrum>(&spectrum)) return filled(s->value);
+  if (const auto* s = std::get_if<SigmoidSpectrum>(&spectrum)) return sigmoid(*s, wavelengths);
+  if (const auto* s = std::get_if<RgbUnboundedSpectrum>(&spectrum))
+    return sigmoid(s->shape, wavelengths) * s->scale;
+  if (const auto* s = std::get_if<RgbIlluminantSpectrum>(&spectrum))
+    return sigmoid(s->shape, wavelengths) * table_values(cie_d65().data(), wavelengths) * s->scale;
+  if (const auto* s = std::get_if<TabulatedSpectrum>(&spectrum))
+    return table_values(s->values.data(), wavelengths);
+  SampledSpectrum result;
+  for (std::size_t i = 0; i < hero_count; ++i)
+    result.v[i] = static_cast<float>(evaluate(spectrum, static_cast<double>(wavelengths.lambda_nm[i])));
+  return result;
 }
 
 }  // namespace vitrail

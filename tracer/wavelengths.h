@@ -38,11 +38,7 @@ inline XYZ sense(const SensorWeights& w, const SampledSpectrum& radiance) {
   return sum;
 }
 
-inline SampledSpectrum evaluate(const Spectrum& spectrum, const SampledWavelengths& wavelengths) {
-  SampledSpectrum result;
-  for (std::size_t i = 0; i < hero_count; ++i)
-    result.v[i] = static_cast<float>(evaluate(spectrum, static_cast<double>(wavelengths.lambda_nm[i])));
-  return result;
-}
+// To float precision.
+SampledSpectrum evaluate(const Spectrum& spectrum, const SampledWavelengths& wavelengths);
 
 }  // namespace vitrail

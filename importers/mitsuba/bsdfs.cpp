@@ -336,6 +336,13 @@ Material two_sided(Builder& b, const Object& o) {
   return material;
 }
 
+// Since 3.7.1.
+void read_bump_shadowing(Builder& b, const Object& o, Material& material) {
+  material.bump_shadowing = o.boolean("use_shadowing_function", o.type != "bump", b.report);
+  if (!o.boolean("flip_invalid_normals", true, b.report))
+    b.report.approximated("normals that are turned away are never used", o.origin);
+}
+
 // The height of a bump map times its scale.
 Material bump_map(Builder& b, const Object& o) {
   Material material = inner(b, o);
@@ -353,11 +360,13 @@ Material bump_map(Builder& b, const Object& o) {
   }
   if (material.displacement) b.report.dropped("a second bump map on one material", o.origin);
   material.displacement = height;
+  read_bump_shadowing(b, o, material);
   return material;
 }
 
 Material normal_map(Builder& b, const Object& o) {
   Material material = inner(b, o);
+  read_bump_shadowing(b, o, material);
   const Object* texture = o.child("texture");
   if (!texture) {
     b.report.dropped("a normal map without a texture", o.origin);

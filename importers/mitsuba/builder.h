@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "importers/mitsuba/object.h"
+#include "scene/deferred_mesh.h"
 #include "scene/scene.h"
 
 namespace vitrail::mitsuba {
@@ -27,7 +28,8 @@ struct Builder {
       textures;  // by object and whether it is read as a number
   std::map<const Object*, Id<Prototype>> prototypes;
   std::map<std::tuple<std::string, int, int>, Id<TriangleMesh>>
-      mesh_files;                             // path, index in it, variant of reading
+      mesh_files;  // path, index in it, variant of reading
+  MeshMemory mesh_memory{};
   std::set<std::uint32_t> smoothed_meshes{};  // whose normals were made here
 };
 

@@ -91,7 +91,7 @@ class Loader {
   ObjectPtr run(const std::filesystem::path& file) {
     scene_ = std::make_shared<MutableObject>();
     scene_->tag = "scene";
-    search_.push_back(file.parent_path());
+    search_.push_back(std::filesystem::absolute(file).parent_path());
     try {
       read_file(file, scene_, {}, 0);
       resolve_references();
@@ -128,14 +128,13 @@ class Loader {
   std::filesystem::path resolve(const std::string& name) const {
     std::error_code ignored;
     for (auto folder = search_.rbegin(); folder != search_.rend(); ++folder)
-      if (std::filesystem::exists(*folder / name, ignored))
-        return std::filesystem::absolute(*folder / name).lexically_normal();
+      if (std::filesystem::exists(*folder / name, ignored)) return (*folder / name).lexically_normal();
     // Collections of scenes keep what they share in a folder "common" above them.
-    std::filesystem::path above = std::filesystem::absolute(search_.front());
+    std::filesystem::path above = search_.front();
     for (int levels = 0; levels < 4 && above.has_relative_path(); ++levels, above = above.parent_path())
       if (std::filesystem::exists(above / "common" / name, ignored))
         return (above / "common" / name).lexically_normal();
-    return std::filesystem::absolute(search_.front() / name).lexically_normal();
+    return (search_.front() / name).lexically_normal();
   }
 
   void read_file(const std::filesystem::path& file, const MutablePtr& parent, const Origin& from, int depth) {

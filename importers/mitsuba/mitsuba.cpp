@@ -46,11 +46,12 @@ static void build(Builder& b, const Object& root) {
 
 }  // namespace mitsuba
 
-ImportedScene read_mitsuba(const std::filesystem::path& file) {
+ImportedScene read_mitsuba(const std::filesystem::path& file, MeshMemory memory) {
   ImportedScene imported;
   mitsuba::Report report(imported.scene.files);
   const mitsuba::ObjectPtr root = mitsuba::load(file, imported.scene.files, report);
   mitsuba::Builder builder{imported.scene, report};
+  builder.mesh_memory = std::move(memory);
   build(builder, *root);
   imported.diagnostics = report.take();
   if (root->children("sensor").empty()) add_default_view(imported, file);

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "scene/deferred_mesh.h"
 #include "scene/scene.h"
 
 namespace vitrail {
@@ -10,6 +11,6 @@ namespace vitrail {
 // Reads a scene of Mitsuba 3, or of its versions 0.5 to 2: plugins become records of the Scene, analytic
 // shapes and curves triangles. A scene without a sensor gets a view of all of it. What is not exact is in the
 // diagnostics; malformed files and references throw Error with their place.
-ImportedScene read_mitsuba(const std::filesystem::path& file);
+ImportedScene read_mitsuba(const std::filesystem::path& file, MeshMemory memory = MeshMemory{});
 
 }  // namespace vitrail

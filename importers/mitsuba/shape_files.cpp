@@ -67,16 +67,26 @@ TriangleMesh merge(std::vector<TriangleMesh> parts) {
   return whole;
 }
 
-TriangleMesh obj_mesh(Builder& builder, const std::filesystem::path& path) {
+struct MeshFile {
+  std::string kind;
+  std::filesystem::path path;
+  int index = 0;
+  Reading reading;
+};
+
+TriangleMesh read_geometry(const MeshFile& file, Diagnostics& diagnostics) {
+  const auto& [kind, path, index, reading] = file;
+  if (kind == "serialized") return read_serialized(path, index);
+  if (kind == "ply") return read_ply(path, &diagnostics, PlyAttributes::read);
   ObjGeometry geometry = read_obj_geometry(path);
-  builder.report.add(std::move(geometry.diagnostics));
+  diagnostics = std::move(geometry.diagnostics);
   return merge(std::move(geometry.meshes));
 }
 
-TriangleMesh ply_mesh(Builder& builder, const std::filesystem::path& path) {
-  Diagnostics diagnostics;
-  TriangleMesh mesh = read_ply(path, &diagnostics, PlyAttributes::read);
-  builder.report.add(std::move(diagnostics));
+TriangleMesh read_mesh(const MeshFile& file, Diagnostics& diagnostics, bool& smoothed) {
+  TriangleMesh mesh = read_geometry(file, diagnostics);
+  smoothed = apply(file.reading, mesh);
+  if (smoothed) mesh.normals = smooth_normals(mesh);
   return mesh;
 }
 
@@ -92,14 +102,19 @@ std::optional<ShapeGeometry> shape_of_file(Builder& builder, const Object& shape
   const int index = obj || ply ? 0 : shape.integer("shape_index", 0, builder.report);
   bool smoothed = false;
   const MeshKey key{path.string(), index, reading.variant()};
-  const Id<TriangleMesh> mesh = shared_mesh(builder, shape, key, [&] {
-    TriangleMesh read = obj   ? obj_mesh(builder, path)
-                        : ply ? ply_mesh(builder, path)
-                              : read_serialized(path, index);
-    smoothed = apply(reading, read);
-    if (smoothed) read.normals = smooth_normals(read);
-    return read;
-  });
+  const MeshFile file{kind, path, index, reading};
+  const auto read = [&] {
+    Diagnostics diagnostics;
+    TriangleMesh made = read_mesh(file, diagnostics, smoothed);
+    builder.report.add(std::move(diagnostics));
+    return made;
+  };
+  const auto read_again = [file] {
+    Diagnostics known;
+    bool smooth = false;
+    return read_mesh(file, known, smooth);
+  };
+  const Id<TriangleMesh> mesh = shared_mesh(builder, shape, key, read, read_again);
   if (smoothed) builder.smoothed_meshes.insert(mesh.value);
   const bool was_smoothed = builder.smoothed_meshes.contains(mesh.value);
   if (was_smoothed) report_smoothing(builder, shape);

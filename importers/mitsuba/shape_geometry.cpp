@@ -14,7 +14,7 @@ std::string kind_of(const Object& shape) {
 }
 
 Id<TriangleMesh> shared_mesh(Builder& builder, const Object& shape, const MeshKey& key,
-                             const std::function<TriangleMesh()>& make) {
+                             const std::function<TriangleMesh()>& make, MeshLoader again) {
   const auto known = builder.mesh_files.find(key);
   if (known != builder.mesh_files.end()) return known->second;
   TriangleMesh mesh;
@@ -25,7 +25,8 @@ Id<TriangleMesh> shared_mesh(Builder& builder, const Object& shape, const MeshKe
     builder.report.fail(error.what(), shape.origin);
   }
   const Id<TriangleMesh> id{static_cast<std::uint32_t>(builder.scene.meshes.size())};
-  builder.scene.meshes.push_back(std::move(mesh));
+  builder.scene.meshes.push_back(again ? builder.mesh_memory.keep(std::move(mesh), std::move(again))
+                                       : std::move(mesh));
   builder.mesh_files.emplace(key, id);
   return id;
 }

@@ -29,10 +29,10 @@ std::optional<ShapeGeometry> shape_of_file(Builder& builder, const Object& shape
 std::optional<ShapeGeometry> curve_shape(Builder& builder, const Object& shape);
 
 // The mesh under this key: made where it is not there yet. An Error that it throws without a place gets that
-// of the object.
+// of the object. Where there is a way to make it `again`, it need not stay in memory.
 using MeshKey = std::tuple<std::string, int, int>;
 Id<TriangleMesh> shared_mesh(Builder& builder, const Object& shape, const MeshKey& key,
-                             const std::function<TriangleMesh()>& make);
+                             const std::function<TriangleMesh()>& make, MeshLoader again = {});
 
 // Of the object's parameter "filename"; throws Error where there is no such regular file.
 std::filesystem::path shape_file(Builder& builder, const Object& shape);

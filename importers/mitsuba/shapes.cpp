@@ -86,7 +86,8 @@ void add_geometry(Builder& builder, const Object& object, const ShapeGeometry& g
   add_emission(builder, object, in_group, shape);
   shape.flip_orientation = object.boolean("flip_normals", false, builder.report);
   if (geometry.front_by_normals && sides_matter(builder, shape)) {
-    const bool opposed = normals_oppose_winding(builder.scene.meshes[shape.mesh.value]);
+    TriangleMesh storage;
+    const bool opposed = normals_oppose_winding(loaded(builder.scene.meshes[shape.mesh.value], storage));
     if (opposed != swaps_handedness(shape.object_to_world)) shape.flip_orientation = !shape.flip_orientation;
   }
   shapes.push_back(std::move(shape));

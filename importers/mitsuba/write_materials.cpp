@@ -40,12 +40,14 @@ void write_material(Context& context, Element parent, std::size_t index, std::st
     if (const auto* reference = std::get_if<std::string>(&texture)) {
       wrap("normalmap");
       add_reference(parent, *reference, "normalmap");
+      if (!material.bump_shadowing) add_boolean(parent, "use_shadowing_function", false);
     } else {
       context.dropped("the normal map: Mitsuba takes an image");
     }
   }
   if (material.displacement && !value_of(context, *material.displacement)) {
     wrap("bumpmap");
+    if (!material.bump_shadowing) add_boolean(parent, "use_shadowing_function", false);
     add_height(context, parent, *material.displacement);
   }
   write_model(context, parent, material, id);

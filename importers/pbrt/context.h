@@ -7,6 +7,7 @@
 
 #include "importers/pbrt/report.h"
 #include "importers/pbrt/version.h"
+#include "scene/deferred_mesh.h"
 
 namespace vitrail::pbrt {
 
@@ -15,6 +16,7 @@ struct Context {
   bool version_is_certain = true;
   std::filesystem::path directory;  // of the main file
   Report report;
+  MeshMemory mesh_memory;
 
   // Said of what v3 and v4 take differently, in a file that does not tell which it is.
   void note_version(const char* what, const Place& place) {

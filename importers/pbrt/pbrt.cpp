@@ -6,8 +6,9 @@
 
 namespace vitrail {
 
-ImportedScene read_pbrt(const std::filesystem::path& file) {
+ImportedScene read_pbrt(const std::filesystem::path& file, MeshMemory memory) {
   pbrt::Context context;
+  context.mesh_memory = std::move(memory);
   const pbrt::DetectedVersion detected = pbrt::detect_version(file);
   context.version = detected.version;
   context.version_is_certain = detected.certain;

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "scene/deferred_mesh.h"
 #include "scene/scene.h"
 
 namespace vitrail {
@@ -12,6 +13,6 @@ namespace vitrail {
 // different things, the version decides that the main file's first tell-tale word belongs to
 // (importers/README.md). Bad input throws Error with its place. A file without WorldBegin is a part of a
 // scene: it gets a camera and a sky.
-ImportedScene read_pbrt(const std::filesystem::path& file);
+ImportedScene read_pbrt(const std::filesystem::path& file, MeshMemory memory = MeshMemory{});
 
 }  // namespace vitrail

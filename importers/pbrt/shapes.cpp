@@ -212,9 +212,13 @@ ShapeGeometry ShapeMaker::ply_mesh(ParameterSet& parameters) {
     TriangleMesh mesh = read_ply(path, &diagnostics);
     for (Diagnostic& diagnostic : diagnostics) context_.report.add(std::move(diagnostic));
     orient_by_normals(mesh);
-    known->second = add(std::move(mesh));
+    known->second = add(context_.mesh_memory.keep(std::move(mesh), [path] {
+      TriangleMesh again = read_ply(path);
+      orient_by_normals(again);
+      return again;
+    }));
   }
-  return {known->second, false, {}, meshes_[known->second.value].triangles.size()};
+  return {known->second, false, {}, triangles_of(meshes_[known->second.value])};
 }
 
 namespace {

@@ -143,7 +143,8 @@ void Interpreter::area_light_source(const Place& place) {
 
 // The area in the world of each of the shapes that pbrt makes of a mesh, which all emit the whole power.
 double Interpreter::area_per_part(const ShapeGeometry& geometry, const Place& place) {
-  const TriangleMesh& mesh = scene_.meshes[geometry.mesh.value];
+  TriangleMesh storage;
+  const TriangleMesh& mesh = loaded(scene_.meshes[geometry.mesh.value], storage);
   double total = 0, least = INFINITY, greatest = 0;
   for (const auto& triangle : mesh.triangles) {
     const auto corner = [&](std::size_t i) {
@@ -220,7 +221,7 @@ void Interpreter::shape(const Place& place) {
   const FloatParameter alpha = float_parameter(parameters, {"alpha"}, 1, scope(place));
   if (alpha == FloatParameter{0.0f}) return;  // nothing shows
   const auto geometry = shapes_.make(kind, parameters);
-  if (!geometry || scene_.meshes[geometry->mesh.value].triangles.empty()) return;
+  if (!geometry || triangles_of(scene_.meshes[geometry->mesh.value]) == 0) return;
   Shape shape;
   shape.mesh = geometry->mesh;
   shape.material = masked(shape_material(), alpha, place);

@@ -212,6 +212,8 @@ class MaterialWriter {
 
 void bumps(Parameters& p, const Material& m) {
   if (m.displacement) p.number("displacement", *m.displacement);
+  if (m.bump_shadowing && (m.displacement || m.normal_map))
+    p.approximated("its bumps do not shadow: pbrt has no such term");
   if (!m.normal_map) return;
   const auto* image = std::get_if<ImageTexture>(&p.writer().scene.textures.at(m.normal_map->value).model);
   if (!image) return p.dropped("a normal map that is not an image");

@@ -12,6 +12,7 @@ endfunction()
 
 vitrail_appearance_test(mitsuba_reference)
 vitrail_appearance_test(picture_reference vitrail::nori_scene)
+vitrail_appearance_test(docs_picture)
 vitrail_appearance_test(nori_radiance vitrail::nori_scene vitrail::importers)
 vitrail_test(spectral_picture LABEL conformance SOURCES spectral_picture_test.cpp
   LIBRARIES vitrail::corpus_render vitrail::image)

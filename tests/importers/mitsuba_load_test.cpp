@@ -10,6 +10,8 @@
 namespace vitrail {
 namespace {
 
+namespace fs = std::filesystem;
+
 const std::string head = "<scene version=\"3.0.0\">", tail = "</scene>";
 const std::string floor = "<shape type=\"rectangle\"><ref id=\"m\"/></shape>";
 
@@ -64,6 +66,19 @@ TEST_F(MitsubaLoad, DefaultsReferencesAliasesAndIncludes) {
       << "the first default counts";
   EXPECT_EQ(imported_.scene.files.size(), 2u);
   EXPECT_EQ(m.origin.file, 1u);
+}
+
+TEST_F(MitsubaLoad, SharedFilesAreFoundFromTheWorkingDirectory) {
+  const std::string part = head + "<bsdf type=\"diffuse\" id=\"m\"/>" + tail;
+  const fs::path scenes = folder_.write("scene.xml", head + "<include filename=\"part.xml\"/>" + floor + tail)
+                              .parent_path(),
+                 before = fs::current_path();
+  fs::create_directory(scenes / "common");
+  folder_.write("common/part.xml", part);
+  fs::current_path(scenes);
+  EXPECT_NO_THROW(imported_ = read_mitsuba("scene.xml"));
+  fs::current_path(before);
+  EXPECT_EQ(imported_.scene.materials.size(), 1u);
 }
 
 TEST_F(MitsubaLoad, OldSpellings) {

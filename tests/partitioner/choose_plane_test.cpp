@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include <numeric>
+#include <array>
 
 #include "tests/partitioner/test_scenes.h"
 
@@ -11,11 +11,20 @@ namespace vitrail {
 
 namespace {
 
-CellContent all_of(const std::vector<Triangle>& triangles) {
-  CellContent content;
-  content.whole.resize(triangles.size());
-  std::iota(content.whole.begin(), content.whole.end(), 0u);
-  return content;
+std::vector<Bounds3f> bounds_of(const std::vector<Triangle>& triangles) {
+  std::vector<Bounds3f> all(triangles.size());
+  for (std::size_t i = 0; i < triangles.size(); ++i)
+    for (const Point3f& p : triangles[i]) extend(all[i], p);
+  return all;
+}
+
+// Both sides of the plane.
+std::array<CellContent, 2> cut(const std::vector<Triangle>& triangles, Plane plane) {
+  const KdNode root{plane.split, static_cast<std::uint32_t>(plane.axis), KdNode::leaf_bit,
+                    KdNode::leaf_bit | 1};
+  std::array<CellContent, 2> leaves;
+  route(triangles, 0, static_cast<std::uint32_t>(triangles.size()), {}, std::span(&root, 1), leaves);
+  return leaves;
 }
 
 // A flat n × m grid of unit squares, z = 0.
@@ -31,19 +40,19 @@ std::vector<Triangle> grid(int n, int m) {
 }
 
 TEST(ChoosePlane, NothingToPart) {
-  EXPECT_FALSE(choose_plane({}, {}, {}));
+  EXPECT_FALSE(choose_plane({}, {}));
   const std::vector<Triangle> point(5, Triangle{});
-  EXPECT_FALSE(choose_plane(all_of(point), point, {}));
+  EXPECT_FALSE(choose_plane(bounds_of(point), {}));
 }
 
 // The long axis has the smaller section, and its grid lines cut no triangle.
 TEST(ChoosePlane, FollowsTheMeshAcrossTheLongAxis) {
   const std::vector<Triangle> triangles = grid(40, 10);
-  const auto plane = choose_plane(all_of(triangles), triangles, {1, 1, 0.1});
+  const auto plane = choose_plane(bounds_of(triangles), {1, 1, 0.1});
   ASSERT_TRUE(plane);
   EXPECT_EQ(plane->axis, 0);
   EXPECT_EQ(plane->split, 20);
-  const auto [below, above] = cut(all_of(triangles), triangles, *plane);
+  const auto [below, above] = cut(triangles, *plane);
   EXPECT_EQ(below.size(), 400u);
   EXPECT_TRUE(below.pieces.empty());
 }
@@ -51,7 +60,7 @@ TEST(ChoosePlane, FollowsTheMeshAcrossTheLongAxis) {
 TEST(ChoosePlane, SharesTheLoadByLeaves) {
   const std::vector<Triangle> triangles = grid(50, 5);
   for (const std::uint32_t leaves_below : {1u, 2u, 3u, 4u}) {
-    const auto plane = choose_plane(all_of(triangles), triangles, {leaves_below, 5 - leaves_below, 0.02});
+    const auto plane = choose_plane(bounds_of(triangles), {leaves_below, 5 - leaves_below, 0.02});
     ASSERT_TRUE(plane);
     EXPECT_EQ(plane->split, static_cast<float>(10 * leaves_below));
   }
@@ -64,10 +73,10 @@ TEST(ChoosePlane, PartsParallelSheets) {
     const auto x = static_cast<float>(i % 2);
     triangles.push_back({Point3f{x, 0, 0}, Point3f{x, 1, 0}, Point3f{x, 0, 1}});
   }
-  const auto plane = choose_plane(all_of(triangles), triangles, {1, 1, 0.05});
+  const auto plane = choose_plane(bounds_of(triangles), {1, 1, 0.05});
   ASSERT_TRUE(plane);
   EXPECT_EQ(plane->axis, 0);
-  const auto [below, above] = cut(all_of(triangles), triangles, *plane);
+  const auto [below, above] = cut(triangles, *plane);
   EXPECT_EQ(below.whole.size(), 50u);
   EXPECT_EQ(above.whole.size(), 50u);
 }
@@ -78,9 +87,9 @@ TEST(ChoosePlane, BalancesUnevenScenes) {
   for (Triangle& t : triangles)
     for (Point3f& p : t) p = {p.x * 1e-4f, p.y * 1e-4f, p.z};
   triangles.push_back({Point3f{1000, 0, 0}, Point3f{1000, 1, 0}, Point3f{1000, 0, 1}});
-  const auto plane = choose_plane(all_of(triangles), triangles, {1, 1, 0.1});
+  const auto plane = choose_plane(bounds_of(triangles), {1, 1, 0.1});
   ASSERT_TRUE(plane);
-  const auto [below, above] = cut(all_of(triangles), triangles, *plane);
+  const auto [below, above] = cut(triangles, *plane);
   EXPECT_LT(std::max(below.size(), above.size()), 1.1 * static_cast<double>(triangles.size()) / 2);
 }
 

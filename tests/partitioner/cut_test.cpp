@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include <numeric>
+#include <array>
 
 #include "bundle/census.h"
 
@@ -11,11 +11,17 @@ namespace vitrail {
 
 namespace {
 
-CellContent all_of(const std::vector<Triangle>& triangles) {
-  CellContent content;
-  content.whole.resize(triangles.size());
-  std::iota(content.whole.begin(), content.whole.end(), 0u);
-  return content;
+struct Halves {
+  CellContent below, above;
+};
+
+// Of all triangles; `before`: those of which only a piece is there.
+Halves cut(const std::vector<Triangle>& triangles, Plane plane, const CellContent& before = {}) {
+  const KdNode root{plane.split, static_cast<std::uint32_t>(plane.axis), KdNode::leaf_bit,
+                    KdNode::leaf_bit | 1};
+  std::array<CellContent, 2> leaves;
+  route(triangles, 0, static_cast<std::uint32_t>(triangles.size()), before, std::span(&root, 1), leaves);
+  return {leaves[0], leaves[1]};
 }
 
 double area_of(const CellContent& content) {
@@ -26,7 +32,7 @@ double area_of(const CellContent& content) {
 
 TEST(Cut, StraddlingTriangleBecomesTwoPieces) {
   const std::vector<Triangle> triangles{{Point3f{-1, 0, 0}, Point3f{3, 0, 0}, Point3f{0, 2, 0}}};
-  const auto [below, above] = cut(all_of(triangles), triangles, {0, 1});
+  const auto [below, above] = cut(triangles, {0, 1});
   EXPECT_TRUE(below.whole.empty() && above.whole.empty());
   ASSERT_EQ(below.pieces.size(), 1u);
   ASSERT_EQ(above.pieces.size(), 1u);
@@ -43,7 +49,7 @@ TEST(Cut, TouchingTrianglesStayWhole) {
       {Point3f{1, 0, 0}, Point3f{1, 1, 0}, Point3f{1, 0, 1}},    // lies in it
       {Point3f{-1, 0, 0}, Point3f{-2, 0, 0}, Point3f{-1, 1, 0}}  // far below
   };
-  const auto [below, above] = cut(all_of(triangles), triangles, {0, 1});
+  const auto [below, above] = cut(triangles, {0, 1});
   EXPECT_EQ(below.whole, (std::vector<std::uint32_t>{0, 2, 3}));
   EXPECT_EQ(above.whole, (std::vector<std::uint32_t>{1}));
   EXPECT_TRUE(below.pieces.empty() && above.pieces.empty());
@@ -51,7 +57,7 @@ TEST(Cut, TouchingTrianglesStayWhole) {
 
 TEST(Cut, VertexInThePlaneBelongsToBothPieces) {
   const std::vector<Triangle> triangles{{Point3f{0, 0, 0}, Point3f{1, 1, 0}, Point3f{2, 0, 0}}};
-  const auto [below, above] = cut(all_of(triangles), triangles, {0, 1});
+  const auto [below, above] = cut(triangles, {0, 1});
   const Point3d apex{1, 1, 0}, foot{1, 0, 0};
   EXPECT_EQ(below.piece_vertices, (std::vector<Point3d>{{0, 0, 0}, apex, foot}));
   EXPECT_EQ(above.piece_vertices, (std::vector<Point3d>{apex, {2, 0, 0}, foot}));
@@ -62,7 +68,7 @@ TEST(Cut, NeighboursGetTheSameBits) {
   const Point3f p{0.1f, 0.7f, -0.3f}, q{0.9f, -0.2f, 0.8f};
   const std::vector<Triangle> triangles{{p, q, Point3f{5, 5, 5}}, {q, p, Point3f{-5, 5, 5}}};
   for (const float split : {0.2f, 0.3f, 0.5f, 0.77f}) {
-    const CellContent below = cut(all_of(triangles), triangles, {0, split}).first;
+    const CellContent below = cut(triangles, {0, split}).below;
     const Point3d on_edge = crossing(cast<double>(p), cast<double>(q), {0, split});
     EXPECT_EQ(on_edge.x, double{split});
     for (const Piece& piece : below.pieces) {
@@ -90,8 +96,8 @@ TEST(Cut, PiecesStayInOrderAndWinding) {
     const auto y = static_cast<float>(i);
     triangles.push_back({Point3f{-2, y, 0}, Point3f{2, y, 0}, Point3f{0, y + 1, 0}});
   }
-  const auto halves = cut(all_of(triangles), triangles, {0, -1});
-  const auto [below, above] = cut(halves.second, triangles, {0, 1});
+  const auto halves = cut(triangles, {0, -1});
+  const auto [below, above] = cut(triangles, {0, 1}, halves.above);
   ASSERT_EQ(below.pieces.size(), 10u);
   for (std::uint32_t i = 0; i < 10; ++i) {
     EXPECT_EQ(below.pieces[i].triangle, i);

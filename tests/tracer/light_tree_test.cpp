@@ -36,6 +36,19 @@ std::vector<LightBounds> mixed_lights(std::size_t count, Random& random) {
   return lights;
 }
 
+// Small lights that shine down from the unit square at z = 0, their powers e^(±spread).
+std::vector<LightBounds> ceiling(std::size_t count, double spread, Random& random) {
+  std::vector<LightBounds> lights(count);
+  for (LightBounds& l : lights) {
+    const Point3d p{random(), random(), 0};
+    for (int k = 0; k < 3; ++k) extend(l.box, p + Vector3d{random(), random(), 0} * 0.02);
+    l.axis = {0, 0, -1};
+    l.theta_e_rad = pi / 2;
+    l.power = portable_exp(random.between(-spread, spread));
+  }
+  return lights;
+}
+
 }  // namespace
 
 TEST(LightTree, ProbabilitiesOfAllLightsSumToOneOrToWhatIsReached) {
@@ -77,6 +90,47 @@ TEST(LightTree, ChoosesWithTheProbabilityThatItSays) {
     for (std::uint32_t l = 0; l < lights.size(); ++l)
       EXPECT_NEAR(counts[l], tree.probability(p, l) * samples, 4) << "light " << l;
   }
+}
+
+// A lamp of many triangles, of even or of very different powers; seen from far away they are alike, and
+// chosen by power.
+TEST(LightTree, ChoosesAmongLightsThatAreAlikeWithTheProbabilityThatItSays) {
+  Random random(4);
+  for (const double spread : {0.0, 1.0, 6.0}) {
+    const std::vector<LightBounds> lights = ceiling(1000, spread, random);
+    const LightTree tree(lights, LightChoice::tree);
+    for (const double height : {0.01, 0.3, 2.0, 10.0}) {
+      const Point3d p{random(), random(), -height};
+      constexpr int samples = 100000;
+      std::vector<int> counts(lights.size(), 0);
+      for (int s = 0; s < samples; ++s) {
+        const auto chosen = tree.choose(p, (s + 0.5) / samples);
+        ASSERT_TRUE(chosen);
+        ++counts[chosen->light];
+        ASSERT_EQ(chosen->probability, tree.probability(p, chosen->light));
+      }
+      double sum = 0;
+      for (std::uint32_t l = 0; l < lights.size(); ++l) {
+        const double probability = tree.probability(p, l);
+        EXPECT_NEAR(counts[l], probability * samples, 2) << "light " << l;
+        if (height >= 10) {
+          EXPECT_NEAR(probability, lights[l].power / tree.power(), 0.1 * probability);
+        }
+        sum += probability;
+      }
+      EXPECT_NEAR(sum, 1, 1e-6);
+    }
+  }
+}
+
+// What is lost in a sum of powers is found by the nodes.
+TEST(LightTree, KeepsCandlesBesideASun) {
+  Random random(5);
+  std::vector<LightBounds> lights = ceiling(500, 0, random);
+  for (std::size_t i = 0; i < 250; ++i) lights[i].power *= 1e30;
+  const LightTree tree(lights, LightChoice::tree);
+  for (const double height : {0.1, 1000.0})
+    for (std::uint32_t l = 0; l < lights.size(); ++l) EXPECT_GT(tree.probability({0.5, 0.5, -height}, l), 0);
 }
 
 // A light may be left out only where it sends nothing.

@@ -25,21 +25,28 @@ struct LightBounds {
 enum class LightChoice : std::uint8_t { tree, power };
 
 // What each child of a node can send to a point, in four cache lines. Coordinates are the tree's: the box of
-// all lights has its centre at 0 and its greatest half edge is 1. A child without power does not exist.
+// all lights has its centre at 0 and its greatest half edge is 1. Lights are in the tree's order: those of a
+// child are in the slots [first[i], first[i + 1]). A child without lights has no power.
 struct alignas(64) LightNode {
   static constexpr int width = 8;
-  static constexpr float unit = 32767;  // of the integers
+  static constexpr float unit = 32767;       // of the integers
+  static constexpr std::uint8_t alike = 64;  // of `below`: see LightTree
   using Lanes = std::array<float, width>;
-  using Integers = std::array<std::int16_t, width>;
+  using Pairs = std::array<std::uint32_t, width>;
   Lanes center_x{}, center_y{}, center_z{};
-  Lanes radius2{};                          // of a sphere around the child; < 0: two-sided
-  Lanes power{};                            // < 0: nothing leaves beyond θ_o, else θ_e = 90°
-  std::array<std::int32_t, width> child{};  // a node, or ~light
-  Integers axis_x{}, axis_y{}, axis_z{};    // in units of 1/unit
-  Integers cos_o{};
+  // Two a lane, the first in the lower bits. The upper bits of floats: radius² of a sphere around the child,
+  // < 0: two-sided; power, < 0: nothing leaves beyond θ_o, else θ_e = 90°. Integers in units of 1/unit: the
+  // axis, and cos θ_o.
+  Pairs radius2_power{}, axis_xy{}, axis_z_cos_o{};
+  std::array<std::uint32_t, width + 1> first{};
+  std::uint32_t children = 0;  // the first node of the children of several lights, which are together
+  std::array<std::uint8_t, width> below{};  // of such a child: its node after `children`
 };
 static_assert(sizeof(LightNode) == 256);
 
+// From the root down by what each child can send to the point, as far as the lights of a child are alike for
+// it: they are far away for their extent, turned to it, and none has less than 1e-12 of all power. Of these
+// one is chosen by power, by sums over the tree's order.
 class LightTree {
  public:
   LightTree() = default;
@@ -61,12 +68,22 @@ class LightTree {
 
  private:
   friend class LightTreeBuilder;
+  struct Slot {
+    double sum = 0;  // of the power of the slots before, of 1
+    std::uint32_t light = 0;
+  };
+  struct Slots {
+    std::uint32_t begin = 0, end = 0;
+  };
+  static constexpr std::uint32_t absent = ~0u;
+  Slots all() const { return {0, static_cast<std::uint32_t>(slots_.size() - 1)}; }
   Point3f local(Point3d p) const;
+  std::optional<Chosen> choose_by_power(Slots slots, double u) const;
+  double share_of_power(Slots slots, std::uint32_t slot) const;
 
-  std::vector<LightNode> nodes_;  // 0 is the root
-  // Of each light: the lanes from the root, three bits each, lowest first, and a 1 above them; 0: it is not
-  // in the tree.
-  std::vector<std::uint64_t> trail_;
+  std::vector<LightNode> nodes_;     // 0 is the root
+  std::vector<Slot> slots_;          // and one after the last
+  std::vector<std::uint32_t> slot_;  // of each light, or `absent`
   Point3d center_;
   double scale_ = 1;
   double power_ = 0;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -15,13 +16,13 @@ namespace {
 struct Cluster {
   Bounds3d box;
   NormalCone cone;
-  double theta_e_rad = 0, power = 0;
+  double theta_e_rad = 0, power = 0, least_power = 0;
   bool two_sided = false;
   bool empty = true;
 };
 
 Cluster cluster_of(const LightBounds& l) {
-  return {l.box, {l.axis, l.theta_o_rad}, l.theta_e_rad, l.power, l.two_sided, false};
+  return {l.box, {l.axis, l.theta_o_rad}, l.theta_e_rad, l.power, l.power, l.two_sided, false};
 }
 
 Cluster united(const Cluster& a, const Cluster& b) {
@@ -37,6 +38,7 @@ Cluster united(const Cluster& a, const Cluster& b) {
   c.cone = united(a.cone, second);
   c.theta_e_rad = std::max(a.theta_e_rad, b.theta_e_rad);
   c.power += b.power;
+  c.least_power = std::min(a.least_power, b.least_power);
   return c;
 }
 
@@ -71,8 +73,20 @@ double cost(const Slab& s) {
 
 // Lights whose θ_e is less emit nothing beyond θ_o, as far as a node tells.
 constexpr double narrow_rad = 0.014;
+// Of all power: lights with less are lost in a sum, so they are never chosen by one.
+constexpr double least_share = 1e-12;
+
+std::uint32_t pair(double lower, double upper) {
+  return (static_cast<std::uint32_t>(static_cast<std::int32_t>(lower)) & 0xffffu) |
+         static_cast<std::uint32_t>(static_cast<std::int32_t>(upper)) << 16;
+}
+// Of the least float of eight bits' precision that is not below x ≥ 0.
+std::uint32_t upper_bits(double x) {
+  return (std::bit_cast<std::uint32_t>(static_cast<float>(x)) + 0xffffu) >> 16;
+}
+
 constexpr int buckets = 12;
-// From here on by number, which needs at most 11 more levels for 2³² lights; a trail has room for 21.
+// From here on by number, which needs at most 11 more levels for 2³² lights.
 constexpr int deepest_by_cost = 10;
 
 }  // namespace
@@ -86,7 +100,7 @@ class LightTreeBuilder {
       if (lights_[i].power > 0 && std::isfinite(lights_[i].power)) order_.push_back(i);
       cap_.push_back((1 + (lights_[i].theta_o_rad > 0 ? portable_cos(lights_[i].theta_o_rad) : 1)) / 2);
     }
-    tree_.trail_.assign(lights_.size(), 0);
+    tree_.slot_.assign(lights_.size(), LightTree::absent);
     if (order_.empty()) return;
     Bounds3d all;
     for (const std::uint32_t i : order_) {
@@ -97,7 +111,9 @@ class LightTreeBuilder {
     const Vector3d e = extent(all);
     const double half = std::max({e.x, e.y, e.z}) / 2;
     tree_.scale_ = half > 0 ? 1 / half : 1;
-    build_node({0, order_.size()}, 0, 0);
+    tree_.nodes_.emplace_back();
+    build_node(0, {0, order_.size()}, 0);
+    list_slots();
   }
 
  private:
@@ -170,40 +186,50 @@ class LightTreeBuilder {
     return order_.begin() + static_cast<std::ptrdiff_t>(i);
   }
 
-  struct Built {
-    std::int32_t node;
-    Cluster bounds;
-  };
-
-  Built build_node(Range all, int depth, std::uint64_t trail) {
+  Cluster build_node(std::size_t index, Range all, int depth) {
     std::array<Range, LightNode::width> parts{all};
     std::size_t count = 1;
+    const auto end = [&] { return parts.begin() + static_cast<std::ptrdiff_t>(count); };
     while (count < LightNode::width) {
-      const auto largest = std::max_element(parts.begin(), parts.begin() + static_cast<std::ptrdiff_t>(count),
-                                            [](Range a, Range b) { return a.size() < b.size(); });
+      const auto largest =
+          std::max_element(parts.begin(), end(), [](Range a, Range b) { return a.size() < b.size(); });
       // The last level but one has as few nodes as hold its lights.
       if (largest->size() < 2 || (all.size() > LightNode::width && largest->size() <= LightNode::width))
         break;
-      parts[count] = split_off(*largest, depth);
+      std::copy_backward(largest + 1, end(), end() + 1);
+      largest[1] = split_off(*largest, depth);
       ++count;
     }
-    const auto index = static_cast<std::int32_t>(tree_.nodes_.size());
-    tree_.nodes_.emplace_back();
+
+    LightNode node;
+    node.first.fill(static_cast<std::uint32_t>(all.end));
+    node.children = static_cast<std::uint32_t>(tree_.nodes_.size());
+    std::uint8_t inner = 0;
+    for (std::size_t lane = 0; lane < count; ++lane) {
+      node.first[lane] = static_cast<std::uint32_t>(parts[lane].begin);
+      if (parts[lane].size() > 1) node.below[lane] = inner++;
+    }
+    tree_.nodes_.resize(tree_.nodes_.size() + inner);
     Cluster sum;
     for (std::size_t lane = 0; lane < count; ++lane) {
       const Range r = parts[lane];
-      const std::uint64_t way = trail | static_cast<std::uint64_t>(lane) << 3 * depth;
-      const Built part = r.size() == 1 ? leaf(order_[r.begin], depth, way) : build_node(r, depth + 1, way);
-      set_lane(tree_.nodes_[static_cast<std::size_t>(index)], lane, part.bounds);
-      tree_.nodes_[static_cast<std::size_t>(index)].child[lane] = part.node;
-      sum = united(sum, part.bounds);
+      const Cluster part = r.size() == 1 ? cluster_of(lights_[order_[r.begin]])
+                                         : build_node(node.children + node.below[lane], r, depth + 1);
+      set_lane(node, lane, part);
+      sum = united(sum, part);
     }
-    return {index, sum};
+    tree_.nodes_[index] = node;
+    return sum;
   }
 
-  Built leaf(std::uint32_t light, int depth, std::uint64_t way) {
-    tree_.trail_[light] = way | std::uint64_t{1} << 3 * (depth + 1);
-    return {static_cast<std::int32_t>(~light), cluster_of(lights_[light])};
+  void list_slots() {
+    double sum = 0;
+    for (const std::uint32_t light : order_) {
+      tree_.slot_[light] = static_cast<std::uint32_t>(tree_.slots_.size());
+      tree_.slots_.push_back({sum / tree_.power_, light});
+      sum += lights_[light].power;
+    }
+    tree_.slots_.push_back({sum / tree_.power_, 0});
   }
 
   // Angles grow by what rounding may lose: 1/32767 of an axis, and of a cosine as much as θ_o needs.
@@ -213,20 +239,19 @@ class LightTreeBuilder {
     node.center_y[lane] = middle.y;
     node.center_z[lane] = middle.z;
     const double radius = length(extent(c.box)) / 2 * tree_.scale_ * (1 + 1e-6) + 1e-7;
-    node.radius2[lane] = static_cast<float>(radius * radius) * (c.two_sided ? -1.0f : 1.0f);
-    const auto integer = [](double x) {
-      return static_cast<std::int16_t>(std::nearbyint(x * static_cast<double>(LightNode::unit)));
-    };
-    node.axis_x[lane] = integer(c.cone.axis.x);
-    node.axis_y[lane] = integer(c.cone.axis.y);
-    node.axis_z[lane] = integer(c.cone.axis.z);
     const double half = c.cone.half_rad + 4e-5;
     const double cosine = half < pi ? portable_cos(half) : -1;
-    node.cos_o[lane] = static_cast<std::int16_t>(
-        std::max(-32767.0, std::floor(cosine * static_cast<double>(LightNode::unit))));
-    // Of a bounded size, so that sums do not overflow; enough to be above 0.
-    const auto power = static_cast<float>(std::max(c.power / tree_.power_, 1e-30));
-    node.power[lane] = c.theta_e_rad < narrow_rad ? -power : power;
+    constexpr auto unit = static_cast<double>(LightNode::unit);
+    const auto integer = [](double x) { return std::nearbyint(x * unit); };
+    node.axis_xy[lane] = pair(integer(c.cone.axis.x), integer(c.cone.axis.y));
+    node.axis_z_cos_o[lane] = pair(integer(c.cone.axis.z), std::max(-32767.0, std::floor(cosine * unit)));
+    // Power is of a bounded size, so that sums do not overflow; enough to be above 0.
+    const bool narrow = c.theta_e_rad < narrow_rad;
+    node.radius2_power[lane] = upper_bits(radius * radius) | (c.two_sided ? 0x8000u : 0u) |
+                               (upper_bits(std::max(c.power / tree_.power_, 1e-30)) | (narrow ? 0x8000u : 0u))
+                                   << 16;
+    if (!narrow && cosine > 0 && c.least_power >= least_share * tree_.power_)
+      node.below[lane] |= LightNode::alike;
   }
 
   LightTree& tree_;

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// A cell in memory → its domains on disk.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+
+#include "bundle/census.h"
+#include "partitioner/kd_plan.h"
+#include "partitioner/write_objects.h"
+
+namespace vitrail {
+
+// What all cells have in common. Cells write to places of their own in the manifest.
+struct DomainWriter {
+  std::filesystem::path bundle;
+  Manifest& manifest;  // kd_nodes and domains have their sizes
+  Census& census;
+  const InstanceDealer& instances;
+  std::uint64_t items = 0;                   // the scene's own triangles and instances
+  std::size_t at_once = 1;                   // domains that are made at the same time
+  std::function<void(std::uint64_t)> wrote;  // triangles and pieces of one domain, from any thread
+};
+
+// Divides a cell, of whose triangles `cut` has the pieces of those that are not whole in it, into the domains
+// of the subtree and writes them.
+void divide_cell(const NumberedTriangles& triangles, const CellContent& cut, const Subtree& subtree,
+                 const DomainWriter& writer);
+
+}  // namespace vitrail

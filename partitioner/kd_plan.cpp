@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "partitioner/kd_plan.h"
+
+#include <tbb/parallel_invoke.h>
+
+#include <bit>
+#include <cmath>
+#include <numeric>
+
+#include "partitioner/choose_plane.h"
+
+namespace vitrail {
+
+namespace {
+
+// No domain should have more than this many times its even share of triangles.
+constexpr double most_load = 1.2;
+
+Plane choose(std::span<const Bounds3f> sample, const Subtree& s, std::uint32_t below, double share) {
+  const double spare = most_load * share * s.domains / std::max(1.0, static_cast<double>(sample.size()));
+  const double tolerance = std::max(0.01, std::pow(spare, 1.0 / std::bit_width(s.domains - 1)) - 1);
+  if (const auto plane = choose_plane(sample, {below, s.domains - below, tolerance})) return *plane;
+  if (s.cell.empty()) return {};
+  const Vector3f e = extent(s.cell);
+  const int axis = e.x >= e.y && e.x >= e.z ? 0 : e.y >= e.z ? 1 : 2;
+  return {axis, std::midpoint(s.cell.lower[axis], s.cell.upper[axis])};
+}
+
+struct Halves {
+  std::vector<Bounds3f> below, above;
+};
+
+// What is cut keeps the rest of its box on either side.
+Halves halves(std::vector<Bounds3f> sample, Plane plane) {
+  Halves h;
+  for (const Bounds3f& b : sample) {
+    const Interval i{b.lower[plane.axis], b.upper[plane.axis]};
+    const bool in_both = reaches_above(i, plane.split) && reaches_below(i, plane.split);
+    if (reaches_below(i, plane.split)) {
+      h.below.push_back(b);
+      if (in_both) h.below.back().upper[plane.axis] = plane.split;
+    }
+    if (reaches_above(i, plane.split)) {
+      h.above.push_back(b);
+      if (in_both) h.above.back().lower[plane.axis] = plane.split;
+    }
+  }
+  return h;
+}
+
+std::uint32_t child_of(const Subtree& s) {
+  return s.domains == 1 ? KdNode::leaf_bit | s.first_domain : s.node;
+}
+
+// The plan below a node: its own numbers begin at 0.
+void append(KdPlan& plan, const KdPlan& part) {
+  const auto nodes = static_cast<std::uint32_t>(plan.nodes.size());
+  const auto leaves = static_cast<std::uint32_t>(plan.leaves.size());
+  for (KdNode node : part.nodes) {
+    for (std::uint32_t* child : {&node.below, &node.above})
+      *child += *child & KdNode::leaf_bit ? leaves : nodes;
+    plan.nodes.push_back(node);
+  }
+  plan.leaves.insert(plan.leaves.end(), part.leaves.begin(), part.leaves.end());
+}
+
+}  // namespace
+
+KdPlan plan_kd_tree(std::vector<Bounds3f> sample, const Subtree& s, double share, std::uint32_t most_domains,
+                    std::span<KdNode> kd_nodes) {
+  if (s.domains <= most_domains) return {{}, {s}};
+  const std::uint32_t half = s.domains / 2;
+  const Plane plane = choose(sample, s, half, share);
+  Subtree low{s.cell, s.node + 1, s.first_domain, half};
+  Subtree high{s.cell, s.node + half, s.first_domain + half, s.domains - half};
+  low.cell.upper[plane.axis] = high.cell.lower[plane.axis] = plane.split;
+  const auto axis = static_cast<std::uint32_t>(plane.axis);
+  kd_nodes[s.node] = {plane.split, axis, child_of(low), child_of(high)};
+
+  Halves half_samples = halves(std::move(sample), plane);
+  KdPlan below, above;
+  tbb::parallel_invoke(
+      [&] { below = plan_kd_tree(std::move(half_samples.below), low, share, most_domains, kd_nodes); },
+      [&] { above = plan_kd_tree(std::move(half_samples.above), high, share, most_domains, kd_nodes); });
+  const auto leaves = static_cast<std::uint32_t>(below.leaves.size());
+  const auto first_above = static_cast<std::uint32_t>(1 + below.nodes.size());
+  KdPlan plan{{{plane.split, axis, below.nodes.empty() ? KdNode::leaf_bit : 1,
+                above.nodes.empty() ? KdNode::leaf_bit | leaves : first_above}},
+              {}};
+  append(plan, below);
+  append(plan, above);
+  return plan;
+}
+
+}  // namespace vitrail

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "partitioner/memory_plan.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "scene/diagnostics.h"
+
+namespace vitrail {
+
+namespace {
+
+constexpr double mib = 1 << 20;
+constexpr double default_domain_bytes = 64 * mib;
+constexpr std::uint32_t most_domains = 999'999;  // six digits in a file name
+// A domain's share of triangles may be exceeded by this much (kd_plan.h), and some of them are cut.
+constexpr double fullest = 1.3;
+
+// Resident before there is a scene: nearly all of it is the code of libraries that read images.
+constexpr double program_bytes = 136 * mib;
+
+// Bytes a triangle: measured, docs/partitioning.md.
+struct Costs {
+  double on_disk, placed, built;
+};
+
+Costs costs_of(const Manifest& m) {
+  const double normals = m.requirements.shading_normals, uvs = m.requirements.uv, attributes = m.attributes;
+  return {62 + 16 * normals + 32 * uvs + 48 * attributes,
+          48 + 12 * normals + 24 * uvs + 36 * attributes,  // id, vertices, index in its leaf
+          230 + 16 * normals + 32 * uvs + 48 * attributes};
+}
+
+std::uint32_t number_of_domains(const MemoryNeeds& needs, const Costs& costs) {
+  double domains = needs.domains;
+  if (needs.domains == 0) {
+    const double bytes =
+        needs.domain_bytes
+            ? static_cast<double>(needs.domain_bytes)
+            : std::max(1.0, std::min(default_domain_bytes, static_cast<double>(needs.budget_bytes) / 32));
+    const double all =
+        static_cast<double>(needs.triangles) * costs.on_disk + static_cast<double>(needs.instance_bytes);
+    domains = std::max(1.0, std::ceil(all / bytes));
+  }
+  if (domains > most_domains)
+    throw UsageError(fmt::format("{:.0f} domains are asked for; the most is {}", domains, most_domains));
+  return static_cast<std::uint32_t>(domains);
+}
+
+}  // namespace
+
+MemoryPlan plan_memory(const Manifest& m, const MemoryNeeds& needs) {
+  const Costs costs = costs_of(m);
+  MemoryPlan plan;
+  plan.domains = number_of_domains(needs, costs);
+  const auto triangles = static_cast<double>(needs.triangles);
+  const double fixed = program_bytes + triangles / 4;  // and the census
+  const double left = static_cast<double>(needs.budget_bytes) - static_cast<double>(needs.mesh_bytes) -
+                      static_cast<double>(needs.instance_bytes) - fixed;
+  const double domain = plan.domains == 1 ? triangles : fullest * triangles / plan.domains;  // triangles
+  const double build = costs.built * domain;
+  const double least = costs.placed * domain + build;
+  if (triangles > 0 && left < least)
+    throw UsageError(fmt::format(
+        "{:.0f} MiB of memory are too little for domains of {:.0f} triangles: {:.0f} MiB are needed, or more "
+        "and smaller domains (--domains, --domain-bytes)",
+        static_cast<double>(needs.budget_bytes) / mib, domain,
+        (static_cast<double>(needs.budget_bytes) - left + least) / mib + 1));
+  // All at once, or half of what is left for a bucket's triangles.
+  const double threads = std::min<double>(needs.threads, plan.domains);
+  const bool all_fit = costs.placed * triangles + threads * build <= left || plan.domains == 1;
+  const double bucket = all_fit ? plan.domains : std::floor(left / 2 / (costs.placed * domain));
+  plan.domains_at_once = static_cast<std::uint32_t>(std::clamp<double>(bucket, 1, plan.domains));
+  const double placed = all_fit ? costs.placed * triangles : costs.placed * domain * plan.domains_at_once;
+  plan.domains_in_work = static_cast<std::uint32_t>(
+      std::clamp<double>(build > 0 ? (left - placed) / build : threads, 1, threads));
+  plan.load_bytes = static_cast<std::uint64_t>(all_fit ? std::max(left - placed, left / 8) : left / 2);
+  plan.spill_bytes = static_cast<std::uint64_t>(left / 4);
+  return plan;
+}
+
+std::uint64_t machine_bytes() {
+  return static_cast<std::uint64_t>(::sysconf(_SC_PHYS_PAGES)) *
+         static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
+}
+
+}  // namespace vitrail

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// How a scene is partitioned within a budget of memory.
+#pragma once
+
+#include <cstdint>
+
+#include "bundle/manifest.h"
+
+namespace vitrail {
+
+struct MemoryPlan {
+  std::uint32_t domains = 1;
+  std::uint32_t domains_at_once = 1;  // in memory with all their triangles: a bucket
+  std::uint32_t domains_in_work = 1;  // of which trees are being built
+  std::uint64_t load_bytes = 0;       // for meshes that are loaded from their files
+  std::uint64_t spill_bytes = 0;      // for what is on its way to the buckets
+};
+
+struct MemoryNeeds {
+  std::uint64_t budget_bytes = 0;
+  std::uint64_t triangles = 0;       // that no instance has
+  std::uint64_t instance_bytes = 0;  // of references to objects, in memory and in the domains
+  std::uint64_t mesh_bytes = 0;      // of the budget, already in use
+  std::uint32_t domains = 0;         // 0: by domain_bytes
+  std::uint64_t domain_bytes = 0;  // of a file; 0: 64 MiB, or less where that is more than 1/32 of the budget
+  int threads = 1;
+};
+
+// Throws UsageError where not even one domain fits, and for too many domains.
+MemoryPlan plan_memory(const Manifest& manifest, const MemoryNeeds& needs);
+
+std::uint64_t machine_bytes();
+
+}  // namespace vitrail

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+// A scene → buckets on disk, for scenes that do not fit into memory.
+#pragma once
+
+#include "partitioner/kd_plan.h"
+#include "partitioner/place_scene.h"
+#include "partitioner/spill.h"
+
+namespace vitrail {
+
+// The bounds of triangles chosen at random, at most some 3·10⁵, in the bundle's coordinates.
+std::vector<Bounds3f> sample_of(const World& world);
+
+// Sends all triangles down the tree to the bucket of its leaf. `placed` is told how many, from any thread.
+void spill_scene(const World& world, const KdPlan& plan, std::uint64_t load_bytes, Spill& spill,
+                 SceneTally& tally, const std::function<void(std::uint64_t)>& placed);
+
+}  // namespace vitrail

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/deferred_mesh.h"
+
+#include "scene/diagnostics.h"
+
+namespace vitrail {
+
+namespace {
+
+constexpr std::uint64_t most_samples = 1u << 18;  // of all deferred meshes
+
+bool is_sampled(std::uint64_t mesh, std::uint64_t triangle, int shift) {
+  return (mixed(mesh, triangle) & ((std::uint64_t{1} << shift) - 1)) == 0;
+}
+
+void take_samples(const TriangleMesh& mesh, std::uint64_t number, int shift, DeferredMesh& deferred) {
+  deferred.sample_shift = shift;
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    if (!is_sampled(number, i, shift)) continue;
+    auto& sample = deferred.sample.emplace_back();
+    sample.triangle = static_cast<std::uint32_t>(i);
+    for (std::size_t k = 0; k < 3; ++k) sample.vertices[k] = mesh.positions[mesh.triangles[i][k]];
+  }
+  deferred.sample.shrink_to_fit();
+}
+
+template <class T>
+std::uint64_t size_bytes(const std::vector<T>& v) {
+  return v.size() * sizeof(T);
+}
+
+}  // namespace
+
+std::uint64_t mixed(std::uint64_t a, std::uint64_t b) {  // the finaliser of SplitMix64 (Steele et al. 2014)
+  std::uint64_t x = a * 0x9e3779b97f4a7c15u + b;
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
+  return x ^ (x >> 31);
+}
+
+std::uint64_t bytes_of(const TriangleMesh& mesh) {
+  std::uint64_t bytes = size_bytes(mesh.positions) + size_bytes(mesh.triangles) + size_bytes(mesh.normals) +
+                        size_bytes(mesh.uvs);
+  for (const MeshAttribute& attribute : mesh.attributes) bytes += size_bytes(attribute.values);
+  return bytes;
+}
+
+std::uint64_t triangles_of(const TriangleMesh& mesh) {
+  return mesh.deferred ? mesh.deferred->triangles : mesh.triangles.size();
+}
+
+bool has_normals(const TriangleMesh& mesh) {
+  return mesh.deferred ? mesh.deferred->has_normals : !mesh.normals.empty();
+}
+
+Bounds3f bounds_of(const TriangleMesh& mesh) {
+  if (mesh.deferred) return mesh.deferred->bounds;
+  Bounds3f bounds;
+  for (const auto& triangle : mesh.triangles)
+    for (const std::uint32_t corner : triangle) extend(bounds, mesh.positions[corner]);
+  return bounds;
+}
+
+const TriangleMesh& loaded(const TriangleMesh& mesh, TriangleMesh& storage) {
+  if (!mesh.deferred) return mesh;
+  storage = mesh.deferred->load();
+  if (storage.triangles.size() != mesh.deferred->triangles || bounds_of(storage) != mesh.deferred->bounds)
+    throw Error("a file of a mesh has changed while the scene was read; start again");
+  return storage;
+}
+
+TriangleMesh MeshMemory::keep(TriangleMesh mesh, MeshLoader load) {
+  const std::uint64_t bytes = bytes_of(mesh);
+  if (bytes <= left_) {
+    left_ -= bytes;
+    return mesh;
+  }
+  const auto deferred = std::make_shared<DeferredMesh>();
+  deferred->load = std::move(load);
+  deferred->triangles = mesh.triangles.size();
+  deferred->bytes = bytes;
+  deferred->has_normals = !mesh.normals.empty();
+  deferred->bounds = bounds_of(mesh);
+  triangles_ += deferred->triangles;
+  deferred_.push_back(deferred);
+  const int before = shift_;
+  while ((triangles_ >> shift_) > most_samples) ++shift_;
+  take_samples(mesh, deferred_.size() - 1, shift_, *deferred);
+  for (std::size_t i = 0; shift_ != before && i + 1 < deferred_.size(); ++i) {
+    std::erase_if(deferred_[i]->sample,
+                  [&](const auto& sample) { return !is_sampled(i, sample.triangle, shift_); });
+    deferred_[i]->sample.shrink_to_fit();
+    deferred_[i]->sample_shift = shift_;
+  }
+  TriangleMesh stub;
+  stub.deferred = deferred;
+  return stub;
+}
+
+}  // namespace vitrail

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// Meshes that stay in their files when not all fit into memory.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "scene/bounds.h"
+#include "scene/mesh.h"
+
+namespace vitrail {
+
+using MeshLoader = std::function<TriangleMesh()>;
+
+// What is known of a mesh without loading it.
+struct DeferredMesh {
+  MeshLoader load;  // from any thread; throws Error as its first reading would have
+  std::uint64_t triangles = 0, bytes = 0;
+  bool has_normals = false;
+  Bounds3f bounds;  // of the vertices that triangles use
+  // Triangles chosen at random, each with probability 2^-sample_shift.
+  struct Sample {
+    std::uint32_t triangle;
+    std::array<Point3f, 3> vertices;
+  };
+  int sample_shift = 0;
+  std::vector<Sample> sample;
+};
+
+// In memory.
+std::uint64_t bytes_of(const TriangleMesh& mesh);
+
+// Of a mesh that may be deferred.
+std::uint64_t triangles_of(const TriangleMesh& mesh);
+bool has_normals(const TriangleMesh& mesh);
+Bounds3f bounds_of(const TriangleMesh& mesh);
+
+// The mesh, loaded into `storage` if it is deferred. Throws Error where the file has changed since.
+const TriangleMesh& loaded(const TriangleMesh& mesh, TriangleMesh& storage);
+
+// A hash of two numbers, for choices that are to look random.
+std::uint64_t mixed(std::uint64_t a, std::uint64_t b);
+
+// Keeps meshes in memory up to a limit.
+class MeshMemory {
+ public:
+  explicit MeshMemory(std::uint64_t limit_bytes = ~std::uint64_t{0}) : left_(limit_bytes) {}
+
+  // The mesh itself while it fits, else what stands for it.
+  TriangleMesh keep(TriangleMesh mesh, MeshLoader load);
+
+ private:
+  std::uint64_t left_, triangles_ = 0;
+  std::vector<std::shared_ptr<DeferredMesh>> deferred_;
+  int shift_ = 0;
+};
+
+}  // namespace vitrail
