@@ -148,7 +148,7 @@ class Partitioner {
         flatten(std::move(world_), plan_.load_bytes, [&](std::uint64_t n) { phases_.advance(n); });
     manifest_ = std::move(flat.manifest);
     phases_.begin("cutting and writing domains", 0.8, triangles);
-    const InstanceDealer instances = dealer();
+    const InstanceDealer instances = dealer(manifest_.bounds);
     divide_cell(flat, {}, {manifest_.bounds, 0, 0, plan_.domains}, writer(census, instances));
   }
 
@@ -176,7 +176,7 @@ class Partitioner {
     spill_bytes_ = spill.bytes();
     ::malloc_trim(0);
     manifest_ = std::move(world_.manifest);
-    const InstanceDealer instances = dealer();
+    const InstanceDealer instances = dealer(bounds);
     phases_.begin("cutting and writing domains", 0.59, triangles);
     for (std::size_t i = 0; i < buckets_; ++i) {
       const LoadedCell cell = spill.take(i);
@@ -194,7 +194,9 @@ class Partitioner {
   }
 
   // The manifest knows the scene's scale.
-  InstanceDealer dealer() { return {std::move(refs_), static_cast<float>(padding(manifest_))}; }
+  InstanceDealer dealer(const Bounds3f& root) {
+    return {std::move(refs_), static_cast<float>(padding(manifest_)), root};
+  }
 
   std::vector<IdRange> ids_of_instances() const {
     std::vector<IdRange> ranges;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <tuple>
 
@@ -126,14 +127,19 @@ std::vector<InstanceRef> write_objects(const World& world, Manifest& m, const st
   return references(world.uses, files);
 }
 
-InstanceDealer::InstanceDealer(std::vector<InstanceRef> instances, float padding)
-    : instances_(std::move(instances)), padding_(padding) {
+InstanceDealer::InstanceDealer(std::vector<InstanceRef> instances, float padding, const Bounds3f& root)
+    : instances_(std::move(instances)), padding_(padding), root_(root) {
   std::vector<Bounds3f> boxes;
   for (const InstanceRef& ref : instances_) boxes.push_back(box_of(ref));
   tree_ = build_tree(boxes, padding);
 }
 
-std::vector<InstanceRef> InstanceDealer::in(const Bounds3f& cell) const {
+std::vector<InstanceRef> InstanceDealer::in(Bounds3f cell) const {
+  constexpr float infinity = std::numeric_limits<float>::infinity();
+  for (int axis = 0; axis < 3; ++axis) {
+    if (cell.lower[axis] <= root_.lower[axis]) cell.lower[axis] = -infinity;
+    if (cell.upper[axis] >= root_.upper[axis]) cell.upper[axis] = infinity;
+  }
   Indices found, pending;
   if (!tree_.empty()) pending.push_back(0);
   while (!pending.empty()) {

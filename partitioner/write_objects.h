@@ -17,15 +17,16 @@ std::vector<InstanceRef> write_objects(const World& world, Manifest& manifest,
 // Finds the instances that reach into a cell.
 class InstanceDealer {
  public:
-  InstanceDealer(std::vector<InstanceRef> instances, float padding);
+  // `root`: the cell that is divided. What lies beyond it belongs to the cells at its border.
+  InstanceDealer(std::vector<InstanceRef> instances, float padding, const Bounds3f& root);
 
-  const std::vector<InstanceRef>& all() const { return instances_; }
   // Their boxes are clipped to the cell. From any thread.
-  std::vector<InstanceRef> in(const Bounds3f& cell) const;
+  std::vector<InstanceRef> in(Bounds3f cell) const;
 
  private:
   std::vector<InstanceRef> instances_;
   float padding_;
+  Bounds3f root_;
   std::vector<BvhNode> tree_;
 };
 

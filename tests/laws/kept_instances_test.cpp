@@ -178,6 +178,24 @@ TEST(KeptInstances, HaveTheFilmOfTheFlattenedScene) { expect_the_flattened_film(
 
 TEST(KeptInstances, FarFromTheOrigin) { expect_the_flattened_film(forest({1e6, -2e6, 3e5}), {1, 8}); }
 
+// In parts that are in memory one after the other.
+TEST(KeptInstances, OutOfCore) {
+  Scene scene = forest({});
+  scene.shapes.push_back(
+      {add_torus(scene, 400), Id<Material>{1}, {}, translate({0, 0, -6}) * scale({4, 4, 1})});
+  const Films films(scene);
+  const nlohmann::json reference =
+      films.render(films.bundle("flat.vit", {.domains = 1, .flatten = true}), 1, 2);
+  const TemporaryDirectory directory;
+  const PartitionStats stats =
+      partition(scene, directory / "kept.vit", {.domains = 16, .memory_bytes = 170 * mib});
+  EXPECT_GT(stats.buckets, 1u);
+  EXPECT_GT(stats.instances, 60u);
+  const nlohmann::json kept = films.render(directory / "kept.vit", 1, 2);
+  ASSERT_FALSE(reference.is_null() || kept.is_null());
+  EXPECT_EQ(kept["film_hash"], reference["film_hash"]);
+}
+
 TEST(KeptInstances, LightsOfInstancesShineTheSame) {
   const TemporaryDirectory directory;
   const Scene scene = forest({});
