@@ -33,12 +33,27 @@ double polygon_area(std::span<const Point3d> polygon) {
   return length(sum) / 2;
 }
 
-Census::Census(std::uint64_t triangles)
-    : triangles_(triangles), seen_(std::make_unique<std::atomic<std::uint32_t>[]>((triangles + 15) / 16)) {}
+Census::Census(std::uint64_t triangles, std::vector<IdRange> absent)
+    : absent_(std::move(absent)), ids_(triangles), triangles_(triangles) {
+  for (const IdRange& range : absent_) {
+    absent_before_.push_back(ids_ - triangles_);
+    triangles_ -= range.count;
+  }
+  seen_ = std::make_unique<std::atomic<std::uint32_t>[]>((triangles_ + 15) / 16);
+}
 
-std::uint32_t Census::mark(std::uint32_t triangle, std::uint32_t bits) {
-  const std::uint32_t shift = 2 * (triangle % 16);
-  return (seen_[triangle / 16].fetch_or(bits << shift, std::memory_order_relaxed) >> shift) & 3;
+std::optional<std::uint64_t> Census::place_of(std::uint32_t id) const {
+  if (id >= ids_) return std::nullopt;
+  const auto after = std::ranges::upper_bound(absent_, std::uint64_t{id}, {}, &IdRange::first);
+  if (after == absent_.begin()) return id;
+  const IdRange& range = after[-1];
+  if (id < range.first + range.count) return std::nullopt;
+  return id - absent_before_[static_cast<std::size_t>(after - absent_.begin()) - 1] - range.count;
+}
+
+std::uint32_t Census::mark(std::uint64_t place, std::uint32_t bits) {
+  const auto shift = static_cast<std::uint32_t>(2 * (place % 16));
+  return (seen_[place / 16].fetch_or(bits << shift, std::memory_order_relaxed) >> shift) & 3;
 }
 
 void Census::add(std::uint32_t domain, const DomainView& view, std::span<const Piece> pieces,
@@ -53,10 +68,11 @@ void Census::add(std::uint32_t domain, const DomainView& view, std::span<const P
   for (const Cluster& cluster : view.clusters)
     for (std::size_t lane = 0; lane < cluster_width; ++lane) {
       const std::uint32_t id = cluster.id[lane];
-      if (id >= triangles_) continue;
+      const auto place = place_of(id);
+      if (!place) continue;
       const bool cut =
           may_be_cut[id % may_be_cut.size()] && std::binary_search(cut_here.begin(), cut_here.end(), id);
-      const std::uint32_t before = mark(id, cut ? seen_as_piece : seen_whole);
+      const std::uint32_t before = mark(*place, cut ? seen_as_piece : seen_whole);
       if (cut ? (before & seen_whole) != 0 : before != 0) ++duplicates;
       if (!cut) continue;
       lanes_cut.push_back(id);

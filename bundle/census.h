@@ -6,12 +6,17 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "bundle/domain_file.h"
 
 namespace vitrail {
+
+struct IdRange {
+  std::uint64_t first = 0, count = 0;
+};
 
 struct CensusResult {
   std::uint64_t duplicates = 0;     // uncut triangles held more than once, pieces held twice by one domain
@@ -29,8 +34,8 @@ double polygon_area(std::span<const Point3d> polygon);
 
 class Census {
  public:
-  // For global ids [0, triangles).
-  explicit Census(std::uint64_t triangles);
+  // For global ids [0, triangles), but for those of instances: `absent`, ascending and apart.
+  explicit Census(std::uint64_t triangles, std::vector<IdRange> absent = {});
 
   // Adds one domain; from any thread.
   void add(std::uint32_t domain, const DomainView& view, std::span<const Piece> pieces,
@@ -50,9 +55,13 @@ class Census {
 
   // Adds what the parts, of any order, say of their triangles.
   static void sum_up(std::vector<CutPart> parts, CensusResult& result);
-  std::uint32_t mark(std::uint32_t triangle, std::uint32_t bits);
+  // Where an id is marked; none for one that no domain should hold.
+  std::optional<std::uint64_t> place_of(std::uint32_t id) const;
+  std::uint32_t mark(std::uint64_t place, std::uint32_t bits);
 
-  std::uint64_t triangles_;
+  std::vector<IdRange> absent_;
+  std::vector<std::uint64_t> absent_before_;  // each of them
+  std::uint64_t ids_, triangles_;             // without the absent
   // Sixteen triangles each; of a triangle bit 0: whole, bit 1: as a piece.
   std::unique_ptr<std::atomic<std::uint32_t>[]> seen_;
   std::atomic<std::uint64_t> duplicates_{0};

@@ -93,23 +93,57 @@ void check_kd_tree(const Checker& c, const Manifest& m) {
   }
 }
 
-void check_surfaces(const Checker& c, const Manifest& m) {
-  c.require(m.triangles < no_triangle, "it has too many triangles");
-  c.require(m.cut_triangles <= m.triangles, "more triangles are cut than there are");
-  c.require(
-      m.surfaces.empty() == (m.triangles == 0) && (m.surfaces.empty() || m.surfaces[0].first_triangle == 0),
-      "its surfaces do not begin at triangle 0");
-  for (std::size_t i = 0; i < m.surfaces.size(); ++i) {
-    const Surface& s = m.surfaces[i];
-    c.require(
-        s.first_triangle < m.triangles && (i == 0 || s.first_triangle > m.surfaces[i - 1].first_triangle),
-        "its surfaces are out of order");
+void check_surfaces(const Checker& c, const Manifest& m, std::span<const Surface> surfaces,
+                    std::uint64_t triangles) {
+  for (std::size_t i = 0; i < surfaces.size(); ++i) {
+    const Surface& s = surfaces[i];
+    c.require(s.first_triangle < triangles && (i == 0 || s.first_triangle > surfaces[i - 1].first_triangle),
+              "its surfaces are out of order");
     c.require(s.material < m.materials.size(), "a surface has no material");
     for (const std::int32_t medium : {s.interior, s.exterior})
       c.require(medium >= -1 && medium < static_cast<std::int64_t>(m.media.size()),
                 "a surface has a medium that is not there");
     c.require(s.area_light >= -1 && s.area_light < static_cast<std::int64_t>(m.area_lights.size()),
               "a surface has a light that is not there");
+  }
+}
+
+void check_triangles(const Checker& c, const Manifest& m) {
+  c.require(m.triangles < no_triangle, "it has too many triangles");
+  c.require(m.cut_triangles <= m.triangles, "more triangles are cut than there are");
+  const std::size_t first = m.objects.empty() ? m.surfaces.size() : m.objects[0].first_surface;
+  c.require(first <= m.surfaces.size(), "an object has surfaces that are not there");
+  const std::span<const Surface> own = scene_surfaces(m);
+  if (m.objects.empty())
+    c.require(own.empty() == (m.triangles == 0) && (own.empty() || own[0].first_triangle == 0),
+              "its surfaces do not begin at triangle 0");
+  check_surfaces(c, m, own, m.triangles);
+}
+
+// Objects refer to smaller numbers, so no chain of instances comes back to where it was.
+void check_objects(const Checker& c, const Manifest& m) {
+  std::vector<int> depth(m.objects.size(), 1);
+  for (std::size_t i = 0; i < m.objects.size(); ++i) {
+    const ObjectInfo& o = m.objects[i];
+    c.require(o.triangles > 0 && o.triangles <= m.triangles, "an object has no triangles, or too many");
+    c.require(o.first_surface >= m.objects[0].first_surface &&
+                  std::uint64_t{o.first_surface} + o.surface_count <= m.surfaces.size(),
+              "an object has surfaces that are not there");
+    check_surfaces(c, m, surfaces_of(m, o), o.triangles);
+    for (const std::uint32_t other : o.objects) {
+      c.require(other < i, "an object holds itself");
+      depth[i] = std::max(depth[i], depth[other] + 1);
+    }
+    c.require(depth[i] <= max_instance_depth, "instances are nested too deep");
+  }
+  for (const DomainInfo& d : m.domains) {
+    c.require(std::ranges::is_sorted(d.objects), "the objects of a domain are out of order");
+    for (const std::uint32_t object : d.objects) {
+      c.require(object < m.objects.size(), "a domain needs an object that is not there");
+      for (const std::uint32_t other : m.objects[object].objects)
+        c.require(std::ranges::binary_search(d.objects, other),
+                  "a domain does not name all objects that it needs");
+    }
   }
 }
 
@@ -185,7 +219,8 @@ void check_manifest(const Manifest& m, const std::filesystem::path& file) {
             "the samples a pixel or the depth is out of range");
   check_film(c, m.film);
   check_kd_tree(c, m);
-  check_surfaces(c, m);
+  check_triangles(c, m);
+  check_objects(c, m);
   check_records(c, m);
   check_sheets(c, m);
   check_lights(c, m);
@@ -193,21 +228,6 @@ void check_manifest(const Manifest& m, const std::filesystem::path& file) {
   c.require(m.attributes <= max_attributes, "its textures read more than 8 mesh attributes");
   c.require(m.camera_medium >= -1 && m.camera_medium < static_cast<std::int64_t>(m.media.size()),
             "the camera is in a medium that is not there");
-}
-
-void check_domain(const Manifest& manifest, std::uint32_t domain, const MappedDomain& mapped,
-                  const std::filesystem::path& file) {
-  const DomainInfo& info = manifest.domains.at(domain);
-  if (mapped.hash() != info.hash || mapped.bytes() != info.bytes)
-    throw Error("this file is not the one that the bundle was made with; partition the scene again",
-                {file.string()});
-  const DomainView& view = mapped.view();
-  if (view.attributes.size() != view.clusters.size() * manifest.attributes)
-    throw Error("it does not hold the mesh attributes that the scene has", {file.string()});
-  for (const Cluster& cluster : view.clusters)
-    for (const std::uint32_t id : cluster.id)
-      if (id != no_triangle && id >= manifest.triangles)
-        throw Error(fmt::format("it holds triangle {}, which the scene does not have", id), {file.string()});
 }
 
 std::uint64_t hash_of_records(const Manifest& manifest) {

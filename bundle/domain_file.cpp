@@ -13,16 +13,18 @@ std::uint64_t layout::checksum_of(DomainHeader header) {
 }
 
 DomainView view_of(const DomainContent& content) {
-  return {content.nodes, content.clusters, content.normals, content.uvs, content.attributes};
+  return {content.nodes,      content.clusters,  content.normals,        content.uvs,
+          content.attributes, content.instances, content.instance_nodes, {}};
 }
 
 std::uint64_t write_domain_file(const std::filesystem::path& file, const DomainContent& content,
                                 std::uint64_t* hash) {
   const std::array<std::span<const std::byte>, layout::section_count> data{
-      std::as_bytes(std::span(content.nodes)),         std::as_bytes(std::span(content.clusters)),
-      std::as_bytes(std::span(content.normals)),       std::as_bytes(std::span(content.uvs)),
-      std::as_bytes(std::span(content.attributes)),    std::as_bytes(std::span(content.pieces)),
-      std::as_bytes(std::span(content.piece_vertices))};
+      std::as_bytes(std::span(content.nodes)),          std::as_bytes(std::span(content.clusters)),
+      std::as_bytes(std::span(content.normals)),        std::as_bytes(std::span(content.uvs)),
+      std::as_bytes(std::span(content.attributes)),     std::as_bytes(std::span(content.pieces)),
+      std::as_bytes(std::span(content.piece_vertices)), std::as_bytes(std::span(content.instances)),
+      std::as_bytes(std::span(content.instance_nodes))};
   constexpr std::array<std::byte, layout::section_alignment + layout::section_tail> zeros{};
 
   layout::DomainHeader header;

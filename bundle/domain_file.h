@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // One sub-domain on disk: an 8-wide BVH over clusters of at most 8 triangles, ready to be mapped and traced.
-// The byte layout is described in docs/bundle-format.md.
+// An object has a file of the same form. The byte layout is described in docs/bundle-format.md.
 #pragma once
 
 #include <array>
@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "bundle/instance.h"
 #include "scene/bounds.h"
 #include "scene/vec.h"
 
@@ -82,6 +83,8 @@ struct DomainContent {
   std::vector<ClusterAttributes> attributes;  // as many a cluster as the manifest has slots
   std::vector<Piece> pieces;
   std::vector<Point3d> piece_vertices;
+  std::vector<InstanceRef> instances;
+  std::vector<BvhNode> instance_nodes;  // a tree over the instances, whose indices take the clusters' place
 };
 
 // Views into a mapped file (or into a DomainContent); all that tracing touches.
@@ -91,6 +94,11 @@ struct DomainView {
   std::span<const ClusterNormals> normals;
   std::span<const ClusterUvs> uvs;
   std::span<const ClusterAttributes> attributes;
+  std::span<const InstanceRef> instances;
+  std::span<const BvhNode> instance_nodes;
+  // Of a domain, for its instances and theirs: by number, those it needs. Whoever loads it sets the two.
+  std::span<const DomainView* const> objects;
+  float padding = 0;  // of the scene (manifest.h)
 };
 
 DomainView view_of(const DomainContent& content);

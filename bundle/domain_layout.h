@@ -14,7 +14,7 @@ static_assert(std::endian::native == std::endian::little,
               "domain files are little-endian and mapped as they are");
 
 inline constexpr std::array<char, 8> domain_magic{'V', 'I', 'T', 'R', 'D', 'O', 'M', '\n'};
-inline constexpr std::uint32_t domain_version = 2;
+inline constexpr std::uint32_t domain_version = 3;
 inline constexpr std::uint64_t section_alignment = 64;
 // Zero bytes that follow each section at least: vector loads may read past the end of an array.
 inline constexpr std::uint64_t section_tail = 16;
@@ -27,12 +27,14 @@ enum SectionIndex : std::size_t {
   attributes,
   pieces,
   piece_vertices,
+  instances,
+  instance_nodes,
   section_count
 };
 
 inline constexpr std::array<std::uint32_t, section_count> element_size{
-    sizeof(BvhNode),           sizeof(Cluster), sizeof(ClusterNormals), sizeof(ClusterUvs),
-    sizeof(ClusterAttributes), sizeof(Piece),   sizeof(Point3d)};
+    sizeof(BvhNode), sizeof(Cluster), sizeof(ClusterNormals), sizeof(ClusterUvs), sizeof(ClusterAttributes),
+    sizeof(Piece),   sizeof(Point3d), sizeof(InstanceRef),    sizeof(BvhNode)};
 
 struct Section {
   std::uint64_t offset = 0;    // from the start of the file, a multiple of 64
@@ -51,7 +53,7 @@ struct DomainHeader {
   std::uint64_t header_checksum = 0;  // of this header and the table, with this field 0
   std::array<Section, section_count> table{};
 };
-static_assert(sizeof(DomainHeader) == 256 && sizeof(DomainHeader) % section_alignment == 0);
+static_assert(sizeof(DomainHeader) == 320 && sizeof(DomainHeader) % section_alignment == 0);
 
 // Bytes a section takes in the file, padding included.
 constexpr std::uint64_t padded_bytes(std::uint64_t count, std::uint64_t element) {

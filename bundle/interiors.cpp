@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <tuple>
 
 #include "scene/diagnostics.h"
 
@@ -28,9 +29,11 @@ Interiors::Interiors(const Manifest& manifest)
     const Volume volume{surface.material, surface.interior, surface.exterior, dielectric};
     if (std::find(volumes_.begin(), volumes_.end(), volume) == volumes_.end()) volumes_.push_back(volume);
   }
-  std::stable_sort(volumes_.begin(), volumes_.end(), [](const Volume& a, const Volume& b) {
-    return a.dielectric->priority > b.dielectric->priority;
-  });
+  // An order that does not depend on where surfaces stand in their list.
+  const auto key = [](const Volume& v) {
+    return std::tuple(-v.dielectric->priority, v.material, v.interior, v.exterior);
+  };
+  std::ranges::sort(volumes_, {}, key);
 
   const auto needed = [&] {
     double product = bases_;

@@ -19,7 +19,7 @@ namespace vitrail {
 
 namespace {
 
-constexpr int manifest_version = 2;
+constexpr int manifest_version = 3;
 
 // ---- The two binary files: 32 bytes of header, then the payload
 // -------------------------------------------------
@@ -106,6 +106,18 @@ void check_version(const Json& json, const std::filesystem::path& file) {
 
 std::filesystem::path domain_path(const std::filesystem::path& bundle, std::uint32_t domain) {
   return bundle / "domains" / fmt::format("{:06}.dom", domain);
+}
+
+std::filesystem::path object_path(const std::filesystem::path& bundle, std::uint32_t object) {
+  return bundle / "objects" / fmt::format("{:06}.dom", object);
+}
+
+std::span<const Surface> scene_surfaces(const Manifest& m) {
+  return std::span(m.surfaces).first(m.objects.empty() ? m.surfaces.size() : m.objects[0].first_surface);
+}
+
+std::span<const Surface> surfaces_of(const Manifest& m, const ObjectInfo& object) {
+  return std::span(m.surfaces).subspan(object.first_surface, object.surface_count);
 }
 
 void write_manifest(const std::filesystem::path& bundle, const Manifest& manifest) {

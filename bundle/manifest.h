@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -28,8 +29,21 @@ struct DomainInfo {
   std::uint64_t pieces = 0;     // of which pieces
   std::uint64_t bytes = 0;      // of its file
   std::uint64_t hash = 0;       // MappedDomain::hash of its file
-  Bounds3f tight_bounds;        // of the triangles' parts in it, padded; empty when it has none
+  Bounds3f tight_bounds;  // of the triangles' and instances' parts in it, padded; empty when it has none
+  std::uint64_t instances = 0;         // that reach into it
+  std::vector<std::uint32_t> objects;  // that tracing it needs, ascending: its instances' and what they need
   bool operator==(const DomainInfo&) const = default;
+};
+
+// What instances are of: a prototype, or a part of a large one. Its ids count its own triangles first, then
+// those of its instances; parts of one prototype share them.
+struct ObjectInfo {
+  std::uint64_t triangles = 0;                         // ids are [0, triangles)
+  std::uint64_t bytes = 0;                             // of its file
+  std::uint64_t hash = 0;                              // MappedDomain::hash of its file
+  std::uint32_t first_surface = 0, surface_count = 0;  // the surfaces of its own triangles
+  std::vector<std::uint32_t> objects;  // that its own instances are of, ascending, below its own number
+  bool operator==(const ObjectInfo&) const = default;
 };
 
 // Triangles [first_triangle, first_triangle of the next surface) share a material, an emission and the media
@@ -82,7 +96,9 @@ struct Manifest {
   float scale = 0;                  // greatest |coordinate| of a vertex; paddings scale with it
   std::vector<KdNode> kd_nodes;     // empty when there is one domain
   std::vector<DomainInfo> domains;
-  std::vector<Surface> surfaces;  // ascending first_triangle
+  std::vector<ObjectInfo> objects;
+  // Ascending first_triangle: those of the scene's own triangles, then each object's, in its ids.
+  std::vector<Surface> surfaces;
   // The scene's own records, their spectra `resolved`, their transforms ending in the bundle's coordinates,
   // their filenames naming texture files.
   std::vector<Material> materials;
@@ -112,6 +128,12 @@ inline constexpr int max_kd_depth = 62;
 
 std::filesystem::path domain_path(const std::filesystem::path& bundle, std::uint32_t domain);
 
+std::filesystem::path object_path(const std::filesystem::path& bundle, std::uint32_t object);
+
+// The surfaces of triangles that no instance has, and those of an object's own triangles.
+std::span<const Surface> scene_surfaces(const Manifest& m);
+std::span<const Surface> surfaces_of(const Manifest& m, const ObjectInfo& object);
+
 // Writes manifest.json, materials.bin and lights.bin. Throws MachineError.
 void write_manifest(const std::filesystem::path& bundle, const Manifest& manifest);
 
@@ -121,6 +143,8 @@ Manifest read_manifest(const std::filesystem::path& bundle);
 // Throws Error where the mapped file is not the one that the manifest speaks of, or holds triangles it does
 // not have.
 void check_domain(const Manifest& manifest, std::uint32_t domain, const MappedDomain& mapped,
+                  const std::filesystem::path& file);
+void check_object(const Manifest& manifest, std::uint32_t object, const MappedDomain& mapped,
                   const std::filesystem::path& file);
 
 }  // namespace vitrail

@@ -146,16 +146,39 @@ KdNode kd_node_from_json(const Json& j) {
 }
 
 Json domain_to_json(const DomainInfo& d) {
-  return {{"triangles", d.triangles},
-          {"pieces", d.pieces},
-          {"bytes", d.bytes},
-          {"hash", hash(d.hash)},
-          {"tight_bounds", box(d.tight_bounds)}};
+  Json j{{"triangles", d.triangles},
+         {"pieces", d.pieces},
+         {"bytes", d.bytes},
+         {"hash", hash(d.hash)},
+         {"tight_bounds", box(d.tight_bounds)}};
+  if (d.instances > 0) j.update({{"instances", d.instances}, {"objects", d.objects}});
+  return j;
 }
 
 DomainInfo domain_from_json(const Json& j) {
-  return {j.at("triangles").get<std::uint64_t>(), j.at("pieces").get<std::uint64_t>(),
-          j.at("bytes").get<std::uint64_t>(), hash_from(j.at("hash")), box_from(j.at("tight_bounds"))};
+  DomainInfo d{j.at("triangles").get<std::uint64_t>(), j.at("pieces").get<std::uint64_t>(),
+               j.at("bytes").get<std::uint64_t>(), hash_from(j.at("hash")), box_from(j.at("tight_bounds"))};
+  if (!j.contains("instances")) return d;
+  d.instances = j["instances"].get<std::uint64_t>();
+  d.objects = j.at("objects").get<std::vector<std::uint32_t>>();
+  return d;
+}
+
+Json object_to_json(const ObjectInfo& o) {
+  return {{"triangles", o.triangles},
+          {"bytes", o.bytes},
+          {"hash", hash(o.hash)},
+          {"surfaces", {o.first_surface, o.surface_count}},
+          {"objects", o.objects}};
+}
+
+ObjectInfo object_from_json(const Json& j) {
+  return {j.at("triangles").get<std::uint64_t>(),
+          j.at("bytes").get<std::uint64_t>(),
+          hash_from(j.at("hash")),
+          j.at("surfaces").at(0).get<std::uint32_t>(),
+          j.at("surfaces").at(1).get<std::uint32_t>(),
+          j.at("objects").get<std::vector<std::uint32_t>>()};
 }
 
 }  // namespace
@@ -214,6 +237,8 @@ Json manifest_to_json(const Manifest& m) {
   for (const KdNode& n : m.kd_nodes) j["kd_nodes"].push_back(kd_node_to_json(n));
   j["domains"] = Json::array();
   for (const DomainInfo& d : m.domains) j["domains"].push_back(domain_to_json(d));
+  if (!m.objects.empty()) j["objects"] = Json::array();
+  for (const ObjectInfo& o : m.objects) j["objects"].push_back(object_to_json(o));
   return j;
 }
 
@@ -236,6 +261,8 @@ Manifest manifest_from_json(const Json& j) {
                 s.at("direct_only").get<bool>(), s.at("straight_counts").get<bool>()};
   for (const Json& n : j.at("kd_nodes")) m.kd_nodes.push_back(kd_node_from_json(n));
   for (const Json& d : j.at("domains")) m.domains.push_back(domain_from_json(d));
+  if (j.contains("objects"))
+    for (const Json& o : j["objects"]) m.objects.push_back(object_from_json(o));
   return m;
 }
 

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cmath>
 #include <cstring>
 
 #include "bundle/checksum.h"
@@ -96,27 +97,41 @@ class OnceEach {
   std::size_t count_ = 0;
 };
 
-// Children come after their parent and every node and cluster hangs in exactly one place, so a traversal ends
-// and its stack is bounded by the depth.
-void check_tree(const std::filesystem::path& file, const DomainView& view) {
-  OnceEach nodes(view.nodes.size()), clusters(view.clusters.size());
-  std::vector<std::uint8_t> depth(view.nodes.size(), 1);
-  if (!view.nodes.empty()) nodes.mark(0);
-  for (std::size_t i = 0; i < view.nodes.size(); ++i)
-    for (const std::uint32_t child : view.nodes[i].child) {
+// Children come after their parent and every node and leaf (cluster or instance) hangs in exactly one place,
+// so a traversal ends and its stack is bounded by the depth.
+void check_tree(const std::filesystem::path& file, std::span<const BvhNode> tree, std::size_t leaf_count,
+                const char* leaf) {
+  OnceEach nodes(tree.size()), leaves(leaf_count);
+  std::vector<std::uint8_t> depth(tree.size(), 1);
+  if (!tree.empty()) nodes.mark(0);
+  for (std::size_t i = 0; i < tree.size(); ++i)
+    for (const std::uint32_t child : tree[i].child) {
       if (child == BvhNode::empty) continue;
       const std::size_t index = child & ~BvhNode::cluster_bit;
       if (child & BvhNode::cluster_bit) {
-        if (index >= view.clusters.size() || !clusters.mark(index))
-          reject(file, fmt::format("node {} refers to cluster {}", i, index));
+        if (index >= leaf_count || !leaves.mark(index))
+          reject(file, fmt::format("node {} refers to {} {}", i, leaf, index));
       } else {
-        if (index <= i || index >= view.nodes.size() || !nodes.mark(index))
+        if (index <= i || index >= tree.size() || !nodes.mark(index))
           reject(file, fmt::format("node {} refers to node {}", i, index));
         depth[index] = static_cast<std::uint8_t>(depth[i] + 1);
         if (depth[index] > max_bvh_depth) reject(file, "its tree is too deep");
       }
     }
-  if (!nodes.all() || !clusters.all()) reject(file, "its tree does not reach every cluster");
+  if (!nodes.all() || !leaves.all()) reject(file, fmt::format("its tree does not reach every {}", leaf));
+}
+
+void check_instances(const std::filesystem::path& file, std::span<const InstanceRef> instances) {
+  for (std::size_t i = 0; i < instances.size(); ++i) {
+    const InstanceRef& ref = instances[i];
+    bool finite = true;
+    for (const auto& row : ref.to_parent.m)
+      for (const double x : row) finite = finite && std::isfinite(x);
+    for (int axis = 0; axis < 3; ++axis)
+      finite = finite && std::isfinite(ref.lower[axis]) && std::isfinite(ref.upper[axis]) &&
+               ref.lower[axis] <= ref.upper[axis];
+    if (!finite) reject(file, fmt::format("instance {} stands nowhere", i));
+  }
 }
 
 }  // namespace
@@ -127,17 +142,24 @@ MappedDomain::MappedDomain(const std::filesystem::path& file) : file_(file) {
   bytes_ = bytes.size();
   try {
     check_header(file, bytes);
-    for (const auto section :
-         {layout::nodes, layout::clusters, layout::normals, layout::uvs, layout::attributes})
+    for (const auto section : {layout::nodes, layout::clusters, layout::normals, layout::uvs,
+                               layout::attributes, layout::instances, layout::instance_nodes})
       check_section(file, data_, section);
-    view_ = {elements<BvhNode>(data_, layout::nodes), elements<Cluster>(data_, layout::clusters),
-             elements<ClusterNormals>(data_, layout::normals), elements<ClusterUvs>(data_, layout::uvs),
-             elements<ClusterAttributes>(data_, layout::attributes)};
+    view_ = {elements<BvhNode>(data_, layout::nodes),
+             elements<Cluster>(data_, layout::clusters),
+             elements<ClusterNormals>(data_, layout::normals),
+             elements<ClusterUvs>(data_, layout::uvs),
+             elements<ClusterAttributes>(data_, layout::attributes),
+             elements<InstanceRef>(data_, layout::instances),
+             elements<BvhNode>(data_, layout::instance_nodes),
+             {}};
     if (!view_.normals.empty() && view_.normals.size() != view_.clusters.size())
       reject(file, "it does not have one group of normals a cluster");
     if (!view_.uvs.empty() && view_.uvs.size() != view_.clusters.size())
       reject(file, "it does not have one group of (u,v) a cluster");
-    check_tree(file, view_);
+    check_tree(file, view_.nodes, view_.clusters.size(), "cluster");
+    check_tree(file, view_.instance_nodes, view_.instances.size(), "instance");
+    check_instances(file, view_.instances);
   } catch (...) {
     ::munmap(const_cast<std::byte*>(data_), bytes_);
     throw;

@@ -79,6 +79,7 @@ std::vector<ConversionItem> conversion_items(const Scene& scene, const Diagnosti
   for (const Prototype& prototype : scene.prototypes) {
     items.add(named("object", prototype.name), prototype.origin);
     add_shapes(items, prototype.shapes);
+    for (const Instance& instance : prototype.instances) items.add("instance", instance.origin);
   }
   for (const Instance& instance : scene.instances) items.add("instance", instance.origin);
   for (const Diagnostic& diagnostic : diagnostics) items.note(diagnostic);

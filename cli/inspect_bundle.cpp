@@ -2,8 +2,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 
 #include "bundle/census.h"
+#include "bundle/loaded_domain.h"
 #include "cli/inspect.h"
 #include "cli/sizes.h"
 
@@ -32,8 +34,22 @@ int depth_of(const DomainView& view) {
 }
 
 void check_counts(const DomainInfo& info, const MappedDomain& mapped, const std::filesystem::path& file) {
-  if (info.triangles != filled_lanes(mapped.view()) || info.pieces != mapped.pieces().size())
+  if (info.triangles != filled_lanes(mapped.view()) || info.pieces != mapped.pieces().size() ||
+      info.instances != mapped.view().instances.size())
     throw Error("it does not hold as many triangles as the manifest says", {file.string()});
+}
+
+// Of all domains, each once.
+std::vector<IdRange> ids_of_instances(const Manifest& m, const std::filesystem::path& bundle) {
+  std::map<std::uint64_t, std::uint64_t> counts;
+  for (std::uint32_t i = 0; i < m.domains.size() && !m.objects.empty(); ++i) {
+    const SharedDomain mapped = map_domain(m, bundle, i);
+    for (const InstanceRef& ref : mapped->view().instances)
+      counts[ref.first_triangle] = m.objects[ref.object].triangles;
+  }
+  std::vector<IdRange> ranges;
+  for (const auto& [first, count] : counts) ranges.push_back({first, count});
+  return ranges;
 }
 
 Report domain_line(std::uint32_t index, const DomainInfo& d) {
@@ -49,7 +65,7 @@ Report domain_line(std::uint32_t index, const DomainInfo& d) {
 
 Report inspect_bundle(const std::filesystem::path& bundle) {
   const Manifest m = read_manifest(bundle);
-  Census census(m.triangles);
+  Census census(m.triangles, ids_of_instances(m, bundle));
   Report domains = Report::array();
   std::uint64_t bytes = 0;
   for (std::uint32_t i = 0; i < m.domains.size(); ++i) {
@@ -61,6 +77,7 @@ Report inspect_bundle(const std::filesystem::path& bundle) {
     domains.push_back(domain_line(i, m.domains[i]));
     bytes += mapped.bytes();
   }
+  for (std::uint32_t i = 0; i < m.objects.size(); ++i) bytes += map_object(m, bundle, i)->bytes();
   const CensusResult found = census.result();
   Report r{{"file", bundle.string()}, {"kind", "bundle"}, {"size", format_bytes(bytes)}};
   r.update(describe(m));
@@ -88,6 +105,7 @@ Report inspect_domain(const std::filesystem::path& file) {
           {"pieces", mapped.pieces().size()},
           {"piece_vertices", mapped.piece_vertices().size()},
           {"shading_normals", !view.normals.empty()},
+          {"instances", view.instances.size()},
           {"clusters", view.clusters.size()},
           {"triangles_per_cluster", static_cast<double>(filled) / clusters},
           {"nodes", view.nodes.size()},

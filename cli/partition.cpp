@@ -36,6 +36,7 @@ void declare(CLI::App& app, Arguments& a) {
   app.add_option("--domains-at-once", a.options.domains_at_once)->group("");
   app.add_flag("--require-everything", a.options.everything,
                "as if the scene required all that there is: to measure what the analysis saves");
+  app.add_flag("--flatten", a.options.flatten, "copy what instances place instead of keeping them");
   app.add_option("--domain-bytes", a.domain_bytes, "size of a sub-domain, e.g. 64M (the default)")
       ->excludes(domains);
   app.add_option(
@@ -93,6 +94,8 @@ void write_stats(const std::filesystem::path& file, const PartitionStats& s) {
                                     {"bundle_bytes", s.bundle_bytes},
                                     {"duplicates", s.duplicates},
                                     {"area_error", s.area_error},
+                                    {"objects", s.objects},
+                                    {"instances", s.instances},
                                     {"wall_s", s.wall_s},
                                     {"cpu_s", s.cpu_s},
                                     {"peak_rss_bytes", s.peak_rss_bytes},
@@ -113,6 +116,7 @@ void print_summary(const PartitionStats& s, const std::filesystem::path& bundle)
              s.triangles_mean);
   fmt::print("  {} triangles were cut into {} pieces; {} duplicates, area error {:.2g}\n", s.cut_triangles,
              s.pieces, s.duplicates, s.area_error);
+  if (s.objects > 0) fmt::print("  {} instances of {} objects are kept\n", s.instances, s.objects);
   fmt::print("  {:.2f} s, {:.2f} s of processor time, {:.2f} million triangles a second\n", s.wall_s, s.cpu_s,
              s.triangles_per_s * 1e-6);
   fmt::print("  at most {} of memory of {} allowed; {}\n", format_bytes(s.peak_rss_bytes),

@@ -43,7 +43,7 @@ MemoryPlan plan_memory(std::uint64_t budget, std::uint64_t base, int threads, st
   if (budget < least)
     throw MachineError(
         fmt::format("--memory {:.0f}M is too little: {:.0f}M for the program and the film, {:.0f}M for the "
-                    "largest domain; "
+                    "largest domain and the objects in it; "
                     "at least {:.0f}M is needed, or more domains",
                     static_cast<double>(budget) / mib, static_cast<double>(fixed) / mib,
                     static_cast<double>(largest_domain) / mib, static_cast<double>(least + mib - 1) / mib));

@@ -90,12 +90,10 @@ Job set_up(const RenderOptions& options) {
 }
 
 MemoryPlan plan_for(const Manifest& manifest, const RenderOptions& options, int threads, std::uint64_t base) {
-  std::uint64_t largest = 0, all = 0;
-  for (const DomainInfo& d : manifest.domains) {
-    largest = std::max(largest, d.bytes);
-    all += d.bytes;
-  }
-  MemoryPlan plan = plan_memory(options.memory_bytes, base, threads, largest, all);
+  std::uint64_t largest = 0;
+  for (std::uint32_t d = 0; d < manifest.domains.size(); ++d)
+    largest = std::max(largest, bytes_needed(manifest, d));
+  MemoryPlan plan = plan_memory(options.memory_bytes, base, threads, largest, bytes_of_all(manifest));
   if (options.domain_memory_bytes > 0)
     plan.domains_bytes = std::max(largest, std::min(plan.domains_bytes, options.domain_memory_bytes));
   return plan;

@@ -5,11 +5,12 @@
 
 #include <atomic>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
 
-#include "bundle/manifest.h"
+#include "bundle/loaded_domain.h"
 #include "tracer/path_tracer.h"
 
 namespace vitrail {
@@ -17,14 +18,22 @@ namespace vitrail {
 // The resident domains at one moment. A worker keeps its own reference while it traces, so a domain that is
 // evicted meanwhile is unmapped when the last worker lets go of it.
 struct ResidentTable {
-  std::vector<std::shared_ptr<const MappedDomain>> domains;
+  std::vector<std::shared_ptr<const LoadedDomain>> domains;
   std::vector<const DomainView*> views;
 };
 
-// Not synchronised, except `load`: the rank's mutex guards it.
+// A domain that has room, and those of its objects that are in memory already.
+struct Reservation {
+  std::uint32_t domain = 0;
+  std::vector<std::uint32_t> missing;          // objects to be mapped, ascending
+  std::map<std::uint32_t, SharedDomain> held;  // by number
+};
+
+// Objects are shared by the domains that need them, and counted once. Not synchronised, except `load`: the
+// rank's mutex guards it. One thread reserves and loads.
 class Residency {
  public:
-  // `budget_bytes` for mapped domains; `home[d]` is the rank that answers for domain d.
+  // `budget_bytes` for mapped domains and objects; `home[d]` is the rank that answers for domain d.
   Residency(const Manifest& manifest, std::filesystem::path bundle, std::uint64_t budget_bytes,
             std::vector<int> home, int rank);
 
@@ -39,11 +48,11 @@ class Residency {
   // The domain to load now, room made for it and reserved; empty while there is none or until workers let go
   // of what was evicted. `waiting(d)` counts the rays for d, `alive` those in the whole job; `starving`: the
   // workers have nothing else to do.
-  std::optional<std::uint32_t> reserve(const std::function<std::size_t(std::uint32_t)>& waiting,
-                                       std::size_t alive, bool starving);
+  std::optional<Reservation> reserve(const std::function<std::size_t(std::uint32_t)>& waiting,
+                                     std::size_t alive, bool starving);
   // Maps and verifies; may be called without the mutex.
-  std::shared_ptr<const MappedDomain> load(std::uint32_t domain);
-  void insert(std::uint32_t domain, std::shared_ptr<const MappedDomain> mapped);
+  std::shared_ptr<const LoadedDomain> load(const Reservation& reservation);
+  void insert(std::uint32_t domain, std::shared_ptr<const LoadedDomain> loaded);
 
   std::uint64_t loads() const { return loads_; }
   std::uint64_t evictions() const { return evictions_; }
@@ -51,21 +60,31 @@ class Residency {
   const std::vector<bool>& touched() const { return touched_; }
 
  private:
-  bool make_room(std::uint64_t bytes, std::size_t candidate_waiting,
+  Reservation reservation_for(std::uint32_t domain) const;
+  bool make_room(const Reservation& wanted, std::uint64_t bytes,
                  const std::function<std::size_t(std::uint32_t)>& waiting, std::size_t alive, bool starving);
-  void replace(std::uint32_t domain, std::shared_ptr<const MappedDomain> mapped);
+  std::uint64_t bytes_in_table(const Reservation& wanted) const;
+  void replace(std::uint32_t domain, std::shared_ptr<const LoadedDomain> loaded);
+  SharedDomain counted(SharedDomain mapped) const;
 
   const Manifest& manifest_;
   std::filesystem::path bundle_;
   std::uint64_t budget_, spare_ = 0;
   std::vector<int> home_;
   std::vector<bool> local_, touched_;
+  std::vector<bool> local_objects_;                         // that a domain kept here needs
+  std::vector<std::weak_ptr<const MappedDomain>> objects_;  // by number
   std::vector<std::uint64_t> forwarded_;
   std::shared_ptr<std::atomic<std::uint64_t>>
       held_;  // bytes mapped or reserved, evicted ones until they are let go
   std::shared_ptr<const ResidentTable> table_;
   std::uint64_t loads_ = 0, evictions_ = 0;
 };
+
+// Of a domain's file and those of all objects that it needs.
+std::uint64_t bytes_needed(const Manifest& manifest, std::uint32_t domain);
+// Of all domains and objects.
+std::uint64_t bytes_of_all(const Manifest& manifest);
 
 // Contiguous runs of domains in kd order, of about equal bytes: neighbours share a rank and rays stay home
 // longer.

@@ -134,19 +134,19 @@ void load(RankState& s) {
   std::unique_lock lock(s.mutex);
   const auto waiting = [&](std::uint32_t domain) { return s.queues.waiting(domain); };
   while (!s.finished) {
-    const auto domain = s.residency.reserve(waiting, s.alive, s.workers_waiting == s.workers);
-    if (!domain) {
+    auto reservation = s.residency.reserve(waiting, s.alive, s.workers_waiting == s.workers);
+    if (!reservation) {
       // An evicted domain comes free without a notice, when its last worker lets go of it.
       s.load_wanted.wait_for(lock, std::chrono::milliseconds(2));
       continue;
     }
     lock.unlock();
     const auto start = Clock::now();
-    auto mapped = s.residency.load(*domain);
+    auto loaded = s.residency.load(*reservation);
     const double taken = seconds_since(start);
     lock.lock();
     s.load_s += taken;
-    s.residency.insert(*domain, std::move(mapped));
+    s.residency.insert(reservation->domain, std::move(loaded));
     s.work_available.notify_all();
   }
 }

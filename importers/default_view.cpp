@@ -5,6 +5,7 @@
 
 #include "scene/bounds.h"
 #include "scene/deferred_mesh.h"
+#include "scene/nesting.h"
 #include "scene/rgb_to_spectrum.h"
 
 namespace vitrail {
@@ -32,7 +33,7 @@ Bounds3d world_bounds(const Scene& scene) {
 void add_default_view(ImportedScene& imported, const std::filesystem::path& file) {
   constexpr double half_angle_rad = 0.35;
   Scene& scene = imported.scene;
-  const Bounds3d bounds = world_bounds(scene);
+  const Bounds3d bounds = world_bounds(has_nested_instances(scene) ? without_nested_instances(scene) : scene);
   const Point3d target = bounds.empty() ? Point3d{} : center(bounds);
   const double radius = std::max(length(extent(bounds)) / 2, 1e-6);
   const Vector3d from = normalize(Vector3d{0.4, 0.35, 1});

@@ -12,6 +12,7 @@
 #include "importers/pbrt/write_pbrt.h"
 #include "importers/ply/write_ply_scene.h"
 #include "importers/povray/write_povray.h"
+#include "scene/nesting.h"
 
 namespace vitrail {
 
@@ -41,7 +42,17 @@ const Format& format_of(const std::filesystem::path& out) {
 }  // namespace
 
 Diagnostics export_scene(const Scene& scene, const std::filesystem::path& out) {
-  return format_of(out).write(scene, out);
+  const Format& format = format_of(out);
+  if (!has_nested_instances(scene)) return format.write(scene, out);
+  Diagnostics diagnostics = format.write(without_nested_instances(scene), out);
+  for (const Prototype& prototype : scene.prototypes)
+    for (const Instance& instance : prototype.instances) {
+      const SourceLocation where = location(scene, instance.origin);
+      diagnostics.push_back({Fidelity::approximated,
+                             "an instance within an object is written as shapes of that object", where,
+                             where});
+    }
+  return diagnostics;
 }
 
 void require_export_format(const std::filesystem::path& out) { format_of(out); }

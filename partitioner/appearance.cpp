@@ -46,8 +46,13 @@ Used used_in(const Scene& scene) {
       if (medium) used.media.at(medium->value) = true;
   };
   for (const Shape& shape : scene.shapes) use(shape);
-  for (const Instance& instance : scene.instances)
-    for (const Shape& shape : scene.prototypes.at(instance.prototype.value).shapes) use(shape);
+  std::vector<bool> reached(scene.prototypes.size());
+  for (const Instance& instance : scene.instances) reached.at(instance.prototype.value) = true;
+  for (std::size_t i = scene.prototypes.size(); i-- > 0;) {
+    if (!reached[i]) continue;
+    for (const Shape& shape : scene.prototypes[i].shapes) use(shape);
+    for (const Instance& inner : scene.prototypes[i].instances) reached.at(inner.prototype.value) = true;
+  }
   if (scene.camera_medium) used.media.at(scene.camera_medium->value) = true;
   // Materials refer to smaller ids alone.
   for (std::size_t i = scene.materials.size(); i-- > 0;)

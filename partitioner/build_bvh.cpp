@@ -70,11 +70,15 @@ void* create_leaf(RTCThreadLocalAllocator allocator, const RTCBuildPrimitive* pr
   return leaf;
 }
 
-std::vector<RTCBuildPrimitive> build_primitives(std::span<const TriangleReference> references) {
+const Bounds3f& bounds_of(const TriangleReference& r) { return r.bounds; }
+const Bounds3f& bounds_of(const Bounds3f& b) { return b; }
+
+template <class T>
+std::vector<RTCBuildPrimitive> build_primitives(std::span<const T> references) {
   std::vector<RTCBuildPrimitive> primitives(references.size());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, references.size(), 4096), [&](const auto& range) {
     for (std::size_t i = range.begin(); i != range.end(); ++i) {
-      const Bounds3f& b = references[i].bounds;
+      const Bounds3f& b = bounds_of(references[i]);
       primitives[i] = {b.lower.x, b.lower.y, b.lower.z, 0,
                        b.upper.x, b.upper.y, b.upper.z, static_cast<std::uint32_t>(i)};
     }
@@ -82,12 +86,12 @@ std::vector<RTCBuildPrimitive> build_primitives(std::span<const TriangleReferenc
   return primitives;
 }
 
-BinaryNode* build_binary(RTCBVH bvh, std::vector<RTCBuildPrimitive>& primitives) {
+BinaryNode* build_binary(RTCBVH bvh, std::vector<RTCBuildPrimitive>& primitives, unsigned leaf_size) {
   RTCBuildArguments arguments = rtcDefaultBuildArguments();
   arguments.buildQuality = RTC_BUILD_QUALITY_MEDIUM;  // binned SAH, no spatial splits
   arguments.maxDepth = max_bvh_depth;  // of its last 8 levels each halves what is left, whatever its SAH
-  arguments.sahBlockSize = cluster_width;
-  arguments.maxLeafSize = cluster_width;
+  arguments.sahBlockSize = leaf_size;
+  arguments.maxLeafSize = leaf_size;
   arguments.bvh = bvh;
   arguments.primitives = primitives.data();
   arguments.primitiveCount = primitives.size();
@@ -125,11 +129,13 @@ float inflate(float x, double padding, float towards) {
   return std::nextafter(static_cast<float>(moved), towards);
 }
 
-// Collapses the binary tree and writes nodes and clusters, depth first.
+// Collapses the binary tree and writes nodes and leaves, depth first. `add_leaf(node)` returns the number of
+// the leaf.
+template <class AddLeaf>
 class Collapser {
  public:
-  Collapser(std::span<const TriangleReference> references, double padding, ClusteredTriangles& out)
-      : references_(references), padding_(padding), out_(out) {}
+  Collapser(double padding, std::vector<BvhNode>& nodes, AddLeaf add_leaf)
+      : padding_(padding), nodes_(nodes), add_leaf_(add_leaf) {}
 
   void add_root(const Subtree& root) {
     if (root.node->count) {
@@ -141,13 +147,13 @@ class Collapser {
 
  private:
   std::uint32_t add_node(const Subtree* begin, const Subtree* end) {
-    const auto index = static_cast<std::uint32_t>(out_.nodes.size());
-    out_.nodes.push_back(empty_node());
+    const auto index = static_cast<std::uint32_t>(nodes_.size());
+    nodes_.push_back(empty_node());
     for (int i = 0; begin != end; ++begin, ++i) {
-      set_box(out_.nodes[index], i, begin->bounds);
+      set_box(nodes_[index], i, begin->bounds);
       const std::uint32_t child =
-          begin->node->count ? BvhNode::cluster_bit | add_cluster(*begin->node) : add_inner(*begin->node);
-      out_.nodes[index].child[i] = child;
+          begin->node->count ? BvhNode::cluster_bit | add_leaf_(*begin->node) : add_inner(*begin->node);
+      nodes_[index].child[i] = child;
     }
     return index;
   }
@@ -172,24 +178,6 @@ class Collapser {
     return out;
   }
 
-  std::uint32_t add_cluster(const BinaryNode& leaf) {
-    const auto index = static_cast<std::uint32_t>(out_.clusters.size());
-    Cluster& cluster = out_.clusters.emplace_back();
-    for (std::uint32_t lane = 0; lane < cluster_width; ++lane) {
-      const bool filled = lane < leaf.count;
-      const std::uint32_t reference = filled ? leaf.reference[lane] : no_triangle;
-      out_.lane_reference.push_back(reference);
-      cluster.id[lane] = filled ? references_[reference].id : no_triangle;
-      for (std::size_t vertex = 0; vertex < 3; ++vertex) {
-        for (int axis = 0; axis < 3; ++axis) {
-          cluster.vertex[vertex][axis][lane] = filled ? references_[reference].vertices[vertex][axis]
-                                                      : std::numeric_limits<float>::quiet_NaN();
-        }
-      }
-    }
-    return index;
-  }
-
   static BvhNode empty_node() {
     BvhNode node{};
     std::fill_n(&node.lower[0][0], 24, std::numeric_limits<float>::infinity());
@@ -206,33 +194,77 @@ class Collapser {
     }
   }
 
-  std::span<const TriangleReference> references_;
   double padding_;
-  ClusteredTriangles& out_;
+  std::vector<BvhNode>& nodes_;
+  AddLeaf add_leaf_;
 };
+
+std::uint32_t add_cluster(std::span<const TriangleReference> references, const BinaryNode& leaf,
+                          ClusteredTriangles& out) {
+  const auto index = static_cast<std::uint32_t>(out.clusters.size());
+  Cluster& cluster = out.clusters.emplace_back();
+  for (std::uint32_t lane = 0; lane < cluster_width; ++lane) {
+    const bool filled = lane < leaf.count;
+    const std::uint32_t reference = filled ? leaf.reference[lane] : no_triangle;
+    out.lane_reference.push_back(reference);
+    cluster.id[lane] = filled ? references[reference].id : no_triangle;
+    for (std::size_t vertex = 0; vertex < 3; ++vertex) {
+      for (int axis = 0; axis < 3; ++axis) {
+        cluster.vertex[vertex][axis][lane] =
+            filled ? references[reference].vertices[vertex][axis] : std::numeric_limits<float>::quiet_NaN();
+      }
+    }
+  }
+  return index;
+}
+
+// Nodes over `references`; see Collapser.
+template <class T, class AddLeaf>
+void build_nodes(std::span<const T> references, unsigned leaf_size, double padding,
+                 std::vector<BvhNode>& nodes, const AddLeaf& add_leaf) {
+  const Device device(rtcNewDevice(nullptr), &rtcReleaseDevice);
+  if (!device) throw MachineError("embree cannot start: error " + std::to_string(rtcGetDeviceError(nullptr)));
+  const Bvh bvh(rtcNewBVH(device.get()), &rtcReleaseBVH);
+  std::vector<RTCBuildPrimitive> primitives = build_primitives(references);
+  BinaryNode* binary = build_binary(bvh.get(), primitives, leaf_size);
+  if (!binary) {
+    throw MachineError("embree cannot build a hierarchy over " + std::to_string(references.size()) +
+                       " boxes: error " + std::to_string(rtcGetDeviceError(device.get())));
+  }
+  Subtree root{binary, {}};
+  for (const T& r : references) extend(root.bounds, bounds_of(r));
+  plan_wide_tree(*binary, root.bounds);
+  Collapser(padding, nodes, add_leaf).add_root(root);
+}
 
 }  // namespace
 
 ClusteredTriangles build_bvh(std::span<const TriangleReference> references, float padding) {
   ClusteredTriangles out;
   if (references.empty()) return out;
-  const Device device(rtcNewDevice(nullptr), &rtcReleaseDevice);
-  if (!device) throw MachineError("embree cannot start: error " + std::to_string(rtcGetDeviceError(nullptr)));
-  const Bvh bvh(rtcNewBVH(device.get()), &rtcReleaseBVH);
-  std::vector<RTCBuildPrimitive> primitives = build_primitives(references);
-  BinaryNode* binary = build_binary(bvh.get(), primitives);
-  if (!binary) {
-    throw MachineError("embree cannot build a hierarchy over " + std::to_string(references.size()) +
-                       " triangles: error " + std::to_string(rtcGetDeviceError(device.get())));
-  }
-  Subtree root{binary, {}};
-  for (const TriangleReference& r : references) extend(root.bounds, r.bounds);
-  plan_wide_tree(*binary, root.bounds);
   out.nodes.reserve(references.size() / 24 + 1);
   out.clusters.reserve(references.size() / 6 + 1);
   out.lane_reference.reserve(out.clusters.capacity() * cluster_width);
-  Collapser(references, double{padding}, out).add_root(root);
+  build_nodes(references, cluster_width, double{padding}, out.nodes,
+              [&](const BinaryNode& leaf) { return add_cluster(references, leaf, out); });
   return out;
+}
+
+Bounds3f inflated(const Bounds3f& box, float padding) {
+  constexpr float infinity = std::numeric_limits<float>::infinity();
+  Bounds3f out;
+  for (int axis = 0; axis < 3; ++axis) {
+    out.lower[axis] = inflate(box.lower[axis], double{padding}, -infinity);
+    out.upper[axis] = inflate(box.upper[axis], double{padding}, infinity);
+  }
+  return out;
+}
+
+std::vector<BvhNode> build_tree(std::span<const Bounds3f> boxes, float padding) {
+  std::vector<BvhNode> nodes;
+  if (!boxes.empty())
+    build_nodes(boxes, 1, double{padding}, nodes, [](const BinaryNode& leaf) { return leaf.reference[0]; });
+  return nodes;
 }
 
 }  // namespace vitrail

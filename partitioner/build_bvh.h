@@ -31,4 +31,10 @@ struct ClusteredTriangles {
 // references give no nodes. Throws MachineError when Embree fails.
 ClusteredTriangles build_bvh(std::span<const TriangleReference> references, float padding);
 
+// A box moved by padding + 10⁻⁶|x| on every side.
+Bounds3f inflated(const Bounds3f& box, float padding);
+
+// The same tree with a leaf for each of the boxes, BvhNode::cluster_bit | its position.
+std::vector<BvhNode> build_tree(std::span<const Bounds3f> boxes, float padding);
+
 }  // namespace vitrail

@@ -76,10 +76,15 @@ void divide_cell(const NumberedTriangles& triangles, const CellContent& cut, con
                  const DomainWriter& writer) {
   Manifest& m = writer.manifest;
   std::vector<Bounds3f> sample = sample_of(triangles, cut, subtree.domains);
-  // Of a sample of this rate all of the scene's triangles would be so many in each domain.
+  const std::size_t chosen = sample.size(), all = triangles.triangles.size();
+  // An instance counts as a triangle.
+  const std::vector<InstanceRef> instances = writer.instances.in(subtree.cell);
+  for (std::size_t i = 0; i < instances.size(); ++i)
+    if (all == 0 || mixed(2, i) % all < chosen) sample.push_back(box_of(instances[i]));
+  // Of a sample of this rate all that the scene has would be so many in each domain.
   const double rate =
-      static_cast<double>(sample.size()) / std::max(1.0, static_cast<double>(triangles.triangles.size()));
-  const double share = rate * static_cast<double>(m.triangles) / static_cast<double>(m.domains.size());
+      static_cast<double>(sample.size()) / std::max(1.0, static_cast<double>(all + instances.size()));
+  const double share = rate * static_cast<double>(writer.items) / static_cast<double>(m.domains.size());
   const KdPlan plan = plan_kd_tree(std::move(sample), subtree, share, 1, m.kd_nodes);
   Parts parts = route_all(triangles, cut, plan);
   std::size_t next = 0;
@@ -91,7 +96,8 @@ void divide_cell(const NumberedTriangles& triangles, const CellContent& cut, con
       }) & tbb::make_filter<std::size_t, void>(tbb::filter_mode::parallel, [&](std::size_t leaf) {
         const CellContent content = gather(parts, leaf);
         const std::uint32_t domain = plan.leaves[leaf].first_domain;
-        m.domains[domain] = write_domain(m, triangles, content, writer.bundle, domain, writer.census);
+        m.domains[domain] = write_domain(m, triangles, content, writer.instances.in(plan.leaves[leaf].cell),
+                                         writer.bundle, domain, writer.census);
         writer.wrote(content.size());
       }));
 }

@@ -7,6 +7,7 @@
 
 #include "bundle/census.h"
 #include "partitioner/kd_plan.h"
+#include "partitioner/write_objects.h"
 
 namespace vitrail {
 
@@ -15,6 +16,8 @@ struct DomainWriter {
   std::filesystem::path bundle;
   Manifest& manifest;  // kd_nodes and domains have their sizes
   Census& census;
+  const InstanceDealer& instances;
+  std::uint64_t items = 0;                   // the scene's own triangles and instances
   std::size_t at_once = 1;                   // domains that are made at the same time
   std::function<void(std::uint64_t)> wrote;  // triangles and pieces of one domain, from any thread
 };

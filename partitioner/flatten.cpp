@@ -1,21 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "partitioner/flatten.h"
 
-#include <numeric>
-
 #include "partitioner/place_scene.h"
+#include "scene/deferred_mesh.h"
 
 namespace vitrail {
 
 FlatScene flatten(World world, std::uint64_t load_bytes, const std::function<void(std::uint64_t)>& placed) {
   FlatScene flat;
-  const std::uint64_t triangles = world.manifest.triangles;
-  static_cast<PlacedTriangles&>(flat) = make_room(world.rule(), triangles);
-  flat.ids.resize(triangles);
-  std::iota(flat.ids.begin(), flat.ids.end(), 0u);
+  static_cast<PlacedTriangles&>(flat) = make_room(world.rule(), world.own_triangles);
+  flat.ids.reserve(world.own_triangles);
+  std::vector<std::uint64_t> first;  // of each placement, in `flat`
+  for (const Placement& p : world.placements) {
+    first.push_back(flat.ids.size());
+    for (std::uint64_t i = 0; i < triangles_of(*p.mesh); ++i)
+      flat.ids.push_back(static_cast<std::uint32_t>(p.first_triangle + i));
+  }
   SceneTally tally(world);
   place_scene(world, load_bytes, [&](const Block& block) {
-    const std::uint64_t at = block.placement.first_triangle + block.begin;
+    const auto placement = static_cast<std::size_t>(&block.placement - world.placements.data());
+    const std::uint64_t at = first[placement] + block.begin;
     block.placer.place(block.begin, block.end, flat, at);
     tally.add(block, flat, at);
     if (placed) placed(block.end - block.begin);
@@ -25,8 +29,8 @@ FlatScene flatten(World world, std::uint64_t load_bytes, const std::function<voi
   return flat;
 }
 
-FlatScene flatten(const Scene& scene, const std::filesystem::path& bundle, bool everything) {
-  return flatten(world_of(scene, bundle, everything), std::uint64_t{1} << 30);
+FlatScene flatten(const Scene& scene, const std::filesystem::path& bundle, const WorldOptions& options) {
+  return flatten(world_of(scene, bundle, options), std::uint64_t{1} << 30);
 }
 
 }  // namespace vitrail

@@ -9,7 +9,7 @@
 
 namespace vitrail {
 
-// Global triangle ids are indices into `triangles`.
+// The triangles that no instance has.
 struct FlatScene : NumberedTriangles {
   Manifest manifest;  // all but the kd-tree, the domains and cut_triangles
 };
@@ -17,6 +17,6 @@ struct FlatScene : NumberedTriangles {
 // See world_of and place_scene. `placed` is told of how many triangles, from any thread.
 FlatScene flatten(World world, std::uint64_t load_bytes,
                   const std::function<void(std::uint64_t)>& placed = {});
-FlatScene flatten(const Scene& scene, const std::filesystem::path& bundle, bool everything = false);
+FlatScene flatten(const Scene& scene, const std::filesystem::path& bundle, const WorldOptions& options = {});
 
 }  // namespace vitrail

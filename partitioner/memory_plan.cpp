@@ -34,14 +34,16 @@ Costs costs_of(const Manifest& m) {
           230 + 16 * normals + 32 * uvs + 48 * attributes};
 }
 
-std::uint32_t number_of_domains(const Manifest& m, const MemoryNeeds& needs, const Costs& costs) {
+std::uint32_t number_of_domains(const MemoryNeeds& needs, const Costs& costs) {
   double domains = needs.domains;
   if (needs.domains == 0) {
     const double bytes =
         needs.domain_bytes
             ? static_cast<double>(needs.domain_bytes)
             : std::max(1.0, std::min(default_domain_bytes, static_cast<double>(needs.budget_bytes) / 32));
-    domains = std::max(1.0, std::ceil(static_cast<double>(m.triangles) * costs.on_disk / bytes));
+    const double all =
+        static_cast<double>(needs.triangles) * costs.on_disk + static_cast<double>(needs.instance_bytes);
+    domains = std::max(1.0, std::ceil(all / bytes));
   }
   if (domains > most_domains)
     throw UsageError(fmt::format("{:.0f} domains are asked for; the most is {}", domains, most_domains));
@@ -53,10 +55,11 @@ std::uint32_t number_of_domains(const Manifest& m, const MemoryNeeds& needs, con
 MemoryPlan plan_memory(const Manifest& m, const MemoryNeeds& needs) {
   const Costs costs = costs_of(m);
   MemoryPlan plan;
-  plan.domains = number_of_domains(m, needs, costs);
-  const auto triangles = static_cast<double>(m.triangles);
+  plan.domains = number_of_domains(needs, costs);
+  const auto triangles = static_cast<double>(needs.triangles);
   const double fixed = program_bytes + triangles / 4;  // and the census
-  const double left = static_cast<double>(needs.budget_bytes) - static_cast<double>(needs.mesh_bytes) - fixed;
+  const double left = static_cast<double>(needs.budget_bytes) - static_cast<double>(needs.mesh_bytes) -
+                      static_cast<double>(needs.instance_bytes) - fixed;
   const double domain = plan.domains == 1 ? triangles : fullest * triangles / plan.domains;  // triangles
   const double build = costs.built * domain;
   const double least = costs.placed * domain + build;

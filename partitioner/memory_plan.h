@@ -18,9 +18,11 @@ struct MemoryPlan {
 
 struct MemoryNeeds {
   std::uint64_t budget_bytes = 0;
-  std::uint64_t mesh_bytes = 0;    // of the budget, already in use
-  std::uint64_t largest_mesh = 0;  // bytes of one that is in its file
-  std::uint32_t domains = 0;       // 0: by domain_bytes
+  std::uint64_t triangles = 0;       // that no instance has
+  std::uint64_t instance_bytes = 0;  // of references to objects, in memory and in the domains
+  std::uint64_t mesh_bytes = 0;      // of the budget, already in use
+  std::uint64_t largest_mesh = 0;    // bytes of one that is in its file
+  std::uint32_t domains = 0;         // 0: by domain_bytes
   std::uint64_t domain_bytes = 0;  // of a file; 0: 64 MiB, or less where that is more than 1/32 of the budget
   int threads = 1;
 };

@@ -24,6 +24,10 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+constexpr std::uint64_t most_object_bytes = 64ull << 20;
+// In a domain file with its place in the tree, and here while domains are written.
+constexpr std::uint64_t bytes_of_reference = 192;
+
 double cpu_seconds() {
   rusage u{};
   ::getrusage(RUSAGE_SELF, &u);
@@ -56,11 +60,13 @@ PartitionStats statistics(const Manifest& m, const CensusResult& census,
   s.triangles_min = m.domains[0].triangles;
   std::uint64_t sum = 0;
   for (const DomainInfo& d : m.domains) {
+    s.instances += d.instances;
     s.triangles_min = std::min(s.triangles_min, d.triangles);
     s.triangles_max = std::max(s.triangles_max, d.triangles);
     sum += d.triangles;
   }
   s.triangles_mean = static_cast<double>(sum) / static_cast<double>(m.domains.size());
+  s.objects = m.objects.size();
   s.bundle_bytes = directory_bytes(bundle);
   s.duplicates = census.duplicates;
   s.area_error = census.area_error;
@@ -103,13 +109,17 @@ class Partitioner {
  public:
   Partitioner(const Scene& scene, std::filesystem::path bundle, const PartitionOptions& options,
               const ProgressFunction& progress)
-      : bundle_(std::move(bundle)), phases_(progress), world_(world_of(scene, bundle_, options.everything)) {
-    MemoryNeeds needs{options.memory_bytes,
-                      0,
-                      0,
-                      options.domains,
-                      options.domain_bytes,
-                      tbb::this_task_arena::max_concurrency()};
+      : bundle_(std::move(bundle)),
+        phases_(progress),
+        world_(world_of(scene, bundle_, {!options.flatten, options.everything})),
+        refs_(write_objects(world_, world_.manifest, bundle_,
+                            options.domain_bytes ? options.domain_bytes : most_object_bytes)) {
+    MemoryNeeds needs{.budget_bytes = options.memory_bytes,
+                      .triangles = world_.own_triangles,
+                      .instance_bytes = refs_.size() * bytes_of_reference,
+                      .domains = options.domains,
+                      .domain_bytes = options.domain_bytes,
+                      .threads = tbb::this_task_arena::max_concurrency()};
     for (const TriangleMesh& mesh : scene.meshes) {
       needs.mesh_bytes += bytes_of(mesh);
       if (mesh.deferred) needs.largest_mesh = std::max(needs.largest_mesh, mesh.deferred->bytes);
@@ -122,7 +132,7 @@ class Partitioner {
   }
 
   PartitionStats run() {
-    Census census(world_.manifest.triangles);
+    Census census(world_.manifest.triangles, ids_of_instances());
     if (plan_.domains_at_once >= plan_.domains)
       at_once(census);
     else
@@ -141,22 +151,26 @@ class Partitioner {
 
  private:
   void at_once(Census& census) {
-    const std::uint64_t triangles = world_.manifest.triangles;
+    const std::uint64_t triangles = world_.own_triangles;
     phases_.begin("placing triangles", 0.2, triangles);
     FlatScene flat =
         flatten(std::move(world_), plan_.load_bytes, [&](std::uint64_t n) { phases_.advance(n); });
     manifest_ = std::move(flat.manifest);
     phases_.begin("cutting and writing domains", 0.8, triangles);
-    divide_cell(flat, {}, {manifest_.bounds, 0, 0, plan_.domains}, writer(census));
+    const InstanceDealer instances = dealer(manifest_.bounds);
+    divide_cell(flat, {}, {manifest_.bounds, 0, 0, plan_.domains}, writer(census, instances));
   }
 
   void by_buckets(Census& census) {
     // What is let go of is to leave memory; where memory is plenty that would cost a tenth of the time.
     ::mallopt(M_MMAP_THRESHOLD, 1 << 20);
     ::malloc_trim(0);
-    const std::uint64_t triangles = world_.manifest.triangles;
+    const std::uint64_t triangles = world_.own_triangles;
     phases_.begin("planning", 0.01, 1);
     std::vector<Bounds3f> sample = sample_of(world_);
+    const std::size_t chosen = sample.size();
+    for (std::size_t i = 0; i < refs_.size(); ++i)
+      if (triangles == 0 || mixed(2, i) % triangles < chosen) sample.push_back(box_of(refs_[i]));
     Bounds3f bounds;
     for (const Bounds3f& b : sample) extend(bounds, b);
     const double share = static_cast<double>(sample.size()) / plan_.domains;
@@ -171,23 +185,40 @@ class Partitioner {
     spill_bytes_ = spill.bytes();
     ::malloc_trim(0);
     manifest_ = std::move(world_.manifest);
+    const InstanceDealer instances = dealer(bounds);
     phases_.begin("cutting and writing domains", 0.59, triangles);
     for (std::size_t i = 0; i < buckets_; ++i) {
       const LoadedCell cell = spill.take(i);
-      divide_cell(cell.triangles, cell.cut, top.leaves[i], writer(census));
+      divide_cell(cell.triangles, cell.cut, top.leaves[i], writer(census, instances));
       std::vector<std::uint32_t> open;
       for (const Piece& p : cell.cut.pieces) open.push_back(cell.triangles.ids[p.triangle]);
       census.settle(open);
     }
   }
 
-  DomainWriter writer(Census& census) {
-    return {bundle_, manifest_, census, plan_.domains_in_work, [&](std::uint64_t n) { phases_.advance(n); }};
+  DomainWriter writer(Census& census, const InstanceDealer& instances) {
+    return {bundle_, manifest_, census, instances, items_, plan_.domains_in_work, [&](std::uint64_t n) {
+              phases_.advance(n);
+            }};
+  }
+
+  // The manifest knows the scene's scale.
+  InstanceDealer dealer(const Bounds3f& root) {
+    return {std::move(refs_), static_cast<float>(padding(manifest_)), root};
+  }
+
+  std::vector<IdRange> ids_of_instances() const {
+    std::vector<IdRange> ranges;
+    for (const ObjectUse& use : world_.uses)
+      ranges.push_back({use.first_triangle, world_.objects[use.object].assembly.triangles});
+    return ranges;
   }
 
   std::filesystem::path bundle_;
   Phases phases_;
   World world_;
+  std::vector<InstanceRef> refs_;
+  std::uint64_t items_ = world_.own_triangles + refs_.size();
   MemoryPlan plan_;
   Manifest manifest_;
   std::uint64_t buckets_ = 1, spill_bytes_ = 0;

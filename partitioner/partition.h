@@ -17,6 +17,7 @@ struct PartitionOptions {
   std::uint64_t memory_bytes = 0;     // most resident memory; 0: three quarters of the machine's
   std::uint32_t domains_at_once = 0;  // as if no more fitted into memory, for tests; 0: as many as fit
   int threads = 0;                    // 0: all
+  bool flatten = false;               // copies instead of instances
   bool everything = false;            // as if the scene required all that there is, for measuring
 };
 
@@ -27,6 +28,7 @@ struct PartitionStats {
   double triangles_mean = 0;
   std::uint64_t bundle_bytes = 0, duplicates = 0;
   double area_error = 0;
+  std::uint64_t objects = 0, instances = 0;  // files of objects; references to them in all domains
   double wall_s = 0, cpu_s = 0;
   std::uint64_t peak_rss_bytes = 0, memory_budget_bytes = 0;
   std::uint64_t buckets = 1;      // parts of the scene that were in memory one after the other

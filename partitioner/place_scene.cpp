@@ -109,19 +109,35 @@ void SceneTally::add(const Block& block, const PlacedTriangles& placed, std::uin
   hashes_[first_block_[placement] + block.begin / block_triangles] = hasher.digest();
 
   Bounds3f bounds;
-  for (const Triangle& t : std::span(placed.triangles).subspan(at, count))
-    for (const Point3f& v : t) extend(bounds, v);
+  if (!block.placement.standing)
+    for (const Triangle& t : std::span(placed.triangles).subspan(at, count))
+      for (const Point3f& v : t) extend(bounds, v);
   std::vector<EmissiveTriangle> emissive;
   if (area_lights_[placement] >= 0)
     take_emissive(placed, at, count, block.placement.first_triangle + block.begin,
                   static_cast<std::uint32_t>(area_lights_[placement]), emissive);
   const std::lock_guard lock(mutex_);
-  extend(bounds_, bounds);
+  if (!bounds.empty()) extend(bounds_, bounds);
   emissive_.insert(emissive_.end(), emissive.begin(), emissive.end());
 }
 
+void SceneTally::add_shining(const ShiningPlacement& shining) {
+  TriangleMesh storage;
+  const Placement& p = shining.placement;
+  const TriangleMesh& mesh = loaded(*p.mesh, storage);
+  const PlacementRule rule = world_.rule();
+  const ReflectanceFitter fitter;
+  const std::size_t count = mesh.triangles.size();
+  PlacedTriangles placed = make_room(rule, count);
+  MeshPlacer(p, mesh, rule, fitter).place(0, count, placed, 0);
+  take_emissive(placed, 0, count, p.first_triangle, shining.area_light, emissive_);
+}
+
+// Instances, kept or copied, count as their boxes: the same bounds either way.
 void SceneTally::finish(Manifest& m) {
+  for (const ShiningPlacement& shining : world_.shining) add_shining(shining);
   m.bounds = bounds_;
+  if (!world_.instance_bounds.empty()) extend(m.bounds, world_.instance_bounds);
   for (int axis = 0; axis < 3 && m.triangles > 0; ++axis)
     m.scale = std::max({m.scale, std::abs(m.bounds.lower[axis]), std::abs(m.bounds.upper[axis])});
   std::ranges::sort(emissive_, {}, &EmissiveTriangle::triangle);
@@ -129,6 +145,8 @@ void SceneTally::finish(Manifest& m) {
   const std::uint64_t records = hash_of_records(m);
   Hasher hasher;
   hasher.add(std::as_bytes(std::span(hashes_)));
+  for (const ObjectInfo& object : m.objects) hasher.add(std::as_bytes(std::span(&object.hash, 1)));
+  hasher.add(std::as_bytes(std::span(world_.uses)));
   hasher.add(std::as_bytes(std::span(&records, 1)));
   m.scene_hash = hasher.digest();
 }

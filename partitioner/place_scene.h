@@ -31,10 +31,12 @@ class SceneTally {
 
   // The block's triangles, which are at `placed` from `at` on. From any thread.
   void add(const Block& block, const PlacedTriangles& placed, std::uint64_t at);
-  // bounds, scale, emissive_triangles, scene_hash.
+  // bounds, scale, emissive_triangles, scene_hash. The objects have been written.
   void finish(Manifest& manifest);
 
  private:
+  void add_shining(const ShiningPlacement& shining);
+
   const World& world_;
   std::vector<std::size_t> first_block_;   // of each placement
   std::vector<std::uint64_t> hashes_;      // of each block

@@ -37,6 +37,27 @@ CornerNormals encode_corner_normals(const Triangle& t, std::array<Normal3d, 3> n
   return codes;
 }
 
+// What was placed in an object's space, where the object stands.
+template <class T>
+std::array<T, 3> stood(bool mirrored, const std::array<T, 3>& corners, const auto& stand) {
+  std::array<T, 3> there;
+  for (std::size_t k = 0; k < 3; ++k) there[k] = stand(corners[source_corner(mirrored, k)]);
+  return there;
+}
+
+void stand(const Standing& s, PlacedTriangles& out, std::uint64_t begin, std::uint64_t end) {
+  const bool mirrored = mirrors(s.to_bundle);
+  const auto as_it_is = [](const auto& value) { return value; };
+  for (std::uint64_t i = begin; i != end; ++i) {
+    out.triangles[i] = stood(mirrored, out.triangles[i], [&](Point3f p) { return placed(s.to_bundle, p); });
+    if (!out.normals.empty())
+      out.normals[i] = stood(mirrored, out.normals[i],
+                             [&](std::uint32_t code) { return placed_normal(s.to_bundle, code); });
+    if (!out.uvs.empty()) out.uvs[i] = stood(mirrored, out.uvs[i], as_it_is);
+    for (auto& slot : out.attributes) slot[i] = stood(mirrored, slot[i], as_it_is);
+  }
+}
+
 std::int32_t new_id(const std::vector<std::int32_t>& ids, const auto& old) {
   return old ? ids.at(old->value) : -1;
 }
@@ -62,9 +83,10 @@ PlacedTriangles make_room(const PlacementRule& rule, std::uint64_t triangles) {
 MeshPlacer::MeshPlacer(const Placement& placement, const TriangleMesh& mesh, const PlacementRule& rule,
                        const ReflectanceFitter& fitter)
     : placement_(placement), mesh_(mesh), rule_(rule), fitter_(fitter), vertices_(mesh.positions.size()) {
+  const Vector3d offset = placement.standing ? placement.standing->centre : rule.offset;
   tbb::parallel_for(Range(0, vertices_.size(), grain), [&](const Range& range) {
     for (std::size_t i = range.begin(); i != range.end(); ++i)
-      vertices_[i] = without_negative_zero(world_position(placement, mesh.positions[i]) - rule.offset);
+      vertices_[i] = without_negative_zero(world_position(placement, mesh.positions[i]) - offset);
   });
 }
 
@@ -130,6 +152,7 @@ void MeshPlacer::place(std::size_t begin, std::size_t end, PlacedTriangles& out,
       for (std::size_t i = begin; i != end; ++i)
         out.attributes[slot][at + (i - begin)] = values(i, attribute, rule_.attributes[slot].use);
     }
+  if (placement_.standing) stand(*placement_.standing, out, at, at + (end - begin));
 }
 
 void place(const Placement& p, const PlacementRule& rule, const ReflectanceFitter& fitter,

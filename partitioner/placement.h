@@ -4,9 +4,11 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "bundle/instance.h"
 #include "partitioner/appearance.h"
 #include "scene/bounds.h"
 #include "scene/mesh.h"
@@ -18,12 +20,19 @@ using CornerNormals = std::array<std::uint32_t, 3>;  // encode_normal
 using CornerUvs = std::array<Point2f, 3>;
 using CornerValues = std::array<std::array<float, 3>, 3>;  // [vertex][channel]
 
+// Where an object stands whose triangles are to be the scene's own.
+struct Standing {
+  Vector3d centre;  // of the object, whose coordinates are taken from there
+  Affine to_bundle;
+};
+
 struct Placement {
   const TriangleMesh* mesh = nullptr;  // may be deferred
   const Shape* shape = nullptr;
-  Transform to_world;
-  bool flip = false;                 // the world winding shows the back
-  std::uint64_t first_triangle = 0;  // global id
+  Transform to_world;                // or to the object's space
+  bool flip = false;                 // the winding there shows the back
+  std::uint64_t first_triangle = 0;  // global id, or the object's
+  std::optional<Standing> standing = {};
 };
 
 struct PlacedTriangles {
@@ -47,7 +56,8 @@ Placement placement_of(const TriangleMesh& mesh, const Shape& shape, const Trans
 
 PlacedTriangles make_room(const PlacementRule& rule, std::uint64_t triangles);
 
-// Places triangles of one mesh. Composed in double, rounded once. Shading normals are turned to their
+// Places triangles of one mesh. Composed in double, rounded once; what stands as an object does is rounded in
+// the object's space and once more where it stands, as tracing does it. Shading normals are turned to their
 // triangle's front; a triangle with one that is zero has none. What it is made of outlives it.
 class MeshPlacer {
  public:

@@ -38,9 +38,13 @@ class Sampler {
   }
   void add(const Placement& p, const std::array<Point3f, 3>& vertices) {
     Bounds3f b;
-    for (const Point3f& v : vertices)
-      extend(b, cast<float>(transform_point(p.to_world, cast<double>(v)) - world_.manifest.offset));
+    for (const Point3f& v : vertices) extend(b, sampled(p, transform_point(p.to_world, cast<double>(v))));
     sample_.push_back(b);
+  }
+
+  Point3f sampled(const Placement& p, Point3d at) const {
+    if (!p.standing) return cast<float>(at - world_.manifest.offset);
+    return placed(p.standing->to_bundle, cast<float>(at - p.standing->centre));
   }
 
   const World& world_;
@@ -52,7 +56,7 @@ class Sampler {
 
 std::vector<Bounds3f> sample_of(const World& world) {
   int shift = 0;
-  while ((world.manifest.triangles >> shift) > most_samples) ++shift;
+  while ((world.own_triangles >> shift) > most_samples) ++shift;
   for (const Placement& p : world.placements)
     if (p.mesh->deferred) shift = std::max(shift, p.mesh->deferred->sample_shift);
   Sampler sampler(world, shift);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "partitioner/world.h"
 
-#include <fmt/format.h>
+#include <algorithm>
+#include <iterator>
 
 #include "bundle/interiors.h"
 #include "partitioner/appearance.h"
@@ -12,70 +13,24 @@ namespace vitrail {
 
 namespace {
 
-std::vector<Placement> placements_of(const Scene& scene, std::uint64_t& triangles) {
-  std::vector<Placement> placements;
-  triangles = 0;
-  const auto add = [&](const Shape& shape, const Transform& outer) {
-    const TriangleMesh& mesh = scene.meshes.at(shape.mesh.value);
-    if (triangles_of(mesh) == 0) return;
-    placements.push_back(placement_of(mesh, shape, outer, triangles));
-    triangles += triangles_of(mesh);
-  };
-  for (const Shape& shape : scene.shapes) add(shape, {});
-  for (const Instance& instance : scene.instances)
-    for (const Shape& shape : scene.prototypes.at(instance.prototype.value).shapes)
-      add(shape, instance.prototype_to_world);
-  if (triangles >= no_triangle)
-    throw Error(fmt::format("the scene has {} triangles with all instances; the most is {}", triangles,
-                            no_triangle - 1));
-  return placements;
-}
-
-// Throws Error for a box that floats cannot hold: with the vertex, where there is one.
-Bounds3d checked(const Bounds3d& box, const Placement& p) {
-  if (box.empty() || (is_finite(cast<float>(box.lower)) && is_finite(cast<float>(box.upper)))) return box;
-  TriangleMesh storage;
-  const TriangleMesh& mesh = loaded(*p.mesh, storage);
-  const PlacementRule rule;
-  const ReflectanceFitter fitter;
-  PlacedTriangles placed = make_room(rule, mesh.triangles.size());
-  MeshPlacer(p, mesh, rule, fitter).place(0, mesh.triangles.size(), placed, 0);
-  throw Error("a shape reaches beyond 3.4e38 in the world", {});
-}
-
-// The box of the corners of the mesh's own.
-Bounds3d world_bounds(const Placement& p) {
-  const Bounds3f own = bounds_of(*p.mesh);
-  Bounds3d box;
-  for (int corner = 0; corner < 8 && !own.empty(); ++corner) {
-    const auto at = [&](int axis) { return double{(corner >> axis & 1 ? own.upper : own.lower)[axis]}; };
-    extend(box, transform_point(p.to_world, {at(0), at(1), at(2)}));
-  }
-  return checked(box, p);
-}
-
-Vector3d offset_of(const std::vector<Placement>& placements) {
-  Bounds3d bounds;
-  for (const Placement& p : placements) extend(bounds, world_bounds(p));
-  if (bounds.empty()) return {};
-  const Point3f c = cast<float>(center(bounds));
-  return {c.x, c.y, c.z};
-}
-
 std::int32_t new_id(const std::vector<std::int32_t>& ids, const auto& old) {
   return old ? ids.at(old->value) : -1;
 }
 
-void make_surfaces(const Appearance& appearance, const std::vector<Placement>& placements, Manifest& m) {
+// Returns how many.
+std::uint32_t make_surfaces(const Appearance& appearance, const std::vector<Placement>& placements,
+                            Manifest& m) {
+  const std::size_t first = m.surfaces.size();
   for (const Placement& p : placements) {
     const Surface surface = surface_of(p, appearance);
-    if (!m.surfaces.empty()) {
+    if (m.surfaces.size() > first) {
       Surface same = m.surfaces.back();
       same.first_triangle = surface.first_triangle;
       if (same == surface) continue;
     }
     m.surfaces.push_back(surface);
   }
+  return static_cast<std::uint32_t>(m.surfaces.size() - first);
 }
 
 bool have_normals(const std::vector<Placement>& placements, const Scene& scene) {
@@ -116,19 +71,45 @@ void move_records(const Scene& scene, Appearance& appearance, Manifest& m) {
   m.settings = scene.settings;
 }
 
+// Copies instead of instances.
+void expand_all(ScenePlan& plan) {
+  std::vector<Placement>& own = plan.scene.placements;
+  std::ranges::copy(expanded(plan, [](const Placement&) { return true; }), std::back_inserter(own));
+  std::ranges::sort(own, {}, &Placement::first_triangle);
+  plan.scene.uses.clear();
+  plan.objects.clear();
+}
+
 }  // namespace
 
-World world_of(const Scene& scene, const std::filesystem::path& bundle, bool everything) {
+World world_of(const Scene& scene, const std::filesystem::path& bundle, const WorldOptions& options) {
   World world;
   Manifest& m = world.manifest;
   Appearance appearance = appearance_of(scene, bundle);
-  world.placements = placements_of(scene, m.triangles);
-  m.offset = offset_of(world.placements);
-  make_surfaces(appearance, world.placements, m);
+  ScenePlan plan = plan_scene(scene);
+  m.triangles = plan.scene.triangles;
+  m.offset = plan.scene.centre;
+  for (const ObjectUse& use : plan.scene.uses)
+    extend(world.instance_bounds, placed_bounds(use.to_parent, plan.objects[use.object].bounds));
+  bool normals = have_normals(plan.scene.placements, scene);
+  for (const Assembly& object : plan.objects) normals = normals || have_normals(object.placements, scene);
+  if (!options.keep_instances) expand_all(plan);
+
+  const auto light_of = [&](const Placement& p) { return surface_of(p, appearance).area_light; };
+  for (const Placement& p : expanded(plan, [&](const Placement& q) { return light_of(q) >= 0; }))
+    world.shining.push_back({p, static_cast<std::uint32_t>(light_of(p))});
+  make_surfaces(appearance, plan.scene.placements, m);
+  for (const Placement& p : plan.scene.placements) world.own_triangles += triangles_of(*p.mesh);
+  world.placements = std::move(plan.scene.placements);
+  world.uses = std::move(plan.scene.uses);
+  for (Assembly& object : plan.objects) {
+    const auto first = static_cast<std::uint32_t>(m.surfaces.size());
+    const std::uint32_t count = make_surfaces(appearance, object.placements, m);
+    world.objects.push_back({std::move(object), first, count});
+  }
   move_records(scene, appearance, m);
   static_cast<void>(Interiors(m));  // throws where there are too many
-  m.requirements =
-      everything ? all_requirements() : requirements_of(m, have_normals(world.placements, scene));
+  m.requirements = options.everything ? all_requirements() : requirements_of(m, normals);
   world.attributes = std::move(appearance.attributes);
   return world;
 }

@@ -40,25 +40,38 @@ std::vector<TriangleReference> references_of(const NumberedTriangles& triangles,
 }
 
 // Of the boxes of the root's children, which are padded already.
-Bounds3f tight_bounds(const DomainContent& content) {
-  Bounds3f b;
-  if (content.nodes.empty()) return b;
-  const BvhNode& root = content.nodes[0];
+void extend_by_root(Bounds3f& b, std::span<const BvhNode> nodes) {
+  if (nodes.empty()) return;
+  const BvhNode& root = nodes[0];
   for (std::size_t i = 0; i < 8; ++i) {
     if (root.child[i] == BvhNode::empty) continue;
     extend(b, Bounds3f{{root.lower[0][i], root.lower[1][i], root.lower[2][i]},
                        {root.upper[0][i], root.upper[1][i], root.upper[2][i]}});
   }
-  return b;
+}
+
+// Of the objects of these instances and of all that they need, ascending.
+std::vector<std::uint32_t> needed_objects(const Manifest& m, std::span<const InstanceRef> instances) {
+  std::vector<bool> needed(m.objects.size());
+  for (const InstanceRef& ref : instances) needed[ref.object] = true;
+  std::vector<std::uint32_t> objects;
+  for (std::size_t i = needed.size(); i-- > 0;)
+    if (needed[i]) {
+      objects.insert(objects.begin(), static_cast<std::uint32_t>(i));
+      for (const std::uint32_t inner : m.objects[i].objects) needed[inner] = true;
+    }
+  return objects;
 }
 
 }  // namespace
 
-DomainContent make_domain(const Manifest& manifest, const NumberedTriangles& triangles,
-                          const CellContent& cell) {
-  ClusteredTriangles built = build_bvh(references_of(triangles, cell), static_cast<float>(padding(manifest)));
-  DomainContent content{std::move(built.nodes), std::move(built.clusters), {}, {}, {}, cell.pieces,
-                        cell.piece_vertices};
+DomainContent make_domain(const NumberedTriangles& triangles, const CellContent& cell, float padding) {
+  ClusteredTriangles built = build_bvh(references_of(triangles, cell), padding);
+  DomainContent content;
+  content.nodes = std::move(built.nodes);
+  content.clusters = std::move(built.clusters);
+  content.pieces = cell.pieces;
+  content.piece_vertices = cell.piece_vertices;
   for (Piece& p : content.pieces) p.triangle = triangles.ids[p.triangle];
   const std::size_t slots = triangles.attributes.size();
   if (!triangles.normals.empty()) content.normals.resize(content.clusters.size());
@@ -84,12 +97,29 @@ DomainContent make_domain(const Manifest& manifest, const NumberedTriangles& tri
   return content;
 }
 
+void add_instances(std::vector<InstanceRef> instances, float padding, DomainContent& content) {
+  std::vector<Bounds3f> boxes;
+  for (InstanceRef& ref : instances) {
+    boxes.push_back(box_of(ref));
+    set_box(ref, inflated(boxes.back(), padding));
+  }
+  content.instances = std::move(instances);
+  content.instance_nodes = build_tree(boxes, padding);
+}
+
 DomainInfo write_domain(const Manifest& manifest, const NumberedTriangles& triangles, const CellContent& cell,
-                        const std::filesystem::path& bundle, std::uint32_t index, Census& census) {
-  const DomainContent content = make_domain(manifest, triangles, cell);
+                        std::vector<InstanceRef> instances, const std::filesystem::path& bundle,
+                        std::uint32_t index, Census& census) {
+  const auto pad = static_cast<float>(padding(manifest));
+  DomainContent content = make_domain(triangles, cell, pad);
+  add_instances(std::move(instances), pad, content);
   census.add(index, view_of(content), content.pieces, content.piece_vertices);
-  DomainInfo info{cell.size(), cell.pieces.size(), 0, 0, tight_bounds(content)};
+  DomainInfo info{cell.size(), cell.pieces.size(), 0, 0, {}};
   info.bytes = write_domain_file(domain_path(bundle, index), content, &info.hash);
+  extend_by_root(info.tight_bounds, content.nodes);
+  extend_by_root(info.tight_bounds, content.instance_nodes);
+  info.instances = content.instances.size();
+  info.objects = needed_objects(manifest, content.instances);
   return info;
 }
 

@@ -9,13 +9,15 @@
 
 namespace vitrail {
 
-// What a domain file holds for a cell with these of the triangles.
-DomainContent make_domain(const Manifest& manifest, const NumberedTriangles& triangles,
-                          const CellContent& cell);
+// What a file holds of these of the triangles.
+DomainContent make_domain(const NumberedTriangles& triangles, const CellContent& cell, float padding);
+// The boxes of the instances are not inflated yet.
+void add_instances(std::vector<InstanceRef> instances, float padding, DomainContent& content);
 
 // Writes domain `index` of the bundle directory and counts it in the census. Returns its line in the
-// manifest.
+// manifest, whose objects are known.
 DomainInfo write_domain(const Manifest& manifest, const NumberedTriangles& triangles, const CellContent& cell,
-                        const std::filesystem::path& bundle, std::uint32_t index, Census& census);
+                        std::vector<InstanceRef> instances, const std::filesystem::path& bundle,
+                        std::uint32_t index, Census& census);
 
 }  // namespace vitrail

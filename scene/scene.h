@@ -33,20 +33,24 @@ struct Shape {
   bool operator==(const Shape&) const = default;
 };
 
-// Shapes that are used many times (pbrt's ObjectBegin, Mitsuba's shapegroup).
-struct Prototype {
-  std::string name;
-  std::vector<Shape> shapes;
-  Origin origin;
-  bool operator==(const Prototype&) const = default;
-};
+struct Prototype;
 
 // If the transform mirrors, the prototype's own front sides stay its front sides.
 struct Instance {
   Id<Prototype> prototype;
-  Transform prototype_to_world;
+  Transform prototype_to_world;  // to the outer prototype's space for instances in a prototype
   Origin origin;
   bool operator==(const Instance&) const = default;
+};
+
+// What is used many times (pbrt's ObjectBegin, Mitsuba's shapegroup). Its instances are of prototypes with
+// smaller ids.
+struct Prototype {
+  std::string name;
+  std::vector<Shape> shapes;
+  std::vector<Instance> instances;
+  Origin origin;
+  bool operator==(const Prototype&) const = default;
 };
 
 struct Scene {

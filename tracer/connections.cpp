@@ -127,7 +127,7 @@ bool PathTracer::connect_onwards(Path& path) {
     return false;
   }
   Interaction at = interaction_at(path);
-  const Surface& surface = surface_of(manifest_, path.hit.triangle);
+  const Surface& surface = surface_at(path);
   const MaterialKind& kind = scene_.materials.kind(surface.material);
   const bool passes = kind.is_interface || !is_there(path, surface, at);
   const double left = refracts ? 0 : path.travelled - path.hit.t * length(cast<double>(path.ray.direction));

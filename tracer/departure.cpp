@@ -80,6 +80,10 @@ Interaction PathTracer::interaction_at(const Path& path) const {
                           manifest_.attributes);
 }
 
+const Surface& PathTracer::surface_at(const Path& path) const {
+  return surface_of(manifest_, *resident_[path.hit_domain], path.hit);
+}
+
 double PathTracer::cone_unit() const { return std::max(1e-30, static_cast<double>(manifest_.scale)); }
 
 // At a distance (Akenine-Möller et al., "Texture Level of Detail Strategies for Real-Time Ray

@@ -14,18 +14,54 @@ V interpolated(const Hit& hit, const V& a, const V& b, const V& c) {
   return a * (1 - hit.u - hit.v) + b * hit.u + c * hit.v;
 }
 
-Vector3d interpolated_normal(const ClusterNormals& normals, const Hit& hit) {
-  const auto& code = normals.normal[hit.lane];
+// What holds the triangle that was hit, and how it stands in the scene.
+struct Holder {
+  const DomainView& content;
+  bool is_object = false;
+  Affine to_bundle{};
+  std::size_t corner[3] = {0, 1, 2};  // of the stored triangle that the placed one's come from
+
+  Point3f vertex(const Cluster& cluster, std::uint32_t lane, std::size_t k) const {
+    const auto& v = cluster.vertex[corner[k]];
+    const Point3f p{v[0][lane], v[1][lane], v[2][lane]};
+    return is_object ? placed(to_bundle, p) : p;
+  }
+  std::uint32_t normal(const ClusterNormals& normals, std::uint32_t lane, std::size_t k) const {
+    const std::uint32_t code = normals.normal[lane][corner[k]];
+    return is_object ? placed_normal(to_bundle, code) : code;
+  }
+};
+
+Holder holder_of(const DomainView& domain, const Hit& hit) {
+  if (hit.depth == 0) return {domain};
+  const DomainView* at = &domain;
+  Affine to_bundle{};
+  for (std::uint32_t i = 0; i < hit.depth; ++i) {
+    const InstanceRef& ref = at->instances[hit.chain[i]];
+    to_bundle = i == 0 ? ref.to_parent : compose(to_bundle, ref.to_parent);
+    at = domain.objects[ref.object];
+  }
+  const bool mirrored = mirrors(to_bundle);
+  return {*at, true, to_bundle, {0, source_corner(mirrored, 1), source_corner(mirrored, 2)}};
+}
+
+Vector3d interpolated_normal(const Holder& holder, const Hit& hit) {
+  const ClusterNormals& normals = holder.content.normals[hit.cluster];
+  std::uint32_t code[3];
+  for (std::size_t k = 0; k < 3; ++k) code[k] = holder.normal(normals, hit.lane, k);
   if (code[0] == no_normal) return {};
   const auto at = [&](int i) { return cast<double>(to_vector(decode_normal(code[i]))); };
   return interpolated(hit, at(0), at(1), at(2));
 }
 
 // ∂p/∂u and ∂p/∂v of the plane through the corners.
-void find_uv(const ClusterUvs& uvs, const Hit& hit, Vector3d e1, Vector3d e2, double cone_width,
+void find_uv(const Holder& holder, const Hit& hit, Vector3d e1, Vector3d e2, double cone_width,
              Interaction& at) {
-  const auto& uv = uvs.uv[hit.lane];
-  const auto corner = [&](int i) { return Vector3d{uv[i][0], uv[i][1], 0}; };
+  const auto& uv = holder.content.uvs[hit.cluster].uv[hit.lane];
+  const auto corner = [&](int i) {
+    const auto& c = uv[holder.corner[i]];
+    return Vector3d{c[0], c[1], 0};
+  };
   const Vector3d here = interpolated(hit, corner(0), corner(1), corner(2));
   at.uv = {here.x, here.y};
   const Vector3d d1 = corner(1) - corner(0), d2 = corner(2) - corner(0);
@@ -41,11 +77,9 @@ void find_uv(const ClusterUvs& uvs, const Hit& hit, Vector3d e1, Vector3d e2, do
 
 Interaction make_interaction(const DomainView& domain, const Hit& hit, Vector3f direction, double cone_width,
                              std::uint32_t attributes) {
-  const Cluster& cluster = domain.clusters[hit.cluster];
-  const auto vertex = [&](int i) {
-    const auto& v = cluster.vertex[i];
-    return cast<double>(Point3f{v[0][hit.lane], v[1][hit.lane], v[2][hit.lane]});
-  };
+  const Holder holder = holder_of(domain, hit);
+  const Cluster& cluster = holder.content.clusters[hit.cluster];
+  const auto vertex = [&](std::size_t k) { return cast<double>(holder.vertex(cluster, hit.lane, k)); };
   const Point3d p0 = vertex(0);
   const Vector3d e1 = vertex(1) - p0, e2 = vertex(2) - p0;
 
@@ -56,19 +90,20 @@ Interaction make_interaction(const DomainView& domain, const Hit& hit, Vector3f 
   at.front = dot(at.out, at.geometric) > 0;
   at.triangle = hit.triangle;
   at.shading = at.geometric;
-  if (!domain.normals.empty()) {
-    Vector3d n = normalize(interpolated_normal(domain.normals[hit.cluster], hit));
+  if (!holder.content.normals.empty()) {
+    Vector3d n = normalize(interpolated_normal(holder, hit));
     if (dot(n, at.geometric) < 0) n = -n;
     // A shading normal that the ray sees from the other side than the surface cannot be used.
     if ((dot(at.out, n) > 0) == at.front && dot(n, n) > 0.5) at.shading = n;
   }
-  if (!domain.uvs.empty()) find_uv(domain.uvs[hit.cluster], hit, e1, e2, cone_width, at);
+  if (!holder.content.uvs.empty()) find_uv(holder, hit, e1, e2, cone_width, at);
   at.attribute_count = attributes;
   for (std::uint32_t slot = 0; slot < attributes; ++slot) {
-    const auto& v = domain.attributes[hit.cluster * std::size_t{attributes} + slot].value[hit.lane];
+    const auto& v = holder.content.attributes[hit.cluster * std::size_t{attributes} + slot].value[hit.lane];
     const auto u = static_cast<float>(hit.u), w = static_cast<float>(hit.v);
     at.attributes[slot].weights = {1 - u - w, u, w};
-    for (std::size_t k = 0; k < 3; ++k) std::ranges::copy(v[k], at.attributes[slot].corners[k].begin());
+    for (std::size_t k = 0; k < 3; ++k)
+      std::ranges::copy(v[holder.corner[k]], at.attributes[slot].corners[k].begin());
   }
   return at;
 }

@@ -116,15 +116,16 @@ void PathTracer::run(Path& path, std::optional<std::uint32_t> at) {
 }
 
 void PathTracer::intersect(Path& path, std::uint32_t domain) {
-  const Hit before = path.hit;
+  const double t = path.hit.t;
+  const std::uint32_t triangle = path.hit.triangle;
   kernel_.closest(*resident_[domain], path.constants, path.hit);
-  if (path.hit.t != before.t || path.hit.triangle != before.triangle) path.hit_domain = domain;
+  if (path.hit.t != t || path.hit.triangle != triangle) path.hit_domain = domain;
 }
 
 // True when the hit, or that there is none, is certain and its domain at hand; false when the path went on
 // elsewhere.
 bool PathTracer::find_hit(Path& path, std::optional<std::uint32_t> at) {
-  bool located = true;  // hit.cluster and hit.lane are known
+  bool located = true;  // hit.cluster, lane and chain are known
   path.constants = prepare(path.ray);
   if (at && path.is(path_resolved)) {
     path.clear(path_resolved);

@@ -97,6 +97,7 @@ class PathTracer {
   void pass_straight(Path& path, const Interaction& at, const Surface& surface) const;
   Point3f offset_origin(const Interaction& at, Vector3d direction) const;
   Interaction interaction_at(const Path& path) const;
+  const Surface& surface_at(const Path& path) const;
   Flight flight_of(const Path& path) const;
   const PreparedMedium* medium_of(const Path& path) const;
   std::uint64_t stream_of(const Path& path) const;

@@ -38,9 +38,21 @@ RenderScene::RenderScene(Manifest the_manifest, const std::filesystem::path& bun
       pixel_angle(vitrail::pixel_angle(manifest)),
       seed(the_seed) {}
 
-const Surface& surface_of(const Manifest& manifest, std::uint32_t triangle) {
+const Surface& surface_of(const Manifest& manifest, const DomainView& domain, const Hit& hit) {
+  std::span<const Surface> surfaces = scene_surfaces(manifest);
+  std::uint32_t triangle = hit.triangle;
+  if (hit.depth > 0) {
+    const DomainView* at = &domain;
+    std::uint32_t object = 0;
+    for (std::uint32_t i = 0; i < hit.depth; ++i) {
+      object = at->instances[hit.chain[i]].object;
+      at = domain.objects[object];
+    }
+    surfaces = surfaces_of(manifest, manifest.objects[object]);
+    triangle = at->clusters[hit.cluster].id[hit.lane];
+  }
   const auto behind =
-      std::upper_bound(manifest.surfaces.begin(), manifest.surfaces.end(), triangle,
+      std::upper_bound(surfaces.begin(), surfaces.end(), triangle,
                        [](std::uint32_t id, const Surface& surface) { return id < surface.first_triangle; });
   return *(behind - 1);
 }

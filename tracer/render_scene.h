@@ -32,7 +32,7 @@ struct RenderScene {
   std::uint64_t seed = 0;
 };
 
-// The surface that a triangle belongs to.
-const Surface& surface_of(const Manifest& manifest, std::uint32_t triangle);
+// The surface that the hit's triangle belongs to; `domain` holds the hit.
+const Surface& surface_of(const Manifest& manifest, const DomainView& domain, const Hit& hit);
 
 }  // namespace vitrail

@@ -56,7 +56,7 @@ void PathTracer::add_environment(const Path& path) {
 }
 
 bool PathTracer::shade_surface(Path& path) {
-  const Surface& surface = surface_of(manifest_, path.hit.triangle);
+  const Surface& surface = surface_at(path);
   Interaction at = interaction_at(path);
   widen_cone(path, path.hit.t);
   if (!is_there(path, surface, at)) {

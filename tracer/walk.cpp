@@ -70,7 +70,7 @@ bool DomainWalk::next(double tmax, Visit& visit) {
     if (leaf.t0 > tmax) continue;
     const std::uint32_t domain = leaf.reference & ~KdNode::leaf_bit;
     const DomainInfo& info = manifest_.domains[domain];
-    if (info.triangles == 0) continue;
+    if (info.tight_bounds.empty()) continue;
     const double entry = enter_box(info.tight_bounds, origin_, reciprocal_, tmax);
     if (entry == infinity) continue;
     visit = {domain, std::max(leaf.t0, entry)};

@@ -243,11 +243,14 @@ void Interpreter::shape(const Place& place) {
 
 void Interpreter::object_instance(const Place& place) {
   const std::string name = read_text("the name of an object");
-  if (current_object_) fail("ObjectInstance inside of an object", place);
   const auto next = static_cast<std::uint32_t>(scene_.prototypes.size());
   const std::uint32_t slot = object_names_.use(name, place, next);
+  // pbrt itself has no instances within objects.
+  if (current_object_ && slot >= *current_object_)
+    fail(fmt::format("object \"{}\" has to be defined before the object that it is used in", name), place);
   if (slot == next) scene_.prototypes.push_back({});
-  scene_.instances.push_back({Id<Prototype>{slot}, state_.ctm, origin(place)});
+  auto& instances = current_object_ ? scene_.prototypes[*current_object_].instances : scene_.instances;
+  instances.push_back({Id<Prototype>{slot}, state_.ctm, origin(place)});
 }
 
 // ---- The end ------------------------------------------------------------------------------------
@@ -327,9 +330,12 @@ void Interpreter::drop_lights_of_interfaces() {
 
 void Interpreter::resolve_instances() {
   object_names_.require_definitions();
-  std::erase_if(scene_.instances, [&](const Instance& instance) {
-    return scene_.prototypes[instance.prototype.value].shapes.empty();
-  });
+  const auto is_empty = [&](const Instance& instance) {
+    const Prototype& prototype = scene_.prototypes[instance.prototype.value];
+    return prototype.shapes.empty() && prototype.instances.empty();
+  };
+  for (Prototype& prototype : scene_.prototypes) std::erase_if(prototype.instances, is_empty);
+  std::erase_if(scene_.instances, is_empty);
 }
 
 }  // namespace vitrail::pbrt

@@ -4,7 +4,7 @@
 
 #include <random>
 
-#include "bundle/manifest.h"
+#include "bundle/loaded_domain.h"
 #include "scene/diagnostics.h"
 #include "tests/bundle/sample_bundle.h"
 #include "tests/support/temporary_directory.h"
@@ -21,12 +21,13 @@ void read_everything(const std::filesystem::path& bundle) {
     mapped.pieces();
     mapped.piece_vertices();
   }
+  for (std::uint32_t i = 0; i < m.objects.size(); ++i) map_object(m, bundle, i);
 }
 
 class Corruption : public ::testing::TestWithParam<const char*> {
  protected:
   void SetUp() override {
-    test::write_sample_bundle(bundle);
+    test::write_instanced_bundle(bundle);
     original = test::read_text(file);
   }
 
@@ -50,7 +51,7 @@ class Corruption : public ::testing::TestWithParam<const char*> {
 TEST_P(Corruption, SampleIsWhole) { EXPECT_NO_THROW(read_everything(bundle)); }
 
 TEST_P(Corruption, OneBitInTheHeader) {
-  for (std::size_t i = 0; i < std::min<std::size_t>(192, original.size()); ++i)
+  for (std::size_t i = 0; i < std::min<std::size_t>(320, original.size()); ++i)
     for (int bit = 0; bit < 8; ++bit) {
       std::string text = original;
       text[i] = static_cast<char>(text[i] ^ (1 << bit));
@@ -78,7 +79,7 @@ TEST_P(Corruption, CutShortOrGrown) {
 
 INSTANTIATE_TEST_SUITE_P(Files, Corruption,
                          ::testing::Values("manifest.json", "materials.bin", "lights.bin",
-                                           "domains/000001.dom"));
+                                           "domains/000001.dom", "objects/000001.dom"));
 
 // A whole file, but of another bundle.
 TEST(CorruptionOfBundle, ExchangedFilesAreFound) {
@@ -111,6 +112,36 @@ TEST(CorruptionOfBundle, TriangleThatTheSceneDoesNotHave) {
   const MappedDomain mapped(file);
   m.domains[0].hash = mapped.hash();
   EXPECT_THROW(check_domain(m, 0, mapped, file), Error);
+}
+
+// Files that are whole, but do not fit the manifest.
+TEST(CorruptionOfBundle, InstancesThatTheSceneDoesNotHave) {
+  const test::TemporaryDirectory directory;
+  test::write_instanced_bundle(directory.path());
+  const auto rejects = [&](DomainContent content) {
+    Manifest m = read_manifest(directory.path());
+    const auto file = domain_path(directory.path(), 0);
+    m.domains[0].bytes = write_domain_file(file, content, &m.domains[0].hash);
+    EXPECT_THROW(map_domain(m, directory.path(), 0), Error);
+  };
+  DomainContent content = test::sample_domain();
+  content.instances = {test::sample_instance(1, 11)};
+  content.instance_nodes = test::sample_object(1).instance_nodes;
+  DomainContent other = content;
+  other.instances[0].first_triangle = 12;
+  rejects(other);  // beyond the scene's triangles
+  other.instances[0] = test::sample_instance(2, 0);
+  rejects(other);  // no such object
+}
+
+TEST(CorruptionOfBundle, LoadedDomainsHaveTheirObjects) {
+  const test::TemporaryDirectory directory;
+  test::write_instanced_bundle(directory.path());
+  const Manifest m = read_manifest(directory.path());
+  const auto domain = load_domain(m, directory.path(), 2);
+  ASSERT_EQ(domain->view().objects.size(), 2u);
+  EXPECT_EQ(domain->view().objects[1]->instances[0].object, 0u);
+  EXPECT_EQ(domain->view().padding, static_cast<float>(padding(m)));
 }
 
 }  // namespace

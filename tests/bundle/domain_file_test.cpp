@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstring>
 #include <functional>
 
@@ -85,9 +86,18 @@ TEST_F(DomainFile, WrongReferencesAreFound) {
       [](DomainContent& d) { d.pieces[0].first_vertex = 1; },
       [](DomainContent& d) { d.pieces[0].vertex_count = 0xffffffff; },
       [](DomainContent& d) { d.pieces[0].vertex_count = 2; },
+      [](DomainContent& d) { d.instances.clear(); },                              // a tree over nothing
+      [](DomainContent& d) { d.instance_nodes.clear(); },                         // instances without a tree
+      [](DomainContent& d) { d.instance_nodes[0].child[1] = cluster | 1; },       // beyond the instances
+      [](DomainContent& d) { d.instance_nodes[0].child[1] = 0; },                 // a loop
+      [](DomainContent& d) { d.instances[0].to_parent.m[1][2] = std::nan(""); },  // stands nowhere
+      [](DomainContent& d) { d.instances[0].lower[1] = 11; },                     // has no box
   };
   for (std::size_t i = 0; i < harms.size(); ++i) {
     DomainContent content = sample_domain();
+    content.instances = {test::sample_instance(0, 11)};
+    content.instance_nodes = test::sample_object(1).instance_nodes;
+    ASSERT_NO_THROW((write_domain_file(file, content), MappedDomain(file)));
     harms[i](content);
     write_domain_file(file, content);
     EXPECT_THROW(MappedDomain(file).pieces(), Error) << "harm " << i;

@@ -136,11 +136,47 @@ TEST_F(ManifestFile, KdTreeMayNotBeTooDeep) {
   EXPECT_THROW(write_manifest(directory.path(), chain(max_kd_depth + 1)), Error);
 }
 
+TEST_F(ManifestFile, ObjectsComeBackAsTheyWere) {
+  Manifest m = sample_manifest();
+  test::add_objects(m);
+  write_manifest(directory.path(), m);
+  const Manifest r = read_manifest(directory.path());
+  EXPECT_EQ(r.objects, m.objects);
+  EXPECT_EQ(r.domains, m.domains);
+  EXPECT_EQ(r.surfaces, m.surfaces);
+  EXPECT_EQ(scene_surfaces(r).size(), 3u);
+  EXPECT_EQ(surfaces_of(r, r.objects[1]).size(), 2u);
+}
+
+TEST_F(ManifestFile, WrongObjectsAreFound) {
+  const std::vector<std::function<void(Manifest&)>> harms{
+      [](Manifest& m) { m.objects[0].objects = {0}; },      // holds itself
+      [](Manifest& m) { m.objects[0].objects = {1}; },      // a loop
+      [](Manifest& m) { m.objects[1].triangles = 16; },     // more than the scene
+      [](Manifest& m) { m.objects[1].triangles = 1; },      // a surface beyond its triangles
+      [](Manifest& m) { m.objects[1].surface_count = 3; },  // surfaces that are not there
+      [](Manifest& m) { m.objects[1].first_surface = 2; },  // one of the scene's
+      [](Manifest& m) { m.domains[0].objects = {1}; },      // not all that it needs
+      [](Manifest& m) {
+        m.domains[0].objects = {0, 1, 2};
+      },  // no such object
+      [](Manifest& m) {
+        m.domains[0].objects = {1, 0};
+      },
+  };
+  for (std::size_t i = 0; i < harms.size(); ++i) {
+    Manifest m = sample_manifest();
+    test::add_objects(m);
+    harms[i](m);
+    EXPECT_THROW(write_manifest(directory.path(), m), Error) << "harm " << i;
+  }
+}
+
 TEST_F(ManifestFile, AnotherVersionIsNamed) {
   write_manifest(directory.path(), sample_manifest());
   const auto file = directory.path() / "manifest.json";
   std::string text = test::read_text(file);
-  text.replace(text.find("\"version\": 2"), 12, "\"version\": 7");
+  text.replace(text.find("\"version\": 3"), 12, "\"version\": 7");
   const std::string rest = text.substr(text.find('\n') + 1);
   char line[64];
   std::snprintf(line, sizeof line, "{\"checksum\": \"%016llx\",\n",

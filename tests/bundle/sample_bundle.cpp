@@ -54,6 +54,29 @@ DomainContent sample_domain() {
   return d;
 }
 
+InstanceRef sample_instance(std::uint32_t object, std::uint32_t first_triangle) {
+  InstanceRef ref{affine(translate({1, 2, 3})), {}, {}, object, first_triangle};
+  set_box(ref, {{-10, -10, -10}, {10, 10, 10}});
+  return ref;
+}
+
+DomainContent sample_object(std::uint32_t number) {
+  DomainContent d;
+  d.nodes = {node_over({BvhNode::cluster_bit | 0})};
+  d.clusters = {cluster_of(0, 2)};
+  if (number == 0) return d;
+  d.instances = {sample_instance(0, 2)};
+  d.instance_nodes = {node_over({BvhNode::cluster_bit | 0})};
+  return d;
+}
+
+void add_objects(Manifest& m) {
+  m.triangles = 15;
+  m.surfaces.insert(m.surfaces.end(), {{0, 1}, {0, 2}, {1, 0}});
+  m.objects = {{2, 1, 1, 3, 1, {}}, {4, 1, 1, 4, 2, {0}}};
+  for (DomainInfo& d : m.domains) d.instances = 1, d.objects = {0, 1};
+}
+
 Manifest sample_manifest() {
   Manifest m;
   m.triangles = 11;
@@ -104,6 +127,21 @@ void write_sample_bundle(const std::filesystem::path& bundle) {
     m.domains[i].bytes = write_domain_file(domain_path(bundle, i), sample_domain());
     m.domains[i].hash = MappedDomain(domain_path(bundle, i)).hash();
   }
+  write_manifest(bundle, m);
+}
+
+void write_instanced_bundle(const std::filesystem::path& bundle) {
+  Manifest m = sample_manifest();
+  add_objects(m);
+  std::filesystem::create_directories(bundle / "domains");
+  std::filesystem::create_directories(bundle / "objects");
+  DomainContent content = sample_domain();
+  content.instances = {sample_instance(1, 11)};
+  content.instance_nodes = {node_over({BvhNode::cluster_bit | 0})};
+  for (std::uint32_t i = 0; i < m.domains.size(); ++i)
+    m.domains[i].bytes = write_domain_file(domain_path(bundle, i), content, &m.domains[i].hash);
+  for (std::uint32_t i = 0; i < m.objects.size(); ++i)
+    m.objects[i].bytes = write_domain_file(object_path(bundle, i), sample_object(i), &m.objects[i].hash);
   write_manifest(bundle, m);
 }
 

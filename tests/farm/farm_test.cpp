@@ -108,12 +108,31 @@ TEST(Residency, TakesTheFullestAndKeepsWithinItsBudget) {
   Residency residency(m, "none.vit", 200, {0, 0, 0}, 0);
   std::vector<std::size_t> waiting{5, 9, 7};
   const auto count = [&](std::uint32_t d) { return waiting[d]; };
-  EXPECT_EQ(residency.reserve(count, 14, true), 1u);
+  EXPECT_EQ(residency.reserve(count, 14, true).value().domain, 1u);
   // Not inserted yet, but its room is taken: one more fits, the third does not.
   waiting[1] = 0;
-  EXPECT_EQ(residency.reserve(count, 14, true), 2u);
+  EXPECT_EQ(residency.reserve(count, 14, true).value().domain, 2u);
   waiting[2] = 0;
-  EXPECT_EQ(residency.reserve(count, 14, true), std::nullopt);
+  EXPECT_FALSE(residency.reserve(count, 14, true));
+}
+
+// An object counts once, whatever the number of domains that need it.
+TEST(Residency, CountsObjectsOnce) {
+  Manifest m = of_domains({10, 10, 10});
+  m.objects = {{.triangles = 1, .bytes = 100}, {.triangles = 1, .bytes = 50}};
+  m.domains[0].objects = {0};
+  m.domains[1].objects = {0, 1};
+  EXPECT_EQ(bytes_needed(m, 1), 160u);
+  EXPECT_EQ(bytes_of_all(m), 180u);
+  Residency residency(m, "none.vit", 165, {0, 0, 1}, 0);
+  EXPECT_TRUE(residency.is_local(1));
+  residency.note_forwarded(2, 1000000);
+  EXPECT_FALSE(residency.is_local(2)) << "its own two and their objects take 170 bytes";
+  std::vector<std::size_t> waiting{5, 9, 0};
+  const auto count = [&](std::uint32_t d) { return waiting[d]; };
+  const auto reservation = residency.reserve(count, 14, true);
+  ASSERT_TRUE(reservation);
+  EXPECT_EQ(reservation->missing, (std::vector<std::uint32_t>{0, 1}));
 }
 
 TEST(Residency, KeepsAnothersDomainOnlyIfMuchAskedFor) {

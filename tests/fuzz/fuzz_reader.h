@@ -51,6 +51,8 @@ inline void check(const Scene& scene) {
   for (const Shape& shape : scene.shapes) check_shape(shape);
   for (const Prototype& prototype : scene.prototypes)
     for (const Shape& shape : prototype.shapes) check_shape(shape);
+  for (std::size_t i = 0; i < scene.prototypes.size(); ++i)
+    for (const Instance& instance : scene.prototypes[i].instances) require(instance.prototype.value < i);
   for (const Instance& instance : scene.instances)
     require(instance.prototype.value < scene.prototypes.size());
 }

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "pbrt_text.h"
+#include "scene/nesting.h"
 
 namespace vitrail {
 namespace {
@@ -204,6 +205,28 @@ TEST(PbrtObjects, MayBeUsedBeforeTheyAreDefined) {
                           .scene;
   ASSERT_EQ(scene.instances.size(), 1u) << "b is empty";
   EXPECT_EQ(scene.prototypes[scene.instances[0].prototype.value].name, "a");
+}
+
+// Not pbrt's: its objects have no instances.
+TEST(PbrtObjects, MayHoldInstancesOfEarlierOnes) {
+  const std::string leaf = "ObjectBegin \"leaf\" " + triangle + "ObjectEnd ";
+  const Scene scene =
+      import_v4(leaf + "ObjectBegin \"none\" ObjectEnd ObjectBegin \"tree\" Translate 0 5 0 " +
+                "ObjectInstance \"leaf\" ObjectInstance \"none\" ObjectEnd " + "ObjectInstance \"tree\"")
+          .scene;
+  ASSERT_EQ(scene.instances.size(), 1u);
+  const Prototype& tree = scene.prototypes[scene.instances[0].prototype.value];
+  ASSERT_EQ(tree.instances.size(), 1u);
+  EXPECT_EQ(scene.prototypes[tree.instances[0].prototype.value].name, "leaf");
+  expect_near(transform_point(tree.instances[0].prototype_to_world, {}), {0, 5, 0});
+  EXPECT_THROW(import_v4("ObjectBegin \"a\" ObjectInstance \"a\" ObjectEnd"), Error);
+  EXPECT_THROW(import_v4("ObjectBegin \"a\" ObjectInstance \"b\" ObjectEnd " + leaf), Error);
+
+  const Scene flat = without_nested_instances(scene);
+  const Prototype& own = flat.prototypes[flat.instances[0].prototype.value];
+  ASSERT_EQ(own.shapes.size(), 1u);
+  EXPECT_FALSE(has_nested_instances(flat));
+  expect_near(transform_point(own.shapes[0].object_to_world, {}), {0, 5, 0});
 }
 
 TEST(PbrtObjects, TheirAreaLightsAreDropped) {

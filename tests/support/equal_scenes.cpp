@@ -42,6 +42,7 @@ class Renumbering {
     copy(id, prototypes_, from_.prototypes, to.prototypes, [&](Prototype& prototype) {
       prototype.name.clear();
       for (Shape& shape : prototype.shapes) use(shape);
+      for (Instance& instance : prototype.instances) use(instance.prototype);
     });
   }
   void use(Shape& shape) {

@@ -49,7 +49,7 @@ inline Hit brute_force(const DomainView& domain, const Ray& ray) {
       if (id == no_triangle || id == ray.exclude || !exact_hit(constants, domain.clusters[c], lane, exact))
         continue;
       if (exact.t < hit.t || (exact.t == hit.t && id < hit.triangle))
-        hit = {exact.t, id, c, lane, exact.u, exact.v};
+        hit = {exact.t, id, c, lane, 0, exact.u, exact.v};
     }
   }
   return hit;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <embree3/rtcore.h>
 
+#include <algorithm>
 #include <bit>
 #include <limits>
 #include <string>
@@ -28,7 +29,7 @@ RTCDevice shared_device() {
 struct Query {
   RTCIntersectContext context;
   const KernelFunctions* kernel;
-  const Cluster* clusters;
+  const DomainView* domain;
   RayConstants ray;
   Hit* hit = nullptr;
   float tmax = 0;
@@ -89,21 +90,86 @@ bool begin_query(Query& query, const Ray& ray, const Bounds3f& box, double tmax,
 
 void closest_in_cluster(const RTCIntersectFunctionNArguments* arguments) {
   Query& query = *reinterpret_cast<Query*>(arguments->context);
-  query.kernel->cluster_closest(query.clusters, arguments->primID, query.ray, *query.hit);
+  query.kernel->cluster_closest(query.domain->clusters[arguments->primID], arguments->primID, query.ray,
+                                *query.hit);
   reinterpret_cast<RTCRayHit*>(arguments->rayhit)->ray.tfar = embree_tfar(query, query.hit->t);
 }
 
 void occluded_in_cluster(const RTCOccludedFunctionNArguments* arguments) {
   Query& query = *reinterpret_cast<Query*>(arguments->context);
-  if (query.kernel->cluster_occluded(query.clusters, arguments->primID, query.ray, query.tmax)) {
+  if (query.kernel->cluster_occluded(query.domain->clusters[arguments->primID], query.ray, query.tmax)) {
     reinterpret_cast<RTCRay*>(arguments->ray)->tfar = -std::numeric_limits<float>::infinity();
   }
 }
 
-// The boxes of the clusters, as the nodes have them.
-std::vector<RTCBounds> cluster_bounds(const DomainView& domain) {
-  std::vector<RTCBounds> bounds(domain.clusters.size());
-  for (const BvhNode& node : domain.nodes) {
+// A chain of instances from the domain on, and what it leads to.
+struct Chain {
+  const DomainView* end;
+  Affine to_bundle;
+  std::uint32_t first_triangle = 0;
+  std::vector<std::uint32_t> instances;
+};
+
+Chain extended(const Query& query, const Chain& chain, std::uint32_t index) {
+  const InstanceRef& ref = chain.end->instances[index];
+  Chain next{query.domain->objects[ref.object],
+             chain.instances.empty() ? ref.to_parent : compose(chain.to_bundle, ref.to_parent),
+             chain.first_triangle + ref.first_triangle, chain.instances};
+  next.instances.push_back(index);
+  return next;
+}
+
+Cluster placed(const Cluster& local, const Chain& chain) {
+  Cluster there;
+  const bool mirrored = mirrors(chain.to_bundle);
+  for (std::size_t lane = 0; lane < cluster_width; ++lane) {
+    there.id[lane] = local.id[lane] + chain.first_triangle;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto& from = local.vertex[source_corner(mirrored, k)];
+      const Point3f p = vitrail::placed(chain.to_bundle, {from[0][lane], from[1][lane], from[2][lane]});
+      for (int axis = 0; axis < 3; ++axis) there.vertex[k][axis][lane] = p[axis];
+    }
+  }
+  return there;
+}
+
+void closest_in_chain(const Query& query, const Chain& chain) {
+  Hit& hit = *query.hit;
+  for (std::uint32_t c = 0; c < chain.end->clusters.size(); ++c) {
+    const Hit before = hit;
+    query.kernel->cluster_closest(placed(chain.end->clusters[c], chain), c, query.ray, hit);
+    if (hit.t == before.t && hit.triangle == before.triangle) continue;
+    hit.depth = static_cast<std::uint32_t>(chain.instances.size());
+    std::ranges::copy(chain.instances, hit.chain);
+  }
+  for (std::uint32_t i = 0; i < chain.end->instances.size(); ++i)
+    closest_in_chain(query, extended(query, chain, i));
+}
+
+bool occluded_in_chain(const Query& query, const Chain& chain) {
+  for (const Cluster& cluster : chain.end->clusters)
+    if (query.kernel->cluster_occluded(placed(cluster, chain), query.ray, query.tmax)) return true;
+  for (std::uint32_t i = 0; i < chain.end->instances.size(); ++i)
+    if (occluded_in_chain(query, extended(query, chain, i))) return true;
+  return false;
+}
+
+void closest_in_instance(const RTCIntersectFunctionNArguments* arguments) {
+  Query& query = *reinterpret_cast<Query*>(arguments->context);
+  closest_in_chain(query, extended(query, {query.domain}, arguments->primID));
+  reinterpret_cast<RTCRayHit*>(arguments->rayhit)->ray.tfar = embree_tfar(query, query.hit->t);
+}
+
+void occluded_in_instance(const RTCOccludedFunctionNArguments* arguments) {
+  const Query& query = *reinterpret_cast<Query*>(arguments->context);
+  if (occluded_in_chain(query, extended(query, {query.domain}, arguments->primID)))
+    reinterpret_cast<RTCRay*>(arguments->ray)->tfar = -std::numeric_limits<float>::infinity();
+}
+
+// The boxes of the leaves, as the nodes have them.
+std::vector<RTCBounds> leaf_bounds(std::span<const BvhNode> nodes, std::size_t leaves) {
+  std::vector<RTCBounds> bounds(leaves);
+  for (const BvhNode& node : nodes) {
     for (std::size_t i = 0; i < 8; ++i) {
       if (node.child[i] == BvhNode::empty || !(node.child[i] & BvhNode::cluster_bit)) continue;
       bounds[node.child[i] & ~BvhNode::cluster_bit] = {
@@ -114,54 +180,55 @@ std::vector<RTCBounds> cluster_bounds(const DomainView& domain) {
   return bounds;
 }
 
-void bounds_of_cluster(const RTCBoundsFunctionArguments* arguments) {
+void bounds_of_leaf(const RTCBoundsFunctionArguments* arguments) {
   *arguments->bounds_o = static_cast<const RTCBounds*>(arguments->geometryUserPtr)[arguments->primID];
 }
 
-EmbreeScene commit_clusters(std::vector<RTCBounds> bounds) {
-  const RTCDevice device = shared_device();
-  EmbreeScene scene(rtcNewScene(device), &rtcReleaseScene);
-  const RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
+void attach(RTCScene scene, std::vector<RTCBounds>& bounds, RTCIntersectFunctionN closest,
+            RTCOccludedFunctionN occluded) {
+  const RTCGeometry geometry = rtcNewGeometry(shared_device(), RTC_GEOMETRY_TYPE_USER);
   rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(bounds.size()));
   rtcSetGeometryUserData(geometry, bounds.data());
-  rtcSetGeometryBoundsFunction(geometry, bounds_of_cluster, nullptr);
-  rtcSetGeometryIntersectFunction(geometry, closest_in_cluster);
-  rtcSetGeometryOccludedFunction(geometry, occluded_in_cluster);
+  rtcSetGeometryBoundsFunction(geometry, bounds_of_leaf, nullptr);
+  rtcSetGeometryIntersectFunction(geometry, closest);
+  rtcSetGeometryOccludedFunction(geometry, occluded);
   rtcCommitGeometry(geometry);
-  rtcAttachGeometry(scene.get(), geometry);
+  rtcAttachGeometry(scene, geometry);
   rtcReleaseGeometry(geometry);
-  rtcCommitScene(scene.get());
-  if (const RTCError error = rtcGetDeviceError(device)) {
-    throw MachineError("embree cannot build a hierarchy over " + std::to_string(bounds.size()) +
-                       " clusters: error " + std::to_string(error));
-  }
-  return scene;
 }
 
 }  // namespace
 
 struct EmbreeDomain::Implementation {
-  const Cluster* clusters;
+  const DomainView& domain;
   Bounds3f box;
   EmbreeScene scene;
   const KernelFunctions& kernel;
 };
 
 EmbreeDomain::EmbreeDomain(const DomainView& domain) {
-  const std::vector<RTCBounds> bounds = cluster_bounds(domain);
+  std::vector<RTCBounds> clusters = leaf_bounds(domain.nodes, domain.clusters.size()),
+                         instances = leaf_bounds(domain.instance_nodes, domain.instances.size());
   Bounds3f box;
-  for (const RTCBounds& b : bounds) {
-    extend(box, Bounds3f{{b.lower_x, b.lower_y, b.lower_z}, {b.upper_x, b.upper_y, b.upper_z}});
-  }
-  implementation_.reset(
-      new Implementation{domain.clusters.data(), box, commit_clusters(bounds), best_kernel()});
+  for (const auto& bounds : {clusters, instances})
+    for (const RTCBounds& b : bounds)
+      extend(box, Bounds3f{{b.lower_x, b.lower_y, b.lower_z}, {b.upper_x, b.upper_y, b.upper_z}});
+  const RTCDevice device = shared_device();
+  EmbreeScene scene(rtcNewScene(device), &rtcReleaseScene);
+  attach(scene.get(), clusters, closest_in_cluster, occluded_in_cluster);
+  if (!instances.empty()) attach(scene.get(), instances, closest_in_instance, occluded_in_instance);
+  rtcCommitScene(scene.get());
+  if (const RTCError error = rtcGetDeviceError(device))
+    throw MachineError("embree cannot build a hierarchy over " + std::to_string(clusters.size()) +
+                       " clusters: error " + std::to_string(error));
+  implementation_.reset(new Implementation{domain, box, std::move(scene), best_kernel()});
 }
 
 EmbreeDomain::~EmbreeDomain() = default;
 
 void EmbreeDomain::closest(const Ray& ray, Hit& hit) const {
   const Implementation& self = *implementation_;
-  Query query{{}, &self.kernel, self.clusters, prepare(ray), &hit};
+  Query query{{}, &self.kernel, &self.domain, prepare(ray), &hit};
   RTCRayHit r{};
   if (!begin_query(query, ray, self.box, hit.t, r.ray)) return;
   r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
@@ -170,7 +237,7 @@ void EmbreeDomain::closest(const Ray& ray, Hit& hit) const {
 
 bool EmbreeDomain::occluded(const Ray& ray, float tmax) const {
   const Implementation& self = *implementation_;
-  Query query{{}, &self.kernel, self.clusters, prepare(ray), nullptr, tmax};
+  Query query{{}, &self.kernel, &self.domain, prepare(ray), nullptr, tmax};
   RTCRay r{};
   if (!begin_query(query, ray, self.box, double{tmax}, r)) return false;
   rtcOccluded1(self.scene.get(), &query.context, &r);

@@ -24,17 +24,23 @@ struct KernelFunctions {
   // the one already there stays.
   void closest(const DomainView& domain, const RayConstants& ray, Hit& hit) const {
     if (!domain.nodes.empty()) tree_closest(domain.nodes.data(), domain.clusters.data(), ray, hit);
+    if (!domain.instance_nodes.empty()) instances_closest(domain, ray, hit);
   }
   // Whether any triangle is hit at t in (0, tmax).
   bool occluded(const DomainView& domain, const RayConstants& ray, float tmax) const {
-    return !domain.nodes.empty() && tree_occluded(domain.nodes.data(), domain.clusters.data(), ray, tmax);
+    if (!domain.nodes.empty() && tree_occluded(domain.nodes.data(), domain.clusters.data(), ray, tmax))
+      return true;
+    return !domain.instance_nodes.empty() && instances_occluded(domain, ray, tmax);
   }
 
   void (*tree_closest)(const BvhNode* nodes, const Cluster* clusters, const RayConstants& ray, Hit& hit);
   bool (*tree_occluded)(const BvhNode* nodes, const Cluster* clusters, const RayConstants& ray, float tmax);
-  // The same with cluster `index` alone.
-  void (*cluster_closest)(const Cluster* clusters, std::uint32_t index, const RayConstants& ray, Hit& hit);
-  bool (*cluster_occluded)(const Cluster* clusters, std::uint32_t index, const RayConstants& ray, float tmax);
+  // The same with a domain's instances, and those within their objects.
+  void (*instances_closest)(const DomainView& domain, const RayConstants& ray, Hit& hit);
+  bool (*instances_occluded)(const DomainView& domain, const RayConstants& ray, float tmax);
+  // The same with one cluster alone, whose index the hit is to have.
+  void (*cluster_closest)(const Cluster& cluster, std::uint32_t index, const RayConstants& ray, Hit& hit);
+  bool (*cluster_occluded)(const Cluster& cluster, const RayConstants& ray, float tmax);
 };
 
 // Throws Error when this CPU cannot run the kernel.
@@ -43,9 +49,9 @@ const KernelFunctions& kernel_functions(Kernel kernel);
 // cannot be run here throws Error.
 const KernelFunctions& best_kernel();
 
-// The same through Embree over user geometry: an independent traversal of the same clusters, built when the
-// domain is loaded. It refers to the view's clusters, which have to outlive it. Throws MachineError when
-// Embree fails.
+// The same through Embree over user geometry: an independent traversal of the same clusters and instances,
+// built when the domain is loaded; within instances it tries every cluster. It refers to what the view shows,
+// which, like the view, has to outlive it. Throws MachineError when Embree fails.
 class EmbreeDomain {
  public:
   explicit EmbreeDomain(const DomainView& domain);

@@ -76,10 +76,9 @@ inline float zeta_limit(const RayConstants& ray, double t) {
   return static_cast<float>(t * __builtin_fabs(ray.direction_z)) * (1 + 2e-6f);
 }
 
-// Returns the limit on ζ that holds afterwards.
-inline float closest_in_cluster(const Cluster* clusters, std::uint32_t index, const RayConstants& ray,
+// Returns the limit on ζ that holds afterwards. `index` of the cluster.
+inline float closest_in_cluster(const Cluster& cluster, std::uint32_t index, const RayConstants& ray,
                                 float limit, Hit& hit) {
-  const Cluster& cluster = clusters[index];
   const Edges e = edges_of(cluster, ray);
   unsigned lanes = bits(may_hit(e));
   if (!lanes) return limit;
@@ -94,6 +93,7 @@ inline float closest_in_cluster(const Cluster* clusters, std::uint32_t index, co
     hit.triangle = id;
     hit.cluster = index;
     hit.lane = lane;
+    hit.depth = 0;
     hit.u = exact.u;
     hit.v = exact.v;
     limit = zeta_limit(ray, hit.t);
@@ -151,6 +151,20 @@ struct Slabs {
       far[a] = (static_cast<std::uint32_t>(a) * 2 + 3) * 8 - near[a];
     }
   }
+  // In an object: ζ is the ray's own s, and the margins grow by its pad.
+  explicit Slabs(const InstanceRay& ray) {
+    for (std::uint32_t a = 0; a < 3; ++a) {
+      const float scale_a = static_cast<float>(ray.inverse_direction[a]);
+      const float offset = static_cast<float>(-ray.origin[a] * ray.inverse_direction[a]);
+      const float margin = static_cast<float>(ray.pad[a]) * __builtin_fabsf(scale_a) * (1 + 1e-6f) +
+                           8 * unit_roundoff * __builtin_fabsf(offset);
+      scale[a] = fill(scale_a);
+      entry_offset[a] = fill(offset - margin);
+      exit_offset[a] = fill(offset + margin);
+      near[a] = (__builtin_signbit(scale_a) ? a + 3 : a) * 8;
+      far[a] = (a * 2 + 3) * 8 - near[a];
+    }
+  }
   Floats scale[3], entry_offset[3], exit_offset[3];
   std::uint32_t near[3], far[3];  // offsets into the boxes of a node, in floats
 };
@@ -168,16 +182,19 @@ inline unsigned entered_children(const BvhNode& node, const Slabs& ray, float li
   return bits(less_equal(entry, min(min(f0, f1), min(f2, fill(limit)))));
 }
 
-inline void prefetch(const BvhNode* nodes, const Cluster* clusters, std::uint32_t reference) {
+// `Leaf`: a cluster or an instance.
+template <class Leaf>
+inline void prefetch(const BvhNode* nodes, const Leaf* leaves, std::uint32_t reference) {
   const char* at = reference & BvhNode::cluster_bit
-                       ? reinterpret_cast<const char*>(clusters + (reference & ~BvhNode::cluster_bit))
+                       ? reinterpret_cast<const char*>(leaves + (reference & ~BvhNode::cluster_bit))
                        : reinterpret_cast<const char*>(nodes + reference);
   for (int line = 0; line < 4; ++line) __builtin_prefetch(at + 64 * line);
 }
 
 // Puts the entered children (one at least) on the stack, the nearer the later, but for the nearest, which is
 // returned.
-inline std::uint32_t push_but_nearest(const BvhNode* nodes, const Cluster* clusters, const BvhNode& node,
+template <class Leaf>
+inline std::uint32_t push_but_nearest(const BvhNode* nodes, const Leaf* leaves, const BvhNode& node,
                                       unsigned children, Floats entry, Pending*& top) {
   unsigned rest = children & (children - 1);
   if (!rest) return first_of(node.child, children);
@@ -193,7 +210,7 @@ inline std::uint32_t push_but_nearest(const BvhNode* nodes, const Cluster* clust
     const Pending p = first(rest);
     const Pending farther = p > nearest ? p : nearest;
     nearest = p > nearest ? nearest : p;
-    prefetch(nodes, clusters, reference_of(farther));
+    prefetch(nodes, leaves, reference_of(farther));
     Pending* place = top++;
     for (; place != bottom && place[-1] < farther; --place) *place = place[-1];
     *place = farther;
@@ -202,20 +219,22 @@ inline std::uint32_t push_but_nearest(const BvhNode* nodes, const Cluster* clust
   return reference_of(nearest);
 }
 
-void tree_closest(const BvhNode* nodes, const Cluster* clusters, const RayConstants& ray, Hit& hit) {
-  const Slabs slabs(ray);
-  float limit = zeta_limit(ray, hit.t);
+// The leaves that the ray enters at ζ ≤ limit, nearest first. `visit(index, limit)` returns the limit that
+// holds afterwards.
+template <class Leaf, class Visit>
+inline void visit_nearest_first(const BvhNode* nodes, const Leaf* leaves, const Slabs& slabs, float limit,
+                                const Visit& visit) {
   Pending stack[stack_size];
   Pending* top = stack;
   std::uint32_t at = 0;
   for (;;) {
     if (at & BvhNode::cluster_bit) {
-      limit = closest_in_cluster(clusters, at & ~BvhNode::cluster_bit, ray, limit, hit);
+      limit = visit(at & ~BvhNode::cluster_bit, limit);
     } else {
       Floats entry;
       const unsigned children = entered_children(nodes[at], slabs, limit, entry);
       if (children) {
-        at = push_but_nearest(nodes, clusters, nodes[at], children, entry, top);
+        at = push_but_nearest(nodes, leaves, nodes[at], children, entry, top);
         continue;
       }
     }
@@ -227,22 +246,23 @@ void tree_closest(const BvhNode* nodes, const Cluster* clusters, const RayConsta
   }
 }
 
-bool tree_occluded(const BvhNode* nodes, const Cluster* clusters, const RayConstants& ray, float tmax) {
-  const Slabs slabs(ray);
-  const float limit = zeta_limit(ray, tmax);
+// Whether `visit(index)` is true of any leaf that the ray enters at ζ ≤ limit.
+template <class Leaf, class Visit>
+inline bool any_entered(const BvhNode* nodes, const Leaf* leaves, const Slabs& slabs, float limit,
+                        const Visit& visit) {
   std::uint32_t stack[stack_size];
   std::uint32_t* top = stack;
   std::uint32_t at = 0;
   for (;;) {
     if (at & BvhNode::cluster_bit) {
-      if (occluded_in_cluster(clusters[at & ~BvhNode::cluster_bit], ray, tmax)) return true;
+      if (visit(at & ~BvhNode::cluster_bit)) return true;
     } else {
       const BvhNode& node = nodes[at];
       Floats entry;
       unsigned children = entered_children(node, slabs, limit, entry);
       for (; children; children &= children - 1) {
         *top = node.child[__builtin_ctz(children)];
-        prefetch(nodes, clusters, *top++);
+        prefetch(nodes, leaves, *top++);
       }
     }
     if (top == stack) return false;
@@ -250,10 +270,117 @@ bool tree_occluded(const BvhNode* nodes, const Cluster* clusters, const RayConst
   }
 }
 
-void cluster_closest(const Cluster* clusters, std::uint32_t index, const RayConstants& ray, Hit& hit) {
-  closest_in_cluster(clusters, index, ray, zeta_limit(ray, hit.t), hit);
+void tree_closest(const BvhNode* nodes, const Cluster* clusters, const RayConstants& ray, Hit& hit) {
+  visit_nearest_first(nodes, clusters, Slabs(ray), zeta_limit(ray, hit.t), [&](std::uint32_t c, float limit) {
+    return closest_in_cluster(clusters[c], c, ray, limit, hit);
+  });
 }
 
-bool cluster_occluded(const Cluster* clusters, std::uint32_t index, const RayConstants& ray, float tmax) {
-  return occluded_in_cluster(clusters[index], ray, tmax);
+bool tree_occluded(const BvhNode* nodes, const Cluster* clusters, const RayConstants& ray, float tmax) {
+  return any_entered(nodes, clusters, Slabs(ray), zeta_limit(ray, tmax),
+                     [&](std::uint32_t c) { return occluded_in_cluster(clusters[c], ray, tmax); });
 }
+
+// ---- Instances ---------------------------------------------------------------------------
+
+typedef double EightDoubles __attribute__((vector_size(64)));
+typedef float EightFloats __attribute__((vector_size(32), may_alias));
+
+// A cluster of an object where it stands: `placed`, of eight vertices at a time.
+inline void place_cluster(const Cluster& local, const InstanceRay& at, Cluster& out) {
+  for (int k = 0; k < 3; ++k) {
+    const auto& from = local.vertex[at.mirrored && k > 0 ? 3 - k : k];
+    EightDoubles p[3];
+    for (int axis = 0; axis < 3; ++axis)
+      p[axis] = __builtin_convertvector(*reinterpret_cast<const EightFloats*>(from[axis]), EightDoubles);
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto& row = at.to_bundle.m[axis];
+      const EightDoubles sum = row[0] * p[0] + row[1] * p[1] + row[2] * p[2] + row[3];
+      *reinterpret_cast<EightFloats*>(out.vertex[k][axis]) = __builtin_convertvector(sum, EightFloats) + 0.0f;
+    }
+  }
+  for (int lane = 0; lane < cluster_width; ++lane) out.id[lane] = local.id[lane] + at.first_triangle;
+}
+
+// The limit on s in an object that a limit on ζ means, rounded up.
+inline float local_limit(const InstanceRay& ray, float limit) {
+  if (ray.depth == 0) return limit;
+  const double end = double{limit} < ray.exit ? double{limit} : ray.exit;
+  return static_cast<float>((end - ray.entry) * ray.unit * (1 + 1e-6));
+}
+
+inline float closest_in_placed(std::uint32_t index, const InstanceRay& at, const RayConstants& ray,
+                               float limit, Hit& hit) {
+  Cluster there;
+  place_cluster(at.clusters[index], at, there);
+  const double t = hit.t;
+  const std::uint32_t triangle = hit.triangle;
+  limit = closest_in_cluster(there, index, ray, limit, hit);
+  if (hit.t == t && hit.triangle == triangle) return limit;
+  hit.depth = at.depth;
+  for (std::uint32_t i = 0; i < at.depth; ++i) hit.chain[i] = at.chain[i];
+  return limit;
+}
+
+// In the instances of where `outer` is; `slabs` of the ray there.
+float closest_in_instances(const InstanceRay& outer, const Slabs& slabs, const RayConstants& ray, float limit,
+                           Hit& hit) {
+  const auto enter = [&](std::uint32_t index) {
+    InstanceRay inner;
+    if (!enter_instance(ray, outer, index, limit, inner)) return;
+    const Slabs inner_slabs(inner);
+    if (inner.nodes)
+      visit_nearest_first(inner.nodes, inner.clusters, inner_slabs, local_limit(inner, limit),
+                          [&](std::uint32_t c, float) {
+                            limit = closest_in_placed(c, inner, ray, limit, hit);
+                            return local_limit(inner, limit);
+                          });
+    if (inner.instance_nodes) limit = closest_in_instances(inner, inner_slabs, ray, limit, hit);
+  };
+  visit_nearest_first(outer.instance_nodes, outer.instances, slabs, local_limit(outer, limit),
+                      [&](std::uint32_t index, float) {
+                        enter(index);
+                        return local_limit(outer, limit);
+                      });
+  return limit;
+}
+
+void instances_closest(const DomainView& domain, const RayConstants& ray, Hit& hit) {
+  closest_in_instances(domain_ray(domain, ray), Slabs(ray), ray, zeta_limit(ray, hit.t), hit);
+}
+
+bool occluded_in_instances(const InstanceRay& outer, const Slabs& slabs, const RayConstants& ray, float limit,
+                           float tmax) {
+  const auto enter = [&](std::uint32_t index) {
+    InstanceRay inner;
+    if (!enter_instance(ray, outer, index, limit, inner)) return false;
+    const Slabs inner_slabs(inner);
+    const auto in_cluster = [&](std::uint32_t c) {
+      Cluster there;
+      place_cluster(inner.clusters[c], inner, there);
+      return occluded_in_cluster(there, ray, tmax);
+    };
+    if (inner.nodes &&
+        any_entered(inner.nodes, inner.clusters, inner_slabs, local_limit(inner, limit), in_cluster))
+      return true;
+    return inner.instance_nodes && occluded_in_instances(inner, inner_slabs, ray, limit, tmax);
+  };
+  return any_entered(outer.instance_nodes, outer.instances, slabs, local_limit(outer, limit), enter);
+}
+
+bool instances_occluded(const DomainView& domain, const RayConstants& ray, float tmax) {
+  return occluded_in_instances(domain_ray(domain, ray), Slabs(ray), ray, zeta_limit(ray, tmax), tmax);
+}
+
+// ---- Clusters by themselves ----------------------------------------------------------------
+
+void cluster_closest(const Cluster& cluster, std::uint32_t index, const RayConstants& ray, Hit& hit) {
+  closest_in_cluster(cluster, index, ray, zeta_limit(ray, hit.t), hit);
+}
+
+bool cluster_occluded(const Cluster& cluster, const RayConstants& ray, float tmax) {
+  return occluded_in_cluster(cluster, ray, tmax);
+}
+
+constexpr KernelFunctions functions{tree_closest,       tree_occluded,   instances_closest,
+                                    instances_occluded, cluster_closest, cluster_occluded};

@@ -2,6 +2,7 @@
 #include <immintrin.h>
 
 #include "tracer/intersect/exact_test.h"
+#include "tracer/intersect/instance_ray.h"
 #include "tracer/intersect/kernels.h"
 
 namespace vitrail {
@@ -13,6 +14,6 @@ namespace {
 
 }  // namespace
 
-const KernelFunctions avx512_kernel{tree_closest, tree_occluded, cluster_closest, cluster_occluded};
+const KernelFunctions avx512_kernel = functions;
 
 }  // namespace vitrail

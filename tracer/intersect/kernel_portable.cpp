@@ -4,6 +4,7 @@
 #endif
 
 #include "tracer/intersect/exact_test.h"
+#include "tracer/intersect/instance_ray.h"
 #include "tracer/intersect/kernels.h"
 
 namespace vitrail {
@@ -15,6 +16,6 @@ namespace {
 
 }  // namespace
 
-const KernelFunctions portable_kernel{tree_closest, tree_occluded, cluster_closest, cluster_occluded};
+const KernelFunctions portable_kernel = functions;
 
 }  // namespace vitrail

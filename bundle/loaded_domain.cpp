@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bundle/loaded_domain.h"
+
+namespace vitrail {
+
+LoadedDomain::LoadedDomain(const Manifest& manifest, std::uint32_t domain, SharedDomain mapped,
+                           const std::function<SharedDomain(std::uint32_t)>& object)
+    : mapped_(std::move(mapped)), view_(mapped_->view()) {
+  const std::vector<std::uint32_t>& needed = manifest.domains.at(domain).objects;
+  if (needed.empty()) return;
+  object_views_.resize(needed.back() + std::size_t{1});
+  for (const std::uint32_t number : needed) {
+    objects_.push_back(object(number));
+    object_views_[number] = &objects_.back()->view();
+  }
+  view_.objects = object_views_;
+  view_.padding = static_cast<float>(padding(manifest));
+}
+
+SharedDomain map_domain(const Manifest& manifest, const std::filesystem::path& bundle, std::uint32_t domain) {
+  const std::filesystem::path file = domain_path(bundle, domain);
+  auto mapped = std::make_shared<const MappedDomain>(file);
+  check_domain(manifest, domain, *mapped, file);
+  return mapped;
+}
+
+SharedDomain map_object(const Manifest& manifest, const std::filesystem::path& bundle, std::uint32_t object) {
+  const std::filesystem::path file = object_path(bundle, object);
+  auto mapped = std::make_shared<const MappedDomain>(file);
+  check_object(manifest, object, *mapped, file);
+  return mapped;
+}
+
+std::unique_ptr<const LoadedDomain> load_domain(const Manifest& manifest, const std::filesystem::path& bundle,
+                                                std::uint32_t domain) {
+  return std::make_unique<const LoadedDomain>(
+      manifest, domain, map_domain(manifest, bundle, domain),
+      [&](std::uint32_t object) { return map_object(manifest, bundle, object); });
+}
+
+}  // namespace vitrail

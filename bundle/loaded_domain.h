@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// A domain with the objects that its instances need, ready to be traced.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "bundle/manifest.h"
+
+namespace vitrail {
+
+// A mapped file; what else goes with it is the business of whoever shares it.
+using SharedDomain = std::shared_ptr<const MappedDomain>;
+
+class LoadedDomain {
+ public:
+  // `object(n)` gives object n; it is asked once for each that the domain needs.
+  LoadedDomain(const Manifest& manifest, std::uint32_t domain, SharedDomain mapped,
+               const std::function<SharedDomain(std::uint32_t)>& object);
+  LoadedDomain(const LoadedDomain&) = delete;  // its view refers to itself
+  LoadedDomain& operator=(const LoadedDomain&) = delete;
+
+  const DomainView& view() const { return view_; }
+
+ private:
+  SharedDomain mapped_;
+  std::vector<SharedDomain> objects_;
+  std::vector<const DomainView*> object_views_;  // by number, null where it is not needed
+  DomainView view_;
+};
+
+// Maps and checks a file of a bundle.
+SharedDomain map_domain(const Manifest& manifest, const std::filesystem::path& bundle, std::uint32_t domain);
+SharedDomain map_object(const Manifest& manifest, const std::filesystem::path& bundle, std::uint32_t object);
+
+// A domain with objects of its own.
+std::unique_ptr<const LoadedDomain> load_domain(const Manifest& manifest, const std::filesystem::path& bundle,
+                                                std::uint32_t domain);
+
+}  // namespace vitrail

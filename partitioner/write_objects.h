@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// Objects on disk, and the instances that domains have of them.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "partitioner/world.h"
+
+namespace vitrail {
+
+// Writes the world's objects, those of more than `most_bytes` in parts, and their lines in the manifest.
+// Returns the instances of the scene, one for each part, in the order of ids; their boxes are not inflated.
+std::vector<InstanceRef> write_objects(const World& world, Manifest& manifest,
+                                       const std::filesystem::path& bundle, std::uint64_t most_bytes);
+
+// Finds the instances that reach into a cell.
+class InstanceDealer {
+ public:
+  // `root`: the cell that is divided. What lies beyond it belongs to the cells at its border.
+  InstanceDealer(std::vector<InstanceRef> instances, float padding, const Bounds3f& root);
+
+  // Their boxes are clipped to the cell. From any thread.
+  std::vector<InstanceRef> in(Bounds3f cell) const;
+
+ private:
+  std::vector<InstanceRef> instances_;
+  float padding_;
+  Bounds3f root_;
+  std::vector<BvhNode> tree_;
+};
+
+}  // namespace vitrail

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tracer/intersect/instance_ray.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace vitrail {
+
+namespace {
+
+double max3(double a, double b, double c) { return std::max(std::max(a, b), c); }
+
+// 1/d, at most 10¹⁸, which moves a ray by 10⁻¹⁸ of its length.
+double limited_inverse(double d) { return std::abs(d) * 1e18 > 1 ? 1 / d : std::copysign(1e18, d); }
+
+// d/|d_z| on each axis.
+void find_direction(const RayConstants& ray, double d[3]) {
+  d[ray.x] = ray.exact_shear_x * static_cast<double>(ray.sign_z);
+  d[ray.y] = ray.exact_shear_y * static_cast<double>(ray.sign_z);
+  d[ray.z] = static_cast<double>(ray.sign_z);
+}
+
+// Where the ray is in the box, in its own s, as far as `limit`. False where it is not.
+bool cross_box(const InstanceRay& ray, const InstanceRef& ref, double limit, double& enter, double& leave) {
+  enter = 0;
+  leave = limit;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double a =
+        (double{ref.lower[axis]} - ray.pad[axis] - ray.origin[axis]) * ray.inverse_direction[axis];
+    const double b =
+        (double{ref.upper[axis]} + ray.pad[axis] - ray.origin[axis]) * ray.inverse_direction[axis];
+    enter = std::max(enter, std::min(a, b));
+    leave = std::min(leave, std::max(a, b));
+  }
+  return enter <= leave;
+}
+
+// Inverse of the 3×3 block, by cofactors. False where there is none.
+bool invert(const double m[3][4], double inverse[3][3]) {
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) {
+      const int r0 = (j + 1) % 3, r1 = (j + 2) % 3, c0 = (i + 1) % 3, c1 = (i + 2) % 3;
+      inverse[i][j] = m[r0][c0] * m[r1][c1] - m[r0][c1] * m[r1][c0];
+    }
+  const double determinant = m[0][0] * inverse[0][0] + m[0][1] * inverse[1][0] + m[0][2] * inverse[2][0];
+  const double reciprocal = 1 / determinant;
+  if (!std::isfinite(reciprocal)) return false;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) inverse[i][j] *= reciprocal;
+  return true;
+}
+
+double row_sum(const double* row) { return std::abs(row[0]) + std::abs(row[1]) + std::abs(row[2]); }
+
+double greatest(const auto v[3]) {
+  return max3(std::abs(double{v[0]}), std::abs(double{v[1]}), std::abs(double{v[2]}));
+}
+
+// What a point of the true ray may be off in the scene's coordinates: `padding` for the rounding of placed
+// vertices and of the exact test; the rounding of the advanced origin, `far` from 0; and that of the inverse
+// over the distance `near`, whose relative error grows with the square of the condition.
+double deviation(double padding, double far, double near, double condition) {
+  return padding + 0x1p-50 * (far + near) + 0x1p-44 * condition * condition * near;
+}
+
+void show(const DomainView& object, InstanceRay& ray) {
+  ray.nodes = object.nodes.empty() ? nullptr : object.nodes.data();
+  ray.clusters = object.clusters.data();
+  ray.instance_nodes = object.instance_nodes.empty() ? nullptr : object.instance_nodes.data();
+  ray.instances = object.instances.data();
+}
+
+// The chain to instance `index`.
+void extend_chain(const InstanceRay& outer, std::uint32_t index, InstanceRay& inner) {
+  const InstanceRef& ref = outer.instances[index];
+  inner.domain = outer.domain;
+  show(*outer.domain->objects[ref.object], inner);
+  inner.to_bundle = outer.depth == 0 ? ref.to_parent : compose(outer.to_bundle, ref.to_parent);
+  inner.mirrored = mirrors(inner.to_bundle);
+  inner.first_triangle = outer.first_triangle + ref.first_triangle;
+  inner.depth = outer.depth + 1;
+  std::copy_n(outer.chain, outer.depth, inner.chain);
+  inner.chain[outer.depth] = index;
+}
+
+}  // namespace
+
+InstanceRay domain_ray(const DomainView& domain, const RayConstants& ray) {
+  InstanceRay r{};
+  r.domain = &domain;
+  r.unit = 1;
+  show(domain, r);
+  double d[3];
+  find_direction(ray, d);
+  for (int axis = 0; axis < 3; ++axis) {
+    r.origin[axis] = static_cast<double>(ray.origin[axis]);
+    r.inverse_direction[axis] = limited_inverse(d[axis]);
+    r.pad[axis] = 0x1p-50 * std::abs(r.origin[axis]);
+  }
+  return r;
+}
+
+bool enter_instance(const RayConstants& ray, const InstanceRay& outer, std::uint32_t index, float limit,
+                    InstanceRay& inner) {
+  double enter, leave;
+  if (!cross_box(outer, outer.instances[index], (static_cast<double>(limit) - outer.entry) * outer.unit,
+                 enter, leave))
+    return false;
+  if (outer.depth == max_instance_depth) return false;
+  extend_chain(outer, index, inner);
+  inner.entry = outer.entry + enter / outer.unit;
+  inner.exit = outer.entry + leave / outer.unit;
+
+  const auto& m = inner.to_bundle.m;
+  double to_object[3][3];
+  if (!invert(m, to_object)) return false;
+  double d[3], relative[3], direction[3];
+  find_direction(ray, d);
+  for (int axis = 0; axis < 3; ++axis)
+    relative[axis] = static_cast<double>(ray.origin[axis]) + inner.entry * d[axis] - m[axis][3];
+  const double condition = max3(row_sum(m[0]), row_sum(m[1]), row_sum(m[2])) *
+                           max3(row_sum(to_object[0]), row_sum(to_object[1]), row_sum(to_object[2]));
+  const double off = deviation(static_cast<double>(outer.domain->padding), greatest(ray.origin) + inner.entry,
+                               greatest(relative) + inner.exit - inner.entry, condition);
+  for (int axis = 0; axis < 3; ++axis) {
+    const double* row = to_object[axis];
+    inner.origin[axis] = row[0] * relative[0] + row[1] * relative[1] + row[2] * relative[2];
+    direction[axis] = row[0] * d[0] + row[1] * d[1] + row[2] * d[2];
+    inner.pad[axis] = row_sum(row) * off;
+  }
+  inner.unit = greatest(direction);
+  for (int axis = 0; axis < 3; ++axis)
+    inner.inverse_direction[axis] = limited_inverse(direction[axis] / inner.unit);
+  return true;
+}
+
+}  // namespace vitrail

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// A ray in the space of an object that a chain of instances led to. It only culls: boxes of the object are
+// widened by what rounding may have moved. Compiled once, for all kernels.
+// docs/exact-intersection.md has the bounds.
+#pragma once
+
+#include "bundle/instance.h"
+#include "tracer/intersect/ray.h"
+
+namespace vitrail {
+
+// Without initialisers: the kernels must not instantiate a constructor.
+struct InstanceRay {
+  const DomainView* domain;  // has the objects
+  // What the chain led to: an object, or the domain itself. Trees are null where there are none.
+  const BvhNode* nodes;
+  const Cluster* clusters;
+  const BvhNode* instance_nodes;
+  const InstanceRef* instances;
+
+  // Of the chain.
+  Affine to_bundle;
+  bool mirrored;
+  std::uint32_t first_triangle;
+  std::uint32_t depth;
+  std::uint32_t chain[max_instance_depth];
+
+  // Points origin + s·direction, s = (ζ − entry)·unit ≥ 0; the greatest component of the direction is ±1. A
+  // point of the true ray lies within `pad` of it on each axis.
+  double entry, unit;
+  double exit;  // ζ where the ray leaves the instance
+  double origin[3], inverse_direction[3], pad[3];
+};
+
+// The ray in the domain itself: a chain of none.
+InstanceRay domain_ray(const DomainView& domain, const RayConstants& ray);
+
+// The ray in instance `index` of where `outer` is. False where it misses the instance's box at ζ ≤ limit, or
+// where the chain is too long.
+bool enter_instance(const RayConstants& ray, const InstanceRay& outer, std::uint32_t index, float limit,
+                    InstanceRay& inner);
+
+}  // namespace vitrail
