@@ -177,8 +177,9 @@ std::vector<Ray> bounce_rays(const std::vector<Ray>& rays, const DomainView& dom
     Hit hit;
     best_kernel().closest(domain, prepare(ray), hit);
     if (hit.triangle == no_triangle) continue;
-    out.push_back({ray.origin + ray.direction * static_cast<float>(hit.t),
-                   normalize(Vector3f{normal(random), normal(random), normal(random)}), hit.triangle});
+    const Vector3f d = normalize(Vector3f{normal(random), normal(random), normal(random)});
+    // Clear of the triangle it starts on, which Embree would hit again.
+    out.push_back({ray.origin + ray.direction * static_cast<float>(hit.t) + d * 1e-3f, d});
   }
   return out;
 }
