@@ -8,19 +8,6 @@
 
 namespace vitrail {
 
-namespace {
-
-void fill_guide(const double* sums, std::size_t steps, std::uint16_t* guide) {
-  std::size_t step = 0;
-  for (std::size_t part = 0; part < steps; ++part) {
-    const double u = static_cast<double>(part) / static_cast<double>(steps);
-    while (step + 1 < steps && sums[step + 1] <= u) ++step;
-    guide[part] = static_cast<std::uint16_t>(step);
-  }
-}
-
-}  // namespace
-
 DirectionTable::DirectionTable(SphereProjection projection, int width, int height,
                                const std::function<double(int, int)>& density)
     : projection_(projection), width_(std::max(1, width)), height_(std::max(1, height)) {
@@ -46,10 +33,9 @@ DirectionTable::DirectionTable(SphereProjection projection, int width, int heigh
     rows_[y] = total > 0                                     ? rows_[y] / total
                : projection_ == SphereProjection::equal_area ? static_cast<double>(y) / static_cast<double>(h)
                                                              : (1 - row_z_[y]) / 2;
-  row_guide_.resize(h);
-  fill_guide(rows_.data(), h, row_guide_.data());
-  column_guide_.resize(h * w);
-  for (std::size_t y = 0; y < h; ++y) fill_guide(&columns_[y * (w + 1)], w, &column_guide_[y * w]);
+  row_guide_ = GuideTable(rows_, h);
+  for (std::size_t y = 0; y < h; ++y)
+    column_guides_.emplace_back(std::span(columns_).subspan(y * (w + 1), w + 1), w);
 }
 
 double DirectionTable::cell_solid_angle(int row) const {
@@ -66,9 +52,8 @@ struct Step {
 };
 
 // The step of a cumulative sum from 0 to 1 that holds u in [0,1); never one of height 0.
-Step find_step(const double* sums, std::size_t steps, const std::uint16_t* guide, double u) {
-  std::size_t i = guide[static_cast<std::size_t>(u * static_cast<double>(steps))];
-  while (i + 1 < steps && sums[i + 1] <= u) ++i;
+Step find_step(std::span<const double> sums, const GuideTable& guide, double u) {
+  std::size_t i = guide.bin(sums, u);
   while (i > 0 && !(sums[i + 1] > sums[i])) --i;
   const double height = sums[i + 1] - sums[i];
   return {i, height > 0 ? std::clamp((u - sums[i]) / height, 0.0, 1.0) : 0.5};
@@ -77,9 +62,10 @@ Step find_step(const double* sums, std::size_t steps, const std::uint16_t* guide
 }  // namespace
 
 Vector3d DirectionTable::sample(double u, double v) const {
-  const auto w = static_cast<std::size_t>(width_), h = static_cast<std::size_t>(height_);
-  const Step row = find_step(rows_.data(), h, row_guide_.data(), v);
-  const Step column = find_step(&columns_[row.index * (w + 1)], w, &column_guide_[row.index * w], u);
+  const auto w = static_cast<std::size_t>(width_);
+  const Step row = find_step(rows_, row_guide_, v);
+  const Step column =
+      find_step(std::span(columns_).subspan(row.index * (w + 1), w + 1), column_guides_[row.index], u);
   const double x = (static_cast<double>(column.index) + column.fraction) / width_;
   if (projection_ == SphereProjection::equal_area)
     return sphere_direction(projection_, {x, (static_cast<double>(row.index) + row.fraction) / height_});

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdint>
 #include <functional>
 #include <vector>
 
+#include "tracer/guide_table.h"
 #include "tracer/lights/sphere_map.h"
 
 namespace vitrail {
@@ -34,9 +34,8 @@ class DirectionTable {
       row_z_;  // of latitude_longitude: the z of the rows' upper edges, and of the last lower one
   std::vector<double> rows_;     // cumulative, 0 … 1, height + 1
   std::vector<double> columns_;  // of each row: cumulative, 0 … 1, width + 1
-  // Of as many equal parts of [0,1) as there are steps: the step that holds the part's lower end (Chen & Asau
-  // 1974).
-  std::vector<std::uint16_t> row_guide_, column_guide_;
+  GuideTable row_guide_;
+  std::vector<GuideTable> column_guides_;  // of each row
 };
 
 }  // namespace vitrail
