@@ -2,6 +2,7 @@
 #include "partitioner/write_domain.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -48,6 +49,18 @@ void extend_by_root(Bounds3f& b, std::span<const BvhNode> nodes) {
     extend(b, Bounds3f{{root.lower[0][i], root.lower[1][i], root.lower[2][i]},
                        {root.upper[0][i], root.upper[1][i], root.upper[2][i]}});
   }
+}
+
+Occupancy occupancy_of(const Bounds3f& box, const NumberedTriangles& triangles, const CellContent& cell,
+                       std::span<const InstanceRef> instances, float padding) {
+  Occupancy occupancy;
+  for (const std::uint32_t i : cell.whole) {
+    const Triangle& t = triangles.triangles[i];
+    mark(occupancy, box, std::array{cast<double>(t[0]), cast<double>(t[1]), cast<double>(t[2])}, padding);
+  }
+  for (const Piece& p : cell.pieces) mark(occupancy, box, cell.polygon(p), padding);
+  for (const InstanceRef& ref : instances) mark(occupancy, box, box_of(ref));
+  return occupancy;
 }
 
 // Of the objects of these instances and of all that they need, ascending.
@@ -114,10 +127,11 @@ DomainInfo write_domain(const Manifest& manifest, const NumberedTriangles& trian
   DomainContent content = make_domain(triangles, cell, pad);
   add_instances(std::move(instances), pad, content);
   census.add(index, view_of(content), content.pieces, content.piece_vertices);
-  DomainInfo info{cell.size(), cell.pieces.size(), 0, 0, {}};
+  DomainInfo info{.triangles = cell.size(), .pieces = cell.pieces.size()};
   info.bytes = write_domain_file(domain_path(bundle, index), content, &info.hash);
   extend_by_root(info.tight_bounds, content.nodes);
   extend_by_root(info.tight_bounds, content.instance_nodes);
+  info.occupancy = occupancy_of(info.tight_bounds, triangles, cell, content.instances, pad);
   info.instances = content.instances.size();
   info.objects = needed_objects(manifest, content.instances);
   return info;
