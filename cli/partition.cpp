@@ -22,7 +22,7 @@ namespace vitrail {
 namespace {
 
 struct Arguments {
-  std::filesystem::path input, output, stats;
+  std::filesystem::path input, output, stats, profile;
   std::string domain_bytes, memory;
   bool strict = false, quiet = false;
   PartitionOptions options;
@@ -47,6 +47,8 @@ void declare(CLI::App& app, Arguments& a) {
       "disk beside the bundle on its way");
   app.add_option("--threads", a.options.threads, "threads; default: all cores")->check(CLI::Range(1, 4096));
   app.add_option("--stats", a.stats, "write statistics as JSON");
+  app.add_option("--profile", a.profile,
+                 "where the rays of an earlier render of this scene went (`render --profile`): cut for them");
   app.add_flag("--strict", a.strict, "fail if anything in the scene is not imported exactly");
   app.add_flag("--quiet", a.quiet, "no progress and no summary");
 }
@@ -133,6 +135,7 @@ int run(Arguments& a) {
     a.options.domain_bytes = parse_bytes(a.domain_bytes);
     if (a.options.domain_bytes == 0) throw UsageError("--domain-bytes has to be more than 0");
   }
+  if (!a.profile.empty()) a.options.profile = read_ray_profile(a.profile);
   a.options.memory_bytes = a.memory.empty() ? default_memory_bytes() : parse_bytes(a.memory);
   const ImportedScene imported = import_scene(
       a.input, MeshMemory(a.options.domains_at_once > 0 ? 0 : mesh_bytes_within(a.options.memory_bytes)));

@@ -42,6 +42,7 @@ void declare(CLI::App& app, Arguments& a) {
   app.add_flag("--resume", o.resume, "go on from the checkpoint");
   app.add_option("--time", o.time_limit_s, "stop after this many seconds with what there is");
   app.add_option("--stats", o.stats, "write statistics as JSON");
+  app.add_option("--profile", o.profile, "write where rays went, for `partition --profile`");
   app.add_option("--progress", a.progress)->check(CLI::IsMember({"auto", "bar", "json", "none"}));
   app.add_option("--shuffle-delivery", o.shuffle_seed)->group("");
   app.add_option("--domain-memory", o.domain_memory_bytes)->group("");

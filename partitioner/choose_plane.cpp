@@ -17,33 +17,37 @@ constexpr int quantiles = 512, even_planes = 128;
 
 // What lies on one side of a plane.
 struct Side {
-  std::size_t items = 0;
   Bounds3f bounds;
+  double items = 0, work = 0;
+
+  void add(const Item& i) {
+    extend(bounds, i.bounds);
+    items += 1;
+    work += double{i.work};
+  }
+  double surface() const { return double{surface_area(bounds)}; }
 };
 
 // Items by where they begin and end on an axis.
 class Sweep {
  public:
-  Sweep(std::span<const Bounds3f> items, int axis) : axis_(axis) {
+  Sweep(std::span<const Item> items, int axis) : axis_(axis) {
     std::vector<std::uint32_t> order(items.size());
     std::iota(order.begin(), order.end(), 0u);
+    const auto lower = [&](std::uint32_t i) { return items[i].bounds.lower[axis]; };
+    const auto upper = [&](std::uint32_t i) { return items[i].bounds.upper[axis]; };
     // What lies in a plane goes below it.
-    const auto begin = [&](std::uint32_t i) {
-      return std::pair(items[i].lower[axis], items[i].upper[axis] > items[i].lower[axis]);
-    };
-    std::ranges::sort(order, {}, begin);
-    Bounds3f b;
-    below_.push_back(b);
+    std::ranges::sort(order, {}, [&](std::uint32_t i) { return std::pair(lower(i), upper(i) > lower(i)); });
+    below_.emplace_back();
     for (const std::uint32_t i : order) {
-      lower_.push_back(items[i].lower[axis]);
-      is_flat_.push_back(!begin(i).second);
-      below_.push_back((extend(b, items[i]), b));
+      lower_.push_back(lower(i));
+      is_flat_.push_back(lower(i) == upper(i));
+      below_.emplace_back(below_.back()).add(items[i]);
     }
-    std::ranges::sort(order, {}, [&](std::uint32_t i) { return items[i].upper[axis]; });
-    b = {};
-    above_.push_back(b);
-    for (std::size_t k = order.size(); k-- > 0;) above_.push_back((extend(b, items[order[k]]), b));
-    for (const std::uint32_t i : order) upper_.push_back(items[i].upper[axis]);
+    std::ranges::sort(order, {}, upper);
+    above_.emplace_back();
+    for (std::size_t k = order.size(); k-- > 0;) above_.emplace_back(above_.back()).add(items[order[k]]);
+    for (const std::uint32_t i : order) upper_.push_back(upper(i));
   }
 
   float first() const { return lower_.front(); }
@@ -54,22 +58,21 @@ class Sweep {
   Side below(float c) const {
     auto n = static_cast<std::size_t>(std::ranges::lower_bound(lower_, c) - lower_.begin());
     while (n < lower_.size() && lower_[n] == c && is_flat_[n]) ++n;
-    Side side{n, below_[n]};
+    Side side = below_[n];
     side.bounds.upper[axis_] = std::min(side.bounds.upper[axis_], c);
     return side;
   }
   Side above(float c) const {
-    const auto n = static_cast<std::size_t>(upper_.end() - std::ranges::upper_bound(upper_, c));
-    Side side{n, above_[n]};
+    Side side = above_[static_cast<std::size_t>(upper_.end() - std::ranges::upper_bound(upper_, c))];
     side.bounds.lower[axis_] = std::max(side.bounds.lower[axis_], c);
     return side;
   }
 
  private:
   int axis_;
-  std::vector<float> lower_, upper_;     // ascending
-  std::vector<bool> is_flat_;            // in the order of lower_
-  std::vector<Bounds3f> below_, above_;  // of the first ones in the order of lower_, and the last of upper_
+  std::vector<float> lower_, upper_;  // ascending
+  std::vector<bool> is_flat_;         // in the order of lower_
+  std::vector<Side> below_, above_;   // the first ones in the order of lower_, the last ones of upper_
 };
 
 // Ends of items at quantiles, which are dense around the fractions that few domains can share.
@@ -108,17 +111,16 @@ bool better(const Score& a, const Score& b, double tolerance) {
 
 }  // namespace
 
-std::optional<Cut> choose_plane(std::span<const Bounds3f> all, const Division& division) {
+std::optional<Cut> choose_plane(std::span<const Item> all, const Division& division) {
   if (all.empty()) return {};
-  std::vector<Bounds3f> items;
-  Bounds3f bounds;
+  std::vector<Item> items;
+  Side whole;
   const std::size_t stride = (all.size() + most_counted - 1) / most_counted;
   for (std::size_t i = 0; i < all.size(); i += stride) {
     items.push_back(all[i]);
-    extend(bounds, all[i]);
+    whole.add(all[i]);
   }
-  const auto n = static_cast<double>(items.size()), domains = static_cast<double>(division.domains);
-  const double surface = surface_area(bounds);
+  const double domains = division.domains, surface = whole.surface();
   std::optional<Cut> best;
   Score best_score;
   for (int axis = 0; axis < 3; ++axis) {
@@ -126,15 +128,15 @@ std::optional<Cut> choose_plane(std::span<const Bounds3f> all, const Division& d
     for (const float c : candidates_on(sweep, items.size(), division)) {
       const Side below = sweep.below(c), above = sweep.above(c);
       if (below.items == 0 || above.items == 0) continue;
-      const auto nb = static_cast<double>(below.items), na = static_cast<double>(above.items);
-      const auto k = std::clamp(static_cast<std::uint32_t>(domains * nb / (nb + na) + 0.5), division.least,
-                                division.domains - division.least);
-      const double kb = k, ka = domains - k;
-      Score score{std::max(nb / kb, na / ka) / (n / domains) - 1, 0};
-      const auto visits = [&](const Side& side, double d) {
-        return surface > 0 ? surface_area(side.bounds) / surface * std::sqrt(d / domains) : 0;
-      };
-      score.cost = visits(below, kb) + visits(above, ka) + (nb + na - n) / n + score.imbalance / 2;
+      const auto share = static_cast<std::uint32_t>(domains * below.work / (below.work + above.work) + 0.5);
+      const std::uint32_t k = std::clamp(share, division.least, division.domains - division.least);
+      const double k_above = domains - k;
+      Score score{std::max(below.work / k, above.work / k_above) / (whole.work / domains) - 1, 0};
+      if (surface > 0)
+        score.cost =
+            (below.surface() * std::sqrt(k / domains) + above.surface() * std::sqrt(k_above / domains)) /
+            surface;
+      score.cost += (below.items + above.items - whole.items) / whole.items + score.imbalance / 2;
       if (!better(score, best_score, division.tolerance)) continue;
       best = Cut{{axis, c + 0.0f}, k};
       best_score = score;
@@ -143,16 +145,16 @@ std::optional<Cut> choose_plane(std::span<const Bounds3f> all, const Division& d
   return best;
 }
 
-std::optional<Cut> median_plane(std::span<const Bounds3f> items, const Division& division) {
+std::optional<Cut> median_plane(std::span<const Item> items, const Division& division) {
   Bounds3f bounds;
-  for (const Bounds3f& b : items) extend(bounds, b);
+  for (const Item& i : items) extend(bounds, i.bounds);
   const Vector3f e = extent(bounds);
   const int axis = e.x >= e.y && e.x >= e.z ? 0 : e.y >= e.z ? 1 : 2;
   const float first = std::nextafter(bounds.lower[axis], bounds.upper[axis]);
   const float last = std::nextafter(bounds.upper[axis], bounds.lower[axis]);
   if (items.empty() || first > last) return {};
   std::vector<float> centres;
-  for (const Bounds3f& b : items) centres.push_back(std::midpoint(b.lower[axis], b.upper[axis]));
+  for (const Item& i : items) centres.push_back(std::midpoint(i.bounds.lower[axis], i.bounds.upper[axis]));
   const std::uint32_t below = division.domains / 2;
   const auto middle =
       centres.begin() + static_cast<std::ptrdiff_t>(centres.size() * below / division.domains);

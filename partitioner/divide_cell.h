@@ -7,6 +7,7 @@
 
 #include "bundle/census.h"
 #include "partitioner/kd_plan.h"
+#include "partitioner/work_estimate.h"
 #include "partitioner/write_objects.h"
 
 namespace vitrail {
@@ -17,6 +18,7 @@ struct DomainWriter {
   Manifest& manifest;  // kd_nodes and domains have their sizes
   Census& census;
   const InstanceDealer& instances;
+  const WorkEstimate& work;
   std::uint64_t items = 0;                   // the scene's own triangles and instances
   bool median = false;                       // PlanRule::median
   std::size_t at_once = 1;                   // domains that are made at the same time

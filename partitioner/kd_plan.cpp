@@ -16,7 +16,7 @@ namespace {
 // No domain should have more than this many times its even share of triangles.
 constexpr double most_load = 1.2;
 
-Cut choose(std::span<const Bounds3f> sample, const Subtree& s, const PlanRule& rule) {
+Cut choose(std::span<const Item> sample, const Subtree& s, const PlanRule& rule) {
   const double spare = most_load * rule.share * s.domains / std::max(1.0, static_cast<double>(sample.size()));
   Division division{s.domains, std::min(s.domains / 2, (rule.most_domains + 1) / 2), 0};
   // A side of so many domains must not need more levels than are left.
@@ -33,22 +33,22 @@ Cut choose(std::span<const Bounds3f> sample, const Subtree& s, const PlanRule& r
 }
 
 struct Halves {
-  std::vector<Bounds3f> below, above;
+  std::vector<Item> below, above;
 };
 
 // What is cut keeps the rest of its box on either side.
-Halves halves(std::vector<Bounds3f> sample, Plane plane) {
+Halves halves(std::vector<Item> sample, Plane plane) {
   Halves h;
-  for (const Bounds3f& b : sample) {
-    const Interval i{b.lower[plane.axis], b.upper[plane.axis]};
+  for (const Item& item : sample) {
+    const Interval i{item.bounds.lower[plane.axis], item.bounds.upper[plane.axis]};
     const bool in_both = reaches_above(i, plane.split) && reaches_below(i, plane.split);
     if (reaches_below(i, plane.split)) {
-      h.below.push_back(b);
-      if (in_both) h.below.back().upper[plane.axis] = plane.split;
+      h.below.push_back(item);
+      if (in_both) h.below.back().bounds.upper[plane.axis] = plane.split;
     }
     if (reaches_above(i, plane.split)) {
-      h.above.push_back(b);
-      if (in_both) h.above.back().lower[plane.axis] = plane.split;
+      h.above.push_back(item);
+      if (in_both) h.above.back().bounds.lower[plane.axis] = plane.split;
     }
   }
   return h;
@@ -72,7 +72,7 @@ void append(KdPlan& plan, const KdPlan& part) {
 
 }  // namespace
 
-KdPlan plan_kd_tree(std::vector<Bounds3f> sample, const Subtree& s, const PlanRule& rule,
+KdPlan plan_kd_tree(std::vector<Item> sample, const Subtree& s, const PlanRule& rule,
                     std::span<KdNode> kd_nodes) {
   if (s.domains <= rule.most_domains) return {{}, {s}};
   const auto [plane, domains_below] = choose(sample, s, rule);

@@ -128,6 +128,7 @@ class Partitioner {
     plan_ = plan_memory(world_.manifest, needs);
     if (options.domains_at_once > 0)
       plan_.domains_at_once = std::min(plan_.domains_at_once, options.domains_at_once);
+    if (options.profile) work_ = {*options.profile, world_.manifest.offset};
     world_.manifest.domains.resize(plan_.domains);
     world_.manifest.kd_nodes.resize(plan_.domains - 1);
   }
@@ -175,7 +176,7 @@ class Partitioner {
     Bounds3f bounds;
     for (const Bounds3f& b : sample) extend(bounds, b);
     const double share = static_cast<double>(sample.size()) / plan_.domains;
-    const KdPlan top = plan_kd_tree(std::move(sample), {bounds, 0, 0, plan_.domains},
+    const KdPlan top = plan_kd_tree(work_.items(sample), {bounds, 0, 0, plan_.domains},
                                     {share, plan_.domains_at_once, median_}, world_.manifest.kd_nodes);
     buckets_ = top.leaves.size();
     phases_.begin("sorting triangles into parts", 0.4, triangles);
@@ -198,10 +199,15 @@ class Partitioner {
   }
 
   DomainWriter writer(Census& census, const InstanceDealer& instances) {
-    return {
-        bundle_, manifest_, census, instances, items_, median_, plan_.domains_in_work, [&](std::uint64_t n) {
-          phases_.advance(n);
-        }};
+    return {bundle_,
+            manifest_,
+            census,
+            instances,
+            work_,
+            items_,
+            median_,
+            plan_.domains_in_work,
+            [&](std::uint64_t n) { phases_.advance(n); }};
   }
 
   // The manifest knows the scene's scale.
@@ -218,6 +224,7 @@ class Partitioner {
 
   std::filesystem::path bundle_;
   bool median_;
+  WorkEstimate work_;
   Phases phases_;
   World world_;
   std::vector<InstanceRef> refs_;

@@ -5,8 +5,9 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 
-#include "bundle/manifest.h"
+#include "bundle/ray_profile.h"
 #include "scene/scene.h"
 
 namespace vitrail {
@@ -18,6 +19,7 @@ struct PartitionOptions {
   std::uint32_t domains_at_once = 0;  // as if no more fitted into memory, for tests; 0: as many as fit
   int threads = 0;                    // 0: all
   bool flatten = false;               // copies instead of instances
+  std::optional<RayProfile> profile;  // of an earlier render of the scene
   bool median = false;                // cuts in the middle, for comparison
   bool everything = false;            // as if the scene required all that there is, for measuring
 };

@@ -22,14 +22,16 @@ TraceCounters& operator+=(TraceCounters& a, const TraceCounters& b) {
 }
 
 PathTracer::PathTracer(const RenderScene& scene, ResidentViews resident, Film& film, Outbox& outbox,
-                       TraceCounters& counters, const KernelFunctions& kernel)
+                       TraceCounters& counters, std::span<std::uint64_t> visits,
+                       const KernelFunctions& kernel)
     : scene_(scene),
       manifest_(scene.manifest),
       resident_(resident),
       kernel_(kernel),
       film_(film),
       outbox_(outbox),
-      counters_(counters) {}
+      counters_(counters),
+      visits_(visits) {}
 
 SampleKey PathTracer::key_of(std::uint32_t pixel, std::uint32_t sample) const {
   const auto width = static_cast<std::uint32_t>(film_.width());
@@ -116,6 +118,7 @@ void PathTracer::run(Path& path, std::optional<std::uint32_t> at) {
 }
 
 void PathTracer::intersect(Path& path, std::uint32_t domain) {
+  count_visit(domain);
   const double t = path.hit.t;
   const std::uint32_t triangle = path.hit.triangle;
   kernel_.closest(*resident_[domain], path.constants, path.hit);
@@ -191,6 +194,7 @@ void PathTracer::trace_shadow(const ShadowRecord& record, const SensorWeights* w
   const RayConstants constants = prepare(ray);
   DomainWalk walk(manifest_, ray);
   if (at) {
+    count_visit(*at);
     if (kernel_.occluded(*resident_[*at], constants, record.tmax)) {
       ++counters_.died;
       return;
@@ -206,6 +210,7 @@ void PathTracer::trace_shadow(const ShadowRecord& record, const SensorWeights* w
       if (!at) ++counters_.born;
       return;
     }
+    count_visit(visit.domain);
     if (kernel_.occluded(*resident_[visit.domain], constants, record.tmax)) {
       if (at) ++counters_.died;
       return;
