@@ -120,6 +120,12 @@ std::span<const Surface> surfaces_of(const Manifest& m, const ObjectInfo& object
   return std::span(m.surfaces).subspan(object.first_surface, object.surface_count);
 }
 
+std::uint64_t bytes_needed(const Manifest& manifest, std::uint32_t domain) {
+  std::uint64_t bytes = manifest.domains[domain].bytes;
+  for (const std::uint32_t object : manifest.domains[domain].objects) bytes += manifest.objects[object].bytes;
+  return bytes;
+}
+
 void write_manifest(const std::filesystem::path& bundle, const Manifest& manifest) {
   const std::filesystem::path file = bundle / "manifest.json";
   check_manifest(manifest, file);

@@ -136,6 +136,9 @@ std::filesystem::path object_path(const std::filesystem::path& bundle, std::uint
 std::span<const Surface> scene_surfaces(const Manifest& m);
 std::span<const Surface> surfaces_of(const Manifest& m, const ObjectInfo& object);
 
+// Of a domain's file and those of all objects that it needs.
+std::uint64_t bytes_needed(const Manifest& manifest, std::uint32_t domain);
+
 // Writes manifest.json, materials.bin and lights.bin. Throws MachineError.
 void write_manifest(const std::filesystem::path& bundle, const Manifest& manifest);
 

@@ -100,6 +100,7 @@ void write_stats(const std::filesystem::path& file, const PartitionStats& s) {
                                     {"area_error", s.area_error},
                                     {"objects", s.objects},
                                     {"instances", s.instances},
+                                    {"domain_bytes_max", s.domain_bytes_max},
                                     {"wall_s", s.wall_s},
                                     {"cpu_s", s.cpu_s},
                                     {"peak_rss_bytes", s.peak_rss_bytes},
@@ -120,7 +121,9 @@ void print_summary(const PartitionStats& s, const std::filesystem::path& bundle)
              s.triangles_mean);
   fmt::print("  {} triangles were cut into {} pieces; {} duplicates, area error {:.2g}\n", s.cut_triangles,
              s.pieces, s.duplicates, s.area_error);
-  if (s.objects > 0) fmt::print("  {} instances of {} objects are kept\n", s.instances, s.objects);
+  if (s.objects > 0)
+    fmt::print("  {} instances of {} objects are kept; a domain takes at most {} with its objects\n",
+               s.instances, s.objects, format_bytes(s.domain_bytes_max));
   fmt::print("  {:.2f} s, {:.2f} s of processor time, {:.2f} million triangles a second\n", s.wall_s, s.cpu_s,
              s.triangles_per_s * 1e-6);
   fmt::print("  at most {} of memory of {} allowed; {}\n", format_bytes(s.peak_rss_bytes),

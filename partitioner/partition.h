@@ -32,6 +32,7 @@ struct PartitionStats {
   std::uint64_t bundle_bytes = 0, duplicates = 0;
   double area_error = 0;
   std::uint64_t objects = 0, instances = 0;  // files of objects; references to them in all domains
+  std::uint64_t domain_bytes_max = 0;        // that tracing one takes, with the objects it needs
   double wall_s = 0, cpu_s = 0;
   std::uint64_t peak_rss_bytes = 0, memory_budget_bytes = 0;
   std::uint64_t buckets = 1;      // parts of the scene that were in memory one after the other

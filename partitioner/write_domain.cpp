@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "partitioner/build_bvh.h"
+#include "partitioner/write_objects.h"
 
 namespace vitrail {
 
@@ -61,19 +62,6 @@ Occupancy occupancy_of(const Bounds3f& box, const NumberedTriangles& triangles, 
   for (const Piece& p : cell.pieces) mark(occupancy, box, cell.polygon(p), padding);
   for (const InstanceRef& ref : instances) mark(occupancy, box, box_of(ref));
   return occupancy;
-}
-
-// Of the objects of these instances and of all that they need, ascending.
-std::vector<std::uint32_t> needed_objects(const Manifest& m, std::span<const InstanceRef> instances) {
-  std::vector<bool> needed(m.objects.size());
-  for (const InstanceRef& ref : instances) needed[ref.object] = true;
-  std::vector<std::uint32_t> objects;
-  for (std::size_t i = needed.size(); i-- > 0;)
-    if (needed[i]) {
-      objects.insert(objects.begin(), static_cast<std::uint32_t>(i));
-      for (const std::uint32_t inner : m.objects[i].objects) needed[inner] = true;
-    }
-  return objects;
 }
 
 }  // namespace

@@ -127,6 +127,18 @@ std::vector<InstanceRef> write_objects(const World& world, Manifest& m, const st
   return references(world.uses, files);
 }
 
+std::vector<std::uint32_t> needed_objects(const Manifest& m, std::span<const InstanceRef> instances) {
+  std::vector<bool> needed(m.objects.size());
+  for (const InstanceRef& ref : instances) needed[ref.object] = true;
+  std::vector<std::uint32_t> objects;
+  for (std::size_t i = needed.size(); i-- > 0;)
+    if (needed[i]) {
+      objects.insert(objects.begin(), static_cast<std::uint32_t>(i));
+      for (const std::uint32_t inner : m.objects[i].objects) needed[inner] = true;
+    }
+  return objects;
+}
+
 InstanceDealer::InstanceDealer(std::vector<InstanceRef> instances, float padding, const Bounds3f& root)
     : instances_(std::move(instances)), padding_(padding), root_(root) {
   std::vector<Bounds3f> boxes;
