@@ -2,7 +2,7 @@
 #include "partitioner/choose_plane.h"
 
 #include <algorithm>
-#include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -28,26 +28,38 @@ struct Side {
   double surface() const { return double{surface_area(bounds)}; }
 };
 
+// Numbers in the order of the floats; −0 is 0.
+std::uint64_t ordered(float x) {
+  const auto bits = std::bit_cast<std::uint32_t>(x + 0.0f);
+  return bits ^ (bits >> 31 ? 0xffffffffu : 0x80000000u);
+}
+
 // Items by where they begin and end on an axis.
 class Sweep {
  public:
   Sweep(std::span<const Item> items, int axis) : axis_(axis) {
-    std::vector<std::uint32_t> order(items.size());
-    std::iota(order.begin(), order.end(), 0u);
-    const auto lower = [&](std::uint32_t i) { return items[i].bounds.lower[axis]; };
-    const auto upper = [&](std::uint32_t i) { return items[i].bounds.upper[axis]; };
-    // What lies in a plane goes below it.
-    std::ranges::sort(order, {}, [&](std::uint32_t i) { return std::pair(lower(i), upper(i) > lower(i)); });
+    const auto sort = [&](const auto& key) {
+      std::vector<std::uint64_t> order(items.size());
+      for (std::uint32_t i = 0; i < items.size(); ++i) order[i] = key(items[i].bounds) | i;
+      std::ranges::sort(order);
+      return order;
+    };
+    // What lies in a plane goes below it: of items that begin there it is first.
+    for (auto* sides : {&below_, &above_}) sides->reserve(items.size() + 1);
     below_.emplace_back();
-    for (const std::uint32_t i : order) {
-      lower_.push_back(lower(i));
-      is_flat_.push_back(lower(i) == upper(i));
-      below_.emplace_back(below_.back()).add(items[i]);
+    for (const std::uint64_t entry : sort([&](const Bounds3f& b) {
+           return ordered(b.lower[axis]) << 32 | std::uint64_t{b.upper[axis] > b.lower[axis]} << 31;
+         })) {
+      const Item& item = items[entry & 0x7fffffff];
+      lower_.push_back(item.bounds.lower[axis]);
+      is_flat_.push_back(item.bounds.lower[axis] == item.bounds.upper[axis]);
+      below_.emplace_back(below_.back()).add(item);
     }
-    std::ranges::sort(order, {}, upper);
     above_.emplace_back();
-    for (std::size_t k = order.size(); k-- > 0;) above_.emplace_back(above_.back()).add(items[order[k]]);
-    for (const std::uint32_t i : order) upper_.push_back(upper(i));
+    const auto by_upper = sort([&](const Bounds3f& b) { return ordered(b.upper[axis]) << 32; });
+    for (std::size_t k = items.size(); k-- > 0;)
+      above_.emplace_back(above_.back()).add(items[by_upper[k] & 0xffffffff]);
+    for (const std::uint64_t entry : by_upper) upper_.push_back(items[entry & 0xffffffff].bounds.upper[axis]);
   }
 
   float first() const { return lower_.front(); }
