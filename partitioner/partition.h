@@ -18,6 +18,7 @@ struct PartitionOptions {
   std::uint32_t domains_at_once = 0;  // as if no more fitted into memory, for tests; 0: as many as fit
   int threads = 0;                    // 0: all
   bool flatten = false;               // copies instead of instances
+  bool durable = false;               // on the disk before it returns, also after a power failure
   bool everything = false;            // as if the scene required all that there is, for measuring
 };
 
