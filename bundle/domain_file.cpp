@@ -38,14 +38,15 @@ std::uint64_t triangles_in(std::span<const Cluster> clusters) {
   return filled;
 }
 
-Bounds3f root_box(std::span<const BvhNode> tree) {
+Bounds3f content_bounds(const DomainView& view) {
   Bounds3f box;
-  for (std::size_t i = 0; i < 8 && !tree.empty(); ++i) {
-    const BvhNode& root = tree[0];
-    if (root.child[i] == BvhNode::empty) continue;
-    extend(box, Bounds3f{{root.lower[0][i], root.lower[1][i], root.lower[2][i]},
-                         {root.upper[0][i], root.upper[1][i], root.upper[2][i]}});
-  }
+  for (const std::span<const BvhNode> tree : {view.nodes, view.instance_nodes})
+    for (std::size_t i = 0; i < 8 && !tree.empty(); ++i) {
+      const BvhNode& root = tree[0];
+      if (root.child[i] == BvhNode::empty) continue;
+      extend(box, Bounds3f{{root.lower[0][i], root.lower[1][i], root.lower[2][i]},
+                           {root.upper[0][i], root.upper[1][i], root.upper[2][i]}});
+    }
   return box;
 }
 

@@ -110,8 +110,8 @@ DomainView view_of(const DomainContent& content);
 
 // Lanes that are not empty.
 std::uint64_t triangles_in(std::span<const Cluster> clusters);
-// The box of all that is in a tree.
-Bounds3f root_box(std::span<const BvhNode> tree);
+// Of all that is in the trees, padded as their boxes are.
+Bounds3f content_bounds(const DomainView& view);
 
 // Returns the size in bytes; `hash`, if given, gets what MappedDomain::hash will be. Throws MachineError, and
 // then leaves no file. Not synced.

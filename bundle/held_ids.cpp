@@ -90,8 +90,7 @@ void check_counts(const DomainInfo& info, const MappedDomain& mapped, const std:
   if (info.triangles != triangles_in(view.clusters) || info.pieces != mapped.pieces().size() ||
       info.instances != view.instances.size())
     throw Error("it does not hold as many triangles as the manifest says", {file.string()});
-  if (!holds(info.tight_bounds, root_box(view.nodes)) ||
-      !holds(info.tight_bounds, root_box(view.instance_nodes)))
+  if (!holds(info.tight_bounds, content_bounds(view)))
     throw Error("it reaches beyond the tight bounds that the manifest has for it", {file.string()});
 }
 

@@ -11,6 +11,7 @@
 
 #include "bundle/domain_file.h"
 #include "bundle/features.h"
+#include "bundle/occupancy.h"
 #include "scene/bounds.h"
 #include "scene/scene.h"
 
@@ -33,6 +34,7 @@ struct DomainInfo {
   std::uint64_t bytes = 0;      // of its file
   std::uint64_t hash = 0;       // MappedDomain::hash of its file
   Bounds3f tight_bounds;  // of the triangles' and instances' parts in it, padded; empty when it has none
+  Occupancy occupancy;    // which cells of the tight bounds hold any of these parts, padded
   std::uint64_t instances = 0;         // that reach into it
   std::vector<std::uint32_t> objects;  // that tracing it needs, ascending: its instances' and what they need
   bool operator==(const DomainInfo&) const = default;

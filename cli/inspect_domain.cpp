@@ -38,10 +38,7 @@ Report sections_of(const MappedDomain& mapped) {
   return sections;
 }
 
-// Of everything in it, boxes of clusters and instances as they are inflated; null where there is nothing.
-Report bounds_of(const DomainView& view) {
-  Bounds3f box = root_box(view.nodes);
-  extend(box, root_box(view.instance_nodes));
+Report to_json(const Bounds3f& box) {
   if (box.empty()) return nullptr;
   return {{"lower", {box.lower.x, box.lower.y, box.lower.z}},
           {"upper", {box.upper.x, box.upper.y, box.upper.z}}};
@@ -78,7 +75,7 @@ Report inspect_domain(const std::filesystem::path& file) {
           {"instance_nodes", view.instance_nodes.size()},
           {"instance_depth", depth_of(view.instance_nodes)},
           {"objects", objects},
-          {"bounds", bounds_of(view)},
+          {"bounds", to_json(content_bounds(view))},
           {"sections", sections_of(mapped)},
           {"checksums", "all correct"}};
 }

@@ -36,6 +36,8 @@ void declare(CLI::App& app, Arguments& a) {
   app.add_option("--domains-at-once", a.options.domains_at_once)->group("");
   app.add_flag("--require-everything", a.options.everything,
                "as if the scene required all that there is: to measure what the analysis saves");
+  app.add_flag("--median-cuts", a.options.median,
+               "halve the triangles at every cut: to measure what cuts by cost save");
   app.add_flag("--flatten", a.options.flatten, "copy what instances place instead of keeping them");
   app.add_option("--domain-bytes", a.domain_bytes, "size of a sub-domain, e.g. 64M (the default)")
       ->excludes(domains);

@@ -18,6 +18,7 @@ struct DomainWriter {
   Census& census;
   const InstanceDealer& instances;
   std::uint64_t items = 0;                   // the scene's own triangles and instances
+  bool median = false;                       // PlanRule::median
   std::size_t at_once = 1;                   // domains that are made at the same time
   std::function<void(std::uint64_t)> wrote;  // triangles and pieces of one domain, from any thread
 };

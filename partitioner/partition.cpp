@@ -110,6 +110,7 @@ class Partitioner {
   Partitioner(const Scene& scene, std::filesystem::path bundle, const PartitionOptions& options,
               const ProgressFunction& progress)
       : bundle_(std::move(bundle)),
+        median_(options.median),
         phases_(progress),
         world_(world_of(scene, bundle_, {!options.flatten, options.everything})),
         refs_(write_objects(world_, world_.manifest, bundle_,
@@ -174,8 +175,8 @@ class Partitioner {
     Bounds3f bounds;
     for (const Bounds3f& b : sample) extend(bounds, b);
     const double share = static_cast<double>(sample.size()) / plan_.domains;
-    const KdPlan top = plan_kd_tree(std::move(sample), {bounds, 0, 0, plan_.domains}, share,
-                                    plan_.domains_at_once, world_.manifest.kd_nodes);
+    const KdPlan top = plan_kd_tree(std::move(sample), {bounds, 0, 0, plan_.domains},
+                                    {share, plan_.domains_at_once, median_}, world_.manifest.kd_nodes);
     buckets_ = top.leaves.size();
     phases_.begin("sorting triangles into parts", 0.4, triangles);
     Spill spill(bundle_ / "spill", buckets_, world_.rule(), plan_.spill_bytes / buckets_);
@@ -197,9 +198,10 @@ class Partitioner {
   }
 
   DomainWriter writer(Census& census, const InstanceDealer& instances) {
-    return {bundle_, manifest_, census, instances, items_, plan_.domains_in_work, [&](std::uint64_t n) {
-              phases_.advance(n);
-            }};
+    return {
+        bundle_, manifest_, census, instances, items_, median_, plan_.domains_in_work, [&](std::uint64_t n) {
+          phases_.advance(n);
+        }};
   }
 
   // The manifest knows the scene's scale.
@@ -215,6 +217,7 @@ class Partitioner {
   }
 
   std::filesystem::path bundle_;
+  bool median_;
   Phases phases_;
   World world_;
   std::vector<InstanceRef> refs_;

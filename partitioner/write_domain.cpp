@@ -2,6 +2,7 @@
 #include "partitioner/write_domain.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -37,6 +38,18 @@ std::vector<TriangleReference> references_of(const NumberedTriangles& triangles,
   for (const Piece& p : cell.pieces)
     references.push_back({bounds_of(cell.polygon(p)), triangles.triangles[p.triangle], p.triangle});
   return references;
+}
+
+Occupancy occupancy_of(const Bounds3f& box, const NumberedTriangles& triangles, const CellContent& cell,
+                       std::span<const InstanceRef> instances, float padding) {
+  Occupancy occupancy;
+  for (const std::uint32_t i : cell.whole) {
+    const Triangle& t = triangles.triangles[i];
+    mark(occupancy, box, std::array{cast<double>(t[0]), cast<double>(t[1]), cast<double>(t[2])}, padding);
+  }
+  for (const Piece& p : cell.pieces) mark(occupancy, box, cell.polygon(p), padding);
+  for (const InstanceRef& ref : instances) mark(occupancy, box, box_of(ref));
+  return occupancy;
 }
 
 // Of the objects of these instances and of all that they need, ascending.
@@ -103,10 +116,10 @@ DomainInfo write_domain(const Manifest& manifest, const NumberedTriangles& trian
   DomainContent content = make_domain(triangles, cell, pad);
   add_instances(std::move(instances), pad, content);
   census.add(index, view_of(content), content.pieces, content.piece_vertices);
-  DomainInfo info{cell.size(), cell.pieces.size(), 0, 0, {}};
+  DomainInfo info{.triangles = cell.size(), .pieces = cell.pieces.size()};
   info.bytes = write_domain_file(domain_path(bundle, index), content, &info.hash);
-  info.tight_bounds = root_box(content.nodes);
-  extend(info.tight_bounds, root_box(content.instance_nodes));
+  info.tight_bounds = content_bounds(view_of(content));
+  info.occupancy = occupancy_of(info.tight_bounds, triangles, cell, content.instances, pad);
   info.instances = content.instances.size();
   info.objects = needed_objects(manifest, content.instances);
   return info;

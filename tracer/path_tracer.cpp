@@ -140,12 +140,12 @@ bool PathTracer::find_hit(Path& path, std::optional<std::uint32_t> at) {
     }
     bool first = !at;
     for (DomainWalk::Visit visit; walk.next(path.hit.t, visit);) {
+      if (!first) ++counters_.crossings;
+      first = false;
       if (!resident_[visit.domain]) return forward(path, visit.domain, false);
       const std::uint32_t holder = path.hit_domain;
       intersect(path, visit.domain);
       if (path.hit_domain != holder) located = true;
-      if (!first) ++counters_.crossings;
-      first = false;
     }
   }
   if (path.hit.triangle == no_triangle || located) return true;
@@ -199,13 +199,13 @@ void PathTracer::trace_shadow(const ShadowRecord& record, const SensorWeights* w
   }
   bool first = !at;
   for (DomainWalk::Visit visit; walk.next(static_cast<double>(record.tmax), visit);) {
+    if (!first) ++counters_.crossings;
+    first = false;
     if (!resident_[visit.domain]) {
       outbox_.shadows.push_back({visit.domain, record});
       if (!at) ++counters_.born;
       return;
     }
-    if (!first) ++counters_.crossings;
-    first = false;
     if (kernel_.occluded(*resident_[visit.domain], constants, record.tmax)) {
       if (at) ++counters_.died;
       return;
