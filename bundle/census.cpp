@@ -64,12 +64,15 @@ void Census::add(std::uint32_t domain, const DomainView& view, std::span<const P
   std::vector<bool> may_be_cut(1u << 16);
   for (const std::uint32_t id : cut_here) may_be_cut[id % may_be_cut.size()] = true;
   std::vector<CutPart> parts;
-  std::uint64_t duplicates = 0;
+  std::uint64_t duplicates = 0, strays = 0;
   for (const Cluster& cluster : view.clusters)
     for (std::size_t lane = 0; lane < cluster_width; ++lane) {
       const std::uint32_t id = cluster.id[lane];
       const auto place = place_of(id);
-      if (!place) continue;
+      if (!place) {
+        strays += id != no_triangle;
+        continue;
+      }
       const bool cut =
           may_be_cut[id % may_be_cut.size()] && std::binary_search(cut_here.begin(), cut_here.end(), id);
       const std::uint32_t before = mark(*place, cut ? seen_as_piece : seen_whole);
@@ -89,8 +92,11 @@ void Census::add(std::uint32_t domain, const DomainView& view, std::span<const P
     const auto part = std::lower_bound(parts.begin(), parts.end(), CutPart{p.triangle, 0, 0, 0, 0}, less);
     if (part != parts.end() && part->triangle == p.triangle)
       part->area += polygon_area(piece_vertices.subspan(p.first_vertex, p.vertex_count));
+    else
+      ++strays;
   }
   duplicates_ += duplicates;
+  strays_ += strays;
   const std::lock_guard lock(mutex_);
   parts_.insert(parts_.end(), parts.begin(), parts.end());
 }
@@ -123,6 +129,7 @@ void Census::settle(std::span<const std::uint32_t> open) {
 CensusResult Census::result() const {
   CensusResult r = settled_;
   r.duplicates = duplicates_;
+  r.strays = strays_;
   for (std::uint64_t i = 0; i < triangles_; ++i)
     r.lost += ((seen_[i / 16].load(std::memory_order_relaxed) >> (2 * (i % 16))) & 3) == 0;
   sum_up(parts_, r);

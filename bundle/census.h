@@ -18,8 +18,12 @@ struct IdRange {
   std::uint64_t first = 0, count = 0;
 };
 
+// More than rounding.
+inline constexpr double most_area_error = 1e-6;
+
 struct CensusResult {
   std::uint64_t duplicates = 0;     // uncut triangles held more than once, pieces held twice by one domain
+  std::uint64_t strays = 0;         // triangles of instances, and pieces of triangles that are not there
   std::uint64_t lost = 0;           // triangles that no domain holds
   std::uint64_t cut_triangles = 0;  // that are held as pieces
   std::uint64_t pieces = 0;
@@ -27,6 +31,8 @@ struct CensusResult {
   // Below 10⁻⁹L² the exact intersection counts no hit, and the rounding of cut vertices to double begins to
   // show.
   double area_error = 0;
+
+  bool ghost_free() const { return duplicates + strays + lost == 0 && area_error < most_area_error; }
 };
 
 // Area of a planar polygon, from its vector area.
@@ -64,7 +70,7 @@ class Census {
   std::uint64_t ids_, triangles_;             // without the absent
   // Sixteen triangles each; of a triangle bit 0: whole, bit 1: as a piece.
   std::unique_ptr<std::atomic<std::uint32_t>[]> seen_;
-  std::atomic<std::uint64_t> duplicates_{0};
+  std::atomic<std::uint64_t> duplicates_{0}, strays_{0};
   std::mutex mutex_;
   std::vector<CutPart> parts_;  // of what is not settled
   std::size_t open_ = 0;        // of them, the first are open after `settle`

@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whether files of domains and objects are the ones that the manifest speaks of.
+// Whether files of domains, objects and textures are the ones that the manifest speaks of.
 #include <fmt/format.h>
 
 #include <algorithm>
 
 #include "bundle/manifest.h"
+#include "bundle/texture_file.h"
 #include "scene/diagnostics.h"
 
 namespace vitrail {
 
 namespace {
+
+constexpr const char* another_file =
+    "this file is not the one that the bundle was made with; partition the scene again";
 
 // What the manifest says of a file.
 struct Expected {
@@ -22,9 +26,12 @@ struct Expected {
 void check(const Manifest& manifest, const Expected& expected, const MappedDomain& mapped,
            const std::filesystem::path& file) {
   const auto reject = [&](const std::string& what) { throw Error(what, {file.string()}); };
-  if (mapped.hash() != expected.hash || mapped.bytes() != expected.bytes)
-    reject("this file is not the one that the bundle was made with; partition the scene again");
+  if (mapped.hash() != expected.hash || mapped.bytes() != expected.bytes) reject(another_file);
   const DomainView& view = mapped.view();
+  const auto one_a_cluster = [&](bool required) { return required ? view.clusters.size() : 0; };
+  if (view.normals.size() != one_a_cluster(manifest.requirements.shading_normals) ||
+      view.uvs.size() != one_a_cluster(manifest.requirements.uv))
+    reject("it does not hold the normals or (u,v) that the scene has");
   if (view.attributes.size() != view.clusters.size() * manifest.attributes)
     reject("it does not hold the mesh attributes that the scene has");
   const std::uint64_t first = expected.surfaces.empty() ? no_triangle : expected.surfaces[0].first_triangle;
@@ -50,6 +57,12 @@ void check_object(const Manifest& manifest, std::uint32_t object, const MappedDo
                   const std::filesystem::path& file) {
   const ObjectInfo& o = manifest.objects.at(object);
   check(manifest, {o.bytes, o.hash, o.triangles, surfaces_of(manifest, o), o.objects}, mapped, file);
+}
+
+void check_texture(const TextureFileEntry& expected, const TextureFile& texture,
+                   const std::filesystem::path& file) {
+  if (texture.hash() != expected.hash || texture.layout().file_bytes != expected.bytes)
+    throw Error(another_file, {file.string()});
 }
 
 }  // namespace vitrail

@@ -217,6 +217,9 @@ void check_manifest(const Manifest& m, const std::filesystem::path& file) {
       m.camera);
   c.require(m.settings.samples_per_pixel > 0 && m.settings.max_depth >= 0,
             "the samples a pixel or the depth is out of range");
+  for (const TextureFileEntry& t : m.texture_files)
+    c.require(t.name.starts_with("textures/") && t.name.find("..") == std::string::npos,
+              "a texture has no place in it");
   check_film(c, m.film);
   check_kd_tree(c, m);
   check_triangles(c, m);

@@ -7,14 +7,47 @@
 
 namespace vitrail {
 
-std::uint64_t layout::checksum_of(DomainHeader header) {
+std::uint64_t layout::checksum_of(DomainHeader header, std::span<const std::byte> table) {
   header.header_checksum = 0;
-  return checksum(std::as_bytes(std::span(&header, 1)));
+  Hasher hasher;
+  hasher.add(std::as_bytes(std::span(&header, 1)));
+  hasher.add(table);
+  return hasher.digest();
+}
+
+Features layout::features_of(std::span<const Section> sections) {
+  constexpr std::array required{
+      std::pair{normals, required_feature::normals}, std::pair{uvs, required_feature::uvs},
+      std::pair{attributes, required_feature::attributes}, std::pair{instances, required_feature::instances}};
+  Features f;
+  for (const auto& [section, bit] : required)
+    if (sections[section].count > 0) f.required |= bit;
+  if (sections[pieces].count > 0) f.optional |= optional_feature::pieces;
+  return f;
 }
 
 DomainView view_of(const DomainContent& content) {
   return {content.nodes,      content.clusters,  content.normals,        content.uvs,
           content.attributes, content.instances, content.instance_nodes, {}};
+}
+
+std::uint64_t triangles_in(std::span<const Cluster> clusters) {
+  std::uint64_t filled = 0;
+  for (const Cluster& c : clusters)
+    for (const std::uint32_t id : c.id) filled += id != no_triangle;
+  return filled;
+}
+
+Bounds3f content_bounds(const DomainView& view) {
+  Bounds3f box;
+  for (const std::span<const BvhNode> tree : {view.nodes, view.instance_nodes})
+    for (std::size_t i = 0; i < 8 && !tree.empty(); ++i) {
+      const BvhNode& root = tree[0];
+      if (root.child[i] == BvhNode::empty) continue;
+      extend(box, Bounds3f{{root.lower[0][i], root.lower[1][i], root.lower[2][i]},
+                           {root.upper[0][i], root.upper[1][i], root.upper[2][i]}});
+    }
+  return box;
 }
 
 std::uint64_t write_domain_file(const std::filesystem::path& file, const DomainContent& content,
@@ -27,8 +60,11 @@ std::uint64_t write_domain_file(const std::filesystem::path& file, const DomainC
       std::as_bytes(std::span(content.instance_nodes))};
   constexpr std::array<std::byte, layout::section_alignment + layout::section_tail> zeros{};
 
-  layout::DomainHeader header;
-  std::uint64_t offset = sizeof(header);
+  // With zeros up to a multiple of 64.
+  constexpr std::uint64_t table_bytes =
+      layout::header_bytes(layout::section_count) - sizeof(layout::DomainHeader);
+  std::array<layout::Section, table_bytes / sizeof(layout::Section)> sections{};
+  std::uint64_t offset = layout::header_bytes(layout::section_count);
   std::array<std::span<const std::byte>, layout::section_count> tails;
   for (std::size_t i = 0; i < layout::section_count; ++i) {
     const std::uint64_t count = data[i].size() / layout::element_size[i];
@@ -37,15 +73,17 @@ std::uint64_t write_domain_file(const std::filesystem::path& file, const DomainC
     Hasher hasher;
     hasher.add(data[i]);
     hasher.add(tails[i]);
-    header.table[i] = {offset, count, hasher.digest(), layout::element_size[i],
-                       static_cast<std::uint32_t>(i)};
+    sections[i] = {offset, count, hasher.digest(), layout::element_size[i], static_cast<std::uint32_t>(i)};
     offset += bytes;
   }
+  layout::DomainHeader header;
   header.file_bytes = offset;
-  header.header_checksum = layout::checksum_of(header);
+  header.features = layout::features_of(sections);
+  header.header_checksum = layout::checksum_of(header, std::as_bytes(std::span(sections)));
   if (hash) *hash = header.header_checksum;
 
-  std::vector<std::span<const std::byte>> parts{std::as_bytes(std::span(&header, 1))};
+  std::vector<std::span<const std::byte>> parts{std::as_bytes(std::span(&header, 1)),
+                                                std::as_bytes(std::span(sections))};
   for (std::size_t i = 0; i < layout::section_count; ++i) parts.insert(parts.end(), {data[i], tails[i]});
   write_file(file, parts);
   return offset;

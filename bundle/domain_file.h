@@ -16,6 +16,11 @@
 
 namespace vitrail {
 
+namespace layout {  // domain_layout.h
+struct DomainHeader;
+struct Section;
+}  // namespace layout
+
 inline constexpr int cluster_width = 8;
 // Marks an empty lane of a cluster, and "no triangle" wherever a triangle id is expected.
 inline constexpr std::uint32_t no_triangle = 0xffffffffu;
@@ -103,6 +108,11 @@ struct DomainView {
 
 DomainView view_of(const DomainContent& content);
 
+// Lanes that are not empty.
+std::uint64_t triangles_in(std::span<const Cluster> clusters);
+// Of all that is in the trees, padded as their boxes are.
+Bounds3f content_bounds(const DomainView& view);
+
 // Returns the size in bytes; `hash`, if given, gets what MappedDomain::hash will be. Throws MachineError, and
 // then leaves no file. Not synced.
 std::uint64_t write_domain_file(const std::filesystem::path& file, const DomainContent& content,
@@ -123,9 +133,14 @@ class MappedDomain {
   // Of the header, which holds the checksums of all sections: it stands for the whole content.
   std::uint64_t hash() const;
 
+  const layout::DomainHeader& header() const;
+  std::span<const layout::Section> sections() const;
+
   // The cold sections, verified when asked for.
   std::span<const Piece> pieces() const;
   std::span<const Point3d> piece_vertices() const;
+  // Verifies the checksums of all that the constructor leaves out.
+  void check_cold() const;
 
  private:
   const std::byte* data_ = nullptr;
@@ -133,5 +148,8 @@ class MappedDomain {
   std::filesystem::path file_;
   DomainView view_;
 };
+
+// The instances of a domain file, without reading the rest of it.
+std::vector<InstanceRef> read_instances(const std::filesystem::path& file);
 
 }  // namespace vitrail

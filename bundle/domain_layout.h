@@ -5,8 +5,10 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <span>
 
 #include "bundle/domain_file.h"
+#include "bundle/features.h"
 
 namespace vitrail::layout {
 
@@ -14,7 +16,7 @@ static_assert(std::endian::native == std::endian::little,
               "domain files are little-endian and mapped as they are");
 
 inline constexpr std::array<char, 8> domain_magic{'V', 'I', 'T', 'R', 'D', 'O', 'M', '\n'};
-inline constexpr std::uint32_t domain_version = 3;
+inline constexpr std::uint32_t domain_version = 4;
 inline constexpr std::uint64_t section_alignment = 64;
 // Zero bytes that follow each section at least: vector loads may read past the end of an array.
 inline constexpr std::uint64_t section_tail = 16;
@@ -36,6 +38,10 @@ inline constexpr std::array<std::uint32_t, section_count> element_size{
     sizeof(BvhNode), sizeof(Cluster), sizeof(ClusterNormals), sizeof(ClusterUvs), sizeof(ClusterAttributes),
     sizeof(Piece),   sizeof(Point3d), sizeof(InstanceRef),    sizeof(BvhNode)};
 
+inline constexpr std::array<const char*, section_count> section_name{
+    "nodes",  "clusters",       "normals",   "uvs",           "attributes",
+    "pieces", "piece vertices", "instances", "instance nodes"};
+
 struct Section {
   std::uint64_t offset = 0;    // from the start of the file, a multiple of 64
   std::uint64_t count = 0;     // elements
@@ -45,15 +51,26 @@ struct Section {
 };
 static_assert(sizeof(Section) == 32);
 
+// The section table follows, and zeros up to a multiple of 64. Sections of kinds beyond those above belong to
+// optional features.
 struct DomainHeader {
   std::array<char, 8> magic = domain_magic;
   std::uint32_t version = domain_version;
   std::uint32_t sections = section_count;
   std::uint64_t file_bytes = 0;
-  std::uint64_t header_checksum = 0;  // of this header and the table, with this field 0
-  std::array<Section, section_count> table{};
+  std::uint64_t header_checksum = 0;  // of this header, with this field 0, and the table with its zeros
+  Features features;
+  std::array<std::uint64_t, 3> reserved{};
 };
-static_assert(sizeof(DomainHeader) == 320 && sizeof(DomainHeader) % section_alignment == 0);
+static_assert(sizeof(DomainHeader) == section_alignment);
+
+inline constexpr std::uint32_t most_sections = 256;
+
+// Of the header with its table.
+constexpr std::uint64_t header_bytes(std::uint64_t sections) {
+  return (sizeof(DomainHeader) + sections * sizeof(Section) + section_alignment - 1) / section_alignment *
+         section_alignment;
+}
 
 // Bytes a section takes in the file, padding included.
 constexpr std::uint64_t padded_bytes(std::uint64_t count, std::uint64_t element) {
@@ -62,6 +79,9 @@ constexpr std::uint64_t padded_bytes(std::uint64_t count, std::uint64_t element)
                     : (bytes + section_tail + section_alignment - 1) / section_alignment * section_alignment;
 }
 
-std::uint64_t checksum_of(DomainHeader header);
+std::uint64_t checksum_of(DomainHeader header, std::span<const std::byte> table);
+
+// Those that a file with these sections has.
+Features features_of(std::span<const Section> sections);
 
 }  // namespace vitrail::layout

@@ -54,7 +54,7 @@ std::vector<std::byte> read_file(const std::filesystem::path& file) {
   return bytes;
 }
 
-// `expected` is the checksum that the manifest has for this file.
+// `expected` is the checksum that the manifest has for this file; empty: unknown.
 std::vector<std::byte> read_records(const std::filesystem::path& file, std::array<char, 8> magic,
                                     const std::string& expected) {
   std::vector<std::byte> bytes = read_file(file);
@@ -68,7 +68,7 @@ std::vector<std::byte> read_records(const std::filesystem::path& file, std::arra
   if (header.reserved != 0 || header.payload_bytes != bytes.size() ||
       header.payload_checksum != checksum(bytes))
     throw Error("damaged file: its size or checksum is wrong; partition the scene again", {file.string()});
-  if (expected != fmt::format("{:016x}", header.payload_checksum))
+  if (!expected.empty() && expected != fmt::format("{:016x}", header.payload_checksum))
     throw Error("this file belongs to another bundle; partition the scene again", {file.string()});
   return bytes;
 }
@@ -97,9 +97,7 @@ void check_version(const Json& json, const std::filesystem::path& file) {
     throw Error(fmt::format("bundle of version {}; this program reads version {}", json.at("version").dump(),
                             manifest_version),
                 {file.string()});
-  for (const Json& feature : json.at("features"))
-    throw Error(fmt::format("the bundle needs {}, which this program does not know", feature.dump()),
-                {file.string()});
+  required_bits(json.at("features").at("required").get<std::vector<std::string>>(), file);
 }
 
 }  // namespace
@@ -110,6 +108,18 @@ std::filesystem::path domain_path(const std::filesystem::path& bundle, std::uint
 
 std::filesystem::path object_path(const std::filesystem::path& bundle, std::uint32_t object) {
   return bundle / "objects" / fmt::format("{:06}.dom", object);
+}
+
+Features features_of(const Manifest& m) {
+  Features f;
+  const auto require = [&](bool needed, std::uint32_t bit) { f.required |= needed ? bit : 0; };
+  require(m.requirements.shading_normals, required_feature::normals);
+  require(m.requirements.uv, required_feature::uvs);
+  require(m.attributes > 0, required_feature::attributes);
+  require(!m.objects.empty(), required_feature::instances);
+  require(!m.texture_files.empty(), required_feature::textures);
+  if (m.cut_triangles > 0) f.optional |= optional_feature::pieces;
+  return f;
 }
 
 std::span<const Surface> scene_surfaces(const Manifest& m) {
@@ -126,6 +136,10 @@ std::uint64_t bytes_needed(const Manifest& manifest, std::uint32_t domain) {
   return bytes;
 }
 
+void check_records_file(const std::filesystem::path& file) {
+  read_records(file, file.filename() == "lights.bin" ? lights_magic : materials_magic, "");
+}
+
 void write_manifest(const std::filesystem::path& bundle, const Manifest& manifest) {
   const std::filesystem::path file = bundle / "manifest.json";
   check_manifest(manifest, file);
@@ -133,7 +147,10 @@ void write_manifest(const std::filesystem::path& bundle, const Manifest& manifes
   write_records(bundle / "materials.bin", materials_magic, materials);
   write_records(bundle / "lights.bin", lights_magic, lights);
 
-  Json json{{"format", "vitrail bundle"}, {"version", manifest_version}, {"features", Json::array()}};
+  const Features features = features_of(manifest);
+  Json json{{"format", "vitrail bundle"}, {"version", manifest_version}};
+  json["features"] = {{"required", required_names(features.required)},
+                      {"optional", optional_names(features.optional)}};
   json["materials_checksum"] = fmt::format("{:016x}", checksum(materials));
   json["lights_checksum"] = fmt::format("{:016x}", checksum(lights));
   json.update(manifest_to_json(manifest));

@@ -10,11 +10,14 @@
 #include <vector>
 
 #include "bundle/domain_file.h"
+#include "bundle/features.h"
 #include "bundle/occupancy.h"
 #include "scene/bounds.h"
 #include "scene/scene.h"
 
 namespace vitrail {
+
+class TextureFile;
 
 // Node 0 is the root. A leaf is one domain.
 struct KdNode {
@@ -139,17 +142,23 @@ std::span<const Surface> surfaces_of(const Manifest& m, const ObjectInfo& object
 // Of a domain's file and those of all objects that it needs.
 std::uint64_t bytes_needed(const Manifest& manifest, std::uint32_t domain);
 
+// What the bundle has; its files have no more.
+Features features_of(const Manifest& m);
+
 // Writes manifest.json, materials.bin and lights.bin. Throws MachineError.
 void write_manifest(const std::filesystem::path& bundle, const Manifest& manifest);
 
 // Reads and checks everything but the domain files. Throws Error (bad content, with the file's name).
 Manifest read_manifest(const std::filesystem::path& bundle);
 
-// Throws Error where the mapped file is not the one that the manifest speaks of, or holds triangles it does
-// not have.
+// Throw Error where a file is not the one that the manifest speaks of, or holds triangles it does not have.
 void check_domain(const Manifest& manifest, std::uint32_t domain, const MappedDomain& mapped,
                   const std::filesystem::path& file);
 void check_object(const Manifest& manifest, std::uint32_t object, const MappedDomain& mapped,
                   const std::filesystem::path& file);
+void check_texture(const TextureFileEntry& expected, const TextureFile& texture,
+                   const std::filesystem::path& file);
+// Whether materials.bin or lights.bin is whole by itself.
+void check_records_file(const std::filesystem::path& file);
 
 }  // namespace vitrail

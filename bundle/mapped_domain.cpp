@@ -6,21 +6,25 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cmath>
 #include <cstring>
 
 #include "bundle/checksum.h"
 #include "bundle/domain_file.h"
 #include "bundle/domain_layout.h"
+#include "bundle/domain_structure.h"
+#include "bundle/features.h"
 #include "scene/diagnostics.h"
 
 namespace vitrail {
 
 namespace {
 
-[[noreturn]] void reject(const std::filesystem::path& file, const std::string& what) {
-  throw Error("domain file is damaged: " + what + "; partition the scene again", {file.string()});
-}
+constexpr std::uint32_t known_features = required_feature::normals | required_feature::uvs |
+                                         required_feature::attributes | required_feature::instances;
+
+constexpr std::array<std::size_t, 7> traced_sections{
+    layout::nodes,      layout::clusters,  layout::normals,       layout::uvs,
+    layout::attributes, layout::instances, layout::instance_nodes};
 
 std::span<const std::byte> map(const std::filesystem::path& file) {
   const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
@@ -32,7 +36,7 @@ std::span<const std::byte> map(const std::filesystem::path& file) {
     data = ::mmap(nullptr, static_cast<std::size_t>(status.st_size), PROT_READ, MAP_PRIVATE, descriptor, 0);
   const int reason = errno;
   ::close(descriptor);
-  if (status.st_size == 0) reject(file, "it is empty");
+  if (status.st_size == 0) reject_domain(file, "it is empty");
   if (data == MAP_FAILED)
     throw MachineError(fmt::format("cannot map {}: {}", file.string(), std::strerror(reason)));
   return {static_cast<const std::byte*>(data), static_cast<std::size_t>(status.st_size)};
@@ -42,14 +46,46 @@ const layout::DomainHeader& header_of(const std::byte* data) {
   return *reinterpret_cast<const layout::DomainHeader*>(data);
 }
 
+std::span<const layout::Section> table_of(const std::byte* data) {
+  return {reinterpret_cast<const layout::Section*>(data + sizeof(layout::DomainHeader)),
+          header_of(data).sections};
+}
+
 template <class T>
 std::span<const T> elements(const std::byte* data, layout::SectionIndex index) {
-  const layout::Section& s = header_of(data).table[index];
+  const layout::Section& s = table_of(data)[index];
   return {reinterpret_cast<const T*>(data + s.offset), s.count};
 }
 
-// The header is whole and its sections follow each other from its end to the end of the file.
+// Reads what is mapped there: where the disk fails, touching it would be a signal.
+void fault_in(const std::filesystem::path& file, std::span<const std::byte> bytes) {
+  if (bytes.empty()) return;
+  const auto in_page =
+      reinterpret_cast<std::uintptr_t>(bytes.data()) % static_cast<std::size_t>(::getpagesize());
+  if (::madvise(const_cast<std::byte*>(bytes.data()) - in_page, bytes.size() + in_page, MADV_POPULATE_READ) !=
+          0 &&
+      (errno == EFAULT || errno == EHWPOISON))
+    throw MachineError(fmt::format("cannot read {}: {}", file.string(), std::strerror(EIO)));
+}
+
+// The sections known here come first and in order, others of ascending kinds may follow; none leaves a gap.
+void check_table(const std::filesystem::path& file, std::span<const std::byte> bytes) {
+  const std::span<const layout::Section> table = table_of(bytes.data());
+  std::uint64_t expected = layout::header_bytes(table.size());
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    const layout::Section& s = table[i];
+    const bool known = i < layout::section_count;
+    const bool right_kind = known ? s.kind == i && s.element_size == layout::element_size[i]
+                                  : s.kind > table[i - 1].kind && s.element_size > 0;
+    if (!right_kind || s.offset != expected || s.count > bytes.size() / s.element_size)
+      reject_domain(file, fmt::format("section {} has a wrong size or place", i));
+    expected += layout::padded_bytes(s.count, s.element_size);
+  }
+  if (expected != bytes.size()) reject_domain(file, "its sections do not fill it");
+}
+
 void check_header(const std::filesystem::path& file, std::span<const std::byte> bytes) {
+  fault_in(file, bytes.first(1));
   const layout::DomainHeader& header = header_of(bytes.data());
   if (bytes.size() < 16 || header.magic != layout::domain_magic)
     throw Error("not a domain file", {file.string()});
@@ -57,81 +93,40 @@ void check_header(const std::filesystem::path& file, std::span<const std::byte> 
     throw Error(fmt::format("domain file of version {}; this program reads version {}", header.version,
                             layout::domain_version),
                 {file.string()});
-  if (bytes.size() < sizeof(header)) reject(file, "its header is cut short");
-  if (header.header_checksum != layout::checksum_of(header))
-    reject(file, "the checksum of its header is wrong");
+  if (header.sections < layout::section_count || header.sections > layout::most_sections)
+    reject_domain(file, fmt::format("it cannot have {} sections", header.sections));
+  const std::uint64_t header_bytes = layout::header_bytes(header.sections);
+  if (bytes.size() < header_bytes) reject_domain(file, "its header is cut short");
+  fault_in(file, bytes.first(header_bytes));
+  if (header.header_checksum !=
+      layout::checksum_of(header, bytes.subspan(sizeof(header), header_bytes - sizeof(header))))
+    reject_domain(file, "the checksum of its header is wrong");
   if (header.file_bytes != bytes.size())
-    reject(file, fmt::format("it has {} bytes and should have {}", bytes.size(), header.file_bytes));
-  std::uint64_t expected = sizeof(header);
-  for (std::size_t i = 0; i < layout::section_count; ++i) {
-    const layout::Section& s = header.table[i];
-    if (s.kind != i || s.element_size != layout::element_size[i] || s.offset != expected ||
-        s.count > bytes.size() / s.element_size)
-      reject(file, fmt::format("section {} has a wrong size or place", i));
-    expected += layout::padded_bytes(s.count, s.element_size);
-  }
-  if (header.sections != layout::section_count || expected != bytes.size())
-    reject(file, "its sections do not fill it");
+    reject_domain(file, fmt::format("it has {} bytes and should have {}", bytes.size(), header.file_bytes));
+  check_table(file, bytes);
+  const Features own = layout::features_of(table_of(bytes.data()));
+  refuse_unknown(header.features.required, known_features, file);
+  if (header.features.required != own.required || (own.optional & ~header.features.optional) != 0)
+    reject_domain(file, "its features are not those of its sections");
 }
 
-void check_section(const std::filesystem::path& file, const std::byte* data, layout::SectionIndex index) {
-  const layout::Section& s = header_of(data).table[index];
-  if (checksum({data + s.offset, layout::padded_bytes(s.count, s.element_size)}) != s.checksum)
-    reject(file, fmt::format("the checksum of section {} is wrong", static_cast<int>(index)));
+std::string describe(const layout::Section& s) {
+  const std::string name =
+      s.kind < layout::section_count ? layout::section_name[s.kind] : fmt::format("kind {}", s.kind);
+  return fmt::format("{} (bytes {} to {})", name, s.offset,
+                     s.offset + layout::padded_bytes(s.count, s.element_size));
 }
 
-// Marks what has been referred to; false where it already was.
-class OnceEach {
- public:
-  explicit OnceEach(std::size_t size) : seen_(size, false) {}
-  bool mark(std::size_t i) {
-    if (seen_[i]) return false;
-    seen_[i] = true;
-    ++count_;
-    return true;
+void check_sections(const std::filesystem::path& file, const std::byte* data,
+                    std::span<const std::size_t> indices) {
+  std::string wrong;
+  for (const std::size_t i : indices) {
+    const layout::Section& s = table_of(data)[i];
+    const std::span bytes(data + s.offset, layout::padded_bytes(s.count, s.element_size));
+    fault_in(file, bytes);
+    if (checksum(bytes) != s.checksum) wrong += (wrong.empty() ? "" : ", ") + describe(s);
   }
-  bool all() const { return count_ == seen_.size(); }
-
- private:
-  std::vector<bool> seen_;
-  std::size_t count_ = 0;
-};
-
-// Children come after their parent and every node and leaf (cluster or instance) hangs in exactly one place,
-// so a traversal ends and its stack is bounded by the depth.
-void check_tree(const std::filesystem::path& file, std::span<const BvhNode> tree, std::size_t leaf_count,
-                const char* leaf) {
-  OnceEach nodes(tree.size()), leaves(leaf_count);
-  std::vector<std::uint8_t> depth(tree.size(), 1);
-  if (!tree.empty()) nodes.mark(0);
-  for (std::size_t i = 0; i < tree.size(); ++i)
-    for (const std::uint32_t child : tree[i].child) {
-      if (child == BvhNode::empty) continue;
-      const std::size_t index = child & ~BvhNode::cluster_bit;
-      if (child & BvhNode::cluster_bit) {
-        if (index >= leaf_count || !leaves.mark(index))
-          reject(file, fmt::format("node {} refers to {} {}", i, leaf, index));
-      } else {
-        if (index <= i || index >= tree.size() || !nodes.mark(index))
-          reject(file, fmt::format("node {} refers to node {}", i, index));
-        depth[index] = static_cast<std::uint8_t>(depth[i] + 1);
-        if (depth[index] > max_bvh_depth) reject(file, "its tree is too deep");
-      }
-    }
-  if (!nodes.all() || !leaves.all()) reject(file, fmt::format("its tree does not reach every {}", leaf));
-}
-
-void check_instances(const std::filesystem::path& file, std::span<const InstanceRef> instances) {
-  for (std::size_t i = 0; i < instances.size(); ++i) {
-    const InstanceRef& ref = instances[i];
-    bool finite = true;
-    for (const auto& row : ref.to_parent.m)
-      for (const double x : row) finite = finite && std::isfinite(x);
-    for (int axis = 0; axis < 3; ++axis)
-      finite = finite && std::isfinite(ref.lower[axis]) && std::isfinite(ref.upper[axis]) &&
-               ref.lower[axis] <= ref.upper[axis];
-    if (!finite) reject(file, fmt::format("instance {} stands nowhere", i));
-  }
+  if (!wrong.empty()) reject_domain(file, "wrong checksum of " + wrong);
 }
 
 }  // namespace
@@ -142,9 +137,7 @@ MappedDomain::MappedDomain(const std::filesystem::path& file) : file_(file) {
   bytes_ = bytes.size();
   try {
     check_header(file, bytes);
-    for (const auto section : {layout::nodes, layout::clusters, layout::normals, layout::uvs,
-                               layout::attributes, layout::instances, layout::instance_nodes})
-      check_section(file, data_, section);
+    check_sections(file, data_, traced_sections);
     view_ = {elements<BvhNode>(data_, layout::nodes),
              elements<Cluster>(data_, layout::clusters),
              elements<ClusterNormals>(data_, layout::normals),
@@ -153,13 +146,7 @@ MappedDomain::MappedDomain(const std::filesystem::path& file) : file_(file) {
              elements<InstanceRef>(data_, layout::instances),
              elements<BvhNode>(data_, layout::instance_nodes),
              {}};
-    if (!view_.normals.empty() && view_.normals.size() != view_.clusters.size())
-      reject(file, "it does not have one group of normals a cluster");
-    if (!view_.uvs.empty() && view_.uvs.size() != view_.clusters.size())
-      reject(file, "it does not have one group of (u,v) a cluster");
-    check_tree(file, view_.nodes, view_.clusters.size(), "cluster");
-    check_tree(file, view_.instance_nodes, view_.instances.size(), "instance");
-    check_instances(file, view_.instances);
+    check_structure(view_, file);
   } catch (...) {
     ::munmap(const_cast<std::byte*>(data_), bytes_);
     throw;
@@ -168,21 +155,40 @@ MappedDomain::MappedDomain(const std::filesystem::path& file) : file_(file) {
 
 MappedDomain::~MappedDomain() { ::munmap(const_cast<std::byte*>(data_), bytes_); }
 
-std::uint64_t MappedDomain::hash() const { return header_of(data_).header_checksum; }
+const layout::DomainHeader& MappedDomain::header() const { return header_of(data_); }
+std::span<const layout::Section> MappedDomain::sections() const { return table_of(data_); }
+std::uint64_t MappedDomain::hash() const { return header().header_checksum; }
+
+void MappedDomain::check_cold() const {
+  std::vector<std::size_t> cold{layout::pieces, layout::piece_vertices};
+  for (std::size_t i = layout::section_count; i < sections().size(); ++i) cold.push_back(i);
+  check_sections(file_, data_, cold);
+}
 
 std::span<const Piece> MappedDomain::pieces() const {
-  check_section(file_, data_, layout::pieces);
+  check_sections(file_, data_, std::array{std::size_t{layout::pieces}});
   const auto pieces = elements<Piece>(data_, layout::pieces);
-  const std::uint64_t vertices = header_of(data_).table[layout::piece_vertices].count;
+  const std::uint64_t vertices = sections()[layout::piece_vertices].count;
   for (const Piece& p : pieces)
     if (p.vertex_count < 3 || p.first_vertex > vertices || p.vertex_count > vertices - p.first_vertex)
-      reject(file_, fmt::format("a piece of triangle {} refers to vertices that are not there", p.triangle));
+      reject_domain(file_,
+                    fmt::format("a piece of triangle {} refers to vertices that are not there", p.triangle));
   return pieces;
 }
 
 std::span<const Point3d> MappedDomain::piece_vertices() const {
-  check_section(file_, data_, layout::piece_vertices);
+  check_sections(file_, data_, std::array{std::size_t{layout::piece_vertices}});
   return elements<Point3d>(data_, layout::piece_vertices);
+}
+
+std::vector<InstanceRef> read_instances(const std::filesystem::path& file) {
+  const std::span<const std::byte> bytes = map(file);
+  const auto unmap = [&](const std::byte* data) { ::munmap(const_cast<std::byte*>(data), bytes.size()); };
+  const std::unique_ptr<const std::byte, decltype(unmap)> mapped(bytes.data(), unmap);
+  check_header(file, bytes);
+  check_sections(file, bytes.data(), std::array{std::size_t{layout::instances}});
+  const auto instances = elements<InstanceRef>(bytes.data(), layout::instances);
+  return {instances.begin(), instances.end()};
 }
 
 }  // namespace vitrail

@@ -11,6 +11,7 @@
 #include <cstring>
 
 #include "bundle/checksum.h"
+#include "bundle/features.h"
 #include "bundle/write_file.h"
 #include "scene/diagnostics.h"
 
@@ -21,7 +22,6 @@ namespace {
 static_assert(std::endian::native == std::endian::little);
 
 constexpr std::array<char, 8> texture_magic{'V', 'I', 'T', 'R', 'T', 'E', 'X', '\n'};
-constexpr std::uint32_t texture_version = 1;
 
 struct Header {
   std::array<char, 8> magic = texture_magic;
@@ -31,7 +31,7 @@ struct Header {
   std::uint64_t file_bytes = 0;
   std::uint64_t tiles = 0;
   std::uint64_t checksum = 0;  // of this header, with this field 0, and the table of the tiles' checksums
-  std::uint64_t reserved = 0;
+  Features features;           // none yet
 };
 static_assert(sizeof(Header) == 64);
 
@@ -183,6 +183,8 @@ TextureFile::TextureFile(std::filesystem::path file) : file_(std::move(file)) {
     fail(file_, "it ends in its table");
   hash_ = header_checksum(header, checksums_);
   if (hash_ != header.checksum) fail(file_, "wrong checksum of the header");
+  features_ = header.features;
+  refuse_unknown(features_.required, 0, file_);
 }
 
 TextureFile::Tile TextureFile::read_tile(std::uint32_t level, std::uint32_t tile_x, std::uint32_t tile_y,
@@ -193,8 +195,24 @@ TextureFile::Tile TextureFile::read_tile(std::uint32_t level, std::uint32_t tile
   if (!in.read(words.data(), place.words * 4, place.offset)) fail(file_, "it has become shorter");
   const std::uint64_t tile = of.first_tile + static_cast<std::uint64_t>(tile_y) * of.tiles_x + tile_x;
   if (checksum(std::as_bytes(words.first(place.words))) != checksums_.at(tile))
-    fail(file_, fmt::format("wrong checksum of tile {}, {} of level {}", tile_x, tile_y, level));
+    fail(file_, fmt::format("wrong checksum of tile {}, {} of level {} (bytes {} to {})", tile_x, tile_y,
+                            level, place.offset, place.offset + place.words * 4));
   return {place.width, place.height, static_cast<std::size_t>(place.words)};
+}
+
+void TextureFile::check_tiles() const {
+  std::uint64_t wrong = 0;
+  std::string first;
+  std::array<std::uint32_t, max_tile_words> words;
+  for (std::uint32_t l = 0; l < info_.levels; ++l)
+    for (std::uint32_t y = 0; y < layout_.levels[l].tiles_y; ++y)
+      for (std::uint32_t x = 0; x < layout_.levels[l].tiles_x; ++x) try {
+          read_tile(l, x, y, words);
+        } catch (const Error& e) {
+          if (wrong++ == 0) first = e.what();
+        }
+  if (wrong > 0)
+    throw Error(wrong == 1 ? first : fmt::format("{}, and {} more", first, wrong - 1), {file_.string()});
 }
 
 }  // namespace vitrail

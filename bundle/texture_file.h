@@ -11,6 +11,7 @@
 #include <span>
 #include <vector>
 
+#include "bundle/features.h"
 #include "bundle/texel.h"
 
 namespace vitrail {
@@ -23,6 +24,7 @@ struct TextureFileInfo {
   bool operator==(const TextureFileInfo&) const = default;
 };
 
+inline constexpr std::uint32_t texture_version = 2;
 inline constexpr std::uint32_t max_texture_size = 1u << 20;
 
 // Where the tiles of one level are. Tiles stand row by row from the lower left corner; those at the right and
@@ -63,6 +65,7 @@ class TextureFile {
   const TextureFileInfo& info() const { return info_; }
   const TextureFileLayout& layout() const { return layout_; }
   std::uint64_t hash() const { return hash_; }
+  const Features& features() const { return features_; }
 
   // The words of a tile of `level`, row by row from the bottom; rows are `width` texels wide. Opens the file
   // for each: there is no limit to how many textures a scene has. Throws Error. Safe from many threads.
@@ -72,6 +75,8 @@ class TextureFile {
   };
   Tile read_tile(std::uint32_t level, std::uint32_t tile_x, std::uint32_t tile_y,
                  std::span<std::uint32_t, max_tile_words> words) const;
+  // Reads them all; throws Error that says how many are wrong, and names one.
+  void check_tiles() const;
 
  private:
   std::filesystem::path file_;
@@ -79,6 +84,7 @@ class TextureFile {
   TextureFileLayout layout_;
   std::vector<std::uint64_t> checksums_;  // a tile
   std::uint64_t hash_ = 0;
+  Features features_;
 };
 
 }  // namespace vitrail

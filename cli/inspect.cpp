@@ -20,25 +20,25 @@ Report inspect(const std::filesystem::path& file) {
   if (!std::filesystem::exists(file)) throw Error("no such file", {file.string()});
   if (std::filesystem::is_directory(file)) return inspect_bundle(file);
   if (file.extension() == ".dom" || begins_with(file, "VITRDOM\n")) return inspect_domain(file);
+  if (file.extension() == ".tex" || begins_with(file, "VITRTEX\n")) return inspect_texture(file);
   // A checkpoint is a film too.
   if (file.extension() == ".film" || file.extension() == ".partial") return inspect_film(file);
   return inspect_scene(file);
 }
 
-// 0, or 3 where a bundle was read without an error but breaks a law.
-int status_of(const Report& report) {
-  return report.contains("ghost_free") && report["ghost_free"] == false ? exit_bad_input : exit_done;
-}
+int status_of(const Report& report) { return report.contains("problems") ? exit_bad_input : exit_done; }
 
 }  // namespace
 }  // namespace vitrail
 
 int main(int argc, char** argv) {
   using namespace vitrail;
-  CLI::App app("says what a scene, bundle, sub-domain or film holds, and verifies it", "vitrail inspect");
+  CLI::App app("says what a scene, a bundle, one of its files or a film holds, and verifies it",
+               "vitrail inspect");
   std::filesystem::path file;
   bool json = false;
-  app.add_option("file", file, "scene file, bundle (NAME.vit), sub-domain (.dom) or film (.film)")
+  app.add_option("file", file,
+                 "scene file, bundle (NAME.vit), sub-domain or object (.dom), texture (.tex) or film (.film)")
       ->required();
   app.add_flag("--json", json, "print JSON");
   return run_guarded(app, argc, argv, [&] {

@@ -16,6 +16,7 @@ using Report = nlohmann::ordered_json;
 Report inspect_scene(const std::filesystem::path& file);
 Report inspect_bundle(const std::filesystem::path& bundle);
 Report inspect_domain(const std::filesystem::path& file);
+Report inspect_texture(const std::filesystem::path& file);
 Report inspect_film(const std::filesystem::path& file);
 
 // Shared by scenes and bundles: bounds, requirements and their reasons, materials, lights, camera and film.

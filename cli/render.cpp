@@ -87,7 +87,7 @@ class Bundle {
 
  private:
   std::vector<std::string> partition_arguments(const Arguments& a) const {
-    std::vector<std::string> arguments{a.input.string(), "-o", temporary_.string(), "--quiet"};
+    std::vector<std::string> arguments{a.input.string(), "-o", temporary_.string(), "--quiet", "--no-sync"};
     // It links what reads images, of more than 100 MiB, and is gone when rendering begins.
     constexpr std::uint64_t least = 256u << 20;
     if (!a.memory.empty())

@@ -11,8 +11,9 @@ namespace {
 constexpr const char* usage = R"(usage: vitrail VERB ...
 
   convert     a scene from one format to another
-  inspect     what is in a scene, a bundle, a domain file or a film, and what it needs
+  inspect     what is in a scene, a bundle, one of its files or a film, and what it needs
   partition   a scene into a bundle of sub-domains, one file each
+  verify      every byte of a bundle
   render      a bundle or a scene, alone or under mpirun
   develop     films into a picture
   compare     a picture with a reference

@@ -9,7 +9,9 @@
 #include <algorithm>
 #include <string>
 #include <utility>
+#include <vector>
 
+#include "scene/atomic_file.h"
 #include "scene/diagnostics.h"
 
 namespace vitrail {
@@ -38,9 +40,26 @@ int lock_directory(const fs::path& directory) {
   return -1;
 }
 
+fs::path folder_of(const fs::path& target) { return target.has_parent_path() ? target.parent_path() : "."; }
+
+// All files and directories in it, and itself. The disk is busy with all of them before the first is waited
+// for.
+void sync_all(const fs::path& directory) {
+  std::vector<fs::path> all{directory};
+  for (const auto& entry : fs::recursive_directory_iterator(directory)) {
+    all.push_back(entry.path());
+    if (!entry.is_regular_file()) continue;
+    const int descriptor = ::open(entry.path().c_str(), O_RDONLY | O_CLOEXEC);
+    if (descriptor < 0) continue;  // sync_to_disk will say so
+    ::sync_file_range(descriptor, 0, 0, SYNC_FILE_RANGE_WRITE);
+    ::close(descriptor);
+  }
+  for (const fs::path& path : all) sync_to_disk(path);
+}
+
 // Of processes that were killed.
 void remove_leftovers(const fs::path& target) {
-  const fs::path folder = target.has_parent_path() ? target.parent_path() : ".";
+  const fs::path folder = folder_of(target);
   if (!fs::exists(folder)) return;
   const std::string prefix = fmt::format("{}.tmp", target.filename().string());
   for (const auto& entry : fs::directory_iterator(folder)) {
@@ -62,7 +81,8 @@ void remove_leftovers(const fs::path& target) {
 
 }  // namespace
 
-BundleDirectory::BundleDirectory(fs::path target) : target_(std::move(target)) {
+BundleDirectory::BundleDirectory(fs::path target, bool durable)
+    : target_(std::move(target)), durable_(durable) {
   if (!target_.has_filename()) target_ = target_.parent_path();  // a slash at the end
   if (target_.empty()) throw UsageError("the bundle has no name");
   temporary_ = beside(target_, "tmp");
@@ -85,6 +105,7 @@ BundleDirectory::~BundleDirectory() {
 void BundleDirectory::commit() {
   try {
     check_target(target_);
+    if (durable_) sync_all(temporary_);
     const fs::path old = beside(target_, "old");
     const bool replaces = fs::exists(target_);
     if (replaces) fs::rename(target_, old);
@@ -95,6 +116,7 @@ void BundleDirectory::commit() {
       throw;
     }
     committed_ = true;
+    if (durable_) sync_to_disk(folder_of(target_));
     if (replaces) fs::remove_all(old);
   } catch (const fs::filesystem_error& e) {
     fail(e);

@@ -10,11 +10,10 @@ namespace vitrail {
 // replaces an older bundle. Without a commit the destructor removes it, and where the process was killed the
 // next one for the same target does: a lock on the directory says whether its process lives. A target that
 // exists and is not a bundle is never touched: UsageError. What the machine refuses throws MachineError.
-// Nothing is synced to the disk, which would take longer than the rest: a bundle can be made again, and after
-// a power failure its checksums tell whether it is whole.
+// A durable one is synced to the disk before it gets its name.
 class BundleDirectory {
  public:
-  explicit BundleDirectory(std::filesystem::path target);
+  explicit BundleDirectory(std::filesystem::path target, bool durable = false);
   ~BundleDirectory();
   BundleDirectory(const BundleDirectory&) = delete;
   BundleDirectory& operator=(const BundleDirectory&) = delete;
@@ -24,6 +23,7 @@ class BundleDirectory {
 
  private:
   std::filesystem::path target_, temporary_;
+  bool durable_ = false;
   int lock_ = -1;
   bool committed_ = false;
 };

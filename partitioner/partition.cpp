@@ -250,7 +250,7 @@ PartitionStats partition(const Scene& scene, const std::filesystem::path& out,
   const double cpu_start = cpu_seconds();
   PartitionOptions chosen = options;
   if (chosen.memory_bytes == 0) chosen.memory_bytes = default_memory_bytes();
-  BundleDirectory directory(out);
+  BundleDirectory directory(out, options.durable);
   tbb::task_arena arena(options.threads > 0 ? options.threads : tbb::task_arena::automatic);
   PartitionStats stats =
       arena.execute([&] { return Partitioner(scene, directory.path(), chosen, progress).run(); });

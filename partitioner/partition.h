@@ -20,6 +20,7 @@ struct PartitionOptions {
   int threads = 0;                    // 0: all
   bool flatten = false;               // copies instead of instances
   std::optional<RayProfile> profile;  // of an earlier render of the scene
+  bool durable = false;               // on the disk before it returns, also after a power failure
   bool median = false;                // cuts in the middle, for comparison
   bool everything = false;            // as if the scene required all that there is, for measuring
 };

@@ -41,17 +41,6 @@ std::vector<TriangleReference> references_of(const NumberedTriangles& triangles,
   return references;
 }
 
-// Of the boxes of the root's children, which are padded already.
-void extend_by_root(Bounds3f& b, std::span<const BvhNode> nodes) {
-  if (nodes.empty()) return;
-  const BvhNode& root = nodes[0];
-  for (std::size_t i = 0; i < 8; ++i) {
-    if (root.child[i] == BvhNode::empty) continue;
-    extend(b, Bounds3f{{root.lower[0][i], root.lower[1][i], root.lower[2][i]},
-                       {root.upper[0][i], root.upper[1][i], root.upper[2][i]}});
-  }
-}
-
 Occupancy occupancy_of(const Bounds3f& box, const NumberedTriangles& triangles, const CellContent& cell,
                        std::span<const InstanceRef> instances, float padding) {
   Occupancy occupancy;
@@ -117,8 +106,7 @@ DomainInfo write_domain(const Manifest& manifest, const NumberedTriangles& trian
   census.add(index, view_of(content), content.pieces, content.piece_vertices);
   DomainInfo info{.triangles = cell.size(), .pieces = cell.pieces.size()};
   info.bytes = write_domain_file(domain_path(bundle, index), content, &info.hash);
-  extend_by_root(info.tight_bounds, content.nodes);
-  extend_by_root(info.tight_bounds, content.instance_nodes);
+  info.tight_bounds = content_bounds(view_of(content));
   info.occupancy = occupancy_of(info.tight_bounds, triangles, cell, content.instances, pad);
   info.instances = content.instances.size();
   info.objects = needed_objects(manifest, content.instances);

@@ -53,6 +53,17 @@ void AtomicFile::commit() {
     errno = reason;
     fail("write", target_);
   }
+  sync_to_disk(target_.has_parent_path() ? target_.parent_path() : ".");
+}
+
+void sync_to_disk(const std::filesystem::path& path) {
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) fail("open", path);
+  const bool synced = ::fsync(descriptor) == 0 || errno == EINVAL;  // EINVAL: there is nothing to sync there
+  const int reason = errno;
+  ::close(descriptor);
+  errno = reason;
+  if (!synced) fail("sync", path);
 }
 
 }  // namespace vitrail

@@ -9,9 +9,9 @@
 
 namespace vitrail {
 
-// Appends to a temporary file beside `target`; `commit` syncs it and renames it to the target. Without a
-// commit the destructor removes it. Every failure (no space, no permission) throws MachineError with the file
-// and the reason.
+// Appends to a temporary file beside `target`; `commit` syncs it, renames it to the target and syncs the
+// name. Without a commit the destructor removes it. Every failure (no space, no permission) throws
+// MachineError with the file and the reason.
 class AtomicFile {
  public:
   explicit AtomicFile(std::filesystem::path target);
@@ -28,5 +28,8 @@ class AtomicFile {
   int descriptor_ = -1;
   std::uint64_t size_ = 0;
 };
+
+// Waits until a file's content, or a directory's names, are on the disk. Throws MachineError.
+void sync_to_disk(const std::filesystem::path& path);
 
 }  // namespace vitrail

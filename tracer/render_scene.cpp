@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "bundle/texture_file.h"
 #include "tracer/records.h"
 
 namespace vitrail {
@@ -36,7 +37,10 @@ RenderScene::RenderScene(Manifest the_manifest, const std::filesystem::path& bun
       media(prepare(manifest.media)),
       lights(make_light_sampler(light_scene(manifest, textures), bundle)),
       pixel_angle(vitrail::pixel_angle(manifest)),
-      seed(the_seed) {}
+      seed(the_seed) {
+  for (const TextureFileEntry& t : manifest.texture_files)
+    check_texture(t, TextureFile(bundle / t.name), bundle / t.name);
+}
 
 const Surface& surface_of(const Manifest& manifest, const DomainView& domain, const Hit& hit) {
   std::span<const Surface> surfaces = scene_surfaces(manifest);

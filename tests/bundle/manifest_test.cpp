@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstring>
 #include <functional>
 #include <limits>
 
@@ -172,22 +173,34 @@ TEST_F(ManifestFile, WrongObjectsAreFound) {
   }
 }
 
-TEST_F(ManifestFile, AnotherVersionIsNamed) {
-  write_manifest(directory.path(), sample_manifest());
-  const auto file = directory.path() / "manifest.json";
+// What reading the sample says with other words in it, their checksum right.
+std::string message_with(const std::filesystem::path& bundle, const char* before, const char* after) {
+  write_manifest(bundle, sample_manifest());
+  const auto file = bundle / "manifest.json";
   std::string text = test::read_text(file);
-  text.replace(text.find("\"version\": 4"), 12, "\"version\": 7");
+  text.replace(text.find(before), std::strlen(before), after);
   const std::string rest = text.substr(text.find('\n') + 1);
   char line[64];
   std::snprintf(line, sizeof line, "{\"checksum\": \"%016llx\",\n",
                 static_cast<unsigned long long>(checksum(std::as_bytes(std::span(rest)))));
   test::write_text(file, line + rest);
   try {
-    read_manifest(directory.path());
-    FAIL();
+    read_manifest(bundle);
   } catch (const Error& e) {
-    EXPECT_NE(std::string(e.what()).find("version 7"), std::string::npos) << e.what();
+    return e.what();
   }
+  return "";
+}
+
+TEST_F(ManifestFile, AnotherVersionIsNamed) {
+  const std::string message = message_with(directory.path(), "\"version\": 4", "\"version\": 7");
+  EXPECT_NE(message.find("version 7"), std::string::npos) << message;
+}
+
+TEST_F(ManifestFile, UnknownFeaturesAreNamedOrIgnored) {
+  const std::string message = message_with(directory.path(), "\"normals\"", "\"tea leaves\"");
+  EXPECT_NE(message.find("it needs 'tea leaves'"), std::string::npos) << message;
+  EXPECT_EQ(message_with(directory.path(), "\"pieces\"", "\"tea leaves\""), "");
 }
 
 }  // namespace

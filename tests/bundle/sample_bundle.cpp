@@ -6,6 +6,8 @@
 #include <limits>
 #include <sstream>
 
+#include "bundle/texture_file.h"
+
 namespace vitrail::test {
 
 namespace {
@@ -132,18 +134,53 @@ void write_sample_bundle(const std::filesystem::path& bundle) {
   write_manifest(bundle, m);
 }
 
-void write_instanced_bundle(const std::filesystem::path& bundle) {
-  Manifest m = sample_manifest();
+SampleBundle whole_bundle() {
+  SampleBundle b{sample_manifest(), std::vector<DomainContent>(3), {sample_object(0), sample_object(1)}};
+  b.domains[0] = b.domains[1] = sample_domain();
+  b.domains[0].piece_vertices = {{4, 3, 3}, {3, 4, 3}, {3.5, 3, 3.5}};
+  b.domains[1].piece_vertices = {{3.5, 3, 3.5}, {3, 4, 3}, {3, 3, 4}};
+  b.domains[1].nodes = {node_over({BvhNode::cluster_bit | 0})};
+  b.domains[1].clusters.resize(1);
+  for (std::uint32_t& id : b.domains[1].clusters[0].id)
+    if (id != 3) id = no_triangle;
+  for (DomainContent& d : b.domains) {
+    d.instances = {sample_instance(1, 11)};
+    d.instance_nodes = {node_over({BvhNode::cluster_bit | 0})};
+  }
+  for (std::vector<DomainContent>* contents : {&b.domains, &b.objects})
+    for (DomainContent& d : *contents) {
+      d.normals.resize(d.clusters.size());
+      d.uvs.resize(d.clusters.size());
+      d.attributes.resize(d.clusters.size());
+      for (ClusterNormals& n : d.normals) std::fill_n(&n.normal[0][0], 24, encode_normal({0, 1, 1}));
+      for (ClusterUvs& u : d.uvs) std::fill_n(&u.uv[0][0][0], 48, 0.3f);
+      for (ClusterAttributes& v : d.attributes) std::fill_n(&v.value[0][0][0], 72, 0.7f);
+    }
+  Manifest& m = b.manifest;
   add_objects(m);
-  std::filesystem::create_directories(bundle / "domains");
-  std::filesystem::create_directories(bundle / "objects");
-  DomainContent content = sample_domain();
-  content.instances = {sample_instance(1, 11)};
-  content.instance_nodes = {node_over({BvhNode::cluster_bit | 0})};
+  m.requirements.uv = true;
+  m.attributes = 1;
+  m.domains[0].triangles = 11, m.domains[1].triangles = 1, m.domains[2].triangles = 0;
+  m.domains[2].pieces = 0;
+  for (DomainInfo& d : m.domains) d.tight_bounds = {{-10, -10, -10}, {10, 10, 10}};
+  return b;
+}
+
+void write(SampleBundle& b, const std::filesystem::path& bundle) {
+  for (const char* folder : {"domains", "objects", "textures"})
+    std::filesystem::create_directories(bundle / folder);
+  Manifest& m = b.manifest;
   for (std::uint32_t i = 0; i < m.domains.size(); ++i)
-    m.domains[i].bytes = write_domain_file(domain_path(bundle, i), content, &m.domains[i].hash);
+    m.domains[i].bytes = write_domain_file(domain_path(bundle, i), b.domains[i], &m.domains[i].hash);
   for (std::uint32_t i = 0; i < m.objects.size(); ++i)
-    m.objects[i].bytes = write_domain_file(object_path(bundle, i), sample_object(i), &m.objects[i].hash);
+    m.objects[i].bytes = write_domain_file(object_path(bundle, i), b.objects[i], &m.objects[i].hash);
+  const auto texel = [](std::uint32_t level, std::uint32_t x, std::uint32_t y) {
+    return TexelWords{level + 1, x, y};
+  };
+  TextureFileEntry& t = m.texture_files[0];
+  const WrittenTextureFile written =
+      write_texture_file(bundle / t.name, {TexelFormat::reflectance, 70, 40, 3}, texel);
+  t.bytes = written.bytes, t.hash = written.hash;
   write_manifest(bundle, m);
 }
 

@@ -20,8 +20,16 @@ void add_objects(Manifest& manifest);
 // Writes the manifest and three copies of the domain to the empty directory `bundle`, and enters them in the
 // manifest.
 void write_sample_bundle(const std::filesystem::path& bundle);
-// The same with objects.
-void write_instanced_bundle(const std::filesystem::path& bundle);
+
+// One in which every triangle is held once, with everything in it: pieces of triangle 3 in domains 0 and 1,
+// domain 2 with an instance alone, normals, (u,v), an attribute, objects, an image.
+struct SampleBundle {
+  Manifest manifest;
+  std::vector<DomainContent> domains, objects;
+};
+SampleBundle whole_bundle();
+// Enters bytes and hashes in the manifest.
+void write(SampleBundle& sample, const std::filesystem::path& bundle);
 
 std::string read_text(const std::filesystem::path& file);
 // Overwrites a file that exists.

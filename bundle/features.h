@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a file has beyond what every file of its version has. New ones keep the version: an older program can
+// tell from the bits whether it may go on without them.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace vitrail {
+
+// A reader refuses a file with a required feature that it does not know, and ignores an optional one. Bits
+// have one meaning in all files of a bundle.
+struct Features {
+  std::uint32_t required = 0, optional = 0;
+  bool operator==(const Features&) const = default;
+};
+
+namespace required_feature {
+inline constexpr std::uint32_t normals = 1, uvs = 2, attributes = 4, instances = 8, textures = 16;
+}
+namespace optional_feature {
+inline constexpr std::uint32_t pieces = 1;
+}
+
+// Their names; of a bit without one, "feature N".
+std::vector<std::string> required_names(std::uint32_t bits);
+std::vector<std::string> optional_names(std::uint32_t bits);
+// The bits of names: every one has to be known, or Error says which is not.
+std::uint32_t required_bits(std::span<const std::string> names, const std::filesystem::path& file);
+
+// Throws Error unless all that is required is known.
+void refuse_unknown(std::uint32_t required, std::uint32_t known, const std::filesystem::path& file);
+
+}  // namespace vitrail

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bundle/held_ids.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "scene/diagnostics.h"
+
+namespace vitrail {
+
+namespace {
+
+// The ids of instances, ascending, each of which is held with all parts of its prototype.
+std::vector<IdRange> ids_of(const Manifest& m, std::uint64_t triangles, std::vector<HeldInstance> instances) {
+  std::ranges::sort(instances);
+  instances.erase(std::unique(instances.begin(), instances.end()), instances.end());
+  std::vector<IdRange> ranges;
+  std::uint64_t end = 0;
+  for (std::size_t i = 0; i < instances.size();) {
+    const auto [first, object] = instances[i];
+    if (object >= m.objects.size()) throw Error("it has instances of objects that are not there");
+    if (first < end || first + m.objects[object].triangles > triangles)
+      throw Error("its instances share triangles, or have some that it does not have");
+    if (object > 0 && end_of_prototype(m, object - 1) > object)
+      throw Error(fmt::format("it has an instance of object {} without the parts before it", object));
+    for (std::uint32_t part = object; part < end_of_prototype(m, object); ++part, ++i)
+      if (i == instances.size() || instances[i] != HeldInstance{first, part})
+        throw Error(
+            fmt::format("it has an instance of object {}, but not of its other part {}", object, part));
+    ranges.push_back({first, m.objects[object].triangles});
+    end = first + m.objects[object].triangles;
+  }
+  return ranges;
+}
+
+bool holds(const Bounds3f& box, const Bounds3f& other) {
+  for (int axis = 0; axis < 3 && !other.empty(); ++axis)
+    if (!(box.lower[axis] <= other.lower[axis] && other.upper[axis] <= box.upper[axis])) return false;
+  return true;
+}
+
+}  // namespace
+
+HeldIds::HeldIds(std::string name, const Manifest& manifest, std::uint64_t triangles,
+                 std::uint64_t cut_triangles, std::vector<HeldInstance> instances)
+    : name_(std::move(name)), cut_triangles_(cut_triangles) {
+  try {
+    census_.emplace(triangles, ids_of(manifest, triangles, std::move(instances)));
+  } catch (const Error& e) {
+    instances_problem_ = e.what();
+  }
+}
+
+void HeldIds::count(std::uint32_t part, const MappedDomain& mapped) {
+  if (census_) census_->add(part, mapped.view(), mapped.pieces(), mapped.piece_vertices());
+  ++counted_;
+}
+
+std::vector<std::string> HeldIds::problems() const {
+  if (counted_ != parts_) return {};
+  if (!instances_problem_.empty()) return {instances_problem_};
+  if (!census_) return {};
+  const CensusResult r = census_->result();
+  std::vector<std::string> found;
+  if (r.duplicates > 0)
+    found.push_back(fmt::format("{} triangles or pieces are stored more than once", r.duplicates));
+  if (r.lost > 0) found.push_back(fmt::format("{} triangles are in none of the files", r.lost));
+  if (r.strays > 0)
+    found.push_back(fmt::format("{} triangles or pieces are where they should not be", r.strays));
+  if (r.cut_triangles != cut_triangles_)
+    found.push_back(fmt::format("{} triangles are cut, and {} should be", r.cut_triangles, cut_triangles_));
+  if (!(r.area_error < most_area_error))
+    found.push_back(
+        fmt::format("pieces do not tile their triangle: their areas differ by {:.3g} of it", r.area_error));
+  return found;
+}
+
+std::uint32_t end_of_prototype(const Manifest& m, std::uint32_t first) {
+  const auto surfaces = [&](std::uint32_t i) {
+    return std::pair(m.objects[i].first_surface, m.objects[i].surface_count);
+  };
+  std::uint32_t end = first + 1;
+  while (surfaces(first).second > 0 && end < m.objects.size() && surfaces(end) == surfaces(first)) ++end;
+  return end;
+}
+
+void check_counts(const DomainInfo& info, const MappedDomain& mapped, const std::filesystem::path& file) {
+  const DomainView& view = mapped.view();
+  if (info.triangles != triangles_in(view.clusters) || info.pieces != mapped.pieces().size() ||
+      info.instances != view.instances.size())
+    throw Error("it does not hold as many triangles as the manifest says", {file.string()});
+  if (!holds(info.tight_bounds, content_bounds(view)))
+    throw Error("it reaches beyond the tight bounds that the manifest has for it", {file.string()});
+}
+
+}  // namespace vitrail

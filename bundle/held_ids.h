@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// Files that together hold every id once: the domains of a scene, or the parts of one prototype.
+#pragma once
+
+#include <atomic>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bundle/census.h"
+#include "bundle/manifest.h"
+
+namespace vitrail {
+
+struct HeldInstance {
+  std::uint32_t first_triangle = 0, object = 0;
+  auto operator<=>(const HeldInstance&) const = default;
+};
+
+class HeldIds {
+ public:
+  HeldIds() = default;  // counts nothing
+  // Ids are [0, triangles), of which those of the `instances` stand in other files.
+  HeldIds(std::string name, const Manifest& manifest, std::uint64_t triangles, std::uint64_t cut_triangles,
+          std::vector<HeldInstance> instances);
+
+  const std::string& name() const { return name_; }
+  // A file that is to be counted. Returns its number here.
+  std::uint32_t add_part() { return parts_++; }
+  // From any thread.
+  void count(std::uint32_t part, const MappedDomain& mapped);
+  // Every part has been counted.
+  bool complete() const { return census_ && counted_ == parts_; }
+
+  CensusResult census() const { return census_->result(); }
+  // What the census says is wrong; nothing where a part was not counted, which has been said already.
+  std::vector<std::string> problems() const;
+
+ private:
+  std::string name_;
+  std::uint64_t cut_triangles_ = 0;
+  std::string instances_problem_;
+  std::optional<Census> census_;
+  std::uint32_t parts_ = 0;
+  std::atomic<std::uint32_t> counted_ = 0;
+};
+
+// The parts of a prototype are objects that follow each other and have the same surfaces. Returns the end of
+// those that begin with `first`.
+std::uint32_t end_of_prototype(const Manifest& m, std::uint32_t first);
+
+// Throws Error where a domain does not hold what its line in the manifest says.
+void check_counts(const DomainInfo& info, const MappedDomain& mapped, const std::filesystem::path& file);
+
+}  // namespace vitrail

@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bundle/verify.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <deque>
+#include <set>
+#include <thread>
+
+#include "bundle/held_ids.h"
+#include "bundle/manifest.h"
+#include "bundle/texture_file.h"
+#include "scene/diagnostics.h"
+
+namespace vitrail {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+class Verifier {
+ public:
+  Verifier(const fs::path& bundle, const VerifyOptions& options) : bundle_(bundle), options_(options) {
+    if (!fs::is_directory(bundle)) throw Error("there is no such bundle", {bundle.string()});
+    for (const auto& entry : fs::recursive_directory_iterator(bundle)) {
+      present_.insert(entry.path());
+      if (entry.is_regular_file()) bytes_to_read_ += entry.file_size();
+    }
+  }
+
+  VerifyResult run() {
+    const auto start = std::chrono::steady_clock::now();
+    read_records();
+    if (manifest_) {
+      plan_domains();
+      plan_objects();
+      for (const TextureFileEntry& t : manifest_->texture_files) plan_texture(bundle_ / t.name, &t);
+    } else {
+      plan_what_is_there();
+    }
+    work();
+    for (const HeldIds& ids : held_)
+      for (const std::string& what : ids.problems()) note(bundle_ / ids.name(), what);
+    if (manifest_ && held_.front().complete()) result_.census = held_.front().census();
+    for (const fs::path& file : present_)
+      if (!expected_.contains(file))
+        result_.warnings.push_back({relative(file), "it does not belong to the bundle"});
+    std::ranges::sort(result_.problems);
+    std::ranges::sort(result_.warnings);
+    result_.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return std::move(result_);
+  }
+
+ private:
+  std::string relative(const fs::path& file) const { return file.lexically_relative(bundle_).string(); }
+
+  void note(const fs::path& file, const std::string& what) {
+    const std::lock_guard lock(mutex_);
+    result_.problems.push_back({relative(file), what});
+  }
+
+  bool attempt(const fs::path& file, const std::function<void()>& check) {
+    try {
+      check();
+      return true;
+    } catch (const std::exception& e) {
+      note(file, e.what());
+    }
+    return false;
+  }
+
+  // The same, and counts the file.
+  bool read(const fs::path& file, const std::function<void()>& check) {
+    std::error_code missing;
+    const std::uint64_t bytes = fs::file_size(file, missing);
+    if (missing) note(file, "it cannot be read: " + missing.message());
+    const bool good = !missing && attempt(file, check);
+    const std::lock_guard lock(mutex_);
+    if (missing) return false;
+    ++result_.files;
+    result_.bytes += bytes;
+    if (options_.progress)
+      options_.progress(static_cast<double>(result_.bytes) / static_cast<double>(bytes_to_read_));
+    return good;
+  }
+
+  void expect(const fs::path& file) {
+    for (fs::path at = file; at != bundle_; at = at.parent_path()) expected_.insert(at);
+  }
+
+  void read_records() {
+    const std::array files{bundle_ / "manifest.json", bundle_ / "materials.bin", bundle_ / "lights.bin"};
+    fs::path blamed = files[0];
+    try {
+      manifest_ = read_manifest(bundle_);
+    } catch (const Error& e) {
+      blamed = e.location.file;
+      note(blamed, e.what());
+    } catch (const std::exception& e) {
+      note(blamed, e.what());
+    }
+    for (const fs::path& file : files) {
+      expect(file);
+      read(file, [&] {
+        if (!manifest_ && file != blamed && file != files[0]) check_records_file(file);
+      });
+    }
+  }
+
+  void plan(HeldIds& ids, const fs::path& file, const std::function<void(const MappedDomain&)>& check) {
+    expect(file);
+    const std::uint32_t part = ids.add_part();
+    jobs_.push_back([this, &ids, file, part, check] {
+      read(file, [&] {
+        const MappedDomain mapped(file);
+        const bool fits = attempt(file, [&] { check(mapped); });
+        if (attempt(file, [&] { mapped.check_cold(), mapped.pieces(); }) && fits) ids.count(part, mapped);
+      });
+    });
+  }
+
+  // Files that are damaged are found later.
+  std::vector<HeldInstance> instances_in(const fs::path& file) const try {
+    std::vector<HeldInstance> held;
+    for (const InstanceRef& ref : read_instances(file)) held.push_back({ref.first_triangle, ref.object});
+    return held;
+  } catch (const std::exception&) {
+    return {};
+  }
+
+  void plan_domains() {
+    const Manifest& m = *manifest_;
+    std::vector<HeldInstance> instances;
+    for (std::uint32_t i = 0; i < m.domains.size(); ++i)
+      if (m.domains[i].instances > 0)
+        std::ranges::copy(instances_in(domain_path(bundle_, i)), std::back_inserter(instances));
+    HeldIds& ids = held_.emplace_back("domains", m, m.triangles, m.cut_triangles, std::move(instances));
+    for (std::uint32_t i = 0; i < m.domains.size(); ++i) {
+      const fs::path file = domain_path(bundle_, i);
+      plan(ids, file, [&m, i, file](const MappedDomain& mapped) {
+        check_domain(m, i, mapped, file);
+        check_counts(m.domains[i], mapped, file);
+      });
+    }
+  }
+
+  void plan_objects() {
+    const Manifest& m = *manifest_;
+    for (std::uint32_t i = 0; i < m.objects.size();) {
+      const std::uint32_t end = end_of_prototype(m, i);
+      const fs::path first = object_path(bundle_, i);
+      HeldIds& ids = held_.emplace_back(relative(first), m, m.objects[i].triangles, 0, instances_in(first));
+      for (; i < end; ++i) {
+        const fs::path file = object_path(bundle_, i);
+        plan(ids, file, [&m, i, file](const MappedDomain& mapped) { check_object(m, i, mapped, file); });
+      }
+    }
+  }
+
+  void plan_texture(const fs::path& file, const TextureFileEntry* entry = nullptr) {
+    expect(file);
+    jobs_.push_back([this, file, entry] {
+      read(file, [&] {
+        const TextureFile texture(file);
+        if (entry) attempt(file, [&] { check_texture(*entry, texture, file); });
+        texture.check_tiles();
+      });
+    });
+  }
+
+  void plan_what_is_there() {
+    HeldIds& nothing = held_.emplace_back();
+    for (const fs::path& file : present_)
+      if (file.extension() == ".dom")
+        plan(nothing, file, [](const MappedDomain&) {});
+      else if (file.extension() == ".tex")
+        plan_texture(file);
+  }
+
+  void work() {
+    std::atomic<std::size_t> next{0};
+    const auto worker = [&] {
+      for (std::size_t i = next++; i < jobs_.size(); i = next++) jobs_[i]();
+    };
+    const std::size_t threads = options_.threads > 0 ? static_cast<std::size_t>(options_.threads)
+                                                     : std::max(1u, std::thread::hardware_concurrency());
+    std::vector<std::jthread> others;
+    while (others.size() + 1 < std::min(threads, jobs_.size())) others.emplace_back(worker);
+    worker();
+  }
+
+  fs::path bundle_;
+  const VerifyOptions& options_;
+  std::set<fs::path> present_, expected_;
+  std::uint64_t bytes_to_read_ = 0;
+  std::optional<Manifest> manifest_;
+  std::deque<HeldIds> held_;  // of the domains first
+  std::vector<std::function<void()>> jobs_;
+  std::mutex mutex_;
+  VerifyResult result_;
+};
+
+}  // namespace
+
+VerifyResult verify_bundle(const fs::path& bundle, const VerifyOptions& options) {
+  return Verifier(bundle.has_filename() ? bundle : bundle.parent_path(), options).run();
+}
+
+}  // namespace vitrail
