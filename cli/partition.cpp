@@ -6,13 +6,13 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <csignal>
 #include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "cli/diagnostics_report.h"
 #include "cli/main_guard.h"
+#include "cli/progress_line.h"
 #include "cli/sizes.h"
 #include "importers/import.h"
 #include "partitioner/appearance.h"
@@ -67,25 +67,18 @@ void catch_signals() {
 // Stops the work on a signal; on a terminal shows where it stands.
 class Watch {
  public:
-  explicit Watch(bool visible) : visible_(visible), start_(Clock::now()), shown_(start_) {}
+  explicit Watch(bool visible) : line_(visible) {}
 
   void operator()(double fraction, const char* what) {
     if (stop_signalled) throw MachineError("interrupted; nothing is left of the bundle");
-    const auto now = Clock::now();
-    if (!visible_ || (fraction < 1 && now - shown_ < std::chrono::milliseconds(100))) return;
-    shown_ = now;
-    const double elapsed_s = std::chrono::duration<double>(now - start_).count();
-    const bool known = fraction > 0.02 && fraction < 1;
-    fmt::print(stderr, "\r\033[K{:3.0f} % {}{}{}", 100 * fraction, what,
-               known ? fmt::format("  {:.0f} s left", elapsed_s * (1 - fraction) / fraction) : "",
-               fraction >= 1 ? "\n" : "");
-    std::fflush(stderr);
+    if (fraction < 1)
+      line_.show(fraction, what);
+    else
+      line_.clear();
   }
 
  private:
-  using Clock = std::chrono::steady_clock;
-  bool visible_;
-  Clock::time_point start_, shown_;
+  ProgressLine line_;
 };
 
 void write_stats(const std::filesystem::path& file, const PartitionStats& s) {

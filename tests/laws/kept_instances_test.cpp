@@ -7,6 +7,7 @@
 #include <random>
 
 #include "bundle/loaded_domain.h"
+#include "bundle/verify.h"
 #include "farm/residency.h"
 #include "partitioner/partition.h"
 #include "tests/partitioner/test_scenes.h"
@@ -112,6 +113,8 @@ class Films {
 
   std::filesystem::path bundle(const std::string& name, const PartitionOptions& options) const {
     partition(scene_, directory_ / name, options);
+    for (const VerifyFinding& f : verify_bundle(directory_ / name).problems)
+      ADD_FAILURE() << f.file << ": " << f.what;
     return directory_ / name;
   }
 

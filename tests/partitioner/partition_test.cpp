@@ -7,6 +7,7 @@
 #include <limits>
 #include <map>
 
+#include "bundle/verify.h"
 #include "tests/partitioner/bundle_contents.h"
 #include "tests/partitioner/test_scenes.h"
 #include "tests/support/temporary_directory.h"
@@ -55,6 +56,7 @@ TEST_F(Partition, DomainsAreBalanced) {
     EXPECT_LT(static_cast<double>(s.triangles_max), 1.3 * s.triangles_mean) << domains << " domains";
     EXPECT_EQ(s.duplicates, 0u);
     EXPECT_LT(s.area_error, 1e-6);
+    EXPECT_TRUE(verify_bundle(out).problems.empty());
   }
 }
 
@@ -77,7 +79,7 @@ TEST_F(Partition, DomainBytesCountObjects) {
 }
 
 TEST_F(Partition, StatisticsAgreeWithTheManifest) {
-  const PartitionStats s = partition(scene_of(bumpy_torus(100)), out, {.domains = 16});
+  const PartitionStats s = partition(scene_of(bumpy_torus(100)), out, {.domains = 16, .durable = true});
   const Manifest m = read_manifest(out);
   std::uint64_t triangles = 0, pieces = 0, bytes = 0;
   for (const DomainInfo& d : m.domains) {

@@ -5,6 +5,7 @@
 
 #include <fstream>
 
+#include "bundle/verify.h"
 #include "importers/import.h"
 #include "importers/ply/write_ply.h"
 #include "partitioner/partition.h"
@@ -53,6 +54,7 @@ TEST_F(Streaming, BucketsChangeTheCutsAlone) {
     EXPECT_EQ(m.scale, whole.scale);
     EXPECT_EQ(s.duplicates, 0u);
     EXPECT_LT(s.area_error, 1e-6);
+    EXPECT_TRUE(verify_bundle(out).problems.empty());
     EXPECT_EQ(contents(out).size(), 11u + 3u) << "nothing of the buckets is left";
   }
 }
