@@ -7,12 +7,13 @@
 #include <bit>
 
 #include "scene/deferred_mesh.h"
+#include "scene/huge_pages.h"
 
 namespace vitrail {
 
 namespace {
 
-constexpr std::size_t bucket_size = 4096, sampling = 8, least_samples = 64;
+constexpr std::size_t bucket_size = 1024, sampling = 8, least_samples = 64;
 constexpr int most_bucket_levels = 24;
 constexpr int most_levels_by_area = 60;  // below, each level halves what is left: at most 32 more
 
@@ -200,6 +201,7 @@ std::unique_ptr<BoxRecord[]> sort_into_buckets(std::span<const Bounds3f> boxes, 
   constexpr std::size_t block_size = 65536;
   const std::size_t blocks = (boxes.size() + block_size - 1) / block_size;
   auto sorted = std::make_unique_for_overwrite<BoxRecord[]>(boxes.size());
+  prefer_huge_pages(sorted.get(), boxes.size());
   const auto bucket = std::make_unique_for_overwrite<std::uint32_t[]>(boxes.size());
   std::vector<std::vector<std::size_t>> at(blocks, std::vector<std::size_t>(top.buckets));
   const auto in_blocks = [&](const auto& visit) {
@@ -256,7 +258,7 @@ BinaryTree build_binary_tree(std::span<const Bounds3f> boxes, unsigned leaf_size
   const auto sorted = sort_into_buckets(boxes, top, starts);
   BinaryTree tree;
   tree.nodes = std::make_unique_for_overwrite<BinaryNode[]>(2 * boxes.size() + top.nodes.size());
-  tree.order.resize(boxes.size());
+  tree.order = std::make_unique_for_overwrite<std::uint32_t[]>(boxes.size());
   std::vector<Built> built(top.buckets);
   tbb::parallel_for(std::size_t{0}, built.size(), [&](std::size_t b) {
     const std::size_t size = starts[b + 1] - starts[b];
@@ -264,7 +266,7 @@ BinaryTree build_binary_tree(std::span<const Bounds3f> boxes, unsigned leaf_size
     built[b].empty = size == 0;
     if (size == 0) return;
     const auto spare = std::make_unique_for_overwrite<BoxRecord[]>(size);
-    built[b].costs = BucketBuilder(leaf_size, tree.nodes.get(), built[b].node, tree.order.data())
+    built[b].costs = BucketBuilder(leaf_size, tree.nodes.get(), built[b].node, tree.order.get())
                          .build({&sorted[starts[b]], size}, spare.get(),
                                 static_cast<std::uint32_t>(starts[b]), top.levels);
   });

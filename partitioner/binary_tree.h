@@ -23,7 +23,7 @@ struct BinaryNode {
 struct BinaryTree {
   std::unique_ptr<BinaryNode[]> nodes;
   std::uint32_t root = 0;
-  std::vector<std::uint32_t> order;  // numbers of boxes, ascending in each leaf
+  std::unique_ptr<std::uint32_t[]> order;  // numbers of boxes, ascending in each leaf
 };
 
 // Of one box at least, with at most `leaf_size` a leaf.

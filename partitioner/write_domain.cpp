@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "partitioner/build_bvh.h"
+#include "scene/huge_pages.h"
 
 namespace vitrail {
 
@@ -35,7 +36,7 @@ Bounds3f bounds_of(const Triangle& t) {
 // The whole triangles', then the pieces'.
 std::vector<Bounds3f> boxes_of(const NumberedTriangles& triangles, const CellContent& cell) {
   std::vector<Bounds3f> boxes;
-  boxes.reserve(cell.size());
+  reserve_huge(boxes, cell.size());
   for (const std::uint32_t i : cell.whole) boxes.push_back(bounds_of(triangles.triangles[i]));
   for (const Piece& p : cell.pieces) boxes.push_back(bounds_of(cell.polygon(p)));
   return boxes;
@@ -99,13 +100,13 @@ DomainContent make_domain(const NumberedTriangles& triangles, const CellContent&
   content.piece_vertices = cell.piece_vertices;
   for (Piece& p : content.pieces) p.triangle = triangles.ids[p.triangle];
   const std::size_t clusters = tree.leaves.size() / cluster_width, slots = triangles.attributes.size();
-  content.clusters.resize(clusters);
+  reserve_huge(content.clusters, clusters);
   if (!triangles.normals.empty()) content.normals.resize(clusters);
   if (!triangles.uvs.empty()) content.uvs.resize(clusters);
   content.attributes.resize(clusters * slots);
   for (std::size_t c = 0; c < clusters; ++c) {
     const auto lanes = std::span(tree.leaves).subspan(c * cluster_width, cluster_width);
-    fill_cluster(triangles, lanes, content.clusters[c]);
+    fill_cluster(triangles, lanes, content.clusters.emplace_back());
     for (std::size_t lane = 0; lane < cluster_width; ++lane) {
       const std::uint32_t i = lanes[lane];
       for (std::size_t k = 0; k < 3; ++k) {
