@@ -2,6 +2,7 @@
 #include "partitioner/partition.h"
 
 #include <fmt/format.h>
+#include <tbb/task_arena.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -134,14 +135,20 @@ int run(Arguments& a) {
   }
   if (!a.profile.empty()) a.options.profile = read_ray_profile(a.profile);
   a.options.memory_bytes = a.memory.empty() ? default_memory_bytes() : parse_bytes(a.memory);
-  const ImportedScene imported = import_scene(
-      a.input, MeshMemory(a.options.domains_at_once > 0 ? 0 : mesh_bytes_within(a.options.memory_bytes)));
+  const bool visible = !a.quiet && ::isatty(STDERR_FILENO);
+  Watch reading(visible);
+  tbb::task_arena arena(a.options.threads > 0 ? a.options.threads : tbb::task_arena::automatic);
+  const ImportedScene imported = arena.execute([&] {
+    return import_scene(
+        a.input, MeshMemory(a.options.domains_at_once > 0 ? 0 : mesh_bytes_within(a.options.memory_bytes)),
+        [&](double fraction) { reading(std::min(fraction, 0.99), "reading the scene"); });
+  });
   Diagnostics diagnostics = imported.diagnostics;
   std::ranges::copy(appearance_of(imported.scene, {}).diagnostics, std::back_inserter(diagnostics));
   fmt::print(stderr, "{}", summarise(diagnostics));
   if (a.strict) require_exact(diagnostics);
   catch_signals();
-  Watch watch(!a.quiet && ::isatty(STDERR_FILENO));
+  Watch watch(visible);
   const PartitionStats stats = partition(imported.scene, a.output, a.options, std::ref(watch));
   if (!a.stats.empty()) write_stats(a.stats, stats);
   if (!a.quiet) print_summary(stats, a.output);

@@ -36,9 +36,10 @@ ImportedScene mesh_alone(const std::filesystem::path& file, MeshMemory& memory) 
 
 }  // namespace
 
-ImportedScene import_scene(const std::filesystem::path& file, MeshMemory memory) {
+ImportedScene import_scene(const std::filesystem::path& file, MeshMemory memory,
+                           std::function<void(double)> progress) {
   const std::string format = format_of(file);
-  if (format == ".pbrt") return read_pbrt(file, std::move(memory));
+  if (format == ".pbrt") return read_pbrt(file, std::move(memory), std::move(progress));
   if (format == ".xml") return read_mitsuba(file, std::move(memory));
   ImportedScene imported;
   if (format == ".obj")

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 
 #include "scene/deferred_mesh.h"
 #include "scene/scene.h"
@@ -13,6 +14,8 @@ namespace vitrail {
 // with its place. A file of geometry alone gets a camera that sees all of it and a constant sky, and
 // diagnostics that say so. Meshes with files of their own are in memory up to the limit; the others are read
 // and stay in their files (scene/deferred_mesh.h).
-ImportedScene import_scene(const std::filesystem::path& file, MeshMemory memory = MeshMemory{});
+// `progress`, if given, gets the fraction that is read, of a pbrt scene; what it throws stops the reading.
+ImportedScene import_scene(const std::filesystem::path& file, MeshMemory memory = MeshMemory{},
+                           std::function<void(double)> progress = {});
 
 }  // namespace vitrail

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// SAH clusters and the 8-wide BVH over them.
+// The 8-wide BVH over a domain's boxes.
 #pragma once
 
-#include <array>
 #include <span>
 #include <vector>
 
@@ -10,31 +9,22 @@
 
 namespace vitrail {
 
-// A triangle, or its part in one domain. `bounds` may be smaller than the triangle's where it is cut.
-struct TriangleReference {
-  Bounds3f bounds;                  // of the part in this domain, rounded outwards
-  std::array<Point3f, 3> vertices;  // of the uncut triangle
-  std::uint32_t id = 0;             // global triangle id
-};
-
-// Invariants: node 0 is the root; a node comes before its children, which keep their order; so do clusters.
-// Within a cluster the lanes are in the order of the references.
-struct ClusteredTriangles {
+// Invariants: node 0 is the root; a node comes before its children, which keep their order; so do leaves,
+// which are the clusters of `nodes`.
+struct BoxTree {
   std::vector<BvhNode> nodes;
-  std::vector<Cluster> clusters;
-  std::vector<std::uint32_t> lane_reference;  // [cluster·8 + lane]: index into `references`, or no_triangle
+  std::vector<std::uint32_t> leaves;  // [leaf · leaf_size + lane]: a box, ascending in a leaf, or no_triangle
 };
 
-// Clusters by Embree's SAH builder (rtcBuildBVH), at most 8 triangles each, and its binary tree collapsed to
-// 8-wide nodes of least SAH cost. A box holds the bounds of its references, inflated on every side by padding
-// + 10⁻⁶|x|. The result does not depend on the number of threads. Triangles of zero area are kept; no
-// references give no nodes. Throws MachineError when Embree fails.
-ClusteredTriangles build_bvh(std::span<const TriangleReference> references, float padding);
+// A binary tree by the surface area heuristic, collapsed to 8-wide nodes of least SAH cost. A box of the tree
+// is that of what it holds, inflated on every side by padding + 10⁻⁶|x|. The result depends neither on the
+// number of threads nor on the machine. No boxes give no nodes.
+BoxTree build_bvh(std::span<const Bounds3f> boxes, unsigned leaf_size, float padding);
+
+// The same with a leaf for each box, BvhNode::cluster_bit | its position.
+std::vector<BvhNode> build_tree(std::span<const Bounds3f> boxes, float padding);
 
 // A box moved by padding + 10⁻⁶|x| on every side.
 Bounds3f inflated(const Bounds3f& box, float padding);
-
-// The same tree with a leaf for each of the boxes, BvhNode::cluster_bit | its position.
-std::vector<BvhNode> build_tree(std::span<const Bounds3f> boxes, float padding);
 
 }  // namespace vitrail

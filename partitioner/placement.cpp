@@ -7,6 +7,8 @@
 
 #include <stdexcept>
 
+#include "scene/huge_pages.h"
+
 namespace vitrail {
 
 namespace {
@@ -72,6 +74,7 @@ Placement placement_of(const TriangleMesh& mesh, const Shape& shape, const Trans
 
 PlacedTriangles make_room(const PlacementRule& rule, std::uint64_t triangles) {
   PlacedTriangles placed;
+  reserve_huge(placed.triangles, triangles);
   placed.triangles.resize(triangles);
   if (rule.normals) placed.normals.resize(triangles);
   if (rule.uvs) placed.uvs.resize(triangles);

@@ -8,6 +8,7 @@
 
 #include "partitioner/build_bvh.h"
 #include "partitioner/write_objects.h"
+#include "scene/huge_pages.h"
 
 namespace vitrail {
 
@@ -28,17 +29,42 @@ Bounds3f bounds_of(std::span<const Point3d> polygon) {
           {rounded_up(b.upper.x), rounded_up(b.upper.y), rounded_up(b.upper.z)}};
 }
 
-// Whose ids are indices into `triangles` for now.
-std::vector<TriangleReference> references_of(const NumberedTriangles& triangles, const CellContent& cell) {
-  std::vector<TriangleReference> references;
-  references.reserve(cell.size());
-  for (const std::uint32_t i : cell.whole) {
-    TriangleReference& r = references.emplace_back(TriangleReference{{}, triangles.triangles[i], i});
-    for (const Point3f& v : r.vertices) extend(r.bounds, v);
+Bounds3f bounds_of(const Triangle& t) {
+  Bounds3f b;
+  for (const Point3f& v : t) extend(b, v);
+  return b;
+}
+
+// The whole triangles', then the pieces'.
+std::vector<Bounds3f> boxes_of(const NumberedTriangles& triangles, const CellContent& cell) {
+  std::vector<Bounds3f> boxes;
+  reserve_huge(boxes, cell.size());
+  for (const std::uint32_t i : cell.whole) boxes.push_back(bounds_of(triangles.triangles[i]));
+  for (const Piece& p : cell.pieces) boxes.push_back(bounds_of(cell.polygon(p)));
+  return boxes;
+}
+
+// The boxes of the leaves become the triangles that they are of.
+void name_triangles(const CellContent& cell, std::span<std::uint32_t> leaves) {
+  for (std::uint32_t& i : leaves) {
+    if (i == no_triangle) continue;
+    i = i < cell.whole.size() ? cell.whole[i] : cell.pieces[i - cell.whole.size()].triangle;
   }
-  for (const Piece& p : cell.pieces)
-    references.push_back({bounds_of(cell.polygon(p)), triangles.triangles[p.triangle], p.triangle});
-  return references;
+}
+
+constexpr Triangle empty_lane = [] {
+  constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+  return Triangle{Point3f{nan, nan, nan}, Point3f{nan, nan, nan}, Point3f{nan, nan, nan}};
+}();
+
+void fill_cluster(const NumberedTriangles& triangles, std::span<const std::uint32_t> lanes, Cluster& out) {
+  for (std::size_t lane = 0; lane < cluster_width; ++lane) {
+    const std::uint32_t i = lanes[lane];
+    const Triangle& t = i == no_triangle ? empty_lane : triangles.triangles[i];
+    out.id[lane] = i == no_triangle ? no_triangle : triangles.ids[i];
+    for (std::size_t k = 0; k < 3; ++k)
+      for (int axis = 0; axis < 3; ++axis) out.vertex[k][axis][lane] = t[k][axis];
+  }
 }
 
 Occupancy occupancy_of(const Bounds3f& box, const NumberedTriangles& triangles, const CellContent& cell,
@@ -56,22 +82,23 @@ Occupancy occupancy_of(const Bounds3f& box, const NumberedTriangles& triangles, 
 }  // namespace
 
 DomainContent make_domain(const NumberedTriangles& triangles, const CellContent& cell, float padding) {
-  ClusteredTriangles built = build_bvh(references_of(triangles, cell), padding);
+  BoxTree tree = build_bvh(boxes_of(triangles, cell), cluster_width, padding);
+  name_triangles(cell, tree.leaves);
   DomainContent content;
-  content.nodes = std::move(built.nodes);
-  content.clusters = std::move(built.clusters);
+  content.nodes = std::move(tree.nodes);
   content.pieces = cell.pieces;
   content.piece_vertices = cell.piece_vertices;
   for (Piece& p : content.pieces) p.triangle = triangles.ids[p.triangle];
-  const std::size_t slots = triangles.attributes.size();
-  if (!triangles.normals.empty()) content.normals.resize(content.clusters.size());
-  if (!triangles.uvs.empty()) content.uvs.resize(content.clusters.size());
-  content.attributes.resize(content.clusters.size() * slots);
-  for (std::size_t c = 0; c < content.clusters.size(); ++c)
+  const std::size_t clusters = tree.leaves.size() / cluster_width, slots = triangles.attributes.size();
+  reserve_huge(content.clusters, clusters);
+  if (!triangles.normals.empty()) content.normals.resize(clusters);
+  if (!triangles.uvs.empty()) content.uvs.resize(clusters);
+  content.attributes.resize(clusters * slots);
+  for (std::size_t c = 0; c < clusters; ++c) {
+    const auto lanes = std::span(tree.leaves).subspan(c * cluster_width, cluster_width);
+    fill_cluster(triangles, lanes, content.clusters.emplace_back());
     for (std::size_t lane = 0; lane < cluster_width; ++lane) {
-      std::uint32_t& id = content.clusters[c].id[lane];
-      const std::uint32_t i = id;
-      if (i != no_triangle) id = triangles.ids[i];
+      const std::uint32_t i = lanes[lane];
       for (std::size_t k = 0; k < 3; ++k) {
         if (!content.normals.empty())
           content.normals[c].normal[lane][k] = i == no_triangle ? no_normal : triangles.normals[i][k];
@@ -84,6 +111,7 @@ DomainContent make_domain(const NumberedTriangles& triangles, const CellContent&
           std::ranges::copy(triangles.attributes[s][i][k], content.attributes[c * slots + s].value[lane][k]);
       }
     }
+  }
   return content;
 }
 

@@ -46,13 +46,16 @@ std::uint64_t mixed(std::uint64_t a, std::uint64_t b);
 // Keeps meshes in memory up to a limit.
 class MeshMemory {
  public:
-  explicit MeshMemory(std::uint64_t limit_bytes = ~std::uint64_t{0}) : left_(limit_bytes) {}
+  explicit MeshMemory(std::uint64_t limit_bytes = ~std::uint64_t{0})
+      : limit_(limit_bytes), left_(limit_bytes) {}
+
+  std::uint64_t limit_bytes() const { return limit_; }
 
   // The mesh itself while it fits, else what stands for it.
   TriangleMesh keep(TriangleMesh mesh, MeshLoader load);
 
  private:
-  std::uint64_t left_, triangles_ = 0;
+  std::uint64_t limit_, left_, triangles_ = 0;
   std::vector<std::shared_ptr<DeferredMesh>> deferred_;
   int shift_ = 0;
 };

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
+#include <string_view>
 
 #include "importers/pbrt/report.h"
 #include "importers/pbrt/version.h"
@@ -17,6 +19,8 @@ struct Context {
   std::filesystem::path directory;  // of the main file
   Report report;
   MeshMemory mesh_memory;
+  std::function<void(double)> progress;                   // gets the fraction that is read
+  std::function<std::string_view(std::size_t)> upcoming;  // text of the file, up to so many bytes
 
   // Said of what v3 and v4 take differently, in a file that does not tell which it is.
   void note_version(const char* what, const Place& place) {

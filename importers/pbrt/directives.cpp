@@ -56,7 +56,9 @@ Interpreter::Interpreter(TokenStream& tokens, Context& context)
     : tokens_(tokens),
       context_(context),
       view_(default_view(context.version)),
-      shapes_(context, scene_.meshes) {}
+      shapes_(context, scene_.meshes) {
+  context_.upcoming = [this](std::size_t bytes) { return tokens_.upcoming(bytes); };
+}
 
 Scene Interpreter::run() {
   for (Token token = tokens_.next(); token.kind != TokenKind::end; token = tokens_.next()) {
@@ -66,6 +68,7 @@ Scene Interpreter::run() {
     }
     execute(token);
     tokens_.release();
+    if (context_.progress) context_.progress(tokens_.fraction_read());
   }
   check_blocks_are_closed();
   if (world_ == World::inside && context_.version == Version::v3)

@@ -6,9 +6,11 @@
 
 namespace vitrail {
 
-ImportedScene read_pbrt(const std::filesystem::path& file, MeshMemory memory) {
+ImportedScene read_pbrt(const std::filesystem::path& file, MeshMemory memory,
+                        std::function<void(double)> progress) {
   pbrt::Context context;
   context.mesh_memory = std::move(memory);
+  context.progress = std::move(progress);
   const pbrt::DetectedVersion detected = pbrt::detect_version(file);
   context.version = detected.version;
   context.version_is_certain = detected.certain;

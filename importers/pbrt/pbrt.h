@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 
 #include "scene/deferred_mesh.h"
 #include "scene/scene.h"
@@ -13,6 +14,8 @@ namespace vitrail {
 // different things, the version decides that the main file's first tell-tale word belongs to
 // (importers/README.md). Bad input throws Error with its place. A file without WorldBegin is a part of a
 // scene: it gets a camera and a sky.
-ImportedScene read_pbrt(const std::filesystem::path& file, MeshMemory memory = MeshMemory{});
+// `progress`, if given, gets the fraction of the file that is read; what it throws stops the reading.
+ImportedScene read_pbrt(const std::filesystem::path& file, MeshMemory memory = MeshMemory{},
+                        std::function<void(double)> progress = {});
 
 }  // namespace vitrail

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string_view>
 
 #include "importers/ply/ply.h"
 #include "importers/shapes/shapes.h"
@@ -179,6 +180,38 @@ Vector3d offset_of(const Parameter& parameter) {
 
 }  // namespace
 
+namespace {
+
+constexpr std::uint64_t most_bytes_ahead = 256ull << 20;
+
+MeshReadAhead::Result read_oriented(const std::filesystem::path& path) {
+  MeshReadAhead::Result result;
+  result.mesh = read_ply(path, &result.diagnostics);
+  orient_by_normals(result.mesh);
+  return result;
+}
+
+}  // namespace
+
+ShapeMaker::ShapeMaker(Context& context, std::vector<TriangleMesh>& meshes)
+    : context_(context),
+      meshes_(meshes),
+      ply_reader_(read_oriented, std::min(most_bytes_ahead, context.mesh_memory.limit_bytes() / 4)) {}
+
+void ShapeMaker::read_ahead() {
+  constexpr std::size_t text_bytes = 1 << 18;
+  constexpr std::string_view suffix = ".ply\"";
+  if (!context_.upcoming || !ply_reader_.has_room()) return;
+  const std::string_view text = context_.upcoming(text_bytes);
+  for (std::size_t at = text.find(suffix); at != text.npos; at = text.find(suffix, at + suffix.size())) {
+    const std::size_t quote = text.rfind('"', at);
+    if (quote == text.npos) continue;
+    const std::filesystem::path path =
+        context_.resolve(std::string(text.substr(quote + 1, at + suffix.size() - quote - 2)));
+    if (!ply_files_.contains(path.string()) && !ply_reader_.expect(path)) return;
+  }
+}
+
 Id<TriangleMesh> ShapeMaker::add(TriangleMesh mesh) {
   meshes_.push_back(std::move(mesh));
   return {static_cast<std::uint32_t>(meshes_.size() - 1)};
@@ -208,15 +241,11 @@ ShapeGeometry ShapeMaker::ply_mesh(ParameterSet& parameters) {
     fail(fmt::format("cannot find the file \"{}\"", path.string()), filename->place);
   const auto [known, is_new] = ply_files_.try_emplace(path.string());
   if (is_new) {
-    Diagnostics diagnostics;
-    TriangleMesh mesh = read_ply(path, &diagnostics);
+    read_ahead();
+    auto [mesh, diagnostics] = ply_reader_.take(path);
     for (Diagnostic& diagnostic : diagnostics) context_.report.add(std::move(diagnostic));
-    orient_by_normals(mesh);
-    known->second = add(context_.mesh_memory.keep(std::move(mesh), [path] {
-      TriangleMesh again = read_ply(path);
-      orient_by_normals(again);
-      return again;
-    }));
+    known->second =
+        add(context_.mesh_memory.keep(std::move(mesh), [path] { return read_oriented(path).mesh; }));
   }
   return {known->second, false, {}, triangles_of(meshes_[known->second.value])};
 }

@@ -8,6 +8,7 @@
 
 #include "importers/pbrt/context.h"
 #include "importers/pbrt/parameters.h"
+#include "importers/ply/mesh_read_ahead.h"
 #include "scene/scene.h"
 
 namespace vitrail::pbrt {
@@ -26,7 +27,7 @@ struct ShapeGeometry {
 // Makes meshes and keeps those that come again (the same file, the same sphere).
 class ShapeMaker {
  public:
-  ShapeMaker(Context& context, std::vector<TriangleMesh>& meshes) : context_(context), meshes_(meshes) {}
+  ShapeMaker(Context& context, std::vector<TriangleMesh>& meshes);
 
   // Nothing where the kind cannot be represented and is dropped with a diagnostic, or where nothing of it
   // shows. The triangles' own orientation is pbrt's front side before ReverseOrientation and the transform.
@@ -40,11 +41,14 @@ class ShapeMaker {
   std::optional<ShapeGeometry> curve(ParameterSet& parameters);
   std::optional<ShapeGeometry> quadric(const std::string& kind, ParameterSet& parameters);
   Id<TriangleMesh> add(TriangleMesh mesh);
+  // Has the meshes read that the text to come names.
+  void read_ahead();
 
   using QuadricKey = std::tuple<std::string, double, double, double, double>;
   Context& context_;
   std::vector<TriangleMesh>& meshes_;
   std::map<std::string, Id<TriangleMesh>> ply_files_;
+  MeshReadAhead ply_reader_;
   std::map<QuadricKey, Id<TriangleMesh>> quadrics_;
 };
 

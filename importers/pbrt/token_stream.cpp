@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace vitrail::pbrt {
 
 TokenStream::Source::Source(const std::filesystem::path& path, const std::string* name, bool imported)
@@ -48,6 +50,18 @@ Token TokenStream::next() {
 }
 
 bool TokenStream::text_follows() { return current().peek() == '"'; }
+
+std::string_view TokenStream::upcoming(std::size_t bytes) const {
+  const char* const at = sources_.back()->lexer.position();
+  const auto left = static_cast<std::size_t>(sources_.back()->bytes.end() - at);
+  return {at, std::min(bytes, left)};
+}
+
+double TokenStream::fraction_read() const {
+  const Source& main = *sources_.front();
+  return static_cast<double>(main.lexer.position() - main.bytes.begin()) /
+         static_cast<double>(std::max<std::size_t>(main.bytes.size(), 1));
+}
 
 void TokenStream::release() { sources_.back()->bytes.release_before(sources_.back()->lexer.position()); }
 

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "importers/pbrt/lexer.h"
@@ -27,6 +28,10 @@ class TokenStream {
   }
   // True if the next token is a quoted string.
   bool text_follows();
+  // The text that comes, up to so many bytes of the file that is being read.
+  std::string_view upcoming(std::size_t bytes) const;
+  // How much of the main file is read.
+  double fraction_read() const;
   // Lets go of the memory of what has been read.
   void release();
 

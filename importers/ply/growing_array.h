@@ -15,17 +15,9 @@
 #include <utility>
 #include <vector>
 
-namespace vitrail {
+#include "scene/huge_pages.h"
 
-// Asks for huge pages under what is about to be filled: a large mesh then costs a fraction of the page
-// faults.
-template <class T>
-void prefer_huge_pages(T* data, std::size_t count) {
-  constexpr std::uintptr_t huge = std::uintptr_t{2} << 20;
-  const auto begin = (reinterpret_cast<std::uintptr_t>(data) + huge - 1) / huge * huge;
-  const auto end = reinterpret_cast<std::uintptr_t>(data + count) / huge * huge;
-  if (begin < end) ::madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);
-}
+namespace vitrail {
 
 // Plain records of which nobody knows yet how many will come. Unlike a std::vector it grows without a second
 // copy in memory (a large block is moved by its page table), and can be turned into one.

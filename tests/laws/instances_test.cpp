@@ -54,17 +54,12 @@ struct Kept {
 
 Kept keep(const Parts& parts, std::size_t part, const std::vector<Kept>& before, float padding) {
   Kept kept;
-  std::vector<TriangleReference> references;
-  for (const Triangle& t : parts[part].triangles) {
-    TriangleReference r{{}, t, static_cast<std::uint32_t>(references.size())};
-    for (const Point3f& p : t) extend(r.bounds, p);
-    extend(kept.bounds, r.bounds);
-    references.push_back(r);
-  }
-  ClusteredTriangles built = build_bvh(references, padding);
+  for (const Triangle& t : parts[part].triangles)
+    for (const Point3f& p : t) extend(kept.bounds, p);
+  ClusteredTriangles built = cluster(parts[part].triangles, padding);
   kept.content.nodes = std::move(built.nodes);
   kept.content.clusters = std::move(built.clusters);
-  std::size_t first = references.size();
+  std::size_t first = parts[part].triangles.size();
   std::vector<Bounds3f> boxes;
   for (const Part::Use& use : parts[part].uses) {
     Bounds3f box = placed_bounds(use.to_parent, before[use.part].bounds);

@@ -23,15 +23,35 @@ inline float greatest_coordinate(const Triangles& triangles) {
   return greatest;
 }
 
-// Ids are the positions in the list. Padded as manifest.h says.
-inline ClusteredTriangles cluster(const Triangles& triangles) {
-  std::vector<TriangleReference> references(triangles.size());
-  for (std::size_t i = 0; i < triangles.size(); ++i) {
-    references[i].vertices = triangles[i];
-    references[i].id = static_cast<std::uint32_t>(i);
-    for (const Point3f p : triangles[i]) extend(references[i].bounds, p);
+struct ClusteredTriangles {
+  std::vector<BvhNode> nodes;
+  std::vector<Cluster> clusters;
+  std::vector<std::uint32_t> lane_reference;  // [cluster·8 + lane]: position in the list, or no_triangle
+};
+
+// Ids are the positions in the list.
+inline ClusteredTriangles cluster(const Triangles& triangles, float padding) {
+  std::vector<Bounds3f> boxes(triangles.size());
+  for (std::size_t i = 0; i < triangles.size(); ++i)
+    for (const Point3f p : triangles[i]) extend(boxes[i], p);
+  BoxTree tree = build_bvh(boxes, cluster_width, padding);
+  ClusteredTriangles out{std::move(tree.nodes), {}, std::move(tree.leaves)};
+  out.clusters.resize(out.lane_reference.size() / cluster_width);
+  for (std::size_t i = 0; i < out.lane_reference.size(); ++i) {
+    const std::uint32_t triangle = out.lane_reference[i];
+    Cluster& c = out.clusters[i / cluster_width];
+    c.id[i % cluster_width] = triangle;
+    for (std::size_t k = 0; k < 3; ++k)
+      for (int axis = 0; axis < 3; ++axis)
+        c.vertex[k][axis][i % cluster_width] =
+            triangle == no_triangle ? std::numeric_limits<float>::quiet_NaN() : triangles[triangle][k][axis];
   }
-  return build_bvh(references, 2e-6f * greatest_coordinate(triangles));
+  return out;
+}
+
+// Padded as manifest.h says.
+inline ClusteredTriangles cluster(const Triangles& triangles) {
+  return cluster(triangles, 2e-6f * greatest_coordinate(triangles));
 }
 
 inline DomainView view_of(const ClusteredTriangles& clustered) {
