@@ -13,6 +13,7 @@
 
 #include "cli/diagnostics_report.h"
 #include "cli/main_guard.h"
+#include "cli/mesh_options.h"
 #include "cli/sizes.h"
 #include "importers/import.h"
 #include "partitioner/appearance.h"
@@ -25,6 +26,7 @@ struct Arguments {
   std::filesystem::path input, output, stats;
   std::string domain_bytes, memory;
   bool strict = false, quiet = false;
+  MeshOptions meshes;
   PartitionOptions options;
 };
 
@@ -45,6 +47,7 @@ void declare(CLI::App& app, Arguments& a) {
       "disk beside the bundle on its way");
   app.add_option("--threads", a.options.threads, "threads; default: all cores")->check(CLI::Range(1, 4096));
   app.add_option("--stats", a.stats, "write statistics as JSON");
+  declare_mesh_options(app, a.meshes);
   app.add_flag("--strict", a.strict, "fail if anything in the scene is not imported exactly");
   app.add_flag("--quiet", a.quiet, "no progress and no summary");
 }
@@ -132,12 +135,13 @@ int run(Arguments& a) {
     if (a.options.domain_bytes == 0) throw UsageError("--domain-bytes has to be more than 0");
   }
   a.options.memory_bytes = a.memory.empty() ? default_memory_bytes() : parse_bytes(a.memory);
-  const ImportedScene imported = import_scene(
+  ImportedScene imported = import_scene(
       a.input, MeshMemory(a.options.domains_at_once > 0 ? 0 : mesh_bytes_within(a.options.memory_bytes)));
   Diagnostics diagnostics = imported.diagnostics;
   std::ranges::copy(appearance_of(imported.scene, {}).diagnostics, std::back_inserter(diagnostics));
   fmt::print(stderr, "{}", summarise(diagnostics));
   if (a.strict) require_exact(diagnostics);
+  fmt::print(stderr, "{}", summarise(apply_mesh_options(a.meshes, imported.scene, a.options.memory_bytes)));
   catch_signals();
   Watch watch(!a.quiet && ::isatty(STDERR_FILENO));
   const PartitionStats stats = partition(imported.scene, a.output, a.options, std::ref(watch));

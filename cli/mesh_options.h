@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// The options that change meshes on their way: --repair, --orient, --subdivide, --decimate.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+#include "scene/scene.h"
+
+namespace vitrail {
+
+struct MeshOptions {
+  bool repair = false, orient = false;
+  int subdivide = 0;    // levels
+  double decimate = 1;  // fraction of the triangles to keep
+  bool any() const { return repair || orient || subdivide > 0 || decimate < 1; }
+};
+
+void declare_mesh_options(CLI::App& app, MeshOptions& options);
+
+// The same options, for another program of the suite.
+std::vector<std::string> arguments_of(const MeshOptions& options);
+
+// Does what they ask for and says so on standard error; nothing without them. Of what it does: notes, which
+// --strict does not refuse. With importers' subdivision; `memory_bytes` as for edit_meshes.
+Diagnostics apply_mesh_options(const MeshOptions& options, Scene& scene, std::uint64_t memory_bytes);
+
+}  // namespace vitrail
