@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which edges OpenMesh's decimater may collapse, and in which order.
+// Which edges may be collapsed, and at what cost.
 #pragma once
 
 #include <OpenMesh/Core/Utils/vector_traits.hh>
 // which QuadricT.hh needs and does not include
 #include <OpenMesh/Core/Geometry/QuadricT.hh>
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
-#include <OpenMesh/Tools/Decimater/ModBaseT.hh>
+#include <OpenMesh/Tools/Decimater/CollapseInfoT.hh>
+#include <optional>
 
 #include "partitioner/meshes/surface.h"
 
@@ -20,21 +21,18 @@ using HalfEdges = OpenMesh::TriMesh_ArrayKernelT<DoublePoints>;
 // Features are borders of the surface and seams, where wedges or attributes of the faces differ across an
 // edge. A vertex on two of the same kind slides along them; one with none moves freely; all others stay.
 // No collapse changes what its neighbours are.
-class CollapseRules : public OpenMesh::Decimater::ModBaseT<HalfEdges> {
+class CollapseRules {
  public:
-  using Base = OpenMesh::Decimater::ModBaseT<HalfEdges>;
-  using Mesh = HalfEdges;
-  using Handle = OpenMesh::Decimater::ModHandleT<CollapseRules>;
-  using CollapseInfo = Base::CollapseInfo;
-  DECIMATER_MODNAME(CollapseRules)
-
-  explicit CollapseRules(HalfEdges& mesh) : Base(mesh, false) {}
+  using Collapse = OpenMesh::Decimater::CollapseInfoT<HalfEdges>;  // of v0 into v1
 
   // Faces and vertices of the half-edge mesh have the numbers of the surface's; its diagonal is 1.
-  void prepare(const TriangleMesh& source, const Surface& surface);
+  CollapseRules(HalfEdges& mesh, const TriangleMesh& source, const Surface& surface);
 
-  float collapse_priority(const CollapseInfo& collapse) override;
-  void preprocess_collapse(const CollapseInfo& collapse) override;
+  // The quadric error, area × distance²; none where v0 must not move to v1. Cheap.
+  std::optional<double> cost(const Collapse& collapse);
+  // Whether the surface stays one and its triangles sound. Asked where there is a cost.
+  bool is_sound(const Collapse& collapse);
+  void apply(const Collapse& collapse);
 
   const std::vector<Triangle>& wedges() const { return wedges_; }  // of the faces, as they are now
 
@@ -55,21 +53,22 @@ class CollapseRules : public OpenMesh::Decimater::ModBaseT<HalfEdges> {
   void add_planes();
   std::size_t corner(Face f, Vertex v) const;
   std::uint32_t wedge(Face f, Vertex v) const { return wedges_[index(f)][corner(f, v)]; }
-  void find_changes(const CollapseInfo& collapse);
+  void find_changes(const Collapse& collapse);
   struct Change {  // of a face that stays around v0
     Face face;
     std::size_t corner;
     std::uint32_t wedge;
   };
-  bool is_sound(const Change& change, const Point& position);
-  Edge other_feature(const CollapseInfo& collapse, Kind kind);
-  double border_shift(const CollapseInfo& collapse, Vertex other);
+  bool stays_sound(const Change& change, const Point& position);
+  Edge other_feature(const Collapse& collapse, Kind kind);
+  double border_shift(const Collapse& collapse, Vertex other);
   template <class Handle_>
   static std::size_t index(Handle_ h) {
     return static_cast<std::size_t>(h.idx());
   }
 
-  const TriangleMesh* source_ = nullptr;
+  HalfEdges& mesh_;
+  const TriangleMesh& source_;
   std::vector<Triangle> vertices_, wedges_;
   std::vector<std::uint32_t> face_class_;
   std::vector<Kind> kinds_;

@@ -18,8 +18,7 @@ void expect_about(std::size_t triangles, double asked) {
 }
 
 TEST(Decimate, ClosedSurfacesStayClosedAndClose) {
-  for (const TriangleMesh& mesh :
-       {test::sphere(6), test::torus(160, 80), test::sphere(5, 1e-6, {0, 0, 3e-6})})
+  for (const TriangleMesh& mesh : {test::sphere(5), test::torus(80, 40), test::sphere(5, 1e-6, {0, 0, 3e-6})})
     for (const double fraction : {0.5, 0.1, 0.03}) {
       const DecimatedMesh decimated = decimate(mesh, fraction);
       expect_about(decimated.mesh.triangles.size(), fraction * static_cast<double>(mesh.triangles.size()));
@@ -37,14 +36,14 @@ TEST(Decimate, ClosedSurfacesStayClosedAndClose) {
 // The distance of the best triangulation by n triangles of a sphere of radius 1 is about 4.8/n (a regular
 // triangle of edge e is e²/6 below its circumscribed cap).
 TEST(Decimate, ErrorsAreThoseOfSoManyTriangles) {
-  const TriangleMesh ball = test::sphere(6), ring = test::torus(160, 80);
+  const TriangleMesh ball = test::sphere(5), ring = test::torus(80, 40);
   for (const double fraction : {0.5, 0.1, 0.03}) {
     const TriangleMesh few = decimate(ball, fraction).mesh;
     const double best = 4.8 / static_cast<double>(few.triangles.size());
     EXPECT_LT(test::greatest_distance(ball, few), 5 * best);
     EXPECT_LT(test::greatest_distance(few, ball), 5 * best);
   }
-  const TriangleMesh few = decimate(ring, 0.05).mesh;
+  const TriangleMesh few = decimate(ring, 0.2).mesh;
   EXPECT_LT(test::greatest_distance(ring, few), 0.02);
   EXPECT_LT(test::greatest_distance(few, ring), 0.02);
 }
@@ -67,7 +66,7 @@ TEST(Decimate, VerticesAreTheMeshesOwn) {
   // No triangle of the upper half reaches into the lower one.
   for (std::size_t i = 0; i < few.triangles.size(); ++i)
     for (const std::uint32_t v : few.triangles[i]) {
-      if (few.attributes[1].values[i] > 0) EXPECT_GE(few.positions[v].z, -0.13);
+      EXPECT_GE(few.positions[v].z, few.attributes[1].values[i] > 0 ? -0.13 : -1);
     }
 }
 
