@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <limits>
 
 #include "cli/conversion_report.h"
 #include "cli/diagnostics_report.h"
@@ -11,6 +10,7 @@
 #include "cli/mesh_options.h"
 #include "importers/export.h"
 #include "importers/import.h"
+#include "partitioner/meshes/edit_meshes.h"
 
 namespace vitrail {
 namespace {
@@ -42,7 +42,7 @@ int run(const Arguments& a) {
   const bool refused = a.strict && !diagnostics.empty();
   Diagnostics edits;  // as asked for
   if (!refused) {
-    edits = apply_mesh_options(a.meshes, imported.scene, std::numeric_limits<std::uint64_t>::max());
+    edits = apply_mesh_options(a.meshes, imported.scene, MeshResources{});
     std::ranges::move(export_scene(imported.scene, a.output), std::back_inserter(diagnostics));
   }
   const bool exact = diagnostics.empty();

@@ -10,6 +10,8 @@
 
 namespace vitrail {
 
+struct MeshResources;  // partitioner/meshes/edit_meshes.h
+
 struct MeshOptions {
   bool repair = false, orient = false;
   int subdivide = 0;    // levels
@@ -23,7 +25,7 @@ void declare_mesh_options(CLI::App& app, MeshOptions& options);
 std::vector<std::string> arguments_of(const MeshOptions& options);
 
 // Does what they ask for and says so on standard error; nothing without them. Of what it does: notes, which
-// --strict does not refuse. With importers' subdivision; `memory_bytes` as for edit_meshes.
-Diagnostics apply_mesh_options(const MeshOptions& options, Scene& scene, std::uint64_t memory_bytes);
+// --strict does not refuse.
+Diagnostics apply_mesh_options(const MeshOptions& options, Scene& scene, const MeshResources& resources);
 
 }  // namespace vitrail

@@ -17,6 +17,7 @@
 #include "cli/sizes.h"
 #include "importers/import.h"
 #include "partitioner/appearance.h"
+#include "partitioner/meshes/edit_meshes.h"
 #include "scene/atomic_file.h"
 
 namespace vitrail {
@@ -135,13 +136,15 @@ int run(Arguments& a) {
     if (a.options.domain_bytes == 0) throw UsageError("--domain-bytes has to be more than 0");
   }
   a.options.memory_bytes = a.memory.empty() ? default_memory_bytes() : parse_bytes(a.memory);
-  ImportedScene imported = import_scene(
-      a.input, MeshMemory(a.options.domains_at_once > 0 ? 0 : mesh_bytes_within(a.options.memory_bytes)));
+  const std::uint64_t kept_bytes =
+      a.options.domains_at_once > 0 ? 0 : mesh_bytes_within(a.options.memory_bytes);
+  ImportedScene imported = import_scene(a.input, MeshMemory(kept_bytes));
   Diagnostics diagnostics = imported.diagnostics;
   std::ranges::copy(appearance_of(imported.scene, {}).diagnostics, std::back_inserter(diagnostics));
   fmt::print(stderr, "{}", summarise(diagnostics));
   if (a.strict) require_exact(diagnostics);
-  fmt::print(stderr, "{}", summarise(apply_mesh_options(a.meshes, imported.scene, a.options.memory_bytes)));
+  const MeshResources resources{kept_bytes, a.options.memory_bytes, a.options.threads};
+  fmt::print(stderr, "{}", summarise(apply_mesh_options(a.meshes, imported.scene, resources)));
   catch_signals();
   Watch watch(!a.quiet && ::isatty(STDERR_FILENO));
   const PartitionStats stats = partition(imported.scene, a.output, a.options, std::ref(watch));

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/bounds.h"
+
 namespace vitrail {
 
 namespace {
@@ -11,7 +13,9 @@ namespace {
 using Point = HalfEdges::Point;
 using Quadric = OpenMesh::Geometry::QuadricT<double>;
 
-constexpr double greatest_error = 0.02, greatest_border_shift = 0.001;  // of the mesh's diagonal
+// Of a component's diagonal; of the ratio of volume to area of a closed one, which is half of a sheet's
+// thickness and of a rod's radius.
+constexpr double greatest_error = 0.005, greatest_border_shift = 0.001, greatest_error_of_thickness = 0.1;
 constexpr double least_turn_cosine = 0.2;  // of a triangle's normal, in one collapse
 constexpr double least_shape = 0.02;       // twice the area over the longest edge squared
 constexpr double length_weight = 1e-6;     // prefers short edges where all lie in one plane
@@ -53,6 +57,44 @@ CollapseRules::CollapseRules(HalfEdges& mesh, const TriangleMesh& source, const 
   for (const Vertex v : mesh_.vertices())
     kinds_.push_back(surface.held[index(v)] ? Kind::fixed : kind_of_vertex(v));
   add_planes();
+  find_limits();
+}
+
+void CollapseRules::find_limits() {
+  component_.resize(mesh_.n_vertices());
+  std::vector<bool> seen(mesh_.n_vertices());
+  std::vector<Vertex> reached;
+  for (const Vertex start : mesh_.vertices()) {
+    if (seen[index(start)]) continue;
+    reached.assign(1, start);
+    seen[index(start)] = true;
+    Bounds3d bounds;
+    bool closed = true;
+    double area = 0, volume = 0;  // 6 and 18 times, each triangle seen from its three corners
+    for (std::size_t i = 0; i < reached.size(); ++i) {
+      const Point p = mesh_.point(reached[i]), origin = mesh_.point(start);
+      extend(bounds, Point3d{p[0], p[1], p[2]});
+      component_[index(reached[i])] = static_cast<std::uint32_t>(limits_.size());
+      for (const Edge h : mesh_.voh_range(reached[i])) {
+        const Vertex next = mesh_.to_vertex_handle(h);
+        if (!seen[index(next)]) reached.push_back(next);
+        seen[index(next)] = true;
+        if (mesh_.is_boundary(h)) {
+          closed = false;
+          continue;
+        }
+        const Point a = mesh_.point(next) - origin,
+                    b = mesh_.point(mesh_.to_vertex_handle(mesh_.next_halfedge_handle(h))) - origin;
+        area += ((a - (p - origin)) % (b - (p - origin))).norm();
+        volume += (p - origin) | (a % b);
+      }
+    }
+    const double diagonal = length(extent(bounds));
+    Limits& limits =
+        limits_.emplace_back(Limits{greatest_error * diagonal, greatest_border_shift * diagonal});
+    if (closed && area > 0)
+      limits.error = std::min(limits.error, greatest_error_of_thickness * std::abs(volume) / (3 * area));
+  }
 }
 
 std::size_t CollapseRules::corner(Face f, Vertex v) const {
@@ -173,11 +215,12 @@ std::optional<double> CollapseRules::cost(const Collapse& c) {
   if (kind == Kind::fixed || (kind != Kind::smooth && kind_of_edge(c.v0v1) != kind)) return {};
   const Error &e0 = errors_[index(c.v0)], &e1 = errors_[index(c.v1)];
   const double error = std::max(0.0, e0.quadric(c.p1) + e1.quadric(c.p1)), weight = e0.weight + e1.weight;
-  if (error > weight * greatest_error * greatest_error) return {};
+  const Limits& limits = limits_[component_[index(c.v0)]];
+  if (error > weight * limits.error * limits.error) return {};
   if (kind != Kind::smooth) {
     const Vertex other = mesh_.to_vertex_handle(other_feature(c, kind));
     if (other == c.vl || other == c.vr) return {};
-    if (kind == Kind::border && border_shift(c, other) > greatest_border_shift) return {};
+    if (kind == Kind::border && border_shift(c, other) > limits.border_shift) return {};
   }
   return error + length_weight * weight * (c.p1 - c.p0).sqrnorm();
 }

@@ -51,6 +51,7 @@ class CollapseRules {
   Kind kind_of_edge(Edge h);
   Kind kind_of_vertex(Vertex v);
   void add_planes();
+  void find_limits();
   std::size_t corner(Face f, Vertex v) const;
   std::uint32_t wedge(Face f, Vertex v) const { return wedges_[index(f)][corner(f, v)]; }
   void find_changes(const Collapse& collapse);
@@ -73,7 +74,12 @@ class CollapseRules {
   std::vector<std::uint32_t> face_class_;
   std::vector<Kind> kinds_;
   std::vector<Error> errors_;
-  std::vector<float> shifts_;  // that borders at a vertex may have made already
+  struct Limits {  // of a connected component
+    double error = 0, border_shift = 0;
+  };
+  std::vector<Limits> limits_;
+  std::vector<std::uint32_t> component_;  // of a vertex
+  std::vector<float> shifts_;             // that borders at a vertex may have made already
   std::vector<Change> changes_;
 };
 

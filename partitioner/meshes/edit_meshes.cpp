@@ -3,9 +3,12 @@
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <memory>
 
 #include "partitioner/meshes/decimate.h"
@@ -110,40 +113,65 @@ TriangleMesh edited(TriangleMesh mesh, const MeshEdits& edits, const Use& use, N
   return mesh;
 }
 
-// While one mesh is edited: measured, at most.
+std::uint64_t resident_bytes() {
+  std::uint64_t pages = 0, resident_pages = 0;
+  std::ifstream("/proc/self/statm") >> pages >> resident_pages;
+  return resident_pages * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
+}
+
+// While one mesh is edited, measured: most with CGAL's maps of edges.
 double bytes_needed(std::uint64_t triangles, const MeshEdits& edits) {
-  constexpr double bytes_a_triangle = 600;
+  const double bytes_a_triangle = edits.orient ? 700 : 400;
   return bytes_a_triangle * static_cast<double>(triangles) * std::pow(4.0, edits.subdivide);
 }
 
-void require_memory(double bytes, std::uint64_t memory_bytes, const SourceLocation& where) {
-  if (bytes <= static_cast<double>(memory_bytes)) return;
-  const std::string place = to_string(where);
-  throw MachineError(fmt::format("{}{}to edit this mesh takes {:.0f} MB of memory, and {:.0f} MB are allowed",
-                                 place, place.empty() ? "" : ": ", bytes * 1e-6,
-                                 static_cast<double>(memory_bytes) * 1e-6));
+// Throws where the largest mesh does not fit; says how many like it do at once.
+int meshes_at_once(const Scene& scene, const MeshEdits& edits, const MeshResources& resources,
+                   const std::vector<Use>& uses) {
+  const int threads = resources.threads > 0 ? resources.threads : tbb::this_task_arena::max_concurrency();
+  if (resources.resident_bytes == MeshResources::unlimited) return threads;
+  const double left = static_cast<double>(resources.resident_bytes) - static_cast<double>(resident_bytes());
+  double most = 1;
+  for (std::size_t i = 0; i < uses.size(); ++i) {
+    if (!uses[i].used) continue;
+    const double bytes = bytes_needed(triangles_of(scene.meshes[i]), edits);
+    if (bytes > left)
+      throw MachineError(fmt::format(
+          "{}: to edit this mesh of {} triangles takes {:.0f} MB of memory, and {:.0f} MB are left",
+          to_string(location(scene, uses[i].origin)), triangles_of(scene.meshes[i]), bytes * 1e-6,
+          std::max(0.0, left) * 1e-6));
+    most = std::max(most, bytes);
+  }
+  return std::clamp(static_cast<int>(std::min(left / most, 1e6)), 1, threads);
+}
+
+// What `resources` leave for meshes that are in their files yet.
+std::uint64_t left_to_keep(const Scene& scene, const MeshResources& resources) {
+  std::uint64_t in_memory = 0;
+  for (const TriangleMesh& mesh : scene.meshes) in_memory += bytes_of(mesh);
+  if (in_memory > resources.resident_bytes)
+    throw MachineError(fmt::format("the edited meshes take {:.0f} MB, and {:.0f} MB of memory are allowed",
+                                   static_cast<double>(in_memory) * 1e-6,
+                                   static_cast<double>(resources.resident_bytes) * 1e-6));
+  return resources.kept_bytes - std::min(resources.kept_bytes, in_memory);
 }
 
 }  // namespace
 
-EditedMeshes edit_meshes(Scene& scene, const MeshEdits& edits, std::uint64_t memory_bytes) {
+EditedMeshes edit_meshes(Scene& scene, const MeshEdits& edits, const MeshResources& resources) {
   const std::vector<Use> uses = uses_of(scene);
   std::vector<Notes> notes(scene.meshes.size());
   EditedMeshes result;
-  for (std::size_t i = 0; i < uses.size(); ++i) {
-    if (!uses[i].used) continue;
-    const std::uint64_t triangles = triangles_of(scene.meshes[i]);
-    require_memory(bytes_needed(triangles, edits), memory_bytes, location(scene, uses[i].origin));
-    result.triangles_before += triangles;
-  }
-  tbb::parallel_for(std::size_t{0}, uses.size(), [&](std::size_t i) {
-    TriangleMesh& mesh = scene.meshes[i];
-    if (uses[i].used && !mesh.deferred) mesh = edited(std::move(mesh), edits, uses[i], notes[i]);
+  for (std::size_t i = 0; i < uses.size(); ++i)
+    if (uses[i].used) result.triangles_before += triangles_of(scene.meshes[i]);
+  tbb::task_arena arena(meshes_at_once(scene, edits, resources, uses));
+  arena.execute([&] {
+    tbb::parallel_for(std::size_t{0}, uses.size(), [&](std::size_t i) {
+      TriangleMesh& mesh = scene.meshes[i];
+      if (uses[i].used && !mesh.deferred) mesh = edited(std::move(mesh), edits, uses[i], notes[i]);
+    });
   });
-  std::uint64_t in_memory = 0;
-  for (const TriangleMesh& mesh : scene.meshes) in_memory += bytes_of(mesh);
-  require_memory(static_cast<double>(in_memory), memory_bytes, {});
-  MeshMemory memory(memory_bytes - in_memory);
+  MeshMemory memory(left_to_keep(scene, resources));
   for (std::size_t i = 0; i < uses.size(); ++i) {
     if (!uses[i].used || !scene.meshes[i].deferred) continue;
     const auto load = [source = scene.meshes[i].deferred, edits, use = uses[i]](Notes& said) {

@@ -23,11 +23,17 @@ struct EditedMeshes {
   std::uint64_t triangles_before = 0, triangles_after = 0;  // of meshes in use, each counted once
 };
 
-// Meshes in memory in parallel; those in their files one after the other, which stay there if they do not fit
-// and are edited anew whenever they are loaded. Meshes that shine keep their fronts (`orient` makes them
-// consistent) and triangles that face opposite ways. Throws MachineError where one mesh, or those in memory
-// together, would need more than `memory_bytes`.
-EditedMeshes edit_meshes(Scene& scene, const MeshEdits& edits,
-                         std::uint64_t memory_bytes = std::numeric_limits<std::uint64_t>::max());
+struct MeshResources {
+  static constexpr std::uint64_t unlimited = std::numeric_limits<std::uint64_t>::max();
+  std::uint64_t kept_bytes = unlimited;      // of meshes in memory, as for MeshMemory
+  std::uint64_t resident_bytes = unlimited;  // most memory of this process
+  int threads = 0;                           // 0: all cores
+};
+
+// Meshes in memory in parallel, as far as they fit; those in their files one after the other, which stay
+// there if they are still too large, and are edited anew whenever they are loaded. Meshes that shine keep
+// their fronts (`orient` makes them consistent) and triangles that face opposite ways. Throws MachineError
+// where the work on one mesh, or the meshes in memory, would take more memory than there is.
+EditedMeshes edit_meshes(Scene& scene, const MeshEdits& edits, const MeshResources& resources = {});
 
 }  // namespace vitrail

@@ -121,18 +121,20 @@ TEST(EditMeshes, MeshesInTheirFilesAreEditedWhenLoaded) {
   Scene scene = scene_of({MeshMemory(0).keep(load(), load), MeshMemory(0).keep(load(), load)});
   Scene in_memory = scene_of({load(), load()});
   const MeshEdits edits{false, false, 0, 0.25, {}};
-  const std::uint64_t one = 2048 * 12 + 1026 * 12;  // the size of one of them, decimated
   EXPECT_EQ(edit_meshes(in_memory, edits).triangles_after, 4096u);
-  EXPECT_THROW(edit_meshes(scene, edits, one + 10), MachineError);  // the work on one takes more
-  // Both fit.
-  Scene all = scene;
-  EXPECT_EQ(edit_meshes(all, edits, 100 << 20).triangles_after, 4096u);
-  EXPECT_EQ(all.meshes, in_memory.meshes);
-  // With a budget for none they stay deferred, and give the same when loaded.
-  Scene none = scene;
-  edit_meshes(none, edits, 600 * 8192);
-  TriangleMesh storage;
-  for (const TriangleMesh& mesh : none.meshes) EXPECT_EQ(loaded(mesh, storage), in_memory.meshes[0]);
+  EXPECT_THROW(edit_meshes(scene, edits, {0, 1 << 20, 0}), MachineError);  // the work on one takes more
+  constexpr std::uint64_t one = 2048 * 12 + 1026 * 12, enough = 1u << 30;  // one of them is decimated to this
+  for (const std::uint64_t kept : {std::uint64_t{0}, one, 2 * one}) {
+    Scene some = scene;
+    EXPECT_EQ(edit_meshes(some, edits, {kept, enough, 0}).triangles_after, 4096u);
+    std::uint64_t in_files = 0;
+    TriangleMesh storage;
+    for (const TriangleMesh& mesh : some.meshes) {
+      in_files += mesh.deferred != nullptr;
+      EXPECT_EQ(loaded(mesh, storage), in_memory.meshes[0]);
+    }
+    EXPECT_EQ(in_files, 2 - kept / one);
+  }
 }
 
 TEST(EditMeshes, TheSameWithAnyNumberOfThreads) {
