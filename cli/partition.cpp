@@ -13,10 +13,12 @@
 
 #include "cli/diagnostics_report.h"
 #include "cli/main_guard.h"
+#include "cli/mesh_options.h"
 #include "cli/progress_line.h"
 #include "cli/sizes.h"
 #include "importers/import.h"
 #include "partitioner/appearance.h"
+#include "partitioner/meshes/edit_meshes.h"
 #include "scene/atomic_file.h"
 
 namespace vitrail {
@@ -26,6 +28,7 @@ struct Arguments {
   std::filesystem::path input, output, stats, profile;
   std::string domain_bytes, memory;
   bool strict = false, quiet = false;
+  MeshOptions meshes;
   PartitionOptions options{.durable = true};
 };
 
@@ -51,6 +54,7 @@ void declare(CLI::App& app, Arguments& a) {
   app.add_option("--stats", a.stats, "write statistics as JSON");
   app.add_option("--profile", a.profile,
                  "where the rays of an earlier render of this scene went (`render --profile`): cut for them");
+  declare_mesh_options(app, a.meshes);
   app.add_flag("--strict", a.strict, "fail if anything in the scene is not imported exactly");
   app.add_flag("--quiet", a.quiet, "no progress and no summary");
 }
@@ -135,18 +139,21 @@ int run(Arguments& a) {
   }
   if (!a.profile.empty()) a.options.profile = read_ray_profile(a.profile);
   a.options.memory_bytes = a.memory.empty() ? default_memory_bytes() : parse_bytes(a.memory);
+  const std::uint64_t kept_bytes =
+      a.options.domains_at_once > 0 ? 0 : mesh_bytes_within(a.options.memory_bytes);
   const bool visible = !a.quiet && ::isatty(STDERR_FILENO);
   Watch reading(visible);
   tbb::task_arena arena(a.options.threads > 0 ? a.options.threads : tbb::task_arena::automatic);
-  const ImportedScene imported = arena.execute([&] {
-    return import_scene(
-        a.input, MeshMemory(a.options.domains_at_once > 0 ? 0 : mesh_bytes_within(a.options.memory_bytes)),
-        [&](double fraction) { reading(std::min(fraction, 0.99), "reading the scene"); });
+  ImportedScene imported = arena.execute([&] {
+    return import_scene(a.input, MeshMemory(kept_bytes),
+                        [&](double fraction) { reading(std::min(fraction, 0.99), "reading the scene"); });
   });
   Diagnostics diagnostics = imported.diagnostics;
   std::ranges::copy(appearance_of(imported.scene, {}).diagnostics, std::back_inserter(diagnostics));
   fmt::print(stderr, "{}", summarise(diagnostics));
   if (a.strict) require_exact(diagnostics);
+  const MeshResources resources{kept_bytes, a.options.memory_bytes, a.options.threads};
+  fmt::print(stderr, "{}", summarise(apply_mesh_options(a.meshes, imported.scene, resources)));
   catch_signals();
   Watch watch(visible);
   const PartitionStats stats = partition(imported.scene, a.output, a.options, std::ref(watch));

@@ -3,8 +3,10 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <iterator>
 
 #include "cli/main_guard.h"
+#include "cli/mesh_options.h"
 #include "cli/rectangle.h"
 #include "cli/run_program.h"
 #include "cli/sizes.h"
@@ -19,6 +21,7 @@ struct Arguments {
   std::filesystem::path input, output;
   int bins = 0;
   std::string memory, crop, integrator, progress = "auto";
+  MeshOptions meshes;
   RenderOptions options;
 };
 
@@ -44,12 +47,20 @@ void declare(CLI::App& app, Arguments& a) {
   app.add_option("--time", o.time_limit_s, "stop after this many seconds with what there is");
   app.add_option("--stats", o.stats, "write statistics as JSON");
   app.add_option("--profile", o.profile, "write where rays went, for `partition --profile`");
+  declare_mesh_options(app, a.meshes);
   app.add_option("--progress", a.progress)->check(CLI::IsMember({"auto", "bar", "json", "none"}));
   app.add_option("--shuffle-delivery", o.shuffle_seed)->group("");
   app.add_option("--domain-memory", o.domain_memory_bytes)->group("");
 }
 
+bool is_bundle(const std::filesystem::path& input) {
+  return std::filesystem::exists(input / "manifest.json") || input.extension() == ".vit";
+}
+
 void interpret(Arguments& a) {
+  if (a.meshes.any() && is_bundle(a.input))
+    throw UsageError("the meshes of a bundle stay as they are: give " + arguments_of(a.meshes)[0] +
+                     " to partition");
   const std::string extension = a.output.extension().string();
   constexpr const char* known[] = {".exr", ".png", ".film"};
   if (std::ranges::find(known, extension) == std::end(known))
@@ -71,7 +82,7 @@ class Bundle {
  public:
   Bundle(Transport& transport, Arguments& a) : transport_(transport) {
     a.options.bundle = a.input;
-    if (std::filesystem::exists(a.input / "manifest.json") || a.input.extension() == ".vit") return;
+    if (is_bundle(a.input)) return;
     a.options.bundle = temporary_ = std::filesystem::path(a.options.film).replace_extension(".tmp.vit");
     catch_signals();
     agree(transport, [&] {
@@ -94,6 +105,7 @@ class Bundle {
       arguments.insert(arguments.end(), {"--memory", std::to_string(std::max(parse_bytes(a.memory), least))});
     if (a.options.threads > 0)
       arguments.insert(arguments.end(), {"--threads", std::to_string(a.options.threads)});
+    std::ranges::copy(arguments_of(a.meshes), std::back_inserter(arguments));
     return arguments;
   }
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -94,7 +95,11 @@ Vec edge_point(const HalfEdges& mesh, OpenMesh::EdgeHandle e) {
   return ends * 0.375 + (opposite(h) + opposite(o)) * 0.125;
 }
 
-void refine(std::vector<Vec>& positions, Triangles& triangles) {
+using Corners = std::vector<std::array<Point2d, 3>>;
+
+Point2d between(Point2d a, Point2d b) { return {(a.x + b.x) / 2, (a.y + b.y) / 2}; }
+
+void refine(std::vector<Vec>& positions, Triangles& triangles, Corners* parameters) {
   const HalfEdges mesh = connect(positions, triangles);
   positions.resize(mesh.n_vertices() + mesh.n_edges());
   std::vector<Vec> ring;
@@ -108,6 +113,7 @@ void refine(std::vector<Vec>& positions, Triangles& triangles) {
   for (const auto e : mesh.edges()) positions[edge_vertex(e)] = edge_point(mesh, e);
   Triangles finer;
   finer.reserve(4 * triangles.size());
+  Corners finer_parameters;
   for (const auto f : mesh.faces()) {
     std::array<std::uint32_t, 3> corner{}, middle{};  // middle[i] lies between corner[i] and corner[i + 1]
     auto h = mesh.halfedge_handle(f);
@@ -117,8 +123,18 @@ void refine(std::vector<Vec>& positions, Triangles& triangles) {
     }
     for (std::size_t i = 0; i < 3; ++i) finer.push_back({corner[i], middle[i], middle[(i + 2) % 3]});
     finer.push_back(middle);
+    if (!parameters) continue;
+    const auto face = static_cast<std::size_t>(f.idx());
+    const auto shift = static_cast<std::size_t>(std::ranges::find(triangles[face], corner[0]) -
+                                                triangles[face].begin());  // half-edges may start elsewhere
+    std::array<Point2d, 3> at{}, half{};
+    for (std::size_t i = 0; i < 3; ++i) at[i] = (*parameters)[face][(i + shift) % 3];
+    for (std::size_t i = 0; i < 3; ++i) half[i] = between(at[i], at[(i + 1) % 3]);
+    for (std::size_t i = 0; i < 3; ++i) finer_parameters.push_back({at[i], half[i], half[(i + 2) % 3]});
+    finer_parameters.push_back(half);
   }
   triangles = std::move(finer);
+  if (parameters) *parameters = std::move(finer_parameters);
 }
 
 // Tangent masks of the limit surface: Hoppe et al. 1994, appendix A.
@@ -190,7 +206,8 @@ void copy_used(const TriangleMesh& cage, std::vector<Vec>& positions, Triangles&
 
 }  // namespace
 
-TriangleMesh loop_subdivide(const TriangleMesh& cage, int levels) {
+TriangleMesh loop_subdivide(const TriangleMesh& cage, int levels,
+                            std::vector<std::array<Point2d, 3>>* parameters) {
   constexpr double most_triangles = 1 << 30;  // half-edges are counted by int
   if (levels < 0) throw Error(fmt::format("subdivision: {} levels; the number has to be 0 or more", levels));
   if (static_cast<double>(cage.triangles.size()) * std::pow(4.0, levels) > most_triangles) {
@@ -200,7 +217,8 @@ TriangleMesh loop_subdivide(const TriangleMesh& cage, int levels) {
   std::vector<Vec> positions;
   Triangles triangles;
   copy_used(cage, positions, triangles);
-  for (int i = 0; i < levels; ++i) refine(positions, triangles);
+  if (parameters) parameters->assign(triangles.size(), {Point2d{0, 0}, {1, 0}, {0, 1}});
+  for (int i = 0; i < levels; ++i) refine(positions, triangles, parameters);
   return to_limit(positions, triangles);
 }
 

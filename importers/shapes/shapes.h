@@ -50,7 +50,9 @@ TriangleMesh tessellate_bilinear(const std::vector<Point3f>& positions,
 // Loop's subdivision (Loop 1987) with the weights of Warren (1995), which pbrt uses; boundary edges stay
 // boundaries (cubic B-spline). Vertices are then moved to the limit surface and carry its normals. Vertices
 // of the cage without a face, and its own normals and uvs, are left out. A cage that is not a consistently
-// oriented manifold throws Error.
-TriangleMesh loop_subdivide(const TriangleMesh& cage, int levels);
+// oriented manifold throws Error. A triangle's become 4^levels neighbours in the order of the cage's; for
+// their corners `parameters` gets the barycentric coordinates of its second and third corner.
+TriangleMesh loop_subdivide(const TriangleMesh& cage, int levels,
+                            std::vector<std::array<Point2d, 3>>* parameters = nullptr);
 
 }  // namespace vitrail

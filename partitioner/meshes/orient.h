@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "scene/mesh.h"
+
+namespace vitrail {
+
+enum class Sides {
+  outward,     // closed components: counter-clockwise seen from outside
+  inward,      // clockwise
+  consistent,  // like the greater part of their area
+};
+
+struct OrientedMesh {
+  TriangleMesh mesh;
+  std::uint64_t turned_triangles = 0;
+  std::uint64_t components = 0, closed_components = 0;
+  std::uint64_t inner_components =
+      0;  // closed ones that bound a hollow of another: they are turned the other way
+};
+
+// The triangles of each connected component turned to one side: of a closed one as asked, by the exact sign
+// of its volume; of others, and where that is 0, as `consistent`. Where more than two triangles meet at an
+// edge they do not decide on one another. Shading normals are turned to the triangles' fronts, the three of a
+// triangle together; vertices that would have to face both ways are doubled, at the end.
+OrientedMesh orient(const TriangleMesh& mesh, Sides sides);
+
+}  // namespace vitrail

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+// --repair, --orient, --subdivide and --decimate as a user types them.
+#include <gmock/gmock.h>
+
+#include <fstream>
+
+#include "importers/export.h"
+#include "importers/import.h"
+#include "tests/partitioner/test_scenes.h"
+#include "tests/support/command.h"
+#include "tests/support/temporary_directory.h"
+
+namespace vitrail {
+namespace {
+
+using ::testing::HasSubstr;
+
+class MeshOptions : public ::testing::Test {
+ protected:
+  MeshOptions() {  // 3200 triangles, and two that are too many
+    TriangleMesh torus = test::bumpy_torus(40);
+    torus.triangles.push_back(torus.triangles[7]);
+    torus.triangles.push_back({5, 5, 6});
+    Scene scene = test::scene_of(torus);
+    scene.lights.push_back({InfiniteLight{ConstantSpectrum{1}}});
+    export_scene(scene, folder_ / "in.pbrt");
+  }
+  std::string path(const char* name) const { return (folder_ / name).string(); }
+  test::CommandResult run(const char* verb, const std::string& arguments) {
+    return test::run(test::vitrail(verb) + " " + path("in.pbrt") + " " + arguments);
+  }
+  std::size_t triangles(const char* name) {
+    return import_scene(path(name)).scene.meshes.at(0).triangles.size();
+  }
+
+  test::TemporaryDirectory folder_;
+};
+
+TEST_F(MeshOptions, ConvertWritesWhatTheyMake) {
+  const auto repaired = run("convert", path("repaired.pbrt") + " --repair --report " + path("report.json"));
+  EXPECT_EQ(repaired.status, 0) << repaired.output;
+  EXPECT_THAT(repaired.output, HasSubstr("meshes: 3202 triangles became 3200"));
+  EXPECT_THAT(repaired.output, HasSubstr("1 triangles of zero area removed, 1 duplicate triangles removed"));
+  EXPECT_EQ(triangles("repaired.pbrt"), 3200u);
+  EXPECT_THAT(test::read_json(path("report.json")).dump(), HasSubstr("mesh repaired"));
+
+  EXPECT_EQ(run("convert", path("few.ply") + " --repair --orient --decimate 0.25").status, 0);
+  EXPECT_EQ(triangles("few.ply"), 800u);
+  EXPECT_EQ(run("convert", path("many.ply") + " --repair --subdivide 1 --decimate 0.5").status, 0);
+  EXPECT_EQ(triangles("many.ply"), 6400u);
+}
+
+TEST_F(MeshOptions, StrictDoesNotRefuseWhatWasAskedFor) {
+  ASSERT_EQ(run("convert", path("plain.pbrt") + " --strict").status, 0);
+  const auto result = run("convert", path("few.pbrt") + " --strict --repair --decimate 0.25");
+  EXPECT_EQ(result.status, 0) << result.output;
+}
+
+TEST_F(MeshOptions, PartitionAndRenderTakeThem) {
+  const auto result =
+      run("partition", "-o " + path("a.vit") + " --decimate 0.25 --repair --stats " + path("a.json"));
+  EXPECT_EQ(result.status, 0) << result.output;
+  EXPECT_EQ(test::read_json(path("a.json")).at("input_triangles"), 800);
+  // The mesh, stays in its file.
+  const auto small =
+      run("partition",
+          "-o " + path("b.vit") + " --decimate 0.25 --repair --domains-at-once 1 --stats " + path("b.json"));
+  EXPECT_EQ(small.status, 0) << small.output;
+  EXPECT_EQ(test::read_json(path("b.json")).at("input_triangles"), 800);
+  const std::string films[] = {path("a.film"), path("b.film"), path("c.film")};
+  const auto render = [&](const std::string& input, const std::string& film, const std::string& more) {
+    const auto done = test::run(test::vitrail("render") + " " + input + " -o " + film + " --spp 1 " + more +
+                                " --stats " + film + ".json");
+    EXPECT_EQ(done.status, 0) << done.output;
+    return test::read_json(film + ".json").at("film_hash");
+  };
+  const auto hash = render(path("a.vit"), films[0], "");
+  EXPECT_EQ(render(path("b.vit"), films[1], ""), hash);
+  EXPECT_EQ(render(path("in.pbrt"), films[2], "--decimate 0.25 --repair"), hash);
+  EXPECT_NE(render(path("in.pbrt"), films[2], ""), hash);
+}
+
+TEST_F(MeshOptions, WrongOnesAreUsage) {
+  for (const char* wrong :
+       {"--decimate 0", "--decimate 1.5", "--decimate nan", "--decimate few", "--subdivide -1"}) {
+    const auto result = run("convert", path("out.ply") + " " + wrong);
+    EXPECT_EQ(result.status, 2) << wrong << result.output;
+  }
+  ASSERT_EQ(run("partition", "-o " + path("a.vit")).status, 0);
+  const auto bundle =
+      test::run(test::vitrail("render") + " " + path("a.vit") + " -o " + path("a.png") + " --decimate 0.25");
+  EXPECT_EQ(bundle.status, 2);
+  EXPECT_THAT(bundle.output, HasSubstr("give --decimate to partition"));
+}
+
+}  // namespace
+}  // namespace vitrail

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// CGAL adds -frounding-math to what links it: nothing else may be compiled with it.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+namespace vitrail {
+namespace {
+
+TEST(CompileFlags, RoundingMathStaysWhereCgalIs) {
+  const std::filesystem::path root = VITRAIL_SOURCE_DIR;
+  std::ifstream in(std::filesystem::path(VITRAIL_BIN_DIR).parent_path() / "compile_commands.json");
+  int with_it = 0, without = 0;
+  for (const auto& entry : nlohmann::json::parse(in)) {
+    const std::string file =
+        std::filesystem::path(entry.at("file").get<std::string>()).lexically_relative(root).string();
+    const bool may = file.starts_with("partitioner/meshes/") || file.starts_with("tests/");
+    const bool does = entry.at("command").get<std::string>().find("-frounding-math") != std::string::npos;
+    EXPECT_TRUE(may || !does) << file;
+    (does ? with_it : without) += 1;
+  }
+  EXPECT_GT(with_it, 5);
+  EXPECT_GT(without, 100);
+}
+
+}  // namespace
+}  // namespace vitrail
