@@ -197,9 +197,13 @@ class Partitioner {
   }
 
   DomainWriter writer(Census& census, const InstanceDealer& instances) {
-    return {bundle_, manifest_, census, instances, items_, plan_.domains_in_work, [&](std::uint64_t n) {
-              phases_.advance(n);
-            }};
+    return {domain_files(bundle_),
+            manifest_,
+            census,
+            instances,
+            items_,
+            plan_.domains_in_work,
+            [&](std::uint64_t n) { phases_.advance(n); }};
   }
 
   // The manifest knows the scene's scale.

@@ -107,19 +107,25 @@ void add_instances(std::vector<InstanceRef> instances, float padding, DomainCont
   content.instance_nodes = build_tree(boxes, padding);
 }
 
+StoreDomain domain_files(std::filesystem::path bundle) {
+  return [bundle = std::move(bundle)](std::uint32_t domain, const DomainContent& content, DomainInfo& info) {
+    info.bytes = write_domain_file(domain_path(bundle, domain), content, &info.hash);
+  };
+}
+
 DomainInfo write_domain(const Manifest& manifest, const NumberedTriangles& triangles, const CellContent& cell,
-                        std::vector<InstanceRef> instances, const std::filesystem::path& bundle,
-                        std::uint32_t index, Census& census) {
+                        std::vector<InstanceRef> instances, const StoreDomain& store, std::uint32_t index,
+                        Census& census) {
   const auto pad = static_cast<float>(padding(manifest));
   DomainContent content = make_domain(triangles, cell, pad);
   add_instances(std::move(instances), pad, content);
   census.add(index, view_of(content), content.pieces, content.piece_vertices);
   DomainInfo info{cell.size(), cell.pieces.size(), 0, 0, {}};
-  info.bytes = write_domain_file(domain_path(bundle, index), content, &info.hash);
   extend_by_root(info.tight_bounds, content.nodes);
   extend_by_root(info.tight_bounds, content.instance_nodes);
   info.instances = content.instances.size();
   info.objects = needed_objects(manifest, content.instances);
+  store(index, std::move(content), info);
   return info;
 }
 
