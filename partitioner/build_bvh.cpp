@@ -39,6 +39,13 @@ struct Subtree {
 using Device = std::unique_ptr<RTCDeviceTy, decltype(&rtcReleaseDevice)>;
 using Bvh = std::unique_ptr<RTCBVHTy, decltype(&rtcReleaseBVH)>;
 
+// One for all: a new one reads Embree's settings from files, 30 µs.
+RTCDevice shared_device() {
+  static const Device device(rtcNewDevice(nullptr), &rtcReleaseDevice);
+  if (!device) throw MachineError("embree cannot start: error " + std::to_string(rtcGetDeviceError(nullptr)));
+  return device.get();
+}
+
 BinaryNode* allocate_node(RTCThreadLocalAllocator allocator) {
   return new (rtcThreadLocalAlloc(allocator, sizeof(BinaryNode), 16)) BinaryNode;
 }
@@ -123,9 +130,11 @@ void plan_wide_tree(BinaryNode& node, const Bounds3f& bounds) {
   node.cost[1] = surface_area(bounds) + node.cost[8];
 }
 
-// x moved by padding + 10⁻⁶|x| towards `towards`, which is ±∞, and rounded the same way.
+// x moved by padding + 10⁻⁶|x| towards `towards`, which is ±∞, and rounded the same way. Not less than 10⁻³⁷:
+// Embree may take subnormal numbers for 0, and slabs lose their bits.
 float inflate(float x, double padding, float towards) {
-  const double moved = double{x} + std::copysign(padding + 1e-6 * std::abs(double{x}), double{towards});
+  const double moved =
+      double{x} + std::copysign(padding + 1e-6 * std::abs(double{x}) + 1e-37, double{towards});
   return std::nextafter(static_cast<float>(moved), towards);
 }
 
@@ -222,14 +231,13 @@ std::uint32_t add_cluster(std::span<const TriangleReference> references, const B
 template <class T, class AddLeaf>
 void build_nodes(std::span<const T> references, unsigned leaf_size, double padding,
                  std::vector<BvhNode>& nodes, const AddLeaf& add_leaf) {
-  const Device device(rtcNewDevice(nullptr), &rtcReleaseDevice);
-  if (!device) throw MachineError("embree cannot start: error " + std::to_string(rtcGetDeviceError(nullptr)));
-  const Bvh bvh(rtcNewBVH(device.get()), &rtcReleaseBVH);
+  const RTCDevice device = shared_device();
+  const Bvh bvh(rtcNewBVH(device), &rtcReleaseBVH);
   std::vector<RTCBuildPrimitive> primitives = build_primitives(references);
   BinaryNode* binary = build_binary(bvh.get(), primitives, leaf_size);
   if (!binary) {
     throw MachineError("embree cannot build a hierarchy over " + std::to_string(references.size()) +
-                       " boxes: error " + std::to_string(rtcGetDeviceError(device.get())));
+                       " boxes: error " + std::to_string(rtcGetDeviceError(device)));
   }
   Subtree root{binary, {}};
   for (const T& r : references) extend(root.bounds, bounds_of(r));

@@ -9,7 +9,8 @@ namespace {
 
 bool is_fine(const Ray& r) {
   const Vector3f& d = r.direction;
-  return is_finite(r.origin) && is_finite(Point3f{} + d) && d != Vector3f{};
+  return std::max({std::abs(r.origin.x), std::abs(r.origin.y), std::abs(r.origin.z)}) < 1e18f &&
+         is_finite(Point3f{} + d) && d != Vector3f{};
 }
 
 struct RayMaker {

@@ -10,6 +10,7 @@
 
 #include <chrono>
 #include <cstdlib>
+#include <ctime>
 
 #include "tests/laws/soup_laws.h"
 
@@ -31,19 +32,21 @@ Findings judge_all(std::uint64_t begin, std::uint64_t end, const Effort& effort)
   return all;
 }
 
+std::uint64_t number_in(const char* variable, std::uint64_t otherwise) {
+  const char* text = std::getenv(variable);
+  return text ? std::strtoull(text, nullptr, 10) : otherwise;
+}
+
 TEST(Soups, KeepTheLaws) {
-  const char* wanted = std::getenv("VITRAIL_SOUPS");
-  const std::uint64_t soups = wanted ? std::strtoull(wanted, nullptr, 10) : 3000;
-  const char* first = std::getenv("VITRAIL_FIRST_SOUP");
-  const std::uint64_t begin = first ? std::strtoull(first, nullptr, 10) : 0;
+  constexpr std::uint64_t step = 50'000;
+  const std::uint64_t soups = number_in("VITRAIL_SOUPS", 10'000), begin = number_in("VITRAIL_FIRST_SOUP", 0);
   const auto start = std::chrono::steady_clock::now();
   Findings all;
-  constexpr std::uint64_t step = 50'000;
   for (std::uint64_t at = begin; at < begin + soups; at += step) {
     all.add(judge_all(at, std::min(at + step, begin + soups), {}));
-    if (soups <= step) continue;
-    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-    fmt::print("{} s\n{}\n", seconds.count(), all.table());
+    const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
+    fmt::print("{}{:<20}{:>14.1f}\n{:<20}{:>14.1f}\n\n", all.table(), "seconds", wall.count(),
+               "of processors", static_cast<double>(std::clock()) / CLOCKS_PER_SEC);
     std::fflush(stdout);
   }
   EXPECT_TRUE(all.differences.empty()) << all.table();
