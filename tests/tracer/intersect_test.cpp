@@ -61,6 +61,29 @@ TEST(Intersect, NothingBehindTheOrigin) {
   EXPECT_FALSE(occluded(c, {{0.25f, 0.25f, 0}, {0.1f, 0.2f, 1}}, infinity));
 }
 
+TEST(Intersect, DepthsBelowNormalFloats) {
+  const ClusteredTriangles c =
+      cluster({unit_triangle, {Point3f{0, 0, -1}, Point3f{1, 0, -1}, Point3f{0, 1, -1}}});
+  for (const float depth : {1.4e-45f, 1e-42f, 1e-38f})
+    for (const float size : {1.0f, 1e-3f, 1e6f}) {
+      const Ray ray{{0.3f, 0.3f, depth}, {0, 0, -size}};
+      const Hit hit = closest(c, ray);
+      EXPECT_EQ(hit.triangle, 0u);
+      EXPECT_EQ(hit.t, double{depth} / double{size});
+      EXPECT_TRUE(occluded(c, ray, 4 * depth / size + 1e-44f));
+      EXPECT_FALSE(occluded(c, ray, depth / size / 4));
+    }
+}
+
+TEST(Intersect, TrianglesBelowNormalFloats) {
+  Triangle small = unit_triangle;
+  for (Point3f& p : small)
+    for (int axis = 0; axis < 3; ++axis) p[axis] *= 1e-42f;
+  const Ray ray{{2e-43f, 3e-43f, 1e-42f}, {0, 0, -1}};
+  EXPECT_EQ(closest(cluster({small}), ray).triangle, 0u);
+  EXPECT_TRUE(occluded(cluster({small}), ray, 1e-41f));
+}
+
 TEST(Intersect, EmptyDomain) {
   const ClusteredTriangles c = cluster({});
   EXPECT_EQ(closest(c, {{0, 0, 1}, {0, 0, -1}}).triangle, no_triangle);
