@@ -76,12 +76,19 @@ TEST(Intersect, DepthsBelowNormalFloats) {
 }
 
 TEST(Intersect, TrianglesBelowNormalFloats) {
-  Triangle small = unit_triangle;
-  for (Point3f& p : small)
-    for (int axis = 0; axis < 3; ++axis) p[axis] *= 1e-42f;
-  const Ray ray{{2e-43f, 3e-43f, 1e-42f}, {0, 0, -1}};
-  EXPECT_EQ(closest(cluster({small}), ray).triangle, 0u);
-  EXPECT_TRUE(occluded(cluster({small}), ray, 1e-41f));
+  const float unit = 1e-42f;
+  Triangles small;
+  for (int i = 0; i < 500; ++i) {
+    const float x = static_cast<float>(i % 25) * unit, y = static_cast<float>(i / 25) * unit;
+    small.push_back({Point3f{x, y, 0}, Point3f{x + unit, y, 0}, Point3f{x, y + unit, 0}});
+  }
+  const ClusteredTriangles c = cluster(small);
+  for (std::uint32_t i = 0; i < small.size(); ++i) {
+    const Point3f p = small[i][0];
+    const Ray ray{{p.x + unit / 4, p.y + unit / 4, unit}, {0, 0, -1}};
+    EXPECT_EQ(closest(c, ray).triangle, i);
+    EXPECT_TRUE(occluded(c, ray, 4 * unit));
+  }
 }
 
 TEST(Intersect, EmptyDomain) {
