@@ -22,9 +22,11 @@ void Findings::differ(const std::string& kind, std::uint64_t seed) {
 
 void Findings::add(const Findings& other) {
   static constexpr std::uint64_t Findings::*sums[] = {
-      &Findings::soups,  &Findings::by_files,    &Findings::triangles,   &Findings::cut_triangles,
-      &Findings::pieces, &Findings::domains,     &Findings::rays,        &Findings::hits,
-      &Findings::visits, &Findings::embree_rays, &Findings::oracle_rays, &Findings::oracle_triangles};
+      &Findings::soups,           &Findings::by_files,    &Findings::triangles,
+      &Findings::cut_triangles,   &Findings::pieces,      &Findings::domains,
+      &Findings::instances,       &Findings::rays,        &Findings::hits,
+      &Findings::visits,          &Findings::embree_rays, &Findings::oracle_rays,
+      &Findings::oracle_triangles};
   for (const auto sum : sums) this->*sum += other.*sum;
   for (const auto& [what, kind] : other.differences) {
     Kind& k = differences[what];
@@ -45,6 +47,7 @@ std::string Findings::table() const {
   line("cut triangles", cut_triangles);
   line("pieces", pieces);
   line("domains", domains);
+  line("instances in them", instances);
   line("rays", rays);
   line("hits", hits);
   line("visits of domains", visits);
@@ -239,7 +242,10 @@ void count(const Manifest& m, Findings& f) {
   f.triangles += m.triangles;
   f.cut_triangles += m.cut_triangles;
   f.domains += m.domains.size();
-  for (const DomainInfo& d : m.domains) f.pieces += d.pieces;
+  for (const DomainInfo& d : m.domains) {
+    f.pieces += d.pieces;
+    f.instances += d.instances;
+  }
 }
 
 void expect_ghost_free(const Soup& soup, const BundleGeometry& geometry, const Effort& effort,

@@ -11,7 +11,8 @@
 namespace vitrail::test {
 
 struct Findings {
-  std::uint64_t soups = 0, by_files = 0, triangles = 0, cut_triangles = 0, pieces = 0, domains = 0;
+  std::uint64_t soups = 0, by_files = 0, triangles = 0, cut_triangles = 0, pieces = 0, domains = 0,
+                instances = 0;
   std::uint64_t rays = 0, hits = 0, visits = 0, embree_rays = 0, oracle_rays = 0, oracle_triangles = 0;
   // What broke a law: how often, and in which soups (the first few).
   struct Kind {

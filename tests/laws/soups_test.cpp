@@ -56,6 +56,7 @@ TEST(Soups, KeepTheLaws) {
   EXPECT_GT(all.visits, all.rays);
   EXPECT_GT(all.oracle_rays, all.soups / 8);
   EXPECT_GT(all.by_files, all.soups / 200);
+  EXPECT_GT(all.instances, all.by_files);
 }
 
 TEST(Soups, One) {
