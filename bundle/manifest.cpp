@@ -19,7 +19,7 @@ namespace vitrail {
 
 namespace {
 
-constexpr int manifest_version = 3;
+constexpr int manifest_version = 4;
 
 // ---- The two binary files: 32 bytes of header, then the payload
 // -------------------------------------------------
@@ -118,6 +118,12 @@ std::span<const Surface> scene_surfaces(const Manifest& m) {
 
 std::span<const Surface> surfaces_of(const Manifest& m, const ObjectInfo& object) {
   return std::span(m.surfaces).subspan(object.first_surface, object.surface_count);
+}
+
+std::uint64_t bytes_needed(const Manifest& manifest, std::uint32_t domain) {
+  std::uint64_t bytes = manifest.domains[domain].bytes;
+  for (const std::uint32_t object : manifest.domains[domain].objects) bytes += manifest.objects[object].bytes;
+  return bytes;
 }
 
 void write_manifest(const std::filesystem::path& bundle, const Manifest& manifest) {

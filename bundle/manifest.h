@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "bundle/domain_file.h"
+#include "bundle/occupancy.h"
 #include "scene/bounds.h"
 #include "scene/scene.h"
 
@@ -30,6 +31,7 @@ struct DomainInfo {
   std::uint64_t bytes = 0;      // of its file
   std::uint64_t hash = 0;       // MappedDomain::hash of its file
   Bounds3f tight_bounds;  // of the triangles' and instances' parts in it, padded; empty when it has none
+  Occupancy occupancy;    // which cells of the tight bounds hold any of these parts, padded
   std::uint64_t instances = 0;         // that reach into it
   std::vector<std::uint32_t> objects;  // that tracing it needs, ascending: its instances' and what they need
   bool operator==(const DomainInfo&) const = default;
@@ -133,6 +135,9 @@ std::filesystem::path object_path(const std::filesystem::path& bundle, std::uint
 // The surfaces of triangles that no instance has, and those of an object's own triangles.
 std::span<const Surface> scene_surfaces(const Manifest& m);
 std::span<const Surface> surfaces_of(const Manifest& m, const ObjectInfo& object);
+
+// Of a domain's file and those of all objects that it needs.
+std::uint64_t bytes_needed(const Manifest& manifest, std::uint32_t domain);
 
 // Writes manifest.json, materials.bin and lights.bin. Throws MachineError.
 void write_manifest(const std::filesystem::path& bundle, const Manifest& manifest);

@@ -151,6 +151,7 @@ Json domain_to_json(const DomainInfo& d) {
          {"bytes", d.bytes},
          {"hash", hash(d.hash)},
          {"tight_bounds", box(d.tight_bounds)}};
+  for (const std::uint64_t slice : d.occupancy.slice) j["occupancy"].push_back(hash(slice));
   if (d.instances > 0) j.update({{"instances", d.instances}, {"objects", d.objects}});
   return j;
 }
@@ -158,6 +159,8 @@ Json domain_to_json(const DomainInfo& d) {
 DomainInfo domain_from_json(const Json& j) {
   DomainInfo d{j.at("triangles").get<std::uint64_t>(), j.at("pieces").get<std::uint64_t>(),
                j.at("bytes").get<std::uint64_t>(), hash_from(j.at("hash")), box_from(j.at("tight_bounds"))};
+  for (std::size_t z = 0; z < d.occupancy.slice.size(); ++z)
+    d.occupancy.slice[z] = hash_from(j.at("occupancy").at(z));
   if (!j.contains("instances")) return d;
   d.instances = j["instances"].get<std::uint64_t>();
   d.objects = j.at("objects").get<std::vector<std::uint32_t>>();

@@ -22,7 +22,7 @@ namespace vitrail {
 namespace {
 
 struct Arguments {
-  std::filesystem::path input, output, stats;
+  std::filesystem::path input, output, stats, profile;
   std::string domain_bytes, memory;
   bool strict = false, quiet = false;
   PartitionOptions options;
@@ -36,6 +36,8 @@ void declare(CLI::App& app, Arguments& a) {
   app.add_option("--domains-at-once", a.options.domains_at_once)->group("");
   app.add_flag("--require-everything", a.options.everything,
                "as if the scene required all that there is: to measure what the analysis saves");
+  app.add_flag("--median-cuts", a.options.median,
+               "halve the triangles at every cut: to measure what cuts by cost save");
   app.add_flag("--flatten", a.options.flatten, "copy what instances place instead of keeping them");
   app.add_option("--domain-bytes", a.domain_bytes, "size of a sub-domain, e.g. 64M (the default)")
       ->excludes(domains);
@@ -45,6 +47,8 @@ void declare(CLI::App& app, Arguments& a) {
       "disk beside the bundle on its way");
   app.add_option("--threads", a.options.threads, "threads; default: all cores")->check(CLI::Range(1, 4096));
   app.add_option("--stats", a.stats, "write statistics as JSON");
+  app.add_option("--profile", a.profile,
+                 "where the rays of an earlier render of this scene went (`render --profile`): cut for them");
   app.add_flag("--strict", a.strict, "fail if anything in the scene is not imported exactly");
   app.add_flag("--quiet", a.quiet, "no progress and no summary");
 }
@@ -96,6 +100,7 @@ void write_stats(const std::filesystem::path& file, const PartitionStats& s) {
                                     {"area_error", s.area_error},
                                     {"objects", s.objects},
                                     {"instances", s.instances},
+                                    {"domain_bytes_max", s.domain_bytes_max},
                                     {"wall_s", s.wall_s},
                                     {"cpu_s", s.cpu_s},
                                     {"peak_rss_bytes", s.peak_rss_bytes},
@@ -116,7 +121,9 @@ void print_summary(const PartitionStats& s, const std::filesystem::path& bundle)
              s.triangles_mean);
   fmt::print("  {} triangles were cut into {} pieces; {} duplicates, area error {:.2g}\n", s.cut_triangles,
              s.pieces, s.duplicates, s.area_error);
-  if (s.objects > 0) fmt::print("  {} instances of {} objects are kept\n", s.instances, s.objects);
+  if (s.objects > 0)
+    fmt::print("  {} instances of {} objects are kept; a domain takes at most {} with its objects\n",
+               s.instances, s.objects, format_bytes(s.domain_bytes_max));
   fmt::print("  {:.2f} s, {:.2f} s of processor time, {:.2f} million triangles a second\n", s.wall_s, s.cpu_s,
              s.triangles_per_s * 1e-6);
   fmt::print("  at most {} of memory of {} allowed; {}\n", format_bytes(s.peak_rss_bytes),
@@ -131,6 +138,7 @@ int run(Arguments& a) {
     a.options.domain_bytes = parse_bytes(a.domain_bytes);
     if (a.options.domain_bytes == 0) throw UsageError("--domain-bytes has to be more than 0");
   }
+  if (!a.profile.empty()) a.options.profile = read_ray_profile(a.profile);
   a.options.memory_bytes = a.memory.empty() ? default_memory_bytes() : parse_bytes(a.memory);
   const ImportedScene imported = import_scene(
       a.input, MeshMemory(a.options.domains_at_once > 0 ? 0 : mesh_bytes_within(a.options.memory_bytes)));

@@ -10,6 +10,7 @@
 #include "cli/sizes.h"
 #include "farm/agreement.h"
 #include "farm/render.h"
+#include "farm/signals.h"
 
 namespace vitrail {
 namespace {
@@ -42,6 +43,7 @@ void declare(CLI::App& app, Arguments& a) {
   app.add_flag("--resume", o.resume, "go on from the checkpoint");
   app.add_option("--time", o.time_limit_s, "stop after this many seconds with what there is");
   app.add_option("--stats", o.stats, "write statistics as JSON");
+  app.add_option("--profile", o.profile, "write where rays went, for `partition --profile`");
   app.add_option("--progress", a.progress)->check(CLI::IsMember({"auto", "bar", "json", "none"}));
   app.add_option("--shuffle-delivery", o.shuffle_seed)->group("");
   app.add_option("--domain-memory", o.domain_memory_bytes)->group("");
@@ -71,8 +73,9 @@ class Bundle {
     a.options.bundle = a.input;
     if (std::filesystem::exists(a.input / "manifest.json") || a.input.extension() == ".vit") return;
     a.options.bundle = temporary_ = std::filesystem::path(a.options.film).replace_extension(".tmp.vit");
+    catch_signals();
     agree(transport, [&] {
-      if (transport.rank() == 0) run_program("vitrail-partition", partition_arguments(a));
+      if (transport.rank() == 0) run_program("vitrail-partition", partition_arguments(a), stop_signalled);
     });
   }
   ~Bundle() {
@@ -101,6 +104,9 @@ class Bundle {
 int render_job(Transport& transport, Arguments& a) {
   agree(transport, [&] { interpret(a); });
   const Bundle bundle(transport, a);
+  agree(transport, [] {
+    if (stop_signalled()) throw MachineError("interrupted before rendering began");
+  });
   const RenderStats stats = render(transport, a.options);
   if (transport.rank() != 0) return exit_done;
   if (stats.traced.nonfinite_samples > 0)

@@ -6,7 +6,10 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <chrono>
+#include <csignal>
 #include <cstring>
+#include <thread>
 
 #include "cli/main_guard.h"
 #include "scene/diagnostics.h"
@@ -17,7 +20,7 @@ std::filesystem::path program_folder() {
   return std::filesystem::read_symlink("/proc/self/exe").parent_path();
 }
 
-void run_program(const std::string& name, const std::vector<std::string>& arguments) {
+void run_program(const std::string& name, const std::vector<std::string>& arguments, bool (*stopped)()) {
   std::string program = (program_folder() / name).string();
   std::vector<std::string> words = arguments;
   std::vector<char*> argv{program.data()};
@@ -27,6 +30,13 @@ void run_program(const std::string& name, const std::vector<std::string>& argume
   if (const int error = ::posix_spawn(&child, program.c_str(), nullptr, nullptr, argv.data(), environ))
     throw MachineError("cannot run " + program + ": " + std::strerror(error));
   int status = 0;
+  while (stopped && ::waitpid(child, &status, WNOHANG) == 0) {
+    if (stopped()) {
+      ::kill(child, SIGTERM);
+      break;
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
   while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
   if (WIFEXITED(status) && WEXITSTATUS(status) == exit_done) return;

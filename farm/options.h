@@ -25,7 +25,8 @@ struct RenderOptions {
   double checkpoint_every_s = 0;   // 0: only when asked by a signal
   double time_limit_s = 0;         // 0: none. The film then holds what was done
   bool resume = false;
-  std::filesystem::path stats;  // empty: none
+  std::filesystem::path stats;    // empty: none
+  std::filesystem::path profile;  // where a RayProfile goes; empty: none
   ProgressMode progress = ProgressMode::none;
   // For tests: at most this for domains, whatever memory_bytes leaves; 0: no such limit.
   std::uint64_t domain_memory_bytes = 0;

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <thread>
 
+#include "bundle/ray_profile.h"
 #include "farm/agreement.h"
 #include "farm/memory.h"
 #include "farm/rank.h"
@@ -131,6 +132,7 @@ RenderStats render(Transport& transport, const RenderOptions& options) {
   RankState state(*job->scene, job->film, job->plan, RayQueues(manifest.domains.size(), options.shuffle_seed),
                   Residency(manifest, options.bundle, memory.domains_bytes,
                             home_ranks(manifest, transport.size()), transport.rank()));
+  if (!options.profile.empty()) state.visits.resize(manifest.domains.size());
   Rank rank(transport, state, options, std::move(resumed), rays_allowed(memory));
   {
     const Workers workers(state, threads);
@@ -148,12 +150,16 @@ RenderStats render(Transport& transport, const RenderOptions& options) {
   stats.cpu_s = cpu_seconds();
   stats.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   gather_stats(transport, stats, state.residency.touched());
+  std::vector<std::int64_t> visits(state.visits.begin(), state.visits.end());
+  transport.sum_to_root(std::span(visits));
   if (transport.rank() != 0) return stats;
 
   for (std::uint32_t count : job->film.counts()) stats.samples += count;
   stats.film_hash = job->film.hash();
   if (stats.complete) std::filesystem::remove(checkpoint);
   if (!options.stats.empty()) write_stats(options.stats, stats);
+  if (!options.profile.empty())
+    write_ray_profile(options.profile, {manifest, {visits.begin(), visits.end()}});
   return stats;
 }
 

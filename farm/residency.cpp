@@ -163,12 +163,6 @@ void Residency::replace(std::uint32_t domain, std::shared_ptr<const LoadedDomain
   table_ = std::move(next);
 }
 
-std::uint64_t bytes_needed(const Manifest& manifest, std::uint32_t domain) {
-  std::uint64_t bytes = manifest.domains[domain].bytes;
-  for (const std::uint32_t object : manifest.domains[domain].objects) bytes += manifest.objects[object].bytes;
-  return bytes;
-}
-
 std::uint64_t bytes_of_all(const Manifest& manifest) {
   std::uint64_t bytes = 0;
   for (const DomainInfo& d : manifest.domains) bytes += d.bytes;

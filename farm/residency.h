@@ -81,8 +81,6 @@ class Residency {
   std::uint64_t loads_ = 0, evictions_ = 0;
 };
 
-// Of a domain's file and those of all objects that it needs.
-std::uint64_t bytes_needed(const Manifest& manifest, std::uint32_t domain);
 // Of all domains and objects.
 std::uint64_t bytes_of_all(const Manifest& manifest);
 

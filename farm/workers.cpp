@@ -101,6 +101,7 @@ void work(RankState& s) {
   Outbox outbox;
   TraceCounters counters;
   std::unique_lock lock(s.mutex);
+  std::vector<std::uint64_t> visits(s.visits.size());
   while (!s.finished) {
     Task task = take_task(s);
     if (!task.batch && !task.item) {
@@ -115,7 +116,7 @@ void work(RankState& s) {
     }
     lock.unlock();
     const auto start = Clock::now();
-    PathTracer tracer(s.scene, task.table->views, s.film, outbox, counters);
+    PathTracer tracer(s.scene, task.table->views, s.film, outbox, counters, visits);
     perform(task, tracer);
     task.table.reset();
     const double busy = seconds_since(start);
@@ -128,6 +129,7 @@ void work(RankState& s) {
       if (s.workers_waiting > 0) s.work_available.notify_one();
     }
   }
+  for (std::size_t d = 0; d < visits.size(); ++d) s.visits[d] += visits[d];
 }
 
 void load(RankState& s) {

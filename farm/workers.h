@@ -39,6 +39,7 @@ struct RankState {
   bool paused = false, finished = false;
 
   TraceCounters counters;
+  std::vector<std::uint64_t> visits;  // rays traced in each domain; empty: not counted
   std::uint64_t forwarded_rays = 0;
   int workers_waiting = 0, workers = 0;
   double trace_s = 0, idle_s = 0, load_s = 0;

@@ -6,6 +6,7 @@
 
 #include "bundle/census.h"
 #include "partitioner/kd_plan.h"
+#include "partitioner/work_estimate.h"
 #include "partitioner/write_domain.h"
 #include "partitioner/write_objects.h"
 
@@ -17,7 +18,9 @@ struct DomainWriter {
   Manifest& manifest;  // kd_nodes and domains have their sizes
   Census& census;
   const InstanceDealer& instances;
+  const WorkEstimate& work;
   std::uint64_t items = 0;                   // the scene's own triangles and instances
+  bool median = false;                       // PlanRule::median
   std::size_t at_once = 1;                   // domains that are made at the same time
   std::function<void(std::uint64_t)> wrote;  // triangles and pieces of one domain, from any thread
 };

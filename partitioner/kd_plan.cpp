@@ -16,33 +16,39 @@ namespace {
 // No domain should have more than this many times its even share of triangles.
 constexpr double most_load = 1.2;
 
-Plane choose(std::span<const Bounds3f> sample, const Subtree& s, std::uint32_t below, double share) {
-  const double spare = most_load * share * s.domains / std::max(1.0, static_cast<double>(sample.size()));
-  const double tolerance = std::max(0.01, std::pow(spare, 1.0 / std::bit_width(s.domains - 1)) - 1);
-  if (const auto plane = choose_plane(sample, {below, s.domains - below, tolerance})) return *plane;
-  if (s.cell.empty()) return {};
+Cut choose(std::span<const Item> sample, const Subtree& s, const PlanRule& rule) {
+  const double spare = most_load * rule.share * s.domains / std::max(1.0, static_cast<double>(sample.size()));
+  Division division{s.domains, std::min(s.domains / 2, (rule.most_domains + 1) / 2), 0};
+  // A side of so many domains must not need more levels than are left.
+  const int levels = max_kd_depth - 1 - s.depth;
+  if (levels < 31 && s.domains > 1u << levels)
+    division.least = std::max(division.least, s.domains - (1u << levels));
+  division.tolerance = std::max(0.01, std::pow(spare, 1.0 / std::bit_width(s.domains - 1)) - 1);
+  if (const auto cut = rule.median ? median_plane(sample, division) : choose_plane(sample, division))
+    return *cut;
+  if (s.cell.empty()) return {{}, s.domains / 2};
   const Vector3f e = extent(s.cell);
   const int axis = e.x >= e.y && e.x >= e.z ? 0 : e.y >= e.z ? 1 : 2;
-  return {axis, std::midpoint(s.cell.lower[axis], s.cell.upper[axis])};
+  return {{axis, std::midpoint(s.cell.lower[axis], s.cell.upper[axis])}, s.domains / 2};
 }
 
 struct Halves {
-  std::vector<Bounds3f> below, above;
+  std::vector<Item> below, above;
 };
 
 // What is cut keeps the rest of its box on either side.
-Halves halves(std::vector<Bounds3f> sample, Plane plane) {
+Halves halves(std::vector<Item> sample, Plane plane) {
   Halves h;
-  for (const Bounds3f& b : sample) {
-    const Interval i{b.lower[plane.axis], b.upper[plane.axis]};
+  for (const Item& item : sample) {
+    const Interval i{item.bounds.lower[plane.axis], item.bounds.upper[plane.axis]};
     const bool in_both = reaches_above(i, plane.split) && reaches_below(i, plane.split);
     if (reaches_below(i, plane.split)) {
-      h.below.push_back(b);
-      if (in_both) h.below.back().upper[plane.axis] = plane.split;
+      h.below.push_back(item);
+      if (in_both) h.below.back().bounds.upper[plane.axis] = plane.split;
     }
     if (reaches_above(i, plane.split)) {
-      h.above.push_back(b);
-      if (in_both) h.above.back().lower[plane.axis] = plane.split;
+      h.above.push_back(item);
+      if (in_both) h.above.back().bounds.lower[plane.axis] = plane.split;
     }
   }
   return h;
@@ -66,22 +72,21 @@ void append(KdPlan& plan, const KdPlan& part) {
 
 }  // namespace
 
-KdPlan plan_kd_tree(std::vector<Bounds3f> sample, const Subtree& s, double share, std::uint32_t most_domains,
+KdPlan plan_kd_tree(std::vector<Item> sample, const Subtree& s, const PlanRule& rule,
                     std::span<KdNode> kd_nodes) {
-  if (s.domains <= most_domains) return {{}, {s}};
-  const std::uint32_t half = s.domains / 2;
-  const Plane plane = choose(sample, s, half, share);
-  Subtree low{s.cell, s.node + 1, s.first_domain, half};
-  Subtree high{s.cell, s.node + half, s.first_domain + half, s.domains - half};
+  if (s.domains <= rule.most_domains) return {{}, {s}};
+  const auto [plane, domains_below] = choose(sample, s, rule);
+  Subtree low{s.cell, s.node + 1, s.first_domain, domains_below, s.depth + 1};
+  Subtree high{s.cell, s.node + domains_below, s.first_domain + domains_below, s.domains - domains_below,
+               s.depth + 1};
   low.cell.upper[plane.axis] = high.cell.lower[plane.axis] = plane.split;
   const auto axis = static_cast<std::uint32_t>(plane.axis);
   kd_nodes[s.node] = {plane.split, axis, child_of(low), child_of(high)};
 
   Halves half_samples = halves(std::move(sample), plane);
   KdPlan below, above;
-  tbb::parallel_invoke(
-      [&] { below = plan_kd_tree(std::move(half_samples.below), low, share, most_domains, kd_nodes); },
-      [&] { above = plan_kd_tree(std::move(half_samples.above), high, share, most_domains, kd_nodes); });
+  tbb::parallel_invoke([&] { below = plan_kd_tree(std::move(half_samples.below), low, rule, kd_nodes); },
+                       [&] { above = plan_kd_tree(std::move(half_samples.above), high, rule, kd_nodes); });
   const auto leaves = static_cast<std::uint32_t>(below.leaves.size());
   const auto first_above = static_cast<std::uint32_t>(1 + below.nodes.size());
   KdPlan plan{{{plane.split, axis, below.nodes.empty() ? KdNode::leaf_bit : 1,

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "bundle/manifest.h"
-#include "partitioner/cut.h"
+#include "partitioner/choose_plane.h"
 
 namespace vitrail {
 
@@ -17,6 +17,13 @@ namespace vitrail {
 struct Subtree {
   Bounds3f cell;
   std::uint32_t node = 0, first_domain = 0, domains = 1;
+  int depth = 0;  // planes above it
+};
+
+struct PlanRule {
+  double share = 0;                // of the work of the whole scene's sample, that a domain should have
+  std::uint32_t most_domains = 1;  // in a leaf of the plan, which has half as many at least where it can
+  bool median = false;             // median_plane decides, for comparison
 };
 
 // Where to send triangles (`route`), and what is at the leaves.
@@ -25,11 +32,10 @@ struct KdPlan {
   std::vector<Subtree> leaves;
 };
 
-// Divides until no leaf has more than `most_domains`. `sample`: the bounds of triangles and pieces, of which
-// all domains of the scene together have `share` times their number, each. No domain should have more
-// than 1.2 times that. Writes the nodes that it makes to `kd_nodes`, the whole tree's. A cell in which
-// nothing can be parted is halved: some of its domains stay empty.
-KdPlan plan_kd_tree(std::vector<Bounds3f> sample, const Subtree& subtree, double share,
-                    std::uint32_t most_domains, std::span<KdNode> kd_nodes);
+// Divides until no leaf has more than `most_domains`. `sample`: of the cell's items. No domain
+// should have more than 1.2 times its share of them. Writes the nodes that it makes to `kd_nodes`, the whole
+// tree's. A cell in which nothing can be parted is halved: some of its domains stay empty.
+KdPlan plan_kd_tree(std::vector<Item> sample, const Subtree& subtree, const PlanRule& rule,
+                    std::span<KdNode> kd_nodes);
 
 }  // namespace vitrail

@@ -15,6 +15,7 @@
 #include "partitioner/divide_cell.h"
 #include "partitioner/flatten.h"
 #include "partitioner/memory_plan.h"
+#include "partitioner/object_budget.h"
 #include "partitioner/spill_scene.h"
 #include "scene/deferred_mesh.h"
 
@@ -59,6 +60,8 @@ PartitionStats statistics(const Manifest& m, const CensusResult& census,
   s.domains = m.domains.size();
   s.triangles_min = m.domains[0].triangles;
   std::uint64_t sum = 0;
+  for (std::uint32_t i = 0; i < m.domains.size(); ++i)
+    s.domain_bytes_max = std::max(s.domain_bytes_max, bytes_needed(m, i));
   for (const DomainInfo& d : m.domains) {
     s.instances += d.instances;
     s.triangles_min = std::min(s.triangles_min, d.triangles);
@@ -110,6 +113,7 @@ class Partitioner {
   Partitioner(const Scene& scene, std::filesystem::path bundle, const PartitionOptions& options,
               const ProgressFunction& progress)
       : bundle_(std::move(bundle)),
+        median_(options.median),
         phases_(progress),
         world_(world_of(scene, bundle_, {!options.flatten, options.everything})),
         refs_(write_objects(world_, world_.manifest, bundle_,
@@ -125,8 +129,13 @@ class Partitioner {
       if (mesh.deferred) needs.largest_mesh = std::max(needs.largest_mesh, mesh.deferred->bytes);
     }
     plan_ = plan_memory(world_.manifest, needs);
+    if (options.domain_bytes > 0 && !refs_.empty()) {
+      needs.domains = domains_within(world_, refs_, options.domain_bytes, plan_.domains);
+      plan_ = plan_memory(world_.manifest, needs);
+    }
     if (options.domains_at_once > 0)
       plan_.domains_at_once = std::min(plan_.domains_at_once, options.domains_at_once);
+    if (options.profile) work_ = {*options.profile, world_.manifest.offset};
     world_.manifest.domains.resize(plan_.domains);
     world_.manifest.kd_nodes.resize(plan_.domains - 1);
   }
@@ -167,15 +176,12 @@ class Partitioner {
     ::malloc_trim(0);
     const std::uint64_t triangles = world_.own_triangles;
     phases_.begin("planning", 0.01, 1);
-    std::vector<Bounds3f> sample = sample_of(world_);
-    const std::size_t chosen = sample.size();
-    for (std::size_t i = 0; i < refs_.size(); ++i)
-      if (triangles == 0 || mixed(2, i) % triangles < chosen) sample.push_back(box_of(refs_[i]));
+    const std::vector<Bounds3f> sample = sample_of(world_, refs_);
     Bounds3f bounds;
     for (const Bounds3f& b : sample) extend(bounds, b);
     const double share = static_cast<double>(sample.size()) / plan_.domains;
-    const KdPlan top = plan_kd_tree(std::move(sample), {bounds, 0, 0, plan_.domains}, share,
-                                    plan_.domains_at_once, world_.manifest.kd_nodes);
+    const KdPlan top = plan_kd_tree(work_.items(sample), {bounds, 0, 0, plan_.domains},
+                                    {share, plan_.domains_at_once, median_}, world_.manifest.kd_nodes);
     buckets_ = top.leaves.size();
     phases_.begin("sorting triangles into parts", 0.4, triangles);
     Spill spill(bundle_ / "spill", buckets_, world_.rule(), plan_.spill_bytes / buckets_);
@@ -201,7 +207,9 @@ class Partitioner {
             manifest_,
             census,
             instances,
+            work_,
             items_,
+            median_,
             plan_.domains_in_work,
             [&](std::uint64_t n) { phases_.advance(n); }};
   }
@@ -219,6 +227,8 @@ class Partitioner {
   }
 
   std::filesystem::path bundle_;
+  bool median_;
+  WorkEstimate work_;
   Phases phases_;
   World world_;
   std::vector<InstanceRef> refs_;

@@ -5,8 +5,9 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 
-#include "bundle/manifest.h"
+#include "bundle/ray_profile.h"
 #include "scene/scene.h"
 
 namespace vitrail {
@@ -18,6 +19,8 @@ struct PartitionOptions {
   std::uint32_t domains_at_once = 0;  // as if no more fitted into memory, for tests; 0: as many as fit
   int threads = 0;                    // 0: all
   bool flatten = false;               // copies instead of instances
+  std::optional<RayProfile> profile;  // of an earlier render of the scene
+  bool median = false;                // cuts in the middle, for comparison
   bool everything = false;            // as if the scene required all that there is, for measuring
 };
 
@@ -29,6 +32,7 @@ struct PartitionStats {
   std::uint64_t bundle_bytes = 0, duplicates = 0;
   double area_error = 0;
   std::uint64_t objects = 0, instances = 0;  // files of objects; references to them in all domains
+  std::uint64_t domain_bytes_max = 0;        // that tracing one takes, with the objects it needs
   double wall_s = 0, cpu_s = 0;
   std::uint64_t peak_rss_bytes = 0, memory_budget_bytes = 0;
   std::uint64_t buckets = 1;      // parts of the scene that were in memory one after the other

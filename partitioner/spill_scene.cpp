@@ -54,14 +54,19 @@ class Sampler {
 
 }  // namespace
 
-std::vector<Bounds3f> sample_of(const World& world) {
+std::vector<Bounds3f> sample_of(const World& world, const std::vector<InstanceRef>& instances) {
   int shift = 0;
   while ((world.own_triangles >> shift) > most_samples) ++shift;
   for (const Placement& p : world.placements)
     if (p.mesh->deferred) shift = std::max(shift, p.mesh->deferred->sample_shift);
   Sampler sampler(world, shift);
   for (const Placement& p : world.placements) sampler.add(p);
-  return sampler.take();
+  std::vector<Bounds3f> sample = sampler.take();
+  const std::size_t chosen = sample.size();
+  for (std::size_t i = 0; i < instances.size(); ++i)
+    if (world.own_triangles == 0 || mixed(2, i) % world.own_triangles < chosen)
+      sample.push_back(box_of(instances[i]));
+  return sample;
 }
 
 void spill_scene(const World& world, const KdPlan& plan, std::uint64_t load_bytes, Spill& spill,

@@ -9,7 +9,7 @@
 namespace vitrail {
 
 // The bounds of triangles chosen at random, at most some 3·10⁵, in the bundle's coordinates.
-std::vector<Bounds3f> sample_of(const World& world);
+std::vector<Bounds3f> sample_of(const World& world, const std::vector<InstanceRef>& instances);
 
 // Sends all triangles down the tree to the bucket of its leaf. `placed` is told how many, from any thread.
 void spill_scene(const World& world, const KdPlan& plan, std::uint64_t load_bytes, Spill& spill,

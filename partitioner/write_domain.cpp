@@ -2,10 +2,12 @@
 #include "partitioner/write_domain.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
 #include "partitioner/build_bvh.h"
+#include "partitioner/write_objects.h"
 
 namespace vitrail {
 
@@ -50,17 +52,16 @@ void extend_by_root(Bounds3f& b, std::span<const BvhNode> nodes) {
   }
 }
 
-// Of the objects of these instances and of all that they need, ascending.
-std::vector<std::uint32_t> needed_objects(const Manifest& m, std::span<const InstanceRef> instances) {
-  std::vector<bool> needed(m.objects.size());
-  for (const InstanceRef& ref : instances) needed[ref.object] = true;
-  std::vector<std::uint32_t> objects;
-  for (std::size_t i = needed.size(); i-- > 0;)
-    if (needed[i]) {
-      objects.insert(objects.begin(), static_cast<std::uint32_t>(i));
-      for (const std::uint32_t inner : m.objects[i].objects) needed[inner] = true;
-    }
-  return objects;
+Occupancy occupancy_of(const Bounds3f& box, const NumberedTriangles& triangles, const CellContent& cell,
+                       std::span<const InstanceRef> instances, float padding) {
+  Occupancy occupancy;
+  for (const std::uint32_t i : cell.whole) {
+    const Triangle& t = triangles.triangles[i];
+    mark(occupancy, box, std::array{cast<double>(t[0]), cast<double>(t[1]), cast<double>(t[2])}, padding);
+  }
+  for (const Piece& p : cell.pieces) mark(occupancy, box, cell.polygon(p), padding);
+  for (const InstanceRef& ref : instances) mark(occupancy, box, box_of(ref));
+  return occupancy;
 }
 
 }  // namespace
@@ -120,9 +121,10 @@ DomainInfo write_domain(const Manifest& manifest, const NumberedTriangles& trian
   DomainContent content = make_domain(triangles, cell, pad);
   add_instances(std::move(instances), pad, content);
   census.add(index, view_of(content), content.pieces, content.piece_vertices);
-  DomainInfo info{cell.size(), cell.pieces.size(), 0, 0, {}};
+  DomainInfo info{.triangles = cell.size(), .pieces = cell.pieces.size()};
   extend_by_root(info.tight_bounds, content.nodes);
   extend_by_root(info.tight_bounds, content.instance_nodes);
+  info.occupancy = occupancy_of(info.tight_bounds, triangles, cell, content.instances, pad);
   info.instances = content.instances.size();
   info.objects = needed_objects(manifest, content.instances);
   store(index, std::move(content), info);

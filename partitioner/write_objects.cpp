@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "partitioner/write_objects.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -44,11 +46,6 @@ void divide(const NumberedTriangles& object, Indices triangles, std::size_t part
   divide(object, std::move(above), parts - below, out);
 }
 
-double bytes_of(const NumberedTriangles& t) {
-  return 62.0 + (t.normals.empty() ? 0 : 16) + (t.uvs.empty() ? 0 : 32) +
-         48.0 * static_cast<double>(t.attributes.size());
-}
-
 // Of the files: an object of the plan is one or more of them.
 struct Files {
   std::vector<std::uint32_t> first;  // of each object of the plan; one more at the end
@@ -74,14 +71,19 @@ std::vector<std::uint32_t> objects_of(const std::vector<InstanceRef>& refs) {
   return objects;
 }
 
+// Of its own triangles.
+std::uint64_t triangles_in(const Assembly& object) {
+  std::uint64_t triangles = 0;
+  for (const Placement& p : object.placements) triangles += triangles_of(*p.mesh);
+  return triangles;
+}
+
 // An object's own triangles, in its coordinates.
 NumberedTriangles placed_alone(const World& world, const Assembly& object) {
   PlacementRule rule = world.rule();
   rule.offset = object.centre;
   const ReflectanceFitter fitter;
-  std::uint64_t triangles = 0;
-  for (const Placement& p : object.placements) triangles += triangles_of(*p.mesh);
-  NumberedTriangles out{make_room(rule, triangles), {}};
+  NumberedTriangles out{make_room(rule, triangles_in(object)), {}};
   for (Placement p : object.placements) {
     TriangleMesh storage;
     p.mesh = &loaded(*p.mesh, storage);
@@ -92,39 +94,71 @@ NumberedTriangles placed_alone(const World& world, const Assembly& object) {
   return out;
 }
 
+std::uint32_t number_of_files(const World& world, const Assembly& object, std::uint64_t most_bytes) {
+  const Requirements& r = world.manifest.requirements;
+  const double bytes = 62.0 + 16 * r.shading_normals + 32 * r.uv + 48.0 * world.manifest.attributes;
+  const auto triangles = static_cast<double>(triangles_in(object));
+  return static_cast<std::uint32_t>(std::clamp(std::ceil(bytes * triangles / static_cast<double>(most_bytes)),
+                                               1.0, std::max(1.0, triangles)));
+}
+
+// Files `first` to `end`: each with a part of the triangles, the first with all instances.
+void write_object(const World& world, const WorldObject& o, std::uint32_t first, std::uint32_t end,
+                  const std::filesystem::path& bundle, Files& files, std::vector<ObjectInfo>& infos) {
+  const NumberedTriangles object = placed_alone(world, o.assembly);
+  Indices all(object.ids.size());
+  std::iota(all.begin(), all.end(), 0u);
+  std::vector<Indices> parts;
+  divide(object, std::move(all), end - first, parts);
+  for (std::uint32_t file = first; file < end; ++file) {
+    Indices& part = parts[file - first];
+    std::vector<InstanceRef> refs;
+    if (file == first) refs = references(o.assembly.uses, files);
+    Bounds3f& box = files.bounds[file];
+    for (const std::uint32_t t : part)
+      for (const Point3f& v : object.triangles[t]) extend(box, v);
+    for (const InstanceRef& ref : refs) extend(box, box_of(ref));
+    DomainContent content = make_domain(object, {std::move(part), {}, {}}, 0);
+    ObjectInfo& info = infos[file];
+    info = {o.assembly.triangles, 0, 0, o.first_surface, o.surface_count, objects_of(refs)};
+    add_instances(std::move(refs), 0, content);
+    info.bytes = write_domain_file(object_path(bundle, file), content, &info.hash);
+  }
+}
+
 }  // namespace
 
 std::vector<InstanceRef> write_objects(const World& world, Manifest& m, const std::filesystem::path& bundle,
                                        std::uint64_t most_bytes) {
+  if (world.objects.empty()) return {};
+  std::filesystem::create_directories(bundle / "objects");
   Files files{{0}, {}};
-  if (!world.objects.empty()) std::filesystem::create_directories(bundle / "objects");
+  std::vector<std::vector<const WorldObject*>> by_depth;  // those whose instances are of what comes before
   for (const WorldObject& o : world.objects) {
-    const NumberedTriangles object = placed_alone(world, o.assembly);
-    const double bytes = bytes_of(object) * static_cast<double>(object.ids.size());
-    Indices all(object.ids.size());
-    std::iota(all.begin(), all.end(), 0u);
-    std::vector<Indices> parts;
-    divide(object, std::move(all),
-           static_cast<std::size_t>(std::max(1.0, std::ceil(bytes / static_cast<double>(most_bytes)))),
-           parts);
-    for (std::size_t part = 0; part < parts.size(); ++part) {
-      std::vector<InstanceRef> refs;
-      if (part == 0) refs = references(o.assembly.uses, files);
-      Bounds3f box;
-      for (const std::uint32_t t : parts[part])
-        for (const Point3f& v : object.triangles[t]) extend(box, v);
-      for (const InstanceRef& ref : refs) extend(box, box_of(ref));
-      DomainContent content = make_domain(object, {std::move(parts[part]), {}, {}}, 0);
-      ObjectInfo info{o.assembly.triangles, 0, 0, o.first_surface, o.surface_count, objects_of(refs)};
-      add_instances(std::move(refs), 0, content);
-      info.bytes = write_domain_file(object_path(bundle, static_cast<std::uint32_t>(m.objects.size())),
-                                     content, &info.hash);
-      m.objects.push_back(std::move(info));
-      files.bounds.push_back(box);
-    }
-    files.first.push_back(static_cast<std::uint32_t>(m.objects.size()));
+    files.first.push_back(files.first.back() + number_of_files(world, o.assembly, most_bytes));
+    by_depth.resize(std::max(by_depth.size(), static_cast<std::size_t>(o.assembly.depth) + 1));
+    by_depth[static_cast<std::size_t>(o.assembly.depth)].push_back(&o);
   }
+  files.bounds.resize(files.first.back());
+  m.objects.resize(files.first.back());
+  for (const auto& objects : by_depth)
+    tbb::parallel_for(std::size_t{0}, objects.size(), [&](std::size_t i) {
+      const auto index = static_cast<std::size_t>(objects[i] - world.objects.data());
+      write_object(world, *objects[i], files.first[index], files.first[index + 1], bundle, files, m.objects);
+    });
   return references(world.uses, files);
+}
+
+std::vector<std::uint32_t> needed_objects(const Manifest& m, std::span<const InstanceRef> instances) {
+  std::vector<bool> needed(m.objects.size());
+  for (const InstanceRef& ref : instances) needed[ref.object] = true;
+  std::vector<std::uint32_t> objects;
+  for (std::size_t i = needed.size(); i-- > 0;)
+    if (needed[i]) {
+      objects.insert(objects.begin(), static_cast<std::uint32_t>(i));
+      for (const std::uint32_t inner : m.objects[i].objects) needed[inner] = true;
+    }
+  return objects;
 }
 
 InstanceDealer::InstanceDealer(std::vector<InstanceRef> instances, float padding, const Bounds3f& root)

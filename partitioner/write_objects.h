@@ -14,6 +14,9 @@ namespace vitrail {
 std::vector<InstanceRef> write_objects(const World& world, Manifest& manifest,
                                        const std::filesystem::path& bundle, std::uint64_t most_bytes);
 
+// The objects of these instances and all that they need, ascending.
+std::vector<std::uint32_t> needed_objects(const Manifest& manifest, std::span<const InstanceRef> instances);
+
 // Finds the instances that reach into a cell.
 class InstanceDealer {
  public:

@@ -22,14 +22,16 @@ TraceCounters& operator+=(TraceCounters& a, const TraceCounters& b) {
 }
 
 PathTracer::PathTracer(const RenderScene& scene, ResidentViews resident, Film& film, Outbox& outbox,
-                       TraceCounters& counters, const KernelFunctions& kernel)
+                       TraceCounters& counters, std::span<std::uint64_t> visits,
+                       const KernelFunctions& kernel)
     : scene_(scene),
       manifest_(scene.manifest),
       resident_(resident),
       kernel_(kernel),
       film_(film),
       outbox_(outbox),
-      counters_(counters) {}
+      counters_(counters),
+      visits_(visits) {}
 
 SampleKey PathTracer::key_of(std::uint32_t pixel, std::uint32_t sample) const {
   const auto width = static_cast<std::uint32_t>(film_.width());
@@ -116,6 +118,7 @@ void PathTracer::run(Path& path, std::optional<std::uint32_t> at) {
 }
 
 void PathTracer::intersect(Path& path, std::uint32_t domain) {
+  count_visit(domain);
   const double t = path.hit.t;
   const std::uint32_t triangle = path.hit.triangle;
   kernel_.closest(*resident_[domain], path.constants, path.hit);
@@ -140,12 +143,12 @@ bool PathTracer::find_hit(Path& path, std::optional<std::uint32_t> at) {
     }
     bool first = !at;
     for (DomainWalk::Visit visit; walk.next(path.hit.t, visit);) {
+      if (!first) ++counters_.crossings;
+      first = false;
       if (!resident_[visit.domain]) return forward(path, visit.domain, false);
       const std::uint32_t holder = path.hit_domain;
       intersect(path, visit.domain);
       if (path.hit_domain != holder) located = true;
-      if (!first) ++counters_.crossings;
-      first = false;
     }
   }
   if (path.hit.triangle == no_triangle || located) return true;
@@ -191,6 +194,7 @@ void PathTracer::trace_shadow(const ShadowRecord& record, const SensorWeights* w
   const RayConstants constants = prepare(ray);
   DomainWalk walk(manifest_, ray);
   if (at) {
+    count_visit(*at);
     if (kernel_.occluded(*resident_[*at], constants, record.tmax)) {
       ++counters_.died;
       return;
@@ -199,13 +203,14 @@ void PathTracer::trace_shadow(const ShadowRecord& record, const SensorWeights* w
   }
   bool first = !at;
   for (DomainWalk::Visit visit; walk.next(static_cast<double>(record.tmax), visit);) {
+    if (!first) ++counters_.crossings;
+    first = false;
     if (!resident_[visit.domain]) {
       outbox_.shadows.push_back({visit.domain, record});
       if (!at) ++counters_.born;
       return;
     }
-    if (!first) ++counters_.crossings;
-    first = false;
+    count_visit(visit.domain);
     if (kernel_.occluded(*resident_[visit.domain], constants, record.tmax)) {
       if (at) ++counters_.died;
       return;

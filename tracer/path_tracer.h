@@ -60,9 +60,11 @@ struct Connection {
 
 class PathTracer {
  public:
-  // All references outlive the tracer. One tracer a thread; the film is shared.
+  // All references outlive the tracer. One tracer a thread; the film is shared. `visits`, if any, counts the
+  // rays traced in each domain.
   PathTracer(const RenderScene& scene, ResidentViews resident, Film& film, Outbox& outbox,
-             TraceCounters& counters, const KernelFunctions& kernel = best_kernel());
+             TraceCounters& counters, std::span<std::uint64_t> visits = {},
+             const KernelFunctions& kernel = best_kernel());
 
   // Sample `sample` of the pixel (x, y) of the whole film, which lies in the crop.
   void trace_camera(int x, int y, std::uint32_t sample);
@@ -76,6 +78,9 @@ class PathTracer {
   void run(Path& path, std::optional<std::uint32_t> at);
   bool find_hit(Path& path, std::optional<std::uint32_t> at);
   void intersect(Path& path, std::uint32_t domain);
+  void count_visit(std::uint32_t domain) {
+    if (!visits_.empty()) ++visits_[domain];
+  }
   bool forward(const Path& path, std::uint32_t domain, bool resolved);
 
   // shading.cpp
@@ -135,6 +140,7 @@ class PathTracer {
   Film& film_;
   Outbox& outbox_;
   TraceCounters& counters_;
+  std::span<std::uint64_t> visits_;
 };
 
 }  // namespace vitrail

@@ -77,6 +77,7 @@ bool DomainWalk::next(double tmax, Visit& visit) {
     const double entry = enter_box(info.tight_bounds, origin_, reciprocal_, tmax);
     if (entry == infinity) continue;
     visit = {domain, std::max(leaf.t0, entry)};
+    if (!meets(info.occupancy, info.tight_bounds, origin_, direction_, visit.entry, tmax)) continue;
     return true;
   }
   return false;

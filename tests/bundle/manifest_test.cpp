@@ -176,7 +176,7 @@ TEST_F(ManifestFile, AnotherVersionIsNamed) {
   write_manifest(directory.path(), sample_manifest());
   const auto file = directory.path() / "manifest.json";
   std::string text = test::read_text(file);
-  text.replace(text.find("\"version\": 3"), 12, "\"version\": 7");
+  text.replace(text.find("\"version\": 4"), 12, "\"version\": 7");
   const std::string rest = text.substr(text.find('\n') + 1);
   char line[64];
   std::snprintf(line, sizeof line, "{\"checksum\": \"%016llx\",\n",

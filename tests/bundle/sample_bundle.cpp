@@ -85,7 +85,9 @@ Manifest sample_manifest() {
   m.bounds = {{-1.1f, -2, -3}, {1, 2.2f, 3}};
   m.scale = 3;
   m.kd_nodes = {{0.1f, 0, 1, KdNode::leaf_bit | 2}, {-1e-20f, 2, KdNode::leaf_bit | 0, KdNode::leaf_bit | 1}};
-  m.domains = {{11, 1, 1, 1, {{-1, -2, -3}, {1.0f / 3, 2, 3}}}, {11, 1, 1, 1, {}}, {11, 1, 1, 1, {}}};
+  m.domains = {{11, 1, 1, 1, {{-1, -2, -3}, {1.0f / 3, 2, 3}}, {{1, 0, 3, 0, ~std::uint64_t{0}}}},
+               {11, 1, 1, 1, {}, {}},
+               {11, 1, 1, 1, {}, {}}};
   m.surfaces = {{0, 1, -1, 0, -1}, {4, 2, 0, -1, -1}, {9, 0, 1, -1, 1}};
   TabulatedSpectrum table;
   for (int i = 0; i < table_size; ++i) table.values.push_back(static_cast<float>(i) / 7);

@@ -22,8 +22,8 @@ struct Cut {
   Manifest manifest;
   std::vector<std::unique_ptr<MappedDomain>> domains;
 
-  Cut(const Scene& scene, const std::filesystem::path& directory, std::uint32_t count) {
-    partition(scene, directory, {.domains = count});
+  Cut(const Scene& scene, const std::filesystem::path& directory, const PartitionOptions& options) {
+    partition(scene, directory, options);
     manifest = read_manifest(directory);
     for (std::uint32_t i = 0; i < manifest.domains.size(); ++i) {
       domains.push_back(std::make_unique<MappedDomain>(domain_path(directory, i)));
@@ -74,9 +74,9 @@ struct AwkwardScene {
 
   AwkwardScene(float size, Vector3f offset, std::size_t ray_count)
       : scene(scene_of(awkward_mesh(size, offset))),
-        uncut(scene, directory.path() / "1", 1),
-        eight(scene, directory.path() / "8", 8),
-        many(scene, directory.path() / "64", 64),
+        uncut(scene, directory.path() / "1", {.domains = 1}),
+        eight(scene, directory.path() / "8", {.domains = 8, .median = true}),
+        many(scene, directory.path() / "64", {.domains = 64}),
         triangles(triangles_of(uncut)),
         rays(awkward_rays(triangles, many.manifest.kd_nodes, ray_count)) {}
 

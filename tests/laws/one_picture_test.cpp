@@ -18,11 +18,12 @@ struct Bundle {
   std::uint64_t bytes = 0, largest = 0;
 };
 
-Bundle make_bundle(const TemporaryDirectory& directory, const std::filesystem::path& scene, int domains) {
+Bundle make_bundle(const TemporaryDirectory& directory, const std::filesystem::path& scene, int domains,
+                   const std::string& more = "") {
   Bundle bundle;
   bundle.path = directory / fmt::format("{}.vit", domains);
-  const CommandResult made = run(fmt::format("{} '{}' -o '{}' --domains {}", vitrail("partition"),
-                                             scene.string(), bundle.path.string(), domains));
+  const CommandResult made = run(fmt::format("{} '{}' -o '{}' --domains {} {}", vitrail("partition"),
+                                             scene.string(), bundle.path.string(), domains, more));
   EXPECT_EQ(made.status, 0) << made.output;
   for (const DomainInfo& d : read_manifest(bundle.path).domains) {
     bundle.bytes += d.bytes;
@@ -68,15 +69,20 @@ void expect_one_picture(const TemporaryDirectory& directory, const std::filesyst
   };
   for (const int domains : {1, 8, 64}) {
     const Bundle bundle = make_bundle(directory, scene, domains);
+    nlohmann::json crossings;  // the same for all runs of a bundle
     for (const int ranks : {1, 2, 4})
       for (const int threads : {1, 2}) {
         const std::string what = fmt::format("{} domains, {} ranks, {} threads", domains, ranks, threads);
         const nlohmann::json all = render(directory, bundle, ranks, threads, "");
         check(all, what);
         if (all.is_null()) return;
+        if (crossings.is_null()) crossings = all["crossings"];
+        EXPECT_EQ(all["crossings"], crossings) << what;
         EXPECT_EQ(all["forwarded_rays"], 0) << what;
         const std::string memory = quarter(bundle, all, threads);
-        check(render(directory, bundle, ranks, threads, memory), what + ", a quarter of the memory");
+        const nlohmann::json little = render(directory, bundle, ranks, threads, memory);
+        check(little, what + ", a quarter of the memory");
+        EXPECT_EQ(little["crossings"], crossings) << what;
         if (domains == 64 && ranks == 2 && threads == 2)
           for (const int seed : {1, 2})
             check(render(directory, bundle, ranks, threads,
@@ -84,6 +90,11 @@ void expect_one_picture(const TemporaryDirectory& directory, const std::filesyst
                   what + ", shuffled");
       }
   }
+  // Cut anew for the rays that were seen.
+  const auto profile = (directory / "profile.json").string();
+  render(directory, make_bundle(directory, scene, 8), 2, 1, fmt::format("--profile '{}'", profile));
+  const Bundle recut = make_bundle(directory, scene, 8, fmt::format("--profile '{}'", profile));
+  check(render(directory, recut, 1, 2, ""), "cut by a profile");
   EXPECT_GT(forwarded, 0u) << "no run ever sent a ray";
   EXPECT_GT(evictions, 0u) << "no run ever evicted a domain";
   fmt::print("{} runs, film {}, {} rays forwarded, {} evictions\n", runs, hash, forwarded, evictions);
@@ -101,6 +112,12 @@ std::filesystem::path generate(const TemporaryDirectory& directory, const std::s
 TEST(OnePicture, HotelRoom) {
   const TemporaryDirectory directory;
   expect_one_picture(directory, generate(directory, "hotel-room", "--detail 0.1 --width 48 --height 32"));
+}
+
+// With instances of objects.
+TEST(OnePicture, City) {
+  const TemporaryDirectory directory;
+  expect_one_picture(directory, generate(directory, "city", "--triangles 80000 --width 48 --height 32"));
 }
 
 TEST(OnePicture, CornellBox) {

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "partitioner/kd_plan.h"
+#include "partitioner/work_estimate.h"
 
 namespace vitrail::test {
 
@@ -209,7 +210,7 @@ class Cook {
     if (soup_.any_planes)
       nodes = any_planes(soup_, bounds);
     else
-      plan_kd_tree(boxes, {bounds, 0, 0, soup_.domains}, share, 1, nodes);
+      plan_kd_tree(WorkEstimate().items(boxes), {bounds, 0, 0, soup_.domains}, {share}, nodes);
     for (const KdNode& node : nodes)
       for (std::size_t k = random_.below(3); k > 0 && !triangles().empty(); --k) {
         const Point3f from = (*any_triangle())[random_.below(3)];

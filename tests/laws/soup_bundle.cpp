@@ -46,15 +46,17 @@ SoupBundle cut_in_memory(const Soup& soup, std::uint32_t domains) {
   bundle.contents.resize(domains);
   Census census(m.triangles);
   const InstanceDealer none({}, static_cast<float>(padding(m)), m.bounds);
-  const DomainWriter writer{[&](std::uint32_t domain, DomainContent content, DomainInfo&) {
-                              bundle.contents[domain] = std::move(content);
-                            },
-                            m,
-                            census,
-                            none,
-                            m.triangles,
-                            1,
-                            [](std::uint64_t) {}};
+  const WorkEstimate equal;
+  const auto store = [&](std::uint32_t domain, DomainContent content, DomainInfo&) {
+    bundle.contents[domain] = std::move(content);
+  };
+  const DomainWriter writer{.store = store,
+                            .manifest = m,
+                            .census = census,
+                            .instances = none,
+                            .work = equal,
+                            .items = m.triangles,
+                            .wrote = [](std::uint64_t) {}};
   if (soup.any_planes && domains > 1)
     divide_at(any_planes(soup, m.bounds), triangles, writer);
   else

@@ -11,10 +11,10 @@ namespace vitrail {
 
 namespace {
 
-std::vector<Bounds3f> bounds_of(const std::vector<Triangle>& triangles) {
-  std::vector<Bounds3f> all(triangles.size());
+std::vector<Item> items_of(const std::vector<Triangle>& triangles) {
+  std::vector<Item> all(triangles.size());
   for (std::size_t i = 0; i < triangles.size(); ++i)
-    for (const Point3f& p : triangles[i]) extend(all[i], p);
+    for (const Point3f& p : triangles[i]) extend(all[i].bounds, p);
   return all;
 }
 
@@ -42,28 +42,52 @@ std::vector<Triangle> grid(int n, int m) {
 TEST(ChoosePlane, NothingToPart) {
   EXPECT_FALSE(choose_plane({}, {}));
   const std::vector<Triangle> point(5, Triangle{});
-  EXPECT_FALSE(choose_plane(bounds_of(point), {}));
+  EXPECT_FALSE(choose_plane(items_of(point), {}));
 }
 
 // The long axis has the smaller section, and its grid lines cut no triangle.
 TEST(ChoosePlane, FollowsTheMeshAcrossTheLongAxis) {
   const std::vector<Triangle> triangles = grid(40, 10);
-  const auto plane = choose_plane(bounds_of(triangles), {1, 1, 0.1});
+  const auto plane = choose_plane(items_of(triangles), {2, 1, 0.1});
   ASSERT_TRUE(plane);
-  EXPECT_EQ(plane->axis, 0);
-  EXPECT_EQ(plane->split, 20);
-  const auto [below, above] = cut(triangles, *plane);
+  EXPECT_EQ(plane->plane.axis, 0);
+  EXPECT_EQ(plane->plane.split, 20);
+  const auto [below, above] = cut(triangles, plane->plane);
   EXPECT_EQ(below.size(), 400u);
   EXPECT_TRUE(below.pieces.empty());
 }
 
-TEST(ChoosePlane, SharesTheLoadByLeaves) {
+// The plane lies where so many domains have their share.
+TEST(ChoosePlane, SharesTheLoadByDomains) {
   const std::vector<Triangle> triangles = grid(50, 5);
-  for (const std::uint32_t leaves_below : {1u, 2u, 3u, 4u}) {
-    const auto plane = choose_plane(bounds_of(triangles), {leaves_below, 5 - leaves_below, 0.02});
-    ASSERT_TRUE(plane);
-    EXPECT_EQ(plane->split, static_cast<float>(10 * leaves_below));
+  const auto cut = choose_plane(items_of(triangles), {5, 1, 0.02});
+  ASSERT_TRUE(cut);
+  EXPECT_EQ(cut->plane.split, static_cast<float>(10 * cut->domains_below));
+  for (const std::uint32_t least : {1u, 2u}) {
+    const auto bounded = choose_plane(items_of(triangles), {5, least, 0.02});
+    ASSERT_TRUE(bounded);
+    EXPECT_GE(bounded->domains_below, least);
+    EXPECT_LE(bounded->domains_below, 5 - least);
   }
+}
+
+// A dense part gets a box of its own, with its share of the domains, instead of being halved.
+TEST(ChoosePlane, PartsDenseFromWide) {
+  std::vector<Triangle> triangles = grid(10, 10);
+  for (Triangle t : grid(60, 60)) {
+    for (Point3f& p : t) p = {20 + p.x / 60, p.y / 60, p.z};
+    triangles.push_back(t);
+  }
+  const auto cut = choose_plane(items_of(triangles), {100, 1, 0.1});
+  ASSERT_TRUE(cut);
+  EXPECT_EQ(cut->plane.axis, 0);
+  EXPECT_GE(cut->plane.split, 10);
+  EXPECT_LE(cut->plane.split, 20);
+  EXPECT_EQ(cut->domains_below, 3u);
+  const auto median = median_plane(items_of(triangles), {100, 1, 0.1});
+  ASSERT_TRUE(median);
+  EXPECT_EQ(median->domains_below, 50u);
+  EXPECT_GT(median->plane.split, 20);
 }
 
 // All triangles lie in two planes: the only way between them is one that no triangle names.
@@ -73,10 +97,10 @@ TEST(ChoosePlane, PartsParallelSheets) {
     const auto x = static_cast<float>(i % 2);
     triangles.push_back({Point3f{x, 0, 0}, Point3f{x, 1, 0}, Point3f{x, 0, 1}});
   }
-  const auto plane = choose_plane(bounds_of(triangles), {1, 1, 0.05});
+  const auto plane = choose_plane(items_of(triangles), {2, 1, 0.05});
   ASSERT_TRUE(plane);
-  EXPECT_EQ(plane->axis, 0);
-  const auto [below, above] = cut(triangles, *plane);
+  EXPECT_EQ(plane->plane.axis, 0);
+  const auto [below, above] = cut(triangles, plane->plane);
   EXPECT_EQ(below.whole.size(), 50u);
   EXPECT_EQ(above.whole.size(), 50u);
 }
@@ -87,9 +111,9 @@ TEST(ChoosePlane, BalancesUnevenScenes) {
   for (Triangle& t : triangles)
     for (Point3f& p : t) p = {p.x * 1e-4f, p.y * 1e-4f, p.z};
   triangles.push_back({Point3f{1000, 0, 0}, Point3f{1000, 1, 0}, Point3f{1000, 0, 1}});
-  const auto plane = choose_plane(bounds_of(triangles), {1, 1, 0.1});
+  const auto plane = choose_plane(items_of(triangles), {2, 1, 0.1});
   ASSERT_TRUE(plane);
-  const auto [below, above] = cut(triangles, *plane);
+  const auto [below, above] = cut(triangles, plane->plane);
   EXPECT_LT(std::max(below.size(), above.size()), 1.1 * static_cast<double>(triangles.size()) / 2);
 }
 

@@ -58,6 +58,24 @@ TEST_F(Partition, DomainsAreBalanced) {
   }
 }
 
+// Forty objects that stand in rows: a domain that sees a few of them needs only those.
+TEST_F(Partition, DomainBytesCountObjects) {
+  Scene scene = scene_of(bumpy_torus(20));
+  for (std::uint32_t i = 0; i < 40; ++i) {
+    scene.meshes.push_back(bumpy_torus(40));
+    Shape shape = scene.shapes[0];
+    shape.mesh = Id<TriangleMesh>{i + 1};
+    scene.prototypes.push_back({"", {shape}});
+    for (int row = 0; row < 12; ++row)
+      scene.instances.push_back({Id<Prototype>{i}, translate({20.0 * i, 20.0 * row, 0})});
+  }
+  const std::uint64_t all = partition(scene, out, {.domains = 1}).domain_bytes_max;
+  const PartitionStats s = partition(scene, out, {.domain_bytes = all / 4});
+  EXPECT_EQ(s.objects, 40u);
+  EXPECT_GE(s.domains, 4u);
+  EXPECT_LE(s.domain_bytes_max, all / 4);
+}
+
 TEST_F(Partition, StatisticsAgreeWithTheManifest) {
   const PartitionStats s = partition(scene_of(bumpy_torus(100)), out, {.domains = 16});
   const Manifest m = read_manifest(out);

@@ -20,6 +20,7 @@ Manifest grid(int depth) {
       info.triangles = 1;
       info.tight_bounds = {{box.lower.x - pad, box.lower.y - pad, box.lower.z - pad},
                            {box.upper.x + pad, box.upper.y + pad, box.upper.z + pad}};
+      info.occupancy.slice.fill(~std::uint64_t{0});
       m.domains.push_back(info);
       return KdNode::leaf_bit | static_cast<std::uint32_t>(m.domains.size() - 1);
     }

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bundle/occupancy.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace vitrail {
+
+namespace {
+
+constexpr int n = Occupancy::cells;
+
+// The cells on one axis: [lower + i·size, lower + (i + 1)·size).
+struct Axis {
+  double lower, size;
+  int cell(double x) const {
+    return size > 0 ? static_cast<int>(std::clamp((x - lower) / size, 0.0, n - 1.0)) : 0;
+  }
+};
+
+std::array<Axis, 3> axes_of(const Bounds3f& box) {
+  std::array<Axis, 3> axes;
+  for (int a = 0; a < 3; ++a)
+    axes[static_cast<std::size_t>(a)] = {
+        static_cast<double>(box.lower[a]),
+        (static_cast<double>(box.upper[a]) - static_cast<double>(box.lower[a])) / n};
+  return axes;
+}
+
+// Cells first … last on each axis.
+struct Cells {
+  std::array<int, 3> first, last;
+  int dimensions() const { return (last[0] > first[0]) + (last[1] > first[1]) + (last[2] > first[2]); }
+};
+
+Cells cells_of(const std::array<Axis, 3>& axes, const Bounds3d& bounds, double padding) {
+  Cells c;
+  for (int a = 0; a < 3; ++a) {
+    const auto at = static_cast<std::size_t>(a);
+    c.first[at] = axes[at].cell(bounds.lower[a] - padding);
+    c.last[at] = axes[at].cell(bounds.upper[a] + padding);
+  }
+  return c;
+}
+
+std::uint64_t bit(int x, int y) { return std::uint64_t{1} << (y * n + x); }
+
+// Whether the direction parts the polygon from a box with half extents h around the origin.
+bool separates(Vector3d direction, std::span<const Point3d> polygon, Point3d centre, Vector3d h) {
+  double least = std::numeric_limits<double>::infinity(), greatest = -least;
+  for (const Point3d& p : polygon) {
+    const double s = dot(direction, p - centre);
+    least = std::min(least, s);
+    greatest = std::max(greatest, s);
+  }
+  const double reach =
+      h.x * std::abs(direction.x) + h.y * std::abs(direction.y) + h.z * std::abs(direction.z);
+  // Rounding must not part what touches.
+  const double slack = 1e-12 * (reach + std::max(std::abs(least), std::abs(greatest)));
+  return least > reach + slack || greatest < -reach - slack;
+}
+
+// Separating axes of a convex polygon and a box (Gottschalk et al. 1996), but for the box's own.
+bool overlaps(std::span<const Point3d> polygon, Vector3d normal, Point3d centre, Vector3d h) {
+  if (separates(normal, polygon, centre, h)) return false;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Vector3d e = polygon[(i + 1) % polygon.size()] - polygon[i];
+    for (const Vector3d axis : {Vector3d{0, -e.z, e.y}, Vector3d{e.z, 0, -e.x}, Vector3d{-e.y, e.x, 0}})
+      if (separates(axis, polygon, centre, h)) return false;
+  }
+  return true;
+}
+
+template <class Test>
+void mark(Occupancy& occupancy, const Cells& c, const Test& wanted) {
+  for (int z = c.first[2]; z <= c.last[2]; ++z)
+    for (int y = c.first[1]; y <= c.last[1]; ++y)
+      for (int x = c.first[0]; x <= c.last[0]; ++x) {
+        std::uint64_t& slice = occupancy.slice[static_cast<std::size_t>(z)];
+        if (!(slice & bit(x, y)) && wanted(x, y, z)) slice |= bit(x, y);
+      }
+}
+
+}  // namespace
+
+void mark(Occupancy& occupancy, const Bounds3f& box, std::span<const Point3d> polygon, double padding) {
+  const std::array<Axis, 3> axes = axes_of(box);
+  Bounds3d bounds;
+  for (const Point3d& p : polygon) extend(bounds, p);
+  const Cells c = cells_of(axes, bounds, padding);
+  if (c.dimensions() < 2) return mark(occupancy, c, [](int, int, int) { return true; });
+  Vector3d normal;
+  for (std::size_t i = 2; i < polygon.size(); ++i)
+    normal = normal + cross(polygon[i - 1] - polygon[0], polygon[i] - polygon[0]);
+  const Vector3d h{axes[0].size / 2 + padding, axes[1].size / 2 + padding, axes[2].size / 2 + padding};
+  mark(occupancy, c, [&](int x, int y, int z) {
+    const Point3d centre{axes[0].lower + (x + 0.5) * axes[0].size, axes[1].lower + (y + 0.5) * axes[1].size,
+                         axes[2].lower + (z + 0.5) * axes[2].size};
+    return overlaps(polygon, normal, centre, h);
+  });
+}
+
+void mark(Occupancy& occupancy, const Bounds3f& box, const Bounds3f& content) {
+  const Bounds3d bounds{cast<double>(content.lower), cast<double>(content.upper)};
+  mark(occupancy, cells_of(axes_of(box), bounds, 0), [](int, int, int) { return true; });
+}
+
+// Amanatides and Woo 1987.
+bool meets(const Occupancy& occupancy, const Bounds3f& box, Point3d p, Vector3d d, double t0, double t1) {
+  const std::array<Axis, 3> axes = axes_of(box);
+  std::array<int, 3> cell, step;
+  std::array<double, 3> next, per_cell;  // t of the next bound, and from one bound to another
+  for (int a = 0; a < 3; ++a) {
+    const auto at = static_cast<std::size_t>(a);
+    cell[at] = axes[at].cell(p[a] + t0 * d[a]);
+    step[at] = d[a] > 0 ? 1 : -1;
+    const bool moves = d[a] != 0 && axes[at].size > 0;
+    const double bound = axes[at].lower + (cell[at] + (step[at] > 0)) * axes[at].size;
+    next[at] = moves ? (bound - p[a]) / d[a] : std::numeric_limits<double>::infinity();
+    per_cell[at] = moves ? axes[at].size / std::abs(d[a]) : 0;
+  }
+  for (;;) {
+    if (occupancy.slice[static_cast<std::size_t>(cell[2])] & bit(cell[0], cell[1])) return true;
+    const std::size_t a = next[0] < next[1] ? (next[0] < next[2] ? 0 : 2) : (next[1] < next[2] ? 1 : 2);
+    if (next[a] > t1) return false;
+    cell[a] += step[a];
+    if (cell[a] < 0 || cell[a] >= n) return false;
+    next[a] += per_cell[a];
+  }
+}
+
+}  // namespace vitrail

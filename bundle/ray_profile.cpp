@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bundle/ray_profile.h"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "scene/atomic_file.h"
+#include "scene/diagnostics.h"
+
+namespace vitrail {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+RayProfile from_json(const Json& json) {
+  if (json.at("format") != "vitrail ray profile" || json.at("version") != 1)
+    throw Error("not a ray profile of version 1");
+  RayProfile p;
+  for (int axis = 0; axis < 3; ++axis) p.offset[axis] = json.at("offset").at(static_cast<std::size_t>(axis));
+  for (const Json& n : json.at("kd_nodes"))
+    p.kd_nodes.push_back({n.at(1).get<float>(), n.at(0).get<std::uint32_t>(), n.at(2).get<std::uint32_t>(),
+                          n.at(3).get<std::uint32_t>()});
+  for (const Json& d : json.at("domains"))
+    p.domains.push_back({d.at(0).get<std::uint64_t>(), d.at(1).get<std::uint64_t>()});
+  if (p.domains.size() != p.kd_nodes.size() + 1) throw Error("as many domains as leaves are expected");
+  // Children follow their parents: whoever goes down arrives.
+  for (std::uint32_t i = 0; i < p.kd_nodes.size(); ++i) {
+    const KdNode& n = p.kd_nodes[i];
+    for (const std::uint32_t child : {n.below, n.above}) {
+      const std::uint32_t index = child & ~KdNode::leaf_bit;
+      if (n.axis > 2 ||
+          (child & KdNode::leaf_bit ? index >= p.domains.size() : index <= i || index >= p.kd_nodes.size()))
+        throw Error(fmt::format("node {} of its kd-tree is wrong", i));
+    }
+  }
+  return p;
+}
+
+}  // namespace
+
+RayProfile::RayProfile(const Manifest& m, const std::vector<std::uint64_t>& rays)
+    : offset(m.offset), kd_nodes(m.kd_nodes) {
+  for (std::size_t i = 0; i < m.domains.size(); ++i) {
+    const DomainInfo& d = m.domains[i];
+    domains.push_back({rays[i], d.triangles + d.instances});
+  }
+}
+
+std::uint32_t RayProfile::domain_at(Point3d world) const {
+  std::uint32_t at = kd_nodes.empty() ? KdNode::leaf_bit : 0;
+  while (!(at & KdNode::leaf_bit)) {
+    const KdNode& n = kd_nodes[at];
+    const int axis = static_cast<int>(n.axis);
+    at = world[axis] - offset[axis] <= static_cast<double>(n.split) ? n.below : n.above;
+  }
+  return at & ~KdNode::leaf_bit;
+}
+
+void write_ray_profile(const std::filesystem::path& file, const RayProfile& p) {
+  Json json{{"format", "vitrail ray profile"},
+            {"version", 1},
+            {"offset", {p.offset.x, p.offset.y, p.offset.z}},
+            {"kd_nodes", Json::array()},
+            {"domains", Json::array()}};
+  for (const KdNode& n : p.kd_nodes) json["kd_nodes"].push_back({n.axis, n.split, n.below, n.above});
+  for (const RayProfile::Domain& d : p.domains) json["domains"].push_back({d.rays, d.items});
+  const std::string text = json.dump() + "\n";
+  AtomicFile out(file);
+  out.write(std::as_bytes(std::span(text)));
+  out.commit();
+}
+
+RayProfile read_ray_profile(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  if (!in) throw Error("cannot be read", {file.string()});
+  try {
+    return from_json(Json::parse(in));
+  } catch (const Json::exception& e) {
+    throw Error(fmt::format("not a ray profile: {}", e.what()), {file.string()});
+  } catch (const Error& e) {
+    throw Error(e.what(), {file.string()});
+  }
+}
+
+}  // namespace vitrail

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "partitioner/object_budget.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "partitioner/kd_plan.h"
+#include "partitioner/spill_scene.h"
+#include "partitioner/work_estimate.h"
+#include "partitioner/write_objects.h"
+
+namespace vitrail {
+
+namespace {
+
+constexpr std::uint32_t most_domains = 65535;  // farm/: 16 bits in a ray's record
+
+std::uint64_t object_bytes(const Manifest& m, std::span<const InstanceRef> instances) {
+  std::uint64_t bytes = 0;
+  for (const std::uint32_t object : needed_objects(m, instances)) bytes += m.objects[object].bytes;
+  return bytes;
+}
+
+}  // namespace
+
+std::uint32_t domains_within(const World& world, const std::vector<InstanceRef>& instances,
+                             std::uint64_t domain_bytes, std::uint32_t domains) {
+  const std::vector<Bounds3f> boxes = sample_of(world, instances);
+  const std::vector<Item> items = WorkEstimate().items(boxes);
+  Bounds3f bounds;
+  for (const Bounds3f& b : boxes) extend(bounds, b);
+  const InstanceDealer dealer(instances, 0, bounds);
+  for (;;) {
+    std::vector<KdNode> nodes(domains - 1);
+    const double share = static_cast<double>(items.size()) / domains;
+    const KdPlan plan = plan_kd_tree(items, {bounds, 0, 0, domains}, {share, 1, false}, nodes);
+    std::uint64_t most = 0;
+    for (const Subtree& leaf : plan.leaves)
+      most = std::max(most, object_bytes(world.manifest, dealer.in(leaf.cell)));
+    most += most / 4;  // the domains will be cut by another sample
+    if (most <= domain_bytes || domains == most_domains) return domains;
+    const double growth =
+        std::clamp(static_cast<double>(most) / static_cast<double>(domain_bytes), 1.25, 2.0);
+    domains = static_cast<std::uint32_t>(std::min<double>(std::ceil(domains * growth), most_domains));
+  }
+}
+
+}  // namespace vitrail

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+// How many domains it takes until each fits into a budget together with the objects that its instances need.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "partitioner/world.h"
+
+namespace vitrail {
+
+// `domains` or more, tried on a sample; at most so many as a renderer can number. `instances`: of the scene.
+std::uint32_t domains_within(const World& world, const std::vector<InstanceRef>& instances,
+                             std::uint64_t domain_bytes, std::uint32_t domains);
+
+}  // namespace vitrail
