@@ -19,9 +19,12 @@ std::array<Point3d, 3> triangle_in(const Cluster& cluster, std::size_t lane) {
   return v;
 }
 
-double longest_edge_squared(const std::array<Point3d, 3>& v) {
-  const auto squared = [](Vector3d e) { return dot(e, e); };
-  return std::max({squared(v[1] - v[0]), squared(v[2] - v[1]), squared(v[0] - v[2])});
+// That nine roundings of a vertex, across the longest edge, change by a millionth.
+double least_area(const std::array<Point3d, 3>& v) {
+  const double edge = std::max({length(v[1] - v[0]), length(v[2] - v[1]), length(v[0] - v[2])});
+  double greatest = edge;
+  for (const Point3d& p : v) greatest = std::max({greatest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+  return 1e-9 * edge * greatest;
 }
 
 }  // namespace
@@ -80,7 +83,7 @@ void Census::add(std::uint32_t domain, const DomainView& view, std::span<const P
       if (!cut) continue;
       lanes_cut.push_back(id);
       const std::array<Point3d, 3> v = triangle_in(cluster, lane);
-      parts.push_back({id, domain, polygon_area(v), 1e-9 * longest_edge_squared(v), 0});
+      parts.push_back({id, domain, polygon_area(v), least_area(v), 0});
     }
   std::sort(lanes_cut.begin(), lanes_cut.end());
   for (const auto& ids : {cut_here, lanes_cut})

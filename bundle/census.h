@@ -27,9 +27,9 @@ struct CensusResult {
   std::uint64_t lost = 0;           // triangles that no domain holds
   std::uint64_t cut_triangles = 0;  // that are held as pieces
   std::uint64_t pieces = 0;
-  // Greatest |A − Σ area of its pieces| / max(A, 10⁻⁹L²) of a cut triangle of area A and longest edge L.
-  // Below 10⁻⁹L² the exact intersection counts no hit, and the rounding of cut vertices to double begins to
-  // show.
+  // Greatest |A − Σ area of its pieces| / max(A, 10⁻⁹Lm) of a cut triangle of area A, longest edge L and
+  // greatest |coordinate| m, or L if that is more. Below 10⁻⁹Lm the rounding of cut vertices to double,
+  // 10⁻¹⁶m each, begins to show.
   double area_error = 0;
 
   bool ghost_free() const { return duplicates + strays + lost == 0 && area_error < most_area_error; }

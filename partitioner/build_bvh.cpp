@@ -10,9 +10,11 @@
 namespace vitrail {
 namespace {
 
-// x moved by padding + 10⁻⁶|x| towards `towards`, which is ±∞, and rounded the same way.
+// x moved by padding + 10⁻⁶|x| towards `towards`, which is ±∞, and rounded the same way. Not less than 10⁻³⁷:
+// Embree may take subnormal numbers for 0, and slabs lose their bits.
 float inflate(float x, double padding, float towards) {
-  const double moved = double{x} + std::copysign(padding + 1e-6 * std::abs(double{x}), double{towards});
+  const double moved =
+      double{x} + std::copysign(padding + 1e-6 * std::abs(double{x}) + 1e-37, double{towards});
   return std::nextafter(static_cast<float>(moved), towards);
 }
 

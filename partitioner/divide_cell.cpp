@@ -7,7 +7,6 @@
 
 #include <algorithm>
 
-#include "partitioner/write_domain.h"
 #include "scene/deferred_mesh.h"
 
 namespace vitrail {
@@ -97,7 +96,7 @@ void divide_cell(const NumberedTriangles& triangles, const CellContent& cut, con
         const CellContent content = gather(parts, leaf);
         const std::uint32_t domain = plan.leaves[leaf].first_domain;
         m.domains[domain] = write_domain(m, triangles, content, writer.instances.in(plan.leaves[leaf].cell),
-                                         writer.bundle, domain, writer.census);
+                                         writer.store, domain, writer.census);
         writer.wrote(content.size());
       }));
 }

@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// A cell in memory → its domains on disk.
+// A cell in memory → its domains.
 #pragma once
 
-#include <filesystem>
 #include <functional>
 
 #include "bundle/census.h"
 #include "partitioner/kd_plan.h"
 #include "partitioner/work_estimate.h"
+#include "partitioner/write_domain.h"
 #include "partitioner/write_objects.h"
 
 namespace vitrail {
 
 // What all cells have in common. Cells write to places of their own in the manifest.
 struct DomainWriter {
-  std::filesystem::path bundle;
+  StoreDomain store;
   Manifest& manifest;  // kd_nodes and domains have their sizes
   Census& census;
   const InstanceDealer& instances;
@@ -26,7 +26,7 @@ struct DomainWriter {
 };
 
 // Divides a cell, of whose triangles `cut` has the pieces of those that are not whole in it, into the domains
-// of the subtree and writes them.
+// of the subtree and stores them.
 void divide_cell(const NumberedTriangles& triangles, const CellContent& cut, const Subtree& subtree,
                  const DomainWriter& writer);
 

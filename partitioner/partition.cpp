@@ -203,7 +203,7 @@ class Partitioner {
   }
 
   DomainWriter writer(Census& census, const InstanceDealer& instances) {
-    return {bundle_,
+    return {domain_files(bundle_),
             manifest_,
             census,
             instances,

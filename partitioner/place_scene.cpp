@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "partitioner/place_scene.h"
 
+#include <fmt/format.h>
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_for_each.h>
 
@@ -16,6 +17,9 @@
 namespace vitrail {
 
 namespace {
+
+// Tracing multiplies two coordinates in float.
+constexpr float greatest_scale = 1e17f;
 
 struct MeshUse {
   const TriangleMesh* mesh;
@@ -140,6 +144,9 @@ void SceneTally::finish(Manifest& m) {
   if (!world_.instance_bounds.empty()) extend(m.bounds, world_.instance_bounds);
   for (int axis = 0; axis < 3 && m.triangles > 0; ++axis)
     m.scale = std::max({m.scale, std::abs(m.bounds.lower[axis]), std::abs(m.bounds.upper[axis])});
+  if (m.scale > greatest_scale)
+    throw Error(
+        fmt::format("the scene reaches {:g} from its centre; the most is {:g}", m.scale, greatest_scale));
   std::ranges::sort(emissive_, {}, &EmissiveTriangle::triangle);
   m.emissive_triangles = std::move(emissive_);
   const std::uint64_t records = hash_of_records(m);

@@ -125,19 +125,25 @@ void add_instances(std::vector<InstanceRef> instances, float padding, DomainCont
   content.instance_nodes = build_tree(boxes, padding);
 }
 
+StoreDomain domain_files(std::filesystem::path bundle) {
+  return [bundle = std::move(bundle)](std::uint32_t domain, const DomainContent& content, DomainInfo& info) {
+    info.bytes = write_domain_file(domain_path(bundle, domain), content, &info.hash);
+  };
+}
+
 DomainInfo write_domain(const Manifest& manifest, const NumberedTriangles& triangles, const CellContent& cell,
-                        std::vector<InstanceRef> instances, const std::filesystem::path& bundle,
-                        std::uint32_t index, Census& census) {
+                        std::vector<InstanceRef> instances, const StoreDomain& store, std::uint32_t index,
+                        Census& census) {
   const auto pad = static_cast<float>(padding(manifest));
   DomainContent content = make_domain(triangles, cell, pad);
   add_instances(std::move(instances), pad, content);
   census.add(index, view_of(content), content.pieces, content.piece_vertices);
   DomainInfo info{.triangles = cell.size(), .pieces = cell.pieces.size()};
-  info.bytes = write_domain_file(domain_path(bundle, index), content, &info.hash);
   info.tight_bounds = content_bounds(view_of(content));
   info.occupancy = occupancy_of(info.tight_bounds, triangles, cell, content.instances, pad);
   info.instances = content.instances.size();
   info.objects = needed_objects(manifest, content.instances);
+  store(index, std::move(content), info);
   return info;
 }
 

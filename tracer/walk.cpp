@@ -9,6 +9,8 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
+double greatest(Vector3d v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
+
 }  // namespace
 
 double enter_box(const Bounds3f& box, Point3d origin, Vector3d reciprocal, double tmax) {
@@ -26,11 +28,12 @@ DomainWalk::DomainWalk(const Manifest& manifest, const Ray& ray)
     : manifest_(manifest),
       origin_(cast<double>(ray.origin)),
       direction_(cast<double>(ray.direction)),
-      epsilon_(interface_epsilon(manifest)) {
+      epsilon_(interface_epsilon(manifest) + 0x1p-47 * greatest(origin_ - Point3d{})) {
+  // A component too small to divide by moves the ray by 10⁻¹⁸ of its way.
+  const double least = 1e-18 * greatest(direction_);
   for (int axis = 0; axis < 3; ++axis) {
-    // A component too small to divide by moves the ray by less than ε over any distance that matters.
     const double d = direction_[axis];
-    reciprocal_[axis] = 1 / (std::abs(d) < 1e-18 ? (d < 0 ? -1e-18 : 1e-18) : d);
+    reciprocal_[axis] = 1 / (std::abs(d) < least ? (d < 0 ? -least : least) : d);
   }
   stack_[static_cast<std::size_t>(size_++)] = {manifest.kd_nodes.empty() ? KdNode::leaf_bit : 0u, 0,
                                                infinity};

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "tests/bundle/sample_bundle.h"
 
 namespace vitrail {
@@ -51,6 +53,22 @@ TEST(Census, PiecesInTwoDomainsAddUp) {
   EXPECT_EQ(r.cut_triangles, 1u);
   EXPECT_EQ(r.pieces, 2u);
   EXPECT_LT(r.area_error, 1e-15);
+}
+
+// A needle without area at a great distance: a vertex is off by a rounding of its coordinates, not of its
+// edges.
+TEST(Census, CoordinatesRoundAtTheirOwnSize) {
+  DomainContent d = only_the_cut_one({{1e7, 0, 0}, {1e7 + 1, 1, 0}, {1e7 + 0.5 + 1e-9, 0.5, 0}});
+  const auto lane = static_cast<std::size_t>(std::ranges::find(d.clusters[0].id, 3u) - d.clusters[0].id);
+  const float x[] = {1e7f, 1e7f + 1, 1e7f + 0.0f}, y[] = {0, 1, 0};
+  for (std::size_t k = 0; k < 3; ++k) {
+    d.clusters[0].vertex[k][0][lane] = x[k];
+    d.clusters[0].vertex[k][1][lane] = y[k];
+    d.clusters[0].vertex[k][2][lane] = 0;
+  }
+  EXPECT_LT(census_of({d}).area_error, 1e-6);
+  d.piece_vertices[2].x += 1e-3;
+  EXPECT_GT(census_of({d}).area_error, 1e-6);
 }
 
 TEST(Census, FindsWhatIsMissing) {

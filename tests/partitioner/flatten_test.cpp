@@ -163,6 +163,14 @@ TEST(Flatten, RejectsWhatIsNotFinite) {
   EXPECT_THROW(flatten(scene, {}), Error);
 }
 
+TEST(Flatten, RejectsWhatCannotBeTraced) {
+  Scene scene = scene_of(triangle_facing_z());
+  scene.shapes[0].object_to_world = scale({1e16, 1, 1});
+  EXPECT_NO_THROW(flatten(scene, {}));
+  scene.shapes[0].object_to_world = scale({1, 1e18, 1});
+  EXPECT_THROW(flatten(scene, {}), Error);
+}
+
 TEST(Flatten, HashSeesEveryRecord) {
   const Scene scene = scene_of(test::bumpy_torus(10));
   const std::uint64_t hash = flatten(scene, {}).manifest.scene_hash;

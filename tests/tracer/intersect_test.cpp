@@ -61,6 +61,36 @@ TEST(Intersect, NothingBehindTheOrigin) {
   EXPECT_FALSE(occluded(c, {{0.25f, 0.25f, 0}, {0.1f, 0.2f, 1}}, infinity));
 }
 
+TEST(Intersect, DepthsBelowNormalFloats) {
+  const ClusteredTriangles c =
+      cluster({unit_triangle, {Point3f{0, 0, -1}, Point3f{1, 0, -1}, Point3f{0, 1, -1}}});
+  for (const float depth : {1.4e-45f, 1e-42f, 1e-38f})
+    for (const float size : {1.0f, 1e-3f, 1e6f}) {
+      const Ray ray{{0.3f, 0.3f, depth}, {0, 0, -size}};
+      const Hit hit = closest(c, ray);
+      EXPECT_EQ(hit.triangle, 0u);
+      EXPECT_EQ(hit.t, double{depth} / double{size});
+      EXPECT_TRUE(occluded(c, ray, 4 * depth / size + 1e-44f));
+      EXPECT_FALSE(occluded(c, ray, depth / size / 4));
+    }
+}
+
+TEST(Intersect, TrianglesBelowNormalFloats) {
+  const float unit = 1e-42f;
+  Triangles small;
+  for (int i = 0; i < 500; ++i) {
+    const float x = static_cast<float>(i % 25) * unit, y = static_cast<float>(i / 25) * unit;
+    small.push_back({Point3f{x, y, 0}, Point3f{x + unit, y, 0}, Point3f{x, y + unit, 0}});
+  }
+  const ClusteredTriangles c = cluster(small);
+  for (std::uint32_t i = 0; i < small.size(); ++i) {
+    const Point3f p = small[i][0];
+    const Ray ray{{p.x + unit / 4, p.y + unit / 4, unit}, {0, 0, -1}};
+    EXPECT_EQ(closest(c, ray).triangle, i);
+    EXPECT_TRUE(occluded(c, ray, 4 * unit));
+  }
+}
+
 TEST(Intersect, EmptyDomain) {
   const ClusteredTriangles c = cluster({});
   EXPECT_EQ(closest(c, {{0, 0, 1}, {0, 0, -1}}).triangle, no_triangle);

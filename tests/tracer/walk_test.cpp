@@ -105,6 +105,36 @@ TEST(Walk, GoesOnWhereItWasInterrupted) {
   }
 }
 
+TEST(Walk, DirectionsOfAnyLength) {
+  const Manifest m = grid(6);
+  for (const Ray& ray : rays())
+    for (const int exponent : {-110, -60, 90}) {
+      Ray other = ray;
+      other.direction = ray.direction * std::ldexp(1.0f, exponent);
+      const auto visits = all_visits(m, ray), others = all_visits(m, other);
+      ASSERT_EQ(visits.size(), others.size());
+      for (std::size_t i = 0; i < visits.size(); ++i) EXPECT_EQ(visits[i].domain, others[i].domain);
+    }
+}
+
+// From so far away that in double it crosses both of two planes at the same t.
+TEST(Walk, VisitsCellsThatAreCrossedNearTheirCornersFromAfar) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<float> u(-1, 1);
+  for (int i = 0; i < 20'000; ++i) {
+    Manifest m = grid(2);
+    for (DomainInfo& d : m.domains) d.tight_bounds = {{-1, -1, -1}, {1, 1, 1}};
+    const float shift = m.kd_nodes[0].split = 3e-5f * u(random);
+    const Vector3f d{1 + 0.5f * u(random), 1 + 0.5f * u(random), 0.1f * u(random)};
+    const Ray ray{Point3f{} - d * 0x1p36f, d, no_triangle};
+    // It goes through (0, 0): when it reaches y = 0 it is still below the plane at x = shift, or already
+    // above.
+    const std::uint32_t between = shift > 0 ? 1 : 2;
+    const auto visits = all_visits(m, ray);
+    EXPECT_NE(std::ranges::find(visits, between, &DomainWalk::Visit::domain), visits.end()) << shift;
+  }
+}
+
 TEST(Walk, StopsBehindTheHit) {
   const Manifest m = grid(6);
   const Ray ray{{-3, 0.1f, 0.2f}, {1, 0.01f, 0.02f}, no_triangle};

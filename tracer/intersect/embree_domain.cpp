@@ -37,9 +37,9 @@ struct Query {
   double entry = 0;  // where Embree's ray begins, in units of its direction
 };
 
-// Embree's tfar lies a little beyond t, so that no equal or lesser t is lost in float.
+// Embree's tfar lies a little beyond t, so that no equal or lesser t is lost in float, subnormal or not.
 float embree_tfar(const Query& query, double t) {
-  return static_cast<float>(t * query.power * (1 + 2e-6) - query.entry);
+  return static_cast<float>(t * query.power * (1 + 2e-6) - query.entry) + 1e-37f;
 }
 
 bool contains(const Bounds3f& box, const Point3f& p) {

@@ -5,6 +5,8 @@
 // docs/exact-intersection.md.
 
 constexpr float unit_roundoff = 0x1p-24f;
+// Below it floats begin to lose bits: no less counts as known.
+constexpr float least_depth = 1e-37f;
 
 // ---- Clusters ----------------------------------------------------------------------------
 
@@ -56,7 +58,8 @@ inline Depths depths_of(const Edges& e, const RayConstants& ray) {
   const Floats zeta = flip_by(mul_add(e.u, a, mul_add(e.v, b, mul(e.w, c))), signed_det);
   Depths d;
   d.det = abs(signed_det);
-  const Floats rounding = mul(mul(fill(40 * unit_roundoff), max(abs(nearest), abs(farthest))), d.det);
+  const Floats depth = mul_add(fill(40 * unit_roundoff), max(abs(nearest), abs(farthest)), fill(least_depth));
+  const Floats rounding = mul_add(depth, d.det, fill(10 * least_depth));
   const Floats error = mul_add(mul(fill(20), e.error), sub(farthest, nearest), rounding);
   d.earliest = sub(zeta, error);
   d.latest = add(zeta, error);
@@ -73,7 +76,7 @@ inline Lanes out_of_range(const Depths& d, float limit) {
 
 // ζ of hit.t, and enough more that no equal or lesser t is lost in float.
 inline float zeta_limit(const RayConstants& ray, double t) {
-  return static_cast<float>(t * __builtin_fabs(ray.direction_z)) * (1 + 2e-6f);
+  return static_cast<float>(t * __builtin_fabs(ray.direction_z)) * (1 + 2e-6f) + least_depth;
 }
 
 // Returns the limit on ζ that holds afterwards. `index` of the cluster.
@@ -112,8 +115,9 @@ inline bool occluded_in_cluster(const Cluster& cluster, const RayConstants& ray,
   // Lanes that the exact test certainly accepts.
   const Floats zero = fill(0);
   const Lanes inside = either(less_equal(e.error, e.least), less_equal(e.greatest, sub(zero, e.error)));
+  const float certain_limit = (limit - 3 * least_depth) * (1 - 6e-6f);
   const Lanes in_range =
-      both(less_equal(fill(1e-37f), d.earliest), less_equal(d.latest, mul(fill(limit * (1 - 6e-6f)), d.det)));
+      both(less_equal(fill(least_depth), d.earliest), less_equal(d.latest, mul(fill(certain_limit), d.det)));
   const unsigned certain = bits(both(both(inside, in_range), d.known));
   for (; lanes; lanes &= lanes - 1) {
     const unsigned lane = static_cast<unsigned>(__builtin_ctz(lanes));
