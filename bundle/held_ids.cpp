@@ -85,13 +85,20 @@ std::uint32_t end_of_prototype(const Manifest& m, std::uint32_t first) {
   return end;
 }
 
-void check_counts(const DomainInfo& info, const MappedDomain& mapped, const std::filesystem::path& file) {
+void check_counts(const Manifest& manifest, std::uint32_t domain, const MappedDomain& mapped,
+                  const std::filesystem::path& file) {
+  const DomainInfo& info = manifest.domains[domain];
   const DomainView& view = mapped.view();
   if (info.triangles != triangles_in(view.clusters) || info.pieces != mapped.pieces().size() ||
       info.instances != view.instances.size())
     throw Error("it does not hold as many triangles as the manifest says", {file.string()});
   if (!holds(info.tight_bounds, content_bounds(view)))
     throw Error("it reaches beyond the tight bounds that the manifest has for it", {file.string()});
+  const Occupancy held =
+      occupancy_of(info.tight_bounds, view, mapped.pieces(), mapped.piece_vertices(), padding(manifest));
+  for (std::size_t z = 0; z < held.slice.size(); ++z)
+    if (held.slice[z] & ~info.occupancy.slice[z])
+      throw Error("it holds something where the manifest says it is empty", {file.string()});
 }
 
 }  // namespace vitrail

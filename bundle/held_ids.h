@@ -50,6 +50,7 @@ class HeldIds {
 std::uint32_t end_of_prototype(const Manifest& m, std::uint32_t first);
 
 // Throws Error where a domain does not hold what its line in the manifest says.
-void check_counts(const DomainInfo& info, const MappedDomain& mapped, const std::filesystem::path& file);
+void check_counts(const Manifest& manifest, std::uint32_t domain, const MappedDomain& mapped,
+                  const std::filesystem::path& file);
 
 }  // namespace vitrail

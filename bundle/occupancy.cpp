@@ -106,6 +106,25 @@ void mark(Occupancy& occupancy, const Bounds3f& box, const Bounds3f& content) {
   mark(occupancy, cells_of(axes_of(box), bounds, 0), [](int, int, int) { return true; });
 }
 
+Occupancy occupancy_of(const Bounds3f& box, const DomainView& view, std::span<const Piece> pieces,
+                       std::span<const Point3d> piece_vertices, float padding) {
+  Occupancy occupancy;
+  for (const Piece& p : pieces)
+    mark(occupancy, box, piece_vertices.subspan(p.first_vertex, p.vertex_count), double{padding});
+  for (const Cluster& c : view.clusters)
+    for (std::size_t lane = 0; lane < cluster_width; ++lane) {
+      if (c.id[lane] == no_triangle) continue;
+      if (std::ranges::binary_search(pieces, c.id[lane], {}, &Piece::triangle)) continue;
+      std::array<Point3d, 3> triangle;
+      for (std::size_t k = 0; k < 3; ++k)
+        triangle[k] = {double{c.vertex[k][0][lane]}, double{c.vertex[k][1][lane]},
+                       double{c.vertex[k][2][lane]}};
+      mark(occupancy, box, triangle, double{padding});
+    }
+  for (const InstanceRef& ref : view.instances) mark(occupancy, box, box_of(ref));
+  return occupancy;
+}
+
 // Amanatides and Woo 1987.
 bool meets(const Occupancy& occupancy, const Bounds3f& box, Point3d p, Vector3d d, double t0, double t1) {
   const std::array<Axis, 3> axes = axes_of(box);

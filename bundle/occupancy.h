@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <span>
 
+#include "bundle/domain_file.h"
 #include "scene/bounds.h"
 
 namespace vitrail {
@@ -21,6 +22,10 @@ struct Occupancy {
 void mark(Occupancy& occupancy, const Bounds3f& box, std::span<const Point3d> polygon, double padding);
 // Marks all cells that `content` reaches, which is padded already.
 void mark(Occupancy& occupancy, const Bounds3f& box, const Bounds3f& content);
+
+// Of what a domain holds: its pieces, ascending, the triangles it has whole, and its instances' boxes.
+Occupancy occupancy_of(const Bounds3f& box, const DomainView& view, std::span<const Piece> pieces,
+                       std::span<const Point3d> piece_vertices, float padding);
 
 // Whether p + t·d, t0 ≤ t ≤ t1, meets a marked cell of the box. What rounding of the ray's way through the
 // cells may miss has to lie within the padding of the marks: they are a 10⁻¹⁴ of the coordinates.

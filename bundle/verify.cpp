@@ -142,7 +142,7 @@ class Verifier {
       const fs::path file = domain_path(bundle_, i);
       plan(ids, file, [&m, i, file](const MappedDomain& mapped) {
         check_domain(m, i, mapped, file);
-        check_counts(m.domains[i], mapped, file);
+        check_counts(m, i, mapped, file);
       });
     }
   }

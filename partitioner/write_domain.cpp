@@ -2,7 +2,6 @@
 #include "partitioner/write_domain.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -67,18 +66,6 @@ void fill_cluster(const NumberedTriangles& triangles, std::span<const std::uint3
   }
 }
 
-Occupancy occupancy_of(const Bounds3f& box, const NumberedTriangles& triangles, const CellContent& cell,
-                       std::span<const InstanceRef> instances, float padding) {
-  Occupancy occupancy;
-  for (const std::uint32_t i : cell.whole) {
-    const Triangle& t = triangles.triangles[i];
-    mark(occupancy, box, std::array{cast<double>(t[0]), cast<double>(t[1]), cast<double>(t[2])}, padding);
-  }
-  for (const Piece& p : cell.pieces) mark(occupancy, box, cell.polygon(p), padding);
-  for (const InstanceRef& ref : instances) mark(occupancy, box, box_of(ref));
-  return occupancy;
-}
-
 }  // namespace
 
 DomainContent make_domain(const NumberedTriangles& triangles, const CellContent& cell, float padding) {
@@ -140,7 +127,8 @@ DomainInfo write_domain(const Manifest& manifest, const NumberedTriangles& trian
   census.add(index, view_of(content), content.pieces, content.piece_vertices);
   DomainInfo info{.triangles = cell.size(), .pieces = cell.pieces.size()};
   info.tight_bounds = content_bounds(view_of(content));
-  info.occupancy = occupancy_of(info.tight_bounds, triangles, cell, content.instances, pad);
+  info.occupancy =
+      occupancy_of(info.tight_bounds, view_of(content), content.pieces, content.piece_vertices, pad);
   info.instances = content.instances.size();
   info.objects = needed_objects(manifest, content.instances);
   store(index, std::move(content), info);

@@ -162,7 +162,10 @@ SampleBundle whole_bundle() {
   m.attributes = 1;
   m.domains[0].triangles = 11, m.domains[1].triangles = 1, m.domains[2].triangles = 0;
   m.domains[2].pieces = 0;
-  for (DomainInfo& d : m.domains) d.tight_bounds = {{-10, -10, -10}, {10, 10, 10}};
+  for (DomainInfo& d : m.domains) {
+    d.tight_bounds = {{-10, -10, -10}, {10, 10, 10}};
+    d.occupancy.slice.fill(~std::uint64_t{0});
+  }
   return b;
 }
 

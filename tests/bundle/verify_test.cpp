@@ -136,6 +136,8 @@ TEST_F(Verify, FindsWhatTheManifestContradicts) {
               HasSubstr("domains/000001.dom: it does not hold as many"));
   EXPECT_THAT(problems_with([](SampleBundle& b) { b.manifest.domains[0].tight_bounds.upper.y = 9; }),
               HasSubstr("domains/000000.dom: it reaches beyond"));
+  EXPECT_THAT(problems_with([](SampleBundle& b) { b.manifest.domains[0].occupancy = {}; }),
+              HasSubstr("domains/000000.dom: it holds something where"));
   EXPECT_THAT(problems_with([](SampleBundle& b) { b.domains[0].uvs.clear(); }),
               HasSubstr("domains/000000.dom: it does not hold the normals or (u,v)"));
 }
