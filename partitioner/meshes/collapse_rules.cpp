@@ -14,8 +14,10 @@ using Point = HalfEdges::Point;
 using Quadric = OpenMesh::Geometry::QuadricT<double>;
 
 // Of a component's diagonal; of the ratio of volume to area of a closed one, which is half of a sheet's
-// thickness and of a rod's radius.
-constexpr double greatest_error = 0.005, greatest_border_shift = 0.001, greatest_error_of_thickness = 0.1;
+// thickness and of a rod's radius. But 1/2000 of the mesh's diagonal, half a pixel where it fills a picture,
+// is nothing.
+constexpr double greatest_error = 0.005, greatest_border_shift = 0.001, greatest_error_of_thickness = 0.1,
+                 error_that_is_nothing = 0.0005;
 constexpr double least_turn_cosine = 0.2;  // of a triangle's normal, in one collapse
 constexpr double least_shape = 0.02;       // twice the area over the longest edge squared
 constexpr double length_weight = 1e-6;     // prefers short edges where all lie in one plane
@@ -94,6 +96,7 @@ void CollapseRules::find_limits() {
         limits_.emplace_back(Limits{greatest_error * diagonal, greatest_border_shift * diagonal});
     if (closed && area > 0)
       limits.error = std::min(limits.error, greatest_error_of_thickness * std::abs(volume) / (3 * area));
+    limits.error = std::max(limits.error, error_that_is_nothing);
   }
 }
 
