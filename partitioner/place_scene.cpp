@@ -19,7 +19,7 @@ namespace vitrail {
 namespace {
 
 // Tracing multiplies two coordinates in float.
-constexpr float greatest_scale = 1e17f;
+constexpr float greatest_scale = 1e15f;
 
 struct MeshUse {
   const TriangleMesh* mesh;

@@ -65,7 +65,7 @@ class Cook {
     } else if (kind < 0.97) {
       reach = std::exp2(static_cast<double>(random_.below(41)) - 20);
     } else {
-      reach = random_.chance(0.5) ? random_.log_uniform(1e-44, 1e-6) : random_.log_uniform(1e7, 1e17);
+      reach = random_.chance(0.5) ? random_.log_uniform(1e-44, 1e-6) : random_.log_uniform(1e7, 1e15);
     }
     if (random_.chance(0.35)) step_ = reach / static_cast<double>(1u << random_.below(6));
     if (random_.chance(0.25)) offset_ = random_.vector(reach * random_.log_uniform(1, 1e7));
@@ -83,7 +83,7 @@ class Cook {
 
   float rounded(double x, double offset) const {
     if (step_ > 0) x = std::round(x / step_) * step_;
-    return static_cast<float>(std::clamp(x + offset, -1e17, 1e17)) + 0.0f;
+    return static_cast<float>(std::clamp(x + offset, -1e15, 1e15)) + 0.0f;
   }
   Point3f rounded(Point3d p) const {
     return {rounded(p.x, offset_.x), rounded(p.y, offset_.y), rounded(p.z, offset_.z)};
