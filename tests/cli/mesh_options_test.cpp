@@ -8,6 +8,7 @@
 #include "importers/import.h"
 #include "tests/partitioner/test_scenes.h"
 #include "tests/support/command.h"
+#include "tests/support/render.h"
 #include "tests/support/temporary_directory.h"
 
 namespace vitrail {
@@ -22,6 +23,7 @@ class MeshOptions : public ::testing::Test {
     torus.triangles.push_back(torus.triangles[7]);
     torus.triangles.push_back({5, 5, 6});
     Scene scene = test::scene_of(torus);
+    test::set_camera(scene, {30, 30, 30}, {}, {0, 0, 1}, 0.8, 64, 48);
     scene.lights.push_back({InfiniteLight{ConstantSpectrum{1}}});
     export_scene(scene, folder_ / "in.pbrt");
   }

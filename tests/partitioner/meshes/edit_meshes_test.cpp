@@ -85,13 +85,13 @@ TEST(EditMeshes, InOrderAndWithNotes) {
   soup.triangles.push_back({0, 0, 1});
   soup.triangles.push_back(soup.triangles[5]);
   test::turn_at_random(soup, 1);
-  Scene scene = scene_of({soup, test::sphere(3)});
+  Scene scene = scene_of({soup, test::sphere(4)});
   scene.meshes.push_back(test::as_soup(test::sphere(1)));  // that no shape uses
   scene.files = {"a.pbrt"};
   scene.shapes[0].origin = {0, 4, 1};
   const EditedMeshes edited = edit_meshes(scene, {true, true, 0, 0.5, {}});
-  EXPECT_EQ(edited.triangles_before, 2048u + 2 + 512);
-  EXPECT_NEAR(static_cast<double>(edited.triangles_after), 1024 + 256, 4);
+  EXPECT_EQ(edited.triangles_before, 2048u + 2 + 2048);
+  EXPECT_NEAR(static_cast<double>(edited.triangles_after), 1024 + 1024, 4);
   EXPECT_GT(test::volume6(scene.meshes[0]), 24);
   EXPECT_EQ(scene.meshes[2].positions.size(), 96u);
   ASSERT_EQ(edited.notes.size(), 4u);
