@@ -72,6 +72,18 @@ bool overlaps(std::span<const Point3d> polygon, Vector3d normal, Point3d centre,
   return true;
 }
 
+// Of all its triangles; lanes without one hold NaN, which no comparison takes.
+Bounds3d bounds_of(const Cluster& c) {
+  Bounds3f b;
+  for (const auto& vertex : c.vertex)
+    for (int axis = 0; axis < 3; ++axis)
+      for (const float x : vertex[axis]) {
+        b.lower[axis] = x < b.lower[axis] ? x : b.lower[axis];
+        b.upper[axis] = x > b.upper[axis] ? x : b.upper[axis];
+      }
+  return {cast<double>(b.lower), cast<double>(b.upper)};
+}
+
 template <class Test>
 void mark(Occupancy& occupancy, const Cells& c, const Test& wanted) {
   for (int z = c.first[2]; z <= c.last[2]; ++z)
@@ -111,7 +123,14 @@ Occupancy occupancy_of(const Bounds3f& box, const DomainView& view, std::span<co
   Occupancy occupancy;
   for (const Piece& p : pieces)
     mark(occupancy, box, piece_vertices.subspan(p.first_vertex, p.vertex_count), double{padding});
-  for (const Cluster& c : view.clusters)
+  const std::array<Axis, 3> axes = axes_of(box);
+  for (const Cluster& c : view.clusters) {
+    // Most clusters lie in one cell.
+    const Cells cells = cells_of(axes, bounds_of(c), double{padding});
+    if (cells.dimensions() == 0) {
+      mark(occupancy, cells, [](int, int, int) { return true; });
+      continue;
+    }
     for (std::size_t lane = 0; lane < cluster_width; ++lane) {
       if (c.id[lane] == no_triangle) continue;
       if (std::ranges::binary_search(pieces, c.id[lane], {}, &Piece::triangle)) continue;
@@ -121,6 +140,7 @@ Occupancy occupancy_of(const Bounds3f& box, const DomainView& view, std::span<co
                        double{c.vertex[k][2][lane]}};
       mark(occupancy, box, triangle, double{padding});
     }
+  }
   for (const InstanceRef& ref : view.instances) mark(occupancy, box, box_of(ref));
   return occupancy;
 }
