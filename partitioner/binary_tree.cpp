@@ -17,6 +17,14 @@ constexpr std::size_t bucket_size = 1024, sampling = 8, least_samples = 64;
 constexpr int most_bucket_levels = 24;
 constexpr int most_levels_by_area = 60;  // below, each level halves what is left: at most 32 more
 
+// To the end, even where an error elsewhere cancels the work that this is a part of: what comes next reads
+// all that is written here.
+template <class Visit>
+void for_all(std::size_t count, const Visit& visit) {
+  tbb::task_group_context alone(tbb::task_group_context::isolated);
+  tbb::parallel_for(std::size_t{0}, count, visit, alone);
+}
+
 // [i]: least sum of the areas of the wide nodes below when the subtree hangs in its parent as at most
 // i = 1 … 8 children.
 using Costs = std::array<float, 9>;
@@ -205,7 +213,7 @@ std::unique_ptr<BoxRecord[]> sort_into_buckets(std::span<const Bounds3f> boxes, 
   const auto bucket = std::make_unique_for_overwrite<std::uint32_t[]>(boxes.size());
   std::vector<std::vector<std::size_t>> at(blocks, std::vector<std::size_t>(top.buckets));
   const auto in_blocks = [&](const auto& visit) {
-    tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t block) {
+    for_all(blocks, [&](std::size_t block) {
       const std::size_t begin = block * block_size;
       visit(begin, std::min(boxes.size(), begin + block_size), at[block]);
     });
@@ -260,7 +268,7 @@ BinaryTree build_binary_tree(std::span<const Bounds3f> boxes, unsigned leaf_size
   tree.nodes = std::make_unique_for_overwrite<BinaryNode[]>(2 * boxes.size() + top.nodes.size());
   tree.order = std::make_unique_for_overwrite<std::uint32_t[]>(boxes.size());
   std::vector<Built> built(top.buckets);
-  tbb::parallel_for(std::size_t{0}, built.size(), [&](std::size_t b) {
+  for_all(built.size(), [&](std::size_t b) {
     const std::size_t size = starts[b + 1] - starts[b];
     built[b].node = static_cast<std::uint32_t>(2 * starts[b]);
     built[b].empty = size == 0;

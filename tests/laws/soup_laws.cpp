@@ -283,7 +283,9 @@ Triangles triangles_of(const LoadedBundle& undivided) {
 
 void judge_by_files(const Soup& soup, const Effort& effort, Findings& findings) {
   const TemporaryDirectory directory;
-  const bool instances = soup.seed / 128 % 2 == 0 && !soup.triangles.empty();
+  // Instances are moved and scaled, and must stay where scenes may reach.
+  const bool instances =
+      soup.seed / 128 % 2 == 0 && !soup.triangles.empty() && greatest_coordinate(soup.triangles) < 1e9f;
   const Scene scene = instances ? scene_with_instances(soup) : scene_of(soup);
   partition(scene, directory / "whole.vit", {.domains = 1, .threads = 1, .flatten = true});
   const auto at_once = static_cast<std::uint32_t>(soup.seed / 256 % 3);

@@ -3,6 +3,7 @@
 
 #include <embree3/rtcore.h>
 #include <gtest/gtest.h>
+#include <tbb/parallel_for.h>
 
 #include <cmath>
 #include <random>
@@ -150,6 +151,20 @@ TEST(BinaryTree, ClustersOfManySizes) {
     add_boxes(boxes, 10'000, {size * 3, 0, size}, size, size * 0.02f);
   }
   expect_as_good_as_embree(boxes);
+}
+
+// An error or an interrupt cancels all work of a partitioning; what is being built has to stay readable.
+TEST(BinaryTree, IsWholeInWorkThatIsCancelled) {
+  Boxes boxes;
+  add_boxes(boxes, 50'000, {}, 1, 0.01f);
+  tbb::task_group_context cancelled;
+  tbb::parallel_for(
+      0, 1,
+      [&](int) {
+        cancelled.cancel_group_execution();
+        expect_valid(build_binary_tree(boxes, leaf_size), boxes);
+      },
+      cancelled);
 }
 
 TEST(BinaryTree, HugeAndTinyNumbers) {
