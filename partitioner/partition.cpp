@@ -129,7 +129,7 @@ class Partitioner {
       if (mesh.deferred) needs.largest_mesh = std::max(needs.largest_mesh, mesh.deferred->bytes);
     }
     plan_ = plan_memory(world_.manifest, needs);
-    if (options.domain_bytes > 0 && !refs_.empty()) {
+    if (options.domains == 0 && options.domain_bytes > 0 && !refs_.empty()) {
       needs.domains = domains_within(world_, refs_, options.domain_bytes, plan_.domains);
       plan_ = plan_memory(world_.manifest, needs);
     }
