@@ -28,7 +28,8 @@ DomainWalk::DomainWalk(const Manifest& manifest, const Ray& ray)
     : manifest_(manifest),
       origin_(cast<double>(ray.origin)),
       direction_(cast<double>(ray.direction)),
-      epsilon_(interface_epsilon(manifest) + 0x1p-47 * greatest(origin_ - Point3d{})) {
+      rounding_(0x1p-47 * greatest(origin_ - Point3d{})),
+      epsilon_(interface_epsilon(manifest) + rounding_) {
   // A component too small to divide by moves the ray by 10⁻¹⁸ of its way.
   const double least = 1e-18 * greatest(direction_);
   for (int axis = 0; axis < 3; ++axis) {
@@ -77,7 +78,10 @@ bool DomainWalk::next(double tmax, Visit& visit) {
     const double entry = enter_box(info.tight_bounds, origin_, reciprocal_, tmax);
     if (entry == infinity) continue;
     visit = {domain, std::max(leaf.t0, entry)};
-    if (!meets(info.occupancy, info.tight_bounds, origin_, direction_, visit.entry, tmax)) continue;
+    // From far away the way through the cells is less certain than they are padded.
+    if (rounding_ < padding(manifest_) &&
+        !meets(info.occupancy, info.tight_bounds, origin_, direction_, visit.entry, tmax))
+      continue;
     return true;
   }
   return false;

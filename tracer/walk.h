@@ -40,6 +40,7 @@ class DomainWalk {
   const Manifest& manifest_;
   Point3d origin_;
   Vector3d direction_, reciprocal_;
+  double rounding_;  // of points on the ray
   double epsilon_;
   std::array<Pending, 64> stack_;
   int size_ = 0;

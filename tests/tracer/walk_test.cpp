@@ -135,6 +135,15 @@ TEST(Walk, VisitsCellsThatAreCrossedNearTheirCornersFromAfar) {
   }
 }
 
+// Rounding moves such a ray by more than marks are padded: a domain is visited whatever its cells.
+TEST(Walk, AsksNoCellsFromAfar) {
+  Manifest m = grid(0);
+  m.domains[0].occupancy = {};
+  m.domains[0].occupancy.slice[0] = 1;
+  EXPECT_TRUE(all_visits(m, {{0.5f, 0.5f, 3}, {0, 0, -1}, no_triangle}).empty());
+  EXPECT_EQ(all_visits(m, {{0.5f, 0.5f, 1e12f}, {0, 0, -1}, no_triangle}).size(), 1u);
+}
+
 TEST(Walk, StopsBehindTheHit) {
   const Manifest m = grid(6);
   const Ray ray{{-3, 0.1f, 0.2f}, {1, 0.01f, 0.02f}, no_triangle};
