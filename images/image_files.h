@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures that a scene refers to, where a format needs them in another form. Brings OpenImageIO.
+// Pictures that a scene refers to, where a format needs them in another form. Loads OpenImageIO with the
+// first.
 #pragma once
 
 #include <filesystem>
@@ -21,7 +22,10 @@ struct ImageLayout {
   bool integer = false;
 };
 
-// These throw Error with the file's name.
+// Whether there was a first.
+bool image_library_is_loaded();
+
+// These throw Error with the file's name, or MachineError where OpenImageIO cannot be loaded.
 ImageLayout read_image_layout(const std::filesystem::path& file);
 StoredImage read_stored_image(const std::filesystem::path& file);
 

@@ -14,7 +14,7 @@ vitrail_library(obj_exporter
   SOURCES obj/mtl_text.cpp obj/write_mtl.cpp obj/write_obj.cpp
   LIBRARIES vitrail::export_support vitrail::scene fmt::fmt)
 
-# Images in another form than a scene has them. Brings OpenImageIO.
+# Images in another form than a scene has them.
 vitrail_library(environment_images
   SOURCES images/environment_images.cpp
   LIBRARIES vitrail::image_files vitrail::scene)

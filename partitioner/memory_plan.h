@@ -24,6 +24,7 @@ struct MemoryNeeds {
   std::uint64_t largest_mesh = 0;    // bytes of one that is in its file
   std::uint32_t domains = 0;         // 0: by domain_bytes
   std::uint64_t domain_bytes = 0;  // of a file; 0: 64 MiB, or less where that is more than 1/32 of the budget
+  bool image_library = false;      // loaded
   int threads = 1;
 };
 

@@ -11,6 +11,7 @@
 #include <mutex>
 #include <stdexcept>
 
+#include "images/image_files.h"
 #include "partitioner/bundle_directory.h"
 #include "partitioner/divide_cell.h"
 #include "partitioner/flatten.h"
@@ -123,6 +124,7 @@ class Partitioner {
                       .instance_bytes = refs_.size() * bytes_of_reference,
                       .domains = options.domains,
                       .domain_bytes = options.domain_bytes,
+                      .image_library = image_library_is_loaded(),
                       .threads = tbb::this_task_arena::max_concurrency()};
     for (const TriangleMesh& mesh : scene.meshes) {
       needs.mesh_bytes += bytes_of(mesh);

@@ -68,8 +68,8 @@ class PartitionMemory : public ::testing::Test {
 
 TEST_F(PartitionMemory, BudgetIsKeptAndThePictureStays) {
   write_scene(16, 360);  // 4.1 million triangles
-  constexpr std::uint64_t budget = 256u << 20;
-  const nlohmann::json little = partition("little.vit", "--memory 256M");
+  constexpr std::uint64_t budget = 192u << 20;
+  const nlohmann::json little = partition("little.vit", "--memory 192M");
   const nlohmann::json plenty = partition("plenty.vit", "--domains 5");
   EXPECT_LE(little["peak_rss_bytes"].get<std::uint64_t>(), budget);
   EXPECT_EQ(little["memory_budget_bytes"], budget);

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+
+#include <algorithm>
+#include <memory>
+#include <span>
+
+#include "images/image_codec.h"
+
+namespace vitrail {
+
+namespace {
+
+// The channels R, G and B by name, else the first three; the first alone of a picture with fewer.
+std::vector<int> color_channels(const OIIO::ImageSpec& spec) {
+  const std::vector<int> named{spec.channelindex("R"), spec.channelindex("G"), spec.channelindex("B")};
+  if (*std::min_element(named.begin(), named.end()) >= 0) return named;
+  if (spec.nchannels >= 3) return {0, 1, 2};
+  return {0};
+}
+
+std::string read(const std::string& file, ImageLayout& layout, Image* image) {
+  const auto in = OIIO::ImageInput::open(file);
+  if (!in) return OIIO::geterror();
+  const OIIO::ImageSpec& spec = in->spec();
+  if (spec.depth > 1) return "volumes are not images";
+  const std::vector<int> channels = color_channels(spec);
+  layout = {spec.width, spec.height, static_cast<int>(channels.size()), !spec.format.is_floating_point()};
+  if (!image) return {};
+  std::vector<float> values(spec.image_pixels() * static_cast<std::size_t>(spec.nchannels));
+  if (!in->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, values.data())) return in->geterror();
+  *image = black_image(layout.width, layout.height, layout.channels);
+  float* out = image->values.data();
+  for (std::size_t pixel = 0; pixel < image->pixels(); ++pixel)
+    for (const int channel : channels)
+      *out++ = values[pixel * static_cast<std::size_t>(spec.nchannels) + static_cast<std::size_t>(channel)];
+  return {};
+}
+
+std::string encode_exr(const Image& image, std::vector<std::byte>& bytes) {
+  OIIO::ImageSpec spec(image.width, image.height, image.channels, OIIO::TypeDesc::FLOAT);
+  if (image.channels == 1) spec.channelnames = {"Y"};
+  spec.attribute("compression", "zip");
+  spec.attribute("DateTime", "1970:01:01 00:00:00");
+  OIIO::Filesystem::IOVecOutput memory;
+  const auto out = OIIO::ImageOutput::create("image.exr", &memory);
+  if (!out) return OIIO::geterror();
+  if (!out->open("image.exr", spec) || !out->write_image(spec.format, image.values.data()) || !out->close())
+    return out->geterror();
+  const auto written = std::as_bytes(std::span(memory.buffer()));
+  bytes.assign(written.begin(), written.end());
+  return {};
+}
+
+}  // namespace
+
+extern "C" const ImageCodec vitrail_image_codec;
+const ImageCodec vitrail_image_codec{read, encode_exr};
+
+}  // namespace vitrail
