@@ -202,13 +202,21 @@ void ShapeMaker::read_ahead() {
   constexpr std::size_t text_bytes = 1 << 18;
   constexpr std::string_view suffix = ".ply\"";
   if (!context_.upcoming || !ply_reader_.has_room()) return;
-  const std::string_view text = context_.upcoming(text_bytes);
-  for (std::size_t at = text.find(suffix); at != text.npos; at = text.find(suffix, at + suffix.size())) {
-    const std::size_t quote = text.rfind('"', at);
-    if (quote == text.npos) continue;
-    const std::filesystem::path path =
-        context_.resolve(std::string(text.substr(quote + 1, at + suffix.size() - quote - 2)));
-    if (!ply_files_.contains(path.string()) && !ply_reader_.expect(path)) return;
+  std::string_view text = context_.upcoming(text_bytes);
+  const char* const end = text.data() + text.size();
+  if (std::less_equal<>()(text.data(), looked_ahead_to_) && std::less_equal<>()(looked_ahead_to_, end))
+    text = {looked_ahead_to_, end};
+  while (true) {
+    looked_ahead_to_ = text.data();
+    const std::size_t at = text.find(suffix);
+    if (at == text.npos) return;
+    const std::size_t quote = text.rfind('"', at), behind = at + suffix.size();
+    if (quote != text.npos) {
+      const std::filesystem::path path =
+          context_.resolve(std::string(text.substr(quote + 1, behind - quote - 2)));
+      if (!ply_files_.contains(path.string()) && !ply_reader_.expect(path)) return;
+    }
+    text.remove_prefix(behind);
   }
 }
 

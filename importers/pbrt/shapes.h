@@ -49,6 +49,7 @@ class ShapeMaker {
   std::vector<TriangleMesh>& meshes_;
   std::map<std::string, Id<TriangleMesh>> ply_files_;
   MeshReadAhead ply_reader_;
+  const char* looked_ahead_to_ = nullptr;  // in the text to come, or another file's
   std::map<QuadricKey, Id<TriangleMesh>> quadrics_;
 };
 
