@@ -77,6 +77,9 @@ PartitionStats statistics(const Manifest& m, const CensusResult& census,
   return s;
 }
 
+// Enough for a disk; larger ones only leave the processor's caches.
+constexpr std::uint64_t most_spill_buffer_bytes = 4 << 20;
+
 using ProgressFunction = std::function<void(double, const char*)>;
 
 // Phases in order, each with its share of the whole; work is counted from any thread.
@@ -186,7 +189,8 @@ class Partitioner {
                                     {share, plan_.domains_at_once, median_}, world_.manifest.kd_nodes);
     buckets_ = top.leaves.size();
     phases_.begin("sorting triangles into parts", 0.4, triangles);
-    Spill spill(bundle_ / "spill", buckets_, world_.rule(), plan_.spill_bytes / buckets_);
+    Spill spill(bundle_ / "spill", buckets_, world_.rule(),
+                std::min(plan_.spill_bytes / buckets_, most_spill_buffer_bytes));
     SceneTally tally(world_);
     spill_scene(world_, top, plan_.load_bytes, spill, tally, [&](std::uint64_t n) { phases_.advance(n); });
     tally.finish(world_.manifest);
