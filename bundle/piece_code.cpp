@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 
@@ -59,27 +60,30 @@ PieceList decode_pieces(std::span<const Cluster> clusters, std::span<const std::
   if (parents.size() < triangles.size())
     reject_domain(file, fmt::format("it has a piece of triangle {}, which is not there or not in this order",
                                     triangles[parents.size()]));
+  const auto corners_with = [&](unsigned bits, unsigned value) {
+    return static_cast<std::size_t>(
+        std::ranges::count_if(corners, [&](PieceCorner c) { return (c & bits) == value; }));
+  };
+  if (corners_with(~(last_corner | 3u), 0) != corners.size() ||
+      corners_with(3, next_cut_vertex) != cut_vertices.size() ||
+      corners_with(last_corner, last_corner) != triangles.size() ||
+      (!corners.empty() && !(corners.back() & last_corner)))
+    reject_domain(file, "the corners of its pieces are wrong");
   PieceList list;
   list.pieces.reserve(triangles.size());
   list.vertices.reserve(corners.size());
   std::uint32_t first = 0;
-  auto next_cut = cut_vertices.begin();
-  for (const PieceCorner code : corners) {
-    const PieceCorner corner = code & ~last_corner;
-    const std::size_t i = list.pieces.size();
-    if (corner > next_cut_vertex || i == triangles.size() ||
-        (corner == next_cut_vertex && next_cut == cut_vertices.end()))
-      reject_domain(file, "the corners of its pieces are wrong");
-    list.vertices.push_back(corner == next_cut_vertex ? *next_cut++ : parents[i][corner]);
-    if (!(code & last_corner)) continue;
+  auto cut_vertex = cut_vertices.begin();
+  for (const PieceCorner corner : corners) {
+    const std::size_t i = list.pieces.size(), vertex = corner & 3;
+    list.vertices.push_back(vertex == next_cut_vertex ? *cut_vertex++ : parents[i][vertex]);
+    if (!(corner & last_corner)) continue;
     const auto end = static_cast<std::uint32_t>(list.vertices.size());
     if (end - first < 3)
       reject_domain(file, fmt::format("a piece of triangle {} is no polygon", triangles[i]));
     list.pieces.push_back({triangles[i], first, end - first});
     first = end;
   }
-  if (list.pieces.size() < triangles.size() || next_cut != cut_vertices.end())
-    reject_domain(file, "its pieces do not end where they should");
   return list;
 }
 
