@@ -12,13 +12,6 @@ namespace {
 
 constexpr std::uint32_t seen_whole = 1, seen_as_piece = 2;
 
-std::array<Point3d, 3> triangle_in(const Cluster& cluster, std::size_t lane) {
-  std::array<Point3d, 3> v;
-  for (std::size_t k = 0; k < 3; ++k)
-    v[k] = {cluster.vertex[k][0][lane], cluster.vertex[k][1][lane], cluster.vertex[k][2][lane]};
-  return v;
-}
-
 // That nine roundings of a vertex, across the longest edge, change by a millionth.
 double least_area(const std::array<Point3d, 3>& v) {
   const double edge = std::max({length(v[1] - v[0]), length(v[2] - v[1]), length(v[0] - v[2])});
@@ -61,13 +54,9 @@ std::uint32_t Census::mark(std::uint64_t place, std::uint32_t bits) {
 
 void Census::add(std::uint32_t domain, const DomainView& view, std::span<const Piece> pieces,
                  std::span<const Point3d> piece_vertices) {
-  std::vector<std::uint32_t> cut_here, lanes_cut;
-  for (const Piece& p : pieces) cut_here.push_back(p.triangle);
-  std::sort(cut_here.begin(), cut_here.end());
-  std::vector<bool> may_be_cut(1u << 16);
-  for (const std::uint32_t id : cut_here) may_be_cut[id % may_be_cut.size()] = true;
   std::vector<CutPart> parts;
   std::uint64_t duplicates = 0, strays = 0;
+  auto piece = pieces.begin();
   for (const Cluster& cluster : view.clusters)
     for (std::size_t lane = 0; lane < cluster_width; ++lane) {
       const std::uint32_t id = cluster.id[lane];
@@ -76,28 +65,19 @@ void Census::add(std::uint32_t domain, const DomainView& view, std::span<const P
         strays += id != no_triangle;
         continue;
       }
-      const bool cut =
-          may_be_cut[id % may_be_cut.size()] && std::binary_search(cut_here.begin(), cut_here.end(), id);
+      const bool cut = piece != pieces.end() && piece->triangle == id;
       const std::uint32_t before = mark(*place, cut ? seen_as_piece : seen_whole);
       if (cut ? (before & seen_whole) != 0 : before != 0) ++duplicates;
       if (!cut) continue;
-      lanes_cut.push_back(id);
       const std::array<Point3d, 3> v = triangle_in(cluster, lane);
-      parts.push_back({id, domain, polygon_area(v), least_area(v), 0});
+      parts.push_back({id, domain, polygon_area(v), least_area(v),
+                       polygon_area(piece_vertices.subspan(piece->first_vertex, piece->vertex_count))});
+      ++piece;
     }
-  std::sort(lanes_cut.begin(), lanes_cut.end());
-  for (const auto& ids : {cut_here, lanes_cut})
-    for (std::size_t i = 1; i < ids.size(); ++i) duplicates += ids[i] == ids[i - 1];
-
-  const auto less = [](const CutPart& a, const CutPart& b) { return a.triangle < b.triangle; };
-  std::sort(parts.begin(), parts.end(), less);
-  for (const Piece& p : pieces) {
-    const auto part = std::lower_bound(parts.begin(), parts.end(), CutPart{p.triangle, 0, 0, 0, 0}, less);
-    if (part != parts.end() && part->triangle == p.triangle)
-      part->area += polygon_area(piece_vertices.subspan(p.first_vertex, p.vertex_count));
-    else
-      ++strays;
-  }
+  strays += static_cast<std::uint64_t>(pieces.end() - piece);
+  std::sort(parts.begin(), parts.end(),
+            [](const CutPart& a, const CutPart& b) { return a.triangle < b.triangle; });
+  for (std::size_t i = 1; i < parts.size(); ++i) duplicates += parts[i].triangle == parts[i - 1].triangle;
   duplicates_ += duplicates;
   strays_ += strays;
   const std::lock_guard lock(mutex_);

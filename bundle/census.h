@@ -22,9 +22,9 @@ struct IdRange {
 inline constexpr double most_area_error = 1e-6;
 
 struct CensusResult {
-  std::uint64_t duplicates = 0;     // uncut triangles held more than once, pieces held twice by one domain
-  std::uint64_t strays = 0;         // triangles of instances, and pieces of triangles that are not there
-  std::uint64_t lost = 0;           // triangles that no domain holds
+  std::uint64_t duplicates = 0;  // uncut triangles held more than once, cut ones twice by one domain
+  std::uint64_t strays = 0;  // triangles of instances, and pieces whose triangle is not next in their order
+  std::uint64_t lost = 0;    // triangles that no domain holds
   std::uint64_t cut_triangles = 0;  // that are held as pieces
   std::uint64_t pieces = 0;
   // Greatest |A − Σ area of its pieces| / max(A, 10⁻⁹Lm) of a cut triangle of area A, longest edge L and

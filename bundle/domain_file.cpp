@@ -3,6 +3,7 @@
 
 #include "bundle/checksum.h"
 #include "bundle/domain_layout.h"
+#include "bundle/piece_code.h"
 #include "bundle/write_file.h"
 
 namespace vitrail {
@@ -31,6 +32,13 @@ DomainView view_of(const DomainContent& content) {
           content.attributes, content.instances, content.instance_nodes, {}};
 }
 
+std::array<Point3d, 3> triangle_in(const Cluster& c, std::size_t lane) {
+  std::array<Point3d, 3> v;
+  for (std::size_t k = 0; k < 3; ++k)
+    v[k] = {double{c.vertex[k][0][lane]}, double{c.vertex[k][1][lane]}, double{c.vertex[k][2][lane]}};
+  return v;
+}
+
 std::uint64_t triangles_in(std::span<const Cluster> clusters) {
   std::uint64_t filled = 0;
   for (const Cluster& c : clusters)
@@ -52,12 +60,13 @@ Bounds3f content_bounds(const DomainView& view) {
 
 std::uint64_t write_domain_file(const std::filesystem::path& file, const DomainContent& content,
                                 std::uint64_t* hash) {
+  const PieceCode pieces = encode_pieces(content.clusters, content.pieces, content.piece_vertices);
   const std::array<std::span<const std::byte>, layout::section_count> data{
-      std::as_bytes(std::span(content.nodes)),          std::as_bytes(std::span(content.clusters)),
-      std::as_bytes(std::span(content.normals)),        std::as_bytes(std::span(content.uvs)),
-      std::as_bytes(std::span(content.attributes)),     std::as_bytes(std::span(content.pieces)),
-      std::as_bytes(std::span(content.piece_vertices)), std::as_bytes(std::span(content.instances)),
-      std::as_bytes(std::span(content.instance_nodes))};
+      std::as_bytes(std::span(content.nodes)),      std::as_bytes(std::span(content.clusters)),
+      std::as_bytes(std::span(content.normals)),    std::as_bytes(std::span(content.uvs)),
+      std::as_bytes(std::span(content.attributes)), std::as_bytes(std::span(pieces.triangles)),
+      std::as_bytes(std::span(pieces.corners)),     std::as_bytes(std::span(pieces.cut_vertices)),
+      std::as_bytes(std::span(content.instances)),  std::as_bytes(std::span(content.instance_nodes))};
   constexpr std::array<std::byte, layout::section_alignment + layout::section_tail> zeros{};
 
   // With zeros up to a multiple of 64.

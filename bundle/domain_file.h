@@ -79,6 +79,12 @@ struct Piece {
   std::uint32_t vertex_count = 0;
 };
 
+// In the order of the clusters and of their lanes, one of a triangle at most.
+struct PieceList {
+  std::vector<Piece> pieces;
+  std::vector<Point3d> vertices;
+};
+
 // What a domain file holds, in memory. Node 0 is the root; an empty domain has no nodes.
 struct DomainContent {
   std::vector<BvhNode> nodes;
@@ -86,7 +92,7 @@ struct DomainContent {
   std::vector<ClusterNormals> normals;        // empty, or one a cluster
   std::vector<ClusterUvs> uvs;                // empty, or one a cluster
   std::vector<ClusterAttributes> attributes;  // as many a cluster as the manifest has slots
-  std::vector<Piece> pieces;
+  std::vector<Piece> pieces;                  // as in a PieceList
   std::vector<Point3d> piece_vertices;
   std::vector<InstanceRef> instances;
   std::vector<BvhNode> instance_nodes;  // a tree over the instances, whose indices take the clusters' place
@@ -108,6 +114,8 @@ struct DomainView {
 
 DomainView view_of(const DomainContent& content);
 
+// The vertices of one that a lane holds.
+std::array<Point3d, 3> triangle_in(const Cluster& cluster, std::size_t lane);
 // Lanes that are not empty.
 std::uint64_t triangles_in(std::span<const Cluster> clusters);
 // Of all that is in the trees, padded as their boxes are.
@@ -136,9 +144,8 @@ class MappedDomain {
   const layout::DomainHeader& header() const;
   std::span<const layout::Section> sections() const;
 
-  // The cold sections, verified when asked for.
-  std::span<const Piece> pieces() const;
-  std::span<const Point3d> piece_vertices() const;
+  // From the cold sections, which are verified when asked for.
+  PieceList pieces() const;
   // Verifies the checksums of all that the constructor leaves out.
   void check_cold() const;
 

@@ -9,6 +9,7 @@
 
 #include "bundle/domain_file.h"
 #include "bundle/features.h"
+#include "bundle/piece_code.h"
 
 namespace vitrail::layout {
 
@@ -16,7 +17,7 @@ static_assert(std::endian::native == std::endian::little,
               "domain files are little-endian and mapped as they are");
 
 inline constexpr std::array<char, 8> domain_magic{'V', 'I', 'T', 'R', 'D', 'O', 'M', '\n'};
-inline constexpr std::uint32_t domain_version = 4;
+inline constexpr std::uint32_t domain_version = 5;
 inline constexpr std::uint64_t section_alignment = 64;
 // Zero bytes that follow each section at least: vector loads may read past the end of an array.
 inline constexpr std::uint64_t section_tail = 16;
@@ -28,19 +29,21 @@ enum SectionIndex : std::size_t {
   uvs,
   attributes,
   pieces,
-  piece_vertices,
+  piece_corners,
+  cut_vertices,
   instances,
   instance_nodes,
   section_count
 };
 
 inline constexpr std::array<std::uint32_t, section_count> element_size{
-    sizeof(BvhNode), sizeof(Cluster), sizeof(ClusterNormals), sizeof(ClusterUvs), sizeof(ClusterAttributes),
-    sizeof(Piece),   sizeof(Point3d), sizeof(InstanceRef),    sizeof(BvhNode)};
+    sizeof(BvhNode),           sizeof(Cluster),       sizeof(ClusterNormals), sizeof(ClusterUvs),
+    sizeof(ClusterAttributes), sizeof(std::uint32_t), sizeof(PieceCorner),    sizeof(Point3d),
+    sizeof(InstanceRef),       sizeof(BvhNode)};
 
 inline constexpr std::array<const char*, section_count> section_name{
-    "nodes",  "clusters",       "normals",   "uvs",           "attributes",
-    "pieces", "piece vertices", "instances", "instance nodes"};
+    "nodes",  "clusters",      "normals",      "uvs",       "attributes",
+    "pieces", "piece corners", "cut vertices", "instances", "instance nodes"};
 
 struct Section {
   std::uint64_t offset = 0;    // from the start of the file, a multiple of 64

@@ -53,7 +53,10 @@ HeldIds::HeldIds(std::string name, const Manifest& manifest, std::uint64_t trian
 }
 
 void HeldIds::count(std::uint32_t part, const MappedDomain& mapped) {
-  if (census_) census_->add(part, mapped.view(), mapped.pieces(), mapped.piece_vertices());
+  if (census_) {
+    const auto [pieces, piece_vertices] = mapped.pieces();
+    census_->add(part, mapped.view(), pieces, piece_vertices);
+  }
   ++counted_;
 }
 
@@ -89,13 +92,14 @@ void check_counts(const Manifest& manifest, std::uint32_t domain, const MappedDo
                   const std::filesystem::path& file) {
   const DomainInfo& info = manifest.domains[domain];
   const DomainView& view = mapped.view();
-  if (info.triangles != triangles_in(view.clusters) || info.pieces != mapped.pieces().size() ||
+  const auto [pieces, piece_vertices] = mapped.pieces();
+  if (info.triangles != triangles_in(view.clusters) || info.pieces != pieces.size() ||
       info.instances != view.instances.size())
     throw Error("it does not hold as many triangles as the manifest says", {file.string()});
   if (!holds(info.tight_bounds, content_bounds(view)))
     throw Error("it reaches beyond the tight bounds that the manifest has for it", {file.string()});
-  const Occupancy held = occupancy_of(info.tight_bounds, view, mapped.pieces(), mapped.piece_vertices(),
-                                      static_cast<float>(padding(manifest)));
+  const Occupancy held =
+      occupancy_of(info.tight_bounds, view, pieces, piece_vertices, static_cast<float>(padding(manifest)));
   for (std::size_t z = 0; z < held.slice.size(); ++z)
     if (held.slice[z] & ~info.occupancy.slice[z])
       throw Error("it holds something where the manifest says it is empty", {file.string()});

@@ -19,7 +19,7 @@ namespace vitrail {
 
 namespace {
 
-constexpr int manifest_version = 4;
+constexpr int manifest_version = 5;
 
 // ---- The two binary files: 32 bytes of header, then the payload
 // -------------------------------------------------

@@ -13,6 +13,7 @@
 #include "bundle/domain_layout.h"
 #include "bundle/domain_structure.h"
 #include "bundle/features.h"
+#include "bundle/piece_code.h"
 #include "scene/diagnostics.h"
 
 namespace vitrail {
@@ -25,6 +26,8 @@ constexpr std::uint32_t known_features = required_feature::normals | required_fe
 constexpr std::array<std::size_t, 7> traced_sections{
     layout::nodes,      layout::clusters,  layout::normals,       layout::uvs,
     layout::attributes, layout::instances, layout::instance_nodes};
+constexpr std::array<std::size_t, 3> piece_sections{layout::pieces, layout::piece_corners,
+                                                    layout::cut_vertices};
 
 std::span<const std::byte> map(const std::filesystem::path& file) {
   const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
@@ -160,25 +163,16 @@ std::span<const layout::Section> MappedDomain::sections() const { return table_o
 std::uint64_t MappedDomain::hash() const { return header().header_checksum; }
 
 void MappedDomain::check_cold() const {
-  std::vector<std::size_t> cold{layout::pieces, layout::piece_vertices};
+  std::vector<std::size_t> cold(piece_sections.begin(), piece_sections.end());
   for (std::size_t i = layout::section_count; i < sections().size(); ++i) cold.push_back(i);
   check_sections(file_, data_, cold);
 }
 
-std::span<const Piece> MappedDomain::pieces() const {
-  check_sections(file_, data_, std::array{std::size_t{layout::pieces}});
-  const auto pieces = elements<Piece>(data_, layout::pieces);
-  const std::uint64_t vertices = sections()[layout::piece_vertices].count;
-  for (const Piece& p : pieces)
-    if (p.vertex_count < 3 || p.first_vertex > vertices || p.vertex_count > vertices - p.first_vertex)
-      reject_domain(file_,
-                    fmt::format("a piece of triangle {} refers to vertices that are not there", p.triangle));
-  return pieces;
-}
-
-std::span<const Point3d> MappedDomain::piece_vertices() const {
-  check_sections(file_, data_, std::array{std::size_t{layout::piece_vertices}});
-  return elements<Point3d>(data_, layout::piece_vertices);
+PieceList MappedDomain::pieces() const {
+  check_sections(file_, data_, piece_sections);
+  return decode_pieces(view_.clusters, elements<std::uint32_t>(data_, layout::pieces),
+                       elements<PieceCorner>(data_, layout::piece_corners),
+                       elements<Point3d>(data_, layout::cut_vertices), file_);
 }
 
 std::vector<InstanceRef> read_instances(const std::filesystem::path& file) {

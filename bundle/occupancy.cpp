@@ -124,7 +124,13 @@ Occupancy occupancy_of(const Bounds3f& box, const DomainView& view, std::span<co
   for (const Piece& p : pieces)
     mark(occupancy, box, piece_vertices.subspan(p.first_vertex, p.vertex_count), double{padding});
   const std::array<Axis, 3> axes = axes_of(box);
+  auto piece = pieces.begin();
   for (const Cluster& c : view.clusters) {
+    std::array<bool, cluster_width> cut;
+    for (std::size_t lane = 0; lane < cluster_width; ++lane) {
+      cut[lane] = piece != pieces.end() && piece->triangle == c.id[lane];
+      piece += cut[lane];
+    }
     // Most clusters lie in one cell.
     const Cells cells = cells_of(axes, bounds_of(c), double{padding});
     if (cells.dimensions() == 0) {
@@ -132,13 +138,8 @@ Occupancy occupancy_of(const Bounds3f& box, const DomainView& view, std::span<co
       continue;
     }
     for (std::size_t lane = 0; lane < cluster_width; ++lane) {
-      if (c.id[lane] == no_triangle) continue;
-      if (std::ranges::binary_search(pieces, c.id[lane], {}, &Piece::triangle)) continue;
-      std::array<Point3d, 3> triangle;
-      for (std::size_t k = 0; k < 3; ++k)
-        triangle[k] = {double{c.vertex[k][0][lane]}, double{c.vertex[k][1][lane]},
-                       double{c.vertex[k][2][lane]}};
-      mark(occupancy, box, triangle, double{padding});
+      if (c.id[lane] != no_triangle && !cut[lane])
+        mark(occupancy, box, triangle_in(c, lane), double{padding});
     }
   }
   for (const InstanceRef& ref : view.instances) mark(occupancy, box, box_of(ref));

@@ -23,7 +23,8 @@ void mark(Occupancy& occupancy, const Bounds3f& box, std::span<const Point3d> po
 // Marks all cells that `content` reaches, which is padded already.
 void mark(Occupancy& occupancy, const Bounds3f& box, const Bounds3f& content);
 
-// Of what a domain holds: its pieces, ascending, the triangles it has whole, and its instances' boxes.
+// Of what a domain holds: its pieces, in the order of a PieceList, the triangles it has whole, and its
+// instances' boxes.
 Occupancy occupancy_of(const Bounds3f& box, const DomainView& view, std::span<const Piece> pieces,
                        std::span<const Point3d> piece_vertices, float padding);
 

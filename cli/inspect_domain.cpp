@@ -50,6 +50,7 @@ Report inspect_domain(const std::filesystem::path& file) {
   const MappedDomain mapped(file);
   mapped.check_cold();
   const DomainView& view = mapped.view();
+  const auto [pieces, piece_vertices] = mapped.pieces();
   const std::uint64_t triangles = triangles_in(view.clusters);
   const auto clusters = static_cast<double>(std::max<std::size_t>(view.clusters.size(), 1));
   std::set<std::uint32_t> objects;
@@ -64,8 +65,8 @@ Report inspect_domain(const std::filesystem::path& file) {
           {"size", format_bytes(mapped.bytes())},
           {"hash", hexadecimal(mapped.hash())},
           {"triangles", triangles},
-          {"pieces", mapped.pieces().size()},
-          {"piece_vertices", mapped.piece_vertices().size()},
+          {"pieces", pieces.size()},
+          {"piece_vertices", piece_vertices.size()},
           {"shading_normals", !view.normals.empty()},
           {"clusters", view.clusters.size()},
           {"triangles_per_cluster", static_cast<double>(triangles) / clusters},

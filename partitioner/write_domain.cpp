@@ -43,12 +43,17 @@ std::vector<Bounds3f> boxes_of(const NumberedTriangles& triangles, const CellCon
   return boxes;
 }
 
-// The boxes of the leaves become the triangles that they are of.
-void name_triangles(const CellContent& cell, std::span<std::uint32_t> leaves) {
+// The boxes of the leaves become the triangles that they are of. Returns the pieces among them, in this
+// order.
+std::vector<Piece> name_triangles(const CellContent& cell, std::span<std::uint32_t> leaves) {
+  std::vector<Piece> pieces;
+  pieces.reserve(cell.pieces.size());
   for (std::uint32_t& i : leaves) {
     if (i == no_triangle) continue;
-    i = i < cell.whole.size() ? cell.whole[i] : cell.pieces[i - cell.whole.size()].triangle;
+    if (i >= cell.whole.size()) pieces.push_back(cell.pieces[i - cell.whole.size()]);
+    i = i < cell.whole.size() ? cell.whole[i] : pieces.back().triangle;
   }
+  return pieces;
 }
 
 constexpr Triangle empty_lane = [] {
@@ -70,10 +75,9 @@ void fill_cluster(const NumberedTriangles& triangles, std::span<const std::uint3
 
 DomainContent make_domain(const NumberedTriangles& triangles, const CellContent& cell, float padding) {
   BoxTree tree = build_bvh(boxes_of(triangles, cell), cluster_width, padding);
-  name_triangles(cell, tree.leaves);
   DomainContent content;
+  content.pieces = name_triangles(cell, tree.leaves);
   content.nodes = std::move(tree.nodes);
-  content.pieces = cell.pieces;
   content.piece_vertices = cell.piece_vertices;
   for (Piece& p : content.pieces) p.triangle = triangles.ids[p.triangle];
   const std::size_t clusters = tree.leaves.size() / cluster_width, slots = triangles.attributes.size();

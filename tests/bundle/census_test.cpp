@@ -83,7 +83,12 @@ TEST(Census, FindsWhatIsDoubled) {
   EXPECT_NEAR(census_of({whole_sample(), whole_sample()}).area_error, 1, 1e-12);
   DomainContent piece_twice = whole_sample();
   piece_twice.pieces.push_back(piece_twice.pieces[0]);
-  EXPECT_GT(census_of({piece_twice}).duplicates, 0u);
+  EXPECT_EQ(census_of({piece_twice}).strays, 1u);
+  DomainContent triangle_twice = whole_sample();
+  triangle_twice.clusters[0].id[5] = 3;
+  EXPECT_EQ(census_of({triangle_twice}).duplicates, 1u);
+  triangle_twice.pieces.push_back(triangle_twice.pieces[0]);
+  EXPECT_EQ(census_of({triangle_twice}).duplicates, 1u);
   DomainContent whole_as_well = whole_sample();
   whole_as_well.pieces.clear();
   EXPECT_EQ(census_of({whole_as_well, only_the_cut_one(whole_sample().piece_vertices)}).duplicates, 1u);

@@ -21,7 +21,6 @@ void read_everything(const std::filesystem::path& bundle) {
   for (std::uint32_t i = 0; i < m.domains.size(); ++i) {
     const SharedDomain mapped = map_domain(m, bundle, i);
     mapped->pieces();
-    mapped->piece_vertices();
   }
   for (std::uint32_t i = 0; i < m.objects.size(); ++i) map_object(m, bundle, i);
   for (const TextureFileEntry& t : m.texture_files) {

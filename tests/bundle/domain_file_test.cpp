@@ -37,8 +37,9 @@ TEST_F(DomainFile, ComesBackAsItWas) {
   EXPECT_TRUE(same_bytes(mapped.view().nodes, content.nodes));
   EXPECT_TRUE(same_bytes(mapped.view().clusters, content.clusters));
   EXPECT_TRUE(same_bytes(mapped.view().normals, content.normals));
-  EXPECT_TRUE(same_bytes(mapped.pieces(), content.pieces));
-  EXPECT_TRUE(same_bytes(mapped.piece_vertices(), content.piece_vertices));
+  const PieceList list = mapped.pieces();
+  EXPECT_TRUE(same_bytes(std::span(list.pieces), content.pieces));
+  EXPECT_TRUE(same_bytes(std::span(list.vertices), content.piece_vertices));
 }
 
 TEST_F(DomainFile, SectionsAreAlignedAndPadded) {
@@ -54,7 +55,8 @@ TEST_F(DomainFile, SectionsAreAlignedAndPadded) {
 TEST_F(DomainFile, MayBeEmpty) {
   write_domain_file(file, {});
   const MappedDomain mapped(file);
-  EXPECT_TRUE(mapped.view().nodes.empty() && mapped.view().clusters.empty() && mapped.pieces().empty());
+  EXPECT_TRUE(mapped.view().nodes.empty() && mapped.view().clusters.empty());
+  EXPECT_TRUE(mapped.pieces().pieces.empty());
 }
 
 TEST_F(DomainFile, EqualContentEqualHash) {
@@ -83,9 +85,8 @@ TEST_F(DomainFile, WrongReferencesAreFound) {
       [](DomainContent& d) { d.nodes.clear(); },                    // clusters without a tree
       [](DomainContent& d) { d.clusters.pop_back(); },
       [](DomainContent& d) { d.normals.pop_back(); },
-      [](DomainContent& d) { d.pieces[0].first_vertex = 1; },
-      [](DomainContent& d) { d.pieces[0].vertex_count = 0xffffffff; },
       [](DomainContent& d) { d.pieces[0].vertex_count = 2; },
+      [](DomainContent& d) { d.pieces[0].triangle = 20; },
       [](DomainContent& d) { d.instances.clear(); },                              // a tree over nothing
       [](DomainContent& d) { d.instance_nodes.clear(); },                         // instances without a tree
       [](DomainContent& d) { d.instance_nodes[0].child[1] = cluster | 1; },       // beyond the instances

@@ -31,7 +31,7 @@ class SmallDisk {
 
 DomainContent large_domain() {
   DomainContent content = test::sample_domain();
-  content.piece_vertices.resize(10'000);
+  content.piece_vertices.resize(content.pieces[0].vertex_count = 10'000);
   return content;
 }
 

@@ -6,6 +6,8 @@
 #include <random>
 #include <vector>
 
+#include "tests/bundle/sample_bundle.h"
+
 namespace vitrail {
 namespace {
 
@@ -43,6 +45,22 @@ TEST(Occupancy, MarksWhatATriangleReaches) {
   EXPECT_GE(count(half), 36);
   EXPECT_LE(count(half), 36 + 7);
   EXPECT_EQ(half.slice[1], 0u);
+}
+
+// Triangle i of the sample domain is (i+eₓ, i+e_y, i+e_z); of 3 and 6 only the corners i+eₓ are in it.
+TEST(Occupancy, PiecesStandForTheirTriangles) {
+  DomainContent d = test::sample_domain();
+  d.pieces = {{3, 0, 3}, {6, 3, 3}};
+  d.piece_vertices = {{4, 3, 3}, {3.9, 3.1, 3}, {3.9, 3, 3.1}, {7, 6, 6}, {6.9, 6.1, 6}, {6.9, 6, 6.1}};
+  const Bounds3f cells_around{{-0.5f, -0.5f, -0.5f}, {7.5f, 7.5f, 7.5f}};
+  const Occupancy o = occupancy_of(cells_around, view_of(d), d.pieces, d.piece_vertices, 1e-6f);
+  const auto marked = [&](std::size_t x, std::size_t y, std::size_t z) {
+    return (o.slice[z] >> (y * 8 + x) & 1) != 0;
+  };
+  for (std::size_t i = 0; i < 7; ++i) {
+    EXPECT_TRUE(marked(i + 1, i, i)) << i;
+    EXPECT_EQ(marked(i, i, i + 1), i != 3 && i != 6) << i;
+  }
 }
 
 // A ray through a point of a triangle meets its marks, wherever it comes from; also through the points that

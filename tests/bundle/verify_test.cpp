@@ -118,7 +118,7 @@ TEST_F(Verify, FindsWhatIsNotStoredOnce) {
               }),
               HasSubstr("domains: 1 triangles or pieces are where they should not be"));
   EXPECT_THAT(problems_with([](SampleBundle& b) { b.domains[0].pieces[0].triangle = 20; }),
-              HasSubstr("where they should not be"));
+              HasSubstr("domains/000000.dom: domain file is damaged: it has a piece of triangle 20, which"));
   EXPECT_THAT(problems_with([](SampleBundle& b) {
                 b.domains[1].piece_vertices[0] = {3.4, 3, 3.6};
               }),
@@ -181,11 +181,14 @@ class Features : public Verify {
     std::memcpy(&header, text.data(), sizeof header);
     if (with_section) {  // a section of kind 100, one element of 64 bytes
       const std::string content(128, '\7');
-      const layout::Section section{text.size(), 1, checksum(std::as_bytes(std::span(content))), 64, 100};
-      text.replace(sizeof header + 9 * sizeof section, sizeof section,
-                   reinterpret_cast<const char*>(&section), sizeof section);
+      const std::uint64_t end = layout::header_bytes(header.sections),
+                          longer = layout::header_bytes(header.sections + 1) - end;
+      text.insert(end, longer, '\0');
+      const std::span table(reinterpret_cast<layout::Section*>(text.data() + sizeof header),
+                            ++header.sections);
+      for (layout::Section& s : table) s.offset += longer;
+      table.back() = {text.size(), 1, checksum(std::as_bytes(std::span(content))), 64, 100};
       text += content;
-      header.sections = 10;
       header.file_bytes = text.size();
     }
     change(header);

@@ -71,7 +71,7 @@ TEST_F(VerifyProgram, InspectSaysTheSame) {
   EXPECT_THAT(inspect(bundle).output, HasSubstr("ghost free: yes"));
   const CommandResult domain = inspect(bundle / "domains/000001.dom");
   EXPECT_EQ(domain.status, 0) << domain.output;
-  for (const char* text : {"version: 4", "optional features: pieces", "clusters", "depth: ", "lower: "})
+  for (const char* text : {"version: 5", "optional features: pieces", "clusters", "depth: ", "lower: "})
     EXPECT_THAT(domain.output, HasSubstr(text));
   damage("domains/000001.dom");
   EXPECT_EQ(inspect(bundle / "domains/000001.dom").status, 3);

@@ -68,9 +68,10 @@ BundleGeometry load_geometry(const std::filesystem::path& path) {
   for (std::uint32_t i = 0; i < bundle.manifest.domains.size(); ++i) {
     const MappedDomain mapped(domain_path(path, i));
     check_domain(bundle.manifest, i, mapped, domain_path(path, i));
-    const auto vector = [](auto span) { return std::vector(span.begin(), span.end()); };
+    const auto clusters = mapped.view().clusters;
+    auto [pieces, piece_vertices] = mapped.pieces();
     bundle.domains.push_back(
-        {vector(mapped.view().clusters), vector(mapped.pieces()), vector(mapped.piece_vertices()), {}});
+        {{clusters.begin(), clusters.end()}, std::move(pieces), std::move(piece_vertices), {}});
   }
   find_sides(bundle);
   return bundle;
@@ -88,6 +89,7 @@ void check_census(const BundleGeometry& b, Problems& problems) {
   }
   const CensusResult r = census.result();
   if (r.duplicates != 0) problems.add("a triangle is stored twice");
+  if (r.strays != 0) problems.add("a piece has no triangle in its order");
   if (r.lost != 0) problems.add("a triangle is lost");
   if (!(r.area_error < 1e-6)) problems.add("pieces and triangle differ in area");
   if (r.cut_triangles != b.manifest.cut_triangles) problems.add("the manifest counts other cut triangles");

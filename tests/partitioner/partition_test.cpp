@@ -130,7 +130,7 @@ TEST_F(Partition, TightBoundsHoldEveryPart) {
   for (std::uint32_t i = 0; i < 8; ++i) {
     const MappedDomain mapped(domain_path(out, i));
     const Bounds3f tight = m.domains[i].tight_bounds;
-    for (const Point3d& p : mapped.piece_vertices())
+    for (const Point3d& p : mapped.pieces().vertices)
       for (int axis = 0; axis < 3; ++axis) {
         EXPECT_GT(p[axis], tight.lower[axis]);
         EXPECT_LT(p[axis], tight.upper[axis]);
