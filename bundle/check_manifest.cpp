@@ -72,27 +72,6 @@ void check_film(const Checker& c, const FilmSettings& f) {
     c.require(sinc->tau > 0 && std::isfinite(sinc->tau), "τ of the pixel filter is not a positive number");
 }
 
-// Every node and every domain hangs in exactly one place, children after their parents.
-void check_kd_tree(const Checker& c, const Manifest& m) {
-  c.require(!m.domains.empty() && m.kd_nodes.size() == m.domains.size() - 1,
-            "the kd-tree does not have one leaf a domain");
-  std::vector<bool> nodes(m.kd_nodes.size(), false), domains(m.domains.size(), false);
-  std::vector<int> depth(m.kd_nodes.size(), 1);
-  for (std::size_t i = 0; i < m.kd_nodes.size(); ++i) {
-    const KdNode& n = m.kd_nodes[i];
-    c.require(n.axis < 3 && std::isfinite(n.split), "a node of the kd-tree has no plane");
-    for (const std::uint32_t child : {n.below, n.above}) {
-      const bool leaf = child & KdNode::leaf_bit;
-      const std::size_t index = child & ~KdNode::leaf_bit;
-      std::vector<bool>& seen = leaf ? domains : nodes;
-      c.require(index < seen.size() && !seen[index] && (leaf || index > i), "the kd-tree is not a tree");
-      seen[index] = true;
-      if (!leaf) depth[index] = depth[i] + 1;
-      c.require(depth[i] <= max_kd_depth, "the kd-tree is too deep");
-    }
-  }
-}
-
 void check_surfaces(const Checker& c, const Manifest& m, std::span<const Surface> surfaces,
                     std::uint64_t triangles) {
   for (std::size_t i = 0; i < surfaces.size(); ++i) {
@@ -205,6 +184,26 @@ void check_media(const Checker& c, const Manifest& m) {
 
 }  // namespace
 
+const char* fault_of_kd_tree(std::span<const KdNode> tree, std::size_t leaves) {
+  if (leaves == 0 || tree.size() != leaves - 1) return "the kd-tree does not have one leaf a domain";
+  std::vector<bool> nodes(tree.size(), false), domains(leaves, false);
+  std::vector<int> depth(tree.size(), 1);
+  for (std::size_t i = 0; i < tree.size(); ++i) {
+    const KdNode& n = tree[i];
+    if (n.axis > 2 || !std::isfinite(n.split)) return "a node of the kd-tree has no plane";
+    if (depth[i] > max_kd_depth) return "the kd-tree is too deep";
+    for (const std::uint32_t child : {n.below, n.above}) {
+      const bool leaf = child & KdNode::leaf_bit;
+      const std::size_t index = child & ~KdNode::leaf_bit;
+      std::vector<bool>& seen = leaf ? domains : nodes;
+      if (index >= seen.size() || seen[index] || (!leaf && index <= i)) return "the kd-tree is not a tree";
+      seen[index] = true;
+      if (!leaf) depth[index] = depth[i] + 1;
+    }
+  }
+  return nullptr;
+}
+
 void check_manifest(const Manifest& m, const std::filesystem::path& file) {
   const Checker c{file};
   c.require(finite(m.offset) && std::isfinite(m.scale) && m.scale >= 0, "its coordinates are not finite");
@@ -221,7 +220,7 @@ void check_manifest(const Manifest& m, const std::filesystem::path& file) {
     c.require(t.name.starts_with("textures/") && t.name.find("..") == std::string::npos,
               "a texture has no place in it");
   check_film(c, m.film);
-  check_kd_tree(c, m);
+  if (const char* fault = fault_of_kd_tree(m.kd_nodes, m.domains.size())) c.require(false, fault);
   check_triangles(c, m);
   check_objects(c, m);
   check_records(c, m);

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "bundle/records.h"
 #include "scene/atomic_file.h"
 #include "scene/diagnostics.h"
 
@@ -25,17 +26,7 @@ RayProfile from_json(const Json& json) {
                           n.at(3).get<std::uint32_t>()});
   for (const Json& d : json.at("domains"))
     p.domains.push_back({d.at(0).get<std::uint64_t>(), d.at(1).get<std::uint64_t>()});
-  if (p.domains.size() != p.kd_nodes.size() + 1) throw Error("as many domains as leaves are expected");
-  // Children follow their parents: whoever goes down arrives.
-  for (std::uint32_t i = 0; i < p.kd_nodes.size(); ++i) {
-    const KdNode& n = p.kd_nodes[i];
-    for (const std::uint32_t child : {n.below, n.above}) {
-      const std::uint32_t index = child & ~KdNode::leaf_bit;
-      if (n.axis > 2 ||
-          (child & KdNode::leaf_bit ? index >= p.domains.size() : index <= i || index >= p.kd_nodes.size()))
-        throw Error(fmt::format("node {} of its kd-tree is wrong", i));
-    }
-  }
+  if (const char* fault = fault_of_kd_tree(p.kd_nodes, p.domains.size())) throw Error(fault);
   return p;
 }
 

@@ -24,6 +24,10 @@ void decode_lights(std::vector<std::byte> payload, const std::filesystem::path& 
 // kd-tree a tree.
 void check_manifest(const Manifest& manifest, const std::filesystem::path& file);
 
+// What is wrong with a kd-tree of so many leaves, or null: every node and every leaf hangs in exactly one
+// place, children after their parents.
+const char* fault_of_kd_tree(std::span<const KdNode> nodes, std::size_t leaves);
+
 // Hash of all that decides the picture besides the triangles: records, camera and film.
 std::uint64_t hash_of_records(const Manifest& manifest);
 

@@ -10,6 +10,7 @@
 #include <set>
 #include <thread>
 
+#include "bundle/expected_files.h"
 #include "bundle/held_ids.h"
 #include "bundle/manifest.h"
 #include "bundle/texture_file.h"
@@ -39,7 +40,7 @@ class Verifier {
       plan_objects();
       for (const TextureFileEntry& t : manifest_->texture_files) plan_texture(bundle_ / t.name, &t);
     } else {
-      plan_what_is_there();
+      plan_without_manifest();
     }
     work();
     for (const HeldIds& ids : held_)
@@ -171,12 +172,12 @@ class Verifier {
     });
   }
 
-  void plan_what_is_there() {
+  void plan_without_manifest() {
     HeldIds& nothing = held_.emplace_back();
-    for (const fs::path& file : present_)
+    for (const fs::path& file : expected_files(bundle_, present_))
       if (file.extension() == ".dom")
         plan(nothing, file, [](const MappedDomain&) {});
-      else if (file.extension() == ".tex")
+      else
         plan_texture(file);
   }
 

@@ -35,7 +35,8 @@ struct VerifyResult {
 
 // Checks checksums, sizes, offsets and references of every file, each against the manifest, and counts that
 // every triangle is stored once. A damaged file does not stop it: where the manifest is damaged, the other
-// files are still checked by themselves. Throws Error where there is no directory.
+// files are still checked by themselves, and missed where they must be. Throws Error where there is no
+// directory.
 VerifyResult verify_bundle(const std::filesystem::path& bundle, const VerifyOptions& options = {});
 
 }  // namespace vitrail

@@ -26,7 +26,7 @@ struct RenderOptions {
   double time_limit_s = 0;         // 0: none. The film then holds what was done
   bool resume = false;
   std::filesystem::path stats;    // empty: none
-  std::filesystem::path profile;  // where a RayProfile goes; empty: none
+  std::filesystem::path profile;  // where a RayProfile of a whole picture goes; empty: none
   ProgressMode progress = ProgressMode::none;
   // For tests: at most this for domains, whatever memory_bytes leaves; 0: no such limit.
   std::uint64_t domain_memory_bytes = 0;

@@ -2,11 +2,13 @@
 #include "farm/render.h"
 
 #define XXH_INLINE_ALL
+#include <fmt/format.h>
 #include <malloc.h>
 #include <sys/resource.h>
 #include <xxhash.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <thread>
 
 #include "bundle/ray_profile.h"
@@ -128,6 +130,8 @@ RenderStats render(Transport& transport, const RenderOptions& options) {
   Resumed resumed;
   const std::filesystem::path checkpoint = checkpoint_path(options.film);
   if (options.resume) resumed = read_checkpoint(transport, checkpoint, job->film, job->plan);
+  const bool from_the_start =
+      std::ranges::all_of(resumed.done, [](std::uint64_t items) { return items == 0; });
 
   RankState state(*job->scene, job->film, job->plan, RayQueues(manifest.domains.size(), options.shuffle_seed),
                   Residency(manifest, options.bundle, memory.domains_bytes,
@@ -158,8 +162,15 @@ RenderStats render(Transport& transport, const RenderOptions& options) {
   stats.film_hash = job->film.hash();
   if (stats.complete) std::filesystem::remove(checkpoint);
   if (!options.stats.empty()) write_stats(options.stats, stats);
-  if (!options.profile.empty())
-    write_ray_profile(options.profile, {manifest, {visits.begin(), visits.end()}});
+  if (!options.profile.empty()) {
+    if (from_the_start && stats.complete)
+      write_ray_profile(options.profile, {manifest, {visits.begin(), visits.end()}});
+    else
+      fmt::print(stderr,
+                 "vitrail: {} is not written: a profile counts the rays of a whole picture, rendered without "
+                 "a stop\n",
+                 options.profile.string());
+  }
   return stats;
 }
 

@@ -29,7 +29,7 @@ struct Costs {
 
 Costs costs_of(const Manifest& m) {
   const double normals = m.requirements.shading_normals, uvs = m.requirements.uv, attributes = m.attributes;
-  return {62 + 16 * normals + 32 * uvs + 48 * attributes,
+  return {bytes_of_a_triangle(m),
           48 + 12 * normals + 24 * uvs + 36 * attributes,  // id, vertices, index in its leaf
           230 + 16 * normals + 32 * uvs + 48 * attributes};
 }
@@ -51,6 +51,10 @@ std::uint32_t number_of_domains(const MemoryNeeds& needs, const Costs& costs) {
 }
 
 }  // namespace
+
+double bytes_of_a_triangle(const Manifest& m) {
+  return 62 + 16.0 * m.requirements.shading_normals + 32.0 * m.requirements.uv + 48.0 * m.attributes;
+}
 
 MemoryPlan plan_memory(const Manifest& m, const MemoryNeeds& needs) {
   const Costs costs = costs_of(m);

@@ -28,6 +28,9 @@ struct MemoryNeeds {
   int threads = 1;
 };
 
+// In a file, with its share of the tree: measured, docs/partitioning.md.
+double bytes_of_a_triangle(const Manifest& manifest);
+
 // Throws MachineError where not even one domain or one mesh fits, UsageError for too many domains.
 MemoryPlan plan_memory(const Manifest& manifest, const MemoryNeeds& needs);
 

@@ -26,7 +26,12 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::uint64_t most_object_bytes = 64ull << 20;
+// Of an object in one file: a domain is to have room for several.
+std::uint64_t most_object_bytes(std::uint64_t domain_bytes) {
+  constexpr std::uint64_t by_default = 64 << 20, least = 64 << 10;
+  return domain_bytes > 0 ? std::max(domain_bytes / 4, least) : by_default;
+}
+
 // In a domain file with its place in the tree, and here while domains are written.
 constexpr std::uint64_t bytes_of_reference = 192;
 
@@ -120,8 +125,7 @@ class Partitioner {
         median_(options.median),
         phases_(progress),
         world_(world_of(scene, bundle_, {!options.flatten, options.everything})),
-        refs_(write_objects(world_, world_.manifest, bundle_,
-                            options.domain_bytes ? options.domain_bytes : most_object_bytes)) {
+        refs_(write_objects(world_, world_.manifest, bundle_, most_object_bytes(options.domain_bytes))) {
     MemoryNeeds needs{.budget_bytes = options.memory_bytes,
                       .triangles = world_.own_triangles,
                       .instance_bytes = refs_.size() * bytes_of_reference,

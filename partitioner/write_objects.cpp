@@ -10,6 +10,7 @@
 #include <tuple>
 
 #include "partitioner/build_bvh.h"
+#include "partitioner/memory_plan.h"
 #include "partitioner/write_domain.h"
 #include "scene/deferred_mesh.h"
 
@@ -94,12 +95,11 @@ NumberedTriangles placed_alone(const World& world, const Assembly& object) {
   return out;
 }
 
+// Parts are small, for their boxes overlap: where they meet a domain needs six or more.
 std::uint32_t number_of_files(const World& world, const Assembly& object, std::uint64_t most_bytes) {
-  const Requirements& r = world.manifest.requirements;
-  const double bytes = 62.0 + 16 * r.shading_normals + 32 * r.uv + 48.0 * world.manifest.attributes;
   const auto triangles = static_cast<double>(triangles_in(object));
-  return static_cast<std::uint32_t>(std::clamp(std::ceil(bytes * triangles / static_cast<double>(most_bytes)),
-                                               1.0, std::max(1.0, triangles)));
+  const double wholes = bytes_of_a_triangle(world.manifest) * triangles / static_cast<double>(most_bytes);
+  return wholes <= 1 ? 1 : static_cast<std::uint32_t>(std::min(std::ceil(4 * wholes), triangles));
 }
 
 // Files `first` to `end`: each with a part of the triangles, the first with all instances.

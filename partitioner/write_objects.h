@@ -9,8 +9,9 @@
 
 namespace vitrail {
 
-// Writes the world's objects, those of more than `most_bytes` in parts, and their lines in the manifest.
-// Returns the instances of the scene, one for each part, in the order of ids; their boxes are not inflated.
+// Writes the world's objects, those of more than `most_bytes` in parts of a quarter of that, and their lines
+// in the manifest. Returns the instances of the scene, one for each part, in the order of ids; their boxes
+// are not inflated.
 std::vector<InstanceRef> write_objects(const World& world, Manifest& manifest,
                                        const std::filesystem::path& bundle, std::uint64_t most_bytes);
 

@@ -6,6 +6,7 @@ Sample runs:
     ./generate.py -o /tmp/city                                                  a million triangles
     ./generate.py -o /tmp/city --triangles 1e8 --trees flattened                all of them unique, 2.4 GB
     ./generate.py -o /tmp/city --triangles 1e9 --buildings instances            a library of buildings and trees
+    ./generate.py -o /tmp/city --triangles 1e9 --buildings instances --nested   objects made of objects, too
     ./generate.py -o /tmp/city --view aerial --width 1280 --height 720
 """
 
@@ -26,7 +27,7 @@ from layout import City, size_for  # noqa: E402
 from materials import all_materials  # noqa: E402
 from meshes import Parts, join, rotations, tile  # noqa: E402
 from scene_writer import SceneWriter, numbers  # noqa: E402
-from streets import KERB, TREE_SHAPES, ground, standing  # noqa: E402
+from streets import KERB, TREE_SHAPES, ground, members, placed, standing  # noqa: E402
 
 LEAST, MOST = 80_000, 1_000_000_000
 TREE_SHARE, LEAVES = 0.32, 3
@@ -85,6 +86,7 @@ class Generator:
         self.city = City(size, args.seed, args.buildings == "instances")
         self.tree_instances = args.trees == "instances"
         fine = args.triangles > 500_000
+        self.groups = {}  # of what stands, around the group's origin
         self.things = {("lamp", 0): props.lamp(fine)}
         for k in range(props.CAR_SHAPES * len(props.CAR_COLOURS)):
             self.things["car", k] = props.car(*divmod(k, len(props.CAR_COLOURS)), fine)
@@ -97,6 +99,20 @@ class Generator:
     def _ground(self, block):
         return ground(block, block.index[0] == self.city.size.columns - 1, block.index[1] == self.city.size.rows - 1)
 
+    def _standing(self, block):
+        return standing(block, self.city.size, self.seed, self.args.nested)
+
+    def _things(self, block):
+        """All that stands there, one by one."""
+        for s in self._standing(block):
+            if s.kind not in ("side", "grove"):
+                yield s
+                continue
+            key = s.kind, s.variant
+            if key not in self.groups:
+                self.groups[key] = members(s, self.city.size, self.seed)
+            yield from (placed(s, thing) for thing in self.groups[key])
+
     def _plan(self):
         """Counts windows and all that does not depend on the budget."""
         fixed, tree_count, cells = self.land.triangles, 0, 0
@@ -104,7 +120,7 @@ class Generator:
         self.uses, self.cells_of = Counter(), {}
         for block in self.city.blocks():
             fixed += self._ground(block).triangles
-            for s in standing(block, self.city.size, self.seed):
+            for s in self._things(block):
                 tree_count += s.kind == "tree"
                 fixed += self.cost.get((s.kind, s.variant), 0)
             for item in self.city.items(block):
@@ -131,6 +147,10 @@ class Generator:
         if self.tree_instances:
             for (kind, k), parts in self.things.items():
                 self.writer.add_object(f"{kind}-{k}", parts)
+            for (kind, k), things in self.groups.items():
+                self.writer.add_group(
+                    f"{kind}-{k}", [(f"{s.kind}-{s.variant}", (s.x, s.y, s.z), s.degrees) for s in things]
+                )
         self.library = {}
         if self.city.library:
             for block in self.city.blocks():
@@ -154,13 +174,13 @@ class Generator:
         turn = np.round(rotations([90 * item.quarters])[0])
         self.writer.add(self._building(item, 1), turn, np.array([item.x, item.y, KERB]))
 
-    def _place_things(self, things):
+    def _place_things(self, block):
         if self.tree_instances:
-            for s in things:
+            for s in self._standing(block):
                 self.writer.place(f"{s.kind}-{s.variant}", (s.x, s.y, s.z), s.degrees)
             return
         alike = defaultdict(list)
-        for s in things:
+        for s in self._things(block):
             alike[s.kind, s.variant].append(s)
         for key, group in alike.items():
             turns = rotations([s.degrees for s in group])
@@ -177,7 +197,7 @@ class Generator:
             self.writer.add(self._ground(block))
             for item in self.city.items(block):
                 self._place_building(item)
-            self._place_things(standing(block, self.city.size, self.seed))
+            self._place_things(block)
         size = self.city.size
         return self.writer.close(
             asked=self.args.triangles,
@@ -201,6 +221,9 @@ def main():
     parser.add_argument("--triangles", type=triangles, default=1_000_000, metavar="N", help="as rendered (default 1e6)")
     parser.add_argument("--trees", choices=("instances", "flattened"), default="instances", help="cars and lamps too")
     parser.add_argument("--buildings", choices=("unique", "instances"), default="unique")
+    parser.add_argument(
+        "--nested", action="store_true", help="kerbs and groves as objects made of instances, which PBRT does not have"
+    )
     parser.add_argument("--view", choices=("street", "aerial"), default="street")
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--width", type=int, default=960)

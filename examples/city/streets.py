@@ -6,17 +6,19 @@ from typing import NamedTuple
 import numpy as np
 
 from layout import SIDEWALK
-from meshes import Mesh, Parts, grid, level, rectangle, rings
+from meshes import Mesh, Parts, grid, level, rectangle, rings, rotations
 from props import CAR_COLOURS, CAR_SHAPES
 
 KERB = 0.15  # height of the sidewalks
 TREE_SHAPES = 24
+SIDE_SHAPES, SIDE_STEP = 3, 4  # of each length, in steps of metres
+GROVE_SHAPES, GROVE = 8, 6  # trees in one
 
 
 class Standing(NamedTuple):
     """Something that may be instanced: degrees about z."""
 
-    kind: str  # tree, lamp, car
+    kind: str  # tree, lamp, car; a group of them: side (of a block), grove
     variant: int
     x: float
     y: float
@@ -85,37 +87,66 @@ def _markings(parts, side0, side1, from_, to, z, level_road):
     parts.add("marking", Mesh(v.reshape(-1, 3), f.reshape(-1, 3)))
 
 
-def standing(block, size, seed):
-    """Trees, lamps and cars of a block and its roads."""
+def standing(block, size, seed, nested):
+    """Trees, lamps and cars of a block and its roads; `nested`: in groups."""
     rng = np.random.default_rng([seed, 6, *block.index])
     out = []
     x0, y0, x1, y1 = block.x0, block.y0, block.x1, block.y1
     # Each side of the kerb: a corner, the direction along it, the direction out to the road.
     sides = [((x0, y0), (1, 0), (0, -1), x1 - x0), ((x1, y0), (0, 1), (1, 0), y1 - y0),
              ((x1, y1), (-1, 0), (0, 1), x1 - x0), ((x0, y1), (0, -1), (-1, 0), y1 - y0)]  # fmt: skip
-    for (cx, cy), (ax, ay), (ox, oy), length in sides:
-        heading = float(np.degrees(np.arctan2(-ay, -ax)))  # traffic keeps to the right
-        outward = float(np.degrees(np.arctan2(oy, ox)))
+    for (cx, cy), (ax, ay), outwards, length in sides:
+        if nested:
+            whole = int(length) // SIDE_STEP * SIDE_STEP
+            start = 0.5 * (length - whole)
+            variant = 10 * whole + int(rng.integers(SIDE_SHAPES))
+            turn = float(np.degrees(np.arctan2(ay, ax)))
+            out.append(Standing("side", variant, cx + ax * start, cy + ay * start, 0.0, turn))
+        else:
+            out += _side(rng, size, (cx, cy), (ax, ay), outwards, length)
+    count, inset = {"park": (70, 6), "houses": (18, 20), "perimeter": (6, 24)}.get(block.use, (0, 0))
+    area = x0 + inset, y0 + inset, x1 - inset, y1 - inset
+    if nested:
+        out += _scattered(rng, "grove", round(count * size.busy / GROVE), GROVE_SHAPES, 0.0, *area)
+    elif count:
+        out += _scattered(rng, "tree", int(count * size.busy), TREE_SHAPES, KERB, *area)
+    return out
 
-        def at(s, out_by):
-            return cx + ax * s + ox * out_by, cy + ay * s + oy * out_by
 
-        for s in np.arange(9.0, length - 8, 10.0 / size.busy):
-            x, y = at(s + rng.uniform(-0.5, 0.5), -1.1)
-            out.append(Standing("tree", int(rng.integers(TREE_SHAPES)), x, y, KERB, float(rng.uniform(0, 360))))
-        for s in np.arange(4.5, length - 4, 27.0 if size.busy > 0.5 else 40.0):
-            out.append(Standing("lamp", 0, *at(s, -0.5), KERB, outward))
-        for s in np.arange(10.0, length - 11, 6.2):
-            if rng.random() < 0.5 * size.busy:
-                out.append(_car(rng, *at(s + rng.uniform(-0.4, 0.4), 1.25), heading))
-            if rng.random() < 0.1 * size.busy:
-                out.append(_car(rng, *at(s, 4.1), heading))
-    if block.use == "park":
-        out += _scattered(rng, int(70 * size.busy), x0 + 6, y0 + 6, x1 - 6, y1 - 6)
-    elif block.use == "houses":
-        out += _scattered(rng, int(18 * size.busy), x0 + 20, y0 + 20, x1 - 20, y1 - 20)
-    elif block.use == "perimeter":
-        out += _scattered(rng, int(6 * size.busy), x0 + 24, y0 + 24, x1 - 24, y1 - 24)
+def members(group, size, seed):
+    """What a side of a block or a grove consists of, around its own origin."""
+    rng = np.random.default_rng([seed, 8, group.variant])
+    if group.kind == "side":
+        return _side(rng, size, (0, 0), (1, 0), (0, -1), group.variant // 10)
+    return _scattered(rng, "tree", GROVE, TREE_SHAPES, KERB, -6, -6, 6, 6)
+
+
+def placed(group, thing):
+    """A member of a group where the group stands."""
+    turn = rotations([group.degrees])[0]
+    x, y, z = turn @ (thing.x, thing.y, thing.z) + (group.x, group.y, group.z)
+    return thing._replace(x=float(x), y=float(y), z=float(z), degrees=thing.degrees + group.degrees)
+
+
+def _side(rng, size, corner, along, outwards, length):
+    out = []
+    (cx, cy), (ax, ay), (ox, oy) = corner, along, outwards
+    heading = float(np.degrees(np.arctan2(-ay, -ax)))  # traffic keeps to the right
+    outward = float(np.degrees(np.arctan2(oy, ox)))
+
+    def at(s, out_by):
+        return cx + ax * s + ox * out_by, cy + ay * s + oy * out_by
+
+    for s in np.arange(9.0, length - 8, 10.0 / size.busy):
+        x, y = at(s + rng.uniform(-0.5, 0.5), -1.1)
+        out.append(Standing("tree", int(rng.integers(TREE_SHAPES)), x, y, KERB, float(rng.uniform(0, 360))))
+    for s in np.arange(4.5, length - 4, 27.0 if size.busy > 0.5 else 40.0):
+        out.append(Standing("lamp", 0, *at(s, -0.5), KERB, outward))
+    for s in np.arange(10.0, length - 11, 6.2):
+        if rng.random() < 0.5 * size.busy:
+            out.append(_car(rng, *at(s + rng.uniform(-0.4, 0.4), 1.25), heading))
+        if rng.random() < 0.1 * size.busy:
+            out.append(_car(rng, *at(s, 4.1), heading))
     return out
 
 
@@ -124,9 +155,9 @@ def _car(rng, x, y, heading):
     return Standing("car", int(shape * len(CAR_COLOURS) + rng.integers(len(CAR_COLOURS))), x, y, 0.0, heading)
 
 
-def _scattered(rng, count, x0, y0, x1, y1):
+def _scattered(rng, kind, count, shapes, z, x0, y0, x1, y1):
     if x1 <= x0 or y1 <= y0:
         return []
-    shapes = rng.integers(TREE_SHAPES, size=count)
+    variants = rng.integers(shapes, size=count)
     places = rng.uniform((x0, y0), (x1, y1), (count, 2))
-    return [Standing("tree", int(k), float(x), float(y), KERB, 0.0) for k, (x, y) in zip(shapes, places)]
+    return [Standing(kind, int(k), float(x), float(y), z, 0.0) for k, (x, y) in zip(variants, places)]

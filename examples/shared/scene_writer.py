@@ -63,12 +63,23 @@ class SceneWriter:
         self.objects[name] = parts.triangles
         self.unique += self.objects[name]
 
+    def add_group(self, name, members):
+        """A prototype made of others, each (name, offset, degrees): our importer's extension of PBRT."""
+        self.scene.write(f'ObjectBegin "{name}"\n')
+        for member in members:
+            self._instance(*member)
+        self.scene.write("ObjectEnd\n")
+        self.objects[name] = sum(self.objects[member] for member, *_ in members)
+
     def place(self, name, offset, degrees=0.0, scale=1.0):
+        self._instance(name, offset, degrees, scale)
+        self.instances += 1
+        self.total += self.objects[name]
+
+    def _instance(self, name, offset, degrees=0.0, scale=1.0):
         x, y, z = (f"{c:.6g}" for c in offset)
         size = "" if scale == 1 else f" Scale {scale:.6g} {scale:.6g} {scale:.6g}"
         self.scene.write(INSTANCE.format(x, y, z, f"{degrees:.6g}", size, name))
-        self.instances += 1
-        self.total += self.objects[name]
 
     def _flush(self, material):
         mesh = join(self.held.pop(material))

@@ -1,27 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // How fast a forest of instances is traced beside Embree's own instances, on one core: the same rays,
 // interleaved, medians of the ratios. bench_instances [INSTANCES] [TRIANGLES OF ONE] [REPETITIONS]
-#include <embree3/rtcore.h>
 #include <fmt/core.h>
-#include <time.h>
 
 #include <random>
 
-#include "tests/tracer/clustered_mesh.h"
+#include "tests/bench/embree_triangles.h"
+#include "tests/bench/timing.h"
 
 namespace vitrail::test {
 namespace {
-
-double cpu_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + static_cast<double>(now.tv_nsec) * 1e-9;
-}
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
-}
 
 // Leaves around the origin, as a tree has them: a cloud of small triangles.
 Triangles tree(std::size_t count) {
@@ -87,15 +75,7 @@ class EmbreeInstances {
  public:
   EmbreeInstances(const Triangles& triangles, const std::vector<Affine>& where, RTCDevice device)
       : object_(rtcNewScene(device)), scene_(rtcNewScene(device)) {
-    const RTCGeometry mesh = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    const std::size_t count = triangles.size();
-    auto* vertices = static_cast<Triangle*>(rtcSetNewGeometryBuffer(
-        mesh, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(Point3f), 3 * count));
-    auto* indices = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(
-        mesh, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t), count));
-    std::copy(triangles.begin(), triangles.end(), vertices);
-    for (std::uint32_t i = 0; i < 3 * count; ++i) indices[i] = i;
-    attach(object_, mesh);
+    attach(object_, triangles, device);
     rtcCommitScene(object_);
     for (const Affine& a : where) {
       const RTCGeometry instance = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
@@ -115,43 +95,10 @@ class EmbreeInstances {
   EmbreeInstances(const EmbreeInstances&) = delete;
   EmbreeInstances& operator=(const EmbreeInstances&) = delete;
 
-  float closest(const Ray& ray) const {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    RTCRayHit r{};
-    r.ray = embree_ray(ray, std::numeric_limits<float>::infinity());
-    r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    rtcIntersect1(scene_, &context, &r);
-    return r.ray.tfar;
-  }
-  bool occluded(const Ray& ray) const {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    RTCRay r = embree_ray(ray, 1e30f);
-    rtcOccluded1(scene_, &context, &r);
-    return r.tfar < 0;
-  }
+  float closest(const Ray& ray) const { return test::closest(scene_, ray).ray.tfar; }
+  bool occluded(const Ray& ray) const { return test::occluded(scene_, ray, 1e30f); }
 
  private:
-  static void attach(RTCScene scene, RTCGeometry geometry) {
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometry(scene, geometry);
-    rtcReleaseGeometry(geometry);
-  }
-  static RTCRay embree_ray(const Ray& ray, float tmax) {
-    return {ray.origin.x,
-            ray.origin.y,
-            ray.origin.z,
-            0,
-            ray.direction.x,
-            ray.direction.y,
-            ray.direction.z,
-            0,
-            tmax,
-            0xffffffffu,
-            0,
-            0};
-  }
   RTCScene object_, scene_;
 };
 

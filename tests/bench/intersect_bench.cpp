@@ -1,30 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // How fast exact intersection is beside Embree's own triangles, on one core: the same rays, interleaved,
 // medians of the ratios. bench_intersect [MILLIONS OF TRIANGLES] [REPETITIONS]
-#include <embree3/rtcore.h>
 #include <fmt/core.h>
-#include <time.h>
 
 #include <functional>
 #include <random>
 
-#include "tests/tracer/clustered_mesh.h"
+#include "tests/bench/embree_triangles.h"
+#include "tests/bench/timing.h"
 
 namespace vitrail::test {
 namespace {
 
 using Rays = std::vector<Ray>;
-// Of this thread, so that whoever else is on the machine matters less.
-double cpu_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + static_cast<double>(now.tv_nsec) * 1e-9;
-}
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
-}
 
 // A closed sphere whose radius wavers, 4·rings² triangles.
 void add_bumpy_sphere(Triangles& triangles, int rings, double radius, double bump) {
@@ -50,17 +38,7 @@ class EmbreeTriangles {
   EmbreeTriangles(const Triangles& triangles, RTCDevice device, RTCSceneFlags flags)
       : scene_(rtcNewScene(device)) {
     rtcSetSceneFlags(scene_, flags);
-    const RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    const std::size_t count = triangles.size();
-    auto* vertices = static_cast<Triangle*>(rtcSetNewGeometryBuffer(
-        geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(Point3f), 3 * count));
-    auto* indices = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(
-        geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t), count));
-    std::copy(triangles.begin(), triangles.end(), vertices);
-    for (std::uint32_t i = 0; i < 3 * count; ++i) indices[i] = i;
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometry(scene_, geometry);
-    rtcReleaseGeometry(geometry);
+    attach(scene_, triangles, device);
     const double start = cpu_seconds();
     rtcCommitScene(scene_);
     build_s_ = cpu_seconds() - start;
@@ -71,36 +49,12 @@ class EmbreeTriangles {
   double build_s() const { return build_s_; }
 
   std::uint32_t closest(const Ray& ray) const {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    RTCRayHit r{embree_ray(ray, std::numeric_limits<float>::infinity()), {}};
-    r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    rtcIntersect1(scene_, &context, &r);
-    return r.hit.geomID == RTC_INVALID_GEOMETRY_ID ? no_triangle : r.hit.primID;
+    const RTCHit hit = test::closest(scene_, ray).hit;
+    return hit.geomID == RTC_INVALID_GEOMETRY_ID ? no_triangle : hit.primID;
   }
-  bool occluded(const Ray& ray, float tmax) const {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    RTCRay r = embree_ray(ray, tmax);
-    rtcOccluded1(scene_, &context, &r);
-    return r.tfar < 0;
-  }
+  bool occluded(const Ray& ray, float tmax) const { return test::occluded(scene_, ray, tmax); }
 
  private:
-  static RTCRay embree_ray(const Ray& ray, float tmax) {
-    return {ray.origin.x,
-            ray.origin.y,
-            ray.origin.z,
-            0,
-            ray.direction.x,
-            ray.direction.y,
-            ray.direction.z,
-            0,
-            tmax,
-            0xffffffffu,
-            0,
-            0};
-  }
   RTCScene scene_;
   double build_s_ = 0;
 };

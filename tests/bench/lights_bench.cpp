@@ -2,20 +2,14 @@
 // What a light sample and the density of a given triangle cost, in CPU time, and how much noise the choice of
 // the light makes: 1 to 10⁵ triangles, by the tree and by power alone.
 #include <fmt/format.h>
-#include <sys/resource.h>
 
 #include <cmath>
 
+#include "tests/bench/timing.h"
 #include "tests/tracer/light_fixtures.h"
 
 namespace vitrail::test {
 namespace {
-
-double cpu_seconds() {
-  rusage usage{};
-  ::getrusage(RUSAGE_SELF, &usage);
-  return static_cast<double>(usage.ru_utime.tv_sec) + 1e-6 * static_cast<double>(usage.ru_utime.tv_usec);
-}
 
 // Small lamps all over a flat room of 20 × 20 × 4, each shining down; `spread`: of their power, e-folds.
 std::vector<EmissiveTriangle> lamps(std::uint32_t count, Random& random) {

@@ -4,29 +4,18 @@
 //
 //   bench_render [--spp N]
 #include <fmt/format.h>
-#include <sys/resource.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "partitioner/partition.h"
+#include "tests/bench/timing.h"
 #include "tests/support/command.h"
 #include "tests/support/render.h"
 #include "tests/support/temporary_directory.h"
 
 namespace vitrail::test {
 namespace {
-
-double cpu_seconds() {
-  rusage usage{};
-  ::getrusage(RUSAGE_SELF, &usage);
-  return static_cast<double>(usage.ru_utime.tv_sec) + 1e-6 * static_cast<double>(usage.ru_utime.tv_usec);
-}
-
-double median(std::vector<double> values) {
-  std::ranges::sort(values);
-  return values[values.size() / 2];
-}
 
 // A sphere whose radius ripples, seen as rough by bounced rays.
 void add_bumpy_sphere(Scene& scene, Point3f centre, float radius, std::uint32_t rings) {

@@ -18,6 +18,7 @@ namespace vitrail {
 namespace {
 
 using test::SampleBundle;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
 class Verify : public ::testing::Test {
@@ -88,6 +89,30 @@ TEST_F(Verify, GoesOnWithoutAManifest) {
   std::filesystem::remove(bundle / "manifest.json");
   EXPECT_THAT(problems(), HasSubstr("domains/000001.dom: "));
   EXPECT_THROW(verify_bundle(directory / "none.vit"), Error);
+}
+
+// Numbers have no gaps; a manifest with a wrong checksum still has its lists; instances refer to objects.
+TEST_F(Verify, MissesFilesWithoutAManifest) {
+  const auto missing = [&] {
+    std::vector<std::string> files;
+    for (const VerifyFinding& f : verify_bundle(bundle).problems)
+      if (f.what.find("No such file") != std::string::npos) files.push_back(f.file);
+    return files;
+  };
+  const std::string text = test::read_text(bundle / "manifest.json");
+  std::filesystem::remove(bundle / "domains/000000.dom");
+  std::filesystem::remove(bundle / "domains/000002.dom");
+  std::filesystem::remove(bundle / "textures/000000.tex");
+  test::write_text(bundle / "manifest.json", text + " ");
+  EXPECT_THAT(missing(), ElementsAre("domains/000000.dom", "domains/000002.dom", "textures/000000.tex"));
+  test::write_text(bundle / "manifest.json", text.substr(0, text.size() / 2));
+  EXPECT_THAT(missing(), ElementsAre("domains/000000.dom"));
+  std::filesystem::remove(bundle / "objects/000001.dom");
+  EXPECT_THAT(missing(), ElementsAre("domains/000000.dom", "objects/000001.dom"));
+  for (const char* other : {"[1]", R"({"domains": {"a": 1}, "objects": 7})", "{\"domains\": [", ""}) {
+    test::write_text(bundle / "manifest.json", other);
+    EXPECT_THAT(missing(), ElementsAre("domains/000000.dom", "objects/000001.dom")) << other;
+  }
 }
 
 TEST_F(Verify, WarnsOfWhatDoesNotBelong) {

@@ -106,17 +106,20 @@ TEST_F(PartitionMemory, KilledAtAnyMoment) {
   const std::string again = command("out.vit", "--domains 12 --domains-at-once 3");
   const auto begin = std::chrono::steady_clock::now();
   partition("whole.vit", "--domains 12 --domains-at-once 3");
-  const auto whole = std::chrono::steady_clock::now() - begin;
+  auto whole = std::chrono::steady_clock::now() - begin;
   std::mt19937 random(20261121);
   int killed = 0;
-  for (int i = 0; i < 10; ++i) {
+  for (int tries = 0; killed < 10; ++tries) {
+    ASSERT_LT(tries, 60);
     const pid_t pid = start(again);
     std::this_thread::sleep_for(whole * std::uniform_real_distribution(0.1, 0.9)(random));
     ::kill(pid, SIGKILL);
-    killed += wait_for(pid) == 128 + SIGKILL;
+    if (wait_for(pid) == 128 + SIGKILL)
+      ++killed;
+    else
+      whole = whole * 9 / 10;  // it ended first: this machine's speed is not what it was
     EXPECT_LE(names_with("out.vit.tmp").size(), 1u) << "what an earlier one left is gone";
   }
-  EXPECT_GT(killed, 5);
   ASSERT_EQ(run(again).status, 0);
   EXPECT_THAT(names_with("out.vit"), ::testing::ElementsAre("out.vit"));
   EXPECT_TRUE(contents(directory_ / "out.vit") == contents(directory_ / "whole.vit"));

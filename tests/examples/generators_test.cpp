@@ -10,6 +10,7 @@
 #include <ostream>
 
 #include "importers/import.h"
+#include "scene/nesting.h"
 #include "tests/support/command.h"
 #include "tests/support/temporary_directory.h"
 
@@ -112,10 +113,79 @@ INSTANTIATE_TEST_SUITE_P(Examples, Generators,
                          testing::Values(Case{"city", 80'000, ""},
                                          Case{"city", 200'000, "--trees flattened --seed 3"},
                                          Case{"city", 300'000, "--buildings instances"},
+                                         Case{"city", 300'000, "--buildings instances --nested"},
                                          Case{"terrain", 60'000, ""},
                                          Case{"terrain", 300'000, "--plants flattened --seed 3"},
                                          Case{"terrain", 100'000, "--plants none"}),
                          name_of);
+
+// Of all triangles of a material in the world: their number, area, centre and a wave summed over them, which
+// notices what is elsewhere.
+struct Matter {
+  std::size_t triangles = 0;
+  double area = 0, wave = 0;
+  Vector3d centre{};  // times the area
+};
+
+std::map<std::string, Matter> matter(const Scene& nested) {
+  const Scene scene = without_nested_instances(nested);
+  std::map<std::string, Matter> all;
+  const auto add = [&](const Shape& shape, const Transform& to_world) {
+    const TriangleMesh& mesh = scene.meshes[shape.mesh.value];
+    Matter& m = all[scene.materials[shape.material.value].name];
+    for (const auto& t : mesh.triangles) {
+      std::array<Point3d, 3> p;
+      for (std::size_t k = 0; k < 3; ++k)
+        p[k] = transform_point(to_world, cast<double>(mesh.positions[t[k]]));
+      const double area = 0.5 * length(cross(p[1] - p[0], p[2] - p[0]));
+      const Vector3d c = ((p[0] - Point3d{}) + (p[1] - Point3d{}) + (p[2] - Point3d{})) * (1.0 / 3);
+      ++m.triangles, m.area += area, m.centre = m.centre + c * area;
+      m.wave += area * std::sin(0.9 * c.x + 1.3 * c.y + 1.9 * c.z);
+    }
+  };
+  for (const Shape& shape : scene.shapes) add(shape, shape.object_to_world);
+  for (const Instance& instance : scene.instances)
+    for (const Shape& shape : scene.prototypes[instance.prototype.value].shapes)
+      add(shape, instance.prototype_to_world * shape.object_to_world);
+  return all;
+}
+
+// Instances within instances, the same flattened by the generator, and by `partition --flatten`, to the bit.
+TEST(City, NestedIsTheSameScene) {
+  const TemporaryDirectory directory;
+  constexpr const char* options = "--nested --buildings instances --width 160 --height 90";
+  const Generated nested = generate(directory / "nested", {"city", 200'000, options});
+  const Generated flat =
+      generate(directory / "flat", {"city", 200'000, fmt::format("{} --trees flattened", options)});
+  const Scene scene = import_scene(nested.scene).scene, flat_scene = import_scene(flat.scene).scene;
+  EXPECT_TRUE(has_nested_instances(scene));
+  EXPECT_FALSE(has_nested_instances(flat_scene));
+  EXPECT_EQ(nested.counts["triangles"], flat.counts["triangles"]);
+  EXPECT_LT(nested.counts["unique_triangles"], flat.counts["unique_triangles"]);
+  const auto kept = matter(scene), copied = matter(flat_scene);
+  ASSERT_EQ(kept.size(), copied.size());
+  for (const auto& [name, a] : kept) {
+    const Matter& b = copied.at(name);
+    EXPECT_EQ(a.triangles, b.triangles) << name;
+    EXPECT_NEAR(a.area / b.area, 1, 1e-5) << name;
+    EXPECT_LT(length(a.centre * (1 / a.area) - b.centre * (1 / b.area)), 1e-3)
+        << name;  // six digits are written
+    EXPECT_NEAR(a.wave / a.area, b.wave / b.area, 2e-3) << name;
+  }
+
+  std::map<std::string, nlohmann::json> films;
+  for (const std::string how : {"--domains 9", "--domains 2 --flatten"}) {
+    const auto bundle = (directory / "city.vit").string(), film = (directory / "city.film").string();
+    const CommandResult made =
+        run(fmt::format("{} '{}' -o '{}' {}", vitrail("partition"), nested.scene.string(), bundle, how));
+    ASSERT_EQ(made.status, 0) << made.output;
+    const CommandResult done = run(fmt::format("{} '{}' -o '{}' --spp 4 --threads 2 --stats '{}.json'",
+                                               vitrail("render"), bundle, film, film));
+    ASSERT_EQ(done.status, 0) << done.output;
+    films[how] = read_json(film + ".json")["film_hash"];
+  }
+  EXPECT_EQ(films["--domains 9"], films["--domains 2 --flatten"]);
+}
 
 // Neighbouring tiles share their border's vertices to the last bit: the edges that one triangle alone has lie
 // on the outer border.

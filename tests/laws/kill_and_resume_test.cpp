@@ -122,6 +122,27 @@ TEST_F(KillAndResume, TermWritesACheckpointAndExitsCleanly) {
   }
 }
 
+// Which counts the rays of all the picture, or there is none.
+TEST_F(KillAndResume, AResumedRunHasNoProfile) {
+  const auto profile = directory_ / "profile.json";
+  const std::string options = fmt::format("--resume --profile '{}'", profile.string());
+  const std::string line = command("stopped.film", options);
+  Background job(line);
+  std::this_thread::sleep_for(1500ms);
+  ASSERT_TRUE(job.running());
+  for (const pid_t pid : job.ranks()) ::kill(pid, SIGTERM);
+  EXPECT_EQ(job.wait(), 0);
+  ASSERT_TRUE(std::filesystem::exists(directory_ / "stopped.film.partial"));
+  EXPECT_FALSE(std::filesystem::exists(profile));
+  const CommandResult resumed = run(line);
+  EXPECT_EQ(resumed.status, 0);
+  EXPECT_TRUE(std::filesystem::exists(directory_ / "stopped.film"));
+  EXPECT_THAT(resumed.output, ::testing::HasSubstr("profile.json is not written"));
+  EXPECT_FALSE(std::filesystem::exists(profile));
+  EXPECT_EQ(run(command("whole.film", options + " --max-depth 0")).status, 0);  // has nothing to resume
+  EXPECT_TRUE(std::filesystem::exists(profile));
+}
+
 TEST_F(KillAndResume, RefusesAnotherJobsCheckpoint) {
   Background job(command("other.film", "--checkpoint-every 0.1"));
   while (job.running() && !std::filesystem::exists(directory_ / "other.film.partial"))

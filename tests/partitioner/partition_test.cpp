@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "partitioner/partition.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -8,6 +9,7 @@
 #include <map>
 
 #include "bundle/verify.h"
+#include "scene/diagnostics.h"
 #include "tests/partitioner/bundle_contents.h"
 #include "tests/partitioner/test_scenes.h"
 #include "tests/support/temporary_directory.h"
@@ -76,6 +78,46 @@ TEST_F(Partition, DomainBytesCountObjects) {
   EXPECT_EQ(s.objects, 40u);
   EXPECT_GE(s.domains, 4u);
   EXPECT_LE(s.domain_bytes_max, all / 4);
+}
+
+// Of a size far beyond --domain-bytes: its parts go to different domains.
+TEST_F(Partition, DomainBytesDivideObjects) {
+  Scene scene = scene_of(bumpy_torus(20));
+  scene.meshes.push_back(bumpy_torus(200));
+  Shape shape = scene.shapes[0];
+  shape.mesh = Id<TriangleMesh>{1};
+  scene.prototypes.push_back({"", {shape}});
+  for (int i = 0; i < 3; ++i) scene.instances.push_back({Id<Prototype>{0}, translate({20.0 * i, 0, 0})});
+  constexpr std::uint64_t bytes = 1'500'000;
+  const PartitionStats s = partition(scene, out, {.domain_bytes = bytes});
+  EXPECT_GT(s.bundle_bytes, 3 * bytes);
+  EXPECT_GT(s.objects, 1u);
+  EXPECT_LE(s.domain_bytes_max, bytes);
+}
+
+// Objects that all lie in one place are needed there together, in however many domains.
+TEST_F(Partition, DomainBytesThatCannotBe) {
+  Scene scene = scene_of(bumpy_torus(20));
+  for (std::uint32_t i = 0; i < 20; ++i) {
+    scene.meshes.push_back(bumpy_torus(40));
+    Shape shape = scene.shapes[0];
+    shape.mesh = Id<TriangleMesh>{i + 1};
+    scene.prototypes.push_back({"", {shape}});
+    for (int row = 0; row < 4; ++row)
+      scene.instances.push_back({Id<Prototype>{i}, translate({0, 20.0 * row, 0.01 * i})});
+  }
+  std::uint64_t bytes = 200'000;
+  try {
+    partition(scene, out, {.domain_bytes = bytes});
+    FAIL();
+  } catch (const UsageError& e) {
+    const std::string text = e.what(), before = "would take up to ";
+    ASSERT_THAT(text, ::testing::HasSubstr(before));
+    EXPECT_GT(std::stoull(text.substr(text.find(before) + before.size())) * 1024, bytes);
+  }
+  EXPECT_FALSE(fs::exists(out));
+  bytes = 6'000'000;  // 20 objects of 200 kB, and a quarter to spare
+  EXPECT_LE(partition(scene, out, {.domain_bytes = bytes}).domain_bytes_max, bytes);
 }
 
 TEST_F(Partition, StatisticsAgreeWithTheManifest) {

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bundle/expected_files.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "bundle/manifest.h"
+
+namespace vitrail {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* folders[] = {"domains", "objects", "textures"};
+
+// "domains/000012.dom": 13 files at least. 0 for other names.
+std::uint32_t files_up_to(const fs::path& file) {
+  const std::string stem = file.stem().string();
+  std::uint32_t number = 0;
+  const auto [end, error] = std::from_chars(stem.data(), stem.data() + stem.size(), number);
+  return stem.size() == 6 && error == std::errc{} && end == stem.data() + 6 ? number + 1 : 0;
+}
+
+std::uint32_t listed(const fs::path& bundle, const std::string& folder) {
+  std::ifstream in(bundle / "manifest.json");
+  const auto json = nlohmann::json::parse(in, nullptr, false);
+  const std::string key = folder == "textures" ? "texture_files" : folder;
+  if (!json.is_object() || !json.contains(key) || !json[key].is_array()) return 0;
+  return static_cast<std::uint32_t>(json[key].size());
+}
+
+// 0 where the file is damaged, which is found later.
+std::uint32_t referred_to(const fs::path& file) try {
+  std::uint32_t objects = 0;
+  for (const InstanceRef& ref : read_instances(file)) objects = std::max(objects, ref.object + 1);
+  return objects;
+} catch (const std::exception&) {
+  return 0;
+}
+
+}  // namespace
+
+std::set<fs::path> expected_files(const fs::path& bundle, const std::set<fs::path>& present) {
+  std::set<fs::path> files;
+  std::map<std::string, std::uint32_t> counts;
+  const auto at_least = [&](const std::string& folder, std::uint32_t count) {
+    counts[folder] = std::max(counts[folder], count);
+  };
+  for (const char* folder : folders) at_least(folder, listed(bundle, folder));
+  for (const fs::path& file : present) {
+    if (file.extension() != ".dom" && file.extension() != ".tex") continue;
+    files.insert(file);
+    at_least(file.parent_path().filename().string(), files_up_to(file));
+    if (file.extension() == ".dom") at_least("objects", referred_to(file));
+  }
+  for (const char* folder : folders)
+    for (std::uint32_t i = 0; i < counts[folder]; ++i)
+      files.insert(bundle / folder /
+                   fmt::format("{:06}.{}", i, std::string(folder) == "textures" ? "tex" : "dom"));
+  return files;
+}
+
+}  // namespace vitrail
