@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # The programs that make bundles and look into files.
 target_sources(vitrail_cli PRIVATE diagnostics_report.cpp)
-vitrail_program(partition SOURCES partition.cpp apply_mesh_options.cpp
+vitrail_program(partition SOURCES partition.cpp partition_report.cpp apply_mesh_options.cpp
   LIBRARIES vitrail::cli vitrail::importers vitrail::meshes vitrail::partitioner nlohmann_json::nlohmann_json)
 vitrail_program(convert SOURCES apply_mesh_options.cpp convert.cpp conversion_report.cpp
   LIBRARIES vitrail::cli vitrail::exporters vitrail::importers vitrail::meshes nlohmann_json::nlohmann_json)

@@ -9,17 +9,16 @@
 #include <atomic>
 #include <csignal>
 #include <iterator>
-#include <nlohmann/json.hpp>
 
 #include "cli/diagnostics_report.h"
 #include "cli/main_guard.h"
 #include "cli/mesh_options.h"
+#include "cli/partition_report.h"
 #include "cli/progress_line.h"
 #include "cli/sizes.h"
 #include "importers/import.h"
 #include "partitioner/appearance.h"
 #include "partitioner/meshes/edit_meshes.h"
-#include "scene/atomic_file.h"
 
 namespace vitrail {
 namespace {
@@ -85,52 +84,6 @@ class Watch {
  private:
   ProgressLine line_;
 };
-
-void write_stats(const std::filesystem::path& file, const PartitionStats& s) {
-  const nlohmann::ordered_json json{{"input_triangles", s.input_triangles},
-                                    {"cut_triangles", s.cut_triangles},
-                                    {"pieces", s.pieces},
-                                    {"domains", s.domains},
-                                    {"triangles_min", s.triangles_min},
-                                    {"triangles_mean", s.triangles_mean},
-                                    {"triangles_max", s.triangles_max},
-                                    {"bundle_bytes", s.bundle_bytes},
-                                    {"duplicates", s.duplicates},
-                                    {"area_error", s.area_error},
-                                    {"objects", s.objects},
-                                    {"instances", s.instances},
-                                    {"domain_bytes_max", s.domain_bytes_max},
-                                    {"wall_s", s.wall_s},
-                                    {"cpu_s", s.cpu_s},
-                                    {"peak_rss_bytes", s.peak_rss_bytes},
-                                    {"memory_budget_bytes", s.memory_budget_bytes},
-                                    {"buckets", s.buckets},
-                                    {"spill_bytes", s.spill_bytes},
-                                    {"triangles_per_s", s.triangles_per_s}};
-  const std::string text = json.dump(1) + "\n";
-  AtomicFile out(file);
-  out.write(std::as_bytes(std::span(text)));
-  out.commit();
-}
-
-void print_summary(const PartitionStats& s, const std::filesystem::path& bundle) {
-  fmt::print("{}: {} triangles in {} domains, {}\n", bundle.string(), s.input_triangles, s.domains,
-             format_bytes(s.bundle_bytes));
-  fmt::print("  a domain has {} to {} triangles, {:.0f} on average\n", s.triangles_min, s.triangles_max,
-             s.triangles_mean);
-  fmt::print("  {} triangles were cut into {} pieces; {} duplicates, area error {:.2g}\n", s.cut_triangles,
-             s.pieces, s.duplicates, s.area_error);
-  if (s.objects > 0)
-    fmt::print("  {} instances of {} objects are kept; a domain takes at most {} with its objects\n",
-               s.instances, s.objects, format_bytes(s.domain_bytes_max));
-  fmt::print("  {:.2f} s, {:.2f} s of processor time, {:.2f} million triangles a second\n", s.wall_s, s.cpu_s,
-             s.triangles_per_s * 1e-6);
-  fmt::print("  at most {} of memory of {} allowed; {}\n", format_bytes(s.peak_rss_bytes),
-             format_bytes(s.memory_budget_bytes),
-             s.buckets > 1
-                 ? fmt::format("in {} parts, {} on disk on the way", s.buckets, format_bytes(s.spill_bytes))
-                 : "all triangles at once");
-}
 
 int run(Arguments& a) {
   if (!a.domain_bytes.empty()) {

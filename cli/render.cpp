@@ -3,13 +3,14 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <iterator>
+#include <optional>
 
 #include "cli/main_guard.h"
 #include "cli/mesh_options.h"
 #include "cli/rectangle.h"
 #include "cli/run_program.h"
 #include "cli/sizes.h"
+#include "cli/temporary_bundle.h"
 #include "farm/agreement.h"
 #include "farm/render.h"
 #include "farm/signals.h"
@@ -70,52 +71,32 @@ void interpret(Arguments& a) {
   if (!a.crop.empty()) a.options.crop = parse_rectangle("--crop", a.crop);
   if (a.bins > 0) a.options.bins = SpectralBins{a.bins};
   if (!a.integrator.empty()) a.options.direct_only = a.integrator == "direct";
-  const bool terminal = ::isatty(STDERR_FILENO);
   if (a.progress == "json") a.options.progress = ProgressMode::json;
-  if (a.progress == "bar" || (a.progress == "auto" && terminal)) a.options.progress = ProgressMode::bar;
+  if (a.progress == "bar" || (a.progress == "auto" && ::isatty(STDERR_FILENO)))
+    a.options.progress = ProgressMode::bar;
   const std::filesystem::path folder = std::filesystem::absolute(a.output).parent_path();
   if (::access(folder.c_str(), W_OK) != 0) throw MachineError("cannot write to " + folder.string());
 }
 
-// A scene becomes a bundle first, beside the picture; it is removed at the end.
-class Bundle {
- public:
-  Bundle(Transport& transport, Arguments& a) : transport_(transport) {
-    a.options.bundle = a.input;
-    if (is_bundle(a.input)) return;
-    a.options.bundle = temporary_ = std::filesystem::path(a.options.film).replace_extension(".tmp.vit");
-    catch_signals();
-    agree(transport, [&] {
-      if (transport.rank() == 0) run_program("vitrail-partition", partition_arguments(a), stop_signalled);
-    });
-  }
-  ~Bundle() {
-    std::error_code ignored;
-    if (!temporary_.empty() && transport_.rank() == 0) std::filesystem::remove_all(temporary_, ignored);
-  }
-  Bundle(const Bundle&) = delete;
-  Bundle& operator=(const Bundle&) = delete;
-
- private:
-  std::vector<std::string> partition_arguments(const Arguments& a) const {
-    std::vector<std::string> arguments{a.input.string(), "-o", temporary_.string(), "--quiet", "--no-sync"};
-    // It links what reads images, of more than 100 MiB, and is gone when rendering begins.
-    constexpr std::uint64_t least = 256u << 20;
-    if (!a.memory.empty())
-      arguments.insert(arguments.end(), {"--memory", std::to_string(std::max(parse_bytes(a.memory), least))});
-    if (a.options.threads > 0)
-      arguments.insert(arguments.end(), {"--threads", std::to_string(a.options.threads)});
-    std::ranges::copy(arguments_of(a.meshes), std::back_inserter(arguments));
-    return arguments;
-  }
-
-  Transport& transport_;
-  std::filesystem::path temporary_;
-};
+std::vector<std::string> partition_arguments(const Arguments& a) {
+  std::vector<std::string> arguments = arguments_of(a.meshes);
+  arguments.insert(arguments.end(), {"--quiet", "--no-sync"});
+  // It links what reads images, of more than 100 MiB, and is gone when rendering begins.
+  constexpr std::uint64_t least = 256u << 20;
+  if (!a.memory.empty())
+    arguments.insert(arguments.end(), {"--memory", std::to_string(std::max(parse_bytes(a.memory), least))});
+  if (a.options.threads > 0)
+    arguments.insert(arguments.end(), {"--threads", std::to_string(a.options.threads)});
+  return arguments;
+}
 
 int render_job(Transport& transport, Arguments& a) {
   agree(transport, [&] { interpret(a); });
-  const Bundle bundle(transport, a);
+  const auto beside_the_film = std::filesystem::path(a.options.film).replace_extension(".tmp.vit");
+  a.options.bundle = is_bundle(a.input) ? a.input : beside_the_film;
+  std::optional<TemporaryBundle> temporary;
+  if (a.options.bundle != a.input)
+    temporary.emplace(transport, a.input, a.options.bundle, partition_arguments(a));
   agree(transport, [] {
     if (stop_signalled()) throw MachineError("interrupted before rendering began");
   });

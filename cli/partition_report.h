@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+
+#include "partitioner/partition.h"
+
+namespace vitrail {
+
+// One flat JSON object: `partition --stats`.
+void write_stats(const std::filesystem::path& file, const PartitionStats& stats);
+
+// What a user is told at the end.
+void print_summary(const PartitionStats& stats, const std::filesystem::path& bundle);
+
+}  // namespace vitrail
