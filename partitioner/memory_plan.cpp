@@ -56,18 +56,27 @@ double bytes_of_a_triangle(const Manifest& m) {
   return 62 + 16.0 * m.requirements.shading_normals + 32.0 * m.requirements.uv + 48.0 * m.attributes;
 }
 
+double bytes_left(const MemoryNeeds& needs) {
+  const double program = program_bytes + (needs.image_library ? image_library_bytes : 0);
+  const double fixed = program + static_cast<double>(needs.triangles) / 4;  // and the census
+  return static_cast<double>(needs.budget_bytes) - static_cast<double>(needs.scene_bytes) -
+         static_cast<double>(needs.instance_bytes) - fixed;
+}
+
+double bytes_to_build(const Manifest& m, double triangles, double built) {
+  const Costs costs = costs_of(m);
+  return costs.placed * triangles + costs.built * built;
+}
+
 MemoryPlan plan_memory(const Manifest& m, const MemoryNeeds& needs) {
   const Costs costs = costs_of(m);
   MemoryPlan plan;
   plan.domains = number_of_domains(needs, costs);
   const auto triangles = static_cast<double>(needs.triangles);
-  const double program = program_bytes + (needs.image_library ? image_library_bytes : 0);
-  const double fixed = program + triangles / 4;  // and the census
-  const double left = static_cast<double>(needs.budget_bytes) - static_cast<double>(needs.mesh_bytes) -
-                      static_cast<double>(needs.instance_bytes) - fixed;
+  const double left = bytes_left(needs);
   const double domain = plan.domains == 1 ? triangles : fullest * triangles / plan.domains;  // triangles
   const double build = costs.built * domain;
-  const double least = costs.placed * domain + build;
+  const double least = bytes_to_build(m, domain, domain);
   if (triangles > 0 && left < least)
     throw MachineError(fmt::format(
         "{:.0f} MiB of memory are too little for domains of {:.0f} triangles: {:.0f} MiB is needed, or more "

@@ -20,7 +20,7 @@ struct MemoryNeeds {
   std::uint64_t budget_bytes = 0;
   std::uint64_t triangles = 0;       // that no instance has
   std::uint64_t instance_bytes = 0;  // of references to objects, in memory and in the domains
-  std::uint64_t mesh_bytes = 0;      // of the budget, already in use
+  std::uint64_t scene_bytes = 0;     // of the budget, already in use
   std::uint64_t largest_mesh = 0;    // bytes of one that is in its file
   std::uint32_t domains = 0;         // 0: by domain_bytes
   std::uint64_t domain_bytes = 0;  // of a file; 0: 64 MiB, or less where that is more than 1/32 of the budget
@@ -30,6 +30,11 @@ struct MemoryNeeds {
 
 // In a file, with its share of the tree: measured, docs/partitioning.md.
 double bytes_of_a_triangle(const Manifest& manifest);
+
+// Of the budget, for triangles; less than 0 where nothing is.
+double bytes_left(const MemoryNeeds& needs);
+// Of `triangles` in memory while a file of `built` of them is made.
+double bytes_to_build(const Manifest& manifest, double triangles, double built);
 
 // Throws MachineError where not even one domain or one mesh fits, UsageError for too many domains.
 MemoryPlan plan_memory(const Manifest& manifest, const MemoryNeeds& needs);

@@ -35,6 +35,19 @@ std::uint64_t most_object_bytes(std::uint64_t domain_bytes) {
 // In a domain file with its place in the tree, and here while domains are written.
 constexpr std::uint64_t bytes_of_reference = 192;
 
+// Beside its meshes' triangles: of an instance with its use, of a mesh with its shapes, measured.
+std::uint64_t bytes_of_records(const Scene& scene) {
+  constexpr std::uint64_t instance_bytes = 480, shape_bytes = 1024;
+  std::uint64_t instances = scene.instances.size(), shapes = scene.shapes.size(), samples = 0;
+  for (const Prototype& p : scene.prototypes) {
+    instances += p.instances.size();
+    shapes += p.shapes.size();
+  }
+  for (const TriangleMesh& mesh : scene.meshes)
+    if (mesh.deferred) samples += mesh.deferred->sample.size();
+  return instances * instance_bytes + shapes * shape_bytes + samples * sizeof(DeferredMesh::Sample);
+}
+
 double cpu_seconds() {
   rusage u{};
   ::getrusage(RUSAGE_SELF, &u);
@@ -124,19 +137,27 @@ class Partitioner {
       : bundle_(std::move(bundle)),
         median_(options.median),
         phases_(progress),
-        world_(world_of(scene, bundle_, {!options.flatten, options.everything})),
-        refs_(write_objects(world_, world_.manifest, bundle_, most_object_bytes(options.domain_bytes))) {
+        world_(world_of(scene, bundle_, {!options.flatten, options.everything})) {
     MemoryNeeds needs{.budget_bytes = options.memory_bytes,
                       .triangles = world_.own_triangles,
-                      .instance_bytes = refs_.size() * bytes_of_reference,
+                      .scene_bytes = bytes_of_records(scene),
                       .domains = options.domains,
                       .domain_bytes = options.domain_bytes,
                       .image_library = image_library_is_loaded(),
                       .threads = tbb::this_task_arena::max_concurrency()};
     for (const TriangleMesh& mesh : scene.meshes) {
-      needs.mesh_bytes += bytes_of(mesh);
+      needs.scene_bytes += bytes_of(mesh);
       if (mesh.deferred) needs.largest_mesh = std::max(needs.largest_mesh, mesh.deferred->bytes);
     }
+    const std::uint64_t in_objects = triangles_of_objects(world_);
+    const auto all = static_cast<double>(std::max<std::uint64_t>(in_objects + world_.own_triangles, 1));
+    phases_.begin("writing objects", static_cast<double>(in_objects) / all, in_objects);
+    refs_ = write_objects(world_, world_.manifest, bundle_,
+                          {most_object_bytes(options.domain_bytes), bytes_left(needs)},
+                          [&](std::uint64_t n) { phases_.advance(n); });
+    rest_ = static_cast<double>(world_.own_triangles) / all;
+    needs.instance_bytes = refs_.size() * bytes_of_reference;
+    items_ = world_.own_triangles + refs_.size();
     plan_ = plan_memory(world_.manifest, needs);
     if (options.domains == 0 && options.domain_bytes > 0 && !refs_.empty()) {
       needs.domains = domains_within(world_, refs_, options.domain_bytes, plan_.domains);
@@ -170,11 +191,11 @@ class Partitioner {
  private:
   void at_once(Census& census) {
     const std::uint64_t triangles = world_.own_triangles;
-    phases_.begin("placing triangles", 0.2, triangles);
+    phases_.begin("placing triangles", 0.2 * rest_, triangles);
     FlatScene flat =
         flatten(std::move(world_), plan_.load_bytes, [&](std::uint64_t n) { phases_.advance(n); });
     manifest_ = std::move(flat.manifest);
-    phases_.begin("cutting and writing domains", 0.8, triangles);
+    phases_.begin("cutting and writing domains", 0.8 * rest_, triangles);
     const InstanceDealer instances = dealer(manifest_.bounds);
     divide_cell(flat, {}, {manifest_.bounds, 0, 0, plan_.domains}, writer(census, instances));
   }
@@ -184,7 +205,7 @@ class Partitioner {
     ::mallopt(M_MMAP_THRESHOLD, 1 << 20);
     ::malloc_trim(0);
     const std::uint64_t triangles = world_.own_triangles;
-    phases_.begin("planning", 0.01, 1);
+    phases_.begin("planning", 0.01 * rest_, 1);
     const std::vector<Bounds3f> sample = sample_of(world_, refs_);
     Bounds3f bounds;
     for (const Bounds3f& b : sample) extend(bounds, b);
@@ -192,7 +213,7 @@ class Partitioner {
     const KdPlan top = plan_kd_tree(work_.items(sample), {bounds, 0, 0, plan_.domains},
                                     {share, plan_.domains_at_once, median_}, world_.manifest.kd_nodes);
     buckets_ = top.leaves.size();
-    phases_.begin("sorting triangles into parts", 0.4, triangles);
+    phases_.begin("sorting triangles into parts", 0.4 * rest_, triangles);
     Spill spill(bundle_ / "spill", buckets_, world_.rule(),
                 std::min(plan_.spill_bytes / buckets_, most_spill_buffer_bytes));
     SceneTally tally(world_);
@@ -202,7 +223,7 @@ class Partitioner {
     ::malloc_trim(0);
     manifest_ = std::move(world_.manifest);
     const InstanceDealer instances = dealer(bounds);
-    phases_.begin("cutting and writing domains", 0.59, triangles);
+    phases_.begin("cutting and writing domains", 0.59 * rest_, triangles);
     for (std::size_t i = 0; i < buckets_; ++i) {
       const LoadedCell cell = spill.take(i);
       divide_cell(cell.triangles, cell.cut, top.leaves[i], writer(census, instances));
@@ -242,7 +263,8 @@ class Partitioner {
   Phases phases_;
   World world_;
   std::vector<InstanceRef> refs_;
-  std::uint64_t items_ = world_.own_triangles + refs_.size();
+  std::uint64_t items_ = 0;  // triangles and instances
+  double rest_ = 1;          // of all work, without the objects'
   MemoryPlan plan_;
   Manifest manifest_;
   std::uint64_t buckets_ = 1, spill_bytes_ = 0;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "partitioner/write_objects.h"
 
+#include <fmt/format.h>
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cmath>
@@ -13,6 +15,7 @@
 #include "partitioner/memory_plan.h"
 #include "partitioner/write_domain.h"
 #include "scene/deferred_mesh.h"
+#include "scene/diagnostics.h"
 
 namespace vitrail {
 
@@ -126,26 +129,66 @@ void write_object(const World& world, const WorldObject& o, std::uint32_t first,
   }
 }
 
+// While an object is written, with the mesh that is being placed.
+double bytes_in_work(const World& world, const Assembly& object, std::uint32_t files) {
+  const auto triangles = static_cast<double>(triangles_in(object));
+  std::uint64_t mesh = 0;
+  for (const Placement& p : object.placements)
+    if (p.mesh->deferred) mesh = std::max(mesh, p.mesh->deferred->bytes);
+  return static_cast<double>(mesh) + bytes_to_build(world.manifest, triangles, std::ceil(triangles / files));
+}
+
+// Those whose instances are of objects before them: as many of them at once as there are threads, or one
+// after the other.
+struct Batch {
+  Indices at_once, alone;
+};
+
 }  // namespace
 
+std::uint64_t triangles_of_objects(const World& world) {
+  std::uint64_t triangles = 0;
+  for (const WorldObject& o : world.objects) triangles += triangles_in(o.assembly);
+  return triangles;
+}
+
 std::vector<InstanceRef> write_objects(const World& world, Manifest& m, const std::filesystem::path& bundle,
-                                       std::uint64_t most_bytes) {
+                                       const ObjectLimits& limits,
+                                       const std::function<void(std::uint64_t)>& written) {
   if (world.objects.empty()) return {};
   std::filesystem::create_directories(bundle / "objects");
   Files files{{0}, {}};
-  std::vector<std::vector<const WorldObject*>> by_depth;  // those whose instances are of what comes before
-  for (const WorldObject& o : world.objects) {
-    files.first.push_back(files.first.back() + number_of_files(world, o.assembly, most_bytes));
-    by_depth.resize(std::max(by_depth.size(), static_cast<std::size_t>(o.assembly.depth) + 1));
-    by_depth[static_cast<std::size_t>(o.assembly.depth)].push_back(&o);
+  std::vector<Batch> by_depth;
+  const int threads = tbb::this_task_arena::max_concurrency();
+  double most_bytes = 0;
+  for (std::uint32_t i = 0; i < world.objects.size(); ++i) {
+    const Assembly& object = world.objects[i].assembly;
+    const std::uint32_t count = number_of_files(world, object, limits.file_bytes);
+    files.first.push_back(files.first.back() + count);
+    const double bytes = bytes_in_work(world, object, count);
+    most_bytes = std::max(most_bytes, bytes);
+    by_depth.resize(std::max(by_depth.size(), static_cast<std::size_t>(object.depth) + 1));
+    Batch& batch = by_depth[static_cast<std::size_t>(object.depth)];
+    (threads * bytes <= limits.memory_bytes ? batch.at_once : batch.alone).push_back(i);
   }
+  if (most_bytes > limits.memory_bytes)
+    throw MachineError(fmt::format(
+        "memory is too little for the largest object that has instances: {:.0f} MiB more is needed",
+        (most_bytes - limits.memory_bytes) / (1 << 20) + 1));
   files.bounds.resize(files.first.back());
   m.objects.resize(files.first.back());
-  for (const auto& objects : by_depth)
-    tbb::parallel_for(std::size_t{0}, objects.size(), [&](std::size_t i) {
-      const auto index = static_cast<std::size_t>(objects[i] - world.objects.data());
-      write_object(world, *objects[i], files.first[index], files.first[index + 1], bundle, files, m.objects);
+  const auto write = [&](std::uint32_t i) {
+    const WorldObject& object = world.objects[i];
+    write_object(world, object, files.first[i], files.first[i + 1], bundle, files, m.objects);
+    written(triangles_in(object.assembly));
+  };
+  for (const Batch& batch : by_depth) {
+    // A thread that waits within one object begins no other.
+    tbb::parallel_for(std::size_t{0}, batch.at_once.size(), [&](std::size_t i) {
+      tbb::this_task_arena::isolate([&] { write(batch.at_once[i]); });
     });
+    for (const std::uint32_t i : batch.alone) write(i);
+  }
   return references(world.uses, files);
 }
 

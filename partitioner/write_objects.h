@@ -3,17 +3,27 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <vector>
 
 #include "partitioner/world.h"
 
 namespace vitrail {
 
-// Writes the world's objects, those of more than `most_bytes` in parts of a quarter of that, and their lines
-// in the manifest. Returns the instances of the scene, one for each part, in the order of ids; their boxes
-// are not inflated.
+struct ObjectLimits {
+  std::uint64_t file_bytes = 0;  // what is larger is parted
+  double memory_bytes = 0;       // for all that are in work
+};
+
+// Writes the world's objects, those beyond the limit in parts of a quarter of it, and their lines in the
+// manifest. Returns the instances of the scene, one for each part, in the order of ids; their boxes are not
+// inflated. `written` is told of triangles, from any thread. Throws MachineError where an object takes more
+// than the memory.
 std::vector<InstanceRef> write_objects(const World& world, Manifest& manifest,
-                                       const std::filesystem::path& bundle, std::uint64_t most_bytes);
+                                       const std::filesystem::path& bundle, const ObjectLimits& limits,
+                                       const std::function<void(std::uint64_t)>& written);
+// Of all objects.
+std::uint64_t triangles_of_objects(const World& world);
 
 // The objects of these instances and all that they need, ascending.
 std::vector<std::uint32_t> needed_objects(const Manifest& manifest, std::span<const InstanceRef> instances);

@@ -26,17 +26,32 @@ class PartitionMemory : public ::testing::Test {
  protected:
   // `tori` of 2n² triangles each, every one with a file of its own.
   void write_scene(int tori, int n) const {
-    write_ply(bumpy_torus(n), directory_ / "torus.ply");
-    std::ofstream scene(directory_ / "scene.pbrt");
-    scene << "LookAt 0 0 30 0 0 0 0 1 0\nCamera \"perspective\" \"float fov\" 40\n"
-             "Film \"rgb\" \"integer xresolution\" 64 \"integer yresolution\" 64\n"
-             "WorldBegin\nLightSource \"infinite\"\n";
+    std::ofstream scene = begun_scene(tori, n);
     for (int i = 0; i < tori; ++i) {
-      std::filesystem::create_symlink("torus.ply", directory_ / fmt::format("{}.ply", i));
       scene << fmt::format("AttributeBegin\nTranslate {} {} {}\nRotate {} 1 1 0\n", 4 * (i % 4) - 6,
                            3 * (i / 4) - 5, i % 3, 40 * i)
             << fmt::format("Shape \"plymesh\" \"string filename\" \"{}.ply\"\nAttributeEnd\n", i);
     }
+  }
+  // The tori as objects that do not stand anywhere but in `instances` places.
+  void write_instances(int tori, int n, int instances) const {
+    std::ofstream scene = begun_scene(tori, n);
+    for (int i = 0; i < tori; ++i)
+      scene << fmt::format(
+          "ObjectBegin \"{0}\"\nShape \"plymesh\" \"string filename\" \"{0}.ply\"\nObjectEnd\n", i);
+    for (int i = 0; i < instances; ++i)
+      scene << fmt::format("AttributeBegin\nTranslate {} {} 0\nObjectInstance \"{}\"\nAttributeEnd\n",
+                           3 * (i % 100), 3 * (i / 100), i % tori);
+  }
+  std::ofstream begun_scene(int tori, int n) const {
+    write_ply(bumpy_torus(n), directory_ / "torus.ply");
+    for (int i = 0; i < tori; ++i)
+      std::filesystem::create_symlink("torus.ply", directory_ / fmt::format("{}.ply", i));
+    std::ofstream scene(directory_ / "scene.pbrt");
+    scene << "LookAt 0 0 30 0 0 0 0 1 0\nCamera \"perspective\" \"float fov\" 40\n"
+             "Film \"rgb\" \"integer xresolution\" 64 \"integer yresolution\" 64\n"
+             "WorldBegin\nLightSource \"infinite\"\n";
+    return scene;
   }
   std::string command(const std::string& bundle, const std::string& more) const {
     return fmt::format("{} '{}' -o '{}' --stats '{}' {}", vitrail("partition"),
@@ -82,6 +97,14 @@ TEST_F(PartitionMemory, BudgetIsKeptAndThePictureStays) {
     EXPECT_LT(stats["triangles_max"].get<double>(), 1.3 * stats["triangles_mean"].get<double>());
   }
   EXPECT_EQ(film_hash("little.vit"), film_hash("plenty.vit"));
+}
+
+TEST_F(PartitionMemory, ObjectsKeepTheBudget) {
+  write_instances(6, 360, 10'000);  // 260,000 triangles each
+  const nlohmann::json stats = partition("out.vit", "--memory 128M");
+  EXPECT_EQ(stats["objects"], 6);
+  EXPECT_LE(stats["peak_rss_bytes"].get<std::uint64_t>(), 128u << 20);
+  EXPECT_EQ(run(command("no.vit", "--memory 80M")).status, 4) << "the objects are too small to tell";
 }
 
 // The child that runs it, without the shell.
