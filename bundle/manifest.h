@@ -124,9 +124,10 @@ struct Manifest {
 };
 
 // Boxes of clusters are inflated by this, and the walk visits both sides of an interface within
-// `interface_epsilon`. float error of a vertex is 6e-8·scale; ε > padding > error of a hit.
-inline double padding(const Manifest& m) { return 2e-6 * m.scale; }
-inline double interface_epsilon(const Manifest& m) { return 4e-6 * m.scale; }
+// `interface_epsilon`. float error of a vertex is 6e-8·scale; ε > padding > error of a hit. Both are numbers
+// that floats have, even where a scene is so small that its own are not.
+inline double padding(const Manifest& m) { return 2e-6 * m.scale + 1e-37; }
+inline double interface_epsilon(const Manifest& m) { return 2 * padding(m); }
 
 // Most planes on the way from the root of a kd-tree to a domain.
 inline constexpr int max_kd_depth = 62;

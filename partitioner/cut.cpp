@@ -41,14 +41,29 @@ Point3d crossing(Point3d below, Point3d above, Plane plane) {
 
 void split_polygon(std::span<const Point3d> polygon, Plane plane, std::vector<Point3d>& below,
                    std::vector<Point3d>& above) {
-  const double c = plane.split;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Point3d p = polygon[i], q = polygon[(i + 1) % polygon.size()];
-    const double x = p[plane.axis], y = q[plane.axis];
-    if (x <= c) below.push_back(p);
-    if (x >= c) above.push_back(p);
-    if ((x < c && y > c) || (x > c && y < c)) {
-      const Point3d between = x < c ? crossing(p, q, plane) : crossing(q, p, plane);
+  const std::size_t n = polygon.size();
+  const auto side = [&](std::size_t i) {
+    const double x = polygon[i % n][plane.axis], c = plane.split;
+    return x < c ? -1 : x > c ? 1 : 0;
+  };
+  const auto side_beyond = [&](std::size_t i, std::size_t step) {
+    for (std::size_t k = 1; k < n; ++k)
+      if (const int s = side(i + k * step)) return s;
+    return 0;
+  };
+  for (std::size_t i = 0; i < n; ++i) {
+    const int here = side(i), next = side(i + 1);
+    if (here == 0) {
+      const int before = side_beyond(i, n - 1), after = side_beyond(i, 1);
+      if (std::min(before, after) <= 0) below.push_back(polygon[i]);
+      if (std::max(before, after) >= 0 && (before == after || std::max(side(i + n - 1), next) > 0))
+        above.push_back(polygon[i]);
+      continue;
+    }
+    (here < 0 ? below : above).push_back(polygon[i]);
+    if (here * next < 0) {
+      const Point3d p = polygon[i], q = polygon[(i + 1) % n];
+      const Point3d between = here < 0 ? crossing(p, q, plane) : crossing(q, p, plane);
       below.push_back(between);
       above.push_back(between);
     }

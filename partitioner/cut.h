@@ -57,8 +57,9 @@ inline bool reaches_below(Interval i, float split) { return i.lower < split || i
 // within the segment's.
 Point3d crossing(Point3d below, Point3d above, Plane plane);
 
-// The convex parts of a convex polygon below and above, in its own winding; vertices in the plane belong to
-// both as they are.
+// The convex parts of a convex polygon that reaches below and above, in its own winding. A vertex in the
+// plane belongs to both as it is. Where rounding has moved several in a row there, the edges between them
+// belong to the part below, so that the two parts do not overlap.
 void split_polygon(std::span<const Point3d> polygon, Plane plane, std::vector<Point3d>& below,
                    std::vector<Point3d>& above);
 

@@ -13,11 +13,11 @@ double greatest(Vector3d v) { return std::max({std::abs(v.x), std::abs(v.y), std
 
 }  // namespace
 
-double enter_box(const Bounds3f& box, Point3d origin, Vector3d reciprocal, double tmax) {
+double enter_box(const Bounds3f& box, double margin, Point3d origin, Vector3d reciprocal, double tmax) {
   double t0 = 0, t1 = tmax;
   for (int axis = 0; axis < 3; ++axis) {
-    const double a = (static_cast<double>(box.lower[axis]) - origin[axis]) * reciprocal[axis];
-    const double b = (static_cast<double>(box.upper[axis]) - origin[axis]) * reciprocal[axis];
+    const double a = (static_cast<double>(box.lower[axis]) - margin - origin[axis]) * reciprocal[axis];
+    const double b = (static_cast<double>(box.upper[axis]) + margin - origin[axis]) * reciprocal[axis];
     t0 = std::max(t0, std::min(a, b));
     t1 = std::min(t1, std::max(a, b));
   }
@@ -75,7 +75,7 @@ bool DomainWalk::next(double tmax, Visit& visit) {
     const std::uint32_t domain = leaf.reference & ~KdNode::leaf_bit;
     const DomainInfo& info = manifest_.domains[domain];
     if (info.tight_bounds.empty()) continue;
-    const double entry = enter_box(info.tight_bounds, origin_, reciprocal_, tmax);
+    const double entry = enter_box(info.tight_bounds, rounding_, origin_, reciprocal_, tmax);
     if (entry == infinity) continue;
     visit = {domain, std::max(leaf.t0, entry)};
     // From far away the way through the cells is less certain than they are padded.

@@ -10,9 +10,9 @@
 
 namespace vitrail {
 
-// Slab test in double; conservative for boxes that are padded. Returns the entry, or +∞ when missed within
-// [0, tmax].
-double enter_box(const Bounds3f& box, Point3d origin, Vector3d reciprocal, double tmax);
+// Slab test in double; conservative for boxes that are padded, by `margin` more. Returns the entry, or +∞
+// when missed within [0, tmax].
+double enter_box(const Bounds3f& box, double margin, Point3d origin, Vector3d reciprocal, double tmax);
 
 // The leaves of one ray, one after the other. The sequence is a function of the ray and the manifest alone,
 // so a rank that receives a ray finds its place in it again with `skip_past`.

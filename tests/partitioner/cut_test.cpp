@@ -63,6 +63,20 @@ TEST(Cut, VertexInThePlaneBelongsToBothPieces) {
   EXPECT_EQ(above.piece_vertices, (std::vector<Point3d>{apex, {2, 0, 0}, foot}));
 }
 
+// Where the first two cuts of a triangle nearly meet, rounding moves an edge of the polygon into the plane.
+// The chord then begins at one of its ends, the same for both parts.
+TEST(Cut, PartsWithAnEdgeInThePlaneDoNotOverlap) {
+  std::vector<Point3d> polygon{{2, 0, 0}, {1, 5, 0}, {1, 4, 0}, {0, 0, 0}};
+  for (int turn = 0; turn < 8; ++turn) {
+    std::vector<Point3d> below, above;
+    split_polygon(polygon, {0, 1}, below, above);
+    EXPECT_DOUBLE_EQ(polygon_area(below) + polygon_area(above), polygon_area(polygon));
+    EXPECT_EQ(below.size() + above.size(), 7u);
+    std::ranges::rotate(polygon, polygon.begin() + 1);
+    if (turn == 3) std::ranges::reverse(polygon);
+  }
+}
+
 // Neighbours run along their common edge in opposite directions.
 TEST(Cut, NeighboursGetTheSameBits) {
   const Point3f p{0.1f, 0.7f, -0.3f}, q{0.9f, -0.2f, 0.8f};

@@ -91,6 +91,22 @@ TEST(Intersect, TrianglesBelowNormalFloats) {
   }
 }
 
+// A ray in the plane of a box's face is in the slab all along, from the furthest that the exact test accepts,
+// too.
+TEST(Intersect, ParallelRaysFromAfar) {
+  Triangles strip;
+  for (const float x : {0.0f, 1.0f, 2.0f, 3.0f})
+    strip.push_back({Point3f{x, 0, 0}, Point3f{x + 1, 0, 0}, Point3f{x, 1, 0}});
+  const ClusteredTriangles c = cluster(strip);
+  for (const float distance : {3.0f, 1e8f, 1e12f, 1e14f})
+    for (const float zero : {0.0f, -0.0f})
+      for (std::uint32_t i = 0; i < strip.size(); ++i) {
+        const Ray ray{{strip[i][0].x, 0.25f, distance}, {zero, 0, -distance}};
+        EXPECT_EQ(closest(c, ray).triangle, i) << distance;
+        EXPECT_TRUE(occluded(c, ray, 1.01f)) << distance;
+      }
+}
+
 TEST(Intersect, EmptyDomain) {
   const ClusteredTriangles c = cluster({});
   EXPECT_EQ(closest(c, {{0, 0, 1}, {0, 0, -1}}).triangle, no_triangle);

@@ -144,6 +144,15 @@ TEST(Walk, AsksNoCellsFromAfar) {
   EXPECT_EQ(all_visits(m, {{0.5f, 0.5f, 1e12f}, {0, 0, -1}, no_triangle}).size(), 1u);
 }
 
+TEST(Walk, StaysInTheSlabsThatItIsParallelTo) {
+  const Manifest m = grid(0);
+  const float edge = m.domains[0].tight_bounds.upper.x;
+  for (const float distance : {2.0f, 1e12f, 1e17f})
+    for (const float x : {edge, -edge})
+      EXPECT_EQ(all_visits(m, {{x, 0.5f, distance}, {0, 0, -1}, no_triangle}).size(), 1u) << distance;
+  EXPECT_TRUE(all_visits(m, {{1.1f, 0.5f, 2}, {0, 0, -1}, no_triangle}).empty());
+}
+
 TEST(Walk, StopsBehindTheHit) {
   const Manifest m = grid(6);
   const Ray ray{{-3, 0.1f, 0.2f}, {1, 0.01f, 0.02f}, no_triangle};
