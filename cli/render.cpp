@@ -81,7 +81,7 @@ void interpret(Arguments& a) {
 std::vector<std::string> partition_arguments(const Arguments& a) {
   std::vector<std::string> arguments = arguments_of(a.meshes);
   arguments.insert(arguments.end(), {"--quiet", "--no-sync"});
-  // It links what reads images, of more than 100 MiB, and is gone when rendering begins.
+  // It may have to load what reads images, of more than 100 MiB, and is gone when rendering begins.
   constexpr std::uint64_t least = 256u << 20;
   if (!a.memory.empty())
     arguments.insert(arguments.end(), {"--memory", std::to_string(std::max(parse_bytes(a.memory), least))});

@@ -44,21 +44,18 @@ std::uint32_t domains_within(const World& world, const std::vector<InstanceRef>&
       most = std::max(most, object_bytes(world.manifest, dealer.in(leaf.cell)));
     return most + static_cast<std::uint64_t>(own_bytes / count);
   };
-  std::uint64_t most = most_bytes(domains);
-  if (most <= domain_bytes) return domains;
-  const std::uint64_t least = most_bytes(most_domains);
-  if (least > domain_bytes)
-    throw UsageError(fmt::format(
-        "--domain-bytes {} is too little for a domain and the objects that it has instances of: even {} "
-        "domains would take up to {}K each, so it has to be more than that",
-        domain_bytes, most_domains, (least + 1023) / 1024));
-  while (most > domain_bytes) {
+  for (;;) {
+    const std::uint64_t most = most_bytes(domains);
+    if (most <= domain_bytes) return domains;
+    if (domains == most_domains)
+      throw UsageError(fmt::format(
+          "--domain-bytes {} is too little for a domain and the objects that it has instances of: even {} "
+          "domains would take up to {}K each, so it has to be more than that",
+          domain_bytes, most_domains, (most + 1023) / 1024));
     const double growth =
         std::clamp(static_cast<double>(most) / static_cast<double>(domain_bytes), 1.25, 2.0);
     domains = static_cast<std::uint32_t>(std::min<double>(std::ceil(domains * growth), most_domains));
-    most = most_bytes(domains);
   }
-  return domains;
 }
 
 }  // namespace vitrail
