@@ -68,6 +68,7 @@ RayConstants prepare(const Ray& ray) {
   r.shear_x = static_cast<float>(r.exact_shear_x);
   r.shear_y = static_cast<float>(r.exact_shear_y);
   r.sign_z = std::copysign(1.0f, dz);
+  r.drift = 0x1p-47f * std::max({std::abs(r.origin[0]), std::abs(r.origin[1]), std::abs(r.origin[2])});
   r.exclude = ray.exclude;
   r.direction_z = double{dz};
   return r;

@@ -142,15 +142,13 @@ inline float zeta_of(Pending p) { return __builtin_bit_cast(float, static_cast<s
 
 // The ray against boxes: ζ = x·scale + offset is where it meets the plane at x, less (entry) or more (exit) a
 // bound of what rounding does: 8u|o·scale|, and the boxes' own inflation by 10⁻⁶|x| for what is proportional
-// to x. 2⁻⁴⁷|o| keeps a ray in the slab that it is parallel to, however far it has come.
+// to x. Both get `drift` more.
 struct Slabs {
   explicit Slabs(const RayConstants& ray) {
-    float distance = 0;
-    for (const float o : ray.origin) distance = __builtin_fabsf(o) > distance ? __builtin_fabsf(o) : distance;
     for (int a = 0; a < 3; ++a) {
       const float scale_a = ray.inverse_direction[a], offset = -ray.origin[a] * scale_a;
       const float rounding =
-          8 * unit_roundoff * __builtin_fabsf(offset) + 0x1p-47f * distance * __builtin_fabsf(scale_a);
+          8 * unit_roundoff * __builtin_fabsf(offset) + ray.drift * __builtin_fabsf(scale_a);
       scale[a] = fill(scale_a);
       entry_offset[a] = fill(offset - rounding);
       exit_offset[a] = fill(offset + rounding);

@@ -40,6 +40,7 @@ struct RayConstants {
   std::uint32_t x, y, z;   // axes
   float shear_x, shear_y;  // d_x/d_z, d_y/d_z
   float sign_z;            // of d_z, ±1
+  float drift;  // 2⁻⁴⁷ of the origin's greatest |coordinate|: keeps a ray in the slab that it is parallel to
   std::uint32_t exclude;
   double exact_shear_x, exact_shear_y;
   double direction_z;  // d_z
