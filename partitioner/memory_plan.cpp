@@ -70,7 +70,7 @@ double bytes_to_build(const Manifest& m, double triangles, double built) {
 
 MemoryPlan plan_memory(const Manifest& m, const MemoryNeeds& needs) {
   const Costs costs = costs_of(m);
-  MemoryPlan plan;
+  MemoryPlan plan{.budget_bytes = needs.budget_bytes};
   plan.domains = number_of_domains(needs, costs);
   const auto triangles = static_cast<double>(needs.triangles);
   const double left = bytes_left(needs);

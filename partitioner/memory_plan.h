@@ -9,6 +9,7 @@
 namespace vitrail {
 
 struct MemoryPlan {
+  std::uint64_t budget_bytes = 0;
   std::uint32_t domains = 1;
   std::uint32_t domains_at_once = 1;  // in memory with all their triangles: a bucket
   std::uint32_t domains_in_work = 1;  // of which trees are being built
