@@ -62,17 +62,25 @@ TEST_F(Partition, DomainsAreBalanced) {
   }
 }
 
-// Forty objects that stand in rows: a domain that sees a few of them needs only those.
-TEST_F(Partition, DomainBytesCountObjects) {
+// So many objects, each `rows` times, where `place(object, row)` says.
+Scene scene_with_objects(std::uint32_t objects, int rows, const auto& place) {
   Scene scene = scene_of(bumpy_torus(20));
-  for (std::uint32_t i = 0; i < 40; ++i) {
+  for (std::uint32_t i = 0; i < objects; ++i) {
     scene.meshes.push_back(bumpy_torus(40));
     Shape shape = scene.shapes[0];
     shape.mesh = Id<TriangleMesh>{i + 1};
     scene.prototypes.push_back({"", {shape}});
-    for (int row = 0; row < 12; ++row)
-      scene.instances.push_back({Id<Prototype>{i}, translate({20.0 * i, 20.0 * row, 0})});
+    for (int row = 0; row < rows; ++row)
+      scene.instances.push_back({Id<Prototype>{i}, translate(place(i, row))});
   }
+  return scene;
+}
+
+// Forty objects that stand in rows: a domain that sees a few of them needs only those.
+TEST_F(Partition, DomainBytesCountObjects) {
+  const Scene scene = scene_with_objects(40, 12, [](std::uint32_t i, int row) {
+    return Vector3d{20.0 * i, 20.0 * row, 0};
+  });
   const std::uint64_t all = partition(scene, out, {.domains = 1}).domain_bytes_max;
   const PartitionStats s = partition(scene, out, {.domain_bytes = all / 4});
   EXPECT_EQ(s.objects, 40u);
@@ -97,15 +105,9 @@ TEST_F(Partition, DomainBytesDivideObjects) {
 
 // Objects that all lie in one place are needed there together, in however many domains.
 TEST_F(Partition, DomainBytesThatCannotBe) {
-  Scene scene = scene_of(bumpy_torus(20));
-  for (std::uint32_t i = 0; i < 20; ++i) {
-    scene.meshes.push_back(bumpy_torus(40));
-    Shape shape = scene.shapes[0];
-    shape.mesh = Id<TriangleMesh>{i + 1};
-    scene.prototypes.push_back({"", {shape}});
-    for (int row = 0; row < 4; ++row)
-      scene.instances.push_back({Id<Prototype>{i}, translate({0, 20.0 * row, 0.01 * i})});
-  }
+  const Scene scene = scene_with_objects(20, 4, [](std::uint32_t i, int row) {
+    return Vector3d{0, 20.0 * row, 0.01 * i};
+  });
   std::uint64_t bytes = 200'000;
   try {
     partition(scene, out, {.domain_bytes = bytes});
