@@ -70,7 +70,7 @@ double bytes_to_build(const Manifest& m, double triangles, double built) {
 
 MemoryPlan plan_memory(const Manifest& m, const MemoryNeeds& needs) {
   const Costs costs = costs_of(m);
-  MemoryPlan plan{.budget_bytes = needs.budget_bytes};
+  MemoryPlan plan;
   plan.domains = number_of_domains(needs, costs);
   const auto triangles = static_cast<double>(needs.triangles);
   const double left = bytes_left(needs);
@@ -102,6 +102,7 @@ MemoryPlan plan_memory(const Manifest& m, const MemoryNeeds& needs) {
       std::clamp<double>(build > 0 ? (left - placed) / build : threads, 1, threads));
   plan.load_bytes = static_cast<std::uint64_t>(all_fit ? std::max(left - placed, left / 8) : left / 2);
   plan.spill_bytes = static_cast<std::uint64_t>(left / 4);
+  plan.kept_bytes = std::clamp<std::uint64_t>(needs.budget_bytes / 64, 1 << 20, 32 << 20);
   return plan;
 }
 

@@ -9,12 +9,12 @@
 namespace vitrail {
 
 struct MemoryPlan {
-  std::uint64_t budget_bytes = 0;
   std::uint32_t domains = 1;
   std::uint32_t domains_at_once = 1;  // in memory with all their triangles: a bucket
   std::uint32_t domains_in_work = 1;  // of which trees are being built
   std::uint64_t load_bytes = 0;       // for meshes that are loaded from their files
   std::uint64_t spill_bytes = 0;      // for what is on its way to the buckets
+  std::uint64_t kept_bytes = 0;       // freed blocks up to this size stay: page faults are dear
 };
 
 struct MemoryNeeds {

@@ -201,10 +201,8 @@ class Partitioner {
   }
 
   void by_buckets(Census& census) {
-    // What is let go of is to leave memory if it is much: to get it again costs page faults.
-    const auto much = static_cast<int>(std::clamp<std::uint64_t>(plan_.budget_bytes / 64, 1 << 20, 32 << 20));
-    ::mallopt(M_MMAP_THRESHOLD, much);
-    ::mallopt(M_TRIM_THRESHOLD, 4 * much);
+    ::mallopt(M_MMAP_THRESHOLD, static_cast<int>(plan_.kept_bytes));
+    ::mallopt(M_TRIM_THRESHOLD, static_cast<int>(4 * plan_.kept_bytes));
     ::malloc_trim(0);
     const std::uint64_t triangles = world_.own_triangles;
     phases_.begin("planning", 0.01 * rest_, 1);
