@@ -65,13 +65,17 @@ void PathTracer::depart(Path& path, const Departure& from, Vector3d direction) c
 }
 
 // Moves the hit along the normal, to the side of `direction`, by more than rounding to float can move it
-// back: so it keeps from the neighbours of the triangle that it leaves.
+// back: so it keeps from the neighbours of the triangle that it leaves. Rounding moves it aside, too, which
+// brings it behind neighbours that are not quite in one plane; and the largest triangles, if there are any
+// about, lie where doubles place them.
 Point3f PathTracer::offset_origin(const Interaction& at, Vector3d direction) const {
-  const double rounding = 0x1p-24 * (std::abs(at.geometric.x * at.p.x) + std::abs(at.geometric.y * at.p.y) +
-                                     std::abs(at.geometric.z * at.p.z));
-  const double distance = 3 * rounding + 1e-9 * static_cast<double>(manifest_.scale);
+  const Vector3d p = at.p - Point3d{};
+  const double rounding = 0x1p-24 * (std::abs(at.geometric.x * p.x) + std::abs(at.geometric.y * p.y) +
+                                     std::abs(at.geometric.z * p.z));
+  const double aside = 1e-9 * std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+  const double doubles = 0x1p-46 * static_cast<double>(manifest_.scale);
   const double side = dot(direction, at.geometric) >= 0 ? 1 : -1;
-  return cast<float>(at.p + at.geometric * (side * distance));
+  return cast<float>(at.p + at.geometric * (side * (3 * rounding + aside + doubles)));
 }
 
 Interaction PathTracer::interaction_at(const Path& path) const {
