@@ -19,6 +19,8 @@ void expect_exactly(const std::string& what, double expected, double measured);
 // A number without an expectation, for the reader of the table.
 void report(const std::string& what, double value, const std::string& unit = "");
 
+std::uint32_t pixels_of(const Film& film);
+
 // Of two films of one size. Relative differences are of Y, to the mean Y of the first.
 struct FilmDifference {
   double mean = 0;              // of the means of all pixels

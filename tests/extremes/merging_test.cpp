@@ -26,7 +26,7 @@ constexpr int doublings = 20;  // 1.05·10⁹ samples
 
 // One pixel a mean: n samples of Y = mean·(1 ± 1/2), X = Y/2, Z = 2Y.
 Film film_of(std::uint64_t seed, const std::vector<double>& means, std::vector<long double>& sums) {
-  Film film(pixels(static_cast<int>(means.size())), {1, 2, seed});
+  Film film(pixels(static_cast<int>(means.size())), {.scene_hash = 1, .seed = seed});
   std::mt19937_64 random(seed);
   for (std::uint32_t p = 0; p < means.size(); ++p)
     for (std::uint32_t s = 0; s < base_samples; ++s) {
@@ -40,7 +40,7 @@ Film film_of(std::uint64_t seed, const std::vector<double>& means, std::vector<l
 
 // The same sums as of other samples.
 Film of_seed(const Film& film, std::uint64_t seed, int width) {
-  Film copy(pixels(width), {1, 2, seed});
+  Film copy(pixels(width), {.scene_hash = 1, .seed = seed});
   copy.merge(film);
   return copy;
 }

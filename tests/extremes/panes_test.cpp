@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "tests/extremes/measure.h"
+#include "tracer/bsdf/local.h"
 #include "tracer/portable_math.h"
 
 namespace vitrail::test {
@@ -65,6 +66,28 @@ TEST(Panes, Apart) {
       expect_relative(fmt::format("{} panes {:g} apart", panes, gap),
                       through(2 * panes, scene.settings.max_depth), b.mean, 2e-5, b.standard_error);
     }
+}
+
+// A pane before a lamp that is 10⁻³ behind it: (1 − R)²·Σ R²ʲ over what meets so many faces. A direction is
+// off by 1.2·10⁻⁷ rad, of which 1 − R, being proportional to cosθ there, shows 1.2·10⁻⁷/cosθ twice.
+TEST(Panes, AtGrazingIncidence) {
+  for (const double degrees : {80.0, 89.0, 89.9, 89.99}) {
+    Scene scene;
+    add_shape(scene, add_quads(scene, {square_at(-thickness - 1e-3f, 200)}), matte(0), lamp(1));
+    add_shape(scene, add_quads(scene, box_faces({-100, -100, -thickness}, {100, 100, 0})), glass());
+    add_shape(scene, add_quads(scene, {{{{9, 9, 0.06f}, {9, 8, 0.06f}, {8, 8, 0.06f}, {8, 9, 0.06f}}}}),
+              matte(0));
+    const double tilt = degrees * pi / 180, cosine = std::cos(tilt);
+    set_orthographic(scene, {5 * std::sin(tilt), 0, 5 * cosine}, {0, 0, 0}, {0, 1, 0}, 1e-6 * cosine, 32);
+    scene.settings.max_depth = 250;
+    const double reflected = fresnel_dielectric(cosine, 1.5);
+    double expected = 0;
+    for (int events = 2; events <= scene.settings.max_depth; events += 2)
+      expected += (1 - reflected) * (1 - reflected) * std::pow(reflected, events - 2);
+    const Measured b = measure(scene, 1024);
+    expect_relative(fmt::format("a pane at {:g}°", degrees), expected, b.mean, 2.4e-7 / cosine + 2e-5,
+                    b.standard_error);
+  }
 }
 
 TEST(Panes, Touching) {

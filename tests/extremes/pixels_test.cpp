@@ -45,19 +45,30 @@ TEST(Pixels, One) {
                   std::sqrt(film.variance_of_mean(0)));
 }
 
-Film crop_of(const Scene& scene, const PixelRect& crop, int samples) {
-  const TemporaryDirectory directory;
-  partition(scene, directory / "scene.vit", {.domains = 1});
-  RenderOptions options;
-  options.bundle = directory / "scene.vit";
-  options.film = directory / "scene.film";
-  options.samples_per_pixel = samples;
-  options.crop = crop;
-  int argc = 0;
-  char** argv = nullptr;
-  const auto transport = make_transport(&argc, &argv);
-  vitrail::render(*transport, options);
-  return read_film(options.film, nullptr);
+class Cropped {
+ public:
+  explicit Cropped(const Scene& scene) { partition(scene, directory_ / "scene.vit", {.domains = 1}); }
+
+  Film render(const PixelRect& crop, int samples) const {
+    RenderOptions options;
+    options.bundle = directory_ / "scene.vit";
+    options.film = directory_ / "scene.film";
+    options.samples_per_pixel = samples;
+    options.crop = crop;
+    int argc = 0;
+    char** argv = nullptr;
+    const auto transport = make_transport(&argc, &argv);
+    vitrail::render(*transport, options);
+    return read_film(options.film, nullptr);
+  }
+
+ private:
+  TemporaryDirectory directory_;
+};
+
+// At the middle of a pixel.
+double radiance_of(int column, int row) {
+  return radiance_at((column + 0.5) / large * 2 - 1, 1 - (row + 0.5) / large * 2);
 }
 
 TEST(Pixels, CropsOfAPictureOfAThousandMillion) {
@@ -66,14 +77,15 @@ TEST(Pixels, CropsOfAPictureOfAThousandMillion) {
   white.lights = {};
   white.area_lights = {lamp(1)};
   white.shapes[0].area_light = Id<AreaLight>{0};
+  const Cropped picture(scene), references(white);
   double worst = 0;
   for (const int x0 : {0, large / 2, large - 64}) {
     const PixelRect crop{x0, x0 + 64, large - 64 - x0, large - x0};
-    const Film film = crop_of(scene, crop, 4), reference = crop_of(white, crop, 4);
-    for (std::uint32_t i = 0; i < film.counts().size(); ++i) {
-      const double x = (crop.x0 + static_cast<int>(i % 64) + 0.5) / large * 2 - 1;
-      const double y = 1 - (crop.y0 + static_cast<int>(i / 64) + 0.5) / large * 2;
-      worst = std::max(worst, std::abs(film.mean(i).y / reference.mean(i).y / radiance_at(x, y) - 1));
+    const Film film = picture.render(crop, 4), reference = references.render(crop, 4);
+    for (std::uint32_t i = 0; i < pixels_of(film); ++i) {
+      const double expected =
+          radiance_of(crop.x0 + static_cast<int>(i % 64), crop.y0 + static_cast<int>(i / 64));
+      worst = std::max(worst, std::abs(film.mean(i).y / reference.mean(i).y / expected - 1));
     }
   }
   expect_absolute("crops of 32768² pixels: worst pixel, relative", 0, worst, 2e-5);
@@ -81,13 +93,13 @@ TEST(Pixels, CropsOfAPictureOfAThousandMillion) {
 
 // Pixels of a crop are those of the picture: sums of four quarters, to the bit.
 TEST(Pixels, QuartersAreTheWhole) {
-  const Scene scene = lit_floor(large);
+  const Cropped picture(lit_floor(large));
   constexpr int x0 = large - 96, y0 = large - 64;
-  const Film whole = crop_of(scene, {x0, x0 + 32, y0, y0 + 32}, 4);
+  const Film whole = picture.render({x0, x0 + 32, y0, y0 + 32}, 4);
   std::size_t differ = 0;
   for (const int dx : {0, 16})
     for (const int dy : {0, 16}) {
-      const Film part = crop_of(scene, {x0 + dx, x0 + dx + 16, y0 + dy, y0 + dy + 16}, 4);
+      const Film part = picture.render({x0 + dx, x0 + dx + 16, y0 + dy, y0 + dy + 16}, 4);
       for (std::uint32_t i = 0; i < 256; ++i) {
         const auto at =
             (static_cast<std::uint32_t>(dy) + i / 16) * 32 + static_cast<std::uint32_t>(dx) + i % 16;
@@ -95,6 +107,28 @@ TEST(Pixels, QuartersAreTheWhole) {
       }
     }
   expect_exactly("quarters of a crop of 32768²: pixels that differ", 0, static_cast<double>(differ));
+}
+
+// Of each of 8 × 8 parts a corner of 32², or the whole of 4096²: 1.4 GB and a thousand million samples.
+TEST(Pixels, AllPartsOfAPictureOfAThousandMillion) {
+  const Cropped picture(lit_floor(large));
+  constexpr int part = large / 8;
+  const int side = run_whole() ? part : 32;
+  double sum = 0, expected = 0, variance = 0;
+  for (int x0 = 0; x0 < large; x0 += part)
+    for (int y0 = 0; y0 < large; y0 += part) {
+      const Film film = picture.render({x0, x0 + side, y0, y0 + side}, 1);
+      for (int y = 0; y < side; ++y)
+        for (int x = 0; x < side; ++x) {
+          const double here = radiance_of(x0 + x, y0 + y);
+          const double there = film.mean(static_cast<std::uint32_t>(y * side + x)).y;
+          sum += there;
+          expected += here;
+          variance += (there - here) * (there - here);
+        }
+    }
+  expect_relative(fmt::format("8 × 8 parts of {}² of a picture of 32768²: their light", side), expected, sum,
+                  2e-5, std::sqrt(variance));
 }
 
 TEST(Pixels, WhatAFilmTakes) {

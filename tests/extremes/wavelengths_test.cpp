@@ -97,7 +97,7 @@ TEST(Wavelengths, LinesAsRendered) {
     const Film film = read_film(options.film, nullptr);
     const int bin = std::min(nm - 360, 469);
     double in_bin = 0, elsewhere = 0;
-    for (std::uint32_t p = 0; p < film.counts().size(); ++p)
+    for (std::uint32_t p = 0; p < pixels_of(film); ++p)
       for (int b = 0; b < bins.count; ++b)
         (b == bin || b + 1 == nm - 360 ? in_bin : elsewhere) +=
             film.mean_of_bin(p, static_cast<std::size_t>(b)) / 1024;
