@@ -148,7 +148,7 @@ void expect_white(const std::string& what, Scene& scene) {
   for (Material& material : scene.materials) material = matte(1);
   add_sky(scene, 1);
   scene.settings.max_depth = 1;
-  expect_relative(what, 1, measure(scene, 256).mean, 1e-6);
+  expect_relative(what, 1, measure(scene, 64).mean, 1e-6);
 }
 
 // 16 × 16 tiles about the middle of a tilted floor of four giants, all of which floats place in one plane.
@@ -168,16 +168,16 @@ TEST(Giants, DoNotShadowWhatIsLevelWithThem) {
     quads.push_back({on_floor(1, -1), on_floor(s, -1), on_floor(s, 1), on_floor(1, 1)});
     Scene scene;
     add_shape(scene, add_quads(scene, quads), matte(1));
-    set_camera(scene, {0.1, 0.2, 5}, {0, 0, 0}, {0, 1, 0}, 0.6, 64, 64);
+    set_camera(scene, {0.1, 0.2, 5}, {0, 0, 0}, {0, 1, 0}, 0.6, 32, 32);
     expect_white(fmt::format("tiles among giants of {:g}, white under a sky of 1", size), scene);
   }
 }
 
-// A ball of 2 · 48 · 96 triangles, with or without something that far away.
+// A ball of 2 · 24 · 48 triangles, with or without something that far away.
 TEST(Giants, DoNotShadowWhatIsRound) {
-  for (const double far : {1.0, 1e4, 1e7, 1e9}) {
+  for (const double far : {1.0, 1e4, 1e7}) {
     TriangleMesh ball;
-    constexpr int rings = 48, segments = 96;
+    constexpr int rings = 24, segments = 48;
     for (int i = 0; i <= rings; ++i)
       for (int k = 0; k < segments; ++k) {
         const double theta = pi * i / rings, phi = 2 * pi * k / segments;
@@ -198,7 +198,7 @@ TEST(Giants, DoNotShadowWhatIsRound) {
       const Point3f p = rounded({side * far, side * far, side * far});
       add_shape(scene, add_quads(scene, {{{p, p, p, p}}}), matte(1));
     }
-    set_camera(scene, {0.3, -2, 0.4}, {0.3, 0.2, 0}, {0, 0, 1}, 0.6, 64, 64);
+    set_camera(scene, {0.3, -2, 0.4}, {0.3, 0.2, 0}, {0, 0, 1}, 0.6, 32, 32);
     expect_white(fmt::format("a ball with something {:g} away, white under a sky of 1", far), scene);
   }
 }
