@@ -8,8 +8,8 @@
 #include "cli/inspect.h"
 #include "film/film.h"
 #include "importers/import.h"
-#include "partitioner/appearance.h"
-#include "partitioner/flatten.h"
+#include "partitioner/appearance/appearance.h"
+#include "partitioner/placing/flatten.h"
 #include "scene/kinds.h"
 
 namespace vitrail {

@@ -4,7 +4,6 @@
 #define XXH_INLINE_ALL
 #include <fmt/format.h>
 #include <malloc.h>
-#include <sys/resource.h>
 #include <xxhash.h>
 
 #include <algorithm>
@@ -17,19 +16,11 @@
 #include "farm/rank.h"
 #include "farm/signals.h"
 #include "scene/atomic_file.h"
+#include "scene/resource_usage.h"
 
 namespace vitrail {
 
 namespace {
-
-double cpu_seconds() {
-  rusage usage{};
-  ::getrusage(RUSAGE_SELF, &usage);
-  const auto seconds = [](const timeval& t) {
-    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
-  };
-  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
-}
 
 Manifest read_with_overrides(const RenderOptions& options) {
   Manifest m = read_manifest(options.bundle);
