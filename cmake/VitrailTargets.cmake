@@ -17,11 +17,15 @@ target_compile_options(vitrail_options INTERFACE
   $<$<CXX_COMPILER_ID:GNU>:-fno-tree-slp-vectorize>)
 target_link_libraries(vitrail_options INTERFACE fmt::fmt)
 
-# The headers of the standard library that most files include, read once: half of the time of compiling. A file includes
-# what it uses all the same: the preset debug has no precompiled headers.
-add_library(vitrail_precompiled OBJECT ${CMAKE_CURRENT_LIST_DIR}/precompiled.cpp)
-target_link_libraries(vitrail_precompiled PRIVATE vitrail_options)
-target_precompile_headers(vitrail_precompiled PRIVATE ${CMAKE_CURRENT_LIST_DIR}/precompiled.h)
+# vitrail_precompile(NAME HEADER …): headers that are read once for all targets that reuse them. It is half of what compiling
+# takes. A file includes what it uses all the same: the preset debug has no precompiled headers.
+function(vitrail_precompile name)
+  add_library(${name} OBJECT ${PROJECT_SOURCE_DIR}/cmake/precompiled.cpp)
+  target_link_libraries(${name} PRIVATE vitrail::options)
+  target_precompile_headers(${name} PRIVATE ${PROJECT_SOURCE_DIR}/cmake/precompiled.h ${ARGN})
+endfunction()
+vitrail_precompile(vitrail_precompiled)
+vitrail_precompile(vitrail_precompiled_cli <CLI/CLI.hpp> <nlohmann/json.hpp>)
 
 # What is compiled with -frounding-math, CGAL's flag, cannot use headers precompiled without it.
 function(vitrail_without_precompiled_headers)
@@ -43,7 +47,7 @@ function(vitrail_program verb)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;LIBRARIES")
   add_executable(vitrail-${verb} ${arg_SOURCES})
   target_link_libraries(vitrail-${verb} PRIVATE ${arg_LIBRARIES})
-  target_precompile_headers(vitrail-${verb} REUSE_FROM vitrail_precompiled)
+  target_precompile_headers(vitrail-${verb} REUSE_FROM vitrail_precompiled_cli)
   add_dependencies(programs vitrail-${verb})
 endfunction()
 
