@@ -54,6 +54,9 @@ void add_surfaces(const LightSampler& s, Tally& tally) {
       tally.add(*radiance, static_cast<double>(light.scale));
   constexpr std::array<std::array<double, 2>, 4> points{
       {{1 / 3.0, 1 / 3.0}, {1 / 6.0, 1 / 6.0}, {2 / 3.0, 1 / 6.0}, {1 / 6.0, 2 / 3.0}}};
+  // Attributes are 1 as numbers and as spectra: the sigmoid of λ².
+  std::array<AttributeValue, max_attributes> white;
+  for (AttributeValue& value : white) value.corners.fill({1, 0, 0});
   for (const EmissiveTriangle& t : s.scene.triangles) {
     const AreaLight& light = s.scene.area_lights[t.area_light];
     if (std::holds_alternative<Spectrum>(light.radiance)) continue;
@@ -65,6 +68,7 @@ void add_surfaces(const LightSampler& s, Tally& tally) {
       const Point3d p0 = cast<double>(t.p[0]);
       at.p = p0 + (cast<double>(t.p[1]) - p0) * b[0] + (cast<double>(t.p[2]) - p0) * b[1];
       at.uv_width = 1;  // the mean of an image
+      at.attributes = white;
       const double mean =
           luminance_at(light.radiance, at, s.scene.textures, 2) * static_cast<double>(light.scale);
       tally.add(mean, mean * brighter_texel);
