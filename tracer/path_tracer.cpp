@@ -15,7 +15,6 @@ TraceCounters& operator+=(TraceCounters& a, const TraceCounters& b) {
   a.rays_indirect += b.rays_indirect;
   a.rays_shadow += b.rays_shadow;
   a.crossings += b.crossings;
-  a.nonfinite_samples += b.nonfinite_samples;
   a.born += b.born;
   a.died += b.died;
   return a;
@@ -70,7 +69,7 @@ void PathTracer::trace_camera(int x, int y, std::uint32_t sample) {
   path.inside = scene_.interiors.state_in(manifest_.camera_medium);
   path.direction = ray.direction;
   path.ray = {ray.origin, decode_direction(ray.direction), no_triangle};
-  film_.count_sample(path.pixel);
+  film_.count_sample(path.pixel, sample);
   ++counters_.rays_camera;
   ++counters_.born;
   run(path, std::nullopt);
@@ -229,14 +228,10 @@ void PathTracer::trace_shadow(const ShadowRecord& record, const SensorWeights* w
 
 void PathTracer::deposit(std::uint32_t pixel, std::uint32_t sample, const SensorWeights& weights,
                          const SampledSpectrum& radiance) {
-  if (!film_.deposit(pixel, sample, sense(weights, radiance))) {
-    ++counters_.nonfinite_samples;
-    return;
-  }
-  if (film_.bins().count == 0) return;
+  if (!film_.deposit(pixel, sample, sense(weights, radiance)) || film_.bins().count == 0) return;
   for (std::size_t i = 0; i < hero_count; ++i) {
     const double value = static_cast<double>(radiance.v[i]) * static_cast<double>(weights.spectral[i]);
-    if (value != 0 && !film_.deposit_bin(pixel, weights.bin[i], value)) ++counters_.nonfinite_samples;
+    if (value != 0) film_.deposit_bin(pixel, sample, weights.bin[i], value);
   }
 }
 

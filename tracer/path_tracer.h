@@ -34,8 +34,7 @@ struct Outbox {
 
 struct TraceCounters {
   std::uint64_t rays_camera = 0, rays_indirect = 0, rays_shadow = 0;
-  std::uint64_t crossings = 0;          // domains entered after the first one of a ray
-  std::uint64_t nonfinite_samples = 0;  // deposits that were refused
+  std::uint64_t crossings = 0;  // domains entered after the first one of a ray
   // Rays alive: paths begun, and connections and shadow rays put into an outbox; the same when they end.
   std::uint64_t born = 0, died = 0;
 };
