@@ -4,6 +4,7 @@
 
 #include "tracer/path_state.h"
 #include "tracer/path_tracer.h"
+#include "tracer/rounding.h"
 
 namespace vitrail {
 
@@ -67,9 +68,8 @@ void PathTracer::depart(Path& path, const Departure& from, Vector3d direction) c
 // Moves the hit along the normal, to the side of `direction`, by more than rounding to float can move it
 // back: so it keeps from the neighbours of the triangle that it leaves.
 Point3f PathTracer::offset_origin(const Interaction& at, Vector3d direction) const {
-  const double rounding = 0x1p-24 * (std::abs(at.geometric.x * at.p.x) + std::abs(at.geometric.y * at.p.y) +
-                                     std::abs(at.geometric.z * at.p.z));
-  const double distance = 3 * rounding + 1e-9 * static_cast<double>(manifest_.scale);
+  const double distance =
+      3 * rounding_along(at.geometric, at.p) + 1e-9 * static_cast<double>(manifest_.scale);
   const double side = dot(direction, at.geometric) >= 0 ? 1 : -1;
   return cast<float>(at.p + at.geometric * (side * distance));
 }
