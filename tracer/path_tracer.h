@@ -108,6 +108,7 @@ class PathTracer {
   std::uint64_t stream_of(const Path& path) const;
   double cone_unit() const;
   bool has_cone(const Path& path) const;
+  double ray_angle(const Path& path) const;
   double cone_width(const Path& path, double distance) const;
   void widen_cone(Path& path, double distance) const;
 
