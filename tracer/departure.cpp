@@ -4,6 +4,7 @@
 
 #include "tracer/path_state.h"
 #include "tracer/path_tracer.h"
+#include "tracer/rounding.h"
 
 namespace vitrail {
 
@@ -67,9 +68,8 @@ void PathTracer::depart(Path& path, const Departure& from, Vector3d direction) c
 // Moves the hit along the normal, to the side of `direction`, by more than rounding to float can move it
 // back: so it keeps from the neighbours of the triangle that it leaves.
 Point3f PathTracer::offset_origin(const Interaction& at, Vector3d direction) const {
-  const double rounding = 0x1p-24 * (std::abs(at.geometric.x * at.p.x) + std::abs(at.geometric.y * at.p.y) +
-                                     std::abs(at.geometric.z * at.p.z));
-  const double distance = 3 * rounding + 1e-9 * static_cast<double>(manifest_.scale);
+  const double distance =
+      3 * rounding_along(at.geometric, at.p) + 1e-9 * static_cast<double>(manifest_.scale);
   const double side = dot(direction, at.geometric) >= 0 ? 1 : -1;
   return cast<float>(at.p + at.geometric * (side * distance));
 }
@@ -86,13 +86,19 @@ const Surface& PathTracer::surface_at(const Path& path) const {
 
 double PathTracer::cone_unit() const { return std::max(1e-30, static_cast<double>(manifest_.scale)); }
 
+// Between the rays of a pixel's samples, in rad: they lie the closer the more of them there are. A sample
+// does not know how many will follow, as a render may be resumed to have more, so each counts those before
+// it. Not less than an eighth of a pixel.
+double PathTracer::ray_angle(const Path& path) const {
+  return scene_.pixel_angle * std::max(0.125, 1 / std::sqrt(1.0 + path.sample));
+}
+
 // At a distance (Akenine-Möller et al., "Texture Level of Detail Strategies for Real-Time Ray
-// Tracing", 2019): it widens by the angle of a pixel, and after a scattering by a tenth of the width of a
+// Tracing", 2019): it widens by the angle between rays, and after a scattering by a tenth of the width of a
 // lobe of that density.
 double PathTracer::cone_width(const Path& path, double distance) const {
-  const double angle = path.pdf > 0
-                           ? std::max(scene_.pixel_angle, 0.1 / std::sqrt(static_cast<double>(path.pdf)))
-                           : scene_.pixel_angle;
+  double angle = ray_angle(path);
+  if (path.pdf > 0) angle = std::max(angle, 0.1 / std::sqrt(static_cast<double>(path.pdf)));
   return cone_value(path.cone) * cone_unit() + std::min(angle, 1.0) * distance;
 }
 

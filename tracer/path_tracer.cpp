@@ -89,6 +89,7 @@ void PathTracer::resume(const PathRecord& record, std::uint32_t domain) {
   std::array<std::uint8_t, 3> travelled = std::to_array(record.travelled);
   if (has_cone(path)) path.cone = std::exchange(travelled[0], std::uint8_t{0});
   path.travelled = static_cast<double>(unpack_radiance(travelled.data()));
+  if (path.is(path_connection)) unpack_connection(record, path);
   path.inside = record.inside;
   path.direction = record.direction;
   path.ray = {{record.origin[0], record.origin[1], record.origin[2]},
@@ -176,6 +177,7 @@ bool PathTracer::forward(const Path& path, std::uint32_t domain, bool resolved) 
   const std::uint32_t face = path.is(path_in_pane) ? path.entered_by.bits : 0;
   r.pdf = path.is(path_in_pane) ? static_cast<std::uint16_t>(face) : pdf_code(path.pdf);
   r.flags = static_cast<std::uint8_t>(path.flags | (resolved ? path_resolved : 0) | face >> 16 << 4);
+  if (path.is(path_connection)) pack_connection(path, r);
   outbox_.paths.push_back({domain, r});
   return false;
 }

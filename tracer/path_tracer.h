@@ -107,6 +107,7 @@ class PathTracer {
   std::uint64_t stream_of(const Path& path) const;
   double cone_unit() const;
   bool has_cone(const Path& path) const;
+  double ray_angle(const Path& path) const;
   double cone_width(const Path& path, double distance) const;
   void widen_cone(Path& path, double distance) const;
 
@@ -120,9 +121,11 @@ class PathTracer {
                        const SampledSpectrum& radiance, bool refracts);
   void send_shadow_ray(const Path& path, const Connection& connection, const LightSample& light,
                        const SampledSpectrum& radiance);
-  static void set_end(Path& connection, double distance);
   bool connect_onwards(Path& path);
+  bool connect_straight(Path& path, const Interaction& at, const Surface& surface);
   bool refract_connection(Path& path, const Interaction& at, const Surface& surface) const;
+  static void pack_connection(const Path& path, PathRecord& record);
+  static void unpack_connection(const PathRecord& record, Path& path);
 
   void trace_shadow(const ShadowRecord& record, const SensorWeights* weights,
                     std::optional<std::uint32_t> at);
