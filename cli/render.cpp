@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <new>
 #include <optional>
 
 #include "cli/main_guard.h"
@@ -129,6 +130,8 @@ int guarded_job(Transport& transport, Arguments& a) {
     throw Error(who + error.what(), error.location, error.excerpt);
   } catch (const UsageError& error) {
     throw UsageError(who + error.what());
+  } catch (const std::bad_alloc&) {
+    throw MachineError(who + "out of memory; a large picture is rendered in parts with --crop");
   } catch (const std::exception& error) {
     throw MachineError(who + error.what());
   }

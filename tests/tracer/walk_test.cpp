@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 #include <random>
 
 namespace vitrail {
@@ -142,6 +143,17 @@ TEST(Walk, AsksNoCellsFromAfar) {
   m.domains[0].occupancy.slice[0] = 1;
   EXPECT_TRUE(all_visits(m, {{0.5f, 0.5f, 3}, {0, 0, -1}, no_triangle}).empty());
   EXPECT_EQ(all_visits(m, {{0.5f, 0.5f, 1e12f}, {0, 0, -1}, no_triangle}).size(), 1u);
+}
+
+TEST(Walk, MeetsNothingFromBeyondFloats) {
+  const Manifest m = grid(4);
+  const auto visits_from = [&](float far) {
+    return all_visits(m, {{far, far, far}, {-1, -1, -1}, no_triangle}).size();
+  };
+  EXPECT_GT(visits_from(1e17f), 0u);
+  for (const float far :
+       {2e18f, 3e38f, std::numeric_limits<float>::infinity(), std::numeric_limits<float>::quiet_NaN()})
+    EXPECT_EQ(visits_from(far), 0u) << far;
 }
 
 TEST(Walk, StaysInTheSlabsThatItIsParallelTo) {

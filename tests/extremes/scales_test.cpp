@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+// A scene that is made larger, smaller or moved away shows the same picture.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "tests/extremes/measure.h"
+
+namespace vitrail::test {
+namespace {
+
+struct Place {
+  double size = 1;
+  Vector3d offset;
+};
+
+// A floor, a box of glass and one that is matte, under a square lamp, a point light and the sky; its centre
+// is the origin. All its coordinates are multiples of 2⁻⁸ where `dyadic`, so that doubles hold them 10⁷ away
+// too.
+Scene room(const Place& place, bool dyadic) {
+  const float r = dyadic ? 0 : 0.0123f;
+  Scene scene;
+  add_shape(scene, add_quads(scene, {{{{-2, -2, -1}, {2, -2, -1}, {2, 2, -1}, {-2, 2, -1}}}}), matte(0.6f));
+  add_shape(scene, add_quads(scene, box_faces({-1 + r, -0.5f, -0.75f + r}, {-0.25f, 0.25f + r, 0})),
+            Material{DielectricMaterial{ConstantSpectrum{1.5f}}});
+  add_shape(scene, add_quads(scene, box_faces({0.125f + r, -0.5f + r, -1}, {0.75f, 0.5f, -0.25f - r})),
+            matte(0.3f));
+  add_shape(scene,
+            add_quads(scene, {{{{-0.5f, -0.5f, 1}, {-0.5f, 0.5f, 1}, {0.5f, 0.5f, 1}, {0.5f, -0.5f, 1}}}}),
+            matte(0), lamp(4));
+  const auto placed = [&](Point3d p) { return Point3d{} + place.offset + (p - Point3d{}) * place.size; };
+  for (Shape& shape : scene.shapes)
+    shape.object_to_world = translate(place.offset) * scale({place.size, place.size, place.size});
+  add_point(scene, placed({1.5, -1, 0.5}), place.size * place.size);
+  add_sky(scene, 0.2);
+  set_camera(scene, placed({0.5, -3, 0.75}), placed({0, 0, -0.375}), {0, 0, 1}, 0.9, 48, 48);
+  scene.settings.max_depth = 6;
+  return scene;
+}
+
+const Film& as_modelled(bool dyadic) {
+  static const Film films[] = {render_finite(room({}, false), 64, "scale_1").film,
+                               render_finite(room({}, true), 64, "scale_1_dyadic").film};
+  return films[dyadic];
+}
+
+// Of the numbers that a picture is made of: sums of films may count in other units.
+TEST(Scale, PowersOfTwoChangeNothing) {
+  for (const int exponent : {-40, -20, 23, 40}) {
+    const Film film = render_finite(room({std::ldexp(1.0, exponent), {}}, true), 64).film;
+    expect_absolute(fmt::format("scale 2^{}: pixels, root mean square, relative", exponent), 0,
+                    difference(as_modelled(true), film).root_mean_square, 1e-9);
+  }
+}
+
+// A rounded vertex moves an edge by 10⁻⁷ of the scene, which turns few samples into others.
+TEST(Scale, AnyOtherChangesRoundingAlone) {
+  for (const double size : {1e-6, 1e-3, 1e3, 1e7, 1e12}) {
+    const Film film = render_finite(room({size, {}}, false), 64, fmt::format("scale_{:g}", size)).film;
+    const FilmDifference d = difference(as_modelled(false), film);
+    expect_absolute(fmt::format("scale {:g}: mean of the picture, relative", size), 0, d.mean, 1e-4);
+    expect_absolute(fmt::format("scale {:g}: pixels, root mean square, relative", size), 0,
+                    d.root_mean_square, 5e-3);
+  }
+}
+
+TEST(Offset, OfWhatDoublesHoldChangesNoBit) {
+  for (const double offset : {1e3, 1e7, -16777216.0}) {
+    const Film film = render_finite(room({1, {offset, -offset, offset}}, true), 64).film;
+    expect_exactly(fmt::format("offset {:g}: pixels that differ", offset), 0,
+                   static_cast<double>(difference(as_modelled(true), film).pixels));
+  }
+}
+
+TEST(Offset, AnyOtherChangesRoundingAlone) {
+  struct Case {
+    double size, offset, limit;
+  };
+  // 10⁷ has 1.9·10⁻⁹ between neighbouring doubles: 2·10⁻⁶ of a scene of 10⁻³, and a fiftieth at 10⁸ of one of
+  // 10⁻⁶ is what is left there.
+  for (const Case c : {Case{1, 1e4 + 0.37, 5e-3}, Case{1, 1e7 + 0.37, 5e-3}, Case{1e7, 1e7 + 0.37, 5e-3},
+                       Case{1e-3, 1e7 + 0.37, 2e-2}}) {
+    const Place place{c.size, {c.offset, c.offset, -c.offset}};
+    const Film film =
+        render_finite(room(place, false), 64, fmt::format("offset_{:g}_{:g}", c.size, c.offset)).film;
+    const FilmDifference d = difference(as_modelled(false), film);
+    const std::string what = fmt::format("size {:g} at {:.9g}", c.size, c.offset);
+    expect_absolute(what + ": mean of the picture, relative", 0, d.mean, c.limit / 5);
+    expect_absolute(what + ": pixels, root mean square, relative", 0, d.root_mean_square, c.limit);
+  }
+}
+
+}  // namespace
+}  // namespace vitrail::test
