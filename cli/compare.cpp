@@ -34,17 +34,16 @@ Picture load(const std::string& file) {
   }
 }
 
-// Adds a variance that was estimated from the groups of a film; their number bounds the degrees of freedom.
-void add_estimated_variance(ZTestInput& test, const Picture& picture) {
-  if (picture.variance.pixels() == 0) return;
-  const int groups = picture.samples_per_pixel == 0 ? luminance_groups
-                                                    : std::min(picture.samples_per_pixel, luminance_groups);
+// A variance that was estimated from the groups of a film.
+EstimatedVariance estimated_variance(const Picture& picture) {
+  constexpr int most = sample_groups;
+  const int groups = picture.samples_per_pixel == 0 ? most : std::min(picture.samples_per_pixel, most);
   if (groups < 2)
     throw Error("a film of one sample a pixel knows nothing of its variance; render it with at least 2");
-  const std::vector<double> variance = luminance_variance(picture.variance);
-  for (std::size_t p = 0; p < variance.size(); ++p) test.variance[p] += variance[p];
-  test.degrees_of_freedom =
-      test.degrees_of_freedom == 0 ? groups - 1 : std::min(test.degrees_of_freedom, groups - 1);
+  const std::vector<float>& values = picture.variance.values;
+  if (std::any_of(values.begin(), values.end(), [](float v) { return !(v >= 0); }))
+    throw Error("a variance is negative or not a number");
+  return {&picture.variance, groups - 1};
 }
 
 // Of the mean that a picture of `samples` has, after Mitsuba's image of the variance of one; the image's own,
@@ -55,7 +54,9 @@ void add_mitsuba_variance(ZTestInput& test, const Image& of_sample, const Pictur
   if (!samples)
     throw UsageError("the image does not say how many samples a pixel has: give --variance-samples");
   test.variance = mitsuba_variance(of_sample, *samples);
-  if (image.variance.pixels() > 0) widen(test.variance, luminance_variance(image.variance));
+  if (image.variance.pixels() == 0) return;
+  const EstimatedVariance own = estimated_variance(image);
+  widen(test.variance, pooled(std::span(&own, 1)).variance);
 }
 
 void find_variances(ZTestInput& test, const Picture& image, const Picture& reference,
@@ -71,11 +72,12 @@ void find_variances(ZTestInput& test, const Picture& image, const Picture& refer
     if (given.variance.pixels() == 0)
       return add_mitsuba_variance(test, given.rgb, image, options.variance_samples);
   }
-  test.variance.resize(image.rgb.pixels());
-  add_estimated_variance(test, image);
-  add_estimated_variance(test, file.empty() ? reference : given);
-  if (std::any_of(test.variance.begin(), test.variance.end(), [](double v) { return !(v >= 0); }))
-    throw Error("a variance is negative or not a number", {file});
+  std::vector<EstimatedVariance> parts;
+  for (const Picture* picture : {&image, file.empty() ? &reference : &given})
+    if (picture->variance.pixels() > 0) parts.push_back(estimated_variance(*picture));
+  PooledVariance known = pooled(parts);
+  test.variance = std::move(known.variance);
+  test.degrees_of_freedom = std::move(known.degrees_of_freedom);
   add_rounding(test.variance, reference.rgb);
 }
 
@@ -93,10 +95,10 @@ int run(const Options& options) {
   const Picture image = load(options.image), reference = load(options.reference);
   require_same_size(image.rgb, reference.rgb);
   const Mask mask = mask_of(options, image.rgb);
-  ZTestInput test{&image.rgb, &reference.rgb, {}, 0};
+  ZTestInput test{&image.rgb, &reference.rgb, {}, {}};
   if (metric == Metric::ztest) find_variances(test, image, reference, options);
   const Image image_part = without(image.rgb, mask), reference_part = without(reference.rgb, mask);
-  test = {&image_part, &reference_part, without(test.variance, mask), test.degrees_of_freedom};
+  test = {&image_part, &reference_part, without(test.variance, mask), without(test.degrees_of_freedom, mask)};
   Comparison comparison = compare(test, *metric, options.fail_above, options.mean_within);
   fmt::print("{}", options.json ? to_json(comparison) : to_text(comparison));
   if (!options.heatmap.empty()) {

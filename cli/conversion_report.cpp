@@ -65,7 +65,7 @@ void put_place(Json& json, const SourceLocation& place) {
 std::vector<ConversionItem> conversion_items(const Scene& scene, const Diagnostics& diagnostics) {
   constexpr std::array lights{"point light",   "spot light",     "projection light", "goniometric light",
                               "distant light", "infinite light", "environment light"};
-  static_assert(lights.size() == std::variant_size_v<LightModel>);
+  static_assert(lights.size() == std::variant_size_v<LightVariant>);
   Items items(scene);
   items.add("camera", scene.camera_origin);
   items.add("film", scene.film_origin);

@@ -8,8 +8,8 @@
 #include "cli/inspect.h"
 #include "film/film.h"
 #include "importers/import.h"
-#include "partitioner/appearance.h"
-#include "partitioner/flatten.h"
+#include "partitioner/appearance/appearance.h"
+#include "partitioner/placing/flatten.h"
 #include "scene/kinds.h"
 
 namespace vitrail {
@@ -186,7 +186,7 @@ Report inspect_scene(const std::filesystem::path& file) {
 Report inspect_film(const std::filesystem::path& file) {
   FilmProgress progress;
   const Film film = read_film(file, &progress);
-  const auto pixels = static_cast<std::uint32_t>(film.counts().size());
+  const auto pixels = film.pixels();
   std::uint64_t least = pixels ? film.samples(0) : 0, most = 0, sum = 0;
   double luminance = 0;
   for (std::uint32_t i = 0; i < pixels; ++i) {
@@ -206,11 +206,18 @@ Report inspect_film(const std::filesystem::path& file) {
           {"samples_per_pixel_most", most},
           {"samples", sum},
           {"mean_luminance", pixels ? luminance / pixels : 0},
-          {"saturated", film.saturated()},
+          {"nonfinite_samples", film.refused().nonfinite},
+          {"saturated_samples", film.refused().too_large},
           {"render_time_s", progress.render_time_s},
           {"seed", film.key().seed},
           {"scene_hash", fmt::format("{:016x}", film.key().scene_hash)},
-          {"settings_hash", fmt::format("{:016x}", film.key().settings_hash)},
+          {"made_by", to_string(film.key().renderer)},
+          {"max_depth", film.key().max_depth},
+          {"integrator", film.key().direct_only ? "direct" : "path"},
+          {"straight_counts", film.key().straight_counts},
+          {"spectral_bins", film.bins().count},
+          {"imaging_ratio", film.imaging_ratio()},
+          {"quantum", fmt::format("2^{}", film.exponent())},
           {"film_hash", fmt::format("{:016x}", film.hash())}};
 }
 

@@ -17,7 +17,7 @@
 #include "cli/progress_line.h"
 #include "cli/sizes.h"
 #include "importers/import.h"
-#include "partitioner/appearance.h"
+#include "partitioner/appearance/appearance.h"
 #include "partitioner/meshes/edit_meshes.h"
 
 namespace vitrail {

@@ -15,6 +15,7 @@
 #include "farm/agreement.h"
 #include "farm/render.h"
 #include "farm/signals.h"
+#include "film/develop.h"
 
 namespace vitrail {
 namespace {
@@ -102,10 +103,8 @@ int render_job(Transport& transport, Arguments& a) {
     if (stop_signalled()) throw MachineError("interrupted before rendering began");
   });
   const RenderStats stats = render(transport, a.options);
+  agree(transport, [&] { require_unsaturated(stats.refused, a.options.film); });
   if (transport.rank() != 0) return exit_done;
-  if (stats.traced.nonfinite_samples > 0)
-    fmt::print(stderr, "vitrail: {} samples were not finite and count as black\n",
-               stats.traced.nonfinite_samples);
   if (stats.complete) {
     if (a.output.extension() != ".film") {
       std::vector<std::string> arguments{a.options.film.string(), "-o", a.output.string()};

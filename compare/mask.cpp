@@ -59,6 +59,8 @@ std::vector<double> without(const std::vector<double>& values, const Mask& mask)
   return remaining(values, mask);
 }
 
+std::vector<int> without(const std::vector<int>& values, const Mask& mask) { return remaining(values, mask); }
+
 std::vector<double> spread(const std::vector<double>& values, const Mask& mask) {
   std::vector<double> result(mask.size(), 0.0);
   auto next = values.begin();

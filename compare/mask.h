@@ -21,6 +21,7 @@ Mask make_mask(int width, int height, std::span<const PixelRect> ignored, const 
 Image without(const Image& image, const Mask& mask);
 // `values` has so many a pixel of the mask.
 std::vector<double> without(const std::vector<double>& values, const Mask& mask);
+std::vector<int> without(const std::vector<int>& values, const Mask& mask);
 // One value a pixel that remained becomes one a pixel of the image, 0 in those left out.
 std::vector<double> spread(const std::vector<double>& values, const Mask& mask);
 

@@ -12,6 +12,24 @@ namespace {
 
 constexpr double least_mitsuba_variance = 1e-4;
 
+constexpr int reach = 3;  // of a neighbourhood, pixels to each side
+
+// Of estimates s² with ν degrees of freedom each. E[s⁴/(ν + 2)] = σ⁴/ν, which is what Satterthwaite's formula
+// asks for.
+struct Sums {
+  double sum = 0, of_squares = 0, count = 0, freedom = 0;
+  void add(double estimate, int degrees_of_freedom) {
+    sum += estimate;
+    of_squares += estimate * estimate / (degrees_of_freedom + 2);
+    freedom += degrees_of_freedom;
+    ++count;
+  }
+  int degrees_of_freedom() const {
+    const double effective = of_squares > 0 ? sum * sum / of_squares : freedom;
+    return std::max(1, static_cast<int>(std::min(effective, freedom)));
+  }
+};
+
 XYZ xyz_at(const Image& image, std::size_t p) {
   const float* v = &image.values[3 * p];
   return srgb_to_xyz({static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2])});
@@ -19,8 +37,26 @@ XYZ xyz_at(const Image& image, std::size_t p) {
 
 }  // namespace
 
-std::vector<double> luminance_variance(const Image& variance) {
-  return {variance.values.begin(), variance.values.end()};
+PooledVariance pooled(std::span<const EstimatedVariance> parts) {
+  const int width = parts[0].variance->width, height = parts[0].variance->height;
+  PooledVariance result;
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      Sums around, own;
+      for (const EstimatedVariance& part : parts) {
+        const auto estimate = [&](int column, int row) {
+          return static_cast<double>(part.variance->values[static_cast<std::size_t>(row * width + column)]);
+        };
+        for (int row = std::max(y - reach, 0); row <= std::min(y + reach, height - 1); ++row)
+          for (int column = std::max(x - reach, 0); column <= std::min(x + reach, width - 1); ++column)
+            around.add(estimate(column, row), part.degrees_of_freedom);
+        own.add(estimate(x, y), part.degrees_of_freedom);
+      }
+      const double mean = around.sum * static_cast<double>(parts.size()) / around.count;
+      result.variance.push_back(std::max(mean, own.sum));
+      result.degrees_of_freedom.push_back(around.degrees_of_freedom());
+    }
+  return result;
 }
 
 std::vector<double> mitsuba_variance(const Image& rgb, double samples) {

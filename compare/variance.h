@@ -3,14 +3,30 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "scene/image.h"
 
 namespace vitrail {
 
-// The variance of the mean luminance of each pixel: a plane of one channel.
-std::vector<double> luminance_variance(const Image& variance);
+// What a film estimated of the variance of each pixel's mean luminance, each from so many groups of samples
+// less one; one channel.
+struct EstimatedVariance {
+  const Image* variance = nullptr;
+  int degrees_of_freedom = 0;
+};
+
+// Variances of the sum of what the parts are of, pooled: each pixel has the mean over the 7 × 7 pixels around
+// it, or its own estimate where that is greater, so that a pixel noisier than those around it is not taken
+// for wrong. Pixels share no samples, so their estimates are independent; where their variances differ the
+// mean has fewer degrees of freedom (Satterthwaite, "An approximate distribution of estimates of variance
+// components", Biometrics Bulletin 2, 1946).
+struct PooledVariance {
+  std::vector<double> variance;         // one a pixel
+  std::vector<int> degrees_of_freedom;  // ≥ 1
+};
+PooledVariance pooled(std::span<const EstimatedVariance> parts);
 
 // Mitsuba's tests have the variance of one sample, E[X²] − E[X]² of X, Y and Z apart, written as if it were a
 // colour in XYZ, that is as its R, G and B. Returns those of the mean of `samples`: three values a pixel. As

@@ -49,10 +49,11 @@ ZTest ztest(const ZTestInput& input) {
   for (std::size_t p = 0; p < pixels; ++p) {
     const std::array<double, 3> a = tested_values(*input.image, p, channels),
                                 b = tested_values(*input.reference, p, channels);
+    const int freedom = input.degrees_of_freedom.empty() ? 0 : input.degrees_of_freedom[p];
     for (std::size_t c = 0; c < channels; ++c) {
       const double z = a[c] == b[c] ? 0 : std::abs(a[c] - b[c]) / std::sqrt(input.variance[channels * p + c]);
       if (!(z <= result.z[p])) result.z[p] = z;
-      if (!(two_sided_p(z, input.degrees_of_freedom) > result.value_significance)) ++result.failed;
+      if (!(two_sided_p(z, freedom) > result.value_significance)) ++result.failed;
     }
   }
   return result;

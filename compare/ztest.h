@@ -2,6 +2,10 @@
 // Is an image a sample of what the reference shows? A two-sided test of each value, corrected for the number
 // of pixels after Šidák (1967); a small fraction of values may fail, since estimated variances miss rare
 // bright paths. The rule is that of Mitsuba's renderer tests.
+//
+// A film estimates each pixel's variance from two groups of samples. With one degree of freedom Student's
+// distribution has tails so long that one pixel of 10⁴ would have to be off by 10⁵ σ to be found; so
+// estimates are pooled over a neighbourhood first (variance.h), which leaves about 49 and asks for 6 σ.
 #pragma once
 
 #include <cstddef>
@@ -19,9 +23,9 @@ struct ZTestInput {
   const Image* reference = nullptr;
   // Of image − reference: one value a pixel, of its luminance, or three, of its X, Y and Z.
   std::vector<double> variance;
-  // z's distribution: Student's with this many degrees of freedom, since a film estimates its variance from
-  // a few groups of samples; 0 for the normal distribution, where the variances are known well.
-  int degrees_of_freedom = 0;
+  // z's distribution in each pixel: Student's with so many degrees of freedom, where the variance is an
+  // estimate. Empty: the normal distribution, where the variances are known well.
+  std::vector<int> degrees_of_freedom;
 };
 
 struct ZTest {

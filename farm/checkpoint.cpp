@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cstdio>
 
 #include "farm/agreement.h"
@@ -19,6 +20,11 @@ void write_job_film(Transport& transport, const std::filesystem::path& file, Fil
                     std::vector<std::uint64_t>& done, const WorkPlan& plan, double render_time_s) {
   transport.sum_to_root(film.sums());
   transport.sum_to_root(film.counts());
+  Refused& refused = film.refused();
+  std::array<std::int64_t, 2> counts{static_cast<std::int64_t>(refused.nonfinite),
+                                     static_cast<std::int64_t>(refused.too_large)};
+  transport.sum_to_root(std::span<std::int64_t>(counts));
+  refused = {static_cast<std::uint64_t>(counts[0]), static_cast<std::uint64_t>(counts[1])};
   // Each item is done by one rank: the sum of their bits is their union.
   transport.sum_to_root(std::span(reinterpret_cast<std::int64_t*>(done.data()), done.size()));
   agree(transport, [&] {
@@ -29,8 +35,8 @@ void write_job_film(Transport& transport, const std::filesystem::path& file, Fil
 namespace {
 
 std::string mismatch(const Film& read, const FilmProgress& progress, const Film& film, const WorkPlan& plan) {
-  if (read.key().scene_hash != film.key().scene_hash) return "it is of another scene";
-  if (read.key().settings_hash != film.key().settings_hash) return "it was rendered with other settings";
+  const std::string what = difference(read, film);
+  if (!what.empty()) return "its picture is not that of this render: " + what;
   if (read.key().seed != film.key().seed) return fmt::format("its seed is {}", read.key().seed);
   if (progress.samples_per_pixel != plan.samples || progress.items != plan.items())
     return fmt::format("it has {} samples a pixel, not {}", progress.samples_per_pixel, plan.samples);

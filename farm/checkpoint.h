@@ -17,7 +17,7 @@ void write_job_film(Transport& transport, const std::filesystem::path& file, Fil
                     std::vector<std::uint64_t>& done, const WorkPlan& plan, double render_time_s);
 
 // Rank 0 reads the checkpoint into `film`; every rank gets the items it holds. Throws Error when it is of
-// another scene, of other settings or of another sample count.
+// another picture, seed or sample count, or was made by another program.
 struct Resumed {
   std::vector<std::uint64_t> done;
   double render_time_s = 0;  // known to rank 0

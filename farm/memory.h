@@ -6,8 +6,7 @@
 
 namespace vitrail {
 
-std::uint64_t resident_bytes();       // of this process, now
-std::uint64_t peak_resident_bytes();  // of this process, at its highest
+std::uint64_t resident_bytes();  // of this process, now
 
 struct MemoryPlan {
   std::uint64_t domains_bytes = 0;  // for mapped domains

@@ -15,7 +15,13 @@ namespace vitrail {
 namespace {
 
 // Buffers of collectives are cut into parts, so that the library's own copies stay small.
-constexpr std::size_t collective_part = 1 << 18;
+constexpr std::size_t collective_bytes = 2 << 20;
+template <class T>
+constexpr std::size_t collective_part = collective_bytes / sizeof(T);
+
+void add_wide_sums(void* from, void* to, int* count, MPI_Datatype*) {
+  for (int i = 0; i < *count; ++i) static_cast<WideSum*>(to)[i] += static_cast<const WideSum*>(from)[i];
+}
 
 class MpiTransport final : public Transport {
  public:
@@ -28,8 +34,15 @@ class MpiTransport final : public Transport {
       throw MachineError("this MPI does not allow threads beside the one that calls it");
     MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
     MPI_Comm_size(MPI_COMM_WORLD, &size_);
+    MPI_Type_contiguous(2, MPI_UINT64_T, &wide_sum_);
+    MPI_Type_commit(&wide_sum_);
+    MPI_Op_create(add_wide_sums, /*commute=*/1, &add_wide_sums_);
   }
-  ~MpiTransport() override { MPI_Finalize(); }
+  ~MpiTransport() override {
+    MPI_Op_free(&add_wide_sums_);
+    MPI_Type_free(&wide_sum_);
+    MPI_Finalize();
+  }
 
   int rank() const override { return rank_; }
   int size() const override { return size_; }
@@ -71,12 +84,14 @@ class MpiTransport final : public Transport {
   void sum_to_root(std::span<std::int64_t> values) override { reduce(values, MPI_INT64_T, MPI_SUM); }
   void sum_to_root(std::span<std::uint32_t> values) override { reduce(values, MPI_UINT32_T, MPI_SUM); }
   void sum_to_root(std::span<double> values) override { reduce(values, MPI_DOUBLE, MPI_SUM); }
+  void sum_to_root(std::span<WideSum> values) override { reduce(values, wide_sum_, add_wide_sums_); }
   void max_to_root(std::span<std::int64_t> values) override { reduce(values, MPI_INT64_T, MPI_MAX); }
 
   void broadcast_from_root(std::span<std::uint64_t> values) override {
-    for (std::size_t at = 0; at < values.size(); at += collective_part)
-      MPI_Bcast(values.data() + at, static_cast<int>(std::min(collective_part, values.size() - at)),
-                MPI_UINT64_T, 0, MPI_COMM_WORLD);
+    constexpr std::size_t part = collective_part<std::uint64_t>;
+    for (std::size_t at = 0; at < values.size(); at += part)
+      MPI_Bcast(values.data() + at, static_cast<int>(std::min(part, values.size() - at)), MPI_UINT64_T, 0,
+                MPI_COMM_WORLD);
   }
 
  private:
@@ -95,8 +110,9 @@ class MpiTransport final : public Transport {
 
   template <class T>
   void reduce(std::span<T> values, MPI_Datatype type, MPI_Op operation) {
-    for (std::size_t at = 0; at < values.size(); at += collective_part) {
-      const int count = static_cast<int>(std::min(collective_part, values.size() - at));
+    constexpr std::size_t part = collective_part<T>;
+    for (std::size_t at = 0; at < values.size(); at += part) {
+      const int count = static_cast<int>(std::min(part, values.size() - at));
       MPI_Reduce(rank_ == 0 ? MPI_IN_PLACE : values.data() + at, values.data() + at, count, type, operation,
                  0, MPI_COMM_WORLD);
     }
@@ -107,6 +123,8 @@ class MpiTransport final : public Transport {
   std::list<Sending> sending_;
   RoundSums mine_, sums_;
   MPI_Request round_ = MPI_REQUEST_NULL;
+  MPI_Datatype wide_sum_ = MPI_DATATYPE_NULL;
+  MPI_Op add_wide_sums_ = MPI_OP_NULL;
 };
 
 }  // namespace

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "farm/render.h"
 
-#define XXH_INLINE_ALL
 #include <fmt/format.h>
 #include <malloc.h>
-#include <sys/resource.h>
-#include <xxhash.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -17,19 +14,12 @@
 #include "farm/rank.h"
 #include "farm/signals.h"
 #include "scene/atomic_file.h"
+#include "scene/resource_usage.h"
+#include "tracer/film_exponent.h"
 
 namespace vitrail {
 
 namespace {
-
-double cpu_seconds() {
-  rusage usage{};
-  ::getrusage(RUSAGE_SELF, &usage);
-  const auto seconds = [](const timeval& t) {
-    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
-  };
-  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
-}
 
 Manifest read_with_overrides(const RenderOptions& options) {
   Manifest m = read_manifest(options.bundle);
@@ -50,20 +40,14 @@ Manifest read_with_overrides(const RenderOptions& options) {
   return m;
 }
 
-// Of what changes the picture and is neither in the scene hash nor the seed or the sample count.
-std::uint64_t settings_hash(const Manifest& m) {
-  const SpectralBins& bins = m.film.spectrum;
-  const double values[] = {static_cast<double>(m.settings.max_depth),
-                           static_cast<double>(m.settings.direct_only),
-                           static_cast<double>(m.settings.straight_counts),
-                           static_cast<double>(m.film.crop.x0),
-                           static_cast<double>(m.film.crop.x1),
-                           static_cast<double>(m.film.crop.y0),
-                           static_cast<double>(m.film.crop.y1),
-                           static_cast<double>(bins.count),
-                           bins.min_nm,
-                           bins.max_nm};
-  return XXH3_64bits(values, sizeof values);
+FilmKey key_of(const Manifest& m, std::uint64_t seed) {
+  FilmKey key;
+  key.scene_hash = m.scene_hash;
+  key.seed = seed;
+  key.max_depth = m.settings.max_depth;
+  key.direct_only = m.settings.direct_only;
+  key.straight_counts = m.settings.straight_counts;
+  return key;
 }
 
 struct Job {
@@ -83,13 +67,13 @@ std::uint64_t texture_budget(const Manifest& m, std::uint64_t memory_bytes) {
 
 Job set_up(const RenderOptions& options) {
   Manifest manifest = read_with_overrides(options);
-  const FilmKey key{manifest.scene_hash, settings_hash(manifest), options.seed};
-  Film film(manifest.film, key);
   const WorkPlan plan =
       make_work_plan(manifest.film.crop, static_cast<std::uint32_t>(manifest.settings.samples_per_pixel));
   const std::uint64_t textures = texture_budget(manifest, options.memory_bytes);
-  return {std::make_unique<RenderScene>(std::move(manifest), options.bundle, textures, options.seed),
-          std::move(film), plan, textures};
+  auto scene = std::make_unique<RenderScene>(std::move(manifest), options.bundle, textures, options.seed);
+  const Manifest& m = scene->manifest;
+  Film film(m.film, key_of(m, options.seed), film_exponent(*scene));
+  return {std::move(scene), std::move(film), plan, textures};
 }
 
 MemoryPlan plan_for(const Manifest& manifest, const RenderOptions& options, int threads, std::uint64_t base) {
@@ -158,7 +142,10 @@ RenderStats render(Transport& transport, const RenderOptions& options) {
   transport.sum_to_root(std::span(visits));
   if (transport.rank() != 0) return stats;
 
-  for (std::uint32_t count : job->film.counts()) stats.samples += count;
+  stats.samples = job->film.samples();
+  stats.refused = job->film.refused();
+  if (stats.refused.nonfinite > 0)
+    fmt::print(stderr, "vitrail: {} samples were not finite and count as black\n", stats.refused.nonfinite);
   stats.film_hash = job->film.hash();
   if (stats.complete) std::filesystem::remove(checkpoint);
   if (!options.stats.empty()) write_stats(options.stats, stats);

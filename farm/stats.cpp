@@ -9,16 +9,9 @@
 namespace vitrail {
 
 void gather_stats(Transport& transport, RenderStats& s, const std::vector<bool>& touched) {
-  std::uint64_t* const summed[] = {&s.traced.rays_camera,
-                                   &s.traced.rays_indirect,
-                                   &s.traced.rays_shadow,
-                                   &s.traced.crossings,
-                                   &s.traced.nonfinite_samples,
-                                   &s.forwarded_rays,
-                                   &s.forwarded_bytes,
-                                   &s.messages,
-                                   &s.domain_loads,
-                                   &s.evictions};
+  std::uint64_t* const summed[] = {&s.traced.rays_camera, &s.traced.rays_indirect, &s.traced.rays_shadow,
+                                   &s.traced.crossings,   &s.forwarded_rays,       &s.forwarded_bytes,
+                                   &s.messages,           &s.domain_loads,         &s.evictions};
   std::vector<std::int64_t> counts;
   for (const std::uint64_t* value : summed) counts.push_back(static_cast<std::int64_t>(*value));
   transport.sum_to_root(std::span(counts));
@@ -69,7 +62,8 @@ std::string to_json(const RenderStats& s) {
                                  {"memory_budget_bytes", s.memory_budget_bytes},
                                  {"peak_rss_bytes", s.peak_rss_bytes},
                                  {"base_rss_bytes", s.base_rss_bytes},
-                                 {"nonfinite_samples", s.traced.nonfinite_samples},
+                                 {"nonfinite_samples", s.refused.nonfinite},
+                                 {"saturated_samples", s.refused.too_large},
                                  {"film_hash", fmt::format("{:016x}", s.film_hash)}};
   return json.dump(1);
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "film/develop.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -8,11 +10,18 @@
 
 namespace vitrail {
 
+void require_unsaturated(const Refused& refused, const std::filesystem::path& file) {
+  if (refused.too_large == 0) return;
+  throw Error(
+      fmt::format("the film is saturated: {} deposits were too bright for its sums, which span a factor "
+                  "of 10²⁵ about the scene's lights, and are missing; bring its dimmest and its "
+                  "brightest light closer together",
+                  refused.too_large),
+      {file.string()});
+}
+
 Picture develop(const Film& film) {
-  if (film.saturated())
-    throw Error(
-        "the film is saturated: radiances are too large for its sums; scale the lights down and render "
-        "again");
+  require_unsaturated(film.refused(), {});
   Picture picture;
   picture.rgb = black_image(film.width(), film.height(), 3);
   picture.variance = black_image(film.width(), film.height(), 1);
@@ -23,7 +32,7 @@ Picture develop(const Film& film) {
   picture.full_width = film.full_width();
   picture.full_height = film.full_height();
   std::uint64_t most_samples = 0;
-  for (std::uint32_t p = 0; p < film.counts().size(); ++p) {
+  for (std::uint32_t p = 0; p < film.pixels(); ++p) {
     const RGB c = xyz_to_srgb(film.mean(p));
     float* out = &picture.rgb.values[3 * std::size_t{p}];
     out[0] = static_cast<float>(c.r), out[1] = static_cast<float>(c.g), out[2] = static_cast<float>(c.b);

@@ -7,9 +7,11 @@
 #include <xxhash.h>
 
 #include <algorithm>
-#include <array>
+#include <atomic>
+#include <bit>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "scene/diagnostics.h"
 
@@ -17,146 +19,171 @@ namespace vitrail {
 
 namespace {
 
-constexpr double fixed_one = 4294967296.0;                 // 2³²
-constexpr double value_limit = 1 << 30;                    // so that a deposit stays below 2⁶²
-constexpr std::int64_t sum_limit = std::int64_t{1} << 62;  // beyond it one more deposit could overflow
-
-constexpr std::size_t plane_count = 2 + luminance_groups;
+constexpr std::size_t plane_count = 2 + sample_groups;
 constexpr std::size_t x_plane = 0, z_plane = 1, y_planes = 2, bin_planes = plane_count;
 
-bool fits(double value) { return std::abs(value) < value_limit; }  // false for NaN
-
-std::int64_t fixed(double v) { return std::llrint(v * fixed_one); }
-
-bool near_overflow(std::int64_t sum) { return sum >= sum_limit || sum <= -sum_limit; }
-
-// A sum that is near overflow takes no more: it stays where `saturated` sees it.
-bool add(std::int64_t& sum, std::int64_t value) {
-  const std::atomic_ref<std::int64_t> shared(sum);
-  if (!near_overflow(shared.fetch_add(value, std::memory_order_relaxed))) return true;
-  shared.fetch_sub(value, std::memory_order_relaxed);
-  return false;
+constexpr double power_of_two(int exponent) {
+  return std::bit_cast<double>(static_cast<std::uint64_t>(1023 + exponent) << 52);
 }
 
-std::int64_t saturating_sum(std::int64_t a, std::int64_t b) {
-  std::int64_t sum;
-  if (!__builtin_add_overflow(a, b, &sum)) return sum;
-  return a > 0 ? std::numeric_limits<std::int64_t>::max() : std::numeric_limits<std::int64_t>::min();
+// The bits by which the parts of a deposit are rounded.
+template <class... Numbers>
+std::uint64_t dice(std::uint32_t pixel, std::uint32_t sample, Numbers... values) {
+  const std::array<std::uint64_t, 1 + sizeof...(values)> of{static_cast<std::uint64_t>(pixel) << 32 | sample,
+                                                            std::bit_cast<std::uint64_t>(values)...};
+  return XXH3_64bits(of.data(), sizeof of);
 }
 
-// Samples 0 … n−1 of a pixel are dealt into the groups in turn.
-std::uint64_t samples_of_group(std::uint64_t n, std::size_t group) {
-  return n / luminance_groups + (group < n % luminance_groups ? 1 : 0);
+// One of the two whole numbers about v, by 21 of the bits: v on the average.
+WideSum rounded(double v, std::uint64_t bits) {
+  const double below = std::floor(v);
+  return wide_sum_of(static_cast<double>(bits & 0x1fffff) * 0x1p-21 < v - below ? below + 1 : below);
 }
 
 }  // namespace
 
-Film::Film(const FilmSettings& settings, const FilmKey& key)
+Film::Film(const FilmSettings& settings, const FilmKey& key, int exponent)
     : crop_(settings.crop),
       full_width_(settings.width),
       full_height_(settings.height),
       imaging_ratio_(settings.imaging_ratio),
       bins_(settings.spectrum),
-      key_(key) {
+      key_(key),
+      exponent_(exponent) {
   if (crop_.x0 < 0 || crop_.y0 < 0 || crop_.x1 <= crop_.x0 || crop_.y1 <= crop_.y0 ||
       crop_.x1 > full_width_ || crop_.y1 > full_height_)
     throw Error(fmt::format("the crop {}..{} × {}..{} is empty or leaves the image of {}×{} pixels", crop_.x0,
                             crop_.x1, crop_.y0, crop_.y1, full_width_, full_height_));
-  const std::size_t pixels = static_cast<std::size_t>(width()) * static_cast<std::size_t>(height());
-  if (pixels > std::numeric_limits<std::uint32_t>::max())
+  const std::size_t size = static_cast<std::size_t>(width()) * static_cast<std::size_t>(height());
+  if (size > std::numeric_limits<std::uint32_t>::max())
     throw Error(
         fmt::format("a film of {}×{} pixels is too large: at most 2³² − 1 pixels", width(), height()));
   if (bins_.count < 0 || bins_.count > max_spectral_bins || !(bins_.min_nm < bins_.max_nm))
     throw Error(fmt::format("a film keeps at most {} spectral bins over an interval of wavelengths",
                             max_spectral_bins));
-  sums_.resize((plane_count + static_cast<std::size_t>(bins_.count)) * pixels);
-  counts_.resize(pixels);
+  sums_.resize((plane_count + static_cast<std::size_t>(bins_.count)) * size);
+  counts_.resize(sample_groups * size);
+}
+
+// The seeds of films that are to be merged follow on each other as a rule: so the first samples of each,
+// which may be the only ones, are in different groups.
+std::size_t Film::group(std::uint32_t sample) const {
+  return static_cast<std::size_t>((group_of(sample) + key_.seed) % sample_groups);
+}
+
+// `size` of the parts of a deposit together, `largest` of them.
+bool Film::accepts(double size, double largest) {
+  if (largest < power_of_two(exponent_ + deposit_bits) && std::isfinite(size)) return true;
+  std::uint64_t& count = std::isfinite(size) ? refused_.too_large : refused_.nonfinite;
+  std::atomic_ref(count).fetch_add(1, std::memory_order_relaxed);
+  return false;
 }
 
 bool Film::deposit(std::uint32_t pixel, std::uint32_t sample, const XYZ& value) {
-  if (!fits(value.x) || !fits(value.y) || !fits(value.z)) return false;
-  const std::size_t pixels = counts_.size();
-  const bool x = add(sums_[x_plane * pixels + pixel], fixed(value.x));
-  const bool z = add(sums_[z_plane * pixels + pixel], fixed(value.z));
-  const bool y = add(sums_[(y_planes + sample % luminance_groups) * pixels + pixel], fixed(value.y));
-  return x && y && z;
+  const double x = std::abs(value.x), y = std::abs(value.y), z = std::abs(value.z);
+  if (!accepts(x + y + z, std::max({x, y, z}))) return false;
+  const std::uint64_t bits = dice(pixel, sample, value.x, value.y, value.z);
+  const double quanta = power_of_two(-exponent_);
+  const std::size_t plane = pixels();
+  add_shared(sums_[x_plane * plane + pixel], rounded(quanta * value.x, bits));
+  add_shared(sums_[z_plane * plane + pixel], rounded(quanta * value.z, bits >> 21));
+  add_shared(sums_[(y_planes + group(sample)) * plane + pixel], rounded(quanta * value.y, bits >> 42));
+  return true;
 }
 
-bool Film::deposit_bin(std::uint32_t pixel, std::size_t bin, double value) {
-  return fits(value) && add(sums_[(bin_planes + bin) * counts_.size() + pixel], fixed(value));
+bool Film::deposit_bin(std::uint32_t pixel, std::uint32_t sample, std::size_t bin, double value) {
+  if (!accepts(value, std::abs(value))) return false;
+  const double quanta = power_of_two(-exponent_);
+  add_shared(sums_[(bin_planes + bin) * pixels() + pixel],
+             rounded(quanta * value, dice(pixel, sample, value)));
+  return true;
 }
 
-void Film::count_sample(std::uint32_t pixel) {
-  std::atomic_ref(counts_[pixel]).fetch_add(1, std::memory_order_relaxed);
+void Film::count_sample(std::uint32_t pixel, std::uint32_t sample) {
+  std::atomic_ref(counts_[group(sample) * pixels() + pixel]).fetch_add(1, std::memory_order_relaxed);
+}
+
+std::string difference(const Film& a, const Film& b) {
+  const FilmKey &k = a.key(), &l = b.key();
+  const auto differ = [](const char* what, const auto& x, const auto& y) {
+    return fmt::format("{}: {} and {}", what, x, y);
+  };
+  const auto text = [](const PixelRect& r) { return fmt::format("{},{},{},{}", r.x0, r.x1, r.y0, r.y1); };
+  if (k.scene_hash != l.scene_hash) return "they are of different scenes";
+  if (k.renderer != l.renderer)
+    return differ("they were made by different programs", to_string(k.renderer), to_string(l.renderer));
+  if (a.full_width() != b.full_width()) return differ("their widths differ", a.full_width(), b.full_width());
+  if (a.full_height() != b.full_height())
+    return differ("their heights differ", a.full_height(), b.full_height());
+  if (a.crop() != b.crop()) return differ("their crops differ", text(a.crop()), text(b.crop()));
+  if (k.max_depth != l.max_depth) return differ("their depths differ", k.max_depth, l.max_depth);
+  if (k.direct_only != l.direct_only) return "one has direct light only";
+  if (k.straight_counts != l.straight_counts)
+    return "one counts going straight through a sheet as scattering, the other does not";
+  if (a.bins() != b.bins())
+    return differ("their spectral bins differ",
+                  fmt::format("{} over {}..{} nm", a.bins().count, a.bins().min_nm, a.bins().max_nm),
+                  fmt::format("{} over {}..{} nm", b.bins().count, b.bins().min_nm, b.bins().max_nm));
+  if (a.imaging_ratio() != b.imaging_ratio())
+    return differ("their imaging ratios differ", a.imaging_ratio(), b.imaging_ratio());
+  if (a.exponent() != b.exponent())
+    return differ("their sums count in different powers of two", a.exponent(), b.exponent());
+  return {};
 }
 
 void Film::merge(const Film& other) {
-  if (crop_ != other.crop_ || full_width_ != other.full_width_ || full_height_ != other.full_height_)
-    throw Error("the films differ in size or crop");
-  if (key_.scene_hash != other.key_.scene_hash) throw Error("the films are of different scenes");
-  if (key_.settings_hash != other.key_.settings_hash || imaging_ratio_ != other.imaging_ratio_ ||
-      bins_ != other.bins_)
-    throw Error("the films were rendered with different settings");
-  const bool same_samples = key_.seed == other.key_.seed;
-  const std::size_t pixels = counts_.size();
-  for (std::size_t p = 0; p < pixels; ++p) {
-    // Another seed's samples are further ones: sample i of it counts as sample n + i.
-    const std::size_t shift = same_samples ? 0 : counts_[p] % luminance_groups;
-    const auto take = [&](std::size_t to_plane, std::size_t from_plane) {
-      std::int64_t& sum = sums_[to_plane * pixels + p];
-      sum = saturating_sum(sum, other.sums_[from_plane * pixels + p]);
-    };
-    take(x_plane, x_plane);
-    take(z_plane, z_plane);
-    for (std::size_t g = 0; g < luminance_groups; ++g)
-      take(y_planes + (g + shift) % luminance_groups, y_planes + g);
-    for (std::size_t plane = bin_planes; plane * pixels < sums_.size(); ++plane) take(plane, plane);
-    if (__builtin_add_overflow(counts_[p], other.counts_[p], &counts_[p]))
+  const std::string what = difference(*this, other);
+  if (!what.empty()) throw Error(what);
+  for (std::uint32_t p = 0; p < pixels(); ++p)
+    if (samples(p) + other.samples(p) > std::numeric_limits<std::uint32_t>::max())
       throw Error("the films hold more than 2³² − 1 samples a pixel together");
-  }
+  for (std::size_t i = 0; i < sums_.size(); ++i) sums_[i] += other.sums_[i];
+  for (std::size_t i = 0; i < counts_.size(); ++i) counts_[i] += other.counts_[i];
+  refused_.nonfinite += other.refused_.nonfinite;
+  refused_.too_large += other.refused_.too_large;
+}
+
+double Film::value(std::size_t plane, std::uint32_t pixel) const {
+  return power_of_two(exponent_) * static_cast<double>(value_of(sums_[plane * pixels() + pixel]));
 }
 
 XYZ Film::mean(std::uint32_t pixel) const {
-  const std::size_t pixels = counts_.size();
-  if (counts_[pixel] == 0) return {};
-  const double weight = imaging_ratio_ / (fixed_one * static_cast<double>(counts_[pixel]));
-  std::int64_t y = 0;
-  for (std::size_t g = 0; g < luminance_groups; ++g)
-    y = saturating_sum(y, sums_[(y_planes + g) * pixels + pixel]);
-  return {weight * static_cast<double>(sums_[x_plane * pixels + pixel]), weight * static_cast<double>(y),
-          weight * static_cast<double>(sums_[z_plane * pixels + pixel])};
+  const std::uint64_t n = samples(pixel);
+  if (n == 0) return {};
+  const double weight = imaging_ratio_ / static_cast<double>(n);
+  WideSum y;
+  for (std::size_t g = 0; g < sample_groups; ++g) y += sums_[(y_planes + g) * pixels() + pixel];
+  return {weight * value(x_plane, pixel),
+          weight * (power_of_two(exponent_) * static_cast<double>(value_of(y))),
+          weight * value(z_plane, pixel)};
 }
 
 double Film::mean_of_bin(std::uint32_t pixel, std::size_t bin) const {
-  const std::size_t pixels = counts_.size();
-  if (counts_[pixel] == 0) return 0;
-  return imaging_ratio_ / (fixed_one * static_cast<double>(counts_[pixel])) *
-         static_cast<double>(sums_[(bin_planes + bin) * pixels + pixel]);
+  const std::uint64_t n = samples(pixel);
+  return n == 0 ? 0 : imaging_ratio_ / static_cast<double>(n) * value(bin_planes + bin, pixel);
 }
 
-// With Y_g the sum of the n_g samples of group g, E[Y_g] = n_g μ and Var[Y_g] = n_g σ²; so
-// σ² ≈ Σ (Y_g − n_g ȳ)²/n_g / (G − 1) over the G groups that have samples, and the mean ȳ has variance σ²/n.
+// With Y_g the sum of the n_g samples of group g, n = n₀ + n₁, the groups being independent with the means
+// n_g μ and the variances v_g, d = Y₀/n₀ − Y₁/n₁ has E[d²] = v₀/n₀² + v₁/n₁². So d² n₀n₁/n² has the mean (v₀
+// n₁/n₀ + v₁ n₀/n₁)/n²: of n₀ = n₁ that is (v₀ + v₁)/n² = Var[ȳ] whatever the variances, and else where these
+// are as the numbers of samples.
 double Film::variance_of_mean(std::uint32_t pixel) const {
-  const std::size_t pixels = counts_.size();
-  const std::uint64_t n = counts_[pixel];
-  if (n < 2) return 0;
-  const double mean_y = mean(pixel).y;
-  double scatter = 0;
-  int groups = 0;
-  for (std::size_t g = 0; g < luminance_groups; ++g) {
-    const double n_g = static_cast<double>(samples_of_group(n, g));
-    if (n_g == 0) continue;
-    const double sum =
-        imaging_ratio_ / fixed_one * static_cast<double>(sums_[(y_planes + g) * pixels + pixel]);
-    scatter += (sum - n_g * mean_y) * (sum - n_g * mean_y) / n_g;
-    ++groups;
-  }
-  return scatter / (groups - 1) / static_cast<double>(n);
+  static_assert(sample_groups == 2);
+  const double n0 = counts_[pixel], n1 = counts_[pixels() + pixel], n = n0 + n1;
+  if (n0 == 0 || n1 == 0) return 0;
+  const double d = imaging_ratio_ * (value(y_planes, pixel) / n0 - value(y_planes + 1, pixel) / n1);
+  return d * d * (n0 / n) * (n1 / n);
 }
 
-std::uint64_t Film::samples(std::uint32_t pixel) const { return counts_[pixel]; }
+std::uint64_t Film::samples(std::uint32_t pixel) const {
+  std::uint64_t sum = 0;
+  for (std::size_t g = 0; g < sample_groups; ++g) sum += counts_[g * pixels() + pixel];
+  return sum;
+}
 
-bool Film::saturated() const { return std::any_of(sums_.begin(), sums_.end(), near_overflow); }
+std::uint64_t Film::samples() const {
+  return std::accumulate(counts_.begin(), counts_.end(), std::uint64_t{0});
+}
 
 std::uint64_t Film::hash() const {
   const std::array<std::uint64_t, 2> parts{XXH3_64bits(sums_.data(), sums_.size() * sizeof sums_[0]),

@@ -2,54 +2,72 @@
 // The film: integer sums that merge in any order, so that a picture does not depend on who added what when.
 #pragma once
 
-#include <atomic>
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "film/renderer_version.h"
+#include "film/sample_groups.h"
+#include "film/wide_sum.h"
 #include "scene/color.h"
 #include "scene/scene.h"
 
 namespace vitrail {
 
-// Samples of a pixel are dealt into this many groups (sample index modulo it) whose luminance sums are kept
-// apart: their scatter estimates the variance of the pixel, which single deposits, being parts of samples,
-// cannot.
-inline constexpr int luminance_groups = 8;
-
 // Identifies what a film is of. Films of the same key but different seeds merge; a resume needs all equal.
 struct FilmKey {
   std::uint64_t scene_hash = 0;
-  std::uint64_t settings_hash = 0;  // of all that changes the picture besides scene, seed and sample count
   std::uint64_t seed = 0;
+  // What changes the picture besides scene, seed and sample count, and what the film itself says.
+  std::int32_t max_depth = 0;
+  bool direct_only = false;
+  bool straight_counts = true;
+  RendererVersion renderer = this_renderer();
   bool operator==(const FilmKey&) const = default;
 };
+
+// Deposits that were refused.
+struct Refused {
+  std::uint64_t nonfinite = 0;
+  std::uint64_t too_large = 0;  // the picture lacks light: the film is saturated
+  bool operator==(const Refused&) const = default;
+};
+
+// What a sum counts in: 2^exponent. A deposit has to be below 2^(exponent + deposit_bits), so that a sum
+// holds 2⁴² deposits, 2¹⁰ of each of 2³² samples, whatever they are.
+inline constexpr int deposit_bits = 85;
+inline constexpr int default_exponent = -45;                          // for radiances about 1
+inline constexpr int least_exponent = -900, greatest_exponent = 900;  // so that all are doubles
 
 // Width × height of the crop; planes row-major from the top left.
 class Film {
  public:
   Film() = default;
-  Film(const FilmSettings& settings, const FilmKey& key);
+  Film(const FilmSettings& settings, const FilmKey& key, int exponent = default_exponent);
 
   const PixelRect& crop() const { return crop_; }
   int width() const { return crop_.x1 - crop_.x0; }   // of the crop
   int height() const { return crop_.y1 - crop_.y0; }  // of the crop
+  std::uint32_t pixels() const { return static_cast<std::uint32_t>(counts_.size() / sample_groups); }
   int full_width() const { return full_width_; }
   int full_height() const { return full_height_; }
   double imaging_ratio() const { return imaging_ratio_; }
   const SpectralBins& bins() const { return bins_; }
   const FilmKey& key() const { return key_; }
+  int exponent() const { return exponent_; }
 
-  // Adds to a pixel, each component rounded once to 2⁻³². Safe from many threads. `pixel` = y·width + x
-  // within the crop. Returns false, and adds nothing, if the value is not finite or too large for the fixed
-  // point.
+  // Adds to a pixel. Safe from many threads. `pixel` = y·width + x within the crop. Each component is rounded
+  // once to a whole number of quanta, up or down with the probabilities that make the mean exact, by a hash
+  // of pixel, sample and value: light below the quantum is not lost. Returns false, and adds and counts in
+  // `refused` what it is, if the value is not finite or too large.
   bool deposit(std::uint32_t pixel, std::uint32_t sample, const XYZ& value);
   // Adds to a bin of a pixel's spectrum, as above: radiance over (pdf of its wavelength · width of the bin).
-  bool deposit_bin(std::uint32_t pixel, std::size_t bin, double value);
+  bool deposit_bin(std::uint32_t pixel, std::uint32_t sample, std::size_t bin, double value);
   // Counts one sample of a pixel, whatever it deposits.
-  void count_sample(std::uint32_t pixel);
+  void count_sample(std::uint32_t pixel, std::uint32_t sample);
 
   // Sums of another film of the same size. Exact in any order. Throws Error where they do not fit together.
   void merge(const Film& other);
@@ -58,35 +76,50 @@ class Film {
   XYZ mean(std::uint32_t pixel) const;
   // Mean radiance of a bin, W·m⁻²·sr⁻¹·nm⁻¹, imaging ratio applied.
   double mean_of_bin(std::uint32_t pixel, std::size_t bin) const;
-  // Variance of that mean's Y, from the scatter of the groups; 0 where fewer than two groups have samples.
+  // Variance of that mean's Y, from the scatter of the groups; 0 where one has no samples. An estimate
+  // of one degree of freedom: of use where many are put together.
   double variance_of_mean(std::uint32_t pixel) const;
   std::uint64_t samples(std::uint32_t pixel) const;
-  // True when a sum came near overflow: the picture is then not to be trusted.
-  bool saturated() const;
+  std::uint64_t samples() const;  // of all pixels
+
+  const Refused& refused() const { return refused_; }
+  // True when a deposit was too large: the picture is then not to be trusted.
+  bool saturated() const { return refused_.too_large > 0; }
 
   // xxh3 over all sums and counts.
   std::uint64_t hash() const;
 
-  // The raw planes, for exchange between ranks: X, Z, Y₀…Y₇, then one a spectral bin,
-  // each width·height.
-  std::span<std::int64_t> sums() { return sums_; }
-  std::span<const std::int64_t> sums() const { return sums_; }
+  // The raw planes, for exchange between ranks: X, Z, Y of each group, then one a spectral bin, each
+  // width·height; the samples of each group; and what was refused.
+  std::span<WideSum> sums() { return sums_; }
+  std::span<const WideSum> sums() const { return sums_; }
   std::span<std::uint32_t> counts() { return counts_; }
   std::span<const std::uint32_t> counts() const { return counts_; }
-  std::uint64_t bytes() const { return sums_.size() * 8 + counts_.size() * 4; }
+  Refused& refused() { return refused_; }
+  std::uint64_t bytes() const { return sums_.size() * sizeof sums_[0] + counts_.size() * sizeof counts_[0]; }
 
  private:
   friend Film read_film(const std::filesystem::path& file, struct FilmProgress* progress);
   friend void write_film(const std::filesystem::path& file, const Film& film,
                          const struct FilmProgress& progress);
+  std::size_t group(std::uint32_t sample) const;
+  bool accepts(double size, double largest);
+  double value(std::size_t plane, std::uint32_t pixel) const;
+
   PixelRect crop_{};
   int full_width_ = 0, full_height_ = 0;
   double imaging_ratio_ = 1;
   SpectralBins bins_;
   FilmKey key_{};
-  std::vector<std::int64_t> sums_;
+  int exponent_ = default_exponent;
+  std::vector<WideSum> sums_;
   std::vector<std::uint32_t> counts_;
+  Refused refused_;
 };
+
+// What keeps two films from being samples of one picture, in words; "" where nothing does. Seeds and sample
+// counts may differ.
+std::string difference(const Film& a, const Film& b);
 
 // Which samples a film holds: bit i of `done` is work item i of `items` (see farm/work.h). A finished film
 // has all.

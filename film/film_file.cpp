@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The film file, little-endian: a header with the checksum of what comes before it, then three arrays, each
-// followed by its xxh3: the words of FilmProgress::done, the sums, the counts.
+// followed by its xxh3: the words of FilmProgress::done, the sums, the counts. docs/color-and-film.md has the
+// header byte by byte.
 #include <fmt/format.h>
 
 #define XXH_INLINE_ALL
@@ -23,8 +24,11 @@ static_assert(std::endian::native == std::endian::little, "files are written as 
 namespace {
 
 constexpr char film_magic[8] = {'v', 'i', 't', 'f', 'i', 'l', 'm', '\n'};
-constexpr std::uint32_t film_version = 2;
+constexpr std::uint32_t film_version = 3;
 constexpr std::int32_t max_extent = 1 << 20;  // pixels a side
+
+// What a film was rendered with, in Header::options.
+constexpr std::uint32_t option_direct_only = 1, option_straight_counts = 2, all_options = 3;
 
 struct Header {
   char magic[8];
@@ -34,12 +38,18 @@ struct Header {
   std::int32_t bins;
   double imaging_ratio;
   double bins_min_nm, bins_max_nm;
-  std::uint64_t scene_hash, settings_hash, seed;
+  std::uint64_t scene_hash, seed;
   std::uint64_t items, samples_per_pixel;
   double render_time_s;
-  std::uint64_t checksum;  // of all before it
+  char renderer[16];  // ends with a zero
+  std::uint32_t picture_revision;
+  std::int32_t max_depth;
+  std::uint32_t options;
+  std::int32_t exponent;
+  std::uint64_t nonfinite, too_large;  // deposits
+  std::uint64_t checksum;              // of all before it
 };
-static_assert(sizeof(Header) == 120);
+static_assert(sizeof(Header) == 160);
 
 std::uint64_t checksum(const Header& h) { return XXH3_64bits(&h, offsetof(Header, checksum)); }
 
@@ -92,14 +102,20 @@ Header read_header(Reader& in) {
   if (std::memcmp(h.magic, film_magic, sizeof film_magic) != 0) in.fail("this is not a film file");
   if (h.version != film_version)
     in.fail(
-        fmt::format("film file of version {}, but this program reads version {}", h.version, film_version));
+        fmt::format("film file of version {}, but this program ({}) reads version {}: it was made by "
+                    "another one, and can be developed by that alone",
+                    h.version, to_string(this_renderer()), film_version));
   if (h.checksum != checksum(h)) in.fail("the film file is corrupt: the checksum of its header is wrong");
   const bool sizes_in_order = 0 <= h.x0 && h.x0 < h.x1 && h.x1 <= h.full_width &&
                               h.full_width <= max_extent && 0 <= h.y0 && h.y0 < h.y1 &&
                               h.y1 <= h.full_height && h.full_height <= max_extent;
   const bool bins_in_order = 0 <= h.bins && h.bins <= max_spectral_bins && h.bins_min_nm < h.bins_max_nm &&
                              std::isfinite(h.bins_max_nm - h.bins_min_nm);
-  if (!sizes_in_order || !bins_in_order || !std::isfinite(h.imaging_ratio) || !(h.render_time_s >= 0))
+  const bool key_in_order = std::memchr(h.renderer, 0, sizeof h.renderer) != nullptr && h.max_depth >= 0 &&
+                            (h.options & ~all_options) == 0 && least_exponent <= h.exponent &&
+                            h.exponent <= greatest_exponent;
+  if (!sizes_in_order || !bins_in_order || !key_in_order || !std::isfinite(h.imaging_ratio) ||
+      !(h.render_time_s >= 0))
     in.fail("the film file is corrupt: its header makes no sense");
   return h;
 }
@@ -120,7 +136,14 @@ void write_film(const std::filesystem::path& file, const Film& film, const FilmP
   h.x0 = film.crop_.x0, h.x1 = film.crop_.x1, h.y0 = film.crop_.y0, h.y1 = film.crop_.y1;
   h.imaging_ratio = film.imaging_ratio_;
   h.bins = film.bins_.count, h.bins_min_nm = film.bins_.min_nm, h.bins_max_nm = film.bins_.max_nm;
-  h.scene_hash = film.key_.scene_hash, h.settings_hash = film.key_.settings_hash, h.seed = film.key_.seed;
+  const FilmKey& key = film.key_;
+  h.scene_hash = key.scene_hash, h.seed = key.seed;
+  key.renderer.number.copy(h.renderer, sizeof h.renderer - 1);
+  h.picture_revision = key.renderer.revision;
+  h.max_depth = key.max_depth;
+  h.options = (key.direct_only ? option_direct_only : 0) | (key.straight_counts ? option_straight_counts : 0);
+  h.exponent = film.exponent_;
+  h.nonfinite = film.refused_.nonfinite, h.too_large = film.refused_.too_large;
   h.items = progress.items, h.samples_per_pixel = progress.samples_per_pixel;
   h.render_time_s = progress.render_time_s;
   h.checksum = checksum(h);
@@ -136,8 +159,9 @@ Film read_film(const std::filesystem::path& file, FilmProgress* progress) {
   Reader in(file);
   const Header h = read_header(in);
   const auto pixels = static_cast<std::uint64_t>(h.x1 - h.x0) * static_cast<std::uint64_t>(h.y1 - h.y0);
-  const std::uint64_t planes = 2 + luminance_groups + static_cast<std::uint64_t>(h.bins);
-  const std::uint64_t arrays = pixels * (planes * sizeof(std::int64_t) + sizeof(std::uint32_t)) + 3 * 8;
+  const std::uint64_t planes = 2 + sample_groups + static_cast<std::uint64_t>(h.bins);
+  const std::uint64_t arrays =
+      pixels * (planes * sizeof(WideSum) + sample_groups * sizeof(std::uint32_t)) + 3 * 8;
   if (in.size() - sizeof h < arrays || (in.size() - sizeof h - arrays) % 8 != 0 ||
       (in.size() - sizeof h - arrays) / 8 != words_of(h.items))
     in.fail(fmt::format("the film file is truncated or has bytes too many: {} bytes", in.size()));
@@ -150,9 +174,16 @@ Film read_film(const std::filesystem::path& file, FilmProgress* progress) {
   film.full_width_ = h.full_width, film.full_height_ = h.full_height;
   film.imaging_ratio_ = h.imaging_ratio;
   film.bins_ = {h.bins, h.bins_min_nm, h.bins_max_nm};
-  film.key_ = {h.scene_hash, h.settings_hash, h.seed};
+  film.key_ = {h.scene_hash,
+               h.seed,
+               h.max_depth,
+               (h.options & option_direct_only) != 0,
+               (h.options & option_straight_counts) != 0,
+               {h.renderer, h.picture_revision}};
+  film.exponent_ = h.exponent;
+  film.refused_ = {h.nonfinite, h.too_large};
   in.read_array(film.sums_, planes * pixels, "sums");
-  in.read_array(film.counts_, pixels, "counts");
+  in.read_array(film.counts_, sample_groups * pixels, "counts");
   if (progress) *progress = std::move(read);
   return film;
 }

@@ -5,10 +5,10 @@
 #include <functional>
 
 #include "bundle/census.h"
-#include "partitioner/kd_plan.h"
-#include "partitioner/work_estimate.h"
-#include "partitioner/write_domain.h"
-#include "partitioner/write_objects.h"
+#include "partitioner/cutting/kd_plan.h"
+#include "partitioner/cutting/work_estimate.h"
+#include "partitioner/writing/write_domain.h"
+#include "partitioner/writing/write_objects.h"
 
 namespace vitrail {
 

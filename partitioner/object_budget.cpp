@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "partitioner/kd_plan.h"
+#include "partitioner/cutting/kd_plan.h"
+#include "partitioner/cutting/work_estimate.h"
 #include "partitioner/memory_plan.h"
-#include "partitioner/spill_scene.h"
-#include "partitioner/work_estimate.h"
-#include "partitioner/write_objects.h"
+#include "partitioner/spilling/spill_scene.h"
+#include "partitioner/writing/write_objects.h"
 #include "scene/diagnostics.h"
 
 namespace vitrail {

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "partitioner/world.h"
+#include "partitioner/placing/world.h"
 
 namespace vitrail {
 

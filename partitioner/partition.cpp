@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 #include <malloc.h>
-#include <sys/resource.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
@@ -12,13 +11,14 @@
 #include <stdexcept>
 
 #include "images/image_files.h"
-#include "partitioner/bundle_directory.h"
 #include "partitioner/divide_cell.h"
-#include "partitioner/flatten.h"
 #include "partitioner/memory_plan.h"
 #include "partitioner/object_budget.h"
-#include "partitioner/spill_scene.h"
+#include "partitioner/placing/flatten.h"
+#include "partitioner/spilling/spill_scene.h"
+#include "partitioner/writing/bundle_directory.h"
 #include "scene/deferred_mesh.h"
+#include "scene/resource_usage.h"
 
 namespace vitrail {
 
@@ -46,21 +46,6 @@ std::uint64_t bytes_of_records(const Scene& scene) {
   for (const TriangleMesh& mesh : scene.meshes)
     if (mesh.deferred) samples += mesh.deferred->sample.size();
   return instances * instance_bytes + shapes * shape_bytes + samples * sizeof(DeferredMesh::Sample);
-}
-
-double cpu_seconds() {
-  rusage u{};
-  ::getrusage(RUSAGE_SELF, &u);
-  const auto seconds = [](timeval t) {
-    return static_cast<double>(t.tv_sec) + static_cast<double>(t.tv_usec) * 1e-6;
-  };
-  return seconds(u.ru_utime) + seconds(u.ru_stime);
-}
-
-std::uint64_t peak_rss_bytes() {
-  rusage u{};
-  ::getrusage(RUSAGE_SELF, &u);
-  return static_cast<std::uint64_t>(u.ru_maxrss) * 1024;
 }
 
 std::uint64_t directory_bytes(const std::filesystem::path& directory) {
@@ -289,7 +274,7 @@ PartitionStats partition(const Scene& scene, const std::filesystem::path& out,
   directory.commit();
   stats.wall_s = std::chrono::duration<double>(Clock::now() - start).count();
   stats.cpu_s = cpu_seconds() - cpu_start;
-  stats.peak_rss_bytes = peak_rss_bytes();
+  stats.peak_rss_bytes = peak_resident_bytes();
   stats.memory_budget_bytes = chosen.memory_bytes;
   stats.triangles_per_s = static_cast<double>(stats.input_triangles) / std::max(stats.wall_s, 1e-9);
   return stats;

@@ -7,9 +7,9 @@ namespace vitrail {
 
 namespace {
 
-template <class Variant, std::size_t n>
-const char* name_of(const Variant& v, const std::array<const char*, n>& names) {
-  static_assert(n == std::variant_size_v<Variant>);
+template <class... Models, std::size_t n>
+const char* name_of(const std::variant<Models...>& v, const std::array<const char*, n>& names) {
+  static_assert(n == sizeof...(Models));
   return names[v.index()];
 }
 

@@ -54,6 +54,13 @@ struct Prototype {
 };
 
 struct Scene {
+  Scene();
+  Scene(const Scene&);
+  Scene(Scene&&) noexcept;
+  Scene& operator=(const Scene&);
+  Scene& operator=(Scene&&) noexcept;
+  ~Scene();
+
   std::vector<std::string> files;  // that Origins speak of
   std::vector<TriangleMesh> meshes;
   std::vector<Texture> textures;

@@ -1,21 +1,55 @@
 // SPDX-License-Identifier: Apache-2.0
 // Connections to lights: rays that deposit what they carry where nothing is in their way. Where the scene has
 // something that light passes straight through, they are paths of their own that go on behind it.
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "tracer/bsdf/local.h"
+#include "tracer/connection_code.h"
 #include "tracer/media/phase.h"
 #include "tracer/path_state.h"
 #include "tracer/path_tracer.h"
+#include "tracer/rounding.h"
 
 namespace vitrail {
 
 namespace {
 
 constexpr std::uint32_t max_surfaces_crossed = 64;  // before a connection is given up
-// A shadow ray ends this much before its light, relative to the distance.
-constexpr double shadow_end = 1 - 1e-4;
-constexpr double far_away = 1e30;  // ends of rays to environments
+constexpr double far_away = 1e30;                   // ends of rays to environments
+
+// A connection's ray: coded, and as far as it goes, in lengths of its direction.
+struct Aimed {
+  DirectionCode direction;
+  double end = far_away;
+  double slope = 0;  // of StraightAim
+};
+
+// From `origin`, beside the point p that the light was sampled for. It ends at the light, where it meets the
+// plane of the surface that was sampled: by its rounded direction, not quite where that was. There an error
+// of the direction counts by the inverse cosine.
+Aimed aim(Point3f origin, Point3d p, const LightSample& light) {
+  if (std::isinf(light.distance)) return {encode_direction(light.to_light)};
+  const Vector3d way = p + light.to_light * light.distance - cast<double>(origin);
+  Aimed aimed{encode_direction(dot(way, way) > 0 ? way : light.to_light)};
+  const Vector3d direction = cast<double>(decode_direction(aimed.direction));
+  const double distance = length(way), there = dot(way, direction) / dot(direction, direction);
+  aimed.end = there;
+  const double height = dot(way, light.normal), cosine = dot(direction, light.normal);
+  if (!(height * cosine > 0)) return aimed;
+  // So much aside, a neighbour may stand out of the plane by its tilt.
+  const double aside = direction_rounding * distance / std::abs(cosine);
+  const double plane = (height / cosine) * (1 - 1e-12) - aside * light.tilt_rad / std::abs(cosine);
+  aimed.end = std::clamp(plane, 0.5 * there, 2 * there);
+  aimed.slope = std::sqrt(std::max(0.0, 1 - cosine * cosine)) / std::abs(cosine);
+  return aimed;
+}
+
+float float_below(double x) {
+  const auto nearest = static_cast<float>(x);
+  return static_cast<double>(nearest) > x ? std::nextafter(nearest, 0.0f) : nearest;
+}
 
 }  // namespace
 
@@ -73,8 +107,18 @@ void PathTracer::send_connection(const Path& path, const Connection& connection,
   sent.cone = 0;
   sent.set(path_connection);
   sent.throughput = radiance;
+  const Aimed aimed = aim(connection.from.origin, connection.from.p, light);
   depart(sent, connection.from, light.to_light);
-  set_end(sent, refracts ? 0 : std::min(light.distance * shadow_end, far_away));
+  sent.direction = aimed.direction;
+  sent.ray.direction = decode_direction(aimed.direction);
+  if (refracts) {
+    sent.set(path_in_pane);
+    sent.aim = RefractedAim{light.light}.bits();
+  } else {
+    sent.aim = StraightAim{aimed.slope}.bits();
+    sent.travelled = end_value(end_code(aimed.end));
+    sent.hit.t = aimed.end;
+  }
   sent.depth = refracts ? 0 : path.depth + 1;
   sent.pdf = 0;
   const std::size_t waiting = outbox_.paths.size();
@@ -87,23 +131,39 @@ void PathTracer::send_connection(const Path& path, const Connection& connection,
   counters_.rays_indirect = indirect;
 }
 
-// The distance that a connection still has to go, kept as what it has `travelled`; 0: any, towards a distant
-// light, and surfaces may refract it on its way.
-void PathTracer::set_end(Path& connection, double distance) {
-  connection.travelled = static_cast<double>(rounded_radiance(static_cast<float>(distance)));
-  connection.hit.t = distance > 0 ? connection.travelled / length(cast<double>(connection.ray.direction))
-                                  : std::numeric_limits<double>::infinity();
+void PathTracer::pack_connection(const Path& path, PathRecord& record) {
+  std::uint32_t code = path.aim;
+  if (!path.is(path_in_pane)) {
+    const std::uint64_t end = end_code(path.travelled);
+    for (int i = 0; i < 3; ++i) record.travelled[i] = static_cast<std::uint8_t>(end >> (16 + 8 * i));
+    code |= static_cast<std::uint32_t>(end & 0xffff);
+  }
+  record.pdf = static_cast<std::uint16_t>(code);
+  record.flags = static_cast<std::uint8_t>((record.flags & 0xf) | code >> 16 << 4);
+}
+
+void PathTracer::unpack_connection(const PathRecord& record, Path& path) {
+  path.aim = static_cast<std::uint32_t>(record.flags >> 4) << 16;
+  path.pdf = 0;
+  path.travelled = 0;
+  if (path.is(path_in_pane)) {
+    path.aim |= record.pdf;
+    return;
+  }
+  std::uint64_t end = record.pdf;
+  for (int i = 0; i < 3; ++i) end |= std::uint64_t{record.travelled[i]} << (16 + 8 * i);
+  path.travelled = end_value(end);
 }
 
 void PathTracer::send_shadow_ray(const Path& path, const Connection& connection, const LightSample& light,
                                  const SampledSpectrum& radiance) {
+  const Aimed aimed = aim(connection.from.origin, connection.from.p, light);
   ShadowRecord r;
   r.origin[0] = connection.from.origin.x;
   r.origin[1] = connection.from.origin.y;
   r.origin[2] = connection.from.origin.z;
-  r.direction = encode_direction(light.to_light);
-  r.tmax = std::isinf(light.distance) ? std::numeric_limits<float>::max()
-                                      : static_cast<float>(light.distance * shadow_end);
+  r.direction = aimed.direction;
+  r.tmax = std::isinf(light.distance) ? std::numeric_limits<float>::max() : float_below(aimed.end);
   r.exclude = connection.from.exclude;
   for (std::size_t i = 0; i < hero_count; ++i) pack_radiance(std::max(0.0f, radiance.v[i]), r.radiance[i]);
   r.pixel = path.pixel;
@@ -120,9 +180,10 @@ bool PathTracer::connect_onwards(Path& path) {
     path.throughput = path.throughput * transmittance(*medium, flight_of(path), path.wavelengths, random);
     if (is_black(path.throughput)) return false;
   }
-  const bool refracts = path.travelled == 0;
+  const bool refracts = path.is(path_in_pane);
   if (path.hit.triangle == no_triangle) {
-    if (!refracts || points_at_distant_light(scene_.lights, cast<double>(path.ray.direction)))
+    const auto is_direction = [&](Vector3d to_light) { return encode_direction(to_light) == path.direction; };
+    if (!refracts || any_distant_light(scene_.lights, RefractedAim::of(path.aim).light, is_direction))
       deposit(path.pixel, path.sample, path.sensor, path.throughput);
     return false;
   }
@@ -130,11 +191,6 @@ bool PathTracer::connect_onwards(Path& path) {
   const Surface& surface = surface_at(path);
   const MaterialKind& kind = scene_.materials.kind(surface.material);
   const bool passes = kind.is_interface || !is_there(path, surface, at);
-  const double left = refracts ? 0 : path.travelled - path.hit.t * length(cast<double>(path.ray.direction));
-  if (!refracts && left <= 0) {
-    deposit(path.pixel, path.sample, path.sensor, path.throughput);
-    return false;
-  }
   if (refracts && kind.smooth_dielectric && !passes) {
     if (!refract_connection(path, at, surface)) return false;
   } else {
@@ -144,30 +200,73 @@ bool PathTracer::connect_onwards(Path& path) {
       path.depth += manifest_.settings.straight_counts || refracts;
     }
     if (is_black(path.throughput)) return false;
-    continue_straight(path, at, surface);
-    set_end(path, left);
+    if (!connect_straight(path, at, surface)) return false;
   }
   if (passes) return true;
   return path.depth <=
          (refracts ? max_surfaces_crossed : static_cast<std::uint32_t>(manifest_.settings.max_depth));
 }
 
+// Beyond a surface; false where the light is nearer to it than can be told.
+bool PathTracer::connect_straight(Path& path, const Interaction& at, const Surface& surface) {
+  const Point3f before = path.ray.origin;
+  continue_straight(path, at, surface);
+  if (path.is(path_in_pane)) return true;
+  // The new origin is not on the ray.
+  const Vector3d direction = cast<double>(path.ray.direction);
+  const Vector3d moved = cast<double>(path.ray.origin) - cast<double>(before);
+  const double along = dot(moved, direction) / dot(direction, direction);
+  const double aside = length(moved - direction * along);
+  path.travelled = end_value(end_code(path.travelled - along - aside * StraightAim::of(path.aim).slope));
+  path.hit.t = path.travelled;
+  if (path.travelled > 0) return true;
+  deposit(path.pixel, path.sample, path.sensor, path.throughput);
+  return false;
+}
+
+namespace {
+
+// Whether a face that light on its way along `direction` meets lets it out along `to_light`, as far as the
+// normal is known: the parts of index · direction along the face are equal on both sides. eta as of
+// `refract`.
+bool leads_to(Vector3d direction, Vector3d to_light, double eta, Vector3d normal, double doubt_rad) {
+  if (!(dot(to_light, normal) < 0)) return false;
+  const Vector3d across = direction - to_light * eta;  // along the normal
+  return length(cross(across, normal)) <= doubt_rad * length(across) + direction_rounding * (1 + eta);
+}
+
+}  // namespace
+
+// Behind parallel faces light goes on as it came. Faces are parallel where their normals agree as far as what
+// is stored tells, and then the light's own direction is given back: so no rounding turns it.
 bool PathTracer::refract_connection(Path& path, const Interaction& at, const Surface& surface) const {
   const Material& record = manifest_.materials[surface.material];
   const auto& material = std::get<DielectricMaterial>(record.model);
   const SampledSpectrum eta = relative_index(material, at, path.wavelengths);
   const Vector3d normal = scene_.materials.shading_normal(record, at) * at.side();
+  RefractedAim aim = RefractedAim::of(path.aim);
+  aim.doubt_rad += normal_doubt(*resident_[path.hit_domain], path.hit, !(normal == at.geometric * at.side()));
+  const double hero_eta = static_cast<double>(eta[0]), cosine = dot(at.out, normal);
   Vector3d direction;
-  if (!refract(at.out, normal, static_cast<double>(eta[0]), direction)) return false;
-  const double cosine = dot(at.out, normal);
-  for (std::size_t i = 0; i < hero_count; ++i)
-    path.throughput.v[i] *= static_cast<float>(1 - fresnel_dielectric(cosine, static_cast<double>(eta.v[i])));
+  const bool is_out = any_distant_light(scene_.lights, aim.light, [&](Vector3d to_light) {
+    direction = to_light;
+    return leads_to(-at.out, to_light, hero_eta, normal, aim.doubt_rad);
+  });
+  if (!is_out && !refract(at.out, normal, hero_eta, direction)) return false;
+  if (is_out && !at.front) aim.doubt_rad = 0;
+  // All wavelengths share the angle outside, not the one in the glass.
+  const double outside = -dot(direction, normal);
+  for (std::size_t i = 0; i < hero_count; ++i) {
+    const double e = static_cast<double>(eta.v[i]);
+    const double reflected = is_out ? fresnel_dielectric(outside, 1 / e) : fresnel_dielectric(cosine, e);
+    path.throughput.v[i] *= static_cast<float>(1 - reflected);
+  }
   path.throughput = path.throughput * scene_.textures.spectrum(material.transmittance_factor,
                                                                at.texture_point(), path.wavelengths);
   if (is_black(path.throughput)) return false;
   ++path.depth;
   continue_from(path, at, surface, direction);
-  set_end(path, 0);
+  path.aim = aim.bits();
   return true;
 }
 

@@ -4,6 +4,7 @@
 
 #include "tracer/path_state.h"
 #include "tracer/path_tracer.h"
+#include "tracer/rounding.h"
 
 namespace vitrail {
 
@@ -69,13 +70,11 @@ void PathTracer::depart(Path& path, const Departure& from, Vector3d direction) c
 // brings it behind neighbours that are not quite in one plane; and the largest triangles, if there are any
 // about, lie where doubles place them.
 Point3f PathTracer::offset_origin(const Interaction& at, Vector3d direction) const {
-  const Vector3d p = at.p - Point3d{};
-  const double rounding = 0x1p-24 * (std::abs(at.geometric.x * p.x) + std::abs(at.geometric.y * p.y) +
-                                     std::abs(at.geometric.z * p.z));
-  const double aside = 1e-9 * std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+  const double aside = 1e-9 * std::max({std::abs(at.p.x), std::abs(at.p.y), std::abs(at.p.z)});
   const double doubles = 0x1p-46 * static_cast<double>(manifest_.scale);
+  const double distance = 3 * rounding_along(at.geometric, at.p) + aside + doubles;
   const double side = dot(direction, at.geometric) >= 0 ? 1 : -1;
-  return cast<float>(at.p + at.geometric * (side * (3 * rounding + aside + doubles)));
+  return cast<float>(at.p + at.geometric * (side * distance));
 }
 
 Interaction PathTracer::interaction_at(const Path& path) const {
@@ -90,13 +89,19 @@ const Surface& PathTracer::surface_at(const Path& path) const {
 
 double PathTracer::cone_unit() const { return std::max(1e-30, static_cast<double>(manifest_.scale)); }
 
+// Between the rays of a pixel's samples, in rad: they lie the closer the more of them there are. A sample
+// does not know how many will follow, as a render may be resumed to have more, so each counts those before
+// it. Not less than an eighth of a pixel.
+double PathTracer::ray_angle(const Path& path) const {
+  return scene_.pixel_angle * std::max(0.125, 1 / std::sqrt(1.0 + path.sample));
+}
+
 // At a distance (Akenine-Möller et al., "Texture Level of Detail Strategies for Real-Time Ray
-// Tracing", 2019): it widens by the angle of a pixel, and after a scattering by a tenth of the width of a
+// Tracing", 2019): it widens by the angle between rays, and after a scattering by a tenth of the width of a
 // lobe of that density.
 double PathTracer::cone_width(const Path& path, double distance) const {
-  const double angle = path.pdf > 0
-                           ? std::max(scene_.pixel_angle, 0.1 / std::sqrt(static_cast<double>(path.pdf)))
-                           : scene_.pixel_angle;
+  double angle = ray_angle(path);
+  if (path.pdf > 0) angle = std::max(angle, 0.1 / std::sqrt(static_cast<double>(path.pdf)));
   return cone_value(path.cone) * cone_unit() + std::min(angle, 1.0) * distance;
 }
 

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tracer/rounding.h"
+
 namespace vitrail {
 
 namespace {
@@ -21,9 +23,12 @@ struct Holder {
   Affine to_bundle{};
   std::size_t corner[3] = {0, 1, 2};  // of the stored triangle that the placed one's come from
 
-  Point3f vertex(const Cluster& cluster, std::uint32_t lane, std::size_t k) const {
+  Point3f stored(const Cluster& cluster, std::uint32_t lane, std::size_t k) const {
     const auto& v = cluster.vertex[corner[k]];
-    const Point3f p{v[0][lane], v[1][lane], v[2][lane]};
+    return {v[0][lane], v[1][lane], v[2][lane]};
+  }
+  Point3f vertex(const Cluster& cluster, std::uint32_t lane, std::size_t k) const {
+    const Point3f p = stored(cluster, lane, k);
     return is_object ? placed(to_bundle, p) : p;
   }
   std::uint32_t normal(const ClusterNormals& normals, std::uint32_t lane, std::size_t k) const {
@@ -106,6 +111,30 @@ Interaction make_interaction(const DomainView& domain, const Hit& hit, Vector3f 
       std::ranges::copy(v[holder.corner[k]], at.attributes[slot].corners[k].begin());
   }
   return at;
+}
+
+double normal_doubt(const DomainView& domain, const Hit& hit, bool shading) {
+  const Holder holder = holder_of(domain, hit);
+  // Of a normal's code, of 16 bits a coordinate; a placed normal is coded twice.
+  constexpr double code_rounding = 6.5e-5;
+  if (shading) return holder.is_object ? 2 * code_rounding : code_rounding;
+
+  const Cluster& cluster = holder.content.clusters[hit.cluster];
+  std::array<Point3d, 3> p;
+  for (std::size_t k = 0; k < 3; ++k) p[k] = cast<double>(holder.vertex(cluster, hit.lane, k));
+  const Vector3d e1 = p[1] - p[0], e2 = p[2] - p[0], across = cross(e1, e2), normal = normalize(across);
+  const auto& m = holder.to_bundle.m;
+  const auto column = [&](std::size_t j) {
+    return normal.x * m[0][j] + normal.y * m[1][j] + normal.z * m[2][j];
+  };
+  const Vector3d local_normal{column(0), column(1), column(2)};
+  std::array<double, 3> off;
+  for (std::size_t k = 0; k < 3; ++k) {
+    off[k] = rounding_along(normal, p[k]);
+    if (holder.is_object)
+      off[k] += rounding_along(local_normal, cast<double>(holder.stored(cluster, hit.lane, k)));
+  }
+  return tilt_of(e1, e2, length(across), off);
 }
 
 }  // namespace vitrail

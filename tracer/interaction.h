@@ -38,4 +38,8 @@ struct Interaction {
 Interaction make_interaction(const DomainView& domain, const Hit& hit, Vector3f direction, double cone_width,
                              std::uint32_t attributes);
 
+// What the rounding of what is stored can turn its normal by, in rad: of the shading normal, or the
+// surface's.
+double normal_doubt(const DomainView& domain, const Hit& hit, bool shading);
+
 }  // namespace vitrail

@@ -15,7 +15,9 @@ struct PathTracer::Path {
   std::uint8_t flags = 0;
   float pdf = 0;            // of the last scattering, solid angle, already rounded; 0: specular or camera
   FaceCode entered_by;      // in a pane: the face it came in through
-  double travelled = 0;     // since the last scattering, straight through surfaces; already rounded
+  std::uint32_t aim = 0;    // of a connection: bits of a RefractedAim or a StraightAim
+  double travelled = 0;     // since the last scattering, straight through surfaces; of a straight connection
+                            // what is left, in lengths of its direction; already rounded
   std::uint8_t inside = 0;  // state of Interiors
   std::uint8_t cone = 0;    // cone_code of its width where it starts; 0 of connections
   SampledSpectrum throughput;

@@ -15,7 +15,6 @@ TraceCounters& operator+=(TraceCounters& a, const TraceCounters& b) {
   a.rays_indirect += b.rays_indirect;
   a.rays_shadow += b.rays_shadow;
   a.crossings += b.crossings;
-  a.nonfinite_samples += b.nonfinite_samples;
   a.born += b.born;
   a.died += b.died;
   return a;
@@ -70,7 +69,7 @@ void PathTracer::trace_camera(int x, int y, std::uint32_t sample) {
   path.inside = scene_.interiors.state_in(manifest_.camera_medium);
   path.direction = ray.direction;
   path.ray = {ray.origin, decode_direction(ray.direction), no_triangle};
-  film_.count_sample(path.pixel);
+  film_.count_sample(path.pixel, sample);
   ++counters_.rays_camera;
   ++counters_.born;
   run(path, std::nullopt);
@@ -90,6 +89,7 @@ void PathTracer::resume(const PathRecord& record, std::uint32_t domain) {
   std::array<std::uint8_t, 3> travelled = std::to_array(record.travelled);
   if (has_cone(path)) path.cone = std::exchange(travelled[0], std::uint8_t{0});
   path.travelled = static_cast<double>(unpack_radiance(travelled.data()));
+  if (path.is(path_connection)) unpack_connection(record, path);
   path.inside = record.inside;
   path.direction = record.direction;
   path.ray = {{record.origin[0], record.origin[1], record.origin[2]},
@@ -177,6 +177,7 @@ bool PathTracer::forward(const Path& path, std::uint32_t domain, bool resolved) 
   const std::uint32_t face = path.is(path_in_pane) ? path.entered_by.bits : 0;
   r.pdf = path.is(path_in_pane) ? static_cast<std::uint16_t>(face) : pdf_code(path.pdf);
   r.flags = static_cast<std::uint8_t>(path.flags | (resolved ? path_resolved : 0) | face >> 16 << 4);
+  if (path.is(path_connection)) pack_connection(path, r);
   outbox_.paths.push_back({domain, r});
   return false;
 }
@@ -229,14 +230,10 @@ void PathTracer::trace_shadow(const ShadowRecord& record, const SensorWeights* w
 
 void PathTracer::deposit(std::uint32_t pixel, std::uint32_t sample, const SensorWeights& weights,
                          const SampledSpectrum& radiance) {
-  if (!film_.deposit(pixel, sample, sense(weights, radiance))) {
-    ++counters_.nonfinite_samples;
-    return;
-  }
-  if (film_.bins().count == 0) return;
+  if (!film_.deposit(pixel, sample, sense(weights, radiance)) || film_.bins().count == 0) return;
   for (std::size_t i = 0; i < hero_count; ++i) {
     const double value = static_cast<double>(radiance.v[i]) * static_cast<double>(weights.spectral[i]);
-    if (value != 0 && !film_.deposit_bin(pixel, weights.bin[i], value)) ++counters_.nonfinite_samples;
+    if (value != 0) film_.deposit_bin(pixel, sample, weights.bin[i], value);
   }
 }
 

@@ -34,8 +34,7 @@ struct Outbox {
 
 struct TraceCounters {
   std::uint64_t rays_camera = 0, rays_indirect = 0, rays_shadow = 0;
-  std::uint64_t crossings = 0;          // domains entered after the first one of a ray
-  std::uint64_t nonfinite_samples = 0;  // deposits that were refused
+  std::uint64_t crossings = 0;  // domains entered after the first one of a ray
   // Rays alive: paths begun, and connections and shadow rays put into an outbox; the same when they end.
   std::uint64_t born = 0, died = 0;
 };
@@ -108,6 +107,7 @@ class PathTracer {
   std::uint64_t stream_of(const Path& path) const;
   double cone_unit() const;
   bool has_cone(const Path& path) const;
+  double ray_angle(const Path& path) const;
   double cone_width(const Path& path, double distance) const;
   void widen_cone(Path& path, double distance) const;
 
@@ -121,9 +121,11 @@ class PathTracer {
                        const SampledSpectrum& radiance, bool refracts);
   void send_shadow_ray(const Path& path, const Connection& connection, const LightSample& light,
                        const SampledSpectrum& radiance);
-  static void set_end(Path& connection, double distance);
   bool connect_onwards(Path& path);
+  bool connect_straight(Path& path, const Interaction& at, const Surface& surface);
   bool refract_connection(Path& path, const Interaction& at, const Surface& surface) const;
+  static void pack_connection(const Path& path, PathRecord& record);
+  static void unpack_connection(const PathRecord& record, Path& path);
 
   void trace_shadow(const ShadowRecord& record, const SensorWeights* weights,
                     std::optional<std::uint32_t> at);

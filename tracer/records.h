@@ -26,7 +26,8 @@ enum PathFlags : std::uint8_t {
   path_connection = 2,  // on its way to a light through what lets light straight through; `throughput` is the
                         // radiance that it will deposit
   path_resolved = 4,    // the hit is certain: to be shaded in hit_domain
-  path_in_pane = 8,     // inside a dispersive medium, all wavelengths alive: the face it entered by is known
+  path_in_pane = 8,     // inside a dispersive medium, all wavelengths alive: the face it entered by is known;
+                        // of a connection: smooth interfaces refract it
 };
 
 #pragma pack(push, 1)
@@ -43,10 +44,12 @@ struct PathRecord {
   std::uint32_t pixel;
   std::uint32_t sample_depth;  // sample << 8 | depth
   std::uint16_t pdf;           // of the last scattering, solid angle, as pdf_code; 0: specular or camera.
-                               // In a pane: low 16 bits of the FaceCode
-  std::uint8_t flags;          // PathFlags, and above them 4 bits: high bits of the FaceCode
-  // Since the last scattering, straight through surfaces; of a connection, what is left to its light; as
-  // radiance_code. Where images are filtered, a path has the cone_code of its ray's width in the lowest byte.
+                               // In a pane: low 16 bits of the FaceCode; of a connection, of its aim, or
+                               // where that is straight of its end_code
+  std::uint8_t flags;          // PathFlags, and above them 4 bits: high bits of the FaceCode or the aim
+  // Since the last scattering, straight through surfaces, as radiance_code. Where images are filtered, a path
+  // has the cone_code of its ray's width in the lowest byte. Of a straight connection: what is left to its
+  // light, the high bits of the end_code.
   std::uint8_t travelled[3];
   std::uint8_t inside;  // state of Interiors
 };

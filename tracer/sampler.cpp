@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tracer/sampler.h"
 
+#include "film/sample_groups.h"
+
 namespace vitrail {
 
 namespace {
@@ -86,13 +88,15 @@ double RandomStream::next() {
 }
 
 std::array<float, 4> sample_4d(const SampleKey& key, std::uint32_t set) {
+  const std::uint64_t group = group_of(key.sample);
   const std::uint64_t h =
-      mix(mix(key.seed + 0x9e3779b97f4a7c15ull) ^ (static_cast<std::uint64_t>(key.pixel) << 32 | set));
+      mix((mix(key.seed + 0x9e3779b97f4a7c15ull) ^ (static_cast<std::uint64_t>(key.pixel) << 32 | set)) +
+          group * 0x632be59bd9b4e019ull);
   const std::uint64_t h2 = mix(h + 0x9e3779b97f4a7c15ull), h3 = mix(h + 2 * 0x9e3779b97f4a7c15ull);
   // Shuffling is an Owen scramble of the index: every power-of-two prefix stays one aligned, stratified
   // block.
-  const std::uint32_t index =
-      reverse_bits(scramble_reversed(reverse_bits(key.sample), static_cast<std::uint32_t>(h)));
+  const std::uint32_t index = reverse_bits(
+      scramble_reversed(reverse_bits(index_in_group(key.sample)), static_cast<std::uint32_t>(h)));
   std::array<std::uint32_t, 4> bits{index, 0, 0, 0};  // reversed; the first dimension is the radical inverse
   for (std::size_t d = 0; d < 3; ++d) {
     const ByteTable& t = tables[d];

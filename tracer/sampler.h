@@ -15,8 +15,9 @@ struct SampleKey {
   std::uint32_t sample = 0;
 };
 
-// Four numbers in [0,1), the coordinates of point `sample` of a scrambled Sobol' sequence of its own for each
-// (seed, pixel, set). Sets are statistically independent of each other.
+// Four numbers in [0,1), the coordinates of a point of a scrambled Sobol' sequence of its own for each (seed,
+// pixel, set, group of samples): the samples of a group (film/sample_groups.h) are its points in turn. Sets
+// and groups are statistically independent of each other.
 std::array<float, 4> sample_4d(const SampleKey& key, std::uint32_t set);
 
 // One number in [0,1) for anything else that is decided along a path, a function of (key, a, b).

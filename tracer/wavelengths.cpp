@@ -84,6 +84,10 @@ void add_bins(SensorWeights& w, const SampledWavelengths& wavelengths, double sc
 
 }  // namespace
 
+double greatest_bin_weight(const SpectralBins& into) {
+  return bins / (floor_share * hero_count * into.width_nm());
+}
+
 SensorWeights sensor_weights(const SampledWavelengths& wavelengths, double scale, const SpectralBins& into) {
   SensorWeights w;
   if (into.count > 0) add_bins(w, wavelengths, scale, into);

@@ -27,6 +27,9 @@ struct SensorWeights {
 SensorWeights sensor_weights(const SampledWavelengths& wavelengths, double scale = 1,
                              const SpectralBins& bins = {});
 
+// SensorWeights::spectral is nowhere greater.
+double greatest_bin_weight(const SpectralBins& bins);
+
 inline XYZ sense(const SensorWeights& w, const SampledSpectrum& radiance) {
   XYZ sum;
   for (std::size_t i = 0; i < hero_count; ++i) {

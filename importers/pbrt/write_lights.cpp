@@ -111,7 +111,7 @@ class LightWriter {
 
 constexpr std::array kinds{"point",   "spot",     "projection", "goniometric",
                            "distant", "infinite", "environment"};
-static_assert(kinds.size() == std::variant_size_v<LightModel>);
+static_assert(kinds.size() == std::variant_size_v<LightVariant>);
 
 }  // namespace
 

@@ -29,9 +29,7 @@ import numpy as np
 from plain_scene import plain_scene
 
 HERE = pathlib.Path(__file__).resolve().parent
-CORPUS = HERE.parents[2] / "shared/corpus"
-if not CORPUS.exists():
-    CORPUS = pathlib.Path("/work/shared/corpus")
+CORPUS = pathlib.Path(os.environ.get("VITRAIL_CORPUS", HERE.parents[2] / "shared/corpus"))
 SCENES = ["bsdf_spheres/test_arealight_path.xml", "bsdf_spheres/test_envmap_path.xml",
           "various_shapes/test_various_shapes_path.xml"]
 PEERS = ["scalar_spectral", "llvm_ad_spectral"]

@@ -3,7 +3,6 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/resource.h>
 #include <unistd.h>
 
 #include <bit>
@@ -15,6 +14,7 @@
 
 #include "importers/import.h"
 #include "importers/ply/ply.h"
+#include "scene/resource_usage.h"
 #ifdef VITRAIL_BENCH_TINYOBJLOADER
 #include <tiny_obj_loader.h>
 #endif
@@ -36,15 +36,6 @@ std::uint64_t process_memory(const std::string& name) {
     if (word == name && status >> kibibytes) return kibibytes * 1024;
   }
   throw std::runtime_error("no " + name + " in /proc/self/status");
-}
-
-double cpu_seconds() {
-  rusage usage{};
-  ::getrusage(RUSAGE_SELF, &usage);
-  const auto seconds = [](const timeval& t) {
-    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
-  };
-  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
 template <class Read>

@@ -4,7 +4,6 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/repair_polygon_soup.h>
 #include <fmt/format.h>
-#include <sys/resource.h>
 
 #include <ctime>
 #include <functional>
@@ -15,7 +14,8 @@
 #include "partitioner/meshes/orient.h"
 #include "partitioner/meshes/repair.h"
 #include "partitioner/meshes/subdivide.h"
-#include "tests/partitioner/test_scenes.h"
+#include "scene/resource_usage.h"
+#include "tests/support/test_scenes.h"
 
 namespace vitrail {
 namespace {
@@ -26,10 +26,8 @@ void measure(const char* what, std::size_t triangles, const std::function<std::s
   const double start = processor_s();
   const std::size_t result = work();
   const double seconds = processor_s() - start;
-  rusage usage{};
-  ::getrusage(RUSAGE_SELF, &usage);
   fmt::print("  {:22} {:9.2f} s a million triangles, {} became {}; peak {} MB\n", what,
-             seconds * 1e6 / static_cast<double>(triangles), triangles, result, usage.ru_maxrss / 1024);
+             seconds * 1e6 / static_cast<double>(triangles), triangles, result, peak_resident_bytes() >> 20);
 }
 
 std::size_t repair_by_cgal(const TriangleMesh& mesh) {

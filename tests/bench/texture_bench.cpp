@@ -5,7 +5,7 @@
 #include <random>
 
 #include "bundle/texture_file.h"
-#include "partitioner/bake_image.h"
+#include "partitioner/appearance/bake_image.h"
 #include "scene/rgb_to_spectrum.h"
 #include "tests/support/temporary_directory.h"
 #include "tracer/textures/textures.h"

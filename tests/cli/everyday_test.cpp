@@ -133,6 +133,7 @@ TEST(Everyday, StatisticsKeepTheirContract) {
                           "peak_rss_bytes",
                           "base_rss_bytes",
                           "nonfinite_samples",
+                          "saturated_samples",
                           "film_hash"})
     EXPECT_TRUE(read_json(r).contains(key)) << key;
 }

@@ -6,10 +6,10 @@
 
 #include "importers/export.h"
 #include "importers/import.h"
-#include "tests/partitioner/test_scenes.h"
 #include "tests/support/command.h"
 #include "tests/support/render.h"
 #include "tests/support/temporary_directory.h"
+#include "tests/support/test_scenes.h"
 
 namespace vitrail {
 namespace {

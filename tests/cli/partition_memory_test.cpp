@@ -15,9 +15,9 @@
 
 #include "importers/ply/write_ply.h"
 #include "tests/partitioner/bundle_contents.h"
-#include "tests/partitioner/test_scenes.h"
 #include "tests/support/command.h"
 #include "tests/support/temporary_directory.h"
+#include "tests/support/test_scenes.h"
 
 namespace vitrail::test {
 namespace {

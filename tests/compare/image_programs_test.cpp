@@ -12,19 +12,20 @@
 namespace vitrail::test {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 
 class ImagePrograms : public testing::Test {
  protected:
   // A film of 16 samples a pixel, the luminance of sample s being 1 or 3 in turn; returns its name, quoted.
-  std::string film(const std::string& name, std::uint64_t seed, std::uint64_t scene = 1) {
+  std::string film(const std::string& name, std::uint64_t seed, std::uint64_t scene = 1, int max_depth = 5) {
     FilmSettings settings;
     settings.width = settings.height = 8;
     settings.crop = {0, 8, 0, 8};
-    Film f(settings, {scene, 2, seed});
+    Film f(settings, {scene, seed, max_depth});
     for (std::uint32_t p = 0; p < 64; ++p)
       for (std::uint32_t s = 0; s < 16; ++s) {
-        f.count_sample(p);
+        f.count_sample(p, s);
         f.deposit(p, s, srgb_to_xyz(s % 2 == 0 ? RGB{1, 1, 1} : RGB{3, 3, 3}));
       }
     write_film(directory_ / name, f, {1, 16, {1}, 1});
@@ -63,6 +64,11 @@ TEST_F(ImagePrograms, DevelopRefusesDoubleSeedsAndStrangers) {
   const CommandResult mixed = develop(a + ' ' + other + " -o " + quoted("x.exr"));
   EXPECT_EQ(mixed.status, 3);
   EXPECT_THAT(mixed.output, HasSubstr("different scenes"));
+  const std::string deeper = film("deeper.film", 3, 1, 8);
+  const CommandResult unequal = develop(a + ' ' + deeper + " -o " + quoted("x.exr"));
+  EXPECT_EQ(unequal.status, 3);
+  EXPECT_THAT(unequal.output, HasSubstr("their depths differ: 5 and 8"));
+  EXPECT_THAT(unequal.output, AllOf(HasSubstr("a.film"), HasSubstr("deeper.film")));
   EXPECT_FALSE(std::filesystem::exists(directory_ / "x.exr"));
 }
 

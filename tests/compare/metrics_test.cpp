@@ -19,7 +19,7 @@ const Image reference{2, 1, 3, {1, 1, 1, 0, 0, 0}};
 const Image image{2, 1, 3, {1.5f, 1, 1, 0, 0.2f, 0}};
 
 double value(Metric metric, const Image& a = image, const Image& b = reference) {
-  return compare({&a, &b, {}, 0}, metric, std::nullopt).value;
+  return compare({&a, &b, {}, {}}, metric, std::nullopt).value;
 }
 
 TEST(Metrics, KnownValues) {
@@ -59,28 +59,28 @@ TEST(Metrics, RatiosAreOfTheMeans) {
 TEST(Comparison, NonFinitePixelsAreLeftOutCountedAndFail) {
   Image bad = image;
   bad.values[1] = nan;
-  const Comparison c = compare({&bad, &reference, {}, 0}, Metric::mse, std::nullopt);
+  const Comparison c = compare({&bad, &reference, {}, {}}, Metric::mse, std::nullopt);
   EXPECT_NEAR(c.value, 0.04 / 3, 1e-8);
   EXPECT_EQ(c.nonfinite_image, 1u);
   EXPECT_EQ(c.nonfinite_reference, 0u);
   EXPECT_FALSE(c.passed);
-  EXPECT_FALSE(compare({&reference, &bad, {}, 0}, Metric::bitwise, 1.0).passed);
+  EXPECT_FALSE(compare({&reference, &bad, {}, {}}, Metric::bitwise, 1.0).passed);
 }
 
 TEST(Comparison, ThresholdDecides) {
-  EXPECT_TRUE(compare({&image, &reference, {}, 0}, Metric::mae, 0.12).passed);
-  EXPECT_FALSE(compare({&image, &reference, {}, 0}, Metric::mae, 0.11).passed);
-  EXPECT_FALSE(compare({&image, &reference, {}, 0}, Metric::bitwise, std::nullopt).passed);
+  EXPECT_TRUE(compare({&image, &reference, {}, {}}, Metric::mae, 0.12).passed);
+  EXPECT_FALSE(compare({&image, &reference, {}, {}}, Metric::mae, 0.11).passed);
+  EXPECT_FALSE(compare({&image, &reference, {}, {}}, Metric::bitwise, std::nullopt).passed);
 }
 
 TEST(Comparison, SizesMustAgree) {
   const Image larger = black_image(3, 1, 3);
   for (const std::string& name : metric_names())
-    EXPECT_THROW(compare({&image, &larger, {0, 0, 0}, 0}, *metric_of(name), std::nullopt), Error) << name;
+    EXPECT_THROW(compare({&image, &larger, {0, 0, 0}, {}}, *metric_of(name), std::nullopt), Error) << name;
 }
 
 TEST(Comparison, JsonIsFlat) {
-  const auto json = nlohmann::json::parse(to_json(compare({&image, &reference, {}, 0}, Metric::mae, 0.5)));
+  const auto json = nlohmann::json::parse(to_json(compare({&image, &reference, {}, {}}, Metric::mae, 0.5)));
   EXPECT_EQ(json["metric"], "mae");
   EXPECT_EQ(json["passed"], true);
   EXPECT_EQ(json["threshold"], 0.5);

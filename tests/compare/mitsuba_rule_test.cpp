@@ -47,7 +47,7 @@ Pictures pictures(XYZ of_sample, double bias_of_z, unsigned seed) {
 }
 
 Comparison by_mitsubas_rule(const Pictures& p, double mean_within = 0.01) {
-  return compare({&p.image, &p.reference, mitsuba_variance(p.variance, samples), 0}, Metric::ztest,
+  return compare({&p.image, &p.reference, mitsuba_variance(p.variance, samples), {}}, Metric::ztest,
                  std::nullopt, mean_within);
 }
 

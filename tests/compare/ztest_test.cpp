@@ -41,7 +41,7 @@ Image noisy(double sigma, double bias, unsigned seed) {
 }
 
 Comparison test(const Image& image, std::vector<double> variance) {
-  return compare({&image, &grey, std::move(variance), 0}, Metric::ztest, std::nullopt);
+  return compare({&image, &grey, std::move(variance), {}}, Metric::ztest, std::nullopt);
 }
 Comparison test(const Image& image, double variance) {
   return test(image, std::vector<double>(image.pixels(), variance));
@@ -56,7 +56,7 @@ TEST(ZTest, PassesNoiseOfTheVarianceGiven) {
 }
 
 TEST(ZTest, CorrectionIsSidaks) {
-  const ZTest t = ztest({&grey, &grey, std::vector<double>(grey.pixels(), 1), 0});
+  const ZTest t = ztest({&grey, &grey, std::vector<double>(grey.pixels(), 1), {}});
   EXPECT_NEAR(std::pow(1 - t.value_significance, side * side), 0.99, 1e-9);
 }
 
@@ -83,29 +83,83 @@ TEST(ZTest, CountsNotANumberAsFailed) {
   EXPECT_FALSE(c.passed);
 }
 
-// The groups' variance has few degrees of freedom: with Student's distribution the right share of pixels
-// passes.
-TEST(ZTest, HoldsForTheVarianceOfAFilm) {
+// Samples of a luminance with mean `mean` and standard deviation `sigma`, both functions of the pixel.
+template <class Mean, class Sigma>
+Picture pictured(unsigned seed, std::uint32_t samples, Mean mean, Sigma sigma) {
   FilmSettings settings;
   settings.width = settings.height = side;
   settings.crop = {0, side, 0, side};
   Film film(settings, {});
-  std::mt19937 random(7);
-  std::uniform_real_distribution<double> uniform(0, 1);
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> uniform(-std::sqrt(3.0), std::sqrt(3.0));  // of variance 1
+  const XYZ white = srgb_to_xyz({1, 1, 1});
   for (std::uint32_t p = 0; p < side * side; ++p)
-    for (std::uint32_t s = 0; s < 16; ++s) {
-      const XYZ white = srgb_to_xyz({1, 1, 1});
-      const double y = uniform(random);
-      film.count_sample(p);
+    for (std::uint32_t s = 0; s < samples; ++s) {
+      const double y = mean(p) + sigma(p) * uniform(random);
+      film.count_sample(p, s);
       film.deposit(p, s, {y * white.x, y * white.y, y * white.z});
     }
-  const Picture picture = develop(film);
-  const auto run = [&](int degrees_of_freedom) {
-    return compare({&picture.rgb, &grey, luminance_variance(picture.variance), degrees_of_freedom},
-                   Metric::ztest, std::nullopt);
-  };
-  EXPECT_LE(run(luminance_groups - 1).value, 2e-4);
-  EXPECT_GT(run(0).value, 1e-3);  // taken for normal, too many would fail
+  return develop(film);
+}
+
+Comparison against_grey(const Picture& picture) {
+  const EstimatedVariance own{&picture.variance, sample_groups - 1};
+  PooledVariance known = pooled(std::span(&own, 1));
+  return compare({&picture.rgb, &grey, known.variance, known.degrees_of_freedom}, Metric::ztest,
+                 std::nullopt);
+}
+
+const auto half = [](std::uint32_t) { return 0.5; };
+const auto one = [](std::uint32_t) { return 1.0; };
+
+TEST(ZTest, HoldsForTheVarianceOfAFilm) {
+  const Picture picture = pictured(7, 16, half, one);
+  EXPECT_LE(against_grey(picture).value, 2e-4);
+  const std::vector<float>& own = picture.variance.values;
+  const ZTestInput alone{&picture.rgb, &grey, {own.begin(), own.end()}, std::vector<int>(own.size(), 1)};
+  EXPECT_LE(compare(alone, Metric::ztest, std::nullopt).value, 2e-4);
+  const ZTestInput normal{&picture.rgb, &grey, {own.begin(), own.end()}, {}};
+  EXPECT_GT(compare(normal, Metric::ztest, std::nullopt).value, 1e-3);  // too many would fail
+}
+
+// Edges, and single pixels with a hundred times the variance of those around them.
+TEST(ZTest, HoldsWhereVariancesDiffer) {
+  for (unsigned seed = 0; seed < 3; ++seed) {
+    const auto edges = [](std::uint32_t p) { return p % side < side / 2 ? 1.0 : 0.01; };
+    EXPECT_TRUE(against_grey(pictured(seed, 16, half, edges)).passed);
+    const auto spots = [](std::uint32_t p) { return p % 97 == 0 ? 1.0 : 0.1; };
+    EXPECT_TRUE(against_grey(pictured(seed, 16, half, spots)).passed);
+  }
+}
+
+// A twentieth of the pixels is off by eight standard errors of the mean: each by itself, with its one degree
+// of freedom, would have to be off by a hundred thousand to be found.
+TEST(ZTest, FindsABiasOfAFewStandardErrors) {
+  const auto biased = [](std::uint32_t p) { return p % 20 == 0 ? 0.5 + 8 / std::sqrt(16.0) : 0.5; };
+  const Picture picture = pictured(3, 16, biased, one);
+  const Comparison found = against_grey(picture);
+  EXPECT_FALSE(found.passed);
+  EXPECT_GT(found.value, 0.035);
+  EXPECT_LT(found.value, 0.0505);
+}
+
+TEST(PooledVariance, CountsDegreesOfFreedom) {
+  const Image even{9, 9, 1, std::vector<float>(81, 2)};
+  const EstimatedVariance part{&even, 3};
+  const PooledVariance alone = pooled(std::span(&part, 1));
+  EXPECT_EQ(alone.variance, std::vector<double>(81, 2));
+  EXPECT_EQ(alone.degrees_of_freedom[40], 3 * 49);  // no more than 49 estimates have
+  EXPECT_EQ(alone.degrees_of_freedom[0], 3 * 16);
+  const std::vector<EstimatedVariance> two{part, part};
+  EXPECT_EQ(pooled(two).variance, std::vector<double>(81, 4));
+  EXPECT_EQ(pooled(two).degrees_of_freedom[40], 3 * 98);
+  Image spot{9, 9, 1, std::vector<float>(81, 0)};
+  spot.values[40] = 49;
+  const EstimatedVariance single{&spot, 3};
+  const PooledVariance lonely = pooled(std::span(&single, 1));
+  EXPECT_EQ(lonely.variance[40], 49);
+  EXPECT_EQ(lonely.variance[41], 1);
+  EXPECT_EQ(lonely.degrees_of_freedom[40], 5);
 }
 
 }  // namespace

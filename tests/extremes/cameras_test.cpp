@@ -9,7 +9,7 @@
 #include "bundle/manifest.h"
 #include "partitioner/partition.h"
 #include "tests/extremes/measure.h"
-#include "tests/partitioner/test_scenes.h"
+#include "tests/support/test_scenes.h"
 #include "tests/support/temporary_directory.h"
 
 namespace vitrail::test {

@@ -2,6 +2,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#define XXH_INLINE_ALL
+#include <xxhash.h>
+
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -21,12 +25,13 @@ class FilmFile : public testing::Test {
     settings.crop = {2, 7, 1, 4};
     settings.imaging_ratio = 0.25;
     settings.spectrum = {3, 400, 700};
-    film_ = Film(settings, {11, 22, 33});
+    film_ = Film(settings, {11, 33, 7, true, false}, -61);
     for (std::uint32_t p = 0; p < 15; ++p) {
-      film_.count_sample(p);
+      film_.count_sample(p, p);
       film_.deposit(p, p, {0.1 * p, 0.2 * p, 0.3 * p});
-      film_.deposit_bin(p, p % 3, 0.5 * p);
+      film_.deposit_bin(p, p, p % 3, 0.5 * p);
     }
+    film_.deposit(0, 0, {1e30, 0, 0});
     progress_ = {70, 16, {0xff, 0x3f}, 1.5};
     write_film(file_, film_, progress_);
   }
@@ -60,6 +65,9 @@ TEST_F(FilmFile, ComesBackAsItWas) {
   const Film film = read_film(file_, &progress);
   EXPECT_EQ(film.hash(), film_.hash());
   EXPECT_EQ(film.key(), film_.key());
+  EXPECT_EQ(film.key().renderer, this_renderer());
+  EXPECT_EQ(film.exponent(), -61);
+  EXPECT_EQ(film.refused(), (Refused{0, 1}));
   EXPECT_EQ(film.crop(), film_.crop());
   EXPECT_EQ(film.full_width(), 10);
   EXPECT_EQ(film.full_height(), 8);
@@ -87,6 +95,25 @@ TEST_F(FilmFile, EveryChangedByteIsFound) {
   }
 }
 
+// A header whose checksum is right may still make no sense.
+TEST_F(FilmFile, SenselessHeadersAreFound) {
+  struct Field {
+    std::size_t offset;
+    std::uint32_t value;
+  };
+  const std::string good = bytes();
+  for (const Field& f : {Field{16, 2000000}, Field{20, 1}, Field{36, 5000}, Field{116, 0x41414141},
+                         Field{124, 0x80000000}, Field{128, 4}, Field{132, 901}, Field{132, 0x80000000}}) {
+    std::string bad = good;
+    std::memcpy(bad.data() + f.offset, &f.value, sizeof f.value);
+    if (f.offset == 116) bad.replace(104, 16, 16, 'A');
+    const std::uint64_t sum = XXH3_64bits(bad.data(), 152);
+    std::memcpy(bad.data() + 152, &sum, sizeof sum);
+    overwrite(bad);
+    EXPECT_THROW(read_film(file_, nullptr), Error) << "offset " << f.offset;
+  }
+}
+
 TEST_F(FilmFile, EveryTruncationIsFound) {
   const std::string good = bytes();
   for (std::size_t length = 0; length < good.size(); ++length) {
@@ -104,8 +131,8 @@ TEST_F(FilmFile, SaysWhatIsWrong) {
   overwrite(other_version);
   expect_error("version 9");
   overwrite(
-      "not a film but long enough to hold a header, which is one hundred and four bytes long, and a little "
-      "more");
+      "not a film but long enough to hold a header, which is one hundred and sixty bytes long, and a little "
+      "more, so that it is not found too short before anything of it is looked at: that takes a few words");
   expect_error("not a film file");
   std::string bad_sum = good;
   bad_sum[good.size() - 20] ^= 1;

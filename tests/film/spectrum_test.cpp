@@ -17,27 +17,27 @@ Film film(std::uint64_t seed, const SpectralBins& kept = bins) {
   settings.crop = {0, 3, 0, 2};
   settings.imaging_ratio = 0.5;
   settings.spectrum = kept;
-  return Film(settings, {1, 2, seed});
+  return Film(settings, {1, seed});
 }
 
 TEST(SpectralFilm, KeepsMeansBesideXyz) {
   Film f = film(1);
-  for (int i = 0; i < 4; ++i) f.count_sample(5);
-  EXPECT_TRUE(f.deposit_bin(5, 3, 6));
-  EXPECT_TRUE(f.deposit_bin(5, 3, -2));
-  EXPECT_TRUE(f.deposit_bin(5, 0, 8));
-  EXPECT_FALSE(f.deposit_bin(5, 0, std::numeric_limits<double>::infinity()));
+  for (std::uint32_t i = 0; i < 4; ++i) f.count_sample(5, i);
+  EXPECT_TRUE(f.deposit_bin(5, 0, 3, 6));
+  EXPECT_TRUE(f.deposit_bin(5, 0, 3, -2));
+  EXPECT_TRUE(f.deposit_bin(5, 1, 0, 8));
+  EXPECT_FALSE(f.deposit_bin(5, 2, 0, std::numeric_limits<double>::infinity()));
   EXPECT_EQ(f.mean_of_bin(5, 3), 0.5);
   EXPECT_EQ(f.mean_of_bin(5, 0), 1);
   EXPECT_EQ(f.mean_of_bin(4, 0), 0);
   EXPECT_EQ(f.mean(5).y, 0);
-  EXPECT_EQ(f.bytes(), 6u * (10 * 8 + 4 * 8 + 4));
+  EXPECT_EQ(f.bytes(), 6u * ((2 + sample_groups + 4) * 16 + sample_groups * 4));
 }
 
 TEST(SpectralFilm, MergesExactlyAndOnlyWithItsLike) {
   Film a = film(1), b = film(2);
-  a.count_sample(0), b.count_sample(0);
-  a.deposit_bin(0, 1, 1), b.deposit_bin(0, 1, 3);
+  a.count_sample(0, 0), b.count_sample(0, 0);
+  a.deposit_bin(0, 0, 1, 1), b.deposit_bin(0, 0, 1, 3);
   a.merge(b);
   EXPECT_EQ(a.mean_of_bin(0, 1), 1);
   EXPECT_THROW(a.merge(film(3, {4, 380, 770})), Error);
@@ -47,7 +47,7 @@ TEST(SpectralFilm, MergesExactlyAndOnlyWithItsLike) {
 TEST(SpectralFilm, HasAHashOfItsBins) {
   Film a = film(1);
   const std::uint64_t before = a.hash();
-  a.deposit_bin(0, 1, 1);
+  a.deposit_bin(0, 0, 1, 1);
   EXPECT_NE(a.hash(), before);
   EXPECT_EQ(film(1, {}).hash(), film(1, SpectralBins{0, 1, 2}).hash());
 }
@@ -60,8 +60,8 @@ TEST(SpectralFilm, RefusesBinsThatAreNone) {
 TEST(SpectralPicture, IsWrittenAndReadByTheNamesOfItsWavelengths) {
   Film f = film(1);
   for (std::uint32_t p = 0; p < 6; ++p) {
-    f.count_sample(p);
-    for (std::size_t b = 0; b < 4; ++b) f.deposit_bin(p, b, static_cast<double>(p + 10 * b));
+    f.count_sample(p, 0);
+    for (std::size_t b = 0; b < 4; ++b) f.deposit_bin(p, 0, b, static_cast<double>(p + 10 * b));
   }
   Picture picture = develop(f);
   expose(picture, 1);

@@ -10,8 +10,8 @@
 #include "partitioner/partition.h"
 #include "tests/laws/awkward_rays.h"
 #include "tests/laws/exact_oracle.h"
-#include "tests/partitioner/test_scenes.h"
 #include "tests/support/temporary_directory.h"
+#include "tests/support/test_scenes.h"
 #include "tracer/walk.h"
 
 namespace vitrail::test {

@@ -21,7 +21,7 @@ double closed_box(double albedo, int depth, double* expected, double* standard_e
   set_camera(scene, {0.1, 0.2, -0.3}, {0.4, 0, 1}, {0, 1, 0}, 1.2, 16, 16);
   scene.settings.max_depth = depth;
   const Rendered rendered = render(scene, 256);
-  EXPECT_EQ(rendered.stats.traced.nonfinite_samples, 0u);
+  EXPECT_EQ(rendered.stats.refused, Refused{});
   *expected = 0;
   for (int k = depth; k >= 0; --k) *expected = 1 + albedo * *expected;
   const Brightness result = brightness(rendered.film);

@@ -12,8 +12,8 @@
 #include "partitioner/partition.h"
 #include "tests/laws/edge_chain.h"
 #include "tests/laws/ghost_free.h"
-#include "tests/partitioner/test_scenes.h"
 #include "tests/support/temporary_directory.h"
+#include "tests/support/test_scenes.h"
 
 namespace vitrail::test {
 

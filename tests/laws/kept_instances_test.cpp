@@ -10,10 +10,10 @@
 #include "bundle/verify.h"
 #include "farm/residency.h"
 #include "partitioner/partition.h"
-#include "tests/partitioner/test_scenes.h"
 #include "tests/support/command.h"
 #include "tests/support/render.h"
 #include "tests/support/temporary_directory.h"
+#include "tests/support/test_scenes.h"
 
 namespace vitrail::test {
 namespace {

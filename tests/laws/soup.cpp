@@ -5,8 +5,8 @@
 #include <limits>
 #include <numeric>
 
-#include "partitioner/kd_plan.h"
-#include "partitioner/work_estimate.h"
+#include "partitioner/cutting/kd_plan.h"
+#include "partitioner/cutting/work_estimate.h"
 
 namespace vitrail::test {
 

@@ -4,7 +4,7 @@
 #include <numeric>
 
 #include "partitioner/divide_cell.h"
-#include "tests/partitioner/test_scenes.h"
+#include "tests/support/test_scenes.h"
 
 namespace vitrail::test {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a bundle keeps of a scene's appearance.
-#include "partitioner/appearance.h"
+#include "partitioner/appearance/appearance.h"
 
 #include <gtest/gtest.h>
 

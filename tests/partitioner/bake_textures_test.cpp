@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "partitioner/bake_textures.h"
+#include "partitioner/appearance/bake_textures.h"
 
 #include <random>
 

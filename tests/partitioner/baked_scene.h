@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "images/image_files.h"
-#include "partitioner/bake_textures.h"
+#include "partitioner/appearance/bake_textures.h"
 #include "scene/rgb_to_spectrum.h"
 #include "tests/support/temporary_directory.h"
 #include "tracer/textures/textures.h"

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "partitioner/choose_plane.h"
+#include "partitioner/cutting/choose_plane.h"
 
 #include <gtest/gtest.h>
 
 #include <array>
 
-#include "tests/partitioner/test_scenes.h"
+#include "tests/support/test_scenes.h"
 
 namespace vitrail {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "partitioner/cut.h"
+#include "partitioner/cutting/cut.h"
 
 #include <gtest/gtest.h>
 

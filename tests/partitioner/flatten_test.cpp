@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "partitioner/flatten.h"
+#include "partitioner/placing/flatten.h"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 
-#include "tests/partitioner/test_scenes.h"
+#include "tests/support/test_scenes.h"
 
 namespace vitrail {
 

@@ -11,8 +11,8 @@
 #include "bundle/verify.h"
 #include "scene/diagnostics.h"
 #include "tests/partitioner/bundle_contents.h"
-#include "tests/partitioner/test_scenes.h"
 #include "tests/support/temporary_directory.h"
+#include "tests/support/test_scenes.h"
 
 namespace vitrail {
 

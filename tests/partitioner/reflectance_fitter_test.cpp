@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "partitioner/reflectance_fitter.h"
+#include "partitioner/appearance/reflectance_fitter.h"
 
 #include <gtest/gtest.h>
 

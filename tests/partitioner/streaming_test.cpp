@@ -10,8 +10,8 @@
 #include "importers/ply/write_ply.h"
 #include "partitioner/partition.h"
 #include "tests/partitioner/bundle_contents.h"
-#include "tests/partitioner/test_scenes.h"
 #include "tests/support/temporary_directory.h"
+#include "tests/support/test_scenes.h"
 
 namespace vitrail {
 

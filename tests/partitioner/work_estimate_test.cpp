@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "partitioner/work_estimate.h"
+#include "partitioner/cutting/work_estimate.h"
 
 #include <gtest/gtest.h>
 

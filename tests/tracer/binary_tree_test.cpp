@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "partitioner/binary_tree.h"
+#include "partitioner/hierarchy/binary_tree.h"
 
 #include <embree3/rtcore.h>
 #include <gtest/gtest.h>

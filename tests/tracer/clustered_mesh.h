@@ -5,7 +5,7 @@
 #include <array>
 #include <vector>
 
-#include "partitioner/build_bvh.h"
+#include "partitioner/hierarchy/build_bvh.h"
 #include "tracer/intersect/exact_test.h"
 #include "tracer/intersect/intersector.h"
 

@@ -300,14 +300,19 @@ TEST(LightSampler, EmitsOnItsFrontOrBothSides) {
   EXPECT_EQ(emitted(s, 1, {}, -0.3, test::some_wavelengths())[0], 3);
 }
 
-TEST(LightSampler, RecognisesDirectionsToDistantLights) {
+TEST(LightSampler, KnowsDistantLightsByTheirNumbers) {
   World world;
   const Vector3d along = normalize(Vector3d{1, 2, -3});
+  world.add_area_light(5, false);
+  world.add(InfiniteLight{ConstantSpectrum{1}});
   world.add(DistantLight{along, ConstantSpectrum{1}});
+  world.add(DistantLight{-along, ConstantSpectrum{1}});
   const LightSampler s = make(world);
-  EXPECT_TRUE(points_at_distant_light(s, normalize(-along + Vector3d{1e-6, 0, 0})));
-  EXPECT_FALSE(points_at_distant_light(s, normalize(-along + Vector3d{1e-5, 0, 0})));
-  EXPECT_FALSE(points_at_distant_light(s, along));
+  const auto is = [&](Vector3d wanted) { return [=](Vector3d to_light) { return to_light == wanted; }; };
+  EXPECT_FALSE(any_distant_light(s, 0, is(-along)));
+  EXPECT_TRUE(any_distant_light(s, 1, is(-along)));
+  EXPECT_FALSE(any_distant_light(s, 1, is(along)));
+  EXPECT_TRUE(any_distant_light(s, 2, is(along)));
 }
 
 // Nothing that a scene can hold makes a number that is not one.

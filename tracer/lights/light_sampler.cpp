@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "tracer/portable_math.h"
+#include "tracer/rounding.h"
 #include "tracer/wavelengths.h"
 
 namespace vitrail {
@@ -26,6 +27,12 @@ struct TriangleFrame {
     const double twice = length(across);
     area = twice / 2;
     normal = twice > 0 ? across * (1 / twice) : across;
+  }
+
+  // Of this triangle and a neighbour in the same plane, against each other.
+  double tilt() const {
+    const auto off = [&](Point3d p) { return rounding_along(normal, p); };
+    return 2 * tilt_of(e1, e2, 2 * area, {off(p0), off(p0 + e1), off(p0 + e2)});
   }
 };
 
@@ -72,6 +79,7 @@ std::optional<LightSample> sample_directional(const LightSampler& s, const Light
   LightSample sample;
   sample.to_light = frame.normal * (height > 0 ? -1.0 : 1.0);
   sample.distance = std::abs(height);
+  sample.normal = frame.normal;
   sample.radiance = radiance_at(s, t, frame, b1, b2, wavelengths);
   sample.pdf = 1;
   sample.is_delta = true;
@@ -102,6 +110,8 @@ std::optional<LightSample> sample_triangle(const LightSampler& s, const LightSam
   sample.to_light = towards * (1 / sample.distance);
   const double cosine = -dot(sample.to_light, frame.normal);  // > 0: its front is seen
   if (cosine == 0 || (cosine < 0 && !light.two_sided)) return std::nullopt;
+  sample.normal = frame.normal;
+  sample.tilt_rad = frame.tilt();
   sample.pdf = distance2 / (std::abs(cosine) * frame.area);
   sample.radiance = radiance_at(s, t, frame, b1, b2, wavelengths);
   sample.light = t.area_light;
@@ -215,14 +225,6 @@ Background background(const LightSampler& s, Vector3d direction, const SampledWa
     sum.pdf += s.share[1 + s.distant.size() + i] * e.table.pdf(at);
   }
   return sum;
-}
-
-bool points_at_distant_light(const LightSampler& s, Vector3d direction) {
-  // Each refraction rounds the direction by about 1.2e-7; a pane makes two.
-  constexpr double tolerance = 4e-6;
-  for (const LightSampler::Distant& d : s.distant)
-    if (length(direction + d.direction) < tolerance) return true;
-  return false;
 }
 
 }  // namespace vitrail

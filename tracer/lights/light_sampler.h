@@ -80,6 +80,8 @@ LightSampler make_light_sampler(const LightScene& scene, const ImageSource& imag
 
 struct LightSample {
   Vector3d to_light;         // unit
+  Vector3d normal{};         // of the surface there, unit; 0: a point, or not finitely far
+  double tilt_rad = 0;       // bound of what the rounding of corners turns that surface's triangles by
   double distance = 0;       // ∞ for distant lights and environments
   SampledSpectrum radiance;  // of delta lights: irradiance across the direction
   double pdf = 0;            // solid angle, the choice included; delta lights: probability of the choice
@@ -108,7 +110,13 @@ struct Background {
 // `direction` unit, outwards.
 Background background(const LightSampler& sampler, Vector3d direction, const SampledWavelengths& wavelengths);
 
-// Whether light of some distant source travels against `direction`, to the precision of ray directions.
-bool points_at_distant_light(const LightSampler& sampler, Vector3d direction);
+// Whether `accept` any of the directions to distant lights whose numbers (LightSample::light) end on these 16
+// bits.
+template <class Accept>
+bool any_distant_light(const LightSampler& sampler, std::uint32_t bits, Accept&& accept) {
+  for (const LightSampler::Distant& d : sampler.distant)
+    if ((d.light & 0xffff) == bits && accept(-d.direction)) return true;
+  return false;
+}
 
 }  // namespace vitrail

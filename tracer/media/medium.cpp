@@ -91,8 +91,24 @@ double attenuation(double sigma, double t) {
   return sigma <= 0 ? 1 : depth > 700 ? 0 : portable_exp(-depth);
 }
 
+// A wavelength, index < active, with a probability in proportion to the throughput.
+std::size_t choose_wavelength(const SampledSpectrum& throughput, std::size_t active, double u) {
+  double sum = 0;
+  for (std::size_t i = 0; i < active; ++i) sum += static_cast<double>(throughput.v[i]);
+  double left = u * sum;
+  std::size_t chosen = 0;
+  for (std::size_t i = 0; i < active; ++i) {
+    if (!(throughput.v[i] > 0)) continue;
+    chosen = i;
+    left -= static_cast<double>(throughput.v[i]);
+    if (left < 0) break;
+  }
+  return chosen;
+}
+
 FlightSample sample_homogeneous(const Coefficients& coefficients, double t_max, std::size_t active,
-                                const SampledSpectrum& glow, RandomStream& random) {
+                                const SampledSpectrum& glow, const SampledSpectrum& throughput,
+                                RandomStream& random) {
   Values sigma_t, sigma_s;
   coefficients.at({}, sigma_t, sigma_s);
   FlightSample s;
@@ -108,18 +124,20 @@ FlightSample sample_homogeneous(const Coefficients& coefficients, double t_max, 
       s.weight.v[i] = static_cast<float>(attenuation(sigma_t[i], t_max));
     return s;
   }
-  const auto n = static_cast<double>(active);
-  const auto chosen = std::min(static_cast<std::size_t>(random.next() * n), active - 1);
+  const std::size_t chosen = choose_wavelength(throughput, active, random.next());
   const double distance = exponential(random.next());
   const double t = sigma_t[chosen] > 0 ? distance / sigma_t[chosen] : infinity;
   const bool arrives = t >= t_max;
   if (!arrives) s.scattered_at = t;
-  double pdf = 0;
+  double pdf = 0, sum = 0;
   Values through;
   for (std::size_t i = 0; i < active; ++i) {
+    const auto w = static_cast<double>(throughput.v[i]);
     through[i] = attenuation(sigma_t[i], arrives ? t_max : t);
-    pdf += (arrives ? through[i] : through[i] * sigma_t[i]) / n;
+    pdf += w * (arrives ? through[i] : through[i] * sigma_t[i]);
+    sum += w;
   }
+  pdf /= sum;
   // The chosen wavelength has a density above 0 here, unless it underflowed.
   for (std::size_t i = 0; i < active && pdf > 0; ++i)
     s.weight.v[i] = static_cast<float>((arrives ? through[i] : through[i] * sigma_s[i]) / pdf);
@@ -191,7 +209,7 @@ FlightSample sample_flight(const PreparedMedium& m, const Flight& flight,
                            const SampledSpectrum& throughput, RandomStream& random) {
   const Coefficients coefficients(m, wavelengths);
   const SampledSpectrum glow = glow_of(m, wavelengths);
-  if (m.homogeneous) return sample_homogeneous(coefficients, flight.t_max, active, glow, random);
+  if (m.homogeneous) return sample_homogeneous(coefficients, flight.t_max, active, glow, throughput, random);
 
   FlightSample s{std::nullopt, filled(1), {}};
   const double majorant = coefficients.majorant();

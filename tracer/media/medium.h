@@ -2,6 +2,9 @@
 // Free flight through a medium. Homogeneous media are sampled in closed form, by a wavelength chosen at
 // random and weighted by the mean density of all, or not at all where they only absorb; grids by null
 // collisions (Woodcock et al. 1965; for spectra Kutz et al., "Spectral and Decomposition Tracking", 2017).
+// Wavelengths are chosen, and densities averaged, in proportion to the path's throughput. So its sum never
+// grows, however many collisions there are; and where the albedo is the same at all wavelengths, a path is
+// weighed by the mean density of all of it, as if one wavelength had been chosen for all of its flights.
 #pragma once
 
 #include <optional>
@@ -38,7 +41,7 @@ struct FlightSample {
   SampledSpectrum emitted;             // what the medium itself sends along the flight, weighted
 };
 
-// `throughput` guides the choice at null collisions; `active`: wavelengths still carried.
+// `active`: wavelengths still carried; `throughput` is not black.
 FlightSample sample_flight(const PreparedMedium& medium, const Flight& flight,
                            const SampledWavelengths& wavelengths, std::size_t active,
                            const SampledSpectrum& throughput, RandomStream& random);

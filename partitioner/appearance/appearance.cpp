@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "partitioner/appearance/appearance.h"
+
+#include <fmt/format.h>
+
+#include "partitioner/appearance/bake_materials.h"
+#include "partitioner/appearance/bake_media.h"
+#include "partitioner/appearance/bake_textures.h"
+#include "scene/kinds.h"
+
+namespace vitrail {
+
+namespace {
+
+class Notes {
+ public:
+  Notes(const Scene& scene, Diagnostics& diagnostics) : scene_(scene), diagnostics_(diagnostics) {}
+  void approximated(std::string message, const Origin& origin) {
+    add(Fidelity::approximated, std::move(message), origin);
+  }
+  void dropped(std::string message, const Origin& origin) {
+    add(Fidelity::dropped, std::move(message), origin);
+  }
+
+ private:
+  void add(Fidelity fidelity, std::string message, const Origin& origin) {
+    const SourceLocation place = location(scene_, origin);
+    diagnostics_.push_back({fidelity, std::move(message), place, place});
+  }
+  const Scene& scene_;
+  Diagnostics& diagnostics_;
+};
+
+// What the shapes use, by the ids of the scene.
+struct Used {
+  std::vector<bool> materials, area_lights, media;
+};
+
+Used used_in(const Scene& scene) {
+  Used used{std::vector<bool>(scene.materials.size()), std::vector<bool>(scene.area_lights.size()),
+            std::vector<bool>(scene.media.size())};
+  const auto use = [&](const Shape& shape) {
+    used.materials.at(shape.material.value) = true;
+    if (shape.area_light) used.area_lights.at(shape.area_light->value) = true;
+    for (const auto& medium : {shape.interior, shape.exterior})
+      if (medium) used.media.at(medium->value) = true;
+  };
+  for (const Shape& shape : scene.shapes) use(shape);
+  std::vector<bool> reached(scene.prototypes.size());
+  for (const Instance& instance : scene.instances) reached.at(instance.prototype.value) = true;
+  for (std::size_t i = scene.prototypes.size(); i-- > 0;) {
+    if (!reached[i]) continue;
+    for (const Shape& shape : scene.prototypes[i].shapes) use(shape);
+    for (const Instance& inner : scene.prototypes[i].instances) reached.at(inner.prototype.value) = true;
+  }
+  if (scene.camera_medium) used.media.at(scene.camera_medium->value) = true;
+  // Materials refer to smaller ids alone.
+  for (std::size_t i = scene.materials.size(); i-- > 0;)
+    if (used.materials[i])
+      for (const Id<Material> part : parts_of(scene.materials[i])) used.materials.at(part.value) = true;
+  return used;
+}
+
+// Gives what is used new ids in the old order; `take` makes record i and says whether there is one.
+std::vector<std::int32_t> renumbered(const std::vector<bool>& used, auto&& take) {
+  std::vector<std::int32_t> ids(used.size(), -1);
+  std::int32_t next = 0;
+  for (std::size_t i = 0; i < used.size(); ++i)
+    if (used[i] && take(i, ids)) ids[i] = next++;
+  return ids;
+}
+
+void bake_media(const Scene& scene, const Used& used, Appearance& result, Notes& report) {
+  result.medium_ids = renumbered(used.media, [&](std::size_t i, const auto&) {
+    const Medium& medium = scene.media[i];
+    std::vector<std::string> notes;
+    const std::optional<Medium> baked = bake_medium(medium, notes);
+    for (const std::string& note : notes) {
+      const std::string message = fmt::format("medium \"{}\": {}", medium.name, note);
+      if (baked)
+        report.approximated(message, medium.origin);
+      else
+        report.dropped(message + "; light passes it unchanged", medium.origin);
+    }
+    if (baked) result.media.push_back(*baked);
+    return baked.has_value();
+  });
+}
+
+void bake_materials(const Scene& scene, const Used& used, TextureBaker& textures, Appearance& result,
+                    Notes& report) {
+  result.material_interiors.assign(scene.materials.size(), -1);
+  result.material_ids = renumbered(used.materials, [&](std::size_t i, const auto& ids) {
+    const Material& material = scene.materials[i];
+    BakedMaterial baked = bake_material(material, ids, textures);
+    if (baked.interior) {
+      result.material_interiors[i] = static_cast<std::int32_t>(result.media.size());
+      result.media.push_back(std::move(*baked.interior));
+    }
+    result.materials.push_back(std::move(baked.material));
+    for (const Id<Material> part : parts_of(material)) {
+      const auto* dielectric = std::get_if<DielectricMaterial>(&scene.materials[part.value].model);
+      if (dielectric && dielectric->priority != 0)
+        report.approximated("the priority of a dielectric that is part of another material is not looked at",
+                            material.origin);
+    }
+    const std::string name = material.name.empty() ? "" : fmt::format(" \"{}\"", material.name);
+    for (const std::string& note : baked.notes)
+      report.approximated(fmt::format("material{} ({}): {}", name, kind_of(material.model), note),
+                          material.origin);
+    return true;
+  });
+}
+
+// The images of lights are baked like any other.
+struct LightBaker {
+  TextureBaker& textures;
+  SourceLocation where;
+
+  LightModel operator()(PointLight l) const {
+    l.intensity = resolved(l.intensity);
+    return l;
+  }
+  LightModel operator()(SpotLight l) const {
+    l.intensity = resolved(l.intensity);
+    if (l.texture) {
+      const SpectrumParameter baked = textures.bake(SpectrumParameter{*l.texture}, TextureUse::unbounded);
+      l.texture = std::get<Id<Texture>>(baked);
+    }
+    return l;
+  }
+  LightModel operator()(ProjectionLight l) const {
+    l.scale = resolved(l.scale);
+    l.image = textures.bake(l.image, TextureUse::illuminant);
+    return l;
+  }
+  LightModel operator()(GoniometricLight l) const {
+    l.intensity = resolved(l.intensity);
+    l.filename = textures.bake_image(l.filename, Encoding::automatic, 1, TextureUse::number, where);
+    return l;
+  }
+  LightModel operator()(DistantLight l) const {
+    l.irradiance = resolved(l.irradiance);
+    return l;
+  }
+  LightModel operator()(InfiniteLight l) const {
+    l.radiance = resolved(l.radiance);
+    return l;
+  }
+  LightModel operator()(EnvironmentLight l) const {
+    l.scale = resolved(l.scale);
+    l.filename = textures.bake_image(l.filename, Encoding::automatic, 1, TextureUse::illuminant, where);
+    return l;
+  }
+};
+
+}  // namespace
+
+Appearance appearance_of(const Scene& scene, const std::filesystem::path& bundle) {
+  Appearance result;
+  Notes report(scene, result.diagnostics);
+  TextureBaker textures(scene, bundle, result.diagnostics);
+  const Used used = used_in(scene);
+  bake_media(scene, used, result, report);
+  bake_materials(scene, used, textures, result, report);
+  result.area_light_ids = renumbered(used.area_lights, [&](std::size_t i, const auto&) {
+    AreaLight light = scene.area_lights[i];
+    light.radiance = textures.bake(light.radiance, TextureUse::illuminant);
+    if (std::holds_alternative<Spectrum>(light.radiance)) light.scale = 1;  // it is of a texture
+    result.area_lights.push_back(std::move(light));
+    return true;
+  });
+  for (const Light& light : scene.lights) {
+    result.lights.push_back(
+        {std::visit(LightBaker{textures, location(scene, light.origin)}, light.model), {}});
+    const auto* environment = std::get_if<EnvironmentLight>(&light.model);
+    if (environment && environment->portal)
+      report.approximated("environment light: its portal is not looked at, it shines from everywhere",
+                          light.origin);
+  }
+  result.attributes = textures.attributes();
+  result.texture_files = textures.files();
+  result.textures = textures.take_textures();
+  return result;
+}
+
+}  // namespace vitrail

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "partitioner/appearance/bake_materials.h"
+
+#include <fmt/format.h>
+
+namespace vitrail {
+
+namespace {
+
+class MaterialBaker {
+ public:
+  MaterialBaker(const std::vector<std::int32_t>& ids, TextureBaker& textures, BakedMaterial& result)
+      : ids_(ids), textures_(textures), result_(result) {}
+
+  MaterialModel operator()(DiffuseMaterial m) {
+    reflectance(m.reflectance), number(m.sigma_deg);
+    return m;
+  }
+  MaterialModel operator()(DielectricMaterial m) {
+    m.eta = resolved(m.eta), m.exterior_eta = resolved(m.exterior_eta);
+    roughness(m.roughness), reflectance(m.reflectance_factor), reflectance(m.transmittance_factor);
+    return m;
+  }
+  MaterialModel operator()(ThinDielectricMaterial m) {
+    m.eta = resolved(m.eta), m.exterior_eta = resolved(m.exterior_eta);
+    reflectance(m.reflectance_factor), reflectance(m.transmittance_factor);
+    return m;
+  }
+  MaterialModel operator()(ConductorMaterial m) {
+    metal(m.metal), roughness(m.roughness), reflectance(m.reflectance_factor);
+    return m;
+  }
+  MaterialModel operator()(PlasticMaterial m) {
+    reflectance(m.diffuse_reflectance), reflectance(m.specular_reflectance), roughness(m.roughness);
+    return m;
+  }
+  MaterialModel operator()(CoatedDiffuseMaterial m) {
+    m.eta = resolved(m.eta);
+    reflectance(m.reflectance), roughness(m.roughness), coating(m.volume);
+    return m;
+  }
+  MaterialModel operator()(CoatedConductorMaterial m) {
+    m.interface_eta = resolved(m.interface_eta);
+    metal(m.metal), roughness(m.conductor_roughness), roughness(m.interface_roughness), coating(m.volume);
+    return m;
+  }
+  MaterialModel operator()(DiffuseTransmissionMaterial m) {
+    reflectance(m.reflectance), reflectance(m.transmittance);
+    return m;
+  }
+  MaterialModel operator()(PrincipledMaterial m) {
+    reflectance(m.base_color);
+    for (FloatParameter* p :
+         {&m.roughness, &m.anisotropic, &m.metallic, &m.spec_trans, &m.spec_tint, &m.sheen, &m.sheen_tint,
+          &m.flatness, &m.clearcoat, &m.clearcoat_gloss, &m.diff_trans})
+      number(*p);
+    return m;
+  }
+  // A dielectric boundary around a medium.
+  MaterialModel operator()(const SubsurfaceMaterial& m) {
+    if (const auto* effective = std::get_if<SubsurfaceMaterial::Effective>(&m.interior)) {
+      note("becomes diffuse with the reflectance of its interior");
+      return (*this)(DiffuseMaterial{effective->reflectance});
+    }
+    const auto* given = std::get_if<SubsurfaceMaterial::Coefficients>(&m.interior);
+    const auto* sigma_a = given ? std::get_if<Spectrum>(&given->sigma_a) : nullptr;
+    const auto* sigma_s = given ? std::get_if<Spectrum>(&given->sigma_s) : nullptr;
+    if (!sigma_a || !sigma_s) return grey("its interior");
+    Medium medium;
+    medium.coefficients = AbsorptionScattering{resolved(*sigma_a), resolved(*sigma_s)};
+    medium.scale = m.scale;
+    medium.g = m.g;
+    result_.interior = medium;
+    return (*this)(DielectricMaterial{m.eta, ConstantSpectrum{1}, m.roughness});
+  }
+  MaterialModel operator()(const HairMaterial& m) {
+    if (!m.color) return grey("its fibres");
+    note("becomes diffuse with its colour");
+    return (*this)(DiffuseMaterial{*m.color});
+  }
+  MaterialModel operator()(const MeasuredMaterial& m) {
+    if (m.sheet) return MeasuredMaterial{"", m.sheet};
+    return grey("its measurements");
+  }
+  MaterialModel operator()(const InterfaceMaterial& m) { return m; }
+  MaterialModel operator()(BlendMaterial m) {
+    part(m.first), part(m.second), number(m.amount);
+    return m;
+  }
+  MaterialModel operator()(MaskMaterial m) {
+    part(m.material), number(m.opacity);
+    return m;
+  }
+  MaterialModel operator()(TwoSidedMaterial m) {
+    part(m.front), part(m.back);
+    return m;
+  }
+
+ private:
+  void note(std::string what) { result_.notes.push_back(std::move(what)); }
+  void reflectance(SpectrumParameter& p) { p = textures_.bake(p, TextureUse::reflectance); }
+  void number(FloatParameter& p) { p = textures_.bake(p); }
+  void part(Id<Material>& id) { id.value = static_cast<std::uint32_t>(ids_.at(id.value)); }
+  void roughness(Roughness& r) { number(r.alpha_u), number(r.alpha_v); }
+  void coating(CoatingVolume& v) { number(v.thickness), number(v.g), reflectance(v.albedo); }
+  void metal(Metal& metal) {
+    if (auto* index = std::get_if<ComplexIndex>(&metal)) {
+      index->eta = textures_.bake(index->eta, TextureUse::unbounded);
+      index->k = textures_.bake(index->k, TextureUse::unbounded);
+    } else if (auto* normal = std::get_if<NormalReflectance>(&metal)) {
+      reflectance(normal->reflectance);
+    }
+  }
+  MaterialModel grey(const char* what) {
+    note(fmt::format("becomes diffuse with a reflectance of 0.50; {} cannot be shown", what));
+    return DiffuseMaterial{};
+  }
+
+  const std::vector<std::int32_t>& ids_;
+  TextureBaker& textures_;
+  BakedMaterial& result_;
+};
+
+}  // namespace
+
+BakedMaterial bake_material(const Material& material, const std::vector<std::int32_t>& ids,
+                            TextureBaker& textures) {
+  BakedMaterial result;
+  result.material.two_sided = material.two_sided;
+  result.material.bump_shadowing = material.bump_shadowing;
+  result.material.model = std::visit(MaterialBaker(ids, textures, result), material.model);
+  if (material.displacement) result.material.displacement = textures.bake(*material.displacement);
+  if (material.normal_map) result.material.normal_map = textures.bake_vector(*material.normal_map);
+  return result;
+}
+
+std::vector<Id<Material>> parts_of(const Material& material) {
+  if (const auto* blend = std::get_if<BlendMaterial>(&material.model)) return {blend->first, blend->second};
+  if (const auto* mask = std::get_if<MaskMaterial>(&material.model)) return {mask->material};
+  if (const auto* sided = std::get_if<TwoSidedMaterial>(&material.model)) return {sided->front, sided->back};
+  return {};
+}
+
+}  // namespace vitrail

@@ -1,0 +1,306 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "partitioner/appearance/bake_textures.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "images/image_files.h"
+#include "scene/rgb_to_spectrum.h"
+
+namespace vitrail {
+
+namespace {
+
+RGB to_rgb(const std::array<float, 3>& c) { return {c[0], c[1], c[2]}; }
+
+// A colour within a texture means what the texture is used for; other spectra are what they are.
+Spectrum as_used(const Spectrum& spectrum, TextureUse use) {
+  const std::array<float, 3>* rgb = nullptr;
+  if (const auto* s = std::get_if<SigmoidSpectrum>(&spectrum)) rgb = &s->rgb;
+  if (const auto* s = std::get_if<RgbUnboundedSpectrum>(&spectrum)) rgb = &s->rgb;
+  if (const auto* s = std::get_if<RgbIlluminantSpectrum>(&spectrum)) rgb = &s->rgb;
+  switch (use) {
+    case TextureUse::number:
+    case TextureUse::vector: {
+      const double value =
+          is_constant(spectrum) ? evaluate(resolved(spectrum), lambda_min_nm) : luminance(spectrum);
+      return ConstantSpectrum{static_cast<float>(value)};
+    }
+    case TextureUse::illuminant:
+      return rgb ? emission_from_rgb(to_rgb(*rgb)) : resolved(spectrum);
+    case TextureUse::reflectance:
+      return rgb ? reflectance_from_rgb(to_rgb(*rgb)) : resolved(spectrum);
+    default:
+      return rgb ? unbounded_from_rgb(to_rgb(*rgb)) : resolved(spectrum);
+  }
+}
+
+// The linear values of a texture's image: decoded, scaled, inverted.
+Image values_of(const ImageTexture& texture, StoredImage stored, TextureUse use) {
+  const bool automatic = texture.encoding == Encoding::automatic && use != TextureUse::vector;
+  const bool srgb = texture.encoding == Encoding::srgb || (automatic && stored.integer);
+  const auto gamma = static_cast<double>(texture.gamma), scale = static_cast<double>(texture.scale);
+  const auto decoded = [&](float of) {
+    auto value = static_cast<double>(of);
+    if (srgb) value = srgb_decode(std::clamp(value, 0.0, 1.0));
+    if (texture.encoding == Encoding::gamma) value = std::pow(std::max(value, 0.0), gamma);
+    value *= scale;
+    return static_cast<float>(texture.invert ? 1 - value : value);
+  };
+  // Most images have few different values.
+  struct Known {
+    float stored = std::numeric_limits<float>::quiet_NaN(), value = 0;
+  };
+  std::vector<Known> known(4096);
+  for (float& value : stored.image.values) {
+    Known& k = known[std::bit_cast<std::uint32_t>(value) * 0x9e3779b1u >> 20];
+    if (k.stored != value) k = {value, decoded(value)};
+    value = k.value;
+  }
+  return std::move(stored.image);
+}
+
+bool needs_levels(TextureFilter filter) {
+  return filter == TextureFilter::trilinear || filter == TextureFilter::anisotropic;
+}
+
+// The colours (s,t,0) of pbrt-v3's uv, as an image.
+Image uv_image() {
+  constexpr int size = 128;
+  Image image = black_image(size, size, 3);
+  for (int y = 0; y < size; ++y)
+    for (int x = 0; x < size; ++x) {
+      float* const rgb = &image.values[static_cast<std::size_t>(3 * (y * size + x))];
+      rgb[0] = (static_cast<float>(x) + 0.5f) / size;
+      rgb[1] = 1 - (static_cast<float>(y) + 0.5f) / size;
+    }
+  return image;
+}
+
+}  // namespace
+
+TextureBaker::TextureBaker(const Scene& scene, std::filesystem::path bundle, Diagnostics& diagnostics)
+    : scene_(scene), bundle_(std::move(bundle)), diagnostics_(diagnostics), means_(scene.textures) {}
+
+SpectrumParameter TextureBaker::bake(const SpectrumParameter& parameter, TextureUse use) {
+  if (const auto* texture = std::get_if<Id<Texture>>(&parameter)) return bake_texture(*texture, use);
+  return resolved(std::get<Spectrum>(parameter));
+}
+
+FloatParameter TextureBaker::bake(const FloatParameter& parameter) {
+  const auto* texture = std::get_if<Id<Texture>>(&parameter);
+  if (!texture) return parameter;
+  const SpectrumParameter baked = bake_texture(*texture, TextureUse::number);
+  if (const auto* id = std::get_if<Id<Texture>>(&baked)) return *id;
+  return static_cast<float>(evaluate(std::get<Spectrum>(baked), lambda_min_nm));
+}
+
+Id<Texture> TextureBaker::bake_vector(Id<Texture> texture) {
+  if (std::holds_alternative<ImageTexture>(scene_.textures.at(texture.value).model))
+    return std::get<Id<Texture>>(bake_texture(texture, TextureUse::vector));
+  diagnostics_.push_back({Fidelity::dropped,
+                          "a normal map that is no image is left out",
+                          location(scene_, scene_.textures[texture.value].origin),
+                          {}});
+  ImageTexture flat;
+  flat.filename = write_image({1, 1, 3, {0.5f, 0.5f, 1}}, TextureUse::vector, false);
+  return add(flat, TextureUse::vector);
+}
+
+SpectrumParameter TextureBaker::bake_input(const SpectrumParameter& parameter, TextureUse use) {
+  if (const auto* texture = std::get_if<Id<Texture>>(&parameter)) return bake_texture(*texture, use);
+  return as_used(std::get<Spectrum>(parameter), use);
+}
+
+// What multiplies a colour, rather than being one.
+bool TextureBaker::is_number(const SpectrumParameter& parameter) const {
+  if (const auto* texture = std::get_if<Id<Texture>>(&parameter))
+    return scene_.textures.at(texture->value).is_float;
+  return std::holds_alternative<ConstantSpectrum>(std::get<Spectrum>(parameter));
+}
+
+// ---- Clones
+
+struct TextureBaker::Clone {
+  TextureBaker& baker;
+  Id<Texture> id;
+  TextureUse use;
+
+  SpectrumParameter operator()(const ImageTexture& image) const {
+    ImageTexture baked;
+    baked.filename = baker.bake_file(image, use, needs_levels(image.filter), where());
+    baked.mapping = image.mapping;
+    baked.wrap = image.wrap;
+    baked.filter = image.filter;
+    return baker.add(baked, use);
+  }
+  SpectrumParameter operator()(CheckerboardTexture t) const {
+    t.even = input(t.even), t.odd = input(t.odd);
+    return baker.add(t, use);
+  }
+  // One of the two is what the product is used for, the other one a factor.
+  SpectrumParameter operator()(ProductTexture t) const {
+    const TextureUse factor = use == TextureUse::number ? use : TextureUse::unbounded;
+    const bool swapped = baker.is_number(t.first) && !baker.is_number(t.second);
+    t.first = baker.bake_input(t.first, swapped ? factor : use);
+    t.second = baker.bake_input(t.second, swapped ? use : factor);
+    return baker.add(t, use);
+  }
+  SpectrumParameter operator()(MixTexture t) const {
+    t.first = input(t.first), t.second = input(t.second), t.amount = baker.bake(t.amount);
+    return baker.add(t, use);
+  }
+  SpectrumParameter operator()(DirectionMixTexture t) const {
+    t.first = input(t.first), t.second = input(t.second);
+    return baker.add(t, use);
+  }
+  SpectrumParameter operator()(BilinearTexture t) const {
+    t.v00 = input(t.v00), t.v01 = input(t.v01), t.v10 = input(t.v10), t.v11 = input(t.v11);
+    return baker.add(t, use);
+  }
+  SpectrumParameter operator()(const UvTexture& t) const {
+    ImageTexture image;
+    image.filename = baker.write_image(uv_image(), use, false);
+    image.mapping = t.mapping;
+    return baker.add(image, use);
+  }
+  SpectrumParameter operator()(MeshAttributeTexture t) const {
+    t.name = baker.slot_of(t.name, use);
+    if (use != TextureUse::illuminant) return baker.add(t, use);
+    const Id<Texture> shape = baker.add(t, TextureUse::reflectance);
+    return baker.add(ProductTexture{shape, Spectrum{emission_from_rgb({1, 1, 1})}}, use);
+  }
+  SpectrumParameter operator()(const DotsTexture&) const { return baker.mean_of(id, use, "dots"); }
+  SpectrumParameter operator()(const NoiseTexture&) const { return baker.mean_of(id, use, "noise"); }
+  SpectrumParameter operator()(const PtexTexture&) const { return baker.mean_of(id, use, "ptex"); }
+
+ private:
+  SpectrumParameter input(const SpectrumParameter& parameter) const {
+    return baker.bake_input(parameter, use);
+  }
+  SourceLocation where() const { return location(baker.scene_, baker.scene_.textures[id.value].origin); }
+};
+
+SpectrumParameter TextureBaker::bake_texture(Id<Texture> texture, TextureUse use) {
+  const Texture& original = scene_.textures.at(texture.value);
+  // A number may stand for a spectrum; it stays that number, and has no colour to light.
+  if (original.is_float && use != TextureUse::vector) use = TextureUse::number;
+  const auto known = baked_.find({texture.value, use});
+  if (known != baked_.end()) return known->second;
+  const SpectrumParameter baked = std::visit(Clone{*this, texture, use}, original.model);
+  baked_.insert({{texture.value, use}, baked});
+  return baked;
+}
+
+SpectrumParameter TextureBaker::mean_of(Id<Texture> texture, TextureUse use, const char* what) {
+  diagnostics_.push_back({Fidelity::approximated,
+                          fmt::format("a texture of {} is rendered as its mean", what),
+                          location(scene_, scene_.textures[texture.value].origin),
+                          {}});
+  return as_used(means_.of(SpectrumParameter{texture}).value, use);
+}
+
+Id<Texture> TextureBaker::add(TextureModel model, TextureUse use) {
+  textures_.push_back({std::move(model), use == TextureUse::number, "", {}});
+  return {static_cast<std::uint32_t>(textures_.size() - 1)};
+}
+
+std::string TextureBaker::slot_of(const std::string& attribute, TextureUse use) {
+  const bool plain = use == TextureUse::number || use == TextureUse::vector;
+  const Attribute wanted{attribute, plain ? use : TextureUse::reflectance};
+  const auto found = std::find(attributes_.begin(), attributes_.end(), wanted);
+  const auto slot = found - attributes_.begin();
+  if (found == attributes_.end()) attributes_.push_back(wanted);
+  return std::to_string(slot);
+}
+
+std::array<float, 3> attribute_value(RGB color, TextureUse use, const ReflectanceFitter& fitter) {
+  if (use == TextureUse::vector)
+    return {static_cast<float>(color.r), static_cast<float>(color.g), static_cast<float>(color.b)};
+  if (use == TextureUse::number) {
+    const auto mean = static_cast<float>((color.r + color.g + color.b) / 3);
+    return {mean, mean, mean};
+  }
+  SigmoidNodes x = fitter(color);
+  for (float& v : x) v = std::clamp(v, -200.0f, 200.0f);
+  return x;
+}
+
+// ---- Files
+
+std::string TextureBaker::bake_image(const std::string& filename, Encoding encoding, float gamma,
+                                     TextureUse use, const SourceLocation& where) {
+  ImageTexture image;
+  image.filename = filename;
+  image.encoding = encoding;
+  image.gamma = gamma;
+  return bake_file(image, use, true, where);
+}
+
+std::string TextureBaker::bake_file(const ImageTexture& image, TextureUse use, bool all_levels,
+                                    const SourceLocation& where) {
+  const ImageKey key{image.filename, image.encoding, image.gamma, image.scale, image.invert, use, all_levels};
+  if (const auto known = images_.find(key); known != images_.end()) return known->second;
+  StoredImage stored;
+  try {
+    stored = read_stored_image(image.filename);
+  } catch (const Error& error) {
+    throw Error(fmt::format("texture {}: {}", image.filename, error.what()), where);
+  }
+  const auto size = static_cast<std::uint32_t>(std::max(stored.image.width, stored.image.height));
+  if (stored.image.pixels() == 0 || size > max_texture_size)
+    throw Error(fmt::format("texture {}: {} × {} pixels are not an image for a texture", image.filename,
+                            stored.image.width, stored.image.height),
+                where);
+  Image values = values_of(image, std::move(stored), use);
+  const auto broken =
+      std::count_if(values.values.begin(), values.values.end(), [](float v) { return !std::isfinite(v); });
+  if (broken > 0)
+    diagnostics_.push_back(
+        {Fidelity::approximated,
+         fmt::format("texture {}: {} values are not finite and count as 0", image.filename, broken),
+         where,
+         {}});
+  return images_[key] = write_image(std::move(values), use, all_levels);
+}
+
+std::string TextureBaker::write_image(Image values, TextureUse use, bool all_levels) {
+  const std::string name = fmt::format("textures/{:06}.tex", files_.size());
+  if (bundle_.empty()) {
+    files_.push_back({name, 0, 0});
+    return name;
+  }
+  if (files_.empty()) {
+    std::error_code failure;
+    std::filesystem::create_directories(bundle_ / "textures", failure);
+    if (failure)
+      throw MachineError(
+          fmt::format("cannot create {}: {}", (bundle_ / "textures").string(), failure.message()));
+  }
+  const WrittenTextureFile written =
+      write_baked_image(bundle_ / name, std::move(values), use, all_levels, fitter_);
+  files_.push_back({name, written.bytes, written.hash});
+  return name;
+}
+
+void move(std::vector<Texture>& textures, Vector3d by) {
+  const auto moved = [&](Transform& t) { t = translate(by) * t; };
+  const auto move_mapping = [&](TextureMapping& mapping) {
+    if (auto* m = std::get_if<SphericalMapping>(&mapping)) moved(m->texture_to_world);
+    if (auto* m = std::get_if<CylindricalMapping>(&mapping)) moved(m->texture_to_world);
+    if (auto* m = std::get_if<PlanarMapping>(&mapping)) moved(m->texture_to_world);
+  };
+  for (Texture& texture : textures)
+    std::visit(
+        [&](auto& model) {
+          if constexpr (requires { model.mapping; }) move_mapping(model.mapping);
+          if constexpr (requires { model.texture_to_world; }) moved(model.texture_to_world);
+        },
+        texture.model);
+}
+
+}  // namespace vitrail

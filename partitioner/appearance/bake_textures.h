@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+// The textures of a scene as a bundle has them: images baked, everything else as it is used.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "bundle/manifest.h"
+#include "partitioner/appearance/bake_image.h"
+#include "partitioner/appearance/texture_mean.h"
+#include "scene/scene.h"
+
+namespace vitrail {
+
+// A texture serves each use (a reflectance, a number …) by a clone of its own. In the clones constants are
+// `resolved`; images keep mapping, wrap and filter, and name a file of the bundle: "textures/000003.tex".
+class TextureBaker {
+ public:
+  // Where `bundle` is empty nothing is written. Makes `bundle`/textures where there is something to put in
+  // it. What cannot be said exactly is added to the diagnostics. The scene and the diagnostics outlive it.
+  TextureBaker(const Scene& scene, std::filesystem::path bundle, Diagnostics& diagnostics);
+
+  // These throw Error, with the texture's place in the scene file, for images that cannot be read, and
+  // MachineError.
+  SpectrumParameter bake(const SpectrumParameter& parameter, TextureUse use);
+  FloatParameter bake(const FloatParameter& parameter);
+  Id<Texture> bake_vector(Id<Texture> texture);
+  // Of a light: the name in the bundle. All MIP levels.
+  std::string bake_image(const std::string& filename, Encoding encoding, float gamma, TextureUse use,
+                         const SourceLocation& where);
+
+  // Attributes of meshes that the clones refer to, by slot: the bundle's MeshAttributeTexture of the first is
+  // named "0". A name that serves two uses has two slots.
+  struct Attribute {
+    std::string name;
+    TextureUse use;
+    bool operator==(const Attribute&) const = default;
+  };
+  const std::vector<Attribute>& attributes() const { return attributes_; }
+  const std::vector<TextureFileEntry>& files() const { return files_; }
+  std::vector<Texture> take_textures() { return std::move(textures_); }
+
+ private:
+  struct Clone;
+  SpectrumParameter bake_input(const SpectrumParameter& parameter, TextureUse use);
+  SpectrumParameter bake_texture(Id<Texture> texture, TextureUse use);
+  SpectrumParameter mean_of(Id<Texture> texture, TextureUse use, const char* what);
+  std::string bake_file(const ImageTexture& image, TextureUse use, bool all_levels,
+                        const SourceLocation& where);
+  std::string write_image(Image values, TextureUse use, bool all_levels);
+  Id<Texture> add(TextureModel model, TextureUse use);
+  std::string slot_of(const std::string& attribute, TextureUse use);
+  bool is_number(const SpectrumParameter& parameter) const;
+
+  const Scene& scene_;
+  std::filesystem::path bundle_;
+  Diagnostics& diagnostics_;
+  TextureMeans means_;
+  ReflectanceFitter fitter_;
+  std::vector<Texture> textures_;
+  std::vector<Attribute> attributes_;
+  std::vector<TextureFileEntry> files_;
+  std::map<std::pair<std::uint32_t, TextureUse>, SpectrumParameter> baked_;
+  using ImageKey = std::tuple<std::string, Encoding, float, float, bool, TextureUse, bool>;
+  std::map<ImageKey, std::string> images_;
+};
+
+// What a vertex has in a slot of that use. Numbers: the mean of the colour. Spectra: x at 360, 595 and 830 nm
+// of the sigmoid, within ±200, as Mitsuba holds them, so that it may be interpolated; a colour outside [0,1]
+// is clamped.
+std::array<float, 3> attribute_value(RGB color, TextureUse use, const ReflectanceFitter& fitter);
+
+// Moves what the textures' transforms end in: by −offset from the world to the bundle's coordinates.
+void move(std::vector<Texture>& textures, Vector3d by);
+
+}  // namespace vitrail

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "partitioner/cutting/kd_plan.h"
+
+#include <tbb/parallel_invoke.h>
+
+#include <bit>
+#include <cmath>
+#include <numeric>
+
+#include "partitioner/cutting/choose_plane.h"
+
+namespace vitrail {
+
+namespace {
+
+// No domain should have more than this many times its even share of triangles.
+constexpr double most_load = 1.2;
+
+Cut choose(std::span<const Item> sample, const Subtree& s, const PlanRule& rule) {
+  const double spare = most_load * rule.share * s.domains / std::max(1.0, static_cast<double>(sample.size()));
+  Division division{s.domains, std::min(s.domains / 2, (rule.most_domains + 1) / 2), 0};
+  // A side of so many domains must not need more levels than are left.
+  const int levels = max_kd_depth - 1 - s.depth;
+  if (levels < 31 && s.domains > 1u << levels)
+    division.least = std::max(division.least, s.domains - (1u << levels));
+  division.tolerance = std::max(0.01, std::pow(spare, 1.0 / std::bit_width(s.domains - 1)) - 1);
+  if (const auto cut = rule.median ? median_plane(sample, division) : choose_plane(sample, division))
+    return *cut;
+  if (s.cell.empty()) return {{}, s.domains / 2};
+  const Vector3f e = extent(s.cell);
+  const int axis = e.x >= e.y && e.x >= e.z ? 0 : e.y >= e.z ? 1 : 2;
+  return {{axis, std::midpoint(s.cell.lower[axis], s.cell.upper[axis])}, s.domains / 2};
+}
+
+struct Halves {
+  std::vector<Item> below, above;
+};
+
+// What is cut keeps the rest of its box on either side.
+Halves halves(std::vector<Item> sample, Plane plane) {
+  Halves h;
+  for (const Item& item : sample) {
+    const Interval i{item.bounds.lower[plane.axis], item.bounds.upper[plane.axis]};
+    const bool in_both = reaches_above(i, plane.split) && reaches_below(i, plane.split);
+    if (reaches_below(i, plane.split)) {
+      h.below.push_back(item);
+      if (in_both) h.below.back().bounds.upper[plane.axis] = plane.split;
+    }
+    if (reaches_above(i, plane.split)) {
+      h.above.push_back(item);
+      if (in_both) h.above.back().bounds.lower[plane.axis] = plane.split;
+    }
+  }
+  return h;
+}
+
+std::uint32_t child_of(const Subtree& s) {
+  return s.domains == 1 ? KdNode::leaf_bit | s.first_domain : s.node;
+}
+
+// The plan below a node: its own numbers begin at 0.
+void append(KdPlan& plan, const KdPlan& part) {
+  const auto nodes = static_cast<std::uint32_t>(plan.nodes.size());
+  const auto leaves = static_cast<std::uint32_t>(plan.leaves.size());
+  for (KdNode node : part.nodes) {
+    for (std::uint32_t* child : {&node.below, &node.above})
+      *child += *child & KdNode::leaf_bit ? leaves : nodes;
+    plan.nodes.push_back(node);
+  }
+  plan.leaves.insert(plan.leaves.end(), part.leaves.begin(), part.leaves.end());
+}
+
+}  // namespace
+
+KdPlan plan_kd_tree(std::vector<Item> sample, const Subtree& s, const PlanRule& rule,
+                    std::span<KdNode> kd_nodes) {
+  if (s.domains <= rule.most_domains) return {{}, {s}};
+  const auto [plane, domains_below] = choose(sample, s, rule);
+  Subtree low{s.cell, s.node + 1, s.first_domain, domains_below, s.depth + 1};
+  Subtree high{s.cell, s.node + domains_below, s.first_domain + domains_below, s.domains - domains_below,
+               s.depth + 1};
+  low.cell.upper[plane.axis] = high.cell.lower[plane.axis] = plane.split;
+  const auto axis = static_cast<std::uint32_t>(plane.axis);
+  kd_nodes[s.node] = {plane.split, axis, child_of(low), child_of(high)};
+
+  Halves half_samples = halves(std::move(sample), plane);
+  KdPlan below, above;
+  tbb::parallel_invoke([&] { below = plan_kd_tree(std::move(half_samples.below), low, rule, kd_nodes); },
+                       [&] { above = plan_kd_tree(std::move(half_samples.above), high, rule, kd_nodes); });
+  const auto leaves = static_cast<std::uint32_t>(below.leaves.size());
+  const auto first_above = static_cast<std::uint32_t>(1 + below.nodes.size());
+  KdPlan plan{{{plane.split, axis, below.nodes.empty() ? KdNode::leaf_bit : 1,
+                above.nodes.empty() ? KdNode::leaf_bit | leaves : first_above}},
+              {}};
+  append(plan, below);
+  append(plan, above);
+  return plan;
+}
+
+}  // namespace vitrail

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// The kd-tree, or part of it, from the bounds of some of the triangles.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "bundle/manifest.h"
+#include "partitioner/cutting/choose_plane.h"
+
+namespace vitrail {
+
+// Part of the kd-tree to be made: `domains` from `first_domain` on, their inner nodes from `node` on. Nodes
+// are numbered in preorder, so that every subtree knows its numbers beforehand and threads cannot change
+// them.
+struct Subtree {
+  Bounds3f cell;
+  std::uint32_t node = 0, first_domain = 0, domains = 1;
+  int depth = 0;  // planes above it
+};
+
+struct PlanRule {
+  double share = 0;                // of the work of the whole scene's sample, that a domain should have
+  std::uint32_t most_domains = 1;  // in a leaf of the plan, which has half as many at least where it can
+  bool median = false;             // median_plane decides, for comparison
+};
+
+// Where to send triangles (`route`), and what is at the leaves.
+struct KdPlan {
+  std::vector<KdNode> nodes;
+  std::vector<Subtree> leaves;
+};
+
+// Divides until no leaf has more than `most_domains`. `sample`: of the cell's items. No domain
+// should have more than 1.2 times its share of them. Writes the nodes that it makes to `kd_nodes`, the whole
+// tree's. A cell in which nothing can be parted is halved: some of its domains stay empty.
+KdPlan plan_kd_tree(std::vector<Item> sample, const Subtree& subtree, const PlanRule& rule,
+                    std::span<KdNode> kd_nodes);
+
+}  // namespace vitrail

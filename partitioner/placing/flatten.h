@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// Scene → one list of world triangles around the origin.
+#pragma once
+
+#include <filesystem>
+
+#include "partitioner/cutting/cut.h"
+#include "partitioner/placing/world.h"
+
+namespace vitrail {
+
+// The triangles that no instance has.
+struct FlatScene : NumberedTriangles {
+  Manifest manifest;  // all but the kd-tree, the domains and cut_triangles
+};
+
+// See world_of and place_scene. `placed` is told of how many triangles, from any thread.
+FlatScene flatten(World world, std::uint64_t load_bytes,
+                  const std::function<void(std::uint64_t)>& placed = {});
+FlatScene flatten(const Scene& scene, const std::filesystem::path& bundle, const WorldOptions& options = {});
+
+}  // namespace vitrail

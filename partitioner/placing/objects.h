@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which prototypes become objects, and where they stand. It depends on the scene alone: a scene whose
+// instances are kept and the same scene flattened are made of the same objects.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "partitioner/placing/placement.h"
+#include "scene/scene.h"
+
+namespace vitrail {
+
+struct ObjectUse {
+  std::uint32_t object = 0;  // index
+  Affine to_parent{};        // from the object's coordinates to the parent's
+  std::uint64_t first_triangle = 0;
+};
+
+// The scene, or an object. Its coordinates are taken from `centre`.
+struct Assembly {
+  std::vector<Placement> placements;  // of its own
+  std::vector<ObjectUse> uses;
+  std::uint64_t triangles = 0;  // ids: of its own and of its uses, in their order
+  Vector3d centre;
+  Bounds3f bounds;  // of all
+  int depth = 0;    // most uses within each other
+};
+
+struct ScenePlan {
+  std::vector<Assembly> objects;  // with uses of earlier ones only
+  Assembly scene;
+};
+
+// A prototype becomes an object where references to it take fewer bytes than copies of it. What a singular,
+// projective or extreme transform places is copied. Throws Error for vertices that are not finite where they
+// stand, and for 2³² − 1 triangles or more.
+ScenePlan plan_scene(const Scene& scene);
+
+// The placements of every use of the scene, as `select` chooses them, in the order of ids.
+std::vector<Placement> expanded(const ScenePlan& plan, const std::function<bool(const Placement&)>& select);
+
+}  // namespace vitrail

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "partitioner/placing/place_scene.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_for_each.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <span>
+
+#include "bundle/checksum.h"
+#include "bundle/records.h"
+#include "scene/deferred_mesh.h"
+
+namespace vitrail {
+
+namespace {
+
+// Tracing multiplies two coordinates in float.
+constexpr float greatest_scale = 1e15f;
+
+struct MeshUse {
+  const TriangleMesh* mesh;
+  std::vector<const Placement*> placements;
+  // Of the loaded mesh and its placed vertices.
+  std::uint64_t bytes() const {
+    return mesh->deferred ? mesh->deferred->bytes * 3 / 2 : mesh->positions.size() * sizeof(Point3f);
+  }
+};
+
+std::vector<MeshUse> uses_of_meshes(const World& world) {
+  std::map<const TriangleMesh*, std::size_t> index;
+  std::vector<MeshUse> uses;
+  for (const Placement& p : world.placements) {
+    const auto [known, is_new] = index.try_emplace(p.mesh, uses.size());
+    if (is_new) uses.push_back({p.mesh, {}});
+    uses[known->second].placements.push_back(&p);
+  }
+  return uses;
+}
+
+std::size_t blocks_of(const Placement& p) {
+  return (triangles_of(*p.mesh) + block_triangles - 1) / block_triangles;
+}
+
+// Triangles without area emit nothing and are left out.
+void take_emissive(const PlacedTriangles& placed, std::uint64_t at, std::size_t count, std::uint64_t first_id,
+                   std::uint32_t area_light, std::vector<EmissiveTriangle>& out) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const Triangle& t = placed.triangles[at + i];
+    const Vector3d normal =
+        cross(cast<double>(t[1]) - cast<double>(t[0]), cast<double>(t[2]) - cast<double>(t[0]));
+    if (!(length(normal) > 0)) continue;
+    EmissiveTriangle& e = out.emplace_back();
+    std::copy(t.begin(), t.end(), e.p);
+    if (!placed.uvs.empty()) std::copy(placed.uvs[at + i].begin(), placed.uvs[at + i].end(), e.uv);
+    e.triangle = static_cast<std::uint32_t>(first_id + i);
+    e.area_light = area_light;
+  }
+}
+
+}  // namespace
+
+void place_scene(const World& world, std::uint64_t load_bytes,
+                 const std::function<void(const Block&)>& visit) {
+  const std::vector<MeshUse> uses = uses_of_meshes(world);
+  const PlacementRule rule = world.rule();
+  const ReflectanceFitter fitter;
+  const auto place_use = [&](const MeshUse& use) {
+    TriangleMesh storage;
+    const TriangleMesh& mesh = loaded(*use.mesh, storage);
+    for (const Placement* p : use.placements) {
+      const MeshPlacer placer(*p, mesh, rule, fitter);
+      tbb::parallel_for(std::size_t{0}, blocks_of(*p), [&](std::size_t b) {
+        const std::size_t begin = b * block_triangles;
+        visit({*p, placer, begin, std::min(begin + block_triangles, mesh.triangles.size())});
+      });
+    }
+  };
+  for (std::size_t i = 0; i < uses.size();) {
+    const std::size_t first = i;
+    for (std::uint64_t bytes = 0; i < uses.size() && (i == first || bytes + uses[i].bytes() <= load_bytes);
+         ++i)
+      bytes += uses[i].bytes();
+    tbb::parallel_for_each(uses.begin() + static_cast<std::ptrdiff_t>(first),
+                           uses.begin() + static_cast<std::ptrdiff_t>(i), place_use);
+  }
+}
+
+SceneTally::SceneTally(const World& world) : world_(world) {
+  std::size_t blocks = 0;
+  const std::vector<Surface>& surfaces = world.manifest.surfaces;
+  for (const Placement& p : world.placements) {
+    first_block_.push_back(blocks);
+    blocks += blocks_of(p);
+    const auto after = std::ranges::upper_bound(surfaces, p.first_triangle, {}, &Surface::first_triangle);
+    area_lights_.push_back(std::prev(after)->area_light);
+  }
+  hashes_.resize(blocks);
+}
+
+void SceneTally::add(const Block& block, const PlacedTriangles& placed, std::uint64_t at) {
+  const std::size_t count = block.end - block.begin;
+  const auto placement = static_cast<std::size_t>(&block.placement - world_.placements.data());
+  const auto part = [&](const auto& values) { return std::as_bytes(std::span(values).subspan(at, count)); };
+  Hasher hasher;
+  hasher.add(part(placed.triangles));
+  if (!placed.normals.empty()) hasher.add(part(placed.normals));
+  if (!placed.uvs.empty()) hasher.add(part(placed.uvs));
+  for (const auto& slot : placed.attributes) hasher.add(part(slot));
+  hashes_[first_block_[placement] + block.begin / block_triangles] = hasher.digest();
+
+  Bounds3f bounds;
+  if (!block.placement.standing)
+    for (const Triangle& t : std::span(placed.triangles).subspan(at, count))
+      for (const Point3f& v : t) extend(bounds, v);
+  std::vector<EmissiveTriangle> emissive;
+  if (area_lights_[placement] >= 0)
+    take_emissive(placed, at, count, block.placement.first_triangle + block.begin,
+                  static_cast<std::uint32_t>(area_lights_[placement]), emissive);
+  const std::lock_guard lock(mutex_);
+  if (!bounds.empty()) extend(bounds_, bounds);
+  emissive_.insert(emissive_.end(), emissive.begin(), emissive.end());
+}
+
+void SceneTally::add_shining(const ShiningPlacement& shining) {
+  TriangleMesh storage;
+  const Placement& p = shining.placement;
+  const TriangleMesh& mesh = loaded(*p.mesh, storage);
+  const PlacementRule rule = world_.rule();
+  const ReflectanceFitter fitter;
+  const std::size_t count = mesh.triangles.size();
+  PlacedTriangles placed = make_room(rule, count);
+  MeshPlacer(p, mesh, rule, fitter).place(0, count, placed, 0);
+  take_emissive(placed, 0, count, p.first_triangle, shining.area_light, emissive_);
+}
+
+// Instances, kept or copied, count as their boxes: the same bounds either way.
+void SceneTally::finish(Manifest& m) {
+  for (const ShiningPlacement& shining : world_.shining) add_shining(shining);
+  m.bounds = bounds_;
+  if (!world_.instance_bounds.empty()) extend(m.bounds, world_.instance_bounds);
+  for (int axis = 0; axis < 3 && m.triangles > 0; ++axis)
+    m.scale = std::max({m.scale, std::abs(m.bounds.lower[axis]), std::abs(m.bounds.upper[axis])});
+  if (m.scale > greatest_scale)
+    throw Error(
+        fmt::format("the scene reaches {:g} from its centre; the most is {:g}", m.scale, greatest_scale));
+  std::ranges::sort(emissive_, {}, &EmissiveTriangle::triangle);
+  m.emissive_triangles = std::move(emissive_);
+  const std::uint64_t records = hash_of_records(m);
+  Hasher hasher;
+  hasher.add(std::as_bytes(std::span(hashes_)));
+  for (const ObjectInfo& object : m.objects) hasher.add(std::as_bytes(std::span(&object.hash, 1)));
+  hasher.add(std::as_bytes(std::span(world_.uses)));
+  hasher.add(std::as_bytes(std::span(&records, 1)));
+  m.scene_hash = hasher.digest();
+}
+
+}  // namespace vitrail

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// All triangles of a scene, one block after the other.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <mutex>
+#include <vector>
+
+#include "partitioner/placing/world.h"
+
+namespace vitrail {
+
+// Triangles [begin, end) of a placement's mesh.
+struct Block {
+  const Placement& placement;
+  const MeshPlacer& placer;
+  std::size_t begin, end;
+};
+inline constexpr std::size_t block_triangles = 8192;  // that begin at multiples of it
+
+// Calls `visit` with every block once, from many threads. Deferred meshes are loaded, about as many at once
+// as take `load_bytes`, and let go of again.
+void place_scene(const World& world, std::uint64_t load_bytes,
+                 const std::function<void(const Block&)>& visit);
+
+// What the placed triangles say of the scene, in whatever order they come.
+class SceneTally {
+ public:
+  explicit SceneTally(const World& world);
+
+  // The block's triangles, which are at `placed` from `at` on. From any thread.
+  void add(const Block& block, const PlacedTriangles& placed, std::uint64_t at);
+  // bounds, scale, emissive_triangles, scene_hash. The objects have been written.
+  void finish(Manifest& manifest);
+
+ private:
+  void add_shining(const ShiningPlacement& shining);
+
+  const World& world_;
+  std::vector<std::size_t> first_block_;   // of each placement
+  std::vector<std::uint64_t> hashes_;      // of each block
+  std::vector<std::int32_t> area_lights_;  // of each placement
+  std::mutex mutex_;
+  Bounds3f bounds_;
+  std::vector<EmissiveTriangle> emissive_;
+};
+
+}  // namespace vitrail

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+// One mesh where it stands in the world, and its triangles in the bundle's coordinates.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "bundle/instance.h"
+#include "partitioner/appearance/appearance.h"
+#include "scene/bounds.h"
+#include "scene/mesh.h"
+
+namespace vitrail {
+
+using Triangle = std::array<Point3f, 3>;
+using CornerNormals = std::array<std::uint32_t, 3>;  // encode_normal
+using CornerUvs = std::array<Point2f, 3>;
+using CornerValues = std::array<std::array<float, 3>, 3>;  // [vertex][channel]
+
+// Where an object stands whose triangles are to be the scene's own.
+struct Standing {
+  Vector3d centre;  // of the object, whose coordinates are taken from there
+  Affine to_bundle;
+};
+
+struct Placement {
+  const TriangleMesh* mesh = nullptr;  // may be deferred
+  const Shape* shape = nullptr;
+  Transform to_world;                // or to the object's space
+  bool flip = false;                 // the winding there shows the back
+  std::uint64_t first_triangle = 0;  // global id, or the object's
+  std::optional<Standing> standing = {};
+};
+
+struct PlacedTriangles {
+  std::vector<Triangle> triangles;     // wound so that the front is where they run counter-clockwise
+  std::vector<CornerNormals> normals;  // empty, or one a triangle
+  std::vector<CornerUvs> uvs;          // empty, or one a triangle
+  std::vector<std::vector<CornerValues>>
+      attributes;  // [slot][triangle] of the mesh attributes that textures read
+};
+
+// What of the triangles is kept. `offset` is taken from the world's coordinates.
+struct PlacementRule {
+  Vector3d offset;
+  bool normals = false, uvs = false;
+  std::span<const TextureBaker::Attribute> attributes;
+};
+
+// `outer`: what the shape's own transform is followed by. Where it mirrors, the front sides stay.
+Placement placement_of(const TriangleMesh& mesh, const Shape& shape, const Transform& outer,
+                       std::uint64_t first_triangle);
+
+PlacedTriangles make_room(const PlacementRule& rule, std::uint64_t triangles);
+
+// Places triangles of one mesh. Composed in double, rounded once; what stands as an object does is rounded in
+// the object's space and once more where it stands, as tracing does it. Shading normals are turned to their
+// triangle's front; a triangle with one that is zero has none. What it is made of outlives it.
+class MeshPlacer {
+ public:
+  // `mesh`: the placement's, loaded.
+  MeshPlacer(const Placement& placement, const TriangleMesh& mesh, const PlacementRule& rule,
+             const ReflectanceFitter& fitter);
+
+  // Triangles [begin, end) of the mesh, to `out` from `at` on. From any thread. Throws Error for vertices
+  // that are not finite in the world.
+  void place(std::size_t begin, std::size_t end, PlacedTriangles& out, std::uint64_t at) const;
+
+ private:
+  Triangle triangle(std::size_t i) const;
+  CornerNormals normals(std::size_t i, const Triangle& placed) const;
+  CornerUvs uvs(std::size_t i) const;
+  CornerValues values(std::size_t i, const MeshAttribute& attribute, TextureUse use) const;
+  [[noreturn]] void reject(std::size_t i) const;
+
+  const Placement& placement_;
+  const TriangleMesh& mesh_;
+  const PlacementRule& rule_;
+  const ReflectanceFitter& fitter_;
+  std::vector<Point3f> vertices_;  // in the bundle's coordinates
+};
+
+// All triangles of the placement's mesh, which is loaded.
+void place(const Placement& placement, const PlacementRule& rule, const ReflectanceFitter& fitter,
+           PlacedTriangles& out, std::uint64_t at);
+
+Surface surface_of(const Placement& placement, const Appearance& appearance);
+
+}  // namespace vitrail

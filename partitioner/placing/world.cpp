@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "partitioner/placing/world.h"
+
+#include <algorithm>
+#include <iterator>
+
+#include "bundle/interiors.h"
+#include "partitioner/appearance/appearance.h"
+#include "partitioner/appearance/requirements.h"
+#include "scene/deferred_mesh.h"
+
+namespace vitrail {
+
+namespace {
+
+std::int32_t new_id(const std::vector<std::int32_t>& ids, const auto& old) {
+  return old ? ids.at(old->value) : -1;
+}
+
+// Returns how many.
+std::uint32_t make_surfaces(const Appearance& appearance, const std::vector<Placement>& placements,
+                            Manifest& m) {
+  const std::size_t first = m.surfaces.size();
+  for (const Placement& p : placements) {
+    const Surface surface = surface_of(p, appearance);
+    if (m.surfaces.size() > first) {
+      Surface same = m.surfaces.back();
+      same.first_triangle = surface.first_triangle;
+      if (same == surface) continue;
+    }
+    m.surfaces.push_back(surface);
+  }
+  return static_cast<std::uint32_t>(m.surfaces.size() - first);
+}
+
+bool have_normals(const std::vector<Placement>& placements, const Scene& scene) {
+  return std::ranges::any_of(placements, [&](const Placement& p) {
+    const MaterialModel& model = scene.materials.at(p.shape->material.value).model;
+    return has_normals(*p.mesh) && !std::holds_alternative<InterfaceMaterial>(model);
+  });
+}
+
+// Moves what stands in the world to the bundle's coordinates.
+struct LightMover {
+  Vector3d offset;
+  void operator()(PointLight& l) const { l.position = l.position - offset; }
+  void operator()(EnvironmentLight& l) const {
+    if (!l.portal) return;
+    for (Point3d& corner : *l.portal) corner = corner - offset;
+  }
+  void operator()(DistantLight&) const {}
+  void operator()(InfiniteLight&) const {}
+  void operator()(auto& l) const { l.light_to_world = translate(-offset) * l.light_to_world; }
+};
+
+void move_records(const Scene& scene, Appearance& appearance, Manifest& m) {
+  m.materials = std::move(appearance.materials);
+  m.area_lights = std::move(appearance.area_lights);
+  m.media = std::move(appearance.media);
+  for (Medium& medium : m.media) medium.medium_to_world = translate(-m.offset) * medium.medium_to_world;
+  m.textures = std::move(appearance.textures);
+  move(m.textures, -m.offset);
+  m.lights = std::move(appearance.lights);
+  for (Light& light : m.lights) std::visit(LightMover{m.offset}, light.model);
+  m.texture_files = std::move(appearance.texture_files);
+  m.attributes = static_cast<std::uint32_t>(appearance.attributes.size());
+  m.camera = scene.camera;
+  std::visit([&](auto& c) { c.camera_to_world = translate(-m.offset) * c.camera_to_world; }, m.camera);
+  m.camera_medium = new_id(appearance.medium_ids, scene.camera_medium);
+  m.film = scene.film;
+  m.settings = scene.settings;
+}
+
+// Copies instead of instances.
+void expand_all(ScenePlan& plan) {
+  std::vector<Placement>& own = plan.scene.placements;
+  std::ranges::copy(expanded(plan, [](const Placement&) { return true; }), std::back_inserter(own));
+  std::ranges::sort(own, {}, &Placement::first_triangle);
+  plan.scene.uses.clear();
+  plan.objects.clear();
+}
+
+}  // namespace
+
+World world_of(const Scene& scene, const std::filesystem::path& bundle, const WorldOptions& options) {
+  World world;
+  Manifest& m = world.manifest;
+  Appearance appearance = appearance_of(scene, bundle);
+  ScenePlan plan = plan_scene(scene);
+  m.triangles = plan.scene.triangles;
+  m.offset = plan.scene.centre;
+  for (const ObjectUse& use : plan.scene.uses)
+    extend(world.instance_bounds, placed_bounds(use.to_parent, plan.objects[use.object].bounds));
+  bool normals = have_normals(plan.scene.placements, scene);
+  for (const Assembly& object : plan.objects) normals = normals || have_normals(object.placements, scene);
+  if (!options.keep_instances) expand_all(plan);
+
+  const auto light_of = [&](const Placement& p) { return surface_of(p, appearance).area_light; };
+  for (const Placement& p : expanded(plan, [&](const Placement& q) { return light_of(q) >= 0; }))
+    world.shining.push_back({p, static_cast<std::uint32_t>(light_of(p))});
+  make_surfaces(appearance, plan.scene.placements, m);
+  for (const Placement& p : plan.scene.placements) world.own_triangles += triangles_of(*p.mesh);
+  world.placements = std::move(plan.scene.placements);
+  world.uses = std::move(plan.scene.uses);
+  for (Assembly& object : plan.objects) {
+    const auto first = static_cast<std::uint32_t>(m.surfaces.size());
+    const std::uint32_t count = make_surfaces(appearance, object.placements, m);
+    world.objects.push_back({std::move(object), first, count});
+  }
+  move_records(scene, appearance, m);
+  static_cast<void>(Interiors(m));  // throws where there are too many
+  m.requirements = options.everything ? all_requirements() : requirements_of(m, normals);
+  world.attributes = std::move(appearance.attributes);
+  return world;
+}
+
+}  // namespace vitrail

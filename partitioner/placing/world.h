@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// A scene, ready to be placed.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "bundle/manifest.h"
+#include "partitioner/placing/objects.h"
+#include "scene/scene.h"
+
+namespace vitrail {
+
+struct WorldOptions {
+  bool keep_instances = false;  // else they are copied
+  bool everything = false;      // as if the scene required all that there is, for measuring
+};
+
+struct WorldObject {
+  Assembly assembly;
+  std::uint32_t first_surface = 0, surface_count = 0;
+};
+
+struct ShiningPlacement {
+  Placement placement;
+  std::uint32_t area_light = 0;  // index
+};
+
+struct World {
+  // All but what is known when triangles have been placed (SceneTally), and the kd-tree and its domains.
+  Manifest manifest;
+  std::vector<Placement> placements;  // by id, of the triangles that no instance has
+  std::uint64_t own_triangles = 0;    // of them
+  // What is kept of instances: the objects, where the scene has them, and what of it shines there.
+  std::vector<WorldObject> objects;
+  std::vector<ObjectUse> uses;
+  std::vector<ShiningPlacement> shining;
+  Bounds3f instance_bounds;  // of all instances, kept or copied
+  std::vector<TextureBaker::Attribute> attributes;
+
+  PlacementRule rule() const {
+    return {manifest.offset, manifest.requirements.shading_normals, manifest.requirements.uv, attributes};
+  }
+};
+
+// Composes all transforms in double. `offset`, to be taken from the world's coordinates, is the centre of the
+// meshes' boxes, a point of floats. Ids run in scene order: the shapes, then each instance's shapes.
+// Materials and area lights that no triangle uses are left out. Throws Error for shapes that floats cannot
+// hold, and for 2³² − 1 triangles or more. Images are baked into the directory `bundle`, unless it is empty.
+// The scene outlives the world.
+World world_of(const Scene& scene, const std::filesystem::path& bundle, const WorldOptions& options = {});
+
+}  // namespace vitrail

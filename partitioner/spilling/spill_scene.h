@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+// A scene → buckets on disk, for scenes that do not fit into memory.
+#pragma once
+
+#include "partitioner/cutting/kd_plan.h"
+#include "partitioner/placing/place_scene.h"
+#include "partitioner/spilling/spill.h"
+
+namespace vitrail {
+
+// The bounds of triangles chosen at random, at most some 3·10⁵, in the bundle's coordinates.
+std::vector<Bounds3f> sample_of(const World& world, const std::vector<InstanceRef>& instances);
+
+// Sends all triangles down the tree to the bucket of its leaf. `placed` is told how many, from any thread.
+void spill_scene(const World& world, const KdPlan& plan, std::uint64_t load_bytes, Spill& spill,
+                 SceneTally& tally, const std::function<void(std::uint64_t)>& placed);
+
+}  // namespace vitrail

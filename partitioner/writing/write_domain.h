@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <functional>
+
+#include "bundle/census.h"
+#include "bundle/manifest.h"
+#include "partitioner/cutting/cut.h"
+
+namespace vitrail {
+
+// What a file holds of these of the triangles.
+DomainContent make_domain(const NumberedTriangles& triangles, const CellContent& cell, float padding);
+// The boxes of the instances are not inflated yet.
+void add_instances(std::vector<InstanceRef> instances, float padding, DomainContent& content);
+
+// Where domains go. Completes the domain's line in the manifest with what its file says. From any thread.
+using StoreDomain = std::function<void(std::uint32_t domain, DomainContent content, DomainInfo& info)>;
+
+// Files of the bundle directory.
+StoreDomain domain_files(std::filesystem::path bundle);
+
+// Makes and stores domain `index` and counts it in the census. Returns its line in the manifest, whose
+// objects are known.
+DomainInfo write_domain(const Manifest& manifest, const NumberedTriangles& triangles, const CellContent& cell,
+                        std::vector<InstanceRef> instances, const StoreDomain& store, std::uint32_t index,
+                        Census& census);
+
+}  // namespace vitrail

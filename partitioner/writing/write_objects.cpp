@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "partitioner/writing/write_objects.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <tuple>
+
+#include "partitioner/hierarchy/build_bvh.h"
+#include "partitioner/memory_plan.h"
+#include "partitioner/writing/write_domain.h"
+#include "scene/deferred_mesh.h"
+#include "scene/diagnostics.h"
+
+namespace vitrail {
+
+namespace {
+
+using Indices = std::vector<std::uint32_t>;
+
+// Divides triangles by their centroids into so many parts of about equal numbers, each stored once.
+void divide(const NumberedTriangles& object, Indices triangles, std::size_t parts,
+            std::vector<Indices>& out) {
+  if (parts <= 1 || triangles.size() <= 1) {
+    std::ranges::sort(triangles);
+    out.push_back(std::move(triangles));
+    return;
+  }
+  const auto centroid = [&](std::uint32_t i, int axis) {
+    const Triangle& t = object.triangles[i];
+    return double{t[0][axis]} + double{t[1][axis]} + double{t[2][axis]};
+  };
+  Bounds3d box;
+  for (const std::uint32_t i : triangles)
+    extend(box, Point3d{centroid(i, 0), centroid(i, 1), centroid(i, 2)});
+  const Vector3d e = extent(box);
+  const int axis = e.x >= e.y && e.x >= e.z ? 0 : e.y >= e.z ? 1 : 2;
+  const std::size_t below = parts / 2;
+  const auto middle = triangles.begin() + static_cast<std::ptrdiff_t>(triangles.size() * below / parts);
+  std::ranges::nth_element(triangles, middle, {},
+                           [&](std::uint32_t i) { return std::tuple(centroid(i, axis), i); });
+  Indices above(middle, triangles.end());
+  triangles.erase(middle, triangles.end());
+  divide(object, std::move(triangles), below, out);
+  divide(object, std::move(above), parts - below, out);
+}
+
+// Of the files: an object of the plan is one or more of them.
+struct Files {
+  std::vector<std::uint32_t> first;  // of each object of the plan; one more at the end
+  std::vector<Bounds3f> bounds;      // of each file
+};
+
+std::vector<InstanceRef> references(const std::vector<ObjectUse>& uses, const Files& files) {
+  std::vector<InstanceRef> refs;
+  for (const ObjectUse& use : uses)
+    for (std::uint32_t file = files.first[use.object]; file < files.first[use.object + 1]; ++file) {
+      InstanceRef& ref = refs.emplace_back(
+          InstanceRef{use.to_parent, {}, {}, file, static_cast<std::uint32_t>(use.first_triangle)});
+      set_box(ref, placed_bounds(use.to_parent, files.bounds[file]));
+    }
+  return refs;
+}
+
+std::vector<std::uint32_t> objects_of(const std::vector<InstanceRef>& refs) {
+  std::vector<std::uint32_t> objects;
+  for (const InstanceRef& ref : refs) objects.push_back(ref.object);
+  std::ranges::sort(objects);
+  objects.erase(std::unique(objects.begin(), objects.end()), objects.end());
+  return objects;
+}
+
+// Of its own triangles.
+std::uint64_t triangles_in(const Assembly& object) {
+  std::uint64_t triangles = 0;
+  for (const Placement& p : object.placements) triangles += triangles_of(*p.mesh);
+  return triangles;
+}
+
+// An object's own triangles, in its coordinates.
+NumberedTriangles placed_alone(const World& world, const Assembly& object) {
+  PlacementRule rule = world.rule();
+  rule.offset = object.centre;
+  const ReflectanceFitter fitter;
+  NumberedTriangles out{make_room(rule, triangles_in(object)), {}};
+  for (Placement p : object.placements) {
+    TriangleMesh storage;
+    p.mesh = &loaded(*p.mesh, storage);
+    place(p, rule, fitter, out, out.ids.size());
+    for (std::uint64_t i = 0; i < p.mesh->triangles.size(); ++i)
+      out.ids.push_back(static_cast<std::uint32_t>(p.first_triangle + i));
+  }
+  return out;
+}
+
+// Parts are small, for their boxes overlap: where they meet a domain needs six or more.
+std::uint32_t number_of_files(const World& world, const Assembly& object, std::uint64_t most_bytes) {
+  const auto triangles = static_cast<double>(triangles_in(object));
+  const double wholes = bytes_of_a_triangle(world.manifest) * triangles / static_cast<double>(most_bytes);
+  return wholes <= 1 ? 1 : static_cast<std::uint32_t>(std::min(std::ceil(4 * wholes), triangles));
+}
+
+// Files `first` to `end`: each with a part of the triangles, the first with all instances.
+void write_object(const World& world, const WorldObject& o, std::uint32_t first, std::uint32_t end,
+                  const std::filesystem::path& bundle, Files& files, std::vector<ObjectInfo>& infos) {
+  const NumberedTriangles object = placed_alone(world, o.assembly);
+  Indices all(object.ids.size());
+  std::iota(all.begin(), all.end(), 0u);
+  std::vector<Indices> parts;
+  divide(object, std::move(all), end - first, parts);
+  for (std::uint32_t file = first; file < end; ++file) {
+    Indices& part = parts[file - first];
+    std::vector<InstanceRef> refs;
+    if (file == first) refs = references(o.assembly.uses, files);
+    Bounds3f& box = files.bounds[file];
+    for (const std::uint32_t t : part)
+      for (const Point3f& v : object.triangles[t]) extend(box, v);
+    for (const InstanceRef& ref : refs) extend(box, box_of(ref));
+    DomainContent content = make_domain(object, {std::move(part), {}, {}}, 0);
+    ObjectInfo& info = infos[file];
+    info = {o.assembly.triangles, 0, 0, o.first_surface, o.surface_count, objects_of(refs)};
+    add_instances(std::move(refs), 0, content);
+    info.bytes = write_domain_file(object_path(bundle, file), content, &info.hash);
+  }
+}
+
+// While an object is written, with the mesh that is being placed.
+double bytes_in_work(const World& world, const Assembly& object, std::uint32_t files) {
+  const auto triangles = static_cast<double>(triangles_in(object));
+  std::uint64_t mesh = 0;
+  for (const Placement& p : object.placements)
+    if (p.mesh->deferred) mesh = std::max(mesh, p.mesh->deferred->bytes);
+  return static_cast<double>(mesh) + bytes_to_build(world.manifest, triangles, std::ceil(triangles / files));
+}
+
+// Those whose instances are of objects before them: as many of them at once as there are threads, or one
+// after the other.
+struct Batch {
+  Indices at_once, alone;
+};
+
+}  // namespace
+
+std::uint64_t triangles_of_objects(const World& world) {
+  std::uint64_t triangles = 0;
+  for (const WorldObject& o : world.objects) triangles += triangles_in(o.assembly);
+  return triangles;
+}
+
+std::vector<InstanceRef> write_objects(const World& world, Manifest& m, const std::filesystem::path& bundle,
+                                       const ObjectLimits& limits,
+                                       const std::function<void(std::uint64_t)>& written) {
+  if (world.objects.empty()) return {};
+  std::filesystem::create_directories(bundle / "objects");
+  Files files{{0}, {}};
+  std::vector<Batch> by_depth;
+  const int threads = tbb::this_task_arena::max_concurrency();
+  double most_bytes = 0;
+  for (std::uint32_t i = 0; i < world.objects.size(); ++i) {
+    const Assembly& object = world.objects[i].assembly;
+    const std::uint32_t count = number_of_files(world, object, limits.file_bytes);
+    files.first.push_back(files.first.back() + count);
+    const double bytes = bytes_in_work(world, object, count);
+    most_bytes = std::max(most_bytes, bytes);
+    by_depth.resize(std::max(by_depth.size(), static_cast<std::size_t>(object.depth) + 1));
+    Batch& batch = by_depth[static_cast<std::size_t>(object.depth)];
+    (threads * bytes <= limits.memory_bytes ? batch.at_once : batch.alone).push_back(i);
+  }
+  if (most_bytes > limits.memory_bytes)
+    throw MachineError(fmt::format(
+        "memory is too little for the largest object that has instances: {:.0f} MiB more is needed",
+        (most_bytes - limits.memory_bytes) / (1 << 20) + 1));
+  files.bounds.resize(files.first.back());
+  m.objects.resize(files.first.back());
+  const auto write = [&](std::uint32_t i) {
+    const WorldObject& object = world.objects[i];
+    write_object(world, object, files.first[i], files.first[i + 1], bundle, files, m.objects);
+    written(triangles_in(object.assembly));
+  };
+  for (const Batch& batch : by_depth) {
+    // A thread that waits within one object begins no other.
+    tbb::parallel_for(std::size_t{0}, batch.at_once.size(), [&](std::size_t i) {
+      tbb::this_task_arena::isolate([&] { write(batch.at_once[i]); });
+    });
+    for (const std::uint32_t i : batch.alone) write(i);
+  }
+  return references(world.uses, files);
+}
+
+std::vector<std::uint32_t> needed_objects(const Manifest& m, std::span<const InstanceRef> instances) {
+  std::vector<bool> needed(m.objects.size());
+  for (const InstanceRef& ref : instances) needed[ref.object] = true;
+  std::vector<std::uint32_t> objects;
+  for (std::size_t i = needed.size(); i-- > 0;)
+    if (needed[i]) {
+      objects.insert(objects.begin(), static_cast<std::uint32_t>(i));
+      for (const std::uint32_t inner : m.objects[i].objects) needed[inner] = true;
+    }
+  return objects;
+}
+
+InstanceDealer::InstanceDealer(std::vector<InstanceRef> instances, float padding, const Bounds3f& root)
+    : instances_(std::move(instances)), padding_(padding), root_(root) {
+  std::vector<Bounds3f> boxes;
+  for (const InstanceRef& ref : instances_) boxes.push_back(box_of(ref));
+  tree_ = build_tree(boxes, padding);
+}
+
+std::vector<InstanceRef> InstanceDealer::in(Bounds3f cell) const {
+  constexpr float infinity = std::numeric_limits<float>::infinity();
+  for (int axis = 0; axis < 3; ++axis) {
+    if (cell.lower[axis] <= root_.lower[axis]) cell.lower[axis] = -infinity;
+    if (cell.upper[axis] >= root_.upper[axis]) cell.upper[axis] = infinity;
+  }
+  Indices found, pending;
+  if (!tree_.empty()) pending.push_back(0);
+  while (!pending.empty()) {
+    const BvhNode& node = tree_[pending.back()];
+    pending.pop_back();
+    for (std::size_t i = 0; i < 8; ++i) {
+      bool meets = node.child[i] != BvhNode::empty;
+      for (int axis = 0; axis < 3; ++axis)
+        meets = meets && node.lower[axis][i] <= cell.upper[axis] && node.upper[axis][i] >= cell.lower[axis];
+      if (!meets) continue;
+      if (node.child[i] & BvhNode::cluster_bit)
+        found.push_back(node.child[i] & ~BvhNode::cluster_bit);
+      else
+        pending.push_back(node.child[i]);
+    }
+  }
+  std::ranges::sort(found);
+  std::vector<InstanceRef> refs;
+  for (const std::uint32_t i : found) {
+    InstanceRef ref = instances_[i];
+    Bounds3f box = inflated(box_of(ref), padding_);
+    for (int axis = 0; axis < 3; ++axis) {
+      box.lower[axis] = std::max(box.lower[axis], cell.lower[axis]);
+      box.upper[axis] = std::min(box.upper[axis], cell.upper[axis]);
+    }
+    if (box.empty()) continue;
+    set_box(ref, box);
+    refs.push_back(ref);
+  }
+  return refs;
+}
+
+}  // namespace vitrail

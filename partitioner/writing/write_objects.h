@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// Objects on disk, and the instances that domains have of them.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <vector>
+
+#include "partitioner/placing/world.h"
+
+namespace vitrail {
+
+struct ObjectLimits {
+  std::uint64_t file_bytes = 0;  // what is larger is parted
+  double memory_bytes = 0;       // for all that are in work
+};
+
+// Writes the world's objects, those beyond the limit in parts of a quarter of it, and their lines in the
+// manifest. Returns the instances of the scene, one for each part, in the order of ids; their boxes are not
+// inflated. `written` is told of triangles, from any thread. Throws MachineError where an object takes more
+// than the memory.
+std::vector<InstanceRef> write_objects(const World& world, Manifest& manifest,
+                                       const std::filesystem::path& bundle, const ObjectLimits& limits,
+                                       const std::function<void(std::uint64_t)>& written);
+// Of all objects.
+std::uint64_t triangles_of_objects(const World& world);
+
+// The objects of these instances and all that they need, ascending.
+std::vector<std::uint32_t> needed_objects(const Manifest& manifest, std::span<const InstanceRef> instances);
+
+// Finds the instances that reach into a cell.
+class InstanceDealer {
+ public:
+  // `root`: the cell that is divided. What lies beyond it belongs to the cells at its border.
+  InstanceDealer(std::vector<InstanceRef> instances, float padding, const Bounds3f& root);
+
+  // Their boxes are clipped to the cell. From any thread.
+  std::vector<InstanceRef> in(Bounds3f cell) const;
+
+ private:
+  std::vector<InstanceRef> instances_;
+  float padding_;
+  Bounds3f root_;
+  std::vector<BvhNode> tree_;
+};
+
+}  // namespace vitrail

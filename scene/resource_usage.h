@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+// What this process has taken of the machine so far.
+#pragma once
+
+#include <cstdint>
+
+namespace vitrail {
+
+double cpu_seconds();                 // of all threads, user's and system's
+std::uint64_t peak_resident_bytes();  // at its highest
+
+}  // namespace vitrail

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// What connections carry beside what paths do: 20 bits where paths have their pdf and the face of a pane.
+#pragma once
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+
+namespace vitrail {
+
+// A power of two that is not below x, out of 15 from 2^`least` on, or 0; more than the greatest is that.
+template <int least>
+struct PowerCode {
+  static std::uint32_t of(double x) {
+    if (!(x > 0)) return 0;
+    int exponent = 0;
+    const double mantissa = std::frexp(x, &exponent);  // [½, 1)
+    const int above = mantissa > 0.5 ? exponent : exponent - 1;
+    return static_cast<std::uint32_t>(above < least ? 1 : above > least + 14 ? 15 : above - least + 1);
+  }
+  static double value(std::uint32_t code) {
+    return code == 0 ? 0 : std::ldexp(1.0, least - 1 + static_cast<int>(code));
+  }
+};
+
+// Of a connection to a distant light that smooth interfaces refract: the light, and how far the normals of
+// what it crossed since it last had the light's direction may be off together.
+struct RefractedAim {
+  std::uint32_t light = 0;  // lowest 16 bits of its number
+  double doubt_rad = 0;     // rounded up, at most 3.6°
+
+  using Doubt = PowerCode<-18>;
+  std::uint32_t bits() const { return (light & 0xffff) | Doubt::of(doubt_rad) << 16; }
+  static RefractedAim of(std::uint32_t bits) { return {bits & 0xffff, Doubt::value(bits >> 16)}; }
+};
+
+// Of any other connection: how much earlier its ray meets the plane of its light for each length that it is
+// moved aside, the tangent of its angle to the light's normal. In the highest 4 bits.
+struct StraightAim {
+  double slope = 0;  // rounded up, at most 2048
+
+  using Slope = PowerCode<-3>;
+  std::uint32_t bits() const { return Slope::of(slope) << 16; }
+  static StraightAim of(std::uint32_t bits) { return {Slope::value(bits >> 16)}; }
+};
+
+// What such a connection has left, rounded down to 32 bits of mantissa, in 40 bits with 8 of exponent above
+// them. 0 of less than 2⁻¹²⁶.
+inline std::uint64_t end_code(double left) {
+  if (!(left >= 0x1p-126)) return 0;
+  return (std::bit_cast<std::uint64_t>(left) - (std::uint64_t{1023 - 127} << 52)) >> 20;
+}
+inline double end_value(std::uint64_t code) {
+  return code == 0 ? 0 : std::bit_cast<double>((code << 20) + (std::uint64_t{1023 - 127} << 52));
+}
+
+}  // namespace vitrail

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tracer/film_exponent.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "film/film.h"
+#include "scene/spectrum.h"
+#include "tracer/portable_math.h"
+#include "tracer/wavelengths.h"
+
+namespace vitrail {
+
+namespace {
+
+// Of texels, over the mean of an image: so many could share the light of all.
+constexpr double brighter_texel = 0x1p20;
+// A light of no extent counts as one seen under 2⁻²⁰ sr: a smooth surface shows it so bright.
+constexpr double brighter_point = 0x1p20;
+// A surface that is lit by E across it has the radiance E/π; a grazed or dark one less.
+constexpr double dimmer_surface = 0.25;
+
+double greatest(const Spectrum& spectrum) {
+  if (const auto* table = std::get_if<TabulatedSpectrum>(&spectrum))
+    return static_cast<double>(*std::max_element(table->values.begin(), table->values.end()));
+  constexpr double step_nm = 10;
+  double most = 0;
+  for (double nm = lambda_min_nm; nm <= lambda_max_nm; nm += step_nm)
+    most = std::max(most, evaluate(spectrum, nm));
+  return most;
+}
+
+class Tally {
+ public:
+  void add(double dim, double bright) {
+    if (!(dim > 0) || !std::isfinite(dim) || !(bright > 0) || !std::isfinite(bright)) return;
+    if (!range_) range_ = {dim, bright};
+    range_->dimmest = std::min(range_->dimmest, dim);
+    range_->brightest = std::max({range_->brightest, dim, bright});
+  }
+  void add(const Spectrum& radiance, double factor) {
+    add(factor * luminance(radiance), factor * greatest(radiance));
+  }
+  const std::optional<LightRange>& range() const { return range_; }
+
+ private:
+  std::optional<LightRange> range_;
+};
+
+void add_surfaces(const LightSampler& s, Tally& tally) {
+  for (const AreaLight& light : s.scene.area_lights)
+    if (const auto* radiance = std::get_if<Spectrum>(&light.radiance))
+      tally.add(*radiance, static_cast<double>(light.scale));
+  constexpr std::array<std::array<double, 2>, 4> points{
+      {{1 / 3.0, 1 / 3.0}, {1 / 6.0, 1 / 6.0}, {2 / 3.0, 1 / 6.0}, {1 / 6.0, 2 / 3.0}}};
+  // Attributes are 1 as numbers and as spectra: the sigmoid of λ².
+  std::array<AttributeValue, max_attributes> white;
+  for (AttributeValue& value : white) value.corners.fill({1, 0, 0});
+  for (const EmissiveTriangle& t : s.scene.triangles) {
+    const AreaLight& light = s.scene.area_lights[t.area_light];
+    if (std::holds_alternative<Spectrum>(light.radiance)) continue;
+    for (const auto& b : points) {
+      const auto mix = [&](auto&& of) { return of(0) * (1 - b[0] - b[1]) + of(1) * b[0] + of(2) * b[1]; };
+      TexturePoint at;
+      at.uv = {mix([&](int i) { return static_cast<double>(t.uv[i].x); }),
+               mix([&](int i) { return static_cast<double>(t.uv[i].y); })};
+      const Point3d p0 = cast<double>(t.p[0]);
+      at.p = p0 + (cast<double>(t.p[1]) - p0) * b[0] + (cast<double>(t.p[2]) - p0) * b[1];
+      at.uv_width = 1;  // the mean of an image
+      at.attributes = white;
+      const double mean =
+          luminance_at(light.radiance, at, s.scene.textures, 2) * static_cast<double>(light.scale);
+      tally.add(mean, mean * brighter_texel);
+    }
+  }
+}
+
+// By the irradiance that they give the nearest and the farthest corner of the scene.
+void add_points(const LightSampler& s, Tally& tally) {
+  const Bounds3f& box = s.scene.bounds;
+  const double diagonal = box.empty() ? 1 : length(cast<double>(extent(box)));
+  for (const PointEmitter& e : s.emitters) {
+    double far = diagonal, near2 = 0;
+    for (int axis = 0; axis < 3 && !box.empty(); ++axis) {
+      const double below = static_cast<double>(box.lower[axis]) - e.position[axis],
+                   above = e.position[axis] - static_cast<double>(box.upper[axis]);
+      const double outside = std::max({below, above, 0.0});
+      near2 += outside * outside;
+      far = std::max({far, std::abs(below), std::abs(above)});
+    }
+    const double intensity = e.bounds.power / (4 * pi);
+    tally.add(intensity / (far * far) * dimmer_surface,
+              intensity / std::max(near2, far * far * 0x1p-20) * brighter_point);
+  }
+}
+
+void add_far_lights(const LightSampler& s, Tally& tally) {
+  for (const LightSampler::Distant& d : s.distant) {
+    const Spectrum& irradiance = std::get<DistantLight>(s.scene.lights[d.light].model).irradiance;
+    tally.add(luminance(irradiance) * dimmer_surface, greatest(irradiance) * brighter_point);
+  }
+  for (const std::uint32_t light : s.infinite)
+    tally.add(std::get<InfiniteLight>(s.scene.lights[light].model).radiance, 1);
+  for (const Environment& e : s.environments) tally.add(e.mean_luminance, e.mean_luminance * brighter_texel);
+}
+
+// A thin medium glows by a part of its emission.
+void add_media(const Manifest& m, Tally& tally) {
+  constexpr double thin = 0x1p-10;
+  for (const Medium& medium : m.media) {
+    if (!medium.emission) continue;
+    double scale = 1;
+    if (medium.emission_scale && !medium.emission_scale->values.empty())
+      scale = static_cast<double>(*std::ranges::max_element(medium.emission_scale->values));
+    tally.add(luminance(*medium.emission) * thin, greatest(*medium.emission) * scale);
+  }
+}
+
+}  // namespace
+
+std::optional<LightRange> light_range(const RenderScene& scene) {
+  Tally tally;
+  add_surfaces(scene.lights, tally);
+  add_points(scene.lights, tally);
+  add_far_lights(scene.lights, tally);
+  add_media(scene.manifest, tally);
+  return tally.range();
+}
+
+int film_exponent(const LightRange& range, double brighter) {
+  constexpr int below = 40, above = 40, least_above = 16;
+  const int dim = std::ilogb(range.dimmest), bright = std::ilogb(range.brightest * std::max(brighter, 1.0));
+  const int exponent =
+      std::clamp(dim - below, bright - deposit_bits + least_above, bright - deposit_bits + above);
+  return std::clamp(exponent, least_exponent, greatest_exponent);
+}
+
+int film_exponent(const RenderScene& scene) {
+  double brighter = std::abs(scene.filter.weight(0, 0));
+  const SpectralBins& bins = scene.manifest.film.spectrum;
+  if (bins.count > 0) brighter *= std::max(1.0, greatest_bin_weight(bins));
+  return film_exponent(light_range(scene).value_or(LightRange{1, 1}), brighter);
+}
+
+}  // namespace vitrail
