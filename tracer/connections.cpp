@@ -22,7 +22,7 @@ constexpr double far_away = 1e30;  // ends of rays to environments
 // `scatter(direction)` gives the value and the density of scattering to there.
 template <class Scatter>
 void PathTracer::connect(const Path& path, Point3d p, const Scatter& scatter) {
-  const std::array<float, 4> u = sample_4d(key_of(path.pixel, path.sample), sample_set::light(path.depth));
+  const std::array<float, 4> u = numbers_for_light(path);
   const auto light = sample_light(scene_.lights, p, u, path.wavelengths);
   if (!light) return;
   const std::optional<Connection> connection = scatter(light->to_light);
@@ -116,7 +116,7 @@ void PathTracer::send_shadow_ray(const Path& path, const Connection& connection,
 // they came, so all four stay.
 bool PathTracer::connect_onwards(Path& path) {
   if (const PreparedMedium* medium = medium_of(path)) {
-    RandomStream random(stream_of(path));
+    RandomStream random(stream_of(path, RayRandom::flight));
     path.throughput = path.throughput * transmittance(*medium, flight_of(path), path.wavelengths, random);
     if (is_black(path.throughput)) return false;
   }
