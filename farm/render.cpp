@@ -29,7 +29,7 @@ Manifest read_with_overrides(const RenderOptions& options) {
   if (options.direct_only) m.settings.direct_only = *options.direct_only;
   if (m.settings.samples_per_pixel < 1 ||
       static_cast<std::uint32_t>(m.settings.samples_per_pixel) >= max_samples)
-    throw UsageError("samples a pixel must be between 1 and 16777215");
+    throw UsageError(fmt::format("samples a pixel must be between 1 and {}", max_samples - 1));
   if (m.settings.max_depth < 0) throw UsageError("the depth must not be negative");
   m.settings.max_depth = std::min(m.settings.max_depth, max_path_depth);
   if (options.crop) m.film.crop = *options.crop;

@@ -16,10 +16,6 @@ SampledSpectrum ratio(const SampledSpectrum& a, const SampledSpectrum& b) {
   return r;
 }
 
-double mean(const SampledSpectrum& s) {
-  return static_cast<double>((s.v[0] + s.v[1] + s.v[2] + s.v[3]) / hero_count);
-}
-
 }  // namespace
 
 bool transmits(const MaterialModel& model) {
@@ -29,6 +25,10 @@ bool transmits(const MaterialModel& model) {
          std::holds_alternative<ThinDielectricMaterial>(model) ||
          std::holds_alternative<DiffuseTransmissionMaterial>(model) ||
          std::holds_alternative<MeasuredMaterial>(model);
+}
+
+bool has_tint(const PrincipledMaterial& m) {
+  return m.spec_tint != FloatParameter{0.0f} || m.sheen_tint != FloatParameter{0.0f};
 }
 
 SampledSpectrum BsdfMaker::spectrum(const SpectrumParameter& p) const {
@@ -60,7 +60,7 @@ Bsdf BsdfMaker::operator()(const DielectricMaterial& m) const {
 
 ThinDielectricBsdf BsdfMaker::thin(const ThinDielectricMaterial& m) const {
   return {ratio(evaluate(m.eta, wavelengths), evaluate(m.exterior_eta, wavelengths)),
-          spectrum(m.reflectance_factor), spectrum(m.transmittance_factor)};
+          spectrum(m.reflectance_factor), spectrum(m.transmittance_factor), throughput};
 }
 
 // Of a metal's reflectance r at normal incidence: η = 1, k = 2√(r/(1 − r)), r < 1.
@@ -109,7 +109,7 @@ LayerVolume BsdfMaker::coating(const CoatingVolume& v) const {
 Bsdf BsdfMaker::operator()(const CoatedDiffuseMaterial& m) const {
   return CoatedDiffuseBsdf{spectrum(m.reflectance),
                            evaluate(m.eta, static_cast<double>(wavelengths.lambda_nm[0])),
-                           microfacets(m.roughness, Masking::correlated), coating(m.volume)};
+                           microfacets(m.roughness, Masking::correlated), coating(m.volume), event};
 }
 
 Bsdf BsdfMaker::operator()(const CoatedConductorMaterial& m) const {
@@ -119,23 +119,33 @@ Bsdf BsdfMaker::operator()(const CoatedConductorMaterial& m) const {
                              microfacets(m.conductor_roughness, Masking::correlated),
                              evaluate(m.interface_eta, static_cast<double>(wavelengths.lambda_nm[0])),
                              microfacets(m.interface_roughness, Masking::correlated),
-                             coating(m.volume)};
+                             coating(m.volume),
+                             event};
 }
 
 Bsdf BsdfMaker::operator()(const DiffuseTransmissionMaterial& m) const {
   return DiffuseTransmissionBsdf{spectrum(m.reflectance) * m.scale, spectrum(m.transmittance) * m.scale};
 }
 
+// Tints are of the colour: they do not depend on the wavelengths that a path has.
+double BsdfMaker::luminance_of(const PrincipledMaterial& m) const {
+  if (!has_tint(m) || std::holds_alternative<Spectrum>(m.base_color)) return luminance;
+  double sum = 0;
+  for (const SampledWavelengths& fixed : luminance_wavelengths())
+    for (const float x : textures.spectrum(m.base_color, at, fixed).v) sum += static_cast<double>(x);
+  return sum / static_cast<double>(luminance_wavelengths().size() * hero_count);
+}
+
 Bsdf BsdfMaker::operator()(const PrincipledMaterial& m) const {
   const SampledSpectrum color = spectrum(m.base_color);
   const auto n = [&](const FloatParameter& p) { return number(p); };
   if (m.thin)
-    return PrincipledThinBsdf{color,          mean(color),      static_cast<double>(m.eta),
+    return PrincipledThinBsdf{color,          luminance_of(m),  static_cast<double>(m.eta),
                               n(m.roughness), n(m.anisotropic), n(m.spec_trans),
                               n(m.spec_tint), n(m.sheen),       n(m.sheen_tint),
                               n(m.flatness),  n(m.diff_trans)};
   return PrincipledBsdf{color,
-                        mean(color),
+                        luminance_of(m),
                         static_cast<double>(m.eta),
                         n(m.roughness),
                         n(m.anisotropic),

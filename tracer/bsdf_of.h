@@ -11,12 +11,17 @@ namespace vitrail {
 // Whether light gets to the other side, so that the model knows which one it is asked from.
 bool transmits(const MaterialModel& model);
 
+bool has_tint(const PrincipledMaterial& m);
+
 struct BsdfMaker {
   const Textures& textures;
   TexturePoint at;
   const SampledWavelengths& wavelengths;
   const Spectrum* exterior_eta;              // as of an Interaction
   const RoughPlasticTables* plastic_tables;  // of the material, where it is a plastic
+  SampledSpectrum throughput;                // of the path
+  std::uint64_t event;                       // what walks in layers are a function of
+  double luminance;                          // of a constant colour, where the material has a tint of it
 
   Bsdf operator()(const DiffuseMaterial& m) const;
   Bsdf operator()(const DielectricMaterial& m) const;
@@ -27,7 +32,9 @@ struct BsdfMaker {
   Bsdf operator()(const CoatedConductorMaterial& m) const;
   Bsdf operator()(const DiffuseTransmissionMaterial& m) const;
   Bsdf operator()(const PrincipledMaterial& m) const;
-  Bsdf operator()(const MeasuredMaterial& m) const { return MeasuredSheetBsdf{&*m.sheet, wavelengths}; }
+  Bsdf operator()(const MeasuredMaterial& m) const {
+    return MeasuredSheetBsdf{&*m.sheet, wavelengths, throughput};
+  }
   // Those that are made of others, and those that bundles do not have: black.
   Bsdf operator()(const auto&) const { return LambertBsdf{}; }
 
@@ -39,6 +46,7 @@ struct BsdfMaker {
   Microfacets microfacets(const Roughness& r, Masking masking) const;
   ConductorBsdf metal(const Metal& metal) const;
   LayerVolume coating(const CoatingVolume& v) const;
+  double luminance_of(const PrincipledMaterial& m) const;
 };
 
 }  // namespace vitrail

@@ -56,7 +56,7 @@ float float_below(double x) {
 // `scatter(direction)` gives the value and the density of scattering to there.
 template <class Scatter>
 void PathTracer::connect(const Path& path, Point3d p, const Scatter& scatter) {
-  const std::array<float, 4> u = sample_4d(key_of(path.pixel, path.sample), sample_set::light(path.depth));
+  const std::array<float, 4> u = numbers_for_light(path);
   const auto light = sample_light(scene_.lights, p, u, path.wavelengths);
   if (!light) return;
   const std::optional<Connection> connection = scatter(light->to_light);
@@ -104,13 +104,13 @@ void PathTracer::send_connection(const Path& path, const Connection& connection,
                                  const SampledSpectrum& radiance, bool refracts) {
   Path sent = path;
   sent.clear(path_in_pane);
+  sent.clear(path_passed);
   sent.cone = 0;
   sent.set(path_connection);
   sent.throughput = radiance;
   const Aimed aimed = aim(connection.from.origin, connection.from.p, light);
   depart(sent, connection.from, light.to_light);
-  sent.direction = aimed.direction;
-  sent.ray.direction = decode_direction(aimed.direction);
+  turn(sent, aimed.direction);
   if (refracts) {
     sent.set(path_in_pane);
     sent.aim = RefractedAim{light.light}.bits();
@@ -176,7 +176,7 @@ void PathTracer::send_shadow_ray(const Path& path, const Connection& connection,
 // they came, so all four stay.
 bool PathTracer::connect_onwards(Path& path) {
   if (const PreparedMedium* medium = medium_of(path)) {
-    RandomStream random(stream_of(path));
+    RandomStream random(stream_of(path, RayRandom::flight));
     path.throughput = path.throughput * transmittance(*medium, flight_of(path), path.wavelengths, random);
     if (is_black(path.throughput)) return false;
   }

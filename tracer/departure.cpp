@@ -19,20 +19,30 @@ const PreparedMedium* PathTracer::medium_of(const Path& path) const {
   return medium < 0 ? nullptr : &scene_.media[static_cast<std::size_t>(medium)];
 }
 
-// A function of the ray, wherever it is traced.
-std::uint64_t PathTracer::stream_of(const Path& path) const {
+// The same wherever the ray is traced.
+std::uint64_t PathTracer::hash_of_ray(const Path& path) const {
   const auto bits = [](float x) { return std::uint64_t{std::bit_cast<std::uint32_t>(x)}; };
   const Point3f o = path.ray.origin;
   return stream_seed(key_of(path.pixel, path.sample), bits(o.x) << 32 | bits(o.y),
                      bits(o.z) << 32 ^ std::uint64_t{path.direction.first()} << 24 ^ path.direction.second());
 }
 
+// A function of the ray and its depth.
+std::uint64_t PathTracer::stream_of(const Path& path, RayRandom use) {
+  return path.random +
+         (std::uint64_t{path.depth} << 3 | static_cast<std::uint64_t>(use)) * 0xd1342543de82ef95u;
+}
+
 // On the other side of a surface, as if it was not there. Connections go through it too, so the path keeps
 // the density of the scattering that it comes from.
 void PathTracer::pass_straight(Path& path, const Interaction& at, const Surface& surface) const {
   const double travelled = path.travelled + path.hit.t * length(cast<double>(path.ray.direction));
-  path.travelled =
-      path.pdf > 0 ? static_cast<double>(rounded_distance(static_cast<float>(travelled), has_cone(path))) : 0;
+  path.travelled = 0;
+  if (path.pdf > 0) {
+    RandomStream random(stream_of(path, RayRandom::distance));
+    path.travelled = static_cast<double>(rounded_distance(static_cast<float>(travelled), has_cone(path),
+                                                          static_cast<std::uint32_t>(random.bits())));
+  }
   continue_straight(path, at, surface);
 }
 
@@ -45,8 +55,13 @@ void PathTracer::continue_from(Path& path, const Interaction& at, const Surface&
 void PathTracer::continue_straight(Path& path, const Interaction& at, const Surface& surface) const {
   const DirectionCode kept = path.direction;
   continue_from(path, at, surface, cast<double>(path.ray.direction));
-  path.direction = kept;
-  path.ray.direction = decode_direction(kept);
+  turn(path, kept);
+}
+
+void PathTracer::turn(Path& path, DirectionCode direction) const {
+  path.direction = direction;
+  path.ray.direction = decode_direction(direction);
+  path.random = hash_of_ray(path);
 }
 
 Departure PathTracer::departure(const Path& path, const Interaction& at, const Surface& surface,
@@ -62,7 +77,12 @@ void PathTracer::depart(Path& path, const Departure& from, Vector3d direction) c
   path.ray = {from.origin, decode_direction(path.direction), from.exclude};
   path.hit = {};
   path.inside = from.inside;
-  for (float& x : path.throughput.v) x = rounded_radiance(x);
+  path.random = hash_of_ray(path);
+  std::uint64_t random = RandomStream(stream_of(path, RayRandom::throughput)).bits();
+  for (float& x : path.throughput.v) {
+    x = rounded_by_chance(x, static_cast<std::uint32_t>(random));
+    random >>= 16;
+  }
 }
 
 // Moves the hit along the normal, to the side of `direction`, by more than rounding to float can move it

@@ -79,10 +79,16 @@ ShadingFrame frame_around(Vector3d n, const Interaction& at, double side) {
 }  // namespace
 
 Materials::Materials(const Manifest& manifest, const Textures& textures)
-    : manifest_(manifest), textures_(textures), plastic_table_(manifest.materials.size()) {
+    : manifest_(manifest),
+      textures_(textures),
+      plastic_table_(manifest.materials.size()),
+      luminance_(manifest.materials.size(), 1) {
   std::map<std::tuple<float, float, Roughness::Distribution>, std::uint32_t> known;
   for (std::size_t i = 0; i < manifest.materials.size(); ++i) {
     kinds_.push_back(kind_of(manifest.materials[i]));
+    if (const auto* principled = std::get_if<PrincipledMaterial>(&manifest.materials[i].model))
+      if (const auto* color = std::get_if<Spectrum>(&principled->base_color); color && has_tint(*principled))
+        luminance_[i] = luminance(*color);
     const auto* plastic = std::get_if<PlasticMaterial>(&manifest.materials[i].model);
     if (!plastic) continue;
     // A textured width is tabulated by what it is in the middle.
@@ -97,18 +103,16 @@ Materials::Materials(const Manifest& manifest, const Textures& textures)
   }
 }
 
-const Material* Materials::choose(std::uint32_t material, const Interaction& at, const SampleKey& key,
-                                  std::uint32_t depth) const {
-  for (std::uint32_t level = 0;; ++level) {
+const Material* Materials::choose(std::uint32_t material, const Interaction& at, RandomStream& chance) const {
+  for (;;) {
     const Material& m = manifest_.materials[material];
-    const auto chance = [&] { return static_cast<double>(hashed_1d(key, at.triangle, depth << 8 | level)); };
     if (const auto* sided = std::get_if<TwoSidedMaterial>(&m.model)) {
       material = (at.front ? sided->front : sided->back).value;
     } else if (const auto* blend = std::get_if<BlendMaterial>(&m.model)) {
       const double amount = textures_.number(blend->amount, at.texture_point());
-      material = (chance() < amount ? blend->second : blend->first).value;
+      material = (chance.next() < amount ? blend->second : blend->first).value;
     } else if (const auto* mask = std::get_if<MaskMaterial>(&m.model)) {
-      if (chance() >= textures_.number(mask->opacity, at.texture_point())) return nullptr;
+      if (chance.next() >= textures_.number(mask->opacity, at.texture_point())) return nullptr;
       material = mask->material.value;
     } else {
       return std::holds_alternative<InterfaceMaterial>(m.model) ? nullptr : &m;
@@ -137,7 +141,7 @@ SampledSpectrum Materials::passes_straight(std::uint32_t material, const Interac
   if (const auto* measured = std::get_if<MeasuredMaterial>(&m.model))
     return sheet_fractions(*measured->sheet, wavelengths, std::abs(dot(at.out, at.shading))).transmitted;
   if (const auto* thin = std::get_if<ThinDielectricMaterial>(&m.model)) {
-    const BsdfMaker maker{textures_, at.texture_point(), wavelengths, nullptr, nullptr};
+    const BsdfMaker maker{textures_, at.texture_point(), wavelengths, nullptr, nullptr, filled(1), 0, 1};
     return straight_transmittance(maker.thin(*thin), std::abs(dot(at.out, at.shading)));
   }
   return {};
@@ -154,13 +158,21 @@ Vector3d Materials::shading_normal(const Material& material, const Interaction& 
 }
 
 std::optional<Scattering> Materials::scattering_at(const Material& material, const Interaction& at,
-                                                   const SampledWavelengths& wavelengths) const {
+                                                   const SampledWavelengths& wavelengths,
+                                                   const SampledSpectrum& throughput,
+                                                   std::uint64_t event) const {
   const bool both_sides = transmits(material.model);
   if (!both_sides && !material.two_sided && !at.front) return std::nullopt;
   const Vector3d normal = shading_normal(material, at);
   const BsdfMaker maker{
-      textures_, at.texture_point(), wavelengths, at.exterior_eta,
-      plastic_tables_.empty() ? nullptr : &plastic_tables_[plastic_table_[index_of(material)]]};
+      textures_,
+      at.texture_point(),
+      wavelengths,
+      at.exterior_eta,
+      plastic_tables_.empty() ? nullptr : &plastic_tables_[plastic_table_[index_of(material)]],
+      throughput,
+      event,
+      luminance_[index_of(material)]};
   return Scattering{std::visit(maker, material.model), frame_around(normal, at, both_sides ? 1.0 : at.side()),
                     both_sides, material.bump_shadowing ? bump_alpha2(dot(normal, at.shading)) : 0};
 }

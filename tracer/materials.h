@@ -28,8 +28,7 @@ class Materials {
 
   // The material that a path meets: of two sides the one it sees, of a blend one by chance, of a mask the
   // material or, null, nothing: light goes straight through.
-  const Material* choose(std::uint32_t material, const Interaction& at, const SampleKey& key,
-                         std::uint32_t depth) const;
+  const Material* choose(std::uint32_t material, const Interaction& at, RandomStream& chance) const;
   // The share of the light that goes straight through, by no chance.
   SampledSpectrum passes_straight(std::uint32_t material, const Interaction& at,
                                   const SampledWavelengths& wavelengths) const;
@@ -38,9 +37,11 @@ class Materials {
   bool disperses(const Material& material, const Interaction& at) const {
     return kind(index_of(material)).dispersive || (at.exterior_eta && !is_constant(*at.exterior_eta));
   }
-  // Of a chosen material; empty where it is black: the back of a one-sided surface.
+  // Of a chosen material; empty where it is black: the back of a one-sided surface. `throughput` of the path
+  // guides choices between wavelengths; `event` is what walks in layers are a function of.
   std::optional<Scattering> scattering_at(const Material& material, const Interaction& at,
-                                          const SampledWavelengths& wavelengths) const;
+                                          const SampledWavelengths& wavelengths,
+                                          const SampledSpectrum& throughput, std::uint64_t event) const;
   // The normal as bump and normal maps turn it; on the same side as at.geometric.
   Vector3d shading_normal(const Material& material, const Interaction& at) const;
 
@@ -53,6 +54,7 @@ class Materials {
   std::vector<MaterialKind> kinds_;
   std::vector<RoughPlasticTables> plastic_tables_;
   std::vector<std::uint32_t> plastic_table_;  // of a material: index into plastic_tables_
+  std::vector<double> luminance_;             // of a material: of the constant colour that it has a tint of
 };
 
 // Index behind over index in front at the four wavelengths, seen from where the ray came.

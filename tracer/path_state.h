@@ -23,6 +23,7 @@ struct PathTracer::Path {
   SampledSpectrum throughput;
   DirectionCode direction;
   Ray ray;
+  std::uint64_t random = 0;  // a hash of the ray
   RayConstants constants;
   Hit hit;
   std::uint32_t hit_domain = 0;

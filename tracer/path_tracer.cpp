@@ -39,6 +39,17 @@ SampleKey PathTracer::key_of(std::uint32_t pixel, std::uint32_t sample) const {
   return {scene_.seed, y * static_cast<std::uint32_t>(film_.full_width()) + x, sample};
 }
 
+// The first event at a depth has a stratified set; those that follow where going straight on counts for no
+// depth have numbers of their ray.
+std::array<float, 4> PathTracer::numbers_for_scattering(const Path& path) const {
+  if (path.is(path_passed)) return hashed_4d(stream_of(path, RayRandom::scattering));
+  return sample_4d(key_of(path.pixel, path.sample), sample_set::scatter(path.depth));
+}
+std::array<float, 4> PathTracer::numbers_for_light(const Path& path) const {
+  if (path.is(path_passed)) return hashed_4d(stream_of(path, RayRandom::light));
+  return sample_4d(key_of(path.pixel, path.sample), sample_set::light(path.depth));
+}
+
 void PathTracer::find_wavelengths(Path& path) const {
   if (path.has_wavelengths) return;
   path.has_wavelengths = true;
@@ -69,6 +80,7 @@ void PathTracer::trace_camera(int x, int y, std::uint32_t sample) {
   path.inside = scene_.interiors.state_in(manifest_.camera_medium);
   path.direction = ray.direction;
   path.ray = {ray.origin, decode_direction(ray.direction), no_triangle};
+  path.random = hash_of_ray(path);
   film_.count_sample(path.pixel, sample);
   ++counters_.rays_camera;
   ++counters_.born;
@@ -78,14 +90,14 @@ void PathTracer::trace_camera(int x, int y, std::uint32_t sample) {
 void PathTracer::resume(const PathRecord& record, std::uint32_t domain) {
   Path path;
   path.pixel = record.pixel;
-  path.sample = record.sample_depth >> 8;
-  path.depth = record.sample_depth & 0xff;
-  path.flags = record.flags & 0xf;
+  path.sample = record.sample_depth >> 9;
+  path.depth = (record.sample_depth & 0x1ff) << 8 | record.depth;
+  path.flags = record.flags & (record.flags & (path_in_pane | path_connection) ? 0xf : 0x1f);
   if (path.is(path_in_pane))
     path.entered_by = {static_cast<std::uint32_t>(record.flags >> 4) << 16 | record.pdf};
   else
     path.pdf = pdf_value(record.pdf);
-  for (std::size_t i = 0; i < hero_count; ++i) path.throughput.v[i] = unpack_radiance(record.throughput[i]);
+  path.throughput = unpack_throughput(record.throughput);
   std::array<std::uint8_t, 3> travelled = std::to_array(record.travelled);
   if (has_cone(path)) path.cone = std::exchange(travelled[0], std::uint8_t{0});
   path.travelled = static_cast<double>(unpack_radiance(travelled.data()));
@@ -95,6 +107,7 @@ void PathTracer::resume(const PathRecord& record, std::uint32_t domain) {
   path.ray = {{record.origin[0], record.origin[1], record.origin[2]},
               decode_direction(record.direction),
               record.exclude};
+  path.random = hash_of_ray(path);
   path.hit.t = record.hit_t;
   path.hit.triangle = record.hit_triangle;
   path.hit_domain = record.hit_domain;
@@ -167,13 +180,14 @@ bool PathTracer::forward(const Path& path, std::uint32_t domain, bool resolved) 
   r.origin[0] = path.ray.origin.x;
   r.origin[1] = path.ray.origin.y;
   r.origin[2] = path.ray.origin.z;
-  for (std::size_t i = 0; i < hero_count; ++i) pack_radiance(path.throughput.v[i], r.throughput[i]);
+  pack_throughput(path.throughput, r.throughput);
   pack_radiance(static_cast<float>(path.travelled), r.travelled);
   if (has_cone(path)) r.travelled[0] = path.cone;
   r.inside = path.inside;
   r.exclude = path.ray.exclude;
   r.pixel = path.pixel;
-  r.sample_depth = path.sample << 8 | path.depth;
+  r.sample_depth = path.sample << 9 | path.depth >> 8;
+  r.depth = static_cast<std::uint8_t>(path.depth);
   const std::uint32_t face = path.is(path_in_pane) ? path.entered_by.bits : 0;
   r.pdf = path.is(path_in_pane) ? static_cast<std::uint16_t>(face) : pdf_code(path.pdf);
   r.flags = static_cast<std::uint8_t>(path.flags | (resolved ? path_resolved : 0) | face >> 16 << 4);

@@ -4,6 +4,7 @@
 // absent domain is put into the outbox; nothing about the picture depends on which ones were absent.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -57,6 +58,9 @@ struct Connection {
   Departure from;
 };
 
+// What random numbers of a ray are for; those of different use are independent.
+enum class RayRandom : std::uint64_t { flight, choice, scattering, light, layers, throughput, distance };
+
 class PathTracer {
  public:
   // All references outlive the tracer. One tracer a thread; the film is shared. `visits`, if any, counts the
@@ -97,6 +101,7 @@ class PathTracer {
                       Vector3d direction) const;
   void depart(Path& path, const Departure& from, Vector3d direction) const;
   void continue_from(Path& path, const Interaction& at, const Surface& surface, Vector3d direction) const;
+  void turn(Path& path, DirectionCode direction) const;
   void continue_straight(Path& path, const Interaction& at, const Surface& surface) const;
   void pass_straight(Path& path, const Interaction& at, const Surface& surface) const;
   Point3f offset_origin(const Interaction& at, Vector3d direction) const;
@@ -104,7 +109,8 @@ class PathTracer {
   const Surface& surface_at(const Path& path) const;
   Flight flight_of(const Path& path) const;
   const PreparedMedium* medium_of(const Path& path) const;
-  std::uint64_t stream_of(const Path& path) const;
+  std::uint64_t hash_of_ray(const Path& path) const;
+  static std::uint64_t stream_of(const Path& path, RayRandom use);
   double cone_unit() const;
   bool has_cone(const Path& path) const;
   double ray_angle(const Path& path) const;
@@ -134,6 +140,8 @@ class PathTracer {
   SensorWeights sensor_of(const std::array<float, 4>& camera, const SampledWavelengths& wavelengths) const;
   void find_wavelengths(Path& path) const;
   SampleKey key_of(std::uint32_t pixel, std::uint32_t sample) const;
+  std::array<float, 4> numbers_for_scattering(const Path& path) const;
+  std::array<float, 4> numbers_for_light(const Path& path) const;
 
   const RenderScene& scene_;
   const Manifest& manifest_;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
+#include <cstring>
 #include <type_traits>
 
 #include "scene/sampled_spectrum.h"
@@ -16,9 +17,9 @@ namespace vitrail {
 
 static_assert(std::endian::native == std::endian::little);
 
-// Samples a pixel are numbered in 24 bits, depth in 8, domains in 16.
-inline constexpr std::uint32_t max_samples = 1u << 24;
-inline constexpr int max_path_depth = 254;
+// Samples a pixel are numbered in 23 bits, depth in 17, domains in 16.
+inline constexpr std::uint32_t max_samples = 1u << 23;
+inline constexpr int max_path_depth = (1 << 17) - 1;
 inline constexpr std::uint32_t max_domains = 0xffff;
 
 enum PathFlags : std::uint8_t {
@@ -28,6 +29,8 @@ enum PathFlags : std::uint8_t {
   path_resolved = 4,    // the hit is certain: to be shaded in hit_domain
   path_in_pane = 8,     // inside a dispersive medium, all wavelengths alive: the face it entered by is known;
                         // of a connection: smooth interfaces refract it
+  path_passed = 16,     // went straight on at an event that had the random numbers of its depth; never in a
+                        // pane, nor of a connection
 };
 
 #pragma pack(push, 1)
@@ -39,14 +42,16 @@ struct PathRecord {
   std::uint16_t hit_domain;  // which domain found it
   DirectionCode direction;
   float origin[3];
-  std::uint8_t throughput[hero_count][3];  // as radiance_code
-  std::uint32_t exclude;                   // triangle it starts on
+  std::uint8_t throughput[11];  // as pack_throughput
+  std::uint32_t exclude;        // triangle it starts on
   std::uint32_t pixel;
-  std::uint32_t sample_depth;  // sample << 8 | depth
+  std::uint32_t sample_depth;  // sample << 9 | high 9 bits of the depth
+  std::uint8_t depth;          // its low 8 bits
   std::uint16_t pdf;           // of the last scattering, solid angle, as pdf_code; 0: specular or camera.
                                // In a pane: low 16 bits of the FaceCode; of a connection, of its aim, or
                                // where that is straight of its end_code
-  std::uint8_t flags;          // PathFlags, and above them 4 bits: high bits of the FaceCode or the aim
+  std::uint8_t flags;          // PathFlags; in a pane and of a connection 4 of them, and above them the high
+                               // bits of the FaceCode or the aim
   // Since the last scattering, straight through surfaces, as radiance_code. Where images are filtered, a path
   // has the cone_code of its ray's width in the lowest byte. Of a straight connection: what is left to its
   // light, the high bits of the end_code.
@@ -89,7 +94,7 @@ inline double cone_value(std::uint8_t code) {
   return code == 0 ? 0 : static_cast<double>(std::bit_cast<float>((code + least) << 20));
 }
 
-// A radiance ≥ 0 rounded to 8 bits of exponent and 16 of mantissa: relative error ≤ 2⁻¹⁷, unbiased over many.
+// A radiance ≥ 0 rounded to 8 bits of exponent and 16 of mantissa: relative error ≤ 2⁻¹⁷.
 inline void pack_radiance(float value, std::uint8_t out[3]) {
   const std::uint32_t bits = (std::bit_cast<std::uint32_t>(value) << 1) + 0x80;
   out[0] = static_cast<std::uint8_t>(bits >> 8);
@@ -108,12 +113,35 @@ inline float rounded_radiance(float value) {
   return unpack_radiance(packed);
 }
 
-// A distance rounded as it travels: with 16 bits of mantissa, or 8 beside a cone.
-inline float rounded_distance(float value, bool beside_cone) {
-  std::uint8_t packed[3];
-  pack_radiance(value, packed);
-  if (beside_cone) packed[0] = 0;
-  return unpack_radiance(packed);
+// With 14 bits of mantissa, up or down by chance so that the mean is the value itself: what is multiplied or
+// added to at every step of a path would else drift, or stand still. `random`: 16 bits.
+inline float rounded_by_chance(float value, std::uint32_t random) {
+  const std::uint32_t bits = (std::bit_cast<std::uint32_t>(value) << 1) + (random & 0x3ff);
+  return std::bit_cast<float>((bits & ~0x3ffu) >> 1);
+}
+
+// Of values that rounded_by_chance has rounded: 22 bits each.
+inline void pack_throughput(const SampledSpectrum& s, std::uint8_t out[11]) {
+  const auto code = [&](int i) { return std::uint64_t{std::bit_cast<std::uint32_t>(s[i]) >> 9 & 0x3fffff}; };
+  const std::uint64_t low = code(0) | code(1) << 22 | code(2) << 44, high = code(2) >> 20 | code(3) << 2;
+  std::memcpy(out, &low, 8);
+  std::memcpy(out + 8, &high, 3);
+}
+inline SampledSpectrum unpack_throughput(const std::uint8_t in[11]) {
+  std::uint64_t low = 0, high = 0;
+  std::memcpy(&low, in, 8);
+  std::memcpy(&high, in + 8, 3);
+  const auto value = [](std::uint64_t code) {
+    return std::bit_cast<float>(static_cast<std::uint32_t>(code & 0x3fffff) << 9);
+  };
+  return {{value(low), value(low >> 22), value(low >> 44 | high << 20), value(high >> 2)}};
+}
+
+// A distance as it travels, by chance too: with 16 bits of mantissa, or 8 beside a cone.
+inline float rounded_distance(float value, bool beside_cone, std::uint32_t random) {
+  const std::uint32_t dropped = beside_cone ? 0xffff : 0xff;
+  const std::uint32_t bits = (std::bit_cast<std::uint32_t>(value) << 1) + (random & dropped);
+  return std::bit_cast<float>((bits & ~dropped) >> 1);
 }
 
 }  // namespace vitrail

@@ -78,13 +78,14 @@ std::uint64_t stream_seed(const SampleKey& key, std::uint64_t a, std::uint64_t b
   return mix(mix(mix(key.seed + 0x9e3779b97f4a7c15ull) ^ sample) + mix(a + 0x632be59bd9b4e019ull) * 3 + b);
 }
 
-float hashed_1d(const SampleKey& key, std::uint32_t a, std::uint32_t b) {
-  return to_unit(static_cast<std::uint32_t>(mix(stream_seed(key, a, b)) >> 32));
-}
+std::uint64_t RandomStream::bits() { return mix(state_ += 0x9e3779b97f4a7c15ull); }
 
-double RandomStream::next() {
-  state_ += 0x9e3779b97f4a7c15ull;
-  return static_cast<double>(mix(state_) >> 11) * 0x1p-53;
+double RandomStream::next() { return static_cast<double>(bits() >> 11) * 0x1p-53; }
+
+std::array<float, 4> hashed_4d(std::uint64_t seed) {
+  std::array<float, 4> result{};
+  for (float& x : result) x = to_unit(static_cast<std::uint32_t>(mix(seed += 0x9e3779b97f4a7c15ull) >> 32));
+  return result;
 }
 
 std::array<float, 4> sample_4d(const SampleKey& key, std::uint32_t set) {

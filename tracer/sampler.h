@@ -20,18 +20,18 @@ struct SampleKey {
 // and groups are statistically independent of each other.
 std::array<float, 4> sample_4d(const SampleKey& key, std::uint32_t set);
 
-// One number in [0,1) for anything else that is decided along a path, a function of (key, a, b).
-float hashed_1d(const SampleKey& key, std::uint32_t a, std::uint32_t b);
-
 // As many numbers in [0,1) as it takes (SplitMix64, Steele et al. 2014), from a seed of `stream_seed`.
 class RandomStream {
  public:
   explicit RandomStream(std::uint64_t seed) : state_(seed) {}
   double next();
+  std::uint64_t bits();
 
  private:
   std::uint64_t state_;
 };
+// Four numbers in [0,1), a function of the seed.
+std::array<float, 4> hashed_4d(std::uint64_t seed);
 // A function of (key, a, b).
 std::uint64_t stream_seed(const SampleKey& key, std::uint64_t a, std::uint64_t b);
 

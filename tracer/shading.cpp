@@ -11,6 +11,10 @@ namespace vitrail {
 namespace {
 
 constexpr std::uint32_t roulette_depth = 3;
+// A ray that total reflection holds in a glass would go on for ever: beyond this depth mirrors and interfaces
+// let go of one in 64.
+constexpr std::uint32_t long_chain = 254;
+constexpr float chain_survival = 63.0f / 64;
 
 }  // namespace
 
@@ -23,7 +27,7 @@ bool PathTracer::shade(Path& path) {
   if (path.is(path_connection)) return connect_onwards(path);
   if (medium) {
     const Flight flight = flight_of(path);
-    RandomStream random(stream_of(path));
+    RandomStream random(stream_of(path, RayRandom::flight));
     const FlightSample flown =
         sample_flight(*medium, flight, path.wavelengths, path.active_wavelengths(), path.throughput, random);
     if (!is_black(flown.emitted))
@@ -82,17 +86,18 @@ bool PathTracer::shade_surface(Path& path) {
   }
   if (kind.smooth_dielectric) return scatter_dielectric(path, at, surface);
 
-  const SampleKey key = key_of(path.pixel, path.sample);
-  const Material* material = scene_.materials.choose(surface.material, at, key, path.depth);
+  RandomStream chance(stream_of(path, RayRandom::choice));
+  const Material* material = scene_.materials.choose(surface.material, at, chance);
   if (!material) {
     path.depth += manifest_.settings.straight_counts;
     pass_straight(path, at, surface);
     return true;
   }
   if (scene_.materials.disperses(*material, at)) path.disperse();
-  const auto scattering = scene_.materials.scattering_at(*material, at, path.wavelengths);
+  const auto scattering = scene_.materials.scattering_at(*material, at, path.wavelengths, path.throughput,
+                                                         stream_of(path, RayRandom::layers));
   if (!scattering) return false;
-  const std::array<float, 4> u = sample_4d(key, sample_set::scatter(path.depth));
+  const std::array<float, 4> u = numbers_for_scattering(path);
   const Vector3d out = scattering->frame.to_local(at.out);
   if (scene_.lights.can_sample()) connect_surface(path, at, surface, *scattering, out);
   const std::optional<BsdfSample> chosen = sample(scattering->bsdf, out, u[2], {u[0], u[1]});
@@ -100,7 +105,10 @@ bool PathTracer::shade_surface(Path& path) {
   path.throughput = path.throughput * chosen->weight;
   if (is_black(path.throughput)) return false;
   if (chosen->specular && chosen->in == -out) {
-    path.depth += manifest_.settings.straight_counts;
+    if (manifest_.settings.straight_counts)
+      ++path.depth;
+    else
+      path.set(path_passed);
     pass_straight(path, at, surface);
     return true;
   }
@@ -132,12 +140,20 @@ bool PathTracer::is_there(const Path& path, const Surface& surface, Interaction&
 // Counts a scattering event, and decides by roulette whether the path lives on.
 bool PathTracer::go_on(Path& path, float u, bool specular) const {
   ++path.depth;
+  path.clear(path_passed);
   path.travelled = 0;
-  if (specular) return true;
+  if (specular) {
+    if (path.depth > long_chain) {
+      if (u >= chain_survival) return false;
+      path.throughput = path.throughput * (1 / chain_survival);
+    }
+    return true;
+  }
   if (manifest_.settings.direct_only) {
     path.depth = static_cast<std::uint32_t>(manifest_.settings.max_depth);
   } else if (path.depth > roulette_depth) {
-    const float survival = max_value(path.throughput) * (path.is(path_dispersed) ? 1.0f / hero_count : 1.0f);
+    const float brightest = max_value(path.throughput) * (path.is(path_dispersed) ? 1.0f / hero_count : 1.0f);
+    const auto survival = static_cast<float>(attainable(static_cast<double>(brightest)));
     if (survival < 1) {
       if (u >= survival) return false;
       path.throughput = path.throughput * (1 / survival);
@@ -167,7 +183,7 @@ bool PathTracer::scatter_in_medium(Path& path, Point3d p) {
   const Vector3d out = normalize(-cast<double>(path.ray.direction));
   const Departure from{p, cast<float>(p), no_triangle, path.inside};
   if (scene_.lights.can_sample()) connect_medium(path, from, g, out);
-  const std::array<float, 4> u = sample_4d(key_of(path.pixel, path.sample), sample_set::scatter(path.depth));
+  const std::array<float, 4> u = numbers_for_scattering(path);
   const Vector3d in = sample_phase(g, out, u[0], u[1]);
   path.pdf = pdf_value(pdf_code(static_cast<float>(phase(g, out, in))));
   if (!(path.pdf > 0) || !go_on(path, u[3], false)) return false;
@@ -190,22 +206,25 @@ bool PathTracer::scatter_dielectric(Path& path, const Interaction& at, const Sur
   // from both sides.
   const double outside = safe_sqrt(1 - (1 - cosine * cosine) / (hero_eta * hero_eta));
 
-  // One choice for all wavelengths, by their mean reflectance: no weight exceeds their number.
+  // One choice for all wavelengths, by their mean reflectance for what the path carries: the sum of its
+  // throughput never grows.
   SampledSpectrum reflectance;
   const std::size_t active = path.active_wavelengths();
-  double mean = 0;
+  double reflected = 0, all = 0;
   for (std::size_t i = 0; i < active; ++i) {
     const double e = static_cast<double>(eta.v[i]);
     reflectance.v[i] =
         static_cast<float>(in_pane ? fresnel_dielectric(outside, 1 / e) : fresnel_dielectric(cosine, e));
-    mean += static_cast<double>(reflectance.v[i]) / static_cast<double>(active);
+    reflected += static_cast<double>(path.throughput.v[i]) * static_cast<double>(reflectance.v[i]);
+    all += static_cast<double>(path.throughput.v[i]);
   }
-  const float u = sample_4d(key_of(path.pixel, path.sample), sample_set::scatter(path.depth))[2];
+  const double reflects = attainable(reflected / all);
   Vector3d direction;
-  if (static_cast<double>(u) < mean) {
+  const std::array<float, 4> u = numbers_for_scattering(path);
+  if (static_cast<double>(u[2]) < reflects) {
     direction = normal * (2 * cosine) - at.out;
     path.throughput =
-        path.throughput * reflectance * static_cast<float>(1 / mean) *
+        path.throughput * reflectance * static_cast<float>(1 / reflects) *
         scene_.textures.spectrum(material.reflectance_factor, at.texture_point(), path.wavelengths);
   } else {
     if (!refract(at.out, normal, hero_eta, direction)) return false;
@@ -213,7 +232,7 @@ bool PathTracer::scatter_dielectric(Path& path, const Interaction& at, const Sur
     for (std::size_t i = 0; i < active; ++i) {
       const double e = static_cast<double>(eta.v[i]);
       path.throughput.v[i] *=
-          static_cast<float>((1 - static_cast<double>(reflectance.v[i])) / (1 - mean) / (e * e));
+          static_cast<float>((1 - static_cast<double>(reflectance.v[i])) / (1 - reflects) / (e * e));
     }
     path.throughput = path.throughput * scene_.textures.spectrum(material.transmittance_factor,
                                                                  at.texture_point(), path.wavelengths);
@@ -230,7 +249,7 @@ bool PathTracer::scatter_dielectric(Path& path, const Interaction& at, const Sur
   }
   if (is_black(path.throughput)) return false;
   path.pdf = 0;
-  go_on(path, 0, true);
+  if (!go_on(path, u[3], true)) return false;
   continue_from(path, at, surface, direction);
   return true;
 }

@@ -52,7 +52,28 @@ struct TablePlace {
   float f;
 };
 
+std::array<SampledWavelengths, 4> make_luminance_wavelengths() {
+  constexpr std::size_t count = 4 * hero_count;
+  std::array<SampledWavelengths, 4> result{};
+  double below = 0;
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < table_size && next < count; ++i) {
+    const double here = static_cast<double>(cie_1931()[i][1]) / cie_y_integral_nm;
+    const auto middle = [&] { return (static_cast<double>(next) + 0.5) / count; };
+    for (; next < count && middle() < below + here; ++next)
+      result[next / hero_count].lambda_nm[next % hero_count] =
+          static_cast<float>(lambda_min_nm + static_cast<double>(i) - 0.5 + (middle() - below) / here);
+    below += here;
+  }
+  return result;
+}
+
 }  // namespace
+
+const std::array<SampledWavelengths, 4>& luminance_wavelengths() {
+  static const auto wavelengths = make_luminance_wavelengths();
+  return wavelengths;
+}
 
 SampledWavelengths sample_wavelengths(float u) {
   const Density& d = density();

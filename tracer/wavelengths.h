@@ -2,6 +2,7 @@
 // Hero wavelengths and what the sensor makes of them.
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "scene/color.h"
@@ -14,6 +15,9 @@ namespace vitrail {
 // that is proportional to x̄ + ȳ + z̄ plus a small floor, constant within each nanometre (Wilkie et al. 2014;
 // Radziszewski et al. 2009 for the density). u in [0,1).
 SampledWavelengths sample_wavelengths(float u);
+
+// Fixed ones, each the middle of a 16th of ∫ȳ: the mean of a spectrum over them is about its luminance.
+const std::array<SampledWavelengths, 4>& luminance_wavelengths();
 
 // What a pixel gets of radiance L at the four wavelengths: XYZ = Σᵢ Lᵢ · weight[·][i], unbiased; and where
 // the film keeps spectral bins, Lᵢ·spectral[i] for bin[i], so that the sum's mean is the mean of L over the

@@ -40,14 +40,15 @@ TEST(DielectricLaws, FactorsObeyThem) {
     expect_all({1.5, make_microfacets(0.2, 0.1), {{r, r / 2, 0, r}}, {{t, 0, t / 2, t}}}, {.samples = 2500});
 }
 
-// A smooth interface: R + T = 1 exactly, each by its own law.
+// A smooth interface: R + T = 1 exactly, each by its own law. What a choice weighs makes up for its
+// probability being a number of steps of u.
 TEST(DielectricLaws, SmoothGlassSplitsTheLight) {
   for (double eta : {1.5, 1 / 1.5, 4.0, 0.25, 1.0000001, 1.0})
     for (Vector3d above : laws::incidences())
       for (Vector3d out : {above, below(above)}) {
         const DielectricBsdf glass{.eta = eta};
         const double ratio = out.z > 0 ? eta : 1 / eta;
-        const double r = fresnel_dielectric(above.z, ratio);
+        const double r = fresnel_dielectric(above.z, ratio), chance = attainable(r);
         int reflected = 0;
         constexpr int count = 1000;
         for (int i = 0; i < count; ++i) {
@@ -55,7 +56,8 @@ TEST(DielectricLaws, SmoothGlassSplitsTheLight) {
           ASSERT_TRUE(s && s->specular);
           const bool up = s->in.z * out.z > 0;
           reflected += up ? 1 : 0;
-          EXPECT_NEAR(s->weight[0], up ? 1 : 1 / (ratio * ratio), 1e-6 / (ratio * ratio));
+          const double weight = up ? r / chance : (1 - r) / (1 - chance) / (ratio * ratio);
+          EXPECT_NEAR(s->weight[0], weight, 2e-7 * weight);
           // Snell's law, in the plane of incidence.
           const double bent = up ? 1 : ratio;
           EXPECT_NEAR(s->in.x * bent, -out.x, 1e-9);

@@ -44,6 +44,18 @@ TEST(MeasuredSheet, SamplesMirrorOrGoOnWithTheirFractions) {
   }
 }
 
+// Whatever a path carries, a choice does not add to the sum of it.
+TEST(MeasuredSheet, ChoosesByWhatThePathCarries) {
+  const SampledSpectrum carried{{1, 100, 0.01f, 3}};
+  const MeasuredSheetBsdf sheet{&pane, wavelengths, carried};
+  const auto total = [](const SampledSpectrum& s) { return s[0] + s[1] + s[2] + s[3]; };
+  for (const float u : {0.0f, 0.9999999f}) {
+    const auto s = sample(sheet, {.6, 0, .8}, u, {});
+    ASSERT_TRUE(s);
+    EXPECT_LE(total(carried * s->weight), total(carried) * 1.000001f) << u;
+  }
+}
+
 TEST(MeasuredSheet, BlackAbsorbs) {
   const MeasuredSheet black{{500}, {1}, {0}, {0}};
   EXPECT_FALSE(sample(MeasuredSheetBsdf{&black, wavelengths}, {0, 0, 1}, .5f, {}));

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <random>
 
+#include "scene/rgb_to_spectrum.h"
 #include "tracer/bsdf/local.h"
 #include "tracer/connection_code.h"
 #include "tracer/portable_math.h"
@@ -96,6 +97,64 @@ TEST(Connections, RoundTheirDoubtsUpAndTheirEndsDown) {
   EXPECT_EQ(StraightAim::of(StraightAim{0x1p3}.bits()).slope, 0x1p3);
   for (const double none : {0.0, -1.0, 1e-60, std::nan("")}) EXPECT_EQ(end_value(end_code(none)), 0);
   EXPECT_NEAR(end_value(end_code(1e30)) / 1e30, 1, 1e-9);
+}
+
+// Over the numbers that decide it, the mean is the value, and steps of less than the resolution add up.
+TEST(Records, RoundingByChanceHasTheValueAsItsMean) {
+  for (const float value : {1.0f, 0.3f, 1.9999f, 1 - 0x1p-20f, 3e-20f, 7e20f}) {
+    double throughput = 0, near = 0, beside_cone = 0;
+    for (std::uint32_t random = 0; random < 0x10000; ++random) {
+      throughput += static_cast<double>(rounded_by_chance(value, random)) / 0x10000;
+      near += static_cast<double>(rounded_distance(value, false, random)) / 0x10000;
+      beside_cone += static_cast<double>(rounded_distance(value, true, random)) / 0x10000;
+    }
+    const auto exact = static_cast<double>(value);
+    EXPECT_NEAR(throughput, exact, 1e-12 * exact);
+    EXPECT_NEAR(near, exact, 1e-12 * exact);
+    EXPECT_NEAR(beside_cone, exact, 1e-12 * exact);
+    std::uint8_t packed[3];
+    pack_radiance(rounded_distance(value, true, 0x1234), packed);
+    EXPECT_EQ(packed[0], 0);
+    EXPECT_EQ(unpack_radiance(packed), rounded_distance(value, true, 0x1234));
+  }
+}
+
+TEST(Records, ThroughputSurvivesItsCode) {
+  for (std::uint32_t random = 0; random < 0x400; ++random) {
+    SampledSpectrum s{{1, 0.3f + static_cast<float>(random), 0, 3e-20f}};
+    if (random % 2) s = {{3e38f, 1e-38f, 0.999999f, 7e-3f}};
+    for (float& x : s.v) x = rounded_by_chance(x, random);
+    std::uint8_t packed[11];
+    pack_throughput(s, packed);
+    EXPECT_EQ(unpack_throughput(packed), s);
+  }
+}
+
+// Of the 2²⁴ numbers u, just as many lie below the probability as it says.
+TEST(Attainable, IsTheShareOfNumbersBelow) {
+  for (const double p : {1e-300, 1e-15, 3e-8, 1.7e-7, 1e-3, 0.3, 0.9999999, 1 - 1e-12}) {
+    const double attained = attainable(p);
+    std::uint32_t below = 0;
+    for (std::uint32_t k = 0; k < 1u << 24; ++k) below += static_cast<double>(k) * 0x1p-24 < attained;
+    EXPECT_EQ(below, attained * 0x1p24);
+    EXPECT_GT(below, 0u);
+    EXPECT_LT(below, 1u << 24);
+    EXPECT_NEAR(attained, p, 0x1p-24);
+  }
+  EXPECT_EQ(attainable(0), 0);
+  EXPECT_EQ(attainable(1), 1);
+  EXPECT_EQ(attainable(1e30), 1);
+}
+
+// Of colours as smooth as those that RGB becomes.
+TEST(Wavelengths, FixedOnesGiveTheLuminance) {
+  for (const RGB c : {RGB{0.8, 0.2, 0.1}, RGB{0.1, 0.7, 0.2}, RGB{0.1, 0.2, 0.9}, RGB{0.9, 0.8, 0.05}}) {
+    const Spectrum color{reflectance_from_rgb(c)};
+    double sum = 0;
+    for (const SampledWavelengths& w : luminance_wavelengths())
+      for (const float x : evaluate(color, w).v) sum += static_cast<double>(x) / 16;
+    EXPECT_NEAR(sum, luminance(color), 0.02 * luminance(color));
+  }
 }
 
 TEST(PortableMath, AgreesWithTheLibrary) {

@@ -30,4 +30,13 @@ struct BsdfSample {
   bool specular = false;   // a delta: eval and pdf know nothing of it
 };
 
+// Σ throughput·s: by what a path carries at each wavelength. A choice with a probability in proportion to it
+// lets the sum of the throughput never grow, however many choices there are.
+inline double carried(const SampledSpectrum& throughput, const SampledSpectrum& s) {
+  double sum = 0;
+  for (std::size_t i = 0; i < hero_count; ++i)
+    sum += static_cast<double>(throughput.v[i]) * static_cast<double>(s.v[i]);
+  return sum;
+}
+
 }  // namespace vitrail

@@ -34,7 +34,7 @@ std::optional<Choice> choose(const DielectricBsdf& bsdf, double cosine, double e
   const double bright_r = r * static_cast<double>(max_value(bsdf.reflectance_factor));
   const double bright_t = (1 - r) * static_cast<double>(max_value(bsdf.transmittance_factor));
   if (!(bright_r + bright_t > 0)) return std::nullopt;
-  return Choice{r, 1 - r, bright_r / (bright_r + bright_t)};
+  return Choice{r, 1 - r, attainable(bright_r / (bright_r + bright_t))};
 }
 
 bool matched(double eta) { return std::abs(eta - 1) < 1e-6; }
@@ -164,9 +164,10 @@ std::optional<BsdfSample> sample(const ThinDielectricBsdf& bsdf, Vector3d out, f
   const SampledSpectrum r = sheet_reflectance(bsdf, std::abs(out.z));
   const SampledSpectrum reflected = bsdf.reflectance_factor * r;
   const SampledSpectrum transmitted = bsdf.transmittance_factor * complement(r);
-  const float bright_r = max_value(reflected), bright_t = max_value(transmitted);
+  const double bright_r = carried(bsdf.throughput, reflected),
+               bright_t = carried(bsdf.throughput, transmitted);
   if (!(bright_r + bright_t > 0)) return std::nullopt;
-  const float probability = bright_r / (bright_r + bright_t);
+  const auto probability = static_cast<float>(attainable(bright_r / (bright_r + bright_t)));
   if (u_lobe < probability)
     return BsdfSample{
         .in = {-out.x, -out.y, out.z}, .weight = reflected * (1 / probability), .specular = true};

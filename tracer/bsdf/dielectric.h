@@ -23,6 +23,7 @@ struct DielectricBsdf {
 struct ThinDielectricBsdf {
   SampledSpectrum eta = filled(1.5f);  // index of the sheet / of what surrounds it
   SampledSpectrum reflectance_factor = filled(1), transmittance_factor = filled(1);
+  SampledSpectrum throughput = filled(1);  // of the path: guides its choice
 };
 
 BsdfValue eval(const DielectricBsdf& bsdf, Vector3d out, Vector3d in);

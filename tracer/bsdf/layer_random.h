@@ -13,7 +13,7 @@ namespace vitrail {
 // SplitMix64 (Steele, Lea and Flood 2014), seeded by what a walk is about.
 class WalkRandom {
  public:
-  explicit WalkRandom(std::uint64_t salt) : state_(salt) {}
+  WalkRandom(std::uint64_t event, std::uint64_t use) : state_(event ^ use) {}
   WalkRandom& operator<<(double x) {
     state_ ^= std::bit_cast<std::uint64_t>(x);
     state_ = bits();

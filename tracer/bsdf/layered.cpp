@@ -16,11 +16,12 @@ LayerVolume bounded(LayerVolume v) {
 }
 
 Layer<LambertBase> layer_of(const CoatedDiffuseBsdf& b) {
-  return {{b.reflectance}, {b.eta, b.interface}, bounded(b.volume)};
+  return {{b.reflectance}, {b.eta, b.interface}, bounded(b.volume), b.event};
 }
 
 Layer<ConductorBase> layer_of(const CoatedConductorBsdf& b) {
-  return {{b.eta, b.k, b.interface_eta, b.conductor}, {b.interface_eta, b.interface}, bounded(b.volume)};
+  return {
+      {b.eta, b.k, b.interface_eta, b.conductor}, {b.interface_eta, b.interface}, bounded(b.volume), b.event};
 }
 
 // Density, about, of what leaves after it was reflected by the base, of that which does.
@@ -71,7 +72,7 @@ template <class Base>
 double layer_pdf(const Layer<Base>& layer, Vector3d out, Vector3d in) {
   if (!(out.z > 0) || !(in.z > 0) || layer.only_specular()) return 0;
   const Coating& coating = layer.coating;
-  WalkRandom random(2);
+  WalkRandom random(layer.event, 2);
   random << out << in;
   Vector3d facet{0, 0, 1};
   double reflected = 0;
@@ -87,7 +88,7 @@ double layer_pdf(const Layer<Base>& layer, Vector3d out, Vector3d in) {
 template <class Base>
 BsdfValue layer_eval(const Layer<Base>& layer, Vector3d out, Vector3d in) {
   if (!(out.z > 0) || !(in.z > 0) || layer.only_specular()) return {};
-  WalkRandom random(1);
+  WalkRandom random(layer.event, 1);
   random << out << in;
   SampledSpectrum sum{};
   const int walks = std::max(1, layer.volume.samples);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // A base under a dielectric coating, as pbrt-v4 has it (after Guo, Hašan and Zhao 2018): light refracts into
 // a slab of `thickness` mean free paths, walks at random between its interface and the base, and leaves.
-// Values are estimates of the mean over such walks, whose random numbers are a hash of both directions: they
-// are functions of the directions, bit for bit. What is sampled is of one walk, too: its weight agrees with
-// eval and pdf in the mean only. pdf is near that of sample, not exactly it: it serves to weigh strategies
-// against each other. Both models only reflect. Reciprocal and conserving energy in the mean.
+// Values are estimates of the mean over such walks, whose random numbers are a hash of `event` and of both
+// directions: they are functions of these, bit for bit. What is sampled is of one walk, too: its weight
+// agrees with eval and pdf in the mean only. pdf is near that of sample, not exactly it: it serves to weigh
+// strategies against each other. Both models only reflect. Reciprocal and conserving energy in the mean.
 //
 // As in pbrt, eval does not find paths that collide in the layer and then meet a smooth metal under a smooth
 // interface; sample does. pbrt weighs the ways out through a rough interface by densities of different
@@ -12,6 +12,7 @@
 // of the same one (Veach 1997, §9.2), unless `balanced` is false.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 
 #include "tracer/bsdf/bsdf.h"
@@ -34,6 +35,7 @@ struct CoatedDiffuseBsdf {
   double eta = 1.5;  // of the coating / of what is in front
   Microfacets interface;
   LayerVolume volume;
+  std::uint64_t event = 0;  // differs wherever other walks are wanted
 };
 
 struct CoatedConductorBsdf {
@@ -42,6 +44,7 @@ struct CoatedConductorBsdf {
   double interface_eta = 1.5;
   Microfacets interface;
   LayerVolume volume;
+  std::uint64_t event = 0;
 };
 
 BsdfValue eval(const CoatedDiffuseBsdf& bsdf, Vector3d out, Vector3d in);

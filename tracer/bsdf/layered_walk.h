@@ -17,6 +17,7 @@ struct Layer {
   Base base;
   Coating coating;
   LayerVolume volume;  // thickness > 0, |g| < 1
+  std::uint64_t event;
   bool scatters() const { return !is_black(volume.albedo); }
   bool only_specular() const { return coating.smooth() && base.smooth() && !scatters(); }
 };
@@ -133,7 +134,7 @@ std::optional<WalkEnd> sample_walk(const Layer<Base>& layer, Vector3d out, float
   WalkState s{thickness, entered->in, filled(static_cast<float>(entered->weight))};
   if (s.w.z > 0) return WalkEnd{s.w, s.weight, coating.smooth()};
   bool specular = coating.smooth();
-  WalkRandom random(3);
+  WalkRandom random(layer.event, 3);
   random << out << static_cast<double>(u_lobe) << static_cast<double>(u.x) << static_cast<double>(u.y);
   for (int depth = 0; depth < max_depth && !dies(depth, s.weight, random); ++depth) {
     const Flight flight = fly(layer, s, random);

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tracer/bsdf/local.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "tracer/portable_math.h"
 
 namespace vitrail {
@@ -26,6 +29,11 @@ Vector3d sample_cosine_hemisphere(float u, float v) {
     y = b * cos_small(phi);
   }
   return {x, y, safe_sqrt(1 - x * x - y * y)};
+}
+
+double attainable(double p) {
+  if (!(p > 0)) return 0;
+  return p < 1 ? std::clamp(std::ceil(p * 0x1p24), 1.0, 0x1p24 - 1) * 0x1p-24 : 1;
 }
 
 double fresnel_dielectric(double cosine, double eta) {

@@ -20,6 +20,10 @@ struct Frame {
 // Cosine-weighted direction on the upper hemisphere, pdf cosθ/π: Shirley & Chiu's (1997) disk lifted up.
 Vector3d sample_cosine_hemisphere(float u, float v);
 
+// The probability nearest to p that a number u of 24 bits in [0,1) lies below, above 0 and below 1 where p
+// is: weights by its inverse are exact where those by p are wrong by up to 2⁻²⁴/p.
+double attainable(double p);
+
 // Unpolarised reflectance of a smooth interface; cosine ≥ 0 on the side of incidence, eta = index behind /
 // index in front. 1 under total internal reflection. (Born & Wolf, §1.5.2)
 double fresnel_dielectric(double cosine, double eta);

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <span>
 
+#include "tracer/bsdf/local.h"
+
 namespace vitrail {
 
 namespace {
@@ -36,8 +38,6 @@ double interpolate(std::span<const float> values, std::size_t row_length, Betwee
   return row.part > 0 ? a + (in_row(row.first + 1) - a) * row.part : a;
 }
 
-float sum(const SampledSpectrum& s) { return s[0] + s[1] + s[2] + s[3]; }
-
 }  // namespace
 
 SheetFractions sheet_fractions(const MeasuredSheet& table, const SampledWavelengths& wavelengths,
@@ -59,9 +59,10 @@ double pdf(const MeasuredSheetBsdf&, Vector3d, Vector3d) { return 0; }
 
 std::optional<BsdfSample> sample(const MeasuredSheetBsdf& b, Vector3d out, float u_lobe, Point2f) {
   const SheetFractions f = sheet_fractions(*b.table, b.wavelengths, std::abs(out.z));
-  const float reflected = sum(f.reflected), all = reflected + sum(f.transmitted);
+  const double reflected = carried(b.throughput, f.reflected),
+               all = reflected + carried(b.throughput, f.transmitted);
   if (!(all > 0)) return std::nullopt;
-  const float chance = reflected / all;
+  const auto chance = static_cast<float>(attainable(reflected / all));
   if (u_lobe < chance)
     return BsdfSample{.in = {-out.x, -out.y, out.z}, .weight = f.reflected * (1 / chance), .specular = true};
   if (!(chance < 1)) return std::nullopt;

@@ -13,6 +13,7 @@ namespace vitrail {
 struct MeasuredSheetBsdf {
   const MeasuredSheet* table = nullptr;  // outlives it
   SampledWavelengths wavelengths;
+  SampledSpectrum throughput = filled(1);  // of the path: guides its choice
 };
 
 struct SheetFractions {

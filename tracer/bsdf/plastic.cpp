@@ -19,7 +19,7 @@ template <class Plastic>
 double specular_probability(const Plastic& bsdf, double reflectance) {
   const double s = reflectance * mean(bsdf.specular_reflectance);
   const double d = (1 - reflectance) * mean(bsdf.diffuse_reflectance);
-  return s + d > 0 ? s / (s + d) : 1;
+  return s + d > 0 ? attainable(s / (s + d)) : 1;
 }
 
 // f/(T(out)·T(in)) of the base, times π.
