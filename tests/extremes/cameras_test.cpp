@@ -9,8 +9,8 @@
 #include "bundle/manifest.h"
 #include "partitioner/partition.h"
 #include "tests/extremes/measure.h"
-#include "tests/support/test_scenes.h"
 #include "tests/support/temporary_directory.h"
+#include "tests/support/test_scenes.h"
 
 namespace vitrail::test {
 namespace {
