@@ -94,7 +94,7 @@ Measured measure(const Scene& scene, int samples_per_pixel, const std::string& n
 Rendered render_finite(const Scene& scene, int samples_per_pixel, const std::string& name,
                        std::uint32_t domains) {
   Rendered rendered = render(scene, samples_per_pixel, domains);
-  EXPECT_EQ(rendered.stats.traced.nonfinite_samples, 0u) << name;
+  EXPECT_EQ(rendered.stats.refused, Refused{}) << name;
   const char* directory = std::getenv("VITRAIL_EXTREMES_FILMS");
   if (directory && !name.empty())
     write_film(std::filesystem::path(directory) / (name + ".film"), rendered.film, FilmProgress{});

@@ -38,7 +38,7 @@ struct Measured {
 Measured measured(const Film& film);
 Measured measure(const Scene& scene, int samples_per_pixel, const std::string& name = "");
 
-// Renders, expects nothing that is not finite, and keeps the film in VITRAIL_EXTREMES_FILMS as NAME.film
+// Renders, expects that no sample is refused, and keeps the film in VITRAIL_EXTREMES_FILMS as NAME.film
 // where that directory is named: to be developed and looked at.
 Rendered render_finite(const Scene& scene, int samples_per_pixel, const std::string& name = "",
                        std::uint32_t domains = 1);

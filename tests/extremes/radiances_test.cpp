@@ -11,7 +11,7 @@
 namespace vitrail::test {
 namespace {
 
-constexpr double radiances[] = {1e-4, 1, 1e4, 1e7};
+constexpr double radiances[] = {1e-30, 1e-10, 1e-4, 1, 1e4, 1e7, 1e20, 1e30};
 
 // A lamp over a floor: seen, and by its light. One corner's configuration factor (Howell, Menguc & Daun,
 // B-4).
