@@ -53,8 +53,9 @@ class ByteReader {
     if (count > (bytes_.size() - at_) / least_bytes) fail("it counts more records than it holds");
     return static_cast<std::size_t>(count);
   }
+  bool at_end() const { return at_ == bytes_.size(); }
   void expect_end() const {
-    if (at_ != bytes_.size()) fail("something follows its last record");
+    if (!at_end()) fail("something follows its last record");
   }
   [[noreturn]] void fail(const char* what) const {
     throw Error(std::string("damaged file: ") + what, {file_.string()});

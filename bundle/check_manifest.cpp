@@ -132,7 +132,7 @@ void check_records(const Checker& c, const Manifest& m) {
   for (const Texture& t : m.textures) records::fields(io, t), ++io.textures;
   for (const Material& material : m.materials) records::fields(io, material), ++io.materials;
   records::list(io, m.media), records::list(io, m.area_lights), records::list(io, m.lights);
-  records::list(io, m.emissive_triangles);
+  records::list(io, m.emissive_triangles), records::list(io, m.emissive_attributes);
   records::fields(io, m.camera);
 }
 
@@ -153,6 +153,9 @@ void check_sheets(const Checker& c, const Manifest& m) {
 void check_lights(const Checker& c, const Manifest& m) {
   for (const EmissiveTriangle& t : m.emissive_triangles)
     c.require(t.triangle < m.triangles && t.area_light < m.area_lights.size(), "a light shines from nowhere");
+  c.require(m.emissive_attributes.empty() ||
+                m.emissive_attributes.size() == m.emissive_triangles.size() * m.attributes,
+            "the attributes of what shines are not whole");
   for (const Light& light : m.lights)
     if (const auto* distant = std::get_if<DistantLight>(&light.model))
       c.require(length(distant->direction) > 0, "a distant light has no direction");

@@ -71,6 +71,9 @@ struct EmissiveTriangle {
   std::uint32_t area_light = 0;  // index
 };
 
+// A mesh attribute at the corners of a triangle: [vertex][channel].
+using CornerValues = std::array<std::array<float, 3>, 3>;
+
 // What the scene needs of a renderer; everything false costs nothing.
 struct Requirements {
   bool shading_normals = false;
@@ -111,6 +114,8 @@ struct Manifest {
   std::vector<Medium> media;
   std::vector<AreaLight> area_lights;
   std::vector<EmissiveTriangle> emissive_triangles;
+  // Their mesh attributes, [triangle][slot]; empty where no area light reads one.
+  std::vector<CornerValues> emissive_attributes;
   std::vector<Light> lights;
   Camera camera;
   std::int32_t camera_medium = -1;  // index, or −1: vacuum

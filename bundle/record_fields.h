@@ -302,6 +302,10 @@ void fields(auto& io, Is<EmissiveTriangle> auto& t) {
   for (auto& uv : t.uv) fields(io, uv);
   io(t.triangle), io(t.area_light);
 }
+void fields(auto& io, Is<CornerValues> auto& v) {
+  for (auto& vertex : v)
+    for (auto& channel : vertex) io(channel);
+}
 
 // ---- Cameras: kept in the manifest
 

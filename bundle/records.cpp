@@ -38,8 +38,15 @@ struct Reader {
 void materials(auto& io, auto& m) {
   list(io, m.surfaces), list(io, m.materials), list(io, m.textures), list(io, m.media);
 }
-void lights(auto& io, auto& m) {
+// The last list is there where it has something.
+void lights(Writer& io, const Manifest& m) {
   list(io, m.area_lights), list(io, m.emissive_triangles), list(io, m.lights);
+  if (!m.emissive_attributes.empty()) list(io, m.emissive_attributes);
+}
+void lights(Reader& io, Manifest& m) {
+  list(io, m.area_lights), list(io, m.emissive_triangles), list(io, m.lights);
+  m.emissive_attributes.clear();
+  if (!io.stream.at_end()) list(io, m.emissive_attributes);
 }
 
 }  // namespace records

@@ -18,6 +18,7 @@ double pixel_angle(const Manifest& m) {
 LightScene light_scene(const Manifest& m, const Textures& textures) {
   return {.area_lights = m.area_lights,
           .triangles = m.emissive_triangles,
+          .attributes = m.emissive_attributes,
           .lights = m.lights,
           .textures = &textures,
           .texture_records = m.textures,

@@ -8,10 +8,12 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <span>
 
 #include "bundle/checksum.h"
 #include "bundle/records.h"
+#include "bundle/texture_inputs.h"
 #include "scene/deferred_mesh.h"
 
 namespace vitrail {
@@ -47,18 +49,36 @@ std::size_t blocks_of(const Placement& p) {
 
 // Triangles without area emit nothing and are left out.
 void take_emissive(const PlacedTriangles& placed, std::uint64_t at, std::size_t count, std::uint64_t first_id,
-                   std::uint32_t area_light, std::vector<EmissiveTriangle>& out) {
+                   std::uint32_t area_light, bool attributes, Emissive& out) {
   for (std::size_t i = 0; i < count; ++i) {
     const Triangle& t = placed.triangles[at + i];
     const Vector3d normal =
         cross(cast<double>(t[1]) - cast<double>(t[0]), cast<double>(t[2]) - cast<double>(t[0]));
     if (!(length(normal) > 0)) continue;
-    EmissiveTriangle& e = out.emplace_back();
+    EmissiveTriangle& e = out.triangles.emplace_back();
     std::copy(t.begin(), t.end(), e.p);
     if (!placed.uvs.empty()) std::copy(placed.uvs[at + i].begin(), placed.uvs[at + i].end(), e.uv);
     e.triangle = static_cast<std::uint32_t>(first_id + i);
     e.area_light = area_light;
+    for (std::size_t slot = 0; attributes && slot < placed.attributes.size(); ++slot)
+      out.attributes.push_back(placed.attributes[slot][at + i]);
   }
+}
+
+void append(auto& all, const auto& more) { all.insert(all.end(), more.begin(), more.end()); }
+
+// By their ids.
+void sort(Emissive& emissive, std::size_t slots) {
+  std::vector<std::size_t> order(emissive.triangles.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::sort(order, {}, [&](std::size_t i) { return emissive.triangles[i].triangle; });
+  Emissive sorted;
+  for (const std::size_t i : order) {
+    sorted.triangles.push_back(emissive.triangles[i]);
+    for (std::size_t slot = 0; slot < slots && !emissive.attributes.empty(); ++slot)
+      sorted.attributes.push_back(emissive.attributes[i * slots + slot]);
+  }
+  emissive = std::move(sorted);
 }
 
 }  // namespace
@@ -99,6 +119,9 @@ SceneTally::SceneTally(const World& world) : world_(world) {
     area_lights_.push_back(std::prev(after)->area_light);
   }
   hashes_.resize(blocks);
+  const Manifest& m = world.manifest;
+  for (const AreaLight& light : m.area_lights)
+    emissive_attributes_ = emissive_attributes_ || reads_attribute(m.textures, light.radiance);
 }
 
 void SceneTally::add(const Block& block, const PlacedTriangles& placed, std::uint64_t at) {
@@ -116,13 +139,14 @@ void SceneTally::add(const Block& block, const PlacedTriangles& placed, std::uin
   if (!block.placement.standing)
     for (const Triangle& t : std::span(placed.triangles).subspan(at, count))
       for (const Point3f& v : t) extend(bounds, v);
-  std::vector<EmissiveTriangle> emissive;
+  Emissive emissive;
   if (area_lights_[placement] >= 0)
     take_emissive(placed, at, count, block.placement.first_triangle + block.begin,
-                  static_cast<std::uint32_t>(area_lights_[placement]), emissive);
+                  static_cast<std::uint32_t>(area_lights_[placement]), emissive_attributes_, emissive);
   const std::lock_guard lock(mutex_);
   if (!bounds.empty()) extend(bounds_, bounds);
-  emissive_.insert(emissive_.end(), emissive.begin(), emissive.end());
+  append(emissive_.triangles, emissive.triangles);
+  append(emissive_.attributes, emissive.attributes);
 }
 
 void SceneTally::add_shining(const ShiningPlacement& shining) {
@@ -134,7 +158,7 @@ void SceneTally::add_shining(const ShiningPlacement& shining) {
   const std::size_t count = mesh.triangles.size();
   PlacedTriangles placed = make_room(rule, count);
   MeshPlacer(p, mesh, rule, fitter).place(0, count, placed, 0);
-  take_emissive(placed, 0, count, p.first_triangle, shining.area_light, emissive_);
+  take_emissive(placed, 0, count, p.first_triangle, shining.area_light, emissive_attributes_, emissive_);
 }
 
 // Instances, kept or copied, count as their boxes: the same bounds either way.
@@ -147,8 +171,9 @@ void SceneTally::finish(Manifest& m) {
   if (m.scale > greatest_scale)
     throw Error(
         fmt::format("the scene reaches {:g} from its centre; the most is {:g}", m.scale, greatest_scale));
-  std::ranges::sort(emissive_, {}, &EmissiveTriangle::triangle);
-  m.emissive_triangles = std::move(emissive_);
+  sort(emissive_, m.attributes);
+  m.emissive_triangles = std::move(emissive_.triangles);
+  m.emissive_attributes = std::move(emissive_.attributes);
   const std::uint64_t records = hash_of_records(m);
   Hasher hasher;
   hasher.add(std::as_bytes(std::span(hashes_)));

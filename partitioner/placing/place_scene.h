@@ -24,6 +24,12 @@ inline constexpr std::size_t block_triangles = 8192;  // that begin at multiples
 void place_scene(const World& world, std::uint64_t load_bytes,
                  const std::function<void(const Block&)>& visit);
 
+// Triangles that emit, and their mesh attributes where an area light reads one, [triangle][slot].
+struct Emissive {
+  std::vector<EmissiveTriangle> triangles;
+  std::vector<CornerValues> attributes;
+};
+
 // What the placed triangles say of the scene, in whatever order they come.
 class SceneTally {
  public:
@@ -31,7 +37,7 @@ class SceneTally {
 
   // The block's triangles, which are at `placed` from `at` on. From any thread.
   void add(const Block& block, const PlacedTriangles& placed, std::uint64_t at);
-  // bounds, scale, emissive_triangles, scene_hash. The objects have been written.
+  // bounds, scale, emissive_triangles and their attributes, scene_hash. The objects have been written.
   void finish(Manifest& manifest);
 
  private:
@@ -43,7 +49,8 @@ class SceneTally {
   std::vector<std::int32_t> area_lights_;  // of each placement
   std::mutex mutex_;
   Bounds3f bounds_;
-  std::vector<EmissiveTriangle> emissive_;
+  Emissive emissive_;
+  bool emissive_attributes_ = false;
 };
 
 }  // namespace vitrail

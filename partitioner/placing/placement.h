@@ -18,7 +18,6 @@ namespace vitrail {
 using Triangle = std::array<Point3f, 3>;
 using CornerNormals = std::array<std::uint32_t, 3>;  // encode_normal
 using CornerUvs = std::array<Point2f, 3>;
-using CornerValues = std::array<std::array<float, 3>, 3>;  // [vertex][channel]
 
 // Where an object stands whose triangles are to be the scene's own.
 struct Standing {

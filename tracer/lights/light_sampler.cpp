@@ -36,16 +36,6 @@ struct TriangleFrame {
   }
 };
 
-TexturePoint texture_point(const EmissiveTriangle& t, const TriangleFrame& frame, double b1, double b2) {
-  const auto mix = [&](float x0, float x1, float x2) {
-    return static_cast<double>(x0) * (1 - b1 - b2) + static_cast<double>(x1) * b1 +
-           static_cast<double>(x2) * b2;
-  };
-  return {{mix(t.uv[0].x, t.uv[1].x, t.uv[2].x), mix(t.uv[0].y, t.uv[1].y, t.uv[2].y)},
-          frame.p0 + frame.e1 * b1 + frame.e2 * b2,
-          frame.normal};
-}
-
 SampledSpectrum surface_radiance(const LightSampler& s, const AreaLight& light, const TexturePoint& at,
                                  const SampledWavelengths& wavelengths) {
   if (const auto* spectrum = std::get_if<Spectrum>(&light.radiance))
@@ -54,13 +44,11 @@ SampledSpectrum surface_radiance(const LightSampler& s, const AreaLight& light, 
   return s.scene.textures->spectrum(light.radiance, at, wavelengths) * light.scale;
 }
 
-SampledSpectrum radiance_at(const LightSampler& s, const LightSampler::Slot& t, const TriangleFrame& frame,
-                            double b1, double b2, const SampledWavelengths& wavelengths) {
+SampledSpectrum radiance_at(const LightSampler& s, const LightSampler::Slot& t, double b1, double b2,
+                            const SampledWavelengths& wavelengths) {
   const AreaLight& light = s.scene.area_lights[t.area_light];
-  TexturePoint at;  // of no use to a plain spectrum
-  if (!std::holds_alternative<Spectrum>(light.radiance))
-    at = texture_point(s.scene.triangles[t.light], frame, b1, b2);
-  return surface_radiance(s, light, at, wavelengths);
+  if (std::holds_alternative<Spectrum>(light.radiance)) return surface_radiance(s, light, {}, wavelengths);
+  return surface_radiance(s, light, EmissivePoint(s.scene, t.light, b1, b2).point(), wavelengths);
 }
 
 // A directional light shines from where p lies on the triangle, seen along its normal.
@@ -80,7 +68,7 @@ std::optional<LightSample> sample_directional(const LightSampler& s, const Light
   sample.to_light = frame.normal * (height > 0 ? -1.0 : 1.0);
   sample.distance = std::abs(height);
   sample.normal = frame.normal;
-  sample.radiance = radiance_at(s, t, frame, b1, b2, wavelengths);
+  sample.radiance = radiance_at(s, t, b1, b2, wavelengths);
   sample.pdf = 1;
   sample.is_delta = true;
   sample.light = t.area_light;
@@ -113,7 +101,7 @@ std::optional<LightSample> sample_triangle(const LightSampler& s, const LightSam
   sample.normal = frame.normal;
   sample.tilt_rad = frame.tilt();
   sample.pdf = distance2 / (std::abs(cosine) * frame.area);
-  sample.radiance = radiance_at(s, t, frame, b1, b2, wavelengths);
+  sample.radiance = radiance_at(s, t, b1, b2, wavelengths);
   sample.light = t.area_light;
   return sample;
 }
@@ -148,6 +136,28 @@ std::optional<LightSample> sample_tree(const LightSampler& s, Point3d p, const s
 }
 
 }  // namespace
+
+EmissivePoint::EmissivePoint(const LightScene& scene, std::size_t triangle, double b1, double b2) {
+  const EmissiveTriangle& t = scene.triangles[triangle];
+  const TriangleFrame frame(std::span<const Point3f, 3>(t.p));
+  const double b0 = 1 - b1 - b2;
+  const auto mix = [&](float x0, float x1, float x2) {
+    return static_cast<double>(x0) * b0 + static_cast<double>(x1) * b1 + static_cast<double>(x2) * b2;
+  };
+  at = {{mix(t.uv[0].x, t.uv[1].x, t.uv[2].x), mix(t.uv[0].y, t.uv[1].y, t.uv[2].y)},
+        frame.p0 + frame.e1 * b1 + frame.e2 * b2,
+        frame.normal};
+  const std::size_t slots = scene.attributes.size() / scene.triangles.size();
+  for (; attribute_count < slots; ++attribute_count)
+    attributes[attribute_count] = {scene.attributes[triangle * slots + attribute_count],
+                                   {static_cast<float>(b0), static_cast<float>(b1), static_cast<float>(b2)}};
+}
+
+TexturePoint EmissivePoint::point() const {
+  TexturePoint result = at;
+  result.attributes = std::span(attributes).first(attribute_count);
+  return result;
+}
 
 std::optional<LightSample> sample_light(const LightSampler& s, Point3d p, const std::array<float, 4>& u,
                                         const SampledWavelengths& wavelengths) {

@@ -26,10 +26,21 @@ namespace vitrail {
 struct LightScene {
   std::span<const AreaLight> area_lights;
   std::span<const EmissiveTriangle> triangles;
+  std::span<const CornerValues> attributes;  // of the triangles, [triangle][slot], or empty
   std::span<const Light> lights;
   const Textures* textures = nullptr;        // null: no light has a texture; images get 16 MiB
   std::span<const Texture> texture_records;  // of `textures`: for the shape of a projected image
   Bounds3f bounds;                           // of the scene
+};
+
+// A point of an emissive triangle with what its textures read.
+struct EmissivePoint {
+  TexturePoint at;
+  std::array<AttributeValue, max_attributes> attributes;
+  std::uint32_t attribute_count = 0;
+  EmissivePoint(const LightScene& scene, std::size_t triangle, double b1, double b2);
+  // Refers to this.
+  TexturePoint point() const;
 };
 
 // One choice is the tree over all triangles and point-like lights; every distant light and every environment

@@ -12,19 +12,14 @@ namespace vitrail {
 namespace {
 
 // Mean luminance over a triangle, by four points of it.
-double mean_luminance(const AreaLight& light, const EmissiveTriangle& t, const Textures* textures) {
+double mean_luminance(const LightScene& scene, std::size_t triangle) {
   constexpr std::array<std::array<double, 2>, 4> points{
       {{1 / 3.0, 1 / 3.0}, {1 / 6.0, 1 / 6.0}, {2 / 3.0, 1 / 6.0}, {1 / 6.0, 2 / 3.0}}};
+  const AreaLight& light = scene.area_lights[scene.triangles[triangle].area_light];
   double sum = 0;
-  for (const auto& b : points) {
-    TexturePoint at;
-    const auto mix = [&](auto&& f) { return f(0) * (1 - b[0] - b[1]) + f(1) * b[0] + f(2) * b[1]; };
-    at.uv = {mix([&](int i) { return static_cast<double>(t.uv[i].x); }),
-             mix([&](int i) { return static_cast<double>(t.uv[i].y); })};
-    const Point3d p0 = cast<double>(t.p[0]);
-    at.p = p0 + (cast<double>(t.p[1]) - p0) * b[0] + (cast<double>(t.p[2]) - p0) * b[1];
-    sum += luminance_at(light.radiance, at, textures, 2);
-  }
+  for (const auto& b : points)
+    sum +=
+        luminance_at(light.radiance, EmissivePoint(scene, triangle, b[0], b[1]).point(), scene.textures, 2);
   return sum / 4;
 }
 
@@ -53,7 +48,7 @@ std::vector<LightBounds> bounds_of_triangles(const LightScene& scene) {
     b.theta_e_rad = pi / 2;
     b.two_sided = light.two_sided;
     Sum& sum = sums[t.area_light];
-    const double radiance = (sum.luminance ? *sum.luminance : mean_luminance(light, t, scene.textures)) *
+    const double radiance = (sum.luminance ? *sum.luminance : mean_luminance(scene, all.size())) *
                             static_cast<double>(light.scale);
     b.power = area * radiance * pi * (light.two_sided ? 2 : 1);
     if (!(b.power > 0) || !std::isfinite(b.power)) b.power = 0;

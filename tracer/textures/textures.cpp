@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 
+#include "bundle/texture_inputs.h"
 #include "scene/diagnostics.h"
 #include "tracer/textures/baked_image.h"
 #include "tracer/textures/mapping.h"
@@ -58,19 +59,6 @@ std::size_t slot_of(const std::string& name, std::size_t id) {
   const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), slot);
   if (error != std::errc{} || end != name.data() + name.size()) fail(id, "names no slot of an attribute");
   return slot;
-}
-
-// Calls f(parameter) for the inputs of a texture.
-template <class F>
-void for_inputs(const TextureModel& model, F&& f) {
-  std::visit(
-      [&](const auto& m) {
-        if constexpr (requires { m.even; }) f(m.even), f(m.odd);
-        if constexpr (requires { m.first; }) f(m.first), f(m.second);
-        if constexpr (requires { m.amount; }) f(m.amount);
-        if constexpr (requires { m.v00; }) f(m.v00), f(m.v01), f(m.v10), f(m.v11);
-      },
-      model);
 }
 
 bool is_even(double cell) { return cell - 2 * std::floor(cell / 2) == 0; }
