@@ -110,7 +110,7 @@ Scene torus() {
 void expect_one_picture(const std::string& what, const Scene& scene) {
   const Film one = render_finite(scene, 8, "", 1).film, many = render_finite(scene, 8, "", 32).film;
   expect_exactly(what + ", 1 and 32 domains: pixels that differ", 0,
-                 static_cast<double>(difference(one, many).pixels));
+                 static_cast<double>(picture_difference(one, many).pixels));
 }
 
 TEST(Camera, InAnInterface) {

@@ -28,7 +28,7 @@ TEST(Denormals, ASceneOfDenormals) {
   const Film usual = render_finite(still_life(1), 64).film;
   for (const double size : {1e-30, 1e-36, 1e-38, 1e-40}) {
     const Film film = render_finite(still_life(size), 64, fmt::format("denormal_{:g}", size)).film;
-    const FilmDifference d = difference(usual, film);
+    const FilmDifference d = picture_difference(usual, film);
     expect_absolute(fmt::format("a scene of {:g}: mean of the picture, relative", size), 0, d.mean, 2e-3);
     expect_absolute(fmt::format("a scene of {:g}: pixels, r.m.s., relative", size), 0, d.root_mean_square,
                     2e-2);
@@ -52,7 +52,7 @@ TEST(Denormals, AmongOtherCoordinates) {
   const Film without = picture(0);
   for (const float zero : {1e-42f, -1e-42f, 1.4e-45f})
     expect_absolute(fmt::format("coordinates of {:g} in place of 0: r.m.s., relative", zero), 0,
-                    difference(without, picture(zero)).root_mean_square, 1e-6);
+                    picture_difference(without, picture(zero)).root_mean_square, 1e-6);
 }
 
 TEST(Denormals, Radiance) {
@@ -76,7 +76,7 @@ TEST(Denormals, RadianceBesideAnother) {
       add_shape(scene, add_quads(scene, {square_at(2, 1)}), matte(0));
     return render_finite(scene, 64).film;
   };
-  const FilmDifference d = difference(picture(0), picture(1e-40));
+  const FilmDifference d = picture_difference(picture(0), picture(1e-40));
   expect_absolute("a lamp of 10⁻⁴⁰ beside a sky of 1: mean, relative", 0, d.mean, 2e-3);
 }
 
@@ -107,7 +107,7 @@ TEST(Denormals, HazeWithoutEndBeforeALight) {
   foggy.media.push_back(medium);
   foggy.camera_medium = Id<Medium>{0};
   for (Shape& shape : foggy.shapes) shape.exterior = Id<Medium>{0};
-  const FilmDifference d = difference(render_finite(clear, 64).film, render_finite(foggy, 64).film);
+  const FilmDifference d = picture_difference(render_finite(clear, 64).film, render_finite(foggy, 64).film);
   expect_absolute("a haze of 1e-40 without end, a light in it: mean of the picture, relative", 0, d.mean,
                   2e-3);
 }
@@ -126,7 +126,7 @@ TEST(Denormals, Media) {
     add_shape(foggy, add_quads(foggy, box_faces({-5, -5, -5}, {5, 5, 5})), Material{InterfaceMaterial{}});
     foggy.shapes.back().interior = Id<Medium>{0};
     expect_absolute(fmt::format("a haze of {:g}: mean of the picture, relative", sigma), 0,
-                    difference(without, render_finite(foggy, 16).film).mean, 1e-3);
+                    picture_difference(without, render_finite(foggy, 16).film).mean, 1e-3);
   }
 }
 

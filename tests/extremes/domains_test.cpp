@@ -40,7 +40,7 @@ void expect_one_picture(std::size_t triangles, std::uint32_t domains) {
                  many = render_finite(scene, 8, "", domains);
   expect_exactly(
       fmt::format("{} triangles in {} domains: pixels that differ from 1 domain", triangles, domains), 0,
-      static_cast<double>(difference(one.film, many.film).pixels));
+      static_cast<double>(picture_difference(one.film, many.film).pixels));
   expect_exactly("domains", domains, static_cast<double>(many.stats.domains_total));
 }
 

@@ -54,7 +54,7 @@ void report(const std::string& what, double value, const std::string& unit) {
 
 std::uint32_t pixels_of(const Film& film) { return static_cast<std::uint32_t>(film.width() * film.height()); }
 
-FilmDifference difference(const Film& a, const Film& b) {
+FilmDifference picture_difference(const Film& a, const Film& b) {
   FilmDifference d;
   double sum_a = 0, sum_b = 0, squares = 0;
   const std::uint32_t pixels = pixels_of(a);

@@ -27,7 +27,7 @@ struct FilmDifference {
   double root_mean_square = 0;  // of the pixels
   std::size_t pixels = 0;       // that are not equal to the bit
 };
-FilmDifference difference(const Film& a, const Film& b);
+FilmDifference picture_difference(const Film& a, const Film& b);
 
 // What all samples of a pixel have in common with those of any other scene is their wavelengths: the mean Y
 // over that of a sky of 1 with the same ones is free of what sampling the spectrum makes of noise.

@@ -144,7 +144,7 @@ TEST(Coplanar, OtherTrianglesShowEither) {
   add_shape(scene, add_quads(scene, {{{b, c, d, a}}}), matte(0.25f));
   const Film one = render_finite(scene, 64, "coplanar").film, many = render_finite(scene, 64, "", 16).film;
   expect_exactly("two squares in one plane, 1 and 16 domains: pixels that differ", 0,
-                 static_cast<double>(difference(one, many).pixels));
+                 static_cast<double>(picture_difference(one, many).pixels));
   const double cosine = 1 / std::sqrt(1 + 2.0 / 32 / 32);
   report("share of the samples that the first square gets", (measured(one).mean / cosine - 0.25) / 0.5);
 }

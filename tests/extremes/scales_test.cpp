@@ -48,7 +48,7 @@ TEST(Scale, PowersOfTwoChangeNothing) {
   for (const int exponent : {-40, -20, 23, 40}) {
     const Film film = render_finite(room({std::ldexp(1.0, exponent), {}}, true), 64).film;
     expect_absolute(fmt::format("scale 2^{}: pixels, root mean square, relative", exponent), 0,
-                    difference(as_modelled(true), film).root_mean_square, 1e-9);
+                    picture_difference(as_modelled(true), film).root_mean_square, 1e-9);
   }
 }
 
@@ -56,7 +56,7 @@ TEST(Scale, PowersOfTwoChangeNothing) {
 TEST(Scale, AnyOtherChangesRoundingAlone) {
   for (const double size : {1e-6, 1e-3, 1e3, 1e7, 1e12}) {
     const Film film = render_finite(room({size, {}}, false), 64, fmt::format("scale_{:g}", size)).film;
-    const FilmDifference d = difference(as_modelled(false), film);
+    const FilmDifference d = picture_difference(as_modelled(false), film);
     expect_absolute(fmt::format("scale {:g}: mean of the picture, relative", size), 0, d.mean, 1e-4);
     expect_absolute(fmt::format("scale {:g}: pixels, root mean square, relative", size), 0,
                     d.root_mean_square, 5e-3);
@@ -67,7 +67,7 @@ TEST(Offset, OfWhatDoublesHoldChangesNoBit) {
   for (const double offset : {1e3, 1e7, -16777216.0}) {
     const Film film = render_finite(room({1, {offset, -offset, offset}}, true), 64).film;
     expect_exactly(fmt::format("offset {:g}: pixels that differ", offset), 0,
-                   static_cast<double>(difference(as_modelled(true), film).pixels));
+                   static_cast<double>(picture_difference(as_modelled(true), film).pixels));
   }
 }
 
@@ -82,7 +82,7 @@ TEST(Offset, AnyOtherChangesRoundingAlone) {
     const Place place{c.size, {c.offset, c.offset, -c.offset}};
     const Film film =
         render_finite(room(place, false), 64, fmt::format("offset_{:g}_{:g}", c.size, c.offset)).film;
-    const FilmDifference d = difference(as_modelled(false), film);
+    const FilmDifference d = picture_difference(as_modelled(false), film);
     const std::string what = fmt::format("size {:g} at {:.9g}", c.size, c.offset);
     expect_absolute(what + ": mean of the picture, relative", 0, d.mean, c.limit / 5);
     expect_absolute(what + ": pixels, root mean square, relative", 0, d.root_mean_square, c.limit);

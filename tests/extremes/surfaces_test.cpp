@@ -49,7 +49,7 @@ TEST(Roughness, NextToNoneLooksLikeAMirror) {
     Scene scene = floor_of(metal(alpha));
     add_lamp(scene);
     const Film film = render_finite(scene, 64).film;
-    const FilmDifference d = difference(smooth, film);
+    const FilmDifference d = picture_difference(smooth, film);
     expect_absolute(fmt::format("roughness {:.0e} against a mirror: mean", alpha), 0, d.mean, 5e-3);
     expect_absolute(fmt::format("roughness {:.0e} against a mirror: pixels, r.m.s.", alpha), 0,
                     d.root_mean_square, 3e-2);
