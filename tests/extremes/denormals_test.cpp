@@ -95,23 +95,6 @@ TEST(Denormals, HazeWithoutEnd) {
   }
 }
 
-// Nor does what is lit where it begins become another.
-TEST(Denormals, HazeWithoutEndBeforeALight) {
-  Scene clear = still_life(1);
-  clear.lights.clear();
-  add_point(clear, {1, -2, 1}, 5);
-  Scene foggy = clear;
-  Medium medium;
-  medium.coefficients =
-      AbsorptionScattering{Spectrum{ConstantSpectrum{0}}, Spectrum{ConstantSpectrum{1e-40f}}};
-  foggy.media.push_back(medium);
-  foggy.camera_medium = Id<Medium>{0};
-  for (Shape& shape : foggy.shapes) shape.exterior = Id<Medium>{0};
-  const FilmDifference d = picture_difference(render_finite(clear, 64).film, render_finite(foggy, 64).film);
-  expect_absolute("a haze of 1e-40 without end, a light in it: mean of the picture, relative", 0, d.mean,
-                  2e-3);
-}
-
 TEST(Denormals, Media) {
   Scene scene = still_life(1);
   const Film without = render_finite(scene, 16).film;
