@@ -71,9 +71,7 @@ Job set_up(const RenderOptions& options) {
       make_work_plan(manifest.film.crop, static_cast<std::uint32_t>(manifest.settings.samples_per_pixel));
   const std::uint64_t textures = texture_budget(manifest, options.memory_bytes);
   auto scene = std::make_unique<RenderScene>(std::move(manifest), options.bundle, textures, options.seed);
-  const Manifest& m = scene->manifest;
-  Film film(m.film, key_of(m, options.seed), film_exponent(*scene));
-  return {std::move(scene), std::move(film), plan, textures};
+  return {std::move(scene), {}, plan, textures};
 }
 
 MemoryPlan plan_for(const Manifest& manifest, const RenderOptions& options, int threads, std::uint64_t base) {
@@ -107,8 +105,11 @@ RenderStats render(Transport& transport, const RenderOptions& options) {
   MemoryPlan memory;
   agree(transport, [&] {
     job = set_up(options);
-    stats.base_rss_bytes = resident_bytes();
-    memory = plan_for(job->scene->manifest, options, threads, stats.base_rss_bytes + job->texture_bytes);
+    // Refused before it takes the memory.
+    const Manifest& m = job->scene->manifest;
+    stats.base_rss_bytes = resident_bytes() + film_bytes(m.film);
+    memory = plan_for(m, options, threads, stats.base_rss_bytes + job->texture_bytes);
+    job->film = Film(m.film, key_of(m, options.seed), film_exponent(*job->scene));
   });
   const Manifest& manifest = job->scene->manifest;
   Resumed resumed;

@@ -42,6 +42,28 @@ WideSum rounded(double v, std::uint64_t bits) {
 
 }  // namespace
 
+namespace {
+
+// Of the crop. Throws Error where there cannot be such a film.
+std::uint64_t pixels_of(const FilmSettings& s) {
+  const PixelRect& c = s.crop;
+  if (c.x0 < 0 || c.y0 < 0 || c.x1 <= c.x0 || c.y1 <= c.y0 || c.x1 > s.width || c.y1 > s.height)
+    throw Error(fmt::format("the crop {}..{} × {}..{} is empty or leaves the image of {}×{} pixels", c.x0,
+                            c.x1, c.y0, c.y1, s.width, s.height));
+  const int width = c.x1 - c.x0, height = c.y1 - c.y0;
+  const std::uint64_t pixels = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
+  if (pixels > std::numeric_limits<std::uint32_t>::max())
+    throw Error(fmt::format("a film of {}×{} pixels is too large: at most 2³² − 1 pixels", width, height));
+  return pixels;
+}
+
+}  // namespace
+
+std::uint64_t film_bytes(const FilmSettings& settings) {
+  const std::uint64_t planes = plane_count + static_cast<std::uint64_t>(settings.spectrum.count);
+  return pixels_of(settings) * (planes * sizeof(WideSum) + sample_groups * sizeof(std::uint32_t));
+}
+
 Film::Film(const FilmSettings& settings, const FilmKey& key, int exponent)
     : crop_(settings.crop),
       full_width_(settings.width),
@@ -50,14 +72,7 @@ Film::Film(const FilmSettings& settings, const FilmKey& key, int exponent)
       bins_(settings.spectrum),
       key_(key),
       exponent_(exponent) {
-  if (crop_.x0 < 0 || crop_.y0 < 0 || crop_.x1 <= crop_.x0 || crop_.y1 <= crop_.y0 ||
-      crop_.x1 > full_width_ || crop_.y1 > full_height_)
-    throw Error(fmt::format("the crop {}..{} × {}..{} is empty or leaves the image of {}×{} pixels", crop_.x0,
-                            crop_.x1, crop_.y0, crop_.y1, full_width_, full_height_));
-  const std::size_t size = static_cast<std::size_t>(width()) * static_cast<std::size_t>(height());
-  if (size > std::numeric_limits<std::uint32_t>::max())
-    throw Error(
-        fmt::format("a film of {}×{} pixels is too large: at most 2³² − 1 pixels", width(), height()));
+  const std::size_t size = pixels_of(settings);
   if (bins_.count < 0 || bins_.count > max_spectral_bins || !(bins_.min_nm < bins_.max_nm))
     throw Error(fmt::format("a film keeps at most {} spectral bins over an interval of wavelengths",
                             max_spectral_bins));

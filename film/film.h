@@ -42,6 +42,9 @@ inline constexpr int deposit_bits = 85;
 inline constexpr int default_exponent = -45;                          // for radiances about 1
 inline constexpr int least_exponent = -900, greatest_exponent = 900;  // so that all are doubles
 
+// Memory of a film's sums and counts, before there is one.
+std::uint64_t film_bytes(const FilmSettings& settings);
+
 // Width × height of the crop; planes row-major from the top left.
 class Film {
  public:
@@ -96,7 +99,6 @@ class Film {
   std::span<std::uint32_t> counts() { return counts_; }
   std::span<const std::uint32_t> counts() const { return counts_; }
   Refused& refused() { return refused_; }
-  std::uint64_t bytes() const { return sums_.size() * sizeof sums_[0] + counts_.size() * sizeof counts_[0]; }
 
  private:
   friend Film read_film(const std::filesystem::path& file, struct FilmProgress* progress);

@@ -31,7 +31,8 @@ TEST(SpectralFilm, KeepsMeansBesideXyz) {
   EXPECT_EQ(f.mean_of_bin(5, 0), 1);
   EXPECT_EQ(f.mean_of_bin(4, 0), 0);
   EXPECT_EQ(f.mean(5).y, 0);
-  EXPECT_EQ(f.bytes(), 6u * ((2 + sample_groups + 4) * 16 + sample_groups * 4));
+  EXPECT_EQ(f.sums().size_bytes() + f.counts().size_bytes(),
+            6u * ((2 + sample_groups + 4) * 16 + sample_groups * 4));
 }
 
 TEST(SpectralFilm, MergesExactlyAndOnlyWithItsLike) {
