@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "farm/memory.h"
+#include "scene/resource_usage.h"
 #include "tests/extremes/measure.h"
 #include "tests/laws/soup.h"
 #include "tracer/portable_math.h"

@@ -135,12 +135,11 @@ TEST(Pixels, WhatAFilmTakes) {
   FilmSettings settings;
   settings.width = settings.height = 64;
   settings.crop = {0, 64, 0, 64};
-  const double each = static_cast<double>(Film(settings, {}).bytes()) / (64 * 64);
+  const double each = static_cast<double>(film_bytes(settings)) / (64 * 64);
   report("a film of colours takes a pixel", each, "bytes");
   report("a film of 32768² pixels", each * large * large / 1e9, "GB");
   settings.spectrum.count = 47;
-  report("with 47 bins of 10 nm, a pixel", static_cast<double>(Film(settings, {}).bytes()) / (64 * 64),
-         "bytes");
+  report("with 47 bins of 10 nm, a pixel", static_cast<double>(film_bytes(settings)) / (64 * 64), "bytes");
 }
 
 // The picture of a machine with 4 GB.

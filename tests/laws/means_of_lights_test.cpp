@@ -50,7 +50,7 @@ void expect_irradiance(const char* what, const Scene& scene, double expected, do
   const Brightness seen = brightness(rendered.film);
   fmt::print("{}: {:.6g} ± {:.2g} of {:.6g}\n", what, seen.mean * pi, seen.standard_error * pi, expected);
   EXPECT_NEAR(seen.mean * pi, expected, tolerance * expected) << what;
-  EXPECT_EQ(rendered.stats.traced.nonfinite_samples, 0u) << what;
+  EXPECT_EQ(rendered.stats.refused, Refused{}) << what;
 }
 
 // ---- Points
