@@ -94,10 +94,18 @@ bool Film::accepts(double size, double largest) {
   return false;
 }
 
+// Of a pixel in the whole picture: a crop rounds as the whole does.
+std::uint32_t Film::place(std::uint32_t pixel) const {
+  const auto crop_width = static_cast<std::uint32_t>(width());
+  return (static_cast<std::uint32_t>(crop_.y0) + pixel / crop_width) *
+             static_cast<std::uint32_t>(full_width_) +
+         static_cast<std::uint32_t>(crop_.x0) + pixel % crop_width;
+}
+
 bool Film::deposit(std::uint32_t pixel, std::uint32_t sample, const XYZ& value) {
   const double x = std::abs(value.x), y = std::abs(value.y), z = std::abs(value.z);
   if (!accepts(x + y + z, std::max({x, y, z}))) return false;
-  const std::uint64_t bits = dice(pixel, sample, value.x, value.y, value.z);
+  const std::uint64_t bits = dice(place(pixel), sample, value.x, value.y, value.z);
   const double quanta = power_of_two(-exponent_);
   const std::size_t plane = pixels();
   add_shared(sums_[x_plane * plane + pixel], rounded(quanta * value.x, bits));
@@ -110,7 +118,7 @@ bool Film::deposit_bin(std::uint32_t pixel, std::uint32_t sample, std::size_t bi
   if (!accepts(value, std::abs(value))) return false;
   const double quanta = power_of_two(-exponent_);
   add_shared(sums_[(bin_planes + bin) * pixels() + pixel],
-             rounded(quanta * value, dice(pixel, sample, value)));
+             rounded(quanta * value, dice(place(pixel), sample, value)));
   return true;
 }
 

@@ -105,6 +105,7 @@ class Film {
   friend void write_film(const std::filesystem::path& file, const Film& film,
                          const struct FilmProgress& progress);
   std::size_t group(std::uint32_t sample) const;
+  std::uint32_t place(std::uint32_t pixel) const;
   bool accepts(double size, double largest);
   double value(std::size_t plane, std::uint32_t pixel) const;
 

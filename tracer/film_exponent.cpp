@@ -18,6 +18,8 @@ namespace {
 constexpr double brighter_texel = 0x1p20;
 // A light of no extent counts as one seen under 2⁻²⁰ sr: a smooth surface shows it so bright.
 constexpr double brighter_point = 0x1p20;
+// Square of how near a light of no extent comes to a surface, to the farthest that it lights.
+constexpr double nearest2 = 0x1p-30;
 // A surface that is lit by E across it has the radiance E/π; a grazed or dark one less.
 constexpr double dimmer_surface = 0.25;
 
@@ -91,7 +93,7 @@ void add_points(const LightSampler& s, Tally& tally) {
     }
     const double intensity = e.bounds.power / (4 * pi);
     tally.add(intensity / (far * far) * dimmer_surface,
-              intensity / std::max(near2, far * far * 0x1p-20) * brighter_point);
+              intensity / std::max(near2, far * far * nearest2) * brighter_point);
   }
 }
 

@@ -149,7 +149,7 @@ void expect_unshadowed(Point3d at, TriangleMesh lamp, const char* what, int step
   scene.film.crop = {0, 8, 0, 8};
   scene.film.filter = BoxFilter{};
   scene.settings.max_depth = 1;
-  const Brightness seen = brightness(render(scene, 512).film);
+  const Brightness seen = brightness(render(scene, 4096).film);
   fmt::print("{} at ({:g}, {:g}, {:g}): {:.5f} ± {:.5f} of 0.1\n", what, at.x, at.y, at.z, seen.mean,
              seen.standard_error);
   EXPECT_NEAR(seen.mean, 0.1, 4 * seen.standard_error + tolerance * 0.1);
