@@ -43,12 +43,12 @@ const Film& as_modelled(bool dyadic) {
   return films[dyadic];
 }
 
-// Of the numbers that a picture is made of: sums of films may count in other units.
-TEST(Scale, PowersOfTwoChangeNothing) {
+// A throughput is rounded by a hash of its ray, to 14 bits.
+TEST(Scale, PowersOfTwoChangeRoundingByChanceAlone) {
   for (const int exponent : {-40, -20, 23, 40}) {
     const Film film = render_finite(room({std::ldexp(1.0, exponent), {}}, true), 64).film;
     expect_absolute(fmt::format("scale 2^{}: pixels, root mean square, relative", exponent), 0,
-                    picture_difference(as_modelled(true), film).root_mean_square, 1e-9);
+                    picture_difference(as_modelled(true), film).root_mean_square, 1e-5);
   }
 }
 

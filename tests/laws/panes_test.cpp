@@ -264,7 +264,7 @@ std::vector<double> spectrum_below(const Spectrum& glass, double incidence_rad, 
   RenderOptions options;
   options.bundle = directory / "scene.vit";
   options.film = directory / "scene.film";
-  options.samples_per_pixel = 1024;
+  options.samples_per_pixel = 512;
   options.bins = bins;
   int argc = 0;
   char** argv = nullptr;

@@ -149,7 +149,7 @@ void expect_unshadowed(Point3d at, TriangleMesh lamp, const char* what, int step
   scene.film.crop = {0, 8, 0, 8};
   scene.film.filter = BoxFilter{};
   scene.settings.max_depth = 1;
-  const Brightness seen = brightness(render(scene, 4096).film);
+  const Brightness seen = brightness(render(scene, 512).film);
   fmt::print("{} at ({:g}, {:g}, {:g}): {:.5f} ± {:.5f} of 0.1\n", what, at.x, at.y, at.z, seen.mean,
              seen.standard_error);
   EXPECT_NEAR(seen.mean, 0.1, 4 * seen.standard_error + tolerance * 0.1);
@@ -200,10 +200,11 @@ TriangleMesh ball(Point3d centre, double radius, std::uint32_t rings, bool inwar
 
 TEST(ShadowEnds, BeforeACurvedLamp) {
   for (const std::uint32_t rings : {8u, 32u, 120u}) {
-    expect_unshadowed({0, 0, 0}, ball({0.5, 0, 3}, 1, rings, false), "a ball", 1, 2e-4);
-    expect_unshadowed({1e3, 0, 0}, ball({0.5, 0, 3}, 1, rings, false), "a ball", 1, 2e-3);
-    expect_unshadowed({0, 0, 0}, ball({0.1, 0.2, 0.3}, 5, rings, true), "a hollow", 2, 2e-4);
-    expect_unshadowed({1e3, 0, 0}, ball({0.1, 0.2, 0.3}, 5, rings, true), "a hollow", 2, 2e-3);
+    const int steps = static_cast<int>(240 / rings);  // across a triangle: the horizon cuts some
+    expect_unshadowed({0, 0, 0}, ball({0.5, 0, 3}, 1, rings, false), "a ball", steps, 2e-4);
+    expect_unshadowed({1e3, 0, 0}, ball({0.5, 0, 3}, 1, rings, false), "a ball", steps, 2e-3);
+    expect_unshadowed({0, 0, 0}, ball({0.1, 0.2, 0.3}, 5, rings, true), "a hollow", steps, 2e-4);
+    expect_unshadowed({1e3, 0, 0}, ball({0.1, 0.2, 0.3}, 5, rings, true), "a hollow", steps, 2e-3);
   }
 }
 
