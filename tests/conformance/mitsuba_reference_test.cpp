@@ -7,6 +7,8 @@
 
 #include <chrono>
 
+#include "compare/variance.h"
+#include "compare/ztest.h"
 #include "film/image_io.h"
 #include "tests/conformance/corpus_render.h"
 #include "tests/support/command.h"
@@ -21,10 +23,45 @@ const std::string left_out(const CorpusScene& scene) {
   return scene.name() == "test_various_shapes_path" ? "--ignore 280,420,300,440" : "";
 }
 
-std::filesystem::path reference_of(const CorpusScene& scene, const std::string& ending) {
-  for (const std::string& file : scene.references)
-    if (file.ends_with(ending)) return corpus() / file;
-  return {};
+struct Reference {
+  std::filesystem::path mean, variance;
+};
+
+Reference reference_of(const CorpusScene& scene, const std::string& variant) {
+  Reference found;
+  for (const std::string& file : scene.references) {
+    if (file.ends_with("_ref_" + variant + ".exr")) found.mean = corpus() / file;
+    if (file.ends_with("_ref_" + variant + "_var.exr")) found.variance = corpus() / file;
+  }
+  return found;
+}
+
+// Between the texels of an environment image Mitsuba's spectral variants blend how bright the texels are
+// apart from their colours, its rgb variants what they send out, as Vitrail does: at the edge of a window
+// the spectral picture lacks a fifth of Z. With the image refined eightfold, which leaves what is between the
+// texels as it was, the spectral variants show what we show (0 of 6912 values differ).
+bool shows_blended_colors(const CorpusScene& scene) {
+  return scene.name() == "test_homo_dielectric_envmap_volpath";
+}
+
+// The spectral reference; the rgb one in the pixels where these two differ by the rule.
+Reference with_blended_radiance(const CorpusScene& scene, std::size_t samples,
+                                const std::filesystem::path& directory) {
+  const Reference spectral = reference_of(scene, "spectral"), rgb = reference_of(scene, "rgb");
+  Picture mean = read_picture(spectral.mean), variance = read_picture(spectral.variance);
+  const Picture rgb_mean = read_picture(rgb.mean), rgb_variance = read_picture(rgb.variance);
+  const ZTest difference =
+      ztest({&rgb_mean.rgb, &mean.rgb, mitsuba_variance(variance.rgb, static_cast<double>(samples)), {}});
+  for (std::size_t p = 0; p < mean.rgb.pixels(); ++p)
+    if (!(two_sided_p(difference.z[p], 0) > difference.value_significance))
+      for (std::size_t i = 3 * p; i < 3 * p + 3; ++i) {
+        mean.rgb.values[i] = rgb_mean.rgb.values[i];
+        variance.rgb.values[i] = rgb_variance.rgb.values[i];
+      }
+  const Reference made{directory / "mean.exr", directory / "variance.exr"};
+  write_picture(made.mean, mean);
+  write_picture(made.variance, variance);
+  return made;
 }
 
 // What a scene may fail by: the share of its values, and the relative difference of a mean. The rule is 0.25
@@ -34,8 +71,6 @@ struct Allowed {
 };
 
 Allowed allowed(const std::string& scene) {
-  // At the sharp rim of the glass.
-  if (scene == "test_homo_dielectric_envmap_volpath") return {0.01, 0.01};
   // Mitsuba's table of sigmoids makes the albedo (.99, .999, .99) 0.9972 at 450 nm and 0.9978 at 650 nm; the
   // spectrum that has that colour is 0.9938 and 0.9916 there, and five scatterings show it. With Mitsuba's
   // own numbers for the albedo the means are 0.992.
@@ -51,17 +86,17 @@ class MitsubaReference : public ::testing::TestWithParam<CorpusScene> {};
 
 TEST_P(MitsubaReference, IsMatched) {
   const CorpusScene& scene = GetParam();
-  const auto mean = reference_of(scene, "_ref_spectral.exr"),
-             variance = reference_of(scene, "_ref_spectral_var.exr");
+  Reference reference = reference_of(scene, "spectral");
   const TemporaryDirectory directory;
   const auto start = std::chrono::steady_clock::now();
-  const std::size_t samples = sample_budget / read_picture(mean).rgb.pixels();
+  const std::size_t samples = sample_budget / read_picture(reference.mean).rgb.pixels();
+  if (shows_blended_colors(scene)) reference = with_blended_radiance(scene, samples, directory.path());
   const std::string wrong =
       render_scene(corpus() / scene.path, directory / "picture.film", fmt::format("--spp {}", samples));
   if (!wrong.empty()) return conclude(false, scene.name(), wrong);
-  const nlohmann::json result =
-      compare_pictures(directory / "picture.film", mean,
-                       fmt::format("--metric ztest --variance '{}' {}", variance.string(), left_out(scene)));
+  const nlohmann::json result = compare_pictures(
+      directory / "picture.film", reference.mean,
+      fmt::format("--metric ztest --variance '{}' {}", reference.variance.string(), left_out(scene)));
   ASSERT_TRUE(result.is_object());
   const double failed = result["value"];
   const MeanXyz means = mean_xyz(result);
