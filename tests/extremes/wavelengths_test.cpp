@@ -5,10 +5,7 @@
 
 #include <cmath>
 
-#include "farm/render.h"
-#include "partitioner/partition.h"
 #include "tests/extremes/measure.h"
-#include "tests/support/temporary_directory.h"
 #include "tracer/wavelengths.h"
 
 namespace vitrail::test {
@@ -83,18 +80,8 @@ TEST(Wavelengths, LinesAsRendered) {
     light.radiance = Spectrum{line(nm)};
     add_shape(scene, add_quads(scene, {square_at(0, 10)}), matte(0), light);
     set_orthographic(scene, {0, 0, 3}, {0, 0, 0}, {0, 1, 0}, 1, 32);
-    const TemporaryDirectory directory;
-    partition(scene, directory / "scene.vit", {.domains = 1});
-    RenderOptions options;
-    options.bundle = directory / "scene.vit";
-    options.film = directory / "scene.film";
-    options.samples_per_pixel = 2048;
-    options.bins = bins;
-    int argc = 0;
-    char** argv = nullptr;
-    const auto transport = make_transport(&argc, &argv);
-    vitrail::render(*transport, options);
-    const Film film = read_film(options.film, nullptr);
+    scene.film.spectrum = bins;
+    const Film film = render(scene, 2048).film;
     const int bin = std::min(nm - 360, 469);
     double in_bin = 0, elsewhere = 0;
     for (std::uint32_t p = 0; p < pixels_of(film); ++p)

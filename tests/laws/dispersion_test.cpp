@@ -7,11 +7,8 @@
 
 #include <cmath>
 
-#include "bundle/domain_file.h"
-#include "partitioner/partition.h"
 #include "scene/named_spectra.h"
 #include "tests/support/render.h"
-#include "tests/support/temporary_directory.h"
 #include "tracer/portable_math.h"
 
 namespace vitrail::test {
@@ -91,20 +88,8 @@ std::vector<double> spectrum_of_beam(const Experiment& e, bool ramp) {
   }
   add_shape(scene, {static_cast<std::uint32_t>(scene.meshes.size() - 1)}, black, light);
 
-  const TemporaryDirectory directory;
-  PartitionOptions partitioning;
-  partitioning.domains = 2;
-  partition(scene, directory / "scene.vit", partitioning);
-  RenderOptions options;
-  options.bundle = directory / "scene.vit";
-  options.film = directory / "scene.film";
-  options.samples_per_pixel = 4096;
-  options.bins = bins;
-  int argc = 0;
-  char** argv = nullptr;
-  const auto transport = make_transport(&argc, &argv);
-  vitrail::render(*transport, options);
-  const Film film = read_film(options.film, nullptr);
+  scene.film.spectrum = bins;
+  const Film film = render(scene, 4096, 2).film;
   std::vector<double> means;
   for (int bin = 0; bin < bins.count; ++bin) {
     double sum = 0;

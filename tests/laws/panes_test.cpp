@@ -7,12 +7,9 @@
 
 #include <cmath>
 
-#include "bundle/domain_file.h"
-#include "partitioner/partition.h"
 #include "scene/color.h"
 #include "scene/named_spectra.h"
 #include "tests/support/render.h"
-#include "tests/support/temporary_directory.h"
 #include "tracer/bsdf/local.h"
 #include "tracer/portable_math.h"
 
@@ -259,18 +256,8 @@ std::vector<double> spectrum_below(const Spectrum& glass, double incidence_rad, 
               Material{DielectricMaterial{glass}});
   site.add_sun();
 
-  const TemporaryDirectory directory;
-  partition(scene, directory / "scene.vit", PartitionOptions{});
-  RenderOptions options;
-  options.bundle = directory / "scene.vit";
-  options.film = directory / "scene.film";
-  options.samples_per_pixel = 512;
-  options.bins = bins;
-  int argc = 0;
-  char** argv = nullptr;
-  const auto transport = make_transport(&argc, &argv);
-  vitrail::render(*transport, options);
-  const Film film = read_film(options.film, nullptr);
+  scene.film.spectrum = bins;
+  const Film film = render(scene, 512).film;
   std::vector<double> means(static_cast<std::size_t>(bins.count));
   for (std::uint32_t pixel = 0; pixel < 16; ++pixel)
     for (std::size_t bin = 0; bin < means.size(); ++bin) means[bin] += film.mean_of_bin(pixel, bin) / 16;
