@@ -19,8 +19,8 @@ target_compile_options(vitrail_options INTERFACE
   $<$<CXX_COMPILER_ID:GNU>:-Wno-array-bounds> $<$<CXX_COMPILER_ID:GNU>:-Wno-stringop-overflow>)
 target_link_libraries(vitrail_options INTERFACE fmt::fmt)
 
-# vitrail_precompile(NAME HEADER …): headers that are read once for all targets that reuse them. It is half of what compiling
-# takes. A file includes what it uses all the same: the preset debug has no precompiled headers.
+# vitrail_precompile(NAME HEADER …): headers that are read once for all targets that reuse them. Reading them is a third of what
+# compiling a file takes. A file includes what it uses all the same: the preset debug has no precompiled headers.
 function(vitrail_precompile name)
   add_library(${name} OBJECT ${PROJECT_SOURCE_DIR}/cmake/precompiled.cpp)
   target_link_libraries(${name} PRIVATE vitrail::options)

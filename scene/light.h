@@ -93,7 +93,7 @@ struct EnvironmentLight {
 using LightVariant = std::variant<PointLight, SpotLight, ProjectionLight, GoniometricLight, DistantLight,
                                   InfiniteLight, EnvironmentLight>;
 // Copied, moved, destroyed and compared in scene/records.cpp alone: in every file that handles a scene, that
-// took a third of the build.
+// took up to two thirds of its compiling.
 struct LightModel : LightVariant {
   using LightVariant::LightVariant;
   LightModel();

@@ -148,7 +148,7 @@ using TextureVariant =
     std::variant<ImageTexture, CheckerboardTexture, ProductTexture, MixTexture, DirectionMixTexture,
                  BilinearTexture, DotsTexture, NoiseTexture, PtexTexture, MeshAttributeTexture, UvTexture>;
 // Copied, moved, destroyed and compared in scene/records.cpp alone: in every file that handles a scene, that
-// took a third of the build.
+// took up to two thirds of its compiling.
 struct TextureModel : TextureVariant {
   using TextureVariant::TextureVariant;
   TextureModel();
