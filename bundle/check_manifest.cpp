@@ -133,6 +133,7 @@ void check_records(const Checker& c, const Manifest& m) {
   for (const Material& material : m.materials) records::fields(io, material), ++io.materials;
   records::list(io, m.media), records::list(io, m.area_lights), records::list(io, m.lights);
   records::list(io, m.emissive_triangles), records::list(io, m.emissive_attributes);
+  for (const Surface& s : m.surfaces) records::fields(io, s.opacity);
   records::fields(io, m.camera);
 }
 

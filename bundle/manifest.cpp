@@ -19,7 +19,7 @@ namespace vitrail {
 
 namespace {
 
-constexpr int manifest_version = 5;
+constexpr int manifest_version = 6;
 
 // ---- The two binary files: 32 bytes of header, then the payload
 // -------------------------------------------------

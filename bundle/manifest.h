@@ -60,6 +60,7 @@ struct Surface {
   // Indices of the media behind and in front, −1: vacuum. Where the two are the same the surface stands in a
   // medium and does not bound one.
   std::int32_t interior = -1, exterior = -1;
+  FloatParameter opacity = 1.0f;  // as a Shape's
   bool operator==(const Surface&) const = default;
 };
 

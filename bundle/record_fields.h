@@ -251,6 +251,7 @@ void fields(auto& io, Is<Material> auto& m) {
 }
 void fields(auto& io, Is<Surface> auto& s) {
   io(s.first_triangle), io(s.material), io(s.area_light), io(s.interior), io(s.exterior);
+  fields(io, s.opacity);
 }
 
 // ---- Media

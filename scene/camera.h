@@ -99,8 +99,9 @@ struct RenderSettings {
   int samples_per_pixel = 16;
   int max_depth = 5;
   bool direct_only = false;  // direct light at the first diffuse hit; specular chains go on
-  // Whether going straight through a mask or a thin sheet is a scattering event, too. Mitsuba's volumetric
-  // integrators do not count it.
+  // Whether going straight through a MaskMaterial or a thin sheet is a scattering event, too. Mitsuba's
+  // volumetric integrators do not count it. (Going through where a shape's opacity says that nothing is there
+  // never is.)
   bool straight_counts = true;
   bool operator==(const RenderSettings&) const = default;
 };

@@ -20,6 +20,13 @@ struct MeshAttribute {
   bool operator==(const MeshAttribute&) const = default;
 };
 
+// The (u,v) of a triangle's three corners where the file gives none.
+enum class MissingUv : std::uint8_t {
+  pbrt,         // (0,0), (1,0), (1,1)
+  barycentric,  // (0,0), (1,0), (0,1): Mitsuba
+  zero,         // (0,0) thrice
+};
+
 struct DeferredMesh;
 
 // Object-space triangles. `normals` and `uvs` are empty or have one entry a position.
@@ -30,6 +37,7 @@ struct TriangleMesh {
   std::vector<std::array<std::uint32_t, 3>> triangles;
   std::vector<Normal3f> normals;  // shading normals, not necessarily unit length
   std::vector<Point2f> uvs;  // as the file gives them; a texture's mapping says where (0,0) is in its image
+  MissingUv missing_uv = MissingUv::pbrt;  // also of a deferred mesh
   std::vector<MeshAttribute> attributes;
   std::shared_ptr<const DeferredMesh> deferred;  // if it stays in its file: all the rest is empty
   bool operator==(const TriangleMesh&) const = default;

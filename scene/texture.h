@@ -55,7 +55,20 @@ enum class TextureFilter : std::uint8_t { nearest, bilinear, trilinear, anisotro
 // others.
 enum class Encoding : std::uint8_t { automatic, srgb, linear, gamma };
 
-// (s,t) = (0,0) is the lower left corner of the image, (1,1) the upper right one.
+// Which number a texture of numbers takes from a pixel of several channels; a grey image has but one.
+enum class ImageNumber : std::uint8_t {
+  mean,       // of R, G and B
+  luminance,  // of linear sRGB
+  red,
+  green,
+  blue,
+  alpha,               // 1 where the image has none
+  alpha_or_mean,       // alpha where the image has one that is not 1 everywhere (pbrt-v4)
+  alpha_or_luminance,  // likewise
+};
+
+// (s,t) = (0,0) is the lower left corner of the image, (1,1) the upper right one. Colours are as the file
+// stores them beside alpha: never multiplied by it, and never divided.
 struct ImageTexture {
   std::string filename;  // absolute
   TextureMapping mapping;
@@ -65,6 +78,7 @@ struct ImageTexture {
   float gamma = 1;      // of Encoding::gamma: value = file^gamma
   float scale = 1;      // multiplies the values
   bool invert = false;  // 1 − value, after the scale
+  ImageNumber number = ImageNumber::mean;
   bool operator==(const ImageTexture&) const = default;
 };
 
@@ -160,7 +174,7 @@ struct TextureModel : TextureVariant {
   bool operator==(const TextureModel&) const;
 };
 
-// A texture is either a colour or one number (`is_float`: a colour image counts by its mean); inputs of a
+// A texture is either a colour or one number (`is_float`); inputs of a
 // number are numbers, as constant spectra or other such textures. What a colour means (a reflectance in
 // [0,1], a factor without bound, an emission) follows from where it is used.
 struct Texture {

@@ -193,7 +193,7 @@ std::string message_with(const std::filesystem::path& bundle, const char* before
 }
 
 TEST_F(ManifestFile, AnotherVersionIsNamed) {
-  const std::string message = message_with(directory.path(), "\"version\": 5", "\"version\": 7");
+  const std::string message = message_with(directory.path(), "\"version\": 6", "\"version\": 7");
   EXPECT_NE(message.find("version 7"), std::string::npos) << message;
 }
 
