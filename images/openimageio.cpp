@@ -3,6 +3,7 @@
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
+#include <array>
 #include <memory>
 #include <span>
 
@@ -12,21 +13,35 @@ namespace vitrail {
 
 namespace {
 
-// The channels R, G and B by name, else the first three; the first alone of a picture with fewer.
-std::vector<int> color_channels(const OIIO::ImageSpec& spec) {
-  const std::vector<int> named{spec.channelindex("R"), spec.channelindex("G"), spec.channelindex("B")};
-  if (*std::min_element(named.begin(), named.end()) >= 0) return named;
-  if (spec.nchannels >= 3) return {0, 1, 2};
-  return {0};
+// The channels R, G and B by name, else the first three; the first alone of a picture with fewer. After them
+// alpha, where there is one.
+std::vector<int> channels_of(const OIIO::ImageSpec& spec) {
+  std::vector<int> channels{spec.channelindex("R"), spec.channelindex("G"), spec.channelindex("B")};
+  if (*std::min_element(channels.begin(), channels.end()) < 0)
+    channels = spec.nchannels >= 3 ? std::vector{0, 1, 2} : std::vector{0};
+  const int alpha = spec.alpha_channel;
+  if (alpha >= 0 && std::find(channels.begin(), channels.end(), alpha) == channels.end())
+    channels.push_back(alpha);
+  return channels;
 }
 
+std::optional<Chromaticities> chromaticities_of(const OIIO::ImageSpec& spec) {
+  std::array<float, 8> v{};
+  if (!spec.getattribute("chromaticities", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 8), v.data())) return {};
+  return Chromaticities{{v[0], v[1]}, {v[2], v[3]}, {v[4], v[5]}, {v[6], v[7]}};
+}
+
+// Colours are as stored: OpenImageIO would multiply alpha into them.
 std::string read(const std::string& file, ImageLayout& layout, Image* image) {
-  const auto in = OIIO::ImageInput::open(file);
+  OIIO::ImageSpec wanted;
+  wanted.attribute("oiio:UnassociatedAlpha", 1);
+  const auto in = OIIO::ImageInput::open(file, &wanted);
   if (!in) return OIIO::geterror();
   const OIIO::ImageSpec& spec = in->spec();
   if (spec.depth > 1) return "volumes are not images";
-  const std::vector<int> channels = color_channels(spec);
-  layout = {spec.width, spec.height, static_cast<int>(channels.size()), !spec.format.is_floating_point()};
+  const std::vector<int> channels = channels_of(spec);
+  layout = {spec.width, spec.height, static_cast<int>(channels.size()), !spec.format.is_floating_point(),
+            chromaticities_of(spec)};
   if (!image) return {};
   std::vector<float> values(spec.image_pixels() * static_cast<std::size_t>(spec.nchannels));
   if (!in->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, values.data())) return in->geterror();

@@ -48,6 +48,7 @@ TextureModel bitmap(Builder& b, const Object& o, bool) {
   if (wrap == "clamp") image.wrap = Wrap::clamp;
   if (wrap != "mirror" && wrap != "clamp" && wrap != "repeat")
     b.report.approximated(fmt::format("wrap_mode \"{}\" becomes \"repeat\"", wrap), o.origin);
+  image.number = ImageNumber::luminance;
   image.mapping = flipped(mapping_of(o.transform("to_uv", b.report)));
   o.ignore({"format", "accel", "max_anisotropy", "cache"});
   return image;

@@ -13,6 +13,7 @@
 #include <unordered_set>
 #include <vector>
 
+#include "importers/images/converted_images.h"
 #include "importers/mesh_files.h"
 #include "scene/color.h"
 #include "scene/scene.h"
@@ -53,6 +54,7 @@ struct Context {
   std::unordered_map<std::size_t, std::string>
       interiors;  // media inside of subsurface materials, by material
   std::size_t derived_meshes = 0, derived_images = 0, derived_volumes = 0;
+  ConvertedImages images{[this] { return file.parent_path() / new_file("images", "exr", derived_images); }};
 
   void approximated(std::string message) { report(Fidelity::approximated, std::move(message)); }
   void dropped(std::string message) { report(Fidelity::dropped, std::move(message)); }

@@ -103,9 +103,13 @@ struct WrittenEnvironment {
 WrittenEnvironment environment(Context& context, const EnvironmentLight& light) {
   using enum EnvironmentLight::Projection;
   const RGB color = color_of(light.scale);
-  const bool as_is = light.projection == latitude_longitude && is_grey(color);
+  const ImageTexture texture = image_of(light);
+  ImageTexture taken;
+  taken.filename = light.filename;
+  const bool decoded_alike = have_same_values(texture, taken, ImageUse::light);
+  const bool as_is = light.projection == latitude_longitude && is_grey(color) && decoded_alike;
   if (as_is && !light.illuminance) return {context.relative(light.filename), color.r};
-  Image image = read_linear_image(light.filename);
+  Image image = texture_values(texture, read_stored_image(light.filename), ImageUse::light);
   double factor = is_grey(color) ? color.r : 1;
   if (light.illuminance) {
     const double natural = upward_illuminance(image, light.projection);
@@ -116,13 +120,17 @@ WrittenEnvironment environment(Context& context, const EnvironmentLight& light) 
     image = reproject(image, equal_area, latitude_longitude);
     context.approximated("the equal-area environment map is resampled to latitude and longitude");
   }
-  if (!is_grey(color) && image.channels == 3) {
+  if (!is_grey(color)) {
+    image = with_three_channels(std::move(image));
     const std::array scale{color.r, color.g, color.b};
     for (std::size_t i = 0; i < image.values.size(); ++i)
       image.values[i] = static_cast<float>(static_cast<double>(image.values[i]) * scale[i % 3]);
     context.approximated("the colour of an environment light is multiplied into its image");
   }
   const std::string name = context.new_file("images", "exr", context.derived_images);
+  if (!decoded_alike)
+    context.approximated(
+        fmt::format("Mitsuba takes other values from its image: they are written as {}", name));
   write_exr_image(context.file.parent_path() / name, image);
   return {name, factor};
 }

@@ -80,9 +80,8 @@ UvMapping uv_mapping(Context& context, const TextureMapping& mapping) {
 }
 
 // The image's rows run down: its t is 1 − the Scene's.
-void write_image(Context& context, Element root, const Texture& texture, const ImageTexture& image,
+void write_image(Context& context, Element root, const MitsubaImage& written, const ImageTexture& image,
                  const std::string& id) {
-  const MitsubaImage written = image_for_mitsuba(context, image, texture.is_float);
   Element element = add(root, "texture", "bitmap", "", id);
   add_string(element, "filename", written.filename);
   add_boolean(element, "raw", written.raw);
@@ -150,7 +149,14 @@ WrittenTexture write_texture(Context& context, Element root, const Texture& text
   const auto new_id = [&] { return context.new_id(texture.name, "texture", index); };
   if (const auto* image = std::get_if<ImageTexture>(&texture.model)) {
     const std::string id = new_id();
-    write_image(context, root, texture, *image, id);
+    write_image(context, root, image_for_mitsuba(context, *image, texture.is_float), *image, id);
+    return id;
+  }
+  if (const auto tinted = tinted_image(context.scene, Id<Texture>{static_cast<std::uint32_t>(index)})) {
+    const std::string id = new_id();
+    const bool is_float = tinted->is_number || texture.is_float;
+    const MitsubaImage written = image_for_mitsuba(context, tinted->image, is_float, tinted->tint);
+    write_image(context, root, {written.filename, texture.is_float}, tinted->image, id);
     return id;
   }
   if (const auto* board = std::get_if<CheckerboardTexture>(&texture.model); board && !board->solid) {

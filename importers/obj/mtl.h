@@ -17,8 +17,9 @@ struct MtlMap {
   std::string filename;  // absolute; the file exists
   UvMapping mapping;     // of -s and -o
   Wrap wrap = Wrap::repeat;
-  float gain = 1;             // of -mm
-  float bump_multiplier = 1;  // of -bm
+  float gain = 1;                     // of -mm
+  float bump_multiplier = 1;          // of -bm
+  std::optional<ImageNumber> number;  // of -imfchan
 };
 
 // What a library says of a material. Colours are linear sRGB.
@@ -61,6 +62,8 @@ struct MtlSurface {
 //   map_Kd, map_Ks                              times the colour; alone where that is black or not given
 //   d = 0 (or Tr = 1) without Ni > 1            InterfaceMaterial
 //   other d < 1 without Ni > 1, map_d           MaskMaterial around any of these
+//   maps of numbers                             the channel of -imfchan; else luminance, of map_d alpha where
+//                                               the image has one
 //   map_bump, bump, disp; norm                  heights (times -bm), as a displacement; a normal map
 //   Ke, map_Ke                                  area light, from both sides, since MTL has no sides
 // `d` goes before `Tr` where both are given.

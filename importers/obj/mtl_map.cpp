@@ -54,11 +54,25 @@ class MapReader {
       if (cursor_.word() == "on") map_.wrap = Wrap::clamp;
     } else if (option == "-boost" || option == "-texres") {
       number();  // of filtering
+    } else if (option == "-imfchan") {
+      read_channel();
     } else {
       const std::string value(cursor_.word());
       const bool is_plain = option.starts_with("-blend") || (option == "-cc" && value == "off");
       if (!is_plain) lost(option + " " + value);
     }
+  }
+
+  void read_channel() {
+    static constexpr std::string_view letters = "rgbml";
+    static constexpr std::array numbers{ImageNumber::red, ImageNumber::green, ImageNumber::blue,
+                                        ImageNumber::alpha, ImageNumber::luminance};
+    static constexpr std::array<std::string_view, 4> colors{"map_Kd", "map_Ks", "map_Ke", "norm"};
+    const std::string letter(cursor_.word());
+    const std::size_t channel = letters.find(letter);
+    if (letter.size() != 1 || channel == letters.npos || std::ranges::count(colors, keyword_) > 0)
+      return lost("-imfchan " + letter);
+    map_.number = numbers.at(channel);
   }
 
   void lost(const std::string& what) {

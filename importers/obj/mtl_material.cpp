@@ -31,8 +31,8 @@ class Builder {
     material.model = model();
     material.origin = origin_;
     if (const MtlMap* map = find("bump"))
-      material.displacement = texture(*map, map->gain * map->bump_multiplier, true, Encoding::linear);
-    if (const MtlMap* map = find("norm")) material.normal_map = texture(*map, 1, false, Encoding::linear);
+      material.displacement = number(*map, map->gain * map->bump_multiplier, ImageNumber::luminance);
+    if (const MtlMap* map = find("norm")) material.normal_map = color(*map, 1, Encoding::linear);
     material = masked(std::move(material));
     material.name = printable(mtl_.name, longest_mtl_name);
     const Id<Material> id = append(scene_.materials, std::move(material));
@@ -66,27 +66,33 @@ class Builder {
     return append(scene_.textures, wanted);
   }
 
-  Id<Texture> texture(const MtlMap& map, float scale, bool is_float, Encoding encoding) {
-    ImageTexture image;
-    image.filename = map.filename;
-    image.mapping = map.mapping;
-    image.wrap = map.wrap;
-    image.encoding = encoding;
-    image.scale = scale;
-    return add_texture(std::move(image), is_float);
+  static ImageTexture image(const MtlMap& map, float scale, Encoding encoding) {
+    ImageTexture texture;
+    texture.filename = map.filename;
+    texture.mapping = map.mapping;
+    texture.wrap = map.wrap;
+    texture.encoding = encoding;
+    texture.scale = scale;
+    return texture;
+  }
+  Id<Texture> color(const MtlMap& map, float scale, Encoding encoding = Encoding::automatic) {
+    return add_texture(image(map, scale, encoding), false);
+  }
+  Id<Texture> number(const MtlMap& map, float scale, ImageNumber otherwise) {
+    ImageTexture values = image(map, scale, Encoding::linear);
+    values.number = map.number.value_or(otherwise);
+    return add_texture(std::move(values), true);
   }
 
   // The image times the colour, which may be black or missing where programs leave it to the image.
-  SpectrumParameter product(const MtlMap& map, const std::optional<RGB>& color) {
-    if (is_black(color)) return texture(map, map.gain, false, Encoding::automatic);
-    if (is_grey(*color))
-      return texture(map, static_cast<float>(map.gain * color->r), false, Encoding::automatic);
-    const Id<Texture> image = texture(map, map.gain, false, Encoding::automatic);
-    return add_texture(ProductTexture{Spectrum{unbounded_from_rgb(*color)}, image}, false);
+  SpectrumParameter product(const MtlMap& map, const std::optional<RGB>& factor) {
+    if (is_black(factor)) return color(map, map.gain);
+    if (is_grey(*factor)) return color(map, static_cast<float>(map.gain * factor->r));
+    return add_texture(ProductTexture{Spectrum{unbounded_from_rgb(*factor)}, color(map, map.gain)}, false);
   }
 
   FloatParameter number(const char* keyword, double constant) {
-    if (const MtlMap* map = find(keyword)) return texture(*map, map->gain, true, Encoding::linear);
+    if (const MtlMap* map = find(keyword)) return number(*map, map->gain, ImageNumber::luminance);
     return static_cast<float>(constant);
   }
 
@@ -202,7 +208,7 @@ class Builder {
     mask.opacity = static_cast<float>(std::max(0.0, opacity()));
     if (map) {
       const double scale = opacity() > 0 && opacity() < 1 ? opacity() : 1;
-      mask.opacity = texture(*map, static_cast<float>(map->gain * scale), true, Encoding::linear);
+      mask.opacity = number(*map, static_cast<float>(map->gain * scale), ImageNumber::alpha_or_luminance);
     }
     mask.material = append(scene_.materials, std::move(inner));
     Material outer;

@@ -61,10 +61,10 @@ class Writer : MtlText {
     if (!material.two_sided) approximated("one-sided material: MTL has no sides");
     if (material.displacement) {
       const auto* texture = std::get_if<Id<Texture>>(&*material.displacement);
-      if (texture && !map("map_Bump", *texture, Encoding::linear, "-bm"))
+      if (texture && !map("map_Bump", *texture, ImageUse::number, "-bm"))
         note(Fidelity::dropped, "displacement that is no image");
     }
-    if (material.normal_map && !map("norm", *material.normal_map, Encoding::linear, nullptr))
+    if (material.normal_map && !map("norm", *material.normal_map, ImageUse::vector, nullptr))
       note(Fidelity::dropped, "normal map that is no image");
   }
 

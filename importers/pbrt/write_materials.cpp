@@ -3,7 +3,7 @@
 #include <cmath>
 #include <optional>
 
-#include "importers/pbrt/writer.h"
+#include "importers/pbrt/write_images.h"
 
 namespace vitrail::pbrt {
 
@@ -215,11 +215,9 @@ void bumps(Parameters& p, const Material& m) {
   if (m.bump_shadowing && (m.displacement || m.normal_map))
     p.approximated("its bumps do not shadow: pbrt has no such term");
   if (!m.normal_map) return;
-  const auto* image = std::get_if<ImageTexture>(&p.writer().scene.textures.at(m.normal_map->value).model);
-  if (!image) return p.dropped("a normal map that is not an image");
-  p.file("normalmap", image->filename);
-  if (image->mapping != TextureMapping{UvMapping{}} || image->scale != 1)
-    p.approximated("the mapping and scale of its normal map are left out");
+  const auto file = file_for_pbrt(p, *m.normal_map, ImageUse::vector);
+  if (!file) return p.dropped("a normal map that is not an image");
+  p.file("normalmap", *file);
 }
 
 }  // namespace

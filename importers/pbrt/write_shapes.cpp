@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Shapes, objects and their instances.
 #include <cmath>
+#include <map>
 
 #include "importers/pbrt/shapes.h"
-#include "importers/pbrt/writer.h"
+#include "importers/pbrt/write_images.h"
 #include "scene/bounds.h"
 
 namespace vitrail::pbrt {
@@ -53,7 +54,7 @@ class ShapeWriter {
     w_.line("NamedMaterial " + in_quotes(w_.materials.at(surface.material.value)));
     if (shape.interior || shape.exterior)
       w_.line(fmt::format("MediumInterface {} {}", medium(shape.interior), medium(shape.exterior)));
-    if (shape.area_light) area_light(w_.scene.area_lights.at(shape.area_light->value));
+    if (shape.area_light) w_.line(area_light(*shape.area_light));
     w_.transform(shape.object_to_world);
     if (shape.flip_orientation != swaps_handedness(shape.object_to_world)) w_.line("ReverseOrientation");
     if (surface.alpha != FloatParameter{1.0f}) p.number("alpha", surface.alpha);
@@ -66,20 +67,29 @@ class ShapeWriter {
     return in_quotes(id ? w_.media.at(id->value) : "");
   }
 
-  void area_light(const AreaLight& light) {
+  const std::string& area_light(Id<AreaLight> id) {
+    std::string& line = area_lights_[id.value];
+    if (!line.empty()) return line;
+    const AreaLight& light = w_.scene.area_lights.at(id.value);
     Parameters p(w_, "area light", light.origin);
     if (light.directional) p.approximated("shines in all directions, not along its normal alone");
     if (const auto* radiance = std::get_if<Spectrum>(&light.radiance)) {
       p.emission("L", *radiance);
-    } else if (const auto* image = std::get_if<ImageTexture>(
-                   &w_.scene.textures.at(std::get<Id<Texture>>(light.radiance).value).model)) {
-      p.file("filename", image->filename).number("scale", light.scale);
+    } else if (const auto file = file_for_pbrt(p, std::get<Id<Texture>>(light.radiance), ImageUse::light)) {
+      p.file("filename", *file).number("scale", light.scale);
+      look_up_of_image(std::get<Id<Texture>>(light.radiance), p);
     } else {
       p.approximated("white stands for a texture that is not an image");
       p.number("scale", light.scale);
     }
     if (light.two_sided) p.boolean("twosided", true);
-    w_.line("AreaLightSource \"diffuse\"" + p.list());
+    return line = "AreaLightSource \"diffuse\"" + p.list();
+  }
+
+  void look_up_of_image(Id<Texture> texture, Parameters& p) const {
+    const ImageTexture image = tinted_image(w_.scene, texture)->image;
+    if (image.wrap != Wrap::clamp) p.approximated("the edges of its image go on outside of it");
+    if (image.filter != TextureFilter::bilinear) p.approximated("its image is looked up bilinearly");
   }
 
   std::string mesh(const Shape& shape, Parameters& p) {
@@ -100,6 +110,7 @@ class ShapeWriter {
 
   Writer& w_;
   std::vector<std::optional<TriangleMesh>> fixed_;
+  std::map<std::uint32_t, std::string> area_lights_;  // their directives
 };
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "importers/pbrt/writer.h"
+#include "importers/pbrt/write_images.h"
 
 namespace vitrail::pbrt {
 
@@ -13,6 +13,9 @@ class TextureWriter {
   const Transform& texture_to_world() const { return texture_to_world_; }
 
   const char* operator()(const ImageTexture& t) {
+    return image(image_for_pbrt(p_, t, is_float_ ? ImageUse::number : ImageUse::color));
+  }
+  const char* image(const ImageTexture& t) {
     mapping(t.mapping);
     p_.file("filename", t.filename).number("scale", t.scale).boolean("invert", t.invert);
     p_.text("wrap", t.wrap == Wrap::clamp ? "clamp" : t.wrap == Wrap::black ? "black" : "repeat");
@@ -37,18 +40,19 @@ class TextureWriter {
     return "checkerboard";
   }
   const char* operator()(const ProductTexture& t) {
-    const auto* factor = std::get_if<Spectrum>(&t.second);
-    const bool is_number =
-        factor ? std::holds_alternative<ConstantSpectrum>(*factor)
-               : p_.writer().scene.textures.at(std::get<Id<Texture>>(t.second).value).is_float;
-    input("tex", t.first);
-    if (!is_number) {
+    const bool swapped = !is_number(t.second) && is_number(t.first);
+    const SpectrumParameter &tex = swapped ? t.second : t.first, &scale = swapped ? t.first : t.second;
+    if (!is_number(scale))
+      if (const char* kind = tinted(t)) return kind;
+    input("tex", tex);
+    if (!is_number(scale)) {
+      const auto* factor = std::get_if<Spectrum>(&scale);
       p_.approximated(
           "pbrt multiplies a texture by numbers only: the luminance of a colour, 1 for a texture");
       p_.number("scale", factor ? static_cast<float>(luminance(*factor)) : 1.0f);
       return "scale";
     }
-    p_.input("scale", t.second, true);
+    p_.input("scale", scale, true);
     return "scale";
   }
   const char* operator()(const MixTexture& t) {
@@ -88,6 +92,18 @@ class TextureWriter {
   }
 
  private:
+  bool is_number(const SpectrumParameter& value) const {
+    const auto* spectrum = std::get_if<Spectrum>(&value);
+    return spectrum ? std::holds_alternative<ConstantSpectrum>(*spectrum)
+                    : p_.writer().scene.textures.at(std::get<Id<Texture>>(value).value).is_float;
+  }
+  // An image times a colour, by the colour of each pixel.
+  const char* tinted(const ProductTexture& product) {
+    const auto found = tinted_image(p_.writer().scene, product);
+    if (!found) return nullptr;
+    return image(
+        image_for_pbrt(p_, found->image, found->is_number ? ImageUse::number : ImageUse::color, found->tint));
+  }
   void input(std::string_view name, const SpectrumParameter& value) { p_.input(name, value, is_float_); }
 
   void encoding(Encoding encoding, float gamma) {

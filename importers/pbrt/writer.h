@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "importers/images/converted_images.h"
 #include "importers/mesh_files.h"
 #include "scene/scene.h"
 
@@ -23,6 +24,7 @@ struct Writer {
   std::vector<std::string> materials, textures, media, objects;  // names
 
   Writer(const Scene& scene, const std::filesystem::path& out);
+  Writer(const Writer&) = delete;
 
   // ---- Text
   void line(std::string_view what) { text += fmt::format("{:{}}{}\n", "", indent, what); }
@@ -33,6 +35,7 @@ struct Writer {
 
   // The path of a new image in OUT-images/, which is created.
   std::filesystem::path new_image();
+  ConvertedImages images{[this] { return std::filesystem::absolute(new_image()); }};
 
   // ---- Diagnostics
   void approximated(std::string message, const Origin& origin) {

@@ -65,8 +65,7 @@ class Builder {
     if (!id) return "";  // a constant height tilts nothing
     const auto* image = std::get_if<ImageTexture>(&context_.scene.textures.at(id->value).model);
     const auto file =
-        image ? image_of(context_, image->filename, image->encoding, image->gamma, material_.origin)
-              : std::optional<std::string>{};
+        image ? image_of(context_, *image, ImageUse::number, material_.origin) : std::optional<std::string>{};
     if (!file || !std::holds_alternative<UvMapping>(image->mapping)) {
       context_.dropped("displacement that is not an image by uv", material_.origin);
       return "";

@@ -27,7 +27,8 @@ class Writer {
  public:
   Writer(const Scene& scene, const std::filesystem::path& out)
       : out_(out),
-        context_{scene, out.parent_path(), units_of(scene), false, {}, {}},
+        context_{
+            scene, out.parent_path(), units_of(scene), false, {}, {}, ConvertedImages{images_beside(out)}},
         folder_(out.stem().string() + "-meshes") {}
 
   Diagnostics write() {
@@ -51,6 +52,17 @@ class Writer {
 
  private:
   const Scene& scene() const { return context_.scene; }
+
+  // OUT-images/000000.exr and so on.
+  static std::function<std::filesystem::path()> images_beside(const std::filesystem::path& out) {
+    return [folder = std::filesystem::absolute(out).parent_path() / (out.stem().string() + "-images"),
+            count = 0]() mutable {
+      std::error_code error;
+      std::filesystem::create_directories(folder, error);
+      if (error) throw MachineError(fmt::format("cannot create {}: {}", folder.string(), error.message()));
+      return folder / fmt::format("{:06}.exr", count++);
+    };
+  }
 
   static void save(const std::filesystem::path& path, const std::string& text) {
     AtomicFile file(path);

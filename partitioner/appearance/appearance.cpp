@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "images/texture_values.h"
 #include "partitioner/appearance/bake_materials.h"
 #include "partitioner/appearance/bake_media.h"
 #include "partitioner/appearance/bake_textures.h"
@@ -136,7 +137,8 @@ struct LightBaker {
   }
   LightModel operator()(GoniometricLight l) const {
     l.intensity = resolved(l.intensity);
-    l.filename = textures.bake_image(l.filename, Encoding::automatic, 1, TextureUse::number, where);
+    l.filename = textures.bake_image(image_of(l), TextureUse::number, where);
+    l.encoding = {}, l.number = {};  // they are in its values
     return l;
   }
   LightModel operator()(DistantLight l) const {
@@ -149,7 +151,8 @@ struct LightBaker {
   }
   LightModel operator()(EnvironmentLight l) const {
     l.scale = resolved(l.scale);
-    l.filename = textures.bake_image(l.filename, Encoding::automatic, 1, TextureUse::illuminant, where);
+    l.filename = textures.bake_image(image_of(l), TextureUse::illuminant, where);
+    l.encoding = {}, l.primaries = {};  // they are in its values
     return l;
   }
 };

@@ -33,17 +33,6 @@ Color color_at(const Image& image, std::size_t pixel) {
   return {value[0], value[1], value[2]};
 }
 
-float mean(const Color& c) {
-  return static_cast<float>(
-      (static_cast<double>(c[0]) + static_cast<double>(c[1]) + static_cast<double>(c[2])) / 3);
-}
-
-Image means(const Image& image) {
-  Image result = black_image(image.width, image.height, 1);
-  for (std::size_t p = 0; p < image.pixels(); ++p) result.values[p] = mean(color_at(image, p));
-  return result;
-}
-
 bool all_are_multiples(const Image& image, double of) {
   return std::all_of(image.values.begin(), image.values.end(), [of](float value) {
     const double v = static_cast<double>(value) * of;
@@ -149,7 +138,6 @@ WrittenTextureFile write_baked_image(const std::filesystem::path& file, Image va
     if (!std::isfinite(v)) v = 0;
     if (spectral) v = std::clamp(v, 0.0f, most);
   }
-  if (use == TextureUse::number && values.channels != 1) values = means(values);
   const auto width = static_cast<std::uint32_t>(values.width);
   const auto height = static_cast<std::uint32_t>(values.height);
   const TextureFileInfo info{format_for(values, use), width, height,

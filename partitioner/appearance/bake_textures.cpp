@@ -4,11 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <limits>
 
-#include "images/image_files.h"
+#include "images/texture_values.h"
 #include "scene/rgb_to_spectrum.h"
 
 namespace vitrail {
@@ -39,29 +37,10 @@ Spectrum as_used(const Spectrum& spectrum, TextureUse use) {
   }
 }
 
-// The linear values of a texture's image: decoded, scaled, inverted.
-Image values_of(const ImageTexture& texture, StoredImage stored, TextureUse use) {
-  const bool automatic = texture.encoding == Encoding::automatic && use != TextureUse::vector;
-  const bool srgb = texture.encoding == Encoding::srgb || (automatic && stored.integer);
-  const auto gamma = static_cast<double>(texture.gamma), scale = static_cast<double>(texture.scale);
-  const auto decoded = [&](float of) {
-    auto value = static_cast<double>(of);
-    if (srgb) value = srgb_decode(std::clamp(value, 0.0, 1.0));
-    if (texture.encoding == Encoding::gamma) value = std::pow(std::max(value, 0.0), gamma);
-    value *= scale;
-    return static_cast<float>(texture.invert ? 1 - value : value);
-  };
-  // Most images have few different values.
-  struct Known {
-    float stored = std::numeric_limits<float>::quiet_NaN(), value = 0;
-  };
-  std::vector<Known> known(4096);
-  for (float& value : stored.image.values) {
-    Known& k = known[std::bit_cast<std::uint32_t>(value) * 0x9e3779b1u >> 20];
-    if (k.stored != value) k = {value, decoded(value)};
-    value = k.value;
-  }
-  return std::move(stored.image);
+ImageUse image_use(TextureUse use) {
+  if (use == TextureUse::number) return ImageUse::number;
+  if (use == TextureUse::vector) return ImageUse::vector;
+  return use == TextureUse::illuminant ? ImageUse::light : ImageUse::color;
 }
 
 bool needs_levels(TextureFilter filter) {
@@ -164,7 +143,8 @@ struct TextureBaker::Clone {
   }
   SpectrumParameter operator()(const UvTexture& t) const {
     ImageTexture image;
-    image.filename = baker.write_image(uv_image(), use, false);
+    image.filename = baker.write_image(
+        use == TextureUse::number ? numbers_of(uv_image(), ImageNumber::luminance) : uv_image(), use, false);
     image.mapping = t.mapping;
     return baker.add(image, use);
   }
@@ -232,18 +212,15 @@ std::array<float, 3> attribute_value(RGB color, TextureUse use, const Reflectanc
 
 // ---- Files
 
-std::string TextureBaker::bake_image(const std::string& filename, Encoding encoding, float gamma,
-                                     TextureUse use, const SourceLocation& where) {
-  ImageTexture image;
-  image.filename = filename;
-  image.encoding = encoding;
-  image.gamma = gamma;
+std::string TextureBaker::bake_image(const ImageTexture& image, TextureUse use, const SourceLocation& where) {
   return bake_file(image, use, true, where);
 }
 
 std::string TextureBaker::bake_file(const ImageTexture& image, TextureUse use, bool all_levels,
                                     const SourceLocation& where) {
-  const ImageKey key{image.filename, image.encoding, image.gamma, image.scale, image.invert, use, all_levels};
+  const ImageNumber number = use == TextureUse::number ? image.number : ImageNumber{};
+  const ImageKey key{image.filename, image.encoding,  image.gamma, image.scale, image.invert,
+                     number,         image.primaries, use,         all_levels};
   if (const auto known = images_.find(key); known != images_.end()) return known->second;
   StoredImage stored;
   try {
@@ -256,7 +233,7 @@ std::string TextureBaker::bake_file(const ImageTexture& image, TextureUse use, b
     throw Error(fmt::format("texture {}: {} × {} pixels are not an image for a texture", image.filename,
                             stored.image.width, stored.image.height),
                 where);
-  Image values = values_of(image, std::move(stored), use);
+  Image values = texture_values(image, std::move(stored), image_use(use));
   const auto broken =
       std::count_if(values.values.begin(), values.values.end(), [](float v) { return !std::isfinite(v); });
   if (broken > 0)

@@ -30,8 +30,7 @@ class TextureBaker {
   FloatParameter bake(const FloatParameter& parameter);
   Id<Texture> bake_vector(Id<Texture> texture);
   // Of a light: the name in the bundle. All MIP levels.
-  std::string bake_image(const std::string& filename, Encoding encoding, float gamma, TextureUse use,
-                         const SourceLocation& where);
+  std::string bake_image(const ImageTexture& image, TextureUse use, const SourceLocation& where);
 
   // Attributes of meshes that the clones refer to, by slot: the bundle's MeshAttributeTexture of the first is
   // named "0". A name that serves two uses has two slots.
@@ -65,7 +64,8 @@ class TextureBaker {
   std::vector<Attribute> attributes_;
   std::vector<TextureFileEntry> files_;
   std::map<std::pair<std::uint32_t, TextureUse>, SpectrumParameter> baked_;
-  using ImageKey = std::tuple<std::string, Encoding, float, float, bool, TextureUse, bool>;
+  using ImageKey =
+      std::tuple<std::string, Encoding, float, float, bool, ImageNumber, Primaries, TextureUse, bool>;
   std::map<ImageKey, std::string> images_;
 };
 

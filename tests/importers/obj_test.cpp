@@ -378,6 +378,21 @@ TEST_F(Obj, ImagesAndTheirOptions) {
     EXPECT_THAT(imported_.diagnostics, says(text));
 }
 
+TEST_F(Obj, WhichNumberAnImageIs) {
+  folder_.write("m.png", "");
+  const auto number = [&](const std::string& mtl) {
+    material(mtl);
+    return image(Id<Texture>{static_cast<std::uint32_t>(imported_.scene.textures.size() - 1)}).number;
+  };
+  EXPECT_EQ(number("Kd 1 1 1\nmap_Pm m.png\n"), ImageNumber::luminance);
+  EXPECT_EQ(number("Kd 1 1 1\nmap_d m.png\n"), ImageNumber::alpha_or_luminance);
+  EXPECT_EQ(number("Kd 1 1 1\nmap_d -imfchan l m.png\n"), ImageNumber::luminance);
+  EXPECT_EQ(number("Kd 1 1 1\nmap_Bump -imfchan m m.png\n"), ImageNumber::alpha);
+  EXPECT_EQ(number("Kd 1 1 1\nmap_Pr -imfchan g m.png\n"), ImageNumber::green);
+  material("Kd 1 1 1\nmap_Pr -imfchan z m.png\n");
+  EXPECT_THAT(imported_.diagnostics, says("-imfchan z of map_Pr"));
+}
+
 TEST_F(Obj, ImagesThatAreNotThere) {
   EXPECT_EQ(material("map_Kd -s 1 1 1 a b.png\n"),
             MaterialModel(DiffuseMaterial{reflectance_from_rgb({.5, .5, .5})}));

@@ -90,6 +90,29 @@ TEST(BakeTextures, DecodesScalesAndInverts) {
   EXPECT_NEAR(textures.number(baked[3], upper_left), 1.04 / 3, 1e-6);
 }
 
+// The same file is one image for each number that is taken from it.
+TEST(BakeTextures, NumbersOfChannels) {
+  test::BakedScene s;
+  test::write_png(s.directory / "a.png", 1, 1, 4, {51, 102, 204, 153});
+  const std::vector<std::pair<ImageNumber, double>> expected{{ImageNumber::mean, 1.4 / 3},
+                                                             {ImageNumber::green, 0.4},
+                                                             {ImageNumber::alpha, 0.6},
+                                                             {ImageNumber::alpha_or_mean, 0.6}};
+  std::vector<Id<Texture>> ids;
+  for (const auto& [number, value] : expected) {
+    ImageTexture texture = s.image("a.png");
+    texture.encoding = Encoding::linear, texture.number = number;
+    ids.push_back(s.add(texture, true));
+  }
+  TextureBaker& baker = s.bake();
+  std::vector<FloatParameter> baked;
+  for (const Id<Texture> id : ids) baked.push_back(baker.bake(FloatParameter{id}));
+  EXPECT_EQ(baker.files().size(), expected.size());
+  const Textures textures = s.look_up();
+  for (std::size_t i = 0; i < expected.size(); ++i)
+    EXPECT_NEAR(textures.number(baked[i], at_uv(0.5, 0.5)), expected[i].second, 1e-6) << i;
+}
+
 TEST(BakeTextures, GreysAreNumbersAndNormalMapsExact) {
   test::BakedScene s;
   test::write_png(s.directory / "grey.png", 2, 1, 3, {9, 9, 9, 200, 200, 200});
@@ -134,10 +157,9 @@ TEST(BakeTextures, OneFileForOneUse) {
 TEST(BakeTextures, ImagesOfLights) {
   test::BakedScene s;
   write_exr_image(s.directory / "a.exr", colors(8, 4, 5));
-  const std::string file = (s.directory / "a.exr").string();
   TextureBaker& baker = s.bake();
-  const std::string name = baker.bake_image(file, Encoding::automatic, 1, TextureUse::illuminant, {});
-  EXPECT_EQ(baker.bake_image(file, Encoding::automatic, 1, TextureUse::illuminant, {}), name);
+  const std::string name = baker.bake_image(s.image("a.exr"), TextureUse::illuminant, {});
+  EXPECT_EQ(baker.bake_image(s.image("a.exr"), TextureUse::illuminant, {}), name);
   const TextureFileInfo info = TextureFile(s.directory / "b.vit" / name).info();
   EXPECT_EQ(info.levels, 4u);
   EXPECT_EQ(info.format, TexelFormat::illuminant);
