@@ -172,6 +172,7 @@ ImageTexture image_of(const GoniometricLight& light) {
   image.filename = light.filename;
   image.encoding = light.encoding;
   image.number = light.number;
+  image.primaries = Primaries::srgb;
   return image;
 }
 

@@ -26,8 +26,8 @@ ImageNumber number_taken(Version version, const std::string& filename, TextureFi
   return may_be_rgba ? ImageNumber::alpha_or_mean : ImageNumber::mean;
 }
 
-Primaries primaries_taken(Version version) {
-  return version == Version::v3 ? Primaries::srgb : Primaries::named;
+Primaries primaries_taken(Version version, bool is_float) {
+  return version == Version::v3 || is_float ? Primaries::srgb : Primaries::named;
 }
 
 }  // namespace vitrail::pbrt

@@ -12,7 +12,7 @@ namespace vitrail::pbrt {
 // than PNG and EXR). v3 knows no alpha, and decodes the luminance of what is stored.
 ImageNumber number_taken(Version version, const std::string& filename, TextureFilter filter);
 
-// v4 looks at the chromaticities that it knows, v3 at none.
-Primaries primaries_taken(Version version);
+// v4 looks at the chromaticities that it knows, for colours; v3 at none.
+Primaries primaries_taken(Version version, bool is_float = false);
 
 }  // namespace vitrail::pbrt

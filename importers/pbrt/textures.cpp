@@ -179,7 +179,7 @@ TextureModel image_texture(const Maker& m) {
   t.invert = m.parameters.boolean("invert", false);
   const Version version = m.scope.context.version;
   t.number = m.is_float ? number_taken(version, t.filename, t.filter) : ImageNumber::luminance;
-  t.primaries = primaries_taken(version);
+  t.primaries = primaries_taken(version, m.is_float);
   return t;
 }
 

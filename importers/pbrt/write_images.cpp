@@ -32,11 +32,11 @@ Encoding encoding_taken(const std::string& filename, Encoding wanted) {
 }
 
 // What pbrt makes of the texture's own file.
-ImageTexture taken_by_pbrt(const ImageTexture& image) {
+ImageTexture taken_by_pbrt(const ImageTexture& image, ImageUse use) {
   ImageTexture taken = image;
   taken.encoding = encoding_taken(image.filename, image.encoding);
   taken.number = number_taken(Version::v4, image.filename, image.filter);
-  taken.primaries = primaries_taken(Version::v4);
+  taken.primaries = primaries_taken(Version::v4, use == ImageUse::number);
   return taken;
 }
 
@@ -45,7 +45,7 @@ ImageTexture taken_by_name(const ImageTexture& image, ImageUse use) {
   ImageTexture plain = image;
   plain.encoding = use == ImageUse::vector ? Encoding::linear : Encoding::automatic;
   plain.scale = 1, plain.invert = false;
-  return taken_by_pbrt(plain);
+  return taken_by_pbrt(plain, use);
 }
 
 // pbrt's lights and normal maps refuse greys. What is not there cannot be helped.
@@ -67,7 +67,7 @@ std::string written(Parameters& p, const ImageTexture& image, ImageUse use, cons
 }  // namespace
 
 ImageTexture image_for_pbrt(Parameters& p, const ImageTexture& image, ImageUse use, RGB tint) {
-  const ImageTexture taken = taken_by_pbrt(image);
+  const ImageTexture taken = taken_by_pbrt(image, use);
   try {
     if (tint == RGB{1, 1, 1} && is_read_by_pbrt(image.filename) && have_same_values(image, taken, use))
       return taken;
@@ -98,6 +98,20 @@ std::optional<std::string> file_for_pbrt(Parameters& p, Id<Texture> texture, Ima
   } catch (const Error& error) {
     p.approximated(fmt::format("{}: referred to as it is", error.what()));
     return image.filename;
+  }
+}
+
+// pbrt takes the mean of the colours, and knows no alpha.
+std::string goniometric_for_pbrt(Parameters& p, const GoniometricLight& light) {
+  const ImageTexture image = image_of(light);
+  ImageTexture taken = taken_by_name(image, ImageUse::number);
+  taken.number = ImageNumber::mean;
+  try {
+    if (have_same_values(image, taken, ImageUse::number)) return light.filename;
+    return written(p, image, ImageUse::number, {});
+  } catch (const Error& error) {
+    p.approximated(fmt::format("{}: referred to as it is", error.what()));
+    return light.filename;
   }
 }
 

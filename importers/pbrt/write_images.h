@@ -13,6 +13,9 @@ ImageTexture image_for_pbrt(Parameters& p, const ImageTexture& image, ImageUse u
 // normal map. Nothing where the texture is no image.
 std::optional<std::string> file_for_pbrt(Parameters& p, Id<Texture> texture, ImageUse use);
 
+// The brightness in all directions of a light.
+std::string goniometric_for_pbrt(Parameters& p, const GoniometricLight& light);
+
 // The image of a light around the scene, in pbrt's projection.
 std::string environment_for_pbrt(Parameters& p, const EnvironmentLight& light);
 

@@ -85,12 +85,14 @@ std::optional<std::string> image_of(Context& context, const ImageTexture& textur
     return words_of(context, file, Encoding::linear, 1);
   } catch (const Error& error) {
     std::error_code ignored;
-    if (kinds().contains(suffix_of(texture.filename)) &&
-        std::filesystem::is_regular_file(texture.filename, ignored)) {
+    const bool is_there = std::filesystem::is_regular_file(texture.filename, ignored);
+    if (is_there && kinds().contains(suffix_of(texture.filename))) {
       context.approximated(fmt::format("{}: referred to as it is", error.what()), origin);
       return words_of(context, texture.filename, texture.encoding, texture.gamma);
     }
-    context.dropped(fmt::format("image {}: {}; 0.5 is written", texture.filename, error.what()), origin);
+    context.dropped(fmt::format("image {}: {}; 0.5 is written", texture.filename,
+                                is_there ? "POV-Ray 3.7 does not read this kind" : "there is no such file"),
+                    origin);
     return {};
   }
 }

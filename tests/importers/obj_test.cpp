@@ -382,7 +382,7 @@ TEST_F(Obj, WhichNumberAnImageIs) {
   folder_.write("m.png", "");
   const auto number = [&](const std::string& mtl) {
     material(mtl);
-    return image(Id<Texture>{static_cast<std::uint32_t>(imported_.scene.textures.size() - 1)}).number;
+    return std::get<ImageTexture>(imported_.scene.textures.back().model).number;
   };
   EXPECT_EQ(number("Kd 1 1 1\nmap_Pm m.png\n"), ImageNumber::luminance);
   EXPECT_EQ(number("Kd 1 1 1\nmap_d m.png\n"), ImageNumber::alpha_or_luminance);

@@ -44,6 +44,7 @@ TEST(PbrtTextures, ImagesKeepHowTheyAreRead) {
   EXPECT_EQ(image.gamma, 2.2f);
   EXPECT_EQ(image.scale, .5f);
   EXPECT_TRUE(image.invert);
+  EXPECT_EQ(image.primaries, Primaries::named);
 }
 
 // pbrt-v4: the first channel alone where it takes single texels, else alpha (of RGBA files) or the mean; v3:
@@ -72,7 +73,7 @@ TEST(PbrtTextures, WhichNumberAnImageIs) {
   EXPECT_EQ(image(v4, "rgba.png", "\"string filter\" \"point\"").number, ImageNumber::red);
   EXPECT_EQ(image(v4, "rgba.png", "\"string filter\" \"ewa\"").number, ImageNumber::red);
   EXPECT_EQ(image(v3, "rgba.png", "").number, ImageNumber::stored_luminance);
-  EXPECT_EQ(image(v4, "x.exr", "").primaries, Primaries::named);
+  EXPECT_EQ(image(v4, "x.exr", "").primaries, Primaries::srgb) << "of the channels, not of a colour";
   EXPECT_EQ(image(v3, "x.exr", "").primaries, Primaries::srgb);
 }
 

@@ -26,9 +26,9 @@ class MitsubaImages : public testing::Test {
     const Id<Texture> id{static_cast<std::uint32_t>(textures_.size())};
     Material material;
     if (is_number) {
-      PlasticMaterial plastic;
-      plastic.roughness.alpha_u = plastic.roughness.alpha_v = id;
-      material.model = plastic;
+      ConductorMaterial metal;
+      metal.roughness.alpha_u = metal.roughness.alpha_v = id;
+      material.model = metal;
     } else {
       material.model = DiffuseMaterial{id};
     }
@@ -37,7 +37,7 @@ class MitsubaImages : public testing::Test {
     scene.textures.push_back({std::move(model), is_number, "t", {}});
     diagnostics_ = write_mitsuba(scene, folder_ / "out.xml");
     const Scene again = read_mitsuba(folder_ / "out.xml").scene;
-    return std::get<ImageTexture>(again.textures.back().model);
+    return std::get<ImageTexture>(again.textures.at(0).model);
   }
   ImageTexture image(const char* name) const {
     ImageTexture texture;
@@ -108,8 +108,8 @@ TEST_F(MitsubaImages, ATintedImageKeepsItsImage) {
                                written(ProductTexture{rgb_reflectance(.5, 1, .25), Id<Texture>{0}}, false),
                                ImageUse::color);
   ASSERT_EQ(tinted.size(), plain.size());
-  for (std::size_t i = 0; i < tinted.size(); ++i)
-    EXPECT_NEAR(tinted[i], plain[i] * std::array{.5f, 1.f, .25f}[i % 3], 1e-6) << i;
+  constexpr std::array tint{.5f, 1.0f, .25f};
+  for (std::size_t i = 0; i < tinted.size(); ++i) EXPECT_NEAR(tinted[i], plain[i] * tint[i % 3], 1e-6) << i;
 }
 
 }  // namespace

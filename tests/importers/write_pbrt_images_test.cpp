@@ -96,8 +96,8 @@ TEST_F(PbrtImages, ATintedImageKeepsItsImage) {
       written(ProductTexture{Spectrum{unbounded_from_rgb({.5, 1, .25})}, Id<Texture>{0}}, false);
   const std::vector<float> plain = values(texture, ImageUse::color), tinted = values(again, ImageUse::color);
   ASSERT_EQ(tinted.size(), plain.size());
-  for (std::size_t i = 0; i < tinted.size(); ++i)
-    EXPECT_NEAR(tinted[i], plain[i] * std::array{.5f, 1.f, .25f}[i % 3], 1e-6) << i;
+  constexpr std::array tint{.5f, 1.0f, .25f};
+  for (std::size_t i = 0; i < tinted.size(); ++i) EXPECT_NEAR(tinted[i], plain[i] * tint[i % 3], 1e-6) << i;
 }
 
 TEST_F(PbrtImages, ANumberBeforeATextureScalesIt) {
