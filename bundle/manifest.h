@@ -78,11 +78,12 @@ using CornerValues = std::array<std::array<float, 3>, 3>;
 // What the scene needs of a renderer; everything false costs nothing.
 struct Requirements {
   bool shading_normals = false;
-  bool uv = false;           // some texture, tangent or light is looked up by (u,v)
-  bool filtering = false;    // some image is filtered by the width of the ray's cone
-  bool dispersion = false;   // some smooth surface refracts by an index that depends on λ
-  bool refraction = false;   // some smooth surface refracts
-  bool see_through = false;  // some surface lets light straight through: interfaces, masks, thin sheets
+  bool uv = false;          // some texture, tangent or light is looked up by (u,v)
+  bool filtering = false;   // some image is filtered by the width of the ray's cone
+  bool dispersion = false;  // some smooth surface refracts by an index that depends on λ
+  bool refraction = false;  // some smooth surface refracts
+  // Some surface lets light straight through: interfaces, masks, thin sheets, opacities.
+  bool see_through = false;
   bool media = false;
   bool operator==(const Requirements&) const = default;
 };
@@ -117,6 +118,7 @@ struct Manifest {
   std::vector<EmissiveTriangle> emissive_triangles;
   // Their mesh attributes, [triangle][slot]; empty where no area light reads one.
   std::vector<CornerValues> emissive_attributes;
+  std::vector<FloatParameter> emissive_opacities;  // their surfaces'; empty where all are 1
   std::vector<Light> lights;
   Camera camera;
   std::int32_t camera_medium = -1;  // index, or −1: vacuum

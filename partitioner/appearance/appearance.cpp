@@ -33,17 +33,19 @@ class Notes {
 
 // What the shapes use, by the ids of the scene.
 struct Used {
-  std::vector<bool> materials, area_lights, media;
+  std::vector<bool> materials, area_lights, media, opacities;
 };
 
 Used used_in(const Scene& scene) {
   Used used{std::vector<bool>(scene.materials.size()), std::vector<bool>(scene.area_lights.size()),
-            std::vector<bool>(scene.media.size())};
+            std::vector<bool>(scene.media.size()), std::vector<bool>(scene.textures.size())};
   const auto use = [&](const Shape& shape) {
     used.materials.at(shape.material.value) = true;
     if (shape.area_light) used.area_lights.at(shape.area_light->value) = true;
     for (const auto& medium : {shape.interior, shape.exterior})
       if (medium) used.media.at(medium->value) = true;
+    if (const auto* texture = std::get_if<Id<Texture>>(&shape.opacity))
+      used.opacities.at(texture->value) = true;
   };
   for (const Shape& shape : scene.shapes) use(shape);
   std::vector<bool> reached(scene.prototypes.size());
@@ -170,6 +172,9 @@ Appearance appearance_of(const Scene& scene, const std::filesystem::path& bundle
     result.area_lights.push_back(std::move(light));
     return true;
   });
+  result.opacities.resize(scene.textures.size(), 1.0f);
+  for (std::uint32_t i = 0; i < used.opacities.size(); ++i)
+    if (used.opacities[i]) result.opacities[i] = textures.bake(FloatParameter{Id<Texture>{i}});
   for (const Light& light : scene.lights) {
     result.lights.push_back(
         {std::visit(LightBaker{textures, location(scene, light.origin)}, light.model), {}});

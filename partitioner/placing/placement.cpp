@@ -175,6 +175,8 @@ Surface surface_of(const Placement& p, const Appearance& appearance) {
                   new_id(appearance.medium_ids, p.shape->exterior)};
   if (!p.shape->interior && appearance.material_interiors.at(material) >= 0)
     surface.interior = appearance.material_interiors[material];
+  const auto* texture = std::get_if<Id<Texture>>(&p.shape->opacity);
+  surface.opacity = texture ? appearance.opacities.at(texture->value) : p.shape->opacity;
   return surface;
 }
 

@@ -95,9 +95,11 @@ World world_of(const Scene& scene, const std::filesystem::path& bundle, const Wo
   for (const Assembly& object : plan.objects) normals = normals || have_normals(object.placements, scene);
   if (!options.keep_instances) expand_all(plan);
 
-  const auto light_of = [&](const Placement& p) { return surface_of(p, appearance).area_light; };
-  for (const Placement& p : expanded(plan, [&](const Placement& q) { return light_of(q) >= 0; }))
-    world.shining.push_back({p, static_cast<std::uint32_t>(light_of(p))});
+  const auto shines = [&](const Placement& p) { return surface_of(p, appearance).area_light >= 0; };
+  for (const Placement& p : expanded(plan, shines)) {
+    const Surface surface = surface_of(p, appearance);
+    world.shining.push_back({p, static_cast<std::uint32_t>(surface.area_light), surface.opacity});
+  }
   make_surfaces(appearance, plan.scene.placements, m);
   for (const Placement& p : plan.scene.placements) world.own_triangles += triangles_of(*p.mesh);
   world.placements = std::move(plan.scene.placements);

@@ -23,7 +23,8 @@ struct WorldObject {
 
 struct ShiningPlacement {
   Placement placement;
-  std::uint32_t area_light = 0;  // index
+  std::uint32_t area_light = 0;   // index
+  FloatParameter opacity = 1.0f;  // of its surface
 };
 
 struct World {

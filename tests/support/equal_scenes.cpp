@@ -47,7 +47,7 @@ class Renumbering {
   }
   void use(Shape& shape) {
     shape.name.clear();
-    use(shape.mesh), use(shape.material);
+    use(shape.mesh), use(shape.material), use(shape.opacity);
     if (shape.area_light) use(*shape.area_light);
     if (shape.interior) use(*shape.interior);
     if (shape.exterior) use(*shape.exterior);
