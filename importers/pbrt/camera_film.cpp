@@ -209,7 +209,6 @@ void read_integrator(const std::string& kind, ParameterSet& parameters, Context&
   const int depth = parameters.integer("maxdepth", 5);
   if (depth < 0) fail("\"maxdepth\" is negative", parameters.place());
   view.render.max_depth = depth;
-  view.render.straight_counts = kind != "volpath";
   view.render.direct_only = is_one_of(kind, {"directlighting", "whitted"});
   const bool same_picture =
       view.render.direct_only || is_one_of(kind, {"path", "volpath", "bdpt", "mlt", "sppm", "simplepath",

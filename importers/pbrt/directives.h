@@ -3,6 +3,7 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -115,7 +116,8 @@ class Interpreter {
   Material made_material(const std::string& kind, ParameterSet& parameters, const Scope& scope);
   std::uint32_t add_material(Material material);
   Id<Material> shape_material();
-  Id<Material> masked(Id<Material> material, const FloatParameter& opacity, const Place& place);
+  FloatParameter shape_opacity(ParameterSet& parameters, const Place& place);
+  void report_shining_alpha(const FloatParameter& alpha, const Place& place);
   std::optional<Id<Medium>> medium_named(const std::string& name, const Place& place);
   std::optional<Id<AreaLight>> shape_light(const ShapeGeometry& geometry, const Place& place);
   double area_per_part(const ShapeGeometry& geometry, const Place& place);
@@ -153,7 +155,7 @@ class Interpreter {
   std::vector<DeferredMaterial> deferred_;
   std::map<std::uint32_t, std::string> named_slots_;
   std::optional<Id<Material>> default_material_;
-  std::vector<std::pair<MaskMaterial, Id<Material>>> masks_;  // those of shapes with "alpha"
+  std::set<std::uint32_t> shares_of_v3_;  // textures that are a shape's "alpha" in a file of v3
 
   NamedSlots medium_names_{"medium"};
   std::vector<std::optional<Medium>> media_;

@@ -344,11 +344,22 @@ std::optional<ShapeGeometry> ShapeMaker::quadric(const std::string& kind, Parame
   return ShapeGeometry{known->second, true, {}, 1};
 }
 
+// In v3 what lets a shadow ray pass is where either of the two is 0.
+void ShapeMaker::report_shadow_alpha(ParameterSet& parameters) {
+  const auto find = [&](const char* name) {
+    return parameters.find(name, {ParameterType::number, ParameterType::texture});
+  };
+  const Parameter *shadow = find("shadowalpha"), *alpha = find("alpha");
+  if (!shadow) return;
+  const bool is_whole = shadow->numbers.size() == 1 && shadow->numbers.front() != 0;
+  const bool same = alpha && alpha->strings == shadow->strings && alpha->numbers == shadow->numbers;
+  if (!is_whole && !same)
+    context_.report.dropped("\"shadowalpha\" of shapes: shadows follow \"alpha\"", shadow->place);
+}
+
 std::optional<ShapeGeometry> ShapeMaker::make(const std::string& kind, ParameterSet& parameters) {
   parameters.ignore({"S", "faceIndices"});
-  if (const Parameter* alpha =
-          parameters.find("shadowalpha", {ParameterType::number, ParameterType::texture}))
-    context_.report.dropped("\"shadowalpha\" of shapes: shadows follow \"alpha\"", alpha->place);
+  report_shadow_alpha(parameters);
   std::optional<ShapeGeometry> geometry;
   if (kind == "curve") {
     geometry = curve(parameters);

@@ -41,6 +41,7 @@ class ShapeMaker {
   std::optional<ShapeGeometry> curve(ParameterSet& parameters);
   std::optional<ShapeGeometry> quadric(const std::string& kind, ParameterSet& parameters);
   Id<TriangleMesh> add(TriangleMesh mesh);
+  void report_shadow_alpha(ParameterSet& parameters);
   // Has the meshes read that the text to come names.
   void read_ahead();
 

@@ -202,33 +202,45 @@ Id<Material> Interpreter::shape_material() {
   return *default_material_;
 }
 
-// Shapes of one material with the same "alpha" share their mask.
-Id<Material> Interpreter::masked(Id<Material> material, const FloatParameter& opacity, const Place& place) {
-  if (opacity == FloatParameter{1.0f}) return material;
-  const MaskMaterial mask{opacity, material};
-  for (const auto& [known, id] : masks_)
-    if (known == mask) return id;
-  Material record{mask};
-  record.origin = origin(place);
-  const Id<Material> id{add_material(std::move(record))};
-  masks_.emplace_back(mask, id);
-  return id;
+// v4 goes by shares; to v3 a surface is there wherever its alpha is not 0.
+FloatParameter Interpreter::shape_opacity(ParameterSet& parameters, const Place& place) {
+  const FloatParameter alpha = float_parameter(parameters, {"alpha"}, 1, scope(place));
+  const bool v3 = context_.version == Version::v3;
+  if (const auto* constant = std::get_if<float>(&alpha))
+    return v3 && *constant != 0 ? 1.0f : std::clamp(*constant, 0.0f, 1.0f);
+  if (v3 && shares_of_v3_.insert(std::get<Id<Texture>>(alpha).value).second)
+    context_.report.approximated(
+        "v3 shows all of a surface where its alpha is not 0; here alpha is the share of it that is there",
+        place);
+  return alpha;
+}
+
+void Interpreter::report_shining_alpha(const FloatParameter& alpha, const Place& place) {
+  if (context_.version == Version::v3)
+    context_.report.approximated("the alpha of a light: in v3 what is not there lights other things", place);
+  else if (alpha != FloatParameter{0.0f})
+    context_.report.approximated(
+        "the alpha of a light: where it is between 0 and 1 pbrt shows the light times its square", place);
 }
 
 void Interpreter::shape(const Place& place) {
   const std::string kind = read_text("a kind of shape");
   ParameterSet parameters = read_set("Shape", kind, place, "shape");
-  const FloatParameter alpha = float_parameter(parameters, {"alpha"}, 1, scope(place));
-  if (alpha == FloatParameter{0.0f}) return;  // nothing shows
+  const FloatParameter opacity = shape_opacity(parameters, place);
+  const bool is_gone = opacity == FloatParameter{0.0f};
+  if (is_gone && !state_.area_light) return;  // nothing shows
   const auto geometry = shapes_.make(kind, parameters);
   if (!geometry || triangles_of(scene_.meshes[geometry->mesh.value]) == 0) return;
   Shape shape;
   shape.mesh = geometry->mesh;
-  shape.material = masked(shape_material(), alpha, place);
+  shape.material = shape_material();
+  shape.opacity = opacity;
   shape.interior = state_.interior;
   shape.exterior = state_.exterior;
   shape.origin = origin(place);
   shape.area_light = shape_light(*geometry, place);
+  if (is_gone && !shape.area_light) return;
+  if (shape.area_light && opacity != FloatParameter{1.0f}) report_shining_alpha(opacity, place);
   shape.object_to_world = state_.ctm * vitrail::translate(geometry->offset);
   // Meshes: pbrt flips the winding normal of the world, so that the object's front stays the front. Analytic
   // shapes: it flips the normal of the object and then transforms it, so a mirror turns them inside out;
