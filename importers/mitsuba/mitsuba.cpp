@@ -11,6 +11,15 @@ namespace vitrail {
 
 namespace mitsuba {
 
+// Interfaces are no events here; Mitsuba's volumetric integrators alone agree.
+static void report_null_depth(Builder& b) {
+  const RenderSettings& settings = b.scene.settings;
+  if (!settings.straight_counts || settings.max_depth >= unlimited_depth) return;
+  for (const Material& material : b.scene.materials)
+    if (std::holds_alternative<InterfaceMaterial>(material.model))
+      b.report.approximated("the depth: going through \"null\" does not count", material.origin);
+}
+
 static void build(Builder& b, const Object& root) {
   // Objects that others refer to come first, so that they have their places in the order of the file.
   for (const Property& p : root.properties) {
@@ -38,6 +47,7 @@ static void build(Builder& b, const Object& root) {
     if ((*object)->tag == "emitter") p.queried = true, add_emitter(b, **object);
     if ((*object)->tag == "shape") p.queried = true, add_shape(b, **object);
   }
+  report_null_depth(b);
   root.ignore({"camera", "version"});
   root.children("sampler");
   root.children("film");
