@@ -214,9 +214,17 @@ void write_integrator(Context& context, Element root) {
     add_integer(element, "bsdf_samples", 1);
     return add_boolean(element, "hide_emitters", false);
   }
+  // Only the volumetric one counts no event where a mask stands for what is not there.
   const bool media = !scene.media.empty() || !context.interiors.empty();
-  Element element = add(root, "integrator", media || !scene.settings.straight_counts ? "volpath" : "path");
+  const bool volpath = media || !context.masks.empty() || !scene.settings.straight_counts;
+  Element element = add(root, "integrator", volpath ? "volpath" : "path");
   const int depth = scene.settings.max_depth;
+  if (volpath && scene.settings.straight_counts && depth < unlimited_depth &&
+      std::ranges::any_of(scene.materials, is_passed_straight)) {
+    context.origin = scene.camera_origin;
+    context.approximated(
+        "the depth: Mitsuba's volumetric path tracer does not count going straight through sheets and masks");
+  }
   add_integer(element, "max_depth",
               depth >= unlimited_depth ? -1 : depth + 1);  // Mitsuba counts the eye's ray
   add_integer(element, "rr_depth", 5);

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <optional>
 #include <pugixml.hpp>
 #include <string>
@@ -14,6 +15,7 @@
 #include <vector>
 
 #include "importers/mesh_files.h"
+#include "importers/opacity_key.h"
 #include "scene/color.h"
 #include "scene/scene.h"
 #include "scene/transmission.h"
@@ -48,6 +50,8 @@ struct Context {
 
   std::unordered_set<std::string> taken_ids;  // Mitsuba has one name space for everything
   std::vector<std::string> material_ids, medium_ids, prototype_ids;
+  // Masks around materials, by the material and the opacity of a shape.
+  std::map<std::pair<std::uint32_t, OpacityKey>, std::string> masks;
   std::vector<WrittenTexture> textures;
   mutable std::unordered_map<std::uint32_t, RGB> means;  // of the textures whose mean was asked for
   std::unordered_map<std::size_t, std::string>

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "importers/pbrt/writer.h"
+#include "scene/transmission.h"
 
 namespace vitrail::pbrt {
 
@@ -24,7 +25,7 @@ float mean(const FloatParameter& p) {
 // Writes the parameters of one material and gives its type.
 class MaterialWriter {
  public:
-  explicit MaterialWriter(Parameters& p) : p_(p) {}
+  MaterialWriter(Parameters& p, std::size_t index) : p_(p), index_(index) {}
 
   const char* operator()(const DiffuseMaterial& m) {
     if (!is_zero(m.sigma_deg)) p_.approximated("sigma (Oren-Nayar roughness) becomes 0: pbrt-v4 has none");
@@ -134,16 +135,13 @@ class MaterialWriter {
   const char* operator()(const InterfaceMaterial&) { return "interface"; }
   const char* operator()(const BlendMaterial& m) {
     const std::vector<std::string>& names = p_.writer().materials;
-    p_.texts("materials", {names.at(m.first.value), names.at(m.second.value)}).number("amount", m.amount);
+    p_.texts("materials", {names.at(m.first.value), names.at(m.second.value)})
+        .number("amount", p_.writer().amounts.at(index_));
     return "mix";
   }
-  // Written with the shapes (surface_of); where another material refers to it, it is what it masks.
+  // Each is written as one of its parts (the_same_as).
   const char* operator()(const MaskMaterial&) { return nullptr; }
-  const char* operator()(const TwoSidedMaterial& m) {
-    const Material& front = p_.writer().scene.materials.at(m.front.value);
-    if (m.front != m.back) p_.approximated("the front's material is on both sides");
-    return std::visit(*this, front.model);
-  }
+  const char* operator()(const TwoSidedMaterial&) { return nullptr; }
 
  private:
   static FloatParameter squared(const FloatParameter& roughness) {
@@ -207,6 +205,7 @@ class MaterialWriter {
   }
 
   Parameters& p_;
+  std::size_t index_;
   std::optional<bool> remap_;
 };
 
@@ -222,29 +221,41 @@ void bumps(Parameters& p, const Material& m) {
     p.approximated("the mapping and scale of its normal map are left out");
 }
 
-}  // namespace
-
-ShapeSurface surface_of(const Scene& scene, Id<Material> material) {
-  if (const auto* mask = std::get_if<MaskMaterial>(&scene.materials.at(material.value).model))
-    return {mask->material, mask->opacity};
-  return {material};
+// The material that is all that is there of one that is made of others.
+std::optional<Id<Material>> the_same_as(Writer& w, std::size_t index) {
+  const Material& material = w.scene.materials[index];
+  if (const auto* mask = std::get_if<MaskMaterial>(&material.model)) return mask->material;
+  if (const auto* sided = std::get_if<TwoSidedMaterial>(&material.model)) {
+    if (sided->front != sided->back) w.approximated("the front's material is on both sides", material.origin);
+    return sided->front;
+  }
+  const auto* blend = std::get_if<BlendMaterial>(&material.model);
+  const auto is_gone = [&](Id<Material> part) { return w.coverage[part.value] == FloatParameter{0.0f}; };
+  if (blend && is_gone(blend->first)) return blend->second;
+  if (blend && is_gone(blend->second)) return blend->first;
+  return std::nullopt;
 }
+
+}  // namespace
 
 void write_materials(Writer& w) {
   for (std::size_t i = 0; i < w.scene.materials.size(); ++i) {
     const Material& material = w.scene.materials[i];
     Parameters p(w, fmt::format("material \"{}\"", w.materials[i]), material.origin);
-    MaterialWriter writer(p);
-    const char* type = std::visit(writer, material.model);
-    if (const auto* mask = std::get_if<MaskMaterial>(&material.model)) {
-      w.materials[i] = w.materials.at(mask->material.value);
+    const bool is_made = is_made_of_others(material);
+    if (is_made && (material.displacement || material.normal_map))
+      p.dropped("bumps of a material that is made of others, which have their own");
+    if (const auto part = the_same_as(w, i)) {
+      w.materials[i] = w.materials.at(part->value);
       continue;
     }
+    MaterialWriter writer(p, i);
+    const char* type = std::visit(writer, material.model);
     const bool opaque = !std::holds_alternative<DielectricMaterial>(material.model) &&
                         !std::holds_alternative<ThinDielectricMaterial>(material.model) &&
                         !std::holds_alternative<InterfaceMaterial>(material.model);
     if (!material.two_sided && opaque) p.approximated("its black back becomes as its front");
-    bumps(p, material);
+    if (!is_made) bumps(p, material);
     w.line(fmt::format("MakeNamedMaterial {} \"string type\" \"{}\"{}", in_quotes(w.materials[i]), type,
                        p.list()));
   }

@@ -47,10 +47,10 @@ class ShapeWriter {
   explicit ShapeWriter(Writer& w) : w_(w), fixed_(w.scene.meshes.size()) {}
 
   void write(const Shape& shape) {
-    const ShapeSurface surface = surface_of(w_.scene, shape.material);
+    const ShapeSurface surface = surface_of(w_, shape);
     Parameters p(w_, "shape", shape.origin);
     w_.begin("AttributeBegin");
-    w_.line("NamedMaterial " + in_quotes(w_.materials.at(surface.material.value)));
+    w_.line("NamedMaterial " + in_quotes(surface.material));
     if (shape.interior || shape.exterior)
       w_.line(fmt::format("MediumInterface {} {}", medium(shape.interior), medium(shape.exterior)));
     if (shape.area_light) area_light(w_.scene.area_lights.at(shape.area_light->value));

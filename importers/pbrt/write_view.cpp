@@ -139,8 +139,8 @@ void write_view(Writer& w) {
                    w.scene.camera_origin);
     depth = 1;
   }
-  w.line(fmt::format("Integrator \"{}\" \"integer maxdepth\" {}",
-                     w.scene.media.empty() && s.straight_counts ? "path" : "volpath", depth));
+  w.line(fmt::format("Integrator \"{}\" \"integer maxdepth\" {}", w.scene.media.empty() ? "path" : "volpath",
+                     depth));
 }
 
 }  // namespace vitrail::pbrt

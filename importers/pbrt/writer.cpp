@@ -72,6 +72,13 @@ void Writer::transform(const Transform& t) {
   line(fmt::format("Transform [ {} ]", fmt::join(columns, " ")));
 }
 
+std::string Writer::add_name(std::vector<std::string>& names, std::string_view wanted) {
+  std::string name(wanted);
+  for (std::size_t n = names.size(); std::ranges::find(names, name) != names.end(); ++n)
+    name = fmt::format("{}-{}", wanted, n);
+  return names.emplace_back(std::move(name));
+}
+
 std::filesystem::path Writer::new_image() {
   std::error_code error;
   std::filesystem::create_directories(images_, error);

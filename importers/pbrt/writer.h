@@ -5,11 +5,13 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "importers/mesh_files.h"
+#include "importers/opacity_key.h"
 #include "scene/scene.h"
 
 namespace vitrail::pbrt {
@@ -21,6 +23,13 @@ struct Writer {
   std::string text;
   Diagnostics diagnostics;
   std::vector<std::string> materials, textures, media, objects;  // names
+  // Of materials, as write_coverage finds it: which share of a surface is there, and of a blend the weight of
+  // its second material in that share. Textures may be new ones, which only `textures` knows.
+  std::vector<FloatParameter> coverage, amounts;
+  // What surface_of has written already: names of materials, and the product of two opacities.
+  std::string sheer, nothing;
+  std::map<std::uint32_t, std::string> shining;  // by the material of a shape
+  std::map<std::pair<OpacityKey, OpacityKey>, FloatParameter> alphas;
 
   Writer(const Scene& scene, const std::filesystem::path& out);
 
@@ -31,6 +40,8 @@ struct Writer {
   void transform(const Transform& t);  // nothing for the identity
   int indent = 0;
 
+  // A name that no other record of the names has; it is added to them.
+  static std::string add_name(std::vector<std::string>& names, std::string_view wanted);
   // The path of a new image in OUT-images/, which is created.
   std::filesystem::path new_image();
 
@@ -98,15 +109,17 @@ class Parameters {
 void write_view(Writer& writer);
 void write_media(Writer& writer);
 void write_textures(Writer& writer);
+void write_coverage(Writer& writer);
 void write_materials(Writer& writer);
 void write_lights(Writer& writer);
 void write_shapes(Writer& writer);
 
-// The Shape's own parameters that come from its material: pbrt's masks are the "alpha" of shapes.
+// What a shape is made of: the name of its material, and which share of it is there. pbrt's masks are the
+// "alpha" of shapes. Writes what it needs for that: to be called outside of blocks of attributes.
 struct ShapeSurface {
-  Id<Material> material;
+  std::string material;
   FloatParameter alpha = 1.0f;
 };
-ShapeSurface surface_of(const Scene& scene, Id<Material> material);
+ShapeSurface surface_of(Writer& writer, const Shape& shape);
 
 }  // namespace vitrail::pbrt

@@ -104,6 +104,12 @@ Diagnostics write_ply_scene(const Scene& scene, const std::filesystem::path& fil
     const SourceLocation where = location(scene, light.origin);
     diagnostics.push_back({Fidelity::dropped, "area light: PLY has none", where, where});
   }
+  if (const auto partly = std::ranges::find_if(
+          scene.shapes, [](const Shape& s) { return s.opacity != FloatParameter{1.0f}; });
+      partly != scene.shapes.end()) {
+    const SourceLocation where = location(scene, partly->origin);
+    diagnostics.push_back({Fidelity::dropped, "opacity of shapes: PLY has none", where, where});
+  }
   if (std::ranges::any_of(scene.meshes, [](const TriangleMesh& m) { return !m.attributes.empty(); }))
     diagnostics.push_back({Fidelity::dropped, "attributes of meshes: not all shapes have the same", {}, {}});
   const std::vector<FlatShape> shapes = flat_shapes(scene);

@@ -132,6 +132,22 @@ TEST_F(PovrayOracle, SquareLightsShineAndAreSeenFromTheirFrontOnly) {
   }
 }
 
+// ¾ of a black card are not there, nor of one that shines.
+TEST_F(PovrayOracle, OpacitiesOfShapes) {
+  Scene scene = plane({.8, .8, .8});
+  scene.lights.push_back({DistantLight{{0, 0, -1}, emission_from_rgb({pi, pi, pi})}});
+  add(scene, square(-5, 5, -5, 5, .5), diffuse({0, 0, 0}));
+  scene.shapes.back().opacity = 0.25f;
+  expect_plane(scene, [](double, double) -> std::array<double, 3> {
+    return {.45, .45, .45};  // ¾ of the light, ¾ of what it shows
+  });
+  scene.lights.clear();
+  scene.shapes.resize(1);
+  add_emitter(scene, square(-5, 5, -5, 5, .5), {2, 2, 2}).opacity = 0.25f;
+  scene.settings.max_depth = 0;
+  expect_plane(scene, [](double, double) -> std::array<double, 3> { return {.5, .5, .5}; });
+}
+
 TEST_F(PovrayOracle, SurfacesThatReflectAndShine) {
   Scene scene = plane();
   scene.lights.push_back({DistantLight{{0, 0, -1}, emission_from_rgb({pi / 2, pi / 2, pi / 2})}});

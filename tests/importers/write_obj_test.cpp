@@ -210,6 +210,25 @@ TEST_F(WriteObj, AllMaterials) {
   EXPECT_THAT(written(scene).shapes, SizeIs(scene.shapes.size()));
 }
 
+// MTL has an opacity of materials: shapes that differ in theirs have materials of their own.
+TEST_F(WriteObj, OpacitiesOfShapes) {
+  Scene scene = triangle();
+  scene.materials = {{DiffuseMaterial{}}, {MaskMaterial{0.5f, {0}}}, {DielectricMaterial{}}};
+  scene.shapes.resize(4, scene.shapes[0]);
+  scene.shapes[1].opacity = scene.shapes[2].opacity = scene.shapes[3].opacity = 0.25f;
+  scene.shapes[2].material = {1};
+  scene.shapes[3].material = {2};
+  const Scene again = written(scene);
+  const auto model = [&](std::size_t shape) {
+    return again.materials.at(again.shapes.at(shape).material.value).model;
+  };
+  EXPECT_TRUE(std::holds_alternative<DiffuseMaterial>(model(0)));
+  EXPECT_EQ(std::get<MaskMaterial>(model(1)).opacity, FloatParameter{0.25f});
+  EXPECT_EQ(std::get<MaskMaterial>(model(2)).opacity, FloatParameter{0.125f});
+  EXPECT_TRUE(std::holds_alternative<DielectricMaterial>(model(3)));
+  EXPECT_THAT(diagnostics_, says("glass of which"));
+}
+
 // ---- Files of others ----------------------------------------------------------------------------
 
 // Vertices that no face uses are not written. Far from the origin they have a part in the place that a file

@@ -198,6 +198,134 @@ TEST(WritePbrt, ShapesAndInstances) {
                      "Scale -1 2 3 ObjectInstance \"o\"");
 }
 
+TEST(WritePbrt, OpacitiesOfShapes) {
+  const std::string leaf = "Texture \"leaf\" \"float\" \"checkerboard\" ",
+                    light = "AreaLightSource \"diffuse\" ";
+  expect_exact_world(leaf + triangle + "\"texture alpha\" \"leaf\" Material \"interface\" " + triangle +
+                     "\"float alpha\" .25 " + light + "Material \"diffuse\" " + triangle +
+                     "\"float alpha\" 0");
+}
+
+// What masks take away is the alpha of the shape, wherever they stand.
+class WrittenMasks : public testing::Test {
+ protected:
+  Id<Material> add(MaterialModel model) {
+    scene_.materials.push_back(Material{std::move(model)});
+    return {static_cast<std::uint32_t>(scene_.materials.size() - 1)};
+  }
+  Id<Texture> add_board() {
+    scene_.textures.push_back({CheckerboardTexture{ConstantSpectrum{1}, ConstantSpectrum{0}}, true, "", {}});
+    return {static_cast<std::uint32_t>(scene_.textures.size() - 1)};
+  }
+  // As it is read again.
+  Shape written(Id<Material> material) {
+    scene_.shapes[0].material = material;
+    diagnostics_ = write_pbrt(scene_, folder_ / "out.pbrt");
+    std::ifstream file(folder_ / "out.pbrt");
+    text_.assign(std::istreambuf_iterator<char>(file), {});
+    again_ = read_pbrt(folder_ / "out.pbrt").scene;
+    return again_.shapes.at(0);
+  }
+  template <class Model>
+  Model model_of(const Shape& shape) {
+    return std::get<Model>(again_.materials.at(shape.material.value).model);
+  }
+  int mixes() const {
+    int count = 0;
+    for (auto at = text_.find("\"mix\""); at != std::string::npos; at = text_.find("\"mix\"", at + 1))
+      ++count;
+    return count;
+  }
+  float constant_opacity(const Shape& shape) { return std::get<float>(shape.opacity); }
+
+  TemporaryFolder folder_;
+  Scene scene_ = import_v4(triangle).scene, again_;
+  Diagnostics diagnostics_;
+  std::string text_;
+  const Id<Material> dark_ = add(DiffuseMaterial{ConstantSpectrum{0.25f}}),
+                     bright_ = add(DiffuseMaterial{ConstantSpectrum{0.75f}}),
+                     half_ = add(MaskMaterial{0.5f, dark_});
+};
+
+TEST_F(WrittenMasks, WithinBlends) {
+  scene_.settings.straight_counts = false;
+  const Shape half = written(half_);
+  EXPECT_EQ(constant_opacity(half), 0.5f);
+  EXPECT_EQ(model_of<DiffuseMaterial>(half).reflectance, SpectrumParameter{ConstantSpectrum{0.25f}});
+  EXPECT_TRUE(diagnostics_.empty());
+
+  // ¾·½ of the dark one and ¼ of the bright one are there: 5/8, of which 2/5 are bright.
+  const Shape blend = written(add(BlendMaterial{half_, bright_, 0.25f}));
+  EXPECT_FLOAT_EQ(constant_opacity(blend), 0.625f);
+  EXPECT_FLOAT_EQ(std::get<float>(model_of<BlendMaterial>(blend).amount), 0.4f);
+  EXPECT_TRUE(diagnostics_.empty());
+
+  // A texture that chooses between something and nothing is an alpha.
+  const Id<Texture> board = add_board();
+  const Id<Material> nothing = add(InterfaceMaterial{});
+  const Shape cut = written(add(BlendMaterial{nothing, dark_, board}));
+  EXPECT_EQ(model_of<DiffuseMaterial>(cut).reflectance, SpectrumParameter{ConstantSpectrum{0.25f}});
+  EXPECT_TRUE(std::holds_alternative<Id<Texture>>(cut.opacity));
+  EXPECT_TRUE(diagnostics_.empty());
+  EXPECT_EQ(mixes(), 1) << "that of the first blend: pbrt refuses a mix with an interface";
+
+  written(add(BlendMaterial{half_, bright_, board}));
+  EXPECT_TRUE(mentions(diagnostics_, "masks within a blend by textures"));
+}
+
+TEST_F(WrittenMasks, TimesTheShapesOwnOpacity) {
+  scene_.shapes[0].opacity = 0.5f;
+  EXPECT_EQ(constant_opacity(written(half_)), 0.25f);
+  scene_.shapes[0].opacity = add_board();
+  const Shape both = written(half_);
+  const auto& product =
+      std::get<ProductTexture>(again_.textures.at(std::get<Id<Texture>>(both.opacity).value).model);
+  EXPECT_EQ(product.second, SpectrumParameter{ConstantSpectrum{0.5f}});
+}
+
+TEST_F(WrittenMasks, CountForNoDepthInPbrt) {
+  written(half_);
+  EXPECT_TRUE(mentions(diagnostics_, "the depth"));
+  scene_.settings.max_depth = unlimited_depth;
+  written(half_);
+  EXPECT_FALSE(mentions(diagnostics_, "the depth"));
+  scene_.settings.max_depth = 5;
+  scene_.settings.straight_counts = false;
+  written(half_);
+  EXPECT_FALSE(mentions(diagnostics_, "the depth"));
+  add(ThinDielectricMaterial{});
+  written(half_);
+  EXPECT_TRUE(mentions(diagnostics_, "thin sheets"));
+}
+
+// A mask leaves the light of a surface alone, an alpha does not; and pbrt drops the lights of interfaces.
+TEST_F(WrittenMasks, OfWhatShines) {
+  scene_.settings.straight_counts = false;
+  scene_.area_lights.push_back({ConstantSpectrum{1}});
+  scene_.shapes[0].area_light = Id<AreaLight>{0};
+  const Shape nothing = written(add(InterfaceMaterial{}));
+  EXPECT_EQ(constant_opacity(nothing), 1);
+  EXPECT_TRUE(nothing.area_light);
+  EXPECT_EQ(model_of<ThinDielectricMaterial>(nothing).eta, Spectrum{ConstantSpectrum{1}});
+  const Shape half = written(half_);
+  EXPECT_EQ(constant_opacity(half), 1);
+  const auto mix = model_of<BlendMaterial>(half);
+  EXPECT_EQ(mix.amount, FloatParameter{0.5f});
+  EXPECT_TRUE(std::holds_alternative<ThinDielectricMaterial>(again_.materials.at(mix.first.value).model));
+  EXPECT_TRUE(diagnostics_.empty());
+  scene_.lights.push_back({PointLight{}, {}});
+  written(half_);
+  EXPECT_TRUE(mentions(diagnostics_, "lights without extent"));
+}
+
+TEST_F(WrittenMasks, BumpsOfWhatIsMadeOfOthersAreReported) {
+  const Id<Material> blend = add(BlendMaterial{dark_, bright_, 0.25f});
+  scene_.materials[blend.value].displacement = Id<Texture>{add_board()};
+  written(blend);
+  EXPECT_TRUE(mentions(diagnostics_, "bumps"));
+  EXPECT_EQ(text_.find("displacement"), std::string::npos) << "pbrt refuses a mix with one";
+}
+
 TEST(WritePbrt, Media) {
   const std::string use = "MediumInterface \"m\" \"\" Material \"interface\" " + triangle;
   for (const char* medium :
