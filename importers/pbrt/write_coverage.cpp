@@ -34,6 +34,7 @@ FloatParameter mix(Writer& w, const FloatParameter& a, const FloatParameter& b,
                    const FloatParameter& amount) {
   if (is(amount, 0) || a == b) return a;
   if (is(amount, 1)) return b;
+  if (is(a, 0)) return product(w, b, amount);
   if (constant(a) && constant(b) && constant(amount))
     return *constant(a) + (*constant(b) - *constant(a)) * *constant(amount);
   Parameters p(w, "coverage", {});
@@ -115,6 +116,10 @@ std::string shining(Writer& w, const Shape& shape, const FloatParameter& coverag
   if (has_lights_without_extent(w.scene))
     w.approximated("what shines and lets light pass: lights without extent do not shine through it",
                    shape.origin);
+  // An interface never counts for the depth, a mask where the scene says so.
+  const RenderSettings& settings = w.scene.settings;
+  if (settings.max_depth < unlimited_depth && (!settings.straight_counts || is(coverage, 0)))
+    w.approximated("what shines and lets light pass: going through it counts for the depth", shape.origin);
   if (is(coverage, 0)) return sheer(w);
   return made_once(w.shining[shape.material.value], [&] {
     Parameters p(w, "", {});

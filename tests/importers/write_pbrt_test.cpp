@@ -265,7 +265,7 @@ TEST_F(WrittenMasks, WithinBlends) {
   const Id<Material> nothing = add(InterfaceMaterial{});
   const Shape cut = written(add(BlendMaterial{nothing, dark_, board}));
   EXPECT_EQ(model_of<DiffuseMaterial>(cut).reflectance, SpectrumParameter{ConstantSpectrum{0.25f}});
-  EXPECT_TRUE(std::holds_alternative<Id<Texture>>(cut.opacity));
+  EXPECT_EQ(cut.opacity, FloatParameter{board});
   EXPECT_TRUE(diagnostics_.empty());
   EXPECT_EQ(mixes(), 1) << "that of the first blend: pbrt refuses a mix with an interface";
 
@@ -300,6 +300,7 @@ TEST_F(WrittenMasks, CountForNoDepthInPbrt) {
 
 // A mask leaves the light of a surface alone, an alpha does not; and pbrt drops the lights of interfaces.
 TEST_F(WrittenMasks, OfWhatShines) {
+  scene_.settings.max_depth = unlimited_depth;
   scene_.settings.straight_counts = false;
   scene_.area_lights.push_back({ConstantSpectrum{1}});
   scene_.shapes[0].area_light = Id<AreaLight>{0};
@@ -313,6 +314,9 @@ TEST_F(WrittenMasks, OfWhatShines) {
   EXPECT_EQ(mix.amount, FloatParameter{0.5f});
   EXPECT_TRUE(std::holds_alternative<ThinDielectricMaterial>(again_.materials.at(mix.first.value).model));
   EXPECT_TRUE(diagnostics_.empty());
+  scene_.settings.max_depth = 5;
+  written(half_);
+  EXPECT_TRUE(mentions(diagnostics_, "counts for the depth"));
   scene_.lights.push_back({PointLight{}, {}});
   written(half_);
   EXPECT_TRUE(mentions(diagnostics_, "lights without extent"));

@@ -185,7 +185,7 @@ TEST(KeptInstances, FarFromTheOrigin) { expect_the_flattened_film(forest({1e6, -
 TEST(KeptInstances, OutOfCore) {
   Scene scene = forest({});
   scene.shapes.push_back(
-      {add_torus(scene, 400), Id<Material>{1}, {}, translate({0, 0, -6}) * scale({4, 4, 1})});
+      {add_torus(scene, 400), Id<Material>{1}, {}, 1.0f, translate({0, 0, -6}) * scale({4, 4, 1})});
   const Films films(scene);
   const nlohmann::json reference =
       films.render(films.bundle("flat.vit", {.domains = 1, .flatten = true}), 1, 2);
