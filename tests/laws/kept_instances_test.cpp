@@ -79,7 +79,7 @@ Scene forest(Vector3d far) {
 
   Placer random;
   scene.prototypes.resize(5);
-  scene.prototypes[0].shapes = {{rock, board}, {leaf, mask, {}, translate({0, 0, 1})}};
+  scene.prototypes[0].shapes = {{rock, board}, {leaf, mask, {}, 1.0f, translate({0, 0, 1})}};
   scene.prototypes[1].shapes = {{leaf, mask}};
   scene.prototypes[1].shapes[0].flip_orientation = true;
   for (int i = 0; i < 6; ++i) {
@@ -87,7 +87,7 @@ Scene forest(Vector3d far) {
     scene.prototypes[2].instances.push_back(
         {Id<Prototype>{part}, random.place(random.vector(3), part == 0 ? 0.3 : 1.5, i)});
   }
-  scene.prototypes[2].shapes = {{rock, glass, {}, scale({0.3, 0.3, 0.3})}};
+  scene.prototypes[2].shapes = {{rock, glass, {}, 1.0f, scale({0.3, 0.3, 0.3})}};
   scene.prototypes[3].shapes = {{leaf, black, Id<AreaLight>{0}}};
   scene.prototypes[4].shapes = {{ring, board}};
 
@@ -100,7 +100,7 @@ Scene forest(Vector3d far) {
   scene.instances.push_back({Id<Prototype>{0}, translate(far) * scale({1, 1, 0})});  // cannot be kept
   const Id<TriangleMesh> floor =
       add_quads(scene, {{{{-20, -20, -9}, {20, -20, -9}, {20, 20, -9}, {-20, 20, -9}}}});
-  scene.shapes.push_back({floor, green, {}, translate(far)});
+  scene.shapes.push_back({floor, green, {}, 1.0f, translate(far)});
   scene.lights.push_back({InfiniteLight{ConstantSpectrum{0.3f}}});
   const Point3d target = Point3d{} + far;
   set_camera(scene, target + Vector3d{18, -16, 12}, target, {0, 0, 1}, 0.8, 48, 48);
@@ -185,7 +185,7 @@ TEST(KeptInstances, FarFromTheOrigin) { expect_the_flattened_film(forest({1e6, -
 TEST(KeptInstances, OutOfCore) {
   Scene scene = forest({});
   scene.shapes.push_back(
-      {add_torus(scene, 400), Id<Material>{1}, {}, translate({0, 0, -6}) * scale({4, 4, 1})});
+      {add_torus(scene, 400), Id<Material>{1}, {}, 1.0f, translate({0, 0, -6}) * scale({4, 4, 1})});
   const Films films(scene);
   const nlohmann::json reference =
       films.render(films.bundle("flat.vit", {.domains = 1, .flatten = true}), 1, 2);
