@@ -17,6 +17,7 @@ class MeshFiles {
 
   // The file's path relative to the scene's. Throws MachineError.
   const std::string& name(Id<TriangleMesh> mesh);
+  bool has_name(Id<TriangleMesh> mesh) const { return !names_.at(mesh.value).empty(); }
   // Where the format needs another form of the mesh.
   const std::string& name(Id<TriangleMesh> mesh, const TriangleMesh& instead);
 

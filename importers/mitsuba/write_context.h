@@ -17,6 +17,7 @@
 #include "scene/color.h"
 #include "scene/scene.h"
 #include "scene/transmission.h"
+#include "scene/uv_uses.h"
 
 namespace vitrail::mitsuba_writer {
 
@@ -36,13 +37,15 @@ struct Context {
         file(out),
         meshes(scene_to_write, out),
         transmitting(vitrail::transmitting(scene_to_write.materials)),
-        sided(with_sides(scene_to_write.materials)) {}
+        sided(with_sides(scene_to_write.materials)),
+        uvs_show(meshes_whose_uvs_show(scene_to_write)) {}
 
   const Scene& scene;
   std::filesystem::path file;  // of the scene
   MeshFiles meshes;
   std::vector<bool> transmitting;  // Mitsuba allows no `twosided` around such materials
   std::vector<bool> sided;         // with_sides
+  std::vector<bool> uvs_show;      // of each mesh
   Diagnostics diagnostics;
   Origin origin;  // of the record that is being written
 

@@ -118,6 +118,7 @@ ImportedScene to_scene(Geometry&& geometry, Vector3d offset, const std::filesyst
     result.scene.shapes.push_back(shape);
   }
   result.scene.meshes = to_meshes(std::move(geometry));
+  for (TriangleMesh& mesh : result.scene.meshes) mesh.missing_uv = MissingUv::zero;
   return result;
 }
 

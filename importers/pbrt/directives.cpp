@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
+
 namespace vitrail::pbrt {
 
 const std::map<std::string, Interpreter::Handler, std::less<>>& Interpreter::handlers() {
@@ -77,7 +80,7 @@ Scene Interpreter::run() {
   resolve_media();
   drop_lights_of_interfaces();
   resolve_instances();
-  apply(view_, context_.version, scene_);
+  apply(view_, scene_);
   return std::move(scene_);
 }
 
@@ -154,7 +157,7 @@ ParameterSet Interpreter::read_set(const std::string& directive, const std::stri
 void Interpreter::open(Block block, const Place& place) {
   constexpr std::size_t depth_limit = 100'000;
   if (saved_.size() >= depth_limit) fail("blocks are nested too deeply", place);
-  saved_.push_back({block, place, state_});
+  saved_.push_back({block, place, state_, {}});
 }
 
 GraphicsState Interpreter::close(Block block, const char* directive, const char* opener, const Place& place) {
@@ -164,9 +167,16 @@ GraphicsState Interpreter::close(Block block, const char* directive, const char*
                                     : fmt::format(" in the block that begins at {}",
                                                   to_string(location(saved_.back().place)))),
          place);
-  GraphicsState state = std::move(saved_.back().state);
+  Saved saved = std::move(saved_.back());
   saved_.pop_back();
-  return state;
+  // v3's TransformEnd leaves all but the transform as it is.
+  if (block != Block::transform) {
+    if (!saved.undo.empty()) resolve_deferred(false);
+    for (; !saved.undo.empty(); saved.undo.pop_back()) saved.undo.back()();
+  } else if (!saved_.empty()) {
+    std::ranges::move(saved.undo, std::back_inserter(saved_.back().undo));
+  }
+  return std::move(saved.state);
 }
 
 void Interpreter::attribute_begin(const Place& place) { open(Block::attribute, place); }

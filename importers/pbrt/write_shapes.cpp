@@ -5,6 +5,8 @@
 #include "importers/pbrt/shapes.h"
 #include "importers/pbrt/writer.h"
 #include "scene/bounds.h"
+#include "scene/mesh_uv.h"
+#include "scene/uv_uses.h"
 
 namespace vitrail::pbrt {
 
@@ -44,7 +46,8 @@ std::string inline_mesh(const TriangleMesh& mesh) {
 
 class ShapeWriter {
  public:
-  explicit ShapeWriter(Writer& w) : w_(w), fixed_(w.scene.meshes.size()) {}
+  explicit ShapeWriter(Writer& w)
+      : w_(w), fixed_(w.scene.meshes.size()), uvs_show_(meshes_whose_uvs_show(w.scene)) {}
 
   void write(const Shape& shape) {
     const ShapeSurface surface = surface_of(w_.scene, shape.material);
@@ -85,13 +88,19 @@ class ShapeWriter {
   std::string mesh(const Shape& shape, Parameters& p) {
     const TriangleMesh& mesh = w_.scene.meshes.at(shape.mesh.value);
     std::optional<TriangleMesh>& fixed = fixed_[shape.mesh.value];
-    if (!fixed && fronts_follow_normals(mesh)) {
+    const bool lacks_uvs =
+        uvs_show_[shape.mesh.value] && mesh.uvs.empty() && mesh.missing_uv != MissingUv::pbrt;
+    if (!fixed && !lacks_uvs && fronts_follow_normals(mesh)) {
       if (!mesh.attributes.empty()) p.dropped("the attributes of a mesh: pbrt has none");
       if (stands_in_file(mesh)) return inline_mesh(mesh);
       return "Shape \"plymesh\" \"string filename\" " + in_quotes(w_.meshes.name(shape.mesh));
     }
-    if (!fixed) fixed = with_normals_in_front(mesh);
-    if (fixed->normals.empty())
+    if (!fixed) {
+      fixed = lacks_uvs ? with_uvs(mesh) : mesh;
+      if (!fronts_follow_normals(*fixed)) fixed = with_normals_in_front(std::move(*fixed));
+    }
+    if (!mesh.attributes.empty()) p.dropped("the attributes of a mesh: pbrt has none");
+    if (fixed->normals.empty() && !mesh.normals.empty())
       p.approximated("its shading normals lie on both sides of its faces and are left out");
     return stands_in_file(*fixed)
                ? inline_mesh(*fixed)
@@ -99,7 +108,8 @@ class ShapeWriter {
   }
 
   Writer& w_;
-  std::vector<std::optional<TriangleMesh>> fixed_;
+  std::vector<std::optional<TriangleMesh>> fixed_;  // what is written instead of a mesh
+  std::vector<bool> uvs_show_;
 };
 
 }  // namespace
