@@ -211,6 +211,7 @@ const char* fault_of_kd_tree(std::span<const KdNode> tree, std::size_t leaves) {
 void check_manifest(const Manifest& m, const std::filesystem::path& file) {
   const Checker c{file};
   c.require(finite(m.offset) && std::isfinite(m.scale) && m.scale >= 0, "its coordinates are not finite");
+  c.require(!m.core || !m.core->empty(), "nothing is in its core");
   std::visit(
       [&](const auto& camera) {
         if constexpr (requires { camera.lens; })

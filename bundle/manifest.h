@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -102,7 +103,8 @@ struct Manifest {
   std::uint64_t cut_triangles = 0;  // of which straddle an interface
   Vector3d offset;                  // world = bundle + offset
   Bounds3f bounds;                  // of all triangles
-  float scale = 0;                  // greatest |coordinate| of a vertex; paddings scale with it
+  std::optional<Bounds3f> core;     // of all but a few that lie far away, where there are such
+  float scale = 0;                  // greatest |coordinate| of a vertex
   std::vector<KdNode> kd_nodes;     // empty when there is one domain
   std::vector<DomainInfo> domains;
   std::vector<ObjectInfo> objects;
@@ -129,11 +131,14 @@ struct Manifest {
       0;  // of all triangles and records, whatever the cuts: equal scenes have equal hashes
 };
 
-// Boxes of clusters are inflated by this, and the walk visits both sides of an interface within
-// `interface_epsilon`. float error of a vertex is 6e-8·scale; ε > padding > error of a hit. Both are numbers
-// that floats have, even where a scene is so small that its own are not.
-inline double padding(const Manifest& m) { return 2e-6 * m.scale + 1e-37; }
-inline double interface_epsilon(const Manifest& m) { return 2 * padding(m); }
+// How large the scene is, whatever few triangles lie far away.
+inline Bounds3f core_of(const Manifest& m) { return m.core.value_or(m.bounds); }
+
+// The walk visits both sides of an interface within this: more than the padding of any triangle.
+inline double interface_epsilon(const Manifest& m) { return 2 * padding(double{m.scale}); }
+// The cells of domains are marked with this as a margin more. The way of a ray through them is as certain if
+// it starts within 128 scales.
+inline double cell_margin(const Manifest& m) { return 0x1p-40 * double{m.scale} + 1e-37; }
 
 // Most planes on the way from the root of a kd-tree to a domain.
 inline constexpr int max_kd_depth = 62;

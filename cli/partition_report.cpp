@@ -30,7 +30,8 @@ void write_stats(const std::filesystem::path& file, const PartitionStats& s) {
                                     {"memory_budget_bytes", s.memory_budget_bytes},
                                     {"buckets", s.buckets},
                                     {"spill_bytes", s.spill_bytes},
-                                    {"triangles_per_s", s.triangles_per_s}};
+                                    {"triangles_per_s", s.triangles_per_s},
+                                    {"coarse_shapes", s.coarse_shapes}};
   const std::string text = json.dump(1) + "\n";
   AtomicFile out(file);
   out.write(std::as_bytes(std::span(text)));
@@ -47,6 +48,12 @@ void print_summary(const PartitionStats& s, const std::filesystem::path& bundle)
   if (s.objects > 0)
     fmt::print("  {} instances of {} objects are kept; a domain takes at most {} with its objects\n",
                s.instances, s.objects, format_bytes(s.domain_bytes_max));
+  if (s.coarse_shapes > 0)
+    fmt::print(
+        "  {} shapes are so far from the others that rounding moves their vertices by more than a thousandth "
+        "of "
+        "their size\n",
+        s.coarse_shapes);
   fmt::print("  {:.2f} s, {:.2f} s of processor time, {:.2f} million triangles a second\n", s.wall_s, s.cpu_s,
              s.triangles_per_s * 1e-6);
   fmt::print("  at most {} of memory of {} allowed; {}\n", format_bytes(s.peak_rss_bytes),

@@ -33,7 +33,7 @@ std::uint32_t domains_within(const World& world, const std::vector<InstanceRef>&
   const std::vector<Item> items = WorkEstimate().items(boxes);
   Bounds3f bounds;
   for (const Bounds3f& b : boxes) extend(bounds, b);
-  const InstanceDealer dealer(instances, 0, bounds);
+  const InstanceDealer dealer(instances, bounds);
   const double own_bytes = bytes_of_a_triangle(world.manifest) * static_cast<double>(world.own_triangles);
   const auto most_bytes = [&](std::uint32_t count) {
     std::vector<KdNode> nodes(count - 1);

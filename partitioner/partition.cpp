@@ -134,6 +134,7 @@ class Partitioner {
       needs.scene_bytes += bytes_of(mesh);
       if (mesh.deferred) needs.largest_mesh = std::max(needs.largest_mesh, mesh.deferred->bytes);
     }
+    coarse_ = world_.coarse;
     const std::uint64_t in_objects = triangles_of_objects(world_);
     const auto all = static_cast<double>(std::max<std::uint64_t>(in_objects + world_.own_triangles, 1));
     phases_.begin("writing objects", static_cast<double>(in_objects) / all, in_objects);
@@ -170,6 +171,7 @@ class Partitioner {
     PartitionStats stats = statistics(manifest_, found, bundle_);
     stats.buckets = buckets_;
     stats.spill_bytes = spill_bytes_;
+    stats.coarse_shapes = coarse_;
     return stats;
   }
 
@@ -230,10 +232,7 @@ class Partitioner {
             [&](std::uint64_t n) { phases_.advance(n); }};
   }
 
-  // The manifest knows the scene's scale.
-  InstanceDealer dealer(const Bounds3f& root) {
-    return {std::move(refs_), static_cast<float>(padding(manifest_)), root};
-  }
+  InstanceDealer dealer(const Bounds3f& root) { return {std::move(refs_), root}; }
 
   std::vector<IdRange> ids_of_instances() const {
     std::vector<IdRange> ranges;
@@ -248,8 +247,9 @@ class Partitioner {
   Phases phases_;
   World world_;
   std::vector<InstanceRef> refs_;
-  std::uint64_t items_ = 0;  // triangles and instances
-  double rest_ = 1;          // of all work, without the objects'
+  std::uint64_t items_ = 0;   // triangles and instances
+  std::uint64_t coarse_ = 0;  // as in ScenePlan
+  double rest_ = 1;           // of all work, without the objects'
   MemoryPlan plan_;
   Manifest manifest_;
   std::uint64_t buckets_ = 1, spill_bytes_ = 0;

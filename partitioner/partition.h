@@ -39,6 +39,9 @@ struct PartitionStats {
   std::uint64_t buckets = 1;      // parts of the scene that were in memory one after the other
   std::uint64_t spill_bytes = 0;  // written to disk on the way to them
   double triangles_per_s = 0;     // of the input
+  // Shapes and instances so far from the bundle's origin that rounding moves their vertices by more than a
+  // thousandth of their size.
+  std::uint64_t coarse_shapes = 0;
 };
 
 // Meshes that an importer should keep in memory (MeshMemory) for a budget of so many bytes.

@@ -107,7 +107,14 @@ const Surface& PathTracer::surface_at(const Path& path) const {
   return surface_of(manifest_, *resident_[path.hit_domain], path.hit);
 }
 
-double PathTracer::cone_unit() const { return std::max(1e-30, static_cast<double>(manifest_.scale)); }
+double PathTracer::cone_unit() const {
+  const Bounds3f core = core_of(manifest_);
+  double greatest = 1e-30;
+  for (int axis = 0; axis < 3 && !core.empty(); ++axis)
+    greatest =
+        std::max({greatest, -static_cast<double>(core.lower[axis]), static_cast<double>(core.upper[axis])});
+  return greatest;
+}
 
 // Between the rays of a pixel's samples, in rad: they lie the closer the more of them there are. A sample
 // does not know how many will follow, as a render may be resumed to have more, so each counts those before

@@ -22,7 +22,7 @@ LightScene light_scene(const Manifest& m, const Textures& textures) {
           .lights = m.lights,
           .textures = &textures,
           .texture_records = m.textures,
-          .bounds = m.bounds};
+          .bounds = core_of(m)};
 }
 
 }  // namespace

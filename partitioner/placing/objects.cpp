@@ -7,6 +7,7 @@
 #include <cmath>
 #include <functional>
 
+#include "partitioner/placing/frame.h"
 #include "scene/deferred_mesh.h"
 
 namespace vitrail {
@@ -19,6 +20,22 @@ constexpr double most_condition = 1e4;
 
 double row_sum(const std::array<double, 4>& row) {
   return std::abs(row[0]) + std::abs(row[1]) + std::abs(row[2]);
+}
+
+double greatest(Vector3d v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
+
+Bounds3d around(Point3d p, double reach) {
+  const Vector3d r{reach, reach, reach};
+  return {p - r, p + r};
+}
+
+Bounds3d common(const Bounds3d& a, const Bounds3d& b) {
+  Bounds3d out;
+  for (int axis = 0; axis < 3; ++axis) {
+    out.lower[axis] = std::max(a.lower[axis], b.lower[axis]);
+    out.upper[axis] = std::min(a.upper[axis], b.upper[axis]);
+  }
+  return out;
 }
 
 double greatest_row(const Transform& t) {
@@ -60,6 +77,13 @@ Bounds3d world_bounds(const Placement& p) {
     extend(box, transform_point(p.to_world, {at(0), at(1), at(2)}));
   }
   return checked(box, p);
+}
+
+// The mesh's half, where it stands.
+FramePart part_of_mesh(const Placement& p) {
+  const MeshFocus focus = focus_of(*p.mesh);
+  return {transform_point(p.to_world, focus.centre), greatest_row(p.to_world) * focus.radius,
+          static_cast<double>(triangles_of(*p.mesh))};
 }
 
 class Planner {
@@ -134,19 +158,65 @@ class Planner {
     }
   }
 
-  void finish(Assembly& a, bool is_scene) const {
+  void finish(Assembly& a, bool is_scene) {
     Bounds3d box, own;
     for (const Placement& p : a.placements) extend(own, world_bounds(p));
     if (!own.empty()) extend(box, own);
     for (const ObjectUse& use : a.uses) extend(box, box_of(use));
     if (box.empty()) return;
-    const Point3d c = is_scene ? cast<double>(cast<float>(center(box))) : center(box);
-    a.centre = {c.x, c.y, c.z};
+    const std::vector<FramePart> parts = parts_of(a);
+    const FramePart whole = whole_of(parts);
+    const Point3d origin =
+        is_scene ? origin_of(parts, box, viewpoint_of(scene_.camera)) : origin_of(parts, box, {});
+    a.centre = (is_scene ? cast<double>(cast<float>(origin)) : origin) - Point3d{};
+    a.radius = whole.radius;
+    if (is_scene) find_core(box, whole);
     for (ObjectUse& use : a.uses)
       for (int axis = 0; axis < 3; ++axis) use.to_parent.m[axis][3] -= a.centre[axis];
     if (!own.empty()) a.bounds = {cast<float>(own.lower - a.centre), cast<float>(own.upper - a.centre)};
     for (const ObjectUse& use : a.uses)
       extend(a.bounds, placed_bounds(use.to_parent, plan_.objects[use.object].bounds));
+  }
+
+  // Before the centre is taken off. The core is what of the parts is within `near_radii` of the half of them
+  // all.
+  void find_core(const Bounds3d& box, const FramePart& whole) {
+    constexpr double rounding = 0x1p-24, coarse = 1e-3;
+    const Assembly& a = plan_.scene;
+    const double reach = near_radii * whole.radius;
+    const Bounds3d limit = around(whole.centre, reach);
+    const bool is_compact = !(reach > 0) || common(limit, box) == box;
+    Bounds3d core;
+    const auto add = [&](const FramePart& part, auto&& box_of_part) {
+      plan_.coarse += rounding * greatest(part.centre - Point3d{} - a.centre) > coarse * part.radius;
+      if (!is_compact && greatest(part.centre - whole.centre) <= reach)
+        extend(core, common(limit, box_of_part()));
+    };
+    for (const Placement& p : a.placements)
+      add(part_of_mesh(p), [&] { return transformed(p.to_world, focus_of(*p.mesh).box); });
+    for (const ObjectUse& use : a.uses) add(part_of(use), [&] { return box_of(use); });
+    if (!core.empty())
+      plan_.core = Bounds3f{cast<float>(core.lower - a.centre), cast<float>(core.upper - a.centre)};
+  }
+
+  // Before the centre is taken off. Of very many, as many as are enough.
+  std::vector<FramePart> parts_of(const Assembly& a) const {
+    constexpr std::size_t enough = std::size_t{1} << 16;
+    const std::size_t count = a.placements.size() + a.uses.size(), step = (count + enough - 1) / enough;
+    std::vector<FramePart> parts;
+    for (std::size_t i = 0; i < count; i += step)
+      parts.push_back(i < a.placements.size() ? part_of_mesh(a.placements[i])
+                                              : part_of(a.uses[i - a.placements.size()]));
+    return parts;
+  }
+
+  FramePart part_of(const ObjectUse& use) const {
+    const auto& m = use.to_parent.m;
+    const Assembly& object = plan_.objects[use.object];
+    const auto row = [&](std::size_t i) { return std::abs(m[i][0]) + std::abs(m[i][1]) + std::abs(m[i][2]); };
+    return {{m[0][3], m[1][3], m[2][3]},
+            std::max({row(0), row(1), row(2)}) * object.radius,
+            static_cast<double>(object.triangles)};
   }
 
   // Before the parent's centre is taken off.

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "partitioner/placing/placement.h"
@@ -23,13 +24,17 @@ struct Assembly {
   std::vector<ObjectUse> uses;
   std::uint64_t triangles = 0;  // ids: of its own and of its uses, in their order
   Vector3d centre;
-  Bounds3f bounds;  // of all
-  int depth = 0;    // most uses within each other
+  double radius = 0;  // about it, on the greatest axis, half of the triangles lie
+  Bounds3f bounds;    // of all
+  int depth = 0;      // most uses within each other
 };
 
 struct ScenePlan {
   std::vector<Assembly> objects;  // with uses of earlier ones only
   Assembly scene;
+  std::optional<Bounds3f> core;  // of the scene, about its centre, without few parts that lie far away
+  std::uint64_t coarse =
+      0;  // shapes and instances that rounding moves by more than a thousandth of their size
 };
 
 // A prototype becomes an object where references to it take fewer bytes than copies of it. What a singular,

@@ -89,6 +89,8 @@ World world_of(const Scene& scene, const std::filesystem::path& bundle, const Wo
   ScenePlan plan = plan_scene(scene);
   m.triangles = plan.scene.triangles;
   m.offset = plan.scene.centre;
+  m.core = plan.core;
+  world.coarse = plan.coarse;
   for (const ObjectUse& use : plan.scene.uses)
     extend(world.instance_bounds, placed_bounds(use.to_parent, plan.objects[use.object].bounds));
   bool normals = have_normals(plan.scene.placements, scene);
