@@ -31,10 +31,13 @@ const ImageCodec& codec() {
   return only;
 }
 
+void check(const std::filesystem::path& file, const std::string& problem) {
+  if (!problem.empty()) throw Error(fmt::format("cannot read the image: {}", problem), {file.string()});
+}
+
 ImageLayout read(const std::filesystem::path& file, Image* image) {
   ImageLayout layout;
-  if (const std::string problem = codec().read(file.string(), layout, image); !problem.empty())
-    throw Error(fmt::format("cannot read the image: {}", problem), {file.string()});
+  check(file, codec().read(file.string(), layout, image));
   return layout;
 }
 
@@ -48,6 +51,13 @@ StoredImage read_stored_image(const std::filesystem::path& file) {
   StoredImage stored;
   stored.integer = read(file, &stored.image).integer;
   return stored;
+}
+
+void read_stored_rows(const std::filesystem::path& file, const std::function<void(StoredImage)>& visit) {
+  ImageLayout layout;
+  check(file, codec().read_rows(file.string(), layout, [&](Image rows) {
+    visit({std::move(rows), layout.integer});
+  }));
 }
 
 Image read_linear_image(const std::filesystem::path& file) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 
 #include "scene/image.h"
 
@@ -28,6 +29,10 @@ bool image_library_is_loaded();
 // These throw Error with the file's name, or MachineError where OpenImageIO cannot be loaded.
 ImageLayout read_image_layout(const std::filesystem::path& file);
 StoredImage read_stored_image(const std::filesystem::path& file);
+
+// The same from the top, some rows at a time: never more of the picture in memory than its file's own rows of
+// tiles. What `visit` throws stops the reading.
+void read_stored_rows(const std::filesystem::path& file, const std::function<void(StoredImage)>& visit);
 
 // The linear values: integers are decoded from sRGB.
 Image read_linear_image(const std::filesystem::path& file);

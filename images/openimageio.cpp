@@ -38,6 +38,42 @@ std::string read(const std::string& file, ImageLayout& layout, Image* image) {
   return {};
 }
 
+// Rows of tiles, or as many scan lines as take about so much.
+constexpr std::size_t band_bytes = std::size_t{4} << 20;
+
+std::string read_rows(const std::string& file, ImageLayout& layout, const std::function<void(Image)>& visit) {
+  if (std::string problem = read(file, layout, nullptr); !problem.empty()) return problem;
+  const auto in = OIIO::ImageInput::open(file);
+  if (!in) return OIIO::geterror();
+  const OIIO::ImageSpec& spec = in->spec();
+  const std::vector<int> channels = color_channels(spec);
+  const auto [first, last] = std::minmax_element(channels.begin(), channels.end());
+  const int begin = *first, end = *last + 1;
+  const auto stride = static_cast<std::size_t>(end - begin);
+  const std::size_t row = static_cast<std::size_t>(spec.width) * stride;
+  const int lines =
+      static_cast<int>(std::max<std::size_t>(1, band_bytes / sizeof(float) / std::max<std::size_t>(row, 1)));
+  const int step = spec.tile_height > 0 ? spec.tile_height : lines;
+  std::vector<float> values;
+  for (int y = 0; y < spec.height; y += step) {
+    const int rows = std::min(step, spec.height - y), top = spec.y + y;
+    values.resize(row * static_cast<std::size_t>(rows));
+    const bool done = spec.tile_width > 0
+                          ? in->read_tiles(0, 0, spec.x, spec.x + spec.width, top, top + rows, spec.z,
+                                           spec.z + 1, begin, end, OIIO::TypeDesc::FLOAT, values.data())
+                          : in->read_scanlines(0, 0, top, top + rows, spec.z, begin, end,
+                                               OIIO::TypeDesc::FLOAT, values.data());
+    if (!done) return in->geterror();
+    Image band = black_image(layout.width, rows, layout.channels);
+    float* out = band.values.data();
+    for (std::size_t pixel = 0; pixel < band.pixels(); ++pixel)
+      for (const int channel : channels)
+        *out++ = values[pixel * stride + static_cast<std::size_t>(channel - begin)];
+    visit(std::move(band));
+  }
+  return {};
+}
+
 std::string encode_exr(const Image& image, std::vector<std::byte>& bytes) {
   OIIO::ImageSpec spec(image.width, image.height, image.channels, OIIO::TypeDesc::FLOAT);
   if (image.channels == 1) spec.channelnames = {"Y"};
@@ -56,6 +92,6 @@ std::string encode_exr(const Image& image, std::vector<std::byte>& bytes) {
 }  // namespace
 
 extern "C" const ImageCodec vitrail_image_codec;
-const ImageCodec vitrail_image_codec{read, encode_exr};
+const ImageCodec vitrail_image_codec{read, read_rows, encode_exr};
 
 }  // namespace vitrail
