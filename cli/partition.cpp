@@ -16,6 +16,7 @@
 #include "cli/partition_report.h"
 #include "cli/progress_line.h"
 #include "cli/sizes.h"
+#include "cli/within_memory.h"
 #include "importers/import.h"
 #include "partitioner/appearance/appearance.h"
 #include "partitioner/meshes/edit_meshes.h"
@@ -71,10 +72,11 @@ void catch_signals() {
 // Stops the work on a signal; on a terminal shows where it stands.
 class Watch {
  public:
-  explicit Watch(bool visible) : line_(visible) {}
+  Watch(bool visible, Stage& stage) : line_(visible), stage_(stage) {}
 
   void operator()(double fraction, const char* what) {
     if (stop_signalled) throw MachineError("interrupted; nothing is left of the bundle");
+    stage_.what = what;
     if (fraction < 1)
       line_.show(fraction, what);
     else
@@ -83,32 +85,39 @@ class Watch {
 
  private:
   ProgressLine line_;
+  Stage& stage_;
 };
 
-int run(Arguments& a) {
+void interpret(Arguments& a) {
   if (!a.domain_bytes.empty()) {
     a.options.domain_bytes = parse_bytes(a.domain_bytes);
     if (a.options.domain_bytes == 0) throw UsageError("--domain-bytes has to be more than 0");
   }
   if (!a.profile.empty()) a.options.profile = read_ray_profile(a.profile);
   a.options.memory_bytes = a.memory.empty() ? default_memory_bytes() : parse_bytes(a.memory);
+}
+
+int run(Arguments& a, Stage& stage) {
   const std::uint64_t kept_bytes =
       a.options.domains_at_once > 0 ? 0 : mesh_bytes_within(a.options.memory_bytes);
   const bool visible = !a.quiet && ::isatty(STDERR_FILENO);
-  Watch reading(visible);
+  Watch reading(visible, stage);
   tbb::task_arena arena(a.options.threads > 0 ? a.options.threads : tbb::task_arena::automatic);
   ImportedScene imported = arena.execute([&] {
-    return import_scene(a.input, MeshMemory(kept_bytes),
-                        [&](double fraction) { reading(std::min(fraction, 0.99), "reading the scene"); });
+    return import_scene(a.input, MeshMemory(kept_bytes), [&](double fraction) {
+      stage.fraction = fraction;
+      reading(std::min(fraction, 0.99), "reading the scene");
+    });
   });
-  Diagnostics diagnostics = imported.diagnostics;
+  stage = {"preparing the scene", 0, to_string(ledger_of(imported.scene))};
+  Diagnostics diagnostics = std::move(imported.diagnostics);
   std::ranges::copy(appearance_of(imported.scene, {}).diagnostics, std::back_inserter(diagnostics));
   fmt::print(stderr, "{}", summarise(diagnostics));
   if (a.strict) require_exact(diagnostics);
   const MeshResources resources{kept_bytes, a.options.memory_bytes, a.options.threads};
   fmt::print(stderr, "{}", summarise(apply_mesh_options(a.meshes, imported.scene, resources)));
   catch_signals();
-  Watch watch(visible);
+  Watch watch(visible, stage);
   const PartitionStats stats = partition(imported.scene, a.output, a.options, std::ref(watch));
   if (!a.stats.empty()) write_stats(a.stats, stats);
   if (!a.quiet) print_summary(stats, a.output);
@@ -123,5 +132,9 @@ int main(int argc, char** argv) {
   CLI::App app("cuts a scene into sub-domains that each fit into memory: a bundle", "vitrail partition");
   Arguments arguments;
   declare(app, arguments);
-  return run_guarded(app, argc, argv, [&] { return run(arguments); });
+  return run_guarded(app, argc, argv, [&] {
+    interpret(arguments);
+    Stage stage{"reading the scene"};
+    return within_memory(arguments.options.memory_bytes, stage, [&] { return run(arguments, stage); });
+  });
 }

@@ -15,6 +15,7 @@ void write_stats(const std::filesystem::path& file, const PartitionStats& s) {
                                     {"cut_triangles", s.cut_triangles},
                                     {"pieces", s.pieces},
                                     {"domains", s.domains},
+                                    {"domains_planned", s.domains_planned},
                                     {"triangles_min", s.triangles_min},
                                     {"triangles_mean", s.triangles_mean},
                                     {"triangles_max", s.triangles_max},
@@ -28,6 +29,14 @@ void write_stats(const std::filesystem::path& file, const PartitionStats& s) {
                                     {"cpu_s", s.cpu_s},
                                     {"peak_rss_bytes", s.peak_rss_bytes},
                                     {"memory_budget_bytes", s.memory_budget_bytes},
+                                    {"ledger_meshes_bytes", s.ledger.meshes},
+                                    {"ledger_shapes_bytes", s.ledger.shapes},
+                                    {"ledger_instances_bytes", s.ledger.instances},
+                                    {"ledger_prototypes_bytes", s.ledger.prototypes},
+                                    {"ledger_materials_bytes", s.ledger.materials},
+                                    {"ledger_textures_bytes", s.ledger.textures},
+                                    {"ledger_lights_bytes", s.ledger.lights},
+                                    {"ledger_media_bytes", s.ledger.media},
                                     {"buckets", s.buckets},
                                     {"spill_bytes", s.spill_bytes},
                                     {"triangles_per_s", s.triangles_per_s}};
@@ -40,6 +49,10 @@ void write_stats(const std::filesystem::path& file, const PartitionStats& s) {
 void print_summary(const PartitionStats& s, const std::filesystem::path& bundle) {
   fmt::print("{}: {} triangles in {} domains, {}\n", bundle.string(), s.input_triangles, s.domains,
              format_bytes(s.bundle_bytes));
+  if (s.domains < s.domains_planned)
+    fmt::print(
+        "  these are fewer domains than {}: more would part nothing, only cut triangles into more pieces\n",
+        s.domains_planned);
   fmt::print("  a domain has {} to {} triangles, {:.0f} on average\n", s.triangles_min, s.triangles_max,
              s.triangles_mean);
   fmt::print("  {} triangles were cut into {} pieces; {} duplicates, area error {:.2g}\n", s.cut_triangles,

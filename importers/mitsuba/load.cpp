@@ -8,6 +8,7 @@
 #include <cctype>
 #include <cmath>
 #include <map>
+#include <new>
 #include <pugixml.hpp>
 #include <set>
 
@@ -148,6 +149,9 @@ class Loader {
     open_.insert(canonical);
     const InputBytes bytes(file);
     files_.push_back(file.string());
+    // What `new` refuses, the document is refused too (scene/memory_guard.h).
+    pugi::set_memory_management_functions([](std::size_t size) { return ::operator new(size, std::nothrow); },
+                                          [](void* block) { ::operator delete(block); });
     Source source{static_cast<std::uint32_t>(files_.size() - 1), Lines(bytes.begin(), bytes.end())};
     pugi::xml_document document;
     const auto parsed =
@@ -235,9 +239,12 @@ class Loader {
 
   // ---- Elements
 
+  // What is read is let go: a large document and all of its objects are not in memory together.
   void read_children(pugi::xml_node node, const Source& source, const MutablePtr& parent, int depth) {
-    for (const pugi::xml_node child : node.children())
+    while (const pugi::xml_node child = node.first_child()) {
       if (child.type() == pugi::node_element) read_element(child, source, parent, depth);
+      node.remove_child(child);
+    }
   }
 
   void read_element(pugi::xml_node node, const Source& source, const MutablePtr& parent, int depth) {

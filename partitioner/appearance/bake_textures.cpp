@@ -7,6 +7,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <memory>
 
 #include "images/image_files.h"
 #include "scene/rgb_to_spectrum.h"
@@ -39,7 +40,7 @@ Spectrum as_used(const Spectrum& spectrum, TextureUse use) {
   }
 }
 
-// The linear values of a texture's image: decoded, scaled, inverted.
+// The linear values of a texture's image, or of some rows of it: decoded, scaled, inverted.
 Image values_of(const ImageTexture& texture, StoredImage stored, TextureUse use) {
   const bool automatic = texture.encoding == Encoding::automatic && use != TextureUse::vector;
   const bool srgb = texture.encoding == Encoding::srgb || (automatic && stored.integer);
@@ -62,6 +63,33 @@ Image values_of(const ImageTexture& texture, StoredImage stored, TextureUse use)
     value = k.value;
   }
   return std::move(stored.image);
+}
+
+// The values of the texture, from its file. What has few of them is read but once.
+ImageRows rows_of(const ImageTexture& texture, const ImageLayout& layout, TextureUse use) {
+  constexpr std::size_t most_kept = 1 << 22;  // values
+  struct Kept {
+    std::vector<Image> rows;
+    std::size_t values = 0;
+    bool whole = false;
+  };
+  const auto kept = std::make_shared<Kept>();
+  return {layout.width, layout.height, [=](const std::function<void(Image)>& visit) {
+            if (kept->whole) {
+              for (const Image& rows : kept->rows) visit(rows);
+              return;
+            }
+            read_stored_rows(texture.filename, [&](StoredImage stored) {
+              Image values = values_of(texture, std::move(stored), use);
+              kept->values += values.values.size();
+              if (kept->values <= most_kept)
+                kept->rows.push_back(values);
+              else
+                kept->rows.clear();
+              visit(std::move(values));
+            });
+            kept->whole = kept->values <= most_kept;
+          }};
 }
 
 bool needs_levels(TextureFilter filter) {
@@ -107,7 +135,7 @@ Id<Texture> TextureBaker::bake_vector(Id<Texture> texture) {
                           location(scene_, scene_.textures[texture.value].origin),
                           {}});
   ImageTexture flat;
-  flat.filename = write_image({1, 1, 3, {0.5f, 0.5f, 1}}, TextureUse::vector, false);
+  flat.filename = write_image(rows_of({1, 1, 3, {0.5f, 0.5f, 1}}), TextureUse::vector, false);
   return add(flat, TextureUse::vector);
 }
 
@@ -164,7 +192,7 @@ struct TextureBaker::Clone {
   }
   SpectrumParameter operator()(const UvTexture& t) const {
     ImageTexture image;
-    image.filename = baker.write_image(uv_image(), use, false);
+    image.filename = baker.write_image(rows_of(uv_image()), use, false);
     image.mapping = t.mapping;
     return baker.add(image, use);
   }
@@ -245,30 +273,43 @@ std::string TextureBaker::bake_file(const ImageTexture& image, TextureUse use, b
                                     const SourceLocation& where) {
   const ImageKey key{image.filename, image.encoding, image.gamma, image.scale, image.invert, use, all_levels};
   if (const auto known = images_.find(key); known != images_.end()) return known->second;
-  StoredImage stored;
   try {
-    stored = read_stored_image(image.filename);
+    return images_[key] = write_file(image, use, all_levels, where);
   } catch (const Error& error) {
     throw Error(fmt::format("texture {}: {}", image.filename, error.what()), where);
   }
-  const auto size = static_cast<std::uint32_t>(std::max(stored.image.width, stored.image.height));
-  if (stored.image.pixels() == 0 || size > max_texture_size)
-    throw Error(fmt::format("texture {}: {} × {} pixels are not an image for a texture", image.filename,
-                            stored.image.width, stored.image.height),
-                where);
-  Image values = values_of(image, std::move(stored), use);
-  const auto broken =
-      std::count_if(values.values.begin(), values.values.end(), [](float v) { return !std::isfinite(v); });
+}
+
+std::string TextureBaker::write_file(const ImageTexture& image, TextureUse use, bool all_levels,
+                                     const SourceLocation& where) {
+  const ImageLayout layout = read_image_layout(image.filename);
+  const auto size = static_cast<std::uint32_t>(std::max(layout.width, layout.height));
+  if (std::min(layout.width, layout.height) <= 0 || size > max_texture_size)
+    throw Error(fmt::format("{} × {} pixels are not an image for a texture", layout.width, layout.height));
+  ImageRows rows = rows_of(image, layout, use);
+  std::size_t broken = 0;
+  bool counted = false;  // in the first reading
+  rows.read = [&, read = rows.read](const std::function<void(Image)>& visit) {
+    read([&](Image values) {
+      if (!counted)
+        broken += static_cast<std::size_t>(std::count_if(values.values.begin(), values.values.end(),
+                                                         [](float v) { return !std::isfinite(v); }));
+      visit(std::move(values));
+    });
+    counted = true;
+  };
+  if (bundle_.empty()) rows.read([](const Image&) {});
+  const std::string name = write_image(rows, use, all_levels);
   if (broken > 0)
     diagnostics_.push_back(
         {Fidelity::approximated,
          fmt::format("texture {}: {} values are not finite and count as 0", image.filename, broken),
          where,
          {}});
-  return images_[key] = write_image(std::move(values), use, all_levels);
+  return name;
 }
 
-std::string TextureBaker::write_image(Image values, TextureUse use, bool all_levels) {
+std::string TextureBaker::write_image(const ImageRows& rows, TextureUse use, bool all_levels) {
   const std::string name = fmt::format("textures/{:06}.tex", files_.size());
   if (bundle_.empty()) {
     files_.push_back({name, 0, 0});
@@ -281,8 +322,7 @@ std::string TextureBaker::write_image(Image values, TextureUse use, bool all_lev
       throw MachineError(
           fmt::format("cannot create {}: {}", (bundle_ / "textures").string(), failure.message()));
   }
-  const WrittenTextureFile written =
-      write_baked_image(bundle_ / name, std::move(values), use, all_levels, fitter_);
+  const WrittenTextureFile written = write_baked_image(bundle_ / name, rows, use, all_levels, fitter_);
   files_.push_back({name, written.bytes, written.hash});
   return name;
 }

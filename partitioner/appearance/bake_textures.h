@@ -51,7 +51,9 @@ class TextureBaker {
   SpectrumParameter mean_of(Id<Texture> texture, TextureUse use, const char* what);
   std::string bake_file(const ImageTexture& image, TextureUse use, bool all_levels,
                         const SourceLocation& where);
-  std::string write_image(Image values, TextureUse use, bool all_levels);
+  std::string write_file(const ImageTexture& image, TextureUse use, bool all_levels,
+                         const SourceLocation& where);
+  std::string write_image(const ImageRows& rows, TextureUse use, bool all_levels);
   Id<Texture> add(TextureModel model, TextureUse use);
   std::string slot_of(const std::string& attribute, TextureUse use);
   bool is_number(const SpectrumParameter& parameter) const;

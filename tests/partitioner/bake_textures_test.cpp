@@ -2,7 +2,9 @@
 #include "partitioner/appearance/bake_textures.h"
 
 #include <random>
+#include <span>
 
+#include "partitioner/appearance/row_halver.h"
 #include "tests/partitioner/baked_scene.h"
 #include "tracer/textures/baked_image.h"
 
@@ -49,6 +51,26 @@ TEST(BakeTextures, ReflectancesOfLinearPixels) {
   EXPECT_EQ(s.baker->files()[0].bytes, std::filesystem::file_size(s.directory / "b.vit/textures/000000.tex"));
   expect_pixels(
       s, baked, image, [](RGB c) { return Spectrum{reflectance_from_rgb(c)}; }, 1e-3);
+}
+
+// The file of rows that come one by one is that of the whole image.
+TEST(BakeTextures, RowsMakeTheSameFile) {
+  test::BakedScene s;
+  const ReflectanceFitter fitter;
+  for (const auto use :
+       {TextureUse::reflectance, TextureUse::unbounded, TextureUse::number, TextureUse::vector}) {
+    const Image image = colors(131, 77, 3);
+    const ImageRows rows{131, 77, [&](const std::function<void(Image)>& visit) {
+                           constexpr std::size_t stride = 131 * 3;
+                           for (auto row = image.values.begin(); row != image.values.end(); row += stride)
+                             visit({131, 1, 3, {row, row + stride}});
+                         }};
+    const auto one = write_baked_image(s.directory / "one.tex", rows, use, true, fitter);
+    const auto all = write_baked_image(s.directory / "all.tex", rows_of(image), use, true, fitter);
+    EXPECT_EQ(one.hash, all.hash);
+    EXPECT_EQ(one.bytes, std::filesystem::file_size(s.directory / "one.tex"));
+    TextureFile(s.directory / "one.tex").check_tiles();
+  }
 }
 
 TEST(BakeTextures, UnboundedPixels) {
@@ -189,7 +211,19 @@ double mean_of(const Image& image) {
   return sum / static_cast<double>(image.values.size());
 }
 
-TEST(Halved, KeepsTheMeanAndThePlace) {
+Image halved(const Image& image) {
+  RowHalver halver(image.width, image.height, image.channels);
+  Image half{std::max(1, image.width / 2), 0, image.channels, {}};
+  const auto stride = static_cast<std::size_t>(image.width * image.channels);
+  for (std::size_t at = 0; at < image.values.size(); at += stride)
+    halver.add(std::span(image.values).subspan(at, stride), [&](std::span<const float> row) {
+      half.values.insert(half.values.end(), row.begin(), row.end());
+      ++half.height;
+    });
+  return half;
+}
+
+TEST(RowHalver, KeepsTheMeanAndThePlace) {
   for (const auto [width, height] : {std::array{8, 4}, {7, 5}, {1, 9}, {3, 1}, {129, 65}}) {
     Image image = colors(width, height, 1);
     const double mean = mean_of(image);
