@@ -3,6 +3,7 @@
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <memory>
 #include <span>
 
@@ -54,15 +55,26 @@ std::string read_rows(const std::string& file, ImageLayout& layout, const std::f
   const int lines =
       static_cast<int>(std::max<std::size_t>(1, band_bytes / sizeof(float) / std::max<std::size_t>(row, 1)));
   const int step = spec.tile_height > 0 ? spec.tile_height : lines;
+  // Scan lines come as they are stored: to convert them OpenImageIO would reserve 64 MiB.
+  const bool stored = spec.tile_width == 0 && spec.channelformats.empty();
   std::vector<float> values;
+  std::vector<std::byte> bytes;
   for (int y = 0; y < spec.height; y += step) {
     const int rows = std::min(step, spec.height - y), top = spec.y + y;
     values.resize(row * static_cast<std::size_t>(rows));
-    const bool done = spec.tile_width > 0
-                          ? in->read_tiles(0, 0, spec.x, spec.x + spec.width, top, top + rows, spec.z,
-                                           spec.z + 1, begin, end, OIIO::TypeDesc::FLOAT, values.data())
-                          : in->read_scanlines(0, 0, top, top + rows, spec.z, begin, end,
-                                               OIIO::TypeDesc::FLOAT, values.data());
+    bool done = false;
+    if (stored) {
+      bytes.resize(values.size() * spec.format.size());
+      done = in->read_native_scanlines(0, 0, top, top + rows, spec.z, begin, end, bytes.data()) &&
+             OIIO::convert_pixel_values(spec.format, bytes.data(), OIIO::TypeDesc::FLOAT, values.data(),
+                                        static_cast<int>(values.size()));
+    } else if (spec.tile_width > 0) {
+      done = in->read_tiles(0, 0, spec.x, spec.x + spec.width, top, top + rows, spec.z, spec.z + 1, begin,
+                            end, OIIO::TypeDesc::FLOAT, values.data());
+    } else {
+      done =
+          in->read_scanlines(0, 0, top, top + rows, spec.z, begin, end, OIIO::TypeDesc::FLOAT, values.data());
+    }
     if (!done) return in->geterror();
     Image band = black_image(layout.width, rows, layout.channels);
     float* out = band.values.data();

@@ -65,7 +65,7 @@ TriangleMesh sticks(int count, float length, float width) {
 }
 
 Path large_triangles(const Path& directory, double share) {
-  write_ply(sticks(times(share, 50'000), 0.5f, 0.5f), directory / "scene.ply");
+  write_ply(sticks(times(share, 50'000), 1.5f, 1.5f), directory / "scene.ply");
   return directory / "scene.ply";
 }
 
