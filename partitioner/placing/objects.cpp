@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "partitioner/placing/objects.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <functional>
 
+#include "partitioner/placing/prototype_uses.h"
+#include "partitioner/placing/shared_shapes.h"
 #include "scene/deferred_mesh.h"
 
 namespace vitrail {
@@ -65,41 +65,47 @@ Bounds3d world_bounds(const Placement& p) {
 class Planner {
  public:
   explicit Planner(const Scene& scene)
-      : scene_(scene), uses_(scene.prototypes.size()), object_of_(scene.prototypes.size(), -1) {
-    count(scene.instances, scene.prototypes.size());
-    for (std::size_t i = 0; i < scene.prototypes.size(); ++i) count(scene.prototypes[i].instances, i);
-  }
+      : scene_(scene), uses_(scene), shared_(scene), object_of_(scene.prototypes.size(), -1) {}
 
   ScenePlan plan() {
     for (std::size_t i = 0; i < scene_.prototypes.size(); ++i) {
-      const Prototype& prototype = scene_.prototypes[i];
-      if (uses_[i] < 2) continue;
+      if (uses_.uses(i) < 2) continue;
       Assembly object;
-      add(object, prototype.shapes, prototype.instances, {});
+      for (const Shape& shape : scene_.prototypes[i].shapes) add(object, shape, {});
+      add(object, i, scene_.prototypes[i].instances);
       const double bytes = triangle_bytes * own_triangles(object) +
                            instance_bytes * static_cast<double>(object.uses.size()) + file_bytes;
       const double copies = triangle_bytes * static_cast<double>(object.triangles);
-      const auto uses = static_cast<double>(uses_[i]);
-      if (object.triangles == 0 || bytes + instance_bytes * uses >= copies * uses) continue;
-      finish(object, false);
-      object_of_[i] = static_cast<int>(plan_.objects.size());
-      plan_.objects.push_back(std::move(object));
+      const auto uses = static_cast<double>(uses_.uses(i));
+      if (bytes + instance_bytes * uses >= copies * uses) continue;
+      object_of_[i] = static_cast<int>(add(std::move(object)));
     }
-    add(plan_.scene, scene_.shapes, scene_.instances, {});
-    if (plan_.scene.triangles >= no_triangle)
-      throw Error(fmt::format("the scene has {} triangles with all instances; the most is {}",
-                              plan_.scene.triangles, no_triangle - 1));
-    finish(plan_.scene, true);
+    plan_scene();
     return std::move(plan_);
   }
 
  private:
-  void count(const std::vector<Instance>& instances, std::size_t below) {
-    for (const Instance& instance : instances) {
-      if (instance.prototype.value >= below)
-        throw Error("a prototype holds itself", location(scene_, instance.origin));
-      ++uses_[instance.prototype.value];
+  void plan_scene() {
+    std::vector<std::uint32_t> object_of_group;
+    for (const Shape* shape : shared_.groups()) {
+      const TriangleMesh& mesh = scene_.meshes[shape->mesh.value];
+      Assembly object;
+      object.placements.push_back({&mesh, shape, {}, SharedShapes::flip_in_object(*shape), 0});
+      object.triangles = triangles_of(mesh);
+      object_of_group.push_back(add(std::move(object)));
     }
+    const auto shared = [&](std::size_t i) {
+      const auto group = shared_.group_of(i);
+      return group && can_be_kept(scene_.shapes[i].object_to_world) ? group : std::nullopt;
+    };
+    // Triangles of its own come first.
+    for (std::size_t i = 0; i < scene_.shapes.size(); ++i)
+      if (!shared(i)) add(plan_.scene, scene_.shapes[i], {});
+    for (std::size_t i = 0; i < scene_.shapes.size(); ++i)
+      if (const auto group = shared(i))
+        use(plan_.scene, object_of_group[*group], scene_.shapes[i].object_to_world);
+    add(plan_.scene, scene_.prototypes.size(), scene_.instances);
+    finish(plan_.scene, true);
   }
 
   static double own_triangles(const Assembly& a) {
@@ -108,29 +114,47 @@ class Planner {
     return sum;
   }
 
-  void add(Assembly& a, const std::vector<Shape>& shapes, const std::vector<Instance>& instances,
-           const Transform& outer) {
-    for (const Shape& shape : shapes) {
-      const TriangleMesh& mesh = scene_.meshes.at(shape.mesh.value);
-      if (triangles_of(mesh) == 0) continue;
-      a.placements.push_back(placement_of(mesh, shape, outer, a.triangles));
-      a.triangles += triangles_of(mesh);
-    }
-    for (const Instance& instance : instances) {
-      const Prototype& prototype = scene_.prototypes[instance.prototype.value];
-      const Transform t = outer * instance.prototype_to_world;
-      const int object = object_of_[instance.prototype.value];
-      const bool fits = object >= 0 && plan_.objects[static_cast<std::size_t>(object)].depth <
-                                           max_instance_depth - (&a == &plan_.scene ? 0 : 1);
-      if (!fits || !can_be_kept(t)) {
-        add(a, prototype.shapes, prototype.instances, t);
+  // Returns its index.
+  std::uint32_t add(Assembly object) {
+    finish(object, false);
+    plan_.objects.push_back(std::move(object));
+    return static_cast<std::uint32_t>(plan_.objects.size() - 1);
+  }
+
+  void add(Assembly& a, const Shape& shape, const Transform& outer) const {
+    const TriangleMesh& mesh = scene_.meshes.at(shape.mesh.value);
+    if (triangles_of(mesh) == 0) return;
+    a.placements.push_back(placement_of(mesh, shape, outer, a.triangles));
+    a.triangles += triangles_of(mesh);
+  }
+
+  void use(Assembly& a, std::uint32_t object, const Transform& t) const {
+    const Assembly& part = plan_.objects[object];
+    // Finished when the centre is known.
+    a.uses.push_back({object, affine(t * translate(part.centre)), a.triangles});
+    a.triangles += part.triangles;
+    a.depth = std::max(a.depth, part.depth + 1);
+  }
+
+  // The instances of a prototype, or of the scene, and those within what is copied of them.
+  void add(Assembly& a, std::size_t outer, const std::vector<Instance>& instances) const {
+    std::vector<Instance> open(instances.rbegin(), instances.rend());
+    while (!open.empty()) {
+      const Instance instance = open.back();
+      open.pop_back();
+      const std::uint32_t inner = instance.prototype.value;
+      const Transform& t = instance.prototype_to_world;
+      if (uses_.triangles(inner) == 0) continue;
+      if (object_of_[inner] >= 0 && uses_.may_keep(outer, inner) && can_be_kept(t)) {
+        use(a, static_cast<std::uint32_t>(object_of_[inner]), t);
         continue;
       }
-      const Assembly& part = plan_.objects[static_cast<std::size_t>(object)];
-      // Finished when the centre is known.
-      a.uses.push_back({static_cast<std::uint32_t>(object), affine(t * translate(part.centre)), a.triangles});
-      a.triangles += part.triangles;
-      a.depth = std::max(a.depth, part.depth + 1);
+      const Prototype& prototype = scene_.prototypes[inner];
+      for (const Shape& shape : prototype.shapes) add(a, shape, t);
+      for (std::size_t i = prototype.instances.size(); i-- > 0;) {
+        Instance& next = open.emplace_back(prototype.instances[i]);
+        next.prototype_to_world = t * next.prototype_to_world;
+      }
     }
   }
 
@@ -163,8 +187,9 @@ class Planner {
   }
 
   const Scene& scene_;
-  std::vector<std::uint64_t> uses_;  // of each prototype, by instances
-  std::vector<int> object_of_;       // −1: copied wherever it is used
+  PrototypeUses uses_;
+  SharedShapes shared_;
+  std::vector<int> object_of_;  // of each prototype; −1: copied wherever it is used
   ScenePlan plan_;
 };
 
@@ -173,15 +198,25 @@ class Planner {
 ScenePlan plan_scene(const Scene& scene) { return Planner(scene).plan(); }
 
 std::vector<Placement> expanded(const ScenePlan& plan, const std::function<bool(const Placement&)>& select) {
+  // Each object is asked once; what holds nothing that is wanted is not entered.
+  std::vector<std::vector<const Placement*>> wanted(plan.objects.size());
+  std::vector<bool> holds(plan.objects.size());
+  for (std::size_t i = 0; i < plan.objects.size(); ++i) {
+    for (const Placement& p : plan.objects[i].placements)
+      if (select(p)) wanted[i].push_back(&p);
+    holds[i] = !wanted[i].empty() || std::ranges::any_of(plan.objects[i].uses, [&](const ObjectUse& use) {
+      return holds[use.object];
+    });
+  }
   std::vector<Placement> out;
   const std::function<void(const ObjectUse&, const Affine&, std::uint64_t)> expand =
       [&](const ObjectUse& use, const Affine& chain, std::uint64_t first) {
+        if (!holds[use.object]) return;
         const Assembly& object = plan.objects[use.object];
-        for (Placement p : object.placements) {
-          if (!select(p)) continue;
-          p.first_triangle += first;
-          p.standing = Standing{object.centre, chain};
-          out.push_back(p);
+        for (const Placement* p : wanted[use.object]) {
+          Placement& placed = out.emplace_back(*p);
+          placed.first_triangle += first;
+          placed.standing = Standing{object.centre, chain};
         }
         for (const ObjectUse& inner : object.uses)
           expand(inner, compose(chain, inner.to_parent), first + inner.first_triangle);

@@ -32,12 +32,13 @@ struct ScenePlan {
   Assembly scene;
 };
 
-// A prototype becomes an object where references to it take fewer bytes than copies of it. What a singular,
-// projective or extreme transform places is copied. Throws Error for vertices that are not finite where they
-// stand, and for 2³² − 1 triangles or more.
+// A prototype becomes an object where references to it take fewer bytes than copies of it, and so do shapes
+// that share a mesh (shared_shapes.h). What a singular, projective or extreme transform places is copied.
+// Throws Error for vertices that are not finite where they stand, and for 2³² − 1 triangles or more.
 ScenePlan plan_scene(const Scene& scene);
 
-// The placements of every use of the scene, as `select` chooses them, in the order of ids.
+// The placements of every use of the scene, as `select` chooses them, in the order of ids. It is asked once
+// for each placement of an object, however often that is used.
 std::vector<Placement> expanded(const ScenePlan& plan, const std::function<bool(const Placement&)>& select);
 
 }  // namespace vitrail

@@ -198,9 +198,10 @@ std::vector<std::uint32_t> needed_objects(const Manifest& m, std::span<const Ins
   std::vector<std::uint32_t> objects;
   for (std::size_t i = needed.size(); i-- > 0;)
     if (needed[i]) {
-      objects.insert(objects.begin(), static_cast<std::uint32_t>(i));
+      objects.push_back(static_cast<std::uint32_t>(i));
       for (const std::uint32_t inner : m.objects[i].objects) needed[inner] = true;
     }
+  std::ranges::reverse(objects);
   return objects;
 }
 

@@ -107,6 +107,22 @@ Scene forest(Vector3d far) {
   return scene;
 }
 
+// Shapes of one mesh that become instances: on three surfaces, mirrored, some that shine, one that is
+// flattened; the forest's objects beside them.
+Scene crowd() {
+  Scene scene = forest({});
+  const Id<TriangleMesh> stone = add_torus(scene, 60);
+  Placer random;
+  for (int i = 0; i < 160; ++i) {
+    Shape shape{stone, Id<Material>{i % 2 == 0 ? 0u : 1u}, {}, 1.0f, random.place(random.vector(8), 0.5, i)};
+    if (i % 3 == 0) shape.flip_orientation = true;  // those that are mirrored
+    if (i > 40 && i % 2 == 1) shape.area_light = Id<AreaLight>{0};
+    scene.shapes.push_back(shape);
+  }
+  scene.shapes.push_back({stone, Id<Material>{0}, {}, 1.0f, scale({1, 1, 0})});
+  return scene;
+}
+
 class Films {
  public:
   explicit Films(const Scene& scene) : scene_(scene) {}
@@ -180,6 +196,17 @@ void expect_the_flattened_film(const Scene& scene, const std::vector<int>& count
 TEST(KeptInstances, HaveTheFilmOfTheFlattenedScene) { expect_the_flattened_film(forest({}), {1, 8, 64}); }
 
 TEST(KeptInstances, FarFromTheOrigin) { expect_the_flattened_film(forest({1e6, -2e6, 3e5}), {1, 8}); }
+
+TEST(KeptInstances, ShapesThatShareAMesh) {
+  const Scene scene = crowd();
+  const TemporaryDirectory directory;
+  partition(scene, directory / "kept.vit", {.domains = 2});
+  partition(forest({}), directory / "forest.vit", {.domains = 2});
+  EXPECT_EQ(read_manifest(directory / "kept.vit").objects.size(),
+            read_manifest(directory / "forest.vit").objects.size() + 2)
+      << "those of the third surface are too few";
+  expect_the_flattened_film(scene, {1, 8});
+}
 
 // In parts that are in memory one after the other.
 TEST(KeptInstances, OutOfCore) {
