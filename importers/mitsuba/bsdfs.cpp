@@ -417,7 +417,7 @@ Id<Material> append(Builder& b, Material material) {
 
 Id<Material> add_material(Builder& b, const Object& o) {
   if (const auto known = b.materials.find(&o); known != b.materials.end()) return known->second;
-  const Origin before = b.report.begin_item(o.origin);
+  const Report::Item before = b.report.begin_item({o.origin, RecordKind::material});
   Material material = make_material(b, o);
   material.name = o.id.starts_with("_unnamed_") ? "" : o.id;
   b.report.begin_item(before);

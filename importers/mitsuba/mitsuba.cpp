@@ -16,7 +16,7 @@ static void build(Builder& b, const Object& root) {
   for (const Property& p : root.properties) {
     const auto* object = std::get_if<ObjectPtr>(&p.value);
     if (!object) continue;
-    b.report.begin_item((*object)->origin);
+    b.report.begin_item({(*object)->origin});
     const std::string& tag = (*object)->tag;
     if (tag == "bsdf") add_material(b, **object);
     if (tag == "medium") add_medium(b, **object);
@@ -28,13 +28,13 @@ static void build(Builder& b, const Object& root) {
   const std::vector<const Property*> sensors = root.children("sensor");
   if (sensors.size() > 1) b.report.dropped("a scene has one camera: the first sensor", sensors[1]->origin);
   if (!sensors.empty()) {
-    b.report.begin_item(sensors.front()->origin);
+    b.report.begin_item({sensors.front()->origin, RecordKind::camera});
     read_sensor(b, *std::get<ObjectPtr>(sensors.front()->value));
   }
   for (const Property& p : root.properties) {
     const auto* object = std::get_if<ObjectPtr>(&p.value);
     if (!object) continue;
-    b.report.begin_item((*object)->origin);
+    b.report.begin_item({(*object)->origin});
     if ((*object)->tag == "emitter") p.queried = true, add_emitter(b, **object);
     if ((*object)->tag == "shape") p.queried = true, add_shape(b, **object);
   }

@@ -207,7 +207,7 @@ double field_of_view_deg(double half_width) {
 void write_integrator(Context& context, Element root) {
   const Scene& scene = context.scene;
   if (scene.settings.direct_only) {
-    context.origin = {};
+    context.begin(RecordKind::integrator, scene.integrator_origin);
     context.approximated("Mitsuba's direct integrator ends at the first surface, specular or not");
     Element element = add(root, "integrator", "direct");
     add_integer(element, "emitter_samples", 1);
@@ -225,7 +225,7 @@ void write_integrator(Context& context, Element root) {
 
 void write_camera(Context& context, Element root) {
   const Scene& scene = context.scene;
-  context.origin = scene.camera_origin;
+  context.begin(RecordKind::camera, scene.camera_origin);
   Element sensor = std::visit([&](const auto& camera) { return write(context, root, camera); }, scene.camera);
   const ClipRange clip =
       std::visit([&](const auto& camera) { return clip_range(scene, camera.camera_to_world); }, scene.camera);

@@ -10,10 +10,10 @@
 #include <pugixml.hpp>
 #include <string>
 #include <unordered_map>
-#include <unordered_set>
 #include <vector>
 
 #include "importers/mesh_files.h"
+#include "importers/unique_names.h"
 #include "scene/color.h"
 #include "scene/scene.h"
 #include "scene/transmission.h"
@@ -30,23 +30,34 @@ Overloaded(F...) -> Overloaded<F...>;
 // A texture as Mitsuba can say it: an element of its own, by id, or one value for all of the surface.
 using WrittenTexture = std::variant<std::string, Spectrum>;
 
+// What materials take textures for that are written otherwise than colours and numbers: by texture.
+struct TextureRoles {
+  explicit TextureRoles(const Scene& scene);
+  std::vector<bool> height, normal_map;
+};
+
 struct Context {
   Context(const Scene& scene_to_write, const std::filesystem::path& out)
       : scene(scene_to_write),
         file(out),
         meshes(scene_to_write, out),
+        roles(scene_to_write),
         transmitting(vitrail::transmitting(scene_to_write.materials)),
         sided(with_sides(scene_to_write.materials)) {}
 
   const Scene& scene;
   std::filesystem::path file;  // of the scene
   MeshFiles meshes;
+  TextureRoles roles;
   std::vector<bool> transmitting;  // Mitsuba allows no `twosided` around such materials
   std::vector<bool> sided;         // with_sides
   Diagnostics diagnostics;
-  Origin origin;  // of the record that is being written
+  // Of the record that is being written.
+  Origin origin;
+  RecordKind record = RecordKind::any;
+  void begin(RecordKind of, const Origin& from) { record = of, origin = from; }
 
-  std::unordered_set<std::string> taken_ids;  // Mitsuba has one name space for everything
+  UniqueNames ids;  // Mitsuba has one name space for everything
   std::vector<std::string> material_ids, medium_ids, prototype_ids;
   std::vector<WrittenTexture> textures;
   mutable std::unordered_map<std::uint32_t, RGB> means;  // of the textures whose mean was asked for

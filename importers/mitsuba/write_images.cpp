@@ -41,19 +41,14 @@ Image grey(const Image& image) {
   return result;
 }
 
-bool used_as_normal_map(const Scene& scene, const ImageTexture& texture) {
-  return std::any_of(scene.materials.begin(), scene.materials.end(), [&](const Material& material) {
-    return material.normal_map &&
-           std::get_if<ImageTexture>(&scene.textures[material.normal_map->value].model) == &texture;
-  });
-}
-
 }  // namespace
 
-MitsubaImage image_for_mitsuba(Context& context, const ImageTexture& texture, bool is_float) {
+MitsubaImage image_for_mitsuba(Context& context, Id<Texture> id) {
+  const bool is_float = context.scene.textures[id.value].is_float;
+  const auto& texture = std::get<ImageTexture>(context.scene.textures[id.value].model);
   const std::string own = context.relative(texture.filename);
   const bool linear = texture.encoding == Encoding::linear;
-  if (used_as_normal_map(context.scene, texture)) {
+  if (context.roles.normal_map[id.value]) {
     if (texture.encoding == Encoding::srgb || texture.encoding == Encoding::gamma || texture.scale != 1)
       context.approximated("the encoding of a normal map is not in Mitsuba: its numbers count as they are");
     return {own, true};

@@ -13,8 +13,9 @@ struct MitsubaImage {
   bool raw = false;
 };
 
-// The texture's own file where Mitsuba makes the same values of it; else a new one that holds the values.
-MitsubaImage image_for_mitsuba(Context& context, const ImageTexture& texture, bool is_float);
+// Of a texture that is an image: its own file where Mitsuba makes the same values of it; else a new one that
+// holds the values.
+MitsubaImage image_for_mitsuba(Context& context, Id<Texture> id);
 
 // The mean of the texture's values; grey ½ where the file cannot be read.
 RGB mean_color(const ImageTexture& texture);

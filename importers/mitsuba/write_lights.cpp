@@ -144,13 +144,13 @@ void write(Context& context, Element root, const EnvironmentLight& light) {
 
 void write_lights(Context& context, Element root) {
   for (const Light& light : context.scene.lights) {
-    context.origin = light.origin;
+    context.begin(RecordKind::light, light.origin);
     std::visit([&](const auto& model) { write(context, root, model); }, light.model);
   }
 }
 
 void write_area_light(Context& context, Element shape, const AreaLight& light) {
-  context.origin = light.origin;
+  context.begin(RecordKind::area_light, light.origin);
   Element element = add(shape, "emitter", light.directional ? "directionalarea" : "area");
   if (const auto radiance = value_of(context, light.radiance))
     return add_spectrum(element, "radiance", scaled(*radiance, static_cast<double>(light.scale)),

@@ -36,7 +36,7 @@ void add_media(const Context& context, Element element, const Shape& shape) {
 }
 
 void write_shape(Context& context, Element parent, const Shape& shape, std::size_t index) {
-  context.origin = shape.origin;
+  context.begin(RecordKind::shape, shape.origin);
   const std::string id = shape.name.empty() ? "" : context.new_id(shape.name, "shape", index);
   Element element =
       add_mesh(context, parent, shape, mesh_file(context, shape, sides_matter(context, shape)), id);
@@ -58,7 +58,7 @@ bool has_group(const Prototype& prototype) {
 }
 
 void write_prototype(Context& context, Element root, const Prototype& prototype, std::size_t index) {
-  context.origin = prototype.origin;
+  context.begin(RecordKind::object, prototype.origin);
   std::string& id = context.prototype_ids[index];
   id = context.new_id(prototype.name, "shapegroup", index);
   if (!has_group(prototype)) return;
@@ -81,7 +81,7 @@ void write_instance(Context& context, Element root, const Instance& instance) {
     if (swaps_handedness(instance.prototype_to_world)) shape.flip_orientation = !shape.flip_orientation;
     shape.name.clear();
     write_shape(context, root, shape, i);
-    context.origin = instance.origin;
+    context.begin(RecordKind::instance, instance.origin);
     context.approximated("Mitsuba instances no area lights: this one is a shape of its own");
   }
 }
@@ -105,7 +105,7 @@ void write_shapes(Context& context, Element root) {
   }
   for (; next < scene.prototypes.size(); ++next) write_prototype(context, root, scene.prototypes[next], next);
   for (const Instance& instance : scene.instances) {
-    context.origin = instance.origin;
+    context.begin(RecordKind::instance, instance.origin);
     write_instance(context, root, instance);
   }
 }

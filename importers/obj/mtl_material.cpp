@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "importers/obj/mtl.h"
 #include "importers/ply/text_cursor.h"
@@ -18,13 +19,24 @@ Id<T> append(std::vector<T>& to, T value) {
   return {static_cast<std::uint32_t>(to.size() - 1)};
 }
 
+template <class... Parts>
+std::size_t hash_of(const Parts&... parts) {
+  std::size_t hash = 0;
+  ((hash = (hash ^ std::hash<Parts>{}(parts)) * 0x9e3779b97f4a7c15u), ...);
+  return hash ^ hash >> 32;
+}
+
 bool is_black(const std::optional<RGB>& c) { return !c || std::max({c->r, c->g, c->b}) <= 0; }
 bool is_grey(RGB c) { return c.r == c.g && c.g == c.b; }
 
 class Builder {
  public:
-  Builder(const MtlMaterial& mtl, Scene& scene, Diagnostics& diagnostics)
-      : mtl_(mtl), scene_(scene), diagnostics_(diagnostics), origin_(origin_of(mtl.location)) {}
+  Builder(const MtlMaterial& mtl, MtlTextures& textures, Scene& scene, Diagnostics& diagnostics)
+      : mtl_(mtl),
+        textures_(textures),
+        scene_(scene),
+        diagnostics_(diagnostics),
+        origin_(origin_of(mtl.location)) {}
 
   MtlSurface build() {
     Material material;
@@ -40,9 +52,9 @@ class Builder {
   }
 
  private:
-  void note(Fidelity fidelity, const std::string& message) {
-    diagnostics_.push_back({fidelity, fmt::format("material {}: {}", printable(mtl_.name), message),
-                            mtl_.location, mtl_.location});
+  void note(Fidelity fidelity, std::string message) {
+    diagnostics_.push_back(
+        {fidelity, std::move(message), mtl_.location, mtl_.location, RecordKind::material});
   }
 
   Origin origin_of(const SourceLocation& where) {
@@ -59,11 +71,13 @@ class Builder {
     return map == mtl_.maps.end() ? nullptr : &map->second;
   }
 
-  Id<Texture> add_texture(TextureModel model, bool is_float) {
+  // `hash`: of some of it.
+  Id<Texture> add_texture(TextureModel model, bool is_float, std::size_t hash) {
     const Texture wanted{std::move(model), is_float, "", origin_};
-    const auto same = std::ranges::find(scene_.textures, wanted);
-    if (same != scene_.textures.end()) return {static_cast<std::uint32_t>(same - scene_.textures.begin())};
-    return append(scene_.textures, wanted);
+    const auto [begin, end] = textures_.equal_range(hash);
+    for (auto known = begin; known != end; ++known)
+      if (scene_.textures[known->second.value] == wanted) return known->second;
+    return textures_.emplace(hash, append(scene_.textures, wanted))->second;
   }
 
   Id<Texture> texture(const MtlMap& map, float scale, bool is_float, Encoding encoding) {
@@ -73,7 +87,9 @@ class Builder {
     image.wrap = map.wrap;
     image.encoding = encoding;
     image.scale = scale;
-    return add_texture(std::move(image), is_float);
+    const UvMapping& m = map.mapping;
+    const std::size_t hash = hash_of(map.filename, scale, m.a, m.c, m.e, m.f);
+    return add_texture(std::move(image), is_float, hash);
   }
 
   // The image times the colour, which may be black or missing where programs leave it to the image.
@@ -82,7 +98,8 @@ class Builder {
     if (is_grey(*color))
       return texture(map, static_cast<float>(map.gain * color->r), false, Encoding::automatic);
     const Id<Texture> image = texture(map, map.gain, false, Encoding::automatic);
-    return add_texture(ProductTexture{Spectrum{unbounded_from_rgb(*color)}, image}, false);
+    return add_texture(ProductTexture{Spectrum{unbounded_from_rgb(*color)}, image}, false,
+                       hash_of(image.value, color->r, color->g, color->b));
   }
 
   FloatParameter number(const char* keyword, double constant) {
@@ -228,6 +245,7 @@ class Builder {
   }
 
   const MtlMaterial& mtl_;
+  MtlTextures& textures_;
   Scene& scene_;
   Diagnostics& diagnostics_;
   Origin origin_;
@@ -235,8 +253,9 @@ class Builder {
 
 }  // namespace
 
-MtlSurface add_mtl_material(const MtlMaterial& material, Scene& scene, Diagnostics& diagnostics) {
-  return Builder(material, scene, diagnostics).build();
+MtlSurface add_mtl_material(const MtlMaterial& material, MtlTextures& textures, Scene& scene,
+                            Diagnostics& diagnostics) {
+  return Builder(material, textures, scene, diagnostics).build();
 }
 
 }  // namespace vitrail

@@ -10,7 +10,7 @@ namespace vitrail {
 void MtlText::note(Fidelity fidelity, std::string message) {
   const SourceLocation where = location(scene_, origin);
   if (noted_.insert(to_string(where) + '\n' + message).second)
-    diagnostics_.push_back({fidelity, std::move(message), where, where});
+    diagnostics_.push_back({fidelity, std::move(message), where, where, record});
 }
 
 void MtlText::line(const char* keyword, RGB c) {

@@ -18,6 +18,7 @@ class MtlText {
 
   std::string text;
   Origin origin;  // of what is being written
+  RecordKind record = RecordKind::material;
 
   void approximated(std::string message) { note(Fidelity::approximated, std::move(message)); }
   void note(Fidelity fidelity, std::string message);

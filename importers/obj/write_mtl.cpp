@@ -5,9 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "importers/obj/mtl_text.h"
+#include "importers/unique_names.h"
 #include "scene/atomic_file.h"
 
 namespace vitrail {
@@ -22,6 +22,7 @@ class Writer : MtlText {
 
   std::string write(const std::string& name, const MtlKey& key) {
     text = fmt::format("newmtl {}\n", name);
+    record = RecordKind::material;
     put(Id<Material>{key.first});
     if (key.second) put(scene_.area_lights.at(*key.second));
     return text + "\n";
@@ -199,6 +200,7 @@ class Writer : MtlText {
 
   void put(const AreaLight& light) {
     origin = light.origin;
+    record = RecordKind::area_light;
     color("Ke", "map_Ke", light.radiance, emission_rgb, light.scale);
     if (!light.two_sided) approximated("one-sided light: shines from both sides, since MTL has none");
     if (light.directional) approximated("light along the normal only: shines in all directions");
@@ -221,7 +223,7 @@ std::string cleaned(std::string name) {
 MtlNames write_mtl(const Scene& scene, const std::vector<FlatShape>& shapes,
                    const std::filesystem::path& path, Diagnostics& diagnostics) {
   MtlNames names;
-  std::set<std::string> taken;
+  UniqueNames taken;
   std::string text;
   Writer writer(scene, path.parent_path(), diagnostics);
   for (const FlatShape& flat : shapes) {
@@ -229,8 +231,7 @@ MtlNames write_mtl(const Scene& scene, const std::vector<FlatShape>& shapes,
     if (names.contains(key)) continue;
     std::string name = cleaned(scene.materials.at(key.first).name);
     if (name.empty()) name = fmt::format("material_{}", key.first);
-    const std::string wanted = name;
-    for (int i = 2; !taken.insert(name).second; ++i) name = fmt::format("{}_{}", wanted, i);
+    name = taken.take(name);
     text += writer.write(name, key);
     names.emplace(key, name);
   }

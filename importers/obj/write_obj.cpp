@@ -95,7 +95,8 @@ Diagnostics write_obj(const Scene& scene, const std::filesystem::path& path) {
   for (const FlatShape& flat : shapes)
     if (!scene.meshes.at(flat.shape.mesh.value).attributes.empty()) {
       const SourceLocation where = location(scene, flat.shape.origin);
-      diagnostics.push_back({Fidelity::dropped, "attributes of a mesh: OBJ has none", where, where});
+      diagnostics.push_back(
+          {Fidelity::dropped, "attributes of a mesh: OBJ has none", where, where, RecordKind::shape});
     }
   const std::filesystem::path library = std::filesystem::path(path).replace_extension(".mtl");
   const MtlNames names = write_mtl(scene, shapes, library, diagnostics);

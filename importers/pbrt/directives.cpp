@@ -52,6 +52,26 @@ const std::map<std::string, Interpreter::Handler, std::less<>>& Interpreter::han
   return table;
 }
 
+// What a directive makes a record of.
+static RecordKind kind_of_record(std::string_view directive) {
+  static const std::map<std::string_view, RecordKind> kinds{{"AreaLightSource", RecordKind::area_light},
+                                                            {"Camera", RecordKind::camera},
+                                                            {"Film", RecordKind::film},
+                                                            {"Integrator", RecordKind::integrator},
+                                                            {"LightSource", RecordKind::light},
+                                                            {"MakeNamedMaterial", RecordKind::material},
+                                                            {"MakeNamedMedium", RecordKind::medium},
+                                                            {"Material", RecordKind::material},
+                                                            {"ObjectBegin", RecordKind::object},
+                                                            {"ObjectInstance", RecordKind::instance},
+                                                            {"Sampler", RecordKind::sampler},
+                                                            {"Shape", RecordKind::shape},
+                                                            {"SurfaceIntegrator", RecordKind::integrator},
+                                                            {"Texture", RecordKind::texture}};
+  const auto found = kinds.find(directive);
+  return found == kinds.end() ? RecordKind::any : found->second;
+}
+
 Interpreter::Interpreter(TokenStream& tokens, Context& context)
     : tokens_(tokens),
       context_(context),
@@ -71,6 +91,7 @@ Scene Interpreter::run() {
     if (context_.progress) context_.progress(tokens_.fraction_read());
   }
   check_blocks_are_closed();
+  context_.report.begin_item({});
   if (world_ == World::inside && context_.version == Version::v3)
     context_.report.approximated("there is no WorldEnd: the file may be incomplete", world_place_);
   resolve_materials();
@@ -89,7 +110,7 @@ Origin Interpreter::origin(const Place& place) {
 }
 
 void Interpreter::execute(const Token& directive) {
-  context_.report.begin_item(directive.place);
+  context_.report.begin_item(directive.place, kind_of_record(directive.text));
   if (directive.kind == TokenKind::end_of_import) return end_import(directive.place);
   const auto handler = handlers().find(directive.text);
   if (directive.kind == TokenKind::word && handler != handlers().end())

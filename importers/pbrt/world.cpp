@@ -298,10 +298,12 @@ class MaterialOrder {
 
 void Interpreter::resolve_materials() {
   for (DeferredMaterial& deferred : deferred_) {
+    context_.report.begin_item(deferred.place, RecordKind::material);
     const Scope where{{context_, deferred.color_space}, textures_, scene_.textures, origin(deferred.place)};
     Material made = made_material(deferred.kind, deferred.parameters, where);
     materials_[deferred.slot] = std::move(made);
   }
+  context_.report.begin_item({});
   material_names_.require_definitions();
   for (const auto& [slot, name] : named_slots_) materials_[slot]->name = name;
   MaterialOrder order(materials_, scene_);
@@ -322,8 +324,10 @@ void Interpreter::drop_lights_of_interfaces() {
   for (Shape& shape : scene_.shapes)
     if (shape.area_light &&
         std::holds_alternative<InterfaceMaterial>(scene_.materials[shape.material.value].model)) {
+      const Place& place = area_light_places_[shape.area_light->value];
+      context_.report.begin_item(place, RecordKind::area_light);
       context_.report.dropped("an area light on the material \"interface\" does not shine, as in pbrt",
-                              area_light_places_[shape.area_light->value]);
+                              place);
       shape.area_light.reset();
     }
 }

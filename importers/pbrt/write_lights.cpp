@@ -117,7 +117,7 @@ static_assert(kinds.size() == std::variant_size_v<LightVariant>);
 
 void write_lights(Writer& w) {
   for (const Light& light : w.scene.lights) {
-    Parameters p(w, fmt::format("{} light", kinds.at(light.model.index())), light.origin);
+    Parameters p(w, fmt::format("{} light", kinds.at(light.model.index())), light.origin, RecordKind::light);
     LightWriter writer(p);
     const char* kind = std::visit(writer, light.model);
     if (!kind) continue;

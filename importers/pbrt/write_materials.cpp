@@ -233,7 +233,7 @@ ShapeSurface surface_of(const Scene& scene, Id<Material> material) {
 void write_materials(Writer& w) {
   for (std::size_t i = 0; i < w.scene.materials.size(); ++i) {
     const Material& material = w.scene.materials[i];
-    Parameters p(w, fmt::format("material \"{}\"", w.materials[i]), material.origin);
+    Parameters p(w, fmt::format("material \"{}\"", w.materials[i]), material.origin, RecordKind::material);
     MaterialWriter writer(p);
     const char* type = std::visit(writer, material.model);
     if (const auto* mask = std::get_if<MaskMaterial>(&material.model)) {

@@ -100,7 +100,7 @@ const char* medium_type(Parameters& p, const Medium& m) {
 void write_media(Writer& w) {
   for (std::size_t i = 0; i < w.scene.media.size(); ++i) {
     const Medium& medium = w.scene.media[i];
-    Parameters p(w, fmt::format("medium \"{}\"", w.media[i]), medium.origin);
+    Parameters p(w, fmt::format("medium \"{}\"", w.media[i]), medium.origin, RecordKind::medium);
     const char* type = medium_type(p, medium);
     w.transform(medium.medium_to_world);
     w.line(fmt::format("MakeNamedMedium {} \"string type\" \"{}\"{}", in_quotes(w.media[i]), type, p.list()));

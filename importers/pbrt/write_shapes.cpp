@@ -48,7 +48,7 @@ class ShapeWriter {
 
   void write(const Shape& shape) {
     const ShapeSurface surface = surface_of(w_.scene, shape.material);
-    Parameters p(w_, "shape", shape.origin);
+    Parameters p(w_, "shape", shape.origin, RecordKind::shape);
     w_.begin("AttributeBegin");
     w_.line("NamedMaterial " + in_quotes(w_.materials.at(surface.material.value)));
     if (shape.interior || shape.exterior)
@@ -67,7 +67,7 @@ class ShapeWriter {
   }
 
   void area_light(const AreaLight& light) {
-    Parameters p(w_, "area light", light.origin);
+    Parameters p(w_, "area light", light.origin, RecordKind::area_light);
     if (light.directional) p.approximated("shines in all directions, not along its normal alone");
     if (const auto* radiance = std::get_if<Spectrum>(&light.radiance)) {
       p.emission("L", *radiance);

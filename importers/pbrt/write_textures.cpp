@@ -124,7 +124,7 @@ class TextureWriter {
 void write_textures(Writer& w) {
   for (std::size_t i = 0; i < w.scene.textures.size(); ++i) {
     const Texture& texture = w.scene.textures[i];
-    Parameters p(w, fmt::format("texture \"{}\"", w.textures[i]), texture.origin);
+    Parameters p(w, fmt::format("texture \"{}\"", w.textures[i]), texture.origin, RecordKind::texture);
     TextureWriter writer(p, texture.is_float);
     const char* kind = std::visit(writer, texture.model);
     if (!kind) {

@@ -35,20 +35,20 @@ struct Writer {
   std::filesystem::path new_image();
 
   // ---- Diagnostics
-  void approximated(std::string message, const Origin& origin) {
-    note(Fidelity::approximated, std::move(message), origin);
+  void approximated(std::string message, const Origin& origin, RecordKind kind = RecordKind::any) {
+    note(Fidelity::approximated, std::move(message), origin, kind);
   }
-  void dropped(std::string message, const Origin& origin) {
-    note(Fidelity::dropped, std::move(message), origin);
+  void dropped(std::string message, const Origin& origin, RecordKind kind = RecordKind::any) {
+    note(Fidelity::dropped, std::move(message), origin, kind);
   }
 
  private:
   std::filesystem::path images_;  // OUT-images
   int image_count_ = 0;
 
-  void note(Fidelity fidelity, std::string message, const Origin& origin) {
+  void note(Fidelity fidelity, std::string message, const Origin& origin, RecordKind kind) {
     const SourceLocation place = location(scene, origin);
-    diagnostics.push_back({fidelity, std::move(message), place, place});
+    diagnostics.push_back({fidelity, std::move(message), place, place, kind});
   }
 };
 
@@ -57,8 +57,8 @@ std::string in_quotes(std::string_view text);
 // A parameter list that is being written; `owner` is what its diagnostics are about.
 class Parameters {
  public:
-  Parameters(Writer& writer, std::string owner, const Origin& origin)
-      : writer_(writer), owner_(std::move(owner)), origin_(origin) {}
+  Parameters(Writer& writer, std::string owner, const Origin& origin, RecordKind kind)
+      : writer_(writer), owner_(std::move(owner)), origin_(origin), kind_(kind) {}
 
   Parameters& text(std::string_view name, std::string_view value);
   Parameters& texts(std::string_view name, std::initializer_list<std::string_view> values);
@@ -79,9 +79,9 @@ class Parameters {
   Parameters& emission(std::string_view name, const Spectrum& value);
 
   void approximated(std::string_view how) {
-    writer_.approximated(fmt::format("{}: {}", owner_, how), origin_);
+    writer_.approximated(fmt::format("{}: {}", owner_, how), origin_, kind_);
   }
-  void dropped(std::string_view why) { writer_.dropped(fmt::format("{}: {}", owner_, why), origin_); }
+  void dropped(std::string_view why) { writer_.dropped(fmt::format("{}: {}", owner_, why), origin_, kind_); }
   const std::string& list() const { return list_; }
   Writer& writer() { return writer_; }
 
@@ -91,6 +91,7 @@ class Parameters {
   Writer& writer_;
   std::string owner_;
   Origin origin_;
+  RecordKind kind_;
   std::string list_;
 };
 

@@ -197,10 +197,12 @@ SpectrumParameter TextureBaker::bake_texture(Id<Texture> texture, TextureUse use
 }
 
 SpectrumParameter TextureBaker::mean_of(Id<Texture> texture, TextureUse use, const char* what) {
+  const Texture& original = scene_.textures[texture.value];
+  const SourceLocation where = location(scene_, original.origin);
+  const std::string name = original.name.empty() ? "" : fmt::format(" \"{}\"", original.name);
   diagnostics_.push_back({Fidelity::approximated,
-                          fmt::format("a texture of {} is rendered as its mean", what),
-                          location(scene_, scene_.textures[texture.value].origin),
-                          {}});
+                          fmt::format("texture{} of {} is rendered as its mean", name, what), where, where,
+                          RecordKind::texture});
   return as_used(means_.of(SpectrumParameter{texture}).value, use);
 }
 

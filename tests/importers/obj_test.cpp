@@ -415,15 +415,19 @@ TEST_F(Obj, Emission) {
   EXPECT_EQ(image(imported_.scene.area_lights.at(0).radiance).scale, 2);
 }
 
-TEST_F(Obj, WhatMaterialsLoseIsSaidOncePerKeyword) {
+TEST_F(Obj, WhatMaterialsLoseIsSaidWithEachPlace) {
   material(
       "Kd 1 1 1\nKa 1 1 1\nKa 1 1 1\nrefl a.png\nKt 1 1 1\nKd spectral a.rfl\nnewmtl other\nKa .5 .5 .5\n");
-  EXPECT_THAT(imported_.diagnostics, SizeIs(4));
+  EXPECT_THAT(imported_.diagnostics, SizeIs(6));
   for (const std::string text : {"Ka", "refl", "Kt", "Kd spectral"})
     EXPECT_THAT(imported_.diagnostics, says(text));
   EXPECT_THAT(imported_.diagnostics[0].location.file, HasSubstr("m.mtl"));
   EXPECT_EQ(imported_.diagnostics[0].location.line, 3);
   EXPECT_EQ(imported_.diagnostics[0].item.line, 1);
+  EXPECT_EQ(imported_.diagnostics[1].location.line, 4);
+  EXPECT_EQ(imported_.diagnostics[5].location.line, 9);
+  EXPECT_EQ(imported_.diagnostics[5].item.line, 8);
+  EXPECT_EQ(imported_.diagnostics[5].message, imported_.diagnostics[0].message) << "so they are counted";
 }
 
 TEST_F(Obj, BadMaterials) {
