@@ -3,6 +3,7 @@
 #include <cmath>
 #include <optional>
 
+#include "importers/export_colors.h"
 #include "importers/pbrt/writer.h"
 
 namespace vitrail::pbrt {
@@ -28,7 +29,7 @@ class MaterialWriter {
 
   const char* operator()(const DiffuseMaterial& m) {
     if (!is_zero(m.sigma_deg)) p_.approximated("sigma (Oren-Nayar roughness) becomes 0: pbrt-v4 has none");
-    p_.spectrum("reflectance", m.reflectance);
+    p_.albedo("reflectance", m.reflectance);
     return "diffuse";
   }
   const char* operator()(const DielectricMaterial& m) {
@@ -47,7 +48,7 @@ class MaterialWriter {
     const bool perfect = std::holds_alternative<PerfectReflector>(m.metal);
     if (perfect) {
       p_.approximated("a mirror becomes a metal of its reflectance at normal incidence");
-      p_.spectrum("reflectance", m.reflectance_factor);
+      p_.albedo("reflectance", m.reflectance_factor);
     } else {
       metal(m.metal);
       if (!is_one(m.reflectance_factor)) p_.approximated("the factor of its reflection becomes 1");
@@ -58,13 +59,13 @@ class MaterialWriter {
   const char* operator()(const PlasticMaterial& m) {
     p_.approximated("Mitsuba's plastic becomes pbrt's layered coateddiffuse");
     if (!is_one(m.specular_reflectance)) p_.approximated("the factor of its reflection becomes 1");
-    p_.spectrum("reflectance", m.diffuse_reflectance);
+    p_.albedo("reflectance", m.diffuse_reflectance);
     p_.number("eta", m.eta / std::max(m.exterior_eta, 1e-3f));
     roughness(m.roughness);
     return "coateddiffuse";
   }
   const char* operator()(const CoatedDiffuseMaterial& m) {
-    p_.spectrum("reflectance", m.reflectance);
+    p_.albedo("reflectance", m.reflectance);
     index("eta", m.eta);
     roughness(m.roughness);
     coating(m.volume);
@@ -79,27 +80,29 @@ class MaterialWriter {
     return "coatedconductor";
   }
   const char* operator()(const DiffuseTransmissionMaterial& m) {
-    p_.spectrum("reflectance", m.reflectance)
-        .spectrum("transmittance", m.transmittance)
-        .number("scale", m.scale);
+    p_.albedo("reflectance", m.reflectance).albedo("transmittance", m.transmittance).number("scale", m.scale);
     return "diffusetransmission";
   }
   const char* operator()(const PrincipledMaterial& m) {
     const Roughness surface{squared(m.roughness), squared(m.roughness)};
     if (mean(m.spec_trans) > 0.5f) {
-      p_.approximated("the principled model becomes rough glass");
       p_.number("eta", m.eta);
+      if (m.thin) {
+        p_.approximated("the principled model becomes thin glass, which is smooth in pbrt");
+        return "thindielectric";
+      }
+      p_.approximated("the principled model becomes rough glass");
       roughness(surface);
-      return m.thin ? "thindielectric" : "dielectric";
+      return "dielectric";
     }
     if (mean(m.metallic) > 0.5f) {
       p_.approximated("the principled model becomes a metal of its base colour");
-      p_.spectrum("reflectance", m.base_color);
+      p_.albedo("reflectance", m.base_color);
       roughness(surface);
       return "conductor";
     }
     p_.approximated("the principled model becomes a coat over its base colour");
-    p_.spectrum("reflectance", m.base_color).number("eta", m.eta);
+    p_.albedo("reflectance", m.base_color).number("eta", m.eta);
     roughness(surface);
     return "coateddiffuse";
   }
@@ -107,18 +110,18 @@ class MaterialWriter {
     if (const auto* named = std::get_if<SubsurfaceMaterial::Named>(&m.interior))
       p_.text("name", named->name);
     else if (const auto* effective = std::get_if<SubsurfaceMaterial::Effective>(&m.interior))
-      p_.spectrum("reflectance", effective->reflectance).spectrum("mfp", effective->mean_free_path);
+      p_.albedo("reflectance", effective->reflectance).spectrum("mfp", effective->mean_free_path);
     else
       p_.spectrum("sigma_a", std::get<SubsurfaceMaterial::Coefficients>(m.interior).sigma_a)
           .spectrum("sigma_s", std::get<SubsurfaceMaterial::Coefficients>(m.interior).sigma_s);
     p_.number("scale", m.scale).number("g", m.g);
-    index("eta", m.eta);
+    single_index(m.eta);
     roughness(m.roughness);
     return "subsurface";
   }
   const char* operator()(const HairMaterial& m) {
     if (m.sigma_a) p_.spectrum("sigma_a", *m.sigma_a);
-    if (m.color) p_.spectrum("reflectance", *m.color);
+    if (m.color) p_.albedo("reflectance", *m.color);
     if (m.eumelanin) p_.number("eumelanin", *m.eumelanin);
     if (m.pheomelanin) p_.number("pheomelanin", *m.pheomelanin);
     p_.number("eta", m.eta / std::max(m.exterior_eta, 1e-3f));
@@ -156,6 +159,11 @@ class MaterialWriter {
     else
       p_.spectrum(name, eta);
   }
+  void single_index(const Spectrum& eta) {
+    if (!is_constant(eta))
+      p_.approximated("dispersion: pbrt takes one index of refraction here, at 587.6 nm");
+    p_.number("eta", static_cast<float>(index_of_refraction(eta)));
+  }
   void relative_index(const Spectrum& eta, const Spectrum& exterior) {
     if (exterior == Spectrum{ConstantSpectrum{1}}) return index("eta", eta);
     p_.approximated("the index of refraction around it becomes 1, its own the ratio of the two");
@@ -178,10 +186,10 @@ class MaterialWriter {
     if (const auto* index = std::get_if<ComplexIndex>(&metal)) {
       p_.spectrum(prefix + "eta", index->eta).spectrum(prefix + "k", index->k);
     } else if (const auto* normal = std::get_if<NormalReflectance>(&metal)) {
-      p_.spectrum("reflectance", normal->reflectance);
+      p_.albedo("reflectance", normal->reflectance);
     } else {
       p_.approximated("a mirror becomes a metal that reflects all at normal incidence");
-      p_.spectrum("reflectance", Spectrum{ConstantSpectrum{1}});
+      p_.albedo("reflectance", Spectrum{ConstantSpectrum{1}});
     }
   }
   void roughness(const Roughness& r, const std::string& prefix = "") {
@@ -202,7 +210,7 @@ class MaterialWriter {
     remap_ = r.square_root;
   }
   void coating(const CoatingVolume& c) {
-    p_.number("thickness", c.thickness).number("g", c.g).spectrum("albedo", c.albedo);
+    p_.number("thickness", c.thickness).number("g", c.g).albedo("albedo", c.albedo);
     p_.integer("maxdepth", c.max_depth).integer("nsamples", c.samples);
   }
 
@@ -211,6 +219,11 @@ class MaterialWriter {
 };
 
 void bumps(Parameters& p, const Material& m) {
+  if (std::holds_alternative<InterfaceMaterial>(m.model)) return;  // nothing shows them
+  if (std::holds_alternative<HairMaterial>(m.model)) {
+    if (m.displacement || m.normal_map) p.dropped("bumps of hair: pbrt has none");
+    return;
+  }
   if (m.displacement) p.number("displacement", *m.displacement);
   if (m.bump_shadowing && (m.displacement || m.normal_map))
     p.approximated("its bumps do not shadow: pbrt has no such term");

@@ -85,22 +85,40 @@ class ShapeWriter {
   std::string mesh(const Shape& shape, Parameters& p) {
     const TriangleMesh& mesh = w_.scene.meshes.at(shape.mesh.value);
     std::optional<TriangleMesh>& fixed = fixed_[shape.mesh.value];
-    if (!fixed && fronts_follow_normals(mesh)) {
-      if (!mesh.attributes.empty()) p.dropped("the attributes of a mesh: pbrt has none");
-      if (stands_in_file(mesh)) return inline_mesh(mesh);
-      return "Shape \"plymesh\" \"string filename\" " + in_quotes(w_.meshes.name(shape.mesh));
+    const bool follow = fronts_follow_normals(mesh);
+    if (!fixed && (!follow || !mesh.attributes.empty())) {
+      fixed = follow ? mesh : with_normals_in_front(mesh);
+      fixed->attributes.clear();
     }
-    if (!fixed) fixed = with_normals_in_front(mesh);
-    if (fixed->normals.empty())
+    if (!mesh.attributes.empty()) p.dropped("the attributes of a mesh: pbrt has none");
+    if (fixed && fixed->normals.empty() && !mesh.normals.empty())
       p.approximated("its shading normals lie on both sides of its faces and are left out");
-    return stands_in_file(*fixed)
-               ? inline_mesh(*fixed)
-               : "Shape \"plymesh\" \"string filename\" " + in_quotes(w_.meshes.name(shape.mesh, *fixed));
+    const TriangleMesh& written = fixed ? *fixed : mesh;
+    if (stands_in_file(written)) return inline_mesh(written);
+    return "Shape \"plymesh\" \"string filename\" " +
+           in_quotes(fixed ? w_.meshes.name(shape.mesh, *fixed) : w_.meshes.name(shape.mesh));
   }
 
   Writer& w_;
   std::vector<std::optional<TriangleMesh>> fixed_;
 };
+
+// pbrt leaves out area lights in objects: what shines is written with every instance.
+void write_instance(Writer& w, ShapeWriter& shapes, const Instance& instance) {
+  const Prototype& prototype = w.scene.prototypes.at(instance.prototype.value);
+  w.begin("AttributeBegin");
+  w.transform(instance.prototype_to_world);
+  w.line("ObjectInstance " + in_quotes(w.objects.at(instance.prototype.value)));
+  w.end("AttributeEnd");
+  for (const Shape& of : prototype.shapes) {
+    if (!of.area_light) continue;
+    Shape shape = of;
+    shape.object_to_world = instance.prototype_to_world * of.object_to_world;
+    if (swaps_handedness(instance.prototype_to_world)) shape.flip_orientation = !shape.flip_orientation;
+    shapes.write(shape);
+    w.approximated("pbrt instances no area lights: this one is a shape of its own", instance.origin);
+  }
+}
 
 }  // namespace
 
@@ -108,16 +126,12 @@ void write_shapes(Writer& w) {
   ShapeWriter shapes(w);
   for (std::size_t i = 0; i < w.scene.prototypes.size(); ++i) {
     w.begin("ObjectBegin " + in_quotes(w.objects[i]));
-    for (const Shape& shape : w.scene.prototypes[i].shapes) shapes.write(shape);
+    for (const Shape& shape : w.scene.prototypes[i].shapes)
+      if (!shape.area_light) shapes.write(shape);
     w.end("ObjectEnd");
   }
   for (const Shape& shape : w.scene.shapes) shapes.write(shape);
-  for (const Instance& instance : w.scene.instances) {
-    w.begin("AttributeBegin");
-    w.transform(instance.prototype_to_world);
-    w.line("ObjectInstance " + in_quotes(w.objects.at(instance.prototype.value)));
-    w.end("AttributeEnd");
-  }
+  for (const Instance& instance : w.scene.instances) write_instance(w, shapes, instance);
 }
 
 }  // namespace vitrail::pbrt

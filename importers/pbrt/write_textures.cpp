@@ -62,7 +62,7 @@ class TextureWriter {
     return "directionmix";
   }
   const char* operator()(const BilinearTexture& t) {
-    input("v00", t.v00), input("v01", t.v01), input("v10", t.v10), input("v11", t.v11);
+    corner("v00", t.v00), corner("v01", t.v01), corner("v10", t.v10), corner("v11", t.v11);
     mapping(t.mapping);
     return "bilerp";
   }
@@ -72,11 +72,15 @@ class TextureWriter {
     return "dots";
   }
   const char* operator()(const NoiseTexture& t) {
+    const bool is_marble = t.kind == NoiseTexture::Kind::marble;
+    if (is_marble && is_float_) {
+      p_.dropped("pbrt has no marble of numbers; 0.5 stands for it");
+      return nullptr;
+    }
+    if (!is_marble && !is_float_) return noise_of_colors(t);
     texture_to_world_ = t.texture_to_world;
-    p_.integer("octaves", t.octaves).number("roughness", t.roughness);
-    if (t.kind == NoiseTexture::Kind::marble) p_.number("scale", t.scale).number("variation", t.variation);
-    constexpr std::array kinds{"fbm", "wrinkled", "windy", "marble"};
-    return kinds.at(static_cast<std::size_t>(t.kind));
+    noise(p_, t);
+    return name_of(t.kind);
   }
   const char* operator()(const MeshAttributeTexture& t) {
     p_.dropped(fmt::format("pbrt has no attributes of meshes; 0.5 stands for \"{}\"", t.name));
@@ -88,6 +92,35 @@ class TextureWriter {
   }
 
  private:
+  static const char* name_of(NoiseTexture::Kind kind) {
+    constexpr std::array kinds{"fbm", "wrinkled", "windy", "marble"};
+    return kinds.at(static_cast<std::size_t>(kind));
+  }
+  static void noise(Parameters& p, const NoiseTexture& t) {
+    if (t.kind == NoiseTexture::Kind::windy) return;
+    p.integer("octaves", t.octaves).number("roughness", t.roughness);
+    if (t.kind == NoiseTexture::Kind::marble) p.number("scale", t.scale).number("variation", t.variation);
+  }
+  // pbrt has such noise as numbers alone: a mix of 0 and 1 by it is the colour.
+  const char* noise_of_colors(const NoiseTexture& t) {
+    Writer& w = p_.writer();
+    const std::string name = w.new_texture_name();
+    Parameters p(w, "texture", {});
+    noise(p, t);
+    w.begin("AttributeBegin"), w.transform(t.texture_to_world);
+    w.line(fmt::format("Texture {} \"float\" \"{}\"{}", in_quotes(name), name_of(t.kind), p.list()));
+    w.end("AttributeEnd");
+    p_.numbers("spectrum tex1", std::array{360, 0, 830, 0})
+        .numbers("spectrum tex2", std::array{360, 1, 830, 1});
+    p_.texture("amount", name);
+    return "mix";
+  }
+  // A corner of a bilinear texture, which is one value.
+  void corner(std::string_view name, const SpectrumParameter& value) {
+    if (std::holds_alternative<Spectrum>(value)) return input(name, value);
+    p_.approximated(fmt::format("0.5 stands for the texture in its corner {}: pbrt takes none there", name));
+    input(name, ConstantSpectrum{0.5f});
+  }
   void input(std::string_view name, const SpectrumParameter& value) { p_.input(name, value, is_float_); }
 
   void encoding(Encoding encoding, float gamma) {

@@ -31,6 +31,8 @@ struct Writer {
   void transform(const Transform& t);  // nothing for the identity
   int indent = 0;
 
+  // Of a texture that is no record of the scene.
+  std::string new_texture_name();
   // The path of a new image in OUT-images/, which is created.
   std::filesystem::path new_image();
 
@@ -44,7 +46,7 @@ struct Writer {
 
  private:
   std::filesystem::path images_;  // OUT-images
-  int image_count_ = 0;
+  int image_count_ = 0, made_textures_ = 0;
 
   void note(Fidelity fidelity, std::string message, const Origin& origin) {
     const SourceLocation place = location(scene, origin);
@@ -72,7 +74,10 @@ class Parameters {
     return *this;
   }
   Parameters& number(std::string_view name, const FloatParameter& value);
+  Parameters& texture(std::string_view name, std::string_view texture);
   Parameters& spectrum(std::string_view name, const SpectrumParameter& value);
+  // The same where pbrt refuses an rgb above 1.
+  Parameters& albedo(std::string_view name, const SpectrumParameter& value);
   // An input of a texture of the kind that `is_float` says.
   Parameters& input(std::string_view name, const SpectrumParameter& value, bool is_float);
   // Of a light: pbrt sets spectra and blackbodies to luminance 1, times "scale".

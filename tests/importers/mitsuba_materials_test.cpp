@@ -326,5 +326,14 @@ TEST_F(MitsubaTexture, FloatTexturesMasksBumpsAndNormals) {
   ask(scene, Json::array({query}), "scalar_rgb");
 }
 
+// Mitsuba's plastic asks its texture for its mean, which attributes of meshes do not have.
+TEST_F(MitsubaOracle, PlasticWithoutAttributes) {
+  Scene scene = square_scene({PlasticMaterial{Id<Texture>{0}}});
+  scene.textures.push_back({MeshAttributeTexture{"vertex_color"}, false, "", {}});
+  scene.meshes[0].attributes.push_back({"vertex_color", false, 3, std::vector<float>(12, 0.5f)});
+  ask(scene, Json::array());
+  EXPECT_THAT(diagnostics_, Contains(Field(&Diagnostic::message, HasSubstr("an attribute of a mesh"))));
+}
+
 }  // namespace
 }  // namespace vitrail

@@ -8,6 +8,8 @@
 #include "importers/images/environment_images.h"
 
 #include "pbrt_text.h"
+#include "scene/rgb_to_spectrum.h"
+#include "tests/conformance/gate/pbrt_grammar.h"
 #include "tests/support/equal_scenes.h"
 
 namespace vitrail {
@@ -30,9 +32,10 @@ RoundTrip round_trip(const std::string& text) {
   return result;
 }
 
-// Nothing is lost in writing, and what is read again is the same.
+// Nothing is lost in writing, pbrt takes what is written, and what is read again is the same.
 void expect_exact(const std::string& text) {
   const RoundTrip trip = round_trip(text);
+  EXPECT_THAT(test::pbrt_complaints(trip.text, ""), testing::IsEmpty()) << trip.text;
   for (const Diagnostic& d : trip.written) ADD_FAILURE() << d.message;
   EXPECT_EQ(test::difference(trip.first.scene, trip.second.scene), "") << text << "\n became\n" << trip.text;
 }
@@ -116,7 +119,8 @@ TEST(WritePbrt, Textures) {
         "0]",
         "Texture \"t\" \"spectrum\" \"dots\" \"string mapping\" \"planar\" \"vector3 v1\" [1 2 3] \"float "
         "udelta\" .7",
-        "Texture \"f\" \"float\" \"fbm\" Texture \"t\" \"spectrum\" \"mix\" \"rgb tex1\" [3 2 1] \"texture "
+        "Texture \"f\" \"float\" \"fbm\" Texture \"t\" \"spectrum\" \"mix\" \"rgb tex1\" [.3 .2 .1] "
+        "\"texture "
         "amount\" \"f\"",
         "Texture \"f\" \"float\" \"wrinkled\" Texture \"f\" \"float\" \"scale\" \"texture tex\" \"f\" "
         "\"float scale\" 2 "
@@ -227,6 +231,151 @@ TEST(WritePbrt, WhatV4CannotSayIsReported) {
   EXPECT_TRUE(mentions(trip.written, "mirror"));
   EXPECT_TRUE(mentions(trip.written, "factors of reflection"));
   for (const Diagnostic& d : trip.written) EXPECT_GT(d.location.line, 0) << d.message;
+}
+
+// What is written of it passes pbrt's grammar, and the report mentions it.
+RoundTrip expect_reported(const std::string& world, const char* report) {
+  RoundTrip trip = round_trip("Film \"rgb\"\nWorldBegin\n" + world);
+  EXPECT_THAT(test::pbrt_complaints(trip.text, ""), testing::IsEmpty()) << trip.text;
+  EXPECT_TRUE(mentions(trip.written, report)) << trip.text;
+  return trip;
+}
+
+TEST(WritePbrt, MaterialsHaveOnlyWhatPbrtTakesOfThem) {
+  expect_reported(
+      "Texture \"h\" \"float\" \"windy\" Material \"hair\" \"texture displacement\" \"h\" " + triangle,
+      "bumps of hair");
+  const RoundTrip wax =
+      expect_reported("Material \"subsurface\" \"spectrum eta\" \"glass-BK7\" " + triangle, "dispersion");
+  EXPECT_NEAR(evaluate(std::get<SubsurfaceMaterial>(wax.second.scene.materials.at(0).model).eta, 500), 1.5168,
+              1e-3);
+  Scene scene = round_trip("Film \"rgb\"\nWorldBegin\n" + triangle).first.scene;
+  PrincipledMaterial sheet;
+  sheet.thin = true, sheet.spec_trans = 1.0f;
+  scene.materials.at(0).model = sheet;
+  const TemporaryFolder folder;
+  EXPECT_TRUE(mentions(write_pbrt(scene, folder / "out.pbrt"), "thin glass"));
+  EXPECT_THAT(test::pbrt_complaints(folder / "out.pbrt"), testing::IsEmpty());
+}
+
+// pbrt has noise of numbers and marble of colours: a colour by noise is a mix of black and white.
+TEST(WritePbrt, NoiseIsOfTheKindThatPbrtHas) {
+  expect_exact_material(
+      "Texture \"w\" \"float\" \"windy\" Material \"conductor\" \"texture roughness\" \"w\"");
+  for (const char* kind : {"fbm", "wrinkled", "windy"}) {
+    const RoundTrip trip =
+        round_trip("Film \"rgb\"\nWorldBegin\nTranslate 1 2 3 Texture \"t\" \"spectrum\" \"" +
+                   std::string(kind) + "\" Material \"diffuse\" \"texture reflectance\" \"t\" " + triangle);
+    EXPECT_THAT(trip.written, testing::IsEmpty());
+    EXPECT_THAT(test::pbrt_complaints(trip.text, ""), testing::IsEmpty()) << trip.text;
+    const std::vector<Texture>& textures = trip.second.scene.textures;
+    ASSERT_EQ(textures.size(), 2u);
+    EXPECT_EQ(textures[0].model, trip.first.scene.textures.at(0).model) << kind;
+    EXPECT_EQ(std::get<MixTexture>(textures[1].model).amount, FloatParameter{Id<Texture>{0}});
+  }
+  expect_reported(
+      "Texture \"m\" \"float\" \"marble\" Material \"conductor\" \"texture roughness\" \"m\" " + triangle,
+      "marble of numbers");
+}
+
+TEST(WritePbrt, TexturesHaveOnlyWhatPbrtTakesOfThem) {
+  const std::string use = " Material \"diffuse\" \"texture reflectance\" \"t\" " + triangle;
+  const RoundTrip bright =
+      expect_reported("Texture \"t\" \"spectrum\" \"mix\" \"rgb tex1\" [3 2 1]" + use, "colours above 1");
+  const auto& mix = std::get<MixTexture>(bright.second.scene.textures.at(0).model);
+  EXPECT_NEAR(
+      luminance(std::get<Spectrum>(mix.first)),
+      luminance(std::get<Spectrum>(std::get<MixTexture>(bright.first.scene.textures.at(0).model).first)),
+      1e-4);
+  expect_reported(
+      "Texture \"f\" \"spectrum\" \"dots\" Texture \"t\" \"spectrum\" \"bilerp\" \"texture v00\" \"f\"" + use,
+      "corner");
+}
+
+// pbrt divides by the brightness of a light's spectrum: black has to be an rgb.
+TEST(WritePbrt, BlackLightsAreColors) {
+  const RoundTrip trip =
+      round_trip("Film \"rgb\"\nWorldBegin\nLightSource \"point\" \"spectrum I\" [300 0 900 0] " + triangle);
+  EXPECT_NE(trip.text.find("\"rgb I\" [ 0 0 0 ]"), std::string::npos) << trip.text;
+}
+
+TEST(WritePbrt, KindsOfMedia) {
+  const std::string use = " MediumInterface \"m\" \"\" Material \"interface\" " + triangle;
+  for (const char* medium :
+       {"\"homogeneous\" \"rgb sigma_a\" [1 2 3] \"rgb sigma_s\" [3 2 1] \"float scale\" 2 \"float g\" .3",
+        "\"homogeneous\" \"string preset\" \"Wholemilk\"",
+        "\"homogeneous\" \"rgb Le\" [1 2 3] \"float Lescale\" 4",
+        "\"uniformgrid\" \"integer nx\" 2 \"float density\" [1 2] \"float temperature\" [900 1000] \"float "
+        "temperaturescale\" 2",
+        "\"uniformgrid\" \"integer nx\" 2 \"float density\" [1 2] \"rgb Le\" [1 2 3] \"float Lescale\" [.5 "
+        ".7]",
+        "\"rgbgrid\" \"integer nx\" 2 \"rgb sigma_a\" [1 2 3 4 5 6] \"rgb sigma_s\" [6 5 4 3 2 1] \"float "
+        "scale\" 3",
+        "\"rgbgrid\" \"integer nx\" 2 \"rgb sigma_s\" [6 5 4 3 2 1]",
+        "\"rgbgrid\" \"integer nx\" 2 \"rgb sigma_a\" [6 5 4 3 2 1]",
+        "\"cloud\" \"float wispiness\" 3 \"rgb sigma_s\" [1 2 3]",
+        "\"nanovdb\" \"string filename\" \"fire.nvdb\" \"float Lescale\" 3 \"float temperaturescale\" 100"})
+    expect_exact_world("MakeNamedMedium \"m\" \"string type\" " + std::string(medium) + use);
+}
+
+TEST(WritePbrt, MediaHaveOnlyWhatPbrtTakesOfThem) {
+  const std::string use = " MediumInterface \"m\" \"\" Material \"interface\" " + triangle;
+  Scene scene = round_trip(
+                    "Film \"rgb\"\nWorldBegin\nMakeNamedMedium \"m\" \"string type\" \"cloud\" \"rgb "
+                    "sigma_a\" [1 2 3] " +
+                    use)
+                    .first.scene;
+  const TemporaryFolder folder;
+  const auto written = [&](auto&& change) {
+    Scene changed = scene;
+    change(changed.media.at(0));
+    write_pbrt(changed, folder / "out.pbrt");
+    EXPECT_THAT(test::pbrt_complaints(folder / "out.pbrt"), testing::IsEmpty());
+    return read_pbrt(folder / "out.pbrt").scene.media.at(0);
+  };
+  const Medium thick = written([](Medium& m) { m.scale = 2; });
+  const auto& sigma_a = std::get<AbsorptionScattering>(thick.coefficients).sigma_a;
+  EXPECT_NEAR(
+      luminance(std::get<Spectrum>(sigma_a)),
+      2 * luminance(std::get<Spectrum>(std::get<AbsorptionScattering>(scene.media[0].coefficients).sigma_a)),
+      1e-4);
+  written([](Medium& m) { m.emission = ConstantSpectrum{1}; });
+  written([](Medium& m) { m.coefficients = NamedMedium{"Skin1"}; });
+  Grid cells;
+  cells.nx = 2, cells.ny = cells.nz = 1;
+  cells.values = {1, 2};
+  const Medium shining = written([&](Medium& m) {
+    m.density = cells;
+    m.emission = emission_from_rgb({1, 2, 3});
+    m.emission_factor = 3;
+  });
+  EXPECT_EQ(shining.emission_scale->values, (std::vector<float>{3, 3}));
+  // A coefficient that is one value beside one that is a grid.
+  const Medium mixed = written([&](Medium& m) {
+    m.density = {};
+    m.coefficients = AbsorptionScattering{ConstantSpectrum{0.5f}, cells};
+  });
+  const auto& both = std::get<AbsorptionScattering>(mixed.coefficients);
+  EXPECT_EQ(std::get<Grid>(both.sigma_a).values, std::vector<float>(6, 0.5f));
+  EXPECT_EQ(std::get<Grid>(both.sigma_s).values, (std::vector<float>{1, 1, 1, 2, 2, 2}));
+}
+
+// pbrt leaves out area lights in objects.
+TEST(WritePbrt, WhatShinesInAnObjectIsWrittenWithEveryInstance) {
+  Scene scene = round_trip("Film \"rgb\"\nWorldBegin\nObjectBegin \"o\" " + triangle + triangle +
+                           "ObjectEnd ObjectInstance \"o\" Scale -1 2 1 ObjectInstance \"o\"")
+                    .first.scene;
+  scene.area_lights.push_back({Spectrum{emission_from_rgb({1, 1, 1})}});
+  scene.prototypes.at(0).shapes.at(1).area_light = Id<AreaLight>{0};
+  const TemporaryFolder folder;
+  EXPECT_TRUE(mentions(write_pbrt(scene, folder / "out.pbrt"), "instances no area lights"));
+  EXPECT_THAT(test::pbrt_complaints(folder / "out.pbrt"), testing::IsEmpty());
+  const Scene again = read_pbrt(folder / "out.pbrt").scene;
+  EXPECT_EQ(again.prototypes.at(0).shapes.size(), 1u);
+  ASSERT_EQ(again.shapes.size(), 2u);
+  EXPECT_TRUE(again.shapes[0].area_light && again.shapes[1].area_light);
+  EXPECT_EQ(again.shapes[1].object_to_world, scale({-1, 2, 1}));
+  EXPECT_TRUE(again.shapes[1].flip_orientation);  // its front stays where it was in the object
 }
 
 }  // namespace
