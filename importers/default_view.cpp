@@ -2,6 +2,7 @@
 #include "importers/default_view.h"
 
 #include <cmath>
+#include <numbers>
 
 #include "scene/bounds.h"
 #include "scene/deferred_mesh.h"
@@ -51,8 +52,13 @@ void add_default_view(ImportedScene& imported, const std::filesystem::path& file
   imported.diagnostics.push_back(
       {Fidelity::approximated, "there is no camera: one that sees everything is added", place});
   if (!scene.lights.empty() || !scene.area_lights.empty()) return;
-  scene.lights.push_back({InfiniteLight{emission_from_rgb({1, 1, 1})}});
-  imported.diagnostics.push_back({Fidelity::approximated, "there is no light: a white sky is added", place});
+  // A white surface that faces the sun has radiance 1; the sky alone would show no shape.
+  constexpr double sky = 0.4, sun = (1 - sky) * std::numbers::pi;
+  scene.lights.push_back({InfiniteLight{emission_from_rgb({sky, sky, sky})}});
+  scene.lights.push_back(
+      {DistantLight{normalize(Vector3d{0.5, -1, -0.7}), emission_from_rgb({sun, sun, sun})}});
+  imported.diagnostics.push_back(
+      {Fidelity::approximated, "there is no light: a white sky and a sun are added", place});
 }
 
 }  // namespace vitrail
