@@ -86,14 +86,18 @@ using MutablePtr = std::shared_ptr<MutableObject>;
 
 class Loader {
  public:
-  Loader(std::vector<std::string>& files, Report& report) : files_(files), report_(report) {}
+  Loader(const std::map<std::string, std::string>& definitions, std::vector<std::string>& files,
+         Report& report)
+      : files_(files), report_(report), defaults_(definitions) {}
 
   ObjectPtr run(const std::filesystem::path& file) {
     scene_ = std::make_shared<MutableObject>();
     scene_->tag = "scene";
     search_.push_back(std::filesystem::absolute(file).parent_path());
     try {
+      const std::map<std::string, std::string> definitions = defaults_;
       read_file(file, scene_, {}, 0);
+      for (const auto& [name, value] : definitions) require_parameter(name, file);
       resolve_references();
       std::set<const Object*> done, path;
       visit(*scene_, done, path);
@@ -112,6 +116,14 @@ class Loader {
     Lines lines;
     bool is_old = false;  // before version 2: names are in camel case
   };
+
+  void require_parameter(const std::string& name, const std::filesystem::path& file) const {
+    if (parameters_.contains(name)) return;
+    const std::string known = fmt::format("{}", fmt::join(parameters_, ", "));
+    throw Error(fmt::format("the scene has no parameter \"{}\"; {}", name,
+                            known.empty() ? "it has none" : "it has " + known),
+                {file.string()});
+  }
 
   Origin origin(const Source& source, pugi::xml_node node) const {
     return source.lines.origin(source.number, node.offset_debug() - 1);
@@ -216,6 +228,7 @@ class Loader {
       std::size_t length = end - i;
       while (length > 0 && !defaults_.contains(text.substr(i, length))) --length;
       if (length == 0) fail(fmt::format("\"${}\" has no <default>", text.substr(i, end - i)), place);
+      parameters_.insert(text.substr(i, length));
       result += defaults_[text.substr(i, length)];
       i += length;
       if (result.size() > most_expanded) fail("an attribute grows without bound by its defaults", place);
@@ -291,7 +304,9 @@ class Loader {
     if (tag == "include")
       return read_file(resolve(required(node, "filename", place)), parent, place, depth + 1);
     if (tag == "default") {
-      defaults_.try_emplace(required(node, "name", place), value());
+      const std::string name = required(node, "name", place);
+      parameters_.insert(name);
+      defaults_.try_emplace(name, value());
     } else if (tag == "path") {
       search_.push_back(resolve(value()));
     } else if (tag == "alias") {
@@ -500,6 +515,7 @@ class Loader {
   std::vector<std::filesystem::path> search_;
   std::set<std::string> open_;
   std::map<std::string, std::string> defaults_, aliases_;
+  std::set<std::string> parameters_;  // that the scene has
   std::map<std::string, MutablePtr> ids_;
   std::vector<MutablePtr> objects_;
   std::size_t expanded_ = 0;
@@ -509,8 +525,9 @@ class Loader {
 
 }  // namespace
 
-ObjectPtr load(const std::filesystem::path& file, std::vector<std::string>& files, Report& report) {
-  return Loader(files, report).run(file);
+ObjectPtr load(const std::filesystem::path& file, const std::map<std::string, std::string>& definitions,
+               std::vector<std::string>& files, Report& report) {
+  return Loader(definitions, files, report).run(file);
 }
 
 }  // namespace vitrail::mitsuba

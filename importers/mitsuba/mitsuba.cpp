@@ -46,10 +46,11 @@ static void build(Builder& b, const Object& root) {
 
 }  // namespace mitsuba
 
-ImportedScene read_mitsuba(const std::filesystem::path& file, MeshMemory memory) {
+ImportedScene read_mitsuba(const std::filesystem::path& file, MeshMemory memory,
+                           const std::map<std::string, std::string>& definitions) {
   ImportedScene imported;
   mitsuba::Report report(imported.scene.files);
-  const mitsuba::ObjectPtr root = mitsuba::load(file, imported.scene.files, report);
+  const mitsuba::ObjectPtr root = mitsuba::load(file, definitions, imported.scene.files, report);
   mitsuba::Builder builder{imported.scene, report};
   builder.mesh_memory = std::move(memory);
   build(builder, *root);
