@@ -10,6 +10,7 @@
 #include "scene/atomic_file.h"
 #include "scene/color.h"
 #include "scene/diagnostics.h"
+#include "scene/input_files.h"
 
 namespace vitrail {
 
@@ -32,6 +33,7 @@ const ImageCodec& codec() {
 }
 
 ImageLayout read(const std::filesystem::path& file, Image* image) {
+  note_input(file);
   ImageLayout layout;
   if (const std::string problem = codec().read(file.string(), layout, image); !problem.empty())
     throw Error(fmt::format("cannot read the image: {}", problem), {file.string()});

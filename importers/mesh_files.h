@@ -5,12 +5,13 @@
 #include <string>
 #include <vector>
 
+#include "importers/side_files.h"
 #include "scene/scene.h"
 
 namespace vitrail {
 
-// The meshes that a written scene refers to: OUT.pbrt has them in OUT-meshes/000000.ply, 000001.ply …, each
-// written once, when it is first asked for.
+// The meshes that a written scene refers to: OUT.pbrt has them in OUT-meshes/000000.ply, 000001.ply … or
+// under names beside these that are free, each written once, when it is first asked for.
 class MeshFiles {
  public:
   MeshFiles(const Scene& scene, const std::filesystem::path& scene_file);
@@ -22,7 +23,8 @@ class MeshFiles {
 
  private:
   const Scene& scene_;
-  std::filesystem::path directory_, folder_;  // of the scene; of the meshes, relative to it
+  std::filesystem::path directory_;  // of the scene
+  SideFiles files_;
   std::vector<std::string> names_;
 };
 

@@ -31,13 +31,7 @@ std::string Context::relative(const std::string& other) {
 }
 
 std::string Context::new_file(const char* kind, const char* extension, std::size_t& counter) const {
-  const std::filesystem::path folder = fmt::format("{}-{}", file.stem().string(), kind);
-  std::error_code error;
-  std::filesystem::create_directories(file.parent_path() / folder, error);
-  if (error)
-    throw MachineError(
-        fmt::format("cannot create {}: {}", (file.parent_path() / folder).string(), error.message()));
-  return (folder / fmt::format("{:06}.{}", counter++, extension)).generic_string();
+  return side_files.name(kind, counter++, extension);
 }
 
 Element add(Element parent, const char* tag, const std::string& type, const std::string& name,

@@ -35,12 +35,14 @@ struct Context {
       : scene(scene_to_write),
         file(out),
         meshes(scene_to_write, out),
+        side_files(out),
         transmitting(vitrail::transmitting(scene_to_write.materials)),
         sided(with_sides(scene_to_write.materials)) {}
 
   const Scene& scene;
   std::filesystem::path file;  // of the scene
   MeshFiles meshes;
+  SideFiles side_files;
   std::vector<bool> transmitting;  // Mitsuba allows no `twosided` around such materials
   std::vector<bool> sided;         // with_sides
   Diagnostics diagnostics;

@@ -5,8 +5,8 @@
 #include <map>
 
 #include "importers/flat_shapes.h"
-#include "importers/mesh_files.h"
 #include "importers/obj/write_mtl.h"
+#include "importers/side_files.h"
 #include "importers/text_sink.h"
 
 namespace vitrail {
@@ -97,7 +97,7 @@ Diagnostics write_obj(const Scene& scene, const std::filesystem::path& path) {
       const SourceLocation where = location(scene, flat.shape.origin);
       diagnostics.push_back({Fidelity::dropped, "attributes of a mesh: OBJ has none", where, where});
     }
-  const std::filesystem::path library = std::filesystem::path(path).replace_extension(".mtl");
+  const std::filesystem::path library = path.parent_path() / SideFiles(path).name("mtl");
   const MtlNames names = write_mtl(scene, shapes, library, diagnostics);
   AtomicFile file(path);
   TextSink out(&file);
