@@ -65,8 +65,8 @@ class PartitionMemory : public ::testing::Test {
   }
   std::string film_hash(const std::string& bundle) const {
     const auto stats = directory_ / "render.json";
-    const CommandResult done = run(fmt::format("{} '{}' -o '{}' --spp 2 --stats '{}'", vitrail("render"),
-                                               (directory_ / bundle).string(),
+    const CommandResult done = run(fmt::format("{} '{}' -o '{}' --force --spp 2 --stats '{}'",
+                                               vitrail("render"), (directory_ / bundle).string(),
                                                (directory_ / "picture.film").string(), stats.string()));
     EXPECT_EQ(done.status, 0) << done.output;
     return done.status == 0 ? read_json(stats)["film_hash"].get<std::string>() : "";

@@ -121,9 +121,9 @@ class Films {
   nlohmann::json render(const std::filesystem::path& bundle, int ranks, int threads,
                         const std::string& more = "") const {
     const auto stats = directory_ / "stats.json";
-    const CommandResult done =
-        run(fmt::format("{} '{}' -o '{}' --spp 4 --threads {} --stats '{}' {}", mpi_vitrail("render", ranks),
-                        bundle.string(), (directory_ / "a.film").string(), threads, stats.string(), more));
+    const CommandResult done = run(fmt::format(
+        "{} '{}' -o '{}' --force --spp 4 --threads {} --stats '{}' {}", mpi_vitrail("render", ranks),
+        bundle.string(), (directory_ / "a.film").string(), threads, stats.string(), more));
     EXPECT_EQ(done.status, 0) << done.output;
     return done.status == 0 ? read_json(stats) : nlohmann::json();
   }
