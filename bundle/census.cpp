@@ -84,11 +84,13 @@ void Census::add(std::uint32_t domain, const DomainView& view, std::span<const P
   parts_.insert(parts_.end(), parts.begin(), parts.end());
 }
 
+bool Census::in_order(const CutPart& a, const CutPart& b) {
+  return std::tie(a.triangle, a.domain) < std::tie(b.triangle, b.domain);
+}
+
 void Census::sum_up(std::vector<CutPart> parts, CensusResult& r) {
   r.pieces += parts.size();
-  std::sort(parts.begin(), parts.end(), [](const CutPart& a, const CutPart& b) {
-    return std::tie(a.triangle, a.domain) < std::tie(b.triangle, b.domain);
-  });
+  std::ranges::sort(parts, in_order);
   for (std::size_t i = 0; i < parts.size(); ++r.cut_triangles) {
     const CutPart& first = parts[i];
     double sum = 0;
@@ -106,6 +108,19 @@ void Census::settle(std::span<const std::uint32_t> open) {
   });
   sum_up({first_settled, parts_.end()}, settled_);
   parts_.erase(first_settled, parts_.end());
+  std::ranges::sort(parts_, in_order);
+  // Domains come in their order: a sum of the first parts is the beginning of the sum of all.
+  std::size_t last = 0;
+  for (std::size_t i = 1; i < parts_.size(); ++i) {
+    if (parts_[i].triangle == parts_[last].triangle) {
+      parts_[last].area += parts_[i].area;
+      parts_[last].domain = parts_[i].domain;
+      ++settled_.pieces;
+    } else {
+      parts_[++last] = parts_[i];
+    }
+  }
+  parts_.resize(std::min(parts_.size(), last + 1));
   open_ = parts_.size();
 }
 

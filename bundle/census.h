@@ -47,8 +47,9 @@ class Census {
   void add(std::uint32_t domain, const DomainView& view, std::span<const Piece> pieces,
            std::span<const Point3d> piece_vertices);
 
-  // Of the cut triangles that came since the last call no more parts will come, but of these, ascending: what
-  // is known of the others takes no more memory.
+  // Of the cut triangles that came since the last call no more parts will come, but of these, ascending, and
+  // those of higher domains alone: what is known of the others takes no more memory, and one line each of
+  // these.
   void settle(std::span<const std::uint32_t> open);
 
   CensusResult result() const;
@@ -56,8 +57,9 @@ class Census {
  private:
   struct CutPart {
     std::uint32_t triangle, domain;
-    double triangle_area, least_area, area;
+    double triangle_area, least_area, area;  // the last: of several parts, where they are settled
   };
+  static bool in_order(const CutPart& a, const CutPart& b);
 
   // Adds what the parts, of any order, say of their triangles.
   static void sum_up(std::vector<CutPart> parts, CensusResult& result);

@@ -134,6 +134,7 @@ void check_records(const Checker& c, const Manifest& m) {
   records::list(io, m.media), records::list(io, m.area_lights), records::list(io, m.lights);
   records::list(io, m.emissive_triangles), records::list(io, m.emissive_attributes);
   for (const Surface& s : m.surfaces) records::fields(io, s.opacity);
+  records::list(io, m.emissive_opacities);
   records::fields(io, m.camera);
 }
 
@@ -157,6 +158,8 @@ void check_lights(const Checker& c, const Manifest& m) {
   c.require(m.emissive_attributes.empty() ||
                 m.emissive_attributes.size() == m.emissive_triangles.size() * m.attributes,
             "the attributes of what shines are not whole");
+  c.require(m.emissive_opacities.empty() || m.emissive_opacities.size() == m.emissive_triangles.size(),
+            "the opacities of what shines are not whole");
   for (const Light& light : m.lights)
     if (const auto* distant = std::get_if<DistantLight>(&light.model))
       c.require(length(distant->direction) > 0, "a distant light has no direction");
@@ -211,6 +214,7 @@ const char* fault_of_kd_tree(std::span<const KdNode> tree, std::size_t leaves) {
 void check_manifest(const Manifest& m, const std::filesystem::path& file) {
   const Checker c{file};
   c.require(finite(m.offset) && std::isfinite(m.scale) && m.scale >= 0, "its coordinates are not finite");
+  c.require(!m.core || !m.core->empty(), "nothing is in its core");
   std::visit(
       [&](const auto& camera) {
         if constexpr (requires { camera.lens; })

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bundle/domain_file.h"
 
+#include <algorithm>
+
 #include "bundle/checksum.h"
 #include "bundle/domain_layout.h"
 #include "bundle/piece_code.h"
@@ -28,8 +30,10 @@ Features layout::features_of(std::span<const Section> sections) {
 }
 
 DomainView view_of(const DomainContent& content) {
-  return {content.nodes,      content.clusters,  content.normals,        content.uvs,
-          content.attributes, content.instances, content.instance_nodes, {}};
+  DomainView view{content.nodes,      content.clusters,  content.normals,        content.uvs,
+                  content.attributes, content.instances, content.instance_nodes, {}};
+  view.reach = reach_of(view);
+  return view;
 }
 
 std::array<Point3d, 3> triangle_in(const Cluster& c, std::size_t lane) {
@@ -56,6 +60,14 @@ Bounds3f content_bounds(const DomainView& view) {
                            {root.upper[0][i], root.upper[1][i], root.upper[2][i]}});
     }
   return box;
+}
+
+float reach_of(const DomainView& view) {
+  const Bounds3f box = content_bounds(view);
+  float reach = 0;
+  for (int axis = 0; axis < 3 && !box.empty(); ++axis)
+    reach = std::max({reach, -box.lower[axis], box.upper[axis]});
+  return reach;
 }
 
 std::uint64_t write_domain_file(const std::filesystem::path& file, const DomainContent& content,

@@ -36,6 +36,12 @@ struct alignas(64) Cluster {
 };
 static_assert(sizeof(Cluster) == 320);
 
+// The box of a triangle, or of its piece, is inflated by this: `greatest` is the greatest |coordinate| of the
+// uncut one. float error of a vertex is 6e-8 of it; the padding exceeds the error of a hit, and is a number
+// that floats have, even where a triangle is so small that its own are not.
+inline constexpr double relative_padding = 2e-6;
+inline double padding(double greatest) { return relative_padding * greatest + 1e-37; }
+
 // 8 child boxes, already inflated, and what is in them. Empty children hold an inverted box (+∞ … −∞).
 struct alignas(64) BvhNode {
   static constexpr std::uint32_t cluster_bit = 0x80000000u;
@@ -109,7 +115,7 @@ struct DomainView {
   std::span<const BvhNode> instance_nodes;
   // Of a domain, for its instances and theirs: by number, those it needs. Whoever loads it sets the two.
   std::span<const DomainView* const> objects;
-  float padding = 0;  // of the scene (manifest.h)
+  float reach = 0;  // no |coordinate| in the trees is greater
 };
 
 DomainView view_of(const DomainContent& content);
@@ -120,6 +126,7 @@ std::array<Point3d, 3> triangle_in(const Cluster& cluster, std::size_t lane);
 std::uint64_t triangles_in(std::span<const Cluster> clusters);
 // Of all that is in the trees, padded as their boxes are.
 Bounds3f content_bounds(const DomainView& view);
+float reach_of(const DomainView& view);
 
 // Returns the size in bytes; `hash`, if given, gets what MappedDomain::hash will be. Throws MachineError, and
 // then leaves no file. Not synced.

@@ -98,8 +98,7 @@ void check_counts(const Manifest& manifest, std::uint32_t domain, const MappedDo
     throw Error("it does not hold as many triangles as the manifest says", {file.string()});
   if (!holds(info.tight_bounds, content_bounds(view)))
     throw Error("it reaches beyond the tight bounds that the manifest has for it", {file.string()});
-  const Occupancy held =
-      occupancy_of(info.tight_bounds, view, pieces, piece_vertices, static_cast<float>(padding(manifest)));
+  const Occupancy held = occupancy_of(info.tight_bounds, view, pieces, piece_vertices, cell_margin(manifest));
   for (std::size_t z = 0; z < held.slice.size(); ++z)
     if (held.slice[z] & ~info.occupancy.slice[z])
       throw Error("it holds something where the manifest says it is empty", {file.string()});

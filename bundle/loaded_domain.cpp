@@ -14,7 +14,6 @@ LoadedDomain::LoadedDomain(const Manifest& manifest, std::uint32_t domain, Share
     object_views_[number] = &objects_.back()->view();
   }
   view_.objects = object_views_;
-  view_.padding = static_cast<float>(padding(manifest));
 }
 
 SharedDomain map_domain(const Manifest& manifest, const std::filesystem::path& bundle, std::uint32_t domain) {

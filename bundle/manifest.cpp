@@ -14,6 +14,7 @@
 #include "bundle/records.h"
 #include "bundle/write_file.h"
 #include "scene/diagnostics.h"
+#include "scene/input_files.h"
 
 namespace vitrail {
 
@@ -43,6 +44,7 @@ void write_records(const std::filesystem::path& file, std::array<char, 8> magic,
 }
 
 std::vector<std::byte> read_file(const std::filesystem::path& file) {
+  note_input(file);
   std::ifstream in(file, std::ios::binary | std::ios::ate);
   if (!in) throw MachineError(fmt::format("cannot open {}: {}", file.string(), std::strerror(errno)));
   const std::streamoff size = in.tellg();

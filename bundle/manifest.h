@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -78,11 +79,12 @@ using CornerValues = std::array<std::array<float, 3>, 3>;
 // What the scene needs of a renderer; everything false costs nothing.
 struct Requirements {
   bool shading_normals = false;
-  bool uv = false;           // some texture, tangent or light is looked up by (u,v)
-  bool filtering = false;    // some image is filtered by the width of the ray's cone
-  bool dispersion = false;   // some smooth surface refracts by an index that depends on λ
-  bool refraction = false;   // some smooth surface refracts
-  bool see_through = false;  // some surface lets light straight through: interfaces, masks, thin sheets
+  bool uv = false;          // some texture, tangent or light is looked up by (u,v)
+  bool filtering = false;   // some image is filtered by the width of the ray's cone
+  bool dispersion = false;  // some smooth surface refracts by an index that depends on λ
+  bool refraction = false;  // some smooth surface refracts
+  // Some surface lets light straight through: interfaces, masks, thin sheets, opacities.
+  bool see_through = false;
   bool media = false;
   bool operator==(const Requirements&) const = default;
 };
@@ -102,7 +104,8 @@ struct Manifest {
   std::uint64_t cut_triangles = 0;  // of which straddle an interface
   Vector3d offset;                  // world = bundle + offset
   Bounds3f bounds;                  // of all triangles
-  float scale = 0;                  // greatest |coordinate| of a vertex; paddings scale with it
+  std::optional<Bounds3f> core;     // of all but a few that lie far away, where there are such
+  float scale = 0;                  // greatest |coordinate| of a vertex
   std::vector<KdNode> kd_nodes;     // empty when there is one domain
   std::vector<DomainInfo> domains;
   std::vector<ObjectInfo> objects;
@@ -117,6 +120,7 @@ struct Manifest {
   std::vector<EmissiveTriangle> emissive_triangles;
   // Their mesh attributes, [triangle][slot]; empty where no area light reads one.
   std::vector<CornerValues> emissive_attributes;
+  std::vector<FloatParameter> emissive_opacities;  // their surfaces'; empty where all are 1
   std::vector<Light> lights;
   Camera camera;
   std::int32_t camera_medium = -1;  // index, or −1: vacuum
@@ -129,11 +133,14 @@ struct Manifest {
       0;  // of all triangles and records, whatever the cuts: equal scenes have equal hashes
 };
 
-// Boxes of clusters are inflated by this, and the walk visits both sides of an interface within
-// `interface_epsilon`. float error of a vertex is 6e-8·scale; ε > padding > error of a hit. Both are numbers
-// that floats have, even where a scene is so small that its own are not.
-inline double padding(const Manifest& m) { return 2e-6 * m.scale + 1e-37; }
-inline double interface_epsilon(const Manifest& m) { return 2 * padding(m); }
+// How large the scene is, whatever few triangles lie far away.
+inline Bounds3f core_of(const Manifest& m) { return m.core.value_or(m.bounds); }
+
+// The walk visits both sides of an interface within this: more than the padding of any triangle.
+inline double interface_epsilon(const Manifest& m) { return 2 * padding(double{m.scale}); }
+// The cells of domains are marked with this as a margin more. The way of a ray through them is as certain if
+// it starts within 128 scales.
+inline double cell_margin(const Manifest& m) { return 0x1p-40 * double{m.scale} + 1e-37; }
 
 // Most planes on the way from the root of a kd-tree to a domain.
 inline constexpr int max_kd_depth = 62;

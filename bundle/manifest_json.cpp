@@ -224,6 +224,7 @@ Json manifest_to_json(const Manifest& m) {
   j["cut_triangles"] = m.cut_triangles;
   j["offset"] = triple(m.offset);
   j["bounds"] = box(m.bounds);
+  if (m.core) j["core"] = box(*m.core);
   j["scale"] = m.scale;
   j["requirements"] = requirements_to_json(m.requirements);
   j["attributes"] = m.attributes;
@@ -252,6 +253,7 @@ Manifest manifest_from_json(const Json& j) {
   m.cut_triangles = j.at("cut_triangles").get<std::uint64_t>();
   m.offset = triple_from<Vector3d>(j.at("offset"));
   m.bounds = box_from(j.at("bounds"));
+  if (j.contains("core")) m.core = box_from(j["core"]);
   m.scale = j.at("scale").get<float>();
   m.requirements = requirements_from_json(j.at("requirements"));
   m.attributes = j.at("attributes").get<std::uint32_t>();

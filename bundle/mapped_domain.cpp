@@ -150,6 +150,7 @@ MappedDomain::MappedDomain(const std::filesystem::path& file) : file_(file) {
              elements<BvhNode>(data_, layout::instance_nodes),
              {}};
     check_structure(view_, file);
+    view_.reach = reach_of(view_);
   } catch (...) {
     ::munmap(const_cast<std::byte*>(data_), bytes_);
     throw;

@@ -84,6 +84,13 @@ Bounds3d bounds_of(const Cluster& c) {
   return {cast<double>(b.lower), cast<double>(b.upper)};
 }
 
+double greatest(const Bounds3d& b) {
+  double most = 0;
+  for (int axis = 0; axis < 3 && !b.empty(); ++axis)
+    most = std::max({most, std::abs(b.lower[axis]), std::abs(b.upper[axis])});
+  return most;
+}
+
 template <class Test>
 void mark(Occupancy& occupancy, const Cells& c, const Test& wanted) {
   for (int z = c.first[2]; z <= c.last[2]; ++z)
@@ -119,27 +126,29 @@ void mark(Occupancy& occupancy, const Bounds3f& box, const Bounds3f& content) {
 }
 
 Occupancy occupancy_of(const Bounds3f& box, const DomainView& view, std::span<const Piece> pieces,
-                       std::span<const Point3d> piece_vertices, float padding) {
+                       std::span<const Point3d> piece_vertices, double margin) {
   Occupancy occupancy;
-  for (const Piece& p : pieces)
-    mark(occupancy, box, piece_vertices.subspan(p.first_vertex, p.vertex_count), double{padding});
   const std::array<Axis, 3> axes = axes_of(box);
   auto piece = pieces.begin();
   for (const Cluster& c : view.clusters) {
+    const Bounds3d bounds = bounds_of(c);
+    const double pad = padding(greatest(bounds)) + margin;
     std::array<bool, cluster_width> cut;
     for (std::size_t lane = 0; lane < cluster_width; ++lane) {
       cut[lane] = piece != pieces.end() && piece->triangle == c.id[lane];
-      piece += cut[lane];
+      if (cut[lane]) {
+        mark(occupancy, box, piece_vertices.subspan(piece->first_vertex, piece->vertex_count), pad);
+        ++piece;
+      }
     }
     // Most clusters lie in one cell.
-    const Cells cells = cells_of(axes, bounds_of(c), double{padding});
+    const Cells cells = cells_of(axes, bounds, pad);
     if (cells.dimensions() == 0) {
       mark(occupancy, cells, [](int, int, int) { return true; });
       continue;
     }
     for (std::size_t lane = 0; lane < cluster_width; ++lane) {
-      if (c.id[lane] != no_triangle && !cut[lane])
-        mark(occupancy, box, triangle_in(c, lane), double{padding});
+      if (c.id[lane] != no_triangle && !cut[lane]) mark(occupancy, box, triangle_in(c, lane), pad);
     }
   }
   for (const InstanceRef& ref : view.instances) mark(occupancy, box, box_of(ref));

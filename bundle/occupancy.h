@@ -23,13 +23,13 @@ void mark(Occupancy& occupancy, const Bounds3f& box, std::span<const Point3d> po
 // Marks all cells that `content` reaches, which is padded already.
 void mark(Occupancy& occupancy, const Bounds3f& box, const Bounds3f& content);
 
-// Of what a domain holds: its pieces, in the order of a PieceList, the triangles it has whole, and its
-// instances' boxes.
+// Of what a domain holds: its pieces, in the order of a PieceList, and the triangles it has whole, padded and
+// with that margin; and its instances' boxes.
 Occupancy occupancy_of(const Bounds3f& box, const DomainView& view, std::span<const Piece> pieces,
-                       std::span<const Point3d> piece_vertices, float padding);
+                       std::span<const Point3d> piece_vertices, double margin);
 
 // Whether p + t·d, t0 ≤ t ≤ t1, meets a marked cell of the box. What rounding of the ray's way through the
-// cells may miss has to lie within the padding of the marks: they are a 10⁻¹⁴ of the coordinates.
+// cells may miss has to lie within the margin of the marks: they are a 10⁻¹⁴ of the coordinates.
 bool meets(const Occupancy& occupancy, const Bounds3f& box, Point3d p, Vector3d d, double t0, double t1);
 
 }  // namespace vitrail

@@ -9,6 +9,7 @@
 #include "bundle/records.h"
 #include "scene/atomic_file.h"
 #include "scene/diagnostics.h"
+#include "scene/input_files.h"
 
 namespace vitrail {
 
@@ -65,6 +66,7 @@ void write_ray_profile(const std::filesystem::path& file, const RayProfile& p) {
 }
 
 RayProfile read_ray_profile(const std::filesystem::path& file) {
+  note_input(file);
   std::ifstream in(file);
   if (!in) throw Error("cannot be read", {file.string()});
   try {

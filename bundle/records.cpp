@@ -38,15 +38,17 @@ struct Reader {
 void materials(auto& io, auto& m) {
   list(io, m.surfaces), list(io, m.materials), list(io, m.textures), list(io, m.media);
 }
-// The last list is there where it has something.
+// The last lists are there where they, or what comes after them, have something.
 void lights(Writer& io, const Manifest& m) {
   list(io, m.area_lights), list(io, m.emissive_triangles), list(io, m.lights);
-  if (!m.emissive_attributes.empty()) list(io, m.emissive_attributes);
+  if (!m.emissive_attributes.empty() || !m.emissive_opacities.empty()) list(io, m.emissive_attributes);
+  if (!m.emissive_opacities.empty()) list(io, m.emissive_opacities);
 }
 void lights(Reader& io, Manifest& m) {
   list(io, m.area_lights), list(io, m.emissive_triangles), list(io, m.lights);
-  m.emissive_attributes.clear();
+  m.emissive_attributes.clear(), m.emissive_opacities.clear();
   if (!io.stream.at_end()) list(io, m.emissive_attributes);
+  if (!io.stream.at_end()) list(io, m.emissive_opacities);
 }
 
 }  // namespace records

@@ -12,7 +12,7 @@
 
 #include "bundle/checksum.h"
 #include "bundle/features.h"
-#include "bundle/write_file.h"
+#include "bundle/texture_layout.h"
 #include "scene/diagnostics.h"
 
 namespace vitrail {
@@ -21,45 +21,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little);
 
-constexpr std::array<char, 8> texture_magic{'V', 'I', 'T', 'R', 'T', 'E', 'X', '\n'};
-
-struct Header {
-  std::array<char, 8> magic = texture_magic;
-  std::uint32_t version = texture_version;
-  TextureFileInfo info;
-  std::uint32_t zero = 0;
-  std::uint64_t file_bytes = 0;
-  std::uint64_t tiles = 0;
-  std::uint64_t checksum = 0;  // of this header, with this field 0, and the table of the tiles' checksums
-  Features features;           // none yet
-};
-static_assert(sizeof(Header) == 64);
-
-std::uint64_t header_checksum(Header header, std::span<const std::uint64_t> table) {
-  header.checksum = 0;
-  Hasher hasher;
-  hasher.add(std::as_bytes(std::span(&header, 1)));
-  hasher.add(std::as_bytes(table));
-  return hasher.digest();
-}
-
 constexpr std::uint32_t ceil_div(std::uint32_t a, std::uint32_t b) { return (a + b - 1) / b; }
-
-// The part of a tile that its level has, and where it is.
-struct TilePlace {
-  std::uint32_t width, height;
-  std::uint64_t offset, words;
-};
-TilePlace place_of(TexelFormat format, const TextureLevel& level, std::uint32_t tile_x,
-                   std::uint32_t tile_y) {
-  const std::uint32_t x = tile_x * tile_width(format), y = tile_y * tile_height(format);
-  const std::uint32_t width = std::min(tile_width(format), level.width - x);
-  const std::uint32_t height = std::min(tile_height(format), level.height - y);
-  const std::uint64_t texels_before =
-      static_cast<std::uint64_t>(y) * level.width + static_cast<std::uint64_t>(x) * height;
-  const std::uint64_t words = words_per_texel(format);
-  return {width, height, level.offset + texels_before * words * 4, words * width * height};
-}
 
 // A file descriptor that is closed.
 class OpenFile {
@@ -101,6 +63,25 @@ class OpenFile {
 
 }  // namespace
 
+std::uint64_t header_checksum(TextureHeader header, std::span<const std::uint64_t> table) {
+  header.checksum = 0;
+  Hasher hasher;
+  hasher.add(std::as_bytes(std::span(&header, 1)));
+  hasher.add(std::as_bytes(table));
+  return hasher.digest();
+}
+
+TilePlace place_of(TexelFormat format, const TextureLevel& level, std::uint32_t tile_x,
+                   std::uint32_t tile_y) {
+  const std::uint32_t x = tile_x * tile_width(format), y = tile_y * tile_height(format);
+  const std::uint32_t width = std::min(tile_width(format), level.width - x);
+  const std::uint32_t height = std::min(tile_height(format), level.height - y);
+  const std::uint64_t texels_before =
+      static_cast<std::uint64_t>(y) * level.width + static_cast<std::uint64_t>(x) * height;
+  const std::uint64_t words = words_per_texel(format);
+  return {width, height, level.offset + texels_before * words * 4, words * width * height};
+}
+
 std::uint32_t texture_level_count(std::uint32_t width, std::uint32_t height) {
   std::uint32_t levels = 1;
   for (std::uint32_t size = std::max(width, height); size > 1; size /= 2) ++levels;
@@ -120,50 +101,15 @@ TextureFileLayout texture_file_layout(const TextureFileInfo& info) {
     layout.tiles += static_cast<std::uint64_t>(level.tiles_x) * level.tiles_y;
     layout.levels.push_back(level);
   }
-  const std::uint64_t start = sizeof(Header) + layout.tiles * sizeof(std::uint64_t);
+  const std::uint64_t start = sizeof(TextureHeader) + layout.tiles * sizeof(std::uint64_t);
   for (TextureLevel& level : layout.levels) level.offset += start;
   layout.file_bytes = start + texels * words_per_texel(info.format) * 4;
   return layout;
 }
 
-WrittenTextureFile write_texture_file(const std::filesystem::path& file, const TextureFileInfo& info,
-                                      const TexelSource& texel) {
-  const TextureFileLayout layout = texture_file_layout(info);
-  const std::size_t words = words_per_texel(info.format);
-  std::vector<std::uint64_t> table;
-  table.reserve(layout.tiles);
-  std::vector<std::uint32_t> content;
-  content.reserve((layout.file_bytes - layout.levels.front().offset) / 4);
-  for (std::uint32_t l = 0; l < info.levels; ++l) {
-    const TextureLevel& level = layout.levels[l];
-    for (std::uint32_t ty = 0; ty < level.tiles_y; ++ty)
-      for (std::uint32_t tx = 0; tx < level.tiles_x; ++tx) {
-        const TilePlace place = place_of(info.format, level, tx, ty);
-        const std::size_t first = content.size();
-        for (std::uint32_t y = 0; y < place.height; ++y)
-          for (std::uint32_t x = 0; x < place.width; ++x) {
-            const TexelWords value =
-                texel(l, tx * tile_width(info.format) + x, ty * tile_height(info.format) + y);
-            content.insert(content.end(), value.begin(), value.begin() + words);
-          }
-        table.push_back(checksum(std::as_bytes(std::span(content).subspan(first))));
-      }
-  }
-  Header header;
-  header.info = info;
-  header.file_bytes = layout.file_bytes;
-  header.tiles = layout.tiles;
-  header.checksum = header_checksum(header, table);
-  const std::array<std::span<const std::byte>, 3> parts{std::as_bytes(std::span(&header, 1)),
-                                                        std::as_bytes(std::span(table)),
-                                                        std::as_bytes(std::span(content))};
-  write_file(file, parts);
-  return {layout.file_bytes, header.checksum};
-}
-
 TextureFile::TextureFile(std::filesystem::path file) : file_(std::move(file)) {
   const OpenFile in(file_);
-  Header header;
+  TextureHeader header;
   if (!in.read(&header, sizeof header, 0)) fail(file_, "it is shorter than its header");
   if (header.magic != texture_magic) fail(file_, "it does not begin as one");
   if (header.version != texture_version)

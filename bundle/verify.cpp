@@ -13,6 +13,7 @@
 #include "bundle/expected_files.h"
 #include "bundle/held_ids.h"
 #include "bundle/manifest.h"
+#include "bundle/origin_file.h"
 #include "bundle/texture_file.h"
 #include "scene/diagnostics.h"
 
@@ -46,6 +47,7 @@ class Verifier {
     for (const HeldIds& ids : held_)
       for (const std::string& what : ids.problems()) note(bundle_ / ids.name(), what);
     if (manifest_ && held_.front().complete()) result_.census = held_.front().census();
+    expected_.insert(bundle_ / bundle_origin_file);
     for (const fs::path& file : present_)
       if (!expected_.contains(file))
         result_.warnings.push_back({relative(file), "it does not belong to the bundle"});

@@ -2,31 +2,37 @@
 // vitrail compare: how far an image is from a reference, and whether that is too far.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <filesystem>
 
+#include "cli/compare_variances.h"
 #include "cli/main_guard.h"
+#include "cli/number_checks.h"
 #include "cli/rectangle.h"
+#include "compare/alignment.h"
 #include "compare/comparison.h"
+#include "compare/error_images.h"
 #include "compare/mask.h"
-#include "compare/variance.h"
 #include "film/image_io.h"
 #include "scene/diagnostics.h"
+#include "scene/input_files.h"
+#include "scene/output_place.h"
 
 using namespace vitrail;
 
 namespace {
 
 struct Options {
-  std::string image, reference, metric = "relmse", variance, mask, heatmap;
+  std::string image, reference, metric = "relmse", variance, mask, heatmap, signed_map;
   std::vector<std::string> ignored;
-  std::optional<double> variance_samples, fail_above, mean_within;
-  bool json = false;
+  std::optional<double> variance_samples, fail_above, mean_within, map_scale;
+  std::size_t worst = 3;
+  bool json = false, quiet = false;
 };
 
 // An image, or a film developed in memory.
 Picture load(const std::string& file) {
   if (std::filesystem::path(file).extension() != ".film") return read_picture(file);
+  note_input(file);
   try {
     return develop(read_film(file, nullptr));
   } catch (const Error& e) {
@@ -34,79 +40,77 @@ Picture load(const std::string& file) {
   }
 }
 
-// A variance that was estimated from the groups of a film.
-EstimatedVariance estimated_variance(const Picture& picture) {
-  constexpr int most = sample_groups;
-  const int groups = picture.samples_per_pixel == 0 ? most : std::min(picture.samples_per_pixel, most);
-  if (groups < 2)
-    throw Error("a film of one sample a pixel knows nothing of its variance; render it with at least 2");
-  const std::vector<float>& values = picture.variance.values;
-  if (std::any_of(values.begin(), values.end(), [](float v) { return !(v >= 0); }))
-    throw Error("a variance is negative or not a number");
-  return {&picture.variance, groups - 1};
+// "" where the whole pictures are compared.
+std::string about_part(const Picture& image, std::size_t pixels) {
+  const PixelRect& w = image.window;
+  const std::size_t whole =
+      static_cast<std::size_t>(image.full_width) * static_cast<std::size_t>(image.full_height);
+  if (pixels == whole || whole == 0) return {};
+  return fmt::format("compared {} pixels in {},{},{},{} of {} × {}\n", pixels, w.x0, w.x1, w.y0, w.y1,
+                     image.full_width, image.full_height);
 }
 
-// Of the mean that a picture of `samples` has, after Mitsuba's image of the variance of one; the image's own,
-// where it is known, counts where it is larger.
-void add_mitsuba_variance(ZTestInput& test, const Image& of_sample, const Picture& image,
-                          std::optional<double> samples) {
-  if (!samples && image.samples_per_pixel > 0) samples = image.samples_per_pixel;
-  if (!samples)
-    throw UsageError("the image does not say how many samples a pixel has: give --variance-samples");
-  test.variance = mitsuba_variance(of_sample, *samples);
-  if (image.variance.pixels() == 0) return;
-  const EstimatedVariance own = estimated_variance(image);
-  widen(test.variance, pooled(std::span(&own, 1)).variance);
-}
-
-void find_variances(ZTestInput& test, const Picture& image, const Picture& reference,
-                    const Options& options) {
-  const std::string& file = options.variance;
-  if (image.variance.pixels() + reference.variance.pixels() == 0 && file.empty())
-    throw UsageError("ztest needs a variance: give --variance, a film, or an image of develop --variance");
-  Picture given;
-  if (!file.empty()) {
-    given = read_picture(file);
-    require_same_size(given.rgb, reference.rgb);
-    if (count_nonfinite(given.rgb) > 0) throw Error("a variance is not a number", {file});
-    if (given.variance.pixels() == 0)
-      return add_mitsuba_variance(test, given.rgb, image, options.variance_samples);
-  }
-  std::vector<EstimatedVariance> parts;
-  for (const Picture* picture : {&image, file.empty() ? &reference : &given})
-    if (picture->variance.pixels() > 0) parts.push_back(estimated_variance(*picture));
-  PooledVariance known = pooled(parts);
-  test.variance = std::move(known.variance);
-  test.degrees_of_freedom = std::move(known.degrees_of_freedom);
-  add_rounding(test.variance, reference.rgb);
-}
-
-Mask mask_of(const Options& options, const Image& image) {
+// Of the part of the whole picture that is compared.
+Mask mask_of(const Options& options, const Picture& image) {
+  const PixelRect& w = image.window;
   std::vector<PixelRect> ignored;
-  for (const std::string& text : options.ignored) ignored.push_back(parse_rectangle("--ignore", text));
-  return make_mask(image.width, image.height, ignored,
-                   options.mask.empty() ? Image{} : read_picture(options.mask).rgb);
+  for (const std::string& text : options.ignored) {
+    const PixelRect r = parse_rectangle("--ignore", text);
+    ignored.push_back({r.x0 - w.x0, r.x1 - w.x0, r.y0 - w.y0, r.y1 - w.y0});
+  }
+  Picture kept;
+  if (!options.mask.empty()) kept = read_picture(options.mask);
+  if (kept.full_width == image.full_width && kept.full_height == image.full_height) cut_to(kept, w);
+  return make_mask(image.rgb.width, image.rgb.height, ignored, kept.rgb);
+}
+
+// Numbers in an .exr, colours with a legend in a .png.
+void write_map(const std::string& file, const Image& numbers, const Image& colors, double scale,
+               bool is_signed) {
+  Picture picture;
+  picture.rgb =
+      std::filesystem::path(file).extension() == ".exr" ? numbers : with_legend(colors, scale, is_signed);
+  write_picture(file, picture);
+}
+
+void write_maps(const Options& options, const Comparison& c, const Image& image, const Image& reference) {
+  if (!options.heatmap.empty()) {
+    const double scale = options.map_scale.value_or(hottest(c.error_map));
+    write_map(options.heatmap, error_image(c.error_map, image.width, image.height),
+              heatmap(c.error_map, image.width, image.height, scale), scale, false);
+  }
+  if (!options.signed_map.empty()) {
+    const Image difference = signed_difference(image, reference);
+    const double scale = options.map_scale.value_or(hottest(error_map(image, reference, absolute_error)));
+    write_map(options.signed_map, difference, signed_map(difference, scale), scale, true);
+  }
 }
 
 int run(const Options& options) {
   const std::optional<Metric> metric = metric_of(options.metric);
   if (metric == Metric::psnr && options.fail_above)
     throw UsageError("psnr grows as images get closer: use --metric mse with --fail-above");
-  const Picture image = load(options.image), reference = load(options.reference);
-  require_same_size(image.rgb, reference.rgb);
-  const Mask mask = mask_of(options, image.rgb);
+  for (const std::string& file : {options.heatmap, options.signed_map})
+    if (!file.empty()) require_place(file);
+  Picture image = load(options.image), reference = load(options.reference);
+  align(image, reference);
+  const Mask mask = mask_of(options, image);
   ZTestInput test{&image.rgb, &reference.rgb, {}, {}};
-  if (metric == Metric::ztest) find_variances(test, image, reference, options);
+  if (metric == Metric::ztest)
+    find_variances(test, image, reference, options.variance, options.variance_samples);
   const Image image_part = without(image.rgb, mask), reference_part = without(reference.rgb, mask);
   test = {&image_part, &reference_part, without(test.variance, mask), without(test.degrees_of_freedom, mask)};
   Comparison comparison = compare(test, *metric, options.fail_above, options.mean_within);
-  fmt::print("{}", options.json ? to_json(comparison) : to_text(comparison));
-  if (!options.heatmap.empty()) {
-    comparison.error_map = spread(comparison.error_map, mask);
-    Picture picture;
-    picture.rgb = heatmap(comparison, image.rgb.width, image.rgb.height);
-    write_picture(options.heatmap, picture);
-  }
+  const std::size_t compared = comparison.error_map.size();
+  const std::vector<double> map = spread(comparison.error_map, mask);
+  comparison.worst =
+      worst_pixels(map, image.rgb, reference.rgb, image.window.x0, image.window.y0, options.worst);
+  if (options.json)
+    fmt::print("{}", to_json(comparison));
+  else if (!options.quiet)
+    fmt::print("{}{}", about_part(image, compared), to_text(comparison));
+  comparison.error_map = map;
+  write_maps(options, comparison, image.rgb, reference.rgb);
   return comparison.passed ? exit_done : exit_differs;
 }
 
@@ -117,7 +121,7 @@ int main(int argc, char** argv) {
   Options options;
   app.add_option("IMAGE", options.image, "image or .film")->required();
   app.add_option("REFERENCE", options.reference, "image or .film")->required();
-  app.add_option("--metric", options.metric, "relmse, mse, mae, psnr, smape, ztest or bitwise")
+  app.add_option("--metric", options.metric, "relmse, mse, rmse, mae, psnr, smape, ztest or bitwise")
       ->check(CLI::IsMember(metric_names()))
       ->capture_default_str();
   app.add_option(
@@ -127,12 +131,26 @@ int main(int argc, char** argv) {
   app.add_option("--variance-samples", options.variance_samples,
                  "samples a pixel that IMAGE has; default: as it says");
   app.add_option("--mean-within", options.mean_within,
-                 "exit with 1 if the mean of X, Y or Z is off by more than this fraction");
-  app.add_option("--ignore", options.ignored, "x0,x1,y0,y1 in pixels from the top left: left out")
+                 "exit with 1 if the mean of X, Y or Z is off by more than this fraction; without it, ztest "
+                 "fails where the means differ by more than chance does once in 10,000 times");
+  app.add_option("--ignore", options.ignored,
+                 "x0,x1,y0,y1 in pixels from the whole picture's top left: left out")
       ->allow_extra_args(false);
   app.add_option("--mask", options.mask, "an image; pixels that are black in it are left out");
   app.add_option("--fail-above", options.fail_above, "exit with 1 if the value is greater");
-  app.add_flag("--json", options.json, "print one flat JSON object");
-  app.add_option("--heatmap", options.heatmap, "write the error of each pixel as an image");
+  app.add_flag("--json", options.json, "print one JSON object");
+  app.add_flag("--quiet", options.quiet, "say nothing; the exit status does");
+  app.add_option("--worst", options.worst, "name so many of the worst pixels")->capture_default_str();
+  app.add_option(
+      "--heatmap", options.heatmap,
+      "write the error of each pixel: as numbers (.exr), or as colours from black (0) over red and "
+      "yellow to white (.png)");
+  app.add_option(
+      "--signed-map", options.signed_map,
+      "write image - reference: as numbers (.exr), or as colours, blue where the image is darker, red "
+      "where it is brighter (.png)");
+  app.add_option("--map-scale", options.map_scale,
+                 "the error that is shown as white, or as full blue and red; default: the 99th percentile")
+      ->check(more_than_0);
   return run_guarded(app, argc, argv, [&] { return run(options); });
 }

@@ -3,10 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <span>
+#include <unordered_map>
 
 #include "scene/atomic_file.h"
 
@@ -20,30 +21,80 @@ std::string named(std::string_view kind, const std::string& name) {
   return name.empty() ? std::string(kind) : fmt::format("{} \"{}\"", kind, name);
 }
 
+// What is called an item that no record stands for.
+std::string_view name_of(RecordKind kind) {
+  switch (kind) {
+    case RecordKind::any:
+      return "directive";
+    case RecordKind::camera:
+      return "camera";
+    case RecordKind::film:
+      return "film";
+    case RecordKind::sampler:
+      return "sampler";
+    case RecordKind::integrator:
+      return "integrator";
+    case RecordKind::texture:
+      return "texture";
+    case RecordKind::material:
+      return "material";
+    case RecordKind::medium:
+      return "medium";
+    case RecordKind::area_light:
+      return "area light";
+    case RecordKind::light:
+      return "light";
+    case RecordKind::shape:
+      return "shape";
+    case RecordKind::object:
+      return "object";
+    case RecordKind::instance:
+      return "instance";
+  }
+  return "";
+}
+
+// By place and kind. Where several of a kind come from one place (a material that is made of two), what is
+// said of one is said of all.
 class Items {
  public:
   explicit Items(const Scene& scene) : scene_(scene) {}
 
-  void add(std::string what, const Origin& origin) { add(std::move(what), location(scene_, origin)); }
-  void add(std::string what, SourceLocation place) {
-    by_place_.try_emplace(to_string(place), items.size());
-    items.push_back({std::move(what), std::move(place), {}});
+  void add(RecordKind kind, std::string what, const Origin& origin) {
+    add(kind, std::move(what), location(scene_, origin));
   }
   void note(const Diagnostic& diagnostic) {
     const SourceLocation& place = diagnostic.item.file.empty() ? diagnostic.location : diagnostic.item;
-    if (!by_place_.contains(to_string(place))) add("directive", place);
-    items[by_place_.at(to_string(place))].notes.push_back(&diagnostic);
+    const std::string at = to_string(place);
+    auto& there = by_place_[at];
+    const auto is_meant = [&](const Entry& e) {
+      return diagnostic.kind == RecordKind::any || e.kind == diagnostic.kind;
+    };
+    if (std::ranges::none_of(there, is_meant))
+      add(diagnostic.kind, std::string(name_of(diagnostic.kind)), place);
+    for (const Entry& e : there)
+      if (is_meant(e)) items[e.item].notes.push_back(&diagnostic);
   }
 
   std::vector<ConversionItem> items;
 
  private:
+  struct Entry {
+    RecordKind kind;
+    std::size_t item;
+  };
+
+  void add(RecordKind kind, std::string what, SourceLocation place) {
+    by_place_[to_string(place)].push_back({kind, items.size()});
+    items.push_back({std::move(what), std::move(place), {}});
+  }
+
   const Scene& scene_;
-  std::map<std::string, std::size_t> by_place_;
+  std::unordered_map<std::string, std::vector<Entry>> by_place_;
 };
 
 void add_shapes(Items& items, const std::vector<Shape>& shapes) {
-  for (const Shape& shape : shapes) items.add(named("shape", shape.name), shape.origin);
+  for (const Shape& shape : shapes) items.add(RecordKind::shape, named("shape", shape.name), shape.origin);
 }
 
 Fidelity worst(const std::vector<const Diagnostic*>& notes) {
@@ -67,21 +118,30 @@ std::vector<ConversionItem> conversion_items(const Scene& scene, const Diagnosti
                               "distant light", "infinite light", "environment light"};
   static_assert(lights.size() == std::variant_size_v<LightVariant>);
   Items items(scene);
-  items.add("camera", scene.camera_origin);
-  items.add("film", scene.film_origin);
-  for (const Texture& texture : scene.textures) items.add(named("texture", texture.name), texture.origin);
+  items.add(RecordKind::camera, "camera", scene.camera_origin);
+  items.add(RecordKind::film, "film", scene.film_origin);
+  if (scene.sampler_origin.line > 0) items.add(RecordKind::sampler, "sampler", scene.sampler_origin);
+  if (scene.integrator_origin.line > 0)
+    items.add(RecordKind::integrator, "integrator", scene.integrator_origin);
+  for (const Texture& texture : scene.textures)
+    items.add(RecordKind::texture, named("texture", texture.name), texture.origin);
   for (const Material& material : scene.materials)
-    items.add(named("material", material.name), material.origin);
-  for (const Medium& medium : scene.media) items.add(named("medium", medium.name), medium.origin);
-  for (const AreaLight& light : scene.area_lights) items.add("area light", light.origin);
-  for (const Light& light : scene.lights) items.add(lights.at(light.model.index()), light.origin);
+    items.add(RecordKind::material, named("material", material.name), material.origin);
+  for (const Medium& medium : scene.media)
+    items.add(RecordKind::medium, named("medium", medium.name), medium.origin);
+  for (const AreaLight& light : scene.area_lights)
+    items.add(RecordKind::area_light, "area light", light.origin);
+  for (const Light& light : scene.lights)
+    items.add(RecordKind::light, lights.at(light.model.index()), light.origin);
   add_shapes(items, scene.shapes);
   for (const Prototype& prototype : scene.prototypes) {
-    items.add(named("object", prototype.name), prototype.origin);
+    items.add(RecordKind::object, named("object", prototype.name), prototype.origin);
     add_shapes(items, prototype.shapes);
-    for (const Instance& instance : prototype.instances) items.add("instance", instance.origin);
+    for (const Instance& instance : prototype.instances)
+      items.add(RecordKind::instance, "instance", instance.origin);
   }
-  for (const Instance& instance : scene.instances) items.add("instance", instance.origin);
+  for (const Instance& instance : scene.instances)
+    items.add(RecordKind::instance, "instance", instance.origin);
   for (const Diagnostic& diagnostic : diagnostics) items.note(diagnostic);
   return std::move(items.items);
 }

@@ -17,8 +17,9 @@ struct ConversionItem {
   std::vector<const Diagnostic*> notes;
 };
 
-// The records of the scene in the order of their kinds, then what the diagnostics speak of besides; the items
-// refer to `diagnostics`.
+// The records of the scene in the order of their kinds, then what the diagnostics speak of besides. A
+// diagnostic belongs to the records of its kind that come from its place: a material and its texture, from
+// one place, are two items. The items refer to `diagnostics`.
 std::vector<ConversionItem> conversion_items(const Scene& scene, const Diagnostics& diagnostics);
 
 struct ConversionCounts {

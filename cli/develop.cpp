@@ -5,11 +5,14 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <vector>
 
 #include "cli/main_guard.h"
 #include "film/image_io.h"
 #include "scene/diagnostics.h"
+#include "scene/input_files.h"
+#include "scene/output_place.h"
 
 using namespace vitrail;
 
@@ -19,24 +22,37 @@ struct Exposed {
   std::filesystem::path file;
   Film film;
   double render_time_s = 0;
+  std::string about, seeds;
 };
 
-Exposed load(const std::string& file) {
+struct Manner {
+  bool quiet = false, strict = false;
+};
+
+Exposed load(const std::string& file, const Manner& manner) {
+  note_input(file);
   FilmProgress progress;
-  Exposed e{file, read_film(file, &progress), 0};
+  Exposed e{file, read_film(file, &progress), 0, {}, {}};
+  e.about = progress.about;
+  e.seeds = fmt::format("{}", e.film.key().seed);
   e.render_time_s = progress.render_time_s;
-  if (!progress.complete())
+  if (!progress.complete() && manner.strict) throw Error("the film is not finished", {file});
+  if (!progress.complete() && !manner.quiet)
     fmt::print(stderr, "vitrail: {}: the film is not finished; pixels may have unequal numbers of samples\n",
                file);
   return e;
 }
 
 // In the order of their seeds, so that the order on the command line does not matter.
-Exposed merge_all(const std::vector<std::string>& files) {
+Exposed merge_all(const std::vector<std::string>& files, const Manner& manner) {
   std::vector<Exposed> films;
-  for (const std::string& file : files) films.push_back(load(file));
+  for (const std::string& file : files) films.push_back(load(file, manner));
   std::sort(films.begin(), films.end(),
             [](const Exposed& a, const Exposed& b) { return a.film.key().seed < b.film.key().seed; });
+  for (const Exposed& film : films)
+    if (const std::string what = difference(films.front().film, film.film); !what.empty())
+      throw Error(fmt::format("cannot merge with {}: {}", films.front().file.string(), what),
+                  {film.file.string()});
   Exposed sum = std::move(films.front());
   for (std::size_t i = 1; i < films.size(); ++i) {
     if (films[i].film.key().seed == films[i - 1].film.key().seed)
@@ -50,8 +66,20 @@ Exposed merge_all(const std::vector<std::string>& files) {
                   {films[i].file.string()});
     }
     sum.render_time_s += films[i].render_time_s;
+    sum.seeds += "," + films[i].seeds;
   }
   return sum;
+}
+
+// What the render knew of scene and camera.
+void put_about(PictureOrigin& origin, const std::string& about) {
+  const nlohmann::json json = nlohmann::json::parse(about, nullptr, false);
+  if (!json.is_object()) return;
+  origin.scene = json.value("scene", "");
+  const auto matrix = json.find("world_to_camera");
+  if (matrix == json.end() || !matrix->is_array()) return;
+  for (const nlohmann::json& number : *matrix)
+    if (number.is_number()) origin.world_to_camera.push_back(number.get<float>());
 }
 
 }  // namespace
@@ -61,26 +89,36 @@ int main(int argc, char** argv) {
   std::vector<std::string> films;
   std::string output;
   double exposure_ev = 0;
+  int bits = 0;
   bool with_variance = false, spectral = false;
+  Manner manner;
   app.add_option("FILM", films, "films of one scene, each of its own seed")->required();
-  app.add_option("-o,--output", output, "image to write: .exr (linear) or .png (sRGB)")->required();
-  app.add_option("--exposure", exposure_ev, "brighten by this many stops");
+  app.add_option("-o,--output", output, "image to write: .exr (linear), .png, .jpg or .tif (sRGB)")
+      ->required();
+  app.add_option("--bits", bits, "a channel: 8 or 16; default: 8, and 16 for .tif; .exr has 32")
+      ->check(CLI::IsMember({8, 16}));
+  app.add_option("--exposure", exposure_ev, "brighten by this many stops")->capture_default_str();
   app.add_flag("--variance", with_variance,
                "add the channel Variance.Y: variance of each pixel's mean luminance");
   app.add_flag("--spectral", spectral,
                "add the spectrum of each pixel, for films of render --spectral; .exr only");
+  app.add_flag("--strict", manner.strict, "refuse films that are not finished");
+  app.add_flag("--quiet", manner.quiet, "say nothing but what is wrong");
   return run_guarded(app, argc, argv, [&] {
     if (spectral && std::filesystem::path(output).extension() != ".exr")
       throw UsageError("spectra are written as .exr only");
-    const Exposed sum = merge_all(films);
+    require_place(output);
+    const Exposed sum = merge_all(films, manner);
     Picture picture = develop(sum.film);
     picture.render_time_s = sum.render_time_s;
+    picture.origin.seeds = sum.seeds;
+    put_about(picture.origin, sum.about);
     if (spectral && picture.bins.count == 0)
       throw Error("the film keeps no spectra: render with --spectral N", {sum.file.string()});
     if (!spectral) picture.spectrum = {};
     expose(picture, exposure_ev);
     if (!with_variance) picture.variance = {};
-    write_picture(output, picture);
+    write_picture(output, picture, bits);
     return exit_done;
   });
 }

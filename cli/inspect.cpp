@@ -26,7 +26,11 @@ Report inspect(const std::filesystem::path& file) {
   return inspect_scene(file);
 }
 
-int status_of(const Report& report) { return report.contains("problems") ? exit_bad_input : exit_done; }
+int status_of(const Report& report, bool strict) {
+  const auto holds = [&](const char* key) { return report.contains(key) && !report[key].empty(); };
+  const bool inexact = holds("not_exact") || holds("not_rendered_exactly");
+  return report.contains("problems") || (strict && inexact) ? exit_bad_input : exit_done;
+}
 
 }  // namespace
 }  // namespace vitrail
@@ -36,14 +40,16 @@ int main(int argc, char** argv) {
   CLI::App app("says what a scene, a bundle, one of its files or a film holds, and verifies it",
                "vitrail inspect");
   std::filesystem::path file;
-  bool json = false;
+  bool json = false, quiet = false, strict = false;
   app.add_option("file", file,
                  "scene file, bundle (NAME.vit), sub-domain or object (.dom), texture (.tex) or film (.film)")
       ->required();
   app.add_flag("--json", json, "print JSON");
+  app.add_flag("--strict", strict, "exit with 3 where something of a scene is not read or rendered exactly");
+  app.add_flag("--quiet", quiet, "say nothing but what is wrong; the exit status does");
   return run_guarded(app, argc, argv, [&] {
     const Report report = inspect(file);
-    fmt::print("{}", json ? report.dump(1) + "\n" : to_text(report));
-    return status_of(report);
+    if (!quiet) fmt::print("{}", json ? report.dump(1) + "\n" : to_text(report));
+    return status_of(report, strict);
   });
 }

@@ -3,6 +3,7 @@
 
 #include "bundle/manifest.h"
 #include "bundle/verify.h"
+#include "cli/bundle_origin.h"
 #include "cli/inspect.h"
 #include "cli/sizes.h"
 
@@ -25,6 +26,13 @@ Report inspect_bundle(const std::filesystem::path& bundle) {
   const Manifest m = read_manifest(bundle);
   const VerifyResult found = verify_bundle(bundle);
   Report r{{"file", bundle.string()}, {"kind", "bundle"}, {"size", format_bytes(found.bytes)}};
+  const BundleOrigin origin = read_bundle_origin(bundle);
+  if (!origin.scene.empty()) {
+    r["made_of"] = origin.scene;
+    r["made_by"] = origin.program;
+    r["made_with"] = origin.options;
+  }
+  r["made_at"] = time_of(bundle / "manifest.json");
   r.update(describe(m));
   Report problems = Report::array();
   for (const VerifyFinding& p : found.problems) problems.push_back(p.file + ": " + p.what);

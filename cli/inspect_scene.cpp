@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <numbers>
 
@@ -102,14 +103,21 @@ bool is(const Material& material) {
   return std::holds_alternative<Model>(material.model);
 }
 
-// What the scene asks of a renderer, and why.
-Report describe_requirements(const Manifest& m) {
-  const Requirements& r = m.requirements;
+std::string why_see_through(const Manifest& m) {
   const auto sheer = [](const Material& x) {
     const auto* d = std::get_if<DielectricMaterial>(&x.model);
     return (d && d->priority != 0) || is<InterfaceMaterial>(x) || is<MaskMaterial>(x) ||
            is<ThinDielectricMaterial>(x);
   };
+  const auto partly =
+      std::ranges::count_if(m.surfaces, [](const Surface& s) { return s.opacity != FloatParameter{1.0f}; });
+  if (partly > 0) return fmt::format("yes: {} of {} surfaces are there in part", partly, m.surfaces.size());
+  return materials_that(m, "let light straight through", sheer);
+}
+
+// What the scene asks of a renderer, and why.
+Report describe_requirements(const Manifest& m) {
+  const Requirements& r = m.requirements;
   const auto disperses = [](const Material& x) {
     const auto* d = std::get_if<DielectricMaterial>(&x.model);
     return d && !(is_constant(d->eta) && is_constant(d->exterior_eta));
@@ -122,7 +130,7 @@ Report describe_requirements(const Manifest& m) {
       {"mesh_attributes", m.attributes == 0 ? "no" : fmt::format("yes: {} values a vertex", m.attributes)},
       {"refraction", r.refraction ? materials_that(m, "are dielectric", is<DielectricMaterial>) : "no"},
       {"dispersion", r.dispersion ? materials_that(m, "refract by wavelength", disperses) : "no"},
-      {"see_through", r.see_through ? materials_that(m, "let light straight through", sheer) : "no"},
+      {"see_through", r.see_through ? why_see_through(m) : "no"},
       {"media", r.media ? fmt::format("yes: {}", m.media.size()) : "no"}};
 }
 

@@ -3,11 +3,14 @@
 
 #include <fmt/format.h>
 
+#include <csignal>
 #include <cstdio>
 #include <new>
 #include <string>
 
+#include "cli/unknown_options.h"
 #include "scene/diagnostics.h"
+#include "scene/input_files.h"
 
 namespace vitrail {
 
@@ -28,6 +31,7 @@ int fail(const Error& e) {
 }  // namespace
 
 int run_guarded(const std::function<int()>& body) {
+  protect_inputs();
   try {
     return body();
   } catch (const Error& e) {
@@ -36,11 +40,22 @@ int run_guarded(const std::function<int()>& body) {
     return fail(exit_usage, e.what());
   } catch (const CLI::ParseError& e) {
     return fail(exit_usage, e.what());
+  } catch (const Interrupted& e) {
+    return fail(128 + e.signal, e.what());
   } catch (const std::bad_alloc&) {
     return fail(exit_machine, "out of memory");
   } catch (const std::exception& e) {  // MachineError among them
     return fail(exit_machine, e.what());
   }
+}
+
+int end_with(int status) {
+  const int number = status - 128;
+  if (number != SIGINT && number != SIGTERM) return status;
+  std::fflush(nullptr);
+  std::signal(number, SIG_DFL);
+  std::raise(number);
+  return status;
 }
 
 int run_guarded(CLI::App& app, int argc, char** argv, const std::function<int()>& body) {
@@ -49,6 +64,8 @@ int run_guarded(CLI::App& app, int argc, char** argv, const std::function<int()>
       app.parse(argc, argv);
     } catch (const CLI::Success& e) {  // --help, --version
       return app.exit(e);
+    } catch (const CLI::ExtrasError&) {
+      throw UsageError(fmt::format("{} (see {} --help)", about_unexpected(app), app.get_name()));
     } catch (const CLI::ParseError& e) {
       throw UsageError(fmt::format("{} (see {} --help)", e.what(), app.get_name()));
     }

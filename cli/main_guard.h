@@ -11,8 +11,20 @@ namespace vitrail {
 // The exit status of every program.
 inline constexpr int exit_done = 0, exit_differs = 1, exit_usage = 2, exit_bad_input = 3, exit_machine = 4;
 
+// A signal asked for an end, and what was under way is in order: exit status 128 + its number, as a shell has
+// it of a program that the signal ended.
+struct Interrupted : std::runtime_error {
+  Interrupted(int number, const std::string& message) : std::runtime_error(message), signal(number) {}
+  int signal;
+};
+
+// For the end of main: dies of the signal that such a status speaks of, because shells end a loop or a list
+// only where a program did. Returns any other status.
+int end_with(int status);
+
 // Runs `body` and returns its status. What it throws is printed as "vitrail: place: message" and the excerpt:
-// Error → 3, MachineError → 4, UsageError and CLI::ParseError → 2, any other exception → 4.
+// Error → 3, MachineError → 4, UsageError and CLI::ParseError → 2, Interrupted → 128 + the signal's number,
+// any other exception → 4.
 int run_guarded(const std::function<int()>& body);
 
 // Parses the command line before it runs `body`: --help prints the help (0), a wrong line says what is wrong

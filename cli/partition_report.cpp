@@ -15,6 +15,7 @@ void write_stats(const std::filesystem::path& file, const PartitionStats& s) {
                                     {"cut_triangles", s.cut_triangles},
                                     {"pieces", s.pieces},
                                     {"domains", s.domains},
+                                    {"domains_planned", s.domains_planned},
                                     {"triangles_min", s.triangles_min},
                                     {"triangles_mean", s.triangles_mean},
                                     {"triangles_max", s.triangles_max},
@@ -28,9 +29,18 @@ void write_stats(const std::filesystem::path& file, const PartitionStats& s) {
                                     {"cpu_s", s.cpu_s},
                                     {"peak_rss_bytes", s.peak_rss_bytes},
                                     {"memory_budget_bytes", s.memory_budget_bytes},
+                                    {"ledger_meshes_bytes", s.ledger.meshes},
+                                    {"ledger_shapes_bytes", s.ledger.shapes},
+                                    {"ledger_instances_bytes", s.ledger.instances},
+                                    {"ledger_prototypes_bytes", s.ledger.prototypes},
+                                    {"ledger_materials_bytes", s.ledger.materials},
+                                    {"ledger_textures_bytes", s.ledger.textures},
+                                    {"ledger_lights_bytes", s.ledger.lights},
+                                    {"ledger_media_bytes", s.ledger.media},
                                     {"buckets", s.buckets},
                                     {"spill_bytes", s.spill_bytes},
-                                    {"triangles_per_s", s.triangles_per_s}};
+                                    {"triangles_per_s", s.triangles_per_s},
+                                    {"coarse_shapes", s.coarse_shapes}};
   const std::string text = json.dump(1) + "\n";
   AtomicFile out(file);
   out.write(std::as_bytes(std::span(text)));
@@ -40,6 +50,10 @@ void write_stats(const std::filesystem::path& file, const PartitionStats& s) {
 void print_summary(const PartitionStats& s, const std::filesystem::path& bundle) {
   fmt::print("{}: {} triangles in {} domains, {}\n", bundle.string(), s.input_triangles, s.domains,
              format_bytes(s.bundle_bytes));
+  if (s.domains < s.domains_planned)
+    fmt::print(
+        "  these are fewer domains than {}: more would part nothing, only cut triangles into more pieces\n",
+        s.domains_planned);
   fmt::print("  a domain has {} to {} triangles, {:.0f} on average\n", s.triangles_min, s.triangles_max,
              s.triangles_mean);
   fmt::print("  {} triangles were cut into {} pieces; {} duplicates, area error {:.2g}\n", s.cut_triangles,
@@ -47,6 +61,12 @@ void print_summary(const PartitionStats& s, const std::filesystem::path& bundle)
   if (s.objects > 0)
     fmt::print("  {} instances of {} objects are kept; a domain takes at most {} with its objects\n",
                s.instances, s.objects, format_bytes(s.domain_bytes_max));
+  if (s.coarse_shapes > 0)
+    fmt::print(
+        "  {} shapes are so far from the others that rounding moves their vertices by more than a thousandth "
+        "of "
+        "their size\n",
+        s.coarse_shapes);
   fmt::print("  {:.2f} s, {:.2f} s of processor time, {:.2f} million triangles a second\n", s.wall_s, s.cpu_s,
              s.triangles_per_s * 1e-6);
   fmt::print("  at most {} of memory of {} allowed; {}\n", format_bytes(s.peak_rss_bytes),

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/run_program.h"
 
+#include <fmt/format.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -27,8 +28,14 @@ void run_program(const std::string& name, const std::vector<std::string>& argume
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
   pid_t child = 0;
-  if (const int error = ::posix_spawn(&child, program.c_str(), nullptr, nullptr, argv.data(), environ))
+  if (const int error = ::posix_spawn(&child, program.c_str(), nullptr, nullptr, argv.data(), environ)) {
+    if (error == ENOENT)
+      throw MachineError(
+          fmt::format("{} is missing: the programs of vitrail work together, and have to lie in one "
+                      "folder",
+                      program));
     throw MachineError("cannot run " + program + ": " + std::strerror(error));
+  }
   int status = 0;
   while (stopped && ::waitpid(child, &status, WNOHANG) == 0) {
     if (stopped()) {
@@ -40,6 +47,8 @@ void run_program(const std::string& name, const std::vector<std::string>& argume
   while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
   if (WIFEXITED(status) && WEXITSTATUS(status) == exit_done) return;
+  if (WIFSIGNALED(status) && (WTERMSIG(status) == SIGINT || WTERMSIG(status) == SIGTERM))
+    throw Interrupted(WTERMSIG(status), name + " was interrupted");
   if (WIFEXITED(status) && WEXITSTATUS(status) == exit_bad_input) throw Error(name + " refused its input");
   throw MachineError(name + " failed");
 }

@@ -15,7 +15,7 @@ TemporaryBundle::TemporaryBundle(Transport& transport, const std::filesystem::pa
     if (transport.rank() != 0) return;
     std::vector<std::string> arguments{scene.string(), "-o", bundle_.string()};
     arguments.insert(arguments.end(), options.begin(), options.end());
-    run_program("vitrail-partition", arguments, stop_signalled);
+    run_program("vitrail-partition", arguments, [] { return stop_signal() != 0; });
   });
 }
 

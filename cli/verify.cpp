@@ -62,10 +62,11 @@ int main(int argc, char** argv) {
   using namespace vitrail;
   CLI::App app("reads every byte of a bundle and says what is wrong with it", "vitrail verify");
   std::filesystem::path bundle;
-  bool json = false, quiet = false;
+  bool json = false, quiet = false, strict = false;
   VerifyOptions options;
   app.add_option("bundle", bundle, "bundle (NAME.vit)")->required();
   app.add_flag("--json", json, "print JSON");
+  app.add_flag("--strict", strict, "exit with 3 for warnings too");
   app.add_flag("--quiet", quiet, "print problems only");
   app.add_option("--threads", options.threads, "threads; default: all cores")->check(CLI::Range(1, 4096));
   return run_guarded(app, argc, argv, [&] {
@@ -77,6 +78,6 @@ int main(int argc, char** argv) {
       fmt::print("{}\n", to_json(bundle, result).dump(1));
     else
       print(bundle, result, quiet);
-    return result.problems.empty() ? exit_done : exit_bad_input;
+    return result.problems.empty() && !(strict && !result.warnings.empty()) ? exit_done : exit_bad_input;
   });
 }

@@ -2,9 +2,15 @@
 // The front program: `vitrail VERB …` becomes `vitrail-VERB …` beside it.
 #include <unistd.h>
 
+#include <algorithm>
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <string>
+#include <vector>
+
+#include "scene/diagnostics.h"
 
 namespace {
 
@@ -18,13 +24,25 @@ constexpr const char* usage = R"(usage: vitrail VERB ...
   develop     films into a picture
   compare     a picture with a reference
 
-`vitrail VERB --help` says more.
+`vitrail help VERB` says more.
 )";
+
+const std::vector<std::string> verbs{"convert", "inspect", "partition", "verify",
+                                     "render",  "develop", "compare"};
+
+int no_such(const std::string& verb) {
+  const std::string meant = vitrail::closest_word(verb, verbs);
+  std::fprintf(stderr, "vitrail: there is no verb '%s'%s%s%s\n\n%s", verb.c_str(),
+               meant.empty() ? "" : "; did you mean ", meant.c_str(), meant.empty() ? "" : "?", usage);
+  return 2;
+}
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  const std::string verb = argc > 1 ? argv[1] : "";
+  std::vector<std::string> words(argv + 1, argv + argc);
+  if (words.size() > 1 && words[0] == "help") words = {words[1], "--help"};
+  const std::string verb = words.empty() ? "" : words[0];
   if (verb == "--help" || verb == "-h" || verb == "help") {
     std::fputs(usage, stdout);
     return 0;
@@ -33,13 +51,18 @@ int main(int argc, char** argv) {
     std::puts("vitrail " VITRAIL_VERSION);
     return 0;
   }
-  if (verb.empty() || verb.find('/') != std::string::npos) {
+  if (verb.empty()) {
     std::fputs(usage, stderr);
     return 2;
   }
+  if (std::find(verbs.begin(), verbs.end(), verb) == verbs.end()) return no_such(verb);
+  std::vector<char*> arguments;
+  for (std::string& word : words) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
   const std::filesystem::path program =
       std::filesystem::read_symlink("/proc/self/exe").parent_path() / ("vitrail-" + verb);
-  ::execv(program.c_str(), argv + 1);
-  std::fprintf(stderr, "vitrail: there is no verb '%s'\n\n%s", verb.c_str(), usage);
-  return 2;
+  ::execv(program.c_str(), arguments.data());
+  std::fprintf(stderr, "vitrail: cannot run %s: %s; the programs of vitrail have to lie in one folder\n",
+               program.c_str(), std::strerror(errno));
+  return 4;
 }

@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "compare/comparison.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 namespace vitrail {
 
 const std::vector<std::string>& metric_names() {
-  static const std::vector<std::string> names{"relmse", "mse", "mae", "psnr", "smape", "ztest", "bitwise"};
+  static const std::vector<std::string> names{"relmse", "mse",   "rmse",  "mae",
+                                              "psnr",   "smape", "ztest", "bitwise"};
   return names;  // in the order of Metric
 }
 
@@ -21,8 +19,6 @@ std::optional<Metric> metric_of(const std::string& name) {
 }
 
 namespace {
-
-const std::string& name_of(Metric metric) { return metric_names()[static_cast<std::size_t>(metric)]; }
 
 // Fills in value and error map.
 void measure(Comparison& c, const ZTestInput& input) {
@@ -35,6 +31,10 @@ void measure(Comparison& c, const ZTestInput& input) {
       return mean_error(relative_squared_error);
     case Metric::mse:
       return mean_error(squared_error);
+    case Metric::rmse:
+      mean_error(squared_error);
+      c.value = std::sqrt(c.value);
+      return;
     case Metric::mae:
       return mean_error(absolute_error);
     case Metric::smape:
@@ -49,9 +49,9 @@ void measure(Comparison& c, const ZTestInput& input) {
       if (!c.threshold) c.threshold = 0;
       return;
     case Metric::ztest:
-      ZTest test = ztest(input);
-      c.error_map = std::move(test.z);
-      c.value = static_cast<double>(test.failed) / static_cast<double>(test.values);
+      c.test = ztest(input);
+      c.error_map = std::move(c.test->z);
+      c.value = static_cast<double>(c.test->failed) / static_cast<double>(c.test->values);
       if (!c.threshold) c.threshold = ztest_tolerated;
       return;
   }
@@ -59,7 +59,8 @@ void measure(Comparison& c, const ZTestInput& input) {
 
 bool means_agree(const Comparison& c) {
   const auto near_one = [&](double ratio) { return std::abs(ratio - 1) <= *c.mean_within; };
-  return !c.mean_within || (near_one(c.ratios.x) && near_one(c.ratios.luminance) && near_one(c.ratios.z));
+  if (!c.mean_within) return !c.test || !c.test->means_differ;
+  return (near_one(c.ratios.x) && near_one(c.ratios.luminance) && near_one(c.ratios.z));
 }
 
 }  // namespace
@@ -73,66 +74,37 @@ Comparison compare(const ZTestInput& input, Metric metric, std::optional<double>
   c.nonfinite_image = count_nonfinite(*input.image);
   c.nonfinite_reference = count_nonfinite(*input.reference);
   c.ratios = mean_ratios(*input.image, *input.reference);
+  c.luminance_ratio_error = luminance_ratio_error(*input.image, *input.reference);
   measure(c, input);
   const bool within = !c.threshold || c.value <= *c.threshold;
   c.passed = within && means_agree(c) && c.nonfinite_image == 0 && c.nonfinite_reference == 0;
   return c;
 }
 
-std::string to_text(const Comparison& c) {
-  std::string text = fmt::format("{} {:.9g}", name_of(c.metric), c.value);
-  if (c.threshold) text += fmt::format(" (at most {:.9g})", *c.threshold);
-  text +=
-      fmt::format("\nmean ratio: X {:.6f}, luminance {:.6f}, Z {:.6f}, red {:.6f}, green {:.6f}, blue {:.6f}",
-                  c.ratios.x, c.ratios.luminance, c.ratios.z, c.ratios.red, c.ratios.green, c.ratios.blue);
-  if (c.mean_within) text += fmt::format(" (X, Y, Z within {:.9g})", *c.mean_within);
-  text += '\n';
-  if (c.nonfinite_image + c.nonfinite_reference > 0)
-    text += fmt::format("pixels that are not finite: {} of the image, {} of the reference\n",
-                        c.nonfinite_image, c.nonfinite_reference);
-  return text + (c.passed ? "passed\n" : "failed\n");
-}
-
-std::string to_json(const Comparison& c) {
-  nlohmann::ordered_json json{{"metric", name_of(c.metric)},
-                              {"value", c.value},
-                              {"threshold", nullptr},
-                              {"passed", c.passed},
-                              {"pixels", c.error_map.size()},
-                              {"nonfinite_image", c.nonfinite_image},
-                              {"nonfinite_reference", c.nonfinite_reference},
-                              {"mean_ratio_x", c.ratios.x},
-                              {"mean_ratio_y", c.ratios.luminance},
-                              {"mean_ratio_z", c.ratios.z},
-                              {"mean_within", nullptr},
-                              {"luminance_ratio", c.ratios.luminance},
-                              {"red_ratio", c.ratios.red},
-                              {"green_ratio", c.ratios.green},
-                              {"blue_ratio", c.ratios.blue}};
-  if (c.threshold) json["threshold"] = *c.threshold;
-  if (c.mean_within) json["mean_within"] = *c.mean_within;
-  return json.dump() + "\n";
-}
-
-Image heatmap(const Comparison& c, int width, int height) {
-  std::vector<double> sorted;
-  for (const double e : c.error_map)
-    if (!std::isnan(e)) sorted.push_back(e);
-  double hottest = 0;
-  if (!sorted.empty()) {
-    const auto percentile = sorted.begin() + static_cast<std::ptrdiff_t>((sorted.size() - 1) * 99 / 100);
-    std::nth_element(sorted.begin(), percentile, sorted.end());
-    hottest = *percentile > 0 ? *percentile : *std::max_element(sorted.begin(), sorted.end());
+std::vector<WorstPixel> worst_pixels(const std::vector<double>& error_map, const Image& image,
+                                     const Image& reference, int x0, int y0, std::size_t count) {
+  std::vector<std::size_t> order;
+  for (std::size_t p = 0; p < error_map.size(); ++p)
+    if (!(error_map[p] == 0)) order.push_back(p);
+  // What is not a number is the worst.
+  const auto worse = [&](std::size_t a, std::size_t b) {
+    const double x = std::isnan(error_map[a]) ? HUGE_VAL : error_map[a],
+                 y = std::isnan(error_map[b]) ? HUGE_VAL : error_map[b];
+    return x != y ? x > y : a < b;
+  };
+  count = std::min(count, order.size());
+  std::partial_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(count), order.end(), worse);
+  std::vector<WorstPixel> worst;
+  const auto width = static_cast<std::size_t>(image.width);
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t p = order[i];
+    WorstPixel& w = worst.emplace_back();
+    w.x = x0 + static_cast<int>(p % width), w.y = y0 + static_cast<int>(p / width);
+    for (std::size_t c = 0; c < 3; ++c)
+      w.image[c] = image.values[3 * p + c], w.reference[c] = reference.values[3 * p + c];
+    w.error = error_map[p];
   }
-  Image image = black_image(width, height, 3);
-  for (std::size_t p = 0; p < c.error_map.size(); ++p) {
-    const double e = c.error_map[p];
-    const auto heat = static_cast<float>(hottest > 0 ? 3 * std::min(1.0, e / hottest) : 0);
-    for (std::size_t k = 0; k < 3; ++k)
-      image.values[3 * p + k] =
-          std::isnan(e) ? (k == 1 ? 0.f : 1.f) : std::clamp(heat - static_cast<float>(k), 0.f, 1.f);
-  }
-  return image;
+  return worst;
 }
 
 }  // namespace vitrail

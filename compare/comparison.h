@@ -2,6 +2,7 @@
 // One comparison from end to end: the value of a metric, the verdict, and where the errors are.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,22 +12,33 @@
 
 namespace vitrail {
 
-enum class Metric { relmse, mse, mae, psnr, smape, ztest, bitwise };
+enum class Metric { relmse, mse, rmse, mae, psnr, smape, ztest, bitwise };
 
 // Empty for an unknown name.
 std::optional<Metric> metric_of(const std::string& name);
 const std::vector<std::string>& metric_names();
 
+struct WorstPixel {
+  int x = 0, y = 0;  // in the whole picture
+  std::array<float, 3> image{}, reference{};
+  double error = 0;  // of the metric
+};
+
 struct Comparison {
   Metric metric = Metric::relmse;
   double value = 0;  // for ztest the fraction of values that fail, for bitwise of pixels that differ
   std::optional<double> threshold, mean_within;
-  // value ≤ threshold, the means of X, Y and Z differ by no more than the fraction mean_within, and every
-  // pixel is finite in both images.
+  // value ≤ threshold, the means of X, Y and Z differ by no more than the fraction mean_within (without one,
+  // ztest tests the means too), and every pixel is finite in both images. Nothing was asked where there is
+  // neither a threshold nor a fraction.
   bool passed = true;
+  bool judged() const { return threshold.has_value() || mean_within.has_value(); }
   std::size_t nonfinite_image = 0, nonfinite_reference = 0;  // pixels
   MeanRatios ratios;
-  std::vector<double> error_map;  // one value a pixel, ≥ 0; NaN where not finite
+  double luminance_ratio_error = 0;  // standard error of ratios.luminance, from the scatter of the pixels
+  std::optional<ZTest> test;         // its map moved to error_map
+  std::vector<WorstPixel> worst;     // greatest error first
+  std::vector<double> error_map;     // one value a pixel, ≥ 0; NaN where not finite
 };
 
 // The images of `input` by a metric; its variances are needed by ztest alone. Without a threshold, ztest has
@@ -34,12 +46,13 @@ struct Comparison {
 Comparison compare(const ZTestInput& input, Metric metric, std::optional<double> threshold,
                    std::optional<double> mean_within = std::nullopt);
 
-// A few lines for people; one flat JSON object for programs (numbers that are not finite become null).
+// A few lines for people; one JSON object for programs (numbers that are not finite become null).
 std::string to_text(const Comparison& comparison);
 std::string to_json(const Comparison& comparison);
 
-// The error map as colours, black – red – yellow – white, linear from 0 to its 99th percentile; magenta where
-// NaN.
-Image heatmap(const Comparison& comparison, int width, int height);
+// The pixels of the greatest errors that are not 0, at most `count`. `error_map` has a value a pixel of the
+// images, whose first pixel is at (x0, y0) of the whole picture.
+std::vector<WorstPixel> worst_pixels(const std::vector<double>& error_map, const Image& image,
+                                     const Image& reference, int x0, int y0, std::size_t count);
 
 }  // namespace vitrail

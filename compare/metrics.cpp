@@ -102,4 +102,23 @@ MeanRatios mean_ratios(const Image& image, const Image& reference) {
           ratio(a.r, b.r),         ratio(a.g, b.g),         ratio(a.b, b.b)};
 }
 
+double luminance_ratio_error(const Image& image, const Image& reference) {
+  require_same_size(image, reference);
+  const auto luminance = [](const Image& of, std::size_t p) {
+    const float* v = &of.values[3 * p];
+    return srgb_to_xyz({static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2])}).y;
+  };
+  double sum = 0, squares = 0, reference_sum = 0, count = 0;
+  for (std::size_t p = 0; p < image.pixels(); ++p) {
+    if (!finite_pixel(image, p) || !finite_pixel(reference, p)) continue;
+    const double y = luminance(reference, p), difference = luminance(image, p) - y;
+    sum += difference;
+    squares += difference * difference;
+    reference_sum += y;
+    ++count;
+  }
+  const double variance = std::max(0.0, squares / count - (sum / count) * (sum / count));
+  return reference_sum == 0 ? nan : std::sqrt(variance / count) / (reference_sum / count);
+}
+
 }  // namespace vitrail

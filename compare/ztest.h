@@ -17,6 +17,9 @@ namespace vitrail {
 
 inline constexpr double ztest_significance = 0.01;
 inline constexpr double ztest_tolerated = 0.0025;  // fraction of values that may fail
+// What every pixel's noise hides, the mean of all shows. Of one of 10,000 equal pictures it is said to
+// differ.
+inline constexpr double ztest_mean_significance = 1e-4;
 
 struct ZTestInput {
   const Image* image = nullptr;
@@ -33,6 +36,11 @@ struct ZTest {
   std::size_t values = 0;         // tested: pixels × (1 or 3)
   std::size_t failed = 0;         // of them, the non-finite ones among them
   double value_significance = 0;  // after the correction
+  // By how many standard errors the means differ, of luminance or of the worst of X, Y and Z, beyond what
+  // rounding the reference to half floats can do; and whether that is too many.
+  double mean_sigmas = 0;
+  bool means_differ = false;
+  double noise_rms = 0, difference_rms = 0;  // of luminance: expected of the variances, and found
 };
 
 // z = (a − b)/√variance of luminance, or of X, of Y and of Z; 0 for equal values.

@@ -2,6 +2,7 @@
 // The film of a whole job on disk: all ranks' sums, and which work items they hold.
 #pragma once
 
+#include "farm/options.h"
 #include "farm/transport.h"
 #include "farm/work.h"
 #include "film/film.h"
@@ -14,15 +15,22 @@ std::filesystem::path checkpoint_path(const std::filesystem::path& film);
 // and writes them there. To be called by all ranks together while no ray is alive. `done` is the rank's own
 // bits, and becomes the job's on rank 0 and empty elsewhere.
 void write_job_film(Transport& transport, const std::filesystem::path& file, Film& film,
-                    std::vector<std::uint64_t>& done, const WorkPlan& plan, double render_time_s);
+                    std::vector<std::uint64_t>& done, const WorkPlan& plan, double render_time_s,
+                    const std::string& about);
 
-// Rank 0 reads the checkpoint into `film`; every rank gets the items it holds. Throws Error when it is of
-// another picture, seed or sample count, or was made by another program.
-struct Resumed {
-  std::vector<std::uint64_t> done;
-  double render_time_s = 0;  // known to rank 0
+// What earlier runs left of this very job, in its film (finished, or stopped by a time limit) or in its
+// checkpoint.
+struct EarlierWork {
+  std::vector<std::uint32_t> ends;  // of renders of fewer samples that it goes on from, for the work plan
+  std::vector<std::uint64_t> done;  // bits of that plan's items; empty: none is done
+  double render_time_s = 0;         // known to rank 0
+  bool finished = false;            // the film holds all that is asked for
 };
-Resumed read_checkpoint(Transport& transport, const std::filesystem::path& file, Film& film,
-                        const WorkPlan& plan);
+
+// Rank 0 adds to `film` what lies under the job's two names, the one that holds more; every rank learns what
+// it is. Throws Error where either is of another picture or seed, was made by another program, or aims at
+// more than `samples` a pixel: it would be lost. With options.force nothing is looked at.
+EarlierWork read_earlier_work(Transport& transport, const RenderOptions& options, Film& film,
+                              std::uint32_t samples);
 
 }  // namespace vitrail

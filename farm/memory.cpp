@@ -2,10 +2,8 @@
 #include "farm/memory.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <fstream>
 
 #include "scene/diagnostics.h"
 #include "tracer/records.h"
@@ -20,13 +18,6 @@ constexpr std::uint64_t slack_bytes = 4 * mib, slack_a_thread = mib;
 constexpr std::uint64_t least_queue_bytes = 2 * mib, most_queue_bytes = 512 * mib;
 
 }  // namespace
-
-std::uint64_t resident_bytes() {
-  std::ifstream statm("/proc/self/statm");
-  std::uint64_t size = 0, resident = 0;
-  statm >> size >> resident;
-  return resident * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
-}
 
 MemoryPlan plan_memory(std::uint64_t budget, std::uint64_t base, int threads, std::uint64_t largest_domain,
                        std::uint64_t all_domains) {

@@ -6,8 +6,6 @@
 
 namespace vitrail {
 
-std::uint64_t resident_bytes();  // of this process, now
-
 struct MemoryPlan {
   std::uint64_t domains_bytes = 0;  // for mapped domains
   std::uint64_t queue_bytes = 0;    // for rays that wait or travel

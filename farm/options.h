@@ -8,15 +8,18 @@
 
 namespace vitrail {
 
-enum class ProgressMode { none, bar, json };
+enum class ProgressMode { none, bar, lines, json };
 
 // What `vitrail render` is asked for. Empty optionals: as the scene says.
 struct RenderOptions {
   std::filesystem::path bundle;
+  std::string scene_name;      // what the picture says that it is of; empty: nothing
   std::filesystem::path film;  // where the finished film goes; the checkpoint lies beside it as FILM.partial
   std::optional<int> samples_per_pixel;
   std::optional<int> max_depth;
   std::optional<bool> direct_only;
+  std::optional<int> width, height;  // one of them alone: in the scene's proportions
+  double scale = 1;                  // of both, where neither is given
   std::optional<PixelRect> crop;
   std::optional<SpectralBins> bins;
   std::uint64_t seed = 0;
@@ -24,10 +27,13 @@ struct RenderOptions {
   int threads = 0;                 // a rank; 0: one a core
   double checkpoint_every_s = 0;   // 0: only when asked by a signal
   double time_limit_s = 0;         // 0: none. The film then holds what was done
-  bool resume = false;
+  bool dry_run = false;           // renders until the time limit, writes nothing and says what all would take
+  bool resume = false;            // says where there is nothing to go on from; going on needs no asking
+  bool force = false;             // replaces what lies under the names of film and checkpoint, whatever it is
   std::filesystem::path stats;    // empty: none
   std::filesystem::path profile;  // where a RayProfile of a whole picture goes; empty: none
   ProgressMode progress = ProgressMode::none;
+  bool quiet = false;  // nothing is said but what is wrong
   // For tests: at most this for domains, whatever memory_bytes leaves; 0: no such limit.
   std::uint64_t domain_memory_bytes = 0;
   // For tests: processes rays in an arbitrary order: no picture may depend on it.

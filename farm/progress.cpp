@@ -3,39 +3,85 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
+#include <nlohmann/json.hpp>
 #include <string>
 
 namespace vitrail {
 
-Progress::Progress(ProgressMode mode, std::uint64_t items, std::uint64_t items_before)
-    : mode_(mode),
-      items_(static_cast<double>(items)),
-      items_before_(static_cast<double>(items_before)),
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::chrono::milliseconds interval_of(ProgressMode mode) {
+  using namespace std::chrono_literals;
+  return mode == ProgressMode::bar ? 100ms : mode == ProgressMode::json ? 1000ms : 60000ms;
+}
+
+std::string duration(double s) {
+  if (s < 10) return fmt::format("{:.1f} s", s);
+  if (s < 90) return fmt::format("{:.0f} s", s);
+  const auto minutes = static_cast<long>(s / 60 + 0.5);
+  return minutes < 90 ? fmt::format("{} min", minutes)
+                      : fmt::format("{} h {} min", minutes / 60, minutes % 60);
+}
+
+// Standard output, which nothing else of a render writes to.
+void print_json(const Json& event) {
+  fmt::print("{}\n", event.dump(-1, ' ', false, Json::error_handler_t::replace));
+  std::fflush(stdout);
+}
+
+const char* word(Ending ending) {
+  return ending == Ending::finished     ? "finished"
+         : ending == Ending::time_is_up ? "time is up"
+                                        : "interrupted";
+}
+
+}  // namespace
+
+Progress::Progress(const RenderOptions& options, int rank, const Work& work)
+    : mode_(rank == 0 ? options.progress : ProgressMode::none),
+      time_limit_s_(options.time_limit_s),
+      samples_(work.samples),
+      items_(static_cast<double>(work.items)),
+      done_before_(static_cast<double>(work.items_before) / items_),
       start_(std::chrono::steady_clock::now()),
       last_(start_) {}
 
 void Progress::show(const RoundSums& sums) {
   if (mode_ == ProgressMode::none) return;
   const auto now = std::chrono::steady_clock::now();
-  const auto interval =
-      mode_ == ProgressMode::bar ? std::chrono::milliseconds(100) : std::chrono::milliseconds(1000);
-  if (now - last_ < interval) return;
+  if (now - last_ < interval_of(mode_)) return;
   last_ = now;
   print(sums, std::chrono::duration<double>(now - start_).count());
 }
 
+double Progress::remaining_s(double done, double elapsed_s) const {
+  const double here = done - done_before_;
+  const double left_s = here > 0 ? elapsed_s * (1 - done) / here : 0;
+  if (time_limit_s_ <= 0) return left_s;
+  const double until_limit_s = std::max(0.0, time_limit_s_ - elapsed_s);
+  return here > 0 ? std::min(left_s, until_limit_s) : until_limit_s;
+}
+
 void Progress::print(const RoundSums& sums, double elapsed_s) {
-  const double done = items_ > 0 ? static_cast<double>(sums.items_done) / items_ : 1;
-  const double here = static_cast<double>(sums.items_done) - items_before_;
-  const double left_s = here > 0 ? elapsed_s * (items_ - static_cast<double>(sums.items_done)) / here : 0;
+  const double done = static_cast<double>(sums.items_done) / items_;
+  const double left_s = remaining_s(done, elapsed_s);
   const double rate = elapsed_s > 0 ? static_cast<double>(sums.rays_traced) / elapsed_s : 0;
-  if (mode_ == ProgressMode::json) {
-    fmt::print(
-        stderr,
-        "{{\"progress\":{:.6f},\"elapsed_s\":{:.3f},\"remaining_s\":{:.3f},\"rays\":{},\"rays_waiting\":{},"
-        "\"domain_loads\":{}}}\n",
-        done, elapsed_s, left_s, sums.rays_traced, sums.born - sums.died, sums.domain_loads);
+  if (mode_ == ProgressMode::json)
+    return print_json({{"event", "progress"},
+                       {"progress", done},
+                       {"samples_per_pixel", samples_ * done},
+                       {"elapsed_s", elapsed_s},
+                       {"remaining_s", left_s},
+                       {"rays", sums.rays_traced},
+                       {"rays_waiting", sums.born - sums.died},
+                       {"domain_loads", sums.domain_loads}});
+  if (mode_ == ProgressMode::lines) {
+    fmt::print(stderr, "vitrail: {:.1f} % after {}, {:.4g} of {} samples a pixel, {:.2f} Mray/s, {} left\n",
+               100 * done, duration(elapsed_s), samples_ * done, samples_, rate * 1e-6, duration(left_s));
     return;
   }
   constexpr int width = 32;
@@ -43,7 +89,7 @@ void Progress::print(const RoundSums& sums, double elapsed_s) {
   fmt::print(stderr, "\r\033[Krender [{}{}] {:5.1f} %  {:.2f} Mray/s  {} left",
              std::string(static_cast<std::size_t>(filled), '#'),
              std::string(static_cast<std::size_t>(width - filled), ' '), 100 * done, rate * 1e-6,
-             left_s < 90 ? fmt::format("{:.0f} s", left_s) : fmt::format("{:.0f} min", left_s / 60));
+             duration(left_s));
   std::fflush(stderr);
   line_open_ = true;
 }
@@ -51,6 +97,35 @@ void Progress::print(const RoundSums& sums, double elapsed_s) {
 void Progress::finish() {
   if (line_open_) fmt::print(stderr, "\r\033[K");
   line_open_ = false;
+}
+
+void print_start(const RenderOptions& options, const Manifest& m, int ranks, int threads) {
+  if (options.progress != ProgressMode::lines) return;
+  const PixelRect& c = m.film.crop;
+  fmt::print(stderr, "vitrail: rendering {} × {} pixels, {} samples each, {} domains, {} × {} threads\n",
+             c.x1 - c.x0, c.y1 - c.y0, m.settings.samples_per_pixel, m.domains.size(), ranks, threads);
+}
+
+void print_end(const RenderOptions& options, const RenderStats& s, std::uint64_t pixels) {
+  if (options.progress == ProgressMode::none) return;
+  const double samples = static_cast<double>(s.samples) / static_cast<double>(pixels);
+  const std::uint64_t rays = s.traced.rays_camera + s.traced.rays_indirect + s.traced.rays_shadow;
+  if (options.progress == ProgressMode::json)
+    return print_json({{"event", "end"},
+                       {"ending", word(s.ending)},
+                       {"progress", samples / static_cast<double>(s.spp)},
+                       {"samples_per_pixel", samples},
+                       {"elapsed_s", s.wall_s},
+                       {"remaining_s", 0},
+                       {"rays", rays},
+                       {"film", options.film.string()},
+                       {"film_hash", fmt::format("{:016x}", s.film_hash)}});
+  if (s.finished_before || !writes_film(s.ending)) return;
+  fmt::print(stderr,
+             "vitrail: {}: {:.4g} of {} samples a pixel after {}, {:.2f} Mray/s, {:.0f} MiB a rank{}\n",
+             options.film.string(), samples, s.spp, duration(s.wall_s),
+             static_cast<double>(rays) / s.wall_s * 1e-6, static_cast<double>(s.peak_rss_bytes) / 0x1p20,
+             s.ending == Ending::time_is_up ? "; the same command goes on" : "");
 }
 
 }  // namespace vitrail

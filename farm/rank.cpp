@@ -2,6 +2,7 @@
 #include "farm/rank.h"
 
 #include <bit>
+#include <csignal>
 #include <thread>
 
 #include "farm/agreement.h"
@@ -29,29 +30,30 @@ std::uint64_t bits_set(const std::vector<std::uint64_t>& words) {
 
 }  // namespace
 
-Rank::Rank(Transport& transport, RankState& state, const RenderOptions& options, Resumed resumed,
-           std::int64_t rays_allowed)
+Rank::Rank(Transport& transport, RankState& state, const RenderOptions& options, EarlierWork earlier,
+           std::int64_t rays_allowed, std::string about)
     : transport_(transport),
       state_(state),
       options_(options),
-      progress_(transport.rank() == 0 ? options.progress : ProgressMode::none, state.plan.items(),
-                bits_set(resumed.done)),
+      progress_(options, transport.rank(),
+                {state.plan.items(), bits_set(earlier.done), state.plan.samples()}),
       done_((state.plan.items() + 63) / 64),
-      time_before_s_(resumed.render_time_s),
+      time_before_s_(earlier.render_time_s),
+      about_(std::move(about)),
       rays_allowed_(rays_allowed),
       start_(Clock::now()),
       last_checkpoint_(start_),
       last_sent_(start_) {
-  state_.share = share_of(state.plan, resumed.done, transport.rank(), transport.size());
+  state_.share = share_of(state.plan, earlier.done, transport.rank(), transport.size());
   if (transport.rank() == 0) {
-    items_before_ = bits_set(resumed.done);
-    if (!resumed.done.empty()) done_ = std::move(resumed.done);
+    items_before_ = bits_set(earlier.done);
+    if (!earlier.done.empty()) done_ = std::move(earlier.done);
   }
 }
 
 double Rank::elapsed_s() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
 
-bool Rank::run() {
+Ending Rank::run() {
   auto nap = std::chrono::microseconds(shortest_nap);
   auto last_round = Clock::now() - round_interval;
   bool in_round = false;
@@ -63,13 +65,15 @@ bool Rank::run() {
         in_round = false;
         progress_.show(*sums);
         const Decision decision = decide(*sums);
-        if (decision != Decision::go_on) {
-          const bool finish = decision == Decision::finish;
-          write(finish ? options_.film : checkpoint_path(options_.film));
-          if (decision != Decision::checkpoint) {
-            progress_.finish();
-            return finish;
-          }
+        if (decision == Decision::checkpoint) write(checkpoint_path(options_.film));
+        if (decision == Decision::end) {
+          const Ending ending = ending_of(*sums);
+          if (options_.dry_run)
+            transport_.sum_to_root(state_.film.counts());
+          else
+            write(writes_film(ending) ? options_.film : checkpoint_path(options_.film));
+          progress_.finish();
+          return ending;
         }
       }
     } else if (Clock::now() - last_round >= round_interval) {
@@ -120,12 +124,11 @@ bool Rank::move_rays() {
 
 void Rank::watch_clock() {
   if (take_checkpoint_signal()) want_checkpoint_ = true;
-  if (stop_signalled()) want_stop_ = true;
   if (transport_.rank() != 0) return;
   const auto since_checkpoint = std::chrono::duration<double>(Clock::now() - last_checkpoint_).count();
   if (options_.checkpoint_every_s > 0 && since_checkpoint >= options_.checkpoint_every_s)
     want_checkpoint_ = true;
-  if (options_.time_limit_s > 0 && elapsed_s() >= options_.time_limit_s) time_is_up_ = want_stop_ = true;
+  if (options_.time_limit_s > 0 && elapsed_s() >= options_.time_limit_s) time_is_up_ = true;
 }
 
 RoundSums Rank::contribution() {
@@ -135,7 +138,8 @@ RoundSums Rank::contribution() {
   mine.died = static_cast<std::int64_t>(state_.counters.died);
   mine.quiet = state_.quiet();
   mine.pause = want_checkpoint_;
-  mine.stop = want_stop_;
+  mine.interrupted = stop_signal() == SIGINT;
+  mine.terminated = stop_signal() == SIGTERM;
   mine.time_is_up = time_is_up_;
   if (state_.failure) (is_bad_input(state_.failure) ? mine.bad_input : mine.machine_failure) = 1;
   mine.items_done = static_cast<std::int64_t>(items_before_ + state_.next_item - state_.items_in_hand);
@@ -163,13 +167,18 @@ Rank::Decision Rank::decide(const RoundSums& sums) {
     state_.allowance =
         alive < rays_allowed_ ? std::max<std::int64_t>(1, (rays_allowed_ - alive) / transport_.size()) : 0;
     state_.alive = static_cast<std::size_t>(std::max<std::int64_t>(0, alive));
-    state_.paused = sums.pause + sums.stop > 0;
+    state_.paused = sums.pause + sums.interrupted + sums.terminated + sums.time_is_up > 0;
   }
   state_.work_available.notify_all();
   if (!over) return Decision::go_on;
-  if (sums.items_done == static_cast<std::int64_t>(state_.plan.items()) || sums.time_is_up > 0)
-    return Decision::finish;
-  return sums.stop > 0 ? Decision::stop : Decision::checkpoint;
+  return ending_of(sums) == Ending::none ? Decision::checkpoint : Decision::end;
+}
+
+Ending Rank::ending_of(const RoundSums& sums) const {
+  if (sums.items_done == static_cast<std::int64_t>(state_.plan.items())) return Ending::finished;
+  if (sums.terminated > 0) return Ending::terminated;
+  if (sums.interrupted > 0) return Ending::interrupted;
+  return sums.time_is_up > 0 ? Ending::time_is_up : Ending::none;
 }
 
 void Rank::write(const std::filesystem::path& file) {
@@ -181,7 +190,7 @@ void Rank::write(const std::filesystem::path& file) {
       done_[item / 64] |= std::uint64_t{1} << (item % 64);
     }
   }
-  write_job_film(transport_, file, state_.film, done_, state_.plan, render_time_s);
+  write_job_film(transport_, file, state_.film, done_, state_.plan, render_time_s, about_);
   want_checkpoint_ = calm_ = false;
   last_checkpoint_ = Clock::now();
 }

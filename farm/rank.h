@@ -15,23 +15,24 @@ namespace vitrail {
 
 class Rank {
  public:
-  // `rays_allowed`: alive in the whole job at a time.
-  Rank(Transport& transport, RankState& state, const RenderOptions& options, Resumed resumed,
-       std::int64_t rays_allowed);
+  // `rays_allowed`: alive in the whole job at a time. `about`: FilmProgress's.
+  Rank(Transport& transport, RankState& state, const RenderOptions& options, EarlierWork earlier,
+       std::int64_t rays_allowed, std::string about);
 
-  // Until the picture is whole, the time is up or the job is told to stop. Returns whether the final film was
-  // written (on rank 0); if not, a checkpoint was. Throws what went wrong here, or OtherRankFailed, after all
+  // Until the picture is whole, the time is up or the job is told to stop. Rank 0 has then written the film,
+  // or a checkpoint where a signal stopped it. Throws what went wrong here, or OtherRankFailed, after all
   // ranks have agreed to end.
-  bool run();
+  Ending run();
 
   void add_to(RenderStats& stats) const;
 
  private:
-  enum class Decision { go_on, checkpoint, stop, finish };
+  enum class Decision { go_on, checkpoint, end };
 
   bool move_rays();
   RoundSums contribution();
   Decision decide(const RoundSums& sums);
+  Ending ending_of(const RoundSums& sums) const;
   void write(const std::filesystem::path& file);
   void watch_clock();
   void leave_together();
@@ -46,8 +47,9 @@ class Rank {
   std::size_t reported_ = 0;  // items of the share already in done_
   std::uint64_t items_before_ = 0;  // on rank 0: done by earlier runs
   double time_before_s_ = 0;        // render time of earlier runs
+  std::string about_;
   std::int64_t rays_allowed_ = 0;
-  bool want_checkpoint_ = false, want_stop_ = false, time_is_up_ = false;
+  bool want_checkpoint_ = false, time_is_up_ = false;
   bool calm_ = false;  // the last round saw no ray alive and nothing to generate
   std::int64_t born_then_ = -1;
   std::uint64_t messages_ = 0, received_ = 0, sent_bytes_ = 0;

@@ -9,11 +9,14 @@
 #include <thread>
 
 #include "bundle/ray_profile.h"
+#include "farm/about.h"
 #include "farm/agreement.h"
+#include "farm/film_size.h"
 #include "farm/memory.h"
 #include "farm/rank.h"
 #include "farm/signals.h"
 #include "scene/atomic_file.h"
+#include "scene/output_place.h"
 #include "scene/resource_usage.h"
 #include "tracer/film_exponent.h"
 
@@ -32,6 +35,7 @@ Manifest read_with_overrides(const RenderOptions& options) {
     throw UsageError(fmt::format("samples a pixel must be between 1 and {}", max_samples - 1));
   if (m.settings.max_depth < 0) throw UsageError("the depth must not be negative");
   m.settings.max_depth = std::min(m.settings.max_depth, max_path_depth);
+  resize_film(m, options);
   if (options.crop) m.film.crop = *options.crop;
   if (options.bins) m.film.spectrum = *options.bins;
   const PixelRect& c = m.film.crop;
@@ -53,7 +57,6 @@ FilmKey key_of(const Manifest& m, std::uint64_t seed) {
 struct Job {
   std::unique_ptr<RenderScene> scene;
   Film film;
-  WorkPlan plan;
   std::uint64_t texture_bytes = 0;
 };
 
@@ -67,11 +70,9 @@ std::uint64_t texture_budget(const Manifest& m, std::uint64_t memory_bytes) {
 
 Job set_up(const RenderOptions& options) {
   Manifest manifest = read_with_overrides(options);
-  const WorkPlan plan =
-      make_work_plan(manifest.film.crop, static_cast<std::uint32_t>(manifest.settings.samples_per_pixel));
   const std::uint64_t textures = texture_budget(manifest, options.memory_bytes);
   auto scene = std::make_unique<RenderScene>(std::move(manifest), options.bundle, textures, options.seed);
-  return {std::move(scene), {}, plan, textures};
+  return {std::move(scene), {}, textures};
 }
 
 MemoryPlan plan_for(const Manifest& manifest, const RenderOptions& options, int threads, std::uint64_t base) {
@@ -82,6 +83,27 @@ MemoryPlan plan_for(const Manifest& manifest, const RenderOptions& options, int 
   if (options.domain_memory_bytes > 0)
     plan.domains_bytes = std::max(largest, std::min(plan.domains_bytes, options.domain_memory_bytes));
   return plan;
+}
+
+double minutes(double s) { return s / 60; }
+
+// From what was done until the time limit. The first samples of a picture may be cheaper than its others.
+void print_estimate(const RenderStats& s, const MemoryPlan& memory, std::uint64_t all_domains,
+                    std::uint64_t samples_before, std::uint64_t samples_in_all) {
+  constexpr double mib = 1 << 20;
+  fmt::print("memory of a rank: {:.0f} MiB of program, film and textures, {:.0f} MiB of domains{}\n",
+             static_cast<double>(s.base_rss_bytes) / mib,
+             static_cast<double>(std::min(memory.domains_bytes, all_domains)) / mib,
+             memory.domains_bytes < all_domains
+                 ? fmt::format(" of {:.0f}: they come and go", static_cast<double>(all_domains) / mib)
+                 : "");
+  const double here = static_cast<double>(s.samples - samples_before),
+               left = static_cast<double>(samples_in_all - s.samples) + here;
+  if (left > 0 && here > 0)
+    fmt::print(
+        "time: about {:.1f} min on {} × {} threads for {:.3g} million samples, by {:.3g} million that took "
+        "{:.1f} s\n",
+        minutes(s.wall_s * left / here), s.ranks, s.threads, left * 1e-6, here * 1e-6, s.wall_s);
 }
 
 void write_stats(const std::filesystem::path& file, const RenderStats& stats) {
@@ -110,22 +132,30 @@ RenderStats render(Transport& transport, const RenderOptions& options) {
     stats.base_rss_bytes = resident_bytes() + film_bytes(m.film);
     memory = plan_for(m, options, threads, stats.base_rss_bytes + job->texture_bytes);
     job->film = Film(m.film, key_of(m, options.seed), film_exponent(*job->scene));
+    if (transport.rank() == 0) require_room(options.film, film_bytes(m.film));
   });
   const Manifest& manifest = job->scene->manifest;
-  Resumed resumed;
-  const std::filesystem::path checkpoint = checkpoint_path(options.film);
-  if (options.resume) resumed = read_checkpoint(transport, checkpoint, job->film, job->plan);
+  const auto samples = static_cast<std::uint32_t>(manifest.settings.samples_per_pixel);
+  EarlierWork earlier = read_earlier_work(transport, options, job->film, samples);
+  const WorkPlan plan = make_work_plan(manifest.film.crop, samples, earlier.ends);
   const bool from_the_start =
-      std::ranges::all_of(resumed.done, [](std::uint64_t items) { return items == 0; });
+      std::ranges::all_of(earlier.done, [](std::uint64_t items) { return items == 0; });
 
-  RankState state(*job->scene, job->film, job->plan, RayQueues(manifest.domains.size(), options.shuffle_seed),
+  RankState state(*job->scene, job->film, plan, RayQueues(manifest.domains.size(), options.shuffle_seed),
                   Residency(manifest, options.bundle, memory.domains_bytes,
                             home_ranks(manifest, transport.size()), transport.rank()));
+  if (transport.rank() == 0 && !options.quiet && manifest.lights.empty() && manifest.area_lights.empty())
+    fmt::print(stderr, "vitrail: the scene has no light: its picture is black\n");
   if (!options.profile.empty()) state.visits.resize(manifest.domains.size());
-  Rank rank(transport, state, options, std::move(resumed), rays_allowed(memory));
-  {
+  stats.finished_before = earlier.finished;
+  const std::uint64_t samples_before = job->film.samples();
+  Rank rank(transport, state, options, std::move(earlier), rays_allowed(memory), about(manifest, options));
+  if (stats.finished_before) {
+    stats.ending = Ending::finished;
+  } else {
+    if (transport.rank() == 0) print_start(options, manifest, transport.size(), threads);
     const Workers workers(state, threads);
-    stats.complete = rank.run();
+    stats.ending = rank.run();
   }
   rank.add_to(stats);
   stats.ranks = transport.size();
@@ -144,14 +174,21 @@ RenderStats render(Transport& transport, const RenderOptions& options) {
   if (transport.rank() != 0) return stats;
 
   stats.samples = job->film.samples();
+  if (options.dry_run) {
+    print_estimate(stats, memory, bytes_of_all(manifest), samples_before,
+                   std::uint64_t{samples} * job->film.pixels());
+    return stats;
+  }
   stats.refused = job->film.refused();
   if (stats.refused.nonfinite > 0)
     fmt::print(stderr, "vitrail: {} samples were not finite and count as black\n", stats.refused.nonfinite);
   stats.film_hash = job->film.hash();
-  if (stats.complete) std::filesystem::remove(checkpoint);
+  print_end(options, stats, job->film.pixels());
+  // The film holds all that the checkpoint does.
+  if (writes_film(stats.ending)) std::filesystem::remove(checkpoint_path(options.film));
   if (!options.stats.empty()) write_stats(options.stats, stats);
   if (!options.profile.empty()) {
-    if (from_the_start && stats.complete)
+    if (from_the_start && stats.ending == Ending::finished)
       write_ray_profile(options.profile, {manifest, {visits.begin(), visits.end()}});
     else
       fmt::print(stderr,

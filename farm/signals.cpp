@@ -8,10 +8,17 @@ namespace vitrail {
 
 namespace {
 
-std::atomic<bool> stop_flag = false, checkpoint_flag = false;
-static_assert(std::atomic<bool>::is_always_lock_free);
+std::atomic<int> stop_number = 0;
+std::atomic<bool> checkpoint_flag = false;
+static_assert(std::atomic<int>::is_always_lock_free && std::atomic<bool>::is_always_lock_free);
 
-void on_signal(int number) { (number == SIGUSR1 ? checkpoint_flag : stop_flag) = true; }
+void on_signal(int number) {
+  int none = 0;
+  if (number == SIGUSR1)
+    checkpoint_flag = true;
+  else
+    stop_number.compare_exchange_strong(none, number);
+}
 
 }  // namespace
 
@@ -22,7 +29,7 @@ void catch_signals() {
   for (int number : {SIGTERM, SIGINT, SIGUSR1}) ::sigaction(number, &action, nullptr);
 }
 
-bool stop_signalled() { return stop_flag; }
+int stop_signal() { return stop_number; }
 bool take_checkpoint_signal() { return checkpoint_flag.exchange(false); }
 
 }  // namespace vitrail

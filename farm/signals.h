@@ -5,7 +5,8 @@
 namespace vitrail {
 
 void catch_signals();
-bool stop_signalled();
+// The first of TERM and INT that came; 0: none did.
+int stop_signal();
 // True once for each USR1 (or several in one).
 bool take_checkpoint_signal();
 

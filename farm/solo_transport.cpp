@@ -30,10 +30,13 @@ class SoloTransport final : public Transport {
 
 }  // namespace
 
-std::unique_ptr<Transport> make_transport(int* argc, char*** argv) {
+bool launched_by_mpi() {
   constexpr const char* launchers[] = {"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK"};
-  if (std::ranges::any_of(launchers, [](const char* name) { return std::getenv(name) != nullptr; }))
-    return make_mpi_transport(argc, argv);
+  return std::ranges::any_of(launchers, [](const char* name) { return std::getenv(name) != nullptr; });
+}
+
+std::unique_ptr<Transport> make_transport(int* argc, char*** argv) {
+  if (launched_by_mpi()) return make_mpi_transport(argc, argv);
   return std::make_unique<SoloTransport>();
 }
 

@@ -42,7 +42,7 @@ std::string to_json(const RenderStats& s) {
                                  {"seed", s.seed},
                                  {"samples", s.samples},
                                  {"spectral_bins", s.spectral_bins},
-                                 {"complete", s.complete},
+                                 {"complete", s.ending == Ending::finished},
                                  {"wall_s", s.wall_s},
                                  {"cpu_s", s.cpu_s},
                                  {"load_s", s.load_s},

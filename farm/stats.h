@@ -8,6 +8,11 @@
 
 namespace vitrail {
 
+// How a job came to its end.
+enum class Ending { none, finished, time_is_up, interrupted, terminated };
+// Into the film rather than a checkpoint.
+constexpr bool writes_film(Ending e) { return e == Ending::finished || e == Ending::time_is_up; }
+
 // The statistics of a render, of one rank and, after `gather_stats`, of the job: sums, and maxima for the
 // memory.
 struct RenderStats {
@@ -20,7 +25,8 @@ struct RenderStats {
   std::uint64_t domains_total = 0, domains_touched = 0, domain_loads = 0, evictions = 0;
   std::uint64_t memory_budget_bytes = 0, peak_rss_bytes = 0, base_rss_bytes = 0;
   std::uint64_t film_hash = 0;
-  bool complete = false;  // false: stopped before its end
+  Ending ending = Ending::none;
+  bool finished_before = false;  // nothing was left to do
 };
 
 // All ranks together; the job's on rank 0. `touched`: a bit a domain, of this rank.

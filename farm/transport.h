@@ -15,10 +15,11 @@ namespace vitrail {
 
 // What every rank adds to a round; the sums are what all ranks decide by, so they decide alike.
 struct RoundSums {
-  std::int64_t born = 0, died = 0;   // rays
-  std::int64_t quiet = 0;            // 1: nothing will be generated before the next decision
-  std::int64_t pause = 0, stop = 0;  // requests: a checkpoint, an end
-  std::int64_t time_is_up = 0;       // the end asked for is the time limit
+  std::int64_t born = 0, died = 0;               // rays
+  std::int64_t quiet = 0;                        // 1: nothing will be generated before the next decision
+  std::int64_t pause = 0;                        // a request for a checkpoint
+  std::int64_t interrupted = 0, terminated = 0;  // requests for an end, by INT and by TERM
+  std::int64_t time_is_up = 0;                   // another, by the time limit
   std::int64_t bad_input = 0, machine_failure = 0;
   std::int64_t items_done = 0;
   std::int64_t rays_traced = 0;
@@ -51,6 +52,7 @@ class Transport {
 
 // Speaks MPI when launched by mpirun or srun, else alone.
 std::unique_ptr<Transport> make_transport(int* argc, char*** argv);
+bool launched_by_mpi();
 std::unique_ptr<Transport> make_mpi_transport(int* argc, char*** argv);
 
 }  // namespace vitrail

@@ -31,7 +31,7 @@ Picture develop(const Film& film) {
   picture.window = film.crop();
   picture.full_width = film.full_width();
   picture.full_height = film.full_height();
-  std::uint64_t most_samples = 0;
+  std::uint64_t most_samples = 0, least_samples = ~std::uint64_t{0};
   for (std::uint32_t p = 0; p < film.pixels(); ++p) {
     const RGB c = xyz_to_srgb(film.mean(p));
     float* out = &picture.rgb.values[3 * std::size_t{p}];
@@ -41,8 +41,15 @@ Picture develop(const Film& film) {
     for (std::size_t b = 0; b < bins; ++b)
       picture.spectrum.values[bins * p + b] = static_cast<float>(film.mean_of_bin(p, b));
     most_samples = std::max(most_samples, film.samples(p));
+    least_samples = std::min(least_samples, film.samples(p));
   }
-  picture.samples_per_pixel = static_cast<int>(std::min<std::uint64_t>(most_samples, 0x7fffffff));
+  constexpr std::uint64_t most_int = 0x7fffffff;
+  picture.samples_per_pixel = static_cast<int>(std::min(most_samples, most_int));
+  picture.origin = {.software = to_string(film.key().renderer),
+                    .scene_hash = fmt::format("{:016x}", film.key().scene_hash),
+                    .seeds = fmt::format("{}", film.key().seed),
+                    .film_hash = fmt::format("{:016x}", film.hash()),
+                    .least_samples = static_cast<int>(std::min(least_samples, most_int))};
   return picture;
 }
 

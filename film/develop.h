@@ -7,6 +7,13 @@
 
 namespace vitrail {
 
+// Where a picture comes from; what is empty or 0 is unknown.
+struct PictureOrigin {
+  std::string software, scene, scene_hash, seeds, film_hash;
+  int least_samples = 0;               // of a pixel
+  std::vector<float> world_to_camera;  // 16 numbers, row by row, of a matrix that takes columns
+};
+
 // An image and what is known of how it came to be. Zero stands for unknown.
 struct Picture {
   Image rgb;       // linear sRGB
@@ -17,6 +24,7 @@ struct Picture {
   int full_width = 0, full_height = 0;
   int samples_per_pixel = 0;
   double render_time_s = 0;
+  PictureOrigin origin;  // written, not read
 };
 
 // The means of the film in linear sRGB, not clamped, and the variances of their luminance;

@@ -131,6 +131,10 @@ struct FilmProgress {
   std::uint64_t samples_per_pixel = 0;
   std::vector<std::uint64_t> done;  // ⌈items/64⌉ words
   double render_time_s = 0;
+  // Ends, in samples a pixel, of renders that this one goes on from: their items come first (see
+  // farm/work.h). Ascending, below samples_per_pixel; empty once all items are done.
+  std::vector<std::uint32_t> earlier_ends;
+  std::string about;  // the scene and how it is seen, as JSON, for those who read pictures; "" where unknown
   bool complete() const;
 };
 

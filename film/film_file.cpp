@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// The film file, little-endian: a header with the checksum of what comes before it, then three arrays, each
-// followed by its xxh3: the words of FilmProgress::done, the sums, the counts. docs/color-and-film.md has the
-// header byte by byte.
+// The film file, little-endian: a header with the checksum of what comes before it, then five arrays, each
+// followed by its xxh3: FilmProgress's earlier_ends, about and done, the sums, the counts.
+// docs/color-and-film.md has the header byte by byte.
 #include <fmt/format.h>
 
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstddef>
@@ -24,7 +25,7 @@ static_assert(std::endian::native == std::endian::little, "files are written as 
 namespace {
 
 constexpr char film_magic[8] = {'v', 'i', 't', 'f', 'i', 'l', 'm', '\n'};
-constexpr std::uint32_t film_version = 3;
+constexpr std::uint32_t film_version = 4;
 constexpr std::int32_t max_extent = 1 << 20;  // pixels a side
 
 // What a film was rendered with, in Header::options.
@@ -47,16 +48,17 @@ struct Header {
   std::uint32_t options;
   std::int32_t exponent;
   std::uint64_t nonfinite, too_large;  // deposits
-  std::uint64_t checksum;              // of all before it
+  std::uint32_t earlier_ends, about_bytes;
+  std::uint64_t checksum;  // of all before it
 };
-static_assert(sizeof(Header) == 160);
+static_assert(sizeof(Header) == 168);
 
 std::uint64_t checksum(const Header& h) { return XXH3_64bits(&h, offsetof(Header, checksum)); }
 
 std::uint64_t words_of(std::uint64_t items) { return items / 64 + (items % 64 != 0 ? 1 : 0); }
 
 template <class T>
-void write_array(AtomicFile& out, const std::vector<T>& array) {
+void write_array(AtomicFile& out, const T& array) {
   const auto bytes = std::as_bytes(std::span(array));
   const std::uint64_t sum = XXH3_64bits(bytes.data(), bytes.size());
   out.write(bytes);
@@ -79,13 +81,14 @@ class Reader {
       fail("the film file is truncated");
   }
 
-  template <class T>
-  void read_array(std::vector<T>& array, std::uint64_t count, const char* what) {
+  template <class Array>
+  void read_array(Array& array, std::uint64_t count, const char* what) {
     array.resize(count);
-    read(array.data(), count * sizeof(T));
+    const std::uint64_t bytes = count * sizeof(typename Array::value_type);
+    read(array.data(), bytes);
     std::uint64_t expected;
     read(&expected, sizeof expected);
-    if (XXH3_64bits(array.data(), count * sizeof(T)) != expected)
+    if (XXH3_64bits(array.data(), bytes) != expected)
       fail(fmt::format("the film file is corrupt: the checksum of its {} is wrong", what));
   }
 
@@ -146,9 +149,13 @@ void write_film(const std::filesystem::path& file, const Film& film, const FilmP
   h.nonfinite = film.refused_.nonfinite, h.too_large = film.refused_.too_large;
   h.items = progress.items, h.samples_per_pixel = progress.samples_per_pixel;
   h.render_time_s = progress.render_time_s;
+  h.earlier_ends = static_cast<std::uint32_t>(progress.earlier_ends.size());
+  h.about_bytes = static_cast<std::uint32_t>(progress.about.size());
   h.checksum = checksum(h);
   AtomicFile out(file);
   out.write(std::as_bytes(std::span(&h, 1)));
+  write_array(out, progress.earlier_ends);
+  write_array(out, progress.about);
   write_array(out, progress.done);
   write_array(out, film.sums_);
   write_array(out, film.counts_);
@@ -160,12 +167,18 @@ Film read_film(const std::filesystem::path& file, FilmProgress* progress) {
   const Header h = read_header(in);
   const auto pixels = static_cast<std::uint64_t>(h.x1 - h.x0) * static_cast<std::uint64_t>(h.y1 - h.y0);
   const std::uint64_t planes = 2 + sample_groups + static_cast<std::uint64_t>(h.bins);
-  const std::uint64_t arrays =
-      pixels * (planes * sizeof(WideSum) + sample_groups * sizeof(std::uint32_t)) + 3 * 8;
+  const std::uint64_t arrays = pixels * (planes * sizeof(WideSum) + sample_groups * sizeof(std::uint32_t)) +
+                               h.earlier_ends * std::uint64_t{sizeof(std::uint32_t)} + h.about_bytes + 5 * 8;
   if (in.size() - sizeof h < arrays || (in.size() - sizeof h - arrays) % 8 != 0 ||
       (in.size() - sizeof h - arrays) / 8 != words_of(h.items))
     in.fail(fmt::format("the film file is truncated or has bytes too many: {} bytes", in.size()));
-  FilmProgress read{h.items, h.samples_per_pixel, {}, h.render_time_s};
+  FilmProgress read{h.items, h.samples_per_pixel, {}, h.render_time_s, {}, {}};
+  in.read_array(read.earlier_ends, h.earlier_ends, "earlier ends");
+  const auto not_ascending = [](std::uint32_t a, std::uint32_t b) { return a >= b; };
+  if (std::ranges::adjacent_find(read.earlier_ends, not_ascending) != read.earlier_ends.end() ||
+      (!read.earlier_ends.empty() && read.earlier_ends.back() >= h.samples_per_pixel))
+    in.fail("the film file is corrupt: it goes on from more samples than it has");
+  in.read_array(read.about, h.about_bytes, "description");
   in.read_array(read.done, words_of(h.items), "progress");
   if (h.items % 64 != 0 && read.done.back() >> (h.items % 64) != 0)
     in.fail("the film file is corrupt: it has work done beyond its work items");

@@ -8,13 +8,17 @@
 #include <fast_float/fast_float.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <cstdlib>
 #include <ctime>
+#include <limits>
 #include <optional>
 
 #include "scene/atomic_file.h"
 #include "scene/diagnostics.h"
+#include "scene/input_files.h"
 
 namespace vitrail {
 
@@ -86,6 +90,24 @@ std::vector<Plane> planes_of(const Picture& picture) {
   return planes;
 }
 
+// The names of OpenEXR and pbrt where they have one.
+void put_origin(OIIO::ImageSpec& spec, const PictureOrigin& origin) {
+  const auto put = [&](const char* name, const std::string& value) {
+    if (!value.empty()) spec.attribute(name, value);
+  };
+  put("Software", origin.software);
+  put("scene", origin.scene);
+  put("sceneHash", origin.scene_hash);
+  put("seed", origin.seeds);
+  put("filmHash", origin.film_hash);
+  if (origin.least_samples > 0) spec.attribute("samplesPerPixelLeast", origin.least_samples);
+  if (origin.world_to_camera.size() != 16) return;
+  std::array<float, 16> rows{};  // OpenEXR's matrices take rows
+  for (std::size_t i = 0; i < 4; ++i)
+    for (std::size_t j = 0; j < 4; ++j) rows[4 * j + i] = origin.world_to_camera[4 * i + j];
+  spec.attribute("worldToCamera", OIIO::TypeDesc::TypeMatrix, rows.data());
+}
+
 void write_exr(const std::filesystem::path& file, const Picture& picture) {
   const std::vector<Plane> planes = planes_of(picture);
   OIIO::ImageSpec spec = spec_of(picture, static_cast<int>(planes.size()), OIIO::TypeDesc::FLOAT);
@@ -93,6 +115,7 @@ void write_exr(const std::filesystem::path& file, const Picture& picture) {
   if (picture.samples_per_pixel > 0) spec.attribute("samplesPerPixel", picture.samples_per_pixel);
   if (picture.render_time_s > 0)
     spec.attribute("renderTimeSeconds", static_cast<float>(picture.render_time_s));
+  put_origin(spec, picture.origin);
   if (picture.spectrum.pixels() > 0) {
     spec.attribute("spectralLayoutVersion", "1.0");
     spec.attribute("emissiveUnits", "W.m^-2.sr^-1");
@@ -109,14 +132,22 @@ void write_exr(const std::filesystem::path& file, const Picture& picture) {
   write_file(file, spec, pixels.data());
 }
 
-void write_png(const std::filesystem::path& file, const Picture& picture) {
-  std::vector<unsigned char> pixels(picture.rgb.values.size());
+bool is_tiff(const std::filesystem::path& file) {
+  return file.extension() == ".tif" || file.extension() == ".tiff";
+}
+
+template <class Integer>
+void write_integers(const std::filesystem::path& file, const Picture& picture, OIIO::TypeDesc type) {
+  constexpr double most = std::numeric_limits<Integer>::max();
+  std::vector<Integer> pixels(picture.rgb.values.size());
   std::transform(picture.rgb.values.begin(), picture.rgb.values.end(), pixels.begin(), [](float linear) {
-    const double encoded = srgb_encode(std::clamp(static_cast<double>(linear), 0.0, 1.0));
-    return static_cast<unsigned char>(std::lround(255 * encoded));
+    return static_cast<Integer>(
+        std::lround(most * srgb_encode(std::clamp(static_cast<double>(linear), 0.0, 1.0))));
   });
-  OIIO::ImageSpec spec = spec_of(picture, 3, OIIO::TypeDesc::UINT8);
-  spec.attribute("oiio:ColorSpace", "sRGB");
+  OIIO::ImageSpec spec = spec_of(picture, 3, type);
+  // OpenImageIO 2.4 would say it in a second directory, and in memory that one becomes the file's only one.
+  if (!is_tiff(file)) spec.attribute("oiio:ColorSpace", "sRGB");
+  spec.attribute("CompressionQuality", 95);
   write_file(file, spec, pixels.data());
 }
 
@@ -156,13 +187,22 @@ void read_spectrum(Picture& picture, const OIIO::ImageSpec& spec, const std::vec
 
 }  // namespace
 
-void write_picture(const std::filesystem::path& file, const Picture& picture) {
-  if (file.extension() == ".exr") return write_exr(file, picture);
-  if (file.extension() == ".png") return write_png(file, picture);
-  throw UsageError(fmt::format("cannot write {}: images are written as .exr or .png", file.string()));
+void write_picture(const std::filesystem::path& file, const Picture& picture, int bits) {
+  const std::filesystem::path format = file.extension();
+  const bool jpeg = format == ".jpg" || format == ".jpeg", tiff = is_tiff(file);
+  if (format != ".exr" && format != ".png" && !jpeg && !tiff)
+    throw UsageError(
+        fmt::format("cannot write {}: images are written as .exr, .png, .jpg or .tif", file.string()));
+  const int usual = format == ".exr" ? 32 : tiff ? 16 : 8, chosen = bits == 0 ? usual : bits;
+  if (chosen != usual && (format == ".exr" || jpeg || (chosen != 8 && chosen != 16)))
+    throw UsageError(fmt::format("{} has {} bits, not {}", format.string(), usual, chosen));
+  if (chosen == 32) return write_exr(file, picture);
+  if (chosen == 16) return write_integers<std::uint16_t>(file, picture, OIIO::TypeDesc::UINT16);
+  write_integers<std::uint8_t>(file, picture, OIIO::TypeDesc::UINT8);
 }
 
 Picture read_picture(const std::filesystem::path& file) {
+  note_input(file);
   const auto in = OIIO::ImageInput::open(file.string());
   if (!in) throw Error(fmt::format("cannot read the image: {}", OIIO::geterror()), {file.string()});
   const OIIO::ImageSpec& spec = in->spec();

@@ -10,10 +10,11 @@
 namespace vitrail {
 
 // Writes .exr (32-bit float, linear; beside R, G, B `Variance.Y` if the picture has variances, and
-// `S0.580,000000nm` and the like if it has spectra) or .png (8
-// bits, sRGB transfer function, clamped, rounded to nearest). The file appears whole or not at all, and its
-// date is SOURCE_DATE_EPOCH or 1970, so equal pictures give equal files. Other extensions throw UsageError.
-void write_picture(const std::filesystem::path& file, const Picture& picture);
+// `S0.580,000000nm` and the like if it has spectra; its origin as attributes), or .png, .jpg or .tif with
+// sRGB's transfer function, clamped, rounded to nearest: of 8 or 16 `bits`, 0 being 8, and 16 for .tif. The
+// file appears whole or not at all, and its date is SOURCE_DATE_EPOCH or 1970, so equal pictures give equal
+// files. Other extensions, and bits that a format has not, throw UsageError.
+void write_picture(const std::filesystem::path& file, const Picture& picture, int bits = 0);
 
 // Reads any format OpenImageIO knows: channels R, G, B, else the first three, or one for grey. Integer pixels
 // are decoded from sRGB. Throws Error with the file's name.

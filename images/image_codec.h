@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -11,10 +12,13 @@
 
 namespace vitrail {
 
-// Both return what went wrong, or nothing.
+// All return what went wrong, or nothing.
 struct ImageCodec {
   // Without `image`, the layout alone.
   std::string (*read)(const std::string& file, ImageLayout& layout, Image* image);
+  // What `visit` throws passes through.
+  std::string (*read_rows)(const std::string& file, ImageLayout& layout,
+                           const std::function<void(Image)>& visit);
   // The bytes of an EXR file.
   std::string (*encode_exr)(const Image& image, std::vector<std::byte>& bytes);
 };

@@ -5,11 +5,13 @@
 #include <fmt/format.h>
 
 #include <atomic>
+#include <cmath>
 
 #include "images/image_codec.h"
+#include "images/texture_values.h"
 #include "scene/atomic_file.h"
-#include "scene/color.h"
 #include "scene/diagnostics.h"
+#include "scene/input_files.h"
 
 namespace vitrail {
 
@@ -31,10 +33,22 @@ const ImageCodec& codec() {
   return only;
 }
 
+// Whether they span the plane: else they say nothing.
+bool are_primaries(const Chromaticities& c) {
+  for (const RGB& p : primaries_in_srgb(c))
+    if (!std::isfinite(p.r) || !std::isfinite(p.g) || !std::isfinite(p.b)) return false;
+  return true;
+}
+
+void check(const std::filesystem::path& file, const std::string& problem) {
+  if (!problem.empty()) throw Error(fmt::format("cannot read the image: {}", problem), {file.string()});
+}
+
 ImageLayout read(const std::filesystem::path& file, Image* image) {
+  note_input(file);
   ImageLayout layout;
-  if (const std::string problem = codec().read(file.string(), layout, image); !problem.empty())
-    throw Error(fmt::format("cannot read the image: {}", problem), {file.string()});
+  check(file, codec().read(file.string(), layout, image));
+  if (layout.chromaticities && !are_primaries(*layout.chromaticities)) layout.chromaticities.reset();
   return layout;
 }
 
@@ -46,16 +60,24 @@ ImageLayout read_image_layout(const std::filesystem::path& file) { return read(f
 
 StoredImage read_stored_image(const std::filesystem::path& file) {
   StoredImage stored;
-  stored.integer = read(file, &stored.image).integer;
+  const ImageLayout layout = read(file, &stored.image);
+  stored.integer = layout.integer;
+  stored.chromaticities = layout.chromaticities;
   return stored;
 }
 
+void read_stored_rows(const std::filesystem::path& file, const std::function<void(StoredImage)>& visit) {
+  ImageLayout layout = read_image_layout(file);
+  const StoredImage as_the_whole{{}, layout.integer, layout.chromaticities};
+  check(file, codec().read_rows(file.string(), layout, [&](Image rows) {
+    StoredImage stored = as_the_whole;
+    stored.image = std::move(rows);
+    visit(std::move(stored));
+  }));
+}
+
 Image read_linear_image(const std::filesystem::path& file) {
-  StoredImage stored = read_stored_image(file);
-  if (stored.integer)
-    for (float& value : stored.image.values)
-      value = static_cast<float>(srgb_decode(static_cast<double>(value)));
-  return std::move(stored.image);
+  return texture_values(ImageTexture{}, read_stored_image(file), ImageUse::light);
 }
 
 void write_exr_image(const std::filesystem::path& file, const Image& image) {

@@ -4,22 +4,27 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
+#include <optional>
 
+#include "scene/color.h"
 #include "scene/image.h"
 
 namespace vitrail {
 
 // The numbers as the file stores them, integers taken to [0,1] and nothing decoded: R, G, B, or one channel
-// of a grey picture. `integer` where they are integers.
+// of a grey picture, and alpha where there is one.
 struct StoredImage {
   Image image;
-  bool integer = false;
+  bool integer = false;                          // in the file
+  std::optional<Chromaticities> chromaticities;  // where the file states them
 };
 
 // What a file holds, without reading its pixels.
 struct ImageLayout {
   int width = 0, height = 0, channels = 0;  // of a StoredImage
   bool integer = false;
+  std::optional<Chromaticities> chromaticities;
 };
 
 // Whether there was a first.
@@ -29,7 +34,11 @@ bool image_library_is_loaded();
 ImageLayout read_image_layout(const std::filesystem::path& file);
 StoredImage read_stored_image(const std::filesystem::path& file);
 
-// The linear values: integers are decoded from sRGB.
+// The same from the top, some rows at a time: never more of the picture in memory than its file's own rows of
+// tiles. What `visit` throws stops the reading.
+void read_stored_rows(const std::filesystem::path& file, const std::function<void(StoredImage)>& visit);
+
+// The colours in linear sRGB, without alpha: integers are decoded.
 Image read_linear_image(const std::filesystem::path& file);
 
 // Linear 32-bit floats. The file appears whole or not at all, and equal images give equal files. Throws

@@ -2,29 +2,47 @@
 #include "importers/default_view.h"
 
 #include <cmath>
+#include <numbers>
 
 #include "scene/bounds.h"
 #include "scene/deferred_mesh.h"
-#include "scene/nesting.h"
 #include "scene/rgb_to_spectrum.h"
 
 namespace vitrail {
 
 namespace {
 
-void extend_by(Bounds3d& bounds, const Scene& scene, const Shape& shape, const Transform& to_world) {
-  const Transform transform = to_world * shape.object_to_world;
-  TriangleMesh storage;
-  for (const Point3f& p : loaded(scene.meshes[shape.mesh.value], storage).positions)
-    extend(bounds, transform_point(transform, cast<double>(p)));
+void extend_by(Bounds3d& bounds, const Scene& scene, const std::vector<Shape>& shapes) {
+  for (const Shape& shape : shapes) {
+    TriangleMesh storage;
+    for (const Point3f& p : loaded(scene.meshes[shape.mesh.value], storage).positions)
+      extend(bounds, transform_point(shape.object_to_world, cast<double>(p)));
+  }
+}
+
+// Instances count by the boxes of their prototypes.
+void extend_by(Bounds3d& bounds, const std::vector<Instance>& instances,
+               const std::vector<Bounds3d>& prototypes) {
+  for (const Instance& instance : instances) {
+    const Bounds3d& box = prototypes.at(instance.prototype.value);
+    for (int corner = 0; corner < 8 && !box.empty(); ++corner)
+      extend(bounds, transform_point(instance.prototype_to_world, {(corner & 1 ? box.upper : box.lower).x,
+                                                                   (corner & 2 ? box.upper : box.lower).y,
+                                                                   (corner & 4 ? box.upper : box.lower).z}));
+  }
 }
 
 Bounds3d world_bounds(const Scene& scene) {
+  std::vector<Bounds3d> prototypes;
+  for (const Prototype& prototype : scene.prototypes) {
+    Bounds3d box;
+    extend_by(box, scene, prototype.shapes);
+    extend_by(box, prototype.instances, prototypes);
+    prototypes.push_back(box);
+  }
   Bounds3d bounds;
-  for (const Shape& shape : scene.shapes) extend_by(bounds, scene, shape, {});
-  for (const Instance& instance : scene.instances)
-    for (const Shape& shape : scene.prototypes[instance.prototype.value].shapes)
-      extend_by(bounds, scene, shape, instance.prototype_to_world);
+  extend_by(bounds, scene, scene.shapes);
+  extend_by(bounds, scene.instances, prototypes);
   return bounds;
 }
 
@@ -33,7 +51,7 @@ Bounds3d world_bounds(const Scene& scene) {
 void add_default_view(ImportedScene& imported, const std::filesystem::path& file) {
   constexpr double half_angle_rad = 0.35;
   Scene& scene = imported.scene;
-  const Bounds3d bounds = world_bounds(has_nested_instances(scene) ? without_nested_instances(scene) : scene);
+  const Bounds3d bounds = world_bounds(scene);
   const Point3d target = bounds.empty() ? Point3d{} : center(bounds);
   const double radius = std::max(length(extent(bounds)) / 2, 1e-6);
   const Vector3d from = normalize(Vector3d{0.4, 0.35, 1});
@@ -51,8 +69,13 @@ void add_default_view(ImportedScene& imported, const std::filesystem::path& file
   imported.diagnostics.push_back(
       {Fidelity::approximated, "there is no camera: one that sees everything is added", place});
   if (!scene.lights.empty() || !scene.area_lights.empty()) return;
-  scene.lights.push_back({InfiniteLight{emission_from_rgb({1, 1, 1})}});
-  imported.diagnostics.push_back({Fidelity::approximated, "there is no light: a white sky is added", place});
+  // A white surface that faces the sun has radiance 1; the sky alone would show no shape.
+  constexpr double sky = 0.4, sun = (1 - sky) * std::numbers::pi;
+  scene.lights.push_back({InfiniteLight{emission_from_rgb({sky, sky, sky})}});
+  scene.lights.push_back(
+      {DistantLight{normalize(Vector3d{0.5, -1, -0.7}), emission_from_rgb({sun, sun, sun})}});
+  imported.diagnostics.push_back(
+      {Fidelity::approximated, "there is no light: a white sky and a sun are added", place});
 }
 
 }  // namespace vitrail

@@ -48,9 +48,11 @@ Diagnostics export_scene(const Scene& scene, const std::filesystem::path& out) {
   for (const Prototype& prototype : scene.prototypes)
     for (const Instance& instance : prototype.instances) {
       const SourceLocation where = location(scene, instance.origin);
-      diagnostics.push_back({Fidelity::approximated,
-                             "an instance within an object is written as shapes of that object", where,
-                             where});
+      diagnostics.push_back(
+          {Fidelity::approximated,
+           "an instance within an object: the format has none there; what it places is written as "
+           "shapes of that object, or as instances of their own",
+           where, where, RecordKind::instance});
     }
   return diagnostics;
 }

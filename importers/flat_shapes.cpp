@@ -6,7 +6,14 @@
 namespace vitrail {
 
 std::vector<FlatShape> flat_shapes(const Scene& scene) {
+  constexpr std::size_t most = 1 << 26;  // 10 GB
+  std::size_t count = scene.shapes.size();
+  for (const Instance& instance : scene.instances)
+    count += scene.prototypes.at(instance.prototype.value).shapes.size();
+  if (count > most)
+    throw Error(fmt::format("instances stand for {} shapes: too many to be copied into one file", count));
   std::vector<FlatShape> flat;
+  flat.reserve(count);
   for (const Shape& shape : scene.shapes)
     flat.push_back({shape, shape.object_to_world, shape.flip_orientation});
   for (const Instance& instance : scene.instances) {
@@ -20,22 +27,23 @@ std::vector<FlatShape> flat_shapes(const Scene& scene) {
 }
 
 void note_geometry_only(const Scene& scene, Diagnostics& diagnostics) {
-  const auto note = [&](Fidelity fidelity, std::string message, const Origin& origin) {
+  const auto note = [&](Fidelity fidelity, std::string message, RecordKind kind, const Origin& origin) {
     const SourceLocation where = location(scene, origin);
-    diagnostics.push_back({fidelity, std::move(message), where, where});
+    diagnostics.push_back({fidelity, std::move(message), where, where, kind});
   };
   if (scene.camera_origin.line > 0)
-    note(Fidelity::dropped, "camera: the format has none", scene.camera_origin);
-  if (scene.film_origin.line > 0) note(Fidelity::dropped, "film: the format has none", scene.film_origin);
+    note(Fidelity::dropped, "camera: the format has none", RecordKind::camera, scene.camera_origin);
+  if (scene.film_origin.line > 0)
+    note(Fidelity::dropped, "film: the format has none", RecordKind::film, scene.film_origin);
   for (const Light& light : scene.lights)
-    note(Fidelity::dropped, "light: the format has surfaces only", light.origin);
+    note(Fidelity::dropped, "light: the format has surfaces only", RecordKind::light, light.origin);
   for (const Medium& medium : scene.media)
     note(Fidelity::dropped, fmt::format("medium {}: the format has surfaces only", medium.name),
-         medium.origin);
+         RecordKind::medium, medium.origin);
   if (!scene.instances.empty())
     note(Fidelity::approximated,
          fmt::format("{} instances: each is written with triangles of its own", scene.instances.size()),
-         scene.instances.front().origin);
+         RecordKind::instance, scene.instances.front().origin);
 }
 
 }  // namespace vitrail

@@ -15,7 +15,8 @@ struct FlatShape {
   bool flip = false;  // the front is where the triangles, taken to the world, run clockwise
 };
 
-// The shapes of a scene for formats without prototypes, in order, those of instances last.
+// The shapes of a scene for formats without prototypes, in order, those of instances last. Throws Error where
+// they are beyond all measure.
 std::vector<FlatShape> flat_shapes(const Scene& scene);
 
 // What formats of bare geometry lose: the camera (if the file gave one), lights, media, and that instances

@@ -9,6 +9,7 @@
 #include "importers/obj/obj.h"
 #include "importers/pbrt/pbrt.h"
 #include "importers/ply/ply.h"
+#include "scene/diagnostics.h"
 
 namespace vitrail {
 
@@ -37,10 +38,13 @@ ImportedScene mesh_alone(const std::filesystem::path& file, MeshMemory& memory) 
 }  // namespace
 
 ImportedScene import_scene(const std::filesystem::path& file, MeshMemory memory,
-                           std::function<void(double)> progress) {
+                           std::function<void(double)> progress,
+                           const std::map<std::string, std::string>& definitions) {
   const std::string format = format_of(file);
+  if (!definitions.empty() && format != ".xml")
+    throw UsageError(file.string() + ": only scenes of Mitsuba have parameters that -D could set");
   if (format == ".pbrt") return read_pbrt(file, std::move(memory), std::move(progress));
-  if (format == ".xml") return read_mitsuba(file, std::move(memory));
+  if (format == ".xml") return read_mitsuba(file, std::move(memory), definitions);
   ImportedScene imported;
   if (format == ".obj")
     imported = read_obj(file);

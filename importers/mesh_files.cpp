@@ -1,30 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "importers/mesh_files.h"
 
-#include <fmt/format.h>
-
 #include "importers/ply/write_ply.h"
 
 namespace vitrail {
 
 MeshFiles::MeshFiles(const Scene& scene, const std::filesystem::path& scene_file)
-    : scene_(scene),
-      directory_(scene_file.parent_path()),
-      folder_(scene_file.stem().string() + "-meshes"),
-      names_(scene.meshes.size()) {}
+    : scene_(scene), directory_(scene_file.parent_path()), files_(scene_file), names_(scene.meshes.size()) {}
 
 const std::string& MeshFiles::name(Id<TriangleMesh> mesh) { return name(mesh, scene_.meshes.at(mesh.value)); }
 
 const std::string& MeshFiles::name(Id<TriangleMesh> mesh, const TriangleMesh& instead) {
   std::string& name = names_.at(mesh.value);
   if (!name.empty()) return name;
-  std::error_code error;
-  std::filesystem::create_directories(directory_ / folder_, error);
-  if (error)
-    throw MachineError(fmt::format("cannot create {}: {}", (directory_ / folder_).string(), error.message()));
-  const std::filesystem::path file = folder_ / fmt::format("{:06}.ply", mesh.value);
-  write_ply(instead, directory_ / file);
-  return name = file.generic_string();
+  name = files_.name("meshes", mesh.value, "ply");
+  write_ply(instead, directory_ / name);
+  return name;
 }
 
 std::string relative_name(const std::string& file, const std::filesystem::path& directory) {

@@ -84,7 +84,8 @@ void divide_cell(const NumberedTriangles& triangles, const CellContent& cut, con
   const double rate =
       static_cast<double>(sample.size()) / std::max(1.0, static_cast<double>(all + instances.size()));
   const double share = rate * static_cast<double>(writer.items) / static_cast<double>(m.domains.size());
-  const KdPlan plan = plan_kd_tree(writer.work.items(sample), subtree, {share, 1, writer.median}, m.kd_nodes);
+  const KdPlan plan =
+      plan_kd_tree(writer.work.items(sample), subtree, {share, 1, writer.median, rate}, m.kd_nodes);
   Parts parts = route_all(triangles, cut, plan);
   std::size_t next = 0;
   tbb::parallel_pipeline(

@@ -20,6 +20,7 @@ struct MemoryPlan {
 struct MemoryNeeds {
   std::uint64_t budget_bytes = 0;
   std::uint64_t triangles = 0;       // that no instance has
+  double expansion = 1;              // of them: triangles and pieces in all domains over triangles
   std::uint64_t instance_bytes = 0;  // of references to objects, in memory and in the domains
   std::uint64_t scene_bytes = 0;     // of the budget, already in use
   std::uint64_t largest_mesh = 0;    // bytes of one that is in its file
@@ -36,6 +37,9 @@ double bytes_of_a_triangle(const Manifest& manifest);
 double bytes_left(const MemoryNeeds& needs);
 // Of `triangles` in memory while a file of `built` of them is made.
 double bytes_to_build(const Manifest& manifest, double triangles, double built);
+
+// Throws UsageError for too many.
+std::uint32_t number_of_domains(const Manifest& manifest, const MemoryNeeds& needs);
 
 // Throws MachineError where not even one domain or one mesh fits, UsageError for too many domains.
 MemoryPlan plan_memory(const Manifest& manifest, const MemoryNeeds& needs);

@@ -33,12 +33,14 @@ std::uint32_t domains_within(const World& world, const std::vector<InstanceRef>&
   const std::vector<Item> items = WorkEstimate().items(boxes);
   Bounds3f bounds;
   for (const Bounds3f& b : boxes) extend(bounds, b);
-  const InstanceDealer dealer(instances, 0, bounds);
+  const InstanceDealer dealer(instances, bounds);
   const double own_bytes = bytes_of_a_triangle(world.manifest) * static_cast<double>(world.own_triangles);
   const auto most_bytes = [&](std::uint32_t count) {
     std::vector<KdNode> nodes(count - 1);
     const double share = static_cast<double>(items.size()) / count;
-    const KdPlan plan = plan_kd_tree(items, {bounds, 0, 0, count}, {share, 1, false}, nodes);
+    const double rate =
+        static_cast<double>(items.size()) / static_cast<double>(world.own_triangles + instances.size());
+    const KdPlan plan = plan_kd_tree(items, {bounds, 0, 0, count}, {share, 1, false, rate}, nodes);
     std::uint64_t most = 0;
     for (const Subtree& leaf : plan.leaves)
       most = std::max(most, object_bytes(world.manifest, dealer.in(leaf.cell)));

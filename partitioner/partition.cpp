@@ -12,6 +12,7 @@
 
 #include "images/image_files.h"
 #include "partitioner/divide_cell.h"
+#include "partitioner/memory_ledger.h"
 #include "partitioner/memory_plan.h"
 #include "partitioner/object_budget.h"
 #include "partitioner/placing/flatten.h"
@@ -34,19 +35,6 @@ std::uint64_t most_object_bytes(std::uint64_t domain_bytes) {
 
 // In a domain file with its place in the tree, and here while domains are written.
 constexpr std::uint64_t bytes_of_reference = 192;
-
-// Beside its meshes' triangles: of an instance with its use, of a mesh with its shapes, measured.
-std::uint64_t bytes_of_records(const Scene& scene) {
-  constexpr std::uint64_t instance_bytes = 480, shape_bytes = 1024;
-  std::uint64_t instances = scene.instances.size(), shapes = scene.shapes.size(), samples = 0;
-  for (const Prototype& p : scene.prototypes) {
-    instances += p.instances.size();
-    shapes += p.shapes.size();
-  }
-  for (const TriangleMesh& mesh : scene.meshes)
-    if (mesh.deferred) samples += mesh.deferred->sample.size();
-  return instances * instance_bytes + shapes * shape_bytes + samples * sizeof(DeferredMesh::Sample);
-}
 
 std::uint64_t directory_bytes(const std::filesystem::path& directory) {
   std::uint64_t bytes = 0;
@@ -125,15 +113,14 @@ class Partitioner {
         world_(world_of(scene, bundle_, {!options.flatten, options.everything})) {
     MemoryNeeds needs{.budget_bytes = options.memory_bytes,
                       .triangles = world_.own_triangles,
-                      .scene_bytes = bytes_of_records(scene),
+                      .scene_bytes = ledger_of(scene).all(),
                       .domains = options.domains,
                       .domain_bytes = options.domain_bytes,
                       .image_library = image_library_is_loaded(),
                       .threads = tbb::this_task_arena::max_concurrency()};
-    for (const TriangleMesh& mesh : scene.meshes) {
-      needs.scene_bytes += bytes_of(mesh);
+    for (const TriangleMesh& mesh : scene.meshes)
       if (mesh.deferred) needs.largest_mesh = std::max(needs.largest_mesh, mesh.deferred->bytes);
-    }
+    coarse_ = world_.coarse;
     const std::uint64_t in_objects = triangles_of_objects(world_);
     const auto all = static_cast<double>(std::max<std::uint64_t>(in_objects + world_.own_triangles, 1));
     phases_.begin("writing objects", static_cast<double>(in_objects) / all, in_objects);
@@ -143,10 +130,10 @@ class Partitioner {
     rest_ = static_cast<double>(world_.own_triangles) / all;
     needs.instance_bytes = refs_.size() * bytes_of_reference;
     items_ = world_.own_triangles + refs_.size();
-    plan_ = plan_memory(world_.manifest, needs);
+    plan_ = plan_with_pieces(needs);
     if (options.domains == 0 && options.domain_bytes > 0 && !refs_.empty()) {
       needs.domains = domains_within(world_, refs_, options.domain_bytes, plan_.domains);
-      plan_ = plan_memory(world_.manifest, needs);
+      plan_ = plan_with_pieces(needs);
     }
     if (options.domains_at_once > 0)
       plan_.domains_at_once = std::min(plan_.domains_at_once, options.domains_at_once);
@@ -165,15 +152,44 @@ class Partitioner {
     if (found.lost != 0)
       throw std::logic_error(fmt::format("partitioning lost {} triangles; please report this", found.lost));
     manifest_.cut_triangles = found.cut_triangles;
+    leave_out_unused_domains();
     write_manifest(bundle_, manifest_);
     phases_.end();
     PartitionStats stats = statistics(manifest_, found, bundle_);
     stats.buckets = buckets_;
+    stats.domains_planned = plan_.domains;
     stats.spill_bytes = spill_bytes_;
+    stats.coarse_shapes = coarse_;
     return stats;
   }
 
  private:
+  // As many pieces are reckoned with as a sample becomes.
+  MemoryPlan plan_with_pieces(MemoryNeeds& needs) const {
+    constexpr std::uint64_t samples = 1u << 15;
+    const std::uint32_t domains = number_of_domains(world_.manifest, needs);
+    if (domains > 1 && !median_) {
+      const std::vector<Bounds3f> boxes = sample_of(world_, {}, samples);
+      std::vector<KdNode> nodes(domains - 1);
+      const KdPlan plan = plan_whole_tree(boxes, domains, 1, nodes);
+      double items = 0;
+      for (const std::size_t n : plan.samples) items += static_cast<double>(n);
+      if (!boxes.empty()) needs.expansion = items / static_cast<double>(boxes.size());
+    }
+    return plan_memory(world_.manifest, needs);
+  }
+
+  // From a sample of all.
+  KdPlan plan_whole_tree(const std::vector<Bounds3f>& sample, std::uint32_t domains,
+                         std::uint32_t domains_in_leaf, std::span<KdNode> nodes) const {
+    Bounds3f bounds;
+    for (const Bounds3f& b : sample) extend(bounds, b);
+    const auto items = static_cast<double>(sample.size());
+    return plan_kd_tree(work_.items(sample), {bounds, 0, 0, domains},
+                        {items / domains, domains_in_leaf, median_, items / static_cast<double>(items_)},
+                        nodes);
+  }
+
   void at_once(Census& census) {
     const std::uint64_t triangles = world_.own_triangles;
     phases_.begin("placing triangles", 0.2 * rest_, triangles);
@@ -194,9 +210,8 @@ class Partitioner {
     const std::vector<Bounds3f> sample = sample_of(world_, refs_);
     Bounds3f bounds;
     for (const Bounds3f& b : sample) extend(bounds, b);
-    const double share = static_cast<double>(sample.size()) / plan_.domains;
-    const KdPlan top = plan_kd_tree(work_.items(sample), {bounds, 0, 0, plan_.domains},
-                                    {share, plan_.domains_at_once, median_}, world_.manifest.kd_nodes);
+    const KdPlan top =
+        plan_whole_tree(sample, plan_.domains, plan_.domains_at_once, world_.manifest.kd_nodes);
     buckets_ = top.leaves.size();
     phases_.begin("sorting triangles into parts", 0.4 * rest_, triangles);
     Spill spill(bundle_ / "spill", buckets_, world_.rule(),
@@ -218,6 +233,20 @@ class Partitioner {
     }
   }
 
+  // Where a cell was left whole, domains are fewer and their files get new names.
+  void leave_out_unused_domains() {
+    CompactTree tree = compact(manifest_.kd_nodes);
+    if (tree.domains.size() == manifest_.domains.size()) return;
+    std::vector<DomainInfo> domains;
+    for (const std::uint32_t old : tree.domains) {
+      const auto number = static_cast<std::uint32_t>(domains.size());
+      if (number != old) std::filesystem::rename(domain_path(bundle_, old), domain_path(bundle_, number));
+      domains.push_back(std::move(manifest_.domains[old]));
+    }
+    manifest_.domains = std::move(domains);
+    manifest_.kd_nodes = std::move(tree.nodes);
+  }
+
   DomainWriter writer(Census& census, const InstanceDealer& instances) {
     return {domain_files(bundle_),
             manifest_,
@@ -230,10 +259,7 @@ class Partitioner {
             [&](std::uint64_t n) { phases_.advance(n); }};
   }
 
-  // The manifest knows the scene's scale.
-  InstanceDealer dealer(const Bounds3f& root) {
-    return {std::move(refs_), static_cast<float>(padding(manifest_)), root};
-  }
+  InstanceDealer dealer(const Bounds3f& root) { return {std::move(refs_), root}; }
 
   std::vector<IdRange> ids_of_instances() const {
     std::vector<IdRange> ranges;
@@ -248,8 +274,9 @@ class Partitioner {
   Phases phases_;
   World world_;
   std::vector<InstanceRef> refs_;
-  std::uint64_t items_ = 0;  // triangles and instances
-  double rest_ = 1;          // of all work, without the objects'
+  std::uint64_t items_ = 0;   // triangles and instances
+  std::uint64_t coarse_ = 0;  // as in ScenePlan
+  double rest_ = 1;           // of all work, without the objects'
   MemoryPlan plan_;
   Manifest manifest_;
   std::uint64_t buckets_ = 1, spill_bytes_ = 0;
@@ -275,6 +302,7 @@ PartitionStats partition(const Scene& scene, const std::filesystem::path& out,
   stats.wall_s = std::chrono::duration<double>(Clock::now() - start).count();
   stats.cpu_s = cpu_seconds() - cpu_start;
   stats.peak_rss_bytes = peak_resident_bytes();
+  stats.ledger = ledger_of(scene);
   stats.memory_budget_bytes = chosen.memory_bytes;
   stats.triangles_per_s = static_cast<double>(stats.input_triangles) / std::max(stats.wall_s, 1e-9);
   return stats;

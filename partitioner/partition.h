@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "bundle/ray_profile.h"
+#include "partitioner/memory_ledger.h"
 #include "scene/scene.h"
 
 namespace vitrail {
@@ -28,6 +29,7 @@ struct PartitionOptions {
 // The statistics contract of `partition --stats`.
 struct PartitionStats {
   std::uint64_t input_triangles = 0, cut_triangles = 0, pieces = 0, domains = 0;
+  std::uint64_t domains_planned = 0;  // more than there are where cutting stopped: it only made pieces
   std::uint64_t triangles_min = 0, triangles_max = 0;
   double triangles_mean = 0;
   std::uint64_t bundle_bytes = 0, duplicates = 0;
@@ -36,9 +38,13 @@ struct PartitionStats {
   std::uint64_t domain_bytes_max = 0;        // that tracing one takes, with the objects it needs
   double wall_s = 0, cpu_s = 0;
   std::uint64_t peak_rss_bytes = 0, memory_budget_bytes = 0;
+  MemoryLedger ledger;            // of the scene's records
   std::uint64_t buckets = 1;      // parts of the scene that were in memory one after the other
   std::uint64_t spill_bytes = 0;  // written to disk on the way to them
   double triangles_per_s = 0;     // of the input
+  // Shapes and instances so far from the bundle's origin that rounding moves their vertices by more than a
+  // thousandth of their size.
+  std::uint64_t coarse_shapes = 0;
 };
 
 // Meshes that an importer should keep in memory (MeshMemory) for a budget of so many bytes.

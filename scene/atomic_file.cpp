@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "scene/diagnostics.h"
+#include "scene/input_files.h"
 
 namespace vitrail {
 
@@ -23,6 +24,8 @@ namespace {
 }  // namespace
 
 AtomicFile::AtomicFile(std::filesystem::path target) : target_(std::move(target)) {
+  if (is_input(target_))
+    throw UsageError(fmt::format("{} is read by this command, and would be written over", target_.string()));
   temporary_ = target_;
   temporary_ += fmt::format(".tmp{}", ::getpid());
   descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);

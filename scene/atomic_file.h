@@ -11,7 +11,8 @@ namespace vitrail {
 
 // Appends to a temporary file beside `target`; `commit` syncs it, renames it to the target and syncs the
 // name. Without a commit the destructor removes it. Every failure (no space, no permission) throws
-// MachineError with the file and the reason.
+// MachineError with the file and the reason. A target that the program has read (input_files.h) throws
+// UsageError.
 class AtomicFile {
  public:
   explicit AtomicFile(std::filesystem::path target);

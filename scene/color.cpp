@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -41,10 +42,6 @@ Matrix3 inverse(const Matrix3& m) {
     for (std::size_t j = 0; j < 3; ++j) result[i][j] = minor(j, i) / det;
   return result;
 }
-
-struct Chromaticity {
-  double x, y;
-};
 
 Column3 xyz_of_unit_luminance(Chromaticity c) { return {c.x / c.y, 1, (1 - c.x - c.y) / c.y}; }
 
@@ -90,19 +87,38 @@ Matrix3 adapt_to_d65(const Column3& white) {
   return inverse(bradford) * gain * bradford;
 }
 
-// From linear RGB of a space (ITU-R BT.2020; SMPTE RP 431-2 primaries with D65; SMPTE ST 2065-1) to XYZ under
-// D65.
+struct Space {
+  const char* name;
+  Chromaticities c;
+};
+constexpr Chromaticity d65{0.3127, 0.3290};
+// IEC 61966-2-1; ITU-R BT.2020; SMPTE RP 431-2 primaries with D65; SMPTE ST 2065-1.
+constexpr std::array<Space, 4> spaces{
+    {{"srgb", {{0.64, 0.33}, {0.30, 0.60}, {0.15, 0.06}, d65}},
+     {"rec2020", {{0.708, 0.292}, {0.170, 0.797}, {0.131, 0.046}, d65}},
+     {"dci-p3", {{0.680, 0.320}, {0.265, 0.690}, {0.150, 0.060}, d65}},
+     {"aces2065-1", {{0.7347, 0.2653}, {0, 1}, {0.0001, -0.0770}, {0.32168, 0.33767}}}}};
+
+// From linear RGB of a space to XYZ under D65.
 Matrix3 space_to_xyz(const std::string& space) {
-  if (space == "srgb") return srgb_matrix();
-  if (space == "rec2020") return rgb_to_xyz({{{0.708, 0.292}, {0.170, 0.797}, {0.131, 0.046}}}, d65_white());
-  if (space == "dci-p3") return rgb_to_xyz({{{0.680, 0.320}, {0.265, 0.690}, {0.150, 0.060}}}, d65_white());
-  if (space == "aces2065-1") {
-    const Column3 white = xyz_of_unit_luminance({0.32168, 0.33767});
-    return adapt_to_d65(white) * rgb_to_xyz({{{0.7347, 0.2653}, {0, 1}, {0.0001, -0.0770}}}, white);
-  }
-  throw Error(
-      fmt::format("unknown colour space \"{}\": known are srgb, rec2020, dci-p3 and aces2065-1", space));
+  const auto known =
+      std::find_if(spaces.begin(), spaces.end(), [&](const Space& s) { return s.name == space; });
+  if (known == spaces.end())
+    throw Error(
+        fmt::format("unknown colour space \"{}\": known are srgb, rec2020, dci-p3 and aces2065-1", space));
+  const Chromaticities& c = known->c;
+  if (c.white == d65) return rgb_to_xyz({c.red, c.green, c.blue}, d65_white());
+  const Column3 white = xyz_of_unit_luminance(c.white);
+  return adapt_to_d65(white) * rgb_to_xyz({c.red, c.green, c.blue}, white);
 }
+
+bool is_near(Chromaticity a, Chromaticity b) {
+  const auto close = [](double value, double to) { return std::abs(value - to) <= 1e-3 * std::abs(to); };
+  return close(a.x, b.x) && close(a.y, b.y);
+}
+
+// Proportional to XYZ, also of a colour without luminance.
+Column3 along(Chromaticity c) { return {c.x, c.y, 1 - c.x - c.y}; }
 
 }  // namespace
 
@@ -121,6 +137,27 @@ RGB to_srgb(RGB c, const char* color_space) {
   if (space == "srgb") return c;
   const Column3 v = inverse_srgb_matrix() * (space_to_xyz(space) * Column3{c.r, c.g, c.b});
   return {v[0], v[1], v[2]};
+}
+
+const char* color_space_of(const Chromaticities& c) {
+  for (const Space& s : spaces)
+    if (is_near(c.red, s.c.red) && is_near(c.green, s.c.green) && is_near(c.blue, s.c.blue) &&
+        is_near(c.white, s.c.white))
+      return s.name;
+  return nullptr;
+}
+
+std::array<RGB, 3> primaries_in_srgb(const Chromaticities& c) {
+  const std::array directions{along(c.red), along(c.green), along(c.blue)};
+  Matrix3 m{};
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 3; ++j) m[i][j] = directions[j][i];
+  const Column3 weight = inverse(m) * xyz_of_unit_luminance(c.white);
+  std::array<RGB, 3> result;
+  for (std::size_t j = 0; j < 3; ++j)
+    result[j] = xyz_to_srgb(
+        {directions[j][0] * weight[j], directions[j][1] * weight[j], directions[j][2] * weight[j]});
+  return result;
 }
 
 // IEC 61966-2-1:1999, 5.2 and 5.3.

@@ -27,6 +27,20 @@ RGB xyz_to_srgb(XYZ c);
 // White maps to white. Unknown names throw Error.
 RGB to_srgb(RGB c, const char* color_space);
 
+// Where the primaries and the white of a space of colours lie in the CIE 1931 xy plane.
+struct Chromaticity {
+  double x = 0, y = 0;
+  bool operator==(const Chromaticity&) const = default;
+};
+struct Chromaticities {
+  Chromaticity red, green, blue, white;
+};
+// The name of the space that these are of, to a thousandth; nullptr where `to_srgb` knows none.
+const char* color_space_of(const Chromaticities& c);
+// What red, green and blue of (such) a space are in linear sRGB, white with luminance 1: the same colours,
+// not adapted to another white.
+std::array<RGB, 3> primaries_in_srgb(const Chromaticities& c);
+
 // The sRGB transfer function, linear ⇄ encoded, both in [0,1].
 double srgb_encode(double linear);
 double srgb_decode(double encoded);

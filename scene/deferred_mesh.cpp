@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/deferred_mesh.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "scene/diagnostics.h"
 
 namespace vitrail {
@@ -23,6 +26,14 @@ void take_samples(const TriangleMesh& mesh, std::uint64_t number, int shift, Def
   }
   deferred.sample.shrink_to_fit();
 }
+
+double median(std::vector<double>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>((values.size() - 1) / 2);
+  std::ranges::nth_element(values, middle);
+  return *middle;
+}
+
+double greatest(Vector3d v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 
 template <class T>
 std::uint64_t size_bytes(const std::vector<T>& v) {
@@ -61,6 +72,33 @@ Bounds3f bounds_of(const TriangleMesh& mesh) {
   return bounds;
 }
 
+MeshFocus focus_of(const TriangleMesh& mesh) {
+  constexpr std::size_t most = 1024;
+  if (mesh.deferred) return mesh.deferred->focus;
+  const std::size_t count = mesh.triangles.size(), chosen = std::min(count, most);
+  if (count == 0) return {};
+  std::vector<Bounds3d> boxes;
+  for (std::size_t i = 0; i < chosen; ++i) {
+    Bounds3d& box = boxes.emplace_back();
+    for (const std::uint32_t corner : mesh.triangles[i * count / chosen])
+      extend(box, cast<double>(mesh.positions[corner]));
+  }
+  MeshFocus focus;
+  std::vector<double> values(chosen);
+  for (int axis = 0; axis < 3; ++axis) {
+    std::ranges::transform(boxes, values.begin(), [&](const Bounds3d& b) { return center(b)[axis]; });
+    focus.centre[axis] = median(values);
+  }
+  std::ranges::transform(boxes, values.begin(), [&](const Bounds3d& b) {
+    return std::max(greatest(b.lower - focus.centre), greatest(b.upper - focus.centre));
+  });
+  std::vector<double> distances = values;
+  focus.radius = median(distances);
+  for (std::size_t i = 0; i < chosen; ++i)
+    if (values[i] <= near_radii * focus.radius) extend(focus.box, boxes[i]);
+  return focus;
+}
+
 const TriangleMesh& loaded(const TriangleMesh& mesh, TriangleMesh& storage) {
   if (!mesh.deferred) return mesh;
   storage = mesh.deferred->load();
@@ -81,6 +119,7 @@ TriangleMesh MeshMemory::keep(TriangleMesh mesh, MeshLoader load) {
   deferred->bytes = bytes;
   deferred->has_normals = !mesh.normals.empty();
   deferred->bounds = bounds_of(mesh);
+  deferred->focus = focus_of(mesh);
   triangles_ += deferred->triangles;
   deferred_.push_back(deferred);
   const int before = shift_;
@@ -93,6 +132,7 @@ TriangleMesh MeshMemory::keep(TriangleMesh mesh, MeshLoader load) {
     deferred_[i]->sample_shift = shift_;
   }
   TriangleMesh stub;
+  stub.missing_uv = mesh.missing_uv;
   stub.deferred = deferred;
   return stub;
 }

@@ -14,12 +14,24 @@ namespace vitrail {
 
 using MeshLoader = std::function<TriangleMesh()>;
 
+// What is nearer than so many radii of what half of the triangles lie in counts as together with them.
+inline constexpr double near_radii = 256;
+
+// Where a mesh's triangles are, whatever few of them are elsewhere: the middle one's place, the distance on
+// the greatest axis within which half of them lie, and the box of those together with them.
+struct MeshFocus {
+  Point3d centre;
+  double radius = 0;
+  Bounds3d box;
+};
+
 // What is known of a mesh without loading it.
 struct DeferredMesh {
   MeshLoader load;  // from any thread; throws Error as its first reading would have
   std::uint64_t triangles = 0, bytes = 0;
   bool has_normals = false;
   Bounds3f bounds;  // of the vertices that triangles use
+  MeshFocus focus;
   // Triangles chosen at random, each with probability 2^-sample_shift.
   struct Sample {
     std::uint32_t triangle;
@@ -36,6 +48,8 @@ std::uint64_t bytes_of(const TriangleMesh& mesh);
 std::uint64_t triangles_of(const TriangleMesh& mesh);
 bool has_normals(const TriangleMesh& mesh);
 Bounds3f bounds_of(const TriangleMesh& mesh);
+// By a thousand of its triangles.
+MeshFocus focus_of(const TriangleMesh& mesh);
 
 // The mesh, loaded into `storage` if it is deferred. Throws Error where the file has changed since.
 const TriangleMesh& loaded(const TriangleMesh& mesh, TriangleMesh& storage);

@@ -2,6 +2,7 @@
 // What is said to the user about the input: errors that stop, and notes on what was approximated or dropped.
 #pragma once
 
+#include <cstdint>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -38,12 +39,30 @@ struct UsageError : std::runtime_error {
 
 enum class Fidelity { approximated, dropped };
 
+// The records of a Scene that a diagnostic may be about.
+enum class RecordKind : std::uint8_t {
+  any,  // all that come from that place
+  camera,
+  film,
+  sampler,
+  integrator,
+  texture,
+  material,
+  medium,
+  area_light,
+  light,
+  shape,
+  object,
+  instance,
+};
+
 // One feature of the input that was not imported exactly.
 struct Diagnostic {
   Fidelity fidelity = Fidelity::approximated;
   std::string message;  // what, and how or why
   SourceLocation location;
   SourceLocation item;  // the directive or element that it is about, where a record's Origin points to
+  RecordKind kind = RecordKind::any;  // of that record: several may come from one place
 };
 
 using Diagnostics = std::vector<Diagnostic>;

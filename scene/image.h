@@ -6,11 +6,14 @@
 
 namespace vitrail {
 
-// Linear values, height × width × channels, interleaved, the top left pixel first. Colours are linear sRGB.
+// Height × width × channels, interleaved, the top left pixel first. The channels are Y, Y and alpha, RGB, or
+// RGB and alpha; alpha is not multiplied into the others. Unless said otherwise the values are linear, and
+// colours linear sRGB.
 struct Image {
   int width = 0, height = 0, channels = 3;
   std::vector<float> values;
 
+  bool has_alpha() const { return channels == 2 || channels == 4; }
   std::size_t pixels() const { return static_cast<std::size_t>(width) * static_cast<std::size_t>(height); }
   bool operator==(const Image&) const = default;
 };

@@ -59,6 +59,8 @@ struct GoniometricLight {
   std::string filename;  // absolute; equal-area octahedral (pbrt-v4) or latitude-longitude (v3)
   bool latitude_longitude = false;
   std::optional<float> power;
+  Encoding encoding = Encoding::automatic;  // of the image
+  ImageNumber number = ImageNumber::mean;
   bool operator==(const GoniometricLight&) const = default;
 };
 
@@ -81,12 +83,14 @@ struct InfiniteLight {
 // - latitude_longitude: u = atan2(y,x)/2π (+1), v = acos(z)/π from the top, +z up (pbrt-v3).
 struct EnvironmentLight {
   enum class Projection : std::uint8_t { equal_area, latitude_longitude };
-  std::string filename;  // absolute; linear, or sRGB where it is 8-bit
+  std::string filename;  // absolute
   Transform light_to_world;
   Projection projection = Projection::equal_area;
   Spectrum scale = ConstantSpectrum{1};
   std::optional<float> illuminance;              // of an upward plane, lx; sets the scale of the image
   std::optional<std::array<Point3d, 4>> portal;  // light enters the scene only through this rectangle
+  Encoding encoding = Encoding::automatic;       // of the image
+  Primaries primaries = Primaries::file;
   bool operator==(const EnvironmentLight&) const = default;
 };
 

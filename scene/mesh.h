@@ -20,11 +20,15 @@ struct MeshAttribute {
   bool operator==(const MeshAttribute&) const = default;
 };
 
-// The (u,v) of a triangle's three corners where the file gives none.
+// The (u,v) of a triangle's three corners where the file gives none. `turned`: of triangles whose second and
+// third corner have changed places since.
 enum class MissingUv : std::uint8_t {
-  pbrt,         // (0,0), (1,0), (1,1)
-  barycentric,  // (0,0), (1,0), (0,1): Mitsuba
-  zero,         // (0,0) thrice
+  pbrt,            // (0,0), (1,0), (1,1)
+  pbrt_turned,     // (0,0), (1,1), (1,0)
+  patches,         // of pbrt's bilinear patches, two triangles each: (0,0), (1,0), (1,1); (0,0), (1,1), (0,1)
+  patches_turned,  // (0,0), (1,1), (1,0); (0,0), (0,1), (1,1)
+  barycentric,     // (0,0), (1,0), (0,1): Mitsuba
+  zero,            // (0,0) thrice
 };
 
 struct DeferredMesh;

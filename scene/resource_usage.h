@@ -8,5 +8,6 @@ namespace vitrail {
 
 double cpu_seconds();                 // of all threads, user's and system's
 std::uint64_t peak_resident_bytes();  // at its highest
+std::uint64_t resident_bytes();       // now
 
 }  // namespace vitrail

@@ -16,15 +16,34 @@ using Matrix3 = std::array<Column3, 3>;
 // magnitude: x(t) = p₀t² + p₁t + p₂.
 constexpr double lambda_range_nm = lambda_max_nm - lambda_min_nm;
 
+// Added up side by side, each in its own order.
+using Pair = double __attribute__((vector_size(16)));
+
 // D65·(x̄, ȳ, z̄)/∫ȳ at 1 nm: the XYZ of a reflectance under D65 is its sum with these.
-const std::array<Column3, table_size>& weights() {
+struct Weights {
+  Pair xy;
+  double z;
+};
+const std::array<Weights, table_size>& weights() {
   static const auto table = [] {
-    std::array<Column3, table_size> w;
-    for (std::size_t i = 0; i < table_size; ++i)
-      for (std::size_t k = 0; k < 3; ++k)
-        w[i][k] =
-            static_cast<double>(cie_d65()[i]) * static_cast<double>(cie_1931()[i][k]) / cie_y_integral_nm;
-    return w;
+    std::array<Weights, table_size> all;
+    for (std::size_t i = 0; i < table_size; ++i) {
+      const auto weight = [i](std::size_t k) {
+        return static_cast<double>(cie_d65()[i]) * static_cast<double>(cie_1931()[i][k]) / cie_y_integral_nm;
+      };
+      all[i] = Weights{Pair{weight(0), weight(1)}, weight(2)};
+    }
+    return all;
+  }();
+  return table;
+}
+
+// t of every nm.
+const std::array<double, table_size>& places() {
+  static const auto table = [] {
+    std::array<double, table_size> t;
+    for (std::size_t i = 0; i < table_size; ++i) t[i] = static_cast<double>(i) / lambda_range_nm;
+    return t;
   }();
   return table;
 }
@@ -61,27 +80,33 @@ struct Linearised {
   Matrix3 jacobian;  // ∂Lab/∂p, [row of Lab][column of p]
 };
 
+// Two loops, of which the first has the √ and ÷ and no sums, which would keep it from being vectorised.
 Linearised linearise(const Column3& p) {
-  Column3 xyz{};
-  Matrix3 d{};
+  std::array<double, table_size> s, slope;
+  const std::array<double, table_size>& t = places();
+  const double p0 = p[0], p1 = p[1], p2 = p[2];
   for (std::size_t i = 0; i < table_size; ++i) {
-    const double t = static_cast<double>(i) / lambda_range_nm;
-    const double x = (p[0] * t + p[1]) * t + p[2];
+    const double x = (p0 * t[i] + p1) * t[i] + p2;
     const double y = 1 / std::sqrt(1 + x * x);
-    const double s = 0.5 + 0.5 * x * y;
-    const double slope = 0.5 * y * y * y;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const double w = weights()[i][k];
-      xyz[k] += w * s;
-      d[k][2] += w * slope;
-      d[k][1] += w * slope * t;
-      d[k][0] += w * slope * t * t;
-    }
+    s[i] = 0.5 + 0.5 * x * y;
+    slope[i] = 0.5 * y * y * y;
   }
-  const Lab lab = to_lab(xyz);
+  Pair xy{}, xy0{}, xy1{}, xy2{};
+  double z = 0, z0 = 0, z1 = 0, z2 = 0;
+  for (std::size_t i = 0; i < table_size; ++i) {
+    const Weights& w = weights()[i];
+    const Pair at{t[i], t[i]}, xy_slope = w.xy * Pair{slope[i], slope[i]}, xy_t = xy_slope * at;
+    const double z_slope = w.z * slope[i], z_t = z_slope * t[i];
+    xy += w.xy * Pair{s[i], s[i]}, z += w.z * s[i];
+    xy2 += xy_slope, z2 += z_slope;
+    xy1 += xy_t, z1 += z_t;
+    xy0 += xy_t * at, z0 += z_t * t[i];
+  }
+  const Lab lab = to_lab({xy[0], xy[1], z});
+  const Matrix3 d{{{xy0[0], xy0[1], z0}, {xy1[0], xy1[1], z1}, {xy2[0], xy2[1], z2}}};
   Linearised result{lab.value, {}};
   for (std::size_t j = 0; j < 3; ++j) {
-    const double fx = lab.slope[0] * d[0][j], fy = lab.slope[1] * d[1][j], fz = lab.slope[2] * d[2][j];
+    const double fx = lab.slope[0] * d[j][0], fy = lab.slope[1] * d[j][1], fz = lab.slope[2] * d[j][2];
     result.jacobian[0][j] = 116 * fy;
     result.jacobian[1][j] = 500 * (fx - fy);
     result.jacobian[2][j] = 200 * (fy - fz);

@@ -79,7 +79,7 @@ struct Scene {
   std::optional<Id<Medium>> camera_medium;  // what the camera is in; none: vacuum
   FilmSettings film;
   RenderSettings settings;
-  Origin camera_origin, film_origin;
+  Origin camera_origin, film_origin, sampler_origin, integrator_origin;  // line 0: the file has none
 };
 
 // {} where the origin is not known.

@@ -55,7 +55,8 @@ enum class TextureFilter : std::uint8_t { nearest, bilinear, trilinear, anisotro
 // others.
 enum class Encoding : std::uint8_t { automatic, srgb, linear, gamma };
 
-// Which number a texture of numbers takes from a pixel of several channels; a grey image has but one.
+// Which number a texture of numbers takes from a pixel of several channels; a grey image has but one beside
+// alpha. Every channel is decoded as the encoding says before it is looked at, alpha too (as in pbrt-v4).
 enum class ImageNumber : std::uint8_t {
   mean,       // of R, G and B
   luminance,  // of linear sRGB
@@ -65,6 +66,14 @@ enum class ImageNumber : std::uint8_t {
   alpha,               // 1 where the image has none
   alpha_or_mean,       // alpha where the image has one that is not 1 everywhere (pbrt-v4)
   alpha_or_luminance,  // likewise
+  stored_luminance,    // of R, G and B as stored: the luminance is what is decoded (pbrt-v3)
+};
+
+// What the chromaticities that an EXR file may state are to its renderer. Without them colours are of sRGB.
+enum class Primaries : std::uint8_t {
+  file,   // what they say, by colorimetry (Mitsuba)
+  named,  // looked at where they are those of a space that pbrt-v4 knows; white reflects as white
+  srgb,   // nothing (pbrt-v3)
 };
 
 // (s,t) = (0,0) is the lower left corner of the image, (1,1) the upper right one. Colours are as the file
@@ -79,6 +88,7 @@ struct ImageTexture {
   float scale = 1;      // multiplies the values
   bool invert = false;  // 1 − value, after the scale
   ImageNumber number = ImageNumber::mean;
+  Primaries primaries = Primaries::file;
   bool operator==(const ImageTexture&) const = default;
 };
 

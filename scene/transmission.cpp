@@ -33,6 +33,18 @@ bool transmits(const Material& material, const std::vector<bool>& others) {
   return std::visit(Transmits{others}, material.model);
 }
 
+bool is_made_of_others(const Material& material) {
+  return std::holds_alternative<BlendMaterial>(material.model) ||
+         std::holds_alternative<MaskMaterial>(material.model) ||
+         std::holds_alternative<TwoSidedMaterial>(material.model);
+}
+
+bool is_passed_straight(const Material& material) {
+  return std::holds_alternative<MaskMaterial>(material.model) ||
+         std::holds_alternative<ThinDielectricMaterial>(material.model) ||
+         std::holds_alternative<MeasuredMaterial>(material.model);
+}
+
 bool has_sides(const Material& material, bool lets_through, const std::vector<bool>& others) {
   if (std::holds_alternative<InterfaceMaterial>(material.model)) return false;
   if (const auto* mask = std::get_if<MaskMaterial>(&material.model)) return others.at(mask->material.value);

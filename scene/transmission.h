@@ -11,6 +11,12 @@ namespace vitrail {
 // to, which come before it.
 bool transmits(const Material& material, const std::vector<bool>& others);
 
+// Whether it scatters as the materials do that it refers to. Bumps are theirs.
+bool is_made_of_others(const Material& material);
+
+// Whether going straight through it is an event that RenderSettings::straight_counts speaks of.
+bool is_passed_straight(const Material& material);
+
 // Whether its surface looks different from its two sides; `lets_through` is whether it transmits, `others` as
 // above.
 bool has_sides(const Material& material, bool lets_through, const std::vector<bool>& others);

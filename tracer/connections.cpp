@@ -190,25 +190,40 @@ bool PathTracer::connect_onwards(Path& path) {
   Interaction at = interaction_at(path);
   const Surface& surface = surface_at(path);
   const MaterialKind& kind = scene_.materials.kind(surface.material);
-  const bool passes = kind.is_interface || !is_there(path, surface, at);
-  if (refracts && kind.smooth_dielectric && !passes) {
+  const bool is_gone = !is_there(path, surface, at), passes = is_gone || kind.is_interface;
+  const bool bends = refracts && kind.smooth_dielectric && !passes;
+  const SampledSpectrum straight =
+      passes  ? filled(1)
+      : bends ? filled(0)
+              : scene_.materials.passes_straight(surface.material, at, path.wavelengths);
+  if (!is_gone && connects_through_hole(path, at, surface, !bends && is_black(straight)))
+    return connect_straight(path, at, nullptr);
+  if (bends) {
     if (!refract_connection(path, at, surface)) return false;
   } else {
-    if (!passes) {
-      path.throughput =
-          path.throughput * scene_.materials.passes_straight(surface.material, at, path.wavelengths);
-      path.depth += manifest_.settings.straight_counts || refracts;
-    }
+    path.throughput = path.throughput * straight;
     if (is_black(path.throughput)) return false;
-    if (!connect_straight(path, at, surface)) return false;
+    if (!passes) path.depth += manifest_.settings.straight_counts || refracts;
+    if (!connect_straight(path, at, &surface)) return false;
   }
   if (passes) return true;
   return path.depth <=
          (refracts ? max_surfaces_crossed : static_cast<std::uint32_t>(manifest_.settings.max_depth));
 }
 
+// Whether a connection goes on where nothing of the surface is. Where the rest of it lets no light through it
+// all goes there, and is less; else chance decides, as passing a sheet may count and passing a hole does not.
+bool PathTracer::connects_through_hole(Path& path, const Interaction& at, const Surface& surface,
+                                       bool opaque) const {
+  const double opacity = opacity_at(surface, at);
+  if (opacity >= 1) return false;
+  if (!opaque) return RandomStream(stream_of(path, RayRandom::coverage)).next() >= opacity;
+  path.throughput = path.throughput * static_cast<float>(1 - std::max(opacity, 0.0));
+  return true;
+}
+
 // Beyond a surface; false where the light is nearer to it than can be told.
-bool PathTracer::connect_straight(Path& path, const Interaction& at, const Surface& surface) {
+bool PathTracer::connect_straight(Path& path, const Interaction& at, const Surface* surface) {
   const Point3f before = path.ray.origin;
   continue_straight(path, at, surface);
   if (path.is(path_in_pane)) return true;

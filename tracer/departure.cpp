@@ -35,7 +35,7 @@ std::uint64_t PathTracer::stream_of(const Path& path, RayRandom use) {
 
 // On the other side of a surface, as if it was not there. Connections go through it too, so the path keeps
 // the density of the scattering that it comes from.
-void PathTracer::pass_straight(Path& path, const Interaction& at, const Surface& surface) const {
+void PathTracer::pass_straight(Path& path, const Interaction& at, const Surface* surface) const {
   const double travelled = path.travelled + path.hit.t * length(cast<double>(path.ray.direction));
   path.travelled = 0;
   if (path.pdf > 0) {
@@ -52,9 +52,13 @@ void PathTracer::continue_from(Path& path, const Interaction& at, const Surface&
 }
 
 // Keeps the direction to the bit: encoding it once more might turn it.
-void PathTracer::continue_straight(Path& path, const Interaction& at, const Surface& surface) const {
+void PathTracer::continue_straight(Path& path, const Interaction& at, const Surface* surface) const {
   const DirectionCode kept = path.direction;
-  continue_from(path, at, surface, cast<double>(path.ray.direction));
+  const auto direction = cast<double>(path.ray.direction);
+  depart(path,
+         surface ? departure(path, at, *surface, direction)
+                 : Departure{at.p, offset_origin(at, direction), at.triangle, path.inside},
+         direction);
   turn(path, kept);
 }
 
@@ -107,7 +111,14 @@ const Surface& PathTracer::surface_at(const Path& path) const {
   return surface_of(manifest_, *resident_[path.hit_domain], path.hit);
 }
 
-double PathTracer::cone_unit() const { return std::max(1e-30, static_cast<double>(manifest_.scale)); }
+double PathTracer::cone_unit() const {
+  const Bounds3f core = core_of(manifest_);
+  double greatest = 1e-30;
+  for (int axis = 0; axis < 3 && !core.empty(); ++axis)
+    greatest =
+        std::max({greatest, -static_cast<double>(core.lower[axis]), static_cast<double>(core.upper[axis])});
+  return greatest;
+}
 
 // Between the rays of a pixel's samples, in rad: they lie the closer the more of them there are. A sample
 // does not know how many will follow, as a render may be resumed to have more, so each counts those before

@@ -59,7 +59,16 @@ struct Connection {
 };
 
 // What random numbers of a ray are for; those of different use are independent.
-enum class RayRandom : std::uint64_t { flight, choice, scattering, light, layers, throughput, distance };
+enum class RayRandom : std::uint64_t {
+  flight,
+  choice,
+  scattering,
+  light,
+  layers,
+  throughput,
+  distance,
+  coverage
+};
 
 class PathTracer {
  public:
@@ -93,6 +102,7 @@ class PathTracer {
   bool scatter_in_medium(Path& path, Point3d p);
   bool go_on(Path& path, float u, bool specular) const;
   bool is_there(const Path& path, const Surface& surface, Interaction& at) const;
+  double opacity_at(const Surface& surface, const Interaction& at) const;
   void add_emission(const Path& path, const Interaction& at, std::uint32_t light);
   void add_environment(const Path& path);
 
@@ -102,8 +112,9 @@ class PathTracer {
   void depart(Path& path, const Departure& from, Vector3d direction) const;
   void continue_from(Path& path, const Interaction& at, const Surface& surface, Vector3d direction) const;
   void turn(Path& path, DirectionCode direction) const;
-  void continue_straight(Path& path, const Interaction& at, const Surface& surface) const;
-  void pass_straight(Path& path, const Interaction& at, const Surface& surface) const;
+  // Null: what is there is a hole in a surface, which bounds nothing.
+  void continue_straight(Path& path, const Interaction& at, const Surface* surface) const;
+  void pass_straight(Path& path, const Interaction& at, const Surface* surface) const;
   Point3f offset_origin(const Interaction& at, Vector3d direction) const;
   Interaction interaction_at(const Path& path) const;
   const Surface& surface_at(const Path& path) const;
@@ -128,7 +139,8 @@ class PathTracer {
   void send_shadow_ray(const Path& path, const Connection& connection, const LightSample& light,
                        const SampledSpectrum& radiance);
   bool connect_onwards(Path& path);
-  bool connect_straight(Path& path, const Interaction& at, const Surface& surface);
+  bool connects_through_hole(Path& path, const Interaction& at, const Surface& surface, bool opaque) const;
+  bool connect_straight(Path& path, const Interaction& at, const Surface* surface);
   bool refract_connection(Path& path, const Interaction& at, const Surface& surface) const;
   static void pack_connection(const Path& path, PathRecord& record);
   static void unpack_connection(const PathRecord& record, Path& path);

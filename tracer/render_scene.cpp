@@ -19,10 +19,11 @@ LightScene light_scene(const Manifest& m, const Textures& textures) {
   return {.area_lights = m.area_lights,
           .triangles = m.emissive_triangles,
           .attributes = m.emissive_attributes,
+          .opacities = m.emissive_opacities,
           .lights = m.lights,
           .textures = &textures,
           .texture_records = m.textures,
-          .bounds = m.bounds};
+          .bounds = core_of(m)};
 }
 
 }  // namespace

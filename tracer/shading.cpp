@@ -64,7 +64,12 @@ bool PathTracer::shade_surface(Path& path) {
   Interaction at = interaction_at(path);
   widen_cone(path, path.hit.t);
   if (!is_there(path, surface, at)) {
-    pass_straight(path, at, surface);
+    pass_straight(path, at, &surface);
+    return true;
+  }
+  if (const double opacity = opacity_at(surface, at);
+      opacity < 1 && RandomStream(stream_of(path, RayRandom::coverage)).next() >= opacity) {
+    pass_straight(path, at, nullptr);
     return true;
   }
   const MaterialKind& kind = scene_.materials.kind(surface.material);
@@ -73,7 +78,7 @@ bool PathTracer::shade_surface(Path& path) {
   if (surface.area_light >= 0) add_emission(path, at, static_cast<std::uint32_t>(surface.area_light));
   const bool is_last = path.depth >= static_cast<std::uint32_t>(manifest_.settings.max_depth);
   if (kind.is_interface) {
-    pass_straight(path, at, surface);
+    pass_straight(path, at, &surface);
     return true;
   }
   if (is_last) {
@@ -81,7 +86,7 @@ bool PathTracer::shade_surface(Path& path) {
     path.throughput =
         path.throughput * scene_.materials.passes_straight(surface.material, at, path.wavelengths);
     if (is_black(path.throughput)) return false;
-    pass_straight(path, at, surface);
+    pass_straight(path, at, &surface);
     return true;
   }
   if (kind.smooth_dielectric) return scatter_dielectric(path, at, surface);
@@ -90,7 +95,7 @@ bool PathTracer::shade_surface(Path& path) {
   const Material* material = scene_.materials.choose(surface.material, at, chance);
   if (!material) {
     path.depth += manifest_.settings.straight_counts;
-    pass_straight(path, at, surface);
+    pass_straight(path, at, &surface);
     return true;
   }
   if (scene_.materials.disperses(*material, at)) path.disperse();
@@ -109,7 +114,7 @@ bool PathTracer::shade_surface(Path& path) {
       ++path.depth;
     else
       path.set(path_passed);
-    pass_straight(path, at, surface);
+    pass_straight(path, at, &surface);
     return true;
   }
   Vector3d direction = scattering->frame.to_world(chosen->in);
@@ -135,6 +140,13 @@ bool PathTracer::is_there(const Path& path, const Surface& surface, Interaction&
   const auto face = scene_.interiors.face(path.inside, surface, at.front);
   if (face) at.exterior_eta = face->exterior_eta;
   return face.has_value();
+}
+
+// How much of the surface there is at a point.
+double PathTracer::opacity_at(const Surface& surface, const Interaction& at) const {
+  if (!manifest_.requirements.see_through) return 1;
+  if (const auto* constant = std::get_if<float>(&surface.opacity)) return static_cast<double>(*constant);
+  return scene_.textures.number(surface.opacity, at.texture_point());
 }
 
 // Counts a scattering event, and decides by roulette whether the path lives on.

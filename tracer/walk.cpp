@@ -89,7 +89,7 @@ bool DomainWalk::next(double tmax, Visit& visit) {
     if (entry == infinity) continue;
     visit = {domain, std::max(leaf.t0, entry)};
     // From far away the way through the cells is less certain than they are padded.
-    if (rounding_ < padding(manifest_) &&
+    if (rounding_ < cell_margin(manifest_) &&
         !meets(info.occupancy, info.tight_bounds, origin_, direction_, visit.entry, tmax))
       continue;
     return true;

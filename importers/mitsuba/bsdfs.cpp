@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <unordered_map>
 
 #include "importers/mitsuba/builder.h"
 #include "importers/spectra/measured_sheet.h"
@@ -325,6 +326,47 @@ Material inner(Builder& b, const Object& o) {
   return make_material(b, *bsdf);
 }
 
+// Changes the material, or where it is made of others a copy of each of them, once: the file may refer to
+// them elsewhere, too, and more than once.
+template <class Change>
+class LeafChanger {
+ public:
+  LeafChanger(Builder& b, const Change& change) : b_(b), change_(change) {}
+
+  void apply(Material& material) {
+    if (auto* blend = std::get_if<BlendMaterial>(&material.model))
+      copy(blend->first), copy(blend->second);
+    else if (auto* mask = std::get_if<MaskMaterial>(&material.model))
+      copy(mask->material);
+    else if (auto* sided = std::get_if<TwoSidedMaterial>(&material.model))
+      copy(sided->front), copy(sided->back);
+    else
+      change_(material);
+  }
+
+ private:
+  void copy(Id<Material>& id) {
+    if (const auto known = copies_.find(id.value); known != copies_.end()) {
+      id = known->second;
+      return;
+    }
+    const std::uint32_t original = id.value;
+    Material material = b_.scene.materials.at(original);
+    material.name.clear();
+    apply(material);
+    id = copies_[original] = append(b_, std::move(material));
+  }
+
+  Builder& b_;
+  const Change& change_;
+  std::unordered_map<std::uint32_t, Id<Material>> copies_;
+};
+
+template <class Change>
+void change_leaves(Builder& b, Material& material, const Change& change) {
+  LeafChanger(b, change).apply(material);
+}
+
 Material two_sided(Builder& b, const Object& o) {
   const std::vector<const Property*> sides = o.children("bsdf");
   if (sides.size() == 2) {
@@ -332,16 +374,16 @@ Material two_sided(Builder& b, const Object& o) {
     return Material{TwoSidedMaterial{ids[0], ids[1]}};
   }
   Material material = inner(b, o);
+  change_leaves(b, material, [](Material& leaf) { leaf.two_sided = true; });
   material.two_sided = true;
   return material;
 }
 
-// Since 3.7.1.
-void read_bump_shadowing(Builder& b, const Object& o, Material& material) {
-  const bool wanted = o.boolean("use_shadowing_function", o.type != "bump", b.report);
-  material.bump_shadowing = wanted && (material.displacement || material.normal_map);
+// Whether bumps shadow, since 3.7.1.
+bool has_bump_shadowing(Builder& b, const Object& o) {
   if (!o.boolean("flip_invalid_normals", true, b.report))
     b.report.approximated("normals that are turned away are never used", o.origin);
+  return o.boolean("use_shadowing_function", o.type != "bump", b.report);
 }
 
 // The height of a bump map times its scale.
@@ -359,24 +401,31 @@ Material bump_map(Builder& b, const Object& o) {
         {ProductTexture{height, ConstantSpectrum{static_cast<float>(scale)}}, true, "", o.origin});
     height = {static_cast<std::uint32_t>(b.scene.textures.size() - 1)};
   }
-  if (material.displacement) b.report.dropped("a second bump map on one material", o.origin);
-  material.displacement = height;
-  read_bump_shadowing(b, o, material);
+  const bool shadows = has_bump_shadowing(b, o);
+  change_leaves(b, material, [&](Material& leaf) {
+    if (leaf.displacement) b.report.dropped("a second bump map on one material", o.origin);
+    leaf.displacement = height;
+    leaf.bump_shadowing = shadows;
+  });
   return material;
 }
 
 Material normal_map(Builder& b, const Object& o) {
   Material material = inner(b, o);
   const Object* texture = o.child("texture");
+  const bool shadows = has_bump_shadowing(b, o);
   if (!texture) {
     b.report.dropped("a normal map without a texture", o.origin);
   } else if (texture->type == "rawconstant") {
     const bool is_flat = texture->vector("value", b.report) == Vector3d{0.5, 0.5, 1};
     if (!is_flat) b.report.dropped("a normal map that is the same everywhere", texture->origin);
   } else {
-    material.normal_map = add_texture(b, *texture, false);
+    const Id<Texture> map = add_texture(b, *texture, false);
+    change_leaves(b, material, [&](Material& leaf) {
+      leaf.normal_map = map;
+      leaf.bump_shadowing = shadows;
+    });
   }
-  read_bump_shadowing(b, o, material);
   return material;
 }
 
@@ -417,7 +466,7 @@ Id<Material> append(Builder& b, Material material) {
 
 Id<Material> add_material(Builder& b, const Object& o) {
   if (const auto known = b.materials.find(&o); known != b.materials.end()) return known->second;
-  const Origin before = b.report.begin_item(o.origin);
+  const Report::Item before = b.report.begin_item({o.origin, RecordKind::material});
   Material material = make_material(b, o);
   material.name = o.id.starts_with("_unnamed_") ? "" : o.id;
   b.report.begin_item(before);

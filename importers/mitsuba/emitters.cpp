@@ -196,13 +196,13 @@ std::string advice(const std::string& kind) {
 
 void add_emitter(Builder& builder, const Object& emitter) {
   Report& report = builder.report;
-  report.begin_item(emitter.origin);
+  report.begin_item({emitter.origin, RecordKind::light});
   emitter.ignore({"sampling_weight"});
   for (const Kind& kind : kinds) {
     if (emitter.type != kind.name) continue;
     builder.scene.lights.push_back({kind.make(builder, emitter), emitter.origin});
     if (!emitter.children("medium").empty()) {  // a light without a surface is in the medium around it
-      report.begin_item(emitter.origin);
+      report.begin_item({emitter.origin, RecordKind::light});
       report.dropped("the medium of an emitter: the surfaces around it say what it is in", emitter.origin);
     }
     return report_unused(emitter, report, properties);
@@ -212,7 +212,7 @@ void add_emitter(Builder& builder, const Object& emitter) {
 
 std::optional<Id<AreaLight>> add_area_light(Builder& builder, const Object& emitter) {
   Report& report = builder.report;
-  report.begin_item(emitter.origin);
+  report.begin_item({emitter.origin, RecordKind::area_light});
   const bool directional = emitter.type == "directionalarea";
   if (emitter.type != "area" && !directional) {
     report.dropped(

@@ -86,7 +86,7 @@ void read_film(Builder& builder, const Object& sensor) {
   if (!film) return;
   Report& report = builder.report;
   builder.scene.film_origin = film->origin;
-  report.begin_item(film->origin);
+  report.begin_item({film->origin, RecordKind::film});
   if (std::find(film_kinds.begin(), film_kinds.end(), film->type) == film_kinds.end())
     report.approximated(fmt::format("film \"{}\" is not known and read as \"hdrfilm\"{}", film->type,
                                     suggestion(film->type, film_kinds)),

@@ -57,13 +57,14 @@ void report_kind(const Object& integrator, Report& report) {
 
 void read_integrator(Builder& builder, const Object& integrator) {
   Report& report = builder.report;
-  report.begin_item(integrator.origin);
+  report.begin_item({integrator.origin, RecordKind::integrator});
   const Object* nested = is_one_of(integrator.type, wrappers) ? integrator.child("integrator") : nullptr;
   if (nested) {
     integrator.ignore({"aovs"});
     report_unused(integrator, report);
     return read_integrator(builder, *nested);
   }
+  builder.scene.integrator_origin = integrator.origin;
   report_kind(integrator, report);
   RenderSettings& settings = builder.scene.settings;
   settings.direct_only = is_one_of(integrator.type, direct_only);

@@ -8,6 +8,7 @@
 #include <cctype>
 #include <cmath>
 #include <map>
+#include <new>
 #include <pugixml.hpp>
 #include <set>
 
@@ -86,14 +87,18 @@ using MutablePtr = std::shared_ptr<MutableObject>;
 
 class Loader {
  public:
-  Loader(std::vector<std::string>& files, Report& report) : files_(files), report_(report) {}
+  Loader(const std::map<std::string, std::string>& definitions, std::vector<std::string>& files,
+         Report& report)
+      : files_(files), report_(report), defaults_(definitions) {}
 
   ObjectPtr run(const std::filesystem::path& file) {
     scene_ = std::make_shared<MutableObject>();
     scene_->tag = "scene";
     search_.push_back(std::filesystem::absolute(file).parent_path());
     try {
+      const std::map<std::string, std::string> definitions = defaults_;
       read_file(file, scene_, {}, 0);
+      for (const auto& [name, value] : definitions) require_parameter(name, file);
       resolve_references();
       std::set<const Object*> done, path;
       visit(*scene_, done, path);
@@ -112,6 +117,14 @@ class Loader {
     Lines lines;
     bool is_old = false;  // before version 2: names are in camel case
   };
+
+  void require_parameter(const std::string& name, const std::filesystem::path& file) const {
+    if (parameters_.contains(name)) return;
+    const std::string known = fmt::format("{}", fmt::join(parameters_, ", "));
+    throw Error(fmt::format("the scene has no parameter \"{}\"; {}", name,
+                            known.empty() ? "it has none" : "it has " + known),
+                {file.string()});
+  }
 
   Origin origin(const Source& source, pugi::xml_node node) const {
     return source.lines.origin(source.number, node.offset_debug() - 1);
@@ -148,6 +161,9 @@ class Loader {
     open_.insert(canonical);
     const InputBytes bytes(file);
     files_.push_back(file.string());
+    // What `new` refuses, the document is refused too (scene/memory_guard.h).
+    pugi::set_memory_management_functions([](std::size_t size) { return ::operator new(size, std::nothrow); },
+                                          [](void* block) { ::operator delete(block); });
     Source source{static_cast<std::uint32_t>(files_.size() - 1), Lines(bytes.begin(), bytes.end())};
     pugi::xml_document document;
     const auto parsed =
@@ -216,6 +232,7 @@ class Loader {
       std::size_t length = end - i;
       while (length > 0 && !defaults_.contains(text.substr(i, length))) --length;
       if (length == 0) fail(fmt::format("\"${}\" has no <default>", text.substr(i, end - i)), place);
+      parameters_.insert(text.substr(i, length));
       result += defaults_[text.substr(i, length)];
       i += length;
       if (result.size() > most_expanded) fail("an attribute grows without bound by its defaults", place);
@@ -235,9 +252,12 @@ class Loader {
 
   // ---- Elements
 
+  // What is read is let go: a large document and all of its objects are not in memory together.
   void read_children(pugi::xml_node node, const Source& source, const MutablePtr& parent, int depth) {
-    for (const pugi::xml_node child : node.children())
+    while (const pugi::xml_node child = node.first_child()) {
       if (child.type() == pugi::node_element) read_element(child, source, parent, depth);
+      node.remove_child(child);
+    }
   }
 
   void read_element(pugi::xml_node node, const Source& source, const MutablePtr& parent, int depth) {
@@ -291,7 +311,9 @@ class Loader {
     if (tag == "include")
       return read_file(resolve(required(node, "filename", place)), parent, place, depth + 1);
     if (tag == "default") {
-      defaults_.try_emplace(required(node, "name", place), value());
+      const std::string name = required(node, "name", place);
+      parameters_.insert(name);
+      defaults_.try_emplace(name, value());
     } else if (tag == "path") {
       search_.push_back(resolve(value()));
     } else if (tag == "alias") {
@@ -500,6 +522,7 @@ class Loader {
   std::vector<std::filesystem::path> search_;
   std::set<std::string> open_;
   std::map<std::string, std::string> defaults_, aliases_;
+  std::set<std::string> parameters_;  // that the scene has
   std::map<std::string, MutablePtr> ids_;
   std::vector<MutablePtr> objects_;
   std::size_t expanded_ = 0;
@@ -509,8 +532,9 @@ class Loader {
 
 }  // namespace
 
-ObjectPtr load(const std::filesystem::path& file, std::vector<std::string>& files, Report& report) {
-  return Loader(files, report).run(file);
+ObjectPtr load(const std::filesystem::path& file, const std::map<std::string, std::string>& definitions,
+               std::vector<std::string>& files, Report& report) {
+  return Loader(definitions, files, report).run(file);
 }
 
 }  // namespace vitrail::mitsuba

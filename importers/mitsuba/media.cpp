@@ -165,7 +165,7 @@ bool is_named(const Object& object) { return !object.id.empty() && !object.id.st
 Id<Medium> add_medium(Builder& builder, const Object& object) {
   if (const auto known = builder.media.find(&object); known != builder.media.end()) return known->second;
   Report& report = builder.report;
-  report.begin_item(object.origin);
+  report.begin_item({object.origin, RecordKind::medium});
   if (object.type != "homogeneous" && object.type != "heterogeneous")
     report.approximated(fmt::format("medium \"{}\" is not known and read as \"homogeneous\"{}", object.type,
                                     suggestion(object.type, {"homogeneous", "heterogeneous"})),

@@ -11,12 +11,21 @@ namespace vitrail {
 
 namespace mitsuba {
 
+// Interfaces are no events here; Mitsuba's volumetric integrators alone agree.
+static void report_null_depth(Builder& b) {
+  const RenderSettings& settings = b.scene.settings;
+  if (!settings.straight_counts || settings.max_depth >= unlimited_depth) return;
+  for (const Material& material : b.scene.materials)
+    if (std::holds_alternative<InterfaceMaterial>(material.model))
+      b.report.approximated("the depth: going through \"null\" does not count", material.origin);
+}
+
 static void build(Builder& b, const Object& root) {
   // Objects that others refer to come first, so that they have their places in the order of the file.
   for (const Property& p : root.properties) {
     const auto* object = std::get_if<ObjectPtr>(&p.value);
     if (!object) continue;
-    b.report.begin_item((*object)->origin);
+    b.report.begin_item({(*object)->origin});
     const std::string& tag = (*object)->tag;
     if (tag == "bsdf") add_material(b, **object);
     if (tag == "medium") add_medium(b, **object);
@@ -28,16 +37,17 @@ static void build(Builder& b, const Object& root) {
   const std::vector<const Property*> sensors = root.children("sensor");
   if (sensors.size() > 1) b.report.dropped("a scene has one camera: the first sensor", sensors[1]->origin);
   if (!sensors.empty()) {
-    b.report.begin_item(sensors.front()->origin);
+    b.report.begin_item({sensors.front()->origin, RecordKind::camera});
     read_sensor(b, *std::get<ObjectPtr>(sensors.front()->value));
   }
   for (const Property& p : root.properties) {
     const auto* object = std::get_if<ObjectPtr>(&p.value);
     if (!object) continue;
-    b.report.begin_item((*object)->origin);
+    b.report.begin_item({(*object)->origin});
     if ((*object)->tag == "emitter") p.queried = true, add_emitter(b, **object);
     if ((*object)->tag == "shape") p.queried = true, add_shape(b, **object);
   }
+  report_null_depth(b);
   root.ignore({"camera", "version"});
   root.children("sampler");
   root.children("film");
@@ -46,10 +56,11 @@ static void build(Builder& b, const Object& root) {
 
 }  // namespace mitsuba
 
-ImportedScene read_mitsuba(const std::filesystem::path& file, MeshMemory memory) {
+ImportedScene read_mitsuba(const std::filesystem::path& file, MeshMemory memory,
+                           const std::map<std::string, std::string>& definitions) {
   ImportedScene imported;
   mitsuba::Report report(imported.scene.files);
-  const mitsuba::ObjectPtr root = mitsuba::load(file, imported.scene.files, report);
+  const mitsuba::ObjectPtr root = mitsuba::load(file, definitions, imported.scene.files, report);
   mitsuba::Builder builder{imported.scene, report};
   builder.mesh_memory = std::move(memory);
   build(builder, *root);

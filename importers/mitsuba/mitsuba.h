@@ -2,6 +2,8 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
+#include <string>
 
 #include "scene/deferred_mesh.h"
 #include "scene/scene.h"
@@ -11,6 +13,8 @@ namespace vitrail {
 // Reads a scene of Mitsuba 3, or of its versions 0.5 to 2: plugins become records of the Scene, analytic
 // shapes and curves triangles. A scene without a sensor gets a view of all of it. What is not exact is in the
 // diagnostics; malformed files and references throw Error with their place.
-ImportedScene read_mitsuba(const std::filesystem::path& file, MeshMemory memory = MeshMemory{});
+// `definitions`: Mitsuba's command line's -D, which stand before the file's <default>s.
+ImportedScene read_mitsuba(const std::filesystem::path& file, MeshMemory memory = MeshMemory{},
+                           const std::map<std::string, std::string>& definitions = {});
 
 }  // namespace vitrail

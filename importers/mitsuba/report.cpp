@@ -11,12 +11,13 @@ SourceLocation Report::location(const Origin& origin) const {
 }
 
 void Report::add(Fidelity fidelity, std::string message, const Origin& place) {
-  diagnostics_.push_back({fidelity, std::move(message), location(place), location(item_)});
+  diagnostics_.push_back({fidelity, std::move(message), location(place), location(item_.origin), item_.kind});
 }
 
 void Report::add(Diagnostics more) {
   for (Diagnostic& diagnostic : more) {
-    diagnostic.item = location(item_);
+    diagnostic.item = location(item_.origin);
+    diagnostic.kind = item_.kind;
     diagnostics_.push_back(std::move(diagnostic));
   }
 }

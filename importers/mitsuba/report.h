@@ -15,8 +15,13 @@ class Report {
  public:
   explicit Report(const std::vector<std::string>& files) : files_(files) {}
 
-  // What comes is about the object there. Gives what it was about before.
-  Origin begin_item(const Origin& origin) { return std::exchange(item_, origin); }
+  // What comes is about the object there, of which a record of that kind is made. Gives what it was about
+  // before.
+  struct Item {
+    Origin origin;
+    RecordKind kind = RecordKind::any;
+  };
+  Item begin_item(const Item& item) { return std::exchange(item_, item); }
   void approximated(std::string message, const Origin& place) {
     add(Fidelity::approximated, std::move(message), place);
   }
@@ -33,7 +38,7 @@ class Report {
   void add(Fidelity fidelity, std::string message, const Origin& place);
 
   const std::vector<std::string>& files_;
-  Origin item_;
+  Item item_;
   Diagnostics diagnostics_;
 };
 

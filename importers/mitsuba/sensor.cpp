@@ -178,11 +178,16 @@ void read_sensor(Builder& builder, const Object& sensor) {
   Scene& scene = builder.scene;
   Report& report = builder.report;
   read_film(builder, sensor);
-  report.begin_item(sensor.origin);
+  report.begin_item({sensor.origin, RecordKind::camera});
   const Object& camera = first_camera(sensor, report);
   scene.camera_origin = camera.origin;
   scene.camera = read_camera(camera, scene.film, report);
+  if (const Object* sampler = sensor.child("sampler")) {
+    scene.sampler_origin = sampler->origin;
+    report.begin_item({sampler->origin, RecordKind::sampler});
+  }
   scene.settings.samples_per_pixel = read_sample_count(sensor, report);
+  report.begin_item({camera.origin, RecordKind::camera});
   if (!sensor.children("srf").empty() || sensor.find("srf"))
     report.dropped("the spectral response of a sensor: the CIE 1931 observer takes its place",
                    place_of(sensor, "srf"));
@@ -190,7 +195,7 @@ void read_sensor(Builder& builder, const Object& sensor) {
     object->ignore({"near_clip", "far_clip", "shutter_open", "shutter_close"});
     object->children("film"), object->children("sampler");
     if (const Object* medium = object->child("medium")) scene.camera_medium = add_medium(builder, *medium);
-    report.begin_item(object->origin);
+    report.begin_item({object->origin, RecordKind::camera});
     report_unused(*object, report,
                   {"to_world", "fov", "fov_axis", "focal_length", "principal_point_offset_x",
                    "principal_point_offset_y", "aperture_radius", "focus_distance"});

@@ -85,6 +85,7 @@ TriangleMesh read_geometry(const MeshFile& file, Diagnostics& diagnostics) {
 
 TriangleMesh read_mesh(const MeshFile& file, Diagnostics& diagnostics, bool& smoothed) {
   TriangleMesh mesh = read_geometry(file, diagnostics);
+  mesh.missing_uv = MissingUv::barycentric;
   smoothed = apply(file.reading, mesh);
   if (smoothed) mesh.normals = smooth_normals(mesh);
   return mesh;

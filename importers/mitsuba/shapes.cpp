@@ -117,7 +117,7 @@ Id<Prototype> prototype_of(Builder& builder, const Object& group) {
   prototype.name = name_of(group);
   prototype.origin = group.origin;
   add_children(builder, group, true, prototype.shapes);
-  builder.report.begin_item(group.origin);
+  builder.report.begin_item({group.origin, RecordKind::object});
   report_unused(group, builder.report);
   const Id<Prototype> id{static_cast<std::uint32_t>(builder.scene.prototypes.size())};
   builder.scene.prototypes.push_back(std::move(prototype));
@@ -133,7 +133,7 @@ void add_instance(Builder& builder, const Object& object) {
   object.ignore({"flip_normals"});
   Instance instance;
   instance.prototype = prototype_of(builder, *group);
-  builder.report.begin_item(object.origin);
+  builder.report.begin_item({object.origin, RecordKind::instance});
   instance.prototype_to_world = to_world(builder, object);
   instance.origin = object.origin;
   builder.scene.instances.push_back(instance);
@@ -141,7 +141,7 @@ void add_instance(Builder& builder, const Object& object) {
 }
 
 void add_shapes(Builder& builder, const Object& object, bool in_group, std::vector<Shape>& shapes) {
-  builder.report.begin_item(object.origin);
+  builder.report.begin_item({object.origin, RecordKind::shape});
   const std::string kind = kind_of(object);
   if (kind == "shapegroup" || kind == "instance") {
     if (in_group)
@@ -160,7 +160,7 @@ void add_shapes(Builder& builder, const Object& object, bool in_group, std::vect
   if (!geometry) geometry = curve_shape(builder, object);
   if (!geometry) return drop(builder, object);
   add_geometry(builder, object, *geometry, in_group, shapes);
-  builder.report.begin_item(object.origin);
+  builder.report.begin_item({object.origin, RecordKind::shape});
   report_unused(object, builder.report, parameters);
 }
 

@@ -48,6 +48,7 @@ TextureModel bitmap(Builder& b, const Object& o, bool) {
   if (wrap == "clamp") image.wrap = Wrap::clamp;
   if (wrap != "mirror" && wrap != "clamp" && wrap != "repeat")
     b.report.approximated(fmt::format("wrap_mode \"{}\" becomes \"repeat\"", wrap), o.origin);
+  image.number = ImageNumber::luminance;
   image.mapping = flipped(mapping_of(o.transform("to_uv", b.report)));
   o.ignore({"format", "accel", "max_anisotropy", "cache"});
   return image;
@@ -119,7 +120,9 @@ TextureModel make_model(Builder& b, const Object& o, bool as_float) {
 Id<Texture> add_texture(Builder& b, const Object& o, bool as_float) {
   const auto known = b.textures.find({&o, as_float});
   if (known != b.textures.end()) return known->second;
+  const Report::Item before = b.report.begin_item({o.origin, RecordKind::texture});
   Texture texture{make_model(b, o, as_float), as_float, o.id.starts_with("_unnamed_") ? "" : o.id, o.origin};
+  b.report.begin_item(before);
   const Id<Texture> id{static_cast<std::uint32_t>(b.scene.textures.size())};
   b.scene.textures.push_back(std::move(texture));
   b.textures[{&o, as_float}] = id;

@@ -10,6 +10,8 @@
 #include <fstream>
 #include <stdexcept>
 
+#include "scene/input_files.h"
+
 namespace vitrail::mitsuba {
 
 namespace {
@@ -28,6 +30,7 @@ static_assert(sizeof(Header) == 48);
 }
 
 Header read_header(const std::filesystem::path& path) {
+  note_input(path);
   std::ifstream file(path, std::ios::binary);
   std::array<char, sizeof(Header)> bytes{};
   if (!file.read(bytes.data(), bytes.size())) fail(path, "not a volume file: it ends within its header");

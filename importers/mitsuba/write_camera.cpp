@@ -207,16 +207,27 @@ double field_of_view_deg(double half_width) {
 void write_integrator(Context& context, Element root) {
   const Scene& scene = context.scene;
   if (scene.settings.direct_only) {
-    context.origin = {};
+    context.begin(RecordKind::integrator, scene.integrator_origin);
     context.approximated("Mitsuba's direct integrator ends at the first surface, specular or not");
     Element element = add(root, "integrator", "direct");
     add_integer(element, "emitter_samples", 1);
     add_integer(element, "bsdf_samples", 1);
     return add_boolean(element, "hide_emitters", false);
   }
+  // Only the volumetric one counts no event where a mask or `null` stands for what is not there.
   const bool media = !scene.media.empty() || !context.interiors.empty();
-  Element element = add(root, "integrator", media || !scene.settings.straight_counts ? "volpath" : "path");
+  const bool nothing = !context.masks.empty() || std::ranges::any_of(scene.materials, [](const Material& m) {
+    return std::holds_alternative<InterfaceMaterial>(m.model);
+  });
+  const bool volpath = media || nothing || !scene.settings.straight_counts;
+  Element element = add(root, "integrator", volpath ? "volpath" : "path");
   const int depth = scene.settings.max_depth;
+  if (volpath && scene.settings.straight_counts && depth < unlimited_depth &&
+      std::ranges::any_of(scene.materials, is_passed_straight)) {
+    context.origin = scene.camera_origin;
+    context.approximated(
+        "the depth: Mitsuba's volumetric path tracer does not count going straight through sheets and masks");
+  }
   add_integer(element, "max_depth",
               depth >= unlimited_depth ? -1 : depth + 1);  // Mitsuba counts the eye's ray
   add_integer(element, "rr_depth", 5);
@@ -225,7 +236,7 @@ void write_integrator(Context& context, Element root) {
 
 void write_camera(Context& context, Element root) {
   const Scene& scene = context.scene;
-  context.origin = scene.camera_origin;
+  context.begin(RecordKind::camera, scene.camera_origin);
   Element sensor = std::visit([&](const auto& camera) { return write(context, root, camera); }, scene.camera);
   const ClipRange clip =
       std::visit([&](const auto& camera) { return clip_range(scene, camera.camera_to_world); }, scene.camera);

@@ -3,9 +3,18 @@
 
 namespace vitrail::mitsuba_writer {
 
+TextureRoles::TextureRoles(const Scene& scene)
+    : height(scene.textures.size()), normal_map(scene.textures.size()) {
+  for (const Material& material : scene.materials) {
+    if (material.normal_map) normal_map.at(material.normal_map->value) = true;
+    if (!material.displacement) continue;
+    if (const auto* id = std::get_if<Id<Texture>>(&*material.displacement)) height.at(id->value) = true;
+  }
+}
+
 void Context::report(Fidelity fidelity, std::string message) {
   const SourceLocation place = location(scene, origin);
-  diagnostics.push_back({fidelity, std::move(message), place, place});
+  diagnostics.push_back({fidelity, std::move(message), place, place, record});
 }
 
 std::string Context::new_id(const std::string& name, const char* kind, std::size_t index) {
@@ -13,11 +22,8 @@ std::string Context::new_id(const std::string& name, const char* kind, std::size
   std::string id = name.empty() || substitutable ? fmt::format("_unnamed_{}_{}", kind, index) : name;
   if (substitutable)
     approximated(fmt::format("the name \"{}\" is written as \"{}\": $ starts a parameter", name, id));
-  if (taken_ids.insert(id).second) return id;
-  std::string unique;
-  for (std::size_t i = 2; unique.empty() || !taken_ids.insert(unique).second; ++i)
-    unique = fmt::format("{}_{}", id, i);
-  if (!name.empty())
+  const std::string unique = ids.take(id);
+  if (unique != id && !name.empty())
     approximated(
         fmt::format("the name \"{}\" is written as \"{}\": another record has it already", name, unique));
   return unique;
@@ -31,13 +37,7 @@ std::string Context::relative(const std::string& other) {
 }
 
 std::string Context::new_file(const char* kind, const char* extension, std::size_t& counter) const {
-  const std::filesystem::path folder = fmt::format("{}-{}", file.stem().string(), kind);
-  std::error_code error;
-  std::filesystem::create_directories(file.parent_path() / folder, error);
-  if (error)
-    throw MachineError(
-        fmt::format("cannot create {}: {}", (file.parent_path() / folder).string(), error.message()));
-  return (folder / fmt::format("{:06}.{}", counter++, extension)).generic_string();
+  return side_files.name(kind, counter++, extension);
 }
 
 Element add(Element parent, const char* tag, const std::string& type, const std::string& name,

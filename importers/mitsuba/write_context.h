@@ -6,17 +6,21 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <optional>
 #include <pugixml.hpp>
 #include <string>
 #include <unordered_map>
-#include <unordered_set>
 #include <vector>
 
+#include "importers/images/converted_images.h"
 #include "importers/mesh_files.h"
+#include "importers/opacity_key.h"
+#include "importers/unique_names.h"
 #include "scene/color.h"
 #include "scene/scene.h"
 #include "scene/transmission.h"
+#include "scene/uv_uses.h"
 
 namespace vitrail::mitsuba_writer {
 
@@ -30,29 +34,47 @@ Overloaded(F...) -> Overloaded<F...>;
 // A texture as Mitsuba can say it: an element of its own, by id, or one value for all of the surface.
 using WrittenTexture = std::variant<std::string, Spectrum>;
 
+// What materials take textures for that are written otherwise than colours and numbers: by texture.
+struct TextureRoles {
+  explicit TextureRoles(const Scene& scene);
+  std::vector<bool> height, normal_map;
+};
+
 struct Context {
   Context(const Scene& scene_to_write, const std::filesystem::path& out)
       : scene(scene_to_write),
         file(out),
         meshes(scene_to_write, out),
+        side_files(out),
+        roles(scene_to_write),
         transmitting(vitrail::transmitting(scene_to_write.materials)),
-        sided(with_sides(scene_to_write.materials)) {}
+        sided(with_sides(scene_to_write.materials)),
+        uvs_show(meshes_whose_uvs_show(scene_to_write)) {}
 
   const Scene& scene;
   std::filesystem::path file;  // of the scene
   MeshFiles meshes;
+  SideFiles side_files;
+  TextureRoles roles;
   std::vector<bool> transmitting;  // Mitsuba allows no `twosided` around such materials
   std::vector<bool> sided;         // with_sides
+  std::vector<bool> uvs_show;      // of each mesh
   Diagnostics diagnostics;
-  Origin origin;  // of the record that is being written
+  // Of the record that is being written.
+  Origin origin;
+  RecordKind record = RecordKind::any;
+  void begin(RecordKind of, const Origin& from) { record = of, origin = from; }
 
-  std::unordered_set<std::string> taken_ids;  // Mitsuba has one name space for everything
+  UniqueNames ids;  // Mitsuba has one name space for everything
   std::vector<std::string> material_ids, medium_ids, prototype_ids;
+  // Masks around materials, by the material and the opacity of a shape.
+  std::map<std::pair<std::uint32_t, OpacityKey>, std::string> masks;
   std::vector<WrittenTexture> textures;
   mutable std::unordered_map<std::uint32_t, RGB> means;  // of the textures whose mean was asked for
   std::unordered_map<std::size_t, std::string>
       interiors;  // media inside of subsurface materials, by material
   std::size_t derived_meshes = 0, derived_images = 0, derived_volumes = 0;
+  ConvertedImages images{[this] { return file.parent_path() / new_file("images", "exr", derived_images); }};
 
   void approximated(std::string message) { report(Fidelity::approximated, std::move(message)); }
   void dropped(std::string message) { report(Fidelity::dropped, std::move(message)); }

@@ -54,7 +54,7 @@ void write(Context& context, Element film, const SincFilter& filter) {
 
 void write_film(Context& context, Element sensor) {
   const FilmSettings& settings = context.scene.film;
-  context.origin = context.scene.film_origin;
+  context.begin(RecordKind::film, context.scene.film_origin);
   Element film = add(sensor, "film", "hdrfilm");
   add_integer(film, "width", settings.width);
   add_integer(film, "height", settings.height);

@@ -2,84 +2,50 @@
 #include "importers/mitsuba/write_images.h"
 
 #include <algorithm>
-#include <cmath>
-
-#include "images/image_files.h"
 
 namespace vitrail::mitsuba_writer {
 
 namespace {
 
-bool is_srgb(const ImageTexture& texture, bool integer) {
-  return texture.encoding == Encoding::srgb || (texture.encoding == Encoding::automatic && integer);
-}
-
-// The texture's values: decoded, scaled, inverted.
-Image values_of(const ImageTexture& texture, StoredImage stored) {
-  const bool srgb = is_srgb(texture, stored.integer);
-  for (float& stored_value : stored.image.values) {
-    double value = static_cast<double>(stored_value);
-    if (srgb) value = srgb_decode(std::clamp(value, 0.0, 1.0));
-    if (texture.encoding == Encoding::gamma)
-      value = std::pow(std::max(value, 0.0), static_cast<double>(texture.gamma));
-    value *= static_cast<double>(texture.scale);
-    stored_value = static_cast<float>(texture.invert ? 1 - value : value);
-  }
-  return std::move(stored.image);
-}
-
-// A float texture counts a colour image by its mean.
-Image grey(const Image& image) {
-  if (image.channels == 1) return image;
-  Image result = black_image(image.width, image.height, 1);
-  const auto channels = static_cast<std::size_t>(image.channels);
-  for (std::size_t pixel = 0; pixel < image.pixels(); ++pixel) {
-    double sum = 0;
-    for (std::size_t c = 0; c < channels; ++c) sum += static_cast<double>(image.values[pixel * channels + c]);
-    result.values[pixel] = static_cast<float>(sum / static_cast<double>(channels));
-  }
-  return result;
-}
-
-bool used_as_normal_map(const Scene& scene, const ImageTexture& texture) {
-  return std::any_of(scene.materials.begin(), scene.materials.end(), [&](const Material& material) {
-    return material.normal_map &&
-           std::get_if<ImageTexture>(&scene.textures[material.normal_map->value].model) == &texture;
-  });
+// What Mitsuba makes of the texture's own file.
+ImageTexture taken_by_mitsuba(const ImageTexture& texture, bool raw) {
+  ImageTexture taken = texture;
+  taken.encoding = raw ? Encoding::linear : Encoding::automatic;
+  taken.scale = 1, taken.invert = false;
+  taken.number = ImageNumber::luminance;
+  taken.primaries = Primaries::file;
+  return taken;
 }
 
 }  // namespace
 
-MitsubaImage image_for_mitsuba(Context& context, const ImageTexture& texture, bool is_float) {
+MitsubaImage image_for_mitsuba(Context& context, const ImageTexture& texture, bool is_float,
+                               bool is_normal_map, RGB tint) {
   const std::string own = context.relative(texture.filename);
-  const bool linear = texture.encoding == Encoding::linear;
-  if (used_as_normal_map(context.scene, texture)) {
+  if (is_normal_map) {
     if (texture.encoding == Encoding::srgb || texture.encoding == Encoding::gamma || texture.scale != 1)
       context.approximated("the encoding of a normal map is not in Mitsuba: its numbers count as they are");
     return {own, true};
   }
-  const bool plain = texture.scale == 1 && !texture.invert && texture.encoding != Encoding::gamma;
-  if (plain && !is_float && texture.encoding == Encoding::automatic) return {own, false};
+  const ImageUse use = is_float ? ImageUse::number : ImageUse::color;
+  const bool raw = is_float && texture.encoding == Encoding::linear;
   try {
-    const ImageLayout layout = read_image_layout(texture.filename);
-    const bool decoded = is_srgb(texture, layout.integer);
-    if (plain && decoded == layout.integer && (!is_float || layout.channels == 1))
-      return {own, is_float && linear};
-    if (plain && !decoded && is_float && layout.channels == 1) return {own, true};
-    const Image values = values_of(texture, read_stored_image(texture.filename));
-    const std::string name = context.new_file("images", "exr", context.derived_images);
-    write_exr_image(context.file.parent_path() / name, is_float ? grey(values) : values);
-    context.approximated(fmt::format("Mitsuba cannot decode this image: its values are written as {}", name));
+    if (tint == RGB{1, 1, 1} && have_same_values(texture, taken_by_mitsuba(texture, raw), use))
+      return {own, raw};
+    const std::filesystem::path file = context.images.write(texture, use, {tint, {}, false});
+    const std::string name = context.relative(std::filesystem::absolute(file).string());
+    context.approximated(
+        fmt::format("Mitsuba takes other values from its image: they are written as {}", name));
     return {name, is_float};
   } catch (const Error& error) {
     context.approximated(fmt::format("{}: referred to as it is", error.what()));
-    return {own, is_float && linear};
+    return {own, raw};
   }
 }
 
 RGB mean_color(const ImageTexture& texture) {
   try {
-    const Image image = values_of(texture, read_stored_image(texture.filename));
+    const Image image = texture_values(texture, read_stored_image(texture.filename), ImageUse::color);
     const auto channels = static_cast<std::size_t>(image.channels);
     std::array<double, 3> sum{};
     for (std::size_t pixel = 0; pixel < image.pixels(); ++pixel)

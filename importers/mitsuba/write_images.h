@@ -13,8 +13,10 @@ struct MitsubaImage {
   bool raw = false;
 };
 
-// The texture's own file where Mitsuba makes the same values of it; else a new one that holds the values.
-MitsubaImage image_for_mitsuba(Context& context, const ImageTexture& texture, bool is_float);
+// The texture's own file where Mitsuba makes the same values of it; else a new one that holds the values, in
+// colours times `tint`.
+MitsubaImage image_for_mitsuba(Context& context, const ImageTexture& texture, bool is_float,
+                               bool is_normal_map = false, RGB tint = {1, 1, 1});
 
 // The mean of the texture's values; grey ½ where the file cannot be read.
 RGB mean_color(const ImageTexture& texture);

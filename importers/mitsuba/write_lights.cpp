@@ -3,9 +3,11 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "images/image_files.h"
 #include "importers/images/environment_images.h"
+#include "importers/mitsuba/write_surroundings.h"
 
 namespace vitrail::mitsuba_writer {
 
@@ -43,26 +45,40 @@ void write(Context& context, Element root, const SpotLight& light) {
   add_parameter(context, element, "texture", texture, Meaning::reflectance);
 }
 
+// Of the image's width; pbrt measures its shorter axis. An image that cannot be read counts as a square.
+double fov_of_width(const Scene& scene, const ProjectionLight& light) {
+  const double fov_deg = static_cast<double>(light.fov_deg);
+  const auto* texture = std::get_if<Id<Texture>>(&light.image);
+  const auto* image = texture ? std::get_if<ImageTexture>(&scene.textures[texture->value].model) : nullptr;
+  if (light.irradiance || !image) return fov_deg;
+  try {
+    const ImageLayout layout = read_image_layout(image->filename);
+    if (layout.width <= layout.height) return fov_deg;
+    const double wide = static_cast<double>(layout.width) / layout.height;
+    return 2 * std::atan(wide * std::tan(fov_deg * std::numbers::pi / 360)) * 180 / std::numbers::pi;
+  } catch (const Error&) {
+    return fov_deg;
+  }
+}
+
 // Mitsuba's projector is a camera: u = 0 on the left, at +x, and v = 0 at the top, at +y. pbrt has u = 0 at
 // −x, and the image's upper row at −y. The image times π is the irradiance at distance 1.
 void write(Context& context, Element root, const ProjectionLight& light) {
-  if (!light.irradiance && value_of(context, light.image))
-    return context.dropped("a projection light without an image");
+  const bool is_image = !value_of(context, light.image);
+  if (!light.irradiance && !is_image) return context.dropped("a projection light without an image");
   Element element = add(root, "emitter", "projector");
   add_transform(element, light.light_to_world * scale({-1, 1, 1}));
-  if (light.irradiance)
-    add_parameter(context, element, "irradiance", light.image, Meaning::emission);
-  else
+  if (is_image)
     add_lit_image(context, element, "irradiance", light.image, 1);
-  add_float(element, "fov", light.fov_deg);
-  add_string(element, "fov_axis", light.irradiance ? "x" : "smaller");
+  else
+    add_parameter(context, element, "irradiance", light.image, Meaning::emission);
+  add_float(element, "fov", static_cast<float>(fov_of_width(context.scene, light)));
+  add_string(element, "fov_axis", "x");
   const double factor = number_of(context, light.scale, brightness);
   add_float(element, "scale", static_cast<float>(light.irradiance ? factor : factor / std::numbers::pi));
   if (!light.irradiance)
     context.approximated(
-        "the image of a projector is irradiance in Mitsuba: brighter off its axis by 1/cos³, and its white "
-        "is a flat "
-        "spectrum");
+        "the image of a projector is irradiance in Mitsuba: brighter off its axis by 1/cos³");
   if (light.power) context.dropped("the power of a projection light: its image counts as it is");
 }
 
@@ -103,9 +119,13 @@ struct WrittenEnvironment {
 WrittenEnvironment environment(Context& context, const EnvironmentLight& light) {
   using enum EnvironmentLight::Projection;
   const RGB color = color_of(light.scale);
-  const bool as_is = light.projection == latitude_longitude && is_grey(color);
+  const ImageTexture texture = image_of(light);
+  ImageTexture taken;
+  taken.filename = light.filename;
+  const bool decoded_alike = have_same_values(texture, taken, ImageUse::light);
+  const bool as_is = light.projection == latitude_longitude && is_grey(color) && decoded_alike;
   if (as_is && !light.illuminance) return {context.relative(light.filename), color.r};
-  Image image = read_linear_image(light.filename);
+  Image image = texture_values(texture, read_stored_image(light.filename), ImageUse::light);
   double factor = is_grey(color) ? color.r : 1;
   if (light.illuminance) {
     const double natural = upward_illuminance(image, light.projection);
@@ -116,13 +136,17 @@ WrittenEnvironment environment(Context& context, const EnvironmentLight& light) 
     image = reproject(image, equal_area, latitude_longitude);
     context.approximated("the equal-area environment map is resampled to latitude and longitude");
   }
-  if (!is_grey(color) && image.channels == 3) {
+  if (!is_grey(color)) {
+    image = with_three_channels(std::move(image));
     const std::array scale{color.r, color.g, color.b};
     for (std::size_t i = 0; i < image.values.size(); ++i)
       image.values[i] = static_cast<float>(static_cast<double>(image.values[i]) * scale[i % 3]);
     context.approximated("the colour of an environment light is multiplied into its image");
   }
   const std::string name = context.new_file("images", "exr", context.derived_images);
+  if (!decoded_alike)
+    context.approximated(
+        fmt::format("Mitsuba takes other values from its image: they are written as {}", name));
   write_exr_image(context.file.parent_path() / name, image);
   return {name, factor};
 }
@@ -143,14 +167,22 @@ void write(Context& context, Element root, const EnvironmentLight& light) {
 }  // namespace
 
 void write_lights(Context& context, Element root) {
+  const auto write_model = [&](const LightModel& light) {
+    std::visit([&](const auto& model) { write(context, root, model); }, light);
+  };
+  std::optional<LightModel> around = joined_surroundings(context);
+  const bool joined = around.has_value();
   for (const Light& light : context.scene.lights) {
-    context.origin = light.origin;
-    std::visit([&](const auto& model) { write(context, root, model); }, light.model);
+    context.begin(RecordKind::light, light.origin);
+    if (!joined || !is_around(light))
+      write_model(light.model);
+    else if (around)
+      write_model(*std::exchange(around, std::nullopt));
   }
 }
 
 void write_area_light(Context& context, Element shape, const AreaLight& light) {
-  context.origin = light.origin;
+  context.begin(RecordKind::area_light, light.origin);
   Element element = add(shape, "emitter", light.directional ? "directionalarea" : "area");
   if (const auto radiance = value_of(context, light.radiance))
     return add_spectrum(element, "radiance", scaled(*radiance, static_cast<double>(light.scale)),

@@ -58,7 +58,7 @@ void write_material(Context& context, Element parent, std::size_t index, std::st
 void write_materials(Context& context, Element root) {
   for (std::size_t i = 0; i < context.scene.materials.size(); ++i) {
     const Material& material = context.scene.materials[i];
-    context.origin = material.origin;
+    context.begin(RecordKind::material, material.origin);
     context.material_ids.push_back(context.new_id(material.name, "material", i));
     write_material(context, root, i, context.material_ids.back());
   }

@@ -187,13 +187,13 @@ std::optional<Medium> interior_medium(Context& context, const SubsurfaceMaterial
 void write_media(Context& context, Element root) {
   for (std::size_t i = 0; i < context.scene.media.size(); ++i) {
     const Medium& medium = context.scene.media[i];
-    context.origin = medium.origin;
+    context.begin(RecordKind::medium, medium.origin);
     context.medium_ids.push_back(context.new_id(medium.name, "medium", i));
     write_medium(context, root, medium, context.medium_ids.back());
   }
   for (std::size_t i = 0; i < context.scene.materials.size(); ++i) {
     const Material& material = context.scene.materials[i];
-    context.origin = material.origin;
+    context.begin(RecordKind::material, material.origin);
     if (const auto* subsurface = std::get_if<SubsurfaceMaterial>(&material.model))
       if (const auto medium = interior_medium(context, *subsurface)) {
         const std::string id = context.new_id("", "interior", i);

@@ -115,11 +115,34 @@ void write(Context& context, Element parent, ElementId id, const ConductorMateri
   add_parameter(context, element, "specular_reflectance", m.reflectance_factor, Meaning::unbounded);
 }
 
+// Mitsuba's plastic asks its textures for their means, which those that read attributes of meshes do not
+// know.
+bool reads_attribute(const Context& context, const SpectrumParameter& value) {
+  const auto* id = std::get_if<Id<Texture>>(&value);
+  if (!id || value_of(context, value)) return false;
+  const TextureModel& model = context.scene.textures[id->value].model;
+  const auto either = [&](const auto& a, const auto& b) {
+    return reads_attribute(context, a) || reads_attribute(context, b);
+  };
+  if (const auto* board = std::get_if<CheckerboardTexture>(&model)) return either(board->even, board->odd);
+  if (const auto* product = std::get_if<ProductTexture>(&model))
+    return either(product->first, product->second);
+  if (const auto* blend = std::get_if<MixTexture>(&model)) return either(blend->first, blend->second);
+  return std::holds_alternative<MeshAttributeTexture>(model);
+}
+
+void add_averaged(Context& context, Element element, const char* name, const SpectrumParameter& value,
+                  Meaning meaning) {
+  if (!reads_attribute(context, value)) return add_parameter(context, element, name, value, meaning);
+  add_spectrum(element, name, constant_of(context, value, "plastic whose colour is an attribute of a mesh"),
+               meaning);
+}
+
 void write(Context& context, Element parent, ElementId id, const PlasticMaterial& m) {
   const bool smooth = is_smooth(context, m.roughness);
   Element element = add(parent, "bsdf", smooth ? "plastic" : "roughplastic", "", id);
-  add_parameter(context, element, "diffuse_reflectance", m.diffuse_reflectance, Meaning::reflectance);
-  add_parameter(context, element, "specular_reflectance", m.specular_reflectance, Meaning::unbounded);
+  add_averaged(context, element, "diffuse_reflectance", m.diffuse_reflectance, Meaning::reflectance);
+  add_averaged(context, element, "specular_reflectance", m.specular_reflectance, Meaning::unbounded);
   add_float(element, "int_ior", m.eta);
   add_float(element, "ext_ior", m.exterior_eta);
   add_boolean(element, "nonlinear", m.nonlinear);

@@ -16,6 +16,23 @@ bool sides_matter(const Context& context, const Shape& shape) {
   return shape.area_light || shape.interior || shape.exterior || context.sided[shape.material.value];
 }
 
+bool is_whole(const Shape& shape) { return shape.opacity == FloatParameter{1.0f}; }
+
+// What is not there of a shape is a mask around its material.
+void write_mask(Context& context, Element root, const Shape& shape) {
+  if (is_whole(shape)) return;
+  std::string& id = context.masks[{shape.material.value, opacity_key(shape.opacity)}];
+  if (!id.empty()) return;
+  id = context.new_id("", "mask", context.masks.size() - 1);
+  context.origin = shape.origin;
+  write_model(context, root, Material{MaskMaterial{shape.opacity, shape.material}}, id);
+}
+
+const std::string& bsdf_of(const Context& context, const Shape& shape) {
+  if (is_whole(shape)) return context.material_ids[shape.material.value];
+  return context.masks.at({shape.material.value, opacity_key(shape.opacity)});
+}
+
 Element add_mesh(Context& context, Element parent, const Shape& shape, const MeshFile& file,
                  const std::string& id) {
   const TriangleMesh& mesh = context.scene.meshes[shape.mesh.value];
@@ -24,7 +41,7 @@ Element add_mesh(Context& context, Element parent, const Shape& shape, const Mes
   add_transform(element, shape.object_to_world);
   add_boolean(element, "face_normals", mesh.normals.empty());
   add_boolean(element, "flip_normals", file.flip_normals);
-  add_reference(element, context.material_ids[shape.material.value], "bsdf");
+  add_reference(element, bsdf_of(context, shape), "bsdf");
   return element;
 }
 
@@ -35,14 +52,24 @@ void add_media(const Context& context, Element element, const Shape& shape) {
   if (shape.exterior) add_reference(element, context.medium_ids[shape.exterior->value], "exterior");
 }
 
+// Of a surface of which something is not there: Mitsuba's masks leave the light of the surface alone.
+AreaLight light_of(Context& context, const Shape& shape) {
+  AreaLight light = context.scene.area_lights[shape.area_light->value];
+  if (shape.opacity == FloatParameter{0.0f})
+    context.approximated("a light that nothing meets is seen in Mitsuba");
+  else if (!is_whole(shape))
+    light.scale *= constant_of(context, shape.opacity, "the opacity of what shines");
+  return light;
+}
+
 void write_shape(Context& context, Element parent, const Shape& shape, std::size_t index) {
-  context.origin = shape.origin;
+  context.begin(RecordKind::shape, shape.origin);
   const std::string id = shape.name.empty() ? "" : context.new_id(shape.name, "shape", index);
   Element element =
       add_mesh(context, parent, shape, mesh_file(context, shape, sides_matter(context, shape)), id);
   add_media(context, element, shape);
   if (!shape.area_light) return;
-  const AreaLight& light = context.scene.area_lights[shape.area_light->value];
+  const AreaLight light = light_of(context, shape);
   write_area_light(context, element, light);
   if (!light.two_sided) return;
   context.approximated(
@@ -58,7 +85,7 @@ bool has_group(const Prototype& prototype) {
 }
 
 void write_prototype(Context& context, Element root, const Prototype& prototype, std::size_t index) {
-  context.origin = prototype.origin;
+  context.begin(RecordKind::object, prototype.origin);
   std::string& id = context.prototype_ids[index];
   id = context.new_id(prototype.name, "shapegroup", index);
   if (!has_group(prototype)) return;
@@ -81,7 +108,7 @@ void write_instance(Context& context, Element root, const Instance& instance) {
     if (swaps_handedness(instance.prototype_to_world)) shape.flip_orientation = !shape.flip_orientation;
     shape.name.clear();
     write_shape(context, root, shape, i);
-    context.origin = instance.origin;
+    context.begin(RecordKind::instance, instance.origin);
     context.approximated("Mitsuba instances no area lights: this one is a shape of its own");
   }
 }
@@ -90,6 +117,9 @@ void write_instance(Context& context, Element root, const Instance& instance) {
 
 void write_shapes(Context& context, Element root) {
   const Scene& scene = context.scene;
+  for (const Shape& shape : scene.shapes) write_mask(context, root, shape);
+  for (const Prototype& prototype : scene.prototypes)
+    for (const Shape& shape : prototype.shapes) write_mask(context, root, shape);
   context.prototype_ids.resize(scene.prototypes.size());
   std::size_t next = 0;
   const auto first_mesh = [](const Prototype& prototype) {
@@ -105,7 +135,7 @@ void write_shapes(Context& context, Element root) {
   }
   for (; next < scene.prototypes.size(); ++next) write_prototype(context, root, scene.prototypes[next], next);
   for (const Instance& instance : scene.instances) {
-    context.origin = instance.origin;
+    context.begin(RecordKind::instance, instance.origin);
     write_instance(context, root, instance);
   }
 }

@@ -6,6 +6,7 @@
 #include "importers/ply/write_ply.h"
 #include "importers/shapes/vertex_normals.h"
 #include "scene/bounds.h"
+#include "scene/mesh_uv.h"
 
 namespace vitrail::mitsuba_writer {
 
@@ -23,8 +24,15 @@ std::string write_derived(Context& context, const TriangleMesh& mesh) {
   return name;
 }
 
-void reverse_winding(TriangleMesh& mesh) {
-  for (auto& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
+// (u,v) that Mitsuba would take for others.
+bool lacks_uvs(const Context& context, const Shape& shape) {
+  const TriangleMesh& mesh = context.scene.meshes[shape.mesh.value];
+  return context.uvs_show[shape.mesh.value] && mesh.uvs.empty() && mesh.missing_uv != MissingUv::barycentric;
+}
+
+TriangleMesh copy_of(const Context& context, const Shape& shape) {
+  const TriangleMesh& mesh = context.scene.meshes[shape.mesh.value];
+  return lacks_uvs(context, shape) ? with_uvs(mesh) : mesh;
 }
 
 // Mitsuba transforms normals so that they keep their side where the transform mirrors, and the winding does
@@ -37,21 +45,24 @@ bool normals_point_behind(const TriangleMesh& mesh, const Shape& shape) {
 
 MeshFile mesh_file(Context& context, const Shape& shape, bool sides_matter) {
   const TriangleMesh& mesh = context.scene.meshes[shape.mesh.value];
-  if (!sides_matter || !normals_point_behind(mesh, shape))
-    return {context.meshes.name(shape.mesh), shape.flip_orientation};
+  if (!sides_matter || !normals_point_behind(mesh, shape)) {
+    const bool derived = lacks_uvs(context, shape) && !context.meshes.has_name(shape.mesh);
+    return {derived ? context.meshes.name(shape.mesh, with_uvs(mesh)) : context.meshes.name(shape.mesh),
+            shape.flip_orientation};
+  }
   context.approximated(
       "Mitsuba goes by the shading normals: a copy of the mesh is written, wound the other way");
-  TriangleMesh copy = mesh;
-  reverse_winding(copy);
+  TriangleMesh copy = copy_of(context, shape);
+  turn_round(copy, context.uvs_show[shape.mesh.value]);
   return {write_derived(context, copy), !shape.flip_orientation};
 }
 
 MeshFile back_of(Context& context, const Shape& shape) {
   constexpr double gap = 1e-4;  // of the diagonal
-  TriangleMesh copy = context.scene.meshes[shape.mesh.value];
+  TriangleMesh copy = copy_of(context, shape);
   bool flip = shape.flip_orientation;
   if (normals_point_behind(copy, shape)) {
-    reverse_winding(copy);
+    turn_round(copy, context.uvs_show[shape.mesh.value]);
     flip = !flip;
   }
   Bounds3f box;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "importers/mitsuba/write_images.h"
+#include "scene/kinds.h"
 #include "scene/rgb_to_spectrum.h"
 
 namespace vitrail::mitsuba_writer {
@@ -80,9 +81,8 @@ UvMapping uv_mapping(Context& context, const TextureMapping& mapping) {
 }
 
 // The image's rows run down: its t is 1 − the Scene's.
-void write_image(Context& context, Element root, const Texture& texture, const ImageTexture& image,
+void write_image(Context& context, Element root, const MitsubaImage& written, const ImageTexture& image,
                  const std::string& id) {
-  const MitsubaImage written = image_for_mitsuba(context, image, texture.is_float);
   Element element = add(root, "texture", "bitmap", "", id);
   add_string(element, "filename", written.filename);
   add_boolean(element, "raw", written.raw);
@@ -148,9 +148,19 @@ std::optional<WrittenTexture> simplified(const Context& context, const TextureMo
 WrittenTexture write_texture(Context& context, Element root, const Texture& texture, std::size_t index) {
   if (const auto simple = simplified(context, texture.model)) return *simple;
   const auto new_id = [&] { return context.new_id(texture.name, "texture", index); };
-  if (const auto* image = std::get_if<ImageTexture>(&texture.model)) {
+  if (std::holds_alternative<ImageTexture>(texture.model)) {
     const std::string id = new_id();
-    write_image(context, root, texture, *image, id);
+    const auto& image = std::get<ImageTexture>(texture.model);
+    write_image(context, root,
+                image_for_mitsuba(context, image, texture.is_float, context.roles.normal_map[index]), image,
+                id);
+    return id;
+  }
+  if (const auto tinted = tinted_image(context.scene, Id<Texture>{static_cast<std::uint32_t>(index)})) {
+    const std::string id = new_id();
+    const bool is_float = tinted->is_number || texture.is_float;
+    const MitsubaImage written = image_for_mitsuba(context, tinted->image, is_float, false, tinted->tint);
+    write_image(context, root, {written.filename, texture.is_float}, tinted->image, id);
     return id;
   }
   if (const auto* board = std::get_if<CheckerboardTexture>(&texture.model); board && !board->solid) {
@@ -169,26 +179,25 @@ WrittenTexture write_texture(Context& context, Element root, const Texture& text
   }
   const RGB mean = mean_of(context, texture.model);
   context.approximated(fmt::format(
-      "Mitsuba has no such texture: replaced by its mean, rgb {:.4g} {:.4g} {:.4g}", mean.r, mean.g, mean.b));
+      "texture{}: Mitsuba has none of its kind ({}): replaced by its mean, rgb {:.4g} {:.4g} {:.4g}",
+      texture.name.empty() ? "" : fmt::format(" \"{}\"", texture.name), kind_of(texture.model), mean.r,
+      mean.g, mean.b));
   return spectrum_of(mean);
 }
 
 // A texture times a number that is the height of a bump map is written with the map (write_materials.cpp).
-const Id<Texture>* scaled_height(const Scene& scene, std::size_t index) {
-  const auto* product = std::get_if<ProductTexture>(&scene.textures[index].model);
+const Id<Texture>* scaled_height(const Context& context, std::size_t index) {
+  const auto* product = std::get_if<ProductTexture>(&context.scene.textures[index].model);
   const bool by_number = product && std::holds_alternative<Spectrum>(product->second);
-  const FloatParameter self = Id<Texture>{static_cast<std::uint32_t>(index)};
-  const bool is_height = std::any_of(scene.materials.begin(), scene.materials.end(),
-                                     [&](const Material& material) { return material.displacement == self; });
-  return by_number && is_height ? std::get_if<Id<Texture>>(&product->first) : nullptr;
+  return by_number && context.roles.height[index] ? std::get_if<Id<Texture>>(&product->first) : nullptr;
 }
 
 }  // namespace
 
 void write_textures(Context& context, Element root) {
   for (std::size_t i = 0; i < context.scene.textures.size(); ++i) {
-    context.origin = context.scene.textures[i].origin;
-    if (const auto* height = scaled_height(context.scene, i)) {
+    context.begin(RecordKind::texture, context.scene.textures[i].origin);
+    if (const auto* height = scaled_height(context, i)) {
       context.textures.push_back(context.textures.at(height->value));
       continue;
     }
@@ -221,15 +230,25 @@ void add_parameter(Context& context, Element parent, const std::string& name, co
   add_reference(parent, std::get<std::string>(context.textures[std::get<Id<Texture>>(value).value]), name);
 }
 
+namespace {
+
+void note_mean(Context& context, Id<Texture> id, const char* what) {
+  const std::string& name = context.scene.textures[id.value].name;
+  context.approximated(fmt::format("{} takes no texture in Mitsuba: the mean of {}", what,
+                                   name.empty() ? "its texture" : fmt::format("\"{}\"", name)));
+}
+
+}  // namespace
+
 Spectrum constant_of(Context& context, const SpectrumParameter& value, const char* what) {
   if (const auto spectrum = value_of(context, value)) return *spectrum;
-  context.approximated(fmt::format("{} takes no texture in Mitsuba: its mean", what));
+  note_mean(context, std::get<Id<Texture>>(value), what);
   return spectrum_of(mean_of(context, value));
 }
 
 float constant_of(Context& context, const FloatParameter& value, const char* what) {
   if (const auto number = value_of(context, value)) return *number;
-  context.approximated(fmt::format("{} takes no texture in Mitsuba: its mean", what));
+  note_mean(context, std::get<Id<Texture>>(value), what);
   return static_cast<float>(mean_of(context, value));
 }
 

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <set>
 
 #include "importers/obj/mtl_map.h"
 #include "importers/ply/input_bytes.h"
@@ -78,7 +77,7 @@ class MtlReader {
     TextCursor ahead = cursor_;
     if (ahead.word() != "-halo") return;
     cursor_ = ahead;
-    note("halo", Fidelity::dropped, fmt::format("-halo of d of material {}", shown_name()));
+    note(Fidelity::dropped, "-halo of d of a material");
   }
 
   bool read_map_statement(std::string_view keyword) {
@@ -88,9 +87,7 @@ class MtlReader {
         {"map_Bump", "bump"}, {"bump", "bump"},     {"disp", "bump"},     {"norm", "norm"}};
     const auto found = maps.find(keyword);
     if (found == maps.end()) return false;
-    const auto report = [this](const std::string& key, Fidelity fidelity, std::string message) {
-      note(key, fidelity, fmt::format("{}, in material {}", message, shown_name()));
-    };
+    const auto report = [this](std::string message) { note(Fidelity::dropped, std::move(message)); };
     const std::string word(keyword);
     const auto map = obj::read_map(cursor_, word, folder_, report);
     MtlMaterial& material = materials_.back();
@@ -102,11 +99,10 @@ class MtlReader {
       material.maps[found->second] = *map;
     }
     if (found->second == "bump")
-      note("bump", Fidelity::approximated,
-           fmt::format(
-               "{} of material {}: heights that tilt normals only (Blender writes normal maps so, which "
-               "belong under norm)",
-               word, shown_name()));
+      note(Fidelity::approximated,
+           fmt::format("{} of a material: heights that tilt normals only (Blender writes normal maps so, "
+                       "which belong under norm)",
+                       word));
     return true;
   }
 
@@ -115,15 +111,13 @@ class MtlReader {
     if (keyword == "Ka" && read_color(keyword) == RGB{0, 0, 0}) return;
     if (keyword == "anisor" && read_number("anisor") == 0) return;
     if (keyword == "sharpness") return;  // of reflected images in local reflection maps
-    const std::string word = printable(keyword);
-    note(word, Fidelity::dropped, fmt::format("{} of material {}", word, shown_name()));
+    note(Fidelity::dropped, fmt::format("{} of a material", printable(keyword)));
   }
 
-  std::string shown_name() const { return printable(materials_.back().name); }
-
-  void note(const std::string& key, Fidelity fidelity, std::string message) {
-    if (noted_.insert(key).second)
-      diagnostics_.push_back({fidelity, std::move(message), place_, materials_.back().location});
+  // Without the material's name, which its place tells: messages that are equal can be counted.
+  void note(Fidelity fidelity, std::string message) {
+    diagnostics_.push_back(
+        {fidelity, std::move(message), place_, materials_.back().location, RecordKind::material});
   }
 
   double read_number(const char* what) {
@@ -138,8 +132,7 @@ class MtlReader {
     TextCursor ahead = cursor_;
     const std::string_view first = ahead.word();
     if (first == "spectral" || first == "xyz") {
-      note(fmt::format("{} {}", keyword, first), Fidelity::dropped,
-           fmt::format("{} {} of material {}", keyword, first, shown_name()));
+      note(Fidelity::dropped, fmt::format("{} {} of a material", keyword, first));
       return {};
     }
     RGB color;
@@ -157,7 +150,6 @@ class MtlReader {
   Diagnostics& diagnostics_;
   SourceLocation place_;
   std::vector<MtlMaterial> materials_;
-  std::set<std::string> noted_;
 };
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "scene/color.h"
@@ -17,8 +18,9 @@ struct MtlMap {
   std::string filename;  // absolute; the file exists
   UvMapping mapping;     // of -s and -o
   Wrap wrap = Wrap::repeat;
-  float gain = 1;             // of -mm
-  float bump_multiplier = 1;  // of -bm
+  float gain = 1;                     // of -mm
+  float bump_multiplier = 1;          // of -bm
+  std::optional<ImageNumber> number;  // of -imfchan
 };
 
 // What a library says of a material. Colours are linear sRGB.
@@ -34,13 +36,16 @@ struct MtlMaterial {
   bool has_missing_map_kd = false;
 };
 
-// The materials of an MTL library, in its order. What would show and is not kept in them is reported, once a
-// keyword; so are images that are not there. Throws Error on what is not a number where one has to be, and
-// where the file cannot be opened.
+// The materials of an MTL library, in its order. What would show and is not kept in them is reported, each
+// with its place; so are images that are not there. Throws Error on what is not a number where one has to be,
+// and where the file cannot be opened.
 std::vector<MtlMaterial> read_mtl(const std::filesystem::path& file, Diagnostics& diagnostics);
 
 // Materials are named as text that can be shown: well-formed UTF-8, of about so many bytes.
 inline constexpr std::size_t longest_mtl_name = 200;
+
+// The textures of materials that were added, so that equal ones are one.
+using MtlTextures = std::unordered_multimap<std::size_t, Id<Texture>>;  // by what differs in most
 
 struct MtlSurface {
   Id<Material> material;
@@ -61,9 +66,12 @@ struct MtlSurface {
 //   map_Kd, map_Ks                              times the colour; alone where that is black or not given
 //   d = 0 (or Tr = 1) without Ni > 1            InterfaceMaterial
 //   other d < 1 without Ni > 1, map_d           MaskMaterial around any of these
+//   maps of numbers                             the channel of -imfchan; else luminance, of map_d alpha where
+//                                               the image has one
 //   map_bump, bump, disp; norm                  heights (times -bm), as a displacement; a normal map
 //   Ke, map_Ke                                  area light, from both sides, since MTL has no sides
 // `d` goes before `Tr` where both are given.
-MtlSurface add_mtl_material(const MtlMaterial& material, Scene& scene, Diagnostics& diagnostics);
+MtlSurface add_mtl_material(const MtlMaterial& material, MtlTextures& textures, Scene& scene,
+                            Diagnostics& diagnostics);
 
 }  // namespace vitrail

@@ -12,8 +12,8 @@ namespace {
 
 class MapReader {
  public:
-  MapReader(TextCursor& cursor, const std::string& keyword, const Note& note)
-      : cursor_(cursor), keyword_(keyword), note_(note) {}
+  MapReader(TextCursor& cursor, const std::string& keyword, const Drop& drop)
+      : cursor_(cursor), keyword_(keyword), drop_(drop) {}
 
   MtlMap read_options() {
     while (true) {
@@ -54,6 +54,8 @@ class MapReader {
       if (cursor_.word() == "on") map_.wrap = Wrap::clamp;
     } else if (option == "-boost" || option == "-texres") {
       number();  // of filtering
+    } else if (option == "-imfchan") {
+      read_channel();
     } else {
       const std::string value(cursor_.word());
       const bool is_plain = option.starts_with("-blend") || (option == "-cc" && value == "off");
@@ -61,9 +63,19 @@ class MapReader {
     }
   }
 
-  void lost(const std::string& what) {
-    note_(keyword_ + what, Fidelity::dropped, fmt::format("{} of {}", printable(what), keyword_));
+  void read_channel() {
+    static constexpr std::string_view letters = "rgbml";
+    static constexpr std::array numbers{ImageNumber::red, ImageNumber::green, ImageNumber::blue,
+                                        ImageNumber::alpha, ImageNumber::luminance};
+    static constexpr std::array<std::string_view, 4> colors{"map_Kd", "map_Ks", "map_Ke", "norm"};
+    const std::string letter(cursor_.word());
+    const std::size_t channel = letters.find(letter);
+    if (letter.size() != 1 || channel == letters.npos || std::ranges::count(colors, keyword_) > 0)
+      return lost("-imfchan " + letter);
+    map_.number = numbers.at(channel);
   }
+
+  void lost(const std::string& what) { drop_(fmt::format("{} of {}", printable(what), keyword_)); }
 
   float number() {
     const double value = cursor_.number("an option's value");
@@ -91,7 +103,7 @@ class MapReader {
 
   TextCursor& cursor_;
   const std::string& keyword_;
-  const Note& note_;
+  const Drop& drop_;
   MtlMap map_;
 };
 
@@ -114,14 +126,13 @@ std::string find_file(std::string name, const std::filesystem::path& folder) {
 }  // namespace
 
 std::optional<MtlMap> read_map(TextCursor& cursor, const std::string& keyword,
-                               const std::filesystem::path& folder, const Note& note) {
-  MtlMap map = MapReader(cursor, keyword, note).read_options();
+                               const std::filesystem::path& folder, const Drop& drop) {
+  MtlMap map = MapReader(cursor, keyword, drop).read_options();
   const std::string name(cursor.rest_of_line());
   if (name.empty()) cursor.fail(fmt::format("{} without a file name", keyword));
   map.filename = find_file(name, folder);
   if (!map.filename.empty()) return map;
-  note(keyword + name, Fidelity::dropped,
-       fmt::format("{} '{}': there is no such file", keyword, printable(name)));
+  drop(fmt::format("{} '{}': there is no such file", keyword, printable(name)));
   return {};
 }
 

@@ -9,9 +9,9 @@
 namespace vitrail::obj {
 
 // Reads the options and the name that follow a keyword such as map_Kd. The name is sought in `folder`;
-// nothing is returned where it is not there. `note(key, fidelity, message)` reports.
-using Note = std::function<void(const std::string&, Fidelity, std::string)>;
+// nothing is returned where it is not there. `drop(message)` reports.
+using Drop = std::function<void(std::string)>;
 std::optional<MtlMap> read_map(TextCursor& cursor, const std::string& keyword,
-                               const std::filesystem::path& folder, const Note& note);
+                               const std::filesystem::path& folder, const Drop& drop);
 
 }  // namespace vitrail::obj

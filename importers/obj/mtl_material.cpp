@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "importers/obj/mtl.h"
 #include "importers/ply/text_cursor.h"
@@ -18,21 +19,32 @@ Id<T> append(std::vector<T>& to, T value) {
   return {static_cast<std::uint32_t>(to.size() - 1)};
 }
 
+template <class... Parts>
+std::size_t hash_of(const Parts&... parts) {
+  std::size_t hash = 0;
+  ((hash = (hash ^ std::hash<Parts>{}(parts)) * 0x9e3779b97f4a7c15u), ...);
+  return hash ^ hash >> 32;
+}
+
 bool is_black(const std::optional<RGB>& c) { return !c || std::max({c->r, c->g, c->b}) <= 0; }
 bool is_grey(RGB c) { return c.r == c.g && c.g == c.b; }
 
 class Builder {
  public:
-  Builder(const MtlMaterial& mtl, Scene& scene, Diagnostics& diagnostics)
-      : mtl_(mtl), scene_(scene), diagnostics_(diagnostics), origin_(origin_of(mtl.location)) {}
+  Builder(const MtlMaterial& mtl, MtlTextures& textures, Scene& scene, Diagnostics& diagnostics)
+      : mtl_(mtl),
+        textures_(textures),
+        scene_(scene),
+        diagnostics_(diagnostics),
+        origin_(origin_of(mtl.location)) {}
 
   MtlSurface build() {
     Material material;
     material.model = model();
     material.origin = origin_;
     if (const MtlMap* map = find("bump"))
-      material.displacement = texture(*map, map->gain * map->bump_multiplier, true, Encoding::linear);
-    if (const MtlMap* map = find("norm")) material.normal_map = texture(*map, 1, false, Encoding::linear);
+      material.displacement = number(*map, map->gain * map->bump_multiplier, ImageNumber::luminance);
+    if (const MtlMap* map = find("norm")) material.normal_map = color(*map, 1, Encoding::linear);
     material = masked(std::move(material));
     material.name = printable(mtl_.name, longest_mtl_name);
     const Id<Material> id = append(scene_.materials, std::move(material));
@@ -40,9 +52,9 @@ class Builder {
   }
 
  private:
-  void note(Fidelity fidelity, const std::string& message) {
-    diagnostics_.push_back({fidelity, fmt::format("material {}: {}", printable(mtl_.name), message),
-                            mtl_.location, mtl_.location});
+  void note(Fidelity fidelity, std::string message) {
+    diagnostics_.push_back(
+        {fidelity, std::move(message), mtl_.location, mtl_.location, RecordKind::material});
   }
 
   Origin origin_of(const SourceLocation& where) {
@@ -59,34 +71,48 @@ class Builder {
     return map == mtl_.maps.end() ? nullptr : &map->second;
   }
 
-  Id<Texture> add_texture(TextureModel model, bool is_float) {
+  // `hash`: of some of it.
+  Id<Texture> add_texture(TextureModel model, bool is_float, std::size_t hash) {
     const Texture wanted{std::move(model), is_float, "", origin_};
-    const auto same = std::ranges::find(scene_.textures, wanted);
-    if (same != scene_.textures.end()) return {static_cast<std::uint32_t>(same - scene_.textures.begin())};
-    return append(scene_.textures, wanted);
+    const auto [begin, end] = textures_.equal_range(hash);
+    for (auto known = begin; known != end; ++known)
+      if (scene_.textures[known->second.value] == wanted) return known->second;
+    return textures_.emplace(hash, append(scene_.textures, wanted))->second;
   }
 
-  Id<Texture> texture(const MtlMap& map, float scale, bool is_float, Encoding encoding) {
-    ImageTexture image;
-    image.filename = map.filename;
-    image.mapping = map.mapping;
-    image.wrap = map.wrap;
-    image.encoding = encoding;
-    image.scale = scale;
-    return add_texture(std::move(image), is_float);
+  static ImageTexture image(const MtlMap& map, float scale, Encoding encoding) {
+    ImageTexture texture;
+    texture.filename = map.filename;
+    texture.mapping = map.mapping;
+    texture.wrap = map.wrap;
+    texture.encoding = encoding;
+    texture.scale = scale;
+    return texture;
+  }
+  static std::size_t hash_of_image(const MtlMap& map, float scale) {
+    const UvMapping& m = map.mapping;
+    return hash_of(map.filename, scale, m.a, m.c, m.e, m.f);
+  }
+  Id<Texture> color(const MtlMap& map, float scale, Encoding encoding = Encoding::automatic) {
+    return add_texture(image(map, scale, encoding), false, hash_of_image(map, scale));
+  }
+  Id<Texture> number(const MtlMap& map, float scale, ImageNumber otherwise) {
+    ImageTexture values = image(map, scale, Encoding::linear);
+    values.number = map.number.value_or(otherwise);
+    return add_texture(std::move(values), true, hash_of_image(map, scale));
   }
 
   // The image times the colour, which may be black or missing where programs leave it to the image.
-  SpectrumParameter product(const MtlMap& map, const std::optional<RGB>& color) {
-    if (is_black(color)) return texture(map, map.gain, false, Encoding::automatic);
-    if (is_grey(*color))
-      return texture(map, static_cast<float>(map.gain * color->r), false, Encoding::automatic);
-    const Id<Texture> image = texture(map, map.gain, false, Encoding::automatic);
-    return add_texture(ProductTexture{Spectrum{unbounded_from_rgb(*color)}, image}, false);
+  SpectrumParameter product(const MtlMap& map, const std::optional<RGB>& factor) {
+    if (is_black(factor)) return color(map, map.gain);
+    if (is_grey(*factor)) return color(map, static_cast<float>(map.gain * factor->r));
+    const Id<Texture> image = color(map, map.gain);
+    return add_texture(ProductTexture{Spectrum{unbounded_from_rgb(*factor)}, image}, false,
+                       hash_of(image.value, factor->r, factor->g, factor->b));
   }
 
   FloatParameter number(const char* keyword, double constant) {
-    if (const MtlMap* map = find(keyword)) return texture(*map, map->gain, true, Encoding::linear);
+    if (const MtlMap* map = find(keyword)) return number(*map, map->gain, ImageNumber::luminance);
     return static_cast<float>(constant);
   }
 
@@ -202,7 +228,7 @@ class Builder {
     mask.opacity = static_cast<float>(std::max(0.0, opacity()));
     if (map) {
       const double scale = opacity() > 0 && opacity() < 1 ? opacity() : 1;
-      mask.opacity = texture(*map, static_cast<float>(map->gain * scale), true, Encoding::linear);
+      mask.opacity = number(*map, static_cast<float>(map->gain * scale), ImageNumber::alpha_or_luminance);
     }
     mask.material = append(scene_.materials, std::move(inner));
     Material outer;
@@ -228,6 +254,7 @@ class Builder {
   }
 
   const MtlMaterial& mtl_;
+  MtlTextures& textures_;
   Scene& scene_;
   Diagnostics& diagnostics_;
   Origin origin_;
@@ -235,8 +262,9 @@ class Builder {
 
 }  // namespace
 
-MtlSurface add_mtl_material(const MtlMaterial& material, Scene& scene, Diagnostics& diagnostics) {
-  return Builder(material, scene, diagnostics).build();
+MtlSurface add_mtl_material(const MtlMaterial& material, MtlTextures& textures, Scene& scene,
+                            Diagnostics& diagnostics) {
+  return Builder(material, textures, scene, diagnostics).build();
 }
 
 }  // namespace vitrail

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "importers/export_colors.h"
+#include "importers/images/converted_images.h"
 #include "scene/scene.h"
 
 namespace vitrail {
@@ -18,6 +19,7 @@ class MtlText {
 
   std::string text;
   Origin origin;  // of what is being written
+  RecordKind record = RecordKind::material;
 
   void approximated(std::string message) { note(Fidelity::approximated, std::move(message)); }
   void note(Fidelity fidelity, std::string message);
@@ -26,9 +28,10 @@ class MtlText {
   void line(const char* keyword, double value);
   void line(const char* keyword, float value);  // by the digits that a float needs
 
-  // "keyword options name" of an image, its scale as `scale_option` if there is one. False where the texture
-  // is no image.
-  bool map(const char* keyword, Id<Texture> id, Encoding expected, const char* scale_option);
+  // "keyword options name" of an image, its scale as `scale_option` if there is one.
+  void map(const char* keyword, const ImageTexture& image, ImageUse use, const char* scale_option);
+  // False where the texture is no image.
+  bool map(const char* keyword, Id<Texture> id, ImageUse use, const char* scale_option);
   // A colour, with the image that it multiplies.
   void color(const char* keyword, const char* map_keyword, const SpectrumParameter& parameter,
              RGB (*rgb)(const Spectrum&) = factor_rgb, double factor = 1);
@@ -37,7 +40,7 @@ class MtlText {
   double constant(const FloatParameter& parameter, const char* what);
 
  private:
-  const TextureModel& model(Id<Texture> id) const { return scene_.textures.at(id.value).model; }
+  std::string channel_option(const char* keyword, const ImageTexture& image);
 
   const Scene& scene_;
   std::filesystem::path folder_;

@@ -83,9 +83,11 @@ Id<T> append(std::vector<T>& to, Value value) {
   return {static_cast<std::uint32_t>(to.size() - 1)};
 }
 
-MtlSurface add_surface(const Mention& use, const Library& library, ImportedScene& result) {
+MtlSurface add_surface(const Mention& use, const Library& library, MtlTextures& textures,
+                       ImportedScene& result) {
   const auto found = library.find(use.name);
-  if (found != library.end()) return add_mtl_material(found->second, result.scene, result.diagnostics);
+  if (found != library.end())
+    return add_mtl_material(found->second, textures, result.scene, result.diagnostics);
   if (use.location.line > 0) {
     result.diagnostics.push_back(
         {Fidelity::approximated,
@@ -105,10 +107,11 @@ ImportedScene to_scene(Geometry&& geometry, Vector3d offset, const std::filesyst
   result.scene.files = {file.string()};
   result.diagnostics = std::move(geometry.diagnostics);
   const Library library = read_libraries(geometry, file.parent_path(), result.diagnostics);
+  MtlTextures textures;
   std::vector<std::optional<MtlSurface>> surfaces(geometry.materials.size());
   for (const Group& group : geometry.groups) {
     std::optional<MtlSurface>& surface = surfaces[group.material];
-    if (!surface) surface = add_surface(geometry.materials[group.material], library, result);
+    if (!surface) surface = add_surface(geometry.materials[group.material], library, textures, result);
     Shape shape;
     shape.mesh = {static_cast<std::uint32_t>(result.scene.shapes.size())};
     shape.material = surface->material;
@@ -118,6 +121,7 @@ ImportedScene to_scene(Geometry&& geometry, Vector3d offset, const std::filesyst
     result.scene.shapes.push_back(shape);
   }
   result.scene.meshes = to_meshes(std::move(geometry));
+  for (TriangleMesh& mesh : result.scene.meshes) mesh.missing_uv = MissingUv::zero;
   return result;
 }
 

@@ -5,9 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "importers/obj/mtl_text.h"
+#include "importers/unique_names.h"
 #include "scene/atomic_file.h"
 
 namespace vitrail {
@@ -20,10 +20,14 @@ class Writer : MtlText {
   Writer(const Scene& scene, const std::filesystem::path& folder, Diagnostics& diagnostics)
       : MtlText(scene, folder, diagnostics), scene_(scene) {}
 
-  std::string write(const std::string& name, const MtlKey& key) {
+  std::string write(const std::string& name, const Shape& shape) {
     text = fmt::format("newmtl {}\n", name);
-    put(Id<Material>{key.first});
-    if (key.second) put(scene_.area_lights.at(*key.second));
+    record = RecordKind::material;
+    opacity_ = shape_opacity_ = shape.opacity;
+    put(shape.material);
+    origin = shape.origin;
+    if (!is_whole(opacity_)) put_opacity(scene_.materials.at(shape.material.value));
+    if (shape.area_light) put(scene_.area_lights.at(shape.area_light->value));
     return text + "\n";
   }
 
@@ -36,9 +40,12 @@ class Writer : MtlText {
     return (u + v) / 2;
   }
 
+  static bool is_whole(const FloatParameter& opacity) { return opacity == FloatParameter{1.0f}; }
+
   // Readers take an index above 1 together with d < 1 as glass.
   void coat_index(float eta) {
-    if (!is_veiled_) return line("Ni", eta);
+    const auto* opacity = std::get_if<float>(&opacity_);
+    if (!opacity || *opacity >= 1) return line("Ni", eta);
     if (eta != 1.5f) approximated("index of a coat that is partly transparent: 1.5");
   }
 
@@ -61,10 +68,10 @@ class Writer : MtlText {
     if (!material.two_sided) approximated("one-sided material: MTL has no sides");
     if (material.displacement) {
       const auto* texture = std::get_if<Id<Texture>>(&*material.displacement);
-      if (texture && !map("map_Bump", *texture, Encoding::linear, "-bm"))
+      if (texture && !map("map_Bump", *texture, ImageUse::number, "-bm"))
         note(Fidelity::dropped, "displacement that is no image");
     }
-    if (material.normal_map && !map("norm", *material.normal_map, Encoding::linear, nullptr))
+    if (material.normal_map && !map("norm", *material.normal_map, ImageUse::vector, nullptr))
       note(Fidelity::dropped, "normal map that is no image");
   }
 
@@ -182,12 +189,25 @@ class Writer : MtlText {
     approximated("two-sided material: its front");
     put_part(m.front);
   }
+  // What is there of the shape is multiplied by what its material leaves of it.
   void put(const MaskMaterial& m) {
-    const auto* opacity = std::get_if<float>(&m.opacity);
-    is_veiled_ = opacity && *opacity < 1;
+    const auto *own = std::get_if<float>(&m.opacity), *of_shape = std::get_if<float>(&opacity_);
+    if (own && of_shape) {
+      opacity_ = *own * *of_shape;
+    } else if (is_whole(opacity_)) {
+      opacity_ = m.opacity;
+    } else if (!is_whole(m.opacity)) {
+      approximated("two opacities of which one is a texture: the shape's alone");
+    }
     put_part(m.material);
-    is_veiled_ = false;
-    number("d", "map_d", m.opacity);
+  }
+  void put_opacity(const Material& material) {
+    if (const auto* mask = std::get_if<MaskMaterial>(&material.model))
+      return put_opacity(scene_.materials.at(mask->material.value));
+    if (std::holds_alternative<InterfaceMaterial>(material.model)) return;
+    if (std::holds_alternative<DielectricMaterial>(material.model))
+      return approximated("glass of which a part is not there: all of it");
+    number("d", "map_d", opacity_);
   }
   void put_part(Id<Material> id) {
     const Origin outer = origin;
@@ -197,15 +217,25 @@ class Writer : MtlText {
 
   // ---- Emission ---------------------------------------------------------------------------------
 
+  // MTL's opacity leaves the light of a surface alone.
+  float shining_share() {
+    const auto* share = std::get_if<float>(&shape_opacity_);
+    if (!share) approximated("light of a surface of which a texture says what is there: all of it shines");
+    if (share && *share == 0) approximated("a light that nothing meets: it is seen");
+    return share && *share > 0 ? *share : 1;
+  }
+
   void put(const AreaLight& light) {
     origin = light.origin;
-    color("Ke", "map_Ke", light.radiance, emission_rgb, light.scale);
+    record = RecordKind::area_light;
+    color("Ke", "map_Ke", light.radiance, emission_rgb, light.scale * shining_share());
     if (!light.two_sided) approximated("one-sided light: shines from both sides, since MTL has none");
     if (light.directional) approximated("light along the normal only: shines in all directions");
   }
 
   const Scene& scene_;
-  bool is_veiled_ = false;  // by a constant opacity below 1
+  FloatParameter shape_opacity_ = 1.0f;
+  FloatParameter opacity_ = 1.0f;  // with that of its material
 };
 
 // One line without blanks at its ends.
@@ -221,17 +251,16 @@ std::string cleaned(std::string name) {
 MtlNames write_mtl(const Scene& scene, const std::vector<FlatShape>& shapes,
                    const std::filesystem::path& path, Diagnostics& diagnostics) {
   MtlNames names;
-  std::set<std::string> taken;
+  UniqueNames taken;
   std::string text;
   Writer writer(scene, path.parent_path(), diagnostics);
   for (const FlatShape& flat : shapes) {
     const MtlKey key = surface_key(flat.shape);
     if (names.contains(key)) continue;
-    std::string name = cleaned(scene.materials.at(key.first).name);
-    if (name.empty()) name = fmt::format("material_{}", key.first);
-    const std::string wanted = name;
-    for (int i = 2; !taken.insert(name).second; ++i) name = fmt::format("{}_{}", wanted, i);
-    text += writer.write(name, key);
+    std::string name = cleaned(scene.materials.at(std::get<0>(key)).name);
+    if (name.empty()) name = fmt::format("material_{}", std::get<0>(key));
+    name = taken.take(name);
+    text += writer.write(name, flat.shape);
     names.emplace(key, name);
   }
   AtomicFile file(path);

@@ -5,19 +5,21 @@
 #include <map>
 #include <optional>
 #include <string>
-#include <utility>
+#include <tuple>
 #include <vector>
 
 #include "importers/flat_shapes.h"
+#include "importers/opacity_key.h"
 
 namespace vitrail {
 
-// A material of MTL is a material of the Scene with the light of its surface.
-using MtlKey = std::pair<std::uint32_t, std::optional<std::uint32_t>>;
+// A material of MTL is a material of the Scene with the light and the opacity of its surface.
+using MtlKey = std::tuple<std::uint32_t, std::optional<std::uint32_t>, OpacityKey>;
 using MtlNames = std::map<MtlKey, std::string>;
 
 inline MtlKey surface_key(const Shape& shape) {
-  return {shape.material.value, shape.area_light ? std::optional(shape.area_light->value) : std::nullopt};
+  return {shape.material.value, shape.area_light ? std::optional(shape.area_light->value) : std::nullopt,
+          opacity_key(shape.opacity)};
 }
 
 // Writes the materials of these shapes, and says what they are called there: by their own name, if no other

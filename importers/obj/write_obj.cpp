@@ -5,9 +5,11 @@
 #include <map>
 
 #include "importers/flat_shapes.h"
-#include "importers/mesh_files.h"
 #include "importers/obj/write_mtl.h"
+#include "importers/side_files.h"
 #include "importers/text_sink.h"
+#include "scene/mesh_uv.h"
+#include "scene/uv_uses.h"
 
 namespace vitrail {
 
@@ -67,13 +69,23 @@ std::string object_name(const Shape& shape, std::size_t index) {
   return name;
 }
 
+// (u,v) that a reader would take for (0,0), where they show.
+bool lacks_uvs(const TriangleMesh& mesh, bool uvs_show) {
+  return uvs_show && mesh.uvs.empty() && mesh.missing_uv != MissingUv::zero;
+}
+
 void put_geometry(const Scene& scene, const std::vector<FlatShape>& shapes, const MtlNames& names,
                   TextSink& out) {
+  const std::vector<bool> uvs_show = meshes_whose_uvs_show(scene);
   Counts counts;
   std::string material;
   for (std::size_t i = 0; i < shapes.size(); ++i) {
     const Shape& shape = shapes[i].shape;
-    const TriangleMesh& mesh = scene.meshes.at(shape.mesh.value);
+    const TriangleMesh& shared = scene.meshes.at(shape.mesh.value);
+    TriangleMesh apart;
+    const bool lacking = lacks_uvs(shared, uvs_show[shape.mesh.value]);
+    if (lacking) apart = with_uvs(shared);
+    const TriangleMesh& mesh = lacking ? apart : shared;
     out.put(FMT_COMPILE("o {}\n"), object_name(shape, i));
     put_vertices(mesh, shapes[i].object_to_world, out);
     const std::string& name = names.at(surface_key(shape));
@@ -95,9 +107,10 @@ Diagnostics write_obj(const Scene& scene, const std::filesystem::path& path) {
   for (const FlatShape& flat : shapes)
     if (!scene.meshes.at(flat.shape.mesh.value).attributes.empty()) {
       const SourceLocation where = location(scene, flat.shape.origin);
-      diagnostics.push_back({Fidelity::dropped, "attributes of a mesh: OBJ has none", where, where});
+      diagnostics.push_back(
+          {Fidelity::dropped, "attributes of a mesh: OBJ has none", where, where, RecordKind::shape});
     }
-  const std::filesystem::path library = std::filesystem::path(path).replace_extension(".mtl");
+  const std::filesystem::path library = path.parent_path() / SideFiles(path).name("mtl");
   const MtlNames names = write_mtl(scene, shapes, library, diagnostics);
   AtomicFile file(path);
   TextSink out(&file);

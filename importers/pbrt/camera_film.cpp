@@ -77,6 +77,18 @@ void read_bins(ParameterSet& parameters, FilmSettings& film) {
     fail("\"lambdamin\" is not below \"lambdamax\"", parameters.place());
 }
 
+// v3's shutter only blurs; v4's exposes, and one that never opens is refused there.
+double shutter_time(ParameterSet& parameters, Context& context) {
+  const double seconds = parameters.number("shutterclose", 1) - parameters.number("shutteropen", 0);
+  if (context.version == Version::v3) return 1;
+  if (seconds > 0) return seconds;
+  if (context.version_is_certain) fail("the shutter closes before it has opened", parameters.place());
+  context.report.approximated(
+      "the shutter closes before it has opened, which pbrt-v4 refuses: it does not expose, as in v3",
+      parameters.place());
+  return 1;
+}
+
 }  // namespace
 
 ViewSettings default_view(Version version) {
@@ -128,7 +140,7 @@ void read_camera(const std::string& kind, ParameterSet& parameters, const Transf
   view.lens.focal_distance = parameters.number("focaldistance", 1e6);
   if (!(view.lens.radius >= 0 && view.lens.focal_distance > 0))
     fail("\"lensradius\" is negative or \"focaldistance\" not above 0", parameters.place());
-  view.shutter_s = parameters.number("shutterclose", 1) - parameters.number("shutteropen", 0);
+  view.shutter_s = shutter_time(parameters, context);
   parameters.report_unused(context.report);
 }
 
@@ -209,7 +221,6 @@ void read_integrator(const std::string& kind, ParameterSet& parameters, Context&
   const int depth = parameters.integer("maxdepth", 5);
   if (depth < 0) fail("\"maxdepth\" is negative", parameters.place());
   view.render.max_depth = depth;
-  view.render.straight_counts = kind != "volpath";
   view.render.direct_only = is_one_of(kind, {"directlighting", "whitted"});
   const bool same_picture =
       view.render.direct_only || is_one_of(kind, {"path", "volpath", "bdpt", "mlt", "sppm", "simplepath",
@@ -247,7 +258,7 @@ ScreenWindow screen_of(const ViewSettings& view) {
 
 }  // namespace
 
-void apply(const ViewSettings& view, Version version, Scene& scene) {
+void apply(const ViewSettings& view, Scene& scene) {
   const ScreenWindow screen = screen_of(view);
   if (view.projection == ViewSettings::Projection::spherical)
     scene.camera = SphericalCamera{view.camera_to_world, view.sphere};
@@ -256,8 +267,7 @@ void apply(const ViewSettings& view, Version version, Scene& scene) {
   else
     scene.camera = PerspectiveCamera{view.camera_to_world, screen, view.lens};
   scene.film = view.film;
-  // v3's shutter only blurs; v4's exposes.
-  scene.film.imaging_ratio = view.exposure * (version == Version::v4 ? view.shutter_s : 1);
+  scene.film.imaging_ratio = view.exposure * view.shutter_s;
   scene.settings = view.render;
 }
 

@@ -41,6 +41,6 @@ void read_sampler(const std::string& kind, ParameterSet& parameters, Context& co
 void read_integrator(const std::string& kind, ParameterSet& parameters, Context& context, ViewSettings& view);
 
 // Puts camera, film and settings into the scene.
-void apply(const ViewSettings& view, Version version, Scene& scene);
+void apply(const ViewSettings& view, Scene& scene);
 
 }  // namespace vitrail::pbrt

@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
+
 namespace vitrail::pbrt {
 
 const std::map<std::string, Interpreter::Handler, std::less<>>& Interpreter::handlers() {
@@ -52,6 +55,26 @@ const std::map<std::string, Interpreter::Handler, std::less<>>& Interpreter::han
   return table;
 }
 
+// What a directive makes a record of.
+static RecordKind kind_of_record(std::string_view directive) {
+  static const std::map<std::string_view, RecordKind> kinds{{"AreaLightSource", RecordKind::area_light},
+                                                            {"Camera", RecordKind::camera},
+                                                            {"Film", RecordKind::film},
+                                                            {"Integrator", RecordKind::integrator},
+                                                            {"LightSource", RecordKind::light},
+                                                            {"MakeNamedMaterial", RecordKind::material},
+                                                            {"MakeNamedMedium", RecordKind::medium},
+                                                            {"Material", RecordKind::material},
+                                                            {"ObjectBegin", RecordKind::object},
+                                                            {"ObjectInstance", RecordKind::instance},
+                                                            {"Sampler", RecordKind::sampler},
+                                                            {"Shape", RecordKind::shape},
+                                                            {"SurfaceIntegrator", RecordKind::integrator},
+                                                            {"Texture", RecordKind::texture}};
+  const auto found = kinds.find(directive);
+  return found == kinds.end() ? RecordKind::any : found->second;
+}
+
 Interpreter::Interpreter(TokenStream& tokens, Context& context)
     : tokens_(tokens),
       context_(context),
@@ -71,13 +94,14 @@ Scene Interpreter::run() {
     if (context_.progress) context_.progress(tokens_.fraction_read());
   }
   check_blocks_are_closed();
+  context_.report.begin_item({});
   if (world_ == World::inside && context_.version == Version::v3)
     context_.report.approximated("there is no WorldEnd: the file may be incomplete", world_place_);
   resolve_materials();
   resolve_media();
   drop_lights_of_interfaces();
   resolve_instances();
-  apply(view_, context_.version, scene_);
+  apply(view_, scene_);
   return std::move(scene_);
 }
 
@@ -89,7 +113,7 @@ Origin Interpreter::origin(const Place& place) {
 }
 
 void Interpreter::execute(const Token& directive) {
-  context_.report.begin_item(directive.place);
+  context_.report.begin_item(directive.place, kind_of_record(directive.text));
   if (directive.kind == TokenKind::end_of_import) return end_import(directive.place);
   const auto handler = handlers().find(directive.text);
   if (directive.kind == TokenKind::word && handler != handlers().end())
@@ -154,7 +178,7 @@ ParameterSet Interpreter::read_set(const std::string& directive, const std::stri
 void Interpreter::open(Block block, const Place& place) {
   constexpr std::size_t depth_limit = 100'000;
   if (saved_.size() >= depth_limit) fail("blocks are nested too deeply", place);
-  saved_.push_back({block, place, state_});
+  saved_.push_back({block, place, state_, {}});
 }
 
 GraphicsState Interpreter::close(Block block, const char* directive, const char* opener, const Place& place) {
@@ -164,9 +188,16 @@ GraphicsState Interpreter::close(Block block, const char* directive, const char*
                                     : fmt::format(" in the block that begins at {}",
                                                   to_string(location(saved_.back().place)))),
          place);
-  GraphicsState state = std::move(saved_.back().state);
+  Saved saved = std::move(saved_.back());
   saved_.pop_back();
-  return state;
+  // v3's TransformEnd leaves all but the transform as it is.
+  if (block != Block::transform) {
+    if (!saved.undo.empty()) resolve_deferred(false);
+    for (; !saved.undo.empty(); saved.undo.pop_back()) saved.undo.back()();
+  } else if (!saved_.empty()) {
+    std::ranges::move(saved.undo, std::back_inserter(saved_.back().undo));
+  }
+  return std::move(saved.state);
 }
 
 void Interpreter::attribute_begin(const Place& place) { open(Block::attribute, place); }

@@ -2,7 +2,9 @@
 // Executes the directives of a pbrt file, one after the other, on the graphics state and the scene.
 #pragma once
 
+#include <functional>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -14,6 +16,7 @@
 #include "importers/pbrt/shapes.h"
 #include "importers/pbrt/textures.h"
 #include "importers/pbrt/token_stream.h"
+#include "scene/uv_uses.h"
 
 namespace vitrail::pbrt {
 
@@ -38,6 +41,8 @@ class Interpreter {
     Block block;
     Place place;
     GraphicsState state;
+    // v3: what takes back the names that were defined in it, the last first.
+    std::vector<std::function<void()>> undo = {};
   };
   enum class World { before, inside, ended };
 
@@ -80,6 +85,9 @@ class Interpreter {
   void world_end(const Place&);
   void open(Block block, const Place& place);
   GraphicsState close(Block block, const char* directive, const char* opener, const Place& place);
+  bool names_end_with_block() const { return context_.version == Version::v3 && !saved_.empty(); }
+  template <class Table>
+  void define_texture(Table& table, const std::string& name, typename Table::mapped_type value);
 
   // Files.
   void include(const Place&);
@@ -115,7 +123,11 @@ class Interpreter {
   Material made_material(const std::string& kind, ParameterSet& parameters, const Scope& scope);
   std::uint32_t add_material(Material material);
   Id<Material> shape_material();
-  Id<Material> masked(Id<Material> material, const FloatParameter& opacity, const Place& place);
+  FloatParameter shape_opacity(ParameterSet& parameters, const Place& place);
+  void report_shining_alpha(const FloatParameter& alpha, const Place& place);
+  bool uvs_show(const FloatParameter& opacity);
+  bool uvs_show(Id<Material> material, int depth);
+  void add_shape(const ShapeGeometry& geometry, const FloatParameter& opacity, const Place& place);
   std::optional<Id<Medium>> medium_named(const std::string& name, const Place& place);
   std::optional<Id<AreaLight>> shape_light(const ShapeGeometry& geometry, const Place& place);
   double area_per_part(const ShapeGeometry& geometry, const Place& place);
@@ -123,6 +135,7 @@ class Interpreter {
   // The end.
   void check_blocks_are_closed();
   void resolve_materials();
+  void resolve_deferred(bool all);
   void resolve_media();
   void drop_lights_of_interfaces();
   void resolve_instances();
@@ -138,6 +151,7 @@ class Interpreter {
   std::map<const std::string*, std::uint32_t> file_numbers_;
   std::map<std::string, Transform> coordinate_systems_;
   TextureTable textures_;
+  UvUses uv_uses_{scene_.textures};
   ShapeMaker shapes_;
   std::vector<Place> area_light_places_;  // one for each of the scene's area lights
 
@@ -153,7 +167,7 @@ class Interpreter {
   std::vector<DeferredMaterial> deferred_;
   std::map<std::uint32_t, std::string> named_slots_;
   std::optional<Id<Material>> default_material_;
-  std::vector<std::pair<MaskMaterial, Id<Material>>> masks_;  // those of shapes with "alpha"
+  std::set<std::uint32_t> shares_of_v3_;  // textures that are a shape's "alpha" in a file of v3
 
   NamedSlots medium_names_{"medium"};
   std::vector<std::optional<Medium>> media_;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "importers/pbrt/image_numbers.h"
 #include "scene/rgb_to_spectrum.h"
 
 namespace vitrail::pbrt {
@@ -37,6 +38,10 @@ struct Maker {
     if (colored) return emission(name);
     const Parameter* scale = parameters.find_spectrum("scale");
     return scale ? read_unbounded(*scale, scope) : Spectrum{ConstantSpectrum{1}};
+  }
+  // v3 decodes the images of textures alone.
+  Encoding encoding_of_image() const {
+    return scope.context.version == Version::v3 ? Encoding::linear : Encoding::automatic;
   }
   const Parameter* image() const {
     const Parameter* filename = parameters.find("filename", {ParameterType::text});
@@ -100,7 +105,7 @@ LightModel projection_light(const Maker& m) {
   light.light_to_world = m.ctm;
   const Parameter* file = m.image();
   if (!file) fail("a projection light needs a \"string filename\"", m.parameters.place());
-  light.image = add_image(*file, Encoding::automatic, m.scope);
+  light.image = add_image(*file, m.encoding_of_image(), m.scope);
   light.scale = m.factor_of_image("I");
   light.fov_deg =
       static_cast<float>(m.parameters.number("fov", m.scope.context.version == Version::v3 ? 45 : 90));
@@ -117,6 +122,11 @@ LightModel goniometric_light(const Maker& m) {
   light.intensity = m.emission("I");
   light.latitude_longitude = m.scope.context.version == Version::v3;
   light.power = m.optional_number("power");
+  light.encoding = m.encoding_of_image();
+  if (light.latitude_longitude) {
+    m.approximated("the colours of its image count by their luminance");
+    light.number = ImageNumber::luminance;
+  }
   return light;
 }
 
@@ -158,6 +168,8 @@ LightModel infinite_light(const Maker& m) {
   light.scale = m.factor_of_image("L");
   light.illuminance = m.optional_number("illuminance");
   light.portal = read_portal(m);
+  light.encoding = m.encoding_of_image();
+  light.primaries = primaries_taken(m.scope.context.version);
   return light;
 }
 
@@ -205,7 +217,9 @@ AreaEmission make_area_emission(const std::string& kind, ParameterSet& parameter
   emission.light.two_sided = parameters.boolean("twosided", false);
   emission.light.origin = scope.origin;
   if (const Parameter* file = maker.image()) {
-    emission.light.radiance = add_image(*file, Encoding::automatic, scope);
+    const Id<Texture> image = add_image(*file, Encoding::automatic, scope);
+    std::get<ImageTexture>(scope.made.at(image.value).model).wrap = Wrap::clamp;
+    emission.light.radiance = image;
     emission.light.scale = static_cast<float>(parameters.number("scale", 1));
   } else {
     emission.light.radiance = maker.emission("L");

@@ -7,6 +7,7 @@
 #include "importers/pbrt/material_parameters.h"
 #include "importers/spectra/measured_sheet.h"
 #include "scene/rgb_to_spectrum.h"
+#include "scene/transmission.h"
 
 namespace vitrail::pbrt {
 
@@ -228,11 +229,19 @@ void read_bumps(const Maker& m, Material& material) {
 
 Material make_material(const std::string& kind, ParameterSet& parameters, const Scope& scope,
                        const MaterialSlots& slots) {
-  const Maker maker{kind, parameters, scope, slots};
   parameters.ignore({"type"});
-  Material material{make_model(maker)};
+  Material bumps;
+  if (kind != "mix") read_bumps({kind, parameters, scope, slots}, bumps);  // a mix has none of its own
+  const auto bumped = [&](Material material) {
+    if (is_made_of_others(material)) return material;
+    material.displacement = bumps.displacement;
+    material.normal_map = bumps.normal_map;
+    return material;
+  };
+  const auto add = [&](Material part) { return slots.add(bumped(std::move(part))); };
+  const MaterialSlots bumped_slots{slots.named, add};
+  Material material = bumped({make_model({kind, parameters, scope, bumped_slots})});
   material.origin = scope.origin;
-  read_bumps(maker, material);
   parameters.report_unused(scope.context.report);
   return material;
 }

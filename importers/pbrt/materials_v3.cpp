@@ -81,6 +81,7 @@ double share_of(double part, double others) { return part > 0 ? part / (part + s
 
 FloatParameter as_number(const Maker& m, const SpectrumParameter& parameter, const char* name) {
   if (const auto* texture = std::get_if<Id<Texture>>(&parameter)) {
+    m.approximated(fmt::format("the colours of the texture of its {} become their luminance", name));
     Texture copy = m.scope.made.at(texture->value);
     copy.is_float = true;
     m.scope.made.push_back(std::move(copy));

@@ -32,7 +32,6 @@ struct Maker {
   Bounds3d bounds() const { return {point("p0", {0, 0, 0}), point("p1", {1, 1, 1})}; }
 };
 
-// Of pbrt's defaults: skim milk, per mm.
 AbsorptionScattering coefficients(const Maker& m, const Spectrum& sigma_a, const Spectrum& sigma_s) {
   return {m.coefficient("sigma_a", sigma_a), m.coefficient("sigma_s", sigma_s)};
 }
@@ -69,13 +68,16 @@ void read_temperature(const Maker& m, Medium& medium) {
   medium.temperature_offset = m.number("temperatureoffset", m.parameters.number("temperaturecutoff", 0));
 }
 
+// v3's defaults are those of skim milk, per mm; v4's are 1.
 void homogeneous(const Maker& m, Medium& medium) {
+  const Spectrum skim_milk_a = unbounded_from_rgb({0.0011, 0.0024, 0.014}),
+                 skim_milk_s = unbounded_from_rgb({2.55, 3.21, 3.77}), one = ConstantSpectrum{1};
   const std::string preset = m.parameters.text("preset", "");
   if (!preset.empty())
     medium.coefficients = NamedMedium{preset};
   else
-    medium.coefficients =
-        coefficients(m, unbounded_from_rgb({0.0011, 0.0024, 0.014}), unbounded_from_rgb({2.55, 3.21, 3.77}));
+    medium.coefficients = m.scope.context.version == Version::v3 ? coefficients(m, skim_milk_a, skim_milk_s)
+                                                                 : coefficients(m, one, one);
   read_emission_of(m, medium);
   medium.emission_factor = m.number("Lescale", 1);
 }

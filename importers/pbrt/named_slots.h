@@ -2,6 +2,8 @@
 #pragma once
 
 #include <map>
+#include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -34,6 +36,29 @@ class NamedSlots {
     return {entry.slot, redefined};
   }
 
+  // What `end` needs to undo the definition that comes next.
+  struct Before {
+    std::string name;
+    std::optional<std::uint32_t> slot;
+  };
+  Before before(const std::string& name) const {
+    const auto entry = entries_.find(name);
+    const bool defined = entry != entries_.end() && entry->second.defined;
+    return {name, defined ? std::optional(entry->second.slot) : std::nullopt};
+  }
+  // The name is what it was then.
+  void end(const Before& before) {
+    const auto entry = entries_.find(before.name);
+    if (before.slot) {
+      entry->second.slot = *before.slot;
+    } else {
+      ended_.insert(before.name);
+      entries_.erase(entry);
+    }
+  }
+  // Whether it had a definition and has none now.
+  bool has_ended(const std::string& name) const { return ended_.contains(name) && !entries_.contains(name); }
+
   // Throws Error at the first use of a name that has no definition.
   void require_definitions() const {
     for (const auto& [name, entry] : entries_) {
@@ -56,6 +81,7 @@ class NamedSlots {
   };
   std::string what_;
   std::map<std::string, Entry> entries_;
+  std::set<std::string> ended_;
 };
 
 }  // namespace vitrail::pbrt

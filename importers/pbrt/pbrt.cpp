@@ -21,8 +21,6 @@ ImportedScene read_pbrt(const std::filesystem::path& file, MeshMemory memory,
   imported.scene = interpreter.run();
   imported.diagnostics = context.report.take();
   if (!interpreter.had_world()) add_default_view(imported, file);
-  // v4's integrator is volpath where none is named; media need it.
-  if (!imported.scene.media.empty()) imported.scene.settings.straight_counts = false;
   return imported;
 }
 

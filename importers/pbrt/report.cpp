@@ -4,7 +4,7 @@
 namespace vitrail::pbrt {
 
 void Report::add(Diagnostic diagnostic) {
-  if (item_.file) diagnostic.item = location(item_);
+  if (item_.file) diagnostic.item = location(item_), diagnostic.kind = kind_;
   diagnostics_.push_back(std::move(diagnostic));
 }
 

@@ -17,13 +17,14 @@ class Report {
     add({Fidelity::dropped, message, location(place), {}});
   }
   void add(Diagnostic diagnostic);
-  // What comes is about the directive there.
-  void begin_item(const Place& place) { item_ = place; }
+  // What comes is about the directive there, of which a record of that kind is made.
+  void begin_item(const Place& place, RecordKind kind = RecordKind::any) { item_ = place, kind_ = kind; }
 
   Diagnostics take() { return std::move(diagnostics_); }
 
  private:
   Place item_;
+  RecordKind kind_ = RecordKind::any;
   Diagnostics diagnostics_;
 };
 

@@ -39,12 +39,14 @@ void Interpreter::sampler(const Place& place) {
   const std::string kind = read_text("a kind of sampler");
   ParameterSet parameters = read_set("Sampler", kind, place);
   read_sampler(kind, parameters, context_, view_);
+  scene_.sampler_origin = origin(place);
 }
 
 void Interpreter::integrator(const Place& place) {
   const std::string kind = read_text("a kind of integrator");
   ParameterSet parameters = read_set("Integrator", kind, place);
   read_integrator(kind, parameters, context_, view_);
+  scene_.integrator_origin = origin(place);
 }
 
 // No accelerator changes the picture.

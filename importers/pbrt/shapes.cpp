@@ -8,9 +8,10 @@
 #include <numbers>
 #include <string_view>
 
-#include "importers/ply/ply.h"
+#include "importers/pbrt/ply_meshes.h"
 #include "importers/shapes/shapes.h"
 #include "scene/bounds.h"
+#include "scene/mesh_uv.h"
 
 namespace vitrail::pbrt {
 
@@ -133,10 +134,20 @@ bool faces_away(const TriangleMesh& mesh, const std::array<std::uint32_t, 3>& tr
 
 }  // namespace
 
-void orient_by_normals(TriangleMesh& mesh) {
-  if (mesh.normals.empty()) return;
+bool orient_by_normals(TriangleMesh& mesh, bool uvs_show) {
+  if (mesh.normals.empty()) return false;
+  const auto is_away = [&](const auto& triangle) { return faces_away(mesh, triangle); };
+  const auto away = static_cast<std::size_t>(std::ranges::count_if(mesh.triangles, is_away));
+  if (away == 0) return false;
+  const bool differs = mesh.uvs.empty();
+  if (away == mesh.triangles.size()) {
+    turn_round(mesh, uvs_show);
+    return differs;
+  }
+  if (uvs_show) mesh = with_uvs(std::move(mesh));
   for (auto& triangle : mesh.triangles)
-    if (faces_away(mesh, triangle)) std::swap(triangle[1], triangle[2]);
+    if (is_away(triangle)) std::swap(triangle[1], triangle[2]);
+  return differs;
 }
 
 bool fronts_follow_normals(const TriangleMesh& mesh) {
@@ -184,11 +195,11 @@ namespace {
 
 constexpr std::uint64_t most_bytes_ahead = 256ull << 20;
 
-MeshReadAhead::Result read_oriented(const std::filesystem::path& path) {
-  MeshReadAhead::Result result;
-  result.mesh = read_ply(path, &result.diagnostics);
-  orient_by_normals(result.mesh);
-  return result;
+void report_patches(Report& report, const Place& place) {
+  report.approximated(
+      "bilinear patches that are no parallelograms become triangles, at most 2e-4 of their size or 2e-5 of "
+      "half the mesh's off",
+      place);
 }
 
 }  // namespace
@@ -196,7 +207,13 @@ MeshReadAhead::Result read_oriented(const std::filesystem::path& path) {
 ShapeMaker::ShapeMaker(Context& context, std::vector<TriangleMesh>& meshes)
     : context_(context),
       meshes_(meshes),
-      ply_reader_(read_oriented, std::min(most_bytes_ahead, context.mesh_memory.limit_bytes() / 4)) {}
+      ply_reader_(
+          [quads = quads_of(context.version)](const std::filesystem::path& path) {
+            MeshReadAhead::Result result;
+            result.ply = read_pbrt_ply(path, quads, &result.diagnostics);
+            return result;
+          },
+          std::min(most_bytes_ahead, context.mesh_memory.limit_bytes() / 4)) {}
 
 void ShapeMaker::read_ahead() {
   constexpr std::size_t text_bytes = 1 << 18;
@@ -225,7 +242,7 @@ Id<TriangleMesh> ShapeMaker::add(TriangleMesh mesh) {
   return {static_cast<std::uint32_t>(meshes_.size() - 1)};
 }
 
-ShapeGeometry ShapeMaker::triangle_mesh(ParameterSet& parameters) {
+ShapeGeometry ShapeMaker::triangle_mesh(ParameterSet& parameters, bool uvs_show) {
   TriangleMesh mesh;
   Parameter& positions = required_list(parameters, "P");
   require_groups(positions, 3);
@@ -234,12 +251,12 @@ ShapeGeometry ShapeMaker::triangle_mesh(ParameterSet& parameters) {
   mesh.triangles = groups_of<3>(parameters, mesh.positions.size());
   mesh.normals = vertex_values<Normal3f, 3>(parameters.find_list("N"), mesh.positions.size());
   mesh.uvs = vertex_values<Point2f, 2>(texture_coordinates(parameters), mesh.positions.size());
-  orient_by_normals(mesh);
+  orient_by_normals(mesh, uvs_show);
   const std::size_t parts = mesh.triangles.size();
   return {add(std::move(mesh)), false, offset, parts};
 }
 
-ShapeGeometry ShapeMaker::ply_mesh(ParameterSet& parameters) {
+std::vector<ShapeGeometry> ShapeMaker::ply_mesh(ParameterSet& parameters, bool uvs_show) {
   const Parameter* filename = parameters.find("filename", {ParameterType::text});
   if (!filename || filename->strings.size() != 1)
     fail("Shape \"plymesh\" needs a parameter \"string filename\"", parameters.place());
@@ -248,47 +265,40 @@ ShapeGeometry ShapeMaker::ply_mesh(ParameterSet& parameters) {
   if (!std::filesystem::is_regular_file(path, ignored))
     fail(fmt::format("cannot find the file \"{}\"", path.string()), filename->place);
   const auto [known, is_new] = ply_files_.try_emplace(path.string());
-  if (is_new) {
-    read_ahead();
-    auto [mesh, diagnostics] = ply_reader_.take(path);
+  PlyFile& file = known->second;
+  std::vector<ShapeGeometry>& shapes = file.shapes[file.differs && uvs_show];
+  if (!is_new && !shapes.empty()) return shapes;
+  read_ahead();
+  auto [ply, diagnostics] = ply_reader_.take(path);
+  if (is_new)
     for (Diagnostic& diagnostic : diagnostics) context_.report.add(std::move(diagnostic));
-    known->second =
-        add(context_.mesh_memory.keep(std::move(mesh), [path] { return read_oriented(path).mesh; }));
+  std::vector<PlyMesh> parts = meshes_of(std::move(ply), uvs_show, &file.differs);
+  std::vector<ShapeGeometry>& made = file.shapes[file.differs && uvs_show];
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    if (parts[i].tessellated) report_patches(context_.report, parameters.place());
+    const auto load = [path, quads = quads_of(context_.version), uvs_show, i] {
+      return std::move(meshes_of(read_pbrt_ply(path, quads), uvs_show)[i].mesh);
+    };
+    made.push_back(
+        {add(context_.mesh_memory.keep(std::move(parts[i].mesh), load)), false, {}, parts[i].parts});
   }
-  return {known->second, false, {}, triangles_of(meshes_[known->second.value])};
+  return made;
 }
 
-namespace {
-
-// (u,v) of the vertices 00, 10, 01, 11 of each patch, none of which two share.
-std::vector<Point2f> unit_squares(const std::vector<std::array<std::uint32_t, 4>>& patches) {
-  std::vector<Point2f> uvs(4 * patches.size());
-  for (const auto& patch : patches)
-    for (std::size_t k = 0; k < 4; ++k)
-      uvs[patch[k]] = {static_cast<float>(k % 2), static_cast<float>(k / 2)};
-  return uvs;
-}
-
-}  // namespace
-
-ShapeGeometry ShapeMaker::bilinear_mesh(ParameterSet& parameters) {
+ShapeGeometry ShapeMaker::bilinear_mesh(ParameterSet& parameters, bool uvs_show) {
   const std::vector<Point3f> positions = tuples<Point3f, 3>(required_list(parameters, "P"));
   const auto patches = groups_of<4>(parameters, positions.size());
   const auto normals = vertex_values<Normal3f, 3>(parameters.find_list("N"), positions.size());
   const auto uvs = vertex_values<Point2f, 2>(texture_coordinates(parameters), positions.size());
-  // A patch without its own (u,v) is the unit square; vertices that patches share cannot say so.
-  const bool apart = uvs.empty() && positions.size() == 4 * patches.size();
-  TriangleMesh mesh = tessellate_bilinear(positions, patches, normals, apart ? unit_squares(patches) : uvs);
-  if (mesh.triangles.size() > 2 * patches.size())
-    context_.report.approximated("curved bilinear patches become triangles, at most 2e-4 of their size off",
-                                 parameters.place());
-  orient_by_normals(mesh);
+  TriangleMesh mesh = tessellate_bilinear(positions, patches, normals, uvs, uvs_show);
+  if (mesh.triangles.size() > 2 * patches.size()) report_patches(context_.report, parameters.place());
+  orient_by_normals(mesh, uvs_show);
   return {add(std::move(mesh)), false, {}, patches.size()};
 }
 
 // pbrt's normals of a subdivided mesh point against its winding (the ring of a vertex is walked clockwise),
 // and its front follows them.
-ShapeGeometry ShapeMaker::loop_subdivision(ParameterSet& parameters) {
+ShapeGeometry ShapeMaker::loop_subdivision(ParameterSet& parameters, bool uvs_show) {
   constexpr int most_levels = 10;
   TriangleMesh cage;
   cage.positions = tuples<Point3f, 3>(required_list(parameters, "P"));
@@ -305,7 +315,7 @@ ShapeGeometry ShapeMaker::loop_subdivision(ParameterSet& parameters) {
     fail(error.what(), parameters.place());
   }
   for (Normal3f& normal : mesh.normals) normal = -normal;
-  for (auto& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
+  turn_round(mesh, uvs_show);
   const std::size_t parts = mesh.triangles.size();
   return {add(std::move(mesh)), false, {}, parts};
 }
@@ -344,30 +354,42 @@ std::optional<ShapeGeometry> ShapeMaker::quadric(const std::string& kind, Parame
   return ShapeGeometry{known->second, true, {}, 1};
 }
 
-std::optional<ShapeGeometry> ShapeMaker::make(const std::string& kind, ParameterSet& parameters) {
+// In v3 what lets a shadow ray pass is where either of the two is 0.
+void ShapeMaker::report_shadow_alpha(ParameterSet& parameters) {
+  const auto find = [&](const char* name) {
+    return parameters.find(name, {ParameterType::number, ParameterType::texture});
+  };
+  const Parameter *shadow = find("shadowalpha"), *alpha = find("alpha");
+  if (!shadow) return;
+  const bool is_whole = shadow->numbers.size() == 1 && shadow->numbers.front() != 0;
+  const bool same = alpha && alpha->strings == shadow->strings && alpha->numbers == shadow->numbers;
+  if (!is_whole && !same)
+    context_.report.dropped("\"shadowalpha\" of shapes: shadows follow \"alpha\"", shadow->place);
+}
+
+std::vector<ShapeGeometry> ShapeMaker::make(const std::string& kind, ParameterSet& parameters,
+                                            bool uvs_show) {
   parameters.ignore({"S", "faceIndices"});
-  if (const Parameter* alpha =
-          parameters.find("shadowalpha", {ParameterType::number, ParameterType::texture}))
-    context_.report.dropped("\"shadowalpha\" of shapes: shadows follow \"alpha\"", alpha->place);
-  std::optional<ShapeGeometry> geometry;
-  if (kind == "curve") {
-    geometry = curve(parameters);
-    parameters.report_unused(context_.report);
-    return geometry;
-  }
-  if (kind == "trianglemesh")
-    geometry = triangle_mesh(parameters);
+  report_shadow_alpha(parameters);
+  std::vector<ShapeGeometry> made;
+  const auto take = [&](std::optional<ShapeGeometry> geometry) {
+    if (geometry) made.push_back(*geometry);
+  };
+  if (kind == "curve")
+    take(curve(parameters));
+  else if (kind == "trianglemesh")
+    take(triangle_mesh(parameters, uvs_show));
   else if (kind == "plymesh")
-    geometry = ply_mesh(parameters);
+    made = ply_mesh(parameters, uvs_show);
   else if (kind == "bilinearmesh")
-    geometry = bilinear_mesh(parameters);
+    take(bilinear_mesh(parameters, uvs_show));
   else if (kind == "loopsubdiv")
-    geometry = loop_subdivision(parameters);
+    take(loop_subdivision(parameters, uvs_show));
   else if (kind == "sphere" || kind == "disk" || kind == "cylinder" || kind == "cone" || kind == "paraboloid")
-    geometry = quadric(kind, parameters);
-  if (geometry) {
+    take(quadric(kind, parameters));
+  if (!made.empty() || kind == "curve") {
     parameters.report_unused(context_.report);
-    return geometry;
+    return made;
   }
   const std::string closest =
       closest_word(kind, {"trianglemesh", "plymesh", "bilinearmesh", "loopsubdiv", "curve", "sphere", "disk",
@@ -375,7 +397,7 @@ std::optional<ShapeGeometry> ShapeMaker::make(const std::string& kind, Parameter
   context_.report.dropped(fmt::format("shape \"{}\" is not supported{}", kind,
                                       closest.empty() ? "" : fmt::format("; did you mean \"{}\"?", closest)),
                           parameters.place());
-  return std::nullopt;
+  return {};
 }
 
 }  // namespace vitrail::pbrt

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <map>
 #include <optional>
 #include <string>
@@ -30,32 +31,40 @@ class ShapeMaker {
   ShapeMaker(Context& context, std::vector<TriangleMesh>& meshes);
 
   // Nothing where the kind cannot be represented and is dropped with a diagnostic, or where nothing of it
-  // shows. The triangles' own orientation is pbrt's front side before ReverseOrientation and the transform.
-  std::optional<ShapeGeometry> make(const std::string& kind, ParameterSet& parameters);
+  // shows; two of a PLY file of triangles and quadrilaterals. The triangles' own orientation is pbrt's front
+  // side before ReverseOrientation and the transform. `uvs_show`: whether (u,v) may matter.
+  std::vector<ShapeGeometry> make(const std::string& kind, ParameterSet& parameters, bool uvs_show);
 
  private:
-  ShapeGeometry triangle_mesh(ParameterSet& parameters);
-  ShapeGeometry ply_mesh(ParameterSet& parameters);
-  ShapeGeometry bilinear_mesh(ParameterSet& parameters);
-  ShapeGeometry loop_subdivision(ParameterSet& parameters);
+  ShapeGeometry triangle_mesh(ParameterSet& parameters, bool uvs_show);
+  std::vector<ShapeGeometry> ply_mesh(ParameterSet& parameters, bool uvs_show);
+  ShapeGeometry bilinear_mesh(ParameterSet& parameters, bool uvs_show);
+  ShapeGeometry loop_subdivision(ParameterSet& parameters, bool uvs_show);
   std::optional<ShapeGeometry> curve(ParameterSet& parameters);
   std::optional<ShapeGeometry> quadric(const std::string& kind, ParameterSet& parameters);
   Id<TriangleMesh> add(TriangleMesh mesh);
+  void report_shadow_alpha(ParameterSet& parameters);
   // Has the meshes read that the text to come names.
   void read_ahead();
 
   using QuadricKey = std::tuple<std::string, double, double, double, double>;
   Context& context_;
   std::vector<TriangleMesh>& meshes_;
-  std::map<std::string, Id<TriangleMesh>> ply_files_;
+  // The shapes of a file where (u,v) do not show and where they do: the same but for patches and for
+  // triangles of which some are turned.
+  struct PlyFile {
+    bool differs = false;
+    std::array<std::vector<ShapeGeometry>, 2> shapes;
+  };
+  std::map<std::string, PlyFile> ply_files_;
   MeshReadAhead ply_reader_;
   const char* looked_ahead_to_ = nullptr;  // in the text to come, or another file's
   std::map<QuadricKey, Id<TriangleMesh>> quadrics_;
 };
 
 // Turns triangles whose corner normals, summed, point away from their own normal. pbrt's fronts follow the
-// normals.
-void orient_by_normals(TriangleMesh& mesh);
+// normals. Returns whether the mesh is another where (u,v) show.
+bool orient_by_normals(TriangleMesh& mesh, bool uvs_show = true);
 
 // Whether orient_by_normals would leave the mesh as it is; and the mesh with its normals turned so that it
 // would, or without them where a vertex has faces on both of its sides.

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "importers/pbrt/image_numbers.h"
 #include "scene/rgb_to_spectrum.h"
 
 namespace vitrail::pbrt {
@@ -29,7 +30,8 @@ const auto* find_in(const Table& table, const Parameter& parameter) {
        parameter.place);
 }
 
-// The same texture read as the other of number and colour.
+// The same texture read as the other of number and colour. pbrt has no such thing: a colour is a number by
+// its luminance.
 Id<Texture> converted(Id<Texture> id, bool to_float, const Parameter& parameter, const Scope& scope) {
   scope.context.report.approximated(
       fmt::format("texture \"{}\" is a {} texture, but \"{}\" needs a {}", parameter.strings.front(),
@@ -175,6 +177,9 @@ TextureModel image_texture(const Maker& m) {
   read_encoding(m, t.encoding, t.gamma);
   t.scale = m.number("scale", 1);
   t.invert = m.parameters.boolean("invert", false);
+  const Version version = m.scope.context.version;
+  t.number = m.is_float ? number_taken(version, t.filename, t.filter) : ImageNumber::luminance;
+  t.primaries = primaries_taken(version, m.is_float);
   return t;
 }
 
@@ -341,6 +346,7 @@ Id<Texture> add_image(const Parameter& filename, Encoding encoding, const Scope&
   ImageTexture image;
   image.filename = find_file(filename, scope.context);
   image.encoding = encoding;
+  image.primaries = primaries_taken(scope.context.version);
   scope.made.push_back({image, false, "", scope.origin});
   return {static_cast<std::uint32_t>(scope.made.size() - 1)};
 }

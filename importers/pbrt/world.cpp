@@ -61,9 +61,13 @@ void Interpreter::make_named_material(const Place& place) {
     fail("a named material needs a \"string type\"", place);
   const std::string kind = parameters.text("type", "");
   const auto next = static_cast<std::uint32_t>(materials_.size());
+  if (names_end_with_block())
+    saved_.back().undo.push_back(
+        [this, before = material_names_.before(name)] { material_names_.end(before); });
   const auto [slot, redefined] = material_names_.define(name, place, next);
   if (slot == next) materials_.emplace_back();
-  if (redefined)
+  // v4 refuses it; v3 warns.
+  if (redefined && context_.version == Version::v4)
     context_.report.approximated(
         fmt::format("material \"{}\" is defined again, for the shapes after it", name), place);
   named_slots_[slot] = name;
@@ -72,6 +76,10 @@ void Interpreter::make_named_material(const Place& place) {
 
 void Interpreter::named_material(const Place& place) {
   const std::string name = read_text("the name of a material");
+  if (material_names_.has_ended(name))
+    return context_.report.approximated(
+        fmt::format("material \"{}\" ended with its block: as in pbrt-v3, the one before it stays", name),
+        place);
   const auto next = static_cast<std::uint32_t>(materials_.size());
   const std::uint32_t slot = material_names_.use(name, place, next);
   if (slot == next) materials_.emplace_back();
@@ -86,11 +94,27 @@ void Interpreter::texture(const Place& place) {
   if (!spectral && type != "float")
     fail(fmt::format("expected a texture of type float or spectrum, found \"{}\"", type), place);
   if (spectral)
-    textures_.spectra.insert_or_assign(
-        name, make_spectrum_texture(kind, name, parameters, state_.ctm, scope(place)));
+    define_texture(textures_.spectra, name,
+                   make_spectrum_texture(kind, name, parameters, state_.ctm, scope(place)));
   else
-    textures_.numbers.insert_or_assign(name,
-                                       make_float_texture(kind, name, parameters, state_.ctm, scope(place)));
+    define_texture(textures_.numbers, name,
+                   make_float_texture(kind, name, parameters, state_.ctm, scope(place)));
+}
+
+template <class Table>
+void Interpreter::define_texture(Table& table, const std::string& name, typename Table::mapped_type value) {
+  if (names_end_with_block()) {
+    const auto known = table.find(name);
+    std::optional<typename Table::mapped_type> before;
+    if (known != table.end()) before = known->second;
+    saved_.back().undo.push_back([&table, name, before = std::move(before)] {
+      if (before)
+        table.insert_or_assign(name, *before);
+      else
+        table.erase(name);
+    });
+  }
+  table.insert_or_assign(name, std::move(value));
 }
 
 // ---- Media --------------------------------------------------------------------------------------
@@ -202,41 +226,70 @@ Id<Material> Interpreter::shape_material() {
   return *default_material_;
 }
 
-// Shapes of one material with the same "alpha" share their mask.
-Id<Material> Interpreter::masked(Id<Material> material, const FloatParameter& opacity, const Place& place) {
-  if (opacity == FloatParameter{1.0f}) return material;
-  const MaskMaterial mask{opacity, material};
-  for (const auto& [known, id] : masks_)
-    if (known == mask) return id;
-  Material record{mask};
-  record.origin = origin(place);
-  const Id<Material> id{add_material(std::move(record))};
-  masks_.emplace_back(mask, id);
-  return id;
+// v4 goes by shares; to v3 a surface is there wherever its alpha is not 0.
+FloatParameter Interpreter::shape_opacity(ParameterSet& parameters, const Place& place) {
+  const FloatParameter alpha = float_parameter(parameters, {"alpha"}, 1, scope(place));
+  const bool v3 = context_.version == Version::v3;
+  if (const auto* constant = std::get_if<float>(&alpha))
+    return v3 && *constant != 0 ? 1.0f : std::clamp(*constant, 0.0f, 1.0f);
+  if (v3 && shares_of_v3_.insert(std::get<Id<Texture>>(alpha).value).second)
+    context_.report.approximated(
+        "v3 shows all of a surface where its alpha is not 0; here alpha is the share of it that is there",
+        place);
+  return alpha;
+}
+
+void Interpreter::report_shining_alpha(const FloatParameter& alpha, const Place& place) {
+  if (context_.version == Version::v3)
+    context_.report.approximated("the alpha of a light: in v3 what is not there lights other things", place);
+  else if (alpha != FloatParameter{0.0f})
+    context_.report.approximated(
+        "the alpha of a light: where it is between 0 and 1 pbrt shows the light times its square", place);
+}
+
+// Of the next shape; a material that is not known yet may look them up.
+bool Interpreter::uvs_show(const FloatParameter& opacity) {
+  if (uv_uses_.of(opacity) || (state_.area_light && uv_uses_.of(state_.area_light->emission.light.radiance)))
+    return true;
+  return state_.material && uvs_show(*state_.material, 16);
+}
+
+bool Interpreter::uvs_show(Id<Material> id, int depth) {
+  const std::optional<Material>& material = materials_[id.value];
+  if (!material || depth == 0 || uv_uses_.of(*material)) return true;
+  const std::vector<Id<Material>> parts = parts_of(material->model);
+  return std::ranges::any_of(parts, [&](Id<Material> part) { return uvs_show(part, depth - 1); });
 }
 
 void Interpreter::shape(const Place& place) {
   const std::string kind = read_text("a kind of shape");
   ParameterSet parameters = read_set("Shape", kind, place, "shape");
-  const FloatParameter alpha = float_parameter(parameters, {"alpha"}, 1, scope(place));
-  if (alpha == FloatParameter{0.0f}) return;  // nothing shows
-  const auto geometry = shapes_.make(kind, parameters);
-  if (!geometry || triangles_of(scene_.meshes[geometry->mesh.value]) == 0) return;
+  const FloatParameter opacity = shape_opacity(parameters, place);
+  if (opacity == FloatParameter{0.0f} && !state_.area_light) return;  // nothing shows
+  for (const ShapeGeometry& geometry : shapes_.make(kind, parameters, uvs_show(opacity)))
+    if (triangles_of(scene_.meshes[geometry.mesh.value]) > 0) add_shape(geometry, opacity, place);
+}
+
+void Interpreter::add_shape(const ShapeGeometry& geometry, const FloatParameter& opacity,
+                            const Place& place) {
   Shape shape;
-  shape.mesh = geometry->mesh;
-  shape.material = masked(shape_material(), alpha, place);
+  shape.mesh = geometry.mesh;
+  shape.material = shape_material();
+  shape.opacity = opacity;
   shape.interior = state_.interior;
   shape.exterior = state_.exterior;
   shape.origin = origin(place);
-  shape.area_light = shape_light(*geometry, place);
-  shape.object_to_world = state_.ctm * vitrail::translate(geometry->offset);
+  shape.area_light = shape_light(geometry, place);
+  if (opacity == FloatParameter{0.0f} && !shape.area_light) return;
+  if (shape.area_light && opacity != FloatParameter{1.0f}) report_shining_alpha(opacity, place);
+  shape.object_to_world = state_.ctm * vitrail::translate(geometry.offset);
   // Meshes: pbrt flips the winding normal of the world, so that the object's front stays the front. Analytic
   // shapes: it flips the normal of the object and then transforms it, so a mirror turns them inside out;
   // their light does not turn, and one that shines goes by its light.
   const bool mirrored = swaps_handedness(state_.ctm);
   shape.flip_orientation =
-      state_.reverse_orientation != (mirrored && (!geometry->quadric || shape.area_light));
-  if (mirrored && geometry->quadric && shape.area_light)
+      state_.reverse_orientation != (mirrored && (!geometry.quadric || shape.area_light));
+  if (mirrored && geometry.quadric && shape.area_light)
     context_.report.approximated("a mirrored shape that shines has its front where it shines", place);
   (current_object_ ? scene_.prototypes[*current_object_].shapes : scene_.shapes).push_back(std::move(shape));
 }
@@ -296,12 +349,21 @@ class MaterialOrder {
 
 }  // namespace
 
-void Interpreter::resolve_materials() {
-  for (DeferredMaterial& deferred : deferred_) {
+// Those that waited for textures: all, or those whose textures are known by now.
+void Interpreter::resolve_deferred(bool all) {
+  std::erase_if(deferred_, [&](DeferredMaterial& deferred) {
+    if (!all && !textures_are_known(deferred.parameters, textures_)) return false;
+    context_.report.begin_item(deferred.place, RecordKind::material);
     const Scope where{{context_, deferred.color_space}, textures_, scene_.textures, origin(deferred.place)};
     Material made = made_material(deferred.kind, deferred.parameters, where);
     materials_[deferred.slot] = std::move(made);
-  }
+    return true;
+  });
+  context_.report.begin_item({});
+}
+
+void Interpreter::resolve_materials() {
+  resolve_deferred(true);
   material_names_.require_definitions();
   for (const auto& [slot, name] : named_slots_) materials_[slot]->name = name;
   MaterialOrder order(materials_, scene_);
@@ -322,8 +384,10 @@ void Interpreter::drop_lights_of_interfaces() {
   for (Shape& shape : scene_.shapes)
     if (shape.area_light &&
         std::holds_alternative<InterfaceMaterial>(scene_.materials[shape.material.value].model)) {
+      const Place& place = area_light_places_[shape.area_light->value];
+      context_.report.begin_item(place, RecordKind::area_light);
       context_.report.dropped("an area light on the material \"interface\" does not shine, as in pbrt",
-                              area_light_places_[shape.area_light->value]);
+                              place);
       shape.area_light.reset();
     }
 }

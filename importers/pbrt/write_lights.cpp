@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <array>
 
-#include "images/image_files.h"
-#include "importers/images/environment_images.h"
-#include "importers/pbrt/writer.h"
+#include "importers/pbrt/write_images.h"
 
 namespace vitrail::pbrt {
 
@@ -34,15 +32,14 @@ class LightWriter {
   const char* operator()(const ProjectionLight& l) {
     light_to_world_ = l.light_to_world;
     const auto* texture = std::get_if<Id<Texture>>(&l.image);
-    const auto* image =
-        texture ? std::get_if<ImageTexture>(&p_.writer().scene.textures.at(texture->value).model) : nullptr;
-    if (!image) {
+    const auto file = texture ? file_for_pbrt(p_, *texture, ImageUse::light) : std::nullopt;
+    if (!file) {
       p_.dropped("a projection of something that is not an image");
       return nullptr;
     }
     if (l.irradiance)
       p_.approximated("the image is of the intensity, not of the irradiance on a plane (less by cos³)");
-    p_.file("filename", image->filename).number("fov", l.fov_deg);
+    p_.file("filename", *file).number("fov", l.fov_deg);
     scale_of_image(l.scale);
     if (l.power) p_.number("power", *l.power);
     return "projection";
@@ -51,7 +48,7 @@ class LightWriter {
     light_to_world_ = l.light_to_world;
     if (l.latitude_longitude)
       p_.approximated("its image is of latitude and longitude, but pbrt-v4 reads it as the equal-area map");
-    p_.file("filename", l.filename).emission("I", l.intensity);
+    p_.file("filename", goniometric_for_pbrt(p_, l)).emission("I", l.intensity);
     if (l.power) p_.number("power", *l.power);
     return "goniometric";
   }
@@ -67,7 +64,7 @@ class LightWriter {
   }
   const char* operator()(const EnvironmentLight& l) {
     light_to_world_ = l.light_to_world;
-    p_.file("filename", l.projection == EnvironmentLight::Projection::equal_area ? l.filename : resampled(l));
+    p_.file("filename", environment_for_pbrt(p_, l));
     scale_of_image(l.scale);
     if (l.illuminance) p_.number("illuminance", *l.illuminance);
     if (l.portal) portal(*l.portal);
@@ -79,21 +76,6 @@ class LightWriter {
     if (!is_constant(scale)) p_.approximated("the colour that multiplies its image becomes its luminance");
     p_.number("scale",
               static_cast<float>(is_constant(scale) ? evaluate(scale, lambda_min_nm) : luminance(scale)));
-  }
-  // pbrt-v4 reads equal-area maps alone.
-  std::string resampled(const EnvironmentLight& l) {
-    using enum EnvironmentLight::Projection;
-    Writer& w = p_.writer();
-    try {
-      const Image image = reproject(read_linear_image(l.filename), latitude_longitude, equal_area);
-      const std::filesystem::path file = std::filesystem::absolute(w.new_image());
-      write_exr_image(file, image);
-      p_.approximated("its image of latitude and longitude is resampled to the equal-area map");
-      return file.string();
-    } catch (const Error& error) {
-      p_.dropped(fmt::format("its image cannot be resampled to the equal-area map: {}", error.what()));
-      return l.filename;
-    }
   }
   void portal(const std::array<Point3d, 4>& corners) {
     const Transform to_light = inverse(light_to_world_);
@@ -117,7 +99,7 @@ static_assert(kinds.size() == std::variant_size_v<LightVariant>);
 
 void write_lights(Writer& w) {
   for (const Light& light : w.scene.lights) {
-    Parameters p(w, fmt::format("{} light", kinds.at(light.model.index())), light.origin);
+    Parameters p(w, fmt::format("{} light", kinds.at(light.model.index())), light.origin, RecordKind::light);
     LightWriter writer(p);
     const char* kind = std::visit(writer, light.model);
     if (!kind) continue;

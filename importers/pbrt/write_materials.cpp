@@ -3,7 +3,10 @@
 #include <cmath>
 #include <optional>
 
+#include "importers/export_colors.h"
+#include "importers/pbrt/write_images.h"
 #include "importers/pbrt/writer.h"
+#include "scene/transmission.h"
 
 namespace vitrail::pbrt {
 
@@ -24,11 +27,11 @@ float mean(const FloatParameter& p) {
 // Writes the parameters of one material and gives its type.
 class MaterialWriter {
  public:
-  explicit MaterialWriter(Parameters& p) : p_(p) {}
+  MaterialWriter(Parameters& p, std::size_t index) : p_(p), index_(index) {}
 
   const char* operator()(const DiffuseMaterial& m) {
     if (!is_zero(m.sigma_deg)) p_.approximated("sigma (Oren-Nayar roughness) becomes 0: pbrt-v4 has none");
-    p_.spectrum("reflectance", m.reflectance);
+    p_.albedo("reflectance", m.reflectance);
     return "diffuse";
   }
   const char* operator()(const DielectricMaterial& m) {
@@ -47,7 +50,7 @@ class MaterialWriter {
     const bool perfect = std::holds_alternative<PerfectReflector>(m.metal);
     if (perfect) {
       p_.approximated("a mirror becomes a metal of its reflectance at normal incidence");
-      p_.spectrum("reflectance", m.reflectance_factor);
+      p_.albedo("reflectance", m.reflectance_factor);
     } else {
       metal(m.metal);
       if (!is_one(m.reflectance_factor)) p_.approximated("the factor of its reflection becomes 1");
@@ -58,13 +61,13 @@ class MaterialWriter {
   const char* operator()(const PlasticMaterial& m) {
     p_.approximated("Mitsuba's plastic becomes pbrt's layered coateddiffuse");
     if (!is_one(m.specular_reflectance)) p_.approximated("the factor of its reflection becomes 1");
-    p_.spectrum("reflectance", m.diffuse_reflectance);
+    p_.albedo("reflectance", m.diffuse_reflectance);
     p_.number("eta", m.eta / std::max(m.exterior_eta, 1e-3f));
     roughness(m.roughness);
     return "coateddiffuse";
   }
   const char* operator()(const CoatedDiffuseMaterial& m) {
-    p_.spectrum("reflectance", m.reflectance);
+    p_.albedo("reflectance", m.reflectance);
     index("eta", m.eta);
     roughness(m.roughness);
     coating(m.volume);
@@ -79,27 +82,29 @@ class MaterialWriter {
     return "coatedconductor";
   }
   const char* operator()(const DiffuseTransmissionMaterial& m) {
-    p_.spectrum("reflectance", m.reflectance)
-        .spectrum("transmittance", m.transmittance)
-        .number("scale", m.scale);
+    p_.albedo("reflectance", m.reflectance).albedo("transmittance", m.transmittance).number("scale", m.scale);
     return "diffusetransmission";
   }
   const char* operator()(const PrincipledMaterial& m) {
     const Roughness surface{squared(m.roughness), squared(m.roughness)};
     if (mean(m.spec_trans) > 0.5f) {
-      p_.approximated("the principled model becomes rough glass");
       p_.number("eta", m.eta);
+      if (m.thin) {
+        p_.approximated("the principled model becomes thin glass, which is smooth in pbrt");
+        return "thindielectric";
+      }
+      p_.approximated("the principled model becomes rough glass");
       roughness(surface);
-      return m.thin ? "thindielectric" : "dielectric";
+      return "dielectric";
     }
     if (mean(m.metallic) > 0.5f) {
       p_.approximated("the principled model becomes a metal of its base colour");
-      p_.spectrum("reflectance", m.base_color);
+      p_.albedo("reflectance", m.base_color);
       roughness(surface);
       return "conductor";
     }
     p_.approximated("the principled model becomes a coat over its base colour");
-    p_.spectrum("reflectance", m.base_color).number("eta", m.eta);
+    p_.albedo("reflectance", m.base_color).number("eta", m.eta);
     roughness(surface);
     return "coateddiffuse";
   }
@@ -107,18 +112,18 @@ class MaterialWriter {
     if (const auto* named = std::get_if<SubsurfaceMaterial::Named>(&m.interior))
       p_.text("name", named->name);
     else if (const auto* effective = std::get_if<SubsurfaceMaterial::Effective>(&m.interior))
-      p_.spectrum("reflectance", effective->reflectance).spectrum("mfp", effective->mean_free_path);
+      p_.albedo("reflectance", effective->reflectance).spectrum("mfp", effective->mean_free_path);
     else
       p_.spectrum("sigma_a", std::get<SubsurfaceMaterial::Coefficients>(m.interior).sigma_a)
           .spectrum("sigma_s", std::get<SubsurfaceMaterial::Coefficients>(m.interior).sigma_s);
     p_.number("scale", m.scale).number("g", m.g);
-    index("eta", m.eta);
+    single_index(m.eta);
     roughness(m.roughness);
     return "subsurface";
   }
   const char* operator()(const HairMaterial& m) {
     if (m.sigma_a) p_.spectrum("sigma_a", *m.sigma_a);
-    if (m.color) p_.spectrum("reflectance", *m.color);
+    if (m.color) p_.albedo("reflectance", *m.color);
     if (m.eumelanin) p_.number("eumelanin", *m.eumelanin);
     if (m.pheomelanin) p_.number("pheomelanin", *m.pheomelanin);
     p_.number("eta", m.eta / std::max(m.exterior_eta, 1e-3f));
@@ -134,16 +139,13 @@ class MaterialWriter {
   const char* operator()(const InterfaceMaterial&) { return "interface"; }
   const char* operator()(const BlendMaterial& m) {
     const std::vector<std::string>& names = p_.writer().materials;
-    p_.texts("materials", {names.at(m.first.value), names.at(m.second.value)}).number("amount", m.amount);
+    p_.texts("materials", {names.at(m.first.value), names.at(m.second.value)})
+        .number("amount", p_.writer().amounts.at(index_));
     return "mix";
   }
-  // Written with the shapes (surface_of); where another material refers to it, it is what it masks.
+  // Each is written as one of its parts (the_same_as).
   const char* operator()(const MaskMaterial&) { return nullptr; }
-  const char* operator()(const TwoSidedMaterial& m) {
-    const Material& front = p_.writer().scene.materials.at(m.front.value);
-    if (m.front != m.back) p_.approximated("the front's material is on both sides");
-    return std::visit(*this, front.model);
-  }
+  const char* operator()(const TwoSidedMaterial&) { return nullptr; }
 
  private:
   static FloatParameter squared(const FloatParameter& roughness) {
@@ -155,6 +157,11 @@ class MaterialWriter {
       p_.number(name, constant->value);
     else
       p_.spectrum(name, eta);
+  }
+  void single_index(const Spectrum& eta) {
+    if (!is_constant(eta))
+      p_.approximated("dispersion: pbrt takes one index of refraction here, at 587.6 nm");
+    p_.number("eta", static_cast<float>(index_of_refraction(eta)));
   }
   void relative_index(const Spectrum& eta, const Spectrum& exterior) {
     if (exterior == Spectrum{ConstantSpectrum{1}}) return index("eta", eta);
@@ -178,10 +185,10 @@ class MaterialWriter {
     if (const auto* index = std::get_if<ComplexIndex>(&metal)) {
       p_.spectrum(prefix + "eta", index->eta).spectrum(prefix + "k", index->k);
     } else if (const auto* normal = std::get_if<NormalReflectance>(&metal)) {
-      p_.spectrum("reflectance", normal->reflectance);
+      p_.albedo("reflectance", normal->reflectance);
     } else {
       p_.approximated("a mirror becomes a metal that reflects all at normal incidence");
-      p_.spectrum("reflectance", Spectrum{ConstantSpectrum{1}});
+      p_.albedo("reflectance", Spectrum{ConstantSpectrum{1}});
     }
   }
   void roughness(const Roughness& r, const std::string& prefix = "") {
@@ -202,49 +209,66 @@ class MaterialWriter {
     remap_ = r.square_root;
   }
   void coating(const CoatingVolume& c) {
-    p_.number("thickness", c.thickness).number("g", c.g).spectrum("albedo", c.albedo);
+    p_.number("thickness", c.thickness).number("g", c.g).albedo("albedo", c.albedo);
     p_.integer("maxdepth", c.max_depth).integer("nsamples", c.samples);
   }
 
   Parameters& p_;
+  std::size_t index_;
   std::optional<bool> remap_;
 };
 
 void bumps(Parameters& p, const Material& m) {
+  if (std::holds_alternative<InterfaceMaterial>(m.model)) return;  // nothing shows them
+  if (std::holds_alternative<HairMaterial>(m.model)) {
+    if (m.displacement || m.normal_map) p.dropped("bumps of hair: pbrt has none");
+    return;
+  }
   if (m.displacement) p.number("displacement", *m.displacement);
   if (m.bump_shadowing && (m.displacement || m.normal_map))
     p.approximated("its bumps do not shadow: pbrt has no such term");
   if (!m.normal_map) return;
-  const auto* image = std::get_if<ImageTexture>(&p.writer().scene.textures.at(m.normal_map->value).model);
-  if (!image) return p.dropped("a normal map that is not an image");
-  p.file("normalmap", image->filename);
-  if (image->mapping != TextureMapping{UvMapping{}} || image->scale != 1)
-    p.approximated("the mapping and scale of its normal map are left out");
+  const auto file = file_for_pbrt(p, *m.normal_map, ImageUse::vector);
+  if (!file) return p.dropped("a normal map that is not an image");
+  p.file("normalmap", *file);
+}
+
+// The material that is all that is there of one that is made of others.
+std::optional<Id<Material>> the_same_as(Writer& w, std::size_t index) {
+  const Material& material = w.scene.materials[index];
+  if (const auto* mask = std::get_if<MaskMaterial>(&material.model)) return mask->material;
+  if (const auto* sided = std::get_if<TwoSidedMaterial>(&material.model)) {
+    if (sided->front != sided->back)
+      w.approximated("the front's material is on both sides", material.origin, RecordKind::material);
+    return sided->front;
+  }
+  const auto* blend = std::get_if<BlendMaterial>(&material.model);
+  const auto is_gone = [&](Id<Material> part) { return w.coverage[part.value] == FloatParameter{0.0f}; };
+  if (blend && is_gone(blend->first)) return blend->second;
+  if (blend && is_gone(blend->second)) return blend->first;
+  return std::nullopt;
 }
 
 }  // namespace
 
-ShapeSurface surface_of(const Scene& scene, Id<Material> material) {
-  if (const auto* mask = std::get_if<MaskMaterial>(&scene.materials.at(material.value).model))
-    return {mask->material, mask->opacity};
-  return {material};
-}
-
 void write_materials(Writer& w) {
   for (std::size_t i = 0; i < w.scene.materials.size(); ++i) {
     const Material& material = w.scene.materials[i];
-    Parameters p(w, fmt::format("material \"{}\"", w.materials[i]), material.origin);
-    MaterialWriter writer(p);
-    const char* type = std::visit(writer, material.model);
-    if (const auto* mask = std::get_if<MaskMaterial>(&material.model)) {
-      w.materials[i] = w.materials.at(mask->material.value);
+    Parameters p(w, fmt::format("material \"{}\"", w.materials[i]), material.origin, RecordKind::material);
+    const bool is_made = is_made_of_others(material);
+    if (is_made && (material.displacement || material.normal_map))
+      p.dropped("bumps of a material that is made of others, which have their own");
+    if (const auto part = the_same_as(w, i)) {
+      w.materials[i] = w.materials.at(part->value);
       continue;
     }
+    MaterialWriter writer(p, i);
+    const char* type = std::visit(writer, material.model);
     const bool opaque = !std::holds_alternative<DielectricMaterial>(material.model) &&
                         !std::holds_alternative<ThinDielectricMaterial>(material.model) &&
                         !std::holds_alternative<InterfaceMaterial>(material.model);
     if (!material.two_sided && opaque) p.approximated("its black back becomes as its front");
-    bumps(p, material);
+    if (!is_made) bumps(p, material);
     w.line(fmt::format("MakeNamedMaterial {} \"string type\" \"{}\"{}", in_quotes(w.materials[i]), type,
                        p.list()));
   }

@@ -15,6 +15,7 @@ Diagnostics write_pbrt(const Scene& scene, const std::filesystem::path& out) {
   pbrt::write_media(writer);
   writer.line("\nWorldBegin\n");
   pbrt::write_textures(writer);
+  pbrt::write_coverage(writer);
   pbrt::write_materials(writer);
   pbrt::write_lights(writer);
   pbrt::write_shapes(writer);

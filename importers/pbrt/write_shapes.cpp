@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Shapes, objects and their instances.
 #include <cmath>
+#include <map>
 
 #include "importers/pbrt/shapes.h"
-#include "importers/pbrt/writer.h"
+#include "importers/pbrt/write_images.h"
 #include "scene/bounds.h"
+#include "scene/mesh_uv.h"
+#include "scene/uv_uses.h"
 
 namespace vitrail::pbrt {
 
@@ -44,16 +47,17 @@ std::string inline_mesh(const TriangleMesh& mesh) {
 
 class ShapeWriter {
  public:
-  explicit ShapeWriter(Writer& w) : w_(w), fixed_(w.scene.meshes.size()) {}
+  explicit ShapeWriter(Writer& w)
+      : w_(w), fixed_(w.scene.meshes.size()), uvs_show_(meshes_whose_uvs_show(w.scene)) {}
 
   void write(const Shape& shape) {
-    const ShapeSurface surface = surface_of(w_.scene, shape.material);
-    Parameters p(w_, "shape", shape.origin);
+    const ShapeSurface surface = surface_of(w_, shape);
+    Parameters p(w_, "shape", shape.origin, RecordKind::shape);
     w_.begin("AttributeBegin");
-    w_.line("NamedMaterial " + in_quotes(w_.materials.at(surface.material.value)));
+    w_.line("NamedMaterial " + in_quotes(surface.material));
     if (shape.interior || shape.exterior)
       w_.line(fmt::format("MediumInterface {} {}", medium(shape.interior), medium(shape.exterior)));
-    if (shape.area_light) area_light(w_.scene.area_lights.at(shape.area_light->value));
+    if (shape.area_light) w_.line(area_light(*shape.area_light));
     w_.transform(shape.object_to_world);
     if (shape.flip_orientation != swaps_handedness(shape.object_to_world)) w_.line("ReverseOrientation");
     if (surface.alpha != FloatParameter{1.0f}) p.number("alpha", surface.alpha);
@@ -66,41 +70,74 @@ class ShapeWriter {
     return in_quotes(id ? w_.media.at(id->value) : "");
   }
 
-  void area_light(const AreaLight& light) {
-    Parameters p(w_, "area light", light.origin);
+  const std::string& area_light(Id<AreaLight> id) {
+    std::string& line = area_lights_[id.value];
+    if (!line.empty()) return line;
+    const AreaLight& light = w_.scene.area_lights.at(id.value);
+    Parameters p(w_, "area light", light.origin, RecordKind::area_light);
     if (light.directional) p.approximated("shines in all directions, not along its normal alone");
     if (const auto* radiance = std::get_if<Spectrum>(&light.radiance)) {
       p.emission("L", *radiance);
-    } else if (const auto* image = std::get_if<ImageTexture>(
-                   &w_.scene.textures.at(std::get<Id<Texture>>(light.radiance).value).model)) {
-      p.file("filename", image->filename).number("scale", light.scale);
+    } else if (const auto file = file_for_pbrt(p, std::get<Id<Texture>>(light.radiance), ImageUse::light)) {
+      p.file("filename", *file).number("scale", light.scale);
+      look_up_of_image(std::get<Id<Texture>>(light.radiance), p);
     } else {
       p.approximated("white stands for a texture that is not an image");
       p.number("scale", light.scale);
     }
     if (light.two_sided) p.boolean("twosided", true);
-    w_.line("AreaLightSource \"diffuse\"" + p.list());
+    return line = "AreaLightSource \"diffuse\"" + p.list();
+  }
+
+  void look_up_of_image(Id<Texture> texture, Parameters& p) const {
+    const ImageTexture image = tinted_image(w_.scene, texture)->image;
+    if (image.wrap != Wrap::clamp) p.approximated("the edges of its image go on outside of it");
+    if (image.filter != TextureFilter::bilinear) p.approximated("its image is looked up bilinearly");
   }
 
   std::string mesh(const Shape& shape, Parameters& p) {
     const TriangleMesh& mesh = w_.scene.meshes.at(shape.mesh.value);
     std::optional<TriangleMesh>& fixed = fixed_[shape.mesh.value];
-    if (!fixed && fronts_follow_normals(mesh)) {
-      if (!mesh.attributes.empty()) p.dropped("the attributes of a mesh: pbrt has none");
-      if (stands_in_file(mesh)) return inline_mesh(mesh);
-      return "Shape \"plymesh\" \"string filename\" " + in_quotes(w_.meshes.name(shape.mesh));
+    const bool follow = fronts_follow_normals(mesh);
+    const bool lacks_uvs =
+        uvs_show_[shape.mesh.value] && mesh.uvs.empty() && mesh.missing_uv != MissingUv::pbrt;
+    if (!fixed && (!follow || lacks_uvs || !mesh.attributes.empty())) {
+      fixed = lacks_uvs ? with_uvs(mesh) : mesh;
+      if (!fronts_follow_normals(*fixed)) fixed = with_normals_in_front(std::move(*fixed));
+      fixed->attributes.clear();
     }
-    if (!fixed) fixed = with_normals_in_front(mesh);
-    if (fixed->normals.empty())
+    if (!mesh.attributes.empty()) p.dropped("the attributes of a mesh: pbrt has none");
+    if (fixed && fixed->normals.empty() && !mesh.normals.empty())
       p.approximated("its shading normals lie on both sides of its faces and are left out");
-    return stands_in_file(*fixed)
-               ? inline_mesh(*fixed)
-               : "Shape \"plymesh\" \"string filename\" " + in_quotes(w_.meshes.name(shape.mesh, *fixed));
+    const TriangleMesh& written = fixed ? *fixed : mesh;
+    if (stands_in_file(written)) return inline_mesh(written);
+    return "Shape \"plymesh\" \"string filename\" " +
+           in_quotes(fixed ? w_.meshes.name(shape.mesh, *fixed) : w_.meshes.name(shape.mesh));
   }
 
   Writer& w_;
-  std::vector<std::optional<TriangleMesh>> fixed_;
+  std::vector<std::optional<TriangleMesh>> fixed_;  // what is written instead of a mesh
+  std::vector<bool> uvs_show_;
+  std::map<std::uint32_t, std::string> area_lights_;  // their directives
 };
+
+// pbrt leaves out area lights in objects: what shines is written with every instance.
+void write_instance(Writer& w, ShapeWriter& shapes, const Instance& instance) {
+  const Prototype& prototype = w.scene.prototypes.at(instance.prototype.value);
+  w.begin("AttributeBegin");
+  w.transform(instance.prototype_to_world);
+  w.line("ObjectInstance " + in_quotes(w.objects.at(instance.prototype.value)));
+  w.end("AttributeEnd");
+  for (const Shape& of : prototype.shapes) {
+    if (!of.area_light) continue;
+    Shape shape = of;
+    shape.object_to_world = instance.prototype_to_world * of.object_to_world;
+    if (swaps_handedness(instance.prototype_to_world)) shape.flip_orientation = !shape.flip_orientation;
+    shapes.write(shape);
+    w.approximated("pbrt instances no area lights: this one is a shape of its own", instance.origin,
+                   RecordKind::instance);
+  }
+}
 
 }  // namespace
 
@@ -108,16 +145,12 @@ void write_shapes(Writer& w) {
   ShapeWriter shapes(w);
   for (std::size_t i = 0; i < w.scene.prototypes.size(); ++i) {
     w.begin("ObjectBegin " + in_quotes(w.objects[i]));
-    for (const Shape& shape : w.scene.prototypes[i].shapes) shapes.write(shape);
+    for (const Shape& shape : w.scene.prototypes[i].shapes)
+      if (!shape.area_light) shapes.write(shape);
     w.end("ObjectEnd");
   }
   for (const Shape& shape : w.scene.shapes) shapes.write(shape);
-  for (const Instance& instance : w.scene.instances) {
-    w.begin("AttributeBegin");
-    w.transform(instance.prototype_to_world);
-    w.line("ObjectInstance " + in_quotes(w.objects.at(instance.prototype.value)));
-    w.end("AttributeEnd");
-  }
+  for (const Instance& instance : w.scene.instances) write_instance(w, shapes, instance);
 }
 
 }  // namespace vitrail::pbrt

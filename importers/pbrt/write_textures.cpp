@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "importers/pbrt/writer.h"
+#include "importers/pbrt/write_images.h"
 
 namespace vitrail::pbrt {
 
@@ -13,6 +13,9 @@ class TextureWriter {
   const Transform& texture_to_world() const { return texture_to_world_; }
 
   const char* operator()(const ImageTexture& t) {
+    return image(image_for_pbrt(p_, t, is_float_ ? ImageUse::number : ImageUse::color));
+  }
+  const char* image(const ImageTexture& t) {
     mapping(t.mapping);
     p_.file("filename", t.filename).number("scale", t.scale).boolean("invert", t.invert);
     p_.text("wrap", t.wrap == Wrap::clamp ? "clamp" : t.wrap == Wrap::black ? "black" : "repeat");
@@ -37,18 +40,19 @@ class TextureWriter {
     return "checkerboard";
   }
   const char* operator()(const ProductTexture& t) {
-    const auto* factor = std::get_if<Spectrum>(&t.second);
-    const bool is_number =
-        factor ? std::holds_alternative<ConstantSpectrum>(*factor)
-               : p_.writer().scene.textures.at(std::get<Id<Texture>>(t.second).value).is_float;
-    input("tex", t.first);
-    if (!is_number) {
+    const bool swapped = !is_number(t.second) && is_number(t.first);
+    const SpectrumParameter &tex = swapped ? t.second : t.first, &scale = swapped ? t.first : t.second;
+    if (!is_number(scale))
+      if (const char* kind = tinted(t)) return kind;
+    input("tex", tex);
+    if (!is_number(scale)) {
+      const auto* factor = std::get_if<Spectrum>(&scale);
       p_.approximated(
           "pbrt multiplies a texture by numbers only: the luminance of a colour, 1 for a texture");
       p_.number("scale", factor ? static_cast<float>(luminance(*factor)) : 1.0f);
       return "scale";
     }
-    p_.input("scale", t.second, true);
+    p_.input("scale", scale, true);
     return "scale";
   }
   const char* operator()(const MixTexture& t) {
@@ -62,7 +66,7 @@ class TextureWriter {
     return "directionmix";
   }
   const char* operator()(const BilinearTexture& t) {
-    input("v00", t.v00), input("v01", t.v01), input("v10", t.v10), input("v11", t.v11);
+    corner("v00", t.v00), corner("v01", t.v01), corner("v10", t.v10), corner("v11", t.v11);
     mapping(t.mapping);
     return "bilerp";
   }
@@ -72,11 +76,15 @@ class TextureWriter {
     return "dots";
   }
   const char* operator()(const NoiseTexture& t) {
+    const bool is_marble = t.kind == NoiseTexture::Kind::marble;
+    if (is_marble && is_float_) {
+      p_.dropped("pbrt has no marble of numbers; 0.5 stands for it");
+      return nullptr;
+    }
+    if (!is_marble && !is_float_) return noise_of_colors(t);
     texture_to_world_ = t.texture_to_world;
-    p_.integer("octaves", t.octaves).number("roughness", t.roughness);
-    if (t.kind == NoiseTexture::Kind::marble) p_.number("scale", t.scale).number("variation", t.variation);
-    constexpr std::array kinds{"fbm", "wrinkled", "windy", "marble"};
-    return kinds.at(static_cast<std::size_t>(t.kind));
+    noise(p_, t);
+    return name_of(t.kind);
   }
   const char* operator()(const MeshAttributeTexture& t) {
     p_.dropped(fmt::format("pbrt has no attributes of meshes; 0.5 stands for \"{}\"", t.name));
@@ -88,6 +96,47 @@ class TextureWriter {
   }
 
  private:
+  bool is_number(const SpectrumParameter& value) const {
+    const auto* spectrum = std::get_if<Spectrum>(&value);
+    return spectrum ? std::holds_alternative<ConstantSpectrum>(*spectrum)
+                    : p_.writer().scene.textures.at(std::get<Id<Texture>>(value).value).is_float;
+  }
+  // An image times a colour, by the colour of each pixel.
+  const char* tinted(const ProductTexture& product) {
+    const auto found = tinted_image(p_.writer().scene, product);
+    if (!found) return nullptr;
+    return image(
+        image_for_pbrt(p_, found->image, found->is_number ? ImageUse::number : ImageUse::color, found->tint));
+  }
+  static const char* name_of(NoiseTexture::Kind kind) {
+    constexpr std::array kinds{"fbm", "wrinkled", "windy", "marble"};
+    return kinds.at(static_cast<std::size_t>(kind));
+  }
+  static void noise(Parameters& p, const NoiseTexture& t) {
+    if (t.kind == NoiseTexture::Kind::windy) return;
+    p.integer("octaves", t.octaves).number("roughness", t.roughness);
+    if (t.kind == NoiseTexture::Kind::marble) p.number("scale", t.scale).number("variation", t.variation);
+  }
+  // pbrt has such noise as numbers alone: a mix of 0 and 1 by it is the colour.
+  const char* noise_of_colors(const NoiseTexture& t) {
+    Writer& w = p_.writer();
+    const std::string name = Writer::add_name(w.textures, "noise");
+    Parameters p(w, "texture", {}, RecordKind::texture);
+    noise(p, t);
+    w.begin("AttributeBegin"), w.transform(t.texture_to_world);
+    w.line(fmt::format("Texture {} \"float\" \"{}\"{}", in_quotes(name), name_of(t.kind), p.list()));
+    w.end("AttributeEnd");
+    p_.numbers("spectrum tex1", std::array{360, 0, 830, 0})
+        .numbers("spectrum tex2", std::array{360, 1, 830, 1});
+    p_.texture("amount", name);
+    return "mix";
+  }
+  // A corner of a bilinear texture, which is one value.
+  void corner(std::string_view name, const SpectrumParameter& value) {
+    if (std::holds_alternative<Spectrum>(value)) return input(name, value);
+    p_.approximated(fmt::format("0.5 stands for the texture in its corner {}: pbrt takes none there", name));
+    input(name, ConstantSpectrum{0.5f});
+  }
   void input(std::string_view name, const SpectrumParameter& value) { p_.input(name, value, is_float_); }
 
   void encoding(Encoding encoding, float gamma) {
@@ -124,7 +173,7 @@ class TextureWriter {
 void write_textures(Writer& w) {
   for (std::size_t i = 0; i < w.scene.textures.size(); ++i) {
     const Texture& texture = w.scene.textures[i];
-    Parameters p(w, fmt::format("texture \"{}\"", w.textures[i]), texture.origin);
+    Parameters p(w, fmt::format("texture \"{}\"", w.textures[i]), texture.origin, RecordKind::texture);
     TextureWriter writer(p, texture.is_float);
     const char* kind = std::visit(writer, texture.model);
     if (!kind) {

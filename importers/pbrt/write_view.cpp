@@ -48,7 +48,7 @@ void lens(Parameters& p, const Lens& lens) {
 
 struct CameraWriter {
   Writer& w;
-  Parameters p{w, "camera", w.scene.camera_origin};
+  Parameters p{w, "camera", w.scene.camera_origin, RecordKind::camera};
 
   void operator()(const PerspectiveCamera& c) {
     const bool wide = w.scene.film.width > w.scene.film.height;
@@ -108,10 +108,10 @@ double iso_of(double ratio) {
 
 void write_film(Writer& w) {
   const FilmSettings& f = w.scene.film;
-  Parameters filter(w, "filter", w.scene.film_origin);
+  Parameters filter(w, "filter", w.scene.film_origin, RecordKind::film);
   const std::string kind = std::visit(FilterWriter{filter}, f.filter);
   w.line(fmt::format("PixelFilter \"{}\"{}", kind, filter.list()));
-  Parameters p(w, "film", w.scene.film_origin);
+  Parameters p(w, "film", w.scene.film_origin, RecordKind::film);
   p.integer("xresolution", f.width).integer("yresolution", f.height);
   const PixelRect& c = f.crop;
   if (c != PixelRect{0, f.width, 0, f.height})
@@ -136,11 +136,11 @@ void write_view(Writer& w) {
   int depth = s.max_depth;
   if (s.direct_only) {
     w.approximated("direct light alone becomes paths of one bounce; specular chains end there",
-                   w.scene.camera_origin);
+                   w.scene.integrator_origin, RecordKind::integrator);
     depth = 1;
   }
-  w.line(fmt::format("Integrator \"{}\" \"integer maxdepth\" {}",
-                     w.scene.media.empty() && s.straight_counts ? "path" : "volpath", depth));
+  w.line(fmt::format("Integrator \"{}\" \"integer maxdepth\" {}", w.scene.media.empty() ? "path" : "volpath",
+                     depth));
 }
 
 }  // namespace vitrail::pbrt

@@ -72,6 +72,13 @@ void Writer::transform(const Transform& t) {
   line(fmt::format("Transform [ {} ]", fmt::join(columns, " ")));
 }
 
+std::string Writer::add_name(std::vector<std::string>& names, std::string_view wanted) {
+  std::string name(wanted);
+  for (std::size_t n = names.size(); std::ranges::find(names, name) != names.end(); ++n)
+    name = fmt::format("{}-{}", wanted, n);
+  return names.emplace_back(std::move(name));
+}
+
 std::filesystem::path Writer::new_image() {
   std::error_code error;
   std::filesystem::create_directories(images_, error);
@@ -129,8 +136,11 @@ Parameters& Parameters::number(std::string_view name, double value) {
 
 Parameters& Parameters::number(std::string_view name, const FloatParameter& value) {
   if (const auto* constant = std::get_if<float>(&value)) return number(name, *constant);
-  list_ += fmt::format(" \"texture {}\" {}", name,
-                       in_quotes(writer_.textures.at(std::get<Id<Texture>>(value).value)));
+  return texture(name, writer_.textures.at(std::get<Id<Texture>>(value).value));
+}
+
+Parameters& Parameters::texture(std::string_view name, std::string_view texture) {
+  list_ += fmt::format(" \"texture {}\" {}", name, in_quotes(texture));
   return *this;
 }
 
@@ -142,10 +152,7 @@ void Parameters::tabulated(std::string_view name, const TabulatedSpectrum& table
 }
 
 Parameters& Parameters::spectrum(std::string_view name, const SpectrumParameter& value) {
-  if (const auto* texture = std::get_if<Id<Texture>>(&value)) {
-    list_ += fmt::format(" \"texture {}\" {}", name, in_quotes(writer_.textures.at(texture->value)));
-    return *this;
-  }
+  if (const auto* id = std::get_if<Id<Texture>>(&value)) return texture(name, writer_.textures.at(id->value));
   const auto& spectrum = std::get<Spectrum>(value);
   const auto rgb = [&](const std::array<float, 3>& c) { numbers(fmt::format("rgb {}", name), c); };
   if (const auto* constant = std::get_if<ConstantSpectrum>(&spectrum)) {
@@ -166,9 +173,19 @@ Parameters& Parameters::spectrum(std::string_view name, const SpectrumParameter&
   return *this;
 }
 
+Parameters& Parameters::albedo(std::string_view name, const SpectrumParameter& value) {
+  const auto* spectrum = std::get_if<Spectrum>(&value);
+  const auto* unbounded = spectrum ? std::get_if<RgbUnboundedSpectrum>(spectrum) : nullptr;
+  if (!unbounded || std::ranges::max(unbounded->rgb) <= 1) return this->spectrum(name, value);
+  approximated(fmt::format("its \"{}\" is written as samples of 1 nm: pbrt refuses colours above 1", name));
+  tabulated(name, each_nm(*spectrum));
+  return *this;
+}
+
 Parameters& Parameters::input(std::string_view name, const SpectrumParameter& value, bool is_float) {
   const auto* spectrum = std::get_if<Spectrum>(&value);
-  if (!is_float || !spectrum) return this->spectrum(name, value);
+  if (!is_float) return albedo(name, value);
+  if (!spectrum) return this->spectrum(name, value);
   return number(name, static_cast<float>(is_constant(*spectrum) ? evaluate(*spectrum, lambda_min_nm)
                                                                 : luminance(*spectrum)));
 }
@@ -180,8 +197,10 @@ Parameters& Parameters::emission(std::string_view name, const Spectrum& value) {
     list_ += fmt::format(" \"blackbody {}\" {}", name, hot->kelvin);
     return number("scale", hot->luminance);
   }
+  const double brightness = luminance(value);
+  if (!(brightness > 0)) return numbers(fmt::format("rgb {}", name), std::array{0, 0, 0});
   spectrum(name, value);
-  return number("scale", luminance(value));
+  return number("scale", brightness);
 }
 
 }  // namespace vitrail::pbrt

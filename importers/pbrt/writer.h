@@ -5,11 +5,14 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "importers/images/converted_images.h"
 #include "importers/mesh_files.h"
+#include "importers/opacity_key.h"
 #include "scene/scene.h"
 
 namespace vitrail::pbrt {
@@ -21,8 +24,16 @@ struct Writer {
   std::string text;
   Diagnostics diagnostics;
   std::vector<std::string> materials, textures, media, objects;  // names
+  // Of materials, as write_coverage finds it: which share of a surface is there, and of a blend the weight of
+  // its second material in that share. Textures may be new ones, which only `textures` knows.
+  std::vector<FloatParameter> coverage, amounts;
+  // What surface_of has written already: names of materials, and the product of two opacities.
+  std::string sheer, nothing;
+  std::map<std::uint32_t, std::string> shining;  // by the material of a shape
+  std::map<std::pair<OpacityKey, OpacityKey>, FloatParameter> alphas;
 
   Writer(const Scene& scene, const std::filesystem::path& out);
+  Writer(const Writer&) = delete;
 
   // ---- Text
   void line(std::string_view what) { text += fmt::format("{:{}}{}\n", "", indent, what); }
@@ -31,24 +42,27 @@ struct Writer {
   void transform(const Transform& t);  // nothing for the identity
   int indent = 0;
 
+  // A name that no other record of the names has; it is added to them.
+  static std::string add_name(std::vector<std::string>& names, std::string_view wanted);
   // The path of a new image in OUT-images/, which is created.
   std::filesystem::path new_image();
+  ConvertedImages images{[this] { return std::filesystem::absolute(new_image()); }};
 
   // ---- Diagnostics
-  void approximated(std::string message, const Origin& origin) {
-    note(Fidelity::approximated, std::move(message), origin);
+  void approximated(std::string message, const Origin& origin, RecordKind kind = RecordKind::any) {
+    note(Fidelity::approximated, std::move(message), origin, kind);
   }
-  void dropped(std::string message, const Origin& origin) {
-    note(Fidelity::dropped, std::move(message), origin);
+  void dropped(std::string message, const Origin& origin, RecordKind kind = RecordKind::any) {
+    note(Fidelity::dropped, std::move(message), origin, kind);
   }
 
  private:
   std::filesystem::path images_;  // OUT-images
   int image_count_ = 0;
 
-  void note(Fidelity fidelity, std::string message, const Origin& origin) {
+  void note(Fidelity fidelity, std::string message, const Origin& origin, RecordKind kind) {
     const SourceLocation place = location(scene, origin);
-    diagnostics.push_back({fidelity, std::move(message), place, place});
+    diagnostics.push_back({fidelity, std::move(message), place, place, kind});
   }
 };
 
@@ -57,8 +71,8 @@ std::string in_quotes(std::string_view text);
 // A parameter list that is being written; `owner` is what its diagnostics are about.
 class Parameters {
  public:
-  Parameters(Writer& writer, std::string owner, const Origin& origin)
-      : writer_(writer), owner_(std::move(owner)), origin_(origin) {}
+  Parameters(Writer& writer, std::string owner, const Origin& origin, RecordKind kind)
+      : writer_(writer), owner_(std::move(owner)), origin_(origin), kind_(kind) {}
 
   Parameters& text(std::string_view name, std::string_view value);
   Parameters& texts(std::string_view name, std::initializer_list<std::string_view> values);
@@ -72,16 +86,19 @@ class Parameters {
     return *this;
   }
   Parameters& number(std::string_view name, const FloatParameter& value);
+  Parameters& texture(std::string_view name, std::string_view texture);
   Parameters& spectrum(std::string_view name, const SpectrumParameter& value);
+  // The same where pbrt refuses an rgb above 1.
+  Parameters& albedo(std::string_view name, const SpectrumParameter& value);
   // An input of a texture of the kind that `is_float` says.
   Parameters& input(std::string_view name, const SpectrumParameter& value, bool is_float);
   // Of a light: pbrt sets spectra and blackbodies to luminance 1, times "scale".
   Parameters& emission(std::string_view name, const Spectrum& value);
 
   void approximated(std::string_view how) {
-    writer_.approximated(fmt::format("{}: {}", owner_, how), origin_);
+    writer_.approximated(fmt::format("{}: {}", owner_, how), origin_, kind_);
   }
-  void dropped(std::string_view why) { writer_.dropped(fmt::format("{}: {}", owner_, why), origin_); }
+  void dropped(std::string_view why) { writer_.dropped(fmt::format("{}: {}", owner_, why), origin_, kind_); }
   const std::string& list() const { return list_; }
   Writer& writer() { return writer_; }
 
@@ -91,6 +108,7 @@ class Parameters {
   Writer& writer_;
   std::string owner_;
   Origin origin_;
+  RecordKind kind_;
   std::string list_;
 };
 
@@ -98,15 +116,17 @@ class Parameters {
 void write_view(Writer& writer);
 void write_media(Writer& writer);
 void write_textures(Writer& writer);
+void write_coverage(Writer& writer);
 void write_materials(Writer& writer);
 void write_lights(Writer& writer);
 void write_shapes(Writer& writer);
 
-// The Shape's own parameters that come from its material: pbrt's masks are the "alpha" of shapes.
+// What a shape is made of: the name of its material, and which share of it is there. pbrt's masks are the
+// "alpha" of shapes. Writes what it needs for that: to be called outside of blocks of attributes.
 struct ShapeSurface {
-  Id<Material> material;
+  std::string material;
   FloatParameter alpha = 1.0f;
 };
-ShapeSurface surface_of(const Scene& scene, Id<Material> material);
+ShapeSurface surface_of(Writer& writer, const Shape& shape);
 
 }  // namespace vitrail::pbrt

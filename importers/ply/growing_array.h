@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "scene/huge_pages.h"
+#include "scene/memory_guard.h"
 
 namespace vitrail {
 
@@ -85,7 +86,12 @@ class GrowingArray {
     std::swap(capacity_, other.capacity_);
   }
   void grow(std::size_t least) {
-    const std::size_t capacity = std::max({least, 2 * capacity_, std::size_t{16}});
+    std::size_t capacity = std::max({least, 2 * capacity_, std::size_t{16}});
+    if (capacity - capacity_ >= (std::size_t{1} << 20) / sizeof(T)) {
+      if (!memory_allows((capacity - capacity_) * sizeof(T)))
+        capacity = std::max(least, capacity_ + capacity_ / 8);
+      ask_memory((capacity - capacity_) * sizeof(T));
+    }
     void* const grown = std::realloc(static_cast<void*>(data_), capacity * sizeof(T));
     if (!grown) throw std::bad_alloc();
     data_ = static_cast<T*>(grown);

@@ -15,6 +15,7 @@
 #include <new>
 
 #include "scene/diagnostics.h"
+#include "scene/input_files.h"
 
 namespace vitrail {
 
@@ -38,6 +39,7 @@ std::size_t most_inflated(const struct stat& status) {
 }  // namespace
 
 InputBytes::InputBytes(const std::filesystem::path& file) {
+  note_input(file);
   const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
   struct stat status = {};
   if (descriptor < 0 || ::fstat(descriptor, &status) != 0) {

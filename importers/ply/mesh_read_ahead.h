@@ -14,6 +14,7 @@
 #include <set>
 #include <string>
 
+#include "importers/ply/ply.h"
 #include "scene/scene.h"
 
 namespace vitrail {
@@ -23,7 +24,7 @@ namespace vitrail {
 class MeshReadAhead {
  public:
   struct Result {
-    TriangleMesh mesh;
+    PbrtPly ply;
     Diagnostics diagnostics;
   };
   using Reader = std::function<Result(const std::filesystem::path&)>;  // from any thread

@@ -115,14 +115,17 @@ void report_skipped(const Header& header, const BodyPlan& plan, const Attributes
 
 }  // namespace
 
-TriangleMesh read_ply(const std::filesystem::path& file, Diagnostics* diagnostics, PlyAttributes wanted) {
+namespace {
+
+Body read_file(const std::filesystem::path& file, Diagnostics* diagnostics, PlyAttributes wanted,
+               std::optional<PbrtQuads> quads) {
   const InputBytes bytes(file);
   const std::string name = file.string();
   TextCursor cursor(name, bytes.begin(), bytes.end());
   const Header header = read_header(cursor);
   const BodyPlan plan = make_plan(header, cursor);
   const Attributes attributes = wanted == PlyAttributes::read ? plan_attributes(header, plan) : Attributes{};
-  Body body = read_body(bytes, cursor, header, plan);
+  Body body = read_body(bytes, cursor, header, plan, quads);
   read_attributes(bytes, cursor, header, plan, attributes, body.mesh);
   if (diagnostics) {
     report_skipped(header, plan, attributes, *diagnostics);
@@ -131,8 +134,25 @@ TriangleMesh read_ply(const std::filesystem::path& file, Diagnostics* diagnostic
                               fmt::format("{} faces with fewer than three corners", body.dropped_faces),
                               header.elements[plan.faces->element].location});
     }
+    if (quads && body.polygons > 0) {
+      diagnostics->push_back(
+          {Fidelity::approximated,
+           fmt::format("{} faces with more than four corners, which pbrt leaves out", body.polygons),
+           header.elements[plan.faces->element].location});
+    }
   }
-  return std::move(body.mesh);
+  return body;
+}
+
+}  // namespace
+
+TriangleMesh read_ply(const std::filesystem::path& file, Diagnostics* diagnostics, PlyAttributes wanted) {
+  return read_file(file, diagnostics, wanted, {}).mesh;
+}
+
+PbrtPly read_pbrt_ply(const std::filesystem::path& file, PbrtQuads quads, Diagnostics* diagnostics) {
+  Body body = read_file(file, diagnostics, PlyAttributes::skip, quads);
+  return {std::move(body.mesh), std::move(body.patches)};
 }
 
 }  // namespace vitrail

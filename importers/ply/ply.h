@@ -21,4 +21,13 @@ enum class PlyAttributes { skip, read };
 TriangleMesh read_ply(const std::filesystem::path& file, Diagnostics* diagnostics = nullptr,
                       PlyAttributes wanted = PlyAttributes::skip);
 
+// What pbrt makes of faces of four corners a b c d: v3 the triangles a b c and d a c, v4 bilinear patches.
+enum class PbrtQuads { v3, v4 };
+struct PbrtPly {
+  TriangleMesh mesh;  // without the patches
+  std::vector<std::array<std::uint32_t, 4>>
+      patches;  // as tessellate_bilinear takes them, of the mesh's vertices
+};
+PbrtPly read_pbrt_ply(const std::filesystem::path& file, PbrtQuads quads, Diagnostics* diagnostics = nullptr);
+
 }  // namespace vitrail

@@ -26,8 +26,10 @@ namespace {
 template <class Source>
 class BodyReader {
  public:
-  BodyReader(const Source& source, const Header& header, const BodyPlan& plan)
-      : source_(source), header_(header), plan_(plan) {}
+  BodyReader(const Source& source, const Header& header, const BodyPlan& plan, std::optional<PbrtQuads> quads)
+      : source_(source), header_(header), plan_(plan) {
+    body_.quads = quads;
+  }
 
   Body read() {
     std::size_t last = plan_.vertex_element;
@@ -112,21 +114,22 @@ class BodyReader {
 };
 
 template <class Source>
-Body read(const InputBytes& bytes, const TextCursor& cursor, const Header& header, const BodyPlan& plan) {
-  return BodyReader<Source>(Source(bytes, cursor), header, plan).read();
+Body read(const InputBytes& bytes, const TextCursor& cursor, const Header& header, const BodyPlan& plan,
+          std::optional<PbrtQuads> quads) {
+  return BodyReader<Source>(Source(bytes, cursor), header, plan, quads).read();
 }
 
 }  // namespace
 
-Body read_body(const InputBytes& bytes, const TextCursor& cursor, const Header& header,
-               const BodyPlan& plan) {
+Body read_body(const InputBytes& bytes, const TextCursor& cursor, const Header& header, const BodyPlan& plan,
+               std::optional<PbrtQuads> quads) {
   switch (header.format) {
     case Format::ascii:
-      return read<AsciiSource>(bytes, cursor, header, plan);
+      return read<AsciiSource>(bytes, cursor, header, plan, quads);
     case Format::binary_big_endian:
-      return read<BinarySource<true>>(bytes, cursor, header, plan);
+      return read<BinarySource<true>>(bytes, cursor, header, plan, quads);
     default:
-      return read<BinarySource<false>>(bytes, cursor, header, plan);
+      return read<BinarySource<false>>(bytes, cursor, header, plan, quads);
   }
 }
 

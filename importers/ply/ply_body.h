@@ -4,6 +4,7 @@
 #include <array>
 #include <optional>
 
+#include "importers/ply/ply.h"
 #include "importers/ply/ply_header.h"
 #include "scene/scene.h"
 
@@ -31,10 +32,14 @@ struct BodyPlan {
 
 struct Body {
   TriangleMesh mesh;
+  std::optional<PbrtQuads> quads;  // else they are polygons as others are
+  std::vector<std::array<std::uint32_t, 4>> patches;
   std::uint64_t dropped_faces = 0;  // with fewer than three corners
+  std::uint64_t polygons = 0;       // with more than four
 };
 
 // `cursor` stands at the first byte of the body.
-Body read_body(const InputBytes& bytes, const TextCursor& cursor, const Header& header, const BodyPlan& plan);
+Body read_body(const InputBytes& bytes, const TextCursor& cursor, const Header& header, const BodyPlan& plan,
+               std::optional<PbrtQuads> quads = {});
 
 }  // namespace vitrail::ply

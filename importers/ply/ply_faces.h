@@ -18,12 +18,24 @@ class FaceSink {
       body_.mesh.triangles.push_back({corners[0], corners[1], corners[2]});
     } else if (corners.size() < 3) {
       ++body_.dropped_faces;
+    } else if (corners.size() == 4 && body_.quads) {
+      add_quad(corners[0], corners[1], corners[2], corners[3]);
     } else {
+      body_.polygons += corners.size() > 4;
       add_polygon(corners);
     }
   }
 
  private:
+  void add_quad(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
+    if (*body_.quads == PbrtQuads::v4) {
+      body_.patches.push_back({a, b, d, c});
+    } else {
+      body_.mesh.triangles.push_back({a, b, c});
+      body_.mesh.triangles.push_back({d, a, c});
+    }
+  }
+
   void add_polygon(std::span<const std::uint32_t> corners) {
     points_.clear();
     cut_.clear();

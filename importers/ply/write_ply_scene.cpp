@@ -97,12 +97,19 @@ Diagnostics write_ply_scene(const Scene& scene, const std::filesystem::path& fil
   note_geometry_only(scene, diagnostics);
   for (const Material& material : scene.materials) {
     const SourceLocation where = location(scene, material.origin);
-    diagnostics.push_back(
-        {Fidelity::dropped, fmt::format("material {}: PLY has none", material.name), where, where});
+    diagnostics.push_back({Fidelity::dropped, fmt::format("material {}: PLY has none", material.name), where,
+                           where, RecordKind::material});
   }
   for (const AreaLight& light : scene.area_lights) {
     const SourceLocation where = location(scene, light.origin);
-    diagnostics.push_back({Fidelity::dropped, "area light: PLY has none", where, where});
+    diagnostics.push_back(
+        {Fidelity::dropped, "area light: PLY has none", where, where, RecordKind::area_light});
+  }
+  if (const auto partly = std::ranges::find_if(
+          scene.shapes, [](const Shape& s) { return s.opacity != FloatParameter{1.0f}; });
+      partly != scene.shapes.end()) {
+    const SourceLocation where = location(scene, partly->origin);
+    diagnostics.push_back({Fidelity::dropped, "opacity of shapes: PLY has none", where, where});
   }
   if (std::ranges::any_of(scene.meshes, [](const TriangleMesh& m) { return !m.attributes.empty(); }))
     diagnostics.push_back({Fidelity::dropped, "attributes of meshes: not all shapes have the same", {}, {}});

@@ -7,6 +7,7 @@
 #include <set>
 #include <string>
 
+#include "importers/images/converted_images.h"
 #include "scene/color.h"
 #include "scene/scene.h"
 
@@ -30,6 +31,7 @@ struct Context {
   bool has_delta_lights = false;
   Diagnostics diagnostics;
   std::set<std::string> noted;
+  ConvertedImages images;
 
   // Each message once a place.
   void note(Fidelity fidelity, std::string message, const Origin& origin = {}) {

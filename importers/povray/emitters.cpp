@@ -16,17 +16,21 @@ bool is_black(const Scene& scene, Id<Material> material) {
 
 }  // namespace
 
-std::string use_of(const Context&, Id<Material> material, const Surface& surface) {
-  std::string text = fmt::format("texture {{ Material_{} }}", material.value);
-  if (!surface.back.empty()) text += fmt::format(" interior_texture {{ Back_{} }}", material.value);
-  if (!surface.interior.empty()) text += fmt::format(" interior {{ Interior_{} }}", material.value);
-  return text + "\n";
+std::string use_of(Context& context, const Shape& shape, const Surface& surface) {
+  const auto there = [&](const char* name) {
+    return weighted(context, shape.opacity, "Clear", fmt::format("{}_{}", name, shape.material.value),
+                    shape.origin);
+  };
+  std::string text = there("Material");
+  if (!surface.back.empty()) text += "interior_" + there("Back");
+  if (!surface.interior.empty()) text += fmt::format("interior {{ Interior_{} }}\n", shape.material.value);
+  return text;
 }
 
-std::string emitter_of(Context& context, Id<Material> material, const Surface& surface,
-                       const AreaLight& light) {
+std::string emitter_of(Context& context, const Shape& shape, const Surface& surface, const AreaLight& light) {
   if (light.directional)
     context.approximated("light along the normal only: shines in all directions", light.origin);
+  const std::uint32_t material = shape.material.value;
   const double factor = context.scene.film.imaging_ratio * light.scale;
   const Pigment radiance = pigment_of(context, light.radiance, light.origin, Colors::emissions);
   if (!radiance.filters.empty())
@@ -35,17 +39,20 @@ std::string emitter_of(Context& context, Id<Material> material, const Surface& s
   const std::string emission = fmt::format(
       "pigment {{ {} }} finish {{ diffuse 0 emission {} }}", radiance.is_constant ? "rgb 1" : radiance.text,
       color(radiance.is_constant ? radiance.constant * factor : RGB{1, 1, 1} * (factor * radiance.factor)));
+  const auto there = [&](const std::string& texture) {
+    return weighted(context, shape.opacity, "Clear", texture, shape.origin);
+  };
   std::string text;
-  if (is_black(context.scene, material)) {
-    text = fmt::format("texture {{ {} }}\n", emission);
+  if (is_black(context.scene, shape.material)) {
+    text = there(emission);
   } else {  // an average is the sum over the sum of its weights, which may be negative
-    text = fmt::format("texture {{ average texture_map {{ [1 Material_{}] [1 {}] [-1 Black] }} }}\n",
-                       material.value, emission);
-    if (!surface.interior.empty()) text += fmt::format("interior {{ Interior_{} }}\n", material.value);
+    text =
+        there(fmt::format("average texture_map {{ [1 Material_{}] [1 {}] [-1 Black] }}", material, emission));
+    if (!surface.interior.empty()) text += fmt::format("interior {{ Interior_{} }}\n", material);
   }
   if (light.two_sided) return text;
-  return text + fmt::format("interior_texture {{ {}_{} }}\n", surface.back.empty() ? "Material" : "Back",
-                            material.value);
+  return text + "interior_" +
+         there(fmt::format("{}_{}", surface.back.empty() ? "Material" : "Back", material));
 }
 
 }  // namespace vitrail::povray

@@ -55,7 +55,7 @@ std::string octahedral_pigment() {
 }  // namespace
 
 std::string environment_text(Context& context, const EnvironmentLight& light, const Origin& origin) {
-  const auto image = image_of(context, light.filename, Encoding::automatic, 1, origin);
+  const auto image = image_of(context, image_of(light), ImageUse::light, origin);
   const RGB factor = factor_rgb(light.scale) * context.scene.film.imaging_ratio;
   if (!image) return fmt::format("background {{ {} }}\n", color(factor * 0.5));
   if (light.illuminance)

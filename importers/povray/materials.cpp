@@ -65,8 +65,7 @@ class Builder {
     if (!id) return "";  // a constant height tilts nothing
     const auto* image = std::get_if<ImageTexture>(&context_.scene.textures.at(id->value).model);
     const auto file =
-        image ? image_of(context_, image->filename, image->encoding, image->gamma, material_.origin)
-              : std::optional<std::string>{};
+        image ? image_of(context_, *image, ImageUse::number, material_.origin) : std::optional<std::string>{};
     if (!file || !std::holds_alternative<UvMapping>(image->mapping)) {
       context_.dropped("displacement that is not an image by uv", material_.origin);
       return "";
@@ -272,26 +271,11 @@ class Builder {
 
   // ---- Made of others ---------------------------------------------------------------------------
 
-  Surface weighted(const FloatParameter& amount, const std::string& at_0, const std::string& at_1) {
-    if (const auto* id = std::get_if<Id<Texture>>(&amount)) {
-      if (const auto pattern = pattern_of(context_, *id, material_.origin))
-        return {fmt::format("texture {{ {} texture_map {{ [0 {}] [1 {}] }}{} }}\n", pattern->text, at_0, at_1,
-                            pattern->transform),
-                "", ""};
-    }
-    const double weight = std::clamp(constant(amount, "amount of a blend"), 0.0, 1.0);
-    if (weight == 0 || weight == 1)
-      return {fmt::format("texture {{ {} }}\n", weight == 0 ? at_0 : at_1), "", ""};
-    return {fmt::format("texture {{ average texture_map {{ [{} {}] [{} {}] }} }}\n", 1 - weight, at_0, weight,
-                        at_1),
-            "", ""};
-  }
-
   std::string name(Id<Material> id) { return fmt::format("Material_{}", id.value); }
   std::string interior(Id<Material> id) { return povray::surface_of(context_, id).interior; }
 
   Surface surface_of(const BlendMaterial& m) {
-    Surface surface = weighted(m.amount, name(m.first), name(m.second));
+    Surface surface{weighted(context_, m.amount, name(m.first), name(m.second), material_.origin), "", ""};
     const std::string first = interior(m.first), second = interior(m.second);
     if (!first.empty() && !second.empty() && first != second)
       approximated("blend of two interiors: the first one's index of refraction");
@@ -300,7 +284,7 @@ class Builder {
   }
 
   Surface surface_of(const MaskMaterial& m) {
-    Surface surface = weighted(m.opacity, "Clear", name(m.material));
+    Surface surface{weighted(context_, m.opacity, "Clear", name(m.material), material_.origin), "", ""};
     surface.interior = interior(m.material);
     return surface;
   }
@@ -316,6 +300,18 @@ class Builder {
 };
 
 }  // namespace
+
+std::string weighted(Context& context, const FloatParameter& amount, const std::string& at_0,
+                     const std::string& at_1, const Origin& user) {
+  if (const auto* id = std::get_if<Id<Texture>>(&amount))
+    if (const auto pattern = pattern_of(context, *id, user))
+      return fmt::format("texture {{ {} texture_map {{ [0 {}] [1 {}] }}{} }}\n", pattern->text, at_0, at_1,
+                         pattern->transform);
+  const double weight = std::clamp(constant_of(context, amount, "amount of a blend", user), 0.0, 1.0);
+  if (weight == 0 || weight == 1) return fmt::format("texture {{ {} }}\n", weight == 0 ? at_0 : at_1);
+  return fmt::format("texture {{ average texture_map {{ [{} {}] [{} {}] }} }}\n", 1 - weight, at_0, weight,
+                     at_1);
+}
 
 Surface surface_of(Context& context, Id<Material> material) {
   return Builder(context, context.scene.materials.at(material.value)).build();

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "importers/text_sink.h"
+#include "scene/mesh_uv.h"
 
 namespace vitrail::povray {
 
@@ -55,8 +56,17 @@ void put_normals(const MeshText& text, TextSink& out) {
   out.put(FMT_COMPILE(" }}\n"));
 }
 
+// Those of a triangle with an even number, and of one with an odd number.
+void put_missing_uvs(const MeshText& text, TextSink& out) {
+  out.put(FMT_COMPILE("uv_vectors {{ 6"));
+  for (const std::size_t triangle : {0u, 1u})
+    for (const Point2f& uv : missing_uvs(text.mesh.missing_uv, triangle))
+      out.put(FMT_COMPILE(", <{},{}>"), uv.x, uv.y);
+  out.put(FMT_COMPILE(" }}\n"));
+}
+
 void put_uvs(const MeshText& text, TextSink& out) {
-  if (text.mesh.uvs.empty()) return out.put(FMT_COMPILE("uv_vectors {{ 3, <0,0>, <1,0>, <1,1> }}\n"));
+  if (text.mesh.uvs.empty()) return put_missing_uvs(text, out);
   out.put(FMT_COMPILE("uv_vectors {{ {}"), text.mesh.uvs.size());
   for (const Point2f& uv : text.mesh.uvs) out.put(FMT_COMPILE(",\n<{},{}>"), uv.x, uv.y);
   out.put(FMT_COMPILE(" }}\n"));
@@ -74,7 +84,11 @@ void put_faces(const MeshText& text, TextSink& out) {
   out.put(FMT_COMPILE(" }}\n"));
   if (!text.with_uvs || !text.mesh.uvs.empty()) return;
   out.put(FMT_COMPILE("uv_indices {{ {}"), count);
-  for (std::ptrdiff_t i = 0; i < count; ++i) out.put(FMT_COMPILE(",\n<0,{},{}>"), second, third);
+  for (std::size_t i = 0; i < text.mesh.triangles.size(); ++i) {
+    const std::size_t first = 3 * (i % 2);
+    if (counts(text, text.mesh.triangles[i]))
+      out.put(FMT_COMPILE(",\n<{},{},{}>"), first, first + second, first + third);
+  }
   out.put(FMT_COMPILE(" }}\n"));
 }
 

@@ -12,7 +12,7 @@ namespace vitrail::povray {
 
 // Everything between the braces of a mesh2: the triangles that `to_pov` makes of the shape's mesh, their
 // outside (where POV-Ray applies `texture`, not `interior_texture`) the shape's front. Triangles without area
-// are left out; uvs are written if `with_uvs` (where the mesh has none, those that pbrt assumes).
+// are left out; uvs are written if `with_uvs`.
 struct MeshText {
   const TriangleMesh& mesh;
   Transform to_pov;

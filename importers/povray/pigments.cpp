@@ -105,8 +105,9 @@ std::string entry(Context& context, const SpectrumParameter& parameter, const Us
                      filter_of(use));
 }
 
-Pigment image(Context& context, const ImageTexture& texture, const Origin& origin, const Use& use) {
-  const auto file = image_of(context, texture.filename, texture.encoding, texture.gamma, origin);
+Pigment image(Context& context, const ImageTexture& texture, bool is_float, const Origin& origin,
+              const Use& use) {
+  const auto file = image_of(context, texture, is_float ? ImageUse::number : ImageUse::color, origin);
   if (!file) return grey(0.5, use);
   if (texture.wrap != Wrap::repeat)
     context.approximated("image that does not repeat: POV-Ray repeats it outside of (0,0) … (1,1)", origin);
@@ -204,7 +205,8 @@ Pigment attribute(Context& context, const MeshAttributeTexture& texture, const O
 Pigment build(Context& context, Id<Texture> id, const Use& use) {
   const Texture& texture = context.scene.textures.at(id.value);
   const Origin& origin = texture.origin;
-  if (const auto* t = std::get_if<ImageTexture>(&texture.model)) return image(context, *t, origin, use);
+  if (const auto* t = std::get_if<ImageTexture>(&texture.model))
+    return image(context, *t, texture.is_float, origin, use);
   if (const auto* t = std::get_if<CheckerboardTexture>(&texture.model))
     return checkerboard(context, *t, origin, use);
   if (const auto* t = std::get_if<ProductTexture>(&texture.model)) return product(context, *t, use);
@@ -252,7 +254,7 @@ std::optional<Pattern> pattern_of(Context& context, Id<Texture> id, const Origin
   const Texture& texture = context.scene.textures.at(id.value);
   const auto* t = std::get_if<ImageTexture>(&texture.model);
   if (!t) return {};
-  const auto file = image_of(context, t->filename, t->encoding, t->gamma, texture.origin);
+  const auto file = image_of(context, *t, ImageUse::number, texture.origin);
   if (!file) return {};
   if (t->scale != 1 || t->invert)
     context.approximated("image of weights with a scale or inverted: as it is in the file", user);

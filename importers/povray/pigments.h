@@ -31,10 +31,11 @@ struct Pattern {
 };
 std::optional<Pattern> pattern_of(Context& context, Id<Texture> texture, const Origin& user);
 
-// `image_map`'s own words for a file: `png "name" gamma srgb`; nothing where it is not there, or of a kind
-// that POV-Ray 3.7 does not read, which is noted.
-std::optional<std::string> image_of(Context& context, const std::string& filename, Encoding encoding,
-                                    float gamma, const Origin& origin);
+// `image_map`'s own words for a file: `png "name" gamma srgb`. A new file where POV-Ray would see something
+// else in the texture's own: through its alpha, grey as a colour's number, kinds that it does not read. Scale
+// and inversion are not in it. Nothing where the image cannot be read, which is noted.
+std::optional<std::string> image_of(Context& context, const ImageTexture& texture, ImageUse use,
+                                    const Origin& origin);
 
 // Whether uvs are needed to show the texture, or any that it refers to.
 bool uses_uvs(const Scene& scene, Id<Texture> texture);

@@ -27,7 +27,8 @@ class Writer {
  public:
   Writer(const Scene& scene, const std::filesystem::path& out)
       : out_(out),
-        context_{scene, out.parent_path(), units_of(scene), false, {}, {}},
+        context_{
+            scene, out.parent_path(), units_of(scene), false, {}, {}, ConvertedImages{images_beside(out)}},
         folder_(out.stem().string() + "-meshes") {}
 
   Diagnostics write() {
@@ -51,6 +52,17 @@ class Writer {
 
  private:
   const Scene& scene() const { return context_.scene; }
+
+  // OUT-images/000000.exr and so on.
+  static std::function<std::filesystem::path()> images_beside(const std::filesystem::path& out) {
+    return [folder = std::filesystem::absolute(out).parent_path() / (out.stem().string() + "-images"),
+            count = 0]() mutable {
+      std::error_code error;
+      std::filesystem::create_directories(folder, error);
+      if (error) throw MachineError(fmt::format("cannot create {}: {}", folder.string(), error.message()));
+      return folder / fmt::format("{:06}.exr", count++);
+    };
+  }
 
   static void save(const std::filesystem::path& path, const std::string& text) {
     AtomicFile file(path);
@@ -139,20 +151,30 @@ class Writer {
     const AreaLight* const light = light_of(shape);
     if (!light) return shape_text(shape, mesh, "");
     const auto rectangle = rectangle_of(mesh);
-    if (!rectangle || std::holds_alternative<Id<Texture>>(light->radiance)) {
+    const auto* share = std::get_if<float>(&shape.opacity);
+    const bool is_unseen = is_gone(shape);
+    if (!rectangle || !share || std::holds_alternative<Id<Texture>>(light->radiance)) {
       shines_without_source_ = true;
-      return shape_text(shape, mesh, "");
+      if (is_unseen)
+        context_.approximated("a light that nothing meets: it is in the way of other light", shape.origin);
+      return shape_text(shape, mesh, is_unseen ? "no_image no_reflection " : "");
     }
+    AreaLight source = *light;
+    if (!is_unseen) source.scale *= *share;
+    const std::string text = rectangle_light_text(context_, *rectangle, source);
     // The source stands for the mesh: it must not be in its light's way, nor be counted a second time.
-    return rectangle_light_text(context_, *rectangle, *light) +
-           shape_text(shape, mesh, "no_shadow no_radiosity ");
+    return is_unseen ? text : text + shape_text(shape, mesh, "no_shadow no_radiosity ");
   }
+
+  static bool is_gone(const Shape& shape) { return shape.opacity == FloatParameter{0.0f}; }
 
   MeshText text_of(const Shape& shape, const Transform& world_to_pov) const {
     const AreaLight* const light = light_of(shape);
     const auto* texture = light ? std::get_if<Id<Texture>>(&light->radiance) : nullptr;
+    const auto* opacity = std::get_if<Id<Texture>>(&shape.opacity);
     return {scene().meshes.at(shape.mesh.value), world_to_pov * shape.object_to_world, shape.flip_orientation,
-            uses_uvs(scene(), shape.material) || (texture && povray::uses_uvs(scene(), *texture))};
+            uses_uvs(scene(), shape.material) || (texture && povray::uses_uvs(scene(), *texture)) ||
+                (opacity && povray::uses_uvs(scene(), *opacity))};
   }
 
   const AreaLight* light_of(const Shape& shape) const {
@@ -161,12 +183,13 @@ class Writer {
 
   std::string shape_text(const Shape& shape, const MeshText& mesh, const char* flags) {
     const AreaLight* const light = light_of(shape);
-    if ((is_invisible(scene(), shape.material) && !light) || !has_area(mesh)) return "";
+    if (((is_invisible(scene(), shape.material) || is_gone(shape)) && !light) || !has_area(mesh)) return "";
     const Surface& surface = surfaces_.at(shape.material.value);
     std::string text = shape.name.empty() ? "" : "// " + one_line(shape.name) + "\n";
     text += "mesh2 {\n" + triangles(mesh);
-    text += light ? emitter_of(context_, shape.material, surface, *light)
-                  : use_of(context_, shape.material, surface);
+    Shape shining = shape;
+    if (is_gone(shape)) shining.opacity = 1.0f;  // of a light that nothing meets
+    text += light ? emitter_of(context_, shining, surface, *light) : use_of(context_, shape, surface);
     return text + flags + "}\n";
   }
 

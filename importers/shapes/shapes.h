@@ -39,13 +39,16 @@ TriangleMesh tessellate_cylinder(double radius, double zmin, double zmax, double
 TriangleMesh tessellate_cone(double radius, double height, double phimax_rad);
 TriangleMesh tessellate_paraboloid(double radius, double zmin, double zmax, double phimax_rad);
 
-// Four indices a patch: the corners at (u,v) = (0,0), (1,0), (0,1), (1,1). `normals` and `uvs` are empty or
-// have one entry a position. Planar patches become two triangles; if any patch is curved, all become n×n
-// grids, with the patch's own normals where none are given, and n such that the distance to the surface is ≤
-// 2e-4 of the patch's diagonal, as far as the mesh stays below eight million triangles and n ≤ 64.
+// pbrt's bilinear patches. Four indices a patch: the corners at (u,v) = (0,0), (1,0), (0,1), (1,1). `normals`
+// and `uvs` are empty or have one entry a position; without uvs each patch is the unit square. Patches become
+// two triangles each, as MissingUv::patches has them, where that shows neither in their surface nor, if
+// `uvs_show`, in where a texture lies: by no more than 2e-4 of a patch's diagonal or 2e-5 of half the mesh's.
+// Else all become n×n grids that are as close, as far as the mesh stays below eight million triangles and
+// n ≤ 64; curved ones with their own normals where none are given.
 TriangleMesh tessellate_bilinear(const std::vector<Point3f>& positions,
                                  const std::vector<std::array<std::uint32_t, 4>>& patches,
-                                 const std::vector<Normal3f>& normals, const std::vector<Point2f>& uvs);
+                                 const std::vector<Normal3f>& normals, const std::vector<Point2f>& uvs,
+                                 bool uvs_show = true);
 
 // Loop's subdivision (Loop 1987) with the weights of Warren (1995), which pbrt uses; boundary edges stay
 // boundaries (cubic B-spline). Vertices are then moved to the limit surface and carry its normals. Vertices

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "images/texture_values.h"
 #include "partitioner/appearance/bake_materials.h"
 #include "partitioner/appearance/bake_media.h"
 #include "partitioner/appearance/bake_textures.h"
@@ -33,17 +34,19 @@ class Notes {
 
 // What the shapes use, by the ids of the scene.
 struct Used {
-  std::vector<bool> materials, area_lights, media;
+  std::vector<bool> materials, area_lights, media, opacities;
 };
 
 Used used_in(const Scene& scene) {
   Used used{std::vector<bool>(scene.materials.size()), std::vector<bool>(scene.area_lights.size()),
-            std::vector<bool>(scene.media.size())};
+            std::vector<bool>(scene.media.size()), std::vector<bool>(scene.textures.size())};
   const auto use = [&](const Shape& shape) {
     used.materials.at(shape.material.value) = true;
     if (shape.area_light) used.area_lights.at(shape.area_light->value) = true;
     for (const auto& medium : {shape.interior, shape.exterior})
       if (medium) used.media.at(medium->value) = true;
+    if (const auto* texture = std::get_if<Id<Texture>>(&shape.opacity))
+      used.opacities.at(texture->value) = true;
   };
   for (const Shape& shape : scene.shapes) use(shape);
   std::vector<bool> reached(scene.prototypes.size());
@@ -136,7 +139,8 @@ struct LightBaker {
   }
   LightModel operator()(GoniometricLight l) const {
     l.intensity = resolved(l.intensity);
-    l.filename = textures.bake_image(l.filename, Encoding::automatic, 1, TextureUse::number, where);
+    l.filename = textures.bake_image(image_of(l), TextureUse::number, where);
+    l.encoding = {}, l.number = {};  // they are in its values
     return l;
   }
   LightModel operator()(DistantLight l) const {
@@ -149,7 +153,8 @@ struct LightBaker {
   }
   LightModel operator()(EnvironmentLight l) const {
     l.scale = resolved(l.scale);
-    l.filename = textures.bake_image(l.filename, Encoding::automatic, 1, TextureUse::illuminant, where);
+    l.filename = textures.bake_image(image_of(l), TextureUse::illuminant, where);
+    l.encoding = {}, l.primaries = {};  // they are in its values
     return l;
   }
 };
@@ -170,6 +175,9 @@ Appearance appearance_of(const Scene& scene, const std::filesystem::path& bundle
     result.area_lights.push_back(std::move(light));
     return true;
   });
+  result.opacities.resize(scene.textures.size(), 1.0f);
+  for (std::uint32_t i = 0; i < used.opacities.size(); ++i)
+    if (used.opacities[i]) result.opacities[i] = textures.bake(FloatParameter{Id<Texture>{i}});
   for (const Light& light : scene.lights) {
     result.lights.push_back(
         {std::visit(LightBaker{textures, location(scene, light.origin)}, light.model), {}});

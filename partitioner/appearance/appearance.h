@@ -21,6 +21,7 @@ struct Appearance {
   std::vector<AreaLight> area_lights;
   std::vector<Light> lights;
   std::vector<std::int32_t> material_ids, area_light_ids, medium_ids;
+  std::vector<FloatParameter> opacities;            // by texture of the scene that is some shape's opacity
   std::vector<std::int32_t> material_interiors;     // index of the medium that a material of the scene brings
   std::vector<TextureBaker::Attribute> attributes;  // the mesh attributes that textures read
   std::vector<TextureFileEntry> texture_files;

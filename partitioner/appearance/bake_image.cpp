@@ -2,29 +2,23 @@
 #include "partitioner/appearance/bake_image.h"
 
 #include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
+#include <limits>
+#include <utility>
+
+#include "bundle/texture_writer.h"
+#include "partitioner/appearance/row_halver.h"
 
 namespace vitrail {
 
 namespace {
 
 using Color = std::array<float, 3>;
-
-// One row or column of `count` numbers, `stride` apart, to max(1, count/2): each is the mean over its length.
-void halve(const float* from, int count, std::ptrdiff_t stride, float* to, std::ptrdiff_t to_stride) {
-  const int half = std::max(1, count / 2);
-  const double length = static_cast<double>(count) / half;
-  for (int i = 0; i < half; ++i) {
-    const double begin = i * length, end = i + 1 == half ? count : (i + 1) * length;
-    double sum = 0;
-    for (int k = static_cast<int>(begin); k < count && k < end; ++k)
-      sum += static_cast<double>(from[k * stride]) * (std::min(k + 1.0, end) - std::max<double>(k, begin));
-    to[i * to_stride] = static_cast<float>(sum / length);
-  }
-}
 
 Color color_at(const Image& image, std::size_t pixel) {
   const auto channels = static_cast<std::size_t>(image.channels);
@@ -33,18 +27,7 @@ Color color_at(const Image& image, std::size_t pixel) {
   return {value[0], value[1], value[2]};
 }
 
-float mean(const Color& c) {
-  return static_cast<float>(
-      (static_cast<double>(c[0]) + static_cast<double>(c[1]) + static_cast<double>(c[2])) / 3);
-}
-
-Image means(const Image& image) {
-  Image result = black_image(image.width, image.height, 1);
-  for (std::size_t p = 0; p < image.pixels(); ++p) result.values[p] = mean(color_at(image, p));
-  return result;
-}
-
-bool all_are_multiples(const Image& image, double of) {
+bool are_multiples(const Image& image, double of) {
   return std::all_of(image.values.begin(), image.values.end(), [of](float value) {
     const double v = static_cast<double>(value) * of;
     return v > -0.5 && v < of + 0.5 && std::abs(v - std::nearbyint(v)) < 0.01;
@@ -59,16 +42,31 @@ bool is_grey(const Image& image) {
   return true;
 }
 
-TexelFormat format_for(const Image& image, TextureUse use) {
-  if (use == TextureUse::number) return TexelFormat::number;
-  if (use == TextureUse::vector) {
-    if (all_are_multiples(image, 255)) return TexelFormat::vector_8;
-    return all_are_multiples(image, 65535) ? TexelFormat::vector_16 : TexelFormat::vector_float;
+// What all rows of an image have in common.
+struct Survey {
+  bool grey = true, of_255 = true, of_65535 = true;
+  float greatest = 0;
+
+  void add(const Image& image, TextureUse use) {
+    if (use == TextureUse::vector) {
+      of_255 = of_255 && are_multiples(image, 255);
+      of_65535 = of_65535 && are_multiples(image, 65535);
+    } else {
+      grey = grey && is_grey(image);
+      greatest = std::max(greatest, *std::max_element(image.values.begin(), image.values.end()));
+    }
   }
+};
+
+TexelFormat format_for(const Survey& all, TextureUse use) {
+  if (use == TextureUse::number) return TexelFormat::number;
+  if (use == TextureUse::vector)
+    return all.of_255     ? TexelFormat::vector_8
+           : all.of_65535 ? TexelFormat::vector_16
+                          : TexelFormat::vector_float;
   if (use == TextureUse::illuminant) return TexelFormat::illuminant;
-  if (is_grey(image)) return TexelFormat::number;
-  if (use == TextureUse::reflectance || *std::max_element(image.values.begin(), image.values.end()) <= 1)
-    return TexelFormat::reflectance;
+  if (all.grey) return TexelFormat::number;
+  if (use == TextureUse::reflectance || all.greatest <= 1) return TexelFormat::reflectance;
   return TexelFormat::unbounded;
 }
 
@@ -96,73 +94,121 @@ TexelWords spectral_words(const Color& c, TexelFormat format, const ReflectanceF
                static_cast<float>(scale)});
 }
 
-// The words of all texels, in the order of the image. Neighbours often have the same colour.
-std::vector<TexelWords> words_of(const Image& image, TexelFormat format, const ReflectanceFitter& fitter) {
-  std::vector<TexelWords> words(image.pixels());
+// Makes the words of texels. Colours come again, among neighbours and in coarser levels.
+class TexelMaker {
+ public:
+  TexelMaker(const TextureFileInfo& info, const ReflectanceFitter& fitter)
+      : format_(info.format),
+        fitter_(fitter),
+        most_known_(std::bit_ceil(std::min<std::size_t>(std::size_t{info.width} * info.height, 1 << 16))) {}
+
+  // Of all pixels, in the order of the image.
+  std::vector<TexelWords> words_of(const Image& image) {
+    std::vector<TexelWords> words(image.pixels());
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, words.size(), 1 << 14), [&](const auto& range) {
+      std::vector<Known>& known = known_.local();
+      for (std::size_t p = range.begin(); p != range.end(); ++p) words[p] = word(color_at(image, p), known);
+    });
+    return words;
+  }
+
+ private:
   struct Known {
-    Color color;
-    TexelWords words;
+    Color color{-1, -1, -1};  // colours of spectra are not negative
+    TexelWords words{};
   };
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, words.size(), 1 << 20), [&](const auto& range) {
-    std::vector<Known> known(std::min(std::bit_ceil(range.size()), std::size_t{1} << 16),
-                             Known{Color{-1, -1, -1}, {}});  // colours of spectra are not negative
-    for (std::size_t p = range.begin(); p != range.end(); ++p) {
-      const Color c = color_at(image, p);
-      if (format == TexelFormat::number) {
-        words[p] = {std::bit_cast<std::uint32_t>(c[0])};
-      } else if (format <= TexelFormat::vector_float) {
-        words[p] = vector_words(c, format);
-      } else {
-        std::uint32_t hash = 0;
-        for (const float v : c) hash = (hash ^ std::bit_cast<std::uint32_t>(v)) * 0x9e3779b1u;
-        Known& k = known[hash >> 16 & (known.size() - 1)];
-        if (k.color != c) k = {c, spectral_words(c, format, fitter)};
-        words[p] = k.words;
-      }
-    }
-  });
-  return words;
-}
 
-}  // namespace
+  TexelWords word(const Color& c, std::vector<Known>& known) const {
+    if (format_ == TexelFormat::number) return {std::bit_cast<std::uint32_t>(c[0])};
+    if (format_ <= TexelFormat::vector_float) return vector_words(c, format_);
+    known.resize(most_known_);
+    std::uint32_t hash = 0;
+    for (const float v : c) hash = (hash ^ std::bit_cast<std::uint32_t>(v)) * 0x9e3779b1u;
+    Known& k = known[hash >> 16 & (most_known_ - 1)];
+    if (k.color != c) k = {c, spectral_words(c, format_, fitter_)};
+    return k.words;
+  }
 
-Image halved(const Image& image) {
-  const auto channels = static_cast<std::ptrdiff_t>(image.channels);
-  Image narrow = black_image(std::max(1, image.width / 2), image.height, image.channels);
-  for (int y = 0; y < image.height; ++y)
-    for (std::ptrdiff_t c = 0; c < channels; ++c)
-      halve(&image.values[static_cast<std::size_t>(y * image.width * channels + c)], image.width, channels,
-            &narrow.values[static_cast<std::size_t>(y * narrow.width * channels + c)], channels);
-  Image small = black_image(narrow.width, std::max(1, image.height / 2), image.channels);
-  const std::ptrdiff_t row = narrow.width * channels;
-  for (std::ptrdiff_t x = 0; x < row; ++x)
-    halve(&narrow.values[static_cast<std::size_t>(x)], image.height, row,
-          &small.values[static_cast<std::size_t>(x)], row);
-  return small;
-}
+  TexelFormat format_;
+  const ReflectanceFitter& fitter_;
+  std::size_t most_known_;
+  tbb::enumerable_thread_specific<std::vector<Known>> known_;
+};
 
-WrittenTextureFile write_baked_image(const std::filesystem::path& file, Image values, TextureUse use,
-                                     bool all_levels, const ReflectanceFitter& fitter) {
+// Each level takes the rows of its image from the top, and hands those of the next one on.
+class Levels {
+ public:
+  Levels(TextureWriter& writer, const TextureFileInfo& info, const ReflectanceFitter& fitter)
+      : writer_(writer), info_(info), maker_(info, fitter), pending_(info.levels) {}
+
+  void add(std::uint32_t level, const Image& rows) {
+    const auto width = static_cast<std::size_t>(rows.width);
+    const std::vector<TexelWords> words = maker_.words_of(rows);
+    for (std::size_t at = 0; at < words.size(); at += width)
+      writer_.add_row(level, std::span(words).subspan(at, width));
+    if (level + 1 == info_.levels) return;
+    if (halvers_.size() <= level)
+      halvers_.emplace_back(rows.width, static_cast<int>(std::max(info_.height >> level, 1u)), rows.channels);
+    const std::size_t stride = width * static_cast<std::size_t>(rows.channels);
+    for (std::size_t at = 0; at < rows.values.size(); at += stride)
+      halvers_[level].add(std::span(rows.values).subspan(at, stride),
+                          [&](std::span<const float> half) { collect(level + 1, half, rows.channels); });
+  }
+
+  // After the last row.
+  void flush() {
+    for (std::uint32_t level = 1; level < info_.levels; ++level) flush(level);
+  }
+
+ private:
+  // Rows of enough pixels for all threads.
+  void collect(std::uint32_t level, std::span<const float> row, int channels) {
+    constexpr std::size_t enough = 1 << 18;
+    Image& rows = pending_[level];
+    rows.width = static_cast<int>(row.size()) / channels;
+    rows.channels = channels;
+    ++rows.height;
+    rows.values.insert(rows.values.end(), row.begin(), row.end());
+    if (rows.values.size() >= enough) flush(level);
+  }
+  void flush(std::uint32_t level) {
+    const Image rows = std::exchange(pending_[level], {0, 0, 0, {}});
+    if (rows.height > 0) add(level, rows);
+  }
+
+  TextureWriter& writer_;
+  TextureFileInfo info_;
+  TexelMaker maker_;
+  std::vector<Image> pending_;     // of each level
+  std::deque<RowHalver> halvers_;  // of each level but the last; they stay where they are
+};
+
+// What of the values counts.
+Image sane(Image values, TextureUse use) {
   const bool spectral = use != TextureUse::number && use != TextureUse::vector;
   const float most = use == TextureUse::reflectance ? 1 : std::numeric_limits<float>::max();
   for (float& v : values.values) {
     if (!std::isfinite(v)) v = 0;
     if (spectral) v = std::clamp(v, 0.0f, most);
   }
-  if (use == TextureUse::number && values.channels != 1) values = means(values);
-  const auto width = static_cast<std::uint32_t>(values.width);
-  const auto height = static_cast<std::uint32_t>(values.height);
-  const TextureFileInfo info{format_for(values, use), width, height,
+  return values;
+}
+
+}  // namespace
+
+WrittenTextureFile write_baked_image(const std::filesystem::path& file, const ImageRows& rows, TextureUse use,
+                                     bool all_levels, const ReflectanceFitter& fitter) {
+  Survey survey;
+  if (use != TextureUse::number)
+    rows.read([&](Image values) { survey.add(sane(std::move(values), use), use); });
+  const auto width = static_cast<std::uint32_t>(rows.width), height = static_cast<std::uint32_t>(rows.height);
+  const TextureFileInfo info{format_for(survey, use), width, height,
                              all_levels ? texture_level_count(width, height) : 1};
-  std::vector<std::vector<TexelWords>> words;
-  for (std::uint32_t level = 0; level < info.levels; ++level) {
-    if (level > 0) values = halved(values);
-    words.push_back(words_of(values, info.format, fitter));
-  }
-  return write_texture_file(file, info, [&](std::uint32_t level, std::uint32_t x, std::uint32_t y) {
-    const std::size_t w = std::max(width >> level, 1u), h = std::max(height >> level, 1u);
-    return words[level][(h - 1 - y) * w + x];
-  });
+  TextureWriter writer(file, info);
+  Levels levels(writer, info, fitter);
+  rows.read([&](Image values) { levels.add(0, sane(std::move(values), use)); });
+  levels.flush();
+  return writer.finish();
 }
 
 }  // namespace vitrail

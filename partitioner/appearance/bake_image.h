@@ -5,21 +5,18 @@
 #include <filesystem>
 
 #include "bundle/texture_file.h"
+#include "partitioner/appearance/image_rows.h"
 #include "partitioner/appearance/reflectance_fitter.h"
-#include "scene/image.h"
 
 namespace vitrail {
 
 // What the values of a texture count as.
 enum class TextureUse { reflectance, unbounded, illuminant, number, vector };
 
-// Half as large, rounded down but at least 1: each texel is the mean of its part of the image.
-Image halved(const Image& image);
-
-// Writes linear values, the top row first: all MIP levels or the finest. Images of greys become numbers, and
-// unbounded ones that stay within [0,1] reflectances. Values that are not finite count as 0. Throws
-// MachineError.
-WrittenTextureFile write_baked_image(const std::filesystem::path& file, Image values, TextureUse use,
+// Writes linear values of one channel or three (numbers: of one): all MIP levels or the finest. Images of
+// greys become numbers, and unbounded ones that stay within [0,1] reflectances. Values that are not finite
+// count as 0. The image is read twice and never in memory as a whole. Throws MachineError.
+WrittenTextureFile write_baked_image(const std::filesystem::path& file, const ImageRows& rows, TextureUse use,
                                      bool all_levels, const ReflectanceFitter& fitter);
 
 }  // namespace vitrail

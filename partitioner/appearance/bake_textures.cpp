@@ -4,11 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <limits>
+#include <memory>
 
-#include "images/image_files.h"
+#include "images/texture_values.h"
 #include "scene/rgb_to_spectrum.h"
 
 namespace vitrail {
@@ -39,29 +38,37 @@ Spectrum as_used(const Spectrum& spectrum, TextureUse use) {
   }
 }
 
-// The linear values of a texture's image: decoded, scaled, inverted.
-Image values_of(const ImageTexture& texture, StoredImage stored, TextureUse use) {
-  const bool automatic = texture.encoding == Encoding::automatic && use != TextureUse::vector;
-  const bool srgb = texture.encoding == Encoding::srgb || (automatic && stored.integer);
-  const auto gamma = static_cast<double>(texture.gamma), scale = static_cast<double>(texture.scale);
-  const auto decoded = [&](float of) {
-    auto value = static_cast<double>(of);
-    if (srgb) value = srgb_decode(std::clamp(value, 0.0, 1.0));
-    if (texture.encoding == Encoding::gamma) value = std::pow(std::max(value, 0.0), gamma);
-    value *= scale;
-    return static_cast<float>(texture.invert ? 1 - value : value);
+ImageUse image_use(TextureUse use) {
+  if (use == TextureUse::number) return ImageUse::number;
+  if (use == TextureUse::vector) return ImageUse::vector;
+  return use == TextureUse::illuminant ? ImageUse::light : ImageUse::color;
+}
+
+// The values of the texture, from its file. What has few of them is read but once.
+ImageRows rows_of(const ImageTexture& texture, const ImageLayout& layout, TextureUse use) {
+  constexpr std::size_t most_kept = 1 << 22;  // values
+  struct Kept {
+    std::vector<Image> rows;
+    std::size_t values = 0;
+    bool whole = false;
   };
-  // Most images have few different values.
-  struct Known {
-    float stored = std::numeric_limits<float>::quiet_NaN(), value = 0;
-  };
-  std::vector<Known> known(4096);
-  for (float& value : stored.image.values) {
-    Known& k = known[std::bit_cast<std::uint32_t>(value) * 0x9e3779b1u >> 20];
-    if (k.stored != value) k = {value, decoded(value)};
-    value = k.value;
-  }
-  return std::move(stored.image);
+  const auto kept = std::make_shared<Kept>();
+  return {layout.width, layout.height, [=](const std::function<void(Image)>& visit) {
+            if (kept->whole) {
+              for (const Image& rows : kept->rows) visit(rows);
+              return;
+            }
+            read_stored_rows(texture.filename, [&](StoredImage stored) {
+              Image values = texture_values(texture, std::move(stored), image_use(use));
+              kept->values += values.values.size();
+              if (kept->values <= most_kept)
+                kept->rows.push_back(values);
+              else
+                kept->rows.clear();
+              visit(std::move(values));
+            });
+            kept->whole = kept->values <= most_kept;
+          }};
 }
 
 bool needs_levels(TextureFilter filter) {
@@ -107,7 +114,7 @@ Id<Texture> TextureBaker::bake_vector(Id<Texture> texture) {
                           location(scene_, scene_.textures[texture.value].origin),
                           {}});
   ImageTexture flat;
-  flat.filename = write_image({1, 1, 3, {0.5f, 0.5f, 1}}, TextureUse::vector, false);
+  flat.filename = write_image(rows_of({1, 1, 3, {0.5f, 0.5f, 1}}), TextureUse::vector, false);
   return add(flat, TextureUse::vector);
 }
 
@@ -164,7 +171,9 @@ struct TextureBaker::Clone {
   }
   SpectrumParameter operator()(const UvTexture& t) const {
     ImageTexture image;
-    image.filename = baker.write_image(uv_image(), use, false);
+    image.filename = baker.write_image(
+        rows_of(use == TextureUse::number ? numbers_of(uv_image(), ImageNumber::luminance) : uv_image()), use,
+        false);
     image.mapping = t.mapping;
     return baker.add(image, use);
   }
@@ -197,10 +206,12 @@ SpectrumParameter TextureBaker::bake_texture(Id<Texture> texture, TextureUse use
 }
 
 SpectrumParameter TextureBaker::mean_of(Id<Texture> texture, TextureUse use, const char* what) {
+  const Texture& original = scene_.textures[texture.value];
+  const SourceLocation where = location(scene_, original.origin);
+  const std::string name = original.name.empty() ? "" : fmt::format(" \"{}\"", original.name);
   diagnostics_.push_back({Fidelity::approximated,
-                          fmt::format("a texture of {} is rendered as its mean", what),
-                          location(scene_, scene_.textures[texture.value].origin),
-                          {}});
+                          fmt::format("texture{} of {} is rendered as its mean", name, what), where, where,
+                          RecordKind::texture});
   return as_used(means_.of(SpectrumParameter{texture}).value, use);
 }
 
@@ -232,43 +243,53 @@ std::array<float, 3> attribute_value(RGB color, TextureUse use, const Reflectanc
 
 // ---- Files
 
-std::string TextureBaker::bake_image(const std::string& filename, Encoding encoding, float gamma,
-                                     TextureUse use, const SourceLocation& where) {
-  ImageTexture image;
-  image.filename = filename;
-  image.encoding = encoding;
-  image.gamma = gamma;
+std::string TextureBaker::bake_image(const ImageTexture& image, TextureUse use, const SourceLocation& where) {
   return bake_file(image, use, true, where);
 }
 
 std::string TextureBaker::bake_file(const ImageTexture& image, TextureUse use, bool all_levels,
                                     const SourceLocation& where) {
-  const ImageKey key{image.filename, image.encoding, image.gamma, image.scale, image.invert, use, all_levels};
+  const ImageNumber number = use == TextureUse::number ? image.number : ImageNumber{};
+  const ImageKey key{image.filename, image.encoding,  image.gamma, image.scale, image.invert,
+                     number,         image.primaries, use,         all_levels};
   if (const auto known = images_.find(key); known != images_.end()) return known->second;
-  StoredImage stored;
   try {
-    stored = read_stored_image(image.filename);
+    return images_[key] = write_file(image, use, all_levels, where);
   } catch (const Error& error) {
     throw Error(fmt::format("texture {}: {}", image.filename, error.what()), where);
   }
-  const auto size = static_cast<std::uint32_t>(std::max(stored.image.width, stored.image.height));
-  if (stored.image.pixels() == 0 || size > max_texture_size)
-    throw Error(fmt::format("texture {}: {} × {} pixels are not an image for a texture", image.filename,
-                            stored.image.width, stored.image.height),
-                where);
-  Image values = values_of(image, std::move(stored), use);
-  const auto broken =
-      std::count_if(values.values.begin(), values.values.end(), [](float v) { return !std::isfinite(v); });
+}
+
+std::string TextureBaker::write_file(const ImageTexture& image, TextureUse use, bool all_levels,
+                                     const SourceLocation& where) {
+  const ImageLayout layout = read_image_layout(image.filename);
+  const auto size = static_cast<std::uint32_t>(std::max(layout.width, layout.height));
+  if (std::min(layout.width, layout.height) <= 0 || size > max_texture_size)
+    throw Error(fmt::format("{} × {} pixels are not an image for a texture", layout.width, layout.height));
+  ImageRows rows = rows_of(use == TextureUse::number ? without_choice(image) : image, layout, use);
+  std::size_t broken = 0;
+  bool counted = false;  // in the first reading
+  rows.read = [&, read = rows.read](const std::function<void(Image)>& visit) {
+    read([&](Image values) {
+      if (!counted)
+        broken += static_cast<std::size_t>(std::count_if(values.values.begin(), values.values.end(),
+                                                         [](float v) { return !std::isfinite(v); }));
+      visit(std::move(values));
+    });
+    counted = true;
+  };
+  if (bundle_.empty()) rows.read([](const Image&) {});
+  const std::string name = write_image(rows, use, all_levels);
   if (broken > 0)
     diagnostics_.push_back(
         {Fidelity::approximated,
          fmt::format("texture {}: {} values are not finite and count as 0", image.filename, broken),
          where,
          {}});
-  return images_[key] = write_image(std::move(values), use, all_levels);
+  return name;
 }
 
-std::string TextureBaker::write_image(Image values, TextureUse use, bool all_levels) {
+std::string TextureBaker::write_image(const ImageRows& rows, TextureUse use, bool all_levels) {
   const std::string name = fmt::format("textures/{:06}.tex", files_.size());
   if (bundle_.empty()) {
     files_.push_back({name, 0, 0});
@@ -281,8 +302,7 @@ std::string TextureBaker::write_image(Image values, TextureUse use, bool all_lev
       throw MachineError(
           fmt::format("cannot create {}: {}", (bundle_ / "textures").string(), failure.message()));
   }
-  const WrittenTextureFile written =
-      write_baked_image(bundle_ / name, std::move(values), use, all_levels, fitter_);
+  const WrittenTextureFile written = write_baked_image(bundle_ / name, rows, use, all_levels, fitter_);
   files_.push_back({name, written.bytes, written.hash});
   return name;
 }

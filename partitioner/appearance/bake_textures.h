@@ -30,8 +30,7 @@ class TextureBaker {
   FloatParameter bake(const FloatParameter& parameter);
   Id<Texture> bake_vector(Id<Texture> texture);
   // Of a light: the name in the bundle. All MIP levels.
-  std::string bake_image(const std::string& filename, Encoding encoding, float gamma, TextureUse use,
-                         const SourceLocation& where);
+  std::string bake_image(const ImageTexture& image, TextureUse use, const SourceLocation& where);
 
   // Attributes of meshes that the clones refer to, by slot: the bundle's MeshAttributeTexture of the first is
   // named "0". A name that serves two uses has two slots.
@@ -51,7 +50,9 @@ class TextureBaker {
   SpectrumParameter mean_of(Id<Texture> texture, TextureUse use, const char* what);
   std::string bake_file(const ImageTexture& image, TextureUse use, bool all_levels,
                         const SourceLocation& where);
-  std::string write_image(Image values, TextureUse use, bool all_levels);
+  std::string write_file(const ImageTexture& image, TextureUse use, bool all_levels,
+                         const SourceLocation& where);
+  std::string write_image(const ImageRows& rows, TextureUse use, bool all_levels);
   Id<Texture> add(TextureModel model, TextureUse use);
   std::string slot_of(const std::string& attribute, TextureUse use);
   bool is_number(const SpectrumParameter& parameter) const;
@@ -65,7 +66,8 @@ class TextureBaker {
   std::vector<Attribute> attributes_;
   std::vector<TextureFileEntry> files_;
   std::map<std::pair<std::uint32_t, TextureUse>, SpectrumParameter> baked_;
-  using ImageKey = std::tuple<std::string, Encoding, float, float, bool, TextureUse, bool>;
+  using ImageKey =
+      std::tuple<std::string, Encoding, float, float, bool, ImageNumber, Primaries, TextureUse, bool>;
   std::map<ImageKey, std::string> images_;
 };
 

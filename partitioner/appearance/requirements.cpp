@@ -21,12 +21,13 @@ struct TextureCollector {
 
 namespace {
 
-// Textures of materials and area lights; those of other lights are not looked up on surfaces.
+// Textures of materials, opacities and area lights; those of other lights are not looked up on surfaces.
 std::vector<bool> textures_on_surfaces(const Manifest& m) {
   std::vector<bool> used(m.textures.size());
   records::TextureCollector collect{used};
   for (const Material& material : m.materials) records::fields(collect, material);
   for (const AreaLight& light : m.area_lights) records::fields(collect, light);
+  for (const Surface& surface : m.surfaces) records::fields(collect, surface.opacity);
   for (std::size_t i = used.size(); i-- > 0;)
     if (used[i]) records::fields(collect, m.textures[i]);
   return used;
@@ -89,6 +90,7 @@ Requirements requirements_of(const Manifest& m, bool has_normals) {
     std::visit(MaterialNeeds{r}, material.model);
     r.uv |= material.displacement || material.normal_map;
   }
+  for (const Surface& surface : m.surfaces) r.see_through |= surface.opacity != FloatParameter{1.0f};
   return r;
 }
 

@@ -15,6 +15,9 @@ namespace {
 
 // No domain should have more than this many times its even share of triangles.
 constexpr double most_load = 1.2;
+// A cell stays whole that has so many times its share of items and so many for each of its domains; both are
+// far from what meshes come to that have many triangles in a domain.
+constexpr double most_pieces = 8, few_items = 64;
 
 Cut choose(std::span<const Item> sample, const Subtree& s, const PlanRule& rule) {
   const double spare = most_load * rule.share * s.domains / std::max(1.0, static_cast<double>(sample.size()));
@@ -54,6 +57,13 @@ Halves halves(std::vector<Item> sample, Plane plane) {
   return h;
 }
 
+// Whether the plane cuts more than it parts, of items that have been cut again and again.
+bool parts_nothing(const Subtree& s, const PlanRule& rule, std::size_t items, const Halves& h) {
+  const auto n = static_cast<double>(items);
+  const double cut = static_cast<double>(h.below.size() + h.above.size()) - n;
+  return cut > n / 2 && n > most_pieces * rule.share * s.domains && n > few_items * rule.rate * s.domains;
+}
+
 std::uint32_t child_of(const Subtree& s) {
   return s.domains == 1 ? KdNode::leaf_bit | s.first_domain : s.node;
 }
@@ -68,22 +78,28 @@ void append(KdPlan& plan, const KdPlan& part) {
     plan.nodes.push_back(node);
   }
   plan.leaves.insert(plan.leaves.end(), part.leaves.begin(), part.leaves.end());
+  plan.samples.insert(plan.samples.end(), part.samples.begin(), part.samples.end());
 }
 
 }  // namespace
 
 KdPlan plan_kd_tree(std::vector<Item> sample, const Subtree& s, const PlanRule& rule,
                     std::span<KdNode> kd_nodes) {
-  if (s.domains <= rule.most_domains) return {{}, {s}};
+  if (s.domains <= rule.most_domains) return {{}, {s}, {sample.size()}};
   const auto [plane, domains_below] = choose(sample, s, rule);
   Subtree low{s.cell, s.node + 1, s.first_domain, domains_below, s.depth + 1};
   Subtree high{s.cell, s.node + domains_below, s.first_domain + domains_below, s.domains - domains_below,
                s.depth + 1};
   low.cell.upper[plane.axis] = high.cell.lower[plane.axis] = plane.split;
   const auto axis = static_cast<std::uint32_t>(plane.axis);
-  kd_nodes[s.node] = {plane.split, axis, child_of(low), child_of(high)};
-
+  const std::size_t items = sample.size();
   Halves half_samples = halves(std::move(sample), plane);
+  if (parts_nothing(s, rule, items, half_samples)) {
+    const std::uint32_t whole = KdNode::leaf_bit | s.first_domain;
+    kd_nodes[s.node] = {plane.split, axis, whole, whole};
+    return {{}, {s}, {items}};
+  }
+  kd_nodes[s.node] = {plane.split, axis, child_of(low), child_of(high)};
   KdPlan below, above;
   tbb::parallel_invoke([&] { below = plan_kd_tree(std::move(half_samples.below), low, rule, kd_nodes); },
                        [&] { above = plan_kd_tree(std::move(half_samples.above), high, rule, kd_nodes); });
@@ -91,10 +107,37 @@ KdPlan plan_kd_tree(std::vector<Item> sample, const Subtree& s, const PlanRule& 
   const auto first_above = static_cast<std::uint32_t>(1 + below.nodes.size());
   KdPlan plan{{{plane.split, axis, below.nodes.empty() ? KdNode::leaf_bit : 1,
                 above.nodes.empty() ? KdNode::leaf_bit | leaves : first_above}},
+              {},
               {}};
   append(plan, below);
   append(plan, above);
   return plan;
+}
+
+namespace {
+
+// The number of the child in the new tree.
+std::uint32_t compact_below(std::span<const KdNode> kd_nodes, std::uint32_t child, CompactTree& tree) {
+  if (!(child & KdNode::leaf_bit) && kd_nodes[child].below == kd_nodes[child].above)
+    child = kd_nodes[child].below;
+  if (child & KdNode::leaf_bit) {
+    tree.domains.push_back(child & ~KdNode::leaf_bit);
+    return KdNode::leaf_bit | static_cast<std::uint32_t>(tree.domains.size() - 1);
+  }
+  const std::size_t number = tree.nodes.size();
+  KdNode node = tree.nodes.emplace_back(kd_nodes[child]);
+  node.below = compact_below(kd_nodes, node.below, tree);
+  node.above = compact_below(kd_nodes, node.above, tree);
+  tree.nodes[number] = node;
+  return static_cast<std::uint32_t>(number);
+}
+
+}  // namespace
+
+CompactTree compact(std::span<const KdNode> kd_nodes) {
+  CompactTree tree;
+  compact_below(kd_nodes, kd_nodes.empty() ? KdNode::leaf_bit : 0, tree);
+  return tree;
 }
 
 }  // namespace vitrail

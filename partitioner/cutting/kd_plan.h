@@ -24,18 +24,29 @@ struct PlanRule {
   double share = 0;                // of the work of the whole scene's sample, that a domain should have
   std::uint32_t most_domains = 1;  // in a leaf of the plan, which has half as many at least where it can
   bool median = false;             // median_plane decides, for comparison
+  double rate = 1;                 // of the items, how many are in the sample
 };
 
 // Where to send triangles (`route`), and what is at the leaves.
 struct KdPlan {
   std::vector<KdNode> nodes;
   std::vector<Subtree> leaves;
+  std::vector<std::size_t> samples;  // in each leaf
 };
 
 // Divides until no leaf has more than `most_domains`. `sample`: of the cell's items. No domain
 // should have more than 1.2 times its share of them. Writes the nodes that it makes to `kd_nodes`, the whole
-// tree's. A cell in which nothing can be parted is halved: some of its domains stay empty.
+// tree's. A cell in which nothing can be parted is halved: some of its domains stay empty. But one whose
+// items are mostly pieces, of which the best plane would cut more than it parts, stays whole: a leaf of
+// several domains, of which the first has all, and whose node in `kd_nodes` has this domain on both sides.
 KdPlan plan_kd_tree(std::vector<Item> sample, const Subtree& subtree, const PlanRule& rule,
                     std::span<KdNode> kd_nodes);
+
+// The tree without the domains that are not there because a cell stayed whole.
+struct CompactTree {
+  std::vector<KdNode> nodes;
+  std::vector<std::uint32_t> domains;  // the old number of each
+};
+CompactTree compact(std::span<const KdNode> kd_nodes);
 
 }  // namespace vitrail

@@ -21,8 +21,8 @@ float inflate(float x, double padding, float towards) {
 // Collapses the binary tree and writes nodes and leaves, depth first.
 class Collapser {
  public:
-  Collapser(const BinaryTree& tree, unsigned leaf_size, double padding, BoxTree& out)
-      : tree_(tree), leaf_size_(leaf_size), padding_(padding), out_(out) {}
+  Collapser(const BinaryTree& tree, unsigned leaf_size, BoxTree& out)
+      : tree_(tree), leaf_size_(leaf_size), out_(out) {}
 
   void add_root() {
     if (is_leaf(tree_.root))
@@ -83,31 +83,30 @@ class Collapser {
   void set_box(BvhNode& node, int child, const BinaryNode& from) const {
     constexpr float infinity = std::numeric_limits<float>::infinity();
     for (int axis = 0; axis < 3; ++axis) {
-      node.lower[axis][child] = inflate(from.lower[axis], padding_, -infinity);
-      node.upper[axis][child] = inflate(from.upper[axis], padding_, infinity);
+      node.lower[axis][child] = inflate(from.lower[axis], 0, -infinity);
+      node.upper[axis][child] = inflate(from.upper[axis], 0, infinity);
     }
   }
 
   const BinaryTree& tree_;
   unsigned leaf_size_;
-  double padding_;
   BoxTree& out_;
 };
 
 }  // namespace
 
-BoxTree build_bvh(std::span<const Bounds3f> boxes, unsigned leaf_size, float padding) {
+BoxTree build_bvh(std::span<const Bounds3f> boxes, unsigned leaf_size) {
   BoxTree out;
   if (boxes.empty()) return out;
   const BinaryTree tree = build_binary_tree(boxes, leaf_size);
   out.nodes.reserve(boxes.size() / (3 * leaf_size) + 1);
   out.leaves.reserve(boxes.size() / 3 * 4 + leaf_size);
-  Collapser(tree, leaf_size, double{padding}, out).add_root();
+  Collapser(tree, leaf_size, out).add_root();
   return out;
 }
 
-std::vector<BvhNode> build_tree(std::span<const Bounds3f> boxes, float padding) {
-  BoxTree tree = build_bvh(boxes, 1, padding);
+std::vector<BvhNode> build_tree(std::span<const Bounds3f> boxes) {
+  BoxTree tree = build_bvh(boxes, 1);
   for (BvhNode& node : tree.nodes)
     for (std::uint32_t& child : node.child)
       if (child != BvhNode::empty && child & BvhNode::cluster_bit)
@@ -115,12 +114,19 @@ std::vector<BvhNode> build_tree(std::span<const Bounds3f> boxes, float padding) 
   return std::move(tree.nodes);
 }
 
-Bounds3f inflated(const Bounds3f& box, float padding) {
+double greatest(const Bounds3f& box) {
+  double most = 0;
+  for (int axis = 0; axis < 3 && !box.empty(); ++axis)
+    most = std::max({most, std::abs(double{box.lower[axis]}), std::abs(double{box.upper[axis]})});
+  return most;
+}
+
+Bounds3f inflated(const Bounds3f& box, double padding) {
   constexpr float infinity = std::numeric_limits<float>::infinity();
   Bounds3f out;
   for (int axis = 0; axis < 3; ++axis) {
-    out.lower[axis] = inflate(box.lower[axis], double{padding}, -infinity);
-    out.upper[axis] = inflate(box.upper[axis], double{padding}, infinity);
+    out.lower[axis] = inflate(box.lower[axis], padding, -infinity);
+    out.upper[axis] = inflate(box.upper[axis], padding, infinity);
   }
   return out;
 }

@@ -17,14 +17,15 @@ struct BoxTree {
 };
 
 // A binary tree by the surface area heuristic, collapsed to 8-wide nodes of least SAH cost. A box of the tree
-// is that of what it holds, inflated on every side by padding + 10⁻⁶|x|. The result depends neither on the
+// is that of what it holds, inflated on every side by 10⁻⁶|x|. The result depends neither on the
 // number of threads nor on the machine. No boxes give no nodes.
-BoxTree build_bvh(std::span<const Bounds3f> boxes, unsigned leaf_size, float padding);
+BoxTree build_bvh(std::span<const Bounds3f> boxes, unsigned leaf_size);
 
 // The same with a leaf for each box, BvhNode::cluster_bit | its position.
-std::vector<BvhNode> build_tree(std::span<const Bounds3f> boxes, float padding);
+std::vector<BvhNode> build_tree(std::span<const Bounds3f> boxes);
 
 // A box moved by padding + 10⁻⁶|x| on every side.
-Bounds3f inflated(const Bounds3f& box, float padding);
+Bounds3f inflated(const Bounds3f& box, double padding);
+double greatest(const Bounds3f& box);  // |coordinate|; 0 where empty
 
 }  // namespace vitrail

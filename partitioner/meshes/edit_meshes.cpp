@@ -15,13 +15,15 @@
 #include "partitioner/meshes/orient.h"
 #include "partitioner/meshes/repair.h"
 #include "scene/deferred_mesh.h"
+#include "scene/mesh_uv.h"
+#include "scene/uv_uses.h"
 
 namespace vitrail {
 
 namespace {
 
 struct Use {  // of a mesh by the scene's shapes
-  bool used = false, shines = false;
+  bool used = false, shines = false, uvs_show = false;
   bool front_inside = false;  // counter-clockwise in the mesh is clockwise in the world
   bool fronts_differ = false;
   Origin origin;
@@ -31,7 +33,7 @@ void note_uses(const std::vector<Shape>& shapes, std::vector<Use>& uses) {
   for (const Shape& shape : shapes) {
     Use& use = uses[shape.mesh.value];
     const bool inside = shape.flip_orientation != swaps_handedness(shape.object_to_world);
-    if (!use.used) use = {true, false, inside, false, shape.origin};
+    if (!use.used) use = {true, false, false, inside, false, shape.origin};
     use.shines |= shape.area_light.has_value();
     use.fronts_differ |= use.front_inside != inside;
   }
@@ -41,6 +43,8 @@ std::vector<Use> uses_of(const Scene& scene) {
   std::vector<Use> uses(scene.meshes.size());
   note_uses(scene.shapes, uses);
   for (const Prototype& prototype : scene.prototypes) note_uses(prototype.shapes, uses);
+  const std::vector<bool> uvs_show = meshes_whose_uvs_show(scene);
+  for (std::size_t i = 0; i < uses.size(); ++i) uses[i].uvs_show = uvs_show[i];
   return uses;
 }
 
@@ -105,11 +109,15 @@ TriangleMesh decimated(const TriangleMesh& mesh, double fraction, Notes& notes) 
   return std::move(result.mesh);
 }
 
+// What (u,v) a triangle without its own has depends on the triangle: where they show, they are written out.
 TriangleMesh edited(TriangleMesh mesh, const MeshEdits& edits, const Use& use, Notes& notes) {
+  const MissingUv missing_uv = mesh.missing_uv;
+  if (use.uvs_show) mesh = with_uvs(std::move(mesh));
   if (edits.repair) mesh = repaired(mesh, use, notes);
   if (edits.orient) mesh = oriented(mesh, use, notes);
   if (edits.subdivide > 0) mesh = subdivided(mesh, edits, notes);
   if (edits.decimate < 1) mesh = decimated(mesh, edits.decimate, notes);
+  mesh.missing_uv = missing_uv;
   return mesh;
 }
 

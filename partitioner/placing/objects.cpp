@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "partitioner/placing/objects.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <functional>
 
+#include "partitioner/placing/frame.h"
+#include "partitioner/placing/prototype_uses.h"
+#include "partitioner/placing/shared_shapes.h"
 #include "scene/deferred_mesh.h"
 
 namespace vitrail {
@@ -19,6 +20,22 @@ constexpr double most_condition = 1e4;
 
 double row_sum(const std::array<double, 4>& row) {
   return std::abs(row[0]) + std::abs(row[1]) + std::abs(row[2]);
+}
+
+double greatest(Vector3d v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
+
+Bounds3d around(Point3d p, double reach) {
+  const Vector3d r{reach, reach, reach};
+  return {p - r, p + r};
+}
+
+Bounds3d common(const Bounds3d& a, const Bounds3d& b) {
+  Bounds3d out;
+  for (int axis = 0; axis < 3; ++axis) {
+    out.lower[axis] = std::max(a.lower[axis], b.lower[axis]);
+    out.upper[axis] = std::min(a.upper[axis], b.upper[axis]);
+  }
+  return out;
 }
 
 double greatest_row(const Transform& t) {
@@ -62,44 +79,57 @@ Bounds3d world_bounds(const Placement& p) {
   return checked(box, p);
 }
 
+// The mesh's half, where it stands.
+FramePart part_of_mesh(const Placement& p) {
+  const MeshFocus focus = focus_of(*p.mesh);
+  return {transform_point(p.to_world, focus.centre), greatest_row(p.to_world) * focus.radius,
+          static_cast<double>(triangles_of(*p.mesh))};
+}
+
 class Planner {
  public:
   explicit Planner(const Scene& scene)
-      : scene_(scene), uses_(scene.prototypes.size()), object_of_(scene.prototypes.size(), -1) {
-    count(scene.instances, scene.prototypes.size());
-    for (std::size_t i = 0; i < scene.prototypes.size(); ++i) count(scene.prototypes[i].instances, i);
-  }
+      : scene_(scene), uses_(scene), shared_(scene), object_of_(scene.prototypes.size(), -1) {}
 
   ScenePlan plan() {
     for (std::size_t i = 0; i < scene_.prototypes.size(); ++i) {
-      const Prototype& prototype = scene_.prototypes[i];
-      if (uses_[i] < 2) continue;
+      if (uses_.uses(i) < 2) continue;
       Assembly object;
-      add(object, prototype.shapes, prototype.instances, {});
+      for (const Shape& shape : scene_.prototypes[i].shapes) add(object, shape, {});
+      add(object, i, scene_.prototypes[i].instances);
       const double bytes = triangle_bytes * own_triangles(object) +
                            instance_bytes * static_cast<double>(object.uses.size()) + file_bytes;
       const double copies = triangle_bytes * static_cast<double>(object.triangles);
-      const auto uses = static_cast<double>(uses_[i]);
-      if (object.triangles == 0 || bytes + instance_bytes * uses >= copies * uses) continue;
-      finish(object, false);
-      object_of_[i] = static_cast<int>(plan_.objects.size());
-      plan_.objects.push_back(std::move(object));
+      const auto uses = static_cast<double>(uses_.uses(i));
+      if (bytes + instance_bytes * uses >= copies * uses) continue;
+      object_of_[i] = static_cast<int>(add(std::move(object)));
     }
-    add(plan_.scene, scene_.shapes, scene_.instances, {});
-    if (plan_.scene.triangles >= no_triangle)
-      throw Error(fmt::format("the scene has {} triangles with all instances; the most is {}",
-                              plan_.scene.triangles, no_triangle - 1));
-    finish(plan_.scene, true);
+    plan_scene();
     return std::move(plan_);
   }
 
  private:
-  void count(const std::vector<Instance>& instances, std::size_t below) {
-    for (const Instance& instance : instances) {
-      if (instance.prototype.value >= below)
-        throw Error("a prototype holds itself", location(scene_, instance.origin));
-      ++uses_[instance.prototype.value];
+  void plan_scene() {
+    std::vector<std::uint32_t> object_of_group;
+    for (const Shape* shape : shared_.groups()) {
+      const TriangleMesh& mesh = scene_.meshes[shape->mesh.value];
+      Assembly object;
+      object.placements.push_back({&mesh, shape, {}, SharedShapes::flip_in_object(*shape), 0});
+      object.triangles = triangles_of(mesh);
+      object_of_group.push_back(add(std::move(object)));
     }
+    const auto shared = [&](std::size_t i) {
+      const auto group = shared_.group_of(i);
+      return group && can_be_kept(scene_.shapes[i].object_to_world) ? group : std::nullopt;
+    };
+    // Triangles of its own come first.
+    for (std::size_t i = 0; i < scene_.shapes.size(); ++i)
+      if (!shared(i)) add(plan_.scene, scene_.shapes[i], {});
+    for (std::size_t i = 0; i < scene_.shapes.size(); ++i)
+      if (const auto group = shared(i))
+        use(plan_.scene, object_of_group[*group], scene_.shapes[i].object_to_world);
+    add(plan_.scene, scene_.prototypes.size(), scene_.instances);
+    finish(plan_.scene, true);
   }
 
   static double own_triangles(const Assembly& a) {
@@ -108,45 +138,109 @@ class Planner {
     return sum;
   }
 
-  void add(Assembly& a, const std::vector<Shape>& shapes, const std::vector<Instance>& instances,
-           const Transform& outer) {
-    for (const Shape& shape : shapes) {
-      const TriangleMesh& mesh = scene_.meshes.at(shape.mesh.value);
-      if (triangles_of(mesh) == 0) continue;
-      a.placements.push_back(placement_of(mesh, shape, outer, a.triangles));
-      a.triangles += triangles_of(mesh);
-    }
-    for (const Instance& instance : instances) {
-      const Prototype& prototype = scene_.prototypes[instance.prototype.value];
-      const Transform t = outer * instance.prototype_to_world;
-      const int object = object_of_[instance.prototype.value];
-      const bool fits = object >= 0 && plan_.objects[static_cast<std::size_t>(object)].depth <
-                                           max_instance_depth - (&a == &plan_.scene ? 0 : 1);
-      if (!fits || !can_be_kept(t)) {
-        add(a, prototype.shapes, prototype.instances, t);
+  // Returns its index.
+  std::uint32_t add(Assembly object) {
+    finish(object, false);
+    plan_.objects.push_back(std::move(object));
+    return static_cast<std::uint32_t>(plan_.objects.size() - 1);
+  }
+
+  void add(Assembly& a, const Shape& shape, const Transform& outer) const {
+    const TriangleMesh& mesh = scene_.meshes.at(shape.mesh.value);
+    if (triangles_of(mesh) == 0) return;
+    a.placements.push_back(placement_of(mesh, shape, outer, a.triangles));
+    a.triangles += triangles_of(mesh);
+  }
+
+  void use(Assembly& a, std::uint32_t object, const Transform& t) const {
+    const Assembly& part = plan_.objects[object];
+    // Finished when the centre is known.
+    a.uses.push_back({object, affine(t * translate(part.centre)), a.triangles});
+    a.triangles += part.triangles;
+    a.depth = std::max(a.depth, part.depth + 1);
+  }
+
+  // The instances of a prototype, or of the scene, and those within what is copied of them.
+  void add(Assembly& a, std::size_t outer, const std::vector<Instance>& instances) const {
+    std::vector<Instance> open(instances.rbegin(), instances.rend());
+    while (!open.empty()) {
+      const Instance instance = open.back();
+      open.pop_back();
+      const std::uint32_t inner = instance.prototype.value;
+      const Transform& t = instance.prototype_to_world;
+      if (uses_.triangles(inner) == 0) continue;
+      if (object_of_[inner] >= 0 && uses_.may_keep(outer, inner) && can_be_kept(t)) {
+        use(a, static_cast<std::uint32_t>(object_of_[inner]), t);
         continue;
       }
-      const Assembly& part = plan_.objects[static_cast<std::size_t>(object)];
-      // Finished when the centre is known.
-      a.uses.push_back({static_cast<std::uint32_t>(object), affine(t * translate(part.centre)), a.triangles});
-      a.triangles += part.triangles;
-      a.depth = std::max(a.depth, part.depth + 1);
+      const Prototype& prototype = scene_.prototypes[inner];
+      for (const Shape& shape : prototype.shapes) add(a, shape, t);
+      for (std::size_t i = prototype.instances.size(); i-- > 0;) {
+        Instance& next = open.emplace_back(prototype.instances[i]);
+        next.prototype_to_world = t * next.prototype_to_world;
+      }
     }
   }
 
-  void finish(Assembly& a, bool is_scene) const {
+  void finish(Assembly& a, bool is_scene) {
     Bounds3d box, own;
     for (const Placement& p : a.placements) extend(own, world_bounds(p));
     if (!own.empty()) extend(box, own);
     for (const ObjectUse& use : a.uses) extend(box, box_of(use));
     if (box.empty()) return;
-    const Point3d c = is_scene ? cast<double>(cast<float>(center(box))) : center(box);
-    a.centre = {c.x, c.y, c.z};
+    const std::vector<FramePart> parts = parts_of(a);
+    const FramePart whole = whole_of(parts);
+    const Point3d origin =
+        is_scene ? origin_of(parts, box, viewpoint_of(scene_.camera)) : origin_of(parts, box, {});
+    a.centre = (is_scene ? cast<double>(cast<float>(origin)) : origin) - Point3d{};
+    a.radius = whole.radius;
+    if (is_scene) find_core(box, whole);
     for (ObjectUse& use : a.uses)
       for (int axis = 0; axis < 3; ++axis) use.to_parent.m[axis][3] -= a.centre[axis];
     if (!own.empty()) a.bounds = {cast<float>(own.lower - a.centre), cast<float>(own.upper - a.centre)};
     for (const ObjectUse& use : a.uses)
       extend(a.bounds, placed_bounds(use.to_parent, plan_.objects[use.object].bounds));
+  }
+
+  // Before the centre is taken off. The core is what of the parts is within `near_radii` of the half of them
+  // all.
+  void find_core(const Bounds3d& box, const FramePart& whole) {
+    constexpr double rounding = 0x1p-24, coarse = 1e-3;
+    const Assembly& a = plan_.scene;
+    const double reach = near_radii * whole.radius;
+    const Bounds3d limit = around(whole.centre, reach);
+    const bool is_compact = !(reach > 0) || common(limit, box) == box;
+    Bounds3d core;
+    const auto add = [&](const FramePart& part, auto&& box_of_part) {
+      plan_.coarse += rounding * greatest(part.centre - Point3d{} - a.centre) > coarse * part.radius;
+      if (!is_compact && greatest(part.centre - whole.centre) <= reach)
+        extend(core, common(limit, box_of_part()));
+    };
+    for (const Placement& p : a.placements)
+      add(part_of_mesh(p), [&] { return transformed(p.to_world, focus_of(*p.mesh).box); });
+    for (const ObjectUse& use : a.uses) add(part_of(use), [&] { return box_of(use); });
+    if (!core.empty())
+      plan_.core = Bounds3f{cast<float>(core.lower - a.centre), cast<float>(core.upper - a.centre)};
+  }
+
+  // Before the centre is taken off. Of very many, as many as are enough.
+  std::vector<FramePart> parts_of(const Assembly& a) const {
+    constexpr std::size_t enough = std::size_t{1} << 16;
+    const std::size_t count = a.placements.size() + a.uses.size(), step = (count + enough - 1) / enough;
+    std::vector<FramePart> parts;
+    for (std::size_t i = 0; i < count; i += step)
+      parts.push_back(i < a.placements.size() ? part_of_mesh(a.placements[i])
+                                              : part_of(a.uses[i - a.placements.size()]));
+    return parts;
+  }
+
+  FramePart part_of(const ObjectUse& use) const {
+    const auto& m = use.to_parent.m;
+    const Assembly& object = plan_.objects[use.object];
+    const auto row = [&](std::size_t i) { return std::abs(m[i][0]) + std::abs(m[i][1]) + std::abs(m[i][2]); };
+    return {{m[0][3], m[1][3], m[2][3]},
+            std::max({row(0), row(1), row(2)}) * object.radius,
+            static_cast<double>(object.triangles)};
   }
 
   // Before the parent's centre is taken off.
@@ -163,8 +257,9 @@ class Planner {
   }
 
   const Scene& scene_;
-  std::vector<std::uint64_t> uses_;  // of each prototype, by instances
-  std::vector<int> object_of_;       // −1: copied wherever it is used
+  PrototypeUses uses_;
+  SharedShapes shared_;
+  std::vector<int> object_of_;  // of each prototype; −1: copied wherever it is used
   ScenePlan plan_;
 };
 
@@ -173,15 +268,25 @@ class Planner {
 ScenePlan plan_scene(const Scene& scene) { return Planner(scene).plan(); }
 
 std::vector<Placement> expanded(const ScenePlan& plan, const std::function<bool(const Placement&)>& select) {
+  // Each object is asked once; what holds nothing that is wanted is not entered.
+  std::vector<std::vector<const Placement*>> wanted(plan.objects.size());
+  std::vector<bool> holds(plan.objects.size());
+  for (std::size_t i = 0; i < plan.objects.size(); ++i) {
+    for (const Placement& p : plan.objects[i].placements)
+      if (select(p)) wanted[i].push_back(&p);
+    holds[i] = !wanted[i].empty() || std::ranges::any_of(plan.objects[i].uses, [&](const ObjectUse& use) {
+      return holds[use.object];
+    });
+  }
   std::vector<Placement> out;
   const std::function<void(const ObjectUse&, const Affine&, std::uint64_t)> expand =
       [&](const ObjectUse& use, const Affine& chain, std::uint64_t first) {
+        if (!holds[use.object]) return;
         const Assembly& object = plan.objects[use.object];
-        for (Placement p : object.placements) {
-          if (!select(p)) continue;
-          p.first_triangle += first;
-          p.standing = Standing{object.centre, chain};
-          out.push_back(p);
+        for (const Placement* p : wanted[use.object]) {
+          Placement& placed = out.emplace_back(*p);
+          placed.first_triangle += first;
+          placed.standing = Standing{object.centre, chain};
         }
         for (const ObjectUse& inner : object.uses)
           expand(inner, compose(chain, inner.to_parent), first + inner.first_triangle);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "partitioner/placing/placement.h"
@@ -23,21 +24,26 @@ struct Assembly {
   std::vector<ObjectUse> uses;
   std::uint64_t triangles = 0;  // ids: of its own and of its uses, in their order
   Vector3d centre;
-  Bounds3f bounds;  // of all
-  int depth = 0;    // most uses within each other
+  double radius = 0;  // about it, on the greatest axis, half of the triangles lie
+  Bounds3f bounds;    // of all
+  int depth = 0;      // most uses within each other
 };
 
 struct ScenePlan {
   std::vector<Assembly> objects;  // with uses of earlier ones only
   Assembly scene;
+  std::optional<Bounds3f> core;  // of the scene, about its centre, without few parts that lie far away
+  std::uint64_t coarse =
+      0;  // shapes and instances that rounding moves by more than a thousandth of their size
 };
 
-// A prototype becomes an object where references to it take fewer bytes than copies of it. What a singular,
-// projective or extreme transform places is copied. Throws Error for vertices that are not finite where they
-// stand, and for 2³² − 1 triangles or more.
+// A prototype becomes an object where references to it take fewer bytes than copies of it, and so do shapes
+// that share a mesh (shared_shapes.h). What a singular, projective or extreme transform places is copied.
+// Throws Error for vertices that are not finite where they stand, and for 2³² − 1 triangles or more.
 ScenePlan plan_scene(const Scene& scene);
 
-// The placements of every use of the scene, as `select` chooses them, in the order of ids.
+// The placements of every use of the scene, as `select` chooses them, in the order of ids. It is asked once
+// for each placement of an object, however often that is used.
 std::vector<Placement> expanded(const ScenePlan& plan, const std::function<bool(const Placement&)>& select);
 
 }  // namespace vitrail

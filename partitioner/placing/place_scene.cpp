@@ -49,7 +49,7 @@ std::size_t blocks_of(const Placement& p) {
 
 // Triangles without area emit nothing and are left out.
 void take_emissive(const PlacedTriangles& placed, std::uint64_t at, std::size_t count, std::uint64_t first_id,
-                   std::uint32_t area_light, bool attributes, Emissive& out) {
+                   std::uint32_t area_light, bool attributes, const FloatParameter* opacity, Emissive& out) {
   for (std::size_t i = 0; i < count; ++i) {
     const Triangle& t = placed.triangles[at + i];
     const Vector3d normal =
@@ -62,6 +62,7 @@ void take_emissive(const PlacedTriangles& placed, std::uint64_t at, std::size_t 
     e.area_light = area_light;
     for (std::size_t slot = 0; attributes && slot < placed.attributes.size(); ++slot)
       out.attributes.push_back(placed.attributes[slot][at + i]);
+    if (opacity) out.opacities.push_back(*opacity);
   }
 }
 
@@ -77,6 +78,7 @@ void sort(Emissive& emissive, std::size_t slots) {
     sorted.triangles.push_back(emissive.triangles[i]);
     for (std::size_t slot = 0; slot < slots && !emissive.attributes.empty(); ++slot)
       sorted.attributes.push_back(emissive.attributes[i * slots + slot]);
+    if (!emissive.opacities.empty()) sorted.opacities.push_back(emissive.opacities[i]);
   }
   emissive = std::move(sorted);
 }
@@ -112,12 +114,19 @@ void place_scene(const World& world, std::uint64_t load_bytes,
 SceneTally::SceneTally(const World& world) : world_(world) {
   std::size_t blocks = 0;
   const std::vector<Surface>& surfaces = world.manifest.surfaces;
+  const auto note_opacity = [&](const FloatParameter& opacity) {
+    emissive_opacities_ = emissive_opacities_ || opacity != FloatParameter{1.0f};
+    emissive_attributes_ = emissive_attributes_ || reads_attribute(world.manifest.textures, opacity);
+  };
   for (const Placement& p : world.placements) {
     first_block_.push_back(blocks);
     blocks += blocks_of(p);
     const auto after = std::ranges::upper_bound(surfaces, p.first_triangle, {}, &Surface::first_triangle);
-    area_lights_.push_back(std::prev(after)->area_light);
+    surfaces_.push_back(static_cast<std::uint32_t>(after - surfaces.begin() - 1));
+    const Surface& surface = surfaces[surfaces_.back()];
+    if (surface.area_light >= 0) note_opacity(surface.opacity);
   }
+  for (const ShiningPlacement& shining : world.shining) note_opacity(shining.opacity);
   hashes_.resize(blocks);
   const Manifest& m = world.manifest;
   for (const AreaLight& light : m.area_lights)
@@ -140,13 +149,15 @@ void SceneTally::add(const Block& block, const PlacedTriangles& placed, std::uin
     for (const Triangle& t : std::span(placed.triangles).subspan(at, count))
       for (const Point3f& v : t) extend(bounds, v);
   Emissive emissive;
-  if (area_lights_[placement] >= 0)
+  if (const Surface& surface = world_.manifest.surfaces[surfaces_[placement]]; surface.area_light >= 0)
     take_emissive(placed, at, count, block.placement.first_triangle + block.begin,
-                  static_cast<std::uint32_t>(area_lights_[placement]), emissive_attributes_, emissive);
+                  static_cast<std::uint32_t>(surface.area_light), emissive_attributes_,
+                  emissive_opacities_ ? &surface.opacity : nullptr, emissive);
   const std::lock_guard lock(mutex_);
   if (!bounds.empty()) extend(bounds_, bounds);
   append(emissive_.triangles, emissive.triangles);
   append(emissive_.attributes, emissive.attributes);
+  append(emissive_.opacities, emissive.opacities);
 }
 
 void SceneTally::add_shining(const ShiningPlacement& shining) {
@@ -158,7 +169,8 @@ void SceneTally::add_shining(const ShiningPlacement& shining) {
   const std::size_t count = mesh.triangles.size();
   PlacedTriangles placed = make_room(rule, count);
   MeshPlacer(p, mesh, rule, fitter).place(0, count, placed, 0);
-  take_emissive(placed, 0, count, p.first_triangle, shining.area_light, emissive_attributes_, emissive_);
+  take_emissive(placed, 0, count, p.first_triangle, shining.area_light, emissive_attributes_,
+                emissive_opacities_ ? &shining.opacity : nullptr, emissive_);
 }
 
 // Instances, kept or copied, count as their boxes: the same bounds either way.
@@ -174,6 +186,7 @@ void SceneTally::finish(Manifest& m) {
   sort(emissive_, m.attributes);
   m.emissive_triangles = std::move(emissive_.triangles);
   m.emissive_attributes = std::move(emissive_.attributes);
+  m.emissive_opacities = std::move(emissive_.opacities);
   const std::uint64_t records = hash_of_records(m);
   Hasher hasher;
   hasher.add(std::as_bytes(std::span(hashes_)));

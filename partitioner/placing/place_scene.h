@@ -24,10 +24,11 @@ inline constexpr std::size_t block_triangles = 8192;  // that begin at multiples
 void place_scene(const World& world, std::uint64_t load_bytes,
                  const std::function<void(const Block&)>& visit);
 
-// Triangles that emit, and their mesh attributes where an area light reads one, [triangle][slot].
+// Triangles that emit, and what else a manifest has of them.
 struct Emissive {
   std::vector<EmissiveTriangle> triangles;
-  std::vector<CornerValues> attributes;
+  std::vector<CornerValues> attributes;   // [triangle][slot]
+  std::vector<FloatParameter> opacities;  // [triangle]
 };
 
 // What the placed triangles say of the scene, in whatever order they come.
@@ -37,20 +38,20 @@ class SceneTally {
 
   // The block's triangles, which are at `placed` from `at` on. From any thread.
   void add(const Block& block, const PlacedTriangles& placed, std::uint64_t at);
-  // bounds, scale, emissive_triangles and their attributes, scene_hash. The objects have been written.
+  // bounds, scale, emissive_triangles and what belongs to them, scene_hash. The objects have been written.
   void finish(Manifest& manifest);
 
  private:
   void add_shining(const ShiningPlacement& shining);
 
   const World& world_;
-  std::vector<std::size_t> first_block_;   // of each placement
-  std::vector<std::uint64_t> hashes_;      // of each block
-  std::vector<std::int32_t> area_lights_;  // of each placement
+  std::vector<std::size_t> first_block_;  // of each placement
+  std::vector<std::uint64_t> hashes_;     // of each block
+  std::vector<std::uint32_t> surfaces_;   // of each placement
   std::mutex mutex_;
   Bounds3f bounds_;
   Emissive emissive_;
-  bool emissive_attributes_ = false;
+  bool emissive_attributes_ = false, emissive_opacities_ = false;  // whether there are any
 };
 
 }  // namespace vitrail

@@ -122,10 +122,8 @@ CornerNormals MeshPlacer::normals(std::size_t i, const Triangle& placed) const {
   return encode_corner_normals(placed, normals);
 }
 
-// Where a mesh has none, pbrt's, which every triangle has.
 CornerUvs MeshPlacer::uvs(std::size_t i) const {
-  CornerUvs uv{{{0, 0}, {1, 0}, {1, 1}}};
-  for (std::size_t k = 0; k < 3 && !mesh_.uvs.empty(); ++k) uv[k] = mesh_.uvs[mesh_.triangles[i][k]];
+  CornerUvs uv = uvs_of(mesh_, i);
   if (placement_.flip) std::swap(uv[1], uv[2]);
   return uv;
 }
@@ -175,6 +173,8 @@ Surface surface_of(const Placement& p, const Appearance& appearance) {
                   new_id(appearance.medium_ids, p.shape->exterior)};
   if (!p.shape->interior && appearance.material_interiors.at(material) >= 0)
     surface.interior = appearance.material_interiors[material];
+  const auto* texture = std::get_if<Id<Texture>>(&p.shape->opacity);
+  surface.opacity = texture ? appearance.opacities.at(texture->value) : p.shape->opacity;
   return surface;
 }
 

@@ -11,13 +11,12 @@
 #include "bundle/instance.h"
 #include "partitioner/appearance/appearance.h"
 #include "scene/bounds.h"
-#include "scene/mesh.h"
+#include "scene/mesh_uv.h"
 
 namespace vitrail {
 
 using Triangle = std::array<Point3f, 3>;
 using CornerNormals = std::array<std::uint32_t, 3>;  // encode_normal
-using CornerUvs = std::array<Point2f, 3>;
 
 // Where an object stands whose triangles are to be the scene's own.
 struct Standing {

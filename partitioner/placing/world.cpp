@@ -89,15 +89,19 @@ World world_of(const Scene& scene, const std::filesystem::path& bundle, const Wo
   ScenePlan plan = plan_scene(scene);
   m.triangles = plan.scene.triangles;
   m.offset = plan.scene.centre;
+  m.core = plan.core;
+  world.coarse = plan.coarse;
   for (const ObjectUse& use : plan.scene.uses)
     extend(world.instance_bounds, placed_bounds(use.to_parent, plan.objects[use.object].bounds));
   bool normals = have_normals(plan.scene.placements, scene);
   for (const Assembly& object : plan.objects) normals = normals || have_normals(object.placements, scene);
   if (!options.keep_instances) expand_all(plan);
 
-  const auto light_of = [&](const Placement& p) { return surface_of(p, appearance).area_light; };
-  for (const Placement& p : expanded(plan, [&](const Placement& q) { return light_of(q) >= 0; }))
-    world.shining.push_back({p, static_cast<std::uint32_t>(light_of(p))});
+  const auto shines = [&](const Placement& p) { return surface_of(p, appearance).area_light >= 0; };
+  for (const Placement& p : expanded(plan, shines)) {
+    const Surface surface = surface_of(p, appearance);
+    world.shining.push_back({p, static_cast<std::uint32_t>(surface.area_light), surface.opacity});
+  }
   make_surfaces(appearance, plan.scene.placements, m);
   for (const Placement& p : plan.scene.placements) world.own_triangles += triangles_of(*p.mesh);
   world.placements = std::move(plan.scene.placements);

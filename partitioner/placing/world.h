@@ -23,7 +23,8 @@ struct WorldObject {
 
 struct ShiningPlacement {
   Placement placement;
-  std::uint32_t area_light = 0;  // index
+  std::uint32_t area_light = 0;   // index
+  FloatParameter opacity = 1.0f;  // of its surface
 };
 
 struct World {
@@ -36,6 +37,7 @@ struct World {
   std::vector<ObjectUse> uses;
   std::vector<ShiningPlacement> shining;
   Bounds3f instance_bounds;  // of all instances, kept or copied
+  std::uint64_t coarse = 0;  // as in ScenePlan
   std::vector<TextureBaker::Attribute> attributes;
 
   PlacementRule rule() const {
@@ -43,11 +45,11 @@ struct World {
   }
 };
 
-// Composes all transforms in double. `offset`, to be taken from the world's coordinates, is the centre of the
-// meshes' boxes, a point of floats. Ids run in scene order: the shapes, then each instance's shapes.
-// Materials and area lights that no triangle uses are left out. Throws Error for shapes that floats cannot
-// hold, and for 2³² − 1 triangles or more. Images are baked into the directory `bundle`, unless it is empty.
-// The scene outlives the world.
+// Composes all transforms in double. `offset`, to be taken from the world's coordinates, is where frame.h
+// finds the origin, a point of floats. Ids run in scene order: the shapes that are no instances of an object,
+// the others, then each instance's shapes. Materials and area lights that no triangle uses are left out.
+// Throws Error for shapes that floats cannot hold, and for 2³² − 1 triangles or more. Images are baked into
+// the directory `bundle`, unless it is empty. The scene outlives the world.
 World world_of(const Scene& scene, const std::filesystem::path& bundle, const WorldOptions& options = {});
 
 }  // namespace vitrail

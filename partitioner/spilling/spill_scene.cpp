@@ -10,8 +10,6 @@ namespace vitrail {
 
 namespace {
 
-constexpr std::uint64_t most_samples = 1u << 18;
-
 class Sampler {
  public:
   Sampler(const World& world, int shift) : world_(world), shift_(shift) {}
@@ -54,9 +52,10 @@ class Sampler {
 
 }  // namespace
 
-std::vector<Bounds3f> sample_of(const World& world, const std::vector<InstanceRef>& instances) {
+std::vector<Bounds3f> sample_of(const World& world, const std::vector<InstanceRef>& instances,
+                                std::uint64_t most) {
   int shift = 0;
-  while ((world.own_triangles >> shift) > most_samples) ++shift;
+  while ((world.own_triangles >> shift) > most) ++shift;
   for (const Placement& p : world.placements)
     if (p.mesh->deferred) shift = std::max(shift, p.mesh->deferred->sample_shift);
   Sampler sampler(world, shift);

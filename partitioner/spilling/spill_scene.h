@@ -8,8 +8,10 @@
 
 namespace vitrail {
 
-// The bounds of triangles chosen at random, at most some 3·10⁵, in the bundle's coordinates.
-std::vector<Bounds3f> sample_of(const World& world, const std::vector<InstanceRef>& instances);
+// The bounds of triangles chosen at random, at most about so many, in the bundle's coordinates.
+inline constexpr std::uint64_t most_samples = 1u << 18;
+std::vector<Bounds3f> sample_of(const World& world, const std::vector<InstanceRef>& instances,
+                                std::uint64_t most = most_samples);
 
 // Sends all triangles down the tree to the bucket of its leaf. `placed` is told how many, from any thread.
 void spill_scene(const World& world, const KdPlan& plan, std::uint64_t load_bytes, Spill& spill,

@@ -35,11 +35,18 @@ Bounds3f bounds_of(const Triangle& t) {
 }
 
 // The whole triangles', then the pieces'.
-std::vector<Bounds3f> boxes_of(const NumberedTriangles& triangles, const CellContent& cell) {
+std::vector<Bounds3f> boxes_of(const NumberedTriangles& triangles, const CellContent& cell, bool padded) {
   std::vector<Bounds3f> boxes;
   reserve_huge(boxes, cell.size());
-  for (const std::uint32_t i : cell.whole) boxes.push_back(bounds_of(triangles.triangles[i]));
-  for (const Piece& p : cell.pieces) boxes.push_back(bounds_of(cell.polygon(p)));
+  const auto add = [&](const Bounds3f& box, const Bounds3f& uncut) {
+    boxes.push_back(padded ? inflated(box, padding(greatest(uncut))) : box);
+  };
+  for (const std::uint32_t i : cell.whole) {
+    const Bounds3f box = bounds_of(triangles.triangles[i]);
+    add(box, box);
+  }
+  for (const Piece& p : cell.pieces)
+    add(bounds_of(cell.polygon(p)), bounds_of(triangles.triangles[p.triangle]));
   return boxes;
 }
 
@@ -73,8 +80,8 @@ void fill_cluster(const NumberedTriangles& triangles, std::span<const std::uint3
 
 }  // namespace
 
-DomainContent make_domain(const NumberedTriangles& triangles, const CellContent& cell, float padding) {
-  BoxTree tree = build_bvh(boxes_of(triangles, cell), cluster_width, padding);
+DomainContent make_domain(const NumberedTriangles& triangles, const CellContent& cell, bool padded) {
+  BoxTree tree = build_bvh(boxes_of(triangles, cell, padded), cluster_width);
   DomainContent content;
   content.pieces = name_triangles(cell, tree.leaves);
   content.nodes = std::move(tree.nodes);
@@ -106,14 +113,14 @@ DomainContent make_domain(const NumberedTriangles& triangles, const CellContent&
   return content;
 }
 
-void add_instances(std::vector<InstanceRef> instances, float padding, DomainContent& content) {
+void add_instances(std::vector<InstanceRef> instances, DomainContent& content) {
   std::vector<Bounds3f> boxes;
   for (InstanceRef& ref : instances) {
     boxes.push_back(box_of(ref));
-    set_box(ref, inflated(boxes.back(), padding));
+    set_box(ref, inflated(boxes.back(), 0));
   }
   content.instances = std::move(instances);
-  content.instance_nodes = build_tree(boxes, padding);
+  content.instance_nodes = build_tree(boxes);
 }
 
 StoreDomain domain_files(std::filesystem::path bundle) {
@@ -125,14 +132,13 @@ StoreDomain domain_files(std::filesystem::path bundle) {
 DomainInfo write_domain(const Manifest& manifest, const NumberedTriangles& triangles, const CellContent& cell,
                         std::vector<InstanceRef> instances, const StoreDomain& store, std::uint32_t index,
                         Census& census) {
-  const auto pad = static_cast<float>(padding(manifest));
-  DomainContent content = make_domain(triangles, cell, pad);
-  add_instances(std::move(instances), pad, content);
+  DomainContent content = make_domain(triangles, cell, true);
+  add_instances(std::move(instances), content);
   census.add(index, view_of(content), content.pieces, content.piece_vertices);
   DomainInfo info{.triangles = cell.size(), .pieces = cell.pieces.size()};
   info.tight_bounds = content_bounds(view_of(content));
-  info.occupancy =
-      occupancy_of(info.tight_bounds, view_of(content), content.pieces, content.piece_vertices, pad);
+  info.occupancy = occupancy_of(info.tight_bounds, view_of(content), content.pieces, content.piece_vertices,
+                                cell_margin(manifest));
   info.instances = content.instances.size();
   info.objects = needed_objects(manifest, content.instances);
   store(index, std::move(content), info);

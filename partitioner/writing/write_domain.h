@@ -11,9 +11,9 @@
 namespace vitrail {
 
 // What a file holds of these of the triangles.
-DomainContent make_domain(const NumberedTriangles& triangles, const CellContent& cell, float padding);
+DomainContent make_domain(const NumberedTriangles& triangles, const CellContent& cell, bool padded);
 // The boxes of the instances are not inflated yet.
-void add_instances(std::vector<InstanceRef> instances, float padding, DomainContent& content);
+void add_instances(std::vector<InstanceRef> instances, DomainContent& content);
 
 // Where domains go. Completes the domain's line in the manifest with what its file says. From any thread.
 using StoreDomain = std::function<void(std::uint32_t domain, DomainContent content, DomainInfo& info)>;

@@ -121,10 +121,10 @@ void write_object(const World& world, const WorldObject& o, std::uint32_t first,
     for (const std::uint32_t t : part)
       for (const Point3f& v : object.triangles[t]) extend(box, v);
     for (const InstanceRef& ref : refs) extend(box, box_of(ref));
-    DomainContent content = make_domain(object, {std::move(part), {}, {}}, 0);
+    DomainContent content = make_domain(object, {std::move(part), {}, {}}, false);
     ObjectInfo& info = infos[file];
     info = {o.assembly.triangles, 0, 0, o.first_surface, o.surface_count, objects_of(refs)};
-    add_instances(std::move(refs), 0, content);
+    add_instances(std::move(refs), content);
     info.bytes = write_domain_file(object_path(bundle, file), content, &info.hash);
   }
 }
@@ -198,17 +198,27 @@ std::vector<std::uint32_t> needed_objects(const Manifest& m, std::span<const Ins
   std::vector<std::uint32_t> objects;
   for (std::size_t i = needed.size(); i-- > 0;)
     if (needed[i]) {
-      objects.insert(objects.begin(), static_cast<std::uint32_t>(i));
+      objects.push_back(static_cast<std::uint32_t>(i));
       for (const std::uint32_t inner : m.objects[i].objects) needed[inner] = true;
     }
+  std::ranges::reverse(objects);
   return objects;
 }
 
-InstanceDealer::InstanceDealer(std::vector<InstanceRef> instances, float padding, const Bounds3f& root)
-    : instances_(std::move(instances)), padding_(padding), root_(root) {
+namespace {
+
+// A box of what an instance shows, all of which is in `whole`.
+Bounds3f padded(const Bounds3f& box, const Bounds3f& whole) {
+  return inflated(box, padding(greatest(whole)));
+}
+
+}  // namespace
+
+InstanceDealer::InstanceDealer(std::vector<InstanceRef> instances, const Bounds3f& root)
+    : instances_(std::move(instances)), root_(root) {
   std::vector<Bounds3f> boxes;
-  for (const InstanceRef& ref : instances_) boxes.push_back(box_of(ref));
-  tree_ = build_tree(boxes, padding);
+  for (const InstanceRef& ref : instances_) boxes.push_back(padded(box_of(ref), box_of(ref)));
+  tree_ = build_tree(boxes);
 }
 
 std::vector<InstanceRef> InstanceDealer::in(Bounds3f cell) const {
@@ -237,13 +247,14 @@ std::vector<InstanceRef> InstanceDealer::in(Bounds3f cell) const {
   std::vector<InstanceRef> refs;
   for (const std::uint32_t i : found) {
     InstanceRef ref = instances_[i];
-    Bounds3f box = inflated(box_of(ref), padding_);
+    const Bounds3f whole = box_of(ref);
+    Bounds3f box = padded(whole, whole);
     for (int axis = 0; axis < 3; ++axis) {
       box.lower[axis] = std::max(box.lower[axis], cell.lower[axis]);
       box.upper[axis] = std::min(box.upper[axis], cell.upper[axis]);
     }
     if (box.empty()) continue;
-    set_box(ref, box);
+    set_box(ref, padded(box, whole));
     refs.push_back(ref);
   }
   return refs;

@@ -32,14 +32,13 @@ std::vector<std::uint32_t> needed_objects(const Manifest& manifest, std::span<co
 class InstanceDealer {
  public:
   // `root`: the cell that is divided. What lies beyond it belongs to the cells at its border.
-  InstanceDealer(std::vector<InstanceRef> instances, float padding, const Bounds3f& root);
+  InstanceDealer(std::vector<InstanceRef> instances, const Bounds3f& root);
 
-  // Their boxes are clipped to the cell. From any thread.
+  // Their boxes, padded, are clipped to the cell. From any thread.
   std::vector<InstanceRef> in(Bounds3f cell) const;
 
  private:
   std::vector<InstanceRef> instances_;
-  float padding_;
   Bounds3f root_;
   std::vector<BvhNode> tree_;
 };

@@ -62,7 +62,7 @@ class Vitrail:
 
     def render(self, source, spp, seed):
         picture, stats = self.folder / "vitrail.exr", self.folder / "stats.json"
-        wall, cpu, _ = run([self.options.bin / "vitrail-render", source, "-o", picture, "--spp", spp, "--seed", seed,
+        wall, cpu, _ = run([self.options.bin / "vitrail-render", source, "-o", picture, "--force", "--spp", spp, "--seed", seed,
                             "--threads", self.options.threads, "--progress", "none", "--stats", stats])
         bitmap = mi.Bitmap(str(picture)).convert(mi.Bitmap.PixelFormat.RGB, mi.Struct.Type.Float32, False)
         return np.array(bitmap), wall, cpu, json.loads(stats.read_text())

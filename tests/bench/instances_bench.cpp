@@ -50,21 +50,18 @@ struct Kept {
   Kept(const Triangles& triangles, const std::vector<Affine>& where) : object(cluster(triangles)) {
     object_view = view_of(object);
     objects[0] = &object_view;
-    Bounds3f bounds, all;
+    Bounds3f bounds;
     for (const Triangle& t : triangles)
       for (const Point3f p : t) extend(bounds, p);
     std::vector<Bounds3f> boxes;
     for (const Affine& a : where) {
       boxes.push_back(placed_bounds(a, bounds));
-      extend(all, boxes.back());
     }
-    const float scale = std::max({all.upper.x, all.upper.y, all.upper.z, -all.lower.x, -all.lower.y});
-    domain.padding = 2e-6f * scale;
     for (std::size_t i = 0; i < where.size(); ++i) {
       refs.push_back({where[i], {}, {}, 0, static_cast<std::uint32_t>(i * triangles.size())});
-      set_box(refs.back(), inflated(boxes[i], domain.padding));
+      set_box(refs.back(), inflated(boxes[i], padding(greatest(boxes[i]))));
     }
-    nodes = build_tree(boxes, domain.padding);
+    nodes = build_tree(boxes);
     domain.instances = refs;
     domain.instance_nodes = nodes;
     domain.objects = objects;

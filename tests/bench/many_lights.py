@@ -83,7 +83,7 @@ def scattered():
 
 def seconds(options, bundle, spp, folder):
     stats = folder / "stats.json"
-    subprocess.run([options.bin / "vitrail-render", bundle, "-o", folder / "room.film", "--spp", str(spp), "--threads",
+    subprocess.run([options.bin / "vitrail-render", bundle, "-o", folder / "room.film", "--force", "--spp", str(spp), "--threads",
                     str(options.threads), "--progress", "none", "--stats", stats], check=True)
     return json.loads(stats.read_text())
 

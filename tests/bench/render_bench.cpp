@@ -125,7 +125,7 @@ void against_the_bare_intersector(const std::filesystem::path& bundle, int spp) 
 
 nlohmann::json run_once(const TemporaryDirectory& directory, int domains, int ranks, int spp) {
   const auto stats = directory / "stats.json";
-  const CommandResult done = run(fmt::format("{} '{}' -o '{}' --threads 1 --spp {} --stats '{}'",
+  const CommandResult done = run(fmt::format("{} '{}' -o '{}' --force --threads 1 --spp {} --stats '{}'",
                                              ranks > 1 ? mpi_vitrail("render", ranks) : vitrail("render"),
                                              (directory / fmt::format("{}.vit", domains)).string(),
                                              (directory / "picture.film").string(), spp, stats.string()));

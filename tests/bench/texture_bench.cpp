@@ -31,8 +31,10 @@ struct Bundle {
   explicit Bundle(int size) {
     std::filesystem::create_directories(directory / "textures");
     const ReflectanceFitter fitter;
-    write_baked_image(directory / "textures/0.tex", noise(size, 8), TextureUse::reflectance, true, fitter);
-    write_baked_image(directory / "textures/1.tex", noise(size, 8), TextureUse::number, true, fitter);
+    write_baked_image(directory / "textures/0.tex", rows_of(noise(size, 8)), TextureUse::reflectance, true,
+                      fitter);
+    write_baked_image(directory / "textures/1.tex", rows_of(noise(size, 8)), TextureUse::number, true,
+                      fitter);
     ImageTexture image;
     image.filename = "textures/0.tex";
     add(image);
@@ -98,7 +100,8 @@ void bake(benchmark::State& state) {
   const test::TemporaryDirectory directory;
   const Image image = noise(512, static_cast<int>(state.range(0)));
   const ReflectanceFitter fitter;
-  for (auto _ : state) write_baked_image(directory / "a.tex", image, TextureUse::reflectance, false, fitter);
+  for (auto _ : state)
+    write_baked_image(directory / "a.tex", rows_of(image), TextureUse::reflectance, false, fitter);
   state.counters["texels"] = benchmark::Counter(static_cast<double>(image.pixels() * state.iterations()),
                                                 benchmark::Counter::kIsRate);
 }

@@ -174,7 +174,8 @@ TEST(CorruptionOfBundle, LoadedDomainsHaveTheirObjects) {
   const auto domain = load_domain(m, directory.path(), 2);
   ASSERT_EQ(domain->view().objects.size(), 2u);
   EXPECT_EQ(domain->view().objects[1]->instances[0].object, 0u);
-  EXPECT_EQ(domain->view().padding, static_cast<float>(padding(m)));
+  EXPECT_EQ(domain->view().objects[1]->reach, reach_of(*domain->view().objects[1]));
+  EXPECT_GT(domain->view().objects[1]->reach, 0);
 }
 
 }  // namespace

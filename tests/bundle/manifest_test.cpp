@@ -49,6 +49,16 @@ TEST_F(ManifestFile, ComesBackAsItWas) {
   EXPECT_EQ(r.scene_hash, m.scene_hash);
 }
 
+TEST_F(ManifestFile, OpacitiesOfWhatShines) {
+  Manifest m = sample_manifest();
+  m.emissive_opacities.assign(m.emissive_triangles.size(), 0.25f);
+  EXPECT_EQ(written_and_read(m).emissive_opacities, m.emissive_opacities);
+  m.emissive_attributes.clear();
+  const Manifest r = written_and_read(m);
+  EXPECT_EQ(r.emissive_opacities, m.emissive_opacities);
+  EXPECT_TRUE(r.emissive_attributes.empty());
+}
+
 TEST_F(ManifestFile, EveryFilterAndCamera) {
   Manifest m = sample_manifest();
   m.camera = PerspectiveCamera{scale({1e-7, 2, 3}), {-0.1, 0.2, -0.3, 0.4}};
@@ -100,6 +110,8 @@ TEST_F(ManifestFile, WrongContentIsFound) {
       [](Manifest& m) { m.surfaces[1].area_light = 2; },
       [](Manifest& m) { m.surfaces[1].area_light = -2; },
       [](Manifest& m) { m.surfaces[0].interior = 2; },
+      [](Manifest& m) { m.surfaces[0].opacity = Id<Texture>{2}; },
+      [](Manifest& m) { m.emissive_opacities.resize(m.emissive_triangles.size() + 1); },
       [](Manifest& m) { m.camera_medium = 2; },
       [](Manifest& m) { m.materials[0].normal_map = Id<Texture>{2}; },
       [](Manifest& m) { std::get<BlendMaterial>(m.materials[2].model).first = {2}; },  // itself

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <fstream>
+#include <map>
 
 #include "tests/support/command.h"
 #include "tests/support/temporary_directory.h"
@@ -48,6 +49,36 @@ TEST_F(Convert, SaysWhatBecameOfEachItem) {
     EXPECT_THAT(item.at("notes").at(0).at("what").get<std::string>(), HasSubstr("plastic"));
   }
   EXPECT_TRUE(found) << report.dump(1);
+}
+
+TEST_F(Convert, RecordsOfOnePlaceAreTwoItems) {
+  write("in.mtl", "newmtl wood\nKd 1 1 1\nKs 1 1 1\nillum 2\nmap_Kd -t 1 1 1 wood.png\n");
+  write("wood.png", "");
+  const std::string in = write("in.obj", "mtllib in.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl wood\nf 1 2 3\n");
+  const auto result = convert(in + " " + path("out.pbrt") + " --report " + path("report.json"));
+  EXPECT_EQ(result.status, 0) << result.output;
+  std::map<std::string, std::string> fidelity;
+  const nlohmann::json report = test::read_json(path("report.json"));
+  for (const auto& item : report.at("items")) fidelity[item.at("item")] = item.at("fidelity");
+  EXPECT_EQ(fidelity.at("texture"), "exact") << "what is lost is the material's";
+  EXPECT_EQ(fidelity.at("material \"wood\""), "dropped");
+}
+
+TEST_F(Convert, EveryItemIsThere) {
+  const std::string in = write(
+      "in.pbrt",
+      "LookAt 0 0 5 0 0 0 0 1 0\nCamera \"perspective\"\nSampler \"halton\" \"integer pixelsamples\" 8\n"
+      "Integrator \"path\"\nPixelFilter \"box\"\nFilm \"rgb\"\nWorldBegin\nMaterial \"diffuse\"\n" +
+          triangle_);
+  const auto result = convert(in + " " + path("out.xml") + " --report " + path("report.json"));
+  EXPECT_EQ(result.status, 0) << result.output;
+  std::map<std::string, int> lines;
+  const nlohmann::json report = test::read_json(path("report.json"));
+  for (const auto& item : report.at("items")) lines[item.at("item")] = item.at("line");
+  EXPECT_EQ(
+      lines,
+      (std::map<std::string, int>{
+          {"camera", 2}, {"sampler", 3}, {"integrator", 4}, {"film", 6}, {"material", 8}, {"shape", 9}}));
 }
 
 TEST_F(Convert, WritesEveryFormat) {

@@ -4,6 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <fstream>
+
 #include "tests/support/command.h"
 #include "tests/support/temporary_directory.h"
 
@@ -37,32 +40,42 @@ TEST(Everyday, ProgramsStartWithFewLibraries) {
   }
 }
 
-TEST(Everyday, SilentUnlessAsked) {
+TEST(Everyday, SaysWhereItStandsAndIsSilentIfAsked) {
   const TemporaryDirectory directory;
   const std::string line = fmt::format("{} '{}' -o '{}' --spp 16 --crop 0,128,0,128", vitrail("render"),
                                        scene, (directory / "a.film").string());
-  const CommandResult quiet = run(line);
+  const CommandResult quiet = run(line + " --quiet");
   EXPECT_EQ(quiet.status, 0);
   EXPECT_EQ(quiet.output, "");
+  const CommandResult lines = run(line + " --force");
+  EXPECT_EQ(lines.status, 0);
+  EXPECT_THAT(lines.output, HasSubstr("rendering 128 × 128 pixels, 16 samples each"));
+  EXPECT_THAT(lines.output, HasSubstr("a.film: 16 of 16 samples a pixel after"));
+  EXPECT_EQ(std::ranges::count(lines.output, '\n'), 2) << lines.output;
 }
 
+// Standard output holds nothing else.
 TEST(Everyday, ProgressAsJsonLines) {
   const TemporaryDirectory directory;
-  const CommandResult result =
-      run(fmt::format("{} '{}' -o '{}' --spp 65536 --crop 0,64,0,64 --time 2.5 --progress json",
-                      vitrail("render"), scene, (directory / "a.film").string()));
-  EXPECT_EQ(result.status, 0) << result.output;
-  std::istringstream lines(result.output);
-  int objects = 0;
-  double last = -1;
-  for (std::string line; std::getline(lines, line);) {
-    if (line.empty() || line[0] != '{') continue;
-    const auto json = nlohmann::json::parse(line);
-    EXPECT_GE(json["progress"].get<double>(), last);
-    last = json["progress"];
-    ++objects;
+  const auto events = directory / "events";
+  const std::string line =
+      fmt::format("{} '{}' -o '{}' --spp 65536 --crop 0,64,0,64 --time 2.5 --progress json > '{}'; true",
+                  vitrail("render"), scene, (directory / "a.film").string(), events.string());
+  for (const int run_number : {1, 2}) {
+    const CommandResult result = run(line);
+    std::ifstream lines(events);
+    std::vector<nlohmann::json> all;
+    for (std::string text; std::getline(lines, text);) all.push_back(nlohmann::json::parse(text));
+    ASSERT_GE(all.size(), 3u) << result.output;
+    double last = -1;
+    for (const nlohmann::json& event : all) {
+      EXPECT_GE(event["progress"].get<double>(), last);
+      EXPECT_LE(event["remaining_s"].get<double>(), 2.5) << "the time limit comes first";
+      last = event["progress"];
+      EXPECT_EQ(event["event"], &event == &all.back() ? "end" : "progress");
+    }
+    EXPECT_EQ(all.back()["ending"], "time is up") << run_number;
   }
-  EXPECT_GE(objects, 2);
 }
 
 TEST(Everyday, FilmsOfDifferentSeedsMerge) {

@@ -79,7 +79,7 @@ TEST_F(MeshOptions, PartitionAndRenderTakeThem) {
   const auto hash = render(path("a.vit"), films[0], "");
   EXPECT_EQ(render(path("b.vit"), films[1], ""), hash);
   EXPECT_EQ(render(path("in.pbrt"), films[2], "--decimate 0.25 --repair"), hash);
-  EXPECT_NE(render(path("in.pbrt"), films[2], ""), hash);
+  EXPECT_NE(render(path("in.pbrt"), films[2], "--force"), hash);
 }
 
 TEST_F(MeshOptions, WrongOnesAreUsage) {

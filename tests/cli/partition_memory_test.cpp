@@ -65,8 +65,8 @@ class PartitionMemory : public ::testing::Test {
   }
   std::string film_hash(const std::string& bundle) const {
     const auto stats = directory_ / "render.json";
-    const CommandResult done = run(fmt::format("{} '{}' -o '{}' --spp 2 --stats '{}'", vitrail("render"),
-                                               (directory_ / bundle).string(),
+    const CommandResult done = run(fmt::format("{} '{}' -o '{}' --force --spp 2 --stats '{}'",
+                                               vitrail("render"), (directory_ / bundle).string(),
                                                (directory_ / "picture.film").string(), stats.string()));
     EXPECT_EQ(done.status, 0) << done.output;
     return done.status == 0 ? read_json(stats)["film_hash"].get<std::string>() : "";
@@ -154,7 +154,7 @@ TEST_F(PartitionMemory, TermLeavesNothing) {
   while (names_with("out.vit.tmp").empty()) std::this_thread::sleep_for(std::chrono::milliseconds(5));
   std::this_thread::sleep_for(std::chrono::milliseconds(100));
   ::kill(pid, SIGTERM);
-  EXPECT_EQ(wait_for(pid), 4);
+  EXPECT_EQ(wait_for(pid), 128 + SIGTERM);
   EXPECT_TRUE(names_with("out.vit").empty());
 }
 

@@ -5,6 +5,7 @@
 
 #include <fstream>
 
+#include "compare/alignment.h"
 #include "film/image_io.h"
 #include "tests/support/command.h"
 #include "tests/support/temporary_directory.h"
@@ -14,6 +15,7 @@ namespace {
 
 using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 
 class ImagePrograms : public testing::Test {
  protected:
@@ -64,6 +66,10 @@ TEST_F(ImagePrograms, DevelopRefusesDoubleSeedsAndStrangers) {
   const CommandResult mixed = develop(a + ' ' + other + " -o " + quoted("x.exr"));
   EXPECT_EQ(mixed.status, 3);
   EXPECT_THAT(mixed.output, HasSubstr("different scenes"));
+  const CommandResult same_seed = develop(a + ' ' + film("stranger.film", 1, 9) + " -o " + quoted("x.exr"));
+  EXPECT_EQ(same_seed.status, 3);
+  EXPECT_THAT(same_seed.output,
+              AllOf(HasSubstr("different scenes"), HasSubstr("a.film"), HasSubstr("stranger.film")));
   const std::string deeper = film("deeper.film", 3, 1, 8);
   const CommandResult unequal = develop(a + ' ' + deeper + " -o " + quoted("x.exr"));
   EXPECT_EQ(unequal.status, 3);
@@ -128,6 +134,44 @@ TEST_F(ImagePrograms, CompareLeavesOutPixels) {
   EXPECT_EQ(compare(both + " --mask " + quoted("mask.exr")).status, 0);
   EXPECT_EQ(compare(both + " --ignore 2,3,1,2").status, 1);
   EXPECT_EQ(compare(both + " --ignore 1,2,1").status, 2);
+}
+
+// A part of a picture is compared with the same part of another.
+TEST_F(ImagePrograms, CropsAreComparedWhereTheyLie) {
+  Picture whole;
+  whole.rgb = black_image(8, 8, 3);
+  for (std::size_t i = 0; i < whole.rgb.values.size(); ++i) whole.rgb.values[i] = static_cast<float>(i);
+  whole.window = {0, 8, 0, 8}, whole.full_width = whole.full_height = 8;
+  write_picture(directory_ / "whole.exr", whole);
+  const auto crop = [&](const char* name, const PixelRect& window, float error) {
+    Picture part = whole;
+    cut_to(part, window);
+    part.rgb.values[0] += error;
+    write_picture(directory_ / name, part);
+    return quoted(name);
+  };
+  const std::string a = crop("a.exr", {2, 6, 3, 7}, 0), b = crop("b.exr", {4, 8, 5, 8}, 1000);
+  EXPECT_EQ(compare(a + ' ' + quoted("whole.exr") + " --metric bitwise").status, 0);
+  const CommandResult both = compare(a + ' ' + b + " --metric bitwise");
+  EXPECT_EQ(both.status, 1);
+  EXPECT_THAT(both.output,
+              AllOf(HasSubstr("compared 4 pixels in 4,6,5,7 of 8 × 8"), HasSubstr("bitwise 0.25"),
+                    HasSubstr("pixel 4,5: 132 133 134, in the reference 1132 133 134")));
+  EXPECT_EQ(compare(a + ' ' + b + " --metric bitwise --ignore 4,5,5,6").status, 0) << "of the whole picture";
+  EXPECT_EQ(compare(a + ' ' + crop("c.exr", {0, 2, 0, 4}, 0)).status, 3) << "nothing in common";
+}
+
+TEST_F(ImagePrograms, CompareWritesNumbersAndSigns) {
+  ASSERT_EQ(develop(film("a.film", 1) + " -o " + quoted("a.exr")).status, 0);
+  ASSERT_EQ(develop(film("a.film", 1) + " -o " + quoted("b.exr") + " --exposure 1").status, 0);
+  const CommandResult done = compare(quoted("a.exr") + ' ' + quoted("b.exr") + " --metric rmse --heatmap " +
+                                     quoted("heat.exr") + " --signed-map " + quoted("signed.exr"));
+  EXPECT_EQ(done.status, 0);
+  EXPECT_THAT(done.output, AllOf(HasSubstr("rmse 2"), HasSubstr("luminance is off by -50 % ± "),
+                                 Not(HasSubstr("passed"))));
+  EXPECT_NEAR(read_picture(directory_ / "heat.exr").rgb.values[0], 4, 1e-4);  // of rmse, squares
+  EXPECT_NEAR(read_picture(directory_ / "signed.exr").rgb.values[0], -2, 1e-4);
+  EXPECT_EQ(compare(quoted("a.exr") + ' ' + quoted("b.exr") + " --quiet").output, "");
 }
 
 TEST_F(ImagePrograms, DamagedFilmsAreBadInput) {

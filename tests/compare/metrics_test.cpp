@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "compare/metrics.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -8,10 +9,14 @@
 #include <nlohmann/json.hpp>
 
 #include "compare/comparison.h"
+#include "compare/error_images.h"
 #include "scene/diagnostics.h"
 
 namespace vitrail {
 namespace {
+
+using testing::HasSubstr;
+using testing::Not;
 
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 
@@ -88,11 +93,45 @@ TEST(Comparison, JsonIsFlat) {
   for (const auto& entry : json) EXPECT_TRUE(entry.is_primitive());
 }
 
+TEST(Comparison, NamesTheWorstPixels) {
+  const Image a = {2, 2, 3, {1, 1, 1, 2, 2, 2, 3, 3, 3, nan, 1, 1}};
+  const std::vector<WorstPixel> worst = worst_pixels({0, 2, 3, nan}, a, a, 10, 20, 2);
+  ASSERT_EQ(worst.size(), 2u);
+  EXPECT_EQ(std::pair(worst[0].x, worst[0].y), std::pair(11, 21)) << "what is not a number";
+  EXPECT_EQ(std::pair(worst[1].x, worst[1].y), std::pair(10, 21));
+  EXPECT_EQ(worst[1].image[0], 3);
+}
+
+TEST(Comparison, IsOnlyJudgedWhereThereIsAThreshold) {
+  const Comparison none = compare({&image, &reference, {}, {}}, Metric::mae, std::nullopt);
+  EXPECT_THAT(to_text(none), Not(HasSubstr("passed")));
+  EXPECT_TRUE(nlohmann::json::parse(to_json(none))["passed"].is_null());
+  EXPECT_THAT(to_text(compare({&image, &reference, {}, {}}, Metric::mae, 1)), HasSubstr("passed"));
+  EXPECT_THAT(to_text(compare({&image, &reference, {}, {}}, Metric::mae, 0.01)), HasSubstr("failed"));
+}
+
+TEST(Metrics, RmseIsTheRootOfMse) {
+  EXPECT_NEAR(value(Metric::rmse, image), std::sqrt(value(Metric::mse, image)), 1e-15);
+}
+
+TEST(ErrorImages, SignsAreBlueAndRed) {
+  const Image difference{3, 1, 3, {-2, -2, -2, 0, 0, 0, 1, 1, 1}};
+  const std::vector<float> expected{0, 0, 1, 1, 1, 1, 1, 0.5f, 0.5f};
+  EXPECT_THAT(signed_map(difference, 2).values, testing::Pointwise(testing::FloatNear(1e-6f), expected));
+}
+
+TEST(ErrorImages, LegendsGoBelow) {
+  const Image wide = with_legend(black_image(100, 10, 3), 0.25, false);
+  EXPECT_EQ(wide.width, 100);
+  EXPECT_GT(wide.height, 10);
+  EXPECT_EQ(with_legend(black_image(8, 8, 3), 1, false).height, 8);
+}
+
 TEST(Heatmap, IsBlackWithoutErrorWhiteAtTheMostAndMagentaWithoutNumber) {
-  Comparison c;
-  c.error_map = {0, 1, 0.5, std::numeric_limits<double>::quiet_NaN()};
-  for (int i = 0; i < 4; ++i) c.error_map.push_back(1);
-  const Image heat = heatmap(c, 8, 1);
+  std::vector<double> errors{0, 1, 0.5, std::numeric_limits<double>::quiet_NaN()};
+  for (int i = 0; i < 4; ++i) errors.push_back(1);
+  EXPECT_EQ(hottest(errors), 1);
+  const Image heat = heatmap(errors, 8, 1, 1);
   EXPECT_EQ((std::vector<float>(heat.values.begin(), heat.values.begin() + 12)),
             (std::vector<float>{0, 0, 0, 1, 1, 1, 1, 0.5f, 0, 1, 0, 1}));
 }

@@ -65,6 +65,21 @@ TEST(ZTest, FailsABiasAndTooMuchNoise) {
   EXPECT_FALSE(test(noisy(0.2, 0, 1), 0.01).passed);
 }
 
+// 2.5 % too dark is 5.8 standard errors of the mean, and a quarter of one in each pixel.
+TEST(ZTest, FailsAMeanThatNoPixelShows) {
+  const double sigma = 0.0125 * side / 5.8;
+  int failed = 0;
+  for (unsigned seed = 0; seed < 5; ++seed) {
+    const Comparison dark = test(noisy(sigma, -0.0125, seed), sigma * sigma);
+    EXPECT_LE(dark.value, ztest_tolerated);
+    EXPECT_NEAR(dark.test->mean_sigmas, 5.8, 3);
+    failed += dark.passed ? 0 : 1;
+    EXPECT_TRUE(test(noisy(sigma, 0, seed), sigma * sigma).passed);
+    EXPECT_NEAR(dark.test->noise_rms, sigma, 1e-6 * sigma);
+  }
+  EXPECT_GE(failed, 4);
+}
+
 TEST(ZTest, ForgivesAHalfFloatsRoundingWithoutVariance) {
   Image image = grey;
   for (float& v : image.values) v *= 1 + 0x1p-12f;

@@ -22,8 +22,9 @@ class SpectralPicture : public ::testing::Test {
         run(fmt::format("{} '{}' -o '{}' --domains {} --quiet", vitrail("partition"),
                         (corpus() / "pbrt-v4/scenes/01_cornell_spectral.pbrt").string(), bundle, domains));
     EXPECT_EQ(made.status, 0) << made.output;
-    const CommandResult done = run(fmt::format("{} '{}' -o '{}' --stats '{}' {}", vitrail("render"), bundle,
-                                               (directory_ / (name + ".exr")).string(), stats, arguments));
+    const CommandResult done =
+        run(fmt::format("{} '{}' -o '{}' --force --stats '{}' {}", vitrail("render"), bundle,
+                        (directory_ / (name + ".exr")).string(), stats, arguments));
     EXPECT_EQ(done.status, 0) << done.output;
     return read_json(stats)["film_hash"];
   }

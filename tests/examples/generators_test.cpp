@@ -179,8 +179,9 @@ TEST(City, NestedIsTheSameScene) {
     const CommandResult made =
         run(fmt::format("{} '{}' -o '{}' {}", vitrail("partition"), nested.scene.string(), bundle, how));
     ASSERT_EQ(made.status, 0) << made.output;
-    const CommandResult done = run(fmt::format("{} '{}' -o '{}' --spp 4 --threads 2 --stats '{}.json'",
-                                               vitrail("render"), bundle, film, film));
+    const CommandResult done =
+        run(fmt::format("{} '{}' -o '{}' --force --spp 4 --threads 2 --stats '{}.json'", vitrail("render"),
+                        bundle, film, film));
     ASSERT_EQ(done.status, 0) << done.output;
     films[how] = read_json(film + ".json")["film_hash"];
   }

@@ -55,6 +55,7 @@ class Cropped {
     options.film = directory_ / "scene.film";
     options.samples_per_pixel = samples;
     options.crop = crop;
+    options.force = true;
     int argc = 0;
     char** argv = nullptr;
     const auto transport = make_transport(&argc, &argv);

@@ -89,5 +89,105 @@ TEST(Offset, AnyOtherChangesRoundingAlone) {
   }
 }
 
+// ---- One triangle far away ------------------------------------------------------------------------
+
+enum class As { own_shape, same_mesh, instance };
+
+std::array<Point3f, 3> far_triangle(double distance) {
+  const auto at = [&](double x, double y) {
+    return cast<float>(Point3d{distance + x, -0.5 * distance + y, 0.25 * distance});
+  };
+  return {at(0, 0), at(1, 0), at(0, 1)};
+}
+
+using Quads = std::vector<std::array<Point3f, 4>>;
+
+// Each parted into n×n.
+Quads tiled(const Quads& quads, int n) {
+  Quads tiles;
+  for (const auto& q : quads) {
+    const auto at = [&](int i, int k) {
+      const Point3d a = cast<double>(q[0]);
+      return cast<float>(a + (cast<double>(q[1]) - a) * (double{1} * i / n) +
+                         (cast<double>(q[3]) - a) * (double{1} * k / n));
+    };
+    for (int i = 0; i < n; ++i)
+      for (int k = 0; k < n; ++k) tiles.push_back({at(i, k), at(i + 1, k), at(i + 1, k + 1), at(i, k + 1)});
+  }
+  return tiles;
+}
+
+Scene room_and(double distance, As as) {
+  Scene scene = room({}, false);
+  const std::array<Point3f, 3> far = far_triangle(distance);
+  TriangleMesh mesh;
+  if (as == As::same_mesh) {
+    TriangleMesh& box = scene.meshes[1];
+    const auto first = static_cast<std::uint32_t>(box.positions.size());
+    box.positions.insert(box.positions.end(), far.begin(), far.end());
+    box.triangles.push_back({first, first + 1, first + 2});
+    return scene;
+  }
+  mesh.positions.assign(far.begin(), far.end());
+  mesh.triangles = {{0, 1, 2}};
+  scene.meshes.push_back(mesh);
+  if (as == As::own_shape) {
+    add_shape(scene, {static_cast<std::uint32_t>(scene.meshes.size() - 1)}, matte(0.5f));
+    return scene;
+  }
+  // The matte box where it was and far away, of as many triangles as are worth being instanced.
+  Prototype prototype;
+  prototype.shapes.push_back(scene.shapes[2]);
+  prototype.shapes[0].mesh = add_quads(
+      scene, tiled(box_faces({0.125f + 0.0123f, -0.5f + 0.0123f, -1}, {0.75f, 0.5f, -0.25f - 0.0123f}), 4));
+  scene.shapes.erase(scene.shapes.begin() + 2);
+  scene.prototypes.push_back(prototype);
+  scene.instances.push_back({{0}, {}, {}});
+  scene.instances.push_back({{0}, translate({distance, -0.5 * distance, 0.25 * distance}), {}});
+  return scene;
+}
+
+TEST(FarAway, OneTriangleLeavesTheRestAsItIs) {
+  for (const As as : {As::own_shape, As::same_mesh, As::instance}) {
+    const char* const name = as == As::own_shape   ? "a triangle"
+                             : as == As::same_mesh ? "a triangle of the same mesh"
+                                                   : "an instance";
+    // Kept, the box is rounded about its own centre, which turns a caustic's path or two into others.
+    const Film alone = as == As::instance ? render_finite(room_and(300, as), 64).film : as_modelled(false);
+    for (const double distance : {1e3, 1e5, 1e6, 1e7, 1e8}) {
+      const Scene scene = room_and(distance, as);
+      const Film film = render_finite(scene, 64).film;
+      const FilmDifference d = picture_difference(alone, film);
+      const std::string what = fmt::format("{} {:g} away", name, distance);
+      expect_absolute(what + ": mean of the picture, relative", 0, d.mean, 1e-4);
+      expect_absolute(what + ": pixels, root mean square, relative", 0, d.root_mean_square, 5e-3);
+      for (const std::uint32_t domains : {2u, 16u})
+        expect_exactly(
+            fmt::format("{}: pixels that differ in {} domains", what, domains), 0,
+            static_cast<double>(picture_difference(film, render_finite(scene, 64, "", domains).film).pixels));
+    }
+  }
+}
+
+// What is far from the others is what the camera sees.
+TEST(FarAway, WhatIsSeenCounts) {
+  for (const double distance : {1e6, 1e8}) {
+    Scene scene = room({1, {distance, 0, 0}}, false);
+    TriangleMesh cloud;  // of more triangles than the room has
+    for (int i = 0; i < 400; ++i) {
+      const auto x = static_cast<float>(i % 20), y = static_cast<float>(i / 20);
+      const auto first = static_cast<std::uint32_t>(cloud.positions.size());
+      cloud.positions.insert(cloud.positions.end(), {{x, y, 0}, {x + 1, y, 0}, {x, y + 1, 0}});
+      cloud.triangles.push_back({first, first + 1, first + 2});
+    }
+    scene.meshes.push_back(std::move(cloud));
+    add_shape(scene, {static_cast<std::uint32_t>(scene.meshes.size() - 1)}, matte(0.5f));
+    const Film film = render_finite(scene, 64).film;
+    const FilmDifference d = picture_difference(as_modelled(false), film);
+    expect_absolute(fmt::format("a room {:g} away: mean of the picture, relative", distance), 0, d.mean,
+                    2e-2);
+  }
+}
+
 }  // namespace
 }  // namespace vitrail::test

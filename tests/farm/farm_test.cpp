@@ -26,6 +26,26 @@ TEST(Work, EverySampleBelongsToOneItem) {
   EXPECT_EQ(seen.size(), 47u * 34 * 300);
 }
 
+TEST(Work, MoreSamplesComeBehindThoseOfEarlierRenders) {
+  const PixelRect crop{3, 50, 7, 41};
+  const std::vector<std::uint32_t> earlier{5, 300};
+  const WorkPlan plan = make_work_plan(crop, 700, earlier),
+                 before = make_work_plan(crop, 300, std::vector{5u});
+  std::vector<int> times(700);
+  for (std::uint64_t i = 0; i < plan.items(); ++i) {
+    const WorkItem item = plan.item(i);
+    if (i < before.items()) {
+      EXPECT_EQ(item.pixels, before.item(i).pixels);
+      EXPECT_EQ(item.sample0, before.item(i).sample0);
+      EXPECT_EQ(item.sample1, before.item(i).sample1);
+    }
+    const int pixels = (item.pixels.x1 - item.pixels.x0) * (item.pixels.y1 - item.pixels.y0);
+    for (std::uint32_t s = item.sample0; s < item.sample1; ++s) times.at(s) += pixels;
+  }
+  EXPECT_EQ(times, std::vector<int>(700, 47 * 34));
+  EXPECT_EQ(plan.samples(), 700u);
+}
+
 TEST(Work, SharesAreDisjointCompleteAndEven) {
   const WorkPlan plan = make_work_plan({0, 100, 0, 100}, 5);
   std::vector<std::uint64_t> done((plan.items() + 63) / 64);

@@ -32,7 +32,7 @@ class FilmFile : public testing::Test {
       film_.deposit_bin(p, p, p % 3, 0.5 * p);
     }
     film_.deposit(0, 0, {1e30, 0, 0});
-    progress_ = {70, 16, {0xff, 0x3f}, 1.5};
+    progress_ = {70, 16, {0xff, 0x3f}, 1.5, {4, 8}, "{\"scene\":\"a.pbrt\"}"};
     write_film(file_, film_, progress_);
   }
 
@@ -76,6 +76,8 @@ TEST_F(FilmFile, ComesBackAsItWas) {
   EXPECT_EQ(progress.samples_per_pixel, 16u);
   EXPECT_EQ(progress.done, progress_.done);
   EXPECT_EQ(progress.render_time_s, 1.5);
+  EXPECT_EQ(progress.earlier_ends, (std::vector<std::uint32_t>{4, 8}));
+  EXPECT_EQ(progress.about, "{\"scene\":\"a.pbrt\"}");
   EXPECT_FALSE(progress.complete());
 }
 
@@ -107,8 +109,8 @@ TEST_F(FilmFile, SenselessHeadersAreFound) {
     std::string bad = good;
     std::memcpy(bad.data() + f.offset, &f.value, sizeof f.value);
     if (f.offset == 116) bad.replace(104, 16, 16, 'A');
-    const std::uint64_t sum = XXH3_64bits(bad.data(), 152);
-    std::memcpy(bad.data() + 152, &sum, sizeof sum);
+    const std::uint64_t sum = XXH3_64bits(bad.data(), 160);
+    std::memcpy(bad.data() + 160, &sum, sizeof sum);
     overwrite(bad);
     EXPECT_THROW(read_film(file_, nullptr), Error) << "offset " << f.offset;
   }
@@ -131,7 +133,8 @@ TEST_F(FilmFile, SaysWhatIsWrong) {
   overwrite(other_version);
   expect_error("version 9");
   overwrite(
-      "not a film but long enough to hold a header, which is one hundred and sixty bytes long, and a little "
+      "not a film but long enough to hold a header, which is one hundred and sixty-eight bytes long, and a "
+      "little "
       "more, so that it is not found too short before anything of it is looked at: that takes a few words");
   expect_error("not a film file");
   std::string bad_sum = good;
@@ -146,6 +149,14 @@ TEST_F(FilmFile, RefusesWorkBeyondItsItems) {
   progress_.done[1] = 0x40;
   write_film(file_, film_, progress_);
   expect_error("beyond");
+}
+
+TEST_F(FilmFile, RefusesToGoOnFromMoreThanItHas) {
+  for (const std::vector<std::uint32_t>& ends : {std::vector<std::uint32_t>{8, 8}, {8, 16}}) {
+    progress_.earlier_ends = ends;
+    write_film(file_, film_, progress_);
+    expect_error("goes on from more samples");
+  }
 }
 
 TEST_F(FilmFile, UnwritableFolderIsTheMachinesFault) {

@@ -123,6 +123,26 @@ TEST(EnvironmentImages, Illuminance) {
   }
 }
 
+TEST(ImageFiles, RowsAreThoseOfTheWhole) {
+  TemporaryFolder folder;
+  Image image = black_image(2048, 700, 3);
+  for (std::size_t i = 0; i < image.values.size(); ++i) image.values[i] = static_cast<float>(i % 1009);
+  write_exr_image(folder / "a.exr", image);
+  Image rows{2048, 0, 3, {}};
+  int visits = 0;
+  read_stored_rows(folder / "a.exr", [&](const StoredImage& some) {
+    ++visits;
+    EXPECT_FALSE(some.integer);
+    EXPECT_EQ(some.image.width, 2048);
+    rows.height += some.image.height;
+    rows.values.insert(rows.values.end(), some.image.values.begin(), some.image.values.end());
+  });
+  EXPECT_GT(visits, 2);
+  EXPECT_EQ(rows, image);
+  folder.write("b.exr", "no image");
+  EXPECT_THROW(read_stored_rows(folder / "b.exr", [](StoredImage) {}), Error);
+}
+
 TEST(ImageFiles, RoundTripAndErrors) {
   TemporaryFolder folder;
   Image image = black_image(3, 2, 3);

@@ -2,6 +2,8 @@
 // The door for all formats, and the view that geometry alone gets.
 #include "importers/import.h"
 
+#include <numbers>
+
 #include "pbrt_text.h"
 #include "scene/spectrum.h"
 
@@ -47,8 +49,13 @@ TEST(ImportScene, ShowsAllOfGeometryAloneUnderASky) {
   EXPECT_GT(seen(imported.scene, {100, 5, 0}).y, seen(imported.scene, {100, 0, 0}).y) << "+y is up";
   EXPECT_GT(seen(imported.scene, {101, 0, 0}).x, seen(imported.scene, {100, 0, 0}).x)
       << "and +x right: not mirrored";
-  ASSERT_EQ(imported.scene.lights.size(), 1u);
-  EXPECT_NEAR(luminance(std::get<InfiniteLight>(imported.scene.lights[0].model).radiance), 1, 1e-3);
+  ASSERT_EQ(imported.scene.lights.size(), 2u);
+  // Together 1 where a white surface faces the sun, and dimmer elsewhere, so that shapes can be seen.
+  const double sky = luminance(std::get<InfiniteLight>(imported.scene.lights.at(0).model).radiance);
+  const DistantLight& sun = std::get<DistantLight>(imported.scene.lights.at(1).model);
+  EXPECT_NEAR(sky + luminance(sun.irradiance) / std::numbers::pi, 1, 1e-3);
+  EXPECT_LT(sky, 0.5);
+  EXPECT_LT(sun.direction.y, 0) << "it shines down";
 }
 
 TEST(ImportScene, AddsNoSkyWhereSomethingShines) {

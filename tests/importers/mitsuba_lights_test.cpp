@@ -201,8 +201,34 @@ TEST_F(MitsubaLight, ProjectorsStandUpright) {
   const Json red = weight({0.5, 0.5, 1}), blue = weight({-0.5, -0.5, 1});
   EXPECT_GT(red[3].get<double>(), 3 * red[0].get<double>());
   EXPECT_GT(blue[0].get<double>(), 3 * blue[3].get<double>());
-  const Json dark = weight({-0.5, 0.5, 1});  // π·image/cosθ
-  expect_near(dark, std::vector<double>(4, 0.1 * pi * std::sqrt(1.5)), 1e-3);
+  const Json dark = weight({-0.5, 0.5, 1});  // π·image/cosθ, under D65
+  expect_near(dark, values(emission_from_rgb({0.1, 0.1, 0.1}), pi * std::sqrt(1.5)), 5e-3);
+}
+
+// Mitsuba takes one light from all around.
+TEST_F(MitsubaLight, SeveralFromAllAroundBecomeOne) {
+  Scene scene = lit(InfiniteLight{emission_from_rgb({0.6, 0.3, 0.2})});
+  scene.lights.push_back({InfiniteLight{tabulate({{400, 1}, {700, 2}}, true)}, {}});
+  std::vector<double> both = values(emission_from_rgb({0.6, 0.3, 0.2}));
+  for (std::size_t i = 0; i < both.size(); ++i) both[i] += values(tabulate({{400, 1}, {700, 2}}, true))[i];
+  expect_near(environment(scene, {{0, 0, 1}}).at(0), both, 1e-2);
+  EXPECT_THAT(diagnostics_, IsEmpty());
+
+  write_exr_image(folder_ / "square.exr", sky(EnvironmentProjection::equal_area, 64));
+  EnvironmentLight image;
+  image.filename = (folder_ / "square.exr").string();
+  image.light_to_world = rotate(0.7, {1, 2, 3});
+  const std::vector<Vector3d> directions{{0, 0, 1}, {0.6, 0, -0.8}, {0, -1, 0}, {-0.8, 0.6, 0}};
+  const Json alone = environment(lit(image), directions);
+  scene = lit(image);
+  scene.lights.push_back({InfiniteLight{emission_from_rgb({0.5, 0.5, 0.5})}, {}});
+  const Json joined = environment(scene, directions);
+  EXPECT_THAT(diagnostics_, Contains(Field(&Diagnostic::message, HasSubstr("one light from all around"))));
+  for (std::size_t i = 0; i < directions.size(); ++i) {
+    std::vector<double> expected = values(emission_from_rgb({0.5, 0.5, 0.5}));
+    for (std::size_t c = 0; c < expected.size(); ++c) expected[c] += alone[i][c].get<double>();
+    expect_near(joined[i], expected, 0.15);  // a spectrum for the sum of two colours is not the sum of theirs
+  }
 }
 
 // ---- Pictures

@@ -55,6 +55,53 @@ TEST_F(MitsubaLoad, BareOpaqueMaterialsHaveOneSide) {
   EXPECT_TRUE(material("<bsdf type=\"dielectric\" id=\"m\"/>").two_sided);
 }
 
+// What an adapter says of a material that is made of others holds for these, and not where they are used
+// without it.
+TEST_F(MitsubaLoad, AdaptersReachTheParts) {
+  const std::string parts =
+      "<bsdf type=\"diffuse\" id=\"a\"/><texture type=\"checkerboard\" id=\"t\"/>"
+      "<bsdf type=\"mask\" id=\"hole\"><ref id=\"a\"/></bsdf>"
+      "<bsdf type=\"blendbsdf\" id=\"blend\"><ref id=\"hole\"/><ref id=\"a\"/></bsdf>";
+  const auto leaf = [&](Material at) {
+    for (;;) {
+      if (const auto* blend = std::get_if<BlendMaterial>(&at.model))
+        at = imported_.scene.materials.at(blend->second.value);
+      else if (const auto* mask = std::get_if<MaskMaterial>(&at.model))
+        at = imported_.scene.materials.at(mask->material.value);
+      else
+        return at;
+    }
+  };
+  for (const std::string inside : {"hole", "blend"}) {
+    const Material bumped =
+        material(parts + "<bsdf type=\"bumpmap\" id=\"m\"><ref id=\"t\" name=\"texture\"/><ref id=\"" +
+                 inside + "\"/></bsdf>");
+    EXPECT_TRUE(leaf(bumped).displacement) << inside;
+    EXPECT_TRUE(leaf(bumped).bump_shadowing);
+    EXPECT_FALSE(bumped.displacement);
+    EXPECT_FALSE(imported_.scene.materials.at(0).displacement) << "that is called a";
+  }
+  const Material mapped =
+      material(parts +
+               "<bsdf type=\"normalmap\" id=\"m\"><texture type=\"checkerboard\" name=\"normalmap\"/>"
+               "<ref id=\"hole\"/></bsdf>");
+  EXPECT_TRUE(leaf(mapped).normal_map);
+  const std::string opaque =
+      "<bsdf type=\"blendbsdf\"><bsdf type=\"diffuse\"/><bsdf type=\"diffuse\"/></bsdf>";
+  EXPECT_TRUE(leaf(material("<bsdf type=\"twosided\" id=\"m\">" + opaque + "</bsdf>")).two_sided);
+}
+
+TEST_F(MitsubaLoad, NullCountsInMitsubasPath) {
+  const auto says = [&](const std::string& integrator) {
+    material("<integrator type=\"" + integrator +
+             "\"><integer name=\"max_depth\" value=\"6\"/></integrator>"
+             "<bsdf type=\"null\" id=\"m\"/>");
+    return mentions("the depth");
+  };
+  EXPECT_TRUE(says("path"));
+  EXPECT_FALSE(says("volpath"));
+}
+
 TEST_F(MitsubaLoad, DefaultsReferencesAliasesAndIncludes) {
   folder_.write("part.xml", head +
                                 "<default name=\"tone\" value=\"0.75\"/><bsdf type=\"diffuse\" id=\"part\">"
@@ -149,6 +196,8 @@ TEST_F(MitsubaLoad, HarmIsBounded) {
     blends += "<bsdf type=\"blendbsdf\" id=\"b" + std::to_string(i) + "\">" + ref + ref + "</bsdf>";
   }
   EXPECT_EQ(read(blends).scene.materials.size(), 60u) << "sharing is not copying";
+  blends += "<bsdf type=\"twosided\"><ref id=\"b59\"/></bsdf>";
+  EXPECT_EQ(read(blends).scene.materials.size(), 120u) << "nor where each is changed";
 }
 
 }  // namespace

@@ -267,7 +267,7 @@ TEST_F(MitsubaTexture, ScaledAndInvertedImages) {
   const auto found = corners(textured(image));
   EXPECT_NEAR(found[1][0], 0.75, 2e-3);
   EXPECT_NEAR(found[1][2], 0.75, 2e-3);
-  EXPECT_THAT(diagnostics_, Contains(Field(&Diagnostic::message, HasSubstr("cannot decode"))));
+  EXPECT_THAT(diagnostics_, Contains(Field(&Diagnostic::message, HasSubstr("takes other values"))));
 }
 
 TEST_F(MitsubaTexture, Checkerboard) {
@@ -324,6 +324,15 @@ TEST_F(MitsubaTexture, FloatTexturesMasksBumpsAndNormals) {
   query = ray("bsdf", {0.9, -0.9, 3}, {0, 0, -1});
   query["wo"] = {0, 0, 1};
   ask(scene, Json::array({query}), "scalar_rgb");
+}
+
+// Mitsuba's plastic asks its texture for its mean, which attributes of meshes do not have.
+TEST_F(MitsubaOracle, PlasticWithoutAttributes) {
+  Scene scene = square_scene({PlasticMaterial{Id<Texture>{0}}});
+  scene.textures.push_back({MeshAttributeTexture{"vertex_color"}, false, "", {}});
+  scene.meshes[0].attributes.push_back({"vertex_color", false, 3, std::vector<float>(12, 0.5f)});
+  ask(scene, Json::array());
+  EXPECT_THAT(diagnostics_, Contains(Field(&Diagnostic::message, HasSubstr("an attribute of a mesh"))));
 }
 
 }  // namespace

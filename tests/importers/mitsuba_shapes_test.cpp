@@ -26,7 +26,7 @@ TEST_F(MitsubaOracle, FrontsOfAllKindsOfMesh) {
       for (const bool flip : {false, true}) {
         const double x = 10.0 * static_cast<double>(fronts.size());
         scene.shapes.push_back(
-            {mesh, material, light, translate({x, 0, 0}) * vitrail::scale({mirror, 1, 1}), flip});
+            {mesh, material, light, 1.0f, translate({x, 0, 0}) * vitrail::scale({mirror, 1, 1}), flip});
         fronts.push_back((mirror > 0) != flip ? 1 : -1);
         for (const double side : {1.0, -1.0}) {
           queries.push_back(ray("hit", {x + 0.5, 0.25, side * 3}, {0, 0, -side}));

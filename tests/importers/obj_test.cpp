@@ -378,6 +378,21 @@ TEST_F(Obj, ImagesAndTheirOptions) {
     EXPECT_THAT(imported_.diagnostics, says(text));
 }
 
+TEST_F(Obj, WhichNumberAnImageIs) {
+  folder_.write("m.png", "");
+  const auto number = [&](const std::string& mtl) {
+    material(mtl);
+    return std::get<ImageTexture>(imported_.scene.textures.back().model).number;
+  };
+  EXPECT_EQ(number("Kd 1 1 1\nmap_Pm m.png\n"), ImageNumber::luminance);
+  EXPECT_EQ(number("Kd 1 1 1\nmap_d m.png\n"), ImageNumber::alpha_or_luminance);
+  EXPECT_EQ(number("Kd 1 1 1\nmap_d -imfchan l m.png\n"), ImageNumber::luminance);
+  EXPECT_EQ(number("Kd 1 1 1\nmap_Bump -imfchan m m.png\n"), ImageNumber::alpha);
+  EXPECT_EQ(number("Kd 1 1 1\nmap_Pr -imfchan g m.png\n"), ImageNumber::green);
+  material("Kd 1 1 1\nmap_Pr -imfchan z m.png\n");
+  EXPECT_THAT(imported_.diagnostics, says("-imfchan z of map_Pr"));
+}
+
 TEST_F(Obj, ImagesThatAreNotThere) {
   EXPECT_EQ(material("map_Kd -s 1 1 1 a b.png\n"),
             MaterialModel(DiffuseMaterial{reflectance_from_rgb({.5, .5, .5})}));
@@ -415,15 +430,19 @@ TEST_F(Obj, Emission) {
   EXPECT_EQ(image(imported_.scene.area_lights.at(0).radiance).scale, 2);
 }
 
-TEST_F(Obj, WhatMaterialsLoseIsSaidOncePerKeyword) {
+TEST_F(Obj, WhatMaterialsLoseIsSaidWithEachPlace) {
   material(
       "Kd 1 1 1\nKa 1 1 1\nKa 1 1 1\nrefl a.png\nKt 1 1 1\nKd spectral a.rfl\nnewmtl other\nKa .5 .5 .5\n");
-  EXPECT_THAT(imported_.diagnostics, SizeIs(4));
+  EXPECT_THAT(imported_.diagnostics, SizeIs(6));
   for (const std::string text : {"Ka", "refl", "Kt", "Kd spectral"})
     EXPECT_THAT(imported_.diagnostics, says(text));
   EXPECT_THAT(imported_.diagnostics[0].location.file, HasSubstr("m.mtl"));
   EXPECT_EQ(imported_.diagnostics[0].location.line, 3);
   EXPECT_EQ(imported_.diagnostics[0].item.line, 1);
+  EXPECT_EQ(imported_.diagnostics[1].location.line, 4);
+  EXPECT_EQ(imported_.diagnostics[5].location.line, 9);
+  EXPECT_EQ(imported_.diagnostics[5].item.line, 8);
+  EXPECT_EQ(imported_.diagnostics[5].message, imported_.diagnostics[0].message) << "so they are counted";
 }
 
 TEST_F(Obj, BadMaterials) {

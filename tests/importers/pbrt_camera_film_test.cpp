@@ -106,6 +106,16 @@ TEST(PbrtFilm, ExposesByShutterAndIsoInV4AndByScaleInV3) {
                    3);
 }
 
+// v3 exposes whatever its shutter does; v4 refuses one that does not open.
+TEST(PbrtFilm, AClosedShutterIsRefusedByV4Alone) {
+  const std::string closed = "Camera \"perspective\" \"float shutteropen\" .5 \"float shutterclose\" .5 ";
+  EXPECT_EQ(settings(closed + "Film \"image\"").scene.film.imaging_ratio, 1);
+  EXPECT_THROW(settings(closed + "Film \"rgb\""), Error);
+  const ImportedScene unknown = settings(closed);
+  EXPECT_EQ(unknown.scene.film.imaging_ratio, 1);
+  EXPECT_TRUE(mentions(unknown.diagnostics, "shutter"));
+}
+
 TEST(PbrtFilm, WhatItLosesIsReported) {
   EXPECT_TRUE(
       mentions(settings("Film \"rgb\" \"string sensor\" \"canon_eos_100d\"").diagnostics, "canon_eos_100d"));

@@ -269,6 +269,77 @@ TEST(PbrtNames, ASecondDefinitionHoldsForLaterShapes) {
   EXPECT_EQ(scene.materials[scene.shapes[1].material.value].model, MaterialModel{DielectricMaterial{}});
 }
 
+const std::string red = "Texture \"t\" \"spectrum\" \"constant\" \"rgb value\" [1 0 0] ";
+const std::string green = "Texture \"t\" \"spectrum\" \"constant\" \"rgb value\" [0 1 0] ";
+const std::string by_texture = "Material \"matte\" \"texture Kd\" \"t\" " + triangle;
+
+SpectrumParameter reflectance(const Scene& scene, std::size_t shape) {
+  return std::get<DiffuseMaterial>(scene.materials[scene.shapes[shape].material.value].model).reflectance;
+}
+
+// pbrt-v3 keeps textures and named materials in the state that AttributeEnd restores.
+TEST(PbrtNames, EndWithTheirBlockInV3) {
+  for (const char* const block : {"Attribute", "Object"}) {
+    const std::string begin = std::string(block) + "Begin " + (block[0] == 'O' ? "\"o\" " : "");
+    const Scene scene =
+        import_v3(red + by_texture + begin + green + "MakeNamedMaterial \"m\" \"string type\" \"mirror\" " +
+                  block + "End " + by_texture)
+            .scene;
+    EXPECT_EQ(reflectance(scene, 0), reflectance(scene, 1)) << block;
+  }
+  const Scene materials = import_v3(
+                              "MakeNamedMaterial \"m\" \"string type\" \"none\" AttributeBegin "
+                              "MakeNamedMaterial \"m\" \"string type\" \"glass\" NamedMaterial \"m\" " +
+                              triangle + "AttributeEnd NamedMaterial \"m\" " + triangle)
+                              .scene;
+  EXPECT_EQ(materials.materials[materials.shapes[0].material.value].model,
+            MaterialModel{DielectricMaterial{}});
+  EXPECT_EQ(materials.materials[materials.shapes[1].material.value].model,
+            MaterialModel{InterfaceMaterial{}});
+}
+
+TEST(PbrtNames, OutliveATransformInV3) {
+  const Scene scene =
+      import_v3(red + by_texture + "TransformBegin " + green + "TransformEnd " + by_texture).scene;
+  EXPECT_NE(reflectance(scene, 0), reflectance(scene, 1));
+  const Scene both = import_v3(red + by_texture + "AttributeBegin TransformBegin " + green +
+                               "TransformEnd AttributeEnd " + by_texture)
+                         .scene;
+  EXPECT_EQ(reflectance(both, 0), reflectance(both, 1));
+}
+
+// Where pbrt-v3 knows no such material any more it says so and keeps the one before.
+TEST(PbrtNames, ThatHaveEndedChangeNothingInV3) {
+  const ImportedScene imported = import_v3(
+      "Material \"mirror\" AttributeBegin MakeNamedMaterial \"m\" \"string type\" \"glass\" "
+      "AttributeEnd NamedMaterial \"m\" " +
+      triangle);
+  EXPECT_TRUE(std::holds_alternative<ConductorMaterial>(
+      imported.scene.materials[imported.scene.shapes[0].material.value].model));
+  EXPECT_TRUE(mentions(imported.diagnostics, "ended with its block"));
+}
+
+TEST(PbrtNames, AreGlobalInV4) {
+  const Scene scene = import_v4(
+                          "AttributeBegin Texture \"t\" \"spectrum\" \"constant\" \"rgb value\" [1 0 0] "
+                          "MakeNamedMaterial \"m\" \"string type\" \"dielectric\" AttributeEnd "
+                          "Material \"diffuse\" \"texture reflectance\" \"t\" " +
+                          triangle + "NamedMaterial \"m\" " + triangle)
+                          .scene;
+  EXPECT_NE(reflectance(scene, 0), SpectrumParameter{ConstantSpectrum{0.5f}});
+  EXPECT_EQ(scene.materials[scene.shapes[1].material.value].model, MaterialModel{DielectricMaterial{}});
+}
+
+TEST(PbrtNames, WaitForTexturesOfTheirBlockInV3) {
+  const Scene scene =
+      import_v3(red + "AttributeBegin Material \"matte\" \"texture Kd\" \"later\" " + triangle +
+                "Texture \"later\" \"spectrum\" \"constant\" \"rgb value\" [0 1 0] "
+                "AttributeEnd " +
+                by_texture)
+          .scene;
+  EXPECT_NE(reflectance(scene, 0), reflectance(scene, 1));
+}
+
 TEST(PbrtNames, SettingsThatChangeNoPictureAreSilent) {
   expect_no_diagnostics(import_text(
       "Option \"bool disablepixeljitter\" false Option \"integer seed\" 3 ColorSpace \"srgb\" Accelerator "

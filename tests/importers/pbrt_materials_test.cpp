@@ -210,15 +210,73 @@ TEST(PbrtMaterials, MixesThatContainThemselvesAreErrors) {
       << "in order there is nothing to descend into";
 }
 
-TEST(PbrtMaterials, AlphaOfShapesBecomesAMask) {
-  const std::string half = "\"float alpha\" .5 ";
+FloatParameter opacity_of(const ImportedScene& imported) { return imported.scene.shapes.at(0).opacity; }
+
+TEST(PbrtAlpha, IsTheOpacityOfTheShape) {
   const ImportedScene imported =
-      import_v4("Material \"dielectric\" " + triangle + half + triangle + half + triangle);
+      import_v4("Material \"dielectric\" " + triangle + "\"float alpha\" .5 " + triangle);
   expect_no_diagnostics(imported);
-  EXPECT_EQ(model_of<MaskMaterial>(imported).opacity, FloatParameter{.5f});
-  EXPECT_EQ(imported.scene.shapes[0].material, imported.scene.shapes[1].material);
-  EXPECT_EQ(imported.scene.shapes[2].material, model_of<MaskMaterial>(imported).material);
+  EXPECT_EQ(opacity_of(imported), FloatParameter{.5f});
+  EXPECT_EQ(imported.scene.shapes[1].opacity, FloatParameter{1.0f});
+  EXPECT_EQ(imported.scene.materials.size(), 1u);
+  const std::string texture = "Texture \"leaf\" \"float\" \"checkerboard\" ";
+  EXPECT_EQ(opacity_of(import_v4(texture + triangle + "\"texture alpha\" \"leaf\"")),
+            FloatParameter{Id<Texture>{0}});
+  EXPECT_EQ(opacity_of(import_v4(triangle + "\"float alpha\" 2")), FloatParameter{1.0f});
   EXPECT_TRUE(import_v4(triangle + "\"float alpha\" 0").scene.shapes.empty()) << "nothing shows";
+}
+
+TEST(PbrtAlpha, OfNothingLeavesTheLight) {
+  const std::string light = "AreaLightSource \"diffuse\" ";
+  const ImportedScene invisible = import_v4(light + triangle + "\"float alpha\" 0");
+  expect_no_diagnostics(invisible);
+  EXPECT_EQ(opacity_of(invisible), FloatParameter{0.0f});
+  EXPECT_TRUE(invisible.scene.shapes[0].area_light);
+  EXPECT_TRUE(mentions(import_v4(light + triangle + "\"float alpha\" .5").diagnostics, "its square"));
+  const std::string in_object = "ObjectBegin \"o\" " + light + triangle + "\"float alpha\" 0 ObjectEnd";
+  EXPECT_TRUE(import_v4(in_object).scene.prototypes.at(0).shapes.empty());
+}
+
+// To v3 a surface is there wherever its alpha is not 0, and shadowalpha lets shadow rays alone pass.
+TEST(PbrtAlpha, OfVersion3) {
+  EXPECT_EQ(opacity_of(import_v3(triangle + "\"float alpha\" .5")), FloatParameter{1.0f});
+  const std::string leaf = "Texture \"leaf\" \"float\" \"checkerboard\" ",
+                    by_leaf = "\"texture alpha\" \"leaf\" ";
+  const ImportedScene twice = import_v3(leaf + triangle + by_leaf + triangle + by_leaf);
+  ASSERT_EQ(twice.diagnostics.size(), 1u) << "once a texture";
+  EXPECT_TRUE(mentions(twice.diagnostics, "is not 0"));
+  const auto shadows = [&](const std::string& shadow) {
+    return mentions(import_v3(leaf + triangle + by_leaf + shadow).diagnostics, "shadowalpha");
+  };
+  EXPECT_FALSE(shadows("\"texture shadowalpha\" \"leaf\""));
+  EXPECT_FALSE(shadows("\"float shadowalpha\" 1"));
+  EXPECT_TRUE(shadows("\"float shadowalpha\" 0"));
+}
+
+TEST(PbrtAlpha, IsNoEventAndAThinSheetIsOne) {
+  for (const char* integrator : {"", "Integrator \"path\" ", "Integrator \"volpath\" "})
+    EXPECT_TRUE(import_text(std::string(integrator) +
+                            "WorldBegin MakeNamedMedium \"m\" \"string type\" "
+                            "\"homogeneous\" " +
+                            triangle)
+                    .scene.settings.straight_counts)
+        << integrator;
+}
+
+// uber with opacity or a mirror is made of others, which have its bumps.
+TEST(PbrtMaterials, BumpsAreOfTheParts) {
+  const std::string bumps = "Texture \"d\" \"float\" \"fbm\" Material \"uber\" \"texture bumpmap\" \"d\" ";
+  const ImportedScene imported =
+      import_v3(bumps + "\"rgb opacity\" [.5 .5 .5] \"rgb Kr\" [.5 .5 .5] " + triangle);
+  EXPECT_FALSE(material_of(imported).displacement);
+  std::size_t bumped = 0;
+  for (const Material& material : imported.scene.materials) {
+    const bool is_leaf = !std::holds_alternative<MaskMaterial>(material.model) &&
+                         !std::holds_alternative<BlendMaterial>(material.model);
+    EXPECT_EQ(material.displacement.has_value(), is_leaf);
+    bumped += is_leaf;
+  }
+  EXPECT_EQ(bumped, 2u);
 }
 
 TEST(PbrtMaterials, BumpsAreKept) {

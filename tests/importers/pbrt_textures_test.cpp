@@ -2,6 +2,7 @@
 // Textures of pbrt in the Scene's terms.
 #include "pbrt_text.h"
 #include "scene/rgb_to_spectrum.h"
+#include "tests/support/png.h"
 
 namespace vitrail {
 namespace {
@@ -43,6 +44,47 @@ TEST(PbrtTextures, ImagesKeepHowTheyAreRead) {
   EXPECT_EQ(image.gamma, 2.2f);
   EXPECT_EQ(image.scale, .5f);
   EXPECT_TRUE(image.invert);
+  EXPECT_EQ(image.primaries, Primaries::named);
+}
+
+// pbrt-v4: the first channel alone where it takes single texels, else alpha (of RGBA files) or the mean; v3:
+// the luminance of what is stored.
+TEST(PbrtTextures, WhichNumberAnImageIs) {
+  const TemporaryFolder folder;
+  test::write_png(folder / "rgb.png", 1, 1, 3, {1, 2, 3});
+  test::write_png(folder / "rgba.png", 1, 1, 4, {1, 2, 3, 4});
+  test::write_png(folder / "ya.png", 1, 1, 2, {1, 2});
+  const auto image = [&](const std::string& film, const std::string& file, const std::string& more) {
+    const Scene scene =
+        read_pbrt(folder.write("in.pbrt", film +
+                                              " WorldBegin Texture \"t\" \"float\" "
+                                              "\"imagemap\" \"string filename\" \"" +
+                                              file + "\" " + more +
+                                              " Material \"matte\" \"texture sigma\" \"t\" " + triangle))
+            .scene;
+    return std::get<ImageTexture>(scene.textures.at(0).model);
+  };
+  const std::string v4 = "Film \"rgb\"", v3 = "Film \"image\"";
+  EXPECT_EQ(image(v4, "rgb.png", "").number, ImageNumber::mean);
+  EXPECT_EQ(image(v4, "rgba.png", "").number, ImageNumber::alpha_or_mean);
+  EXPECT_EQ(image(v4, "rgba.png", "\"string filter\" \"trilinear\"").number, ImageNumber::alpha_or_mean);
+  EXPECT_EQ(image(v4, "x.exr", "").number, ImageNumber::alpha_or_mean);
+  EXPECT_EQ(image(v4, "ya.png", "").number, ImageNumber::mean) << "pbrt drops the alpha of grey files";
+  EXPECT_EQ(image(v4, "rgba.png", "\"string filter\" \"point\"").number, ImageNumber::red);
+  EXPECT_EQ(image(v4, "rgba.png", "\"string filter\" \"ewa\"").number, ImageNumber::red);
+  EXPECT_EQ(image(v3, "rgba.png", "").number, ImageNumber::stored_luminance);
+  EXPECT_EQ(image(v4, "x.exr", "").primaries, Primaries::srgb) << "of the channels, not of a colour";
+  EXPECT_EQ(image(v3, "x.exr", "").primaries, Primaries::srgb);
+}
+
+TEST(PbrtTextures, AColorThatStandsForANumberCountsByItsLuminance) {
+  const ImportedScene imported = import_v3(
+      "Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"x.png\" Material \"uber\" "
+      "\"texture opacity\" \"t\" " +
+      triangle);
+  EXPECT_TRUE(mentions(imported.diagnostics, "luminance"));
+  EXPECT_TRUE(imported.scene.textures.back().is_float);
+  EXPECT_EQ(std::get<ImageTexture>(imported.scene.textures.back().model).number, ImageNumber::luminance);
 }
 
 TEST(PbrtTextures, OthersKeepTheirInputs) {

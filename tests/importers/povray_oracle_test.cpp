@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "tests/importers/povray_render.h"
+#include "tests/support/png.h"
 
 namespace vitrail {
 namespace {
@@ -130,6 +131,22 @@ TEST_F(PovrayOracle, SquareLightsShineAndAreSeenFromTheirFrontOnly) {
     EXPECT_NEAR(seen[0][1], .4, 1e-3);
     EXPECT_NEAR(seen[1][1], two_sided ? .4 : 0, 1e-3);
   }
+}
+
+// ¾ of a black card are not there, nor of one that shines.
+TEST_F(PovrayOracle, OpacitiesOfShapes) {
+  Scene scene = plane({.8, .8, .8});
+  scene.lights.push_back({DistantLight{{0, 0, -1}, emission_from_rgb({pi, pi, pi})}});
+  add(scene, square(-5, 5, -5, 5, .5), diffuse({0, 0, 0}));
+  scene.shapes.back().opacity = 0.25f;
+  expect_plane(scene, [](double, double) -> std::array<double, 3> {
+    return {.45, .45, .45};  // ¾ of the light, ¾ of what it shows
+  });
+  scene.lights.clear();
+  scene.shapes.resize(1);
+  add_emitter(scene, square(-5, 5, -5, 5, .5), {2, 2, 2}).opacity = 0.25f;
+  scene.settings.max_depth = 0;
+  expect_plane(scene, [](double, double) -> std::array<double, 3> { return {.5, .5, .5}; });
 }
 
 TEST_F(PovrayOracle, SurfacesThatReflectAndShine) {
@@ -361,6 +378,38 @@ TEST_F(PovrayOracle, ImagesLieWithTheirLowerLeftCornerAtZero) {
   mapping = {};
   scene.meshes[0].uvs.clear();  // pbrt's own: (0,0), (1,0), (1,1) for each triangle
   near({white, green, blue, white});
+}
+
+// POV-Ray would see through them.
+TEST_F(PovrayOracle, ColorsUnderTransparentAlphaStay) {
+  test::write_png(folder_ / "image.png", 2, 2, 4,
+                  {255, 0, 0, 0, 0, 255, 0, 128, 0, 0, 255, 255, 255, 255, 255, 0});
+  Scene scene = empty_scene();
+  scene.textures.push_back({ImageTexture{(folder_ / "image.png").string()}});
+  std::get<ImageTexture>(scene.textures[0].model).filter = TextureFilter::nearest;
+  add(scene, square(-2, 2, -2, 2, 0), DiffuseMaterial{Id<Texture>{0}});
+  scene.lights.push_back({DistantLight{{0, 0, -1}, emission_from_rgb({pi, pi, pi})}});
+  const Colors seen = quarters(scene), expected{red, green, blue, white};
+  ASSERT_EQ(seen.size(), 4u);
+  for (std::size_t q = 0; q < 4; ++q)
+    for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(seen[q][c], expected[q][c], 2e-3) << q << ' ' << c;
+}
+
+// A blend by the blue channel of an image, which POV-Ray would take for its grey.
+TEST_F(PovrayOracle, NumbersAreOfTheirChannel) {
+  test::write_png(folder_ / "image.png", 2, 2, 3, {255, 0, 0, 0, 255, 0, 0, 0, 255, 255, 255, 255});
+  Scene scene = empty_scene();
+  ImageTexture image{(folder_ / "image.png").string()};
+  image.number = ImageNumber::blue;
+  scene.textures.push_back({image, true});
+  scene.textures.push_back(
+      {MixTexture{SpectrumParameter{ConstantSpectrum{0}}, SpectrumParameter{ConstantSpectrum{1}},
+                  FloatParameter{Id<Texture>{0}}}});
+  add(scene, square(-2, 2, -2, 2, 0), DiffuseMaterial{Id<Texture>{1}});
+  scene.lights.push_back({DistantLight{{0, 0, -1}, emission_from_rgb({pi, pi, pi})}});
+  const Colors seen = quarters(scene);
+  ASSERT_EQ(seen.size(), 4u);
+  for (std::size_t q = 0; q < 4; ++q) EXPECT_NEAR(seen[q][0], q < 2 ? 0 : 1, 0.05) << q;
 }
 
 TEST_F(PovrayOracle, ProductsOfTextures) {

@@ -408,5 +408,43 @@ TEST_F(WriteMitsuba, UnwritableFolders) {
   EXPECT_THROW(write_mitsuba(square_scene({}), folder_ / "file" / "scene.xml"), MachineError);
 }
 
+TEST_F(WriteMitsuba, OpacitiesOfShapesAreMasks) {
+  Scene scene = square_scene({});
+  scene.shapes.resize(3, scene.shapes[0]);
+  scene.shapes[1].opacity = scene.shapes[2].opacity = 0.25f;
+  const pugi::xml_node root = write(scene);
+  EXPECT_THAT(diagnostics_, IsEmpty());
+  const pugi::xml_node mask = root.find_child_by_attribute("bsdf", "type", "mask");
+  EXPECT_EQ(value(mask, "opacity"), "0.25");
+  EXPECT_TRUE(mask.next_sibling("bsdf").empty()) << "one for both";
+  std::vector<std::string> used;
+  for (const pugi::xml_node shape : root.children("shape")) used.push_back(reference(shape, "bsdf"));
+  EXPECT_THAT(used, ElementsAre(mask.child("ref").attribute("id").value(), mask.attribute("id").value(),
+                                mask.attribute("id").value()));
+  EXPECT_STREQ(root.child("integrator").attribute("type").value(), "volpath") << "where a mask is no event";
+  // Sheets are events to a path, but not to that integrator.
+  Material sheet;
+  sheet.model = ThinDielectricMaterial{};
+  scene.materials.push_back(sheet);
+  write(scene);
+  EXPECT_THAT(diagnostics_, approximates("the depth"));
+  scene.settings.straight_counts = false;
+  write(scene);
+  EXPECT_THAT(diagnostics_, IsEmpty());
+}
+
+// Mitsuba's masks leave the light of a surface alone.
+TEST_F(WriteMitsuba, WhatIsNotThereDoesNotShine) {
+  Scene scene = square_scene({});
+  scene.area_lights.push_back({ConstantSpectrum{2}});
+  scene.shapes[0].area_light = Id<AreaLight>{0};
+  scene.shapes[0].opacity = 0.25f;
+  const pugi::xml_node emitter = write(scene).child("shape").child("emitter");
+  EXPECT_EQ(value(emitter, "radiance"), "0.5") << text_;
+  scene.shapes[0].opacity = 0.0f;
+  write(scene);
+  EXPECT_THAT(diagnostics_, approximates("nothing meets"));
+}
+
 }  // namespace
 }  // namespace vitrail

@@ -8,6 +8,7 @@
 #include "importers/obj/obj.h"
 #include "scene/rgb_to_spectrum.h"
 #include "tests/importers/temporary_folder.h"
+#include "tests/support/png.h"
 
 namespace vitrail {
 namespace {
@@ -104,10 +105,41 @@ TEST_F(WriteObj, MaterialsOfItsOwnReaderStay) {
                                  "Kd 1 1 1\nmap_Bump -bm .25 c.png\nnorm c.png\n",
                                  "Kd 1 1 1\nKe 2 2 2\nmap_Ke c.png\n",
                                  "Kd .2 .4 .6\nPr .25\nPm .5\nPs .125\nPc 1\nPcr .25\naniso .75\nNi 1.6\n",
-                                 "Kd .2 .4 .6\nmap_Pr c.png\nmap_Pm -mm 0 .5 c.png\n"}) {
+                                 "Kd .2 .4 .6\nmap_Pr c.png\nmap_Pm -mm 0 .5 c.png\n",
+                                 "Kd .2 .4 .6\nmap_Pr -imfchan g c.png\nmap_d -imfchan l c.png\n"}) {
     expect_same(square_ + "usemtl my m\nf 1 2 3 4\n", "newmtl my m\n" + text);
     EXPECT_THAT(diagnostics_, IsEmpty()) << text << diagnostics_[0].message;
   }
+}
+
+TEST_F(WriteObj, WhichNumberAnImageIs) {
+  test::write_png(folder_ / "a.png", 1, 1, 3, {1, 2, 3});
+  Scene scene = triangle();
+  ImageTexture image{(folder_ / "a.png").string()};
+  image.encoding = Encoding::linear;
+  image.number = ImageNumber::mean;
+  scene.textures.push_back({image, true});
+  PrincipledMaterial material;
+  material.roughness = Id<Texture>{0};
+  scene.materials[0].model = material;
+  written(scene);
+  EXPECT_THAT(diagnostics_, says("channels of the image of map_Pr"));
+  test::write_png(folder_ / "a.png", 1, 1, 3, {2, 2, 2});
+  written(scene);
+  EXPECT_THAT(diagnostics_, Not(says("channels of the image")));
+}
+
+// A tint of any writer's making: pbrt's is behind the image.
+TEST_F(WriteObj, ATintedImageKeepsItsImage) {
+  folder_.write("a.png", "");
+  Scene scene = triangle();
+  scene.textures.push_back({ImageTexture{(folder_ / "a.png").string()}, false});
+  scene.textures.push_back({ProductTexture{Id<Texture>{0}, Spectrum{ConstantSpectrum{.5f}}}, false});
+  scene.materials[0].model = DiffuseMaterial{Id<Texture>{1}};
+  const Scene again = written(scene);
+  const auto& found = std::get<ImageTexture>(again.textures.at(0).model);
+  EXPECT_EQ(found.scale, .5f);
+  EXPECT_EQ(std::filesystem::path(found.filename).filename(), "a.png");
 }
 
 TEST_F(WriteObj, TransformsFlipsAndInstances) {
@@ -208,6 +240,25 @@ TEST_F(WriteObj, AllMaterials) {
     scene.shapes.back().material = {i};
   }
   EXPECT_THAT(written(scene).shapes, SizeIs(scene.shapes.size()));
+}
+
+// MTL has an opacity of materials: shapes that differ in theirs have materials of their own.
+TEST_F(WriteObj, OpacitiesOfShapes) {
+  Scene scene = triangle();
+  scene.materials = {{DiffuseMaterial{}}, {MaskMaterial{0.5f, {0}}}, {DielectricMaterial{}}};
+  scene.shapes.resize(4, scene.shapes[0]);
+  scene.shapes[1].opacity = scene.shapes[2].opacity = scene.shapes[3].opacity = 0.25f;
+  scene.shapes[2].material = {1};
+  scene.shapes[3].material = {2};
+  const Scene again = written(scene);
+  const auto model = [&](std::size_t shape) {
+    return again.materials.at(again.shapes.at(shape).material.value).model;
+  };
+  EXPECT_TRUE(std::holds_alternative<DiffuseMaterial>(model(0)));
+  EXPECT_EQ(std::get<MaskMaterial>(model(1)).opacity, FloatParameter{0.25f});
+  EXPECT_EQ(std::get<MaskMaterial>(model(2)).opacity, FloatParameter{0.125f});
+  EXPECT_TRUE(std::holds_alternative<DielectricMaterial>(model(3)));
+  EXPECT_THAT(diagnostics_, says("glass of which"));
 }
 
 // ---- Files of others ----------------------------------------------------------------------------

@@ -8,6 +8,8 @@
 #include "importers/images/environment_images.h"
 
 #include "pbrt_text.h"
+#include "scene/rgb_to_spectrum.h"
+#include "tests/conformance/gate/pbrt_grammar.h"
 #include "tests/support/equal_scenes.h"
 
 namespace vitrail {
@@ -30,9 +32,10 @@ RoundTrip round_trip(const std::string& text) {
   return result;
 }
 
-// Nothing is lost in writing, and what is read again is the same.
+// Nothing is lost in writing, pbrt takes what is written, and what is read again is the same.
 void expect_exact(const std::string& text) {
   const RoundTrip trip = round_trip(text);
+  EXPECT_THAT(test::pbrt_complaints(trip.text, ""), testing::IsEmpty()) << trip.text;
   for (const Diagnostic& d : trip.written) ADD_FAILURE() << d.message;
   EXPECT_EQ(test::difference(trip.first.scene, trip.second.scene), "") << text << "\n became\n" << trip.text;
 }
@@ -116,7 +119,8 @@ TEST(WritePbrt, Textures) {
         "0]",
         "Texture \"t\" \"spectrum\" \"dots\" \"string mapping\" \"planar\" \"vector3 v1\" [1 2 3] \"float "
         "udelta\" .7",
-        "Texture \"f\" \"float\" \"fbm\" Texture \"t\" \"spectrum\" \"mix\" \"rgb tex1\" [3 2 1] \"texture "
+        "Texture \"f\" \"float\" \"fbm\" Texture \"t\" \"spectrum\" \"mix\" \"rgb tex1\" [.3 .2 .1] "
+        "\"texture "
         "amount\" \"f\"",
         "Texture \"f\" \"float\" \"wrinkled\" Texture \"f\" \"float\" \"scale\" \"texture tex\" \"f\" "
         "\"float scale\" 2 "
@@ -198,6 +202,138 @@ TEST(WritePbrt, ShapesAndInstances) {
                      "Scale -1 2 3 ObjectInstance \"o\"");
 }
 
+TEST(WritePbrt, OpacitiesOfShapes) {
+  const std::string leaf = "Texture \"leaf\" \"float\" \"checkerboard\" ",
+                    light = "AreaLightSource \"diffuse\" ";
+  expect_exact_world(leaf + triangle + "\"texture alpha\" \"leaf\" Material \"interface\" " + triangle +
+                     "\"float alpha\" .25 " + light + "Material \"diffuse\" " + triangle +
+                     "\"float alpha\" 0");
+}
+
+// What masks take away is the alpha of the shape, wherever they stand.
+class WrittenMasks : public testing::Test {
+ protected:
+  Id<Material> add(MaterialModel model) {
+    scene_.materials.push_back(Material{std::move(model)});
+    return {static_cast<std::uint32_t>(scene_.materials.size() - 1)};
+  }
+  Id<Texture> add_board() {
+    scene_.textures.push_back({CheckerboardTexture{ConstantSpectrum{1}, ConstantSpectrum{0}}, true, "", {}});
+    return {static_cast<std::uint32_t>(scene_.textures.size() - 1)};
+  }
+  // As it is read again.
+  Shape written(Id<Material> material) {
+    scene_.shapes[0].material = material;
+    diagnostics_ = write_pbrt(scene_, folder_ / "out.pbrt");
+    std::ifstream file(folder_ / "out.pbrt");
+    text_.assign(std::istreambuf_iterator<char>(file), {});
+    again_ = read_pbrt(folder_ / "out.pbrt").scene;
+    return again_.shapes.at(0);
+  }
+  template <class Model>
+  Model model_of(const Shape& shape) {
+    return std::get<Model>(again_.materials.at(shape.material.value).model);
+  }
+  int mixes() const {
+    int count = 0;
+    for (auto at = text_.find("\"mix\""); at != std::string::npos; at = text_.find("\"mix\"", at + 1))
+      ++count;
+    return count;
+  }
+  float constant_opacity(const Shape& shape) { return std::get<float>(shape.opacity); }
+
+  TemporaryFolder folder_;
+  Scene scene_ = import_v4(triangle).scene, again_;
+  Diagnostics diagnostics_;
+  std::string text_;
+  const Id<Material> dark_ = add(DiffuseMaterial{ConstantSpectrum{0.25f}}),
+                     bright_ = add(DiffuseMaterial{ConstantSpectrum{0.75f}}),
+                     half_ = add(MaskMaterial{0.5f, dark_});
+};
+
+TEST_F(WrittenMasks, WithinBlends) {
+  scene_.settings.straight_counts = false;
+  const Shape half = written(half_);
+  EXPECT_EQ(constant_opacity(half), 0.5f);
+  EXPECT_EQ(model_of<DiffuseMaterial>(half).reflectance, SpectrumParameter{ConstantSpectrum{0.25f}});
+  EXPECT_TRUE(diagnostics_.empty());
+
+  // ¾·½ of the dark one and ¼ of the bright one are there: 5/8, of which 2/5 are bright.
+  const Shape blend = written(add(BlendMaterial{half_, bright_, 0.25f}));
+  EXPECT_FLOAT_EQ(constant_opacity(blend), 0.625f);
+  EXPECT_FLOAT_EQ(std::get<float>(model_of<BlendMaterial>(blend).amount), 0.4f);
+  EXPECT_TRUE(diagnostics_.empty());
+
+  // A texture that chooses between something and nothing is an alpha.
+  const Id<Texture> board = add_board();
+  const Id<Material> nothing = add(InterfaceMaterial{});
+  const Shape cut = written(add(BlendMaterial{nothing, dark_, board}));
+  EXPECT_EQ(model_of<DiffuseMaterial>(cut).reflectance, SpectrumParameter{ConstantSpectrum{0.25f}});
+  EXPECT_EQ(cut.opacity, FloatParameter{board});
+  EXPECT_TRUE(diagnostics_.empty());
+  EXPECT_EQ(mixes(), 1) << "that of the first blend: pbrt refuses a mix with an interface";
+
+  written(add(BlendMaterial{half_, bright_, board}));
+  EXPECT_TRUE(mentions(diagnostics_, "masks within a blend by textures"));
+}
+
+TEST_F(WrittenMasks, TimesTheShapesOwnOpacity) {
+  scene_.shapes[0].opacity = 0.5f;
+  EXPECT_EQ(constant_opacity(written(half_)), 0.25f);
+  scene_.shapes[0].opacity = add_board();
+  const Shape both = written(half_);
+  const auto& product =
+      std::get<ProductTexture>(again_.textures.at(std::get<Id<Texture>>(both.opacity).value).model);
+  EXPECT_EQ(product.second, SpectrumParameter{ConstantSpectrum{0.5f}});
+}
+
+TEST_F(WrittenMasks, CountForNoDepthInPbrt) {
+  written(half_);
+  EXPECT_TRUE(mentions(diagnostics_, "the depth"));
+  scene_.settings.max_depth = unlimited_depth;
+  written(half_);
+  EXPECT_FALSE(mentions(diagnostics_, "the depth"));
+  scene_.settings.max_depth = 5;
+  scene_.settings.straight_counts = false;
+  written(half_);
+  EXPECT_FALSE(mentions(diagnostics_, "the depth"));
+  add(ThinDielectricMaterial{});
+  written(half_);
+  EXPECT_TRUE(mentions(diagnostics_, "thin sheets"));
+}
+
+// A mask leaves the light of a surface alone, an alpha does not; and pbrt drops the lights of interfaces.
+TEST_F(WrittenMasks, OfWhatShines) {
+  scene_.settings.max_depth = unlimited_depth;
+  scene_.settings.straight_counts = false;
+  scene_.area_lights.push_back({ConstantSpectrum{1}});
+  scene_.shapes[0].area_light = Id<AreaLight>{0};
+  const Shape nothing = written(add(InterfaceMaterial{}));
+  EXPECT_EQ(constant_opacity(nothing), 1);
+  EXPECT_TRUE(nothing.area_light);
+  EXPECT_EQ(model_of<ThinDielectricMaterial>(nothing).eta, Spectrum{ConstantSpectrum{1}});
+  const Shape half = written(half_);
+  EXPECT_EQ(constant_opacity(half), 1);
+  const auto mix = model_of<BlendMaterial>(half);
+  EXPECT_EQ(mix.amount, FloatParameter{0.5f});
+  EXPECT_TRUE(std::holds_alternative<ThinDielectricMaterial>(again_.materials.at(mix.first.value).model));
+  EXPECT_TRUE(diagnostics_.empty());
+  scene_.settings.max_depth = 5;
+  written(half_);
+  EXPECT_TRUE(mentions(diagnostics_, "counts for the depth"));
+  scene_.lights.push_back({PointLight{}, {}});
+  written(half_);
+  EXPECT_TRUE(mentions(diagnostics_, "lights without extent"));
+}
+
+TEST_F(WrittenMasks, BumpsOfWhatIsMadeOfOthersAreReported) {
+  const Id<Material> blend = add(BlendMaterial{dark_, bright_, 0.25f});
+  scene_.materials[blend.value].displacement = Id<Texture>{add_board()};
+  written(blend);
+  EXPECT_TRUE(mentions(diagnostics_, "bumps"));
+  EXPECT_EQ(text_.find("displacement"), std::string::npos) << "pbrt refuses a mix with one";
+}
+
 TEST(WritePbrt, Media) {
   const std::string use = "MediumInterface \"m\" \"\" Material \"interface\" " + triangle;
   for (const char* medium :
@@ -227,6 +363,151 @@ TEST(WritePbrt, WhatV4CannotSayIsReported) {
   EXPECT_TRUE(mentions(trip.written, "mirror"));
   EXPECT_TRUE(mentions(trip.written, "factors of reflection"));
   for (const Diagnostic& d : trip.written) EXPECT_GT(d.location.line, 0) << d.message;
+}
+
+// What is written of it passes pbrt's grammar, and the report mentions it.
+RoundTrip expect_reported(const std::string& world, const char* report) {
+  RoundTrip trip = round_trip("Film \"rgb\"\nWorldBegin\n" + world);
+  EXPECT_THAT(test::pbrt_complaints(trip.text, ""), testing::IsEmpty()) << trip.text;
+  EXPECT_TRUE(mentions(trip.written, report)) << trip.text;
+  return trip;
+}
+
+TEST(WritePbrt, MaterialsHaveOnlyWhatPbrtTakesOfThem) {
+  expect_reported(
+      "Texture \"h\" \"float\" \"windy\" Material \"hair\" \"texture displacement\" \"h\" " + triangle,
+      "bumps of hair");
+  const RoundTrip wax =
+      expect_reported("Material \"subsurface\" \"spectrum eta\" \"glass-BK7\" " + triangle, "dispersion");
+  EXPECT_NEAR(evaluate(std::get<SubsurfaceMaterial>(wax.second.scene.materials.at(0).model).eta, 500), 1.5168,
+              1e-3);
+  Scene scene = round_trip("Film \"rgb\"\nWorldBegin\n" + triangle).first.scene;
+  PrincipledMaterial sheet;
+  sheet.thin = true, sheet.spec_trans = 1.0f;
+  scene.materials.at(0).model = sheet;
+  const TemporaryFolder folder;
+  EXPECT_TRUE(mentions(write_pbrt(scene, folder / "out.pbrt"), "thin glass"));
+  EXPECT_THAT(test::pbrt_complaints(folder / "out.pbrt"), testing::IsEmpty());
+}
+
+// pbrt has noise of numbers and marble of colours: a colour by noise is a mix of black and white.
+TEST(WritePbrt, NoiseIsOfTheKindThatPbrtHas) {
+  expect_exact_material(
+      "Texture \"w\" \"float\" \"windy\" Material \"conductor\" \"texture roughness\" \"w\"");
+  for (const char* kind : {"fbm", "wrinkled", "windy"}) {
+    const RoundTrip trip =
+        round_trip("Film \"rgb\"\nWorldBegin\nTranslate 1 2 3 Texture \"t\" \"spectrum\" \"" +
+                   std::string(kind) + "\" Material \"diffuse\" \"texture reflectance\" \"t\" " + triangle);
+    EXPECT_THAT(trip.written, testing::IsEmpty());
+    EXPECT_THAT(test::pbrt_complaints(trip.text, ""), testing::IsEmpty()) << trip.text;
+    const std::vector<Texture>& textures = trip.second.scene.textures;
+    ASSERT_EQ(textures.size(), 2u);
+    EXPECT_EQ(textures[0].model, trip.first.scene.textures.at(0).model) << kind;
+    EXPECT_EQ(std::get<MixTexture>(textures[1].model).amount, FloatParameter{Id<Texture>{0}});
+  }
+  expect_reported(
+      "Texture \"m\" \"float\" \"marble\" Material \"conductor\" \"texture roughness\" \"m\" " + triangle,
+      "marble of numbers");
+}
+
+TEST(WritePbrt, TexturesHaveOnlyWhatPbrtTakesOfThem) {
+  const std::string use = " Material \"diffuse\" \"texture reflectance\" \"t\" " + triangle;
+  const RoundTrip bright =
+      expect_reported("Texture \"t\" \"spectrum\" \"mix\" \"rgb tex1\" [3 2 1]" + use, "colours above 1");
+  const auto& mix = std::get<MixTexture>(bright.second.scene.textures.at(0).model);
+  EXPECT_NEAR(
+      luminance(std::get<Spectrum>(mix.first)),
+      luminance(std::get<Spectrum>(std::get<MixTexture>(bright.first.scene.textures.at(0).model).first)),
+      1e-4);
+  expect_reported(
+      "Texture \"f\" \"spectrum\" \"dots\" Texture \"t\" \"spectrum\" \"bilerp\" \"texture v00\" \"f\"" + use,
+      "corner");
+}
+
+// pbrt divides by the brightness of a light's spectrum: black has to be an rgb.
+TEST(WritePbrt, BlackLightsAreColors) {
+  const RoundTrip trip =
+      round_trip("Film \"rgb\"\nWorldBegin\nLightSource \"point\" \"spectrum I\" [300 0 900 0] " + triangle);
+  EXPECT_NE(trip.text.find("\"rgb I\" [ 0 0 0 ]"), std::string::npos) << trip.text;
+}
+
+TEST(WritePbrt, KindsOfMedia) {
+  const std::string use = " MediumInterface \"m\" \"\" Material \"interface\" " + triangle;
+  for (const char* medium :
+       {"\"homogeneous\" \"rgb sigma_a\" [1 2 3] \"rgb sigma_s\" [3 2 1] \"float scale\" 2 \"float g\" .3",
+        "\"homogeneous\" \"string preset\" \"Wholemilk\"",
+        "\"homogeneous\" \"rgb Le\" [1 2 3] \"float Lescale\" 4",
+        "\"uniformgrid\" \"integer nx\" 2 \"float density\" [1 2] \"float temperature\" [900 1000] \"float "
+        "temperaturescale\" 2",
+        "\"uniformgrid\" \"integer nx\" 2 \"float density\" [1 2] \"rgb Le\" [1 2 3] \"float Lescale\" [.5 "
+        ".7]",
+        "\"rgbgrid\" \"integer nx\" 2 \"rgb sigma_a\" [1 2 3 4 5 6] \"rgb sigma_s\" [6 5 4 3 2 1] \"float "
+        "scale\" 3",
+        "\"rgbgrid\" \"integer nx\" 2 \"rgb sigma_s\" [6 5 4 3 2 1]",
+        "\"rgbgrid\" \"integer nx\" 2 \"rgb sigma_a\" [6 5 4 3 2 1]",
+        "\"cloud\" \"float wispiness\" 3 \"rgb sigma_s\" [1 2 3]",
+        "\"nanovdb\" \"string filename\" \"fire.nvdb\" \"float Lescale\" 3 \"float temperaturescale\" 100"})
+    expect_exact_world("MakeNamedMedium \"m\" \"string type\" " + std::string(medium) + use);
+}
+
+TEST(WritePbrt, MediaHaveOnlyWhatPbrtTakesOfThem) {
+  const std::string use = " MediumInterface \"m\" \"\" Material \"interface\" " + triangle;
+  Scene scene = round_trip(
+                    "Film \"rgb\"\nWorldBegin\nMakeNamedMedium \"m\" \"string type\" \"cloud\" \"rgb "
+                    "sigma_a\" [1 2 3] " +
+                    use)
+                    .first.scene;
+  const TemporaryFolder folder;
+  const auto written = [&](auto&& change) {
+    Scene changed = scene;
+    change(changed.media.at(0));
+    write_pbrt(changed, folder / "out.pbrt");
+    EXPECT_THAT(test::pbrt_complaints(folder / "out.pbrt"), testing::IsEmpty());
+    return read_pbrt(folder / "out.pbrt").scene.media.at(0);
+  };
+  const Medium thick = written([](Medium& m) { m.scale = 2; });
+  const auto& sigma_a = std::get<AbsorptionScattering>(thick.coefficients).sigma_a;
+  EXPECT_NEAR(
+      luminance(std::get<Spectrum>(sigma_a)),
+      2 * luminance(std::get<Spectrum>(std::get<AbsorptionScattering>(scene.media[0].coefficients).sigma_a)),
+      1e-4);
+  written([](Medium& m) { m.emission = ConstantSpectrum{1}; });
+  written([](Medium& m) { m.coefficients = NamedMedium{"Skin1"}; });
+  Grid cells;
+  cells.nx = 2, cells.ny = cells.nz = 1;
+  cells.values = {1, 2};
+  const Medium shining = written([&](Medium& m) {
+    m.density = cells;
+    m.emission = emission_from_rgb({1, 2, 3});
+    m.emission_factor = 3;
+  });
+  EXPECT_EQ(shining.emission_scale->values, (std::vector<float>{3, 3}));
+  // A coefficient that is one value beside one that is a grid.
+  const Medium mixed = written([&](Medium& m) {
+    m.density = {};
+    m.coefficients = AbsorptionScattering{ConstantSpectrum{0.5f}, cells};
+  });
+  const auto& both = std::get<AbsorptionScattering>(mixed.coefficients);
+  EXPECT_EQ(std::get<Grid>(both.sigma_a).values, std::vector<float>(6, 0.5f));
+  EXPECT_EQ(std::get<Grid>(both.sigma_s).values, (std::vector<float>{1, 1, 1, 2, 2, 2}));
+}
+
+// pbrt leaves out area lights in objects.
+TEST(WritePbrt, WhatShinesInAnObjectIsWrittenWithEveryInstance) {
+  Scene scene = round_trip("Film \"rgb\"\nWorldBegin\nObjectBegin \"o\" " + triangle + triangle +
+                           "ObjectEnd ObjectInstance \"o\" Scale -1 2 1 ObjectInstance \"o\"")
+                    .first.scene;
+  scene.area_lights.push_back({Spectrum{emission_from_rgb({1, 1, 1})}});
+  scene.prototypes.at(0).shapes.at(1).area_light = Id<AreaLight>{0};
+  const TemporaryFolder folder;
+  EXPECT_TRUE(mentions(write_pbrt(scene, folder / "out.pbrt"), "instances no area lights"));
+  EXPECT_THAT(test::pbrt_complaints(folder / "out.pbrt"), testing::IsEmpty());
+  const Scene again = read_pbrt(folder / "out.pbrt").scene;
+  EXPECT_EQ(again.prototypes.at(0).shapes.size(), 1u);
+  ASSERT_EQ(again.shapes.size(), 2u);
+  EXPECT_TRUE(again.shapes[0].area_light && again.shapes[1].area_light);
+  EXPECT_EQ(again.shapes[1].object_to_world, scale({-1, 2, 1}));
+  EXPECT_TRUE(again.shapes[1].flip_orientation);  // its front stays where it was in the object
 }
 
 }  // namespace

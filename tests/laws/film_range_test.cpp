@@ -43,8 +43,9 @@ class FilmRange : public ::testing::Test {
     return out;
   }
   CommandResult render(const std::filesystem::path& of, int ranks, int samples) {
-    return run(fmt::format("{} '{}' -o '{}' --spp {} --threads 1 --stats '{}'", mpi_vitrail("render", ranks),
-                           of.string(), film_.string(), samples, stats_.string()));
+    return run(fmt::format("{} '{}' -o '{}' --force --spp {} --threads 1 --stats '{}'",
+                           mpi_vitrail("render", ranks), of.string(), film_.string(), samples,
+                           stats_.string()));
   }
   std::string hash() { return read_json(stats_)["film_hash"]; }
 

@@ -52,11 +52,11 @@ struct Kept {
   DomainView view;
 };
 
-Kept keep(const Parts& parts, std::size_t part, const std::vector<Kept>& before, float padding) {
+Kept keep(const Parts& parts, std::size_t part, const std::vector<Kept>& before, bool padded) {
   Kept kept;
   for (const Triangle& t : parts[part].triangles)
     for (const Point3f& p : t) extend(kept.bounds, p);
-  ClusteredTriangles built = cluster(parts[part].triangles, padding);
+  ClusteredTriangles built = cluster(parts[part].triangles, padded);
   kept.content.nodes = std::move(built.nodes);
   kept.content.clusters = std::move(built.clusters);
   std::size_t first = parts[part].triangles.size();
@@ -64,17 +64,14 @@ Kept keep(const Parts& parts, std::size_t part, const std::vector<Kept>& before,
   for (const Part::Use& use : parts[part].uses) {
     Bounds3f box = placed_bounds(use.to_parent, before[use.part].bounds);
     extend(kept.bounds, box);
-    for (int axis = 0; axis < 3; ++axis) {
-      box.lower[axis] -= padding + 1e-6f * std::abs(box.lower[axis]);
-      box.upper[axis] += padding + 1e-6f * std::abs(box.upper[axis]);
-    }
+    box = inflated(box, padded ? padding(greatest(box)) : 0);
     InstanceRef ref{use.to_parent, {}, {}, use.part, static_cast<std::uint32_t>(first)};
     for (int axis = 0; axis < 3; ++axis) ref.lower[axis] = box.lower[axis], ref.upper[axis] = box.upper[axis];
     kept.content.instances.push_back(ref);
     boxes.push_back(box);
     first += count(parts, use.part);
   }
-  kept.content.instance_nodes = build_tree(boxes, 0);
+  kept.content.instance_nodes = build_tree(boxes);
   kept.view = view_of(kept.content);
   return kept;
 }
@@ -85,16 +82,14 @@ struct Both {
     flatten(parts, parts.size() - 1, nullptr, triangles);
     all = std::move(triangles);
     flat = cluster(all);
-    const float padding = 2e-6f * greatest_coordinate(all);
     for (std::size_t i = 0; i < parts.size(); ++i)
-      kept.push_back(keep(parts, i, kept, i + 1 == parts.size() ? padding : 0));
+      kept.push_back(keep(parts, i, kept, i + 1 == parts.size()));
     for (Kept& k : kept) {
       k.view = view_of(k.content);
       views.push_back(&k.view);
     }
     domain = kept.back().view;
     domain.objects = views;
-    domain.padding = padding;
   }
   Triangles all;
   ClusteredTriangles flat;

@@ -62,8 +62,8 @@ class Placer {
   std::mt19937_64 bits_{11};
 };
 
-// Rocks with textures, masked leaves, twigs that hold both, lamps, one large ring that spans everything, and
-// a floor, all of it far from the origin.
+// Rocks with textures, leaves with masks and with holes, twigs that hold both, lamps with holes, one large
+// ring that spans everything, and a floor, all of it far from the origin.
 Scene forest(Vector3d far) {
   Scene scene;
   scene.textures = {Texture{CheckerboardTexture{ConstantSpectrum{0.1f}, ConstantSpectrum{0.8f}}},
@@ -79,16 +79,16 @@ Scene forest(Vector3d far) {
 
   Placer random;
   scene.prototypes.resize(5);
-  scene.prototypes[0].shapes = {{rock, board}, {leaf, mask, {}, translate({0, 0, 1})}};
-  scene.prototypes[1].shapes = {{leaf, mask}};
+  scene.prototypes[0].shapes = {{rock, board}, {leaf, mask, {}, 1.0f, translate({0, 0, 1})}};
+  scene.prototypes[1].shapes = {{leaf, green, {}, Id<Texture>{1}}};
   scene.prototypes[1].shapes[0].flip_orientation = true;
   for (int i = 0; i < 6; ++i) {
     const std::uint32_t part = i % 2;
     scene.prototypes[2].instances.push_back(
         {Id<Prototype>{part}, random.place(random.vector(3), part == 0 ? 0.3 : 1.5, i)});
   }
-  scene.prototypes[2].shapes = {{rock, glass, {}, scale({0.3, 0.3, 0.3})}};
-  scene.prototypes[3].shapes = {{leaf, black, Id<AreaLight>{0}}};
+  scene.prototypes[2].shapes = {{rock, glass, {}, 1.0f, scale({0.3, 0.3, 0.3})}};
+  scene.prototypes[3].shapes = {{leaf, black, Id<AreaLight>{0}, Id<Texture>{1}}};
   scene.prototypes[4].shapes = {{ring, board}};
 
   for (int i = 0; i < 60; ++i) {
@@ -100,10 +100,26 @@ Scene forest(Vector3d far) {
   scene.instances.push_back({Id<Prototype>{0}, translate(far) * scale({1, 1, 0})});  // cannot be kept
   const Id<TriangleMesh> floor =
       add_quads(scene, {{{{-20, -20, -9}, {20, -20, -9}, {20, 20, -9}, {-20, 20, -9}}}});
-  scene.shapes.push_back({floor, green, {}, translate(far)});
+  scene.shapes.push_back({floor, green, {}, 1.0f, translate(far)});
   scene.lights.push_back({InfiniteLight{ConstantSpectrum{0.3f}}});
   const Point3d target = Point3d{} + far;
   set_camera(scene, target + Vector3d{18, -16, 12}, target, {0, 0, 1}, 0.8, 48, 48);
+  return scene;
+}
+
+// Shapes of one mesh that become instances: on three surfaces, mirrored, some that shine, one that is
+// flattened; the forest's objects beside them.
+Scene crowd() {
+  Scene scene = forest({});
+  const Id<TriangleMesh> stone = add_torus(scene, 60);
+  Placer random;
+  for (int i = 0; i < 160; ++i) {
+    Shape shape{stone, Id<Material>{i % 2 == 0 ? 0u : 1u}, {}, 1.0f, random.place(random.vector(8), 0.5, i)};
+    if (i % 3 == 0) shape.flip_orientation = true;  // those that are mirrored
+    if (i > 40 && i % 2 == 1) shape.area_light = Id<AreaLight>{0};
+    scene.shapes.push_back(shape);
+  }
+  scene.shapes.push_back({stone, Id<Material>{0}, {}, 1.0f, scale({1, 1, 0})});
   return scene;
 }
 
@@ -121,9 +137,9 @@ class Films {
   nlohmann::json render(const std::filesystem::path& bundle, int ranks, int threads,
                         const std::string& more = "") const {
     const auto stats = directory_ / "stats.json";
-    const CommandResult done =
-        run(fmt::format("{} '{}' -o '{}' --spp 4 --threads {} --stats '{}' {}", mpi_vitrail("render", ranks),
-                        bundle.string(), (directory_ / "a.film").string(), threads, stats.string(), more));
+    const CommandResult done = run(fmt::format(
+        "{} '{}' -o '{}' --force --spp 4 --threads {} --stats '{}' {}", mpi_vitrail("render", ranks),
+        bundle.string(), (directory_ / "a.film").string(), threads, stats.string(), more));
     EXPECT_EQ(done.status, 0) << done.output;
     return done.status == 0 ? read_json(stats) : nlohmann::json();
   }
@@ -181,11 +197,22 @@ TEST(KeptInstances, HaveTheFilmOfTheFlattenedScene) { expect_the_flattened_film(
 
 TEST(KeptInstances, FarFromTheOrigin) { expect_the_flattened_film(forest({1e6, -2e6, 3e5}), {1, 8}); }
 
+TEST(KeptInstances, ShapesThatShareAMesh) {
+  const Scene scene = crowd();
+  const TemporaryDirectory directory;
+  partition(scene, directory / "kept.vit", {.domains = 2});
+  partition(forest({}), directory / "forest.vit", {.domains = 2});
+  EXPECT_EQ(read_manifest(directory / "kept.vit").objects.size(),
+            read_manifest(directory / "forest.vit").objects.size() + 2)
+      << "those of the third surface are too few";
+  expect_the_flattened_film(scene, {1, 8});
+}
+
 // In parts that are in memory one after the other.
 TEST(KeptInstances, OutOfCore) {
   Scene scene = forest({});
   scene.shapes.push_back(
-      {add_torus(scene, 400), Id<Material>{1}, {}, translate({0, 0, -6}) * scale({4, 4, 1})});
+      {add_torus(scene, 400), Id<Material>{1}, {}, 1.0f, translate({0, 0, -6}) * scale({4, 4, 1})});
   const Films films(scene);
   const nlohmann::json reference =
       films.render(films.bundle("flat.vit", {.domains = 1, .flatten = true}), 1, 2);

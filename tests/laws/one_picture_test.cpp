@@ -35,9 +35,10 @@ Bundle make_bundle(const TemporaryDirectory& directory, const std::filesystem::p
 nlohmann::json render(const TemporaryDirectory& directory, const Bundle& bundle, int ranks, int threads,
                       const std::string& more) {
   const auto stats = directory / "stats.json";
-  const CommandResult done = run(fmt::format(
-      "{} '{}' -o '{}' --crop 0,48,0,32 --spp 2 --threads {} --stats '{}' {}", mpi_vitrail("render", ranks),
-      bundle.path.string(), (directory / "picture.film").string(), threads, stats.string(), more));
+  const CommandResult done =
+      run(fmt::format("{} '{}' -o '{}' --force --crop 0,48,0,32 --spp 2 --threads {} --stats '{}' {}",
+                      mpi_vitrail("render", ranks), bundle.path.string(),
+                      (directory / "picture.film").string(), threads, stats.string(), more));
   EXPECT_EQ(done.status, 0) << done.output;
   return done.status == 0 ? read_json(stats) : nlohmann::json();
 }

@@ -52,11 +52,11 @@ struct Room {
 };
 
 TEST(ShadowEnds, BehindWhatStandsBeforeALamp) {
-  // Of a float: 2⁻²³ of the distance is the least that a ray's end can tell.
+  // Of a float: 2⁻²³ of the way to the lamp is the least that a ray's end can tell.
   for (const double distance : {20.0, 500.0, 20e3})
     for (const double gap : {2.5e-3, 2.5e-4, 2.5e-5, 2.5e-6})
       for (const double aside : {0.0, 1.0, 5.0}) {
-        if (gap < distance * 0x1p-23) continue;
+        if (gap < distance * std::hypot(1, aside) * 0x1p-23) continue;
         Room room(distance, aside, 1);
         add_shape(room.scene, add_quads(room.scene, {square({0, 0, static_cast<float>(-gap)}, 1.5f, false)}),
                   black);

@@ -45,7 +45,7 @@ SoupBundle cut_in_memory(const Soup& soup, std::uint32_t domains) {
   m.kd_nodes.resize(domains - 1);
   bundle.contents.resize(domains);
   Census census(m.triangles);
-  const InstanceDealer none({}, static_cast<float>(padding(m)), m.bounds);
+  const InstanceDealer none({}, m.bounds);
   const WorkEstimate equal;
   const auto store = [&](std::uint32_t domain, DomainContent content, DomainInfo&) {
     bundle.contents[domain] = std::move(content);
@@ -93,11 +93,7 @@ Scene scene_with_instances(const Soup& soup) {
     const std::size_t n = soup.triangles.size(), begin = part * n / (parts + 1);
     scene.meshes.push_back(
         mesh_of(std::span(soup.triangles).subspan(begin, (part + 1) * n / (parts + 1) - begin)));
-    return Shape{Id<TriangleMesh>{static_cast<std::uint32_t>(scene.meshes.size() - 1)},
-                 Id<Material>{0},
-                 {},
-                 {},
-                 false};
+    return Shape{.mesh = {static_cast<std::uint32_t>(scene.meshes.size() - 1)}, .material = {0}};
   };
   const auto placed_at_random = [&] {
     const Vector3d reach = random.vector(soup.reach * random.log_uniform(0.01, 10)), axis = random.vector(1);

@@ -56,6 +56,7 @@ std::vector<Film> films_of(std::uint32_t samples, std::uint64_t first_seed) {
     options.film = directory / "box.film";
     options.samples_per_pixel = static_cast<int>(samples);
     options.seed = seed;
+    options.force = true;
     vitrail::render(*transport, options);
     films.push_back(read_film(options.film, nullptr));
   }

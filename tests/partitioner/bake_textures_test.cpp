@@ -2,7 +2,9 @@
 #include "partitioner/appearance/bake_textures.h"
 
 #include <random>
+#include <span>
 
+#include "partitioner/appearance/row_halver.h"
 #include "tests/partitioner/baked_scene.h"
 #include "tracer/textures/baked_image.h"
 
@@ -51,6 +53,26 @@ TEST(BakeTextures, ReflectancesOfLinearPixels) {
       s, baked, image, [](RGB c) { return Spectrum{reflectance_from_rgb(c)}; }, 1e-3);
 }
 
+// The file of rows that come one by one is that of the whole image.
+TEST(BakeTextures, RowsMakeTheSameFile) {
+  test::BakedScene s;
+  const ReflectanceFitter fitter;
+  for (const auto use :
+       {TextureUse::reflectance, TextureUse::unbounded, TextureUse::number, TextureUse::vector}) {
+    const Image image = colors(131, 77, 3);
+    const ImageRows rows{131, 77, [&](const std::function<void(Image)>& visit) {
+                           constexpr std::size_t stride = 131 * 3;
+                           for (auto row = image.values.begin(); row != image.values.end(); row += stride)
+                             visit({131, 1, 3, {row, row + stride}});
+                         }};
+    const auto one = write_baked_image(s.directory / "one.tex", rows, use, true, fitter);
+    const auto all = write_baked_image(s.directory / "all.tex", rows_of(image), use, true, fitter);
+    EXPECT_EQ(one.hash, all.hash);
+    EXPECT_EQ(one.bytes, std::filesystem::file_size(s.directory / "one.tex"));
+    TextureFile(s.directory / "one.tex").check_tiles();
+  }
+}
+
 TEST(BakeTextures, UnboundedPixels) {
   test::BakedScene s;
   const Image image = colors(9, 5, 3);
@@ -88,6 +110,29 @@ TEST(BakeTextures, DecodesScalesAndInverts) {
   EXPECT_NEAR(textures.number(baked[1], upper_left), 1 - decoded / 2, 1e-6);
   EXPECT_NEAR(textures.number(baked[2], upper_left), 1.2 / 3, 1e-6);
   EXPECT_NEAR(textures.number(baked[3], upper_left), 1.04 / 3, 1e-6);
+}
+
+// The same file is one image for each number that is taken from it.
+TEST(BakeTextures, NumbersOfChannels) {
+  test::BakedScene s;
+  test::write_png(s.directory / "a.png", 1, 1, 4, {51, 102, 204, 153});
+  const std::vector<std::pair<ImageNumber, double>> expected{{ImageNumber::mean, 1.4 / 3},
+                                                             {ImageNumber::green, 0.4},
+                                                             {ImageNumber::alpha, 0.6},
+                                                             {ImageNumber::alpha_or_mean, 0.6}};
+  std::vector<Id<Texture>> ids;
+  for (const auto& [number, value] : expected) {
+    ImageTexture texture = s.image("a.png");
+    texture.encoding = Encoding::linear, texture.number = number;
+    ids.push_back(s.add(texture, true));
+  }
+  TextureBaker& baker = s.bake();
+  std::vector<FloatParameter> baked;
+  for (const Id<Texture> id : ids) baked.push_back(baker.bake(FloatParameter{id}));
+  EXPECT_EQ(baker.files().size(), expected.size());
+  const Textures textures = s.look_up();
+  for (std::size_t i = 0; i < expected.size(); ++i)
+    EXPECT_NEAR(textures.number(baked[i], at_uv(0.5, 0.5)), expected[i].second, 1e-6) << i;
 }
 
 TEST(BakeTextures, GreysAreNumbersAndNormalMapsExact) {
@@ -134,10 +179,9 @@ TEST(BakeTextures, OneFileForOneUse) {
 TEST(BakeTextures, ImagesOfLights) {
   test::BakedScene s;
   write_exr_image(s.directory / "a.exr", colors(8, 4, 5));
-  const std::string file = (s.directory / "a.exr").string();
   TextureBaker& baker = s.bake();
-  const std::string name = baker.bake_image(file, Encoding::automatic, 1, TextureUse::illuminant, {});
-  EXPECT_EQ(baker.bake_image(file, Encoding::automatic, 1, TextureUse::illuminant, {}), name);
+  const std::string name = baker.bake_image(s.image("a.exr"), TextureUse::illuminant, {});
+  EXPECT_EQ(baker.bake_image(s.image("a.exr"), TextureUse::illuminant, {}), name);
   const TextureFileInfo info = TextureFile(s.directory / "b.vit" / name).info();
   EXPECT_EQ(info.levels, 4u);
   EXPECT_EQ(info.format, TexelFormat::illuminant);
@@ -189,7 +233,19 @@ double mean_of(const Image& image) {
   return sum / static_cast<double>(image.values.size());
 }
 
-TEST(Halved, KeepsTheMeanAndThePlace) {
+Image halved(const Image& image) {
+  RowHalver halver(image.width, image.height, image.channels);
+  Image half{std::max(1, image.width / 2), 0, image.channels, {}};
+  const auto stride = static_cast<std::size_t>(image.width * image.channels);
+  for (std::size_t at = 0; at < image.values.size(); at += stride)
+    halver.add(std::span(image.values).subspan(at, stride), [&](std::span<const float> row) {
+      half.values.insert(half.values.end(), row.begin(), row.end());
+      ++half.height;
+    });
+  return half;
+}
+
+TEST(RowHalver, KeepsTheMeanAndThePlace) {
   for (const auto [width, height] : {std::array{8, 4}, {7, 5}, {1, 9}, {3, 1}, {129, 65}}) {
     Image image = colors(width, height, 1);
     const double mean = mean_of(image);

@@ -2,26 +2,18 @@
 // Textures, baked into a directory of their own and looked up there.
 #pragma once
 
-#include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>
 
 #include "images/image_files.h"
 #include "partitioner/appearance/bake_textures.h"
 #include "scene/rgb_to_spectrum.h"
+#include "tests/support/png.h"
 #include "tests/support/temporary_directory.h"
 #include "tracer/textures/textures.h"
 
 namespace vitrail::test {
 
 constexpr SampledWavelengths some_wavelengths{{430, 512.5f, 601, 700}, {1, 1, 1, 1}};
-
-inline void write_png(const std::filesystem::path& file, int width, int height, int channels,
-                      const std::vector<unsigned char>& values) {
-  const auto out = OIIO::ImageOutput::create(file.string());
-  const OIIO::ImageSpec spec(width, height, channels, OIIO::TypeDesc::UINT8);
-  ASSERT_TRUE(out && out->open(file.string(), spec) && out->write_image(spec.format, values.data()) &&
-              out->close());
-}
 
 struct BakedScene {
   TemporaryDirectory directory;

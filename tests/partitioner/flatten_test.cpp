@@ -129,6 +129,25 @@ TEST(Flatten, RequirementsFollowTheMaterials) {
   EXPECT_EQ(requirements_with(DiffuseMaterial{Id<Texture>{0}}, {solid}), Requirements{});
 }
 
+TEST(Flatten, OpacitiesAreOfSurfaces) {
+  Scene scene = scene_of(triangle_facing_z());
+  scene.textures = {{CheckerboardTexture{ConstantSpectrum{1}, ConstantSpectrum{0}}, true, "", {}}};
+  scene.area_lights = {{ConstantSpectrum{2}}};
+  scene.shapes.resize(5, scene.shapes[0]);
+  scene.shapes[1].opacity = scene.shapes[2].opacity = 0.5f;
+  scene.shapes[3].opacity = scene.shapes[4].opacity = Id<Texture>{0};
+  scene.shapes[4].area_light = Id<AreaLight>{0};
+  const Manifest m = flatten(scene, {}).manifest;
+  const FloatParameter half = 0.5f, board = Id<Texture>{0};
+  EXPECT_EQ(m.surfaces,
+            (std::vector<Surface>{
+                {0, 0, -1}, {1, 0, -1, -1, -1, half}, {3, 0, -1, -1, -1, board}, {4, 0, 0, -1, -1, board}}));
+  EXPECT_EQ(m.requirements, (Requirements{.uv = true, .see_through = true}));
+  EXPECT_EQ(m.emissive_opacities, std::vector<FloatParameter>{board});
+  scene.shapes.resize(1);
+  EXPECT_EQ(flatten(scene, {}).manifest.requirements, Requirements{});
+}
+
 TEST(Flatten, MediaStandOnTheSidesOfSurfaces) {
   Scene scene = scene_of(triangle_facing_z());
   scene.media = {Medium{}, Medium{.coefficients = NamedMedium{"Skin1"}}, Medium{}};

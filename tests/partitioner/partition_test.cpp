@@ -7,6 +7,7 @@
 #include <fstream>
 #include <limits>
 #include <map>
+#include <random>
 
 #include "bundle/verify.h"
 #include "scene/diagnostics.h"
@@ -165,6 +166,34 @@ TEST_F(Partition, MoreDomainsThanTriangles) {
     check_domain(m, i, MappedDomain(domain_path(out, i)), domain_path(out, i));
   EXPECT_EQ(partition(scene_of({}), out, {.domains = 5}).triangles_max, 0u);
   EXPECT_EQ(read_manifest(out).domains.size(), 5u);
+}
+
+// Triangles that reach through many domains, so that planes part few of them and cut the rest.
+TriangleMesh large_triangles(int count) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<float> place(-1, 1);
+  TriangleMesh mesh;
+  for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(count); ++i) {
+    for (int k = 0; k < 3; ++k) mesh.positions.push_back({place(random), place(random), place(random)});
+    mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+  }
+  return mesh;
+}
+
+TEST_F(Partition, CuttingStopsWhereItPartsNothing) {
+  const Scene scene = scene_of(large_triangles(10'000));
+  for (const std::uint32_t at_once : {0u, 40u}) {
+    const PartitionStats s = partition(scene, out, {.domains = 4096, .domains_at_once = at_once});
+    EXPECT_EQ(s.domains_planned, 4096u);
+    EXPECT_LT(s.domains, 3072u);
+    EXPECT_GT(s.domains, 16u);
+    EXPECT_LT(s.pieces, 4096u * 128u);
+    EXPECT_EQ(s.duplicates, 0u);
+    EXPECT_LT(s.area_error, 1e-6);
+    EXPECT_TRUE(verify_bundle(out).problems.empty());
+    EXPECT_EQ(contents(out).size(), s.domains + 3u);
+  }
+  EXPECT_EQ(partition(scene, out, {.domains = 8}).domains, 8u) << "so few are made";
 }
 
 TEST_F(Partition, TightBoundsHoldEveryPart) {

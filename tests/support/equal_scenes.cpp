@@ -6,6 +6,9 @@
 #include <algorithm>
 #include <map>
 
+#include "scene/mesh_uv.h"
+#include "scene/uv_uses.h"
+
 namespace vitrail::test {
 
 namespace {
@@ -47,7 +50,7 @@ class Renumbering {
   }
   void use(Shape& shape) {
     shape.name.clear();
-    use(shape.mesh), use(shape.material);
+    use(shape.mesh), use(shape.material), use(shape.opacity);
     if (shape.area_light) use(*shape.area_light);
     if (shape.interior) use(*shape.interior);
     if (shape.exterior) use(*shape.exterior);
@@ -174,8 +177,19 @@ Scene canonical(const Scene& scene) {
   return std::move(numbers.to);
 }
 
+// The (u,v) that a mesh lacks are its format's, and are written out only where they show.
+Scene with_explicit_uvs(Scene scene) {
+  const std::vector<bool> show = meshes_whose_uvs_show(scene);
+  for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
+    TriangleMesh& mesh = scene.meshes[i];
+    if (show[i] && mesh.uvs.empty() && !mesh.deferred) mesh = with_uvs(std::move(mesh));
+    mesh.missing_uv = {};
+  }
+  return scene;
+}
+
 std::string difference(const Scene& one, const Scene& other) {
-  const Scene a = canonical(one), b = canonical(other);
+  const Scene a = canonical(with_explicit_uvs(one)), b = canonical(with_explicit_uvs(other));
   if (!(a.camera == b.camera)) return "the camera";
   if (!(a.film == b.film)) return "the film";
   if (!(a.settings == b.settings)) return "the settings";

@@ -97,7 +97,7 @@ Scene scene_of(TriangleMesh mesh) {
   Scene scene;
   scene.meshes.push_back(std::move(mesh));
   scene.materials.emplace_back(Material{DiffuseMaterial{}});
-  scene.shapes.push_back({Id<TriangleMesh>{0}, Id<Material>{0}, {}, {}, false});
+  scene.shapes.push_back({.mesh = {0}, .material = {0}});
   return scene;
 }
 

@@ -30,11 +30,13 @@ struct ClusteredTriangles {
 };
 
 // Ids are the positions in the list.
-inline ClusteredTriangles cluster(const Triangles& triangles, float padding) {
+inline ClusteredTriangles cluster(const Triangles& triangles, bool padded = true) {
   std::vector<Bounds3f> boxes(triangles.size());
-  for (std::size_t i = 0; i < triangles.size(); ++i)
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
     for (const Point3f p : triangles[i]) extend(boxes[i], p);
-  BoxTree tree = build_bvh(boxes, cluster_width, padding);
+    if (padded) boxes[i] = inflated(boxes[i], padding(greatest(boxes[i])));
+  }
+  BoxTree tree = build_bvh(boxes, cluster_width);
   ClusteredTriangles out{std::move(tree.nodes), {}, std::move(tree.leaves)};
   out.clusters.resize(out.lane_reference.size() / cluster_width);
   for (std::size_t i = 0; i < out.lane_reference.size(); ++i) {
@@ -49,13 +51,10 @@ inline ClusteredTriangles cluster(const Triangles& triangles, float padding) {
   return out;
 }
 
-// Padded as manifest.h says.
-inline ClusteredTriangles cluster(const Triangles& triangles) {
-  return cluster(triangles, 2e-6f * greatest_coordinate(triangles));
-}
-
 inline DomainView view_of(const ClusteredTriangles& clustered) {
-  return {clustered.nodes, clustered.clusters, {}};
+  DomainView view{clustered.nodes, clustered.clusters, {}};
+  view.reach = reach_of(view);
+  return view;
 }
 
 // Every triangle of every cluster, by the exact test alone.

@@ -16,7 +16,7 @@ Manifest grid(int depth) {
   m.scale = 1;
   const auto cut = [&](auto self, Bounds3f box, int level) -> std::uint32_t {
     if (level == depth) {
-      const auto pad = static_cast<float>(padding(m));
+      const auto pad = static_cast<float>(padding(1));
       DomainInfo info;
       info.triangles = 1;
       info.tight_bounds = {{box.lower.x - pad, box.lower.y - pad, box.lower.z - pad},

@@ -24,8 +24,7 @@ RTCDevice shared_device() {
 // What the callbacks need of a query. `context` has to come first: Embree hands back a pointer to it.
 // Embree culls with a ray of its own: the direction divided by a power of two, which is exact, to near unit
 // length, and the origin moved along it to where the ray enters the domain, so that Embree's rounding is in
-// proportion to the domain, which the padding of the boxes makes up for, and not to the distance of the
-// origin.
+// proportion to the domain, which `leaf_bounds` makes up for, and not to the distance of the origin.
 struct Query {
   RTCIntersectContext context;
   const KernelFunctions* kernel;
@@ -166,15 +165,17 @@ void occluded_in_instance(const RTCOccludedFunctionNArguments* arguments) {
     reinterpret_cast<RTCRay*>(arguments->ray)->tfar = -std::numeric_limits<float>::infinity();
 }
 
-// The boxes of the leaves, as the nodes have them.
-std::vector<RTCBounds> leaf_bounds(std::span<const BvhNode> nodes, std::size_t leaves) {
+// The boxes of the leaves, padded as if all reached as far as the farthest.
+std::vector<RTCBounds> leaf_bounds(const DomainView& domain, std::span<const BvhNode> nodes,
+                                   std::size_t leaves) {
+  const auto pad = static_cast<float>(padding(double{domain.reach}));
   std::vector<RTCBounds> bounds(leaves);
   for (const BvhNode& node : nodes) {
     for (std::size_t i = 0; i < 8; ++i) {
       if (node.child[i] == BvhNode::empty || !(node.child[i] & BvhNode::cluster_bit)) continue;
       bounds[node.child[i] & ~BvhNode::cluster_bit] = {
-          node.lower[0][i], node.lower[1][i], node.lower[2][i], 0,
-          node.upper[0][i], node.upper[1][i], node.upper[2][i], 0};
+          node.lower[0][i] - pad, node.lower[1][i] - pad, node.lower[2][i] - pad, 0,
+          node.upper[0][i] + pad, node.upper[1][i] + pad, node.upper[2][i] + pad, 0};
     }
   }
   return bounds;
@@ -207,8 +208,8 @@ struct EmbreeDomain::Implementation {
 };
 
 EmbreeDomain::EmbreeDomain(const DomainView& domain) {
-  std::vector<RTCBounds> clusters = leaf_bounds(domain.nodes, domain.clusters.size()),
-                         instances = leaf_bounds(domain.instance_nodes, domain.instances.size());
+  std::vector<RTCBounds> clusters = leaf_bounds(domain, domain.nodes, domain.clusters.size()),
+                         instances = leaf_bounds(domain, domain.instance_nodes, domain.instances.size());
   Bounds3f box;
   for (const auto& bounds : {clusters, instances})
     for (const RTCBounds& b : bounds)

@@ -56,11 +56,18 @@ double greatest(const auto v[3]) {
   return max3(std::abs(double{v[0]}), std::abs(double{v[1]}), std::abs(double{v[2]}));
 }
 
-// What a point of the true ray may be off in the scene's coordinates: `padding` for the rounding of placed
-// vertices and of the exact test; the rounding of the advanced origin, `far` from 0; and that of the inverse
-// over the distance `near`, whose relative error grows with the square of the condition.
-double deviation(double padding, double far, double near, double condition) {
-  return padding + 0x1p-50 * (far + near) + 0x1p-44 * condition * condition * near;
+// What a point of the true ray may be off in the scene's coordinates: the padding of what the object shows,
+// for the rounding of placed vertices and of the exact test; the rounding of the advanced origin, `far` from
+// 0; and that of the inverse over the distance `near`, whose relative error grows with the square of the
+// condition.
+double deviation(double reach, double far, double near, double condition) {
+  return padding(reach) + 0x1p-50 * (far + near) + 0x1p-44 * condition * condition * near;
+}
+
+// No |coordinate| of what lies within ±reach is greater where m places it.
+double placed_reach(const double m[3][4], double reach) {
+  const auto of = [&](int axis) { return std::abs(m[axis][3]) + row_sum(m[axis]) * reach; };
+  return max3(of(0), of(1), of(2));
 }
 
 void show(const DomainView& object, InstanceRay& ray) {
@@ -120,8 +127,9 @@ bool enter_instance(const RayConstants& ray, const InstanceRay& outer, std::uint
     relative[axis] = static_cast<double>(ray.origin[axis]) + inner.entry * d[axis] - m[axis][3];
   const double condition = max3(row_sum(m[0]), row_sum(m[1]), row_sum(m[2])) *
                            max3(row_sum(to_object[0]), row_sum(to_object[1]), row_sum(to_object[2]));
-  const double off = deviation(static_cast<double>(outer.domain->padding), greatest(ray.origin) + inner.entry,
-                               greatest(relative) + inner.exit - inner.entry, condition);
+  const double off =
+      deviation(placed_reach(m, double{outer.domain->objects[outer.instances[index].object]->reach}),
+                greatest(ray.origin) + inner.entry, greatest(relative) + inner.exit - inner.entry, condition);
   for (int axis = 0; axis < 3; ++axis) {
     const double* row = to_object[axis];
     inner.origin[axis] = row[0] * relative[0] + row[1] * relative[1] + row[2] * relative[2];

@@ -51,6 +51,16 @@ SampledSpectrum radiance_at(const LightSampler& s, const LightSampler::Slot& t, 
   return surface_radiance(s, light, EmissivePoint(s.scene, t.light, b1, b2).point(), wavelengths);
 }
 
+// How much of the surface there is. None at all, everywhere: a light that nothing meets, and that shines as
+// if it was whole.
+float shining_share(const LightSampler& s, const LightSampler::Slot& t, double b1, double b2) {
+  if (const auto* constant = std::get_if<float>(&t.opacity))
+    return is_invisible(t.opacity) ? 1 : std::clamp(*constant, 0.0f, 1.0f);
+  if (!s.scene.textures) return 1;
+  const double share = s.scene.textures->number(t.opacity, EmissivePoint(s.scene, t.light, b1, b2).point());
+  return static_cast<float>(std::clamp(share, 0.0, 1.0));
+}
+
 // A directional light shines from where p lies on the triangle, seen along its normal.
 std::optional<LightSample> sample_directional(const LightSampler& s, const LightSampler::Slot& t, Point3d p,
                                               const SampledWavelengths& wavelengths) {
@@ -68,7 +78,7 @@ std::optional<LightSample> sample_directional(const LightSampler& s, const Light
   sample.to_light = frame.normal * (height > 0 ? -1.0 : 1.0);
   sample.distance = std::abs(height);
   sample.normal = frame.normal;
-  sample.radiance = radiance_at(s, t, b1, b2, wavelengths);
+  sample.radiance = radiance_at(s, t, b1, b2, wavelengths) * shining_share(s, t, b1, b2);
   sample.pdf = 1;
   sample.is_delta = true;
   sample.light = t.area_light;
@@ -101,7 +111,8 @@ std::optional<LightSample> sample_triangle(const LightSampler& s, const LightSam
   sample.normal = frame.normal;
   sample.tilt_rad = frame.tilt();
   sample.pdf = distance2 / (std::abs(cosine) * frame.area);
-  sample.radiance = radiance_at(s, t, b1, b2, wavelengths);
+  sample.radiance = radiance_at(s, t, b1, b2, wavelengths) * shining_share(s, t, b1, b2);
+  sample.is_delta = is_invisible(t.opacity);
   sample.light = t.area_light;
   return sample;
 }

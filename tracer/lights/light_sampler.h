@@ -26,7 +26,8 @@ namespace vitrail {
 struct LightScene {
   std::span<const AreaLight> area_lights;
   std::span<const EmissiveTriangle> triangles;
-  std::span<const CornerValues> attributes;  // of the triangles, [triangle][slot], or empty
+  std::span<const CornerValues> attributes;   // of the triangles, [triangle][slot], or empty
+  std::span<const FloatParameter> opacities;  // of the triangles' surfaces, or empty: all 1
   std::span<const Light> lights;
   const Textures* textures = nullptr;        // null: no light has a texture; images get 16 MiB
   std::span<const Texture> texture_records;  // of `textures`: for the shape of a projected image
@@ -43,6 +44,9 @@ struct EmissivePoint {
   TexturePoint point() const;
 };
 
+// Whether an emissive surface is a light that nothing meets.
+inline bool is_invisible(const FloatParameter& opacity) { return opacity == FloatParameter{0.0f}; }
+
 // One choice is the tree over all triangles and point-like lights; every distant light and every environment
 // image is one more. Each has a share: half of them equal, half by power. Constant infinite lights are left
 // to the BSDF's own samples, which find them with weight 1.
@@ -54,6 +58,7 @@ struct LightSampler {
     std::array<Point3f, 3> p;
     std::uint32_t light = 0;  // of the tree
     std::uint32_t area_light = 0;
+    FloatParameter opacity = 1.0f;
   };
   std::vector<Slot> slots;  // in the tree's order
   std::vector<PointEmitter> emitters;
@@ -94,10 +99,10 @@ struct LightSample {
   Vector3d normal{};         // of the surface there, unit; 0: a point, or not finitely far
   double tilt_rad = 0;       // bound of what the rounding of corners turns that surface's triangles by
   double distance = 0;       // ∞ for distant lights and environments
-  SampledSpectrum radiance;  // of delta lights: irradiance across the direction
-  double pdf = 0;            // solid angle, the choice included; delta lights: probability of the choice
-  bool is_delta = false;
-  std::uint32_t light = 0;  // index into LightScene::lights, or of triangles into area_lights
+  SampledSpectrum radiance;  // of points and distant lights: irradiance across the direction
+  double pdf = 0;            // solid angle, the choice included; of those: probability of the choice
+  bool is_delta = false;     // no ray finds it by chance
+  std::uint32_t light = 0;   // index into LightScene::lights, or of triangles into area_lights
 };
 
 // A connection from p. u[0], u[1] are for the point, u[2], u[3] for the light. Empty where nothing arrives.

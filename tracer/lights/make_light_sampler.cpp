@@ -11,16 +11,29 @@ namespace vitrail {
 
 namespace {
 
-// Mean luminance over a triangle, by four points of it.
-double mean_luminance(const LightScene& scene, std::size_t triangle) {
+// Mean over a triangle, by four points of it.
+template <class F>
+double mean_over(const LightScene& scene, std::size_t triangle, F&& value) {
   constexpr std::array<std::array<double, 2>, 4> points{
       {{1 / 3.0, 1 / 3.0}, {1 / 6.0, 1 / 6.0}, {2 / 3.0, 1 / 6.0}, {1 / 6.0, 2 / 3.0}}};
-  const AreaLight& light = scene.area_lights[scene.triangles[triangle].area_light];
   double sum = 0;
-  for (const auto& b : points)
-    sum +=
-        luminance_at(light.radiance, EmissivePoint(scene, triangle, b[0], b[1]).point(), scene.textures, 2);
+  for (const auto& b : points) sum += value(EmissivePoint(scene, triangle, b[0], b[1]).point());
   return sum / 4;
+}
+
+double mean_luminance(const LightScene& scene, std::size_t triangle) {
+  const AreaLight& light = scene.area_lights[scene.triangles[triangle].area_light];
+  return mean_over(scene, triangle, [&](const TexturePoint& at) {
+    return luminance_at(light.radiance, at, scene.textures, 2);
+  });
+}
+
+// Mean opacity over a triangle; 1 of a light that nothing meets.
+double mean_opacity(const LightScene& scene, std::size_t triangle) {
+  if (scene.opacities.empty() || is_invisible(scene.opacities[triangle])) return 1;
+  return mean_over(scene, triangle, [&](const TexturePoint& at) {
+    return std::clamp(scene.textures->number(scene.opacities[triangle], at), 0.0, 1.0);
+  });
 }
 
 // Flux of all triangles, π·A·L a side. A texture may be dark where it was asked and bright elsewhere: none of
@@ -29,11 +42,14 @@ std::vector<LightBounds> bounds_of_triangles(const LightScene& scene) {
   struct Sum {
     double area = 0, power = 0;
     std::optional<double> luminance;  // where it is the same everywhere
+    bool varies = false;              // by a texture
   };
   std::vector<Sum> sums(scene.area_lights.size());
   for (std::size_t i = 0; i < sums.size(); ++i)
     if (const auto* spectrum = std::get_if<Spectrum>(&scene.area_lights[i].radiance))
       sums[i].luminance = luminance(*spectrum);
+    else
+      sums[i].varies = true;
 
   std::vector<LightBounds> all;
   std::vector<double> areas;
@@ -49,7 +65,9 @@ std::vector<LightBounds> bounds_of_triangles(const LightScene& scene) {
     b.two_sided = light.two_sided;
     Sum& sum = sums[t.area_light];
     const double radiance = (sum.luminance ? *sum.luminance : mean_luminance(scene, all.size())) *
-                            static_cast<double>(light.scale);
+                            static_cast<double>(light.scale) * mean_opacity(scene, all.size());
+    sum.varies = sum.varies || (!scene.opacities.empty() &&
+                                std::holds_alternative<Id<Texture>>(scene.opacities[all.size()]));
     b.power = area * radiance * pi * (light.two_sided ? 2 : 1);
     if (!(b.power > 0) || !std::isfinite(b.power)) b.power = 0;
     sum.area += area;
@@ -59,7 +77,7 @@ std::vector<LightBounds> bounds_of_triangles(const LightScene& scene) {
   }
   for (std::size_t i = 0; i < all.size(); ++i) {
     const Sum& sum = sums[scene.triangles[i].area_light];
-    if (!sum.luminance && sum.area > 0)
+    if (sum.varies && sum.area > 0)
       all[i].power = std::max(all[i].power, 0.1 * sum.power / sum.area * areas[i]);
   }
   return all;
@@ -154,6 +172,7 @@ LightSampler make_light_sampler(const LightScene& scene, const ImageSource& imag
     const EmissiveTriangle& t = scene.triangles[light];
     std::copy(std::begin(t.p), std::end(t.p), slot.p.begin());
     slot.area_light = t.area_light;
+    if (!scene.opacities.empty()) slot.opacity = scene.opacities[light];
   }
   s.runs = runs_of(scene.triangles);
 

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// Writes a texture file row by row, so that no more than a row of tiles of each level is in memory.
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <vector>
+
+#include "bundle/texture_file.h"
+
+namespace vitrail {
+
+// Rows of a level come from the top down, of levels in any order. The file is gone again where the writer
+// ends before `finish`. Functions throw MachineError.
+class TextureWriter {
+ public:
+  TextureWriter(std::filesystem::path file, const TextureFileInfo& info);
+  ~TextureWriter();
+  TextureWriter(const TextureWriter&) = delete;
+  TextureWriter& operator=(const TextureWriter&) = delete;
+
+  // The next row of the level, as wide as it is.
+  void add_row(std::uint32_t level, std::span<const TexelWords> row);
+  // After the last row of the last level.
+  WrittenTextureFile finish();
+
+ private:
+  struct Rows {
+    std::uint32_t left = 0;            // to come
+    std::vector<std::uint32_t> words;  // of the row of tiles that is being filled, its top row first
+  };
+  void write_tiles(std::uint32_t level, std::uint32_t tile_y);
+  void write(std::span<const std::byte> bytes, std::uint64_t offset);
+
+  std::filesystem::path file_;
+  TextureFileInfo info_;
+  TextureFileLayout layout_;
+  std::vector<Rows> rows_;                // of each level
+  std::vector<std::uint64_t> checksums_;  // of each tile
+  int descriptor_ = -1;
+  bool finished_ = false;
+};
+
+}  // namespace vitrail

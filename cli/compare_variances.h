@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "compare/ztest.h"
+#include "film/develop.h"
+
+namespace vitrail {
+
+// The variances of a z-test: those that the pictures know of themselves, or those of a file ("": none): the
+// reference's of develop --variance, or Mitsuba's of one sample, for which IMAGE has to say or `samples` to
+// be how many samples a pixel it has. Throws UsageError and Error.
+void find_variances(ZTestInput& test, const Picture& image, const Picture& reference, const std::string& file,
+                    std::optional<double> samples);
+
+}  // namespace vitrail

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// The command line of `vitrail partition`.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include "cli/bundle_origin.h"
+#include "cli/mesh_options.h"
+#include "partitioner/partition.h"
+
+namespace vitrail {
+
+struct PartitionArguments {
+  std::filesystem::path input, output, stats, profile;
+  std::string domain_bytes, memory, progress = "auto";
+  bool strict = false, quiet = false, summary = true;
+  std::vector<std::string> definitions;
+  MeshOptions meshes;
+  PartitionOptions options{.durable = true};
+};
+
+void declare(CLI::App& app, PartitionArguments& arguments);
+
+// What the bundle will say that it was made of, and how.
+BundleOrigin origin_of(const PartitionArguments& arguments);
+
+}  // namespace vitrail

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/render_arguments.h"
+
+#include <algorithm>
+
+#include "cli/default_output.h"
+#include "cli/definitions.h"
+#include "cli/number_checks.h"
+#include "cli/rectangle.h"
+#include "cli/sizes.h"
+#include "cli/terminal.h"
+#include "scene/diagnostics.h"
+
+namespace vitrail {
+
+void declare(CLI::App& app, RenderArguments& a) {
+  RenderOptions& o = a.options;
+  app.add_option("input", a.input, "a bundle (NAME.vit) or a scene, which is partitioned first")->required();
+  app.add_option("-o,--output,--outfile", a.output,
+                 "picture (.exr, .png, .jpg, .tif) or film (.film); default: as the scene's film says, else "
+                 "the input's name with .exr, here");
+  app.add_option("--spp", o.samples_per_pixel, "samples a pixel; default: as the scene says")
+      ->check(more_than_0);
+  app.add_option(
+         "--max-depth", a.max_depth,
+         "scattering events of a path; 0: emitters only, 1: direct light, -1: no limit; default: as the "
+         "scene says")
+      ->check(CLI::Range(-1, 1'000'000));
+  app.add_option("--width", o.width, "pixels; default: as the scene says, or in proportion to --height")
+      ->check(CLI::Range(1, 1 << 20));
+  app.add_option("--height", o.height, "pixels; default: as the scene says, or in proportion to --width")
+      ->check(CLI::Range(1, 1 << 20));
+  app.add_option("--scale", o.scale, "times the width and height that the scene says")
+      ->check(CLI::Range(1e-3, 1e3))
+      ->capture_default_str();
+  app.add_option("--seed", o.seed, "films of different seeds are independent")
+      ->check(not_below_0)
+      ->capture_default_str();
+  app.add_option("--integrator", a.integrator, "path or direct; default: as the scene says")
+      ->check(CLI::IsMember({"path", "direct"}));
+  app.add_option("--memory", a.memory, "most memory a rank may use, e.g. 512M or 2G; default: no limit");
+  app.add_option("-t,--threads,--nthreads", o.threads, "worker threads a rank; default: all cores")
+      ->check(CLI::Range(1, 4096));
+  app.add_option("--crop,--pixelbounds", a.crop, "x0,x1,y0,y1 in pixels from the top left; default: all");
+  app.add_option(
+         "--spectral", a.bins,
+         "keep the spectrum of each pixel in this many bins over 360 to 830 nm; default: as the scene says")
+      ->check(CLI::Range(1, max_spectral_bins));
+  app.add_option("--checkpoint-every", o.checkpoint_every_s,
+                 "seconds between checkpoints; default: none but those that signals ask for")
+      ->check(not_below_0);
+  app.add_flag(
+      "--resume", o.resume,
+      "say so where there is nothing to go on from; going on with a render that was begun, or adding "
+      "samples to a finished one, needs no option");
+  app.add_flag("--force", o.force, "replace the film, checkpoint or picture that has the output's name");
+  app.add_option("--time", o.time_limit_s,
+                 "stop after this many seconds with what there is; the same command then goes on")
+      ->check(more_than_0);
+  app.add_flag("--dry-run", o.dry_run,
+               "render for a few seconds, write nothing, and say what memory and time it would all take");
+  app.add_option("--stats", o.stats, "write statistics as JSON");
+  app.add_option("--profile", o.profile, "write where rays went, for `partition --profile`");
+  declare_definitions(app, a.definitions);
+  declare_mesh_options(app, a.meshes);
+  app.add_option("--progress", a.progress,
+                 "bar; lines: one a minute; json: lines of it on standard output, the last with the event "
+                 "\"end\"; none; auto: a bar on a terminal, else lines")
+      ->check(CLI::IsMember({"auto", "bar", "lines", "json", "none"}))
+      ->capture_default_str();
+  app.add_flag("--strict", a.strict, "refuse a scene that is not imported exactly");
+  app.add_flag("--quiet", a.quiet, "say nothing but what is wrong");
+  app.add_option("--shuffle-delivery", o.shuffle_seed)->group("");
+  app.add_option("--domain-memory", o.domain_memory_bytes)->group("");
+}
+
+bool RenderArguments::is_bundle() const {
+  return std::filesystem::exists(input / "manifest.json") || input.extension() == ".vit";
+}
+
+namespace {
+
+void require_renderable(const RenderArguments& a) {
+  const std::string name = a.input.string();
+  std::error_code unknown;
+  if (!std::filesystem::exists(a.input, unknown))
+    throw Error(a.is_bundle() ? "there is no such bundle; vitrail partition makes one of a scene"
+                              : "there is no such file",
+                {name});
+  if (a.input.extension() == ".film")
+    throw Error("this is a film, which was rendered already: vitrail develop makes a picture of it", {name});
+  if (std::filesystem::is_directory(a.input, unknown) && !std::filesystem::exists(a.input / "manifest.json"))
+    throw Error("this folder is no bundle: it has no manifest.json", {name});
+  if (a.meshes.any() && a.is_bundle())
+    throw UsageError("the meshes of a bundle stay as they are: give " + arguments_of(a.meshes)[0] +
+                     " to partition");
+  if (!a.definitions.empty() && a.is_bundle())
+    throw UsageError("what a bundle was made of is not read again: give -D to partition");
+  if (a.strict && a.is_bundle())
+    throw UsageError("what a bundle was made of is not read again: give --strict to partition");
+}
+
+void prepare_dry_run(RenderOptions& o) {
+  constexpr double long_enough_s = 3;
+  o.time_limit_s = long_enough_s;
+  o.checkpoint_every_s = 0;
+  o.progress = ProgressMode::none;
+  o.stats.clear(), o.profile.clear();
+}
+
+ProgressMode progress_mode(const RenderArguments& a) {
+  if (a.progress == "json") return ProgressMode::json;
+  if (a.quiet || a.progress == "none") return ProgressMode::none;
+  if (a.progress == "auto") return on_terminal() ? ProgressMode::bar : ProgressMode::lines;
+  return a.progress == "bar" ? ProgressMode::bar : ProgressMode::lines;
+}
+
+}  // namespace
+
+void interpret(const CLI::App& app, RenderArguments& a) {
+  require_renderable(a);
+  if (a.output.empty()) a.output = default_output(a.input);
+  const std::string extension = a.output.extension().string();
+  constexpr const char* known[] = {".exr", ".png", ".jpg", ".jpeg", ".tif", ".tiff", ".film"};
+  if (std::ranges::find(known, extension) == std::end(known))
+    throw UsageError("the output must end in .exr, .png, .jpg, .tif or .film: " + a.output.string());
+  RenderOptions& o = a.options;
+  o.film = std::filesystem::path(a.output).replace_extension(".film");
+  if (!a.memory.empty()) o.memory_bytes = parse_bytes(a.memory);
+  if (!a.crop.empty()) o.crop = parse_rectangle("--crop", a.crop);
+  if (a.bins > 0) o.bins = SpectralBins{a.bins};
+  if (app.count("--max-depth") > 0) o.max_depth = a.max_depth < 0 ? unlimited_depth : a.max_depth;
+  if (!a.integrator.empty()) o.direct_only = a.integrator == "direct";
+  o.progress = progress_mode(a);
+  o.quiet = a.quiet;
+  if (o.dry_run) prepare_dry_run(o);
+  o.scene_name = a.input.string();
+}
+
+std::vector<std::string> partition_arguments(const RenderArguments& a) {
+  std::vector<std::string> arguments = arguments_of(a.meshes);
+  arguments.insert(arguments.end(), {"--no-sync", "--no-summary"});
+  for (const std::string& definition : a.definitions) arguments.insert(arguments.end(), {"-D", definition});
+  if (a.quiet) arguments.push_back("--quiet");
+  if (a.strict) arguments.push_back("--strict");
+  arguments.insert(arguments.end(), {"--progress", a.options.progress == ProgressMode::bar ? "bar" : "none"});
+  // It may have to load what reads images, of more than 100 MiB, and is gone when rendering begins.
+  constexpr std::uint64_t least = 256u << 20;
+  if (!a.memory.empty())
+    arguments.insert(arguments.end(), {"--memory", std::to_string(std::max(parse_bytes(a.memory), least))});
+  if (a.options.threads > 0)
+    arguments.insert(arguments.end(), {"--threads", std::to_string(a.options.threads)});
+  return arguments;
+}
+
+}  // namespace vitrail

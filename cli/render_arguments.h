@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// The command line of `vitrail render`.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include "cli/mesh_options.h"
+#include "farm/options.h"
+
+namespace vitrail {
+
+struct RenderArguments {
+  std::filesystem::path input, output;
+  int bins = 0, max_depth = 0;
+  std::string memory, crop, integrator, progress = "auto";
+  bool quiet = false, strict = false;
+  std::vector<std::string> definitions;
+  MeshOptions meshes;
+  RenderOptions options;
+
+  bool is_bundle() const;
+};
+
+void declare(CLI::App& app, RenderArguments& arguments);
+
+// Fills in `options`, but for the bundle of a scene that is yet to be made. Throws UsageError, and Error
+// where the input is not what can be rendered.
+void interpret(const CLI::App& app, RenderArguments& arguments);
+
+// Of the program that makes the bundle of a scene.
+std::vector<std::string> partition_arguments(const RenderArguments& arguments);
+
+}  // namespace vitrail

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "farm/film_size.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace vitrail {
+
+namespace {
+
+int rounded(double pixels) { return std::max(1, static_cast<int>(std::lround(pixels))); }
+
+void stretch(double& from, double& to, double factor) {
+  const double centre = (from + to) / 2, half = (to - from) / 2 * factor;
+  from = centre - half, to = centre + half;
+}
+
+}  // namespace
+
+void resize_film(Manifest& m, const RenderOptions& o) {
+  FilmSettings& film = m.film;
+  const double w = film.width, h = film.height;
+  const int width = o.width ? *o.width : o.height ? rounded(*o.height * w / h) : rounded(o.scale * w);
+  const int height = o.height ? *o.height : o.width ? rounded(*o.width * h / w) : rounded(o.scale * h);
+  if (width == film.width && height == film.height) return;
+  const double wider = width / w, taller = height / h, least = std::min(wider, taller);
+  std::visit(
+      [&](auto& camera) {
+        if constexpr (requires { camera.screen; }) {
+          stretch(camera.screen.x0, camera.screen.x1, wider / least);
+          stretch(camera.screen.y0, camera.screen.y1, taller / least);
+        }
+      },
+      m.camera);
+  PixelRect& c = film.crop;
+  c = {static_cast<int>(c.x0 * wider), std::min(width, static_cast<int>(std::ceil(c.x1 * wider))),
+       static_cast<int>(c.y0 * taller), std::min(height, static_cast<int>(std::ceil(c.y1 * taller)))};
+  film.width = width, film.height = height;
+}
+
+}  // namespace vitrail

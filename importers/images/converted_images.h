@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// Images that a writer puts beside its scene, where its format would take other values from those that the
+// Scene refers to.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <tuple>
+
+#include "images/texture_values.h"
+#include "scene/scene.h"
+
+namespace vitrail {
+
+// What is done to the values of a texture besides.
+struct ImageChange {
+  RGB tint{1, 1, 1};  // multiplies them
+  UvMapping mapping;  // at (s,t) is what the texture has at mapping(s,t): turned, mirrored, repeated
+  bool three_channels = false;  // also for greys
+};
+
+// The linear values of textures as EXR files. Equal ones are written once.
+class ConvertedImages {
+ public:
+  // `new_file` gives the path of the next.
+  explicit ConvertedImages(std::function<std::filesystem::path()> new_file)
+      : new_file_(std::move(new_file)) {}
+
+  // Throws Error where the texture's image cannot be read, and MachineError.
+  std::filesystem::path write(const ImageTexture& texture, ImageUse use, const ImageChange& change = {});
+
+ private:
+  using Numbers = std::array<float, 11>;
+  using Key = std::tuple<std::string, Encoding, ImageNumber, Primaries, Wrap, TextureFilter, ImageUse, bool,
+                         bool, Numbers>;
+  static Key key_of(const ImageTexture& texture, ImageUse use, const ImageChange& change);
+
+  std::function<std::filesystem::path()> new_file_;
+  std::map<Key, std::filesystem::path> written_;
+};
+
+// A grey image as one of colours; others as they are.
+Image with_three_channels(Image image);
+
+// An image times a colour: what products of the two and of such products come to.
+struct TintedImage {
+  ImageTexture image;
+  bool is_number = false;  // which the colour multiplies
+  RGB tint{1, 1, 1};
+};
+std::optional<TintedImage> tinted_image(const Scene& scene, const ProductTexture& product);
+std::optional<TintedImage> tinted_image(const Scene& scene, Id<Texture> texture);
+
+}  // namespace vitrail

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// What pbrt makes of the faces of a PLY file.
+#pragma once
+
+#include "importers/pbrt/version.h"
+#include "importers/ply/ply.h"
+
+namespace vitrail::pbrt {
+
+PbrtQuads quads_of(Version version);
+
+struct PlyMesh {
+  TriangleMesh mesh;
+  std::size_t parts = 0;     // triangles or patches
+  bool tessellated = false;  // of curved patches
+};
+
+// The mesh of the triangles and that of the patches: at least one of them. Fronts follow the normals.
+// `differs`, if given, gets whether it depends on `uvs_show`.
+std::vector<PlyMesh> meshes_of(PbrtPly ply, bool uvs_show, bool* differs = nullptr);
+
+}  // namespace vitrail::pbrt

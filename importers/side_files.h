@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <unordered_set>
+
+namespace vitrail {
+
+// Names for what is written beside a scene. A file of such a name that the scene's file spoke of before is
+// replaced with it; any other, and one that was read, is somebody's: the name gets a number, as in
+// OUT-meshes/000000-2.ply.
+class SideFiles {
+ public:
+  explicit SideFiles(const std::filesystem::path& scene_file);
+
+  // "OUT-KIND/000003.EXTENSION", relative to the scene's folder; OUT-KIND is created. Throws MachineError.
+  std::string name(const std::string& kind, std::size_t number, const std::string& extension) const;
+  // "OUT.EXTENSION"
+  std::string name(const std::string& extension) const;
+
+ private:
+  std::string free_name(const std::string& name, const std::string& extension) const;
+
+  std::filesystem::path directory_;
+  std::string stem_;
+  std::unordered_set<std::string> own_;
+};
+
+}  // namespace vitrail

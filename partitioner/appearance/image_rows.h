@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// An image that is read as often as it is asked for, some rows at a time.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <utility>
+
+#include "scene/image.h"
+
+namespace vitrail {
+
+struct ImageRows {
+  int width = 0, height = 0;
+  // Calls with all rows from the top, some at a time: images of that width.
+  std::function<void(const std::function<void(Image)>&)> read;
+};
+
+inline ImageRows rows_of(Image image) {
+  const auto whole = std::make_shared<const Image>(std::move(image));
+  return {whole->width, whole->height, [whole](const auto& visit) { visit(*whole); }};
+}
+
+}  // namespace vitrail

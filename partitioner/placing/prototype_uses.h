@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "scene/scene.h"
+
+namespace vitrail {
+
+// What the prototypes of a scene hold and where they are used, each looked at once, however many instances
+// of instances there are. The scene counts as one more prototype, the last.
+class PrototypeUses {
+ public:
+  // Throws Error where a prototype holds itself, and for 2³² − 1 triangles or more with all instances.
+  explicit PrototypeUses(const Scene& scene);
+
+  // With all that is in it.
+  std::uint64_t triangles(std::size_t prototype) const { return triangles_[prototype]; }
+  // By instances that may be kept.
+  std::uint64_t uses(std::size_t prototype) const { return uses_[prototype]; }
+
+  // Whether an instance of `inner` in `outer` may be kept. On chains of more instances than a ray can follow
+  // (max_instance_depth) it may where `inner` is of a lower magnitude in triangles; as a scene has fewer than
+  // 2³² of them, that leaves chains short enough, and copies at most 16 times what an object holds.
+  bool may_keep(std::size_t outer, std::size_t inner) const;
+
+ private:
+  bool is_deep(std::size_t prototype) const;
+
+  std::size_t scene_;  // index
+  std::vector<std::uint64_t> triangles_, uses_;
+  std::vector<std::uint32_t> above_, below_;  // of the longest chain from the scene, and to what holds none
+};
+
+}  // namespace vitrail

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "scene/scene.h"
+
+namespace vitrail {
+
+// Shapes of the scene that are the same but for where they stand: one mesh, one surface. Where copies of them
+// would take much, one object stands for them, and its instances. It depends on the scene alone.
+class SharedShapes {
+ public:
+  explicit SharedShapes(const Scene& scene);
+
+  // Of the scene's shape of that index, if it is to be an instance.
+  std::optional<std::uint32_t> group_of(std::size_t shape) const;
+
+  // One that stands for all of a group.
+  const std::vector<const Shape*>& groups() const { return groups_; }
+
+  // Whether the object's winding shows its back: mirrored instances keep the fronts of their object.
+  static bool flip_in_object(const Shape& shape) {
+    return shape.flip_orientation != swaps_handedness(shape.object_to_world);
+  }
+
+ private:
+  std::vector<const Shape*> groups_;
+  std::vector<std::uint32_t> group_of_;  // of each shape, from 1; empty where there are no groups
+};
+
+}  // namespace vitrail

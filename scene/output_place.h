@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+// What can be known of an output before the work for it begins.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+
+namespace vitrail {
+
+// Throws MachineError where the folder of `file` is missing (no program makes folders that were not asked
+// for) or cannot be written to.
+void require_folder_of(const std::filesystem::path& file);
+
+// The same, and where the name is a folder's. Throws UsageError where it was read (is_input).
+void require_place(const std::filesystem::path& file);
+
+// Throws MachineError where the disk of `file` has less than that left.
+void require_room(const std::filesystem::path& file, std::uint64_t bytes);
+
+}  // namespace vitrail

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where (u,v) show: in textures that look them up, and in what has a direction along the surface.
+#pragma once
+
+#include <vector>
+
+#include "scene/scene.h"
+
+namespace vitrail {
+
+// Of textures that may become more.
+class UvUses {
+ public:
+  explicit UvUses(const std::vector<Texture>& textures) : textures_(textures) {}
+
+  bool of(Id<Texture> texture);
+  bool of(const FloatParameter& parameter);
+  bool of(const SpectrumParameter& parameter);
+  // Of the material itself, without its parts.
+  bool of(const Material& material);
+
+ private:
+  const std::vector<Texture>& textures_;
+  std::vector<bool> known_;  // of the first textures
+};
+
+// The materials that a material refers to.
+std::vector<Id<Material>> parts_of(const MaterialModel& model);
+
+// For each mesh, whether the (u,v) of a shape that has it show.
+std::vector<bool> meshes_whose_uvs_show(const Scene& scene);
+
+}  // namespace vitrail

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a user hears who takes a verb, an option or a file for another.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "tests/support/command.h"
+#include "tests/support/temporary_directory.h"
+
+namespace vitrail::test {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+class Mistakes : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    write("in.pbrt",
+          "WorldBegin LightSource \"infinite\" Shape \"trianglemesh\" \"point3 P\" [0 0 5 1 0 5 0 1 5]\n");
+  }
+  std::string path(const std::string& name) const { return "'" + (directory_ / name).string() + "'"; }
+  void write(const std::string& name, const std::string& text) const {
+    std::ofstream(directory_ / name) << text;
+  }
+  CommandResult verb(const std::string& verb, const std::string& arguments) const {
+    return run(vitrail(verb) + " " + arguments);
+  }
+  CommandResult render(const std::string& more) const {
+    return verb("render",
+                path("in.pbrt") + " -o " + path("a.film") + " --spp 1 --crop 0,8,0,8 --force " + more);
+  }
+  TemporaryDirectory directory_;
+};
+
+TEST_F(Mistakes, MisspelledWordsAreRecognised) {
+  EXPECT_THAT(verb("rendr", "").output, HasSubstr("did you mean render?"));
+  const CommandResult option = render("--treads 2");
+  EXPECT_EQ(option.status, 2);
+  EXPECT_THAT(option.output, HasSubstr("there is no option --treads; did you mean --threads?"));
+  EXPECT_THAT(verb("convert", "a b c").output, HasSubstr("'c' is one argument too many"));
+  EXPECT_THAT(verb("convert", "a b --reprot c").output, HasSubstr("did you mean --report?"));
+}
+
+TEST_F(Mistakes, OptionsOfOthersAreUnderstoodOrAnswered) {
+  EXPECT_EQ(verb("render", path("in.pbrt") + " --outfile " + path("b.film") +
+                               " --spp 1 --nthreads 1 --pixelbounds 0,8,0,8 --max-depth -1")
+                .status,
+            0);
+  EXPECT_TRUE(std::filesystem::exists(directory_ / "b.film"));
+  EXPECT_EQ(render("-t 1").status, 0);
+  for (const auto& [theirs, ours] : {std::pair("--cropwindow 0,1,0,1", "--crop"),
+                                     {"--gpu", "processors"},
+                                     {"-m scalar_rgb", "spectral"},
+                                     {"--quick", "--spp"}}) {
+    const CommandResult answered = render(theirs);
+    EXPECT_EQ(answered.status, 2) << theirs;
+    EXPECT_THAT(answered.output, HasSubstr(ours)) << theirs;
+  }
+}
+
+TEST_F(Mistakes, NumbersWithoutSenseAreRefused) {
+  for (const char* wrong :
+       {"--time -1", "--time 0", "--threads 0", "--seed -1", "--checkpoint-every -5", "--spp 0", "--spp -3",
+        "--max-depth -2", "--crop 0,8,0", "--crop 0,9999,0,8", "--memory 1Q"}) {
+    const CommandResult refused = render(wrong);
+    EXPECT_EQ(refused.status, 2) << wrong << refused.output;
+  }
+  const CommandResult domains =
+      verb("partition", path("in.pbrt") + " -o " + path("a.vit") + " --domains 999999");
+  EXPECT_EQ(domains.status, 2);
+  EXPECT_THAT(domains.output, HasSubstr("999999 domains for 1 triangles"));
+}
+
+TEST_F(Mistakes, FilesAreCalledWhatTheyAre) {
+  ASSERT_EQ(render("").status, 0);
+  const CommandResult film = verb("render", path("a.film") + " -o " + path("b.exr"));
+  EXPECT_EQ(film.status, 3);
+  EXPECT_THAT(film.output, HasSubstr("vitrail develop makes a picture of it"));
+  const CommandResult missing = verb("render", path("none.vit") + " -o " + path("b.exr"));
+  EXPECT_EQ(missing.status, 3);
+  EXPECT_THAT(missing.output, HasSubstr("there is no such bundle"));
+  EXPECT_THAT(verb("render", path("none.pbrt") + " -o " + path("b.exr")).output,
+              HasSubstr("there is no such file"));
+  std::filesystem::create_directory(directory_ / "folder");
+  EXPECT_THAT(verb("render", path("folder") + " -o " + path("b.exr")).output, HasSubstr("no manifest.json"));
+}
+
+TEST_F(Mistakes, AProgramWithoutItsSiblingsSaysSo) {
+  std::string front = vitrail("");
+  front = front.substr(1, front.find('\'', 1) - 1);
+  for (const char* program : {"vitrail", "vitrail-render"})
+    std::filesystem::copy(std::filesystem::path(front).parent_path() / program, directory_ / program);
+  const CommandResult alone = run(path("vitrail") + " render " + path("in.pbrt") + " -o " + path("a.film"));
+  EXPECT_EQ(alone.status, 4);
+  EXPECT_THAT(alone.output, AllOf(HasSubstr("vitrail-partition is missing"), HasSubstr("one folder")));
+  const CommandResult front_alone = run(path("vitrail") + " convert a b");
+  EXPECT_EQ(front_alone.status, 4);
+  EXPECT_THAT(front_alone.output, HasSubstr("have to lie in one folder"));
+}
+
+TEST_F(Mistakes, DarknessIsAnnounced) {
+  write("in.pbrt", "WorldBegin Shape \"sphere\"\n");
+  EXPECT_THAT(render("").output, HasSubstr("the scene has no light"));
+  EXPECT_THAT(verb("partition", path("in.pbrt") + " -o " + path("a.vit")).output, HasSubstr("has no light"));
+  EXPECT_EQ(render("--quiet").output, "");
+}
+
+TEST_F(Mistakes, HelpSaysWhatHappensWithoutAnOption) {
+  const CommandResult help = verb("help", "render");
+  EXPECT_EQ(help.status, 0);
+  EXPECT_EQ(help.output, verb("render", "--help").output);
+  for (const char* name : {"convert", "inspect", "partition", "verify", "render", "develop", "compare"}) {
+    const CommandResult one = verb("help", name);
+    EXPECT_EQ(one.status, 0) << name;
+    EXPECT_THAT(one.output, HasSubstr("--quiet")) << name;
+  }
+  for (const char* option :
+       {"--spp", "--seed", "--max-depth", "--memory", "--threads", "--crop", "--progress"}) {
+    const std::size_t at = help.output.find(std::string("  ") + option);
+    const std::size_t named = at == std::string::npos ? help.output.find(option) : at;
+    ASSERT_NE(named, std::string::npos) << option;
+    const std::string entry = help.output.substr(named, 400);
+    EXPECT_TRUE(entry.find("default") != std::string::npos || entry.find('=') != std::string::npos) << option;
+  }
+}
+
+}  // namespace
+}  // namespace vitrail::test

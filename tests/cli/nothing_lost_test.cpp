@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a user has is not written over by a command that was meant for something else, and a command typed
+// again goes on instead of beginning again.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "film/film.h"
+#include "tests/support/background.h"
+#include "tests/support/command.h"
+#include "tests/support/temporary_directory.h"
+
+namespace vitrail::test {
+namespace {
+
+using namespace std::chrono_literals;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+class NothingLost : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    const CommandResult made =
+        run(fmt::format("{} '{}/examples/cornell-box/cornell-box.pbrt' -o '{}' --domains 1 --quiet",
+                        vitrail("partition"), VITRAIL_SOURCE_DIR, path("box.vit")));
+    ASSERT_EQ(made.status, 0) << made.output;
+  }
+  std::string path(const std::string& name) const { return (directory_ / name).string(); }
+  std::string line(const std::string& out, const std::string& more) const {
+    return fmt::format("{} '{}' -o '{}' --crop 0,32,0,32 --threads 1 --stats '{}' {}", vitrail("render"),
+                       path("box.vit"), path(out), path("stats.json"), more);
+  }
+  CommandResult render(const std::string& out, const std::string& more) const { return run(line(out, more)); }
+  nlohmann::json stats() const { return read_json(directory_ / "stats.json"); }
+  std::uint64_t hash(const std::string& film) const { return read_film(directory_ / film, nullptr).hash(); }
+  std::uint64_t samples(const std::string& film) const {
+    return read_film(directory_ / film, nullptr).samples();
+  }
+  void write(const std::string& name, const std::string& text) const {
+    std::ofstream(directory_ / name) << text;
+  }
+  std::string read(const std::string& name) const {
+    std::ifstream in(directory_ / name);
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
+
+  TemporaryDirectory directory_;
+};
+
+TEST_F(NothingLost, AFilmOfOtherWorkIsKept) {
+  ASSERT_EQ(render("a.film", "--spp 8").status, 0);
+  const std::uint64_t film = hash("a.film");
+  for (const char* other :
+       {"--spp 8 --seed 7", "--spp 8 --max-depth 2", "--spp 8 --crop 0,16,0,16", "--spp 4"}) {
+    const CommandResult refused = render("a.png", other);
+    EXPECT_EQ(refused.status, 3) << other << refused.output;
+    EXPECT_THAT(refused.output, HasSubstr("a.film: "));
+    EXPECT_THAT(refused.output, HasSubstr("--force"));
+    EXPECT_EQ(hash("a.film"), film) << other;
+  }
+  EXPECT_THAT(render("a.film", "--spp 4").output, HasSubstr("it is a render of 8 samples a pixel"));
+  EXPECT_EQ(render("a.film", "--spp 4 --force").status, 0);
+  EXPECT_NE(hash("a.film"), film);
+}
+
+TEST_F(NothingLost, WhatIsNoFilmIsKept) {
+  write("a.film", "a home video");
+  const CommandResult refused = render("a.film", "--spp 1");
+  EXPECT_EQ(refused.status, 3) << refused.output;
+  EXPECT_THAT(refused.output, HasSubstr("not a film file"));
+  EXPECT_EQ(read("a.film"), "a home video");
+}
+
+TEST_F(NothingLost, APictureThatNoFilmSpeaksOfIsKept) {
+  write("holiday.png", "a photograph");
+  const CommandResult refused = render("holiday.png", "--spp 1");
+  EXPECT_EQ(refused.status, 3) << refused.output;
+  EXPECT_THAT(refused.output, HasSubstr("holiday.png"));
+  EXPECT_EQ(read("holiday.png"), "a photograph");
+  EXPECT_EQ(render("holiday.png", "--spp 1 --force").status, 0);
+  EXPECT_NE(read("holiday.png"), "a photograph");
+}
+
+TEST_F(NothingLost, AFinishedJobSaysSo) {
+  ASSERT_EQ(render("a.png", "--spp 8").status, 0);
+  write("a.png", "retouched");
+  const CommandResult again = render("a.png", "--spp 8");
+  EXPECT_EQ(again.status, 0);
+  EXPECT_THAT(again.output, HasSubstr("is finished already"));
+  EXPECT_EQ(stats()["rays_camera"], 0);
+  EXPECT_EQ(stats()["complete"], true);
+  EXPECT_EQ(stats()["samples"], 32 * 32 * 8);
+  EXPECT_EQ(read("a.png"), "retouched") << "it is newer than the film";
+  EXPECT_EQ(render("a.exr", "--spp 8").status, 0);
+  EXPECT_TRUE(std::filesystem::exists(path("a.exr"))) << "another picture of the film";
+}
+
+TEST_F(NothingLost, MoreSamplesAreAdded) {
+  ASSERT_EQ(render("whole.film", "--spp 300").status, 0);
+  ASSERT_EQ(render("grown.film", "--spp 5").status, 0);
+  ASSERT_EQ(render("grown.film", "--resume --spp 200").status, 0);
+  EXPECT_EQ(stats()["rays_camera"], 32 * 32 * 195);
+  ASSERT_EQ(render("grown.film", "--spp 300").status, 0);
+  EXPECT_EQ(stats()["rays_camera"], 32 * 32 * 100);
+  EXPECT_EQ(hash("grown.film"), hash("whole.film"));
+  FilmProgress grown, whole;
+  read_film(directory_ / "grown.film", &grown);
+  read_film(directory_ / "whole.film", &whole);
+  EXPECT_EQ(grown.items, whole.items);
+  EXPECT_EQ(grown.done, whole.done);
+  EXPECT_TRUE(grown.complete());
+}
+
+TEST_F(NothingLost, AChainOfLimitedJobsGetsToTheEnd) {
+  ASSERT_EQ(render("whole.film", "--spp 1024").status, 0);
+  std::uint64_t before = 0;
+  int jobs = 0;
+  for (bool complete = false; !complete; ++jobs) {
+    ASSERT_LT(jobs, 200);
+    const CommandResult job = render("a.png", "--spp 1024 --time 0.1");
+    ASSERT_EQ(job.status, 0) << job.output;
+    EXPECT_GT(samples("a.film"), before);
+    before = samples("a.film");
+    complete = stats()["complete"];
+    EXPECT_TRUE(std::filesystem::exists(path("a.png")));
+  }
+  EXPECT_GT(jobs, 1) << "nothing was tested";
+  EXPECT_EQ(hash("a.film"), hash("whole.film"));
+}
+
+// An unfinished render of fewer samples goes on too, and through a checkpoint.
+TEST_F(NothingLost, WhatWasStoppedGoesOnToMoreSamples) {
+  ASSERT_EQ(render("whole.film", "--spp 3000").status, 0);
+  Background job(line("a.film", "--spp 2000 --checkpoint-every 0.05"));
+  while (job.running() && !std::filesystem::exists(path("a.film.partial"))) std::this_thread::sleep_for(5ms);
+  ASSERT_TRUE(job.running());
+  job.send(SIGTERM);
+  EXPECT_EQ(job.wait(), 128 + SIGTERM);
+  const CommandResult more = render("a.film", "--spp 3000");
+  EXPECT_EQ(more.status, 0);
+  EXPECT_THAT(more.output, HasSubstr("going on from"));
+  EXPECT_EQ(hash("a.film"), hash("whole.film"));
+  EXPECT_FALSE(std::filesystem::exists(path("a.film.partial")));
+}
+
+TEST_F(NothingLost, SignalsEndWithTheirOwnStatus) {
+  for (const int number : {SIGINT, SIGTERM}) {
+    const std::string film = fmt::format("{}.film", number);
+    Background job(line(film, "--spp 60000"));
+    std::this_thread::sleep_for(700ms);
+    ASSERT_TRUE(job.running());
+    job.send(number);
+    EXPECT_EQ(job.wait(), 128 + number);
+    EXPECT_TRUE(job.signalled()) << "a shell's loop would go on";
+    EXPECT_TRUE(std::filesystem::exists(path(film + ".partial")));
+    EXPECT_FALSE(std::filesystem::exists(path(film + ".lock")));
+  }
+}
+
+TEST_F(NothingLost, TheSecondJobOnAnOutputIsRefused) {
+  Background job(line("a.film", "--spp 60000"));
+  while (job.running() && !std::filesystem::exists(path("a.film.lock"))) std::this_thread::sleep_for(5ms);
+  std::this_thread::sleep_for(100ms);
+  ASSERT_TRUE(job.running());
+  for (const char* out : {"a.film", "a.png"}) {
+    const CommandResult second = render(out, "--spp 1 --force");
+    EXPECT_EQ(second.status, 4) << second.output;
+    EXPECT_THAT(second.output, HasSubstr("being written by another render (process "));
+  }
+  job.send(SIGKILL);
+  job.wait();
+  EXPECT_EQ(render("a.film", "--spp 1").status, 0) << "the lock of a killed job is free";
+  EXPECT_FALSE(std::filesystem::exists(path("a.film.lock")));
+}
+
+TEST_F(NothingLost, OutputsAreCheckedBeforeTheWork) {
+  const CommandResult nowhere = run(fmt::format("{} '{}' -o '{}' --spp 60000 --stats '{}'", vitrail("render"),
+                                                path("box.vit"), path("a.film"), path("no/such/stats.json")));
+  EXPECT_EQ(nowhere.status, 4);
+  EXPECT_THAT(nowhere.output, HasSubstr("no/such"));
+  EXPECT_FALSE(std::filesystem::exists(path("a.film")));
+  write("in.pbrt", "WorldBegin Shape \"sphere\"\n");
+  for (const std::string& wrong :
+       {fmt::format("{} '{}' '{}'", vitrail("convert"), path("in.pbrt"), path("no/a.xml")),
+        fmt::format("{} '{}' '{}' --report '{}'", vitrail("convert"), path("in.pbrt"), path("a.xml"),
+                    path("no/r.json")),
+        fmt::format("{} '{}' -o '{}'", vitrail("partition"), path("in.pbrt"), path("no/a.vit")),
+        fmt::format("{} '{}' -o '{}' --stats '{}'", vitrail("partition"), path("in.pbrt"), path("a.vit"),
+                    path("no/s.json"))}) {
+    const CommandResult result = run(wrong);
+    EXPECT_EQ(result.status, 4) << wrong << result.output;
+    EXPECT_FALSE(std::filesystem::exists(path("no"))) << wrong;
+    EXPECT_FALSE(std::filesystem::exists(path("a.xml"))) << wrong;
+    EXPECT_FALSE(std::filesystem::exists(path("a.vit"))) << wrong;
+  }
+}
+
+}  // namespace
+}  // namespace vitrail::test

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+// Sizes, names and formats of pictures, and what they say of themselves.
+#include <OpenImageIO/imageio.h>
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "film/film.h"
+#include "tests/support/command.h"
+#include "tests/support/temporary_directory.h"
+
+namespace vitrail::test {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+class Pictures : public ::testing::Test {
+ protected:
+  void SetUp() override { write("in.pbrt", scene("")); }
+  static std::string scene(const std::string& film) {
+    return "LookAt 1 2 3 1 2 0 0 1 0 Camera \"perspective\" \"float fov\" 40\n"
+           "Film \"rgb\" \"integer xresolution\" 40 \"integer yresolution\" 20 " +
+           film + "\nWorldBegin LightSource \"infinite\" Shape \"sphere\"\n";
+  }
+  std::string path(const std::string& name) const { return "'" + (directory_ / name).string() + "'"; }
+  void write(const std::string& name, const std::string& text) const {
+    std::ofstream(directory_ / name) << text;
+  }
+  CommandResult render(const std::string& out, const std::string& more,
+                       const std::string& in = "in.pbrt") const {
+    const char* samples = more.find("--spp") == std::string::npos ? "--spp 2" : "";
+    return run(
+        fmt::format("{} {} -o {} {} --quiet {}", vitrail("render"), path(in), path(out), samples, more));
+  }
+  std::pair<int, int> size(const std::string& film) const {
+    const Film f = read_film(directory_ / film, nullptr);
+    return {f.full_width(), f.full_height()};
+  }
+  OIIO::ImageSpec spec(const std::string& name) const {
+    const auto in = OIIO::ImageInput::open((directory_ / name).string());
+    return in ? in->spec() : OIIO::ImageSpec();
+  }
+  TemporaryDirectory directory_;
+};
+
+TEST_F(Pictures, HaveTheSizeAskedFor) {
+  const std::vector<std::pair<std::string, std::pair<int, int>>> sizes{{"", {40, 20}},
+                                                                       {"--scale 0.5", {20, 10}},
+                                                                       {"--width 80", {80, 40}},
+                                                                       {"--height 10", {20, 10}},
+                                                                       {"--width 30 --height 30", {30, 30}}};
+  for (const auto& [options, expected] : sizes) {
+    ASSERT_EQ(render("a.film", options + " --force").status, 0) << options;
+    EXPECT_EQ(size("a.film"), expected) << options;
+  }
+  EXPECT_EQ(render("a.film", "--scale 0 --force").status, 2);
+}
+
+// A picture of twice the size shows the same: averaged, it is the smaller one.
+TEST_F(Pictures, OfAnotherSizeShowTheSame) {
+  ASSERT_EQ(render("small.film", "--spp 256").status, 0);
+  ASSERT_EQ(render("large.film", "--spp 64 --scale 2").status, 0);
+  const Film small = read_film(directory_ / "small.film", nullptr),
+             large = read_film(directory_ / "large.film", nullptr);
+  for (const auto [x, y] : {std::pair(3, 3), {20, 10}, {36, 16}, {10, 10}}) {
+    double sum = 0;
+    for (int j = 0; j < 2; ++j)
+      for (int i = 0; i < 2; ++i)
+        sum += large.mean(static_cast<std::uint32_t>((2 * y + j) * 80 + 2 * x + i)).y;
+    EXPECT_NEAR(sum / 4, small.mean(static_cast<std::uint32_t>(y * 40 + x)).y, 0.1);
+  }
+}
+
+TEST_F(Pictures, AreCalledAsTheSceneSays) {
+  write("in.pbrt", scene("\"string filename\" [ \"kitchen.png\" ]"));
+  write("plain.pbrt", scene("# \"string filename\" \"comment.png\""));
+  const std::string here = "cd " + path("") + "; " + vitrail("render");
+  ASSERT_EQ(run(here + " in.pbrt --spp 1").status, 0);
+  EXPECT_TRUE(std::filesystem::exists(directory_ / "kitchen.png"));
+  ASSERT_EQ(run(here + " plain.pbrt --spp 1").status, 0);
+  EXPECT_TRUE(std::filesystem::exists(directory_ / "plain.exr"));
+}
+
+TEST_F(Pictures, SayWhereTheyComeFrom) {
+  ASSERT_EQ(render("a.exr", "--seed 3").status, 0);
+  const OIIO::ImageSpec s = spec("a.exr");
+  EXPECT_THAT(s.get_string_attribute("Software"), HasSubstr("vitrail 0."));
+  EXPECT_THAT(s.get_string_attribute("scene"), HasSubstr("in.pbrt"));
+  EXPECT_EQ(s.get_string_attribute("seed"), "3");
+  EXPECT_EQ(s.get_int_attribute("samplesPerPixel"), 2);
+  EXPECT_EQ(s.get_int_attribute("samplesPerPixelLeast"), 2);
+  const Film film = read_film(directory_ / "a.film", nullptr);
+  EXPECT_EQ(s.get_string_attribute("filmHash"), fmt::format("{:016x}", film.hash()));
+  EXPECT_EQ(s.get_string_attribute("sceneHash"), fmt::format("{:016x}", film.key().scene_hash));
+  // The camera stands at (1, 2, 3) and looks along -z.
+  float m[16];
+  ASSERT_TRUE(s.getattribute("worldToCamera", OIIO::TypeDesc::TypeMatrix, m));
+  EXPECT_NEAR(1 * m[0] + 2 * m[4] + 3 * m[8] + m[12], 0, 1e-5);
+  EXPECT_NEAR(1 * m[1] + 2 * m[5] + 3 * m[9] + m[13], 0, 1e-5);
+  EXPECT_NEAR(1 * m[2] + 2 * m[6] + 1 * m[10] + m[14], 2, 1e-5);
+}
+
+TEST_F(Pictures, AreWrittenInOtherFormats) {
+  ASSERT_EQ(render("a.film", "").status, 0);
+  const auto develop = [&](const std::string& out, const std::string& more) {
+    return run(vitrail("develop") + " " + path("a.film") + " -o " + path(out) + " " + more).status;
+  };
+  EXPECT_EQ(develop("a.jpg", ""), 0);
+  EXPECT_EQ(spec("a.jpg").format, OIIO::TypeDesc(OIIO::TypeDesc::UINT8));
+  EXPECT_EQ(develop("a.tif", ""), 0);
+  EXPECT_EQ(spec("a.tif").format, OIIO::TypeDesc(OIIO::TypeDesc::UINT16));
+  EXPECT_EQ(develop("a.png", "--bits 16"), 0);
+  EXPECT_EQ(spec("a.png").format, OIIO::TypeDesc(OIIO::TypeDesc::UINT16));
+  EXPECT_EQ(develop("b.jpg", "--bits 16"), 2);
+  EXPECT_EQ(develop("b.exr", "--bits 8"), 2);
+  EXPECT_EQ(render("a.jpg", "").status, 0);
+}
+
+TEST_F(Pictures, OfMitsubaTakeParameters) {
+  write("in.xml",
+        "<scene version=\"3.0.0\"><default name=\"res\" value=\"40\"/><integrator type=\"path\"/>"
+        "<sensor type=\"perspective\"><film type=\"hdrfilm\"><integer name=\"width\" value=\"$res\"/>"
+        "<integer name=\"height\" value=\"$res\"/></film></sensor><emitter type=\"constant\"/></scene>");
+  for (const auto& [option, width] : {std::pair("", 40), {"-Dres=16", 16}, {"-D res=24", 24}}) {
+    const CommandResult done = render("a.film", std::string("--force ") + option, "in.xml");
+    ASSERT_EQ(done.status, 0) << option << done.output;
+    EXPECT_EQ(size("a.film").first, width) << option;
+  }
+  const CommandResult unknown = render("b.film", "-D spp=4", "in.xml");
+  EXPECT_EQ(unknown.status, 3);
+  EXPECT_THAT(unknown.output, HasSubstr("no parameter \"spp\"; it has res"));
+  EXPECT_EQ(render("b.film", "-D spp", "in.xml").status, 2);
+  EXPECT_NE(render("b.film", "-D spp=4").status, 0) << "pbrt has none";
+}
+
+TEST_F(Pictures, ADryRunWritesNothing) {
+  const CommandResult dry = run(
+      fmt::format("{} {} -o {} --spp 100000 --dry-run", vitrail("render"), path("in.pbrt"), path("a.exr")));
+  EXPECT_EQ(dry.status, 0) << dry.output;
+  EXPECT_THAT(dry.output, AllOf(HasSubstr("memory of a rank"), HasSubstr("time: about")));
+  for (const char* file : {"a.exr", "a.film", "a.film.partial", "a.film.lock", "a.tmp.vit"})
+    EXPECT_FALSE(std::filesystem::exists(directory_ / file)) << file;
+}
+
+TEST_F(Pictures, BundlesSayWhatTheyWereMadeOf) {
+  ASSERT_EQ(
+      run(vitrail("partition") + " " + path("in.pbrt") + " -o " + path("a.vit") + " --domains 2 --quiet")
+          .status,
+      0);
+  const CommandResult told = run(vitrail("inspect") + " " + path("a.vit"));
+  EXPECT_EQ(told.status, 0) << told.output;
+  EXPECT_THAT(told.output, AllOf(HasSubstr("in.pbrt"), HasSubstr("vitrail 0."), HasSubstr("--domains 2")));
+  const CommandResult whole = run(vitrail("verify") + " " + path("a.vit"));
+  EXPECT_EQ(whole.output.find("warning"), std::string::npos) << whole.output;
+}
+
+}  // namespace
+}  // namespace vitrail::test

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+// `partition --memory B` of scenes in which other things than meshes are many: never more than B is resident;
+// what does not fit is refused, and the message says what is missing.
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+
+#include "tests/extremes/memory_scenes.h"
+#include "tests/support/temporary_directory.h"
+
+namespace vitrail::test {
+namespace {
+
+struct Done {
+  int status = -1;
+  std::uint64_t peak_bytes = 0;
+  std::string output;
+};
+
+Done run(const std::string& command, const std::filesystem::path& output) {
+  const pid_t pid = ::fork();
+  if (pid == 0) {
+    ::execl("/bin/sh", "sh", "-c", fmt::format("exec {} >'{}' 2>&1", command, output.string()).c_str(),
+            nullptr);
+    ::_exit(127);
+  }
+  int status = 0;
+  rusage usage{};
+  ::wait4(pid, &status, 0, &usage);
+  std::ifstream in(output);
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status),
+          static_cast<std::uint64_t>(usage.ru_maxrss) * 1024,
+          {std::istreambuf_iterator<char>(in), {}}};
+}
+
+bool run_whole() { return std::getenv("VITRAIL_EXTREMES_WHOLE") != nullptr; }
+
+class Memory : public ::testing::TestWithParam<MemoryRow> {};
+
+TEST_P(Memory, IsKeptOrRefused) {
+  const MemoryRow& row = GetParam();
+  const TemporaryDirectory directory;
+  // A sixteenth of the things, and of the memory that is not the program's own.
+  const std::uint64_t program = (row.images ? 172u : 40u) << 20;
+  const double share = run_whole() ? 1 : 1.0 / 16;
+  const std::uint64_t budget = run_whole() ? row.budget_bytes : program + row.budget_bytes / 16;
+  const auto scene = row.write(directory.path(), share);
+  const Done done =
+      run(fmt::format("'" VITRAIL_BIN_DIR "/vitrail-partition' '{}' -o '{}' --no-sync --quiet --memory {} {}",
+                      scene.string(), (directory / "out.vit").string(), budget, row.options),
+          directory / "output");
+  fmt::print("{:20} budget {:4} MiB, peak {:6.1f} MiB, status {}: {}\n", row.what, budget >> 20,
+             static_cast<double>(done.peak_bytes) / (1 << 20), done.status,
+             done.status == 0 ? "" : done.output.substr(0, done.output.find('\n')));
+  EXPECT_LE(done.peak_bytes, budget);
+  EXPECT_THAT(done.status, ::testing::AnyOf(0, 4)) << done.output;
+  if (done.status == 4) EXPECT_THAT(done.output, ::testing::HasSubstr("needed")) << done.output;
+  EXPECT_EQ(std::filesystem::exists(directory / "out.vit"), done.status == 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Rows, Memory, ::testing::ValuesIn(memory_rows()),
+                         [](const auto& row) { return row.param.what; });
+
+}  // namespace
+}  // namespace vitrail::test

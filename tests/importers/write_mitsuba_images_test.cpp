@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+// What Mitsuba takes from an image is what the Scene says.
+#include <gmock/gmock.h>
+
+#include "images/texture_values.h"
+#include "importers/mitsuba/mitsuba.h"
+#include "importers/mitsuba/write_mitsuba.h"
+#include "tests/importers/temporary_folder.h"
+#include "tests/importers/written_scenes.h"
+#include "tests/support/png.h"
+
+namespace vitrail {
+namespace {
+
+using testing::Contains;
+using testing::Field;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+auto says(const std::string& text) { return Contains(Field(&Diagnostic::message, HasSubstr(text))); }
+
+class MitsubaImages : public testing::Test {
+ protected:
+  // Writes a square with the texture for its reflectance or (a number) its roughness, and reads it again.
+  ImageTexture written(TextureModel model, bool is_number) {
+    const Id<Texture> id{static_cast<std::uint32_t>(textures_.size())};
+    Material material;
+    if (is_number) {
+      ConductorMaterial metal;
+      metal.roughness.alpha_u = metal.roughness.alpha_v = id;
+      material.model = metal;
+    } else {
+      material.model = DiffuseMaterial{id};
+    }
+    Scene scene = square_scene(material);
+    scene.textures = textures_;
+    scene.textures.push_back({std::move(model), is_number, "t", {}});
+    diagnostics_ = write_mitsuba(scene, folder_ / "out.xml");
+    const Scene again = read_mitsuba(folder_ / "out.xml").scene;
+    return std::get<ImageTexture>(again.textures.at(0).model);
+  }
+  ImageTexture image(const char* name) const {
+    ImageTexture texture;
+    texture.filename = (folder_ / name).string();
+    return texture;
+  }
+  static std::vector<float> values(const ImageTexture& image, ImageUse use) {
+    return texture_values(image, read_stored_image(image.filename), use).values;
+  }
+  void expect_kept(const ImageTexture& image, bool is_number, bool own_file) {
+    const ImageTexture again = written(image, is_number);
+    const ImageUse use = is_number ? ImageUse::number : ImageUse::color;
+    const std::vector<float> expected = values(image, use), found = values(again, use);
+    ASSERT_EQ(found.size(), expected.size());
+    for (std::size_t i = 0; i < found.size(); ++i) EXPECT_NEAR(found[i], expected[i], 1e-6) << i;
+    EXPECT_EQ(again.filename == image.filename, own_file);
+    if (own_file)
+      EXPECT_THAT(diagnostics_, Not(says("takes other values")));
+    else
+      EXPECT_THAT(diagnostics_, says("takes other values"));
+  }
+
+  TemporaryFolder folder_;
+  std::vector<Texture> textures_;
+  Diagnostics diagnostics_;
+};
+
+TEST_F(MitsubaImages, EveryNumber) {
+  test::write_png(folder_ / "rgba.png", 2, 1, 4, {51, 102, 204, 153, 10, 20, 30, 255});
+  test::write_png(folder_ / "grey.png", 2, 1, 1, {51, 30});
+  for (int i = 0; i <= static_cast<int>(ImageNumber::stored_luminance); ++i)
+    for (const Encoding encoding : {Encoding::automatic, Encoding::linear}) {
+      SCOPED_TRACE(i);
+      ImageTexture texture = image("rgba.png");
+      texture.number = static_cast<ImageNumber>(i);
+      texture.encoding = encoding;
+      const bool is_luminance =
+          texture.number == ImageNumber::luminance ||
+          (texture.number == ImageNumber::stored_luminance && encoding == Encoding::linear);
+      expect_kept(texture, true, is_luminance);
+      texture.filename = image("grey.png").filename;
+      expect_kept(texture, true, texture.number != ImageNumber::alpha);
+    }
+}
+
+// What Mitsuba's own scene says of a colour image as a number comes back as it is, and nothing is said.
+TEST_F(MitsubaImages, ItsOwnSceneStays) {
+  test::write_png(folder_ / "rgb.png", 2, 2, 3, {51, 102, 204, 10, 20, 30, 1, 2, 3, 4, 5, 6});
+  for (const std::string raw : {"true", "false"}) {
+    const auto in = folder_.write(
+        "in.xml",
+        "<scene version='3.0.0'><shape type='rectangle'><bsdf type='mask'><texture type='bitmap' "
+        "name='opacity'><string name='filename' value='rgb.png'/><boolean name='raw' value='" +
+            raw + "'/></texture><bsdf type='diffuse'/></bsdf></shape></scene>");
+    const Scene scene = read_mitsuba(in).scene;
+    EXPECT_THAT(write_mitsuba(scene, folder_ / "out.xml"), Not(says("values")));
+    EXPECT_EQ(read_mitsuba(folder_ / "out.xml").scene.textures.at(0).model, scene.textures.at(0).model);
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "out-images"));
+}
+
+TEST_F(MitsubaImages, ATintedImageKeepsItsImage) {
+  test::write_png(folder_ / "rgb.png", 2, 1, 3, {51, 102, 204, 10, 20, 30});
+  const ImageTexture texture = image("rgb.png");
+  textures_ = {{texture, false, "plain", {}}};
+  const std::vector<float> plain = values(texture, ImageUse::color),
+                           tinted = values(
+                               written(ProductTexture{rgb_reflectance(.5, 1, .25), Id<Texture>{0}}, false),
+                               ImageUse::color);
+  ASSERT_EQ(tinted.size(), plain.size());
+  constexpr std::array tint{.5f, 1.0f, .25f};
+  for (std::size_t i = 0; i < tinted.size(); ++i) EXPECT_NEAR(tinted[i], plain[i] * tint[i % 3], 1e-6) << i;
+}
+
+}  // namespace
+}  // namespace vitrail
