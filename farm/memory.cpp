@@ -19,18 +19,19 @@ constexpr std::uint64_t least_queue_bytes = 2 * mib, most_queue_bytes = 512 * mi
 
 }  // namespace
 
-MemoryPlan plan_memory(std::uint64_t budget, std::uint64_t base, int threads, std::uint64_t largest_domain,
-                       std::uint64_t all_domains) {
+MemoryPlan plan_memory(std::uint64_t budget, std::uint64_t base, std::uint64_t peak, int threads,
+                       std::uint64_t largest_domain, std::uint64_t all_domains) {
   if (budget == 0) return {all_domains, most_queue_bytes};
   const std::uint64_t fixed = base + slack_bytes + slack_a_thread * static_cast<std::uint64_t>(threads);
-  const std::uint64_t least = fixed + least_queue_bytes + largest_domain;
+  const std::uint64_t least = std::max(peak, fixed + least_queue_bytes + largest_domain);
   if (budget < least)
     throw MachineError(
         fmt::format("--memory {:.0f}M is too little: {:.0f}M for the program and the film, {:.0f}M for the "
-                    "largest domain and the objects in it; "
+                    "largest domain and the objects in it, {:.0f}M at the highest while the scene was read; "
                     "at least {:.0f}M is needed, or more domains",
                     static_cast<double>(budget) / mib, static_cast<double>(fixed) / mib,
-                    static_cast<double>(largest_domain) / mib, static_cast<double>(least + mib - 1) / mib));
+                    static_cast<double>(largest_domain) / mib, static_cast<double>(peak) / mib,
+                    static_cast<double>(least + mib - 1) / mib));
   const std::uint64_t free = budget - fixed;
   const std::uint64_t queues =
       std::clamp(free / 5, least_queue_bytes, std::min(most_queue_bytes, free - largest_domain));

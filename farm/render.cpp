@@ -75,11 +75,13 @@ Job set_up(const RenderOptions& options) {
   return {std::move(scene), {}, textures};
 }
 
-MemoryPlan plan_for(const Manifest& manifest, const RenderOptions& options, int threads, std::uint64_t base) {
+MemoryPlan plan_for(const Manifest& manifest, const RenderOptions& options, int threads, std::uint64_t base,
+                    std::uint64_t setup_peak) {
   std::uint64_t largest = 0;
   for (std::uint32_t d = 0; d < manifest.domains.size(); ++d)
     largest = std::max(largest, bytes_needed(manifest, d));
-  MemoryPlan plan = plan_memory(options.memory_bytes, base, threads, largest, bytes_of_all(manifest));
+  MemoryPlan plan =
+      plan_memory(options.memory_bytes, base, setup_peak, threads, largest, bytes_of_all(manifest));
   if (options.domain_memory_bytes > 0)
     plan.domains_bytes = std::max(largest, std::min(plan.domains_bytes, options.domain_memory_bytes));
   return plan;
@@ -130,7 +132,9 @@ RenderStats render(Transport& transport, const RenderOptions& options) {
     // Refused before it takes the memory.
     const Manifest& m = job->scene->manifest;
     stats.base_rss_bytes = resident_bytes() + film_bytes(m.film);
-    memory = plan_for(m, options, threads, stats.base_rss_bytes + job->texture_bytes);
+    stats.setup_peak_rss_bytes = peak_resident_bytes();
+    memory =
+        plan_for(m, options, threads, stats.base_rss_bytes + job->texture_bytes, stats.setup_peak_rss_bytes);
     job->film = Film(m.film, key_of(m, options.seed), film_exponent(*job->scene));
     if (transport.rank() == 0) require_room(options.film, film_bytes(m.film));
   });

@@ -29,10 +29,12 @@ void gather_stats(Transport& transport, RenderStats& s, const std::vector<bool>&
   s.idle_s = times[3];
 
   std::int64_t memory[] = {static_cast<std::int64_t>(s.peak_rss_bytes),
-                           static_cast<std::int64_t>(s.base_rss_bytes)};
+                           static_cast<std::int64_t>(s.base_rss_bytes),
+                           static_cast<std::int64_t>(s.setup_peak_rss_bytes)};
   transport.max_to_root(memory);
   s.peak_rss_bytes = static_cast<std::uint64_t>(memory[0]);
   s.base_rss_bytes = static_cast<std::uint64_t>(memory[1]);
+  s.setup_peak_rss_bytes = static_cast<std::uint64_t>(memory[2]);
 }
 
 std::string to_json(const RenderStats& s) {
@@ -62,6 +64,7 @@ std::string to_json(const RenderStats& s) {
                                  {"memory_budget_bytes", s.memory_budget_bytes},
                                  {"peak_rss_bytes", s.peak_rss_bytes},
                                  {"base_rss_bytes", s.base_rss_bytes},
+                                 {"setup_peak_rss_bytes", s.setup_peak_rss_bytes},
                                  {"nonfinite_samples", s.refused.nonfinite},
                                  {"saturated_samples", s.refused.too_large},
                                  {"film_hash", fmt::format("{:016x}", s.film_hash)}};

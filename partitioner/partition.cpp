@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "images/image_files.h"
+#include "partitioner/cutting/kd_plan.h"
 #include "partitioner/divide_cell.h"
 #include "partitioner/memory_ledger.h"
 #include "partitioner/memory_plan.h"
@@ -152,7 +153,9 @@ class Partitioner {
     if (found.lost != 0)
       throw std::logic_error(fmt::format("partitioning lost {} triangles; please report this", found.lost));
     manifest_.cut_triangles = found.cut_triangles;
-    leave_out_unused_domains();
+    const std::vector<std::uint32_t> kept = leave_out_unused_domains(manifest_);
+    for (std::uint32_t i = 0; i < kept.size(); ++i)
+      if (kept[i] != i) std::filesystem::rename(domain_path(bundle_, kept[i]), domain_path(bundle_, i));
     write_manifest(bundle_, manifest_);
     phases_.end();
     PartitionStats stats = statistics(manifest_, found, bundle_);
@@ -231,20 +234,6 @@ class Partitioner {
       for (const Piece& p : cell.cut.pieces) open.push_back(cell.triangles.ids[p.triangle]);
       census.settle(open);
     }
-  }
-
-  // Where a cell was left whole, domains are fewer and their files get new names.
-  void leave_out_unused_domains() {
-    CompactTree tree = compact(manifest_.kd_nodes);
-    if (tree.domains.size() == manifest_.domains.size()) return;
-    std::vector<DomainInfo> domains;
-    for (const std::uint32_t old : tree.domains) {
-      const auto number = static_cast<std::uint32_t>(domains.size());
-      if (number != old) std::filesystem::rename(domain_path(bundle_, old), domain_path(bundle_, number));
-      domains.push_back(std::move(manifest_.domains[old]));
-    }
-    manifest_.domains = std::move(domains);
-    manifest_.kd_nodes = std::move(tree.nodes);
   }
 
   DomainWriter writer(Census& census, const InstanceDealer& instances) {

@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <fstream>
+#include <string>
 
 namespace vitrail {
 
@@ -30,7 +32,15 @@ double cpu_seconds() {
   return seconds(u.ru_utime) + seconds(u.ru_stime);
 }
 
-std::uint64_t peak_resident_bytes() { return static_cast<std::uint64_t>(usage().ru_maxrss) * 1024; }
+// Not ru_maxrss, which begins with what the process that started this one had taken.
+std::uint64_t peak_resident_bytes() {
+  std::ifstream status("/proc/self/status");
+  for (std::string word; status >> word;) {
+    std::uint64_t kib = 0;
+    if (word == "VmHWM:" && status >> kib) return kib * 1024;
+  }
+  return static_cast<std::uint64_t>(usage().ru_maxrss) * 1024;
+}
 
 // The second number of the file is pages. Asked for often, and where nothing may be allocated.
 std::uint64_t resident_bytes() {

@@ -116,6 +116,11 @@ KdPlan plan_kd_tree(std::vector<Item> sample, const Subtree& s, const PlanRule& 
 
 namespace {
 
+struct CompactTree {
+  std::vector<KdNode> nodes;
+  std::vector<std::uint32_t> domains;  // the old number of each
+};
+
 // The number of the child in the new tree.
 std::uint32_t compact_below(std::span<const KdNode> kd_nodes, std::uint32_t child, CompactTree& tree) {
   if (!(child & KdNode::leaf_bit) && kd_nodes[child].below == kd_nodes[child].above)
@@ -134,10 +139,15 @@ std::uint32_t compact_below(std::span<const KdNode> kd_nodes, std::uint32_t chil
 
 }  // namespace
 
-CompactTree compact(std::span<const KdNode> kd_nodes) {
+std::vector<std::uint32_t> leave_out_unused_domains(Manifest& manifest) {
   CompactTree tree;
-  compact_below(kd_nodes, kd_nodes.empty() ? KdNode::leaf_bit : 0, tree);
-  return tree;
+  compact_below(manifest.kd_nodes, manifest.kd_nodes.empty() ? KdNode::leaf_bit : 0, tree);
+  if (tree.domains.size() == manifest.domains.size()) return tree.domains;
+  std::vector<DomainInfo> domains;
+  for (const std::uint32_t old : tree.domains) domains.push_back(std::move(manifest.domains[old]));
+  manifest.domains = std::move(domains);
+  manifest.kd_nodes = std::move(tree.nodes);
+  return tree.domains;
 }
 
 }  // namespace vitrail

@@ -42,11 +42,8 @@ struct KdPlan {
 KdPlan plan_kd_tree(std::vector<Item> sample, const Subtree& subtree, const PlanRule& rule,
                     std::span<KdNode> kd_nodes);
 
-// The tree without the domains that are not there because a cell stayed whole.
-struct CompactTree {
-  std::vector<KdNode> nodes;
-  std::vector<std::uint32_t> domains;  // the old number of each
-};
-CompactTree compact(std::span<const KdNode> kd_nodes);
+// Takes the domains out of the manifest that are not there because a cell stayed whole, and numbers the
+// others anew. Returns the old number of each.
+std::vector<std::uint32_t> leave_out_unused_domains(Manifest& manifest);
 
 }  // namespace vitrail

@@ -113,7 +113,7 @@ void place_scene(const World& world, std::uint64_t load_bytes,
 
 SceneTally::SceneTally(const World& world) : world_(world) {
   std::size_t blocks = 0;
-  const std::vector<Surface>& surfaces = world.manifest.surfaces;
+  const std::span<const Surface> surfaces = scene_surfaces(world.manifest);
   const auto note_opacity = [&](const FloatParameter& opacity) {
     emissive_opacities_ = emissive_opacities_ || opacity != FloatParameter{1.0f};
     emissive_attributes_ = emissive_attributes_ || reads_attribute(world.manifest.textures, opacity);

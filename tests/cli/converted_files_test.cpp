@@ -29,11 +29,14 @@ class ConvertedFiles : public ::testing::Test {
   CommandResult convert(const std::string& arguments) const {
     return run(vitrail("convert") + " " + arguments);
   }
-  // A mesh of one triangle that ends at x.
+  // A mesh that ends at x, of more triangles than are written into a scene's own file.
   static std::string ply(const std::string& x) {
-    return "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
-           "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n" +
-           x + " 0 0\n0 1 0\n3 0 1 2\n";
+    std::string text =
+        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+        "element face 100\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n" +
+        x + " 0 0\n0 1 0\n";
+    for (int i = 0; i < 100; ++i) text += "3 0 1 2\n";
+    return text;
   }
   static std::string scene(const std::string& mesh) {
     return "WorldBegin\nShape \"plymesh\" \"string filename\" \"" + mesh + "\"\n";

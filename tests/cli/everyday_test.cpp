@@ -145,6 +145,7 @@ TEST(Everyday, StatisticsKeepTheirContract) {
                           "memory_budget_bytes",
                           "peak_rss_bytes",
                           "base_rss_bytes",
+                          "setup_peak_rss_bytes",
                           "nonfinite_samples",
                           "saturated_samples",
                           "film_hash"})

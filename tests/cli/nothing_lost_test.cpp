@@ -52,8 +52,7 @@ class NothingLost : public ::testing::Test {
 TEST_F(NothingLost, AFilmOfOtherWorkIsKept) {
   ASSERT_EQ(render("a.film", "--spp 8").status, 0);
   const std::uint64_t film = hash("a.film");
-  for (const char* other :
-       {"--spp 8 --seed 7", "--spp 8 --max-depth 2", "--spp 8 --crop 0,16,0,16", "--spp 4"}) {
+  for (const char* other : {"--spp 8 --seed 7", "--spp 8 --max-depth 2", "--spp 8 --spectral 8", "--spp 4"}) {
     const CommandResult refused = render("a.png", other);
     EXPECT_EQ(refused.status, 3) << other << refused.output;
     EXPECT_THAT(refused.output, HasSubstr("a.film: "));

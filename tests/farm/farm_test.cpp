@@ -99,11 +99,12 @@ TEST(WireSizes, FramingIncluded) {
 
 TEST(Memory, BudgetIsSharedOutOrRefused) {
   constexpr std::uint64_t m = 1 << 20;
-  const MemoryPlan plan = plan_memory(200 * m, 50 * m, 2, 20 * m, 500 * m);
+  const MemoryPlan plan = plan_memory(200 * m, 50 * m, 60 * m, 2, 20 * m, 500 * m);
   EXPECT_LE(plan.domains_bytes + plan.queue_bytes + 50 * m, 200 * m);
   EXPECT_GE(plan.domains_bytes, 20 * m);
-  EXPECT_THROW(plan_memory(70 * m, 50 * m, 2, 20 * m, 500 * m), MachineError);
-  EXPECT_EQ(plan_memory(0, 50 * m, 2, 20 * m, 500 * m).domains_bytes, 500 * m);
+  EXPECT_THROW(plan_memory(70 * m, 50 * m, 60 * m, 2, 20 * m, 500 * m), MachineError);
+  EXPECT_THROW(plan_memory(200 * m, 50 * m, 201 * m, 2, 20 * m, 500 * m), MachineError);
+  EXPECT_EQ(plan_memory(0, 50 * m, 60 * m, 2, 20 * m, 500 * m).domains_bytes, 500 * m);
 }
 
 Manifest of_domains(std::vector<std::uint64_t> bytes) {

@@ -3,6 +3,7 @@
 
 #include <numeric>
 
+#include "partitioner/cutting/kd_plan.h"
 #include "partitioner/divide_cell.h"
 #include "tests/support/test_scenes.h"
 
@@ -61,6 +62,10 @@ SoupBundle cut_in_memory(const Soup& soup, std::uint32_t domains) {
     divide_at(any_planes(soup, m.bounds), triangles, writer);
   else
     divide_cell(triangles, {}, {m.bounds, 0, 0, domains}, writer);
+  const std::vector<std::uint32_t> kept = leave_out_unused_domains(m);
+  for (std::uint32_t i = 0; i < kept.size(); ++i)
+    if (kept[i] != i) bundle.contents[i] = std::move(bundle.contents[kept[i]]);
+  bundle.contents.resize(kept.size());
   for (const DomainContent& content : bundle.contents) bundle.views.push_back(view_of(content));
   bundle.census = census.result();
   m.cut_triangles = bundle.census.cut_triangles;

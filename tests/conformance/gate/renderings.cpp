@@ -26,6 +26,7 @@ std::vector<BlockMeans> rendered(const Scene& scene, const Sampling& sampling) {
   RenderOptions options;
   options.bundle = directory / "scene.vit";
   options.film = directory / "scene.film";
+  options.force = true;
   options.samples_per_pixel = sampling.samples;
   int argc = 0;
   char** argv = nullptr;
