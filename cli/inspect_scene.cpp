@@ -172,8 +172,8 @@ Report describe(const Manifest& m) {
   return r;
 }
 
-Report inspect_scene(const std::filesystem::path& file) {
-  const ImportedScene imported = import_scene(file);
+Report inspect_scene(const std::filesystem::path& file, const ImportOptions& options) {
+  const ImportedScene imported = import_scene(file, MeshMemory{}, {}, options);
   const Scene& s = imported.scene;
   Report r{{"file", file.string()}, {"kind", "scene"}};
   r["meshes"] = s.meshes.size();

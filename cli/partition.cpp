@@ -8,8 +8,8 @@
 #include <iterator>
 
 #include "cli/bundle_origin.h"
-#include "cli/definitions.h"
 #include "cli/diagnostics_report.h"
+#include "cli/import_options.h"
 #include "cli/main_guard.h"
 #include "cli/mesh_options.h"
 #include "cli/partition_arguments.h"
@@ -102,7 +102,7 @@ int run(PartitionArguments& a, Stage& stage) {
           stage.fraction = fraction;
           reading(std::min(fraction, 0.99), "reading the scene");
         },
-        parse_definitions(a.definitions));
+        import_options(a.imports));
   });
   stage = {"preparing the scene", 0, to_string(ledger_of(imported.scene))};
   Diagnostics diagnostics = std::move(imported.diagnostics);

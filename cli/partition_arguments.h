@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include "cli/bundle_origin.h"
+#include "cli/import_options.h"
 #include "cli/mesh_options.h"
 #include "partitioner/partition.h"
 
@@ -14,7 +15,7 @@ struct PartitionArguments {
   std::filesystem::path input, output, stats, profile;
   std::string domain_bytes, memory, progress = "auto";
   bool strict = false, quiet = false, summary = true;
-  std::vector<std::string> definitions;
+  ImportArguments imports;
   MeshOptions meshes;
   PartitionOptions options{.durable = true};
 };

@@ -2,9 +2,10 @@
 #include "cli/render_arguments.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include "cli/default_output.h"
-#include "cli/definitions.h"
+
 #include "cli/number_checks.h"
 #include "cli/rectangle.h"
 #include "cli/sizes.h"
@@ -61,7 +62,7 @@ void declare(CLI::App& app, RenderArguments& a) {
                "render for a few seconds, write nothing, and say what memory and time it would all take");
   app.add_option("--stats", o.stats, "write statistics as JSON");
   app.add_option("--profile", o.profile, "write where rays went, for `partition --profile`");
-  declare_definitions(app, a.definitions);
+  declare_import_options(app, a.imports);
   declare_mesh_options(app, a.meshes);
   app.add_option("--progress", a.progress,
                  "bar; lines: one a minute; json: lines of it on standard output, the last with the event "
@@ -94,8 +95,8 @@ void require_renderable(const RenderArguments& a) {
   if (a.meshes.any() && a.is_bundle())
     throw UsageError("the meshes of a bundle stay as they are: give " + arguments_of(a.meshes)[0] +
                      " to partition");
-  if (!a.definitions.empty() && a.is_bundle())
-    throw UsageError("what a bundle was made of is not read again: give -D to partition");
+  if (const auto words = arguments_of(a.imports); !words.empty() && a.is_bundle())
+    throw UsageError("what a bundle was made of is not read again: give " + words[0] + " to partition");
   if (a.strict && a.is_bundle())
     throw UsageError("what a bundle was made of is not read again: give --strict to partition");
 }
@@ -140,7 +141,7 @@ void interpret(const CLI::App& app, RenderArguments& a) {
 std::vector<std::string> partition_arguments(const RenderArguments& a) {
   std::vector<std::string> arguments = arguments_of(a.meshes);
   arguments.insert(arguments.end(), {"--no-sync", "--no-summary"});
-  for (const std::string& definition : a.definitions) arguments.insert(arguments.end(), {"-D", definition});
+  std::ranges::copy(arguments_of(a.imports), std::back_inserter(arguments));
   if (a.quiet) arguments.push_back("--quiet");
   if (a.strict) arguments.push_back("--strict");
   arguments.insert(arguments.end(), {"--progress", a.options.progress == ProgressMode::bar ? "bar" : "none"});

@@ -136,6 +136,24 @@ TEST_F(Pictures, OfMitsubaTakeParameters) {
   EXPECT_NE(render("b.film", "-D spp=4").status, 0) << "pbrt has none";
 }
 
+TEST_F(Pictures, AreSeenByTheSensorAskedFor) {
+  const auto sensor = [](int width) {
+    return fmt::format(
+        "<sensor type=\"perspective\"><film type=\"hdrfilm\"><integer name=\"width\" value=\"{}\"/>"
+        "<integer name=\"height\" value=\"16\"/></film></sensor>",
+        width);
+  };
+  write("in.xml", "<scene version=\"3.0.0\">" + sensor(40) + sensor(24) + "<emitter type=\"constant\"/></scene>");
+  for (const auto& [option, width] : {std::pair("", 40), {"--camera 0", 40}, {"--camera 1", 24}}) {
+    ASSERT_EQ(render("a.film", std::string("--force ") + option, "in.xml").status, 0) << option;
+    EXPECT_EQ(size("a.film").first, width) << option;
+  }
+  const CommandResult none = render("b.film", "--camera 2", "in.xml");
+  EXPECT_NE(none.status, 0);
+  EXPECT_THAT(none.output, HasSubstr("2 sensors"));
+  EXPECT_NE(render("b.film", "--camera 1").status, 0) << "pbrt has one";
+}
+
 TEST_F(Pictures, ADryRunWritesNothing) {
   const CommandResult dry = run(
       fmt::format("{} {} -o {} --spp 100000 --dry-run", vitrail("render"), path("in.pbrt"), path("a.exr")));
