@@ -121,6 +121,9 @@ int main(int argc, char** argv) {
     picture.render_time_s = sum.render_time_s;
     picture.origin.seeds = sum.seeds;
     put_about(picture.origin, sum.about);
+    if (sum.film.key().clamp > 0 && !manner.quiet)
+      fmt::print(stderr, "vitrail: rendered with --clamp {}, which took {:.3g} % of the light\n",
+                 sum.film.key().clamp, 100 * sum.film.clamped_share());
     if (spectral && picture.bins.count == 0)
       throw Error("the film keeps no spectra: render with --spectral N", {sum.file.string()});
     if (!spectral) picture.spectrum = {};

@@ -223,6 +223,8 @@ Report inspect_film(const std::filesystem::path& file) {
           {"max_depth", film.key().max_depth},
           {"integrator", film.key().direct_only ? "direct" : "path"},
           {"straight_counts", film.key().straight_counts},
+          {"clamp", film.key().clamp},
+          {"clamped_share", film.clamped_share()},
           {"spectral_bins", film.bins().count},
           {"imaging_ratio", film.imaging_ratio()},
           {"quantum", fmt::format("2^{}", film.exponent())},

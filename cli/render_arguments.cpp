@@ -47,6 +47,12 @@ void declare(CLI::App& app, RenderArguments& a) {
          "--spectral", a.bins,
          "keep the spectrum of each pixel in this many bins over 360 to 830 nm; default: as the scene says")
       ->check(CLI::Range(1, max_spectral_bins));
+  app.add_option(
+         "--clamp", o.clamp,
+         "cut what one connection of a path adds to a sample down to this, in the picture's units: fewer "
+         "bright specks, but a darker picture, and the film says by how much; 0: no limit")
+      ->check(not_below_0)
+      ->capture_default_str();
   app.add_option("--checkpoint-every", o.checkpoint_every_s,
                  "seconds between checkpoints; default: none but those that signals ask for")
       ->check(not_below_0);

@@ -44,13 +44,14 @@ Manifest read_with_overrides(const RenderOptions& options) {
   return m;
 }
 
-FilmKey key_of(const Manifest& m, std::uint64_t seed) {
+FilmKey key_of(const Manifest& m, const RenderOptions& options) {
   FilmKey key;
   key.scene_hash = m.scene_hash;
-  key.seed = seed;
+  key.seed = options.seed;
   key.max_depth = m.settings.max_depth;
   key.direct_only = m.settings.direct_only;
   key.straight_counts = m.settings.straight_counts;
+  key.clamp = options.clamp;
   return key;
 }
 
@@ -135,7 +136,7 @@ RenderStats render(Transport& transport, const RenderOptions& options) {
     stats.setup_peak_rss_bytes = peak_resident_bytes();
     memory =
         plan_for(m, options, threads, stats.base_rss_bytes + job->texture_bytes, stats.setup_peak_rss_bytes);
-    job->film = Film(m.film, key_of(m, options.seed), film_exponent(*job->scene));
+    job->film = Film(m.film, key_of(m, options), film_exponent(*job->scene));
     if (transport.rank() == 0) require_room(options.film, film_bytes(m.film));
   });
   const Manifest& manifest = job->scene->manifest;
@@ -186,6 +187,10 @@ RenderStats render(Transport& transport, const RenderOptions& options) {
   stats.refused = job->film.refused();
   if (stats.refused.nonfinite > 0)
     fmt::print(stderr, "vitrail: {} samples were not finite and count as black\n", stats.refused.nonfinite);
+  stats.clamped_share = job->film.clamped_share();
+  if (options.clamp > 0 && !options.quiet)
+    fmt::print(stderr, "vitrail: --clamp {} took {:.3g} % of the light: so much darker is the picture\n",
+               options.clamp, 100 * stats.clamped_share);
   stats.film_hash = job->film.hash();
   print_end(options, stats, job->film.pixels());
   // The film holds all that the checkpoint does.

@@ -77,6 +77,7 @@ Film::Film(const FilmSettings& settings, const FilmKey& key, int exponent)
     throw Error(fmt::format("a film keeps at most {} spectral bins over an interval of wavelengths",
                             max_spectral_bins));
   sums_.resize((plane_count + static_cast<std::size_t>(bins_.count)) * size);
+  if (key_.clamp > 0) sums_.emplace_back();
   counts_.resize(sample_groups * size);
 }
 
@@ -114,6 +115,16 @@ bool Film::deposit(std::uint32_t pixel, std::uint32_t sample, const XYZ& value) 
   return true;
 }
 
+double Film::clamp(std::uint32_t pixel, std::uint32_t sample, const XYZ& value) {
+  if (!(key_.clamp > 0)) return 1;
+  const double largest = imaging_ratio_ * std::max({std::abs(value.x), std::abs(value.y), std::abs(value.z)});
+  if (!(largest > key_.clamp) || !std::isfinite(largest)) return 1;
+  const double left = key_.clamp / largest, taken = (1 - left) * value.y;
+  if (accepts(taken, std::abs(taken)))
+    add_shared(sums_.back(), rounded(power_of_two(-exponent_) * taken, dice(place(pixel), sample, taken)));
+  return left;
+}
+
 bool Film::deposit_bin(std::uint32_t pixel, std::uint32_t sample, std::size_t bin, double value) {
   if (!accepts(value, std::abs(value))) return false;
   const double quanta = power_of_two(-exponent_);
@@ -143,6 +154,7 @@ std::string difference(const Film& a, const Film& b) {
   if (k.direct_only != l.direct_only) return "one has direct light only";
   if (k.straight_counts != l.straight_counts)
     return "one counts going straight through a sheet as scattering, the other does not";
+  if (k.clamp != l.clamp) return differ("their clamps differ", k.clamp, l.clamp);
   if (a.bins() != b.bins())
     return differ("their spectral bins differ",
                   fmt::format("{} over {}..{} nm", a.bins().count, a.bins().min_nm, a.bins().max_nm),
@@ -179,6 +191,15 @@ XYZ Film::mean(std::uint32_t pixel) const {
   return {weight * value(x_plane, pixel),
           weight * (power_of_two(exponent_) * static_cast<double>(value_of(y))),
           weight * value(z_plane, pixel)};
+}
+
+double Film::clamped_share() const {
+  if (!(key_.clamp > 0)) return 0;
+  WideSum all = sums_.back();
+  const double taken = static_cast<double>(value_of(all));
+  const auto y = std::span(sums_).subspan(y_planes * pixels(), sample_groups * pixels());
+  for (const WideSum& sum : y) all += sum;
+  return taken == 0 ? 0 : taken / static_cast<double>(value_of(all));
 }
 
 double Film::mean_of_bin(std::uint32_t pixel, std::size_t bin) const {

@@ -25,6 +25,7 @@ struct FilmKey {
   std::int32_t max_depth = 0;
   bool direct_only = false;
   bool straight_counts = true;
+  double clamp = 0;  // the most of X, Y and Z that a deposit has in the picture; 0: no limit
   RendererVersion renderer = this_renderer();
   bool operator==(const FilmKey&) const = default;
 };
@@ -69,6 +70,8 @@ class Film {
   bool deposit(std::uint32_t pixel, std::uint32_t sample, const XYZ& value);
   // Adds to a bin of a pixel's spectrum, as above: radiance over (pdf of its wavelength · width of the bin).
   bool deposit_bin(std::uint32_t pixel, std::uint32_t sample, std::size_t bin, double value);
+  // The part of a deposit's light that the key's clamp leaves, in (0,1]; what it takes is counted.
+  double clamp(std::uint32_t pixel, std::uint32_t sample, const XYZ& value);
   // Counts one sample of a pixel, whatever it deposits.
   void count_sample(std::uint32_t pixel, std::uint32_t sample);
 
@@ -85,6 +88,9 @@ class Film {
   std::uint64_t samples(std::uint32_t pixel) const;
   std::uint64_t samples() const;  // of all pixels
 
+  // Of the Y of all deposits, the part that the clamp took: how much darker the picture is on the average.
+  double clamped_share() const;
+
   const Refused& refused() const { return refused_; }
   // True when a deposit was too large: the picture is then not to be trusted.
   bool saturated() const { return refused_.too_large > 0; }
@@ -93,7 +99,8 @@ class Film {
   std::uint64_t hash() const;
 
   // The raw planes, for exchange between ranks: X, Z, Y of each group, then one a spectral bin, each
-  // width·height; the samples of each group; and what was refused.
+  // width·height, and, where there is a clamp, the Y that it took of all pixels; the samples of each group;
+  // and what was refused.
   std::span<WideSum> sums() { return sums_; }
   std::span<const WideSum> sums() const { return sums_; }
   std::span<std::uint32_t> counts() { return counts_; }

@@ -47,11 +47,12 @@ struct Header {
   std::int32_t max_depth;
   std::uint32_t options;
   std::int32_t exponent;
+  double clamp;
   std::uint64_t nonfinite, too_large;  // deposits
   std::uint32_t earlier_ends, about_bytes;
   std::uint64_t checksum;  // of all before it
 };
-static_assert(sizeof(Header) == 168);
+static_assert(sizeof(Header) == 176);
 
 std::uint64_t checksum(const Header& h) { return XXH3_64bits(&h, offsetof(Header, checksum)); }
 
@@ -118,7 +119,7 @@ Header read_header(Reader& in) {
                             (h.options & ~all_options) == 0 && least_exponent <= h.exponent &&
                             h.exponent <= greatest_exponent;
   if (!sizes_in_order || !bins_in_order || !key_in_order || !std::isfinite(h.imaging_ratio) ||
-      !(h.render_time_s >= 0))
+      !(h.render_time_s >= 0) || !(h.clamp >= 0))
     in.fail("the film file is corrupt: its header makes no sense");
   return h;
 }
@@ -146,6 +147,7 @@ void write_film(const std::filesystem::path& file, const Film& film, const FilmP
   h.max_depth = key.max_depth;
   h.options = (key.direct_only ? option_direct_only : 0) | (key.straight_counts ? option_straight_counts : 0);
   h.exponent = film.exponent_;
+  h.clamp = key.clamp;
   h.nonfinite = film.refused_.nonfinite, h.too_large = film.refused_.too_large;
   h.items = progress.items, h.samples_per_pixel = progress.samples_per_pixel;
   h.render_time_s = progress.render_time_s;
@@ -168,7 +170,8 @@ Film read_film(const std::filesystem::path& file, FilmProgress* progress) {
   const auto pixels = static_cast<std::uint64_t>(h.x1 - h.x0) * static_cast<std::uint64_t>(h.y1 - h.y0);
   const std::uint64_t planes = 2 + sample_groups + static_cast<std::uint64_t>(h.bins);
   const std::uint64_t arrays = pixels * (planes * sizeof(WideSum) + sample_groups * sizeof(std::uint32_t)) +
-                               h.earlier_ends * std::uint64_t{sizeof(std::uint32_t)} + h.about_bytes + 5 * 8;
+                               h.earlier_ends * std::uint64_t{sizeof(std::uint32_t)} + h.about_bytes + 5 * 8 +
+                               (h.clamp > 0 ? sizeof(WideSum) : 0);
   if (in.size() - sizeof h < arrays || (in.size() - sizeof h - arrays) % 8 != 0 ||
       (in.size() - sizeof h - arrays) / 8 != words_of(h.items))
     in.fail(fmt::format("the film file is truncated or has bytes too many: {} bytes", in.size()));
@@ -192,10 +195,11 @@ Film read_film(const std::filesystem::path& file, FilmProgress* progress) {
                h.max_depth,
                (h.options & option_direct_only) != 0,
                (h.options & option_straight_counts) != 0,
+               h.clamp,
                {h.renderer, h.picture_revision}};
   film.exponent_ = h.exponent;
   film.refused_ = {h.nonfinite, h.too_large};
-  in.read_array(film.sums_, planes * pixels, "sums");
+  in.read_array(film.sums_, planes * pixels + (h.clamp > 0 ? 1 : 0), "sums");
   in.read_array(film.counts_, sample_groups * pixels, "counts");
   if (progress) *progress = std::move(read);
   return film;

@@ -244,9 +244,13 @@ void PathTracer::trace_shadow(const ShadowRecord& record, const SensorWeights* w
 
 void PathTracer::deposit(std::uint32_t pixel, std::uint32_t sample, const SensorWeights& weights,
                          const SampledSpectrum& radiance) {
-  if (!film_.deposit(pixel, sample, sense(weights, radiance)) || film_.bins().count == 0) return;
+  const XYZ light = sense(weights, radiance);
+  const double left = film_.clamp(pixel, sample, light);
+  if (!film_.deposit(pixel, sample, {left * light.x, left * light.y, left * light.z}) ||
+      film_.bins().count == 0)
+    return;
   for (std::size_t i = 0; i < hero_count; ++i) {
-    const double value = static_cast<double>(radiance.v[i]) * static_cast<double>(weights.spectral[i]);
+    const double value = left * static_cast<double>(radiance.v[i]) * static_cast<double>(weights.spectral[i]);
     if (value != 0) film_.deposit_bin(pixel, sample, weights.bin[i], value);
   }
 }
