@@ -43,6 +43,20 @@ MitsubaImage image_for_mitsuba(Context& context, const ImageTexture& texture, bo
   }
 }
 
+std::optional<MitsubaImage> image_for_mitsuba(Context& context, const ImagePair& pair, bool is_float) {
+  try {
+    const std::filesystem::path file = context.images.write(pair);
+    const std::string name = context.relative(std::filesystem::absolute(file).string());
+    context.approximated(
+        fmt::format("the product of two images is written as one, {}: right at its texels, and between them "
+                    "interpolated as a product",
+                    name));
+    return MitsubaImage{name, is_float};
+  } catch (const Error&) {
+    return std::nullopt;
+  }
+}
+
 RGB mean_color(const ImageTexture& texture) {
   try {
     const Image image = texture_values(texture, read_stored_image(texture.filename), ImageUse::color);

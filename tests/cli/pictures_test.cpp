@@ -65,7 +65,7 @@ TEST_F(Pictures, OfAnotherSizeShowTheSame) {
   ASSERT_EQ(render("large.film", "--spp 64 --scale 2").status, 0);
   const Film small = read_film(directory_ / "small.film", nullptr),
              large = read_film(directory_ / "large.film", nullptr);
-  for (const auto &[x, y] : {std::pair(3, 3), {20, 10}, {36, 16}, {10, 10}}) {
+  for (const auto& [x, y] : {std::pair(3, 3), {20, 10}, {36, 16}, {10, 10}}) {
     double sum = 0;
     for (int j = 0; j < 2; ++j)
       for (int i = 0; i < 2; ++i)

@@ -112,5 +112,24 @@ TEST_F(MitsubaImages, ATintedImageKeepsItsImage) {
   for (std::size_t i = 0; i < tinted.size(); ++i) EXPECT_NEAR(tinted[i], plain[i] * tint[i % 3], 1e-6) << i;
 }
 
+TEST_F(MitsubaImages, AProductOfTwoIsOne) {
+  test::write_png(folder_ / "rgb.png", 2, 1, 3, {51, 102, 204, 10, 20, 30});
+  test::write_png(folder_ / "grey.png", 4, 2, 1, {0, 255, 0, 255, 128, 128, 255, 0});
+  const ImageTexture colors = image("rgb.png"), shade = image("grey.png");
+  textures_ = {{colors, false, "colors", {}}, {shade, false, "shade", {}}};
+  const ImageTexture product = written(ProductTexture{Id<Texture>{0}, Id<Texture>{1}}, false);
+  EXPECT_THAT(diagnostics_, says("the product of two images"));
+  const std::vector<float> a = values(colors, ImageUse::color), b = values(shade, ImageUse::color),
+                           found = values(product, ImageUse::color);
+  ASSERT_EQ(found.size(), std::size_t{4 * 2 * 3});
+  for (std::size_t x = 0; x < 4; ++x)
+    for (std::size_t c = 0; c < 3; ++c) {
+      // Quarters of the way between the two texels, which repeat.
+      const float left = x < 2 ? .75f : .25f;
+      EXPECT_NEAR(found[3 * x + c], b[x] * (left * a[c] + (1 - left) * a[3 + c]), 1e-6) << x << " " << c;
+      EXPECT_NEAR(found[12 + 3 * x + c], b[4 + x] * (left * a[c] + (1 - left) * a[3 + c]), 1e-6);
+    }
+}
+
 }  // namespace
 }  // namespace vitrail
