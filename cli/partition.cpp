@@ -77,6 +77,18 @@ void require_sense(const PartitionArguments& a, const Scene& scene) {
         fmt::format("{} domains for {} triangles: most would be empty", a.options.domains, triangles));
 }
 
+// The same scene's bundle is replaced as a matter of course; another one may have taken hours. One without an
+// origin is that of a job that was killed before it could say it.
+void require_no_other(const PartitionArguments& a) {
+  if (a.force || !std::filesystem::exists(a.output / "manifest.json")) return;
+  const std::string scene = read_bundle_origin(a.output).scene;
+  std::error_code gone;
+  if (scene.empty() || scene == std::filesystem::absolute(a.input) ||
+      std::filesystem::equivalent(scene, a.input, gone))
+    return;
+  throw Error(fmt::format("it is a bundle of {}; --force replaces it", scene), {a.output.string()});
+}
+
 void interpret(PartitionArguments& a) {
   if (!a.domain_bytes.empty()) {
     a.options.domain_bytes = parse_bytes(a.domain_bytes);
@@ -84,6 +96,7 @@ void interpret(PartitionArguments& a) {
   }
   note_input(a.input);
   require_folder_of(a.output.has_filename() ? a.output : a.output.parent_path());
+  require_no_other(a);
   if (!a.stats.empty()) require_place(a.stats);
   if (!a.profile.empty()) a.options.profile = read_ray_profile(a.profile);
   a.options.memory_bytes = a.memory.empty() ? default_memory_bytes() : parse_bytes(a.memory);

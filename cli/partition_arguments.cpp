@@ -33,6 +33,7 @@ void declare(CLI::App& app, PartitionArguments& a) {
                  "where the rays of an earlier render of this scene went (`render --profile`): cut for them");
   declare_import_options(app, a.imports);
   declare_mesh_options(app, a.meshes);
+  app.add_flag("--force", a.force, "replace a bundle of another scene");
   app.add_flag("--strict", a.strict, "fail if anything in the scene is not imported exactly");
   app.add_option("--progress", a.progress, "bar, none, or auto: a bar on a terminal")
       ->check(CLI::IsMember({"auto", "bar", "none"}))

@@ -14,7 +14,7 @@ namespace vitrail {
 struct PartitionArguments {
   std::filesystem::path input, output, stats, profile;
   std::string domain_bytes, memory, progress = "auto";
-  bool strict = false, quiet = false, summary = true;
+  bool force = false, strict = false, quiet = false, summary = true;
   ImportArguments imports;
   MeshOptions meshes;
   PartitionOptions options{.durable = true};
