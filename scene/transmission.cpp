@@ -39,10 +39,25 @@ bool is_made_of_others(const Material& material) {
          std::holds_alternative<TwoSidedMaterial>(material.model);
 }
 
-bool is_passed_straight(const Material& material) {
+bool is_passed_straight(const Material& material, const std::vector<Material>& all) {
+  const auto is_nothing = [&](Id<Material> part) {
+    return std::holds_alternative<InterfaceMaterial>(all.at(part.value).model);
+  };
+  if (const auto* blend = std::get_if<BlendMaterial>(&material.model))
+    return is_nothing(blend->first) || is_nothing(blend->second);
   return std::holds_alternative<MaskMaterial>(material.model) ||
          std::holds_alternative<ThinDielectricMaterial>(material.model) ||
          std::holds_alternative<MeasuredMaterial>(material.model);
+}
+
+bool lets_straight(const Material& material, const std::vector<bool>& others) {
+  if (const auto* blend = std::get_if<BlendMaterial>(&material.model))
+    return others.at(blend->first.value) || others.at(blend->second.value);
+  if (const auto* sided = std::get_if<TwoSidedMaterial>(&material.model))
+    return others.at(sided->front.value) || others.at(sided->back.value);
+  return std::holds_alternative<InterfaceMaterial>(material.model) ||
+         std::holds_alternative<MaskMaterial>(material.model) ||
+         std::holds_alternative<ThinDielectricMaterial>(material.model);
 }
 
 bool has_sides(const Material& material, bool lets_through, const std::vector<bool>& others) {

@@ -14,8 +14,12 @@ bool transmits(const Material& material, const std::vector<bool>& others);
 // Whether it scatters as the materials do that it refers to. Bumps are theirs.
 bool is_made_of_others(const Material& material);
 
-// Whether going straight through it is an event that RenderSettings::straight_counts speaks of.
-bool is_passed_straight(const Material& material);
+// Whether going straight through it is an event that RenderSettings::straight_counts speaks of; `all` are the
+// scene's.
+bool is_passed_straight(const Material& material, const std::vector<Material>& all);
+
+// Whether light can go straight through it, an event or not; `others` as above.
+bool lets_straight(const Material& material, const std::vector<bool>& others);
 
 // Whether its surface looks different from its two sides; `lets_through` is whether it transmits, `others` as
 // above.

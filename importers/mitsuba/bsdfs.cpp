@@ -374,8 +374,23 @@ Material two_sided(Builder& b, const Object& o) {
     return Material{TwoSidedMaterial{ids[0], ids[1]}};
   }
   Material material = inner(b, o);
-  change_leaves(b, material, [](Material& leaf) { leaf.two_sided = true; });
+  bool bumps = false;
+  change_leaves(b, material, [&](Material& leaf) {
+    leaf.two_sided = true;
+    bumps = bumps || leaf.displacement || leaf.normal_map;
+  });
+  if (bumps)
+    b.report.approximated(
+        "\"twosided\" around bumps: on the back they are turned over with the normal, not mirrored",
+        o.origin);
   material.two_sided = true;
+  return material;
+}
+
+// What an adapter with bumps is around.
+Material bumped(Builder& b, const Object& o) {
+  Material material = inner(b, o);
+  if (lets_straight(material, b.straight)) b.bumps_of_straight.push_back(o.origin);
   return material;
 }
 
@@ -388,7 +403,7 @@ bool has_bump_shadowing(Builder& b, const Object& o) {
 
 // The height of a bump map times its scale.
 Material bump_map(Builder& b, const Object& o) {
-  Material material = inner(b, o);
+  Material material = bumped(b, o);
   const double scale = o.number("scale", 1, b.report);
   const Object* texture = o.child("texture");
   if (!texture) {
@@ -411,7 +426,7 @@ Material bump_map(Builder& b, const Object& o) {
 }
 
 Material normal_map(Builder& b, const Object& o) {
-  Material material = inner(b, o);
+  Material material = bumped(b, o);
   const Object* texture = o.child("texture");
   const bool shadows = has_bump_shadowing(b, o);
   if (!texture) {
@@ -460,6 +475,7 @@ Id<Material> append(Builder& b, Material material) {
   const bool through = transmits(material, b.transmitting);
   b.transmitting.push_back(through);
   b.sided.push_back(has_sides(material, through, b.sided));
+  b.straight.push_back(lets_straight(material, b.straight));
   b.scene.materials.push_back(std::move(material));
   return {static_cast<std::uint32_t>(b.scene.materials.size() - 1)};
 }

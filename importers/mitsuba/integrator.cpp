@@ -66,6 +66,7 @@ void read_integrator(Builder& builder, const Object& integrator) {
   }
   builder.scene.integrator_origin = integrator.origin;
   report_kind(integrator, report);
+  builder.integrator = integrator.type;
   RenderSettings& settings = builder.scene.settings;
   settings.direct_only = is_one_of(integrator.type, direct_only);
   // Mitsuba's direct light ends at the first surface, specular or not.

@@ -20,6 +20,15 @@ static void report_null_depth(Builder& b) {
       b.report.approximated("the depth: going through \"null\" does not count", material.origin);
 }
 
+// To those, what bumps are around lets no light of emitters straight through.
+static void report_dark_bumps(Builder& b) {
+  if (b.scene.settings.straight_counts) return;
+  for (const Origin& place : b.bumps_of_straight) {
+    b.report.begin_item({place, RecordKind::material});
+    b.report.approximated("light goes through what these bumps are on as it does without them", place);
+  }
+}
+
 static void build(Builder& b, const Object& root) {
   // Objects that others refer to come first, so that they have their places in the order of the file.
   for (const Property& p : root.properties) {
@@ -48,6 +57,7 @@ static void build(Builder& b, const Object& root) {
     if ((*object)->tag == "shape") p.queried = true, add_shape(b, **object);
   }
   report_null_depth(b);
+  report_dark_bumps(b);
   root.ignore({"camera", "version"});
   root.children("sampler");
   root.children("film");

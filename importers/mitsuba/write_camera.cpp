@@ -204,6 +204,17 @@ double field_of_view_deg(double half_width) {
   return nearest;
 }
 
+// Mitsuba's adapters do not say what goes straight through the material inside of them.
+static void report_dark_sheets(Context& context) {
+  for (const Material& material : context.scene.materials) {
+    const bool bumps = material.normal_map || material.displacement;
+    if (!bumps || !std::holds_alternative<ThinDielectricMaterial>(material.model)) continue;
+    context.begin(RecordKind::material, material.origin);
+    context.approximated(
+        "a thin sheet with bumps: Mitsuba's volumetric path tracer lets no light of emitters through it");
+  }
+}
+
 void write_integrator(Context& context, Element root) {
   const Scene& scene = context.scene;
   if (scene.settings.direct_only) {
@@ -223,11 +234,13 @@ void write_integrator(Context& context, Element root) {
   Element element = add(root, "integrator", volpath ? "volpath" : "path");
   const int depth = scene.settings.max_depth;
   if (volpath && scene.settings.straight_counts && depth < unlimited_depth &&
-      std::ranges::any_of(scene.materials, is_passed_straight)) {
+      std::ranges::any_of(scene.materials,
+                          [&](const Material& m) { return is_passed_straight(m, scene.materials); })) {
     context.origin = scene.camera_origin;
     context.approximated(
         "the depth: Mitsuba's volumetric path tracer does not count going straight through sheets and masks");
   }
+  if (volpath) report_dark_sheets(context);
   add_integer(element, "max_depth",
               depth >= unlimited_depth ? -1 : depth + 1);  // Mitsuba counts the eye's ray
   add_integer(element, "rr_depth", 5);

@@ -299,7 +299,19 @@ TEST_F(WrittenMasks, CountForNoDepthInPbrt) {
   EXPECT_FALSE(mentions(diagnostics_, "the depth"));
   add(ThinDielectricMaterial{});
   written(half_);
-  EXPECT_TRUE(mentions(diagnostics_, "thin sheets"));
+  EXPECT_TRUE(mentions(diagnostics_, "going straight through thin sheets"));
+  EXPECT_FALSE(mentions(diagnostics_, "without extent"));
+  scene_.lights.push_back({PointLight{}, {}});
+  written(half_);
+  EXPECT_TRUE(mentions(diagnostics_, "lights without extent do not shine through thin sheets"));
+}
+
+TEST_F(WrittenMasks, BlendsWithNothingCountForNoDepthInPbrt) {
+  scene_.materials.at(half_.value).model = DiffuseMaterial{};
+  const Id<Material> nothing = add(InterfaceMaterial{});
+  const Shape blend = written(add(BlendMaterial{nothing, dark_, 0.5f}));
+  EXPECT_EQ(constant_opacity(blend), 0.5f);
+  EXPECT_TRUE(mentions(diagnostics_, "the depth"));
 }
 
 // A mask leaves the light of a surface alone, an alpha does not; and pbrt drops the lights of interfaces.
