@@ -25,7 +25,18 @@ bool lets_straight(const Material& material, const std::vector<bool>& others);
 // above.
 bool has_sides(const Material& material, bool lets_through, const std::vector<bool>& others);
 
+// What it turns light by: mirrors and smooth interfaces, and what spreads it. Going straight on is neither;
+// `others` as above.
+struct Lobes {
+  bool smooth = false, spread = false;
+};
+Lobes lobes_of(const Material& material, const std::vector<Lobes>& others);
+
+// Whether it blends what turns light by a mirror with what spreads it.
+bool blends_mirror_with_spread(const Material& material, const std::vector<Lobes>& others);
+
 // The same of each material of a scene.
+std::vector<Lobes> lobes_of(const std::vector<Material>& materials);
 std::vector<bool> transmitting(const std::vector<Material>& materials);
 std::vector<bool> with_sides(const std::vector<Material>& materials);
 

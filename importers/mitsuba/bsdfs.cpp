@@ -268,7 +268,12 @@ MaterialModel mask(Builder& b, const Object& o) {
 
 MaterialModel blend(Builder& b, const Object& o) {
   const std::vector<Id<Material>> both = nested(b, o, 2, 2);
-  return BlendMaterial{both[0], both[1], float_parameter(b, o, "weight", 0.5)};
+  BlendMaterial blend{both[0], both[1], float_parameter(b, o, "weight", 0.5)};
+  if (blends_mirror_with_spread({blend}, b.lobes))
+    b.report.approximated(
+        "a blend of a mirror or smooth interface with what spreads light is their sum: darker in Mitsuba 3.9",
+        o.origin);
+  return blend;
 }
 
 struct Kind {
@@ -476,6 +481,7 @@ Id<Material> append(Builder& b, Material material) {
   b.transmitting.push_back(through);
   b.sided.push_back(has_sides(material, through, b.sided));
   b.straight.push_back(lets_straight(material, b.straight));
+  b.lobes.push_back(lobes_of(material, b.lobes));
   b.scene.materials.push_back(std::move(material));
   return {static_cast<std::uint32_t>(b.scene.materials.size() - 1)};
 }

@@ -11,6 +11,7 @@
 #include "importers/mitsuba/object.h"
 #include "scene/deferred_mesh.h"
 #include "scene/scene.h"
+#include "scene/transmission.h"
 
 namespace vitrail::mitsuba {
 
@@ -24,6 +25,7 @@ struct Builder {
   std::map<const Object*, Id<Material>> materials;
   // One for each of the scene's materials (scene/transmission.h).
   std::vector<bool> transmitting, sided, straight;
+  std::vector<Lobes> lobes;
   std::vector<Origin> bumps_of_straight;  // adapters around what lets light straight through
   std::map<const Object*, Id<Medium>> media;
   std::map<std::pair<const Object*, bool>, Id<Texture>>

@@ -43,6 +43,9 @@ void write_material(Context& context, Element parent, std::size_t index, std::st
     parent = add(parent, "bsdf", type, "", id);
     id.clear();
   };
+  if (blends_mirror_with_spread(material, context.lobes))
+    context.approximated(
+        "a blend of a mirror or smooth interface with what spreads light: Mitsuba 3.9 makes it darker");
   const bool bumps = shows_bumps(context, material);
   if (bumps && material.normal_map) {
     const WrittenTexture& texture = context.textures[material.normal_map->value];
