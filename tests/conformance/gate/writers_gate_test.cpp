@@ -4,6 +4,7 @@
 // VITRAIL_GATE=short scenes that show every value.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <set>
@@ -59,9 +60,15 @@ std::string joined(const Diagnostics& diagnostics) {
 
 // Reads what was written; "" where nothing of it is inexact, and where it is the same scene, or looks the
 // same.
-std::string read_again(const std::filesystem::path& file, const Scene* exact) {
+// What the writer said of a kind of record the reader may say, too.
+std::string read_again(const std::filesystem::path& file, const Scene* exact,
+                       const Diagnostics& written = {}) {
   const ImportedScene again = import_scene(file);
-  if (!again.diagnostics.empty()) return "not read exactly: " + joined(again.diagnostics);
+  Diagnostics more = again.diagnostics;
+  std::erase_if(more, [&](const Diagnostic& d) {
+    return std::ranges::any_of(written, [&](const Diagnostic& w) { return w.kind == d.kind; });
+  });
+  if (!more.empty()) return "not read exactly: " + joined(more);
   const std::string unequal = exact ? difference(*exact, again.scene) : "";
   if (unequal.empty()) return "";
   const std::string seen =
@@ -112,15 +119,16 @@ TEST(WritersGate, MitsubaTakesWhatIsWritten) {
   const CrossProduct product(folder.path());
   const std::vector<Row> rows = chosen(product.rows());
   std::vector<std::filesystem::path> files;
+  std::vector<Diagnostics> written;
   for (const Row& row : rows) {
     files.push_back(folder / fmt::format("{:03}.xml", files.size()));
-    write_mitsuba(product.scene(row), files.back());
+    written.push_back(write_mitsuba(product.scene(row), files.back()));
   }
   const std::vector<MitsubaAnswer> answers = rendered_by_mitsuba(files, {1, 0}, folder.path());
   GateReport load("Mitsuba"), round("Mitsuba, read again");
   for (std::size_t n = 0; n < rows.size(); ++n) {
     load.check(product.name(rows[n]), answers[n].refused + joined(answers[n].warnings));
-    round.check(product.name(rows[n]), read_again(files[n], nullptr));
+    round.check(product.name(rows[n]), read_again(files[n], nullptr, written[n]));
   }
 }
 
