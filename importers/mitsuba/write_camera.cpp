@@ -26,22 +26,36 @@ struct ClipRange {
   double near_clip = 1e-2, far_clip = 1e4;
 };
 
+void extend_by_corners(Bounds3d& box, const Bounds3d& of, const Transform& to_box) {
+  for (int corner = 0; !of.empty() && corner < 8; ++corner) {
+    const Point3d p{corner & 1 ? of.upper.x : of.lower.x, corner & 2 ? of.upper.y : of.lower.y,
+                    corner & 4 ? of.upper.z : of.lower.z};
+    extend(box, transform_point(to_box, p));
+  }
+}
+
+// Every mesh and every prototype is looked at once, however many instances there are.
+Bounds3d bounds_of(const Scene& scene) {
+  std::vector<Bounds3d> meshes;
+  for (const TriangleMesh& mesh : scene.meshes)
+    for (Bounds3d& box = meshes.emplace_back(); const Point3f p : mesh.positions)
+      extend(box, cast<double>(p));
+  const auto box_of = [&](const std::vector<Shape>& shapes) {
+    Bounds3d box;
+    for (const Shape& shape : shapes) extend_by_corners(box, meshes[shape.mesh.value], shape.object_to_world);
+    return box;
+  };
+  std::vector<Bounds3d> prototypes;
+  for (const Prototype& prototype : scene.prototypes) prototypes.push_back(box_of(prototype.shapes));
+  Bounds3d box = box_of(scene.shapes);
+  for (const Instance& instance : scene.instances)
+    extend_by_corners(box, prototypes[instance.prototype.value], instance.prototype_to_world);
+  return box;
+}
+
 // Mitsuba cuts away what is nearer or farther: so wide that nothing of the scene is.
 ClipRange clip_range(const Scene& scene, const Transform& camera_to_world) {
-  Bounds3d box;
-  const auto include = [&](const Shape& shape, const Transform& to_world) {
-    Bounds3f own;
-    for (const Point3f p : scene.meshes[shape.mesh.value].positions) extend(own, p);
-    for (int corner = 0; !own.empty() && corner < 8; ++corner) {
-      const Point3d p{corner & 1 ? own.upper.x : own.lower.x, corner & 2 ? own.upper.y : own.lower.y,
-                      corner & 4 ? own.upper.z : own.lower.z};
-      extend(box, transform_point(to_world, transform_point(shape.object_to_world, p)));
-    }
-  };
-  for (const Shape& shape : scene.shapes) include(shape, {});
-  for (const Instance& instance : scene.instances)
-    for (const Shape& shape : scene.prototypes[instance.prototype.value].shapes)
-      include(shape, instance.prototype_to_world);
+  Bounds3d box = bounds_of(scene);
   extend(box, transform_point(camera_to_world, {0, 0, 0}));
   const double reach = 2 * length(extent(box));
   if (!(reach > 0) || !std::isfinite(reach)) return {};
