@@ -139,6 +139,7 @@ Report describe_view(const Manifest& m) {
   return {{"camera", kind_of(m.camera)},
           {"pixels", fmt::format("{} × {}", f.width, f.height)},
           {"crop", {f.crop.x0, f.crop.x1, f.crop.y0, f.crop.y1}},
+          {"layers", names_of(f.layers)},
           {"samples_per_pixel", m.settings.samples_per_pixel},
           {"max_depth", m.settings.max_depth}};
 }
@@ -224,6 +225,8 @@ Report inspect_film(const std::filesystem::path& file) {
           {"integrator", film.key().direct_only ? "direct" : "path"},
           {"straight_counts", film.key().straight_counts},
           {"spectral_bins", film.bins().count},
+          {"layers", names_of(film.layers())},
+          {"layers_in_camera_space", film.layers().in_camera_space},
           {"imaging_ratio", film.imaging_ratio()},
           {"quantum", fmt::format("2^{}", film.exponent())},
           {"film_hash", fmt::format("{:016x}", film.hash())}};

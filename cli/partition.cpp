@@ -10,6 +10,7 @@
 #include "cli/bundle_origin.h"
 #include "cli/definitions.h"
 #include "cli/diagnostics_report.h"
+#include "cli/layer_names.h"
 #include "cli/main_guard.h"
 #include "cli/mesh_options.h"
 #include "cli/partition_arguments.h"
@@ -86,6 +87,7 @@ void interpret(PartitionArguments& a) {
   require_folder_of(a.output.has_filename() ? a.output : a.output.parent_path());
   if (!a.stats.empty()) require_place(a.stats);
   if (!a.profile.empty()) a.options.profile = read_ray_profile(a.profile);
+  if (!a.aov.empty()) a.layers = parse_layers(a.aov);
   a.options.memory_bytes = a.memory.empty() ? default_memory_bytes() : parse_bytes(a.memory);
 }
 
@@ -110,6 +112,7 @@ int run(PartitionArguments& a, Stage& stage) {
   if (!a.quiet) fmt::print(stderr, "{}", summarise(diagnostics));
   if (a.strict) require_exact(diagnostics);
   require_sense(a, imported.scene);
+  if (a.layers) imported.scene.film.layers.bits = a.layers->bits;
   if (!a.quiet && a.summary && imported.scene.lights.empty() && imported.scene.area_lights.empty())
     fmt::print(stderr, "vitrail: {} has no light: its picture is black\n", a.input.string());
   const MeshResources resources{kept_bytes, a.options.memory_bytes, a.options.threads};

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "cli/definitions.h"
+#include "cli/layer_names.h"
 
 namespace vitrail {
 
@@ -30,6 +31,7 @@ void declare(CLI::App& app, PartitionArguments& a) {
   app.add_option("--stats", a.stats, "write statistics as JSON");
   app.add_option("--profile", a.profile,
                  "where the rays of an earlier render of this scene went (`render --profile`): cut for them");
+  app.add_option("--aov", a.aov, layers_help);
   declare_definitions(app, a.definitions);
   declare_mesh_options(app, a.meshes);
   app.add_flag("--strict", a.strict, "fail if anything in the scene is not imported exactly");
@@ -47,6 +49,7 @@ BundleOrigin origin_of(const PartitionArguments& a) {
   if (a.options.flatten) words.push_back("--flatten");
   if (a.options.median) words.push_back("--median-cuts");
   if (a.options.everything) words.push_back("--require-everything");
+  if (!a.aov.empty()) words.push_back("--aov " + a.aov);
   if (!a.profile.empty()) words.push_back("--profile " + a.profile.string());
   for (const std::string& definition : a.definitions) words.push_back("-D " + definition);
   return {std::filesystem::absolute(a.input).string(), "", fmt::format("{}", fmt::join(words, " "))};

@@ -12,10 +12,11 @@ namespace vitrail {
 
 struct PartitionArguments {
   std::filesystem::path input, output, stats, profile;
-  std::string domain_bytes, memory, progress = "auto";
+  std::string domain_bytes, memory, aov, progress = "auto";
   bool strict = false, quiet = false, summary = true;
   std::vector<std::string> definitions;
   MeshOptions meshes;
+  std::optional<FilmLayers> layers;  // none: the scene's
   PartitionOptions options{.durable = true};
 };
 

@@ -5,6 +5,7 @@
 
 #include "cli/default_output.h"
 #include "cli/definitions.h"
+#include "cli/layer_names.h"
 #include "cli/number_checks.h"
 #include "cli/rectangle.h"
 #include "cli/sizes.h"
@@ -46,6 +47,10 @@ void declare(CLI::App& app, RenderArguments& a) {
          "--spectral", a.bins,
          "keep the spectrum of each pixel in this many bins over 360 to 830 nm; default: as the scene says")
       ->check(CLI::Range(1, max_spectral_bins));
+  app.add_option("--aov", a.aov, layers_help);
+  app.add_option("--aov-space", a.aov_space,
+                 "world or camera: of positions and normals of --aov; default: as the scene says, else world")
+      ->check(CLI::IsMember({"world", "camera"}));
   app.add_option("--checkpoint-every", o.checkpoint_every_s,
                  "seconds between checkpoints; default: none but those that signals ask for")
       ->check(not_below_0);
@@ -129,6 +134,8 @@ void interpret(const CLI::App& app, RenderArguments& a) {
   if (!a.memory.empty()) o.memory_bytes = parse_bytes(a.memory);
   if (!a.crop.empty()) o.crop = parse_rectangle("--crop", a.crop);
   if (a.bins > 0) o.bins = SpectralBins{a.bins};
+  if (!a.aov.empty()) o.layers = parse_layers(a.aov).bits;
+  if (!a.aov_space.empty()) o.layers_in_camera_space = a.aov_space == "camera";
   if (app.count("--max-depth") > 0) o.max_depth = a.max_depth < 0 ? unlimited_depth : a.max_depth;
   if (!a.integrator.empty()) o.direct_only = a.integrator == "direct";
   o.progress = progress_mode(a);
@@ -143,6 +150,7 @@ std::vector<std::string> partition_arguments(const RenderArguments& a) {
   for (const std::string& definition : a.definitions) arguments.insert(arguments.end(), {"-D", definition});
   if (a.quiet) arguments.push_back("--quiet");
   if (a.strict) arguments.push_back("--strict");
+  if (!a.aov.empty()) arguments.insert(arguments.end(), {"--aov", a.aov});
   arguments.insert(arguments.end(), {"--progress", a.options.progress == ProgressMode::bar ? "bar" : "none"});
   // It may have to load what reads images, of more than 100 MiB, and is gone when rendering begins.
   constexpr std::uint64_t least = 256u << 20;

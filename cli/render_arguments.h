@@ -12,7 +12,7 @@ namespace vitrail {
 struct RenderArguments {
   std::filesystem::path input, output;
   int bins = 0, max_depth = 0;
-  std::string memory, crop, integrator, progress = "auto";
+  std::string memory, crop, integrator, aov, aov_space, progress = "auto";
   bool quiet = false, strict = false;
   std::vector<std::string> definitions;
   MeshOptions meshes;

@@ -24,6 +24,20 @@ namespace vitrail {
 
 namespace {
 
+void override_layers(Manifest& m, const RenderOptions& options) {
+  const FilmLayers kept = m.film.layers;
+  if (options.layers) m.film.layers.bits = *options.layers;
+  if (options.layers_in_camera_space) m.film.layers.in_camera_space = *options.layers_in_camera_space;
+  const auto require = [&](Layer layer, bool there, const char* what) {
+    if (m.film.layers.has(layer) && !there)
+      throw Error(fmt::format("the bundle keeps no {0}: partition the scene with --aov {1}", what,
+                              kind_of(layer).name),
+                  {options.bundle.string()});
+  };
+  require(Layer::uv, m.requirements.uv, "(u,v), as nothing in the scene needs them");
+  require(Layer::shape, kept.has(Layer::shape), "account of which shape is which");
+}
+
 Manifest read_with_overrides(const RenderOptions& options) {
   Manifest m = read_manifest(options.bundle);
   if (m.domains.size() > max_domains) throw Error("more than 65535 domains", {options.bundle.string()});
@@ -38,6 +52,7 @@ Manifest read_with_overrides(const RenderOptions& options) {
   resize_film(m, options);
   if (options.crop) m.film.crop = *options.crop;
   if (options.bins) m.film.spectrum = *options.bins;
+  override_layers(m, options);
   const PixelRect& c = m.film.crop;
   if (c.x0 < 0 || c.y0 < 0 || c.x1 > m.film.width || c.y1 > m.film.height || c.x0 >= c.x1 || c.y0 >= c.y1)
     throw UsageError("the crop lies outside the film or is empty");
@@ -131,7 +146,8 @@ RenderStats render(Transport& transport, const RenderOptions& options) {
     const Manifest& m = job->scene->manifest;
     stats.base_rss_bytes = resident_bytes() + film_bytes(m.film);
     memory = plan_for(m, options, threads, stats.base_rss_bytes + job->texture_bytes);
-    job->film = Film(m.film, key_of(m, options.seed), film_exponent(*job->scene));
+    job->film = Film(m.film, key_of(m, options.seed), film_exponent(*job->scene),
+                     m.film.layers.any() ? length_exponent(*job->scene) : default_exponent);
     if (transport.rank() == 0) require_room(options.film, film_bytes(m.film));
   });
   const Manifest& manifest = job->scene->manifest;

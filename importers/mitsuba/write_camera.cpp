@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 
+#include "importers/mitsuba/aovs.h"
 #include "importers/mitsuba/screen.h"
 #include "importers/mitsuba/write_film.h"
 #include "scene/bounds.h"
@@ -204,8 +205,34 @@ double field_of_view_deg(double half_width) {
   return nearest;
 }
 
+namespace {
+
+// What the integrator that makes the picture stands in, to keep layers of first surfaces too.
+Element layers_around(Context& context, Element root) {
+  FilmLayers layers = context.scene.film.layers;
+  if (!layers.any()) return root;
+  context.begin(RecordKind::integrator, context.scene.integrator_origin);
+  if (layers.has(Layer::material)) context.dropped("Mitsuba has no index of materials");
+  layers.bits &= ~(1u << static_cast<unsigned>(Layer::material));
+  if (!layers.any()) return root;
+  if (layers.in_camera_space)
+    context.approximated("the layers of first surfaces: Mitsuba's positions and normals are the world's");
+  if (const std::string what = mitsuba::difference_from_mitsuba(layers); !what.empty())
+    context.approximated("the layers of first surfaces: " + what);
+  Element element = add(root, "integrator", "aov");
+  std::string names;
+  for (std::size_t i = 0; i < layer_count; ++i)
+    if (layers.has(static_cast<Layer>(i)))
+      names += fmt::format("{0}{1}:{1}", names.empty() ? "" : ",", layer_kinds[i].name);
+  add_string(element, "aovs", names);
+  return element;
+}
+
+}  // namespace
+
 void write_integrator(Context& context, Element root) {
   const Scene& scene = context.scene;
+  root = layers_around(context, root);
   if (scene.settings.direct_only) {
     context.begin(RecordKind::integrator, scene.integrator_origin);
     context.approximated("Mitsuba's direct integrator ends at the first surface, specular or not");
