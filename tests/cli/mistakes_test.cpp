@@ -46,9 +46,9 @@ TEST_F(Mistakes, MisspelledWordsAreRecognised) {
 }
 
 TEST_F(Mistakes, LayersThatAreNotThere) {
-  for (const char* program : {"render", "partition"}) {
+  for (const auto& [program, output] : {std::pair("render", "a.film"), {"partition", "a.vit"}}) {
     const CommandResult unknown =
-        verb(program, path("in.pbrt") + " -o " + path("a.vit") + " --aov albedo,colour");
+        verb(program, path("in.pbrt") + " -o " + path(output) + " --aov albedo,colour");
     EXPECT_EQ(unknown.status, 2);
     EXPECT_THAT(unknown.output, AllOf(HasSubstr("\"colour\""), HasSubstr("geo_normal")));
   }

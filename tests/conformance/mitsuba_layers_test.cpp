@@ -122,7 +122,9 @@ TEST(MitsubaLayers, AreOurs) {
     const double rms = noisy > 0 ? std::sqrt(squares / noisy) : 0;
     fmt::print("{}: rms z {:.2f} of {} pixels, beyond 8σ by {:.1e} at most\n", ours_name, rms, noisy,
                greatest);
-    if (noisy > 20) EXPECT_LE(rms, 1.5) << ours_name;
+    if (noisy > 20) {
+      EXPECT_LE(rms, 1.5) << ours_name;
+    }
   }
 }
 
