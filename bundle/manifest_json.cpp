@@ -91,11 +91,27 @@ SpectralBins bins_from_json(const Json& film) {
   return {j.at("bins").get<int>(), j.at("min_nm").get<double>(), j.at("max_nm").get<double>()};
 }
 
+FilmLayers layers_from_json(const Json& film) {
+  FilmLayers layers;
+  if (!film.contains("layers")) return layers;
+  const Json& j = film["layers"];
+  for (const Json& name : j.at("names"))
+    if (!add_named(layers, name.get<std::string>()))
+      throw Error(
+          fmt::format("the film has a layer that this program does not know: {}", name.get<std::string>()));
+  layers.in_camera_space = j.at("in_camera_space").get<bool>();
+  return layers;
+}
+
 FilmSettings film_from_json(const Json& j) {
   const auto crop = [&](std::size_t i) { return j.at("crop_px").at(i).get<int>(); };
-  return {j.at("width_px").get<int>(),          j.at("height_px").get<int>(),
-          {crop(0), crop(1), crop(2), crop(3)}, filter_from_json(j.at("filter")),
-          j.at("imaging_ratio").get<double>(),  bins_from_json(j)};
+  return {j.at("width_px").get<int>(),
+          j.at("height_px").get<int>(),
+          {crop(0), crop(1), crop(2), crop(3)},
+          filter_from_json(j.at("filter")),
+          j.at("imaging_ratio").get<double>(),
+          bins_from_json(j),
+          layers_from_json(j)};
 }
 
 // The names of the requirements, for both directions.
@@ -213,6 +229,11 @@ Json film_to_json(const FilmSettings& f) {
   if (f.spectrum.count > 0)
     j["spectrum"] = {
         {"bins", f.spectrum.count}, {"min_nm", f.spectrum.min_nm}, {"max_nm", f.spectrum.max_nm}};
+  if (!f.layers.any()) return j;
+  Json names = Json::array();
+  for (std::size_t i = 0; i < layer_count; ++i)
+    if (f.layers.has(static_cast<Layer>(i))) names.push_back(layer_kinds[i].name);
+  j["layers"] = {{"names", names}, {"in_camera_space", f.layers.in_camera_space}};
   return j;
 }
 

@@ -26,7 +26,12 @@ namespace {
 class Verifier {
  public:
   Verifier(const fs::path& bundle, const VerifyOptions& options) : bundle_(bundle), options_(options) {
-    if (!fs::is_directory(bundle)) throw Error("there is no such bundle", {bundle.string()});
+    if (!fs::is_directory(bundle))
+      throw Error(fs::exists(bundle)
+                      ? "this is a file, and a bundle a folder of files; vitrail inspect reads "
+                        "a film, or one file of a bundle"
+                      : "there is no such bundle",
+                  {bundle.string()});
     for (const auto& entry : fs::recursive_directory_iterator(bundle)) {
       present_.insert(entry.path());
       if (entry.is_regular_file()) bytes_to_read_ += entry.file_size();

@@ -26,15 +26,20 @@ struct Options {
   std::vector<std::string> ignored;
   std::optional<double> variance_samples, fail_above, mean_within, map_scale;
   std::size_t worst = 3;
-  bool json = false, quiet = false;
+  bool json = false, quiet = false, strict = false;
 };
 
 // An image, or a film developed in memory.
-Picture load(const std::string& file) {
+Picture load(const std::string& file, const Options& options) {
   if (std::filesystem::path(file).extension() != ".film") return read_picture(file);
   note_input(file);
   try {
-    return develop(read_film(file, nullptr));
+    FilmProgress progress;
+    const Film film = read_film(file, &progress);
+    if (!progress.complete() && options.strict) throw Error("the film is not finished", {});
+    if (!progress.complete() && !options.quiet)
+      fmt::print(stderr, "vitrail: {}: the film is not finished\n", file);
+    return develop(film);
   } catch (const Error& e) {
     throw Error(e.what(), {file});
   }
@@ -92,7 +97,7 @@ int run(const Options& options) {
     throw UsageError("psnr grows as images get closer: use --metric mse with --fail-above");
   for (const std::string& file : {options.heatmap, options.signed_map})
     if (!file.empty()) require_place(file);
-  Picture image = load(options.image), reference = load(options.reference);
+  Picture image = load(options.image, options), reference = load(options.reference, options);
   align(image, reference);
   const Mask mask = mask_of(options, image);
   ZTestInput test{&image.rgb, &reference.rgb, {}, {}};
@@ -139,6 +144,7 @@ int main(int argc, char** argv) {
   app.add_option("--mask", options.mask, "an image; pixels that are black in it are left out");
   app.add_option("--fail-above", options.fail_above, "exit with 1 if the value is greater");
   app.add_flag("--json", options.json, "print one JSON object");
+  app.add_flag("--strict", options.strict, "refuse films that are not finished");
   app.add_flag("--quiet", options.quiet, "say nothing; the exit status does");
   app.add_option("--worst", options.worst, "name so many of the worst pixels")->capture_default_str();
   app.add_option(

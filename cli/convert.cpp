@@ -5,8 +5,8 @@
 #include <iterator>
 
 #include "cli/conversion_report.h"
-#include "cli/definitions.h"
 #include "cli/diagnostics_report.h"
+#include "cli/import_options.h"
 #include "cli/main_guard.h"
 #include "cli/mesh_options.h"
 #include "importers/export.h"
@@ -21,7 +21,7 @@ namespace {
 struct Arguments {
   std::filesystem::path input, output, report;
   bool strict = false, quiet = false;
-  std::vector<std::string> definitions;
+  ImportArguments imports;
   MeshOptions meshes;
 };
 
@@ -30,7 +30,7 @@ void declare(CLI::App& app, Arguments& a) {
   app.add_option("output,-o,--output", a.output, "scene file: .pbrt (v4), .xml (Mitsuba 3), .pov, .obj, .ply")
       ->required();
   app.add_option("--report", a.report, "write what became of each item as JSON");
-  declare_definitions(app, a.definitions);
+  declare_import_options(app, a.imports);
   declare_mesh_options(app, a.meshes);
   app.add_flag("--strict", a.strict, "exit with status 3 if anything is not exact");
   app.add_flag("--quiet", a.quiet, "say nothing but what is wrong");
@@ -59,7 +59,7 @@ int run(const Arguments& a) {
   require_export_format(a.output);
   note_input(a.input);
   require_outputs(a);
-  ImportedScene imported = import_scene(a.input, MeshMemory{}, {}, parse_definitions(a.definitions));
+  ImportedScene imported = import_scene(a.input, MeshMemory{}, {}, import_options(a.imports));
   note_referenced_files(imported.scene);
   require_outputs(a);  // other than all that was read
   Diagnostics& diagnostics = imported.diagnostics;

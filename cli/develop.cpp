@@ -10,6 +10,7 @@
 
 #include "cli/main_guard.h"
 #include "film/image_io.h"
+#include "film/tone_map.h"
 #include "scene/diagnostics.h"
 #include "scene/input_files.h"
 #include "scene/output_place.h"
@@ -87,7 +88,7 @@ void put_about(PictureOrigin& origin, const std::string& about) {
 int main(int argc, char** argv) {
   CLI::App app("Turns films into an image; films of different seeds are merged exactly.", "vitrail develop");
   std::vector<std::string> films;
-  std::string output;
+  std::string output, tone = "none";
   double exposure_ev = 0;
   int bits = 0;
   bool with_variance = false, spectral = false;
@@ -98,6 +99,11 @@ int main(int argc, char** argv) {
   app.add_option("--bits", bits, "a channel: 8 or 16; default: 8, and 16 for .tif; .exr has 32")
       ->check(CLI::IsMember({8, 16}));
   app.add_option("--exposure", exposure_ev, "brighten by this many stops")->capture_default_str();
+  app.add_option("--tone", tone,
+                 "none: what is brighter than white is white; aces: the output transform of ACES 1.x, after "
+                 "--exposure; not for .exr")
+      ->check(CLI::IsMember({"none", "aces"}))
+      ->capture_default_str();
   app.add_flag("--variance", with_variance,
                "add the channel Variance.Y: variance of each pixel's mean luminance");
   app.add_flag("--spectral", spectral,
@@ -107,17 +113,23 @@ int main(int argc, char** argv) {
   return run_guarded(app, argc, argv, [&] {
     if (spectral && std::filesystem::path(output).extension() != ".exr")
       throw UsageError("spectra are written as .exr only");
+    if (tone != "none" && std::filesystem::path(output).extension() == ".exr")
+      throw UsageError("--tone is for screens; an .exr holds the light of the scene");
     require_place(output);
     const Exposed sum = merge_all(films, manner);
     Picture picture = develop(sum.film);
     picture.render_time_s = sum.render_time_s;
     picture.origin.seeds = sum.seeds;
     put_about(picture.origin, sum.about);
+    if (sum.film.key().clamp > 0 && !manner.quiet)
+      fmt::print(stderr, "vitrail: rendered with --clamp {}, which took {:.3g} % of the light\n",
+                 sum.film.key().clamp, 100 * sum.film.clamped_share());
     if (spectral && picture.bins.count == 0)
       throw Error("the film keeps no spectra: render with --spectral N", {sum.file.string()});
     if (!spectral) picture.spectrum = {};
     expose(picture, exposure_ev);
     if (!with_variance) picture.variance = {};
+    if (tone == "aces") picture.rgb = aces_tone_mapped(picture.rgb);
     write_picture(output, picture, bits);
     return exit_done;
   });

@@ -5,6 +5,7 @@
 
 #include <fstream>
 
+#include "cli/import_options.h"
 #include "cli/main_guard.h"
 
 namespace vitrail {
@@ -16,14 +17,14 @@ bool begins_with(const std::filesystem::path& file, std::string_view magic) {
   return head == magic;
 }
 
-Report inspect(const std::filesystem::path& file) {
+Report inspect(const std::filesystem::path& file, const ImportOptions& options) {
   if (!std::filesystem::exists(file)) throw Error("no such file", {file.string()});
   if (std::filesystem::is_directory(file)) return inspect_bundle(file);
   if (file.extension() == ".dom" || begins_with(file, "VITRDOM\n")) return inspect_domain(file);
   if (file.extension() == ".tex" || begins_with(file, "VITRTEX\n")) return inspect_texture(file);
   // A checkpoint is a film too.
   if (file.extension() == ".film" || file.extension() == ".partial") return inspect_film(file);
-  return inspect_scene(file);
+  return inspect_scene(file, options);
 }
 
 int status_of(const Report& report, bool strict) {
@@ -40,15 +41,17 @@ int main(int argc, char** argv) {
   CLI::App app("says what a scene, a bundle, one of its files or a film holds, and verifies it",
                "vitrail inspect");
   std::filesystem::path file;
+  ImportArguments imports;
   bool json = false, quiet = false, strict = false;
   app.add_option("file", file,
                  "scene file, bundle (NAME.vit), sub-domain or object (.dom), texture (.tex) or film (.film)")
       ->required();
+  declare_import_options(app, imports);
   app.add_flag("--json", json, "print JSON");
   app.add_flag("--strict", strict, "exit with 3 where something of a scene is not read or rendered exactly");
   app.add_flag("--quiet", quiet, "say nothing but what is wrong; the exit status does");
   return run_guarded(app, argc, argv, [&] {
-    const Report report = inspect(file);
+    const Report report = inspect(file, import_options(imports));
     if (!quiet) fmt::print("{}", json ? report.dump(1) + "\n" : to_text(report));
     return status_of(report, strict);
   });

@@ -139,6 +139,7 @@ Report describe_view(const Manifest& m) {
   return {{"camera", kind_of(m.camera)},
           {"pixels", fmt::format("{} × {}", f.width, f.height)},
           {"crop", {f.crop.x0, f.crop.x1, f.crop.y0, f.crop.y1}},
+          {"layers", names_of(f.layers)},
           {"samples_per_pixel", m.settings.samples_per_pixel},
           {"max_depth", m.settings.max_depth}};
 }
@@ -172,8 +173,8 @@ Report describe(const Manifest& m) {
   return r;
 }
 
-Report inspect_scene(const std::filesystem::path& file) {
-  const ImportedScene imported = import_scene(file);
+Report inspect_scene(const std::filesystem::path& file, const ImportOptions& options) {
+  const ImportedScene imported = import_scene(file, MeshMemory{}, {}, options);
   const Scene& s = imported.scene;
   Report r{{"file", file.string()}, {"kind", "scene"}};
   r["meshes"] = s.meshes.size();
@@ -223,7 +224,11 @@ Report inspect_film(const std::filesystem::path& file) {
           {"max_depth", film.key().max_depth},
           {"integrator", film.key().direct_only ? "direct" : "path"},
           {"straight_counts", film.key().straight_counts},
+          {"clamp", film.key().clamp},
+          {"clamped_share", film.clamped_share()},
           {"spectral_bins", film.bins().count},
+          {"layers", names_of(film.layers())},
+          {"layers_in_camera_space", film.layers().in_camera_space},
           {"imaging_ratio", film.imaging_ratio()},
           {"quantum", fmt::format("2^{}", film.exponent())},
           {"film_hash", fmt::format("{:016x}", film.hash())}};

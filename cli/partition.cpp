@@ -8,8 +8,9 @@
 #include <iterator>
 
 #include "cli/bundle_origin.h"
-#include "cli/definitions.h"
 #include "cli/diagnostics_report.h"
+#include "cli/import_options.h"
+#include "cli/layer_names.h"
 #include "cli/main_guard.h"
 #include "cli/mesh_options.h"
 #include "cli/partition_arguments.h"
@@ -77,6 +78,18 @@ void require_sense(const PartitionArguments& a, const Scene& scene) {
         fmt::format("{} domains for {} triangles: most would be empty", a.options.domains, triangles));
 }
 
+// The same scene's bundle is replaced as a matter of course; another one may have taken hours. One without an
+// origin is that of a job that was killed before it could say it.
+void require_no_other(const PartitionArguments& a) {
+  if (a.force || !std::filesystem::exists(a.output / "manifest.json")) return;
+  const std::string scene = read_bundle_origin(a.output).scene;
+  std::error_code gone;
+  if (scene.empty() || scene == std::filesystem::absolute(a.input) ||
+      std::filesystem::equivalent(scene, a.input, gone))
+    return;
+  throw Error(fmt::format("it is a bundle of {}; --force replaces it", scene), {a.output.string()});
+}
+
 void interpret(PartitionArguments& a) {
   if (!a.domain_bytes.empty()) {
     a.options.domain_bytes = parse_bytes(a.domain_bytes);
@@ -84,8 +97,10 @@ void interpret(PartitionArguments& a) {
   }
   note_input(a.input);
   require_folder_of(a.output.has_filename() ? a.output : a.output.parent_path());
+  require_no_other(a);
   if (!a.stats.empty()) require_place(a.stats);
   if (!a.profile.empty()) a.options.profile = read_ray_profile(a.profile);
+  if (!a.aov.empty()) a.layers = parse_layers(a.aov);
   a.options.memory_bytes = a.memory.empty() ? default_memory_bytes() : parse_bytes(a.memory);
 }
 
@@ -102,7 +117,7 @@ int run(PartitionArguments& a, Stage& stage) {
           stage.fraction = fraction;
           reading(std::min(fraction, 0.99), "reading the scene");
         },
-        parse_definitions(a.definitions));
+        import_options(a.imports));
   });
   stage = {"preparing the scene", 0, to_string(ledger_of(imported.scene))};
   Diagnostics diagnostics = std::move(imported.diagnostics);
@@ -110,6 +125,7 @@ int run(PartitionArguments& a, Stage& stage) {
   if (!a.quiet) fmt::print(stderr, "{}", summarise(diagnostics));
   if (a.strict) require_exact(diagnostics);
   require_sense(a, imported.scene);
+  if (a.layers) imported.scene.film.layers.bits = a.layers->bits;
   if (!a.quiet && a.summary && imported.scene.lights.empty() && imported.scene.area_lights.empty())
     fmt::print(stderr, "vitrail: {} has no light: its picture is black\n", a.input.string());
   const MeshResources resources{kept_bytes, a.options.memory_bytes, a.options.threads};

@@ -3,7 +3,10 @@
 
 #include <fmt/format.h>
 
-#include "cli/definitions.h"
+#include <algorithm>
+#include <iterator>
+
+#include "cli/layer_names.h"
 
 namespace vitrail {
 
@@ -30,8 +33,10 @@ void declare(CLI::App& app, PartitionArguments& a) {
   app.add_option("--stats", a.stats, "write statistics as JSON");
   app.add_option("--profile", a.profile,
                  "where the rays of an earlier render of this scene went (`render --profile`): cut for them");
-  declare_definitions(app, a.definitions);
+  app.add_option("--aov", a.aov, layers_help);
+  declare_import_options(app, a.imports);
   declare_mesh_options(app, a.meshes);
+  app.add_flag("--force", a.force, "replace a bundle of another scene");
   app.add_flag("--strict", a.strict, "fail if anything in the scene is not imported exactly");
   app.add_option("--progress", a.progress, "bar, none, or auto: a bar on a terminal")
       ->check(CLI::IsMember({"auto", "bar", "none"}))
@@ -47,8 +52,9 @@ BundleOrigin origin_of(const PartitionArguments& a) {
   if (a.options.flatten) words.push_back("--flatten");
   if (a.options.median) words.push_back("--median-cuts");
   if (a.options.everything) words.push_back("--require-everything");
+  if (!a.aov.empty()) words.push_back("--aov " + a.aov);
   if (!a.profile.empty()) words.push_back("--profile " + a.profile.string());
-  for (const std::string& definition : a.definitions) words.push_back("-D " + definition);
+  std::ranges::copy(arguments_of(a.imports), std::back_inserter(words));
   return {std::filesystem::absolute(a.input).string(), "", fmt::format("{}", fmt::join(words, " "))};
 }
 

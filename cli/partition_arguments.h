@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include "cli/bundle_origin.h"
+#include "cli/import_options.h"
 #include "cli/mesh_options.h"
 #include "partitioner/partition.h"
 
@@ -12,10 +13,11 @@ namespace vitrail {
 
 struct PartitionArguments {
   std::filesystem::path input, output, stats, profile;
-  std::string domain_bytes, memory, progress = "auto";
-  bool strict = false, quiet = false, summary = true;
-  std::vector<std::string> definitions;
+  std::string domain_bytes, memory, aov, progress = "auto";
+  bool force = false, strict = false, quiet = false, summary = true;
+  ImportArguments imports;
   MeshOptions meshes;
+  std::optional<FilmLayers> layers;  // none: the scene's
   PartitionOptions options{.durable = true};
 };
 

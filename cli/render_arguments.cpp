@@ -2,9 +2,10 @@
 #include "cli/render_arguments.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include "cli/default_output.h"
-#include "cli/definitions.h"
+#include "cli/layer_names.h"
 #include "cli/number_checks.h"
 #include "cli/rectangle.h"
 #include "cli/sizes.h"
@@ -46,6 +47,16 @@ void declare(CLI::App& app, RenderArguments& a) {
          "--spectral", a.bins,
          "keep the spectrum of each pixel in this many bins over 360 to 830 nm; default: as the scene says")
       ->check(CLI::Range(1, max_spectral_bins));
+  app.add_option(
+         "--clamp", o.clamp,
+         "cut what one connection of a path adds to a sample down to this, in the picture's units: fewer "
+         "bright specks, but a darker picture, and the film says by how much; 0: no limit")
+      ->check(not_below_0)
+      ->capture_default_str();
+  app.add_option("--aov", a.aov, layers_help);
+  app.add_option("--aov-space", a.aov_space,
+                 "world or camera: of positions and normals of --aov; default: as the scene says, else world")
+      ->check(CLI::IsMember({"world", "camera"}));
   app.add_option("--checkpoint-every", o.checkpoint_every_s,
                  "seconds between checkpoints; default: none but those that signals ask for")
       ->check(not_below_0);
@@ -61,7 +72,7 @@ void declare(CLI::App& app, RenderArguments& a) {
                "render for a few seconds, write nothing, and say what memory and time it would all take");
   app.add_option("--stats", o.stats, "write statistics as JSON");
   app.add_option("--profile", o.profile, "write where rays went, for `partition --profile`");
-  declare_definitions(app, a.definitions);
+  declare_import_options(app, a.imports);
   declare_mesh_options(app, a.meshes);
   app.add_option("--progress", a.progress,
                  "bar; lines: one a minute; json: lines of it on standard output, the last with the event "
@@ -94,8 +105,8 @@ void require_renderable(const RenderArguments& a) {
   if (a.meshes.any() && a.is_bundle())
     throw UsageError("the meshes of a bundle stay as they are: give " + arguments_of(a.meshes)[0] +
                      " to partition");
-  if (!a.definitions.empty() && a.is_bundle())
-    throw UsageError("what a bundle was made of is not read again: give -D to partition");
+  if (const auto words = arguments_of(a.imports); !words.empty() && a.is_bundle())
+    throw UsageError("what a bundle was made of is not read again: give " + words[0] + " to partition");
   if (a.strict && a.is_bundle())
     throw UsageError("what a bundle was made of is not read again: give --strict to partition");
 }
@@ -129,6 +140,8 @@ void interpret(const CLI::App& app, RenderArguments& a) {
   if (!a.memory.empty()) o.memory_bytes = parse_bytes(a.memory);
   if (!a.crop.empty()) o.crop = parse_rectangle("--crop", a.crop);
   if (a.bins > 0) o.bins = SpectralBins{a.bins};
+  if (!a.aov.empty()) o.layers = parse_layers(a.aov).bits;
+  if (!a.aov_space.empty()) o.layers_in_camera_space = a.aov_space == "camera";
   if (app.count("--max-depth") > 0) o.max_depth = a.max_depth < 0 ? unlimited_depth : a.max_depth;
   if (!a.integrator.empty()) o.direct_only = a.integrator == "direct";
   o.progress = progress_mode(a);
@@ -140,9 +153,10 @@ void interpret(const CLI::App& app, RenderArguments& a) {
 std::vector<std::string> partition_arguments(const RenderArguments& a) {
   std::vector<std::string> arguments = arguments_of(a.meshes);
   arguments.insert(arguments.end(), {"--no-sync", "--no-summary"});
-  for (const std::string& definition : a.definitions) arguments.insert(arguments.end(), {"-D", definition});
+  std::ranges::copy(arguments_of(a.imports), std::back_inserter(arguments));
   if (a.quiet) arguments.push_back("--quiet");
   if (a.strict) arguments.push_back("--strict");
+  if (!a.aov.empty()) arguments.insert(arguments.end(), {"--aov", a.aov});
   arguments.insert(arguments.end(), {"--progress", a.options.progress == ProgressMode::bar ? "bar" : "none"});
   // It may have to load what reads images, of more than 100 MiB, and is gone when rendering begins.
   constexpr std::uint64_t least = 256u << 20;

@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "cli/import_options.h"
 #include "cli/mesh_options.h"
 #include "farm/options.h"
 
@@ -12,9 +13,9 @@ namespace vitrail {
 struct RenderArguments {
   std::filesystem::path input, output;
   int bins = 0, max_depth = 0;
-  std::string memory, crop, integrator, progress = "auto";
+  std::string memory, crop, integrator, aov, aov_space, progress = "auto";
   bool quiet = false, strict = false;
-  std::vector<std::string> definitions;
+  ImportArguments imports;
   MeshOptions meshes;
   RenderOptions options;
 

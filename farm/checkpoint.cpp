@@ -40,6 +40,7 @@ void write_job_film(Transport& transport, const std::filesystem::path& file, Fil
                     const std::string& about) {
   transport.sum_to_root(film.sums());
   transport.sum_to_root(film.counts());
+  transport.max_to_root(film.ids());
   Refused& refused = film.refused();
   std::array<std::int64_t, 2> counts{static_cast<std::int64_t>(refused.nonfinite),
                                      static_cast<std::int64_t>(refused.too_large)};

@@ -22,6 +22,9 @@ struct RenderOptions {
   double scale = 1;                  // of both, where neither is given
   std::optional<PixelRect> crop;
   std::optional<SpectralBins> bins;
+  double clamp = 0;                     // FilmKey::clamp
+  std::optional<std::uint32_t> layers;  // bits of FilmLayers
+  std::optional<bool> layers_in_camera_space;
   std::uint64_t seed = 0;
   std::uint64_t memory_bytes = 0;  // a rank; 0: no limit
   int threads = 0;                 // a rank; 0: one a core

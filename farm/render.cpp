@@ -24,6 +24,20 @@ namespace vitrail {
 
 namespace {
 
+void override_layers(Manifest& m, const RenderOptions& options) {
+  const FilmLayers kept = m.film.layers;
+  if (options.layers) m.film.layers.bits = *options.layers;
+  if (options.layers_in_camera_space) m.film.layers.in_camera_space = *options.layers_in_camera_space;
+  const auto require = [&](Layer layer, bool there, const char* what) {
+    if (m.film.layers.has(layer) && !there)
+      throw Error(fmt::format("the bundle keeps no {0}: partition the scene with --aov {1}", what,
+                              kind_of(layer).name),
+                  {options.bundle.string()});
+  };
+  require(Layer::uv, m.requirements.uv, "(u,v), as nothing in the scene needs them");
+  require(Layer::shape, kept.has(Layer::shape), "account of which shape is which");
+}
+
 Manifest read_with_overrides(const RenderOptions& options) {
   Manifest m = read_manifest(options.bundle);
   if (m.domains.size() > max_domains) throw Error("more than 65535 domains", {options.bundle.string()});
@@ -38,19 +52,21 @@ Manifest read_with_overrides(const RenderOptions& options) {
   resize_film(m, options);
   if (options.crop) m.film.crop = *options.crop;
   if (options.bins) m.film.spectrum = *options.bins;
+  override_layers(m, options);
   const PixelRect& c = m.film.crop;
   if (c.x0 < 0 || c.y0 < 0 || c.x1 > m.film.width || c.y1 > m.film.height || c.x0 >= c.x1 || c.y0 >= c.y1)
     throw UsageError("the crop lies outside the film or is empty");
   return m;
 }
 
-FilmKey key_of(const Manifest& m, std::uint64_t seed) {
+FilmKey key_of(const Manifest& m, const RenderOptions& options) {
   FilmKey key;
   key.scene_hash = m.scene_hash;
-  key.seed = seed;
+  key.seed = options.seed;
   key.max_depth = m.settings.max_depth;
   key.direct_only = m.settings.direct_only;
   key.straight_counts = m.settings.straight_counts;
+  key.clamp = options.clamp;
   return key;
 }
 
@@ -135,7 +151,8 @@ RenderStats render(Transport& transport, const RenderOptions& options) {
     stats.setup_peak_rss_bytes = peak_resident_bytes();
     memory =
         plan_for(m, options, threads, stats.base_rss_bytes + job->texture_bytes, stats.setup_peak_rss_bytes);
-    job->film = Film(m.film, key_of(m, options.seed), film_exponent(*job->scene));
+    job->film = Film(m.film, key_of(m, options), film_exponent(*job->scene),
+                     m.film.layers.any() ? length_exponent(*job->scene) : default_exponent);
     if (transport.rank() == 0) require_room(options.film, film_bytes(m.film));
   });
   const Manifest& manifest = job->scene->manifest;
@@ -186,6 +203,10 @@ RenderStats render(Transport& transport, const RenderOptions& options) {
   stats.refused = job->film.refused();
   if (stats.refused.nonfinite > 0)
     fmt::print(stderr, "vitrail: {} samples were not finite and count as black\n", stats.refused.nonfinite);
+  stats.clamped_share = job->film.clamped_share();
+  if (options.clamp > 0 && !options.quiet)
+    fmt::print(stderr, "vitrail: --clamp {} took {:.3g} % of the light: so much darker is the picture\n",
+               options.clamp, 100 * stats.clamped_share);
   stats.film_hash = job->film.hash();
   print_end(options, stats, job->film.pixels());
   // The film holds all that the checkpoint does.

@@ -67,6 +67,7 @@ std::string to_json(const RenderStats& s) {
                                  {"setup_peak_rss_bytes", s.setup_peak_rss_bytes},
                                  {"nonfinite_samples", s.refused.nonfinite},
                                  {"saturated_samples", s.refused.too_large},
+                                 {"clamped_share", s.clamped_share},
                                  {"film_hash", fmt::format("{:016x}", s.film_hash)}};
   return json.dump(1);
 }

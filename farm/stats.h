@@ -20,7 +20,8 @@ struct RenderStats {
   std::uint64_t spp = 0, seed = 0, samples = 0;
   double wall_s = 0, cpu_s = 0, load_s = 0, trace_s = 0, idle_s = 0;
   TraceCounters traced;
-  Refused refused;  // deposits; those of earlier runs of the job included
+  double clamped_share = 0;  // Film's
+  Refused refused;           // deposits; those of earlier runs of the job included
   std::uint64_t forwarded_rays = 0, forwarded_bytes = 0, messages = 0;
   std::uint64_t domains_total = 0, domains_touched = 0, domain_loads = 0, evictions = 0;
   std::uint64_t memory_budget_bytes = 0, peak_rss_bytes = 0, base_rss_bytes = 0, setup_peak_rss_bytes = 0;

@@ -41,7 +41,7 @@ class Transport {
   virtual std::optional<RoundSums> finish_round() = 0;
 
   // These wait for all ranks; called when no ray is alive.
-  // Elementwise sums into rank 0's buffer; the others' become zero.
+  // Elementwise sums, or maxima, into rank 0's buffer; the others' become zero.
   virtual void sum_to_root(std::span<std::int64_t> values) = 0;
   virtual void sum_to_root(std::span<std::uint32_t> values) = 0;
   virtual void sum_to_root(std::span<double> values) = 0;

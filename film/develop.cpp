@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "scene/diagnostics.h"
@@ -19,6 +20,32 @@ void require_unsaturated(const Refused& refused, const std::filesystem::path& fi
                   refused.too_large),
       {file.string()});
 }
+
+namespace {
+
+void add_sums(const Film& film, Layer layer, std::vector<PictureChannel>& out) {
+  const LayerKind& kind = kind_of(layer);
+  const std::size_t first = out.size();
+  for (std::size_t i = 0; i < kind.sums; ++i)
+    out.push_back({kind.channels[i], false, std::vector<float>(film.pixels()), {}});
+  for (std::uint32_t p = 0; p < film.pixels(); ++p) {
+    std::array<double, 3> mean{};
+    for (std::size_t i = 0; i < kind.sums; ++i) mean[i] = film.mean_of_layer(p, layer, i);
+    if (layer == Layer::albedo) {
+      const RGB c = xyz_to_srgb({mean[0], mean[1], mean[2]});
+      mean = {c.r, c.g, c.b};
+    }
+    for (std::size_t i = 0; i < kind.sums; ++i) out[first + i].values[p] = static_cast<float>(mean[i]);
+  }
+}
+
+void add_ids(const Film& film, Layer layer, std::vector<PictureChannel>& out) {
+  PictureChannel channel{kind_of(layer).channels[0], true, {}, std::vector<std::uint32_t>(film.pixels())};
+  for (std::uint32_t p = 0; p < film.pixels(); ++p) channel.ids[p] = film.id(p, layer);
+  out.push_back(std::move(channel));
+}
+
+}  // namespace
 
 Picture develop(const Film& film) {
   require_unsaturated(film.refused(), {});
@@ -42,6 +69,14 @@ Picture develop(const Film& film) {
       picture.spectrum.values[bins * p + b] = static_cast<float>(film.mean_of_bin(p, b));
     most_samples = std::max(most_samples, film.samples(p));
     least_samples = std::min(least_samples, film.samples(p));
+  }
+  for (std::size_t i = 0; i < layer_count; ++i) {
+    const auto layer = static_cast<Layer>(i);
+    if (!film.layers().has(layer)) continue;
+    if (kind_of(layer).sums > 0)
+      add_sums(film, layer, picture.layers);
+    else
+      add_ids(film, layer, picture.layers);
   }
   constexpr std::uint64_t most_int = 0x7fffffff;
   picture.samples_per_pixel = static_cast<int>(std::min(most_samples, most_int));

@@ -14,12 +14,21 @@ struct PictureOrigin {
   std::vector<float> world_to_camera;  // 16 numbers, row by row, of a matrix that takes columns
 };
 
+// A channel beside the colours.
+struct PictureChannel {
+  std::string name;
+  bool is_id = false;
+  std::vector<float> values;       // of pixels; empty where it is an id
+  std::vector<std::uint32_t> ids;  // 0: none
+};
+
 // An image and what is known of how it came to be. Zero stands for unknown.
 struct Picture {
   Image rgb;       // linear sRGB
   Image variance;  // of the mean luminance of each pixel, one channel; 0 × 0 where unknown
   Image spectrum;  // mean radiance of each bin, one channel a bin; 0 × 0 where unknown
   SpectralBins bins;
+  std::vector<PictureChannel> layers;  // written as .exr, not read
   PixelRect window;
   int full_width = 0, full_height = 0;
   int samples_per_pixel = 0;

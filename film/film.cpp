@@ -60,24 +60,30 @@ std::uint64_t pixels_of(const FilmSettings& s) {
 }  // namespace
 
 std::uint64_t film_bytes(const FilmSettings& settings) {
-  const std::uint64_t planes = plane_count + static_cast<std::uint64_t>(settings.spectrum.count);
-  return pixels_of(settings) * (planes * sizeof(WideSum) + sample_groups * sizeof(std::uint32_t));
+  const std::uint64_t planes =
+      plane_count + static_cast<std::uint64_t>(settings.spectrum.count) + sum_planes(settings.layers);
+  return pixels_of(settings) * (planes * sizeof(WideSum) + sample_groups * sizeof(std::uint32_t) +
+                                id_planes(settings.layers) * sizeof(std::int64_t));
 }
 
-Film::Film(const FilmSettings& settings, const FilmKey& key, int exponent)
+Film::Film(const FilmSettings& settings, const FilmKey& key, int exponent, int length_exponent)
     : crop_(settings.crop),
       full_width_(settings.width),
       full_height_(settings.height),
       imaging_ratio_(settings.imaging_ratio),
       bins_(settings.spectrum),
       key_(key),
-      exponent_(exponent) {
+      exponent_(exponent),
+      length_exponent_(length_exponent),
+      layers_(settings.layers) {
   const std::size_t size = pixels_of(settings);
   if (bins_.count < 0 || bins_.count > max_spectral_bins || !(bins_.min_nm < bins_.max_nm))
     throw Error(fmt::format("a film keeps at most {} spectral bins over an interval of wavelengths",
                             max_spectral_bins));
-  sums_.resize((plane_count + static_cast<std::size_t>(bins_.count)) * size);
+  sums_.resize((plane_count + static_cast<std::size_t>(bins_.count) + sum_planes(layers_)) * size);
+  if (key_.clamp > 0) sums_.emplace_back();
   counts_.resize(sample_groups * size);
+  ids_.resize(id_planes(layers_) * size);
 }
 
 // The seeds of films that are to be merged follow on each other as a rule: so the first samples of each,
@@ -114,12 +120,70 @@ bool Film::deposit(std::uint32_t pixel, std::uint32_t sample, const XYZ& value) 
   return true;
 }
 
+double Film::clamp(std::uint32_t pixel, std::uint32_t sample, const XYZ& value) {
+  if (!(key_.clamp > 0)) return 1;
+  const double largest = imaging_ratio_ * std::max({std::abs(value.x), std::abs(value.y), std::abs(value.z)});
+  if (!(largest > key_.clamp) || !std::isfinite(largest)) return 1;
+  const double left = key_.clamp / largest, taken = (1 - left) * value.y;
+  if (accepts(taken, std::abs(taken)))
+    add_shared(sums_.back(), rounded(power_of_two(-exponent_) * taken, dice(place(pixel), sample, taken)));
+  return left;
+}
+
 bool Film::deposit_bin(std::uint32_t pixel, std::uint32_t sample, std::size_t bin, double value) {
   if (!accepts(value, std::abs(value))) return false;
   const double quanta = power_of_two(-exponent_);
   add_shared(sums_[(bin_planes + bin) * pixels() + pixel],
              rounded(quanta * value, dice(place(pixel), sample, value)));
   return true;
+}
+
+std::size_t Film::first_plane(Layer layer) const {
+  return bin_planes + static_cast<std::size_t>(bins_.count) +
+         sum_planes(layers_, static_cast<std::size_t>(layer));
+}
+
+int Film::exponent_of(Layer layer) const {
+  return kind_of(layer).is_length ? length_exponent_ : default_exponent;
+}
+
+std::size_t Film::place_of_id(std::uint32_t pixel, Layer layer) const {
+  return id_planes(layers_, static_cast<std::size_t>(layer)) * pixels() + pixel;
+}
+
+void Film::deposit_layer(std::uint32_t pixel, std::uint32_t sample, Layer layer,
+                         std::span<const double> values) {
+  const int exponent = exponent_of(layer);
+  const double limit = power_of_two(exponent + deposit_bits);
+  if (!std::ranges::all_of(values, [&](double v) { return std::abs(v) < limit; })) {
+    std::atomic_ref(refused_.nonfinite).fetch_add(1, std::memory_order_relaxed);
+    return;
+  }
+  const std::size_t first = first_plane(layer);
+  for (std::size_t i = 0; i < values.size(); ++i)
+    add_shared(sums_[(first + i) * pixels() + pixel],
+               rounded(power_of_two(-exponent) * values[i], dice(place(pixel), sample, values[i])));
+}
+
+// The greater, the earlier the sample; of one sample, the lesser the id.
+void Film::put_id(std::uint32_t pixel, std::uint32_t sample, Layer layer, std::uint32_t id) {
+  const std::int64_t code = static_cast<std::int64_t>(0x7fffffffu - sample) << 32 | (0xffffffffu - id);
+  std::atomic_ref held(ids_[place_of_id(pixel, layer)]);
+  std::int64_t before = held.load(std::memory_order_relaxed);
+  while (before < code && !held.compare_exchange_weak(before, code, std::memory_order_relaxed)) {
+  }
+}
+
+std::uint32_t Film::id(std::uint32_t pixel, Layer layer) const {
+  const std::int64_t code = ids_[place_of_id(pixel, layer)];
+  return code == 0 ? 0 : 0u - static_cast<std::uint32_t>(code);
+}
+
+double Film::mean_of_layer(std::uint32_t pixel, Layer layer, std::size_t plane) const {
+  const std::uint64_t n = samples(pixel);
+  if (n == 0) return 0;
+  const WideSum& sum = sums_[(first_plane(layer) + plane) * pixels() + pixel];
+  return power_of_two(exponent_of(layer)) * static_cast<double>(value_of(sum)) / static_cast<double>(n);
 }
 
 void Film::count_sample(std::uint32_t pixel, std::uint32_t sample) {
@@ -143,6 +207,7 @@ std::string difference(const Film& a, const Film& b) {
   if (k.direct_only != l.direct_only) return "one has direct light only";
   if (k.straight_counts != l.straight_counts)
     return "one counts going straight through a sheet as scattering, the other does not";
+  if (k.clamp != l.clamp) return differ("their clamps differ", k.clamp, l.clamp);
   if (a.bins() != b.bins())
     return differ("their spectral bins differ",
                   fmt::format("{} over {}..{} nm", a.bins().count, a.bins().min_nm, a.bins().max_nm),
@@ -151,6 +216,14 @@ std::string difference(const Film& a, const Film& b) {
     return differ("their imaging ratios differ", a.imaging_ratio(), b.imaging_ratio());
   if (a.exponent() != b.exponent())
     return differ("their sums count in different powers of two", a.exponent(), b.exponent());
+  if (a.layers().bits != b.layers().bits)
+    return differ("they keep different layers of the first surfaces",
+                  a.layers().any() ? names_of(a.layers()) : "none",
+                  b.layers().any() ? names_of(b.layers()) : "none");
+  if (a.layers().in_camera_space != b.layers().in_camera_space)
+    return "one has positions and normals in camera space, the other in the world's";
+  if (a.length_exponent() != b.length_exponent())
+    return differ("their lengths count in different powers of two", a.length_exponent(), b.length_exponent());
   return {};
 }
 
@@ -162,6 +235,7 @@ void Film::merge(const Film& other) {
       throw Error("the films hold more than 2³² − 1 samples a pixel together");
   for (std::size_t i = 0; i < sums_.size(); ++i) sums_[i] += other.sums_[i];
   for (std::size_t i = 0; i < counts_.size(); ++i) counts_[i] += other.counts_[i];
+  for (std::size_t i = 0; i < ids_.size(); ++i) ids_[i] = std::max(ids_[i], other.ids_[i]);
   refused_.nonfinite += other.refused_.nonfinite;
   refused_.too_large += other.refused_.too_large;
 }
@@ -179,6 +253,15 @@ XYZ Film::mean(std::uint32_t pixel) const {
   return {weight * value(x_plane, pixel),
           weight * (power_of_two(exponent_) * static_cast<double>(value_of(y))),
           weight * value(z_plane, pixel)};
+}
+
+double Film::clamped_share() const {
+  if (!(key_.clamp > 0)) return 0;
+  WideSum all = sums_.back();
+  const double taken = static_cast<double>(value_of(all));
+  const auto y = std::span(sums_).subspan(y_planes * pixels(), sample_groups * pixels());
+  for (const WideSum& sum : y) all += sum;
+  return taken == 0 ? 0 : taken / static_cast<double>(value_of(all));
 }
 
 double Film::mean_of_bin(std::uint32_t pixel, std::size_t bin) const {
@@ -209,9 +292,10 @@ std::uint64_t Film::samples() const {
 }
 
 std::uint64_t Film::hash() const {
-  const std::array<std::uint64_t, 2> parts{XXH3_64bits(sums_.data(), sums_.size() * sizeof sums_[0]),
-                                           XXH3_64bits(counts_.data(), counts_.size() * sizeof counts_[0])};
-  return XXH3_64bits(parts.data(), sizeof parts);
+  const std::array<std::uint64_t, 3> parts{XXH3_64bits(sums_.data(), sums_.size() * sizeof sums_[0]),
+                                           XXH3_64bits(counts_.data(), counts_.size() * sizeof counts_[0]),
+                                           XXH3_64bits(ids_.data(), ids_.size() * sizeof ids_[0])};
+  return XXH3_64bits(parts.data(), (ids_.empty() ? 2 : 3) * sizeof parts[0]);
 }
 
 }  // namespace vitrail

@@ -25,6 +25,7 @@ struct FilmKey {
   std::int32_t max_depth = 0;
   bool direct_only = false;
   bool straight_counts = true;
+  double clamp = 0;  // the most of X, Y and Z that a deposit has in the picture; 0: no limit
   RendererVersion renderer = this_renderer();
   bool operator==(const FilmKey&) const = default;
 };
@@ -42,14 +43,16 @@ inline constexpr int deposit_bits = 85;
 inline constexpr int default_exponent = -45;                          // for radiances about 1
 inline constexpr int least_exponent = -900, greatest_exponent = 900;  // so that all are doubles
 
-// Memory of a film's sums and counts, before there is one.
+// Memory of a film's sums, counts and ids, before there is one.
 std::uint64_t film_bytes(const FilmSettings& settings);
 
 // Width × height of the crop; planes row-major from the top left.
 class Film {
  public:
   Film() = default;
-  Film(const FilmSettings& settings, const FilmKey& key, int exponent = default_exponent);
+  // `length_exponent`: of what layers keep of lengths, see tracer/film_exponent.h.
+  Film(const FilmSettings& settings, const FilmKey& key, int exponent = default_exponent,
+       int length_exponent = default_exponent);
 
   const PixelRect& crop() const { return crop_; }
   int width() const { return crop_.x1 - crop_.x0; }   // of the crop
@@ -61,6 +64,8 @@ class Film {
   const SpectralBins& bins() const { return bins_; }
   const FilmKey& key() const { return key_; }
   int exponent() const { return exponent_; }
+  const FilmLayers& layers() const { return layers_; }
+  int length_exponent() const { return length_exponent_; }
 
   // Adds to a pixel. Safe from many threads. `pixel` = y·width + x within the crop. Each component is rounded
   // once to a whole number of quanta, up or down with the probabilities that make the mean exact, by a hash
@@ -69,6 +74,14 @@ class Film {
   bool deposit(std::uint32_t pixel, std::uint32_t sample, const XYZ& value);
   // Adds to a bin of a pixel's spectrum, as above: radiance over (pdf of its wavelength · width of the bin).
   bool deposit_bin(std::uint32_t pixel, std::uint32_t sample, std::size_t bin, double value);
+  // The part of a deposit's light that the key's clamp leaves, in (0,1]; what it takes is counted.
+  double clamp(std::uint32_t pixel, std::uint32_t sample, const XYZ& value);
+  // Adds to a layer of sums that the film keeps; `values`: one a plane of it. As above, but a value that is
+  // too large counts as one that is not finite: it is no light.
+  void deposit_layer(std::uint32_t pixel, std::uint32_t sample, Layer layer, std::span<const double> values);
+  // To a layer of ids that the film keeps. A pixel has the id of the first of its samples that has one, by
+  // number; of films of several seeds, the least of the first ones. `id` < 2³² − 1.
+  void put_id(std::uint32_t pixel, std::uint32_t sample, Layer layer, std::uint32_t id);
   // Counts one sample of a pixel, whatever it deposits.
   void count_sample(std::uint32_t pixel, std::uint32_t sample);
 
@@ -79,26 +92,36 @@ class Film {
   XYZ mean(std::uint32_t pixel) const;
   // Mean radiance of a bin, W·m⁻²·sr⁻¹·nm⁻¹, imaging ratio applied.
   double mean_of_bin(std::uint32_t pixel, std::size_t bin) const;
-  // Variance of that mean's Y, from the scatter of the groups; 0 where one has no samples. An estimate
+  // Mean of a plane of a layer of sums over all samples of a pixel; those that see nothing count as 0.
+  double mean_of_layer(std::uint32_t pixel, Layer layer, std::size_t plane) const;
+  // Of a layer of ids: 1 + the id; 0 where no sample has one.
+  std::uint32_t id(std::uint32_t pixel, Layer layer) const;
+  // Variance of the mean's Y, from the scatter of the groups; 0 where one has no samples. An estimate
   // of one degree of freedom: of use where many are put together.
   double variance_of_mean(std::uint32_t pixel) const;
   std::uint64_t samples(std::uint32_t pixel) const;
   std::uint64_t samples() const;  // of all pixels
 
+  // Of the Y of all deposits, the part that the clamp took: how much darker the picture is on the average.
+  double clamped_share() const;
+
   const Refused& refused() const { return refused_; }
   // True when a deposit was too large: the picture is then not to be trusted.
   bool saturated() const { return refused_.too_large > 0; }
 
-  // xxh3 over all sums and counts.
+  // xxh3 over all sums, counts and ids.
   std::uint64_t hash() const;
 
-  // The raw planes, for exchange between ranks: X, Z, Y of each group, then one a spectral bin, each
-  // width·height; the samples of each group; and what was refused.
+  // The raw planes, for exchange between ranks: X, Z, Y of each group, then one a spectral bin and those of
+  // layers, each width·height, and, where there is a clamp, the Y that it took of all pixels; the samples of
+  // each group; and what was refused.
   std::span<WideSum> sums() { return sums_; }
   std::span<const WideSum> sums() const { return sums_; }
   std::span<std::uint32_t> counts() { return counts_; }
   std::span<const std::uint32_t> counts() const { return counts_; }
   Refused& refused() { return refused_; }
+  // Those of layers, each width·height: of two, the greater one counts. 0: none.
+  std::span<std::int64_t> ids() { return ids_; }
 
  private:
   friend Film read_film(const std::filesystem::path& file, struct FilmProgress* progress);
@@ -108,15 +131,20 @@ class Film {
   std::uint32_t place(std::uint32_t pixel) const;
   bool accepts(double size, double largest);
   double value(std::size_t plane, std::uint32_t pixel) const;
+  std::size_t first_plane(Layer layer) const;
+  int exponent_of(Layer layer) const;
+  std::size_t place_of_id(std::uint32_t pixel, Layer layer) const;
 
   PixelRect crop_{};
   int full_width_ = 0, full_height_ = 0;
   double imaging_ratio_ = 1;
   SpectralBins bins_;
   FilmKey key_{};
-  int exponent_ = default_exponent;
+  int exponent_ = default_exponent, length_exponent_ = default_exponent;
+  FilmLayers layers_;
   std::vector<WideSum> sums_;
   std::vector<std::uint32_t> counts_;
+  std::vector<std::int64_t> ids_;
   Refused refused_;
 };
 

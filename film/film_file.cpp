@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The film file, little-endian: a header with the checksum of what comes before it, then five arrays, each
-// followed by its xxh3: FilmProgress's earlier_ends, about and done, the sums, the counts.
+// The film file, little-endian: a header with the checksum of what comes before it, then six arrays, each
+// followed by its xxh3: FilmProgress's earlier_ends, about and done, the sums, the counts, the ids.
 // docs/color-and-film.md has the header byte by byte.
 #include <fmt/format.h>
 
@@ -29,7 +29,8 @@ constexpr std::uint32_t film_version = 4;
 constexpr std::int32_t max_extent = 1 << 20;  // pixels a side
 
 // What a film was rendered with, in Header::options.
-constexpr std::uint32_t option_direct_only = 1, option_straight_counts = 2, all_options = 3;
+constexpr std::uint32_t option_direct_only = 1, option_straight_counts = 2, option_camera_space = 4,
+                        all_options = 7;
 
 struct Header {
   char magic[8];
@@ -47,13 +48,18 @@ struct Header {
   std::int32_t max_depth;
   std::uint32_t options;
   std::int32_t exponent;
+  double clamp;
   std::uint64_t nonfinite, too_large;  // deposits
   std::uint32_t earlier_ends, about_bytes;
+  std::uint32_t layers;
+  std::int32_t length_exponent;
   std::uint64_t checksum;  // of all before it
 };
-static_assert(sizeof(Header) == 168);
+static_assert(sizeof(Header) == 184);
 
 std::uint64_t checksum(const Header& h) { return XXH3_64bits(&h, offsetof(Header, checksum)); }
+
+bool in_range(std::int32_t exponent) { return least_exponent <= exponent && exponent <= greatest_exponent; }
 
 std::uint64_t words_of(std::uint64_t items) { return items / 64 + (items % 64 != 0 ? 1 : 0); }
 
@@ -115,10 +121,10 @@ Header read_header(Reader& in) {
   const bool bins_in_order = 0 <= h.bins && h.bins <= max_spectral_bins && h.bins_min_nm < h.bins_max_nm &&
                              std::isfinite(h.bins_max_nm - h.bins_min_nm);
   const bool key_in_order = std::memchr(h.renderer, 0, sizeof h.renderer) != nullptr && h.max_depth >= 0 &&
-                            (h.options & ~all_options) == 0 && least_exponent <= h.exponent &&
-                            h.exponent <= greatest_exponent;
+                            (h.options & ~all_options) == 0 && (h.layers & ~all_layers) == 0 &&
+                            in_range(h.exponent) && in_range(h.length_exponent);
   if (!sizes_in_order || !bins_in_order || !key_in_order || !std::isfinite(h.imaging_ratio) ||
-      !(h.render_time_s >= 0))
+      !(h.render_time_s >= 0) || !(h.clamp >= 0))
     in.fail("the film file is corrupt: its header makes no sense");
   return h;
 }
@@ -144,8 +150,12 @@ void write_film(const std::filesystem::path& file, const Film& film, const FilmP
   key.renderer.number.copy(h.renderer, sizeof h.renderer - 1);
   h.picture_revision = key.renderer.revision;
   h.max_depth = key.max_depth;
-  h.options = (key.direct_only ? option_direct_only : 0) | (key.straight_counts ? option_straight_counts : 0);
-  h.exponent = film.exponent_;
+  h.options = (key.direct_only ? option_direct_only : 0) |
+              (key.straight_counts ? option_straight_counts : 0) |
+              (film.layers_.in_camera_space ? option_camera_space : 0);
+  h.exponent = film.exponent_, h.length_exponent = film.length_exponent_;
+  h.clamp = key.clamp;
+  h.layers = film.layers_.bits;
   h.nonfinite = film.refused_.nonfinite, h.too_large = film.refused_.too_large;
   h.items = progress.items, h.samples_per_pixel = progress.samples_per_pixel;
   h.render_time_s = progress.render_time_s;
@@ -159,6 +169,7 @@ void write_film(const std::filesystem::path& file, const Film& film, const FilmP
   write_array(out, progress.done);
   write_array(out, film.sums_);
   write_array(out, film.counts_);
+  write_array(out, film.ids_);
   out.commit();
 }
 
@@ -166,9 +177,12 @@ Film read_film(const std::filesystem::path& file, FilmProgress* progress) {
   Reader in(file);
   const Header h = read_header(in);
   const auto pixels = static_cast<std::uint64_t>(h.x1 - h.x0) * static_cast<std::uint64_t>(h.y1 - h.y0);
-  const std::uint64_t planes = 2 + sample_groups + static_cast<std::uint64_t>(h.bins);
-  const std::uint64_t arrays = pixels * (planes * sizeof(WideSum) + sample_groups * sizeof(std::uint32_t)) +
-                               h.earlier_ends * std::uint64_t{sizeof(std::uint32_t)} + h.about_bytes + 5 * 8;
+  const FilmLayers layers{h.layers, (h.options & option_camera_space) != 0};
+  const std::uint64_t planes = 2 + sample_groups + static_cast<std::uint64_t>(h.bins) + sum_planes(layers);
+  const std::uint64_t arrays = pixels * (planes * sizeof(WideSum) + sample_groups * sizeof(std::uint32_t) +
+                                         id_planes(layers) * sizeof(std::int64_t)) +
+                               h.earlier_ends * std::uint64_t{sizeof(std::uint32_t)} + h.about_bytes + 6 * 8 +
+                               (h.clamp > 0 ? sizeof(WideSum) : 0);
   if (in.size() - sizeof h < arrays || (in.size() - sizeof h - arrays) % 8 != 0 ||
       (in.size() - sizeof h - arrays) / 8 != words_of(h.items))
     in.fail(fmt::format("the film file is truncated or has bytes too many: {} bytes", in.size()));
@@ -192,11 +206,14 @@ Film read_film(const std::filesystem::path& file, FilmProgress* progress) {
                h.max_depth,
                (h.options & option_direct_only) != 0,
                (h.options & option_straight_counts) != 0,
+               h.clamp,
                {h.renderer, h.picture_revision}};
-  film.exponent_ = h.exponent;
+  film.exponent_ = h.exponent, film.length_exponent_ = h.length_exponent;
+  film.layers_ = layers;
   film.refused_ = {h.nonfinite, h.too_large};
-  in.read_array(film.sums_, planes * pixels, "sums");
+  in.read_array(film.sums_, planes * pixels + (h.clamp > 0 ? 1 : 0), "sums");
   in.read_array(film.counts_, sample_groups * pixels, "counts");
+  in.read_array(film.ids_, id_planes(layers) * pixels, "ids");
   if (progress) *progress = std::move(read);
   return film;
 }

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
@@ -45,10 +46,12 @@ OIIO::ImageSpec spec_of(const Picture& picture, int channels, OIIO::TypeDesc typ
   return spec;
 }
 
-void write_file(const std::filesystem::path& file, const OIIO::ImageSpec& spec, const void* pixels) {
+// `format` of `pixels`; UNKNOWN: each channel's own.
+void write_file(const std::filesystem::path& file, const OIIO::ImageSpec& spec, OIIO::TypeDesc format,
+                const void* pixels) {
   OIIO::Filesystem::IOVecOutput memory;
   const auto out = OIIO::ImageOutput::create(file.string(), &memory);
-  if (!out || !out->open(file.string(), spec) || !out->write_image(spec.format, pixels) || !out->close())
+  if (!out || !out->open(file.string(), spec) || !out->write_image(format, pixels) || !out->close())
     throw MachineError(
         fmt::format("cannot write {}: {}", file.string(), out ? out->geterror() : OIIO::geterror()));
   AtomicFile target(file);
@@ -74,10 +77,20 @@ std::optional<double> wavelength_of(std::string name) {
   return nm;
 }
 
+// A channel of a file: of an image, or of its own.
 struct Plane {
   std::string name;
-  const Image* image;
-  std::size_t channel;
+  const Image* image = nullptr;
+  std::size_t channel = 0;
+  const PictureChannel* own = nullptr;
+
+  bool is_id() const { return own && own->is_id; }
+  std::uint32_t bits(std::size_t pixel) const {
+    if (is_id()) return own->ids[pixel];
+    return std::bit_cast<std::uint32_t>(
+        own ? own->values[pixel]
+            : image->values[pixel * static_cast<std::size_t>(image->channels) + channel]);
+  }
 };
 
 std::vector<Plane> planes_of(const Picture& picture) {
@@ -87,6 +100,7 @@ std::vector<Plane> planes_of(const Picture& picture) {
     for (int bin = 0; bin < picture.bins.count; ++bin)
       planes.push_back(
           {spectral_channel(picture.bins.centre_nm(bin)), &picture.spectrum, static_cast<std::size_t>(bin)});
+  for (const PictureChannel& channel : picture.layers) planes.push_back({channel.name, nullptr, 0, &channel});
   return planes;
 }
 
@@ -121,15 +135,16 @@ void write_exr(const std::filesystem::path& file, const Picture& picture) {
     spec.attribute("emissiveUnits", "W.m^-2.sr^-1");
   }
   spec.channelnames.clear();
-  for (const Plane& plane : planes) spec.channelnames.push_back(plane.name);
+  for (const Plane& plane : planes) {
+    spec.channelnames.push_back(plane.name);
+    spec.channelformats.push_back(plane.is_id() ? OIIO::TypeDesc::UINT32 : OIIO::TypeDesc::FLOAT);
+  }
   spec.alpha_channel = spec.z_channel = -1;
-  std::vector<float> pixels;
+  std::vector<std::uint32_t> pixels;  // both formats have 32 bits
   pixels.reserve(planes.size() * picture.rgb.pixels());
   for (std::size_t p = 0; p < picture.rgb.pixels(); ++p)
-    for (const Plane& plane : planes)
-      pixels.push_back(
-          plane.image->values[p * static_cast<std::size_t>(plane.image->channels) + plane.channel]);
-  write_file(file, spec, pixels.data());
+    for (const Plane& plane : planes) pixels.push_back(plane.bits(p));
+  write_file(file, spec, OIIO::TypeDesc::UNKNOWN, pixels.data());
 }
 
 bool is_tiff(const std::filesystem::path& file) {
@@ -148,7 +163,7 @@ void write_integers(const std::filesystem::path& file, const Picture& picture, O
   // OpenImageIO 2.4 would say it in a second directory, and in memory that one becomes the file's only one.
   if (!is_tiff(file)) spec.attribute("oiio:ColorSpace", "sRGB");
   spec.attribute("CompressionQuality", 95);
-  write_file(file, spec, pixels.data());
+  write_file(file, spec, spec.format, pixels.data());
 }
 
 // The channels that hold R, G and B, by name, else by position; all the same one for grey.

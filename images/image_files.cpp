@@ -86,7 +86,7 @@ void write_exr_image(const std::filesystem::path& file, const Image& image) {
     throw MachineError(fmt::format("cannot write {}: {}", file.string(), problem));
   AtomicFile target(file);
   target.write(bytes);
-  target.commit();
+  target.commit_part();
 }
 
 }  // namespace vitrail

@@ -41,8 +41,8 @@ void read_stored_rows(const std::filesystem::path& file, const std::function<voi
 // The colours in linear sRGB, without alpha: integers are decoded.
 Image read_linear_image(const std::filesystem::path& file);
 
-// Linear 32-bit floats. The file appears whole or not at all, and equal images give equal files. Throws
-// MachineError.
+// Linear 32-bit floats, as a part of a scene (AtomicFile::commit_part): the file appears whole or not at all,
+// and equal images give equal files. Throws MachineError.
 void write_exr_image(const std::filesystem::path& file, const Image& image);
 
 }  // namespace vitrail

@@ -38,13 +38,14 @@ ImportedScene mesh_alone(const std::filesystem::path& file, MeshMemory& memory) 
 }  // namespace
 
 ImportedScene import_scene(const std::filesystem::path& file, MeshMemory memory,
-                           std::function<void(double)> progress,
-                           const std::map<std::string, std::string>& definitions) {
+                           std::function<void(double)> progress, const ImportOptions& options) {
   const std::string format = format_of(file);
-  if (!definitions.empty() && format != ".xml")
+  if (!options.definitions.empty() && format != ".xml")
     throw UsageError(file.string() + ": only scenes of Mitsuba have parameters that -D could set");
+  if (options.camera != 0 && format != ".xml")
+    throw UsageError(file.string() + ": only scenes of Mitsuba have more than one camera");
   if (format == ".pbrt") return read_pbrt(file, std::move(memory), std::move(progress));
-  if (format == ".xml") return read_mitsuba(file, std::move(memory), definitions);
+  if (format == ".xml") return read_mitsuba(file, std::move(memory), options);
   ImportedScene imported;
   if (format == ".obj")
     imported = read_obj(file);

@@ -4,9 +4,8 @@
 
 #include <filesystem>
 #include <functional>
-#include <map>
-#include <string>
 
+#include "importers/import_options.h"
 #include "scene/deferred_mesh.h"
 #include "scene/scene.h"
 
@@ -17,9 +16,8 @@ namespace vitrail {
 // diagnostics that say so. Meshes with files of their own are in memory up to the limit; the others are read
 // and stay in their files (scene/deferred_mesh.h).
 // `progress`, if given, gets the fraction that is read, of a pbrt scene; what it throws stops the reading.
-// `definitions` are values of a Mitsuba scene's parameters; for other formats they throw UsageError.
+// Other `options` than the usual ones throw UsageError but for a Mitsuba scene.
 ImportedScene import_scene(const std::filesystem::path& file, MeshMemory memory = MeshMemory{},
-                           std::function<void(double)> progress = {},
-                           const std::map<std::string, std::string>& definitions = {});
+                           std::function<void(double)> progress = {}, const ImportOptions& options = {});
 
 }  // namespace vitrail

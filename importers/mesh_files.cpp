@@ -14,7 +14,7 @@ const std::string& MeshFiles::name(Id<TriangleMesh> mesh, const TriangleMesh& in
   std::string& name = names_.at(mesh.value);
   if (!name.empty()) return name;
   name = files_.name("meshes", mesh.value, "ply");
-  write_ply(instead, directory_ / name);
+  write_ply_part(instead, directory_ / name);
   return name;
 }
 

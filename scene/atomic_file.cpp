@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -16,6 +17,8 @@
 namespace vitrail {
 
 namespace {
+
+std::atomic<bool> parts_on_their_way{false};  // to the disk
 
 [[noreturn]] void fail(const char* what, const std::filesystem::path& file) {
   throw MachineError(fmt::format("cannot {} {}: {}", what, file.string(), std::strerror(errno)));
@@ -48,15 +51,29 @@ void AtomicFile::write(std::span<const std::byte> bytes) {
   }
 }
 
+void AtomicFile::sync() const {
+  if ((parts_on_their_way.exchange(false) ? ::syncfs(descriptor_) : ::fsync(descriptor_)) != 0)
+    fail("sync", temporary_);
+}
+
+void AtomicFile::rename_to_target() {
+  if (::close(std::exchange(descriptor_, -1)) == 0 && std::rename(temporary_.c_str(), target_.c_str()) == 0)
+    return;
+  const int reason = errno;
+  ::unlink(temporary_.c_str());
+  errno = reason;
+  fail("write", target_);
+}
+
 void AtomicFile::commit() {
-  if (::fsync(descriptor_) != 0) fail("sync", temporary_);
-  if (::close(std::exchange(descriptor_, -1)) != 0 || std::rename(temporary_.c_str(), target_.c_str()) != 0) {
-    const int reason = errno;
-    ::unlink(temporary_.c_str());
-    errno = reason;
-    fail("write", target_);
-  }
+  sync();
+  rename_to_target();
   sync_to_disk(target_.has_parent_path() ? target_.parent_path() : ".");
+}
+
+void AtomicFile::commit_part() {
+  rename_to_target();
+  parts_on_their_way = true;
 }
 
 void sync_to_disk(const std::filesystem::path& path) {

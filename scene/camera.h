@@ -6,6 +6,7 @@
 #include <string>
 #include <variant>
 
+#include "scene/film_layers.h"
 #include "scene/spectral_bins.h"
 #include "scene/transform.h"
 
@@ -88,6 +89,7 @@ struct FilmSettings {
   Filter filter = GaussianFilter{};
   double imaging_ratio = 1;  // every pixel is multiplied by it (pbrt: exposure time · ISO / 100)
   SpectralBins spectrum;     // kept beside the colours; none: colours alone
+  FilmLayers layers;         // of the first surfaces, kept too
   bool operator==(const FilmSettings&) const = default;
 };
 

@@ -122,6 +122,7 @@ std::vector<Id<Material>> parts_of(const MaterialModel& model) {
 }
 
 std::vector<bool> meshes_whose_uvs_show(const Scene& scene) {
+  if (scene.film.layers.has(Layer::uv)) return std::vector<bool>(scene.meshes.size(), true);
   UvUses uses(scene.textures);
   enum class Shows : char { unknown, no, yes };
   std::vector<Shows> materials(scene.materials.size(), Shows::unknown);

@@ -145,4 +145,16 @@ int film_exponent(const RenderScene& scene) {
   return film_exponent(light_range(scene).value_or(LightRange{1, 1}), brighter);
 }
 
+int length_exponent(const RenderScene& scene) {
+  const Manifest& m = scene.manifest;
+  const Transform& camera =
+      std::visit([](const auto& c) -> const Transform& { return c.camera_to_world; }, m.camera);
+  double reach = static_cast<double>(m.scale);
+  for (int axis = 0; axis < 3; ++axis)
+    reach =
+        std::max({reach, std::abs(m.offset[axis]), std::abs(camera.m[static_cast<std::size_t>(axis)][3])});
+  if (!(reach > 0)) return default_exponent;
+  return std::clamp(std::ilogb(reach) + default_exponent, least_exponent, greatest_exponent);
+}
+
 }  // namespace vitrail

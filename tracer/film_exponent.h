@@ -22,4 +22,7 @@ std::optional<LightRange> light_range(const RenderScene& scene);
 int film_exponent(const LightRange& range, double brighter);
 int film_exponent(const RenderScene& scene);
 
+// Of the distances and positions that a film keeps in layers: 2⁻⁴⁵ of how far the scene and the camera reach.
+int length_exponent(const RenderScene& scene);
+
 }  // namespace vitrail

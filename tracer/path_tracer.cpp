@@ -63,18 +63,24 @@ SensorWeights PathTracer::sensor_of(const std::array<float, 4>& camera,
   return sensor_weights(wavelengths, scene_.filter.weight(camera[0], camera[1]), film_.bins());
 }
 
+CameraRay PathTracer::camera_ray(int x, int y, std::uint32_t pixel, std::uint32_t sample,
+                                 const std::array<float, 4>& u) const {
+  const Point2d offset = scene_.filter.sample(u[0], u[1]).offset;
+  Point2d lens;
+  if (scene_.camera.has_lens()) {
+    const std::array<float, 4> point = sample_4d(key_of(pixel, sample), sample_set::lens);
+    lens = {static_cast<double>(point[0]), static_cast<double>(point[1])};
+  }
+  return scene_.camera.ray({x + 0.5 + offset.x, y + 0.5 + offset.y}, lens);
+}
+
 void PathTracer::trace_camera(int x, int y, std::uint32_t sample) {
   Path path;
   path.pixel = static_cast<std::uint32_t>((y - film_.crop().y0) * film_.width() + x - film_.crop().x0);
   path.sample = sample;
   const std::array<float, 4> u = sample_4d(key_of(path.pixel, sample), sample_set::camera);
-  const Point2d offset = scene_.filter.sample(u[0], u[1]).offset;
-  Point2d lens;
-  if (scene_.camera.has_lens()) {
-    const std::array<float, 4> point = sample_4d(key_of(path.pixel, sample), sample_set::lens);
-    lens = {static_cast<double>(point[0]), static_cast<double>(point[1])};
-  }
-  const CameraRay ray = scene_.camera.ray({x + 0.5 + offset.x, y + 0.5 + offset.y}, lens);
+  const CameraRay ray = camera_ray(x, y, path.pixel, sample, u);
+  if (film_.layers().any()) path.set(path_unrecorded);
   path.camera = u;
   path.throughput = filled(1);
   path.inside = scene_.interiors.state_in(manifest_.camera_medium);
@@ -92,7 +98,7 @@ void PathTracer::resume(const PathRecord& record, std::uint32_t domain) {
   path.pixel = record.pixel;
   path.sample = record.sample_depth >> 9;
   path.depth = (record.sample_depth & 0x1ff) << 8 | record.depth;
-  path.flags = record.flags & (record.flags & (path_in_pane | path_connection) ? 0xf : 0x1f);
+  path.flags = record.flags & (record.flags & (path_in_pane | path_connection) ? 0xf : 0x3f);
   if (path.is(path_in_pane))
     path.entered_by = {static_cast<std::uint32_t>(record.flags >> 4) << 16 | record.pdf};
   else
@@ -244,9 +250,13 @@ void PathTracer::trace_shadow(const ShadowRecord& record, const SensorWeights* w
 
 void PathTracer::deposit(std::uint32_t pixel, std::uint32_t sample, const SensorWeights& weights,
                          const SampledSpectrum& radiance) {
-  if (!film_.deposit(pixel, sample, sense(weights, radiance)) || film_.bins().count == 0) return;
+  const XYZ light = sense(weights, radiance);
+  const double left = film_.clamp(pixel, sample, light);
+  if (!film_.deposit(pixel, sample, {left * light.x, left * light.y, left * light.z}) ||
+      film_.bins().count == 0)
+    return;
   for (std::size_t i = 0; i < hero_count; ++i) {
-    const double value = static_cast<double>(radiance.v[i]) * static_cast<double>(weights.spectral[i]);
+    const double value = left * static_cast<double>(radiance.v[i]) * static_cast<double>(weights.spectral[i]);
     if (value != 0) film_.deposit_bin(pixel, sample, weights.bin[i], value);
   }
 }

@@ -87,6 +87,8 @@ class PathTracer {
  private:
   struct Path;
 
+  CameraRay camera_ray(int x, int y, std::uint32_t pixel, std::uint32_t sample,
+                       const std::array<float, 4>& camera) const;
   void run(Path& path, std::optional<std::uint32_t> at);
   bool find_hit(Path& path, std::optional<std::uint32_t> at);
   void intersect(Path& path, std::uint32_t domain);
@@ -105,6 +107,12 @@ class PathTracer {
   double opacity_at(const Surface& surface, const Interaction& at) const;
   void add_emission(const Path& path, const Interaction& at, std::uint32_t light);
   void add_environment(const Path& path);
+
+  // first_surface.cpp
+  void record_first_surface(Path& path, const Interaction& at, const Surface& surface);
+  std::array<double, 3> value_at(const Path& path, const Interaction& at, const Material& material,
+                                 Layer layer) const;
+  XYZ albedo_at(const Path& path, const Interaction& at, const Material& material) const;
 
   // departure.cpp
   Departure departure(const Path& path, const Interaction& at, const Surface& surface,

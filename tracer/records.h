@@ -31,6 +31,7 @@ enum PathFlags : std::uint8_t {
                         // of a connection: smooth interfaces refract it
   path_passed = 16,     // went straight on at an event that had the random numbers of its depth; never in a
                         // pane, nor of a connection
+  path_unrecorded = 32,  // the film keeps layers of the first surface, and it is yet to be met; as above
 };
 
 #pragma pack(push, 1)
@@ -50,8 +51,8 @@ struct PathRecord {
   std::uint16_t pdf;           // of the last scattering, solid angle, as pdf_code; 0: specular or camera.
                                // In a pane: low 16 bits of the FaceCode; of a connection, of its aim, or
                                // where that is straight of its end_code
-  std::uint8_t flags;          // PathFlags; in a pane and of a connection 4 of them, and above them the high
-                               // bits of the FaceCode or the aim
+  std::uint8_t flags;  // PathFlags; in a pane and of a connection the first 4, and above them the high
+                       // bits of the FaceCode or the aim
   // Since the last scattering, straight through surfaces, as radiance_code. Where images are filtered, a path
   // has the cone_code of its ray's width in the lowest byte. Of a straight connection: what is left to its
   // light, the high bits of the end_code.

@@ -15,6 +15,10 @@ double pixel_angle(const Manifest& m) {
   return perspective ? (perspective->screen.y1 - perspective->screen.y0) / m.film.height : 0;
 }
 
+const Transform& camera_to_bundle(const Manifest& m) {
+  return std::visit([](const auto& camera) -> const Transform& { return camera.camera_to_world; }, m.camera);
+}
+
 LightScene light_scene(const Manifest& m, const Textures& textures) {
   return {.area_lights = m.area_lights,
           .triangles = m.emissive_triangles,
@@ -38,6 +42,7 @@ RenderScene::RenderScene(Manifest the_manifest, const std::filesystem::path& bun
       materials(manifest, textures),
       media(prepare(manifest.media)),
       lights(make_light_sampler(light_scene(manifest, textures), bundle)),
+      bundle_to_camera(inverse(camera_to_bundle(manifest))),
       pixel_angle(vitrail::pixel_angle(manifest)),
       seed(the_seed) {
   for (const TextureFileEntry& t : manifest.texture_files)

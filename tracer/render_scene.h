@@ -28,6 +28,7 @@ struct RenderScene {
   Materials materials;
   std::vector<PreparedMedium> media;
   LightSampler lights;
+  Transform bundle_to_camera;
   double pixel_angle = 0;  // between neighbouring camera rays in the middle of the picture, rad
   std::uint64_t seed = 0;
 };

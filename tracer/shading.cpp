@@ -81,6 +81,8 @@ bool PathTracer::shade_surface(Path& path) {
     pass_straight(path, at, &surface);
     return true;
   }
+  if (path.is(path_unrecorded)) [[unlikely]]
+    record_first_surface(path, at, surface);
   if (is_last) {
     if (manifest_.settings.straight_counts || !manifest_.requirements.see_through) return false;
     path.throughput =
@@ -189,6 +191,7 @@ void PathTracer::add_emission(const Path& path, const Interaction& at, std::uint
 }
 
 bool PathTracer::scatter_in_medium(Path& path, Point3d p) {
+  path.clear(path_unrecorded);
   if (path.depth >= static_cast<std::uint32_t>(manifest_.settings.max_depth)) return false;
   if (path.is(path_in_pane)) path.disperse();
   const double g = medium_of(path)->g;

@@ -80,6 +80,19 @@ Image mapped(const Image& image, const ImageTexture& texture, const UvMapping& m
   return result;
 }
 
+// Colours, of that many texels.
+Image resized(Image image, const ImageTexture& texture, int width, int height) {
+  image = with_three_channels(std::move(image));
+  if (image.width == width && image.height == height) return image;
+  Image result = black_image(width, height, image.channels);
+  const Sampler sampler(image, texture);
+  float* to = result.values.data();
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x, to += image.channels)
+      sampler.add((x + 0.5) / width, 1 - (y + 0.5) / height, to);
+  return result;
+}
+
 void multiply(Image& image, RGB tint) {
   const std::array factors{tint.r, tint.g, tint.b};
   const auto channels = static_cast<std::size_t>(image.channels);
@@ -124,6 +137,34 @@ std::filesystem::path ConvertedImages::write(const ImageTexture& texture, ImageU
   const std::filesystem::path file = new_file_();
   write_exr_image(file, values);
   return written_[key] = file;
+}
+
+std::filesystem::path ConvertedImages::write(const ImagePair& pair) {
+  const auto values_of = [](const TintedImage& t) {
+    return texture_values(t.image, read_stored_image(t.image.filename),
+                          t.is_number ? ImageUse::number : ImageUse::color);
+  };
+  const Image first = values_of(pair.first), second = values_of(pair.second);
+  const int width = std::max(first.width, second.width), height = std::max(first.height, second.height);
+  Image product = resized(first, pair.first.image, width, height);
+  const Image factor = resized(second, pair.second.image, width, height);
+  for (std::size_t i = 0; i < product.values.size(); ++i) product.values[i] *= factor.values[i];
+  const RGB &a = pair.first.tint, &b = pair.second.tint;
+  multiply(product, {a.r * b.r, a.g * b.g, a.b * b.b});
+  const std::filesystem::path file = new_file_();
+  write_exr_image(file, product);
+  return file;
+}
+
+std::optional<ImagePair> image_pair(const Scene& scene, const ProductTexture& product) {
+  const auto *first = std::get_if<Id<Texture>>(&product.first),
+             *second = std::get_if<Id<Texture>>(&product.second);
+  if (!first || !second) return {};
+  const auto a = tinted_image(scene, *first), b = tinted_image(scene, *second);
+  if (!a || !b || a->image.mapping != b->image.mapping || a->image.wrap != b->image.wrap ||
+      a->image.filter != b->image.filter)
+    return {};
+  return ImagePair{*a, *b};
 }
 
 std::optional<TintedImage> tinted_image(const Scene& scene, Id<Texture> id) {

@@ -20,6 +20,21 @@ struct ImageChange {
   bool three_channels = false;  // also for greys
 };
 
+// An image times a colour: what products of the two and of such products come to.
+struct TintedImage {
+  ImageTexture image;
+  bool is_number = false;  // which the colour multiplies
+  RGB tint{1, 1, 1};
+};
+std::optional<TintedImage> tinted_image(const Scene& scene, const ProductTexture& product);
+std::optional<TintedImage> tinted_image(const Scene& scene, Id<Texture> texture);
+
+// Two that a product multiplies where they lie on each other: of one mapping, one wrap and one filter.
+struct ImagePair {
+  TintedImage first, second;
+};
+std::optional<ImagePair> image_pair(const Scene& scene, const ProductTexture& product);
+
 // The linear values of textures as EXR files. Equal ones are written once.
 class ConvertedImages {
  public:
@@ -29,6 +44,8 @@ class ConvertedImages {
 
   // Throws Error where the texture's image cannot be read, and MachineError.
   std::filesystem::path write(const ImageTexture& texture, ImageUse use, const ImageChange& change = {});
+  // Their product, texel by texel of the finer one, along each side.
+  std::filesystem::path write(const ImagePair& pair);
 
  private:
   using Numbers = std::array<float, 11>;
@@ -42,14 +59,5 @@ class ConvertedImages {
 
 // A grey image as one of colours; others as they are.
 Image with_three_channels(Image image);
-
-// An image times a colour: what products of the two and of such products come to.
-struct TintedImage {
-  ImageTexture image;
-  bool is_number = false;  // which the colour multiplies
-  RGB tint{1, 1, 1};
-};
-std::optional<TintedImage> tinted_image(const Scene& scene, const ProductTexture& product);
-std::optional<TintedImage> tinted_image(const Scene& scene, Id<Texture> texture);
 
 }  // namespace vitrail

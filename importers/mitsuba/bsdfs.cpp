@@ -268,7 +268,12 @@ MaterialModel mask(Builder& b, const Object& o) {
 
 MaterialModel blend(Builder& b, const Object& o) {
   const std::vector<Id<Material>> both = nested(b, o, 2, 2);
-  return BlendMaterial{both[0], both[1], float_parameter(b, o, "weight", 0.5)};
+  BlendMaterial blend{both[0], both[1], float_parameter(b, o, "weight", 0.5)};
+  if (blends_mirror_with_spread({blend}, b.lobes))
+    b.report.approximated(
+        "a blend of a mirror or smooth interface with what spreads light is their sum: darker in Mitsuba 3.9",
+        o.origin);
+  return blend;
 }
 
 struct Kind {
@@ -374,8 +379,23 @@ Material two_sided(Builder& b, const Object& o) {
     return Material{TwoSidedMaterial{ids[0], ids[1]}};
   }
   Material material = inner(b, o);
-  change_leaves(b, material, [](Material& leaf) { leaf.two_sided = true; });
+  bool bumps = false;
+  change_leaves(b, material, [&](Material& leaf) {
+    leaf.two_sided = true;
+    bumps = bumps || leaf.displacement || leaf.normal_map;
+  });
+  if (bumps)
+    b.report.approximated(
+        "\"twosided\" around bumps: on the back they are turned over with the normal, not mirrored",
+        o.origin);
   material.two_sided = true;
+  return material;
+}
+
+// What an adapter with bumps is around.
+Material bumped(Builder& b, const Object& o) {
+  Material material = inner(b, o);
+  if (lets_straight(material, b.straight)) b.bumps_of_straight.push_back(o.origin);
   return material;
 }
 
@@ -388,7 +408,7 @@ bool has_bump_shadowing(Builder& b, const Object& o) {
 
 // The height of a bump map times its scale.
 Material bump_map(Builder& b, const Object& o) {
-  Material material = inner(b, o);
+  Material material = bumped(b, o);
   const double scale = o.number("scale", 1, b.report);
   const Object* texture = o.child("texture");
   if (!texture) {
@@ -411,7 +431,7 @@ Material bump_map(Builder& b, const Object& o) {
 }
 
 Material normal_map(Builder& b, const Object& o) {
-  Material material = inner(b, o);
+  Material material = bumped(b, o);
   const Object* texture = o.child("texture");
   const bool shadows = has_bump_shadowing(b, o);
   if (!texture) {
@@ -460,6 +480,8 @@ Id<Material> append(Builder& b, Material material) {
   const bool through = transmits(material, b.transmitting);
   b.transmitting.push_back(through);
   b.sided.push_back(has_sides(material, through, b.sided));
+  b.straight.push_back(lets_straight(material, b.straight));
+  b.lobes.push_back(lobes_of(material, b.lobes));
   b.scene.materials.push_back(std::move(material));
   return {static_cast<std::uint32_t>(b.scene.materials.size() - 1)};
 }

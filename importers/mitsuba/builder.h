@@ -11,6 +11,7 @@
 #include "importers/mitsuba/object.h"
 #include "scene/deferred_mesh.h"
 #include "scene/scene.h"
+#include "scene/transmission.h"
 
 namespace vitrail::mitsuba {
 
@@ -22,13 +23,17 @@ struct Builder {
   Scene& scene;
   Report& report;
   std::map<const Object*, Id<Material>> materials;
-  std::vector<bool> transmitting, sided;  // one for each of the scene's materials (scene/transmission.h)
+  // One for each of the scene's materials (scene/transmission.h).
+  std::vector<bool> transmitting, sided, straight;
+  std::vector<Lobes> lobes;
+  std::vector<Origin> bumps_of_straight;  // adapters around what lets light straight through
   std::map<const Object*, Id<Medium>> media;
   std::map<std::pair<const Object*, bool>, Id<Texture>>
       textures;  // by object and whether it is read as a number
   std::map<const Object*, Id<Prototype>> prototypes;
   std::map<std::tuple<std::string, int, int>, Id<TriangleMesh>>
-      mesh_files;  // path, index in it, variant of reading
+      mesh_files;            // path, index in it, variant of reading
+  std::string integrator{};  // its kind
   MeshMemory mesh_memory{};
   std::set<std::uint32_t> smoothed_meshes{};  // whose normals were made here
 };

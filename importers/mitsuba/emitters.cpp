@@ -221,6 +221,10 @@ std::optional<Id<AreaLight>> add_area_light(Builder& builder, const Object& emit
         emitter.origin);
     return std::nullopt;
   }
+  if (directional && builder.integrator != "ptracer")
+    report.approximated(
+        "\"directionalarea\": its light is seen, of which Mitsuba's path tracers show nothing",
+        emitter.origin);
   emitter.ignore({"sampling_weight"});
   emitter.children("medium");
   const Image image = image_of(builder, emitter, "radiance");

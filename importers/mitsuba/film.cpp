@@ -80,7 +80,7 @@ Filter read_filter(const Object& film, Report& report) {
 
 void read_film(Builder& builder, const Object& sensor) {
   FilmSettings& settings = builder.scene.film;
-  settings = {768, 576, {0, 768, 0, 576}, default_filter(), 1};
+  settings = {768, 576, {0, 768, 0, 576}, default_filter(), 1, {}, settings.layers};
   builder.scene.film_origin = sensor.origin;
   const Object* film = sensor.child("film");
   if (!film) return;

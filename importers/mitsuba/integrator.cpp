@@ -2,7 +2,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <sstream>
 
+#include "importers/mitsuba/aovs.h"
 #include "importers/mitsuba/builder.h"
 #include "importers/mitsuba/properties.h"
 #include "importers/mitsuba/suggestion.h"
@@ -44,6 +46,22 @@ int read_depth(const Object& integrator, Report& report) {
   return std::max(depth - 1, 0);
 }
 
+void read_aovs(Builder& builder, const Object& integrator) {
+  Report& report = builder.report;
+  FilmLayers layers;
+  std::istringstream list(integrator.text("aovs", "", report));
+  for (std::string item; std::getline(list, item, ',');) {
+    const std::size_t first = item.find_first_not_of(" \t\n\r"), last = item.find_last_not_of(" \t\n\r");
+    if (first == std::string::npos) continue;
+    const std::string name = item.substr(first, last - first + 1);
+    if (!add_named(layers, name))
+      report.dropped(fmt::format("\"{}\" of the integrator \"aov\"", name), place_of(integrator, "aovs"));
+  }
+  if (const std::string what = difference_from_mitsuba(layers); !what.empty())
+    report.approximated("layers of the first surfaces: " + what, place_of(integrator, "aovs"));
+  builder.scene.film.layers.bits |= layers.bits;
+}
+
 void report_kind(const Object& integrator, Report& report) {
   if (is_one_of(integrator.type, path_tracers) || is_one_of(integrator.type, direct_only)) return;
   const bool wrapper = is_one_of(integrator.type, wrappers);
@@ -60,12 +78,14 @@ void read_integrator(Builder& builder, const Object& integrator) {
   report.begin_item({integrator.origin, RecordKind::integrator});
   const Object* nested = is_one_of(integrator.type, wrappers) ? integrator.child("integrator") : nullptr;
   if (nested) {
-    integrator.ignore({"aovs"});
-    report_unused(integrator, report);
+    if (integrator.type == "aov") read_aovs(builder, integrator);
+    report_unused(integrator, report, {"aovs"});
     return read_integrator(builder, *nested);
   }
   builder.scene.integrator_origin = integrator.origin;
   report_kind(integrator, report);
+  builder.integrator = integrator.type;
+  if (integrator.type == "aov") read_aovs(builder, integrator);
   RenderSettings& settings = builder.scene.settings;
   settings.direct_only = is_one_of(integrator.type, direct_only);
   // Mitsuba's direct light ends at the first surface, specular or not.

@@ -2,9 +2,8 @@
 #pragma once
 
 #include <filesystem>
-#include <map>
-#include <string>
 
+#include "importers/import_options.h"
 #include "scene/deferred_mesh.h"
 #include "scene/scene.h"
 
@@ -13,8 +12,8 @@ namespace vitrail {
 // Reads a scene of Mitsuba 3, or of its versions 0.5 to 2: plugins become records of the Scene, analytic
 // shapes and curves triangles. A scene without a sensor gets a view of all of it. What is not exact is in the
 // diagnostics; malformed files and references throw Error with their place.
-// `definitions`: Mitsuba's command line's -D, which stand before the file's <default>s.
+// A sensor that the scene has not throws UsageError.
 ImportedScene read_mitsuba(const std::filesystem::path& file, MeshMemory memory = MeshMemory{},
-                           const std::map<std::string, std::string>& definitions = {});
+                           const ImportOptions& options = {});
 
 }  // namespace vitrail

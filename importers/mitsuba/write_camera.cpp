@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 
+#include "importers/mitsuba/aovs.h"
 #include "importers/mitsuba/screen.h"
 #include "importers/mitsuba/write_film.h"
 #include "scene/bounds.h"
@@ -26,22 +27,36 @@ struct ClipRange {
   double near_clip = 1e-2, far_clip = 1e4;
 };
 
+void extend_by_corners(Bounds3d& box, const Bounds3d& of, const Transform& to_box) {
+  for (int corner = 0; !of.empty() && corner < 8; ++corner) {
+    const Point3d p{corner & 1 ? of.upper.x : of.lower.x, corner & 2 ? of.upper.y : of.lower.y,
+                    corner & 4 ? of.upper.z : of.lower.z};
+    extend(box, transform_point(to_box, p));
+  }
+}
+
+// Every mesh and every prototype is looked at once, however many instances there are.
+Bounds3d bounds_of(const Scene& scene) {
+  std::vector<Bounds3d> meshes;
+  for (const TriangleMesh& mesh : scene.meshes)
+    for (Bounds3d& box = meshes.emplace_back(); const Point3f p : mesh.positions)
+      extend(box, cast<double>(p));
+  const auto box_of = [&](const std::vector<Shape>& shapes) {
+    Bounds3d box;
+    for (const Shape& shape : shapes) extend_by_corners(box, meshes[shape.mesh.value], shape.object_to_world);
+    return box;
+  };
+  std::vector<Bounds3d> prototypes;
+  for (const Prototype& prototype : scene.prototypes) prototypes.push_back(box_of(prototype.shapes));
+  Bounds3d box = box_of(scene.shapes);
+  for (const Instance& instance : scene.instances)
+    extend_by_corners(box, prototypes[instance.prototype.value], instance.prototype_to_world);
+  return box;
+}
+
 // Mitsuba cuts away what is nearer or farther: so wide that nothing of the scene is.
 ClipRange clip_range(const Scene& scene, const Transform& camera_to_world) {
-  Bounds3d box;
-  const auto include = [&](const Shape& shape, const Transform& to_world) {
-    Bounds3f own;
-    for (const Point3f p : scene.meshes[shape.mesh.value].positions) extend(own, p);
-    for (int corner = 0; !own.empty() && corner < 8; ++corner) {
-      const Point3d p{corner & 1 ? own.upper.x : own.lower.x, corner & 2 ? own.upper.y : own.lower.y,
-                      corner & 4 ? own.upper.z : own.lower.z};
-      extend(box, transform_point(to_world, transform_point(shape.object_to_world, p)));
-    }
-  };
-  for (const Shape& shape : scene.shapes) include(shape, {});
-  for (const Instance& instance : scene.instances)
-    for (const Shape& shape : scene.prototypes[instance.prototype.value].shapes)
-      include(shape, instance.prototype_to_world);
+  Bounds3d box = bounds_of(scene);
   extend(box, transform_point(camera_to_world, {0, 0, 0}));
   const double reach = 2 * length(extent(box));
   if (!(reach > 0) || !std::isfinite(reach)) return {};
@@ -204,8 +219,45 @@ double field_of_view_deg(double half_width) {
   return nearest;
 }
 
+namespace {
+
+// Mitsuba's adapters do not say what goes straight through the material inside of them.
+void report_dark_sheets(Context& context) {
+  for (const Material& material : context.scene.materials) {
+    const bool bumps = material.normal_map || material.displacement;
+    if (!bumps || !std::holds_alternative<ThinDielectricMaterial>(material.model)) continue;
+    context.begin(RecordKind::material, material.origin);
+    context.approximated(
+        "a thin sheet with bumps: Mitsuba's volumetric path tracer lets no light of emitters through it");
+  }
+}
+
+// What the integrator that makes the picture stands in, to keep layers of first surfaces too.
+Element layers_around(Context& context, Element root) {
+  FilmLayers layers = context.scene.film.layers;
+  if (!layers.any()) return root;
+  context.begin(RecordKind::integrator, context.scene.integrator_origin);
+  if (layers.has(Layer::material)) context.dropped("Mitsuba has no index of materials");
+  layers.bits &= ~(1u << static_cast<unsigned>(Layer::material));
+  if (!layers.any()) return root;
+  if (layers.in_camera_space)
+    context.approximated("the layers of first surfaces: Mitsuba's positions and normals are the world's");
+  if (const std::string what = mitsuba::difference_from_mitsuba(layers); !what.empty())
+    context.approximated("the layers of first surfaces: " + what);
+  Element element = add(root, "integrator", "aov");
+  std::string names;
+  for (std::size_t i = 0; i < layer_count; ++i)
+    if (layers.has(static_cast<Layer>(i)))
+      names += fmt::format("{0}{1}:{1}", names.empty() ? "" : ",", layer_kinds[i].name);
+  add_string(element, "aovs", names);
+  return element;
+}
+
+}  // namespace
+
 void write_integrator(Context& context, Element root) {
   const Scene& scene = context.scene;
+  root = layers_around(context, root);
   if (scene.settings.direct_only) {
     context.begin(RecordKind::integrator, scene.integrator_origin);
     context.approximated("Mitsuba's direct integrator ends at the first surface, specular or not");
@@ -223,11 +275,13 @@ void write_integrator(Context& context, Element root) {
   Element element = add(root, "integrator", volpath ? "volpath" : "path");
   const int depth = scene.settings.max_depth;
   if (volpath && scene.settings.straight_counts && depth < unlimited_depth &&
-      std::ranges::any_of(scene.materials, is_passed_straight)) {
+      std::ranges::any_of(scene.materials,
+                          [&](const Material& m) { return is_passed_straight(m, scene.materials); })) {
     context.origin = scene.camera_origin;
     context.approximated(
         "the depth: Mitsuba's volumetric path tracer does not count going straight through sheets and masks");
   }
+  if (volpath) report_dark_sheets(context);
   add_integer(element, "max_depth",
               depth >= unlimited_depth ? -1 : depth + 1);  // Mitsuba counts the eye's ray
   add_integer(element, "rr_depth", 5);

@@ -49,6 +49,7 @@ struct Context {
         roles(scene_to_write),
         transmitting(vitrail::transmitting(scene_to_write.materials)),
         sided(with_sides(scene_to_write.materials)),
+        lobes(lobes_of(scene_to_write.materials)),
         uvs_show(meshes_whose_uvs_show(scene_to_write)) {}
 
   const Scene& scene;
@@ -58,7 +59,8 @@ struct Context {
   TextureRoles roles;
   std::vector<bool> transmitting;  // Mitsuba allows no `twosided` around such materials
   std::vector<bool> sided;         // with_sides
-  std::vector<bool> uvs_show;      // of each mesh
+  std::vector<Lobes> lobes;
+  std::vector<bool> uvs_show;  // of each mesh
   Diagnostics diagnostics;
   // Of the record that is being written.
   Origin origin;

@@ -7,7 +7,8 @@ namespace vitrail::mitsuba_writer {
 
 namespace {
 
-// What Mitsuba makes of the texture's own file.
+// What Mitsuba makes of the texture's own file. Of three channels its spectral variants make numbers only if
+// it is raw, which for floats is the same.
 ImageTexture taken_by_mitsuba(const ImageTexture& texture, bool raw) {
   ImageTexture taken = texture;
   taken.encoding = raw ? Encoding::linear : Encoding::automatic;
@@ -28,18 +29,40 @@ MitsubaImage image_for_mitsuba(Context& context, const ImageTexture& texture, bo
     return {own, true};
   }
   const ImageUse use = is_float ? ImageUse::number : ImageUse::color;
-  const bool raw = is_float && texture.encoding == Encoding::linear;
+  bool raw = is_float && texture.encoding == Encoding::linear;
   try {
-    if (tint == RGB{1, 1, 1} && have_same_values(texture, taken_by_mitsuba(texture, raw), use))
+    bool refused = false;
+    if (is_float && !raw && tint == RGB{1, 1, 1}) {
+      const ImageLayout layout = read_image_layout(texture.filename);
+      if (layout.channels >= 3) raw = !layout.integer, refused = layout.integer;
+    }
+    if (!refused && tint == RGB{1, 1, 1} && have_same_values(texture, taken_by_mitsuba(texture, raw), use))
       return {own, raw};
     const std::filesystem::path file = context.images.write(texture, use, {tint, {}, false});
     const std::string name = context.relative(std::filesystem::absolute(file).string());
     context.approximated(
-        fmt::format("Mitsuba takes other values from its image: they are written as {}", name));
+        refused ? fmt::format("Mitsuba's spectral variants take no number from three "
+                              "channels: the values are written as {}",
+                              name)
+                : fmt::format("Mitsuba takes other values from its image: they are written as {}", name));
     return {name, is_float};
   } catch (const Error& error) {
     context.approximated(fmt::format("{}: referred to as it is", error.what()));
     return {own, raw};
+  }
+}
+
+std::optional<MitsubaImage> image_for_mitsuba(Context& context, const ImagePair& pair, bool is_float) {
+  try {
+    const std::filesystem::path file = context.images.write(pair);
+    const std::string name = context.relative(std::filesystem::absolute(file).string());
+    context.approximated(
+        fmt::format("the product of two images is written as one, {}: right at its texels, and between them "
+                    "interpolated as a product",
+                    name));
+    return MitsubaImage{name, is_float};
+  } catch (const Error&) {
+    return std::nullopt;
   }
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
+
 #include "importers/mitsuba/write_context.h"
 #include "scene/color.h"
 
@@ -17,6 +19,9 @@ struct MitsubaImage {
 // colours times `tint`.
 MitsubaImage image_for_mitsuba(Context& context, const ImageTexture& texture, bool is_float,
                                bool is_normal_map = false, RGB tint = {1, 1, 1});
+
+// A new file with the product of two; nothing where one of them cannot be read.
+std::optional<MitsubaImage> image_for_mitsuba(Context& context, const ImagePair& pair, bool is_float);
 
 // The mean of the texture's values; grey ½ where the file cannot be read.
 RGB mean_color(const ImageTexture& texture);

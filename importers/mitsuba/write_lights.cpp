@@ -184,6 +184,8 @@ void write_lights(Context& context, Element root) {
 void write_area_light(Context& context, Element shape, const AreaLight& light) {
   context.begin(RecordKind::area_light, light.origin);
   Element element = add(shape, "emitter", light.directional ? "directionalarea" : "area");
+  if (light.directional)
+    context.approximated("Mitsuba's path tracers show nothing of a directionalarea; its ptracer does");
   if (const auto radiance = value_of(context, light.radiance))
     return add_spectrum(element, "radiance", scaled(*radiance, static_cast<double>(light.scale)),
                         Meaning::emission);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Each material is an element inside its adapters: twosided ⊃ normalmap ⊃ bumpmap ⊃ model. The outermost has
-// the id.
+// Each material is an element inside its adapters: normalmap ⊃ bumpmap ⊃ twosided ⊃ model. The outermost has
+// the id. Around bumps, twosided would mirror them on the back instead of turning them over with the normal.
 #include "importers/mitsuba/write_materials.h"
 
 namespace vitrail::mitsuba_writer {
@@ -28,14 +28,26 @@ void add_height(Context& context, Element parent, const FloatParameter& height) 
   add_parameter(context, parent, "texture", height);
 }
 
+// Those of nothing do not show, and those of a material that is made of others are theirs.
+bool shows_bumps(Context& context, const Material& material) {
+  if (std::holds_alternative<InterfaceMaterial>(material.model)) return false;
+  if (!is_made_of_others(material)) return true;
+  if (material.displacement || material.normal_map)
+    context.dropped("bumps of a material that is made of others, which have their own");
+  return false;
+}
+
 void write_material(Context& context, Element parent, std::size_t index, std::string id) {
   const Material& material = context.scene.materials[index];
   const auto wrap = [&](const char* type) {
     parent = add(parent, "bsdf", type, "", id);
     id.clear();
   };
-  if (wants_two_sided(context, index)) wrap("twosided");
-  if (material.normal_map) {
+  if (blends_mirror_with_spread(material, context.lobes))
+    context.approximated(
+        "a blend of a mirror or smooth interface with what spreads light: Mitsuba 3.9 makes it darker");
+  const bool bumps = shows_bumps(context, material);
+  if (bumps && material.normal_map) {
     const WrittenTexture& texture = context.textures[material.normal_map->value];
     if (const auto* reference = std::get_if<std::string>(&texture)) {
       wrap("normalmap");
@@ -45,11 +57,12 @@ void write_material(Context& context, Element parent, std::size_t index, std::st
       context.dropped("the normal map: Mitsuba takes an image");
     }
   }
-  if (material.displacement && !value_of(context, *material.displacement)) {
+  if (bumps && material.displacement && !value_of(context, *material.displacement)) {
     wrap("bumpmap");
     if (!material.bump_shadowing) add_boolean(parent, "use_shadowing_function", false);
     add_height(context, parent, *material.displacement);
   }
+  if (wants_two_sided(context, index)) wrap("twosided");
   write_model(context, parent, material, id);
 }
 

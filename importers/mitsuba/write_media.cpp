@@ -32,7 +32,7 @@ void write_volume_file(const std::filesystem::path& path, const Grid& grid) {
   AtomicFile file(path);
   file.write(std::as_bytes(std::span(&header, 1)));
   file.write(std::as_bytes(std::span(grid.values)));
-  file.commit();
+  file.commit_part();
 }
 
 // Mitsuba's grids fill the unit cube of their own space.

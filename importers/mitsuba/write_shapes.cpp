@@ -2,6 +2,7 @@
 #include "importers/mitsuba/write_shapes.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include "importers/mitsuba/write_lights.h"
 #include "importers/mitsuba/write_materials.h"
@@ -78,32 +79,40 @@ void write_shape(Context& context, Element parent, const Shape& shape, std::size
 }
 
 // Mitsuba allows no area lights in shape groups: they are written with every instance.
-bool stays_in_group(const Shape& shape) { return !shape.area_light; }
+struct Group {
+  bool empty = true;
+  std::vector<std::size_t> outside;  // shapes of the prototype
+};
 
-bool has_group(const Prototype& prototype) {
-  return std::any_of(prototype.shapes.begin(), prototype.shapes.end(), stays_in_group);
+Group group_of(const Prototype& prototype) {
+  Group group;
+  for (std::size_t i = 0; i < prototype.shapes.size(); ++i)
+    if (prototype.shapes[i].area_light)
+      group.outside.push_back(i);
+    else
+      group.empty = false;
+  return group;
 }
 
-void write_prototype(Context& context, Element root, const Prototype& prototype, std::size_t index) {
+void write_prototype(Context& context, Element root, const Prototype& prototype, const Group& group,
+                     std::size_t index) {
   context.begin(RecordKind::object, prototype.origin);
   std::string& id = context.prototype_ids[index];
   id = context.new_id(prototype.name, "shapegroup", index);
-  if (!has_group(prototype)) return;
-  Element group = add(root, "shape", "shapegroup", "", id);
+  if (group.empty) return;
+  Element element = add(root, "shape", "shapegroup", "", id);
   for (std::size_t i = 0; i < prototype.shapes.size(); ++i)
-    if (stays_in_group(prototype.shapes[i])) write_shape(context, group, prototype.shapes[i], i);
+    if (!prototype.shapes[i].area_light) write_shape(context, element, prototype.shapes[i], i);
 }
 
-void write_instance(Context& context, Element root, const Instance& instance) {
-  const Prototype& prototype = context.scene.prototypes[instance.prototype.value];
-  if (has_group(prototype)) {
+void write_instance(Context& context, Element root, const Instance& instance, const Group& group) {
+  if (!group.empty) {
     Element element = add(root, "shape", "instance");
     add_reference(element, context.prototype_ids[instance.prototype.value]);
     add_transform(element, instance.prototype_to_world);
   }
-  for (std::size_t i = 0; i < prototype.shapes.size(); ++i) {
-    if (stays_in_group(prototype.shapes[i])) continue;
-    Shape shape = prototype.shapes[i];
+  for (const std::size_t i : group.outside) {
+    Shape shape = context.scene.prototypes[instance.prototype.value].shapes[i];
     shape.object_to_world = instance.prototype_to_world * shape.object_to_world;
     if (swaps_handedness(instance.prototype_to_world)) shape.flip_orientation = !shape.flip_orientation;
     shape.name.clear();
@@ -121,6 +130,8 @@ void write_shapes(Context& context, Element root) {
   for (const Prototype& prototype : scene.prototypes)
     for (const Shape& shape : prototype.shapes) write_mask(context, root, shape);
   context.prototype_ids.resize(scene.prototypes.size());
+  std::vector<Group> groups;
+  std::ranges::transform(scene.prototypes, std::back_inserter(groups), group_of);
   std::size_t next = 0;
   const auto first_mesh = [](const Prototype& prototype) {
     return prototype.shapes.empty() ? 0u : prototype.shapes.front().mesh.value;
@@ -128,15 +139,16 @@ void write_shapes(Context& context, Element root) {
   for (std::size_t i = 0; i < scene.shapes.size(); ++i) {
     while (next < scene.prototypes.size() &&
            first_mesh(scene.prototypes[next]) < scene.shapes[i].mesh.value) {
-      write_prototype(context, root, scene.prototypes[next], next);
+      write_prototype(context, root, scene.prototypes[next], groups[next], next);
       ++next;
     }
     write_shape(context, root, scene.shapes[i], i);
   }
-  for (; next < scene.prototypes.size(); ++next) write_prototype(context, root, scene.prototypes[next], next);
+  for (; next < scene.prototypes.size(); ++next)
+    write_prototype(context, root, scene.prototypes[next], groups[next], next);
   for (const Instance& instance : scene.instances) {
     context.begin(RecordKind::instance, instance.origin);
-    write_instance(context, root, instance);
+    write_instance(context, root, instance, groups[instance.prototype.value]);
   }
 }
 

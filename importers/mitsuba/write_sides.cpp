@@ -20,7 +20,7 @@ Vector3d winding_normal(const TriangleMesh& mesh, std::size_t triangle) {
 
 std::string write_derived(Context& context, const TriangleMesh& mesh) {
   const std::string name = context.new_file("meshes", "sides.ply", context.derived_meshes);
-  write_ply(mesh, context.file.parent_path() / name);
+  write_ply_part(mesh, context.file.parent_path() / name);
   return name;
 }
 

@@ -163,6 +163,13 @@ WrittenTexture write_texture(Context& context, Element root, const Texture& text
     write_image(context, root, {written.filename, texture.is_float}, tinted->image, id);
     return id;
   }
+  if (const auto* product = std::get_if<ProductTexture>(&texture.model))
+    if (const auto pair = image_pair(context.scene, *product))
+      if (const auto written = image_for_mitsuba(context, *pair, texture.is_float)) {
+        const std::string id = new_id();
+        write_image(context, root, *written, pair->first.image, id);
+        return id;
+      }
   if (const auto* board = std::get_if<CheckerboardTexture>(&texture.model); board && !board->solid) {
     const std::string id = new_id();
     CheckerboardTexture written = *board;

@@ -265,7 +265,7 @@ MtlNames write_mtl(const Scene& scene, const std::vector<FlatShape>& shapes,
   }
   AtomicFile file(path);
   file.write(std::as_bytes(std::span(text)));
-  file.commit();
+  file.commit_part();
   return names;
 }
 

@@ -8,6 +8,8 @@
 #include <numbers>
 #include <string_view>
 
+#include "importers/pbrt/gbuffer.h"
+
 namespace vitrail::pbrt {
 
 namespace {
@@ -75,6 +77,19 @@ void read_bins(ParameterSet& parameters, FilmSettings& film) {
          parameters.place());
   if (!(film.spectrum.min_nm < film.spectrum.max_nm))
     fail("\"lambdamin\" is not below \"lambdamax\"", parameters.place());
+}
+
+void read_layers(ParameterSet& parameters, Context& context, FilmLayers& layers) {
+  layers = gbuffer_layers();
+  const std::string space = parameters.text("coordinatesystem", "camera");
+  if (!is_one_of(space, {"camera", "world"}))
+    fail(fmt::format("expected the coordinate system camera or world, found \"{}\"", space),
+         parameters.place());
+  layers.in_camera_space = space == "camera";
+  context.report.approximated(
+      "film \"gbuffer\": all its channels are means over all samples, of which those that see nothing are 0; "
+      "dzdx, dzdy and the variances are not kept",
+      parameters.place());
 }
 
 // v3's shutter only blurs; v4's exposes, and one that never opens is refused there.
@@ -150,9 +165,9 @@ void read_film(const std::string& kind, ParameterSet& parameters, Context& conte
     context.report.approximated(fmt::format("film \"{}\" is not known and read as \"rgb\"", kind),
                                 parameters.place());
   view.film.spectrum = {};
+  view.film.layers = {};
   if (kind == "spectral") read_bins(parameters, view.film);
-  if (kind == "gbuffer")
-    context.report.dropped(fmt::format("film \"{}\": only its colours are kept", kind), parameters.place());
+  if (kind == "gbuffer") read_layers(parameters, context, view.film.layers);
   view.film.width = resolution(parameters, "xresolution", defaults.width);
   view.film.height = resolution(parameters, "yresolution", defaults.height);
   read_crop(parameters, view.film);

@@ -121,6 +121,8 @@ class Interpreter {
   void define_material(std::uint32_t slot, const std::string& kind, ParameterSet parameters,
                        const Place& place);
   Material made_material(const std::string& kind, ParameterSet& parameters, const Scope& scope);
+  std::uint32_t new_material_slot();
+  void set_material(std::uint32_t slot, Material material);
   std::uint32_t add_material(Material material);
   Id<Material> shape_material();
   FloatParameter shape_opacity(ParameterSet& parameters, const Place& place);
@@ -163,7 +165,8 @@ class Interpreter {
     Place place;
   };
   NamedSlots material_names_{"material"};
-  std::vector<std::optional<Material>> materials_;
+  std::vector<Material> materials_;
+  std::vector<bool> material_is_made_;
   std::vector<DeferredMaterial> deferred_;
   std::map<std::uint32_t, std::string> named_slots_;
   std::optional<Id<Material>> default_material_;

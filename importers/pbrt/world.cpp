@@ -16,16 +16,28 @@ void Interpreter::reverse_orientation(const Place&) {
 
 // ---- Materials and textures ---------------------------------------------------------------------
 
-std::uint32_t Interpreter::add_material(Material material) {
-  materials_.emplace_back(std::move(material));
+std::uint32_t Interpreter::new_material_slot() {
+  materials_.emplace_back();
+  material_is_made_.push_back(false);
   return static_cast<std::uint32_t>(materials_.size() - 1);
+}
+
+void Interpreter::set_material(std::uint32_t slot, Material material) {
+  materials_[slot] = std::move(material);
+  material_is_made_[slot] = true;
+}
+
+std::uint32_t Interpreter::add_material(Material material) {
+  const auto slot = new_material_slot();
+  set_material(slot, std::move(material));
+  return slot;
 }
 
 Material Interpreter::made_material(const std::string& kind, ParameterSet& parameters, const Scope& scope) {
   const auto named = [&](const std::string& name) {
     const auto next = static_cast<std::uint32_t>(materials_.size());
     const std::uint32_t slot = material_names_.use(name, parameters.place(), next);
-    if (slot == next) materials_.emplace_back();
+    if (slot == next) new_material_slot();
     return Id<Material>{slot};
   };
   const auto add = [&](Material material) {
@@ -42,14 +54,12 @@ void Interpreter::define_material(std::uint32_t slot, const std::string& kind, P
     deferred_.push_back({slot, kind, state_.color_space, std::move(parameters), place});
     return;
   }
-  Material made = made_material(kind, parameters, scope(place));
-  materials_[slot] = std::move(made);
+  set_material(slot, made_material(kind, parameters, scope(place)));
 }
 
 void Interpreter::material(const Place& place) {
   const std::string kind = read_text("a kind of material");
-  const auto slot = static_cast<std::uint32_t>(materials_.size());
-  materials_.emplace_back();
+  const std::uint32_t slot = new_material_slot();
   define_material(slot, kind, read_set("Material", kind, place, "material"), place);
   state_.material = Id<Material>{slot};
 }
@@ -65,7 +75,7 @@ void Interpreter::make_named_material(const Place& place) {
     saved_.back().undo.push_back(
         [this, before = material_names_.before(name)] { material_names_.end(before); });
   const auto [slot, redefined] = material_names_.define(name, place, next);
-  if (slot == next) materials_.emplace_back();
+  if (slot == next) new_material_slot();
   // v4 refuses it; v3 warns.
   if (redefined && context_.version == Version::v4)
     context_.report.approximated(
@@ -82,7 +92,7 @@ void Interpreter::named_material(const Place& place) {
         place);
   const auto next = static_cast<std::uint32_t>(materials_.size());
   const std::uint32_t slot = material_names_.use(name, place, next);
-  if (slot == next) materials_.emplace_back();
+  if (slot == next) new_material_slot();
   state_.material = Id<Material>{slot};
 }
 
@@ -220,8 +230,7 @@ std::optional<Id<AreaLight>> Interpreter::shape_light(const ShapeGeometry& geome
 Id<Material> Interpreter::shape_material() {
   if (state_.material) return *state_.material;
   if (!default_material_) {
-    default_material_ = Id<Material>{static_cast<std::uint32_t>(materials_.size())};
-    materials_.emplace_back(Material{DiffuseMaterial{}});
+    default_material_ = Id<Material>{add_material(Material{DiffuseMaterial{}})};
   }
   return *default_material_;
 }
@@ -255,9 +264,9 @@ bool Interpreter::uvs_show(const FloatParameter& opacity) {
 }
 
 bool Interpreter::uvs_show(Id<Material> id, int depth) {
-  const std::optional<Material>& material = materials_[id.value];
-  if (!material || depth == 0 || uv_uses_.of(*material)) return true;
-  const std::vector<Id<Material>> parts = parts_of(material->model);
+  const Material& material = materials_[id.value];
+  if (!material_is_made_[id.value] || depth == 0 || uv_uses_.of(material)) return true;
+  const std::vector<Id<Material>> parts = parts_of(material.model);
   return std::ranges::any_of(parts, [&](Id<Material> part) { return uvs_show(part, depth - 1); });
 }
 
@@ -317,23 +326,30 @@ void for_each_reference(Material& material, Use&& use) {
   if (auto* mask = std::get_if<MaskMaterial>(&material.model)) use(mask->material);
 }
 
+bool is_in_order(std::vector<Material>& materials) {
+  bool in_order = true;
+  for (std::uint32_t i = 0; i < materials.size(); ++i)
+    for_each_reference(materials[i], [&](const Id<Material>& id) { in_order = in_order && id.value < i; });
+  return in_order;
+}
+
 // Materials in an order in which each comes after those that it refers to.
 class MaterialOrder {
  public:
-  MaterialOrder(const std::vector<std::optional<Material>>& slots, Scene& scene)
+  MaterialOrder(const std::vector<Material>& slots, Scene& scene)
       : slots_(slots), scene_(scene), ids_(slots.size(), none) {}
 
   Id<Material> place(std::uint32_t slot, int depth = 0) {
     constexpr int most_nested = 64;
     const auto refuse = [&](const char* why) {
-      throw Error(fmt::format("the mix of materials \"{}\" {}", slots_[slot]->name, why),
-                  location(scene_, slots_[slot]->origin));
+      throw Error(fmt::format("the mix of materials \"{}\" {}", slots_[slot].name, why),
+                  location(scene_, slots_[slot].origin));
     };
     if (ids_[slot] < open) return {ids_[slot]};
     if (ids_[slot] == open) refuse("contains itself");
     if (depth > most_nested) refuse("is nested too deeply");
     ids_[slot] = open;
-    Material material = *slots_[slot];
+    Material material = slots_[slot];
     for_each_reference(material, [&](Id<Material>& id) { id = place(id.value, depth + 1); });
     ids_[slot] = static_cast<std::uint32_t>(scene_.materials.size());
     scene_.materials.push_back(std::move(material));
@@ -342,7 +358,7 @@ class MaterialOrder {
 
  private:
   static constexpr std::uint32_t none = 0xffffffffu, open = 0xfffffffeu;
-  const std::vector<std::optional<Material>>& slots_;
+  const std::vector<Material>& slots_;
   Scene& scene_;
   std::vector<std::uint32_t> ids_;
 };
@@ -355,8 +371,7 @@ void Interpreter::resolve_deferred(bool all) {
     if (!all && !textures_are_known(deferred.parameters, textures_)) return false;
     context_.report.begin_item(deferred.place, RecordKind::material);
     const Scope where{{context_, deferred.color_space}, textures_, scene_.textures, origin(deferred.place)};
-    Material made = made_material(deferred.kind, deferred.parameters, where);
-    materials_[deferred.slot] = std::move(made);
+    set_material(deferred.slot, made_material(deferred.kind, deferred.parameters, where));
     return true;
   });
   context_.report.begin_item({});
@@ -365,7 +380,11 @@ void Interpreter::resolve_deferred(bool all) {
 void Interpreter::resolve_materials() {
   resolve_deferred(true);
   material_names_.require_definitions();
-  for (const auto& [slot, name] : named_slots_) materials_[slot]->name = name;
+  for (const auto& [slot, name] : named_slots_) materials_[slot].name = name;
+  if (is_in_order(materials_)) {
+    scene_.materials = std::move(materials_);
+    return;
+  }
   MaterialOrder order(materials_, scene_);
   for (std::uint32_t slot = 0; slot < materials_.size(); ++slot) order.place(slot);
   const auto renumber = [&](Shape& shape) { shape.material = order.place(shape.material.value); };

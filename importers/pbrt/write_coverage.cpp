@@ -67,27 +67,31 @@ FloatParameter coverage_of(Writer& w, const Material& material) {
   return 1.0f;
 }
 
+bool has_lights_without_extent(const Scene& scene) {
+  return std::ranges::any_of(scene.lights, [](const Light& light) {
+    return !std::holds_alternative<InfiniteLight>(light.model) &&
+           !std::holds_alternative<EnvironmentLight>(light.model);
+  });
+}
+
+// Where going straight does not count, the scene is of a path tracer that connects to lights so, too.
 void report_depth(Writer& w) {
   const RenderSettings& s = w.scene.settings;
-  if (s.max_depth >= unlimited_depth) return;
   const auto has = [&](bool masks) {
     return std::ranges::any_of(w.scene.materials, [&](const Material& m) {
-      return is_passed_straight(m) && std::holds_alternative<MaskMaterial>(m.model) == masks;
+      return is_passed_straight(m, w.scene.materials) && is_made_of_others(m) == masks;
     });
   };
+  if (!s.straight_counts && has(false) && has_lights_without_extent(w.scene))
+    w.approximated("lights without extent do not shine through thin sheets in pbrt", w.scene.camera_origin,
+                   RecordKind::integrator);
+  if (s.max_depth >= unlimited_depth) return;
   if (s.straight_counts && has(true))
     w.approximated("the depth: pbrt does not count going through where a mask leaves nothing",
                    w.scene.camera_origin, RecordKind::integrator);
   if (!s.straight_counts && has(false))
     w.approximated("the depth: pbrt counts going straight through thin sheets", w.scene.camera_origin,
                    RecordKind::integrator);
-}
-
-bool has_lights_without_extent(const Scene& scene) {
-  return std::ranges::any_of(scene.lights, [](const Light& light) {
-    return !std::holds_alternative<InfiniteLight>(light.model) &&
-           !std::holds_alternative<EnvironmentLight>(light.model);
-  });
 }
 
 std::string add_material(Writer& w, const char* wanted, const char* kind, const Parameters& p) {

@@ -4,6 +4,7 @@
 #include <numbers>
 #include <optional>
 
+#include "importers/pbrt/gbuffer.h"
 #include "importers/pbrt/writer.h"
 
 namespace vitrail::pbrt {
@@ -106,6 +107,23 @@ double iso_of(double ratio) {
   return iso;
 }
 
+// "gbuffer" has no spectra, "spectral" no layers.
+const char* kind_of_film(const FilmSettings& film) {
+  if (film.spectrum.count > 0) return "spectral";
+  return film.layers.bits & gbuffer_layers().bits ? "gbuffer" : "rgb";
+}
+
+// "gbuffer" keeps all that it has.
+void write_layers(Writer& w, Parameters& p, std::string_view kind) {
+  const FilmLayers& layers = w.scene.film.layers;
+  FilmLayers lost = layers;
+  if (kind == "gbuffer") {
+    lost.bits &= ~gbuffer_layers().bits;
+    p.text("coordinatesystem", layers.in_camera_space ? "camera" : "world");
+  }
+  if (lost.any()) p.dropped(fmt::format("layers that its film \"{}\" has not: {}", kind, names_of(lost)));
+}
+
 void write_film(Writer& w) {
   const FilmSettings& f = w.scene.film;
   Parameters filter(w, "filter", w.scene.film_origin, RecordKind::film);
@@ -121,8 +139,9 @@ void write_film(Writer& w) {
     p.integer("nbuckets", f.spectrum.count)
         .number("lambdamin", f.spectrum.min_nm)
         .number("lambdamax", f.spectrum.max_nm);
-  w.line(fmt::format("Film \"{}\"{} \"string filename\" \"render.exr\"",
-                     f.spectrum.count > 0 ? "spectral" : "rgb", p.list()));
+  const char* film = kind_of_film(f);
+  write_layers(w, p, film);
+  w.line(fmt::format("Film \"{}\"{} \"string filename\" \"render.exr\"", film, p.list()));
 }
 
 }  // namespace

@@ -105,7 +105,7 @@ Parameters& Parameters::text(std::string_view name, std::string_view value) {
 
 Parameters& Parameters::texts(std::string_view name, std::initializer_list<std::string_view> values) {
   list_ += fmt::format(" \"string {}\" [", name);
-  for (const std::string_view value : values) list_ += " " + in_quotes(value);
+  for (const std::string_view value : values) list_ += fmt::format(" {}", in_quotes(value));
   list_ += " ]";
   return *this;
 }

@@ -68,10 +68,7 @@ void put_attributes(Buffer& out, const TriangleMesh& mesh, bool per_face, std::s
   }
 }
 
-}  // namespace
-
-void write_ply(const TriangleMesh& mesh, const std::filesystem::path& path) {
-  AtomicFile file(path);
+void put_mesh(const TriangleMesh& mesh, AtomicFile& file) {
   const std::string header = header_of(mesh);
   file.write(std::as_bytes(std::span(header)));
   Buffer out(file);
@@ -87,7 +84,20 @@ void write_ply(const TriangleMesh& mesh, const std::filesystem::path& path) {
     put_attributes(out, mesh, true, i);
   }
   out.flush();
+}
+
+}  // namespace
+
+void write_ply(const TriangleMesh& mesh, const std::filesystem::path& path) {
+  AtomicFile file(path);
+  put_mesh(mesh, file);
   file.commit();
+}
+
+void write_ply_part(const TriangleMesh& mesh, const std::filesystem::path& path) {
+  AtomicFile file(path);
+  put_mesh(mesh, file);
+  file.commit_part();
 }
 
 }  // namespace vitrail

@@ -12,5 +12,7 @@ namespace vitrail {
 // properties NAME_0, NAME_1 … of its element, as Mitsuba reads them. read_ply gives the same mesh back, bit
 // for bit. Throws MachineError.
 void write_ply(const TriangleMesh& mesh, const std::filesystem::path& file);
+// As a part of a scene (AtomicFile::commit_part).
+void write_ply_part(const TriangleMesh& mesh, const std::filesystem::path& file);
 
 }  // namespace vitrail

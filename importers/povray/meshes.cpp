@@ -116,7 +116,7 @@ void write_mesh_text(const MeshText& text, const std::filesystem::path& path) {
   TextSink out(&file);
   put_mesh(text, out);
   out.flush();
-  file.commit();
+  file.commit_part();
 }
 
 std::optional<Rectangle> rectangle_of(const MeshText& text) {

@@ -16,7 +16,8 @@ namespace {
 
 RGB to_rgb(const std::array<float, 3>& c) { return {c[0], c[1], c[2]}; }
 
-// A colour within a texture means what the texture is used for; other spectra are what they are.
+// A colour within a texture means what the texture is used for, and what shines is under D65; other spectra
+// are what they are.
 Spectrum as_used(const Spectrum& spectrum, TextureUse use) {
   const std::array<float, 3>* rgb = nullptr;
   if (const auto* s = std::get_if<SigmoidSpectrum>(&spectrum)) rgb = &s->rgb;
@@ -30,7 +31,8 @@ Spectrum as_used(const Spectrum& spectrum, TextureUse use) {
       return ConstantSpectrum{static_cast<float>(value)};
     }
     case TextureUse::illuminant:
-      return rgb ? emission_from_rgb(to_rgb(*rgb)) : resolved(spectrum);
+      return rgb ? emission_from_rgb(to_rgb(*rgb))
+                 : product(emission_from_rgb({1, 1, 1}), resolved(spectrum));
     case TextureUse::reflectance:
       return rgb ? reflectance_from_rgb(to_rgb(*rgb)) : resolved(spectrum);
     default:

@@ -83,6 +83,7 @@ Requirements requirements_of(const Manifest& m, bool has_normals) {
   Requirements r;
   r.shading_normals = has_normals;
   r.media = !m.media.empty();
+  r.uv = m.film.layers.has(Layer::uv);
   const std::vector<bool> used = textures_on_surfaces(m);
   for (std::size_t i = 0; i < used.size(); ++i)
     if (used[i]) std::visit(TextureNeeds{r}, m.textures[i].model);

@@ -17,13 +17,13 @@ std::int32_t new_id(const std::vector<std::int32_t>& ids, const auto& old) {
   return old ? ids.at(old->value) : -1;
 }
 
-// Returns how many.
+// One a run of placements that are alike, or where the film tells shapes apart one each. Returns how many.
 std::uint32_t make_surfaces(const Appearance& appearance, const std::vector<Placement>& placements,
                             Manifest& m) {
   const std::size_t first = m.surfaces.size();
   for (const Placement& p : placements) {
     const Surface surface = surface_of(p, appearance);
-    if (m.surfaces.size() > first) {
+    if (m.surfaces.size() > first && !m.film.layers.has(Layer::shape)) {
       Surface same = m.surfaces.back();
       same.first_triangle = surface.first_triangle;
       if (same == surface) continue;
@@ -67,7 +67,6 @@ void move_records(const Scene& scene, Appearance& appearance, Manifest& m) {
   m.camera = scene.camera;
   std::visit([&](auto& c) { c.camera_to_world = translate(-m.offset) * c.camera_to_world; }, m.camera);
   m.camera_medium = new_id(appearance.medium_ids, scene.camera_medium);
-  m.film = scene.film;
   m.settings = scene.settings;
 }
 
@@ -85,6 +84,7 @@ void expand_all(ScenePlan& plan) {
 World world_of(const Scene& scene, const std::filesystem::path& bundle, const WorldOptions& options) {
   World world;
   Manifest& m = world.manifest;
+  m.film = scene.film;
   Appearance appearance = appearance_of(scene, bundle);
   ScenePlan plan = plan_scene(scene);
   m.triangles = plan.scene.triangles;

@@ -146,6 +146,7 @@ TEST(Everyday, StatisticsKeepTheirContract) {
                           "peak_rss_bytes",
                           "base_rss_bytes",
                           "setup_peak_rss_bytes",
+                          "clamped_share",
                           "nonfinite_samples",
                           "saturated_samples",
                           "film_hash"})

@@ -45,6 +45,30 @@ TEST_F(Mistakes, MisspelledWordsAreRecognised) {
   EXPECT_THAT(verb("convert", "a b --reprot c").output, HasSubstr("did you mean --report?"));
 }
 
+TEST_F(Mistakes, LayersThatAreNotThere) {
+  for (const auto& [program, output] : {std::pair("render", "a.film"), {"partition", "a.vit"}}) {
+    const CommandResult unknown =
+        verb(program, path("in.pbrt") + " -o " + path(output) + " --aov albedo,colour");
+    EXPECT_EQ(unknown.status, 2);
+    EXPECT_THAT(unknown.output, AllOf(HasSubstr("\"colour\""), HasSubstr("geo_normal")));
+  }
+  ASSERT_EQ(verb("partition", path("in.pbrt") + " -o " + path("plain.vit")).status, 0);
+  const auto of_bundle = [&](const std::string& bundle, const std::string& aov) {
+    return verb("render",
+                path(bundle) + " -o " + path("b.film") + " --spp 1 --crop 0,8,0,8 --force --aov " + aov);
+  };
+  EXPECT_EQ(of_bundle("plain.vit", "albedo,normal,dd.y:depth,prim_index").status, 0);
+  for (const char* aov : {"uv", "shape_index"}) {
+    const CommandResult lacking = of_bundle("plain.vit", aov);
+    EXPECT_EQ(lacking.status, 3);
+    EXPECT_THAT(lacking.output, HasSubstr(fmt::format("partition the scene with --aov {}", aov)));
+  }
+  ASSERT_EQ(verb("partition", path("in.pbrt") + " -o " + path("more.vit") + " --aov uv,shape_index").status,
+            0);
+  EXPECT_EQ(of_bundle("more.vit", "uv,shape_index,position --aov-space camera").status, 0);
+  EXPECT_THAT(verb("inspect", path("b.film")).output, HasSubstr("position,uv,shape_index"));
+}
+
 TEST_F(Mistakes, OptionsOfOthersAreUnderstoodOrAnswered) {
   EXPECT_EQ(verb("render", path("in.pbrt") + " --outfile " + path("b.film") +
                                " --spp 1 --nthreads 1 --pixelbounds 0,8,0,8 --max-depth -1")

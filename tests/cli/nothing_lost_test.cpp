@@ -64,6 +64,23 @@ TEST_F(NothingLost, AFilmOfOtherWorkIsKept) {
   EXPECT_NE(hash("a.film"), film);
 }
 
+TEST_F(NothingLost, ABundleOfAnotherSceneIsKept) {
+  write("a.pbrt", "WorldBegin\nShape \"sphere\"\n");
+  write("b.pbrt", "WorldBegin\nShape \"disk\"\n");
+  const auto partition = [&](const std::string& scene, const std::string& more) {
+    return run(fmt::format("{} '{}' -o '{}' --domains 1 --quiet {}", vitrail("partition"), path(scene),
+                           path("c.vit"), more));
+  };
+  ASSERT_EQ(partition("a.pbrt", "").status, 0);
+  const std::string manifest = read("c.vit/manifest.json");
+  const CommandResult refused = partition("b.pbrt", "");
+  EXPECT_EQ(refused.status, 3);
+  EXPECT_THAT(refused.output, HasSubstr("a.pbrt; --force replaces it"));
+  EXPECT_EQ(read("c.vit/manifest.json"), manifest);
+  EXPECT_EQ(partition("a.pbrt", "--flatten").status, 0) << "the same scene's, in another way";
+  EXPECT_EQ(partition("b.pbrt", "--force").status, 0);
+}
+
 TEST_F(NothingLost, WhatIsNoFilmIsKept) {
   write("a.film", "a home video");
   const CommandResult refused = render("a.film", "--spp 1");

@@ -65,7 +65,7 @@ TEST_F(Pictures, OfAnotherSizeShowTheSame) {
   ASSERT_EQ(render("large.film", "--spp 64 --scale 2").status, 0);
   const Film small = read_film(directory_ / "small.film", nullptr),
              large = read_film(directory_ / "large.film", nullptr);
-  for (const auto [x, y] : {std::pair(3, 3), {20, 10}, {36, 16}, {10, 10}}) {
+  for (const auto& [x, y] : {std::pair(3, 3), {20, 10}, {36, 16}, {10, 10}}) {
     double sum = 0;
     for (int j = 0; j < 2; ++j)
       for (int i = 0; i < 2; ++i)
@@ -134,6 +134,44 @@ TEST_F(Pictures, OfMitsubaTakeParameters) {
   EXPECT_THAT(unknown.output, HasSubstr("no parameter \"spp\"; it has res"));
   EXPECT_EQ(render("b.film", "-D spp", "in.xml").status, 2);
   EXPECT_NE(render("b.film", "-D spp=4").status, 0) << "pbrt has none";
+}
+
+TEST_F(Pictures, AreSeenByTheSensorAskedFor) {
+  const auto sensor = [](int width) {
+    return fmt::format(
+        "<sensor type=\"perspective\"><film type=\"hdrfilm\"><integer name=\"width\" value=\"{}\"/>"
+        "<integer name=\"height\" value=\"16\"/></film></sensor>",
+        width);
+  };
+  write("in.xml",
+        "<scene version=\"3.0.0\">" + sensor(40) + sensor(24) + "<emitter type=\"constant\"/></scene>");
+  for (const auto& [option, width] : {std::pair("", 40), {"--camera 0", 40}, {"--camera 1", 24}}) {
+    ASSERT_EQ(render("a.film", std::string("--force ") + option, "in.xml").status, 0) << option;
+    EXPECT_EQ(size("a.film").first, width) << option;
+  }
+  const CommandResult none = render("b.film", "--camera 2", "in.xml");
+  EXPECT_NE(none.status, 0);
+  EXPECT_THAT(none.output, HasSubstr("2 sensors"));
+  EXPECT_NE(render("b.film", "--camera 1").status, 0) << "pbrt has one";
+}
+
+TEST_F(Pictures, SayHowMuchDarkerTheClampMakesThem) {
+  const auto brightness = [&](const std::string& film) {
+    const Film f = read_film(directory_ / film, nullptr);
+    double sum = 0;
+    for (std::uint32_t p = 0; p < f.pixels(); ++p) sum += f.mean(p).y;
+    return sum;
+  };
+  ASSERT_EQ(render("whole.film", "").status, 0);
+  const CommandResult clamped = run(
+      fmt::format("{} {} -o {} --spp 2 --clamp 0.4", vitrail("render"), path("in.pbrt"), path("cut.film")));
+  ASSERT_EQ(clamped.status, 0) << clamped.output;
+  EXPECT_THAT(clamped.output, HasSubstr("% of the light"));
+  const double share = read_film(directory_ / "cut.film", nullptr).clamped_share();
+  EXPECT_GT(share, 0.01);
+  EXPECT_NEAR(brightness("cut.film") / brightness("whole.film"), 1 - share, 1e-6);
+  EXPECT_EQ(render("cut.film", "").status, 3) << "another picture";
+  EXPECT_THAT(run(vitrail("inspect") + " " + path("cut.film")).output, HasSubstr("clamped share"));
 }
 
 TEST_F(Pictures, ADryRunWritesNothing) {

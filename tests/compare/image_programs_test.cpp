@@ -51,6 +51,35 @@ TEST_F(ImagePrograms, DevelopMergesSeedsInAnyOrder) {
   EXPECT_NEAR(picture.rgb.values[0], 2, 1e-5);
 }
 
+TEST_F(ImagePrograms, FilmsThatAreNotFinishedAreNamedOrRefused) {
+  const std::string a = film("a.film", 1);
+  FilmProgress progress;
+  const Film begun = read_film(directory_ / "a.film", &progress);
+  progress.done = {0};
+  write_film(directory_ / "b.film", begun, progress);
+  const CommandResult named = compare(a + ' ' + quoted("b.film"));
+  EXPECT_EQ(named.status, 0);
+  EXPECT_THAT(named.output, HasSubstr("b.film: the film is not finished"));
+  EXPECT_EQ(compare(a + ' ' + quoted("b.film") + " --strict").status, 3);
+  EXPECT_EQ(compare(a + ' ' + a + " --strict").status, 0);
+  EXPECT_EQ(develop(quoted("b.film") + " --strict -o " + quoted("b.png")).status, 3);
+}
+
+TEST_F(ImagePrograms, PicturesForScreensAreToneMapped) {
+  const std::string a = film("a.film", 1);  // of luminance 2
+  const auto shown = [&](const std::string& more) {
+    EXPECT_EQ(develop(a + " -o " + quoted("a.png") + ' ' + more).status, 0) << more;
+    return read_picture(directory_ / "a.png").rgb.values[1];
+  };
+  EXPECT_EQ(shown(""), 1);
+  EXPECT_GT(shown("--tone aces"), 0.75f);
+  EXPECT_LT(shown("--tone aces"), 0.85f);
+  EXPECT_LT(shown("--tone aces --exposure -3.474"), 0.12f);  // 18 %
+  const CommandResult light = develop(a + " -o " + quoted("a.exr") + " --tone aces");
+  EXPECT_EQ(light.status, 2);
+  EXPECT_THAT(light.output, HasSubstr("--tone is for screens"));
+}
+
 TEST_F(ImagePrograms, DevelopExposes) {
   ASSERT_EQ(develop(film("a.film", 1) + " -o " + quoted("a.exr") + " --exposure -1 --variance").status, 0);
   const Picture picture = read_picture(directory_ / "a.exr");

@@ -3,44 +3,21 @@
 
 #include <fmt/format.h>
 #include <fmt/os.h>
-#include <zlib.h>
 
 #include <array>
-#include <bit>
 #include <cmath>
 #include <fstream>
 #include <random>
 
 #include "importers/ply/write_ply.h"
 #include "scene/mesh.h"
+#include "tests/extremes/memory_text.h"
 
 namespace vitrail::test {
 
 namespace {
 
 using Path = std::filesystem::path;
-
-constexpr const char* head =
-    "LookAt 0 0 30 0 0 0 0 1 0\nCamera \"perspective\" \"float fov\" 40\n"
-    "Film \"rgb\" \"integer xresolution\" 64 \"integer yresolution\" 64\nWorldBegin\n";
-constexpr const char* triangle =
-    "Shape \"trianglemesh\" \"integer indices\" [0 1 2] \"point3 P\" [0 0 0 1 0 0 0 1 0]\n";
-constexpr const char* mitsuba_head =
-    "<scene version=\"3.0.0\">\n<sensor type=\"perspective\"><transform name=\"to_world\">"
-    "<lookat origin=\"0,0,30\" target=\"0,0,0\" up=\"0,1,0\"/></transform></sensor>\n"
-    "<emitter type=\"constant\"/>\n";
-
-int times(double share, double count) { return std::max(1, static_cast<int>(share * count)); }
-
-// A pbrt file: `count` times what `line(i)` gives, then `tail`.
-Path write_lines(const Path& directory, int count, const auto& line, const std::string& tail = triangle) {
-  const Path file = directory / "scene.pbrt";
-  fmt::ostream out = fmt::output_file(file.string());
-  out.print("{}", head);
-  for (int i = 0; i < count; ++i) out.print("{}", line(i));
-  out.print("{}", tail);
-  return file;
-}
 
 // ---- Triangles
 
@@ -72,83 +49,6 @@ Path large_triangles(const Path& directory, double share) {
 Path needles(const Path& directory, double share) {
   write_ply(sticks(times(share, 200'000), 1.5f, 1e-4f), directory / "scene.ply");
   return directory / "scene.ply";
-}
-
-// ---- Images
-
-void append_word(std::string& to, std::uint32_t word) {
-  for (int shift = 24; shift >= 0; shift -= 8) to += static_cast<char>(word >> shift);
-}
-
-void append_chunk(std::string& png, const std::string& kind, const std::string& content) {
-  append_word(png, static_cast<std::uint32_t>(content.size()));
-  const std::string checked = kind + content;
-  png += checked;
-  append_word(png, static_cast<std::uint32_t>(::crc32(0, reinterpret_cast<const Bytef*>(checked.data()),
-                                                      static_cast<uInt>(checked.size()))));
-}
-
-// A square colour image of 8 bits; few different colours.
-void write_png(const Path& file, int size, int seed) {
-  std::string rows;
-  for (int y = 0; y < size; ++y) {
-    rows += '\0';
-    for (int x = 0; x < size; ++x)
-      for (const int v : {x / 64 * 5, y / 64 * 3 + seed, 90}) rows += static_cast<char>(v % 256);
-  }
-  uLongf bytes = ::compressBound(rows.size());
-  std::string packed(bytes, '\0');
-  ::compress2(reinterpret_cast<Bytef*>(packed.data()), &bytes, reinterpret_cast<const Bytef*>(rows.data()),
-              rows.size(), 1);
-  packed.resize(bytes);
-  std::string png = "\x89PNG\r\n\x1a\n", header;
-  append_word(header, static_cast<std::uint32_t>(size));
-  append_word(header, static_cast<std::uint32_t>(size));
-  header += std::string("\x08\x02\0\0\0", 5);
-  append_chunk(png, "IHDR", header);
-  append_chunk(png, "IDAT", packed);
-  append_chunk(png, "IEND", "");
-  std::ofstream(file, std::ios::binary) << png;
-}
-
-Path image(const Path& directory, double share) {
-  write_png(directory / "a.png", times(std::sqrt(share), 4096), 0);
-  return write_lines(directory, 1, [](int) {
-    return "Texture \"a\" \"spectrum\" \"imagemap\" \"string filename\" \"a.png\" \"string filter\" "
-           "\"trilinear\"\n"
-           "Material \"diffuse\" \"texture reflectance\" \"a\"\n";
-  });
-}
-
-Path many_images(const Path& directory, double share) {
-  for (int i = 0; i < 16; ++i) write_png(directory / fmt::format("{}.png", i), 16, i);
-  return write_lines(directory, times(share, 20'000), [&](int i) {
-    return fmt::format(
-        "Texture \"t{0}\" \"spectrum\" \"imagemap\" \"string filename\" \"{1}.png\" \"float scale\" {2}\n"
-        "Material \"diffuse\" \"texture reflectance\" \"t{0}\"\n{3}",
-        i, i % 16, 1.0 / (1 + i / 16), triangle);
-  });
-}
-
-// Radiance's format, which holds a row after the other.
-Path environment(const Path& directory, double share) {
-  const int height = times(std::sqrt(share), 4096);
-  std::ofstream out(directory / "sky.hdr", std::ios::binary);
-  out << fmt::format("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y {} +X {}\n", height, 2 * height);
-  for (int y = 0; y < height; ++y) {
-    std::string row;
-    for (int x = 0; x < 2 * height; ++x) {
-      row += static_cast<char>(128 + x / 512);
-      row += static_cast<char>(128 + y / 512);
-      row += "\xc8\x80";
-    }
-    out << row;
-  }
-  out.close();
-  std::ofstream scene(directory / "scene.xml");
-  scene << "<scene version=\"3.0.0\"><emitter type=\"envmap\"><string name=\"filename\" value=\"sky.hdr\"/>"
-           "</emitter><shape type=\"sphere\"/></scene>";
-  return directory / "scene.xml";
 }
 
 // ---- Records
@@ -192,22 +92,25 @@ Path diagnostics(const Path& directory, double share) {
 Path prototypes(const Path& directory, double share) {
   return write_lines(directory, times(share, 200'000), [](int i) {
     return fmt::format("ObjectBegin \"{0}\"\n{1}ObjectEnd\nObjectInstance \"{0}\"\nObjectInstance \"{0}\"\n",
-                       i, triangle);
+                       i, pbrt_triangle);
   });
 }
 
-// Each object holds the one before it twice: 2²² triangles.
-Path nested_objects(const Path& directory, double) {
+// Each object holds the one before it twice: 2^levels triangles.
+Path nested(const Path& directory, int levels) {
   std::ofstream scene(directory / "scene.pbrt");
-  scene << head << "ObjectBegin \"0\"\n" << triangle << "ObjectEnd\n";
-  for (int i = 1; i <= 22; ++i)
+  scene << pbrt_head << "ObjectBegin \"0\"\n" << pbrt_triangle << "ObjectEnd\n";
+  for (int i = 1; i <= levels; ++i)
     scene << fmt::format(
         "ObjectBegin \"{0}\"\nObjectInstance \"{1}\"\nAttributeBegin\nTranslate {2} 0 0\n"
         "ObjectInstance \"{1}\"\nAttributeEnd\nObjectEnd\n",
         i, i - 1, std::pow(2.0, i));
-  scene << "ObjectInstance \"22\"\n";
+  scene << fmt::format("ObjectInstance \"{}\"\n", levels);
   return directory / "scene.pbrt";
 }
+
+Path nested_objects(const Path& directory, double) { return nested(directory, 22); }
+Path deeply_nested_objects(const Path& directory, double) { return nested(directory, 30); }
 
 Path mitsuba_instances(const Path& directory, double share) {
   const Path file = directory / "scene.xml";
@@ -229,7 +132,7 @@ Path grid_medium(const Path& directory, double share) {
   out.print(
       "{0}MakeNamedMedium \"m\" \"string type\" \"uniformgrid\" \"integer nx\" {1} \"integer ny\" {1} "
       "\"integer nz\" {1} \"float density\" [",
-      head, size);
+      pbrt_head, size);
   for (int i = 0; i < size * size * size; ++i) out.print("{} ", i % 10);
   out.print("]\nMediumInterface \"m\" \"\"\nMaterial \"interface\"\nShape \"sphere\"\n");
   return file;
@@ -271,7 +174,7 @@ Path attributes(const Path& directory, double share) {
 
 Path open_blocks(const Path& directory, double share) {
   const int count = times(share, 99'000);
-  std::string closing = triangle;
+  std::string closing = pbrt_triangle;
   for (int i = 0; i < count; ++i) closing += "AttributeEnd\n";
   return write_lines(
       directory, count,
@@ -282,20 +185,18 @@ constexpr std::uint64_t mib = 1 << 20;
 
 }  // namespace
 
-std::vector<MemoryRow> memory_rows() {
+std::vector<MemoryRow> memory_record_rows() {
   return {{"large_triangles", 64 * mib, "--domains 4096", large_triangles},
           {"needles", 200 * mib, "--domains 512", needles},
-          {"image", 256 * mib, "", image, true},
           {"lights", 128 * mib, "", lights},
           {"materials", 256 * mib, "", materials},
           {"mitsuba_instances", 256 * mib, "", mitsuba_instances},
           {"small_shapes", 256 * mib, "", small_shapes},
-          {"many_images", 256 * mib, "", many_images, true},
-          {"environment", 256 * mib, "", environment, true},
           {"long_names", 128 * mib, "", long_names},
           {"diagnostics", 128 * mib, "", diagnostics},
           {"prototypes", 256 * mib, "", prototypes},
           {"nested_objects", 256 * mib, "--flatten", nested_objects},
+          {"deeply_nested_objects", 64 * mib, "", deeply_nested_objects},
           {"grid_medium", 256 * mib, "", grid_medium},
           {"obj_groups", 128 * mib, "", obj_groups},
           {"curves", 256 * mib, "", curves},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Scenes in which something else than meshes takes the memory: each of one thing, very many times.
+// Scenes that take memory: each by one thing.
 #pragma once
 
 #include <filesystem>
@@ -18,6 +18,7 @@ struct MemoryRow {
   bool images = false;  // reads some
 };
 
-std::vector<MemoryRow> memory_rows();
+std::vector<MemoryRow> memory_record_rows();  // very many small things
+std::vector<MemoryRow> memory_file_rows();    // large files
 
 }  // namespace vitrail::test

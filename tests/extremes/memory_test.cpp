@@ -9,6 +9,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
@@ -22,10 +23,12 @@ namespace {
 struct Done {
   int status = -1;
   std::uint64_t peak_bytes = 0;
+  double seconds = 0;
   std::string output;
 };
 
 Done run(const std::string& command, const std::filesystem::path& output) {
+  const auto begin = std::chrono::steady_clock::now();
   const pid_t pid = ::fork();
   if (pid == 0) {
     ::execl("/bin/sh", "sh", "-c", fmt::format("exec {} >'{}' 2>&1", command, output.string()).c_str(),
@@ -38,6 +41,7 @@ Done run(const std::string& command, const std::filesystem::path& output) {
   std::ifstream in(output);
   return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status),
           static_cast<std::uint64_t>(usage.ru_maxrss) * 1024,
+          std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(),
           {std::istreambuf_iterator<char>(in), {}}};
 }
 
@@ -57,17 +61,21 @@ TEST_P(Memory, IsKeptOrRefused) {
       run(fmt::format("'" VITRAIL_BIN_DIR "/vitrail-partition' '{}' -o '{}' --no-sync --quiet --memory {} {}",
                       scene.string(), (directory / "out.vit").string(), budget, row.options),
           directory / "output");
-  fmt::print("{:20} budget {:4} MiB, peak {:6.1f} MiB, status {}: {}\n", row.what, budget >> 20,
-             static_cast<double>(done.peak_bytes) / (1 << 20), done.status,
+  fmt::print("{:20} budget {:4} MiB, peak {:6.1f} MiB, {:5.1f} s, status {}: {}\n", row.what, budget >> 20,
+             static_cast<double>(done.peak_bytes) / (1 << 20), done.seconds, done.status,
              done.status == 0 ? "" : done.output.substr(0, done.output.find('\n')));
   EXPECT_LE(done.peak_bytes, budget);
   EXPECT_THAT(done.status, ::testing::AnyOf(0, 4)) << done.output;
-  if (done.status == 4) EXPECT_THAT(done.output, ::testing::HasSubstr("needed")) << done.output;
+  if (done.status == 4) {
+    EXPECT_THAT(done.output, ::testing::HasSubstr("needed")) << done.output;
+  }
   EXPECT_EQ(std::filesystem::exists(directory / "out.vit"), done.status == 0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Rows, Memory, ::testing::ValuesIn(memory_rows()),
-                         [](const auto& row) { return row.param.what; });
+std::string name_of(const ::testing::TestParamInfo<MemoryRow>& row) { return row.param.what; }
+
+INSTANTIATE_TEST_SUITE_P(Records, Memory, ::testing::ValuesIn(memory_record_rows()), name_of);
+INSTANTIATE_TEST_SUITE_P(Files, Memory, ::testing::ValuesIn(memory_file_rows()), name_of);
 
 }  // namespace
 }  // namespace vitrail::test

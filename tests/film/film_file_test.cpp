@@ -25,11 +25,15 @@ class FilmFile : public testing::Test {
     settings.crop = {2, 7, 1, 4};
     settings.imaging_ratio = 0.25;
     settings.spectrum = {3, 400, 700};
+    settings.layers.add(Layer::depth);
+    settings.layers.add(Layer::shape);
     film_ = Film(settings, {11, 33, 7, true, false}, -61);
     for (std::uint32_t p = 0; p < 15; ++p) {
       film_.count_sample(p, p);
       film_.deposit(p, p, {0.1 * p, 0.2 * p, 0.3 * p});
       film_.deposit_bin(p, p, p % 3, 0.5 * p);
+      film_.deposit_layer(p, p, Layer::depth, std::array{0.3 * p});
+      film_.put_id(p, p, Layer::shape, p);
     }
     film_.deposit(0, 0, {1e30, 0, 0});
     progress_ = {70, 16, {0xff, 0x3f}, 1.5, {4, 8}, "{\"scene\":\"a.pbrt\"}"};
@@ -105,12 +109,13 @@ TEST_F(FilmFile, SenselessHeadersAreFound) {
   };
   const std::string good = bytes();
   for (const Field& f : {Field{16, 2000000}, Field{20, 1}, Field{36, 5000}, Field{116, 0x41414141},
-                         Field{124, 0x80000000}, Field{128, 4}, Field{132, 901}, Field{132, 0x80000000}}) {
+                         Field{124, 0x80000000}, Field{128, 8}, Field{132, 901}, Field{132, 0x80000000},
+                         Field{160, 1u << layer_count}, Field{160, all_layers}, Field{164, 901}}) {
     std::string bad = good;
     std::memcpy(bad.data() + f.offset, &f.value, sizeof f.value);
     if (f.offset == 116) bad.replace(104, 16, 16, 'A');
-    const std::uint64_t sum = XXH3_64bits(bad.data(), 160);
-    std::memcpy(bad.data() + 160, &sum, sizeof sum);
+    const std::uint64_t sum = XXH3_64bits(bad.data(), 168);
+    std::memcpy(bad.data() + 168, &sum, sizeof sum);
     overwrite(bad);
     EXPECT_THROW(read_film(file_, nullptr), Error) << "offset " << f.offset;
   }
@@ -133,7 +138,7 @@ TEST_F(FilmFile, SaysWhatIsWrong) {
   overwrite(other_version);
   expect_error("version 9");
   overwrite(
-      "not a film but long enough to hold a header, which is one hundred and sixty-eight bytes long, and a "
+      "not a film but long enough to hold a header, which is one hundred and seventy-six bytes long, and a "
       "little "
       "more, so that it is not found too short before anything of it is looked at: that takes a few words");
   expect_error("not a film file");

@@ -57,6 +57,30 @@ TEST(Film, MeanIsSumOverCountTimesRatio) {
   EXPECT_EQ(film.samples(1), 4u);
 }
 
+TEST(Film, ClampsDepositsAndKnowsWhatItTook) {
+  FilmSettings s = settings(2, 1);
+  s.imaging_ratio = 2;
+  FilmKey key;
+  key.clamp = 10;
+  Film film(s, key);
+  EXPECT_EQ(film.clamped_share(), 0);
+  const auto deposit = [&](const XYZ& v) {
+    const double left = film.clamp(1, 0, v);
+    ASSERT_TRUE(film.deposit(1, 0, {left * v.x, left * v.y, left * v.z}));
+  };
+  film.count_sample(1, 0);
+  deposit({1, 3, 2});    // 6 of 10
+  deposit({4, 20, 40});  // an eighth is left
+  EXPECT_EQ(film.mean(1), (XYZ{2 * 1.5, 2 * 5.5, 2 * 7}));
+  EXPECT_DOUBLE_EQ(film.clamped_share(), 17.5 / 23);
+  Film other(s, key);
+  other.merge(film);
+  EXPECT_EQ(other.clamped_share(), film.clamped_share());
+  key.clamp = 11;
+  EXPECT_THROW(Film(s, key).merge(film), Error);
+  EXPECT_EQ(Film(s, FilmKey{}).clamp(0, 0, {1e9, 1e9, 1e9}), 1);
+}
+
 // Whole numbers of quanta exactly; what is between two of them as either, and right on the average.
 TEST(Film, RoundsWithoutBias) {
   constexpr int n = 100000;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "film/image_io.h"
 
+#include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -49,6 +50,32 @@ TEST(ImageIo, ExrWithoutVariance) {
   const Picture back = read_picture(directory / "a.exr");
   EXPECT_EQ(back.rgb, p.rgb);
   EXPECT_EQ(back.variance.pixels(), 0u);
+}
+
+// Ids as 32-bit integers.
+TEST(ImageIo, ExrHasLayersAsChannels) {
+  const test::TemporaryDirectory directory;
+  Picture p = picture();
+  p.layers = {{"Albedo.R", false, {0.25f, -3}, {}}, {"Id.shape", true, {}, {0xffffffffu, 7}}};
+  write_picture(directory / "a.exr", p);
+  const auto in = OIIO::ImageInput::open((directory / "a.exr").string());
+  ASSERT_TRUE(in);
+  const OIIO::ImageSpec& spec = in->spec();
+  ASSERT_EQ(spec.nchannels, 6);
+  const int albedo = spec.channelindex("Albedo.R"), shape = spec.channelindex("Id.shape");
+  ASSERT_GE(albedo, 0);
+  ASSERT_GE(shape, 0);
+  EXPECT_EQ(spec.channelformat(albedo), OIIO::TypeDesc::FLOAT);
+  EXPECT_EQ(spec.channelformat(shape), OIIO::TypeDesc::UINT32);
+  std::array<float, 2> values{};
+  std::array<std::uint32_t, 2> ids{};
+  ASSERT_TRUE(in->read_image(0, 0, albedo, albedo + 1, OIIO::TypeDesc::FLOAT, values.data()));
+  ASSERT_TRUE(in->read_image(0, 0, shape, shape + 1, OIIO::TypeDesc::UINT32, ids.data()));
+  EXPECT_EQ(values, (std::array{0.25f, -3.0f}));
+  EXPECT_EQ(ids, (std::array{0xffffffffu, 7u}));
+  const Picture back = read_picture(directory / "a.exr");
+  EXPECT_EQ(back.rgb, p.rgb);
+  EXPECT_EQ(back.variance, p.variance);
 }
 
 TEST(ImageIo, EqualPicturesGiveEqualFilesAndNothingElse) {

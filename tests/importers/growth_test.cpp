@@ -127,5 +127,21 @@ TEST_F(Growth, NestedObjectsAreWrittenWithTheRootOfTheirShapes) {
   }
 }
 
+// An object of n shapes of one mesh of 4n vertices, in n places.
+TEST_F(Growth, InstancesOfLargeObjects) {
+  const auto scene = [](std::uint32_t count) {
+    Scene made = with_materials(1, [](int) { return Material{DiffuseMaterial{}}; });
+    for (std::uint32_t i = 3; i < 4 * count; ++i) made.meshes[0].positions.push_back({1, 1, 1});
+    const Shape shape = made.shapes[0];
+    made.shapes.clear();
+    Prototype& prototype = made.prototypes.emplace_back();
+    prototype.shapes.resize(count, shape);
+    for (std::uint32_t i = 0; i < count; ++i)
+      made.instances.push_back({{0}, translate({static_cast<double>(i), 0, 0}), {}});
+    return made;
+  };
+  expect_export_is_linear(scene(few), scene(many), "a.xml");
+}
+
 }  // namespace
 }  // namespace vitrail

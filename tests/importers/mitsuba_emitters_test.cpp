@@ -113,7 +113,7 @@ TEST_F(MitsubaEmitters, WrittenAreaLightsComeBack) {
     original.shapes.back().area_light = add_to(original.area_lights, light);
   }
   EXPECT_EQ(written_and_read(original).area_lights, original.area_lights);
-  expect_only("");
+  expect_only("directionalarea");
 }
 
 TEST_F(MitsubaEmitters, PlacesByTransform) {

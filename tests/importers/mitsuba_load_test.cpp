@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What surrounds the plugins of a Mitsuba file: includes, defaults, references, old spellings, and input that
 // means harm.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include "importers/mitsuba/mitsuba.h"
@@ -89,6 +90,30 @@ TEST_F(MitsubaLoad, AdaptersReachTheParts) {
   const std::string opaque =
       "<bsdf type=\"blendbsdf\"><bsdf type=\"diffuse\"/><bsdf type=\"diffuse\"/></bsdf>";
   EXPECT_TRUE(leaf(material("<bsdf type=\"twosided\" id=\"m\">" + opaque + "</bsdf>")).two_sided);
+}
+
+// Measured: behind bumps on a mask, a sheet or nothing no light of emitters gets through to volpath.
+TEST_F(MitsubaLoad, BumpsThatMitsubaMeansOtherwise) {
+  const auto says = [&](const std::string& words, const std::string& integrator, const std::string& bsdf) {
+    material("<integrator type=\"" + integrator + "\"/>" + bsdf);
+    return mentions(words);
+  };
+  const std::string bumps = "<texture type=\"checkerboard\" name=\"texture\"/>",
+                    diffuse = "<bsdf type=\"diffuse\"/>";
+  const auto with = [&](const char* type, const std::string& inside) {
+    return fmt::format("<bsdf type=\"{}\" id=\"m\">{}</bsdf>", type, inside);
+  };
+  const std::string mask = "<bsdf type=\"mask\">" + diffuse + "</bsdf>";
+  EXPECT_TRUE(says("these bumps", "volpath", with("bumpmap", bumps + mask)));
+  EXPECT_TRUE(says("these bumps", "volpath", with("normalmap", bumps + "<bsdf type=\"thindielectric\"/>")));
+  EXPECT_FALSE(says("these bumps", "path", with("bumpmap", bumps + mask)));
+  EXPECT_FALSE(says("these bumps", "volpath", with("bumpmap", bumps + diffuse)));
+
+  // It mirrors what twosided is around, and turns over what is around it.
+  EXPECT_TRUE(
+      says("on the back", "path", with("twosided", "<bsdf type=\"bumpmap\">" + bumps + diffuse + "</bsdf>")));
+  EXPECT_FALSE(
+      says("on the back", "path", with("bumpmap", bumps + "<bsdf type=\"twosided\">" + diffuse + "</bsdf>")));
 }
 
 TEST_F(MitsubaLoad, NullCountsInMitsubasPath) {

@@ -256,7 +256,41 @@ TEST(MitsubaIntegrator, WrappersShowTheirInside) {
       "<integrator type='aov'><string name='aovs' value='dd:depth'/><integrator type='moment'>"
       "<integrator type='direct'/></integrator></integrator>");
   EXPECT_TRUE(reading.scene.settings.direct_only);
-  EXPECT_THAT(reading.diagnostics, IsEmpty());
+  EXPECT_EQ(names_of(reading.scene.film.layers), "depth");
+}
+
+// Before and after the film is read, which knows nothing of them.
+TEST(MitsubaIntegrator, AovsAreLayersOfTheFilm) {
+  const std::string aov =
+      "<integrator type='aov'><string name='aovs' value='a:albedo, dd.y:depth,p:position,uv:uv ,"
+      "n:geo_normal,s:sh_normal,i:prim_index,j:shape_index'/><integrator type='path'/></integrator>";
+  for (const std::string& text : {aov + sensor("perspective", ""), sensor("perspective", "") + aov}) {
+    const Reading reading = read_text(text);
+    EXPECT_EQ(names_of(reading.scene.film.layers),
+              "albedo,position,geo_normal,sh_normal,uv,depth,shape_index,prim_index");
+    EXPECT_FALSE(reading.scene.film.layers.in_camera_space);
+    EXPECT_THAT(reading.diagnostics, says("normals face the camera"));
+  }
+  const auto aovs = [](const std::string& names) {
+    return read_text("<integrator type='aov'><string name='aovs' value='" + names +
+                     "'/><integrator type='path'/></integrator>");
+  };
+  EXPECT_THAT(aovs("p:position,t:uv").diagnostics, IsEmpty());
+  EXPECT_THAT(aovs("p:position,q:dp_du").diagnostics, says("\"q:dp_du\""));
+  EXPECT_EQ(names_of(aovs("p:position,q:dp_du").scene.film.layers), "position");
+}
+
+TEST(MitsubaIntegrator, AovsAreWritten) {
+  Scene scene = read_text(sensor("perspective", "") + "<integrator type='path'/>").scene;
+  scene.film.layers.bits = all_layers & ~(1u << static_cast<int>(Layer::material));
+  EXPECT_EQ(written_and_read(scene).scene.film.layers, scene.film.layers);
+  EXPECT_EQ(written_and_read(scene).scene.settings, scene.settings);
+  scene.film.layers.add(Layer::material);
+  scene.film.layers.in_camera_space = true;
+  const TemporaryFolder folder;
+  const Diagnostics written = write_mitsuba(scene, folder / "scene.xml");
+  EXPECT_THAT(written, says("no index of materials"));
+  EXPECT_THAT(written, says("are the world's"));
 }
 
 TEST(MitsubaIntegrator, WhatItLeavesOutIsSaid) {

@@ -126,10 +126,20 @@ TEST(PbrtFilm, WhatItLosesIsReported) {
   EXPECT_TRUE(spectral.diagnostics.empty());
   EXPECT_EQ(settings("Film \"spectral\"").scene.film.spectrum, (SpectralBins{16, 360, 830}));
   EXPECT_EQ(settings("Film \"rgb\"").scene.film.spectrum.count, 0);
-  EXPECT_TRUE(mentions(settings("Film \"gbuffer\"").diagnostics, "gbuffer"));
   EXPECT_TRUE(mentions(settings("Film \"rgb\" \"float whitebalance\" 5000").diagnostics, "white balance"));
   EXPECT_TRUE(mentions(settings("Film \"rgb\" \"integer xresoluton\" 3").diagnostics,
                        "did you mean \"xresolution\""));
+}
+
+TEST(PbrtFilm, TheGbufferKeepsLayers) {
+  const ImportedScene gbuffer = settings("Film \"gbuffer\"");
+  EXPECT_EQ(names_of(gbuffer.scene.film.layers), "albedo,position,geo_normal,sh_normal,uv");
+  EXPECT_TRUE(gbuffer.scene.film.layers.in_camera_space);
+  EXPECT_TRUE(mentions(gbuffer.diagnostics, "dzdx"));
+  const auto layers = [](const std::string& text) { return settings(text).scene.film.layers; };
+  EXPECT_FALSE(layers("Film \"gbuffer\" \"string coordinatesystem\" \"world\"").in_camera_space);
+  EXPECT_THROW(layers("Film \"gbuffer\" \"string coordinatesystem\" \"object\""), Error);
+  EXPECT_EQ(layers("Film \"rgb\""), FilmLayers{});
 }
 
 TEST(PbrtFilter, KindsAndDefaultsAreThoseOfTheVersion) {

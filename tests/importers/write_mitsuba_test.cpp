@@ -11,6 +11,7 @@
 #include <pugixml.hpp>
 
 #include "images/image_files.h"
+#include "importers/mitsuba/mitsuba.h"
 #include "importers/mitsuba/write_camera.h"
 #include "tests/importers/temporary_folder.h"
 #include "tests/importers/written_scenes.h"
@@ -213,15 +214,61 @@ TEST_F(WriteMitsuba, AdaptersNest) {
   scene.materials[0].displacement = FloatParameter{Id<Texture>{1}};
   scene.materials[0].name = "wall";
   const auto outer = write(scene).child("bsdf");
-  EXPECT_STREQ(outer.attribute("type").value(), "twosided");
+  EXPECT_STREQ(outer.attribute("type").value(), "normalmap");
   EXPECT_STREQ(outer.attribute("id").value(), "wall");
-  EXPECT_STREQ(outer.child("bsdf").attribute("type").value(), "normalmap");
-  EXPECT_EQ(reference(outer.child("bsdf"), "normalmap"), "n");
-  const auto bump = outer.child("bsdf").child("bsdf");
+  EXPECT_EQ(reference(outer, "normalmap"), "n");
+  const auto bump = outer.child("bsdf");
   EXPECT_STREQ(bump.attribute("type").value(), "bumpmap");
   EXPECT_EQ(value(bump, "scale"), "1");
-  EXPECT_STREQ(bump.child("bsdf").attribute("type").value(), "diffuse");
+  EXPECT_STREQ(bump.child("bsdf").attribute("type").value(), "twosided");
+  EXPECT_STREQ(bump.child("bsdf").child("bsdf").attribute("type").value(), "diffuse");
   EXPECT_EQ(value(document_.child("scene").child("texture"), "raw"), "true");
+}
+
+TEST_F(WriteMitsuba, BumpsBelongToWhatShowsThem) {
+  Scene scene = square_scene({});
+  scene.textures = {{ImageTexture{"/n.exr"}, false, "n", {}}};
+  scene.materials.push_back({MaskMaterial{0.5f, Id<Material>{0}}});
+  scene.materials.push_back({InterfaceMaterial{}});
+  scene.materials.push_back({ThinDielectricMaterial{}});
+  for (std::size_t i = 1; i < 4; ++i) scene.materials[i].normal_map = Id<Texture>{0};
+  scene.settings.straight_counts = false;
+  const auto outermost = write(scene).child("bsdf");
+  std::vector<std::string> types;
+  for (auto bsdf = outermost; bsdf; bsdf = bsdf.next_sibling("bsdf"))
+    types.emplace_back(bsdf.attribute("type").value());
+  EXPECT_THAT(types, ElementsAre("twosided", "mask", "null", "normalmap"));
+  EXPECT_THAT(diagnostics_, SizeIs(2));
+  EXPECT_THAT(diagnostics_, drops("bumps of a material that is made of others"));
+  EXPECT_THAT(diagnostics_, approximates("lets no light of emitters through it"));
+}
+
+// Measured: Mitsuba 3.9.1 gives .696 for .7 of a mirror and .3 of a grey of .2, which is .76.
+TEST_F(WriteMitsuba, BlendsOfMirrorsAreDarkerThere) {
+  Scene scene = square_scene({});
+  const auto add = [&](MaterialModel model) { return add_to(scene.materials, Material{std::move(model)}); };
+  const Id<Material> diffuse{0}, mirror = add(ConductorMaterial{}), glass = add(DielectricMaterial{}),
+                                 mask = add(MaskMaterial{0.5f, mirror});
+  add(BlendMaterial{mirror, glass, 0.5f}), add(BlendMaterial{diffuse, diffuse, 0.5f});
+  scene.settings.straight_counts = false;
+  write(scene);
+  EXPECT_THAT(diagnostics_, IsEmpty());
+  add(BlendMaterial{mask, diffuse, 0.5f});
+  write(scene);
+  EXPECT_THAT(diagnostics_, approximates("makes it darker"));
+  EXPECT_THAT(read_mitsuba(folder_ / "scene.xml").diagnostics, approximates("darker in Mitsuba"));
+}
+
+// A blend with nothing lets light straight through as a mask does.
+TEST_F(WriteMitsuba, EventsThatMitsubaDoesNotCount) {
+  Scene scene = square_scene({});
+  scene.materials.push_back({InterfaceMaterial{}});
+  scene.materials.push_back({BlendMaterial{Id<Material>{0}, Id<Material>{1}, 0.5f}});
+  write(scene);
+  EXPECT_THAT(diagnostics_, approximates("the depth"));
+  scene.settings.straight_counts = false;
+  write(scene);
+  EXPECT_THAT(diagnostics_, IsEmpty());
 }
 
 TEST_F(WriteMitsuba, ExactModels) {

@@ -67,6 +67,29 @@ TEST(WritePbrt, FilmsFiltersAndSettings) {
     expect_exact(std::string(settings) + " WorldBegin " + triangle);
 }
 
+TEST(WritePbrt, LayersOfFirstSurfaces) {
+  for (const char* space : {"camera", "world"})
+    expect_exact("Film \"gbuffer\" \"string coordinatesystem\" \"" + std::string(space) + "\" WorldBegin " +
+                 triangle);
+  Scene scene = round_trip("Film \"rgb\" WorldBegin " + triangle).first.scene;
+  const auto written = [&](FilmLayers layers, int bins) {
+    scene.film.layers = layers;
+    scene.film.spectrum.count = bins;
+    const TemporaryFolder folder;
+    std::string said;
+    for (const Diagnostic& d : write_pbrt(scene, folder / "out.pbrt")) said += d.message + "\n";
+    return std::pair(read_pbrt(folder / "out.pbrt").scene.film.layers, said);
+  };
+  FilmLayers depth, two;
+  depth.add(Layer::depth);
+  two.add(Layer::albedo), two.add(Layer::shape);
+  EXPECT_THAT(written(depth, 0).second, testing::HasSubstr("\"rgb\" has not: depth"));
+  EXPECT_FALSE(written(depth, 0).first.any());
+  EXPECT_THAT(written(two, 0).second, testing::HasSubstr("has not: shape_index"));
+  EXPECT_TRUE(written(two, 0).first.has(Layer::albedo));
+  EXPECT_THAT(written(two, 16).second, testing::HasSubstr("\"spectral\" has not: albedo,shape_index"));
+}
+
 TEST(WritePbrt, Materials) {
   for (const char* material :
        {"Material \"diffuse\" \"rgb reflectance\" [.1 .2 .3]",
@@ -299,7 +322,19 @@ TEST_F(WrittenMasks, CountForNoDepthInPbrt) {
   EXPECT_FALSE(mentions(diagnostics_, "the depth"));
   add(ThinDielectricMaterial{});
   written(half_);
-  EXPECT_TRUE(mentions(diagnostics_, "thin sheets"));
+  EXPECT_TRUE(mentions(diagnostics_, "going straight through thin sheets"));
+  EXPECT_FALSE(mentions(diagnostics_, "without extent"));
+  scene_.lights.push_back({PointLight{}, {}});
+  written(half_);
+  EXPECT_TRUE(mentions(diagnostics_, "lights without extent do not shine through thin sheets"));
+}
+
+TEST_F(WrittenMasks, BlendsWithNothingCountForNoDepthInPbrt) {
+  scene_.materials.at(half_.value).model = DiffuseMaterial{};
+  const Id<Material> nothing = add(InterfaceMaterial{});
+  const Shape blend = written(add(BlendMaterial{nothing, dark_, 0.5f}));
+  EXPECT_EQ(constant_opacity(blend), 0.5f);
+  EXPECT_TRUE(mentions(diagnostics_, "the depth"));
 }
 
 // A mask leaves the light of a surface alone, an alpha does not; and pbrt drops the lights of interfaces.

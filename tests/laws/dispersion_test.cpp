@@ -81,11 +81,10 @@ std::vector<double> spectrum_of_beam(const Experiment& e, bool ramp) {
   scene.meshes.push_back(mesh);
   AreaLight light{ConstantSpectrum{1}};
   light.two_sided = true;
-  if (ramp) {
-    const Spectrum zero = ConstantSpectrum{0}, one = ConstantSpectrum{1};
-    scene.textures.push_back({BilinearTexture{zero, zero, one, one, UvMapping{}}, false, "", {}});
-    light.radiance = Id<Texture>{static_cast<std::uint32_t>(scene.textures.size() - 1)};
-  }
+  // Textures that shine are under D65, of which the ratio of the two knows nothing.
+  const Spectrum begin = ConstantSpectrum{ramp ? 0.0f : 1.0f}, one = ConstantSpectrum{1};
+  scene.textures.push_back({BilinearTexture{begin, begin, one, one, UvMapping{}}, false, "", {}});
+  light.radiance = Id<Texture>{static_cast<std::uint32_t>(scene.textures.size() - 1)};
   add_shape(scene, {static_cast<std::uint32_t>(scene.meshes.size() - 1)}, black, light);
 
   scene.film.spectrum = bins;

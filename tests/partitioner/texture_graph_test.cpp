@@ -91,6 +91,17 @@ TEST(TextureGraph, ColorsMeanWhatTheyAreUsedFor) {
   test::expect_near(at(emission), emission_from_rgb({3, 1, 0.5}), 1e-5);
 }
 
+// As those of an image do: a grey of ½ shines as rgb ½ ½ ½ does.
+TEST(TextureGraph, SpectraThatShineAreUnderD65) {
+  test::BakedScene s;
+  const Id<Texture> grey =
+      s.add(CheckerboardTexture{ConstantSpectrum{0.5f}, ConstantSpectrum{0.5f}, UvMapping{}});
+  const SpectrumParameter emission = s.bake().bake(grey, TextureUse::illuminant);
+  const Textures textures = s.look_up();
+  test::expect_near(textures.spectrum(emission, at_uv(0.1, 0.1), some_wavelengths),
+                    emission_from_rgb({0.5, 0.5, 0.5}), 1e-5);
+}
+
 TEST(TextureGraph, MappingsByPosition) {
   test::BakedScene s;
   const Transform place = translate({10, 0, 0}) * scale({2, 2, 2});

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
+#include <sys/syscall.h>
+#include <unistd.h>
 
 #include <fstream>
 #include <iterator>
@@ -7,6 +9,17 @@
 #include "scene/atomic_file.h"
 #include "scene/diagnostics.h"
 #include "tests/support/temporary_directory.h"
+
+// In place of the library's: counts.
+static int file_syncs = 0, file_system_syncs = 0;
+extern "C" int fsync(int descriptor) {
+  ++file_syncs;
+  return static_cast<int>(::syscall(SYS_fsync, descriptor));
+}
+extern "C" int syncfs(int descriptor) noexcept {
+  ++file_system_syncs;
+  return static_cast<int>(::syscall(SYS_syncfs, descriptor));
+}
 
 namespace vitrail {
 namespace {
@@ -40,6 +53,25 @@ TEST(AtomicFile, LeavesNothingWithoutCommit) {
   }
   EXPECT_TRUE(std::filesystem::is_empty(directory.path()));
   EXPECT_THROW(AtomicFile(directory / "nowhere/a"), MachineError);
+}
+
+TEST(AtomicFile, PartsReachTheDiskTogetherBeforeWhatSpeaksOfThem) {
+  const test::TemporaryDirectory directory;
+  file_syncs = file_system_syncs = 0;
+  for (const char* name : {"a", "b", "c"}) {
+    AtomicFile part(directory / name);
+    write(part, name);
+    part.commit_part();
+    EXPECT_EQ(content(directory / name), name);
+  }
+  EXPECT_EQ(file_syncs + file_system_syncs, 0);
+  for (const int waits : {1, 0}) {
+    file_system_syncs = 0;
+    AtomicFile whole(directory / "whole");
+    write(whole, "abc");
+    whole.commit();
+    EXPECT_EQ(file_system_syncs, waits);
+  }
 }
 
 TEST(AtomicFile, AFullDiskIsSaid) {

@@ -13,8 +13,9 @@ namespace vitrail::test {
 
 namespace {
 
-// `text` may have COLOR(name) and NUMBER(name) for parameters, BSDF for what an adapter is around, and
-// EMITTER for what a shape gives off.
+// As Mitsuba's spectral variants take them: no raw bitmap of three channels is a colour to them, and no other
+// one a number. `text` may have COLOR(name) and NUMBER(name) for parameters, BSDF for what an adapter is
+// around, and EMITTER for what a shape gives off.
 struct Value {
   const char *name, *text;
 };
@@ -102,9 +103,6 @@ constexpr std::array colors{
     Value{"bitmap", "<texture type='bitmap' name='NAME'><string name='filename' value='a.png'/></texture>"},
     Value{"linear bitmap",
           "<texture type='bitmap' name='NAME'><string name='filename' value='a.exr'/></texture>"},
-    Value{"raw bitmap",
-          "<texture type='bitmap' name='NAME'><string name='filename' value='a.png'/><boolean name='raw' "
-          "value='true'/></texture>"},
     Value{"turned bitmap",
           "<texture type='bitmap' name='NAME'><string name='filename' value='b.png'/><transform "
           "name='to_uv'><rotate z='1' angle='30'/><scale x='2' y='3'/><translate x='.1' "
@@ -128,9 +126,10 @@ constexpr std::array numbers{
           "<texture type='bitmap' name='NAME'><string name='filename' value='grey.exr'/><boolean name='raw' "
           "value='true'/></texture>"},
     Value{"8-bit bitmap",
-          "<texture type='bitmap' name='NAME'><string name='filename' value='grey.png'/></texture>"},
-    Value{"colour bitmap",
-          "<texture type='bitmap' name='NAME'><string name='filename' value='a.png'/></texture>"},
+          "<texture type='bitmap' name='NAME'><string name='filename' value='grey.tga'/></texture>"},
+    Value{"raw 8-bit bitmap",
+          "<texture type='bitmap' name='NAME'><string name='filename' value='grey.tga'/><boolean name='raw' "
+          "value='true'/></texture>"},
     Value{"raw colour bitmap",
           "<texture type='bitmap' name='NAME'><string name='filename' value='a.png'/><boolean name='raw' "
           "value='true'/></texture>"},
@@ -263,8 +262,15 @@ bool transmits(const std::string& bsdf) {
   return false;
 }
 
+bool lets_straight(const std::string& text) {
+  for (const char* type : {"'thindielectric'", "'mask'", "'null'"})
+    if (text.find(type) != std::string::npos) return true;
+  return false;
+}
+
 constexpr const char* frame =
-    "<scene version='3.0.0'>\n<integrator type='path'><integer name='max_depth' value='5'/></integrator>\n"
+    "<scene version='3.0.0'>\n<integrator type='INTEGRATOR'><integer name='max_depth' "
+    "value='5'/></integrator>\n"
     "<sensor type='perspective'><float name='fov' value='48.5'/><transform name='to_world'><lookat "
     "origin='.2,.4,5' target='0,0,0' up='0,1,0'/></transform><film type='hdrfilm'><integer name='width' "
     "value='32'/><integer name='height' value='32'/><rfilter type='box'/></film></sensor>\n"
@@ -294,6 +300,17 @@ void write_meshes(const std::filesystem::path& folder) {
       << "3 0 1 2\n3 0 2 3\n";
 }
 
+// Mitsuba refuses to make a number of a picture of three channels, which ours of 8 bits are.
+void write_grey_picture(const std::filesystem::path& file) {
+  constexpr int side = 8;
+  std::string bytes(18, '\0');  // an uncompressed TGA of one channel, from the top
+  bytes[2] = 3, bytes[12] = bytes[14] = side, bytes[16] = 8, bytes[17] = 0x20;
+  for (int y = 0; y < side; ++y)
+    for (int x = 0; x < side; ++x) bytes += static_cast<char>(20 * x + 9 * y + 10);
+  bytes += std::string(8, '\0') + "TRUEVISION-XFILE." + '\0';  // by which Mitsuba knows it
+  std::ofstream(file, std::ios::binary) << bytes;
+}
+
 std::vector<std::size_t> sizes() {
   std::vector<std::size_t> result;
   for (const auto& values : dimensions) result.push_back(values.size());
@@ -302,7 +319,10 @@ std::vector<std::size_t> sizes() {
 
 }  // namespace
 
-MitsubaSources::MitsubaSources(const std::filesystem::path& folder) { write_meshes(folder); }
+MitsubaSources::MitsubaSources(const std::filesystem::path& folder) {
+  write_meshes(folder);
+  write_grey_picture(folder / "grey.tga");
+}
 
 std::vector<MitsubaSources::Row> MitsubaSources::rows() const { return rows_of_all_pairs(sizes()); }
 
@@ -326,6 +346,8 @@ void MitsubaSources::write(const Row& row, const std::filesystem::path& file) co
   replace_all(light, "LAMP", lamp_to_world);
   replace_all(text, "LIGHT", light);
   replace_all(text, "SHAPE", shape);
+  // As in cross_product.cpp.
+  replace_all(text, "INTEGRATOR", lets_straight(bsdf + light) ? "volpath" : "path");
   std::ofstream(file) << text;
 }
 

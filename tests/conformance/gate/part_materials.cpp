@@ -154,6 +154,10 @@ FloatParameter height_image(S& s) {
   image.filename = s.image("grey.exr");
   return s.add(image, true);
 }
+Id<Material> blend(S& s, Material a, Material b) {
+  const Id<Material> first = s.add(std::move(a)), second = s.add(std::move(b));
+  return s.add({BlendMaterial{first, second, 0.5f}});
+}
 
 constexpr std::array wrappers{
     WrapperValue{"alone", [](S& s, Material m) { return s.add(std::move(m)); }},
@@ -216,26 +220,23 @@ constexpr std::array wrappers{
                    m.bump_shadowing = true;
                    return s.add(std::move(m));
                  }},
-    WrapperValue{"bump on a blend",
+    WrapperValue{"blend of bumps",
                  [](S& s, Material m) {
-                   const Id<Material> first = s.add(std::move(m)), second = s.add(other());
-                   Material blend{BlendMaterial{first, second, 0.5f}};
-                   blend.displacement = height_image(s);
-                   return s.add(std::move(blend));
+                   Material second = other();
+                   m.displacement = second.displacement = height_image(s);
+                   return blend(s, std::move(m), std::move(second));
                  }},
-    WrapperValue{"bump on a mask",
+    WrapperValue{"mask of a bump",
                  [](S& s, Material m) {
+                   m.displacement = height_image(s);
                    const Id<Material> inner = s.add(std::move(m));
-                   Material mask{MaskMaterial{0.6f, inner}};
-                   mask.displacement = height_image(s);
-                   return s.add(std::move(mask));
+                   return s.add({MaskMaterial{0.6f, inner}});
                  }},
-    WrapperValue{"normal map on a blend",
+    WrapperValue{"blend of normal maps",
                  [](S& s, Material m) {
-                   const Id<Material> first = s.add(std::move(m)), second = s.add(other());
-                   Material blend{BlendMaterial{first, second, 0.5f}};
-                   blend.normal_map = normals(s);
-                   return s.add(std::move(blend));
+                   Material second = other();
+                   m.normal_map = second.normal_map = normals(s);
+                   return blend(s, std::move(m), std::move(second));
                  }},
 };
 

@@ -26,8 +26,8 @@ std::vector<BlockMeans> rendered(const Scene& scene, const Sampling& sampling) {
   RenderOptions options;
   options.bundle = directory / "scene.vit";
   options.film = directory / "scene.film";
-  options.force = true;
   options.samples_per_pixel = sampling.samples;
+  options.force = true;  // each seed is read before the next takes its name
   int argc = 0;
   char** argv = nullptr;
   const auto transport = make_transport(&argc, &argv);

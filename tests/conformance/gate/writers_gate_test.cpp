@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // What writers write, before those who have to read it: Mitsuba 3 itself, and pbrt-v4's grammar. Of the cross
-// product of scene_parts.h all pairs of values, or with VITRAIL_GATE=short scenes that show every value.
+// product of scene_parts.h all pairs of values, a share of them with VITRAIL_GATE_SHARE=i/n, or with
+// VITRAIL_GATE=short scenes that show every value.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdio>
 #include <cstdlib>
 #include <set>
 
@@ -28,7 +31,20 @@ bool is_short() {
   const char* form = std::getenv("VITRAIL_GATE");
   return form && std::string_view(form) == "short";
 }
-std::vector<Row> chosen(const std::vector<Row>& rows) { return is_short() ? short_form(rows) : rows; }
+// Every n-th row where VITRAIL_GATE_SHARE is "i/n", from the i-th on: n runs make a whole.
+std::vector<Row> share_of(const std::vector<Row>& rows) {
+  const char* text = std::getenv("VITRAIL_GATE_SHARE");
+  if (!text) return rows;
+  std::size_t first = 0, step = 0;
+  if (std::sscanf(text, "%zu/%zu", &first, &step) != 2 || first >= step)
+    throw UsageError(fmt::format("VITRAIL_GATE_SHARE is \"{}\", not i/n with i < n", text));
+  std::vector<Row> share;
+  for (std::size_t i = first; i < rows.size(); i += step) share.push_back(rows[i]);
+  return share;
+}
+std::vector<Row> chosen(const std::vector<Row>& rows) {
+  return is_short() ? short_form(rows) : share_of(rows);
+}
 Sampling sampling() { return is_short() ? Sampling{8, 12} : Sampling{}; }
 
 std::string joined(const std::vector<std::string>& lines) {
@@ -44,9 +60,15 @@ std::string joined(const Diagnostics& diagnostics) {
 
 // Reads what was written; "" where nothing of it is inexact, and where it is the same scene, or looks the
 // same.
-std::string read_again(const std::filesystem::path& file, const Scene* exact) {
+// What the writer said of a kind of record the reader may say, too.
+std::string read_again(const std::filesystem::path& file, const Scene* exact,
+                       const Diagnostics& written = {}) {
   const ImportedScene again = import_scene(file);
-  if (!again.diagnostics.empty()) return "not read exactly: " + joined(again.diagnostics);
+  Diagnostics more = again.diagnostics;
+  std::erase_if(more, [&](const Diagnostic& d) {
+    return std::ranges::any_of(written, [&](const Diagnostic& w) { return w.kind == d.kind; });
+  });
+  if (!more.empty()) return "not read exactly: " + joined(more);
   const std::string unequal = exact ? difference(*exact, again.scene) : "";
   if (unequal.empty()) return "";
   const std::string seen =
@@ -97,15 +119,16 @@ TEST(WritersGate, MitsubaTakesWhatIsWritten) {
   const CrossProduct product(folder.path());
   const std::vector<Row> rows = chosen(product.rows());
   std::vector<std::filesystem::path> files;
+  std::vector<Diagnostics> written;
   for (const Row& row : rows) {
     files.push_back(folder / fmt::format("{:03}.xml", files.size()));
-    write_mitsuba(product.scene(row), files.back());
+    written.push_back(write_mitsuba(product.scene(row), files.back()));
   }
   const std::vector<MitsubaAnswer> answers = rendered_by_mitsuba(files, {1, 0}, folder.path());
   GateReport load("Mitsuba"), round("Mitsuba, read again");
   for (std::size_t n = 0; n < rows.size(); ++n) {
     load.check(product.name(rows[n]), answers[n].refused + joined(answers[n].warnings));
-    round.check(product.name(rows[n]), read_again(files[n], nullptr));
+    round.check(product.name(rows[n]), read_again(files[n], nullptr, written[n]));
   }
 }
 
@@ -160,7 +183,10 @@ TEST(WritersGate, MitsubaFilesAreReadAsMitsubaReadsThem) {
   GateReport read("Mitsuba's files, read"), show("Mitsuba's files, written again");
   for (std::size_t n = 0; n < rows.size(); ++n) {
     const std::string name = sources.name(rows[n]);
-    ASSERT_EQ(first[n].refused, "") << name;  // the file itself is wrong
+    if (!first[n].refused.empty()) {
+      ADD_FAILURE() << "Mitsuba refuses the file itself: " << name << "\n    " << first[n].refused;
+      continue;
+    }
     const std::string refused = second[n].refused + joined(second[n].warnings);
     const bool exact = scenes[n].diagnostics.empty();
     if (exact && renders_exactly(scenes[n].scene))

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/import_options.h"
+
+namespace vitrail {
+
+void declare_import_options(CLI::App& app, ImportArguments& a) {
+  app.add_option("-D,--define", a.definitions,
+                 "name=value: set a parameter of a Mitsuba scene; may be repeated")
+      ->allow_extra_args(false)
+      ->check([](const std::string& word) {
+        const std::size_t at = word.find('=');
+        return at == std::string::npos || at == 0 ? "takes name=value, not '" + word + "'" : std::string();
+      });
+  app.add_option("--camera", a.camera, "which sensor of a Mitsuba scene, from 0")
+      ->check(CLI::Range(0, 999'999))
+      ->capture_default_str();
+}
+
+ImportOptions import_options(const ImportArguments& a) {
+  ImportOptions options{{}, a.camera};
+  for (const std::string& word : a.definitions) {
+    const std::size_t at = word.find('=');
+    options.definitions[word.substr(0, at)] = word.substr(at + 1);
+  }
+  return options;
+}
+
+std::vector<std::string> arguments_of(const ImportArguments& a) {
+  std::vector<std::string> words;
+  for (const std::string& definition : a.definitions) words.insert(words.end(), {"-D", definition});
+  if (a.camera != 0) words.insert(words.end(), {"--camera", std::to_string(a.camera)});
+  return words;
+}
+
+}  // namespace vitrail

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// -D name=value and --camera N: what a scene is loaded with.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+#include "importers/import_options.h"
+
+namespace vitrail {
+
+struct ImportArguments {
+  std::vector<std::string> definitions;
+  int camera = 0;
+};
+
+// A definition that is not name=value is refused as the options are parsed.
+void declare_import_options(CLI::App& app, ImportArguments& arguments);
+
+ImportOptions import_options(const ImportArguments& arguments);
+
+// The words of a command line that give them again; none for what is as usual.
+std::vector<std::string> arguments_of(const ImportArguments& arguments);
+
+}  // namespace vitrail

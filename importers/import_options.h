@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a scene leaves to those who load it.
+#pragma once
+
+#include <map>
+#include <string>
+
+namespace vitrail {
+
+struct ImportOptions {
+  // Values of a Mitsuba scene's parameters, as its command line's -D: they stand before the file's
+  // <default>s.
+  std::map<std::string, std::string> definitions;
+  int camera = 0;  // which of a Mitsuba scene's sensors, in the file's order, from 0
+};
+
+}  // namespace vitrail

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a film keeps of the first surface that each sample sees, beside its colour: "arbitrary output
+// variables", for denoisers and compositing.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace vitrail {
+
+enum class Layer : std::uint8_t {
+  albedo,
+  position,
+  geometric_normal,
+  shading_normal,
+  uv,
+  depth,
+  shape,
+  material,
+  primitive
+};
+inline constexpr std::size_t layer_count = 9;
+
+struct LayerKind {
+  const char* name;  // of options and of Mitsuba's integrator `aov`, where that has it
+  // Of the channels of a picture; those of pbrt's film `gbuffer`, where that has them.
+  std::array<const char*, 3> channels;
+  std::size_t sums;  // planes of a film that it adds to; 0: an id, which is not added up
+  // Of what its values are: of lengths the quantum of a film's sums follows from the scene.
+  bool is_length, has_frame;
+};
+inline constexpr std::array<LayerKind, layer_count> layer_kinds{
+    {{"albedo", {"Albedo.R", "Albedo.G", "Albedo.B"}, 3, false, false},
+     {"position", {"P.X", "P.Y", "P.Z"}, 3, true, true},
+     {"geo_normal", {"N.X", "N.Y", "N.Z"}, 3, false, true},
+     {"sh_normal", {"Ns.X", "Ns.Y", "Ns.Z"}, 3, false, true},
+     {"uv", {"u", "v"}, 2, false, false},
+     {"depth", {"Z"}, 1, true, false},
+     {"shape_index", {"Id.shape"}, 0, false, false},
+     {"material_index", {"Id.material"}, 0, false, false},
+     {"prim_index", {"Id.primitive"}, 0, false, false}}};
+
+constexpr const LayerKind& kind_of(Layer layer) { return layer_kinds[static_cast<std::size_t>(layer)]; }
+
+struct FilmLayers {
+  std::uint32_t bits = 0;        // 1 << Layer
+  bool in_camera_space = false;  // what has a frame; else the world's
+
+  constexpr bool any() const { return bits != 0; }
+  constexpr bool has(Layer layer) const { return bits >> static_cast<unsigned>(layer) & 1; }
+  constexpr void add(Layer layer) { bits |= 1u << static_cast<unsigned>(layer); }
+  bool operator==(const FilmLayers&) const = default;
+};
+inline constexpr std::uint32_t all_layers = (1u << layer_count) - 1;
+
+// Planes of sums and of ids of the layers below `end`.
+constexpr std::size_t sum_planes(const FilmLayers& layers, std::size_t end = layer_count) {
+  std::size_t planes = 0;
+  for (std::size_t i = 0; i < end; ++i)
+    if (layers.has(static_cast<Layer>(i))) planes += layer_kinds[i].sums;
+  return planes;
+}
+constexpr std::size_t id_planes(const FilmLayers& layers, std::size_t end = layer_count) {
+  std::size_t planes = 0;
+  for (std::size_t i = 0; i < end; ++i)
+    if (layers.has(static_cast<Layer>(i))) planes += layer_kinds[i].sums == 0;
+  return planes;
+}
+
+// By its name, also as `NAME:KIND` of Mitsuba, whose NAME says nothing here; "normal" is the shading normal.
+// False for others.
+bool add_named(FilmLayers& layers, std::string_view name);
+// Names with commas between them.
+std::string names_of(const FilmLayers& layers);
+
+}  // namespace vitrail
