@@ -77,10 +77,15 @@ void put_about(PictureOrigin& origin, const std::string& about) {
   const nlohmann::json json = nlohmann::json::parse(about, nullptr, false);
   if (!json.is_object()) return;
   origin.scene = json.value("scene", "");
-  const auto matrix = json.find("world_to_camera");
-  if (matrix == json.end() || !matrix->is_array()) return;
-  for (const nlohmann::json& number : *matrix)
-    if (number.is_number()) origin.world_to_camera.push_back(number.get<float>());
+  const auto matrix = [&](const char* name) {
+    std::vector<float> numbers;
+    if (const auto found = json.find(name); found != json.end() && found->is_array())
+      for (const nlohmann::json& number : *found)
+        if (number.is_number()) numbers.push_back(number.get<float>());
+    return numbers;
+  };
+  origin.world_to_camera = matrix("world_to_camera");
+  origin.world_to_ndc = matrix("world_to_ndc");
 }
 
 }  // namespace

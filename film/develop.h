@@ -10,8 +10,9 @@ namespace vitrail {
 // Where a picture comes from; what is empty or 0 is unknown.
 struct PictureOrigin {
   std::string software, scene, scene_hash, seeds, film_hash;
-  int least_samples = 0;               // of a pixel
-  std::vector<float> world_to_camera;  // 16 numbers, row by row, of a matrix that takes columns
+  int least_samples = 0;  // of a pixel
+  // 16 numbers each, row by row, of matrices that take columns; empty where unknown.
+  std::vector<float> world_to_camera, world_to_ndc;
 };
 
 // A channel beside the colours.

@@ -104,6 +104,15 @@ std::vector<Plane> planes_of(const Picture& picture) {
   return planes;
 }
 
+// OpenEXR's matrices take rows.
+void put_matrix(OIIO::ImageSpec& spec, const char* name, const std::vector<float>& columns) {
+  if (columns.size() != 16) return;
+  std::array<float, 16> rows{};
+  for (std::size_t i = 0; i < 4; ++i)
+    for (std::size_t j = 0; j < 4; ++j) rows[4 * j + i] = columns[4 * i + j];
+  spec.attribute(name, OIIO::TypeDesc::TypeMatrix, rows.data());
+}
+
 // The names of OpenEXR and pbrt where they have one.
 void put_origin(OIIO::ImageSpec& spec, const PictureOrigin& origin) {
   const auto put = [&](const char* name, const std::string& value) {
@@ -115,11 +124,8 @@ void put_origin(OIIO::ImageSpec& spec, const PictureOrigin& origin) {
   put("seed", origin.seeds);
   put("filmHash", origin.film_hash);
   if (origin.least_samples > 0) spec.attribute("samplesPerPixelLeast", origin.least_samples);
-  if (origin.world_to_camera.size() != 16) return;
-  std::array<float, 16> rows{};  // OpenEXR's matrices take rows
-  for (std::size_t i = 0; i < 4; ++i)
-    for (std::size_t j = 0; j < 4; ++j) rows[4 * j + i] = origin.world_to_camera[4 * i + j];
-  spec.attribute("worldToCamera", OIIO::TypeDesc::TypeMatrix, rows.data());
+  put_matrix(spec, "worldToCamera", origin.world_to_camera);
+  put_matrix(spec, "worldToNDC", origin.world_to_ndc);
 }
 
 void write_exr(const std::filesystem::path& file, const Picture& picture) {

@@ -101,6 +101,13 @@ TEST_F(Pictures, SayWhereTheyComeFrom) {
   EXPECT_NEAR(1 * m[0] + 2 * m[4] + 3 * m[8] + m[12], 0, 1e-5);
   EXPECT_NEAR(1 * m[1] + 2 * m[5] + 3 * m[9] + m[13], 0, 1e-5);
   EXPECT_NEAR(1 * m[2] + 2 * m[6] + 1 * m[10] + m[14], 2, 1e-5);
+  // The middle of the picture's upper edge, as far as one sees up 2 before the camera.
+  ASSERT_TRUE(s.getattribute("worldToNDC", OIIO::TypeDesc::TypeMatrix, m));
+  const double up = 2 * 0.36397023426620234;  // tan 20°
+  const auto at = [&](int row) { return m[row] + (2 + up) * m[4 + row] + 1 * m[8 + row] + m[12 + row]; };
+  EXPECT_NEAR(at(0) / at(3), 0, 1e-5);
+  EXPECT_NEAR(at(1) / at(3), 1, 1e-5);
+  EXPECT_NEAR(at(3), 2, 1e-5);
 }
 
 TEST_F(Pictures, AreWrittenInOtherFormats) {
