@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "scene/diagnostics.h"
+#include "scene/tessellate.h"
 
 namespace vitrail {
 
@@ -57,6 +58,7 @@ std::uint64_t bytes_of(const TriangleMesh& mesh) {
 }
 
 std::uint64_t triangles_of(const TriangleMesh& mesh) {
+  if (mesh.quadric) return 1;
   return mesh.deferred ? mesh.deferred->triangles : mesh.triangles.size();
 }
 
@@ -66,6 +68,10 @@ bool has_normals(const TriangleMesh& mesh) {
 
 Bounds3f bounds_of(const TriangleMesh& mesh) {
   if (mesh.deferred) return mesh.deferred->bounds;
+  if (mesh.quadric) {
+    const Bounds3d box = bounds_of(*mesh.quadric, {});
+    return {cast<float>(box.lower), cast<float>(box.upper)};
+  }
   Bounds3f bounds;
   for (const auto& triangle : mesh.triangles)
     for (const std::uint32_t corner : triangle) extend(bounds, mesh.positions[corner]);
@@ -75,6 +81,10 @@ Bounds3f bounds_of(const TriangleMesh& mesh) {
 MeshFocus focus_of(const TriangleMesh& mesh) {
   constexpr std::size_t most = 1024;
   if (mesh.deferred) return mesh.deferred->focus;
+  if (mesh.quadric) {
+    const Bounds3d box = bounds_of(*mesh.quadric, {});
+    return {center(box), greatest(extent(box)) / 2, box};
+  }
   const std::size_t count = mesh.triangles.size(), chosen = std::min(count, most);
   if (count == 0) return {};
   std::vector<Bounds3d> boxes;
@@ -100,6 +110,7 @@ MeshFocus focus_of(const TriangleMesh& mesh) {
 }
 
 const TriangleMesh& loaded(const TriangleMesh& mesh, TriangleMesh& storage) {
+  if (mesh.quadric) return storage = tessellate(*mesh.quadric);
   if (!mesh.deferred) return mesh;
   storage = mesh.deferred->load();
   if (storage.triangles.size() != mesh.deferred->triangles || bounds_of(storage) != mesh.deferred->bounds)

@@ -4,9 +4,11 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "scene/quadric.h"
 #include "scene/vec.h"
 
 namespace vitrail {
@@ -33,7 +35,7 @@ enum class MissingUv : std::uint8_t {
 
 struct DeferredMesh;
 
-// Object-space triangles. `normals` and `uvs` are empty or have one entry a position.
+// Object-space triangles, or a quadric. `normals` and `uvs` are empty or have one entry a position.
 // All indices are in range and all positions finite: importers guarantee it, with the place of the first
 // offender.
 struct TriangleMesh {
@@ -44,6 +46,7 @@ struct TriangleMesh {
   MissingUv missing_uv = MissingUv::pbrt;  // also of a deferred mesh
   std::vector<MeshAttribute> attributes;
   std::shared_ptr<const DeferredMesh> deferred;  // if it stays in its file: all the rest is empty
+  std::optional<Quadric> quadric;                // if it is one: all the rest is empty
   bool operator==(const TriangleMesh&) const = default;
 };
 

@@ -7,7 +7,7 @@
 
 #include "importers/mitsuba/shape_geometry.h"
 #include "importers/shapes/shapes.h"
-#include "importers/shapes/unit_circle.h"
+#include "scene/unit_circle.h"
 
 namespace vitrail::mitsuba {
 

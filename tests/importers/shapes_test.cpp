@@ -10,7 +10,7 @@
 #include <set>
 
 #include "importers/shapes/polygon.h"
-#include "importers/shapes/unit_circle.h"
+#include "scene/unit_circle.h"
 
 namespace vitrail {
 namespace {
