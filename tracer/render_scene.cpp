@@ -60,7 +60,7 @@ const Surface& surface_of(const Manifest& manifest, const DomainView& domain, co
       at = domain.objects[object];
     }
     surfaces = surfaces_of(manifest, manifest.objects[object]);
-    triangle = at->clusters[hit.cluster].id[hit.lane];
+    triangle = at->quadric ? 0 : at->clusters[hit.cluster].id[hit.lane];
   }
   const auto behind =
       std::upper_bound(surfaces.begin(), surfaces.end(), triangle,

@@ -4,11 +4,14 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
+#include <map>
 
 #include "partitioner/placing/frame.h"
 #include "partitioner/placing/prototype_uses.h"
 #include "partitioner/placing/shared_shapes.h"
 #include "scene/deferred_mesh.h"
+#include "scene/tessellate.h"
 
 namespace vitrail {
 
@@ -17,6 +20,8 @@ namespace {
 // About what a domain file takes for a triangle and for an instance, and a file for itself.
 constexpr double triangle_bytes = 62, instance_bytes = 192, file_bytes = 1024;
 constexpr double most_condition = 1e4;
+// Of a quadric, which is met in double: a thread of 10⁻⁶ of its length is a cylinder.
+constexpr double most_condition_of_quadrics = 1e7;
 
 double row_sum(const std::array<double, 4>& row) {
   return std::abs(row[0]) + std::abs(row[1]) + std::abs(row[2]);
@@ -43,8 +48,25 @@ double greatest_row(const Transform& t) {
 }
 
 // Whether rays can be taken to the object's space without much loss.
-bool can_be_kept(const Transform& t) {
-  return is_affine(t) && is_invertible(t) && greatest_row(t) * greatest_row(inverse(t)) <= most_condition;
+bool can_be_kept(const Transform& t, double condition = most_condition) {
+  return is_affine(t) && is_invertible(t) && greatest_row(t) * greatest_row(inverse(t)) <= condition;
+}
+
+// Outwards.
+Bounds3f rounded(const Bounds3d& box) {
+  constexpr float infinity = std::numeric_limits<float>::infinity();
+  Bounds3f out;
+  for (int axis = 0; axis < 3; ++axis) {
+    out.lower[axis] = std::nextafter(static_cast<float>(box.lower[axis]), -infinity);
+    out.upper[axis] = std::nextafter(static_cast<float>(box.upper[axis]), infinity);
+  }
+  return out;
+}
+
+Transform transform_of(const Affine& a) {
+  Transform t;
+  for (std::size_t i = 0; i < 3; ++i) std::copy_n(a.m[i], 4, t.m[i].begin());
+  return t;
 }
 
 Bounds3d transformed(const Transform& t, const Bounds3d& box) {
@@ -145,11 +167,44 @@ class Planner {
     return static_cast<std::uint32_t>(plan_.objects.size() - 1);
   }
 
-  void add(Assembly& a, const Shape& shape, const Transform& outer) const {
-    const TriangleMesh& mesh = scene_.meshes.at(shape.mesh.value);
-    if (triangles_of(mesh) == 0) return;
+  void add(Assembly& a, const Shape& shape, const Transform& outer) {
+    const TriangleMesh* stored = &scene_.meshes.at(shape.mesh.value);
+    if (triangles_of(*stored) == 0) return;
+    if (stored->quadric) {
+      if (can_be_kept(outer * shape.object_to_world, most_condition_of_quadrics))
+        return use(a, object_of_quadric(shape), outer * shape.object_to_world);
+      stored = &tessellated(shape.mesh);
+    }
+    const TriangleMesh& mesh = *stored;
     a.placements.push_back(placement_of(mesh, shape, outer, a.triangles));
     a.triangles += triangles_of(mesh);
+  }
+
+  // All but where it stands is the shape's.
+  std::uint32_t object_of_quadric(const Shape& shape) {
+    const auto [known, is_new] = quadrics_.try_emplace(key_of(shape));
+    if (is_new) {
+      const TriangleMesh& mesh = scene_.meshes[shape.mesh.value];
+      const Bounds3f box = bounds_of(mesh);
+      Assembly object;
+      object.quadric = Placement{&mesh, &shape, {}, SharedShapes::flip_in_object(shape), 0};
+      object.triangles = 1;
+      object.radius = focus_of(mesh).radius;
+      object.bounds = box;
+      known->second = static_cast<std::uint32_t>(plan_.objects.size());
+      plan_.objects.push_back(std::move(object));
+    }
+    return known->second;
+  }
+
+  const TriangleMesh& tessellated(Id<TriangleMesh> quadric) {
+    const auto [known, is_new] = tessellated_.try_emplace(quadric.value);
+    if (is_new) {
+      auto mesh = std::make_unique<const TriangleMesh>(tessellate(*scene_.meshes[quadric.value].quadric));
+      known->second = mesh.get();
+      plan_.tessellated.push_back(std::move(mesh));
+    }
+    return *known->second;
   }
 
   void use(Assembly& a, std::uint32_t object, const Transform& t) const {
@@ -161,7 +216,7 @@ class Planner {
   }
 
   // The instances of a prototype, or of the scene, and those within what is copied of them.
-  void add(Assembly& a, std::size_t outer, const std::vector<Instance>& instances) const {
+  void add(Assembly& a, std::size_t outer, const std::vector<Instance>& instances) {
     std::vector<Instance> open(instances.rbegin(), instances.rend());
     while (!open.empty()) {
       const Instance instance = open.back();
@@ -199,7 +254,7 @@ class Planner {
       for (int axis = 0; axis < 3; ++axis) use.to_parent.m[axis][3] -= a.centre[axis];
     if (!own.empty()) a.bounds = {cast<float>(own.lower - a.centre), cast<float>(own.upper - a.centre)};
     for (const ObjectUse& use : a.uses)
-      extend(a.bounds, placed_bounds(use.to_parent, plan_.objects[use.object].bounds));
+      extend(a.bounds, placed_bounds(plan_.objects[use.object], use.to_parent));
   }
 
   // Before the centre is taken off. The core is what of the parts is within `near_radii` of the half of them
@@ -211,14 +266,16 @@ class Planner {
     const Bounds3d limit = around(whole.centre, reach);
     const bool is_compact = !(reach > 0) || common(limit, box) == box;
     Bounds3d core;
-    const auto add = [&](const FramePart& part, auto&& box_of_part) {
-      plan_.coarse += rounding * greatest(part.centre - Point3d{} - a.centre) > coarse * part.radius;
+    const auto add = [&](const FramePart& part, bool is_rounded, auto&& box_of_part) {
+      plan_.coarse +=
+          is_rounded && rounding * greatest(part.centre - Point3d{} - a.centre) > coarse * part.radius;
       if (!is_compact && greatest(part.centre - whole.centre) <= reach)
         extend(core, common(limit, box_of_part()));
     };
     for (const Placement& p : a.placements)
-      add(part_of_mesh(p), [&] { return transformed(p.to_world, focus_of(*p.mesh).box); });
-    for (const ObjectUse& use : a.uses) add(part_of(use), [&] { return box_of(use); });
+      add(part_of_mesh(p), true, [&] { return transformed(p.to_world, focus_of(*p.mesh).box); });
+    for (const ObjectUse& use : a.uses)
+      add(part_of(use), !plan_.objects[use.object].quadric, [&] { return box_of(use); });
     if (!core.empty())
       plan_.core = Bounds3f{cast<float>(core.lower - a.centre), cast<float>(core.upper - a.centre)};
   }
@@ -245,10 +302,11 @@ class Planner {
 
   // Before the parent's centre is taken off.
   Bounds3d box_of(const ObjectUse& use) const {
-    const Bounds3f& b = plan_.objects[use.object].bounds;
-    Transform t;
-    for (std::size_t i = 0; i < 3; ++i) std::copy_n(use.to_parent.m[i], 4, t.m[i].begin());
-    const Bounds3d box = transformed(t, {cast<double>(b.lower), cast<double>(b.upper)});
+    const Assembly& object = plan_.objects[use.object];
+    const Bounds3f& b = object.bounds;
+    const Transform t = transform_of(use.to_parent);
+    const Bounds3d box = object.quadric ? vitrail::bounds_of(*object.quadric->mesh->quadric, t)
+                                        : transformed(t, {cast<double>(b.lower), cast<double>(b.upper)});
     if (!is_finite(cast<float>(box.lower)) || !is_finite(cast<float>(box.upper)))
       throw Error(
           "an instance has vertices that are not finite in the world; every coordinate has to be "
@@ -259,13 +317,37 @@ class Planner {
   const Scene& scene_;
   PrototypeUses uses_;
   SharedShapes shared_;
-  std::vector<int> object_of_;  // of each prototype; −1: copied wherever it is used
+  std::vector<int> object_of_;                  // of each prototype; −1: copied wherever it is used
+  std::map<ShapeKey, std::uint32_t> quadrics_;  // objects
+  std::map<std::uint32_t, const TriangleMesh*> tessellated_;  // by mesh
   ScenePlan plan_;
 };
 
 }  // namespace
 
 ScenePlan plan_scene(const Scene& scene) { return Planner(scene).plan(); }
+
+Bounds3f placed_bounds(const Assembly& object, const Affine& to_parent) {
+  if (!object.quadric) return placed_bounds(to_parent, object.bounds);
+  return rounded(bounds_of(*object.quadric->mesh->quadric, transform_of(to_parent)));
+}
+
+namespace {
+
+// Calls visit(object, chain, first id) for every use of the scene and within, of objects that `enter` says
+// to.
+void for_each_use(const ScenePlan& plan, const std::vector<bool>& enter, const auto& visit) {
+  const std::function<void(const ObjectUse&, const Affine&, std::uint64_t)> expand =
+      [&](const ObjectUse& use, const Affine& chain, std::uint64_t first) {
+        if (!enter[use.object]) return;
+        visit(use.object, chain, first);
+        for (const ObjectUse& inner : plan.objects[use.object].uses)
+          expand(inner, compose(chain, inner.to_parent), first + inner.first_triangle);
+      };
+  for (const ObjectUse& use : plan.scene.uses) expand(use, use.to_parent, use.first_triangle);
+}
+
+}  // namespace
 
 std::vector<Placement> expanded(const ScenePlan& plan, const std::function<bool(const Placement&)>& select) {
   // Each object is asked once; what holds nothing that is wanted is not entered.
@@ -274,26 +356,45 @@ std::vector<Placement> expanded(const ScenePlan& plan, const std::function<bool(
   for (std::size_t i = 0; i < plan.objects.size(); ++i) {
     for (const Placement& p : plan.objects[i].placements)
       if (select(p)) wanted[i].push_back(&p);
+    if (const auto& quadric = plan.objects[i].quadric; quadric && select(*quadric))
+      wanted[i].push_back(&*quadric);
     holds[i] = !wanted[i].empty() || std::ranges::any_of(plan.objects[i].uses, [&](const ObjectUse& use) {
       return holds[use.object];
     });
   }
   std::vector<Placement> out;
-  const std::function<void(const ObjectUse&, const Affine&, std::uint64_t)> expand =
-      [&](const ObjectUse& use, const Affine& chain, std::uint64_t first) {
-        if (!holds[use.object]) return;
-        const Assembly& object = plan.objects[use.object];
-        for (const Placement* p : wanted[use.object]) {
-          Placement& placed = out.emplace_back(*p);
-          placed.first_triangle += first;
-          placed.standing = Standing{object.centre, chain};
-        }
-        for (const ObjectUse& inner : object.uses)
-          expand(inner, compose(chain, inner.to_parent), first + inner.first_triangle);
-      };
-  for (const ObjectUse& use : plan.scene.uses) expand(use, use.to_parent, use.first_triangle);
+  for_each_use(plan, holds, [&](std::uint32_t object, const Affine& chain, std::uint64_t first) {
+    for (const Placement* p : wanted[object]) {
+      Placement& placed = out.emplace_back(*p);
+      placed.first_triangle += first;
+      placed.standing = Standing{plan.objects[object].centre, chain};
+    }
+  });
   std::ranges::sort(out, {}, &Placement::first_triangle);
   return out;
+}
+
+void flatten(ScenePlan& plan) {
+  std::vector<Placement>& own = plan.scene.placements;
+  std::ranges::copy(expanded(plan, [](const Placement& p) { return !p.mesh->quadric; }),
+                    std::back_inserter(own));
+  std::ranges::sort(own, {}, &Placement::first_triangle);
+  std::vector<ObjectUse> quadrics;
+  for_each_use(plan, std::vector(plan.objects.size(), true),
+               [&](std::uint32_t object, const Affine& chain, std::uint64_t first) {
+                 if (plan.objects[object].quadric) quadrics.push_back({object, chain, first});
+               });
+  std::vector<std::uint32_t> kept(plan.objects.size());
+  std::vector<Assembly> objects;
+  for (std::size_t i = 0; i < plan.objects.size(); ++i) {
+    if (!plan.objects[i].quadric) continue;
+    kept[i] = static_cast<std::uint32_t>(objects.size());
+    objects.push_back(std::move(plan.objects[i]));
+  }
+  for (ObjectUse& use : quadrics) use.object = kept[use.object];
+  std::ranges::sort(quadrics, {}, &ObjectUse::first_triangle);
+  plan.scene.uses = std::move(quadrics);
+  plan.objects = std::move(objects);
 }
 
 }  // namespace vitrail

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -20,6 +21,8 @@ struct ObjectUse {
 
 // The scene, or an object. Its coordinates are taken from `centre`.
 struct Assembly {
+  // If it is a quadric, in its own space, and `flip` says that it is inside out; it has nothing else.
+  std::optional<Placement> quadric;
   std::vector<Placement> placements;  // of its own
   std::vector<ObjectUse> uses;
   std::uint64_t triangles = 0;  // ids: of its own and of its uses, in their order
@@ -30,6 +33,8 @@ struct Assembly {
 };
 
 struct ScenePlan {
+  // Of quadrics that stand where no ray can be taken to their space.
+  std::vector<std::unique_ptr<const TriangleMesh>> tessellated;
   std::vector<Assembly> objects;  // with uses of earlier ones only
   Assembly scene;
   std::optional<Bounds3f> core;  // of the scene, about its centre, without few parts that lie far away
@@ -38,12 +43,19 @@ struct ScenePlan {
 };
 
 // A prototype becomes an object where references to it take fewer bytes than copies of it, and so do shapes
-// that share a mesh (shared_shapes.h). What a singular, projective or extreme transform places is copied.
+// that share a mesh (shared_shapes.h). What a singular, projective or extreme transform places is copied, of
+// quadrics as triangles; all others are objects, one for all that are alike but for where they stand.
 // Throws Error for vertices that are not finite where they stand, and for 2³² − 1 triangles or more.
 ScenePlan plan_scene(const Scene& scene);
+
+// Where the object stands that a use of the scene, or a use within its object, is of.
+Bounds3f placed_bounds(const Assembly& object, const Affine& to_parent);
 
 // The placements of every use of the scene, as `select` chooses them, in the order of ids. It is asked once
 // for each placement of an object, however often that is used.
 std::vector<Placement> expanded(const ScenePlan& plan, const std::function<bool(const Placement&)>& select);
+
+// The plan without instances: copies of meshes, and a use of the scene for each quadric.
+void flatten(ScenePlan& plan);
 
 }  // namespace vitrail

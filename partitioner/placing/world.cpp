@@ -70,15 +70,6 @@ void move_records(const Scene& scene, Appearance& appearance, Manifest& m) {
   m.settings = scene.settings;
 }
 
-// Copies instead of instances.
-void expand_all(ScenePlan& plan) {
-  std::vector<Placement>& own = plan.scene.placements;
-  std::ranges::copy(expanded(plan, [](const Placement&) { return true; }), std::back_inserter(own));
-  std::ranges::sort(own, {}, &Placement::first_triangle);
-  plan.scene.uses.clear();
-  plan.objects.clear();
-}
-
 }  // namespace
 
 World world_of(const Scene& scene, const std::filesystem::path& bundle, const WorldOptions& options) {
@@ -92,12 +83,13 @@ World world_of(const Scene& scene, const std::filesystem::path& bundle, const Wo
   m.core = plan.core;
   world.coarse = plan.coarse;
   for (const ObjectUse& use : plan.scene.uses)
-    extend(world.instance_bounds, placed_bounds(use.to_parent, plan.objects[use.object].bounds));
+    extend(world.instance_bounds, placed_bounds(plan.objects[use.object], use.to_parent));
   bool normals = have_normals(plan.scene.placements, scene);
   for (const Assembly& object : plan.objects) normals = normals || have_normals(object.placements, scene);
-  if (!options.keep_instances) expand_all(plan);
+  world.tessellated = std::move(plan.tessellated);
 
   const auto shines = [&](const Placement& p) { return surface_of(p, appearance).area_light >= 0; };
+  if (!options.keep_instances) flatten(plan);
   for (const Placement& p : expanded(plan, shines)) {
     const Surface surface = surface_of(p, appearance);
     world.shining.push_back({p, static_cast<std::uint32_t>(surface.area_light), surface.opacity});
@@ -108,7 +100,8 @@ World world_of(const Scene& scene, const std::filesystem::path& bundle, const Wo
   world.uses = std::move(plan.scene.uses);
   for (Assembly& object : plan.objects) {
     const auto first = static_cast<std::uint32_t>(m.surfaces.size());
-    const std::uint32_t count = make_surfaces(appearance, object.placements, m);
+    const std::uint32_t count =
+        make_surfaces(appearance, object.quadric ? std::vector{*object.quadric} : object.placements, m);
     world.objects.push_back({std::move(object), first, count});
   }
   move_records(scene, appearance, m);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <vector>
 
 #include "bundle/manifest.h"
@@ -32,7 +33,9 @@ struct World {
   Manifest manifest;
   std::vector<Placement> placements;  // by id, of the triangles that no instance has
   std::uint64_t own_triangles = 0;    // of them
-  // What is kept of instances: the objects, where the scene has them, and what of it shines there.
+  std::vector<std::unique_ptr<const TriangleMesh>> tessellated;  // that placements are of
+  // What is kept of instances, and all quadrics: the objects, where the scene has them, and what of it shines
+  // there.
   std::vector<WorldObject> objects;
   std::vector<ObjectUse> uses;
   std::vector<ShiningPlacement> shining;

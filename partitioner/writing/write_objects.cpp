@@ -11,6 +11,7 @@
 #include <numeric>
 #include <tuple>
 
+#include "bundle/checksum.h"
 #include "partitioner/hierarchy/build_bvh.h"
 #include "partitioner/memory_plan.h"
 #include "partitioner/writing/write_domain.h"
@@ -50,10 +51,11 @@ void divide(const NumberedTriangles& object, Indices triangles, std::size_t part
   divide(object, std::move(above), parts - below, out);
 }
 
-// Of the files: an object of the plan is one or more of them.
+// Of the files: an object of the plan is one or more of them; a quadric has the number of one without it.
 struct Files {
-  std::vector<std::uint32_t> first;  // of each object of the plan; one more at the end
-  std::vector<Bounds3f> bounds;      // of each file
+  std::vector<const Assembly*> quadric;  // of each object of the plan, null where it is none
+  std::vector<std::uint32_t> first;      // of each object of the plan; one more at the end
+  std::vector<Bounds3f> bounds;          // of each file
 };
 
 std::vector<InstanceRef> references(const std::vector<ObjectUse>& uses, const Files& files) {
@@ -62,7 +64,8 @@ std::vector<InstanceRef> references(const std::vector<ObjectUse>& uses, const Fi
     for (std::uint32_t file = files.first[use.object]; file < files.first[use.object + 1]; ++file) {
       InstanceRef& ref = refs.emplace_back(
           InstanceRef{use.to_parent, {}, {}, file, static_cast<std::uint32_t>(use.first_triangle)});
-      set_box(ref, placed_bounds(use.to_parent, files.bounds[file]));
+      set_box(ref, files.quadric[use.object] ? placed_bounds(*files.quadric[use.object], use.to_parent)
+                                             : placed_bounds(use.to_parent, files.bounds[file]));
     }
   return refs;
 }
@@ -129,6 +132,18 @@ void write_object(const World& world, const WorldObject& o, std::uint32_t first,
   }
 }
 
+void note_quadric(const WorldObject& o, ObjectInfo& info) {
+  const Placement& p = *o.assembly.quadric;
+  info = {1, 0, 0, o.first_surface, o.surface_count, {}, OrientedQuadric{*p.mesh->quadric, p.flip}};
+  const Quadric& q = *p.mesh->quadric;
+  const double numbers[] = {
+      static_cast<double>(q.kind), static_cast<double>(q.uv), q.low, q.high, q.phi_max_rad,
+      static_cast<double>(p.flip)};
+  Hasher hasher;
+  hasher.add(std::as_bytes(std::span(numbers)));
+  info.hash = hasher.digest();
+}
+
 // While an object is written, with the mesh that is being placed.
 double bytes_in_work(const World& world, const Assembly& object, std::uint32_t files) {
   const auto triangles = static_cast<double>(triangles_in(object));
@@ -157,12 +172,17 @@ std::vector<InstanceRef> write_objects(const World& world, Manifest& m, const st
                                        const std::function<void(std::uint64_t)>& written) {
   if (world.objects.empty()) return {};
   std::filesystem::create_directories(bundle / "objects");
-  Files files{{0}, {}};
+  Files files{{}, {0}, {}};
   std::vector<Batch> by_depth;
   const int threads = tbb::this_task_arena::max_concurrency();
   double most_bytes = 0;
   for (std::uint32_t i = 0; i < world.objects.size(); ++i) {
     const Assembly& object = world.objects[i].assembly;
+    files.quadric.push_back(object.quadric ? &object : nullptr);
+    if (object.quadric) {
+      files.first.push_back(files.first.back() + 1);
+      continue;
+    }
     const std::uint32_t count = number_of_files(world, object, limits.file_bytes);
     files.first.push_back(files.first.back() + count);
     const double bytes = bytes_in_work(world, object, count);
@@ -177,6 +197,8 @@ std::vector<InstanceRef> write_objects(const World& world, Manifest& m, const st
         (most_bytes - limits.memory_bytes) / (1 << 20) + 1));
   files.bounds.resize(files.first.back());
   m.objects.resize(files.first.back());
+  for (std::size_t i = 0; i < world.objects.size(); ++i)
+    if (files.quadric[i]) note_quadric(world.objects[i], m.objects[files.first[i]]);
   const auto write = [&](std::uint32_t i) {
     const WorldObject& object = world.objects[i];
     write_object(world, object, files.first[i], files.first[i + 1], bundle, files, m.objects);
