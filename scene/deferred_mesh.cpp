@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "scene/diagnostics.h"
+#include "scene/quadric_places.h"
 #include "scene/tessellate.h"
 
 namespace vitrail {
@@ -58,7 +59,7 @@ std::uint64_t bytes_of(const TriangleMesh& mesh) {
 }
 
 std::uint64_t triangles_of(const TriangleMesh& mesh) {
-  if (mesh.quadric) return 1;
+  if (mesh.quadric) return mesh.places ? mesh.places->size() : 1;
   return mesh.deferred ? mesh.deferred->triangles : mesh.triangles.size();
 }
 
@@ -69,7 +70,7 @@ bool has_normals(const TriangleMesh& mesh) {
 Bounds3f bounds_of(const TriangleMesh& mesh) {
   if (mesh.deferred) return mesh.deferred->bounds;
   if (mesh.quadric) {
-    const Bounds3d box = bounds_of(*mesh.quadric, {});
+    const Bounds3d box = mesh.places ? mesh.places->bounds() : bounds_of(*mesh.quadric, {});
     return {cast<float>(box.lower), cast<float>(box.upper)};
   }
   Bounds3f bounds;
@@ -82,6 +83,7 @@ MeshFocus focus_of(const TriangleMesh& mesh) {
   constexpr std::size_t most = 1024;
   if (mesh.deferred) return mesh.deferred->focus;
   if (mesh.quadric) {
+    if (mesh.places) return {mesh.places->centre(), mesh.places->radius(), mesh.places->bounds()};
     const Bounds3d box = bounds_of(*mesh.quadric, {});
     return {center(box), greatest(extent(box)) / 2, box};
   }
@@ -110,6 +112,7 @@ MeshFocus focus_of(const TriangleMesh& mesh) {
 }
 
 const TriangleMesh& loaded(const TriangleMesh& mesh, TriangleMesh& storage) {
+  if (mesh.places) return storage = tessellate(*mesh.quadric, *mesh.places);
   if (mesh.quadric) return storage = tessellate(*mesh.quadric);
   if (!mesh.deferred) return mesh;
   storage = mesh.deferred->load();

@@ -44,7 +44,7 @@ struct DeferredMesh {
 // In memory.
 std::uint64_t bytes_of(const TriangleMesh& mesh);
 
-// Of a mesh that may be deferred, or a quadric: that is 1, without shading normals of its own.
+// Of a mesh that may be deferred, or a quadric: that is 1 a place, without shading normals of its own.
 std::uint64_t triangles_of(const TriangleMesh& mesh);
 bool has_normals(const TriangleMesh& mesh);
 Bounds3f bounds_of(const TriangleMesh& mesh);

@@ -34,6 +34,7 @@ enum class MissingUv : std::uint8_t {
 };
 
 struct DeferredMesh;
+class QuadricPlaces;
 
 // Object-space triangles, or a quadric. `normals` and `uvs` are empty or have one entry a position.
 // All indices are in range and all positions finite: importers guarantee it, with the place of the first
@@ -47,6 +48,7 @@ struct TriangleMesh {
   std::vector<MeshAttribute> attributes;
   std::shared_ptr<const DeferredMesh> deferred;  // if it stays in its file: all the rest is empty
   std::optional<Quadric> quadric;                // if it is one: all the rest is empty
+  std::shared_ptr<const QuadricPlaces> places;   // of the quadric, if it stands in many
   bool operator==(const TriangleMesh&) const = default;
 };
 

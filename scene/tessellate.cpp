@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "scene/quadric_places.h"
 #include "scene/unit_circle.h"
 
 namespace vitrail {
@@ -140,6 +141,23 @@ TriangleMesh tessellate(const Quadric& q, int segments) {
   TriangleMesh mesh = revolve(columns(q, std::max(3, segments)), rings_of(q, segments));
   if (q.uv == QuadricUv::mitsuba) take_mitsuba_uv(q.kind, mesh);
   return mesh;
+}
+
+TriangleMesh tessellate(const Quadric& q, const QuadricPlaces& places, int segments) {
+  const TriangleMesh one = tessellate(q, segments);
+  TriangleMesh all;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    Transform place;
+    places.read(i, {&place, 1});
+    const auto first = static_cast<std::uint32_t>(all.positions.size());
+    for (const Point3f& p : one.positions)
+      all.positions.push_back(cast<float>(transform_point(place, cast<double>(p))));
+    for (const Normal3f& n : one.normals)
+      all.normals.push_back(cast<float>(transform_normal(place, cast<double>(n))));
+    all.uvs.insert(all.uvs.end(), one.uvs.begin(), one.uvs.end());
+    for (auto [a, b, c] : one.triangles) all.triangles.push_back({first + a, first + b, first + c});
+  }
+  return all;
 }
 
 }  // namespace vitrail

@@ -14,5 +14,7 @@ inline constexpr int quadric_segments = 256;
 // the same share of them, rounded up. Where a surface closes on itself (poles, seam), positions agree bit for
 // bit.
 TriangleMesh tessellate(const Quadric& quadric, int segments = quadric_segments);
+// All of them in one mesh.
+TriangleMesh tessellate(const Quadric& quadric, const QuadricPlaces& places, int segments = quadric_segments);
 
 }  // namespace vitrail

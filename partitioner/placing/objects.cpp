@@ -170,6 +170,7 @@ class Planner {
   void add(Assembly& a, const Shape& shape, const Transform& outer) {
     const TriangleMesh* stored = &scene_.meshes.at(shape.mesh.value);
     if (triangles_of(*stored) == 0) return;
+    if (stored->places) return add_run(a, shape, *stored->places, outer * shape.object_to_world);
     if (stored->quadric) {
       if (can_be_kept(outer * shape.object_to_world, most_condition_of_quadrics))
         return use(a, object_of_quadric(shape), outer * shape.object_to_world);
@@ -178,6 +179,18 @@ class Planner {
     const TriangleMesh& mesh = *stored;
     a.placements.push_back(placement_of(mesh, shape, outer, a.triangles));
     a.triangles += triangles_of(mesh);
+  }
+
+  // Lights are uses by themselves: sampling has them all.
+  void add_run(Assembly& a, const Shape& shape, const QuadricPlaces& places, const Transform& t) {
+    const QuadricRun run{object_of_quadric(shape), &places, affine(t), a.triangles};
+    if (&a == &plan_.scene && !shape.area_light) {
+      a.runs.push_back(run);
+      a.triangles += places.size();
+      a.depth = std::max(a.depth, 1);
+    } else {
+      for_each_use(run, [&](const ObjectUse& u) { use(a, u.object, transform_of(u.to_parent)); });
+    }
   }
 
   // All but where it stands is the shape's.
@@ -242,6 +255,7 @@ class Planner {
     for (const Placement& p : a.placements) extend(own, world_bounds(p));
     if (!own.empty()) extend(box, own);
     for (const ObjectUse& use : a.uses) extend(box, box_of(use));
+    for (const QuadricRun& run : a.runs) extend(box, box_of(run));
     if (box.empty()) return;
     const std::vector<FramePart> parts = parts_of(a);
     const FramePart whole = whole_of(parts);
@@ -250,8 +264,11 @@ class Planner {
     a.centre = (is_scene ? cast<double>(cast<float>(origin)) : origin) - Point3d{};
     a.radius = whole.radius;
     if (is_scene) find_core(box, whole);
-    for (ObjectUse& use : a.uses)
-      for (int axis = 0; axis < 3; ++axis) use.to_parent.m[axis][3] -= a.centre[axis];
+    const auto centred = [&](Affine& to_parent) {
+      for (int axis = 0; axis < 3; ++axis) to_parent.m[axis][3] -= a.centre[axis];
+    };
+    for (ObjectUse& use : a.uses) centred(use.to_parent);
+    for (QuadricRun& run : a.runs) centred(run.to_parent);
     if (!own.empty()) a.bounds = {cast<float>(own.lower - a.centre), cast<float>(own.upper - a.centre)};
     for (const ObjectUse& use : a.uses)
       extend(a.bounds, placed_bounds(plan_.objects[use.object], use.to_parent));
@@ -274,6 +291,7 @@ class Planner {
     };
     for (const Placement& p : a.placements)
       add(part_of_mesh(p), true, [&] { return transformed(p.to_world, focus_of(*p.mesh).box); });
+    for (const QuadricRun& run : a.runs) add(part_of(run), false, [&] { return box_of(run); });
     for (const ObjectUse& use : a.uses)
       add(part_of(use), !plan_.objects[use.object].quadric, [&] { return box_of(use); });
     if (!core.empty())
@@ -288,6 +306,7 @@ class Planner {
     for (std::size_t i = 0; i < count; i += step)
       parts.push_back(i < a.placements.size() ? part_of_mesh(a.placements[i])
                                               : part_of(a.uses[i - a.placements.size()]));
+    for (const QuadricRun& run : a.runs) parts.push_back(part_of(run));
     return parts;
   }
 
@@ -300,7 +319,20 @@ class Planner {
             static_cast<double>(object.triangles)};
   }
 
+  static FramePart part_of(const QuadricRun& run) {
+    const Transform t = transform_of(run.to_parent);
+    return {transform_point(t, run.places->centre()), greatest_row(t) * run.places->radius(),
+            static_cast<double>(run.places->size())};
+  }
+
   // Before the parent's centre is taken off.
+  static Bounds3d box_of(const QuadricRun& run) {
+    const Bounds3d box = transformed(transform_of(run.to_parent), run.places->bounds());
+    if (!is_finite(cast<float>(box.lower)) || !is_finite(cast<float>(box.upper)))
+      throw Error("a shape reaches beyond 3.4e38 in the world");
+    return box;
+  }
+
   Bounds3d box_of(const ObjectUse& use) const {
     const Assembly& object = plan_.objects[use.object];
     const Bounds3f& b = object.bounds;
@@ -327,9 +359,22 @@ class Planner {
 
 ScenePlan plan_scene(const Scene& scene) { return Planner(scene).plan(); }
 
+void for_each_use(const QuadricRun& run, const std::function<void(const ObjectUse&)>& visit) {
+  std::array<Transform, 1024> block;
+  for (std::size_t i = 0; i < run.places->size(); i += block.size()) {
+    const std::size_t count = std::min(block.size(), run.places->size() - i);
+    run.places->read(i, std::span(block).first(count));
+    for (std::size_t k = 0; k < count; ++k) visit(run.use(i + k, block[k]));
+  }
+}
+
+Bounds3f placed_bounds(const Quadric& quadric, const Affine& to_parent) {
+  return rounded(bounds_of(quadric, transform_of(to_parent)));
+}
+
 Bounds3f placed_bounds(const Assembly& object, const Affine& to_parent) {
-  if (!object.quadric) return placed_bounds(to_parent, object.bounds);
-  return rounded(bounds_of(*object.quadric->mesh->quadric, transform_of(to_parent)));
+  return object.quadric ? placed_bounds(*object.quadric->mesh->quadric, to_parent)
+                        : placed_bounds(to_parent, object.bounds);
 }
 
 namespace {
@@ -392,6 +437,7 @@ void flatten(ScenePlan& plan) {
     objects.push_back(std::move(plan.objects[i]));
   }
   for (ObjectUse& use : quadrics) use.object = kept[use.object];
+  for (QuadricRun& run : plan.scene.runs) run.object = kept[run.object];
   std::ranges::sort(quadrics, {}, &ObjectUse::first_triangle);
   plan.scene.uses = std::move(quadrics);
   plan.objects = std::move(objects);

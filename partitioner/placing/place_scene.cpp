@@ -202,6 +202,11 @@ void SceneTally::finish(Manifest& m) {
   hasher.add(std::as_bytes(std::span(hashes_)));
   for (const ObjectInfo& object : m.objects) hasher.add(std::as_bytes(std::span(&object.hash, 1)));
   hasher.add(std::as_bytes(std::span(world_.uses)));
+  for (const QuadricRun& run : world_.runs)
+    for_each_use(run, [&](const ObjectUse& use) {
+      hasher.add(std::as_bytes(std::span(use.to_parent.m)));
+      hasher.add(std::as_bytes(std::span(&use.first_triangle, 1)));
+    });
   hasher.add(std::as_bytes(std::span(&records, 1)));
   m.scene_hash = hasher.digest();
 }

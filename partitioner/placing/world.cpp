@@ -86,6 +86,11 @@ World world_of(const Scene& scene, const std::filesystem::path& bundle, const Wo
     extend(world.instance_bounds, placed_bounds(plan.objects[use.object], use.to_parent));
   bool normals = have_normals(plan.scene.placements, scene);
   for (const Assembly& object : plan.objects) normals = normals || have_normals(object.placements, scene);
+  for (const QuadricRun& run : plan.scene.runs) {
+    const Bounds3d& box = run.places->bounds();
+    extend(world.instance_bounds,
+           placed_bounds(run.to_parent, {cast<float>(box.lower), cast<float>(box.upper)}));
+  }
   world.tessellated = std::move(plan.tessellated);
 
   const auto shines = [&](const Placement& p) { return surface_of(p, appearance).area_light >= 0; };
@@ -98,6 +103,7 @@ World world_of(const Scene& scene, const std::filesystem::path& bundle, const Wo
   for (const Placement& p : plan.scene.placements) world.own_triangles += triangles_of(*p.mesh);
   world.placements = std::move(plan.scene.placements);
   world.uses = std::move(plan.scene.uses);
+  world.runs = std::move(plan.scene.runs);
   for (Assembly& object : plan.objects) {
     const auto first = static_cast<std::uint32_t>(m.surfaces.size());
     const std::uint32_t count =

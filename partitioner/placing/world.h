@@ -38,6 +38,7 @@ struct World {
   // there.
   std::vector<WorldObject> objects;
   std::vector<ObjectUse> uses;
+  std::vector<QuadricRun> runs;
   std::vector<ShiningPlacement> shining;
   Bounds3f instance_bounds;  // of all instances, kept or copied
   std::uint64_t coarse = 0;  // as in ScenePlan

@@ -8,6 +8,7 @@
 #include "bundle/loaded_domain.h"
 #include "bundle/verify.h"
 #include "partitioner/partition.h"
+#include "scene/quadric_places.h"
 #include "scene/tessellate.h"
 #include "tests/support/render.h"
 #include "tests/support/temporary_directory.h"
@@ -103,6 +104,36 @@ TEST(Quadrics, OnePictureHoweverTheyAreCut) {
     EXPECT_EQ(film_hash(scene, {.domains = domains}), hash) << domains << " domains";
   EXPECT_EQ(film_hash(scene, {.domains = 8, .flatten = true}), hash) << "copies of instances";
   EXPECT_EQ(film_hash(scene, {.domains = 8, .domains_at_once = 2}), hash) << "spilled";
+}
+
+// Places of one quadric, in memory or in a file, are the same shapes one by one.
+TEST(Quadrics, OnePictureOfManyPlaces) {
+  std::mt19937 random(3);
+  Scene one_by_one = crowd(), many = one_by_one;
+  const Quadric ball{}, thread{.kind = QuadricKind::cylinder};
+  for (const Quadric& quadric : {ball, thread}) {
+    const Id<TriangleMesh> mesh = add(one_by_one, quadric), list = add(many, quadric);
+    const auto places = std::make_shared<QuadricPlaces>(quadric, 0);
+    for (int i = 0; i < 10'000; ++i) {
+      Shape shape = shape_of(random, mesh, 1, 0.005);
+      shape.material = {0};
+      shape.flip_orientation = false;
+      if (swaps_handedness(shape.object_to_world))
+        shape.object_to_world = shape.object_to_world * scale({1, 1, -1});
+      one_by_one.shapes.push_back(shape);
+      places->add(shape.object_to_world);
+    }
+    many.meshes[list.value].places = places;
+    Shape all;
+    all.mesh = list;
+    all.material = {0};
+    many.shapes.push_back(all);
+  }
+  const std::uint64_t hash = film_hash(one_by_one, {.domains = 1});
+  EXPECT_EQ(film_hash(many, {.domains = 1}), hash);
+  EXPECT_EQ(film_hash(many, {.domains = 16}), hash);
+  EXPECT_EQ(film_hash(many, {.domains = 16, .flatten = true}), hash);
+  EXPECT_EQ(film_hash(many, {.domains = 16, .domains_at_once = 3}), hash);
 }
 
 // Of all quadrics where they stand the least (t, id) that a ray meets, by going through them one by one.
