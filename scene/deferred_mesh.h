@@ -65,6 +65,7 @@ class MeshMemory {
       : limit_(limit_bytes), left_(limit_bytes) {}
 
   std::uint64_t limit_bytes() const { return limit_; }
+  bool is_limited() const { return limit_ != ~std::uint64_t{0}; }
 
   // The mesh itself while it fits, else what stands for it.
   TriangleMesh keep(TriangleMesh mesh, MeshLoader load);

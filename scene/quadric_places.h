@@ -22,7 +22,7 @@ class QuadricPlaces {
   // What is beyond `memory_bytes` goes to a file without a name in the folder for temporary files.
   QuadricPlaces(const Quadric& quadric, std::uint64_t memory_bytes);
 
-  // Affine ones alone. Throws MachineError where the disk is full.
+  // Affine ones that do not mirror. Throws MachineError where the disk is full.
   void add(const Transform& place);
 
   std::size_t size() const { return size_; }

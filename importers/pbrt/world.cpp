@@ -300,7 +300,12 @@ void Interpreter::add_shape(const ShapeGeometry& geometry, const FloatParameter&
       state_.reverse_orientation != (mirrored && (!geometry.quadric || shape.area_light));
   if (mirrored && geometry.quadric && shape.area_light)
     context_.report.approximated("a mirrored shape that shines has its front where it shines", place);
-  (current_object_ ? scene_.prototypes[*current_object_].shapes : scene_.shapes).push_back(std::move(shape));
+  if (current_object_)
+    scene_.prototypes[*current_object_].shapes.push_back(std::move(shape));
+  else if (quadric_runs_)
+    quadric_runs_->add(scene_, std::move(shape));
+  else
+    scene_.shapes.push_back(std::move(shape));
 }
 
 void Interpreter::object_instance(const Place& place) {
