@@ -87,7 +87,8 @@ void add_geometry(Builder& builder, const Object& object, const ShapeGeometry& g
   shape.flip_orientation = object.boolean("flip_normals", false, builder.report);
   if (geometry.front_by_normals && sides_matter(builder, shape)) {
     TriangleMesh storage;
-    const bool opposed = normals_oppose_winding(loaded(builder.scene.meshes[shape.mesh.value], storage));
+    const TriangleMesh& mesh = builder.scene.meshes[shape.mesh.value];
+    const bool opposed = !mesh.quadric && normals_oppose_winding(loaded(mesh, storage));
     if (opposed != swaps_handedness(shape.object_to_world)) shape.flip_orientation = !shape.flip_orientation;
   }
   shapes.push_back(std::move(shape));

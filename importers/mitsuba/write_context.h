@@ -50,7 +50,8 @@ struct Context {
         transmitting(vitrail::transmitting(scene_to_write.materials)),
         sided(with_sides(scene_to_write.materials)),
         lobes(lobes_of(scene_to_write.materials)),
-        uvs_show(meshes_whose_uvs_show(scene_to_write)) {}
+        uvs_show(meshes_whose_uvs_show(scene_to_write)),
+        uv_uses(scene_to_write) {}
 
   const Scene& scene;
   std::filesystem::path file;  // of the scene
@@ -61,6 +62,7 @@ struct Context {
   std::vector<bool> sided;         // with_sides
   std::vector<Lobes> lobes;
   std::vector<bool> uvs_show;  // of each mesh
+  ShapeUvUses uv_uses;
   Diagnostics diagnostics;
   // Of the record that is being written.
   Origin origin;

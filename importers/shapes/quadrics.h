@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// pbrt's quadrics. Sizes that are not finite or leave nothing (radius ≤ 0, inner radius ≥ radius, zmin =
-// zmax, phimax ≤ 0) throw Error.
+// Quadrics as files say them. Sizes that are not finite or leave nothing (radius ≤ 0, inner radius ≥ radius,
+// zmin = zmax, phimax ≤ 0) throw Error.
 #pragma once
 
-#include "scene/quadric.h"
+#include "scene/mesh.h"
+#include "scene/transform.h"
 
 namespace vitrail {
+
+TriangleMesh mesh_of(const Quadric& quadric);
 
 struct SizedQuadric {
   Quadric quadric;
@@ -22,5 +25,9 @@ SizedQuadric cylinder(double radius, double zmin, double zmax, double phimax_rad
 SizedQuadric cone(double radius, double height, double phimax_rad);
 // z = zmax·(r/radius)² between zmin and zmax, which are sorted.
 SizedQuadric paraboloid(double radius, double zmin, double zmax, double phimax_rad);
+
+// Where an affine transform puts it; by quadrature, to 1e-12 where its axes stay perpendicular and those of x
+// and y equal, and to 1e-6 elsewhere.
+double area_of(const Quadric& quadric, const Transform& to);
 
 }  // namespace vitrail
