@@ -9,11 +9,32 @@
 #include "partitioner/meshes/edit_meshes.h"
 #include "scene/deferred_mesh.h"
 #include "scene/kinds.h"
+#include "scene/quadric_places.h"
 #include "scene/tessellate.h"
 
 namespace vitrail {
 
 namespace {
+
+// A quadric that stands in many places becomes as many shapes.
+void part_places(Scene& scene) {
+  std::vector<Shape> shapes;
+  for (Shape& shape : scene.shapes) {
+    const auto places = scene.meshes[shape.mesh.value].places;
+    if (!places) {
+      shapes.push_back(std::move(shape));
+      continue;
+    }
+    for (std::size_t i = 0; i < places->size(); ++i) {
+      Transform place;
+      places->read(i, {&place, 1});
+      shapes.push_back(shape);
+      shapes.back().object_to_world = shape.object_to_world * place;
+    }
+  }
+  scene.shapes = std::move(shapes);
+  for (TriangleMesh& mesh : scene.meshes) mesh.places.reset();
+}
 
 // Makes meshes of quadrics, which are made anew whenever they are loaded if they are too large to keep.
 void tessellate_quadrics(Scene& scene, int segments, std::uint64_t kept_bytes) {
@@ -57,6 +78,7 @@ Diagnostics apply_mesh_options(const MeshOptions& o, Scene& scene, const MeshRes
   Diagnostics notes;
   if (o.tessellate > 0) {
     notes = notes_on_quadrics(scene, o.tessellate);
+    part_places(scene);
     tessellate_quadrics(scene, o.tessellate, resources.kept_bytes);
   }
   if (!o.edits_meshes()) return notes;
