@@ -209,21 +209,6 @@ constexpr std::array shapes{
     Value{"flipped rectangle",
           "<shape type='rectangle'><transform name='to_world'>TILT</transform><boolean name='flip_normals' "
           "value='true'/>BSDF EMITTER</shape>"},
-    Value{"sphere",
-          "<shape type='sphere'><point name='center' value='0,.1,.2'/><float name='radius' value='.8'/>"
-          "<transform name='to_world'>TILT</transform>BSDF EMITTER</shape>"},
-    Value{
-        "mirrored sphere",
-        "<shape type='sphere'><transform name='to_world'><scale x='.9' y='-.9' z='.9'/>TILT</transform>BSDF "
-        "EMITTER</shape>"},
-    Value{"disk", "<shape type='disk'><transform name='to_world'>TILT</transform>BSDF EMITTER</shape>"},
-    Value{"mirrored disk",
-          "<shape type='disk'><transform name='to_world'><scale x='-1' y='.7'/>TILT</transform>BSDF "
-          "EMITTER</shape>"},
-    Value{
-        "cylinder",
-        "<shape type='cylinder'><point name='p0' value='-.5,0,0'/><point name='p1' value='.5,.3,.2'/><float "
-        "name='radius' value='.6'/><transform name='to_world'>TILT</transform>BSDF EMITTER</shape>"},
     Value{"mirrored rectangle",
           "<shape type='rectangle'><transform name='to_world'><scale x='-1'/>TILT</transform>BSDF "
           "EMITTER</shape>"},

@@ -62,7 +62,7 @@ TriangleMesh ball(bool uvs) {
 }
 
 Shape shape_of(S& s, TriangleMesh mesh, Id<Material> material, const Transform& to_world) {
-  if (reads_attributes(s.scene) && !mesh.quadric) mesh.attributes.push_back(colors_of(mesh));
+  if (reads_attributes(s.scene)) mesh.attributes.push_back(colors_of(mesh));
   Shape shape;
   shape.mesh = s.add(std::move(mesh));
   shape.material = material;
@@ -77,12 +77,6 @@ void add(S& s, TriangleMesh mesh, Id<Material> material, const Transform& to_wor
   Shape shape = shape_of(s, std::move(mesh), material, to_world);
   shape.flip_orientation = flip;
   s.scene.shapes.push_back(std::move(shape));
-}
-
-TriangleMesh quadric(const Quadric& q) {
-  TriangleMesh mesh;
-  mesh.quadric = q;
-  return mesh;
 }
 
 void add_instances(S& s, TriangleMesh mesh, Id<Material> material) {
@@ -119,37 +113,6 @@ constexpr std::array shapes{
                [](S& s, Id<Material> m) {
                  add(s, ball(true), m, scale({0.9, 1, -1}));
                }},
-    ShapeValue{"sphere",
-               [](S& s, Id<Material> m) {
-                 add(s, quadric({}), m, tilted() * scale({0.9, 0.9, 0.9}));
-               }},
-    ShapeValue{"mirrored sphere of Mitsuba",
-               [](S& s, Id<Material> m) {
-                 add(s, quadric({.uv = QuadricUv::mitsuba}), m, tilted() * scale({0.9, 0.9, -0.9}), true);
-               }},
-    ShapeValue{"ellipsoid",
-               [](S& s, Id<Material> m) {
-                 add(s, quadric({.uv = QuadricUv::mitsuba}), m, tilted() * scale({0.9, 0.7, 0.8}));
-               }},
-    ShapeValue{"part of a sphere",
-               [](S& s, Id<Material> m) {
-                 add(s, quadric({.low = -0.7, .high = 0.6, .phi_max_rad = 4}), m, tilted());
-               }},
-    ShapeValue{
-        "disk",
-        [](S& s, Id<Material> m) { add(s, quadric({.kind = QuadricKind::disk, .low = 0}), m, tilted()); }},
-    ShapeValue{"flipped disk of Mitsuba",
-               [](S& s, Id<Material> m) {
-                 add(s, quadric({.kind = QuadricKind::disk, .uv = QuadricUv::mitsuba, .low = 0}), m,
-                     tilted() * rotate(std::numbers::pi, {0, 1, 0}) * scale({-1, 0.8, 1}));
-               }},
-    ShapeValue{"cylinder",
-               [](S& s, Id<Material> m) {
-                 add(s, quadric({.kind = QuadricKind::cylinder}), m, tilted() * scale({0.8, 0.8, 1}));
-               }},
-    ShapeValue{"cone",
-               [](S& s, Id<Material> m) { add(s, quadric({.kind = QuadricKind::cone}), m, tilted()); }},
-    ShapeValue{"instances of a sphere", [](S& s, Id<Material> m) { add_instances(s, quadric({}), m); }},
     ShapeValue{"instances", [](S& s, Id<Material> m) { add_instances(s, square(true), m); }},
     ShapeValue{"instances of a ball", [](S& s, Id<Material> m) { add_instances(s, ball(true), m); }},
 };
