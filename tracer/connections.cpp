@@ -10,6 +10,8 @@
 #include "tracer/media/phase.h"
 #include "tracer/path_state.h"
 #include "tracer/path_tracer.h"
+#include "tracer/quadrics/quadric_hits.h"
+#include "tracer/quadrics/quadric_surface.h"
 #include "tracer/rounding.h"
 
 namespace vitrail {
@@ -26,23 +28,50 @@ struct Aimed {
   double slope = 0;  // of StraightAim
 };
 
-// From `origin`, beside the point p that the light was sampled for. It ends at the light, where it meets the
-// plane of the surface that was sampled: by its rounded direction, not quite where that was. There an error
-// of the direction counts by the inverse cosine.
-Aimed aim(Point3f origin, Point3d p, const LightSample& light) {
+double slope_of(double cosine) { return std::sqrt(std::max(0.0, 1 - cosine * cosine)) / std::abs(cosine); }
+
+// Where the ray meets the side of the quadric that was sampled, nearest to there. Near its limb it may pass
+// by.
+void end_on_quadric(const Ray& ray, const LightSample& light, Aimed& aimed) {
+  const EmissiveQuadric& q = *light.quadric;
+  const QuadricHits hits =
+      quadric_hits(prepare(ray), q.to_bundle, q.quadric.quadric, ray.exclude == q.triangle);
+  const Vector3d direction = cast<double>(ray.direction);
+  const double there = aimed.end;
+  const bool front = dot(light.to_light, light.normal) < 0;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < hits.count; ++i) {
+    const auto& [t, local] = hits.at[i];
+    const double cosine = dot(direction, placed_quadric_normal(q.quadric, q.to_bundle, local));
+    if ((cosine < 0) != front || !(std::abs(t - there) < nearest)) continue;
+    nearest = std::abs(t - there);
+    aimed.end = t * (1 - 1e-12);
+    aimed.slope = slope_of(cosine / length(direction));
+  }
+}
+
+// From where it departs, beside the point that the light was sampled for. It ends at the light, where it
+// meets the surface that was sampled, of triangles its plane: by its rounded direction, not quite where that
+// was. There an error of the direction counts by the inverse cosine.
+Aimed aim(const Departure& from, const LightSample& light) {
   if (std::isinf(light.distance)) return {encode_direction(light.to_light)};
-  const Vector3d way = p + light.to_light * light.distance - cast<double>(origin);
+  const Vector3d way = from.p + light.to_light * light.distance - cast<double>(from.origin);
   Aimed aimed{encode_direction(dot(way, way) > 0 ? way : light.to_light)};
-  const Vector3d direction = cast<double>(decode_direction(aimed.direction));
+  const Vector3f rounded = decode_direction(aimed.direction);
+  const Vector3d direction = cast<double>(rounded);
   const double distance = length(way), there = dot(way, direction) / dot(direction, direction);
   aimed.end = there;
+  if (light.quadric) {
+    end_on_quadric({from.origin, rounded, from.exclude}, light, aimed);
+    return aimed;
+  }
   const double height = dot(way, light.normal), cosine = dot(direction, light.normal);
   if (!(height * cosine > 0)) return aimed;
   // So much aside, a neighbour may stand out of the plane by its tilt.
   const double aside = direction_rounding * distance / std::abs(cosine);
   const double plane = (height / cosine) * (1 - 1e-12) - aside * light.tilt_rad / std::abs(cosine);
   aimed.end = std::clamp(plane, 0.5 * there, 2 * there);
-  aimed.slope = std::sqrt(std::max(0.0, 1 - cosine * cosine)) / std::abs(cosine);
+  aimed.slope = slope_of(cosine);
   return aimed;
 }
 
@@ -108,7 +137,7 @@ void PathTracer::send_connection(const Path& path, const Connection& connection,
   sent.cone = 0;
   sent.set(path_connection);
   sent.throughput = radiance;
-  const Aimed aimed = aim(connection.from.origin, connection.from.p, light);
+  const Aimed aimed = aim(connection.from, light);
   depart(sent, connection.from, light.to_light);
   turn(sent, aimed.direction);
   if (refracts) {
@@ -157,7 +186,7 @@ void PathTracer::unpack_connection(const PathRecord& record, Path& path) {
 
 void PathTracer::send_shadow_ray(const Path& path, const Connection& connection, const LightSample& light,
                                  const SampledSpectrum& radiance) {
-  const Aimed aimed = aim(connection.from.origin, connection.from.p, light);
+  const Aimed aimed = aim(connection.from, light);
   ShadowRecord r;
   r.origin[0] = connection.from.origin.x;
   r.origin[1] = connection.from.origin.y;

@@ -24,6 +24,7 @@ LightScene light_scene(const Manifest& m, const Textures& textures) {
           .triangles = m.emissive_triangles,
           .attributes = m.emissive_attributes,
           .opacities = m.emissive_opacities,
+          .quadrics = m.emissive_quadrics,
           .lights = m.lights,
           .textures = &textures,
           .texture_records = m.textures,

@@ -184,7 +184,7 @@ void PathTracer::add_emission(const Path& path, const Interaction& at, std::uint
   if (path.pdf > 0) {
     const double distance = path.travelled + path.hit.t * length(cast<double>(path.ray.direction));
     const double pdf = static_cast<double>(path.pdf);
-    weight = pdf / (pdf + triangle_pdf(scene_.lights, path.scattered_from(), at.triangle, distance,
+    weight = pdf / (pdf + triangle_pdf(scene_.lights, path.scattered_from(), at.triangle, at.p, distance,
                                        dot(at.out, at.geometric)));
   }
   deposit(path.pixel, path.sample, path.sensor, path.throughput * radiance * static_cast<float>(weight));
