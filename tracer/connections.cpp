@@ -30,24 +30,16 @@ struct Aimed {
 
 double slope_of(double cosine) { return std::sqrt(std::max(0.0, 1 - cosine * cosine)) / std::abs(cosine); }
 
-// Where the ray meets the side of the quadric that was sampled, nearest to there. Near its limb it may pass
-// by.
-void end_on_quadric(const Ray& ray, const LightSample& light, Aimed& aimed) {
-  const EmissiveQuadric& q = *light.quadric;
+// Where the ray meets the quadric, nearest to where it ended. Near its limb it may pass by.
+void end_on_quadric(const Ray& ray, const EmissiveQuadric& q, Aimed& aimed) {
   const QuadricHits hits =
       quadric_hits(prepare(ray), q.to_bundle, q.quadric.quadric, ray.exclude == q.triangle);
+  if (hits.count == 0) return;
+  const auto off = [&](int i) { return std::abs(hits.at[i].t - aimed.end); };
+  const auto& [t, local] = hits.at[hits.count == 2 && off(1) < off(0) ? 1 : 0];
   const Vector3d direction = cast<double>(ray.direction);
-  const double there = aimed.end;
-  const bool front = dot(light.to_light, light.normal) < 0;
-  double nearest = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < hits.count; ++i) {
-    const auto& [t, local] = hits.at[i];
-    const double cosine = dot(direction, placed_quadric_normal(q.quadric, q.to_bundle, local));
-    if ((cosine < 0) != front || !(std::abs(t - there) < nearest)) continue;
-    nearest = std::abs(t - there);
-    aimed.end = t * (1 - 1e-12);
-    aimed.slope = slope_of(cosine / length(direction));
-  }
+  aimed.end = t * (1 - 1e-12);
+  aimed.slope = slope_of(dot(direction, placed_quadric_normal(q.quadric, q.to_bundle, local)));
 }
 
 // From where it departs, beside the point that the light was sampled for. It ends at the light, where it
@@ -62,7 +54,7 @@ Aimed aim(const Departure& from, const LightSample& light) {
   const double distance = length(way), there = dot(way, direction) / dot(direction, direction);
   aimed.end = there;
   if (light.quadric) {
-    end_on_quadric({from.origin, rounded, from.exclude}, light, aimed);
+    end_on_quadric({from.origin, rounded, from.exclude}, *light.quadric, aimed);
     return aimed;
   }
   const double height = dot(way, light.normal), cosine = dot(direction, light.normal);

@@ -73,7 +73,7 @@ void sort(Emissive& emissive, std::size_t slots) {
   std::vector<std::size_t> order(emissive.triangles.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::sort(order, {}, [&](std::size_t i) { return emissive.triangles[i].triangle; });
-  Emissive sorted;
+  Emissive sorted{.quadrics = std::move(emissive.quadrics)};  // in their order already
   for (const std::size_t i : order) {
     sorted.triangles.push_back(emissive.triangles[i]);
     for (std::size_t slot = 0; slot < slots && !emissive.attributes.empty(); ++slot)
