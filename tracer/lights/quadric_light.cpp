@@ -16,6 +16,7 @@ namespace {
 constexpr Point3d middle{};
 
 Vector3d column(const Affine& a, int j) { return {a.m[0][j], a.m[1][j], a.m[2][j]}; }
+double hypotenuse(double x, double y) { return std::sqrt(x * x + y * y); }
 Point3d origin_of(const Affine& a) { return {a.m[0][3], a.m[1][3], a.m[2][3]}; }
 
 double own_area(const Quadric& q) {
@@ -87,6 +88,7 @@ QuadricLight::QuadricLight(const EmissiveQuadric& record, bool two_sided)
   doubt_ = 0x1p-48 * (1 + std::sqrt(norm2 * dot(away, away)));
   const Quadric& q = record.quadric.quadric;
   if (is_whole_sphere(q)) way_ = Way::sphere;
+  if (q.kind == QuadricKind::disk && is_whole_turn(q) && q.low <= 0) way_ = Way::disk;
   if (q.kind == QuadricKind::cylinder && is_whole_turn(q) && !two_sided && !record.quadric.inside_out) {
     way_ = Way::cylinder;
     own_height_ = length(z) / std::sqrt(length(x) * length(y));
@@ -181,9 +183,9 @@ struct QuadricLight::Arc {
   }
   // `way` from q to the point; per solid angle where the own space is stretched to that height.
   double pdf(Vector3d way, double height) const {
-    const double horizontal = std::hypot(way.x, way.y);
+    const double horizontal = hypotenuse(way.x, way.y);
     if (!(half_rad > 0) || !(horizontal > 0)) return 0;
-    const double stretched = std::hypot(horizontal, way.z * height);
+    const double stretched = hypotenuse(horizontal, way.z * height);
     // The rest of the way's length is in the caller's cube.
     const double shorter = length(way) / stretched;
     return height * shorter * shorter * shorter * stretched /
@@ -225,6 +227,67 @@ std::optional<QuadricLight::Sample> QuadricLight::sample_cylinder(Point3d from, 
   const double longer = sample.distance / length(own_way);
   sample.pdf = arc.pdf(own_way, own_height_) * longer * longer * longer / determinant_;
   return sample;
+}
+
+// ---- Disks
+
+// How the unit disk is seen from q: its cone's axis halves the angle between the nearest and the farthest
+// point of its edge.
+struct QuadricLight::EllipticCone {
+  Vector3d x, y, z;             // orthonormal; z along the axis
+  double tan_x = 0, tan_y = 0;  // of its half angles; 0: seen from its plane
+  double height = 0;            // 1 − cos θ of the circular cone whose tangent is their mean
+  double squeeze_x = 1, squeeze_y = 1;
+
+  explicit EllipticCone(Vector3d q) {
+    const double rho = hypotenuse(q.x, q.y), h = std::abs(q.z);
+    const Vector3d aside = rho > 0 ? Vector3d{q.x / rho, q.y / rho, 0} : Vector3d{1, 0, 0};
+    const double near = hypotenuse(rho - 1, h), far = hypotenuse(rho + 1, h), both = near + far;
+    // The axis divides the diameter as these two.
+    const Vector3d to_middle = aside * (4 * rho / (both * both)) - q;
+    const double distance = length(to_middle);
+    if (!(h > 0) || !(distance > 0)) return;
+    z = to_middle * (1 / distance);
+    y = {-aside.y, aside.x, 0};
+    x = cross(y, z);
+    const double product = near * far, along = rho * rho - 1 + h * h;  // ·, of the two ways
+    tan_x = along > 0 ? 2 * h / (along + product) : (product - along) / (2 * h);
+    tan_y = 2 * std::sqrt(product) / (both * distance);
+    const double tangent2 = tan_x * tan_y, cosine = 1 / std::sqrt(1 + tangent2);
+    height = tangent2 * cosine * cosine / (1 + cosine);
+    squeeze_x = std::sqrt(tan_y / tan_x), squeeze_y = std::sqrt(tan_x / tan_y);
+  }
+  // Of a direction that meets the disk, of any length; per solid angle of the own space. The squeeze keeps
+  // volumes.
+  double pdf(Vector3d way) const {
+    if (!(tan_x > 0)) return 0;
+    const Vector3d squeezed{dot(way, x) * squeeze_x, dot(way, y) * squeeze_y, dot(way, z)};
+    const double longer = length(way) / length(squeezed);
+    return longer * longer * longer / (2 * pi * height);
+  }
+};
+
+std::optional<QuadricLight::Sample> QuadricLight::sample_disk(Point3d from, float u, float v) const {
+  const Vector3d q = own(from - origin_of(record_->to_bundle));
+  const EllipticCone cone(q);
+  if (!(cone.tan_x > 0)) return std::nullopt;
+  const Vector3d disk = sample_cosine_hemisphere(u, v);
+  const double drop = cone.height * (disk.x * disk.x + disk.y * disk.y);
+  const double aside = std::sqrt(cone.height * (2 - drop));
+  const Vector3d direction = cone.x * (disk.x * aside / cone.squeeze_x) +
+                             cone.y * (disk.y * aside / cone.squeeze_y) + cone.z * (1 - drop);
+  const double t = -q.z / direction.z;
+  if (!(t > 0)) return std::nullopt;
+  const Vector3d own_way = direction * t, way = placed(own_way);
+  Sample s;
+  s.local = {q.x + own_way.x, q.y + own_way.y, 0};
+  s.distance = length(way);
+  s.to_light = way * (1 / s.distance);
+  s.normal = placed_quadric_normal(record_->quadric, record_->to_bundle, s.local);
+  s.front = is_front(q.z > 0);
+  const double longer = s.distance / length(own_way);
+  s.pdf = cone.pdf(own_way) * longer * longer * longer / determinant_;
+  return s;
 }
 
 // ---- Others
@@ -283,6 +346,7 @@ std::optional<QuadricLight::Sample> QuadricLight::sample_area(Point3d from, floa
 std::optional<QuadricLight::Sample> QuadricLight::sample(Point3d from, float u, float v) const {
   const auto sample = way_ == Way::sphere     ? sample_sphere(from, u, v)
                       : way_ == Way::cylinder ? sample_cylinder(from, u, v)
+                      : way_ == Way::disk     ? sample_disk(from, u, v)
                                               : sample_area(from, u, v);
   if (!sample || !(sample->distance > 0) || !(sample->pdf > 0)) return std::nullopt;
   if (!sample->front && !two_sided_) return std::nullopt;
@@ -302,8 +366,9 @@ double QuadricLight::pdf(Point3d from, Point3d at, double cosine) const {
   }
   // Of directions dω = |det| / |M ω′|³ dω′.
   const double longer = distance / own_distance;
-  const double own_pdf =
-      way_ == Way::sphere ? cone(q).pdf(is_front(cosine > 0)) : arc(q).pdf(own_way, own_height_);
+  const double own_pdf = way_ == Way::sphere     ? cone(q).pdf(is_front(cosine > 0))
+                         : way_ == Way::cylinder ? arc(q).pdf(own_way, own_height_)
+                                                 : EllipticCone(q).pdf(own_way);
   return own_pdf * longer * longer * longer / determinant_;
 }
 

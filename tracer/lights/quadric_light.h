@@ -6,6 +6,8 @@
 //   cylinder that goes all the way round and shines outwards alone
 //                                 uniform in the angle about its axis that it is seen under, and at each of
 //                                 these equiangular along the axis (Kulla & Fajardo 2012)
+//   whole disk                    in the elliptic cone of directions that meets it, uniform where that is
+//                                 squeezed to a circular one
 //   others                        uniform by the area of their own space
 #pragma once
 
@@ -44,9 +46,10 @@ class QuadricLight {
   const EmissiveQuadric& record() const { return *record_; }
 
  private:
-  enum class Way : std::uint8_t { sphere, cylinder, area };
+  enum class Way : std::uint8_t { sphere, cylinder, disk, area };
   struct Cone;
   struct Arc;
+  struct EllipticCone;
 
   Vector3d own(Vector3d v) const;
   Vector3d placed(Vector3d v) const;
@@ -54,6 +57,7 @@ class QuadricLight {
   Arc arc(Vector3d q) const;
   std::optional<Sample> sample_sphere(Point3d from, float u, float v) const;
   std::optional<Sample> sample_cylinder(Point3d from, float u, float v) const;
+  std::optional<Sample> sample_disk(Point3d from, float u, float v) const;
   std::optional<Sample> sample_area(Point3d from, float u, float v) const;
   double stretch(Vector3d unit_normal) const;
   bool is_front(bool outside) const { return outside != record_->quadric.inside_out; }
