@@ -78,6 +78,12 @@ Scene crowd() {
             Material{DiffuseMaterial{}});
   add_shape(scene, add_quads(scene, {{{{-1, -1, 3}, {-1, 1, 3}, {1, 1, 3}, {1, -1, 3}}}}),
             Material{DiffuseMaterial{}}, AreaLight{ConstantSpectrum{5}, false});
+  for (const QuadricKind kind : {QuadricKind::sphere, QuadricKind::cylinder, QuadricKind::cone}) {
+    add_shape(scene, add(scene, Quadric{.kind = kind}), Material{DiffuseMaterial{}},
+              AreaLight{ConstantSpectrum{20}});
+    scene.shapes.back().object_to_world =
+        translate({static_cast<double>(kind) - 1, 1, 1}) * scale({.1, .1, .2});
+  }
   set_camera(scene, {3, 3.5, 2.5}, {0, 0, 0}, {0, 0, 1}, 0.7, 40, 30);
   scene.settings.max_depth = 6;
   return scene;
