@@ -44,8 +44,8 @@ void add_lamp(Scene& scene, const std::vector<std::array<Point3f, 4>>& quads, Ar
   add_shape(scene, add_quads(scene, quads), black, light);
 }
 
-void expect_irradiance(const char* what, const Scene& scene, double expected) {
-  const Rendered rendered = render(scene, 256);
+void expect_irradiance(const char* what, const Scene& scene, double expected, int samples = 256) {
+  const Rendered rendered = render(scene, samples);
   const Brightness seen = brightness(rendered.film);
   fmt::print("{}: {:.6g} ± {:.2g} of {:.6g}\n", what, seen.mean * pi, seen.standard_error * pi, expected);
   EXPECT_NEAR(seen.mean * pi, expected, 4 * seen.standard_error * pi + 2e-4 * expected) << what;
@@ -80,6 +80,27 @@ TEST(MeansOfLights, Points) {
     expected += 2 / std::pow(x * x + 4, 1.5);
   }
   expect_irradiance("50 points", scene, expected);
+}
+
+// High and low ones, and either may be hidden: one is chosen by what it would bring, and that must not count.
+TEST(MeansOfLights, HiddenPoints) {
+  for (const bool hide_high : {true, false}) {
+    Scene scene = spot();
+    double expected = 0;
+    for (int i = 0; i < 9; ++i) {
+      const bool high = i % 3 == 0;
+      const double cosine = high ? 1 : 0.25, sine = std::sqrt(1 - cosine * cosine), angle = i * 2 * pi / 9;
+      const Vector3d to_light{sine * std::cos(angle), sine * std::sin(angle), cosine};
+      scene.lights.push_back(Light{PointLight{Point3d{} + to_light, one}, {}});
+      const auto x = static_cast<float>(to_light.x / 2), y = static_cast<float>(to_light.y / 2),
+                 z = static_cast<float>(cosine / 2);
+      if (high == hide_high)
+        add_shape(scene, add_quads(scene, {flat(x - 0.1f, x + 0.1f, y - 0.1f, y + 0.1f, z, true)}), black);
+      else
+        expected += cosine;
+    }
+    expect_irradiance(hide_high ? "low points" : "high points", scene, expected, 4096);
+  }
 }
 
 TEST(MeansOfLights, Spots) {

@@ -330,4 +330,28 @@ TEST(LightSampler, DegenerateLightsGiveNothing) {
   EXPECT_EQ(triangle_pdf(s, {0, 0, 1}, 0, 1, 1), 0);
 }
 
+// A lamp of two triangles differs little from afar; a light without extent never does.
+TEST(LightSampler, SaysHowMuchSamplesDiffer) {
+  World lamp;
+  lamp.add_area_light(1, false);
+  lamp.add_triangle({0, 0, 0}, {1, 0, 0}, {1, 1, 0}, 0, 0);
+  lamp.add_triangle({0, 0, 0}, {1, 1, 0}, {0, 1, 0}, 1, 0);
+  const LightSampler one = make(lamp);
+  EXPECT_EQ(variety(one, {0.5, 0.5, 1}), Variety::much);
+  EXPECT_EQ(variety(one, {0.5, 0.5, 4}), Variety::little);
+  World more = lamp;
+  more.add(InfiniteLight{ConstantSpectrum{1}});  // never sampled
+  EXPECT_EQ(variety(make(more), {0.5, 0.5, 4}), Variety::little);
+  more.add(PointLight{{0, 0, 1}, ConstantSpectrum{1}});
+  EXPECT_EQ(variety(make(more), {0.5, 0.5, 4}), Variety::much);
+  for (const LightModel& model : {LightModel{PointLight{{0, 0, 1}, ConstantSpectrum{1}}},
+                                  LightModel{DistantLight{{0, 0, 1}, ConstantSpectrum{1}}}}) {
+    World point;
+    point.add(model);
+    EXPECT_EQ(variety(make(point), {1, 0, 0}), Variety::none);
+    point.add(model);
+    EXPECT_EQ(variety(make(point), {1, 0, 0}), Variety::much);
+  }
+}
+
 }  // namespace vitrail

@@ -209,6 +209,12 @@ std::optional<LightSample> sample_light(const LightSampler& s, Point3d p, const 
   return sample;
 }
 
+Variety variety(const LightSampler& s, Point3d p) {
+  if (s.only_delta) return Variety::none;
+  const Vector3d way = p - s.lamp_center;
+  return s.lamp_radius2 > 0 && dot(way, way) > 16 * s.lamp_radius2 ? Variety::little : Variety::much;
+}
+
 double triangle_pdf(const LightSampler& s, Point3d from, std::uint32_t triangle, double distance,
                     double cosine) {
   const auto above =

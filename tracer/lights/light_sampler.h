@@ -79,6 +79,10 @@ struct LightSampler {
   };
   std::vector<Run> runs;  // ascending
 
+  bool only_delta = false;  // there is one light, and one direction to it
+  Point3d lamp_center;      // where there is one lamp of one or two triangles and one radiance,
+  double lamp_radius2 = 0;  // a sphere around it; else 0
+
   // Whether sample_light may ever give something.
   bool can_sample() const { return !share.empty(); }
   // Whether background's radiance may be other than 0.
@@ -108,6 +112,11 @@ struct LightSample {
 // A connection from p. u[0], u[1] are for the point, u[2], u[3] for the light. Empty where nothing arrives.
 std::optional<LightSample> sample_light(const LightSampler& sampler, Point3d p, const std::array<float, 4>& u,
                                         const SampledWavelengths& wavelengths);
+
+// How much samples of the lights differ by what they bring to a diffuse point: not at all; little, one lamp
+// that is small from there; or much.
+enum class Variety : std::uint8_t { none, little, much };
+Variety variety(const LightSampler& sampler, Point3d p);
 
 // The density, per solid angle and with the choice included, with which sample_light(from) gives a point of
 // the triangle (global id) at that distance, seen at `cosine` from its normal (> 0: its front).

@@ -147,6 +147,23 @@ struct Sorter {
   }
 };
 
+void find_variety(LightSampler& s) {
+  const std::size_t kinds =
+      static_cast<std::size_t>(std::ranges::count_if(s.share, [](double share) { return share > 0; }));
+  if (kinds != 1) return;
+  const bool local = s.share[0] > 0;
+  s.only_delta = local ? s.slots.size() == 1 && s.emitters.size() == 1 : s.environments.empty();
+  const bool plain = std::ranges::all_of(s.scene.area_lights, [](const AreaLight& light) {
+    return std::holds_alternative<Spectrum>(light.radiance);
+  });
+  if (!local || !s.emitters.empty() || s.slots.size() > 2 || !plain) return;
+  Bounds3d box;
+  for (const LightSampler::Slot& slot : s.slots)
+    for (const Point3f& p : slot.p) extend(box, cast<double>(p));
+  s.lamp_center = box.lower + (box.upper - box.lower) * 0.5;
+  s.lamp_radius2 = dot(box.upper - s.lamp_center, box.upper - s.lamp_center);
+}
+
 }  // namespace
 
 LightSampler make_light_sampler(const LightScene& scene, const ImageSource& images, LightChoice choice) {
@@ -185,6 +202,7 @@ LightSampler make_light_sampler(const LightScene& scene, const ImageSource& imag
   if (choices == 0) return s;
   for (const double p : power)
     s.share.push_back(p > 0 ? 0.5 / static_cast<double>(choices) + 0.5 * p / total : 0);
+  find_variety(s);
   return s;
 }
 
