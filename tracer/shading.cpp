@@ -106,8 +106,10 @@ bool PathTracer::shade_surface(Path& path) {
   if (!scattering) return false;
   const std::array<float, 4> u = numbers_for_scattering(path);
   const Vector3d out = scattering->frame.to_local(at.out);
-  const std::uint32_t candidates = light_candidates(path, at.p, is_diffuse(scattering->bsdf));
-  if (scene_.lights.can_sample()) connect_surface(path, at, surface, *scattering, out, candidates);
+  const std::uint32_t candidates =
+      is_specular(scattering->bsdf) ? 0 : light_candidates(path, at.p, is_diffuse(scattering->bsdf));
+  if (candidates > 0 && scene_.lights.can_sample())
+    connect_surface(path, at, surface, *scattering, out, candidates);
   const std::optional<BsdfSample> chosen = sample(scattering->bsdf, out, u[2], {u[0], u[1]});
   if (!chosen) return false;
   path.throughput = path.throughput * chosen->weight;
