@@ -189,7 +189,11 @@ TEST(LightTextures, LargeEnvironmentsAreSampledByTheirLevels) {
   for (int i = 0; i < samples; ++i) {
     const auto l = sample_light(s, {0, 0, 0}, random.four(), test::some_wavelengths());
     ASSERT_TRUE(l);
-    const double x = static_cast<double>(l->radiance[0]) / l->pdf;
+    // Beside uniform directions, as of a BSDF.
+    constexpr double uniform = 1 / (4 * pi);
+    const Background other = background(s, random.direction(), test::some_wavelengths());
+    const double x = static_cast<double>(l->radiance[0]) / (l->pdf + uniform) +
+                     static_cast<double>(other.radiance[0]) / (other.pdf + uniform);
     sum += x / samples;
     squares += x * x / samples;
   }
