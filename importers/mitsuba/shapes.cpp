@@ -88,8 +88,20 @@ void add_geometry(Builder& builder, const Object& object, const ShapeGeometry& g
   if (geometry.front_by_normals && sides_matter(builder, shape)) {
     TriangleMesh storage;
     const bool opposed = normals_oppose_winding(loaded(builder.scene.meshes[shape.mesh.value], storage));
-    if (opposed != swaps_handedness(shape.object_to_world)) shape.flip_orientation = !shape.flip_orientation;
+    if (opposed != swaps_handedness(shape.object_to_world)) {
+      shape.flip_orientation = !shape.flip_orientation;
+      if (builder.parts.at(shape.material.value).height)
+        builder.report.approximated(
+            "bump maps show where shading normals are on the other side than the winding: Mitsuba 3.9 shows "
+            "black",
+            object.origin);
+    }
   }
+  if (in_group && has_read_vertices(builder.scene, builder.scene.meshes[shape.mesh.value]))
+    builder.report.approximated(
+        "attributes of vertices in instances are those of the place met: Mitsuba 3.9 takes them from "
+        "elsewhere",
+        object.origin);
   shapes.push_back(std::move(shape));
 }
 

@@ -15,6 +15,7 @@
 
 #include "importers/images/converted_images.h"
 #include "importers/mesh_files.h"
+#include "importers/mitsuba/material_parts.h"
 #include "importers/opacity_key.h"
 #include "importers/unique_names.h"
 #include "scene/color.h"
@@ -50,6 +51,7 @@ struct Context {
         transmitting(vitrail::transmitting(scene_to_write.materials)),
         sided(with_sides(scene_to_write.materials)),
         lobes(lobes_of(scene_to_write.materials)),
+        parts(mitsuba::parts_of(scene_to_write.materials)),
         uvs_show(meshes_whose_uvs_show(scene_to_write)) {}
 
   const Scene& scene;
@@ -60,6 +62,7 @@ struct Context {
   std::vector<bool> transmitting;  // Mitsuba allows no `twosided` around such materials
   std::vector<bool> sided;         // with_sides
   std::vector<Lobes> lobes;
+  std::vector<mitsuba::MaterialParts> parts;
   std::vector<bool> uvs_show;  // of each mesh
   Diagnostics diagnostics;
   // Of the record that is being written.

@@ -101,8 +101,13 @@ void write_prototype(Context& context, Element root, const Prototype& prototype,
   id = context.new_id(prototype.name, "shapegroup", index);
   if (group.empty) return;
   Element element = add(root, "shape", "shapegroup", "", id);
-  for (std::size_t i = 0; i < prototype.shapes.size(); ++i)
-    if (!prototype.shapes[i].area_light) write_shape(context, element, prototype.shapes[i], i);
+  for (std::size_t i = 0; i < prototype.shapes.size(); ++i) {
+    const Shape& shape = prototype.shapes[i];
+    if (shape.area_light) continue;
+    write_shape(context, element, shape, i);
+    if (mitsuba::has_read_vertices(context.scene, context.scene.meshes[shape.mesh.value]))
+      context.approximated("attributes of vertices in instances: Mitsuba 3.9 takes them from elsewhere");
+  }
 }
 
 void write_instance(Context& context, Element root, const Instance& instance, const Group& group) {

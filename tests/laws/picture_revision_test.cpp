@@ -10,7 +10,7 @@
 namespace vitrail::test {
 namespace {
 
-constexpr std::uint32_t known_revision = 2;
+constexpr std::uint32_t known_revision = 3;
 constexpr const char* known_pictures = "dcbd16245510461d";
 
 std::array<Point3f, 4> tile(float x, float z) {
