@@ -390,7 +390,9 @@ Material two_sided(Builder& b, const Object& o) {
   if (sides.size() == 2) {
     const std::vector<Id<Material>> ids = nested(b, o, 2, 2);
     if (b.parts[ids[1].value].bumps) report_mirrored_bumps(b, o);
-    return Material{TwoSidedMaterial{ids[0], ids[1]}};
+    Material material{TwoSidedMaterial{ids[0], ids[1]}};
+    change_leaves(b, material, [](Material& leaf) { leaf.two_sided = true; });
+    return material;
   }
   Material material = inner(b, o);
   bool bumps = false;

@@ -8,6 +8,8 @@
 #include "importers/mitsuba/write_materials.h"
 #include "importers/mitsuba/write_media.h"
 #include "importers/mitsuba/write_sides.h"
+#include "importers/shapes/vertex_normals.h"
+#include "scene/deferred_mesh.h"
 
 namespace vitrail::mitsuba_writer {
 
@@ -71,6 +73,9 @@ void write_shape(Context& context, Element parent, const Shape& shape, std::size
   add_media(context, element, shape);
   if (!shape.area_light) return;
   const AreaLight light = light_of(context, shape);
+  TriangleMesh storage;
+  if (normals_lean(loaded(context.scene.meshes[shape.mesh.value], storage)))
+    context.approximated("Mitsuba 3.9 weighs the light of a mesh by its shading normals");
   write_area_light(context, element, light);
   if (!light.two_sided) return;
   context.approximated(
