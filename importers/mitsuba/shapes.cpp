@@ -57,6 +57,12 @@ void add_emission(Builder& builder, const Object& object, bool in_group, Shape& 
   if (emitters.size() > 1)
     builder.report.dropped("more than one emitter of a shape: the first counts", emitters[1]->origin);
   shape.area_light = add_area_light(builder, *std::get<ObjectPtr>(emitters.front()->value));
+  TriangleMesh storage;
+  if (shape.area_light && normals_lean(loaded(builder.scene.meshes[shape.mesh.value], storage)))
+    builder.report.approximated(
+        "the light of a mesh goes by its triangles: Mitsuba 3.9 weighs it by the shading normals",
+        object.origin);
+  builder.report.begin_item({object.origin, RecordKind::shape});
 }
 
 bool sides_matter(const Builder& builder, const Shape& shape) {
@@ -85,11 +91,6 @@ void add_geometry(Builder& builder, const Object& object, const ShapeGeometry& g
   add_media(builder, object, shape);
   add_emission(builder, object, in_group, shape);
   shape.flip_orientation = object.boolean("flip_normals", false, builder.report);
-  if (TriangleMesh storage;
-      shape.area_light && normals_lean(loaded(builder.scene.meshes[shape.mesh.value], storage)))
-    builder.report.approximated(
-        "the light of a mesh goes by its triangles: Mitsuba 3.9 weighs it by the shading normals",
-        object.origin);
   if (geometry.front_by_normals && sides_matter(builder, shape)) {
     TriangleMesh storage;
     const bool opposed = normals_oppose_winding(loaded(builder.scene.meshes[shape.mesh.value], storage));

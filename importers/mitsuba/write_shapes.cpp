@@ -73,10 +73,10 @@ void write_shape(Context& context, Element parent, const Shape& shape, std::size
   add_media(context, element, shape);
   if (!shape.area_light) return;
   const AreaLight light = light_of(context, shape);
+  write_area_light(context, element, light);
   TriangleMesh storage;
   if (normals_lean(loaded(context.scene.meshes[shape.mesh.value], storage)))
     context.approximated("Mitsuba 3.9 weighs the light of a mesh by its shading normals");
-  write_area_light(context, element, light);
   if (!light.two_sided) return;
   context.approximated(
       "Mitsuba's area lights shine to one side: a copy of the surface right behind it shines to the other");

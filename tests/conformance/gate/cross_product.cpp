@@ -51,7 +51,14 @@ void number(auto& records) {
 void number_records(Scene& scene) {
   scene.files = {"scene"};
   number(scene.textures), number(scene.materials), number(scene.lights), number(scene.area_lights);
-  number(scene.shapes), number(scene.prototypes), number(scene.instances);
+  number(scene.prototypes), number(scene.instances);
+  std::uint32_t shapes = 0;
+  const auto number_shape = [&](Shape& shape) {  // by name, too: writers give shapes none
+    shape.name = fmt::format("_unnamed_shape_{}", shapes);
+    shape.origin.line = ++shapes;
+  };
+  std::ranges::for_each(scene.shapes, number_shape);
+  for (Prototype& prototype : scene.prototypes) std::ranges::for_each(prototype.shapes, number_shape);
 }
 
 std::vector<std::size_t> sizes() {
