@@ -459,6 +459,11 @@ Material normal_map(Builder& b, const Object& o) {
     const bool is_flat = texture->vector("value", b.report) == Vector3d{0.5, 0.5, 1};
     if (!is_flat) b.report.dropped("a normal map that is the same everywhere", texture->origin);
   } else {
+    if (texture->type == "bitmap" && !texture->boolean("raw", false, b.report))
+      b.report.approximated(
+          "a normal map that is not raw counts as if it were: Mitsuba's rgb variants decode it, and its "
+          "spectral ones refuse it",
+          texture->origin);
     const Id<Texture> map = add_texture(b, *texture, false);
     change_leaves(b, material, [&](Material& leaf) {
       leaf.normal_map = map;

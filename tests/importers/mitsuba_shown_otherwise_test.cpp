@@ -162,6 +162,21 @@ TEST_F(ShownOtherwise, BrightColoursInMixes) {
   EXPECT_THAT(written_, say("above 1"));
 }
 
+// Mitsuba's rgb variants decode it, its spectral ones refuse it.
+TEST_F(ShownOtherwise, NormalMapsThatAreNotRaw) {
+  const auto with = [](const char* more) {
+    return fmt::format(
+        "<scene version=\"3.0.0\"><bsdf type=\"normalmap\" id=\"m\"><texture type=\"bitmap\" "
+        "name=\"normalmap\"><string name=\"filename\" value=\"n.exr\"/>{}</texture><bsdf "
+        "type=\"diffuse\"/></bsdf></scene>",
+        more);
+  };
+  EXPECT_THAT(read_mitsuba(folder_.write("a.xml", with(""))).diagnostics, say("is not raw"));
+  EXPECT_THAT(
+      read_mitsuba(folder_.write("b.xml", with("<boolean name=\"raw\" value=\"true\"/>"))).diagnostics,
+      testing::Not(say("is not raw")));
+}
+
 // Around bumps twosided would mirror them.
 TEST_F(ShownOtherwise, NotTheSidesOfBumpsInBlends) {
   scene_.materials[0].normal_map = Id<Texture>{0};
