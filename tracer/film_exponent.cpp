@@ -58,7 +58,7 @@ void add_surfaces(const LightSampler& s, Tally& tally) {
       {{1 / 3.0, 1 / 3.0}, {1 / 6.0, 1 / 6.0}, {2 / 3.0, 1 / 6.0}, {1 / 6.0, 2 / 3.0}}};
   // Attributes are 1 as numbers and as spectra: the sigmoid of λ².
   std::array<AttributeValue, max_attributes> white;
-  for (AttributeValue& value : white) value.corners.fill({1, 0, 0});
+  white.fill({{{{1, 0, 0}, {1, 0, 0}, {1, 0, 0}}}, {1, 0, 0}});
   for (const EmissiveTriangle& t : s.scene.triangles) {
     const AreaLight& light = s.scene.area_lights[t.area_light];
     if (std::holds_alternative<Spectrum>(light.radiance)) continue;
