@@ -99,6 +99,17 @@ void check_triangles(const Checker& c, const Manifest& m) {
   check_surfaces(c, m, own, m.triangles);
 }
 
+void check_shape(const Checker& c, const Quadric& q) {
+  const bool from_zero = q.kind == QuadricKind::disk || q.kind == QuadricKind::paraboloid;
+  c.require(q.low >= (from_zero ? 0 : -1), "a quadric begins below its least");
+  c.require(q.low < q.high && q.high <= 1 && q.phi_max_rad > 0, "a quadric has no surface");
+}
+
+void check_quadric(const Checker& c, const OrientedQuadric& q, const ObjectInfo& o) {
+  check_shape(c, q.quadric);
+  c.require(o.triangles == 1 && o.objects.empty() && o.surface_count == 1, "a quadric is not by itself");
+}
+
 // Objects refer to smaller numbers, so no chain of instances comes back to where it was.
 void check_objects(const Checker& c, const Manifest& m) {
   std::vector<int> depth(m.objects.size(), 1);
@@ -109,6 +120,7 @@ void check_objects(const Checker& c, const Manifest& m) {
                   std::uint64_t{o.first_surface} + o.surface_count <= m.surfaces.size(),
               "an object has surfaces that are not there");
     check_surfaces(c, m, surfaces_of(m, o), o.triangles);
+    if (o.quadric) check_quadric(c, *o.quadric, o);
     for (const std::uint32_t other : o.objects) {
       c.require(other < i, "an object holds itself");
       depth[i] = std::max(depth[i], depth[other] + 1);
@@ -133,6 +145,7 @@ void check_records(const Checker& c, const Manifest& m) {
   for (const Material& material : m.materials) records::fields(io, material), ++io.materials;
   records::list(io, m.media), records::list(io, m.area_lights), records::list(io, m.lights);
   records::list(io, m.emissive_triangles), records::list(io, m.emissive_attributes);
+  records::list(io, m.emissive_quadrics);
   for (const Surface& s : m.surfaces) records::fields(io, s.opacity);
   records::list(io, m.emissive_opacities);
   records::fields(io, m.camera);
@@ -155,6 +168,10 @@ void check_sheets(const Checker& c, const Manifest& m) {
 void check_lights(const Checker& c, const Manifest& m) {
   for (const EmissiveTriangle& t : m.emissive_triangles)
     c.require(t.triangle < m.triangles && t.area_light < m.area_lights.size(), "a light shines from nowhere");
+  for (const EmissiveQuadric& q : m.emissive_quadrics) {
+    check_shape(c, q.quadric.quadric);
+    c.require(q.triangle < m.triangles && q.area_light < m.area_lights.size(), "a light shines from nowhere");
+  }
   c.require(m.emissive_attributes.empty() ||
                 m.emissive_attributes.size() == m.emissive_triangles.size() * m.attributes,
             "the attributes of what shines are not whole");

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "bundle/instance.h"
+#include "bundle/oriented_quadric.h"
 #include "scene/bounds.h"
 #include "scene/vec.h"
 
@@ -115,7 +116,8 @@ struct DomainView {
   std::span<const BvhNode> instance_nodes;
   // Of a domain, for its instances and theirs: by number, those it needs. Whoever loads it sets the two.
   std::span<const DomainView* const> objects;
-  float reach = 0;  // no |coordinate| in the trees is greater
+  const OrientedQuadric* quadric = nullptr;  // if it is one: all the rest is empty
+  float reach = 0;                           // no |coordinate| in the trees is greater
 };
 
 DomainView view_of(const DomainContent& content);

@@ -27,12 +27,12 @@ std::uint32_t files_up_to(const fs::path& file) {
   return stem.size() == 6 && error == std::errc{} && end == stem.data() + 6 ? number + 1 : 0;
 }
 
-std::uint32_t listed(const fs::path& bundle, const std::string& folder) {
-  std::ifstream in(bundle / "manifest.json");
-  const auto json = nlohmann::json::parse(in, nullptr, false);
+// What the manifest lists; empty where it is no JSON.
+nlohmann::json listed(const nlohmann::json& manifest, const std::string& folder) {
   const std::string key = folder == "textures" ? "texture_files" : folder;
-  if (!json.is_object() || !json.contains(key) || !json[key].is_array()) return 0;
-  return static_cast<std::uint32_t>(json[key].size());
+  if (!manifest.is_object() || !manifest.contains(key) || !manifest[key].is_array())
+    return nlohmann::json::array();
+  return manifest[key];
 }
 
 // 0 where the file is damaged, which is found later.
@@ -52,7 +52,10 @@ std::set<fs::path> expected_files(const fs::path& bundle, const std::set<fs::pat
   const auto at_least = [&](const std::string& folder, std::uint32_t count) {
     counts[folder] = std::max(counts[folder], count);
   };
-  for (const char* folder : folders) at_least(folder, listed(bundle, folder));
+  std::ifstream in(bundle / "manifest.json");
+  const auto manifest = nlohmann::json::parse(in, nullptr, false);
+  for (const char* folder : folders)
+    at_least(folder, static_cast<std::uint32_t>(listed(manifest, folder).size()));
   for (const fs::path& file : present) {
     if (file.extension() != ".dom" && file.extension() != ".tex") continue;
     files.insert(file);
@@ -63,6 +66,9 @@ std::set<fs::path> expected_files(const fs::path& bundle, const std::set<fs::pat
     for (std::uint32_t i = 0; i < counts[folder]; ++i)
       files.insert(bundle / folder /
                    fmt::format("{:06}.{}", i, std::string(folder) == "textures" ? "tex" : "dom"));
+  const auto objects = listed(manifest, "objects");
+  for (std::uint32_t i = 0; i < objects.size(); ++i)
+    if (objects[i].is_object() && objects[i].contains("quadric")) files.erase(object_path(bundle, i));
   return files;
 }
 

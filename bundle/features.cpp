@@ -13,7 +13,7 @@ namespace vitrail {
 namespace {
 
 // By bit.
-constexpr std::array required{"normals", "uvs", "attributes", "instances", "textures"};
+constexpr std::array required{"normals", "uvs", "attributes", "instances", "textures", "quadrics"};
 constexpr std::array optional{"pieces"};
 
 std::vector<std::string> names(std::uint32_t bits, std::span<const char* const> known) {

@@ -13,8 +13,8 @@
 
 namespace vitrail {
 
-// Most instances within each other.
-inline constexpr int max_instance_depth = 8;
+// Most instances within each other; one more than of prototypes, for the quadrics in them.
+inline constexpr int max_instance_depth = 9;
 
 // p' = m·(p, 1), m[row][column].
 struct Affine {

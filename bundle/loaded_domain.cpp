@@ -9,7 +9,13 @@ LoadedDomain::LoadedDomain(const Manifest& manifest, std::uint32_t domain, Share
   const std::vector<std::uint32_t>& needed = manifest.domains.at(domain).objects;
   if (needed.empty()) return;
   object_views_.resize(needed.back() + std::size_t{1});
+  quadrics_.reserve(needed.size());  // views of it are given away
   for (const std::uint32_t number : needed) {
+    if (const auto& quadric = manifest.objects[number].quadric) {
+      object_views_[number] = &quadrics_.emplace_back();
+      quadrics_.back().quadric = &*quadric;
+      continue;
+    }
     objects_.push_back(object(number));
     object_views_[number] = &objects_.back()->view();
   }

@@ -15,7 +15,7 @@ using SharedDomain = std::shared_ptr<const MappedDomain>;
 
 class LoadedDomain {
  public:
-  // `object(n)` gives object n; it is asked once for each that the domain needs.
+  // `object(n)` gives object n; it is asked once for each that the domain needs and that is in a file.
   LoadedDomain(const Manifest& manifest, std::uint32_t domain, SharedDomain mapped,
                const std::function<SharedDomain(std::uint32_t)>& object);
   LoadedDomain(const LoadedDomain&) = delete;  // its view refers to itself
@@ -26,6 +26,7 @@ class LoadedDomain {
  private:
   SharedDomain mapped_;
   std::vector<SharedDomain> objects_;
+  std::vector<DomainView> quadrics_;             // of the manifest, which outlives them
   std::vector<const DomainView*> object_views_;  // by number, null where it is not needed
   DomainView view_;
 };

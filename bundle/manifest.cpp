@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
@@ -120,6 +121,8 @@ Features features_of(const Manifest& m) {
   require(m.attributes > 0, required_feature::attributes);
   require(!m.objects.empty(), required_feature::instances);
   require(!m.texture_files.empty(), required_feature::textures);
+  require(std::ranges::any_of(m.objects, [](const ObjectInfo& o) { return o.quadric.has_value(); }),
+          required_feature::quadrics);
   if (m.cut_triangles > 0) f.optional |= optional_feature::pieces;
   return f;
 }

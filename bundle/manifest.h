@@ -13,6 +13,7 @@
 #include "bundle/domain_file.h"
 #include "bundle/features.h"
 #include "bundle/occupancy.h"
+#include "bundle/oriented_quadric.h"
 #include "scene/bounds.h"
 #include "scene/scene.h"
 
@@ -41,14 +42,15 @@ struct DomainInfo {
   bool operator==(const DomainInfo&) const = default;
 };
 
-// What instances are of: a prototype, or a part of a large one. Its ids count its own triangles first, then
-// those of its instances; parts of one prototype share them.
+// What instances are of: a prototype, a part of a large one, or a quadric, which has no file. Its ids count
+// its own triangles first, then those of its instances; parts of one prototype share them.
 struct ObjectInfo {
   std::uint64_t triangles = 0;                         // ids are [0, triangles)
   std::uint64_t bytes = 0;                             // of its file
   std::uint64_t hash = 0;                              // MappedDomain::hash of its file
   std::uint32_t first_surface = 0, surface_count = 0;  // the surfaces of its own triangles
-  std::vector<std::uint32_t> objects;  // that its own instances are of, ascending, below its own number
+  std::vector<std::uint32_t> objects;      // that its own instances are of, ascending, below its own number
+  std::optional<OrientedQuadric> quadric;  // with one id
   bool operator==(const ObjectInfo&) const = default;
 };
 
@@ -71,6 +73,15 @@ struct EmissiveTriangle {
   Point2f uv[3];
   std::uint32_t triangle = 0;    // global id
   std::uint32_t area_light = 0;  // index
+};
+
+// One quadric that emits from its front, likewise.
+struct EmissiveQuadric {
+  OrientedQuadric quadric;
+  Affine to_bundle{};
+  std::uint32_t triangle = 0;     // global id
+  std::uint32_t area_light = 0;   // index
+  FloatParameter opacity = 1.0f;  // of its surface
 };
 
 // A mesh attribute at the corners of a triangle: [vertex][channel].
@@ -121,6 +132,7 @@ struct Manifest {
   // Their mesh attributes, [triangle][slot]; empty where no area light reads one.
   std::vector<CornerValues> emissive_attributes;
   std::vector<FloatParameter> emissive_opacities;  // their surfaces'; empty where all are 1
+  std::vector<EmissiveQuadric> emissive_quadrics;
   std::vector<Light> lights;
   Camera camera;
   std::int32_t camera_medium = -1;  // index, or −1: vacuum

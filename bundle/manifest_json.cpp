@@ -39,11 +39,13 @@ std::uint64_t hash_from(const Json& j) {
 // The kinds of a variant, in the order of its alternatives.
 constexpr std::array camera_kinds{"perspective", "orthographic", "spherical"};
 constexpr std::array sphere_kinds{"equal area", "latitude longitude"};
+constexpr std::array quadric_kinds{"sphere", "cylinder", "disk", "cone", "paraboloid"};
+constexpr std::array quadric_uvs{"pbrt", "mitsuba"};
 constexpr std::array filter_kinds{"box", "triangle", "gaussian", "mitchell", "sinc"};
 
 template <std::size_t n>
-std::size_t kind_index(const Json& j, const std::array<const char*, n>& kinds) {
-  const auto word = j.at("kind").get<std::string>();
+std::size_t kind_index(const Json& j, const std::array<const char*, n>& kinds, const char* key = "kind") {
+  const auto word = j.at(key).get<std::string>();
   for (std::size_t i = 0; i < n; ++i)
     if (word == kinds[i]) return i;
   throw Error(fmt::format("unknown kind '{}'", word));
@@ -183,21 +185,46 @@ DomainInfo domain_from_json(const Json& j) {
   return d;
 }
 
+Json quadric_to_json(const OrientedQuadric& q) {
+  return {{"kind", quadric_kinds.at(static_cast<std::size_t>(q.quadric.kind))},
+          {"uv", quadric_uvs.at(static_cast<std::size_t>(q.quadric.uv))},
+          {"low", q.quadric.low},
+          {"high", q.quadric.high},
+          {"phi_max_rad", q.quadric.phi_max_rad},
+          {"inside_out", q.inside_out}};
+}
+
+OrientedQuadric quadric_from_json(const Json& j) {
+  return {{.kind = static_cast<QuadricKind>(kind_index(j, quadric_kinds)),
+           .uv = static_cast<QuadricUv>(kind_index(j, quadric_uvs, "uv")),
+           .low = j.at("low").get<double>(),
+           .high = j.at("high").get<double>(),
+           .phi_max_rad = j.at("phi_max_rad").get<double>()},
+          j.at("inside_out").get<bool>()};
+}
+
 Json object_to_json(const ObjectInfo& o) {
-  return {{"triangles", o.triangles},
-          {"bytes", o.bytes},
-          {"hash", hash(o.hash)},
-          {"surfaces", {o.first_surface, o.surface_count}},
-          {"objects", o.objects}};
+  Json j{
+      {"triangles", o.triangles}, {"hash", hash(o.hash)}, {"surfaces", {o.first_surface, o.surface_count}}};
+  if (o.quadric)
+    j["quadric"] = quadric_to_json(*o.quadric);
+  else
+    j.update({{"bytes", o.bytes}, {"objects", o.objects}});
+  return j;
 }
 
 ObjectInfo object_from_json(const Json& j) {
-  return {j.at("triangles").get<std::uint64_t>(),
-          j.at("bytes").get<std::uint64_t>(),
-          hash_from(j.at("hash")),
-          j.at("surfaces").at(0).get<std::uint32_t>(),
-          j.at("surfaces").at(1).get<std::uint32_t>(),
-          j.at("objects").get<std::vector<std::uint32_t>>()};
+  ObjectInfo o{.triangles = j.at("triangles").get<std::uint64_t>(),
+               .hash = hash_from(j.at("hash")),
+               .first_surface = j.at("surfaces").at(0).get<std::uint32_t>(),
+               .surface_count = j.at("surfaces").at(1).get<std::uint32_t>()};
+  if (j.contains("quadric")) {
+    o.quadric = quadric_from_json(j["quadric"]);
+    return o;
+  }
+  o.bytes = j.at("bytes").get<std::uint64_t>();
+  o.objects = j.at("objects").get<std::vector<std::uint32_t>>();
+  return o;
 }
 
 }  // namespace

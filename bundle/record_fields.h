@@ -49,6 +49,10 @@ inline constexpr E last_of = E{};
 template <>
 inline constexpr auto last_of<Roughness::Distribution> = Roughness::Distribution::beckmann;
 template <>
+inline constexpr auto last_of<QuadricKind> = QuadricKind::paraboloid;
+template <>
+inline constexpr auto last_of<QuadricUv> = QuadricUv::mitsuba;
+template <>
 inline constexpr auto last_of<Wrap> = Wrap::black;
 template <>
 inline constexpr auto last_of<TextureFilter> = TextureFilter::anisotropic;
@@ -302,6 +306,15 @@ void fields(auto& io, Is<EmissiveTriangle> auto& t) {
   for (auto& p : t.p) fields(io, p);
   for (auto& uv : t.uv) fields(io, uv);
   io(t.triangle), io(t.area_light);
+}
+void fields(auto& io, Is<Quadric> auto& q) {
+  fields(io, q.kind), fields(io, q.uv), io(q.low), io(q.high), io(q.phi_max_rad);
+}
+void fields(auto& io, Is<EmissiveQuadric> auto& q) {
+  fields(io, q.quadric.quadric), fields(io, q.quadric.inside_out);
+  for (auto& row : q.to_bundle.m)
+    for (auto& x : row) io(x);
+  io(q.triangle), io(q.area_light), fields(io, q.opacity);
 }
 void fields(auto& io, Is<CornerValues> auto& v) {
   for (auto& vertex : v)

@@ -41,14 +41,17 @@ void materials(auto& io, auto& m) {
 // The last lists are there where they, or what comes after them, have something.
 void lights(Writer& io, const Manifest& m) {
   list(io, m.area_lights), list(io, m.emissive_triangles), list(io, m.lights);
-  if (!m.emissive_attributes.empty() || !m.emissive_opacities.empty()) list(io, m.emissive_attributes);
-  if (!m.emissive_opacities.empty()) list(io, m.emissive_opacities);
+  const bool quadrics = !m.emissive_quadrics.empty(), opacities = quadrics || !m.emissive_opacities.empty();
+  if (opacities || !m.emissive_attributes.empty()) list(io, m.emissive_attributes);
+  if (opacities) list(io, m.emissive_opacities);
+  if (quadrics) list(io, m.emissive_quadrics);
 }
 void lights(Reader& io, Manifest& m) {
   list(io, m.area_lights), list(io, m.emissive_triangles), list(io, m.lights);
-  m.emissive_attributes.clear(), m.emissive_opacities.clear();
+  m.emissive_attributes.clear(), m.emissive_opacities.clear(), m.emissive_quadrics.clear();
   if (!io.stream.at_end()) list(io, m.emissive_attributes);
   if (!io.stream.at_end()) list(io, m.emissive_opacities);
+  if (!io.stream.at_end()) list(io, m.emissive_quadrics);
 }
 
 }  // namespace records

@@ -158,6 +158,10 @@ class Verifier {
   void plan_objects() {
     const Manifest& m = *manifest_;
     for (std::uint32_t i = 0; i < m.objects.size();) {
+      if (m.objects[i].quadric) {
+        ++i;
+        continue;
+      }
       const std::uint32_t end = end_of_prototype(m, i);
       const fs::path first = object_path(bundle_, i);
       HeldIds& ids = held_.emplace_back(relative(first), m, m.objects[i].triangles, 0, instances_in(first));

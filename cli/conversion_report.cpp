@@ -10,6 +10,7 @@
 #include <unordered_map>
 
 #include "scene/atomic_file.h"
+#include "scene/kinds.h"
 
 namespace vitrail {
 
@@ -93,8 +94,11 @@ class Items {
   std::unordered_map<std::string, std::vector<Entry>> by_place_;
 };
 
-void add_shapes(Items& items, const std::vector<Shape>& shapes) {
-  for (const Shape& shape : shapes) items.add(RecordKind::shape, named("shape", shape.name), shape.origin);
+void add_shapes(Items& items, const Scene& scene, const std::vector<Shape>& shapes) {
+  for (const Shape& shape : shapes) {
+    const std::optional<Quadric>& quadric = scene.meshes[shape.mesh.value].quadric;
+    items.add(RecordKind::shape, named(quadric ? kind_of(quadric->kind) : "shape", shape.name), shape.origin);
+  }
 }
 
 Fidelity worst(const std::vector<const Diagnostic*>& notes) {
@@ -133,10 +137,10 @@ std::vector<ConversionItem> conversion_items(const Scene& scene, const Diagnosti
     items.add(RecordKind::area_light, "area light", light.origin);
   for (const Light& light : scene.lights)
     items.add(RecordKind::light, lights.at(light.model.index()), light.origin);
-  add_shapes(items, scene.shapes);
+  add_shapes(items, scene, scene.shapes);
   for (const Prototype& prototype : scene.prototypes) {
     items.add(RecordKind::object, named("object", prototype.name), prototype.origin);
-    add_shapes(items, prototype.shapes);
+    add_shapes(items, scene, prototype.shapes);
     for (const Instance& instance : prototype.instances)
       items.add(RecordKind::instance, "instance", instance.origin);
   }
@@ -156,11 +160,16 @@ ConversionCounts count(const std::vector<ConversionItem>& items) {
 }
 
 void write_conversion_report(const std::filesystem::path& file, const std::filesystem::path& in,
-                             const std::filesystem::path& out, const std::vector<ConversionItem>& items) {
+                             const std::filesystem::path& out, const std::string& quadrics,
+                             const std::vector<ConversionItem>& items) {
   const ConversionCounts counts = count(items);
-  Json report{{"input", in.string()},      {"output", out.string()},
-              {"exact", counts.exact},     {"approximated", counts.approximated},
-              {"dropped", counts.dropped}, {"items", Json::array()}};
+  Json report{{"input", in.string()},
+              {"output", out.string()},
+              {"quadrics", quadrics},
+              {"exact", counts.exact},
+              {"approximated", counts.approximated},
+              {"dropped", counts.dropped},
+              {"items", Json::array()}};
   for (const ConversionItem& item : items) {
     Json entry{{"item", item.what}, {"fidelity", item.notes.empty() ? "exact" : word(worst(item.notes))}};
     put_place(entry, item.location);

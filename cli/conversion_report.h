@@ -12,7 +12,7 @@ namespace vitrail {
 
 // A record of the scene, or a directive that made none. With notes, it is as inexact as the worst of them.
 struct ConversionItem {
-  std::string what;  // "material \"floor\"", "shape"
+  std::string what;  // "material \"floor\"", "shape", "sphere"
   SourceLocation location;
   std::vector<const Diagnostic*> notes;
 };
@@ -27,9 +27,10 @@ struct ConversionCounts {
 };
 ConversionCounts count(const std::vector<ConversionItem>& items);
 
-// {input, output, exact, approximated, dropped, items: [{item, fidelity, file, line, column, notes:
+// {input, output, quadrics, exact, approximated, dropped, items: [{item, fidelity, file, line, column, notes:
 // [{fidelity, what, file, line, column}]}]}. Throws MachineError.
 void write_conversion_report(const std::filesystem::path& file, const std::filesystem::path& in,
-                             const std::filesystem::path& out, const std::vector<ConversionItem>& items);
+                             const std::filesystem::path& out, const std::string& quadrics,
+                             const std::vector<ConversionItem>& items);
 
 }  // namespace vitrail

@@ -9,6 +9,7 @@
 #include "cli/import_options.h"
 #include "cli/main_guard.h"
 #include "cli/mesh_options.h"
+#include "cli/quadric_counts.h"
 #include "importers/export.h"
 #include "importers/import.h"
 #include "partitioner/meshes/edit_meshes.h"
@@ -64,6 +65,7 @@ int run(const Arguments& a) {
   require_outputs(a);  // other than all that was read
   Diagnostics& diagnostics = imported.diagnostics;
   const bool refused = a.strict && !diagnostics.empty();
+  const std::string quadrics = quadric_counts(imported.scene);
   Diagnostics edits;  // as asked for
   if (!refused) {
     edits = apply_mesh_options(a.meshes, imported.scene, MeshResources{});
@@ -72,7 +74,7 @@ int run(const Arguments& a) {
   const bool exact = diagnostics.empty();
   std::ranges::move(edits, std::back_inserter(diagnostics));
   const std::vector<ConversionItem> items = conversion_items(imported.scene, diagnostics);
-  if (!a.report.empty()) write_conversion_report(a.report, a.input, a.output, items);
+  if (!a.report.empty()) write_conversion_report(a.report, a.input, a.output, quadrics, items);
   if (!a.quiet) {
     fmt::print(stderr, "{}", summarise(diagnostics));
     const ConversionCounts counts = count(items);

@@ -7,6 +7,7 @@
 
 #include "bundle/census.h"
 #include "cli/inspect.h"
+#include "cli/quadric_counts.h"
 #include "film/film.h"
 #include "importers/import.h"
 #include "partitioner/appearance/appearance.h"
@@ -179,6 +180,7 @@ Report inspect_scene(const std::filesystem::path& file, const ImportOptions& opt
   Report r{{"file", file.string()}, {"kind", "scene"}};
   r["meshes"] = s.meshes.size();
   r["shapes"] = s.shapes.size();
+  r["quadrics"] = quadric_counts(s);
   r["prototypes"] = s.prototypes.size();
   r["instances"] = s.instances.size();
   r["mesh_bytes"] = mesh_bytes(s);

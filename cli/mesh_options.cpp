@@ -6,6 +6,11 @@
 namespace vitrail {
 
 void declare_mesh_options(CLI::App& app, MeshOptions& o) {
+  app.add_option(
+         "--tessellate", o.tessellate,
+         "make meshes of spheres, cylinders, disks, cones and paraboloids, with so many segments for a "
+         "full turn")
+      ->check(CLI::Range(3, 4096));
   app.add_flag("--repair", o.repair,
                "merge equal vertices; remove unused ones and triangles that are degenerate or duplicates");
   app.add_flag("--orient", o.orient,
@@ -22,6 +27,7 @@ void declare_mesh_options(CLI::App& app, MeshOptions& o) {
 
 std::vector<std::string> arguments_of(const MeshOptions& o) {
   std::vector<std::string> arguments;
+  if (o.tessellate > 0) arguments.insert(arguments.end(), {"--tessellate", std::to_string(o.tessellate)});
   if (o.repair) arguments.push_back("--repair");
   if (o.orient) arguments.push_back("--orient");
   if (o.subdivide > 0) arguments.insert(arguments.end(), {"--subdivide", std::to_string(o.subdivide)});

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The options that change meshes on their way: --repair, --orient, --subdivide, --decimate.
+// The options that change meshes on their way: --tessellate, --repair, --orient, --subdivide,
+// --decimate.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -13,10 +14,12 @@ namespace vitrail {
 struct MeshResources;  // partitioner/meshes/edit_meshes.h
 
 struct MeshOptions {
+  int tessellate = 0;  // segments of a full turn; 0: quadrics stay quadrics
   bool repair = false, orient = false;
   int subdivide = 0;    // levels
   double decimate = 1;  // fraction of the triangles to keep
-  bool any() const { return repair || orient || subdivide > 0 || decimate < 1; }
+  bool any() const { return tessellate > 0 || edits_meshes(); }
+  bool edits_meshes() const { return repair || orient || subdivide > 0 || decimate < 1; }
 };
 
 void declare_mesh_options(CLI::App& app, MeshOptions& options);

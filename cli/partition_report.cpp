@@ -22,6 +22,7 @@ void write_stats(const std::filesystem::path& file, const PartitionStats& s) {
                                     {"bundle_bytes", s.bundle_bytes},
                                     {"duplicates", s.duplicates},
                                     {"area_error", s.area_error},
+                                    {"quadrics", s.quadrics},
                                     {"objects", s.objects},
                                     {"instances", s.instances},
                                     {"domain_bytes_max", s.domain_bytes_max},
@@ -48,7 +49,8 @@ void write_stats(const std::filesystem::path& file, const PartitionStats& s) {
 }
 
 void print_summary(const PartitionStats& s, const std::filesystem::path& bundle) {
-  fmt::print("{}: {} triangles in {} domains, {}\n", bundle.string(), s.input_triangles, s.domains,
+  fmt::print("{}: {} triangles{} in {} domains, {}\n", bundle.string(), s.input_triangles,
+             s.quadrics > 0 ? fmt::format(" and {} quadrics", s.quadrics) : "", s.domains,
              format_bytes(s.bundle_bytes));
   if (s.domains < s.domains_planned)
     fmt::print(

@@ -65,6 +65,7 @@ void Residency::note_forwarded(std::uint32_t domain, std::uint64_t rays) {
 Reservation Residency::reservation_for(std::uint32_t domain) const {
   Reservation r{domain, {}, {}};
   for (const std::uint32_t object : manifest_.domains[domain].objects) {
+    if (manifest_.objects[object].quadric) continue;
     if (SharedDomain held = objects_[object].lock())
       r.held.emplace(object, std::move(held));
     else

@@ -3,6 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <unordered_set>
+
+#include "importers/placed_quadric.h"
+
 namespace vitrail {
 
 std::vector<FlatShape> flat_shapes(const Scene& scene) {
@@ -44,6 +48,16 @@ void note_geometry_only(const Scene& scene, Diagnostics& diagnostics) {
     note(Fidelity::approximated,
          fmt::format("{} instances: each is written with triangles of its own", scene.instances.size()),
          RecordKind::instance, scene.instances.front().origin);
+}
+
+void note_quadrics(const Scene& scene, const std::vector<FlatShape>& shapes, Diagnostics& diagnostics) {
+  std::unordered_set<const Shape*> noted;
+  for (const FlatShape& flat : shapes) {
+    const std::optional<Quadric>& quadric = scene.meshes.at(flat.shape.mesh.value).quadric;
+    if (!quadric || !noted.insert(&flat.shape).second) continue;
+    const SourceLocation where = location(scene, flat.shape.origin);
+    diagnostics.push_back({Fidelity::approximated, as_triangles(*quadric), where, where, RecordKind::shape});
+  }
 }
 
 }  // namespace vitrail

@@ -23,4 +23,7 @@ std::vector<FlatShape> flat_shapes(const Scene& scene);
 // share their shapes.
 void note_geometry_only(const Scene& scene, Diagnostics& diagnostics);
 
+// That quadrics are written as triangles, each shape once.
+void note_quadrics(const Scene& scene, const std::vector<FlatShape>& shapes, Diagnostics& diagnostics);
+
 }  // namespace vitrail

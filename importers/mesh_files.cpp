@@ -2,13 +2,18 @@
 #include "importers/mesh_files.h"
 
 #include "importers/ply/write_ply.h"
+#include "scene/deferred_mesh.h"
 
 namespace vitrail {
 
 MeshFiles::MeshFiles(const Scene& scene, const std::filesystem::path& scene_file)
     : scene_(scene), directory_(scene_file.parent_path()), files_(scene_file), names_(scene.meshes.size()) {}
 
-const std::string& MeshFiles::name(Id<TriangleMesh> mesh) { return name(mesh, scene_.meshes.at(mesh.value)); }
+const std::string& MeshFiles::name(Id<TriangleMesh> mesh) {
+  if (has_name(mesh)) return names_[mesh.value];
+  TriangleMesh storage;
+  return name(mesh, loaded(scene_.meshes[mesh.value], storage));
+}
 
 const std::string& MeshFiles::name(Id<TriangleMesh> mesh, const TriangleMesh& instead) {
   std::string& name = names_.at(mesh.value);

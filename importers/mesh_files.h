@@ -16,7 +16,7 @@ class MeshFiles {
  public:
   MeshFiles(const Scene& scene, const std::filesystem::path& scene_file);
 
-  // The file's path relative to the scene's. Throws MachineError.
+  // The file's path relative to the scene's; a quadric's has its triangles. Throws MachineError.
   const std::string& name(Id<TriangleMesh> mesh);
   bool has_name(Id<TriangleMesh> mesh) const { return !names_.at(mesh.value).empty(); }
   // Where the format needs another form of the mesh.

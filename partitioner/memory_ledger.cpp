@@ -10,6 +10,7 @@
 
 #include "partitioner/placing/objects.h"
 #include "scene/deferred_mesh.h"
+#include "scene/quadric_places.h"
 
 namespace vitrail {
 
@@ -54,6 +55,7 @@ MemoryLedger ledger_of(const Scene& scene) {
   MemoryLedger ledger;
   for (const TriangleMesh& mesh : scene.meshes) {
     ledger.meshes += bytes_of(mesh) + 2 * block;
+    if (mesh.places) ledger.meshes += mesh.places->bytes();
     if (mesh.deferred)
       ledger.meshes += sizeof(DeferredMesh) + mesh.deferred->sample.size() * sizeof(DeferredMesh::Sample);
   }

@@ -26,6 +26,10 @@ constexpr double program_bytes = 12 * mib, image_library_bytes = 132 * mib;
 // its line in the census.
 constexpr double piece_bytes = 300;
 
+// Of a reference to a quadric with its place in trees: in a domain file; in a cell that is divided; and while
+// a domain is made.
+constexpr double quadric_bytes = 170, quadric_held = 230, quadric_built = 400;
+
 // Bytes a triangle: measured, docs/partitioning.md.
 struct Costs {
   double placed, built;
@@ -47,7 +51,8 @@ std::uint32_t number_of_domains(const Manifest& m, const MemoryNeeds& needs) {
             ? static_cast<double>(needs.domain_bytes)
             : std::max(1.0, std::min(default_domain_bytes, static_cast<double>(needs.budget_bytes) / 32));
     const double all = static_cast<double>(needs.triangles) * bytes_of_a_triangle(m) +
-                       static_cast<double>(needs.instance_bytes);
+                       static_cast<double>(needs.instance_bytes) +
+                       quadric_bytes * static_cast<double>(needs.quadrics);
     domains = std::max(1.0, std::ceil(all / bytes));
   }
   if (domains > most_domains)
@@ -82,9 +87,12 @@ MemoryPlan plan_memory(const Manifest& m, const MemoryNeeds& needs) {
   const double domain = plan.domains == 1 ? triangles : fullest * items / plan.domains;
   const double pieces_each = items > 0 ? std::min(1.0, 2 * (items - triangles) / items) : 0;
   const double held = costs.placed + piece_bytes * pieces_each;  // an item of a cell that is divided
-  const double build = costs.built * domain;
-  const double least = held * domain + build;
-  if (triangles > 0 && left < least)
+  const auto quadrics = static_cast<double>(needs.quadrics);
+  const double quadrics_of_domain = plan.domains == 1 ? quadrics : fullest * quadrics / plan.domains;
+  const double in_cell = held * domain + quadric_held * quadrics_of_domain;
+  const double build = costs.built * domain + quadric_built * quadrics_of_domain;
+  const double least = in_cell + build;
+  if (triangles + quadrics > 0 && left < least)
     throw MachineError(
         fmt::format("{:.0f} MiB of memory are too little for domains of {:.0f} triangles and pieces: {:.0f} "
                     "MiB is needed, or more "
@@ -102,11 +110,11 @@ MemoryPlan plan_memory(const Manifest& m, const MemoryNeeds& needs) {
                     (static_cast<double>(needs.budget_bytes) - left + mesh * 4 / 3) / mib + 1));
   // All at once, or half of what is left for a bucket's triangles.
   const double threads = std::min<double>(needs.threads, plan.domains);
-  const double all = costs.placed * triangles + piece_bytes * pieces_each * items;
+  const double all = costs.placed * triangles + piece_bytes * pieces_each * items + quadric_held * quadrics;
   const bool all_fit = all + threads * build <= left || plan.domains == 1;
-  const double bucket = all_fit ? plan.domains : std::floor(left / 2 / (held * domain));
+  const double bucket = all_fit ? plan.domains : std::floor(left / 2 / in_cell);
   plan.domains_at_once = static_cast<std::uint32_t>(std::clamp<double>(bucket, 1, plan.domains));
-  const double placed = all_fit ? all : held * domain * plan.domains_at_once;
+  const double placed = all_fit ? all : in_cell * plan.domains_at_once;
   plan.domains_in_work = static_cast<std::uint32_t>(
       std::clamp<double>(build > 0 ? (left - placed) / build : threads, 1, threads));
   plan.load_bytes = static_cast<std::uint64_t>(all_fit ? std::max(left - placed, left / 8) : left / 2);

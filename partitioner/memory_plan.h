@@ -22,6 +22,7 @@ struct MemoryNeeds {
   std::uint64_t triangles = 0;       // that no instance has
   double expansion = 1;              // of them: triangles and pieces in all domains over triangles
   std::uint64_t instance_bytes = 0;  // of references to objects, in memory and in the domains
+  std::uint64_t quadrics = 0;        // that references are made to as they are needed
   std::uint64_t scene_bytes = 0;     // of the budget, already in use
   std::uint64_t largest_mesh = 0;    // bytes of one that is in its file
   std::uint32_t domains = 0;         // 0: by domain_bytes

@@ -27,19 +27,20 @@ std::uint64_t object_bytes(const Manifest& m, std::span<const InstanceRef> insta
 
 }  // namespace
 
-std::uint32_t domains_within(const World& world, const std::vector<InstanceRef>& instances,
-                             std::uint64_t domain_bytes, std::uint32_t domains) {
+std::uint32_t domains_within(const World& world, const SceneInstances& instances, std::uint64_t domain_bytes,
+                             std::uint32_t domains) {
   const std::vector<Bounds3f> boxes = sample_of(world, instances);
   const std::vector<Item> items = WorkEstimate().items(boxes);
   Bounds3f bounds;
   for (const Bounds3f& b : boxes) extend(bounds, b);
-  const InstanceDealer dealer(instances, bounds);
+  const InstanceDealer dealer(instances.refs, bounds);
   const double own_bytes = bytes_of_a_triangle(world.manifest) * static_cast<double>(world.own_triangles);
   const auto most_bytes = [&](std::uint32_t count) {
     std::vector<KdNode> nodes(count - 1);
     const double share = static_cast<double>(items.size()) / count;
     const double rate =
-        static_cast<double>(items.size()) / static_cast<double>(world.own_triangles + instances.size());
+        static_cast<double>(items.size()) /
+        static_cast<double>(world.own_triangles + instances.refs.size() + instances.in_runs());
     const KdPlan plan = plan_kd_tree(items, {bounds, 0, 0, count}, {share, 1, false, rate}, nodes);
     std::uint64_t most = 0;
     for (const Subtree& leaf : plan.leaves)

@@ -5,13 +5,13 @@
 #include <cstdint>
 #include <vector>
 
-#include "partitioner/placing/world.h"
+#include "partitioner/writing/write_objects.h"
 
 namespace vitrail {
 
 // `domains` or more, tried on a sample; at most so many as a renderer can number. `instances`: of the scene.
 // Throws UsageError where no number is enough.
-std::uint32_t domains_within(const World& world, const std::vector<InstanceRef>& instances,
-                             std::uint64_t domain_bytes, std::uint32_t domains);
+std::uint32_t domains_within(const World& world, const SceneInstances& instances, std::uint64_t domain_bytes,
+                             std::uint32_t domains);
 
 }  // namespace vitrail

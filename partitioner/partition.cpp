@@ -17,6 +17,7 @@
 #include "partitioner/memory_plan.h"
 #include "partitioner/object_budget.h"
 #include "partitioner/placing/flatten.h"
+#include "partitioner/spilling/spill_instances.h"
 #include "partitioner/spilling/spill_scene.h"
 #include "partitioner/writing/bundle_directory.h"
 #include "scene/deferred_mesh.h"
@@ -122,18 +123,20 @@ class Partitioner {
     for (const TriangleMesh& mesh : scene.meshes)
       if (mesh.deferred) needs.largest_mesh = std::max(needs.largest_mesh, mesh.deferred->bytes);
     coarse_ = world_.coarse;
+    quadrics_ = world_.quadrics;
     const std::uint64_t in_objects = triangles_of_objects(world_);
     const auto all = static_cast<double>(std::max<std::uint64_t>(in_objects + world_.own_triangles, 1));
     phases_.begin("writing objects", static_cast<double>(in_objects) / all, in_objects);
-    refs_ = write_objects(world_, world_.manifest, bundle_,
-                          {most_object_bytes(options.domain_bytes), bytes_left(needs)},
-                          [&](std::uint64_t n) { phases_.advance(n); });
+    instances_ = write_objects(world_, world_.manifest, bundle_,
+                               {most_object_bytes(options.domain_bytes), bytes_left(needs)},
+                               [&](std::uint64_t n) { phases_.advance(n); });
     rest_ = static_cast<double>(world_.own_triangles) / all;
-    needs.instance_bytes = refs_.size() * bytes_of_reference;
-    items_ = world_.own_triangles + refs_.size();
+    needs.instance_bytes = instances_.refs.size() * bytes_of_reference;
+    needs.quadrics = instances_.in_runs();
+    items_ = world_.own_triangles + instances_.refs.size() + instances_.in_runs();
     plan_ = plan_with_pieces(needs);
-    if (options.domains == 0 && options.domain_bytes > 0 && !refs_.empty()) {
-      needs.domains = domains_within(world_, refs_, options.domain_bytes, plan_.domains);
+    if (options.domains == 0 && options.domain_bytes > 0 && !instances_.refs.empty()) {
+      needs.domains = domains_within(world_, instances_, options.domain_bytes, plan_.domains);
       plan_ = plan_with_pieces(needs);
     }
     if (options.domains_at_once > 0)
@@ -163,6 +166,8 @@ class Partitioner {
     stats.domains_planned = plan_.domains;
     stats.spill_bytes = spill_bytes_;
     stats.coarse_shapes = coarse_;
+    stats.quadrics = quadrics_;
+    stats.input_triangles -= quadrics_;
     return stats;
   }
 
@@ -200,7 +205,7 @@ class Partitioner {
         flatten(std::move(world_), plan_.load_bytes, [&](std::uint64_t n) { phases_.advance(n); });
     manifest_ = std::move(flat.manifest);
     phases_.begin("cutting and writing domains", 0.8 * rest_, triangles);
-    const InstanceDealer instances = dealer(manifest_.bounds);
+    const InstanceDealer instances = dealer_of_all(manifest_.bounds);
     divide_cell(flat, {}, {manifest_.bounds, 0, 0, plan_.domains}, writer(census, instances));
   }
 
@@ -210,7 +215,7 @@ class Partitioner {
     ::malloc_trim(0);
     const std::uint64_t triangles = world_.own_triangles;
     phases_.begin("planning", 0.01 * rest_, 1);
-    const std::vector<Bounds3f> sample = sample_of(world_, refs_);
+    const std::vector<Bounds3f> sample = sample_of(world_, instances_);
     Bounds3f bounds;
     for (const Bounds3f& b : sample) extend(bounds, b);
     const KdPlan top =
@@ -222,14 +227,23 @@ class Partitioner {
     SceneTally tally(world_);
     spill_scene(world_, top, plan_.load_bytes, spill, tally, [&](std::uint64_t n) { phases_.advance(n); });
     tally.finish(world_.manifest);
-    spill_bytes_ = spill.bytes();
+    std::vector<Bounds3f> cells;
+    for (const Subtree& leaf : top.leaves) cells.push_back(leaf.cell);
+    InstanceSpill runs(bundle_ / "spill", cells, bounds,
+                       std::min(plan_.spill_bytes / buckets_, most_spill_buffer_bytes));
+    instances_.for_each_of_runs([&](const InstanceRef& ref) { runs.add(ref); });
+    spill_bytes_ = spill.bytes() + runs.bytes();
     ::malloc_trim(0);
     manifest_ = std::move(world_.manifest);
-    const InstanceDealer instances = dealer(bounds);
+    const InstanceDealer instances(std::move(instances_.refs), bounds);
     phases_.begin("cutting and writing domains", 0.59 * rest_, triangles);
     for (std::size_t i = 0; i < buckets_; ++i) {
       const LoadedCell cell = spill.take(i);
-      divide_cell(cell.triangles, cell.cut, top.leaves[i], writer(census, instances));
+      std::vector<InstanceRef> refs = instances.whole_in(top.leaves[i].cell);
+      std::ranges::copy(runs.take(i), std::back_inserter(refs));
+      std::ranges::stable_sort(refs, {}, &InstanceRef::first_triangle);
+      const InstanceDealer here(std::move(refs), bounds);
+      divide_cell(cell.triangles, cell.cut, top.leaves[i], writer(census, here));
       std::vector<std::uint32_t> open;
       for (const Piece& p : cell.cut.pieces) open.push_back(cell.triangles.ids[p.triangle]);
       census.settle(open);
@@ -248,12 +262,20 @@ class Partitioner {
             [&](std::uint64_t n) { phases_.advance(n); }};
   }
 
-  InstanceDealer dealer(const Bounds3f& root) { return {std::move(refs_), root}; }
+  // With those of runs.
+  InstanceDealer dealer_of_all(const Bounds3f& root) {
+    std::vector<InstanceRef> refs = std::move(instances_.refs);
+    instances_.for_each_of_runs([&](const InstanceRef& ref) { refs.push_back(ref); });
+    std::ranges::stable_sort(refs, {}, &InstanceRef::first_triangle);
+    return {std::move(refs), root};
+  }
 
   std::vector<IdRange> ids_of_instances() const {
     std::vector<IdRange> ranges;
     for (const ObjectUse& use : world_.uses)
       ranges.push_back({use.first_triangle, world_.objects[use.object].assembly.triangles});
+    for (const QuadricRun& run : world_.runs) ranges.push_back({run.first_triangle, run.places->size()});
+    std::ranges::sort(ranges, {}, &IdRange::first);
     return ranges;
   }
 
@@ -262,10 +284,10 @@ class Partitioner {
   WorkEstimate work_;
   Phases phases_;
   World world_;
-  std::vector<InstanceRef> refs_;
-  std::uint64_t items_ = 0;   // triangles and instances
-  std::uint64_t coarse_ = 0;  // as in ScenePlan
-  double rest_ = 1;           // of all work, without the objects'
+  SceneInstances instances_;
+  std::uint64_t items_ = 0;                  // triangles and instances
+  std::uint64_t coarse_ = 0, quadrics_ = 0;  // as in ScenePlan, World
+  double rest_ = 1;                          // of all work, without the objects'
   MemoryPlan plan_;
   Manifest manifest_;
   std::uint64_t buckets_ = 1, spill_bytes_ = 0;

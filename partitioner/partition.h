@@ -29,6 +29,7 @@ struct PartitionOptions {
 // The statistics contract of `partition --stats`.
 struct PartitionStats {
   std::uint64_t input_triangles = 0, cut_triangles = 0, pieces = 0, domains = 0;
+  std::uint64_t quadrics = 0;         // shapes that are no triangles, wherever they stand
   std::uint64_t domains_planned = 0;  // more than there are where cutting stopped: it only made pieces
   std::uint64_t triangles_min = 0, triangles_max = 0;
   double triangles_mean = 0;

@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "scene/diagnostics.h"
+#include "scene/quadric_places.h"
+#include "scene/tessellate.h"
 
 namespace vitrail {
 
@@ -57,6 +59,7 @@ std::uint64_t bytes_of(const TriangleMesh& mesh) {
 }
 
 std::uint64_t triangles_of(const TriangleMesh& mesh) {
+  if (mesh.quadric) return mesh.places ? mesh.places->size() : 1;
   return mesh.deferred ? mesh.deferred->triangles : mesh.triangles.size();
 }
 
@@ -66,6 +69,10 @@ bool has_normals(const TriangleMesh& mesh) {
 
 Bounds3f bounds_of(const TriangleMesh& mesh) {
   if (mesh.deferred) return mesh.deferred->bounds;
+  if (mesh.quadric) {
+    const Bounds3d box = mesh.places ? mesh.places->bounds() : bounds_of(*mesh.quadric, {});
+    return {cast<float>(box.lower), cast<float>(box.upper)};
+  }
   Bounds3f bounds;
   for (const auto& triangle : mesh.triangles)
     for (const std::uint32_t corner : triangle) extend(bounds, mesh.positions[corner]);
@@ -75,6 +82,11 @@ Bounds3f bounds_of(const TriangleMesh& mesh) {
 MeshFocus focus_of(const TriangleMesh& mesh) {
   constexpr std::size_t most = 1024;
   if (mesh.deferred) return mesh.deferred->focus;
+  if (mesh.quadric) {
+    if (mesh.places) return {mesh.places->centre(), mesh.places->radius(), mesh.places->bounds()};
+    const Bounds3d box = bounds_of(*mesh.quadric, {});
+    return {center(box), greatest(extent(box)) / 2, box};
+  }
   const std::size_t count = mesh.triangles.size(), chosen = std::min(count, most);
   if (count == 0) return {};
   std::vector<Bounds3d> boxes;
@@ -100,6 +112,8 @@ MeshFocus focus_of(const TriangleMesh& mesh) {
 }
 
 const TriangleMesh& loaded(const TriangleMesh& mesh, TriangleMesh& storage) {
+  if (mesh.places) return storage = tessellate(*mesh.quadric, *mesh.places);
+  if (mesh.quadric) return storage = tessellate(*mesh.quadric);
   if (!mesh.deferred) return mesh;
   storage = mesh.deferred->load();
   if (storage.triangles.size() != mesh.deferred->triangles || bounds_of(storage) != mesh.deferred->bounds)

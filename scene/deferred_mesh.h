@@ -44,14 +44,15 @@ struct DeferredMesh {
 // In memory.
 std::uint64_t bytes_of(const TriangleMesh& mesh);
 
-// Of a mesh that may be deferred.
+// Of a mesh that may be deferred, or a quadric: that is 1 a place, without shading normals of its own.
 std::uint64_t triangles_of(const TriangleMesh& mesh);
 bool has_normals(const TriangleMesh& mesh);
 Bounds3f bounds_of(const TriangleMesh& mesh);
 // By a thousand of its triangles.
 MeshFocus focus_of(const TriangleMesh& mesh);
 
-// The mesh, loaded into `storage` if it is deferred. Throws Error where the file has changed since.
+// The mesh, loaded into `storage` if it is deferred, tessellated if it is a quadric. Throws Error where the
+// file has changed since.
 const TriangleMesh& loaded(const TriangleMesh& mesh, TriangleMesh& storage);
 
 // A hash of two numbers, for choices that are to look random.
@@ -64,6 +65,7 @@ class MeshMemory {
       : limit_(limit_bytes), left_(limit_bytes) {}
 
   std::uint64_t limit_bytes() const { return limit_; }
+  bool is_limited() const { return limit_ != ~std::uint64_t{0}; }
 
   // The mesh itself while it fits, else what stands for it.
   TriangleMesh keep(TriangleMesh mesh, MeshLoader load);

@@ -41,4 +41,9 @@ const char* kind_of(const Camera& camera) {
   return name_of(camera, std::array{"perspective", "orthographic", "spherical"});
 }
 
+const char* kind_of(QuadricKind kind) {
+  constexpr std::array names{"sphere", "cylinder", "disk", "cone", "paraboloid"};
+  return names.at(static_cast<std::size_t>(kind));
+}
+
 }  // namespace vitrail

@@ -5,6 +5,7 @@
 #include "scene/camera.h"
 #include "scene/light.h"
 #include "scene/material.h"
+#include "scene/quadric.h"
 #include "scene/texture.h"
 
 namespace vitrail {
@@ -14,5 +15,6 @@ const char* kind_of(const TextureModel& model);
 const char* kind_of(const MaterialModel& model);
 const char* kind_of(const LightModel& model);
 const char* kind_of(const Camera& camera);
+const char* kind_of(QuadricKind kind);
 
 }  // namespace vitrail

@@ -4,9 +4,11 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "scene/quadric.h"
 #include "scene/vec.h"
 
 namespace vitrail {
@@ -32,8 +34,9 @@ enum class MissingUv : std::uint8_t {
 };
 
 struct DeferredMesh;
+class QuadricPlaces;
 
-// Object-space triangles. `normals` and `uvs` are empty or have one entry a position.
+// Object-space triangles, or a quadric. `normals` and `uvs` are empty or have one entry a position.
 // All indices are in range and all positions finite: importers guarantee it, with the place of the first
 // offender.
 struct TriangleMesh {
@@ -44,6 +47,8 @@ struct TriangleMesh {
   MissingUv missing_uv = MissingUv::pbrt;  // also of a deferred mesh
   std::vector<MeshAttribute> attributes;
   std::shared_ptr<const DeferredMesh> deferred;  // if it stays in its file: all the rest is empty
+  std::optional<Quadric> quadric;                // if it is one: all the rest is empty
+  std::shared_ptr<const QuadricPlaces> places;   // of the quadric, if it stands in many
   bool operator==(const TriangleMesh&) const = default;
 };
 

@@ -65,7 +65,9 @@ bool has_sides(const Material& material, bool lets_through, const std::vector<bo
   if (const auto* mask = std::get_if<MaskMaterial>(&material.model)) return others.at(mask->material.value);
   if (const auto* blend = std::get_if<BlendMaterial>(&material.model))
     return others.at(blend->first.value) || others.at(blend->second.value);
-  return !material.two_sided || lets_through || std::holds_alternative<TwoSidedMaterial>(material.model);
+  const bool bumps = material.displacement || material.normal_map;  // which the front's normal is turned by
+  return !material.two_sided || lets_through || bumps ||
+         std::holds_alternative<TwoSidedMaterial>(material.model);
 }
 
 namespace {

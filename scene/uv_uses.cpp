@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/uv_uses.h"
 
-#include <functional>
-
 namespace vitrail {
 
 namespace {
@@ -121,27 +119,31 @@ std::vector<Id<Material>> parts_of(const MaterialModel& model) {
   return {};
 }
 
+ShapeUvUses::ShapeUvUses(const Scene& scene)
+    : scene_(scene), uses_(scene.textures), materials_(scene.materials.size(), Shows::unknown) {}
+
+bool ShapeUvUses::of(std::uint32_t id) {
+  if (materials_[id] == Shows::unknown) {
+    materials_[id] = Shows::no;  // while it is being asked
+    bool shows = uses_.of(scene_.materials[id]);
+    for (const Id<Material> part : parts_of(scene_.materials[id].model)) shows = of(part.value) || shows;
+    materials_[id] = shows ? Shows::yes : Shows::no;
+  }
+  return materials_[id] == Shows::yes;
+}
+
+bool ShapeUvUses::of(const Shape& shape) {
+  return scene_.film.layers.has(Layer::uv) || of(shape.material.value) || uses_.of(shape.opacity) ||
+         (shape.area_light && uses_.of(scene_.area_lights[shape.area_light->value].radiance));
+}
+
 std::vector<bool> meshes_whose_uvs_show(const Scene& scene) {
   if (scene.film.layers.has(Layer::uv)) return std::vector<bool>(scene.meshes.size(), true);
-  UvUses uses(scene.textures);
-  enum class Shows : char { unknown, no, yes };
-  std::vector<Shows> materials(scene.materials.size(), Shows::unknown);
-  const std::function<bool(std::uint32_t)> of_material = [&](std::uint32_t id) {
-    if (materials[id] == Shows::unknown) {
-      materials[id] = Shows::no;  // while it is being asked
-      bool shows = uses.of(scene.materials[id]);
-      for (const Id<Material> part : parts_of(scene.materials[id].model))
-        shows = of_material(part.value) || shows;
-      materials[id] = shows ? Shows::yes : Shows::no;
-    }
-    return materials[id] == Shows::yes;
-  };
+  ShapeUvUses uses(scene);
   std::vector<bool> meshes(scene.meshes.size());
   const auto note = [&](const std::vector<Shape>& shapes) {
     for (const Shape& shape : shapes)
-      if (of_material(shape.material.value) || uses.of(shape.opacity) ||
-          (shape.area_light && uses.of(scene.area_lights[shape.area_light->value].radiance)))
-        meshes[shape.mesh.value] = true;
+      if (uses.of(shape)) meshes[shape.mesh.value] = true;
   };
   note(scene.shapes);
   for (const Prototype& prototype : scene.prototypes) note(prototype.shapes);

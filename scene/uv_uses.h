@@ -27,6 +27,22 @@ class UvUses {
 // The materials that a material refers to.
 std::vector<Id<Material>> parts_of(const MaterialModel& model);
 
+// Of the shapes of a scene that stays as it is.
+class ShapeUvUses {
+ public:
+  explicit ShapeUvUses(const Scene& scene);
+
+  bool of(const Shape& shape);
+
+ private:
+  bool of(std::uint32_t material);
+
+  enum class Shows : char { unknown, no, yes };
+  const Scene& scene_;
+  UvUses uses_;
+  std::vector<Shows> materials_;
+};
+
 // For each mesh, whether the (u,v) of a shape that has it show.
 std::vector<bool> meshes_whose_uvs_show(const Scene& scene);
 

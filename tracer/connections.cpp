@@ -10,6 +10,8 @@
 #include "tracer/media/phase.h"
 #include "tracer/path_state.h"
 #include "tracer/path_tracer.h"
+#include "tracer/quadrics/quadric_hits.h"
+#include "tracer/quadrics/quadric_surface.h"
 #include "tracer/rounding.h"
 
 namespace vitrail {
@@ -26,23 +28,42 @@ struct Aimed {
   double slope = 0;  // of StraightAim
 };
 
-// From `origin`, beside the point p that the light was sampled for. It ends at the light, where it meets the
-// plane of the surface that was sampled: by its rounded direction, not quite where that was. There an error
-// of the direction counts by the inverse cosine.
-Aimed aim(Point3f origin, Point3d p, const LightSample& light) {
+double slope_of(double cosine) { return std::sqrt(std::max(0.0, 1 - cosine * cosine)) / std::abs(cosine); }
+
+// Where the ray meets the quadric, nearest to where it ended. Near its limb it may pass by.
+void end_on_quadric(const Ray& ray, const EmissiveQuadric& q, Aimed& aimed) {
+  const QuadricHits hits =
+      quadric_hits(prepare(ray), q.to_bundle, q.quadric.quadric, ray.exclude == q.triangle);
+  if (hits.count == 0) return;
+  const auto off = [&](int i) { return std::abs(hits.at[i].t - aimed.end); };
+  const auto& [t, local] = hits.at[hits.count == 2 && off(1) < off(0) ? 1 : 0];
+  const Vector3d direction = cast<double>(ray.direction);
+  aimed.end = t * (1 - 1e-12);
+  aimed.slope = slope_of(dot(direction, placed_quadric_normal(q.quadric, q.to_bundle, local)));
+}
+
+// From where it departs, beside the point that the light was sampled for. It ends at the light, where it
+// meets the surface that was sampled, of triangles its plane: by its rounded direction, not quite where that
+// was. There an error of the direction counts by the inverse cosine.
+Aimed aim(const Departure& from, const LightSample& light) {
   if (std::isinf(light.distance)) return {encode_direction(light.to_light)};
-  const Vector3d way = p + light.to_light * light.distance - cast<double>(origin);
+  const Vector3d way = from.p + light.to_light * light.distance - cast<double>(from.origin);
   Aimed aimed{encode_direction(dot(way, way) > 0 ? way : light.to_light)};
-  const Vector3d direction = cast<double>(decode_direction(aimed.direction));
+  const Vector3f rounded = decode_direction(aimed.direction);
+  const Vector3d direction = cast<double>(rounded);
   const double distance = length(way), there = dot(way, direction) / dot(direction, direction);
   aimed.end = there;
+  if (light.quadric) {
+    end_on_quadric({from.origin, rounded, from.exclude}, *light.quadric, aimed);
+    return aimed;
+  }
   const double height = dot(way, light.normal), cosine = dot(direction, light.normal);
   if (!(height * cosine > 0)) return aimed;
   // So much aside, a neighbour may stand out of the plane by its tilt.
   const double aside = direction_rounding * distance / std::abs(cosine);
   const double plane = (height / cosine) * (1 - 1e-12) - aside * light.tilt_rad / std::abs(cosine);
   aimed.end = std::clamp(plane, 0.5 * there, 2 * there);
-  aimed.slope = std::sqrt(std::max(0.0, 1 - cosine * cosine)) / std::abs(cosine);
+  aimed.slope = slope_of(cosine);
   return aimed;
 }
 
@@ -53,54 +74,119 @@ float float_below(double x) {
 
 }  // namespace
 
-// `scatter(direction)` gives the value and the density of scattering to there.
-template <class Scatter>
-void PathTracer::connect(const Path& path, Point3d p, const Scatter& scatter) {
-  const std::array<float, 4> u = numbers_for_light(path);
-  const auto light = sample_light(scene_.lights, p, u, path.wavelengths);
-  if (!light) return;
-  const std::optional<Connection> connection = scatter(light->to_light);
-  if (!connection) return;
-  double weight = 1 / light->pdf;
-  if (!light->is_delta)
-    weight = 1 / (light->pdf +
-                  static_cast<double>(pdf_value(pdf_code(static_cast<float>(connection->scattered.pdf)))));
-  const SampledSpectrum radiance =
-      path.throughput * connection->scattered.value * light->radiance * static_cast<float>(weight);
-  if (is_black(radiance)) return;
+namespace {
+
+constexpr std::uint32_t max_light_candidates = 4;
+
+double sum_of(const SampledSpectrum& s) {
+  double sum = 0;
+  for (const float x : s.v) sum += static_cast<double>(x);
+  return sum;
+}
+
+// Of the numbers of a set, those of its candidate `k`: digits are flipped as in the first four points of
+// Sobol's sequence, so that the candidates lie in different quarters of each dimension, and each alone keeps
+// the strata of the set.
+std::array<float, 4> numbers_of_candidate(std::array<float, 4> u, std::uint32_t k) {
+  constexpr std::array<std::uint32_t, 4> straight{0, 2, 1, 3}, turned{0, 2, 3, 1};
+  const auto flipped = [](float x, std::uint32_t digits) {
+    return static_cast<float>(static_cast<std::uint32_t>(x * 0x1p24f) ^ digits << 22) * 0x1p-24f;
+  };
+  return {flipped(u[0], straight[k]), flipped(u[1], turned[k]), flipped(u[2], straight[k]),
+          flipped(u[3], turned[k])};
+}
+
+}  // namespace
+
+// How many candidates for a light a path has at a point: several where the camera sees it, directly or
+// through mirrors and glass, and where they differ.
+std::uint32_t PathTracer::light_candidates(const Path& path, Point3d p, bool diffuse) const {
+  if (path.pdf > 0) return 1;
+  switch (variety(scene_.lights, p)) {
+    case Variety::none:
+      return 1;
+    case Variety::little:
+      return diffuse ? 1 : max_light_candidates;
+    default:
+      return max_light_candidates;
+  }
+}
+
+// Of `count` candidates for a light one is connected to, chosen by what each would bring if nothing was in
+// its way, and brings their mean (resampling: Talbot, Cline & Egbert 2005). Their weights of multiple
+// importance sampling are of `count` samples of the lights and one of the BSDF. `scatter(direction)` gives
+// the value and the density of scattering to there, `depart(direction)` where the ray starts.
+template <class Scatter, class Depart>
+void PathTracer::connect(const Path& path, Point3d p, std::uint32_t count, const Scatter& scatter,
+                         const Depart& depart) {
+  const std::array<float, 4> numbers = numbers_for_light(path);
+  double choice = static_cast<double>(path.camera[3]);
+  LightSample light;
+  SampledSpectrum radiance;
+  double all = 0, chosen = 0;
+  for (std::uint32_t k = 0; k < count; ++k) {
+    const auto candidate = sample_light(scene_.lights, p, numbers_of_candidate(numbers, k), path.wavelengths);
+    if (!candidate) continue;
+    const BsdfValue scattered = scatter(candidate->to_light);
+    double weight = 1 / candidate->pdf;
+    if (!candidate->is_delta)
+      weight = 1 / (candidate->pdf + static_cast<double>(density_beside(scattered.pdf, count)));
+    const SampledSpectrum brought =
+        path.throughput * scattered.value * candidate->radiance * static_cast<float>(weight);
+    const double target = sum_of(brought);
+    if (target <= 0) continue;
+    all += target;
+    // One number for all choices: what is left of it after one is as random as it was.
+    if (const double share = target / all; choice < share) {
+      choice /= share;
+    } else if (chosen > 0) {
+      choice = (choice - share) / (1 - share);
+      continue;
+    }
+    light = *candidate;
+    radiance = brought;
+    chosen = target;
+  }
+  if (all == 0) return;
+  if (count > 1) radiance = radiance * static_cast<float>(all / (count * chosen));
   ++counters_.rays_shadow;
-  const bool distant = std::isinf(light->distance);
+  const Departure from = depart(light.to_light);
+  const bool distant = std::isinf(light.distance);
   const Requirements& r = manifest_.requirements;
-  const bool refracts = distant && light->is_delta && r.refraction;
+  const bool refracts = distant && light.is_delta && r.refraction;
   if (r.see_through || r.media || refracts)
-    send_connection(path, *connection, *light, radiance, refracts);
+    send_connection(path, from, light, radiance, refracts);
   else
-    send_shadow_ray(path, *connection, *light, radiance);
+    send_shadow_ray(path, from, light, radiance);
 }
 
 void PathTracer::connect_surface(const Path& path, const Interaction& at, const Surface& surface,
-                                 const Scattering& scattering, Vector3d out) {
-  connect(path, at.p, [&](Vector3d direction) -> std::optional<Connection> {
+                                 const Scattering& scattering, Vector3d out, std::uint32_t candidates) {
+  const auto scatter = [&](Vector3d direction) -> BsdfValue {
     const Vector3d in = scattering.frame.to_local(direction);
     // As for the samples of the BSDF: shading normals let no light leak.
     if (!scattering.transmits &&
         (dot(direction, at.geometric) > 0) != (dot(at.out, at.geometric) * out.z * in.z > 0))
-      return std::nullopt;
+      return {};
     BsdfValue scattered = eval(scattering.bsdf, out, in);
     scattered.value =
         scattered.value * static_cast<float>(scattering.bump_shadowing(dot(direction, at.shading)));
-    return Connection{scattered, departure(path, at, surface, direction)};
-  });
+    return scattered;
+  };
+  connect(path, at.p, candidates, scatter,
+          [&](Vector3d direction) { return departure(path, at, surface, direction); });
 }
 
-void PathTracer::connect_medium(const Path& path, const Departure& from, double g, Vector3d out) {
-  connect(path, from.p, [&](Vector3d in) -> std::optional<Connection> {
+void PathTracer::connect_medium(const Path& path, const Departure& from, double g, Vector3d out,
+                                std::uint32_t candidates) {
+  const auto scatter = [&](Vector3d in) -> BsdfValue {
     const double value = phase(g, out, in);
-    return Connection{{filled(static_cast<float>(value)), value}, from};
-  });
+    return {filled(static_cast<float>(value)), value};
+  };
+  connect(path, from.p, candidates, scatter, [&](Vector3d) { return from; });
 }
 
-void PathTracer::send_connection(const Path& path, const Connection& connection, const LightSample& light,
+void PathTracer::send_connection(const Path& path, const Departure& from, const LightSample& light,
                                  const SampledSpectrum& radiance, bool refracts) {
   Path sent = path;
   sent.clear(path_in_pane);
@@ -108,8 +194,8 @@ void PathTracer::send_connection(const Path& path, const Connection& connection,
   sent.cone = 0;
   sent.set(path_connection);
   sent.throughput = radiance;
-  const Aimed aimed = aim(connection.from.origin, connection.from.p, light);
-  depart(sent, connection.from, light.to_light);
+  const Aimed aimed = aim(from, light);
+  depart(sent, from, light.to_light);
   turn(sent, aimed.direction);
   if (refracts) {
     sent.set(path_in_pane);
@@ -155,16 +241,16 @@ void PathTracer::unpack_connection(const PathRecord& record, Path& path) {
   path.travelled = end_value(end);
 }
 
-void PathTracer::send_shadow_ray(const Path& path, const Connection& connection, const LightSample& light,
+void PathTracer::send_shadow_ray(const Path& path, const Departure& from, const LightSample& light,
                                  const SampledSpectrum& radiance) {
-  const Aimed aimed = aim(connection.from.origin, connection.from.p, light);
+  const Aimed aimed = aim(from, light);
   ShadowRecord r;
-  r.origin[0] = connection.from.origin.x;
-  r.origin[1] = connection.from.origin.y;
-  r.origin[2] = connection.from.origin.z;
+  r.origin[0] = from.origin.x;
+  r.origin[1] = from.origin.y;
+  r.origin[2] = from.origin.z;
   r.direction = aimed.direction;
   r.tmax = std::isinf(light.distance) ? std::numeric_limits<float>::max() : float_below(aimed.end);
-  r.exclude = connection.from.exclude;
+  r.exclude = from.exclude;
   for (std::size_t i = 0; i < hero_count; ++i) pack_radiance(std::max(0.0f, radiance.v[i]), r.radiance[i]);
   r.pixel = path.pixel;
   r.sample = path.sample;

@@ -129,10 +129,10 @@ double PathTracer::ray_angle(const Path& path) const {
 
 // At a distance (Akenine-Möller et al., "Texture Level of Detail Strategies for Real-Time Ray
 // Tracing", 2019): it widens by the angle between rays, and after a scattering by a tenth of the width of a
-// lobe of that density.
+// lobe, whose density is up to four times the path's.
 double PathTracer::cone_width(const Path& path, double distance) const {
   double angle = ray_angle(path);
-  if (path.pdf > 0) angle = std::max(angle, 0.1 / std::sqrt(static_cast<double>(path.pdf)));
+  if (path.pdf > 0) angle = std::max(angle, 0.05 / std::sqrt(static_cast<double>(path.pdf)));
   return cone_value(path.cone) * cone_unit() + std::min(angle, 1.0) * distance;
 }
 

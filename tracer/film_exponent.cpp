@@ -58,7 +58,14 @@ void add_surfaces(const LightSampler& s, Tally& tally) {
       {{1 / 3.0, 1 / 3.0}, {1 / 6.0, 1 / 6.0}, {2 / 3.0, 1 / 6.0}, {1 / 6.0, 2 / 3.0}}};
   // Attributes are 1 as numbers and as spectra: the sigmoid of λ².
   std::array<AttributeValue, max_attributes> white;
-  for (AttributeValue& value : white) value.corners.fill({1, 0, 0});
+  white.fill({{{{1, 0, 0}, {1, 0, 0}, {1, 0, 0}}}, {1, 0, 0}});
+  const auto add = [&](const AreaLight& light, TexturePoint at) {
+    at.uv_width = 1;  // the mean of an image
+    at.attributes = white;
+    const double mean =
+        luminance_at(light.radiance, at, s.scene.textures, 2) * static_cast<double>(light.scale);
+    tally.add(mean, mean * brighter_texel);
+  };
   for (const EmissiveTriangle& t : s.scene.triangles) {
     const AreaLight& light = s.scene.area_lights[t.area_light];
     if (std::holds_alternative<Spectrum>(light.radiance)) continue;
@@ -69,12 +76,13 @@ void add_surfaces(const LightSampler& s, Tally& tally) {
                mix([&](int i) { return static_cast<double>(t.uv[i].y); })};
       const Point3d p0 = cast<double>(t.p[0]);
       at.p = p0 + (cast<double>(t.p[1]) - p0) * b[0] + (cast<double>(t.p[2]) - p0) * b[1];
-      at.uv_width = 1;  // the mean of an image
-      at.attributes = white;
-      const double mean =
-          luminance_at(light.radiance, at, s.scene.textures, 2) * static_cast<double>(light.scale);
-      tally.add(mean, mean * brighter_texel);
+      add(light, at);
     }
+  }
+  for (const QuadricLight& q : s.quadrics) {
+    const AreaLight& light = s.scene.area_lights[q.record().area_light];
+    if (std::holds_alternative<Spectrum>(light.radiance)) continue;
+    for (const auto& b : points) add(light, q.texture_point(q.point_by_area(b[0], b[1])));
   }
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tracer/quadrics/quadric_surface.h"
 #include "tracer/rounding.h"
 
 namespace vitrail {
@@ -78,11 +79,31 @@ void find_uv(const Holder& holder, const Hit& hit, Vector3d e1, Vector3d e2, dou
   if (cone_width > 0 && area > 0) at.uv_width = cone_width * std::sqrt(std::abs(determinant) / area);
 }
 
+// A quadric has no mesh attributes: they are 0.
+Interaction quadric_interaction(const Holder& holder, const Hit& hit, Vector3f direction, double cone_width,
+                                std::uint32_t attributes) {
+  const QuadricPoint point = quadric_point(*holder.content.quadric, holder.to_bundle, {hit.u, hit.v, hit.w});
+  Interaction at;
+  at.p = point.p;
+  at.out = normalize(-cast<double>(direction));
+  at.geometric = at.shading = point.normal;
+  at.front = dot(at.out, at.geometric) > 0;
+  at.triangle = hit.triangle;
+  at.uv = point.uv;
+  at.dpdu = point.dpdu, at.dpdv = point.dpdv;
+  const double area = length(cross(at.dpdu, at.dpdv));
+  if (cone_width > 0 && area > 0) at.uv_width = cone_width / std::sqrt(area);
+  at.attribute_count = attributes;
+  std::fill_n(at.attributes.begin(), attributes, AttributeValue{});
+  return at;
+}
+
 }  // namespace
 
 Interaction make_interaction(const DomainView& domain, const Hit& hit, Vector3f direction, double cone_width,
                              std::uint32_t attributes) {
   const Holder holder = holder_of(domain, hit);
+  if (holder.content.quadric) return quadric_interaction(holder, hit, direction, cone_width, attributes);
   const Cluster& cluster = holder.content.clusters[hit.cluster];
   const auto vertex = [&](std::size_t k) { return cast<double>(holder.vertex(cluster, hit.lane, k)); };
   const Point3d p0 = vertex(0);
@@ -117,6 +138,7 @@ double normal_doubt(const DomainView& domain, const Hit& hit, bool shading) {
   const Holder holder = holder_of(domain, hit);
   // Of a normal's code, of 16 bits a coordinate; a placed normal is coded twice.
   constexpr double code_rounding = 6.5e-5;
+  if (holder.content.quadric) return 1e-12;
   if (shading) return holder.is_object ? 2 * code_rounding : code_rounding;
 
   const Cluster& cluster = holder.content.clusters[hit.cluster];

@@ -153,8 +153,11 @@ Vector3d Materials::shading_normal(const Material& material, const Interaction& 
     if (material.normal_map) n = mapped(*material.normal_map, at, n, textures_);
     if (material.displacement) n = bumped(*material.displacement, at, n, textures_);
   }
-  // A normal that the ray sees from the other side than the surface cannot be used.
-  return dot(n, n) > 0.5 && (dot(at.out, n) > 0) == at.front ? n : at.shading;
+  // A normal that the ray sees from the other side than the surface is turned around the smooth one, to face
+  // the ray (Schüssler et al., "Microfacet-Based Normal Mapping for Robust Monte Carlo Path Tracing", 2017).
+  const auto usable = [&] { return dot(n, n) > 0.5 && (dot(at.out, n) > 0) == at.front; };
+  if (!usable()) n = at.shading * (2 * dot(n, at.shading)) - n;
+  return usable() ? n : at.shading;
 }
 
 std::optional<Scattering> Materials::scattering_at(const Material& material, const Interaction& at,

@@ -13,7 +13,7 @@ struct PathTracer::Path {
   std::uint32_t pixel = 0, sample = 0;
   std::uint32_t depth = 0;
   std::uint8_t flags = 0;
-  float pdf = 0;            // of the last scattering, solid angle, already rounded; 0: specular or camera
+  float pdf = 0;            // of the last scattering, as density_beside says; 0: specular or camera
   FaceCode entered_by;      // in a pane: the face it came in through
   std::uint32_t aim = 0;    // of a connection: bits of a RefractedAim or a StraightAim
   double travelled = 0;     // since the last scattering, straight through surfaces; of a straight connection

@@ -153,7 +153,7 @@ bool PathTracer::find_hit(Path& path, std::optional<std::uint32_t> at) {
     path.clear(path_resolved);
     located = false;
   } else {
-    DomainWalk walk(manifest_, path.ray);
+    DomainWalk walk(manifest_, path.ray, resident_);
     if (at) {
       const std::uint32_t carried = path.hit.triangle;
       intersect(path, *at);
@@ -213,7 +213,7 @@ void PathTracer::trace_shadow(const ShadowRecord& record, const SensorWeights* w
                 decode_direction(record.direction),
                 record.exclude};
   const RayConstants constants = prepare(ray);
-  DomainWalk walk(manifest_, ray);
+  DomainWalk walk(manifest_, ray, resident_);
   if (at) {
     count_visit(*at);
     if (kernel_.occluded(*resident_[*at], constants, record.tmax)) {

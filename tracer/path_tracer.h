@@ -52,12 +52,6 @@ struct Departure {
   std::uint8_t inside = 0;  // state of Interiors
 };
 
-// What a connection begins with: scattering towards the light, and where its ray starts.
-struct Connection {
-  BsdfValue scattered;
-  Departure from;
-};
-
 // What random numbers of a ray are for; those of different use are independent.
 enum class RayRandom : std::uint64_t {
   flight,
@@ -137,14 +131,17 @@ class PathTracer {
   void widen_cone(Path& path, double distance) const;
 
   // connections.cpp
+  std::uint32_t light_candidates(const Path& path, Point3d p, bool diffuse) const;
   void connect_surface(const Path& path, const Interaction& at, const Surface& surface,
-                       const Scattering& scattering, Vector3d out);
-  void connect_medium(const Path& path, const Departure& from, double g, Vector3d out);
-  template <class Scatter>
-  void connect(const Path& path, Point3d p, const Scatter& scatter);
-  void send_connection(const Path& path, const Connection& connection, const LightSample& light,
+                       const Scattering& scattering, Vector3d out, std::uint32_t candidates);
+  void connect_medium(const Path& path, const Departure& from, double g, Vector3d out,
+                      std::uint32_t candidates);
+  template <class Scatter, class Depart>
+  void connect(const Path& path, Point3d p, std::uint32_t count, const Scatter& scatter,
+               const Depart& depart);
+  void send_connection(const Path& path, const Departure& from, const LightSample& light,
                        const SampledSpectrum& radiance, bool refracts);
-  void send_shadow_ray(const Path& path, const Connection& connection, const LightSample& light,
+  void send_shadow_ray(const Path& path, const Departure& from, const LightSample& light,
                        const SampledSpectrum& radiance);
   bool connect_onwards(Path& path);
   bool connects_through_hole(Path& path, const Interaction& at, const Surface& surface, bool opaque) const;

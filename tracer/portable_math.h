@@ -15,7 +15,7 @@ inline constexpr double pi = 3.14159265358979323846;
 constexpr double sin_small(double x) {
   const double x2 = x * x;
   double sum = 0;
-  for (int k = 17; k >= 3; k -= 2) sum = (1 + sum) * -x2 / (k * (k - 1));
+  for (int k = 17; k >= 3; k -= 2) sum = (1 + sum) * (x2 * (-1.0 / (k * (k - 1))));
   return x * (1 + sum);
 }
 
@@ -23,7 +23,7 @@ constexpr double sin_small(double x) {
 constexpr double cos_small(double x) {
   const double x2 = x * x;
   double sum = 0;
-  for (int k = 18; k >= 2; k -= 2) sum = (1 + sum) * -x2 / (k * (k - 1));
+  for (int k = 18; k >= 2; k -= 2) sum = (1 + sum) * (x2 * (-1.0 / (k * (k - 1))));
   return 1 + sum;
 }
 

@@ -24,6 +24,7 @@ LightScene light_scene(const Manifest& m, const Textures& textures) {
           .triangles = m.emissive_triangles,
           .attributes = m.emissive_attributes,
           .opacities = m.emissive_opacities,
+          .quadrics = m.emissive_quadrics,
           .lights = m.lights,
           .textures = &textures,
           .texture_records = m.textures,
@@ -60,7 +61,7 @@ const Surface& surface_of(const Manifest& manifest, const DomainView& domain, co
       at = domain.objects[object];
     }
     surfaces = surfaces_of(manifest, manifest.objects[object]);
-    triangle = at->clusters[hit.cluster].id[hit.lane];
+    triangle = at->quadric ? 0 : at->clusters[hit.cluster].id[hit.lane];
   }
   const auto behind =
       std::upper_bound(surfaces.begin(), surfaces.end(), triangle,

@@ -25,6 +25,19 @@ inline std::optional<BsdfSample> sample(const Bsdf& bsdf, Vector3d out, float u_
   return std::visit([&](const auto& b) { return sample(b, out, u_lobe, u); }, bsdf);
 }
 
+// Whether it scatters into single directions alone: eval and pdf are 0 everywhere.
+inline bool is_specular(const Bsdf& bsdf) {
+  if (const auto* metal = std::get_if<ConductorBsdf>(&bsdf)) return metal->microfacets.smooth();
+  if (const auto* glass = std::get_if<DielectricBsdf>(&bsdf)) return glass->microfacets.smooth();
+  return std::holds_alternative<ThinDielectricBsdf>(bsdf) || std::holds_alternative<MeasuredSheetBsdf>(bsdf);
+}
+
+// Whether light from everywhere counts about alike.
+inline bool is_diffuse(const Bsdf& bsdf) {
+  return std::holds_alternative<LambertBsdf>(bsdf) || std::holds_alternative<OrenNayarBsdf>(bsdf) ||
+         std::holds_alternative<DiffuseTransmissionBsdf>(bsdf);
+}
+
 // Orthonormal. On the back of a surface that scatters there as in front, the normal is turned over and the
 // tangents stay: it is left-handed.
 struct ShadingFrame {

@@ -106,7 +106,10 @@ bool PathTracer::shade_surface(Path& path) {
   if (!scattering) return false;
   const std::array<float, 4> u = numbers_for_scattering(path);
   const Vector3d out = scattering->frame.to_local(at.out);
-  if (scene_.lights.can_sample()) connect_surface(path, at, surface, *scattering, out);
+  const std::uint32_t candidates =
+      is_specular(scattering->bsdf) ? 0 : light_candidates(path, at.p, is_diffuse(scattering->bsdf));
+  if (candidates > 0 && scene_.lights.can_sample())
+    connect_surface(path, at, surface, *scattering, out, candidates);
   const std::optional<BsdfSample> chosen = sample(scattering->bsdf, out, u[2], {u[0], u[1]});
   if (!chosen) return false;
   path.throughput = path.throughput * chosen->weight;
@@ -129,7 +132,7 @@ bool PathTracer::shade_surface(Path& path) {
     if (!chosen->specular || out.z * chosen->in.z <= 0) return false;
     direction = at.geometric * (2 * dot(at.out, at.geometric)) - at.out;
   }
-  path.pdf = chosen->specular ? 0 : pdf_value(pdf_code(static_cast<float>(chosen->pdf)));
+  path.pdf = chosen->specular ? 0 : density_beside(chosen->pdf, candidates);
   if (!chosen->specular && !(path.pdf > 0)) return false;
   if (!go_on(path, u[3], chosen->specular)) return false;
   continue_from(path, at, surface, direction);
@@ -184,7 +187,7 @@ void PathTracer::add_emission(const Path& path, const Interaction& at, std::uint
   if (path.pdf > 0) {
     const double distance = path.travelled + path.hit.t * length(cast<double>(path.ray.direction));
     const double pdf = static_cast<double>(path.pdf);
-    weight = pdf / (pdf + triangle_pdf(scene_.lights, path.scattered_from(), at.triangle, distance,
+    weight = pdf / (pdf + triangle_pdf(scene_.lights, path.scattered_from(), at.triangle, at.p, distance,
                                        dot(at.out, at.geometric)));
   }
   deposit(path.pixel, path.sample, path.sensor, path.throughput * radiance * static_cast<float>(weight));
@@ -197,10 +200,11 @@ bool PathTracer::scatter_in_medium(Path& path, Point3d p) {
   const double g = medium_of(path)->g;
   const Vector3d out = normalize(-cast<double>(path.ray.direction));
   const Departure from{p, cast<float>(p), no_triangle, path.inside};
-  if (scene_.lights.can_sample()) connect_medium(path, from, g, out);
+  const std::uint32_t candidates = light_candidates(path, p, true);
+  if (scene_.lights.can_sample()) connect_medium(path, from, g, out, candidates);
   const std::array<float, 4> u = numbers_for_scattering(path);
   const Vector3d in = sample_phase(g, out, u[0], u[1]);
-  path.pdf = pdf_value(pdf_code(static_cast<float>(phase(g, out, in))));
+  path.pdf = density_beside(phase(g, out, in), candidates);
   if (!(path.pdf > 0) || !go_on(path, u[3], false)) return false;
   depart(path, from, in);
   return true;

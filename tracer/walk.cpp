@@ -33,12 +33,16 @@ double enter_box(const Bounds3f& box, double margin, Point3d origin, Vector3d re
   return t0 <= t1 * (1 + 1e-12) ? t0 : infinity;
 }
 
-DomainWalk::DomainWalk(const Manifest& manifest, const Ray& ray)
+DomainWalk::DomainWalk(const Manifest& manifest, const Ray& ray, std::span<const DomainView* const> resident)
     : manifest_(manifest),
       origin_(cast<double>(ray.origin)),
       direction_(cast<double>(ray.direction)),
       rounding_(0x1p-47 * greatest(origin_ - Point3d{})),
       epsilon_(interface_epsilon(manifest) + rounding_) {
+  if (resident.size() == 1 && resident[0]) {
+    only_one_ = starts_near(origin_) && !manifest.domains[0].tight_bounds.empty();
+    return;
+  }
   // A component too small to divide by moves the ray by 10⁻¹⁸ of its way.
   const double least = 1e-18 * greatest(direction_);
   for (int axis = 0; axis < 3; ++axis) {
@@ -79,6 +83,11 @@ bool DomainWalk::next_leaf(Pending& leaf) {
 }
 
 bool DomainWalk::next(double tmax, Visit& visit) {
+  if (only_one_) {
+    only_one_ = false;
+    visit = {0, 0};
+    return true;
+  }
   Pending leaf;
   while (next_leaf(leaf)) {
     if (leaf.t0 > tmax) continue;
@@ -98,6 +107,7 @@ bool DomainWalk::next(double tmax, Visit& visit) {
 }
 
 void DomainWalk::skip_past(std::uint32_t domain) {
+  only_one_ = false;
   Pending leaf;
   while (next_leaf(leaf))
     if ((leaf.reference & ~KdNode::leaf_bit) == domain) return;

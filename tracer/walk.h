@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 
 #include "bundle/manifest.h"
 #include "tracer/intersect/ray.h"
@@ -23,9 +24,11 @@ class DomainWalk {
     double entry;  // no point of the ray before it lies in the domain
   };
 
-  DomainWalk(const Manifest& manifest, const Ray& ray);
+  // `resident`: indexed by domain, null where absent; may be empty. The one domain of a scene is at once the
+  // first and the last, if it is at hand: its tree tells what misses it.
+  DomainWalk(const Manifest& manifest, const Ray& ray, std::span<const DomainView* const> resident = {});
 
-  // The next domain whose tight bounds the ray enters before tmax; false at the end.
+  // The next domain whose tight bounds and marked cells the ray enters before tmax; false at the end.
   bool next(double tmax, Visit& visit);
   // Goes on behind `domain`, which the walk visits.
   void skip_past(std::uint32_t domain);
@@ -38,6 +41,7 @@ class DomainWalk {
   bool next_leaf(Pending& leaf);
 
   const Manifest& manifest_;
+  bool only_one_ = false;  // the scene has one domain, resident, and it is still to come
   Point3d origin_;
   Vector3d direction_, reciprocal_;
   double rounding_;  // of points on the ray

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Mitsuba's analytic shapes as triangles, with its (u,v).
+// Mitsuba's analytic shapes, with its (u,v).
 #include <fmt/format.h>
 
 #include <cmath>
 #include <utility>
 
 #include "importers/mitsuba/shape_geometry.h"
-#include "importers/shapes/shapes.h"
-#include "importers/shapes/unit_circle.h"
+#include "importers/shapes/quadrics.h"
 
 namespace vitrail::mitsuba {
 
@@ -50,19 +49,9 @@ TriangleMesh cube() {
   return mesh;
 }
 
-// v is measured from +z.
-TriangleMesh sphere() {
-  TriangleMesh mesh = tessellate_sphere(1, -1, 1, 2 * pi);
-  for (Point2f& uv : mesh.uvs) uv.y = 1 - uv.y;
-  return mesh;
-}
-
-// u is the distance from the centre, v the angle.
-TriangleMesh disk() {
-  TriangleMesh mesh = tessellate_disk(0, 1, 0, 2 * pi);
-  for (Point2f& uv : mesh.uvs) uv = {1 - uv.y, uv.x};
-  return mesh;
-}
+TriangleMesh sphere() { return mesh_of({.kind = QuadricKind::sphere, .uv = QuadricUv::mitsuba}); }
+TriangleMesh disk() { return mesh_of({.kind = QuadricKind::disk, .uv = QuadricUv::mitsuba, .low = 0}); }
+TriangleMesh cylinder() { return mesh_of({.kind = QuadricKind::cylinder}); }
 
 double radius_of(Builder& builder, const Object& shape) {
   const double radius = shape.number("radius", 1, builder.report);
@@ -96,11 +85,6 @@ Transform cylinder_to_object(Builder& builder, const Object& shape) {
   return translate(p0) * frame_around((p1 - p0) * (1 / height)) * scale({radius, radius, height});
 }
 
-void report_triangles(Builder& builder, const Object& shape, int segments) {
-  builder.report.approximated(
-      fmt::format("each {} becomes triangles, {} for a full turn", kind_of(shape), segments), shape.origin);
-}
-
 }  // namespace
 
 std::optional<ShapeGeometry> analytic_shape(Builder& builder, const Object& shape) {
@@ -108,21 +92,13 @@ std::optional<ShapeGeometry> analytic_shape(Builder& builder, const Object& shap
   const auto shared = [&](TriangleMesh (*make)()) { return shared_mesh(builder, shape, {kind, 0, 0}, make); };
   if (kind == "rectangle") return ShapeGeometry{shared(rectangle), {}, true};
   if (kind == "cube") return ShapeGeometry{shared(cube), {}, true};
-  if (kind == "disk") {
-    report_triangles(builder, shape, disk_segments);
-    return ShapeGeometry{shared(disk), {}, true};
-  }
+  if (kind == "disk") return ShapeGeometry{shared(disk), {}, true};
   if (kind == "sphere") {
     const double r = radius_of(builder, shape);
     const Transform to_object = translate(point(builder, shape, "center", {})) * scale({r, r, r});
-    report_triangles(builder, shape, sphere_segments);
     return ShapeGeometry{shared(sphere), to_object, false};  // a mirror turns it inside out
   }
-  if (kind == "cylinder") {
-    const Transform to_object = cylinder_to_object(builder, shape);
-    report_triangles(builder, shape, cylinder_segments);
-    return ShapeGeometry{shared([] { return tessellate_cylinder(1, 0, 1, 2 * pi); }), to_object, true};
-  }
+  if (kind == "cylinder") return ShapeGeometry{shared(cylinder), cylinder_to_object(builder, shape), true};
   return std::nullopt;
 }
 

@@ -201,6 +201,12 @@ MaterialModel principled(Builder& b, const Object& o) {
     m.clearcoat = float_parameter(b, o, "clearcoat", 0);
     m.clearcoat_gloss = float_parameter(b, o, "clearcoat_gloss", 0);
   }
+  if (is_tinted(m))
+    b.report.approximated(
+        "tints of the base colour are by its luminance; Mitsuba's spectral variants take that of each "
+        "sample's few "
+        "wavelengths",
+        o.origin);
   o.ignore({"diffuse_reflectance_sampling_rate", "specular_reflectance_sampling_rate",
             "main_specular_sampling_rate", "clearcoat_sampling_rate", "specular_transmittance_sampling_rate",
             "diffuse_sampling_rate", "spec_refl_sampling_rate", "spec_trans_sampling_rate",
@@ -269,9 +275,11 @@ MaterialModel mask(Builder& b, const Object& o) {
 MaterialModel blend(Builder& b, const Object& o) {
   const std::vector<Id<Material>> both = nested(b, o, 2, 2);
   BlendMaterial blend{both[0], both[1], float_parameter(b, o, "weight", 0.5)};
-  if (blends_mirror_with_spread({blend}, b.lobes))
+  if (is_darkened({blend}, b.lobes, b.parts))
     b.report.approximated(
-        "a blend of a mirror or smooth interface with what spreads light is their sum: darker in Mitsuba 3.9",
+        "a blend of a mirror, a smooth interface or nothing with what spreads light to the same side is "
+        "their "
+        "sum: darker in Mitsuba 3.9",
         o.origin);
   return blend;
 }
@@ -372,11 +380,19 @@ void change_leaves(Builder& b, Material& material, const Change& change) {
   LeafChanger(b, change).apply(material);
 }
 
+void report_mirrored_bumps(Builder& b, const Object& o) {
+  b.report.approximated(
+      "\"twosided\" around bumps: on the back they are turned over with the normal, not mirrored", o.origin);
+}
+
 Material two_sided(Builder& b, const Object& o) {
   const std::vector<const Property*> sides = o.children("bsdf");
   if (sides.size() == 2) {
     const std::vector<Id<Material>> ids = nested(b, o, 2, 2);
-    return Material{TwoSidedMaterial{ids[0], ids[1]}};
+    if (b.parts[ids[1].value].bumps) report_mirrored_bumps(b, o);
+    Material material{TwoSidedMaterial{ids[0], ids[1]}};
+    change_leaves(b, material, [](Material& leaf) { leaf.two_sided = true; });
+    return material;
   }
   Material material = inner(b, o);
   bool bumps = false;
@@ -384,10 +400,7 @@ Material two_sided(Builder& b, const Object& o) {
     leaf.two_sided = true;
     bumps = bumps || leaf.displacement || leaf.normal_map;
   });
-  if (bumps)
-    b.report.approximated(
-        "\"twosided\" around bumps: on the back they are turned over with the normal, not mirrored",
-        o.origin);
+  if (bumps) report_mirrored_bumps(b, o);
   material.two_sided = true;
   return material;
 }
@@ -395,8 +408,13 @@ Material two_sided(Builder& b, const Object& o) {
 // What an adapter with bumps is around.
 Material bumped(Builder& b, const Object& o) {
   Material material = inner(b, o);
-  if (lets_straight(material, b.straight)) b.bumps_of_straight.push_back(o.origin);
+  if (parts_of(material, b.parts).straight) b.bumps_of_straight.push_back(o.origin);
   return material;
+}
+
+// Of a leaf that has been given bumps.
+void report_bumps(Builder& b, const Object& o, const Material& leaf) {
+  for (const char* what : bumps_shown_otherwise(leaf)) b.report.approximated(what, o.origin);
 }
 
 // Whether bumps shadow, since 3.7.1.
@@ -426,6 +444,7 @@ Material bump_map(Builder& b, const Object& o) {
     if (leaf.displacement) b.report.dropped("a second bump map on one material", o.origin);
     leaf.displacement = height;
     leaf.bump_shadowing = shadows;
+    report_bumps(b, o, leaf);
   });
   return material;
 }
@@ -440,10 +459,16 @@ Material normal_map(Builder& b, const Object& o) {
     const bool is_flat = texture->vector("value", b.report) == Vector3d{0.5, 0.5, 1};
     if (!is_flat) b.report.dropped("a normal map that is the same everywhere", texture->origin);
   } else {
+    if (texture->type == "bitmap" && !texture->boolean("raw", false, b.report))
+      b.report.approximated(
+          "a normal map that is not raw counts as if it were: Mitsuba's rgb variants decode it, and its "
+          "spectral ones refuse it",
+          texture->origin);
     const Id<Texture> map = add_texture(b, *texture, false);
     change_leaves(b, material, [&](Material& leaf) {
       leaf.normal_map = map;
       leaf.bump_shadowing = shadows;
+      report_bumps(b, o, leaf);
     });
   }
   return material;
@@ -480,8 +505,8 @@ Id<Material> append(Builder& b, Material material) {
   const bool through = transmits(material, b.transmitting);
   b.transmitting.push_back(through);
   b.sided.push_back(has_sides(material, through, b.sided));
-  b.straight.push_back(lets_straight(material, b.straight));
   b.lobes.push_back(lobes_of(material, b.lobes));
+  b.parts.push_back(parts_of(material, b.parts));
   b.scene.materials.push_back(std::move(material));
   return {static_cast<std::uint32_t>(b.scene.materials.size() - 1)};
 }

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <tuple>
 
+#include "importers/mitsuba/material_parts.h"
 #include "importers/mitsuba/object.h"
 #include "scene/deferred_mesh.h"
 #include "scene/scene.h"
@@ -24,8 +25,9 @@ struct Builder {
   Report& report;
   std::map<const Object*, Id<Material>> materials;
   // One for each of the scene's materials (scene/transmission.h).
-  std::vector<bool> transmitting, sided, straight;
+  std::vector<bool> transmitting, sided;
   std::vector<Lobes> lobes;
+  std::vector<MaterialParts> parts;
   std::vector<Origin> bumps_of_straight;  // adapters around what lets light straight through
   std::map<const Object*, Id<Medium>> media;
   std::map<std::pair<const Object*, bool>, Id<Texture>>

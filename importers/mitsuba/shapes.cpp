@@ -57,6 +57,13 @@ void add_emission(Builder& builder, const Object& object, bool in_group, Shape& 
   if (emitters.size() > 1)
     builder.report.dropped("more than one emitter of a shape: the first counts", emitters[1]->origin);
   shape.area_light = add_area_light(builder, *std::get<ObjectPtr>(emitters.front()->value));
+  TriangleMesh storage;
+  const TriangleMesh& mesh = builder.scene.meshes[shape.mesh.value];
+  if (shape.area_light && !mesh.quadric && normals_lean(loaded(mesh, storage)))
+    builder.report.approximated(
+        "the light of a mesh goes by its triangles: Mitsuba 3.9 weighs it by the shading normals",
+        object.origin);
+  builder.report.begin_item({object.origin, RecordKind::shape});
 }
 
 bool sides_matter(const Builder& builder, const Shape& shape) {
@@ -87,9 +94,22 @@ void add_geometry(Builder& builder, const Object& object, const ShapeGeometry& g
   shape.flip_orientation = object.boolean("flip_normals", false, builder.report);
   if (geometry.front_by_normals && sides_matter(builder, shape)) {
     TriangleMesh storage;
-    const bool opposed = normals_oppose_winding(loaded(builder.scene.meshes[shape.mesh.value], storage));
-    if (opposed != swaps_handedness(shape.object_to_world)) shape.flip_orientation = !shape.flip_orientation;
+    const TriangleMesh& mesh = builder.scene.meshes[shape.mesh.value];
+    const bool opposed = !mesh.quadric && normals_oppose_winding(loaded(mesh, storage));
+    if (opposed != swaps_handedness(shape.object_to_world)) {
+      shape.flip_orientation = !shape.flip_orientation;
+      if (builder.parts.at(shape.material.value).height)
+        builder.report.approximated(
+            "bump maps show where shading normals are on the other side than the winding: Mitsuba 3.9 shows "
+            "black",
+            object.origin);
+    }
   }
+  if (in_group && has_read_vertices(builder.scene, builder.scene.meshes[shape.mesh.value]))
+    builder.report.approximated(
+        "attributes of vertices in instances are those of the place met: Mitsuba 3.9 takes them from "
+        "elsewhere",
+        object.origin);
   shapes.push_back(std::move(shape));
 }
 

@@ -15,6 +15,7 @@
 
 #include "importers/images/converted_images.h"
 #include "importers/mesh_files.h"
+#include "importers/mitsuba/material_parts.h"
 #include "importers/opacity_key.h"
 #include "importers/unique_names.h"
 #include "scene/color.h"
@@ -50,7 +51,9 @@ struct Context {
         transmitting(vitrail::transmitting(scene_to_write.materials)),
         sided(with_sides(scene_to_write.materials)),
         lobes(lobes_of(scene_to_write.materials)),
-        uvs_show(meshes_whose_uvs_show(scene_to_write)) {}
+        parts(mitsuba::parts_of(scene_to_write.materials)),
+        uvs_show(meshes_whose_uvs_show(scene_to_write)),
+        uv_uses(scene_to_write) {}
 
   const Scene& scene;
   std::filesystem::path file;  // of the scene
@@ -60,7 +63,9 @@ struct Context {
   std::vector<bool> transmitting;  // Mitsuba allows no `twosided` around such materials
   std::vector<bool> sided;         // with_sides
   std::vector<Lobes> lobes;
+  std::vector<mitsuba::MaterialParts> parts;
   std::vector<bool> uvs_show;  // of each mesh
+  ShapeUvUses uv_uses;
   Diagnostics diagnostics;
   // Of the record that is being written.
   Origin origin;

@@ -7,11 +7,11 @@ namespace vitrail::mitsuba_writer {
 
 namespace {
 
-// Mitsuba's bare opaque BSDFs are black on their back; those that transmit have both sides anyway.
+// Mitsuba's bare opaque BSDFs are black on their back; those that transmit have both sides anyway, and those
+// that are made of others have theirs.
 bool wants_two_sided(const Context& context, std::size_t index) {
   const Material& material = context.scene.materials[index];
-  return material.two_sided && !std::holds_alternative<TwoSidedMaterial>(material.model) &&
-         !context.transmitting[index];
+  return material.two_sided && !is_made_of_others(material) && !context.transmitting[index];
 }
 
 // A height that is a texture times a number goes into the map's own scale.
@@ -43,10 +43,14 @@ void write_material(Context& context, Element parent, std::size_t index, std::st
     parent = add(parent, "bsdf", type, "", id);
     id.clear();
   };
-  if (blends_mirror_with_spread(material, context.lobes))
+  if (mitsuba::is_darkened(material, context.lobes, context.parts))
     context.approximated(
-        "a blend of a mirror or smooth interface with what spreads light: Mitsuba 3.9 makes it darker");
+        "a blend of a mirror, a smooth interface or nothing with what spreads light to the same side: "
+        "Mitsuba 3.9 "
+        "makes it darker");
   const bool bumps = shows_bumps(context, material);
+  if (bumps)
+    for (const char* what : mitsuba::bumps_shown_otherwise(material)) context.approximated(what);
   if (bumps && material.normal_map) {
     const WrittenTexture& texture = context.textures[material.normal_map->value];
     if (const auto* reference = std::get_if<std::string>(&texture)) {

@@ -192,6 +192,11 @@ void write(Context& context, Element parent, ElementId id, const DiffuseTransmis
 }
 
 void write(Context& context, Element parent, ElementId id, const PrincipledMaterial& m) {
+  if (mitsuba::is_tinted(m))
+    context.approximated(
+        "tints of the base colour are by its luminance: Mitsuba's spectral variants take that of each "
+        "sample's few "
+        "wavelengths");
   Element element = add(parent, "bsdf", m.thin ? "principledthin" : "principled", "", id);
   const auto parameter = [&](const char* name, const auto& value) {
     add_parameter(context, element, name, value);
@@ -283,6 +288,8 @@ void write(Context& context, Element parent, ElementId id, const TwoSidedMateria
     add_reference(element, context.material_ids[m.front.value]);
     return add_reference(element, context.material_ids[m.front.value]);
   }
+  if (context.parts[m.back.value].bumps)
+    context.approximated("Mitsuba mirrors the bumps of a back's material: here they are turned over");
   Element element = add(parent, "bsdf", "twosided", "", id);
   add_reference(element, context.material_ids[m.front.value]);
   add_reference(element, context.material_ids[m.back.value]);

@@ -8,6 +8,10 @@
 #include "importers/mitsuba/write_materials.h"
 #include "importers/mitsuba/write_media.h"
 #include "importers/mitsuba/write_sides.h"
+#include "importers/placed_quadric.h"
+#include "importers/shapes/vertex_normals.h"
+#include "scene/deferred_mesh.h"
+#include "scene/kinds.h"
 
 namespace vitrail::mitsuba_writer {
 
@@ -17,11 +21,11 @@ bool sides_matter(const Context& context, const Shape& shape) {
   return shape.area_light || shape.interior || shape.exterior || context.sided[shape.material.value];
 }
 
-bool is_whole(const Shape& shape) { return shape.opacity == FloatParameter{1.0f}; }
+bool is_there(const Shape& shape) { return shape.opacity == FloatParameter{1.0f}; }
 
 // What is not there of a shape is a mask around its material.
 void write_mask(Context& context, Element root, const Shape& shape) {
-  if (is_whole(shape)) return;
+  if (is_there(shape)) return;
   std::string& id = context.masks[{shape.material.value, opacity_key(shape.opacity)}];
   if (!id.empty()) return;
   id = context.new_id("", "mask", context.masks.size() - 1);
@@ -30,7 +34,7 @@ void write_mask(Context& context, Element root, const Shape& shape) {
 }
 
 const std::string& bsdf_of(const Context& context, const Shape& shape) {
-  if (is_whole(shape)) return context.material_ids[shape.material.value];
+  if (is_there(shape)) return context.material_ids[shape.material.value];
   return context.masks.at({shape.material.value, opacity_key(shape.opacity)});
 }
 
@@ -40,10 +44,64 @@ Element add_mesh(Context& context, Element parent, const Shape& shape, const Mes
   Element element = add(parent, "shape", "ply", "", id);
   add_string(element, "filename", file.filename);
   add_transform(element, shape.object_to_world);
-  add_boolean(element, "face_normals", mesh.normals.empty());
+  add_boolean(element, "face_normals", mesh.normals.empty() && !mesh.quadric);
   add_boolean(element, "flip_normals", file.flip_normals);
   add_reference(element, bsdf_of(context, shape), "bsdf");
   return element;
+}
+
+// As Mitsuba has it: it takes spheres and cylinders for round, and all for whole.
+std::optional<PlacedQuadric> quadric_of(Context& context, const Shape& shape) {
+  const auto placed = placed_quadric(context.scene, shape, QuadricUv::mitsuba, context.uv_uses);
+  if (!placed || !is_whole(placed->quadric)) return std::nullopt;
+  const Axes axes = axes_of(placed->to_world);
+  switch (placed->quadric.kind) {
+    case QuadricKind::sphere:
+      return axes.keep_spheres() ? placed : std::nullopt;
+    case QuadricKind::cylinder:
+      return axes.keep_circles() ? placed : std::nullopt;
+    case QuadricKind::disk:
+      return placed;
+    default:
+      return std::nullopt;
+  }
+}
+
+// Of a transform that moves and scales alone, the scale; else 0.
+double plain_scale(const Transform& t) {
+  const double s = t.m[0][0];
+  return s > 0 && translate({t.m[0][3], t.m[1][3], t.m[2][3]}) * scale({s, s, s}) == t ? s : 0;
+}
+
+Element add_quadric(Context& context, Element parent, const Shape& shape, const PlacedQuadric& placed,
+                    const std::string& id) {
+  const Transform& t = placed.to_world;
+  const bool sphere = placed.quadric.kind == QuadricKind::sphere;
+  Element element = add(parent, "shape", kind_of(placed.quadric.kind), "", id);
+  if (const double radius = sphere ? plain_scale(t) : 0; radius > 0) {
+    add_coordinates(element, "point", "center", Vector3d{t.m[0][3], t.m[1][3], t.m[2][3]});
+    add_float(element, "radius", radius);
+  } else if (t != Transform{}) {
+    add_transform(element, t);
+  }
+  // A mirror turns only spheres inside out.
+  const bool turned = !sphere && sides_matter(context, shape) && swaps_handedness(t);
+  add_boolean(element, "flip_normals", placed.flip_orientation != turned);
+  add_reference(element, bsdf_of(context, shape), "bsdf");
+  return element;
+}
+
+// Right behind it, and facing backwards.
+PlacedQuadric back_of(const PlacedQuadric& placed) {
+  constexpr double gap = 1e-4;
+  const double behind = placed.flip_orientation != swaps_handedness(placed.to_world) ? gap : -gap;
+  const double across = 1 + behind, along = placed.quadric.kind == QuadricKind::sphere ? across : 1;
+  PlacedQuadric back = placed;
+  back.flip_orientation = !placed.flip_orientation;
+  back.to_world =
+      placed.to_world *
+      (placed.quadric.kind == QuadricKind::disk ? translate({0, 0, behind}) : scale({across, across, along}));
+  return back;
 }
 
 void add_media(const Context& context, Element element, const Shape& shape) {
@@ -58,7 +116,7 @@ AreaLight light_of(Context& context, const Shape& shape) {
   AreaLight light = context.scene.area_lights[shape.area_light->value];
   if (shape.opacity == FloatParameter{0.0f})
     context.approximated("a light that nothing meets is seen in Mitsuba");
-  else if (!is_whole(shape))
+  else if (!is_there(shape))
     light.scale *= constant_of(context, shape.opacity, "the opacity of what shines");
   return light;
 }
@@ -66,16 +124,26 @@ AreaLight light_of(Context& context, const Shape& shape) {
 void write_shape(Context& context, Element parent, const Shape& shape, std::size_t index) {
   context.begin(RecordKind::shape, shape.origin);
   const std::string id = shape.name.empty() ? "" : context.new_id(shape.name, "shape", index);
+  const auto quadric = quadric_of(context, shape);
+  if (const auto& mesh = context.scene.meshes[shape.mesh.value]; mesh.quadric && !quadric)
+    context.approximated(as_triangles(*mesh.quadric));
   Element element =
-      add_mesh(context, parent, shape, mesh_file(context, shape, sides_matter(context, shape)), id);
+      quadric ? add_quadric(context, parent, shape, *quadric, id)
+              : add_mesh(context, parent, shape, mesh_file(context, shape, sides_matter(context, shape)), id);
   add_media(context, element, shape);
   if (!shape.area_light) return;
   const AreaLight light = light_of(context, shape);
   write_area_light(context, element, light);
+  TriangleMesh storage;
+  if (!quadric && normals_lean(loaded(context.scene.meshes[shape.mesh.value], storage)))
+    context.approximated("Mitsuba 3.9 weighs the light of a mesh by its shading normals");
   if (!light.two_sided) return;
   context.approximated(
       "Mitsuba's area lights shine to one side: a copy of the surface right behind it shines to the other");
-  write_area_light(context, add_mesh(context, parent, shape, back_of(context, shape), ""), light);
+  write_area_light(context,
+                   quadric ? add_quadric(context, parent, shape, back_of(*quadric), "")
+                           : add_mesh(context, parent, shape, back_of(context, shape), ""),
+                   light);
 }
 
 // Mitsuba allows no area lights in shape groups: they are written with every instance.
@@ -101,8 +169,13 @@ void write_prototype(Context& context, Element root, const Prototype& prototype,
   id = context.new_id(prototype.name, "shapegroup", index);
   if (group.empty) return;
   Element element = add(root, "shape", "shapegroup", "", id);
-  for (std::size_t i = 0; i < prototype.shapes.size(); ++i)
-    if (!prototype.shapes[i].area_light) write_shape(context, element, prototype.shapes[i], i);
+  for (std::size_t i = 0; i < prototype.shapes.size(); ++i) {
+    const Shape& shape = prototype.shapes[i];
+    if (shape.area_light) continue;
+    write_shape(context, element, shape, i);
+    if (mitsuba::has_read_vertices(context.scene, context.scene.meshes[shape.mesh.value]))
+      context.approximated("attributes of vertices in instances: Mitsuba 3.9 takes them from elsewhere");
+  }
 }
 
 void write_instance(Context& context, Element root, const Instance& instance, const Group& group) {

@@ -6,6 +6,7 @@
 #include "importers/ply/write_ply.h"
 #include "importers/shapes/vertex_normals.h"
 #include "scene/bounds.h"
+#include "scene/deferred_mesh.h"
 #include "scene/mesh_uv.h"
 
 namespace vitrail::mitsuba_writer {
@@ -25,14 +26,14 @@ std::string write_derived(Context& context, const TriangleMesh& mesh) {
 }
 
 // (u,v) that Mitsuba would take for others.
-bool lacks_uvs(const Context& context, const Shape& shape) {
-  const TriangleMesh& mesh = context.scene.meshes[shape.mesh.value];
+bool lacks_uvs(const Context& context, const Shape& shape, const TriangleMesh& mesh) {
   return context.uvs_show[shape.mesh.value] && mesh.uvs.empty() && mesh.missing_uv != MissingUv::barycentric;
 }
 
 TriangleMesh copy_of(const Context& context, const Shape& shape) {
-  const TriangleMesh& mesh = context.scene.meshes[shape.mesh.value];
-  return lacks_uvs(context, shape) ? with_uvs(mesh) : mesh;
+  TriangleMesh storage;
+  const TriangleMesh& mesh = loaded(context.scene.meshes[shape.mesh.value], storage);
+  return lacks_uvs(context, shape, mesh) ? with_uvs(mesh) : mesh;
 }
 
 // Mitsuba transforms normals so that they keep their side where the transform mirrors, and the winding does
@@ -44,9 +45,10 @@ bool normals_point_behind(const TriangleMesh& mesh, const Shape& shape) {
 }  // namespace
 
 MeshFile mesh_file(Context& context, const Shape& shape, bool sides_matter) {
-  const TriangleMesh& mesh = context.scene.meshes[shape.mesh.value];
+  TriangleMesh storage;
+  const TriangleMesh& mesh = loaded(context.scene.meshes[shape.mesh.value], storage);
   if (!sides_matter || !normals_point_behind(mesh, shape)) {
-    const bool derived = lacks_uvs(context, shape) && !context.meshes.has_name(shape.mesh);
+    const bool derived = lacks_uvs(context, shape, mesh) && !context.meshes.has_name(shape.mesh);
     return {derived ? context.meshes.name(shape.mesh, with_uvs(mesh)) : context.meshes.name(shape.mesh),
             shape.flip_orientation};
   }

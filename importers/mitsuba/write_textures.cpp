@@ -114,8 +114,20 @@ bool is_number(const std::optional<Spectrum>& value, double number) {
   return value && is_constant(*value) && evaluate(*value, 550) == number;
 }
 
+// A colour within a texture means what the texture is for: a reflectance, unless it is brighter.
+Spectrum within_texture(Context& context, const Spectrum& spectrum) {
+  const bool is_color = std::holds_alternative<RgbUnboundedSpectrum>(spectrum) ||
+                        std::holds_alternative<RgbIlluminantSpectrum>(spectrum);
+  if (!is_color) return resolved(spectrum);
+  const RGB c = color_of(spectrum);
+  if (std::max({c.r, c.g, c.b}) <= 1) return resolved(reflectance_from_rgb(c));
+  context.approximated(
+      "a colour above 1 within a texture counts as it is, also where the texture is a reflectance");
+  return resolved(spectrum);
+}
+
 // The same texture in simpler terms, where there is one: 1·x, a mix by 0 or 1, constants.
-std::optional<WrittenTexture> simplified(const Context& context, const TextureModel& model) {
+std::optional<WrittenTexture> simplified(Context& context, const TextureModel& model) {
   const auto written = [&](const SpectrumParameter& value) -> WrittenTexture {
     if (const auto* spectrum = std::get_if<Spectrum>(&value)) return *spectrum;
     return context.textures[std::get<Id<Texture>>(value).value];
@@ -137,10 +149,11 @@ std::optional<WrittenTexture> simplified(const Context& context, const TextureMo
     if (amount == 1.0f) return written(blend->second);
     const auto first = value_of(context, blend->first), second = value_of(context, blend->second);
     if (first && second && amount)
-      return tabulated([&, a = resolved(*first), b = resolved(*second)](double lambda) {
-        const double x = evaluate(a, lambda), y = evaluate(b, lambda);
-        return x + (y - x) * static_cast<double>(*amount);
-      });
+      return tabulated(
+          [&, a = within_texture(context, *first), b = within_texture(context, *second)](double lambda) {
+            const double x = evaluate(a, lambda), y = evaluate(b, lambda);
+            return x + (y - x) * static_cast<double>(*amount);
+          });
   }
   return std::nullopt;
 }

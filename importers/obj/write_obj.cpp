@@ -8,6 +8,7 @@
 #include "importers/obj/write_mtl.h"
 #include "importers/side_files.h"
 #include "importers/text_sink.h"
+#include "scene/deferred_mesh.h"
 #include "scene/mesh_uv.h"
 #include "scene/uv_uses.h"
 
@@ -81,8 +82,8 @@ void put_geometry(const Scene& scene, const std::vector<FlatShape>& shapes, cons
   std::string material;
   for (std::size_t i = 0; i < shapes.size(); ++i) {
     const Shape& shape = shapes[i].shape;
-    const TriangleMesh& shared = scene.meshes.at(shape.mesh.value);
-    TriangleMesh apart;
+    TriangleMesh storage, apart;
+    const TriangleMesh& shared = loaded(scene.meshes.at(shape.mesh.value), storage);
     const bool lacking = lacks_uvs(shared, uvs_show[shape.mesh.value]);
     if (lacking) apart = with_uvs(shared);
     const TriangleMesh& mesh = lacking ? apart : shared;
@@ -111,6 +112,7 @@ Diagnostics write_obj(const Scene& scene, const std::filesystem::path& path) {
           {Fidelity::dropped, "attributes of a mesh: OBJ has none", where, where, RecordKind::shape});
     }
   const std::filesystem::path library = path.parent_path() / SideFiles(path).name("mtl");
+  note_quadrics(scene, shapes, diagnostics);
   const MtlNames names = write_mtl(scene, shapes, library, diagnostics);
   AtomicFile file(path);
   TextSink out(&file);

@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -16,6 +17,7 @@
 #include "importers/pbrt/shapes.h"
 #include "importers/pbrt/textures.h"
 #include "importers/pbrt/token_stream.h"
+#include "scene/quadric_runs.h"
 #include "scene/uv_uses.h"
 
 namespace vitrail::pbrt {
@@ -155,7 +157,8 @@ class Interpreter {
   TextureTable textures_;
   UvUses uv_uses_{scene_.textures};
   ShapeMaker shapes_;
-  std::vector<Place> area_light_places_;  // one for each of the scene's area lights
+  std::optional<QuadricRuns> quadric_runs_;  // where memory is limited
+  std::vector<Place> area_light_places_;     // one for each of the scene's area lights
 
   // Materials by number; named ones may be used before they are defined.
   struct DeferredMaterial {

@@ -253,7 +253,7 @@ ShapeGeometry ShapeMaker::triangle_mesh(ParameterSet& parameters, bool uvs_show)
   mesh.uvs = vertex_values<Point2f, 2>(texture_coordinates(parameters), mesh.positions.size());
   orient_by_normals(mesh, uvs_show);
   const std::size_t parts = mesh.triangles.size();
-  return {add(std::move(mesh)), false, offset, parts};
+  return {add(std::move(mesh)), false, translate(offset), parts};
 }
 
 std::vector<ShapeGeometry> ShapeMaker::ply_mesh(ParameterSet& parameters, bool uvs_show) {
@@ -320,38 +320,29 @@ ShapeGeometry ShapeMaker::loop_subdivision(ParameterSet& parameters, bool uvs_sh
   return {add(std::move(mesh)), false, {}, parts};
 }
 
-std::optional<ShapeGeometry> ShapeMaker::quadric(const std::string& kind, ParameterSet& parameters) {
+SizedQuadric ShapeMaker::sized_quadric(const std::string& kind, ParameterSet& parameters) {
   const double radius = parameters.number("radius", 1);
-  const bool sphere = kind == "sphere";
-  const double phimax = parameters.number("phimax", 360);
-  QuadricKey key;
-  if (kind == "disk") {
-    key = {kind, radius, parameters.number("height", 0), parameters.number("innerradius", 0), phimax};
-  } else if (kind == "cone") {
-    key = {kind, radius, parameters.number("height", 1), 0, phimax};
-  } else {
-    const double extent = sphere ? radius : 1, bottom = kind == "paraboloid" ? 0 : -extent;
-    key = {kind, radius, parameters.number("zmin", bottom), parameters.number("zmax", extent), phimax};
+  const double phimax_rad = parameters.number("phimax", 360) * std::numbers::pi / 180;
+  if (kind == "disk")
+    return disk(parameters.number("height", 0), radius, parameters.number("innerradius", 0), phimax_rad);
+  if (kind == "cone") return cone(radius, parameters.number("height", 1), phimax_rad);
+  const double extent = kind == "sphere" ? radius : 1, bottom = kind == "paraboloid" ? 0 : -extent;
+  const double zmin = parameters.number("zmin", bottom), zmax = parameters.number("zmax", extent);
+  return (kind == "sphere"       ? sphere
+          : kind == "paraboloid" ? paraboloid
+                                 : cylinder)(radius, zmin, zmax, phimax_rad);
+}
+
+ShapeGeometry ShapeMaker::quadric(const std::string& kind, ParameterSet& parameters) {
+  try {
+    const auto [q, to_object] = sized_quadric(kind, parameters);
+    const auto [known, is_new] = quadrics_.try_emplace({q.kind, q.low, q.high, q.phi_max_rad});
+    if (is_new) known->second = add(mesh_of(q));
+    return {known->second, true, to_object, 1};
+  } catch (const Error& error) {
+    if (error.location.file.empty()) fail(error.what(), parameters.place());
+    throw;
   }
-  const auto [known, is_new] = quadrics_.try_emplace(key);
-  if (is_new) {
-    const double a = std::get<2>(key), b = std::get<3>(key), phimax_rad = phimax * std::numbers::pi / 180;
-    try {
-      known->second = add(sphere                 ? tessellate_sphere(radius, a, b, phimax_rad)
-                          : kind == "disk"       ? tessellate_disk(a, radius, b, phimax_rad)
-                          : kind == "cone"       ? tessellate_cone(radius, a, phimax_rad)
-                          : kind == "paraboloid" ? tessellate_paraboloid(radius, a, b, phimax_rad)
-                                                 : tessellate_cylinder(radius, a, b, phimax_rad));
-    } catch (const Error& error) {
-      fail(error.what(), parameters.place());
-    }
-  }
-  context_.report.approximated(fmt::format("each {} becomes triangles, {} for a full turn", kind,
-                                           sphere || kind == "paraboloid" ? sphere_segments
-                                           : kind == "disk"               ? disk_segments
-                                                                          : cylinder_segments),
-                               parameters.place());
-  return ShapeGeometry{known->second, true, {}, 1};
 }
 
 // In v3 what lets a shadow ray pass is where either of the two is 0.

@@ -10,22 +10,23 @@
 #include "importers/pbrt/context.h"
 #include "importers/pbrt/parameters.h"
 #include "importers/ply/mesh_read_ahead.h"
+#include "importers/shapes/quadrics.h"
 #include "scene/scene.h"
 
 namespace vitrail::pbrt {
 
-// The triangles of a Shape directive.
+// The surface of a Shape directive.
 struct ShapeGeometry {
   Id<TriangleMesh> mesh;
   // Analytic shapes: their front under a mirroring transform is on the other side than that of meshes.
   bool quadric = false;
-  // Where the mesh lies, if far from the origin: its positions are relative to this point.
-  Vector3d offset;
+  // The sizes of a quadric; where a mesh lies that is far from the origin.
+  Transform mesh_to_object;
   // How many shapes pbrt makes of it, each with the whole `power` of an area light: triangles, patches, or 1.
   std::size_t parts = 1;
 };
 
-// Makes meshes and keeps those that come again (the same file, the same sphere).
+// Makes meshes and keeps those that come again (the same file, any sphere).
 class ShapeMaker {
  public:
   ShapeMaker(Context& context, std::vector<TriangleMesh>& meshes);
@@ -41,13 +42,14 @@ class ShapeMaker {
   ShapeGeometry bilinear_mesh(ParameterSet& parameters, bool uvs_show);
   ShapeGeometry loop_subdivision(ParameterSet& parameters, bool uvs_show);
   std::optional<ShapeGeometry> curve(ParameterSet& parameters);
-  std::optional<ShapeGeometry> quadric(const std::string& kind, ParameterSet& parameters);
+  ShapeGeometry quadric(const std::string& kind, ParameterSet& parameters);
+  static SizedQuadric sized_quadric(const std::string& kind, ParameterSet& parameters);
   Id<TriangleMesh> add(TriangleMesh mesh);
   void report_shadow_alpha(ParameterSet& parameters);
   // Has the meshes read that the text to come names.
   void read_ahead();
 
-  using QuadricKey = std::tuple<std::string, double, double, double, double>;
+  using QuadricKey = std::tuple<QuadricKind, double, double, double>;  // low, high, phi_max_rad
   Context& context_;
   std::vector<TriangleMesh>& meshes_;
   // The shapes of a file where (u,v) do not show and where they do: the same but for patches and for

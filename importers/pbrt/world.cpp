@@ -178,7 +178,9 @@ void Interpreter::area_light_source(const Place& place) {
 // The area in the world of each of the shapes that pbrt makes of a mesh, which all emit the whole power.
 double Interpreter::area_per_part(const ShapeGeometry& geometry, const Place& place) {
   TriangleMesh storage;
-  const TriangleMesh& mesh = loaded(scene_.meshes[geometry.mesh.value], storage);
+  const TriangleMesh& stored = scene_.meshes[geometry.mesh.value];
+  if (stored.quadric) return area_of(*stored.quadric, state_.ctm * geometry.mesh_to_object);
+  const TriangleMesh& mesh = loaded(stored, storage);
   double total = 0, least = INFINITY, greatest = 0;
   for (const auto& triangle : mesh.triangles) {
     const auto corner = [&](std::size_t i) {
@@ -291,7 +293,7 @@ void Interpreter::add_shape(const ShapeGeometry& geometry, const FloatParameter&
   shape.area_light = shape_light(geometry, place);
   if (opacity == FloatParameter{0.0f} && !shape.area_light) return;
   if (shape.area_light && opacity != FloatParameter{1.0f}) report_shining_alpha(opacity, place);
-  shape.object_to_world = state_.ctm * vitrail::translate(geometry.offset);
+  shape.object_to_world = state_.ctm * geometry.mesh_to_object;
   // Meshes: pbrt flips the winding normal of the world, so that the object's front stays the front. Analytic
   // shapes: it flips the normal of the object and then transforms it, so a mirror turns them inside out;
   // their light does not turn, and one that shines goes by its light.
@@ -300,7 +302,12 @@ void Interpreter::add_shape(const ShapeGeometry& geometry, const FloatParameter&
       state_.reverse_orientation != (mirrored && (!geometry.quadric || shape.area_light));
   if (mirrored && geometry.quadric && shape.area_light)
     context_.report.approximated("a mirrored shape that shines has its front where it shines", place);
-  (current_object_ ? scene_.prototypes[*current_object_].shapes : scene_.shapes).push_back(std::move(shape));
+  if (current_object_)
+    scene_.prototypes[*current_object_].shapes.push_back(std::move(shape));
+  else if (quadric_runs_)
+    quadric_runs_->add(scene_, std::move(shape));
+  else
+    scene_.shapes.push_back(std::move(shape));
 }
 
 void Interpreter::object_instance(const Place& place) {

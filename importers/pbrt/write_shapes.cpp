@@ -2,11 +2,15 @@
 // Shapes, objects and their instances.
 #include <cmath>
 #include <map>
+#include <numbers>
 
 #include "importers/pbrt/shapes.h"
 #include "importers/pbrt/write_images.h"
+#include "importers/placed_quadric.h"
 #include "scene/bounds.h"
+#include "scene/kinds.h"
 #include "scene/mesh_uv.h"
+#include "scene/tessellate.h"
 #include "scene/uv_uses.h"
 
 namespace vitrail::pbrt {
@@ -45,10 +49,64 @@ std::string inline_mesh(const TriangleMesh& mesh) {
   return text;
 }
 
+// A directive and what has to hold where it stands.
+struct Written {
+  std::string shape;
+  Transform to_world;
+  bool reversed = false;
+};
+
+// What the reader makes these radians of, and nothing else.
+double degrees_of(double radians) {
+  const double degrees = radians * 180 / std::numbers::pi;
+  for (const double near : {degrees, std::nextafter(degrees, 0), std::nextafter(degrees, INFINITY)})
+    if (near * std::numbers::pi / 180 == radians) return near;
+  return degrees;
+}
+
+// Its sizes as pbrt has them, and the transform without them.
+struct Sizes {
+  double radius, height;
+  Transform rest;
+};
+
+Sizes sizes_of(const Quadric& q, const Transform& to_world) {
+  const Axes axes = axes_of(to_world);
+  Sizes sizes{axes.x, q.kind == QuadricKind::cylinder ? axes.z : axes.x, to_world};
+  for (auto& row : sizes.rest.m) row[0] /= axes.x, row[1] /= axes.x, row[2] /= axes.z;
+  return sizes;
+}
+
+// pbrt measures lights, and looks for their points, before the transform, and does not know that they may be
+// partial. Nothing where it would go wrong, and for what v4 does not have.
+std::optional<Written> written(const PlacedQuadric& placed, bool shines) {
+  const Quadric& q = placed.quadric;
+  const bool sphere = q.kind == QuadricKind::sphere, cylinder = q.kind == QuadricKind::cylinder;
+  if (q.kind == QuadricKind::cone || q.kind == QuadricKind::paraboloid) return std::nullopt;
+  const Sizes sizes = sizes_of(q, placed.to_world);
+  const bool is_rigid = (cylinder || is_whole(q)) && axes_of(sizes.rest).keep_spheres();
+  if (shines && !is_rigid) return std::nullopt;
+  const bool sized = is_rigid && (shines || sizes.rest * scale({sizes.radius, sizes.radius, sizes.height}) ==
+                                                placed.to_world);
+  const double radius = sized ? sizes.radius : 1;
+  std::string text = fmt::format("Shape \"{}\" \"float radius\" [ {} ]", kind_of(q.kind), radius);
+  const auto number = [&](const char* name, double value) {
+    text += fmt::format(" \"float {}\" [ {} ]", name, value);
+  };
+  if (cylinder) number("zmin", 0), number("zmax", sized ? sizes.height : 1);
+  if (sphere && q.low > -1) number("zmin", q.low);
+  if (sphere && q.high < 1) number("zmax", q.high);
+  if (!sphere && !cylinder && q.low > 0) number("innerradius", q.low);
+  if (!is_whole_turn(q)) number("phimax", degrees_of(q.phi_max_rad));
+  // A mirror turns quadrics inside out, but not their light.
+  return Written{text, sized ? sizes.rest : placed.to_world,
+                 placed.flip_orientation != (shines && swaps_handedness(placed.to_world))};
+}
+
 class ShapeWriter {
  public:
   explicit ShapeWriter(Writer& w)
-      : w_(w), fixed_(w.scene.meshes.size()), uvs_show_(meshes_whose_uvs_show(w.scene)) {}
+      : w_(w), fixed_(w.scene.meshes.size()), uvs_show_(meshes_whose_uvs_show(w.scene)), uv_uses_(w.scene) {}
 
   void write(const Shape& shape) {
     const ShapeSurface surface = surface_of(w_, shape);
@@ -58,10 +116,11 @@ class ShapeWriter {
     if (shape.interior || shape.exterior)
       w_.line(fmt::format("MediumInterface {} {}", medium(shape.interior), medium(shape.exterior)));
     if (shape.area_light) w_.line(area_light(*shape.area_light));
-    w_.transform(shape.object_to_world);
-    if (shape.flip_orientation != swaps_handedness(shape.object_to_world)) w_.line("ReverseOrientation");
+    const Written as = surface_written(shape, p);
+    w_.transform(as.to_world);
+    if (as.reversed) w_.line("ReverseOrientation");
     if (surface.alpha != FloatParameter{1.0f}) p.number("alpha", surface.alpha);
-    w_.line(mesh(shape, p) + p.list());
+    w_.line(as.shape + p.list());
     w_.end("AttributeEnd");
   }
 
@@ -95,9 +154,20 @@ class ShapeWriter {
     if (image.filter != TextureFilter::bilinear) p.approximated("its image is looked up bilinearly");
   }
 
+  Written surface_written(const Shape& shape, Parameters& p) {
+    if (const auto quadric = placed_quadric(w_.scene, shape, QuadricUv::pbrt, uv_uses_))
+      if (auto as = written(*quadric, shape.area_light.has_value())) return *as;
+    return {mesh(shape, p), shape.object_to_world,
+            shape.flip_orientation != swaps_handedness(shape.object_to_world)};
+  }
+
   std::string mesh(const Shape& shape, Parameters& p) {
     const TriangleMesh& mesh = w_.scene.meshes.at(shape.mesh.value);
     std::optional<TriangleMesh>& fixed = fixed_[shape.mesh.value];
+    if (mesh.quadric) {
+      p.approximated(as_triangles(*mesh.quadric));
+      if (!fixed) fixed = tessellate(*mesh.quadric);
+    }
     const bool follow = fronts_follow_normals(mesh);
     const bool lacks_uvs =
         uvs_show_[shape.mesh.value] && mesh.uvs.empty() && mesh.missing_uv != MissingUv::pbrt;
@@ -117,7 +187,8 @@ class ShapeWriter {
 
   Writer& w_;
   std::vector<std::optional<TriangleMesh>> fixed_;  // what is written instead of a mesh
-  std::vector<bool> uvs_show_;
+  std::vector<bool> uvs_show_;                      // of meshes
+  ShapeUvUses uv_uses_;
   std::map<std::uint32_t, std::string> area_lights_;  // their directives
 };
 

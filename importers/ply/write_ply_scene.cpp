@@ -8,6 +8,7 @@
 #include "importers/flat_shapes.h"
 #include "importers/ply/write_ply.h"
 #include "scene/bounds.h"
+#include "scene/deferred_mesh.h"
 
 namespace vitrail {
 
@@ -17,14 +18,17 @@ class Merger {
  public:
   Merger(const Scene& scene, const std::vector<FlatShape>& shapes) : scene_(scene) {
     for (const FlatShape& flat : shapes) {
-      with_normals_ |= !mesh_of(flat).normals.empty();
-      with_uvs_ |= !mesh_of(flat).uvs.empty();
+      const TriangleMesh& mesh = scene.meshes.at(flat.shape.mesh.value);
+      with_normals_ |= mesh.quadric || !mesh.normals.empty();
+      with_uvs_ |= mesh.quadric || !mesh.uvs.empty();
     }
   }
 
   void add(const FlatShape& flat) {
-    const bool flat_shaded = with_normals_ && mesh_of(flat).normals.empty();
-    flat_shaded ? add_corners(flat) : add_vertices(flat);
+    TriangleMesh storage;
+    const TriangleMesh& mesh = loaded(scene_.meshes.at(flat.shape.mesh.value), storage);
+    const bool flat_shaded = with_normals_ && mesh.normals.empty();
+    flat_shaded ? add_corners(flat, mesh) : add_vertices(flat, mesh);
     if (merged_.positions.size() > 0x7fffffff)
       throw Error("more than 2147483647 vertices: too many for one PLY file");
   }
@@ -32,18 +36,14 @@ class Merger {
   const TriangleMesh& merged() const { return merged_; }
 
  private:
-  const TriangleMesh& mesh_of(const FlatShape& flat) const { return scene_.meshes.at(flat.shape.mesh.value); }
-
-  void add_vertex(const FlatShape& flat, std::uint32_t i, Normal3f normal) {
-    const TriangleMesh& mesh = mesh_of(flat);
+  void add_vertex(const FlatShape& flat, const TriangleMesh& mesh, std::uint32_t i, Normal3f normal) {
     merged_.positions.push_back(
         cast<float>(transform_point(flat.object_to_world, cast<double>(mesh.positions[i]))));
     if (with_normals_) merged_.normals.push_back(normal);
     if (with_uvs_) merged_.uvs.push_back(mesh.uvs.empty() ? Point2f{} : mesh.uvs[i]);
   }
 
-  void add_vertices(const FlatShape& flat) {
-    const TriangleMesh& mesh = mesh_of(flat);
+  void add_vertices(const FlatShape& flat, const TriangleMesh& mesh) {
     const auto base = static_cast<std::uint32_t>(merged_.positions.size());
     const bool is_still = flat.object_to_world == Transform{};
     for (std::uint32_t i = 0; i < mesh.positions.size(); ++i) {
@@ -52,16 +52,15 @@ class Merger {
       if (!is_still)
         n = cast<float>(
             to_normal(normalize(to_vector(transform_normal(flat.object_to_world, cast<double>(n))))));
-      add_vertex(flat, i, n);
+      add_vertex(flat, mesh, i, n);
     }
     const std::size_t second = flat.flip ? 2 : 1, third = 3 - second;
     for (const auto& t : mesh.triangles)
       merged_.triangles.push_back({base + t[0], base + t[second], base + t[third]});
   }
 
-  void add_corners(const FlatShape& flat) {
+  void add_corners(const FlatShape& flat, const TriangleMesh& mesh) {
     const std::size_t second = flat.flip ? 2 : 1, third = 3 - second;
-    const TriangleMesh& mesh = mesh_of(flat);
     const auto world = [&](std::uint32_t i) {
       return transform_point(flat.object_to_world, cast<double>(mesh.positions[i]));
     };
@@ -70,7 +69,7 @@ class Merger {
       const Point3d a = world(t[0]);
       const Vector3d n = normalize(cross(world(t[second]) - a, world(t[third]) - a));
       for (const std::size_t corner : {std::size_t{0}, second, third})
-        add_vertex(flat, t[corner], cast<float>(to_normal(n)));
+        add_vertex(flat, mesh, t[corner], cast<float>(to_normal(n)));
       merged_.triangles.push_back({base, base + 1, base + 2});
     }
   }
@@ -114,6 +113,7 @@ Diagnostics write_ply_scene(const Scene& scene, const std::filesystem::path& fil
   if (std::ranges::any_of(scene.meshes, [](const TriangleMesh& m) { return !m.attributes.empty(); }))
     diagnostics.push_back({Fidelity::dropped, "attributes of meshes: not all shapes have the same", {}, {}});
   const std::vector<FlatShape> shapes = flat_shapes(scene);
+  note_quadrics(scene, shapes, diagnostics);
   Merger merger(scene, shapes);
   for (const FlatShape& flat : shapes) merger.add(flat);
   if (shapes.size() > 1)

@@ -20,6 +20,10 @@ struct MeshText {
   bool with_uvs = false;
 };
 
+// The beginning of the object, up to its texture, that is what the shape's quadric is after `to_pov`; ""
+// where POV-Ray has none or would need uvs.
+std::string quadric_text(const MeshText& text);
+
 // False where no triangle has an area: POV-Ray refuses such a mesh.
 bool has_area(const MeshText& text);
 std::string mesh_text(const MeshText& text);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "scene/bounds.h"
+#include "scene/deferred_mesh.h"
 
 namespace vitrail::povray {
 
@@ -12,8 +13,7 @@ namespace {
 Bounds3d bounds_of(const Scene& scene, const std::vector<Shape>& shapes) {
   Bounds3d bounds;
   for (const Shape& shape : shapes) {
-    Bounds3f own;
-    for (const Point3f& p : scene.meshes.at(shape.mesh.value).positions) extend(own, p);
+    const Bounds3f own = vitrail::bounds_of(scene.meshes.at(shape.mesh.value));
     if (own.empty()) continue;
     for (int corner = 0; corner < 8; ++corner)
       extend(bounds, transform_point(shape.object_to_world, {corner & 1 ? own.upper.x : own.lower.x,

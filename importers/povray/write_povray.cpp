@@ -5,6 +5,7 @@
 #include <set>
 
 #include "importers/export_colors.h"
+#include "importers/placed_quadric.h"
 #include "importers/povray/camera.h"
 #include "importers/povray/lights.h"
 #include "importers/povray/material_uses.h"
@@ -13,6 +14,7 @@
 #include "importers/povray/pigments.h"
 #include "importers/povray/units.h"
 #include "scene/atomic_file.h"
+#include "scene/tessellate.h"
 
 namespace vitrail {
 
@@ -183,14 +185,25 @@ class Writer {
 
   std::string shape_text(const Shape& shape, const MeshText& mesh, const char* flags) {
     const AreaLight* const light = light_of(shape);
-    if (((is_invisible(scene(), shape.material) || is_gone(shape)) && !light) || !has_area(mesh)) return "";
+    if ((is_invisible(scene(), shape.material) || is_gone(shape)) && !light) return "";
+    const std::string geometry = geometry_text(shape, mesh);
+    if (geometry.empty()) return "";
     const Surface& surface = surfaces_.at(shape.material.value);
     std::string text = shape.name.empty() ? "" : "// " + one_line(shape.name) + "\n";
-    text += "mesh2 {\n" + triangles(mesh);
+    text += geometry;
     Shape shining = shape;
     if (is_gone(shape)) shining.opacity = 1.0f;  // of a light that nothing meets
     text += light ? emitter_of(context_, shining, surface, *light) : use_of(context_, shape, surface);
     return text + flags + "}\n";
+  }
+
+  // The beginning of an object; "" for one without area.
+  std::string geometry_text(const Shape& shape, const MeshText& mesh) {
+    if (!mesh.mesh.quadric) return has_area(mesh) ? "mesh2 {\n" + triangles(mesh) : "";
+    if (std::string text = quadric_text(mesh); !text.empty()) return text;
+    context_.approximated(as_triangles(*mesh.mesh.quadric), shape.origin);
+    const TriangleMesh tessellated = tessellate(*mesh.mesh.quadric);
+    return geometry_text(shape, {tessellated, mesh.to_pov, mesh.flip, mesh.with_uvs});
   }
 
   std::string triangles(const MeshText& mesh) {

@@ -8,8 +8,8 @@
 #include <limits>
 #include <optional>
 
-#include "importers/shapes/unit_circle.h"
 #include "scene/diagnostics.h"
+#include "scene/unit_circle.h"
 
 namespace vitrail {
 

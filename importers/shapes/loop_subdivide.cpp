@@ -9,7 +9,7 @@
 #include <limits>
 
 #include "importers/shapes/shapes.h"
-#include "importers/shapes/unit_circle.h"
+#include "scene/unit_circle.h"
 
 namespace vitrail {
 

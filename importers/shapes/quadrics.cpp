@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "importers/shapes/quadrics.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "importers/shapes/shapes.h"
-#include "importers/shapes/unit_circle.h"
+#include "scene/diagnostics.h"
 
 namespace vitrail {
 
@@ -24,145 +25,131 @@ void require_finite(double value, const char* shape, const char* quantity) {
   require(std::isfinite(static_cast<float>(value)), shape, quantity, value, "finite in single precision");
 }
 
-// The columns of a surface of revolution: directions from the axis at φ = phimax·i/segments, i = 0 …
-// segments. After a full turn the last is the first.
-struct Columns {
-  std::vector<Point2d> directions;
-  double u(double i) const { return i / static_cast<double>(directions.size() - 1); }
-  std::uint32_t segments() const { return static_cast<std::uint32_t>(directions.size() - 1); }
-};
-
-int share(int of_whole, double part, double whole) {
-  return std::max(1, static_cast<int>(std::ceil(of_whole * (part / whole) - 1e-6)));
-}
-
-Columns columns(double phimax_rad, int segments_of_turn, const char* shape) {
+double angle(double phimax_rad, const char* shape) {
   require(phimax_rad > 0, shape, "phimax", phimax_rad, "above 0");
-  const bool whole = phimax_rad >= 2 * pi * (1 - 1e-7);
-  const double phimax = whole ? 2 * pi : phimax_rad;
-  const int n = share(segments_of_turn, phimax, 2 * pi);
-  Columns result;
-  for (int i = 0; i <= n; ++i) result.directions.push_back(unit_circle(phimax * i / n));
-  return result;
+  constexpr double turn = Quadric{}.phi_max_rad;
+  return phimax_rad >= turn * (1 - 1e-7) ? turn : phimax_rad;
 }
 
-// One circle of latitude: all its points have this distance from the axis, this height and this tilt of the
-// normal.
-struct Ring {
-  double radius, z;
-  double normal_across, normal_z;
-  float v;
+// A quadrature of 5 points by Gauss and Legendre in each of 16 parts.
+template <class F>
+double integral(F&& f, double from, double to) {
+  constexpr int parts = 16;
+  constexpr double nodes[] = {0, 0.5384693101056831, 0.9061798459386640},
+                   weights[] = {0.5688888888888889, 0.4786286704993665, 0.2369268850561891};
+  const double half = (to - from) / (2 * parts);
+  double sum = 0;
+  for (int i = 0; i < parts; ++i) {
+    const double middle = from + (2 * i + 1) * half;
+    sum += weights[0] * f(middle);
+    for (int k = 1; k < 3; ++k)
+      sum += weights[k] * (f(middle - half * nodes[k]) + f(middle + half * nodes[k]));
+  }
+  return sum * half;
+}
+
+// Of the curve that turns, with its ends: ∂p/∂φ × ∂p/∂t is x·(cos φ, sin φ, 0) + y·z.
+struct Profile {
+  double from = 0, to = 0;
+  Point2d (*at)(double t) = nullptr;
 };
 
-// Appends the vertices of a ring: segments + 1, or, on the axis, one for each segment with its middle u.
-void append_ring(TriangleMesh& mesh, const Columns& columns, const Ring& ring) {
-  const bool on_axis = ring.radius == 0;
-  for (std::uint32_t i = 0; i < columns.segments() + (on_axis ? 0 : 1); ++i) {
-    const Point2d d = columns.directions[i];
-    // Adding zero makes −0 into 0, so that all vertices on the axis have the same bits.
-    mesh.positions.push_back({static_cast<float>(ring.radius * d.x + 0.0),
-                              static_cast<float>(ring.radius * d.y + 0.0), static_cast<float>(ring.z + 0.0)});
-    mesh.normals.push_back({static_cast<float>(ring.normal_across * d.x),
-                            static_cast<float>(ring.normal_across * d.y), static_cast<float>(ring.normal_z)});
-    mesh.uvs.push_back({static_cast<float>(columns.u(i + (on_axis ? 0.5 : 0.0))), ring.v});
+Profile profile_of(const Quadric& q) {
+  switch (q.kind) {
+    case QuadricKind::sphere:  // t from the pole −z
+      return {std::acos(-q.low), std::acos(-q.high), [](double t) {
+                return Point2d{std::sin(t) * std::sin(t), -std::sin(t) * std::cos(t)};
+              }};
+    case QuadricKind::cylinder:
+      return {0, 1, [](double) { return Point2d{1, 0}; }};
+    case QuadricKind::disk:
+      return {q.low, 1, [](double t) { return Point2d{0, t}; }};
+    case QuadricKind::cone:  // t from the apex
+      return {0, 1, [](double t) { return Point2d{t, t}; }};
+    case QuadricKind::paraboloid:
+      return {std::sqrt(q.low), 1, [](double t) { return Point2d{2 * t * t, -t}; }};
   }
+  return {};
 }
 
-// Joins rings in the order of growing v; the front is on the side of ∂p/∂u × ∂p/∂v.
-TriangleMesh revolve(const Columns& columns, const std::vector<Ring>& rings) {
-  TriangleMesh mesh;
-  std::uint32_t lower = 0;
-  for (std::size_t j = 0; j < rings.size(); ++j) {
-    const auto upper = static_cast<std::uint32_t>(mesh.positions.size());
-    append_ring(mesh, columns, rings[j]);
-    if (j == 0) continue;
-    for (std::uint32_t i = 0; i < columns.segments(); ++i) {
-      if (rings[j - 1].radius == 0) {
-        mesh.triangles.push_back({lower + i, upper + i + 1, upper + i});
-      } else if (rings[j].radius == 0) {
-        mesh.triangles.push_back({lower + i, lower + i + 1, upper + i});
-      } else {
-        mesh.triangles.push_back({lower + i, lower + i + 1, upper + i + 1});
-        mesh.triangles.push_back({lower + i, upper + i + 1, upper + i});
-      }
-    }
-    lower = upper;
-  }
-  return mesh;
-}
-
-// The polar angle from −z of a height; rounded to float, so that the last bit of the C library's acos, which
-// processors do not agree on, has no part in it. Exact at the poles.
-double angle_from_bottom(double z, double radius) {
-  if (z <= -radius) return 0;
-  if (z >= radius) return pi;
-  return static_cast<float>(std::acos(-z / radius));
+bool keeps_turning(const Transform& t) {
+  const auto axis = [&](std::size_t i) { return Vector3d{t.m[0][i], t.m[1][i], t.m[2][i]}; };
+  const Vector3d x = axis(0), y = axis(1), z = axis(2);
+  const double unit = dot(x, x), tolerance = 1e-12 * unit;
+  return std::abs(dot(y, y) - unit) <= tolerance && std::abs(dot(x, y)) <= tolerance &&
+         std::abs(dot(x, z)) <= tolerance && std::abs(dot(y, z)) <= tolerance;
 }
 
 }  // namespace
 
-TriangleMesh tessellate_sphere(double radius, double zmin, double zmax, double phimax_rad) {
+TriangleMesh mesh_of(const Quadric& quadric) {
+  TriangleMesh mesh;
+  mesh.quadric = quadric;
+  return mesh;
+}
+
+double area_of(const Quadric& q, const Transform& to) {
+  const Profile profile = profile_of(q);
+  // A normal as long as its surface is large goes over by the cofactors.
+  const auto strip = [&](double phi) {
+    const double x = std::cos(phi), y = std::sin(phi);
+    return integral(
+        [&](double t) {
+          const Point2d n = profile.at(t);
+          return length(to_vector(transform_normal(to, {n.x * x, n.x * y, n.y})));
+        },
+        profile.from, profile.to);
+  };
+  return keeps_turning(to) ? q.phi_max_rad * strip(0) : integral(strip, 0, q.phi_max_rad);
+}
+
+SizedQuadric sphere(double radius, double zmin, double zmax, double phimax_rad) {
   require_size(radius, "sphere", "radius");
   require(!std::isnan(zmin) && !std::isnan(zmax), "sphere", "zmin or zmax", NAN, "a number");
   const double bottom = std::clamp(std::min(zmin, zmax), -radius, radius);
   const double top = std::clamp(std::max(zmin, zmax), -radius, radius);
   require(bottom < top, "sphere", "zmin", zmin, "another height than zmax within the sphere");
-  const double first = angle_from_bottom(bottom, radius), last = angle_from_bottom(top, radius);
-  const int rows = share(sphere_segments / 2, last - first, pi);
-  std::vector<Ring> rings;
-  for (int j = 0; j <= rows; ++j) {
-    const double angle = j == rows ? last : first + (last - first) * j / rows;
-    const Point2d d = unit_circle(angle);  // exactly (±1, 0) at the poles
-    const double across = d.y, z = -d.x;
-    rings.push_back(
-        {radius * across, radius * z, across, z, static_cast<float>(static_cast<double>(j) / rows)});
-  }
-  return revolve(columns(phimax_rad, sphere_segments, "sphere"), rings);
+  return {{.kind = QuadricKind::sphere,
+           .low = bottom / radius,
+           .high = top / radius,
+           .phi_max_rad = angle(phimax_rad, "sphere")},
+          scale({radius, radius, radius})};
 }
 
-TriangleMesh tessellate_disk(double height, double radius, double inner_radius, double phimax_rad) {
+SizedQuadric disk(double height, double radius, double inner_radius, double phimax_rad) {
   require_size(radius, "disk", "radius");
   require_finite(height, "disk", "height");
   require(inner_radius >= 0 && inner_radius < radius, "disk", "inner radius", inner_radius,
           "at least 0 and less than the radius");
-  return revolve(columns(phimax_rad, disk_segments, "disk"),
-                 {{radius, height, 0, 1, 0.f}, {inner_radius, height, 0, 1, 1.f}});
+  return {{.kind = QuadricKind::disk, .low = inner_radius / radius, .phi_max_rad = angle(phimax_rad, "disk")},
+          translate({0, 0, height}) * scale({radius, radius, radius})};
 }
 
-TriangleMesh tessellate_cylinder(double radius, double zmin, double zmax, double phimax_rad) {
+SizedQuadric cylinder(double radius, double zmin, double zmax, double phimax_rad) {
   require_size(radius, "cylinder", "radius");
   require_finite(zmin, "cylinder", "zmin");
   require_finite(zmax, "cylinder", "zmax");
   require(zmin != zmax, "cylinder", "zmin", zmin, "another height than zmax");
-  const double bottom = std::min(zmin, zmax), top = std::max(zmin, zmax);
-  return revolve(columns(phimax_rad, cylinder_segments, "cylinder"),
-                 {{radius, bottom, 1, 0, 0.f}, {radius, top, 1, 0, 1.f}});
+  const double bottom = std::min(zmin, zmax), height = std::abs(zmax - zmin);
+  return {{.kind = QuadricKind::cylinder, .phi_max_rad = angle(phimax_rad, "cylinder")},
+          translate({0, 0, bottom}) * scale({radius, radius, height})};
 }
 
-TriangleMesh tessellate_cone(double radius, double height, double phimax_rad) {
+SizedQuadric cone(double radius, double height, double phimax_rad) {
   require_size(radius, "cone", "radius");
   require_size(height, "cone", "height");
-  const double slant = std::hypot(radius, height), across = height / slant, up = radius / slant;
-  return revolve(columns(phimax_rad, cylinder_segments, "cone"),
-                 {{radius, 0, across, up, 0.f}, {0, height, across, up, 1.f}});
+  return {{.kind = QuadricKind::cone, .phi_max_rad = angle(phimax_rad, "cone")},
+          scale({radius, radius, height})};
 }
 
-TriangleMesh tessellate_paraboloid(double radius, double zmin, double zmax, double phimax_rad) {
+SizedQuadric paraboloid(double radius, double zmin, double zmax, double phimax_rad) {
   require_size(radius, "paraboloid", "radius");
   const double bottom = std::min(zmin, zmax), top = std::max(zmin, zmax);
   require_size(top, "paraboloid", "zmax");
   require(bottom >= 0 && bottom < top, "paraboloid", "zmin", bottom, "at least 0 and below zmax");
-  constexpr int rows = 64;
-  const double first = radius * std::sqrt(bottom / top);
-  std::vector<Ring> rings;
-  for (int j = 0; j <= rows; ++j) {
-    const double r = first + (radius - first) * j / rows,
-                 z = j == 0 ? bottom : top * (r / radius) * (r / radius);
-    const double slope = 2 * top * r / (radius * radius), across = slope / std::hypot(1, slope);  // dz/dr
-    rings.push_back(
-        {r, z, across, -1 / std::hypot(1, slope), static_cast<float>((z - bottom) / (top - bottom))});
-  }
-  return revolve(columns(phimax_rad, sphere_segments, "paraboloid"), rings);
+  return {
+      {.kind = QuadricKind::paraboloid, .low = bottom / top, .phi_max_rad = angle(phimax_rad, "paraboloid")},
+      scale({radius, radius, top})};
 }
 
 }  // namespace vitrail

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "importers/shapes/vertex_normals.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace vitrail {
@@ -45,6 +46,17 @@ bool normals_oppose_winding(const TriangleMesh& mesh) {
     balance += side > 0 ? 1 : side < 0 ? -1 : 0;
   }
   return balance < 0;
+}
+
+bool normals_lean(const TriangleMesh& mesh) {
+  if (mesh.normals.empty()) return false;
+  constexpr double cosine = 0.97;
+  return std::ranges::any_of(mesh.triangles, [&](const std::array<std::uint32_t, 3>& t) {
+    const Vector3d face = normalize(winding_normal(mesh, t));
+    return std::ranges::any_of(t, [&](std::uint32_t v) {
+      return std::abs(dot(normalize(to_vector(cast<double>(mesh.normals[v]))), face)) < cosine;
+    });
+  });
 }
 
 }  // namespace vitrail

@@ -12,4 +12,7 @@ std::vector<Normal3f> smooth_normals(const TriangleMesh& mesh);
 // Whether most shading normals point away from the side where the triangles run counter-clockwise.
 bool normals_oppose_winding(const TriangleMesh& mesh);
 
+// Whether a shading normal leans from that of a triangle by more than 14°, to either side.
+bool normals_lean(const TriangleMesh& mesh);
+
 }  // namespace vitrail

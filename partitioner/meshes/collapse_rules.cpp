@@ -11,7 +11,7 @@ namespace vitrail {
 namespace {
 
 using Point = HalfEdges::Point;
-using Quadric = OpenMesh::Geometry::QuadricT<double>;
+using PlaneQuadric = OpenMesh::Geometry::QuadricT<double>;
 
 // Of a component's diagonal; of the ratio of volume to area of a closed one, which is half of a sheet's
 // thickness and of a rod's radius. But 1/2000 of the mesh's diagonal, half a pixel where it fills a picture,
@@ -22,8 +22,8 @@ constexpr double least_turn_cosine = 0.2;  // of a triangle's normal, in one col
 constexpr double least_shape = 0.02;       // twice the area over the longest edge squared
 constexpr double length_weight = 1e-6;     // prefers short edges where all lie in one plane
 
-Quadric plane(const Point& normal, const Point& through, double weight) {
-  Quadric q(normal[0], normal[1], normal[2], -(normal | through));
+PlaneQuadric plane(const Point& normal, const Point& through, double weight) {
+  PlaneQuadric q(normal[0], normal[1], normal[2], -(normal | through));
   q *= weight;
   return q;
 }
@@ -42,7 +42,7 @@ double shape(const Point& normal, const Point& a, const Point& b, const Point& c
 
 }  // namespace
 
-void CollapseRules::Error::add(const Quadric& plane_quadric, double area) {
+void CollapseRules::Error::add(const PlaneQuadric& plane_quadric, double area) {
   quadric += plane_quadric;
   weight += area;
 }
@@ -144,7 +144,7 @@ void CollapseRules::add_planes() {
       const Vertex a = mesh_.from_vertex_handle(h), b = mesh_.to_vertex_handle(h);
       const Point along = mesh_.point(b) - mesh_.point(a), across = normal % along;
       if (!(across.norm() > 0)) continue;
-      const Quadric q = plane(across / across.norm(), mesh_.point(a), along.sqrnorm() / 2);
+      const PlaneQuadric q = plane(across / across.norm(), mesh_.point(a), along.sqrnorm() / 2);
       errors_[index(a)].add(q, 0);
       errors_[index(b)].add(q, 0);
     }

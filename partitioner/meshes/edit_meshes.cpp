@@ -44,7 +44,10 @@ std::vector<Use> uses_of(const Scene& scene) {
   note_uses(scene.shapes, uses);
   for (const Prototype& prototype : scene.prototypes) note_uses(prototype.shapes, uses);
   const std::vector<bool> uvs_show = meshes_whose_uvs_show(scene);
-  for (std::size_t i = 0; i < uses.size(); ++i) uses[i].uvs_show = uvs_show[i];
+  for (std::size_t i = 0; i < uses.size(); ++i) {
+    uses[i].uvs_show = uvs_show[i];
+    if (scene.meshes[i].quadric) uses[i].used = false;  // it stays what it is
+  }
   return uses;
 }
 

@@ -4,11 +4,14 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
+#include <map>
 
 #include "partitioner/placing/frame.h"
 #include "partitioner/placing/prototype_uses.h"
 #include "partitioner/placing/shared_shapes.h"
 #include "scene/deferred_mesh.h"
+#include "scene/tessellate.h"
 
 namespace vitrail {
 
@@ -17,6 +20,8 @@ namespace {
 // About what a domain file takes for a triangle and for an instance, and a file for itself.
 constexpr double triangle_bytes = 62, instance_bytes = 192, file_bytes = 1024;
 constexpr double most_condition = 1e4;
+// Of a quadric, which is met in double: a thread of 10⁻⁶ of its length is a cylinder.
+constexpr double most_condition_of_quadrics = 1e7;
 
 double row_sum(const std::array<double, 4>& row) {
   return std::abs(row[0]) + std::abs(row[1]) + std::abs(row[2]);
@@ -43,8 +48,25 @@ double greatest_row(const Transform& t) {
 }
 
 // Whether rays can be taken to the object's space without much loss.
-bool can_be_kept(const Transform& t) {
-  return is_affine(t) && is_invertible(t) && greatest_row(t) * greatest_row(inverse(t)) <= most_condition;
+bool can_be_kept(const Transform& t, double condition = most_condition) {
+  return is_affine(t) && is_invertible(t) && greatest_row(t) * greatest_row(inverse(t)) <= condition;
+}
+
+// Outwards.
+Bounds3f rounded(const Bounds3d& box) {
+  constexpr float infinity = std::numeric_limits<float>::infinity();
+  Bounds3f out;
+  for (int axis = 0; axis < 3; ++axis) {
+    out.lower[axis] = std::nextafter(static_cast<float>(box.lower[axis]), -infinity);
+    out.upper[axis] = std::nextafter(static_cast<float>(box.upper[axis]), infinity);
+  }
+  return out;
+}
+
+Transform transform_of(const Affine& a) {
+  Transform t;
+  for (std::size_t i = 0; i < 3; ++i) std::copy_n(a.m[i], 4, t.m[i].begin());
+  return t;
 }
 
 Bounds3d transformed(const Transform& t, const Bounds3d& box) {
@@ -145,11 +167,57 @@ class Planner {
     return static_cast<std::uint32_t>(plan_.objects.size() - 1);
   }
 
-  void add(Assembly& a, const Shape& shape, const Transform& outer) const {
-    const TriangleMesh& mesh = scene_.meshes.at(shape.mesh.value);
-    if (triangles_of(mesh) == 0) return;
+  void add(Assembly& a, const Shape& shape, const Transform& outer) {
+    const TriangleMesh* stored = &scene_.meshes.at(shape.mesh.value);
+    if (triangles_of(*stored) == 0) return;
+    if (stored->places) return add_run(a, shape, *stored->places, outer * shape.object_to_world);
+    if (stored->quadric) {
+      if (can_be_kept(outer * shape.object_to_world, most_condition_of_quadrics))
+        return use(a, object_of_quadric(shape), outer * shape.object_to_world);
+      stored = &tessellated(shape.mesh);
+    }
+    const TriangleMesh& mesh = *stored;
     a.placements.push_back(placement_of(mesh, shape, outer, a.triangles));
     a.triangles += triangles_of(mesh);
+  }
+
+  // Lights are uses by themselves: sampling has them all.
+  void add_run(Assembly& a, const Shape& shape, const QuadricPlaces& places, const Transform& t) {
+    const QuadricRun run{object_of_quadric(shape), &places, affine(t), a.triangles};
+    if (&a == &plan_.scene && !shape.area_light) {
+      a.runs.push_back(run);
+      a.triangles += places.size();
+      a.depth = std::max(a.depth, 1);
+    } else {
+      for_each_use(run, [&](const ObjectUse& u) { use(a, u.object, transform_of(u.to_parent)); });
+    }
+  }
+
+  // All but where it stands is the shape's. Where the film tells shapes apart each has an object of its own.
+  std::uint32_t object_of_quadric(const Shape& shape) {
+    const auto [known, is_new] = quadrics_.try_emplace(key_of(shape));
+    if (is_new || scene_.film.layers.has(Layer::shape)) {
+      const TriangleMesh& mesh = scene_.meshes[shape.mesh.value];
+      const Bounds3f box = bounds_of(mesh);
+      Assembly object;
+      object.quadric = Placement{&mesh, &shape, {}, SharedShapes::flip_in_object(shape), 0};
+      object.triangles = 1;
+      object.radius = focus_of(mesh).radius;
+      object.bounds = box;
+      known->second = static_cast<std::uint32_t>(plan_.objects.size());
+      plan_.objects.push_back(std::move(object));
+    }
+    return known->second;
+  }
+
+  const TriangleMesh& tessellated(Id<TriangleMesh> quadric) {
+    const auto [known, is_new] = tessellated_.try_emplace(quadric.value);
+    if (is_new) {
+      auto mesh = std::make_unique<const TriangleMesh>(tessellate(*scene_.meshes[quadric.value].quadric));
+      known->second = mesh.get();
+      plan_.tessellated.push_back(std::move(mesh));
+    }
+    return *known->second;
   }
 
   void use(Assembly& a, std::uint32_t object, const Transform& t) const {
@@ -161,7 +229,7 @@ class Planner {
   }
 
   // The instances of a prototype, or of the scene, and those within what is copied of them.
-  void add(Assembly& a, std::size_t outer, const std::vector<Instance>& instances) const {
+  void add(Assembly& a, std::size_t outer, const std::vector<Instance>& instances) {
     std::vector<Instance> open(instances.rbegin(), instances.rend());
     while (!open.empty()) {
       const Instance instance = open.back();
@@ -187,6 +255,7 @@ class Planner {
     for (const Placement& p : a.placements) extend(own, world_bounds(p));
     if (!own.empty()) extend(box, own);
     for (const ObjectUse& use : a.uses) extend(box, box_of(use));
+    for (const QuadricRun& run : a.runs) extend(box, box_of(run));
     if (box.empty()) return;
     const std::vector<FramePart> parts = parts_of(a);
     const FramePart whole = whole_of(parts);
@@ -195,11 +264,14 @@ class Planner {
     a.centre = (is_scene ? cast<double>(cast<float>(origin)) : origin) - Point3d{};
     a.radius = whole.radius;
     if (is_scene) find_core(box, whole);
-    for (ObjectUse& use : a.uses)
-      for (int axis = 0; axis < 3; ++axis) use.to_parent.m[axis][3] -= a.centre[axis];
+    const auto centred = [&](Affine& to_parent) {
+      for (int axis = 0; axis < 3; ++axis) to_parent.m[axis][3] -= a.centre[axis];
+    };
+    for (ObjectUse& use : a.uses) centred(use.to_parent);
+    for (QuadricRun& run : a.runs) centred(run.to_parent);
     if (!own.empty()) a.bounds = {cast<float>(own.lower - a.centre), cast<float>(own.upper - a.centre)};
     for (const ObjectUse& use : a.uses)
-      extend(a.bounds, placed_bounds(use.to_parent, plan_.objects[use.object].bounds));
+      extend(a.bounds, placed_bounds(plan_.objects[use.object], use.to_parent));
   }
 
   // Before the centre is taken off. The core is what of the parts is within `near_radii` of the half of them
@@ -211,14 +283,17 @@ class Planner {
     const Bounds3d limit = around(whole.centre, reach);
     const bool is_compact = !(reach > 0) || common(limit, box) == box;
     Bounds3d core;
-    const auto add = [&](const FramePart& part, auto&& box_of_part) {
-      plan_.coarse += rounding * greatest(part.centre - Point3d{} - a.centre) > coarse * part.radius;
+    const auto add = [&](const FramePart& part, bool is_rounded, auto&& box_of_part) {
+      plan_.coarse +=
+          is_rounded && rounding * greatest(part.centre - Point3d{} - a.centre) > coarse * part.radius;
       if (!is_compact && greatest(part.centre - whole.centre) <= reach)
         extend(core, common(limit, box_of_part()));
     };
     for (const Placement& p : a.placements)
-      add(part_of_mesh(p), [&] { return transformed(p.to_world, focus_of(*p.mesh).box); });
-    for (const ObjectUse& use : a.uses) add(part_of(use), [&] { return box_of(use); });
+      add(part_of_mesh(p), true, [&] { return transformed(p.to_world, focus_of(*p.mesh).box); });
+    for (const QuadricRun& run : a.runs) add(part_of(run), false, [&] { return box_of(run); });
+    for (const ObjectUse& use : a.uses)
+      add(part_of(use), !plan_.objects[use.object].quadric, [&] { return box_of(use); });
     if (!core.empty())
       plan_.core = Bounds3f{cast<float>(core.lower - a.centre), cast<float>(core.upper - a.centre)};
   }
@@ -231,6 +306,7 @@ class Planner {
     for (std::size_t i = 0; i < count; i += step)
       parts.push_back(i < a.placements.size() ? part_of_mesh(a.placements[i])
                                               : part_of(a.uses[i - a.placements.size()]));
+    for (const QuadricRun& run : a.runs) parts.push_back(part_of(run));
     return parts;
   }
 
@@ -243,12 +319,26 @@ class Planner {
             static_cast<double>(object.triangles)};
   }
 
+  static FramePart part_of(const QuadricRun& run) {
+    const Transform t = transform_of(run.to_parent);
+    return {transform_point(t, run.places->centre()), greatest_row(t) * run.places->radius(),
+            static_cast<double>(run.places->size())};
+  }
+
   // Before the parent's centre is taken off.
+  static Bounds3d box_of(const QuadricRun& run) {
+    const Bounds3d box = transformed(transform_of(run.to_parent), run.places->bounds());
+    if (!is_finite(cast<float>(box.lower)) || !is_finite(cast<float>(box.upper)))
+      throw Error("a shape reaches beyond 3.4e38 in the world");
+    return box;
+  }
+
   Bounds3d box_of(const ObjectUse& use) const {
-    const Bounds3f& b = plan_.objects[use.object].bounds;
-    Transform t;
-    for (std::size_t i = 0; i < 3; ++i) std::copy_n(use.to_parent.m[i], 4, t.m[i].begin());
-    const Bounds3d box = transformed(t, {cast<double>(b.lower), cast<double>(b.upper)});
+    const Assembly& object = plan_.objects[use.object];
+    const Bounds3f& b = object.bounds;
+    const Transform t = transform_of(use.to_parent);
+    const Bounds3d box = object.quadric ? vitrail::bounds_of(*object.quadric->mesh->quadric, t)
+                                        : transformed(t, {cast<double>(b.lower), cast<double>(b.upper)});
     if (!is_finite(cast<float>(box.lower)) || !is_finite(cast<float>(box.upper)))
       throw Error(
           "an instance has vertices that are not finite in the world; every coordinate has to be "
@@ -259,13 +349,50 @@ class Planner {
   const Scene& scene_;
   PrototypeUses uses_;
   SharedShapes shared_;
-  std::vector<int> object_of_;  // of each prototype; −1: copied wherever it is used
+  std::vector<int> object_of_;                  // of each prototype; −1: copied wherever it is used
+  std::map<ShapeKey, std::uint32_t> quadrics_;  // objects
+  std::map<std::uint32_t, const TriangleMesh*> tessellated_;  // by mesh
   ScenePlan plan_;
 };
 
 }  // namespace
 
 ScenePlan plan_scene(const Scene& scene) { return Planner(scene).plan(); }
+
+void for_each_use(const QuadricRun& run, const std::function<void(const ObjectUse&)>& visit) {
+  std::array<Transform, 1024> block;
+  for (std::size_t i = 0; i < run.places->size(); i += block.size()) {
+    const std::size_t count = std::min(block.size(), run.places->size() - i);
+    run.places->read(i, std::span(block).first(count));
+    for (std::size_t k = 0; k < count; ++k) visit(run.use(i + k, block[k]));
+  }
+}
+
+Bounds3f placed_bounds(const Quadric& quadric, const Affine& to_parent) {
+  return rounded(bounds_of(quadric, transform_of(to_parent)));
+}
+
+Bounds3f placed_bounds(const Assembly& object, const Affine& to_parent) {
+  return object.quadric ? placed_bounds(*object.quadric->mesh->quadric, to_parent)
+                        : placed_bounds(to_parent, object.bounds);
+}
+
+namespace {
+
+// Calls visit(object, chain, first id) for every use of the scene and within, of objects that `enter` says
+// to.
+void for_each_use(const ScenePlan& plan, const std::vector<bool>& enter, const auto& visit) {
+  const std::function<void(const ObjectUse&, const Affine&, std::uint64_t)> expand =
+      [&](const ObjectUse& use, const Affine& chain, std::uint64_t first) {
+        if (!enter[use.object]) return;
+        visit(use.object, chain, first);
+        for (const ObjectUse& inner : plan.objects[use.object].uses)
+          expand(inner, compose(chain, inner.to_parent), first + inner.first_triangle);
+      };
+  for (const ObjectUse& use : plan.scene.uses) expand(use, use.to_parent, use.first_triangle);
+}
+
+}  // namespace
 
 std::vector<Placement> expanded(const ScenePlan& plan, const std::function<bool(const Placement&)>& select) {
   // Each object is asked once; what holds nothing that is wanted is not entered.
@@ -274,26 +401,46 @@ std::vector<Placement> expanded(const ScenePlan& plan, const std::function<bool(
   for (std::size_t i = 0; i < plan.objects.size(); ++i) {
     for (const Placement& p : plan.objects[i].placements)
       if (select(p)) wanted[i].push_back(&p);
+    if (const auto& quadric = plan.objects[i].quadric; quadric && select(*quadric))
+      wanted[i].push_back(&*quadric);
     holds[i] = !wanted[i].empty() || std::ranges::any_of(plan.objects[i].uses, [&](const ObjectUse& use) {
       return holds[use.object];
     });
   }
   std::vector<Placement> out;
-  const std::function<void(const ObjectUse&, const Affine&, std::uint64_t)> expand =
-      [&](const ObjectUse& use, const Affine& chain, std::uint64_t first) {
-        if (!holds[use.object]) return;
-        const Assembly& object = plan.objects[use.object];
-        for (const Placement* p : wanted[use.object]) {
-          Placement& placed = out.emplace_back(*p);
-          placed.first_triangle += first;
-          placed.standing = Standing{object.centre, chain};
-        }
-        for (const ObjectUse& inner : object.uses)
-          expand(inner, compose(chain, inner.to_parent), first + inner.first_triangle);
-      };
-  for (const ObjectUse& use : plan.scene.uses) expand(use, use.to_parent, use.first_triangle);
+  for_each_use(plan, holds, [&](std::uint32_t object, const Affine& chain, std::uint64_t first) {
+    for (const Placement* p : wanted[object]) {
+      Placement& placed = out.emplace_back(*p);
+      placed.first_triangle += first;
+      placed.standing = Standing{plan.objects[object].centre, chain};
+    }
+  });
   std::ranges::sort(out, {}, &Placement::first_triangle);
   return out;
+}
+
+void flatten(ScenePlan& plan) {
+  std::vector<Placement>& own = plan.scene.placements;
+  std::ranges::copy(expanded(plan, [](const Placement& p) { return !p.mesh->quadric; }),
+                    std::back_inserter(own));
+  std::ranges::sort(own, {}, &Placement::first_triangle);
+  std::vector<ObjectUse> quadrics;
+  for_each_use(plan, std::vector(plan.objects.size(), true),
+               [&](std::uint32_t object, const Affine& chain, std::uint64_t first) {
+                 if (plan.objects[object].quadric) quadrics.push_back({object, chain, first});
+               });
+  std::vector<std::uint32_t> kept(plan.objects.size());
+  std::vector<Assembly> objects;
+  for (std::size_t i = 0; i < plan.objects.size(); ++i) {
+    if (!plan.objects[i].quadric) continue;
+    kept[i] = static_cast<std::uint32_t>(objects.size());
+    objects.push_back(std::move(plan.objects[i]));
+  }
+  for (ObjectUse& use : quadrics) use.object = kept[use.object];
+  for (QuadricRun& run : plan.scene.runs) run.object = kept[run.object];
+  std::ranges::sort(quadrics, {}, &ObjectUse::first_triangle);
+  plan.scene.uses = std::move(quadrics);
+  plan.objects = std::move(objects);
 }
 
 }  // namespace vitrail

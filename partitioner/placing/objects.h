@@ -4,10 +4,12 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "partitioner/placing/placement.h"
+#include "scene/quadric_places.h"
 #include "scene/scene.h"
 
 namespace vitrail {
@@ -18,11 +20,29 @@ struct ObjectUse {
   std::uint64_t first_triangle = 0;
 };
 
+// Uses of one quadric that differ in where they stand alone, too many to be held one by one. Ids run in their
+// order.
+struct QuadricRun {
+  std::uint32_t object = 0;  // index
+  const QuadricPlaces* places = nullptr;
+  Affine to_parent{};  // from the places' space
+  std::uint64_t first_triangle = 0;
+
+  ObjectUse use(std::size_t i, const Transform& place) const {
+    return {object, compose(to_parent, affine(place)), first_triangle + i};
+  }
+};
+// Calls visit(use) for each of the run, in order.
+void for_each_use(const QuadricRun& run, const std::function<void(const ObjectUse&)>& visit);
+
 // The scene, or an object. Its coordinates are taken from `centre`.
 struct Assembly {
+  // If it is a quadric, in its own space, and `flip` says that it is inside out; it has nothing else.
+  std::optional<Placement> quadric;
   std::vector<Placement> placements;  // of its own
   std::vector<ObjectUse> uses;
-  std::uint64_t triangles = 0;  // ids: of its own and of its uses, in their order
+  std::vector<QuadricRun> runs;  // of the scene alone
+  std::uint64_t triangles = 0;   // ids: of its own and of its uses, in their order
   Vector3d centre;
   double radius = 0;  // about it, on the greatest axis, half of the triangles lie
   Bounds3f bounds;    // of all
@@ -30,6 +50,8 @@ struct Assembly {
 };
 
 struct ScenePlan {
+  // Of quadrics that stand where no ray can be taken to their space.
+  std::vector<std::unique_ptr<const TriangleMesh>> tessellated;
   std::vector<Assembly> objects;  // with uses of earlier ones only
   Assembly scene;
   std::optional<Bounds3f> core;  // of the scene, about its centre, without few parts that lie far away
@@ -38,12 +60,20 @@ struct ScenePlan {
 };
 
 // A prototype becomes an object where references to it take fewer bytes than copies of it, and so do shapes
-// that share a mesh (shared_shapes.h). What a singular, projective or extreme transform places is copied.
+// that share a mesh (shared_shapes.h). What a singular, projective or extreme transform places is copied, of
+// quadrics as triangles; all others are objects, one for all that are alike but for where they stand.
 // Throws Error for vertices that are not finite where they stand, and for 2³² − 1 triangles or more.
 ScenePlan plan_scene(const Scene& scene);
+
+Bounds3f placed_bounds(const Quadric& quadric, const Affine& to_parent);
+// Where the object stands that a use of the scene, or a use within its object, is of.
+Bounds3f placed_bounds(const Assembly& object, const Affine& to_parent);
 
 // The placements of every use of the scene, as `select` chooses them, in the order of ids. It is asked once
 // for each placement of an object, however often that is used.
 std::vector<Placement> expanded(const ScenePlan& plan, const std::function<bool(const Placement&)>& select);
+
+// The plan without instances: copies of meshes, and a use of the scene for each quadric.
+void flatten(ScenePlan& plan);
 
 }  // namespace vitrail

@@ -73,7 +73,7 @@ void sort(Emissive& emissive, std::size_t slots) {
   std::vector<std::size_t> order(emissive.triangles.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::sort(order, {}, [&](std::size_t i) { return emissive.triangles[i].triangle; });
-  Emissive sorted;
+  Emissive sorted{.quadrics = std::move(emissive.quadrics)};  // in their order already
   for (const std::size_t i : order) {
     sorted.triangles.push_back(emissive.triangles[i]);
     for (std::size_t slot = 0; slot < slots && !emissive.attributes.empty(); ++slot)
@@ -126,7 +126,8 @@ SceneTally::SceneTally(const World& world) : world_(world) {
     const Surface& surface = surfaces[surfaces_.back()];
     if (surface.area_light >= 0) note_opacity(surface.opacity);
   }
-  for (const ShiningPlacement& shining : world.shining) note_opacity(shining.opacity);
+  for (const ShiningPlacement& shining : world.shining)
+    if (!shining.placement.mesh->quadric) note_opacity(shining.opacity);
   hashes_.resize(blocks);
   const Manifest& m = world.manifest;
   for (const AreaLight& light : m.area_lights)
@@ -163,6 +164,14 @@ void SceneTally::add(const Block& block, const PlacedTriangles& placed, std::uin
 void SceneTally::add_shining(const ShiningPlacement& shining) {
   TriangleMesh storage;
   const Placement& p = shining.placement;
+  if (p.mesh->quadric) {
+    emissive_.quadrics.push_back({{*p.mesh->quadric, p.flip},
+                                  p.standing.value().to_bundle,
+                                  static_cast<std::uint32_t>(p.first_triangle),
+                                  shining.area_light,
+                                  shining.opacity});
+    return;
+  }
   const TriangleMesh& mesh = loaded(*p.mesh, storage);
   const PlacementRule rule = world_.rule();
   const ReflectanceFitter fitter;
@@ -187,11 +196,17 @@ void SceneTally::finish(Manifest& m) {
   m.emissive_triangles = std::move(emissive_.triangles);
   m.emissive_attributes = std::move(emissive_.attributes);
   m.emissive_opacities = std::move(emissive_.opacities);
+  m.emissive_quadrics = std::move(emissive_.quadrics);
   const std::uint64_t records = hash_of_records(m);
   Hasher hasher;
   hasher.add(std::as_bytes(std::span(hashes_)));
   for (const ObjectInfo& object : m.objects) hasher.add(std::as_bytes(std::span(&object.hash, 1)));
   hasher.add(std::as_bytes(std::span(world_.uses)));
+  for (const QuadricRun& run : world_.runs)
+    for_each_use(run, [&](const ObjectUse& use) {
+      hasher.add(std::as_bytes(std::span(use.to_parent.m)));
+      hasher.add(std::as_bytes(std::span(&use.first_triangle, 1)));
+    });
   hasher.add(std::as_bytes(std::span(&records, 1)));
   m.scene_hash = hasher.digest();
 }

@@ -26,6 +26,7 @@ void place_scene(const World& world, std::uint64_t load_bytes,
 
 // Triangles that emit, and what else a manifest has of them.
 struct Emissive {
+  std::vector<EmissiveQuadric> quadrics;
   std::vector<EmissiveTriangle> triangles;
   std::vector<CornerValues> attributes;   // [triangle][slot]
   std::vector<FloatParameter> opacities;  // [triangle]

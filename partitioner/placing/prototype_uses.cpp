@@ -17,7 +17,8 @@ namespace {
 
 // Of 2⁰ to 2⁴, 2⁴ to 2⁸ … 2²⁸ to 2³² triangles.
 int magnitude(std::uint64_t triangles) { return (std::bit_width(triangles) - 1) / 4; }
-static_assert(max_instance_depth >= 32 / 4);
+constexpr int max_depth = max_instance_depth - 1;  // of prototypes: the quadrics in them are instances, too
+static_assert(max_depth >= 32 / 4);
 
 // Nested instances are more than can be counted.
 std::uint64_t saturating_sum(std::uint64_t a, std::uint64_t b) {
@@ -60,7 +61,7 @@ PrototypeUses::PrototypeUses(const Scene& scene)
       uses_[instance.prototype.value] += may_keep(i, instance.prototype.value);
 }
 
-bool PrototypeUses::is_deep(std::size_t i) const { return above_[i] + below_[i] > max_instance_depth; }
+bool PrototypeUses::is_deep(std::size_t i) const { return above_[i] + below_[i] > max_depth; }
 
 bool PrototypeUses::may_keep(std::size_t outer, std::size_t inner) const {
   if (triangles_[inner] == 0) return false;

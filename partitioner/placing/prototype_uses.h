@@ -21,8 +21,9 @@ class PrototypeUses {
   std::uint64_t uses(std::size_t prototype) const { return uses_[prototype]; }
 
   // Whether an instance of `inner` in `outer` may be kept. On chains of more instances than a ray can follow
-  // (max_instance_depth) it may where `inner` is of a lower magnitude in triangles; as a scene has fewer than
-  // 2³² of them, that leaves chains short enough, and copies at most 16 times what an object holds.
+  // (of prototypes one less than max_instance_depth) it may where `inner` is of a lower magnitude in
+  // triangles; as a scene has fewer than 2³² of them, that leaves chains short enough, and copies at most 16
+  // times what an object holds.
   bool may_keep(std::size_t outer, std::size_t inner) const;
 
  private:

@@ -14,10 +14,9 @@ namespace {
 // Tracing an instance costs up to 1.4 times a copy: little is copied.
 constexpr std::uint64_t least_saved_triangles = 1 << 18;  // 16 MB in domain files
 
-// All of a shape but where it stands, its name and its origin.
-using Key = std::array<std::uint32_t, 8>;
+}  // namespace
 
-Key key_of(const Shape& shape) {
+ShapeKey key_of(const Shape& shape) {
   const auto number = [](const auto& id) { return id ? id->value + 1 : 0u; };
   const auto* opacity = std::get_if<float>(&shape.opacity);
   return {shape.mesh.value,
@@ -30,19 +29,18 @@ Key key_of(const Shape& shape) {
           opacity ? std::bit_cast<std::uint32_t>(*opacity) : std::get<Id<Texture>>(shape.opacity).value};
 }
 
-}  // namespace
-
 SharedShapes::SharedShapes(const Scene& scene) {
   std::vector<std::uint64_t> uses(scene.meshes.size());
   for (const Shape& shape : scene.shapes) ++uses.at(shape.mesh.value);
   const auto saves = [&](std::uint32_t mesh, std::uint64_t copies) {
-    return copies > 1 && (copies - 1) * triangles_of(scene.meshes[mesh]) >= least_saved_triangles;
+    return copies > 1 && !scene.meshes[mesh].quadric &&
+           (copies - 1) * triangles_of(scene.meshes[mesh]) >= least_saved_triangles;
   };
   struct Group {
     std::uint64_t uses = 0;
     std::uint32_t number = 0;
   };
-  std::map<Key, Group> found;
+  std::map<ShapeKey, Group> found;
   for (const Shape& shape : scene.shapes)
     if (saves(shape.mesh.value, uses[shape.mesh.value])) ++found[key_of(shape)].uses;
   if (found.empty()) return;

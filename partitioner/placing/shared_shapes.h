@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -8,6 +9,10 @@
 #include "scene/scene.h"
 
 namespace vitrail {
+
+// All of a shape but where it stands, its name and its origin.
+using ShapeKey = std::array<std::uint32_t, 8>;
+ShapeKey key_of(const Shape& shape);
 
 // Shapes of the scene that are the same but for where they stand: one mesh, one surface. Where copies of them
 // would take much, one object stands for them, and its instances. It depends on the scene alone.

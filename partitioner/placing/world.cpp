@@ -40,6 +40,20 @@ bool have_normals(const std::vector<Placement>& placements, const Scene& scene) 
   });
 }
 
+std::uint64_t quadrics_in(const std::vector<ObjectUse>& uses, const std::vector<QuadricRun>& runs,
+                          const std::vector<Assembly>& objects) {
+  std::vector<std::uint64_t> in(objects.size());
+  const auto sum_of = [&](const std::vector<ObjectUse>& of) {
+    std::uint64_t sum = 0;
+    for (const ObjectUse& use : of) sum += in[use.object];
+    return sum;
+  };
+  for (std::size_t i = 0; i < objects.size(); ++i) in[i] = objects[i].quadric ? 1 : sum_of(objects[i].uses);
+  std::uint64_t sum = sum_of(uses);
+  for (const QuadricRun& run : runs) sum += run.places->size();
+  return sum;
+}
+
 // Moves what stands in the world to the bundle's coordinates.
 struct LightMover {
   Vector3d offset;
@@ -70,15 +84,6 @@ void move_records(const Scene& scene, Appearance& appearance, Manifest& m) {
   m.settings = scene.settings;
 }
 
-// Copies instead of instances.
-void expand_all(ScenePlan& plan) {
-  std::vector<Placement>& own = plan.scene.placements;
-  std::ranges::copy(expanded(plan, [](const Placement&) { return true; }), std::back_inserter(own));
-  std::ranges::sort(own, {}, &Placement::first_triangle);
-  plan.scene.uses.clear();
-  plan.objects.clear();
-}
-
 }  // namespace
 
 World world_of(const Scene& scene, const std::filesystem::path& bundle, const WorldOptions& options) {
@@ -92,12 +97,18 @@ World world_of(const Scene& scene, const std::filesystem::path& bundle, const Wo
   m.core = plan.core;
   world.coarse = plan.coarse;
   for (const ObjectUse& use : plan.scene.uses)
-    extend(world.instance_bounds, placed_bounds(use.to_parent, plan.objects[use.object].bounds));
+    extend(world.instance_bounds, placed_bounds(plan.objects[use.object], use.to_parent));
   bool normals = have_normals(plan.scene.placements, scene);
   for (const Assembly& object : plan.objects) normals = normals || have_normals(object.placements, scene);
-  if (!options.keep_instances) expand_all(plan);
+  for (const QuadricRun& run : plan.scene.runs) {
+    const Bounds3d& box = run.places->bounds();
+    extend(world.instance_bounds,
+           placed_bounds(run.to_parent, {cast<float>(box.lower), cast<float>(box.upper)}));
+  }
+  world.tessellated = std::move(plan.tessellated);
 
   const auto shines = [&](const Placement& p) { return surface_of(p, appearance).area_light >= 0; };
+  if (!options.keep_instances) flatten(plan);
   for (const Placement& p : expanded(plan, shines)) {
     const Surface surface = surface_of(p, appearance);
     world.shining.push_back({p, static_cast<std::uint32_t>(surface.area_light), surface.opacity});
@@ -106,9 +117,12 @@ World world_of(const Scene& scene, const std::filesystem::path& bundle, const Wo
   for (const Placement& p : plan.scene.placements) world.own_triangles += triangles_of(*p.mesh);
   world.placements = std::move(plan.scene.placements);
   world.uses = std::move(plan.scene.uses);
+  world.runs = std::move(plan.scene.runs);
+  world.quadrics = quadrics_in(world.uses, world.runs, plan.objects);
   for (Assembly& object : plan.objects) {
     const auto first = static_cast<std::uint32_t>(m.surfaces.size());
-    const std::uint32_t count = make_surfaces(appearance, object.placements, m);
+    const std::uint32_t count =
+        make_surfaces(appearance, object.quadric ? std::vector{*object.quadric} : object.placements, m);
     world.objects.push_back({std::move(object), first, count});
   }
   move_records(scene, appearance, m);

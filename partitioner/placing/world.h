@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <vector>
 
 #include "bundle/manifest.h"
@@ -32,9 +33,13 @@ struct World {
   Manifest manifest;
   std::vector<Placement> placements;  // by id, of the triangles that no instance has
   std::uint64_t own_triangles = 0;    // of them
-  // What is kept of instances: the objects, where the scene has them, and what of it shines there.
+  std::vector<std::unique_ptr<const TriangleMesh>> tessellated;  // that placements are of
+  // What is kept of instances, and all quadrics: the objects, where the scene has them, and what of it shines
+  // there.
   std::vector<WorldObject> objects;
   std::vector<ObjectUse> uses;
+  std::vector<QuadricRun> runs;
+  std::uint64_t quadrics = 0;  // in uses and runs
   std::vector<ShiningPlacement> shining;
   Bounds3f instance_bounds;  // of all instances, kept or copied
   std::uint64_t coarse = 0;  // as in ScenePlan

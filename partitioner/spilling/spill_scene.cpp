@@ -52,19 +52,22 @@ class Sampler {
 
 }  // namespace
 
-std::vector<Bounds3f> sample_of(const World& world, const std::vector<InstanceRef>& instances,
-                                std::uint64_t most) {
+std::vector<Bounds3f> sample_of(const World& world, const SceneInstances& instances, std::uint64_t most) {
   int shift = 0;
-  while ((world.own_triangles >> shift) > most) ++shift;
+  while (((world.own_triangles + instances.in_runs()) >> shift) > most) ++shift;
   for (const Placement& p : world.placements)
     if (p.mesh->deferred) shift = std::max(shift, p.mesh->deferred->sample_shift);
   Sampler sampler(world, shift);
   for (const Placement& p : world.placements) sampler.add(p);
   std::vector<Bounds3f> sample = sampler.take();
   const std::size_t chosen = sample.size();
-  for (std::size_t i = 0; i < instances.size(); ++i)
+  for (std::size_t i = 0; i < instances.refs.size(); ++i)
     if (world.own_triangles == 0 || mixed(2, i) % world.own_triangles < chosen)
-      sample.push_back(box_of(instances[i]));
+      sample.push_back(box_of(instances.refs[i]));
+  instances.for_each_of_runs([&](const InstanceRef& ref) {
+    if ((mixed(3, ref.first_triangle) & ((std::uint64_t{1} << shift) - 1)) == 0)
+      sample.push_back(box_of(ref));
+  });
   return sample;
 }
 

@@ -5,12 +5,13 @@
 #include "partitioner/cutting/kd_plan.h"
 #include "partitioner/placing/place_scene.h"
 #include "partitioner/spilling/spill.h"
+#include "partitioner/writing/write_objects.h"
 
 namespace vitrail {
 
 // The bounds of triangles chosen at random, at most about so many, in the bundle's coordinates.
 inline constexpr std::uint64_t most_samples = 1u << 18;
-std::vector<Bounds3f> sample_of(const World& world, const std::vector<InstanceRef>& instances,
+std::vector<Bounds3f> sample_of(const World& world, const SceneInstances& instances,
                                 std::uint64_t most = most_samples);
 
 // Sends all triangles down the tree to the bucket of its leaf. `placed` is told how many, from any thread.

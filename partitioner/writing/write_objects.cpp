@@ -11,6 +11,7 @@
 #include <numeric>
 #include <tuple>
 
+#include "bundle/checksum.h"
 #include "partitioner/hierarchy/build_bvh.h"
 #include "partitioner/memory_plan.h"
 #include "partitioner/writing/write_domain.h"
@@ -50,20 +51,27 @@ void divide(const NumberedTriangles& object, Indices triangles, std::size_t part
   divide(object, std::move(above), parts - below, out);
 }
 
-// Of the files: an object of the plan is one or more of them.
+// Of the files: an object of the plan is one or more of them; a quadric has the number of one without it.
 struct Files {
-  std::vector<std::uint32_t> first;  // of each object of the plan; one more at the end
-  std::vector<Bounds3f> bounds;      // of each file
+  std::vector<const Assembly*> quadric;  // of each object of the plan, null where it is none
+  std::vector<std::uint32_t> first;      // of each object of the plan; one more at the end
+  std::vector<Bounds3f> bounds;          // of each file
 };
+
+InstanceRef reference(const ObjectUse& use, std::uint32_t object, const Bounds3f& box) {
+  InstanceRef ref{use.to_parent, {}, {}, object, static_cast<std::uint32_t>(use.first_triangle)};
+  set_box(ref, box);
+  return ref;
+}
 
 std::vector<InstanceRef> references(const std::vector<ObjectUse>& uses, const Files& files) {
   std::vector<InstanceRef> refs;
   for (const ObjectUse& use : uses)
-    for (std::uint32_t file = files.first[use.object]; file < files.first[use.object + 1]; ++file) {
-      InstanceRef& ref = refs.emplace_back(
-          InstanceRef{use.to_parent, {}, {}, file, static_cast<std::uint32_t>(use.first_triangle)});
-      set_box(ref, placed_bounds(use.to_parent, files.bounds[file]));
-    }
+    for (std::uint32_t file = files.first[use.object]; file < files.first[use.object + 1]; ++file)
+      refs.push_back(reference(use, file,
+                               files.quadric[use.object]
+                                   ? placed_bounds(*files.quadric[use.object], use.to_parent)
+                                   : placed_bounds(use.to_parent, files.bounds[file])));
   return refs;
 }
 
@@ -129,6 +137,18 @@ void write_object(const World& world, const WorldObject& o, std::uint32_t first,
   }
 }
 
+void note_quadric(const WorldObject& o, ObjectInfo& info) {
+  const Placement& p = *o.assembly.quadric;
+  info = {1, 0, 0, o.first_surface, o.surface_count, {}, OrientedQuadric{*p.mesh->quadric, p.flip}};
+  const Quadric& q = *p.mesh->quadric;
+  const double numbers[] = {
+      static_cast<double>(q.kind), static_cast<double>(q.uv), q.low, q.high, q.phi_max_rad,
+      static_cast<double>(p.flip)};
+  Hasher hasher;
+  hasher.add(std::as_bytes(std::span(numbers)));
+  info.hash = hasher.digest();
+}
+
 // While an object is written, with the mesh that is being placed.
 double bytes_in_work(const World& world, const Assembly& object, std::uint32_t files) {
   const auto triangles = static_cast<double>(triangles_in(object));
@@ -152,17 +172,34 @@ std::uint64_t triangles_of_objects(const World& world) {
   return triangles;
 }
 
-std::vector<InstanceRef> write_objects(const World& world, Manifest& m, const std::filesystem::path& bundle,
-                                       const ObjectLimits& limits,
-                                       const std::function<void(std::uint64_t)>& written) {
+std::uint64_t SceneInstances::in_runs() const {
+  std::uint64_t count = 0;
+  for (const Run& r : runs) count += r.run.places->size();
+  return count;
+}
+
+void SceneInstances::for_each_of_runs(const std::function<void(const InstanceRef&)>& visit) const {
+  for (const Run& r : runs)
+    for_each_use(r.run, [&](const ObjectUse& use) {
+      visit(reference(use, r.object, placed_bounds(r.quadric, use.to_parent)));
+    });
+}
+
+SceneInstances write_objects(const World& world, Manifest& m, const std::filesystem::path& bundle,
+                             const ObjectLimits& limits, const std::function<void(std::uint64_t)>& written) {
   if (world.objects.empty()) return {};
-  std::filesystem::create_directories(bundle / "objects");
-  Files files{{0}, {}};
+  Files files{{}, {0}, {}};
   std::vector<Batch> by_depth;
   const int threads = tbb::this_task_arena::max_concurrency();
   double most_bytes = 0;
   for (std::uint32_t i = 0; i < world.objects.size(); ++i) {
     const Assembly& object = world.objects[i].assembly;
+    files.quadric.push_back(object.quadric ? &object : nullptr);
+    if (object.quadric) {
+      files.first.push_back(files.first.back() + 1);
+      continue;
+    }
+    std::filesystem::create_directories(bundle / "objects");
     const std::uint32_t count = number_of_files(world, object, limits.file_bytes);
     files.first.push_back(files.first.back() + count);
     const double bytes = bytes_in_work(world, object, count);
@@ -177,6 +214,8 @@ std::vector<InstanceRef> write_objects(const World& world, Manifest& m, const st
         (most_bytes - limits.memory_bytes) / (1 << 20) + 1));
   files.bounds.resize(files.first.back());
   m.objects.resize(files.first.back());
+  for (std::size_t i = 0; i < world.objects.size(); ++i)
+    if (files.quadric[i]) note_quadric(world.objects[i], m.objects[files.first[i]]);
   const auto write = [&](std::uint32_t i) {
     const WorldObject& object = world.objects[i];
     write_object(world, object, files.first[i], files.first[i + 1], bundle, files, m.objects);
@@ -189,7 +228,11 @@ std::vector<InstanceRef> write_objects(const World& world, Manifest& m, const st
     });
     for (const std::uint32_t i : batch.alone) write(i);
   }
-  return references(world.uses, files);
+  SceneInstances instances{references(world.uses, files), {}};
+  for (const QuadricRun& run : world.runs)
+    instances.runs.push_back(
+        {run, *files.quadric[run.object]->quadric->mesh->quadric, files.first[run.object]});
+  return instances;
 }
 
 std::vector<std::uint32_t> needed_objects(const Manifest& m, std::span<const InstanceRef> instances) {
@@ -214,19 +257,25 @@ Bounds3f padded(const Bounds3f& box, const Bounds3f& whole) {
 
 }  // namespace
 
+Bounds3f padded_box(const InstanceRef& instance) { return padded(box_of(instance), box_of(instance)); }
+
 InstanceDealer::InstanceDealer(std::vector<InstanceRef> instances, const Bounds3f& root)
     : instances_(std::move(instances)), root_(root) {
   std::vector<Bounds3f> boxes;
-  for (const InstanceRef& ref : instances_) boxes.push_back(padded(box_of(ref), box_of(ref)));
+  for (const InstanceRef& ref : instances_) boxes.push_back(padded_box(ref));
   tree_ = build_tree(boxes);
 }
 
-std::vector<InstanceRef> InstanceDealer::in(Bounds3f cell) const {
+Bounds3f opened(Bounds3f cell, const Bounds3f& root) {
   constexpr float infinity = std::numeric_limits<float>::infinity();
   for (int axis = 0; axis < 3; ++axis) {
-    if (cell.lower[axis] <= root_.lower[axis]) cell.lower[axis] = -infinity;
-    if (cell.upper[axis] >= root_.upper[axis]) cell.upper[axis] = infinity;
+    if (cell.lower[axis] <= root.lower[axis]) cell.lower[axis] = -infinity;
+    if (cell.upper[axis] >= root.upper[axis]) cell.upper[axis] = infinity;
   }
+  return cell;
+}
+
+std::vector<std::uint32_t> InstanceDealer::found_in(const Bounds3f& cell) const {
   Indices found, pending;
   if (!tree_.empty()) pending.push_back(0);
   while (!pending.empty()) {
@@ -244,8 +293,19 @@ std::vector<InstanceRef> InstanceDealer::in(Bounds3f cell) const {
     }
   }
   std::ranges::sort(found);
+  return found;
+}
+
+std::vector<InstanceRef> InstanceDealer::whole_in(const Bounds3f& cell) const {
   std::vector<InstanceRef> refs;
-  for (const std::uint32_t i : found) {
+  for (const std::uint32_t i : found_in(opened(cell, root_))) refs.push_back(instances_[i]);
+  return refs;
+}
+
+std::vector<InstanceRef> InstanceDealer::in(const Bounds3f& of) const {
+  const Bounds3f cell = opened(of, root_);
+  std::vector<InstanceRef> refs;
+  for (const std::uint32_t i : found_in(cell)) {
     InstanceRef ref = instances_[i];
     const Bounds3f whole = box_of(ref);
     Bounds3f box = padded(whole, whole);

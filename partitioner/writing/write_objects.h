@@ -15,18 +15,36 @@ struct ObjectLimits {
   double memory_bytes = 0;       // for all that are in work
 };
 
+// The instances of the scene, one for each part of an object, in the order of ids; their boxes are not
+// inflated. Those of runs are made as they are asked for.
+struct SceneInstances {
+  std::vector<InstanceRef> refs;
+  struct Run {
+    QuadricRun run;
+    Quadric quadric;
+    std::uint32_t object;  // number in the manifest
+  };
+  std::vector<Run> runs;
+
+  std::uint64_t in_runs() const;
+  void for_each_of_runs(const std::function<void(const InstanceRef&)>& visit) const;
+};
+
 // Writes the world's objects, those beyond the limit in parts of a quarter of it, and their lines in the
-// manifest. Returns the instances of the scene, one for each part, in the order of ids; their boxes are not
-// inflated. `written` is told of triangles, from any thread. Throws MachineError where an object takes more
+// manifest. `written` is told of triangles, from any thread. Throws MachineError where an object takes more
 // than the memory.
-std::vector<InstanceRef> write_objects(const World& world, Manifest& manifest,
-                                       const std::filesystem::path& bundle, const ObjectLimits& limits,
-                                       const std::function<void(std::uint64_t)>& written);
+SceneInstances write_objects(const World& world, Manifest& manifest, const std::filesystem::path& bundle,
+                             const ObjectLimits& limits, const std::function<void(std::uint64_t)>& written);
 // Of all objects.
 std::uint64_t triangles_of_objects(const World& world);
 
 // The objects of these instances and all that they need, ascending.
 std::vector<std::uint32_t> needed_objects(const Manifest& manifest, std::span<const InstanceRef> instances);
+
+// The cell, without end where it is at the border of `root`: what lies beyond belongs to it.
+Bounds3f opened(Bounds3f cell, const Bounds3f& root);
+// The box of an instance, inflated by what hits in it may be off.
+Bounds3f padded_box(const InstanceRef& instance);
 
 // Finds the instances that reach into a cell.
 class InstanceDealer {
@@ -35,9 +53,13 @@ class InstanceDealer {
   InstanceDealer(std::vector<InstanceRef> instances, const Bounds3f& root);
 
   // Their boxes, padded, are clipped to the cell. From any thread.
-  std::vector<InstanceRef> in(Bounds3f cell) const;
+  std::vector<InstanceRef> in(const Bounds3f& cell) const;
+  // As they are.
+  std::vector<InstanceRef> whole_in(const Bounds3f& cell) const;
 
  private:
+  std::vector<std::uint32_t> found_in(const Bounds3f& opened) const;
+
   std::vector<InstanceRef> instances_;
   Bounds3f root_;
   std::vector<BvhNode> tree_;

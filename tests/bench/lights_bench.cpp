@@ -77,7 +77,7 @@ void run(const char* what, const std::vector<EmissiveTriangle>& triangles, Light
         s, p[static_cast<std::size_t>(i % points)],
         static_cast<std::uint32_t>(static_cast<double>(u[static_cast<std::size_t>(i & 0xffff)][0]) *
                                    static_cast<double>(triangles.size())),
-        1, 0.5);
+        {}, 1, 0.5);
   const double asked = cpu_seconds();
 
   // Relative variance of the irradiance of a floor, mean over points.

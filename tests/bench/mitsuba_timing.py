@@ -1,54 +1,35 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""One process of Mitsuba 3: renders a scene twice with different seeds and says what each took.
+"""One process of Mitsuba 3 that renders one scene again and again, in one thread.
 
-mitsuba_timing.py SCENE.xml OUT.npy --spp N --variant V --seed S --threads T --began TIME
+mitsuba_timing.py SCENE.xml VARIANT
 
-The first picture includes all that a process starts with, kernels too where the disk does not have them yet; the
-second, which is written to OUT.npy (float32, height × width × (r, g, b), linear sRGB), does not.
-Prints one JSON object: first_wall_s and first_cpu_s from TIME (of the parent's time.time()) until the picture is
-there, next_wall_s and next_cpu_s of the second.
+Reads lines "SPP SEED OUT.npy"; writes the picture (float32, height × width × (r, g, b), linear sRGB) and prints the seconds of
+processors that it took. Before the first line it prints those that it took to start, the scene included. The first picture of
+a number of samples includes its kernels: ask for one that is not counted.
 """
-import argparse
-import json
 import os
+import sys
 import time
 
-import drjit as dr
-import mitsuba as mi
-import numpy as np
+# An LLVM that knows the processor: Debian's 14 and 15, which would be taken, crash on recent ones.
+if os.path.exists("/usr/lib/x86_64-linux-gnu/libLLVM-19.so"):
+    os.environ.setdefault("DRJIT_LIBLLVM_PATH", "/usr/lib/x86_64-linux-gnu/libLLVM-19.so")
+import drjit as dr  # noqa: E402
+import mitsuba as mi  # noqa: E402
+import numpy as np  # noqa: E402
 
 
-def cpu_seconds():
-    times = os.times()
-    return times.user + times.system
+mi.set_variant(sys.argv[2])
+mi.set_log_level(mi.LogLevel.Error)
+scene = mi.load_file(sys.argv[1])
+dr.set_thread_count(1)  # with one, loading an image waits for ever
+print(time.process_time(), flush=True)
 
-
-parser = argparse.ArgumentParser(description="Times Mitsuba 3.")
-parser.add_argument("scene")
-parser.add_argument("out")
-parser.add_argument("--spp", type=int, required=True)
-parser.add_argument("--variant", required=True)
-parser.add_argument("--seed", type=int, default=0)
-parser.add_argument("--threads", type=int, required=True)
-parser.add_argument("--began", type=float, required=True)
-parser.add_argument("--once", action="store_true", help="the first picture only, and written")
-arguments = parser.parse_args()
-
-mi.set_variant(arguments.variant)
-dr.set_thread_count(arguments.threads)
-scene = mi.load_file(arguments.scene)
-
-
-def render(seed):
-    return np.array(mi.render(scene, spp=arguments.spp, seed=seed)).astype(np.float32)
-
-
-picture = render(arguments.seed)
-first_cpu, first_wall = cpu_seconds(), time.time() - arguments.began
-start = time.perf_counter()
-if not arguments.once:
-    picture = render(arguments.seed + 1)
-np.save(arguments.out, picture[..., :3])
-print(json.dumps({"first_wall_s": first_wall, "first_cpu_s": first_cpu,
-                  "next_wall_s": time.perf_counter() - start, "next_cpu_s": cpu_seconds() - first_cpu}))
+for line in sys.stdin:
+    spp, seed, out = line.split()
+    start = time.process_time()
+    picture = np.array(mi.render(scene, spp=int(spp), seed=int(seed)))
+    seconds = time.process_time() - start
+    np.save(out, picture[..., :3].astype(np.float32))
+    print(seconds, flush=True)

@@ -168,7 +168,9 @@ TEST_F(BadInput, FullDisk) {
   if (run(fmt::format("mount -t tmpfs -o size=64k none '{}'", disk.string())).status != 0)
     GTEST_SKIP() << "this machine does not let us mount a small disk";
   const auto bundle = good_bundle();
-  write("a.pbrt", head + "Shape \"sphere\"\n");
+  write("a.pbrt", head +
+                      "Shape \"loopsubdiv\" \"integer levels\" 6 \"point3 P\" [0 0 0 1 0 0 0 1 0 0 0 1] "
+                      "\"integer indices\" [0 2 1 0 1 3 1 2 3 2 0 3]\n");
   const CommandResult bundled = partition("a.pbrt", "disk/out.vit");
   const CommandResult picture = run(fmt::format("{} '{}' -o '{}' --spp 1", vitrail("render"), bundle.string(),
                                                 (disk / "picture.film").string()));

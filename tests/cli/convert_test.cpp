@@ -95,11 +95,12 @@ TEST_F(Convert, StrictIsForWhatIsExact) {
   const std::string exact =
       write("exact.pbrt", "Film \"rgb\" PixelFilter \"box\" WorldBegin LightSource \"point\" " + triangle_);
   EXPECT_EQ(convert(exact + " " + path("exact.xml") + " --strict").status, 0);
-  const std::string sphere =
-      write("sphere.pbrt", "Film \"rgb\" PixelFilter \"box\" WorldBegin Shape \"sphere\"");
-  const auto result = convert(sphere + " " + path("sphere.xml") + " --strict");
+  const std::string curve = write("curve.pbrt",
+                                  "Film \"rgb\" PixelFilter \"box\" WorldBegin Shape \"curve\" \"point3 P\" "
+                                  "[0 0 0 1 0 0 2 1 0 3 0 0]");
+  const auto result = convert(curve + " " + path("curve.xml") + " --strict");
   EXPECT_EQ(result.status, 3) << result.output;
-  EXPECT_FALSE(std::filesystem::exists(path("sphere.xml")))
+  EXPECT_FALSE(std::filesystem::exists(path("curve.xml")))
       << "nothing is written of what is not read exactly";
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// --repair, --orient, --subdivide and --decimate as a user types them.
+// --tessellate, --repair, --orient, --subdivide and --decimate as a user types them.
 #include <gmock/gmock.h>
 
 #include <fstream>
@@ -82,9 +82,68 @@ TEST_F(MeshOptions, PartitionAndRenderTakeThem) {
   EXPECT_NE(render(path("in.pbrt"), films[2], "--force"), hash);
 }
 
+// A disk and 1100 spheres in a row, which a partitioner reads as one record.
+class TessellateOption : public MeshOptions {
+ protected:
+  TessellateOption() {
+    std::ofstream scene(folder_ / "in.pbrt");
+    scene << "LookAt 0 -60 30 30 0 0 0 0 1 Camera \"perspective\" Film \"rgb\" \"integer xresolution\" 64 "
+             "\"integer yresolution\" 48 WorldBegin LightSource \"infinite\" Shape \"disk\" \"float radius\" "
+             "50\n";
+    for (int i = 0; i < 1100; ++i)
+      scene << "AttributeBegin Translate " << i % 50 << ' ' << i / 50 << " 1 Scale 1 2 1 Shape \"sphere\" "
+            << "\"float radius\" .4 AttributeEnd\n";
+  }
+};
+
+TEST_F(TessellateOption, MakesMeshesOfQuadrics) {
+  const auto plain = run("convert", path("plain.pbrt") + " --strict --report " + path("plain.json"));
+  EXPECT_EQ(plain.status, 0) << plain.output;
+  EXPECT_EQ(test::read_json(path("plain.json")).at("quadrics"), "1100 spheres, 1 disk");
+  EXPECT_TRUE(import_scene(path("plain.pbrt")).scene.meshes.at(1).quadric);
+  const auto meshes =
+      run("convert", path("meshes.pbrt") + " --strict --tessellate 8 --report " + path("m.json"));
+  EXPECT_EQ(meshes.status, 0) << meshes.output;
+  EXPECT_THAT(meshes.output, HasSubstr("quadrics: 2 became 56 triangles"));
+  EXPECT_THAT(test::read_json(path("m.json")).dump(),
+              HasSubstr("sphere tessellated: 8 segments for a full turn"));
+  EXPECT_EQ(triangles("meshes.pbrt"), 8u);
+  EXPECT_EQ(import_scene(path("meshes.pbrt")).scene.meshes.at(1).triangles.size(), 48u);
+  EXPECT_THAT(run("inspect", "").output, HasSubstr("quadrics: 1100 spheres, 1 disk"));
+}
+
+TEST_F(TessellateOption, BeforeTheOthers) {
+  const auto kept = run("convert", path("kept.pbrt") + " --decimate 0.5");
+  EXPECT_THAT(kept.output, HasSubstr("quadrics stay as they are"));
+  EXPECT_TRUE(import_scene(path("kept.pbrt")).scene.meshes.at(1).quadric);
+  EXPECT_EQ(run("convert", path("finer.pbrt") + " --tessellate 8 --subdivide 1").status, 0);
+  EXPECT_EQ(import_scene(path("finer.pbrt")).scene.meshes.at(1).triangles.size(), 4 * 48u);
+}
+
+TEST_F(TessellateOption, PartitionAndRenderTakeIt) {
+  const auto input = [&](const char* what, const std::string& more) {
+    const auto done = run("partition", "-o " + path("a.vit") + " --force --stats " + path("a.json") + more);
+    EXPECT_EQ(done.status, 0) << done.output;
+    return test::read_json(path("a.json")).at(what).get<int>();
+  };
+  EXPECT_EQ(input("input_triangles", " --tessellate 8"), 8 + 1100 * 48);
+  EXPECT_EQ(input("input_triangles", ""), 0);
+  EXPECT_EQ(input("quadrics", ""), 1101);
+  const auto hash = [&](const std::string& input, const std::string& more) {
+    const auto done = test::run(test::vitrail("render") + " " + input + " -o " + path("x.film") +
+                                " --force --spp 1 --stats " + path("x.json") + more);
+    EXPECT_EQ(done.status, 0) << done.output;
+    return test::read_json(path("x.json")).at("film_hash");
+  };
+  const auto quadrics = hash(path("in.pbrt"), ""), coarse = hash(path("in.pbrt"), " --tessellate 8");
+  EXPECT_NE(quadrics, coarse);
+  ASSERT_EQ(run("convert", path("meshes.pbrt") + " --tessellate 8").status, 0);
+  EXPECT_EQ(hash(path("meshes.pbrt"), ""), coarse);
+}
+
 TEST_F(MeshOptions, WrongOnesAreUsage) {
-  for (const char* wrong :
-       {"--decimate 0", "--decimate 1.5", "--decimate nan", "--decimate few", "--subdivide -1"}) {
+  for (const char* wrong : {"--tessellate 2", "--tessellate 5000", "--decimate 0", "--decimate 1.5",
+                            "--decimate nan", "--decimate few", "--subdivide -1"}) {
     const auto result = run("convert", path("out.ply") + " " + wrong);
     EXPECT_EQ(result.status, 2) << wrong << result.output;
   }

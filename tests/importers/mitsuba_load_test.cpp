@@ -54,6 +54,11 @@ TEST_F(MitsubaLoad, BareOpaqueMaterialsHaveOneSide) {
   EXPECT_EQ(bare.origin.line, 1u);
   EXPECT_TRUE(material("<bsdf type=\"twosided\" id=\"m\"><bsdf type=\"diffuse\"/></bsdf>").two_sided);
   EXPECT_TRUE(material("<bsdf type=\"dielectric\" id=\"m\"/>").two_sided);
+  const std::string white = "<bsdf type=\"diffuse\" id=\"white\"/>", ref = "<ref id=\"white\"/>";
+  const Material two = material(white + "<bsdf type=\"twosided\" id=\"m\">" + ref + ref + "</bsdf>");
+  const Id<Material> back = std::get<TwoSidedMaterial>(two.model).back;
+  EXPECT_TRUE(imported_.scene.materials.at(back.value).two_sided);
+  EXPECT_FALSE(imported_.scene.materials.at(0).two_sided) << "that is called white";
 }
 
 // What an adapter says of a material that is made of others holds for these, and not where they are used

@@ -2,6 +2,7 @@
 // Shapes, their sides, instances and media as Mitsuba 3 reads them from written files.
 #include <numbers>
 
+#include "scene/tessellate.h"
 #include "tests/importers/mitsuba_oracle.h"
 
 namespace vitrail {
@@ -60,6 +61,94 @@ TEST_F(MitsubaOracle, GlassHasItsIndexBehindTheFront) {
     EXPECT_NEAR(answer[0]["eta"].get<double>(), 1.5, 1e-6);
     EXPECT_NEAR(answer[1]["eta"].get<double>(), 1 / 1.5, 1e-6);
   }
+}
+
+// What a ray finds of a quadric is what it finds of the same as triangles, to their distance from it.
+TEST_F(MitsubaOracle, QuadricsAreTheirTriangles) {
+  Scene scene = empty_scene();
+  Material one_sided;
+  one_sided.two_sided = false;
+  add_to(scene.textures, Texture{UvTexture{}, false});
+  one_sided.model = DiffuseMaterial{SpectrumParameter{Id<Texture>{0}}};
+  const auto material = add_to(scene.materials, one_sided);
+  const auto light = add_to(scene.area_lights, AreaLight{Spectrum{ConstantSpectrum{2}}});
+  const Transform turned = rotate(0.9, {1, 2, 3}), mirror = vitrail::scale({1, -1, 1});
+  struct Case {
+    Quadric quadric;
+    Transform to_world;
+    bool exact;
+  };
+  std::vector<Case> cases;
+  for (const QuadricUv uv : {QuadricUv::pbrt, QuadricUv::mitsuba})
+    for (const Transform& sides : {Transform{}, mirror}) {
+      cases.push_back(
+          {{.kind = QuadricKind::sphere, .uv = uv}, turned * sides * vitrail::scale({2, 2, 2}), true});
+      cases.push_back({{.kind = QuadricKind::sphere, .uv = uv}, sides * vitrail::scale({1, 1, 2}), false});
+      cases.push_back({{.kind = QuadricKind::disk, .uv = uv, .low = 0},
+                       turned * sides * vitrail::scale({2, 3, 1}),
+                       uv == QuadricUv::mitsuba});
+      cases.push_back(
+          {{.kind = QuadricKind::cylinder, .uv = uv}, turned * sides * vitrail::scale({1, 1, 3}), true});
+      cases.push_back({{.kind = QuadricKind::cone, .uv = uv}, turned * sides, false});
+    }
+  cases.push_back({{.kind = QuadricKind::sphere, .low = -0.5, .phi_max_rad = 5}, turned, false});
+  cases.push_back({{.kind = QuadricKind::disk, .low = 0.5}, turned, false});
+  Json queries = Json::array();
+  for (std::size_t i = 0; i < 2 * cases.size(); ++i) {
+    const Case& c = cases[i / 2];
+    const Transform there = translate({20.0 * static_cast<double>(i), 0, 0}) * c.to_world;
+    TriangleMesh mesh;
+    mesh.quadric = c.quadric;
+    scene.shapes.push_back({add_to(scene.meshes, mesh), material, light, 1.0f, there, i % 2 == 1});
+    // From both sides of a point of it.
+    const double phi = 1.1, z = c.quadric.kind == QuadricKind::disk ? 0 : 0.3,
+                 rho = c.quadric.kind == QuadricKind::sphere     ? std::sqrt(1 - z * z)
+                       : c.quadric.kind == QuadricKind::disk     ? 0.7
+                       : c.quadric.kind == QuadricKind::cylinder ? 1
+                                                                 : 1 - z;
+    const Point3d p{rho * std::cos(phi), rho * std::sin(phi), z};
+    const Vector3d out = c.quadric.kind == QuadricKind::disk ? Vector3d{0.1, 0, 0.5} : (p - Point3d{}) * 0.3;
+    for (const double side : {1.0, -1.0}) {
+      const Point3d from = transform_point(there, p + out * side);
+      const Vector3d along = normalize(transform_vector(there, out * -side));
+      queries.push_back(ray("hit", {from.x, from.y, from.z}, {along.x, along.y, along.z}));
+    }
+  }
+  const Json found = ask(scene, queries);
+  const auto is_of_triangles = [](const Diagnostic& d) {
+    return d.message.find("becomes triangles, 256 for a full turn") != std::string::npos;
+  };
+  EXPECT_EQ(std::ranges::count_if(diagnostics_, is_of_triangles),
+            2 * std::ranges::count(cases, false, &Case::exact));
+  for (TriangleMesh& mesh : scene.meshes) mesh = tessellate(*mesh.quadric);
+  const Json expected = ask(scene, queries);
+  for (std::size_t i = 0; i < queries.size(); ++i) {
+    SCOPED_TRACE(i);
+    ASSERT_TRUE(expected[i]["valid"].get<bool>());
+    for (const char* key : {"p", "shading_n", "emission", "uv"}) {
+      const std::vector<double> values = expected[i][key].get<std::vector<double>>();
+      for (std::size_t k = 0; k < values.size(); ++k)
+        EXPECT_NEAR(found[i][key][k].get<double>(), values[k], 2e-3) << key;
+    }
+  }
+}
+
+TEST_F(MitsubaOracle, QuadricsInInstancesAndBehindLights) {
+  Scene scene = square_scene({});
+  TriangleMesh ball;
+  ball.quadric = Quadric{.kind = QuadricKind::sphere, .uv = QuadricUv::mitsuba};
+  scene.shapes[0].mesh = add_to(scene.meshes, ball);
+  const Shape shape = scene.shapes[0];
+  const auto group = add_to(scene.prototypes, Prototype{"group", {shape}, {}});
+  scene.instances.push_back({group, translate({10, 0, 0}) * vitrail::scale({2, 2, 2}), {}});
+  // Both sides shine.
+  scene.shapes[0].area_light = add_to(scene.area_lights, AreaLight{Spectrum{ConstantSpectrum{3}}, 1, true});
+  const Json answer = ask(scene, {ray("hit", {10, 0, 9}, {0, 0, -1}), ray("hit", {0.1, 0.2, 9}, {0, 0, -1}),
+                                  ray("hit", {0.1, 0.2, 0.3}, {0, 0, -1})});
+  EXPECT_NEAR(answer[0]["p"][2].get<double>(), 2, 1e-5);
+  EXPECT_NEAR(answer[1]["emission"][0].get<double>(), 3, 1e-5);
+  EXPECT_NEAR(answer[2]["emission"][0].get<double>(), 3, 1e-5);
+  EXPECT_THAT(text(), HasSubstr("radius"));
 }
 
 TEST_F(MitsubaOracle, TransformsAndNames) {

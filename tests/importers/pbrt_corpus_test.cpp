@@ -35,7 +35,8 @@ struct WorkingDirectory {
   fs::path before;
 };
 
-std::size_t triangles_of(const Scene& scene, const std::vector<Shape>& shapes) {
+// And quadrics.
+std::size_t primitives_of(const Scene& scene, const std::vector<Shape>& shapes) {
   std::size_t count = 0;
   for (const Shape& shape : shapes) {
     EXPECT_LT(shape.mesh.value, scene.meshes.size());
@@ -43,7 +44,8 @@ std::size_t triangles_of(const Scene& scene, const std::vector<Shape>& shapes) {
     if (shape.area_light) {
       EXPECT_LT(shape.area_light->value, scene.area_lights.size());
     }
-    count += scene.meshes[shape.mesh.value].triangles.size();
+    const TriangleMesh& mesh = scene.meshes[shape.mesh.value];
+    count += mesh.quadric ? 1 : mesh.triangles.size();
   }
   return count;
 }
@@ -58,9 +60,10 @@ TEST(PbrtCorpus, EveryFileIsImported) {
     try {
       const ImportedScene imported = read_pbrt(file);
       const Scene& scene = imported.scene;
-      std::size_t triangles = triangles_of(scene, scene.shapes);
-      for (const Prototype& prototype : scene.prototypes) triangles += triangles_of(scene, prototype.shapes);
-      EXPECT_GT(triangles, 0u);
+      std::size_t primitives = primitives_of(scene, scene.shapes);
+      for (const Prototype& prototype : scene.prototypes)
+        primitives += primitives_of(scene, prototype.shapes);
+      EXPECT_GT(primitives, 0u);
       for (const TriangleMesh& mesh : scene.meshes)
         for (const auto& triangle : mesh.triangles)
           EXPECT_LT(std::max({triangle[0], triangle[1], triangle[2]}), mesh.positions.size());

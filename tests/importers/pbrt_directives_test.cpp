@@ -104,15 +104,10 @@ TEST(PbrtBlocks, AttributeSetsDefaultsThatExplicitValuesBeat) {
       "Attribute \"light\" \"float scale\" 3 Material \"diffuse\" "
       "Shape \"disk\" Shape \"disk\" \"float radius\" 5 LightSource \"infinite\" \"float L\" 1 AttributeEnd "
       "Shape \"disk\"");
-  const auto reach = [&](std::size_t i) {
-    float most = 0;
-    for (const Point3f& p : imported.scene.meshes[imported.scene.shapes[i].mesh.value].positions)
-      most = std::max(most, p.x);
-    return most;
-  };
-  EXPECT_FLOAT_EQ(reach(0), 2);
-  EXPECT_FLOAT_EQ(reach(1), 5);
-  EXPECT_FLOAT_EQ(reach(2), 1);
+  const auto radius = [&](std::size_t i) { return imported.scene.shapes.at(i).object_to_world.m[0][0]; };
+  EXPECT_EQ(radius(0), 2);
+  EXPECT_EQ(radius(1), 5);
+  EXPECT_EQ(radius(2), 1);
   EXPECT_EQ(imported.scene.materials[0], Material{DiffuseMaterial{ConstantSpectrum{.25f}}});
   EXPECT_EQ(std::get<InfiniteLight>(imported.scene.lights.at(0).model).radiance,
             Spectrum{ConstantSpectrum{3}});
@@ -142,7 +137,7 @@ TEST(PbrtFiles, IncludesAreTextualAndRelativeToTheMainFile) {
                           .scene;
   ASSERT_EQ(scene.shapes.size(), 2u);
   expect_near(transform_point(scene.shapes[1].object_to_world, {}), {3, 0, 0});
-  EXPECT_FLOAT_EQ(scene.meshes[0].positions[0].x, 7) << "a list of parameters may go on after an include";
+  EXPECT_EQ(scene.shapes[0].object_to_world.m[0][0], 7) << "a list of parameters may go on after an include";
 }
 
 TEST(PbrtFiles, ImportsDoNotLeakTheirState) {

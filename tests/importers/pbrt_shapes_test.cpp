@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Shapes and, above all, which side of them is the front.
+#include <numbers>
+
+#include "importers/pbrt/pbrt.h"
 #include "pbrt_text.h"
+#include "scene/quadric_places.h"
+#include "scene/tessellate.h"
 
 namespace vitrail {
 namespace {
@@ -16,14 +21,22 @@ Vector3d front(const Scene& scene, const Shape& shape, std::size_t t = 0, const 
   return shape.flip_orientation ? -normal : normal;
 }
 
+// Its quadrics as triangles.
+Scene tessellated_v4(const std::string& world) {
+  Scene scene = import_v4(world).scene;
+  for (TriangleMesh& mesh : scene.meshes)
+    if (mesh.quadric) mesh = tessellate(*mesh.quadric);
+  return scene;
+}
+
 Vector3d front_of(const std::string& world) {
-  const Scene scene = import_v4(world).scene;
+  const Scene scene = tessellated_v4(world);
   return front(scene, scene.shapes.at(0));
 }
 
 // The front of a closed shape around the origin: +1 if outside.
 double outwardness(const std::string& world) {
-  const Scene scene = import_v4(world).scene;
+  const Scene scene = tessellated_v4(world);
   const Shape& shape = scene.shapes.at(0);
   const TriangleMesh& mesh = scene.meshes[shape.mesh.value];
   double least = 1, greatest = -1;
@@ -168,15 +181,59 @@ TEST(PbrtShapes, PlyFilesAreReadOnce) {
   EXPECT_EQ(front(scene, scene.shapes[1]), down);
 }
 
-TEST(PbrtShapes, CurvedOnesAreReported) {
+TEST(PbrtShapes, QuadricsAreKept) {
   const ImportedScene imported = import_v4(
-      "Shape \"sphere\" Shape \"sphere\" Shape \"sphere\" \"float radius\" 2 Shape \"disk\" Shape \"nurbs\"");
-  EXPECT_EQ(imported.scene.meshes.size(), 3u) << "equal spheres share a mesh";
-  EXPECT_EQ(imported.scene.shapes.size(), 4u);
-  ASSERT_EQ(imported.diagnostics.size(), 5u);
-  EXPECT_EQ(imported.diagnostics[0].fidelity, Fidelity::approximated);
-  EXPECT_EQ(imported.diagnostics[4].fidelity, Fidelity::dropped);
-  EXPECT_THAT(imported.diagnostics[4].message, ::testing::HasSubstr("nurbs"));
+      "Shape \"sphere\" Scale 1 2 3 Shape \"sphere\" \"float radius\" 2 Shape \"disk\" \"float height\" 4 "
+      "Shape \"cylinder\" \"float zmin\" [1] \"float zmax\" [3] "
+      "Shape \"cylinder\" \"float phimax\" 90 Shape \"cone\" \"float height\" 7 "
+      "Shape \"paraboloid\" \"float zmin\" [1] \"float zmax\" [4] Shape \"sphere\" \"float zmin\" [0] "
+      "Shape \"sphere\" \"float radius\" 5 \"float zmin\" [0]");
+  expect_no_diagnostics(imported);
+  const Scene& scene = imported.scene;
+  const auto quadric = [&](std::size_t shape) {
+    const TriangleMesh& mesh = scene.meshes.at(scene.shapes.at(shape).mesh.value);
+    EXPECT_TRUE(mesh.quadric && mesh.positions.empty() && mesh.triangles.empty());
+    return mesh.quadric.value();
+  };
+  const double quarter = 90 * std::numbers::pi / 180;
+  EXPECT_EQ(quadric(0), (Quadric{.kind = QuadricKind::sphere}));
+  EXPECT_EQ(quadric(2), (Quadric{.kind = QuadricKind::disk, .low = 0}));
+  EXPECT_EQ(quadric(3), (Quadric{.kind = QuadricKind::cylinder}));
+  EXPECT_EQ(quadric(4), (Quadric{.kind = QuadricKind::cylinder, .phi_max_rad = quarter}));
+  EXPECT_EQ(quadric(5), (Quadric{.kind = QuadricKind::cone}));
+  EXPECT_EQ(quadric(6), (Quadric{.kind = QuadricKind::paraboloid, .low = 0.25}));
+  EXPECT_EQ(quadric(7), (Quadric{.kind = QuadricKind::sphere, .low = 0}));
+  EXPECT_EQ(scene.shapes[1].object_to_world, scale({2, 4, 6}));
+  EXPECT_EQ(scene.shapes[2].object_to_world, scale({1, 2, 3}) * translate({0, 0, 4}));
+  EXPECT_EQ(scene.shapes[3].object_to_world, scale({1, 2, 3}) * translate({0, 0, 1}) * scale({1, 1, 2}));
+  EXPECT_EQ(scene.shapes[5].object_to_world, scale({1, 2, 21}));
+  EXPECT_EQ(scene.shapes[1].mesh, scene.shapes[0].mesh) << "sizes are the transform's";
+  EXPECT_EQ(scene.shapes[8].mesh, scene.shapes[7].mesh);
+  EXPECT_EQ(scene.meshes.size(), 7u);
+}
+
+TEST(PbrtShapes, UnknownOnesAreReported) {
+  const ImportedScene imported = import_v4("Shape \"nurbs\"");
+  EXPECT_TRUE(imported.scene.shapes.empty());
+  ASSERT_EQ(imported.diagnostics.size(), 1u);
+  EXPECT_EQ(imported.diagnostics[0].fidelity, Fidelity::dropped);
+  EXPECT_THAT(imported.diagnostics[0].message, ::testing::HasSubstr("nurbs"));
+}
+
+// The power is that of a surface of this area in the world.
+TEST(PbrtShapes, PowerCountsTheAreaOfQuadrics) {
+  const auto area = [](const std::string& shape) {
+    const Scene scene =
+        import_v4("Rotate 30 1 2 3 Scale 2 2 2 AreaLightSource \"diffuse\" \"float power\" 100 " + shape)
+            .scene;
+    const double radiance = luminance(std::get<Spectrum>(scene.area_lights.at(0).radiance)) *
+                            static_cast<double>(scene.area_lights[0].scale);
+    return 100 / (std::numbers::pi * radiance);
+  };
+  const double rectangle = area("Shape \"trianglemesh\" \"point3 P\" [0 0 0 2 0 0 0 1 0]") / 4;
+  EXPECT_NEAR(area("Shape \"sphere\" \"float radius\" 3") / rectangle, 4 * 36 * std::numbers::pi, 1e-3);
+  EXPECT_NEAR(area("Shape \"disk\" \"float innerradius\" .5") / rectangle, 4 * .75 * std::numbers::pi, 1e-4);
+  EXPECT_NEAR(area("Shape \"cylinder\" \"float radius\" 3") / rectangle, 4 * 12 * std::numbers::pi, 1e-3);
 }
 
 TEST(PbrtCurves, BecomeTubesAndRibbons) {
@@ -206,6 +263,37 @@ TEST(PbrtCurves, AreRefusedWhereTheyMakeNoSense) {
                           "\"point3 P\" [0 0 0 1 0 0 2 0 0 3 0 0] \"string basis\" \"hermite\"",
                           "\"point3 P\" [0 0 0 1 0 0 2 0 0 3 0 0] \"string type\" \"ribbon\""})
     EXPECT_THROW(import_v4(std::string("Shape \"curve\" ") + bad), Error) << bad;
+}
+
+// Where memory is limited many in a row that differ in where they stand alone become one shape; what else is
+// on the way stays what it is.
+TEST(PbrtQuadrics, ManyInARowBecomePlaces) {
+  constexpr int count = 5000;
+  std::string world = "WorldBegin\n";
+  for (int i = 0; i < count; ++i)
+    world += fmt::format(
+        "AttributeBegin Translate {} 0 0 Scale 1 1 {} Shape \"sphere\" \"float radius\" {} AttributeEnd\n", i,
+        i == 3000 ? -1 : 1, 0.1 + 1e-5 * i);
+  const TemporaryFolder folder;
+  const auto file = folder.write("s.pbrt", world);
+  const Scene one_by_one = read_pbrt(file).scene, gathered = read_pbrt(file, MeshMemory(1 << 16)).scene;
+  ASSERT_EQ(one_by_one.shapes.size(), std::size_t{count});
+  ASSERT_EQ(gathered.shapes.size(), 3u);
+  std::vector<Transform> all;
+  for (const Shape& shape : gathered.shapes) {
+    const TriangleMesh& mesh = gathered.meshes[shape.mesh.value];
+    EXPECT_EQ(mesh.quadric, one_by_one.meshes[0].quadric);
+    if (!mesh.places) {
+      all.push_back(shape.object_to_world);
+      continue;
+    }
+    EXPECT_EQ(shape.object_to_world, Transform{});
+    std::vector<Transform> places(mesh.places->size());
+    mesh.places->read(0, places);
+    all.insert(all.end(), places.begin(), places.end());
+  }
+  ASSERT_EQ(all.size(), std::size_t{count});
+  for (std::size_t i = 0; i < count; ++i) EXPECT_EQ(all[i], one_by_one.shapes[i].object_to_world) << i;
 }
 
 }  // namespace

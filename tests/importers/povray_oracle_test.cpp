@@ -5,6 +5,7 @@
 
 #include <numbers>
 
+#include "scene/tessellate.h"
 #include "tests/importers/povray_render.h"
 #include "tests/support/png.h"
 
@@ -147,6 +148,48 @@ TEST_F(PovrayOracle, OpacitiesOfShapes) {
   add_emitter(scene, square(-5, 5, -5, 5, .5), {2, 2, 2}).opacity = 0.25f;
   scene.settings.max_depth = 0;
   expect_plane(scene, [](double, double) -> std::array<double, 3> { return {.5, .5, .5}; });
+}
+
+// Of each the front shines and the back is black, as of its triangles; those that POV-Ray has stay
+// themselves.
+TEST_F(PovrayOracle, QuadricsAreTheirTriangles) {
+  Scene scene = empty_scene();
+  scene.film.width = scene.film.height = 96;
+  scene.film.crop = {0, 96, 0, 96};
+  scene.area_lights.push_back({emission_from_rgb({1, 0, 0})});
+  const std::array quadrics{Quadric{.kind = QuadricKind::sphere},
+                            Quadric{.kind = QuadricKind::disk, .low = 0.4},
+                            Quadric{.kind = QuadricKind::cylinder},
+                            Quadric{.kind = QuadricKind::cone},
+                            Quadric{.kind = QuadricKind::paraboloid, .low = 0.1},
+                            Quadric{.kind = QuadricKind::sphere, .low = -0.5, .high = 0.4}};
+  for (std::size_t i = 0; i < quadrics.size(); ++i)
+    for (int sides = 0; sides < 4; ++sides) {
+      TriangleMesh mesh;
+      mesh.quadric = quadrics[i];
+      Shape& shape = add(scene, mesh, DiffuseMaterial{ConstantSpectrum{0}});
+      shape.area_light = Id<AreaLight>{0};
+      shape.flip_orientation = sides & 1;
+      shape.object_to_world = translate({-1.5 + 0.6 * static_cast<double>(i), -1.2 + 0.8 * sides, 0}) *
+                              rotate(0.6, {1, 0.3, 0}) * scale({0.25, 0.25, sides & 2 ? -0.3 : 0.3});
+    }
+  Diagnostics diagnostics;
+  const PovPicture picture = render_povray(scene, folder_, &diagnostics);
+  const auto of_triangles = [](const Diagnostic& d) {
+    return d.message.find("becomes triangles, 256 for a full turn") != std::string::npos;
+  };
+  EXPECT_EQ(std::ranges::count_if(diagnostics, of_triangles), 2) << "of the last two kinds, once a place";
+  for (TriangleMesh& mesh : scene.meshes) mesh = tessellate(*mesh.quadric);
+  const PovPicture expected = render_povray(scene, folder_);
+  ASSERT_EQ(picture.values.size(), expected.values.size());
+  ASSERT_FALSE(picture.values.empty());
+  int shining = 0, differ = 0;
+  for (std::size_t i = 0; i < picture.values.size(); i += 3) {
+    shining += expected.values[i] > 0.5;
+    differ += std::abs(picture.values[i] - expected.values[i]) > 0.01;
+  }
+  EXPECT_GT(shining, 500);
+  EXPECT_LE(differ, 10) << "pixels on outlines";
 }
 
 TEST_F(PovrayOracle, SurfacesThatReflectAndShine) {

@@ -10,7 +10,9 @@
 #include <set>
 
 #include "importers/shapes/polygon.h"
-#include "importers/shapes/unit_circle.h"
+#include "importers/shapes/quadrics.h"
+#include "scene/tessellate.h"
+#include "scene/unit_circle.h"
 
 namespace vitrail {
 namespace {
@@ -103,18 +105,27 @@ TEST(UnitCircle, AgreesWithTheLibrary) {
 
 // ---- Quadrics -----------------------------------------------------------------------------------
 
+// The triangles where the sizes put them, with unit normals.
+TriangleMesh tessellated(const SizedQuadric& q, int segments = quadric_segments) {
+  TriangleMesh mesh = tessellate(q.quadric, segments);
+  for (Point3f& p : mesh.positions) p = cast<float>(transform_point(q.to_object, cast<double>(p)));
+  for (Normal3f& n : mesh.normals)
+    n = cast<float>(to_normal(normalize(to_vector(transform_normal(q.to_object, cast<double>(n))))));
+  return mesh;
+}
+
 TEST(Sphere, CloseToTheTrueOneAsTheHeaderSays) {
-  const TriangleMesh mesh = tessellate_sphere(2, -2, 2, 2 * pi);
-  EXPECT_LE(greatest_distance(mesh, [](Point3d p) { return length(p - Point3d{}) - 2; }), 2 * 2e-4);
-  EXPECT_NEAR(area(mesh) / (16 * pi) - 1, -1.64e-4, 0.02e-4);
-  EXPECT_NEAR(volume(mesh) / (32 * pi / 3) - 1, -3.28e-4, 0.02e-4);
+  const TriangleMesh mesh = tessellated(sphere(2, -2, 2, 2 * pi));
+  EXPECT_LE(greatest_distance(mesh, [](Point3d p) { return length(p - Point3d{}) - 2; }), 2 * 1.51e-4);
+  EXPECT_NEAR(area(mesh) / (16 * pi) - 1, -1.255e-4, 0.02e-4);
+  EXPECT_NEAR(volume(mesh) / (32 * pi / 3) - 1, -2.51e-4, 0.02e-4);
   EXPECT_EQ(open_edges(mesh), 0u);
   expect_fronts_follow_normals(mesh);
 }
 
 TEST(Sphere, NormalsAndParameters) {
   const double r = 3, zmin = -1, zmax = 2, phimax = 4;
-  const TriangleMesh mesh = tessellate_sphere(r, zmax, zmin, phimax);  // sorted
+  const TriangleMesh mesh = tessellated(sphere(r, zmax, zmin, phimax));  // sorted
   expect_fronts_follow_normals(mesh);
   double low = inf, high = -inf;
   const double first = std::acos(zmin / r), last = std::acos(zmax / r);
@@ -134,16 +145,19 @@ TEST(Sphere, NormalsAndParameters) {
 }
 
 TEST(Sphere, ClampedAndTiny) {
-  EXPECT_EQ(tessellate_sphere(1, -9, 9, 100), tessellate_sphere(1, -1, 1, 2 * pi));
-  const TriangleMesh sliver = tessellate_sphere(1e-30, -1, 1, 1e-3);
+  const SizedQuadric clamped = sphere(1, -9, 9, 100);
+  EXPECT_EQ(clamped.quadric, Quadric{});
+  EXPECT_EQ(clamped.to_object, Transform{});
+  EXPECT_EQ(sphere(1e-30, -1, 1, 7).quadric, Quadric{}) << "the size is the transform's";
+  const TriangleMesh sliver = tessellated(sphere(1e-30, -1, 1, 1e-3));
   EXPECT_GE(sliver.triangles.size(), 2u);
   for (const Point3f& p : sliver.positions) EXPECT_TRUE(is_finite(p));
 }
 
 TEST(Disk, AreaSideAndParameters) {
   for (const double inner : {0.0, 0.5}) {
-    const TriangleMesh mesh = tessellate_disk(7, 2, inner, pi);
-    EXPECT_NEAR(area(mesh) / (pi / 2 * (4 - inner * inner)) - 1, -2.5e-5, 0.1e-5);
+    const TriangleMesh mesh = tessellated(disk(7, 2, inner, pi));
+    EXPECT_NEAR(area(mesh) / (pi / 2 * (4 - inner * inner)) - 1, -1.0e-4, 0.05e-4);
     expect_fronts_follow_normals(mesh);
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
       const Point3f p = mesh.positions[i];
@@ -157,10 +171,10 @@ TEST(Disk, AreaSideAndParameters) {
 }
 
 TEST(Cylinder, DistanceNormalsAndParameters) {
-  const TriangleMesh mesh = tessellate_cylinder(2, 3, -1, 2 * pi);
+  const TriangleMesh mesh = tessellated(cylinder(2, 3, -1, 2 * pi));
   const auto distance = [](Point3d p) { return std::hypot(p.x, p.y) - 2; };
-  EXPECT_LE(greatest_distance(mesh, distance), 2 * 1.9e-5);
-  EXPECT_NEAR(area(mesh) / (16 * pi) - 1, -6.3e-6, 0.2e-6);
+  EXPECT_LE(greatest_distance(mesh, distance), 2 * 7.6e-5);
+  EXPECT_NEAR(area(mesh) / (16 * pi) - 1, -2.5e-5, 0.1e-5);
   expect_fronts_follow_normals(mesh);
   for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
     EXPECT_NEAR(mesh.normals[i].x * 2, mesh.positions[i].x, 1e-6);
@@ -169,32 +183,82 @@ TEST(Cylinder, DistanceNormalsAndParameters) {
     EXPECT_EQ(mesh.positions[i].z, mesh.uvs[i].y == 0 ? -1 : 3);
   }
   // Open at the two rims only.
-  EXPECT_EQ(open_edges(mesh), 2u * cylinder_segments);
+  EXPECT_EQ(open_edges(mesh), 2u * quadric_segments);
+}
+
+TEST(Quadrics, ConesAndParaboloidsFaceOutwards) {
+  const TriangleMesh mesh = tessellated(cone(3, 4, 2 * pi)), bowl = tessellated(paraboloid(2, 0, 1, 2 * pi));
+  expect_fronts_follow_normals(mesh);
+  expect_fronts_follow_normals(bowl);
+  EXPECT_NEAR(area(mesh), pi * 3 * 5, 0.01);
+  EXPECT_NEAR(area(bowl), pi * 8 / 3 * (std::pow(2, 1.5) - 1), 0.01);  // z = r²/4 up to r = 2
+  EXPECT_GT(tessellated(paraboloid(2, 0.25, 1, 1)).positions[0].z, 0.2f);
+}
+
+TEST(Quadrics, SegmentsAreOfAFullTurn) {
+  const auto triangles = [](const SizedQuadric& q, int segments) {
+    return tessellated(q, segments).triangles.size();
+  };
+  EXPECT_EQ(triangles(cylinder(1, 0, 1, 2 * pi), 3), 6u);
+  EXPECT_EQ(triangles(cylinder(1, 0, 1, pi), 10), 10u);
+  EXPECT_EQ(triangles(sphere(1, -1, 1, 2 * pi), 8), 2u * 8 + 2 * 2 * 8);
 }
 
 TEST(Quadrics, SizesThatAreNone) {
   for (const double bad : {0.0, -1.0, nan, inf, 1e39}) {
-    EXPECT_THROW(tessellate_sphere(bad, -1, 1, 1), Error) << bad;
-    EXPECT_THROW(tessellate_disk(0, bad, 0, 1), Error) << bad;
-    EXPECT_THROW(tessellate_cylinder(bad, 0, 1, 1), Error) << bad;
+    EXPECT_THROW(sphere(bad, -1, 1, 1), Error) << bad;
+    EXPECT_THROW(disk(0, bad, 0, 1), Error) << bad;
+    EXPECT_THROW(cylinder(bad, 0, 1, 1), Error) << bad;
+    EXPECT_THROW(cone(bad, 1, 1), Error) << bad;
+    EXPECT_THROW(paraboloid(1, 0, bad, 1), Error) << bad;
   }
   for (const double bad : {0.0, -1.0, nan}) {
-    EXPECT_THROW(tessellate_sphere(1, -1, 1, bad), Error) << bad;
-    EXPECT_THROW(tessellate_disk(0, 1, 0, bad), Error) << bad;
-    EXPECT_THROW(tessellate_cylinder(1, 0, 1, bad), Error) << bad;
+    EXPECT_THROW(sphere(1, -1, 1, bad), Error) << bad;
+    EXPECT_THROW(disk(0, 1, 0, bad), Error) << bad;
+    EXPECT_THROW(cylinder(1, 0, 1, bad), Error) << bad;
   }
-  EXPECT_THROW(tessellate_sphere(1, nan, 1, 1), Error);
-  EXPECT_THROW(tessellate_sphere(1, 2, 3, 1), Error);
-  EXPECT_THROW(tessellate_disk(nan, 1, 0, 1), Error);
-  EXPECT_THROW(tessellate_disk(0, 1, 1, 1), Error);
-  EXPECT_THROW(tessellate_disk(0, 1, -1, 1), Error);
-  EXPECT_THROW(tessellate_disk(0, 1, nan, 1), Error);
-  EXPECT_THROW(tessellate_cylinder(1, 2, 2, 1), Error);
-  EXPECT_THROW(tessellate_cylinder(1, 0, inf, 1), Error);
+  EXPECT_THROW(sphere(1, nan, 1, 1), Error);
+  EXPECT_THROW(sphere(1, 2, 3, 1), Error);
+  EXPECT_THROW(disk(nan, 1, 0, 1), Error);
+  EXPECT_THROW(disk(0, 1, 1, 1), Error);
+  EXPECT_THROW(disk(0, 1, -1, 1), Error);
+  EXPECT_THROW(disk(0, 1, nan, 1), Error);
+  EXPECT_THROW(cylinder(1, 2, 2, 1), Error);
+  EXPECT_THROW(cylinder(1, 0, inf, 1), Error);
+  EXPECT_THROW(paraboloid(1, -1, 1, 1), Error);
 }
 
 TEST(Quadrics, Deterministic) {
-  EXPECT_EQ(tessellate_sphere(1.1, -0.3, 0.9, 5), tessellate_sphere(1.1, -0.3, 0.9, 5));
+  EXPECT_EQ(tessellated(sphere(1.1, -0.3, 0.9, 5)), tessellated(sphere(1.1, -0.3, 0.9, 5)));
+}
+
+TEST(Quadrics, AreasAreThoseOfTheClosedForms) {
+  const Transform turn = rotate(0.7, {1, 2, -3}) * scale({3, -3, 3});  // areas times 9
+  const auto expect = [&](const SizedQuadric& q, double area) {
+    EXPECT_NEAR(area_of(q.quadric, turn * q.to_object) / (9 * area), 1, 1e-12)
+        << static_cast<int>(q.quadric.kind);
+  };
+  expect(sphere(2, -2, 2, 2 * pi), 16 * pi);
+  expect(sphere(2, -0.5, 1, 1.5), 1.5 * 2 * 1.5);
+  expect(disk(4, 2, 1, 1.5), 1.5 / 2 * 3);
+  expect(cylinder(2, 1, 6, 1.5), 1.5 * 2 * 5);
+  expect(cone(3, 4, 1.5), 1.5 / 2 * 3 * 5);
+  expect(paraboloid(2, 0, 1, 2 * pi), pi * 8 / 3 * (std::pow(2, 1.5) - 1));  // z = r²/4
+}
+
+TEST(Quadrics, AreasUnderAnyTransform) {
+  // A spheroid of half axes 1, 1 and c.
+  const double c = 2, e = std::sqrt(1 - 1 / (c * c));
+  EXPECT_NEAR(area_of({}, scale({1, 1, c})), 2 * pi * (1 + c / e * std::asin(e)), 1e-9);
+  EXPECT_NEAR(area_of({}, scale({1, c, 1})), 2 * pi * (1 + c / e * std::asin(e)), 1e-9);
+  Transform shear = scale({1, 2, 0.5});
+  shear.m[0][1] = 0.8, shear.m[2][0] = -0.4;
+  for (const SizedQuadric& q : {sphere(1, -0.3, 1, 5), disk(1, 2, 0.5, 5), cylinder(1, 0, 3, 5),
+                                cone(1, 2, 5), paraboloid(1, 0.1, 2, 5)}) {
+    const Transform to = shear * q.to_object;
+    EXPECT_NEAR(area_of(q.quadric, to) / area(tessellated({q.quadric, to}, 2048)), 1, 1e-5)
+        << static_cast<int>(q.quadric.kind);
+  }
 }
 
 // ---- Bilinear patches ---------------------------------------------------------------------------

@@ -238,7 +238,7 @@ TEST_F(WriteMitsuba, BumpsBelongToWhatShowsThem) {
   for (auto bsdf = outermost; bsdf; bsdf = bsdf.next_sibling("bsdf"))
     types.emplace_back(bsdf.attribute("type").value());
   EXPECT_THAT(types, ElementsAre("twosided", "mask", "null", "normalmap"));
-  EXPECT_THAT(diagnostics_, SizeIs(2));
+  EXPECT_THAT(diagnostics_, SizeIs(4));
   EXPECT_THAT(diagnostics_, drops("bumps of a material that is made of others"));
   EXPECT_THAT(diagnostics_, approximates("lets no light of emitters through it"));
 }

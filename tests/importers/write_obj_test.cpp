@@ -6,6 +6,7 @@
 #include <cstdlib>
 
 #include "importers/obj/obj.h"
+#include "scene/deferred_mesh.h"
 #include "scene/rgb_to_spectrum.h"
 #include "tests/importers/temporary_folder.h"
 #include "tests/support/png.h"
@@ -162,6 +163,21 @@ TEST_F(WriteObj, TransformsFlipsAndInstances) {
   EXPECT_EQ(at(1), (Point3d{2, 0, 5}));
   EXPECT_EQ(at(2), (Point3d{0, -1, 5}));
   EXPECT_THAT(diagnostics_, says("1 instances"));
+}
+
+TEST_F(WriteObj, QuadricsAreWrittenAsTriangles) {
+  Scene scene = triangle();
+  TriangleMesh quadric;
+  quadric.quadric = Quadric{.kind = QuadricKind::cylinder};
+  scene.meshes.push_back(quadric);
+  scene.shapes.push_back(scene.shapes[0]);
+  scene.shapes.back().mesh = Id<TriangleMesh>{1};
+  scene.shapes.back().object_to_world = translate({0, 0, 2});
+  const Scene again = written(scene);
+  EXPECT_THAT(diagnostics_, says("a cylinder becomes triangles, 256 for a full turn"));
+  EXPECT_THAT(again.meshes, SizeIs(2));
+  EXPECT_THAT(again.meshes.back().triangles, SizeIs(2 * 256));
+  EXPECT_EQ(bounds_of(again.meshes.back()), (Bounds3f{{-1, -1, 2}, {1, 1, 3}}));
 }
 
 TEST_F(WriteObj, NamesAreUniqueAndOnOneLine) {

@@ -9,6 +9,7 @@
 
 #include "pbrt_text.h"
 #include "scene/rgb_to_spectrum.h"
+#include "scene/tessellate.h"
 #include "tests/conformance/gate/pbrt_grammar.h"
 #include "tests/support/equal_scenes.h"
 
@@ -223,6 +224,74 @@ TEST(WritePbrt, ShapesAndInstances) {
   expect_exact_world("ObjectBegin \"o\" Translate 1 2 3 " + triangle +
                      "Shape \"disk\" ObjectEnd ObjectInstance \"o\" "
                      "Scale -1 2 3 ObjectInstance \"o\"");
+}
+
+TEST(WritePbrt, QuadricsStayQuadrics) {
+  const std::string light = "AreaLightSource \"diffuse\" ";
+  for (const std::string shape :
+       {"Shape \"sphere\" \"float radius\" .3", "Shape \"sphere\" \"float zmax\" .3 \"float phimax\" 77.7",
+        "Shape \"disk\" \"float height\" 3 \"float radius\" .7 \"float innerradius\" .1",
+        "Shape \"cylinder\" \"float radius\" .7 \"float zmin\" -.3 \"float zmax\" 1.1 \"float phimax\" 123"})
+    for (const std::string placed : {"", "Translate 1 2 3 ", "Rotate 33 1 2 3 Scale .1 .1 .1 ",
+                                     "Scale 1 2 3 Rotate 33 1 2 3 ", "Scale 1 -1 1 Rotate 40 0 1 0 "})
+      for (const std::string side : {"", "ReverseOrientation "}) expect_exact_world(placed + side + shape);
+  for (const std::string shape :
+       {"Shape \"sphere\" \"float radius\" .3", "Shape \"disk\" \"float radius\" .7",
+        "Shape \"cylinder\" \"float radius\" .7 \"float zmin\" 0 \"float phimax\" 123"})
+    expect_exact_world("Translate 1 2 3 Rotate 90 1 0 0 " + light + "ReverseOrientation " + shape);
+}
+
+// pbrt samples lights before it transforms them.
+TEST(WritePbrt, ShiningQuadricsHaveTheirOwnSize) {
+  const auto written = [](const std::string& world) {
+    return round_trip("Film \"rgb\"\nWorldBegin\nAreaLightSource \"diffuse\" " + world);
+  };
+  EXPECT_THAT(
+      written("Translate 1 2 3 Scale 2 2 2 Shape \"sphere\" \"float radius\" 3").text,
+      testing::HasSubstr("Transform [ 1 0 0 0 0 1 0 0 0 0 1 0 1 2 3 1 ]\n    Shape \"sphere\" \"float "
+                         "radius\" [ 6 ]"));
+  EXPECT_THAT(written("Scale 2 2 5 Shape \"cylinder\" \"float zmin\" 0").text,
+              testing::HasSubstr("\"float radius\" [ 2 ] \"float zmin\" [ 0 ] \"float zmax\" [ 5 ]"));
+  for (const char* world : {"Scale 1 2 1 Shape \"sphere\"", "Shape \"sphere\" \"float zmin\" 0",
+                            "Shape \"disk\" \"float innerradius\" .5"}) {
+    const RoundTrip trip = written(world);
+    EXPECT_TRUE(mentions(trip.written, "becomes triangles, 256 for a full turn")) << world;
+    EXPECT_FALSE(trip.second.scene.meshes.at(0).quadric) << world;
+  }
+}
+
+TEST(WritePbrt, ConesAndParaboloidsBecomeTriangles) {
+  const RoundTrip trip =
+      round_trip("Film \"rgb\"\nWorldBegin\nShape \"cone\" Scale 2 2 2 Shape \"cone\" Shape \"paraboloid\"");
+  ASSERT_EQ(trip.written.size(), 3u);
+  EXPECT_TRUE(mentions(trip.written, "a cone becomes triangles, 256 for a full turn"));
+  EXPECT_EQ(trip.second.scene.meshes.size(), 2u);
+  EXPECT_GT(trip.second.scene.meshes.at(0).triangles.size(), 255u);
+}
+
+// What a mirrored sphere shows of a texture is what an unmirrored one of the other convention does.
+TEST(WritePbrt, SpheresOfMitsubaKeepTheirTextures) {
+  const TemporaryFolder folder;
+  Scene scene =
+      import_v4(
+          "Texture \"t\" \"spectrum\" \"checkerboard\" Material \"diffuse\" \"texture reflectance\" "
+          "\"t\" Shape \"sphere\" Shape \"disk\"")
+          .scene;
+  for (TriangleMesh& mesh : scene.meshes) mesh.quadric->uv = QuadricUv::mitsuba;
+  scene.meshes[0].quadric->high = 0.5;
+  const Diagnostics diagnostics = write_pbrt(scene, folder / "out.pbrt");
+  EXPECT_EQ(diagnostics.size(), 1u);
+  EXPECT_TRUE(mentions(diagnostics, "a disk becomes triangles"));
+  const Scene again = read_pbrt(folder / "out.pbrt").scene;
+  EXPECT_EQ(again.meshes.at(0).quadric, (Quadric{.kind = QuadricKind::sphere, .low = -0.5}));
+  EXPECT_EQ(again.shapes.at(0).object_to_world, vitrail::scale({1, 1, -1}));
+  EXPECT_TRUE(again.shapes.at(0).flip_orientation);
+  EXPECT_EQ(again.meshes.at(1).uvs, tessellate(*scene.meshes[1].quadric).uvs);
+  // Where no texture shows, they are what they are.
+  scene.shapes[0].material = scene.shapes[1].material = Id<Material>{1};
+  scene.materials.push_back({DiffuseMaterial{}});
+  EXPECT_TRUE(write_pbrt(scene, folder / "out.pbrt").empty());
+  EXPECT_EQ(read_pbrt(folder / "out.pbrt").scene.shapes.at(0).object_to_world, Transform{});
 }
 
 TEST(WritePbrt, OpacitiesOfShapes) {

@@ -102,6 +102,19 @@ TEST_F(WritePly, FlatShapesStayFlatBesideSmoothOnes) {
   EXPECT_EQ(mesh.uvs[8], (Point2f{1, 1}));
 }
 
+TEST_F(WritePly, QuadricsAreWrittenAsTriangles) {
+  Scene scene;
+  TriangleMesh disk;
+  disk.quadric = Quadric{.kind = QuadricKind::disk, .low = 0};
+  add(scene, triangle());
+  add(scene, disk, translate({0, 0, 3}));
+  const TriangleMesh mesh = merged(scene);
+  EXPECT_THAT(diagnostics_, says("a disk becomes triangles, 256 for a full turn"));
+  ASSERT_THAT(mesh.triangles, SizeIs(1 + 256));
+  EXPECT_EQ(mesh.normals.back(), (Normal3f{0, 0, 1})) << "they are smooth";
+  EXPECT_EQ(mesh.positions.back().z, 3);
+}
+
 TEST_F(WritePly, OneShapeAndItsMesh) {
   Scene scene;
   TriangleMesh mesh = triangle();

@@ -44,8 +44,8 @@ void add_lamp(Scene& scene, const std::vector<std::array<Point3f, 4>>& quads, Ar
   add_shape(scene, add_quads(scene, quads), black, light);
 }
 
-void expect_irradiance(const char* what, const Scene& scene, double expected) {
-  const Rendered rendered = render(scene, 256);
+void expect_irradiance(const char* what, const Scene& scene, double expected, int samples = 256) {
+  const Rendered rendered = render(scene, samples);
   const Brightness seen = brightness(rendered.film);
   fmt::print("{}: {:.6g} ± {:.2g} of {:.6g}\n", what, seen.mean * pi, seen.standard_error * pi, expected);
   EXPECT_NEAR(seen.mean * pi, expected, 4 * seen.standard_error * pi + 2e-4 * expected) << what;
@@ -80,6 +80,27 @@ TEST(MeansOfLights, Points) {
     expected += 2 / std::pow(x * x + 4, 1.5);
   }
   expect_irradiance("50 points", scene, expected);
+}
+
+// High and low ones, and either may be hidden: one is chosen by what it would bring, and that must not count.
+TEST(MeansOfLights, HiddenPoints) {
+  for (const bool hide_high : {true, false}) {
+    Scene scene = spot();
+    double expected = 0;
+    for (int i = 0; i < 9; ++i) {
+      const bool high = i % 3 == 0;
+      const double cosine = high ? 1 : 0.25, sine = std::sqrt(1 - cosine * cosine), angle = i * 2 * pi / 9;
+      const Vector3d to_light{sine * std::cos(angle), sine * std::sin(angle), cosine};
+      scene.lights.push_back(Light{PointLight{Point3d{} + to_light, one}, {}});
+      const auto x = static_cast<float>(to_light.x / 2), y = static_cast<float>(to_light.y / 2),
+                 z = static_cast<float>(cosine / 2);
+      if (high == hide_high)
+        add_shape(scene, add_quads(scene, {flat(x - 0.1f, x + 0.1f, y - 0.1f, y + 0.1f, z, true)}), black);
+      else
+        expected += cosine;
+    }
+    expect_irradiance(hide_high ? "low points" : "high points", scene, expected, 4096);
+  }
 }
 
 TEST(MeansOfLights, Spots) {
@@ -192,6 +213,133 @@ TEST(MeansOfLights, StackedRectangles) {
   expect_irradiance("a stack", scene, first);
   add_lamp(scene, {flat(-1, 1, -1, 1, 0.5f, true)}, AreaLight{ConstantSpectrum{5}});
   expect_irradiance("a stack behind a back", scene, 0);
+}
+
+// ---- Quadrics
+
+void add_lamp(Scene& scene, const Quadric& quadric, const Transform& to, const AreaLight& light,
+              const Material& material = black) {
+  scene.meshes.emplace_back().quadric = quadric;
+  add_shape(scene, {static_cast<std::uint32_t>(scene.meshes.size() - 1)}, material, light);
+  scene.shapes.back().object_to_world = to;
+}
+
+Transform ball(Point3d center, double radius) {
+  return translate(center - Point3d{}) * scale({radius, radius, radius});
+}
+
+// Of a sphere of radiance 1 that is seen under the half angle asin(1/d), whose centre is seen at `cosine`
+// from the normal; also where the horizon cuts it (Lagarde & de Rousiers 2014).
+double sphere(double d, double cosine) {
+  const double sin2 = 1 / (d * d);
+  if (cosine * cosine >= sin2) return pi * sin2 * std::max(0.0, cosine);
+  const double sine = std::sqrt(1 - cosine * cosine), x = std::sqrt(d * d - 1), y = -x * cosine / sine;
+  const double root = sine * std::sqrt(1 - y * y);
+  return (cosine * std::acos(y) - x * root) * sin2 + std::atan(root / x);
+}
+
+TEST(MeansOfLights, Spheres) {
+  for (const double radius : {1e-3, 0.1, 3.0})
+    for (const double d : {1.01, 2.0, 50.0, 1e6})
+      for (const double cosine : {1.0, 0.5, 0.05, -0.3}) {
+        const double expected = sphere(d, cosine), distance = d * radius,
+                     sine = std::sqrt(1 - cosine * cosine);
+        // Not around the camera; the spot stays where floats are fine.
+        if (!(expected > 0) || distance - radius < 0.02 || (distance > 1e4 && cosine < 1)) continue;
+        Scene scene = spot();
+        keep_in_the_middle(scene, static_cast<float>(1.5 * distance));
+        add_lamp(scene, {}, ball({sine * distance, 0, cosine * distance}, radius),
+                 AreaLight{ConstantSpectrum{static_cast<float>(1 / expected)}});
+        expect_irradiance(fmt::format("a sphere of {} at {} radii, {}", radius, d, cosine).c_str(), scene, 1);
+      }
+}
+
+// What stands right before a lamp shadows it, and it does not shadow itself. From far away rays are rounded
+// by a third of its radius, and ends by a tenth.
+TEST(MeansOfLights, CoveredSpheres) {
+  struct Case {
+    double distance, radius, gap;
+  };
+  for (const Case& c : {Case{0.5, 0.125, 0.1}, Case{0.5, 0.125, 1e-4}, Case{20, 5, 1e-4}, Case{1e3, 1, 1e-4},
+                        Case{1e3, 1e-3, 0.3}}) {
+    Scene scene = spot();
+    keep_in_the_middle(scene, static_cast<float>(1.5 * c.distance));
+    const double all = sphere(c.distance / c.radius, 1);
+    add_lamp(scene, {}, ball({0, 0, c.distance}, c.radius),
+             AreaLight{ConstantSpectrum{static_cast<float>(1 / all)}});
+    expect_irradiance("a bare sphere", scene, 1);
+    // A shell around its half.
+    Quadric half;
+    half.low = 0;
+    scene.meshes.emplace_back().quadric = half;
+    add_shape(scene, {static_cast<std::uint32_t>(scene.meshes.size() - 1)}, black);
+    scene.shapes.back().object_to_world =
+        ball({0, 0, c.distance}, c.radius * (1 + c.gap)) * rotate(pi / 2, {0, 1, 0});
+    expect_irradiance("a sphere whose half is covered", scene, 0.5);
+  }
+}
+
+// A room that is a lamp: its walls get of each other what they give.
+TEST(MeansOfLights, SpheresFromInside) {
+  for (const bool two_sided : {false, true}) {
+    Scene scene = spot();
+    AreaLight light{ConstantSpectrum{1}};
+    light.two_sided = two_sided;
+    add_lamp(scene, {}, ball({0.5, 0.3, 0.2}, 2), light);
+    scene.shapes.back().flip_orientation = !two_sided;
+    expect_irradiance("in a sphere", scene, pi);
+  }
+  // Seen from inside on its own white wall: its own light and what one reflection adds.
+  Scene scene = spot();
+  scene.shapes.clear();
+  add_lamp(scene, {}, ball({0, 0, 2}, 2), AreaLight{ConstantSpectrum{1}}, Material{DiffuseMaterial{one}});
+  scene.shapes.back().flip_orientation = true;
+  scene.settings.max_depth = 1;
+  const Brightness seen = brightness(render(scene, 256).film);
+  EXPECT_NEAR(seen.mean, 2, 4 * seen.standard_error + 4e-4);
+}
+
+TEST(MeansOfLights, OtherQuadrics) {
+  // A disk above the spot, and beside it (Howell, Menguc & Daun, B-13).
+  const auto disk = [](double h, double a) {
+    const double s = h * h + a * a;
+    return pi / 2 * (1 - (s - 1) / std::sqrt((s + 1) * (s + 1) - 4 * a * a));
+  };
+  Quadric q;
+  q.kind = QuadricKind::disk, q.low = 0;
+  for (const double h : {0.1, 2.0})
+    for (const double a : {0.0, 1.7}) {
+      Scene scene = spot();
+      add_lamp(scene, q, translate({a, 0, h}) * rotate(pi, {1, 0, 0}), AreaLight{ConstantSpectrum{1}});
+      expect_irradiance("a disk", scene, disk(h, a));
+    }
+  // Long tubes above it, one in front of the other.
+  q = {};
+  q.kind = QuadricKind::cylinder;
+  Scene scene = spot();
+  for (const double h : {3.0, 9.0})
+    add_lamp(scene, q, translate({0, -3e3, h}) * rotate(-pi / 2, {1, 0, 0}) * scale({0.1 * h, 0.1 * h, 6e3}),
+             AreaLight{ConstantSpectrum{h > 5 ? 8.0f : 1.0f}});
+  expect_irradiance("a tube before another", scene, pi * 0.1);
+  // An ellipsoid is lit as a sphere is where it is seen alike: under the same cone.
+  scene = spot();
+  const double d = 3, radius = 1, flat = 0.2;
+  // A spheroid about z whose tangent cone from 0 has the half angle asin(1/d): ρ² = (z_c² − flat²)·tan².
+  const double tan2 = 1 / (d * d - 1), wide = std::sqrt((d * d - flat * flat) * tan2);
+  add_lamp(scene, {}, translate({0, 0, d * radius}) * scale({wide, wide, flat}),
+           AreaLight{ConstantSpectrum{1}});
+  expect_irradiance("an ellipsoid", scene, sphere(d, 1));
+}
+
+TEST(MeansOfLights, SpheresThatNothingMeets) {
+  Scene scene = spot();
+  add_lamp(scene, {}, ball({0, 0, 2}, 0.5), AreaLight{ConstantSpectrum{1}});
+  MaskMaterial m;
+  m.material = scene.shapes.back().material;
+  m.opacity = 0.0f;
+  scene.materials.push_back(Material{m});
+  scene.shapes.back().material = {static_cast<std::uint32_t>(scene.materials.size() - 1)};
+  expect_irradiance("an invisible sphere", scene, sphere(4, 1));
 }
 
 TEST(MeansOfLights, DirectionalRectangles) {

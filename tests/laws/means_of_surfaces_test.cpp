@@ -2,6 +2,7 @@
 // Every model of scattering as a picture shows it: the mean radiance of a plane in parallel light, and under
 // a uniform sky, seen in parallel. Light and view are the same in every sample, so what a model draws at
 // random has to be drawn anew for each.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -201,6 +202,27 @@ TEST(MeanOfPlane, LayersUnderTheSky) {
                                   {(static_cast<float>(i) + 0.5f) / n, (static_cast<float>(j) + 0.5f) / n}))
           expected += static_cast<double>(s->weight[0]) / (3 * n * n);
   expect_luminance(plane_under_sky(Material{m}, view, 1024), expected, 0.01, "cloudy", 5e-3);
+}
+
+// ---- Bumps
+
+// A slope of 60° seen at 20°, from its side and from behind, where it is turned to the ray.
+TEST(MeanOfPlane, SlopesOfBumpsFaceTheRay) {
+  for (const double side : {0.0, 180.0}) {
+    Scene scene;
+    const Id<TriangleMesh> mesh = square(scene, 0, 1);  // dp/du = (2, 0, 0)
+    scene.meshes[mesh.value].uvs = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+    const Spectrum low{ConstantSpectrum{0}}, high{ConstantSpectrum{2 * std::sqrt(3.0f)}};
+    scene.textures = {{BilinearTexture{low, low, high, high, UvMapping{}}, true, "", {}}};
+    Material material{DiffuseMaterial{ConstantSpectrum{0.6f}}};
+    material.displacement = FloatParameter{Id<Texture>{0}};
+    add_shape(scene, mesh, material);
+    scene.lights.resize(1);
+    scene.lights[0].model = DistantLight{-direction(60, side), ConstantSpectrum{1}};
+    look_along(scene, direction(70, side));
+    scene.settings.max_depth = 1;
+    expect_luminance(mean_of(render(scene, 256).film), 0.6 / pi, 5e-3, fmt::format("from {}°", side), 2e-3);
+  }
 }
 
 // ---- Light of one wavelength

@@ -182,7 +182,8 @@ Scene with_explicit_uvs(Scene scene) {
   const std::vector<bool> show = meshes_whose_uvs_show(scene);
   for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
     TriangleMesh& mesh = scene.meshes[i];
-    if (show[i] && mesh.uvs.empty() && !mesh.deferred) mesh = with_uvs(std::move(mesh));
+    if (mesh.quadric && !show[i]) mesh.quadric->uv = {};
+    if (show[i] && mesh.uvs.empty() && !mesh.deferred && !mesh.quadric) mesh = with_uvs(std::move(mesh));
     mesh.missing_uv = {};
   }
   return scene;

@@ -122,18 +122,36 @@ TEST(Environment, SampledRadianceIsUnbiasedAndOfLowVariance) {
         const Vector3d d = sphere_direction(equal_area, {(x + 0.5) / n, (y + 0.5) / n});
         brute += static_cast<double>(seen(e, d, w)[0]) * 4 * pi / (n * n);
       }
-    double sum = 0, squares = 0;
     constexpr int samples = 20000;
-    for (int i = 0; i < samples; ++i) {
-      const Vector3d d = e.table.sample(random(), random());
-      const Vector3d world = e.frame.to_world(d);
-      const double x = static_cast<double>(seen(e, world, w)[0]) / e.table.pdf(e.frame.to_light(world));
-      sum += x / samples;
-      squares += x * x / samples;
-    }
-    const double sigma = std::sqrt(std::max(0.0, squares - sum * sum));
-    EXPECT_NEAR(sum, brute, 4 * sigma / std::sqrt(samples) + 2e-3 * brute);
+    const auto expect_mean = [&](auto&& draw) {
+      double sum = 0, squares = 0;
+      for (int i = 0; i < samples; ++i) {
+        const double x = draw();
+        sum += x / samples;
+        squares += x * x / samples;
+      }
+      const double sigma = std::sqrt(std::max(0.0, squares - sum * sum));
+      EXPECT_NEAR(sum, brute, 4 * sigma / std::sqrt(samples) + 2e-3 * brute);
+      return sigma;
+    };
+    const auto drawn = [&](const DirectionTable& table) { return table.sample(random(), random()); };
+    const auto light_at = [&](Vector3d d) { return static_cast<double>(seen(e, e.frame.to_world(d), w)[0]); };
+    const DirectionTable alone = tabulate_image(*e.image, projection, false).table;
+    const double sigma = expect_mean([&] {
+      const Vector3d d = drawn(alone);
+      return light_at(d) / alone.pdf(d);
+    });
     EXPECT_LT(sigma, 0.5 * brute);  // uniform directions: 10 times the mean and more
+    // Weighted beside uniform directions, as of a BSDF, the light's own density does better.
+    const auto both = [&](const DirectionTable& table) {
+      return expect_mean([&] {
+        double x = 0;
+        for (const Vector3d d : {drawn(table), random.direction()})
+          x += light_at(d) / (table.pdf(d) + 1 / (4 * pi));
+        return x;
+      });
+    };
+    EXPECT_LT(both(e.table), 0.98 * both(alone));
     EXPECT_NEAR(e.mean_luminance * 4 * pi, brute, 0.02 * brute);
   }
 }

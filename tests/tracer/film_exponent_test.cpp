@@ -70,6 +70,13 @@ TEST(LightRange, GrowsWithEveryKindOfLight) {
        [](int k) {
          return textured(CheckerboardTexture{Spectrum{bright(k)}, Spectrum{bright(k)}});
        }},
+      {"textured sphere",
+       [](int k) {
+         Scene scene = textured(CheckerboardTexture{Spectrum{bright(k)}, Spectrum{bright(k)}});
+         scene.meshes.emplace_back().quadric = Quadric{};
+         scene.shapes[0].mesh = {1};
+         return scene;
+       }},
       {"point",
        [](int k) {
          return with(PointLight{{0, 0, 1}, bright(k)});

@@ -140,17 +140,17 @@ TEST(LightSampler, PdfOfATriangleIsThatOfItsSamples) {
       const Vector3d n = normalize(cross(cast<double>(t.p[1]) - p0, cast<double>(t.p[2]) - p0));
       const Vector3d at = (p + light->to_light * light->distance) - p0;
       if (std::abs(dot(at, n)) > 1e-9 || light->light != t.area_light) continue;
-      const double pdf = triangle_pdf(s, p, t.triangle, light->distance, -dot(light->to_light, n));
+      const double pdf = triangle_pdf(s, p, t.triangle, {}, light->distance, -dot(light->to_light, n));
       same = same || std::abs(pdf - light->pdf) <= 1e-9 * light->pdf;
     }
     EXPECT_TRUE(same);
     ++found;
   }
   EXPECT_GT(found, 500);
-  EXPECT_EQ(triangle_pdf(s, {0, 0, 0}, 99, 1, 1), 0);
-  EXPECT_EQ(triangle_pdf(s, {0, 0, 0}, 101, 1, 1), 0);  // between two ids
-  EXPECT_EQ(triangle_pdf(s, {0, 0, 0}, 5000, 1, 1), 0);
-  EXPECT_EQ(triangle_pdf(s, {3, 3, 3}, 100, 1, -0.5), 0);  // its back
+  EXPECT_EQ(triangle_pdf(s, {0, 0, 0}, 99, {}, 1, 1), 0);
+  EXPECT_EQ(triangle_pdf(s, {0, 0, 0}, 101, {}, 1, 1), 0);  // between two ids
+  EXPECT_EQ(triangle_pdf(s, {0, 0, 0}, 5000, {}, 1, 1), 0);
+  EXPECT_EQ(triangle_pdf(s, {3, 3, 3}, 100, {}, 1, -0.5), 0);  // its back
 }
 
 // Σ over triangles of ∫ pdf over the triangle, as seen from p, is the share of what can be reached.
@@ -166,7 +166,7 @@ TEST(LightSampler, PdfsOfAllTrianglesIntegrateToOne) {
       const Point3d p0 = cast<double>(t.p[0]);
       const double area = length(cross(cast<double>(t.p[1]) - p0, cast<double>(t.p[2]) - p0)) / 2;
       // pdf per area at distance 1 and cosine 1 is the probability of the triangle over its area.
-      sum += triangle_pdf(s, p, t.triangle, 1, 1) * area;
+      sum += triangle_pdf(s, p, t.triangle, {}, 1, 1) * area;
     }
     EXPECT_NEAR(sum, 1, 1e-4);
   }
@@ -286,7 +286,7 @@ TEST(LightSampler, DirectionalSurfacesLightWhatLiesBeforeThem) {
   EXPECT_EQ(estimate(s, {2.1, 1.2, 3}, {0, 0, -1}, 100, random).mean, 0);
   EXPECT_EQ(estimate(s, {0.5, 1.2, -3}, {0, 0, 1}, 100, random).mean, 0);
   EXPECT_TRUE(is_black(emitted(s, 0, {}, 1, test::some_wavelengths())));
-  EXPECT_EQ(triangle_pdf(s, {0.5, 1.2, 3}, 0, 3, 1), 0);
+  EXPECT_EQ(triangle_pdf(s, {0.5, 1.2, 3}, 0, {}, 3, 1), 0);
 }
 
 TEST(LightSampler, EmitsOnItsFrontOrBothSides) {
@@ -327,7 +327,31 @@ TEST(LightSampler, DegenerateLightsGiveNothing) {
   const LightSampler s = make(world);
   EXPECT_FALSE(s.can_sample());
   EXPECT_FALSE(sample_light(s, {0, 0, 0}, {}, test::some_wavelengths()));
-  EXPECT_EQ(triangle_pdf(s, {0, 0, 1}, 0, 1, 1), 0);
+  EXPECT_EQ(triangle_pdf(s, {0, 0, 1}, 0, {}, 1, 1), 0);
+}
+
+// A lamp of two triangles differs little from afar; a light without extent never does.
+TEST(LightSampler, SaysHowMuchSamplesDiffer) {
+  World lamp;
+  lamp.add_area_light(1, false);
+  lamp.add_triangle({0, 0, 0}, {1, 0, 0}, {1, 1, 0}, 0, 0);
+  lamp.add_triangle({0, 0, 0}, {1, 1, 0}, {0, 1, 0}, 1, 0);
+  const LightSampler one = make(lamp);
+  EXPECT_EQ(variety(one, {0.5, 0.5, 1}), Variety::much);
+  EXPECT_EQ(variety(one, {0.5, 0.5, 4}), Variety::little);
+  World more = lamp;
+  more.add(InfiniteLight{ConstantSpectrum{1}});  // never sampled
+  EXPECT_EQ(variety(make(more), {0.5, 0.5, 4}), Variety::little);
+  more.add(PointLight{{0, 0, 1}, ConstantSpectrum{1}});
+  EXPECT_EQ(variety(make(more), {0.5, 0.5, 4}), Variety::much);
+  for (const LightModel& model : {LightModel{PointLight{{0, 0, 1}, ConstantSpectrum{1}}},
+                                  LightModel{DistantLight{{0, 0, 1}, ConstantSpectrum{1}}}}) {
+    World point;
+    point.add(model);
+    EXPECT_EQ(variety(make(point), {1, 0, 0}), Variety::none);
+    point.add(model);
+    EXPECT_EQ(variety(make(point), {1, 0, 0}), Variety::much);
+  }
 }
 
 }  // namespace vitrail

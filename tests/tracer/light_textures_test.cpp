@@ -10,6 +10,7 @@
 #include "tests/tracer/light_fixtures.h"
 #include "tracer/lights/luminance_of.h"
 #include "tracer/portable_math.h"
+#include "tracer/quadrics/quadric_surface.h"
 
 namespace vitrail {
 
@@ -163,8 +164,53 @@ TEST(LightTextures, TexturedAreaLightsAreUnbiased) {
       squares += x * x / samples;
     }
   EXPECT_NEAR(sum, expected, 4.5 * std::sqrt((squares - sum * sum) / samples) + 1e-3 * expected);
-  EXPECT_GT(triangle_pdf(s, p, 7, 1, 1), 0);
-  EXPECT_GT(triangle_pdf(s, p, 8, 1, 1), 0);
+  EXPECT_GT(triangle_pdf(s, p, 7, {}, 1, 1), 0);
+  EXPECT_GT(triangle_pdf(s, p, 8, {}, 1, 1), 0);
+}
+
+// A sphere with such an image, by its own (u,v).
+TEST(LightTextures, TexturedSpheresAreUnbiased) {
+  std::vector<float> rows(64, 0.0f);
+  for (std::size_t i = 0; i < rows.size(); i += 3) rows[i] = static_cast<float>(i * 7 % 11);
+  const Bundle bundle(mitsuba_texture(), 8, 8, rows);
+  AreaLight light;
+  light.radiance = Id<Texture>{0};
+  EmissiveQuadric e;
+  e.to_bundle = affine(translate({1, 2, 3}) * rotate(0.7, {1, 2, 3}));
+  const std::vector<EmissiveQuadric> quadrics{e};
+  LightScene scene = bundle.scene({});
+  scene.area_lights = {&light, 1};
+  scene.quadrics = quadrics;
+  const LightSampler s = make_light_sampler(scene, bundle.directory.path());
+  const SampledWavelengths w = test::some_wavelengths();
+  for (const Vector3d away : {Vector3d{2, 0.3, 0}, Vector3d{-1, 1, 1}, Vector3d{0, -1, -3}}) {
+    const Point3d p = Point3d{1, 2, 3} + away;
+    double expected = 0;  // ∫ L dω
+    constexpr int n = 800;
+    for (int i = 0; i < n; ++i)
+      for (int k = 0; k < n; ++k) {
+        const double phi = 2 * pi * (i + 0.5) / n, z = 2 * (k + 0.5) / n - 1, rho = std::sqrt(1 - z * z);
+        const QuadricPoint at =
+            quadric_point(e.quadric, e.to_bundle, {rho * std::cos(phi), rho * std::sin(phi), z});
+        const Vector3d way = at.p - p;
+        const double d2 = dot(way, way), cosine = -dot(way, at.normal) / std::sqrt(d2);
+        if (cosine <= 0) continue;
+        TexturePoint there;
+        there.uv = at.uv;
+        expected += static_cast<double>(emitted(s, 0, there, cosine, w)[0]) * cosine / d2 * 4 * pi / (n * n);
+      }
+    Random random(1);
+    double sum = 0, squares = 0;
+    constexpr int samples = 100000;
+    for (int i = 0; i < samples; ++i)
+      if (const auto l = sample_light(s, p, random.four(), w)) {
+        const double x = static_cast<double>(l->radiance[0]) / l->pdf;
+        sum += x / samples;
+        squares += x * x / samples;
+      }
+    EXPECT_NEAR(sum, expected, 4.5 * std::sqrt((squares - sum * sum) / samples) + 1e-3 * expected);
+    EXPECT_GT(expected, 0.01);
+  }
 }
 
 // The table of a map that is larger than it, from its levels.
@@ -189,7 +235,11 @@ TEST(LightTextures, LargeEnvironmentsAreSampledByTheirLevels) {
   for (int i = 0; i < samples; ++i) {
     const auto l = sample_light(s, {0, 0, 0}, random.four(), test::some_wavelengths());
     ASSERT_TRUE(l);
-    const double x = static_cast<double>(l->radiance[0]) / l->pdf;
+    // Beside uniform directions, as of a BSDF.
+    constexpr double uniform = 1 / (4 * pi);
+    const Background other = background(s, random.direction(), test::some_wavelengths());
+    const double x = static_cast<double>(l->radiance[0]) / (l->pdf + uniform) +
+                     static_cast<double>(other.radiance[0]) / (other.pdf + uniform);
     sum += x / samples;
     squares += x * x / samples;
   }

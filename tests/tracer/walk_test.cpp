@@ -40,9 +40,10 @@ Manifest grid(int depth) {
   return m;
 }
 
-std::vector<DomainWalk::Visit> all_visits(const Manifest& m, const Ray& ray) {
+std::vector<DomainWalk::Visit> all_visits(const Manifest& m, const Ray& ray,
+                                          std::span<const DomainView* const> resident = {}) {
   std::vector<DomainWalk::Visit> visits;
-  DomainWalk walk(m, ray);
+  DomainWalk walk(m, ray, resident);
   for (DomainWalk::Visit v; walk.next(std::numeric_limits<double>::infinity(), v);) visits.push_back(v);
   return visits;
 }
@@ -143,6 +144,20 @@ TEST(Walk, AsksNoCellsFromAfar) {
   m.domains[0].occupancy.slice[0] = 1;
   EXPECT_TRUE(all_visits(m, {{0.5f, 0.5f, 3}, {0, 0, -1}, no_triangle}).empty());
   EXPECT_EQ(all_visits(m, {{0.5f, 0.5f, 1e12f}, {0, 0, -1}, no_triangle}).size(), 1u);
+}
+
+TEST(Walk, VisitsTheOneDomainThatThereIs) {
+  const DomainView view;
+  const DomainView *here = &view, *absent = nullptr;
+  Manifest m = grid(0);
+  m.domains[0].occupancy = {};
+  const Ray ray{{0.5f, 0.5f, 3}, {0, 0, -1}, no_triangle};
+  EXPECT_TRUE(all_visits(m, ray, {&absent, 1}).empty());
+  EXPECT_EQ(all_visits(m, ray, {&here, 1}).size(), 1u);
+  DomainWalk walk(m, ray, {&here, 1});
+  walk.skip_past(0);
+  DomainWalk::Visit visit;
+  EXPECT_FALSE(walk.next(1, visit));
 }
 
 TEST(Walk, MeetsNothingFromBeyondFloats) {

@@ -8,6 +8,7 @@
 
 #include "scene/diagnostics.h"
 #include "tracer/intersect/intersector.h"
+#include "tracer/quadrics/quadric_hits.h"
 
 namespace vitrail {
 namespace {
@@ -132,8 +133,28 @@ Cluster placed(const Cluster& local, const Chain& chain) {
   return there;
 }
 
+QuadricHits hits_of(const Query& query, const Chain& chain) {
+  return quadric_hits(query.ray, chain.to_bundle, chain.end->quadric->quadric,
+                      chain.first_triangle == query.ray.exclude);
+}
+
 void closest_in_chain(const Query& query, const Chain& chain) {
   Hit& hit = *query.hit;
+  if (chain.end->quadric) {
+    const QuadricHits hits = hits_of(query, chain);
+    const auto& [t, local] = hits.at[0];
+    if (hits.count == 0 || !(t < hit.t || (t == hit.t && chain.first_triangle < hit.triangle))) return;
+    hit = {t,
+           chain.first_triangle,
+           0,
+           0,
+           static_cast<std::uint32_t>(chain.instances.size()),
+           local.x,
+           local.y,
+           local.z,
+           {}};
+    std::ranges::copy(chain.instances, hit.chain);
+  }
   for (std::uint32_t c = 0; c < chain.end->clusters.size(); ++c) {
     const Hit before = hit;
     query.kernel->cluster_closest(placed(chain.end->clusters[c], chain), c, query.ray, hit);
@@ -146,6 +167,10 @@ void closest_in_chain(const Query& query, const Chain& chain) {
 }
 
 bool occluded_in_chain(const Query& query, const Chain& chain) {
+  if (chain.end->quadric) {
+    const QuadricHits hits = hits_of(query, chain);
+    return hits.count > 0 && hits.at[0].t < static_cast<double>(query.tmax);
+  }
   for (const Cluster& cluster : chain.end->clusters)
     if (query.kernel->cluster_occluded(placed(cluster, chain), query.ray, query.tmax)) return true;
   for (std::uint32_t i = 0; i < chain.end->instances.size(); ++i)

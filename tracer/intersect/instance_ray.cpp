@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tracer/quadrics/quadric_hits.h"
+
 namespace vitrail {
 
 namespace {
@@ -91,6 +93,40 @@ void extend_chain(const InstanceRay& outer, std::uint32_t index, InstanceRay& in
 }
 
 }  // namespace
+
+namespace {
+
+// Of instance `index`, a quadric.
+QuadricHits hits_of(const RayConstants& ray, const InstanceRay& outer, std::uint32_t index) {
+  const InstanceRef& ref = outer.instances[index];
+  const Quadric& quadric = outer.domain->objects[ref.object]->quadric->quadric;
+  const bool starts_there = outer.first_triangle + ref.first_triangle == ray.exclude;
+  if (outer.depth == 0) return quadric_hits(ray, ref.to_parent, quadric, starts_there);
+  return quadric_hits(ray, compose(outer.to_bundle, ref.to_parent), quadric, starts_there);
+}
+
+}  // namespace
+
+bool closest_in_quadric(const RayConstants& ray, const InstanceRay& outer, std::uint32_t index, Hit& hit) {
+  const QuadricHits hits = hits_of(ray, outer, index);
+  if (hits.count == 0 || outer.depth == max_instance_depth) return false;
+  const std::uint32_t id = outer.first_triangle + outer.instances[index].first_triangle;
+  const auto& [t, local] = hits.at[0];
+  if (!(t < hit.t || (t == hit.t && id < hit.triangle))) return false;
+  hit.t = t;
+  hit.triangle = id;
+  hit.cluster = hit.lane = 0;
+  hit.depth = outer.depth + 1;
+  hit.u = local.x, hit.v = local.y, hit.w = local.z;
+  std::copy_n(outer.chain, outer.depth, hit.chain);
+  hit.chain[outer.depth] = index;
+  return true;
+}
+
+bool occluded_in_quadric(const RayConstants& ray, const InstanceRay& outer, std::uint32_t index, float tmax) {
+  const QuadricHits hits = hits_of(ray, outer, index);
+  return hits.count > 0 && hits.at[0].t < static_cast<double>(tmax);
+}
 
 InstanceRay domain_ray(const DomainView& domain, const RayConstants& ray) {
   InstanceRay r{};

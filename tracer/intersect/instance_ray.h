@@ -35,6 +35,14 @@ struct InstanceRay {
 // The ray in the domain itself: a chain of none.
 InstanceRay domain_ray(const DomainView& domain, const RayConstants& ray);
 
+// Whether instance `index` of where `outer` is shows a quadric.
+inline bool is_quadric(const InstanceRay& outer, std::uint32_t index) {
+  return outer.domain->objects[outer.instances[index].object]->quadric != nullptr;
+}
+// Whether it lowers the hit, or is in the way.
+bool closest_in_quadric(const RayConstants& ray, const InstanceRay& outer, std::uint32_t index, Hit& hit);
+bool occluded_in_quadric(const RayConstants& ray, const InstanceRay& outer, std::uint32_t index, float tmax);
+
 // The ray in instance `index` of where `outer` is. False where it misses the instance's box at ζ ≤ limit, or
 // where the chain is too long.
 bool enter_instance(const RayConstants& ray, const InstanceRay& outer, std::uint32_t index, float limit,

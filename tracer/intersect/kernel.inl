@@ -331,6 +331,10 @@ inline float closest_in_placed(std::uint32_t index, const InstanceRay& at, const
 float closest_in_instances(const InstanceRay& outer, const Slabs& slabs, const RayConstants& ray, float limit,
                            Hit& hit) {
   const auto enter = [&](std::uint32_t index) {
+    if (is_quadric(outer, index)) {
+      if (closest_in_quadric(ray, outer, index, hit)) limit = zeta_limit(ray, hit.t);
+      return;
+    }
     InstanceRay inner;
     if (!enter_instance(ray, outer, index, limit, inner)) return;
     const Slabs inner_slabs(inner);
@@ -357,6 +361,7 @@ void instances_closest(const DomainView& domain, const RayConstants& ray, Hit& h
 bool occluded_in_instances(const InstanceRay& outer, const Slabs& slabs, const RayConstants& ray, float limit,
                            float tmax) {
   const auto enter = [&](std::uint32_t index) {
+    if (is_quadric(outer, index)) return occluded_in_quadric(ray, outer, index, tmax);
     InstanceRay inner;
     if (!enter_instance(ray, outer, index, limit, inner)) return false;
     const Slabs inner_slabs(inner);

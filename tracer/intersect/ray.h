@@ -18,14 +18,14 @@ struct Ray {
 // The best hit so far: least (t, triangle). t = ∞ and no_triangle: none.
 // `cluster` and `lane` say where the domain that found it holds the triangle; where depth > 0, in the object
 // of the last of the instances chain[0 … depth), each an index in the one before. u, v are barycentric:
-// p = (1−u−v)·v0 + u·v1 + v·v2.
+// p = (1−u−v)·v0 + u·v1 + v·v2. Of a quadric (u, v, w) is the point in its own space.
 struct Hit {
   double t = __builtin_inf();
   std::uint32_t triangle = no_triangle;
   std::uint32_t cluster = 0;
   std::uint32_t lane = 0;
   std::uint32_t depth = 0;
-  double u = 0, v = 0;
+  double u = 0, v = 0, w = 0;
   std::uint32_t chain[max_instance_depth] = {};
 };
 

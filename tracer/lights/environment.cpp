@@ -99,7 +99,7 @@ class LuminanceGrid {
 
 }  // namespace
 
-ImageTable tabulate_image(const LightImage& image, SphereProjection projection) {
+ImageTable tabulate_image(const LightImage& image, SphereProjection projection, bool beside_bsdf) {
   int level = 0;
   while (level + 1 < image.levels() &&
          (image.width(level) > max_table_width || image.height(level) > max_table_height))
@@ -121,9 +121,11 @@ ImageTable tabulate_image(const LightImage& image, SphereProjection projection) 
       result.flux += density.back() * cells.cell_solid_angle(y);
     }
   const double floor = density_floor * result.flux / (4 * pi);
+  const double left_out = beside_bsdf ? result.flux / (4 * pi) : 0;
   result.table = DirectionTable(projection, width, height, [&](int x, int y) {
-    return floor + density[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
-                           static_cast<std::size_t>(x)];
+    const double d =
+        density[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)];
+    return floor + std::max(0.0, d - left_out);
   });
   return result;
 }
@@ -150,11 +152,12 @@ Environment make_environment(const EnvironmentLight& light, std::shared_ptr<cons
   e.image = std::move(image);
   e.projection = light.projection;
   e.frame = DirectionFrame(light.light_to_world);
-  ImageTable sampled = tabulate_image(*e.image, e.projection);
+  ImageTable sampled = tabulate_image(*e.image, e.projection, true);
   e.table = std::move(sampled.table);
   e.scale = light.scale;
   if (light.illuminance) {
-    const double up = exact_flux(*e.image, e.projection, e.table, true);
+    const DirectionTable all = tabulate_image(*e.image, e.projection, false).table;
+    const double up = exact_flux(*e.image, e.projection, all, true);
     if (up > 0) e.factor = static_cast<float>(static_cast<double>(*light.illuminance) / up);
   }
   e.mean_luminance = sampled.flux / (4 * pi) * luminance(e.scale) * static_cast<double>(e.factor);

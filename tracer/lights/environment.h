@@ -39,12 +39,14 @@ SampledSpectrum radiance(const Environment& environment, Point2d at, const Sampl
 SampledSpectrum look_up(const LightImage& image, SphereProjection projection, Point2d at,
                         const SampledWavelengths& wavelengths);
 
-// A density for sampling that image, about its luminance, with a floor. `flux`: ∫ Y dω within about 1 %.
+// A density for sampling that image, with a floor: about its luminance, or `beside_bsdf` about what it has
+// above its mean, since samples of the BSDF find the rest as well (Karlík et al., "MIS Compensation", 2019).
+// `flux`: ∫ Y dω within about 1 %.
 struct ImageTable {
   DirectionTable table;
   double flux = 0;
 };
-ImageTable tabulate_image(const LightImage& image, SphereProjection projection);
+ImageTable tabulate_image(const LightImage& image, SphereProjection projection, bool beside_bsdf);
 
 // ∫ Y dω, of max(0,z)·Y where `upward`, within about a thousandth.
 double exact_flux(const LightImage& image, SphereProjection projection, const DirectionTable& table,

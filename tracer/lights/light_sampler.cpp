@@ -44,21 +44,26 @@ SampledSpectrum surface_radiance(const LightSampler& s, const AreaLight& light, 
   return s.scene.textures->spectrum(light.radiance, at, wavelengths) * light.scale;
 }
 
-SampledSpectrum radiance_at(const LightSampler& s, const LightSampler::Slot& t, double b1, double b2,
-                            const SampledWavelengths& wavelengths) {
-  const AreaLight& light = s.scene.area_lights[t.area_light];
-  if (std::holds_alternative<Spectrum>(light.radiance)) return surface_radiance(s, light, {}, wavelengths);
-  return surface_radiance(s, light, EmissivePoint(s.scene, t.light, b1, b2).point(), wavelengths);
-}
-
 // How much of the surface there is. None at all, everywhere: a light that nothing meets, and that shines as
 // if it was whole.
-float shining_share(const LightSampler& s, const LightSampler::Slot& t, double b1, double b2) {
-  if (const auto* constant = std::get_if<float>(&t.opacity))
-    return is_invisible(t.opacity) ? 1 : std::clamp(*constant, 0.0f, 1.0f);
+float shining_share(const LightSampler& s, const FloatParameter& opacity, const TexturePoint& at) {
+  if (const auto* constant = std::get_if<float>(&opacity))
+    return is_invisible(opacity) ? 1 : std::clamp(*constant, 0.0f, 1.0f);
   if (!s.scene.textures) return 1;
-  const double share = s.scene.textures->number(t.opacity, EmissivePoint(s.scene, t.light, b1, b2).point());
-  return static_cast<float>(std::clamp(share, 0.0, 1.0));
+  return static_cast<float>(std::clamp(s.scene.textures->number(opacity, at), 0.0, 1.0));
+}
+
+// What leaves a slot's surface, of which `point()` is an EmissivePoint.
+template <class Point>
+SampledSpectrum shining(const LightSampler& s, const LightSampler::Slot& t, const Point& point,
+                        const SampledWavelengths& wavelengths) {
+  const AreaLight& light = s.scene.area_lights[t.area_light];
+  const auto all = [&](const TexturePoint& at) {
+    return surface_radiance(s, light, at, wavelengths) * shining_share(s, t.opacity, at);
+  };
+  const bool constant =
+      std::holds_alternative<Spectrum>(light.radiance) && std::holds_alternative<float>(t.opacity);
+  return constant ? all({}) : all(point().point());
 }
 
 // A directional light shines from where p lies on the triangle, seen along its normal.
@@ -78,7 +83,8 @@ std::optional<LightSample> sample_directional(const LightSampler& s, const Light
   sample.to_light = frame.normal * (height > 0 ? -1.0 : 1.0);
   sample.distance = std::abs(height);
   sample.normal = frame.normal;
-  sample.radiance = radiance_at(s, t, b1, b2, wavelengths) * shining_share(s, t, b1, b2);
+  sample.radiance = shining(
+      s, t, [&] { return EmissivePoint(s.scene, t.light, b1, b2); }, wavelengths);
   sample.pdf = 1;
   sample.is_delta = true;
   sample.light = t.area_light;
@@ -111,7 +117,26 @@ std::optional<LightSample> sample_triangle(const LightSampler& s, const LightSam
   sample.normal = frame.normal;
   sample.tilt_rad = frame.tilt();
   sample.pdf = distance2 / (std::abs(cosine) * frame.area);
-  sample.radiance = radiance_at(s, t, b1, b2, wavelengths) * shining_share(s, t, b1, b2);
+  sample.radiance = shining(
+      s, t, [&] { return EmissivePoint(s.scene, t.light, b1, b2); }, wavelengths);
+  sample.is_delta = is_invisible(t.opacity);
+  sample.light = t.area_light;
+  return sample;
+}
+
+std::optional<LightSample> sample_quadric(const LightSampler& s, const LightSampler::Slot& t, Point3d p,
+                                          float u, float v, const SampledWavelengths& wavelengths) {
+  const QuadricLight& quadric = s.quadrics[t.light - s.scene.triangles.size()];
+  const auto drawn = quadric.sample(p, u, v);
+  if (!drawn) return std::nullopt;
+  LightSample sample;
+  sample.to_light = drawn->to_light;
+  sample.distance = drawn->distance;
+  sample.normal = drawn->normal;
+  sample.quadric = &quadric.record();
+  sample.pdf = drawn->pdf;
+  sample.radiance = shining(
+      s, t, [&] { return EmissivePoint(quadric, drawn->local); }, wavelengths);
   sample.is_delta = is_invisible(t.opacity);
   sample.light = t.area_light;
   return sample;
@@ -139,9 +164,10 @@ std::optional<LightSample> sample_tree(const LightSampler& s, Point3d p, const s
   const auto chosen = s.tree.choose(p, choice);
   if (!chosen) return std::nullopt;
   const LightSampler::Slot& slot = s.slots[chosen->slot];
-  const std::size_t triangles = s.scene.triangles.size();
-  auto sample = slot.light < triangles ? sample_triangle(s, slot, p, u[0], u[1], wavelengths)
-                                       : sample_emitter(s, slot.light - triangles, p, wavelengths);
+  const std::size_t triangles = s.scene.triangles.size(), surfaces = triangles + s.quadrics.size();
+  auto sample = slot.light < triangles  ? sample_triangle(s, slot, p, u[0], u[1], wavelengths)
+                : slot.light < surfaces ? sample_quadric(s, slot, p, u[0], u[1], wavelengths)
+                                        : sample_emitter(s, slot.light - surfaces, p, wavelengths);
   if (sample) sample->pdf *= chosen->probability * s.share[0];
   return sample;
 }
@@ -163,6 +189,8 @@ EmissivePoint::EmissivePoint(const LightScene& scene, std::size_t triangle, doub
     attributes[attribute_count] = {scene.attributes[triangle * slots + attribute_count],
                                    {static_cast<float>(b0), static_cast<float>(b1), static_cast<float>(b2)}};
 }
+
+EmissivePoint::EmissivePoint(const QuadricLight& quadric, Point3d local) : at(quadric.texture_point(local)) {}
 
 TexturePoint EmissivePoint::point() const {
   TexturePoint result = at;
@@ -209,7 +237,13 @@ std::optional<LightSample> sample_light(const LightSampler& s, Point3d p, const 
   return sample;
 }
 
-double triangle_pdf(const LightSampler& s, Point3d from, std::uint32_t triangle, double distance,
+Variety variety(const LightSampler& s, Point3d p) {
+  if (s.only_delta) return Variety::none;
+  const Vector3d way = p - s.lamp_center;
+  return s.lamp_radius2 > 0 && dot(way, way) > 16 * s.lamp_radius2 ? Variety::little : Variety::much;
+}
+
+double triangle_pdf(const LightSampler& s, Point3d from, std::uint32_t triangle, Point3d at, double distance,
                     double cosine) {
   const auto above =
       std::upper_bound(s.runs.begin(), s.runs.end(), triangle,
@@ -218,6 +252,9 @@ double triangle_pdf(const LightSampler& s, Point3d from, std::uint32_t triangle,
   const LightSampler::Run& run = *(above - 1);
   if (triangle - run.first >= run.count) return 0;
   const std::uint32_t index = run.index + (triangle - run.first);
+  if (index >= s.scene.triangles.size())
+    return s.share[0] * s.tree.probability(from, index) *
+           s.quadrics[index - s.scene.triangles.size()].pdf(from, at, cosine);
   const EmissiveTriangle& t = s.scene.triangles[index];
   const AreaLight& light = s.scene.area_lights[t.area_light];
   if (light.directional || (cosine <= 0 && !light.two_sided)) return 0;

@@ -17,6 +17,7 @@
 #include "tracer/lights/environment.h"
 #include "tracer/lights/light_tree.h"
 #include "tracer/lights/point_emitter.h"
+#include "tracer/lights/quadric_light.h"
 #include "tracer/textures/textures.h"
 
 namespace vitrail {
@@ -28,18 +29,20 @@ struct LightScene {
   std::span<const EmissiveTriangle> triangles;
   std::span<const CornerValues> attributes;   // of the triangles, [triangle][slot], or empty
   std::span<const FloatParameter> opacities;  // of the triangles' surfaces, or empty: all 1
+  std::span<const EmissiveQuadric> quadrics;
   std::span<const Light> lights;
   const Textures* textures = nullptr;        // null: no light has a texture; images get 16 MiB
   std::span<const Texture> texture_records;  // of `textures`: for the shape of a projected image
   Bounds3f bounds;                           // of the scene
 };
 
-// A point of an emissive triangle with what its textures read.
+// A point of an emissive triangle or quadric with what its textures read.
 struct EmissivePoint {
   TexturePoint at;
   std::array<AttributeValue, max_attributes> attributes;
-  std::uint32_t attribute_count = 0;
+  std::uint32_t attribute_count = 0;  // quadrics have none
   EmissivePoint(const LightScene& scene, std::size_t triangle, double b1, double b2);
+  EmissivePoint(const QuadricLight& quadric, Point3d local);
   // Refers to this.
   TexturePoint point() const;
 };
@@ -47,13 +50,13 @@ struct EmissivePoint {
 // Whether an emissive surface is a light that nothing meets.
 inline bool is_invisible(const FloatParameter& opacity) { return opacity == FloatParameter{0.0f}; }
 
-// One choice is the tree over all triangles and point-like lights; every distant light and every environment
-// image is one more. Each has a share: half of them equal, half by power. Constant infinite lights are left
-// to the BSDF's own samples, which find them with weight 1.
+// One choice is the tree over all triangles, quadrics and point-like lights; every distant light and every
+// environment image is one more. Each has a share: half of them equal, half by power. Constant infinite
+// lights are left to the BSDF's own samples, which find them with weight 1.
 struct LightSampler {
   LightScene scene;
-  LightTree tree;  // lights: the triangles, then the emitters
-  // What sampling reads of a triangle, in one cache line.
+  LightTree tree;  // lights: the triangles, the quadrics, the emitters
+  // What sampling reads of a triangle, in one cache line; the last three of a quadric, too.
   struct alignas(64) Slot {
     std::array<Point3f, 3> p;
     std::uint32_t light = 0;  // of the tree
@@ -61,6 +64,7 @@ struct LightSampler {
     FloatParameter opacity = 1.0f;
   };
   std::vector<Slot> slots;  // in the tree's order
+  std::vector<QuadricLight> quadrics;
   std::vector<PointEmitter> emitters;
   std::vector<std::uint32_t> emitter_light;  // index into scene.lights
   struct Distant {
@@ -73,11 +77,15 @@ struct LightSampler {
   std::vector<std::uint32_t> infinite;
   std::vector<double> share;  // of the tree, the distant lights, the environments; sums to 1, empty: no light
 
-  // Triangles [first, first + count) of the global ids are the scene.triangles from `index` on.
+  // The global ids [first, first + count) are the tree's lights from `index` on: triangles, or quadrics.
   struct Run {
     std::uint32_t first = 0, count = 0, index = 0;
   };
   std::vector<Run> runs;  // ascending
+
+  bool only_delta = false;  // there is one light, and one direction to it
+  Point3d lamp_center;      // where there is one lamp, of one or two surfaces and one radiance,
+  double lamp_radius2 = 0;  // a sphere around it; else 0
 
   // Whether sample_light may ever give something.
   bool can_sample() const { return !share.empty(); }
@@ -95,24 +103,31 @@ LightSampler make_light_sampler(const LightScene& scene, const ImageSource& imag
                                 LightChoice choice = LightChoice::tree);
 
 struct LightSample {
-  Vector3d to_light;         // unit
-  Vector3d normal{};         // of the surface there, unit; 0: a point, or not finitely far
-  double tilt_rad = 0;       // bound of what the rounding of corners turns that surface's triangles by
-  double distance = 0;       // ∞ for distant lights and environments
-  SampledSpectrum radiance;  // of points and distant lights: irradiance across the direction
-  double pdf = 0;            // solid angle, the choice included; of those: probability of the choice
-  bool is_delta = false;     // no ray finds it by chance
-  std::uint32_t light = 0;   // index into LightScene::lights, or of triangles into area_lights
+  Vector3d to_light;    // unit
+  Vector3d normal{};    // of the surface there, unit; 0: a point, or not finitely far
+  double tilt_rad = 0;  // bound of what the rounding of corners turns that surface's triangles by
+  const EmissiveQuadric* quadric = nullptr;  // that the surface is of
+  double distance = 0;                       // ∞ for distant lights and environments
+  SampledSpectrum radiance;                  // of points and distant lights: irradiance across the direction
+  double pdf = 0;           // solid angle, the choice included; of those: probability of the choice
+  bool is_delta = false;    // no ray finds it by chance
+  std::uint32_t light = 0;  // index into LightScene::lights, or of surfaces into area_lights
 };
 
 // A connection from p. u[0], u[1] are for the point, u[2], u[3] for the light. Empty where nothing arrives.
 std::optional<LightSample> sample_light(const LightSampler& sampler, Point3d p, const std::array<float, 4>& u,
                                         const SampledWavelengths& wavelengths);
 
-// The density, per solid angle and with the choice included, with which sample_light(from) gives a point of
-// the triangle (global id) at that distance, seen at `cosine` from its normal (> 0: its front).
-double triangle_pdf(const LightSampler& sampler, Point3d from, std::uint32_t triangle, double distance,
-                    double cosine);
+// How much samples of the lights differ by what they bring to a diffuse point: not at all; little, one lamp
+// that is small from there; or much.
+enum class Variety : std::uint8_t { none, little, much };
+Variety variety(const LightSampler& sampler, Point3d p);
+
+// The density, per solid angle and with the choice included, with which sample_light(from) gives the point
+// `at` of the triangle or quadric (global id), at that distance, seen at `cosine` from its normal (> 0: its
+// front).
+double triangle_pdf(const LightSampler& sampler, Point3d from, std::uint32_t triangle, Point3d at,
+                    double distance, double cosine);
 // Radiance of an emitter's surface where a ray meets it, seen at `cosine` from its normal. 0 of directional
 // ones.
 SampledSpectrum emitted(const LightSampler& sampler, std::uint32_t area_light, const TexturePoint& at,

@@ -21,24 +21,20 @@ double mean_over(const LightScene& scene, std::size_t triangle, F&& value) {
   return sum / 4;
 }
 
-double mean_luminance(const LightScene& scene, std::size_t triangle) {
-  const AreaLight& light = scene.area_lights[scene.triangles[triangle].area_light];
-  return mean_over(scene, triangle, [&](const TexturePoint& at) {
-    return luminance_at(light.radiance, at, scene.textures, 2);
-  });
+// Over a quadric, by 64.
+template <class F>
+double mean_over(const QuadricLight& quadric, F&& value) {
+  constexpr int side = 8;
+  double sum = 0;
+  for (int i = 0; i < side * side; ++i)
+    sum +=
+        value(quadric.texture_point(quadric.point_by_area((i % side + 0.5) / side, (i / side + 0.5) / side)));
+  return sum / (side * side);
 }
 
-// Mean opacity over a triangle; 1 of a light that nothing meets.
-double mean_opacity(const LightScene& scene, std::size_t triangle) {
-  if (scene.opacities.empty() || is_invisible(scene.opacities[triangle])) return 1;
-  return mean_over(scene, triangle, [&](const TexturePoint& at) {
-    return std::clamp(scene.textures->number(scene.opacities[triangle], at), 0.0, 1.0);
-  });
-}
-
-// Flux of all triangles, π·A·L a side. A texture may be dark where it was asked and bright elsewhere: none of
-// its triangles counts for less than a tenth of what all of them have for their area.
-std::vector<LightBounds> bounds_of_triangles(const LightScene& scene) {
+// Flux of all surfaces, π·A·L a side. A texture may be dark where it was asked and bright elsewhere: none of
+// its surfaces counts for less than a tenth of what all of them have for their area.
+std::vector<LightBounds> bounds_of_surfaces(const LightScene& scene, std::span<const QuadricLight> quadrics) {
   struct Sum {
     double area = 0, power = 0;
     std::optional<double> luminance;  // where it is the same everywhere
@@ -51,47 +47,73 @@ std::vector<LightBounds> bounds_of_triangles(const LightScene& scene) {
     else
       sums[i].varies = true;
 
+  struct Part {
+    double area = 0;
+    std::uint32_t area_light = 0;
+  };
+  std::vector<Part> parts;
   std::vector<LightBounds> all;
-  std::vector<double> areas;
-  for (const EmissiveTriangle& t : scene.triangles) {
-    const AreaLight& light = scene.area_lights[t.area_light];
+  // `mean` over the surface, of a function of its points. A light that nothing meets shines as if it was
+  // whole.
+  const auto add = [&](LightBounds b, Part part, const FloatParameter& opacity, const auto& mean) {
+    const AreaLight& light = scene.area_lights[part.area_light];
+    Sum& sum = sums[part.area_light];
+    double radiance = static_cast<double>(light.scale);
+    radiance *= sum.luminance ? *sum.luminance : mean([&](const TexturePoint& at) {
+      return luminance_at(light.radiance, at, scene.textures, 2);
+    });
+    if (const auto* constant = std::get_if<float>(&opacity); !constant)
+      radiance *= mean(
+          [&](const TexturePoint& at) { return std::clamp(scene.textures->number(opacity, at), 0.0, 1.0); });
+    else if (!is_invisible(opacity))
+      radiance *= std::clamp(static_cast<double>(*constant), 0.0, 1.0);
+    sum.varies = sum.varies || std::holds_alternative<Id<Texture>>(opacity);
+    b.theta_e_rad = pi / 2;
+    b.two_sided = light.two_sided;
+    b.power = part.area * radiance * pi * (light.two_sided ? 2 : 1);
+    if (!(b.power > 0) || !std::isfinite(b.power)) b.power = 0;
+    sum.area += part.area;
+    sum.power += b.power;
+    parts.push_back(part);
+    all.push_back(b);
+  };
+  for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
+    const EmissiveTriangle& t = scene.triangles[i];
     LightBounds b;
     for (const Point3f& p : t.p) extend(b.box, cast<double>(p));
     const Point3d p0 = cast<double>(t.p[0]);
     const Vector3d across = cross(cast<double>(t.p[1]) - p0, cast<double>(t.p[2]) - p0);
     const double area = length(across) / 2;
     if (area > 0) b.axis = across * (0.5 / area);
-    b.theta_e_rad = pi / 2;
-    b.two_sided = light.two_sided;
-    Sum& sum = sums[t.area_light];
-    const double radiance = (sum.luminance ? *sum.luminance : mean_luminance(scene, all.size())) *
-                            static_cast<double>(light.scale) * mean_opacity(scene, all.size());
-    sum.varies = sum.varies || (!scene.opacities.empty() &&
-                                std::holds_alternative<Id<Texture>>(scene.opacities[all.size()]));
-    b.power = area * radiance * pi * (light.two_sided ? 2 : 1);
-    if (!(b.power > 0) || !std::isfinite(b.power)) b.power = 0;
-    sum.area += area;
-    sum.power += b.power;
-    areas.push_back(area);
-    all.push_back(b);
+    add(b, {area, t.area_light}, scene.opacities.empty() ? FloatParameter{1.0f} : scene.opacities[i],
+        [&](const auto& value) { return mean_over(scene, i, value); });
+  }
+  for (const QuadricLight& q : quadrics) {
+    const EmissiveQuadric& record = q.record();
+    const bool shines = !scene.area_lights[record.area_light].directional;
+    add(q.bounds(), {shines ? q.area() : 0, record.area_light}, record.opacity,
+        [&](const auto& value) { return mean_over(q, value); });
   }
   for (std::size_t i = 0; i < all.size(); ++i) {
-    const Sum& sum = sums[scene.triangles[i].area_light];
+    const Sum& sum = sums[parts[i].area_light];
     if (sum.varies && sum.area > 0)
-      all[i].power = std::max(all[i].power, 0.1 * sum.power / sum.area * areas[i]);
+      all[i].power = std::max(all[i].power, 0.1 * sum.power / sum.area * parts[i].area);
   }
   return all;
 }
 
-std::vector<LightSampler::Run> runs_of(std::span<const EmissiveTriangle> triangles) {
+std::vector<LightSampler::Run> runs_of(const LightScene& scene) {
   std::vector<LightSampler::Run> runs;
-  for (std::uint32_t i = 0; i < triangles.size(); ++i) {
-    const std::uint32_t id = triangles[i].triangle;
+  std::uint32_t index = 0;
+  const auto add = [&](std::uint32_t id) {
     if (!runs.empty() && runs.back().first + runs.back().count == id)
       ++runs.back().count;
     else
-      runs.push_back({id, 1, i});
-  }
+      runs.push_back({id, 1, index});
+    ++index;
+  };
+  for (const EmissiveTriangle& t : scene.triangles) add(t.triangle);
+  for (const EmissiveQuadric& q : scene.quadrics) add(q.triangle);
   std::sort(runs.begin(), runs.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   return runs;
 }
@@ -109,6 +131,12 @@ double aspect_of(const SpectrumParameter& image, const LightScene& scene, const 
 // What a point gets of a light depends on its intensity I, whatever its cone: the power that counts for the
 // tree is π·I, as that of a small Lambertian surface of this intensity along its normal.
 void by_intensity(LightBounds& emitter) { emitter.power *= 0.5 / (1 - portable_cos(emitter.theta_o_rad)); }
+
+// Of a curved surface by its greatest projection, as if it was the cap of a sphere.
+void by_projection(LightBounds& surface) {
+  const double cosine = portable_cos(surface.theta_o_rad);
+  surface.power *= cosine > 0 ? (1 + cosine) / 2 : 0.5 / (1 - cosine);
+}
 
 // Sorts the lights by how they are chosen.
 struct Sorter {
@@ -147,6 +175,22 @@ struct Sorter {
   }
 };
 
+void find_variety(std::span<const LightBounds> lights, LightSampler& s) {
+  const std::size_t kinds =
+      static_cast<std::size_t>(std::ranges::count_if(s.share, [](double share) { return share > 0; }));
+  if (kinds != 1) return;
+  const bool local = s.share[0] > 0;
+  s.only_delta = local ? s.slots.size() == 1 && s.emitters.size() == 1 : s.environments.empty();
+  const bool plain = std::ranges::all_of(s.scene.area_lights, [](const AreaLight& light) {
+    return std::holds_alternative<Spectrum>(light.radiance);
+  });
+  if (!local || !s.emitters.empty() || s.slots.size() > 2 || !plain) return;
+  Bounds3d box;
+  for (const LightSampler::Slot& slot : s.slots) extend(box, lights[slot.light].box);
+  s.lamp_center = box.lower + (box.upper - box.lower) * 0.5;
+  s.lamp_radius2 = dot(box.upper - s.lamp_center, box.upper - s.lamp_center);
+}
+
 }  // namespace
 
 LightSampler make_light_sampler(const LightScene& scene, const ImageSource& images, LightChoice choice) {
@@ -157,24 +201,33 @@ LightSampler make_light_sampler(const LightScene& scene, const ImageSource& imag
   for (; sorter.light < scene.lights.size(); ++sorter.light)
     std::visit(sorter, scene.lights[sorter.light].model);
 
-  std::vector<LightBounds> local = bounds_of_triangles(scene);
+  for (const EmissiveQuadric& q : scene.quadrics)
+    s.quadrics.emplace_back(q, scene.area_lights[q.area_light].two_sided);
+  std::vector<LightBounds> local = bounds_of_surfaces(scene, s.quadrics);
+  const std::size_t triangles = scene.triangles.size(), surfaces = local.size();
   for (const PointEmitter& e : s.emitters) local.push_back(e.bounds);
   double flux = 0;
   for (const LightBounds& b : local)
     if (std::isfinite(b.power)) flux += b.power;
   if (choice == LightChoice::tree)
-    for (std::size_t i = scene.triangles.size(); i < local.size(); ++i) by_intensity(local[i]);
+    for (std::size_t i = triangles; i < local.size(); ++i)
+      i < surfaces ? by_projection(local[i]) : by_intensity(local[i]);
   s.tree = LightTree(local, choice);
   for (const std::uint32_t light : s.tree.order()) {
     LightSampler::Slot& slot = s.slots.emplace_back();
     slot.light = light;
-    if (light >= scene.triangles.size()) continue;
+    if (light >= surfaces) continue;
+    if (light >= triangles) {
+      slot.area_light = scene.quadrics[light - triangles].area_light;
+      slot.opacity = scene.quadrics[light - triangles].opacity;
+      continue;
+    }
     const EmissiveTriangle& t = scene.triangles[light];
     std::copy(std::begin(t.p), std::end(t.p), slot.p.begin());
     slot.area_light = t.area_light;
     if (!scene.opacities.empty()) slot.opacity = scene.opacities[light];
   }
-  s.runs = runs_of(scene.triangles);
+  s.runs = runs_of(scene);
 
   std::vector<double> power{flux};
   power.insert(power.end(), sorter.distant_power.begin(), sorter.distant_power.end());
@@ -185,6 +238,7 @@ LightSampler make_light_sampler(const LightScene& scene, const ImageSource& imag
   if (choices == 0) return s;
   for (const double p : power)
     s.share.push_back(p > 0 ? 0.5 / static_cast<double>(choices) + 0.5 * p / total : 0);
+  find_variety(local, s);
   return s;
 }
 

@@ -177,7 +177,7 @@ PointEmitter make_emitter(const GoniometricLight& light, std::shared_ptr<const L
   e.intensity = light.intensity;
   const auto projection =
       light.latitude_longitude ? SphereProjection::latitude_longitude : SphereProjection::equal_area;
-  const ImageTable about = tabulate_image(*image, projection);
+  const ImageTable about = tabulate_image(*image, projection, false);
   const double flux = light.power ? exact_flux(*image, projection, about.table, false) : about.flux;
   if (light.power && flux > 0) e.factor = static_cast<float>(static_cast<double>(*light.power) / flux);
   e.bounds.power = flux * static_cast<double>(e.factor) * luminance(light.intensity);

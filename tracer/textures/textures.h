@@ -21,8 +21,8 @@ class TileCache;
 // A mesh attribute at the corners of a triangle, and how much each counts at a point. Spectra are blended as
 // spectra, as Mitsuba does, not as the sigmoids that the corners hold.
 struct AttributeValue {
-  std::array<std::array<float, 3>, 3> corners{};
-  std::array<float, 3> weights{1, 0, 0};
+  std::array<std::array<float, 3>, 3> corners;
+  std::array<float, 3> weights;
 };
 
 // A point of a surface as textures see it.

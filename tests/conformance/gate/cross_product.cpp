@@ -44,6 +44,23 @@ void agree_on_straight_light(Scene& scene) {
       scene.materials, [&](const Material& m) { return is_passed_straight(m, scene.materials); });
 }
 
+// The first of its kind comes from line 1.
+void number(auto& records) {
+  for (std::size_t i = 0; i < records.size(); ++i) records[i].origin.line = static_cast<std::uint32_t>(i + 1);
+}
+void number_records(Scene& scene) {
+  scene.files = {"scene"};
+  number(scene.textures), number(scene.materials), number(scene.lights), number(scene.area_lights);
+  number(scene.prototypes), number(scene.instances);
+  std::uint32_t shapes = 0;
+  const auto number_shape = [&](Shape& shape) {  // by name, too: writers give shapes none
+    shape.name = fmt::format("_unnamed_shape_{}", shapes);
+    shape.origin.line = ++shapes;
+  };
+  std::ranges::for_each(scene.shapes, number_shape);
+  for (Prototype& prototype : scene.prototypes) std::ranges::for_each(prototype.shapes, number_shape);
+}
+
 std::vector<std::size_t> sizes() {
   return {material_values().size(), wrapper_values().size(), color_values().size(),
           number_values().size(),   light_values().size(),   shape_values().size()};
@@ -100,6 +117,7 @@ Scene CrossProduct::scene(const Row& row) const {
   add_plane(s, reflectance_from_rgb({0.6, 0.6, 0.4}),
             translate({0, -1.4, 0}) * rotate(-1.5707963267948966, {1, 0, 0}));
   agree_on_straight_light(s.scene);
+  number_records(s.scene);
   return std::move(s.scene);
 }
 

@@ -43,6 +43,8 @@ def answer_of(file, request, listener):
             block_means(np.array(mi.render(scene, spp=request["samples"], seed=seed)), request["blocks"])
             for seed in range(request["seeds"])
         ]
+        if not np.isfinite(means).all():
+            return {"error": "its picture has values that are no numbers"}
         return {"warnings": listener.heard, "means": means}
     except RuntimeError as error:
         return {"error": str(error)}

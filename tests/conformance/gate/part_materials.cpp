@@ -83,8 +83,12 @@ const std::array materials{
     MaterialValue{"principled",
                   [](const S& s) -> M {
                     PrincipledMaterial m{.base_color = s.color, .roughness = s.number};
-                    m.clearcoat = 0.5f, m.sheen = 0.3f, m.spec_tint = 0.4f;
+                    m.clearcoat = 0.5f, m.sheen = 0.3f;
                     return m;
+                  }},
+    MaterialValue{"tinted principled",
+                  [](const S& s) -> M {
+                    return PrincipledMaterial{.base_color = s.color, .roughness = 0.4f, .spec_tint = 0.4f};
                   }},
     MaterialValue{"principled metal",
                   [](const S& s) -> M {

@@ -98,6 +98,9 @@ constexpr std::array table{
 
     Kind{"Shape", "trianglemesh", "indices:i* P:p* N:n* S:v* uv:u* faceIndices:i* alpha:ft"},
     Kind{"Shape", "plymesh", "filename:s displacement:ft edgelength:f alpha:ft"},
+    Kind{"Shape", "sphere", "radius:f zmin:f zmax:f phimax:f alpha:ft"},
+    Kind{"Shape", "disk", "height:f radius:f innerradius:f phimax:f alpha:ft"},
+    Kind{"Shape", "cylinder", "radius:f zmin:f zmax:f phimax:f alpha:ft"},
 };
 
 constexpr std::array spectra{

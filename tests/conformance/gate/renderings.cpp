@@ -90,7 +90,7 @@ const std::string& python_with_mitsuba() {
     const char* chosen = std::getenv("VITRAIL_MITSUBA_PYTHON");
     for (const std::string& python :
          {std::string(chosen ? chosen : ""), std::string("python3"), std::string("/usr/bin/python3")})
-      if (!python.empty() && run(python + " -c 'import mitsuba'").status == 0) return python;
+      if (!python.empty() && run(python + " -c 'import mitsuba, numpy'").status == 0) return python;
     return std::string();
   }();
   return found;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "importers/shapes/unit_circle.h"
+#include "scene/unit_circle.h"
 
 namespace vitrail {
 

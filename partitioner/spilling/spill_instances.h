@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// Instances on their way to disk and back: a file for each part of the kd-tree that is to be in memory at
+// once.
+#pragma once
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include "bundle/instance.h"
+
+namespace vitrail {
+
+// The files are private to this object: nobody else reads them.
+class InstanceSpill {
+ public:
+  // `cells`: of the parts of `root`, which is divided. `buffer_bytes`: in memory for each.
+  InstanceSpill(const std::filesystem::path& directory, const std::vector<Bounds3f>& cells,
+                const Bounds3f& root, std::uint64_t buffer_bytes);
+
+  // To every part whose cell it reaches into. Throws MachineError.
+  void add(const InstanceRef& instance);
+  // In the order in which they came. Its file is gone then. Throws MachineError.
+  std::vector<InstanceRef> take(std::size_t part);
+
+  std::uint64_t bytes() const { return bytes_; }
+
+ private:
+  struct Closer {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+  };
+  struct Part {
+    Bounds3f cell;
+    std::filesystem::path file;
+    std::unique_ptr<std::FILE, Closer> stream;
+    std::uint64_t count = 0;
+  };
+  std::vector<Part> parts_;
+  std::uint64_t bytes_ = 0;
+};
+
+}  // namespace vitrail

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/quadric_places.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+
+#include "scene/diagnostics.h"
+
+namespace vitrail {
+
+namespace {
+
+constexpr std::size_t most_samples = 4096;
+
+Transform transform_of(const QuadricPlaces::Place& place) {
+  Transform t;
+  for (std::size_t i = 0; i < 3; ++i) std::copy_n(&place[4 * i], 4, t.m[i].begin());
+  return t;
+}
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>((values.size() - 1) / 2);
+  std::ranges::nth_element(values, middle);
+  return *middle;
+}
+
+[[noreturn]] void fail(const char* what) {
+  throw MachineError(std::string(what) +
+                     " the shapes kept in the folder for temporary files: " + std::strerror(errno));
+}
+
+}  // namespace
+
+QuadricPlaces::QuadricPlaces(const Quadric& quadric, std::uint64_t memory_bytes)
+    : quadric_(quadric),
+      memory_places_(std::max<std::uint64_t>(memory_bytes / sizeof(Place), most_samples)) {}
+
+void QuadricPlaces::add(const Transform& place) {
+  if (block_.size() == memory_places_) spill();
+  Place& stored = block_.emplace_back();
+  for (std::size_t i = 0; i < 3; ++i) std::ranges::copy(place.m[i], &stored[4 * i]);
+  const Bounds3d box = bounds_of(quadric_, place);
+  extend(bounds_, box);
+  if (size_++ % stride_ != 0) return;
+  sample_.push_back(center(box));
+  if (sample_.size() < most_samples) return;
+  for (std::size_t i = 0; 2 * i < sample_.size(); ++i) sample_[i] = sample_[2 * i];
+  sample_.resize(sample_.size() / 2);
+  stride_ *= 2;
+}
+
+void QuadricPlaces::spill() {
+  if (!file_) file_.reset(std::tmpfile());
+  if (!file_ || std::fwrite(block_.data(), sizeof(Place), block_.size(), file_.get()) != block_.size() ||
+      std::fflush(file_.get()) != 0)
+    fail("cannot write");
+  spilled_ += block_.size();
+  block_.clear();
+}
+
+void QuadricPlaces::read(std::size_t first, std::span<Transform> out) const {
+  const std::size_t on_disk = first < spilled_ ? std::min(out.size(), spilled_ - first) : 0;
+  std::vector<Place> places(on_disk);
+  const auto bytes = std::as_writable_bytes(std::span(places));
+  for (std::size_t done = 0; done < bytes.size();) {
+    const ssize_t n = ::pread(::fileno(file_.get()), bytes.data() + done, bytes.size() - done,
+                              static_cast<off_t>(first * sizeof(Place) + done));
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) fail("cannot read");
+    done += static_cast<std::size_t>(n);
+  }
+  for (std::size_t i = 0; i < out.size(); ++i)
+    out[i] = transform_of(i < on_disk ? places[i] : block_[first + i - spilled_]);
+}
+
+Point3d QuadricPlaces::centre() const {
+  Point3d middle;
+  std::vector<double> values(sample_.size());
+  for (int axis = 0; axis < 3; ++axis) {
+    std::ranges::transform(sample_, values.begin(), [&](const Point3d& p) { return p[axis]; });
+    middle[axis] = median(values);
+  }
+  return middle;
+}
+
+double QuadricPlaces::radius() const {
+  const Point3d middle = centre();
+  std::vector<double> values(sample_.size());
+  std::ranges::transform(sample_, values.begin(), [&](const Point3d& p) {
+    const Vector3d off = p - middle;
+    return std::max({std::abs(off.x), std::abs(off.y), std::abs(off.z)});
+  });
+  return median(std::move(values));
+}
+
+}  // namespace vitrail

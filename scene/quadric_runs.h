@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+
+#include "scene/quadric_places.h"
+#include "scene/scene.h"
+
+namespace vitrail {
+
+// Adds shapes to a scene as an importer finds them. Many in a row of one quadric that differ in where they
+// stand alone become one shape of many places. Lights, names and what mirrors stay shapes of their own.
+class QuadricRuns {
+ public:
+  explicit QuadricRuns(std::uint64_t memory_bytes) : memory_bytes_(memory_bytes) {}
+
+  void add(Scene& scene, Shape shape);
+
+ private:
+  bool continues(const Scene& scene, const Shape& shape) const;
+  void gather(Scene& scene);
+
+  std::uint64_t memory_bytes_;         // of places, of each run
+  std::size_t first_ = 0, count_ = 0;  // of the run among the scene's shapes
+  Id<TriangleMesh> quadric_;
+  std::shared_ptr<QuadricPlaces> places_;  // where they have become one shape
+};
+
+}  // namespace vitrail

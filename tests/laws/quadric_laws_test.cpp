@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: Apache-2.0
+// The laws for shapes that are no triangles: one picture, however they are cut, kept or spilled; hits that
+// are the least of all, whatever the kernel; pictures that are those of their tessellation.
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "bundle/loaded_domain.h"
+#include "bundle/verify.h"
+#include "partitioner/partition.h"
+#include "scene/quadric_places.h"
+#include "scene/tessellate.h"
+#include "tests/support/render.h"
+#include "tests/support/temporary_directory.h"
+#include "tracer/intersect/intersector.h"
+#include "tracer/quadrics/quadric_hits.h"
+#include "tracer/walk.h"
+
+namespace vitrail::test {
+namespace {
+
+Id<TriangleMesh> add(Scene& scene, const Quadric& quadric) {
+  scene.meshes.emplace_back().quadric = quadric;
+  return {static_cast<std::uint32_t>(scene.meshes.size() - 1)};
+}
+
+Quadric random_quadric(std::mt19937& random) {
+  std::uniform_real_distribution<double> u(0, 1);
+  Quadric q{.kind = static_cast<QuadricKind>(random() % 5)};
+  if (q.kind == QuadricKind::disk || q.kind == QuadricKind::paraboloid) q.low = 0;
+  if (random() % 2) return q;
+  q.low = std::max(q.low, 0.5 * u(random));
+  q.phi_max_rad = 1 + 5 * u(random);
+  return q;
+}
+
+Transform random_transform(std::mt19937& random, double reach, double size) {
+  std::uniform_real_distribution<double> u(-1, 1);
+  const double s = size * std::pow(10, u(random));
+  const Vector3d stretch = random() % 3 ? Vector3d{1, 1, 1} : Vector3d{1, 0.3, random() % 2 ? -2.0 : 2.0};
+  return translate({reach * u(random), reach * u(random), reach * u(random)}) *
+         rotate(3 * u(random), {u(random), u(random), u(random)}) * scale(stretch * s);
+}
+
+Shape shape_of(std::mt19937& random, Id<TriangleMesh> mesh, double reach, double size) {
+  Shape shape;
+  shape.mesh = mesh;
+  shape.material = {static_cast<std::uint32_t>(random() % 3)};
+  shape.object_to_world = random_transform(random, reach, size);
+  shape.flip_orientation = random() % 2;
+  return shape;
+}
+
+// All kinds, of all sizes, through each other; in prototypes within prototypes too, with meshes; one that no
+// ray can be taken to, as a transform flattens it. A lamp of triangles above.
+Scene crowd() {
+  std::mt19937 random(11);
+  Scene scene;
+  scene.materials = {Material{DiffuseMaterial{ConstantSpectrum{0.7f}}}, Material{DielectricMaterial{}},
+                     Material{ConductorMaterial{}}};
+  for (int i = 0; i < 60; ++i)
+    scene.shapes.push_back(shape_of(random, add(scene, random_quadric(random)), 1, 0.1));
+  const Id<TriangleMesh> cube = add_quads(scene, box_faces({-1, -1, -1}, {1, 1, 1}));
+  for (std::uint32_t p = 0; p < 3; ++p) {
+    Prototype& prototype = scene.prototypes.emplace_back();
+    for (int i = 0; i < 3; ++i)
+      prototype.shapes.push_back(
+          shape_of(random, i == 1 ? cube : add(scene, random_quadric(random)), 0.3, 0.1));
+    for (std::uint32_t inner = 0; inner < p; ++inner)
+      prototype.instances.push_back({{inner}, random_transform(random, 0.3, 0.5), {}});
+  }
+  for (std::uint32_t i = 0; i < 24; ++i)
+    scene.instances.push_back({{i % 3}, random_transform(random, 1, 0.5), {}});
+  Shape flat = shape_of(random, add(scene, Quadric{}), 1, 0.1);
+  flat.object_to_world = flat.object_to_world * scale({1, 1, 0});
+  scene.shapes.push_back(flat);
+  add_shape(scene, add_quads(scene, {{{{-3, -3, -1.5f}, {3, -3, -1.5f}, {3, 3, -1.5f}, {-3, 3, -1.5f}}}}),
+            Material{DiffuseMaterial{}});
+  add_shape(scene, add_quads(scene, {{{{-1, -1, 3}, {-1, 1, 3}, {1, 1, 3}, {1, -1, 3}}}}),
+            Material{DiffuseMaterial{}}, AreaLight{ConstantSpectrum{5}, false});
+  for (const QuadricKind kind : {QuadricKind::sphere, QuadricKind::cylinder, QuadricKind::cone}) {
+    add_shape(scene, add(scene, Quadric{.kind = kind}), Material{DiffuseMaterial{}},
+              AreaLight{ConstantSpectrum{20}});
+    scene.shapes.back().object_to_world =
+        translate({static_cast<double>(kind) - 1, 1, 1}) * scale({.1, .1, .2});
+  }
+  set_camera(scene, {3, 3.5, 2.5}, {0, 0, 0}, {0, 0, 1}, 0.7, 40, 30);
+  scene.settings.max_depth = 6;
+  return scene;
+}
+
+std::uint64_t film_hash(const Scene& scene, const PartitionOptions& partitioning) {
+  const TemporaryDirectory directory;
+  partition(scene, directory / "scene.vit", partitioning);
+  EXPECT_TRUE(verify_bundle(directory / "scene.vit", {}).problems.empty());
+  RenderOptions options;
+  options.bundle = directory / "scene.vit";
+  options.film = directory / "scene.film";
+  options.samples_per_pixel = 2;
+  int argc = 0;
+  char** argv = nullptr;
+  const auto transport = make_transport(&argc, &argv);
+  return vitrail::render(*transport, options).film_hash;
+}
+
+TEST(Quadrics, OnePictureHoweverTheyAreCut) {
+  const Scene scene = crowd();
+  const std::uint64_t hash = film_hash(scene, {.domains = 1});
+  for (const std::uint32_t domains : {2u, 8u, 64u})
+    EXPECT_EQ(film_hash(scene, {.domains = domains}), hash) << domains << " domains";
+  EXPECT_EQ(film_hash(scene, {.domains = 8, .flatten = true}), hash) << "copies of instances";
+  EXPECT_EQ(film_hash(scene, {.domains = 8, .domains_at_once = 2}), hash) << "spilled";
+}
+
+// Places of one quadric, in memory or in a file, are the same shapes one by one.
+TEST(Quadrics, OnePictureOfManyPlaces) {
+  std::mt19937 random(3);
+  Scene one_by_one = crowd(), many = one_by_one;
+  const Quadric ball{}, thread{.kind = QuadricKind::cylinder};
+  for (const Quadric& quadric : {ball, thread}) {
+    const Id<TriangleMesh> mesh = add(one_by_one, quadric), list = add(many, quadric);
+    const auto places = std::make_shared<QuadricPlaces>(quadric, 0);
+    for (int i = 0; i < 10'000; ++i) {
+      Shape shape = shape_of(random, mesh, 1, 0.005);
+      shape.material = {0};
+      shape.flip_orientation = false;
+      if (swaps_handedness(shape.object_to_world))
+        shape.object_to_world = shape.object_to_world * scale({1, 1, -1});
+      one_by_one.shapes.push_back(shape);
+      places->add(shape.object_to_world);
+    }
+    many.meshes[list.value].places = places;
+    Shape all;
+    all.mesh = list;
+    all.material = {0};
+    many.shapes.push_back(all);
+  }
+  const std::uint64_t hash = film_hash(one_by_one, {.domains = 1});
+  EXPECT_EQ(film_hash(many, {.domains = 1}), hash);
+  EXPECT_EQ(film_hash(many, {.domains = 16}), hash);
+  EXPECT_EQ(film_hash(many, {.domains = 16, .flatten = true}), hash);
+  EXPECT_EQ(film_hash(many, {.domains = 16, .domains_at_once = 3}), hash);
+}
+
+// Of all quadrics where they stand the least (t, id) that a ray meets, by going through them one by one.
+struct Standing {
+  Affine to_bundle;
+  Quadric quadric;
+  std::uint32_t id;
+};
+
+void collect(const DomainView& domain, const DomainView& at, const Affine* chain, std::uint32_t first,
+             std::map<std::uint32_t, Standing>& out) {
+  for (const InstanceRef& ref : at.instances) {
+    const Affine to_bundle = chain ? compose(*chain, ref.to_parent) : ref.to_parent;
+    const DomainView& object = *domain.objects[ref.object];
+    const std::uint32_t id = first + ref.first_triangle;
+    if (object.quadric)
+      out[id] = {to_bundle, object.quadric->quadric, id};
+    else
+      collect(domain, object, &to_bundle, id, out);
+  }
+}
+
+TEST(Quadrics, HitsAreTheLeastOfAll) {
+  Scene scene = crowd();
+  std::erase_if(scene.shapes, [&](const Shape& s) { return !scene.meshes[s.mesh.value].quadric; });
+  scene.shapes.pop_back();  // the flat one becomes triangles
+  for (Prototype& p : scene.prototypes)
+    std::erase_if(p.shapes, [&](const Shape& s) { return !scene.meshes[s.mesh.value].quadric; });
+  const TemporaryDirectory directory;
+  partition(scene, directory / "scene.vit", {.domains = 16});
+  const Manifest manifest = read_manifest(directory / "scene.vit");
+  std::vector<std::unique_ptr<const LoadedDomain>> domains;
+  std::map<std::uint32_t, Standing> all;
+  for (std::uint32_t d = 0; d < manifest.domains.size(); ++d) {
+    domains.push_back(load_domain(manifest, directory / "scene.vit", d));
+    collect(domains.back()->view(), domains.back()->view(), nullptr, 0, all);
+  }
+  EXPECT_GT(all.size(), 150u);
+  std::vector<std::unique_ptr<EmbreeDomain>> embree;
+  for (const auto& domain : domains) embree.push_back(std::make_unique<EmbreeDomain>(domain->view()));
+
+  std::mt19937 random(5);
+  std::uniform_real_distribution<float> u(-1.5f, 1.5f);
+  std::uint64_t hits = 0, differ = 0, occlusion = 0;
+  for (int i = 0; i < 20'000; ++i) {
+    const float away = i % 7 == 0 ? 1e6f : i % 3 == 0 ? 10.0f : 1.0f;
+    const Point3f to{u(random), u(random), u(random)};
+    const Vector3f way{u(random), u(random), u(random)};
+    Ray ray{to + way * away, -way};
+    Hit least;
+    const auto find_least = [&] {
+      least = {};
+      for (const auto& [id, standing] : all) {
+        const QuadricHits found =
+            quadric_hits(prepare(ray), standing.to_bundle, standing.quadric, id == ray.exclude);
+        if (found.count > 0 && (found.at[0].t < least.t || (found.at[0].t == least.t && id < least.triangle)))
+          least.t = found.at[0].t, least.triangle = id;
+      }
+    };
+    find_least();
+    if (i % 5 == 0 && least.triangle != no_triangle) {
+      ray.exclude = least.triangle;
+      find_least();
+    }
+    hits += least.triangle != no_triangle;
+    const auto walked = [&](const auto& closest) {
+      Hit hit;
+      DomainWalk walk(manifest, ray);
+      for (DomainWalk::Visit visit; walk.next(hit.t, visit);) closest(visit.domain, hit);
+      return hit;
+    };
+    const RayConstants constants = prepare(ray);
+    for (const Kernel kernel : available_kernels()) {
+      const Hit hit = walked([&](std::uint32_t d, Hit& h) {
+        kernel_functions(kernel).closest(domains[d]->view(), constants, h);
+      });
+      differ += hit.t != least.t || hit.triangle != least.triangle;
+    }
+    const Hit hit = walked([&](std::uint32_t d, Hit& h) { embree[d]->closest(ray, h); });
+    differ += hit.t != least.t || hit.triangle != least.triangle;
+    const float tmax = static_cast<float>(least.t * (i % 2 ? 1 + 1e-6 : 1 - 1e-6));
+    bool occluded = false;
+    DomainWalk walk(manifest, ray);
+    for (DomainWalk::Visit visit; !occluded && walk.next(double{tmax}, visit);)
+      occluded = best_kernel().occluded(domains[visit.domain]->view(), constants, tmax);
+    occlusion += occluded != (least.t < double{tmax});
+  }
+  EXPECT_GT(hits, 5'000u);
+  EXPECT_EQ(differ, 0u);
+  EXPECT_EQ(occlusion, 0u);
+}
+
+// The picture of finely tessellated ones, which are a little smaller.
+TEST(Quadrics, LookLikeTheirTessellation) {
+  Scene scene = crowd();
+  const Brightness exact = brightness(render(scene, 64).film);
+  for (TriangleMesh& mesh : scene.meshes)
+    if (mesh.quadric) mesh = tessellate(*mesh.quadric, 512);
+  const Brightness triangles = brightness(render(scene, 64).film);
+  EXPECT_NEAR(exact.mean, triangles.mean, 4 * std::hypot(exact.standard_error, triangles.standard_error));
+  EXPECT_LT(exact.standard_error, 0.03 * exact.mean);
+}
+
+// A white or glass object under a uniform sky cannot be seen: what enters a ball of glass leaves it.
+TEST(Quadrics, VanishUnderAUniformSky) {
+  for (const Material& material :
+       {Material{DiffuseMaterial{ConstantSpectrum{1}}}, Material{DielectricMaterial{}}})
+    for (const double size : {1e-3, 1.0, 1e3}) {
+      Scene scene;
+      scene.materials = {material};
+      Shape shape;
+      shape.mesh = add(scene, Quadric{});
+      shape.object_to_world = translate({300 * size, 0, 0}) * scale({size, 2 * size, -size});
+      shape.flip_orientation = true;
+      scene.shapes = {shape};
+      scene.lights.push_back(Light{InfiniteLight{ConstantSpectrum{1}}});
+      set_camera(scene, {304 * size, size, 0}, {300 * size, 0, 0}, {0, 0, 1}, 0.6, 16, 16);
+      scene.settings.max_depth = 60;
+      const Brightness result = brightness(render(scene, 64).film);
+      EXPECT_NEAR(result.mean, 1, 4 * result.standard_error + 1e-4) << size;
+    }
+}
+
+}  // namespace
+}  // namespace vitrail::test

@@ -1,0 +1,404 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tracer/lights/quadric_light.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tracer/bsdf/local.h"
+#include "tracer/lights/normal_cone.h"
+#include "tracer/portable_math.h"
+#include "tracer/quadrics/quadric_surface.h"
+
+namespace vitrail {
+
+namespace {
+
+constexpr Point3d middle{};
+
+Vector3d column(const Affine& a, int j) { return {a.m[0][j], a.m[1][j], a.m[2][j]}; }
+double hypotenuse(double x, double y) { return std::sqrt(x * x + y * y); }
+Point3d origin_of(const Affine& a) { return {a.m[0][3], a.m[1][3], a.m[2][3]}; }
+
+double own_area(const Quadric& q) {
+  switch (q.kind) {
+    case QuadricKind::sphere:
+      return q.phi_max_rad * (q.high - q.low);
+    case QuadricKind::cylinder:
+      return q.phi_max_rad;
+    case QuadricKind::disk:
+      return q.phi_max_rad * (1 - q.low * q.low) / 2;
+    case QuadricKind::cone:
+      return q.phi_max_rad / std::sqrt(2.0);
+    case QuadricKind::paraboloid:
+      return q.phi_max_rad * (5 * std::sqrt(5.0) - portable_pow(1 + 4 * q.low, 1.5)) / 12;
+  }
+  return 0;
+}
+
+// A direction of light that leaves, from the point whose normal is the middle of all, and how far the others
+// are off it in the quadric's own space.
+struct Facing {
+  Point3d middle;
+  double half_rad = 0;
+};
+
+Facing facing_of(const Quadric& q) {
+  const double mid = q.phi_max_rad / 2;
+  switch (q.kind) {
+    case QuadricKind::sphere: {
+      const double around_top = q.low <= -1 ? pi : portable_acos(q.low);
+      const double around_bottom = q.high >= 1 ? pi : portable_acos(-q.high);
+      return around_top <= around_bottom ? Facing{{0, 0, 1}, around_top} : Facing{{0, 0, -1}, around_bottom};
+    }
+    case QuadricKind::cylinder:
+      return {{portable_cos(mid), portable_sin(mid), 0}, mid};
+    case QuadricKind::disk:
+      return {{0, 0, 0}, 0};
+    case QuadricKind::cone:
+      return {{0, 0, 1}, pi / 4};
+    case QuadricKind::paraboloid:
+      return {{0, 0, 0}, portable_atan2(2, 1)};
+  }
+  return {};
+}
+
+bool is_similarity(const Affine& a) {
+  constexpr double tolerance = 1e-9;
+  const Vector3d x = column(a, 0), y = column(a, 1), z = column(a, 2);
+  const double size = dot(x, x);
+  const auto is_zero = [&](double w) { return std::abs(w) <= tolerance * size; };
+  return is_zero(dot(y, y) - size) && is_zero(dot(z, z) - size) && is_zero(dot(x, y)) && is_zero(dot(y, z)) &&
+         is_zero(dot(z, x));
+}
+
+}  // namespace
+
+QuadricLight::QuadricLight(const EmissiveQuadric& record, bool two_sided)
+    : record_(&record), own_area_(own_area(record.quadric.quadric)), two_sided_(two_sided) {
+  const Affine& to = record.to_bundle;
+  const Vector3d x = column(to, 0), y = column(to, 1), z = column(to, 2);
+  const double determinant = dot(x, cross(y, z));
+  determinant_ = std::abs(determinant);
+  inverse_[0] = cross(y, z) * (1 / determinant);
+  inverse_[1] = cross(z, x) * (1 / determinant);
+  inverse_[2] = cross(x, y) * (1 / determinant);
+  double norm2 = 0;
+  for (const Vector3d& row : inverse_) norm2 += dot(row, row);
+  const Vector3d away = origin_of(to) - middle;
+  doubt_ = 0x1p-48 * (1 + std::sqrt(norm2 * dot(away, away)));
+  const Quadric& q = record.quadric.quadric;
+  if (is_whole_sphere(q)) way_ = Way::sphere;
+  if (q.kind == QuadricKind::disk && is_whole_turn(q) && q.low <= 0) way_ = Way::disk;
+  if (q.kind == QuadricKind::cylinder && is_whole_turn(q) && !two_sided && !record.quadric.inside_out) {
+    way_ = Way::cylinder;
+    own_height_ = length(z) / std::sqrt(length(x) * length(y));
+  }
+}
+
+Vector3d QuadricLight::own(Vector3d v) const {
+  return {dot(inverse_[0], v), dot(inverse_[1], v), dot(inverse_[2], v)};
+}
+
+Vector3d QuadricLight::placed(Vector3d v) const {
+  const Affine& to = record_->to_bundle;
+  return column(to, 0) * v.x + column(to, 1) * v.y + column(to, 2) * v.z;
+}
+
+// ---- Spheres
+
+// How the unit sphere is seen from q.
+struct QuadricLight::Cone {
+  double d2 = 0;  // |q|²
+  bool outside = false;
+  double height = 2;  // 1 − cos θ of the cone; 2: all directions
+
+  // Of what is seen from outside, or inside; per solid angle of the own space.
+  double pdf(bool from_outside) const { return from_outside == outside ? 1 / (2 * pi * height) : 0; }
+};
+
+QuadricLight::Cone QuadricLight::cone(Vector3d q) const {
+  Cone cone{dot(q, q)};
+  cone.outside = cone.d2 > 1 + doubt_;
+  // (1 − cos θ)(1 + cos θ) = sin² θ = 1/|q|².
+  if (cone.outside) cone.height = 1 / (cone.d2 * (1 + std::sqrt((cone.d2 - 1) / cone.d2)));
+  return cone;
+}
+
+std::optional<QuadricLight::Sample> QuadricLight::sample_sphere(Point3d from, float u, float v) const {
+  const Vector3d q = own(from - origin_of(record_->to_bundle));
+  const Cone cone = this->cone(q);
+  // A point of the disk, lifted onto the cap of that height: equal areas stay equal.
+  const Vector3d disk = sample_cosine_hemisphere(u, v);
+  const double r2 = disk.x * disk.x + disk.y * disk.y;
+  const double drop = cone.height * r2;
+  const double aside = std::sqrt(cone.height * (2 - drop));
+  const Vector3d local{disk.x * aside, disk.y * aside, 1 - drop};
+  Sample s;
+  Vector3d direction, normal;
+  double t;
+  if (cone.outside) {
+    const double d = std::sqrt(cone.d2);
+    const Frame frame(q * (-1 / d));
+    direction = frame.to_world(local);
+    // The sine of the angle between the ray and the normal where they meet, over the radius of `local`.
+    const double sine = aside * d, cosine = safe_sqrt(1 - sine * sine * r2);
+    t = (cone.d2 - 1) / (d * local.z + cosine);
+    const double turned = sine * local.z - cosine * aside;  // sin of the angle at the centre, likewise
+    normal = frame.to_world({disk.x * turned, disk.y * turned, 0}) -
+             frame.normal * (cosine * local.z + aside * sine * r2);
+  } else {
+    direction = local;
+    const double b = dot(q, direction), inside = b * b + 1 - cone.d2;
+    if (!(inside >= 0)) return std::nullopt;
+    t = std::sqrt(inside) - b;
+    normal = q + direction * t;
+  }
+  s.local = middle + normalize(normal);
+  const Vector3d way = placed(direction);
+  const double longer = length(way);
+  s.to_light = way * (1 / longer);
+  s.distance = t * longer;
+  s.normal = placed_quadric_normal(record_->quadric, record_->to_bundle, s.local);
+  s.front = is_front(cone.outside);
+  s.pdf = cone.pdf(cone.outside) * longer * longer * longer / determinant_;
+  return s;
+}
+
+// ---- Cylinders
+
+// How the whole cylinder of radius 1 is seen from q, about its axis.
+struct QuadricLight::Arc {
+  double q_z = 0;
+  double rho = 0;       // of q
+  double half_rad = 0;  // 0: its outside is not seen
+
+  // Of the angles along the axis that it is seen under, from a horizontal distance.
+  struct Slit {
+    double low_rad = 0, width_rad = 0;
+  };
+  Slit slit(double horizontal, double height) const {
+    const double low = -q_z * height, high = (1 - q_z) * height;
+    return {portable_atan2(low, horizontal),
+            portable_atan2(horizontal * height, horizontal * horizontal + low * high)};
+  }
+  // `way` from q to the point; per solid angle where the own space is stretched to that height.
+  double pdf(Vector3d way, double height) const {
+    const double horizontal = hypotenuse(way.x, way.y);
+    if (!(half_rad > 0) || !(horizontal > 0)) return 0;
+    const double stretched = hypotenuse(horizontal, way.z * height);
+    // The rest of the way's length is in the caller's cube.
+    const double shorter = length(way) / stretched;
+    return height * shorter * shorter * shorter * stretched /
+           (horizontal * 2 * half_rad * slit(horizontal, height).width_rad);
+  }
+};
+
+QuadricLight::Arc QuadricLight::arc(Vector3d q) const {
+  const double rho2 = q.x * q.x + q.y * q.y;
+  Arc arc{q.z, std::sqrt(rho2)};
+  if (rho2 > 1 + doubt_) arc.half_rad = portable_atan2(1, std::sqrt(rho2 - 1));
+  return arc;
+}
+
+std::optional<QuadricLight::Sample> QuadricLight::sample_cylinder(Point3d from, float u, float v) const {
+  const Vector3d q = own(from - origin_of(record_->to_bundle));
+  const Arc arc = this->arc(q);
+  if (!(arc.half_rad > 0)) return std::nullopt;
+  const double theta = (2 * static_cast<double>(u) - 1) * arc.half_rad;
+  const double sine = portable_sin(theta), cosine = portable_cos(theta);
+  // At the point between the ray and the normal.
+  const double sin_there = std::clamp(arc.rho * sine, -1.0, 1.0),
+               cos_there = safe_sqrt(1 - sin_there * sin_there);
+  const double horizontal = (arc.rho * arc.rho - 1) / (arc.rho * cosine + cos_there);
+  const auto [low, width] = arc.slit(horizontal, own_height_);
+  const double rise = std::clamp(
+      horizontal * portable_tan(low + static_cast<double>(v) * width) / own_height_, -q.z, 1 - q.z);
+  // About the axis, from q's own side.
+  const double x = cos_there * cosine + sin_there * sine, y = sin_there * cosine - cos_there * sine;
+  const double c = q.x / arc.rho, s = q.y / arc.rho;
+  Sample sample;
+  sample.local = {c * x - s * y, s * x + c * y, q.z + rise};
+  const Vector3d own_way{-horizontal * (c * cosine + s * sine), horizontal * (c * sine - s * cosine), rise};
+  const Vector3d way = placed(own_way);
+  sample.distance = length(way);
+  sample.to_light = way * (1 / sample.distance);
+  sample.normal = placed_quadric_normal(record_->quadric, record_->to_bundle, sample.local);
+  sample.front = true;
+  const double longer = sample.distance / length(own_way);
+  sample.pdf = arc.pdf(own_way, own_height_) * longer * longer * longer / determinant_;
+  return sample;
+}
+
+// ---- Disks
+
+// How the unit disk is seen from q: its cone's axis halves the angle between the nearest and the farthest
+// point of its edge.
+struct QuadricLight::EllipticCone {
+  Vector3d x, y, z;             // orthonormal; z along the axis
+  double tan_x = 0, tan_y = 0;  // of its half angles; 0: seen from its plane
+  double height = 0;            // 1 − cos θ of the circular cone whose tangent is their mean
+  double squeeze_x = 1, squeeze_y = 1;
+
+  explicit EllipticCone(Vector3d q) {
+    const double rho = hypotenuse(q.x, q.y), h = std::abs(q.z);
+    const Vector3d aside = rho > 0 ? Vector3d{q.x / rho, q.y / rho, 0} : Vector3d{1, 0, 0};
+    const double near = hypotenuse(rho - 1, h), far = hypotenuse(rho + 1, h), both = near + far;
+    // The axis divides the diameter as these two.
+    const Vector3d to_middle = aside * (4 * rho / (both * both)) - q;
+    const double distance = length(to_middle);
+    if (!(h > 0) || !(distance > 0)) return;
+    z = to_middle * (1 / distance);
+    y = {-aside.y, aside.x, 0};
+    x = cross(y, z);
+    const double product = near * far, along = rho * rho - 1 + h * h;  // ·, of the two ways
+    tan_x = along > 0 ? 2 * h / (along + product) : (product - along) / (2 * h);
+    tan_y = 2 * std::sqrt(product) / (both * distance);
+    const double tangent2 = tan_x * tan_y, cosine = 1 / std::sqrt(1 + tangent2);
+    height = tangent2 * cosine * cosine / (1 + cosine);
+    squeeze_x = std::sqrt(tan_y / tan_x), squeeze_y = std::sqrt(tan_x / tan_y);
+  }
+  // Of a direction that meets the disk, of any length; per solid angle of the own space. The squeeze keeps
+  // volumes.
+  double pdf(Vector3d way) const {
+    if (!(tan_x > 0)) return 0;
+    const Vector3d squeezed{dot(way, x) * squeeze_x, dot(way, y) * squeeze_y, dot(way, z)};
+    const double longer = length(way) / length(squeezed);
+    return longer * longer * longer / (2 * pi * height);
+  }
+};
+
+std::optional<QuadricLight::Sample> QuadricLight::sample_disk(Point3d from, float u, float v) const {
+  const Vector3d q = own(from - origin_of(record_->to_bundle));
+  const EllipticCone cone(q);
+  if (!(cone.tan_x > 0)) return std::nullopt;
+  const Vector3d disk = sample_cosine_hemisphere(u, v);
+  const double drop = cone.height * (disk.x * disk.x + disk.y * disk.y);
+  const double aside = std::sqrt(cone.height * (2 - drop));
+  const Vector3d direction = cone.x * (disk.x * aside / cone.squeeze_x) +
+                             cone.y * (disk.y * aside / cone.squeeze_y) + cone.z * (1 - drop);
+  const double t = -q.z / direction.z;
+  if (!(t > 0)) return std::nullopt;
+  const Vector3d own_way = direction * t, way = placed(own_way);
+  Sample s;
+  s.local = {q.x + own_way.x, q.y + own_way.y, 0};
+  s.distance = length(way);
+  s.to_light = way * (1 / s.distance);
+  s.normal = placed_quadric_normal(record_->quadric, record_->to_bundle, s.local);
+  s.front = is_front(q.z > 0);
+  const double longer = s.distance / length(own_way);
+  s.pdf = cone.pdf(own_way) * longer * longer * longer / determinant_;
+  return s;
+}
+
+// ---- Others
+
+// By how much larger surfaces are where they stand, of that normal there: dA = |det| / |Mᵀ n| dA′.
+double QuadricLight::stretch(Vector3d n) const {
+  const Affine& to = record_->to_bundle;
+  return determinant_ / length(Vector3d{dot(column(to, 0), n), dot(column(to, 1), n), dot(column(to, 2), n)});
+}
+
+Point3d QuadricLight::point_by_area(double u, double v) const {
+  const Quadric& q = record_->quadric.quadric;
+  const double phi = q.phi_max_rad * u;
+  const auto at = [&](double rho, double z) {
+    return Point3d{rho * portable_cos(phi), rho * portable_sin(phi), z};
+  };
+  switch (q.kind) {
+    case QuadricKind::sphere: {
+      const double z = q.low + (q.high - q.low) * v;
+      return at(safe_sqrt((1 - z) * (1 + z)), z);
+    }
+    case QuadricKind::cylinder:
+      return at(1, v);
+    case QuadricKind::disk:
+      return at(std::sqrt(q.low * q.low + (1 - q.low * q.low) * v), 0);
+    case QuadricKind::cone: {
+      const double rho = std::sqrt(v);
+      return at(rho, 1 - rho);
+    }
+    case QuadricKind::paraboloid: {
+      // The area below z goes with (1 + 4z)^{3/2}.
+      const double least = portable_pow(1 + 4 * q.low, 1.5);
+      const double root = portable_pow(least + (5 * std::sqrt(5.0) - least) * v, 1 / 3.0);
+      const double z = std::clamp((root * root - 1) / 4, q.low, 1.0);
+      return at(std::sqrt(z), z);
+    }
+  }
+  return middle;
+}
+
+std::optional<QuadricLight::Sample> QuadricLight::sample_area(Point3d from, float u, float v) const {
+  Sample s;
+  s.local = point_by_area(static_cast<double>(u), static_cast<double>(v));
+  const Vector3d way = placed_point(record_->to_bundle, s.local) - from;
+  s.distance = length(way);
+  s.to_light = way * (1 / s.distance);
+  s.normal = placed_quadric_normal(record_->quadric, record_->to_bundle, s.local);
+  const double cosine = -dot(s.to_light, s.normal);
+  s.front = cosine > 0;
+  s.pdf = s.distance * s.distance / (std::max(std::abs(cosine), 1e-12) * own_area_ * stretch(s.normal));
+  return s;
+}
+
+// ---- Any
+
+std::optional<QuadricLight::Sample> QuadricLight::sample(Point3d from, float u, float v) const {
+  const auto sample = way_ == Way::sphere     ? sample_sphere(from, u, v)
+                      : way_ == Way::cylinder ? sample_cylinder(from, u, v)
+                      : way_ == Way::disk     ? sample_disk(from, u, v)
+                                              : sample_area(from, u, v);
+  if (!sample || !(sample->distance > 0) || !(sample->pdf > 0)) return std::nullopt;
+  if (!sample->front && !two_sided_) return std::nullopt;
+  return sample;
+}
+
+double QuadricLight::pdf(Point3d from, Point3d at, double cosine) const {
+  if (cosine <= 0 && !two_sided_) return 0;
+  const Vector3d way = at - from, own_way = own(way);
+  const double distance = length(way), own_distance = length(own_way);
+  if (!(own_distance > 0)) return 0;
+  const Vector3d q = own(from - origin_of(record_->to_bundle));
+  if (way_ == Way::area) {
+    const Vector3d normal =
+        placed_quadric_normal(record_->quadric, record_->to_bundle, middle + (q + own_way));
+    return distance * distance / (std::max(std::abs(cosine), 1e-12) * own_area_ * stretch(normal));
+  }
+  // Of directions dω = |det| / |M ω′|³ dω′.
+  const double longer = distance / own_distance;
+  const double own_pdf = way_ == Way::sphere     ? cone(q).pdf(is_front(cosine > 0))
+                         : way_ == Way::cylinder ? arc(q).pdf(own_way, own_height_)
+                                                 : EllipticCone(q).pdf(own_way);
+  return own_pdf * longer * longer * longer / determinant_;
+}
+
+// ---- What is known of it once
+
+TexturePoint QuadricLight::texture_point(Point3d local) const {
+  const QuadricPoint at = quadric_point(record_->quadric, record_->to_bundle, local);
+  return {at.uv, at.p, at.normal};
+}
+
+double QuadricLight::area() const {
+  constexpr int cells = 16;  // a side; exact where all is stretched alike
+  double sum = 0;
+  for (int i = 0; i < cells * cells; ++i) {
+    const Point3d local = point_by_area((i % cells + 0.5) / cells, (i / cells + 0.5) / cells);
+    sum += stretch(placed_quadric_normal(record_->quadric, record_->to_bundle, local));
+  }
+  return own_area_ * sum / (cells * cells);
+}
+
+LightBounds QuadricLight::bounds() const {
+  Transform to;
+  for (std::size_t i = 0; i < 3; ++i) std::copy_n(record_->to_bundle.m[i], 4, to.m[i].begin());
+  const Facing facing = facing_of(record_->quadric.quadric);
+  LightBounds b;
+  b.box = bounds_of(record_->quadric.quadric, to);
+  b.axis = placed_quadric_normal(record_->quadric, record_->to_bundle, facing.middle);
+  // Angles keep under similarities alone.
+  b.theta_o_rad = facing.half_rad == 0 || is_similarity(record_->to_bundle) ? facing.half_rad : pi;
+  return b;
+}
+
+}  // namespace vitrail

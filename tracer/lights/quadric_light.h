@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+// Sampling of one quadric that emits, and with what density. All is exact under affine transforms.
+//
+//   whole sphere, from outside    uniform in the cone of directions that meets it, in its own space
+//   whole sphere, from inside     uniform in all directions of its own space
+//   cylinder that goes all the way round and shines outwards alone
+//                                 uniform in the angle about its axis that it is seen under, and at each of
+//                                 these equiangular along the axis (Kulla & Fajardo 2012)
+//   whole disk                    in the elliptic cone of directions that meets it, uniform where that is
+//                                 squeezed to a circular one
+//   others                        uniform by the area of their own space
+#pragma once
+
+#include <optional>
+
+#include "bundle/manifest.h"
+#include "tracer/lights/light_tree.h"
+#include "tracer/textures/textures.h"
+
+namespace vitrail {
+
+class QuadricLight {
+ public:
+  // Refers to the record. `two_sided`: of its area light.
+  QuadricLight(const EmissiveQuadric& record, bool two_sided);
+
+  struct Sample {
+    Point3d local;        // in the quadric's own space
+    Vector3d to_light;    // unit
+    Vector3d normal;      // unit, of the front
+    double distance = 0;  // > 0
+    double pdf = 0;       // per solid angle
+    bool front = false;   // is seen
+  };
+  // u, v in [0,1). Empty where nothing that emits is seen.
+  std::optional<Sample> sample(Point3d from, float u, float v) const;
+  // The density, per solid angle, with which sample(from) gives the point `at` of it, seen at `cosine` from
+  // its normal (> 0: its front).
+  double pdf(Point3d from, Point3d at, double cosine) const;
+
+  // Uniform by the area of its own space, (u,v) in the unit square.
+  Point3d point_by_area(double u, double v) const;
+  TexturePoint texture_point(Point3d local) const;
+  double area() const;         // where it stands
+  LightBounds bounds() const;  // box and normals
+  const EmissiveQuadric& record() const { return *record_; }
+
+ private:
+  enum class Way : std::uint8_t { sphere, cylinder, disk, area };
+  struct Cone;
+  struct Arc;
+  struct EllipticCone;
+
+  Vector3d own(Vector3d v) const;
+  Vector3d placed(Vector3d v) const;
+  Cone cone(Vector3d q) const;
+  Arc arc(Vector3d q) const;
+  std::optional<Sample> sample_sphere(Point3d from, float u, float v) const;
+  std::optional<Sample> sample_cylinder(Point3d from, float u, float v) const;
+  std::optional<Sample> sample_disk(Point3d from, float u, float v) const;
+  std::optional<Sample> sample_area(Point3d from, float u, float v) const;
+  double stretch(Vector3d unit_normal) const;
+  bool is_front(bool outside) const { return outside != record_->quadric.inside_out; }
+
+  const EmissiveQuadric* record_;
+  Vector3d inverse_[3];     // rows of the inverse of its transform's 3×3 block
+  double determinant_ = 0;  // magnitude
+  double doubt_ = 0;        // of |q|², where q is on its surface, in its own space
+  double own_area_ = 0;
+  double own_height_ = 1;  // of a cylinder, over its radius
+  Way way_ = Way::area;
+  bool two_sided_ = false;
+};
+
+}  // namespace vitrail

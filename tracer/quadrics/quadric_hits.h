@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// The test that decides hits of quadrics: a pure function of the ray, the quadric and where it stands, in
+// double and without FMA, so that every kernel and every decomposition has the same bits.
+#pragma once
+
+#include "bundle/instance.h"
+#include "scene/quadric.h"
+
+namespace vitrail {
+
+struct RayConstants;  // tracer/intersect/ray.h
+
+struct QuadricHit {
+  double t;
+  Point3d local;  // in the quadric's own space, on the surface as far as doubles tell
+};
+
+// At most two, t ascending, all > 0.
+struct QuadricHits {
+  int count = 0;
+  QuadricHit at[2];
+};
+
+// `starts_there`: the ray starts on this quadric. Of the two points where its line meets the whole surface
+// the one nearer to its origin is then where it starts, and no hit: glass is left on the other side.
+QuadricHits quadric_hits(const RayConstants& ray, const Affine& to_bundle, const Quadric& quadric,
+                         bool starts_there);
+
+}  // namespace vitrail

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "bundle/instance.h"
+#include "bundle/oriented_quadric.h"
+
+namespace vitrail {
+
+// A point of a quadric where it stands.
+struct QuadricPoint {
+  Point3d p;
+  Vector3d normal;      // unit, of the front
+  Vector3d dpdu, dpdv;  // 0 where (u,v) do not span a plane: at poles
+  Point2d uv;
+};
+
+Point3d placed_point(const Affine& to_bundle, Point3d local);
+// Unit, of the front.
+Vector3d placed_quadric_normal(const OrientedQuadric& quadric, const Affine& to_bundle, Point3d local);
+// `local` on the surface, in the quadric's own space.
+QuadricPoint quadric_point(const OrientedQuadric& quadric, const Affine& to_bundle, Point3d local);
+
+}  // namespace vitrail
