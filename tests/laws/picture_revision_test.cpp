@@ -11,7 +11,7 @@ namespace vitrail::test {
 namespace {
 
 constexpr std::uint32_t known_revision = 3;
-constexpr const char* known_pictures = "46afd52235c9712d";
+constexpr const char* known_pictures = "dcbd16245510461d";
 
 std::array<Point3f, 4> tile(float x, float z) {
   return {{{x, 0, z}, {x + 1, 0, z}, {x + 1, 1, z + 0.2f}, {x, 1, z + 0.2f}}};

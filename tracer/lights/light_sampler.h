@@ -83,7 +83,9 @@ struct LightSampler {
   };
   std::vector<Run> runs;  // ascending
 
-  bool only_delta = false;  // there is one light, and one direction to it
+  // There is one light, and one direction to it; or a sun among others, that brings most wherever nothing is
+  // in its way, which is mostly not so.
+  bool one_is_enough = false;
   Point3d lamp_center;      // where there is one lamp, of one or two surfaces and one radiance,
   double lamp_radius2 = 0;  // a sphere around it; else 0
 

@@ -178,9 +178,12 @@ struct Sorter {
 void find_variety(std::span<const LightBounds> lights, LightSampler& s) {
   const std::size_t kinds =
       static_cast<std::size_t>(std::ranges::count_if(s.share, [](double share) { return share > 0; }));
-  if (kinds != 1) return;
+  if (kinds != 1) {
+    s.one_is_enough = !s.distant.empty();
+    return;
+  }
   const bool local = s.share[0] > 0;
-  s.only_delta = local ? s.slots.size() == 1 && s.emitters.size() == 1 : s.environments.empty();
+  s.one_is_enough = local ? s.slots.size() == 1 && s.emitters.size() == 1 : s.environments.empty();
   const bool plain = std::ranges::all_of(s.scene.area_lights, [](const AreaLight& light) {
     return std::holds_alternative<Spectrum>(light.radiance);
   });
