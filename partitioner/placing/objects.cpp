@@ -172,7 +172,8 @@ class Planner {
     if (triangles_of(*stored) == 0) return;
     if (stored->places) return add_run(a, shape, *stored->places, outer * shape.object_to_world);
     if (stored->quadric) {
-      if (can_be_kept(outer * shape.object_to_world, most_condition_of_quadrics))
+      if (!shines_along_its_normals(shape) &&
+          can_be_kept(outer * shape.object_to_world, most_condition_of_quadrics))
         return use(a, object_of_quadric(shape), outer * shape.object_to_world);
       stored = &tessellated(shape.mesh);
     }
@@ -208,6 +209,11 @@ class Planner {
       plan_.objects.push_back(std::move(object));
     }
     return known->second;
+  }
+
+  // Lights sample such surfaces by their triangles alone.
+  bool shines_along_its_normals(const Shape& shape) const {
+    return shape.area_light && scene_.area_lights[shape.area_light->value].directional;
   }
 
   const TriangleMesh& tessellated(Id<TriangleMesh> quadric) {

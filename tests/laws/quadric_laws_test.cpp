@@ -243,6 +243,27 @@ TEST(Quadrics, LookLikeTheirTessellation) {
   EXPECT_LT(exact.standard_error, 0.03 * exact.mean);
 }
 
+// A lamp that shines along its normals alone is one of triangles.
+TEST(Quadrics, LampsThatShineAlongTheirNormalsShine) {
+  const auto lit = [](bool kept) {
+    Scene scene;
+    const Quadric disk{.kind = QuadricKind::disk, .low = 0};
+    AreaLight light;
+    light.radiance = ConstantSpectrum{1};
+    light.directional = true;
+    add_shape(scene, add(scene, disk), Material{DiffuseMaterial{}}, light);
+    scene.shapes[0].object_to_world = translate({0, 0, 2});
+    scene.shapes[0].flip_orientation = true;
+    if (!kept) scene.meshes[0] = tessellate(disk);
+    add_shape(scene, add_quads(scene, {{{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}}}),
+              Material{DiffuseMaterial{}});
+    set_camera(scene, {3, 0, 1.5}, {0, 0, 0}, {0, 0, 1}, 0.6, 16, 16);
+    return brightness(render(scene, 16).film).mean;
+  };
+  EXPECT_GT(lit(true), 0.01);
+  EXPECT_EQ(lit(true), lit(false));
+}
+
 // A white or glass object under a uniform sky cannot be seen: what enters a ball of glass leaves it.
 TEST(Quadrics, VanishUnderAUniformSky) {
   for (const Material& material :
