@@ -77,7 +77,7 @@ Scene crowd() {
   add_shape(scene, add_quads(scene, {{{{-3, -3, -1.5f}, {3, -3, -1.5f}, {3, 3, -1.5f}, {-3, 3, -1.5f}}}}),
             Material{DiffuseMaterial{}});
   add_shape(scene, add_quads(scene, {{{{-1, -1, 3}, {-1, 1, 3}, {1, 1, 3}, {1, -1, 3}}}}),
-            Material{DiffuseMaterial{}}, AreaLight{ConstantSpectrum{5}, false});
+            Material{DiffuseMaterial{}}, AreaLight{ConstantSpectrum{5}});
   for (const QuadricKind kind : {QuadricKind::sphere, QuadricKind::cylinder, QuadricKind::cone}) {
     add_shape(scene, add(scene, Quadric{.kind = kind}), Material{DiffuseMaterial{}},
               AreaLight{ConstantSpectrum{20}});
