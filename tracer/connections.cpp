@@ -24,6 +24,7 @@ constexpr double far_away = 1e30;                   // ends of rays to environme
 // A connection's ray: coded, and as far as it goes, in lengths of its direction.
 struct Aimed {
   DirectionCode direction;
+  Vector3f rounded = decode_direction(direction);
   double end = far_away;
   double slope = 0;  // of StraightAim
 };
@@ -49,12 +50,11 @@ Aimed aim(const Departure& from, const LightSample& light) {
   if (std::isinf(light.distance)) return {encode_direction(light.to_light)};
   const Vector3d way = from.p + light.to_light * light.distance - cast<double>(from.origin);
   Aimed aimed{encode_direction(dot(way, way) > 0 ? way : light.to_light)};
-  const Vector3f rounded = decode_direction(aimed.direction);
-  const Vector3d direction = cast<double>(rounded);
+  const Vector3d direction = cast<double>(aimed.rounded);
   const double distance = length(way), there = dot(way, direction) / dot(direction, direction);
   aimed.end = there;
   if (light.quadric) {
-    end_on_quadric({from.origin, rounded, from.exclude}, *light.quadric, aimed);
+    end_on_quadric({from.origin, aimed.rounded, from.exclude}, *light.quadric, aimed);
     return aimed;
   }
   const double height = dot(way, light.normal), cosine = dot(direction, light.normal);
@@ -125,23 +125,26 @@ void PathTracer::connect(const Path& path, Point3d p, std::uint32_t count, const
   SampledSpectrum radiance;
   double all = 0, chosen = 0;
   for (std::uint32_t k = 0; k < count; ++k) {
-    const auto candidate = sample_light(scene_.lights, p, numbers_of_candidate(numbers, k), path.wavelengths);
+    const auto candidate = sample_light(scene_.lights, p, k > 0 ? numbers_of_candidate(numbers, k) : numbers,
+                                        path.wavelengths);
     if (!candidate) continue;
     const BsdfValue scattered = scatter(candidate->to_light);
-    double weight = 1 / candidate->pdf;
-    if (!candidate->is_delta)
-      weight = 1 / (candidate->pdf + static_cast<double>(density_beside(scattered.pdf, count)));
+    const double beside =
+        candidate->is_delta ? 0 : static_cast<double>(density_beside(scattered.pdf, count));
+    const double weight = 1 / (candidate->pdf + beside);
     const SampledSpectrum brought =
         path.throughput * scattered.value * candidate->radiance * static_cast<float>(weight);
     const double target = sum_of(brought);
     if (target <= 0) continue;
     all += target;
-    // One number for all choices: what is left of it after one is as random as it was.
-    if (const double share = target / all; choice < share) {
+    if (chosen > 0) {
+      // One number for all choices: what is left of it after one is as random as it was.
+      const double share = target / all;
+      if (choice >= share) {
+        choice = (choice - share) / (1 - share);
+        continue;
+      }
       choice /= share;
-    } else if (chosen > 0) {
-      choice = (choice - share) / (1 - share);
-      continue;
     }
     light = *candidate;
     radiance = brought;
@@ -244,17 +247,13 @@ void PathTracer::unpack_connection(const PathRecord& record, Path& path) {
 void PathTracer::send_shadow_ray(const Path& path, const Departure& from, const LightSample& light,
                                  const SampledSpectrum& radiance) {
   const Aimed aimed = aim(from, light);
-  ShadowRecord r;
-  r.origin[0] = from.origin.x;
-  r.origin[1] = from.origin.y;
-  r.origin[2] = from.origin.z;
-  r.direction = aimed.direction;
-  r.tmax = std::isinf(light.distance) ? std::numeric_limits<float>::max() : float_below(aimed.end);
-  r.exclude = from.exclude;
-  for (std::size_t i = 0; i < hero_count; ++i) pack_radiance(std::max(0.0f, radiance.v[i]), r.radiance[i]);
-  r.pixel = path.pixel;
-  r.sample = path.sample;
-  trace_shadow(r, &path.sensor, std::nullopt);
+  Shadow shadow{{from.origin, aimed.rounded, from.exclude}, aimed.direction};
+  shadow.tmax = std::isinf(light.distance) ? std::numeric_limits<float>::max() : float_below(aimed.end);
+  for (std::size_t i = 0; i < hero_count; ++i)
+    shadow.radiance.v[i] = rounded_radiance(std::max(0.0f, radiance.v[i]));
+  shadow.pixel = path.pixel;
+  shadow.sample = path.sample;
+  trace_shadow(shadow, &path.sensor, std::nullopt);
 }
 
 // A connection goes straight on through whatever lets it; one to a distant light through every smooth

@@ -20,10 +20,10 @@ const PreparedMedium* PathTracer::medium_of(const Path& path) const {
 }
 
 // The same wherever the ray is traced.
-std::uint64_t PathTracer::hash_of_ray(const Path& path) const {
+std::uint64_t PathTracer::hash_of_ray(const Path& path) {
   const auto bits = [](float x) { return std::uint64_t{std::bit_cast<std::uint32_t>(x)}; };
   const Point3f o = path.ray.origin;
-  return stream_seed(key_of(path.pixel, path.sample), bits(o.x) << 32 | bits(o.y),
+  return stream_seed(path.seed, bits(o.x) << 32 | bits(o.y),
                      bits(o.z) << 32 ^ std::uint64_t{path.direction.first()} << 24 ^ path.direction.second());
 }
 

@@ -46,8 +46,7 @@ std::array<double, 3> PathTracer::value_at(const Path& path, const Interaction& 
     case Layer::depth: {
       const auto width = static_cast<std::uint32_t>(film_.width());
       const CameraRay ray = camera_ray(film_.crop().x0 + static_cast<int>(path.pixel % width),
-                                       film_.crop().y0 + static_cast<int>(path.pixel / width), path.pixel,
-                                       path.sample, path.camera);
+                                       film_.crop().y0 + static_cast<int>(path.pixel / width), path);
       return {length(at.p - cast<double>(ray.origin))};
     }
     default:

@@ -9,8 +9,19 @@
 
 namespace vitrail {
 
+// A shadow ray while it is being traced, its values rounded as those of its record.
+struct PathTracer::Shadow {
+  Ray ray;
+  DirectionCode direction;  // the ray's
+  float tmax = 0;
+  SampledSpectrum radiance;
+  std::uint32_t pixel = 0, sample = 0;
+};
+
 struct PathTracer::Path {
   std::uint32_t pixel = 0, sample = 0;
+  SampleKey key;           // of these
+  std::uint64_t seed = 0;  // sample_seed of it
   std::uint32_t depth = 0;
   std::uint8_t flags = 0;
   float pdf = 0;            // of the last scattering, as density_beside says; 0: specular or camera

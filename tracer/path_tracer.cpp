@@ -10,6 +10,24 @@
 
 namespace vitrail {
 
+namespace {
+
+void pack(const Ray& ray, DirectionCode direction, auto& record) {
+  record.origin[0] = ray.origin.x;
+  record.origin[1] = ray.origin.y;
+  record.origin[2] = ray.origin.z;
+  record.direction = direction;
+  record.exclude = ray.exclude;
+}
+
+Ray unpacked(const auto& record) {
+  return {{record.origin[0], record.origin[1], record.origin[2]},
+          decode_direction(record.direction),
+          record.exclude};
+}
+
+}  // namespace
+
 TraceCounters& operator+=(TraceCounters& a, const TraceCounters& b) {
   a.rays_camera += b.rays_camera;
   a.rays_indirect += b.rays_indirect;
@@ -39,15 +57,22 @@ SampleKey PathTracer::key_of(std::uint32_t pixel, std::uint32_t sample) const {
   return {scene_.seed, y * static_cast<std::uint32_t>(film_.full_width()) + x, sample};
 }
 
+// Of a path whose pixel and sample are known.
+void PathTracer::begin(Path& path) const {
+  path.key = key_of(path.pixel, path.sample);
+  path.seed = sample_seed(path.key);
+  path.camera = sample_4d(path.key, sample_set::camera);
+}
+
 // The first event at a depth has a stratified set; those that follow where going straight on counts for no
 // depth have numbers of their ray.
-std::array<float, 4> PathTracer::numbers_for_scattering(const Path& path) const {
+std::array<float, 4> PathTracer::numbers_for_scattering(const Path& path, Wanted wanted) const {
   if (path.is(path_passed)) return hashed_4d(stream_of(path, RayRandom::scattering));
-  return sample_4d(key_of(path.pixel, path.sample), sample_set::scatter(path.depth));
+  return sample_4d(path.key, sample_set::scatter(path.depth), wanted);
 }
 std::array<float, 4> PathTracer::numbers_for_light(const Path& path) const {
   if (path.is(path_passed)) return hashed_4d(stream_of(path, RayRandom::light));
-  return sample_4d(key_of(path.pixel, path.sample), sample_set::light(path.depth));
+  return sample_4d(path.key, sample_set::light(path.depth));
 }
 
 void PathTracer::find_wavelengths(Path& path) const {
@@ -63,12 +88,11 @@ SensorWeights PathTracer::sensor_of(const std::array<float, 4>& camera,
   return sensor_weights(wavelengths, scene_.filter.weight(camera[0], camera[1]), film_.bins());
 }
 
-CameraRay PathTracer::camera_ray(int x, int y, std::uint32_t pixel, std::uint32_t sample,
-                                 const std::array<float, 4>& u) const {
-  const Point2d offset = scene_.filter.sample(u[0], u[1]).offset;
+CameraRay PathTracer::camera_ray(int x, int y, const Path& path) const {
+  const Point2d offset = scene_.filter.sample(path.camera[0], path.camera[1]).offset;
   Point2d lens;
   if (scene_.camera.has_lens()) {
-    const std::array<float, 4> point = sample_4d(key_of(pixel, sample), sample_set::lens);
+    const std::array<float, 4> point = sample_4d(path.key, sample_set::lens);
     lens = {static_cast<double>(point[0]), static_cast<double>(point[1])};
   }
   return scene_.camera.ray({x + 0.5 + offset.x, y + 0.5 + offset.y}, lens);
@@ -78,10 +102,9 @@ void PathTracer::trace_camera(int x, int y, std::uint32_t sample) {
   Path path;
   path.pixel = static_cast<std::uint32_t>((y - film_.crop().y0) * film_.width() + x - film_.crop().x0);
   path.sample = sample;
-  const std::array<float, 4> u = sample_4d(key_of(path.pixel, sample), sample_set::camera);
-  const CameraRay ray = camera_ray(x, y, path.pixel, sample, u);
+  begin(path);
+  const CameraRay ray = camera_ray(x, y, path);
   if (film_.layers().any()) path.set(path_unrecorded);
-  path.camera = u;
   path.throughput = filled(1);
   path.inside = scene_.interiors.state_in(manifest_.camera_medium);
   path.direction = ray.direction;
@@ -97,6 +120,7 @@ void PathTracer::resume(const PathRecord& record, std::uint32_t domain) {
   Path path;
   path.pixel = record.pixel;
   path.sample = record.sample_depth >> 9;
+  begin(path);
   path.depth = (record.sample_depth & 0x1ff) << 8 | record.depth;
   path.flags = record.flags & (record.flags & (path_in_pane | path_connection) ? 0xf : 0x3f);
   if (path.is(path_in_pane))
@@ -110,14 +134,11 @@ void PathTracer::resume(const PathRecord& record, std::uint32_t domain) {
   if (path.is(path_connection)) unpack_connection(record, path);
   path.inside = record.inside;
   path.direction = record.direction;
-  path.ray = {{record.origin[0], record.origin[1], record.origin[2]},
-              decode_direction(record.direction),
-              record.exclude};
+  path.ray = unpacked(record);
   path.random = hash_of_ray(path);
   path.hit.t = record.hit_t;
   path.hit.triangle = record.hit_triangle;
   path.hit_domain = record.hit_domain;
-  path.camera = sample_4d(key_of(path.pixel, path.sample), sample_set::camera);
   run(path, domain);
 }
 
@@ -182,15 +203,11 @@ bool PathTracer::forward(const Path& path, std::uint32_t domain, bool resolved) 
   r.hit_t = path.hit.t;
   r.hit_triangle = path.hit.triangle;
   r.hit_domain = static_cast<std::uint16_t>(path.hit_domain);
-  r.direction = path.direction;
-  r.origin[0] = path.ray.origin.x;
-  r.origin[1] = path.ray.origin.y;
-  r.origin[2] = path.ray.origin.z;
+  pack(path.ray, path.direction, r);
   pack_throughput(path.throughput, r.throughput);
   pack_radiance(static_cast<float>(path.travelled), r.travelled);
   if (has_cone(path)) r.travelled[0] = path.cone;
   r.inside = path.inside;
-  r.exclude = path.ray.exclude;
   r.pixel = path.pixel;
   r.sample_depth = path.sample << 9 | path.depth >> 8;
   r.depth = static_cast<std::uint8_t>(path.depth);
@@ -203,49 +220,62 @@ bool PathTracer::forward(const Path& path, std::uint32_t domain, bool resolved) 
 }
 
 void PathTracer::resume(const ShadowRecord& record, std::uint32_t domain) {
-  trace_shadow(record, nullptr, domain);
+  Shadow shadow{unpacked(record), record.direction, record.tmax, {}, record.pixel, record.sample};
+  for (std::size_t i = 0; i < hero_count; ++i) shadow.radiance.v[i] = unpack_radiance(record.radiance[i]);
+  trace_shadow(shadow, nullptr, domain);
+}
+
+void PathTracer::forward(const Shadow& shadow, std::uint32_t domain) {
+  ShadowRecord r;
+  pack(shadow.ray, shadow.direction, r);
+  r.tmax = shadow.tmax;
+  for (std::size_t i = 0; i < hero_count; ++i) pack_radiance(shadow.radiance.v[i], r.radiance[i]);
+  r.pixel = shadow.pixel;
+  r.sample = shadow.sample;
+  outbox_.shadows.push_back({domain, r});
 }
 
 // `at` is given for a ray that was born elsewhere or earlier, whose end is counted.
-void PathTracer::trace_shadow(const ShadowRecord& record, const SensorWeights* weights,
+void PathTracer::trace_shadow(const Shadow& shadow, const SensorWeights* weights,
                               std::optional<std::uint32_t> at) {
-  const Ray ray{{record.origin[0], record.origin[1], record.origin[2]},
-                decode_direction(record.direction),
-                record.exclude};
-  const RayConstants constants = prepare(ray);
-  DomainWalk walk(manifest_, ray, resident_);
+  if (is_occluded(shadow, at)) return;
+  if (weights) {
+    deposit(shadow.pixel, shadow.sample, *weights, shadow.radiance);
+  } else {
+    const std::array<float, 4> u = sample_4d(key_of(shadow.pixel, shadow.sample), sample_set::camera);
+    deposit(shadow.pixel, shadow.sample, sensor_of(u, sample_wavelengths(u[2])), shadow.radiance);
+  }
+  if (at) ++counters_.died;
+}
+
+// Also where it went on elsewhere.
+bool PathTracer::is_occluded(const Shadow& shadow, std::optional<std::uint32_t> at) {
+  const RayConstants constants = prepare(shadow.ray);
+  DomainWalk walk(manifest_, shadow.ray, resident_);
   if (at) {
     count_visit(*at);
-    if (kernel_.occluded(*resident_[*at], constants, record.tmax)) {
+    if (kernel_.occluded(*resident_[*at], constants, shadow.tmax)) {
       ++counters_.died;
-      return;
+      return true;
     }
     walk.skip_past(*at);
   }
   bool first = !at;
-  for (DomainWalk::Visit visit; walk.next(static_cast<double>(record.tmax), visit);) {
+  for (DomainWalk::Visit visit; walk.next(static_cast<double>(shadow.tmax), visit);) {
     if (!first) ++counters_.crossings;
     first = false;
     if (!resident_[visit.domain]) {
-      outbox_.shadows.push_back({visit.domain, record});
+      forward(shadow, visit.domain);
       if (!at) ++counters_.born;
-      return;
+      return true;
     }
     count_visit(visit.domain);
-    if (kernel_.occluded(*resident_[visit.domain], constants, record.tmax)) {
+    if (kernel_.occluded(*resident_[visit.domain], constants, shadow.tmax)) {
       if (at) ++counters_.died;
-      return;
+      return true;
     }
   }
-  SampledSpectrum radiance;
-  for (std::size_t i = 0; i < hero_count; ++i) radiance.v[i] = unpack_radiance(record.radiance[i]);
-  if (weights) {
-    deposit(record.pixel, record.sample, *weights, radiance);
-  } else {
-    const std::array<float, 4> u = sample_4d(key_of(record.pixel, record.sample), sample_set::camera);
-    deposit(record.pixel, record.sample, sensor_of(u, sample_wavelengths(u[2])), radiance);
-  }
-  if (at) ++counters_.died;
+  return false;
 }
 
 void PathTracer::deposit(std::uint32_t pixel, std::uint32_t sample, const SensorWeights& weights,

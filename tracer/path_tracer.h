@@ -80,9 +80,9 @@ class PathTracer {
 
  private:
   struct Path;
+  struct Shadow;
 
-  CameraRay camera_ray(int x, int y, std::uint32_t pixel, std::uint32_t sample,
-                       const std::array<float, 4>& camera) const;
+  CameraRay camera_ray(int x, int y, const Path& path) const;
   void run(Path& path, std::optional<std::uint32_t> at);
   bool find_hit(Path& path, std::optional<std::uint32_t> at);
   void intersect(Path& path, std::uint32_t domain);
@@ -90,6 +90,7 @@ class PathTracer {
     if (!visits_.empty()) ++visits_[domain];
   }
   bool forward(const Path& path, std::uint32_t domain, bool resolved);
+  void forward(const Shadow& shadow, std::uint32_t domain);
 
   // shading.cpp
   bool shade(Path& path);
@@ -122,7 +123,7 @@ class PathTracer {
   const Surface& surface_at(const Path& path) const;
   Flight flight_of(const Path& path) const;
   const PreparedMedium* medium_of(const Path& path) const;
-  std::uint64_t hash_of_ray(const Path& path) const;
+  static std::uint64_t hash_of_ray(const Path& path);
   static std::uint64_t stream_of(const Path& path, RayRandom use);
   double cone_unit() const;
   bool has_cone(const Path& path) const;
@@ -150,14 +151,15 @@ class PathTracer {
   static void pack_connection(const Path& path, PathRecord& record);
   static void unpack_connection(const PathRecord& record, Path& path);
 
-  void trace_shadow(const ShadowRecord& record, const SensorWeights* weights,
-                    std::optional<std::uint32_t> at);
+  void trace_shadow(const Shadow& shadow, const SensorWeights* weights, std::optional<std::uint32_t> at);
+  bool is_occluded(const Shadow& shadow, std::optional<std::uint32_t> at);
   void deposit(std::uint32_t pixel, std::uint32_t sample, const SensorWeights& weights,
                const SampledSpectrum& radiance);
   SensorWeights sensor_of(const std::array<float, 4>& camera, const SampledWavelengths& wavelengths) const;
   void find_wavelengths(Path& path) const;
   SampleKey key_of(std::uint32_t pixel, std::uint32_t sample) const;
-  std::array<float, 4> numbers_for_scattering(const Path& path) const;
+  void begin(Path& path) const;
+  std::array<float, 4> numbers_for_scattering(const Path& path, Wanted wanted = Wanted::four) const;
   std::array<float, 4> numbers_for_light(const Path& path) const;
 
   const RenderScene& scene_;

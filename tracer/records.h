@@ -86,7 +86,7 @@ inline float pdf_value(std::uint16_t code) {
 // Of scattering, as it counts beside that of one of several samples of the lights (the balance heuristic,
 // Veach 1997, eq. 9.8).
 inline float density_beside(double pdf, std::uint32_t light_samples) {
-  return pdf_value(pdf_code(static_cast<float>(pdf / light_samples)));
+  return pdf_value(pdf_code(static_cast<float>(light_samples == 1 ? pdf : pdf / light_samples)));
 }
 
 // A width relative to the scene's scale: 3 bits of mantissa, from 2⁻²⁶ to 2⁶; 0: none.

@@ -62,25 +62,9 @@ constexpr std::uint32_t scramble_reversed(std::uint32_t x, std::uint32_t seed) {
   return x;
 }
 
-// SplitMix64's finaliser (Steele, Lea & Flood 2014).
-constexpr std::uint64_t mix(std::uint64_t x) {
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ull;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111ebull;
-  return x ^ (x >> 31);
-}
-
 float to_unit(std::uint32_t bits) { return static_cast<float>(bits >> 8) * 0x1p-24f; }
 
 }  // namespace
-
-std::uint64_t stream_seed(const SampleKey& key, std::uint64_t a, std::uint64_t b) {
-  const std::uint64_t sample = static_cast<std::uint64_t>(key.pixel) << 32 | key.sample;
-  return mix(mix(mix(key.seed + 0x9e3779b97f4a7c15ull) ^ sample) + mix(a + 0x632be59bd9b4e019ull) * 3 + b);
-}
-
-std::uint64_t RandomStream::bits() { return mix(state_ += 0x9e3779b97f4a7c15ull); }
-
-double RandomStream::next() { return static_cast<double>(bits() >> 11) * 0x1p-53; }
 
 std::array<float, 4> hashed_4d(std::uint64_t seed) {
   std::array<float, 4> result{};
@@ -88,26 +72,28 @@ std::array<float, 4> hashed_4d(std::uint64_t seed) {
   return result;
 }
 
-std::array<float, 4> sample_4d(const SampleKey& key, std::uint32_t set) {
+std::array<float, 4> sample_4d(const SampleKey& key, std::uint32_t set, Wanted wanted) {
   const std::uint64_t group = group_of(key.sample);
   const std::uint64_t h =
       mix((mix(key.seed + 0x9e3779b97f4a7c15ull) ^ (static_cast<std::uint64_t>(key.pixel) << 32 | set)) +
           group * 0x632be59bd9b4e019ull);
-  const std::uint64_t h2 = mix(h + 0x9e3779b97f4a7c15ull), h3 = mix(h + 2 * 0x9e3779b97f4a7c15ull);
   // Shuffling is an Owen scramble of the index: every power-of-two prefix stays one aligned, stratified
   // block.
   const std::uint32_t index = reverse_bits(
       scramble_reversed(reverse_bits(index_in_group(key.sample)), static_cast<std::uint32_t>(h)));
-  std::array<std::uint32_t, 4> bits{index, 0, 0, 0};  // reversed; the first dimension is the radical inverse
-  for (std::size_t d = 0; d < 3; ++d) {
-    const ByteTable& t = tables[d];
-    bits[d + 1] = t[0][index & 0xff] ^ t[1][index >> 8 & 0xff] ^ t[2][index >> 16 & 0xff] ^ t[3][index >> 24];
-  }
-  const std::array<std::uint32_t, 4> seeds{
-      static_cast<std::uint32_t>(h2), static_cast<std::uint32_t>(h2 >> 32), static_cast<std::uint32_t>(h3),
-      static_cast<std::uint32_t>(h3 >> 32)};
-  std::array<float, 4> result{};
-  for (std::size_t d = 0; d < 4; ++d) result[d] = to_unit(reverse_bits(scramble_reversed(bits[d], seeds[d])));
+  // Both reversed; the first dimension is the radical inverse.
+  const auto point = [&](const ByteTable& t) {
+    return t[0][index & 0xff] ^ t[1][index >> 8 & 0xff] ^ t[2][index >> 16 & 0xff] ^ t[3][index >> 24];
+  };
+  const auto number = [](std::uint32_t bits, std::uint64_t seed) {
+    return to_unit(reverse_bits(scramble_reversed(bits, static_cast<std::uint32_t>(seed))));
+  };
+  const std::uint64_t h2 = mix(h + 0x9e3779b97f4a7c15ull);
+  std::array<float, 4> result{number(index, h2), number(point(tables[0]), h2 >> 32)};
+  if (wanted == Wanted::two) return result;
+  const std::uint64_t h3 = mix(h + 2 * 0x9e3779b97f4a7c15ull);
+  result[2] = number(point(tables[1]), h3);
+  result[3] = number(point(tables[2]), h3 >> 32);
   return result;
 }
 

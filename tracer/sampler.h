@@ -15,25 +15,44 @@ struct SampleKey {
   std::uint32_t sample = 0;
 };
 
+// SplitMix64's finaliser (Steele, Lea & Flood 2014).
+constexpr std::uint64_t mix(std::uint64_t x) {
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ull;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111ebull;
+  return x ^ (x >> 31);
+}
+
 // Four numbers in [0,1), the coordinates of a point of a scrambled Sobol' sequence of its own for each (seed,
 // pixel, set, group of samples): the samples of a group (film/sample_groups.h) are its points in turn. Sets
-// and groups are statistically independent of each other.
-std::array<float, 4> sample_4d(const SampleKey& key, std::uint32_t set);
+// and groups are statistically independent of each other. Who wants but the first two is spared the others,
+// which are 0 then.
+enum class Wanted : std::uint8_t { two, four };
+std::array<float, 4> sample_4d(const SampleKey& key, std::uint32_t set, Wanted wanted = Wanted::four);
 
 // As many numbers in [0,1) as it takes (SplitMix64, Steele et al. 2014), from a seed of `stream_seed`.
 class RandomStream {
  public:
   explicit RandomStream(std::uint64_t seed) : state_(seed) {}
-  double next();
-  std::uint64_t bits();
+  double next() { return static_cast<double>(bits() >> 11) * 0x1p-53; }
+  std::uint64_t bits() { return mix(state_ += 0x9e3779b97f4a7c15ull); }
 
  private:
   std::uint64_t state_;
 };
 // Four numbers in [0,1), a function of the seed.
 std::array<float, 4> hashed_4d(std::uint64_t seed);
-// A function of (key, a, b).
-std::uint64_t stream_seed(const SampleKey& key, std::uint64_t a, std::uint64_t b);
+// A function of the key, which all streams of a sample begin with.
+constexpr std::uint64_t sample_seed(const SampleKey& key) {
+  const std::uint64_t sample = static_cast<std::uint64_t>(key.pixel) << 32 | key.sample;
+  return mix(mix(key.seed + 0x9e3779b97f4a7c15ull) ^ sample);
+}
+// A function of (sample_seed, a, b).
+constexpr std::uint64_t stream_seed(std::uint64_t sample_seed, std::uint64_t a, std::uint64_t b) {
+  return mix(sample_seed + mix(a + 0x632be59bd9b4e019ull) * 3 + b);
+}
+constexpr std::uint64_t stream_seed(const SampleKey& key, std::uint64_t a, std::uint64_t b) {
+  return stream_seed(sample_seed(key), a, b);
+}
 
 // Which set is for what: one for the camera and one for its lens, two a bounce.
 namespace sample_set {

@@ -32,6 +32,11 @@ inline bool is_specular(const Bsdf& bsdf) {
   return std::holds_alternative<ThinDielectricBsdf>(bsdf) || std::holds_alternative<MeasuredSheetBsdf>(bsdf);
 }
 
+// Whether `sample` has no use for u_lobe, and is never specular.
+inline bool has_one_lobe(const Bsdf& bsdf) {
+  return std::holds_alternative<LambertBsdf>(bsdf) || std::holds_alternative<OrenNayarBsdf>(bsdf);
+}
+
 // Whether light from everywhere counts about alike.
 inline bool is_diffuse(const Bsdf& bsdf) {
   return std::holds_alternative<LambertBsdf>(bsdf) || std::holds_alternative<OrenNayarBsdf>(bsdf) ||

@@ -104,12 +104,13 @@ bool PathTracer::shade_surface(Path& path) {
   const auto scattering = scene_.materials.scattering_at(*material, at, path.wavelengths, path.throughput,
                                                          stream_of(path, RayRandom::layers));
   if (!scattering) return false;
-  const std::array<float, 4> u = numbers_for_scattering(path);
   const Vector3d out = scattering->frame.to_local(at.out);
   const std::uint32_t candidates =
       is_specular(scattering->bsdf) ? 0 : light_candidates(path, at.p, is_diffuse(scattering->bsdf));
   if (candidates > 0 && scene_.lights.can_sample())
     connect_surface(path, at, surface, *scattering, out, candidates);
+  const bool two_are_enough = path.depth < roulette_depth && has_one_lobe(scattering->bsdf);
+  const std::array<float, 4> u = numbers_for_scattering(path, two_are_enough ? Wanted::two : Wanted::four);
   const std::optional<BsdfSample> chosen = sample(scattering->bsdf, out, u[2], {u[0], u[1]});
   if (!chosen) return false;
   path.throughput = path.throughput * chosen->weight;
