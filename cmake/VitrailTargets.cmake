@@ -43,6 +43,17 @@ function(vitrail_library name)
   target_precompile_headers(vitrail_${name} REUSE_FROM vitrail_precompiled)
 endfunction()
 
+# vitrail_embed(TARGET FILE NAME): the file's text as `vitrail::NAME` in the header FOLDER/NAME.h, FOLDER being the caller's.
+function(vitrail_embed target file name)
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${file})
+  file(READ ${file} text)
+  get_filename_component(folder ${CMAKE_CURRENT_SOURCE_DIR} NAME)
+  set(root ${CMAKE_BINARY_DIR}/embedded)
+  file(CONFIGURE OUTPUT ${root}/${folder}/${name}.h @ONLY CONTENT
+    "// Made of @folder@/@file@.\n#pragma once\n\nnamespace vitrail {\ninline constexpr char @name@[] = R\"page~(@text@)page~\";\n}\n")
+  target_include_directories(${target} PRIVATE ${root})
+endfunction()
+
 # vitrail_program(VERB SOURCES … LIBRARIES …): the program vitrail-VERB. The target `programs` builds all of them.
 add_custom_target(programs)
 function(vitrail_program verb)

@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compare/flip.h"
+
 namespace vitrail {
 
 const std::vector<std::string>& metric_names() {
-  static const std::vector<std::string> names{"relmse", "mse",   "rmse",  "mae",
-                                              "psnr",   "smape", "ztest", "bitwise"};
+  static const std::vector<std::string> names{"relmse", "mse",  "rmse",  "mae",    "psnr",
+                                              "smape",  "flip", "ztest", "bitwise"};
   return names;  // in the order of Metric
 }
 
@@ -39,6 +41,10 @@ void measure(Comparison& c, const ZTestInput& input) {
       return mean_error(absolute_error);
     case Metric::smape:
       return mean_error(symmetric_relative_error);
+    case Metric::flip:
+      if (c.error_map.empty()) c.error_map = hdr_flip(*input.image, *input.reference);
+      c.value = mean_of_valid(c.error_map);
+      return;
     case Metric::psnr:
       mean_error(squared_error);
       c.value = psnr_of_mse(c.value);
@@ -66,8 +72,9 @@ bool means_agree(const Comparison& c) {
 }  // namespace
 
 Comparison compare(const ZTestInput& input, Metric metric, std::optional<double> threshold,
-                   std::optional<double> mean_within) {
+                   std::optional<double> mean_within, std::vector<double> flip_map) {
   Comparison c;
+  c.error_map = std::move(flip_map);
   c.metric = metric;
   c.threshold = threshold;
   c.mean_within = mean_within;

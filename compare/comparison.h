@@ -12,7 +12,7 @@
 
 namespace vitrail {
 
-enum class Metric { relmse, mse, rmse, mae, psnr, smape, ztest, bitwise };
+enum class Metric { relmse, mse, rmse, mae, psnr, smape, flip, ztest, bitwise };
 
 // Empty for an unknown name.
 std::optional<Metric> metric_of(const std::string& name);
@@ -42,9 +42,10 @@ struct Comparison {
 };
 
 // The images of `input` by a metric; its variances are needed by ztest alone. Without a threshold, ztest has
-// ztest_tolerated, bitwise 0, and the others pass.
+// ztest_tolerated, bitwise 0, and the others pass. FLIP looks at a pixel's neighbours: where pixels are left
+// out, `flip_map` is that of the whole images without them (flip.h); empty: hdr_flip of the images given.
 Comparison compare(const ZTestInput& input, Metric metric, std::optional<double> threshold,
-                   std::optional<double> mean_within = std::nullopt);
+                   std::optional<double> mean_within = std::nullopt, std::vector<double> flip_map = {});
 
 // A few lines for people; one JSON object for programs (numbers that are not finite become null).
 std::string to_text(const Comparison& comparison);

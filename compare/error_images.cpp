@@ -27,6 +27,40 @@ Color side(double fraction) {
   return f < 0 ? Color{1 + f, 1 + f, 1} : Color{1, 1 - f, 1 - f};
 }
 
+// Every eighth colour of the map's 256, encoded in 8 bits as sRGB; between them it is linear to 1 %.
+constexpr std::array<std::array<int, 3>, 33> magma_colors{
+    {{0, 0, 4},       {3, 3, 18},      {10, 8, 34},     {19, 13, 52},    {29, 17, 71},    {41, 17, 90},
+     {54, 16, 107},   {68, 15, 118},   {81, 18, 124},   {93, 23, 127},   {106, 28, 129},  {118, 33, 129},
+     {131, 38, 129},  {144, 42, 129},  {156, 46, 127},  {170, 51, 125},  {183, 55, 121},  {196, 60, 117},
+     {208, 65, 111},  {220, 72, 105},  {231, 82, 99},   {239, 93, 94},   {245, 107, 92},  {249, 121, 93},
+     {252, 137, 97},  {253, 152, 105}, {254, 167, 114}, {254, 182, 124}, {254, 196, 136}, {254, 211, 149},
+     {253, 226, 163}, {252, 240, 178}, {252, 253, 191}}};
+
+Color magma(double fraction) {
+  const double at = std::clamp(fraction, 0.0, 1.0) * (magma_colors.size() - 1);
+  const auto below = std::min(static_cast<std::size_t>(at), magma_colors.size() - 2);
+  Color color;
+  for (std::size_t c = 0; c < 3; ++c) {
+    const double encoded =
+        std::lerp(magma_colors[below][c], magma_colors[below + 1][c], at - static_cast<double>(below));
+    color[c] = static_cast<float>(srgb_decode(encoded / 255));
+  }
+  return color;
+}
+
+// `fraction` is in [0, 1], of sides in [−1, 1].
+Color color_of(Palette palette, double fraction) {
+  switch (palette) {
+    case Palette::heat:
+      return heat(fraction);
+    case Palette::magma:
+      return magma(fraction);
+    case Palette::sides:
+      return side(fraction);
+  }
+  return {};
+}
+
 void put(Image& image, int x, int y, const Color& color) {
   if (x < 0 || y < 0 || x >= image.width || y >= image.height) return;
   const auto p =
@@ -64,11 +98,12 @@ double hottest(const std::vector<double>& error_map) {
   return *percentile > 0 ? *percentile : *std::max_element(sorted.begin(), sorted.end());
 }
 
-Image heatmap(const std::vector<double>& error_map, int width, int height, double hottest) {
+Image heatmap(const std::vector<double>& error_map, int width, int height, double hottest, Palette palette) {
+  const Color unknown = palette == Palette::magma ? Color{0, 1, 0} : Color{1, 0, 1};
   Image image = black_image(width, height, 3);
   for (std::size_t p = 0; p < error_map.size(); ++p) {
     const double e = error_map[p];
-    const Color color = std::isnan(e) ? Color{1, 0, 1} : heat(hottest > 0 ? e / hottest : 0);
+    const Color color = std::isnan(e) ? unknown : color_of(palette, hottest > 0 ? e / hottest : 0);
     std::copy(color.begin(), color.end(), image.values.begin() + static_cast<std::ptrdiff_t>(3 * p));
   }
   return image;
@@ -99,7 +134,8 @@ Image signed_map(const Image& difference, double hottest) {
   return image;
 }
 
-Image with_legend(const Image& image, double hottest, bool is_signed) {
+Image with_legend(const Image& image, double hottest, Palette palette) {
+  const bool is_signed = palette == Palette::sides;
   constexpr int least_width = 64, bar_height = 6, band_height = 16;
   if (image.width < least_width) return image;
   Image whole = black_image(image.width, image.height + band_height, 3);
@@ -107,7 +143,7 @@ Image with_legend(const Image& image, double hottest, bool is_signed) {
   for (int x = 0; x < image.width; ++x) {
     const double at = (x + 0.5) / image.width;
     for (int y = 0; y < bar_height; ++y)
-      put(whole, x, image.height + 1 + y, is_signed ? side(2 * at - 1) : heat(at));
+      put(whole, x, image.height + 1 + y, color_of(palette, is_signed ? 2 * at - 1 : at));
   }
   const int row = image.height + bar_height + 3;
   const std::string greatest = fmt::format("{:.3g}", hottest);

@@ -13,8 +13,13 @@ namespace vitrail {
 // that is 0.
 double hottest(const std::vector<double>& error_map);
 
-// The errors as colours, black – red – yellow – white, linear from 0 to `hottest`; magenta where NaN.
-Image heatmap(const std::vector<double>& error_map, int width, int height, double hottest);
+// Heat: black – red – yellow – white. Magma: that of Smith and van der Walt (2015), which FLIP's authors use.
+// Sides: blue – white – red.
+enum class Palette { heat, magma, sides };
+
+// The errors as colours, linear from 0 to `hottest`; magenta (with magma green) where NaN.
+Image heatmap(const std::vector<double>& error_map, int width, int height, double hottest,
+              Palette palette = Palette::heat);
 
 // The errors as they are, in all three channels.
 Image error_image(const std::vector<double>& error_map, int width, int height);
@@ -26,8 +31,8 @@ Image signed_difference(const Image& image, const Image& reference);
 // where they are equal; full at ±`hottest`.
 Image signed_map(const Image& difference, double hottest);
 
-// Below an image: a bar from black to white, or from blue to red, with the numbers at its ends. Images less
-// than 64 pixels wide stay as they are: there is no room for numbers.
-Image with_legend(const Image& image, double hottest, bool is_signed);
+// Below an image: a bar of the palette, with the numbers at its ends, 0 or for sides −`hottest` at the left.
+// Images less than 64 pixels wide stay as they are: there is no room for numbers.
+Image with_legend(const Image& image, double hottest, Palette palette);
 
 }  // namespace vitrail

@@ -138,6 +138,24 @@ TEST_F(ImagePrograms, CompareFailsAboveTheThresholdAndShowsWhere) {
   EXPECT_EQ(compare(both + " --metric ztest").status, 2);
 }
 
+TEST_F(ImagePrograms, CompareByFlipAndAsAPage) {
+  ASSERT_EQ(develop(film("a.film", 1) + " -o " + quoted("a.exr")).status, 0);
+  ASSERT_EQ(develop(film("a.film", 1) + " -o " + quoted("b.exr") + " --exposure 0.5").status, 0);
+  const std::string both = quoted("b.exr") + ' ' + quoted("a.exr");
+  const CommandResult flip = compare(both + " --metric flip --fail-above 0.001 --ignore 0,4,0,8 --heatmap " +
+                                     quoted("flip.exr") + " --html " + quoted("page.html"));
+  EXPECT_EQ(flip.status, 1) << flip.output;
+  EXPECT_THAT(flip.output, AllOf(HasSubstr("flip 0."), HasSubstr("compared 32 pixels")));
+  const Image map = read_picture(directory_ / "flip.exr").rgb;
+  EXPECT_EQ(map.values[0], 0);  // left out
+  EXPECT_GT(map.values[3 * 5], 0.01f);
+  std::ifstream in(directory_ / "page.html");
+  const std::string page(std::istreambuf_iterator<char>(in), {});
+  EXPECT_THAT(page, AllOf(HasSubstr("relmse"), HasSubstr("b.exr"), HasSubstr("</html>")));
+  // On a screen both are white.
+  EXPECT_EQ(compare(both + " --metric flip --flip-range ldr --fail-above 0").status, 0);
+}
+
 TEST_F(ImagePrograms, CompareByMitsubasRule) {
   ASSERT_EQ(develop(film("a.film", 1) + " -o " + quoted("a.exr")).status, 0);
   ASSERT_EQ(develop(film("a.film", 1) + " -o " + quoted("b.exr") + " --exposure 0.05").status, 0);

@@ -121,10 +121,10 @@ TEST(ErrorImages, SignsAreBlueAndRed) {
 }
 
 TEST(ErrorImages, LegendsGoBelow) {
-  const Image wide = with_legend(black_image(100, 10, 3), 0.25, false);
+  const Image wide = with_legend(black_image(100, 10, 3), 0.25, Palette::heat);
   EXPECT_EQ(wide.width, 100);
   EXPECT_GT(wide.height, 10);
-  EXPECT_EQ(with_legend(black_image(8, 8, 3), 1, false).height, 8);
+  EXPECT_EQ(with_legend(black_image(8, 8, 3), 1, Palette::heat).height, 8);
 }
 
 TEST(Heatmap, IsBlackWithoutErrorWhiteAtTheMostAndMagentaWithoutNumber) {

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// The command line of `vitrail compare`.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "compare/flip.h"
+
+namespace vitrail {
+
+struct CompareArguments {
+  std::string image, reference, metric = "relmse", variance, mask, flip_range = "auto";
+  std::filesystem::path heatmap, signed_map, html;  // empty: none
+  std::vector<std::string> ignored;
+  std::optional<double> variance_samples, fail_above, mean_within, map_scale;
+  double pixels_per_degree = flip_pixels_per_degree;
+  std::size_t worst = 3;
+  bool json = false, quiet = false, strict = false;
+};
+
+void declare(CLI::App& app, CompareArguments& arguments);
+
+// Whether FLIP sees the images as a screen shows them.
+bool of_low_range(const CompareArguments& arguments);
+
+}  // namespace vitrail
