@@ -99,9 +99,10 @@ void read_film(Builder& builder, const Object& sensor) {
   settings.filter = read_filter(*film, report);
   film->children("spectrum");
   film->ignore({"filename", "file_format", "pixel_format", "component_format", "sample_border", "compensate",
-                "banner", "attach_log", "high_quality_edges", "gamma", "variable", "digits"});
-  report_unused(*film, report,
-                {"width", "height", "crop_offset_x", "crop_offset_y", "crop_width", "crop_height"});
+                "banner", "attach_log", "high_quality_edges", "gamma", "variable", "digits",
+                "channel_names"});
+  report_unused_in_one(*film, report,
+                       {"width", "height", "crop_offset_x", "crop_offset_y", "crop_width", "crop_height"});
 }
 
 }  // namespace vitrail::mitsuba

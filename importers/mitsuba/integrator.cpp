@@ -71,6 +71,22 @@ void report_kind(const Object& integrator, Report& report) {
       integrator.origin);
 }
 
+// How light is found, by the integrators of versions 0.5 to 3 and those of papers that were built on them:
+// the picture that they converge to is the same.
+void ignore_sampling(const Object& integrator) {
+  integrator.ignore({"rr_depth", "emitter_samples", "bsdf_samples", "shading_samples", "samples_per_pass",
+                     "block_size", "timeout", "strict_normals", "use_mis", "aovs"});
+  integrator.ignore({"direct_samples", "glossy_samples", "indirect_samples", "luminance_samples",
+                     "light_image", "sample_direct", "brute_force", "max_error", "p_value",
+                     "max_sample_factor", "sample_count", "dual_buffer", "step_snapshot"});
+  integrator.ignore({"photon_count", "global_photons", "caustic_photons", "volume_photons", "max_passes",
+                     "initial_radius", "global_lookup_radius", "caustic_lookup_radius", "lookup_size",
+                     "granularity", "auto_cancel_gathering", "k_nn", "alpha"});
+  integrator.ignore({"two_stage", "bidirectional", "p_large", "bidirectional_mutation", "lens_perturbation",
+                     "multi_chain_perturbation", "caustic_perturbation", "manifold_perturbation", "lambda",
+                     "num_chains", "max_chains", "chain_length", "shadow_map_resolution", "clamping"});
+}
+
 }  // namespace
 
 void read_integrator(Builder& builder, const Object& integrator) {
@@ -94,9 +110,8 @@ void read_integrator(Builder& builder, const Object& integrator) {
   settings.straight_counts = !is_one_of(integrator.type, volumetric);
   if (integrator.boolean("hide_emitters", false, report))
     report.dropped("\"hide_emitters\": emitters are seen", place_of(integrator, "hide_emitters"));
-  integrator.ignore({"rr_depth", "emitter_samples", "bsdf_samples", "shading_samples", "samples_per_pass",
-                     "block_size", "timeout", "strict_normals", "use_mis", "aovs"});
-  report_unused(integrator, report, {"max_depth", "hide_emitters", "rr_depth"});
+  ignore_sampling(integrator);
+  report_unused_in_one(integrator, report, {"max_depth", "hide_emitters"});
 }
 
 }  // namespace vitrail::mitsuba

@@ -12,6 +12,7 @@
 #include <pugixml.hpp>
 #include <set>
 
+#include "importers/mitsuba/old_versions.h"
 #include "importers/mitsuba/values.h"
 #include "importers/ply/input_bytes.h"
 
@@ -30,22 +31,6 @@ constexpr std::array object_tags{"scene",    "shape",  "bsdf",   "emitter",    "
 constexpr std::array value_tags{"boolean", "integer", "float",   "string",    "vector",
                                 "point",   "rgb",     "srgb",    "transform", "blackbody",
                                 "ref",     "include", "default", "path",      "alias"};
-
-// Spellings of older versions.
-const std::map<std::string_view, std::string_view>& old_tags() {
-  static const std::map<std::string_view, std::string_view> tags{{"luminaire", "emitter"},
-                                                                 {"camera", "sensor"}};
-  return tags;
-}
-
-std::string snake_case(const std::string& name) {
-  std::string result;
-  for (const char c : name) {
-    if (std::isupper(static_cast<unsigned char>(c)) && !result.empty() && result.back() != '_') result += '_';
-    result += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  }
-  return result;
-}
 
 // Rodrigues' formula with the axis as it is: since version 2 Mitsuba does not make it a unit vector, and
 // files depend on that.
@@ -263,8 +248,7 @@ class Loader {
   void read_element(pugi::xml_node node, const Source& source, const MutablePtr& parent, int depth) {
     const Origin place = origin(source, node);
     if (++nesting_ > most_nested) fail("elements are nested too deeply", place);
-    std::string tag = node.name();
-    if (const auto old = old_tags().find(tag); old != old_tags().end()) tag = old->second;
+    const std::string tag = tag_of_today(node.name());
     const bool by_value = tag == "spectrum" && !node.attribute("type");
     if (std::find(object_tags.begin(), object_tags.end(), tag) != object_tags.end() && !by_value)
       read_object(node, tag, source, parent, place, depth);
@@ -290,7 +274,7 @@ class Loader {
 
   std::string name_of(pugi::xml_node node, const Source& source, const Origin& place) {
     const std::string name = attribute(node, "name", place);
-    return source.is_old ? snake_case(name) : name;
+    return source.is_old ? name_of_today(name) : name;
   }
 
   static void add(MutableObject& object, std::string name, Value value, const Origin& place) {
@@ -338,7 +322,7 @@ class Loader {
       put(value().starts_with('#') ? RgbValue{c}
                                    : RgbValue{{srgb_decode(c.r), srgb_decode(c.g), srgb_decode(c.b)}});
     } else if (tag == "spectrum") {
-      put(read_spectrum(node, place));
+      put(read_spectrum(node, source, *parent, place));
     } else if (tag == "blackbody") {
       read_blackbody(node, source, parent, place);
     } else if (tag == "transform") {
@@ -362,8 +346,13 @@ class Loader {
     return name_of(node, source, place) == "filename" ? resolve(text).string() : text;
   }
 
-  SpectrumValue read_spectrum(pugi::xml_node node, const Origin& place) {
-    if (!node.attribute("filename")) return parse_spectrum(required(node, "value", place), failing_at(place));
+  Value read_spectrum(pugi::xml_node node, const Source& source, const Object& owner, const Origin& place) {
+    if (!node.attribute("filename")) {
+      const std::string text = required(node, "value", place);
+      if (source.is_old && is_color_of_old_file(text, owner))
+        return RgbValue{parse_rgb(text, failing_at(place))};
+      return parse_spectrum(text, failing_at(place));
+    }
     SpectrumValue spectrum;
     spectrum.filename = resolve(attribute(node, "filename", place)).string();
     return spectrum;
@@ -427,7 +416,7 @@ class Loader {
   }
 
   Transform read_step(pugi::xml_node node, const Source& source, const Origin& place) {
-    const std::string tag = snake_case(node.name());
+    const std::string tag = name_of_today(node.name());
     if (tag == "translate") return translate(read_triple(node, 0, place));
     if (tag == "scale") return scale(read_triple(node, 1, place));
     if (tag == "rotate") {
@@ -450,29 +439,6 @@ class Loader {
     for (const pugi::xml_node step : node.children())
       if (step.type() == pugi::node_element) total = read_step(step, source, origin(source, step)) * total;
     return total;
-  }
-
-  // ---- Older versions
-
-  static void upgrade(MutableObject& object) {
-    Vector3d size{1, 1, 1}, offset;
-    bool moved = false;
-    Origin place;
-    for (Property& p : object.properties) {
-      if (object.type == "diffuse" && p.name == "diffuse_reflectance") p.name = "reflectance";
-      const bool plain = std::holds_alternative<double>(p.value);
-      double* target = !plain                ? nullptr
-                       : p.name == "uscale"  ? &size.x
-                       : p.name == "vscale"  ? &size.y
-                       : p.name == "uoffset" ? &offset.x
-                       : p.name == "voffset" ? &offset.y
-                                             : nullptr;
-      if (!target) continue;
-      *target = std::get<double>(p.value);
-      moved = p.queried = true;
-      place = p.origin;
-    }
-    if (moved) add(object, "to_uv", translate(offset) * scale(size), place);
   }
 
   // ---- References

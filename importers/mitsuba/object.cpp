@@ -95,20 +95,44 @@ void Object::ignore(std::initializer_list<std::string_view> names) const {
   for (const std::string_view name : names) find(name);
 }
 
+namespace {
+
+std::string what_is(const Property& property) {
+  const auto* nested = std::get_if<ObjectPtr>(&property.value);
+  return nested && property.name.empty() ? fmt::format("a nested {}", (*nested)->tag)
+                                         : fmt::format("\"{}\"", property.name);
+}
+
+std::string suggested(const Property& property, const std::vector<std::string>& known) {
+  const std::string closest = closest_word(property.name, known);
+  return closest.empty() || closest == property.name ? "" : fmt::format("did you mean \"{}\"?", closest);
+}
+
+}  // namespace
+
 void report_unused(const Object& object, Report& report, const std::vector<std::string>& known) {
   for (const Property& property : object.properties) {
     if (property.queried) continue;
     property.queried = true;  // said once, however many refer to the object
-    const auto* nested = std::get_if<ObjectPtr>(&property.value);
-    const std::string closest = closest_word(property.name, known);
-    report.dropped(fmt::format("{} \"{}\": {} is not used{}", object.tag, object.type,
-                               nested && property.name.empty() ? fmt::format("a nested {}", (*nested)->tag)
-                                                               : fmt::format("\"{}\"", property.name),
-                               closest.empty() || closest == property.name
-                                   ? ""
-                                   : fmt::format("; did you mean \"{}\"?", closest)),
+    const std::string hint = suggested(property, known);
+    report.dropped(fmt::format("{} \"{}\": {} is not used{}", object.tag, object.type, what_is(property),
+                               hint.empty() ? "" : "; " + hint),
                    property.origin);
   }
+}
+
+void report_unused_in_one(const Object& object, Report& report, const std::vector<std::string>& known) {
+  std::vector<std::string> unused;
+  for (const Property& property : object.properties) {
+    if (property.queried) continue;
+    property.queried = true;
+    const std::string hint = suggested(property, known);
+    unused.push_back(what_is(property) + (hint.empty() ? "" : " (" + hint + ")"));
+  }
+  if (unused.empty()) return;
+  report.dropped(fmt::format("{} \"{}\": {} {} not used", object.tag, object.type, fmt::join(unused, ", "),
+                             unused.size() == 1 ? "is" : "are"),
+                 object.origin);
 }
 
 }  // namespace vitrail::mitsuba

@@ -75,4 +75,7 @@ struct Object {
 // A diagnostic for each property that was not queried, with a suggestion from the names in `known`.
 void report_unused(const Object& object, Report& report, const std::vector<std::string>& known = {});
 
+// The same in one diagnostic: for what says how to sample, not what to show.
+void report_unused_in_one(const Object& object, Report& report, const std::vector<std::string>& known);
+
 }  // namespace vitrail::mitsuba

@@ -157,7 +157,7 @@ int read_sample_count(const Object& sensor, Report& report) {
     report.fail(fmt::format("\"sample_count\" is {}, but has to be at least 1", count),
                 place_of(*sampler, "sample_count"));
   sampler->ignore({"seed", "jitter", "dimension", "samples_per_wavefront", "scramble", "max_depth"});
-  report_unused(*sampler, report, {"sample_count"});
+  report_unused_in_one(*sampler, report, {"sample_count"});
   return count;
 }
 

@@ -30,14 +30,9 @@ struct Context {
           place);
   }
 
-  // Where a file that the scene names is: beside the main file, or in the working directory.
-  std::filesystem::path resolve(const std::string& name) const {
-    const std::filesystem::path beside = directory / name;
-    std::error_code ignored;
-    return std::filesystem::exists(beside, ignored) || !std::filesystem::exists(name, ignored)
-               ? beside
-               : std::filesystem::path(name);
-  }
+  // Where a file that the scene names is: beside the main file, or in the working directory. A name of
+  // Windows that no file has is taken with slashes.
+  std::filesystem::path resolve(const std::string& name) const;
 };
 
 }  // namespace vitrail::pbrt

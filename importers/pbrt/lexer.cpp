@@ -114,11 +114,10 @@ Token Lexer::quoted() {
         unescaped_ += *at_;
         continue;
       }
-      const Place escape = place();
-      const auto letter = at_ + 1 == end_ ? std::string_view::npos : letters.find(*++at_);
-      if (letter == std::string_view::npos)
-        fail("unknown escape in a string: write \\\\ for a backslash, or use / in paths", escape);
-      unescaped_ += meanings[letter];
+      // Before another character it stands for itself: paths of Windows.
+      const auto letter = at_ + 1 == end_ ? std::string_view::npos : letters.find(at_[1]);
+      if (letter != std::string_view::npos) ++at_;
+      unescaped_ += letter == std::string_view::npos ? '\\' : meanings[letter];
     }
     token.text = unescaped_;
   }

@@ -193,18 +193,51 @@ std::size_t number_count(const Parameter& parameter) {
   return std::visit([](const auto& list) { return list.size(); }, *parameter.long_list);
 }
 
+namespace {
+
+Parameter read_parameter(const Token& declaration, TokenStream& tokens, Report& report) {
+  Parameter parameter = parse_declaration(declaration);
+  read_values(tokens, parameter, report);
+  if (parameter.type == ParameterType::integer) check_integers(parameter, report);
+  if (parameter.type == ParameterType::spectrum && !parameter.strings.empty() && number_count(parameter) > 0)
+    fail(fmt::format("spectrum parameter \"{}\" mixes numbers and strings", parameter.name), parameter.place);
+  return parameter;
+}
+
+// The type is that of the value.
+Parameter read_bare_value(const Token& name, TokenStream& tokens) {
+  Parameter parameter;
+  parameter.name = name.text;
+  parameter.place = name.place;
+  double value = 0;
+  if (tokens.next_number(value)) {
+    parameter.numbers.push_back(value);
+    return parameter;
+  }
+  const Token token = tokens.next();
+  parameter.type = token.kind == TokenKind::text ? ParameterType::text : ParameterType::boolean;
+  if (!add_value(parameter, token))
+    fail(fmt::format("expected a value for the option \"{}\", found {}", parameter.name, describe(token)),
+         token.place);
+  return parameter;
+}
+
+}  // namespace
+
 std::vector<Parameter> read_parameters(TokenStream& tokens, Report& report) {
   std::vector<Parameter> parameters;
-  while (tokens.text_follows()) {
-    Parameter parameter = parse_declaration(tokens.next());
-    read_values(tokens, parameter, report);
-    if (parameter.type == ParameterType::integer) check_integers(parameter, report);
-    if (parameter.type == ParameterType::spectrum && !parameter.strings.empty() &&
-        number_count(parameter) > 0)
-      fail(fmt::format("spectrum parameter \"{}\" mixes numbers and strings", parameter.name),
-           parameter.place);
-    parameters.push_back(std::move(parameter));
-  }
+  while (tokens.text_follows()) parameters.push_back(read_parameter(tokens.next(), tokens, report));
+  return parameters;
+}
+
+std::vector<Parameter> read_options(TokenStream& tokens, Report& report) {
+  const Token first = tokens.next();
+  if (first.kind != TokenKind::text)
+    fail(fmt::format("expected the name of an option in quotes, found {}", describe(first)), first.place);
+  const bool is_declaration = first.text.find_first_of(" \t") != std::string_view::npos;
+  if (!is_declaration) return {read_bare_value(first, tokens)};
+  std::vector<Parameter> parameters{read_parameter(first, tokens, report)};
+  for (Parameter& more : read_parameters(tokens, report)) parameters.push_back(std::move(more));
   return parameters;
 }
 

@@ -47,6 +47,9 @@ void consume_numbers(Parameter& parameter, std::size_t group, Visit&& visit) {
 // vector or normal of any size is a tuple. Malformed values throw Error.
 std::vector<Parameter> read_parameters(TokenStream& tokens, Report& report);
 
+// What follows Option: a name and a bare value, as pbrt-v4 has it ("seed" 3), or a list as of any directive.
+std::vector<Parameter> read_options(TokenStream& tokens, Report& report);
+
 // The parameters of one directive. Remembers which were used and which names were asked for.
 class ParameterSet {
  public:

@@ -56,7 +56,7 @@ void Interpreter::accelerator(const Place& place) {
 }
 
 void Interpreter::option(const Place& place) {
-  for (const Parameter& parameter : read_parameters(tokens_, context_.report))
+  for (const Parameter& parameter : read_options(tokens_, context_.report))
     for (const char* name : {"disablepixeljitter", "disablewavelengthjitter", "disabletexturefiltering",
                              "forcediffuse", "pixelstats", "msereferenceimage"})
       if (parameter.name == name && parameter.numbers != std::vector<double>{0})

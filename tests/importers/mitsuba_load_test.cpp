@@ -171,6 +171,56 @@ TEST_F(MitsubaLoad, OldSpellings) {
   EXPECT_EQ(board.mapping, (TextureMapping{UvMapping{4, 0, 0, 0, 2, 1}})) << "cells are half a unit";
 }
 
+// As Mitsuba 3.9 translates them: a run of capitals is one word.
+TEST_F(MitsubaLoad, OldAcronyms) {
+  const std::string old =
+      "<scene version=\"0.6.0\"><bsdf type=\"dielectric\" id=\"m\"><float name=\"intIOR\" value=\"1.33\"/>"
+      "<float name=\"extIOR\" value=\"1.1\"/></bsdf>" +
+      floor + tail;
+  const ImportedScene imported = read_mitsuba(folder_.write("scene.xml", old));
+  const auto& glass = std::get<DielectricMaterial>(imported.scene.materials.at(0).model);
+  EXPECT_EQ(glass.eta, Spectrum{ConstantSpectrum{1.33f}});
+  EXPECT_EQ(glass.exterior_eta, Spectrum{ConstantSpectrum{1.1f}});
+  for (const Diagnostic& d : imported.diagnostics) EXPECT_EQ(d.message.find("ior"), std::string::npos);
+}
+
+// 0.6 was built for three channels.
+TEST_F(MitsubaLoad, OldSpectraAreLinearRgb) {
+  const std::string old =
+      "<scene version=\"0.6.0\"><bsdf type=\"diffuse\" id=\"m\">"
+      "<spectrum name=\"reflectance\" value=\"0.1, 0.4 .9\"/></bsdf>"
+      "<emitter type=\"point\"><spectrum name=\"intensity\" value=\" 190, 254, 254 \"/></emitter>"
+      "<emitter type=\"constant\"><spectrum name=\"radiance\" value=\"2\"/></emitter>" +
+      floor + tail;
+  const Scene scene = read_mitsuba(folder_.write("scene.xml", old)).scene;
+  EXPECT_EQ(std::get<DiffuseMaterial>(scene.materials.at(0).model).reflectance,
+            SpectrumParameter{reflectance_from_rgb({0.1, 0.4, 0.9})});
+  EXPECT_EQ(std::get<PointLight>(scene.lights.at(0).model).intensity,
+            Spectrum{emission_from_rgb({190, 254, 254})});
+  EXPECT_EQ(std::get<InfiniteLight>(scene.lights.at(1).model).radiance,
+            Spectrum{emission_from_rgb({2, 2, 2})});
+  EXPECT_THAT(
+      error_inside("<emitter type=\"constant\"><spectrum name=\"radiance\" value=\"1 2 3\"/></emitter>"),
+      ::testing::HasSubstr("number"));
+  EXPECT_THAT(error("<scene version=\"0.6.0\"><emitter type=\"constant\"><spectrum name=\"radiance\" "
+                    "value=\"1 2\"/></emitter></scene>"),
+              ::testing::HasSubstr("3 numbers, has 2"));
+}
+
+// How its integrators sample is no loss, and what nobody knows is said once.
+TEST_F(MitsubaLoad, OldIntegratorsAndFilms) {
+  const std::string old =
+      "<scene version=\"0.6.0\"><integrator type=\"sppm\"><integer name=\"maxDepth\" value=\"6\"/>"
+      "<integer name=\"photonCount\" value=\"9\"/><integer name=\"kNN\" value=\"9\"/></integrator>"
+      "<sensor type=\"perspective\"><film type=\"hdrfilm\"><boolean name=\"banner\" value=\"false\"/>"
+      "<float name=\"madeUp\" value=\"1\"/><float name=\"widthh\" value=\"1\"/></film></sensor></scene>";
+  const ImportedScene imported = read_mitsuba(folder_.write("scene.xml", old));
+  EXPECT_EQ(imported.scene.settings.max_depth, 5);
+  ASSERT_EQ(imported.diagnostics.size(), 1u);
+  EXPECT_EQ(imported.diagnostics[0].message,
+            "film \"hdrfilm\": \"made_up\", \"widthh\" (did you mean \"width\"?) are not used");
+}
+
 TEST_F(MitsubaLoad, WhatIsNotUsedIsReportedWithASuggestion) {
   material("<bsdf type=\"diffuse\" id=\"m\"><rgb name=\"reflectanse\" value=\"1 0 0\"/></bsdf>");
   EXPECT_TRUE(mentions("did you mean \"reflectance\""));

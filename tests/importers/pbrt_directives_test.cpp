@@ -125,6 +125,18 @@ TEST(PbrtBlocks, WhatFollowsWorldEndIsReported) {
 // ---- Files
 // --------------------------------------------------------------------------------------------------------
 
+// Some of the backslashes look like escapes.
+TEST(PbrtFiles, PathsOfWindows) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directories(folder.path() / "parts/new");
+  folder.write("parts/new/tables.pbrt", "Shape \"disk\"");
+  const Scene scene = read_pbrt(folder.write("scene.pbrt",
+                                             "Film \"rgb\" WorldBegin Include \"parts\\new\\tables.pbrt\" "
+                                             "Include \"parts\\\\new\\\\tables.pbrt\""))
+                          .scene;
+  EXPECT_EQ(scene.shapes.size(), 2u);
+}
+
 TEST(PbrtFiles, IncludesAreTextualAndRelativeToTheMainFile) {
   const TemporaryFolder folder;
   std::filesystem::create_directory(folder.path() / "a");
@@ -343,6 +355,14 @@ TEST(PbrtNames, SettingsThatChangeNoPictureAreSilent) {
       "Sampler \"zsobol\" \"integer seed\" 3 Integrator \"volpath\" \"string lightsampler\" \"bvh\" "
       "MakeNamedMaterial \"m\" \"string type\" \"diffuse\"\nWorldBegin MediumInterface \"\" \"\" " +
       triangle));
+  expect_no_diagnostics(
+      import_text("Option \"seed\" 3 Option \"disablepixeljitter\" false Option \"rendercoordsys\" \"world\" "
+                  "Film \"rgb\" WorldBegin " +
+                  triangle));
+  EXPECT_TRUE(
+      mentions(import_text("Option \"forcediffuse\" true Film \"rgb\" WorldBegin " + triangle).diagnostics,
+               "forcediffuse"));
+  EXPECT_THROW(import_text("Option \"seed\" Film \"rgb\" WorldBegin " + triangle), Error);
   EXPECT_TRUE(mentions(
       import_text("Option \"bool forcediffuse\" true Film \"rgb\" WorldBegin " + triangle).diagnostics,
       "forcediffuse"));

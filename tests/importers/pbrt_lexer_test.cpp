@@ -87,7 +87,6 @@ TEST(PbrtLexer, RefusesStringsThatDoNotEnd) {
   EXPECT_THROW(words("\"abc\ndef\""), Error);
   EXPECT_THROW(words("\"abc\\\ndef\""), Error);
   EXPECT_THROW(words("\"abc\\"), Error);
-  EXPECT_THROW(words("\"a\\q\""), Error);
 }
 
 // ---- Parameters
