@@ -183,8 +183,9 @@ void check_lights(const Checker& c, const Manifest& m) {
 }
 
 void check_media(const Checker& c, const Manifest& m) {
-  const auto check_grid = [&](const Grid& g) {
-    c.require(g.nx > 0 && g.ny > 0 && g.nz > 0 && (g.channels == 1 || g.channels == 3),
+  // Numbers, or spectra of four: x of the sigmoid at three wavelengths, and a scale.
+  const auto check_grid = [&](const Grid& g, bool may_be_spectra = false) {
+    c.require(g.nx > 0 && g.ny > 0 && g.nz > 0 && (g.channels == 1 || (may_be_spectra && g.channels == 4)),
               "a grid has no cells");
     c.require(g.values.size() == static_cast<std::size_t>(g.nx) * static_cast<std::size_t>(g.ny) *
                                      static_cast<std::size_t>(g.nz) * static_cast<std::size_t>(g.channels),
@@ -192,7 +193,7 @@ void check_media(const Checker& c, const Manifest& m) {
     c.require(!g.bounds.empty(), "a grid has no bounds");
   };
   const auto check_volume = [&](const VolumeParameter& v) {
-    if (const auto* grid = std::get_if<Grid>(&v)) check_grid(*grid);
+    if (const auto* grid = std::get_if<Grid>(&v)) check_grid(*grid, true);
   };
   for (const Medium& medium : m.media) {
     if (const auto* k = std::get_if<AbsorptionScattering>(&medium.coefficients))

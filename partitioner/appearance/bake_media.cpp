@@ -5,7 +5,9 @@
 #include <bit>
 #include <cmath>
 #include <fstream>
+#include <numeric>
 
+#include "partitioner/appearance/reflectance_fitter.h"
 #include "scene/color.h"
 #include "scene/diagnostics.h"
 
@@ -38,11 +40,41 @@ bool bake_grid(Grid& grid, std::vector<std::string>& notes) {
     read_values(grid);
   }
   grid.filename.clear();
-  constexpr const char* grey = "the colours of its grids become grey, their means";
-  if (grid.channels > 1 && std::ranges::find(notes, grey) == notes.end()) notes.push_back(grey);
   for (const float v : grid.values)
     if (!std::isfinite(v) || v < 0) throw Error("a grid has a value that is negative or not finite");
   return true;
+}
+
+// One number a cell: the mean of its channels.
+void make_grey(Grid& grid, std::vector<std::string>& notes) {
+  if (grid.channels == 1) return;
+  constexpr const char* grey = "the colours of its grids become grey, their means";
+  if (std::ranges::find(notes, grey) == notes.end()) notes.push_back(grey);
+  const auto channels = static_cast<std::size_t>(grid.channels), cells = grid.values.size() / channels;
+  for (std::size_t i = 0; i < cells; ++i) {
+    const float* const cell = &grid.values[i * channels];
+    grid.values[i] = static_cast<float>(std::accumulate(cell, cell + channels, 0.0) / grid.channels);
+  }
+  grid.values.resize(cells);
+  grid.channels = 1;
+}
+
+// Linear sRGB to the nodes of a sigmoid and a scale of twice the greatest component, as in Mitsuba: black has
+// S = 0.
+void make_spectra(Grid& grid) {
+  const ReflectanceFitter fit;
+  const std::size_t cells = grid.values.size() / 3;
+  std::vector<float> spectra;
+  spectra.reserve(cells * 4);
+  for (std::size_t i = 0; i < cells; ++i) {
+    const auto component = [&](std::size_t c) { return static_cast<double>(grid.values[3 * i + c]); };
+    const double scale = 2 * std::max({component(0), component(1), component(2)});
+    const double by = scale > 0 ? 1 / scale : 0;
+    const SigmoidNodes x = fit({component(0) * by, component(1) * by, component(2) * by});
+    spectra.insert(spectra.end(), {x[0], x[1], x[2], static_cast<float>(scale)});
+  }
+  grid.values = std::move(spectra);
+  grid.channels = 4;
 }
 
 bool bake_volume(VolumeParameter& volume, std::vector<std::string>& notes) {
@@ -50,7 +82,19 @@ bool bake_volume(VolumeParameter& volume, std::vector<std::string>& notes) {
     *spectrum = resolved(*spectrum);
     return true;
   }
-  return bake_grid(std::get<Grid>(volume), notes);
+  Grid& grid = std::get<Grid>(volume);
+  if (!bake_grid(grid, notes)) return false;
+  if (grid.channels == 3)
+    make_spectra(grid);
+  else
+    make_grey(grid, notes);
+  return true;
+}
+
+bool bake_number(Grid& grid, std::vector<std::string>& notes) {
+  if (!bake_grid(grid, notes)) return false;
+  make_grey(grid, notes);
+  return true;
 }
 
 }  // namespace
@@ -66,7 +110,7 @@ std::optional<Medium> bake_medium(const Medium& medium, std::vector<std::string>
   else
     whole = false, notes.push_back("its coefficients are known by name alone, and not here");
   if (auto* grid = std::get_if<Grid>(&baked.density))
-    whole = whole && bake_grid(*grid, notes);
+    whole = whole && bake_number(*grid, notes);
   else if (std::holds_alternative<CloudDensity>(baked.density))
     whole = false, notes.push_back("a procedural cloud cannot be shown");
   if (!whole) return std::nullopt;
@@ -77,7 +121,7 @@ std::optional<Medium> bake_medium(const Medium& medium, std::vector<std::string>
   }
   if (baked.emission)
     *baked.emission = scaled(resolved(*baked.emission), static_cast<double>(baked.emission_factor));
-  if (baked.emission_scale && !bake_grid(*baked.emission_scale, notes)) baked.emission.reset();
+  if (baked.emission_scale && !bake_number(*baked.emission_scale, notes)) baked.emission.reset();
   if (!baked.emission) baked.emission_scale.reset();
   baked.emission_factor = 1;
   return baked;

@@ -2,6 +2,8 @@
 // Looking up a scene/medium.h Grid.
 #pragma once
 
+#include <span>
+
 #include "scene/medium.h"
 
 namespace vitrail {
@@ -9,6 +11,13 @@ namespace vitrail {
 // Trilinear between the centres of the cells; p in the medium's space. `channel` < grid.channels.
 double look_up(const Grid& grid, Point3d p, int channel);
 
+// A baked grid of colours (partitioner/appearance/bake_media.h) at wavelengths: Σ wᵢ·Sᵢ(λ) times Σ wᵢ·scaleᵢ,
+// over the eight cells around p, as Mitsuba 3.9 has it (measured).
+inline constexpr int color_channels = 4;
+inline bool has_colors(const Grid& grid) { return grid.channels == color_channels; }
+void look_up_colors(const Grid& grid, Point3d p, std::span<const double> lambda_nm, std::span<double> values);
+
+// No value of the grid is greater, at any wavelength.
 double greatest_value(const Grid& grid);
 
 }  // namespace vitrail

@@ -26,15 +26,18 @@ Values at_wavelengths(const Spectrum& spectrum, const SampledWavelengths& w) {
   return v;
 }
 
-// Grids of one channel are the same at all wavelengths; of three, their mean (such grids are told of when a
-// scene is partitioned).
-Values at_point(const VolumeParameter& volume, const Values& spectrum, Point3d p) {
+using Wavelengths = std::array<double, hero_count>;
+
+// Grids of one channel are the same at all wavelengths.
+Values at_point(const VolumeParameter& volume, const Values& spectrum, const Wavelengths& lambda_nm,
+                Point3d p) {
   const auto* grid = std::get_if<Grid>(&volume);
   if (!grid) return spectrum;
-  double sum = 0;
-  for (int c = 0; c < grid->channels; ++c) sum += look_up(*grid, p, c);
   Values v;
-  v.fill(sum / grid->channels);
+  if (has_colors(*grid))
+    look_up_colors(*grid, p, lambda_nm, v);
+  else
+    v.fill(look_up(*grid, p, 0));
   return v;
 }
 
@@ -53,13 +56,15 @@ class Coefficients {
     first_ = constant(*first_volume_);
     second_ = constant(*second_volume_);
     scale_ = static_cast<double>(m.medium->scale);
+    std::copy(w.lambda_nm.begin(), w.lambda_nm.end(), lambda_nm_.begin());
   }
 
   // σ_t and σ_s at a point of the medium's space.
   void at(Point3d p, Values& sigma_t, Values& sigma_s) const {
     double density = scale_;
     if (const auto* grid = std::get_if<Grid>(&m_.medium->density)) density *= look_up(*grid, p, 0);
-    const Values a = at_point(*first_volume_, first_, p), b = at_point(*second_volume_, second_, p);
+    const Values a = at_point(*first_volume_, first_, lambda_nm_, p),
+                 b = at_point(*second_volume_, second_, lambda_nm_, p);
     for (std::size_t i = 0; i < hero_count; ++i) {
       sigma_s[i] = density * (is_sum_ ? b[i] : a[i] * b[i]);
       sigma_t[i] = density * (is_sum_ ? a[i] + b[i] : a[i]);
@@ -81,6 +86,7 @@ class Coefficients {
   const VolumeParameter* first_volume_ = nullptr;
   const VolumeParameter* second_volume_ = nullptr;
   Values first_{}, second_{};
+  Wavelengths lambda_nm_{};
   double scale_ = 1;
   bool is_sum_ = false;
 };
