@@ -8,6 +8,7 @@
 #include "importers/mitsuba/builder.h"
 #include "importers/mitsuba/properties.h"
 #include "importers/mitsuba/suggestion.h"
+#include "scene/flat_emission.h"
 #include "scene/rgb_to_spectrum.h"
 
 namespace vitrail::mitsuba {
@@ -23,32 +24,30 @@ Spectrum emission(Builder& builder, const Object& emitter, std::string_view name
 
 bool is_texture(const Object* object) { return object && object->tag == "texture"; }
 
-// An image by itself, or inside of a "d65" that says which white its colours are under and scales them.
+// What a texture that shines is times, beside D65: 1 inside of a "d65", the inverse of D65 where it stands by
+// itself, which leaves it the flat white that Mitsuba's spectral variants have.
 struct Image {
   SpectrumParameter colors;
-  double scale = 1;
+  Spectrum scale = ConstantSpectrum{1};
 };
 
 Image image_of(Builder& builder, const Object& emitter, std::string_view name) {
   const Object* texture = object_of(emitter, name);
-  if (!is_texture(texture))
-    return {spectrum_parameter(builder, emitter, name, Quantity::emission, white()), 1};
-  Report& report = builder.report;
-  const auto nested = texture->type == "d65" ? texture->children("texture") : std::vector<const Property*>{};
-  if (nested.empty()) {
-    if (texture->type != "d65")
-      report.approximated(
-          fmt::format(
-              "the white of the texture of an {} \"{}\" is D65: a flat spectrum in Mitsuba's spectral "
-              "variants",
-              emitter.tag, emitter.type),
-          place_of(emitter, name));
-    return {spectrum_parameter(builder, emitter, name, Quantity::emission, white()), 1};
+  Image image;
+  if (!is_texture(texture) || texture->type != "d65") {
+    image.colors = spectrum_parameter(builder, emitter, name, Quantity::emission, white());
+    if (std::holds_alternative<Id<Texture>>(image.colors)) image.scale = inverse_d65();
+    return image;
   }
-  const double scale = texture->number("scale", 1, report);
-  report_unused(*texture, report, {"scale"});
-  const Object& colors = *std::get<ObjectPtr>(nested.front()->value);
-  return {add_texture(builder, colors, false), scale};
+  const auto nested = texture->children("texture");
+  if (nested.empty()) {
+    image.colors = spectrum_parameter(builder, emitter, name, Quantity::emission, white());
+    return image;
+  }
+  image.scale = ConstantSpectrum{static_cast<float>(texture->number("scale", 1, builder.report))};
+  report_unused(*texture, builder.report, {"scale"});
+  image.colors = add_texture(builder, *std::get<ObjectPtr>(nested.front()->value), false);
+  return image;
 }
 
 // One of the two: a property of its own, or the transform.
@@ -121,8 +120,7 @@ LightModel projector(Builder& builder, const Object& emitter) {
   light.light_to_world = emitter.transform("to_world", builder.report) * scale({-1, 1, 1});
   const Image image = image_of(builder, emitter, "irradiance");
   light.image = image.colors;
-  light.scale =
-      ConstantSpectrum{static_cast<float>(emitter.number("scale", 1, builder.report) * image.scale)};
+  light.scale = scaled(image.scale, emitter.number("scale", 1, builder.report));
   light.fov_deg = static_cast<float>(read_projector_fov(builder, emitter));
   light.irradiance = true;
   return light;
@@ -227,8 +225,15 @@ std::optional<Id<AreaLight>> add_area_light(Builder& builder, const Object& emit
         emitter.origin);
   emitter.ignore({"sampling_weight"});
   emitter.children("medium");
-  const Image image = image_of(builder, emitter, "radiance");
-  AreaLight light{image.colors, static_cast<float>(image.scale), false, directional, emitter.origin};
+  Image image = image_of(builder, emitter, "radiance");
+  AreaLight light{image.colors, 1, false, directional, emitter.origin};
+  if (const auto* factor = std::get_if<ConstantSpectrum>(&image.scale)) {
+    light.scale = factor->value;
+  } else {
+    builder.scene.textures.push_back(
+        {ProductTexture{image.colors, std::move(image.scale)}, false, "", emitter.origin});
+    light.radiance = Id<Texture>{static_cast<std::uint32_t>(builder.scene.textures.size() - 1)};
+  }
   report_unused(emitter, report, properties);
   builder.scene.area_lights.push_back(std::move(light));
   return Id<AreaLight>{static_cast<std::uint32_t>(builder.scene.area_lights.size() - 1)};

@@ -8,6 +8,7 @@
 #include "images/image_files.h"
 #include "importers/images/environment_images.h"
 #include "importers/mitsuba/write_surroundings.h"
+#include "scene/flat_emission.h"
 
 namespace vitrail::mitsuba_writer {
 
@@ -19,6 +20,15 @@ void add_lit_image(Context& context, Element emitter, const char* name, const Sp
   Element lit = add(emitter, "texture", "d65", name);
   add_parameter(context, lit, "nested", image, Meaning::emission);
   add_float(lit, "scale", scale);
+}
+
+// The texture that shines by itself, without D65 (scene/flat_emission.h).
+std::optional<SpectrumParameter> flat_image(const Scene& scene, const AreaLight& light) {
+  const auto* id = std::get_if<Id<Texture>>(&light.radiance);
+  const auto* product = id ? std::get_if<ProductTexture>(&scene.textures[id->value].model) : nullptr;
+  const auto* factor = product ? std::get_if<Spectrum>(&product->second) : nullptr;
+  if (!factor || light.scale != 1 || multiple_of_inverse_d65(*factor) != 1.0) return std::nullopt;
+  return product->first;
 }
 
 constexpr const char* brightness = "the brightness of this light";
@@ -68,13 +78,14 @@ void write(Context& context, Element root, const ProjectionLight& light) {
   if (!light.irradiance && !is_image) return context.dropped("a projection light without an image");
   Element element = add(root, "emitter", "projector");
   add_transform(element, light.light_to_world * scale({-1, 1, 1}));
-  if (is_image)
+  const auto flat = multiple_of_inverse_d65(light.scale);
+  if (is_image && !flat)
     add_lit_image(context, element, "irradiance", light.image, 1);
   else
     add_parameter(context, element, "irradiance", light.image, Meaning::emission);
   add_float(element, "fov", static_cast<float>(fov_of_width(context.scene, light)));
   add_string(element, "fov_axis", "x");
-  const double factor = number_of(context, light.scale, brightness);
+  const double factor = flat ? *flat : number_of(context, light.scale, brightness);
   add_float(element, "scale", static_cast<float>(light.irradiance ? factor : factor / std::numbers::pi));
   if (!light.irradiance)
     context.approximated(
@@ -189,7 +200,11 @@ void write_area_light(Context& context, Element shape, const AreaLight& light) {
   if (const auto radiance = value_of(context, light.radiance))
     return add_spectrum(element, "radiance", scaled(*radiance, static_cast<double>(light.scale)),
                         Meaning::emission);
-  add_lit_image(context, element, "radiance", light.radiance, light.scale);
+  if (const auto flat = flat_image(context.scene, light)) {
+    add_parameter(context, element, "radiance", *flat, Meaning::emission);
+  } else {
+    add_lit_image(context, element, "radiance", light.radiance, light.scale);
+  }
 }
 
 }  // namespace vitrail::mitsuba_writer

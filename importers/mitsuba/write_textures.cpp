@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "importers/mitsuba/write_images.h"
+#include "scene/flat_emission.h"
 #include "scene/kinds.h"
 #include "scene/rgb_to_spectrum.h"
 
@@ -212,6 +213,13 @@ const Id<Texture>* scaled_height(const Context& context, std::size_t index) {
   return by_number && context.roles.height[index] ? std::get_if<Id<Texture>>(&product->first) : nullptr;
 }
 
+// What a light says without D65 is written with the light (write_lights.cpp).
+const Id<Texture>* flat_emission(const Texture& texture) {
+  const auto* product = std::get_if<ProductTexture>(&texture.model);
+  const auto* factor = product ? std::get_if<Spectrum>(&product->second) : nullptr;
+  return factor && multiple_of_inverse_d65(*factor) ? std::get_if<Id<Texture>>(&product->first) : nullptr;
+}
+
 }  // namespace
 
 void write_textures(Context& context, Element root) {
@@ -219,6 +227,10 @@ void write_textures(Context& context, Element root) {
     context.begin(RecordKind::texture, context.scene.textures[i].origin);
     if (const auto* height = scaled_height(context, i)) {
       context.textures.push_back(context.textures.at(height->value));
+      continue;
+    }
+    if (const auto* image = flat_emission(context.scene.textures[i])) {
+      context.textures.push_back(context.textures.at(image->value));
       continue;
     }
     context.textures.push_back(write_texture(context, root, context.scene.textures[i], i));

@@ -7,6 +7,7 @@
 #include "images/image_files.h"
 #include "importers/images/environment_images.h"
 #include "scene/color.h"
+#include "scene/flat_emission.h"
 #include "tests/importers/mitsuba_oracle.h"
 
 namespace vitrail {
@@ -176,6 +177,14 @@ TEST_F(MitsubaLight, TexturedEmissionIsUnderD65) {
   for (std::size_t i = 0; i < red_light.size(); ++i) red_light[i] *= values(white)[i];
   expect_near(found[0]["emission"], red_light, 1e-2);
   expect_near(found[1]["emission"], values(white, 0.5), 5e-3);
+  // Times the inverse of D65 it is what Mitsuba shows of an image by itself: flat where it is grey.
+  const Id<Texture> bright = std::get<Id<Texture>>(scene.area_lights[0].radiance);
+  scene.area_lights[0] = {
+      add_to(scene.textures, Texture{ProductTexture{bright, inverse_d65()}, false, "", {}})};
+  const Json flat = ask(
+      scene, Json::array({ray("hit", {-0.9, 0.9, 3}, {0, 0, -1}), ray("hit", {0.9, -0.9, 3}, {0, 0, -1})}));
+  expect_near(flat[0]["emission"], values(red), 1e-2);
+  expect_near(flat[1]["emission"], values(ConstantSpectrum{0.5f}), 5e-3);
 }
 
 // The image's upper right quarter is red, its lower left one blue.
