@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // pbrt-v3's materials in terms of v4's, and of blends and masks of them where one does not suffice.
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "importers/pbrt/material_parameters.h"
 
@@ -45,39 +47,93 @@ MaterialModel mirror(const Maker& m) {
 
 MaterialModel metal(const Maker& m) { return ConductorMaterial{m.metal(), m.roughness(0.01)}; }
 
-// The gloss of v3 is Ks times a Fresnel factor of index 1.5, added to the diffuse part; v4's coat has that
-// index.
-CoatedDiffuseMaterial coated(const Maker& m, double kd, double ks, double roughness, const Spectrum& eta) {
-  const SpectrumParameter gloss = m.reflectance({"Ks"}, ks);
-  m.approximated(
-      is(gloss, 1) ? "the coat's model is v4's"
-                   : fmt::format("the coat's model is v4's: Ks, {:.2f} on average, becomes 1", mean(gloss)));
-  CoatedDiffuseMaterial c;
-  c.reflectance = m.reflectance({"Kd"}, kd);
-  c.eta = eta;
-  c.roughness = m.roughness(roughness);
-  return c;
+SpectrumParameter times(const Maker& m, const SpectrumParameter& a, const SpectrumParameter& b) {
+  const auto *first = std::get_if<Spectrum>(&a), *second = std::get_if<Spectrum>(&b);
+  if (first && second) return product(*first, *second);
+  if (is(a, 1)) return b;
+  if (is(b, 1)) return a;
+  m.scope.made.push_back({ProductTexture{a, b}, false, "", m.scope.origin});
+  return Id<Texture>{static_cast<std::uint32_t>(m.scope.made.size() - 1)};
 }
 
-MaterialModel plastic(const Maker& m) { return coated(m, 0.25, 0.25, 0.1, Maker::grey(1.5)); }
+SpectrumParameter over(const Maker& m, const SpectrumParameter& a, double divisor) {
+  return times(m, a, Maker::grey(1 / divisor));
+}
 
+// At any wavelength; of a texture, what is likely.
+double greatest(const SpectrumParameter& parameter) {
+  constexpr double of_texture = 0.8;
+  const auto* value = std::get_if<Spectrum>(&parameter);
+  if (!value) return of_texture;
+  const Spectrum spectrum = resolved(*value);
+  double most = 0;
+  for (double nm = lambda_min_nm; nm <= lambda_max_nm; nm += 5) most = std::max(most, evaluate(spectrum, nm));
+  return most;
+}
+
+// v3 adds lobes: a blend of a part Kd/(1 − w) and a part K/w with the share w of the second is Kd + K. Where
+// it can, w is K, as then the second part is that of a coat and not a multiple of it; w leaves the first a
+// reflectance of at most 1.
+double share_of(double diffuse, double other) {
+  constexpr double least = 0.05;
+  return std::clamp(other, least, std::max(least, 1 - diffuse));
+}
+
+MaterialModel blended(const Maker& m, MaterialModel first, MaterialModel second, double share) {
+  const Id<Material> a = m.slots.add({std::move(first)}), b = m.slots.add({std::move(second)});
+  return BlendMaterial{a, b, static_cast<float>(share)};
+}
+
+// K times a Fresnel factor, by microfacets or of a mirror: a plastic of a black base.
+PlasticMaterial gloss(const Maker& m, const SpectrumParameter& k, const Spectrum& eta, Roughness roughness) {
+  PlasticMaterial p;
+  p.diffuse_reflectance = Maker::grey(0);
+  p.specular_reflectance = k;
+  p.eta = static_cast<float>(is_constant(eta) ? evaluate(eta, lambda_min_nm) : luminance(eta));
+  p.exterior_eta = 1;
+  if (roughness.alpha_u != roughness.alpha_v) {
+    m.approximated("the two widths of its gloss become the first of them");
+    roughness.alpha_v = roughness.alpha_u;
+  }
+  p.roughness = roughness;
+  return p;
+}
+
+// Lambert and a gloss of Ks.
+MaterialModel diffuse_and_gloss(const Maker& m, const SpectrumParameter& kd, const SpectrumParameter& ks,
+                                const Spectrum& eta, const Roughness& roughness) {
+  if (is(ks, 0)) return DiffuseMaterial{kd};
+  if (is(kd, 0)) return gloss(m, ks, eta, roughness);
+  const double share = share_of(greatest(kd), greatest(ks));
+  return blended(m, DiffuseMaterial{over(m, kd, 1 - share)}, gloss(m, over(m, ks, share), eta, roughness),
+                 share);
+}
+
+MaterialModel plastic(const Maker& m) {
+  return diffuse_and_gloss(m, m.reflectance({"Kd"}, 0.25), m.reflectance({"Ks"}, 0.25), Maker::grey(1.5),
+                           m.roughness(0.1));
+}
+
+// Ashikhmin and Shirley (2000): Ks is the reflectance at normal incidence, and Kd·(1 − Ks) is left below it,
+// as in a plastic whose index has that reflectance.
 MaterialModel substrate(const Maker& m) {
   if (m.parameters.find("d", {ParameterType::number})) m.dropped("the absorption depth d of its coat");
-  return coated(m, 0.5, 0.5, 0.1, Maker::grey(1.5));
+  const SpectrumParameter kd = m.reflectance({"Kd"}, 0.5), ks = m.reflectance({"Ks"}, 0.5);
+  const double reflectance = std::clamp(mean(ks), 0.0, 0.95), root = std::sqrt(reflectance);
+  m.approximated(fmt::format("a plastic with its reflectance at normal incidence, {:.3g}, stands for it{}",
+                             reflectance,
+                             std::holds_alternative<Spectrum>(ks) ? "" : " (Ks is a texture: 0.5)"));
+  if (reflectance == 0) return DiffuseMaterial{kd};
+  const double eta = (1 + root) / (1 - root);
+  const Roughness roughness = m.roughness(0.1);
+  if (roughness.alpha_u != roughness.alpha_v) return CoatedDiffuseMaterial{kd, Maker::grey(eta), roughness};
+  PlasticMaterial p;
+  p.diffuse_reflectance = kd;
+  p.eta = static_cast<float>(eta);
+  p.exterior_eta = 1;
+  p.roughness = roughness;
+  return p;
 }
-
-// Blends `base` with another material by the share of light that each is given; 0 and 1 need no blend.
-MaterialModel blended(const Maker& m, MaterialModel base, MaterialModel other, double share,
-                      const char* what) {
-  if (share <= 0) return base;
-  if (share >= 1) return other;
-  m.approximated(fmt::format("{} becomes a share of {:.2f} of a blend", what, share));
-  const Id<Material> first = m.slots.add({std::move(base)}), second = m.slots.add({std::move(other)});
-  return BlendMaterial{first, second, static_cast<float>(share)};
-}
-
-// v3 adds its lobes; what is brighter gets the larger share of the light.
-double share_of(double part, double others) { return part > 0 ? part / (part + std::max(others, 0.0)) : 0; }
 
 FloatParameter as_number(const Maker& m, const SpectrumParameter& parameter, const char* name) {
   if (const auto* texture = std::get_if<Id<Texture>>(&parameter)) {
@@ -93,6 +149,26 @@ FloatParameter as_number(const Maker& m, const SpectrumParameter& parameter, con
   return static_cast<float>(luminance(value));
 }
 
+struct UberColors {
+  SpectrumParameter kd, ks, kr, kt;
+};
+
+// Beside Lambert and its gloss a mirror of Kr, or with Kt a smooth dielectric of both.
+MaterialModel uber_lobes(const Maker& m, const UberColors& k, const Spectrum& eta,
+                         const Roughness& roughness) {
+  if (is(k.kr, 0) && is(k.kt, 0)) return diffuse_and_gloss(m, k.kd, k.ks, eta, roughness);
+  const auto smooth = [&](double weight) -> MaterialModel {
+    const SpectrumParameter reflected = over(m, k.kr, weight);
+    if (is(k.kt, 0)) return gloss(m, reflected, eta, {});
+    return DielectricMaterial{eta, Maker::grey(1), {}, reflected, over(m, k.kt, weight)};
+  };
+  if (is(k.kd, 0) && is(k.ks, 0)) return smooth(1);
+  const double share = share_of(greatest(k.kd), std::max(greatest(k.kr), greatest(k.kt)) / 2);
+  MaterialModel others =
+      diffuse_and_gloss(m, over(m, k.kd, 1 - share), over(m, k.ks, 1 - share), eta, roughness);
+  return blended(m, std::move(others), smooth(share), share);
+}
+
 MaterialModel uber(const Maker& m) {
   const Spectrum eta = m.index({"eta", "index"}, 1.5);
   const SpectrumParameter kd = m.reflectance({"Kd"}, 0.25), ks = m.reflectance({"Ks"}, 0.25);
@@ -100,42 +176,29 @@ MaterialModel uber(const Maker& m) {
   const SpectrumParameter opacity = m.reflectance({"opacity"}, 1);
   const Roughness roughness = m.roughness(0.1);
 
-  MaterialModel model = DiffuseMaterial{kd};
-  if (!is(ks, 0)) {
-    m.approximated(fmt::format("the coat's model is v4's: Ks, {:.2f} on average, becomes 1", mean(ks)));
-    model = CoatedDiffuseMaterial{kd, eta, roughness};
-  }
-  // Kr and Kt are smooth: a dielectric's reflection and transmission.
-  if (!is(kr, 0) || !is(kt, 0)) {
-    DielectricMaterial d;
-    d.eta = eta;
-    d.reflectance_factor = kr;
-    d.transmittance_factor = kt;
-    model = is(kt, 0) ? blended(m, model, ConductorMaterial{PerfectReflector{}, {}, kr},
-                                share_of(mean(kr), mean(kd) + mean(ks)), "its mirror (Kr)")
-                      : blended(m, model, d, share_of(mean(kr) + mean(kt), mean(kd) + mean(ks)),
-                                "its smooth reflection and transmission (Kr, Kt)");
-  }
+  MaterialModel model = uber_lobes(m, {kd, ks, kr, kt}, eta, roughness);
   if (is(opacity, 1)) return model;
   return MaskMaterial{as_number(m, opacity, "opacity"), m.slots.add({std::move(model)})};
 }
 
-SpectrumParameter times(const Maker& m, const SpectrumParameter& a, const SpectrumParameter& b) {
-  const auto *first = std::get_if<Spectrum>(&a), *second = std::get_if<Spectrum>(&b);
-  if (first && second) return product(*first, *second);
-  if (is(a, 1)) return b;
-  if (is(b, 1)) return a;
-  m.scope.made.push_back({ProductTexture{a, b}, false, "", m.scope.origin});
-  return Id<Texture>{static_cast<std::uint32_t>(m.scope.made.size() - 1)};
-}
-
 MaterialModel translucent(const Maker& m) {
-  const SpectrumParameter kd = m.reflectance({"Kd"}, 0.25);
+  const SpectrumParameter kd = m.reflectance({"Kd"}, 0.25), ks = m.reflectance({"Ks"}, 0.25);
   const SpectrumParameter reflect = m.reflectance({"reflect"}, 0.5),
                           transmit = m.reflectance({"transmit"}, 0.5);
-  if (!is(m.reflectance({"Ks"}, 0.25), 0)) m.dropped("the gloss Ks of a translucent surface");
-  m.parameters.ignore({"roughness", "remaproughness"});
-  return DiffuseTransmissionMaterial{times(m, kd, reflect), times(m, kd, transmit)};
+  const Roughness roughness = m.roughness(0.1);
+  const auto diffuse = [&](double weight) {
+    return DiffuseTransmissionMaterial{times(m, over(m, kd, weight), reflect),
+                                       times(m, over(m, kd, weight), transmit)};
+  };
+  const auto rough_glass = [&](double weight) {
+    return DielectricMaterial{Maker::grey(1.5), Maker::grey(1), roughness,
+                              times(m, over(m, ks, weight), reflect),
+                              times(m, over(m, ks, weight), transmit)};
+  };
+  if (is(ks, 0)) return diffuse(1);
+  if (is(kd, 0)) return rough_glass(1);
+  const double share = share_of(greatest(kd), greatest(ks));
+  return blended(m, diffuse(1 - share), rough_glass(share), share);
 }
 
 MaterialModel disney(const Maker& m) {

@@ -18,20 +18,20 @@ class MaterialBaker {
   }
   MaterialModel operator()(DielectricMaterial m) {
     m.eta = resolved(m.eta), m.exterior_eta = resolved(m.exterior_eta);
-    roughness(m.roughness), reflectance(m.reflectance_factor), reflectance(m.transmittance_factor);
+    roughness(m.roughness), factor(m.reflectance_factor), factor(m.transmittance_factor);
     return m;
   }
   MaterialModel operator()(ThinDielectricMaterial m) {
     m.eta = resolved(m.eta), m.exterior_eta = resolved(m.exterior_eta);
-    reflectance(m.reflectance_factor), reflectance(m.transmittance_factor);
+    factor(m.reflectance_factor), factor(m.transmittance_factor);
     return m;
   }
   MaterialModel operator()(ConductorMaterial m) {
-    metal(m.metal), roughness(m.roughness), reflectance(m.reflectance_factor);
+    metal(m.metal), roughness(m.roughness), factor(m.reflectance_factor);
     return m;
   }
   MaterialModel operator()(PlasticMaterial m) {
-    reflectance(m.diffuse_reflectance), reflectance(m.specular_reflectance), roughness(m.roughness);
+    reflectance(m.diffuse_reflectance), factor(m.specular_reflectance), roughness(m.roughness);
     return m;
   }
   MaterialModel operator()(CoatedDiffuseMaterial m) {
@@ -99,6 +99,8 @@ class MaterialBaker {
  private:
   void note(std::string what) { result_.notes.push_back(std::move(what)); }
   void reflectance(SpectrumParameter& p) { p = textures_.bake(p, TextureUse::reflectance); }
+  // Above 1 where a blend makes a sum of lobes.
+  void factor(SpectrumParameter& p) { p = textures_.bake(p, TextureUse::unbounded); }
   void number(FloatParameter& p) { p = textures_.bake(p); }
   void part(Id<Material>& id) { id.value = static_cast<std::uint32_t>(ids_.at(id.value)); }
   void roughness(Roughness& r) { number(r.alpha_u), number(r.alpha_v); }

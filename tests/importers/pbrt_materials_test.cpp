@@ -140,19 +140,54 @@ TEST(PbrtMaterials, OthersOfV4AreExact) {
   EXPECT_FALSE(hair.color || hair.sigma_a || hair.pheomelanin);
 }
 
+double value(const SpectrumParameter& parameter) { return luminance(std::get<Spectrum>(parameter)); }
+
+template <class T>
+T part(const ImportedScene& imported, Id<Material> id) {
+  return std::get<T>(imported.scene.materials.at(id.value).model);
+}
+
+// v3 adds its lobes: a blend weighs them, and each is divided by its weight.
+TEST(PbrtMaterials, OfV3AreSumsOfTheirLobes) {
+  for (const auto& [kd, ks] : {std::pair{.5, .25}, {.9, .4}, {.1, .05}}) {
+    const ImportedScene imported = import_v3(fmt::format(
+        "Material \"plastic\" \"rgb Kd\" [{0} {0} {0}] \"rgb Ks\" [{1} {1} {1}] {2}", kd, ks, triangle));
+    expect_no_diagnostics(imported);
+    const auto blend = model_of<BlendMaterial>(imported);
+    const auto amount = static_cast<double>(std::get<float>(blend.amount));
+    const auto base = part<DiffuseMaterial>(imported, blend.first);
+    const auto gloss = part<PlasticMaterial>(imported, blend.second);
+    EXPECT_LE(value(base.reflectance), 1.0 + 1e-6);
+    EXPECT_NEAR(value(base.reflectance) * (1 - amount), kd, 1e-4);
+    EXPECT_NEAR(value(gloss.specular_reflectance) * amount, ks, 1e-4);
+    EXPECT_EQ(value(gloss.diffuse_reflectance), 0);
+    EXPECT_EQ(gloss.eta, 1.5f);
+    EXPECT_EQ(gloss.exterior_eta, 1);
+    if (kd + ks <= 1) EXPECT_NEAR(value(gloss.specular_reflectance), 1, 1e-4) << "a coat as it is";
+  }
+  const ImportedScene leaf = import_v3("Material \"translucent\" \"rgb reflect\" [1 1 1] " + triangle);
+  const auto blend = model_of<BlendMaterial>(leaf);
+  const auto amount = static_cast<double>(std::get<float>(blend.amount));
+  const auto diffuse = part<DiffuseTransmissionMaterial>(leaf, blend.first);
+  EXPECT_NEAR(value(diffuse.reflectance) * (1 - amount), .25, 1e-4);
+  EXPECT_NEAR(value(diffuse.transmittance) * (1 - amount), .125, 1e-4);
+  const auto glass = part<DielectricMaterial>(leaf, blend.second);
+  EXPECT_NEAR(value(glass.reflectance_factor) * amount, .25, 1e-4);
+  EXPECT_NEAR(value(glass.transmittance_factor) * amount, .125, 1e-4);
+}
+
+// R₀ = ((η − 1)/(η + 1))² is Ks.
+TEST(PbrtMaterials, SubstrateHasItsReflectanceAtNormalIncidence) {
+  const ImportedScene imported = import_v3("Material \"substrate\" \"rgb Ks\" [.25 .25 .25] " + triangle);
+  EXPECT_NEAR(model_of<PlasticMaterial>(imported).eta, 3, 1e-5);
+  EXPECT_TRUE(mentions(imported.diagnostics, "stands for it"));
+}
+
 TEST(PbrtMaterials, OfV3AreMappedWithoutDroppingParts) {
-  const ImportedScene plastic = import_v3("Material \"plastic\" \"rgb Kd\" [.5 .5 .5] " + triangle);
-  EXPECT_EQ(model_of<CoatedDiffuseMaterial>(plastic).reflectance,
-            SpectrumParameter{reflectance_from_rgb({.5, .5, .5})});
-  EXPECT_TRUE(mentions(plastic.diagnostics, "Ks"));
   const auto disney =
       exact<PrincipledMaterial>("Material \"disney\" \"float metallic\" .75 \"bool thin\" true", true);
   EXPECT_EQ(disney.metallic, FloatParameter{.75f});
   EXPECT_TRUE(disney.thin);
-  const ImportedScene translucent = import_v3("Material \"translucent\" \"rgb reflect\" [1 1 1] " + triangle);
-  const auto leaf = model_of<DiffuseTransmissionMaterial>(translucent);
-  EXPECT_NEAR(luminance(std::get<Spectrum>(leaf.reflectance)), .25, 1e-4);
-  EXPECT_NEAR(luminance(std::get<Spectrum>(leaf.transmittance)), .125, 1e-4);
 }
 
 TEST(PbrtMaterials, UberKeepsOpacityMirrorAndTransmission) {
@@ -166,11 +201,13 @@ TEST(PbrtMaterials, UberKeepsOpacityMirrorAndTransmission) {
 
   const ImportedScene mirrored =
       import_v3(kinds + "\"rgb Kd\" [.25 .25 .25] \"rgb Kr\" [.75 .75 .75] " + triangle);
+  expect_no_diagnostics(mirrored);
   const auto blend = model_of<BlendMaterial>(mirrored);
-  EXPECT_NEAR(std::get<float>(blend.amount), .75, 1e-4);
-  const auto& mirror = std::get<ConductorMaterial>(mirrored.scene.materials.at(blend.second.value).model);
-  EXPECT_EQ(mirror.metal, Metal{PerfectReflector{}});
-  EXPECT_TRUE(mentions(mirrored.diagnostics, "Kr"));
+  const auto amount = static_cast<double>(std::get<float>(blend.amount));
+  EXPECT_NEAR(value(part<DiffuseMaterial>(mirrored, blend.first).reflectance) * (1 - amount), .25, 1e-4);
+  const auto mirror = part<PlasticMaterial>(mirrored, blend.second);
+  EXPECT_NEAR(value(mirror.specular_reflectance) * amount, .75, 1e-4);
+  EXPECT_EQ(mirror.roughness, Roughness{});
 
   const ImportedScene clear =
       import_v3(kinds + "\"rgb Kd\" [0 0 0] \"rgb Kt\" [1 1 1] \"float index\" 1.25 " + triangle);
@@ -276,7 +313,7 @@ TEST(PbrtMaterials, BumpsAreOfTheParts) {
     EXPECT_EQ(material.displacement.has_value(), is_leaf);
     bumped += is_leaf;
   }
-  EXPECT_EQ(bumped, 2u);
+  EXPECT_EQ(bumped, 3u);
 }
 
 TEST(PbrtMaterials, BumpsAreKept) {
