@@ -23,12 +23,13 @@ constexpr const char* usage = R"(usage: vitrail VERB ...
   render      a bundle or a scene, alone or under mpirun
   develop     films into a picture
   compare     a picture with a reference
+  glazing     transmittance, reflectance and colour of panes
 
 `vitrail help VERB` says more.
 )";
 
 const std::vector<std::string> verbs{"convert", "inspect", "partition", "verify",
-                                     "render",  "develop", "compare"};
+                                     "render",  "develop", "compare",   "glazing"};
 
 int no_such(const std::string& verb) {
   const std::string meant = vitrail::closest_word(verb, verbs);

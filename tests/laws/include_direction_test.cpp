@@ -16,6 +16,7 @@ namespace {
 const std::map<std::string, std::set<std::string>>& allowed() {
   static const std::map<std::string, std::set<std::string>> folders{
       {"scene", {}},
+      {"glazing", {"scene"}},
       {"images", {"scene"}},
       {"importers", {"scene", "images"}},
       {"bundle", {"scene"}},
@@ -25,7 +26,8 @@ const std::map<std::string, std::set<std::string>>& allowed() {
       {"farm", {"scene", "bundle", "film", "tracer"}},
       {"compare", {"scene", "film"}},
       {"cli",
-       {"scene", "images", "importers", "bundle", "partitioner", "film", "tracer", "farm", "compare"}}};
+       {"scene", "glazing", "images", "importers", "bundle", "partitioner", "film", "tracer", "farm",
+        "compare"}}};
   return folders;
 }
 
@@ -69,8 +71,8 @@ TEST(IncludeDirection, OnlyTheFarmSpeaksMpi) {
 
 TEST(Sources, CarryTheirLicence) {
   const std::filesystem::path root = VITRAIL_SOURCE_DIR;
-  for (const char* folder : {"scene", "images", "importers", "bundle", "partitioner", "film", "tracer",
-                             "farm", "compare", "cli", "tests", "scripts", "examples", "cmake"})
+  for (const char* folder : {"scene", "glazing", "images", "importers", "bundle", "partitioner", "film",
+                             "tracer", "farm", "compare", "cli", "tests", "scripts", "examples", "cmake"})
     for (const auto& entry : std::filesystem::recursive_directory_iterator(root / folder)) {
       const std::string extension = entry.path().extension().string();
       constexpr const char* kinds[] = {".h", ".cpp", ".inl", ".py", ".cmake"};

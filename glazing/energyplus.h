@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// EnergyPlus input as IDF and epJSON have it in common. Inside.
+#pragma once
+
+#include <array>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "glazing/product.h"
+
+namespace vitrail {
+
+// One object: its named fields as texts, and the rows of its repeated group. Field names are epJSON's.
+struct EnergyPlusObject {
+  std::string type, name;  // the type in lower case
+  int line = 0;            // 0 in epJSON
+  std::map<std::string, std::string> fields;
+  std::vector<std::vector<std::string>> rows;
+};
+
+// The glazing among them. References between objects are by name, whatever the case. Throws Error.
+std::vector<Product> energyplus_products(const std::vector<EnergyPlusObject>& objects,
+                                         const std::string& file);
+
+inline constexpr const char* glazing_type = "windowmaterial:glazing";
+inline constexpr const char* spectral_data_type = "materialproperty:glazingspectraldata";
+inline constexpr const char* thermochromic_type = "windowmaterial:glazinggroup:thermochromic";
+
+// WindowMaterial:Glazing's fields behind its name, in the order of an IDF; later ones are about heat.
+inline constexpr std::array glazing_fields{
+    "optical_data_type",
+    "window_glass_spectral_data_set_name",
+    "thickness",
+    "solar_transmittance_at_normal_incidence",
+    "front_side_solar_reflectance_at_normal_incidence",
+    "back_side_solar_reflectance_at_normal_incidence",
+    "visible_transmittance_at_normal_incidence",
+    "front_side_visible_reflectance_at_normal_incidence",
+    "back_side_visible_reflectance_at_normal_incidence",
+};
+
+}  // namespace vitrail

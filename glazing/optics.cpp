@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <array>
+
+#include "glazing/product_formats.h"
+#include "glazing/text_file.h"
+#include "scene/diagnostics.h"
+
+namespace vitrail {
+
+namespace {
+
+struct Header {
+  std::string key, value;
+};
+
+// "{ Thickness } 3.048" and "{ Type: Coated }".
+Header header_of(std::string_view line) {
+  const std::size_t end = line.find('}');
+  const std::string_view inside = trimmed(line.substr(1, end - 1));
+  const std::string_view behind = end == line.npos ? std::string_view() : trimmed(line.substr(end + 1));
+  const std::size_t colon = inside.find(':');
+  if (colon == inside.npos) return {lower(inside), std::string(behind)};
+  return {lower(trimmed(inside.substr(0, colon))), std::string(trimmed(inside.substr(colon + 1)))};
+}
+
+class Reader {
+ public:
+  Reader(const std::string& text, const std::string& file) : lines_(text), file_(file) {}
+
+  Product read() {
+    for (std::string_view line; lines_.next(line);) {
+      line = trimmed(line);
+      if (line.empty() || line.front() == '!' || line.front() == '#') continue;
+      if (line.front() == '{')
+        take(header_of(line), line);
+      else
+        take_row(line);
+    }
+    if (to_nm_ == 0)
+      throw Error("the header has no line \"{ Units, Wavelength Units } SI Microns\"", {file_});
+    if (rows_.empty()) throw Error("there are no rows of wavelength, T, Rf, Rb", {file_});
+    for (OpticalRow& row : rows_) row.nm *= to_nm_;
+    const bool clear = same_word(type_, "monolithic") && (side_.empty() || same_word(side_, "neither"));
+    product_.kind = clear ? PaneKind::clear : PaneKind::coated;
+    if (type_.empty()) product_.notes.emplace_back("does not say its type and counts as coated");
+    product_.rows = checked_rows(std::move(rows_), product_.notes, file_, "");
+    return std::move(product_);
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& message, std::string_view excerpt) const {
+    throw Error(message, {file_, lines_.number(), 0}, std::string(excerpt.substr(0, 80)));
+  }
+
+  void take(const Header& header, std::string_view line) {
+    const auto& [key, value] = header;
+    if (key == "units, wavelength units") {
+      const std::string units = lower(value);
+      if (units.find("nano") != units.npos)
+        to_nm_ = 1;
+      else if (units.find("micro") != units.npos)
+        to_nm_ = 1000;
+      else
+        fail("the wavelengths' unit has to be Microns or Nanometers", line);
+    } else if (key == "thickness") {
+      std::string_view rest = value;
+      if (!parse_number(next_word(rest), product_.thickness_mm) || product_.thickness_mm < 0)
+        fail("the thickness has to be a number of millimetres", line);
+    } else if (key == "product name") {
+      product_.name = value;
+    } else if (key == "manufacturer") {
+      product_.manufacturer = value;
+    } else if (key == "type") {
+      type_ = value;
+    } else if (key == "coated side") {
+      side_ = value;
+    }
+  }
+
+  void take_row(std::string_view line) {
+    std::array<double, 4> v{};
+    std::string_view rest = line;
+    for (double& number : v)
+      if (!parse_number(next_word(rest), number)) fail("expected wavelength, T, Rf, Rb", line);
+    if (!next_word(rest).empty()) fail("expected four numbers: wavelength, T, Rf, Rb", line);
+    rows_.push_back({v[0], {v[1], v[2], v[3]}});
+  }
+
+  Lines lines_;
+  const std::string& file_;
+  Product product_;
+  OpticalRows rows_;
+  std::string type_, side_;
+  double to_nm_ = 0;
+};
+
+}  // namespace
+
+bool is_optics(std::string_view text) {
+  text = trimmed(text);
+  return text.starts_with("{") && lower(text.substr(0, 40)).find("units") != text.npos;
+}
+
+std::vector<Product> optics_products(const std::string& text, const std::string& file) {
+  return {Reader(text, file).read()};
+}
+
+}  // namespace vitrail

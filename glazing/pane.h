@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// One pane at any angle: from what was measured at normal incidence, or from its layers.
+#pragma once
+
+#include <variant>
+#include <vector>
+
+#include "glazing/optical_rows.h"
+#include "glazing/product.h"
+
+namespace vitrail {
+
+// The electric field perpendicular (s) and parallel (p) to the plane of incidence.
+struct PolarisedValues {
+  PaneValues s, p;
+};
+PaneValues mean(const PolarisedValues& v);
+
+// A sheet of homogeneous glass whose T and R at normal incidence are known: the index follows from R and T
+// through the infinite series of inner reflections, the absorption from T; then Fresnel's equations and the
+// longer path in the glass give every angle. Furler, "Angular dependence of optical properties of homogeneous
+// glasses", ASHRAE Transactions 97 (1991); Finlayson et al., "WINDOW 4.0: documentation of calculation
+// procedures", LBL-33943 (1993). Each face takes the index of its own reflectance.
+PolarisedValues clear_glass(PaneValues normal, double cosine);
+
+// What that inverts to: real index n and extinction k of the glass.
+IndexRow clear_glass_index(double nm, double t, double r, double thickness_mm);
+
+// Anything else that is measured at normal incidence alone: the shape of the curves of 3 mm clear (T > 0.645)
+// or bronze glass, polynomials in the cosine, whatever the polarisation (Finlayson et al. 1993, table of
+// "polynomial coefficients"). Judged at each wavelength by its own T, as WINDOW's engine does.
+PaneValues coated_glass(PaneValues normal, double cosine);
+
+struct MeasuredPane {
+  OpticalRows rows;
+  PaneKind kind = PaneKind::clear;
+};
+
+// Thick sheets that light passes without interference, with coherent films on their faces, from outside. All
+// in optical contact: a laminate is several slabs, a coated glass one with films.
+struct Film {
+  IndexRows index;
+  double thickness_nm = 0;
+};
+struct Slab {
+  IndexRows index;
+  double thickness_mm = 0;
+};
+struct StackPane {
+  std::vector<Slab> slabs;               // at least one
+  std::vector<std::vector<Film>> films;  // before, between and behind the slabs: one more than slabs
+};
+
+using Pane = std::variant<MeasuredPane, StackPane>;
+
+// In air, `cosine` of the angle of incidence in [0, 1].
+PolarisedValues values_at(const Pane& pane, double nm, double cosine);
+
+// The wavelengths that a pane is given at, ascending.
+std::vector<double> wavelengths_of(const Pane& pane);
+
+// Of a product with rows, or with an index where `thickness_mm` (or the product's own) is above 0. Throws
+// Error.
+Pane pane_of(const Product& product, double thickness_mm = 0);
+
+}  // namespace vitrail

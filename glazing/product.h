@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// Glazing products: what a manufacturer's or a laboratory's file says of one pane.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "glazing/optical_rows.h"
+
+namespace vitrail {
+
+// How a pane's values depend on the angle (glazing/pane.h).
+enum class PaneKind {
+  clear,   // one homogeneous sheet without coatings
+  coated,  // anything else that was measured: coatings, laminates, films
+};
+
+// A product has `rows`, or `index` where its optical constants were measured, or `states`.
+struct Product {
+  std::string name, manufacturer;
+  PaneKind kind = PaneKind::clear;
+  double thickness_mm = 0;  // 0 where the file does not say
+  OpticalRows rows;
+  IndexRows index;
+  // A thermochromic group: the temperature in °C and what it names, ascending.
+  struct State {
+    double temperature_c = 0;
+    OpticalRows rows;
+    PaneKind kind = PaneKind::clear;
+  };
+  std::vector<State> states;
+  std::vector<std::string> notes;  // what was repaired or approximated, in words
+};
+
+// Every product of a file, told by its content: IGSDB or CGDB JSON, Optics text (.dat, .oag, .txt),
+// EnergyPlus IDF or epJSON, or a table whose header names its columns (docs/glazing.md). Wavelengths are in
+// nm afterwards. Throws Error with the file and the line, or the place in the JSON.
+std::vector<Product> read_products(const std::filesystem::path& file);
+
+// The product of that name (case does not matter), or the only one where the name is empty. Throws Error.
+Product read_product(const std::filesystem::path& file, const std::string& name = {});
+
+// "FILE" or "FILE#NAME", as users type it. A file of that whole name comes first.
+Product read_named_product(const std::string& text);
+
+}  // namespace vitrail

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// One reader a format; each takes the text and the name of its file. Inside.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "glazing/product.h"
+
+namespace vitrail {
+
+class JsonNode;
+
+// IGSDB and CGDB: an object, or a list of them, with "spectral_data" (µm) and "measured_data" (mm).
+std::vector<Product> igsdb_products(const JsonNode& root);
+bool is_igsdb(const JsonNode& root);
+
+// Optics: "{ key } value" lines, then wavelength, T, Rf, Rb, in µm or nm as the header says.
+std::vector<Product> optics_products(const std::string& text, const std::string& file);
+bool is_optics(std::string_view text);
+
+// A header that names the columns (wavelength_nm or wavelength_um; T Rf Rb, T R, or n k), then rows.
+std::vector<Product> table_products(const std::string& text, const std::string& file);
+
+// EnergyPlus: WindowMaterial:Glazing, MaterialProperty:GlazingSpectralData and
+// WindowMaterial:GlazingGroup:Thermochromic.
+std::vector<Product> idf_products(const std::string& text, const std::string& file);
+std::vector<Product> epjson_products(const JsonNode& root, const std::string& file);
+bool is_idf(std::string_view text);
+
+// Rows as a file has them become those of a product: checks that the wavelengths are some and positive and
+// that the values may be fractions. `where` begins the message.
+OpticalRows checked_rows(OpticalRows rows, std::vector<std::string>& notes, const std::string& file,
+                         const std::string& where);
+
+}  // namespace vitrail

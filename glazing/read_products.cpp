@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include "glazing/json_node.h"
+#include "glazing/product_formats.h"
+#include "glazing/text_file.h"
+#include "scene/diagnostics.h"
+
+namespace vitrail {
+
+namespace {
+
+std::vector<Product> products_of(const std::string& text, const std::string& file) {
+  if (is_optics(text)) return optics_products(text, file);
+  const std::string_view start = trimmed(text);
+  if (start.starts_with("{") || start.starts_with("[")) {
+    const JsonNode root = JsonNode::parse(text, file);
+    return is_igsdb(root) ? igsdb_products(root) : epjson_products(root, file);
+  }
+  if (is_idf(text)) return idf_products(text, file);
+  return table_products(text, file);
+}
+
+std::string names_of(const std::vector<Product>& products) {
+  std::string names;
+  for (std::size_t i = 0; i < products.size() && i < 20; ++i)
+    names += fmt::format("{}\"{}\"", i == 0 ? "" : ", ", products[i].name);
+  return products.size() > 20 ? names + ", …" : names;
+}
+
+}  // namespace
+
+OpticalRows checked_rows(OpticalRows rows, std::vector<std::string>& notes, const std::string& file,
+                         const std::string& where) {
+  for (const OpticalRow& row : rows) {
+    if (!(row.nm > 0)) throw Error(where + "a wavelength has to be above 0", {file});
+    // Noise leaves [0, 1] by a little, and reflectances are at times nonsense where all is absorbed.
+    const auto is_fraction = [](double v) { return v > -0.5 && v < 2; };
+    if (!is_fraction(row.at.t) || !is_fraction(row.at.rf) || !is_fraction(row.at.rb))
+      throw Error(fmt::format("{}at {} nm T, Rf, Rb are {}, {}, {}, and have to be fractions from 0 to 1",
+                              where, row.nm, row.at.t, row.at.rf, row.at.rb),
+                  {file});
+  }
+  return tidy(std::move(rows), notes);
+}
+
+std::vector<Product> read_products(const std::filesystem::path& file) {
+  const std::string name = file.string();
+  std::vector<Product> products = products_of(read_text(file), name);
+  if (products.empty()) throw Error("there is no glazing in it", {name});
+  for (Product& product : products)
+    if (product.name.empty()) product.name = file.stem().string();
+  return products;
+}
+
+Product read_product(const std::filesystem::path& file, const std::string& name) {
+  std::vector<Product> products = read_products(file);
+  if (name.empty()) {
+    if (products.size() == 1) return std::move(products.front());
+    throw Error(fmt::format("has {} products; say which as \"{}#NAME\": {}", products.size(), file.string(),
+                            names_of(products)),
+                {file.string()});
+  }
+  for (Product& product : products)
+    if (same_word(product.name, name)) return std::move(product);
+  throw Error(fmt::format("has no product \"{}\", but {}", name, names_of(products)), {file.string()});
+}
+
+Product read_named_product(const std::string& text) {
+  std::error_code ignored;
+  const std::size_t hash = text.rfind('#');
+  if (hash == text.npos || std::filesystem::exists(text, ignored)) return read_product(text);
+  return read_product(text.substr(0, hash), text.substr(hash + 1));
+}
+
+}  // namespace vitrail

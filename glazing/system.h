@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+// Panes one behind another, and what all of them together let through and reflect.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "glazing/pane.h"
+
+namespace vitrail {
+
+struct GlazingLayer {
+  std::string name;
+  Pane pane;
+  bool flipped = false;      // its front looks inside
+  double gap_behind_mm = 0;  // says nothing about light: gaps absorb none
+};
+
+struct GlazingSystem {
+  std::string name;
+  std::vector<GlazingLayer> layers;  // from outside; at least one
+};
+
+// What polarisation is to light between panes. WINDOW takes the mean of both at each pane; the exact series
+// keeps them apart, which matters beyond 45° or so (docs/glazing.md has the difference).
+enum class Polarisation { mixed_at_panes, apart };
+
+// T, front and back reflectance of the whole by the sum over all reflections between its panes. Light stays
+// specular, so the sum is a geometric series. T is the same from both sides.
+PaneValues system_values(const GlazingSystem& system, double nm, double cosine, Polarisation polarisation);
+
+// The wavelengths of all panes together, where all of them have some; nm, ascending. Throws Error where there
+// are none.
+std::vector<double> common_wavelengths(const GlazingSystem& system);
+
+struct SystemSpectrum {
+  std::vector<double> nm;  // ascending
+  std::vector<PaneValues> values;
+};
+
+SystemSpectrum spectrum_at(const GlazingSystem& system, std::vector<double> nm, double cosine,
+                           Polarisation polarisation);
+
+// Light from all of the hemisphere alike: 2 ∫ f(θ) cos θ sin θ dθ.
+enum class HemisphereRule {
+  gauss,        // Gauss and Legendre's of 16 points in the cosine: exact to 1e-5 and better
+  each_10_deg,  // the trapezoidal of WinCalc, which loses up to 0.008 of a reflectance
+};
+SystemSpectrum hemispherical_spectrum(const GlazingSystem& system, std::vector<double> nm,
+                                      Polarisation polarisation, HemisphereRule rule);
+
+}  // namespace vitrail

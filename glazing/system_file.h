@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "glazing/system.h"
+
+namespace vitrail {
+
+// What was read, and what was repaired or approximated in words that begin with the file's name.
+struct ReadSystem {
+  GlazingSystem system;
+  std::vector<std::string> notes;
+};
+
+// Panes from outside, each "FILE" or "FILE#NAME" of a product (glazing/product.h), or a system file, whose
+// layers take its place. A system file is JSON (docs/glazing.md):
+//   {"name": "…", "layers": [{"pane": "low-e.json", "flipped": true}, {"gap_mm": 12.7},
+//                            {"stack": [{"index": "glass.txt", "thickness_mm": 4},
+//                                       {"index": "silver.txt", "thickness_nm": 12}, …]}]}
+// with files beside it. Throws Error.
+ReadSystem read_system(const std::vector<std::string>& files);
+
+}  // namespace vitrail

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "glazing/text_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+
+#include "scene/diagnostics.h"
+#include "scene/input_files.h"
+
+namespace vitrail {
+
+namespace {
+
+constexpr std::string_view separators = " \t\r\v\f,;";
+
+// Length of the UTF-8 sequence that begins a text; 0 where it is none.
+std::size_t sequence_length(std::string_view text) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  const unsigned char first = byte(0);
+  const std::size_t length = first < 0x80             ? 1
+                             : (first & 0xE0) == 0xC0 ? 2
+                             : (first & 0xF0) == 0xE0 ? 3
+                             : (first & 0xF8) == 0xF0 ? 4
+                                                      : 0;
+  if (length == 0 || length > text.size() || first == 0xC0 || first == 0xC1 || first > 0xF4) return 0;
+  for (std::size_t i = 1; i < length; ++i)
+    if ((byte(i) & 0xC0) != 0x80) return 0;
+  if (length > 2) {  // overlong, surrogates, beyond the last code point
+    const int second = byte(1);
+    if ((first == 0xE0 && second < 0xA0) || (first == 0xED && second > 0x9F)) return 0;
+    if ((first == 0xF0 && second < 0x90) || (first == 0xF4 && second > 0x8F)) return 0;
+  }
+  return length;
+}
+
+bool is_utf8(std::string_view text) {
+  while (!text.empty()) {
+    const std::size_t length = sequence_length(text);
+    if (length == 0) return false;
+    text.remove_prefix(length);
+  }
+  return true;
+}
+
+std::string from_latin_1(std::string_view text) {
+  std::string result;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x80) {
+      result.push_back(c);
+    } else {
+      result.push_back(static_cast<char>(0xC0 | (byte >> 6)));
+      result.push_back(static_cast<char>(0x80 | (byte & 0x3F)));
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+std::string read_text(const std::filesystem::path& file) {
+  constexpr std::uintmax_t most_bytes = 64 << 20;
+  note_input(file);
+  std::error_code error;
+  if (std::filesystem::is_directory(file, error)) throw Error("is a directory, not a file", {file.string()});
+  if (!std::filesystem::exists(file, error)) throw Error("there is no such file", {file.string()});
+  if (std::filesystem::file_size(file, error) > most_bytes && !error)
+    throw Error("is larger than 64 MiB", {file.string()});
+  std::ifstream in(file, std::ios::binary);
+  if (!in) throw MachineError(fmt::format("cannot read {}", file.string()));
+  std::string text(std::istreambuf_iterator<char>(in), {});
+  if (in.bad()) throw MachineError(fmt::format("cannot read {}", file.string()));
+  if (text.starts_with("\xef\xbb\xbf")) text.erase(0, 3);
+  return is_utf8(text) ? text : from_latin_1(text);
+}
+
+bool Lines::next(std::string_view& line) {
+  if (rest_.empty()) return false;
+  const std::size_t end = std::min(rest_.find('\n'), rest_.size());
+  line = rest_.substr(0, end);
+  rest_.remove_prefix(std::min(end + 1, rest_.size()));
+  ++number_;
+  return true;
+}
+
+std::string_view trimmed(std::string_view text) {
+  constexpr std::string_view blanks = " \t\r\n\v\f";
+  const std::size_t first = text.find_first_not_of(blanks);
+  if (first == text.npos) return {};
+  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
+}
+
+std::string lower(std::string_view text) {
+  std::string result(text);
+  for (char& c : result) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return result;
+}
+
+bool same_word(std::string_view a, std::string_view b) { return lower(a) == lower(b); }
+
+std::string_view next_word(std::string_view& rest) {
+  const std::size_t first = std::min(rest.find_first_not_of(separators), rest.size());
+  rest.remove_prefix(first);
+  const std::string_view word = rest.substr(0, rest.find_first_of(separators));
+  rest.remove_prefix(word.size());
+  return word;
+}
+
+bool parse_number(std::string_view word, double& value) {
+  if (word.size() > 1 && word.front() == '+' && word[1] != '-') word.remove_prefix(1);
+  const char* end = word.data() + word.size();
+  const auto result = std::from_chars(word.data(), end, value);
+  return result.ec == std::errc() && result.ptr == end && std::isfinite(value);
+}
+
+}  // namespace vitrail

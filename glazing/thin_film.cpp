@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "glazing/thin_film.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace vitrail {
+
+namespace {
+
+using Complex = std::complex<double>;
+
+// n·cos θ in a medium, on the branch where a wave decays forwards.
+Complex n_cosine(Complex n, double sine) {
+  const Complex root = std::sqrt(n * n - sine * sine);
+  return root.imag() > 0 ? -root : root;
+}
+
+// Admittance of the tangential fields, in units of that of free space.
+Complex admittance(Complex n, double sine, bool parallel) {
+  const Complex nc = n_cosine(n, sine);
+  return parallel ? n * n / nc : nc;
+}
+
+struct OneWay {
+  double r = 0, t = 0;
+};
+
+OneWay one_way(Complex n_first, std::span<const FilmAt> films, bool reversed, Complex n_last, double sine,
+               double nm, bool parallel) {
+  const Complex first = admittance(n_first, sine, parallel), last = admittance(n_last, sine, parallel);
+  // (B, C) = ∏ M · (1, η_last), from the last film to the first.
+  Complex b = 1, c = last;
+  double scale = 1;  // of |B|², taken out so that thick metals do not overflow
+  for (std::size_t i = 0; i < films.size(); ++i) {
+    const FilmAt& film = films[reversed ? i : films.size() - 1 - i];
+    const Complex eta = admittance(film.index, sine, parallel);
+    Complex delta = 2 * std::numbers::pi * film.thickness_nm / nm * n_cosine(film.index, sine);
+    const double decay = std::min(-delta.imag(), 300.0);
+    delta = {delta.real(), -decay};
+    const Complex cosine = std::cos(delta), sine_i = Complex(0, 1) * std::sin(delta);
+    const Complex b_next = cosine * b + sine_i / eta * c;
+    c = (eta * sine_i * b + cosine * c) * std::exp(-decay);
+    b = b_next * std::exp(-decay);
+    scale *= std::exp(-2 * decay);
+  }
+  const Complex sum = first * b + c;
+  return {std::norm((first * b - c) / sum), 4 * first.real() * last.real() * scale / std::norm(sum)};
+}
+
+// An element of the chain: seen from before and from behind.
+InterfaceValues joined(const InterfaceValues& a, const InterfaceValues& b) {
+  const double series = 1 / (1 - a.r_back * b.r);
+  return {a.r + a.t * b.r * a.t_back * series, a.t * b.t * series,
+          b.r_back + b.t_back * a.r_back * b.t * series, b.t_back * a.t_back * series};
+}
+
+Complex index_of(const IndexRows& rows, double nm) {
+  const IndexRow row = index_at(rows, nm);
+  return {row.n, -row.k};
+}
+
+}  // namespace
+
+InterfaceValues film_stack(double n_first, std::span<const FilmAt> films, Complex n_last, double sine,
+                           double nm, bool parallel) {
+  const OneWay there = one_way(n_first, films, false, n_last, sine, nm, parallel);
+  const OneWay back = one_way(n_last.real(), films, true, n_first, sine, nm, parallel);
+  return {there.r, there.t, back.r, back.t};
+}
+
+PaneValues stack_values(const StackPane& stack, double nm, double cosine, bool parallel) {
+  if (!(cosine > 1e-6)) return {0, 1, 1};
+  const double sine = std::sqrt(1 - std::min(1.0, cosine) * std::min(1.0, cosine));
+  InterfaceValues all{0, 1, 0, 1};
+  double n_before = 1;
+  for (std::size_t i = 0; i <= stack.slabs.size(); ++i) {
+    std::vector<FilmAt> films;
+    for (const Film& film : stack.films[i]) films.push_back({index_of(film.index, nm), film.thickness_nm});
+    // The absorption of a slab is counted on its way through; at its faces only its real index acts.
+    const bool last = i == stack.slabs.size();
+    const Complex n = last ? Complex(1) : index_of(stack.slabs[i].index, nm);
+    all = joined(all, film_stack(n_before, films, n.real(), sine, nm, parallel));
+    if (last) break;
+    const double n_cos = n_cosine(n.real(), sine).real();
+    const double inner = n_cos / n.real();
+    const double passage =
+        inner > 0
+            ? std::exp(4 * std::numbers::pi * n.imag() * stack.slabs[i].thickness_mm * 1e6 / (nm * inner))
+            : 0;
+    all = joined(all, {0, passage, 0, passage});
+    n_before = n.real();
+  }
+  return {all.t, all.r, all.r_back};
+}
+
+}  // namespace vitrail

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/glazing/glazing_files.h"
+#include "tests/support/command.h"
+
+namespace vitrail::test {
+namespace {
+
+using ::testing::HasSubstr;
+
+TEST(Glazing, PrintsATableAndJson) {
+  const TemporaryDirectory directory;
+  const auto pane = write_text(directory / "pane.dat", optics_text);
+  const std::string line =
+      fmt::format("{} '{}' '{}' --theta 0 60", vitrail("glazing"), pane.string(), pane.string());
+  const CommandResult table = run(line);
+  EXPECT_EQ(table.status, 0) << table.output;
+  EXPECT_THAT(table.output, HasSubstr("pane 2: Pane, clear"));
+  EXPECT_THAT(table.output, HasSubstr("at 60°"));
+  EXPECT_THAT(table.output, HasSubstr("dominant wavelength"));
+  const CommandResult printed = run(line + " --json");
+  const auto json = nlohmann::json::parse(printed.output);
+  ASSERT_EQ(json.at("results").size(), 4u);
+  EXPECT_LT(json["results"][1]["photopic"]["transmittance"], json["results"][0]["photopic"]["transmittance"]);
+}
+
+// The spectra are a product again, with the same numbers.
+TEST(Glazing, ItsSpectraAreReadBack) {
+  const TemporaryDirectory directory;
+  const auto pane = write_text(directory / "pane.dat", optics_text);
+  const std::string csv = (directory / "system.csv").string();
+  const auto json_of = [&](const std::string& arguments) {
+    const CommandResult result = run(fmt::format("{} --json {}", vitrail("glazing"), arguments));
+    EXPECT_EQ(result.status, 0) << result.output;
+    return nlohmann::json::parse(result.output).at("results").at(0);
+  };
+  const auto first = json_of(fmt::format("'{0}' '{0}' --flip 1 --csv '{1}'", pane.string(), csv));
+  const auto again = json_of(fmt::format("'{}'", csv));
+  for (const char* method : {"solar", "photopic", "tuv"})
+    for (const char* value : {"transmittance", "reflectance_front", "reflectance_back"})
+      EXPECT_NEAR(first.at(method).at(value).get<double>(), again.at(method).at(value).get<double>(), 1e-6);
+}
+
+TEST(Glazing, SaysWhatIsWrong) {
+  const TemporaryDirectory directory;
+  const std::string pane = write_text(directory / "pane.dat", optics_text).string();
+  const std::string verb = vitrail("glazing");
+  EXPECT_EQ(run(verb).status, 2);
+  EXPECT_EQ(run(fmt::format("{} '{}' --theta 91", verb, pane)).status, 2);
+  EXPECT_EQ(run(fmt::format("{} '{}' --flip 2", verb, pane)).status, 2);
+  EXPECT_EQ(run(fmt::format("{} '{}' --csv '{}'", verb, pane, pane)).status, 2);
+  EXPECT_EQ(run(fmt::format("{} '{}' --standard none.std", verb, pane)).status, 3);
+  const CommandResult missing = run(fmt::format("{} '{}/none.dat'", verb, directory.path().string()));
+  EXPECT_EQ(missing.status, 3);
+  EXPECT_THAT(missing.output, HasSubstr("none.dat: there is no such file"));
+}
+
+}  // namespace
+}  // namespace vitrail::test

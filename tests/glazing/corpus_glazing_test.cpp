@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+// Real products against what LBNL's WinCalc makes of them.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "glazing/evaluation.h"
+#include "glazing/product.h"
+#include "glazing/system_file.h"
+#include "tests/support/command.h"
+
+namespace vitrail::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Case {
+  const char* results;
+  std::vector<const char*> panes;
+};
+
+// WinCalc's own test of the flipped pane evaluates another system than it flips: its results are those of the
+// system as it stands, bit for bit.
+const std::vector<Case> cases{
+    {"1_layer/nfrc_102/no_basis", {"CLEAR_3.json"}},
+    {"1_layer/coated_nfrc_6046/no_basis", {"nfrc_6046.json"}},
+    {"1_layer/coated_nfrc_20748/no_basis", {"nfrc_20748.oag"}},
+    {"1_layer/laminate_optics_nanometers/no_basis", {"OpticsNanometers.txt"}},
+    {"2_layers/nfrc_102_air_nfrc_102/no_basis", {"CLEAR_3.json", "CLEAR_3.DAT"}},
+    {"2_layers/low_e_nfrc_2191_air_nfrc_102/no_basis", {"nfrc_2191.json", "CLEAR_3.json"}},
+    {"2_layers/low_e_nfrc_2191_air_nfrc_102/flipped_low_e/no_basis", {"nfrc_2191.json", "CLEAR_3.json"}},
+};
+
+PaneValues side_values(const nlohmann::json& of, const char* what) {
+  const auto& front = of.at("front");
+  return {front.at("transmittance").at(what), front.at("reflectance").at(what),
+          of.at("back").at("reflectance").at(what)};
+}
+
+void expect_near(const PaneValues& made, const PaneValues& expected, double tolerance,
+                 const std::string& what) {
+  EXPECT_NEAR(made.t, expected.t, tolerance) << what;
+  EXPECT_NEAR(made.rf, expected.rf, tolerance) << what;
+  EXPECT_NEAR(made.rb, expected.rb, tolerance) << what;
+}
+
+void expect_color(const ColorValues& made, const nlohmann::json& expected, const std::string& what) {
+  const char* const xyz[]{"X", "Y", "Z"};
+  const char* const lab[]{"L", "a", "b"};
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_NEAR(made.xyz[i], expected.at("trichromatic").at(xyz[i]).get<double>(), 1e-5) << what;
+    EXPECT_NEAR(made.lab[i], expected.at("lab").at(lab[i]).get<double>(), 1e-4) << what;
+  }
+  // One rounds to an even half in one of them.
+  EXPECT_NEAR(made.rgb[0], expected.at("rgb").at("R").get<int>(), 1) << what;
+  EXPECT_NEAR(made.rgb[1], expected.at("rgb").at("G").get<int>(), 1) << what;
+  EXPECT_NEAR(made.rgb[2], expected.at("rgb").at("B").get<int>(), 1) << what;
+  const auto& dominant = expected.at("dominant_wavelength_purity");
+  EXPECT_NEAR(made.dominant_nm, 1000 * dominant.at("dominant_wavelength").get<double>(), 0.02) << what;
+  EXPECT_NEAR(made.purity, dominant.at("purity").get<double>() / 100, 2e-4) << what;
+}
+
+class GlazingCorpus : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    folder = corpus() / "glazing";
+    if (!fs::exists(folder)) GTEST_SKIP() << "no corpus of glazing: set VITRAIL_CORPUS to its folder";
+  }
+  fs::path folder;
+};
+
+void compare(const fs::path& folder, const Case& c, const Standard& standard, Sampling sampling,
+             double theta_deg) {
+  std::vector<std::string> files;
+  for (const char* pane : c.panes) files.push_back((folder / "products" / pane).string());
+  const GlazingSystem system = read_system(files).system;
+  const auto nm = common_wavelengths(system);
+  const double cosine = std::cos(theta_deg * std::numbers::pi / 180);
+  const Evaluation at = evaluate(
+      [&](std::vector<double> x) {
+        return spectrum_at(system, std::move(x), cosine, Polarisation::mixed_at_panes);
+      },
+      nm, standard, sampling);
+  const Evaluation all = evaluate(
+      [&](std::vector<double> x) {
+        return hemispherical_spectrum(system, std::move(x), Polarisation::mixed_at_panes,
+                                      HemisphereRule::each_10_deg);
+      },
+      nm, standard, sampling);
+  const fs::path results = folder / "expected_results" / c.results /
+                           (sampling == Sampling::full ? "full_spectrum" : "condensed_spectrum") /
+                           (theta_deg == 0 ? "theta=0_phi=0" : "theta=15_phi=270");
+  for (const char* method : {"solar", "photopic", "tuv", "tdw", "tkr"}) {
+    const auto expected = read_json(results / fmt::format("{}.json", method)).at("system_results");
+    const std::string what = fmt::format("{} {} at {}°", c.results, method, theta_deg);
+    expect_near(at.averages.at(method), side_values(expected, "direct_direct"), 2e-5, what);
+    expect_near(all.averages.at(method), side_values(expected, "diffuse_diffuse"), 5e-5,
+                what + ", hemispherical");
+  }
+  const auto color = read_json(results / "color.json").at("system_results");
+  const std::string what = fmt::format("{} colour at {}°", c.results, theta_deg);
+  expect_color(at.t, color.at("front").at("transmittance").at("direct_direct"), what);
+  expect_color(at.rf, color.at("front").at("reflectance").at("direct_direct"), what);
+  expect_color(at.rb, color.at("back").at("reflectance").at("direct_direct"), what);
+}
+
+TEST_F(GlazingCorpus, EverySystemIsAsExpected) {
+  const Standard standard = read_standard(folder / "standards" / "W5_NFRC_2003.std");
+  for (const Case& c : cases)
+    for (const Sampling sampling : {Sampling::full, Sampling::condensed})
+      for (const double theta : {0.0, 15.0}) compare(folder, c, standard, sampling, theta);
+}
+
+// Our own numbers of the standard do as well as its files.
+TEST_F(GlazingCorpus, TheBuiltInStandardIsTheFile) {
+  const Standard file = read_standard(folder / "standards" / "W5_NFRC_2003.std");
+  const GlazingSystem system = read_system({(folder / "products" / "nfrc_6046.json").string()}).system;
+  const auto nm = common_wavelengths(system);
+  const auto spectrum = [&](std::vector<double> x) {
+    return spectrum_at(system, std::move(x), 1, Polarisation::mixed_at_panes);
+  };
+  const Evaluation a = evaluate(spectrum, nm, file, Sampling::full);
+  const Evaluation b = evaluate(spectrum, nm, nfrc_2003(), Sampling::full);
+  for (const auto& [name, v] : b.averages) expect_near(v, a.averages.at(name), 1e-6, name);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(a.t.xyz[i], b.t.xyz[i], 0.01);
+}
+
+// The maker's own integrated values, of every product that has a spectrum.
+TEST_F(GlazingCorpus, ProductsHaveTheirMakersAverages) {
+  int compared = 0;
+  for (const auto& entry : fs::directory_iterator(folder / "products")) {
+    const auto products = read_products(entry.path());
+    ASSERT_EQ(products.size(), 1u) << entry.path();
+    if (entry.path().extension() != ".json") continue;
+    const auto summary = read_json(entry.path()).at("integrated_results_summary").at(0);
+    SystemSpectrum spectrum;
+    for (const OpticalRow& row : products[0].rows) {
+      spectrum.nm.push_back(row.nm);
+      spectrum.values.push_back(row.at);
+    }
+    const auto compare_one = [&](const char* method, const char* key, double PaneValues::*value,
+                                 double tolerance) {
+      if (!summary.at(key).is_number()) return;
+      const PaneValues v = average(spectrum, *find_method(nfrc_2003(), method));
+      EXPECT_NEAR(v.*value, summary.at(key).get<double>(), tolerance) << entry.path() << ' ' << key;
+      ++compared;
+    };
+    compare_one("SOLAR", "tfsol", &PaneValues::t, 1e-3);
+    compare_one("SOLAR", "rbsol", &PaneValues::rb, 1e-3);
+    compare_one("PHOTOPIC", "tfvis", &PaneValues::t, 5e-5);
+    compare_one("PHOTOPIC", "rfvis", &PaneValues::rf, 5e-5);
+    compare_one("TUV", "tuv", &PaneValues::t, 1e-3);
+  }
+  EXPECT_GT(compared, 30);
+}
+
+}  // namespace
+}  // namespace vitrail::test

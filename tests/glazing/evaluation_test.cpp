@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+// Averages and colours of spectra that have known ones.
+#include "glazing/evaluation.h"
+
+#include <gtest/gtest.h>
+
+#include "scene/diagnostics.h"
+#include "tests/glazing/glazing_files.h"
+
+namespace vitrail::test {
+namespace {
+
+Evaluation of_flat(double t, Sampling sampling) {
+  const std::vector<double> nm{300, 900, 2500};
+  const auto spectrum = [&](std::vector<double> at) {
+    const std::size_t count = at.size();
+    return SystemSpectrum{std::move(at), std::vector<PaneValues>(count, {t, 0.1, 0.2})};
+  };
+  return evaluate(spectrum, nm, nfrc_2003(), sampling);
+}
+
+TEST(Evaluation, OfAConstantIsTheConstant) {
+  for (const Sampling sampling : {Sampling::full, Sampling::condensed, Sampling::standard}) {
+    const Evaluation e = of_flat(0.5, sampling);
+    ASSERT_EQ(e.averages.size(), 5u);
+    for (const auto& [name, v] : e.averages) {
+      EXPECT_NEAR(v.t, 0.5, 1e-12) << name;
+      EXPECT_NEAR(v.rb, 0.2, 1e-12) << name;
+    }
+    ASSERT_TRUE(e.has_color);
+    EXPECT_NEAR(e.t.xyz[1], 50, 1e-9);
+    EXPECT_NEAR(e.t.lab[0], 76.0693, 1e-4);  // 116·0.5^⅓ − 16
+    EXPECT_NEAR(e.t.lab[1], 0, 1e-9);
+    EXPECT_NEAR(e.t.lab[2], 0, 1e-9);
+  }
+}
+
+// D65 seen by the observer of 1964: the white that CIE 15 gives.
+TEST(Evaluation, HasTheWhiteOfD65) {
+  const ColorValues white = of_flat(1, Sampling::standard).t;
+  EXPECT_NEAR(white.xyz[0], 94.81, 0.02);
+  EXPECT_NEAR(white.xyz[2], 107.32, 0.02);
+}
+
+// Light of one wavelength has that dominant wavelength and is pure; half of it with white is in between.
+TEST(ColorValues, FindDominantWavelengths) {
+  const std::array<double, 3> white{0.9481, 1, 1.0732};
+  // x̄, ȳ, z̄ of 1964 at 500 nm.
+  const std::array<double, 3> green{0.003816, 0.460777, 0.218502};
+  std::array<double, 3> relative{};
+  for (std::size_t i = 0; i < 3; ++i) relative[i] = green[i] / white[i];
+  const ColorValues pure = color_values(relative, white, Observer::cie_1964);
+  EXPECT_NEAR(pure.dominant_nm, 500, 0.01);
+  EXPECT_NEAR(pure.purity, 1, 1e-4);
+  for (double& v : relative) v = 0.5 * v + 0.2;
+  const ColorValues mixed = color_values(relative, white, Observer::cie_1964);
+  EXPECT_NEAR(mixed.dominant_nm, 500, 0.01);
+  EXPECT_LT(mixed.purity, 0.6);
+  const ColorValues purple = color_values({0.5, 0.3, 0.5}, white, Observer::cie_1964);
+  EXPECT_TRUE(purple.dominant_nm == 360 || purple.dominant_nm == 830);
+  ASSERT_TRUE(purple.complementary_nm);
+  EXPECT_GT(*purple.complementary_nm, 500);
+  EXPECT_LT(*purple.complementary_nm, 570);
+}
+
+TEST(Standard, IsReadFromFiles) {
+  const TemporaryDirectory directory;
+  write_text(directory / "sun.ssp",
+             "Description: a sun\nType: Source\nWavelength Units: microns\n\n0.4 1\n0.6 3\n");
+  write_text(directory / "eye.dsp", "Wavelength Units: Nanometers\n400 1\n600 0\n");
+  write_text(
+      directory / "s.std",
+      "Standard Description : made up\n\nName : SOLAR\nSource Spectrum : sun.ssp\nDetector Spectrum : None\n"
+      "Wavelength Set : Source\nIntegration Rule : Trapezoidal\nMinimum Wavelength : 0.4\nMaximum Wavelength "
+      ": "
+      "Wavelength set\n\nName : THERMAL IR\nSource Spectrum : Blackbody (T=300.0K)\n\nName : TDW\nSource "
+      "Spectrum "
+      ": sun.ssp\nDetector Spectrum : UV Action (a=3.6, b=12.0)\nWavelength Set : Data\n\nName : PHOTOPIC\n"
+      "Source Spectrum : sun.ssp\nDetector Spectrum : eye.dsp\nIntegration Rule : Pre-weighted Table\n");
+  const Standard standard = read_standard(directory / "s.std");
+  ASSERT_EQ(standard.methods.size(), 3u);
+  const SystemSpectrum ramp{{400, 600}, {{0, 0, 0}, {1, 0, 0}}};
+  EXPECT_NEAR(average(ramp, *find_method(standard, "solar")).t, 3.0 / 4, 1e-12);
+  EXPECT_NEAR(average(ramp, *find_method(standard, "PHOTOPIC")).t, 0, 1e-12);
+  ASSERT_TRUE(find_method(standard, "TDW")->action);
+  EXPECT_EQ(find_method(standard, "TDW")->action->b, 12);
+  EXPECT_EQ(find_method(standard, "TKR"), nullptr);
+  write_text(directory / "bad.std", "Name : SOLAR\nSource Spectrum : none.ssp\n");
+  EXPECT_THROW(read_standard(directory / "bad.std"), Error);
+  write_text(directory / "empty.std", "nothing\n");
+  EXPECT_THROW(read_standard(directory / "empty.std"), Error);
+}
+
+}  // namespace
+}  // namespace vitrail::test

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+// What products say, whatever the format, and what is said of files that are wrong.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "glazing/band_spectrum.h"
+#include "glazing/evaluation.h"
+#include "glazing/product.h"
+#include "scene/diagnostics.h"
+#include "tests/glazing/glazing_files.h"
+
+namespace vitrail::test {
+namespace {
+
+using ::testing::HasSubstr;
+
+std::vector<Product> products_of(const std::string& text) {
+  const TemporaryDirectory directory;
+  return read_products(write_text(directory / "glazing.txt", text));
+}
+
+void expect_pane(const Product& pane) {
+  ASSERT_EQ(pane.rows.size(), 3u);
+  EXPECT_NEAR(pane.rows[0].nm, 300, 1e-9);
+  EXPECT_NEAR(pane.rows[2].nm, 2500, 1e-9);
+  EXPECT_EQ(pane.rows[0].at, (PaneValues{0.1, 0.05, 0.06}));
+  EXPECT_EQ(pane.rows[1].at, (PaneValues{0.8, 0.08, 0.08}));
+}
+
+TEST(Products, SayTheSameInEveryFormat) {
+  for (const std::string& text : {igsdb_text, optics_text, table_text, idf_text, epjson_text}) {
+    const auto products = products_of(text);
+    const auto pane = std::ranges::find(products, "Pane", &Product::name);
+    expect_pane(pane == products.end() ? products.at(0) : *pane);
+  }
+}
+
+TEST(Products, KnowThicknessAndKind) {
+  for (const std::string& text : {igsdb_text, optics_text}) {
+    const Product pane = products_of(text).at(0);
+    EXPECT_EQ(pane.name, "Pane");
+    EXPECT_EQ(pane.manufacturer, "Maker");
+    EXPECT_EQ(pane.thickness_mm, 6);
+    EXPECT_EQ(pane.kind, PaneKind::clear);
+  }
+  std::string coated = igsdb_text;
+  coated.replace(coated.find("monolithic"), 10, "coated-glass");
+  EXPECT_EQ(products_of(coated).at(0).kind, PaneKind::coated);
+}
+
+TEST(Products, TellMicrometresFromNanometres) {
+  std::string text = optics_text;
+  text.replace(text.find("Microns"), 7, "Nanometers");
+  for (const auto& [um, nm] : {std::pair{"0.300", "300.0"}, {"0.500", "500.0"}, {"2.500", "2500."}})
+    text.replace(text.find(um), 5, nm);
+  expect_pane(products_of(text).at(0));
+}
+
+TEST(Products, OfEllipsometryHaveAnIndex) {
+  const Product glass = products_of(index_text).at(0);
+  ASSERT_EQ(glass.index.size(), 3u);
+  EXPECT_EQ(glass.index[1].nm, 500);
+  EXPECT_EQ(glass.index[1].n, 1.52);
+  EXPECT_EQ(glass.index[1].k, 2e-7);
+}
+
+TEST(Products, OfAThermochromicGroupComeByTemperature) {
+  for (const std::string& text : {idf_text, epjson_text}) {
+    const auto products = products_of(text);
+    const auto group = std::ranges::find(products, "Warm", &Product::name);
+    ASSERT_NE(group, products.end());
+    ASSERT_EQ(group->states.size(), 2u);
+    EXPECT_EQ(group->states[0].temperature_c, 25);
+    expect_pane({.rows = group->states[0].rows});
+    EXPECT_EQ(group->states[1].temperature_c, 45);
+  }
+}
+
+// T_vis and T_sol of EnergyPlus' electrochromic and reflective panes, as published.
+TEST(Products, OfAveragesGetASpectrumThatHasThem) {
+  struct Published {
+    double solar_t, visible_t, solar_r, visible_r;
+  };
+  for (const Published p : {Published{0.814, 0.847, 0.086, 0.099},
+                            {0.111, 0.128, 0.179, 0.081},
+                            {0.694, 0.818, 0.168, 0.110},
+                            {0.099, 0.155, 0.219, 0.073}}) {
+    std::vector<std::string> notes;
+    const OpticalRows rows =
+        band_spectrum({{p.solar_t, p.solar_r, p.solar_r}, {p.visible_t, p.visible_r, p.visible_r}}, notes);
+    EXPECT_TRUE(notes.empty());
+    SystemSpectrum spectrum;
+    for (const OpticalRow& row : rows) {
+      spectrum.nm.push_back(row.nm);
+      spectrum.values.push_back(row.at);
+    }
+    const PaneValues sun = average(spectrum, *find_method(nfrc_2003(), "SOLAR"));
+    const PaneValues eye = average(spectrum, *find_method(nfrc_2003(), "PHOTOPIC"));
+    EXPECT_NEAR(sun.t, p.solar_t, 1e-9);
+    EXPECT_NEAR(sun.rf, p.solar_r, 1e-9);
+    EXPECT_NEAR(eye.t, p.visible_t, 1e-9);
+    EXPECT_NEAR(eye.rb, p.visible_r, 1e-9);
+  }
+}
+
+TEST(Products, AreBroughtIntoRange) {
+  const Product pane =
+      products_of("wavelength_nm T Rf Rb\n500 0.5 0.7 -0.01\n400 0 1.5 0.2\n500 0.5 0.7 -0.01\n").at(0);
+  ASSERT_EQ(pane.rows.size(), 2u);
+  EXPECT_EQ(pane.rows[0].at, (PaneValues{0, 1, 0.2}));
+  EXPECT_EQ(pane.rows[1].at, (PaneValues{0.5, 0.5, 0}));
+  EXPECT_EQ(pane.notes.size(), 3u);
+}
+
+TEST(Products, AreFoundByName) {
+  const TemporaryDirectory directory;
+  const auto file = write_text(directory / "windows.idf", idf_text);
+  EXPECT_EQ(read_named_product(file.string() + "#dark").name, "Dark");
+  EXPECT_THROW(read_named_product(file.string()), Error);
+  EXPECT_THROW(read_named_product(file.string() + "#Nothing"), Error);
+}
+
+struct Wrong {
+  std::string text, message;
+  int line;
+};
+
+TEST(Products, SayWhereAFileIsWrong) {
+  std::string bad_row = optics_text, bad_number = igsdb_text, scattering = igsdb_text, percent = table_text;
+  bad_row.replace(bad_row.find("0.500 0.8"), 9, "0.500 x.8");
+  bad_number.replace(bad_number.find("0.08"), 4, "\"no\"");
+  scattering.replace(scattering.find("true"), 4, "false");
+  percent.replace(percent.find("0.8"), 3, "80");
+  const std::vector<Wrong> wrong{
+      {bad_row, "expected wavelength, T, Rf, Rb", 9},
+      {bad_number, "/spectral_data/spectral_data/1/Rf: has to be a number", 0},
+      {scattering, "scatters", 0},
+      {percent, "fractions", 0},
+      {"wavelength_nm T Rf Rb\n500 0.5\n", "expected 4 numbers", 2},
+      {"500 0.5 0.1 0.1\n", "names of its columns", 1},
+      {"", "names of its columns", 0},
+      {"{\"spectral_data\": [\n{]}", "is not JSON", 2},
+      {"{\"what\": 1}", "neither a product of the IGSDB", 0},
+      {"{ Units, Wavelength Units } SI Inches\n", "Microns or Nanometers", 1},
+      {"WindowMaterial:Glazing, A, BSDF;\n", "optical data type \"BSDF\"", 1},
+      {"\nWindowMaterial:Glazing, A, Spectral, Nowhere;\n", "there is no materialproperty", 2},
+      {"WindowMaterial:Glazing, A, Spectral", "has to end with a comma", 1},
+  };
+  for (const Wrong& w : wrong) {
+    try {
+      products_of(w.text);
+      ADD_FAILURE() << w.text;
+    } catch (const Error& error) {
+      EXPECT_THAT(error.what(), HasSubstr(w.message));
+      EXPECT_EQ(error.location.line, w.line) << error.what();
+      EXPECT_THAT(error.location.file, HasSubstr("glazing.txt")) << error.what();
+    }
+  }
+}
+
+}  // namespace
+}  // namespace vitrail::test
