@@ -57,7 +57,9 @@ Vector3d interpolated_normal(const Holder& holder, const Hit& hit) {
   for (std::size_t k = 0; k < 3; ++k) code[k] = holder.normal(normals, hit.lane, k);
   if (code[0] == no_normal) return {};
   const auto at = [&](int i) { return cast<double>(to_vector(decode_normal(code[i]))); };
-  return interpolated(hit, at(0), at(1), at(2));
+  const Vector3d first = at(0);
+  // Those of a flat face are one.
+  return interpolated(hit, first, code[1] == code[0] ? first : at(1), code[2] == code[0] ? first : at(2));
 }
 
 // ∂p/∂u and ∂p/∂v of the plane through the corners.

@@ -9,15 +9,6 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// Of a ray's start from the scene's centre, of which no scene reaches 10¹⁵: its square and its product with
-// 10¹⁸ (ray.h) are still floats. What starts beyond meets nothing.
-constexpr double farthest_start = 1e18;
-
-bool starts_near(Point3d origin) {  // false for NaN
-  return std::abs(origin.x) <= farthest_start && std::abs(origin.y) <= farthest_start &&
-         std::abs(origin.z) <= farthest_start;
-}
-
 double greatest(Vector3d v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 
 }  // namespace
@@ -33,24 +24,18 @@ double enter_box(const Bounds3f& box, double margin, Point3d origin, Vector3d re
   return t0 <= t1 * (1 + 1e-12) ? t0 : infinity;
 }
 
-DomainWalk::DomainWalk(const Manifest& manifest, const Ray& ray, std::span<const DomainView* const> resident)
-    : manifest_(manifest),
-      origin_(cast<double>(ray.origin)),
-      direction_(cast<double>(ray.direction)),
-      rounding_(0x1p-47 * greatest(origin_ - Point3d{})),
-      epsilon_(interface_epsilon(manifest) + rounding_) {
-  if (resident.size() == 1 && resident[0]) {
-    only_one_ = starts_near(origin_) && !manifest.domains[0].tight_bounds.empty();
-    return;
-  }
+void DomainWalk::begin(const Ray& ray) {
+  origin_ = cast<double>(ray.origin);
+  direction_ = cast<double>(ray.direction);
+  rounding_ = 0x1p-47 * greatest(origin_ - Point3d{});
+  epsilon_ = interface_epsilon(manifest_) + rounding_;
   // A component too small to divide by moves the ray by 10⁻¹⁸ of its way.
   const double least = 1e-18 * greatest(direction_);
   for (int axis = 0; axis < 3; ++axis) {
     const double d = direction_[axis];
     reciprocal_[axis] = 1 / (std::abs(d) < least ? (d < 0 ? -least : least) : d);
   }
-  if (!starts_near(origin_)) return;
-  stack_[static_cast<std::size_t>(size_++)] = {manifest.kd_nodes.empty() ? KdNode::leaf_bit : 0u, 0,
+  stack_[static_cast<std::size_t>(size_++)] = {manifest_.kd_nodes.empty() ? KdNode::leaf_bit : 0u, 0,
                                                infinity};
 }
 
@@ -82,12 +67,7 @@ bool DomainWalk::next_leaf(Pending& leaf) {
   return false;
 }
 
-bool DomainWalk::next(double tmax, Visit& visit) {
-  if (only_one_) {
-    only_one_ = false;
-    visit = {0, 0};
-    return true;
-  }
+bool DomainWalk::next_of_many(double tmax, Visit& visit) {
   Pending leaf;
   while (next_leaf(leaf)) {
     if (leaf.t0 > tmax) continue;

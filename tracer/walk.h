@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <span>
 
 #include "bundle/manifest.h"
@@ -26,10 +27,20 @@ class DomainWalk {
 
   // `resident`: indexed by domain, null where absent; may be empty. The one domain of a scene is at once the
   // first and the last, if it is at hand: its tree tells what misses it.
-  DomainWalk(const Manifest& manifest, const Ray& ray, std::span<const DomainView* const> resident = {});
+  DomainWalk(const Manifest& manifest, const Ray& ray, std::span<const DomainView* const> resident = {})
+      : manifest_(manifest), resident_(resident) {
+    if (!starts_near(ray.origin)) return;
+    only_one_ = resident.size() == 1 && resident[0] && !manifest.domains[0].tight_bounds.empty();
+    if (!only_one_) begin(ray);
+  }
 
   // The next domain whose tight bounds and marked cells the ray enters before tmax; false at the end.
-  bool next(double tmax, Visit& visit);
+  bool next(double tmax, Visit& visit) {
+    if (!only_one_) return next_of_many(tmax, visit);
+    only_one_ = false;
+    visit = {0, 0};
+    return true;
+  }
   // Goes on behind `domain`, which the walk visits.
   void skip_past(std::uint32_t domain);
 
@@ -38,9 +49,19 @@ class DomainWalk {
     std::uint32_t reference;
     double t0, t1;
   };
+  // Of a ray's start from the scene's centre, of which no scene reaches 10¹⁵: its square and its product with
+  // 10¹⁸ (ray.h) are still floats. What starts beyond meets nothing. False for NaN.
+  static bool starts_near(Point3f origin) {
+    constexpr double farthest = 1e18;
+    const Point3d o = cast<double>(origin);
+    return std::abs(o.x) <= farthest && std::abs(o.y) <= farthest && std::abs(o.z) <= farthest;
+  }
+  void begin(const Ray& ray);
+  bool next_of_many(double tmax, Visit& visit);
   bool next_leaf(Pending& leaf);
 
   const Manifest& manifest_;
+  std::span<const DomainView* const> resident_;
   bool only_one_ = false;  // the scene has one domain, resident, and it is still to come
   Point3d origin_;
   Vector3d direction_, reciprocal_;

@@ -30,11 +30,11 @@ double min3(double a, double b, double c) { return std::min(std::min(a, b), c); 
 double lateral(Sheared a) { return std::max(std::abs(a.x), std::abs(a.y)); }
 
 double greatest_coordinate(const Cluster& cluster, unsigned lane) {
-  double greatest = 0;
+  float greatest = 0;
   for (const auto& vertex : cluster.vertex) {
-    for (const auto& axis : vertex) greatest = std::max(greatest, std::abs(double{axis[lane]}));
+    for (const auto& axis : vertex) greatest = std::max(greatest, std::abs(axis[lane]));
   }
-  return greatest;
+  return double{greatest};
 }
 
 // Whether det is great enough for t to be trusted: of vertices up to m from the origin, w away and s beside

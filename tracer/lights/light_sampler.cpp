@@ -15,24 +15,14 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-struct TriangleFrame {
+// A triangle in doubles: a point of it is p0 + b₁e₁ + b₂e₂.
+struct Edges {
   Point3d p0;
-  Vector3d e1, e2, normal;  // normal unit
-  double area = 0;
+  Vector3d e1, e2;
 
-  explicit TriangleFrame(std::span<const Point3f, 3> p) : p0(cast<double>(p[0])) {
+  explicit Edges(std::span<const Point3f, 3> p) : p0(cast<double>(p[0])) {
     e1 = cast<double>(p[1]) - p0;
     e2 = cast<double>(p[2]) - p0;
-    const Vector3d across = cross(e1, e2);
-    const double twice = length(across);
-    area = twice / 2;
-    normal = twice > 0 ? across * (1 / twice) : across;
-  }
-
-  // Of this triangle and a neighbour in the same plane, against each other.
-  double tilt() const {
-    const auto off = [&](Point3d p) { return rounding_along(normal, p); };
-    return 2 * tilt_of(e1, e2, 2 * area, {off(p0), off(p0 + e1), off(p0 + e2)});
   }
 };
 
@@ -69,20 +59,21 @@ SampledSpectrum shining(const LightSampler& s, const LightSampler::Slot& t, cons
 // A directional light shines from where p lies on the triangle, seen along its normal.
 std::optional<LightSample> sample_directional(const LightSampler& s, const LightSampler::Slot& t, Point3d p,
                                               const SampledWavelengths& wavelengths) {
-  const TriangleFrame frame(t.p);
-  if (!(frame.area > 0)) return std::nullopt;
+  const Edges edges(t.p);
+  const LightSampler::Face face = s.face(t.light);
+  if (!(face.area > 0)) return std::nullopt;
   const AreaLight& light = s.scene.area_lights[t.area_light];
-  const Vector3d from = p - frame.p0;
-  const double height = dot(from, frame.normal);
+  const Vector3d from = p - edges.p0;
+  const double height = dot(from, face.normal);
   if (height == 0 || (height < 0 && !light.two_sided)) return std::nullopt;
-  const double twice = 2 * frame.area;
-  const double b1 = dot(cross(from, frame.e2), frame.normal) / twice,
-               b2 = dot(cross(frame.e1, from), frame.normal) / twice;
+  const double twice = 2 * face.area;
+  const double b1 = dot(cross(from, edges.e2), face.normal) / twice,
+               b2 = dot(cross(edges.e1, from), face.normal) / twice;
   if (b1 < 0 || b2 < 0 || b1 + b2 > 1) return std::nullopt;
   LightSample sample;
-  sample.to_light = frame.normal * (height > 0 ? -1.0 : 1.0);
+  sample.to_light = face.normal * (height > 0 ? -1.0 : 1.0);
   sample.distance = std::abs(height);
-  sample.normal = frame.normal;
+  sample.normal = face.normal;
   sample.radiance = shining(
       s, t, [&] { return EmissivePoint(s.scene, t.light, b1, b2); }, wavelengths);
   sample.pdf = 1;
@@ -104,19 +95,20 @@ std::optional<LightSample> sample_triangle(const LightSampler& s, const LightSam
     b2 += offset;
   else
     b1 -= offset;
-  const TriangleFrame frame(t.p);
-  const Vector3d towards = (frame.p0 + frame.e1 * b1 + frame.e2 * b2) - p;
+  const Edges edges(t.p);
+  const LightSampler::Face face = s.face(t.light);
+  const Vector3d towards = (edges.p0 + edges.e1 * b1 + edges.e2 * b2) - p;
   const double distance2 = dot(towards, towards);
   if (!(distance2 > 0)) return std::nullopt;
 
   LightSample sample;
   sample.distance = std::sqrt(distance2);
   sample.to_light = towards * (1 / sample.distance);
-  const double cosine = -dot(sample.to_light, frame.normal);  // > 0: its front is seen
+  const double cosine = -dot(sample.to_light, face.normal);  // > 0: its front is seen
   if (cosine == 0 || (cosine < 0 && !light.two_sided)) return std::nullopt;
-  sample.normal = frame.normal;
-  sample.tilt_rad = frame.tilt();
-  sample.pdf = distance2 / (std::abs(cosine) * frame.area);
+  sample.normal = face.normal;
+  sample.tilt_rad = face.tilt_rad;
+  sample.pdf = distance2 / (std::abs(cosine) * face.area);
   sample.radiance = shining(
       s, t, [&] { return EmissivePoint(s.scene, t.light, b1, b2); }, wavelengths);
   sample.is_delta = is_invisible(t.opacity);
@@ -174,16 +166,26 @@ std::optional<LightSample> sample_tree(const LightSampler& s, Point3d p, const s
 
 }  // namespace
 
+LightSampler::Face::Face(std::span<const Point3f, 3> corners) {
+  const Edges edges(corners);
+  const Vector3d across = cross(edges.e1, edges.e2);
+  const double twice = length(across);
+  area = twice / 2;
+  normal = twice > 0 ? across * (1 / twice) : across;
+  const auto off = [&](Point3d p) { return rounding_along(normal, p); };
+  tilt_rad = 2 * tilt_of(edges.e1, edges.e2, 2 * area,
+                         {off(edges.p0), off(edges.p0 + edges.e1), off(edges.p0 + edges.e2)});
+}
+
 EmissivePoint::EmissivePoint(const LightScene& scene, std::size_t triangle, double b1, double b2) {
   const EmissiveTriangle& t = scene.triangles[triangle];
-  const TriangleFrame frame(std::span<const Point3f, 3>(t.p));
+  const Edges edges(t.p);
   const double b0 = 1 - b1 - b2;
   const auto mix = [&](float x0, float x1, float x2) {
     return static_cast<double>(x0) * b0 + static_cast<double>(x1) * b1 + static_cast<double>(x2) * b2;
   };
   at = {{mix(t.uv[0].x, t.uv[1].x, t.uv[2].x), mix(t.uv[0].y, t.uv[1].y, t.uv[2].y)},
-        frame.p0 + frame.e1 * b1 + frame.e2 * b2,
-        frame.normal};
+        edges.p0 + edges.e1 * b1 + edges.e2 * b2, LightSampler::Face(t.p).normal};
   const std::size_t slots = scene.attributes.size() / scene.triangles.size();
   for (; attribute_count < slots; ++attribute_count)
     attributes[attribute_count] = {scene.attributes[triangle * slots + attribute_count],
@@ -258,7 +260,7 @@ double triangle_pdf(const LightSampler& s, Point3d from, std::uint32_t triangle,
   const EmissiveTriangle& t = s.scene.triangles[index];
   const AreaLight& light = s.scene.area_lights[t.area_light];
   if (light.directional || (cosine <= 0 && !light.two_sided)) return 0;
-  const double area = TriangleFrame(t.p).area;
+  const double area = s.face(index).area;
   if (!(area > 0)) return 0;
   return s.share[0] * s.tree.probability(from, index) * distance * distance /
          (std::max(std::abs(cosine), 1e-12) * area);

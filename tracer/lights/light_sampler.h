@@ -64,6 +64,20 @@ struct LightSampler {
     FloatParameter opacity = 1.0f;
   };
   std::vector<Slot> slots;  // in the tree's order
+  // What follows from the corners of a triangle, of each; empty where they are so many that reading it would
+  // take longer than making it anew.
+  struct Face {
+    Vector3d normal;  // unit; 0 of one without area
+    double area = 0;
+    double tilt_rad = 0;  // of this triangle and a neighbour in the same plane, against each other
+    Face() = default;
+    explicit Face(std::span<const Point3f, 3> corners);
+  };
+  static constexpr std::size_t most_faces = 1 << 15;
+  std::vector<Face> faces;
+  Face face(std::size_t triangle) const {
+    return faces.empty() ? Face(scene.triangles[triangle].p) : faces[triangle];
+  }
   std::vector<QuadricLight> quadrics;
   std::vector<PointEmitter> emitters;
   std::vector<std::uint32_t> emitter_light;  // index into scene.lights

@@ -230,6 +230,8 @@ LightSampler make_light_sampler(const LightScene& scene, const ImageSource& imag
     slot.area_light = t.area_light;
     if (!scene.opacities.empty()) slot.opacity = scene.opacities[light];
   }
+  if (triangles <= LightSampler::most_faces)
+    for (const EmissiveTriangle& t : scene.triangles) s.faces.emplace_back(t.p);
   s.runs = runs_of(scene);
 
   std::vector<double> power{flux};
