@@ -23,13 +23,14 @@ constexpr const char* usage = R"(usage: vitrail VERB ...
   render      a bundle or a scene, alone or under mpirun
   develop     films into a picture
   compare     a picture with a reference
+  measure     what speed costs on a scene, and which settings to take
   glazing     transmittance, reflectance and colour of panes
 
 `vitrail help VERB` says more.
 )";
 
 const std::vector<std::string> verbs{"convert", "inspect", "partition", "verify",
-                                     "render",  "develop", "compare",   "glazing"};
+                                     "render",  "develop", "compare",   "measure", "glazing"};
 
 int no_such(const std::string& verb) {
   const std::string meant = vitrail::closest_word(verb, verbs);

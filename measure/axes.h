@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// What can be traded: each axis is a setting of the programs with a few values of it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace vitrail {
+
+// One value of an axis, as arguments: of `render`, and of what makes the bundle from the scene.
+struct Choice {
+  std::string label;
+  std::vector<std::string> render, partition;
+};
+
+struct Axis {
+  std::string name, about;
+  std::vector<Choice> choices;  // the first: as the scene says
+  bool same_picture = false;    // changes time and memory alone (law 1)
+};
+
+// What the values depend on.
+struct PictureFacts {
+  double mean_luminance = 1;
+};
+
+// All axes. One more is one more line of this function.
+std::vector<Axis> known_axes(const PictureFacts& facts);
+std::vector<std::string> axis_names();
+
+// Those named, or all where `names` is empty. Throws UsageError for unknown ones.
+std::vector<Axis> chosen_axes(const std::vector<Axis>& known, const std::vector<std::string>& names);
+
+// The index of a choice for each axis.
+using Setting = std::vector<std::size_t>;
+
+// "depth 4, clamp 16"; "as the scene says" where every choice is the first.
+std::string name_of(const std::vector<Axis>& axes, const Setting& setting);
+std::vector<std::string> render_arguments(const std::vector<Axis>& axes, const Setting& setting);
+std::vector<std::string> partition_arguments(const std::vector<Axis>& axes, const Setting& setting);
+
+}  // namespace vitrail

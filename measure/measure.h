@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+// The whole measurement of a scene: which renders, what they show, what to take.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "measure/axes.h"
+#include "measure/model.h"
+#include "measure/runs.h"
+#include "measure/statistics.h"
+
+namespace vitrail {
+
+struct MeasureOptions {
+  std::filesystem::path scene, folder;
+  std::vector<std::string> axes;  // empty: all
+  int width = 256;                // of the measured pictures, in pixels
+  int seeds = 6;                  // pictures of each setting
+  double budget_s = 300;          // wall time that all may take, roughly
+  bool every_combination = false;  // of the axes that change the picture, not only the promising ones
+  int spp = 0, reference_spp = 0;  // of a picture, and of a half of the reference; 0: what the budget allows
+  std::optional<double> error;     // relMSE to recommend for
+  std::optional<double> seconds;   // wall time of the whole picture of the scene's size to recommend for
+};
+
+// One setting and what its pictures show.
+struct MeasuredSetting {
+  Setting setting;
+  std::string name;
+  std::string failure;    // why there is no picture; empty: there is
+  bool identical = false;  // its first picture is that of the scene's own setting, bit for bit
+  int spp = 0;
+  ErrorStatistics error;
+  double sample_s = 0;  // CPU seconds of one sample of every pixel: the median of its runs
+  double cpu_s = 0, wall_s = 0, rays = 0;  // of one picture, mean
+  double peak_memory_bytes = 0, bundle_bytes = 0;
+  Image first, mean;  // a picture, and the mean of all
+
+  Tradeoff tradeoff() const;
+};
+
+struct Recommendation {
+  std::string goal;  // in words
+  Goal asked;        // for the whole picture
+  bool found = false;
+  std::string name;
+  std::vector<std::string> render, partition;
+  int spp = 0;
+  double error = 0, cpu_s = 0, wall_s = 0;  // predicted, of the whole picture
+};
+
+struct Measurement {
+  std::vector<Axis> axes;
+  Reference reference;
+  int reference_spp = 0;  // of each half
+  // The scene's own first, then one change each, then what the search for a recommendation tried.
+  std::vector<MeasuredSetting> settings;
+  std::vector<MeasuredSetting> samples;  // the scene's own at other counts, ascending
+  ScalingLaw law;
+  int scene_spp = 1;       // samples that the scene asks for
+  double full_size = 1;    // pixels of the whole picture over those measured
+  double parallelism = 1;  // CPU seconds a second
+  std::vector<Recommendation> recommendations;
+};
+
+// What happens on the way: a line to say, and how far it is.
+struct MeasureNews {
+  std::function<void(const std::string&)> say;
+  std::function<void(double fraction, const char* what)> progress;
+};
+
+Measurement measure(const MeasureOptions& options, const Execute& execute, const MeasureNews& news);
+
+}  // namespace vitrail

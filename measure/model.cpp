@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "measure/model.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace vitrail {
+
+double predicted_error(const Tradeoff& t, const ScalingLaw& law, double spp) {
+  return t.bias + t.noise * std::pow(spp / t.spp, -law.slope);
+}
+
+double predicted_cpu_s(const Tradeoff& t, const ScalingLaw& law, double spp) {
+  return law.start_s + spp * t.sample_s;
+}
+
+std::optional<double> samples_for_error(const Tradeoff& t, const ScalingLaw& law, double error) {
+  if (t.bias >= error) return std::nullopt;
+  if (t.noise <= 0) return 1;
+  return std::max(1.0, t.spp * std::pow(t.noise / (error - t.bias), 1 / law.slope));
+}
+
+std::optional<double> samples_within(const Tradeoff& t, const ScalingLaw& law, double cpu_s) {
+  const double spp = t.sample_s > 0 ? (cpu_s - law.start_s) / t.sample_s : 1;
+  if (spp < 1) return std::nullopt;
+  return spp;
+}
+
+std::optional<Prediction> best(std::span<const Tradeoff> tradeoffs, const ScalingLaw& law, const Goal& goal) {
+  std::optional<Prediction> found;
+  for (std::size_t i = 0; i < tradeoffs.size(); ++i) {
+    const Tradeoff& t = tradeoffs[i];
+    const auto spp = goal.error ? samples_for_error(t, law, *goal.error) : samples_within(t, law, *goal.cpu_s);
+    if (!spp || *spp > 1e9) continue;
+    // What is whole but for rounding stays.
+    const double whole = goal.error ? std::ceil(*spp * (1 - 1e-12)) : std::floor(*spp);
+    const Prediction p{i, static_cast<int>(whole), predicted_error(t, law, whole), predicted_cpu_s(t, law, whole)};
+    if (!found || (goal.error ? p.cpu_s < found->cpu_s : p.error < found->error)) found = p;
+  }
+  return found;
+}
+
+Tradeoff combined(const Tradeoff& base, std::span<const Tradeoff> changes) {
+  Tradeoff t = base;
+  for (const Tradeoff& change : changes) {
+    if (base.noise > 0) t.noise *= change.noise / base.noise;
+    if (base.sample_s > 0) t.sample_s *= change.sample_s / base.sample_s;
+    t.bias = std::max(t.bias, change.bias);
+  }
+  return t;
+}
+
+double fitted_slope(std::span<const double> spp, std::span<const double> noise) {
+  double n = 0, x = 0, y = 0, xx = 0, xy = 0;
+  for (std::size_t i = 0; i < spp.size(); ++i) {
+    if (!(noise[i] > 0)) continue;
+    const double u = std::log(spp[i]), v = std::log(noise[i]);
+    ++n, x += u, y += v, xx += u * u, xy += u * v;
+  }
+  const double spread = n * xx - x * x;
+  return n < 2 || spread <= 0 ? 1 : std::clamp(-(n * xy - x * y) / spread, 0.7, 1.6);
+}
+
+std::vector<bool> pareto_front(std::span<const double> cost, std::span<const double> error) {
+  std::vector<bool> front(cost.size(), true);
+  for (std::size_t i = 0; i < cost.size(); ++i)
+    for (std::size_t j = 0; j < cost.size() && front[i]; ++j) {
+      const bool no_worse = cost[j] <= cost[i] && error[j] <= error[i],
+                 better = cost[j] < cost[i] || error[j] < error[i];
+      if (no_worse && better) front[i] = false;
+    }
+  return front;
+}
+
+}  // namespace vitrail

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "measure/session.h"
+
+namespace vitrail {
+
+// Adds the recommendations that the options ask for, else those for the error, and for the time, of the
+// scene's own setting and samples. What looks best is measured before it is recommended, and joins
+// `m.settings`: a search, best first, over all combinations of the axes that change the picture, ending where
+// the best is one that was measured, and whose bias is known well enough beside the error.
+void recommend(Measurement& m, Session& session, const MeasureOptions& options);
+
+}  // namespace vitrail

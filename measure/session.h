@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// Settings become statistics: which renders each takes, and how far all are.
+#pragma once
+
+#include "measure/measure.h"
+
+namespace vitrail {
+
+class Session {
+ public:
+  // `renders`: how many are expected, for the progress.
+  Session(Runs& runs, const MeasureOptions& options, int spp, int renders, const MeasureNews& news);
+
+  // Of paths without a limit, whatever the scene's own is: what depth costs is to be seen.
+  Reference reference(int spp);
+  // The scene's own setting, then one change of it each, appended to `m.settings`. A setting whose
+  // first picture is the scene's own, bit for bit, is not rendered with other seeds.
+  void measure_axes(Measurement& m);
+  // The scene's own at other counts of samples, and the law that they follow.
+  void measure_samples(Measurement& m);
+  MeasuredSetting measure_setting(const Measurement& m, const Setting& setting, int spp);
+
+  // CPU seconds a second of all renders.
+  double parallelism() const { return wall_s_ > 0 ? cpu_s_ / wall_s_ : 1; }
+
+ private:
+  RunResult run(const RunRequest& request, const std::string& what);
+
+  Runs& runs_;
+  const MeasureOptions& options_;
+  int spp_, renders_;
+  int done_ = 0;
+  double cpu_s_ = 0, wall_s_ = 0;
+  // Of the scene's own setting and the first seed.
+  Image own_picture_;
+  std::string own_hash_;
+  const MeasureNews& news_;
+};
+
+}  // namespace vitrail

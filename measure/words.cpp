@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "measure/words.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+
+namespace vitrail {
+
+namespace {
+
+std::string with_error(const Estimate& e, double times = 1) {
+  return fmt::format("{:.3g} ± {:.2g}", times * e.value, times * e.half_width);
+}
+
+std::string megabytes(double bytes) { return fmt::format("{:.0f}", bytes / (1 << 20)); }
+
+// "1.8 times as fast", "1.2 times as slow", "as fast".
+std::string speed(double own_s, double s) {
+  const double ratio = own_s / s;
+  if (ratio > 1.05) return fmt::format("{:.2f} times as fast", ratio);
+  if (ratio < 1 / 1.05) return fmt::format("{:.2f} times as slow", 1 / ratio);
+  return "as fast";
+}
+
+std::string brightness(const Estimate& luminance) {
+  const char* word = luminance.value < 0 ? "darker" : "brighter";
+  return fmt::format("{} by {:.2g} % ± {:.2g} %", word, 100 * std::abs(luminance.value), 100 * luminance.half_width);
+}
+
+}  // namespace
+
+std::string what_it_buys(const Measurement& m, const MeasuredSetting& s) {
+  if (!s.failure.empty()) return s.name + ": cannot be rendered here: " + s.failure;
+  const MeasuredSetting& own = m.settings[0];
+  const std::string times = speed(own.sample_s, s.sample_s);
+  if (s.identical)
+    return fmt::format("{}: the same picture, bit for bit; {}, {} MiB at most instead of {}", s.name, times,
+                       megabytes(s.peak_memory_bytes), megabytes(own.peak_memory_bytes));
+  std::string text = fmt::format("{}: a sample is {}", s.name, times);
+  const double own_noise = predicted_error({own.error.noise.value, 0, own.spp, 1}, m.law, s.spp);
+  const double noise = own_noise > 0 ? s.error.noise.value / own_noise : 1;
+  text += fmt::format(", its noise is {:.2g} times as much", noise);
+  const double efficiency = own.sample_s / (s.sample_s * noise);
+  text += fmt::format(": {:.2g} times the efficiency while bias does not matter", efficiency);
+  if (!s.error.is_biased()) return text + "; no bias is seen";
+  text += fmt::format("; bias {} ({})", with_error(s.error.bias), brightness(s.error.luminance));
+  return text + fmt::format(", which no samples remove: not for a relMSE below {:.2g}", s.error.bias.value);
+}
+
+std::vector<std::string> findings(const Measurement& m) {
+  const MeasuredSetting& own = m.settings[0];
+  std::vector<std::string> lines;
+  lines.push_back(fmt::format(
+      "The reference, of 2 × {} samples and paths of any length, is itself off by a relMSE of {:.2g}; that is "
+      "taken out of the errors of the others.",
+      m.reference_spp, m.reference.relmse));
+  lines.push_back(fmt::format("Noise falls as samples^−{:.2f} here.", m.law.slope));
+  if (own.error.is_biased())
+    lines.push_back(fmt::format("The scene's own setting has a bias of {} against paths of any length ({}).",
+                                with_error(own.error.bias), brightness(own.error.luminance)));
+  else
+    lines.push_back(fmt::format("The scene's own setting shows no bias above {:.2g}.",
+                                std::max(0.0, own.error.bias.value) + own.error.bias.half_width));
+  lines.push_back(fmt::format(
+      "The whole picture has {:.2f} times the pixels of those measured; a sample of all of it takes {:.3g} CPU "
+      "seconds, and there were {:.1f} CPU seconds a second.",
+      m.full_size, own.sample_s * m.full_size, m.parallelism));
+  return lines;
+}
+
+std::string advice(const Recommendation& r) {
+  if (!r.found) return fmt::format("For {}: none of the settings reaches it.", r.goal);
+  std::string options = fmt::format("--spp {}", r.spp);
+  for (const auto* words : {&r.render, &r.partition})
+    for (const std::string& word : *words) options += ' ' + word;
+  return fmt::format("For {}: render {} — a relMSE of {:.3g} in {:.3g} CPU seconds, {:.3g} s here ({}).", r.goal,
+                     options, r.error, r.cpu_s, r.wall_s, r.name);
+}
+
+std::vector<bool> front(const Measurement& m) {
+  std::vector<double> cost, error;
+  constexpr double never = std::numeric_limits<double>::infinity();
+  for (const MeasuredSetting& s : m.settings) {
+    const bool comparable = s.failure.empty() && s.spp == m.settings[0].spp;
+    cost.push_back(comparable ? s.sample_s * s.spp : never);
+    error.push_back(comparable ? s.error.relmse.value : never);
+  }
+  std::vector<bool> on_it = pareto_front(cost, error);
+  for (std::size_t i = 0; i < on_it.size(); ++i)
+    if (cost[i] == never) on_it[i] = false;
+  return on_it;
+}
+
+std::string table(const Measurement& m) {
+  const auto line = [](auto&&... cells) { return fmt::format("{:2}{:<28}{:>5}{:>9}{:>9}{:>19}{:>19}{:>19}{:>9}{:>8}{:>8}\n", cells...); };
+  std::string text = line("", "setting", "spp", "cpu s", "Mrays", "relMSE", "noise", "bias", "FLIP", "ΔE00", "MiB");
+  const std::vector<bool> on_it = front(m);
+  for (std::size_t i = 0; i < m.settings.size(); ++i) {
+    const MeasuredSetting& s = m.settings[i];
+    if (!s.failure.empty()) {
+      text += fmt::format("  {:<28}cannot be rendered here: {}\n", s.name, s.failure);
+      continue;
+    }
+    text += line(on_it[i] ? "*" : "", s.name, s.spp, fmt::format("{:.3g}", s.sample_s * s.spp), fmt::format("{:.3g}", s.rays / 1e6),
+                 with_error(s.error.relmse), with_error(s.error.noise), with_error(s.error.bias),
+                 fmt::format("{:.3g}", s.error.flip.value), fmt::format("{:.3g}", s.error.delta_e.value),
+                 megabytes(s.peak_memory_bytes));
+  }
+  return text + "±: 95 %; *: no other of as many samples is better in both time and error\n";
+}
+
+}  // namespace vitrail

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+// vitrail measure as a user runs it.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "tests/support/command.h"
+#include "tests/support/temporary_directory.h"
+
+namespace vitrail::test {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+class MeasureProgram : public testing::Test {
+ protected:
+  // A lamp over a floor and beside a wall: indirect light is a good part of it.
+  MeasureProgram() {
+    std::ofstream(directory_ / "scene.pbrt") << R"(
+LookAt 0 1 4  0 1 0  0 1 0
+Camera "perspective" "float fov" 45
+Film "rgb" "integer xresolution" 64 "integer yresolution" 64
+Sampler "independent" "integer pixelsamples" 32
+Integrator "path" "integer maxdepth" 6
+WorldBegin
+AttributeBegin
+  AreaLightSource "diffuse" "rgb L" [4 4 4]
+  Shape "trianglemesh" "integer indices" [0 1 2 0 2 3] "point3 P" [-.5 1.9 -.5  .5 1.9 -.5  .5 1.9 .5  -.5 1.9 .5]
+AttributeEnd
+Material "diffuse" "rgb reflectance" [.8 .8 .8]
+Shape "trianglemesh" "integer indices" [0 1 2 0 2 3] "point3 P" [-1 0 -1  1 0 -1  1 0 1  -1 0 1]
+Shape "trianglemesh" "integer indices" [0 1 2 0 2 3] "point3 P" [-1 0 -1  1 0 -1  1 2 -1  -1 2 -1]
+Shape "trianglemesh" "integer indices" [0 1 2 0 2 3] "point3 P" [-1 0 -1  -1 0 1  -1 2 1  -1 2 -1]
+)";
+  }
+  CommandResult measure(const std::string& more) {
+    return run(fmt::format("{} '{}' -o '{}' --width 32 --seeds 3 --spp 4 --reference-spp 64 {}",
+                           vitrail("measure"), (directory_ / "scene.pbrt").string(),
+                           (directory_ / "out").string(), more));
+  }
+  TemporaryDirectory directory_;
+};
+
+TEST_F(MeasureProgram, SaysWhatEachSettingBuysAndResumes) {
+  const std::string options = "--axes depth,domains --error 0.01";
+  const CommandResult first = measure(options);
+  ASSERT_EQ(first.status, 0) << first.output;
+  EXPECT_THAT(first.output, AllOf(HasSubstr("a reference of 2 × 64"), HasSubstr("depth 1"),
+                                  HasSubstr("darker"), HasSubstr("For a relMSE of 0.01: render --spp")));
+  const nlohmann::json json = read_json(directory_ / "out" / "measure.json");
+  EXPECT_GT(json.at("reference_relmse").get<double>(), 0);
+  bool direct_is_biased = false, domains_show = true;
+  for (const auto& s : json.at("settings")) {
+    if (s.at("name") == "depth 1") direct_is_biased = s.at("biased").get<bool>();
+    if (s.at("name").get<std::string>().starts_with("domains")) domains_show = !s.at("identical").get<bool>();
+  }
+  EXPECT_TRUE(direct_is_biased);
+  EXPECT_FALSE(domains_show);
+
+  std::ifstream in(directory_ / "out" / "index.html");
+  const std::string page(std::istreambuf_iterator<char>(in), {});
+  EXPECT_THAT(page, AllOf(HasSubstr("data:image/png;base64,"), HasSubstr("</html>"), Not(HasSubstr("http")),
+                          Not(HasSubstr("@DATA@"))));
+
+  // All is there: nothing is rendered again, and the numbers are the same.
+  const auto renders = [&] {
+    return std::distance(std::filesystem::directory_iterator(directory_ / "out" / "runs"), {});
+  };
+  const auto before = renders();
+  ASSERT_EQ(measure(options).status, 0);
+  EXPECT_EQ(renders(), before);
+  EXPECT_EQ(read_json(directory_ / "out" / "measure.json"), json);
+}
+
+TEST_F(MeasureProgram, RefusesWhatItDoesNotKnow) {
+  const CommandResult axis = measure("--axes roulette");
+  EXPECT_EQ(axis.status, 2);
+  EXPECT_THAT(axis.output, HasSubstr("there are depth, clamp"));
+  EXPECT_EQ(run(vitrail("measure") + " no.pbrt -o out").status, 3);
+}
+
+}  // namespace
+}  // namespace vitrail::test

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "measure/model.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "measure/axes.h"
+#include "measure/words.h"
+#include "scene/diagnostics.h"
+
+namespace vitrail {
+namespace {
+
+using testing::ElementsAre;
+
+const ScalingLaw law{1, 2};
+const Tradeoff honest{0.8, 0, 4, 3}, biased{0.2, 0.01, 4, 1};
+
+TEST(Model, NoiseFallsAndBiasStays) {
+  EXPECT_DOUBLE_EQ(predicted_error(biased, law, 4), 0.21);
+  EXPECT_DOUBLE_EQ(predicted_error(biased, law, 40), 0.03);
+  EXPECT_DOUBLE_EQ(predicted_cpu_s(honest, law, 10), 32);
+  EXPECT_DOUBLE_EQ(predicted_error(honest, {2, 0}, 8), 0.2);
+}
+
+TEST(Model, SamplesReachAnErrorUnlessTheBiasIsGreater) {
+  EXPECT_NEAR(samples_for_error(biased, law, 0.03).value(), 40, 1e-9);
+  EXPECT_FALSE(samples_for_error(biased, law, 0.01));
+  EXPECT_FALSE(samples_within(honest, law, 4.9));
+  EXPECT_DOUBLE_EQ(samples_within(honest, law, 32).value(), 10);
+}
+
+TEST(Model, TheBestDependsOnTheGoal) {
+  const Tradeoff both[] = {honest, biased};
+  EXPECT_EQ(best(both, law, {0.1, {}}).value().index, 1u);    // the cheap one, while its bias does not matter
+  EXPECT_EQ(best(both, law, {0.005, {}}).value().index, 0u);  // out of its reach
+  EXPECT_EQ(best(both, law, {{}, 50.0}).value().index, 1u);
+  EXPECT_EQ(best(both, law, {{}, 5000.0}).value().index, 0u);
+  EXPECT_FALSE(best(both, law, {{}, 2.5}));
+  const Prediction p = best(both, law, {0.03, {}}).value();
+  EXPECT_EQ(p.spp, 40);
+  EXPECT_LE(p.error, 0.03 + 1e-12);
+}
+
+TEST(Model, ChangesCombine) {
+  const Tradeoff base{1, 0, 4, 2}, fast{1, 0.01, 4, 1}, quiet{0.5, 0.02, 4, 2};
+  const Tradeoff changes[] = {fast, quiet};
+  const Tradeoff t = combined(base, changes);
+  EXPECT_DOUBLE_EQ(t.noise, 0.5);
+  EXPECT_DOUBLE_EQ(t.sample_s, 1);
+  EXPECT_DOUBLE_EQ(t.bias, 0.02);
+}
+
+TEST(Model, TheSlopeIsFitted) {
+  const double spp[] = {1, 4, 16}, noise[] = {1, 0.1767766953, 0.03125};
+  EXPECT_NEAR(fitted_slope(spp, noise), 1.25, 1e-9);
+  EXPECT_EQ(fitted_slope(std::span(spp, 1), std::span(noise, 1)), 1);
+  const double rising[] = {1, 2, 3};
+  EXPECT_EQ(fitted_slope(spp, rising), 0.7);
+}
+
+TEST(Model, TheFrontIsWhatNothingBeats) {
+  const double cost[] = {1, 2, 3, 2}, error[] = {3, 2, 2, 4};
+  EXPECT_THAT(pareto_front(cost, error), ElementsAre(true, true, false, false));
+}
+
+TEST(Axes, AreChosenByNameAndBecomeArguments) {
+  const std::vector<Axis> axes = chosen_axes(known_axes({2}), {"depth", "clamp", "decimate"});
+  ASSERT_EQ(axes.size(), 3u);
+  EXPECT_EQ(name_of(axes, {0, 0, 0}), "as the scene says");
+  EXPECT_EQ(name_of(axes, {1, 0, 2}), "depth -1, decimate 0.1");
+  EXPECT_THAT(render_arguments(axes, {1, 3, 2}), ElementsAre("--max-depth", "-1", "--clamp", "8"));
+  EXPECT_THAT(partition_arguments(axes, {1, 3, 2}), ElementsAre("--decimate", "0.1"));
+  EXPECT_THROW(chosen_axes(known_axes({}), {"dept"}), UsageError);
+}
+
+}  // namespace
+}  // namespace vitrail

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+// Noise and bias of pictures whose noise and bias are known.
+#include "measure/statistics.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace vitrail {
+namespace {
+
+constexpr int size = 32;
+constexpr float truth = 0.5f;
+constexpr double weight = 1 / (0.25 + 0.01);  // relMSE's
+
+Image noisy(unsigned seed, double sigma, double bias = 0) {
+  std::mt19937 generator(seed);
+  std::normal_distribution<double> normal(truth + bias, sigma);
+  Image image = black_image(size, size, 3);
+  for (float& v : image.values) v = static_cast<float>(normal(generator));
+  return image;
+}
+
+std::vector<Image> pictures(unsigned first_seed, double sigma, double bias) {
+  std::vector<Image> all;
+  for (unsigned i = 0; i < 6; ++i) all.push_back(noisy(first_seed + i, sigma, bias));
+  return all;
+}
+
+TEST(Statistics, KeepNoiseAndBiasApart) {
+  constexpr double sigma = 0.2, bias = 0.04;
+  const Reference reference = make_reference(noisy(1001, 0.02), noisy(1002, 0.02));
+  const ErrorStatistics s = error_statistics(pictures(1, sigma, bias), reference);
+  EXPECT_NEAR(s.noise.value, sigma * sigma * weight, 0.03 * sigma * sigma * weight);
+  EXPECT_NEAR(s.bias.value, bias * bias * weight, 2e-3);
+  EXPECT_NEAR(s.relmse.value, s.noise.value + s.bias.value, 1e-9);
+  EXPECT_LT(std::abs(s.bias.value - bias * bias * weight), 2 * s.bias.half_width);
+  EXPECT_TRUE(s.is_biased());
+  EXPECT_NEAR(s.luminance.value, bias / truth, 0.01);
+}
+
+TEST(Statistics, SeeNoBiasWhereThereIsNone) {
+  const Reference reference = make_reference(noisy(1001, 0.1), noisy(1002, 0.1));
+  int seen = 0;
+  for (unsigned trial = 0; trial < 40; ++trial)
+    seen += error_statistics(pictures(10 * trial + 1, 0.4, 0), reference).is_biased() ? 1 : 0;
+  EXPECT_LE(seen, 6);  // one in 40 is expected; 7 or more come once in 30,000 times
+}
+
+// A reference that is itself noisy adds its noise to no error, and says how much it has.
+TEST(Statistics, TakeOutTheReferencesOwnNoise) {
+  const Reference coarse = make_reference(noisy(1001, 0.1), noisy(1002, 0.1));
+  EXPECT_NEAR(coarse.relmse, 0.1 * 0.1 / 2 * weight, 0.1 * coarse.relmse);
+  const double of_mean = error_statistics(pictures(1, 0.1, 0), coarse).relmse.value;
+  const Reference fine = make_reference(noisy(1003, 1e-3), noisy(1004, 1e-3));
+  EXPECT_NEAR(of_mean, error_statistics(pictures(1, 0.1, 0), fine).relmse.value, 0.005);
+}
+
+TEST(Statistics, IntervalsAreStudents) {
+  const double values[] = {1, 2, 3, 4};
+  const Estimate e = mean_of(values);
+  EXPECT_DOUBLE_EQ(e.value, 2.5);
+  EXPECT_NEAR(e.half_width, 3.182446 * std::sqrt(5.0 / 3 / 4), 1e-4);
+  EXPECT_TRUE(std::isinf(mean_of(std::span(values, 1)).half_width));
+}
+
+}  // namespace
+}  // namespace vitrail
