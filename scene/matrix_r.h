@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// RGB → reflectances by Matrix-R: Cohen & Kappauf, "Metameric color stimuli, fundamental metamers, and
+// Wyszecki's metameric blacks", American Journal of Psychology 95 (1982).
+#pragma once
+
+#include <array>
+
+#include "scene/color.h"
+#include "scene/spectrum.h"
+
+namespace vitrail {
+
+// Values at 360, 365 … 830 nm, linear in between.
+inline constexpr std::size_t matrix_r_bands = 95;
+using BandReflectance = std::array<double, matrix_r_bands>;
+
+// The fundamental metamer of linear sRGB colour c under D65: N* = A(AᵀA)⁻¹T, the only one that is a sum of
+// D65 times the colour-matching functions. It leaves [0, 1]: white's reaches 1.4.
+BandReflectance fundamental_metamer(RGB c);
+
+// N* and the least metameric black, in the square of its values, that keeps every value in [0, 1]. The
+// nearest point of {AᵀS = T, 0 ≤ S ≤ 1} to N* is S = clamp(A·λ), λ ∈ ℝ³, so that three equations are to be
+// solved (Newton's method on a convex function). Within 0.01 of white 1 − S is scaled from a colour farther
+// off. Greys are exact constants; components of c are clamped to [0, 1].
+BandReflectance matrix_r_reflectance(RGB c);
+
+// The linear sRGB colour of a reflectance under D65. Of a spectrum: at 1 nm.
+RGB reflected_rgb(const BandReflectance& reflectance);
+RGB reflected_rgb(const Spectrum& reflectance);
+
+TabulatedSpectrum tabulated(const BandReflectance& reflectance);
+
+}  // namespace vitrail
