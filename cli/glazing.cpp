@@ -21,6 +21,7 @@ struct Arguments {
   std::vector<double> theta_deg{0};
   std::string standard, sampling = "full";
   std::filesystem::path csv;
+  std::optional<double> state, temperature_c;
   bool polarised = false, json = false;
 };
 
@@ -32,6 +33,9 @@ void add_options(CLI::App& app, Arguments& a) {
       ->expected(1);
   app.add_option("--theta", a.theta_deg, "angles of incidence, degrees from the normal; default: 0")
       ->check(CLI::Range(0.0, 90.0));
+  app.add_option("--state", a.state, "of glass that switches: 0 clear to 1 dark")
+      ->check(CLI::Range(0.0, 1.0));
+  app.add_option("--temperature", a.temperature_c, "of thermochromic glass, °C");
   app.add_option("--standard", a.standard, "a WINDOW standard (.std); default: NFRC 300-2003, built in");
   app.add_option("--sampling", a.sampling,
                  "wavelengths: full and condensed as WinCalc, standard as Optics and the IGSDB")
@@ -56,6 +60,10 @@ ReadSystem read(const Arguments& a) {
       throw UsageError(fmt::format("--flip {}: there are {} panes", pane, read.system.layers.size()));
     read.system.layers[pane - 1].flipped = !read.system.layers[pane - 1].flipped;
   }
+  if (a.state && !set_state(read.system, *a.state, false))
+    throw UsageError("--state: no pane has states; a system file says them (docs/glazing.md)");
+  if (a.temperature_c && !set_state(read.system, *a.temperature_c, true))
+    throw UsageError("--temperature: no pane is thermochromic");
   return read;
 }
 

@@ -53,6 +53,16 @@ std::vector<Direction> hemisphere(HemisphereRule rule) {
 
 }  // namespace
 
+bool set_state(GlazingSystem& system, double at, bool by_temperature) {
+  bool any = false;
+  for (GlazingLayer& layer : system.layers) {
+    if (layer.states.empty() || layer.by_temperature != by_temperature) continue;
+    std::get<MeasuredPane>(layer.pane).rows = rows_at(layer.states, at);
+    any = true;
+  }
+  return any;
+}
+
 PaneValues system_values(const GlazingSystem& system, double nm, double cosine, Polarisation polarisation) {
   PolarisedValues all;
   for (std::size_t i = 0; i < system.layers.size(); ++i) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "glazing/pane.h"
+#include "glazing/states.h"
 
 namespace vitrail {
 
@@ -14,12 +15,18 @@ struct GlazingLayer {
   Pane pane;
   bool flipped = false;      // its front looks inside
   double gap_behind_mm = 0;  // says nothing about light: gaps absorb none
+  // Of glass that switches; `pane` is one of them, or between them. By warmth: `at` are temperatures.
+  std::vector<StateRows> states{};
+  bool by_temperature = false;
 };
 
 struct GlazingSystem {
   std::string name;
   std::vector<GlazingLayer> layers;  // from outside; at least one
 };
+
+// Brings panes that switch (those by temperature or the others) to a state. False where there are none.
+bool set_state(GlazingSystem& system, double at, bool by_temperature);
 
 // What polarisation is to light between panes. WINDOW takes the mean of both at each pane; the exact series
 // keeps them apart, which matters beyond 45° or so (docs/glazing.md has the difference).

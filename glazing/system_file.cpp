@@ -7,6 +7,7 @@
 
 #include "glazing/json_node.h"
 #include "glazing/product.h"
+#include "glazing/product_formats.h"
 #include "glazing/text_file.h"
 #include "scene/diagnostics.h"
 
@@ -52,6 +53,8 @@ class Reader {
       any = true;
       if (layer.find("stack"))
         add_stack(layer, folder);
+      else if (layer.find("states"))
+        add_states(layer, folder);
       else
         add_pane_of(layer, folder);
     }
@@ -90,6 +93,76 @@ class Reader {
   void add_pane(const std::string& file, double thickness_mm) {
     const Product found = product(file);
     into_.system.layers.push_back({found.name, pane_of(found, thickness_mm)});
+    GlazingLayer& layer = into_.system.layers.back();
+    layer.by_temperature = !found.states.empty();
+    for (const Product::State& state : found.states)
+      layer.states.push_back({state.temperature_c, state.rows});
+  }
+
+  // Glass that switches: its states are panes, or one is tinted from the clear one.
+  void add_states(const JsonNode& layer, const fs::path& folder) {
+    layer.only({"states", "state", "photochromic", "flipped", "name"});
+    const JsonNode list = layer.at("states");
+    GlazingLayer made{.name = layer.text_or("name", "")};
+    PaneKind kind = PaneKind::clear;
+    for (const JsonNode& item : list.items()) {
+      item.only({"state", "pane", "product", "tinted"});
+      const double at = unit_number(item, "state");
+      if (!made.states.empty() && at <= made.states.back().at) item.fail("states have to ascend");
+      if (const auto tint = item.find("tinted")) {
+        if (made.states.empty()) tint->fail("needs a clear state before it");
+        made.states.push_back({at, tinted_rows(*tint, made.states.front().rows)});
+        continue;
+      }
+      std::string file = (folder / item.at("pane").text()).string();
+      if (const auto name = item.find("product")) file = fmt::format("{}#{}", file, name->text());
+      Product found = product(file);
+      if (found.rows.empty()) item.fail("a state needs measured T and R");
+      if (made.name.empty()) made.name = found.name;
+      if (found.kind == PaneKind::coated) kind = PaneKind::coated;
+      made.states.push_back({at, std::move(found.rows)});
+    }
+    if (made.states.empty()) list.fail("needs a state");
+    made.pane = MeasuredPane{rows_at(made.states, state_of(layer)), kind};
+    if (const auto flipped = layer.find("flipped")) made.flipped = flipped->boolean();
+    into_.system.layers.push_back(std::move(made));
+  }
+
+  static double unit_number(const JsonNode& json, const char* key) {
+    const double value = json.at(key).number();
+    if (value < 0 || value > 1) json.at(key).fail("has to be in [0, 1]");
+    return value;
+  }
+
+  static OpticalRows tinted_rows(const JsonNode& tint, const OpticalRows& clear) {
+    tint.only({"visible_transmittance", "solar_transmittance", "visible_reflectance", "band_ev"});
+    TintTarget target{unit_number(tint, "visible_transmittance"), unit_number(tint, "solar_transmittance")};
+    if (tint.find("visible_reflectance"))
+      target.visible_reflectance = unit_number(tint, "visible_reflectance");
+    if (tint.find("band_ev")) target.band_ev = positive_or_0(tint, "band_ev");
+    auto rows = tinted(clear, target);
+    if (!rows) tint.fail("no band of absorption brings the clear state to these averages");
+    return std::move(*rows);
+  }
+
+  // Of the file: a state, or what light and warmth have made of photochromic glass.
+  static double state_of(const JsonNode& layer) {
+    const auto light = layer.find("photochromic");
+    const double start = layer.find("state") ? unit_number(layer, "state") : 0;
+    if (!light) return start;
+    light->only(
+        {"k_d_m2_per_j", "k_f_per_s", "activation_kj_per_mol", "uv_w_per_m2", "temperature_c", "seconds"});
+    const auto not_negative = [&](const char* key, double otherwise) {
+      const double value = light->number_or(key, otherwise);
+      if (value < 0) light->fail(fmt::format("\"{}\" is negative", key));
+      return value;
+    };
+    const double warmth = light->number_or("temperature_c", 20), uv = not_negative("uv_w_per_m2", 0);
+    if (!(warmth > -273.15)) light->fail("a temperature is above -273.15");
+    const Photochromic p{not_negative("k_d_m2_per_j", 0), not_negative("k_f_per_s", 0),
+                         1000 * not_negative("activation_kj_per_mol", 0)};
+    if (!light->find("seconds")) return photochromic_equilibrium(p, uv, warmth);
+    return photochromic_state(p, start, uv, warmth, not_negative("seconds", 0));
   }
 
   void add_stack(const JsonNode& layer, const fs::path& folder) {
@@ -147,6 +220,16 @@ class Reader {
 };
 
 }  // namespace
+
+bool is_glazing_file(const std::string& file) {
+  std::error_code ignored;
+  if (!fs::is_regular_file(file, ignored)) return file.find('#') != file.npos;
+  const std::string text = read_text(file);
+  const std::string_view start = trimmed(text);
+  return is_optics(text) || is_idf(text) ||
+         (start.starts_with("{") &&
+          (text.find("\"layers\"") != text.npos || text.find("\"spectral_data\"") != text.npos));
+}
 
 ReadSystem read_system(const std::vector<std::string>& files) {
   ReadSystem result;

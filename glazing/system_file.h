@@ -19,7 +19,11 @@ struct ReadSystem {
 //   {"name": "…", "layers": [{"pane": "low-e.json", "flipped": true}, {"gap_mm": 12.7},
 //                            {"stack": [{"index": "glass.txt", "thickness_mm": 4},
 //                                       {"index": "silver.txt", "thickness_nm": 12}, …]}]}
-// with files beside it. Throws Error.
+// with files beside it; a pane that switches has "states". Throws Error.
 ReadSystem read_system(const std::vector<std::string>& files);
+
+// Whether read_system may take a file: JSON with "layers" or "spectral_data", Optics, EnergyPlus, or
+// "FILE#NAME".
+bool is_glazing_file(const std::string& file);
 
 }  // namespace vitrail

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "glazing/sheet.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "scene/spectrum.h"
+
+namespace vitrail {
+
+GlazingSheets sheets_of(const GlazingSystem& system, Polarisation polarisation) {
+  std::vector<double> nm{lambda_min_nm};
+  for (const double x : common_wavelengths(system))
+    if (x > lambda_min_nm && x < lambda_max_nm) nm.push_back(x);
+  nm.push_back(lambda_max_nm);
+  std::vector<double> cosines;
+  constexpr int steps = 180;
+  for (int i = 0; i <= steps; ++i) cosines.push_back(std::sin(i * std::numbers::pi / (2 * steps)));
+  cosines.back() = 1;
+
+  GlazingSheets sheets;
+  for (MeasuredSheet* sheet : {&sheets.front, &sheets.back}) {
+    for (const double x : nm) sheet->wavelengths_nm.push_back(static_cast<float>(x));
+    for (const double c : cosines) sheet->cosines.push_back(static_cast<float>(c));
+  }
+  for (const double x : nm)
+    for (const double c : cosines) {
+      // At grazing incidence nothing passes; the models' own ends are not exact there.
+      const PaneValues v = c > 0 ? system_values(system, x, c, polarisation) : PaneValues{0, 1, 1};
+      const auto add = [&](MeasuredSheet& sheet, double r) {
+        const double t = std::clamp(v.t, 0.0, 1.0);
+        sheet.transmittance.push_back(static_cast<float>(t));
+        sheet.reflectance.push_back(static_cast<float>(std::clamp(r, 0.0, 1 - t)));
+      };
+      add(sheets.front, v.rf);
+      add(sheets.back, v.rb);
+    }
+  return sheets;
+}
+
+}  // namespace vitrail
