@@ -14,10 +14,16 @@ void declare_import_options(CLI::App& app, ImportArguments& a) {
   app.add_option("--camera", a.camera, "which sensor of a Mitsuba scene, from 0")
       ->check(CLI::Range(0, 999'999))
       ->capture_default_str();
+  app.add_option(
+         "--missing", a.missing,
+         "files that the scene names and are not there: refuse the scene, or replace images by grey and "
+         "leave out meshes")
+      ->check(CLI::IsMember({"refuse", "replace"}))
+      ->capture_default_str();
 }
 
 ImportOptions import_options(const ImportArguments& a) {
-  ImportOptions options{{}, a.camera};
+  ImportOptions options{{}, a.missing == "replace", a.camera};
   for (const std::string& word : a.definitions) {
     const std::size_t at = word.find('=');
     options.definitions[word.substr(0, at)] = word.substr(at + 1);
@@ -29,6 +35,7 @@ std::vector<std::string> arguments_of(const ImportArguments& a) {
   std::vector<std::string> words;
   for (const std::string& definition : a.definitions) words.insert(words.end(), {"-D", definition});
   if (a.camera != 0) words.insert(words.end(), {"--camera", std::to_string(a.camera)});
+  if (a.missing != "refuse") words.push_back("--missing=" + a.missing);
   return words;
 }
 

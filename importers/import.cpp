@@ -5,6 +5,7 @@
 #include <cctype>
 
 #include "importers/default_view.h"
+#include "importers/missing_files.h"
 #include "importers/mitsuba/mitsuba.h"
 #include "importers/obj/obj.h"
 #include "importers/pbrt/pbrt.h"
@@ -44,9 +45,14 @@ ImportedScene import_scene(const std::filesystem::path& file, MeshMemory memory,
     throw UsageError(file.string() + ": only scenes of Mitsuba have parameters that -D could set");
   if (options.camera != 0 && format != ".xml")
     throw UsageError(file.string() + ": only scenes of Mitsuba have more than one camera");
-  if (format == ".pbrt") return read_pbrt(file, std::move(memory), std::move(progress));
-  if (format == ".xml") return read_mitsuba(file, std::move(memory), options);
   ImportedScene imported;
+  if (format == ".pbrt" || format == ".xml") {
+    imported = format == ".xml"
+                   ? read_mitsuba(file, std::move(memory), options)
+                   : read_pbrt(file, std::move(memory), std::move(progress), options.replace_missing);
+    if (options.replace_missing) replace_missing_images(imported);
+    return imported;
+  }
   if (format == ".obj")
     imported = read_obj(file);
   else if (format == ".ply")
@@ -55,6 +61,7 @@ ImportedScene import_scene(const std::filesystem::path& file, MeshMemory memory,
     throw Error("unknown format: the name has to end in .pbrt, .xml, .obj or .ply; .gz may follow",
                 {file.string()});
   add_default_view(imported, file);
+  if (options.replace_missing) replace_missing_images(imported);
   return imported;
 }
 

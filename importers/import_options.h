@@ -11,7 +11,8 @@ struct ImportOptions {
   // Values of a Mitsuba scene's parameters, as its command line's -D: they stand before the file's
   // <default>s.
   std::map<std::string, std::string> definitions;
-  int camera = 0;  // which of a Mitsuba scene's sensors, in the file's order, from 0
+  bool replace_missing = false;  // go on without images and meshes that are not there (missing_files.h)
+  int camera = 0;                // which of a Mitsuba scene's sensors, in the file's order, from 0
 };
 
 }  // namespace vitrail

@@ -37,6 +37,7 @@ struct Builder {
       mesh_files;            // path, index in it, variant of reading
   std::string integrator{};  // its kind
   MeshMemory mesh_memory{};
+  bool replace_missing = false;               // leave out shapes whose file is not there
   std::set<std::uint32_t> smoothed_meshes{};  // whose normals were made here
 };
 

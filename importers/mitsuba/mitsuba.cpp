@@ -83,6 +83,7 @@ ImportedScene read_mitsuba(const std::filesystem::path& file, MeshMemory memory,
   const mitsuba::ObjectPtr root = mitsuba::load(file, options.definitions, imported.scene.files, report);
   mitsuba::Builder builder{imported.scene, report};
   builder.mesh_memory = std::move(memory);
+  builder.replace_missing = options.replace_missing;
   build(builder, *root, options);
   imported.diagnostics = report.take();
   if (root->children("sensor").empty()) add_default_view(imported, file);

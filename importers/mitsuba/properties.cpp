@@ -5,6 +5,8 @@
 
 #include <filesystem>
 
+#include "importers/missing_files.h"
+
 namespace vitrail::mitsuba {
 
 namespace {
@@ -35,7 +37,8 @@ std::string existing_file(const Builder& builder, const Object& object, std::str
     std::error_code error;
     if (fs::is_regular_file(path, error)) return fs::absolute(path, error).lexically_normal().string();
   }
-  builder.report.fail(fmt::format("cannot find the file {}", text), place);
+  if (builder.replace_missing) return text;
+  builder.report.fail(fmt::format("cannot find the file {}{}", text, how_to_replace_missing), place);
 }
 
 const Object* object_of(const Object& object, std::string_view name) {

@@ -13,7 +13,8 @@ namespace vitrail::mitsuba {
 Origin place_of(const Object& object, std::string_view name);
 
 // The absolute path of the existing file that the property names: beside the scene's main file, else beside
-// the file that says so. Throws Error where the property or the file is missing.
+// the file that says so. Throws Error where the property or the file is missing (a missing file is left to
+// replace_missing_images where that is asked for).
 std::string existing_file(const Builder& builder, const Object& object, std::string_view name);
 
 // The object that the property holds, nothing where it is a number or a colour or absent.

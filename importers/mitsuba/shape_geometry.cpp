@@ -5,6 +5,8 @@
 
 #include <cctype>
 
+#include "importers/missing_files.h"
+
 namespace vitrail::mitsuba {
 
 std::string kind_of(const Object& shape) {
@@ -31,6 +33,13 @@ Id<TriangleMesh> shared_mesh(Builder& builder, const Object& shape, const MeshKe
   return id;
 }
 
+bool lacks_its_file(const Object& shape) {
+  const auto* name =
+      shape.has("filename") ? std::get_if<std::string>(&shape.find("filename")->value) : nullptr;
+  std::error_code ignored;
+  return name && !std::filesystem::exists(*name, ignored);
+}
+
 std::filesystem::path shape_file(Builder& builder, const Object& shape) {
   const Property* property = shape.find("filename");
   const std::string name = shape.text("filename", "", builder.report);
@@ -41,7 +50,8 @@ std::filesystem::path shape_file(Builder& builder, const Object& shape) {
     path = std::filesystem::path(builder.report.location(property->origin).file).parent_path() / path;
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(path, ignored))
-    builder.report.fail(fmt::format("cannot find the file \"{}\"", path.string()), property->origin);
+    builder.report.fail(fmt::format("cannot find the file \"{}\"{}", path.string(), how_to_replace_missing),
+                        property->origin);
   return path.lexically_normal();
 }
 

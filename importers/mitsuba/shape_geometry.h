@@ -34,6 +34,8 @@ using MeshKey = std::tuple<std::string, int, int>;
 Id<TriangleMesh> shared_mesh(Builder& builder, const Object& shape, const MeshKey& key,
                              const std::function<TriangleMesh()>& make, MeshLoader again = {});
 
+// Whether it names a file that is not there.
+bool lacks_its_file(const Object& shape);
 // Of the object's parameter "filename"; throws Error where there is no such regular file.
 std::filesystem::path shape_file(Builder& builder, const Object& shape);
 

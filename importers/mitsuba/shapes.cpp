@@ -174,6 +174,12 @@ void add_shapes(Builder& builder, const Object& object, bool in_group, std::vect
     add_children(builder, object, in_group, shapes);
     return report_unused(object, builder.report);
   }
+  if (builder.replace_missing && lacks_its_file(object)) {
+    for (const Property& property : object.properties) property.queried = true;
+    return builder.report.dropped(fmt::format("cannot find the file \"{}\": the shape is left out",
+                                              object.text("filename", "", builder.report)),
+                                  object.origin);
+  }
   object.ignore({"silhouette_sampling_weight"});
   auto geometry = analytic_shape(builder, object);
   if (!geometry) geometry = shape_of_file(builder, object);

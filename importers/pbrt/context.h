@@ -16,6 +16,7 @@ namespace vitrail::pbrt {
 struct Context {
   Version version = Version::v4;
   bool version_is_certain = true;
+  bool replace_missing = false;     // leave out meshes that are not there
   std::filesystem::path directory;  // of the main file
   Report report;
   MeshMemory mesh_memory;

@@ -7,8 +7,9 @@
 namespace vitrail {
 
 ImportedScene read_pbrt(const std::filesystem::path& file, MeshMemory memory,
-                        std::function<void(double)> progress) {
+                        std::function<void(double)> progress, bool replace_missing) {
   pbrt::Context context;
+  context.replace_missing = replace_missing;
   context.mesh_memory = std::move(memory);
   context.progress = std::move(progress);
   const pbrt::DetectedVersion detected = pbrt::detect_version(file);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "importers/pbrt/shapes.h"
+#include "importers/missing_files.h"
 
 #include <fmt/format.h>
 
@@ -262,8 +263,12 @@ std::vector<ShapeGeometry> ShapeMaker::ply_mesh(ParameterSet& parameters, bool u
     fail("Shape \"plymesh\" needs a parameter \"string filename\"", parameters.place());
   const std::filesystem::path path = context_.resolve(filename->strings.front());
   std::error_code ignored;
-  if (!std::filesystem::is_regular_file(path, ignored))
-    fail(fmt::format("cannot find the file \"{}\"", path.string()), filename->place);
+  if (!std::filesystem::is_regular_file(path, ignored)) {
+    const std::string what = fmt::format("cannot find the file \"{}\"", path.string());
+    if (!context_.replace_missing) fail(what + how_to_replace_missing, filename->place);
+    context_.report.dropped(what + ": the shape is left out", filename->place);
+    return {};
+  }
   const auto [known, is_new] = ply_files_.try_emplace(path.string());
   PlyFile& file = known->second;
   std::vector<ShapeGeometry>& shapes = file.shapes[file.differs && uvs_show];
@@ -378,7 +383,7 @@ std::vector<ShapeGeometry> ShapeMaker::make(const std::string& kind, ParameterSe
     take(loop_subdivision(parameters, uvs_show));
   else if (kind == "sphere" || kind == "disk" || kind == "cylinder" || kind == "cone" || kind == "paraboloid")
     take(quadric(kind, parameters));
-  if (!made.empty() || kind == "curve") {
+  if (!made.empty() || kind == "curve" || kind == "plymesh") {
     parameters.report_unused(context_.report);
     return made;
   }

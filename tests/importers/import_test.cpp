@@ -66,5 +66,51 @@ TEST(ImportScene, AddsNoSkyWhereSomethingShines) {
   EXPECT_FALSE(mentions(imported.diagnostics, "no light"));
 }
 
+// A scene with lost files can be seen where the user asks for it, and is refused with a hint where not.
+TEST(ImportScene, GoesOnWithoutLostFiles) {
+  const TemporaryFolder folder;
+  const auto pbrt =
+      folder.write("scene.pbrt",
+                   "Camera \"perspective\" Film \"rgb\" WorldBegin LightSource \"infinite\" \"string "
+                   "filename\" \"sky.exr\" "
+                   "Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"wood.png\" "
+                   "Material \"diffuse\" \"texture reflectance\" \"t\" \"string normalmap\" \"n.png\" "
+                   "Shape \"plymesh\" \"string filename\" \"lost.ply\" Shape \"sphere\"");
+  const auto mitsuba = folder.write(
+      "scene.xml",
+      "<scene version=\"3.0.0\"><emitter type=\"envmap\"><string name=\"filename\" "
+      "value=\"sky.exr\"/></emitter>"
+      "<bsdf type=\"normalmap\" id=\"m\"><texture type=\"bitmap\"><boolean name=\"raw\" value=\"true\"/>"
+      "<string name=\"filename\" value=\"n.png\"/></texture><bsdf type=\"diffuse\"><texture type=\"bitmap\" "
+      "name=\"reflectance\"><string name=\"filename\" value=\"wood.png\"/></texture></bsdf></bsdf>"
+      "<shape type=\"obj\"><string name=\"filename\" value=\"lost.obj\"/><ref id=\"m\"/></shape>"
+      "<shape type=\"sphere\"><ref id=\"m\"/></shape></scene>");
+  for (const auto& file : {pbrt, mitsuba}) {
+    SCOPED_TRACE(file.string());
+    try {
+      import_scene(file);
+      ADD_FAILURE() << "it has lost files";
+    } catch (const Error& error) {
+      EXPECT_NE(std::string(error.what()).find("--missing=replace"), std::string::npos) << error.what();
+    }
+    const ImportedScene imported =
+        import_scene(file, MeshMemory{}, {}, {.definitions = {}, .replace_missing = true});
+    EXPECT_EQ(imported.scene.shapes.size(), 1u);
+    for (const char* lost : {"sky.exr", "wood.png", "lost."})
+      EXPECT_TRUE(std::any_of(imported.diagnostics.begin(), imported.diagnostics.end(),
+                              [&](const Diagnostic& d) {
+                                return d.fidelity == Fidelity::dropped &&
+                                       d.message.find(lost) != std::string::npos &&
+                                       d.message.find("cannot find") != std::string::npos;
+                              }))
+          << lost;
+    for (const Material& material : imported.scene.materials) EXPECT_FALSE(material.normal_map);
+    ASSERT_EQ(imported.scene.lights.size(), 1u);
+    EXPECT_TRUE(std::holds_alternative<InfiniteLight>(imported.scene.lights[0].model));
+    for (const Texture& texture : imported.scene.textures)
+      EXPECT_FALSE(std::holds_alternative<ImageTexture>(texture.model));
+  }
+}
+
 }  // namespace
 }  // namespace vitrail
