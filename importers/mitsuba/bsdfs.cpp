@@ -7,6 +7,8 @@
 #include <unordered_map>
 
 #include "importers/mitsuba/builder.h"
+#include "importers/mitsuba/index_of_refraction.h"
+#include "importers/mitsuba/values.h"
 #include "importers/spectra/measured_sheet.h"
 #include "scene/named_spectra.h"
 #include "scene/transmission.h"
@@ -14,39 +16,6 @@
 namespace vitrail::mitsuba {
 
 namespace {
-
-// Indices of refraction by the names that Mitsuba documents.
-struct NamedIndex {
-  std::string_view name;
-  double value;
-};
-constexpr std::array<NamedIndex, 25> indices{
-    {{"vacuum", 1.0},      {"helium", 1.00004},         {"hydrogen", 1.00013},
-     {"air", 1.000277},    {"carbon dioxide", 1.00045}, {"water", 1.3330},
-     {"acetone", 1.36},    {"ethanol", 1.361},          {"carbon tetrachloride", 1.461},
-     {"glycerol", 1.4729}, {"benzene", 1.501},          {"silicone oil", 1.52045},
-     {"bromine", 1.661},   {"water ice", 1.31},         {"fused quartz", 1.458},
-     {"pyrex", 1.470},     {"acrylic glass", 1.49},     {"polypropylene", 1.49},
-     {"bk7", 1.5046},      {"sodium chloride", 1.544},  {"amber", 1.55},
-     {"pet", 1.5750},      {"diamond", 2.419},          {"silicon", 3.42},
-     {"glass", 1.5046}}};
-
-// A number, or the name of a substance.
-float index_of(Builder& b, const Object& o, const char* name, const char* otherwise) {
-  const Property* property = o.find(name);
-  const auto* text = property ? std::get_if<std::string>(&property->value) : nullptr;
-  if (property && !text) return static_cast<float>(o.number(name, 1, b.report));
-  const std::string wanted = text ? *text : otherwise;
-  std::vector<std::string> names;
-  for (const NamedIndex& known : indices) {
-    if (known.name == wanted) return static_cast<float>(known.value);
-    names.emplace_back(known.name);
-  }
-  const std::string closest = closest_word(wanted, names);
-  b.report.fail(fmt::format("no index of refraction is known for \"{}\"{}", wanted,
-                            closest.empty() ? "" : fmt::format("; did you mean \"{}\"?", closest)),
-                property ? property->origin : o.origin);
-}
 
 Spectrum index_spectrum(Builder& b, const Object& o, const char* name, const char* otherwise) {
   return ConstantSpectrum{index_of(b, o, name, otherwise)};
@@ -129,12 +98,27 @@ Metal metal_of(Builder& b, const Object& o) {
   return ComplexIndex{};
 }
 
+// 0.6: the index around a metal divides the metal's.
+void divide_by_exterior(Builder& b, const Object& o, Metal& metal) {
+  const char* const name = o.has("ext_eta") ? "ext_eta" : "ext_ior";
+  if (!o.has(name)) return;
+  const bool is_named = std::holds_alternative<std::string>(o.find(name)->value);
+  const double around = is_named
+                            ? static_cast<double>(index_of(b, o, name, "air"))
+                            : luminance(spectrum_value(b, o, name, Quantity::unbounded, ConstantSpectrum{1}));
+  auto* index = std::get_if<ComplexIndex>(&metal);
+  if (!index || around == 1 || !(around > 0)) return;
+  for (SpectrumParameter* part : {&index->eta, &index->k})
+    if (auto* spectrum = std::get_if<Spectrum>(part))
+      *spectrum = scaled(resolved(*spectrum), 1 / around);
+    else
+      b.report.approximated("the index around a metal becomes 1", o.origin);
+}
+
 MaterialModel conductor(Builder& b, const Object& o) {
   ConductorMaterial m;
   m.metal = metal_of(b, o);
-  if (o.has("ext_eta") || o.has("ext_ior"))
-    b.report.approximated("the index around a metal becomes 1", o.origin);
-  o.ignore({"ext_eta", "ext_ior"});
+  divide_by_exterior(b, o, m.metal);
   if (o.type == "roughconductor") m.roughness = roughness_of(b, o);
   m.reflectance_factor = factor(b, o, "specular_reflectance");
   return m;
@@ -153,22 +137,52 @@ MaterialModel plastic(Builder& b, const Object& o) {
   return m;
 }
 
-// 0.6's: an exponent n of the cosine is about α = √(2/(n+2)).
+double greatest(const SpectrumParameter& parameter) {
+  constexpr double of_texture = 0.8;
+  const auto* value = std::get_if<Spectrum>(&parameter);
+  if (!value) return of_texture;
+  const Spectrum spectrum = resolved(*value);
+  double most = 0;
+  for (double nm = lambda_min_nm; nm <= lambda_max_nm; nm += 5) most = std::max(most, evaluate(spectrum, nm));
+  return most;
+}
+
+SpectrumParameter times(Builder& b, const SpectrumParameter& value, double factor, const Origin& origin) {
+  if (const auto* spectrum = std::get_if<Spectrum>(&value)) return scaled(*spectrum, factor);
+  b.scene.textures.push_back(
+      {ProductTexture{value, ConstantSpectrum{static_cast<float>(factor)}}, false, "", origin});
+  return Id<Texture>{static_cast<std::uint32_t>(b.scene.textures.size() - 1)};
+}
+
+// 0.6's sums of a Lambertian part and a gloss that is no Fresnel reflection: a blend of the two, each divided
+// by its share, with the microfacets of a perfect mirror for the gloss. An exponent n of the cosine is about
+// α = √(2/(n+2)); Ward's α is Beckmann's.
 MaterialModel phong(Builder& b, const Object& o) {
-  b.report.approximated(fmt::format("\"{}\" becomes rough plastic", o.type), o.origin);
-  PlasticMaterial m;
-  m.diffuse_reflectance = reflectance(b, o, "diffuse_reflectance", 0.5);
-  m.specular_reflectance = factor(b, o, "specular_reflectance");
+  b.report.approximated(fmt::format("the gloss of \"{}\" becomes that of microfacets as wide", o.type),
+                        o.origin);
+  const SpectrumParameter kd = reflectance(b, o, "diffuse_reflectance", 0.5),
+                          ks = reflectance(b, o, "specular_reflectance", 0.2);
+  ConductorMaterial gloss{PerfectReflector{}, {}, {}};
+  gloss.roughness.distribution = Roughness::Distribution::beckmann;
   if (o.type == "ward") {
-    m.roughness = {float_parameter(b, o, "alpha_u", 0.1), float_parameter(b, o, "alpha_v", 0.1)};
+    gloss.roughness.alpha_u = float_parameter(b, o, "alpha_u", 0.1);
+    gloss.roughness.alpha_v = float_parameter(b, o, "alpha_v", 0.1);
     o.ignore({"variant"});
   } else {
     const FloatParameter exponent = float_parameter(b, o, "exponent", 30);
     const double n =
         std::holds_alternative<float>(exponent) ? static_cast<double>(std::get<float>(exponent)) : 30;
-    m.roughness.alpha_u = m.roughness.alpha_v = static_cast<float>(std::sqrt(2 / (std::max(n, 0.0) + 2)));
+    gloss.roughness.alpha_u = gloss.roughness.alpha_v =
+        static_cast<float>(std::sqrt(2 / (std::max(n, 0.0) + 2)));
   }
-  return m;
+  constexpr double least = 0.05;
+  const double share = std::clamp(greatest(ks), least, std::max(least, 1 - greatest(kd)));
+  gloss.reflectance_factor = times(b, ks, 1 / share, o.origin);
+  Material base{DiffuseMaterial{times(b, kd, 1 / (1 - share), o.origin)}}, coat{std::move(gloss)};
+  base.two_sided = coat.two_sided = false;
+  base.origin = coat.origin = o.origin;
+  const Id<Material> first = append(b, std::move(base)), second = append(b, std::move(coat));
+  return BlendMaterial{first, second, static_cast<float>(share)};
 }
 
 MaterialModel diffuse_transmitter(Builder& b, const Object& o) {
@@ -284,6 +298,29 @@ MaterialModel blend(Builder& b, const Object& o) {
   return blend;
 }
 
+// 0.6's: the sum of weight·part. Weights of more than 1 in all are divided by their sum, what lacks to 1 is
+// black.
+MaterialModel mixture(Builder& b, const Object& o) {
+  const std::vector<Id<Material>> parts = nested(b, o, 1, 64);
+  const Origin& place = o.has("weights") ? o.find("weights")->origin : o.origin;
+  const std::vector<double> weights =
+      parse_numbers(o.text("weights", "", b.report), [&](const std::string& m) { b.report.fail(m, place); });
+  if (weights.size() != parts.size() ||
+      std::any_of(weights.begin(), weights.end(), [](double w) { return w < 0; }))
+    b.report.fail(fmt::format("{} parts need as many \"weights\", none below 0", parts.size()), place);
+  const Id<Material> black = append(b, Material{DiffuseMaterial{ConstantSpectrum{0}}});
+  double sum = 0;
+  BlendMaterial mixed{black, black, 0.0f};
+  for (std::size_t i = 0; i <= parts.size(); ++i) {
+    const double weight = i < parts.size() ? weights[i] : std::max(0.0, 1 - sum);
+    if (weight == 0) continue;
+    if (sum > 0) mixed.first = append(b, Material{mixed});
+    sum += weight;
+    mixed = {mixed.first, i < parts.size() ? parts[i] : black, static_cast<float>(weight / sum)};
+  }
+  return mixed;
+}
+
 struct Kind {
   std::string_view name;
   MaterialModel (*make)(Builder&, const Object&);
@@ -312,7 +349,7 @@ constexpr std::array<Kind, 27> kinds{{{"diffuse", diffuse},
                                       {"circular", polarizing},
                                       {"mask", mask},
                                       {"blendbsdf", blend},
-                                      {"mixturebsdf", blend},
+                                      {"mixturebsdf", mixture},
                                       {"lambertian", diffuse},
                                       {"mirror", conductor}}};
 
@@ -474,6 +511,33 @@ Material normal_map(Builder& b, const Object& o) {
   return material;
 }
 
+// 0.6's coat knows no light that goes back and forth below it: over a Lambertian base of reflectance ρ it is
+// a plastic of ρ·(1 − r), as that one divides by 1 − r for such light.
+Material coated(Builder& b, const Object& o) {
+  Material material = inner(b, o);
+  PlasticMaterial coat;
+  coat.eta = index_of(b, o, "int_ior", "bk7");
+  coat.exterior_eta = index_of(b, o, "ext_ior", "air");
+  coat.specular_reflectance = factor(b, o, "specular_reflectance");
+  if (o.type == "roughcoating") coat.roughness = roughness_of(b, o);
+  const double left =
+      1 - internal_reflectance(static_cast<double>(coat.eta) / static_cast<double>(coat.exterior_eta));
+  bool is_exact = true;
+  change_leaves(b, material, [&](Material& leaf) {
+    const auto* base = std::get_if<DiffuseMaterial>(&leaf.model);
+    is_exact = is_exact && base && base->sigma_deg == FloatParameter{0.0f};
+    if (!base) return;
+    PlasticMaterial plastic = coat;
+    plastic.diffuse_reflectance = times(b, base->reflectance, left, o.origin);
+    leaf.model = plastic;
+  });
+  if (!is_exact)
+    b.report.approximated("a coating of what is not Lambertian: the surface under it shows", o.origin);
+  if (o.has("sigma_a")) b.report.approximated("the absorption of a coating is left out", o.origin);
+  o.ignore({"thickness", "sigma_a"});
+  return material;
+}
+
 Material make_material(Builder& b, const Object& o) {
   Material material;
   if (o.type == "twosided") {
@@ -483,9 +547,7 @@ Material make_material(Builder& b, const Object& o) {
   } else if (o.type == "normalmap") {
     material = normal_map(b, o);
   } else if (o.type == "coating" || o.type == "roughcoating") {
-    material = inner(b, o);
-    b.report.approximated("a coating is left out: the surface under it shows", o.origin);
-    o.ignore({"int_ior", "ext_ior", "thickness", "sigma_a", "alpha", "distribution", "specular_reflectance"});
+    material = coated(b, o);
   } else {
     const auto kind =
         std::find_if(kinds.begin(), kinds.end(), [&](const Kind& k) { return k.name == o.type; });

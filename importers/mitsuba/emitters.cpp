@@ -8,6 +8,7 @@
 #include "importers/mitsuba/builder.h"
 #include "importers/mitsuba/properties.h"
 #include "importers/mitsuba/suggestion.h"
+#include "importers/mitsuba/sun_and_sky.h"
 #include "scene/flat_emission.h"
 #include "scene/rgb_to_spectrum.h"
 
@@ -180,7 +181,7 @@ std::vector<std::string> names() {
 
 // Why an emitter is not one of the scene's, and what to do.
 std::string advice(const std::string& kind) {
-  if (kind == "sky" || kind == "sun" || kind == "sunsky" || kind == "timed_sunsky" || kind == "skylight")
+  if (kind == "timed_sunsky" || kind == "skylight")
     return "is dropped: the Scene has no model of the sky; let Mitsuba write it as an image and give that to "
            "an "
            "\"envmap\"";
@@ -196,6 +197,7 @@ void add_emitter(Builder& builder, const Object& emitter) {
   Report& report = builder.report;
   report.begin_item({emitter.origin, RecordKind::light});
   emitter.ignore({"sampling_weight"});
+  if (is_daylight(emitter.type)) return add_daylight(builder, emitter);
   for (const Kind& kind : kinds) {
     if (emitter.type != kind.name) continue;
     builder.scene.lights.push_back({kind.make(builder, emitter), emitter.origin});

@@ -59,6 +59,9 @@ void upgrade(Object& object) {
     moved = p.queried = true;
     place = p.origin;
   }
+  // Where its models of daylight have their zenith; +z since version 3.
+  const bool daylight = object.type == "sky" || object.type == "sun" || object.type == "sunsky";
+  if (daylight && object.tag == "emitter") object.properties.push_back({"y_is_up", true, object.origin});
   if (moved) object.properties.push_back({"to_uv", translate(offset) * scale(size), place});
 }
 

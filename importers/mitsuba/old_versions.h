@@ -21,7 +21,8 @@ std::string tag_of_today(const std::string& tag);
 // D65 (since version 2 it is a flat spectrum).
 bool is_color_of_old_file(std::string_view value, const Object& owner);
 
-// Renames properties that have another name today; uscale … voffset become a to_uv.
+// Renames properties that have another name today; uscale … voffset become a to_uv, daylight
+// gets "y_is_up".
 void upgrade(Object& object);
 
 }  // namespace vitrail::mitsuba

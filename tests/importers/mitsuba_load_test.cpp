@@ -4,7 +4,10 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <numbers>
+
 #include "importers/mitsuba/mitsuba.h"
+#include "importers/mitsuba/sun_and_sky.h"
 #include "scene/rgb_to_spectrum.h"
 #include "temporary_folder.h"
 
@@ -205,6 +208,93 @@ TEST_F(MitsubaLoad, OldSpectraAreLinearRgb) {
   EXPECT_THAT(error("<scene version=\"0.6.0\"><emitter type=\"constant\"><spectrum name=\"radiance\" "
                     "value=\"1 2\"/></emitter></scene>"),
               ::testing::HasSubstr("3 numbers, has 2"));
+}
+
+// The parts of a mixture count by their weights, and what lacks to 1 is black.
+TEST_F(MitsubaLoad, OldMixtures) {
+  const auto mixture = [&](const std::string& weights) {
+    return material("<bsdf type=\"mixturebsdf\" id=\"m\"><string name=\"weights\" value=\"" + weights +
+                    "\"/><bsdf type=\"diffuse\" id=\"a\"/><bsdf type=\"diffuse\" id=\"b\"/></bsdf>");
+  };
+  const auto share = [&](const Material& whole, const std::string& name) {
+    double found = 0;
+    const auto walk = [&](const auto& self, const Material& at, double weight) -> void {
+      if (const auto* blend = std::get_if<BlendMaterial>(&at.model)) {
+        const auto amount = static_cast<double>(std::get<float>(blend->amount));
+        self(self, imported_.scene.materials.at(blend->first.value), weight * (1 - amount));
+        self(self, imported_.scene.materials.at(blend->second.value), weight * amount);
+      } else if (at.name == name) {
+        found += weight;
+      }
+    };
+    walk(walk, whole, 1);
+    return found;
+  };
+  for (const auto& [weights, a, b] :
+       {std::tuple{"0.3, 0.7", 0.3, 0.7}, {"0.25 0.5", 0.25, 0.5}, {"3 1", 0.75, 0.25}, {"0, 1", 0.0, 1.0}}) {
+    const Material whole = mixture(weights);
+    EXPECT_NEAR(share(whole, "a"), a, 1e-6) << weights;
+    EXPECT_NEAR(share(whole, "b"), b, 1e-6) << weights;
+  }
+  EXPECT_THROW(mixture("0.5"), Error);
+}
+
+// (1 − r)·ρ/(1 − r) is ρ: no light goes back and forth below 0.6's coat.
+TEST_F(MitsubaLoad, OldCoatings) {
+  const Material coat = material(
+      "<bsdf type=\"coating\" id=\"m\"><float name=\"int_ior\" value=\"1.5\"/>"
+      "<float name=\"ext_ior\" value=\"1\"/><bsdf type=\"diffuse\"/></bsdf>");
+  const auto& plastic = std::get<PlasticMaterial>(coat.model);
+  constexpr double internal = 0.5963;  // of index 1.5 (Jacquez and Kuppenheim 1955)
+  EXPECT_NEAR(luminance(std::get<Spectrum>(plastic.diffuse_reflectance)), 0.5 * (1 - internal), 1e-4);
+  EXPECT_EQ(plastic.eta, 1.5f);
+  EXPECT_FALSE(plastic.nonlinear);
+  EXPECT_FALSE(coat.two_sided);
+}
+
+// Sums of a Lambertian part and a gloss without Fresnel's factor.
+TEST_F(MitsubaLoad, OldPhongAndWard) {
+  for (const char* kind : {"phong", "ward"}) {
+    const Material whole = material(fmt::format("<bsdf type=\"{}\" id=\"m\"/>", kind));
+    const auto& blend = std::get<BlendMaterial>(whole.model);
+    const auto amount = static_cast<double>(std::get<float>(blend.amount));
+    const auto& base = std::get<DiffuseMaterial>(imported_.scene.materials.at(blend.first.value).model);
+    const auto& gloss = std::get<ConductorMaterial>(imported_.scene.materials.at(blend.second.value).model);
+    EXPECT_NEAR(luminance(std::get<Spectrum>(base.reflectance)) * (1 - amount), 0.5, 1e-5);
+    EXPECT_NEAR(luminance(std::get<Spectrum>(gloss.reflectance_factor)) * amount, 0.2, 1e-5);
+    EXPECT_EQ(gloss.metal, Metal{PerfectReflector{}});
+  }
+}
+
+// Held to Mitsuba 3.9.1's, whose mean radiance and irradiance at these are these.
+TEST_F(MitsubaLoad, Daylight) {
+  const mitsuba::Daylight noon = mitsuba::daylight(3, 40);
+  EXPECT_NEAR(mitsuba::daylight(3, 50).sky.g, 0.10723, 2e-3);
+  EXPECT_NEAR(mitsuba::daylight(3, 50).sun.g, 1.2147, 2e-2);
+  EXPECT_GT(noon.sky.b, noon.sky.r);
+  EXPECT_EQ(mitsuba::daylight(3, -1).sun.r, 0);
+  for (const auto& [hour, elevation, azimuth] :
+       {std::tuple{9.0, std::asin(0.782867), std::atan2(0.614786, -0.0956952)},
+        {15.0, std::asin(0.720308), std::atan2(-0.691748, -0.0513851)}}) {
+    mitsuba::TimeAndPlace tokyo;
+    tokyo.hour = hour;
+    const auto found = mitsuba::sun_position(tokyo);
+    EXPECT_NEAR(found[0], elevation, 0.01);
+    EXPECT_NEAR(found[1], azimuth, 0.01);
+  }
+  const ImportedScene old = read_mitsuba(folder_.write(
+      "scene.xml",
+      "<scene version=\"0.6.0\"><emitter type=\"sunsky\"><vector name=\"sunDirection\" x=\"0\" y=\"3\" "
+      "z=\"4\"/>"
+      "<float name=\"skyScale\" value=\"2\"/><float name=\"sunScale\" value=\"0.5\"/></emitter></scene>"));
+  ASSERT_EQ(old.scene.lights.size(), 2u);
+  const mitsuba::Daylight at_37 = mitsuba::daylight(3, std::asin(0.6) * 180 / std::numbers::pi);
+  EXPECT_NEAR(luminance(std::get<InfiniteLight>(old.scene.lights[0].model).radiance),
+              2 * luminance(emission_from_rgb(at_37.sky)), 1e-4);
+  const auto& sun = std::get<DistantLight>(old.scene.lights[1].model);
+  EXPECT_NEAR(luminance(sun.irradiance), luminance(emission_from_rgb(at_37.sun)) / 2, 1e-3);
+  EXPECT_NEAR(sun.direction.y, -0.6, 1e-12);
+  EXPECT_NEAR(sun.direction.z, -0.8, 1e-12);
 }
 
 // How its integrators sample is no loss, and what nobody knows is said once.
