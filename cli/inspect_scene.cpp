@@ -212,6 +212,7 @@ Report inspect_film(const std::filesystem::path& file) {
           {"pixels", fmt::format("{} × {}", film.full_width(), film.full_height())},
           {"crop", {crop.x0, crop.x1, crop.y0, crop.y1}},
           {"complete", progress.complete()},
+          {"adaptive", progress.adaptive},
           {"samples_per_pixel_asked", progress.samples_per_pixel},
           {"samples_per_pixel_least", least},
           {"samples_per_pixel_most", most},

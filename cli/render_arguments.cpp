@@ -2,11 +2,14 @@
 #include "cli/render_arguments.h"
 
 #include <algorithm>
+#include <charconv>
+#include <cmath>
 #include <iterator>
 
 #include "cli/default_output.h"
 #include "cli/layer_names.h"
 #include "cli/number_checks.h"
+#include "cli/quality.h"
 #include "cli/rectangle.h"
 #include "cli/sizes.h"
 #include "cli/terminal.h"
@@ -22,6 +25,16 @@ void declare(CLI::App& app, RenderArguments& a) {
                  "the input's name with .exr, here");
   app.add_option("--spp", o.samples_per_pixel, "samples a pixel; default: as the scene says")
       ->check(more_than_0);
+  app.add_flag("--adaptive,!--no-adaptive", o.adaptive,
+               "more samples where the picture is noisy, fewer elsewhere; --spp is the mean then");
+  app.add_option(
+      "--target-error", a.target_error,
+      "render until the relative mean squared error of luminance is below this, e.g. 0.01, or what "
+      "is seen of it, e.g. 1jnd: one just noticeable difference; --spp is the most then");
+  app.add_option("--quality", a.quality,
+                 "draft, good or final: until noise is seen, hardly seen or not seen; sets --target-error, "
+                 "--spp and --adaptive where they are not given")
+      ->check(CLI::IsMember(qualities()));
   app.add_option(
          "--max-depth", a.max_depth,
          "scattering events of a path; 0: emitters only, 1: direct light, -1: no limit; default: as the "
@@ -66,7 +79,8 @@ void declare(CLI::App& app, RenderArguments& a) {
       "samples to a finished one, needs no option");
   app.add_flag("--force", o.force, "replace the film, checkpoint or picture that has the output's name");
   app.add_option("--time", o.time_limit_s,
-                 "stop after this many seconds with what there is; the same command then goes on")
+                 "end after this many seconds with what there is, and without --spp not before; the same "
+                 "command then goes on")
       ->check(more_than_0);
   app.add_flag("--dry-run", o.dry_run,
                "render for a few seconds, write nothing, and say what memory and time it would all take");
@@ -119,6 +133,18 @@ void prepare_dry_run(RenderOptions& o) {
   o.stats.clear(), o.profile.clear();
 }
 
+TargetError parse_target_error(const std::string& text) {
+  constexpr std::string_view unit = "jnd";
+  TargetError target;
+  target.just_noticeable = text.ends_with(unit);
+  const std::string number = target.just_noticeable ? text.substr(0, text.size() - unit.size()) : text;
+  const auto [end, failed] = std::from_chars(number.data(), number.data() + number.size(), target.value);
+  if (failed != std::errc() || end != number.data() + number.size() || !(target.value > 0) ||
+      !std::isfinite(target.value))
+    throw UsageError("--target-error takes a number above 0, such as 0.01 or 1jnd: " + text);
+  return target;
+}
+
 ProgressMode progress_mode(const RenderArguments& a) {
   if (a.progress == "json") return ProgressMode::json;
   if (a.quiet || a.progress == "none") return ProgressMode::none;
@@ -144,6 +170,8 @@ void interpret(const CLI::App& app, RenderArguments& a) {
   if (!a.aov_space.empty()) o.layers_in_camera_space = a.aov_space == "camera";
   if (app.count("--max-depth") > 0) o.max_depth = a.max_depth < 0 ? unlimited_depth : a.max_depth;
   if (!a.integrator.empty()) o.direct_only = a.integrator == "direct";
+  if (!a.target_error.empty()) o.target_error = parse_target_error(a.target_error);
+  if (!a.quality.empty()) apply_quality(a.quality, app.count("--adaptive") > 0, o);
   o.progress = progress_mode(a);
   o.quiet = a.quiet;
   if (o.dry_run) prepare_dry_run(o);

@@ -13,7 +13,7 @@ namespace vitrail {
 struct RenderArguments {
   std::filesystem::path input, output;
   int bins = 0, max_depth = 0;
-  std::string memory, crop, integrator, aov, aov_space, progress = "auto";
+  std::string memory, crop, integrator, aov, aov_space, target_error, quality, progress = "auto";
   bool quiet = false, strict = false;
   ImportArguments imports;
   MeshOptions meshes;

@@ -22,22 +22,28 @@ namespace {
 // A film that is whole does not say in which steps it became so.
 FilmProgress progress_of(const WorkPlan& plan, const std::vector<std::uint64_t>& done, double render_time_s,
                          const std::string& about) {
-  FilmProgress progress{plan.items(), plan.samples(), done, render_time_s, {}, about};
+  FilmProgress progress{plan.items(), plan.samples(), done, render_time_s, {}, about, false, {}};
+  if (plan.adaptive()) {
+    const auto pixels = plan.held.size();
+    progress.samples_per_pixel = (plan.all_samples() + pixels - 1) / pixels;
+    progress.adaptive = true;
+    progress.more = plan.more;
+    if (!progress.complete()) return progress;
+    progress.items = 0;
+    progress.done.clear(), progress.more.clear();
+    return progress;
+  }
   for (std::size_t i = 0; i + 1 < plan.parts.size(); ++i) progress.earlier_ends.push_back(plan.parts[i].end);
   if (!progress.complete() || progress.earlier_ends.empty()) return progress;
-  const std::uint64_t items = make_work_plan(plan.crop, plan.samples()).items();
-  progress.items = items;
-  progress.done.assign((items + 63) / 64, ~std::uint64_t{0});
-  if (items % 64 != 0) progress.done.back() = (std::uint64_t{1} << items % 64) - 1;
+  progress.items = make_work_plan(plan.crop, plan.samples()).items();
+  progress.done = all_done(progress.items);
   progress.earlier_ends.clear();
   return progress;
 }
 
 }  // namespace
 
-void write_job_film(Transport& transport, const std::filesystem::path& file, Film& film,
-                    std::vector<std::uint64_t>& done, const WorkPlan& plan, double render_time_s,
-                    const std::string& about) {
+void gather_film(Transport& transport, Film& film, std::vector<std::uint64_t>& done) {
   transport.sum_to_root(film.sums());
   transport.sum_to_root(film.counts());
   transport.max_to_root(film.ids());
@@ -48,6 +54,12 @@ void write_job_film(Transport& transport, const std::filesystem::path& file, Fil
   refused = {static_cast<std::uint64_t>(counts[0]), static_cast<std::uint64_t>(counts[1])};
   // Each item is done by one rank: the sum of their bits is their union.
   transport.sum_to_root(std::span(reinterpret_cast<std::int64_t*>(done.data()), done.size()));
+}
+
+void write_job_film(Transport& transport, const std::filesystem::path& file, Film& film,
+                    std::vector<std::uint64_t>& done, const WorkPlan& plan, double render_time_s,
+                    const std::string& about) {
+  gather_film(transport, film, done);
   agree(transport, [&] {
     if (transport.rank() == 0) write_film(file, film, progress_of(plan, done, render_time_s, about));
   });
@@ -61,25 +73,58 @@ struct Held {
   FilmProgress progress;
 };
 
+// The samples that each pixel had before the adaptive round that the film is in: its own, less what the items
+// give that are done. Empty: it holds less than these.
+std::vector<std::uint32_t> held_before(const Film& film, const FilmProgress& p) {
+  const WorkPlan round = make_adaptive_round(film.crop(), std::vector<std::uint32_t>(film.pixels()), p.more);
+  std::vector<std::uint32_t> held(film.pixels());
+  for (std::uint32_t i = 0; i < film.pixels(); ++i) held[i] = static_cast<std::uint32_t>(film.samples(i));
+  const PixelRect& crop = film.crop();
+  for (std::uint64_t i = 0; i < round.items(); ++i) {
+    if (!(p.done[i / 64] >> (i % 64) & 1)) continue;
+    const WorkItem item = round.item(i);
+    for (int y = item.pixels.y0; y < item.pixels.y1; ++y)
+      for (int x = item.pixels.x0; x < item.pixels.x1; ++x) {
+        const WorkPlan::Range given = round.samples(item, x, y);
+        std::uint32_t& left = held[static_cast<std::size_t>((y - crop.y0) * film.width() + x - crop.x0)];
+        if (left < given.end - given.first) return {};
+        left -= given.end - given.first;
+      }
+  }
+  return held;
+}
+
+// Whether the items that a film says it has are those of its plan.
+bool makes_sense(const Held& held) {
+  const FilmProgress& p = held.progress;
+  if (p.adaptive) {
+    if (p.more.empty()) return p.items == 0;
+    return p.items == make_adaptive_round(held.film.crop(), {}, p.more).items() &&
+           !held_before(held.film, p).empty();
+  }
+  return p.samples_per_pixel > 0 &&
+         p.items ==
+             make_work_plan(held.film.crop(), static_cast<std::uint32_t>(p.samples_per_pixel), p.earlier_ends)
+                 .items();
+}
+
 // Why this is not work of the job whose film is `film`; "" where it is.
-std::string mismatch(const Held& held, const Film& film, std::uint32_t samples) {
+std::string mismatch(const Held& held, const Film& film, const Goal& goal) {
   const FilmProgress& p = held.progress;
   const std::string what = difference(held.film, film);
   if (!what.empty()) return "its picture is not that of this render: " + what;
   if (held.film.key().seed != film.key().seed)
     return fmt::format("its seed is {}, not {}", held.film.key().seed, film.key().seed);
-  if (p.samples_per_pixel > samples)
+  if (p.samples_per_pixel > goal.samples)
     return fmt::format("it holds more work: it is a render of {} samples a pixel, not {}, and {}",
-                       p.samples_per_pixel, samples, p.complete() ? "finished" : "begun");
-  if (p.samples_per_pixel == 0 ||
-      p.items != make_work_plan(film.crop(), static_cast<std::uint32_t>(p.samples_per_pixel), p.earlier_ends)
-                     .items())
-    return "it does not say which samples it holds";
+                       p.samples_per_pixel, goal.samples, p.complete() ? "finished" : "begun");
+  if (p.adaptive && !goal.adaptive) return "its samples are adaptive: --adaptive goes on with it";
+  if (!makes_sense(held)) return "it does not say which samples it holds";
   return {};
 }
 
 std::optional<Held> held_by(const std::filesystem::path& file, const char* kind, const Film& film,
-                            std::uint32_t samples) {
+                            const Goal& goal) {
   if (!std::filesystem::exists(file)) return std::nullopt;
   constexpr const char* ways_out = "; --force replaces it, and another name for the output keeps it";
   Held held{file, {}, {}};
@@ -88,7 +133,7 @@ std::optional<Held> held_by(const std::filesystem::path& file, const char* kind,
   } catch (const Error& e) {
     throw Error(std::string(e.what()) + ways_out, e.location);
   }
-  const std::string reason = mismatch(held, film, samples);
+  const std::string reason = mismatch(held, film, goal);
   if (!reason.empty())
     throw Error(fmt::format("this {} cannot be resumed: {}{}", kind, reason, ways_out), {file.string()});
   return held;
@@ -98,17 +143,77 @@ double samples_of_a_pixel(const Film& film) {
   return static_cast<double>(film.samples()) / static_cast<double>(film.pixels());
 }
 
+// The plan that a film's items are of, with what is to be added at once.
+WorkPlan plan_of(const Held& held, const Goal& goal) {
+  const FilmProgress& p = held.progress;
+  const PixelRect& crop = held.film.crop();
+  if (p.adaptive) {
+    // Between two rounds: nothing is left of the last one.
+    const bool between = p.more.empty();
+    std::vector<std::uint32_t> more = between ? std::vector<std::uint32_t>(held.film.pixels()) : p.more;
+    FilmProgress last = p;
+    last.more = more;
+    return make_adaptive_round(crop, held_before(held.film, last), std::move(more));
+  }
+  const auto samples = static_cast<std::uint32_t>(p.samples_per_pixel);
+  std::vector<std::uint32_t> ends = p.earlier_ends;
+  if (goal.in_rounds || samples == goal.samples) return make_work_plan(crop, samples, ends);
+  ends.push_back(samples);
+  return make_work_plan(crop, goal.samples, ends);
+}
+
+bool finished(const Held& held, const RenderOptions& options, const Goal& goal) {
+  if (!held.progress.complete() || held.file != options.film) return false;
+  return goal.in_rounds ? !next_round(held.film, goal) : held.progress.samples_per_pixel == goal.samples;
+}
+
+void say_what_is_held(const EarlierWork& work, const Held& held, const RenderOptions& options,
+                      const Goal& goal) {
+  const double samples = samples_of_a_pixel(held.film);
+  if (work.finished)
+    fmt::print(stderr,
+               "vitrail: {} is finished already, with {:.4g} samples a pixel; --force renders it again\n",
+               options.film.string(), samples);
+  else
+    fmt::print(stderr, "vitrail: going on from {}, with {:.4g} of {} samples a pixel\n", held.file.string(),
+               samples, goal.samples);
+}
+
+// Rank 0's plan and bits, on every rank.
+void broadcast(Transport& transport, EarlierWork& work) {
+  WorkPlan& plan = work.plan;
+  std::array<std::uint64_t, 4> sizes{plan.parts.size(), plan.more.size(), work.done.size(), work.finished};
+  transport.broadcast_from_root(sizes);
+  std::vector<std::uint32_t> ends;
+  for (const WorkPlan::Part& part : plan.parts) ends.push_back(part.end);
+  ends.resize(sizes[0]);
+  plan.held.resize(sizes[1]), plan.more.resize(sizes[1]), work.done.resize(sizes[2]);
+  transport.broadcast_from_root(std::span(ends));
+  transport.broadcast_from_root(std::span(plan.held));
+  transport.broadcast_from_root(std::span(plan.more));
+  transport.broadcast_from_root(std::span(work.done));
+  work.finished = sizes[3] != 0;
+  if (sizes[1] > 0) {
+    plan = make_adaptive_round(plan.crop, std::move(plan.held), std::move(plan.more));
+  } else {
+    const std::uint32_t samples = ends.back();
+    ends.pop_back();
+    plan = make_work_plan(plan.crop, samples, ends);
+  }
+}
+
 }  // namespace
 
 EarlierWork read_earlier_work(Transport& transport, const RenderOptions& options, Film& film,
-                              std::uint32_t samples) {
+                              const Goal& goal) {
   EarlierWork work;
+  work.plan = make_work_plan(film.crop(), goal.first_samples());
   if (options.force) return work;
   agree(transport, [&] {
     if (transport.rank() != 0) return;
     const std::filesystem::path checkpoint = checkpoint_path(options.film);
-    std::optional<Held> held = held_by(options.film, "film", film, samples);
-    std::optional<Held> partial = held_by(checkpoint, "checkpoint", film, samples);
+    std::optional<Held> held = held_by(options.film, "film", film, goal);
+    std::optional<Held> partial = held_by(checkpoint, "checkpoint", film, goal);
     if (partial && (!held || partial->film.samples() > held->film.samples())) held = std::move(partial);
     if (!held) {
       if (options.resume && !options.quiet)
@@ -116,32 +221,15 @@ EarlierWork read_earlier_work(Transport& transport, const RenderOptions& options
                    checkpoint.string());
       return;
     }
-    const FilmProgress& p = held->progress;
-    work.ends = p.earlier_ends;
-    if (p.samples_per_pixel < samples) work.ends.push_back(static_cast<std::uint32_t>(p.samples_per_pixel));
-    work.done = p.done;
-    work.done.resize((make_work_plan(film.crop(), samples, work.ends).items() + 63) / 64);
-    work.render_time_s = p.render_time_s;
-    work.finished = p.complete() && p.samples_per_pixel == samples && held->file == options.film;
+    work.plan = plan_of(*held, goal);
+    work.done = held->progress.done;
+    work.done.resize((work.plan.items() + 63) / 64);
+    work.render_time_s = held->progress.render_time_s;
+    work.finished = finished(*held, options, goal);
     film.merge(held->film);
-    if (options.quiet) return;
-    if (work.finished)
-      fmt::print(stderr,
-                 "vitrail: {} is finished already, with {} samples a pixel; --force renders it again\n",
-                 options.film.string(), samples);
-    else
-      fmt::print(stderr, "vitrail: going on from {}, with {:.4g} of {} samples a pixel\n",
-                 held->file.string(), samples_of_a_pixel(film), samples);
+    if (!options.quiet) say_what_is_held(work, *held, options, goal);
   });
-  std::array<std::uint64_t, 3> sizes{work.ends.size(), work.done.size(), work.finished};
-  transport.broadcast_from_root(sizes);
-  std::vector<std::uint64_t> ends(work.ends.begin(), work.ends.end());
-  ends.resize(sizes[0]);
-  transport.broadcast_from_root(ends);
-  work.ends.assign(ends.begin(), ends.end());
-  work.done.resize(sizes[1]);
-  transport.broadcast_from_root(work.done);
-  work.finished = sizes[2] != 0;
+  broadcast(transport, work);
   return work;
 }
 

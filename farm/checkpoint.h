@@ -3,6 +3,7 @@
 #pragma once
 
 #include "farm/options.h"
+#include "farm/rounds.h"
 #include "farm/transport.h"
 #include "farm/work.h"
 #include "film/film.h"
@@ -11,9 +12,12 @@ namespace vitrail {
 
 std::filesystem::path checkpoint_path(const std::filesystem::path& film);
 
-// Gathers all ranks' films and item bits on rank 0, whose film then holds everything and the others' nothing,
-// and writes them there. To be called by all ranks together while no ray is alive. `done` is the rank's own
-// bits, and becomes the job's on rank 0 and empty elsewhere.
+// Gathers all ranks' films and item bits on rank 0, whose film then holds everything and the others' nothing.
+// To be called by all ranks together while no ray is alive. `done` is the rank's own bits, and becomes the
+// job's on rank 0 and empty elsewhere.
+void gather_film(Transport& transport, Film& film, std::vector<std::uint64_t>& done);
+
+// The same, and writes the film on rank 0.
 void write_job_film(Transport& transport, const std::filesystem::path& file, Film& film,
                     std::vector<std::uint64_t>& done, const WorkPlan& plan, double render_time_s,
                     const std::string& about);
@@ -21,16 +25,17 @@ void write_job_film(Transport& transport, const std::filesystem::path& file, Fil
 // What earlier runs left of this very job, in its film (finished, or stopped by a time limit) or in its
 // checkpoint.
 struct EarlierWork {
-  std::vector<std::uint32_t> ends;  // of renders of fewer samples that it goes on from, for the work plan
-  std::vector<std::uint64_t> done;  // bits of that plan's items; empty: none is done
+  WorkPlan plan;                    // with what is to be done first
+  std::vector<std::uint64_t> done;  // bits of its items; empty: none is done
   double render_time_s = 0;         // known to rank 0
   bool finished = false;            // the film holds all that is asked for
 };
 
 // Rank 0 adds to `film` what lies under the job's two names, the one that holds more; every rank learns what
-// it is. Throws Error where either is of another picture or seed, was made by another program, or aims at
-// more than `samples` a pixel: it would be lost. With options.force nothing is looked at.
+// it is, and what is to be done first. Throws Error where either is of another picture or seed, was made by
+// another program, or aims at more than the goal's samples a pixel: it would be lost. With options.force
+// nothing is looked at.
 EarlierWork read_earlier_work(Transport& transport, const RenderOptions& options, Film& film,
-                              std::uint32_t samples);
+                              const Goal& goal);
 
 }  // namespace vitrail

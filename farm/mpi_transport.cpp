@@ -87,12 +87,8 @@ class MpiTransport final : public Transport {
   void sum_to_root(std::span<WideSum> values) override { reduce(values, wide_sum_, add_wide_sums_); }
   void max_to_root(std::span<std::int64_t> values) override { reduce(values, MPI_INT64_T, MPI_MAX); }
 
-  void broadcast_from_root(std::span<std::uint64_t> values) override {
-    constexpr std::size_t part = collective_part<std::uint64_t>;
-    for (std::size_t at = 0; at < values.size(); at += part)
-      MPI_Bcast(values.data() + at, static_cast<int>(std::min(part, values.size() - at)), MPI_UINT64_T, 0,
-                MPI_COMM_WORLD);
-  }
+  void broadcast_from_root(std::span<std::uint64_t> values) override { broadcast(values, MPI_UINT64_T); }
+  void broadcast_from_root(std::span<std::uint32_t> values) override { broadcast(values, MPI_UINT32_T); }
 
  private:
   struct Sending {
@@ -117,6 +113,14 @@ class MpiTransport final : public Transport {
                  0, MPI_COMM_WORLD);
     }
     if (rank_ != 0) std::ranges::fill(values, T{});
+  }
+
+  template <class T>
+  void broadcast(std::span<T> values, MPI_Datatype type) {
+    constexpr std::size_t part = collective_part<T>;
+    for (std::size_t at = 0; at < values.size(); at += part)
+      MPI_Bcast(values.data() + at, static_cast<int>(std::min(part, values.size() - at)), type, 0,
+                MPI_COMM_WORLD);
   }
 
   int rank_ = 0, size_ = 1;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 #include <optional>
 
@@ -9,6 +10,12 @@
 namespace vitrail {
 
 enum class ProgressMode { none, bar, lines, json };
+
+// Of the picture's luminance, as film/noise.h has it.
+struct TargetError {
+  double value = 0;
+  bool just_noticeable = false;  // in just noticeable differences, root mean square; else relMSE
+};
 
 // What `vitrail render` is asked for. Empty optionals: as the scene says.
 struct RenderOptions {
@@ -29,7 +36,10 @@ struct RenderOptions {
   std::uint64_t memory_bytes = 0;  // a rank; 0: no limit
   int threads = 0;                 // a rank; 0: one a core
   double checkpoint_every_s = 0;   // 0: only when asked by a signal
-  double time_limit_s = 0;         // 0: none. The film then holds what was done
+  double time_limit_s = 0;         // from `start` on; 0: none. The film then holds what was done
+  std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
+  bool adaptive = false;                    // samples go where the picture is noisy
+  std::optional<TargetError> target_error;  // the render ends once this is reached
   bool dry_run = false;           // renders until the time limit, writes nothing and says what all would take
   bool resume = false;            // says where there is nothing to go on from; going on needs no asking
   bool force = false;             // replaces what lies under the names of film and checkpoint, whatever it is

@@ -41,13 +41,14 @@ const char* word(Ending ending) {
 
 }  // namespace
 
-Progress::Progress(const RenderOptions& options, int rank, const Work& work)
+Progress::Progress(const RenderOptions& options, int rank, const Film& film, double samples)
     : mode_(rank == 0 ? options.progress : ProgressMode::none),
       time_limit_s_(options.time_limit_s),
-      samples_(work.samples),
-      items_(static_cast<double>(work.items)),
-      done_before_(static_cast<double>(work.items_before) / items_),
+      pixels_(static_cast<double>(film.pixels())),
+      samples_(samples),
+      samples_before_(static_cast<double>(film.samples()) / pixels_),
       start_(std::chrono::steady_clock::now()),
+      limit_start_(options.start),
       last_(start_) {}
 
 void Progress::show(const RoundSums& sums) {
@@ -59,15 +60,17 @@ void Progress::show(const RoundSums& sums) {
 }
 
 double Progress::remaining_s(double done, double elapsed_s) const {
-  const double here = done - done_before_;
+  const double here = done - samples_before_ / samples_;
   const double left_s = here > 0 ? elapsed_s * (1 - done) / here : 0;
   if (time_limit_s_ <= 0) return left_s;
-  const double until_limit_s = std::max(0.0, time_limit_s_ - elapsed_s);
+  const double before_s = std::chrono::duration<double>(start_ - limit_start_).count();
+  const double until_limit_s = std::max(0.0, time_limit_s_ - before_s - elapsed_s);
   return here > 0 ? std::min(left_s, until_limit_s) : until_limit_s;
 }
 
 void Progress::print(const RoundSums& sums, double elapsed_s) {
-  const double done = static_cast<double>(sums.items_done) / items_;
+  const double done =
+      std::min(1.0, (samples_before_ + static_cast<double>(sums.samples) / pixels_) / samples_);
   const double left_s = remaining_s(done, elapsed_s);
   const double rate = elapsed_s > 0 ? static_cast<double>(sums.rays_traced) / elapsed_s : 0;
   if (mode_ == ProgressMode::json)
@@ -99,21 +102,38 @@ void Progress::finish() {
   line_open_ = false;
 }
 
-void print_start(const RenderOptions& options, const Manifest& m, int ranks, int threads) {
+namespace {
+
+std::string text_of(const TargetError& target) {
+  return fmt::format("{:g}{}", target.value, target.just_noticeable ? "jnd" : "");
+}
+
+// What the render is after.
+std::string text_of(const Goal& goal) {
+  const std::string samples =
+      fmt::format("{} samples {}", goal.samples, goal.adaptive ? "a pixel on the average" : "each");
+  if (!goal.target) return samples;
+  return fmt::format("to an error of {}, at most {}", text_of(*goal.target), samples);
+}
+
+}  // namespace
+
+void print_start(const RenderOptions& options, const Manifest& m, const Goal& goal, int ranks, int threads) {
   if (options.progress != ProgressMode::lines) return;
   const PixelRect& c = m.film.crop;
-  fmt::print(stderr, "vitrail: rendering {} × {} pixels, {} samples each, {} domains, {} × {} threads\n",
-             c.x1 - c.x0, c.y1 - c.y0, m.settings.samples_per_pixel, m.domains.size(), ranks, threads);
+  fmt::print(stderr, "vitrail: rendering {} × {} pixels, {}, {} domains, {} × {} threads\n", c.x1 - c.x0,
+             c.y1 - c.y0, text_of(goal), m.domains.size(), ranks, threads);
 }
 
 void print_end(const RenderOptions& options, const RenderStats& s, std::uint64_t pixels) {
   if (options.progress == ProgressMode::none) return;
   const double samples = static_cast<double>(s.samples) / static_cast<double>(pixels);
+  const double progress = s.ending == Ending::finished ? 1 : samples / static_cast<double>(s.spp);
   const std::uint64_t rays = s.traced.rays_camera + s.traced.rays_indirect + s.traced.rays_shadow;
   if (options.progress == ProgressMode::json)
     return print_json({{"event", "end"},
                        {"ending", word(s.ending)},
-                       {"progress", samples / static_cast<double>(s.spp)},
+                       {"progress", progress},
                        {"samples_per_pixel", samples},
                        {"elapsed_s", s.wall_s},
                        {"remaining_s", 0},
@@ -126,6 +146,11 @@ void print_end(const RenderOptions& options, const RenderStats& s, std::uint64_t
              options.film.string(), samples, s.spp, duration(s.wall_s),
              static_cast<double>(rays) / s.wall_s * 1e-6, static_cast<double>(s.peak_rss_bytes) / 0x1p20,
              s.ending == Ending::time_is_up ? "; the same command goes on" : "");
+  if (options.target_error)
+    fmt::print(
+        stderr,
+        "vitrail: {}: error {:.3g}, and with a confidence of 95 % below {:.3g}, where {} was asked for\n",
+        options.film.string(), s.reached.estimate, s.reached.upper, text_of(*options.target_error));
 }
 
 }  // namespace vitrail

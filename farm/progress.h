@@ -6,19 +6,19 @@
 
 #include "bundle/manifest.h"
 #include "farm/options.h"
+#include "farm/rounds.h"
 #include "farm/stats.h"
 #include "farm/transport.h"
+#include "film/film.h"
 
 namespace vitrail {
 
 class Progress {
  public:
-  // Of work items of which `items_before` were done by earlier runs. Silent on other ranks than 0.
-  struct Work {
-    std::uint64_t items = 0, items_before = 0;
-    std::uint32_t samples = 0;  // a pixel
-  };
-  Progress(const RenderOptions& options, int rank, const Work& work);
+  // `film`: with what earlier runs did. `samples`: a pixel, on the average, that the render is expected to
+  // take. Silent on other ranks than 0.
+  Progress(const RenderOptions& options, int rank, const Film& film, double samples);
+  void expect(double samples) { samples_ = samples; }
   // Called as often as one likes; prints at its own pace.
   void show(const RoundSums& sums);
   void finish();
@@ -29,13 +29,14 @@ class Progress {
 
   ProgressMode mode_;
   double time_limit_s_;  // 0: none
-  double samples_, items_, done_before_;
-  std::chrono::steady_clock::time_point start_, last_;
+  double pixels_, samples_, samples_before_;
+  std::chrono::steady_clock::time_point start_, limit_start_, last_;
   bool line_open_ = false;
 };
 
 // Before the first ray and after the last, on rank 0.
-void print_start(const RenderOptions& options, const Manifest& manifest, int ranks, int threads);
+void print_start(const RenderOptions& options, const Manifest& manifest, const Goal& goal, int ranks,
+                 int threads);
 void print_end(const RenderOptions& options, const RenderStats& stats, std::uint64_t pixels);
 
 }  // namespace vitrail

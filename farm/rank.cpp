@@ -30,28 +30,33 @@ std::uint64_t bits_set(const std::vector<std::uint64_t>& words) {
 
 }  // namespace
 
-Rank::Rank(Transport& transport, RankState& state, const RenderOptions& options, EarlierWork earlier,
-           std::int64_t rays_allowed, std::string about)
+Rank::Rank(Transport& transport, RankState& state, const RenderOptions& options, const Goal& goal,
+           EarlierWork earlier, std::int64_t rays_allowed, std::string about)
     : transport_(transport),
       state_(state),
       options_(options),
-      progress_(options, transport.rank(),
-                {state.plan.items(), bits_set(earlier.done), state.plan.samples()}),
-      done_((state.plan.items() + 63) / 64),
+      goal_(goal),
+      progress_(options, transport.rank(), state.film, expected_samples(state.film, goal)),
       time_before_s_(earlier.render_time_s),
       about_(std::move(about)),
       rays_allowed_(rays_allowed),
       start_(Clock::now()),
       last_checkpoint_(start_),
       last_sent_(start_) {
-  state_.share = share_of(state.plan, earlier.done, transport.rank(), transport.size());
-  if (transport.rank() == 0) {
-    items_before_ = bits_set(earlier.done);
-    if (!earlier.done.empty()) done_ = std::move(earlier.done);
-  }
+  start_items(std::move(earlier.done));
 }
 
 double Rank::elapsed_s() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+
+// Deals out those items of the state's plan that are not done; no worker has begun, or the mutex is held.
+void Rank::start_items(std::vector<std::uint64_t> done) {
+  state_.share = share_of(state_.plan, done, transport_.rank(), transport_.size());
+  state_.next_item = reported_ = 0;
+  done_.assign((state_.plan.items() + 63) / 64, 0);
+  if (transport_.rank() != 0) return;
+  items_before_ = bits_set(done);
+  if (!done.empty()) done_ = std::move(done);
+}
 
 Ending Rank::run() {
   auto nap = std::chrono::microseconds(shortest_nap);
@@ -68,6 +73,7 @@ Ending Rank::run() {
         if (decision == Decision::checkpoint) write(checkpoint_path(options_.film));
         if (decision == Decision::end) {
           const Ending ending = ending_of(*sums);
+          if (ending == Ending::finished && goal_.in_rounds && begin_next_round()) continue;
           if (options_.dry_run)
             transport_.sum_to_root(state_.film.counts());
           else
@@ -128,7 +134,8 @@ void Rank::watch_clock() {
   const auto since_checkpoint = std::chrono::duration<double>(Clock::now() - last_checkpoint_).count();
   if (options_.checkpoint_every_s > 0 && since_checkpoint >= options_.checkpoint_every_s)
     want_checkpoint_ = true;
-  if (options_.time_limit_s > 0 && elapsed_s() >= options_.time_limit_s) time_is_up_ = true;
+  const double since_start_s = std::chrono::duration<double>(Clock::now() - options_.start).count();
+  if (options_.time_limit_s > 0 && since_start_s >= options_.time_limit_s) time_is_up_ = true;
 }
 
 RoundSums Rank::contribution() {
@@ -142,6 +149,7 @@ RoundSums Rank::contribution() {
   mine.terminated = stop_signal() == SIGTERM;
   mine.time_is_up = time_is_up_;
   if (state_.failure) (is_bad_input(state_.failure) ? mine.bad_input : mine.machine_failure) = 1;
+  mine.samples = static_cast<std::int64_t>(state_.counters.rays_camera);
   mine.items_done = static_cast<std::int64_t>(items_before_ + state_.next_item - state_.items_in_hand);
   const TraceCounters& c = state_.counters;
   mine.rays_traced = static_cast<std::int64_t>(c.rays_camera + c.rays_indirect + c.rays_shadow);
@@ -181,15 +189,43 @@ Ending Rank::ending_of(const RoundSums& sums) const {
   return sums.time_is_up > 0 ? Ending::time_is_up : Ending::none;
 }
 
-void Rank::write(const std::filesystem::path& file) {
-  const double render_time_s = time_before_s_ + elapsed_s();
+void Rank::collect_done() {
+  const std::lock_guard lock(state_.mutex);
+  for (; reported_ < state_.next_item; ++reported_) {
+    const std::uint64_t item = state_.share[reported_];
+    done_[item / 64] |= std::uint64_t{1} << (item % 64);
+  }
+}
+
+// All items of a round are done and no ray is alive. Returns whether there is another round.
+bool Rank::begin_next_round() {
+  collect_done();
+  gather_film(transport_, state_.film, done_);
+  std::optional<NextRound> next;
+  agree(transport_, [&] {
+    if (transport_.rank() == 0) next = next_round(state_.film, goal_);
+  });
+  auto plan = agree_on_round(transport_, next, state_.film, state_.plan);
+  if (!plan) return false;
+  if (transport_.rank() == 0) progress_.expect(expected_samples(state_.film, goal_));
   {
     const std::lock_guard lock(state_.mutex);
-    for (; reported_ < state_.next_item; ++reported_) {
-      const std::uint64_t item = state_.share[reported_];
-      done_[item / 64] |= std::uint64_t{1} << (item % 64);
-    }
+    // A uniform round's items come behind those done.
+    std::vector<std::uint64_t> done;
+    if (!plan->adaptive()) done = all_done(state_.plan.items());
+    state_.plan = std::move(*plan);
+    done.resize((state_.plan.items() + 63) / 64);
+    start_items(std::move(done));
   }
+  state_.work_available.notify_all();
+  calm_ = false;
+  ++rounds_;
+  return true;
+}
+
+void Rank::write(const std::filesystem::path& file) {
+  const double render_time_s = time_before_s_ + elapsed_s();
+  collect_done();
   write_job_film(transport_, file, state_.film, done_, state_.plan, render_time_s, about_);
   want_checkpoint_ = calm_ = false;
   last_checkpoint_ = Clock::now();

@@ -16,8 +16,8 @@ namespace vitrail {
 class Rank {
  public:
   // `rays_allowed`: alive in the whole job at a time. `about`: FilmProgress's.
-  Rank(Transport& transport, RankState& state, const RenderOptions& options, EarlierWork earlier,
-       std::int64_t rays_allowed, std::string about);
+  Rank(Transport& transport, RankState& state, const RenderOptions& options, const Goal& goal,
+       EarlierWork earlier, std::int64_t rays_allowed, std::string about);
 
   // Until the picture is whole, the time is up or the job is told to stop. Rank 0 has then written the film,
   // or a checkpoint where a signal stopped it. Throws what went wrong here, or OtherRankFailed, after all
@@ -25,6 +25,7 @@ class Rank {
   Ending run();
 
   void add_to(RenderStats& stats) const;
+  int rounds() const { return rounds_; }  // begun here
 
  private:
   enum class Decision { go_on, checkpoint, end };
@@ -33,6 +34,9 @@ class Rank {
   RoundSums contribution();
   Decision decide(const RoundSums& sums);
   Ending ending_of(const RoundSums& sums) const;
+  void start_items(std::vector<std::uint64_t> done);
+  void collect_done();
+  bool begin_next_round();
   void write(const std::filesystem::path& file);
   void watch_clock();
   void leave_together();
@@ -41,11 +45,13 @@ class Rank {
   Transport& transport_;
   RankState& state_;
   const RenderOptions& options_;
+  const Goal& goal_;
+  int rounds_ = 1;
   Progress progress_;
   std::vector<std::uint64_t>
       done_;                  // bits of finished items that rank 0 does not hold yet; all of them on rank 0
   std::size_t reported_ = 0;  // items of the share already in done_
-  std::uint64_t items_before_ = 0;  // on rank 0: done by earlier runs
+  std::uint64_t items_before_ = 0;  // on rank 0: done by earlier runs or rounds
   double time_before_s_ = 0;        // render time of earlier runs
   std::string about_;
   std::int64_t rays_allowed_ = 0;

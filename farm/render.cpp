@@ -41,12 +41,14 @@ void override_layers(Manifest& m, const RenderOptions& options) {
 Manifest read_with_overrides(const RenderOptions& options) {
   Manifest m = read_manifest(options.bundle);
   if (m.domains.size() > max_domains) throw Error("more than 65535 domains", {options.bundle.string()});
-  if (options.samples_per_pixel) m.settings.samples_per_pixel = *options.samples_per_pixel;
+  m.settings.samples_per_pixel = static_cast<int>(goal_of(options, m.settings.samples_per_pixel).samples);
   if (options.max_depth) m.settings.max_depth = *options.max_depth;
   if (options.direct_only) m.settings.direct_only = *options.direct_only;
   if (m.settings.samples_per_pixel < 1 ||
       static_cast<std::uint32_t>(m.settings.samples_per_pixel) >= max_samples)
     throw UsageError(fmt::format("samples a pixel must be between 1 and {}", max_samples - 1));
+  if (options.target_error && m.settings.samples_per_pixel < 4)
+    throw UsageError("an error is estimated from 4 samples a pixel or more: give --spp more than that");
   if (m.settings.max_depth < 0) throw UsageError("the depth must not be negative");
   m.settings.max_depth = std::min(m.settings.max_depth, max_path_depth);
   resize_film(m, options);
@@ -103,6 +105,20 @@ MemoryPlan plan_for(const Manifest& manifest, const RenderOptions& options, int 
   return plan;
 }
 
+// Of an adaptive round's numbers, and what it takes to find them.
+std::uint64_t map_bytes(const PixelRect& crop) {
+  constexpr std::uint64_t held_and_more = 8, finding_them = 8;
+  return static_cast<std::uint64_t>(crop.x1 - crop.x0) * static_cast<std::uint64_t>(crop.y1 - crop.y0) *
+         (held_and_more + finding_them);
+}
+
+std::uint64_t pixels_without_samples(const Film& film) {
+  std::uint64_t none = 0;
+  for (std::uint32_t p = 0; p < film.pixels(); ++p)
+    if (film.samples(p) == 0) ++none;
+  return none;
+}
+
 double minutes(double s) { return s / 60; }
 
 // From what was done until the time limit. The first samples of a picture may be cheaper than its others.
@@ -142,12 +158,15 @@ RenderStats render(Transport& transport, const RenderOptions& options) {
                           : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   RenderStats stats;
   std::optional<Job> job;
+  Goal goal;
   MemoryPlan memory;
   agree(transport, [&] {
     job = set_up(options);
     // Refused before it takes the memory.
     const Manifest& m = job->scene->manifest;
-    stats.base_rss_bytes = resident_bytes() + film_bytes(m.film);
+    goal = goal_of(options, m.settings.samples_per_pixel);
+    stats.base_rss_bytes =
+        resident_bytes() + film_bytes(m.film) + (goal.adaptive ? map_bytes(m.film.crop) : 0);
     stats.setup_peak_rss_bytes = peak_resident_bytes();
     memory =
         plan_for(m, options, threads, stats.base_rss_bytes + job->texture_bytes, stats.setup_peak_rss_bytes);
@@ -156,13 +175,12 @@ RenderStats render(Transport& transport, const RenderOptions& options) {
     if (transport.rank() == 0) require_room(options.film, film_bytes(m.film));
   });
   const Manifest& manifest = job->scene->manifest;
-  const auto samples = static_cast<std::uint32_t>(manifest.settings.samples_per_pixel);
-  EarlierWork earlier = read_earlier_work(transport, options, job->film, samples);
-  const WorkPlan plan = make_work_plan(manifest.film.crop, samples, earlier.ends);
+  EarlierWork earlier = read_earlier_work(transport, options, job->film, goal);
   const bool from_the_start =
       std::ranges::all_of(earlier.done, [](std::uint64_t items) { return items == 0; });
 
-  RankState state(*job->scene, job->film, plan, RayQueues(manifest.domains.size(), options.shuffle_seed),
+  RankState state(*job->scene, job->film, std::move(earlier.plan),
+                  RayQueues(manifest.domains.size(), options.shuffle_seed),
                   Residency(manifest, options.bundle, memory.domains_bytes,
                             home_ranks(manifest, transport.size()), transport.rank()));
   if (transport.rank() == 0 && !options.quiet && manifest.lights.empty() && manifest.area_lights.empty())
@@ -170,11 +188,12 @@ RenderStats render(Transport& transport, const RenderOptions& options) {
   if (!options.profile.empty()) state.visits.resize(manifest.domains.size());
   stats.finished_before = earlier.finished;
   const std::uint64_t samples_before = job->film.samples();
-  Rank rank(transport, state, options, std::move(earlier), rays_allowed(memory), about(manifest, options));
+  Rank rank(transport, state, options, goal, std::move(earlier), rays_allowed(memory),
+            about(manifest, options));
   if (stats.finished_before) {
     stats.ending = Ending::finished;
   } else {
-    if (transport.rank() == 0) print_start(options, manifest, transport.size(), threads);
+    if (transport.rank() == 0) print_start(options, manifest, goal, transport.size(), threads);
     const Workers workers(state, threads);
     stats.ending = rank.run();
   }
@@ -184,6 +203,8 @@ RenderStats render(Transport& transport, const RenderOptions& options) {
   stats.spectral_bins = manifest.film.spectrum.count;
   stats.spp = static_cast<std::uint64_t>(manifest.settings.samples_per_pixel);
   stats.seed = options.seed;
+  stats.adaptive = goal.adaptive;
+  stats.rounds = stats.finished_before ? 0 : rank.rounds();
   stats.domains_total = manifest.domains.size();
   stats.memory_budget_bytes = options.memory_bytes;
   stats.peak_rss_bytes = peak_resident_bytes();
@@ -197,9 +218,19 @@ RenderStats render(Transport& transport, const RenderOptions& options) {
   stats.samples = job->film.samples();
   if (options.dry_run) {
     print_estimate(stats, memory, bytes_of_all(manifest), samples_before,
-                   std::uint64_t{samples} * job->film.pixels());
+                   std::uint64_t{goal.samples} * job->film.pixels());
     return stats;
   }
+  if (goal.target) {
+    stats.target = *goal.target;
+    stats.reached = reached_error(job->film, *goal.target);
+  }
+  if (stats.ending == Ending::finished && stats.reached.upper > stats.target.value)
+    fmt::print(stderr, "vitrail: the error is not reached with {} samples a pixel; --spp allows for more\n",
+               goal.samples);
+  if (const std::uint64_t none = pixels_without_samples(job->film); none > 0 && writes_film(stats.ending))
+    fmt::print(stderr, "vitrail: {} of {} pixels have no sample yet and are black\n", none,
+               job->film.pixels());
   stats.refused = job->film.refused();
   if (stats.refused.nonfinite > 0)
     fmt::print(stderr, "vitrail: {} samples were not finite and count as black\n", stats.refused.nonfinite);

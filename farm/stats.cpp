@@ -69,6 +69,16 @@ std::string to_json(const RenderStats& s) {
                                  {"saturated_samples", s.refused.too_large},
                                  {"clamped_share", s.clamped_share},
                                  {"film_hash", fmt::format("{:016x}", s.film_hash)}};
+  json["adaptive"] = s.adaptive;
+  json["rounds"] = s.rounds;
+  json["complete"] = s.ending == Ending::finished;
+  if (s.target.value > 0) {
+    json["target_error"] = s.target.value;
+    json["target_error_unit"] = s.target.just_noticeable ? "jnd" : "relmse";
+    json["reached_error"] = s.reached.estimate;
+    json["reached_error_upper"] = s.reached.upper;
+    json["target_reached"] = s.reached.upper <= s.target.value;
+  }
   return json.dump(1);
 }
 

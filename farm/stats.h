@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "farm/rounds.h"
 #include "farm/transport.h"
 #include "tracer/path_tracer.h"
 
@@ -20,6 +21,10 @@ struct RenderStats {
   std::uint64_t spp = 0, seed = 0, samples = 0;
   double wall_s = 0, cpu_s = 0, load_s = 0, trace_s = 0, idle_s = 0;
   TraceCounters traced;
+  bool adaptive = false;
+  int rounds = 0;            // of samples, begun by this run
+  TargetError target;        // value 0: none
+  ReachedError reached;      // where there is a target
   double clamped_share = 0;  // Film's
   Refused refused;           // deposits; those of earlier runs of the job included
   std::uint64_t forwarded_rays = 0, forwarded_bytes = 0, messages = 0;

@@ -22,6 +22,7 @@ struct RoundSums {
   std::int64_t time_is_up = 0;                   // another, by the time limit
   std::int64_t bad_input = 0, machine_failure = 0;
   std::int64_t items_done = 0;
+  std::int64_t samples = 0;
   std::int64_t rays_traced = 0;
   std::int64_t domain_loads = 0;
 };
@@ -48,6 +49,7 @@ class Transport {
   virtual void sum_to_root(std::span<WideSum> values) = 0;
   virtual void max_to_root(std::span<std::int64_t> values) = 0;
   virtual void broadcast_from_root(std::span<std::uint64_t> values) = 0;
+  virtual void broadcast_from_root(std::span<std::uint32_t> values) = 0;
 };
 
 // Speaks MPI when launched by mpirun or srun, else alone.

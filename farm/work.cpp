@@ -2,6 +2,7 @@
 #include "farm/work.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace vitrail {
 
@@ -26,6 +27,33 @@ std::uint64_t WorkPlan::items() const {
   return tiles_x() * tiles_y() * all;
 }
 
+std::uint64_t WorkPlan::all_samples() const {
+  if (more.empty())
+    return std::uint64_t{samples()} * static_cast<std::uint64_t>(crop.x1 - crop.x0) *
+           static_cast<std::uint64_t>(crop.y1 - crop.y0);
+  return std::accumulate(more.begin(), more.end(),
+                         std::accumulate(held.begin(), held.end(), std::uint64_t{0}));
+}
+
+WorkPlan::Range WorkPlan::samples(const WorkItem& item, int x, int y) const {
+  if (more.empty()) return {item.sample0, item.sample1};
+  const std::size_t pixel =
+      static_cast<std::size_t>(y - crop.y0) * static_cast<std::size_t>(crop.x1 - crop.x0) +
+      static_cast<std::size_t>(x - crop.x0);
+  return {held[pixel] + std::min(item.sample0, more[pixel]),
+          held[pixel] + std::min(item.sample1, more[pixel])};
+}
+
+std::uint64_t WorkPlan::samples(const WorkItem& item) const {
+  std::uint64_t all = 0;
+  for (int y = item.pixels.y0; y < item.pixels.y1; ++y)
+    for (int x = item.pixels.x0; x < item.pixels.x1; ++x) {
+      const Range range = samples(item, x, y);
+      all += range.end - range.first;
+    }
+  return all;
+}
+
 WorkItem WorkPlan::item(std::uint64_t index) const {
   const std::uint64_t a_pass = tiles_x() * tiles_y(), in_pass = index % a_pass;
   const int x = crop.x0 + static_cast<int>(in_pass % tiles_x()) * tile;
@@ -41,7 +69,7 @@ WorkItem WorkPlan::item(std::uint64_t index) const {
 
 WorkPlan make_work_plan(const PixelRect& crop, std::uint32_t samples,
                         std::span<const std::uint32_t> earlier_ends) {
-  WorkPlan plan{crop, {}};
+  WorkPlan plan{crop, {}, {}, {}};
   std::uint32_t first = 0;
   const auto add = [&](std::uint32_t end) {
     // Few enough items that their list stays small, many enough to share and to stop between.
@@ -51,6 +79,19 @@ WorkPlan make_work_plan(const PixelRect& crop, std::uint32_t samples,
   for (const std::uint32_t end : earlier_ends) add(end);
   add(samples);
   return plan;
+}
+
+WorkPlan make_adaptive_round(const PixelRect& crop, std::vector<std::uint32_t> held,
+                             std::vector<std::uint32_t> more) {
+  constexpr std::uint32_t samples_per_item = 16;
+  const std::uint32_t most = more.empty() ? 0 : std::ranges::max(more);
+  return {crop, {{0, most, samples_per_item}}, std::move(held), std::move(more)};
+}
+
+std::vector<std::uint64_t> all_done(std::uint64_t items) {
+  std::vector<std::uint64_t> done((items + 63) / 64, ~std::uint64_t{0});
+  if (items % 64 != 0) done.back() = (std::uint64_t{1} << items % 64) - 1;
+  return done;
 }
 
 std::vector<std::uint64_t> share_of(const WorkPlan& plan, const std::vector<std::uint64_t>& done, int rank,

@@ -18,6 +18,9 @@ struct WorkItem {
 
 // Sample ranges one after the other, each over all tiles, row by row. A render that goes on from one of fewer
 // samples keeps that one's items and puts its own behind them: a part for each.
+//
+// In an adaptive round each pixel has samples of its own number: `held` by the film before the round, `more`
+// in it. A part then counts from the first of these, and its items end where a pixel's end.
 struct WorkPlan {
   struct Part {
     std::uint32_t first = 0, end = 0;  // samples of a pixel: [first, end)
@@ -25,18 +28,35 @@ struct WorkPlan {
   };
   PixelRect crop;
   std::vector<Part> parts;
-  static constexpr int tile = 16;  // pixels a side
+  std::vector<std::uint32_t> held, more;  // a pixel of the crop, row by row; empty: all pixels alike
+  static constexpr int tile = 16;         // pixels a side
 
-  std::uint32_t samples() const { return parts.back().end; }  // a pixel
+  std::uint32_t samples() const { return parts.back().end; }  // a pixel, at most
+  std::uint64_t all_samples() const;                          // of all pixels together, those held included
+  bool adaptive() const { return !more.empty(); }
   std::uint64_t tiles_x() const;
   std::uint64_t tiles_y() const;
   std::uint64_t items() const;
   WorkItem item(std::uint64_t index) const;
+
+  struct Range {
+    std::uint32_t first = 0, end = 0;
+  };
+  // The samples of a pixel in an item, by number.
+  Range samples(const WorkItem& item, int x, int y) const;
+  std::uint64_t samples(const WorkItem& item) const;  // of all its pixels
 };
 
 // `earlier_ends`: the samples a pixel of the renders that it goes on from, ascending, below `samples`.
 WorkPlan make_work_plan(const PixelRect& crop, std::uint32_t samples,
                         std::span<const std::uint32_t> earlier_ends = {});
+
+// An adaptive round: `held` and `more` as in WorkPlan.
+WorkPlan make_adaptive_round(const PixelRect& crop, std::vector<std::uint32_t> held,
+                             std::vector<std::uint32_t> more);
+
+// Every item done, a bit each, in words of 64.
+std::vector<std::uint64_t> all_done(std::uint64_t items);
 
 // The items of `rank` of `ranks` among those not yet done, dealt out in turn, in ascending order.
 // `done` holds a bit an item, or is empty: none is.

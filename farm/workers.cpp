@@ -48,20 +48,20 @@ Task take_task(RankState& s) {
   } else if (may_generate) {
     task.item = s.plan.item(s.share[s.next_item++]);
     ++s.items_in_hand;
-    const PixelRect& p = task.item->pixels;
-    s.allowance -=
-        static_cast<std::int64_t>(p.x1 - p.x0) * (p.y1 - p.y0) * (task.item->sample1 - task.item->sample0);
+    s.allowance -= static_cast<std::int64_t>(s.plan.samples(*task.item));
   }
   return task;
 }
 
-void perform(const Task& task, PathTracer& tracer) {
+void perform(const Task& task, const WorkPlan& plan, PathTracer& tracer) {
   if (task.item) {
     const WorkItem& item = *task.item;
     for (int y = item.pixels.y0; y < item.pixels.y1; ++y)
-      for (int x = item.pixels.x0; x < item.pixels.x1; ++x)
-        for (std::uint32_t sample = item.sample0; sample < item.sample1; ++sample)
+      for (int x = item.pixels.x0; x < item.pixels.x1; ++x) {
+        const WorkPlan::Range samples = plan.samples(item, x, y);
+        for (std::uint32_t sample = samples.first; sample < samples.end; ++sample)
           tracer.trace_camera(x, y, sample);
+      }
     return;
   }
   RayBatch batch = *task.batch;
@@ -117,7 +117,7 @@ void work(RankState& s) {
     lock.unlock();
     const auto start = Clock::now();
     PathTracer tracer(s.scene, task.table->views, s.film, outbox, counters, visits);
-    perform(task, tracer);
+    perform(task, s.plan, tracer);
     task.table.reset();
     const double busy = seconds_since(start);
     lock.lock();
@@ -165,11 +165,11 @@ void guarded(RankState& s, void (*body)(RankState&)) {
 
 }  // namespace
 
-RankState::RankState(const RenderScene& the_scene, Film& the_film, const WorkPlan& the_plan,
-                     RayQueues the_queues, Residency the_residency)
+RankState::RankState(const RenderScene& the_scene, Film& the_film, WorkPlan the_plan, RayQueues the_queues,
+                     Residency the_residency)
     : scene(the_scene),
       film(the_film),
-      plan(the_plan),
+      plan(std::move(the_plan)),
       queues(std::move(the_queues)),
       residency(std::move(the_residency)),
       outgoing(scene.manifest.domains.size(), std::nullopt) {}

@@ -17,12 +17,11 @@ namespace vitrail {
 
 // Everything the threads of a rank share. `mutex` guards all of it but the film and the scene.
 struct RankState {
-  RankState(const RenderScene& scene, Film& film, const WorkPlan& plan, RayQueues queues,
-            Residency residency);
+  RankState(const RenderScene& scene, Film& film, WorkPlan plan, RayQueues queues, Residency residency);
 
   const RenderScene& scene;
   Film& film;
-  const WorkPlan& plan;
+  WorkPlan plan;  // of this round; changes while no item is in hand
 
   std::mutex mutex;
   std::condition_variable work_available, load_wanted;

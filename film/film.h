@@ -163,6 +163,11 @@ struct FilmProgress {
   // farm/work.h). Ascending, below samples_per_pixel; empty once all items are done.
   std::vector<std::uint32_t> earlier_ends;
   std::string about;  // the scene and how it is seen, as JSON, for those who read pictures; "" where unknown
+  // Pixels have samples of their own numbers. `items` are then those of the round that is open alone, in
+  // which each pixel is to have `more`; between rounds there are none. samples_per_pixel is the mean, rounded
+  // up.
+  bool adaptive = false;
+  std::vector<std::uint32_t> more;
   bool complete() const;
 };
 

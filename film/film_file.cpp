@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The film file, little-endian: a header with the checksum of what comes before it, then six arrays, each
-// followed by its xxh3: FilmProgress's earlier_ends, about and done, the sums, the counts, the ids.
-// docs/color-and-film.md has the header byte by byte.
+// followed by its xxh3: FilmProgress's earlier_ends, about and done, the sums, the counts, the ids; and of a
+// film within an adaptive round a seventh, `more`. docs/color-and-film.md has the header byte by byte.
 #include <fmt/format.h>
 
 #define XXH_INLINE_ALL
@@ -25,12 +25,13 @@ static_assert(std::endian::native == std::endian::little, "files are written as 
 namespace {
 
 constexpr char film_magic[8] = {'v', 'i', 't', 'f', 'i', 'l', 'm', '\n'};
-constexpr std::uint32_t film_version = 4;
+constexpr std::uint32_t film_version = 4, adaptive_version = 5;
 constexpr std::int32_t max_extent = 1 << 20;  // pixels a side
 
 // What a film was rendered with, in Header::options.
 constexpr std::uint32_t option_direct_only = 1, option_straight_counts = 2, option_camera_space = 4,
-                        all_options = 7;
+                        option_adaptive = 8, option_open_round = 16;
+constexpr std::uint32_t options_of(std::uint32_t version) { return version == adaptive_version ? 31 : 7; }
 
 struct Header {
   char magic[8];
@@ -109,7 +110,7 @@ Header read_header(Reader& in) {
   if (in.size() < sizeof h) in.fail("this is not a film file: it is too short");
   in.read(&h, sizeof h);
   if (std::memcmp(h.magic, film_magic, sizeof film_magic) != 0) in.fail("this is not a film file");
-  if (h.version != film_version)
+  if (h.version != film_version && h.version != adaptive_version)
     in.fail(
         fmt::format("film file of version {}, but this program ({}) reads version {}: it was made by "
                     "another one, and can be developed by that alone",
@@ -121,7 +122,7 @@ Header read_header(Reader& in) {
   const bool bins_in_order = 0 <= h.bins && h.bins <= max_spectral_bins && h.bins_min_nm < h.bins_max_nm &&
                              std::isfinite(h.bins_max_nm - h.bins_min_nm);
   const bool key_in_order = std::memchr(h.renderer, 0, sizeof h.renderer) != nullptr && h.max_depth >= 0 &&
-                            (h.options & ~all_options) == 0 && (h.layers & ~all_layers) == 0 &&
+                            (h.options & ~options_of(h.version)) == 0 && (h.layers & ~all_layers) == 0 &&
                             in_range(h.exponent) && in_range(h.length_exponent);
   if (!sizes_in_order || !bins_in_order || !key_in_order || !std::isfinite(h.imaging_ratio) ||
       !(h.render_time_s >= 0) || !(h.clamp >= 0))
@@ -140,7 +141,7 @@ bool FilmProgress::complete() const {
 void write_film(const std::filesystem::path& file, const Film& film, const FilmProgress& progress) {
   Header h{};
   std::memcpy(h.magic, film_magic, sizeof film_magic);
-  h.version = film_version;
+  h.version = progress.adaptive ? adaptive_version : film_version;
   h.full_width = film.full_width_, h.full_height = film.full_height_;
   h.x0 = film.crop_.x0, h.x1 = film.crop_.x1, h.y0 = film.crop_.y0, h.y1 = film.crop_.y1;
   h.imaging_ratio = film.imaging_ratio_;
@@ -152,7 +153,8 @@ void write_film(const std::filesystem::path& file, const Film& film, const FilmP
   h.max_depth = key.max_depth;
   h.options = (key.direct_only ? option_direct_only : 0) |
               (key.straight_counts ? option_straight_counts : 0) |
-              (film.layers_.in_camera_space ? option_camera_space : 0);
+              (film.layers_.in_camera_space ? option_camera_space : 0) |
+              (progress.adaptive ? option_adaptive : 0) | (progress.more.empty() ? 0 : option_open_round);
   h.exponent = film.exponent_, h.length_exponent = film.length_exponent_;
   h.clamp = key.clamp;
   h.layers = film.layers_.bits;
@@ -170,6 +172,7 @@ void write_film(const std::filesystem::path& file, const Film& film, const FilmP
   write_array(out, film.sums_);
   write_array(out, film.counts_);
   write_array(out, film.ids_);
+  if (!progress.more.empty()) write_array(out, progress.more);
   out.commit();
 }
 
@@ -178,15 +181,18 @@ Film read_film(const std::filesystem::path& file, FilmProgress* progress) {
   const Header h = read_header(in);
   const auto pixels = static_cast<std::uint64_t>(h.x1 - h.x0) * static_cast<std::uint64_t>(h.y1 - h.y0);
   const FilmLayers layers{h.layers, (h.options & option_camera_space) != 0};
+  const bool open_round = (h.options & option_open_round) != 0;
   const std::uint64_t planes = 2 + sample_groups + static_cast<std::uint64_t>(h.bins) + sum_planes(layers);
   const std::uint64_t arrays = pixels * (planes * sizeof(WideSum) + sample_groups * sizeof(std::uint32_t) +
                                          id_planes(layers) * sizeof(std::int64_t)) +
                                h.earlier_ends * std::uint64_t{sizeof(std::uint32_t)} + h.about_bytes + 6 * 8 +
-                               (h.clamp > 0 ? sizeof(WideSum) : 0);
+                               (h.clamp > 0 ? sizeof(WideSum) : 0) +
+                               (open_round ? pixels * sizeof(std::uint32_t) + 8 : 0);
   if (in.size() - sizeof h < arrays || (in.size() - sizeof h - arrays) % 8 != 0 ||
       (in.size() - sizeof h - arrays) / 8 != words_of(h.items))
     in.fail(fmt::format("the film file is truncated or has bytes too many: {} bytes", in.size()));
-  FilmProgress read{h.items, h.samples_per_pixel, {}, h.render_time_s, {}, {}};
+  FilmProgress read{
+      h.items, h.samples_per_pixel, {}, h.render_time_s, {}, {}, (h.options & option_adaptive) != 0, {}};
   in.read_array(read.earlier_ends, h.earlier_ends, "earlier ends");
   const auto not_ascending = [](std::uint32_t a, std::uint32_t b) { return a >= b; };
   if (std::ranges::adjacent_find(read.earlier_ends, not_ascending) != read.earlier_ends.end() ||
@@ -214,6 +220,7 @@ Film read_film(const std::filesystem::path& file, FilmProgress* progress) {
   in.read_array(film.sums_, planes * pixels + (h.clamp > 0 ? 1 : 0), "sums");
   in.read_array(film.counts_, sample_groups * pixels, "counts");
   in.read_array(film.ids_, id_planes(layers) * pixels, "ids");
+  if (open_round) in.read_array(read.more, pixels, "open round");
   if (progress) *progress = std::move(read);
   return film;
 }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <numeric>
 #include <set>
 
 #include "farm/memory.h"
@@ -44,6 +45,33 @@ TEST(Work, MoreSamplesComeBehindThoseOfEarlierRenders) {
   }
   EXPECT_EQ(times, std::vector<int>(700, 47 * 34));
   EXPECT_EQ(plan.samples(), 700u);
+}
+
+TEST(Work, AnAdaptiveRoundGivesEachPixelWhatItIsToHave) {
+  const PixelRect crop{3, 50, 7, 41};
+  std::vector<std::uint32_t> held(47 * 34), more(47 * 34);
+  for (std::uint32_t p = 0; p < more.size(); ++p) held[p] = p % 7, more[p] = p * p % 53;
+  const WorkPlan plan = make_adaptive_round(crop, held, more);
+  std::set<std::pair<std::size_t, std::uint32_t>> seen;
+  std::uint64_t all = 0;
+  for (std::uint64_t i = 0; i < plan.items(); ++i) {
+    const WorkItem item = plan.item(i);
+    all += plan.samples(item);
+    for (int y = item.pixels.y0; y < item.pixels.y1; ++y)
+      for (int x = item.pixels.x0; x < item.pixels.x1; ++x) {
+        const auto pixel = static_cast<std::size_t>((y - 7) * 47 + x - 3);
+        const WorkPlan::Range range = plan.samples(item, x, y);
+        for (std::uint32_t s = range.first; s < range.end; ++s) {
+          EXPECT_TRUE(seen.emplace(pixel, s).second);
+          EXPECT_GE(s, held[pixel]);
+          EXPECT_LT(s, held[pixel] + more[pixel]);
+        }
+      }
+  }
+  EXPECT_EQ(all, seen.size());
+  EXPECT_EQ(all, std::accumulate(more.begin(), more.end(), std::uint64_t{0}));
+  EXPECT_EQ(plan.all_samples(), all + std::accumulate(held.begin(), held.end(), std::uint64_t{0}));
+  EXPECT_EQ(make_adaptive_round(crop, held, std::vector<std::uint32_t>(47 * 34)).items(), 0u);
 }
 
 TEST(Work, SharesAreDisjointCompleteAndEven) {

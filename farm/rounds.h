@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a render is to reach, and the rounds of samples in which it gets there. After a round no ray is alive
+// and the film is whole on rank 0: what comes next follows from it alone, so it is the same on any number of
+// ranks, and after any number of kills.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "farm/options.h"
+#include "farm/transport.h"
+#include "farm/work.h"
+#include "film/noise.h"
+
+namespace vitrail {
+
+struct Goal {
+  std::uint32_t samples = 0;  // a pixel at most, on the average
+  bool in_rounds = false;     // else all samples are one
+  bool adaptive = false;
+  bool open_ended = false;  // `samples` is only what nobody wants more than
+  std::optional<TargetError> target;
+  std::uint32_t first_samples() const;  // a pixel, of the first round
+};
+
+// Where neither the number of samples nor the scene's counts: with --target-error and --time.
+inline constexpr int most_samples_unasked = 65536;
+
+Goal goal_of(const RenderOptions& options, int samples_of_scene);
+
+// What the film's error is in the unit of the target: relMSE, or just noticeable differences.
+struct ReachedError {
+  double estimate = 0;
+  double upper = 0;  // the true error is below with a probability of 95 %
+};
+ReachedError reached_error(const Film& film, const TargetError& target);
+
+// Uniform, until every pixel has `samples`; or `more` of each pixel.
+struct NextRound {
+  std::uint32_t samples = 0;
+  std::vector<std::uint32_t> more;  // empty: uniform
+};
+
+// Of a film between two rounds. Empty: the goal is reached, or has no rounds.
+std::optional<NextRound> next_round(const Film& film, const Goal& goal);
+
+// How many samples a pixel the goal will take, by what is known so far.
+double expected_samples(const Film& film, const Goal& goal);
+
+// The work of a round that follows `plan`. To be called by all ranks together; `next` and `film` are rank
+// 0's. Empty: there is none.
+std::optional<WorkPlan> agree_on_round(Transport& transport, const std::optional<NextRound>& next,
+                                       const Film& film, const WorkPlan& plan);
+
+}  // namespace vitrail

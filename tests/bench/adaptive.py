@@ -1,0 +1,138 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""What samples where they are needed gain, and whether --target-error keeps what it says.
+
+  adaptive.py gain   [--seeds 30] [--spp 64]     --adaptive against uniform: errors, cost, means
+  adaptive.py target [--seeds 50]                the true error against the one asked for
+  adaptive.py target --short                     of two scenes and 12 seeds: what ctest runs
+
+Errors are of luminance, (Y - Y')²/(Y'² + 0.01), against the mean of the other seeds' films.
+"""
+import argparse
+import json
+import math
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+import numpy as np
+
+from noise_scenes import SCENES
+
+
+def luminance(film, imaging_ratio_at=40):
+    """Y of each pixel and its samples, of a film without layers, bins or clamp."""
+    data = film.read_bytes()
+    header = np.frombuffer(data[:184], dtype="<i4")
+    width, height = header[6] - header[5], header[8] - header[7]
+    ratio = np.frombuffer(data[imaging_ratio_at:imaging_ratio_at + 8], dtype="<f8")[0]
+    items, exponent = np.frombuffer(data[80:88], dtype="<u8")[0], header[33]
+    ends, about = header[40], header[41]
+    at = 184 + 4 * ends + 8 + about + 8 + 8 * ((int(items) + 63) // 64) + 8
+    pixels = width * height
+    halves = np.frombuffer(data[at:at + 4 * pixels * 16], dtype="<u8").reshape(4, pixels, 2).astype(np.float64)
+    signed = np.where(halves[..., 1] >= 2.0**63, halves[..., 1] - 2.0**64, halves[..., 1])
+    sums = (halves[..., 0] + signed * 2.0**64) * 2.0**float(exponent)
+    at += 4 * pixels * 16 + 8
+    counts = np.frombuffer(data[at:at + 2 * pixels * 4], dtype="<u4").reshape(2, pixels).sum(axis=0)
+    return ratio * (sums[2] + sums[3]) / counts, counts
+
+
+class Bench:
+    def __init__(self, program, folder):
+        self.vitrail, self.folder = program, pathlib.Path(folder)
+
+    def bundle(self, name):
+        scene, bundle = self.folder / f"{name}.pbrt", self.folder / f"{name}.vit"
+        scene.write_text(SCENES[name]())
+        subprocess.run([self.vitrail, "partition", scene, "-o", bundle, "--quiet", "--domains", "1"], check=True)
+        return bundle
+
+    def render(self, bundle, seed, *options):
+        film, stats = self.folder / "a.film", self.folder / "a.json"
+        subprocess.run([self.vitrail, "render", bundle, "-o", film, "--force", "--quiet", "--threads", "1", "--seed",
+                        str(seed), "--stats", stats, *options], check=True)
+        y, counts = luminance(film)
+        return y, counts, json.loads(stats.read_text())
+
+
+def errors_of(films):
+    """Of each film against the mean of the others."""
+    films = np.array(films)
+    total, n = films.sum(axis=0), len(films)
+    return np.array([np.mean((f - r) ** 2 / (r * r + 0.01)) for f in films for r in [(total - f) / (n - 1)]])
+
+
+def gain(bench, names, seeds, spp):
+    print("| scene | relMSE uniform | adaptive | error ratio | rays, adaptive/uniform | efficiency by rays | by seconds "
+          "of tracing | means: adaptive/uniform | z | worst block's z |")
+    print("|---|---|---|---|---|---|---|---|---|---|")
+    for name in names:
+        bundle = bench.bundle(name)
+        films, rays, seconds = {False: [], True: []}, {False: 0, True: 0}, {False: 0.0, True: 0.0}
+        for seed in range(seeds):
+            for adaptive in (False, True):
+                y, _, s = bench.render(bundle, seed + (1000 if adaptive else 0), "--spp", str(spp),
+                                       *(["--adaptive"] if adaptive else []))
+                films[adaptive].append(y)
+                rays[adaptive] += s["rays_camera"] + s["rays_indirect"] + s["rays_shadow"]
+                seconds[adaptive] += s["trace_s"]
+        error = {a: errors_of(films[a]).mean() for a in films}
+        means = {a: np.array(films[a]).mean(axis=1) for a in films}
+        difference = means[True].mean() - means[False].mean()
+        z = difference / math.sqrt(sum(m.var(ddof=1) / seeds for m in means.values()))
+        blocks = [np.array(films[a]).reshape(seeds, 6, 8, 8, 8).mean(axis=(2, 4)).reshape(seeds, 48) for a in (True, False)]
+        scatter = np.sqrt(sum(b.var(axis=0, ddof=1) for b in blocks) / seeds)
+        known = scatter > 0
+        block_z = np.abs((blocks[0].mean(axis=0) - blocks[1].mean(axis=0))[known] / scatter[known]).max()
+        ratio, cost, time = error[False] / error[True], rays[True] / rays[False], seconds[True] / seconds[False]
+        print(f"| {name} | {error[False]:.3g} | {error[True]:.3g} | {ratio:.2f} | {cost:.2f} | **{ratio / cost:.2f}** | "
+              f"{ratio / time:.2f} | {means[True].mean() / means[False].mean():.4f} | {z:+.1f} | {block_z:.1f} |", flush=True)
+
+
+# Targets that take some tens of samples a pixel.
+TARGETS = {"lamp": 3e-4, "toy": 6e-5, "sky": 2e-4, "glossy": 2e-5, "room": 1.5e-2, "hall": 6e-2}
+
+
+def target(bench, names, seeds, options):
+    print("| scene | E | samples a pixel | true error/E: median | least | greatest | below E | above E/3 |")
+    print("|---|---|---|---|---|---|---|---|")
+    within = True
+    for name in names:
+        bundle, asked = bench.bundle(name), TARGETS[name]
+        films, samples = [], []
+        for seed in range(seeds):
+            y, counts, s = bench.render(bundle, seed, "--target-error", str(asked), *options)
+            films.append(y), samples.append(counts.mean())
+        # The reference has a variance of its own, 1/(n - 1) of a film's.
+        ratio = errors_of(films) / asked * (1 - 1 / seeds)
+        below, above = np.mean(ratio < 1), np.mean(ratio > 1 / 3)
+        within &= below >= 0.9 and above >= 0.9
+        print(f"| {name} | {asked:g} | {np.mean(samples):.0f} | {np.median(ratio):.2f} | {ratio.min():.2f} | "
+              f"{ratio.max():.2f} | {100 * below:.0f} % | {100 * above:.0f} % |", flush=True)
+    return within
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("what", choices=("gain", "target"))
+    parser.add_argument("--vitrail", default=str(pathlib.Path(__file__).parents[2] / "build/release/bin/vitrail"))
+    parser.add_argument("--scenes", help="names, separated by commas")
+    parser.add_argument("--seeds", type=int)
+    parser.add_argument("--spp", type=int, default=64)
+    parser.add_argument("--adaptive", action="store_true", help="target: with adaptive rounds")
+    parser.add_argument("--short", action="store_true")
+    a = parser.parse_args()
+    with tempfile.TemporaryDirectory() as folder:
+        bench = Bench(a.vitrail, folder)
+        if a.what == "gain":
+            gain(bench, a.scenes.split(",") if a.scenes else SCENES, a.seeds or 30, a.spp)
+            return 0
+        names = a.scenes.split(",") if a.scenes else ("toy", "sky") if a.short else TARGETS
+        within = target(bench, names, a.seeds or (12 if a.short else 50), ["--adaptive"] if a.adaptive else [])
+        return 0 if within else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Apache-2.0
+// Adaptive samples are unbiased, and a picture that was to have an error has it. tests/bench/adaptive.py
+// measures the same on more scenes and seeds.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+
+#include "partitioner/partition.h"
+#include "tests/support/render.h"
+#include "tests/support/temporary_directory.h"
+
+namespace vitrail::test {
+namespace {
+
+class Films {
+ public:
+  explicit Films(const Scene& scene) : transport_(make_transport(&argc_, nullptr)) {
+    partition(scene, directory_ / "scene.vit", {});
+  }
+  Film render(RenderOptions options, std::uint64_t seed) const {
+    options.bundle = directory_ / "scene.vit";
+    options.film = directory_ / "scene.film";
+    options.seed = seed;
+    options.force = options.quiet = true;
+    vitrail::render(*transport_, options);
+    return read_film(options.film, nullptr);
+  }
+
+ private:
+  TemporaryDirectory directory_;
+  int argc_ = 0;
+  std::unique_ptr<Transport> transport_;
+};
+
+constexpr int side = 48;
+
+// Squares that shine, each of 0.09 of a pixel, in the dark. A pixel that went by its own samples would take
+// more where it has hit one, and be too dark on the average.
+Scene stars() {
+  Scene scene;
+  std::vector<std::array<Point3f, 4>> quads;
+  std::mt19937 random(7);
+  std::uniform_real_distribution<float> at(2, side - 2);
+  for (int i = 0; i < 220; ++i) {
+    // The picture is ±1 at the distance 1.
+    const float size = 0.3f * 2 / side, x = at(random) * 2 / side - 1, y = at(random) * 2 / side - 1;
+    const float z = 1 + 1e-4f * static_cast<float>(i);
+    quads.push_back({{{x, y, z}, {x, y + size, z}, {x + size, y + size, z}, {x + size, y, z}}});
+  }
+  add_shape(scene, add_quads(scene, quads), Material{DiffuseMaterial{ConstantSpectrum{0}}},
+            AreaLight{ConstantSpectrum{1}, true});
+  set_camera(scene, {0, 0, 0}, {0, 0, 1}, {0, 1, 0}, 2 * std::atan(1.0), side, side);
+  scene.settings.max_depth = 1;
+  return scene;
+}
+
+struct Mean {
+  double value = 0, standard_error = 0, most_of_a_pixel = 0;
+};
+
+Mean mean_of(const Films& films, const RenderOptions& options, int seeds) {
+  double sum = 0, squares = 0, most = 0;
+  for (int seed = 0; seed < seeds; ++seed) {
+    const Film film = films.render(options, static_cast<std::uint64_t>(seed));
+    const double y = brightness(film).mean;
+    sum += y, squares += y * y;
+    for (std::uint32_t p = 0; p < film.pixels(); ++p)
+      most = std::max(most, static_cast<double>(film.samples(p)));
+  }
+  const double mean = sum / seeds;
+  return {mean, std::sqrt((squares / seeds - mean * mean) / (seeds - 1)), most};
+}
+
+TEST(Adaptive, MeansAreThoseOfUniformSamples) {
+  const Films films(stars());
+  RenderOptions uniform;
+  uniform.samples_per_pixel = 512;
+  const Mean truth = mean_of(films, uniform, 8);
+  RenderOptions adaptive;
+  adaptive.samples_per_pixel = 32;
+  adaptive.adaptive = true;
+  const Mean found = mean_of(films, adaptive, 100);
+  const double error = std::hypot(truth.standard_error, found.standard_error);
+  fmt::print("adaptive over truth: {:.4f} ± {:.4f}\n", found.value / truth.value, error / truth.value);
+  EXPECT_GT(found.most_of_a_pixel, 64) << "the samples are uniform";
+  EXPECT_LT(error, 0.01 * truth.value);
+  EXPECT_NEAR(found.value, truth.value, 3.5 * error);
+}
+
+// A square that shines and covers a known part of the picture: its edges alone are noisy.
+TEST(Adaptive, CoverageIsExact) {
+  Scene scene;
+  const float a = 0.62f;
+  add_shape(scene, add_quads(scene, {{{{-a, 0.1f, 1}, {0.05f, a, 1}, {a, -0.1f, 1}, {-0.05f, -a, 1}}}}),
+            Material{DiffuseMaterial{ConstantSpectrum{0}}}, AreaLight{ConstantSpectrum{1}, true});
+  set_camera(scene, {0, 0, 0}, {0, 0, 1}, {0, 1, 0}, 2 * std::atan(1.0), side, side);
+  scene.settings.max_depth = 1;
+  // Half the cross product of the diagonals, of the picture's 4.
+  const double covered = std::abs(2 * a * (-2 * a) - (-0.2) * (-0.1)) / 2 / 4;
+  RenderOptions options;
+  options.samples_per_pixel = 32;
+  options.adaptive = true;
+  const Mean found = mean_of(Films(scene), options, 32);
+  EXPECT_NEAR(found.value, covered, 4 * found.standard_error);
+  EXPECT_LT(found.standard_error, 1e-4);
+}
+
+// The inside of a box: noisy everywhere.
+Scene box() {
+  Scene scene;
+  auto faces = box_faces({-1, -1, -1}, {1, 1, 1});
+  for (auto& face : faces) std::swap(face[1], face[3]);  // fronts inwards
+  const Material grey{DiffuseMaterial{ConstantSpectrum{0.6f}}};
+  add_shape(scene, add_quads(scene, faces), grey);
+  add_shape(
+      scene,
+      add_quads(scene, {{{{-.3f, .99f, -.3f}, {.3f, .99f, -.3f}, {.3f, .99f, .3f}, {-.3f, .99f, .3f}}}}),
+      grey, AreaLight{ConstantSpectrum{10}, true});
+  set_camera(scene, {0, 0, -0.95}, {0, 0, 1}, {0, 1, 0}, 1.6, 32, 32);
+  scene.settings.max_depth = 4;
+  return scene;
+}
+
+double relative_error(const Film& film, const std::vector<double>& truth) {
+  double sum = 0;
+  for (std::uint32_t p = 0; p < film.pixels(); ++p) {
+    const double d = film.mean(p).y - truth[p];
+    sum += d * d / (truth[p] * truth[p] + 0.01);
+  }
+  return sum / film.pixels();
+}
+
+// Of 20 seeds 18 at least: it is 19 that the bound lets expect.
+void expect_target_kept(const Scene& scene, double target) {
+  const Films films(scene);
+  constexpr int seeds = 20;
+  std::vector<Film> all;
+  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+    RenderOptions options;
+    options.target_error = TargetError{target};
+    all.push_back(films.render(options, seed));
+  }
+  int below = 0, above = 0;
+  std::vector<double> sum(all[0].pixels());
+  for (const Film& film : all)
+    for (std::uint32_t p = 0; p < film.pixels(); ++p) sum[p] += film.mean(p).y;
+  double ratios = 0;
+  for (const Film& film : all) {
+    std::vector<double> others = sum;
+    for (std::uint32_t p = 0; p < film.pixels(); ++p) others[p] = (sum[p] - film.mean(p).y) / (seeds - 1);
+    // The others' mean has a variance of its own, of 1/(n − 1) of a film's.
+    const double error = relative_error(film, others) * (1 - 1.0 / seeds);
+    ratios += error / target / seeds;
+    below += error < target;
+    above += error > target / 3;
+  }
+  fmt::print("true error: {:.2f} of the target, {} of {} below it, {} above a third\n", ratios, below, seeds,
+             above);
+  EXPECT_GE(below, 18);
+  EXPECT_GE(above, 18);
+}
+
+TEST(TargetError, IsKeptInABox) { expect_target_kept(box(), 4e-4); }
+TEST(TargetError, IsKeptAmongStars) { expect_target_kept(stars(), 0.01); }
+
+}  // namespace
+}  // namespace vitrail::test
