@@ -5,14 +5,12 @@
 
 namespace vitrail {
 
-RayQueues::RayQueues(std::size_t domains, std::optional<std::uint64_t> shuffle_seed)
-    : queues_(domains), waiting_(domains) {
+RayQueues::RayQueues(std::size_t domains, std::optional<std::uint64_t> shuffle_seed) : queues_(domains) {
   if (shuffle_seed) shuffle_.emplace(*shuffle_seed);
 }
 
 void RayQueues::push(RayBatch batch) {
   const std::uint32_t domain = batch.domain();
-  waiting_[domain] += batch.count();
   queues_[domain].push_back(std::move(batch));
 }
 
@@ -21,7 +19,6 @@ RayBatch RayQueues::pop(std::uint32_t domain) {
   if (shuffle_) std::swap(queue[(*shuffle_)() % queue.size()], queue.back());
   RayBatch batch = std::move(queue.back());
   queue.pop_back();
-  waiting_[domain] -= batch.count();
   if (shuffle_) {
     if (batch.kind() == RayKind::path)
       std::ranges::shuffle(batch.records<PathRecord>(), *shuffle_);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The rays that wait on this rank, a queue a domain. Not synchronised: the rank's mutex guards it.
+// The rays that wait on this rank, a queue a domain; the scheduler counts them. Not synchronised: the rank's
+// mutex guards it.
 #pragma once
 
 #include <optional>
@@ -24,21 +25,18 @@ class RayQueues {
       if (batch.kind() != kind_of<Record>()) continue;
       if (batch.full()) break;
       batch.append(record);
-      ++waiting_[domain];
       return;
     }
     queue.emplace_back(domain, kind_of<Record>()).append(record);
-    ++waiting_[domain];
   }
   void push(RayBatch batch);
   // The newest batch of a domain; there is one.
   RayBatch pop(std::uint32_t domain);
 
-  std::size_t waiting(std::uint32_t domain) const { return waiting_[domain]; }
+  bool empty(std::uint32_t domain) const { return queues_[domain].empty(); }
 
  private:
   std::vector<std::vector<RayBatch>> queues_;
-  std::vector<std::size_t> waiting_;  // rays
   std::optional<std::mt19937_64> shuffle_;
 };
 

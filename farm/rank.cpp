@@ -16,9 +16,6 @@ using Clock = std::chrono::steady_clock;
 using namespace std::chrono_literals;
 
 constexpr auto round_interval = 1ms;
-// Rays for other ranks leave when this many wait, when a worker here has nothing to do, or after this time.
-constexpr std::size_t rays_worth_sending = 4096;
-constexpr auto longest_wait = 2ms;
 // The loop naps while nothing moves, longer and longer: a rank that spins takes the core from one that works.
 constexpr auto shortest_nap = 20us, longest_nap = 1000us;
 
@@ -31,7 +28,7 @@ std::uint64_t bits_set(const std::vector<std::uint64_t>& words) {
 }  // namespace
 
 Rank::Rank(Transport& transport, RankState& state, const RenderOptions& options, const Goal& goal,
-           EarlierWork earlier, std::int64_t rays_allowed, std::string about)
+           EarlierWork earlier, std::string about)
     : transport_(transport),
       state_(state),
       options_(options),
@@ -39,10 +36,8 @@ Rank::Rank(Transport& transport, RankState& state, const RenderOptions& options,
       progress_(options, transport.rank(), state.film, expected_samples(state.film, goal)),
       time_before_s_(earlier.render_time_s),
       about_(std::move(about)),
-      rays_allowed_(rays_allowed),
       start_(Clock::now()),
-      last_checkpoint_(start_),
-      last_sent_(start_) {
+      last_checkpoint_(start_) {
   start_items(std::move(earlier.done));
 }
 
@@ -51,7 +46,8 @@ double Rank::elapsed_s() const { return std::chrono::duration<double>(Clock::now
 // Deals out those items of the state's plan that are not done; no worker has begun, or the mutex is held.
 void Rank::start_items(std::vector<std::uint64_t> done) {
   state_.share = share_of(state_.plan, done, transport_.rank(), transport_.size());
-  state_.next_item = reported_ = 0;
+  state_.scheduler.begin_items(state_.share.size());
+  reported_ = 0;
   done_.assign((state_.plan.items() + 63) / 64, 0);
   if (transport_.rank() != 0) return;
   items_before_ = bits_set(done);
@@ -104,6 +100,7 @@ bool Rank::move_rays() {
     ++received_;
     moved = true;
     const std::lock_guard lock(state_.mutex);
+    state_.scheduler.arrived(batch->domain(), batch->count());
     state_.queues.push(std::move(*batch));
     state_.work_available.notify_one();
     state_.load_wanted.notify_one();
@@ -111,18 +108,15 @@ bool Rank::move_rays() {
   std::vector<RayBatch> batches;
   {
     const std::lock_guard lock(state_.mutex);
-    const bool due = state_.outgoing_rays >= rays_worth_sending || state_.workers_waiting > 0 ||
-                     Clock::now() - last_sent_ > longest_wait;
-    if (state_.outgoing_rays == 0 || !due) return moved;
+    if (!state_.scheduler.send_is_due(elapsed_s())) return moved;
     for (std::uint32_t d = 0; d < state_.scene.manifest.domains.size(); ++d)
-      while (state_.outgoing.waiting(d) > 0) batches.push_back(state_.outgoing.pop(d));
-    state_.outgoing_rays = 0;
+      while (!state_.outgoing.empty(d)) batches.push_back(state_.outgoing.pop(d));
+    state_.scheduler.sent(elapsed_s());
   }
-  last_sent_ = Clock::now();
   for (RayBatch& batch : batches) {
     ++messages_;
     sent_bytes_ += batch.bytes().size();
-    const int home = state_.residency.home(batch.domain());
+    const int home = state_.scheduler.residency().home(batch.domain());
     transport_.send(home, std::move(batch));
   }
   return true;
@@ -140,20 +134,16 @@ void Rank::watch_clock() {
 
 RoundSums Rank::contribution() {
   const std::lock_guard lock(state_.mutex);
-  RoundSums mine;
-  mine.born = static_cast<std::int64_t>(state_.counters.born);
-  mine.died = static_cast<std::int64_t>(state_.counters.died);
-  mine.quiet = state_.quiet();
+  RoundSums mine = state_.scheduler.contribution();
   mine.pause = want_checkpoint_;
   mine.interrupted = stop_signal() == SIGINT;
   mine.terminated = stop_signal() == SIGTERM;
   mine.time_is_up = time_is_up_;
   if (state_.failure) (is_bad_input(state_.failure) ? mine.bad_input : mine.machine_failure) = 1;
   mine.samples = static_cast<std::int64_t>(state_.counters.rays_camera);
-  mine.items_done = static_cast<std::int64_t>(items_before_ + state_.next_item - state_.items_in_hand);
+  mine.items_done += static_cast<std::int64_t>(items_before_);
   const TraceCounters& c = state_.counters;
   mine.rays_traced = static_cast<std::int64_t>(c.rays_camera + c.rays_indirect + c.rays_shadow);
-  mine.domain_loads = static_cast<std::int64_t>(state_.residency.loads());
   return mine;
 }
 
@@ -163,22 +153,13 @@ Rank::Decision Rank::decide(const RoundSums& sums) {
     leave_together();
     leave(state_.failure, sums);
   }
-  const std::int64_t alive = sums.born - sums.died;
-  // Twice in a row nothing was alive and nothing new was born in between: then nothing was alive at one
-  // moment between the two rounds, and nothing can begin (Mattern 1987, the four-counter method).
-  const bool calm = alive == 0 && sums.quiet == transport_.size();
-  const bool over = calm && calm_ && sums.born == born_then_;
-  calm_ = calm;
-  born_then_ = sums.born;
+  auto quiet = Scheduler::Decision::go_on;
   {
     const std::lock_guard lock(state_.mutex);
-    state_.allowance =
-        alive < rays_allowed_ ? std::max<std::int64_t>(1, (rays_allowed_ - alive) / transport_.size()) : 0;
-    state_.alive = static_cast<std::size_t>(std::max<std::int64_t>(0, alive));
-    state_.paused = sums.pause + sums.interrupted + sums.terminated + sums.time_is_up > 0;
+    quiet = state_.scheduler.decide(sums);
   }
   state_.work_available.notify_all();
-  if (!over) return Decision::go_on;
+  if (quiet == Scheduler::Decision::go_on) return Decision::go_on;
   return ending_of(sums) == Ending::none ? Decision::checkpoint : Decision::end;
 }
 
@@ -191,7 +172,7 @@ Ending Rank::ending_of(const RoundSums& sums) const {
 
 void Rank::collect_done() {
   const std::lock_guard lock(state_.mutex);
-  for (; reported_ < state_.next_item; ++reported_) {
+  for (; reported_ < state_.scheduler.items_dealt(); ++reported_) {
     const std::uint64_t item = state_.share[reported_];
     done_[item / 64] |= std::uint64_t{1} << (item % 64);
   }
@@ -218,7 +199,6 @@ bool Rank::begin_next_round() {
     start_items(std::move(done));
   }
   state_.work_available.notify_all();
-  calm_ = false;
   ++rounds_;
   return true;
 }
@@ -226,8 +206,12 @@ bool Rank::begin_next_round() {
 void Rank::write(const std::filesystem::path& file) {
   const double render_time_s = time_before_s_ + elapsed_s();
   collect_done();
+  {
+    const std::lock_guard lock(state_.mutex);
+    state_.scheduler.resume();
+  }
   write_job_film(transport_, file, state_.film, done_, state_.plan, render_time_s, about_);
-  want_checkpoint_ = calm_ = false;
+  want_checkpoint_ = false;
   last_checkpoint_ = Clock::now();
 }
 
@@ -258,11 +242,11 @@ void Rank::add_to(RenderStats& stats) const {
   stats.load_s = state_.load_s;
   stats.trace_s = state_.trace_s;
   stats.idle_s = state_.idle_s;
-  stats.forwarded_rays = state_.forwarded_rays;
+  stats.forwarded_rays = state_.scheduler.forwarded_rays();
   stats.forwarded_bytes = sent_bytes_;
   stats.messages = messages_;
-  stats.domain_loads = state_.residency.loads();
-  stats.evictions = state_.residency.evictions();
+  stats.domain_loads = state_.scheduler.residency().loads();
+  stats.evictions = state_.scheduler.residency().evictions();
 }
 
 }  // namespace vitrail

@@ -15,9 +15,9 @@ namespace vitrail {
 
 class Rank {
  public:
-  // `rays_allowed`: alive in the whole job at a time. `about`: FilmProgress's.
+  // `about`: FilmProgress's.
   Rank(Transport& transport, RankState& state, const RenderOptions& options, const Goal& goal,
-       EarlierWork earlier, std::int64_t rays_allowed, std::string about);
+       EarlierWork earlier, std::string about);
 
   // Until the picture is whole, the time is up or the job is told to stop. Rank 0 has then written the film,
   // or a checkpoint where a signal stopped it. Throws what went wrong here, or OtherRankFailed, after all
@@ -54,12 +54,9 @@ class Rank {
   std::uint64_t items_before_ = 0;  // on rank 0: done by earlier runs or rounds
   double time_before_s_ = 0;        // render time of earlier runs
   std::string about_;
-  std::int64_t rays_allowed_ = 0;
   bool want_checkpoint_ = false, time_is_up_ = false;
-  bool calm_ = false;  // the last round saw no ray alive and nothing to generate
-  std::int64_t born_then_ = -1;
   std::uint64_t messages_ = 0, received_ = 0, sent_bytes_ = 0;
-  std::chrono::steady_clock::time_point start_, last_checkpoint_, last_sent_;
+  std::chrono::steady_clock::time_point start_, last_checkpoint_;
 };
 
 }  // namespace vitrail

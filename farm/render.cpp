@@ -179,17 +179,18 @@ RenderStats render(Transport& transport, const RenderOptions& options) {
   const bool from_the_start =
       std::ranges::all_of(earlier.done, [](std::uint64_t items) { return items == 0; });
 
-  RankState state(*job->scene, job->film, std::move(earlier.plan),
-                  RayQueues(manifest.domains.size(), options.shuffle_seed),
-                  Residency(manifest, options.bundle, memory.domains_bytes,
-                            home_ranks(manifest, transport.size()), transport.rank()));
+  const Scheduler::Job of_this_rank{transport.size(), threads, rays_allowed(memory)};
+  RankState state(
+      *job->scene, job->film, std::move(earlier.plan), RayQueues(manifest.domains.size(), options.shuffle_seed),
+      Scheduler(of_this_rank, Residency(manifest, memory.domains_bytes, home_ranks(manifest, transport.size()),
+                                        transport.rank())),
+      options.bundle);
   if (transport.rank() == 0 && !options.quiet && manifest.lights.empty() && manifest.area_lights.empty())
     fmt::print(stderr, "vitrail: the scene has no light: its picture is black\n");
   if (!options.profile.empty()) state.visits.resize(manifest.domains.size());
   stats.finished_before = earlier.finished;
   const std::uint64_t samples_before = job->film.samples();
-  Rank rank(transport, state, options, goal, std::move(earlier), rays_allowed(memory),
-            about(manifest, options));
+  Rank rank(transport, state, options, goal, std::move(earlier), about(manifest, options));
   if (stats.finished_before) {
     stats.ending = Ending::finished;
   } else {
@@ -210,7 +211,7 @@ RenderStats render(Transport& transport, const RenderOptions& options) {
   stats.peak_rss_bytes = peak_resident_bytes();
   stats.cpu_s = cpu_seconds();
   stats.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  gather_stats(transport, stats, state.residency.touched());
+  gather_stats(transport, stats, state.domains.touched());
   std::vector<std::int64_t> visits(state.visits.begin(), state.visits.end());
   transport.sum_to_root(std::span(visits));
   if (transport.rank() != 0) return stats;

@@ -9,24 +9,10 @@
 #include <span>
 
 #include "farm/batch.h"
+#include "farm/scheduler/round.h"
 #include "film/wide_sum.h"
 
 namespace vitrail {
-
-// What every rank adds to a round; the sums are what all ranks decide by, so they decide alike.
-struct RoundSums {
-  std::int64_t born = 0, died = 0;               // rays
-  std::int64_t quiet = 0;                        // 1: nothing will be generated before the next decision
-  std::int64_t pause = 0;                        // a request for a checkpoint
-  std::int64_t interrupted = 0, terminated = 0;  // requests for an end, by INT and by TERM
-  std::int64_t time_is_up = 0;                   // another, by the time limit
-  std::int64_t bad_input = 0, machine_failure = 0;
-  std::int64_t items_done = 0;
-  std::int64_t samples = 0;
-  std::int64_t rays_traced = 0;
-  std::int64_t domain_loads = 0;
-};
-inline constexpr std::size_t round_values = sizeof(RoundSums) / sizeof(std::int64_t);
 
 class Transport {
  public:

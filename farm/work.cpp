@@ -16,6 +16,9 @@ std::uint64_t passes(const WorkPlan::Part& part) {
   return (part.end - part.first + part.samples_per_item - 1) / part.samples_per_item;
 }
 
+// Knuth's multiplicative hash, its upper half.
+std::uint64_t mixed(std::uint64_t n) { return (n * 0x9E3779B97F4A7C15u) >> 32; }
+
 }  // namespace
 
 std::uint64_t WorkPlan::tiles_x() const { return tiles(crop.x1 - crop.x0); }
@@ -101,10 +104,11 @@ std::vector<std::uint64_t> share_of(const WorkPlan& plan, const std::vector<std:
   std::uint64_t open = 0;
   for (std::uint64_t i = 0; i < items; ++i) {
     if (!done.empty() && (done[i / 64] >> (i % 64) & 1)) continue;
-    // A shift by one each row keeps the tiles of a rank from lining up in columns.
-    const std::uint64_t row = i / plan.tiles_x();
-    if ((open++ + row) % static_cast<std::uint64_t>(ranks) == static_cast<std::uint64_t>(rank))
-      share.push_back(i);
+    // Every block of as many items as there are ranks gives each of them one, in an order of its own, so that
+    // the tiles of a rank do not line up in columns.
+    const auto all = static_cast<std::uint64_t>(ranks);
+    if ((open + mixed(open / all)) % all == static_cast<std::uint64_t>(rank)) share.push_back(i);
+    ++open;
   }
   return share;
 }

@@ -3,6 +3,7 @@
 // numbered alike on every rank, so that a film can say which of them it holds.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -57,6 +58,21 @@ WorkPlan make_adaptive_round(const PixelRect& crop, std::vector<std::uint32_t> h
 
 // Every item done, a bit each, in words of 64.
 std::vector<std::uint64_t> all_done(std::uint64_t items);
+
+// Samples [first, end) of an item's, pixel by pixel: visit(x, y, sample).
+template <class Visit>
+void for_each_sample(const WorkPlan& plan, const WorkItem& item, std::uint64_t first, std::uint64_t end,
+                     const Visit& visit) {
+  std::uint64_t at = 0;
+  for (int y = item.pixels.y0; y < item.pixels.y1; ++y)
+    for (int x = item.pixels.x0; x < item.pixels.x1; ++x) {
+      const auto [sample0, sample1] = plan.samples(item, x, y);
+      const std::uint64_t before = at;
+      at += sample1 - sample0;
+      for (std::uint64_t i = std::max(first, before); i < std::min(end, at); ++i)
+        visit(x, y, sample0 + static_cast<std::uint32_t>(i - before));
+    }
+}
 
 // The items of `rank` of `ranks` among those not yet done, dealt out in turn, in ascending order.
 // `done` holds a bit an item, or is empty: none is.

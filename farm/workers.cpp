@@ -14,57 +14,42 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-// With this many rays waiting for a resident domain no new ones are generated.
-constexpr std::size_t rays_worth_tracing_first = 4096;
-
 // What a worker does next: a batch of waiting rays, or a work item.
 struct Task {
-  std::optional<RayBatch> batch;
-  std::optional<WorkItem> item;
-  std::uint64_t item_index = 0;
+  Scheduler::Work work = Scheduler::Work::none;
+  RayBatch batch;
+  WorkItem item;
+  std::uint64_t first = 0, end = 0;  // samples of the item
   std::shared_ptr<const ResidentTable> table;
 };
-
-std::optional<std::uint32_t> fullest_resident(const RankState& s) {
-  std::optional<std::uint32_t> best;
-  std::size_t most = 0;
-  const auto& views = s.residency.table()->views;
-  for (std::uint32_t d = 0; d < views.size(); ++d)
-    if (views[d] && s.queues.waiting(d) > most) {
-      most = s.queues.waiting(d);
-      best = d;
-    }
-  return best;
-}
 
 // The mutex is held. Empty task: nothing to do now.
 Task take_task(RankState& s) {
   Task task;
-  task.table = s.residency.table();
-  const auto fullest = fullest_resident(s);
-  const bool may_generate = !s.paused && s.next_item < s.share.size() && s.allowance > 0;
-  if (fullest && (!may_generate || s.queues.waiting(*fullest) >= rays_worth_tracing_first)) {
-    task.batch = s.queues.pop(*fullest);
-  } else if (may_generate) {
-    task.item = s.plan.item(s.share[s.next_item++]);
-    ++s.items_in_hand;
-    s.allowance -= static_cast<std::int64_t>(s.plan.samples(*task.item));
+  task.table = s.domains.table();
+  const Scheduler::Task next = s.scheduler.next_task();
+  task.work = next.work;
+  if (next.work == Scheduler::Work::trace) {
+    task.batch = s.queues.pop(next.domain);
+    s.scheduler.begin_batch(next.domain, task.batch.count());
+  } else if (next.work == Scheduler::Work::generate) {
+    task.item = s.plan.item(s.share[s.scheduler.items_dealt()]);
+    const std::uint64_t samples = s.plan.samples(task.item);
+    task.first = s.item_at;
+    task.end = std::min(samples, s.item_at + next.rays);
+    s.item_at = task.end == samples ? 0 : task.end;
+    s.scheduler.begin_rays(task.end - task.first, task.end == samples);
   }
   return task;
 }
 
-void perform(const Task& task, const WorkPlan& plan, PathTracer& tracer) {
-  if (task.item) {
-    const WorkItem& item = *task.item;
-    for (int y = item.pixels.y0; y < item.pixels.y1; ++y)
-      for (int x = item.pixels.x0; x < item.pixels.x1; ++x) {
-        const WorkPlan::Range samples = plan.samples(item, x, y);
-        for (std::uint32_t sample = samples.first; sample < samples.end; ++sample)
-          tracer.trace_camera(x, y, sample);
-      }
+void perform(Task& task, const WorkPlan& plan, PathTracer& tracer) {
+  if (task.work == Scheduler::Work::generate) {
+    for_each_sample(plan, task.item, task.first, task.end,
+                    [&](int x, int y, std::uint32_t sample) { tracer.trace_camera(x, y, sample); });
     return;
   }
-  RayBatch batch = *task.batch;
+  RayBatch& batch = task.batch;
   if (batch.kind() == RayKind::path)
     for (const PathRecord& record : batch.records<PathRecord>()) tracer.resume(record, batch.domain());
   else
@@ -74,14 +59,8 @@ void perform(const Task& task, const WorkPlan& plan, PathTracer& tracer) {
 template <class Entry>
 void route(RankState& s, const std::vector<Entry>& entries) {
   for (const Entry& entry : entries) {
-    if (s.residency.is_local(entry.domain)) {
-      s.queues.push(entry.domain, entry.record);
-      continue;
-    }
-    s.outgoing.push(entry.domain, entry.record);
-    ++s.outgoing_rays;
-    ++s.forwarded_rays;
-    s.residency.note_forwarded(entry.domain, 1);
+    const bool here = s.scheduler.route(entry.domain, 1);
+    (here ? s.queues : s.outgoing).push(entry.domain, entry.record);
   }
 }
 
@@ -91,7 +70,7 @@ void publish(RankState& s, const Task& task, Outbox& outbox, TraceCounters& coun
   s.counters += counters;
   route(s, outbox.paths);
   route(s, outbox.shadows);
-  if (task.item) --s.items_in_hand;
+  s.scheduler.finish_task(task.end - task.first, counters.born, counters.died);
   counters = {};
   outbox.paths.clear();
   outbox.shadows.clear();
@@ -104,13 +83,13 @@ void work(RankState& s) {
   std::vector<std::uint64_t> visits(s.visits.size());
   while (!s.finished) {
     Task task = take_task(s);
-    if (!task.batch && !task.item) {
+    if (task.work == Scheduler::Work::none) {
       task.table.reset();
       const auto start = Clock::now();
-      ++s.workers_waiting;
+      s.scheduler.worker_waits();
       s.load_wanted.notify_one();
       s.work_available.wait(lock);
-      --s.workers_waiting;
+      s.scheduler.worker_wakes();
       s.idle_s += seconds_since(start);
       continue;
     }
@@ -126,7 +105,7 @@ void work(RankState& s) {
     publish(s, task, outbox, counters);
     if (more) {
       s.load_wanted.notify_one();
-      if (s.workers_waiting > 0) s.work_available.notify_one();
+      if (s.scheduler.workers_waiting() > 0) s.work_available.notify_one();
     }
   }
   for (std::size_t d = 0; d < visits.size(); ++d) s.visits[d] += visits[d];
@@ -134,9 +113,9 @@ void work(RankState& s) {
 
 void load(RankState& s) {
   std::unique_lock lock(s.mutex);
-  const auto waiting = [&](std::uint32_t domain) { return s.queues.waiting(domain); };
   while (!s.finished) {
-    auto reservation = s.residency.reserve(waiting, s.alive, s.workers_waiting == s.workers);
+    s.scheduler.released(s.domains.take_released());
+    const auto reservation = s.domains.begin(s.scheduler.loader_is_free());
     if (!reservation) {
       // An evicted domain comes free without a notice, when its last worker lets go of it.
       s.load_wanted.wait_for(lock, std::chrono::milliseconds(2));
@@ -144,11 +123,12 @@ void load(RankState& s) {
     }
     lock.unlock();
     const auto start = Clock::now();
-    auto loaded = s.residency.load(*reservation);
+    auto loaded = s.domains.load(*reservation);
     const double taken = seconds_since(start);
     lock.lock();
     s.load_s += taken;
-    s.residency.insert(reservation->domain, std::move(loaded));
+    s.domains.insert(reservation->load.domain, std::move(loaded));
+    s.scheduler.loaded(reservation->load.domain);
     s.work_available.notify_all();
   }
 }
@@ -166,16 +146,16 @@ void guarded(RankState& s, void (*body)(RankState&)) {
 }  // namespace
 
 RankState::RankState(const RenderScene& the_scene, Film& the_film, WorkPlan the_plan, RayQueues the_queues,
-                     Residency the_residency)
+                     Scheduler the_scheduler, const std::filesystem::path& bundle)
     : scene(the_scene),
       film(the_film),
       plan(std::move(the_plan)),
+      scheduler(std::move(the_scheduler)),
       queues(std::move(the_queues)),
-      residency(std::move(the_residency)),
-      outgoing(scene.manifest.domains.size(), std::nullopt) {}
+      outgoing(scene.manifest.domains.size(), std::nullopt),
+      domains(scene.manifest, bundle) {}
 
 Workers::Workers(RankState& state, int threads) : state_(state) {
-  state.workers = threads;
   for (int i = 0; i < threads; ++i) threads_.emplace_back([&state] { guarded(state, work); });
   threads_.emplace_back([&state] { guarded(state, load); });
 }

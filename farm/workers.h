@@ -9,7 +9,8 @@
 #include <thread>
 
 #include "farm/queues.h"
-#include "farm/residency.h"
+#include "farm/resident_domains.h"
+#include "farm/scheduler/scheduler.h"
 #include "farm/work.h"
 #include "tracer/path_tracer.h"
 
@@ -17,7 +18,8 @@ namespace vitrail {
 
 // Everything the threads of a rank share. `mutex` guards all of it but the film and the scene.
 struct RankState {
-  RankState(const RenderScene& scene, Film& film, WorkPlan plan, RayQueues queues, Residency residency);
+  RankState(const RenderScene& scene, Film& film, WorkPlan plan, RayQueues queues, Scheduler scheduler,
+            const std::filesystem::path& bundle);
 
   const RenderScene& scene;
   Film& film;
@@ -25,26 +27,18 @@ struct RankState {
 
   std::mutex mutex;
   std::condition_variable work_available, load_wanted;
-  RayQueues queues;  // of local domains
-  Residency residency;
+  Scheduler scheduler;
+  RayQueues queues;    // of local domains
   RayQueues outgoing;  // of the others' domains
-  std::size_t outgoing_rays = 0;
-
+  ResidentDomains domains;
   std::vector<std::uint64_t> share;  // items of this rank
-  std::size_t next_item = 0;         // index into `share`
-  std::size_t items_in_hand = 0;     // taken and not yet published
-  std::int64_t allowance = 0;        // rays that may be generated before the next round
-  std::size_t alive = 0;             // rays in the whole job, at the last round
-  bool paused = false, finished = false;
+  std::uint64_t item_at = 0;         // samples of the open item that are dealt
+  bool finished = false;
 
   TraceCounters counters;
   std::vector<std::uint64_t> visits;  // rays traced in each domain; empty: not counted
-  std::uint64_t forwarded_rays = 0;
-  int workers_waiting = 0, workers = 0;
   double trace_s = 0, idle_s = 0, load_s = 0;
   std::exception_ptr failure;
-
-  bool quiet() const { return items_in_hand == 0 && (paused || next_item == share.size()); }
 };
 
 // Starts `threads` workers and the loader; the destructor ends and joins them.

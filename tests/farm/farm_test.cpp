@@ -8,7 +8,7 @@
 
 #include "farm/memory.h"
 #include "farm/queues.h"
-#include "farm/residency.h"
+#include "farm/scheduler/residency.h"
 #include "farm/work.h"
 #include "scene/diagnostics.h"
 
@@ -89,6 +89,44 @@ TEST(Work, SharesAreDisjointCompleteAndEven) {
   EXPECT_FALSE(all.contains(5));
 }
 
+// 63 tiles a row, one less than there are ranks: each has its share, and tiles from all over the picture.
+TEST(Work, SharesDoNotLineUpWithThePicture) {
+  for (const int width : {1000, 1008, 1024, 1040}) {
+    const WorkPlan plan = make_work_plan({0, width, 0, 500}, 1);
+    for (int rank = 0; rank < 64; ++rank) {
+      const auto share = share_of(plan, {}, rank, 64);
+      EXPECT_NEAR(static_cast<double>(share.size()), static_cast<double>(plan.items()) / 64, 1);
+      std::set<int> columns;
+      for (const std::uint64_t item : share) columns.insert(plan.item(item).pixels.x0);
+      EXPECT_GT(columns.size(), share.size() / 2) << width << ' ' << rank;
+    }
+  }
+}
+
+// Cut anywhere, the parts of an item are the item, where pixels have samples of their own number as well.
+TEST(Work, PartsOfAnItemTileIt) {
+  const PixelRect crop{3, 20, 40, 45};
+  const WorkPlan uniform = make_work_plan(crop, 7);
+  std::vector<std::uint32_t> held(17 * 5, 4), more(17 * 5);
+  for (std::uint32_t p = 0; p < more.size(); ++p) more[p] = p % 6;
+  const WorkPlan adaptive = make_adaptive_round(crop, held, more);
+  for (const WorkPlan* plan : {&uniform, &adaptive})
+    for (std::uint64_t i = 0; i < plan->items(); ++i) {
+      const WorkItem item = plan->item(i);
+      using Sample = std::tuple<int, int, std::uint32_t>;
+      std::vector<Sample> whole, parts;
+      for (int y = item.pixels.y0; y < item.pixels.y1; ++y)
+        for (int x = item.pixels.x0; x < item.pixels.x1; ++x)
+          for (std::uint32_t s = plan->samples(item, x, y).first; s < plan->samples(item, x, y).end; ++s)
+            whole.emplace_back(x, y, s);
+      ASSERT_EQ(whole.size(), plan->samples(item));
+      for (std::uint64_t at = 0; at < whole.size(); at += 7)
+        for_each_sample(*plan, item, at, std::min<std::uint64_t>(at + 7, whole.size()),
+                        [&](int x, int y, std::uint32_t s) { parts.emplace_back(x, y, s); });
+      EXPECT_EQ(parts, whole);
+    }
+}
+
 TEST(Queues, KeepEveryRayOfBothKinds) {
   for (const auto seed : {std::optional<std::uint64_t>(), std::optional<std::uint64_t>(9)}) {
     RayQueues queues(3, seed);
@@ -100,9 +138,8 @@ TEST(Queues, KeepEveryRayOfBothKinds) {
       shadow.pixel = i;
       queues.push(1, shadow);
     }
-    EXPECT_EQ(queues.waiting(1), 10000u);
     std::multiset<std::uint32_t> paths, shadows;
-    while (queues.waiting(1) > 0) {
+    while (!queues.empty(1)) {
       RayBatch batch = queues.pop(1);
       EXPECT_LE(batch.bytes().size(), RayBatch::full_bytes);
       EXPECT_EQ(batch.domain(), 1u);
@@ -154,15 +191,23 @@ TEST(Residency, HomesAreContiguousAndBalanced) {
 
 TEST(Residency, TakesTheFullestAndKeepsWithinItsBudget) {
   const Manifest m = of_domains({100, 100, 100});
-  Residency residency(m, "none.vit", 200, {0, 0, 0}, 0);
-  std::vector<std::size_t> waiting{5, 9, 7};
-  const auto count = [&](std::uint32_t d) { return waiting[d]; };
-  EXPECT_EQ(residency.reserve(count, 14, true).value().domain, 1u);
-  // Not inserted yet, but its room is taken: one more fits, the third does not.
-  waiting[1] = 0;
-  EXPECT_EQ(residency.reserve(count, 14, true).value().domain, 2u);
-  waiting[2] = 0;
-  EXPECT_FALSE(residency.reserve(count, 14, true));
+  Residency residency(m, 200, {0, 0, 0}, 0);
+  residency.rays_wait(0, 5);
+  residency.rays_wait(1, 9);
+  residency.rays_wait(2, 7);
+  EXPECT_EQ(residency.loader_is_free(21, true).load.value().domain, 1u);
+  // Not loaded yet, but its room is taken: one more fits, the third does not.
+  EXPECT_EQ(residency.loader_is_free(21, true).load.value().domain, 2u);
+  EXPECT_FALSE(residency.loader_is_free(21, true).load);
+  residency.loaded(1);
+  EXPECT_EQ(residency.fullest(), 1u);
+  residency.rays_taken(1, 9);
+  const LoadStep step = residency.loader_is_free(12, true);
+  EXPECT_EQ(step.evicted, std::vector<std::uint32_t>{1});
+  EXPECT_FALSE(step.load) << "a worker still holds what left";
+  residency.released(100);
+  EXPECT_EQ(residency.loader_is_free(12, true).load.value().domain, 0u);
+  EXPECT_EQ(residency.held_bytes(), 200u);
 }
 
 // An object counts once, whatever the number of domains that need it.
@@ -173,31 +218,32 @@ TEST(Residency, CountsObjectsOnce) {
   m.domains[1].objects = {0, 1};
   EXPECT_EQ(bytes_needed(m, 1), 160u);
   EXPECT_EQ(bytes_of_all(m), 180u);
-  Residency residency(m, "none.vit", 165, {0, 0, 1}, 0);
+  Residency residency(m, 165, {0, 0, 1}, 0);
   EXPECT_TRUE(residency.is_local(1));
-  residency.note_forwarded(2, 1000000);
+  residency.rays_forwarded(2, 1000000);
   EXPECT_FALSE(residency.is_local(2)) << "its own two and their objects take 170 bytes";
-  std::vector<std::size_t> waiting{5, 9, 0};
-  const auto count = [&](std::uint32_t d) { return waiting[d]; };
-  const auto reservation = residency.reserve(count, 14, true);
-  ASSERT_TRUE(reservation);
-  EXPECT_EQ(reservation->missing, (std::vector<std::uint32_t>{0, 1}));
+  residency.rays_wait(0, 5);
+  residency.rays_wait(1, 9);
+  const auto load = residency.loader_is_free(14, true).load;
+  ASSERT_TRUE(load);
+  EXPECT_EQ(load->missing, (std::vector<std::uint32_t>{0, 1}));
+  EXPECT_EQ(residency.held_bytes(), 160u);
 }
 
 TEST(Residency, KeepsAnothersDomainOnlyIfMuchAskedFor) {
   const Manifest m = of_domains({100, 100});
-  Residency residency(m, "none.vit", 150, {0, 1}, 0);
+  Residency residency(m, 150, {0, 1}, 0);
   EXPECT_TRUE(residency.is_local(0));
   EXPECT_FALSE(residency.is_local(1));
-  residency.note_forwarded(1, 1000000);
+  residency.rays_forwarded(1, 1000000);
   EXPECT_FALSE(residency.is_local(1)) << "it does not fit beside the rank's own";
   const Manifest three = of_domains({100, 100, 100});
-  Residency roomy(three, "none.vit", 220, {0, 1, 1}, 0);
-  roomy.note_forwarded(1, 10);
+  Residency roomy(three, 220, {0, 1, 1}, 0);
+  roomy.rays_forwarded(1, 10);
   EXPECT_FALSE(roomy.is_local(1));
-  roomy.note_forwarded(1, 1000000);
+  roomy.rays_forwarded(1, 1000000);
   EXPECT_TRUE(roomy.is_local(1));
-  roomy.note_forwarded(2, 1000000);
+  roomy.rays_forwarded(2, 1000000);
   EXPECT_FALSE(roomy.is_local(2)) << "the room is taken";
 }
 

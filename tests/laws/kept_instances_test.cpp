@@ -8,7 +8,7 @@
 
 #include "bundle/loaded_domain.h"
 #include "bundle/verify.h"
-#include "farm/residency.h"
+#include "farm/scheduler/residency.h"
 #include "partitioner/partition.h"
 #include "tests/support/command.h"
 #include "tests/support/render.h"

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+// The domains and objects that are mapped, as scheduler/residency.h decides.
+#pragma once
+
+#include <atomic>
+#include <map>
+#include <memory>
+#include <span>
+
+#include "bundle/loaded_domain.h"
+#include "farm/scheduler/residency.h"
+
+namespace vitrail {
+
+// The resident domains at one moment. A worker keeps its own reference while it traces, so a domain that is
+// evicted meanwhile is unmapped when the last worker lets go of it.
+struct ResidentTable {
+  std::vector<std::shared_ptr<const LoadedDomain>> domains;
+  std::vector<const DomainView*> views;
+};
+
+// A domain that has room, and those of its objects that are in memory already.
+struct Reservation {
+  LoadStep::Load load;
+  std::map<std::uint32_t, SharedDomain> held;  // by number
+};
+
+// Not synchronised, except `load`: the rank's mutex guards it. One thread begins and loads.
+class ResidentDomains {
+ public:
+  ResidentDomains(const Manifest& manifest, std::filesystem::path bundle);
+
+  std::shared_ptr<const ResidentTable> table() const { return table_; }
+  // A bit a domain: it was loaded at least once.
+  const std::vector<bool>& touched() const { return touched_; }
+
+  // Lets the evicted go, keeps what the load needs of them.
+  std::optional<Reservation> begin(LoadStep step);
+  // Maps and verifies; may be called without the mutex.
+  std::shared_ptr<const LoadedDomain> load(const Reservation& reservation);
+  void insert(std::uint32_t domain, std::shared_ptr<const LoadedDomain> loaded);
+  // Bytes unmapped since it was asked last. Workers let go without a notice.
+  std::uint64_t take_released() { return released_->exchange(0); }
+
+ private:
+  SharedDomain counted(SharedDomain mapped) const;
+
+  const Manifest& manifest_;
+  std::filesystem::path bundle_;
+  std::vector<bool> touched_;
+  std::vector<std::weak_ptr<const MappedDomain>> objects_;  // by number
+  std::shared_ptr<std::atomic<std::uint64_t>> released_;    // bytes
+  std::shared_ptr<const ResidentTable> table_;
+};
+
+}  // namespace vitrail

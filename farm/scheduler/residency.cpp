@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "farm/scheduler/residency.h"
+
+#include <algorithm>
+
+namespace vitrail {
+
+namespace {
+
+constexpr std::uint64_t rays_that_earn_a_replica = 16384;
+// Without need, a resident domain makes room only for one with this many times its rays, and this many at
+// least.
+constexpr std::uint64_t worth_a_swap = 4, rays_worth_a_load = 4096;
+
+// Of those of the domain's objects that are not marked yet; marks them.
+std::uint64_t mark_objects(const Manifest& manifest, std::uint32_t domain, std::vector<bool>& marked) {
+  std::uint64_t bytes = 0;
+  for (const std::uint32_t object : manifest.domains[domain].objects)
+    if (!marked[object]) {
+      bytes += manifest.objects[object].bytes;
+      marked[object] = true;
+    }
+  return bytes;
+}
+
+}  // namespace
+
+Residency::Residency(const Manifest& manifest, std::uint64_t budget_bytes, std::vector<int> home, int rank)
+    : manifest_(manifest),
+      budget_(budget_bytes),
+      home_(std::move(home)),
+      local_(manifest.domains.size()),
+      local_objects_(manifest.objects.size()),
+      state_(manifest.domains.size(), State::absent),
+      waiting_(manifest.domains.size()),
+      forwarded_(manifest.domains.size()),
+      object_users_(manifest.objects.size()),
+      resident_(manifest.domains.size()),
+      absent_(manifest.domains.size()) {
+  const bool everything = bytes_of_all(manifest) <= budget_;
+  std::uint64_t at_home = 0;
+  for (std::uint32_t d = 0; d < home_.size(); ++d) {
+    local_[d] = everything || home_[d] == rank;
+    if (local_[d]) absent_.insert(d, 0);
+    if (home_[d] == rank) at_home += manifest.domains[d].bytes + mark_objects(manifest, d, local_objects_);
+  }
+  spare_ = at_home < budget_ ? budget_ - at_home : 0;
+}
+
+void Residency::set_waiting(std::uint32_t domain, std::uint64_t rays) {
+  waiting_[domain] = rays;
+  if (state_[domain] == State::resident)
+    resident_.set(domain, rays);
+  else if (state_[domain] == State::absent)
+    absent_.set(domain, rays);
+}
+
+void Residency::rays_wait(std::uint32_t domain, std::uint64_t rays) {
+  set_waiting(domain, waiting_[domain] + rays);
+}
+void Residency::rays_taken(std::uint32_t domain, std::uint64_t rays) {
+  set_waiting(domain, waiting_[domain] - rays);
+}
+
+void Residency::rays_forwarded(std::uint32_t domain, std::uint64_t rays) {
+  forwarded_[domain] += rays;
+  if (local_[domain] || forwarded_[domain] < rays_that_earn_a_replica) return;
+  std::vector<bool> objects = local_objects_;
+  const std::uint64_t bytes = manifest_.domains[domain].bytes + mark_objects(manifest_, domain, objects);
+  if (bytes > spare_) return;
+  spare_ -= bytes;
+  local_[domain] = true;
+  absent_.insert(domain, 0);
+  local_objects_ = std::move(objects);
+}
+
+// Gives the bytes of the objects that had none before.
+std::uint64_t Residency::add_users(std::uint32_t domain, std::vector<std::uint32_t>* missing) {
+  std::uint64_t bytes = 0;
+  for (const std::uint32_t object : manifest_.domains[domain].objects)
+    if (!manifest_.objects[object].quadric && object_users_[object]++ == 0) {
+      bytes += manifest_.objects[object].bytes;
+      missing->push_back(object);
+    }
+  return bytes;
+}
+
+// Gives the bytes of the objects that have none now.
+std::uint64_t Residency::remove_users(std::uint32_t domain) {
+  std::uint64_t bytes = 0;
+  for (const std::uint32_t object : manifest_.domains[domain].objects)
+    if (!manifest_.objects[object].quadric && --object_users_[object] == 0)
+      bytes += manifest_.objects[object].bytes;
+  return bytes;
+}
+
+// Whatever of its objects is in memory stays there meanwhile.
+LoadStep Residency::loader_is_free(std::uint64_t alive, bool starving) {
+  LoadStep step;
+  const std::optional<std::uint32_t> best = absent_.most();
+  if (!best) return step;
+  LoadStep::Load load{*best, {}};
+  const std::uint64_t bytes = manifest_.domains[*best].bytes + add_users(*best, &load.missing);
+  if (!make_room(*best, bytes, alive, starving, step.evicted)) {
+    remove_users(*best);
+    return step;
+  }
+  held_ += bytes;
+  in_table_ += bytes;
+  absent_.erase(*best);
+  state_[*best] = State::loading;
+  step.load = std::move(load);
+  return step;
+}
+
+bool Residency::make_room(std::uint32_t wanted, std::uint64_t bytes, std::uint64_t alive, bool starving,
+                          std::vector<std::uint32_t>& evicted) {
+  while (held_ + bytes > budget_) {
+    // What was evicted before and is still held by a worker will come free without further evictions.
+    if (in_table_ + bytes <= budget_) return false;
+    const std::optional<std::uint32_t> victim = resident_.fewest();
+    if (!victim) return false;
+    const std::uint64_t fewest = waiting_[*victim], candidate = waiting_[wanted];
+    const bool worthwhile = candidate >= rays_worth_a_load && fewest * worth_a_swap <= candidate;
+    // Even in need a swap waits until a domain has its even share of the rays alive: a rank with little to do
+    // would else swap for a handful of rays over and over while the others work. The domain with the most
+    // rays always has its share, so somewhere work goes on.
+    const bool needed = starving && candidate * local_.size() >= alive;
+    if (fewest >= candidate || !(needed || worthwhile)) return false;
+    ++evictions_;
+    evicted.push_back(*victim);
+    resident_.erase(*victim);
+    absent_.insert(*victim, fewest);
+    state_[*victim] = State::absent;
+    in_table_ -= manifest_.domains[*victim].bytes + remove_users(*victim);
+  }
+  return true;
+}
+
+void Residency::loaded(std::uint32_t domain) {
+  ++loads_;
+  state_[domain] = State::resident;
+  resident_.insert(domain, waiting_[domain]);
+}
+
+std::uint64_t bytes_of_all(const Manifest& manifest) {
+  std::uint64_t bytes = 0;
+  for (const DomainInfo& d : manifest.domains) bytes += d.bytes;
+  for (const ObjectInfo& o : manifest.objects) bytes += o.bytes;
+  return bytes;
+}
+
+std::vector<int> home_ranks(const Manifest& manifest, int ranks) {
+  std::uint64_t total = 0;
+  for (std::uint32_t d = 0; d < manifest.domains.size(); ++d) total += bytes_needed(manifest, d);
+  std::vector<int> home;
+  std::uint64_t before = 0;
+  for (std::uint32_t d = 0; d < manifest.domains.size(); ++d) {
+    const std::uint64_t bytes = bytes_needed(manifest, d), middle = before + bytes / 2;
+    home.push_back(total == 0 ? 0
+                              : std::min(ranks - 1, static_cast<int>(
+                                                        middle * static_cast<std::uint64_t>(ranks) / total)));
+    before += bytes;
+  }
+  return home;
+}
+
+}  // namespace vitrail

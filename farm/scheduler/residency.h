@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which domains a rank keeps in memory: the one with the most waiting rays is loaded, the one with the fewest
+// makes room. Decisions alone; farm/resident_domains.h carries them out.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "bundle/manifest.h"
+#include "farm/scheduler/fullest.h"
+
+namespace vitrail {
+
+// What the loader does next: first some domains leave, then one is mapped, where there is room for it
+// already.
+struct LoadStep {
+  struct Load {
+    std::uint32_t domain = 0;
+    std::vector<std::uint32_t>
+        missing;  // its objects that are to be mapped, ascending; the others are in memory
+  };
+  std::vector<std::uint32_t> evicted;
+  std::optional<Load> load;
+};
+
+// Objects are shared by the domains that need them, and counted once.
+class Residency {
+ public:
+  // `budget_bytes` for mapped domains and objects; `home[d]` is the rank that answers for domain d. The
+  // manifest's sizes and what needs which are all that is used of it.
+  Residency(const Manifest& manifest, std::uint64_t budget_bytes, std::vector<int> home, int rank);
+
+  // Whether rays for the domain wait here; otherwise they go to `home`.
+  bool is_local(std::uint32_t domain) const { return local_[domain]; }
+  int home(std::uint32_t domain) const { return home_[domain]; }
+  bool resident(std::uint32_t domain) const { return state_[domain] == State::resident; }
+  std::uint64_t waiting(std::uint32_t domain) const { return waiting_[domain]; }
+  // The resident domain that most rays wait for, if any do.
+  std::optional<std::uint32_t> fullest() const { return resident_.most(); }
+  // Mapped or reserved, with what was evicted and is not yet let go.
+  std::uint64_t held_bytes() const { return held_; }
+  std::uint64_t loads() const { return loads_; }
+  std::uint64_t evictions() const { return evictions_; }
+
+  // Events.
+  void rays_wait(std::uint32_t domain, std::uint64_t rays);  // of a local domain
+  void rays_taken(std::uint32_t domain, std::uint64_t rays);
+  // Rays for a domain of another rank left: a domain much asked for is kept here too, if it fits.
+  void rays_forwarded(std::uint32_t domain, std::uint64_t rays);
+  // The loader is free. `alive`: rays in the whole job; `starving`: the workers have nothing else to do.
+  LoadStep loader_is_free(std::uint64_t alive, bool starving);
+  void loaded(std::uint32_t domain);
+  // Workers let go of what was evicted.
+  void released(std::uint64_t bytes) { held_ -= bytes; }
+
+ private:
+  enum class State : std::uint8_t { absent, loading, resident };
+
+  void set_waiting(std::uint32_t domain, std::uint64_t rays);
+  std::uint64_t add_users(std::uint32_t domain, std::vector<std::uint32_t>* missing);
+  std::uint64_t remove_users(std::uint32_t domain);
+  bool make_room(std::uint32_t wanted, std::uint64_t bytes, std::uint64_t alive, bool starving,
+                 std::vector<std::uint32_t>& evicted);
+
+  const Manifest& manifest_;
+  std::uint64_t budget_, spare_ = 0;
+  std::vector<int> home_;
+  std::vector<bool> local_;
+  std::vector<bool> local_objects_;          // that a domain kept here needs
+  std::vector<State> state_;                 // by domain
+  std::vector<std::uint64_t> waiting_;       // rays, by domain
+  std::vector<std::uint64_t> forwarded_;     // rays, by domain
+  std::vector<std::uint32_t> object_users_;  // resident domains and those being loaded, by object
+  Fullest resident_, absent_;                // the latter of local domains
+  std::uint64_t held_ = 0;                   // bytes
+  std::uint64_t in_table_ = 0;               // of which resident or being loaded
+  std::uint64_t loads_ = 0, evictions_ = 0;
+};
+
+// Of all domains and objects.
+std::uint64_t bytes_of_all(const Manifest& manifest);
+
+// Contiguous runs of domains in kd order, of about equal bytes: neighbours share a rank and rays stay home
+// longer.
+std::vector<int> home_ranks(const Manifest& manifest, int ranks);
+
+}  // namespace vitrail

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// What every rank adds to a round; the sums are what all ranks decide by, so they decide alike.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace vitrail {
+
+struct RoundSums {
+  std::int64_t born = 0, died = 0;               // rays
+  std::int64_t reserved = 0;                     // rays that may be born without asking again
+  std::int64_t wanting = 0;                      // 1: would like to generate more
+  std::int64_t quiet = 0;                        // 1: nothing will be generated before the next decision
+  std::int64_t pause = 0;                        // a request for a checkpoint
+  std::int64_t interrupted = 0, terminated = 0;  // requests for an end, by INT and by TERM
+  std::int64_t time_is_up = 0;                   // another, by the time limit
+  std::int64_t bad_input = 0, machine_failure = 0;
+  std::int64_t items_done = 0;
+  std::int64_t samples = 0;
+  std::int64_t rays_traced = 0;
+  std::int64_t domain_loads = 0;
+};
+inline constexpr std::size_t round_values = sizeof(RoundSums) / sizeof(std::int64_t);
+
+}  // namespace vitrail

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "farm/scheduler/scheduler.h"
+
+#include <algorithm>
+
+namespace vitrail {
+
+namespace {
+
+// With this many rays waiting for a resident domain no new ones are generated.
+constexpr std::uint64_t rays_worth_tracing_first = 4096;
+// Rays for other ranks leave when this many wait, when a worker here has nothing to do, or after this time.
+constexpr std::uint64_t rays_worth_sending = 4096;
+constexpr double longest_wait_s = .002;
+
+}  // namespace
+
+Scheduler::Scheduler(const Job& job, Residency residency) : job_(job), residency_(std::move(residency)) {}
+
+Scheduler::Task Scheduler::next_task() const {
+  const auto fullest = residency_.fullest();
+  const bool may_generate = wants_to_generate() && allowance_ > 0;
+  if (fullest && (!may_generate || residency_.waiting(*fullest) >= rays_worth_tracing_first))
+    return {Work::trace, *fullest};
+  return {may_generate ? Work::generate : Work::none, 0, allowance_};
+}
+
+void Scheduler::begin_batch(std::uint32_t domain, std::uint64_t rays) { residency_.rays_taken(domain, rays); }
+
+void Scheduler::begin_items(std::uint64_t items) {
+  items_ = items;
+  next_item_ = 0;
+  calm_ = false;
+}
+
+// An item may have no rays.
+void Scheduler::begin_rays(std::uint64_t rays, bool ends) {
+  item_is_open_ = !ends;
+  next_item_ += ends;
+  in_hand_ += rays > 0;
+  rays_in_hand_ += rays;
+  allowance_ -= rays;
+}
+
+void Scheduler::finish_task(std::uint64_t generated, std::uint64_t born, std::uint64_t died) {
+  born_ += born;
+  died_ += died;
+  in_hand_ -= generated > 0;
+  rays_in_hand_ -= generated;
+}
+
+bool Scheduler::route(std::uint32_t domain, std::uint64_t rays) {
+  if (residency_.is_local(domain)) {
+    residency_.rays_wait(domain, rays);
+    return true;
+  }
+  outgoing_ += rays;
+  forwarded_ += rays;
+  residency_.rays_forwarded(domain, rays);
+  return false;
+}
+
+void Scheduler::arrived(std::uint32_t domain, std::uint64_t rays) { residency_.rays_wait(domain, rays); }
+
+bool Scheduler::send_is_due(double now_s) const {
+  return outgoing_ > 0 &&
+         (outgoing_ >= rays_worth_sending || workers_waiting_ > 0 || now_s - last_sent_s_ > longest_wait_s);
+}
+
+void Scheduler::sent(double now_s) {
+  outgoing_ = 0;
+  last_sent_s_ = now_s;
+}
+
+RoundSums Scheduler::contribution() const {
+  RoundSums mine;
+  mine.born = static_cast<std::int64_t>(born_);
+  mine.died = static_cast<std::int64_t>(died_);
+  mine.wanting = wants_to_generate();
+  mine.reserved = static_cast<std::int64_t>(rays_in_hand_ + (mine.wanting ? allowance_ : 0));
+  mine.quiet = in_hand_ == 0 && !mine.wanting;
+  mine.items_done = static_cast<std::int64_t>(next_item_ - std::min(next_item_, in_hand_));
+  mine.domain_loads = static_cast<std::int64_t>(residency_.loads());
+  return mine;
+}
+
+Scheduler::Decision Scheduler::decide(const RoundSums& sums) {
+  const std::int64_t alive = sums.born - sums.died;
+  // Twice in a row nothing was alive and nothing new was born in between: then nothing was alive at one
+  // moment between the two rounds, and nothing can begin (Mattern 1987, the four-counter method).
+  const bool calm = alive == 0 && sums.quiet == job_.ranks;
+  const bool over = calm && calm_ && sums.born == born_then_;
+  calm_ = calm;
+  born_then_ = sums.born;
+  alive_ = static_cast<std::uint64_t>(std::max<std::int64_t>(0, alive));
+  paused_ = sums.pause + sums.interrupted + sums.terminated + sums.time_is_up > 0;
+  // What is free is shared by those that want some; who wants none gives back what it had.
+  if (!wants_to_generate()) {
+    allowance_ = 0;
+  } else if (sums.wanting > 0) {
+    const std::int64_t allowed = std::max<std::int64_t>(job_.rays_allowed, job_.ranks);
+    allowance_ +=
+        static_cast<std::uint64_t>(std::max<std::int64_t>(0, allowed - alive - sums.reserved) / sums.wanting);
+  }
+  return over ? Decision::all_quiet : Decision::go_on;
+}
+
+}  // namespace vitrail

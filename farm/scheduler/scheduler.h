@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+// Everything that one rank decides: what a worker does next, which domain is loaded and which leaves, when
+// rays are sent, how many may be born, when the job pauses and when it is over. Events in, actions out: no
+// thread, clock, message or file is in it, so that the farm and the simulator run the same code. Seconds are
+// of the caller's clock.
+#pragma once
+
+#include "farm/scheduler/residency.h"
+#include "farm/scheduler/round.h"
+
+namespace vitrail {
+
+class Scheduler {
+ public:
+  struct Job {
+    int ranks = 1;
+    int workers = 1;                // of this rank
+    std::int64_t rays_allowed = 0;  // alive in the whole job; as many as there are ranks at least
+  };
+  Scheduler(const Job& job, Residency residency);
+
+  // --- Workers. A task is a batch of the rays that wait for a domain, or some rays of the item that is open
+  // or next. An item that was begun is finished before the job pauses.
+  enum class Work { none, trace, generate };
+  struct Task {
+    Work work = Work::none;
+    std::uint32_t domain = 0;
+    std::uint64_t rays = 0;  // to generate, at most
+  };
+  Task next_task() const;
+  void begin_batch(std::uint32_t domain, std::uint64_t rays);
+  // From now on these many items are the rank's; of those before, all are done, everywhere.
+  void begin_items(std::uint64_t items);
+  // Generates `rays` of item items_dealt(), its last ones if it `ends` with them.
+  void begin_rays(std::uint64_t rays, bool ends);
+  // What the task made is counted in one step with where it waits, so that no round misses a ray that is
+  // alive. `generated`: what begin_rays was told, 0 after a batch.
+  void finish_task(std::uint64_t generated, std::uint64_t born, std::uint64_t died);
+  void worker_waits() { ++workers_waiting_; }
+  void worker_wakes() { --workers_waiting_; }
+  int workers_waiting() const { return workers_waiting_; }
+
+  // --- Rays. `true`: they wait here, else for being sent to the domain's home.
+  bool route(std::uint32_t domain, std::uint64_t rays);
+  void arrived(std::uint32_t domain, std::uint64_t rays);
+  bool send_is_due(double now_s) const;
+  void sent(double now_s);
+
+  // --- Domains.
+  LoadStep loader_is_free() { return residency_.loader_is_free(alive_, workers_waiting_ == job_.workers); }
+  void loaded(std::uint32_t domain) { residency_.loaded(domain); }
+  void released(std::uint64_t bytes) { residency_.released(bytes); }
+  const Residency& residency() const { return residency_; }
+
+  // --- Rounds. Whoever asks for a pause or an end adds it to the contribution.
+  RoundSums contribution() const;
+  enum class Decision { go_on, all_quiet };
+  // The same on every rank, since the sums are. `all_quiet`: no ray is alive and none will be born, until
+  // `resume` where the job was paused.
+  Decision decide(const RoundSums& sums);
+  void resume() { calm_ = false; }
+
+  std::uint64_t items_dealt() const { return next_item_; }  // to the last ray
+  std::uint64_t forwarded_rays() const { return forwarded_; }
+
+ private:
+  bool wants_to_generate() const { return item_is_open_ || (!paused_ && next_item_ < items_); }
+
+  Job job_;
+  Residency residency_;
+  std::uint64_t items_ = 0, next_item_ = 0;
+  bool item_is_open_ = false;                   // some of its rays are generated, some not
+  std::uint64_t in_hand_ = 0;                   // tasks that generate
+  std::uint64_t rays_in_hand_ = 0;              // that these generate
+  std::uint64_t born_ = 0, died_ = 0;           // rays, here
+  std::uint64_t alive_ = 0;                     // in the whole job, at the last round
+  std::uint64_t allowance_ = 0;                 // rays that may be generated
+  std::uint64_t outgoing_ = 0, forwarded_ = 0;  // rays
+  double last_sent_s_ = 0;
+  int workers_waiting_ = 0;
+  bool paused_ = false;
+  bool calm_ = false;  // the last round saw no ray alive and nothing to generate
+  std::int64_t born_then_ = -1;
+};
+
+}  // namespace vitrail

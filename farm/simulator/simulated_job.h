@@ -1,0 +1,430 @@
+// SPDX-License-Identifier: Apache-2.0
+// The simulation itself, over any scheduler, so that tests can put a broken one in its place.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <map>
+#include <queue>
+#include <random>
+#include <set>
+
+#include "farm/scheduler/scheduler.h"
+#include "farm/simulator/simulation.h"
+
+namespace vitrail {
+
+template <class SchedulerType>
+class SimulatedJob {
+ public:
+  SimulatedJob(const Workload& workload, const Machine& machine, const Mishaps& mishaps, std::uint64_t seed)
+      : workload_(workload), machine_(machine), mishaps_(mishaps), random_(seed) {
+    const std::vector<int> home = home_ranks(workload.manifest, machine.ranks);
+    for (int r = 0; r < machine.ranks; ++r) {
+      const auto ranks = static_cast<std::uint64_t>(machine.ranks), rank = static_cast<std::uint64_t>(r);
+      const std::uint64_t items = workload.items / ranks + (rank < workload.items % ranks);
+      ranks_.emplace_back(SchedulerType({machine.ranks, machine.workers, machine.rays_allowed},
+                                        Residency(workload.manifest, machine.domain_bytes, home, r)),
+                          workload.domains.size(), static_cast<std::size_t>(machine.workers));
+      ranks_.back().scheduler.begin_items(items);
+    }
+    for (int i = 0; i < mishaps.checkpoints; ++i)
+      at(-mishaps.checkpoint_mean_s * std::log1p(-uniform()), {Event::Kind::checkpoint, pick_rank()});
+    for (int r = 0; r < machine.ranks; ++r) {
+      at(0, {Event::Kind::round_begins, r});
+      wake_workers(r);
+    }
+  }
+
+  SimulationResult run() {
+    // A message, a load or a task always leads to another event; only rounds can go on for ever.
+    std::uint64_t rounds_without_progress = 0, progress = 0;
+    while (ended_ < ranks_.size()) {
+      if (events_.empty()) broken("nothing will ever happen again: a deadlock");
+      const Event e = events_.top();
+      events_.pop();
+      now_ = e.time;
+      ++result_.events;
+      happen(e);
+      check(e.kind, e.rank);
+      if (e.kind != Event::Kind::round_begins && e.kind != Event::Kind::round_ends) ++progress;
+      if (e.kind == Event::Kind::round_ends && e.rank == 0) {
+        rounds_without_progress = progress == progress_then_ ? rounds_without_progress + 1 : 0;
+        progress_then_ = progress;
+        if (rounds_without_progress > 10'000) broken("10,000 rounds without any other event: no progress");
+      }
+    }
+    if (alive_ != 0) broken(fmt::format("the job ended with {} rays alive", alive_));
+    if (generated_ != workload_.items * workload_.rays_an_item)
+      broken(fmt::format("the job ended with {} camera rays of {} items of {}", generated_, workload_.items,
+                         workload_.rays_an_item));
+    result_.seconds = now_;
+    result_.efficiency =
+        result_.busy_s / (now_ * static_cast<double>(ranks_.size()) * static_cast<double>(machine_.workers));
+    for (const Rank& r : ranks_) {
+      result_.loads += r.scheduler.residency().loads();
+      result_.evictions += r.scheduler.residency().evictions();
+      result_.forwarded_rays += r.scheduler.forwarded_rays();
+    }
+    return result_;
+  }
+
+ private:
+  struct Event {
+    enum class Kind { task_done, load_done, message, round_begins, round_ends, send_is_due, checkpoint };
+    Kind kind = Kind::task_done;
+    int rank = 0;
+    std::uint32_t domain = 0;  // of a message or a load
+    std::uint64_t number = 0;  // of rays in a message, of the worker of a task
+    double time = 0;
+    std::uint64_t order = 0;  // of events at one time
+    bool operator<(const Event& e) const { return time != e.time ? time > e.time : order > e.order; }
+  };
+  struct Worker {
+    typename SchedulerType::Work work = SchedulerType::Work::none;
+    std::map<std::uint32_t, std::uint64_t> made;  // rays by domain, when it is done
+    std::uint64_t generated = 0, born = 0, died = 0;
+    std::uint64_t began = 0;  // evictions before it
+  };
+  // What left the table and workers still hold.
+  struct Evicted {
+    std::uint64_t number = 0;  // of the eviction
+    std::uint64_t bytes = 0;
+  };
+  struct Rank {
+    Rank(SchedulerType s, std::size_t domains, std::size_t threads)
+        : scheduler(std::move(s)), queues(domains), outgoing(domains), workers(threads) {
+      waiting = static_cast<int>(threads);
+      for (std::size_t i = 0; i < threads; ++i) scheduler.worker_waits();
+    }
+    SchedulerType scheduler;
+    std::vector<std::uint64_t> queues, outgoing;  // rays
+    std::vector<Worker> workers;
+    std::uint64_t rays = 0;         // that wait here
+    std::uint64_t item_at = 0;      // rays of the open item that are generated
+    std::set<std::uint32_t> table;  // resident domains
+    std::vector<Evicted> evicted;
+    std::uint64_t evictions = 0, bytes = 0;  // bytes mapped or reserved
+    std::uint64_t on_the_way = 0;            // bytes of the load
+    bool loading = false, in_round = false, ended = false, wants_checkpoint = false;
+    int waiting = 0;  // workers
+    std::uint64_t round = 0;
+    double sending_until = 0;
+  };
+  struct Round {
+    int joined = 0;
+    RoundSums sums;
+    double last = 0;
+  };
+
+  [[noreturn]] void broken(const std::string& what) const {
+    throw InvariantBroken(fmt::format("at {:.6f} s, event {}: {}", now_, result_.events, what));
+  }
+  double uniform() { return static_cast<double>(random_() >> 11) * 0x1p-53; }
+  int pick_rank() { return static_cast<int>(random_() % ranks_.size()); }
+  double late() { return 1 + machine_.jitter * uniform(); }
+  void at(double time, Event e) {
+    e.time = time;
+    e.order = next_order_++;
+    events_.push(e);
+  }
+  std::uint64_t rounded(double rays) {
+    const double whole = std::floor(rays);
+    return static_cast<std::uint64_t>(whole) + (uniform() < rays - whole);
+  }
+
+  void happen(const Event& e) {
+    Rank& r = ranks_[static_cast<std::size_t>(e.rank)];
+    switch (e.kind) {
+      case Event::Kind::task_done:
+        return finish_task(e.rank, r.workers[static_cast<std::size_t>(e.number)]);
+      case Event::Kind::load_done:
+        return finish_load(e.rank, e.domain);
+      case Event::Kind::message:
+        return receive(e.rank, e.domain, e.number);
+      case Event::Kind::round_begins:
+        return begin_round(e.rank);
+      case Event::Kind::round_ends:
+        return end_round(e.rank);
+      case Event::Kind::send_is_due:
+        return send(e.rank);
+      case Event::Kind::checkpoint:
+        r.wants_checkpoint = !r.ended;
+        return;
+    }
+  }
+
+  // --- workers
+  void wake_workers(int rank) {
+    Rank& r = ranks_[static_cast<std::size_t>(rank)];
+    for (std::size_t i = 0; i < r.workers.size() && r.waiting > 0; ++i)
+      if (r.workers[i].work == SchedulerType::Work::none && !begin_task(rank, i)) break;
+    wake_loader(rank);
+  }
+
+  bool begin_task(int rank, std::size_t number) {
+    Rank& r = ranks_[static_cast<std::size_t>(rank)];
+    Worker& w = r.workers[number];
+    const auto task = r.scheduler.next_task();
+    if (task.work == SchedulerType::Work::none) return false;
+    r.scheduler.worker_wakes();
+    --r.waiting;
+    w.work = task.work;
+    w.began = r.evictions;
+    w.generated = w.born = w.died = 0;
+    std::map<std::uint32_t, std::uint64_t> pending;
+    if (task.work == SchedulerType::Work::trace) {
+      if (!r.table.contains(task.domain)) broken(fmt::format("rank {} traces in an absent domain", rank));
+      const std::uint64_t rays = std::min<std::uint64_t>(r.queues[task.domain], 1024);
+      if (rays == 0) broken(fmt::format("rank {} traces where no ray waits", rank));
+      r.queues[task.domain] -= rays;
+      r.rays -= rays;
+      r.scheduler.begin_batch(task.domain, rays);
+      pending[task.domain] = rays;
+    } else {
+      w.generated = std::min<std::uint64_t>(workload_.rays_an_item - r.item_at, task.rays);
+      if (w.generated == 0) broken(fmt::format("rank {} generates nothing", rank));
+      r.item_at = (r.item_at + w.generated) % workload_.rays_an_item;
+      r.scheduler.begin_rays(w.generated, r.item_at == 0);
+      w.born = w.generated;
+      alive_ += w.born;
+      result_.most_alive = std::max(result_.most_alive, alive_);
+      std::uint64_t left = w.born;
+      for (const Workload::Way& way : workload_.entry) {
+        const std::uint64_t rays = &way == &workload_.entry.back()
+                                       ? left
+                                       : std::min(left, rounded(way.rays * static_cast<double>(w.generated)));
+        pending[way.domain] += rays;
+        left -= rays;
+      }
+    }
+    double seconds = 1e-6;
+    w.made.clear();
+    while (!pending.empty()) {
+      const auto [domain, rays] = *pending.begin();
+      pending.erase(pending.begin());
+      if (rays == 0) continue;
+      if (!r.table.contains(domain)) {
+        w.made[domain] += rays;
+        continue;
+      }
+      const Workload::Domain& d = workload_.domains[domain];
+      seconds += d.seconds * static_cast<double>(rays);
+      result_.rays += rays;
+      w.died += rays;
+      for (const Workload::Way& way : d.ways) {
+        const std::uint64_t leave = rounded(way.rays * static_cast<double>(rays));
+        pending[way.domain] += leave;
+        w.born += leave;
+        alive_ += leave;
+      }
+      alive_ -= rays;
+    }
+    seconds *= late() * (rank == 0 ? mishaps_.slow_rank : 1);
+    result_.busy_s += seconds;
+    at(now_ + seconds, {Event::Kind::task_done, rank, 0, number});
+    return true;
+  }
+
+  void finish_task(int rank, Worker& w) {
+    Rank& r = ranks_[static_cast<std::size_t>(rank)];
+    for (const auto& [domain, rays] : w.made) {
+      r.rays += rays;
+      (r.scheduler.route(domain, rays) ? r.queues : r.outgoing)[domain] += rays;
+    }
+    result_.most_on_a_rank = std::max(result_.most_on_a_rank, r.rays);
+    r.scheduler.finish_task(w.generated, w.born, w.died);
+    generated_ += w.generated;
+    w.work = SchedulerType::Work::none;
+    r.scheduler.worker_waits();
+    ++r.waiting;
+    release(r);
+    send(rank);
+    wake_workers(rank);
+  }
+
+  // --- domains
+  void wake_loader(int rank) {
+    Rank& r = ranks_[static_cast<std::size_t>(rank)];
+    if (r.loading) return;
+    const LoadStep step = r.scheduler.loader_is_free();
+    ++r.evictions;
+    for (const std::uint32_t domain : step.evicted) {
+      if (!r.table.contains(domain)) broken(fmt::format("rank {} evicts an absent domain", rank));
+      r.table.erase(domain);
+    }
+    if (step.load) {
+      r.on_the_way = workload_.manifest.domains[step.load->domain].bytes;
+      for (const std::uint32_t o : step.load->missing) r.on_the_way += workload_.manifest.objects[o].bytes;
+      r.loading = true;
+      const double files = 1 + static_cast<double>(step.load->missing.size());
+      at(now_ + late() * (files * machine_.disk_latency_s +
+                          static_cast<double>(r.on_the_way) / machine_.disk_bytes_s),
+         {Event::Kind::load_done, rank, step.load->domain});
+    }
+    if (!step.evicted.empty()) {
+      // What no resident domain and no load needs any more leaves memory with the last worker that began
+      // before.
+      std::uint64_t kept = bytes_of_table(r, step);
+      std::uint64_t leaving = 0;
+      for (const Evicted& e : r.evicted) leaving += e.bytes;
+      const std::uint64_t reserved = step.load ? r.on_the_way : 0;
+      if (r.bytes + reserved < kept + leaving) broken("bytes are miscounted");
+      const std::uint64_t bytes = r.bytes + reserved - kept - leaving;
+      r.evicted.push_back({r.evictions, bytes});
+    }
+    if (step.load) r.bytes += r.on_the_way;
+    release(r);
+    if (!step.evicted.empty() && !step.load) wake_loader(rank);
+  }
+
+  // With what the load needs of objects and brings.
+  std::uint64_t bytes_of_table(const Rank& r, const LoadStep& step) const {
+    std::vector<bool> counted(workload_.manifest.objects.size());
+    std::uint64_t bytes = 0;
+    const auto add = [&](std::uint32_t domain) {
+      bytes += workload_.manifest.domains[domain].bytes;
+      for (const std::uint32_t o : workload_.manifest.domains[domain].objects)
+        if (!counted[o]) {
+          counted[o] = true;
+          bytes += workload_.manifest.objects[o].bytes;
+        }
+    };
+    for (const std::uint32_t domain : r.table) add(domain);
+    if (step.load) add(step.load->domain);
+    return bytes;
+  }
+
+  // What workers that began before an eviction hold is let go when they are done.
+  void release(Rank& r) {
+    std::uint64_t oldest = r.evictions + 1;
+    for (const Worker& w : r.workers)
+      if (w.work != SchedulerType::Work::none) oldest = std::min(oldest, w.began);
+    std::erase_if(r.evicted, [&](const Evicted& e) {
+      if (e.number > oldest) return false;
+      r.bytes -= e.bytes;
+      r.scheduler.released(e.bytes);
+      return true;
+    });
+  }
+
+  void finish_load(int rank, std::uint32_t domain) {
+    Rank& r = ranks_[static_cast<std::size_t>(rank)];
+    r.loading = false;
+    r.table.insert(domain);
+    r.scheduler.loaded(domain);
+    wake_workers(rank);
+  }
+
+  // --- messages
+  void send(int rank) {
+    Rank& r = ranks_[static_cast<std::size_t>(rank)];
+    if (!r.scheduler.send_is_due(now_)) return;
+    for (std::uint32_t d = 0; d < r.outgoing.size(); ++d) {
+      if (r.outgoing[d] == 0) continue;
+      constexpr double bytes_a_ray = 48;
+      r.sending_until = std::max(r.sending_until, now_) +
+                        static_cast<double>(r.outgoing[d]) * bytes_a_ray / machine_.network_bytes_s;
+      ++result_.messages;
+      r.rays -= r.outgoing[d];
+      at(r.sending_until + late() * machine_.latency_s,
+         {Event::Kind::message, r.scheduler.residency().home(d), d, r.outgoing[d]});
+      r.outgoing[d] = 0;
+    }
+    r.scheduler.sent(now_);
+  }
+
+  void receive(int rank, std::uint32_t domain, std::uint64_t rays) {
+    Rank& r = ranks_[static_cast<std::size_t>(rank)];
+    if (r.ended) broken(fmt::format("rank {} had ended when {} rays arrived", rank, rays));
+    r.queues[domain] += rays;
+    r.rays += rays;
+    result_.most_on_a_rank = std::max(result_.most_on_a_rank, r.rays);
+    r.scheduler.arrived(domain, rays);
+    wake_workers(rank);
+  }
+
+  // --- rounds
+  void begin_round(int rank) {
+    Rank& r = ranks_[static_cast<std::size_t>(rank)];
+    send(rank);
+    RoundSums mine = r.scheduler.contribution();
+    mine.pause = r.wants_checkpoint;
+    Round& round = rounds_[r.round];
+    add(round.sums, mine);
+    if (++round.joined < machine_.ranks) return;
+    ++result_.rounds;
+    const double steps = std::bit_width(static_cast<unsigned>(machine_.ranks));
+    for (int other = 0; other < machine_.ranks; ++other)
+      at(now_ + late() * machine_.latency_s * steps, {Event::Kind::round_ends, other});
+  }
+
+  void end_round(int rank) {
+    Rank& r = ranks_[static_cast<std::size_t>(rank)];
+    const RoundSums sums = rounds_.at(r.round).sums;
+    ++r.round;
+    if (r.scheduler.decide(sums) == SchedulerType::Decision::all_quiet) {
+      if (!over_ || *over_ != r.round) {
+        if (alive_ != 0)
+          broken(fmt::format("rank {} thinks that it is over with {} rays alive", rank, alive_));
+        over_ = r.round;
+      }
+      if (sums.items_done == static_cast<std::int64_t>(workload_.items)) {
+        r.ended = true;
+        ++ended_;
+        return;
+      }
+      if (sums.pause == 0) broken("all is quiet, not done, and nobody asked for a pause");
+      result_.checkpoints += rank == 0;
+      r.wants_checkpoint = false;
+      r.scheduler.resume();
+    }
+    wake_workers(rank);
+    constexpr double interval_s = 1e-3;
+    at(now_ + interval_s * late(), {Event::Kind::round_begins, rank});
+  }
+
+  static void add(RoundSums& to, const RoundSums& from) {
+    to.born += from.born;
+    to.reserved += from.reserved;
+    to.wanting += from.wanting;
+    to.died += from.died;
+    to.quiet += from.quiet;
+    to.pause += from.pause;
+    to.items_done += from.items_done;
+  }
+
+  // --- what may never happen
+  void check(Event::Kind kind, int rank) const {
+    const Rank& r = ranks_[static_cast<std::size_t>(rank)];
+    const Residency& residency = r.scheduler.residency();
+    if (r.bytes != residency.held_bytes())
+      broken(fmt::format("rank {} holds {} bytes and counts {}", rank, r.bytes, residency.held_bytes()));
+    if (r.bytes > machine_.domain_bytes)
+      broken(fmt::format("rank {} holds {} bytes of {}", rank, r.bytes, machine_.domain_bytes));
+    if (kind != Event::Kind::round_ends) return;
+    for (std::uint32_t d = 0; d < r.queues.size(); ++d)
+      if (r.queues[d] != residency.waiting(d))
+        broken(fmt::format("{} rays wait for domain {} on rank {}, which counts {}", r.queues[d], d, rank,
+                           residency.waiting(d)));
+  }
+
+  const Workload& workload_;
+  const Machine machine_;
+  const Mishaps mishaps_;
+  std::mt19937_64 random_;
+  std::vector<Rank> ranks_;
+  std::map<std::uint64_t, Round> rounds_;
+  std::priority_queue<Event> events_;
+  std::uint64_t next_order_ = 0, progress_then_ = 0;
+  double now_ = 0;
+  std::uint64_t alive_ = 0, generated_ = 0;
+  std::size_t ended_ = 0;
+  std::optional<std::uint64_t> over_;  // the round that said so
+  SimulationResult result_;
+};
+
+}  // namespace vitrail

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// A job of many ranks under a simulated clock: the schedulers are the farm's own, while threads, network and
+// disks are events. What may never happen is looked for after every event.
+#pragma once
+
+#include <stdexcept>
+
+#include "farm/simulator/workload.h"
+
+namespace vitrail {
+
+// The cluster. Seconds and bytes a second.
+struct Machine {
+  int ranks = 1;
+  int workers = 1;                 // a rank
+  std::uint64_t domain_bytes = 0;  // a rank, for domains
+  std::int64_t rays_allowed = 0;   // alive in the whole job
+  double latency_s = 5e-6;         // of a message
+  double network_bytes_s = 1e10;   // a rank
+  double disk_latency_s = 1e-3;    // of a file
+  double disk_bytes_s = 1e9;       // a rank
+  double jitter = 0;               // any of these takes up to 1 + this times as long: messages overtake
+};
+
+// What goes wrong on purpose.
+struct Mishaps {
+  int checkpoints = 0;  // at random moments
+  double checkpoint_mean_s = 1e-3;
+  double slow_rank = 1;  // a rank whose work takes so many times as long
+};
+
+// Something that may never happen did. The message says what, where and when.
+struct InvariantBroken : std::logic_error {
+  using std::logic_error::logic_error;
+};
+
+struct SimulationResult {
+  double seconds = 0;     // of the clock, to the end
+  double busy_s = 0;      // of workers
+  double efficiency = 0;  // busy_s ÷ (seconds × workers)
+  std::uint64_t events = 0, messages = 0, rays = 0, forwarded_rays = 0, loads = 0, evictions = 0;
+  std::uint64_t rounds = 0, checkpoints = 0;
+  std::uint64_t most_alive = 0;      // rays in the whole job
+  std::uint64_t most_on_a_rank = 0;  // rays that wait on one
+};
+
+// The same seed gives the same run. Throws InvariantBroken.
+SimulationResult simulate(const Workload& workload, const Machine& machine, const Mishaps& mishaps,
+                          std::uint64_t seed);
+
+}  // namespace vitrail

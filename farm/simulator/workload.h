@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// How the rays of a picture behave, as the simulator sees them: numbers of rays that move between domains.
+#pragma once
+
+#include <cstdint>
+#include <random>
+#include <vector>
+
+#include "bundle/manifest.h"
+
+namespace vitrail {
+
+struct Workload {
+  struct Way {
+    std::uint32_t domain = 0;
+    double rays = 0;  // that leave for it, a ray that is traced
+  };
+  struct Domain {
+    double seconds = 0;  // of a worker, a ray
+    std::vector<Way> ways;
+  };
+  Manifest manifest;            // bytes of domains and objects alone
+  std::vector<Domain> domains;  // a ray bears fewer than one in the mean, or no picture ends
+  std::vector<Way> entry;       // where camera rays begin, of one
+  std::uint64_t items = 0;      // of the job
+  std::uint32_t rays_an_item = 0;
+};
+
+// Domains in a row, each of whose rays end, stay near or go anywhere; of unlike sizes, some with objects in
+// common.
+Workload random_workload(std::mt19937_64& random, std::uint32_t domains, std::uint64_t items,
+                         std::uint32_t rays_an_item);
+
+}  // namespace vitrail

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+// Thousands of jobs under a simulated clock. VITRAIL_SIMULATIONS=N runs N of them; a seed that fails is
+// printed, and VITRAIL_SIMULATION_SEED runs that one alone.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <string>
+
+#include "farm/simulator/simulated_job.h"
+
+namespace vitrail {
+namespace {
+
+std::uint64_t from_environment(const char* name, std::uint64_t otherwise) {
+  const char* text = std::getenv(name);
+  return text ? std::strtoull(text, nullptr, 10) : otherwise;
+}
+
+// A cluster, a picture and what goes wrong, all of one seed.
+struct Case {
+  Workload workload;
+  Machine machine;
+  Mishaps mishaps;
+
+  explicit Case(std::uint64_t seed, int most_ranks = 40) {
+    std::mt19937_64 random(seed);
+    const auto among = [&](std::uint64_t n) { return random() % n; };
+    machine.ranks = 1 + static_cast<int>(among(among(4) == 0 ? static_cast<std::uint64_t>(most_ranks) : 4));
+    machine.workers = 1 + static_cast<int>(among(4));
+    const auto domains = static_cast<std::uint32_t>(1 + among(among(2) == 0 ? 4 : 48));
+    workload = random_workload(random, domains, among(60), static_cast<std::uint32_t>(1 + among(2000)));
+    const std::uint64_t all = bytes_of_all(workload.manifest);
+    std::uint64_t largest = 0;
+    for (std::uint32_t d = 0; d < domains; ++d)
+      largest = std::max(largest, bytes_needed(workload.manifest, d));
+    machine.domain_bytes = std::max(largest, all >> among(6));
+    machine.rays_allowed = static_cast<std::int64_t>(1 + among(50'000));
+    machine.jitter = among(2) == 0 ? 0 : static_cast<double>(among(100));
+    machine.latency_s = 1e-6 * static_cast<double>(1 + among(1000));
+    machine.disk_latency_s = 1e-5 * static_cast<double>(1 + among(1000));
+    mishaps.checkpoints = among(3) == 0 ? static_cast<int>(among(4)) : 0;
+    mishaps.checkpoint_mean_s = .01;
+    mishaps.slow_rank = among(4) == 0 ? 20 : 1;
+  }
+};
+
+template <class SchedulerType>
+SimulationResult run(const Case& c, std::uint64_t seed) {
+  return SimulatedJob<SchedulerType>(c.workload, c.machine, c.mishaps, seed).run();
+}
+
+TEST(Simulation, NothingIsLostAndEveryJobEnds) {
+  const std::uint64_t only = from_environment("VITRAIL_SIMULATION_SEED", 0);
+  const std::uint64_t first = only > 0 ? only : 1,
+                      jobs = only > 0 ? 1 : from_environment("VITRAIL_SIMULATIONS", 2000);
+  std::uint64_t events = 0;
+  for (std::uint64_t seed = first; seed < first + jobs; ++seed) {
+    const Case c(seed);
+    try {
+      const SimulationResult result = run<Scheduler>(c, seed);
+      events += result.events;
+      // Rays that hits bear come on top, and a round is a little behind.
+      const auto allowed =
+          static_cast<double>(std::max<std::int64_t>(c.machine.rays_allowed, c.machine.ranks));
+      EXPECT_LE(static_cast<double>(result.most_alive), 1.25 * allowed + 32)
+          << "VITRAIL_SIMULATION_SEED=" << seed;
+    } catch (const InvariantBroken& e) {
+      ADD_FAILURE() << "VITRAIL_SIMULATION_SEED=" << seed << ": " << e.what();
+      break;
+    }
+  }
+  std::printf("%.3g events\n", static_cast<double>(events));
+}
+
+// Deliberately wrong ones: what they do is found out.
+template <class SchedulerType>
+bool is_caught(int jobs) {
+  for (int seed = 1; seed <= jobs; ++seed) {
+    try {
+      run<SchedulerType>(Case(static_cast<std::uint64_t>(seed)), static_cast<std::uint64_t>(seed));
+    } catch (const InvariantBroken&) {
+      return true;
+    }
+  }
+  return false;
+}
+
+// One round without a ray is enough for it.
+struct TooSoon : Scheduler {
+  using Scheduler::Scheduler;
+  Decision decide(const RoundSums& sums) {
+    Scheduler::decide(sums);
+    return sums.born == sums.died && sums.quiet == ranks ? Decision::all_quiet : Decision::go_on;
+  }
+  TooSoon(const Job& job, Residency residency) : Scheduler(job, std::move(residency)), ranks(job.ranks) {}
+  int ranks;
+};
+
+// Counts what it made before it has told where that waits: as if two steps were one.
+struct NeverSends : Scheduler {
+  using Scheduler::Scheduler;
+  bool send_is_due(double) const { return false; }
+};
+
+struct ForgetsWhatArrived : Scheduler {
+  using Scheduler::Scheduler;
+  void arrived(std::uint32_t, std::uint64_t) {}
+};
+
+struct ForgetsDeaths : Scheduler {
+  using Scheduler::Scheduler;
+  void finish_task(std::uint64_t generated, std::uint64_t born, std::uint64_t died) {
+    Scheduler::finish_task(generated, born, died == 0 ? 0 : died - 1);
+  }
+};
+
+struct LetsGoTwice : Scheduler {
+  using Scheduler::Scheduler;
+  void released(std::uint64_t bytes) { Scheduler::released(2 * bytes); }
+};
+
+struct NeverLoads : Scheduler {
+  using Scheduler::Scheduler;
+  LoadStep loader_is_free() { return {}; }
+};
+
+struct StaysPaused : Scheduler {
+  using Scheduler::Scheduler;
+  RoundSums contribution() const {
+    RoundSums mine = Scheduler::contribution();
+    mine.quiet = 1;
+    return mine;
+  }
+};
+
+TEST(Simulation, CatchesBrokenSchedulers) {
+  EXPECT_FALSE(is_caught<Scheduler>(300));
+  EXPECT_TRUE(is_caught<TooSoon>(2000));
+  EXPECT_TRUE(is_caught<NeverSends>(300));
+  EXPECT_TRUE(is_caught<ForgetsWhatArrived>(300));
+  EXPECT_TRUE(is_caught<ForgetsDeaths>(300));
+  EXPECT_TRUE(is_caught<LetsGoTwice>(300));
+  EXPECT_TRUE(is_caught<NeverLoads>(300));
+  EXPECT_TRUE(is_caught<StaysPaused>(300));
+}
+
+}  // namespace
+}  // namespace vitrail
