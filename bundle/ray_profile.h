@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the rays of a render went: how many were traced in each domain. Written by `render --profile`, read
-// by `partition --profile`, which cuts the same scene anew.
+// Where the rays of a render went and what that took. Written by `render --profile`; read by `partition
+// --profile`, which cuts the same scene anew, and by `plan`.
 #pragma once
 
 #include <cstdint>
@@ -18,12 +18,30 @@ struct RayProfile {
     bool operator==(const Domain&) const = default;
   };
 
+  // Rays that were traced in `from`, or left the camera, and went on, or sent others, to `to`.
+  struct Way {
+    static constexpr std::uint32_t camera = 0xffffffff;
+    std::uint32_t from = camera, to = 0;
+    std::uint64_t rays = 0;
+    bool operator==(const Way&) const = default;
+  };
+  // Seconds are summed over threads and ranks.
+  struct Cost {
+    std::uint64_t camera_rays = 0;
+    double trace_s = 0, load_s = 0;
+    std::uint64_t loads = 0;  // of domains
+    bool operator==(const Cost&) const = default;
+  };
+
   Vector3d offset;  // world = the profile's coordinates + offset
   std::vector<KdNode> kd_nodes;
   std::vector<Domain> domains;
+  std::vector<Way> ways;  // ascending by from, to
+  Cost cost;
 
   RayProfile() = default;
-  RayProfile(const Manifest& manifest, const std::vector<std::uint64_t>& rays);
+  RayProfile(const Manifest& manifest, const std::vector<std::uint64_t>& rays, std::vector<Way> ways,
+             Cost cost);
 
   // The domain that a point of the world lies in.
   std::uint32_t domain_at(Point3d world) const;

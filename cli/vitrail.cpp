@@ -21,6 +21,7 @@ constexpr const char* usage = R"(usage: vitrail VERB ...
   partition   a scene into a bundle of sub-domains, one file each
   verify      every byte of a bundle
   render      a bundle or a scene, alone or under mpirun
+  plan        what a cluster would do with a bundle
   develop     films into a picture
   compare     a picture with a reference
   measure     what speed costs on a scene, and which settings to take
@@ -30,7 +31,7 @@ constexpr const char* usage = R"(usage: vitrail VERB ...
 `vitrail help VERB` says more.
 )";
 
-const std::vector<std::string> verbs{"convert", "inspect", "partition", "verify",  "render",
+const std::vector<std::string> verbs{"convert", "inspect", "partition", "verify",  "render",   "plan",
                                      "develop", "compare", "measure",   "glazing", "spectrum"};
 
 int no_such(const std::string& verb) {

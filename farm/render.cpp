@@ -8,10 +8,10 @@
 #include <cstdio>
 #include <thread>
 
-#include "bundle/ray_profile.h"
 #include "farm/about.h"
 #include "farm/agreement.h"
 #include "farm/film_size.h"
+#include "farm/gather_profile.h"
 #include "farm/memory.h"
 #include "farm/rank.h"
 #include "farm/signals.h"
@@ -187,7 +187,7 @@ RenderStats render(Transport& transport, const RenderOptions& options) {
       options.bundle);
   if (transport.rank() == 0 && !options.quiet && manifest.lights.empty() && manifest.area_lights.empty())
     fmt::print(stderr, "vitrail: the scene has no light: its picture is black\n");
-  if (!options.profile.empty()) state.visits.resize(manifest.domains.size());
+  if (!options.profile.empty()) state.traffic.emplace(manifest.domains.size());
   stats.finished_before = earlier.finished;
   const std::uint64_t samples_before = job->film.samples();
   Rank rank(transport, state, options, goal, std::move(earlier), about(manifest, options));
@@ -212,8 +212,8 @@ RenderStats render(Transport& transport, const RenderOptions& options) {
   stats.cpu_s = cpu_seconds();
   stats.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   gather_stats(transport, stats, state.domains.touched());
-  std::vector<std::int64_t> visits(state.visits.begin(), state.visits.end());
-  transport.sum_to_root(std::span(visits));
+  std::optional<RayProfile> profile;
+  if (state.traffic) profile = gather_profile(transport, manifest, *state.traffic, stats);
   if (transport.rank() != 0) return stats;
 
   stats.samples = job->film.samples();
@@ -246,7 +246,7 @@ RenderStats render(Transport& transport, const RenderOptions& options) {
   if (!options.stats.empty()) write_stats(options.stats, stats);
   if (!options.profile.empty()) {
     if (from_the_start && stats.ending == Ending::finished)
-      write_ray_profile(options.profile, {manifest, {visits.begin(), visits.end()}});
+      write_ray_profile(options.profile, *profile);
     else
       fmt::print(stderr,
                  "vitrail: {} is not written: a profile counts the rays of a whole picture, rendered without "

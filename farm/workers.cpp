@@ -80,7 +80,8 @@ void work(RankState& s) {
   Outbox outbox;
   TraceCounters counters;
   std::unique_lock lock(s.mutex);
-  std::vector<std::uint64_t> visits(s.visits.size());
+  std::optional<RayTraffic> traffic;
+  if (s.traffic) traffic.emplace(s.scene.manifest.domains.size());
   while (!s.finished) {
     Task task = take_task(s);
     if (task.work == Scheduler::Work::none) {
@@ -95,7 +96,7 @@ void work(RankState& s) {
     }
     lock.unlock();
     const auto start = Clock::now();
-    PathTracer tracer(s.scene, task.table->views, s.film, outbox, counters, visits);
+    PathTracer tracer(s.scene, task.table->views, s.film, outbox, counters, traffic ? &*traffic : nullptr);
     perform(task, s.plan, tracer);
     task.table.reset();
     const double busy = seconds_since(start);
@@ -108,7 +109,7 @@ void work(RankState& s) {
       if (s.scheduler.workers_waiting() > 0) s.work_available.notify_one();
     }
   }
-  for (std::size_t d = 0; d < visits.size(); ++d) s.visits[d] += visits[d];
+  if (traffic) s.traffic->add(*traffic);
 }
 
 void load(RankState& s) {

@@ -36,7 +36,7 @@ struct RankState {
   bool finished = false;
 
   TraceCounters counters;
-  std::vector<std::uint64_t> visits;  // rays traced in each domain; empty: not counted
+  std::optional<RayTraffic> traffic;  // empty: not recorded
   double trace_s = 0, idle_s = 0, load_s = 0;
   std::exception_ptr failure;
 };

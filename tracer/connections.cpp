@@ -125,12 +125,11 @@ void PathTracer::connect(const Path& path, Point3d p, std::uint32_t count, const
   SampledSpectrum radiance;
   double all = 0, chosen = 0;
   for (std::uint32_t k = 0; k < count; ++k) {
-    const auto candidate = sample_light(scene_.lights, p, k > 0 ? numbers_of_candidate(numbers, k) : numbers,
-                                        path.wavelengths);
+    const auto candidate =
+        sample_light(scene_.lights, p, k > 0 ? numbers_of_candidate(numbers, k) : numbers, path.wavelengths);
     if (!candidate) continue;
     const BsdfValue scattered = scatter(candidate->to_light);
-    const double beside =
-        candidate->is_delta ? 0 : static_cast<double>(density_beside(scattered.pdf, count));
+    const double beside = candidate->is_delta ? 0 : static_cast<double>(density_beside(scattered.pdf, count));
     const double weight = 1 / (candidate->pdf + beside);
     const SampledSpectrum brought =
         path.throughput * scattered.value * candidate->radiance * static_cast<float>(weight);
@@ -212,7 +211,9 @@ void PathTracer::send_connection(const Path& path, const Departure& from, const 
   sent.pdf = 0;
   const std::size_t waiting = outbox_.paths.size();
   const std::uint64_t died = counters_.died, indirect = counters_.rays_indirect;
+  const RayTraffic::Place here = traffic_ ? traffic_->place() : RayTraffic::Place{};
   run(sent, std::nullopt);
+  if (traffic_) traffic_->set(here);
   // A connection that ended here was never counted as alive; its segments behind surfaces are shadow rays.
   if (outbox_.paths.size() > waiting) ++counters_.born;
   counters_.died = died;

@@ -39,8 +39,7 @@ TraceCounters& operator+=(TraceCounters& a, const TraceCounters& b) {
 }
 
 PathTracer::PathTracer(const RenderScene& scene, ResidentViews resident, Film& film, Outbox& outbox,
-                       TraceCounters& counters, std::span<std::uint64_t> visits,
-                       const KernelFunctions& kernel)
+                       TraceCounters& counters, RayTraffic* traffic, const KernelFunctions& kernel)
     : scene_(scene),
       manifest_(scene.manifest),
       resident_(resident),
@@ -48,7 +47,7 @@ PathTracer::PathTracer(const RenderScene& scene, ResidentViews resident, Film& f
       film_(film),
       outbox_(outbox),
       counters_(counters),
-      visits_(visits) {}
+      traffic_(traffic) {}
 
 SampleKey PathTracer::key_of(std::uint32_t pixel, std::uint32_t sample) const {
   const auto width = static_cast<std::uint32_t>(film_.width());
@@ -112,6 +111,7 @@ void PathTracer::trace_camera(int x, int y, std::uint32_t sample) {
   path.random = hash_of_ray(path);
   film_.count_sample(path.pixel, sample);
   ++counters_.rays_camera;
+  if (traffic_) traffic_->set({});
   ++counters_.born;
   run(path, std::nullopt);
 }
@@ -139,6 +139,7 @@ void PathTracer::resume(const PathRecord& record, std::uint32_t domain) {
   path.hit.t = record.hit_t;
   path.hit.triangle = record.hit_triangle;
   path.hit_domain = record.hit_domain;
+  if (traffic_) traffic_->set({domain, true});
   run(path, domain);
 }
 
@@ -216,12 +217,14 @@ bool PathTracer::forward(const Path& path, std::uint32_t domain, bool resolved) 
   r.flags = static_cast<std::uint8_t>(path.flags | (resolved ? path_resolved : 0) | face >> 16 << 4);
   if (path.is(path_connection)) pack_connection(path, r);
   outbox_.paths.push_back({domain, r});
+  if (traffic_) traffic_->leave_for(domain);
   return false;
 }
 
 void PathTracer::resume(const ShadowRecord& record, std::uint32_t domain) {
   Shadow shadow{unpacked(record), record.direction, record.tmax, {}, record.pixel, record.sample};
   for (std::size_t i = 0; i < hero_count; ++i) shadow.radiance.v[i] = unpack_radiance(record.radiance[i]);
+  if (traffic_) traffic_->set({domain, true});
   trace_shadow(shadow, nullptr, domain);
 }
 
@@ -233,12 +236,16 @@ void PathTracer::forward(const Shadow& shadow, std::uint32_t domain) {
   r.pixel = shadow.pixel;
   r.sample = shadow.sample;
   outbox_.shadows.push_back({domain, r});
+  if (traffic_) traffic_->leave_for(domain);
 }
 
 // `at` is given for a ray that was born elsewhere or earlier, whose end is counted.
 void PathTracer::trace_shadow(const Shadow& shadow, const SensorWeights* weights,
                               std::optional<std::uint32_t> at) {
-  if (is_occluded(shadow, at)) return;
+  const RayTraffic::Place here = traffic_ ? traffic_->place() : RayTraffic::Place{};
+  const bool occluded = is_occluded(shadow, at);
+  if (traffic_) traffic_->set(here);
+  if (occluded) return;
   if (weights) {
     deposit(shadow.pixel, shadow.sample, *weights, shadow.radiance);
   } else {

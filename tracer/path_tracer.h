@@ -12,6 +12,7 @@
 
 #include "film/film.h"
 #include "tracer/intersect/intersector.h"
+#include "tracer/ray_traffic.h"
 #include "tracer/records.h"
 #include "tracer/render_scene.h"
 #include "tracer/sampler.h"
@@ -66,10 +67,10 @@ enum class RayRandom : std::uint64_t {
 
 class PathTracer {
  public:
-  // All references outlive the tracer. One tracer a thread; the film is shared. `visits`, if any, counts the
-  // rays traced in each domain.
+  // All references outlive the tracer. One tracer a thread; the film is shared. `traffic`, if any, is told
+  // where the rays go.
   PathTracer(const RenderScene& scene, ResidentViews resident, Film& film, Outbox& outbox,
-             TraceCounters& counters, std::span<std::uint64_t> visits = {},
+             TraceCounters& counters, RayTraffic* traffic = nullptr,
              const KernelFunctions& kernel = best_kernel());
 
   // Sample `sample` of the pixel (x, y) of the whole film, which lies in the crop.
@@ -87,7 +88,7 @@ class PathTracer {
   bool find_hit(Path& path, std::optional<std::uint32_t> at);
   void intersect(Path& path, std::uint32_t domain);
   void count_visit(std::uint32_t domain) {
-    if (!visits_.empty()) ++visits_[domain];
+    if (traffic_) traffic_->visit(domain);
   }
   bool forward(const Path& path, std::uint32_t domain, bool resolved);
   void forward(const Shadow& shadow, std::uint32_t domain);
@@ -169,7 +170,7 @@ class PathTracer {
   Film& film_;
   Outbox& outbox_;
   TraceCounters& counters_;
-  std::span<std::uint64_t> visits_;
+  RayTraffic* traffic_;
 };
 
 }  // namespace vitrail

@@ -11,6 +11,7 @@
 #include <queue>
 #include <random>
 #include <set>
+#include <utility>
 
 #include "farm/scheduler/scheduler.h"
 #include "farm/simulator/simulation.h"
@@ -21,7 +22,11 @@ template <class SchedulerType>
 class SimulatedJob {
  public:
   SimulatedJob(const Workload& workload, const Machine& machine, const Mishaps& mishaps, std::uint64_t seed)
-      : workload_(workload), machine_(machine), mishaps_(mishaps), random_(seed) {
+      : workload_(workload),
+        machine_(machine),
+        mishaps_(mishaps),
+        random_(seed),
+        standing_(workload.domains.size()) {
     const std::vector<int> home = home_ranks(workload.manifest, machine.ranks);
     for (int r = 0; r < machine.ranks; ++r) {
       const auto ranks = static_cast<std::uint64_t>(machine.ranks), rank = static_cast<std::uint64_t>(r);
@@ -49,7 +54,7 @@ class SimulatedJob {
       now_ = e.time;
       ++result_.events;
       happen(e);
-      check(e.kind, e.rank);
+      check(e.rank);
       if (e.kind != Event::Kind::round_begins && e.kind != Event::Kind::round_ends) ++progress;
       if (e.kind == Event::Kind::round_ends && e.rank == 0) {
         rounds_without_progress = progress == progress_then_ ? rounds_without_progress + 1 : 0;
@@ -62,13 +67,18 @@ class SimulatedJob {
       broken(fmt::format("the job ended with {} camera rays of {} items of {}", generated_, workload_.items,
                          workload_.rays_an_item));
     result_.seconds = now_;
-    result_.efficiency =
-        result_.busy_s / (now_ * static_cast<double>(ranks_.size()) * static_cast<double>(machine_.workers));
+    const double worker_s = now_ * static_cast<double>(machine_.workers);
     for (const Rank& r : ranks_) {
+      result_.busy_s += r.busy_s;
+      result_.busiest_workers = std::max(result_.busiest_workers, r.busy_s / worker_s);
+      result_.busiest_loader = std::max(result_.busiest_loader, r.loading_s / now_);
+      result_.busiest_link = std::max(result_.busiest_link, r.sending_s / now_);
+      result_.most_bytes += r.most_bytes;
       result_.loads += r.scheduler.residency().loads();
       result_.evictions += r.scheduler.residency().evictions();
       result_.forwarded_rays += r.scheduler.forwarded_rays();
     }
+    result_.efficiency = result_.busy_s / (worker_s * static_cast<double>(ranks_.size()));
     return result_;
   }
 
@@ -96,12 +106,13 @@ class SimulatedJob {
   };
   struct Rank {
     Rank(SchedulerType s, std::size_t domains, std::size_t threads)
-        : scheduler(std::move(s)), queues(domains), outgoing(domains), workers(threads) {
+        : scheduler(std::move(s)), queues(domains), workers(threads) {
       waiting = static_cast<int>(threads);
       for (std::size_t i = 0; i < threads; ++i) scheduler.worker_waits();
     }
     SchedulerType scheduler;
-    std::vector<std::uint64_t> queues, outgoing;  // rays
+    std::vector<std::uint64_t> queues;  // rays, by domain
+    std::map<std::uint32_t, std::uint64_t> outgoing;
     std::vector<Worker> workers;
     std::uint64_t rays = 0;         // that wait here
     std::uint64_t item_at = 0;      // rays of the open item that are generated
@@ -111,6 +122,8 @@ class SimulatedJob {
     std::uint64_t on_the_way = 0;            // bytes of the load
     bool loading = false, in_round = false, ended = false, wants_checkpoint = false;
     int waiting = 0;  // workers
+    double busy_s = 0, loading_s = 0, sending_s = 0;
+    std::uint64_t most_bytes = 0;
     std::uint64_t round = 0;
     double sending_until = 0;
   };
@@ -175,15 +188,15 @@ class SimulatedJob {
     w.work = task.work;
     w.began = r.evictions;
     w.generated = w.born = w.died = 0;
-    std::map<std::uint32_t, std::uint64_t> pending;
     if (task.work == SchedulerType::Work::trace) {
       if (!r.table.contains(task.domain)) broken(fmt::format("rank {} traces in an absent domain", rank));
-      const std::uint64_t rays = std::min<std::uint64_t>(r.queues[task.domain], 1024);
+      check_queue(rank, task.domain);
+      const std::uint64_t rays = std::min(r.queues[task.domain], machine_.rays_of_a_batch);
       if (rays == 0) broken(fmt::format("rank {} traces where no ray waits", rank));
       r.queues[task.domain] -= rays;
       r.rays -= rays;
       r.scheduler.begin_batch(task.domain, rays);
-      pending[task.domain] = rays;
+      go_to(task.domain, rays);
     } else {
       w.generated = std::min<std::uint64_t>(workload_.rays_an_item - r.item_at, task.rays);
       if (w.generated == 0) broken(fmt::format("rank {} generates nothing", rank));
@@ -194,19 +207,20 @@ class SimulatedJob {
       result_.most_alive = std::max(result_.most_alive, alive_);
       std::uint64_t left = w.born;
       for (const Workload::Way& way : workload_.entry) {
-        const std::uint64_t rays = &way == &workload_.entry.back()
-                                       ? left
-                                       : std::min(left, rounded(way.rays * static_cast<double>(w.generated)));
-        pending[way.domain] += rays;
+        const std::uint64_t rays = std::min(left, rounded(way.rays * static_cast<double>(w.generated)));
+        go_to(way.domain, rays);
         left -= rays;
       }
+      // The others meet nothing.
+      alive_ -= left;
+      w.died += left;
     }
     double seconds = 1e-6;
     w.made.clear();
-    while (!pending.empty()) {
-      const auto [domain, rays] = *pending.begin();
-      pending.erase(pending.begin());
-      if (rays == 0) continue;
+    // Domains that rays stand in, the first that was entered first.
+    for (std::size_t i = 0; i < entered_.size(); ++i) {
+      const std::uint32_t domain = entered_[i];
+      const std::uint64_t rays = std::exchange(standing_[domain], 0);
       if (!r.table.contains(domain)) {
         w.made[domain] += rays;
         continue;
@@ -217,23 +231,30 @@ class SimulatedJob {
       w.died += rays;
       for (const Workload::Way& way : d.ways) {
         const std::uint64_t leave = rounded(way.rays * static_cast<double>(rays));
-        pending[way.domain] += leave;
+        go_to(way.domain, leave);
         w.born += leave;
         alive_ += leave;
       }
       alive_ -= rays;
     }
+    entered_.clear();
     seconds *= late() * (rank == 0 ? mishaps_.slow_rank : 1);
-    result_.busy_s += seconds;
+    r.busy_s += seconds;
     at(now_ + seconds, {Event::Kind::task_done, rank, 0, number});
     return true;
+  }
+
+  void go_to(std::uint32_t domain, std::uint64_t rays) {
+    if (rays == 0) return;
+    if (standing_[domain] == 0) entered_.push_back(domain);
+    standing_[domain] += rays;
   }
 
   void finish_task(int rank, Worker& w) {
     Rank& r = ranks_[static_cast<std::size_t>(rank)];
     for (const auto& [domain, rays] : w.made) {
       r.rays += rays;
-      (r.scheduler.route(domain, rays) ? r.queues : r.outgoing)[domain] += rays;
+      (r.scheduler.route(domain, rays) ? r.queues[domain] : r.outgoing[domain]) += rays;
     }
     result_.most_on_a_rank = std::max(result_.most_on_a_rank, r.rays);
     r.scheduler.finish_task(w.generated, w.born, w.died);
@@ -261,9 +282,11 @@ class SimulatedJob {
       for (const std::uint32_t o : step.load->missing) r.on_the_way += workload_.manifest.objects[o].bytes;
       r.loading = true;
       const double files = 1 + static_cast<double>(step.load->missing.size());
-      at(now_ + late() * (files * machine_.disk_latency_s +
-                          static_cast<double>(r.on_the_way) / machine_.disk_bytes_s),
-         {Event::Kind::load_done, rank, step.load->domain});
+      const double seconds = late() * (files * machine_.disk_latency_s +
+                                       static_cast<double>(r.on_the_way) / machine_.disk_bytes_s);
+      r.loading_s += seconds;
+      result_.loaded_bytes += r.on_the_way;
+      at(now_ + seconds, {Event::Kind::load_done, rank, step.load->domain});
     }
     if (!step.evicted.empty()) {
       // What no resident domain and no load needs any more leaves memory with the last worker that began
@@ -277,6 +300,7 @@ class SimulatedJob {
       r.evicted.push_back({r.evictions, bytes});
     }
     if (step.load) r.bytes += r.on_the_way;
+    r.most_bytes = std::max(r.most_bytes, r.bytes);
     release(r);
     if (!step.evicted.empty() && !step.load) wake_loader(rank);
   }
@@ -323,17 +347,17 @@ class SimulatedJob {
   void send(int rank) {
     Rank& r = ranks_[static_cast<std::size_t>(rank)];
     if (!r.scheduler.send_is_due(now_)) return;
-    for (std::uint32_t d = 0; d < r.outgoing.size(); ++d) {
-      if (r.outgoing[d] == 0) continue;
+    for (const auto& [domain, rays] : r.outgoing) {
       constexpr double bytes_a_ray = 48;
-      r.sending_until = std::max(r.sending_until, now_) +
-                        static_cast<double>(r.outgoing[d]) * bytes_a_ray / machine_.network_bytes_s;
+      const double seconds = static_cast<double>(rays) * bytes_a_ray / machine_.network_bytes_s;
+      r.sending_until = std::max(r.sending_until, now_) + seconds;
+      r.sending_s += seconds;
+      r.rays -= rays;
       ++result_.messages;
-      r.rays -= r.outgoing[d];
       at(r.sending_until + late() * machine_.latency_s,
-         {Event::Kind::message, r.scheduler.residency().home(d), d, r.outgoing[d]});
-      r.outgoing[d] = 0;
+         {Event::Kind::message, r.scheduler.residency().home(domain), domain, rays});
     }
+    r.outgoing.clear();
     r.scheduler.sent(now_);
   }
 
@@ -372,6 +396,7 @@ class SimulatedJob {
           broken(fmt::format("rank {} thinks that it is over with {} rays alive", rank, alive_));
         over_ = r.round;
       }
+      for (std::uint32_t d = 0; d < r.queues.size(); ++d) check_queue(rank, d);
       if (sums.items_done == static_cast<std::int64_t>(workload_.items)) {
         r.ended = true;
         ++ended_;
@@ -383,8 +408,7 @@ class SimulatedJob {
       r.scheduler.resume();
     }
     wake_workers(rank);
-    constexpr double interval_s = 1e-3;
-    at(now_ + interval_s * late(), {Event::Kind::round_begins, rank});
+    at(now_ + machine_.round_interval_s * late(), {Event::Kind::round_begins, rank});
   }
 
   static void add(RoundSums& to, const RoundSums& from) {
@@ -398,18 +422,20 @@ class SimulatedJob {
   }
 
   // --- what may never happen
-  void check(Event::Kind kind, int rank) const {
+  void check(int rank) const {
     const Rank& r = ranks_[static_cast<std::size_t>(rank)];
     const Residency& residency = r.scheduler.residency();
     if (r.bytes != residency.held_bytes())
       broken(fmt::format("rank {} holds {} bytes and counts {}", rank, r.bytes, residency.held_bytes()));
     if (r.bytes > machine_.domain_bytes)
       broken(fmt::format("rank {} holds {} bytes of {}", rank, r.bytes, machine_.domain_bytes));
-    if (kind != Event::Kind::round_ends) return;
-    for (std::uint32_t d = 0; d < r.queues.size(); ++d)
-      if (r.queues[d] != residency.waiting(d))
-        broken(fmt::format("{} rays wait for domain {} on rank {}, which counts {}", r.queues[d], d, rank,
-                           residency.waiting(d)));
+  }
+  void check_queue(int rank, std::uint32_t domain) const {
+    const Rank& r = ranks_[static_cast<std::size_t>(rank)];
+    const std::uint64_t counted = r.scheduler.residency().waiting(domain);
+    if (r.queues[domain] != counted)
+      broken(fmt::format("{} rays wait for domain {} on rank {}, which counts {}", r.queues[domain], domain,
+                         rank, counted));
   }
 
   const Workload& workload_;
@@ -417,6 +443,8 @@ class SimulatedJob {
   const Mishaps mishaps_;
   std::mt19937_64 random_;
   std::vector<Rank> ranks_;
+  std::vector<std::uint64_t> standing_;  // rays of the task that is worked out, by domain
+  std::vector<std::uint32_t> entered_;   // domains of these
   std::map<std::uint64_t, Round> rounds_;
   std::priority_queue<Event> events_;
   std::uint64_t next_order_ = 0, progress_then_ = 0;

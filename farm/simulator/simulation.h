@@ -19,7 +19,9 @@ struct Machine {
   double network_bytes_s = 1e10;   // a rank
   double disk_latency_s = 1e-3;    // of a file
   double disk_bytes_s = 1e9;       // a rank
-  double jitter = 0;               // any of these takes up to 1 + this times as long: messages overtake
+  std::uint64_t rays_of_a_batch = 1024;
+  double round_interval_s = 1e-3;
+  double jitter = 0;  // any of these takes up to 1 + this times as long: messages overtake
 };
 
 // What goes wrong on purpose.
@@ -36,10 +38,14 @@ struct InvariantBroken : std::logic_error {
 
 struct SimulationResult {
   double seconds = 0;     // of the clock, to the end
-  double busy_s = 0;      // of workers
+  double busy_s = 0;      // of all workers
   double efficiency = 0;  // busy_s ÷ (seconds × workers)
+  // Of the rank where it is most, the share of the time.
+  double busiest_workers = 0, busiest_loader = 0, busiest_link = 0;
   std::uint64_t events = 0, messages = 0, rays = 0, forwarded_rays = 0, loads = 0, evictions = 0;
   std::uint64_t rounds = 0, checkpoints = 0;
+  std::uint64_t loaded_bytes = 0;
+  std::uint64_t most_bytes = 0;      // of domains in memory: each rank's most, summed
   std::uint64_t most_alive = 0;      // rays in the whole job
   std::uint64_t most_on_a_rank = 0;  // rays that wait on one
 };

@@ -2,7 +2,10 @@
 #include "farm/simulator/workload.h"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
+
+#include "scene/diagnostics.h"
 
 namespace vitrail {
 
@@ -10,7 +13,44 @@ namespace {
 
 double uniform(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * 0x1p-53; }
 
+// Items of the farm: a tile's pixels with 16 samples.
+constexpr std::uint32_t rays_of_an_item = 4096;
+
 }  // namespace
+
+Workload workload_of(const Manifest& manifest, const RayProfile& profile, double pictures,
+                     double most_items) {
+  if (profile.domains.size() != manifest.domains.size() || profile.kd_nodes != manifest.kd_nodes)
+    throw Error("the profile is of a bundle with other domains; render this one with --profile");
+  if (profile.cost.camera_rays == 0) throw Error("the profile has no rays");
+  Workload w;
+  w.domains.resize(manifest.domains.size());
+  w.manifest.domains.resize(manifest.domains.size());
+  w.manifest.objects.resize(manifest.objects.size());
+  std::uint64_t visits = 0;
+  for (const RayProfile::Domain& d : profile.domains) visits += d.rays;
+  for (std::size_t i = 0; i < manifest.domains.size(); ++i) {
+    w.manifest.domains[i].bytes = manifest.domains[i].bytes;
+    w.manifest.domains[i].objects = manifest.domains[i].objects;
+    w.domains[i].seconds = profile.cost.trace_s / static_cast<double>(std::max<std::uint64_t>(visits, 1));
+  }
+  for (std::size_t i = 0; i < manifest.objects.size(); ++i) {
+    w.manifest.objects[i].bytes = manifest.objects[i].bytes;
+    w.manifest.objects[i].quadric = manifest.objects[i].quadric;
+  }
+  for (const RayProfile::Way& way : profile.ways) {
+    const bool enters = way.from == RayProfile::Way::camera;
+    const std::uint64_t of = enters ? profile.cost.camera_rays : profile.domains[way.from].rays;
+    if (of == 0) throw Error("the profile has ways from where no ray was");
+    (enters ? w.entry : w.domains[way.from].ways)
+        .push_back({way.to, static_cast<double>(way.rays) / static_cast<double>(of)});
+  }
+  const double rays = static_cast<double>(profile.cost.camera_rays) * pictures;
+  w.rays_an_item = static_cast<std::uint32_t>(
+      std::min(std::max(rays, 1.0), std::max(double{rays_of_an_item}, std::ceil(rays / most_items))));
+  w.items = static_cast<std::uint64_t>(std::max(1.0, std::round(rays / w.rays_an_item)));
+  return w;
+}
 
 Workload random_workload(std::mt19937_64& random, std::uint32_t domains, std::uint64_t items,
                          std::uint32_t rays_an_item) {

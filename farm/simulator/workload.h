@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "bundle/manifest.h"
+#include "bundle/ray_profile.h"
 
 namespace vitrail {
 
@@ -25,6 +25,10 @@ struct Workload {
   std::uint64_t items = 0;      // of the job
   std::uint32_t rays_an_item = 0;
 };
+
+// What a profile saw of a bundle, for `pictures` times its samples. Of many, items are larger than the
+// farm's, so that there are at most `most_items`. Throws Error for a profile of another bundle.
+Workload workload_of(const Manifest& manifest, const RayProfile& profile, double pictures, double most_items);
 
 // Domains in a row, each of whose rays end, stay near or go anywhere; of unlike sizes, some with objects in
 // common.

@@ -17,6 +17,8 @@ RayProfile profile() {
   p.offset = {10, 0, 0};
   p.kd_nodes = {{0, 0, KdNode::leaf_bit, KdNode::leaf_bit | 1}};
   p.domains = {{100, 100}, {3900, 300}};
+  p.ways = {{0, 0, 5}, {0, 1, 70}, {RayProfile::Way::camera, 1, 1000}};
+  p.cost = {1500, 2.5, .125, 2};
   return p;
 }
 
@@ -51,6 +53,8 @@ TEST(RayProfile, IsReadAsWritten) {
   EXPECT_EQ(p.offset, profile().offset);
   EXPECT_EQ(p.kd_nodes, profile().kd_nodes);
   EXPECT_EQ(p.domains, profile().domains);
+  EXPECT_EQ(p.ways, profile().ways);
+  EXPECT_EQ(p.cost, profile().cost);
 }
 
 TEST(RayProfile, WhatIsNoneIsAnError) {
@@ -58,11 +62,11 @@ TEST(RayProfile, WhatIsNoneIsAnError) {
   const auto file = directory.path() / "profile.json";
   for (
       const char* text :
-      {"", "[]", "{}", R"({"format": "vitrail ray profile", "version": 1})",
-       R"({"format": "vitrail ray profile", "version": 2, "offset": [0, 0, 0], "kd_nodes": [], "domains": [[1, 1]]})",
-       R"({"format": "vitrail ray profile", "version": 1, "offset": [0, 0, 0], "kd_nodes": [], "domains": []})",
-       R"({"format": "vitrail ray profile", "version": 1, "offset": [0, 0, 0], "kd_nodes": [[0, 0, 0, 0]], "domains": [[1, 1], [1, 1]]})",
-       R"({"format": "vitrail ray profile", "version": 1, "offset": [0, 0, 0], "kd_nodes": [[3, 0, 2147483648, 2147483649]], "domains": [[1, 1], [1, 1]]})"}) {
+      {"", "[]", "{}", R"({"format": "vitrail ray profile", "version": 2})",
+       R"({"format": "vitrail ray profile", "version": 1, "offset": [0, 0, 0], "kd_nodes": [], "domains": [[1, 1]]})",
+       R"({"format": "vitrail ray profile", "version": 2, "offset": [0, 0, 0], "kd_nodes": [], "domains": []})",
+       R"({"format": "vitrail ray profile", "version": 2, "offset": [0, 0, 0], "kd_nodes": [[0, 0, 0, 0]], "domains": [[1, 1], [1, 1]]})",
+       R"({"format": "vitrail ray profile", "version": 2, "offset": [0, 0, 0], "kd_nodes": [[3, 0, 2147483648, 2147483649]], "domains": [[1, 1], [1, 1]]})"}) {
     std::ofstream(file) << text;
     EXPECT_THROW(read_ray_profile(file), Error) << text;
   }

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "cli/main_guard.h"
+#include "cli/number_checks.h"
+#include "cli/plan_svg.h"
+#include "cli/sizes.h"
+#include "farm/memory.h"
+#include "farm/scheduler/residency.h"
+#include "farm/simulator/simulation.h"
+#include "film/film.h"
+#include "scene/atomic_file.h"
+#include "scene/resource_usage.h"
+
+namespace vitrail {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Arguments {
+  std::filesystem::path bundle, profile, svg;
+  std::vector<int> ranks{1, 2, 4, 8, 16, 32, 64, 128, 256, 512, 1024};
+  std::string memory, network = "12G", disk = "1G";
+  double pictures = 1, latency_us = 5, disk_latency_ms = 1;
+  int threads = 16;
+  bool json = false;
+};
+
+const char* limit_of(const SimulationResult& r) {
+  if (r.efficiency >= .8) return "work";
+  if (r.busiest_loader >= .5 && r.busiest_loader >= r.busiest_link) return "loading";
+  if (r.busiest_link >= .5) return "network";
+  return r.busiest_workers >= .8 ? "one rank's work" : "rays in flight";
+}
+
+// As the farm shares out the memory of a rank.
+void share_memory(const Arguments& a, const Manifest& m, Machine& machine) {
+  std::uint64_t largest = 0;
+  for (std::uint32_t d = 0; d < m.domains.size(); ++d) largest = std::max(largest, bytes_needed(m, d));
+  const std::uint64_t base = resident_bytes() + film_bytes(m.film);
+  const MemoryPlan plan = plan_memory(a.memory.empty() ? 0 : parse_bytes(a.memory), base, base, a.threads,
+                                      largest, bytes_of_all(m));
+  machine.domain_bytes = plan.domains_bytes;
+  machine.rays_allowed = rays_allowed(plan);
+}
+
+Json to_json(const PlanPoint& p, std::uint64_t scene_bytes) {
+  const SimulationResult& r = p.result;
+  return {{"ranks", p.ranks},
+          {"seconds", r.seconds},
+          {"efficiency", r.efficiency},
+          {"limit", limit_of(r)},
+          {"copies", static_cast<double>(r.most_bytes) / static_cast<double>(scene_bytes)},
+          {"loaded_bytes", r.loaded_bytes},
+          {"domain_loads", r.loads},
+          {"forwarded_rays", r.forwarded_rays},
+          {"messages", r.messages},
+          {"busiest_workers", r.busiest_workers},
+          {"busiest_loader", r.busiest_loader},
+          {"busiest_link", r.busiest_link},
+          {"most_rays_alive", r.most_alive},
+          {"most_rays_on_a_rank", r.most_on_a_rank}};
+}
+
+void print_row(const PlanPoint& p, std::uint64_t scene_bytes) {
+  const SimulationResult& r = p.result;
+  fmt::print("{:>6} {:>10.2f} {:>6.0f} % {:>7.2f} {:>10} {:>7} {:>10.3g}  {}\n", p.ranks, r.seconds,
+             100 * r.efficiency, static_cast<double>(r.most_bytes) / static_cast<double>(scene_bytes),
+             format_bytes(r.loaded_bytes), r.loads, static_cast<double>(r.forwarded_rays), limit_of(r));
+  std::fflush(stdout);
+}
+
+int plan(const Arguments& a) {
+  const Manifest manifest = read_manifest(a.bundle);
+  const RayProfile profile = read_ray_profile(a.profile);
+  Machine machine;
+  machine.workers = a.threads;
+  machine.latency_s = a.latency_us * 1e-6;
+  machine.network_bytes_s = static_cast<double>(parse_bytes(a.network));
+  machine.disk_latency_s = a.disk_latency_ms * 1e-3;
+  machine.disk_bytes_s = static_cast<double>(parse_bytes(a.disk));
+  share_memory(a, manifest, machine);
+  const std::uint64_t scene_bytes = std::max<std::uint64_t>(1, bytes_of_all(manifest));
+  std::vector<PlanPoint> points;
+  if (!a.json) fmt::print(" ranks    seconds  effic.  copies     loaded   loads  forwarded  limited by\n");
+  for (const int ranks : a.ranks) {
+    // So many that their size does not show, and no more: each takes the simulator time.
+    const double items = 1e4 + 50.0 * ranks * a.threads;
+    const Workload workload = workload_of(manifest, profile, a.pictures, items);
+    machine.ranks = ranks;
+    // Rounds take the simulator time, too: a long job has fewer of them.
+    const double work_s = profile.cost.trace_s * a.pictures / ranks / a.threads;
+    machine.round_interval_s = std::clamp(work_s / 20'000, 1e-3, .05);
+    machine.rays_of_a_batch = std::max<std::uint64_t>(1024, workload.rays_an_item / 4);
+    points.push_back({ranks, simulate(workload, machine, {}, 1)});
+    if (!a.json) print_row(points.back(), scene_bytes);
+  }
+  if (a.json) {
+    Json list = Json::array();
+    for (const PlanPoint& p : points) list.push_back(to_json(p, scene_bytes));
+    fmt::print("{}\n", Json{{"bundle", a.bundle.string()}, {"plan", list}}.dump(1));
+  }
+  if (!a.svg.empty()) {
+    AtomicFile out(a.svg);
+    const std::string svg = plan_svg(points);
+    out.write(std::as_bytes(std::span(svg)));
+    out.commit();
+  }
+  return exit_done;
+}
+
+}  // namespace
+}  // namespace vitrail
+
+int main(int argc, char** argv) {
+  using namespace vitrail;
+  CLI::App app("what a cluster would do with a bundle, by the farm's own scheduler under a simulated clock",
+               "vitrail plan");
+  Arguments a;
+  app.add_option("bundle", a.bundle, "bundle (NAME.vit)")->required();
+  app.add_option("--profile", a.profile, "what `vitrail render --profile` wrote of it")->required();
+  app.add_option("--ranks", a.ranks, "numbers of ranks; default: 1, 2, 4 … 1024")
+      ->delimiter(',')
+      ->check(CLI::Range(1, 100000));
+  app.add_option("--threads", a.threads, "of a rank; default 16")->check(CLI::Range(1, 4096));
+  app.add_option("--memory", a.memory, "of a rank, as for render; default: no limit");
+  app.add_option("--times", a.pictures, "as many times the samples of the profile")->check(more_than_0);
+  app.add_option("--latency", a.latency_us, "of a message, µs; default 5")->check(not_below_0);
+  app.add_option("--network", a.network, "bytes a second that a rank sends; default 12G");
+  app.add_option("--disk-latency", a.disk_latency_ms, "of a file, ms; default 1")->check(not_below_0);
+  app.add_option("--disk", a.disk, "bytes a second that a rank reads; default 1G");
+  app.add_option("--svg", a.svg, "seconds and efficiency as a plot");
+  app.add_flag("--json", a.json, "print JSON");
+  return run_guarded(app, argc, argv, [&] { return plan(a); });
+}

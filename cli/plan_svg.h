@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "farm/simulator/simulation.h"
+
+namespace vitrail {
+
+struct PlanPoint {
+  int ranks = 1;
+  SimulationResult result;
+};
+
+// Seconds against ranks, both logarithmic, beside what perfect scaling of the first point would be; each
+// point with its efficiency.
+std::string plan_svg(const std::vector<PlanPoint>& points);
+
+}  // namespace vitrail
