@@ -125,8 +125,8 @@ void PathTracer::connect(const Path& path, Point3d p, std::uint32_t count, const
   SampledSpectrum radiance;
   double all = 0, chosen = 0;
   for (std::uint32_t k = 0; k < count; ++k) {
-    const auto candidate =
-        sample_light(scene_.lights, p, k > 0 ? numbers_of_candidate(numbers, k) : numbers, path.wavelengths);
+    const auto candidate = sample_light(scene_.lights, p, k > 0 ? numbers_of_candidate(numbers, k) : numbers,
+                                        path.wavelengths, path.lamp);
     if (!candidate) continue;
     const BsdfValue scattered = scatter(candidate->to_light);
     const double beside = candidate->is_delta ? 0 : static_cast<double>(density_beside(scattered.pdf, count));

@@ -41,6 +41,7 @@ struct PathTracer::Path {
   std::array<float, 4> camera{};  // its sample's numbers for the camera; wavelengths follow from them
   bool has_wavelengths = false;   // only what sees anything needs them
   SampledWavelengths wavelengths;
+  mutable LastLamp lamp;
   SensorWeights sensor;
 
   bool is(PathFlags flag) const { return flags & flag; }

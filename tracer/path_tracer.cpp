@@ -71,7 +71,8 @@ std::array<float, 4> PathTracer::numbers_for_scattering(const Path& path, Wanted
 }
 std::array<float, 4> PathTracer::numbers_for_light(const Path& path) const {
   if (path.is(path_passed)) return hashed_4d(stream_of(path, RayRandom::light));
-  return sample_4d(path.key, sample_set::light(path.depth));
+  return sample_4d(path.key, sample_set::light(path.depth),
+                   scene_.lights.three_numbers ? Wanted::three : Wanted::four);
 }
 
 void PathTracer::find_wavelengths(Path& path) const {

@@ -93,6 +93,7 @@ std::array<float, 4> sample_4d(const SampleKey& key, std::uint32_t set, Wanted w
   if (wanted == Wanted::two) return result;
   const std::uint64_t h3 = mix(h + 2 * 0x9e3779b97f4a7c15ull);
   result[2] = number(point(tables[1]), h3);
+  if (wanted == Wanted::three) return result;
   result[3] = number(point(tables[2]), h3 >> 32);
   return result;
 }

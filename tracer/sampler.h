@@ -24,9 +24,9 @@ constexpr std::uint64_t mix(std::uint64_t x) {
 
 // Four numbers in [0,1), the coordinates of a point of a scrambled Sobol' sequence of its own for each (seed,
 // pixel, set, group of samples): the samples of a group (film/sample_groups.h) are its points in turn. Sets
-// and groups are statistically independent of each other. Who wants but the first two is spared the others,
-// which are 0 then.
-enum class Wanted : std::uint8_t { two, four };
+// and groups are statistically independent of each other. Who wants but the first of them is spared the
+// others, which are 0 then.
+enum class Wanted : std::uint8_t { two, three, four };
 std::array<float, 4> sample_4d(const SampleKey& key, std::uint32_t set, Wanted wanted = Wanted::four);
 
 // As many numbers in [0,1) as it takes (SplitMix64, Steele et al. 2014), from a seed of `stream_seed`.

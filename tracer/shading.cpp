@@ -181,8 +181,8 @@ bool PathTracer::go_on(Path& path, float u, bool specular) const {
 }
 
 void PathTracer::add_emission(const Path& path, const Interaction& at, std::uint32_t light) {
-  const SampledSpectrum radiance =
-      emitted(scene_.lights, light, at.texture_point(), dot(at.out, at.geometric), path.wavelengths);
+  const SampledSpectrum radiance = emitted(scene_.lights, light, at.texture_point(),
+                                           dot(at.out, at.geometric), path.wavelengths, path.lamp);
   if (is_black(radiance)) return;
   double weight = 1;
   if (path.pdf > 0) {

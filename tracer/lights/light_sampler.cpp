@@ -26,10 +26,14 @@ struct Edges {
   }
 };
 
-SampledSpectrum surface_radiance(const LightSampler& s, const AreaLight& light, const TexturePoint& at,
-                                 const SampledWavelengths& wavelengths) {
-  if (const auto* spectrum = std::get_if<Spectrum>(&light.radiance))
-    return evaluate(*spectrum, wavelengths) * light.scale;
+SampledSpectrum surface_radiance(const LightSampler& s, std::uint32_t area_light, const TexturePoint& at,
+                                 const SampledWavelengths& wavelengths, LastLamp& last) {
+  if (last.area_light == area_light) return last.radiance;
+  const AreaLight& light = s.scene.area_lights[area_light];
+  if (const auto* spectrum = std::get_if<Spectrum>(&light.radiance)) {
+    last = {area_light, evaluate(*spectrum, wavelengths) * light.scale};
+    return last.radiance;
+  }
   if (!s.scene.textures) return filled(0);
   return s.scene.textures->spectrum(light.radiance, at, wavelengths) * light.scale;
 }
@@ -46,10 +50,10 @@ float shining_share(const LightSampler& s, const FloatParameter& opacity, const 
 // What leaves a slot's surface, of which `point()` is an EmissivePoint.
 template <class Point>
 SampledSpectrum shining(const LightSampler& s, const LightSampler::Slot& t, const Point& point,
-                        const SampledWavelengths& wavelengths) {
+                        const SampledWavelengths& wavelengths, LastLamp& last) {
   const AreaLight& light = s.scene.area_lights[t.area_light];
   const auto all = [&](const TexturePoint& at) {
-    return surface_radiance(s, light, at, wavelengths) * shining_share(s, t.opacity, at);
+    return surface_radiance(s, t.area_light, at, wavelengths, last) * shining_share(s, t.opacity, at);
   };
   const bool constant =
       std::holds_alternative<Spectrum>(light.radiance) && std::holds_alternative<float>(t.opacity);
@@ -58,7 +62,7 @@ SampledSpectrum shining(const LightSampler& s, const LightSampler::Slot& t, cons
 
 // A directional light shines from where p lies on the triangle, seen along its normal.
 std::optional<LightSample> sample_directional(const LightSampler& s, const LightSampler::Slot& t, Point3d p,
-                                              const SampledWavelengths& wavelengths) {
+                                              const SampledWavelengths& wavelengths, LastLamp& last) {
   const Edges edges(t.p);
   const LightSampler::Face face = s.face(t.light);
   if (!(face.area > 0)) return std::nullopt;
@@ -75,7 +79,7 @@ std::optional<LightSample> sample_directional(const LightSampler& s, const Light
   sample.distance = std::abs(height);
   sample.normal = face.normal;
   sample.radiance = shining(
-      s, t, [&] { return EmissivePoint(s.scene, t.light, b1, b2); }, wavelengths);
+      s, t, [&] { return EmissivePoint(s.scene, t.light, b1, b2); }, wavelengths, last);
   sample.pdf = 1;
   sample.is_delta = true;
   sample.light = t.area_light;
@@ -84,17 +88,16 @@ std::optional<LightSample> sample_directional(const LightSampler& s, const Light
 
 // pdf: given the triangle.
 std::optional<LightSample> sample_triangle(const LightSampler& s, const LightSampler::Slot& t, Point3d p,
-                                           float u, float v, const SampledWavelengths& wavelengths) {
+                                           float u, float v, const SampledWavelengths& wavelengths,
+                                           LastLamp& last) {
   const AreaLight& light = s.scene.area_lights[t.area_light];
-  if (light.directional) return sample_directional(s, t, p, wavelengths);
+  if (light.directional) return sample_directional(s, t, p, wavelengths, last);
 
   // Uniform on the triangle (Heitz 2019): a low-distortion map of the square.
   double b1 = static_cast<double>(u) / 2, b2 = static_cast<double>(v) / 2;
   const double offset = b2 - b1;
-  if (offset > 0)
-    b2 += offset;
-  else
-    b1 -= offset;
+  b1 -= std::min(offset, 0.0);
+  b2 += std::max(offset, 0.0);
   const Edges edges(t.p);
   const LightSampler::Face face = s.face(t.light);
   const Vector3d towards = (edges.p0 + edges.e1 * b1 + edges.e2 * b2) - p;
@@ -110,14 +113,15 @@ std::optional<LightSample> sample_triangle(const LightSampler& s, const LightSam
   sample.tilt_rad = face.tilt_rad;
   sample.pdf = distance2 / (std::abs(cosine) * face.area);
   sample.radiance = shining(
-      s, t, [&] { return EmissivePoint(s.scene, t.light, b1, b2); }, wavelengths);
+      s, t, [&] { return EmissivePoint(s.scene, t.light, b1, b2); }, wavelengths, last);
   sample.is_delta = is_invisible(t.opacity);
   sample.light = t.area_light;
   return sample;
 }
 
 std::optional<LightSample> sample_quadric(const LightSampler& s, const LightSampler::Slot& t, Point3d p,
-                                          float u, float v, const SampledWavelengths& wavelengths) {
+                                          float u, float v, const SampledWavelengths& wavelengths,
+                                          LastLamp& last) {
   const QuadricLight& quadric = s.quadrics[t.light - s.scene.triangles.size()];
   const auto drawn = quadric.sample(p, u, v);
   if (!drawn) return std::nullopt;
@@ -128,7 +132,7 @@ std::optional<LightSample> sample_quadric(const LightSampler& s, const LightSamp
   sample.quadric = &quadric.record();
   sample.pdf = drawn->pdf;
   sample.radiance = shining(
-      s, t, [&] { return EmissivePoint(quadric, drawn->local); }, wavelengths);
+      s, t, [&] { return EmissivePoint(quadric, drawn->local); }, wavelengths, last);
   sample.is_delta = is_invisible(t.opacity);
   sample.light = t.area_light;
   return sample;
@@ -152,13 +156,13 @@ std::optional<LightSample> sample_emitter(const LightSampler& s, std::size_t ind
 }
 
 std::optional<LightSample> sample_tree(const LightSampler& s, Point3d p, const std::array<float, 4>& u,
-                                       double choice, const SampledWavelengths& wavelengths) {
+                                       double choice, const SampledWavelengths& wavelengths, LastLamp& last) {
   const auto chosen = s.tree.choose(p, choice);
   if (!chosen) return std::nullopt;
   const LightSampler::Slot& slot = s.slots[chosen->slot];
   const std::size_t triangles = s.scene.triangles.size(), surfaces = triangles + s.quadrics.size();
-  auto sample = slot.light < triangles  ? sample_triangle(s, slot, p, u[0], u[1], wavelengths)
-                : slot.light < surfaces ? sample_quadric(s, slot, p, u[0], u[1], wavelengths)
+  auto sample = slot.light < triangles  ? sample_triangle(s, slot, p, u[0], u[1], wavelengths, last)
+                : slot.light < surfaces ? sample_quadric(s, slot, p, u[0], u[1], wavelengths, last)
                                         : sample_emitter(s, slot.light - surfaces, p, wavelengths);
   if (sample) sample->pdf *= chosen->probability * s.share[0];
   return sample;
@@ -185,7 +189,8 @@ EmissivePoint::EmissivePoint(const LightScene& scene, std::size_t triangle, doub
     return static_cast<double>(x0) * b0 + static_cast<double>(x1) * b1 + static_cast<double>(x2) * b2;
   };
   at = {{mix(t.uv[0].x, t.uv[1].x, t.uv[2].x), mix(t.uv[0].y, t.uv[1].y, t.uv[2].y)},
-        edges.p0 + edges.e1 * b1 + edges.e2 * b2, LightSampler::Face(t.p).normal};
+        edges.p0 + edges.e1 * b1 + edges.e2 * b2,
+        LightSampler::Face(t.p).normal};
   const std::size_t slots = scene.attributes.size() / scene.triangles.size();
   for (; attribute_count < slots; ++attribute_count)
     attributes[attribute_count] = {scene.attributes[triangle * slots + attribute_count],
@@ -202,6 +207,13 @@ TexturePoint EmissivePoint::point() const {
 
 std::optional<LightSample> sample_light(const LightSampler& s, Point3d p, const std::array<float, 4>& u,
                                         const SampledWavelengths& wavelengths) {
+  LastLamp last;
+  return sample_light(s, p, u, wavelengths, last);
+}
+
+std::optional<LightSample> sample_light(const LightSampler& s, Point3d p, const std::array<float, 4>& u,
+                                        const SampledWavelengths& wavelengths, LastLamp& last) {
+  if (s.three_numbers) return sample_tree(s, p, u, static_cast<double>(u[2]), wavelengths, last);
   if (s.share.empty()) return std::nullopt;
   double rest = static_cast<double>(u[3]);
   std::size_t kind = 0;
@@ -214,7 +226,7 @@ std::optional<LightSample> sample_light(const LightSampler& s, Point3d p, const 
     // What is left of u[3] refines u[2]: 24 bits cannot reach every one of many lights.
     const double fine = std::clamp(rest / share, 0.0, 0x1.fffffp-1);
     const double choice = std::min(static_cast<double>(u[2]) + fine * 0x1p-24, 0x1.fffffffffffffp-1);
-    return sample_tree(s, p, u, choice, wavelengths);
+    return sample_tree(s, p, u, choice, wavelengths, last);
   }
   if (kind <= s.distant.size()) {
     const LightSampler::Distant& distant = s.distant[kind - 1];
@@ -267,10 +279,16 @@ double triangle_pdf(const LightSampler& s, Point3d from, std::uint32_t triangle,
 }
 
 SampledSpectrum emitted(const LightSampler& s, std::uint32_t area_light, const TexturePoint& at,
-                        double cosine, const SampledWavelengths& wavelengths) {
+                        double cosine, const SampledWavelengths& wavelengths, LastLamp& last) {
   const AreaLight& light = s.scene.area_lights[area_light];
   if (light.directional || (cosine <= 0 && !light.two_sided)) return filled(0);
-  return surface_radiance(s, light, at, wavelengths);
+  return surface_radiance(s, area_light, at, wavelengths, last);
+}
+
+SampledSpectrum emitted(const LightSampler& s, std::uint32_t area_light, const TexturePoint& at,
+                        double cosine, const SampledWavelengths& wavelengths) {
+  LastLamp last;
+  return emitted(s, area_light, at, cosine, wavelengths, last);
 }
 
 Background background(const LightSampler& s, Vector3d direction, const SampledWavelengths& wavelengths) {

@@ -97,6 +97,8 @@ struct LightSampler {
   };
   std::vector<Run> runs;  // ascending
 
+  // sample_light has no use for u[3]: there is nothing but the tree, and it is small enough for 24 bits.
+  bool three_numbers = false;
   // There is one light, and one direction to it; or a sun among others, that brings most wherever nothing is
   // in its way, which is mostly not so.
   bool one_is_enough = false;
@@ -130,7 +132,17 @@ struct LightSample {
   std::uint32_t light = 0;  // index into LightScene::lights, or of surfaces into area_lights
 };
 
+// The radiance, at the wavelengths of one path, of the lamp without a texture that was met last.
+struct LastLamp {
+  static constexpr std::uint32_t none = ~0u;
+  std::uint32_t area_light = none;
+  SampledSpectrum radiance;
+};
+
 // A connection from p. u[0], u[1] are for the point, u[2], u[3] for the light. Empty where nothing arrives.
+// `last`: what a path keeps from one to the next.
+std::optional<LightSample> sample_light(const LightSampler& sampler, Point3d p, const std::array<float, 4>& u,
+                                        const SampledWavelengths& wavelengths, LastLamp& last);
 std::optional<LightSample> sample_light(const LightSampler& sampler, Point3d p, const std::array<float, 4>& u,
                                         const SampledWavelengths& wavelengths);
 
@@ -146,6 +158,8 @@ double triangle_pdf(const LightSampler& sampler, Point3d from, std::uint32_t tri
                     double distance, double cosine);
 // Radiance of an emitter's surface where a ray meets it, seen at `cosine` from its normal. 0 of directional
 // ones.
+SampledSpectrum emitted(const LightSampler& sampler, std::uint32_t area_light, const TexturePoint& at,
+                        double cosine, const SampledWavelengths& wavelengths, LastLamp& last);
 SampledSpectrum emitted(const LightSampler& sampler, std::uint32_t area_light, const TexturePoint& at,
                         double cosine, const SampledWavelengths& wavelengths);
 // What a ray finds that leaves the scene: the sum of constant and image environments, and the density, as of

@@ -194,6 +194,19 @@ void find_variety(std::span<const LightBounds> lights, LightSampler& s) {
   s.lamp_radius2 = dot(box.upper - s.lamp_center, box.upper - s.lamp_center);
 }
 
+// Two triangles side by side in one plane, as rectangles are: what one or the other sends to a point differs
+// by less than it is worth to weigh them there.
+bool is_one_flat_lamp(std::span<const LightBounds> lights) {
+  if (lights.size() != 2) return false;
+  const LightBounds &a = lights[0], &b = lights[1];
+  constexpr double all_around = 1.5;  // not along the normal alone
+  if (a.theta_e_rad < all_around || b.theta_e_rad < all_around || !(dot(a.axis, b.axis) > 1 - 1e-9))
+    return false;
+  for (int axis = 0; axis < 3; ++axis)
+    if (a.box.upper[axis] < b.box.lower[axis] || b.box.upper[axis] < a.box.lower[axis]) return false;
+  return std::abs(dot(b.box.lower - a.box.lower, a.axis)) < 1e-6 * length(a.box.upper - a.box.lower);
+}
+
 }  // namespace
 
 LightSampler make_light_sampler(const LightScene& scene, const ImageSource& images, LightChoice choice) {
@@ -215,6 +228,7 @@ LightSampler make_light_sampler(const LightScene& scene, const ImageSource& imag
   if (choice == LightChoice::tree)
     for (std::size_t i = triangles; i < local.size(); ++i)
       i < surfaces ? by_projection(local[i]) : by_intensity(local[i]);
+  if (triangles == 2 && is_one_flat_lamp(local)) choice = LightChoice::power;
   s.tree = LightTree(local, choice);
   for (const std::uint32_t light : s.tree.order()) {
     LightSampler::Slot& slot = s.slots.emplace_back();
@@ -243,6 +257,8 @@ LightSampler make_light_sampler(const LightScene& scene, const ImageSource& imag
   if (choices == 0) return s;
   for (const double p : power)
     s.share.push_back(p > 0 ? 0.5 / static_cast<double>(choices) + 0.5 * p / total : 0);
+  constexpr std::size_t few = 1 << 12;
+  s.three_numbers = s.share[0] == 1 && local.size() <= few;
   find_variety(local, s);
   return s;
 }
