@@ -37,7 +37,8 @@ std::uint64_t dice(std::uint32_t pixel, std::uint32_t sample, Numbers... values)
 // One of the two whole numbers about v, by 21 of the bits: v on the average.
 WideSum rounded(double v, std::uint64_t bits) {
   const double below = std::floor(v);
-  return wide_sum_of(static_cast<double>(bits & 0x1fffff) * 0x1p-21 < v - below ? below + 1 : below);
+  const bool up = static_cast<double>(bits & 0x1fffff) * 0x1p-21 < v - below;
+  return wide_sum_of(below + static_cast<double>(up));  // no branch: nobody can guess it
 }
 
 }  // namespace

@@ -29,15 +29,21 @@ struct DirectionCode {
   }
 };
 
+// Of a point of the octahedron: where its lower half lies in the square, beyond the edges of the upper one;
+// and back.
+inline void fold_if(bool lower, double& x, double& y) {
+  const double folded_x = 1 - std::abs(y), folded_y = 1 - std::abs(x);
+  if (!lower) return;
+  x = x < 0 ? -folded_x : folded_x;
+  y = y < 0 ? -folded_y : folded_y;
+}
+
 // `d` finite and not zero; any length.
 inline DirectionCode encode_direction(Vector3d d) {
   const double norm = std::abs(d.x) + std::abs(d.y) + std::abs(d.z);
-  double x = d.x / norm, y = d.y / norm;
-  if (d.z < 0) {
-    const double folded = (1 - std::abs(y)) * (x < 0 ? -1 : 1);
-    y = (1 - std::abs(x)) * (y < 0 ? -1 : 1);
-    x = folded;
-  }
+  const double inverse = 1 / norm;
+  double x = d.x * inverse, y = d.y * inverse;
+  fold_if(d.z < 0, x, y);
   const auto quantise = [](double v) {
     return static_cast<std::uint32_t>(
         static_cast<std::int32_t>(std::clamp((v + 1) * 8388607.0, 0.0, 16777214.0) + 0.5));
@@ -47,15 +53,15 @@ inline DirectionCode encode_direction(Vector3d d) {
 
 // Unit vector, rounded to float.
 inline Vector3f decode_direction(DirectionCode code) {
-  const std::uint32_t a = code.first(), b = code.second();
-  double x = a / 8388607.0 - 1, y = b / 8388607.0 - 1;
+  // Exact at the axes: 8388607 times its rounded inverse is 1.
+  const auto coordinate = [](std::uint32_t n) {
+    return (static_cast<std::int32_t>(n) - 8388607) * (1 / 8388607.0);
+  };
+  double x = coordinate(code.first()), y = coordinate(code.second());
   const double z = 1 - std::abs(x) - std::abs(y);
-  if (z < 0) {
-    const double folded = (1 - std::abs(y)) * (x < 0 ? -1 : 1);
-    y = (1 - std::abs(x)) * (y < 0 ? -1 : 1);
-    x = folded;
-  }
-  return cast<float>(normalize(Vector3d{x, y, z}));
+  fold_if(z < 0, x, y);
+  const Vector3d d{x, y, z};  // at least 1/√3 long
+  return cast<float>(d * (1 / std::sqrt(dot(d, d))));
 }
 
 // The orientation of a face, either side: two 10-bit octahedral coordinates, to 0.24°.

@@ -34,7 +34,7 @@ struct Interaction {
   }
 };
 
-// `domain` holds the hit. `direction` of the ray, `cone_width` of its cone at the hit (0: none).
+// `domain` holds the hit. `direction` of the ray, decoded, `cone_width` of its cone at the hit (0: none).
 Interaction make_interaction(const DomainView& domain, const Hit& hit, Vector3f direction, double cone_width,
                              std::uint32_t attributes);
 

@@ -130,20 +130,13 @@ namespace {
 // end and does not cancel.
 SampledSpectrum sigmoid(const SigmoidSpectrum& s, const SampledWavelengths& wavelengths) {
   if (std::isinf(s.c2)) return filled(s.c2 > 0 ? 1 : 0);
-  // Without branches, so that the compiler can take the wavelengths side by side.
-  std::array<float, hero_count> x, root, rest;
-  for (std::size_t i = 0; i < hero_count; ++i) {
-    const auto l = static_cast<double>(wavelengths.lambda_nm[i]);
-    const double exact = (s.c0 * l + s.c1) * l + s.c2;
-    const double above = exact < -1e18 ? -1e18 : exact;
-    x[i] = static_cast<float>(above > 1e18 ? 1e18 : above);
-  }
-  for (std::size_t i = 0; i < hero_count; ++i) root[i] = std::sqrt(1 + x[i] * x[i]);
-  for (std::size_t i = 0; i < hero_count; ++i) rest[i] = 0.5f / (root[i] * (root[i] + std::abs(x[i])));
   SampledSpectrum result;
   for (std::size_t i = 0; i < hero_count; ++i) {
-    const float other = 1 - rest[i];
-    result.v[i] = x[i] < 0 ? rest[i] : other;
+    const auto l = static_cast<double>(wavelengths.lambda_nm[i]);
+    const auto x = static_cast<float>(std::clamp((s.c0 * l + s.c1) * l + s.c2, -1e18, 1e18));
+    const float root = std::sqrt(1 + x * x);
+    const float rest = 0.5f / (root * (root + std::abs(x)));
+    result.v[i] = x < 0 ? rest : 1 - rest;
   }
   return result;
 }

@@ -18,17 +18,11 @@ Frame::Frame(Vector3d n) : normal(n) {
 Vector3d sample_cosine_hemisphere(float u, float v) {
   const double a = 2 * static_cast<double>(u) - 1, b = 2 * static_cast<double>(v) - 1;
   if (a == 0 && b == 0) return {0, 0, 1};
-  double x, y;
-  if (std::abs(a) > std::abs(b)) {
-    const double phi = pi / 4 * (b / a);
-    x = a * cos_small(phi);
-    y = a * sin_small(phi);
-  } else {
-    const double phi = pi / 4 * (a / b);
-    x = b * sin_small(phi);
-    y = b * cos_small(phi);
-  }
-  return {x, y, safe_sqrt(1 - x * x - y * y)};
+  const bool wide = std::abs(a) > std::abs(b);
+  const double radius = wide ? a : b, phi = pi / 4 * ((wide ? b : a) / radius);
+  const double along = radius * cos_small(phi), across = radius * sin_small(phi);
+  const double z = std::sqrt(1 - radius * radius);
+  return wide ? Vector3d{along, across, z} : Vector3d{across, along, z};
 }
 
 double attainable(double p) {

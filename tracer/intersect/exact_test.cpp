@@ -9,8 +9,8 @@ namespace {
 
 std::uint32_t greatest_axis(Vector3f d) {
   const float x = std::abs(d.x), y = std::abs(d.y), z = std::abs(d.z);
-  if (x > y) return x > z ? 0 : 2;
-  return y > z ? 1 : 2;
+  const std::uint32_t of_two = x > y ? 0 : 1;
+  return std::max(x, y) > z ? of_two : 2;
 }
 
 // A vertex as the sheared ray sees it: the ray runs along the third axis through 0.
