@@ -96,6 +96,8 @@ int main(int argc, char** argv) {
   app.add_option("--seeds", options.seeds, "pictures of each setting")
       ->check(CLI::Range(3, 100))
       ->capture_default_str();
+  app.add_option("--first-seed", options.first_seed, "of the pictures; of the reference: a million more")
+      ->group("");
   app.add_option("--spp", options.spp, "samples of a measured picture; default: as --budget allows")
       ->check(more_than_0);
   app.add_option("--reference-spp", options.reference_spp,

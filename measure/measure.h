@@ -20,6 +20,7 @@ struct MeasureOptions {
   std::vector<std::string> axes;  // empty: all
   int width = 256;                // of the measured pictures, in pixels
   int seeds = 6;                  // pictures of each setting
+  std::uint64_t first_seed = 1;   // of them
   double budget_s = 300;          // wall time that all may take, roughly
   bool every_combination = false;  // of the axes that change the picture, not only the promising ones
   int spp = 0, reference_spp = 0;  // of a picture, and of a half of the reference; 0: what the budget allows
@@ -51,6 +52,8 @@ struct Recommendation {
   std::vector<std::string> render, partition;
   int spp = 0;
   double error = 0, cpu_s = 0, wall_s = 0;  // predicted, of the whole picture
+  double bias = 0;     // of the error
+  Estimate luminance;  // off, as ErrorStatistics
 };
 
 struct Measurement {

@@ -91,6 +91,7 @@ void search(Measurement& m, Session& session, Recommendation& r) {
       r.name = s->name;
       r.render = render_arguments(m.axes, setting);
       r.partition = partition_arguments(m.axes, setting);
+      r.bias = s->tradeoff().bias, r.luminance = s->error.luminance;
       r.spp = p->spp, r.error = p->error, r.cpu_s = p->cpu_s;
       r.wall_s = p->cpu_s / session.parallelism();
       return;

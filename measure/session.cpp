@@ -32,9 +32,10 @@ RunResult Session::run(const RunRequest& request, const std::string& what) {
 }
 
 Reference Session::reference(int spp) {
+  const std::uint64_t seed = reference_seed + options_.first_seed - 1;
   const std::vector<std::string> whole{"--max-depth", "-1"};
-  Image first = run({whole, {}, spp, reference_seed}, "reference").picture;
-  return make_reference(std::move(first), run({whole, {}, spp, reference_seed + 1}, "reference").picture);
+  Image first = run({whole, {}, spp, seed}, "reference").picture;
+  return make_reference(std::move(first), run({whole, {}, spp, seed + 1}, "reference").picture);
 }
 
 MeasuredSetting Session::measure_setting(const Measurement& m, const Setting& setting, int spp) {
@@ -54,7 +55,7 @@ MeasuredSetting Session::measure_setting(const Measurement& m, const Setting& se
     RunResult r;
     try {
       r = run({render_arguments(m.axes, setting), partition_arguments(m.axes, setting), spp,
-               static_cast<std::uint64_t>(seed)},
+               options_.first_seed + static_cast<std::uint64_t>(seed) - 1},
               s.name);
     } catch (const Error& e) {
       s.failure = e.what();

@@ -75,8 +75,10 @@ std::string advice(const Recommendation& r) {
   std::string options = fmt::format("--spp {}", r.spp);
   for (const auto* words : {&r.render, &r.partition})
     for (const std::string& word : *words) options += ' ' + word;
-  return fmt::format("For {}: render {} — a relMSE of {:.3g} in {:.3g} CPU seconds, {:.3g} s here ({}).", r.goal,
-                     options, r.error, r.cpu_s, r.wall_s, r.name);
+  std::string text = fmt::format("For {}: render {} — a relMSE of {:.3g} in {:.3g} CPU seconds, {:.3g} s here ({}).",
+                                 r.goal, options, r.error, r.cpu_s, r.wall_s, r.name);
+  if (r.bias > 0) text += fmt::format(" {:.3g} of it is bias: {}.", r.bias, brightness(r.luminance));
+  return text;
 }
 
 std::vector<bool> front(const Measurement& m) {
