@@ -147,10 +147,8 @@ void print_end(const RenderOptions& options, const RenderStats& s, std::uint64_t
              static_cast<double>(rays) / s.wall_s * 1e-6, static_cast<double>(s.peak_rss_bytes) / 0x1p20,
              s.ending == Ending::time_is_up ? "; the same command goes on" : "");
   if (options.target_error)
-    fmt::print(
-        stderr,
-        "vitrail: {}: error {:.3g}, and with a confidence of 95 % below {:.3g}, where {} was asked for\n",
-        options.film.string(), s.reached.estimate, s.reached.upper, text_of(*options.target_error));
+    fmt::print(stderr, "vitrail: {}: error {:.3g}, in all likelihood below {:.3g}, where {} was asked for\n",
+               options.film.string(), s.reached.estimate, s.reached.upper, text_of(*options.target_error));
 }
 
 }  // namespace vitrail

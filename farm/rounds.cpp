@@ -17,7 +17,7 @@ namespace {
 constexpr std::uint32_t pilot_samples = 16, quickest_samples = 2;
 // A round's samples over those before it. The error is foreseen to fall as one over the samples; a little
 // more than that spares another round.
-constexpr double least_growth = 1.25, growth = 2, foresight = 1.05;
+constexpr double least_growth = 1.25, growth = 2, foresight = 1.1;
 // Of the round that makes a picture adaptive: every pixel has its least share by then.
 constexpr double first_growth = 4;
 

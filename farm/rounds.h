@@ -31,7 +31,7 @@ Goal goal_of(const RenderOptions& options, int samples_of_scene);
 // What the film's error is in the unit of the target: relMSE, or just noticeable differences.
 struct ReachedError {
   double estimate = 0;
-  double upper = 0;  // the true error is below with a probability of 95 %
+  double upper = 0;  // the true error is below in most pictures, see film/noise.h
 };
 ReachedError reached_error(const Film& film, const TargetError& target);
 

@@ -4,7 +4,8 @@
 
   adaptive.py gain   [--seeds 30] [--spp 64]     --adaptive against uniform: errors, cost, means
   adaptive.py target [--seeds 50]                the true error against the one asked for
-  adaptive.py target --short                     of two scenes and 12 seeds: what ctest runs
+  adaptive.py target --short                     of two scenes and 12 seeds
+  adaptive.py quality [--seeds 3]                what the presets of --quality take and give
 
 Errors are of luminance, (Y - Y')²/(Y'² + 0.01), against the mean of the other seeds' films.
 """
@@ -92,7 +93,8 @@ def gain(bench, names, seeds, spp):
 
 
 # Targets that take some tens of samples a pixel.
-TARGETS = {"lamp": 3e-4, "toy": 6e-5, "sky": 2e-4, "glossy": 2e-5, "room": 1.5e-2, "hall": 6e-2}
+TARGETS = {"toy": 6e-5, "sky": 2e-4, "glossy": 2e-5, "room": 1.5e-2, "hall": 6e-2, "caustic": 1e-2, "lamp": 3e-4,
+           "defocus": 1.0}
 
 
 def target(bench, names, seeds, options):
@@ -114,9 +116,35 @@ def target(bench, names, seeds, options):
     return within
 
 
+def lightness(y):
+    y = np.clip(y, 0, 1)
+    return np.where(y > 216 / 24389, 116 * np.cbrt(y) - 16, y * 24389 / 27)
+
+
+def quality(bench, names, seeds):
+    print("| scene | quality | samples a pixel | seconds of tracing | relMSE | just noticeable differences, rms | of pixels above 2 |")
+    print("|---|---|---|---|---|---|---|")
+    for name in names:
+        bundle = bench.bundle(name)
+        films = {q: [bench.render(bundle, seed, "--quality", q) for seed in range(seeds)] for q in ("draft", "good", "final")}
+        for q, runs in films.items():
+            others = films["final"]
+            relative, seen, much = [], [], []
+            for i, (y, _, _) in enumerate(runs):
+                reference = np.mean([o[0] for j, o in enumerate(others) if j != i], axis=0)
+                differences = np.abs(lightness(y) - lightness(reference)) / 2.3
+                relative.append(np.mean((y - reference) ** 2 / (reference**2 + 0.01)))
+                seen.append(np.sqrt(np.mean(differences**2)))
+                much.append(np.mean(differences > 2))
+            samples = np.mean([c.mean() for _, c, _ in runs])
+            seconds = np.mean([s["trace_s"] for _, _, s in runs])
+            print(f"| {name} | {q} | {samples:.0f} | {seconds:.2f} | {np.mean(relative):.2g} | {np.mean(seen):.2f} | "
+                  f"{100 * np.mean(much):.1f} % |", flush=True)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("what", choices=("gain", "target"))
+    parser.add_argument("what", choices=("gain", "target", "quality"))
     parser.add_argument("--vitrail", default=str(pathlib.Path(__file__).parents[2] / "build/release/bin/vitrail"))
     parser.add_argument("--scenes", help="names, separated by commas")
     parser.add_argument("--seeds", type=int)
@@ -128,6 +156,9 @@ def main():
         bench = Bench(a.vitrail, folder)
         if a.what == "gain":
             gain(bench, a.scenes.split(",") if a.scenes else SCENES, a.seeds or 30, a.spp)
+            return 0
+        if a.what == "quality":
+            quality(bench, a.scenes.split(",") if a.scenes else SCENES, a.seeds or 3)
             return 0
         names = a.scenes.split(",") if a.scenes else ("toy", "sky") if a.short else TARGETS
         within = target(bench, names, a.seeds or (12 if a.short else 50), ["--adaptive"] if a.adaptive else [])

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <fstream>
 
+#include "film/film.h"
 #include "tests/support/command.h"
 #include "tests/support/temporary_directory.h"
 
@@ -76,6 +77,54 @@ TEST(Everyday, ProgressAsJsonLines) {
     }
     EXPECT_EQ(all.back()["ending"], "time is up") << run_number;
   }
+}
+
+// With what there is, which is not all, and the same command goes on.
+TEST(Everyday, ARenderOfSomeSeconds) {
+  const TemporaryDirectory directory;
+  const auto film = directory / "a.film", stats = directory / "stats.json",
+             profile = directory / "profile.json";
+  const std::string line =
+      fmt::format("{} '{}' -o '{}' --crop 0,64,0,64 --time 1.5 --stats '{}' --profile '{}'",
+                  vitrail("render"), scene, film.string(), stats.string(), profile.string());
+  const auto samples = [&] { return read_json(stats)["samples"].get<std::uint64_t>(); };
+  ASSERT_EQ(run(line).status, 0);
+  EXPECT_FALSE(read_json(stats)["complete"].get<bool>());
+  EXPECT_FALSE(std::filesystem::exists(profile)) << "it is of a whole picture";
+  FilmProgress progress;
+  const Film first = read_film(film, &progress);
+  EXPECT_FALSE(progress.complete());
+  const std::uint64_t before = samples();
+  EXPECT_GE(before, 64u * 64 * 2) << "every pixel has its first";
+  const CommandResult second = run(line);
+  EXPECT_EQ(second.status, 0);
+  EXPECT_THAT(second.output, HasSubstr("going on from"));
+  EXPECT_GT(samples(), before);
+}
+
+TEST(Everyday, QualityIsWhatIsNotGiven) {
+  const TemporaryDirectory directory;
+  const auto stats = directory / "stats.json";
+  const auto render = [&](const std::string& options) {
+    const CommandResult done =
+        run(fmt::format("{} '{}' -o '{}' --crop 0,32,0,32 --force --stats '{}' {}", vitrail("render"), scene,
+                        (directory / "a.film").string(), stats.string(), options));
+    EXPECT_EQ(done.status, 0) << done.output;
+    return read_json(stats);
+  };
+  const nlohmann::json draft = render("--quality draft");
+  EXPECT_EQ(draft["target_error"], 4);
+  EXPECT_EQ(draft["target_error_unit"], "jnd");
+  EXPECT_FALSE(draft["adaptive"].get<bool>());
+  const nlohmann::json good = render("--quality good --spp 32");
+  EXPECT_EQ(good["target_error"], 1);
+  EXPECT_EQ(good["spp"], 32);
+  EXPECT_TRUE(good["adaptive"].get<bool>());
+  const nlohmann::json given = render("--quality final --target-error 0.5 --no-adaptive --spp 64");
+  EXPECT_EQ(given["target_error"], 0.5);
+  EXPECT_EQ(given["target_error_unit"], "relmse");
+  EXPECT_FALSE(given["adaptive"].get<bool>());
+  EXPECT_EQ(run(fmt::format("{} '{}' -o a.film --quality best", vitrail("render"), scene)).status, 2);
 }
 
 TEST(Everyday, FilmsOfDifferentSeedsMerge) {

@@ -85,6 +85,32 @@ TEST_F(FilmFile, ComesBackAsItWas) {
   EXPECT_FALSE(progress.complete());
 }
 
+// Within an adaptive round a film has the round's map, and between rounds none.
+TEST_F(FilmFile, OfAdaptiveSamplesComesBackToo) {
+  for (const bool open : {true, false}) {
+    progress_.adaptive = true;
+    progress_.earlier_ends.clear();
+    progress_.more.clear();
+    if (open)
+      for (std::uint32_t p = 0; p < 15; ++p) progress_.more.push_back(p * p);
+    write_film(file_, film_, progress_);
+    FilmProgress progress;
+    EXPECT_EQ(read_film(file_, &progress).hash(), film_.hash());
+    EXPECT_TRUE(progress.adaptive);
+    EXPECT_EQ(progress.more, progress_.more);
+    const std::string good = bytes();
+    for (std::size_t i = 0; i < good.size(); i += open ? 1 : 7) {
+      std::string bad = good;
+      bad[i] = static_cast<char>(bad[i] ^ 0x10);
+      overwrite(bad);
+      EXPECT_THROW(read_film(file_, nullptr), Error) << "byte " << i;
+    }
+    overwrite(good.substr(0, good.size() - 4));
+    EXPECT_THROW(read_film(file_, nullptr), Error);
+    std::filesystem::remove(file_);
+  }
+}
+
 TEST_F(FilmFile, EqualFilmsGiveEqualFiles) {
   const std::string first = bytes();
   write_film(file_, film_, progress_);
