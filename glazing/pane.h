@@ -38,7 +38,7 @@ struct MeasuredPane {
 
 // Thick sheets that light passes without interference, with coherent films on their faces, from outside. All
 // in optical contact: a laminate is several slabs, a coated glass one with films.
-struct Film {
+struct FilmLayer {
   IndexRows index;
   double thickness_nm = 0;
 };
@@ -47,8 +47,8 @@ struct Slab {
   double thickness_mm = 0;
 };
 struct StackPane {
-  std::vector<Slab> slabs;               // at least one
-  std::vector<std::vector<Film>> films;  // before, between and behind the slabs: one more than slabs
+  std::vector<Slab> slabs;                    // at least one
+  std::vector<std::vector<FilmLayer>> films;  // before, between and behind the slabs: one more than slabs
 };
 
 using Pane = std::variant<MeasuredPane, StackPane>;

@@ -9,11 +9,25 @@
 
 namespace vitrail {
 
-GlazingSheets sheets_of(const GlazingSystem& system, Polarisation polarisation) {
-  std::vector<double> nm{lambda_min_nm};
+namespace {
+
+// Those of the panes, and steps of 5 nm where these are farther apart: what panes do together is not linear
+// in between, and the model of coated glass changes its curve where T is 0.645.
+std::vector<double> visible_wavelengths(const GlazingSystem& system) {
+  std::vector<double> nm;
+  for (double x = lambda_min_nm; x < lambda_max_nm; x += 5) nm.push_back(x);
+  nm.push_back(lambda_max_nm);
   for (const double x : common_wavelengths(system))
     if (x > lambda_min_nm && x < lambda_max_nm) nm.push_back(x);
-  nm.push_back(lambda_max_nm);
+  std::ranges::sort(nm);
+  nm.erase(std::unique(nm.begin(), nm.end(), [](double a, double b) { return b - a < 1e-3; }), nm.end());
+  return nm;
+}
+
+}  // namespace
+
+GlazingSheets sheets_of(const GlazingSystem& system, Polarisation polarisation) {
+  const std::vector<double> nm = visible_wavelengths(system);
   std::vector<double> cosines;
   constexpr int steps = 180;
   for (int i = 0; i <= steps; ++i) cosines.push_back(std::sin(i * std::numbers::pi / (2 * steps)));

@@ -3,7 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <filesystem>
+#include <fstream>
 
 #include "glazing/json_node.h"
 #include "glazing/product.h"
@@ -17,11 +20,49 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// "FILE#state=0.6" and "FILE#temperature=40".
+struct SwitchedFile {
+  std::string file;
+  double at = 0;
+  bool by_temperature = false;
+};
+std::optional<SwitchedFile> switched_file(const std::string& text) {
+  const std::size_t hash = text.rfind('#');
+  if (hash == text.npos) return {};
+  const std::string_view what = std::string_view(text).substr(hash + 1);
+  for (const std::string_view name : {"state=", "temperature="})
+    if (double at = 0; what.starts_with(name) && parse_number(what.substr(name.size()), at)) {
+      if (name == "state=" && (at < 0 || at > 1)) throw Error("a state is in [0, 1]", {text});
+      return SwitchedFile{text.substr(0, hash), at, name != "state="};
+    }
+  return {};
+}
+
+// Tables of measured materials are binary and large: they are not read whole to be refused.
+bool may_be_text(const std::string& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::array<char, 4096> head{};
+  in.read(head.data(), head.size());
+  const auto end = head.begin() + in.gcount();
+  std::error_code ignored;
+  return std::find(head.begin(), end, '\0') == end && fs::file_size(file, ignored) < (64u << 20);
+}
+
 class Reader {
  public:
   explicit Reader(ReadSystem& into) : into_(into) {}
 
   void add(const std::string& file) {
+    if (const auto switched = switched_file(file)) {
+      ReadSystem part;
+      Reader(part).add(switched->file);
+      if (!set_state(part.system, switched->at, switched->by_temperature))
+        throw Error("no pane of it switches so", {file});
+      into_.system.layers.insert(into_.system.layers.end(), part.system.layers.begin(),
+                                 part.system.layers.end());
+      into_.notes.insert(into_.notes.end(), part.notes.begin(), part.notes.end());
+      return;
+    }
     if (const auto root = system_root(file))
       add_system(*root, fs::path(file).parent_path());
     else
@@ -223,7 +264,11 @@ class Reader {
 
 bool is_glazing_file(const std::string& file) {
   std::error_code ignored;
-  if (!fs::is_regular_file(file, ignored)) return file.find('#') != file.npos;
+  if (!fs::is_regular_file(file, ignored)) {
+    const std::size_t hash = file.rfind('#');
+    return hash != file.npos && is_glazing_file(file.substr(0, hash));
+  }
+  if (!may_be_text(file)) return false;
   const std::string text = read_text(file);
   const std::string_view start = trimmed(text);
   return is_optics(text) || is_idf(text) ||

@@ -14,7 +14,8 @@ struct ReadSystem {
   std::vector<std::string> notes;
 };
 
-// Panes from outside, each "FILE" or "FILE#NAME" of a product (glazing/product.h), or a system file, whose
+// Panes from outside, each "FILE" or "FILE#NAME" of a product (glazing/product.h), with "#state=0.6" or
+// "#temperature=40" behind it where it switches, or a system file, whose
 // layers take its place. A system file is JSON (docs/glazing.md):
 //   {"name": "…", "layers": [{"pane": "low-e.json", "flipped": true}, {"gap_mm": 12.7},
 //                            {"stack": [{"index": "glass.txt", "thickness_mm": 4},

@@ -77,7 +77,8 @@ PaneValues stack_values(const StackPane& stack, double nm, double cosine, bool p
   double n_before = 1;
   for (std::size_t i = 0; i <= stack.slabs.size(); ++i) {
     std::vector<FilmAt> films;
-    for (const Film& film : stack.films[i]) films.push_back({index_of(film.index, nm), film.thickness_nm});
+    for (const FilmLayer& film : stack.films[i])
+      films.push_back({index_of(film.index, nm), film.thickness_nm});
     // The absorption of a slab is counted on its way through; at its faces only its real index acts.
     const bool last = i == stack.slabs.size();
     const Complex n = last ? Complex(1) : index_of(stack.slabs[i].index, nm);

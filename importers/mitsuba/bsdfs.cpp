@@ -6,6 +6,7 @@
 #include <cmath>
 #include <unordered_map>
 
+#include "importers/glazing_material.h"
 #include "importers/mitsuba/builder.h"
 #include "importers/mitsuba/index_of_refraction.h"
 #include "importers/mitsuba/values.h"
@@ -70,7 +71,20 @@ MaterialModel dielectric(Builder& b, const Object& o) {
   return m;
 }
 
+// A system of panes in a file, with what the object says of its state.
+MaterialModel glazing(Builder& b, const Object& o, std::string file) {
+  for (const char* name : {"state", "temperature"})
+    if (o.has(name)) file += fmt::format("#{}={}", name, o.number(name, 0, b.report));
+  GlazingModel made = glazing_model(file, [&](Material side) { return append(b, std::move(side)); });
+  for (const std::string& note : made.notes) b.report.approximated(note, o.origin);
+  return std::move(made.model);
+}
+
 MaterialModel thin_dielectric(Builder& b, const Object& o) {
+  if (o.has("glazing")) {
+    o.ignore({"int_ior", "ext_ior", "specular_reflectance", "specular_transmittance"});
+    return glazing(b, o, o.text("glazing", "", b.report));
+  }
   ThinDielectricMaterial m;
   m.eta = index_spectrum(b, o, "int_ior", "bk7");
   m.exterior_eta = index_spectrum(b, o, "ext_ior", "air");
@@ -251,6 +265,7 @@ MaterialModel measured(Builder& b, const Object& o) {
   MeasuredMaterial m{o.text("filename", "", b.report)};
   if (m.filename.empty()) b.report.fail("a measured material needs a \"filename\"", o.origin);
   o.ignore({"alpha_sample", "wavelength"});
+  if (is_glazing(m.filename)) return glazing(b, o, m.filename);
   if (is_measured_sheet(m.filename)) {
     MeasuredSheetFile file = read_measured_sheet(m.filename);
     for (const std::string& repair : file.repairs) b.report.approximated(repair, o.origin);

@@ -343,7 +343,8 @@ class Loader {
 
   // Names of files become absolute while it is known which folders are searched.
   std::string file_or_text(pugi::xml_node node, std::string text, const Source& source, const Origin& place) {
-    return name_of(node, source, place) == "filename" ? resolve(text).string() : text;
+    const std::string name = name_of(node, source, place);
+    return name == "filename" || name == "glazing" ? resolve(text).string() : text;
   }
 
   Value read_spectrum(pugi::xml_node node, const Source& source, const Object& owner, const Origin& place) {

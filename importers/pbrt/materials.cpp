@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "importers/glazing_material.h"
 #include "importers/pbrt/material_parameters.h"
 #include "importers/spectra/measured_sheet.h"
 #include "scene/rgb_to_spectrum.h"
@@ -80,7 +81,24 @@ MaterialModel dielectric(const Maker& m) {
   return d;
 }
 
+// A system of panes in a file, with what the parameters say of its state.
+MaterialModel glazing(const Maker& m, const Parameter& name) {
+  std::string file =
+      std::filesystem::absolute(m.scope.context.resolve(name.strings.front())).lexically_normal().string();
+  for (const char* what : {"state", "temperature"})
+    if (m.parameters.find(what, {ParameterType::number}))
+      file += fmt::format("#{}={}", what, m.parameters.number(what, 0));
+  GlazingModel made = glazing_model(file, m.slots.add);
+  for (const std::string& note : made.notes) m.scope.context.report.approximated(note, name.place);
+  return std::move(made.model);
+}
+
 MaterialModel thin_dielectric(const Maker& m) {
+  if (const Parameter* file = m.parameters.find("glazing", {ParameterType::text});
+      file && file->strings.size() == 1) {
+    m.parameters.ignore({"eta"});
+    return glazing(m, *file);
+  }
   ThinDielectricMaterial d;
   d.eta = m.index({"eta"}, 1.5);
   return d;
@@ -148,6 +166,8 @@ MaterialModel measured(const Maker& m) {
   const Parameter* file = m.parameters.find("filename", {ParameterType::text});
   if (!file || file->strings.size() != 1)
     fail("a measured material needs a \"string filename\"", m.parameters.place());
+  if (is_glazing(std::filesystem::absolute(m.scope.context.resolve(file->strings.front())).string()))
+    return glazing(m, *file);
   MeasuredMaterial material{find_file(*file, m.scope.context)};
   if (is_measured_sheet(material.filename)) {
     MeasuredSheetFile table = read_measured_sheet(material.filename);

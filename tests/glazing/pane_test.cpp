@@ -142,7 +142,7 @@ IndexRows metal(const char* name) {
 // numbers.
 TEST(Pane, CoatedModelIsNearThinFilmTheory) {
   const IndexRows glass{{550, 1.52, 2e-7}}, oxide{{550, 2.0, 0}}, titania{{550, 2.4, 0}};
-  const auto coated = [&](std::vector<Film> films) {
+  const auto coated = [&](std::vector<FilmLayer> films) {
     return StackPane{{{glass, 4}}, {{}, std::move(films)}};
   };
   const std::vector<std::pair<const char*, StackPane>> panes{

@@ -18,7 +18,7 @@ const std::map<std::string, std::set<std::string>>& allowed() {
       {"scene", {}},
       {"glazing", {"scene"}},
       {"images", {"scene"}},
-      {"importers", {"scene", "images"}},
+      {"importers", {"scene", "glazing", "images"}},
       {"bundle", {"scene"}},
       {"partitioner", {"scene", "images", "bundle"}},
       {"film", {"scene"}},

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "importers/glazing_material.h"
+
+#include "glazing/sheet.h"
+#include "glazing/system_file.h"
+#include "importers/spectra/measured_sheet.h"
+
+namespace vitrail {
+
+bool is_glazing(const std::string& file) { return !is_measured_sheet(file) && is_glazing_file(file); }
+
+GlazingModel glazing_model(const std::string& file, const std::function<Id<Material>(Material)>& add) {
+  ReadSystem read = read_system({file});
+  GlazingSheets sheets = sheets_of(read.system, Polarisation::mixed_at_panes);
+  MeasuredMaterial front{file, std::move(sheets.front)}, back{file, std::move(sheets.back)};
+  if (front == back) return {std::move(front), std::move(read.notes)};
+  const Id<Material> outside = add(Material{std::move(front)}), inside = add(Material{std::move(back)});
+  return {TwoSidedMaterial{outside, inside}, std::move(read.notes)};
+}
+
+}  // namespace vitrail

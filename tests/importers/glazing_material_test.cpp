@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+// Glazing named by a scene: in pbrt's and in Mitsuba's words, and what is said of it.
+#include "importers/glazing_material.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "importers/import.h"
+#include "tests/glazing/glazing_files.h"
+
+namespace vitrail::test {
+namespace {
+
+const std::string electrochromic = R"({"layers": [{"states": [{"state": 0, "pane": "pane.dat"},
+  {"state": 1, "tinted": {"visible_transmittance": 0.1, "solar_transmittance": 0.08}}]}]})";
+
+const std::string square_pbrt =
+    "\nShape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0] \"integer indices\" [0 1 2]\n";
+
+// T at 550 nm and normal incidence of the first sheet that a scene has.
+float transmittance_of(const Scene& scene) {
+  for (const Material& material : scene.materials)
+    if (const auto* measured = std::get_if<MeasuredMaterial>(&material.model)) {
+      const MeasuredSheet& s = measured->sheet.value();
+      const auto row = std::ranges::lower_bound(s.wavelengths_nm, 550.0f) - s.wavelengths_nm.begin();
+      return s.transmittance.at(static_cast<std::size_t>(row) * s.cosines.size() + s.cosines.size() - 1);
+    }
+  return -1;
+}
+
+class GlazingMaterial : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    write_text(directory / "pane.dat", optics_text);
+    write_text(directory / "unit.json", electrochromic);
+  }
+  Scene scene_of(const char* name, const std::string& text) {
+    return import_scene(write_text(directory / name, text)).scene;
+  }
+  TemporaryDirectory directory;
+};
+
+TEST_F(GlazingMaterial, IsNamedByPbrtAndByMitsuba) {
+  const auto pbrt = [&](const std::string& material) {
+    return transmittance_of(scene_of("a.pbrt", "WorldBegin\nMaterial " + material + square_pbrt));
+  };
+  const auto mitsuba = [&](const std::string& bsdf) {
+    return transmittance_of(
+        scene_of("a.xml", "<scene version=\"3.0.0\"><shape type=\"rectangle\">" + bsdf + "</shape></scene>"));
+  };
+  const float clear = pbrt("\"thindielectric\" \"string glazing\" \"unit.json\"");
+  EXPECT_GT(clear, 0.75f);
+  EXPECT_EQ(pbrt("\"measured\" \"string filename\" \"unit.json\""), clear);
+  EXPECT_EQ(mitsuba("<bsdf type=\"thindielectric\"><string name=\"glazing\" value=\"unit.json\"/></bsdf>"),
+            clear);
+  EXPECT_EQ(mitsuba("<bsdf type=\"measured\"><string name=\"filename\" value=\"unit.json\"/></bsdf>"), clear);
+  const float dark = pbrt("\"thindielectric\" \"string glazing\" \"unit.json\" \"float state\" 1");
+  EXPECT_LT(dark, 0.2f);
+  EXPECT_EQ(
+      mitsuba(
+          "<bsdf type=\"thindielectric\"><string name=\"glazing\" value=\"unit.json\"/><float name=\"state\" "
+          "value=\"1\"/></bsdf>"),
+      dark);
+}
+
+TEST_F(GlazingMaterial, HasTwoSidesWhereTheyDiffer) {
+  Scene scene;
+  const auto add = [&](Material m) {
+    scene.materials.push_back(std::move(m));
+    return Id<Material>{static_cast<std::uint32_t>(scene.materials.size() - 1)};
+  };
+  const auto even = write_text(directory / "even.txt", "wavelength_nm T R\n400 0.5 0.2\n700 0.6 0.1\n");
+  EXPECT_TRUE(is_glazing((directory / "unit.json#state=0.5").string()));
+  EXPECT_TRUE(
+      std::holds_alternative<TwoSidedMaterial>(glazing_model((directory / "pane.dat").string(), add).model));
+  EXPECT_EQ(scene.materials.size(), 2u);
+  EXPECT_TRUE(std::holds_alternative<MeasuredMaterial>(glazing_model(even.string(), add).model));
+}
+
+TEST_F(GlazingMaterial, RefusesWhatIsWrong) {
+  EXPECT_THROW(scene_of("a.pbrt", "WorldBegin\nMaterial \"thindielectric\" \"string glazing\" \"none.json\"" +
+                                      square_pbrt),
+               Error);
+  EXPECT_THROW(
+      scene_of("a.pbrt",
+               "WorldBegin\nMaterial \"thindielectric\" \"string glazing\" \"unit.json\" \"float state\" 2" +
+                   square_pbrt),
+      Error);
+  EXPECT_THROW(
+      scene_of("a.pbrt",
+               "WorldBegin\nMaterial \"thindielectric\" \"string glazing\" \"pane.dat\" \"float state\" 1" +
+                   square_pbrt),
+      Error);
+}
+
+}  // namespace
+}  // namespace vitrail::test
