@@ -331,6 +331,7 @@ template <class Use>
 void for_each_reference(Material& material, Use&& use) {
   if (auto* blend = std::get_if<BlendMaterial>(&material.model)) use(blend->first), use(blend->second);
   if (auto* mask = std::get_if<MaskMaterial>(&material.model)) use(mask->material);
+  if (auto* sided = std::get_if<TwoSidedMaterial>(&material.model)) use(sided->front), use(sided->back);
 }
 
 bool is_in_order(std::vector<Material>& materials) {

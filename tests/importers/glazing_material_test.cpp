@@ -17,15 +17,15 @@ const std::string electrochromic = R"({"layers": [{"states": [{"state": 0, "pane
 const std::string square_pbrt =
     "\nShape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0] \"integer indices\" [0 1 2]\n";
 
-// T at 550 nm and normal incidence of the first sheet that a scene has.
+// T at 550 nm and normal incidence of the front of the only shape of a scene.
 float transmittance_of(const Scene& scene) {
-  for (const Material& material : scene.materials)
-    if (const auto* measured = std::get_if<MeasuredMaterial>(&material.model)) {
-      const MeasuredSheet& s = measured->sheet.value();
-      const auto row = std::ranges::lower_bound(s.wavelengths_nm, 550.0f) - s.wavelengths_nm.begin();
-      return s.transmittance.at(static_cast<std::size_t>(row) * s.cosines.size() + s.cosines.size() - 1);
-    }
-  return -1;
+  const Material& whole = scene.materials.at(scene.shapes.at(0).material.value);
+  const auto& sided = std::get<TwoSidedMaterial>(whole.model);
+  EXPECT_LT(sided.front.value, scene.shapes[0].material.value) << "parts come before what is made of them";
+  const auto& measured = std::get<MeasuredMaterial>(scene.materials.at(sided.front.value).model);
+  const MeasuredSheet& s = measured.sheet.value();
+  const auto row = std::ranges::lower_bound(s.wavelengths_nm, 550.0f) - s.wavelengths_nm.begin();
+  return s.transmittance.at(static_cast<std::size_t>(row) * s.cosines.size() + s.cosines.size() - 1);
 }
 
 class GlazingMaterial : public ::testing::Test {
