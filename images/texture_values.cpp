@@ -160,6 +160,13 @@ Image texture_values(const ImageTexture& texture, StoredImage stored, ImageUse u
   return std::move(image);
 }
 
+bool ignores_primaries(const ImageTexture& texture, const ImageLayout& layout) {
+  if (!layout.chromaticities || layout.channels < 3 || texture.primaries == Primaries::file) return false;
+  const char* const name = color_space_of(*layout.chromaticities);
+  if (name && std::string(name) == "srgb") return false;
+  return texture.primaries == Primaries::srgb || !name;
+}
+
 bool have_same_values(const ImageTexture& a, const ImageTexture& b, ImageUse use) {
   if (say_the_same(a, b, use)) return true;
   const StoredImage stored = read_stored_image(a.filename);

@@ -17,6 +17,9 @@ Image texture_values(const ImageTexture& texture, StoredImage stored, ImageUse u
 // The texture with the number that a choice by alpha comes to in its file. Throws as read_stored_rows does.
 ImageTexture without_choice(ImageTexture texture);
 
+// Whether the file states primaries other than sRGB's that the texture's renderer does not look at.
+bool ignores_primaries(const ImageTexture& texture, const ImageLayout& layout);
+
 // Whether two textures make the same values of their files for that use, to 1e-6 of each. Reads no file where
 // their fields tell. Throws as read_stored_image does.
 bool have_same_values(const ImageTexture& a, const ImageTexture& b, ImageUse use);

@@ -268,6 +268,13 @@ std::string TextureBaker::write_file(const ImageTexture& image, TextureUse use, 
   const auto size = static_cast<std::uint32_t>(std::max(layout.width, layout.height));
   if (std::min(layout.width, layout.height) <= 0 || size > max_texture_size)
     throw Error(fmt::format("{} × {} pixels are not an image for a texture", layout.width, layout.height));
+  if (use != TextureUse::number && use != TextureUse::vector && ignores_primaries(image, layout))
+    diagnostics_.push_back({Fidelity::approximated,
+                            fmt::format("texture {}: its file states other primaries than sRGB's, which its "
+                                        "renderer does not look at: its colours count as sRGB's",
+                                        image.filename),
+                            where,
+                            {}});
   ImageRows rows = rows_of(use == TextureUse::number ? without_choice(image) : image, layout, use);
   std::size_t broken = 0;
   bool counted = false;  // in the first reading

@@ -5,6 +5,7 @@
 #include <OpenImageIO/imageio.h>
 #include <gmock/gmock.h>
 
+#include "scene/color.h"
 #include "scene/diagnostics.h"
 #include "tests/support/png.h"
 #include "tests/support/temporary_directory.h"
@@ -138,12 +139,40 @@ TEST_F(TextureValues, ChromaticitiesOfTheFile) {
   EXPECT_THAT(values(white, ImageUse::light, texture), ElementsAre(1, 1, 1));
 }
 
+// One colour in the spaces of film: by the matrices from XYZ that the Academy publishes (S-2008-001,
+// S-2014-004).
+TEST_F(TextureValues, ColorsOfAcesAreThoseOfSrgb) {
+  using Matrix = std::array<std::array<double, 3>, 3>;
+  constexpr Matrix to_ap0{
+      {{1.0498110175, 0, -0.0000974845}, {-0.4959030231, 1.3733130458, 0.0982400361}, {0, 0, 0.9912520182}}};
+  constexpr Matrix to_ap1{{{1.6410233797, -0.3248032942, -0.2364246952},
+                           {-0.6636628587, 1.6153315917, 0.0167563477},
+                           {0.0117218943, -0.0082844420, 0.9883948585}}};
+  constexpr RGB color{0.8, 0.3, 0.1};
+  const XYZ xyz = srgb_to_xyz(color);
+  const auto in = [&](const Matrix& m) {
+    std::vector<float> v;
+    for (const auto& row : m)
+      v.push_back(static_cast<float>(row[0] * xyz.x + row[1] * xyz.y + row[2] * xyz.z));
+    return v;
+  };
+  const auto same = ElementsAre(near(color.r, 1e-3), near(color.g, 1e-3), near(color.b, 1e-3));
+  ImageTexture texture;
+  EXPECT_THAT(values(exr(in(to_ap1), acescg), ImageUse::color, texture), same);
+  EXPECT_THAT(values(exr(in(to_ap0), aces), ImageUse::color, texture), same);
+  EXPECT_THAT(values(exr(in(to_ap0), aces), ImageUse::light, texture), same);
+  texture.primaries = Primaries::named;  // a sky by pbrt's makesky
+  EXPECT_THAT(values(exr(in(to_ap0), aces), ImageUse::light, texture), same);
+}
+
 TEST_F(TextureValues, ChromaticitiesThatPbrtDoesNotKnowSayNothingToIt) {
   ImageTexture texture;
   texture.primaries = Primaries::named;
   const auto file = exr({0.5f, 0.25f, 0.125f}, acescg);
   EXPECT_THAT(values(file, ImageUse::color, texture), ElementsAre(0.5f, 0.25f, 0.125f));
+  EXPECT_TRUE(ignores_primaries(texture, read_image_layout(file)));
   texture.primaries = Primaries::file;
+  EXPECT_FALSE(ignores_primaries(texture, read_image_layout(file)));
   EXPECT_NE(values(file, ImageUse::color, texture).at(0), 0.5f);
   // Those of sRGB change nothing, bit for bit; those that do not span the plane neither.
   EXPECT_THAT(values(exr({0.5f, 0.25f, 0.125f}, {0.64f, 0.33f, 0.3f, 0.6f, 0.15f, 0.06f, 0.3127f, 0.329f}),
