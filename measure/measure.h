@@ -53,6 +53,7 @@ struct Recommendation {
   int spp = 0;
   double error = 0, cpu_s = 0, wall_s = 0;  // predicted, of the whole picture
   double bias = 0;     // of the error
+  double bias_within = 0;  // half the width of its interval
   Estimate luminance;  // off, as ErrorStatistics
 };
 

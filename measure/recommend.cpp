@@ -91,7 +91,7 @@ void search(Measurement& m, Session& session, Recommendation& r) {
       r.name = s->name;
       r.render = render_arguments(m.axes, setting);
       r.partition = partition_arguments(m.axes, setting);
-      r.bias = s->tradeoff().bias, r.luminance = s->error.luminance;
+      r.bias = s->tradeoff().bias, r.bias_within = s->error.bias.half_width, r.luminance = s->error.luminance;
       r.spp = p->spp, r.error = p->error, r.cpu_s = p->cpu_s;
       r.wall_s = p->cpu_s / session.parallelism();
       return;
@@ -103,17 +103,20 @@ void search(Measurement& m, Session& session, Recommendation& r) {
 }  // namespace
 
 void recommend(Measurement& m, Session& session, const MeasureOptions& o) {
-  const Tradeoff own = whole_picture(m, m.settings[0].tradeoff());
+  const Setting own_setting(m.axes.size(), 0);
   std::vector<Recommendation>& all = m.recommendations;
   if (o.error) all.push_back({fmt::format("a relMSE of {:.3g}", *o.error), {o.error, {}}});
   if (o.seconds)
     all.push_back({fmt::format("{:.3g} s on this machine", *o.seconds), {{}, *o.seconds * session.parallelism()}});
   if (all.empty()) {
     const int spp = m.scene_spp;
+    const auto own = [&] { return whole_picture(m, found(m, own_setting)->tradeoff()); };
+    while (is_too_uncertain(*found(m, own_setting), m.settings[0].spp, predicted_error(own(), m.law, spp)))
+      m.settings.push_back(session.measure_setting(m, own_setting, 4 * found(m, own_setting)->spp));
     all.push_back({fmt::format("the error of the scene's own setting at its {} samples", spp),
-                   {predicted_error(own, m.law, spp), {}}});
+                   {predicted_error(own(), m.law, spp), {}}});
     all.push_back({fmt::format("the time of the scene's own setting at its {} samples", spp),
-                   {{}, predicted_cpu_s(own, m.law, spp)}});
+                   {{}, predicted_cpu_s(own(), m.law, spp)}});
   }
   if (o.every_combination)
     for (const Setting& setting : combinations(m))

@@ -77,6 +77,9 @@ std::string advice(const Recommendation& r) {
     for (const std::string& word : *words) options += ' ' + word;
   std::string text = fmt::format("For {}: render {} — a relMSE of {:.3g} in {:.3g} CPU seconds, {:.3g} s here ({}).",
                                  r.goal, options, r.error, r.cpu_s, r.wall_s, r.name);
+  constexpr double share = 0.3;
+  if (r.bias_within > share * r.error)
+    text += fmt::format(" Beware: its bias is known to ± {:.2g} only; more --seeds or --spp know better.", r.bias_within);
   if (r.bias > 0) text += fmt::format(" {:.3g} of it is bias: {}.", r.bias, brightness(r.luminance));
   return text;
 }
