@@ -31,7 +31,7 @@ constexpr const char* usage = R"(usage: vitrail VERB ...
 `vitrail help VERB` says more.
 )";
 
-const std::vector<std::string> verbs{"convert", "inspect", "partition", "verify",  "render",   "plan",
+const std::vector<std::string> verbs{"convert", "inspect", "partition", "verify",  "render",  "plan",
                                      "develop", "compare", "measure",   "glazing", "spectrum"};
 
 int no_such(const std::string& verb) {

@@ -33,10 +33,12 @@ class RayBatch {
 
   std::uint32_t domain() const { return read<std::uint32_t>(0); }
   RayKind kind() const { return read<RayKind>(4); }
-  std::size_t count() const {
-    return bytes_.empty() ? 0
-                          : (bytes_.size() - header_bytes) /
-                                (kind() == RayKind::path ? sizeof(PathRecord) : sizeof(ShadowRecord));
+  std::size_t count() const { return bytes_.empty() ? 0 : (bytes_.size() - header_bytes) / record_bytes(); }
+  // Whether what was received is a batch for one of `domains`.
+  bool is_whole(std::size_t domains) const {
+    return bytes_.size() > header_bytes && domain() < domains &&
+           (kind() == RayKind::path || kind() == RayKind::shadow) &&
+           (bytes_.size() - header_bytes) % record_bytes() == 0;
   }
   bool full() const { return bytes_.size() + sizeof(PathRecord) > full_bytes; }
 
@@ -52,6 +54,9 @@ class RayBatch {
   const std::vector<std::byte>& bytes() const { return bytes_; }
 
  private:
+  std::size_t record_bytes() const {
+    return kind() == RayKind::path ? sizeof(PathRecord) : sizeof(ShadowRecord);
+  }
   template <class T>
   T read(std::size_t at) const {
     T value;

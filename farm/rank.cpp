@@ -7,6 +7,7 @@
 
 #include "farm/agreement.h"
 #include "farm/signals.h"
+#include "scene/diagnostics.h"
 
 namespace vitrail {
 
@@ -59,7 +60,7 @@ Ending Rank::run() {
   auto last_round = Clock::now() - round_interval;
   bool in_round = false;
   for (;;) {
-    bool moved = move_rays();
+    bool moved = try_to_move_rays();
     watch_clock();
     if (in_round) {
       if (const auto sums = transport_.finish_round()) {
@@ -92,6 +93,17 @@ Ending Rank::run() {
   }
 }
 
+// What goes wrong is told to the others in the next round.
+bool Rank::try_to_move_rays() {
+  try {
+    return move_rays();
+  } catch (...) {
+    const std::lock_guard lock(state_.mutex);
+    if (!state_.failure) state_.failure = std::current_exception();
+    return false;
+  }
+}
+
 // Takes what has arrived and sends what waits for other ranks. Returns whether anything moved.
 bool Rank::move_rays() {
   if (transport_.size() == 1) return false;
@@ -99,6 +111,9 @@ bool Rank::move_rays() {
   while (auto batch = transport_.receive()) {
     ++received_;
     moved = true;
+    if (!batch->is_whole(state_.scene.manifest.domains.size()) ||
+        !state_.scheduler.residency().is_local(batch->domain()))
+      throw MachineError("a message came that holds no rays for a domain of this rank");
     const std::lock_guard lock(state_.mutex);
     state_.scheduler.arrived(batch->domain(), batch->count());
     state_.queues.push(std::move(*batch));

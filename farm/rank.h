@@ -30,6 +30,7 @@ class Rank {
  private:
   enum class Decision { go_on, checkpoint, end };
 
+  bool try_to_move_rays();
   bool move_rays();
   RoundSums contribution();
   Decision decide(const RoundSums& sums);

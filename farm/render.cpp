@@ -14,6 +14,7 @@
 #include "farm/gather_profile.h"
 #include "farm/memory.h"
 #include "farm/rank.h"
+#include "farm/same_job.h"
 #include "farm/signals.h"
 #include "scene/atomic_file.h"
 #include "scene/output_place.h"
@@ -175,15 +176,17 @@ RenderStats render(Transport& transport, const RenderOptions& options) {
     if (transport.rank() == 0) require_room(options.film, film_bytes(m.film));
   });
   const Manifest& manifest = job->scene->manifest;
+  expect_same_job(transport, manifest, job->film.key(), goal, options);
   EarlierWork earlier = read_earlier_work(transport, options, job->film, goal);
   const bool from_the_start =
       std::ranges::all_of(earlier.done, [](std::uint64_t items) { return items == 0; });
 
   const Scheduler::Job of_this_rank{transport.size(), threads, rays_allowed(memory)};
   RankState state(
-      *job->scene, job->film, std::move(earlier.plan), RayQueues(manifest.domains.size(), options.shuffle_seed),
-      Scheduler(of_this_rank, Residency(manifest, memory.domains_bytes, home_ranks(manifest, transport.size()),
-                                        transport.rank())),
+      *job->scene, job->film, std::move(earlier.plan),
+      RayQueues(manifest.domains.size(), options.shuffle_seed),
+      Scheduler(of_this_rank, Residency(manifest, memory.domains_bytes,
+                                        home_ranks(manifest, transport.size()), transport.rank())),
       options.bundle);
   if (transport.rank() == 0 && !options.quiet && manifest.lights.empty() && manifest.area_lights.empty())
     fmt::print(stderr, "vitrail: the scene has no light: its picture is black\n");
@@ -195,7 +198,8 @@ RenderStats render(Transport& transport, const RenderOptions& options) {
     stats.ending = Ending::finished;
   } else {
     if (transport.rank() == 0) print_start(options, manifest, goal, transport.size(), threads);
-    const Workers workers(state, threads);
+    std::optional<Workers> workers;
+    agree(transport, [&] { workers.emplace(state, threads); });
     stats.ending = rank.run();
   }
   rank.add_to(stats);

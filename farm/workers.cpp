@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "farm/workers.h"
 
+#include <fmt/format.h>
+
 #include <chrono>
 #include <optional>
+#include <system_error>
+
+#include "scene/diagnostics.h"
 
 namespace vitrail {
 
@@ -157,17 +162,26 @@ RankState::RankState(const RenderScene& the_scene, Film& the_film, WorkPlan the_
       domains(scene.manifest, bundle) {}
 
 Workers::Workers(RankState& state, int threads) : state_(state) {
-  for (int i = 0; i < threads; ++i) threads_.emplace_back([&state] { guarded(state, work); });
-  threads_.emplace_back([&state] { guarded(state, load); });
+  try {
+    for (int i = 0; i < threads; ++i) threads_.emplace_back([&state] { guarded(state, work); });
+    threads_.emplace_back([&state] { guarded(state, load); });
+  } catch (const std::system_error& e) {
+    const std::size_t made = threads_.size();
+    end();
+    throw MachineError(fmt::format("only {} of {} threads can be made: {}", made, threads + 1, e.what()));
+  }
 }
 
-Workers::~Workers() {
+Workers::~Workers() { end(); }
+
+void Workers::end() {
   {
     const std::lock_guard lock(state_.mutex);
     state_.finished = true;
   }
   state_.work_available.notify_all();
   state_.load_wanted.notify_all();
+  threads_.clear();  // joins
 }
 
 }  // namespace vitrail

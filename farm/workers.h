@@ -41,7 +41,8 @@ struct RankState {
   std::exception_ptr failure;
 };
 
-// Starts `threads` workers and the loader; the destructor ends and joins them.
+// Starts `threads` workers and the loader; the destructor ends and joins them. Throws MachineError where the
+// system makes no more threads.
 class Workers {
  public:
   Workers(RankState& state, int threads);
@@ -50,6 +51,8 @@ class Workers {
   Workers& operator=(const Workers&) = delete;
 
  private:
+  void end();
+
   RankState& state_;
   std::vector<std::jthread> threads_;
 };

@@ -183,6 +183,46 @@ TEST_F(BadInput, FullDisk) {
   EXPECT_TRUE(empty);
 }
 
+// Of two ranks each is started with arguments of its own.
+TEST_F(BadInput, RanksThatRenderDifferentPictures) {
+  const std::string bundle = good_bundle().string();
+  write("b.pbrt", head + square + "[0 0 0 2 0 0 0 1 0]\n");
+  ASSERT_EQ(partition("b.pbrt", "other.vit").status, 0);
+  const std::string arguments =
+      fmt::format(" -o '{}' --spp 4 --crop 0,32,0,32", (directory_ / "picture.film").string());
+  const auto two_ranks = [&](const std::string& first, const std::string& second) {
+    return run(fmt::format("timeout 60 env {} {}{} : -np 1 {} {}{}", mpi_vitrail("render", 1), first,
+                           arguments, vitrail("render"), second, arguments));
+  };
+  const std::string same = "'" + bundle + "'";
+  EXPECT_EQ(two_ranks(same, same).status, 0);
+  for (const auto& [other, what] :
+       {std::pair{same + " --seed 7", "seed"}, std::pair{same + " --spp 5", "number of samples"},
+        std::pair{same + " --max-depth 1", "depth"},
+        std::pair{"'" + (directory_ / "other.vit").string() + "'", "bundle"}}) {
+    std::filesystem::remove(directory_ / "picture.film");
+    const CommandResult result = two_ranks(same, other);
+    EXPECT_NE(result.status, 0) << what;
+    EXPECT_NE(result.status, 124) << what << ": it hangs";
+    EXPECT_THAT(result.output, HasSubstr("was given another")) << what;
+    EXPECT_THAT(result.output, HasSubstr(what));
+    EXPECT_FALSE(std::filesystem::exists(directory_ / "picture.film"));
+  }
+}
+
+// Memory for the stacks of ten thousand threads is not there.
+TEST_F(BadInput, TooManyThreads) {
+  for (const int ranks : {1, 2}) {
+    const std::string render = ranks > 1 ? mpi_vitrail("render", ranks) : vitrail("render");
+    const CommandResult result = run(fmt::format(
+        "ulimit -v 4000000; timeout 60 env {} '{}' -o '{}' --spp 1 --crop 0,32,0,32 --threads 4000", render,
+        good_bundle().string(), (directory_ / "picture.film").string()));
+    EXPECT_NE(result.status, 124) << "it hangs";
+    EXPECT_NE(result.status, 0) << result.output;
+    EXPECT_THAT(result.output, HasSubstr("threads can be made"));
+  }
+}
+
 TEST_F(BadInput, TooLittleMemory) {
   const CommandResult result =
       run(fmt::format("{} '{}' -o '{}' --memory 1M", vitrail("render"), good_bundle().string(),

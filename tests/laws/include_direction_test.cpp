@@ -73,8 +73,8 @@ TEST(IncludeDirection, OnlyTheFarmSpeaksMpi) {
 TEST(Sources, CarryTheirLicence) {
   const std::filesystem::path root = VITRAIL_SOURCE_DIR;
   for (const char* folder :
-       {"scene", "glazing", "images", "importers", "bundle", "partitioner", "film", "tracer", "farm", "compare",
-        "measure", "cli", "tests", "scripts", "examples", "cmake"})
+       {"scene", "glazing", "images", "importers", "bundle", "partitioner", "film", "tracer", "farm",
+        "compare", "measure", "cli", "tests", "scripts", "examples", "cmake"})
     for (const auto& entry : std::filesystem::recursive_directory_iterator(root / folder)) {
       const std::string extension = entry.path().extension().string();
       constexpr const char* kinds[] = {".h", ".cpp", ".inl", ".py", ".cmake"};

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "bundle/manifest.h"
+#include "farm/rounds.h"
+
+namespace vitrail {
+
+// All ranks of a job render one picture of one bundle by one build. Called by all together, with what each
+// has read; throws UsageError on the ranks that differ from rank 0, saying in what.
+void expect_same_job(Transport& transport, const Manifest& manifest, const FilmKey& key, const Goal& goal,
+                     const RenderOptions& options);
+
+}  // namespace vitrail
