@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// By scripts/generate_color_checker.py from colour-science's table of Ohta (1997).
 // clang-format off
 #include "cli/color_checker.h"
 

@@ -14,7 +14,7 @@ struct ColorCheckerPatch {
 };
 
 // The 24 patches of the Macbeth ColorChecker: Ohta, "The basis of color reproduction engineering" (1997),
-// which are those of ISO 17321-1 (as in colour-science 0.4.4).
+// which are those of ISO 17321-1.
 std::span<const ColorCheckerPatch> color_checker();
 
 }  // namespace vitrail

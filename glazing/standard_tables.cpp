@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// By scripts/generate_glazing_tables.py, which names the sources.
 // clang-format off
 #include "glazing/standard_tables.h"
 

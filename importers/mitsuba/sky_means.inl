@@ -1,4 +1,5 @@
-// By scripts/make_sky_means.py from Mitsuba 3.9.1.
+// SPDX-License-Identifier: Apache-2.0
+// By scripts/generate_sky_means.py from Mitsuba 3.9.1.
 // Turbidities (1, 2, 3, 4, 6, 8, 10), then elevations (2, 5, 10, 20, 40, 60, 85) of the sun in degrees: the
 // sky's R G B, the sun's.
 {{0.026571, 0.027029, 0.020992, 0.47971, 0.13671, 0}},

@@ -4,7 +4,7 @@
 
 Evaluates Mitsuba itself (pip install mitsuba==3.9.1): of the sky the mean radiance of the upper hemisphere, of the
 sun the irradiance on a plane across its direction, linear sRGB, W/(m2 sr nm) and W/(m2 nm).
-Usage: make_sky_means.py > importers/mitsuba/sky_means.inl
+Usage: generate_sky_means.py > importers/mitsuba/sky_means.inl
 """
 import numpy as np
 import mitsuba as mi
@@ -37,7 +37,7 @@ def disk(sun, count=60):
     return (np.cos(r)[..., None] * sun + np.sin(r)[..., None] * across).reshape(-1, 3)
 
 
-print("// By scripts/make_sky_means.py from Mitsuba 3.9.1.")
+print("// SPDX-License-Identifier: Apache-2.0\n// By scripts/generate_sky_means.py from Mitsuba 3.9.1.")
 print("// Turbidities %s, then elevations %s of the sun in degrees: the sky's R G B, the sun's." % (TURBIDITIES, ELEVATIONS))
 for turbidity in TURBIDITIES:
     for elevation in ELEVATIONS:

@@ -1,0 +1,65 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Writes glazing/standard_tables.cpp: the solar spectrum, the white and the observer of NFRC 300-2003.
+
+    pip install colour-science==0.4.7 pywincalc==3.3.1
+    python3 scripts/generate_glazing_tables.py > glazing/standard_tables.cpp
+
+ASTM E891-87, Table 1, direct normal irradiance at air mass 1.5 (W/(m2 um)), is withdrawn and in no library of colour; LBNL's
+pywincalc has it with the standard that names it, and CIE D65 at 1 nm. The CIE 1964 observer is colour-science's, and so is
+D65 as far as it goes there, which is checked.
+"""
+import importlib.metadata
+import textwrap
+import warnings
+
+warnings.filterwarnings("ignore")
+import colour
+import numpy as np
+
+
+def spectrum(name):
+    files = importlib.metadata.files("pywincalc")
+    for line in open(next(f for f in files if f.name == name).locate()):
+        numbers = line.split()
+        if len(numbers) == 2 and numbers[0][0].isdigit():
+            yield float(numbers[0]), float(numbers[1])
+
+
+def wrapped(items):
+    return textwrap.fill(", ".join(items), 108, initial_indent="    ", subsequent_indent="    ",
+                         break_long_words=False, break_on_hyphens=False) + ",\n"
+
+
+def pair(a, b):
+    return f"{{{a:g},\N{NO-BREAK SPACE}{b:g}}}"
+
+
+d65 = dict(spectrum("CIE Illuminant D65 1nm.ssp"))
+known = colour.SDS_ILLUMINANTS["D65"]
+assert np.allclose(known.values, [d65[nm] for nm in known.wavelengths], rtol=1e-5)
+observer = colour.MSDS_CMFS["CIE 1964 10 Degree Standard Observer"]
+print("""// SPDX-License-Identifier: Apache-2.0
+// By scripts/generate_glazing_tables.py, which names the sources.
+// clang-format off
+#include "glazing/standard_tables.h"
+
+namespace vitrail {
+
+namespace {
+
+constexpr std::pair<double, double> e891[] = {""")
+print(wrapped([pair(round(1000 * um, 4), value) for um, value in spectrum("ASTM E891 Table 1 Direct AM1_5.ssp")]).replace("\N{NO-BREAK SPACE}", " "), end="")
+print("};\n\nconstexpr double d65[] = {")
+print(wrapped([f"{d65[float(nm)]:g}" for nm in range(300, 831, 5)]), end="")
+print("};\n\nconstexpr std::array<double, 3> observer_1964[] = {")
+for nm in range(360, 831, 5):
+    print("    {" + ", ".join(f"{value:g}" for value in observer[float(nm)]) + "},")
+print("""};
+
+}  // namespace
+
+std::span<const std::pair<double, double>> astm_e891() { return e891; }
+std::span<const double> cie_d65_5nm() { return d65; }
+std::span<const std::array<double, 3>> cie_1964_5nm() { return observer_1964; }
+
+}  // namespace vitrail""")
