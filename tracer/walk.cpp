@@ -77,10 +77,8 @@ bool DomainWalk::next_of_many(double tmax, Visit& visit) {
     const double entry = enter_box(info.tight_bounds, rounding_, origin_, reciprocal_, tmax);
     if (entry == infinity) continue;
     visit = {domain, std::max(leaf.t0, entry)};
-    // The tree of what is at hand tells sooner than the cells. From far away the way through them is less
-    // certain than they are padded.
-    const bool at_hand = domain < resident_.size() && resident_[domain];
-    if (!at_hand && rounding_ < cell_margin(manifest_) &&
+    // From far away the way through the cells is less certain than they are padded.
+    if (rounding_ < cell_margin(manifest_) &&
         !meets(info.occupancy, info.tight_bounds, origin_, direction_, visit.entry, tmax))
       continue;
     return true;

@@ -25,8 +25,8 @@ class DomainWalk {
     double entry;  // no point of the ray before it lies in the domain
   };
 
-  // `resident`: indexed by domain, null where absent; may be empty. Of what is at hand no cells are looked
-  // at: its tree tells what misses it. The one domain of a scene is then at once the first and the last.
+  // `resident`: indexed by domain, null where absent; may be empty. The one domain of a scene is at once the
+  // first and the last, if it is at hand: its tree tells what misses it.
   DomainWalk(const Manifest& manifest, const Ray& ray, std::span<const DomainView* const> resident = {})
       : manifest_(manifest), resident_(resident) {
     if (!starts_near(ray.origin)) return;
@@ -34,8 +34,7 @@ class DomainWalk {
     if (!only_one_) begin(ray);
   }
 
-  // The next domain whose tight bounds the ray enters before tmax, and of one not at hand its marked cells;
-  // false at the end.
+  // The next domain whose tight bounds and marked cells the ray enters before tmax; false at the end.
   bool next(double tmax, Visit& visit) {
     if (!only_one_) return next_of_many(tmax, visit);
     only_one_ = false;
