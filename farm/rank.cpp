@@ -46,6 +46,10 @@ double Rank::elapsed_s() const { return std::chrono::duration<double>(Clock::now
 
 // Deals out those items of the state's plan that are not done; no worker has begun, or the mutex is held.
 void Rank::start_items(std::vector<std::uint64_t> done) {
+  if (state_.plan.adaptive()) {
+    done.resize((state_.plan.items() + 63) / 64);
+    mark_empty_items(state_.plan, done);
+  }
   state_.share = share_of(state_.plan, done, transport_.rank(), transport_.size());
   state_.scheduler.begin_items(state_.share.size());
   reported_ = 0;
@@ -112,7 +116,7 @@ bool Rank::move_rays() {
     ++received_;
     moved = true;
     if (!batch->is_whole(state_.scene.manifest.domains.size()) ||
-        !state_.scheduler.residency().is_local(batch->domain()))
+        state_.scheduler.residency().home(batch->domain()) != transport_.rank())
       throw MachineError("a message came that holds no rays for a domain of this rank");
     const std::lock_guard lock(state_.mutex);
     state_.scheduler.arrived(batch->domain(), batch->count());
@@ -166,7 +170,12 @@ RoundSums Rank::contribution() {
 Rank::Decision Rank::decide(const RoundSums& sums) {
   if (sums.bad_input + sums.machine_failure > 0) {
     leave_together();
-    leave(state_.failure, sums);
+    std::exception_ptr mine;
+    {
+      const std::lock_guard lock(state_.mutex);
+      mine = state_.failure;
+    }
+    leave(mine, sums);
   }
   auto quiet = Scheduler::Decision::go_on;
   {
@@ -179,10 +188,13 @@ Rank::Decision Rank::decide(const RoundSums& sums) {
 }
 
 Ending Rank::ending_of(const RoundSums& sums) const {
-  if (sums.items_done == static_cast<std::int64_t>(state_.plan.items())) return Ending::finished;
+  const bool all_done = sums.items_done == static_cast<std::int64_t>(state_.plan.items());
+  // Between two rounds of samples a stop is one.
+  if (all_done && !goal_.in_rounds) return Ending::finished;
   if (sums.terminated > 0) return Ending::terminated;
   if (sums.interrupted > 0) return Ending::interrupted;
-  return sums.time_is_up > 0 ? Ending::time_is_up : Ending::none;
+  if (sums.time_is_up > 0) return Ending::time_is_up;
+  return all_done ? Ending::finished : Ending::none;
 }
 
 void Rank::collect_done() {

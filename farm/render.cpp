@@ -108,7 +108,7 @@ MemoryPlan plan_for(const Manifest& manifest, const RenderOptions& options, int 
 
 // Of an adaptive round's numbers, and what it takes to find them.
 std::uint64_t map_bytes(const PixelRect& crop) {
-  constexpr std::uint64_t held_and_more = 8, finding_them = 8;
+  constexpr std::uint64_t held_and_more = 8, finding_them = 12;
   return static_cast<std::uint64_t>(crop.x1 - crop.x0) * static_cast<std::uint64_t>(crop.y1 - crop.y0) *
          (held_and_more + finding_them);
 }
@@ -178,8 +178,7 @@ RenderStats render(Transport& transport, const RenderOptions& options) {
   const Manifest& manifest = job->scene->manifest;
   expect_same_job(transport, manifest, job->film.key(), goal, options);
   EarlierWork earlier = read_earlier_work(transport, options, job->film, goal);
-  const bool from_the_start =
-      std::ranges::all_of(earlier.done, [](std::uint64_t items) { return items == 0; });
+  const std::uint64_t samples_before = job->film.samples();  // on rank 0
 
   const Scheduler::Job of_this_rank{transport.size(), threads, rays_allowed(memory)};
   RankState state(
@@ -192,7 +191,6 @@ RenderStats render(Transport& transport, const RenderOptions& options) {
     fmt::print(stderr, "vitrail: the scene has no light: its picture is black\n");
   if (!options.profile.empty()) state.traffic.emplace(manifest.domains.size());
   stats.finished_before = earlier.finished;
-  const std::uint64_t samples_before = job->film.samples();
   Rank rank(transport, state, options, goal, std::move(earlier), about(manifest, options));
   if (stats.finished_before) {
     stats.ending = Ending::finished;
@@ -218,45 +216,50 @@ RenderStats render(Transport& transport, const RenderOptions& options) {
   gather_stats(transport, stats, state.domains.touched());
   std::optional<RayProfile> profile;
   if (state.traffic) profile = gather_profile(transport, manifest, *state.traffic, stats);
-  if (transport.rank() != 0) return stats;
-
-  stats.samples = job->film.samples();
-  if (options.dry_run) {
-    print_estimate(stats, memory, bytes_of_all(manifest), samples_before,
-                   std::uint64_t{goal.samples} * job->film.pixels());
-    return stats;
-  }
-  if (goal.target) {
-    stats.target = *goal.target;
-    stats.reached = reached_error(job->film, *goal.target);
-  }
-  if (stats.ending == Ending::finished && stats.reached.upper > stats.target.value)
-    fmt::print(stderr, "vitrail: the error is not reached with {} samples a pixel; --spp allows for more\n",
-               goal.samples);
-  if (const std::uint64_t none = pixels_without_samples(job->film); none > 0 && writes_film(stats.ending))
-    fmt::print(stderr, "vitrail: {} of {} pixels have no sample yet and are black\n", none,
-               job->film.pixels());
-  stats.refused = job->film.refused();
-  if (stats.refused.nonfinite > 0)
-    fmt::print(stderr, "vitrail: {} samples were not finite and count as black\n", stats.refused.nonfinite);
-  stats.clamped_share = job->film.clamped_share();
-  if (options.clamp > 0 && !options.quiet)
-    fmt::print(stderr, "vitrail: --clamp {} took {:.3g} % of the light: so much darker is the picture\n",
-               options.clamp, 100 * stats.clamped_share);
-  stats.film_hash = job->film.hash();
-  print_end(options, stats, job->film.pixels());
-  // The film holds all that the checkpoint does.
-  if (writes_film(stats.ending)) std::filesystem::remove(checkpoint_path(options.film));
-  if (!options.stats.empty()) write_stats(options.stats, stats);
-  if (!options.profile.empty()) {
-    if (from_the_start && stats.ending == Ending::finished)
-      write_ray_profile(options.profile, *profile);
-    else
-      fmt::print(stderr,
-                 "vitrail: {} is not written: a profile counts the rays of a whole picture, rendered without "
-                 "a stop\n",
-                 options.profile.string());
-  }
+  // What fails on rank 0 ends the job everywhere.
+  const auto conclude = [&] {
+    stats.samples = job->film.samples();
+    if (options.dry_run) {
+      print_estimate(stats, memory, bytes_of_all(manifest), samples_before,
+                     std::uint64_t{goal.samples} * job->film.pixels());
+      return;
+    }
+    if (goal.target) {
+      stats.target = *goal.target;
+      stats.reached = reached_error(job->film, *goal.target);
+    }
+    if (stats.ending == Ending::finished && stats.reached.upper > stats.target.value)
+      fmt::print(stderr, "vitrail: the error is not reached with {} samples a pixel; --spp allows for more\n",
+                 goal.samples);
+    if (const std::uint64_t none = pixels_without_samples(job->film); none > 0 && writes_film(stats.ending))
+      fmt::print(stderr, "vitrail: {} of {} pixels have no sample yet and are black\n", none,
+                 job->film.pixels());
+    stats.refused = job->film.refused();
+    if (stats.refused.nonfinite > 0)
+      fmt::print(stderr, "vitrail: {} samples were not finite and count as black\n", stats.refused.nonfinite);
+    stats.clamped_share = job->film.clamped_share();
+    if (options.clamp > 0 && !options.quiet)
+      fmt::print(stderr, "vitrail: --clamp {} took {:.3g} % of the light: so much darker is the picture\n",
+                 options.clamp, 100 * stats.clamped_share);
+    stats.film_hash = job->film.hash();
+    print_end(options, stats, job->film.pixels());
+    // The film holds all that the checkpoint does.
+    if (writes_film(stats.ending)) std::filesystem::remove(checkpoint_path(options.film));
+    if (!options.stats.empty()) write_stats(options.stats, stats);
+    if (!options.profile.empty()) {
+      if (samples_before == 0 && stats.ending == Ending::finished)
+        write_ray_profile(options.profile, *profile);
+      else
+        fmt::print(
+            stderr,
+            "vitrail: {} is not written: a profile counts the rays of a whole picture, rendered without "
+            "a stop\n",
+            options.profile.string());
+    }
+  };
+  agree(transport, [&] {
+    if (transport.rank() == 0) conclude();
+  });
   return stats;
 }
 

@@ -90,7 +90,10 @@ std::optional<NextRound> next_round(const Film& film, const Goal& goal) {
   if (adaptive) {
     const double more = wanted - held;
     if (more < 2) return std::nullopt;  // no pixel has an odd number
-    return NextRound{0, more_samples(film, static_cast<std::uint64_t>(more * film.pixels()))};
+    NextRound next{0, more_samples(film, static_cast<std::uint64_t>(more * film.pixels()))};
+    // What is left may be less than the step of any pixel that comes first.
+    if (std::ranges::all_of(next.more, [](std::uint32_t n) { return n == 0; })) return std::nullopt;
+    return next;
   }
   const std::uint32_t end = std::min(even_above(wanted), goal.samples);
   if (end <= held) return std::nullopt;

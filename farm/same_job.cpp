@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include "bundle/checksum.h"
-#include "farm/agreement.h"
 
 namespace vitrail {
 
@@ -32,11 +31,11 @@ std::vector<Part> parts_of(const Manifest& m, const FilmKey& key, const Goal& go
           {"depth, integrator or clamp",
            fmt::format("{} {} {} {}", key.max_depth, key.direct_only, key.straight_counts, key.clamp)},
           {"number of samples, error or time",
-           fmt::format("{} {} {} {} {} {}", goal.samples, goal.in_rounds, goal.adaptive,
+           fmt::format("{} {} {} {} {} {} {}", goal.samples, goal.in_rounds, goal.adaptive, goal.open_ended,
                        goal.target ? goal.target->value : 0, goal.target && goal.target->just_noticeable,
                        o.time_limit_s)},
-          {"output, profile or dry run",
-           fmt::format("{}\n{}\n{}", o.film.string(), o.profile.string(), o.dry_run)}};
+          {"output, profile, dry run or --force",
+           fmt::format("{}\n{}\n{} {}", o.film.string(), o.profile.string(), o.dry_run, o.force)}};
 }
 
 }  // namespace
@@ -44,16 +43,18 @@ std::vector<Part> parts_of(const Manifest& m, const FilmKey& key, const Goal& go
 void expect_same_job(Transport& transport, const Manifest& manifest, const FilmKey& key, const Goal& goal,
                      const RenderOptions& options) {
   const std::vector<Part> parts = parts_of(manifest, key, goal, options);
-  std::vector<std::uint64_t> mine, first;
+  std::vector<std::uint64_t> mine;
   for (const Part& p : parts) mine.push_back(checksum(std::as_bytes(std::span(p.value))));
-  first = mine;
+  std::vector<std::uint64_t> first = mine;
   transport.broadcast_from_root(first);
-  agree(transport, [&] {
-    for (std::size_t i = 0; i < parts.size(); ++i)
-      if (mine[i] != first[i])
-        throw UsageError(fmt::format("rank {} of the job was given another {} than rank 0", transport.rank(),
-                                     parts[i].name));
-  });
+  std::vector<std::int64_t> differs(parts.size());
+  for (std::size_t i = 0; i < parts.size(); ++i) differs[i] = mine[i] != first[i];
+  transport.max_to_root(differs);
+  std::vector<std::uint64_t> anywhere(differs.begin(), differs.end());
+  transport.broadcast_from_root(anywhere);
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    if (anywhere[i] != 0)
+      throw UsageError(fmt::format("a rank of the job was given another {} than rank 0", parts[i].name));
 }
 
 }  // namespace vitrail

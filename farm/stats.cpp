@@ -71,7 +71,6 @@ std::string to_json(const RenderStats& s) {
                                  {"film_hash", fmt::format("{:016x}", s.film_hash)}};
   json["adaptive"] = s.adaptive;
   json["rounds"] = s.rounds;
-  json["complete"] = s.ending == Ending::finished;
   if (s.target.value > 0) {
     json["target_error"] = s.target.value;
     json["target_error_unit"] = s.target.just_noticeable ? "jnd" : "relmse";

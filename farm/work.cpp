@@ -86,9 +86,24 @@ WorkPlan make_work_plan(const PixelRect& crop, std::uint32_t samples,
 
 WorkPlan make_adaptive_round(const PixelRect& crop, std::vector<std::uint32_t> held,
                              std::vector<std::uint32_t> more) {
-  constexpr std::uint32_t samples_per_item = 16;
   const std::uint32_t most = more.empty() ? 0 : std::ranges::max(more);
-  return {crop, {{0, most, samples_per_item}}, std::move(held), std::move(more)};
+  return {crop, {{0, most, std::max(16u, most / 128)}}, std::move(held), std::move(more)};
+}
+
+void mark_empty_items(const WorkPlan& plan, std::vector<std::uint64_t>& done) {
+  if (!plan.adaptive()) return;
+  const std::uint64_t a_pass = plan.tiles_x() * plan.tiles_y();
+  const int width = plan.crop.x1 - plan.crop.x0;
+  for (std::uint64_t tile = 0; tile < a_pass; ++tile) {
+    const PixelRect p = plan.item(tile).pixels;
+    std::uint32_t most = 0;
+    for (int y = p.y0; y < p.y1; ++y)
+      for (int x = p.x0; x < p.x1; ++x)
+        most = std::max(most,
+                        plan.more[static_cast<std::size_t>((y - plan.crop.y0) * width + x - plan.crop.x0)]);
+    for (std::uint64_t i = tile; i < plan.items(); i += a_pass)
+      if (plan.item(i).sample0 >= most) done[i / 64] |= std::uint64_t{1} << (i % 64);
+  }
 }
 
 std::vector<std::uint64_t> all_done(std::uint64_t items) {

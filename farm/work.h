@@ -56,6 +56,9 @@ WorkPlan make_work_plan(const PixelRect& crop, std::uint32_t samples,
 WorkPlan make_adaptive_round(const PixelRect& crop, std::vector<std::uint32_t> held,
                              std::vector<std::uint32_t> more);
 
+// Marks the items of an adaptive round that have no samples as done: `done` has a bit an item.
+void mark_empty_items(const WorkPlan& plan, std::vector<std::uint64_t>& done);
+
 // Every item done, a bit each, in words of 64.
 std::vector<std::uint64_t> all_done(std::uint64_t items);
 

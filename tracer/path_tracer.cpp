@@ -176,7 +176,7 @@ bool PathTracer::find_hit(Path& path, std::optional<std::uint32_t> at) {
     path.clear(path_resolved);
     located = false;
   } else {
-    DomainWalk walk(manifest_, path.ray, at_hand());
+    DomainWalk walk(manifest_, path.ray, resident_);
     if (at) {
       const std::uint32_t carried = path.hit.triangle;
       intersect(path, *at);
@@ -259,7 +259,7 @@ void PathTracer::trace_shadow(const Shadow& shadow, const SensorWeights* weights
 // Also where it went on elsewhere.
 bool PathTracer::is_occluded(const Shadow& shadow, std::optional<std::uint32_t> at) {
   const RayConstants constants = prepare(shadow.ray);
-  DomainWalk walk(manifest_, shadow.ray, at_hand());
+  DomainWalk walk(manifest_, shadow.ray, resident_);
   if (at) {
     count_visit(*at);
     if (kernel_.occluded(*resident_[*at], constants, shadow.tmax)) {

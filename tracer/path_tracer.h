@@ -87,9 +87,6 @@ class PathTracer {
   void run(Path& path, std::optional<std::uint32_t> at);
   bool find_hit(Path& path, std::optional<std::uint32_t> at);
   void intersect(Path& path, std::uint32_t domain);
-  // What the walk need not ask the cells of. Where traffic is recorded it asks those of all, as if none was
-  // here: a profile is of any distribution.
-  ResidentViews at_hand() const { return traffic_ ? ResidentViews() : resident_; }
   void count_visit(std::uint32_t domain) {
     if (traffic_) traffic_->visit(domain);
   }

@@ -100,13 +100,14 @@ LoadStep Residency::loader_is_free(std::uint64_t alive, bool starving) {
   const std::optional<std::uint32_t> best = absent_.most();
   if (!best) return step;
   LoadStep::Load load{*best, {}};
-  const std::uint64_t bytes = manifest_.domains[*best].bytes + add_users(*best, &load.missing);
-  if (!make_room(*best, bytes, alive, starving, step.evicted)) {
-    remove_users(*best);
+  const std::uint64_t own = manifest_.domains[*best].bytes, objects = add_users(*best, &load.missing);
+  in_table_ += objects;
+  if (!make_room(*best, own + objects, alive, starving, step.evicted)) {
+    in_table_ -= remove_users(*best);
     return step;
   }
-  held_ += bytes;
-  in_table_ += bytes;
+  held_ += own + objects;
+  in_table_ += own;
   absent_.erase(*best);
   state_[*best] = State::loading;
   step.load = std::move(load);
@@ -117,15 +118,16 @@ bool Residency::make_room(std::uint32_t wanted, std::uint64_t bytes, std::uint64
                           std::vector<std::uint32_t>& evicted) {
   while (held_ + bytes > budget_) {
     // What was evicted before and is still held by a worker will come free without further evictions.
-    if (in_table_ + bytes <= budget_) return false;
+    if (in_table_ + manifest_.domains[wanted].bytes <= budget_) return false;
     const std::optional<std::uint32_t> victim = resident_.fewest();
     if (!victim) return false;
     const std::uint64_t fewest = waiting_[*victim], candidate = waiting_[wanted];
     const bool worthwhile = candidate >= rays_worth_a_load && fewest * worth_a_swap <= candidate;
     // Even in need a swap waits until a domain has its even share of the rays alive: a rank with little to do
     // would else swap for a handful of rays over and over while the others work. The domain with the most
-    // rays always has its share, so somewhere work goes on.
-    const bool needed = starving && candidate * local_.size() >= alive;
+    // rays always has its share, so somewhere work goes on: twice, since the fullest that is found may have
+    // half.
+    const bool needed = starving && 2 * candidate * local_.size() >= alive;
     if (fewest >= candidate || !(needed || worthwhile)) return false;
     ++evictions_;
     evicted.push_back(*victim);

@@ -34,12 +34,12 @@ class Residency {
   // Whether rays for the domain wait here; otherwise they go to `home`.
   bool is_local(std::uint32_t domain) const { return local_[domain]; }
   int home(std::uint32_t domain) const { return home_[domain]; }
-  bool resident(std::uint32_t domain) const { return state_[domain] == State::resident; }
   std::uint64_t waiting(std::uint32_t domain) const { return waiting_[domain]; }
   // The resident domain that most rays wait for, if any do.
   std::optional<std::uint32_t> fullest() const { return resident_.most(); }
   // Mapped or reserved, with what was evicted and is not yet let go.
   std::uint64_t held_bytes() const { return held_; }
+  std::uint64_t table_bytes() const { return in_table_; }  // of these, what is resident or being loaded
   std::uint64_t loads() const { return loads_; }
   std::uint64_t evictions() const { return evictions_; }
 
@@ -74,7 +74,7 @@ class Residency {
   std::vector<std::uint32_t> object_users_;  // resident domains and those being loaded, by object
   Fullest resident_, absent_;                // the latter of local domains
   std::uint64_t held_ = 0;                   // bytes
-  std::uint64_t in_table_ = 0;               // of which resident or being loaded
+  std::uint64_t in_table_ = 0;               // of which resident or being loaded, with all objects of these
   std::uint64_t loads_ = 0, evictions_ = 0;
 };
 

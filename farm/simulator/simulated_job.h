@@ -34,6 +34,7 @@ class SimulatedJob {
       ranks_.emplace_back(SchedulerType({machine.ranks, machine.workers, machine.rays_allowed},
                                         Residency(workload.manifest, machine.domain_bytes, home, r)),
                           workload.domains.size(), static_cast<std::size_t>(machine.workers));
+      ranks_.back().items = items;
       ranks_.back().scheduler.begin_items(items);
     }
     for (int i = 0; i < mishaps.checkpoints; ++i)
@@ -63,9 +64,13 @@ class SimulatedJob {
       }
     }
     if (alive_ != 0) broken(fmt::format("the job ended with {} rays alive", alive_));
-    if (generated_ != workload_.items * workload_.rays_an_item)
-      broken(fmt::format("the job ended with {} camera rays of {} items of {}", generated_, workload_.items,
-                         workload_.rays_an_item));
+    const auto rounds = static_cast<std::uint64_t>(mishaps_.rounds_of_samples);
+    if (generated_ != rounds * workload_.items * workload_.rays_an_item)
+      broken(fmt::format("the job ended with {} camera rays of {} × {} items of {}", generated_, rounds,
+                         workload_.items, workload_.rays_an_item));
+    for (const auto& [round, ranks] : quiet_)
+      if (ranks != ranks_.size())
+        broken(fmt::format("in round {} only {} ranks thought that all was quiet", round, ranks));
     result_.seconds = now_;
     const double worker_s = now_ * static_cast<double>(machine_.workers);
     for (const Rank& r : ranks_) {
@@ -120,8 +125,11 @@ class SimulatedJob {
     std::vector<Evicted> evicted;
     std::uint64_t evictions = 0, bytes = 0;  // bytes mapped or reserved
     std::uint64_t on_the_way = 0;            // bytes of the load
+    std::uint32_t on_its_way = 0;            // its domain
     bool loading = false, in_round = false, ended = false, wants_checkpoint = false;
     int waiting = 0;  // workers
+    std::uint64_t items = 0;
+    int rounds_of_samples = 0;  // done
     double busy_s = 0, loading_s = 0, sending_s = 0;
     std::uint64_t most_bytes = 0;
     std::uint64_t round = 0;
@@ -281,6 +289,7 @@ class SimulatedJob {
       r.on_the_way = workload_.manifest.domains[step.load->domain].bytes;
       for (const std::uint32_t o : step.load->missing) r.on_the_way += workload_.manifest.objects[o].bytes;
       r.loading = true;
+      r.on_its_way = step.load->domain;
       const double files = 1 + static_cast<double>(step.load->missing.size());
       const double seconds = late() * (files * machine_.disk_latency_s +
                                        static_cast<double>(r.on_the_way) / machine_.disk_bytes_s);
@@ -291,7 +300,9 @@ class SimulatedJob {
     if (!step.evicted.empty()) {
       // What no resident domain and no load needs any more leaves memory with the last worker that began
       // before.
-      std::uint64_t kept = bytes_of_table(r, step);
+      std::set<std::uint32_t> table = r.table;
+      if (step.load) table.insert(step.load->domain);
+      const std::uint64_t kept = bytes_of(table);
       std::uint64_t leaving = 0;
       for (const Evicted& e : r.evicted) leaving += e.bytes;
       const std::uint64_t reserved = step.load ? r.on_the_way : 0;
@@ -305,20 +316,18 @@ class SimulatedJob {
     if (!step.evicted.empty() && !step.load) wake_loader(rank);
   }
 
-  // With what the load needs of objects and brings.
-  std::uint64_t bytes_of_table(const Rank& r, const LoadStep& step) const {
+  // With their objects, each counted once.
+  std::uint64_t bytes_of(const std::set<std::uint32_t>& domains) const {
     std::vector<bool> counted(workload_.manifest.objects.size());
     std::uint64_t bytes = 0;
-    const auto add = [&](std::uint32_t domain) {
+    for (const std::uint32_t domain : domains) {
       bytes += workload_.manifest.domains[domain].bytes;
       for (const std::uint32_t o : workload_.manifest.domains[domain].objects)
         if (!counted[o]) {
           counted[o] = true;
           bytes += workload_.manifest.objects[o].bytes;
         }
-    };
-    for (const std::uint32_t domain : r.table) add(domain);
-    if (step.load) add(step.load->domain);
+    }
     return bytes;
   }
 
@@ -397,15 +406,20 @@ class SimulatedJob {
         over_ = r.round;
       }
       for (std::uint32_t d = 0; d < r.queues.size(); ++d) check_queue(rank, d);
+      ++quiet_[r.round];
       if (sums.items_done == static_cast<std::int64_t>(workload_.items)) {
-        r.ended = true;
-        ++ended_;
-        return;
+        if (++r.rounds_of_samples == mishaps_.rounds_of_samples) {
+          r.ended = true;
+          ++ended_;
+          return;
+        }
+        r.scheduler.begin_items(r.items);
+      } else {
+        if (sums.pause == 0) broken("all is quiet, not done, and nobody asked for a pause");
+        result_.checkpoints += rank == 0;
+        r.wants_checkpoint = false;
+        r.scheduler.resume();
       }
-      if (sums.pause == 0) broken("all is quiet, not done, and nobody asked for a pause");
-      result_.checkpoints += rank == 0;
-      r.wants_checkpoint = false;
-      r.scheduler.resume();
     }
     wake_workers(rank);
     at(now_ + machine_.round_interval_s * late(), {Event::Kind::round_begins, rank});
@@ -427,6 +441,11 @@ class SimulatedJob {
     const Residency& residency = r.scheduler.residency();
     if (r.bytes != residency.held_bytes())
       broken(fmt::format("rank {} holds {} bytes and counts {}", rank, r.bytes, residency.held_bytes()));
+    std::set<std::uint32_t> table = r.table;
+    if (r.loading) table.insert(r.on_its_way);
+    if (const std::uint64_t bytes = bytes_of(table); bytes != residency.table_bytes())
+      broken(fmt::format("rank {} has {} bytes in its table and counts {}", rank, bytes,
+                         residency.table_bytes()));
     if (r.bytes > machine_.domain_bytes)
       broken(fmt::format("rank {} holds {} bytes of {}", rank, r.bytes, machine_.domain_bytes));
   }
@@ -451,7 +470,8 @@ class SimulatedJob {
   double now_ = 0;
   std::uint64_t alive_ = 0, generated_ = 0;
   std::size_t ended_ = 0;
-  std::optional<std::uint64_t> over_;  // the round that said so
+  std::map<std::uint64_t, std::size_t> quiet_;  // ranks that thought so, by round
+  std::optional<std::uint64_t> over_;           // the round that said so
   SimulationResult result_;
 };
 

@@ -26,7 +26,8 @@ struct Machine {
 
 // What goes wrong on purpose.
 struct Mishaps {
-  int checkpoints = 0;  // at random moments
+  int checkpoints = 0;        // at random moments
+  int rounds_of_samples = 1;  // the items come so many times
   double checkpoint_mean_s = 1e-3;
   double slow_rank = 1;  // a rank whose work takes so many times as long
 };

@@ -27,7 +27,7 @@ struct Case {
     const auto among = [&](std::uint64_t n) { return random() % n; };
     machine.ranks = 1 + static_cast<int>(among(among(4) == 0 ? static_cast<std::uint64_t>(most_ranks) : 4));
     machine.workers = 1 + static_cast<int>(among(4));
-    const auto domains = static_cast<std::uint32_t>(1 + among(among(2) == 0 ? 4 : 48));
+    const auto domains = static_cast<std::uint32_t>(1 + among(among(2) == 0 ? 4 : among(8) == 0 ? 300 : 48));
     workload = random_workload(random, domains, among(60), static_cast<std::uint32_t>(1 + among(2000)));
     const std::uint64_t all = bytes_of_all(workload.manifest);
     std::uint64_t largest = 0;
@@ -40,6 +40,7 @@ struct Case {
     machine.disk_latency_s = 1e-5 * static_cast<double>(1 + among(1000));
     mishaps.checkpoints = among(3) == 0 ? static_cast<int>(among(4)) : 0;
     mishaps.checkpoint_mean_s = .01;
+    mishaps.rounds_of_samples = 1 + static_cast<int>(among(3));
     mishaps.slow_rank = among(4) == 0 ? 20 : 1;
   }
 };
@@ -96,7 +97,6 @@ struct TooSoon : Scheduler {
   int ranks;
 };
 
-// Counts what it made before it has told where that waits: as if two steps were one.
 struct NeverSends : Scheduler {
   using Scheduler::Scheduler;
   bool send_is_due(double) const { return false; }
@@ -124,7 +124,7 @@ struct NeverLoads : Scheduler {
   LoadStep loader_is_free() { return {}; }
 };
 
-struct StaysPaused : Scheduler {
+struct SaysThatItIsQuiet : Scheduler {
   using Scheduler::Scheduler;
   RoundSums contribution() const {
     RoundSums mine = Scheduler::contribution();
@@ -141,7 +141,7 @@ TEST(Simulation, CatchesBrokenSchedulers) {
   EXPECT_TRUE(is_caught<ForgetsDeaths>(300));
   EXPECT_TRUE(is_caught<LetsGoTwice>(300));
   EXPECT_TRUE(is_caught<NeverLoads>(300));
-  EXPECT_TRUE(is_caught<StaysPaused>(300));
+  EXPECT_TRUE(is_caught<SaysThatItIsQuiet>(300));
 }
 
 }  // namespace
