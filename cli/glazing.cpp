@@ -53,7 +53,15 @@ Sampling sampling_of(const std::string& name) {
   return name == "condensed" ? Sampling::condensed : name == "standard" ? Sampling::standard : Sampling::full;
 }
 
+// CLI::Range lets what is not a number pass.
+void check_finite(const char* option, double value) {
+  if (!std::isfinite(value)) throw UsageError(fmt::format("{} {}: has to be a finite number", option, value));
+}
+
 ReadSystem read(const Arguments& a) {
+  for (const double theta : a.theta_deg) check_finite("--theta", theta);
+  check_finite("--state", a.state.value_or(0));
+  check_finite("--temperature", a.temperature_c.value_or(0));
   ReadSystem read = read_system(a.files);
   for (const std::size_t pane : a.flips) {
     if (pane > read.system.layers.size())
@@ -74,8 +82,7 @@ int run(const Arguments& a) {
   const Standard standard = a.standard.empty() ? nfrc_2003() : read_standard(a.standard);
   const Polarisation polarisation = a.polarised ? Polarisation::apart : Polarisation::mixed_at_panes;
   const std::vector<double> nm = common_wavelengths(system);
-  if (nm.front() > 300.5 || nm.back() < 2499.5)
-    input.notes.push_back(fmt::format("values are held beyond {:g} to {:g} nm", nm.front(), nm.back()));
+  if (const std::string held = held_note(system, 300, 2500); !held.empty()) input.notes.push_back(held);
 
   GlazingReport report{system, standard.description, a.sampling, input.notes, {}};
   const auto add = [&](std::optional<double> theta, HemisphereRule rule) {

@@ -102,7 +102,7 @@ std::string glazing_json(const GlazingReport& report) {
   for (const GlazingResult& result : report.results) results.push_back(result_json(result));
   return Json{{"name", report.system.name},  {"panes", panes},        {"standard", report.standard},
               {"sampling", report.sampling}, {"notes", report.notes}, {"results", results}}
-      .dump(1);
+      .dump(1, ' ', false, Json::error_handler_t::replace);  // names of files need not be UTF-8
 }
 
 std::string glazing_csv(const std::vector<double>& theta_deg, const std::vector<SystemSpectrum>& spectra) {

@@ -22,8 +22,13 @@ class Interpreter {
   std::vector<Product> products() const {
     std::vector<Product> result;
     for (const EnergyPlusObject& object : objects_) {
-      if (object.type == glazing_type) result.push_back(pane(object));
-      if (object.type == thermochromic_type) result.push_back(group(object));
+      if (object.type != glazing_type && object.type != thermochromic_type) continue;
+      // A building has many panes: one that cannot be read is no reason to refuse the others.
+      try {
+        result.push_back(object.type == glazing_type ? pane(object) : group(object));
+      } catch (const Error& error) {
+        result.push_back({.name = object.name, .refused = error});
+      }
     }
     return result;
   }
@@ -31,6 +36,11 @@ class Interpreter {
  private:
   [[noreturn]] void fail(const EnergyPlusObject& object, const std::string& message) const {
     throw Error(fmt::format("\"{}\" {}", object.name, message), {file_, object.line, 0});
+  }
+
+  static const EnergyPlusObject& readable(const EnergyPlusObject& object) {
+    if (object.refused) throw *object.refused;
+    return object;
   }
 
   double number(const EnergyPlusObject& object, std::string_view text) const {
@@ -55,11 +65,12 @@ class Interpreter {
   const EnergyPlusObject& named(const EnergyPlusObject& from, const char* type,
                                 const std::string& name) const {
     for (const EnergyPlusObject& object : objects_)
-      if (object.type == type && same_word(object.name, name)) return object;
+      if (object.type == type && same_word(object.name, name)) return readable(object);
     fail(from, fmt::format("names \"{}\", and there is no {} of that name", name, type));
   }
 
   Product pane(const EnergyPlusObject& object) const {
+    readable(object);
     Product product;
     product.name = object.name;
     const double metres =
@@ -74,11 +85,30 @@ class Interpreter {
     else
       fail(object, fmt::format("has the optical data type \"{}\"; Spectral and SpectralAverage are read",
                                field(object, "optical_data_type")));
+    apply_dirt(object, product);
+    const std::string diffusing = field(object, "solar_diffusing");
+    if (!diffusing.empty() && !same_word(diffusing, "no"))
+      fail(object,
+           fmt::format("scatters light (its Solar Diffusing is \"{}\"); only specular glazing is read",
+                       diffusing));
     // EnergyPlus tells coated from clear glass by no field; unequal sides cannot be one clear sheet.
     const bool even = std::ranges::all_of(
         product.rows, [](const OpticalRow& row) { return std::abs(row.at.rf - row.at.rb) < 0.005; });
     product.kind = even ? PaneKind::clear : PaneKind::coated;
     return product;
+  }
+
+  // EnergyPlus means it for the outermost pane of a window alone; a product does not know where it will
+  // stand.
+  void apply_dirt(const EnergyPlusObject& object, Product& product) const {
+    const std::string text = field(object, "dirt_correction_factor_for_solar_and_visible_transmittance");
+    const double clean = text.empty() ? 1 : number(object, text);
+    if (!(clean > 0 && clean <= 1))
+      fail(object, fmt::format("has the dirt correction factor {}, not in (0, 1]", text));
+    if (clean == 1) return;
+    for (OpticalRow& row : product.rows) row.at.t *= clean;
+    product.notes.push_back(
+        fmt::format("T is multiplied by its dirt correction factor {}, wherever the pane stands", text));
   }
 
   OpticalRows spectral(const EnergyPlusObject& object, std::vector<std::string>& notes) const {
@@ -107,18 +137,21 @@ class Interpreter {
   }
 
   Product group(const EnergyPlusObject& object) const {
+    readable(object);
     Product product;
     product.name = object.name;
     for (const auto& row : object.rows) {
       if (row.size() != 2) fail(object, "has a group without a temperature and a glazing");
       Product of = pane(named(object, glazing_type, row[1]));
-      product.states.push_back({number(object, row[0]), std::move(of.rows), of.kind});
+      for (const std::string& note : of.notes)
+        product.notes.push_back(fmt::format("\"{}\": {}", of.name, note));
+      if (of.kind == PaneKind::coated) product.kind = PaneKind::coated;  // as states of a system file
+      product.states.push_back({number(object, row[0]), std::move(of.rows)});
       product.thickness_mm = of.thickness_mm;
     }
     if (product.states.empty()) fail(object, "has no glazing");
     std::ranges::stable_sort(product.states, {}, &Product::State::temperature_c);
     product.rows = product.states.front().rows;
-    product.kind = product.states.front().kind;
     return product;
   }
 

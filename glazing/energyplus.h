@@ -4,6 +4,7 @@
 
 #include <array>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,9 +18,11 @@ struct EnergyPlusObject {
   int line = 0;            // 0 in epJSON
   std::map<std::string, std::string> fields;
   std::vector<std::vector<std::string>> rows;
+  std::optional<Error> refused{};  // why it is none, where its form is wrong
 };
 
-// The glazing among them. References between objects are by name, whatever the case. Throws Error.
+// The glazing among them, also what cannot be read (Product::refused). References between objects are by
+// name, whatever the case.
 std::vector<Product> energyplus_products(const std::vector<EnergyPlusObject>& objects,
                                          const std::string& file);
 
@@ -27,7 +30,8 @@ inline constexpr const char* glazing_type = "windowmaterial:glazing";
 inline constexpr const char* spectral_data_type = "materialproperty:glazingspectraldata";
 inline constexpr const char* thermochromic_type = "windowmaterial:glazinggroup:thermochromic";
 
-// WindowMaterial:Glazing's fields behind its name, in the order of an IDF; later ones are about heat.
+// WindowMaterial:Glazing's fields behind its name, in the order of an IDF. Those of heat keep their places;
+// later ones are about strength, and the tables of SpectralAndAngle, which is refused.
 inline constexpr std::array glazing_fields{
     "optical_data_type",
     "window_glass_spectral_data_set_name",
@@ -38,6 +42,12 @@ inline constexpr std::array glazing_fields{
     "visible_transmittance_at_normal_incidence",
     "front_side_visible_reflectance_at_normal_incidence",
     "back_side_visible_reflectance_at_normal_incidence",
+    "infrared_transmittance_at_normal_incidence",
+    "front_side_infrared_hemispherical_emissivity",
+    "back_side_infrared_hemispherical_emissivity",
+    "conductivity",
+    "dirt_correction_factor_for_solar_and_visible_transmittance",
+    "solar_diffusing",
 };
 
 }  // namespace vitrail

@@ -28,13 +28,17 @@ void take_groups(const JsonNode& json, std::initializer_list<const char*> names,
 
 EnergyPlusObject object_of(const std::string& type, const std::string& name, const JsonNode& json) {
   EnergyPlusObject object{.type = type, .name = name};
-  if (type == glazing_type) {
-    for (const char* field : glazing_fields)
-      if (const auto value = json.find(field)) object.fields[field] = scalar(*value);
-  } else if (type == spectral_data_type) {
-    take_groups(json, {"wavelength", "transmittance", "front_reflectance", "back_reflectance"}, object);
-  } else {
-    take_groups(json, {"optical_data_temperature", "window_material_glazing_name"}, object);
+  try {
+    if (type == glazing_type) {
+      for (const char* field : glazing_fields)
+        if (const auto value = json.find(field)) object.fields[field] = scalar(*value);
+    } else if (type == spectral_data_type) {
+      take_groups(json, {"wavelength", "transmittance", "front_reflectance", "back_reflectance"}, object);
+    } else {
+      take_groups(json, {"optical_data_temperature", "window_material_glazing_name"}, object);
+    }
+  } catch (const Error& error) {
+    object.refused = error;
   }
   return object;
 }

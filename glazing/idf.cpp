@@ -16,18 +16,27 @@ struct Statement {
   int line = 0;
 };
 
+struct Statements {
+  std::vector<Statement> all;
+  int includes = 0;  // EP-Macro's "##include FILE": what it names is not in this text
+};
+
 // "Type, field, field; ! comment", over as many lines as it likes.
-std::vector<Statement> statements(const std::string& text, const std::string& file) {
-  std::vector<Statement> result;
+Statements statements(const std::string& text, const std::string& file) {
+  Statements result;
   Statement now;
   Lines lines(text);
   for (std::string_view line; lines.next(line);) {
     line = line.substr(0, line.find('!'));
+    if (trimmed(line).starts_with("##include")) {
+      ++result.includes;
+      continue;
+    }
     for (std::size_t end; (end = line.find_first_of(",;")) != line.npos; line.remove_prefix(end + 1)) {
       if (now.fields.empty()) now.line = lines.number();
       now.fields.emplace_back(trimmed(line.substr(0, end)));
       if (line[end] != ';') continue;
-      result.push_back(std::move(now));
+      result.all.push_back(std::move(now));
       now = {};
     }
     if (!trimmed(line).empty())
@@ -57,7 +66,8 @@ bool is_idf(std::string_view text) {
 
 std::vector<Product> idf_products(const std::string& text, const std::string& file) {
   std::vector<EnergyPlusObject> objects;
-  for (const Statement& statement : statements(text, file)) {
+  const Statements read = statements(text, file);
+  for (const Statement& statement : read.all) {
     EnergyPlusObject object{.type = lower(statement.fields[0]), .line = statement.line};
     if (statement.fields.size() > 1) object.name = statement.fields[1];
     if (object.type == glazing_type)
@@ -71,7 +81,11 @@ std::vector<Product> idf_products(const std::string& text, const std::string& fi
       continue;
     objects.push_back(std::move(object));
   }
-  return energyplus_products(objects, file);
+  std::vector<Product> products = energyplus_products(objects, file);
+  if (read.includes > 0)
+    for (Product& product : products)
+      product.notes.push_back(fmt::format("{} lines of ##include are passed over", read.includes));
+  return products;
 }
 
 }  // namespace vitrail

@@ -64,6 +64,12 @@ std::vector<Row> merged(std::vector<Row> rows, std::vector<std::string>& notes) 
 
 }  // namespace
 
+WavelengthRange range_of(const OpticalRows& rows) { return {rows.front().nm, rows.back().nm}; }
+
+WavelengthRange common(WavelengthRange a, WavelengthRange b) {
+  return {std::max(a.first_nm, b.first_nm), std::min(a.last_nm, b.last_nm)};
+}
+
 PaneValues value_at(const OpticalRows& rows, double nm) {
   const auto [a, b, w] = between(rows, nm);
   return {mix(a->at.t, b->at.t, w), mix(a->at.rf, b->at.rf, w), mix(a->at.rb, b->at.rb, w)};

@@ -27,6 +27,13 @@ struct IndexRow {
 using OpticalRows = std::vector<OpticalRow>;  // ascending wavelengths, at least one
 using IndexRows = std::vector<IndexRow>;      // likewise
 
+// From first to last, nm; without data in common first is above last.
+struct WavelengthRange {
+  double first_nm = 0, last_nm = 1e9;
+};
+WavelengthRange range_of(const OpticalRows& rows);
+WavelengthRange common(WavelengthRange a, WavelengthRange b);
+
 // Linear in the wavelength, held beyond the ends.
 PaneValues value_at(const OpticalRows& rows, double nm);
 IndexRow index_at(const IndexRows& rows, double nm);

@@ -100,6 +100,8 @@ PaneValues coated_glass(PaneValues normal, double cosine) {
 }
 
 PolarisedValues values_at(const Pane& pane, double nm, double cosine) {
+  // At grazing incidence nothing passes; the models' own limits are 0/0, or not exact.
+  if (!(cosine > 1e-6)) return {{0, 1, 1}, {0, 1, 1}};
   if (const auto* measured = std::get_if<MeasuredPane>(&pane)) return measured_at(*measured, nm, cosine);
   const StackPane& stack = std::get<StackPane>(pane);
   return {stack_values(stack, nm, cosine, false), stack_values(stack, nm, cosine, true)};
@@ -114,6 +116,19 @@ std::vector<double> wavelengths_of(const Pane& pane) {
   // Interference and tables of few wavelengths ask for steps of their own.
   for (double x = 300; x <= 2500; x += x < 1000 ? 5 : 10) nm.push_back(x);
   return nm;
+}
+
+WavelengthRange range_of(const Pane& pane) {
+  if (const auto* measured = std::get_if<MeasuredPane>(&pane)) return range_of(measured->rows);
+  WavelengthRange all;
+  const auto add = [&](const IndexRows& index) {
+    if (index.size() > 1) all = common(all, {index.front().nm, index.back().nm});
+  };
+  const StackPane& stack = std::get<StackPane>(pane);
+  for (const Slab& slab : stack.slabs) add(slab.index);
+  for (const auto& films : stack.films)
+    for (const FilmLayer& film : films) add(film.index);
+  return all;
 }
 
 Pane pane_of(const Product& product, double thickness_mm) {

@@ -53,11 +53,16 @@ struct StackPane {
 
 using Pane = std::variant<MeasuredPane, StackPane>;
 
-// In air, `cosine` of the angle of incidence in [0, 1].
+// In air, `cosine` of the angle of incidence in [0, 1]; up to 1e-6 all light is reflected.
 PolarisedValues values_at(const Pane& pane, double nm, double cosine);
 
-// The wavelengths that a pane is given at, ascending.
+// The wavelengths that a pane is given at, ascending: of its rows; of layers 300 to 2500 nm, whatever their
+// tables hold.
 std::vector<double> wavelengths_of(const Pane& pane);
+
+// Where there are data, beyond which values are held: between the ends of its rows, or of all tables of its
+// layers (a table of one row is a constant and has no ends).
+WavelengthRange range_of(const Pane& pane);
 
 // Of a product with rows, or with an index where `thickness_mm` (or the product's own) is above 0. Throws
 // Error.

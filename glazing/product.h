@@ -3,10 +3,12 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "glazing/optical_rows.h"
+#include "scene/diagnostics.h"
 
 namespace vitrail {
 
@@ -18,27 +20,29 @@ enum class PaneKind {
 
 // A product has `rows`, or `index` where its optical constants were measured, or `states`.
 struct Product {
-  std::string name, manufacturer;
+  std::string name, manufacturer{};
   PaneKind kind = PaneKind::clear;
   double thickness_mm = 0;  // 0 where the file does not say
-  OpticalRows rows;
-  IndexRows index;
-  // A thermochromic group: the temperature in °C and what it names, ascending.
+  OpticalRows rows{};
+  IndexRows index{};
+  // A thermochromic group: the temperature in °C and what it names, ascending. `kind` is coated if any is.
   struct State {
     double temperature_c = 0;
     OpticalRows rows;
-    PaneKind kind = PaneKind::clear;
   };
-  std::vector<State> states;
-  std::vector<std::string> notes;  // what was repaired or approximated, in words
+  std::vector<State> states{};
+  std::vector<std::string> notes{};  // what was repaired or approximated, in words
+  std::optional<Error> refused{};    // of one among others: why it cannot be read; it has a name alone
 };
 
 // Every product of a file, told by its content: IGSDB or CGDB JSON, Optics text (.dat, .oag, .txt),
 // EnergyPlus IDF or epJSON, or a table whose header names its columns (docs/glazing.md). Wavelengths are in
-// nm afterwards. Throws Error with the file and the line, or the place in the JSON.
+// nm afterwards. Throws Error with the file and the line, or the place in the JSON; of EnergyPlus where no
+// pane can be read, and else keeps those that cannot as `refused`.
 std::vector<Product> read_products(const std::filesystem::path& file);
 
-// The product of that name (case does not matter), or the only one where the name is empty. Throws Error.
+// The product of that name (case does not matter), or the only one where the name is empty. Throws Error,
+// also what it is refused for.
 Product read_product(const std::filesystem::path& file, const std::string& name = {});
 
 // "FILE" or "FILE#NAME", as users type it. A file of that whole name comes first.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "glazing/json_node.h"
 #include "glazing/product_formats.h"
 #include "glazing/text_file.h"
@@ -28,6 +30,11 @@ std::string names_of(const std::vector<Product>& products) {
   return products.size() > 20 ? names + ", …" : names;
 }
 
+Product readable(Product product) {
+  if (product.refused) throw *product.refused;
+  return product;
+}
+
 }  // namespace
 
 OpticalRows checked_rows(OpticalRows rows, std::vector<std::string>& notes, const std::string& file,
@@ -48,6 +55,8 @@ std::vector<Product> read_products(const std::filesystem::path& file) {
   const std::string name = file.string();
   std::vector<Product> products = products_of(read_text(file), name);
   if (products.empty()) throw Error("there is no glazing in it", {name});
+  if (std::ranges::all_of(products, [](const Product& p) { return p.refused.has_value(); }))
+    throw *products.front().refused;
   for (Product& product : products)
     if (product.name.empty()) product.name = file.stem().string();
   return products;
@@ -56,13 +65,13 @@ std::vector<Product> read_products(const std::filesystem::path& file) {
 Product read_product(const std::filesystem::path& file, const std::string& name) {
   std::vector<Product> products = read_products(file);
   if (name.empty()) {
-    if (products.size() == 1) return std::move(products.front());
+    if (products.size() == 1) return readable(std::move(products.front()));
     throw Error(fmt::format("has {} products; say which as \"{}#NAME\": {}", products.size(), file.string(),
                             names_of(products)),
                 {file.string()});
   }
   for (Product& product : products)
-    if (same_word(product.name, name)) return std::move(product);
+    if (same_word(product.name, name)) return readable(std::move(product));
   throw Error(fmt::format("has no product \"{}\", but {}", name, names_of(products)), {file.string()});
 }
 

@@ -40,8 +40,7 @@ GlazingSheets sheets_of(const GlazingSystem& system, Polarisation polarisation) 
   }
   for (const double x : nm)
     for (const double c : cosines) {
-      // At grazing incidence nothing passes; the models' own ends are not exact there.
-      const PaneValues v = c > 0 ? system_values(system, x, c, polarisation) : PaneValues{0, 1, 1};
+      const PaneValues v = system_values(system, x, c, polarisation);
       const auto add = [&](MeasuredSheet& sheet, double r) {
         const double t = std::clamp(v.t, 0.0, 1.0);
         sheet.transmittance.push_back(static_cast<float>(t));

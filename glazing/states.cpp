@@ -111,6 +111,7 @@ std::optional<OpticalRows> tinted(const OpticalRows& clear, const TintTarget& ta
     if (!rows) continue;
     if (target.visible_reflectance) {
       const PaneValues now = average_of(fine, "PHOTOPIC");
+      if (!(std::min(now.rf, now.rb) > 0)) return std::nullopt;
       for (OpticalRow& row : *rows) {
         row.at.rf = std::min(row.at.rf * *target.visible_reflectance / now.rf, 1 - row.at.t);
         row.at.rb = std::min(row.at.rb * *target.visible_reflectance / now.rb, 1 - row.at.t);

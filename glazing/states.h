@@ -23,7 +23,8 @@ OpticalRows rows_at(const std::vector<StateRows>& states, double at);
 // Light of the clear state through two more absorptions, such that T_vis and T_sol under NFRC 300-2003 are
 // these: a band, Gaussian over the photon's energy around `band_ev` (NaₓWO₃: 1.14 eV, near 1090 nm, so red
 // goes first and the tint is blue), as narrow as can be, and free electrons in the infrared. Reflectances are
-// scaled to `visible_reflectance` where it is given. Empty where nothing has these averages.
+// scaled to `visible_reflectance` where it is given. Empty where nothing has these averages; a clear state
+// that reflects nothing cannot be scaled.
 struct TintTarget {
   double visible_t = 0, solar_t = 0;
   std::optional<double> visible_reflectance;

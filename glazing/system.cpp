@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "glazing/system.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -91,6 +93,18 @@ std::vector<double> common_wavelengths(const GlazingSystem& system) {
   all.erase(std::unique(all.begin(), all.end(), [](double a, double b) { return b - a < same_nm; }),
             all.end());
   return all;
+}
+
+std::string held_note(const GlazingSystem& system, double first_nm, double last_nm) {
+  WavelengthRange all;
+  for (const GlazingLayer& layer : system.layers) {
+    all = common(all, range_of(layer.pane));
+    for (const StateRows& state : layer.states) all = common(all, range_of(state.rows));
+  }
+  if (all.first_nm > all.last_nm) return "values are held at all wavelengths: the data have none in common";
+  constexpr double rounding_nm = 0.5;
+  if (all.first_nm <= first_nm + rounding_nm && all.last_nm >= last_nm - rounding_nm) return {};
+  return fmt::format("values are held beyond {:g} to {:g} nm", all.first_nm, all.last_nm);
 }
 
 SystemSpectrum spectrum_at(const GlazingSystem& system, std::vector<double> nm, double cosine,

@@ -40,6 +40,10 @@ PaneValues system_values(const GlazingSystem& system, double nm, double cosine, 
 // are none.
 std::vector<double> common_wavelengths(const GlazingSystem& system);
 
+// What is to be said where not all panes, in all of their states, have data from `first_nm` to `last_nm`;
+// empty where they have.
+std::string held_note(const GlazingSystem& system, double first_nm, double last_nm);
+
 struct SystemSpectrum {
   std::vector<double> nm;  // ascending
   std::vector<PaneValues> values;

@@ -53,20 +53,10 @@ class Reader {
   explicit Reader(ReadSystem& into) : into_(into) {}
 
   void add(const std::string& file) {
-    if (const auto switched = switched_file(file)) {
-      ReadSystem part;
-      Reader(part).add(switched->file);
-      if (!set_state(part.system, switched->at, switched->by_temperature))
-        throw Error("no pane of it switches so", {file});
-      into_.system.layers.insert(into_.system.layers.end(), part.system.layers.begin(),
-                                 part.system.layers.end());
-      into_.notes.insert(into_.notes.end(), part.notes.begin(), part.notes.end());
-      return;
-    }
     if (const auto root = system_root(file))
       add_system(*root, fs::path(file).parent_path());
     else
-      add_pane(file, 0);
+      add_pane(product(file), 0);
   }
 
  private:
@@ -114,7 +104,11 @@ class Reader {
     layer.only({"pane", "product", "flipped", "thickness_mm"});
     std::string file = (folder / layer.at("pane").text()).string();
     if (const auto product = layer.find("product")) file = fmt::format("{}#{}", file, product->text());
-    add_pane(file, positive_or_0(layer, "thickness_mm"));
+    const double mm = positive_or_0(layer, "thickness_mm");
+    const Product found = product(file);
+    if (mm > 0 && found.index.empty())
+      layer.at("thickness_mm").fail("is for a table of n and k; clear glass takes it in a \"stack\"");
+    add_pane(found, mm);
     if (const auto flipped = layer.find("flipped")) into_.system.layers.back().flipped = flipped->boolean();
   }
 
@@ -131,8 +125,7 @@ class Reader {
     return result;
   }
 
-  void add_pane(const std::string& file, double thickness_mm) {
-    const Product found = product(file);
+  void add_pane(const Product& found, double thickness_mm) {
     into_.system.layers.push_back({found.name, pane_of(found, thickness_mm)});
     GlazingLayer& layer = into_.system.layers.back();
     layer.by_temperature = !found.states.empty();
@@ -260,13 +253,36 @@ class Reader {
   ReadSystem& into_;
 };
 
+// A file with a state and a temperature behind it, each at most once.
+void add_switched(const std::string& text, ReadSystem& into) {
+  std::string file = text;
+  std::optional<double> state, temperature_c;
+  while (const auto switched = switched_file(file)) {
+    auto& at = switched->by_temperature ? temperature_c : state;
+    if (at) throw Error("says its state or its temperature twice", {text});
+    at = switched->at;
+    file = switched->file;
+  }
+  ReadSystem part;
+  Reader(part).add(file);
+  if ((state && !set_state(part.system, *state, false)) ||
+      (temperature_c && !set_state(part.system, *temperature_c, true)))
+    throw Error("no pane of it switches so", {text});
+  if (into.system.name.empty()) into.system.name = part.system.name;
+  into.system.layers.insert(into.system.layers.end(), part.system.layers.begin(), part.system.layers.end());
+  into.notes.insert(into.notes.end(), part.notes.begin(), part.notes.end());
+}
+
 }  // namespace
 
-bool is_glazing_file(const std::string& file) {
+bool is_glazing_file(const std::string& name) {
+  constexpr int most_suffixes = 3;  // a product, a state and a temperature
+  std::string file = name;
   std::error_code ignored;
-  if (!fs::is_regular_file(file, ignored)) {
+  for (int suffixes = 0; !fs::is_regular_file(file, ignored); ++suffixes) {
     const std::size_t hash = file.rfind('#');
-    return hash != file.npos && is_glazing_file(file.substr(0, hash));
+    if (hash == file.npos || suffixes == most_suffixes) return false;
+    file.resize(hash);
   }
   if (!may_be_text(file)) return false;
   const std::string text = read_text(file);
@@ -278,8 +294,7 @@ bool is_glazing_file(const std::string& file) {
 
 ReadSystem read_system(const std::vector<std::string>& files) {
   ReadSystem result;
-  Reader reader(result);
-  for (const std::string& file : files) reader.add(file);
+  for (const std::string& file : files) add_switched(file, result);
   if (result.system.layers.empty()) throw Error("a glazing needs a pane");
   return result;
 }

@@ -15,8 +15,8 @@ struct ReadSystem {
 };
 
 // Panes from outside, each "FILE" or "FILE#NAME" of a product (glazing/product.h), with "#state=0.6" or
-// "#temperature=40" behind it where it switches, or a system file, whose
-// layers take its place. A system file is JSON (docs/glazing.md):
+// "#temperature=40" behind it where it switches (each at most once), or a system file, whose layers take its
+// place. A system file is JSON (docs/glazing.md):
 //   {"name": "…", "layers": [{"pane": "low-e.json", "flipped": true}, {"gap_mm": 12.7},
 //                            {"stack": [{"index": "glass.txt", "thickness_mm": 4},
 //                                       {"index": "silver.txt", "thickness_nm": 12}, …]}]}
@@ -25,6 +25,6 @@ ReadSystem read_system(const std::vector<std::string>& files);
 
 // Whether read_system may take a file: JSON with "layers" or "spectral_data", Optics, EnergyPlus, or
 // "FILE#NAME".
-bool is_glazing_file(const std::string& file);
+bool is_glazing_file(const std::string& name);
 
 }  // namespace vitrail

@@ -50,12 +50,54 @@ TEST(Glazing, SaysWhatIsWrong) {
   const std::string verb = vitrail("glazing");
   EXPECT_EQ(run(verb).status, 2);
   EXPECT_EQ(run(fmt::format("{} '{}' --theta 91", verb, pane)).status, 2);
+  for (const char* option : {"--theta nan", "--state nan", "--temperature nan", "--temperature inf"}) {
+    const CommandResult result = run(fmt::format("{} '{}' {}", verb, pane, option));
+    EXPECT_EQ(result.status, 2) << option;
+    EXPECT_THAT(result.output, HasSubstr("finite")) << option;
+  }
   EXPECT_EQ(run(fmt::format("{} '{}' --flip 2", verb, pane)).status, 2);
   EXPECT_EQ(run(fmt::format("{} '{}' --csv '{}'", verb, pane, pane)).status, 2);
   EXPECT_EQ(run(fmt::format("{} '{}' --standard none.std", verb, pane)).status, 3);
   const CommandResult missing = run(fmt::format("{} '{}/none.dat'", verb, directory.path().string()));
   EXPECT_EQ(missing.status, 3);
   EXPECT_THAT(missing.output, HasSubstr("none.dat: there is no such file"));
+}
+
+TEST(Glazing, ReflectsAllAtGrazingIncidence) {
+  const TemporaryDirectory directory;
+  const auto pane = write_text(directory / "pane.dat", optics_text);
+  const CommandResult printed =
+      run(fmt::format("{} '{}' --theta 90 --json", vitrail("glazing"), pane.string()));
+  const auto photopic = nlohmann::json::parse(printed.output).at("results").at(0).at("photopic");
+  EXPECT_EQ(photopic.at("transmittance"), 0.0);
+  EXPECT_EQ(photopic.at("reflectance_front"), 1.0);
+}
+
+// A product takes its file's name, whatever bytes that has.
+TEST(Glazing, PrintsJsonOfNamesThatAreNotUtf8) {
+  const TemporaryDirectory directory;
+  const auto pane = write_text(directory / "pane\xff.txt", table_text);
+  const CommandResult printed = run(fmt::format("{} '{}' --json", vitrail("glazing"), pane.string()));
+  EXPECT_EQ(printed.status, 0) << printed.output;
+  EXPECT_EQ(nlohmann::json::parse(printed.output).at("panes").at(0).at("name"), "pane\ufffd");
+}
+
+// Of light alone, as rays have it: infrared is not missed.
+TEST(Glazing, OfASceneIsSaidToBeHeldBeyondItsData) {
+  const TemporaryDirectory directory;
+  write_text(directory / "narrow.txt", "wavelength_nm T R\n400 0.5 0.2\n700 0.6 0.1\n");
+  write_text(directory / "light.txt", "wavelength_nm T R\n360 0.5 0.2\n830 0.6 0.1\n");
+  const auto said_of = [&](const std::string& pane) {
+    const auto scene = write_text(directory / "scene.pbrt",
+                                  "WorldBegin\nMaterial \"thindielectric\" \"string glazing\" \"" + pane +
+                                      "\"\nShape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0] "
+                                      "\"integer indices\" [0 1 2]\n");
+    return run(fmt::format("{} '{}' -o '{}'", vitrail("convert"), scene.string(),
+                           (directory / "scene.xml").string()))
+        .output;
+  };
+  EXPECT_THAT(said_of("narrow.txt"), HasSubstr("values are held beyond 400 to 700 nm"));
+  EXPECT_THAT(said_of("light.txt"), ::testing::Not(HasSubstr("held")));
 }
 
 }  // namespace

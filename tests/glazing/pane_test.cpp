@@ -56,6 +56,19 @@ TEST(Pane, ClearGlassRecoversItsIndexAtEveryAngle) {
     }
 }
 
+// Where Fresnel's equations are 0/0: no reflection at all, and reflection of everything.
+TEST(Pane, ReflectsAllAtGrazingIncidence) {
+  const std::vector<Pane> panes{MeasuredPane{{{500, {0.9, 0, 0}}}, PaneKind::clear},
+                                MeasuredPane{{{500, {0.92, 0.08, 0.08}}}, PaneKind::clear},
+                                MeasuredPane{{{500, {0.6, 0.3, 0.1}}}, PaneKind::coated}, sheet(1.52, 0, 6)};
+  for (const Pane& pane : panes)
+    for (const double cosine : {0.0, 1e-9}) {
+      const PolarisedValues v = values_at(pane, 500, cosine);
+      EXPECT_EQ(v.s, (PaneValues{0, 1, 1}));
+      EXPECT_EQ(v.p, (PaneValues{0, 1, 1}));
+    }
+}
+
 // A quarter wave of n₁ on n₂: R = ((n₁² − n₂)/(n₁² + n₂))² (Macleod, ch. 3).
 TEST(ThinFilm, QuarterWavesAreAntireflective) {
   for (const double n1 : {1.38, 1.2329, 2.35}) {

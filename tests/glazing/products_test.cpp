@@ -76,6 +76,47 @@ TEST(Products, OfAThermochromicGroupComeByTemperature) {
   }
 }
 
+// Whichever temperature is asked for: the curve of clear glass is for groups of clear glass.
+TEST(Products, OfAThermochromicGroupAreCoatedWhereAStateIs) {
+  const auto group_of = [](const std::string& text) {
+    auto products = products_of(text);
+    return *std::ranges::find(products, "Warm", &Product::name);
+  };
+  std::string clear = idf_text;  // the front of its coldest state is now as its back
+  clear.replace(clear.find("0.05, 0.06"), 10, "0.06, 0.06");
+  EXPECT_EQ(group_of(clear).kind, PaneKind::clear);
+  EXPECT_THAT(group_of(clear).notes, ::testing::Contains(HasSubstr("\"Dark\": has averages")));
+  std::string warm_coated = clear;
+  warm_coated.replace(warm_coated.find("0.179, 0.179"), 12, "0.179, 0.279");
+  EXPECT_EQ(group_of(warm_coated).kind, PaneKind::coated);
+}
+
+// The two fields of WindowMaterial:Glazing behind those of heat that are about light.
+TEST(Products, OfEnergyPlusHaveTheirDirtAndDoNotScatter) {
+  const std::string dirt_json = "\"dirt_correction_factor_for_solar_and_visible_transmittance\": ";
+  const auto idf = [](const std::string& dirt, const std::string& diffusing) {
+    std::string text = idf_text;
+    return text.replace(text.find("1.0;"), 4, "1.0, " + dirt + ", " + diffusing + ";");
+  };
+  const auto epjson = [&](const std::string& dirt, const std::string& diffusing) {
+    std::string text = epjson_text;
+    return text.replace(text.find("\"optical_data_type\""), 0,
+                        dirt_json + dirt + ", \"solar_diffusing\": \"" + diffusing + "\", ");
+  };
+  const auto pane_of = [](const std::string& text) {
+    const TemporaryDirectory directory;
+    return read_product(write_text(directory / "windows.txt", text), "Pane");
+  };
+  for (const std::string& text : {idf("0.85", "No"), epjson("0.85", "No")}) {
+    const Product pane = pane_of(text);
+    EXPECT_NEAR(pane.rows.at(1).at.t, 0.85 * 0.8, 1e-12);
+    EXPECT_THAT(pane.notes, ::testing::Contains(HasSubstr("dirt correction factor 0.85")));
+  }
+  expect_pane(pane_of(idf("1", "no")));
+  for (const std::string& text : {idf("1", "Yes"), epjson("1", "Yes"), idf("0", "No"), idf("1.5", "No")})
+    EXPECT_THROW(pane_of(text), Error) << text;
+}
+
 // T_vis and T_sol of EnergyPlus' electrochromic and reflective panes, as published.
 TEST(Products, OfAveragesGetASpectrumThatHasThem) {
   struct Published {
@@ -118,6 +159,30 @@ TEST(Products, AreFoundByName) {
   EXPECT_EQ(read_named_product(file.string() + "#dark").name, "Dark");
   EXPECT_THROW(read_named_product(file.string()), Error);
   EXPECT_THROW(read_named_product(file.string() + "#Nothing"), Error);
+}
+
+// A building has many panes, of which one is asked for.
+TEST(Products, AreReadBesideSomeThatCannotBe) {
+  const TemporaryDirectory directory;
+  const auto file =
+      write_text(directory / "building.idf", "##include more.idf\n" + idf_text +
+                                                 "WindowMaterial:Glazing, Bad, BSDF;\n"
+                                                 "WindowMaterial:Glazing, Worse, Spectral, x, abc;\n");
+  const Product pane = read_product(file, "Pane");
+  expect_pane(pane);
+  EXPECT_THAT(pane.notes, ::testing::Contains(HasSubstr("##include")));
+  try {
+    read_product(file, "Bad");
+    ADD_FAILURE() << "a BSDF was read";
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("optical data type \"BSDF\""));
+    EXPECT_GT(error.location.line, 1);
+  }
+  std::string json = epjson_text;
+  json.replace(json.find("\"Dark\": {"), 9, "\"Bad\": {\"thickness\": []}, \"Dark\": {");
+  const auto epjson = write_text(directory / "building.epJSON", json);
+  expect_pane(read_product(epjson, "Pane"));
+  EXPECT_THROW(read_product(epjson, "Bad"), Error);
 }
 
 struct Wrong {

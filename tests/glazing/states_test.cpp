@@ -50,6 +50,8 @@ TEST(States, ABandOfAbsorptionHasThePublishedAverages) {
     EXPECT_GT(value_at(*dark, 450).t, 1.5 * value_at(*dark, 700).t);  // red goes first
   }
   EXPECT_FALSE(tinted({{500, {0.8, 0.1, 0.1}}}, {0.1, 0.7, {}}));
+  EXPECT_TRUE(tinted({{500, {0.8, 0, 0.1}}}, {0.1, 0.08, {}}));
+  EXPECT_FALSE(tinted({{500, {0.8, 0, 0.1}}}, {0.1, 0.08, 0.05}));  // nothing to scale
 }
 
 // Against Euler's method in small steps; half-lives; the equilibrium stands still.
@@ -96,6 +98,17 @@ TEST(States, ComeFromASystemFile) {
       visible_t(R"({"states": [{"state": 1, "pane": "pane.dat"}, {"state": 0, "pane": "pane.dat"}]})", -1,
                 false),
       Error);
+}
+
+// A state is made of all wavelengths even where the clear one has few.
+TEST(States, SayWhereTheyAreHeld) {
+  const TemporaryDirectory directory;
+  write_text(directory / "pane.txt", "wavelength_nm T R\n400 0.8 0.1\n800 0.8 0.1\n");
+  write_text(directory / "unit.json", R"({"layers": [{"state": 1, "states": [{"state": 0, "pane": "pane.txt"},
+    {"state": 1, "tinted": {"visible_transmittance": 0.1, "solar_transmittance": 0.08}}]}]})");
+  const GlazingSystem system = read_system({(directory / "unit.json").string()}).system;
+  EXPECT_EQ(held_note(system, 300, 2500), "values are held beyond 400 to 800 nm");
+  EXPECT_EQ(held_note(system, 400, 800), "");
 }
 
 }  // namespace

@@ -123,14 +123,48 @@ TEST(GlazingSystem, ReadsItsFile) {
 TEST(GlazingSystem, SaysWhatIsWrongWithItsFile) {
   const TemporaryDirectory directory;
   write_text(directory / "pane.txt", table_text);
+  write_text(directory / "clear.dat", optics_text);
   for (const char* layers :
        {"[]", "[{\"gap_mm\": 12}]", "[{\"pane\": \"none.txt\"}]",
-        "[{\"pane\": \"pane.txt\", \"fliped\": true}]", "[{\"pane\": \"pane.txt\"}, {\"gap_mm\": 0}]",
+        "[{\"pane\": \"clear.dat\", \"thickness_mm\": 10}]", "[{\"pane\": \"pane.txt\", \"fliped\": true}]",
+        "[{\"pane\": \"pane.txt\"}, {\"gap_mm\": 0}]",
         "[{\"stack\": [{\"index\": 1.5, \"thickness_nm\": 9}]}]", "[{\"stack\": [{\"pane\": \"pane.txt\"}]}]",
         "[{\"stack\": [{\"index\": \"pane.txt\", \"thickness_mm\": 1}]}]"}) {
     write_text(directory / "unit.json", std::string("{\"layers\": ") + layers + "}");
     EXPECT_THROW(read_system({(directory / "unit.json").string()}), Error) << layers;
   }
+}
+
+// Where all tables of index have data: a number is the index of every wavelength.
+TEST(GlazingSystem, SaysBeyondWhichWavelengthsItIsHeld) {
+  const IndexRows glass{{300, 1.54, 0}, {2500, 1.49, 0}}, silver{{400, 0.05, 2}, {900, 0.1, 6}},
+      oxide{{550, 2, 0}};
+  const StackPane stack{{{glass, 4}}, {{{oxide, 40}, {silver, 12}}, {}}};
+  const GlazingSystem system{"", {{"", stack}, flat({0.6, 0.1, 0.3})}};
+  EXPECT_EQ(held_note({"", {{"", stack}}}, 300, 2500), "values are held beyond 400 to 900 nm");
+  EXPECT_EQ(held_note({"", {{"", stack}}}, 400, 900), "");
+  EXPECT_NE(held_note(system, 400, 900), "");  // the other pane has 500 nm alone
+  EXPECT_EQ(held_note({"", {{"", StackPane{{{glass, 4}}, {{}, {}}}}}}, 300, 2500), "");
+}
+
+TEST(GlazingSystem, HasOneStateAndOneTemperatureBehindItsName) {
+  const TemporaryDirectory directory;
+  write_text(directory / "windows.idf", idf_text);
+  write_text(directory / "pane.dat", optics_text);
+  write_text(directory / "unit.json",
+             R"({"name": "unit", "layers": [{"pane": "windows.idf", "product": "Warm"},
+    {"states": [{"state": 0, "pane": "pane.dat"}, {"state": 1, "pane": "pane.dat"}]}]})");
+  const std::string unit = (directory / "unit.json").string();
+  EXPECT_EQ(read_system({unit + "#state=0.5#temperature=30"}).system.name, "unit");
+  EXPECT_TRUE(is_glazing_file(unit + "#state=0.5#temperature=30"));
+  EXPECT_TRUE(is_glazing_file((directory / "windows.idf").string() + "#Warm#temperature=30"));
+  for (const char* wrong : {"#state=0#state=0", "#temperature=1#state=0#temperature=1", "#state=nan"})
+    EXPECT_THROW(read_system({unit + wrong}), Error) << wrong;
+  // Names are users' text: however long, they are looked at a few times.
+  std::string many;
+  for (int i = 0; i < 100'000; ++i) many += "#state=0";
+  EXPECT_THROW(read_system({unit + many}), Error);
+  EXPECT_FALSE(is_glazing_file(unit + many));
 }
 
 }  // namespace
