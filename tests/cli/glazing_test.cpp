@@ -65,7 +65,9 @@ TEST(Glazing, SaysWhatIsWrong) {
 
 TEST(Glazing, ReflectsAllAtGrazingIncidence) {
   const TemporaryDirectory directory;
-  const auto pane = write_text(directory / "pane.dat", optics_text);
+  std::string dull = optics_text;  // without reflection Fresnel's equations are 0/0 there
+  const auto pane =
+      write_text(directory / "pane.dat", dull.replace(dull.find("0.8 0.08 0.08"), 13, "0.8 0.00 0.00"));
   const CommandResult printed =
       run(fmt::format("{} '{}' --theta 90 --json", vitrail("glazing"), pane.string()));
   const auto photopic = nlohmann::json::parse(printed.output).at("results").at(0).at("photopic");

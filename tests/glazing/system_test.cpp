@@ -160,11 +160,8 @@ TEST(GlazingSystem, HasOneStateAndOneTemperatureBehindItsName) {
   EXPECT_TRUE(is_glazing_file((directory / "windows.idf").string() + "#Warm#temperature=30"));
   for (const char* wrong : {"#state=0#state=0", "#temperature=1#state=0#temperature=1", "#state=nan"})
     EXPECT_THROW(read_system({unit + wrong}), Error) << wrong;
-  // Names are users' text: however long, they are looked at a few times.
-  std::string many;
-  for (int i = 0; i < 100'000; ++i) many += "#state=0";
-  EXPECT_THROW(read_system({unit + many}), Error);
-  EXPECT_FALSE(is_glazing_file(unit + many));
+  // Names are users' text: however many "#" they have, a few are looked at.
+  EXPECT_FALSE(is_glazing_file(unit + "#1#2#3#4"));
 }
 
 }  // namespace
