@@ -30,15 +30,18 @@ struct Plan {
 
 // A reference of 16 times the samples of a picture leaves what bias is found ten times as far above its noise
 // as above that of the mean of six pictures.
-Plan make_plan(const MeasureOptions& o, const std::vector<Axis>& axes, double sample_wall_s, double start_wall_s) {
+Plan make_plan(const MeasureOptions& o, const std::vector<Axis>& axes, double sample_wall_s,
+               double start_wall_s) {
   constexpr int reference_factor = 16, searched = 3;
   int settings = 1 + searched, once = 0;
-  for (const Axis& axis : axes) (axis.same_picture ? once : settings) += static_cast<int>(axis.choices.size()) - 1;
+  for (const Axis& axis : axes)
+    (axis.same_picture ? once : settings) += static_cast<int>(axis.choices.size()) - 1;
   // The samples' axis: a quarter and four times as many.
   const double pictures = o.seeds * (settings + 0.25 + 4) + once;
   const int renders = o.seeds * (settings + 2) + once + 2;
   const double per_sample = sample_wall_s * (pictures + 2 * reference_factor), fixed = renders * start_wall_s;
-  const int spp = o.spp > 0 ? o.spp : std::clamp(power_of_two_below((o.budget_s - fixed) / per_sample), 4, 64);
+  const int spp =
+      o.spp > 0 ? o.spp : std::clamp(power_of_two_below((o.budget_s - fixed) / per_sample), 4, 64);
   const int reference_spp = o.reference_spp > 0 ? o.reference_spp : reference_factor * spp;
   return {spp, reference_spp, renders, fixed + sample_wall_s * (pictures * spp + 2 * reference_spp)};
 }
@@ -56,12 +59,14 @@ Measurement measure(const MeasureOptions& options, const Execute& execute, const
   m.law.start_s = std::max(0.0, start.cpu_s - (timed.cpu_s - start.cpu_s) / (timing_spp - 1));
   m.full_size = runs.full_size_ratio();
   m.scene_spp = runs.scene_spp();
-  const Plan plan = make_plan(options, m.axes, sample_wall_s, std::max(0.0, start.wall_s - sample_wall_s) + 0.2);
-  news.say(fmt::format(
-      "{} × {} pixels, {} samples, {} seeds a setting, a reference of 2 × {}: at most {} renders, about {:.0f} s "
-      "(what is there already is not rendered again)",
-      timed.picture.width, timed.picture.height, plan.spp, options.seeds, plan.reference_spp, plan.renders,
-      plan.wall_s));
+  const Plan plan =
+      make_plan(options, m.axes, sample_wall_s, std::max(0.0, start.wall_s - sample_wall_s) + 0.2);
+  news.say(
+      fmt::format("{} × {} pixels, {} samples, {} seeds a setting, a reference of 2 × {}: at most {} "
+                  "renders, about {:.0f} s "
+                  "(what is there already is not rendered again)",
+                  timed.picture.width, timed.picture.height, plan.spp, options.seeds, plan.reference_spp,
+                  plan.renders, plan.wall_s));
 
   Session session(runs, options, plan.spp, plan.renders, news);
   m.reference_spp = plan.reference_spp;

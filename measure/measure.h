@@ -17,11 +17,11 @@ namespace vitrail {
 
 struct MeasureOptions {
   std::filesystem::path scene, folder;
-  std::vector<std::string> axes;  // empty: all
-  int width = 256;                // of the measured pictures, in pixels
-  int seeds = 6;                  // pictures of each setting
-  std::uint64_t first_seed = 1;   // of them
-  double budget_s = 300;          // wall time that all may take, roughly
+  std::vector<std::string> axes;   // empty: all
+  int width = 256;                 // of the measured pictures, in pixels
+  int seeds = 6;                   // pictures of each setting
+  std::uint64_t first_seed = 1;    // of them
+  double budget_s = 300;           // wall time that all may take, roughly
   bool every_combination = false;  // of the axes that change the picture, not only the promising ones
   int spp = 0, reference_spp = 0;  // of a picture, and of a half of the reference; 0: what the budget allows
   std::optional<double> error;     // relMSE to recommend for
@@ -32,11 +32,11 @@ struct MeasureOptions {
 struct MeasuredSetting {
   Setting setting;
   std::string name;
-  std::string failure;    // why there is no picture; empty: there is
+  std::string failure;     // why there is no picture; empty: there is
   bool identical = false;  // its first picture is that of the scene's own setting, bit for bit
   int spp = 0;
   ErrorStatistics error;
-  double sample_s = 0;  // CPU seconds of one sample of every pixel: the median of its runs
+  double sample_s = 0;                     // CPU seconds of one sample of every pixel: the median of its runs
   double cpu_s = 0, wall_s = 0, rays = 0;  // of one picture, mean
   double peak_memory_bytes = 0, bundle_bytes = 0;
   Image first, mean;  // a picture, and the mean of all
@@ -52,9 +52,9 @@ struct Recommendation {
   std::vector<std::string> render, partition;
   int spp = 0;
   double error = 0, cpu_s = 0, wall_s = 0;  // predicted, of the whole picture
-  double bias = 0;     // of the error
-  double bias_within = 0;  // half the width of its interval
-  Estimate luminance;  // off, as ErrorStatistics
+  double bias = 0;                          // of the error
+  double bias_within = 0;                   // half the width of its interval
+  Estimate luminance;                       // off, as ErrorStatistics
 };
 
 struct Measurement {

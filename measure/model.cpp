@@ -30,11 +30,13 @@ std::optional<Prediction> best(std::span<const Tradeoff> tradeoffs, const Scalin
   std::optional<Prediction> found;
   for (std::size_t i = 0; i < tradeoffs.size(); ++i) {
     const Tradeoff& t = tradeoffs[i];
-    const auto spp = goal.error ? samples_for_error(t, law, *goal.error) : samples_within(t, law, *goal.cpu_s);
+    const auto spp =
+        goal.error ? samples_for_error(t, law, *goal.error) : samples_within(t, law, *goal.cpu_s);
     if (!spp || *spp > 1e9) continue;
     // What is whole but for rounding stays.
     const double whole = goal.error ? std::ceil(*spp * (1 - 1e-12)) : std::floor(*spp);
-    const Prediction p{i, static_cast<int>(whole), predicted_error(t, law, whole), predicted_cpu_s(t, law, whole)};
+    const Prediction p{i, static_cast<int>(whole), predicted_error(t, law, whole),
+                       predicted_cpu_s(t, law, whole)};
     if (!found || (goal.error ? p.cpu_s < found->cpu_s : p.error < found->error)) found = p;
   }
   return found;

@@ -107,7 +107,8 @@ void recommend(Measurement& m, Session& session, const MeasureOptions& o) {
   std::vector<Recommendation>& all = m.recommendations;
   if (o.error) all.push_back({fmt::format("a relMSE of {:.3g}", *o.error), {o.error, {}}});
   if (o.seconds)
-    all.push_back({fmt::format("{:.3g} s on this machine", *o.seconds), {{}, *o.seconds * session.parallelism()}});
+    all.push_back(
+        {fmt::format("{:.3g} s on this machine", *o.seconds), {{}, *o.seconds * session.parallelism()}});
   if (all.empty()) {
     const int spp = m.scene_spp;
     const auto own = [&] { return whole_picture(m, found(m, own_setting)->tradeoff()); };

@@ -44,10 +44,9 @@ Json json_of(const MeasuredSetting& s) {
 }
 
 Json json_of(const Recommendation& r) {
-  return {{"goal", r.goal},     {"found", r.found},         {"name", r.name},
-          {"spp", r.spp},       {"render", r.render},       {"partition", r.partition},
-          {"relmse", r.error},  {"cpu_s", r.cpu_s},         {"wall_s", r.wall_s},
-          {"words", advice(r)}};
+  return {{"goal", r.goal},     {"found", r.found},         {"name", r.name},    {"spp", r.spp},
+          {"render", r.render}, {"partition", r.partition}, {"relmse", r.error}, {"cpu_s", r.cpu_s},
+          {"wall_s", r.wall_s}, {"words", advice(r)}};
 }
 
 Json json_of(const MeasureOptions& options, const Measurement& m) {
@@ -65,8 +64,10 @@ Json json_of(const MeasureOptions& options, const Measurement& m) {
   for (const Axis& axis : m.axes) {
     Json labels = Json::array();
     for (const Choice& choice : axis.choices) labels.push_back(choice.label);
-    json["axes"].push_back(
-        {{"name", axis.name}, {"about", axis.about}, {"same_picture", axis.same_picture}, {"choices", labels}});
+    json["axes"].push_back({{"name", axis.name},
+                            {"about", axis.about},
+                            {"same_picture", axis.same_picture},
+                            {"choices", labels}});
   }
   const std::vector<bool> on_it = front(m);
   for (std::size_t i = 0; i < m.settings.size(); ++i) {

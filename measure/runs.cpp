@@ -35,7 +35,8 @@ Json read_json(const fs::path& file) {
 // Little-endian floats, three a pixel.
 void write_pixels(const fs::path& file, const Image& image) {
   static_assert(std::endian::native == std::endian::little);
-  write_whole(file, {reinterpret_cast<const char*>(image.values.data()), image.values.size() * sizeof(float)});
+  write_whole(file,
+              {reinterpret_cast<const char*>(image.values.data()), image.values.size() * sizeof(float)});
 }
 
 bool read_pixels(const fs::path& file, Image& image) {
@@ -61,7 +62,8 @@ Runs::Runs(fs::path scene, fs::path folder, int width, Execute execute)
 fs::path Runs::bundle(const std::vector<std::string>& partition) {
   if (fs::exists(scene_ / "manifest.json")) {
     if (!partition.empty())
-      throw Error("a bundle cannot be cut or decimated again: measure the scene it was made of", {scene_.string()});
+      throw Error("a bundle cannot be cut or decimated again: measure the scene it was made of",
+                  {scene_.string()});
     return scene_;
   }
   const std::string key = fmt::format("{}", fmt::join(partition, " "));
@@ -100,7 +102,8 @@ RunResult Runs::operator()(const RunRequest& request) {
     const Json& stats = json["stats"];
     result.cpu_s = stats.value("cpu_s", 0.0);
     result.wall_s = stats.value("wall_s", 0.0);
-    result.rays = stats.value("rays_camera", 0.0) + stats.value("rays_indirect", 0.0) + stats.value("rays_shadow", 0.0);
+    result.rays =
+        stats.value("rays_camera", 0.0) + stats.value("rays_indirect", 0.0) + stats.value("rays_shadow", 0.0);
     result.peak_memory_bytes = stats.value("peak_rss_bytes", 0.0);
     result.bundle_bytes = json.value("bundle_bytes", 0.0);
     result.film_hash = stats.value("film_hash", "");
@@ -114,10 +117,21 @@ RunResult Runs::operator()(const RunRequest& request) {
   }
   const fs::path film_file = fs::path(file).replace_extension(".film"),
                  stats_file = fs::path(file).replace_extension(".stats"), made = bundle(request.partition);
-  std::vector<std::string> arguments{made.string(),  "-o",     film_file.string(), "--spp",
-                                     std::to_string(request.spp), "--seed", std::to_string(request.seed),
-                                     "--stats", stats_file.string(), "--width", std::to_string(width_),
-                                     "--progress", "none", "--quiet", "--force"};
+  std::vector<std::string> arguments{made.string(),
+                                     "-o",
+                                     film_file.string(),
+                                     "--spp",
+                                     std::to_string(request.spp),
+                                     "--seed",
+                                     std::to_string(request.seed),
+                                     "--stats",
+                                     stats_file.string(),
+                                     "--width",
+                                     std::to_string(width_),
+                                     "--progress",
+                                     "none",
+                                     "--quiet",
+                                     "--force"};
   arguments.insert(arguments.end(), request.render.begin(), request.render.end());
   execute_("vitrail-render", arguments);
   ++rendered_;

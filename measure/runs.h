@@ -43,7 +43,7 @@ class Runs {
 
   // Pixels of the whole picture that the scene asks for, over those of one that is measured.
   double full_size_ratio();
-  int scene_spp();  // that it asks for
+  int scene_spp();                                      // that it asks for
   std::uint64_t rendered() const { return rendered_; }  // so far, not read
 
  private:

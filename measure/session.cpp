@@ -74,7 +74,8 @@ MeasuredSetting Session::measure_setting(const Measurement& m, const Setting& se
     if (own && spp == spp_ && seed == 1) own_hash_ = r.film_hash, own_picture_ = r.picture;
     s.identical = !own && spp == spp_ && r.picture == own_picture_;
     if (same_picture && !own && r.film_hash != own_hash_)
-      throw Error("the film of '" + s.name + "' is another than that of the scene's own setting: it must not be");
+      throw Error("the film of '" + s.name +
+                  "' is another than that of the scene's own setting: it must not be");
     pictures.push_back(std::move(r.picture));
     if (s.identical) break;
   }

@@ -35,7 +35,8 @@ double sum_over(const Image& image, const std::function<double(std::size_t)>& te
 double product(const Image& a, const Image& b, const Reference& r) {
   return sum_over(a, [&](std::size_t i) {
     const double x = static_cast<double>(a.values[i]), y = static_cast<double>(b.values[i]),
-                 first = static_cast<double>(r.first.values[i]), second = static_cast<double>(r.second.values[i]),
+                 first = static_cast<double>(r.first.values[i]),
+                 second = static_cast<double>(r.second.values[i]),
                  mean = static_cast<double>(r.mean.values[i]);
     return 0.5 * ((x - first) * (y - second) + (y - first) * (x - second)) / (mean * mean + 0.01);
   });

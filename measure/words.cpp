@@ -26,7 +26,8 @@ std::string speed(double own_s, double s) {
 
 std::string brightness(const Estimate& luminance) {
   const char* word = luminance.value < 0 ? "darker" : "brighter";
-  return fmt::format("{} by {:.2g} % ± {:.2g} %", word, 100 * std::abs(luminance.value), 100 * luminance.half_width);
+  return fmt::format("{} by {:.2g} % ± {:.2g} %", word, 100 * std::abs(luminance.value),
+                     100 * luminance.half_width);
 }
 
 }  // namespace
@@ -52,10 +53,11 @@ std::string what_it_buys(const Measurement& m, const MeasuredSetting& s) {
 std::vector<std::string> findings(const Measurement& m) {
   const MeasuredSetting& own = m.settings[0];
   std::vector<std::string> lines;
-  lines.push_back(fmt::format(
-      "The reference, of 2 × {} samples and paths of any length, is itself off by a relMSE of {:.2g}; that is "
-      "taken out of the errors of the others.",
-      m.reference_spp, m.reference.relmse));
+  lines.push_back(
+      fmt::format("The reference, of 2 × {} samples and paths of any length, is itself off by a relMSE of "
+                  "{:.2g}; that is "
+                  "taken out of the errors of the others.",
+                  m.reference_spp, m.reference.relmse));
   lines.push_back(fmt::format("Noise falls as samples^−{:.2f} here.", m.law.slope));
   if (own.error.is_biased())
     lines.push_back(fmt::format("The scene's own setting has a bias of {} against paths of any length ({}).",
@@ -63,10 +65,11 @@ std::vector<std::string> findings(const Measurement& m) {
   else
     lines.push_back(fmt::format("The scene's own setting shows no bias above {:.2g}.",
                                 std::max(0.0, own.error.bias.value) + own.error.bias.half_width));
-  lines.push_back(fmt::format(
-      "The whole picture has {:.2f} times the pixels of those measured; a sample of all of it takes {:.3g} CPU "
-      "seconds, and there were {:.1f} CPU seconds a second.",
-      m.full_size, own.sample_s * m.full_size, m.parallelism));
+  lines.push_back(
+      fmt::format("The whole picture has {:.2f} times the pixels of those measured; a sample of all of it "
+                  "takes {:.3g} CPU "
+                  "seconds, and there were {:.1f} CPU seconds a second.",
+                  m.full_size, own.sample_s * m.full_size, m.parallelism));
   return lines;
 }
 
@@ -75,11 +78,13 @@ std::string advice(const Recommendation& r) {
   std::string options = fmt::format("--spp {}", r.spp);
   for (const auto* words : {&r.render, &r.partition})
     for (const std::string& word : *words) options += ' ' + word;
-  std::string text = fmt::format("For {}: render {} — a relMSE of {:.3g} in {:.3g} CPU seconds, {:.3g} s here ({}).",
-                                 r.goal, options, r.error, r.cpu_s, r.wall_s, r.name);
+  std::string text =
+      fmt::format("For {}: render {} — a relMSE of {:.3g} in {:.3g} CPU seconds, {:.3g} s here ({}).", r.goal,
+                  options, r.error, r.cpu_s, r.wall_s, r.name);
   constexpr double share = 0.3;
   if (r.bias_within > share * r.error)
-    text += fmt::format(" Beware: its bias is known to ± {:.2g} only; more --seeds or --spp know better.", r.bias_within);
+    text += fmt::format(" Beware: its bias is known to ± {:.2g} only; more --seeds or --spp know better.",
+                        r.bias_within);
   if (r.bias > 0) text += fmt::format(" {:.3g} of it is bias: {}.", r.bias, brightness(r.luminance));
   return text;
 }
@@ -99,8 +104,11 @@ std::vector<bool> front(const Measurement& m) {
 }
 
 std::string table(const Measurement& m) {
-  const auto line = [](auto&&... cells) { return fmt::format("{:2}{:<28}{:>5}{:>9}{:>9}{:>19}{:>19}{:>19}{:>9}{:>8}{:>8}\n", cells...); };
-  std::string text = line("", "setting", "spp", "cpu s", "Mrays", "relMSE", "noise", "bias", "FLIP", "ΔE00", "MiB");
+  const auto line = [](auto&&... cells) {
+    return fmt::format("{:2}{:<28}{:>5}{:>9}{:>9}{:>19}{:>19}{:>19}{:>9}{:>8}{:>8}\n", cells...);
+  };
+  std::string text =
+      line("", "setting", "spp", "cpu s", "Mrays", "relMSE", "noise", "bias", "FLIP", "ΔE00", "MiB");
   const std::vector<bool> on_it = front(m);
   for (std::size_t i = 0; i < m.settings.size(); ++i) {
     const MeasuredSetting& s = m.settings[i];
@@ -108,10 +116,10 @@ std::string table(const Measurement& m) {
       text += fmt::format("  {:<28}cannot be rendered here: {}\n", s.name, s.failure);
       continue;
     }
-    text += line(on_it[i] ? "*" : "", s.name, s.spp, fmt::format("{:.3g}", s.sample_s * s.spp), fmt::format("{:.3g}", s.rays / 1e6),
-                 with_error(s.error.relmse), with_error(s.error.noise), with_error(s.error.bias),
-                 fmt::format("{:.3g}", s.error.flip.value), fmt::format("{:.3g}", s.error.delta_e.value),
-                 megabytes(s.peak_memory_bytes));
+    text += line(on_it[i] ? "*" : "", s.name, s.spp, fmt::format("{:.3g}", s.sample_s * s.spp),
+                 fmt::format("{:.3g}", s.rays / 1e6), with_error(s.error.relmse), with_error(s.error.noise),
+                 with_error(s.error.bias), fmt::format("{:.3g}", s.error.flip.value),
+                 fmt::format("{:.3g}", s.error.delta_e.value), megabytes(s.peak_memory_bytes));
   }
   return text + "±: 95 %; *: no other of as many samples is better in both time and error\n";
 }
