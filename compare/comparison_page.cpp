@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "compare/comparison_page.h"
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -16,8 +17,19 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string halves(const std::vector<double>& values) {
-  return half_floats_base64(std::vector<float>(values.begin(), values.end()));
+// Half floats in units of a power of two that puts the greatest of the values near the top of their range:
+// values of any size keep their 11 bits, down to 2^−28 of the greatest.
+template <typename Values>
+Json halves(const Values& values) {
+  double greatest = 0;
+  for (const double v : values)
+    if (std::isfinite(v)) greatest = std::max(greatest, std::abs(v));
+  constexpr int top = 14;  // a half float is less than 2^16
+  const double unit = greatest > 0 ? std::ldexp(1.0, std::max(std::ilogb(greatest) - top, -1022)) : 1;
+  std::vector<float> scaled;
+  scaled.reserve(values.size());
+  for (const double v : values) scaled.push_back(static_cast<float>(v / unit));
+  return {{"unit", unit}, {"halves", half_floats_base64(scaled)}};
 }
 
 Json error_of(const char* name, const char* about, double value, const std::vector<double>& map,
@@ -65,17 +77,16 @@ Json rows(const ComparisonPage& page, const Json& all) {
 
 std::string comparison_page(const ComparisonPage& page) {
   const Json all = errors(page);
-  const Json data{
-      {"names", {page.image_name, page.reference_name}},
-      {"width", page.image->width},
-      {"height", page.image->height},
-      {"x0", page.x0},
-      {"y0", page.y0},
-      {"ppd", page.pixels_per_degree},
-      {"flip", page.low_range ? "of images for screens" : "of images of any range"},
-      {"images", {half_floats_base64(page.image->values), half_floats_base64(page.reference->values)}},
-      {"errors", all},
-      {"rows", rows(page, all)}};
+  const Json data{{"names", {page.image_name, page.reference_name}},
+                  {"width", page.image->width},
+                  {"height", page.image->height},
+                  {"x0", page.x0},
+                  {"y0", page.y0},
+                  {"ppd", page.pixels_per_degree},
+                  {"flip", page.low_range ? "of images for screens" : "of images of any range"},
+                  {"images", {halves(page.image->values), halves(page.reference->values)}},
+                  {"errors", all},
+                  {"rows", rows(page, all)}};
   // A name of a file may be no UTF-8.
   return page_with_data(comparison_html, data.dump(-1, ' ', false, Json::error_handler_t::replace));
 }

@@ -19,7 +19,8 @@ struct ComparisonPage {
 
 // One HTML file that a browser shows without a network: both images and the maps of their errors, flipped
 // between or split, at any exposure and size, with the values of the pixel under the pointer, histograms and
-// all metrics. Pixels are kept as half floats: of 11 bits.
+// all metrics. Pixels are kept as half floats in units of the greatest:
+// of 11 bits.
 std::string comparison_page(const ComparisonPage& page);
 
 }  // namespace vitrail

@@ -56,9 +56,36 @@ TEST(Page, HoldsItsDataWhateverTheNamesAre) {
   EXPECT_THAT(page, Not(HasSubstr("</script><script>alert")));
   EXPECT_THAT(page, HasSubstr("\\u003c/script>"));
   EXPECT_THAT(page, Not(HasSubstr("@DATA@")));
-  EXPECT_THAT(page, HasSubstr("\"ADwAOAAAAAAAAABA\""));  // 1, 0.5, 0, 0, 0, 2 as halves
+  // 1, 0.5, 0, 0, 0, 2 as halves in units of 2^−13.
+  EXPECT_THAT(page, HasSubstr("{\"unit\":0.0001220703125,\"halves\":\"AHAAbAAAAAAAAAB0\"}"));
   for (const char* other : {"http://", "https://", "src=", "@import", "url("})
     EXPECT_THAT(page, Not(HasSubstr(other))) << "a page needs nothing but itself";
+}
+
+// What stands in the page after `"name":"mse"`: the unit of that map, and its pixels.
+std::pair<double, std::string> squares_of(const std::string& page) {
+  const auto after = [&](const std::string& mark, std::size_t from) {
+    return page.find(mark, from) + mark.size();
+  };
+  const std::size_t map = page.find("\"name\":\"mse\""), pixels = after("\"halves\":\"", map);
+  return {std::stod(page.substr(after("\"unit\":", map), 40)),
+          page.substr(pixels, page.find('"', pixels) - pixels)};
+}
+
+TEST(Page, KeepsTheBitsOfPicturesOfAnyBrightness) {
+  const auto page = [](float brightness) {
+    Image image{2, 1, 3, {1, 0.5f, 0, 0, 0, 2}};
+    for (float& v : image.values) v *= brightness;
+    const Image dark = black_image(2, 1, 3);
+    return comparison_page({"a", "b", &image, &dark, 0, 0, 67, false});
+  };
+  const auto [unit, squares] = squares_of(page(1));
+  for (const float brightness : {0x1p-30f, 0x1p30f}) {
+    const std::string scaled = page(brightness);
+    EXPECT_THAT(scaled, HasSubstr("\"AHAAbAAAAAAAAAB0\"")) << "the image: as with brightness 1";
+    const double twice = static_cast<double>(brightness) * static_cast<double>(brightness);
+    EXPECT_EQ(squares_of(scaled), std::pair(twice * unit, squares));
+  }
 }
 
 }  // namespace
