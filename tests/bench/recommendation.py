@@ -5,7 +5,9 @@ errors and times; then every combination of the same axes is measured with other
 reference, and says what the best would have been. Prints a line a goal, and fails where one is worse than --within times the best.
 
     tests/bench/recommendation.py --bin build/release/bin            # minutes
-    tests/bench/recommendation.py --bin build/release/bin --short    # seconds: a test of the test
+    tests/bench/recommendation.py --bin build/release/bin --short    # seconds: only that it recommends what the truth knows
+
+CPU seconds are part of every ratio, so that a busy machine spoils them: --short says them and does not judge them.
 """
 import argparse
 import json
@@ -71,14 +73,16 @@ def judged(options, name, make, folder):
         answer = measure(options, scene, folder / "few", *few, option, given)
         recommended = answer["recommendations"][0]
         mine = truth.known.get(setting_of(answer, recommended)) if recommended["found"] else None
+        if mine is None:
+            sys.exit(f"{name}: {option} {goal:.3g}: nothing is recommended that the truth knows: {recommended['words']}")
         if option == "--error":
             best = min(truth.known.values(), key=lambda s: truth.cost(s, goal))
-            ratio = truth.cost(mine, goal) / truth.cost(best, goal) if mine else float("inf")
-            reached = truth.error(mine, spp=recommended["spp"]) / goal if mine else float("nan")
+            ratio = truth.cost(mine, goal) / truth.cost(best, goal)
+            reached = truth.error(mine, spp=recommended["spp"]) / goal
         else:
             best = min(truth.known.values(), key=lambda s: truth.error(s, goal))
-            ratio = truth.error(mine, goal) / truth.error(best, goal) if mine else float("inf")
-            reached = truth.error(mine, spp=recommended["spp"]) / recommended["relmse"] if mine else float("nan")
+            ratio = truth.error(mine, goal) / truth.error(best, goal)
+            reached = truth.error(mine, spp=recommended["spp"]) / recommended["relmse"]
         worst = max(worst, ratio)
         print(f"{name:14}{option} {goal:<9.3g} recommended {recommended['name']:28} best {best['name']:28} {ratio:5.2f} times the best; "
               f"error {reached:.2f} times what was said", flush=True)
@@ -93,18 +97,18 @@ def main():
     parser.add_argument("--seeds", type=int, default=6)
     parser.add_argument("--spp", type=int, default=16)
     parser.add_argument("--within", type=float, default=1.3)
-    parser.add_argument("--short", action="store_true", help="one scene, small")
+    parser.add_argument("--short", action="store_true", help="one scene, small, not judged")
     options = parser.parse_args()
     scenes = dict(SCENES)
     if options.short:
-        options.size, options.axes, options.within = 24, "integrator", 2
+        options.size, options.axes = 24, "integrator"
         scenes = {"box, diffuse": speed_scenes.cornell_diffuse}
     worst = 1
     for name, make in scenes.items():
         with tempfile.TemporaryDirectory() as folder:
             worst = max(worst, judged(options, name, make, pathlib.Path(folder)))
     print(f"at worst {worst:.2f} times the best")
-    sys.exit(0 if worst <= options.within else 1)
+    sys.exit(0 if options.short or worst <= options.within else 1)
 
 
 if __name__ == "__main__":
