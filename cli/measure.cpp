@@ -30,6 +30,7 @@ int run(const MeasureOptions& options, bool quiet) {
   if (!std::filesystem::exists(options.scene)) throw Error("there is no such file", {options.scene.string()});
   chosen_axes(known_axes({}), options.axes);  // refuses unknown names before any work
   require_folder_of(options.folder);
+  require_own_page(options.folder);
   std::filesystem::create_directories(options.folder);
   catch_signals();
   ProgressLine line(!quiet && on_terminal());

@@ -20,6 +20,12 @@ std::vector<Choice> render_choices(const std::string& option, const std::vector<
   return choices;
 }
 
+std::vector<Choice> depths() {
+  std::vector<Choice> choices = render_choices("--max-depth", {"-1", "12", "6", "3", "2", "1"});
+  choices[1].label = "none";  // no limit
+  return choices;
+}
+
 std::vector<Choice> partition_choices(const std::string& option, const std::vector<std::string>& words) {
   std::vector<Choice> choices{as_the_scene_says()};
   for (const std::string& word : words) choices.push_back({word, {}, {option, word}});
@@ -39,8 +45,7 @@ std::vector<Choice> clamps(double mean_luminance) {
 
 std::vector<Axis> known_axes(const PictureFacts& facts) {
   return {
-      {"depth", "scattering events of a path (--max-depth)",
-       render_choices("--max-depth", {"-1", "12", "6", "3", "2", "1"})},
+      {"depth", "most scattering events of a path (--max-depth)", depths()},
       {"clamp", "the most that one connection adds to a sample (--clamp)", clamps(facts.mean_luminance)},
       {"integrator", "whole paths or direct light alone (--integrator)",
        render_choices("--integrator", {"direct"})},
@@ -48,7 +53,8 @@ std::vector<Axis> known_axes(const PictureFacts& facts) {
        partition_choices("--decimate", {"0.3", "0.1"})},
       {"domains", "sub-domains of the bundle (partition --domains)",
        partition_choices("--domains", {"1", "8", "32"}), true},
-      {"memory", "most memory a rank may use (--memory)", render_choices("--memory", {"256M", "64M"}), true},
+      {"memory", "most memory a rank may use (--memory)", render_choices("--memory", {"256M", "64M"}), true,
+       true},
   };
 }
 

@@ -17,6 +17,7 @@ struct Axis {
   std::string name, about;
   std::vector<Choice> choices;  // the first: as the scene says
   bool same_picture = false;    // changes time and memory alone (law 1)
+  bool limits_memory = false;   // too little of it is a finding, no failure of the machine
 };
 
 // What the values depend on.

@@ -33,7 +33,7 @@ struct MeasuredSetting {
   Setting setting;
   std::string name;
   std::string failure;     // why there is no picture; empty: there is
-  bool identical = false;  // its first picture is that of the scene's own setting, bit for bit
+  bool identical = false;  // its pictures are those of the scene's own setting, bit for bit
   int spp = 0;
   ErrorStatistics error;
   double sample_s = 0;                     // CPU seconds of one sample of every pixel: the median of its runs

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <iterator>
 
 namespace vitrail {
@@ -21,9 +22,10 @@ const MeasuredSetting* found(const Measurement& m, const Setting& setting) {
 // promised, else more samples are taken, up to a limit.
 bool is_too_uncertain(const MeasuredSetting& s, int first_spp, double error) {
   constexpr double share = 0.3;
-  constexpr int most = 16;
-  return s.error.bias.half_width > share * error && s.spp < most * first_spp;
+  return s.error.bias.half_width > share * error && s.spp < most_samples_factor * first_spp;
 }
+
+constexpr int most_measured = 12;  // for a goal
 
 bool is_useful(const MeasuredSetting& s) { return s.failure.empty() && !s.identical; }
 
@@ -66,7 +68,6 @@ Tradeoff whole_picture(const Measurement& m, Tradeoff t) {
 }
 
 void search(Measurement& m, Session& session, Recommendation& r) {
-  constexpr int most_measured = 12;
   const std::vector<Setting> settings = combinations(m);
   for (int tried = 0; tried <= most_measured; ++tried) {
     std::vector<Tradeoff> tradeoffs;
@@ -101,6 +102,13 @@ void search(Measurement& m, Session& session, Recommendation& r) {
 }
 
 }  // namespace
+
+int most_searched(const MeasureOptions& o) {
+  const int asked = (o.error ? 1 : 0) + (o.seconds ? 1 : 0);
+  if (asked > 0) return asked * most_measured;
+  const int of_own = std::bit_width(static_cast<unsigned>(most_samples_factor)) / 2;  // 4 and 16 times
+  return 2 * most_measured + of_own;
+}
 
 void recommend(Measurement& m, Session& session, const MeasureOptions& o) {
   const Setting own_setting(m.axes.size(), 0);

@@ -5,6 +5,13 @@
 
 namespace vitrail {
 
+// A bias that is too uncertain is measured again with 4 times the samples, up to this many times those of the
+// axes.
+constexpr int most_samples_factor = 16;
+
+// How many measurements `recommend` makes at most, each of all seeds.
+int most_searched(const MeasureOptions& options);
+
 // Adds the recommendations that the options ask for, else those for the error, and for the time, of the
 // scene's own setting and samples. What looks best is measured before it is recommended, and joins
 // `m.settings`: a search, best first, over all combinations of the axes that change the picture, ending where

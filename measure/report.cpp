@@ -12,6 +12,7 @@
 #include "film/image_io.h"
 #include "measure/measure_html.h"
 #include "measure/words.h"
+#include "scene/diagnostics.h"
 
 namespace vitrail {
 
@@ -81,12 +82,12 @@ Json json_of(const MeasureOptions& options, const Measurement& m) {
   return json;
 }
 
-// A PNG within an address.
+// A PNG within an address; its file is for a moment among the runs.
 std::string png(const std::filesystem::path& folder, const Image& image, double exposure = 1) {
   Picture picture;
   picture.rgb = image;
   for (float& v : picture.rgb.values) v = static_cast<float>(static_cast<double>(v) * exposure);
-  const std::filesystem::path file = folder / "thumbnail.png";
+  const std::filesystem::path file = folder / "runs" / "thumbnail.png";
   write_picture(file, picture);
   std::ifstream in(file, std::ios::binary);
   const std::vector<std::uint8_t> bytes(std::istreambuf_iterator<char>(in), {});
@@ -95,6 +96,14 @@ std::string png(const std::filesystem::path& folder, const Image& image, double 
 }
 
 }  // namespace
+
+void require_own_page(const std::filesystem::path& folder) {
+  const std::filesystem::path page = folder / "index.html";
+  if (!std::filesystem::exists(page) || std::filesystem::exists(folder / "measure.json")) return;
+  throw Error(
+      "it is there already, and no measure.json beside it says that measure made it: name another folder",
+      {page.string()});
+}
 
 void write_report(const MeasureOptions& options, const Measurement& m) {
   Json json = json_of(options, m);

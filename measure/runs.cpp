@@ -89,11 +89,6 @@ std::string Runs::key(const RunRequest& r) {
 
 fs::path Runs::record(const RunRequest& r) { return folder_ / "runs" / (short_name(key(r)) + ".json"); }
 
-bool Runs::is_kept(const RunRequest& request) {
-  const Json json = read_json(record(request));
-  return json.is_object() && json.value("key", "") == key(request);
-}
-
 RunResult Runs::operator()(const RunRequest& request) {
   const fs::path file = record(request), pixels = fs::path(file).replace_extension(".rgb");
   Json json = read_json(file);
@@ -134,7 +129,6 @@ RunResult Runs::operator()(const RunRequest& request) {
                                      "--force"};
   arguments.insert(arguments.end(), request.render.begin(), request.render.end());
   execute_("vitrail-render", arguments);
-  ++rendered_;
   result.picture = develop(read_film(film_file, nullptr)).rgb;
   write_pixels(pixels, result.picture);
   json = {{"key", key(request)},

@@ -39,12 +39,10 @@ class Runs {
   // Renders, or reads what was rendered before. A scene file that changed since is rendered again; files that
   // it names are not looked at.
   RunResult operator()(const RunRequest& request);
-  bool is_kept(const RunRequest& request);
 
   // Pixels of the whole picture that the scene asks for, over those of one that is measured.
   double full_size_ratio();
-  int scene_spp();                                      // that it asks for
-  std::uint64_t rendered() const { return rendered_; }  // so far, not read
+  int scene_spp();  // that it asks for
 
  private:
   std::filesystem::path bundle(const std::vector<std::string>& partition);
@@ -54,7 +52,6 @@ class Runs {
   std::filesystem::path scene_, folder_;
   int width_;
   Execute execute_;
-  std::uint64_t rendered_ = 0;
 };
 
 }  // namespace vitrail

@@ -43,17 +43,19 @@ MeasuredSetting Session::measure_setting(const Measurement& m, const Setting& se
   s.setting = setting;
   s.name = name_of(m.axes, setting);
   s.spp = spp;
-  bool same_picture = true, own = true;
+  bool same_picture = true, own = true, is_short_of_memory = false;
   for (std::size_t i = 0; i < setting.size(); ++i) {
     own &= setting[i] == 0;
     same_picture &= setting[i] == 0 || m.axes[i].same_picture;
+    is_short_of_memory |= setting[i] > 0 && m.axes[i].limits_memory;
   }
   std::vector<Image> pictures;
   std::vector<double> sample_s;
   const int seeds = same_picture && !own ? 1 : options_.seeds;
+  s.identical = !own && spp == spp_;  // until a seed shows that it is not
   for (int seed = 1; seed <= seeds; ++seed) {
     RunResult r;
-    try {
+    try {  // what a machine cannot do ends the measurement, but for memory that was made scarce on purpose
       r = run({render_arguments(m.axes, setting), partition_arguments(m.axes, setting), spp,
                options_.first_seed + static_cast<std::uint64_t>(seed) - 1},
               s.name);
@@ -61,6 +63,7 @@ MeasuredSetting Session::measure_setting(const Measurement& m, const Setting& se
       s.failure = e.what();
       return s;
     } catch (const MachineError& e) {
+      if (!is_short_of_memory) throw;
       s.failure = e.what();
       return s;
     }
@@ -71,13 +74,16 @@ MeasuredSetting Session::measure_setting(const Measurement& m, const Setting& se
     s.rays = r.rays;
     s.peak_memory_bytes = std::max(s.peak_memory_bytes, r.peak_memory_bytes);
     s.bundle_bytes = r.bundle_bytes;
-    if (own && spp == spp_ && seed == 1) own_hash_ = r.film_hash, own_picture_ = r.picture;
-    s.identical = !own && spp == spp_ && r.picture == own_picture_;
+    const auto at = static_cast<std::size_t>(seed - 1);
+    if (own && spp == spp_) {
+      own_pictures_.push_back(r.picture);
+      if (seed == 1) own_hash_ = r.film_hash;
+    }
+    s.identical = s.identical && r.picture == own_pictures_[at];
     if (same_picture && !own && r.film_hash != own_hash_)
       throw Error("the film of '" + s.name +
                   "' is another than that of the scene's own setting: it must not be");
     pictures.push_back(std::move(r.picture));
-    if (s.identical) break;
   }
   s.sample_s = median(sample_s);
   s.first = pictures[0];

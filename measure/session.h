@@ -8,13 +8,14 @@ namespace vitrail {
 
 class Session {
  public:
-  // `renders`: how many are expected, for the progress.
+  // `renders`: how many there are at most, for the progress.
   Session(Runs& runs, const MeasureOptions& options, int spp, int renders, const MeasureNews& news);
 
   // Of paths without a limit, whatever the scene's own is: what depth costs is to be seen.
   Reference reference(int spp);
-  // The scene's own setting, then one change of it each, appended to `m.settings`. A setting whose
-  // first picture is the scene's own, bit for bit, is not rendered with other seeds.
+  // The scene's own setting, then one change of it each, appended to `m.settings`. One that cannot change
+  // the picture takes one seed. Throws MachineError where the machine fails, but for settings of little
+  // memory: those have a `failure`.
   void measure_axes(Measurement& m);
   // The scene's own at other counts of samples, and the law that they follow.
   void measure_samples(Measurement& m);
@@ -31,9 +32,8 @@ class Session {
   int spp_, renders_;
   int done_ = 0;
   double cpu_s_ = 0, wall_s_ = 0;
-  // Of the scene's own setting and the first seed.
-  Image own_picture_;
-  std::string own_hash_;
+  std::vector<Image> own_pictures_;  // of the scene's own setting, of each seed
+  std::string own_hash_;             // of the film of the first
   const MeasureNews& news_;
 };
 

@@ -41,10 +41,14 @@ std::string what_it_buys(const Measurement& m, const MeasuredSetting& s) {
                        megabytes(s.peak_memory_bytes), megabytes(own.peak_memory_bytes));
   std::string text = fmt::format("{}: a sample is {}", s.name, times);
   const double own_noise = predicted_error({own.error.noise.value, 0, own.spp, 1}, m.law, s.spp);
-  const double noise = own_noise > 0 ? s.error.noise.value / own_noise : 1;
-  text += fmt::format(", its noise is {:.2g} times as much", noise);
-  const double efficiency = own.sample_s / (s.sample_s * noise);
-  text += fmt::format(": {:.2g} times the efficiency while bias does not matter", efficiency);
+  if (own_noise > 0 && s.error.noise.value > 0) {
+    const double noise = s.error.noise.value / own_noise;
+    text += fmt::format(", its noise is {:.2g} times as much", noise);
+    const double efficiency = own.sample_s / (s.sample_s * noise);
+    text += fmt::format(": {:.2g} times the efficiency while bias does not matter", efficiency);
+  } else {
+    text += s.error.noise.value > 0 ? ", and it is noisy" : ", and no noise is seen";
+  }
   if (!s.error.is_biased()) return text + "; no bias is seen";
   text += fmt::format("; bias {} ({})", with_error(s.error.bias), brightness(s.error.luminance));
   return text + fmt::format(", which no samples remove: not for a relMSE below {:.2g}", s.error.bias.value);

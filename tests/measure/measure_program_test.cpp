@@ -84,5 +84,14 @@ TEST_F(MeasureProgram, RefusesWhatItDoesNotKnow) {
   EXPECT_EQ(run(vitrail("measure") + " no.pbrt -o out").status, 3);
 }
 
+TEST_F(MeasureProgram, LeavesThePagesOfOthersAlone) {
+  std::filesystem::create_directory(directory_ / "out");
+  std::ofstream(directory_ / "out" / "index.html") << "mine";
+  const CommandResult refused = measure("--axes integrator");
+  EXPECT_EQ(refused.status, 3);
+  EXPECT_THAT(refused.output, HasSubstr("name another folder"));
+  EXPECT_FALSE(std::filesystem::exists(directory_ / "out" / "runs"));
+}
+
 }  // namespace
 }  // namespace vitrail::test

@@ -5,13 +5,17 @@
 #include <gtest/gtest.h>
 
 #include "measure/axes.h"
+#include "measure/plan.h"
 #include "measure/words.h"
 #include "scene/diagnostics.h"
 
 namespace vitrail {
 namespace {
 
+using testing::AllOf;
 using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Not;
 
 const ScalingLaw law{1, 2};
 const Tradeoff honest{0.8, 0, 4, 3}, biased{0.2, 0.01, 4, 1};
@@ -68,10 +72,43 @@ TEST(Axes, AreChosenByNameAndBecomeArguments) {
   const std::vector<Axis> axes = chosen_axes(known_axes({2}), {"depth", "clamp", "decimate"});
   ASSERT_EQ(axes.size(), 3u);
   EXPECT_EQ(name_of(axes, {0, 0, 0}), "as the scene says");
-  EXPECT_EQ(name_of(axes, {1, 0, 2}), "depth -1, decimate 0.1");
+  EXPECT_EQ(name_of(axes, {1, 0, 2}), "depth none, decimate 0.1");
   EXPECT_THAT(render_arguments(axes, {1, 3, 2}), ElementsAre("--max-depth", "-1", "--clamp", "8"));
   EXPECT_THAT(partition_arguments(axes, {1, 3, 2}), ElementsAre("--decimate", "0.1"));
   EXPECT_THROW(chosen_axes(known_axes({}), {"dept"}), UsageError);
+}
+
+TEST(Plan, CountsEveryRender) {
+  MeasureOptions options;
+  options.seeds = 3, options.spp = 8;
+  const std::vector<Axis> axes = chosen_axes(known_axes({}), {"depth", "integrator", "memory"});
+  const Plan one_by_one = make_plan(options, axes, 0.5, 0);
+  // The reference's halves, two budgets of memory, and with each seed: the scene's own, six depths, one
+  // integrator and two other counts of samples.
+  EXPECT_EQ(one_by_one.renders, 2 + 2 + 3 * (1 + 6 + 1 + 2));
+  EXPECT_DOUBLE_EQ(one_by_one.wall_s, 0.5 * (2 * 128 + 2 * 8 + 3 * (8 * 8 + 2 + 32)));
+  EXPECT_EQ(one_by_one.search_renders, 3 * (2 * 12 + 2));
+  options.every_combination = true;
+  EXPECT_EQ(make_plan(options, axes, 0.5, 0).renders, 2 + 2 + 3 * (7 * 2 + 2));
+  options.error = 0.1;
+  EXPECT_EQ(make_plan(options, axes, 0.5, 0).search_renders, 3 * 12);
+}
+
+// A scene of two settings with these noises, and what is said of the second.
+std::string said(double own_noise, double noise) {
+  Measurement m;
+  MeasuredSetting own;
+  own.spp = 4, own.sample_s = 2, own.error.noise.value = own_noise;
+  MeasuredSetting other = own;
+  other.name = "depth 1", other.sample_s = 1, other.error.noise.value = noise;
+  m.settings = {own, other};
+  return what_it_buys(m, other);
+}
+
+TEST(Words, NoEfficiencyIsSaidOfPicturesWithoutNoise) {
+  EXPECT_THAT(said(0.2, 0.1), HasSubstr("2.00 times as fast, its noise is 0.5 times as much: 4 times the"));
+  for (const std::string& text : {said(0.2, 0), said(0, 0), said(0.2, -1e-9)})
+    EXPECT_THAT(text, AllOf(HasSubstr("no noise is seen"), Not(HasSubstr("efficiency")))) << text;
 }
 
 }  // namespace

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which renders a setting takes and what becomes of those that fail, with programs that only pretend.
+#include "measure/session.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+
+#include "film/film.h"
+#include "scene/diagnostics.h"
+#include "tests/support/temporary_directory.h"
+
+namespace vitrail::test {
+namespace {
+
+using Words = std::vector<std::string>;
+
+bool has(const Words& words, const std::string& word) {
+  return std::ranges::find(words, word) != words.end();
+}
+
+const std::string& after(const Words& words, const std::string& option) {
+  return *std::next(std::ranges::find(words, option));
+}
+
+class SessionTest : public testing::Test {
+ protected:
+  SessionTest() {
+    std::ofstream(directory_ / "scene.pbrt") << "never read";
+    options_.seeds = 3;
+  }
+  // With one axis, of those that there are.
+  MeasuredSetting measured(const std::string& axis, const Setting& setting) {
+    measurement_.axes = chosen_axes(known_axes({}), {axis});
+    return session_.measure_setting(measurement_, setting, 4);
+  }
+
+  TemporaryDirectory directory_;
+  MeasureOptions options_;
+  std::function<void(const Words&)> render_;
+  Runs runs_{directory_ / "scene.pbrt", directory_ / "out", 32,
+             [this](const std::string& program, const Words& words) {
+               if (program == "vitrail-render") return render_(words);
+               std::filesystem::create_directory(after(words, "-o"));
+             }};
+  MeasureNews news_{[](const std::string&) {}, [](double, const char*) {}};
+  Session session_{runs_, options_, 4, 10, news_};
+  Measurement measurement_;
+};
+
+TEST_F(SessionTest, OnlyScarceMemoryMayFail) {
+  render_ = [](const Words&) { throw MachineError("no room"); };
+  EXPECT_EQ(measured("memory", {1}).failure, "no room");
+  EXPECT_THROW(measured("integrator", {1}), MachineError);
+  EXPECT_THROW(measured("memory", {0}), MachineError);
+  render_ = [](const Words&) { throw Error("refused"); };
+  EXPECT_EQ(measured("integrator", {1}).failure, "refused");
+}
+
+TEST_F(SessionTest, SettingsAreIdenticalWhereAllSeedsAre) {
+  // The clamp of choice 1 meets no seed, that of choice 2 the third.
+  const Words third = known_axes({})[1].choices[2].render;
+  render_ = [&](const Words& words) {
+    const std::uint64_t seed = std::stoull(after(words, "--seed"));
+    const bool is_clamped = has(words, "--clamp") && after(words, "--clamp") == third[1] && seed == 3;
+    FilmSettings settings;
+    settings.width = settings.height = 16;
+    settings.crop = {0, 16, 0, 16};
+    Film film(settings, {1, seed, 5});
+    for (std::uint32_t p = 0; p < 256; ++p) {
+      film.count_sample(p, 0);
+      const double v = is_clamped ? 0.5 : static_cast<double>(seed);
+      film.deposit(p, 0, srgb_to_xyz(RGB{v, v, v}));
+    }
+    write_film(after(words, "-o"), film, {1, 1, {1}, 1});
+    std::ofstream(after(words, "--stats")) << "{}";
+  };
+  measurement_.reference = session_.reference(4);
+  measurement_.settings.push_back(measured("clamp", {0}));
+  EXPECT_TRUE(measured("clamp", {1}).identical);
+  EXPECT_FALSE(measured("clamp", {2}).identical);
+}
+
+}  // namespace
+}  // namespace vitrail::test
