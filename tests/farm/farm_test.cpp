@@ -8,6 +8,7 @@
 
 #include "farm/memory.h"
 #include "farm/queues.h"
+#include "farm/rounds.h"
 #include "farm/scheduler/residency.h"
 #include "farm/work.h"
 #include "scene/diagnostics.h"
@@ -125,6 +126,49 @@ TEST(Work, PartsOfAnItemTileIt) {
                         [&](int x, int y, std::uint32_t s) { parts.emplace_back(x, y, s); });
       EXPECT_EQ(parts, whole);
     }
+}
+
+// What is left of the samples may be less than the step of any pixel that comes first: then there is no other
+// round. (A round without samples was begun for ever.)
+TEST(Rounds, NoneIsWithoutSamples) {
+  constexpr std::uint32_t side = 8;
+  Goal goal;
+  goal.in_rounds = goal.adaptive = true;
+  int over = 0;
+  for (std::uint32_t seed = 0; seed < 40; ++seed) {
+    FilmSettings settings;
+    settings.width = settings.height = side;
+    settings.crop = {0, side, 0, side};
+    Film film(settings, {});
+    // Uneven as after a round, a few pixels noisy, and 2 samples a pixel left.
+    for (std::uint32_t p = 0; p < side * side; ++p)
+      for (std::uint32_t s = 0; s < ((p * 7 + seed) % 10 == 0 ? 768u : 192u); ++s) {
+        film.count_sample(p, s);
+        film.deposit(p, s, {1, 1, 1});
+      }
+    goal.samples = static_cast<std::uint32_t>(film.samples() / film.pixels()) + 3;
+    const auto next = next_round(film, goal);
+    if (!next) ++over;
+    if (next) EXPECT_TRUE(std::ranges::any_of(next->more, [](std::uint32_t n) { return n > 0; })) << seed;
+  }
+  EXPECT_GT(over, 0) << "no film had too few samples left";
+}
+
+// Of a round whose samples are all in one tile.
+TEST(Work, ItemsWithoutSamplesAreDone) {
+  const PixelRect crop{0, 40, 0, 30};
+  std::vector<std::uint32_t> held(40 * 30, 4), more(40 * 30);
+  more[17 + 2 * 40] = 5000;
+  const WorkPlan plan = make_adaptive_round(crop, held, more);
+  EXPECT_LE(plan.items(), 6u * 130);
+  std::vector<std::uint64_t> done((plan.items() + 63) / 64);
+  mark_empty_items(plan, done);
+  std::uint64_t samples = 0;
+  for (const std::uint64_t i : share_of(plan, done, 0, 1)) {
+    EXPECT_GT(plan.samples(plan.item(i)), 0u);
+    samples += plan.samples(plan.item(i));
+  }
+  EXPECT_EQ(samples, 5000u);
 }
 
 TEST(Queues, KeepEveryRayOfBothKinds) {
