@@ -73,8 +73,12 @@ Ending Rank::run() {
         const Decision decision = decide(*sums);
         if (decision == Decision::checkpoint) write(checkpoint_path(options_.film));
         if (decision == Decision::end) {
-          const Ending ending = ending_of(*sums);
-          if (ending == Ending::finished && goal_.in_rounds && begin_next_round()) continue;
+          Ending ending = ending_of(*sums);
+          if (ending == Ending::finished && goal_.in_rounds) {
+            const std::optional<Ending> end = begin_next_round(stop_of(*sums));
+            if (!end) continue;
+            ending = *end;
+          }
           if (options_.dry_run)
             transport_.sum_to_root(state_.film.counts());
           else
@@ -188,13 +192,14 @@ Rank::Decision Rank::decide(const RoundSums& sums) {
 }
 
 Ending Rank::ending_of(const RoundSums& sums) const {
-  const bool all_done = sums.items_done == static_cast<std::int64_t>(state_.plan.items());
-  // Between two rounds of samples a stop is one.
-  if (all_done && !goal_.in_rounds) return Ending::finished;
+  if (sums.items_done == static_cast<std::int64_t>(state_.plan.items())) return Ending::finished;
+  return stop_of(sums);
+}
+
+Ending Rank::stop_of(const RoundSums& sums) {
   if (sums.terminated > 0) return Ending::terminated;
   if (sums.interrupted > 0) return Ending::interrupted;
-  if (sums.time_is_up > 0) return Ending::time_is_up;
-  return all_done ? Ending::finished : Ending::none;
+  return sums.time_is_up > 0 ? Ending::time_is_up : Ending::none;
 }
 
 void Rank::collect_done() {
@@ -205,8 +210,9 @@ void Rank::collect_done() {
   }
 }
 
-// All items of a round are done and no ray is alive. Returns whether there is another round.
-bool Rank::begin_next_round() {
+// All items of a round are done and no ray is alive. Returns how the render ends: with the last round, or
+// with `stop` where that is one; empty if another round has begun.
+std::optional<Ending> Rank::begin_next_round(Ending stop) {
   collect_done();
   gather_film(transport_, state_.film, done_);
   std::optional<NextRound> next;
@@ -214,7 +220,8 @@ bool Rank::begin_next_round() {
     if (transport_.rank() == 0) next = next_round(state_.film, goal_);
   });
   auto plan = agree_on_round(transport_, next, state_.film, state_.plan);
-  if (!plan) return false;
+  if (!plan) return Ending::finished;
+  if (stop != Ending::none) return stop;
   if (transport_.rank() == 0) progress_.expect(expected_samples(state_.film, goal_));
   {
     const std::lock_guard lock(state_.mutex);
@@ -227,7 +234,7 @@ bool Rank::begin_next_round() {
   }
   state_.work_available.notify_all();
   ++rounds_;
-  return true;
+  return std::nullopt;
 }
 
 void Rank::write(const std::filesystem::path& file) {

@@ -35,9 +35,10 @@ class Rank {
   RoundSums contribution();
   Decision decide(const RoundSums& sums);
   Ending ending_of(const RoundSums& sums) const;
+  static Ending stop_of(const RoundSums& sums);
   void start_items(std::vector<std::uint64_t> done);
   void collect_done();
-  bool begin_next_round();
+  std::optional<Ending> begin_next_round(Ending stop);
   void write(const std::filesystem::path& file);
   void watch_clock();
   void leave_together();

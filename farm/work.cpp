@@ -91,7 +91,7 @@ WorkPlan make_adaptive_round(const PixelRect& crop, std::vector<std::uint32_t> h
 }
 
 void mark_empty_items(const WorkPlan& plan, std::vector<std::uint64_t>& done) {
-  if (!plan.adaptive()) return;
+  if (!plan.adaptive() || plan.items() == 0) return;
   const std::uint64_t a_pass = plan.tiles_x() * plan.tiles_y();
   const int width = plan.crop.x1 - plan.crop.x0;
   for (std::uint64_t tile = 0; tile < a_pass; ++tile) {

@@ -169,6 +169,10 @@ TEST(Work, ItemsWithoutSamplesAreDone) {
     samples += plan.samples(plan.item(i));
   }
   EXPECT_EQ(samples, 5000u);
+  std::vector<std::uint64_t> none;
+  const WorkPlan over = make_adaptive_round(crop, held, std::vector<std::uint32_t>(40 * 30));
+  EXPECT_EQ(over.items(), 0u);
+  mark_empty_items(over, none);
 }
 
 TEST(Queues, KeepEveryRayOfBothKinds) {
