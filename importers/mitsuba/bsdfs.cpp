@@ -10,6 +10,7 @@
 #include "importers/mitsuba/builder.h"
 #include "importers/mitsuba/index_of_refraction.h"
 #include "importers/mitsuba/values.h"
+#include "importers/spectra/greatest_value.h"
 #include "importers/spectra/measured_sheet.h"
 #include "scene/named_spectra.h"
 #include "scene/transmission.h"
@@ -151,16 +152,6 @@ MaterialModel plastic(Builder& b, const Object& o) {
   return m;
 }
 
-double greatest(const SpectrumParameter& parameter) {
-  constexpr double of_texture = 0.8;
-  const auto* value = std::get_if<Spectrum>(&parameter);
-  if (!value) return of_texture;
-  const Spectrum spectrum = resolved(*value);
-  double most = 0;
-  for (double nm = lambda_min_nm; nm <= lambda_max_nm; nm += 5) most = std::max(most, evaluate(spectrum, nm));
-  return most;
-}
-
 SpectrumParameter times(Builder& b, const SpectrumParameter& value, double factor, const Origin& origin) {
   if (const auto* spectrum = std::get_if<Spectrum>(&value)) return scaled(*spectrum, factor);
   b.scene.textures.push_back(
@@ -190,7 +181,7 @@ MaterialModel phong(Builder& b, const Object& o) {
         static_cast<float>(std::sqrt(2 / (std::max(n, 0.0) + 2)));
   }
   constexpr double least = 0.05;
-  const double share = std::clamp(greatest(ks), least, std::max(least, 1 - greatest(kd)));
+  const double share = std::clamp(greatest_value(ks), least, std::max(least, 1 - greatest_value(kd)));
   gloss.reflectance_factor = times(b, ks, 1 / share, o.origin);
   Material base{DiffuseMaterial{times(b, kd, 1 / (1 - share), o.origin)}}, coat{std::move(gloss)};
   base.two_sided = coat.two_sided = false;

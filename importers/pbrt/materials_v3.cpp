@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "importers/pbrt/material_parameters.h"
+#include "importers/spectra/greatest_value.h"
 
 namespace vitrail::pbrt {
 
@@ -60,17 +61,6 @@ SpectrumParameter over(const Maker& m, const SpectrumParameter& a, double diviso
   return times(m, a, Maker::grey(1 / divisor));
 }
 
-// At any wavelength; of a texture, what is likely.
-double greatest(const SpectrumParameter& parameter) {
-  constexpr double of_texture = 0.8;
-  const auto* value = std::get_if<Spectrum>(&parameter);
-  if (!value) return of_texture;
-  const Spectrum spectrum = resolved(*value);
-  double most = 0;
-  for (double nm = lambda_min_nm; nm <= lambda_max_nm; nm += 5) most = std::max(most, evaluate(spectrum, nm));
-  return most;
-}
-
 // v3 adds lobes: a blend of a part Kd/(1 − w) and a part K/w with the share w of the second is Kd + K. Where
 // it can, w is K, as then the second part is that of a coat and not a multiple of it; w leaves the first a
 // reflectance of at most 1.
@@ -104,7 +94,7 @@ MaterialModel diffuse_and_gloss(const Maker& m, const SpectrumParameter& kd, con
                                 const Spectrum& eta, const Roughness& roughness) {
   if (is(ks, 0)) return DiffuseMaterial{kd};
   if (is(kd, 0)) return gloss(m, ks, eta, roughness);
-  const double share = share_of(greatest(kd), greatest(ks));
+  const double share = share_of(greatest_value(kd), greatest_value(ks));
   return blended(m, DiffuseMaterial{over(m, kd, 1 - share)}, gloss(m, over(m, ks, share), eta, roughness),
                  share);
 }
@@ -163,7 +153,8 @@ MaterialModel uber_lobes(const Maker& m, const UberColors& k, const Spectrum& et
     return DielectricMaterial{eta, Maker::grey(1), {}, reflected, over(m, k.kt, weight)};
   };
   if (is(k.kd, 0) && is(k.ks, 0)) return smooth(1);
-  const double share = share_of(greatest(k.kd), std::max(greatest(k.kr), greatest(k.kt)) / 2);
+  const double share =
+      share_of(greatest_value(k.kd), std::max(greatest_value(k.kr), greatest_value(k.kt)) / 2);
   MaterialModel others =
       diffuse_and_gloss(m, over(m, k.kd, 1 - share), over(m, k.ks, 1 - share), eta, roughness);
   return blended(m, std::move(others), smooth(share), share);
@@ -197,7 +188,7 @@ MaterialModel translucent(const Maker& m) {
   };
   if (is(ks, 0)) return diffuse(1);
   if (is(kd, 0)) return rough_glass(1);
-  const double share = share_of(greatest(kd), greatest(ks));
+  const double share = share_of(greatest_value(kd), greatest_value(ks));
   return blended(m, diffuse(1 - share), rough_glass(share), share);
 }
 
