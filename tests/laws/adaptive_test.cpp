@@ -107,22 +107,6 @@ TEST(Adaptive, CoverageIsExact) {
   EXPECT_LT(found.standard_error, 1e-4);
 }
 
-// The inside of a box: noisy everywhere.
-Scene box() {
-  Scene scene;
-  auto faces = box_faces({-1, -1, -1}, {1, 1, 1});
-  for (auto& face : faces) std::swap(face[1], face[3]);  // fronts inwards
-  const Material grey{DiffuseMaterial{ConstantSpectrum{0.6f}}};
-  add_shape(scene, add_quads(scene, faces), grey);
-  add_shape(
-      scene,
-      add_quads(scene, {{{{-.3f, .99f, -.3f}, {.3f, .99f, -.3f}, {.3f, .99f, .3f}, {-.3f, .99f, .3f}}}}),
-      grey, AreaLight{ConstantSpectrum{10}, true});
-  set_camera(scene, {0, 0, -0.95}, {0, 0, 1}, {0, 1, 0}, 1.6, 32, 32);
-  scene.settings.max_depth = 4;
-  return scene;
-}
-
 double relative_error(const Film& film, const std::vector<double>& truth) {
   double sum = 0;
   for (std::uint32_t p = 0; p < film.pixels(); ++p) {
@@ -162,7 +146,7 @@ void expect_target_kept(const Scene& scene, double target) {
   EXPECT_GE(above, 18);
 }
 
-TEST(TargetError, IsKeptInABox) { expect_target_kept(box(), 1e-3); }
+TEST(TargetError, IsKeptInABox) { expect_target_kept(lit_box(32), 1e-3); }
 TEST(TargetError, IsKeptAmongStars) { expect_target_kept(stars(), 0.002); }
 
 }  // namespace

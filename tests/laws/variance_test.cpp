@@ -14,20 +14,11 @@ namespace {
 
 constexpr int side = 24, seeds = 24, block = 6;
 
-// A diffuse box, its lamp and a block: what stratified samples are good at.
+// A lit box and a block: what stratified samples are good at.
 Scene box() {
-  Scene scene;
-  auto faces = box_faces({-1, -1, -1}, {1, 1, 1});
-  for (auto& face : faces) std::swap(face[1], face[3]);  // fronts inwards
-  const Material grey{DiffuseMaterial{ConstantSpectrum{0.6f}}};
-  add_shape(scene, add_quads(scene, faces), grey);
-  add_shape(
-      scene,
-      add_quads(scene, {{{{-.3f, .99f, -.3f}, {.3f, .99f, -.3f}, {.3f, .99f, .3f}, {-.3f, .99f, .3f}}}}),
-      grey, AreaLight{ConstantSpectrum{10}, true});
-  add_shape(scene, add_quads(scene, box_faces({-.5f, -1, 0}, {.1f, .1f, .6f})), grey);
-  set_camera(scene, {0, 0, -0.95}, {0, 0, 1}, {0, 1, 0}, 1.6, side, side);
-  scene.settings.max_depth = 4;
+  Scene scene = lit_box(side);
+  add_shape(scene, add_quads(scene, box_faces({-.5f, -1, 0}, {.1f, .1f, .6f})),
+            Material{DiffuseMaterial{ConstantSpectrum{0.6f}}});
   return scene;
 }
 

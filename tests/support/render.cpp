@@ -85,4 +85,19 @@ Brightness brightness(const Film& film) {
   return result;
 }
 
+Scene lit_box(int side) {
+  Scene scene;
+  auto faces = box_faces({-1, -1, -1}, {1, 1, 1});
+  for (auto& face : faces) std::swap(face[1], face[3]);  // fronts inwards
+  const Material grey{DiffuseMaterial{ConstantSpectrum{0.6f}}};
+  add_shape(scene, add_quads(scene, faces), grey);
+  add_shape(
+      scene,
+      add_quads(scene, {{{{-.3f, .99f, -.3f}, {.3f, .99f, -.3f}, {.3f, .99f, .3f}, {-.3f, .99f, .3f}}}}),
+      grey, AreaLight{ConstantSpectrum{10}, true});
+  set_camera(scene, {0, 0, -0.95}, {0, 0, 1}, {0, 1, 0}, 1.6, side, side);
+  scene.settings.max_depth = 4;
+  return scene;
+}
+
 }  // namespace vitrail::test

@@ -27,6 +27,8 @@ void add_shape(Scene& scene, Id<TriangleMesh> mesh, const Material& material,
 
 // The six faces of a box, fronts outwards.
 std::vector<std::array<Point3f, 4>> box_faces(Point3f lower, Point3f upper);
+// The inside of a grey box with a lamp under its ceiling, `side` pixels square: noisy everywhere.
+Scene lit_box(int side);
 
 // Mean Y of all pixels, and the standard error of that mean.
 struct Brightness {
