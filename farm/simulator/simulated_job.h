@@ -89,7 +89,7 @@ class SimulatedJob {
 
  private:
   struct Event {
-    enum class Kind { task_done, load_done, message, round_begins, round_ends, send_is_due, checkpoint };
+    enum class Kind { task_done, load_done, message, round_begins, round_ends, checkpoint };
     Kind kind = Kind::task_done;
     int rank = 0;
     std::uint32_t domain = 0;  // of a message or a load
@@ -112,7 +112,6 @@ class SimulatedJob {
   struct Rank {
     Rank(SchedulerType s, std::size_t domains, std::size_t threads)
         : scheduler(std::move(s)), queues(domains), workers(threads) {
-      waiting = static_cast<int>(threads);
       for (std::size_t i = 0; i < threads; ++i) scheduler.worker_waits();
     }
     SchedulerType scheduler;
@@ -126,8 +125,7 @@ class SimulatedJob {
     std::uint64_t evictions = 0, bytes = 0;  // bytes mapped or reserved
     std::uint64_t on_the_way = 0;            // bytes of the load
     std::uint32_t on_its_way = 0;            // its domain
-    bool loading = false, in_round = false, ended = false, wants_checkpoint = false;
-    int waiting = 0;  // workers
+    bool loading = false, ended = false, wants_checkpoint = false;
     std::uint64_t items = 0;
     int rounds_of_samples = 0;  // done
     double busy_s = 0, loading_s = 0, sending_s = 0;
@@ -138,7 +136,6 @@ class SimulatedJob {
   struct Round {
     int joined = 0;
     RoundSums sums;
-    double last = 0;
   };
 
   [[noreturn]] void broken(const std::string& what) const {
@@ -170,8 +167,6 @@ class SimulatedJob {
         return begin_round(e.rank);
       case Event::Kind::round_ends:
         return end_round(e.rank);
-      case Event::Kind::send_is_due:
-        return send(e.rank);
       case Event::Kind::checkpoint:
         r.wants_checkpoint = !r.ended;
         return;
@@ -181,7 +176,7 @@ class SimulatedJob {
   // --- workers
   void wake_workers(int rank) {
     Rank& r = ranks_[static_cast<std::size_t>(rank)];
-    for (std::size_t i = 0; i < r.workers.size() && r.waiting > 0; ++i)
+    for (std::size_t i = 0; i < r.workers.size() && r.scheduler.workers_waiting() > 0; ++i)
       if (r.workers[i].work == SchedulerType::Work::none && !begin_task(rank, i)) break;
     wake_loader(rank);
   }
@@ -192,7 +187,6 @@ class SimulatedJob {
     const auto task = r.scheduler.next_task();
     if (task.work == SchedulerType::Work::none) return false;
     r.scheduler.worker_wakes();
-    --r.waiting;
     w.work = task.work;
     w.began = r.evictions;
     w.generated = w.born = w.died = 0;
@@ -269,7 +263,6 @@ class SimulatedJob {
     generated_ += w.generated;
     w.work = SchedulerType::Work::none;
     r.scheduler.worker_waits();
-    ++r.waiting;
     release(r);
     send(rank);
     wake_workers(rank);
@@ -313,6 +306,7 @@ class SimulatedJob {
     if (step.load) r.bytes += r.on_the_way;
     r.most_bytes = std::max(r.most_bytes, r.bytes);
     release(r);
+    if (step.load || !step.evicted.empty()) check_table(rank);
     if (!step.evicted.empty() && !step.load) wake_loader(rank);
   }
 
@@ -349,6 +343,7 @@ class SimulatedJob {
     r.loading = false;
     r.table.insert(domain);
     r.scheduler.loaded(domain);
+    check_table(rank);
     wake_workers(rank);
   }
 
@@ -441,13 +436,16 @@ class SimulatedJob {
     const Residency& residency = r.scheduler.residency();
     if (r.bytes != residency.held_bytes())
       broken(fmt::format("rank {} holds {} bytes and counts {}", rank, r.bytes, residency.held_bytes()));
-    std::set<std::uint32_t> table = r.table;
-    if (r.loading) table.insert(r.on_its_way);
-    if (const std::uint64_t bytes = bytes_of(table); bytes != residency.table_bytes())
-      broken(fmt::format("rank {} has {} bytes in its table and counts {}", rank, bytes,
-                         residency.table_bytes()));
     if (r.bytes > machine_.domain_bytes)
       broken(fmt::format("rank {} holds {} bytes of {}", rank, r.bytes, machine_.domain_bytes));
+  }
+  void check_table(int rank) const {
+    const Rank& r = ranks_[static_cast<std::size_t>(rank)];
+    std::set<std::uint32_t> table = r.table;
+    if (r.loading) table.insert(r.on_its_way);
+    const std::uint64_t bytes = bytes_of(table), counted = r.scheduler.residency().table_bytes();
+    if (bytes != counted)
+      broken(fmt::format("rank {} has {} bytes in its table and counts {}", rank, bytes, counted));
   }
   void check_queue(int rank, std::uint32_t domain) const {
     const Rank& r = ranks_[static_cast<std::size_t>(rank)];
