@@ -85,7 +85,7 @@ void declare(CLI::App& app, RenderArguments& a) {
   app.add_flag("--dry-run", o.dry_run,
                "render for a few seconds, write nothing, and say what memory and time it would all take");
   app.add_option("--stats", o.stats, "write statistics as JSON");
-  app.add_option("--profile", o.profile, "write where rays went, for `partition --profile`");
+  app.add_option("--profile", o.profile, "write where rays went, for `partition --profile` and `plan`");
   declare_import_options(app, a.imports);
   declare_mesh_options(app, a.meshes);
   app.add_option("--progress", a.progress,

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <random>
 #include <set>
 
 #include "farm/memory.h"
@@ -208,6 +209,57 @@ TEST(WireSizes, FramingIncluded) {
   while (!shadows.full()) shadows.append(ShadowRecord{});
   EXPECT_LE(static_cast<double>(paths.bytes().size()) / static_cast<double>(paths.count()), 64);
   EXPECT_LE(static_cast<double>(shadows.bytes().size()) / static_cast<double>(shadows.count()), 48);
+}
+
+TEST(Wire, WhatIsNoBatchIsSeen) {
+  RayBatch batch(2, RayKind::path);
+  EXPECT_FALSE(batch.is_whole(3)) << "without rays";
+  batch.append(PathRecord{});
+  EXPECT_TRUE(batch.is_whole(3));
+  EXPECT_FALSE(batch.is_whole(2)) << "a domain that is none";
+  std::vector<std::byte> bytes = batch.bytes();
+  bytes.pop_back();
+  EXPECT_FALSE(RayBatch(bytes).is_whole(3)) << "a part of a ray";
+  bytes = batch.bytes();
+  bytes[4] = std::byte{7};
+  EXPECT_FALSE(RayBatch(bytes).is_whole(3)) << "a kind that is none";
+  EXPECT_FALSE(RayBatch(std::vector<std::byte>(3)).is_whole(3));
+}
+
+// Exact of a few, within a factor of two of many.
+TEST(Fullest, FindsMostAndFewest) {
+  std::mt19937 random(3);
+  for (const std::uint32_t domains : {1u, 5u, 60u, 1000u}) {
+    Fullest fullest(domains);
+    std::vector<std::uint64_t> rays(domains);
+    std::vector<bool> in(domains);
+    EXPECT_FALSE(fullest.most());
+    EXPECT_FALSE(fullest.fewest());
+    for (int step = 0; step < 3000; ++step) {
+      const std::uint32_t d = random() % domains;
+      if (!in[d]) {
+        fullest.insert(d, rays[d] = random() % 100);
+        in[d] = true;
+      } else if (random() % 4 == 0) {
+        fullest.erase(d);
+        in[d] = false;
+      } else {
+        fullest.set(d, rays[d] = random() % 5000);
+      }
+      std::uint64_t most = 0, fewest = ~std::uint64_t{0};
+      for (std::uint32_t e = 0; e < domains; ++e)
+        if (in[e]) most = std::max(most, rays[e]), fewest = std::min(fewest, rays[e]);
+      ASSERT_EQ(fullest.most().has_value(), most > 0);
+      ASSERT_EQ(fullest.fewest().has_value(), fewest != ~std::uint64_t{0});
+      const std::uint64_t factor = domains <= Fullest::looked_at ? 1 : 2;
+      if (most > 0) {
+        EXPECT_GE(factor * rays[*fullest.most()], most);
+      }
+      if (fullest.fewest()) {
+        EXPECT_LE(rays[*fullest.fewest()], factor * fewest);
+      }
+    }
+  }
 }
 
 TEST(Memory, BudgetIsSharedOutOrRefused) {

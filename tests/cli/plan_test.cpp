@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <fstream>
+#include <map>
+
+#include "tests/support/command.h"
+#include "tests/support/temporary_directory.h"
+
+namespace vitrail::test {
+namespace {
+
+using ::testing::HasSubstr;
+
+class Plan : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    ASSERT_EQ(make("box.vit", 8), 0);
+    ASSERT_EQ(render("box.json", "", 1).status, 0);
+  }
+  int make(const std::string& bundle, int domains) const {
+    return run(fmt::format("{} '{}/examples/cornell-box/cornell-box.pbrt' -o '{}' --domains {}",
+                           vitrail("partition"), VITRAIL_SOURCE_DIR, path(bundle), domains))
+        .status;
+  }
+  CommandResult render(const std::string& profile, const std::string& options, int ranks) const {
+    return run(
+        fmt::format("{} '{}' -o '{}' --force --quiet --spp 4 --crop 0,64,0,64 --threads 1 --stats '{}' "
+                    "--profile '{}' {}",
+                    ranks > 1 ? mpi_vitrail("render", ranks) : vitrail("render"), path("box.vit"),
+                    path("a.film"), path("stats.json"), path(profile), options));
+  }
+  CommandResult plan(const std::string& bundle, const std::string& options) const {
+    return run(
+        fmt::format("{} '{}' --profile '{}' {}", vitrail("plan"), path(bundle), path("box.json"), options));
+  }
+  std::string path(const std::string& name) const { return (directory_ / name).string(); }
+  TemporaryDirectory directory_;
+};
+
+// Every ray that is traced in a domain came from somewhere: on one rank with everything in memory, and on two
+// with little.
+TEST_F(Plan, ProfilesCountEveryRayOnItsWay) {
+  ASSERT_EQ(render("two.json", "--domain-memory 1", 2).status, 0);
+  for (const char* name : {"box.json", "two.json"}) {
+    const nlohmann::json profile = read_json(path(name));
+    std::map<int, std::uint64_t> arrived;
+    std::uint64_t entered = 0;
+    for (const auto& way : profile["ways"]) {
+      arrived[way[1].get<int>()] += way[2].get<std::uint64_t>();
+      if (way[0] == -1) entered += way[2].get<std::uint64_t>();
+    }
+    for (std::size_t d = 0; d < profile["domains"].size(); ++d)
+      EXPECT_EQ(profile["domains"][d][0], arrived[static_cast<int>(d)]) << name << ' ' << d;
+    EXPECT_EQ(profile["cost"]["camera_rays"], 64 * 64 * 4);
+    EXPECT_LE(entered, 64u * 64 * 4) << name;
+    EXPECT_GT(entered, 0u);
+    EXPECT_GT(profile["cost"]["trace_s"].get<double>(), 0);
+  }
+}
+
+// One rank takes what was recorded, more take their share, and the picture is drawn.
+TEST_F(Plan, SharesTheRecordedWork) {
+  const CommandResult planned =
+      plan("box.vit", fmt::format("--threads 1 --ranks 1,2 --times 50 --json --svg '{}'", path("plan.svg")));
+  ASSERT_EQ(planned.status, 0) << planned.output;
+  const nlohmann::json points = nlohmann::json::parse(planned.output)["plan"];
+  ASSERT_EQ(points.size(), 2u);
+  const double recorded = 50 * read_json(path("box.json"))["cost"]["trace_s"].get<double>();
+  EXPECT_NEAR(points[0]["seconds"].get<double>(), recorded, .1 * recorded);
+  EXPECT_NEAR(points[1]["seconds"].get<double>(), recorded / 2, .1 * recorded);
+  EXPECT_GT(points[0]["efficiency"].get<double>(), .9);
+  EXPECT_EQ(points[0]["limit"], "work");
+  std::ifstream svg(path("plan.svg"));
+  EXPECT_THAT(std::string(std::istreambuf_iterator<char>(svg), {}), HasSubstr("</svg>"));
+  const CommandResult table = plan("box.vit", "--threads 1 --ranks 1,4");
+  EXPECT_EQ(table.status, 0);
+  EXPECT_THAT(table.output, HasSubstr("limited by"));
+}
+
+TEST_F(Plan, RefusesTheProfileOfAnotherBundle) {
+  ASSERT_EQ(make("other.vit", 4), 0);
+  const CommandResult planned = plan("other.vit", "");
+  EXPECT_EQ(planned.status, 3);
+  EXPECT_THAT(planned.output, HasSubstr("other domains"));
+  EXPECT_EQ(plan("box.vit", "--ranks 0").status, 2);
+  EXPECT_EQ(plan("box.vit", "--memory 1M").status, 4);
+}
+
+}  // namespace
+}  // namespace vitrail::test
