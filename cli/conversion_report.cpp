@@ -161,6 +161,7 @@ ConversionCounts count(const std::vector<ConversionItem>& items) {
 
 void write_conversion_report(const std::filesystem::path& file, const std::filesystem::path& in,
                              const std::filesystem::path& out, const std::string& quadrics,
+                             const nlohmann::ordered_json& pictures,
                              const std::vector<ConversionItem>& items) {
   const ConversionCounts counts = count(items);
   Json report{{"input", in.string()},
@@ -168,8 +169,9 @@ void write_conversion_report(const std::filesystem::path& file, const std::files
               {"quadrics", quadrics},
               {"exact", counts.exact},
               {"approximated", counts.approximated},
-              {"dropped", counts.dropped},
-              {"items", Json::array()}};
+              {"dropped", counts.dropped}};
+  if (!pictures.is_null()) report["pictures"] = pictures;
+  report["items"] = Json::array();
   for (const ConversionItem& item : items) {
     Json entry{{"item", item.what}, {"fidelity", item.notes.empty() ? "exact" : word(worst(item.notes))}};
     put_place(entry, item.location);

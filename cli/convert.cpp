@@ -3,8 +3,11 @@
 
 #include <algorithm>
 #include <iterator>
+#include <thread>
 
+#include "cli/check_conversion.h"
 #include "cli/conversion_report.h"
+#include "cli/convert_many.h"
 #include "cli/diagnostics_report.h"
 #include "cli/import_options.h"
 #include "cli/main_guard.h"
@@ -20,16 +23,31 @@ namespace vitrail {
 namespace {
 
 struct Arguments {
+  std::vector<std::filesystem::path> files;
   std::filesystem::path input, output, report;
-  bool strict = false, quiet = false;
+  std::string format;
+  int at_once = 0;
+  bool strict = false, quiet = false, check = false, again = false;
   ImportArguments imports;
   MeshOptions meshes;
 };
 
 void declare(CLI::App& app, Arguments& a) {
-  app.add_option("input", a.input, "scene file: .pbrt, .xml, .obj, .ply")->required();
-  app.add_option("output,-o,--output", a.output, "scene file: .pbrt (v4), .xml (Mitsuba 3), .pov, .obj, .ply")
+  app.add_option(
+         "files", a.files,
+         "a scene (.pbrt, .xml, .obj, .ply) and what it becomes (.pbrt: v4, .xml: Mitsuba 3, .pov, .obj, "
+         ".ply); with --to: scenes, and folders that are searched for them")
       ->required();
+  app.add_option("-o,--output", a.output, "what the scene becomes; with --to: the folder for all");
+  app.add_option("--to", a.format,
+                 "pbrt, xml, pov, obj or ply: convert many, each with NAME.report.json beside it; those that "
+                 "are done already are left out")
+      ->check(CLI::IsMember({"pbrt", "xml", "pov", "obj", "ply"}));
+  app.add_option("-j,--jobs", a.at_once, "with --to: so many at once; default: all cores")
+      ->check(CLI::Range(1, 4096));
+  app.add_flag("--again", a.again, "with --to: also those that are done already");
+  app.add_flag("--check", a.check,
+               "render the scene before and after, small, and exit with status 1 if they look different");
   app.add_option("--report", a.report, "write what became of each item as JSON");
   declare_import_options(app, a.imports);
   declare_mesh_options(app, a.meshes);
@@ -55,9 +73,17 @@ void note_referenced_files(const Scene& scene) {
   for (const Light& light : scene.lights) std::visit(note, light.model);
 }
 
+// The words of a command line for what else becomes of the scene, whoever renders it.
+std::vector<std::string> reading_options(const Arguments& a) {
+  std::vector<std::string> words = arguments_of(a.imports);
+  std::ranges::move(arguments_of(a.meshes), std::back_inserter(words));
+  return words;
+}
+
 // With --strict nothing is written where the input is not read exactly already.
 int run(const Arguments& a) {
   require_export_format(a.output);
+  if (a.check) require_checkable(a.output);
   note_input(a.input);
   require_outputs(a);
   ImportedScene imported = import_scene(a.input, MeshMemory{}, {}, import_options(a.imports));
@@ -74,16 +100,41 @@ int run(const Arguments& a) {
   const bool exact = diagnostics.empty();
   std::ranges::move(edits, std::back_inserter(diagnostics));
   const std::vector<ConversionItem> items = conversion_items(imported.scene, diagnostics);
-  if (!a.report.empty()) write_conversion_report(a.report, a.input, a.output, quadrics, items);
+  nlohmann::ordered_json pictures;
+  if (a.check && !refused)
+    pictures = compare_pictures(a.input, reading_options(a), a.output, imported.scene.film);
+  if (!a.report.empty()) write_conversion_report(a.report, a.input, a.output, quadrics, pictures, items);
   if (!a.quiet) {
     fmt::print(stderr, "{}", summarise(diagnostics));
     const ConversionCounts counts = count(items);
     fmt::print("{}: {} items exact, {} approximated, {} dropped\n",
                refused ? "not written" : a.output.string(), counts.exact, counts.approximated,
                counts.dropped);
+    if (!pictures.is_null()) fmt::print("{}\n", pictures_in_words(pictures));
   }
   if (a.strict && !exact) require_exact(diagnostics);
-  return exit_done;
+  return pictures.is_null() || pictures.at("passed").get<bool>() ? exit_done : exit_differs;
+}
+
+int run_many(const Arguments& a) {
+  if (a.output.empty()) throw UsageError("--to needs the folder for all: -o FOLDER");
+  if (!a.report.empty()) throw UsageError("--to gives every scene its report: leave --report out");
+  ManyConversions many{a.files, a.output, a.format, a.at_once, a.again, a.check, a.quiet, reading_options(a)};
+  if (many.at_once == 0) many.at_once = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  if (a.strict) many.options.push_back("--strict");
+  return convert_many(many);
+}
+
+int run_one(Arguments a) {
+  if (a.again || a.at_once != 0) throw UsageError("--again and --jobs belong to --to");
+  if (a.output.empty() && a.files.size() == 2) {
+    a.output = a.files.back();
+    a.files.pop_back();
+  }
+  if (a.files.size() != 1 || a.output.empty())
+    throw UsageError("takes a scene and what it becomes, or scenes, --to FORMAT and -o FOLDER");
+  a.input = a.files.front();
+  return run(a);
 }
 
 }  // namespace
@@ -94,5 +145,6 @@ int main(int argc, char** argv) {
   CLI::App app("converts a scene from one format to another, and says what is not exact", "vitrail convert");
   Arguments arguments;
   declare(app, arguments);
-  return run_guarded(app, argc, argv, [&] { return run(arguments); });
+  return run_guarded(app, argc, argv,
+                     [&] { return arguments.format.empty() ? run_one(arguments) : run_many(arguments); });
 }

@@ -123,5 +123,62 @@ TEST_F(Convert, MistakesHaveTheirStatus) {
   EXPECT_EQ(convert(in + " /proc/none/out.xml").status, 4);
 }
 
+TEST_F(Convert, ManyScenesBecomeOneFormat) {
+  std::filesystem::create_directories(folder_ / "in/deep");
+  const std::string scene = "Film \"rgb\"\nWorldBegin\nLightSource \"infinite\"\nInclude \"part.pbrt\"\n";
+  write("in/a.pbrt", scene);
+  write("in/part.pbrt", triangle_);  // no scene of its own
+  write("in/deep/b.pbrt", "WorldBegin\n" + triangle_);
+  write("in/deep/broken.pbrt", "WorldBegin\nShape\n");
+  const std::string command = path("in") + " --to xml -o " + path("out");
+  const auto result = convert(command);
+  EXPECT_EQ(result.status, 3) << result.output;
+  EXPECT_THAT(result.output, HasSubstr("broken.pbrt:"));
+  EXPECT_THAT(result.output, HasSubstr("3 scenes: 2 converted, 0 that look different, 1 refused, 0 failed"));
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "out/a.xml"));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "out/part.xml"));
+  EXPECT_EQ(test::read_json(folder_ / "out/deep/b.report.json").at("dropped"), 0);
+
+  std::filesystem::remove(folder_ / "out/a.report.json");  // as if it had been ended there
+  write("in/deep/broken.pbrt", "WorldBegin\n" + triangle_);
+  const auto again = convert(command);
+  EXPECT_EQ(again.status, 0) << again.output;
+  EXPECT_THAT(again.output, HasSubstr("b.xml: converted already"));
+  EXPECT_THAT(again.output, ::testing::Not(HasSubstr("a.xml: converted already")));
+  EXPECT_THAT(convert(command + " --again").output, ::testing::Not(HasSubstr("already")));
+}
+
+TEST_F(Convert, ScenesOfOneNameKeepTheirExtensions) {
+  write("in.pbrt", "WorldBegin\n" + triangle_);
+  write("in.xml", "<scene version=\"3.0.0\"><sensor type=\"perspective\"/><shape type=\"cube\"/></scene>");
+  const auto result = convert(path("in.pbrt") + " " + path("in.xml") + " --to pbrt -o " + path("out"));
+  EXPECT_EQ(result.status, 0) << result.output;
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "out/in.pbrt.pbrt"));
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "out/in.xml.pbrt"));
+  EXPECT_EQ(convert(path("in.pbrt") + " " + path("in.pbrt") + " --to xml -o " + path("out")).status, 2);
+}
+
+TEST_F(Convert, ACheckSeesWhatLooksDifferent) {
+  const std::string light =
+      "Film \"rgb\" \"integer xresolution\" 48 \"integer yresolution\" 48\nCamera "
+      "\"perspective\"\nWorldBegin\n"
+      "LightSource \"infinite\"\nTranslate 0 0 3\n";
+  const std::string same = write("same.pbrt", light + "Material \"diffuse\"\nShape \"sphere\"\n");
+  const auto good = convert(same + " " + path("same.xml") + " --check --report " + path("report.json"));
+  EXPECT_EQ(good.status, 0) << good.output;
+  EXPECT_THAT(good.output, HasSubstr("looks the same"));
+  EXPECT_EQ(test::read_json(path("report.json")).at("pictures").at("passed"), true);
+
+  // Mitsuba's media do not shine.
+  const std::string glow =
+      write("glow.pbrt", light +
+                             "MakeNamedMedium \"m\" \"string type\" \"homogeneous\" \"rgb Le\" [5 5 5]\n"
+                             "MediumInterface \"m\" \"\"\nMaterial \"interface\"\nShape \"sphere\"\n");
+  const auto bad = convert(glow + " " + path("glow.xml") + " --check");
+  EXPECT_EQ(bad.status, 1) << bad.output;
+  EXPECT_THAT(bad.output, HasSubstr("looks different"));
+  EXPECT_EQ(convert(same + " " + path("same.pov") + " --check").status, 2);
+}
+
 }  // namespace
 }  // namespace vitrail

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// Many scenes into one format: each by a `vitrail convert` of its own, several at once.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace vitrail {
+
+struct ManyConversions {
+  std::vector<std::filesystem::path> inputs;  // files and folders
+  std::filesystem::path folder;               // below it what is below a folder of `inputs`
+  std::string format;                         // "xml": the extension
+  int at_once = 1;
+  bool again = false;  // also what is converted already
+  bool check = false, quiet = false;
+  std::vector<std::string> options;  // of each
+};
+
+// Beside each output comes its report, NAME.report.json, last: a scene whose report is younger than its own
+// file is converted already, and the rest of a list that was interrupted is what is left. What one scene is
+// refused for does not keep the others. Returns the exit status that is the worst of all: machine, bad input,
+// differs, done.
+int convert_many(const ManyConversions& many);
+
+}  // namespace vitrail

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// The plugins and parameters of a format, each once, from the .txt files of this folder.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace vitrail::test {
+
+struct PluginCase {
+  std::string name;                     // Material "mix"; bsdf mask
+  std::string needs;                    // what it cannot be without
+  std::vector<std::string> parameters;  // as they stand in a file
+};
+
+std::vector<PluginCase> read_cases(const std::filesystem::path& file);
+
+// What a table calls a parameter: "float fov".
+std::string parameter_name(const std::string& parameter);
+
+enum class SceneFormat { pbrt_v3, pbrt_v4, mitsuba_06, mitsuba_3 };
+
+// A scene in which a plugin with `parameters` is seen: a sphere of its material, or with its texture, medium,
+// light …; of "", the scene around it.
+std::string host_scene(SceneFormat format, const PluginCase& plugin, const std::string& parameters);
+
+// The images, meshes, volumes and tables that the cases name.
+void write_case_files(const std::filesystem::path& folder);
+
+}  // namespace vitrail::test
