@@ -43,7 +43,10 @@ TextureModel bitmap(Builder& b, const Object& o, bool) {
                  : filter == "trilinear" ? TextureFilter::trilinear
                  : filter == "ewa"       ? TextureFilter::anisotropic
                                          : TextureFilter::bilinear;
-  const std::string wrap = o.text("wrap_mode", "repeat", b.report);
+  const std::string both = o.text("wrap_mode", "repeat", b.report);
+  const std::string wrap = o.text("wrap_mode_u", both, b.report);  // 0.6 has one for each direction
+  if (const std::string v = o.text("wrap_mode_v", both, b.report); v != wrap)
+    b.report.approximated(fmt::format("wrap_mode_v \"{}\" becomes \"{}\" as in u", v, wrap), o.origin);
   if (wrap == "mirror") image.wrap = Wrap::mirror;
   if (wrap == "clamp") image.wrap = Wrap::clamp;
   if (wrap != "mirror" && wrap != "clamp" && wrap != "repeat")
@@ -103,9 +106,9 @@ TextureModel make_model(Builder& b, const Object& o, bool as_float) {
     names.emplace_back(kind.name);
     if (o.type != kind.name) continue;
     TextureModel model = kind.make(b, o, as_float);
-    report_unused(
-        o, b.report,
-        {"filename", "filter_type", "wrap_mode", "raw", "to_uv", "color0", "color1", "name", "scale"});
+    report_unused(o, b.report,
+                  {"filename", "filter_type", "wrap_mode", "wrap_mode_u", "wrap_mode_v", "raw", "to_uv",
+                   "color0", "color1", "name", "scale"});
     return model;
   }
   const std::string closest = closest_word(o.type, names);

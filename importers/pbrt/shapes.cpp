@@ -365,7 +365,10 @@ void ShapeMaker::report_shadow_alpha(ParameterSet& parameters) {
 
 std::vector<ShapeGeometry> ShapeMaker::make(const std::string& kind, ParameterSet& parameters,
                                             bool uvs_show) {
-  parameters.ignore({"S", "faceIndices"});
+  parameters.ignore({"faceIndices"});
+  if (const Parameter* tangents = parameters.find_list("S"))
+    context_.report.approximated("the tangents \"S\" of vertices: brushed materials follow (u,v)",
+                                 tangents->place);
   report_shadow_alpha(parameters);
   std::vector<ShapeGeometry> made;
   const auto take = [&](std::optional<ShapeGeometry> geometry) {
@@ -383,13 +386,19 @@ std::vector<ShapeGeometry> ShapeMaker::make(const std::string& kind, ParameterSe
     take(loop_subdivision(parameters, uvs_show));
   else if (kind == "sphere" || kind == "disk" || kind == "cylinder" || kind == "cone" || kind == "paraboloid")
     take(quadric(kind, parameters));
+  else if (kind == "heightfield")
+    take(heightfield(parameters));
+  else if (kind == "hyperboloid")
+    take(hyperboloid(parameters));
+  else if (kind == "nurbs")
+    take(nurbs(parameters));
   if (!made.empty() || kind == "curve" || kind == "plymesh") {
     parameters.report_unused(context_.report);
     return made;
   }
   const std::string closest =
       closest_word(kind, {"trianglemesh", "plymesh", "bilinearmesh", "loopsubdiv", "curve", "sphere", "disk",
-                          "cylinder", "cone", "paraboloid"});
+                          "cylinder", "cone", "paraboloid", "heightfield", "hyperboloid", "nurbs"});
   context_.report.dropped(fmt::format("shape \"{}\" is not supported{}", kind,
                                       closest.empty() ? "" : fmt::format("; did you mean \"{}\"?", closest)),
                           parameters.place());

@@ -42,6 +42,9 @@ class ShapeMaker {
   ShapeGeometry bilinear_mesh(ParameterSet& parameters, bool uvs_show);
   ShapeGeometry loop_subdivision(ParameterSet& parameters, bool uvs_show);
   std::optional<ShapeGeometry> curve(ParameterSet& parameters);
+  ShapeGeometry heightfield(ParameterSet& parameters);
+  ShapeGeometry hyperboloid(ParameterSet& parameters);
+  ShapeGeometry nurbs(ParameterSet& parameters);
   ShapeGeometry quadric(const std::string& kind, ParameterSet& parameters);
   static SizedQuadric sized_quadric(const std::string& kind, ParameterSet& parameters);
   Id<TriangleMesh> add(TriangleMesh mesh);

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Shapes and, above all, which side of them is the front.
+#include <fmt/format.h>
+
+#include <cmath>
 #include <numbers>
 
 #include "importers/pbrt/pbrt.h"
@@ -135,7 +138,8 @@ TEST(PbrtShapes, MeshesKeepTheirVertices) {
   const ImportedScene imported = import_v3(
       "Shape \"trianglemesh\" \"point P\" [0 0 0 1 0 0 0 1 .5] \"float uv\" [0 0 1 0 0 1] "
       "\"integer indices\" [2 0 1] \"vector S\" [1 0 0 1 0 0 1 0 0]");
-  expect_no_diagnostics(imported);
+  EXPECT_EQ(imported.diagnostics.size(), 1U);
+  EXPECT_TRUE(mentions(imported.diagnostics, "tangents"));
   const TriangleMesh& mesh = imported.scene.meshes.at(0);
   EXPECT_EQ(mesh.positions, (std::vector<Point3f>{{0, 0, 0}, {1, 0, 0}, {0, 1, .5f}}));
   EXPECT_EQ(mesh.uvs, (std::vector<Point2f>{{0, 0}, {1, 0}, {0, 1}}));
@@ -213,11 +217,11 @@ TEST(PbrtShapes, QuadricsAreKept) {
 }
 
 TEST(PbrtShapes, UnknownOnesAreReported) {
-  const ImportedScene imported = import_v4("Shape \"nurbs\"");
+  const ImportedScene imported = import_v4("Shape \"teapot\"");
   EXPECT_TRUE(imported.scene.shapes.empty());
   ASSERT_EQ(imported.diagnostics.size(), 1u);
   EXPECT_EQ(imported.diagnostics[0].fidelity, Fidelity::dropped);
-  EXPECT_THAT(imported.diagnostics[0].message, ::testing::HasSubstr("nurbs"));
+  EXPECT_THAT(imported.diagnostics[0].message, ::testing::HasSubstr("teapot"));
 }
 
 // The power is that of a surface of this area in the world.
@@ -294,6 +298,60 @@ TEST(PbrtQuadrics, ManyInARowBecomePlaces) {
   }
   ASSERT_EQ(all.size(), std::size_t{count});
   for (std::size_t i = 0; i < count; ++i) EXPECT_EQ(all[i], one_by_one.shapes[i].object_to_world) << i;
+}
+
+TEST(PbrtShapes, AHeightfieldIsAGridOverTheUnitSquare) {
+  const ImportedScene read =
+      import_v3("Shape \"heightfield\" \"integer nu\" 3 \"integer nv\" 2 \"float Pz\" [0 1 2 3 4 5]");
+  expect_no_diagnostics(read);
+  const TriangleMesh& mesh = read.scene.meshes.at(0);
+  ASSERT_EQ(mesh.positions.size(), 6U);
+  EXPECT_EQ(mesh.positions[5], (Point3f{1, 1, 5}));
+  EXPECT_EQ(mesh.positions[1], (Point3f{0.5F, 0, 1}));
+  EXPECT_EQ(mesh.uvs[4], (Point2f{0.5F, 1}));
+  EXPECT_EQ(mesh.triangles.size(), 4U);
+  EXPECT_GT(front(read.scene, read.scene.shapes.at(0)).z, 0);
+  EXPECT_THROW(import_v3("Shape \"heightfield\" \"integer nu\" 3 \"integer nv\" 2 \"float Pz\" [0 1]"),
+               Error);
+}
+
+// A quarter of a cylinder is a rational spline of degree 2: its points have the radius, its normals point
+// outwards.
+TEST(PbrtShapes, ANurbsArcIsRound) {
+  const std::string arc =
+      "Shape \"nurbs\" \"integer nv\" 2 \"integer vorder\" 2 \"float vknots\" [0 0 1 1]"
+      " \"integer nu\" 3 \"integer uorder\" 3 \"float uknots\" [0 0 0 1 1 1] \"float Pw\" [";
+  const double w = std::numbers::sqrt2 / 2;
+  const std::string row = fmt::format("1 0 0 1 {0} {0} 0 {0} 0 1 0 1 ", w),
+                    above = fmt::format("1 0 2 1 {0} {0} {1} {0} 0 1 2 1]", w, 2 * w);
+  const ImportedScene read = import_v3(arc + row + above);
+  expect_no_diagnostics(read);
+  const TriangleMesh& mesh = read.scene.meshes.at(0);
+  ASSERT_EQ(mesh.positions.size(), 900U);
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+    const Point3d p = cast<double>(mesh.positions[i]);
+    const Normal3f n = mesh.normals[i];
+    EXPECT_NEAR(std::hypot(p.x, p.y), 1, 1e-6);
+    EXPECT_NEAR(n.x, p.x, 1e-6);
+    EXPECT_NEAR(n.y, p.y, 1e-6);
+  }
+  EXPECT_EQ(mesh.positions.back(), (Point3f{0, 1, 2}));
+  EXPECT_THROW(import_v3(arc + row + "]"), Error);
+}
+
+// x² + y² − z² = 1 is swept by the line from (1,−1,−1) to (1,1,1).
+TEST(PbrtShapes, AHyperboloidIsWhatALineSweeps) {
+  const ImportedScene read =
+      import_v3("Shape \"hyperboloid\" \"point p1\" [1 -1 -1] \"point p2\" [1 1 1] \"float phimax\" 180");
+  EXPECT_TRUE(mentions(read.diagnostics, "a hyperboloid becomes triangles"));
+  const TriangleMesh& mesh = read.scene.meshes.at(0);
+  EXPECT_EQ(mesh.triangles.size(), 2U * 128 * 64);
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+    const Point3d p = cast<double>(mesh.positions[i]);
+    const Vector3d gradient{p.x, p.y, -p.z}, n = to_vector(cast<double>(mesh.normals[i]));
+    EXPECT_NEAR(p.x * p.x + p.y * p.y - p.z * p.z, 1, 1e-6);
+    EXPECT_NEAR(length(cross(normalize(gradient), normalize(n))), 0, 1e-6);
+  }
 }
 
 }  // namespace

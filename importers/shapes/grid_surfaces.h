@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// The surfaces of pbrt-v3 that are grids of triangles over (u,v), fronts where dp/du × dp/dv points.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "scene/mesh.h"
+
+namespace vitrail {
+
+// Over the unit square of the xy plane: columns × rows heights, a row of x after the other. (u,v) = (x,y).
+TriangleMesh heightfield(int columns, int rows, const std::vector<double>& heights);
+
+// What a line from p1 (v = 0) to p2 (v = 1) sweeps as it turns about the z axis by phimax (u = 1): 256 × 64
+// cells of a full turn, with the surface's normals.
+TriangleMesh hyperboloid(const Vector3d& p1, const Vector3d& p2, double phimax_rad);
+
+// One direction of a B-spline (Cox 1972, de Boor 1972): degree + 1, the knots, and the part that is shown.
+struct Spline {
+  int points = 0, order = 0;
+  std::vector<double> knots;
+  double begin = 0, end = 0;
+};
+
+// A rational surface from points (wx, wy, wz, w), a row of u after the other, on the 30 × 30 grid of
+// triangles that pbrt-v3 makes of it. (u,v) are the parameters. Splines whose knots descend or are not points
+// + order, whose order is below 2 or above their points, or that are shown beyond their knots throw Error.
+TriangleMesh nurbs(const Spline& u, const Spline& v, const std::vector<std::array<double, 4>>& points);
+
+}  // namespace vitrail
