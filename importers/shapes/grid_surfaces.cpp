@@ -5,9 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "scene/diagnostics.h"
+#include "scene/unit_circle.h"
 
 namespace vitrail {
 
@@ -119,12 +119,12 @@ TriangleMesh heightfield(int columns, int rows, const std::vector<double>& heigh
 
 TriangleMesh hyperboloid(const Vector3d& p1, const Vector3d& p2, double phimax_rad) {
   constexpr int of_turn = 256, rows = 64;
-  const int columns = std::max(1, static_cast<int>(std::ceil(of_turn * phimax_rad / (2 * std::numbers::pi))));
+  const int columns = std::max(1, static_cast<int>(std::ceil(of_turn * phimax_rad / (2 * pi))));
   TriangleMesh mesh;
   for (int y = 0; y <= rows; ++y)
     for (int x = 0; x <= columns; ++x) {
       const double u = x / static_cast<double>(columns), v = y / static_cast<double>(rows);
-      const double c = std::cos(u * phimax_rad), s = std::sin(u * phimax_rad);
+      const auto [c, s] = unit_circle(u * phimax_rad);
       const auto turned = [&](const Vector3d& p) {
         return Vector3d{p.x * c - p.y * s, p.x * s + p.y * c, p.z};
       };
