@@ -10,6 +10,7 @@
 #include "scene/deferred_mesh.h"
 #include "scene/kinds.h"
 #include "scene/quadric_places.h"
+#include "scene/say.h"
 #include "scene/tessellate.h"
 
 namespace vitrail {
@@ -48,7 +49,7 @@ void tessellate_quadrics(Scene& scene, int segments, std::uint64_t kept_bytes) {
     triangles += triangles_of(mesh);
     ++quadrics;
   }
-  fmt::print(stderr, "quadrics: {} became {} triangles\n", quadrics, triangles);
+  say("quadrics: {} became {} triangles\n", quadrics, triangles);
 }
 
 // One for each quadric, at the first shape that has it.
@@ -86,9 +87,9 @@ Diagnostics apply_mesh_options(const MeshOptions& o, Scene& scene, const MeshRes
     return loop_subdivide(cage, levels, &corners);
   };
   EditedMeshes edited = edit_meshes(scene, {o.repair, o.orient, o.subdivide, o.decimate, loop}, resources);
-  fmt::print(stderr, "meshes: {} triangles became {}\n", edited.triangles_before, edited.triangles_after);
+  say("meshes: {} triangles became {}\n", edited.triangles_before, edited.triangles_after);
   if (std::ranges::any_of(scene.meshes, [](const TriangleMesh& mesh) { return mesh.quadric.has_value(); }))
-    fmt::print(stderr, "meshes: quadrics stay as they are; --tessellate makes meshes of them first\n");
+    say("meshes: quadrics stay as they are; --tessellate makes meshes of them first\n");
   std::ranges::move(edited.notes, std::back_inserter(notes));
   return notes;
 }

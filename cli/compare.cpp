@@ -16,6 +16,7 @@
 #include "scene/diagnostics.h"
 #include "scene/input_files.h"
 #include "scene/output_place.h"
+#include "scene/say.h"
 
 using namespace vitrail;
 
@@ -29,8 +30,7 @@ Picture load(const std::string& file, const CompareArguments& options) {
     FilmProgress progress;
     const Film film = read_film(file, &progress);
     if (!progress.complete() && options.strict) throw Error("the film is not finished", {});
-    if (!progress.complete() && !options.quiet)
-      fmt::print(stderr, "vitrail: {}: the film is not finished\n", file);
+    if (!progress.complete() && !options.quiet) say("vitrail: {}: the film is not finished\n", file);
     return develop(film);
   } catch (const Error& e) {
     throw Error(e.what(), {file});

@@ -18,6 +18,7 @@
 #include "partitioner/meshes/edit_meshes.h"
 #include "scene/input_files.h"
 #include "scene/output_place.h"
+#include "scene/say.h"
 
 namespace vitrail {
 namespace {
@@ -105,7 +106,7 @@ int run(const Arguments& a) {
     pictures = compare_pictures(a.input, reading_options(a), a.output, imported.scene.film);
   if (!a.report.empty()) write_conversion_report(a.report, a.input, a.output, quadrics, pictures, items);
   if (!a.quiet) {
-    fmt::print(stderr, "{}", summarise(diagnostics));
+    say("{}", summarise(diagnostics));
     const ConversionCounts counts = count(items);
     fmt::print("{}: {} items exact, {} approximated, {} dropped\n",
                refused ? "not written" : a.output.string(), counts.exact, counts.approximated,

@@ -14,6 +14,7 @@
 #include "scene/diagnostics.h"
 #include "scene/input_files.h"
 #include "scene/output_place.h"
+#include "scene/say.h"
 
 using namespace vitrail;
 
@@ -39,8 +40,7 @@ Exposed load(const std::string& file, const Manner& manner) {
   e.render_time_s = progress.render_time_s;
   if (!progress.complete() && manner.strict) throw Error("the film is not finished", {file});
   if (!progress.complete() && !manner.quiet)
-    fmt::print(stderr, "vitrail: {}: the film is not finished; pixels may have unequal numbers of samples\n",
-               file);
+    say("vitrail: {}: the film is not finished; pixels may have unequal numbers of samples\n", file);
   return e;
 }
 
@@ -127,8 +127,8 @@ int main(int argc, char** argv) {
     picture.origin.seeds = sum.seeds;
     put_about(picture.origin, sum.about);
     if (sum.film.key().clamp > 0 && !manner.quiet)
-      fmt::print(stderr, "vitrail: rendered with --clamp {}, which took {:.3g} % of the light\n",
-                 sum.film.key().clamp, 100 * sum.film.clamped_share());
+      say("vitrail: rendered with --clamp {}, which took {:.3g} % of the light\n", sum.film.key().clamp,
+          100 * sum.film.clamped_share());
     if (spectral && picture.bins.count == 0)
       throw Error("the film keeps no spectra: render with --spectral N", {sum.file.string()});
     if (!spectral) picture.spectrum = {};

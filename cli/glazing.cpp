@@ -11,6 +11,7 @@
 #include "scene/atomic_file.h"
 #include "scene/diagnostics.h"
 #include "scene/input_files.h"
+#include "scene/say.h"
 
 namespace vitrail {
 namespace {
@@ -106,7 +107,7 @@ int run(const Arguments& a) {
     file.commit();
   }
   if (!a.json)
-    for (const std::string& note : input.notes) fmt::print(stderr, "vitrail: note: {}\n", note);
+    for (const std::string& note : input.notes) say("vitrail: note: {}\n", note);
   fmt::print("{}\n", a.json ? glazing_json(report) : glazing_table(report));
   return exit_done;
 }

@@ -11,26 +11,28 @@
 #include "cli/unknown_options.h"
 #include "scene/diagnostics.h"
 #include "scene/input_files.h"
+#include "scene/say.h"
 
 namespace vitrail {
 
 namespace {
 
 int fail(int status, const std::string& message) {
-  fmt::print(stderr, "vitrail: {}\n", message);
+  say("vitrail: {}\n", message);
   return status;
 }
 
 int fail(const Error& e) {
   const std::string place = to_string(e.location);
-  fmt::print(stderr, "vitrail: {}{}{}\n", place, place.empty() ? "" : ": ", e.what());
-  if (!e.excerpt.empty()) fmt::print(stderr, "  | {}\n", e.excerpt);
+  say("vitrail: {}{}{}\n", place, place.empty() ? "" : ": ", e.what());
+  if (!e.excerpt.empty()) say("  | {}\n", e.excerpt);
   return exit_bad_input;
 }
 
 }  // namespace
 
 int run_guarded(const std::function<int()>& body) {
+  open_standard_streams();
   protect_inputs();
   try {
     return body();

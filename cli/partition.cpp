@@ -24,6 +24,7 @@
 #include "partitioner/meshes/edit_meshes.h"
 #include "scene/input_files.h"
 #include "scene/output_place.h"
+#include "scene/say.h"
 
 namespace vitrail {
 namespace {
@@ -122,15 +123,15 @@ int run(PartitionArguments& a, Stage& stage) {
   stage = {"preparing the scene", 0, to_string(ledger_of(imported.scene))};
   Diagnostics diagnostics = std::move(imported.diagnostics);
   std::ranges::copy(appearance_of(imported.scene, {}).diagnostics, std::back_inserter(diagnostics));
-  if (!a.quiet) fmt::print(stderr, "{}", summarise(diagnostics));
+  if (!a.quiet) say("{}", summarise(diagnostics));
   if (a.strict) require_exact(diagnostics);
   require_sense(a, imported.scene);
   if (a.layers) imported.scene.film.layers.bits = a.layers->bits;
   if (!a.quiet && a.summary && imported.scene.lights.empty() && imported.scene.area_lights.empty())
-    fmt::print(stderr, "vitrail: {} has no light: its picture is black\n", a.input.string());
+    say("vitrail: {} has no light: its picture is black\n", a.input.string());
   const MeshResources resources{kept_bytes, a.options.memory_bytes, a.options.threads};
   const Diagnostics edits = apply_mesh_options(a.meshes, imported.scene, resources);
-  if (!a.quiet) fmt::print(stderr, "{}", summarise(edits));
+  if (!a.quiet) say("{}", summarise(edits));
   catch_signals();
   Watch watch(visible, stage);
   const PartitionStats stats = partition(imported.scene, a.output, a.options, std::ref(watch));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/progress_line.h"
+#include "scene/say.h"
 
 #include <fmt/format.h>
 
@@ -17,13 +18,13 @@ void ProgressLine::show(double fraction, const char* what) {
   const double elapsed_s = std::chrono::duration<double>(now - start_).count();
   const std::string left =
       fraction > 0.02 ? fmt::format("  {:.0f} s left", elapsed_s * (1 - fraction) / fraction) : "";
-  fmt::print(stderr, "\r\033[K{:3.0f} % {}{}", 100 * fraction, what, left);
+  say("\r\033[K{:3.0f} % {}{}", 100 * fraction, what, left);
   std::fflush(stderr);
 }
 
 void ProgressLine::clear() {
   if (!visible_ || shown_ == start_) return;
-  fmt::print(stderr, "\r\033[K");
+  say("\r\033[K");
   std::fflush(stderr);
 }
 

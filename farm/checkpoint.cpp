@@ -8,6 +8,7 @@
 #include <cstdio>
 
 #include "farm/agreement.h"
+#include "scene/say.h"
 
 namespace vitrail {
 
@@ -171,12 +172,11 @@ void say_what_is_held(const EarlierWork& work, const Held& held, const RenderOpt
                       const Goal& goal) {
   const double samples = samples_of_a_pixel(held.film);
   if (work.finished)
-    fmt::print(stderr,
-               "vitrail: {} is finished already, with {:.4g} samples a pixel; --force renders it again\n",
-               options.film.string(), samples);
+    say("vitrail: {} is finished already, with {:.4g} samples a pixel; --force renders it again\n",
+        options.film.string(), samples);
   else
-    fmt::print(stderr, "vitrail: going on from {}, with {:.4g} of {} samples a pixel\n", held.file.string(),
-               samples, goal.samples);
+    say("vitrail: going on from {}, with {:.4g} of {} samples a pixel\n", held.file.string(), samples,
+        goal.samples);
 }
 
 // Rank 0's plan and bits, on every rank.
@@ -217,8 +217,7 @@ EarlierWork read_earlier_work(Transport& transport, const RenderOptions& options
     if (partial && (!held || partial->film.samples() > held->film.samples())) held = std::move(partial);
     if (!held) {
       if (options.resume && !options.quiet)
-        fmt::print(stderr, "vitrail: there is no checkpoint {}; starting from the beginning\n",
-                   checkpoint.string());
+        say("vitrail: there is no checkpoint {}; starting from the beginning\n", checkpoint.string());
       return;
     }
     work.plan = plan_of(*held, goal);

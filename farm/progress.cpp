@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "farm/progress.h"
+#include "scene/say.h"
 
 #include <fmt/format.h>
 
@@ -27,9 +28,9 @@ std::string duration(double s) {
                       : fmt::format("{} h {} min", minutes / 60, minutes % 60);
 }
 
-// Standard output, which nothing else of a render writes to.
+// Standard output, which nothing else of a render writes to. Lost where that is full or nobody reads it.
 void print_json(const Json& event) {
-  fmt::print("{}\n", event.dump(-1, ' ', false, Json::error_handler_t::replace));
+  std::fputs((event.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n").c_str(), stdout);
   std::fflush(stdout);
 }
 
@@ -83,22 +84,21 @@ void Progress::print(const RoundSums& sums, double elapsed_s) {
                        {"rays_waiting", sums.born - sums.died},
                        {"domain_loads", sums.domain_loads}});
   if (mode_ == ProgressMode::lines) {
-    fmt::print(stderr, "vitrail: {:.1f} % after {}, {:.4g} of {} samples a pixel, {:.2f} Mray/s, {} left\n",
-               100 * done, duration(elapsed_s), samples_ * done, samples_, rate * 1e-6, duration(left_s));
+    say("vitrail: {:.1f} % after {}, {:.4g} of {} samples a pixel, {:.2f} Mray/s, {} left\n", 100 * done,
+        duration(elapsed_s), samples_ * done, samples_, rate * 1e-6, duration(left_s));
     return;
   }
   constexpr int width = 32;
   const int filled = static_cast<int>(done * width);
-  fmt::print(stderr, "\r\033[Krender [{}{}] {:5.1f} %  {:.2f} Mray/s  {} left",
-             std::string(static_cast<std::size_t>(filled), '#'),
-             std::string(static_cast<std::size_t>(width - filled), ' '), 100 * done, rate * 1e-6,
-             duration(left_s));
+  say("\r\033[Krender [{}{}] {:5.1f} %  {:.2f} Mray/s  {} left",
+      std::string(static_cast<std::size_t>(filled), '#'),
+      std::string(static_cast<std::size_t>(width - filled), ' '), 100 * done, rate * 1e-6, duration(left_s));
   std::fflush(stderr);
   line_open_ = true;
 }
 
 void Progress::finish() {
-  if (line_open_) fmt::print(stderr, "\r\033[K");
+  if (line_open_) say("\r\033[K");
   line_open_ = false;
 }
 
@@ -121,8 +121,8 @@ std::string text_of(const Goal& goal) {
 void print_start(const RenderOptions& options, const Manifest& m, const Goal& goal, int ranks, int threads) {
   if (options.progress != ProgressMode::lines) return;
   const PixelRect& c = m.film.crop;
-  fmt::print(stderr, "vitrail: rendering {} × {} pixels, {}, {} domains, {} × {} threads\n", c.x1 - c.x0,
-             c.y1 - c.y0, text_of(goal), m.domains.size(), ranks, threads);
+  say("vitrail: rendering {} × {} pixels, {}, {} domains, {} × {} threads\n", c.x1 - c.x0, c.y1 - c.y0,
+      text_of(goal), m.domains.size(), ranks, threads);
 }
 
 void print_end(const RenderOptions& options, const RenderStats& s, std::uint64_t pixels) {
@@ -141,14 +141,13 @@ void print_end(const RenderOptions& options, const RenderStats& s, std::uint64_t
                        {"film", options.film.string()},
                        {"film_hash", fmt::format("{:016x}", s.film_hash)}});
   if (s.finished_before || !writes_film(s.ending)) return;
-  fmt::print(stderr,
-             "vitrail: {}: {:.4g} of {} samples a pixel after {}, {:.2f} Mray/s, {:.0f} MiB a rank{}\n",
-             options.film.string(), samples, s.spp, duration(s.wall_s),
-             static_cast<double>(rays) / s.wall_s * 1e-6, static_cast<double>(s.peak_rss_bytes) / 0x1p20,
-             s.ending == Ending::time_is_up ? "; the same command goes on" : "");
+  say("vitrail: {}: {:.4g} of {} samples a pixel after {}, {:.2f} Mray/s, {:.0f} MiB a rank{}\n",
+      options.film.string(), samples, s.spp, duration(s.wall_s), static_cast<double>(rays) / s.wall_s * 1e-6,
+      static_cast<double>(s.peak_rss_bytes) / 0x1p20,
+      s.ending == Ending::time_is_up ? "; the same command goes on" : "");
   if (options.target_error)
-    fmt::print(stderr, "vitrail: {}: error {:.3g}, in all likelihood below {:.3g}, where {} was asked for\n",
-               options.film.string(), s.reached.estimate, s.reached.upper, text_of(*options.target_error));
+    say("vitrail: {}: error {:.3g}, in all likelihood below {:.3g}, where {} was asked for\n",
+        options.film.string(), s.reached.estimate, s.reached.upper, text_of(*options.target_error));
 }
 
 }  // namespace vitrail

@@ -19,6 +19,7 @@
 #include "scene/atomic_file.h"
 #include "scene/output_place.h"
 #include "scene/resource_usage.h"
+#include "scene/say.h"
 #include "tracer/film_exponent.h"
 
 namespace vitrail {
@@ -188,7 +189,7 @@ RenderStats render(Transport& transport, const RenderOptions& options) {
                                         home_ranks(manifest, transport.size()), transport.rank())),
       options.bundle);
   if (transport.rank() == 0 && !options.quiet && manifest.lights.empty() && manifest.area_lights.empty())
-    fmt::print(stderr, "vitrail: the scene has no light: its picture is black\n");
+    say("vitrail: the scene has no light: its picture is black\n");
   if (!options.profile.empty()) state.traffic.emplace(manifest.domains.size());
   stats.finished_before = earlier.finished;
   Rank rank(transport, state, options, goal, std::move(earlier), about(manifest, options));
@@ -229,18 +230,16 @@ RenderStats render(Transport& transport, const RenderOptions& options) {
       stats.reached = reached_error(job->film, *goal.target);
     }
     if (stats.ending == Ending::finished && stats.reached.upper > stats.target.value)
-      fmt::print(stderr, "vitrail: the error is not reached with {} samples a pixel; --spp allows for more\n",
-                 goal.samples);
+      say("vitrail: the error is not reached with {} samples a pixel; --spp allows for more\n", goal.samples);
     if (const std::uint64_t none = pixels_without_samples(job->film); none > 0 && writes_film(stats.ending))
-      fmt::print(stderr, "vitrail: {} of {} pixels have no sample yet and are black\n", none,
-                 job->film.pixels());
+      say("vitrail: {} of {} pixels have no sample yet and are black\n", none, job->film.pixels());
     stats.refused = job->film.refused();
     if (stats.refused.nonfinite > 0)
-      fmt::print(stderr, "vitrail: {} samples were not finite and count as black\n", stats.refused.nonfinite);
+      say("vitrail: {} samples were not finite and count as black\n", stats.refused.nonfinite);
     stats.clamped_share = job->film.clamped_share();
     if (options.clamp > 0 && !options.quiet)
-      fmt::print(stderr, "vitrail: --clamp {} took {:.3g} % of the light: so much darker is the picture\n",
-                 options.clamp, 100 * stats.clamped_share);
+      say("vitrail: --clamp {} took {:.3g} % of the light: so much darker is the picture\n", options.clamp,
+          100 * stats.clamped_share);
     stats.film_hash = job->film.hash();
     print_end(options, stats, job->film.pixels());
     // The film holds all that the checkpoint does.
@@ -250,9 +249,7 @@ RenderStats render(Transport& transport, const RenderOptions& options) {
       if (samples_before == 0 && stats.ending == Ending::finished)
         write_ray_profile(options.profile, *profile);
       else
-        fmt::print(
-            stderr,
-            "vitrail: {} is not written: a profile counts the rays of a whole picture, rendered without "
+        say("vitrail: {} is not written: a profile counts the rays of a whole picture, rendered without "
             "a stop\n",
             options.profile.string());
     }
