@@ -71,8 +71,9 @@ void declare(CLI::App& app, RenderArguments& a) {
                  "world or camera: of positions and normals of --aov; default: as the scene says, else world")
       ->check(CLI::IsMember({"world", "camera"}));
   app.add_option("--checkpoint-every", o.checkpoint_every_s,
-                 "seconds between checkpoints; default: none but those that signals ask for")
-      ->check(not_below_0);
+                 "seconds between checkpoints; 0: none but those that signals ask for")
+      ->check(not_below_0)
+      ->capture_default_str();
   app.add_flag(
       "--resume", o.resume,
       "say so where there is nothing to go on from; going on with a render that was begun, or adding "

@@ -18,9 +18,6 @@ std::filesystem::path checkpoint_path(const std::filesystem::path& film) {
   return path;
 }
 
-namespace {
-
-// A film that is whole does not say in which steps it became so.
 FilmProgress progress_of(const WorkPlan& plan, const std::vector<std::uint64_t>& done, double render_time_s,
                          const std::string& about) {
   FilmProgress progress{plan.items(), plan.samples(), done, render_time_s, {}, about, false, {}};
@@ -42,8 +39,6 @@ FilmProgress progress_of(const WorkPlan& plan, const std::vector<std::uint64_t>&
   return progress;
 }
 
-}  // namespace
-
 void gather_film(Transport& transport, Film& film, std::vector<std::uint64_t>& done) {
   transport.sum_to_root(film.sums());
   transport.sum_to_root(film.counts());
@@ -55,15 +50,6 @@ void gather_film(Transport& transport, Film& film, std::vector<std::uint64_t>& d
   refused = {static_cast<std::uint64_t>(counts[0]), static_cast<std::uint64_t>(counts[1])};
   // Each item is done by one rank: the sum of their bits is their union.
   transport.sum_to_root(std::span(reinterpret_cast<std::int64_t*>(done.data()), done.size()));
-}
-
-void write_job_film(Transport& transport, const std::filesystem::path& file, Film& film,
-                    std::vector<std::uint64_t>& done, const WorkPlan& plan, double render_time_s,
-                    const std::string& about) {
-  gather_film(transport, film, done);
-  agree(transport, [&] {
-    if (transport.rank() == 0) write_film(file, film, progress_of(plan, done, render_time_s, about));
-  });
 }
 
 namespace {

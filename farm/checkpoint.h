@@ -17,10 +17,9 @@ std::filesystem::path checkpoint_path(const std::filesystem::path& film);
 // job's on rank 0 and empty elsewhere.
 void gather_film(Transport& transport, Film& film, std::vector<std::uint64_t>& done);
 
-// The same, and writes the film on rank 0.
-void write_job_film(Transport& transport, const std::filesystem::path& file, Film& film,
-                    std::vector<std::uint64_t>& done, const WorkPlan& plan, double render_time_s,
-                    const std::string& about);
+// What such a film says of itself. One that is whole does not say in which steps it became so.
+FilmProgress progress_of(const WorkPlan& plan, const std::vector<std::uint64_t>& done, double render_time_s,
+                         const std::string& about);
 
 // What earlier runs left of this very job, in its film (finished, or stopped by a time limit) or in its
 // checkpoint.

@@ -33,10 +33,10 @@ struct RenderOptions {
   std::optional<std::uint32_t> layers;  // bits of FilmLayers
   std::optional<bool> layers_in_camera_space;
   std::uint64_t seed = 0;
-  std::uint64_t memory_bytes = 0;  // a rank; 0: no limit
-  int threads = 0;                 // a rank; 0: one a core
-  double checkpoint_every_s = 0;   // 0: only when asked by a signal
-  double time_limit_s = 0;         // from `start` on; 0: none. The film then holds what was done
+  std::uint64_t memory_bytes = 0;   // a rank; 0: no limit
+  int threads = 0;                  // a rank; 0: one a core
+  double checkpoint_every_s = 600;  // 0: only when asked by a signal
+  double time_limit_s = 0;          // from `start` on; 0: none. The film then holds what was done
   std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
   bool adaptive = false;                    // samples go where the picture is noisy
   std::optional<TargetError> target_error;  // the render ends once this is reached

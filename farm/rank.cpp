@@ -20,6 +20,12 @@ constexpr auto round_interval = 1ms;
 // The loop naps while nothing moves, longer and longer: a rank that spins takes the core from one that works.
 constexpr auto shortest_nap = 20us, longest_nap = 1000us;
 
+// Between checkpoints, so that work goes on in between however often they are asked for. 0: never.
+double interval_s(const RenderOptions& options) {
+  constexpr double shortest_s = 0.05;
+  return options.checkpoint_every_s > 0 ? std::max(options.checkpoint_every_s, shortest_s) : 0;
+}
+
 std::uint64_t bits_set(const std::vector<std::uint64_t>& words) {
   std::uint64_t sum = 0;
   for (std::uint64_t word : words) sum += static_cast<std::uint64_t>(std::popcount(word));
@@ -29,7 +35,7 @@ std::uint64_t bits_set(const std::vector<std::uint64_t>& words) {
 }  // namespace
 
 Rank::Rank(Transport& transport, RankState& state, const RenderOptions& options, const Goal& goal,
-           EarlierWork earlier, std::string about)
+           EarlierWork earlier, std::string about, FilmKeeper* keeper)
     : transport_(transport),
       state_(state),
       options_(options),
@@ -37,8 +43,10 @@ Rank::Rank(Transport& transport, RankState& state, const RenderOptions& options,
       progress_(options, transport.rank(), state.film, expected_samples(state.film, goal)),
       time_before_s_(earlier.render_time_s),
       about_(std::move(about)),
+      keeper_(keeper),
       start_(Clock::now()),
-      last_checkpoint_(start_) {
+      last_checkpoint_(start_),
+      checkpoint_after_s_(interval_s(options)) {
   start_items(std::move(earlier.done));
 }
 
@@ -71,7 +79,7 @@ Ending Rank::run() {
         in_round = false;
         progress_.show(*sums);
         const Decision decision = decide(*sums);
-        if (decision == Decision::checkpoint) write(checkpoint_path(options_.film));
+        if (decision == Decision::checkpoint) write(checkpoint_path(options_.film), /*last=*/false);
         if (decision == Decision::end) {
           Ending ending = ending_of(*sums);
           if (ending == Ending::finished && goal_.in_rounds) {
@@ -82,7 +90,7 @@ Ending Rank::run() {
           if (options_.dry_run)
             transport_.sum_to_root(state_.film.counts());
           else
-            write(writes_film(ending) ? options_.film : checkpoint_path(options_.film));
+            write(writes_film(ending) ? options_.film : checkpoint_path(options_.film), /*last=*/true);
           progress_.finish();
           return ending;
         }
@@ -146,11 +154,10 @@ bool Rank::move_rays() {
 }
 
 void Rank::watch_clock() {
-  if (take_checkpoint_signal()) want_checkpoint_ = true;
+  if (take_checkpoint_signal() && !options_.dry_run) want_checkpoint_ = true;
   if (transport_.rank() != 0) return;
   const auto since_checkpoint = std::chrono::duration<double>(Clock::now() - last_checkpoint_).count();
-  if (options_.checkpoint_every_s > 0 && since_checkpoint >= options_.checkpoint_every_s)
-    want_checkpoint_ = true;
+  if (checkpoint_after_s_ > 0 && since_checkpoint >= checkpoint_after_s_) want_checkpoint_ = true;
   const double since_start_s = std::chrono::duration<double>(Clock::now() - options_.start).count();
   if (options_.time_limit_s > 0 && since_start_s >= options_.time_limit_s) time_is_up_ = true;
 }
@@ -237,16 +244,29 @@ std::optional<Ending> Rank::begin_next_round(Ending stop) {
   return std::nullopt;
 }
 
-void Rank::write(const std::filesystem::path& file) {
+// No ray is alive, and no worker begins before it is written.
+void Rank::write(const std::filesystem::path& file, bool last) {
   const double render_time_s = time_before_s_ + elapsed_s();
   collect_done();
+  gather_film(transport_, state_.film, done_);
+  bool written = true;
+  agree(transport_, [&] {
+    if (transport_.rank() != 0) return;
+    const FilmProgress progress = progress_of(state_.plan, done_, render_time_s, about_);
+    if (last)
+      keeper_->write_last(file, state_.film, progress);
+    else
+      written = keeper_->write_checkpoint(file, state_.film, progress);
+  });
   {
     const std::lock_guard lock(state_.mutex);
     state_.scheduler.resume();
   }
-  write_job_film(transport_, file, state_.film, done_, state_.plan, render_time_s, about_);
   want_checkpoint_ = false;
   last_checkpoint_ = Clock::now();
+  checkpoint_after_s_ = interval_s(options_);
+  if (!written && !(checkpoint_after_s_ > 0 && checkpoint_after_s_ < FilmKeeper::retry_s))
+    checkpoint_after_s_ = FilmKeeper::retry_s;
 }
 
 // After a failure: no rank may end while a message to it or from it is under way. Batches sent and received

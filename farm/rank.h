@@ -6,6 +6,7 @@
 #include <chrono>
 
 #include "farm/checkpoint.h"
+#include "farm/film_keeper.h"
 #include "farm/options.h"
 #include "farm/progress.h"
 #include "farm/stats.h"
@@ -15,9 +16,9 @@ namespace vitrail {
 
 class Rank {
  public:
-  // `about`: FilmProgress's.
+  // `about`: FilmProgress's. `keeper`: on rank 0, unless it is a dry run.
   Rank(Transport& transport, RankState& state, const RenderOptions& options, const Goal& goal,
-       EarlierWork earlier, std::string about);
+       EarlierWork earlier, std::string about, FilmKeeper* keeper);
 
   // Until the picture is whole, the time is up or the job is told to stop. Rank 0 has then written the film,
   // or a checkpoint where a signal stopped it. Throws what went wrong here, or OtherRankFailed, after all
@@ -39,7 +40,7 @@ class Rank {
   void start_items(std::vector<std::uint64_t> done);
   void collect_done();
   std::optional<Ending> begin_next_round(Ending stop);
-  void write(const std::filesystem::path& file);
+  void write(const std::filesystem::path& file, bool last);
   void watch_clock();
   void leave_together();
   double elapsed_s() const;
@@ -56,9 +57,11 @@ class Rank {
   std::uint64_t items_before_ = 0;  // on rank 0: done by earlier runs or rounds
   double time_before_s_ = 0;        // render time of earlier runs
   std::string about_;
+  FilmKeeper* keeper_;
   bool want_checkpoint_ = false, time_is_up_ = false;
   std::uint64_t messages_ = 0, received_ = 0, sent_bytes_ = 0;
   std::chrono::steady_clock::time_point start_, last_checkpoint_;
+  double checkpoint_after_s_;  // since the last one; 0: never
 };
 
 }  // namespace vitrail

@@ -107,6 +107,13 @@ MemoryPlan plan_for(const Manifest& manifest, const RenderOptions& options, int 
   return plan;
 }
 
+// Of a film's file: its sums, and what it says of itself.
+std::uint64_t file_bytes(const FilmSettings& film) {
+  constexpr std::uint64_t header_and_words = 16 << 10;
+  const std::uint64_t sums = film_bytes(film);
+  return sums + sums / 32 + header_and_words;
+}
+
 // Of an adaptive round's numbers, and what it takes to find them.
 std::uint64_t map_bytes(const PixelRect& crop) {
   constexpr std::uint64_t held_and_more = 8, finding_them = 12;
@@ -162,6 +169,7 @@ RenderStats render(Transport& transport, const RenderOptions& options) {
   std::optional<Job> job;
   Goal goal;
   MemoryPlan memory;
+  std::optional<FilmKeeper> keeper;
   agree(transport, [&] {
     job = set_up(options);
     // Refused before it takes the memory.
@@ -174,7 +182,7 @@ RenderStats render(Transport& transport, const RenderOptions& options) {
         plan_for(m, options, threads, stats.base_rss_bytes + job->texture_bytes, stats.setup_peak_rss_bytes);
     job->film = Film(m.film, key_of(m, options), film_exponent(*job->scene),
                      m.film.layers.any() ? length_exponent(*job->scene) : default_exponent);
-    if (transport.rank() == 0) require_room(options.film, film_bytes(m.film));
+    if (transport.rank() == 0 && !options.dry_run) keeper.emplace(options.film, file_bytes(m.film));
   });
   const Manifest& manifest = job->scene->manifest;
   expect_same_job(transport, manifest, job->film.key(), goal, options);
@@ -192,7 +200,8 @@ RenderStats render(Transport& transport, const RenderOptions& options) {
     say("vitrail: the scene has no light: its picture is black\n");
   if (!options.profile.empty()) state.traffic.emplace(manifest.domains.size());
   stats.finished_before = earlier.finished;
-  Rank rank(transport, state, options, goal, std::move(earlier), about(manifest, options));
+  Rank rank(transport, state, options, goal, std::move(earlier), about(manifest, options),
+            keeper ? &*keeper : nullptr);
   if (stats.finished_before) {
     stats.ending = Ending::finished;
   } else {

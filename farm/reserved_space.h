@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+
+namespace vitrail {
+
+// Room on a disk that others cannot take: a file without a name, which goes with the process however that
+// ends. Where the file system cannot reserve (NFS before 4.2, some FUSE), it is only looked whether there is
+// room now; writing zeros instead would send a film's bytes over the network for nothing.
+class ReservedSpace {
+ public:
+  // In the folder of `beside`. Throws MachineError where there is no room.
+  ReservedSpace(std::filesystem::path beside, std::uint64_t bytes);
+  ~ReservedSpace();
+  ReservedSpace(const ReservedSpace&) = delete;
+  ReservedSpace& operator=(const ReservedSpace&) = delete;
+
+  void release();
+  // False where there is no room any more.
+  bool renew();
+
+ private:
+  std::filesystem::path beside_;
+  std::uint64_t bytes_;
+  int descriptor_ = -1;
+};
+
+}  // namespace vitrail
