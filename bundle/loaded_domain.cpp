@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bundle/loaded_domain.h"
 
+#include "bundle/watched_files.h"
+
 namespace vitrail {
 
 LoadedDomain::LoadedDomain(const Manifest& manifest, std::uint32_t domain, SharedDomain mapped,
@@ -24,6 +26,7 @@ LoadedDomain::LoadedDomain(const Manifest& manifest, std::uint32_t domain, Share
 
 SharedDomain map_domain(const Manifest& manifest, const std::filesystem::path& bundle, std::uint32_t domain) {
   const std::filesystem::path file = domain_path(bundle, domain);
+  watch(file);
   auto mapped = std::make_shared<const MappedDomain>(file);
   check_domain(manifest, domain, *mapped, file);
   return mapped;
@@ -31,6 +34,7 @@ SharedDomain map_domain(const Manifest& manifest, const std::filesystem::path& b
 
 SharedDomain map_object(const Manifest& manifest, const std::filesystem::path& bundle, std::uint32_t object) {
   const std::filesystem::path file = object_path(bundle, object);
+  watch(file);
   auto mapped = std::make_shared<const MappedDomain>(file);
   check_object(manifest, object, *mapped, file);
   return mapped;

@@ -5,9 +5,11 @@
 #include <new>
 #include <optional>
 
+#include "cli/job_limits.h"
 #include "cli/main_guard.h"
 #include "cli/render_arguments.h"
 #include "cli/run_program.h"
+#include "cli/supervise.h"
 #include "cli/temporary_bundle.h"
 #include "farm/agreement.h"
 #include "farm/checkpoint.h"
@@ -15,6 +17,7 @@
 #include "farm/render.h"
 #include "farm/signals.h"
 #include "film/develop.h"
+#include "scene/atomic_file.h"
 #include "scene/input_files.h"
 #include "scene/output_place.h"
 
@@ -61,11 +64,13 @@ int number_of(Ending ending) {
 int render_job(const CLI::App& app, Transport& transport, RenderArguments& a) {
   agree(transport, [&] { interpret(app, a); });
   const bool first = transport.rank() == 0;
+  take_limits_of_job(a.options, first && !a.quiet);
   std::optional<OutputLock> lock;
   agree(transport, [&] {
     if (!first) return;
     check_outputs(a);
     lock.emplace(a.options.film);
+    for (const fs::path& file : {a.options.film, checkpoint_path(a.options.film)}) remove_temporaries(file);
   });
   const auto beside_the_film = fs::path(a.options.film).replace_extension(".tmp.vit");
   a.options.bundle = a.is_bundle() ? a.input : beside_the_film;
@@ -110,6 +115,15 @@ int guarded_job(const CLI::App& app, Transport& transport, RenderArguments& a) {
   }
 }
 
+int supervise_job(const RenderArguments& a, int argc, char** argv) {
+  if (launched_by_mpi())
+    throw UsageError(
+        "a rank cannot start the job again: vitrail render --restarts N --launcher 'mpirun …' can");
+  if (a.options.force && a.restarts > 0)
+    throw UsageError("--force would begin anew at each restart: remove what is to be replaced instead");
+  return supervise(supervised_command(argc, argv, a.launcher), a.restarts);
+}
+
 }  // namespace
 }  // namespace vitrail
 
@@ -119,6 +133,7 @@ int main(int argc, char** argv) {
   RenderArguments arguments;
   declare(app, arguments);
   const int status = run_guarded(app, argc, argv, [&] {
+    if (arguments.restarts > 0 || !arguments.launcher.empty()) return supervise_job(arguments, argc, argv);
     const auto transport = make_transport(&argc, &argv);
     return run_guarded([&] { return guarded_job(app, *transport, arguments); });
   });

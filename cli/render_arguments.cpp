@@ -85,6 +85,12 @@ void declare(CLI::App& app, RenderArguments& a) {
       ->check(more_than_0);
   app.add_flag("--dry-run", o.dry_run,
                "render for a few seconds, write nothing, and say what memory and time it would all take");
+  app.add_option(
+         "--restarts", a.restarts,
+         "start again as often as this where the render is killed or the machine fails it; it goes on "
+         "from its checkpoint")
+      ->check(CLI::Range(0, 1'000'000));
+  app.add_option("--launcher", a.launcher, "with --restarts: what starts the ranks, e.g. 'mpirun -np 8'");
   app.add_option("--stats", o.stats, "write statistics as JSON");
   app.add_option("--profile", o.profile, "write where rays went, for `partition --profile` and `plan`");
   declare_import_options(app, a.imports);

@@ -18,6 +18,8 @@ struct RenderArguments {
   ImportArguments imports;
   MeshOptions meshes;
   RenderOptions options;
+  int restarts = 0;
+  std::string launcher;  // empty: this process alone
 
   bool is_bundle() const;
 };

@@ -37,6 +37,7 @@ struct RenderOptions {
   int threads = 0;                  // a rank; 0: one a core
   double checkpoint_every_s = 600;  // 0: only when asked by a signal
   double time_limit_s = 0;          // from `start` on; 0: none. The film then holds what was done
+  double stop_after_s = 0;          // from `start` on; 0: never. As if told to stop, by a TERM
   std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
   bool adaptive = false;                    // samples go where the picture is noisy
   std::optional<TargetError> target_error;  // the render ends once this is reached

@@ -9,6 +9,8 @@
 
 #include <array>
 #include <cerrno>
+#include <csignal>
+#include <cstdio>
 #include <cstring>
 #include <string>
 #include <utility>
@@ -32,6 +34,29 @@ std::string holder(int descriptor) {
   return bytes > 0 ? std::string(text.data(), static_cast<std::size_t>(bytes)) : "another process";
 }
 
+std::string this_process() {
+  std::array<char, 128> host{};
+  ::gethostname(host.data(), host.size() - 1);
+  return fmt::format("process {} on {}", ::getpid(), host.data());
+}
+
+// Where the file system has no locks there is only what the file says: of this host's processes it is known
+// whether they live, others are believed to.
+bool holder_may_live(const std::string& who) {
+  int process = 0;
+  std::array<char, 128> host{}, own{};
+  ::gethostname(own.data(), own.size() - 1);
+  if (std::sscanf(who.c_str(), "process %d on %127s", &process, host.data()) != 2) return false;
+  return std::strcmp(host.data(), own.data()) != 0 || (process != ::getpid() && ::kill(process, 0) == 0);
+}
+
+enum class Taken { by_us, by_another, not_known };
+
+Taken try_to_lock(int descriptor) {
+  if (::flock(descriptor, LOCK_EX | LOCK_NB) == 0) return Taken::by_us;
+  return errno == EWOULDBLOCK ? Taken::by_another : Taken::not_known;
+}
+
 }  // namespace
 
 OutputLock::OutputLock(const std::filesystem::path& output) : file_(output) {
@@ -40,19 +65,24 @@ OutputLock::OutputLock(const std::filesystem::path& output) : file_(output) {
     descriptor_ = ::open(file_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
     if (descriptor_ < 0)
       throw MachineError(fmt::format("cannot write {}: {}", file_.string(), std::strerror(errno)));
-    const bool free = ::flock(descriptor_, LOCK_EX | LOCK_NB) == 0;
-    if (free && is_still_named(descriptor_, file_)) break;
+    const Taken taken = try_to_lock(descriptor_);
     const std::string who = holder(descriptor_);
+    if (taken == Taken::not_known && holder_may_live(who)) {
+      ::close(std::exchange(descriptor_, -1));
+      throw MachineError(
+          fmt::format("{} is being written by another render ({}), or was when that ended: this file system "
+                      "has no locks; remove {} if that process is gone",
+                      output.string(), who, file_.string()));
+    }
+    if (taken != Taken::by_another && is_still_named(descriptor_, file_)) break;
     ::close(std::exchange(descriptor_, -1));
-    if (!free)
+    if (taken == Taken::by_another)
       throw MachineError(
           fmt::format("{} is being written by another render ({}): wait for it, or give another "
                       "output",
                       output.string(), who));
   }
-  std::array<char, 128> host{};
-  ::gethostname(host.data(), host.size() - 1);
-  const std::string who = fmt::format("process {} on {}", ::getpid(), host.data());
+  const std::string who = this_process();
   if (::ftruncate(descriptor_, 0) != 0 || ::pwrite(descriptor_, who.data(), who.size(), 0) < 0) {
     // A full disk: the lock holds all the same.
   }

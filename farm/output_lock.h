@@ -6,7 +6,8 @@
 namespace vitrail {
 
 // Held by the one job that may write a film: OUTPUT.lock beside it, which the system frees when the process
-// ends, however it ends. Throws MachineError where another job has it, and says which.
+// ends, however it ends. Throws MachineError where another job has it, and says which. Where the file system
+// has no locks, the process and host in that file are believed.
 class OutputLock {
  public:
   explicit OutputLock(const std::filesystem::path& output);

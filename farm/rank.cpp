@@ -5,6 +5,7 @@
 #include <csignal>
 #include <thread>
 
+#include "bundle/watched_files.h"
 #include "farm/agreement.h"
 #include "farm/signals.h"
 #include "scene/diagnostics.h"
@@ -160,6 +161,7 @@ void Rank::watch_clock() {
   if (checkpoint_after_s_ > 0 && since_checkpoint >= checkpoint_after_s_) want_checkpoint_ = true;
   const double since_start_s = std::chrono::duration<double>(Clock::now() - options_.start).count();
   if (options_.time_limit_s > 0 && since_start_s >= options_.time_limit_s) time_is_up_ = true;
+  if (options_.stop_after_s > 0 && since_start_s >= options_.stop_after_s) ask_to_stop();
 }
 
 RoundSums Rank::contribution() {
@@ -247,6 +249,7 @@ std::optional<Ending> Rank::begin_next_round(Ending stop) {
 // No ray is alive, and no worker begins before it is written.
 void Rank::write(const std::filesystem::path& file, bool last) {
   const double render_time_s = time_before_s_ + elapsed_s();
+  agree(transport_, require_unchanged_files);
   collect_done();
   gather_film(transport_, state_.film, done_);
   bool written = true;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// TERM and INT ask a rank to stop cleanly, USR1 to write a checkpoint and go on.
+// TERM and INT ask a rank to stop cleanly, USR1 to write a checkpoint and go on. BUS ends it with status 4.
 #pragma once
 
 namespace vitrail {
@@ -7,6 +7,8 @@ namespace vitrail {
 void catch_signals();
 // The first of TERM and INT that came; 0: none did.
 int stop_signal();
+// As a TERM that came.
+void ask_to_stop();
 // True once for each USR1 (or several in one).
 bool take_checkpoint_signal();
 

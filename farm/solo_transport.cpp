@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstdlib>
 #include <stdexcept>
 
 #include "farm/transport.h"
+#include "scene/diagnostics.h"
 
 namespace vitrail {
 
@@ -36,9 +39,28 @@ bool launched_by_mpi() {
   return std::ranges::any_of(launchers, [](const char* name) { return std::getenv(name) != nullptr; });
 }
 
+namespace {
+
+// Of the step that srun started this process in; mpirun's ranks are not srun's tasks.
+int tasks_of_step() {
+  const char* tasks = std::getenv("SLURM_STEP_NUM_TASKS");
+  return tasks && !std::getenv("OMPI_COMM_WORLD_SIZE") ? std::atoi(tasks) : 1;
+}
+
+}  // namespace
+
 std::unique_ptr<Transport> make_transport(int* argc, char*** argv) {
-  if (launched_by_mpi()) return make_mpi_transport(argc, argv);
-  return std::make_unique<SoloTransport>();
+  std::unique_ptr<Transport> made;
+  if (launched_by_mpi())
+    made = make_mpi_transport(argc, argv);
+  else
+    made = std::make_unique<SoloTransport>();
+  if (const int tasks = tasks_of_step(); made->size() == 1 && tasks > 1)
+    throw UsageError(fmt::format(
+        "srun started {} tasks that do not know of each other, and each would render everything: start the "
+        "ranks with mpirun, or with srun --mpi=pmix where Slurm and Open MPI have it",
+        tasks));
+  return made;
 }
 
 }  // namespace vitrail

@@ -76,6 +76,17 @@ void AtomicFile::commit_part() {
   parts_on_their_way = true;
 }
 
+void remove_temporaries(const std::filesystem::path& target) {
+  const std::string prefix = target.filename().string() + ".tmp";
+  std::error_code ignored;
+  const auto folder = std::filesystem::absolute(target).parent_path();
+  for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
+    const std::string name = entry.path().filename().string();
+    if (name.starts_with(prefix) && name.find_first_not_of("0123456789", prefix.size()) == std::string::npos)
+      std::filesystem::remove(entry.path(), ignored);
+  }
+}
+
 void sync_to_disk(const std::filesystem::path& path) {
   const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (descriptor < 0) fail("open", path);

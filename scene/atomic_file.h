@@ -36,6 +36,10 @@ class AtomicFile {
   std::uint64_t size_ = 0;
 };
 
+// Removes what killed writers of `target` left of their temporary files. Only for who knows that nobody
+// writes it now.
+void remove_temporaries(const std::filesystem::path& target);
+
 // Waits until a file's content, or a directory's names, are on the disk. Throws MachineError.
 void sync_to_disk(const std::filesystem::path& path);
 

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "farm/options.h"
+
+namespace vitrail {
+
+// What Slurm gave the job that this process is of, where the user gives no other: memory, this rank's share
+// of its node's less a tenth for MPI and the system; and the time until the job has to have stopped.
+void take_limits_of_job(RenderOptions& options, bool say_so);
+
+}  // namespace vitrail

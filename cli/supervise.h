@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace vitrail {
+
+// Runs a render, mpirun's or its own, and starts the same again where it was killed or the machine failed it,
+// at most `restarts` times, after 1, 2, 4 … 60 s: it goes on from its checkpoint. What is done, used wrongly
+// or given bad input is not started again, nor what was told to stop: TERM, INT and USR1 are passed on.
+// Returns the last exit status, 128 + the signal's number where one ended it.
+int supervise(const std::vector<std::string>& command, int restarts);
+
+// The words of this program's command line without the supervisor's own options, after those of `launcher`.
+std::vector<std::string> supervised_command(int argc, char** argv, const std::string& launcher);
+
+}  // namespace vitrail

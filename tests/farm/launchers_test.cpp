@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: Apache-2.0
+// How jobs are started, ended and started again on a cluster.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "film/film.h"
+#include "tests/support/background.h"
+#include "tests/support/command.h"
+#include "tests/support/temporary_directory.h"
+
+namespace vitrail::test {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace std::chrono_literals;
+using ::testing::HasSubstr;
+
+class Launchers : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    const CommandResult made =
+        run(fmt::format("{} '{}/examples/cornell-box/cornell-box.pbrt' -o '{}' --domains 4 --quiet",
+                        vitrail("partition"), VITRAIL_SOURCE_DIR, path("box.vit")));
+    ASSERT_EQ(made.status, 0) << made.output;
+  }
+  std::string path(const std::string& name) const { return (directory_ / name).string(); }
+  std::string arguments(const std::string& out, const std::string& more = "") const {
+    return fmt::format(" '{}' -o '{}' {} --spp 256 --threads 1 --checkpoint-every .1 --quiet {}",
+                       path("box.vit"), path(out),
+                       more.find("--crop") == std::string::npos ? "--crop 0,64,0,64" : "", more);
+  }
+  std::string alone(const std::string& out, const std::string& more = "") const {
+    return vitrail("render") + arguments(out, more);
+  }
+  std::uint64_t hash(const std::string& film) const { return read_film(path(film), nullptr).hash(); }
+  std::string text(const std::string& file) const {
+    std::ifstream in(path(file));
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
+  void wait_for_checkpoint(Background& job, const std::string& film) const {
+    while (job.running() && !fs::exists(path(film + ".partial"))) std::this_thread::sleep_for(5ms);
+  }
+  // Kills a rank after the first checkpoint. False where the job is over.
+  bool kill_a_rank(Background& job, const std::string& film) const {
+    wait_for_checkpoint(job, film);
+    const std::vector<pid_t> ranks = ranks_of(film);
+    return job.running() && !ranks.empty() && ::kill(ranks.back(), SIGKILL) == 0;
+  }
+  // Not their supervisor, whose command line is theirs and more.
+  std::vector<pid_t> ranks_of(const std::string& film) const {
+    std::istringstream pids(run("pgrep -f '[v]itrail-render .*" + path(film) + "'").output);
+    std::vector<pid_t> ranks;
+    for (pid_t pid; pids >> pid;)
+      if (const std::string line = text_of_command(pid);
+          line.starts_with(VITRAIL_BIN_DIR) && line.find("--restarts") == std::string::npos)
+        ranks.push_back(pid);
+    return ranks;
+  }
+  static std::string text_of_command(pid_t pid) {
+    std::ifstream in(fmt::format("/proc/{}/cmdline", pid));
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
+
+  TemporaryDirectory directory_;
+};
+
+TEST_F(Launchers, TasksOfSrunThatDoNotKnowOfEachOtherAreRefused) {
+  const CommandResult refused = run("SLURM_STEP_NUM_TASKS=4 SLURM_PROCID=2 " + alone("a.film"));
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_THAT(refused.output, HasSubstr("srun started 4 tasks that do not know of each other"));
+  EXPECT_FALSE(fs::exists(path("a.film")));
+  EXPECT_EQ(run("SLURM_STEP_NUM_TASKS=1 SLURM_NTASKS=4 " + alone("a.film", "--crop 0,8,0,8")).status, 0)
+      << "in the job's script itself";
+}
+
+TEST_F(Launchers, AJobsMemoryAndTimeAreTaken) {
+  const auto in_job = [&](int seconds) {
+    const auto end = std::chrono::system_clock::now() + std::chrono::seconds(seconds);
+    return fmt::format("SLURM_JOB_ID=7 SLURM_MEM_PER_NODE=4000 SLURM_JOB_END_TIME={} ",
+                       std::chrono::system_clock::to_time_t(end));
+  };
+  std::string line = alone("a.film", fmt::format("--stats '{}'", path("stats.json")));
+  const CommandResult made = run(in_job(3600) + line.erase(line.find("--quiet"), 7));
+  EXPECT_EQ(made.status, 0) << made.output;
+  EXPECT_THAT(made.output, HasSubstr("3600 MiB a rank, as Slurm gives this job"));
+  EXPECT_THAT(made.output, HasSubstr("stops with a checkpoint after 35"));
+  EXPECT_EQ(read_json(path("stats.json"))["memory_budget_bytes"], 3600u << 20);
+  const CommandResult stopped = run(in_job(1) + alone("b.film"));
+  EXPECT_EQ(stopped.status, 128 + SIGTERM) << stopped.output;
+  EXPECT_TRUE(fs::exists(path("b.film.partial")));
+  EXPECT_EQ(run(alone("b.film")).status, 0);
+  EXPECT_EQ(hash("b.film"), hash("a.film"));
+}
+
+TEST_F(Launchers, TermToMpirunLeavesWhatCanBeResumed) {
+  ASSERT_EQ(run(alone("whole.film")).status, 0);
+  Background job(mpi_vitrail("render", 2) + arguments("a.film"));
+  wait_for_checkpoint(job, "a.film");
+  ASSERT_TRUE(job.running());
+  job.send(SIGTERM);
+  EXPECT_NE(job.wait(), 0);
+  EXPECT_TRUE(fs::exists(path("a.film.partial")));
+  EXPECT_FALSE(fs::exists(path("a.film")));
+  for (int wait = 0; wait < 200 && !ranks_of("a.film").empty(); ++wait)  // mpirun does not wait for its ranks
+    std::this_thread::sleep_for(50ms);
+  ASSERT_EQ(run(alone("a.film")).status, 0);
+  EXPECT_EQ(hash("a.film"), hash("whole.film"));
+}
+
+TEST_F(Launchers, AKilledRenderIsBroughtBack) {
+  ASSERT_EQ(run(alone("whole.film")).status, 0);
+  Background job(alone("a.film", "--restarts 3"));
+  int killed = 0;
+  while (killed < 2 && kill_a_rank(job, "a.film")) {
+    ++killed;
+    std::this_thread::sleep_for(1500ms);  // it begins anew after 1 s
+  }
+  EXPECT_GT(killed, 0);
+  EXPECT_EQ(job.wait(), 0);
+  EXPECT_EQ(hash("a.film"), hash("whole.film"));
+  EXPECT_EQ(std::distance(fs::directory_iterator(directory_.path()), {}), 3) << "leftovers";
+}
+
+TEST_F(Launchers, AKilledRankOfMpirunIsBroughtBack) {
+  ASSERT_EQ(run(alone("whole.film")).status, 0);
+  const std::string mpirun = mpi_vitrail("render", 2);
+  const auto begin = mpirun.find("mpirun"), end = mpirun.find(" '");
+  Background job(mpirun.substr(0, begin) + alone("a.film", fmt::format("--restarts 9 --launcher '{}'",
+                                                                       mpirun.substr(begin, end - begin))));
+  EXPECT_TRUE(kill_a_rank(job, "a.film"));
+  EXPECT_EQ(job.wait(), 0);
+  EXPECT_EQ(hash("a.film"), hash("whole.film"));
+}
+
+TEST_F(Launchers, WhatCannotBecomeBetterIsNotStartedAgain) {
+  const CommandResult bad = run(vitrail("render") + " no-such.pbrt --restarts 5");
+  EXPECT_EQ(bad.status, 3);
+  EXPECT_EQ(bad.output.find("started again"), std::string::npos);
+  EXPECT_EQ(run(alone("a.film", "--restarts 5 --force")).status, 2);
+  EXPECT_EQ(run(mpi_vitrail("render", 1) + arguments("a.film", "--restarts 5")).status, 2);
+  Background job(alone("a.film", "--restarts 5"));
+  wait_for_checkpoint(job, "a.film");
+  job.send(SIGTERM);
+  EXPECT_EQ(job.wait(), 128 + SIGTERM);
+  EXPECT_TRUE(fs::exists(path("a.film.partial")));
+}
+
+// As some cluster file systems are mounted.
+TEST_F(Launchers, WithoutLocksTheFileIsBelieved) {
+  const std::string without = fmt::format("LD_PRELOAD='{}' ", VITRAIL_NO_FLOCK);
+  std::ofstream(path("a.film.lock")) << "process 1 on some-other-host";
+  const CommandResult refused = run(without + alone("a.film"));
+  EXPECT_EQ(refused.status, 4);
+  EXPECT_THAT(refused.output, HasSubstr("process 1 on some-other-host"));
+  EXPECT_THAT(refused.output, HasSubstr("remove"));
+  Background first(without + alone("b.film"));
+  wait_for_checkpoint(first, "b.film");
+  EXPECT_EQ(run(without + alone("b.film")).status, 4);
+  first.send(SIGKILL);
+  first.wait();
+  EXPECT_TRUE(fs::exists(path("b.film.lock")));
+  std::ofstream(path("b.film.partial.tmp123")) << "of a killed run";
+  std::ofstream(path("b.film.tmp.mine")) << "no leftover";
+  const CommandResult resumed = run(without + alone("b.film"));
+  EXPECT_EQ(resumed.status, 0) << resumed.output;
+  EXPECT_FALSE(fs::exists(path("b.film.lock")));
+  EXPECT_FALSE(fs::exists(path("b.film.partial.tmp123")));
+  EXPECT_TRUE(fs::exists(path("b.film.tmp.mine")));
+  const CommandResult again = run(without + alone("b.film").substr(0, alone("b.film").find("--quiet")));
+  EXPECT_EQ(again.status, 0);
+  EXPECT_THAT(again.output, HasSubstr("is finished already"));
+}
+
+}  // namespace
+}  // namespace vitrail::test
