@@ -102,6 +102,10 @@ int guarded_job(const CLI::App& app, Transport& transport, RenderArguments& a) {
   } catch (const OtherRankFailed& failed) {
     if (stop_signal()) return 128 + stop_signal();
     return failed.bad_input ? exit_bad_input : exit_machine;
+  } catch (const SilentRanks& silent) {
+    fmt::print(stderr, "vitrail: {}{}\n", who, silent.what());
+    transport.abandon(exit_machine);
+    return exit_machine;
   } catch (const Interrupted&) {
     throw;
   } catch (const Error& error) {

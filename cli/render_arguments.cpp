@@ -70,6 +70,10 @@ void declare(CLI::App& app, RenderArguments& a) {
   app.add_option("--aov-space", a.aov_space,
                  "world or camera: of positions and normals of --aov; default: as the scene says, else world")
       ->check(CLI::IsMember({"world", "camera"}));
+  app.add_option(
+         "--patience", o.patience_s,
+         "seconds; a rank that does not answer for so long is named and ends the job; default 600, 0: never")
+      ->check(not_below_0);
   app.add_option("--checkpoint-every", o.checkpoint_every_s,
                  "seconds between checkpoints; 0: none but those that signals ask for")
       ->check(not_below_0)

@@ -19,7 +19,10 @@ void agree(Transport& transport, const std::function<void()>& step) {
   if (failure) (is_bad_input(failure) ? mine.bad_input : mine.machine_failure) = 1;
   transport.start_round(mine);
   std::optional<RoundSums> sums;
-  while (!(sums = transport.finish_round())) std::this_thread::sleep_for(std::chrono::microseconds(100));
+  while (!(sums = transport.finish_round())) {
+    if (transport.while_waiting) transport.while_waiting();
+    std::this_thread::sleep_for(std::chrono::microseconds(100));
+  }
   if (sums->bad_input + sums->machine_failure > 0) leave(failure, *sums);
 }
 

@@ -4,8 +4,10 @@
 #include <mpi.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdlib>
 #include <list>
+#include <thread>
 
 #include "farm/transport.h"
 #include "scene/diagnostics.h"
@@ -18,6 +20,8 @@ namespace {
 constexpr std::size_t collective_bytes = 2 << 20;
 template <class T>
 constexpr std::size_t collective_part = collective_bytes / sizeof(T);
+
+constexpr int tag_of_rays = 0, tag_of_words = 1;
 
 void add_wide_sums(void* from, void* to, int* count, MPI_Datatype*) {
   for (int i = 0; i < *count; ++i) static_cast<WideSum*>(to)[i] += static_cast<const WideSum*>(from)[i];
@@ -50,7 +54,7 @@ class MpiTransport final : public Transport {
   void send(int to, RayBatch batch) override {
     complete_sends();
     Sending& s = sending_.emplace_back(Sending{std::move(batch), MPI_REQUEST_NULL});
-    MPI_Isend(s.batch.bytes().data(), static_cast<int>(s.batch.bytes().size()), MPI_BYTE, to, 0,
+    MPI_Isend(s.batch.bytes().data(), static_cast<int>(s.batch.bytes().size()), MPI_BYTE, to, tag_of_rays,
               MPI_COMM_WORLD, &s.request);
   }
 
@@ -59,7 +63,7 @@ class MpiTransport final : public Transport {
     int arrived = 0;
     MPI_Message message;
     MPI_Status status;
-    MPI_Improbe(MPI_ANY_SOURCE, 0, MPI_COMM_WORLD, &arrived, &message, &status);
+    MPI_Improbe(MPI_ANY_SOURCE, tag_of_rays, MPI_COMM_WORLD, &arrived, &message, &status);
     if (!arrived) return std::nullopt;
     int bytes = 0;
     MPI_Get_count(&status, MPI_BYTE, &bytes);
@@ -79,6 +83,29 @@ class MpiTransport final : public Transport {
     MPI_Test(&round_, &done, MPI_STATUS_IGNORE);
     if (!done) return std::nullopt;
     return sums_;
+  }
+
+  void say(int to, Word word) override {
+    static constexpr Word words[] = {Word::are_you_there, Word::here};
+    MPI_Request request;
+    MPI_Isend(&words[static_cast<std::size_t>(word)], 1, MPI_BYTE, to, tag_of_words, MPI_COMM_WORLD,
+              &request);
+    MPI_Request_free(&request);
+  }
+
+  std::optional<std::pair<int, Word>> hear() override {
+    int arrived = 0;
+    MPI_Status status;
+    MPI_Iprobe(MPI_ANY_SOURCE, tag_of_words, MPI_COMM_WORLD, &arrived, &status);
+    if (!arrived) return std::nullopt;
+    Word word{};
+    MPI_Recv(&word, 1, MPI_BYTE, status.MPI_SOURCE, tag_of_words, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
+    return std::pair{status.MPI_SOURCE, word};
+  }
+
+  void abandon(int status) override {
+    MPI_Abort(MPI_COMM_WORLD, status);
+    std::_Exit(status);
   }
 
   void sum_to_root(std::span<std::int64_t> values) override { reduce(values, MPI_INT64_T, MPI_SUM); }
@@ -104,13 +131,26 @@ class MpiTransport final : public Transport {
     });
   }
 
+  void wait(MPI_Request& request) const {
+    constexpr int quick_tests = 1000;
+    int done = 0;
+    for (int tests = 0;; ++tests) {
+      MPI_Test(&request, &done, MPI_STATUS_IGNORE);
+      if (done) return;
+      if (while_waiting) while_waiting();
+      if (tests > quick_tests) std::this_thread::sleep_for(std::chrono::microseconds(20));
+    }
+  }
+
   template <class T>
   void reduce(std::span<T> values, MPI_Datatype type, MPI_Op operation) {
     constexpr std::size_t part = collective_part<T>;
     for (std::size_t at = 0; at < values.size(); at += part) {
       const int count = static_cast<int>(std::min(part, values.size() - at));
-      MPI_Reduce(rank_ == 0 ? MPI_IN_PLACE : values.data() + at, values.data() + at, count, type, operation,
-                 0, MPI_COMM_WORLD);
+      MPI_Request request;
+      MPI_Ireduce(rank_ == 0 ? MPI_IN_PLACE : values.data() + at, values.data() + at, count, type, operation,
+                  0, MPI_COMM_WORLD, &request);
+      wait(request);
     }
     if (rank_ != 0) std::ranges::fill(values, T{});
   }
@@ -118,9 +158,12 @@ class MpiTransport final : public Transport {
   template <class T>
   void broadcast(std::span<T> values, MPI_Datatype type) {
     constexpr std::size_t part = collective_part<T>;
-    for (std::size_t at = 0; at < values.size(); at += part)
-      MPI_Bcast(values.data() + at, static_cast<int>(std::min(part, values.size() - at)), type, 0,
-                MPI_COMM_WORLD);
+    for (std::size_t at = 0; at < values.size(); at += part) {
+      MPI_Request request;
+      MPI_Ibcast(values.data() + at, static_cast<int>(std::min(part, values.size() - at)), type, 0,
+                 MPI_COMM_WORLD, &request);
+      wait(request);
+    }
   }
 
   int rank_ = 0, size_ = 1;

@@ -39,6 +39,7 @@ struct RenderOptions {
   double time_limit_s = 0;          // from `start` on; 0: none. The film then holds what was done
   double stop_after_s = 0;          // from `start` on; 0: never. As if told to stop, by a TERM
   std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
+  double patience_s = 600;                  // a rank that does not answer for so long ends the job; 0: never
   bool adaptive = false;                    // samples go where the picture is noisy
   std::optional<TargetError> target_error;  // the render ends once this is reached
   bool dry_run = false;           // renders until the time limit, writes nothing and says what all would take

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "farm/rank.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <bit>
 #include <csignal>
 #include <thread>
 
 #include "bundle/watched_files.h"
 #include "farm/agreement.h"
+#include "farm/render.h"
 #include "farm/signals.h"
 #include "scene/diagnostics.h"
 
@@ -42,6 +46,7 @@ Rank::Rank(Transport& transport, RankState& state, const RenderOptions& options,
       options_(options),
       goal_(goal),
       progress_(options, transport.rank(), state.film, expected_samples(state.film, goal)),
+      watch_(transport.rank(), transport.size(), options.patience_s),
       time_before_s_(earlier.render_time_s),
       about_(std::move(about)),
       keeper_(keeper),
@@ -49,7 +54,10 @@ Rank::Rank(Transport& transport, RankState& state, const RenderOptions& options,
       last_checkpoint_(start_),
       checkpoint_after_s_(interval_s(options)) {
   start_items(std::move(earlier.done));
+  transport_.while_waiting = [this] { watch_ranks(); };
 }
+
+Rank::~Rank() { transport_.while_waiting = nullptr; }
 
 double Rank::elapsed_s() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
 
@@ -75,30 +83,25 @@ Ending Rank::run() {
   for (;;) {
     bool moved = try_to_move_rays();
     watch_clock();
+    watch_ranks();
     if (in_round) {
       if (const auto sums = transport_.finish_round()) {
         in_round = false;
+        watch_.round_ends();
         progress_.show(*sums);
         const Decision decision = decide(*sums);
-        if (decision == Decision::checkpoint) write(checkpoint_path(options_.film), /*last=*/false);
-        if (decision == Decision::end) {
-          Ending ending = ending_of(*sums);
-          if (ending == Ending::finished && goal_.in_rounds) {
-            const std::optional<Ending> end = begin_next_round(stop_of(*sums));
-            if (!end) continue;
-            ending = *end;
-          }
-          if (options_.dry_run)
-            transport_.sum_to_root(state_.film.counts());
-          else
-            write(writes_film(ending) ? options_.film : checkpoint_path(options_.film), /*last=*/true);
-          progress_.finish();
-          return ending;
+        if (decision != Decision::go_on) {
+          // What follows is done by all together.
+          watch_.round_begins(elapsed_s());
+          const std::optional<Ending> ending = act_on(decision, *sums);
+          watch_.round_ends();
+          if (ending) return *ending;
         }
       }
     } else if (Clock::now() - last_round >= round_interval) {
       last_round = Clock::now();
       transport_.start_round(contribution());
+      watch_.round_begins(elapsed_s());
       in_round = moved = true;
     }
     if (moved) {
@@ -108,6 +111,26 @@ Ending Rank::run() {
       nap = std::min<std::chrono::microseconds>(nap * 2, longest_nap);
     }
   }
+}
+
+// The end of the render, where it is one.
+std::optional<Ending> Rank::act_on(Decision decision, const RoundSums& sums) {
+  if (decision == Decision::checkpoint) {
+    write(checkpoint_path(options_.film), /*last=*/false);
+    return std::nullopt;
+  }
+  Ending ending = ending_of(sums);
+  if (ending == Ending::finished && goal_.in_rounds) {
+    const std::optional<Ending> end = begin_next_round(stop_of(sums));
+    if (!end) return std::nullopt;
+    ending = *end;
+  }
+  if (options_.dry_run)
+    transport_.sum_to_root(state_.film.counts());
+  else
+    write(writes_film(ending) ? options_.film : checkpoint_path(options_.film), /*last=*/true);
+  progress_.finish();
+  return ending;
 }
 
 // What goes wrong is told to the others in the next round.
@@ -162,6 +185,31 @@ void Rank::watch_clock() {
   const double since_start_s = std::chrono::duration<double>(Clock::now() - options_.start).count();
   if (options_.time_limit_s > 0 && since_start_s >= options_.time_limit_s) time_is_up_ = true;
   if (options_.stop_after_s > 0 && since_start_s >= options_.stop_after_s) ask_to_stop();
+}
+
+// Answers those that ask whether this rank is well, and asks itself where a round does not end.
+void Rank::watch_ranks() {
+  while (const auto heard = transport_.hear()) {
+    const auto [from, word] = *heard;
+    if (word == Transport::Word::here) {
+      watch_.answered(from);
+    } else {
+      watch_.asked(elapsed_s());
+      transport_.say(from, Transport::Word::here);
+    }
+  }
+  const Watch::Step step = watch_.step(elapsed_s());
+  if (step == Watch::Step::ask_all)
+    for (int other = 0; other < transport_.size(); ++other)
+      if (other != transport_.rank()) transport_.say(other, Transport::Word::are_you_there);
+  if (step != Watch::Step::give_up) return;
+  const std::vector<int> silent = watch_.silent();
+  const bool one = silent.size() == 1;
+  throw SilentRanks(
+      fmt::format("{} {} of {} {} not answered for {} s (--patience): the job ends; what its "
+                  "last checkpoint holds is not lost, the same command goes on from there",
+                  one ? "rank" : "ranks", fmt::join(silent, ", "), transport_.size(), one ? "has" : "have",
+                  options_.patience_s));
 }
 
 RoundSums Rank::contribution() {

@@ -9,6 +9,7 @@
 #include "farm/film_keeper.h"
 #include "farm/options.h"
 #include "farm/progress.h"
+#include "farm/scheduler/watch.h"
 #include "farm/stats.h"
 #include "farm/workers.h"
 
@@ -19,6 +20,9 @@ class Rank {
   // `about`: FilmProgress's. `keeper`: on rank 0, unless it is a dry run.
   Rank(Transport& transport, RankState& state, const RenderOptions& options, const Goal& goal,
        EarlierWork earlier, std::string about, FilmKeeper* keeper);
+  ~Rank();
+  Rank(const Rank&) = delete;
+  Rank& operator=(const Rank&) = delete;
 
   // Until the picture is whole, the time is up or the job is told to stop. Rank 0 has then written the film,
   // or a checkpoint where a signal stopped it. Throws what went wrong here, or OtherRankFailed, after all
@@ -42,6 +46,8 @@ class Rank {
   std::optional<Ending> begin_next_round(Ending stop);
   void write(const std::filesystem::path& file, bool last);
   void watch_clock();
+  void watch_ranks();
+  std::optional<Ending> act_on(Decision decision, const RoundSums& sums);
   void leave_together();
   double elapsed_s() const;
 
@@ -51,6 +57,7 @@ class Rank {
   const Goal& goal_;
   int rounds_ = 1;
   Progress progress_;
+  Watch watch_;
   std::vector<std::uint64_t>
       done_;                  // bits of finished items that rank 0 does not hold yet; all of them on rank 0
   std::size_t reported_ = 0;  // items of the share already in done_

@@ -4,9 +4,11 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
+#include <utility>
 
 #include "farm/batch.h"
 #include "farm/scheduler/round.h"
@@ -26,6 +28,16 @@ class Transport {
   // Joins the next round; one at a time. `finish_round` gives its sums once every rank has joined.
   virtual void start_round(const RoundSums& mine) = 0;
   virtual std::optional<RoundSums> finish_round() = 0;
+
+  // Beside rays and rounds; `hear` gives who said it. What nobody hears is lost without harm.
+  enum class Word : std::uint8_t { are_you_there, here };
+  virtual void say(int to, Word word) = 0;
+  virtual std::optional<std::pair<int, Word>> hear() = 0;
+  // Ends all ranks at once, however they are, with this status.
+  virtual void abandon(int status) = 0;
+
+  // Called again and again while the following wait, so that words are heard; what it throws ends the wait.
+  std::function<void()> while_waiting;
 
   // These wait for all ranks; called when no ray is alive.
   // Elementwise sums, or maxima, into rank 0's buffer; the others' become zero.

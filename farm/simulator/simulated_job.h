@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The simulation itself, over any scheduler, so that tests can put a broken one in its place.
+// The simulation itself, over any scheduler and watch, so that tests can put broken ones in their place.
 #pragma once
 
 #include <fmt/format.h>
@@ -14,11 +14,12 @@
 #include <utility>
 
 #include "farm/scheduler/scheduler.h"
+#include "farm/scheduler/watch.h"
 #include "farm/simulator/simulation.h"
 
 namespace vitrail {
 
-template <class SchedulerType>
+template <class SchedulerType, class WatchType = Watch>
 class SimulatedJob {
  public:
   SimulatedJob(const Workload& workload, const Machine& machine, const Mishaps& mishaps, std::uint64_t seed)
@@ -30,13 +31,18 @@ class SimulatedJob {
     const std::vector<int> home = home_ranks(workload.manifest, machine.ranks);
     for (int r = 0; r < machine.ranks; ++r) {
       const auto ranks = static_cast<std::uint64_t>(machine.ranks), rank = static_cast<std::uint64_t>(r);
-      const std::uint64_t items = workload.items / ranks + (rank < workload.items % ranks);
+      const auto share = [&](std::uint64_t all) { return all / ranks + (rank < all % ranks); };
       ranks_.emplace_back(SchedulerType({machine.ranks, machine.workers, machine.rays_allowed},
                                         Residency(workload.manifest, machine.domain_bytes, home, r)),
-                          workload.domains.size(), static_cast<std::size_t>(machine.workers));
-      ranks_.back().items = items;
-      ranks_.back().scheduler.begin_items(items);
+                          WatchType(r, machine.ranks, machine.patience_s), workload.domains.size(),
+                          static_cast<std::size_t>(machine.workers));
+      ranks_.back().items = share(workload.items);
+      ranks_.back().rounds_of_samples = mishaps.kept.rounds;
+      ranks_.back().scheduler.begin_items(share(workload.items - mishaps.kept.items));
     }
+    for (const Silence& s : mishaps.silences) ranks_[static_cast<std::size_t>(s.rank)].silence = s;
+    ranks_[0].items_before = mishaps.kept.items;
+    result_.kept = kept_ = mishaps.kept;
     for (int i = 0; i < mishaps.checkpoints; ++i)
       at(-mishaps.checkpoint_mean_s * std::log1p(-uniform()), {Event::Kind::checkpoint, pick_rank()});
     for (int r = 0; r < machine.ranks; ++r) {
@@ -54,9 +60,19 @@ class SimulatedJob {
       events_.pop();
       now_ = e.time;
       ++result_.events;
+      const Silence& silence = ranks_[static_cast<std::size_t>(e.rank)].silence;
+      if (silence.from_s <= now_ && now_ < silence.to_s) {
+        if (std::isfinite(silence.to_s)) at(silence.to_s, e);
+        continue;
+      }
       happen(e);
       check(e.rank);
-      if (e.kind != Event::Kind::round_begins && e.kind != Event::Kind::round_ends) ++progress;
+      if (!result_.silent.empty()) {
+        check_silent();
+        result_.seconds = now_;
+        return result_;
+      }
+      if (e.kind < Event::Kind::round_begins) ++progress;
       if (e.kind == Event::Kind::round_ends && e.rank == 0) {
         rounds_without_progress = progress == progress_then_ ? rounds_without_progress + 1 : 0;
         progress_then_ = progress;
@@ -64,10 +80,7 @@ class SimulatedJob {
       }
     }
     if (alive_ != 0) broken(fmt::format("the job ended with {} rays alive", alive_));
-    const auto rounds = static_cast<std::uint64_t>(mishaps_.rounds_of_samples);
-    if (generated_ != rounds * workload_.items * workload_.rays_an_item)
-      broken(fmt::format("the job ended with {} camera rays of {} × {} items of {}", generated_, rounds,
-                         workload_.items, workload_.rays_an_item));
+    check_generated({mishaps_.rounds_of_samples, 0});
     for (const auto& [round, ranks] : quiet_)
       if (ranks != ranks_.size())
         broken(fmt::format("in round {} only {} ranks thought that all was quiet", round, ranks));
@@ -89,7 +102,18 @@ class SimulatedJob {
 
  private:
   struct Event {
-    enum class Kind { task_done, load_done, message, round_begins, round_ends, checkpoint };
+    // Those behind `message` alone bring nothing on.
+    enum class Kind {
+      task_done,
+      load_done,
+      message,
+      round_begins,
+      round_ends,
+      watch,
+      ask,
+      answer,
+      checkpoint
+    };
     Kind kind = Kind::task_done;
     int rank = 0;
     std::uint32_t domain = 0;  // of a message or a load
@@ -110,11 +134,14 @@ class SimulatedJob {
     std::uint64_t bytes = 0;
   };
   struct Rank {
-    Rank(SchedulerType s, std::size_t domains, std::size_t threads)
-        : scheduler(std::move(s)), queues(domains), workers(threads) {
+    Rank(SchedulerType s, WatchType w, std::size_t domains, std::size_t threads)
+        : scheduler(std::move(s)), watch(std::move(w)), queues(domains), workers(threads) {
       for (std::size_t i = 0; i < threads; ++i) scheduler.worker_waits();
     }
     SchedulerType scheduler;
+    WatchType watch;
+    Silence silence;
+    bool watch_is_due = false;          // the event is on its way
     std::vector<std::uint64_t> queues;  // rays, by domain
     std::map<std::uint32_t, std::uint64_t> outgoing;
     std::vector<Worker> workers;
@@ -127,7 +154,8 @@ class SimulatedJob {
     std::uint32_t on_its_way = 0;            // its domain
     bool loading = false, ended = false, wants_checkpoint = false;
     std::uint64_t items = 0;
-    int rounds_of_samples = 0;  // done
+    std::uint64_t items_before = 0;  // on rank 0: of this round of samples, done by an earlier run
+    int rounds_of_samples = 0;       // done
     double busy_s = 0, loading_s = 0, sending_s = 0;
     std::uint64_t most_bytes = 0;
     std::uint64_t round = 0;
@@ -167,6 +195,15 @@ class SimulatedJob {
         return begin_round(e.rank);
       case Event::Kind::round_ends:
         return end_round(e.rank);
+      case Event::Kind::watch:
+        r.watch_is_due = false;
+        return look_after_others(e.rank);
+      case Event::Kind::ask:
+        r.watch.asked(now_);
+        return at(now_ + late() * machine_.latency_s,
+                  {Event::Kind::answer, static_cast<int>(e.number), 0, static_cast<std::uint64_t>(e.rank)});
+      case Event::Kind::answer:
+        return r.watch.answered(static_cast<int>(e.number));
       case Event::Kind::checkpoint:
         r.wants_checkpoint = !r.ended;
         return;
@@ -380,7 +417,10 @@ class SimulatedJob {
     Rank& r = ranks_[static_cast<std::size_t>(rank)];
     send(rank);
     RoundSums mine = r.scheduler.contribution();
+    mine.items_done += static_cast<std::int64_t>(r.items_before);
     mine.pause = r.wants_checkpoint;
+    r.watch.round_begins(now_);
+    expect_watch(rank);
     Round& round = rounds_[r.round];
     add(round.sums, mine);
     if (++round.joined < machine_.ranks) return;
@@ -394,20 +434,24 @@ class SimulatedJob {
     Rank& r = ranks_[static_cast<std::size_t>(rank)];
     const RoundSums sums = rounds_.at(r.round).sums;
     ++r.round;
+    r.watch.round_ends();
     if (r.scheduler.decide(sums) == SchedulerType::Decision::all_quiet) {
       if (!over_ || *over_ != r.round) {
         if (alive_ != 0)
           broken(fmt::format("rank {} thinks that it is over with {} rays alive", rank, alive_));
         over_ = r.round;
+        note_kept(r, sums);
       }
       for (std::uint32_t d = 0; d < r.queues.size(); ++d) check_queue(rank, d);
-      ++quiet_[r.round];
+      // Written when all ranks have given what they have of it.
+      if (++quiet_[r.round] == ranks_.size() && sums.pause > 0) result_.kept = kept_;
       if (sums.items_done == static_cast<std::int64_t>(workload_.items)) {
         if (++r.rounds_of_samples == mishaps_.rounds_of_samples) {
           r.ended = true;
           ++ended_;
           return;
         }
+        r.items_before = 0;
         r.scheduler.begin_items(r.items);
       } else {
         if (sums.pause == 0) broken("all is quiet, not done, and nobody asked for a pause");
@@ -430,7 +474,59 @@ class SimulatedJob {
     to.items_done += from.items_done;
   }
 
+  // --- ranks that do not answer
+  void expect_watch(int rank) {
+    Rank& r = ranks_[static_cast<std::size_t>(rank)];
+    if (r.watch_is_due || !std::isfinite(r.watch.due_s())) return;
+    r.watch_is_due = true;
+    at(std::max(now_, r.watch.due_s()), {Event::Kind::watch, rank});
+  }
+
+  void look_after_others(int rank) {
+    Rank& r = ranks_[static_cast<std::size_t>(rank)];
+    const auto step = r.watch.step(now_);
+    if (step == WatchType::Step::ask_all)
+      for (int other = 0; other < machine_.ranks; ++other)
+        if (other != rank)
+          at(now_ + late() * machine_.latency_s,
+             {Event::Kind::ask, other, 0, static_cast<std::uint64_t>(rank)});
+    // The launcher ends all ranks then.
+    if (step == WatchType::Step::give_up) result_.silent = r.watch.silent();
+    expect_watch(rank);
+  }
+
   // --- what may never happen
+  // Those that are named do not answer, and did not for long enough; and none was waited for longer than
+  // promised.
+  void check_silent() const {
+    const double longest_way_s = machine_.latency_s * (1 + machine_.jitter);
+    for (const int rank : result_.silent) {
+      const Silence& s = ranks_[static_cast<std::size_t>(rank)].silence;
+      if (s.from_s > now_ || s.to_s - s.from_s < machine_.patience_s / 2 - 2 * longest_way_s)
+        broken(fmt::format("rank {} is well and was given up", rank));
+      if (now_ > s.from_s + 3 * machine_.patience_s + machine_.round_interval_s * (1 + machine_.jitter) +
+                     32 * longest_way_s)
+        broken(fmt::format("rank {} was silent since {} s", rank, s.from_s));
+    }
+  }
+
+  // All is quiet: what a checkpoint would hold now. No item is open, and of those dealt all rays were
+  // generated.
+  void note_kept(const Rank& one, const RoundSums& sums) {
+    for (const Rank& r : ranks_)
+      if (r.item_at != 0) broken("all is quiet with an item that is open");
+    kept_ = {one.rounds_of_samples, static_cast<std::uint64_t>(sums.items_done)};
+    check_generated(kept_);
+  }
+  void check_generated(const KeptWork& now) const {
+    const auto items = [&](const KeptWork& w) {
+      return static_cast<std::uint64_t>(w.rounds) * workload_.items + w.items;
+    };
+    if (generated_ != (items(now) - items(mishaps_.kept)) * workload_.rays_an_item)
+      broken(fmt::format("{} camera rays were generated for {} items of {}", generated_,
+                         items(now) - items(mishaps_.kept), workload_.rays_an_item));
+  }
+
   void check(int rank) const {
     const Rank& r = ranks_[static_cast<std::size_t>(rank)];
     const Residency& residency = r.scheduler.residency();
@@ -468,6 +564,7 @@ class SimulatedJob {
   double now_ = 0;
   std::uint64_t alive_ = 0, generated_ = 0;
   std::size_t ended_ = 0;
+  KeptWork kept_;                               // what a checkpoint holds that is being written
   std::map<std::uint64_t, std::size_t> quiet_;  // ranks that thought so, by round
   std::optional<std::uint64_t> over_;           // the round that said so
   SimulationResult result_;

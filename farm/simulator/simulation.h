@@ -3,7 +3,9 @@
 // disks are events. What may never happen is looked for after every event.
 #pragma once
 
+#include <limits>
 #include <stdexcept>
+#include <vector>
 
 #include "farm/simulator/workload.h"
 
@@ -21,7 +23,21 @@ struct Machine {
   double disk_bytes_s = 1e9;       // a rank
   std::uint64_t rays_of_a_batch = 1024;
   double round_interval_s = 1e-3;
-  double jitter = 0;  // any of these takes up to 1 + this times as long: messages overtake
+  double jitter = 0;      // any of these takes up to 1 + this times as long: messages overtake
+  double patience_s = 0;  // Watch's; 0: a rank that is silent is waited for
+};
+
+// What a checkpoint holds: whole rounds of samples, and items of the next one.
+struct KeptWork {
+  int rounds = 0;
+  std::uint64_t items = 0;
+};
+
+// All of a rank stands still, and what comes for it waits.
+struct Silence {
+  int rank = -1;
+  double from_s = std::numeric_limits<double>::infinity();
+  double to_s = std::numeric_limits<double>::infinity();  // ∞: it is dead
 };
 
 // What goes wrong on purpose.
@@ -29,7 +45,9 @@ struct Mishaps {
   int checkpoints = 0;        // at random moments
   int rounds_of_samples = 1;  // the items come so many times
   double checkpoint_mean_s = 1e-3;
-  double slow_rank = 1;  // a rank whose work takes so many times as long
+  double slow_rank = 1;           // a rank whose work takes so many times as long
+  std::vector<Silence> silences;  // at most one a rank
+  KeptWork kept;                  // of an earlier run: this one goes on from there
 };
 
 // Something that may never happen did. The message says what, where and when.
@@ -49,6 +67,8 @@ struct SimulationResult {
   std::uint64_t most_bytes = 0;      // of domains in memory: each rank's most, summed
   std::uint64_t most_alive = 0;      // rays in the whole job
   std::uint64_t most_on_a_rank = 0;  // rays that wait on one
+  std::vector<int> silent;           // the job ended because these did not answer
+  KeptWork kept;                     // in its last checkpoint
 };
 
 // The same seed gives the same run. Throws InvariantBroken.

@@ -22,10 +22,12 @@ struct Case {
   Machine machine;
   Mishaps mishaps;
 
-  explicit Case(std::uint64_t seed, int most_ranks = 40) {
+  // Mostly few ranks, one in a hundred up to 1000.
+  explicit Case(std::uint64_t seed) {
     std::mt19937_64 random(seed);
     const auto among = [&](std::uint64_t n) { return random() % n; };
-    machine.ranks = 1 + static_cast<int>(among(among(4) == 0 ? static_cast<std::uint64_t>(most_ranks) : 4));
+    const std::uint64_t most_ranks = among(4) > 0 ? 4 : among(25) > 0 ? 40 : 1000;
+    machine.ranks = 1 + static_cast<int>(among(most_ranks));
     machine.workers = 1 + static_cast<int>(among(4));
     const auto domains = static_cast<std::uint32_t>(1 + among(among(2) == 0 ? 4 : among(8) == 0 ? 300 : 48));
     workload = random_workload(random, domains, among(60), static_cast<std::uint32_t>(1 + among(2000)));
@@ -42,12 +44,34 @@ struct Case {
     mishaps.checkpoint_mean_s = .01;
     mishaps.rounds_of_samples = 1 + static_cast<int>(among(3));
     mishaps.slow_rank = among(4) == 0 ? 20 : 1;
+    machine.patience_s = 2;
+    if (among(4) == 0)
+      for (std::uint64_t silences = 1 + among(3); silences > 0; --silences) add_silence(random);
+  }
+
+  // Dead, or silent for a moment up to half again the patience.
+  void add_silence(std::mt19937_64& random) {
+    const auto seconds = [&](double most) { return most * static_cast<double>(random() >> 11) * 0x1p-53; };
+    Silence s;
+    s.rank = static_cast<int>(random() % static_cast<std::uint64_t>(machine.ranks));
+    s.from_s = seconds(.05);
+    if (random() % 2 == 0) s.to_s = s.from_s + seconds(1.5 * machine.patience_s);
+    for (const Silence& other : mishaps.silences)
+      if (other.rank == s.rank) return;
+    // One is left that misses the others.
+    if (mishaps.silences.size() + 1 < static_cast<std::size_t>(machine.ranks)) mishaps.silences.push_back(s);
   }
 };
 
-template <class SchedulerType>
-SimulationResult run(const Case& c, std::uint64_t seed) {
-  return SimulatedJob<SchedulerType>(c.workload, c.machine, c.mishaps, seed).run();
+// A job that ended because of silent ranks goes on from its last checkpoint without them.
+template <class SchedulerType, class WatchType = Watch>
+SimulationResult run(Case c, std::uint64_t seed) {
+  for (;;) {
+    const auto result = SimulatedJob<SchedulerType, WatchType>(c.workload, c.machine, c.mishaps, seed).run();
+    if (result.silent.empty()) return result;
+    c.mishaps.kept = result.kept;
+    c.mishaps.silences.clear();
+  }
 }
 
 TEST(Simulation, NothingIsLostAndEveryJobEnds) {
@@ -74,11 +98,11 @@ TEST(Simulation, NothingIsLostAndEveryJobEnds) {
 }
 
 // Deliberately wrong ones: what they do is found out.
-template <class SchedulerType>
+template <class SchedulerType, class WatchType = Watch>
 bool is_caught(int jobs) {
   for (int seed = 1; seed <= jobs; ++seed) {
     try {
-      run<SchedulerType>(Case(static_cast<std::uint64_t>(seed)), static_cast<std::uint64_t>(seed));
+      run<SchedulerType, WatchType>(Case(static_cast<std::uint64_t>(seed)), static_cast<std::uint64_t>(seed));
     } catch (const InvariantBroken&) {
       return true;
     }
@@ -133,6 +157,55 @@ struct SaysThatItIsQuiet : Scheduler {
   }
 };
 
+// An item that was begun is left as it is when a checkpoint is asked for.
+struct PausesInAnItem : Scheduler {
+  using Scheduler::Scheduler;
+  Decision decide(const RoundSums& sums) {
+    pause = sums.pause > 0;
+    return Scheduler::decide(sums);
+  }
+  void resume() {
+    pause = false;
+    Scheduler::resume();
+  }
+  Task next_task() const {
+    const Task task = Scheduler::next_task();
+    return pause && task.work == Work::generate ? Task{} : task;
+  }
+  RoundSums contribution() const {
+    RoundSums mine = Scheduler::contribution();
+    if (pause && mine.reserved == 0) mine.quiet = 1;
+    return mine;
+  }
+  bool pause = false;
+};
+
+struct WaitsForEver : Watch {
+  using Watch::Watch;
+  double due_s() const { return std::numeric_limits<double>::infinity(); }
+};
+
+struct AsksNobody : Watch {
+  using Watch::Watch;
+  Step step(double now_s) {
+    const Step step = Watch::step(now_s);
+    return step == Step::ask_all ? Step::nothing : step;
+  }
+};
+
+struct ForgetsAnswers : Watch {
+  using Watch::Watch;
+  void answered(int rank) {
+    if (rank != 3) Watch::answered(rank);
+  }
+};
+
+TEST(Simulation, CatchesBrokenWatches) {
+  EXPECT_TRUE((is_caught<Scheduler, WaitsForEver>(300)));
+  EXPECT_TRUE((is_caught<Scheduler, AsksNobody>(2000)));
+  EXPECT_TRUE((is_caught<Scheduler, ForgetsAnswers>(2000)));
+}
+
 TEST(Simulation, CatchesBrokenSchedulers) {
   EXPECT_FALSE(is_caught<Scheduler>(300));
   EXPECT_TRUE(is_caught<TooSoon>(2000));
@@ -142,6 +215,7 @@ TEST(Simulation, CatchesBrokenSchedulers) {
   EXPECT_TRUE(is_caught<LetsGoTwice>(300));
   EXPECT_TRUE(is_caught<NeverLoads>(300));
   EXPECT_TRUE(is_caught<SaysThatItIsQuiet>(300));
+  EXPECT_TRUE(is_caught<PausesInAnItem>(300));
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <signal.h>
 
 #include <chrono>
+#include <fstream>
 #include <random>
 #include <thread>
 
@@ -68,6 +69,26 @@ TEST_F(KillAndResume, KilledRanksLeaveTheSameFilm) {
   EXPECT_EQ(stats("killed.film")["film_hash"], stats("whole.film")["film_hash"]);
   EXPECT_EQ(stats("killed.film")["samples"], 128 * 128 * 192);
   EXPECT_FALSE(std::filesystem::exists(partial));
+}
+
+TEST_F(KillAndResume, ARankThatHangsIsNamedAndTheJobGoesOn) {
+  const auto script = directory_ / "job.sh", errors = directory_ / "errors";
+  std::ofstream(script) << fmt::format(
+      "exec env {} 2>'{}'", command("hung.film", "--checkpoint-every 0.5 --patience 5"), errors.string());
+  Background job(fmt::format("sh '{}'", script.string()));
+  while (job.running() &&
+         (job.ranks().size() < 2 || !std::filesystem::exists(directory_ / "hung.film.partial")))
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  const std::vector<pid_t> ranks = job.ranks();
+  ASSERT_EQ(ranks.size(), 2u);
+  ::kill(ranks[1], SIGSTOP);
+  EXPECT_EQ(job.wait(), 4);
+  std::ifstream said(errors);
+  const std::string text{std::istreambuf_iterator(said), {}};
+  EXPECT_THAT(text, testing::ContainsRegex("rank [01] of 2 has not answered for 5 s"));
+  const CommandResult finished = run(command("hung.film", ""));
+  ASSERT_EQ(finished.status, 0) << finished.output;
+  EXPECT_EQ(stats("hung.film")["samples"], 128 * 128 * 192);
 }
 
 TEST_F(KillAndResume, TermWritesACheckpointAndEndsByItself) {
