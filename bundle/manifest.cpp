@@ -5,17 +5,16 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <cstring>
-#include <fstream>
 #include <span>
 
+#include "bundle/checked_json.h"
 #include "bundle/checksum.h"
 #include "bundle/manifest_json.h"
+#include "bundle/read_file.h"
 #include "bundle/records.h"
 #include "bundle/write_file.h"
 #include "scene/diagnostics.h"
-#include "scene/input_files.h"
 
 namespace vitrail {
 
@@ -23,8 +22,7 @@ namespace {
 
 constexpr int manifest_version = 6;
 
-// ---- The two binary files: 32 bytes of header, then the payload
-// -------------------------------------------------
+// The two binary files: 32 bytes of header, then the payload.
 
 struct RecordsHeader {
   std::array<char, 8> magic;
@@ -44,19 +42,6 @@ void write_records(const std::filesystem::path& file, std::array<char, 8> magic,
   write_file(file, std::array{std::as_bytes(std::span(&header, 1)), payload});
 }
 
-std::vector<std::byte> read_file(const std::filesystem::path& file) {
-  note_input(file);
-  std::ifstream in(file, std::ios::binary | std::ios::ate);
-  if (!in) throw MachineError(fmt::format("cannot open {}: {}", file.string(), std::strerror(errno)));
-  const std::streamoff size = in.tellg();
-  if (size < 0) throw MachineError(fmt::format("cannot read {}", file.string()));
-  std::vector<std::byte> bytes(static_cast<std::size_t>(size));
-  in.seekg(0);
-  in.read(reinterpret_cast<char*>(bytes.data()), size);
-  if (!in) throw MachineError(fmt::format("cannot read {}", file.string()));
-  return bytes;
-}
-
 // `expected` is the checksum that the manifest has for this file; empty: unknown.
 std::vector<std::byte> read_records(const std::filesystem::path& file, std::array<char, 8> magic,
                                     const std::string& expected) {
@@ -74,24 +59,6 @@ std::vector<std::byte> read_records(const std::filesystem::path& file, std::arra
   if (!expected.empty() && expected != fmt::format("{:016x}", header.payload_checksum))
     throw Error("this file belongs to another bundle; partition the scene again", {file.string()});
   return bytes;
-}
-
-// ---- manifest.json: a first line with the checksum of all that follows it
-// ---------------------------------------
-
-std::string checksum_line(std::string_view rest) {
-  return fmt::format("{{\"checksum\": \"{:016x}\",\n", checksum(std::as_bytes(std::span(rest))));
-}
-
-Json parse_manifest(const std::filesystem::path& file) {
-  const std::vector<std::byte> bytes = read_file(file);
-  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  const std::size_t first_line =
-      text.find('\n') == std::string_view::npos ? text.size() : text.find('\n') + 1;
-  if (text.substr(0, first_line) != checksum_line(text.substr(first_line)))
-    throw Error("the manifest is damaged or was edited: its checksum is wrong; partition the scene again",
-                {file.string()});
-  return Json::parse(text);
 }
 
 void check_version(const Json& json, const std::filesystem::path& file) {
@@ -159,16 +126,14 @@ void write_manifest(const std::filesystem::path& bundle, const Manifest& manifes
   json["materials_checksum"] = fmt::format("{:016x}", checksum(materials));
   json["lights_checksum"] = fmt::format("{:016x}", checksum(lights));
   json.update(manifest_to_json(manifest));
-  const std::string rest = json.dump(1).substr(2) + "\n";  // without "{\n"
-  const std::string text = checksum_line(rest) + rest;
-  write_file(file, std::array{std::as_bytes(std::span(text))});
+  write_checked_json(file, json);
 }
 
 Manifest read_manifest(const std::filesystem::path& bundle) {
   const std::filesystem::path file = bundle / "manifest.json";
   if (!std::filesystem::exists(file)) throw Error("not a bundle: it has no manifest.json", {bundle.string()});
   try {
-    const Json json = parse_manifest(file);
+    const Json json = read_checked_json(file, "the manifest");
     check_version(json, file);
     Manifest manifest = manifest_from_json(json);
     const std::filesystem::path materials = bundle / "materials.bin", lights = bundle / "lights.bin";

@@ -12,6 +12,7 @@
 
 #include "bundle/expected_files.h"
 #include "bundle/held_ids.h"
+#include "bundle/kept_glazing.h"
 #include "bundle/manifest.h"
 #include "bundle/origin_file.h"
 #include "bundle/texture_file.h"
@@ -41,6 +42,7 @@ class Verifier {
   VerifyResult run() {
     const auto start = std::chrono::steady_clock::now();
     read_records();
+    read_glazing();
     if (manifest_) {
       plan_domains();
       plan_objects();
@@ -116,6 +118,16 @@ class Verifier {
         if (!manifest_ && file != blamed && file != files[0]) check_records_file(file);
       });
     }
+  }
+
+  // Glass that can be set; without a manifest it is not known whether there is to be some.
+  void read_glazing() {
+    const fs::path file = glazing_path(bundle_);
+    if (!present_.contains(file)) return;
+    expect(file);
+    read(file, [&] {
+      if (manifest_) read_glazings(bundle_, manifest_->scene_hash, manifest_->materials.size());
+    });
   }
 
   void plan(HeldIds& ids, const fs::path& file, const std::function<void(const MappedDomain&)>& check) {

@@ -77,6 +77,7 @@ void put_about(PictureOrigin& origin, const std::string& about) {
   const nlohmann::json json = nlohmann::json::parse(about, nullptr, false);
   if (!json.is_object()) return;
   origin.scene = json.value("scene", "");
+  origin.glazing = json.value("glazing", "");
   const auto matrix = [&](const char* name) {
     std::vector<float> numbers;
     if (const auto found = json.find(name); found != json.end() && found->is_array())

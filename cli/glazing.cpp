@@ -69,10 +69,10 @@ ReadSystem read(const Arguments& a) {
       throw UsageError(fmt::format("--flip {}: there are {} panes", pane, read.system.layers.size()));
     read.system.layers[pane - 1].flipped = !read.system.layers[pane - 1].flipped;
   }
-  if (a.state && !set_state(read.system, *a.state, false))
+  if (a.state && !set(read.system, Quantity::state, *a.state))
     throw UsageError("--state: no pane has states; a system file says them (docs/glazing.md)");
-  if (a.temperature_c && !set_state(read.system, *a.temperature_c, true))
-    throw UsageError("--temperature: no pane is thermochromic");
+  if (a.temperature_c && !set(read.system, Quantity::temperature, *a.temperature_c))
+    throw UsageError("--temperature: no pane is thermochromic or photochromic");
   return read;
 }
 

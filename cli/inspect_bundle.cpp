@@ -6,6 +6,8 @@
 #include "cli/bundle_origin.h"
 #include "cli/inspect.h"
 #include "cli/sizes.h"
+#include "cli/switching_glazing.h"
+#include "glazing/kept_system.h"
 
 namespace vitrail {
 
@@ -18,6 +20,20 @@ Report domain_line(std::uint32_t index, const DomainInfo& d) {
           {"pieces", d.pieces},
           {"bytes", d.bytes},
           {"extent", fmt::format("{:.4g} × {:.4g} × {:.4g}", size.x, size.y, size.z)}};
+}
+
+// Glass that can be set.
+Report describe_glazing(const std::filesystem::path& bundle, const Manifest& m) {
+  Report table = Report::array();
+  for (const KeptGlazing& g : read_glazings(bundle, m.scene_hash, m.materials.size())) {
+    const GlazingSystem system = kept_system(g.system, glazing_path(bundle).string());
+    table.push_back({{"name", g.name},
+                     {"system", system.name.empty() ? "-" : system.name},
+                     {"panes", system.layers.size()},
+                     {"set", describe_setting(system)},
+                     {"can_be_set", names_of_quantities(system)}});
+  }
+  return table;
 }
 
 }  // namespace
@@ -34,6 +50,7 @@ Report inspect_bundle(const std::filesystem::path& bundle) {
   }
   r["made_at"] = time_of(bundle / "manifest.json");
   r.update(describe(m));
+  if (Report glazing = describe_glazing(bundle, m); !glazing.empty()) r["glazing"] = std::move(glazing);
   Report problems = Report::array();
   for (const VerifyFinding& p : found.problems) problems.push_back(p.file + ": " + p.what);
   if (problems.empty())

@@ -154,6 +154,14 @@ Report describe_diagnostics(const Diagnostics& diagnostics) {
   return list;
 }
 
+// The state of the glass, where it was set.
+std::string glazing_of(const FilmProgress& progress) {
+  const Report about = Report::parse(progress.about, nullptr, false);
+  return about.is_object() && about.contains("glazing") && about["glazing"].is_string()
+             ? about["glazing"].get<std::string>()
+             : "as the scene says";
+}
+
 }  // namespace
 
 Report describe(const Manifest& m) {
@@ -223,6 +231,7 @@ Report inspect_film(const std::filesystem::path& file) {
           {"render_time_s", progress.render_time_s},
           {"seed", film.key().seed},
           {"scene_hash", fmt::format("{:016x}", film.key().scene_hash)},
+          {"glazing", glazing_of(progress)},
           {"made_by", to_string(film.key().renderer)},
           {"max_depth", film.key().max_depth},
           {"integrator", film.key().direct_only ? "direct" : "path"},

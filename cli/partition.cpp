@@ -17,6 +17,7 @@
 #include "cli/partition_report.h"
 #include "cli/progress_line.h"
 #include "cli/sizes.h"
+#include "cli/switching_glazing.h"
 #include "cli/terminal.h"
 #include "cli/within_memory.h"
 #include "importers/import.h"
@@ -132,6 +133,7 @@ int run(PartitionArguments& a, Stage& stage) {
   const MeshResources resources{kept_bytes, a.options.memory_bytes, a.options.threads};
   const Diagnostics edits = apply_mesh_options(a.meshes, imported.scene, resources);
   if (!a.quiet) say("{}", summarise(edits));
+  a.options.glazings = switching_glazings(imported.scene);
   catch_signals();
   Watch watch(visible, stage);
   const PartitionStats stats = partition(imported.scene, a.output, a.options, std::ref(watch));

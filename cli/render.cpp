@@ -10,6 +10,7 @@
 #include "cli/render_arguments.h"
 #include "cli/run_program.h"
 #include "cli/supervise.h"
+#include "cli/switching_glazing.h"
 #include "cli/temporary_bundle.h"
 #include "farm/agreement.h"
 #include "farm/checkpoint.h"
@@ -46,6 +47,11 @@ void check_outputs(const RenderArguments& a) {
   require_own_picture(a);
 }
 
+void set_glazing(RenderArguments& a) {
+  const fs::path& bundle = a.options.bundle;
+  a.options.sheets = sheets_under(parse_settings(a.settings), bundle, read_manifest(bundle));
+}
+
 void develop_film(const RenderArguments& a, const RenderStats& stats) {
   // One that is newer than its finished film was made of it, and perhaps worked on since.
   std::error_code none;
@@ -76,6 +82,12 @@ int render_job(const CLI::App& app, Transport& transport, RenderArguments& a) {
   a.options.bundle = a.is_bundle() ? a.input : beside_the_film;
   std::optional<TemporaryBundle> temporary;
   if (!a.is_bundle()) temporary.emplace(transport, a.input, beside_the_film, partition_arguments(a));
+  if (!a.settings.empty()) {
+    agree(transport, [&] {
+      if (first) set_glazing(a);
+    });
+    share_from_root(transport, a.options.sheets);
+  }
   agree(transport, [] {
     if (stop_signal()) throw Interrupted(stop_signal(), "interrupted before rendering began");
   });
@@ -103,7 +115,7 @@ int guarded_job(const CLI::App& app, Transport& transport, RenderArguments& a) {
     if (stop_signal()) return 128 + stop_signal();
     return failed.bad_input ? exit_bad_input : exit_machine;
   } catch (const SilentRanks& silent) {
-    fmt::print(stderr, "vitrail: {}{}\n", who, silent.what());
+    say("vitrail: {}{}\n", who, silent.what());
     transport.abandon(exit_machine);
     return exit_machine;
   } catch (const Interrupted&) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/render_arguments.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -12,6 +14,7 @@
 #include "cli/quality.h"
 #include "cli/rectangle.h"
 #include "cli/sizes.h"
+#include "cli/switching_glazing.h"
 #include "cli/terminal.h"
 #include "scene/diagnostics.h"
 
@@ -52,6 +55,10 @@ void declare(CLI::App& app, RenderArguments& a) {
       ->capture_default_str();
   app.add_option("--integrator", a.integrator, "path or direct; default: as the scene says")
       ->check(CLI::IsMember({"path", "direct"}));
+  app.add_option("--set", a.settings,
+                 "NAME.state=0.6: glass that switches in another state, without partitioning again; also "
+                 "NAME.temperature (°C), NAME.uv (W/m²), NAME.seconds; may repeat")
+      ->allow_extra_args(false);
   app.add_option("--memory", a.memory, "most memory a rank may use, e.g. 512M or 2G; default: no limit");
   app.add_option("-t,--threads,--nthreads", o.threads, "worker threads a rank; default: all cores")
       ->check(CLI::Range(1, 4096));
@@ -186,6 +193,8 @@ void interpret(const CLI::App& app, RenderArguments& a) {
   o.progress = progress_mode(a);
   o.quiet = a.quiet;
   if (o.dry_run) prepare_dry_run(o);
+  parse_settings(a.settings);
+  o.glazing = fmt::format("{}", fmt::join(a.settings, " "));
   o.scene_name = a.input.string();
 }
 

@@ -14,6 +14,7 @@ struct RenderArguments {
   std::filesystem::path input, output;
   int bins = 0, max_depth = 0;
   std::string memory, crop, integrator, aov, aov_space, target_error, quality, progress = "auto";
+  std::vector<std::string> settings;  // of --set
   bool quiet = false, strict = false;
   ImportArguments imports;
   MeshOptions meshes;

@@ -46,6 +46,7 @@ std::string about(const Manifest& m, const RenderOptions& options) {
   Json about{{"scene", options.scene_name},
              {"camera", kind_of(m.camera)},
              {"world_to_camera", numbers_of(world_to_camera)}};
+  if (!options.glazing.empty()) about["glazing"] = options.glazing;
   if (const auto ndc = to_ndc(m.camera)) about["world_to_ndc"] = numbers_of(*ndc * world_to_camera);
   return about.dump(-1, ' ', false, Json::error_handler_t::replace);
 }

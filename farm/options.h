@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "farm/set_sheets.h"
 #include "scene/scene.h"
 
 namespace vitrail {
@@ -25,6 +26,8 @@ struct RenderOptions {
   std::optional<int> samples_per_pixel;
   std::optional<int> max_depth;
   std::optional<bool> direct_only;
+  std::vector<SetSheet> sheets;      // in place of the bundle's; of all ranks the same
+  std::string glazing;               // how they were asked for: "window.state=0.6"; empty: not at all
   std::optional<int> width, height;  // one of them alone: in the scene's proportions
   double scale = 1;                  // of both, where neither is given
   std::optional<PixelRect> crop;

@@ -44,6 +44,7 @@ Manifest read_with_overrides(const RenderOptions& options) {
   Manifest m = read_manifest(options.bundle);
   if (m.domains.size() > max_domains) throw Error("more than 65535 domains", {options.bundle.string()});
   m.settings.samples_per_pixel = static_cast<int>(goal_of(options, m.settings.samples_per_pixel).samples);
+  set_sheets(options.sheets, options.bundle, m);
   if (options.max_depth) m.settings.max_depth = *options.max_depth;
   if (options.direct_only) m.settings.direct_only = *options.direct_only;
   if (m.settings.samples_per_pixel < 1 ||

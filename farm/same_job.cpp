@@ -23,6 +23,7 @@ std::vector<Part> parts_of(const Manifest& m, const FilmKey& key, const Goal& go
   const PixelRect& crop = m.film.crop;
   return {{"build", to_string(key.renderer)},
           {"bundle", std::move(bundle)},
+          {"state of its glass (--set)", o.glazing},
           {"seed", fmt::format("{}", key.seed)},
           {"size, crop, layers or bins of the picture",
            fmt::format("{} {} {} {} {} {} {} {} {} {} {}", m.film.width, m.film.height, crop.x0, crop.x1,

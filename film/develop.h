@@ -10,6 +10,7 @@ namespace vitrail {
 // Where a picture comes from; what is empty or 0 is unknown.
 struct PictureOrigin {
   std::string software, scene, scene_hash, seeds, film_hash;
+  std::string glazing;    // in which state it was set; empty: as the scene says
   int least_samples = 0;  // of a pixel
   // 16 numbers each, row by row, of matrices that take columns; empty where unknown.
   std::vector<float> world_to_camera, world_to_ndc;

@@ -197,7 +197,7 @@ std::string difference(const Film& a, const Film& b) {
     return fmt::format("{}: {} and {}", what, x, y);
   };
   const auto text = [](const PixelRect& r) { return fmt::format("{},{},{},{}", r.x0, r.x1, r.y0, r.y1); };
-  if (k.scene_hash != l.scene_hash) return "they are of different scenes";
+  if (k.scene_hash != l.scene_hash) return "they are of different scenes, or of glass in different states";
   if (k.renderer != l.renderer)
     return differ("they were made by different programs", to_string(k.renderer), to_string(l.renderer));
   if (a.full_width() != b.full_width()) return differ("their widths differ", a.full_width(), b.full_width());

@@ -141,4 +141,9 @@ double photochromic_state(const Photochromic& p, double s, double uv_w_per_m2, d
   return end + (s - end) * std::exp(-rate * seconds);
 }
 
+double state_under(const PhotochromicLight& light) {
+  if (!light.seconds) return photochromic_equilibrium(light.rates, light.uv_w_per_m2, light.temperature_c);
+  return photochromic_state(light.rates, light.start, light.uv_w_per_m2, light.temperature_c, *light.seconds);
+}
+
 }  // namespace vitrail

@@ -37,11 +37,21 @@ struct Photochromic {
   double k_d_m2_per_j = 0;  // by the irradiance E in W/m²
   double k_f_per_s = 0;     // at 20 °C
   double activation_j_per_mol = 0;
+  bool operator==(const Photochromic&) const = default;
 };
 double fading_per_s(const Photochromic& p, double temperature_c);
 double photochromic_equilibrium(const Photochromic& p, double uv_w_per_m2, double temperature_c);
 // After so long under constant light and temperature: the equation's own solution, whatever the time.
 double photochromic_state(const Photochromic& p, double s, double uv_w_per_m2, double temperature_c,
                           double seconds);
+
+// Photochromic glass and where it stands: what light and warmth have made of `start`.
+struct PhotochromicLight {
+  Photochromic rates;
+  double start = 0, uv_w_per_m2 = 0, temperature_c = 20;
+  std::optional<double> seconds;  // none: the equilibrium, whatever the start
+  bool operator==(const PhotochromicLight&) const = default;
+};
+double state_under(const PhotochromicLight& light);
 
 }  // namespace vitrail

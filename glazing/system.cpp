@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "scene/diagnostics.h"
@@ -53,16 +54,48 @@ std::vector<Direction> hemisphere(HemisphereRule rule) {
   return directions;
 }
 
+bool knows(const GlazingLayer& layer, Quantity quantity) {
+  if (layer.states.empty()) return false;
+  if (layer.by_temperature) return quantity == Quantity::temperature;
+  return quantity == Quantity::state || layer.light.has_value();
+}
+
 }  // namespace
 
-bool set_state(GlazingSystem& system, double at, bool by_temperature) {
+bool switches(const GlazingSystem& system) {
+  return std::ranges::any_of(system.layers, [](const GlazingLayer& l) { return !l.states.empty(); });
+}
+
+bool set(GlazingSystem& system, Quantity quantity, double value) {
   bool any = false;
   for (GlazingLayer& layer : system.layers) {
-    if (layer.states.empty() || layer.by_temperature != by_temperature) continue;
-    std::get<MeasuredPane>(layer.pane).rows = rows_at(layer.states, at);
+    if (!knows(layer, quantity)) continue;
     any = true;
+    if (quantity == (layer.by_temperature ? Quantity::temperature : Quantity::state)) {
+      layer.at = value;
+    } else {
+      if (quantity == Quantity::temperature) layer.light->temperature_c = value;
+      if (quantity == Quantity::uv) layer.light->uv_w_per_m2 = value;
+      if (quantity == Quantity::seconds) layer.light->seconds = value;
+      layer.at = state_under(*layer.light);
+    }
+    std::get<MeasuredPane>(layer.pane).rows = rows_at(layer.states, *layer.at);
   }
   return any;
+}
+
+std::optional<double> value_of(const GlazingSystem& system, Quantity quantity) {
+  for (const GlazingLayer& layer : system.layers) {
+    if (!knows(layer, quantity)) continue;
+    if (quantity == (layer.by_temperature ? Quantity::temperature : Quantity::state)) {
+      if (layer.at) return layer.at;
+      continue;
+    }
+    if (quantity == Quantity::temperature) return layer.light->temperature_c;
+    if (quantity == Quantity::uv) return layer.light->uv_w_per_m2;
+    return layer.light->seconds.value_or(std::numeric_limits<double>::infinity());
+  }
+  return {};
 }
 
 PaneValues system_values(const GlazingSystem& system, double nm, double cosine, Polarisation polarisation) {

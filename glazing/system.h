@@ -2,6 +2,7 @@
 // Panes one behind another, and what all of them together let through and reflect.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,9 +16,12 @@ struct GlazingLayer {
   Pane pane;
   bool flipped = false;      // its front looks inside
   double gap_behind_mm = 0;  // says nothing about light: gaps absorb none
-  // Of glass that switches; `pane` is one of them, or between them. By warmth: `at` are temperatures.
+  // Of glass that switches; `pane` is what it is `at`, one of them or between them. By warmth: `at` is a
+  // temperature.
   std::vector<StateRows> states{};
   bool by_temperature = false;
+  std::optional<double> at{};  // none: as the product says, which is no one of its states
+  std::optional<PhotochromicLight> light{};
 };
 
 struct GlazingSystem {
@@ -25,8 +29,18 @@ struct GlazingSystem {
   std::vector<GlazingLayer> layers;  // from outside; at least one
 };
 
-// Brings panes that switch (those by temperature or the others) to a state. False where there are none.
-bool set_state(GlazingSystem& system, double at, bool by_temperature);
+bool switches(const GlazingSystem& system);
+
+// What panes that switch can be told: the state, in [0, 1], of all but thermochromic ones; the temperature in
+// °C of thermochromic and photochromic ones; of photochromic ones the ultraviolet light on them in W/m², and
+// for how long, in seconds, from their first state on.
+enum class Quantity { state, temperature, uv, seconds };
+
+// Brings all panes that know the quantity to the value. False where there are none.
+bool set(GlazingSystem& system, Quantity quantity, double value);
+
+// What the first pane that knows it stands at. Empty where none does; infinite seconds: the equilibrium.
+std::optional<double> value_of(const GlazingSystem& system, Quantity quantity);
 
 // What polarisation is to light between panes. WINDOW takes the mean of both at each pane; the exact series
 // keeps them apart, which matters beyond 45° or so (docs/glazing.md has the difference).

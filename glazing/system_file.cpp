@@ -157,7 +157,9 @@ class Reader {
       made.states.push_back({at, std::move(found.rows)});
     }
     if (made.states.empty()) list.fail("needs a state");
-    made.pane = MeasuredPane{rows_at(made.states, state_of(layer)), kind};
+    made.light = light_of(layer);
+    made.at = made.light ? state_under(*made.light) : layer.find("state") ? unit_number(layer, "state") : 0;
+    made.pane = MeasuredPane{rows_at(made.states, *made.at), kind};
     if (const auto flipped = layer.find("flipped")) made.flipped = flipped->boolean();
     into_.system.layers.push_back(std::move(made));
   }
@@ -179,24 +181,25 @@ class Reader {
     return std::move(*rows);
   }
 
-  // Of the file: a state, or what light and warmth have made of photochromic glass.
-  static double state_of(const JsonNode& layer) {
-    const auto light = layer.find("photochromic");
-    const double start = layer.find("state") ? unit_number(layer, "state") : 0;
-    if (!light) return start;
-    light->only(
+  // Photochromic glass, and the light and warmth that the file says.
+  static std::optional<PhotochromicLight> light_of(const JsonNode& layer) {
+    const auto json = layer.find("photochromic");
+    if (!json) return {};
+    json->only(
         {"k_d_m2_per_j", "k_f_per_s", "activation_kj_per_mol", "uv_w_per_m2", "temperature_c", "seconds"});
     const auto not_negative = [&](const char* key, double otherwise) {
-      const double value = light->number_or(key, otherwise);
-      if (value < 0) light->fail(fmt::format("\"{}\" is negative", key));
+      const double value = json->number_or(key, otherwise);
+      if (value < 0) json->fail(fmt::format("\"{}\" is negative", key));
       return value;
     };
-    const double warmth = light->number_or("temperature_c", 20), uv = not_negative("uv_w_per_m2", 0);
-    if (!(warmth > -273.15)) light->fail("a temperature is above -273.15");
-    const Photochromic p{not_negative("k_d_m2_per_j", 0), not_negative("k_f_per_s", 0),
-                         1000 * not_negative("activation_kj_per_mol", 0)};
-    if (!light->find("seconds")) return photochromic_equilibrium(p, uv, warmth);
-    return photochromic_state(p, start, uv, warmth, not_negative("seconds", 0));
+    PhotochromicLight light{.rates = {not_negative("k_d_m2_per_j", 0), not_negative("k_f_per_s", 0),
+                                      1000 * not_negative("activation_kj_per_mol", 0)},
+                            .start = layer.find("state") ? unit_number(layer, "state") : 0,
+                            .uv_w_per_m2 = not_negative("uv_w_per_m2", 0),
+                            .temperature_c = json->number_or("temperature_c", 20)};
+    if (!(light.temperature_c > -273.15)) json->fail("a temperature is above -273.15");
+    if (json->find("seconds")) light.seconds = not_negative("seconds", 0);
+    return light;
   }
 
   void add_stack(const JsonNode& layer, const fs::path& folder) {
@@ -265,8 +268,8 @@ void add_switched(const std::string& text, ReadSystem& into) {
   }
   ReadSystem part;
   Reader(part).add(file);
-  if ((state && !set_state(part.system, *state, false)) ||
-      (temperature_c && !set_state(part.system, *temperature_c, true)))
+  if ((state && !set(part.system, Quantity::state, *state)) ||
+      (temperature_c && !set(part.system, Quantity::temperature, *temperature_c)))
     throw Error("no pane of it switches so", {text});
   if (into.system.name.empty()) into.system.name = part.system.name;
   into.system.layers.insert(into.system.layers.end(), part.system.layers.begin(), part.system.layers.end());

@@ -16,7 +16,8 @@ GlazingModel glazing_model(const std::string& file, const std::function<Id<Mater
     read.notes.push_back(file + ": " + held);
   GlazingSheets sheets = sheets_of(read.system, Polarisation::mixed_at_panes);
   MeasuredMaterial front{file, std::move(sheets.front)}, back{file, std::move(sheets.back)};
-  if (front == back) return {std::move(front), std::move(read.notes)};
+  // Sides that are alike in this state may differ in another.
+  if (front == back && !switches(read.system)) return {std::move(front), std::move(read.notes)};
   const Id<Material> outside = add(Material{std::move(front)}), inside = add(Material{std::move(back)});
   return {TwoSidedMaterial{outside, inside}, std::move(read.notes)};
 }

@@ -70,6 +70,19 @@ PartitionStats statistics(const Manifest& m, const CensusResult& census,
   return s;
 }
 
+// By the materials of the bundle; those that nothing is made of are left out.
+std::vector<KeptGlazing> in_bundle(std::vector<KeptGlazing> glazings,
+                                   const std::vector<std::int32_t>& material_ids) {
+  const auto number = [&](std::uint32_t id) { return material_ids.at(id); };
+  for (KeptGlazing& glazing : glazings) {
+    std::erase_if(glazing.sheets, [&](const auto& s) { return number(s.front) < 0 || number(s.back) < 0; });
+    for (auto& [front, back] : glazing.sheets)
+      front = static_cast<std::uint32_t>(number(front)), back = static_cast<std::uint32_t>(number(back));
+  }
+  std::erase_if(glazings, [](const KeptGlazing& glazing) { return glazing.sheets.empty(); });
+  return glazings;
+}
+
 // Enough for a disk; larger ones only leave the processor's caches.
 constexpr std::uint64_t most_spill_buffer_bytes = 4 << 20;
 
@@ -123,6 +136,7 @@ class Partitioner {
     for (const TriangleMesh& mesh : scene.meshes)
       if (mesh.deferred) needs.largest_mesh = std::max(needs.largest_mesh, mesh.deferred->bytes);
     coarse_ = world_.coarse;
+    glazings_ = in_bundle(options.glazings, world_.material_ids);
     quadrics_ = world_.quadrics;
     const std::uint64_t in_objects = triangles_of_objects(world_);
     const auto all = static_cast<double>(std::max<std::uint64_t>(in_objects + world_.own_triangles, 1));
@@ -160,6 +174,7 @@ class Partitioner {
     for (std::uint32_t i = 0; i < kept.size(); ++i)
       if (kept[i] != i) std::filesystem::rename(domain_path(bundle_, kept[i]), domain_path(bundle_, i));
     write_manifest(bundle_, manifest_);
+    write_glazings(bundle_, manifest_.scene_hash, glazings_);
     phases_.end();
     PartitionStats stats = statistics(manifest_, found, bundle_);
     stats.buckets = buckets_;
@@ -290,6 +305,7 @@ class Partitioner {
   double rest_ = 1;                          // of all work, without the objects'
   MemoryPlan plan_;
   Manifest manifest_;
+  std::vector<KeptGlazing> glazings_;
   std::uint64_t buckets_ = 1, spill_bytes_ = 0;
 };
 

@@ -7,6 +7,7 @@
 #include <functional>
 #include <optional>
 
+#include "bundle/kept_glazing.h"
 #include "bundle/ray_profile.h"
 #include "partitioner/memory_ledger.h"
 #include "scene/scene.h"
@@ -21,6 +22,7 @@ struct PartitionOptions {
   int threads = 0;                    // 0: all
   bool flatten = false;               // copies instead of instances
   std::optional<RayProfile> profile;  // of an earlier render of the scene
+  std::vector<KeptGlazing> glazings;  // that render can set, by materials of the scene
   bool durable = false;               // on the disk before it returns, also after a power failure
   bool median = false;                // cuts in the middle, for comparison
   bool everything = false;            // as if the scene required all that there is, for measuring

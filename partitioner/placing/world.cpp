@@ -129,6 +129,7 @@ World world_of(const Scene& scene, const std::filesystem::path& bundle, const Wo
   static_cast<void>(Interiors(m));  // throws where there are too many
   m.requirements = options.everything ? all_requirements() : requirements_of(m, normals);
   world.attributes = std::move(appearance.attributes);
+  world.material_ids = std::move(appearance.material_ids);
   return world;
 }
 

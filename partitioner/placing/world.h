@@ -44,6 +44,7 @@ struct World {
   Bounds3f instance_bounds;  // of all instances, kept or copied
   std::uint64_t coarse = 0;  // as in ScenePlan
   std::vector<TextureBaker::Attribute> attributes;
+  std::vector<std::int32_t> material_ids;  // of the manifest, by that of the scene; −1: not used
 
   PlacementRule rule() const {
     return {manifest.offset, manifest.requirements.shading_normals, manifest.requirements.uv, attributes};

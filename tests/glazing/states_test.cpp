@@ -79,7 +79,7 @@ TEST(States, ComeFromASystemFile) {
     write_text(directory / "unit.json", "{\"layers\": [" + layer + "]}");
     GlazingSystem system = read_system({(directory / "unit.json").string()}).system;
     if (state >= 0) {
-      EXPECT_TRUE(set_state(system, state, by_temperature));
+      EXPECT_TRUE(set(system, by_temperature ? Quantity::temperature : Quantity::state, state));
     }
     return system_values(system, 550, 1, Polarisation::mixed_at_panes).t;
   };

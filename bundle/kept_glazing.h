@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// The glazing systems of a bundle that switch, so that render can set them: BUNDLE/glazing.json
+// (docs/bundle-format.md). A bundle without such glass has no such file.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "scene/measured_sheet.h"
+
+namespace vitrail {
+
+struct KeptGlazing {
+  // A surface of it: indices of two materials, both sheets. Before partitioning, of the scene's; in a bundle
+  // of the bundle's.
+  struct Sides {
+    std::uint32_t front = 0, back = 0;
+    bool operator==(const Sides&) const = default;
+  };
+  std::string name;           // as a user sets it; several may have one
+  std::vector<Sides> sheets;  // at least one
+  std::string system;         // its data, of which the bundle knows no more (glazing/kept_system.h)
+  bool operator==(const KeptGlazing&) const = default;
+};
+
+// What a material becomes in another state.
+struct SetSheet {
+  std::uint32_t material = 0;  // index; a measured sheet
+  MeasuredSheet sheet;
+};
+
+std::filesystem::path glazing_path(const std::filesystem::path& bundle);
+
+// Writes nothing where there are none. Throws MachineError.
+void write_glazings(const std::filesystem::path& bundle, std::uint64_t scene_hash,
+                    const std::vector<KeptGlazing>& glazings);
+
+// None where there is no such file. Throws Error where it is damaged, belongs to another scene or refers to a
+// material beyond `materials`.
+std::vector<KeptGlazing> read_glazings(const std::filesystem::path& bundle, std::uint64_t scene_hash,
+                                       std::size_t materials);
+
+}  // namespace vitrail

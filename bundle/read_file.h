@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <vector>
+
+namespace vitrail {
+
+// A whole file, noted as an input. Throws MachineError.
+std::vector<std::byte> read_file(const std::filesystem::path& file);
+
+}  // namespace vitrail
