@@ -21,6 +21,7 @@
 #include "scene/atomic_file.h"
 #include "scene/input_files.h"
 #include "scene/output_place.h"
+#include "scene/say.h"
 
 namespace vitrail {
 namespace {

@@ -53,12 +53,20 @@ void declare(CLI::App& app, RenderArguments& a) {
   app.add_option("--seed", o.seed, "films of different seeds are independent")
       ->check(not_below_0)
       ->capture_default_str();
-  app.add_option("--integrator", a.integrator, "path or direct; default: as the scene says")
+  app.add_option(
+         "--integrator", a.integrator,
+         "path, or direct: light from lamps alone, also through glass and by mirrors; default: as the scene "
+         "says")
       ->check(CLI::IsMember({"path", "direct"}));
   app.add_option("--set", a.settings,
                  "NAME.state=0.6: glass that switches in another state, without partitioning again; also "
                  "NAME.temperature (°C), NAME.uv (W/m²), NAME.seconds; may repeat")
       ->allow_extra_args(false);
+  app.add_option("--threshold", o.threshold,
+                 "of --integrator direct: end a path that brings less than this share of what it sees, e.g. "
+                 "0.01; no pixel becomes darker by more than this share of the brightest that is seen")
+      ->check(CLI::Range(0.0, 0.999))
+      ->capture_default_str();
   app.add_option("--memory", a.memory, "most memory a rank may use, e.g. 512M or 2G; default: no limit");
   app.add_option("-t,--threads,--nthreads", o.threads, "worker threads a rank; default: all cores")
       ->check(CLI::Range(1, 4096));

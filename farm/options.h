@@ -26,6 +26,7 @@ struct RenderOptions {
   std::optional<int> samples_per_pixel;
   std::optional<int> max_depth;
   std::optional<bool> direct_only;
+  double threshold = 0;              // FilmKey::threshold, where only direct light is asked for
   std::vector<SetSheet> sheets;      // in place of the bundle's; of all ranks the same
   std::string glazing;               // how they were asked for: "window.state=0.6"; empty: not at all
   std::optional<int> width, height;  // one of them alone: in the scene's proportions

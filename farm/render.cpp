@@ -47,13 +47,16 @@ Manifest read_with_overrides(const RenderOptions& options) {
   set_sheets(options.sheets, options.bundle, m);
   if (options.max_depth) m.settings.max_depth = *options.max_depth;
   if (options.direct_only) m.settings.direct_only = *options.direct_only;
+  if (options.threshold > 0 && !m.settings.direct_only)
+    throw UsageError("--threshold is of direct light alone: give --integrator direct too");
   if (m.settings.samples_per_pixel < 1 ||
       static_cast<std::uint32_t>(m.settings.samples_per_pixel) >= max_samples)
     throw UsageError(fmt::format("samples a pixel must be between 1 and {}", max_samples - 1));
   if (options.target_error && m.settings.samples_per_pixel < 4)
     throw UsageError("an error is estimated from 4 samples a pixel or more: give --spp more than that");
   if (m.settings.max_depth < 0) throw UsageError("the depth must not be negative");
-  m.settings.max_depth = std::min(m.settings.max_depth, max_path_depth);
+  m.settings.max_depth =
+      std::min(m.settings.max_depth, m.settings.direct_only ? max_direct_depth : max_path_depth);
   resize_film(m, options);
   if (options.crop) m.film.crop = *options.crop;
   if (options.bins) m.film.spectrum = *options.bins;
@@ -70,6 +73,7 @@ FilmKey key_of(const Manifest& m, const RenderOptions& options) {
   key.seed = options.seed;
   key.max_depth = m.settings.max_depth;
   key.direct_only = m.settings.direct_only;
+  if (key.direct_only) key.threshold = rounded_threshold(options.threshold);
   key.straight_counts = m.settings.straight_counts;
   key.clamp = options.clamp;
   return key;

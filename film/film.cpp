@@ -191,6 +191,11 @@ void Film::count_sample(std::uint32_t pixel, std::uint32_t sample) {
   std::atomic_ref(counts_[group(sample) * pixels() + pixel]).fetch_add(1, std::memory_order_relaxed);
 }
 
+float rounded_threshold(double threshold) {
+  const auto bits = std::bit_cast<std::uint32_t>(static_cast<float>(threshold));
+  return std::bit_cast<float>(bits & 0xffff0000);
+}
+
 std::string difference(const Film& a, const Film& b) {
   const FilmKey &k = a.key(), &l = b.key();
   const auto differ = [](const char* what, const auto& x, const auto& y) {
@@ -206,6 +211,7 @@ std::string difference(const Film& a, const Film& b) {
   if (a.crop() != b.crop()) return differ("their crops differ", text(a.crop()), text(b.crop()));
   if (k.max_depth != l.max_depth) return differ("their depths differ", k.max_depth, l.max_depth);
   if (k.direct_only != l.direct_only) return "one has direct light only";
+  if (k.threshold != l.threshold) return differ("their thresholds differ", k.threshold, l.threshold);
   if (k.straight_counts != l.straight_counts)
     return "one counts going straight through a sheet as scattering, the other does not";
   if (k.clamp != l.clamp) return differ("their clamps differ", k.clamp, l.clamp);

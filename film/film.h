@@ -27,8 +27,13 @@ struct FilmKey {
   bool straight_counts = true;
   double clamp = 0;  // the most of X, Y and Z that a deposit has in the picture; 0: no limit
   RendererVersion renderer = this_renderer();
+  // Of direct light alone, in [0, 1): a path ends where it brings less of what it sees. Of 8 bits, so that it
+  // has room in a film's header (rounded_threshold).
+  float threshold = 0;
   bool operator==(const FilmKey&) const = default;
 };
+
+float rounded_threshold(double threshold);
 
 // Deposits that were refused.
 struct Refused {

@@ -31,7 +31,10 @@ constexpr std::int32_t max_extent = 1 << 20;  // pixels a side
 // What a film was rendered with, in Header::options.
 constexpr std::uint32_t option_direct_only = 1, option_straight_counts = 2, option_camera_space = 4,
                         option_adaptive = 8, option_open_round = 16;
-constexpr std::uint32_t options_of(std::uint32_t version) { return version == adaptive_version ? 31 : 7; }
+constexpr std::uint32_t threshold_bits = 0xffff0000;  // the upper half of a float
+constexpr std::uint32_t options_of(std::uint32_t version) {
+  return threshold_bits | (version == adaptive_version ? 31 : 7);
+}
 
 struct Header {
   char magic[8];
@@ -125,7 +128,7 @@ Header read_header(Reader& in) {
                             (h.options & ~options_of(h.version)) == 0 && (h.layers & ~all_layers) == 0 &&
                             in_range(h.exponent) && in_range(h.length_exponent);
   if (!sizes_in_order || !bins_in_order || !key_in_order || !std::isfinite(h.imaging_ratio) ||
-      !(h.render_time_s >= 0) || !(h.clamp >= 0))
+      !(h.render_time_s >= 0) || !(h.clamp >= 0) || !(std::bit_cast<float>(h.options & threshold_bits) >= 0))
     in.fail("the film file is corrupt: its header makes no sense");
   return h;
 }
@@ -154,6 +157,7 @@ void write_film(const std::filesystem::path& file, const Film& film, const FilmP
   h.options = (key.direct_only ? option_direct_only : 0) |
               (key.straight_counts ? option_straight_counts : 0) |
               (film.layers_.in_camera_space ? option_camera_space : 0) |
+              (std::bit_cast<std::uint32_t>(key.threshold) & threshold_bits) |
               (progress.adaptive ? option_adaptive : 0) | (progress.more.empty() ? 0 : option_open_round);
   h.exponent = film.exponent_, h.length_exponent = film.length_exponent_;
   h.clamp = key.clamp;
@@ -213,7 +217,8 @@ Film read_film(const std::filesystem::path& file, FilmProgress* progress) {
                (h.options & option_direct_only) != 0,
                (h.options & option_straight_counts) != 0,
                h.clamp,
-               {h.renderer, h.picture_revision}};
+               {h.renderer, h.picture_revision},
+               std::bit_cast<float>(h.options & threshold_bits)};
   film.exponent_ = h.exponent, film.length_exponent_ = h.length_exponent;
   film.layers_ = layers;
   film.refused_ = {h.nonfinite, h.too_large};

@@ -155,8 +155,9 @@ void PathTracer::connect(const Path& path, Point3d p, std::uint32_t count, const
   const Departure from = depart(light.to_light);
   const bool distant = std::isinf(light.distance);
   const Requirements& r = manifest_.requirements;
-  const bool refracts = distant && light.is_delta && r.refraction;
-  if (r.see_through || r.media || refracts)
+  const bool bends = r.refraction && !manifest_.settings.direct_only;
+  const bool refracts = distant && light.is_delta && bends;
+  if (r.see_through || r.media || refracts || bends != r.refraction)
     send_connection(path, from, light, radiance, refracts);
   else
     send_shadow_ray(path, from, light, radiance);
@@ -278,10 +279,9 @@ bool PathTracer::connect_onwards(Path& path) {
   const MaterialKind& kind = scene_.materials.kind(surface.material);
   const bool is_gone = !is_there(path, surface, at), passes = is_gone || kind.is_interface;
   const bool bends = refracts && kind.smooth_dielectric && !passes;
-  const SampledSpectrum straight =
-      passes  ? filled(1)
-      : bends ? filled(0)
-              : scene_.materials.passes_straight(surface.material, at, path.wavelengths);
+  const SampledSpectrum straight = passes  ? filled(1)
+                                   : bends ? filled(0)
+                                           : straight_through(path, at, surface);
   if (!is_gone && connects_through_hole(path, at, surface, !bends && is_black(straight)))
     return connect_straight(path, at, nullptr);
   if (bends) {

@@ -18,6 +18,9 @@ struct PathTracer::Shadow {
   std::uint32_t pixel = 0, sample = 0;
 };
 
+// Of Path::depth where only direct light is asked for: the path has scattered, and goes straight on at most.
+inline constexpr std::uint32_t scattered_once = 1u << 16;
+
 struct PathTracer::Path {
   std::uint32_t pixel = 0, sample = 0;
   SampleKey key;           // of these

@@ -99,6 +99,9 @@ class PathTracer {
   bool scatter_dielectric(Path& path, const Interaction& at, const Surface& surface);
   bool scatter_in_medium(Path& path, Point3d p);
   bool go_on(Path& path, float u, bool specular) const;
+  bool passes_at_the_end(Path& path, const Interaction& at, const Surface& surface) const;
+  SampledSpectrum straight_through(const Path& path, const Interaction& at, const Surface& surface) const;
+  bool is_too_dark(const Path& path) const;
   bool is_there(const Path& path, const Surface& surface, Interaction& at) const;
   double opacity_at(const Surface& surface, const Interaction& at) const;
   void add_emission(const Path& path, const Interaction& at, std::uint32_t light);

@@ -20,6 +20,8 @@ static_assert(std::endian::native == std::endian::little);
 // Samples a pixel are numbered in 23 bits, depth in 17, domains in 16.
 inline constexpr std::uint32_t max_samples = 1u << 23;
 inline constexpr int max_path_depth = (1 << 17) - 1;
+inline constexpr int max_direct_depth =
+    max_path_depth >> 2;  // the highest bit says that the path has scattered
 inline constexpr std::uint32_t max_domains = 0xffff;
 
 enum PathFlags : std::uint8_t {

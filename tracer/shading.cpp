@@ -25,6 +25,7 @@ bool PathTracer::shade(Path& path) {
   if (escapes && !scene_.lights.has_background()) return false;
   find_wavelengths(path);
   if (path.is(path_connection)) return connect_onwards(path);
+  if (is_too_dark(path)) return false;
   if (medium) {
     const Flight flight = flight_of(path);
     RandomStream random(stream_of(path, RayRandom::flight));
@@ -84,10 +85,7 @@ bool PathTracer::shade_surface(Path& path) {
   if (path.is(path_unrecorded)) [[unlikely]]
     record_first_surface(path, at, surface);
   if (is_last) {
-    if (manifest_.settings.straight_counts || !manifest_.requirements.see_through) return false;
-    path.throughput =
-        path.throughput * scene_.materials.passes_straight(surface.material, at, path.wavelengths);
-    if (is_black(path.throughput)) return false;
+    if (!passes_at_the_end(path, at, surface)) return false;
     pass_straight(path, at, &surface);
     return true;
   }
@@ -140,6 +138,46 @@ bool PathTracer::shade_surface(Path& path) {
   return true;
 }
 
+// Whether a path that scatters no more goes on to see a lamp behind a surface, as connections to it do: else
+// the two would not be weighted rightly.
+bool PathTracer::passes_at_the_end(Path& path, const Interaction& at, const Surface& surface) const {
+  const bool local = (path.depth & scattered_once) != 0, counts = manifest_.settings.straight_counts;
+  const Requirements& r = manifest_.requirements;
+  if (!r.see_through && !(local && r.refraction)) return false;
+  const std::uint32_t depth = path.depth & ~scattered_once;
+  if (counts && (!local || depth >= static_cast<std::uint32_t>(manifest_.settings.max_depth))) return false;
+  path.throughput = path.throughput * straight_through(path, at, surface);
+  path.depth += counts;
+  return !is_black(path.throughput);
+}
+
+// What goes straight on. For direct light a smooth dielectric is a sheet of it, in the direction that light
+// has outside: both faces let 1 − F of it through.
+SampledSpectrum PathTracer::straight_through(const Path& path, const Interaction& at,
+                                             const Surface& surface) const {
+  if (!manifest_.settings.direct_only || !scene_.materials.kind(surface.material).smooth_dielectric)
+    return scene_.materials.passes_straight(surface.material, at, path.wavelengths);
+  const Material& record = manifest_.materials[surface.material];
+  const auto& material = std::get<DielectricMaterial>(record.model);
+  const double cosine = std::abs(dot(at.out, scene_.materials.shading_normal(record, at)));
+  const SampledSpectrum eta = relative_index(material, at, path.wavelengths);
+  SampledSpectrum passes =
+      scene_.textures.spectrum(material.transmittance_factor, at.texture_point(), path.wavelengths);
+  for (std::size_t i = 0; i < hero_count; ++i) {
+    const double inside = static_cast<double>(eta.v[i]);
+    passes.v[i] *= static_cast<float>(1 - fresnel_dielectric(cosine, at.front ? inside : 1 / inside));
+  }
+  return passes;
+}
+
+// Of mirrors and glass before what is lit by lamps alone: no wavelength brings as much as is looked at
+// (FilmKey::threshold).
+bool PathTracer::is_too_dark(const Path& path) const {
+  if (!manifest_.settings.direct_only || (path.depth & scattered_once) != 0) return false;
+  const float brightest = max_value(path.throughput) * (path.is(path_dispersed) ? 1.0f / hero_count : 1.0f);
+  return brightest < film_.key().threshold;
+}
+
 // False for the face of an interior that lies in one of higher priority.
 bool PathTracer::is_there(const Path& path, const Surface& surface, Interaction& at) const {
   if (!scene_.interiors.has_priority(surface)) return true;
@@ -168,7 +206,7 @@ bool PathTracer::go_on(Path& path, float u, bool specular) const {
     return true;
   }
   if (manifest_.settings.direct_only) {
-    path.depth = static_cast<std::uint32_t>(manifest_.settings.max_depth);
+    path.depth |= scattered_once;
   } else if (path.depth > roulette_depth) {
     const float brightest = max_value(path.throughput) * (path.is(path_dispersed) ? 1.0f / hero_count : 1.0f);
     const auto survival = static_cast<float>(attainable(static_cast<double>(brightest)));

@@ -87,6 +87,9 @@ TEST_F(SetGlazing, IsThePictureOfABundleMadeInThatState) {
   EXPECT_EQ(hash("clear.vit", options, 2), wanted);
   EXPECT_EQ(hash("clear.pbrt", options), wanted) << "of a scene, too";
   EXPECT_NE(hash("clear.vit", ""), wanted);
+  const std::string direct = hash("clear.vit", options + " --integrator direct --threshold 0.01");
+  EXPECT_EQ(hash("clear.vit", options + " --integrator direct --threshold 0.01", 2), direct);
+  EXPECT_EQ(render("clear.vit", "t.film", "--threshold 0.01").status, 2) << "nothing that a path has";
   EXPECT_NE(hash("clear.vit", "--set window.state=0.6"), wanted);
 }
 
