@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/material.h"
+#include "scene/scene.h"
 
 namespace vitrail {
 
@@ -22,5 +22,10 @@ struct GlazingModel {
 // The outside is the surface's front. Sides that are not alike are two materials, which `add` takes; both
 // keep the name of the file, which stands for the whole. Throws Error.
 GlazingModel glazing_model(const std::string& file, const std::function<Id<Material>(Material)>& add);
+
+// For writers: the file whose glazing a material is, of one side or of two, with its state; empty for others.
+std::string glazing_file_of(const std::vector<Material>& materials, std::size_t index);
+// Which materials are no more than the sides of such: their file makes them anew, so they are not written.
+std::vector<bool> sides_of_glazing(const Scene& scene);
 
 }  // namespace vitrail

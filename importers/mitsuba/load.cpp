@@ -84,6 +84,7 @@ class Loader {
       const std::map<std::string, std::string> definitions = defaults_;
       read_file(file, scene_, {}, 0);
       for (const auto& [name, value] : definitions) require_parameter(name, file);
+      attach_glazing();
       resolve_references();
       std::set<const Object*> done, path;
       visit(*scene_, done, path);
@@ -279,6 +280,16 @@ class Loader {
 
   static void add(MutableObject& object, std::string name, Value value, const Origin& place) {
     object.properties.push_back({std::move(name), std::move(value), place});
+  }
+
+  // <default name="glazing:ID" value="FILE"/> is a parameter of the BSDF of that id that other readers of
+  // Mitsuba's files do not stop at.
+  void attach_glazing() {
+    for (const MutablePtr& object : objects_) {
+      const auto found = object->tag == "bsdf" ? defaults_.find("glazing:" + object->id) : defaults_.end();
+      if (found == defaults_.end()) continue;
+      if (!object->has("glazing")) add(*object, "glazing", resolve(found->second).string(), object->origin);
+    }
   }
 
   void read_value(pugi::xml_node node, const std::string& tag, const Source& source, const MutablePtr& parent,

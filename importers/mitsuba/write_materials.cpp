@@ -3,6 +3,8 @@
 // the id. Around bumps, twosided would mirror them on the back instead of turning them over with the normal.
 #include "importers/mitsuba/write_materials.h"
 
+#include "importers/glazing_material.h"
+
 namespace vitrail::mitsuba_writer {
 
 namespace {
@@ -37,7 +39,19 @@ bool shows_bumps(Context& context, const Material& material) {
   return false;
 }
 
+// Mitsuba stops at a parameter that it does not know, but not at a <default> that nothing asks for: so it has
+// thin glass there.
+void write_glazing(Context& context, Element parent, const std::string& id, const std::string& file) {
+  context.approximated("Mitsuba has a sheet of clear glass here: it does not know the glazing");
+  add(parent, "bsdf", "thindielectric", "", id);
+  Element value = parent.root().child("scene").prepend_child("default");
+  value.append_attribute("name") = ("glazing:" + id).c_str();
+  value.append_attribute("value") = context.relative(file).c_str();
+}
+
 void write_material(Context& context, Element parent, std::size_t index, std::string id) {
+  if (const std::string file = glazing_file_of(context.scene.materials, index); !file.empty())
+    return write_glazing(context, parent, id, file);
   const Material& material = context.scene.materials[index];
   const auto wrap = [&](const char* type) {
     parent = add(parent, "bsdf", type, "", id);
@@ -73,8 +87,13 @@ void write_material(Context& context, Element parent, std::size_t index, std::st
 }  // namespace
 
 void write_materials(Context& context, Element root) {
+  const std::vector<bool> sides = sides_of_glazing(context.scene);
   for (std::size_t i = 0; i < context.scene.materials.size(); ++i) {
     const Material& material = context.scene.materials[i];
+    if (sides[i]) {
+      context.material_ids.emplace_back();
+      continue;
+    }
     context.begin(RecordKind::material, material.origin);
     context.material_ids.push_back(context.new_id(material.name, "material", i));
     write_material(context, root, i, context.material_ids.back());

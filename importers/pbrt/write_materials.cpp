@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "importers/export_colors.h"
+#include "importers/glazing_material.h"
 #include "importers/pbrt/write_images.h"
 #include "importers/pbrt/writer.h"
 #include "scene/transmission.h"
@@ -251,9 +252,33 @@ std::optional<Id<Material>> the_same_as(Writer& w, std::size_t index) {
 
 }  // namespace
 
+namespace {
+
+// pbrt stops at a parameter that it does not know, unless it comes from an attribute: so it has thin glass
+// there.
+void write_glazing(Writer& w, std::size_t index, const std::string& file) {
+  const Material& material = w.scene.materials[index];
+  Parameters p(w, fmt::format("material \"{}\"", w.materials[index]), material.origin, RecordKind::material);
+  p.approximated("pbrt has a sheet of clear glass here: it does not know the glazing");
+  p.file("glazing", file);
+  w.begin("AttributeBegin");
+  w.line(fmt::format("Attribute \"material\"{}", p.list()));
+  w.line(
+      fmt::format("MakeNamedMaterial {} \"string type\" \"thindielectric\"", in_quotes(w.materials[index])));
+  w.end("AttributeEnd");
+}
+
+}  // namespace
+
 void write_materials(Writer& w) {
+  const std::vector<bool> sides = sides_of_glazing(w.scene);
   for (std::size_t i = 0; i < w.scene.materials.size(); ++i) {
     const Material& material = w.scene.materials[i];
+    if (sides[i]) continue;
+    if (const std::string file = glazing_file_of(w.scene.materials, i); !file.empty()) {
+      write_glazing(w, i, file);
+      continue;
+    }
     Parameters p(w, fmt::format("material \"{}\"", w.materials[i]), material.origin, RecordKind::material);
     const bool is_made = is_made_of_others(material);
     if (is_made && (material.displacement || material.normal_map))

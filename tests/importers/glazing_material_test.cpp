@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "importers/export.h"
 #include "importers/import.h"
 #include "tests/glazing/glazing_files.h"
 
@@ -75,6 +76,47 @@ TEST_F(GlazingMaterial, HasTwoSidesWhereTheyDiffer) {
       std::holds_alternative<TwoSidedMaterial>(glazing_model((directory / "pane.dat").string(), add).model));
   EXPECT_EQ(scene.materials.size(), 2u);
   EXPECT_TRUE(std::holds_alternative<MeasuredMaterial>(glazing_model(even.string(), add).model));
+}
+
+// What pbrt and Mitsuba themselves do not stop at.
+TEST_F(GlazingMaterial, IsNamedInFormsThatOthersPassOver) {
+  const float dark = transmittance_of(scene_of("a.pbrt",
+                                               "WorldBegin\nMaterial \"thindielectric\" \"string glazing\" "
+                                               "\"unit.json\" \"float state\" 1" +
+                                                   square_pbrt));
+  EXPECT_LT(dark, 0.2f);
+  EXPECT_EQ(transmittance_of(scene_of(
+                "b.pbrt",
+                "WorldBegin\nAttributeBegin\nAttribute \"material\" \"string glazing\" \"unit.json\" "
+                "\"float state\" 1\nMaterial \"thindielectric\"" +
+                    square_pbrt + "AttributeEnd\n")),
+            dark);
+  EXPECT_EQ(
+      transmittance_of(scene_of(
+          "b.xml",
+          "<scene version=\"3.0.0\"><shape type=\"rectangle\"><bsdf type=\"thindielectric\" "
+          "id=\"window\"/></shape><default name=\"glazing:window\" value=\"unit.json#state=1\"/></scene>")),
+      dark);
+}
+
+// Each way there and back gives the same materials, however often.
+TEST_F(GlazingMaterial, RoundTripsAddNoMaterials) {
+  write_text(directory / "a.pbrt",
+             "WorldBegin\nMakeNamedMaterial \"window\" \"string type\" \"thindielectric\" "
+             "\"string glazing\" \"unit.json\" \"float state\" 0.5\nNamedMaterial \"window\"" +
+                 square_pbrt + "Material \"thindielectric\" \"string glazing\" \"pane.dat\"" + square_pbrt);
+  Scene first = import_scene(directory / "a.pbrt").scene;
+  ASSERT_EQ(first.materials.size(), 6u);
+  std::filesystem::path from = directory / "a.pbrt";
+  for (const char* to : {"b.pbrt", "c.xml", "d.xml", "e.pbrt"}) {
+    export_scene(import_scene(from).scene, directory / to);
+    from = directory / to;
+    const Scene again = import_scene(from).scene;
+    ASSERT_EQ(again.materials.size(), first.materials.size()) << to;
+    for (std::size_t i = 0; i < first.materials.size(); ++i)
+      EXPECT_EQ(again.materials[i].model, first.materials[i].model) << to << i;
+    EXPECT_EQ(again.materials.at(again.shapes.at(0).material.value).name, "window") << to;
+  }
 }
 
 TEST_F(GlazingMaterial, RefusesWhatIsWrong) {
