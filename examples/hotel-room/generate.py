@@ -5,12 +5,14 @@
 Sample runs:
     ./generate.py -o /tmp/hotel-room                     the full scene
     ./generate.py -o /tmp/hotel-room --detail 0.1        a tenth of the triangles, for tests
+    ./generate.py -o /tmp/hotel-room --switching         with electrochromic glass in the door
     ./generate.py -o /tmp/hotel-room --width 1920 --height 1080 --spp 256
 """
 
 import argparse
 from collections import defaultdict
 from pathlib import Path
+from shutil import copytree
 
 from bed import bed
 from decor import decor
@@ -30,14 +32,14 @@ LEAST_DETAIL = 0.1
 PLAIN_SHARE = 0.04  # of the full scene's triangles: what is flat enough to stay as it is
 
 
-def collect(detail):
+def collect(detail, switching):
     """The room with all that bends at `detail`: meshes and emissions by file name, in a fixed order."""
     parts = (
         shell()
         + floor()
         + mouldings()
         + window_frame()
-        + panes()
+        + panes(switching)
         + curtains(detail)
         + door()
         + rug(detail)
@@ -80,6 +82,12 @@ LightSource "infinite" "rgb L" [{numbers(SKY)}]
 
 
 def material(name):
+    if name == "window":
+        # A form that pbrt reads past: it has clear glass there.
+        return (
+            'AttributeBegin\n  Attribute "material" "string glazing" "glazing/electrochromic.json"\n'
+            '  MakeNamedMaterial "window" "string type" "thindielectric"\nAttributeEnd'
+        )
     if name == "glass":
         return 'MakeNamedMaterial "glass" "string type" "dielectric" "spectrum eta" "glass-BK7"'
     return (
@@ -97,10 +105,12 @@ def shape(name, material_name, radiance):
     )
 
 
-def write_scene(folder, detail, width, height, spp):
+def write_scene(folder, detail, width, height, spp, switching=False):
     """Returns the number of triangles."""
     (folder / "meshes").mkdir(parents=True, exist_ok=True)
-    objects = collect((max(detail, LEAST_DETAIL) - PLAIN_SHARE) / (1 - PLAIN_SHARE))
+    objects = collect((max(detail, LEAST_DETAIL) - PLAIN_SHARE) / (1 - PLAIN_SHARE), switching)
+    if switching:
+        copytree(Path(__file__).resolve().parent / "glazing", folder / "glazing", dirs_exist_ok=True)
     for name, (_, mesh, _) in objects.items():
         write_ply(folder / "meshes" / f"{name}.ply", mesh)
     used = sorted({m for m, _, _ in objects.values()})
@@ -123,8 +133,11 @@ def main():
     parser.add_argument("--width", type=int, default=960)
     parser.add_argument("--height", type=int, default=540)
     parser.add_argument("--spp", type=int, default=64, help="samples per pixel (default 64)")
+    parser.add_argument(
+        "--switching", action="store_true", help="glaze the door with glass that switches (glazing/)"
+    )
     args = parser.parse_args()
-    count = write_scene(args.output, args.detail, args.width, args.height, args.spp)
+    count = write_scene(args.output, args.detail, args.width, args.height, args.spp, args.switching)
     print(f"{args.output / 'hotel-room.pbrt'}: {count} triangles")
 
 

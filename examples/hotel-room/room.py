@@ -7,6 +7,7 @@ x runs from the window wall (x = 0) to the right, y from the camera to the bed's
 import numpy as np
 
 from meshes import (
+    Mesh,
     box,
     generator,
     grid,
@@ -157,8 +158,9 @@ def window_frame():
     ]
 
 
-def panes():
-    """Double glazing: in each light two closed boxes of BK7, all faces exactly parallel, edges inside the frame."""
+def panes(switching=False):
+    """Double glazing: in each light two closed boxes of BK7, all faces exactly parallel, edges inside the frame. Or
+    one sheet that is the whole glazing, its front outside."""
     y0, y1, top = WINDOW
     posts = np.linspace(y0, y1, 4)
     glass = []
@@ -166,9 +168,14 @@ def panes():
         a = posts[k] + (FRAME if k == 0 else FRAME / 2) - 0.012
         b = posts[k + 1] - (FRAME if k == 2 else FRAME / 2) + 0.012
         for z0, z1 in ((FRAME - 0.012, 1.962), (1.95 + FRAME * 0.7 - 0.012, top - FRAME + 0.012)):
+            if switching:
+                x = -0.170 + PANE_M + GAP_M / 2
+                corners = [(x, a, z0), (x, a, z1), (x, b, z1), (x, b, z0)]
+                glass.append(Mesh(np.array(corners), np.array([(0, 1, 2), (0, 2, 3)])))
+                continue
             for x in (-0.170, -0.170 + PANE_M + GAP_M):
                 glass.append(box((x, a, z0), (x + PANE_M, b, z1)))
-    return [Part("panes", "glass", join(glass))]
+    return [Part("panes", "window" if switching else "glass", join(glass))]
 
 
 def curtain(name, y0, y1, folds, detail):
