@@ -16,7 +16,7 @@ using Json = nlohmann::ordered_json;
 struct Arguments {
   std::vector<double> rgb;
   int cube = 33;
-  std::filesystem::path csv, plot;
+  std::filesystem::path csv, plot, picture;
   bool json = false;
 };
 
@@ -56,9 +56,9 @@ Json to_json(const Row& row) {
           {"roughness", row.cube.roughness},       {"color_checker", patches}};
 }
 
-void print_table(const std::vector<Row>& rows) {
-  fmt::print("{} colours of the sRGB cube and back, under D65\n{:<14}{:>12}{:>12}{:>10}{:>10}{:>14}\n",
-             rows[0].cube.colors, "", "max error", "mean error", "least", "greatest", "step of 5 nm");
+void print_table(const std::vector<Row>& rows, const std::string& of) {
+  fmt::print("{} colours of {} and back, under D65\n{:<14}{:>12}{:>12}{:>10}{:>10}{:>14}\n",
+             rows[0].cube.colors, of, "", "max error", "mean error", "least", "greatest", "step of 5 nm");
   for (const Row& r : rows)
     fmt::print("{:<14}{:12.2e}{:12.2e}{:10.6f}{:10.6f}{:14.5f}\n", name_of(r.method), r.cube.max_error,
                r.cube.mean_error, r.cube.min_value, r.cube.max_value, r.cube.roughness);
@@ -89,10 +89,12 @@ int run(const Arguments& a) {
     a.csv.empty() ? fmt::print("{}", csv) : write_text(a.csv, csv);
     return exit_done;
   }
+  const std::vector<CountedColor> colors =
+      a.picture.empty() ? cube_colors(a.cube) : picture_colors(a.picture);
   std::vector<Row> rows;
   for (const UpsamplingMethod method : upsampling_methods)
-    rows.push_back({method, round_trip(method, a.cube), patch_errors(method)});
-  if (!a.json) return print_table(rows), exit_done;
+    rows.push_back({method, round_trip(method, colors), patch_errors(method)});
+  if (!a.json) return print_table(rows, a.picture.empty() ? "the sRGB cube" : a.picture.string()), exit_done;
   Json json = Json::array();
   for (const Row& row : rows) json.push_back(to_json(row));
   fmt::print("{}\n", json.dump(1));
@@ -114,6 +116,8 @@ int main(int argc, char** argv) {
   app.add_option("--csv", a.csv, "write them here")->needs(rgb);
   app.add_option("--cube", a.cube, "colours a side of the cube; default: 33 (100 are a million)")
       ->check(CLI::Range(2, 400));
+  app.add_option("--picture", a.picture,
+                 "the colours of this picture in place of the cube's; linear, or 8 and 16 bits of sRGB");
   app.add_option("--plot", a.plot, "write the ColorChecker's spectra as SVG");
   app.add_flag("--json", a.json, "print JSON");
   return run_guarded(app, argc, argv, [&] { return run(a); });

@@ -5,8 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "cli/color_checker.h"
+#include "images/image_files.h"
+#include "scene/diagnostics.h"
 #include "scene/matrix_r.h"
 #include "scene/rgb_to_spectrum.h"
 
@@ -57,15 +60,41 @@ MadeReflectance make_reflectance(UpsamplingMethod method, RGB c) {
   return made;
 }
 
-RoundTrip round_trip(UpsamplingMethod method, int n) {
-  RoundTrip result;
-  double errors = 0, roughness = 0;
+std::vector<CountedColor> cube_colors(int n) {
+  std::vector<CountedColor> colors;
   const auto part = [&](int i) { return static_cast<double>(i) / (n - 1); };
-  for (int i = 0; i < n * n * n; ++i) {
-    const RGB c{part(i / n / n), part(i / n % n), part(i % n)};
-    const MadeReflectance made = make_reflectance(method, c);
-    const double error = largest_difference(made.rgb, c);
-    errors += error;
+  for (int i = 0; i < n * n * n; ++i) colors.push_back({{part(i / n / n), part(i / n % n), part(i % n)}});
+  return colors;
+}
+
+std::vector<CountedColor> picture_colors(const std::filesystem::path& file) {
+  const Image image = read_linear_image(file);
+  std::map<std::array<float, 3>, std::size_t> counts;
+  const auto channels = static_cast<std::size_t>(image.channels);
+  for (std::size_t at = 0; at + channels <= image.values.size(); at += channels) {
+    std::array<float, 3> color;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const float v = image.values[at + std::min(c, channels - 1)];
+      color[c] = v > 0 ? std::min(v, 1.0f) : 0;  // also of what is not a number
+    }
+    ++counts[color];
+  }
+  if (counts.empty()) throw Error("the picture has no pixels", {file.string()});
+  std::vector<CountedColor> colors;
+  for (const auto& [c, count] : counts)
+    colors.push_back(
+        {{static_cast<double>(c[0]), static_cast<double>(c[1]), static_cast<double>(c[2])}, count});
+  return colors;
+}
+
+RoundTrip round_trip(UpsamplingMethod method, std::span<const CountedColor> colors) {
+  RoundTrip result;
+  double errors = 0, roughness = 0, pixels = 0;
+  for (const auto& [color, count] : colors) {
+    const MadeReflectance made = make_reflectance(method, color);
+    const auto weight = static_cast<double>(count);
+    const double error = largest_difference(made.rgb, color);
+    errors += weight * error;
     result.max_error = std::max(result.max_error, error);
     double squares = 0;
     for (std::size_t k = 0; k < made.values.size(); ++k) {
@@ -73,11 +102,12 @@ RoundTrip round_trip(UpsamplingMethod method, int n) {
       result.max_value = std::max(result.max_value, made.values[k]);
       if (k > 0) squares += std::pow(made.values[k] - made.values[k - 1], 2);
     }
-    roughness += std::sqrt(squares / static_cast<double>(made.values.size() - 1));
-    ++result.colors;
+    roughness += weight * std::sqrt(squares / static_cast<double>(made.values.size() - 1));
+    pixels += weight;
   }
-  result.mean_error = errors / static_cast<double>(result.colors);
-  result.roughness = roughness / static_cast<double>(result.colors);
+  result.colors = colors.size();
+  result.mean_error = errors / pixels;
+  result.roughness = roughness / pixels;
   return result;
 }
 

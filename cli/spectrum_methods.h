@@ -2,6 +2,8 @@
 // How well reflectances that are made from RGB stand for it, and for what was measured.
 #pragma once
 
+#include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -22,14 +24,24 @@ struct MadeReflectance {
 };
 MadeReflectance make_reflectance(UpsamplingMethod method, RGB c);
 
+// Linear sRGB in [0, 1], and how often.
+struct CountedColor {
+  RGB color;
+  std::size_t count = 1;
+};
+// A grid of n³ colours over the cube, n ≥ 2.
+std::vector<CountedColor> cube_colors(int n);
+// The pixels of a picture; their components are clamped. Throws Error.
+std::vector<CountedColor> picture_colors(const std::filesystem::path& file);
+
 struct RoundTrip {
-  std::size_t colors = 0;
+  std::size_t colors = 0;                // different ones
   double max_error = 0, mean_error = 0;  // of a linear component; the mean is of each colour's largest
   double min_value = 1, max_value = 0;   // of a reflectance
   double roughness = 0;                  // mean over colours of the root mean square step of 5 nm
 };
-// Of a grid of n³ colours over the cube, n ≥ 2.
-RoundTrip round_trip(UpsamplingMethod method, int n);
+// Means are weighted by the counts.
+RoundTrip round_trip(UpsamplingMethod method, std::span<const CountedColor> colors);
 
 // Of a patch of the ColorChecker: the root mean square and the largest difference from what was measured, in
 // 380–780 nm, and between the made colour and the measured one.

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
+
 #include "tests/support/command.h"
 #include "tests/support/temporary_directory.h"
 
@@ -22,6 +24,26 @@ TEST(Spectrum, EvaluatesBothMethods) {
     EXPECT_EQ(method.at("color_checker").size(), 24u);
   }
   EXPECT_LT(json[1].at("max_error").get<double>(), 1e-9);
+}
+
+// Means are over pixels, not over colours.
+TEST(Spectrum, TakesTheColorsOfAPicture) {
+  const TemporaryDirectory directory;
+  const auto json_of = [&](const std::string& pixels) {
+    std::ofstream(directory / "a.ppm") << "P3 3 2 255 " << pixels;
+    const CommandResult result =
+        run(fmt::format("{} --json --picture '{}'", vitrail("spectrum"), (directory / "a.ppm").string()));
+    EXPECT_EQ(result.status, 0) << result.output;
+    return nlohmann::json::parse(result.output);
+  };
+  const auto once = json_of("200 30 30 0 0 0 255 255 255 90 90 90 128 128 128 0 0 0");
+  EXPECT_EQ(once[0].at("colors"), 5);
+  EXPECT_LT(once[0].at("max_error").get<double>(), 2e-5);
+  EXPECT_LT(once[1].at("max_error").get<double>(), 1e-9);
+  // Greys are constants: their roughness is 0.
+  const auto four = json_of("200 30 30 200 30 30 200 30 30 200 30 30 128 128 128 0 0 0");
+  EXPECT_NEAR(four[1].at("roughness").get<double>(), 4 * once[1].at("roughness").get<double>(), 1e-9);
+  EXPECT_EQ(run(vitrail("spectrum") + " --picture none.png").status, 3);
 }
 
 TEST(Spectrum, PrintsOneColorAndPlots) {
