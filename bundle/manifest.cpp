@@ -90,6 +90,12 @@ Features features_of(const Manifest& m) {
   require(!m.texture_files.empty(), required_feature::textures);
   require(std::ranges::any_of(m.objects, [](const ObjectInfo& o) { return o.quadric.has_value(); }),
           required_feature::quadrics);
+  require(std::ranges::any_of(m.textures,
+                              [](const Texture& t) {
+                                return std::holds_alternative<NoiseTexture>(t.model) ||
+                                       std::holds_alternative<DotsTexture>(t.model);
+                              }),
+          required_feature::procedural);
   if (m.cut_triangles > 0) f.optional |= optional_feature::pieces;
   return f;
 }

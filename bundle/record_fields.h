@@ -55,6 +55,8 @@ inline constexpr auto last_of<QuadricUv> = QuadricUv::mitsuba;
 template <>
 inline constexpr auto last_of<Wrap> = Wrap::black;
 template <>
+inline constexpr auto last_of<NoiseTexture::Kind> = NoiseTexture::Kind::marble;
+template <>
 inline constexpr auto last_of<TextureFilter> = TextureFilter::anisotropic;
 template <>
 inline constexpr auto last_of<SphericalCamera::Projection> = SphericalCamera::Projection::latitude_longitude;
@@ -179,10 +181,15 @@ void fields(auto& io, Is<BilinearTexture> auto& t) {
 }
 void fields(auto& io, Is<MeshAttributeTexture> auto& t) { fields(io, t.name), io(t.scale); }
 void fields(auto& io, Is<UvTexture> auto& t) { fields(io, t.mapping); }
-// These are their means in a bundle.
-template <class T>
-concept Unbaked = Is<T, DotsTexture> || Is<T, NoiseTexture> || Is<T, PtexTexture>;
-void fields(auto& io, Unbaked auto&) {
+void fields(auto& io, Is<DotsTexture> auto& t) {
+  fields(io, t.inside), fields(io, t.outside), fields(io, t.mapping);
+}
+void fields(auto& io, Is<NoiseTexture> auto& t) {
+  fields(io, t.kind), fields(io, t.texture_to_world), io(t.octaves), io(t.roughness), io(t.scale);
+  io(t.variation);
+}
+// Its mean in a bundle.
+void fields(auto& io, Is<PtexTexture> auto&) {
   if constexpr (reads<decltype(io)>) io.stream.fail("a texture is not baked");
   throw std::logic_error("a bundle takes baked textures");
 }

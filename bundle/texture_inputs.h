@@ -17,6 +17,7 @@ void for_inputs(const TextureModel& model, F&& f) {
         if constexpr (requires { m.even; }) f(m.even), f(m.odd);
         if constexpr (requires { m.first; }) f(m.first), f(m.second);
         if constexpr (requires { m.amount; }) f(m.amount);
+        if constexpr (requires { m.inside; }) f(m.inside), f(m.outside);
         if constexpr (requires { m.v00; }) f(m.v00), f(m.v01), f(m.v10), f(m.v11);
       },
       model);

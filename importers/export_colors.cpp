@@ -86,6 +86,15 @@ RGB normal_reflectance_rgb(const Metal& metal) {
   }));
 }
 
+RGB mean_of_noise(const NoiseTexture& noise) {
+  constexpr double octave = 0.218;  // of |noise|
+  if (noise.kind == NoiseTexture::Kind::marble) return {0.805, 0.803, 0.840};
+  if (noise.kind != NoiseTexture::Kind::wrinkled) return {0, 0, 0};
+  double sum = 0, weight = 1;
+  for (int i = 0; i < noise.octaves; ++i, weight *= static_cast<double>(noise.roughness)) sum += weight;
+  return {octave * sum, octave * sum, octave * sum};
+}
+
 double diffuse_fresnel_outside(double eta) {
   if (!(eta > 0)) return 0;
   constexpr int steps = 1000;  // midpoint rule in μ = cos θ of 2∫F μ dμ

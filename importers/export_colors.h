@@ -23,6 +23,9 @@ double dispersion_ratio(const Spectrum& eta);
 // counts as 0.5.
 RGB normal_reflectance_rgb(const Metal& metal);
 
+// The mean of noise over space, by sampling: marble's at its defaults.
+RGB mean_of_noise(const NoiseTexture& noise);
+
 // The mean reflectance of a smooth interface of relative index eta for diffuse light from outside, and from
 // inside (integrals of Fresnel's equations over the hemisphere).
 double diffuse_fresnel_outside(double eta);

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "importers/export_colors.h"
 #include "importers/mitsuba/write_images.h"
 #include "scene/flat_emission.h"
 #include "scene/kinds.h"
@@ -46,7 +47,11 @@ RGB mean_of(const Context& context, const TextureModel& model) {
           [&](const BilinearTexture& t) {
             return mix(mix(mean(t.v00), mean(t.v01), 0.5), mix(mean(t.v10), mean(t.v11), 0.5), 0.5);
           },
-          [&](const DotsTexture& t) { return mean(t.outside); },
+          [&](const DotsTexture& t) {
+            constexpr double covered = 0.394 * 3.14159265 * 0.35 * 0.35;  // discs in 39 % of the cells
+            return mix(mean(t.outside), mean(t.inside), covered);
+          },
+          [](const NoiseTexture& t) { return mean_of_noise(t); },
           [](const UvTexture&) {
             return RGB{0.5, 0.5, 0};
           },

@@ -102,6 +102,9 @@ struct Maker {
     return static_cast<float>(parameters.number(of, otherwise));
   }
 
+  bool is_v3() const { return scope.context.version == Version::v3; }
+  // Textures of three dimensions. v3 looks them up where the transform, not its inverse, puts the point.
+  Transform solid_to_world() const { return is_v3() ? inverse(texture_to_world) : texture_to_world; }
   TextureMapping mapping() const {
     const std::string by = parameters.text("mapping", "uv");
     if (by == "spherical") return SphericalMapping{texture_to_world};
@@ -111,8 +114,9 @@ struct Maker {
         const auto v = parameters.triple(of);
         return v ? Vector3d{(*v)[0], (*v)[1], (*v)[2]} : otherwise;
       };
-      return PlanarMapping{texture_to_world, vector("v1", {1, 0, 0}), vector("v2", {0, 1, 0}),
-                           parameters.number("udelta", 0), parameters.number("vdelta", 0)};
+      return PlanarMapping{is_v3() ? Transform{} : texture_to_world,  // v3: in world space
+                           vector("v1", {1, 0, 0}), vector("v2", {0, 1, 0}), parameters.number("udelta", 0),
+                           parameters.number("vdelta", 0)};
     }
     if (by != "uv") approximated(fmt::format("mapping \"{}\" is not known and read as \"uv\"", by));
     return UvMapping{number("uscale", 1), 0, number("udelta", 0), 0, number("vscale", 1),
@@ -129,9 +133,8 @@ Wrap read_wrap(const Maker& m) {
 }
 
 TextureFilter read_texture_filter(const Maker& m) {
-  const bool v3 = m.scope.context.version == Version::v3;
   if (m.parameters.boolean("trilinear", false)) return TextureFilter::trilinear;
-  const std::string filter = m.parameters.text("filter", v3 ? "ewa" : "bilinear");
+  const std::string filter = m.parameters.text("filter", m.is_v3() ? "ewa" : "bilinear");
   m.parameters.ignore({"maxanisotropy"});
   if (filter == "point") return TextureFilter::nearest;
   if (filter == "trilinear") return TextureFilter::trilinear;
@@ -195,7 +198,7 @@ TextureModel checkerboard_texture(const Maker& m) {
   CheckerboardTexture t{m.input("tex1", 1), m.input("tex2", 0)};
   t.solid = m.parameters.integer("dimension", 2) == 3;
   if (t.solid)
-    t.texture_to_world = m.texture_to_world;
+    t.texture_to_world = m.solid_to_world();
   else
     t.mapping = m.mapping();
   m.parameters.ignore({"aamode"});
@@ -238,8 +241,12 @@ TextureModel noise_texture(const Maker& m) {
            : m.kind == "windy"  ? NoiseTexture::Kind::windy
            : m.kind == "marble" ? NoiseTexture::Kind::marble
                                 : NoiseTexture::Kind::fbm;
-  t.texture_to_world = m.texture_to_world;
-  t.octaves = std::clamp(m.parameters.integer("octaves", 8), 1, 64);
+  t.texture_to_world = m.solid_to_world();
+  constexpr int most_octaves = 64;
+  const int octaves = m.parameters.integer("octaves", 8);
+  t.octaves = std::clamp(octaves, 0, most_octaves);
+  if (octaves > most_octaves)
+    m.approximated(fmt::format("of {} octaves the first {} count", octaves, most_octaves));
   t.roughness = m.number("roughness", 0.5);
   t.scale = m.number("scale", 1);
   t.variation = m.number("variation", 0.2);

@@ -226,7 +226,11 @@ Pigment build(Context& context, Id<Texture> id, const Use& use) {
     context.approximated("texture of the uv themselves: their mean colour", origin);
     return constant({0.5, 0.5, 0}, use);
   }
-  context.approximated("texture of noise or Ptex: 0.5", origin);
+  if (const auto* t = std::get_if<NoiseTexture>(&texture.model)) {
+    context.approximated("texture of noise: its mean", origin);
+    return constant(mean_of_noise(*t), use);
+  }
+  context.approximated("texture of Ptex: 0.5", origin);
   return grey(0.5, use);
 }
 

@@ -93,7 +93,7 @@ Image uv_image() {
 }  // namespace
 
 TextureBaker::TextureBaker(const Scene& scene, std::filesystem::path bundle, Diagnostics& diagnostics)
-    : scene_(scene), bundle_(std::move(bundle)), diagnostics_(diagnostics), means_(scene.textures) {}
+    : scene_(scene), bundle_(std::move(bundle)), diagnostics_(diagnostics) {}
 
 SpectrumParameter TextureBaker::bake(const SpectrumParameter& parameter, TextureUse use) {
   if (const auto* texture = std::get_if<Id<Texture>>(&parameter)) return bake_texture(*texture, use);
@@ -182,16 +182,25 @@ struct TextureBaker::Clone {
   SpectrumParameter operator()(MeshAttributeTexture t) const {
     t.name = baker.slot_of(t.name, use);
     if (use != TextureUse::illuminant) return baker.add(t, use);
-    const Id<Texture> shape = baker.add(t, TextureUse::reflectance);
-    return baker.add(ProductTexture{shape, Spectrum{emission_from_rgb({1, 1, 1})}}, use);
+    return lit(t);
   }
-  SpectrumParameter operator()(const DotsTexture&) const { return baker.mean_of(id, use, "dots"); }
-  SpectrumParameter operator()(const NoiseTexture&) const { return baker.mean_of(id, use, "noise"); }
-  SpectrumParameter operator()(const PtexTexture&) const { return baker.mean_of(id, use, "ptex"); }
+  SpectrumParameter operator()(DotsTexture t) const {
+    t.inside = input(t.inside), t.outside = input(t.outside);
+    return baker.add(t, use);
+  }
+  SpectrumParameter operator()(const NoiseTexture& t) const {
+    return use == TextureUse::illuminant ? lit(t) : baker.add(t, use);
+  }
+  SpectrumParameter operator()(const PtexTexture& t) const { return as_used(baker.grey_of(id, t), use); }
 
  private:
   SpectrumParameter input(const SpectrumParameter& parameter) const {
     return baker.bake_input(parameter, use);
+  }
+  // What shines is a reflectance under D65.
+  SpectrumParameter lit(const TextureModel& shape) const {
+    const Id<Texture> unlit = baker.add(shape, TextureUse::reflectance);
+    return baker.add(ProductTexture{unlit, Spectrum{emission_from_rgb({1, 1, 1})}}, use);
   }
   SourceLocation where() const { return location(baker.scene_, baker.scene_.textures[id.value].origin); }
 };
@@ -207,14 +216,15 @@ SpectrumParameter TextureBaker::bake_texture(Id<Texture> texture, TextureUse use
   return baked;
 }
 
-SpectrumParameter TextureBaker::mean_of(Id<Texture> texture, TextureUse use, const char* what) {
+Spectrum TextureBaker::grey_of(Id<Texture> texture, const PtexTexture& ptex) {
   const Texture& original = scene_.textures[texture.value];
   const SourceLocation where = location(scene_, original.origin);
   const std::string name = original.name.empty() ? "" : fmt::format(" \"{}\"", original.name);
+  const float grey = 0.5f * ptex.scale;
   diagnostics_.push_back({Fidelity::approximated,
-                          fmt::format("texture{} of {} is rendered as its mean", name, what), where, where,
+                          fmt::format("texture{} of ptex is rendered as grey, {}", name, grey), where, where,
                           RecordKind::texture});
-  return as_used(means_.of(SpectrumParameter{texture}).value, use);
+  return ConstantSpectrum{grey};
 }
 
 Id<Texture> TextureBaker::add(TextureModel model, TextureUse use) {

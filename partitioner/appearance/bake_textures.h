@@ -11,7 +11,6 @@
 
 #include "bundle/manifest.h"
 #include "partitioner/appearance/bake_image.h"
-#include "partitioner/appearance/texture_mean.h"
 #include "scene/scene.h"
 
 namespace vitrail {
@@ -47,7 +46,7 @@ class TextureBaker {
   struct Clone;
   SpectrumParameter bake_input(const SpectrumParameter& parameter, TextureUse use);
   SpectrumParameter bake_texture(Id<Texture> texture, TextureUse use);
-  SpectrumParameter mean_of(Id<Texture> texture, TextureUse use, const char* what);
+  Spectrum grey_of(Id<Texture> texture, const PtexTexture& ptex);
   std::string bake_file(const ImageTexture& image, TextureUse use, bool all_levels,
                         const SourceLocation& where);
   std::string write_file(const ImageTexture& image, TextureUse use, bool all_levels,
@@ -60,7 +59,6 @@ class TextureBaker {
   const Scene& scene_;
   std::filesystem::path bundle_;
   Diagnostics& diagnostics_;
-  TextureMeans means_;
   ReflectanceFitter fitter_;
   std::vector<Texture> textures_;
   std::vector<Attribute> attributes_;

@@ -43,6 +43,7 @@ struct TextureNeeds {
     if (!t.solid) mapping(t.mapping);
   }
   void operator()(const BilinearTexture& t) { mapping(t.mapping); }
+  void operator()(const DotsTexture& t) { mapping(t.mapping); }
   void operator()(const UvTexture& t) { mapping(t.mapping); }
   void operator()(const auto&) {}
 

@@ -117,6 +117,24 @@ TEST(PbrtTextures, TextureSpaceFollowsTheTransform) {
   EXPECT_EQ(board.texture_to_world, scale({2, 2, 2}));
 }
 
+// v3 takes the transform for its inverse in three dimensions, and none for planes.
+TEST(PbrtTextures, TextureSpaceOfV3IsTurnedAround) {
+  const auto texture = [](const std::string& kind) {
+    const Scene scene = import_v3("Scale 2 2 2 Translate 1 0 0 Texture \"t\" \"spectrum\" " + kind +
+                                  " Identity Material \"matte\" \"texture Kd\" \"t\" " + triangle)
+                            .scene;
+    return scene.textures.at(0).model;
+  };
+  const Transform there = inverse(scale({2, 2, 2}) * translate({1, 0, 0}));
+  EXPECT_EQ(std::get<NoiseTexture>(texture("\"marble\"")).texture_to_world, there);
+  EXPECT_EQ(
+      std::get<CheckerboardTexture>(texture("\"checkerboard\" \"integer dimension\" 3")).texture_to_world,
+      there);
+  const auto planar =
+      std::get<CheckerboardTexture>(texture("\"checkerboard\" \"string mapping\" \"planar\""));
+  EXPECT_EQ(std::get<PlanarMapping>(planar.mapping).texture_to_world, Transform{});
+}
+
 TEST(PbrtTextures, MayFollowTheMaterialsThatUseThem) {
   const ImportedScene imported =
       import_v4(user + "Texture \"t\" \"spectrum\" \"constant\" \"float value\" .125");

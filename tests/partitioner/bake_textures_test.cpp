@@ -218,13 +218,12 @@ TEST(BakeTextures, ValuesThatAreNotFiniteCountAsZero) {
       s, baked, image, [](RGB c) { return Spectrum{emission_from_rgb(c)}; }, 1e-3);
 }
 
-TEST(BakeTextures, NoiseIsItsMean) {
+TEST(BakeTextures, PtexIsGrey) {
   test::BakedScene s;
-  const Id<Texture> noise = s.add(NoiseTexture{}), dots = s.add(DotsTexture{ConstantSpectrum{1}, noise});
-  TextureBaker& baker = s.bake();
-  EXPECT_TRUE(std::holds_alternative<Spectrum>(baker.bake(dots, TextureUse::reflectance)));
-  EXPECT_EQ(baker.bake(FloatParameter{noise}), FloatParameter{0.5f});
-  EXPECT_EQ(s.diagnostics.size(), 2u);
+  PtexTexture ptex;
+  ptex.scale = 0.5f;
+  EXPECT_EQ(s.bake().bake(s.add(ptex), TextureUse::reflectance), SpectrumParameter{ConstantSpectrum{0.25f}});
+  EXPECT_EQ(s.diagnostics.size(), 1u);
 }
 
 double mean_of(const Image& image) {

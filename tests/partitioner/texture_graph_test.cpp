@@ -4,6 +4,7 @@
 
 #include "scene/diagnostics.h"
 #include "tests/partitioner/baked_scene.h"
+#include "tracer/textures/noise.h"
 #include "tracer/textures/tile_cache.h"
 
 namespace vitrail {
@@ -42,6 +43,46 @@ TEST(TextureGraph, Checkerboards) {
   test::expect_near(textures.spectrum(cubes, p, some_wavelengths), ConstantSpectrum{0.25f}, 1e-6);
   p.p = {-0.1, 0.1, 2.1};
   test::expect_near(textures.spectrum(cubes, p, some_wavelengths), red, 1e-6);
+}
+
+TEST(TextureGraph, NoiseAndDotsAreEvaluated) {
+  test::BakedScene s;
+  NoiseTexture fbm, marble;
+  marble.kind = NoiseTexture::Kind::marble;
+  fbm.texture_to_world = translate({1, 2, 3}) * scale({2, 2, 2});
+  const Spectrum red = color(0.8, 0.1, 0.1);
+  const Id<Texture> number = s.add(fbm, true), grey = s.add(fbm), stone = s.add(marble),
+                    dots = s.add(DotsTexture{red, number, UvMapping{2, 0, 0, 0, 2, 0}});
+  TextureBaker& baker = s.bake();
+  const FloatParameter height = baker.bake(FloatParameter{number});
+  const SpectrumParameter value = baker.bake(grey, TextureUse::reflectance),
+                          lamp = baker.bake(grey, TextureUse::illuminant),
+                          marbled = baker.bake(stone, TextureUse::reflectance),
+                          dotted = baker.bake(dots, TextureUse::reflectance);
+  EXPECT_TRUE(s.diagnostics.empty());
+  const Textures textures = s.look_up();
+  const Spectrum white = emission_from_rgb({1, 1, 1});
+  int negative = 0, inside = 0;
+  for (int i = 0; i < 200; ++i) {
+    TexturePoint at = at_uv(0.31 * i, 0.07 * i);
+    at.p = {0.37 * i, 0.11 * i, -0.23 * i};
+    const double expected = noise_value(fbm, {(at.p.x - 1) / 2, (at.p.y - 2) / 2, (at.p.z - 3) / 2});
+    EXPECT_NEAR(textures.number(height, at), expected, 1e-6);
+    negative += expected < 0;
+    const ConstantSpectrum shown{static_cast<float>(std::max(0.0, expected))};
+    test::expect_near(textures.spectrum(value, at, some_wavelengths), shown, 1e-6);
+    test::expect_near(textures.spectrum(lamp, at, some_wavelengths), product(white, shown), 1e-5);
+    const bool in = inside_dot(2 * at.uv.x, 2 * at.uv.y);
+    inside += in;
+    test::expect_near(textures.spectrum(dotted, at, some_wavelengths), in ? red : Spectrum{shown}, 1e-5);
+    const auto weights = marble_weights(marble, at.p);
+    Spectrum blend = ConstantSpectrum{0};
+    for (std::size_t k = 0; k < weights.size(); ++k)
+      blend = weighted_sum(blend, 1, Spectrum{marble_colors[k]}, weights[k]);
+    test::expect_near(textures.spectrum(marbled, at, some_wavelengths), blend, 1e-4);
+  }
+  EXPECT_GT(negative, 20);
+  EXPECT_GT(inside, 10);
 }
 
 TEST(TextureGraph, SumsAndProducts) {

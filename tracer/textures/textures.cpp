@@ -11,6 +11,7 @@
 #include "scene/diagnostics.h"
 #include "tracer/textures/baked_image.h"
 #include "tracer/textures/mapping.h"
+#include "tracer/textures/noise.h"
 #include "tracer/textures/texel_value.h"
 #include "tracer/textures/tile_cache.h"
 #include "tracer/wavelengths.h"
@@ -22,6 +23,7 @@ namespace {
 // Of lookups that one lookup leads to: a graph whose textures share their inputs has as many as paths.
 constexpr std::uint64_t most_lookups = 1 << 16;
 constexpr std::uint64_t most_nested = 256;
+constexpr int most_octaves = 64;
 
 // What a texture needs besides its record.
 struct Node {
@@ -29,7 +31,7 @@ struct Node {
   const BakedImage* image = nullptr;
   PreparedMapping mapping;
   MappedPoint stretch;       // of images
-  Transform world_to_solid;  // of solid checkerboards
+  Transform world_to_solid;  // of solid checkerboards and noise
   std::size_t slot = 0;      // of mesh attributes
   std::uint64_t lookups = 1, nested = 1;
 };
@@ -87,6 +89,13 @@ struct SpectrumLookup {
     }
     return sum;
   }
+  Value marble(const std::array<double, marble_color_count>& weights) const {
+    SampledSpectrum sum;
+    for (std::size_t k = 0; k < weights.size(); ++k)
+      if (weights[k] != 0)
+        sum = sum + evaluate(Spectrum{marble_colors[k]}, wavelengths) * static_cast<float>(weights[k]);
+    return sum;
+  }
   static Value scaled(const Value& v, double factor) { return v * static_cast<float>(factor); }
 };
 
@@ -106,6 +115,15 @@ struct NumberLookup {
     double sum = 0;
     for (std::size_t k = 0; k < 3; ++k)
       sum += static_cast<double>(value.corners[k][0]) * static_cast<double>(value.weights[k]);
+    return sum;
+  }
+  Value marble(const std::array<double, marble_color_count>& weights) const {
+    double sum = 0;
+    for (std::size_t k = 0; k < weights.size(); ++k) {
+      const auto& [r, g, b] = marble_colors[k].rgb;
+      sum += weights[k] * (.212671 * static_cast<double>(r) + .715160 * static_cast<double>(g) +
+                           .072169 * static_cast<double>(b));
+    }
     return sum;
   }
   static Value scaled(Value v, double factor) { return v * factor; }
@@ -203,9 +221,16 @@ struct Evaluation {
     return Lookup::scaled(lookup.attribute(lookup.at.attributes[node.slot], *node.texture),
                           static_cast<double>(t.scale));
   }
+  Value operator()(const DotsTexture& t) const {
+    const MappedPoint p = map_point(node.mapping, lookup.at.uv, lookup.at.p);
+    return inside_dot(p.s, p.t) ? of(t.inside) : of(t.outside);
+  }
+  Value operator()(const NoiseTexture& t) const {
+    const Point3d p = transform_point(node.world_to_solid, lookup.at.p);
+    if (t.kind == NoiseTexture::Kind::marble) return lookup.marble(marble_weights(t, p));
+    return lookup.constant(static_cast<float>(noise_value(t, p)));
+  }
   // Not in bundles.
-  Value operator()(const DotsTexture&) const { return {}; }
-  Value operator()(const NoiseTexture&) const { return {}; }
   Value operator()(const PtexTexture&) const { return {}; }
   Value operator()(const UvTexture&) const { return {}; }
 
@@ -270,6 +295,10 @@ struct Textures::Implementation {
     }
     if (const auto* t = std::get_if<CheckerboardTexture>(&texture.model); t && t->solid)
       node.world_to_solid = checked_inverse(t->texture_to_world, id);
+    if (const auto* t = std::get_if<NoiseTexture>(&texture.model)) {
+      node.world_to_solid = checked_inverse(t->texture_to_world, id);
+      if (t->octaves < 0 || t->octaves > most_octaves) fail(id, "has an impossible number of octaves");
+    }
     if (const auto* t = std::get_if<MeshAttributeTexture>(&texture.model)) node.slot = slot_of(t->name, id);
     return node;
   }
@@ -287,7 +316,9 @@ SampledSpectrum Textures::spectrum(const SpectrumParameter& parameter, const Tex
   const std::vector<Node>& nodes = implementation_->nodes;
   const Node& node = nodes[std::get<Id<Texture>>(parameter).value];
   const SpectrumLookup lookup{at, wavelengths};
-  return std::visit(Evaluation<SpectrumLookup>{nodes, lookup, node}, node.texture->model);
+  SampledSpectrum value = std::visit(Evaluation<SpectrumLookup>{nodes, lookup, node}, node.texture->model);
+  for (float& v : value.v) v = std::max(v, 0.0f);
+  return value;
 }
 
 double Textures::number(const FloatParameter& parameter, const TexturePoint& at) const {

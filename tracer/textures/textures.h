@@ -45,6 +45,7 @@ class Textures {
   ~Textures();
   Textures(Textures&&) noexcept;
 
+  // Of textures never below 0, as in pbrt: noise and mixes by it can be.
   SampledSpectrum spectrum(const SpectrumParameter& parameter, const TexturePoint& at,
                            const SampledWavelengths& wavelengths) const;
   double number(const FloatParameter& parameter, const TexturePoint& at) const;
