@@ -238,6 +238,12 @@ void check_manifest(const Manifest& m, const std::filesystem::path& file) {
         if constexpr (requires { camera.lens; })
           c.require(camera.lens.radius >= 0 && camera.lens.focal_distance > 0,
                     "the lens has a negative radius or nothing in focus in front of it");
+        if constexpr (requires { camera.sensors; }) {
+          c.require(!camera.sensors.empty(), "it has no sensor");
+          for (const Sensor& s : camera.sensors)
+            c.require(std::abs(dot(s.normal, s.normal) - 1) < 1e-6,
+                      "the normal of a sensor is not a unit vector");
+        }
       },
       m.camera);
   c.require(m.settings.samples_per_pixel > 0 && m.settings.max_depth >= 0,

@@ -37,7 +37,7 @@ std::uint64_t hash_from(const Json& j) {
 }
 
 // The kinds of a variant, in the order of its alternatives.
-constexpr std::array camera_kinds{"perspective", "orthographic", "spherical"};
+constexpr std::array camera_kinds{"perspective", "orthographic", "spherical", "sensors"};
 constexpr std::array sphere_kinds{"equal area", "latitude longitude"};
 constexpr std::array quadric_kinds{"sphere", "cylinder", "disk", "cone", "paraboloid"};
 constexpr std::array quadric_uvs{"pbrt", "mitsuba"};
@@ -78,6 +78,14 @@ Camera camera_from_json(const Json& j) {
   if (kind == 2)
     return SphericalCamera{
         t, static_cast<SphericalCamera::Projection>(kind_index(j.at("projection"), sphere_kinds))};
+  if (kind == 3) {
+    SensorCamera camera{t, {}};
+    for (const Json& sensor : j.at("sensors")) {
+      const auto n = [&](std::size_t i) { return sensor.at(i).get<double>(); };
+      camera.sensors.push_back({{n(0), n(1), n(2)}, {n(3), n(4), n(5)}});
+    }
+    return camera;
+  }
   const auto s = [&](std::size_t i) { return j.at("screen").at(i).get<double>(); };
   const ScreenWindow screen{s(0), s(1), s(2), s(3)};
   Lens lens;
@@ -237,6 +245,11 @@ Json camera_to_json(const Camera& camera) {
           for (const double x : row) j["camera_to_world"].push_back(x);
         if constexpr (requires { c.projection; }) {
           j["projection"] = {{"kind", sphere_kinds.at(static_cast<std::size_t>(c.projection))}};
+        } else if constexpr (requires { c.sensors; }) {
+          j["sensors"] = Json::array();
+          for (const Sensor& s : c.sensors)
+            j["sensors"].push_back(
+                {s.position.x, s.position.y, s.position.z, s.normal.x, s.normal.y, s.normal.z});
         } else {
           j["screen"] = {c.screen.x0, c.screen.x1, c.screen.y0, c.screen.y1};
           if (c.lens != Lens{})

@@ -308,6 +308,10 @@ void fields(auto& io, Is<EnvironmentLight> auto& l) {
   fields(io, l.filename), fields(io, l.light_to_world), fields(io, l.projection), fields(io, l.scale);
   fields(io, l.illuminance), fields(io, l.portal);
 }
+void fields(auto& io, Is<SkyLight> auto& l) {
+  fields(io, l.light_to_world), fields(io, l.to_sun), io(l.turbidity), fields(io, l.albedo);
+  io(l.sky_scale), io(l.sun_scale), io(l.sun_diameter_deg), fields(io, l.limb_darkening);
+}
 void fields(auto& io, Is<Light> auto& l) { fields(io, l.model); }
 void fields(auto& io, Is<EmissiveTriangle> auto& t) {
   for (auto& p : t.p) fields(io, p);
@@ -340,6 +344,9 @@ void fields(auto& io, Framed auto& c) {
 void fields(auto& io, Is<SphericalCamera> auto& c) {
   fields(io, c.camera_to_world), fields(io, c.projection);
 }
+
+void fields(auto& io, Is<Sensor> auto& s) { fields(io, s.position), fields(io, s.normal); }
+void fields(auto& io, Is<SensorCamera> auto& c) { fields(io, c.camera_to_world), list(io, c.sensors); }
 
 // ---- Building blocks, defined
 

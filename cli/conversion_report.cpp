@@ -118,8 +118,8 @@ void put_place(Json& json, const SourceLocation& place) {
 }  // namespace
 
 std::vector<ConversionItem> conversion_items(const Scene& scene, const Diagnostics& diagnostics) {
-  constexpr std::array lights{"point light",   "spot light",     "projection light", "goniometric light",
-                              "distant light", "infinite light", "environment light"};
+  constexpr std::array lights{"point light",   "spot light",     "projection light",  "goniometric light",
+                              "distant light", "infinite light", "environment light", "sky"};
   static_assert(lights.size() == std::variant_size_v<LightVariant>);
   Items items(scene);
   items.add(RecordKind::camera, "camera", scene.camera_origin);

@@ -4,13 +4,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
+#include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <vector>
 
 #include "cli/main_guard.h"
+#include "film/false_color.h"
 #include "film/image_io.h"
+#include "film/sensor_readings.h"
 #include "film/tone_map.h"
+#include "scene/atomic_file.h"
 #include "scene/diagnostics.h"
 #include "scene/input_files.h"
 #include "scene/output_place.h"
@@ -89,18 +95,60 @@ void put_about(PictureOrigin& origin, const std::string& about) {
   origin.world_to_ndc = matrix("world_to_ndc");
 }
 
+// "auto" or luminance in cd/m².
+FalseColor parse_false_color(const std::string& word, bool logarithmic) {
+  FalseColor manner{0, logarithmic};
+  if (word == "auto") return manner;
+  const auto [end, failed] = std::from_chars(word.data(), word.data() + word.size(), manner.most);
+  if (failed != std::errc() || end != word.data() + word.size() || !(manner.most > 0) ||
+      !std::isfinite(manner.most))
+    throw UsageError("--false-color takes auto or the luminance of the scale's end in cd/m², above 0: " +
+                     word);
+  return manner;
+}
+
+// Where the sensors are, as the render wrote it; as many as the film has columns.
+nlohmann::json sensors_of(const Exposed& film) {
+  const nlohmann::json about = nlohmann::json::parse(film.about, nullptr, false);
+  const nlohmann::json sensors =
+      about.is_object() ? about.value("sensors", nlohmann::json()) : nlohmann::json();
+  if (!sensors.is_array() || sensors.size() != static_cast<std::size_t>(film.film.width()))
+    throw Error("a table is made of sensors, and this is a picture: render with --sensors",
+                {film.file.string()});
+  return sensors;
+}
+
+void write_table(const std::string& output, const Exposed& film) {
+  const nlohmann::json sensors = sensors_of(film);
+  std::string text =
+      "x,y,z,nx,ny,nz,illuminance_lx,illuminance_error,melanopic_edi_lx,melanopic_edi_error,irradiance_w_m2,"
+      "irradiance_error,samples\n";
+  const std::vector<SensorReading> readings = sensor_readings(film.film);
+  for (std::size_t i = 0; i < readings.size(); ++i) {
+    for (const nlohmann::json& number : sensors[i]) text += fmt::format("{},", number.get<double>());
+    for (const Measured& m :
+         {readings[i].illuminance_lx, readings[i].melanopic_edi_lx, readings[i].irradiance_w_m2})
+      text += fmt::format("{:.6g},{:.3g},", m.mean, m.standard_error);
+    text += fmt::format("{}\n", readings[i].samples);
+  }
+  AtomicFile file(output);
+  file.write(std::as_bytes(std::span(text)));
+  file.commit();
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   CLI::App app("Turns films into an image; films of different seeds are merged exactly.", "vitrail develop");
   std::vector<std::string> films;
-  std::string output, tone = "none";
+  std::string output, tone = "none", false_color;
   double exposure_ev = 0;
   int bits = 0;
-  bool with_variance = false, spectral = false;
+  bool with_variance = false, spectral = false, logarithmic = false;
   Manner manner;
   app.add_option("FILM", films, "films of one scene, each of its own seed")->required();
-  app.add_option("-o,--output", output, "image to write: .exr (linear), .png, .jpg or .tif (sRGB)")
+  app.add_option("-o,--output", output,
+                 "image to write: .exr (linear), .png, .jpg or .tif (sRGB); .csv of sensors")
       ->required();
   app.add_option("--bits", bits, "a channel: 8 or 16; default: 8, and 16 for .tif; .exr has 32")
       ->check(CLI::IsMember({8, 16}));
@@ -110,6 +158,9 @@ int main(int argc, char** argv) {
                  "--exposure; not for .exr")
       ->check(CLI::IsMember({"none", "aces"}))
       ->capture_default_str();
+  app.add_option("--false-color", false_color,
+                 "luminance as colours with a scale, up to this in cd/m², or auto; not for .exr");
+  app.add_flag("--log", logarithmic, "with --false-color: three decades, by their logarithm");
   app.add_flag("--variance", with_variance,
                "add the channel Variance.Y: variance of each pixel's mean luminance");
   app.add_flag("--spectral", spectral,
@@ -121,8 +172,16 @@ int main(int argc, char** argv) {
       throw UsageError("spectra are written as .exr only");
     if (tone != "none" && std::filesystem::path(output).extension() == ".exr")
       throw UsageError("--tone is for screens; an .exr holds the light of the scene");
+    if (!false_color.empty() &&
+        (tone != "none" || exposure_ev != 0 || std::filesystem::path(output).extension() == ".exr"))
+      throw UsageError("--false-color shows luminances: not with --tone or --exposure, and not as .exr");
+    if (logarithmic && false_color.empty()) throw UsageError("--log belongs to --false-color");
     require_place(output);
     const Exposed sum = merge_all(films, manner);
+    if (std::filesystem::path(output).extension() == ".csv") {
+      write_table(output, sum);
+      return exit_done;
+    }
     Picture picture = develop(sum.film);
     picture.render_time_s = sum.render_time_s;
     picture.origin.seeds = sum.seeds;
@@ -136,6 +195,12 @@ int main(int argc, char** argv) {
     expose(picture, exposure_ev);
     if (!with_variance) picture.variance = {};
     if (tone == "aces") picture.rgb = aces_tone_mapped(picture.rgb);
+    if (!false_color.empty()) {
+      picture.rgb = false_colored(picture.rgb, parse_false_color(false_color, logarithmic));
+      picture.window = {0, picture.rgb.width, 0, picture.rgb.height};
+      picture.full_width = picture.rgb.width, picture.full_height = picture.rgb.height;
+      picture.variance = {};
+    }
     write_picture(output, picture, bits);
     return exit_done;
   });

@@ -20,10 +20,14 @@ void declare_import_options(CLI::App& app, ImportArguments& a) {
          "leave out meshes")
       ->check(CLI::IsMember({"refuse", "replace"}))
       ->capture_default_str();
+  app.add_option("--sky", a.sky,
+                 "the clear sky and sun in place of all light from infinitely far: "
+                 "LATITUDE,LONGITUDE,TIME[,turbidity=3,albedo=0.2,up=y,north=-z,sun=1,sky=1], TIME as "
+                 "2026-06-21T12:00+02:00");
 }
 
 ImportOptions import_options(const ImportArguments& a) {
-  ImportOptions options{{}, a.missing == "replace", a.camera};
+  ImportOptions options{{}, a.missing == "replace", a.sky, a.camera};
   for (const std::string& word : a.definitions) {
     const std::size_t at = word.find('=');
     options.definitions[word.substr(0, at)] = word.substr(at + 1);
@@ -36,6 +40,7 @@ std::vector<std::string> arguments_of(const ImportArguments& a) {
   for (const std::string& definition : a.definitions) words.insert(words.end(), {"-D", definition});
   if (a.camera != 0) words.insert(words.end(), {"--camera", std::to_string(a.camera)});
   if (a.missing != "refuse") words.push_back("--missing=" + a.missing);
+  if (!a.sky.empty()) words.push_back("--sky=" + a.sky);
   return words;
 }
 

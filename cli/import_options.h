@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// -D name=value, --camera N and --missing: what a scene is loaded with.
+// -D name=value, --camera N, --missing and --sky: what a scene is loaded with.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -13,7 +13,7 @@ namespace vitrail {
 struct ImportArguments {
   std::vector<std::string> definitions;
   int camera = 0;
-  std::string missing = "refuse";
+  std::string missing = "refuse", sky;
 };
 
 // A definition that is not name=value is refused as the options are parsed.

@@ -13,6 +13,7 @@
 #include "partitioner/appearance/appearance.h"
 #include "partitioner/placing/flatten.h"
 #include "scene/kinds.h"
+#include "scene/sky_model.h"
 
 namespace vitrail {
 
@@ -59,6 +60,8 @@ struct LightDescriber {
   Report operator()(const DistantLight& l) const { return of(l.irradiance); }
   Report operator()(const InfiniteLight& l) const { return of(l.radiance); }
   Report operator()(const EnvironmentLight& l) const { return of(l.scale); }
+  // Of a plane that faces up, lit by the sky alone.
+  Report operator()(const SkyLight& l) const { return of(spectrum_of_bands(SkyModel(l).sky_irradiance())); }
 
  private:
   // `flux`: over the luminance; 0: not told.

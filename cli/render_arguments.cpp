@@ -110,6 +110,10 @@ void declare(CLI::App& app, RenderArguments& a) {
          "from its checkpoint")
       ->check(CLI::Range(0, 1'000'000));
   app.add_option("--launcher", a.launcher, "with --restarts: what starts the ranks, e.g. 'mpirun -np 8'");
+  app.add_option(
+      "--sensors", o.sensors,
+      "measure irradiance instead of a picture: a text of x y z nx ny nz lines, or plane O U V NXxNY; "
+      "each sensor gets 16 times --spp samples; develop writes the .csv");
   app.add_option("--stats", o.stats, "write statistics as JSON");
   app.add_option("--profile", o.profile, "write where rays went, for `partition --profile` and `plan`");
   declare_import_options(app, a.imports);
@@ -185,7 +189,10 @@ void interpret(const CLI::App& app, RenderArguments& a) {
   if (a.output.empty()) a.output = default_output(a.input);
   const std::string extension = a.output.extension().string();
   constexpr const char* known[] = {".exr", ".png", ".jpg", ".jpeg", ".tif", ".tiff", ".film"};
-  if (std::ranges::find(known, extension) == std::end(known))
+  const bool is_table = extension == ".csv" && !a.options.sensors.empty();
+  if (!a.options.sensors.empty() && !is_table && extension != ".film")
+    throw UsageError("what sensors measure is written as .csv or kept as .film: " + a.output.string());
+  if (!is_table && std::ranges::find(known, extension) == std::end(known))
     throw UsageError("the output must end in .exr, .png, .jpg, .tif or .film: " + a.output.string());
   RenderOptions& o = a.options;
   o.film = std::filesystem::path(a.output).replace_extension(".film");

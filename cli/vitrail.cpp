@@ -26,13 +26,14 @@ constexpr const char* usage = R"(usage: vitrail VERB ...
   compare     a picture with a reference
   measure     what speed costs on a scene, and which settings to take
   glazing     transmittance, reflectance and colour of panes
+  sky         where the sun stands, and what sun and sky give
   spectrum    reflectances made from RGB, evaluated
 
 `vitrail help VERB` says more.
 )";
 
-const std::vector<std::string> verbs{"convert", "inspect", "partition", "verify",  "render",  "plan",
-                                     "develop", "compare", "measure",   "glazing", "spectrum"};
+const std::vector<std::string> verbs{"convert", "inspect", "partition", "verify",  "render", "plan",
+                                     "develop", "compare", "measure",   "glazing", "sky",    "spectrum"};
 
 int no_such(const std::string& verb) {
   const std::string meant = vitrail::closest_word(verb, verbs);

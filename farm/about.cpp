@@ -47,6 +47,12 @@ std::string about(const Manifest& m, const RenderOptions& options) {
              {"camera", kind_of(m.camera)},
              {"world_to_camera", numbers_of(world_to_camera)}};
   if (!options.glazing.empty()) about["glazing"] = options.glazing;
+  if (const auto* sensors = std::get_if<SensorCamera>(&m.camera))
+    for (const Sensor& s : sensors->sensors) {
+      const Point3d p = transform_point(translate(m.offset) * camera_to_bundle, s.position);
+      const Vector3d n = transform_vector(camera_to_bundle, s.normal);
+      about["sensors"].push_back({p.x, p.y, p.z, n.x, n.y, n.z});
+    }
   if (const auto ndc = to_ndc(m.camera)) about["world_to_ndc"] = numbers_of(*ndc * world_to_camera);
   return about.dump(-1, ' ', false, Json::error_handler_t::replace);
 }

@@ -31,6 +31,7 @@ struct RenderOptions {
   std::string glazing;               // how they were asked for: "window.state=0.6"; empty: not at all
   std::optional<int> width, height;  // one of them alone: in the scene's proportions
   double scale = 1;                  // of both, where neither is given
+  std::filesystem::path sensors;     // measured in place of the picture (scene/sensor_file.h); empty: none
   std::optional<PixelRect> crop;
   std::optional<SpectralBins> bins;
   double clamp = 0;                     // FilmKey::clamp

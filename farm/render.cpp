@@ -8,6 +8,8 @@
 #include <cstdio>
 #include <thread>
 
+#include "bundle/checksum.h"
+#include "bundle/manifest_json.h"
 #include "farm/about.h"
 #include "farm/agreement.h"
 #include "farm/film_size.h"
@@ -20,6 +22,7 @@
 #include "scene/output_place.h"
 #include "scene/resource_usage.h"
 #include "scene/say.h"
+#include "scene/sensor_file.h"
 #include "tracer/film_exponent.h"
 
 namespace vitrail {
@@ -40,6 +43,21 @@ void override_layers(Manifest& m, const RenderOptions& options) {
   require(Layer::shape, kept.has(Layer::shape), "account of which shape is which");
 }
 
+// They belong to what the film is of.
+void put_sensors(Manifest& m, const RenderOptions& options) {
+  if (options.width || options.height || options.scale != 1 || options.crop || options.bins || options.layers)
+    throw UsageError("--sensors has no picture whose size, crop, spectrum or channels could be given");
+  SensorCamera camera{translate(-m.offset), read_sensors(options.sensors)};
+  m.film = sensor_film(camera.sensors.size());
+  m.camera = std::move(camera);
+  ++m.settings.max_depth;  // the sensor's own event
+  Hasher hasher;
+  hasher.add(std::as_bytes(std::span(&m.scene_hash, 1)));
+  const std::string text = camera_to_json(m.camera).dump();
+  hasher.add(std::as_bytes(std::span(text)));
+  m.scene_hash = hasher.digest();
+}
+
 Manifest read_with_overrides(const RenderOptions& options) {
   Manifest m = read_manifest(options.bundle);
   if (m.domains.size() > max_domains) throw Error("more than 65535 domains", {options.bundle.string()});
@@ -55,6 +73,7 @@ Manifest read_with_overrides(const RenderOptions& options) {
   if (options.target_error && m.settings.samples_per_pixel < 4)
     throw UsageError("an error is estimated from 4 samples a pixel or more: give --spp more than that");
   if (m.settings.max_depth < 0) throw UsageError("the depth must not be negative");
+  if (!options.sensors.empty()) put_sensors(m, options);
   m.settings.max_depth =
       std::min(m.settings.max_depth, m.settings.direct_only ? max_direct_depth : max_path_depth);
   resize_film(m, options);

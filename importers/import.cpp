@@ -5,6 +5,7 @@
 #include <cctype>
 
 #include "importers/default_view.h"
+#include "importers/given_sky.h"
 #include "importers/missing_files.h"
 #include "importers/mitsuba/mitsuba.h"
 #include "importers/obj/obj.h"
@@ -38,8 +39,10 @@ ImportedScene mesh_alone(const std::filesystem::path& file, MeshMemory& memory) 
 
 }  // namespace
 
-ImportedScene import_scene(const std::filesystem::path& file, MeshMemory memory,
-                           std::function<void(double)> progress, const ImportOptions& options) {
+namespace {
+
+ImportedScene read_scene(const std::filesystem::path& file, MeshMemory memory,
+                         std::function<void(double)> progress, const ImportOptions& options) {
   const std::string format = format_of(file);
   if (!options.definitions.empty() && format != ".xml")
     throw UsageError(file.string() + ": only scenes of Mitsuba have parameters that -D could set");
@@ -62,6 +65,17 @@ ImportedScene import_scene(const std::filesystem::path& file, MeshMemory memory,
                 {file.string()});
   add_default_view(imported, file);
   if (options.replace_missing) replace_missing_images(imported);
+  return imported;
+}
+
+}  // namespace
+
+ImportedScene import_scene(const std::filesystem::path& file, MeshMemory memory,
+                           std::function<void(double)> progress, const ImportOptions& options) {
+  if (options.sky.empty()) return read_scene(file, std::move(memory), std::move(progress), options);
+  const GivenSky sky = parse_sky(options.sky);
+  ImportedScene imported = read_scene(file, std::move(memory), std::move(progress), options);
+  replace_sky(imported, sky);
   return imported;
 }
 

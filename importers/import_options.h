@@ -12,7 +12,8 @@ struct ImportOptions {
   // <default>s.
   std::map<std::string, std::string> definitions;
   bool replace_missing = false;  // go on without images and meshes that are not there (missing_files.h)
-  int camera = 0;                // which of a Mitsuba scene's sensors, in the file's order, from 0
+  std::string sky;  // in place of all light from infinitely far (given_sky.h); "": as the file says
+  int camera = 0;   // which of a Mitsuba scene's sensors, in the file's order, from 0
 };
 
 }  // namespace vitrail

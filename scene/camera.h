@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "scene/film_layers.h"
 #include "scene/spectral_bins.h"
@@ -49,7 +50,22 @@ struct SphericalCamera {
   bool operator==(const SphericalCamera&) const = default;
 };
 
-using Camera = std::variant<PerspectiveCamera, OrthographicCamera, SphericalCamera>;
+// Irradiance meters instead of a picture: column x of the raster is sensor x, and every row repeats it with
+// samples of its own, so that rows tell how far their mean is off. A ray starts at the sensor in a direction
+// of its hemisphere with the density cos θ/π: the mean radiance times π, the film's imaging ratio, is the
+// irradiance.
+struct Sensor {
+  Point3d position;          // in camera space
+  Vector3d normal{0, 0, 1};  // unit
+  bool operator==(const Sensor&) const = default;
+};
+struct SensorCamera {
+  Transform camera_to_world;
+  std::vector<Sensor> sensors;
+  bool operator==(const SensorCamera&) const = default;
+};
+
+using Camera = std::variant<PerspectiveCamera, OrthographicCamera, SphericalCamera, SensorCamera>;
 
 // Pixel reconstruction filters, all normalised; radii and σ in pixels. The Gaussian is pbrt's: lowered to
 // reach 0 at its radius.

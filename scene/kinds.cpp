@@ -33,12 +33,12 @@ const char* kind_of(const MaterialModel& model) {
 }
 
 const char* kind_of(const LightModel& model) {
-  return name_of(
-      model, std::array{"point", "spot", "projection", "goniometric", "distant", "infinite", "environment"});
+  return name_of(model, std::array{"point", "spot", "projection", "goniometric", "distant", "infinite",
+                                   "environment", "sky"});
 }
 
 const char* kind_of(const Camera& camera) {
-  return name_of(camera, std::array{"perspective", "orthographic", "spherical"});
+  return name_of(camera, std::array{"perspective", "orthographic", "spherical", "sensors"});
 }
 
 const char* kind_of(QuadricKind kind) {

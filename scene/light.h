@@ -94,8 +94,21 @@ struct EnvironmentLight {
   bool operator==(const EnvironmentLight&) const = default;
 };
 
+// The clear sky and the sun's disc, by the model of scene/sky_model.h. In the light's frame +z is the zenith;
+// nothing shines from below the horizon, or with the sun there.
+struct SkyLight {
+  Transform light_to_world;
+  Vector3d to_sun{0, 0, 1};                  // unit, in the light's frame
+  float turbidity = 3;                       // 1 … 10, held beyond
+  Spectrum albedo = ConstantSpectrum{0.3f};  // of the ground, 0 … 1
+  float sky_scale = 1, sun_scale = 1;        // 0: without it
+  float sun_diameter_deg = 0.5358f;          // another one spreads the same irradiance
+  bool limb_darkening = true;                // else the disc is uniform
+  bool operator==(const SkyLight&) const = default;
+};
+
 using LightVariant = std::variant<PointLight, SpotLight, ProjectionLight, GoniometricLight, DistantLight,
-                                  InfiniteLight, EnvironmentLight>;
+                                  InfiniteLight, EnvironmentLight, SkyLight>;
 // Copied, moved, destroyed and compared in scene/records.cpp alone: in every file that handles a scene, that
 // took up to two thirds of its compiling.
 struct LightModel : LightVariant {

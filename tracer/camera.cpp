@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tracer/camera.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "tracer/portable_math.h"
@@ -70,6 +71,17 @@ LocalRay local_ray(const SphericalCamera& camera, const FilmSettings& film, Poin
   return {{0, 0, 0}, {up_is_z.x, up_is_z.z, up_is_z.y}};
 }
 
+const Sensor& sensor_of(const SensorCamera& camera, double x) {
+  const auto last = static_cast<double>(camera.sensors.size() - 1);
+  return camera.sensors[static_cast<std::size_t>(std::clamp(std::floor(x), 0.0, last))];
+}
+
+// What it looks along: its samples are of the whole hemisphere (PathTracer::leave_sensor).
+LocalRay local_ray(const SensorCamera& camera, const FilmSettings&, Point2d raster, Point2d) {
+  const Sensor& sensor = sensor_of(camera, raster.x);
+  return {sensor.position, sensor.normal};
+}
+
 }  // namespace
 
 Point2d concentric_disk(Point2d u) {
@@ -127,6 +139,14 @@ CameraRay CameraSampler::ray(Point2d raster, Point2d lens) const {
   }
   const WorldRay ray = world_ray(camera_, film_, raster, lens);
   return {cast<float>(ray.origin), encode_direction(ray.direction)};
+}
+
+std::optional<Sensor> CameraSampler::sensor(int x) const {
+  const auto* camera = std::get_if<SensorCamera>(&camera_);
+  if (!camera) return std::nullopt;
+  const Sensor& local = sensor_of(*camera, x);
+  return Sensor{transform_point(camera->camera_to_world, local.position),
+                normalize(transform_vector(camera->camera_to_world, local.normal))};
 }
 
 }  // namespace vitrail

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
+
 #include "scene/scene.h"
 #include "tracer/direction.h"
 
@@ -21,6 +23,8 @@ class CameraSampler {
   // The ray through raster position (x, y), in pixels of the whole film from the top left. `lens`, in [0,1)²,
   // chooses the point of the lens, if there is one.
   CameraRay ray(Point2d raster, Point2d lens) const;
+  // Of a column, where the camera is one of sensors: where it is and its unit normal.
+  std::optional<Sensor> sensor(int x) const;
 
  private:
   const Camera& camera_;

@@ -10,6 +10,7 @@
 #include "tracer/media/phase.h"
 #include "tracer/path_state.h"
 #include "tracer/path_tracer.h"
+#include "tracer/portable_math.h"
 #include "tracer/quadrics/quadric_hits.h"
 #include "tracer/quadrics/quadric_surface.h"
 #include "tracer/rounding.h"
@@ -184,6 +185,15 @@ void PathTracer::connect_medium(const Path& path, const Departure& from, double 
                                 std::uint32_t candidates) {
   const auto scatter = [&](Vector3d in) -> BsdfValue {
     const double value = phase(g, out, in);
+    return {filled(static_cast<float>(value)), value};
+  };
+  connect(path, from.p, candidates, scatter, [&](Vector3d) { return from; });
+}
+
+void PathTracer::connect_sensor(const Path& path, const Departure& from, Vector3d normal,
+                                std::uint32_t candidates) {
+  const auto scatter = [&](Vector3d in) -> BsdfValue {
+    const double value = std::max(0.0, dot(normal, in)) / pi;
     return {filled(static_cast<float>(value)), value};
   };
   connect(path, from.p, candidates, scatter, [&](Vector3d) { return from; });

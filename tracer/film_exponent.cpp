@@ -112,7 +112,8 @@ void add_far_lights(const LightSampler& s, Tally& tally) {
   }
   for (const std::uint32_t light : s.infinite)
     tally.add(std::get<InfiniteLight>(s.scene.lights[light].model).radiance, 1);
-  for (const Environment& e : s.environments) tally.add(e.mean_luminance, e.mean_luminance * brighter_texel);
+  for (const Environment& e : s.environments)
+    tally.add(e.mean_luminance, std::max(e.mean_luminance * brighter_texel, e.sun_luminance));
 }
 
 // A thin medium glows by a part of its emission.

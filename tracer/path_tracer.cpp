@@ -2,10 +2,12 @@
 #include "tracer/path_tracer.h"
 
 #include <array>
+#include <cmath>
 #include <limits>
 #include <utility>
 
 #include "tracer/path_state.h"
+#include "tracer/portable_math.h"
 #include "tracer/walk.h"
 
 namespace vitrail {
@@ -98,6 +100,23 @@ CameraRay PathTracer::camera_ray(int x, int y, const Path& path) const {
   return scene_.camera.ray({x + 0.5 + offset.x, y + 0.5 + offset.y}, lens);
 }
 
+// A sensor is a white diffuse surface at which paths begin: radiance leaves it, the irradiance over π. That
+// is the path's first event.
+void PathTracer::leave_sensor(Path& path, const Sensor& sensor) {
+  find_wavelengths(path);
+  const Departure from{sensor.position, cast<float>(sensor.position), no_triangle, path.inside};
+  const std::uint32_t candidates = light_candidates(path, from.p, true);
+  if (scene_.lights.can_sample()) connect_sensor(path, from, sensor.normal, candidates);
+  const std::array<float, 4> u = numbers_for_scattering(path);
+  const Point2d disk = concentric_disk({static_cast<double>(u[0]), static_cast<double>(u[1])});
+  const double cosine = safe_sqrt(1 - disk.x * disk.x - disk.y * disk.y);
+  const Vector3d n = sensor.normal;
+  const Vector3d x = normalize(cross(std::abs(n.x) < 0.5 ? Vector3d{1, 0, 0} : Vector3d{0, 1, 0}, n));
+  path.pdf = density_beside(cosine / pi, candidates);
+  ++path.depth;
+  depart(path, from, x * disk.x + cross(n, x) * disk.y + n * cosine);
+}
+
 void PathTracer::trace_camera(int x, int y, std::uint32_t sample) {
   Path path;
   path.pixel = static_cast<std::uint32_t>((y - film_.crop().y0) * film_.width() + x - film_.crop().x0);
@@ -114,6 +133,13 @@ void PathTracer::trace_camera(int x, int y, std::uint32_t sample) {
   ++counters_.rays_camera;
   if (traffic_) traffic_->set({});
   ++counters_.born;
+  if (const auto sensor = scene_.camera.sensor(x)) {
+    leave_sensor(path, *sensor);
+    if (!(path.pdf > 0)) {  // along the sensor's plane
+      ++counters_.died;
+      return;
+    }
+  }
   run(path, std::nullopt);
 }
 

@@ -84,6 +84,7 @@ class PathTracer {
   struct Shadow;
 
   CameraRay camera_ray(int x, int y, const Path& path) const;
+  void leave_sensor(Path& path, const Sensor& sensor);
   void run(Path& path, std::optional<std::uint32_t> at);
   bool find_hit(Path& path, std::optional<std::uint32_t> at);
   void intersect(Path& path, std::uint32_t domain);
@@ -141,6 +142,7 @@ class PathTracer {
                        const Scattering& scattering, Vector3d out, std::uint32_t candidates);
   void connect_medium(const Path& path, const Departure& from, double g, Vector3d out,
                       std::uint32_t candidates);
+  void connect_sensor(const Path& path, const Departure& from, Vector3d normal, std::uint32_t candidates);
   template <class Scatter, class Depart>
   void connect(const Path& path, Point3d p, std::uint32_t count, const Scatter& scatter,
                const Depart& depart);

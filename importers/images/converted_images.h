@@ -47,6 +47,9 @@ class ConvertedImages {
   // Their product, texel by texel of the finer one, along each side.
   std::filesystem::path write(const ImagePair& pair);
 
+  // The path of a new image of the writer's own.
+  std::filesystem::path new_file() const { return new_file_(); }
+
  private:
   using Numbers = std::array<float, 11>;
   using Key = std::tuple<std::string, Encoding, ImageNumber, Primaries, Wrap, TextureFilter, ImageUse, bool,

@@ -1,133 +1,87 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "importers/mitsuba/sun_and_sky.h"
 
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "importers/mitsuba/properties.h"
-#include "scene/rgb_to_spectrum.h"
+#include "scene/sun_position.h"
 
 namespace vitrail::mitsuba {
 
 namespace {
 
-constexpr double radian = std::numbers::pi / 180;
-
-using Row = std::array<double, 6>;
-constexpr std::array<double, 7> turbidities{1, 2, 3, 4, 6, 8, 10}, elevations_deg{2, 5, 10, 20, 40, 60, 85};
-constexpr std::array<Row, 49> means{{
-#include "importers/mitsuba/sky_means.inl"
-}};
-
-// Where x lies in the ascending list, as an index and a fraction.
-template <std::size_t n>
-std::pair<std::size_t, double> place_in(const std::array<double, n>& list, double x) {
-  const double held = std::clamp(x, list.front(), list.back());
-  std::size_t i = 0;
-  while (i + 2 < n && held > list[i + 1]) ++i;
-  return {i, (held - list[i]) / (list[i + 1] - list[i])};
+// Mitsuba's defaults are of Tokyo.
+SunPosition read_sun_position(const Object& o, const Report& report) {
+  LocalTime time{2010, 7, 10, 15, 9};
+  time.year = o.integer("year", time.year, report);
+  time.month = o.integer("month", time.month, report);
+  time.day = o.integer("day", time.day, report);
+  time.hour = o.number("hour", time.hour, report) + o.number("minute", 0, report) / 60 +
+              o.number("second", 0, report) / 3600;
+  time.timezone_h = o.number("timezone", time.timezone_h, report);
+  const double latitude = o.number("latitude", 35.6894, report),
+               longitude = o.number("longitude", 139.6917, report);
+  return sun_position(time, {latitude, longitude});
 }
 
-// Days from January 1st.
-int day_of_year(int year, int month, int day) {
-  constexpr std::array<int, 12> before{0, 31, 59, 90, 120, 151, 181, 212, 243, 273, 304, 334};
-  const bool leap = (year % 4 == 0 && year % 100 != 0) || year % 400 == 0;
-  return before[static_cast<std::size_t>(std::clamp(month, 1, 12) - 1)] + day - 1 + (leap && month > 2);
+// The light's frame, +z up and the sun by its azimuth from +y to +x, in that of the emitter: 0.6 has +y up,
+// +x in the east and −z in the north.
+Transform light_to_emitter(bool y_is_up) {
+  Transform t;
+  if (!y_is_up) return t;
+  t.m[0] = {1, 0, 0, 0};
+  t.m[1] = {0, 0, 1, 0};
+  t.m[2] = {0, -1, 0, 0};
+  return t;
 }
 
-TimeAndPlace read_time(const Object& o, const Report& report) {
-  TimeAndPlace at;
-  at.year = o.integer("year", at.year, report);
-  at.month = o.integer("month", at.month, report);
-  at.day = o.integer("day", at.day, report);
-  at.hour = o.number("hour", at.hour, report) + o.number("minute", 0, report) / 60 +
-            o.number("second", 0, report) / 3600;
-  at.latitude_deg = o.number("latitude", at.latitude_deg, report);
-  at.longitude_deg = o.number("longitude", at.longitude_deg, report);
-  at.timezone = o.number("timezone", at.timezone, report);
-  return at;
-}
-
-// Towards the sun, from the time: 0.6 has +y up, +x in the east and −z in the north, 3 has +z up, −y in the
-// east and −x in the north.
-Vector3d local_direction(const Object& o, bool y_is_up, const Report& report) {
-  const auto [elevation, azimuth] = sun_position(read_time(o, report));
-  const double up = std::sin(elevation), north = std::cos(azimuth) * std::cos(elevation),
-               east = std::sin(azimuth) * std::cos(elevation);
-  return y_is_up ? Vector3d{east, up, -north} : Vector3d{-north, -east, up};
+// Towards the sun in the light's frame, by the time. Version 3 has −y in the east and −x in the north.
+Vector3d by_time(const Object& emitter, bool y_is_up, const Report& report) {
+  const Vector3d d = direction_of(read_sun_position(emitter, report));
+  return y_is_up ? d : Vector3d{-d.y, -d.x, d.z};
 }
 
 }  // namespace
-
-Daylight daylight(double turbidity, double elevation_deg) {
-  const auto [t, u] = place_in(turbidities, turbidity);
-  const auto [e, v] = place_in(elevations_deg, elevation_deg);
-  const auto at = [&, t = t, u = u, e = e, v = v](std::size_t i) {
-    const auto row = [&](std::size_t k) {
-      return means[k * 7 + e][i] * (1 - v) + means[k * 7 + e + 1][i] * v;
-    };
-    return row(t) * (1 - u) + row(t + 1) * u;
-  };
-  Daylight light{{at(0), at(1), at(2)}, {at(3), at(4), at(5)}};
-  if (elevation_deg <= 0) light.sun = {};
-  return light;
-}
-
-std::array<double, 2> sun_position(const TimeAndPlace& at) {
-  const double g =
-      2 * std::numbers::pi / 365 * (day_of_year(at.year, at.month, at.day) + (at.hour - 12) / 24);
-  const double declination = 0.006918 - 0.399912 * std::cos(g) + 0.070257 * std::sin(g) -
-                             0.006758 * std::cos(2 * g) + 0.000907 * std::sin(2 * g) -
-                             0.002697 * std::cos(3 * g) + 0.00148 * std::sin(3 * g);
-  const double minutes = 229.18 * (0.000075 + 0.001868 * std::cos(g) - 0.032077 * std::sin(g) -
-                                   0.014615 * std::cos(2 * g) - 0.040849 * std::sin(2 * g));
-  const double solar_hour = at.hour - at.timezone + at.longitude_deg / 15 + minutes / 60;
-  const double angle = (solar_hour - 12) * 15 * radian, latitude = at.latitude_deg * radian;
-  const double up = std::sin(latitude) * std::sin(declination) +
-                    std::cos(latitude) * std::cos(declination) * std::cos(angle);
-  const double north = std::cos(latitude) * std::sin(declination) -
-                       std::sin(latitude) * std::cos(declination) * std::cos(angle);
-  const double east = -std::cos(declination) * std::sin(angle);
-  return {std::asin(std::clamp(up, -1.0, 1.0)), std::atan2(east, north)};
-}
 
 bool is_daylight(const std::string& kind) { return kind == "sky" || kind == "sun" || kind == "sunsky"; }
 
 void add_daylight(Builder& builder, const Object& emitter) {
   Report& report = builder.report;
-  const Transform to_world = emitter.transform("to_world", report);
   const bool y_is_up = emitter.boolean("y_is_up", false, report);  // of old files (old_versions.cpp)
+  SkyLight light;
+  light.light_to_world = emitter.transform("to_world", report) * light_to_emitter(y_is_up);
+  if (!is_invertible(light.light_to_world))
+    report.fail("the emitter's to_world has no inverse", place_of(emitter, "to_world"));
   // A direction that is given is the world's.
   const auto given = emitter.vector("sun_direction", report);
-  const Vector3d local =
-      given ? unit(transform_vector(inverse(to_world), *given)) : local_direction(emitter, y_is_up, report);
-  const double up = std::asin(std::clamp(y_is_up ? local.y : local.z, -1.0, 1.0)) / radian;
-  const double turbidity = emitter.number("turbidity", 3, report), scale = emitter.number("scale", 1, report);
-  const Daylight light = daylight(turbidity, up);
-  const auto times = [](RGB c, double k) { return emission_from_rgb({c.r * k, c.g * k, c.b * k}); };
-  const double sky_scale = scale * emitter.number("sky_scale", 1, report),
-               sun_scale = scale * emitter.number("sun_scale", 1, report);
-  if (emitter.type != "sun" && sky_scale > 0)
-    builder.scene.lights.push_back({InfiniteLight{times(light.sky, sky_scale)}, emitter.origin});
-  const Vector3d along = unit(transform_vector(to_world, local)) * -1.0;
-  if (emitter.type != "sky" && sun_scale > 0 && length(along) > 0)
-    builder.scene.lights.push_back({DistantLight{along, times(light.sun, sun_scale)}, emitter.origin});
-  emitter.ignore(
-      {"albedo", "stretch", "resolution", "sun_radius_scale", "sun_aperture", "extend", "complex_sun"});
-  report.approximated(
-      fmt::format(
-          "emitter \"{}\" becomes {}: the sky's mean radiance from everywhere, the sun's irradiance from "
-          "one direction, as of Mitsuba 3.9.1's at turbidity {:.3g} and {:.1f}° of elevation",
-          emitter.type,
-          emitter.type == "sky"   ? "a uniform light"
-          : emitter.type == "sun" ? "a distant light"
-                                  : "a uniform and a distant light",
-          turbidity, up),
-      emitter.origin);
-  report_unused(emitter, report, {"turbidity", "sun_direction", "sky_scale", "sun_scale", "to_world"});
+  light.to_sun = given ? unit(transform_vector(inverse(light.light_to_world), *given))
+                       : by_time(emitter, y_is_up, report);
+  if (!(length(light.to_sun) > 0))
+    report.fail("the sun has no direction", place_of(emitter, "sun_direction"));
+  const auto number = [&](const char* name, double otherwise) {
+    return static_cast<float>(emitter.number(name, otherwise, report));
+  };
+  light.turbidity = number("turbidity", 3);
+  light.albedo = spectrum_value(builder, emitter, "albedo", Quantity::reflectance,
+                                ConstantSpectrum{y_is_up ? 0.15f : 0.3f});
+  const float scale = number("scale", 1);
+  light.sky_scale = emitter.type == "sun" ? 0 : scale * number("sky_scale", 1);
+  light.sun_scale = emitter.type == "sky" ? 0 : scale * number("sun_scale", 1);
+  light.sun_diameter_deg = number("sun_aperture", 0.5358) * number("sun_radius_scale", 1);
+  light.limb_darkening = emitter.boolean("complex_sun", false, report);
+  if (!(light.sun_diameter_deg > 0 && light.sun_diameter_deg < 180))
+    report.fail("the sun's diameter is not between 0 and 180 degrees", emitter.origin);
+  if (y_is_up)
+    report.approximated("the model of daylight of Mitsuba 0.6 becomes that of version 3 (Hošek and Wilkie)",
+                        emitter.origin);
+  if (light.to_sun.z < 0)
+    report.approximated("the sun is below the horizon: the model has no twilight, nothing shines",
+                        emitter.origin);
+  emitter.ignore({"stretch", "resolution", "extend"});
+  builder.scene.lights.push_back({light, emitter.origin});
+  report_unused(emitter, report,
+                {"turbidity", "albedo", "sun_direction", "sky_scale", "sun_scale", "sun_aperture",
+                 "complex_sun", "to_world"});
 }
 
 }  // namespace vitrail::mitsuba

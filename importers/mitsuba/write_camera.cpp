@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "importers/mitsuba/write_camera.h"
+#include "importers/sensor_view.h"
 
 #include <array>
 #include <cmath>
@@ -199,6 +200,11 @@ Element write(Context& context, Element root, const SphericalCamera& camera) {
   context.dropped("Mitsuba has no camera that sees all directions: a perspective one of 90 degrees");
   const double y = static_cast<double>(context.scene.film.height) / context.scene.film.width;
   return write(context, root, PerspectiveCamera{camera.camera_to_world, {-1, 1, -y, y}, {}});
+}
+
+Element write(Context& context, Element root, const SensorCamera& camera) {
+  context.dropped("sensors of irradiance: a camera that looks along the first one's normal");
+  return write(context, root, view_of(camera, context.scene.film));
 }
 
 }  // namespace

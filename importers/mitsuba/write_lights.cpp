@@ -175,6 +175,19 @@ void write(Context& context, Element root, const EnvironmentLight& light) {
   }
 }
 
+void write(Context&, Element root, const SkyLight& light) {
+  Element element = add(root, "emitter", "sunsky");
+  add_transform(element, light.light_to_world);
+  add_coordinates(element, "vector", "sun_direction",
+                  normalize(transform_vector(light.light_to_world, light.to_sun)));
+  add_float(element, "turbidity", std::clamp(light.turbidity, 1.0f, 10.0f));
+  add_spectrum(element, "albedo", light.albedo, Meaning::reflectance);
+  add_float(element, "sky_scale", light.sky_scale);
+  add_float(element, "sun_scale", light.sun_scale);
+  add_float(element, "sun_aperture", light.sun_diameter_deg);
+  add_boolean(element, "complex_sun", light.limb_darkening);
+}
+
 }  // namespace
 
 void write_lights(Context& context, Element root) {

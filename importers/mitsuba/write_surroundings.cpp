@@ -7,6 +7,8 @@
 #include "images/texture_values.h"
 #include "importers/export_colors.h"
 #include "importers/images/environment_images.h"
+#include "importers/images/sky_image.h"
+#include "scene/sky_model.h"
 
 namespace vitrail::mitsuba_writer {
 
@@ -36,6 +38,14 @@ Radiance radiance_of(const EnvironmentLight& light, Image image) {
   };
 }
 
+Radiance radiance_of(const SkyLight& light) {
+  const Image image = sky_image(light, map, sky_image_height);
+  EnvironmentLight as_image;
+  as_image.projection = map;
+  as_image.light_to_world = light.light_to_world;
+  return radiance_of(as_image, image);
+}
+
 Image summed(const std::vector<Radiance>& lights, int height) {
   Image image = black_image(2 * height, height, 3);
   for (int y = 0; y < height; ++y)
@@ -58,6 +68,12 @@ LightModel joined_image(Context& context, const std::vector<const Light*>& light
   for (const Light* light : lights) {
     if (const auto* everywhere = std::get_if<InfiniteLight>(&light->model)) {
       radiances.push_back(radiance_of(*everywhere));
+      continue;
+    }
+    if (const auto* sky = std::get_if<SkyLight>(&light->model)) {
+      radiances.push_back(radiance_of(*sky));
+      height = std::max(height, sky_image_height);
+      if (SkyModel(*sky).has_sun()) context.dropped("the sun of a sky beside other light from all around");
       continue;
     }
     const auto& environment = std::get<EnvironmentLight>(light->model);
@@ -88,7 +104,8 @@ LightModel joined_image(Context& context, const std::vector<const Light*>& light
 
 bool is_around(const Light& light) {
   return std::holds_alternative<InfiniteLight>(light.model) ||
-         std::holds_alternative<EnvironmentLight>(light.model);
+         std::holds_alternative<EnvironmentLight>(light.model) ||
+         std::holds_alternative<SkyLight>(light.model);
 }
 
 std::optional<LightModel> joined_surroundings(Context& context) {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "importers/given_sky.h"
 #include "importers/pbrt/image_numbers.h"
 #include "scene/rgb_to_spectrum.h"
 
@@ -153,8 +154,22 @@ std::optional<std::array<Point3d, 4>> read_portal(const Maker& m) {
   return corners;
 }
 
+// An extension: "string sky" with the words of --sky. As of pbrt's images, +z is up; +y is north, +x east.
+LightModel sky_light(const Maker& m, const Parameter& words) {
+  if (words.strings.size() != 1) fail("a sky takes one string", words.place);
+  try {
+    SkyLight light = parse_sky(words.strings.front()).light;
+    light.light_to_world = m.ctm;
+    return light;
+  } catch (const UsageError& error) {
+    fail(error.what(), words.place);
+  }
+}
+
 LightModel infinite_light(const Maker& m) {
   m.parameters.ignore({"nsamples", "samples"});
+  if (const Parameter* words = m.parameters.find("sky", {ParameterType::text}); words)
+    return sky_light(m, *words);
   const Parameter* file = m.image();
   if (!file) {
     const double illuminance = m.parameters.number("illuminance", -1);

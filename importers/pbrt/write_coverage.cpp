@@ -70,7 +70,8 @@ FloatParameter coverage_of(Writer& w, const Material& material) {
 bool has_lights_without_extent(const Scene& scene) {
   return std::ranges::any_of(scene.lights, [](const Light& light) {
     return !std::holds_alternative<InfiniteLight>(light.model) &&
-           !std::holds_alternative<EnvironmentLight>(light.model);
+           !std::holds_alternative<EnvironmentLight>(light.model) &&
+           !std::holds_alternative<SkyLight>(light.model);
   });
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <array>
 
+#include "importers/images/sky_image.h"
 #include "importers/pbrt/write_images.h"
 
 namespace vitrail::pbrt {
@@ -70,6 +71,7 @@ class LightWriter {
     if (l.portal) portal(*l.portal);
     return "infinite";
   }
+  const char* operator()(const SkyLight&) { return nullptr; }  // its parts are written
 
  private:
   void scale_of_image(const Spectrum& scale) {
@@ -91,23 +93,32 @@ class LightWriter {
   Transform light_to_world_;
 };
 
-constexpr std::array kinds{"point",   "spot",     "projection", "goniometric",
-                           "distant", "infinite", "environment"};
+constexpr std::array kinds{"point",   "spot",     "projection",  "goniometric",
+                           "distant", "infinite", "environment", "sky"};
 static_assert(kinds.size() == std::variant_size_v<LightVariant>);
+
+void write_light(Writer& w, const Light& light) {
+  Parameters p(w, fmt::format("{} light", kinds.at(light.model.index())), light.origin, RecordKind::light);
+  if (const auto* sky = std::get_if<SkyLight>(&light.model)) {
+    p.approximated("pbrt has no sky: its image in linear sRGB, and the sun as parallel light");
+    const auto file = std::filesystem::absolute(w.new_image());
+    for (const LightModel& part : sky_as_image(*sky, EnvironmentLight::Projection::equal_area, file))
+      write_light(w, {part, light.origin});
+    return;
+  }
+  LightWriter writer(p);
+  const char* kind = std::visit(writer, light.model);
+  if (!kind) return;
+  const bool moved = writer.light_to_world() != Transform{};
+  if (moved) w.begin("AttributeBegin"), w.transform(writer.light_to_world());
+  w.line(fmt::format("LightSource \"{}\"{}", kind, p.list()));
+  if (moved) w.end("AttributeEnd");
+}
 
 }  // namespace
 
 void write_lights(Writer& w) {
-  for (const Light& light : w.scene.lights) {
-    Parameters p(w, fmt::format("{} light", kinds.at(light.model.index())), light.origin, RecordKind::light);
-    LightWriter writer(p);
-    const char* kind = std::visit(writer, light.model);
-    if (!kind) continue;
-    const bool moved = writer.light_to_world() != Transform{};
-    if (moved) w.begin("AttributeBegin"), w.transform(writer.light_to_world());
-    w.line(fmt::format("LightSource \"{}\"{}", kind, p.list()));
-    if (moved) w.end("AttributeEnd");
-  }
+  for (const Light& light : w.scene.lights) write_light(w, light);
 }
 
 }  // namespace vitrail::pbrt

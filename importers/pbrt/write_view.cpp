@@ -6,6 +6,7 @@
 
 #include "importers/pbrt/gbuffer.h"
 #include "importers/pbrt/writer.h"
+#include "importers/sensor_view.h"
 
 namespace vitrail::pbrt {
 
@@ -70,6 +71,10 @@ struct CameraWriter {
     p.text("mapping",
            c.projection == SphericalCamera::Projection::equal_area ? "equalarea" : "equirectangular");
     finish("spherical", c.camera_to_world);
+  }
+  void operator()(const SensorCamera& c) {
+    p.dropped("sensors of irradiance: a camera that looks along the first one's normal");
+    (*this)(view_of(c, w.scene.film));
   }
 
  private:

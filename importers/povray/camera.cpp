@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "importers/povray/camera.h"
+#include "importers/sensor_view.h"
 
 #include <cmath>
 
@@ -68,6 +69,12 @@ std::string text_of(Context& context, const SphericalCamera& camera) {
     f.right = -f.right;
   }
   return "camera {\n  spherical\n" + vectors(f) + "  angle 360 180\n}\n";
+}
+
+std::string text_of(Context& context, const SensorCamera& camera) {
+  context.dropped("sensors of irradiance: a camera that looks along the first one's normal",
+                  context.scene.camera_origin);
+  return text_of(context, view_of(camera, context.scene.film));
 }
 
 bool is_pixel_box(const Filter& filter) {

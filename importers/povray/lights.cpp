@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "importers/export_colors.h"
+#include "importers/images/sky_image.h"
 #include "importers/povray/environment.h"
 
 namespace vitrail::povray {
@@ -80,6 +81,15 @@ std::string text_of(Context& context, const InfiniteLight& light, const Origin&)
 
 std::string text_of(Context& context, const EnvironmentLight& light, const Origin& origin) {
   return environment_text(context, light, origin);
+}
+
+std::string text_of(Context& context, const SkyLight& light, const Origin& origin) {
+  const std::filesystem::path file = std::filesystem::absolute(context.images.new_file());
+  context.approximated("sky: its image in linear sRGB, and the sun as parallel light", origin);
+  std::string text;
+  for (const LightModel& part : sky_as_image(light, EnvironmentLight::Projection::latitude_longitude, file))
+    std::visit([&](const auto& model) { text += text_of(context, model, origin); }, part);
+  return text;
 }
 
 bool is_rgb_light(const LightModel& model) {

@@ -93,7 +93,8 @@ class Writer {
   bool has_indirect_sources() const {
     return shines_without_source_ || std::ranges::any_of(scene().lights, [](const Light& light) {
              return std::holds_alternative<InfiniteLight>(light.model) ||
-                    std::holds_alternative<EnvironmentLight>(light.model);
+                    std::holds_alternative<EnvironmentLight>(light.model) ||
+                    std::holds_alternative<SkyLight>(light.model);
            });
   }
 

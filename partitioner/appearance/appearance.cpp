@@ -8,6 +8,7 @@
 #include "partitioner/appearance/bake_media.h"
 #include "partitioner/appearance/bake_textures.h"
 #include "scene/kinds.h"
+#include "scene/sky_model.h"
 
 namespace vitrail {
 
@@ -157,7 +158,32 @@ struct LightBaker {
     l.encoding = {}, l.primaries = {};  // they are in its values
     return l;
   }
+  LightModel operator()(SkyLight l) const {
+    l.albedo = resolved(l.albedo);
+    return l;
+  }
 };
+
+// Connections to light from one direction go through smooth glass, those to a disc do not: there the sun is
+// parallel light of the same irradiance.
+bool is_refracting(const Scene& scene, const Used& used) {
+  for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+    const auto* glass = std::get_if<DielectricMaterial>(&scene.materials[i].model);
+    if (used.materials[i] && glass && glass->roughness.alpha_u == FloatParameter{0.0f} &&
+        glass->roughness.alpha_v == FloatParameter{0.0f})
+      return true;
+  }
+  return false;
+}
+
+std::optional<Light> take_sun(SkyLight& sky) {
+  const SkyModel model(sky);
+  if (!model.has_sun()) return std::nullopt;
+  sky.sun_scale = 0;
+  return Light{DistantLight{normalize(transform_vector(sky.light_to_world, model.to_sun())) * -1.0,
+                            spectrum_of_bands(model.sun_irradiance(model.to_sun()))},
+               {}};
+}
 
 }  // namespace
 
@@ -178,9 +204,17 @@ Appearance appearance_of(const Scene& scene, const std::filesystem::path& bundle
   result.opacities.resize(scene.textures.size(), 1.0f);
   for (std::uint32_t i = 0; i < used.opacities.size(); ++i)
     if (used.opacities[i]) result.opacities[i] = textures.bake(FloatParameter{Id<Texture>{i}});
+  const bool glass = is_refracting(scene, used);
   for (const Light& light : scene.lights) {
     result.lights.push_back(
         {std::visit(LightBaker{textures, location(scene, light.origin)}, light.model), {}});
+    if (auto* sky = std::get_if<SkyLight>(&result.lights.back().model); sky && glass) {
+      if (std::optional<Light> sun = take_sun(*sky)) {
+        result.lights.push_back(std::move(*sun));
+        report.approximated("the sun of a sky: parallel light, which shines through smooth glass",
+                            light.origin);
+      }
+    }
     const auto* environment = std::get_if<EnvironmentLight>(&light.model);
     if (environment && environment->portal)
       report.approximated("environment light: its portal is not looked at, it shines from everywhere",

@@ -24,7 +24,7 @@ std::shared_ptr<GreyImage> sunny(int width, int height) {
 }
 
 SampledSpectrum seen(const Environment& e, Vector3d direction, const SampledWavelengths& w) {
-  return radiance(e, sphere_point(e.projection, e.frame.to_light(direction)), w);
+  return value_towards(e, direction, w).radiance;
 }
 
 }  // namespace

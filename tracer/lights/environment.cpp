@@ -54,10 +54,6 @@ SampledSpectrum look_up(const LightImage& image, SphereProjection projection, Po
                                   : image.bilinear(place.s, place.t, wavelengths);
 }
 
-SampledSpectrum radiance(const Environment& e, Point2d at, const SampledWavelengths& wavelengths) {
-  return look_up(*e.image, e.projection, at, wavelengths) * evaluate(e.scale, wavelengths) * e.factor;
-}
-
 namespace {
 
 // Luminances of one level, y down from the top, looked up as the image is.
@@ -162,6 +158,70 @@ Environment make_environment(const EnvironmentLight& light, std::shared_ptr<cons
   }
   e.mean_luminance = sampled.flux / (4 * pi) * luminance(e.scale) * static_cast<double>(e.factor);
   return e;
+}
+
+namespace {
+
+// Over the disc, uniform per solid angle.
+Vector3d sample_sun(const SkyModel& sky, double u, double v) {
+  const Vector3d n = sky.to_sun();
+  const Vector3d x = normalize(cross(std::abs(n.x) < 0.5 ? Vector3d{1, 0, 0} : Vector3d{0, 1, 0}, n));
+  const double below = u * (1 - sky.sun_cosine()), sine = safe_sqrt(below * (2 - below)), phi = 2 * pi * v;
+  return x * (sine * portable_cos(phi)) + cross(n, x) * (sine * portable_sin(phi)) + n * (1 - below);
+}
+
+double luminance_of_sky(const SkyModel& sky, Vector3d d) {
+  return luminance_of([&](const SampledWavelengths& w) { return sky.sky(d, w); }, 2);
+}
+
+}  // namespace
+
+Environment make_environment(const SkyLight& light) {
+  constexpr int width = 128, height = 128;  // rows of equal angle: the upper half is 64 of them
+  Environment e;
+  e.projection = latitude_longitude;
+  e.frame = DirectionFrame(light.light_to_world);
+  e.sky = std::make_shared<const SkyModel>(light);
+  double sky_flux = 0;  // ∫ Y dω
+  std::vector<double> density(static_cast<std::size_t>(width * height));
+  const DirectionTable cells(latitude_longitude, width, height, [](int, int) { return 1.0; });
+  for (int y = 0; y < height / 2; ++y)
+    for (int x = 0; x < width; ++x) {
+      const Point2d at{(x + 0.5) / width, (y + 0.5) / height};
+      const double value = luminance_of_sky(*e.sky, sphere_direction(latitude_longitude, at));
+      density[static_cast<std::size_t>(y * width + x)] = value;
+      sky_flux += value * cells.cell_solid_angle(y);
+    }
+  const double floor = density_floor * sky_flux / (2 * pi);
+  e.table = DirectionTable(latitude_longitude, width, height, [&](int x, int y) {
+    return y < height / 2 ? density[static_cast<std::size_t>(y * width + x)] + floor : 0.0;
+  });
+  const double sun_flux = luminance(spectrum_of_bands(e.sky->sun_irradiance(e.sky->to_sun())));
+  e.sun_luminance = e.sky->has_sun() ? luminance(spectrum_of_bands(e.sky->sun(e.sky->to_sun()))) : 0;
+  // Equal where both shine: the sun brings most wherever it is not hidden.
+  e.sun_share = sun_flux > 0 ? (sky_flux > 0 ? 0.5 : 1) : 0;
+  e.mean_luminance = (sky_flux + sun_flux) / (4 * pi);
+  return e;
+}
+
+EnvironmentValue value_towards(const Environment& e, Vector3d direction,
+                               const SampledWavelengths& wavelengths) {
+  const Vector3d d = e.frame.to_light(direction);
+  const Point2d at = sphere_point(e.projection, d);
+  if (!e.sky)
+    return {look_up(*e.image, e.projection, at, wavelengths) * evaluate(e.scale, wavelengths) * e.factor,
+            e.table.pdf(at)};
+  EnvironmentValue value{e.sky->sky(d, wavelengths), (1 - e.sun_share) * e.table.pdf(at)};
+  if (e.sun_share > 0 && e.sky->meets_sun(d)) {
+    value.radiance = value.radiance + e.sky->sun(d, wavelengths);
+    value.pdf += e.sun_share / (2 * pi * (1 - e.sky->sun_cosine()));
+  }
+  return value;
+}
+
+Vector3d sample_direction(const Environment& e, double u, double v) {
+  if (u < e.sun_share) return e.frame.to_world(sample_sun(*e.sky, u / e.sun_share, v));
+  return e.frame.to_world(e.table.sample((u - e.sun_share) / (1 - e.sun_share), v));
 }
 
 }  // namespace vitrail

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "scene/light.h"
+#include "scene/sky_model.h"
 #include "tracer/lights/direction_table.h"
 #include "tracer/lights/light_image.h"
 
@@ -19,20 +20,32 @@ struct DirectionFrame {
   Vector3d to_world(Vector3d d) const { return x * d.x + y * d.y + z * d.z; }
 };
 
+// An image, or a sky with its sun.
 struct Environment {
   std::shared_ptr<const LightImage> image;
+  std::shared_ptr<const SkyModel> sky;  // where there is no image
+  double sun_share = 0;                 // of the samples, uniform over the sun's disc
   SphereProjection projection = SphereProjection::equal_area;
   DirectionFrame frame;
   Spectrum scale = ConstantSpectrum{1};
   float factor = 1;  // beside `scale`
   DirectionTable table;
   double mean_luminance = 0;  // over all directions, all factors included
+  double sun_luminance = 0;   // of its disc's middle
 };
 
 Environment make_environment(const EnvironmentLight& light, std::shared_ptr<const LightImage> image);
+Environment make_environment(const SkyLight& light);
 
-// At a point of the sphere's picture.
-SampledSpectrum radiance(const Environment& environment, Point2d at, const SampledWavelengths& wavelengths);
+struct EnvironmentValue {
+  SampledSpectrum radiance;
+  double pdf = 0;  // of sample_direction, solid angle
+};
+// `direction` unit, of the world.
+EnvironmentValue value_towards(const Environment& environment, Vector3d direction,
+                               const SampledWavelengths& wavelengths);
+// u, v in [0,1)
+Vector3d sample_direction(const Environment& environment, double u, double v);
 
 // The image at a point of the sphere's picture: the nearest texel of an equal-area map, as pbrt-v4 looks it
 // up; by latitude and longitude bilinear as in Mitsuba, where the first and the last row lie on the poles.

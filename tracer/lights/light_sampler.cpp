@@ -241,7 +241,7 @@ std::optional<LightSample> sample_light(const LightSampler& s, Point3d p, const 
   }
   const std::size_t index = kind - 1 - s.distant.size();
   const Environment& e = s.environments[index];
-  sample.to_light = e.frame.to_world(e.table.sample(static_cast<double>(u[0]), static_cast<double>(u[1])));
+  sample.to_light = sample_direction(e, static_cast<double>(u[0]), static_cast<double>(u[1]));
   sample.distance = infinity;
   const Background seen = background(s, sample.to_light, wavelengths);
   if (!(seen.pdf > 0)) return std::nullopt;
@@ -297,10 +297,9 @@ Background background(const LightSampler& s, Vector3d direction, const SampledWa
     sum.radiance =
         sum.radiance + evaluate(std::get<InfiniteLight>(s.scene.lights[i].model).radiance, wavelengths);
   for (std::size_t i = 0; i < s.environments.size(); ++i) {
-    const Environment& e = s.environments[i];
-    const Point2d at = sphere_point(e.projection, e.frame.to_light(direction));
-    sum.radiance = sum.radiance + radiance(e, at, wavelengths);
-    sum.pdf += s.share[1 + s.distant.size() + i] * e.table.pdf(at);
+    const EnvironmentValue value = value_towards(s.environments[i], direction, wavelengths);
+    sum.radiance = sum.radiance + value.radiance;
+    sum.pdf += s.share[1 + s.distant.size() + i] * value.pdf;
   }
   return sum;
 }

@@ -160,15 +160,16 @@ struct Sorter {
     distant_power.push_back(power);
   }
   void operator()(const InfiniteLight&) { s.infinite.push_back(light); }
-  void operator()(const EnvironmentLight& l) {
-    Environment e = make_environment(l, images(l.filename));
+  void operator()(const EnvironmentLight& l) { add(make_environment(l, images(l.filename))); }
+  void operator()(const SkyLight& l) { add(make_environment(l)); }
+
+ private:
+  void add(Environment e) {
     if (!(e.mean_luminance > 0)) return;
     environment_power.push_back(4 * pi * e.mean_luminance * cross_section);
     s.environments.push_back(std::move(e));
     s.environment_light.push_back(light);
   }
-
- private:
   void add(PointEmitter e) {
     s.emitters.push_back(std::move(e));
     s.emitter_light.push_back(light);

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "film/sensor_readings.h"
+
+#include <cmath>
+
+#include "film/develop.h"
+#include "scene/diagnostics.h"
+#include "scene/photometry.h"
+
+namespace vitrail {
+
+namespace {
+
+// Of rows with samples, all with equal weight: they have equal numbers of them in a finished film.
+Measured over_rows(const std::vector<double>& rows) {
+  Measured result;
+  if (rows.empty()) return result;
+  const double count = static_cast<double>(rows.size());
+  for (const double x : rows) result.mean += x / count;
+  double squares = 0;
+  for (const double x : rows) squares += (x - result.mean) * (x - result.mean);
+  if (rows.size() > 1) result.standard_error = std::sqrt(squares / (count * (count - 1)));
+  return result;
+}
+
+}  // namespace
+
+std::vector<SensorReading> sensor_readings(const Film& film) {
+  require_unsaturated(film.refused(), {});
+  const SpectralBins& bins = film.bins();
+  if (bins.count == 0) throw Error("the film keeps no spectrum, which sensors need", {});
+  std::vector<double> melanopic_of_bin;
+  for (int b = 0; b < bins.count; ++b) {
+    const double low = bins.min_nm + b * bins.width_nm();
+    melanopic_of_bin.push_back(melanopic_edi_of_bin(low, low + bins.width_nm()));
+  }
+  std::vector<SensorReading> readings;
+  for (int x = 0; x < film.width(); ++x) {
+    SensorReading reading;
+    std::vector<double> illuminance, melanopic, irradiance;
+    for (int y = 0; y < film.height(); ++y) {
+      const auto pixel = static_cast<std::uint32_t>(y * film.width() + x);
+      if (film.samples(pixel) == 0) continue;
+      reading.samples += film.samples(pixel);
+      illuminance.push_back(photometric(film.mean(pixel).y));
+      double edi = 0, watts = 0;
+      for (std::size_t b = 0; b < melanopic_of_bin.size(); ++b) {
+        const double mean = film.mean_of_bin(pixel, b);
+        edi += mean * melanopic_of_bin[b];
+        watts += mean * bins.width_nm();
+      }
+      melanopic.push_back(edi);
+      irradiance.push_back(watts);
+    }
+    reading.illuminance_lx = over_rows(illuminance);
+    reading.melanopic_edi_lx = over_rows(melanopic);
+    reading.irradiance_w_m2 = over_rows(irradiance);
+    readings.push_back(reading);
+  }
+  return readings;
+}
+
+}  // namespace vitrail

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "importers/images/sky_image.h"
+
+#include "images/image_files.h"
+#include "importers/images/environment_images.h"
+#include "scene/color.h"
+#include "scene/sky_model.h"
+
+namespace vitrail {
+
+namespace {
+
+// The colours of the bands' hat functions: one of a spectrum is their sum.
+std::array<XYZ, sky_bands> colors_of_bands() {
+  std::array<XYZ, sky_bands> colors;
+  for (std::size_t b = 0; b < sky_bands; ++b) {
+    std::array<double, sky_bands> one{};
+    one[b] = 1;
+    colors[b] = to_xyz(spectrum_of_bands(one));
+  }
+  return colors;
+}
+
+}  // namespace
+
+Image sky_image(const SkyLight& light, EnvironmentLight::Projection projection, int height) {
+  const SkyModel model(light);
+  const auto colors = colors_of_bands();
+  const int width = projection == EnvironmentLight::Projection::equal_area ? height : 2 * height;
+  Image image = black_image(width, height, 3);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const auto bands = model.sky(direction_of(projection, {(x + 0.5) / width, (y + 0.5) / height}));
+      XYZ sum;
+      for (std::size_t b = 0; b < sky_bands; ++b) {
+        sum.x += bands[b] * colors[b].x;
+        sum.y += bands[b] * colors[b].y;
+        sum.z += bands[b] * colors[b].z;
+      }
+      const RGB rgb = xyz_to_srgb(sum);
+      float* pixel = &image.values[static_cast<std::size_t>(3 * (y * width + x))];
+      pixel[0] = static_cast<float>(rgb.r), pixel[1] = static_cast<float>(rgb.g);
+      pixel[2] = static_cast<float>(rgb.b);
+    }
+  return image;
+}
+
+std::vector<LightModel> sky_as_image(const SkyLight& light, EnvironmentLight::Projection projection,
+                                     const std::filesystem::path& file) {
+  const SkyModel model(light);
+  std::vector<LightModel> parts;
+  if (model.has_sky()) {
+    write_exr_image(file, sky_image(light, projection, sky_image_height));
+    EnvironmentLight sky;
+    sky.filename = file.string();
+    sky.light_to_world = light.light_to_world;
+    sky.projection = projection;
+    parts.push_back(sky);
+  }
+  if (model.has_sun())
+    parts.push_back(DistantLight{normalize(transform_vector(light.light_to_world, light.to_sun)) * -1.0,
+                                 spectrum_of_bands(model.sun_irradiance(model.to_sun()))});
+  return parts;
+}
+
+}  // namespace vitrail

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// A sky for formats that know none.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "scene/image.h"
+#include "scene/light.h"
+
+namespace vitrail {
+
+inline constexpr int sky_image_height = 512;
+
+// Of the sky without the sun, linear sRGB, in the light's frame: `height` pixels high, twice as wide by
+// latitude and longitude, square by equal area.
+Image sky_image(const SkyLight& light, EnvironmentLight::Projection projection, int height);
+
+// The sky as an image, which is written to `file` (.exr), and the sun as parallel light of its irradiance;
+// what is dark is left out.
+std::vector<LightModel> sky_as_image(const SkyLight& light, EnvironmentLight::Projection projection,
+                                     const std::filesystem::path& file);
+
+}  // namespace vitrail
