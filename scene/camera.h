@@ -51,9 +51,8 @@ struct SphericalCamera {
 };
 
 // Irradiance meters instead of a picture: column x of the raster is sensor x, and every row repeats it with
-// samples of its own, so that rows tell how far their mean is off. A ray starts at the sensor in a direction
-// of its hemisphere with the density cos θ/π: the mean radiance times π, the film's imaging ratio, is the
-// irradiance.
+// samples of its own, so that rows tell how far their mean is off. A sensor is as a white diffuse surface
+// that is seen: its radiance times π, the film's imaging ratio, is the irradiance.
 struct Sensor {
   Point3d position;          // in camera space
   Vector3d normal{0, 0, 1};  // unit
