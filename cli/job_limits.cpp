@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/job_limits.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <array>
 #include <chrono>
+#include <cstdio>
 #include <cstdlib>
+#include <string>
 
 #include "scene/say.h"
 
@@ -29,19 +34,43 @@ std::uint64_t memory_of_node() {
   return number("SLURM_MEM_PER_CPU") * number("SLURM_CPUS_ON_NODE") * mib;
 }
 
-// A checkpoint is to be on the disk before the job is killed: a tenth of the time, a minute at most.
-double time_left_s() {
-  const std::uint64_t end = number("SLURM_JOB_END_TIME");
-  if (end == 0) return 0;
-  const double now =
-      std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
-  const double left = static_cast<double>(end) - now;
-  return std::max(1.0, left - std::min(60.0, left / 10));
+// What squeue calls the time left: [[days-]hours:]minutes:seconds. 0 for words such as UNLIMITED.
+double parse_duration_s(const std::string& text) {
+  double s = 0, part = 0;
+  for (const char c : text) {
+    if (c >= '0' && c <= '9')
+      part = part * 10 + (c - '0');
+    else if (c == '-')
+      s = part * 24, part = 0;  // days, in hours
+    else if (c == ':')
+      s = (s + part) * 60, part = 0;
+    else if (c != '\n')
+      return 0;
+  }
+  return s + part;
 }
+
+// Newer Slurms say when the job ends, older ones have to be asked.
+double time_left_s() {
+  if (const std::uint64_t end = number("SLURM_JOB_END_TIME"))
+    return static_cast<double>(end) -
+           std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
+  const std::string ask = fmt::format("timeout 5 squeue -h -o %L -j {} 2>/dev/null", number("SLURM_JOB_ID"));
+  std::FILE* answer = ::popen(ask.c_str(), "r");
+  if (!answer) return 0;
+  std::array<char, 64> text{};
+  const bool answered = std::fgets(text.data(), text.size(), answer) != nullptr;
+  ::pclose(answer);
+  return answered ? parse_duration_s(text.data()) : 0;
+}
+
+// A checkpoint is to be on the disk before the job is killed: a tenth of the time for it, a minute at most.
+double time_to_work_s(double left_s) { return std::max(1.0, left_s - std::min(60.0, left_s / 10)); }
 
 }  // namespace
 
-void take_limits_of_job(RenderOptions& o, bool say_so) {
+void take_limits_of_job(RenderOptions& o, bool rank_0) {
+  const bool say_so = rank_0 && !o.quiet;
   if (number("SLURM_JOB_ID") == 0) return;
   constexpr double mib = 1 << 20;
   const std::uint64_t memory = memory_of_node() / ranks_of_node() / 10 * 9;
@@ -50,9 +79,11 @@ void take_limits_of_job(RenderOptions& o, bool say_so) {
     if (say_so)
       say("vitrail: {:.0f} MiB a rank, as Slurm gives this job\n", static_cast<double>(memory) / mib);
   }
-  if (const double time_s = time_left_s(); time_s > 0 && o.time_limit_s <= 0) {
-    o.stop_after_s = time_s;
-    if (say_so) say("vitrail: stops with a checkpoint after {:.0f} s, as Slurm ends this job then\n", time_s);
+  if (!rank_0 || o.time_limit_s > 0) return;
+  if (const double left_s = time_left_s(); left_s > 0) {
+    o.stop_after_s = time_to_work_s(left_s);
+    if (say_so)
+      say("vitrail: stops with a checkpoint after {:.0f} s, as Slurm ends this job then\n", o.stop_after_s);
   }
 }
 

@@ -6,7 +6,8 @@
 namespace vitrail {
 
 // What Slurm gave the job that this process is of, where the user gives no other: memory, this rank's share
-// of its node's less a tenth for MPI and the system; and the time until the job has to have stopped.
-void take_limits_of_job(RenderOptions& options, bool say_so);
+// of its node's less a tenth for MPI and the system; and, on rank 0,
+// which watches the clock and says both, the time until the job has to have stopped.
+void take_limits_of_job(RenderOptions& options, bool rank_0);
 
 }  // namespace vitrail

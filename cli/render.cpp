@@ -7,6 +7,7 @@
 
 #include "cli/job_limits.h"
 #include "cli/main_guard.h"
+#include "cli/preview.h"
 #include "cli/render_arguments.h"
 #include "cli/run_program.h"
 #include "cli/supervise.h"
@@ -43,7 +44,7 @@ void require_own_picture(const RenderArguments& a) {
 
 void check_outputs(const RenderArguments& a) {
   note_input(a.input);
-  for (const fs::path& file : {a.output, a.options.film, a.options.stats, a.options.profile})
+  for (const fs::path& file : {a.output, a.options.film, a.options.stats, a.options.profile, a.preview})
     if (!file.empty()) require_place(file);
   require_own_picture(a);
 }
@@ -71,7 +72,7 @@ int number_of(Ending ending) {
 int render_job(const CLI::App& app, Transport& transport, RenderArguments& a) {
   agree(transport, [&] { interpret(app, a); });
   const bool first = transport.rank() == 0;
-  take_limits_of_job(a.options, first && !a.quiet);
+  take_limits_of_job(a.options, first);
   std::optional<OutputLock> lock;
   agree(transport, [&] {
     if (!first) return;
@@ -92,6 +93,11 @@ int render_job(const CLI::App& app, Transport& transport, RenderArguments& a) {
   agree(transport, [] {
     if (stop_signal()) throw Interrupted(stop_signal(), "interrupted before rendering began");
   });
+  std::optional<Preview> preview;
+  if (first && !a.preview.empty()) {
+    preview.emplace(a.preview);
+    a.options.after_checkpoint = [&](const fs::path& checkpoint) { preview->develop(checkpoint); };
+  }
   const RenderStats stats = render(transport, a.options);
   agree(transport, [&] { require_unsaturated(stats.refused, a.options.film); });
   const int signal = number_of(stats.ending);

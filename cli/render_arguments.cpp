@@ -114,6 +114,8 @@ void declare(CLI::App& app, RenderArguments& a) {
       "--sensors", o.sensors,
       "measure irradiance instead of a picture: a text of x y z nx ny nz lines, or plane O U V NXxNY; "
       "each sensor gets 16 times --spp samples; develop writes the .csv");
+  app.add_option("--preview", a.preview,
+                 "a picture of each checkpoint, .png or another, while the render goes on");
   app.add_option("--stats", o.stats, "write statistics as JSON");
   app.add_option("--profile", o.profile, "write where rays went, for `partition --profile` and `plan`");
   declare_import_options(app, a.imports);

@@ -21,6 +21,7 @@ struct RenderArguments {
   RenderOptions options;
   int restarts = 0;
   std::string launcher;  // empty: this process alone
+  std::filesystem::path preview;
 
   bool is_bundle() const;
 };

@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <functional>
 #include <optional>
 
 #include "farm/set_sheets.h"
@@ -47,9 +48,11 @@ struct RenderOptions {
   double patience_s = 600;                  // a rank that does not answer for so long ends the job; 0: never
   bool adaptive = false;                    // samples go where the picture is noisy
   std::optional<TargetError> target_error;  // the render ends once this is reached
-  bool dry_run = false;           // renders until the time limit, writes nothing and says what all would take
-  bool resume = false;            // says where there is nothing to go on from; going on needs no asking
-  bool force = false;             // replaces what lies under the names of film and checkpoint, whatever it is
+  bool dry_run = false;  // renders until the time limit, writes nothing and says what all would take
+  bool resume = false;   // says where there is nothing to go on from; going on needs no asking
+  bool force = false;    // replaces what lies under the names of film and checkpoint, whatever it is
+  // On rank 0, of each checkpoint while the render goes on; empty: nothing.
+  std::function<void(const std::filesystem::path&)> after_checkpoint;
   std::filesystem::path stats;    // empty: none
   std::filesystem::path profile;  // where a RayProfile of a whole picture goes; empty: none
   ProgressMode progress = ProgressMode::none;

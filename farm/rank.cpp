@@ -308,6 +308,7 @@ void Rank::write(const std::filesystem::path& file, bool last) {
       keeper_->write_last(file, state_.film, progress);
     else
       written = keeper_->write_checkpoint(file, state_.film, progress);
+    if (!last && written && options_.after_checkpoint) options_.after_checkpoint(file);
   });
   {
     const std::lock_guard lock(state_.mutex);

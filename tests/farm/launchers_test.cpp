@@ -28,9 +28,9 @@ class Launchers : public ::testing::Test {
   }
   std::string path(const std::string& name) const { return (directory_ / name).string(); }
   std::string arguments(const std::string& out, const std::string& more = "") const {
-    return fmt::format(" '{}' -o '{}' {} --spp 256 --threads 1 --checkpoint-every .1 --quiet {}",
-                       path("box.vit"), path(out),
-                       more.find("--crop") == std::string::npos ? "--crop 0,64,0,64" : "", more);
+    return fmt::format(" '{}' -o '{}' {} {} --threads 1 --checkpoint-every .1 --quiet {}", path("box.vit"),
+                       path(out), more.find("--crop") == std::string::npos ? "--crop 0,64,0,64" : "",
+                       more.find("--spp") == std::string::npos ? "--spp 256" : "", more);
   }
   std::string alone(const std::string& out, const std::string& more = "") const {
     return vitrail("render") + arguments(out, more);
@@ -146,6 +146,15 @@ TEST_F(Launchers, WhatCannotBecomeBetterIsNotStartedAgain) {
   job.send(SIGTERM);
   EXPECT_EQ(job.wait(), 128 + SIGTERM);
   EXPECT_TRUE(fs::exists(path("a.film.partial")));
+}
+
+TEST_F(Launchers, APreviewIsMadeOfEachCheckpoint) {
+  Background job(alone("a.film", fmt::format("--spp 512 --preview '{}'", path("preview.png"))));
+  while (job.running() && !fs::exists(path("preview.png"))) std::this_thread::sleep_for(5ms);
+  EXPECT_TRUE(job.running());
+  EXPECT_GT(fs::file_size(path("preview.png")), 1000u);
+  job.send(SIGTERM);
+  EXPECT_EQ(job.wait(), 128 + SIGTERM);
 }
 
 // As some cluster file systems are mounted.
