@@ -52,9 +52,10 @@ double parse_duration_s(const std::string& text) {
 
 // Newer Slurms say when the job ends, older ones have to be asked.
 double time_left_s() {
-  if (const std::uint64_t end = number("SLURM_JOB_END_TIME"))
-    return static_cast<double>(end) -
-           std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
+  if (const std::uint64_t end = number("SLURM_JOB_END_TIME")) {
+    const auto now = std::chrono::system_clock::now().time_since_epoch();
+    return std::max(1.0, static_cast<double>(end) - std::chrono::duration<double>(now).count());
+  }
   const std::string ask = fmt::format("timeout 5 squeue -h -o %L -j {} 2>/dev/null", number("SLURM_JOB_ID"));
   std::FILE* answer = ::popen(ask.c_str(), "r");
   if (!answer) return 0;

@@ -135,7 +135,7 @@ TEST_F(NothingLost, AChainOfLimitedJobsGetsToTheEnd) {
   int jobs = 0;
   for (bool complete = false; !complete; ++jobs) {
     ASSERT_LT(jobs, 200);
-    const CommandResult job = render("a.png", "--spp 1024 --time 0.1");
+    const CommandResult job = render("a.png", "--spp 1024 --time 0.4");
     ASSERT_EQ(job.status, 0) << job.output;
     EXPECT_GT(samples("a.film"), before);
     before = samples("a.film");
