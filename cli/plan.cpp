@@ -44,7 +44,7 @@ void share_memory(const Arguments& a, const Manifest& m, Machine& machine) {
   const MemoryPlan plan = plan_memory(a.memory.empty() ? 0 : parse_bytes(a.memory), base, base, a.threads,
                                       largest, bytes_of_all(m));
   machine.domain_bytes = plan.domains_bytes;
-  machine.rays_allowed = rays_allowed(plan);
+  machine.rays_allowed = rays_allowed_a_rank(plan);  // times the ranks, see below
 }
 
 Json to_json(const PlanPoint& p, std::uint64_t scene_bytes) {
@@ -83,6 +83,7 @@ int plan(const Arguments& a) {
   machine.disk_latency_s = a.disk_latency_ms * 1e-3;
   machine.disk_bytes_s = static_cast<double>(parse_bytes(a.disk));
   share_memory(a, manifest, machine);
+  const std::int64_t rays_a_rank = machine.rays_allowed;
   const std::uint64_t scene_bytes = std::max<std::uint64_t>(1, bytes_of_all(manifest));
   std::vector<PlanPoint> points;
   if (!a.json) fmt::print(" ranks    seconds  effic.  copies     loaded   loads  forwarded  limited by\n");
@@ -91,6 +92,7 @@ int plan(const Arguments& a) {
     const double items = 1e4 + 50.0 * ranks * a.threads;
     const Workload workload = workload_of(manifest, profile, a.pictures, items);
     machine.ranks = ranks;
+    machine.rays_allowed = rays_a_rank * ranks;
     // Rounds take the simulator time, too: a long job has fewer of them.
     const double work_s = profile.cost.trace_s * a.pictures / ranks / a.threads;
     machine.round_interval_s = std::clamp(work_s / 20'000, 1e-3, .05);

@@ -2,6 +2,7 @@
 // Rays of one kind that wait for one domain: a queue entry, and a message as it travels.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstring>
 #include <span>
@@ -44,6 +45,9 @@ class RayBatch {
 
   template <class Record>
   void append(const Record& record) {
+    const std::size_t needed = bytes_.size() + sizeof(Record);
+    if (needed > bytes_.capacity())
+      bytes_.reserve(needed > full_bytes / 2 ? std::max(needed, full_bytes) : 2 * needed);
     const auto* raw = reinterpret_cast<const std::byte*>(&record);
     bytes_.insert(bytes_.end(), raw, raw + sizeof(Record));
   }
@@ -52,6 +56,8 @@ class RayBatch {
     return {reinterpret_cast<Record*>(bytes_.data() + header_bytes), count()};
   }
   const std::vector<std::byte>& bytes() const { return bytes_; }
+  // Of memory, with room to grow: a full batch has none.
+  std::size_t held_bytes() const { return bytes_.capacity(); }
 
  private:
   std::size_t record_bytes() const {

@@ -38,9 +38,22 @@ MemoryPlan plan_memory(std::uint64_t budget, std::uint64_t base, std::uint64_t p
   return {free - queues, queues};
 }
 
-std::int64_t rays_allowed(const MemoryPlan& plan) {
-  // A growing batch holds up to twice its rays, and while it is sent or received once more.
-  return static_cast<std::int64_t>(plan.queue_bytes / (3 * sizeof(PathRecord)));
+QueueBounds queue_bounds(const MemoryPlan& plan, int ranks) {
+  if (ranks == 1) return {plan.queue_bytes, 0, 0};
+  return {plan.queue_bytes / 2, plan.queue_bytes / 4, plan.queue_bytes / 4};
+}
+
+std::uint64_t table_bytes(std::uint64_t domains, int threads) {
+  constexpr std::uint64_t a_domain = 400, of_a_resident_table = 24;
+  return domains * (a_domain + of_a_resident_table * static_cast<std::uint64_t>(threads + 2));
+}
+
+std::int64_t rays_allowed_a_rank(const MemoryPlan& plan) {
+  // The more rays wait, the more of them a domain that is loaded serves; a pause waits for all of them. A
+  // growing batch holds up to twice its rays, and while it is sent or received once more.
+  constexpr std::uint64_t worth_the_disk_bytes = 128 * mib;
+  return static_cast<std::int64_t>(std::max(plan.queue_bytes, worth_the_disk_bytes) /
+                                   (3 * sizeof(PathRecord)));
 }
 
 }  // namespace vitrail

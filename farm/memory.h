@@ -16,7 +16,18 @@ struct MemoryPlan {
 MemoryPlan plan_memory(std::uint64_t budget, std::uint64_t base, std::uint64_t peak, int threads,
                        std::uint64_t largest_domain, std::uint64_t all_domains);
 
-// The most rays that may be alive in the whole job, so that even all of them on one rank fit its queues.
-std::int64_t rays_allowed(const MemoryPlan& plan);
+// The most rays a rank that may be alive in the whole job. The disk takes those that the queues have no room
+// for.
+std::int64_t rays_allowed_a_rank(const MemoryPlan& plan);
+
+// Of queue_bytes. The farm holds these bounds, whatever comes.
+struct QueueBounds {
+  std::uint64_t waiting = 0, outgoing = 0, being_sent = 0;  // bytes
+};
+QueueBounds queue_bounds(const MemoryPlan& plan, int ranks);
+
+// Of the farm's tables, which grow with the number of domains: queues, counts, what is resident, of which
+// every thread may hold one of its own.
+std::uint64_t table_bytes(std::uint64_t domains, int threads);
 
 }  // namespace vitrail

@@ -58,6 +58,13 @@ class MpiTransport final : public Transport {
               MPI_COMM_WORLD, &s.request);
   }
 
+  std::uint64_t sending_bytes() override {
+    complete_sends();
+    std::uint64_t bytes = 0;
+    for (const Sending& s : sending_) bytes += s.batch.held_bytes();
+    return bytes;
+  }
+
   std::optional<RayBatch> receive() override {
     complete_sends();
     int arrived = 0;

@@ -57,7 +57,8 @@ struct RenderOptions {
   std::filesystem::path profile;  // where a RayProfile of a whole picture goes; empty: none
   ProgressMode progress = ProgressMode::none;
   bool quiet = false;  // nothing is said but what is wrong
-  // For tests: at most this for domains, whatever memory_bytes leaves; 0: no such limit.
+  // For tests: at most this for domains, whatever memory_bytes leaves, and so little for rays that they go to
+  // the disk; 0: no such limit.
   std::uint64_t domain_memory_bytes = 0;
   // For tests: processes rays in an arbitrary order: no picture may depend on it.
   std::optional<std::uint64_t> shuffle_seed;

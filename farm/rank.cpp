@@ -164,9 +164,7 @@ bool Rank::move_rays() {
   {
     const std::lock_guard lock(state_.mutex);
     if (!state_.scheduler.send_is_due(elapsed_s())) return moved;
-    for (std::uint32_t d = 0; d < state_.scene.manifest.domains.size(); ++d)
-      while (!state_.outgoing.empty(d)) batches.push_back(state_.outgoing.pop(d));
-    state_.scheduler.sent(elapsed_s());
+    batches = take_outgoing();
   }
   for (RayBatch& batch : batches) {
     ++messages_;
@@ -174,7 +172,29 @@ bool Rank::move_rays() {
     const int home = state_.scheduler.residency().home(batch.domain());
     transport_.send(home, std::move(batch));
   }
-  return true;
+  return moved || !batches.empty();
+}
+
+// As much as the transport has room for; it begins where the last time ended, so that none waits for ever.
+// The mutex is held.
+std::vector<RayBatch> Rank::take_outgoing() {
+  std::vector<RayBatch> batches;
+  std::uint64_t bytes = transport_.sending_bytes(), rays = 0;
+  const auto domains = static_cast<std::uint32_t>(state_.scene.manifest.domains.size());
+  const std::uint32_t first = sent_from_;
+  for (std::uint32_t i = 0; i < domains; ++i) {
+    const std::uint32_t d = (first + i) % domains;
+    while (!state_.outgoing.empty(d)) {
+      sent_from_ = d;
+      if (bytes >= state_.most_sent_bytes) break;
+      RayBatch& batch = batches.emplace_back(state_.outgoing.pop(d));
+      bytes += batch.held_bytes();
+      rays += batch.count();
+    }
+    if (bytes >= state_.most_sent_bytes) break;
+  }
+  if (rays > 0) state_.scheduler.sent(rays, elapsed_s());
+  return batches;
 }
 
 void Rank::watch_clock() {
@@ -351,6 +371,7 @@ void Rank::add_to(RenderStats& stats) const {
   stats.forwarded_rays = state_.scheduler.forwarded_rays();
   stats.forwarded_bytes = sent_bytes_;
   stats.messages = messages_;
+  stats.spilled_bytes = state_.queues.written_bytes() + state_.outgoing.written_bytes();
   stats.domain_loads = state_.scheduler.residency().loads();
   stats.evictions = state_.scheduler.residency().evictions();
 }

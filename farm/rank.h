@@ -37,6 +37,7 @@ class Rank {
 
   bool try_to_move_rays();
   bool move_rays();
+  std::vector<RayBatch> take_outgoing();
   RoundSums contribution();
   Decision decide(const RoundSums& sums);
   Ending ending_of(const RoundSums& sums) const;
@@ -66,6 +67,7 @@ class Rank {
   std::string about_;
   FilmKeeper* keeper_;
   bool want_checkpoint_ = false, time_is_up_ = false;
+  std::uint32_t sent_from_ = 0;  // the domain that is looked at first when rays are sent
   std::uint64_t messages_ = 0, received_ = 0, sent_bytes_ = 0;
   std::chrono::steady_clock::time_point start_, last_checkpoint_;
   double checkpoint_after_s_;  // since the last one; 0: never

@@ -119,6 +119,8 @@ Job set_up(const RenderOptions& options) {
   return {std::move(scene), {}, textures};
 }
 
+constexpr std::uint64_t few_rays_bytes = 1 << 18;  // with domain_memory_bytes
+
 MemoryPlan plan_for(const Manifest& manifest, const RenderOptions& options, int threads, std::uint64_t base,
                     std::uint64_t setup_peak) {
   std::uint64_t largest = 0;
@@ -127,7 +129,7 @@ MemoryPlan plan_for(const Manifest& manifest, const RenderOptions& options, int 
   MemoryPlan plan =
       plan_memory(options.memory_bytes, base, setup_peak, threads, largest, bytes_of_all(manifest));
   if (options.domain_memory_bytes > 0)
-    plan.domains_bytes = std::max(largest, std::min(plan.domains_bytes, options.domain_memory_bytes));
+    plan = {std::max(largest, std::min(plan.domains_bytes, options.domain_memory_bytes)), few_rays_bytes};
   return plan;
 }
 
@@ -199,8 +201,9 @@ RenderStats render(Transport& transport, const RenderOptions& options) {
     // Refused before it takes the memory.
     const Manifest& m = job->scene->manifest;
     goal = goal_of(options, m.settings.samples_per_pixel);
-    stats.base_rss_bytes =
-        resident_bytes() + film_bytes(m.film) + (goal.adaptive ? map_bytes(m.film.crop) : 0);
+    stats.base_rss_bytes = resident_bytes() + film_bytes(m.film) +
+                           (goal.adaptive ? map_bytes(m.film.crop) : 0) +
+                           table_bytes(m.domains.size(), threads);
     stats.setup_peak_rss_bytes = peak_resident_bytes();
     memory =
         plan_for(m, options, threads, stats.base_rss_bytes + job->texture_bytes, stats.setup_peak_rss_bytes);
@@ -213,13 +216,17 @@ RenderStats render(Transport& transport, const RenderOptions& options) {
   EarlierWork earlier = read_earlier_work(transport, options, job->film, goal);
   const std::uint64_t samples_before = job->film.samples();  // on rank 0
 
-  const Scheduler::Job of_this_rank{transport.size(), threads, rays_allowed(memory)};
+  const Scheduler::Job of_this_rank{transport.size(), threads,
+                                    rays_allowed_a_rank(memory) * transport.size()};
+  const QueueBounds bounds = queue_bounds(memory, transport.size());
   RankState state(
       *job->scene, job->film, std::move(earlier.plan),
-      RayQueues(manifest.domains.size(), options.shuffle_seed),
+      RayQueues(manifest.domains.size(), bounds.waiting, options.shuffle_seed),
+      RayQueues(manifest.domains.size(), bounds.outgoing, std::nullopt),
       Scheduler(of_this_rank, Residency(manifest, memory.domains_bytes,
                                         home_ranks(manifest, transport.size()), transport.rank())),
       options.bundle);
+  state.most_sent_bytes = bounds.being_sent;
   if (transport.rank() == 0 && !options.quiet && manifest.lights.empty() && manifest.area_lights.empty())
     say("vitrail: the scene has no light: its picture is black\n");
   if (!options.profile.empty()) state.traffic.emplace(manifest.domains.size());

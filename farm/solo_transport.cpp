@@ -17,6 +17,7 @@ class SoloTransport final : public Transport {
   int rank() const override { return 0; }
   int size() const override { return 1; }
   void send(int, RayBatch) override { throw std::logic_error("a single rank sent rays"); }
+  std::uint64_t sending_bytes() override { return 0; }
   std::optional<RayBatch> receive() override { return std::nullopt; }
   void start_round(const RoundSums& mine) override { round_ = mine; }
   std::optional<RoundSums> finish_round() override { return round_; }

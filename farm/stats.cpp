@@ -11,7 +11,8 @@ namespace vitrail {
 void gather_stats(Transport& transport, RenderStats& s, const std::vector<bool>& touched) {
   std::uint64_t* const summed[] = {&s.traced.rays_camera, &s.traced.rays_indirect, &s.traced.rays_shadow,
                                    &s.traced.crossings,   &s.forwarded_rays,       &s.forwarded_bytes,
-                                   &s.messages,           &s.domain_loads,         &s.evictions};
+                                   &s.messages,           &s.domain_loads,         &s.evictions,
+                                   &s.spilled_bytes};
   std::vector<std::int64_t> counts;
   for (const std::uint64_t* value : summed) counts.push_back(static_cast<std::int64_t>(*value));
   transport.sum_to_root(std::span(counts));
@@ -61,6 +62,7 @@ std::string to_json(const RenderStats& s) {
                                  {"domains_touched", s.domains_touched},
                                  {"domain_loads", s.domain_loads},
                                  {"evictions", s.evictions},
+                                 {"spilled_bytes", s.spilled_bytes},
                                  {"memory_budget_bytes", s.memory_budget_bytes},
                                  {"peak_rss_bytes", s.peak_rss_bytes},
                                  {"base_rss_bytes", s.base_rss_bytes},

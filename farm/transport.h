@@ -24,6 +24,7 @@ class Transport {
 
   // None of these waits.
   virtual void send(int to, RayBatch batch) = 0;
+  virtual std::uint64_t sending_bytes() = 0;  // that no receiver has taken over yet
   virtual std::optional<RayBatch> receive() = 0;
   // Joins the next round; one at a time. `finish_round` gives its sums once every rank has joined.
   virtual void start_round(const RoundSums& mine) = 0;

@@ -48,17 +48,27 @@ Task take_task(RankState& s) {
   return task;
 }
 
-void perform(Task& task, const WorkPlan& plan, PathTracer& tracer) {
+// `traced` is called behind every ray.
+template <class Traced>
+void perform(Task& task, const WorkPlan& plan, PathTracer& tracer, const Traced& traced) {
   if (task.work == Scheduler::Work::generate) {
-    for_each_sample(plan, task.item, task.first, task.end,
-                    [&](int x, int y, std::uint32_t sample) { tracer.trace_camera(x, y, sample); });
+    for_each_sample(plan, task.item, task.first, task.end, [&](int x, int y, std::uint32_t sample) {
+      tracer.trace_camera(x, y, sample);
+      traced();
+    });
     return;
   }
   RayBatch& batch = task.batch;
+  const auto resume_all = [&](const auto& records) {
+    for (const auto& record : records) {
+      tracer.resume(record, batch.domain());
+      traced();
+    }
+  };
   if (batch.kind() == RayKind::path)
-    for (const PathRecord& record : batch.records<PathRecord>()) tracer.resume(record, batch.domain());
+    resume_all(batch.records<PathRecord>());
   else
-    for (const ShadowRecord& record : batch.records<ShadowRecord>()) tracer.resume(record, batch.domain());
+    resume_all(batch.records<ShadowRecord>());
 }
 
 template <class Entry>
@@ -71,15 +81,22 @@ void route(RankState& s, const std::vector<Entry>& entries) {
 
 // The mutex is held. Rays are counted as born before another thread or rank can see them, and as dead in the
 // same step, so that the sums of a round never miss one that is alive.
-void publish(RankState& s, const Task& task, Outbox& outbox, TraceCounters& counters) {
+void publish(RankState& s, Outbox& outbox, TraceCounters& counters) {
+  const bool more = !outbox.paths.empty() || !outbox.shadows.empty();
   s.counters += counters;
+  s.scheduler.count(counters.born, counters.died);
   route(s, outbox.paths);
   route(s, outbox.shadows);
-  s.scheduler.finish_task(task.end - task.first, counters.born, counters.died);
   counters = {};
   outbox.paths.clear();
   outbox.shadows.clear();
+  if (!more) return;
+  s.load_wanted.notify_one();
+  if (s.scheduler.workers_waiting() > 0) s.work_available.notify_one();
 }
+
+// A task may make far more rays than it takes: a worker holds no more of them than this, some hundred KB.
+constexpr std::size_t most_rays_in_hand = 4096;
 
 void work(RankState& s) {
   Outbox outbox;
@@ -102,17 +119,17 @@ void work(RankState& s) {
     lock.unlock();
     const auto start = Clock::now();
     PathTracer tracer(s.scene, task.table->views, s.film, outbox, counters, traffic ? &*traffic : nullptr);
-    perform(task, s.plan, tracer);
+    perform(task, s.plan, tracer, [&] {
+      if (outbox.paths.size() + outbox.shadows.size() < most_rays_in_hand) return;
+      const std::lock_guard now(s.mutex);
+      publish(s, outbox, counters);
+    });
     task.table.reset();
     const double busy = seconds_since(start);
     lock.lock();
     s.trace_s += busy;
-    const bool more = !outbox.paths.empty() || !outbox.shadows.empty();
-    publish(s, task, outbox, counters);
-    if (more) {
-      s.load_wanted.notify_one();
-      if (s.scheduler.workers_waiting() > 0) s.work_available.notify_one();
-    }
+    publish(s, outbox, counters);
+    s.scheduler.finish_task(task.end - task.first);
   }
   if (traffic) s.traffic->add(*traffic);
 }
@@ -152,13 +169,13 @@ void guarded(RankState& s, void (*body)(RankState&)) {
 }  // namespace
 
 RankState::RankState(const RenderScene& the_scene, Film& the_film, WorkPlan the_plan, RayQueues the_queues,
-                     Scheduler the_scheduler, const std::filesystem::path& bundle)
+                     RayQueues the_outgoing, Scheduler the_scheduler, const std::filesystem::path& bundle)
     : scene(the_scene),
       film(the_film),
       plan(std::move(the_plan)),
       scheduler(std::move(the_scheduler)),
       queues(std::move(the_queues)),
-      outgoing(scene.manifest.domains.size(), std::nullopt),
+      outgoing(std::move(the_outgoing)),
       domains(scene.manifest, bundle) {}
 
 Workers::Workers(RankState& state, int threads) : state_(state) {

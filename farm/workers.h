@@ -18,8 +18,8 @@ namespace vitrail {
 
 // Everything the threads of a rank share. `mutex` guards all of it but the film and the scene.
 struct RankState {
-  RankState(const RenderScene& scene, Film& film, WorkPlan plan, RayQueues queues, Scheduler scheduler,
-            const std::filesystem::path& bundle);
+  RankState(const RenderScene& scene, Film& film, WorkPlan plan, RayQueues queues, RayQueues outgoing,
+            Scheduler scheduler, const std::filesystem::path& bundle);
 
   const RenderScene& scene;
   Film& film;
@@ -28,8 +28,9 @@ struct RankState {
   std::mutex mutex;
   std::condition_variable work_available, load_wanted;
   Scheduler scheduler;
-  RayQueues queues;    // of local domains
-  RayQueues outgoing;  // of the others' domains
+  RayQueues queues;                   // of local domains
+  RayQueues outgoing;                 // of the others' domains
+  std::uint64_t most_sent_bytes = 0;  // that the transport holds; what is more stays in `outgoing`
   ResidentDomains domains;
   std::vector<std::uint64_t> share;  // items of this rank
   std::uint64_t item_at = 0;         // samples of the open item that are dealt

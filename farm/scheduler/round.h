@@ -11,6 +11,7 @@ struct RoundSums {
   std::int64_t born = 0, died = 0;               // rays
   std::int64_t reserved = 0;                     // rays that may be born without asking again
   std::int64_t wanting = 0;                      // 1: would like to generate more
+  std::int64_t full = 0;                         // 1: nothing is to be generated while this is so
   std::int64_t quiet = 0;                        // 1: nothing will be generated before the next decision
   std::int64_t pause = 0;                        // a request for a checkpoint
   std::int64_t interrupted = 0, terminated = 0;  // requests for an end, by INT and by TERM

@@ -25,7 +25,10 @@ Scheduler::Task Scheduler::next_task() const {
   return {may_generate ? Work::generate : Work::none, 0, allowance_};
 }
 
-void Scheduler::begin_batch(std::uint32_t domain, std::uint64_t rays) { residency_.rays_taken(domain, rays); }
+void Scheduler::begin_batch(std::uint32_t domain, std::uint64_t rays) {
+  waiting_ -= rays;
+  residency_.rays_taken(domain, rays);
+}
 
 void Scheduler::begin_items(std::uint64_t items) {
   items_ = items;
@@ -42,15 +45,19 @@ void Scheduler::begin_rays(std::uint64_t rays, bool ends) {
   allowance_ -= rays;
 }
 
-void Scheduler::finish_task(std::uint64_t generated, std::uint64_t born, std::uint64_t died) {
+void Scheduler::count(std::uint64_t born, std::uint64_t died) {
   born_ += born;
   died_ += died;
+}
+
+void Scheduler::finish_task(std::uint64_t generated) {
   in_hand_ -= generated > 0;
   rays_in_hand_ -= generated;
 }
 
 bool Scheduler::route(std::uint32_t domain, std::uint64_t rays) {
   if (residency_.is_local(domain)) {
+    waiting_ += rays;
     residency_.rays_wait(domain, rays);
     return true;
   }
@@ -60,15 +67,24 @@ bool Scheduler::route(std::uint32_t domain, std::uint64_t rays) {
   return false;
 }
 
-void Scheduler::arrived(std::uint32_t domain, std::uint64_t rays) { residency_.rays_wait(domain, rays); }
+void Scheduler::arrived(std::uint32_t domain, std::uint64_t rays) {
+  waiting_ += rays;
+  residency_.rays_wait(domain, rays);
+}
+
+// So many times its even share wait here: they are on the disk, and more would only come behind them.
+bool Scheduler::is_full() const {
+  constexpr std::uint64_t shares = 8;
+  return waiting_ + outgoing_ > shares * static_cast<std::uint64_t>(job_.rays_allowed / job_.ranks + 1);
+}
 
 bool Scheduler::send_is_due(double now_s) const {
   return outgoing_ > 0 &&
          (outgoing_ >= rays_worth_sending || workers_waiting_ > 0 || now_s - last_sent_s_ > longest_wait_s);
 }
 
-void Scheduler::sent(double now_s) {
-  outgoing_ = 0;
+void Scheduler::sent(std::uint64_t rays, double now_s) {
+  outgoing_ -= rays;
   last_sent_s_ = now_s;
 }
 
@@ -77,6 +93,7 @@ RoundSums Scheduler::contribution() const {
   mine.born = static_cast<std::int64_t>(born_);
   mine.died = static_cast<std::int64_t>(died_);
   mine.wanting = wants_to_generate();
+  mine.full = is_full();
   mine.reserved = static_cast<std::int64_t>(rays_in_hand_ + (mine.wanting ? allowance_ : 0));
   mine.quiet = in_hand_ == 0 && !mine.wanting;
   mine.items_done = static_cast<std::int64_t>(next_item_ - std::min(next_item_, in_hand_));
@@ -97,7 +114,7 @@ Scheduler::Decision Scheduler::decide(const RoundSums& sums) {
   // What is free is shared by those that want some; who wants none gives back what it had.
   if (!wants_to_generate()) {
     allowance_ = 0;
-  } else if (sums.wanting > 0) {
+  } else if (sums.wanting > 0 && sums.full == 0) {
     const std::int64_t allowed = std::max<std::int64_t>(job_.rays_allowed, job_.ranks);
     allowance_ +=
         static_cast<std::uint64_t>(std::max<std::int64_t>(0, allowed - alive - sums.reserved) / sums.wanting);

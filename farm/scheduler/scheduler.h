@@ -33,9 +33,10 @@ class Scheduler {
   void begin_items(std::uint64_t items);
   // Generates `rays` of item items_dealt(), its last ones if it `ends` with them.
   void begin_rays(std::uint64_t rays, bool ends);
-  // What the task made is counted in one step with where it waits, so that no round misses a ray that is
-  // alive. `generated`: what begin_rays was told, 0 after a batch.
-  void finish_task(std::uint64_t generated, std::uint64_t born, std::uint64_t died);
+  // What a task made, or a part of it, is counted in one step with where it waits, so that no round misses a
+  // ray that is alive.
+  void count(std::uint64_t born, std::uint64_t died);
+  void finish_task(std::uint64_t generated);  // what begin_rays was told, 0 after a batch
   void worker_waits() { ++workers_waiting_; }
   void worker_wakes() { --workers_waiting_; }
   int workers_waiting() const { return workers_waiting_; }
@@ -44,7 +45,7 @@ class Scheduler {
   bool route(std::uint32_t domain, std::uint64_t rays);
   void arrived(std::uint32_t domain, std::uint64_t rays);
   bool send_is_due(double now_s) const;
-  void sent(double now_s);
+  void sent(std::uint64_t rays, double now_s);
 
   // --- Domains.
   LoadStep loader_is_free() { return residency_.loader_is_free(alive_, workers_waiting_ == job_.workers); }
@@ -64,6 +65,7 @@ class Scheduler {
   std::uint64_t forwarded_rays() const { return forwarded_; }
 
  private:
+  bool is_full() const;
   bool wants_to_generate() const { return item_is_open_ || (!paused_ && next_item_ < items_); }
 
   Job job_;
@@ -75,6 +77,7 @@ class Scheduler {
   std::uint64_t born_ = 0, died_ = 0;           // rays, here
   std::uint64_t alive_ = 0;                     // in the whole job, at the last round
   std::uint64_t allowance_ = 0;                 // rays that may be generated
+  std::uint64_t waiting_ = 0;                   // rays that wait to be traced here
   std::uint64_t outgoing_ = 0, forwarded_ = 0;  // rays
   double last_sent_s_ = 0;
   int workers_waiting_ = 0;

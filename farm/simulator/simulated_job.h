@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The simulation itself, over any scheduler and watch, so that tests can put broken ones in their place.
+// The simulation itself, over any scheduler, watch and spill, so that tests can put broken ones in their
+// place.
 #pragma once
 
 #include <fmt/format.h>
@@ -14,12 +15,14 @@
 #include <utility>
 
 #include "farm/scheduler/scheduler.h"
+#include "farm/scheduler/spill.h"
 #include "farm/scheduler/watch.h"
+#include "farm/simulator/event.h"
 #include "farm/simulator/simulation.h"
 
 namespace vitrail {
 
-template <class SchedulerType, class WatchType = Watch>
+template <class SchedulerType, class WatchType = Watch, class SpillType = Spill>
 class SimulatedJob {
  public:
   SimulatedJob(const Workload& workload, const Machine& machine, const Mishaps& mishaps, std::uint64_t seed)
@@ -34,7 +37,8 @@ class SimulatedJob {
       const auto share = [&](std::uint64_t all) { return all / ranks + (rank < all % ranks); };
       ranks_.emplace_back(SchedulerType({machine.ranks, machine.workers, machine.rays_allowed},
                                         Residency(workload.manifest, machine.domain_bytes, home, r)),
-                          WatchType(r, machine.ranks, machine.patience_s), workload.domains.size(),
+                          WatchType(r, machine.ranks, machine.patience_s),
+                          SpillType(workload.domains.size(), machine.queue_bytes), workload.domains.size(),
                           static_cast<std::size_t>(machine.workers));
       ranks_.back().items = share(workload.items);
       ranks_.back().rounds_of_samples = mishaps.kept.rounds;
@@ -101,27 +105,7 @@ class SimulatedJob {
   }
 
  private:
-  struct Event {
-    // Those behind `message` alone bring nothing on.
-    enum class Kind {
-      task_done,
-      load_done,
-      message,
-      round_begins,
-      round_ends,
-      watch,
-      ask,
-      answer,
-      checkpoint
-    };
-    Kind kind = Kind::task_done;
-    int rank = 0;
-    std::uint32_t domain = 0;  // of a message or a load
-    std::uint64_t number = 0;  // of rays in a message, of the worker of a task
-    double time = 0;
-    std::uint64_t order = 0;  // of events at one time
-    bool operator<(const Event& e) const { return time != e.time ? time > e.time : order > e.order; }
-  };
+  using Event = SimulationEvent;
   struct Worker {
     typename SchedulerType::Work work = SchedulerType::Work::none;
     std::map<std::uint32_t, std::uint64_t> made;  // rays by domain, when it is done
@@ -134,15 +118,23 @@ class SimulatedJob {
     std::uint64_t bytes = 0;
   };
   struct Rank {
-    Rank(SchedulerType s, WatchType w, std::size_t domains, std::size_t threads)
-        : scheduler(std::move(s)), watch(std::move(w)), queues(domains), workers(threads) {
+    Rank(SchedulerType s, WatchType w, SpillType p, std::size_t domains, std::size_t threads)
+        : scheduler(std::move(s)),
+          watch(std::move(w)),
+          spill(std::move(p)),
+          queues(domains),
+          in_memory(domains),
+          workers(threads) {
       for (std::size_t i = 0; i < threads; ++i) scheduler.worker_waits();
     }
     SchedulerType scheduler;
     WatchType watch;
     Silence silence;
-    bool watch_is_due = false;          // the event is on its way
-    std::vector<std::uint64_t> queues;  // rays, by domain
+    bool watch_is_due = false;  // the event is on its way
+    SpillType spill;
+    std::vector<std::uint64_t> queues;     // rays, by domain
+    std::vector<std::uint64_t> in_memory;  // of these, the others are on the disk
+    std::uint64_t bytes_in_memory = 0;     // of rays
     std::map<std::uint32_t, std::uint64_t> outgoing;
     std::vector<Worker> workers;
     std::uint64_t rays = 0;         // that wait here
@@ -232,7 +224,7 @@ class SimulatedJob {
       check_queue(rank, task.domain);
       const std::uint64_t rays = std::min(r.queues[task.domain], machine_.rays_of_a_batch);
       if (rays == 0) broken(fmt::format("rank {} traces where no ray waits", rank));
-      r.queues[task.domain] -= rays;
+      take_from_queue(r, task.domain, rays);
       r.rays -= rays;
       r.scheduler.begin_batch(task.domain, rays);
       go_to(task.domain, rays);
@@ -293,10 +285,14 @@ class SimulatedJob {
     Rank& r = ranks_[static_cast<std::size_t>(rank)];
     for (const auto& [domain, rays] : w.made) {
       r.rays += rays;
-      (r.scheduler.route(domain, rays) ? r.queues[domain] : r.outgoing[domain]) += rays;
+      if (r.scheduler.route(domain, rays))
+        put_in_queue(r, domain, rays);
+      else
+        r.outgoing[domain] += rays;
     }
     result_.most_on_a_rank = std::max(result_.most_on_a_rank, r.rays);
-    r.scheduler.finish_task(w.generated, w.born, w.died);
+    r.scheduler.count(w.born, w.died);
+    r.scheduler.finish_task(w.generated);
     generated_ += w.generated;
     w.work = SchedulerType::Work::none;
     r.scheduler.worker_waits();
@@ -388,9 +384,10 @@ class SimulatedJob {
   void send(int rank) {
     Rank& r = ranks_[static_cast<std::size_t>(rank)];
     if (!r.scheduler.send_is_due(now_)) return;
+    std::uint64_t sent = 0;
     for (const auto& [domain, rays] : r.outgoing) {
-      constexpr double bytes_a_ray = 48;
-      const double seconds = static_cast<double>(rays) * bytes_a_ray / machine_.network_bytes_s;
+      sent += rays;
+      const double seconds = static_cast<double>(rays * machine_.bytes_a_ray) / machine_.network_bytes_s;
       r.sending_until = std::max(r.sending_until, now_) + seconds;
       r.sending_s += seconds;
       r.rays -= rays;
@@ -399,17 +396,40 @@ class SimulatedJob {
          {Event::Kind::message, r.scheduler.residency().home(domain), domain, rays});
     }
     r.outgoing.clear();
-    r.scheduler.sent(now_);
+    r.scheduler.sent(sent, now_);
   }
 
   void receive(int rank, std::uint32_t domain, std::uint64_t rays) {
     Rank& r = ranks_[static_cast<std::size_t>(rank)];
     if (r.ended) broken(fmt::format("rank {} had ended when {} rays arrived", rank, rays));
-    r.queues[domain] += rays;
+    put_in_queue(r, domain, rays);
     r.rays += rays;
     result_.most_on_a_rank = std::max(result_.most_on_a_rank, r.rays);
     r.scheduler.arrived(domain, rays);
     wake_workers(rank);
+  }
+
+  // --- queues
+  void put_in_queue(Rank& r, std::uint32_t domain, std::uint64_t rays) {
+    r.queues[domain] += rays;
+    hold(r, domain, static_cast<std::int64_t>(rays));
+    while (const auto full = r.spill.next()) {
+      const std::uint64_t written = std::min(r.in_memory[*full], machine_.rays_of_a_batch);
+      if (written == 0) broken(fmt::format("no ray in memory waits for domain {}", *full));
+      result_.spilled_rays += written;
+      hold(r, *full, -static_cast<std::int64_t>(written));
+    }
+  }
+  // Those in memory first.
+  void take_from_queue(Rank& r, std::uint32_t domain, std::uint64_t rays) {
+    r.queues[domain] -= rays;
+    hold(r, domain, -static_cast<std::int64_t>(std::min(rays, r.in_memory[domain])));
+  }
+  void hold(Rank& r, std::uint32_t domain, std::int64_t rays) {
+    const auto bytes = static_cast<std::uint64_t>(std::abs(rays)) * machine_.bytes_a_ray;
+    rays > 0 ? r.spill.added(domain, bytes) : r.spill.removed(domain, bytes);
+    r.in_memory[domain] += static_cast<std::uint64_t>(rays);
+    r.bytes_in_memory += static_cast<std::uint64_t>(rays) * machine_.bytes_a_ray;
   }
 
   // --- rounds
@@ -468,6 +488,7 @@ class SimulatedJob {
     to.born += from.born;
     to.reserved += from.reserved;
     to.wanting += from.wanting;
+    to.full += from.full;
     to.died += from.died;
     to.quiet += from.quiet;
     to.pause += from.pause;
@@ -532,6 +553,9 @@ class SimulatedJob {
     const Residency& residency = r.scheduler.residency();
     if (r.bytes != residency.held_bytes())
       broken(fmt::format("rank {} holds {} bytes and counts {}", rank, r.bytes, residency.held_bytes()));
+    if (r.bytes_in_memory > machine_.queue_bytes)
+      broken(
+          fmt::format("rank {} holds {} bytes of rays of {}", rank, r.bytes_in_memory, machine_.queue_bytes));
     if (r.bytes > machine_.domain_bytes)
       broken(fmt::format("rank {} holds {} bytes of {}", rank, r.bytes, machine_.domain_bytes));
   }

@@ -17,10 +17,13 @@ struct Machine {
   int workers = 1;                 // a rank
   std::uint64_t domain_bytes = 0;  // a rank, for domains
   std::int64_t rays_allowed = 0;   // alive in the whole job
-  double latency_s = 5e-6;         // of a message
-  double network_bytes_s = 1e10;   // a rank
-  double disk_latency_s = 1e-3;    // of a file
-  double disk_bytes_s = 1e9;       // a rank
+  // A rank, for rays that wait; the others go to the disk, which takes no time here.
+  std::uint64_t queue_bytes = std::numeric_limits<std::uint64_t>::max();
+  std::uint64_t bytes_a_ray = 48;
+  double latency_s = 5e-6;        // of a message
+  double network_bytes_s = 1e10;  // a rank
+  double disk_latency_s = 1e-3;   // of a file
+  double disk_bytes_s = 1e9;      // a rank
   std::uint64_t rays_of_a_batch = 1024;
   double round_interval_s = 1e-3;
   double jitter = 0;      // any of these takes up to 1 + this times as long: messages overtake
@@ -66,6 +69,7 @@ struct SimulationResult {
   std::uint64_t loaded_bytes = 0;
   std::uint64_t most_bytes = 0;      // of domains in memory: each rank's most, summed
   std::uint64_t most_alive = 0;      // rays in the whole job
+  std::uint64_t spilled_rays = 0;    // that waited on a disk
   std::uint64_t most_on_a_rank = 0;  // rays that wait on one
   std::vector<int> silent;           // the job ended because these did not answer
   KeptWork kept;                     // in its last checkpoint

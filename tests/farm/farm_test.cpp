@@ -177,8 +177,11 @@ TEST(Work, ItemsWithoutSamplesAreDone) {
 }
 
 TEST(Queues, KeepEveryRayOfBothKinds) {
-  for (const auto seed : {std::optional<std::uint64_t>(), std::optional<std::uint64_t>(9)}) {
-    RayQueues queues(3, seed);
+  constexpr std::uint64_t plenty = 1 << 30;
+  using Case = std::pair<std::uint64_t, std::optional<std::uint64_t>>;
+  for (const auto& [most_bytes, seed] :
+       {Case(plenty, {}), Case(plenty, 9), Case(200'000, {}), Case(200'000, 9), Case(0, 9)}) {
+    RayQueues queues(3, most_bytes, seed);
     for (std::uint32_t i = 0; i < 5000; ++i) {
       PathRecord path{};
       path.pixel = i;
@@ -186,7 +189,9 @@ TEST(Queues, KeepEveryRayOfBothKinds) {
       ShadowRecord shadow{};
       shadow.pixel = i;
       queues.push(1, shadow);
+      EXPECT_LE(queues.held_bytes(), most_bytes);
     }
+    EXPECT_EQ(queues.written_bytes() > 0, most_bytes < plenty);
     std::multiset<std::uint32_t> paths, shadows;
     while (!queues.empty(1)) {
       RayBatch batch = queues.pop(1);

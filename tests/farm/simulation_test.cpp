@@ -37,6 +37,7 @@ struct Case {
       largest = std::max(largest, bytes_needed(workload.manifest, d));
     machine.domain_bytes = std::max(largest, all >> among(6));
     machine.rays_allowed = static_cast<std::int64_t>(1 + among(50'000));
+    if (among(2) == 0) machine.queue_bytes = machine.bytes_a_ray * among(5000);
     machine.jitter = among(2) == 0 ? 0 : static_cast<double>(among(100));
     machine.latency_s = 1e-6 * static_cast<double>(1 + among(1000));
     machine.disk_latency_s = 1e-5 * static_cast<double>(1 + among(1000));
@@ -64,10 +65,11 @@ struct Case {
 };
 
 // A job that ended because of silent ranks goes on from its last checkpoint without them.
-template <class SchedulerType, class WatchType = Watch>
+template <class SchedulerType, class WatchType = Watch, class SpillType = Spill>
 SimulationResult run(Case c, std::uint64_t seed) {
   for (;;) {
-    const auto result = SimulatedJob<SchedulerType, WatchType>(c.workload, c.machine, c.mishaps, seed).run();
+    const auto result =
+        SimulatedJob<SchedulerType, WatchType, SpillType>(c.workload, c.machine, c.mishaps, seed).run();
     if (result.silent.empty()) return result;
     c.mishaps.kept = result.kept;
     c.mishaps.silences.clear();
@@ -98,11 +100,12 @@ TEST(Simulation, NothingIsLostAndEveryJobEnds) {
 }
 
 // Deliberately wrong ones: what they do is found out.
-template <class SchedulerType, class WatchType = Watch>
+template <class SchedulerType, class WatchType = Watch, class SpillType = Spill>
 bool is_caught(int jobs) {
   for (int seed = 1; seed <= jobs; ++seed) {
     try {
-      run<SchedulerType, WatchType>(Case(static_cast<std::uint64_t>(seed)), static_cast<std::uint64_t>(seed));
+      run<SchedulerType, WatchType, SpillType>(Case(static_cast<std::uint64_t>(seed)),
+                                               static_cast<std::uint64_t>(seed));
     } catch (const InvariantBroken&) {
       return true;
     }
@@ -133,9 +136,7 @@ struct ForgetsWhatArrived : Scheduler {
 
 struct ForgetsDeaths : Scheduler {
   using Scheduler::Scheduler;
-  void finish_task(std::uint64_t generated, std::uint64_t born, std::uint64_t died) {
-    Scheduler::finish_task(generated, born, died == 0 ? 0 : died - 1);
-  }
+  void count(std::uint64_t born, std::uint64_t died) { Scheduler::count(born, died == 0 ? 0 : died - 1); }
 };
 
 struct LetsGoTwice : Scheduler {
@@ -199,6 +200,13 @@ struct ForgetsAnswers : Watch {
     if (rank != 3) Watch::answered(rank);
   }
 };
+
+struct NeverSpills : Spill {
+  using Spill::Spill;
+  std::optional<std::uint32_t> next() const { return std::nullopt; }
+};
+
+TEST(Simulation, CatchesBrokenSpills) { EXPECT_TRUE((is_caught<Scheduler, Watch, NeverSpills>(100))); }
 
 TEST(Simulation, CatchesBrokenWatches) {
   EXPECT_TRUE((is_caught<Scheduler, WaitsForEver>(300)));

@@ -54,7 +54,7 @@ std::string quarter(const Bundle& bundle, const nlohmann::json& everything, int 
 void expect_one_picture(const TemporaryDirectory& directory, const std::filesystem::path& scene) {
   std::string hash;
   int runs = 0;
-  std::uint64_t forwarded = 0, evictions = 0;
+  std::uint64_t forwarded = 0, evictions = 0, spilled = 0;
   const auto check = [&](const nlohmann::json& stats, const std::string& what) {
     ASSERT_FALSE(stats.is_null()) << what;
     if (hash.empty()) hash = stats["film_hash"];
@@ -62,6 +62,7 @@ void expect_one_picture(const TemporaryDirectory& directory, const std::filesyst
     EXPECT_EQ(stats["nonfinite_samples"], 0) << what;
     forwarded += stats["forwarded_rays"].get<std::uint64_t>();
     evictions += stats["evictions"].get<std::uint64_t>();
+    spilled += stats["spilled_bytes"].get<std::uint64_t>();
     const auto budget = stats["memory_budget_bytes"].get<std::uint64_t>();
     if (budget > 0) {
       EXPECT_LE(stats["peak_rss_bytes"].get<std::uint64_t>(), budget) << what;
@@ -98,6 +99,7 @@ void expect_one_picture(const TemporaryDirectory& directory, const std::filesyst
   check(render(directory, recut, 1, 2, ""), "cut by a profile");
   EXPECT_GT(forwarded, 0u) << "no run ever sent a ray";
   EXPECT_GT(evictions, 0u) << "no run ever evicted a domain";
+  EXPECT_GT(spilled, 0u) << "no ray ever waited on the disk";
   fmt::print("{} runs, film {}, {} rays forwarded, {} evictions\n", runs, hash, forwarded, evictions);
 }
 

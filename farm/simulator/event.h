@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+namespace vitrail {
+
+// What happens next under the simulated clock.
+struct SimulationEvent {
+  // Those behind `message` alone bring nothing on.
+  enum class Kind { task_done, load_done, message, round_begins, round_ends, watch, ask, answer, checkpoint };
+  Kind kind = Kind::task_done;
+  int rank = 0;
+  std::uint32_t domain = 0;  // of a message or a load
+  std::uint64_t number = 0;  // of rays in a message, of the worker of a task
+  double time = 0;
+  std::uint64_t order = 0;  // of events at one time
+  bool operator<(const SimulationEvent& e) const { return time != e.time ? time > e.time : order > e.order; }
+};
+
+}  // namespace vitrail
