@@ -1,30 +1,52 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "farm/gather_profile.h"
 
-#include <algorithm>
+#include <map>
 
 namespace vitrail {
 
-// One domain that rays come from after the other: ways are few, but any pair may be one.
+namespace {
+
+using Ways = std::map<std::uint64_t, std::uint64_t>;  // rays, by from << 32 | to
+
+// One rank after the other gives what it has, as the sum with the others' zeros: ways are few, though any
+// pair of domains may be one. Whole on rank 0.
+Ways gather_ways(Transport& transport, const RayTraffic& mine) {
+  std::vector<std::uint64_t> sizes;
+  {
+    std::vector<std::int64_t> counted(static_cast<std::size_t>(transport.size()));
+    counted[static_cast<std::size_t>(transport.rank())] = static_cast<std::int64_t>(mine.ways().size());
+    transport.sum_to_root(std::span(counted));
+    sizes.assign(counted.begin(), counted.end());
+  }
+  transport.broadcast_from_root(std::span(sizes));
+  Ways all;
+  for (int rank = 0; rank < transport.size(); ++rank) {
+    std::vector<std::int64_t> list;
+    list.reserve(2 * sizes[static_cast<std::size_t>(rank)]);
+    if (rank == transport.rank())
+      for (const auto& [way, rays] : mine.ways()) {
+        list.push_back(static_cast<std::int64_t>(way));
+        list.push_back(static_cast<std::int64_t>(rays));
+      }
+    list.resize(2 * sizes[static_cast<std::size_t>(rank)]);
+    transport.sum_to_root(std::span(list));
+    if (transport.rank() != 0) continue;
+    for (std::size_t i = 0; i < list.size(); i += 2)
+      all[static_cast<std::uint64_t>(list[i])] += static_cast<std::uint64_t>(list[i + 1]);
+  }
+  return all;
+}
+
+}  // namespace
+
 RayProfile gather_profile(Transport& transport, const Manifest& manifest, const RayTraffic& mine,
                           const RenderStats& stats) {
-  const auto domains = static_cast<std::uint32_t>(manifest.domains.size());
   std::vector<std::int64_t> visits(mine.visits().begin(), mine.visits().end());
   transport.sum_to_root(std::span(visits));
-  std::vector<std::pair<std::uint64_t, std::uint64_t>> sorted(mine.ways().begin(), mine.ways().end());
-  std::ranges::sort(sorted);
   std::vector<RayProfile::Way> ways;
-  auto next = sorted.begin();
-  std::vector<std::int64_t> to(domains);
-  for (std::uint32_t i = 0; i <= domains; ++i) {
-    const std::uint32_t from = i < domains ? i : RayProfile::Way::camera;
-    std::ranges::fill(to, 0);
-    for (; next != sorted.end() && next->first >> 32 == from; ++next)
-      to[static_cast<std::uint32_t>(next->first)] = static_cast<std::int64_t>(next->second);
-    transport.sum_to_root(std::span(to));
-    for (std::uint32_t d = 0; d < domains; ++d)
-      if (to[d] > 0) ways.push_back({from, d, static_cast<std::uint64_t>(to[d])});
-  }
+  for (const auto& [way, rays] : gather_ways(transport, mine))
+    ways.push_back({static_cast<std::uint32_t>(way >> 32), static_cast<std::uint32_t>(way), rays});
   const RayProfile::Cost cost{stats.traced.rays_camera, stats.trace_s, stats.load_s, stats.domain_loads};
   return {manifest, {visits.begin(), visits.end()}, std::move(ways), cost};
 }
