@@ -469,7 +469,9 @@ class SimulatedJob {
         if (++r.rounds_of_samples == mishaps_.rounds_of_samples) {
           r.ended = true;
           ++ended_;
-          return;
+          // The film is gathered from all together.
+          r.watch.round_begins(now_);
+          return expect_watch(rank);
         }
         r.items_before = 0;
         r.scheduler.begin_items(r.items);
