@@ -48,6 +48,11 @@ std::uint64_t table_bytes(std::uint64_t domains, int threads) {
   return domains * (a_domain + of_a_resident_table * static_cast<std::uint64_t>(threads + 2));
 }
 
+std::uint64_t connection_bytes(int ranks) {
+  constexpr std::uint64_t a_rank = 64 << 10;
+  return a_rank * static_cast<std::uint64_t>(ranks - 1);
+}
+
 std::int64_t rays_allowed_a_rank(const MemoryPlan& plan) {
   // The more rays wait, the more of them a domain that is loaded serves; a pause waits for all of them. A
   // growing batch holds up to twice its rays, and while it is sent or received once more.

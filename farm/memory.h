@@ -30,4 +30,7 @@ QueueBounds queue_bounds(const MemoryPlan& plan, int ranks);
 // every thread may hold one of its own.
 std::uint64_t table_bytes(std::uint64_t domains, int threads);
 
+// Of what MPI keeps for the other ranks, once there are messages.
+std::uint64_t connection_bytes(int ranks);
+
 }  // namespace vitrail

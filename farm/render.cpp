@@ -203,7 +203,7 @@ RenderStats render(Transport& transport, const RenderOptions& options) {
     goal = goal_of(options, m.settings.samples_per_pixel);
     stats.base_rss_bytes = resident_bytes() + film_bytes(m.film) +
                            (goal.adaptive ? map_bytes(m.film.crop) : 0) +
-                           table_bytes(m.domains.size(), threads);
+                           table_bytes(m.domains.size(), threads) + connection_bytes(transport.size());
     stats.setup_peak_rss_bytes = peak_resident_bytes();
     memory =
         plan_for(m, options, threads, stats.base_rss_bytes + job->texture_bytes, stats.setup_peak_rss_bytes);

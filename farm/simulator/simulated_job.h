@@ -519,22 +519,23 @@ class SimulatedJob {
   }
 
   // --- what may never happen
-  // Those that are named do not answer, and did not for long enough; and none was waited for longer than
-  // promised.
+  // Those that are named did not answer for long enough, and none was waited for longer than promised.
   void check_silent() const {
     const double longest_way_s = machine_.latency_s * (1 + machine_.jitter);
     for (const int rank : result_.silent) {
+      double all_awake_s = 0;  // but for the dead
+      for (const Silence& s : mishaps_.silences)
+        all_awake_s = std::max(all_awake_s, std::isfinite(s.to_s) ? s.to_s : s.from_s);
       const Silence& s = ranks_[static_cast<std::size_t>(rank)].silence;
       if (s.from_s > now_ || s.to_s - s.from_s < machine_.patience_s / 2 - 2 * longest_way_s)
         broken(fmt::format("rank {} is well and was given up", rank));
-      if (now_ > s.from_s + 3 * machine_.patience_s + machine_.round_interval_s * (1 + machine_.jitter) +
+      if (now_ > all_awake_s + 3 * machine_.patience_s + machine_.round_interval_s * (1 + machine_.jitter) +
                      32 * longest_way_s)
         broken(fmt::format("rank {} was silent since {} s", rank, s.from_s));
     }
   }
 
-  // All is quiet: what a checkpoint would hold now. No item is open, and of those dealt all rays were
-  // generated.
+  // All is quiet: what a checkpoint would hold now. No item is open; of those dealt all rays were generated.
   void note_kept(const Rank& one, const RoundSums& sums) {
     for (const Rank& r : ranks_)
       if (r.item_at != 0) broken("all is quiet with an item that is open");
