@@ -29,6 +29,10 @@ void for_points(double size, F&& f) {
 // which pbrt's differ.
 TEST(Noise, IsPerlins) {
   EXPECT_NEAR(perlin_noise({3.14, 42, 7}), 0.13691995878400012, 1e-15);
+  // pbrt's gradients, as a table of vectors in a program of its own.
+  EXPECT_NEAR(perlin_noise({0.3, 1.7, -2.4}), -0.43352592425441305, 1e-14);
+  EXPECT_NEAR(perlin_noise({12.1, -3.6, 0.5}), -0.018112000000000027, 1e-14);
+  EXPECT_NEAR(perlin_noise({100.25, 200.75, -37.125}), 0.29388830985408276, 1e-14);
   EXPECT_NEAR(perlin_noise({-4.2, 10, 9.1}), perlin_noise({-4.2 + 256, 10 - 512, 9.1 + 768}), 1e-12);
 }
 
