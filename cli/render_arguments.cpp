@@ -55,9 +55,9 @@ void declare(CLI::App& app, RenderArguments& a) {
       ->capture_default_str();
   app.add_option(
          "--integrator", a.integrator,
-         "path, or direct: light from lamps alone, also through glass and by mirrors; default: as the scene "
-         "says")
-      ->check(CLI::IsMember({"path", "direct"}));
+         "path; direct: light from lamps alone, also through glass and by mirrors; or photon: photon mapping, "
+         "for caustics; default: as the scene says")
+      ->check(CLI::IsMember({"path", "direct", "photon"}));
   app.add_option("--set", a.settings,
                  "NAME.state=0.6: glass that switches in another state, without partitioning again; also "
                  "NAME.temperature (°C), NAME.uv (W/m²), NAME.seconds; may repeat")
@@ -66,6 +66,19 @@ void declare(CLI::App& app, RenderArguments& a) {
                  "of --integrator direct: end a path that brings less than this share of what it sees, e.g. "
                  "0.01; no pixel becomes darker by more than this share of the brightest that is seen")
       ->check(CLI::Range(0.0, 0.999))
+      ->capture_default_str();
+  app.add_option(
+         "--photons", a.photons.photons,
+         "of --integrator photon, an iteration, which is a sample of every pixel; default: as many as "
+         "the picture has pixels, at least 65536")
+      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 31));
+  app.add_option("--photon-radius", a.photons.first_radius,
+                 "around a point in which the first iteration gathers photons, in scene units; default: by "
+                 "the scene's extent and their number")
+      ->check(more_than_0);
+  app.add_option("--photon-alpha", a.photons.alpha,
+                 "between 0 and 1: how fast the radius shrinks, from fast and noisy to slow and blurred")
+      ->check(CLI::Range(0.01, 0.99))
       ->capture_default_str();
   app.add_option("--memory", a.memory, "most memory a rank may use, e.g. 512M or 2G; default: no limit");
   app.add_option("-t,--threads,--nthreads", o.threads, "worker threads a rank; default: all cores")
@@ -205,6 +218,10 @@ void interpret(const CLI::App& app, RenderArguments& a) {
   if (!a.aov_space.empty()) o.layers_in_camera_space = a.aov_space == "camera";
   if (app.count("--max-depth") > 0) o.max_depth = a.max_depth < 0 ? unlimited_depth : a.max_depth;
   if (!a.integrator.empty()) o.direct_only = a.integrator == "direct";
+  if (a.integrator == "photon")
+    o.photons = a.photons;
+  else if (app.count("--photons") + app.count("--photon-radius") + app.count("--photon-alpha") > 0)
+    throw UsageError("--photons, --photon-radius and --photon-alpha are of --integrator photon");
   if (!a.target_error.empty()) o.target_error = parse_target_error(a.target_error);
   if (!a.quality.empty()) apply_quality(a.quality, app.count("--adaptive") > 0, o);
   o.progress = progress_mode(a);

@@ -18,6 +18,7 @@ struct RenderArguments {
   bool quiet = false, strict = false;
   ImportArguments imports;
   MeshOptions meshes;
+  PhotonOptions photons;
   RenderOptions options;
   int restarts = 0;
   std::string launcher;  // empty: this process alone

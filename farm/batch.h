@@ -8,16 +8,22 @@
 #include <span>
 #include <vector>
 
+#include "tracer/photons/records.h"
 #include "tracer/records.h"
 
 namespace vitrail {
 
-enum class RayKind : std::uint32_t { path, shadow };
+// The last two travel as rays do and wait for no domain: photons that landed, and what paths ask photons.
+enum class RayKind : std::uint32_t { path, shadow, landed, question };
 
 template <class Record>
 constexpr RayKind kind_of() {
-  return std::is_same_v<Record, PathRecord> ? RayKind::path : RayKind::shadow;
+  return std::is_same_v<Record, PathRecord>     ? RayKind::path
+         : std::is_same_v<Record, ShadowRecord> ? RayKind::shadow
+         : std::is_same_v<Record, Photon>       ? RayKind::landed
+                                                : RayKind::question;
 }
+constexpr bool is_ray(RayKind kind) { return kind == RayKind::path || kind == RayKind::shadow; }
 
 // A header of 8 bytes, then records without gaps.
 class RayBatch {
@@ -37,8 +43,7 @@ class RayBatch {
   std::size_t count() const { return bytes_.empty() ? 0 : (bytes_.size() - header_bytes) / record_bytes(); }
   // Whether what was received is a batch for one of `domains`.
   bool is_whole(std::size_t domains) const {
-    return bytes_.size() > header_bytes && domain() < domains &&
-           (kind() == RayKind::path || kind() == RayKind::shadow) &&
+    return bytes_.size() > header_bytes && domain() < domains && kind() <= RayKind::question &&
            (bytes_.size() - header_bytes) % record_bytes() == 0;
   }
   bool full() const { return bytes_.size() + sizeof(PathRecord) > full_bytes; }
@@ -61,7 +66,16 @@ class RayBatch {
 
  private:
   std::size_t record_bytes() const {
-    return kind() == RayKind::path ? sizeof(PathRecord) : sizeof(ShadowRecord);
+    switch (kind()) {
+      case RayKind::path:
+        return sizeof(PathRecord);
+      case RayKind::shadow:
+        return sizeof(ShadowRecord);
+      case RayKind::landed:
+        return sizeof(Photon);
+      default:
+        return sizeof(Gather);
+    }
   }
   template <class T>
   T read(std::size_t at) const {

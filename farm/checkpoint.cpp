@@ -90,9 +90,9 @@ bool makes_sense(const Held& held) {
            !held_before(held.film, p).empty();
   }
   return p.samples_per_pixel > 0 &&
-         p.items ==
-             make_work_plan(held.film.crop(), static_cast<std::uint32_t>(p.samples_per_pixel), p.earlier_ends)
-                 .items();
+         p.items == make_work_plan(held.film.crop(), static_cast<std::uint32_t>(p.samples_per_pixel),
+                                   p.earlier_ends, held.film.key().photons.photons > 0)
+                        .items();
 }
 
 // Why this is not work of the job whose film is `film`; "" where it is.
@@ -144,9 +144,9 @@ WorkPlan plan_of(const Held& held, const Goal& goal) {
   }
   const auto samples = static_cast<std::uint32_t>(p.samples_per_pixel);
   std::vector<std::uint32_t> ends = p.earlier_ends;
-  if (goal.in_rounds || samples == goal.samples) return make_work_plan(crop, samples, ends);
+  if (goal.in_rounds || samples == goal.samples) return make_work_plan(crop, samples, ends, goal.one_by_one);
   ends.push_back(samples);
-  return make_work_plan(crop, goal.samples, ends);
+  return make_work_plan(crop, goal.samples, ends, goal.one_by_one);
 }
 
 bool finished(const Held& held, const RenderOptions& options, const Goal& goal) {
@@ -166,7 +166,7 @@ void say_what_is_held(const EarlierWork& work, const Held& held, const RenderOpt
 }
 
 // Rank 0's plan and bits, on every rank.
-void broadcast(Transport& transport, EarlierWork& work) {
+void broadcast(Transport& transport, EarlierWork& work, const Goal& goal) {
   WorkPlan& plan = work.plan;
   std::array<std::uint64_t, 4> sizes{plan.parts.size(), plan.more.size(), work.done.size(), work.finished};
   transport.broadcast_from_root(sizes);
@@ -184,7 +184,7 @@ void broadcast(Transport& transport, EarlierWork& work) {
   } else {
     const std::uint32_t samples = ends.back();
     ends.pop_back();
-    plan = make_work_plan(plan.crop, samples, ends);
+    plan = make_work_plan(plan.crop, samples, ends, goal.one_by_one);
   }
 }
 
@@ -193,7 +193,7 @@ void broadcast(Transport& transport, EarlierWork& work) {
 EarlierWork read_earlier_work(Transport& transport, const RenderOptions& options, Film& film,
                               const Goal& goal) {
   EarlierWork work;
-  work.plan = make_work_plan(film.crop(), goal.first_samples());
+  work.plan = make_work_plan(film.crop(), goal.first_samples(), {}, goal.one_by_one);
   if (options.force) return work;
   agree(transport, [&] {
     if (transport.rank() != 0) return;
@@ -214,7 +214,7 @@ EarlierWork read_earlier_work(Transport& transport, const RenderOptions& options
     film.merge(held->film);
     if (!options.quiet) say_what_is_held(work, *held, options, goal);
   });
-  broadcast(transport, work);
+  broadcast(transport, work, goal);
   return work;
 }
 

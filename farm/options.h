@@ -19,6 +19,13 @@ struct TargetError {
   bool just_noticeable = false;  // in just noticeable differences, root mean square; else relMSE
 };
 
+// Photon mapping. Empty optionals: as the scene and the picture's size suggest.
+struct PhotonOptions {
+  std::optional<std::uint64_t> photons;  // an iteration
+  std::optional<double> first_radius;    // scene units
+  double alpha = 2.0 / 3;
+};
+
 // What `vitrail render` is asked for. Empty optionals: as the scene says.
 struct RenderOptions {
   std::filesystem::path bundle;
@@ -27,6 +34,7 @@ struct RenderOptions {
   std::optional<int> samples_per_pixel;
   std::optional<int> max_depth;
   std::optional<bool> direct_only;
+  std::optional<PhotonOptions> photons;  // empty: no photon mapping
   double threshold = 0;              // FilmKey::threshold, where only direct light is asked for
   std::vector<SetSheet> sheets;      // in place of the bundle's; of all ranks the same
   std::string glazing;               // how they were asked for: "window.state=0.6"; empty: not at all

@@ -10,10 +10,12 @@ RayQueues::RayQueues(std::size_t domains, std::uint64_t most_bytes, std::optiona
   if (shuffle_seed) shuffle_.emplace(*shuffle_seed);
 }
 
-// The last two batches are the open ones, one a kind, in either order.
+// The last batches are the open ones, one a kind, in any order: paths, shadow rays, and photons or what is asked of them.
+constexpr std::size_t open_batches = 3;
+
 RayBatch& RayQueues::open_batch(std::uint32_t domain, RayKind kind) {
   std::vector<RayBatch>& queue = queues_[domain].memory;
-  for (std::size_t back = 1; back <= 2 && back <= queue.size(); ++back) {
+  for (std::size_t back = 1; back <= open_batches && back <= queue.size(); ++back) {
     RayBatch& batch = queue[queue.size() - back];
     if (batch.kind() == kind && !batch.full()) return batch;
   }
@@ -33,11 +35,27 @@ void RayQueues::push(RayBatch batch) {
 void RayQueues::make_room() {
   while (const auto domain = spill_.next()) {
     Queue& queue = queues_[*domain];
-    const auto open = static_cast<std::ptrdiff_t>(std::min<std::size_t>(2, queue.memory.size() - 1));
+    const auto open = static_cast<std::ptrdiff_t>(std::min(open_batches, queue.memory.size() - 1));
     const auto batch = queue.memory.end() - 1 - open;
     queue.disk.push_back(file_->write(*batch));
     spill_.removed(*domain, batch->held_bytes());
     queue.memory.erase(batch);
+  }
+}
+
+void RayQueues::shuffle(RayBatch& batch) {
+  switch (batch.kind()) {
+    case RayKind::path:
+      std::ranges::shuffle(batch.records<PathRecord>(), *shuffle_);
+      break;
+    case RayKind::shadow:
+      std::ranges::shuffle(batch.records<ShadowRecord>(), *shuffle_);
+      break;
+    case RayKind::landed:
+      std::ranges::shuffle(batch.records<Photon>(), *shuffle_);
+      break;
+    case RayKind::question:
+      std::ranges::shuffle(batch.records<Gather>(), *shuffle_);
   }
 }
 
@@ -53,12 +71,7 @@ RayBatch RayQueues::pop(std::uint32_t domain) {
     queue.memory.pop_back();
     spill_.removed(domain, batch.held_bytes());
   }
-  if (shuffle_) {
-    if (batch.kind() == RayKind::path)
-      std::ranges::shuffle(batch.records<PathRecord>(), *shuffle_);
-    else
-      std::ranges::shuffle(batch.records<ShadowRecord>(), *shuffle_);
-  }
+  if (shuffle_) shuffle(batch);
   return batch;
 }
 

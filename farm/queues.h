@@ -46,6 +46,7 @@ class RayQueues {
 
   RayBatch& open_batch(std::uint32_t domain, RayKind kind);
   void make_room();
+  void shuffle(RayBatch& batch);
 
   std::vector<Queue> queues_;
   Spill spill_;

@@ -53,7 +53,12 @@ Rank::Rank(Transport& transport, RankState& state, const RenderOptions& options,
       start_(Clock::now()),
       last_checkpoint_(start_),
       checkpoint_after_s_(interval_s(options)) {
+  if (state.photons) {
+    done_before_ = earlier.done;
+    items_until_ = bits_set(earlier.done);
+  }
   start_items(std::move(earlier.done));
+  if (state.photons) begin_iteration(0);
   transport_.while_waiting = [this] { watch_ranks(); };
 }
 
@@ -74,6 +79,43 @@ void Rank::start_items(std::vector<std::uint64_t> done) {
   if (transport_.rank() != 0) return;
   items_before_ = bits_set(done);
   if (!done.empty()) done_ = std::move(done);
+}
+
+// The first one from `iteration` on that is not done; no worker has begun, or the mutex is held.
+void Rank::begin_iteration(std::uint32_t iteration) {
+  const WorkPlan& plan = state_.plan;
+  const std::uint64_t a_pass = plan.tiles_x() * plan.tiles_y();
+  const auto open = [&] {
+    return share_of(done_before_, iteration * a_pass, (iteration + 1) * a_pass, 0, 1);
+  };
+  while (iteration + 1 < plan.samples() && open().empty()) ++iteration;
+  items_until_ += open().size();
+  state_.photons->begin_flying(iteration);
+  state_.share = state_.photons->chunks_of_this_rank();
+  state_.scheduler.begin_items(state_.share.size());
+}
+
+// No ray is alive. False where what was begun is not at its end, or nothing is left: the same on every rank.
+bool Rank::begin_next_phase(const RoundSums& sums) {
+  const auto done = static_cast<std::uint64_t>(sums.items_done);
+  if (state_.photons->flying()) {
+    if (done < state_.photons->chunks()) return false;
+    const std::lock_guard lock(state_.mutex);
+    state_.photons->begin_gathering();
+    const std::uint64_t a_pass = state_.plan.tiles_x() * state_.plan.tiles_y(),
+                        first = state_.photons->pass().iteration * a_pass;
+    state_.share = share_of(done_before_, first, first + a_pass, transport_.rank(), transport_.size());
+    state_.scheduler.begin_items(state_.share.size());
+    reported_ = 0;
+  } else {
+    if (done < items_until_ || done == state_.plan.items()) return false;
+    collect_done();
+    const std::lock_guard lock(state_.mutex);
+    items_before_ += state_.share.size();
+    begin_iteration(state_.photons->pass().iteration + 1);
+  }
+  state_.work_available.notify_all();
+  return true;
 }
 
 Ending Rank::run() {
@@ -152,13 +194,10 @@ bool Rank::move_rays() {
     ++received_;
     moved = true;
     if (!batch->is_whole(state_.scene.manifest.domains.size()) ||
+        (!is_ray(batch->kind()) && !state_.photons) ||
         state_.scheduler.residency().home(batch->domain()) != transport_.rank())
       throw MachineError("a message came that holds no rays for a domain of this rank");
-    const std::lock_guard lock(state_.mutex);
-    state_.scheduler.arrived(batch->domain(), batch->count());
-    state_.queues.push(std::move(*batch));
-    state_.work_available.notify_one();
-    state_.load_wanted.notify_one();
+    take_in(std::move(*batch));
   }
   std::vector<RayBatch> batches;
   {
@@ -195,6 +234,24 @@ std::vector<RayBatch> Rank::take_outgoing() {
   }
   if (rays > 0) state_.scheduler.sent(rays, elapsed_s());
   return batches;
+}
+
+void Rank::take_in(RayBatch batch) {
+  const std::lock_guard lock(state_.mutex);
+  if (batch.kind() == RayKind::landed) {
+    for (const Photon& photon : batch.records<Photon>()) state_.photons->land(photon);
+    state_.scheduler.count(0, batch.count());
+    return;
+  }
+  if (batch.kind() == RayKind::question) {
+    state_.photons->questions.push_back(std::move(batch));
+    state_.work_available.notify_one();
+    return;
+  }
+  state_.scheduler.arrived(batch.domain(), batch.count());
+  state_.queues.push(std::move(batch));
+  state_.work_available.notify_one();
+  state_.load_wanted.notify_one();
 }
 
 void Rank::watch_clock() {
@@ -241,7 +298,8 @@ RoundSums Rank::contribution() {
   mine.time_is_up = time_is_up_;
   if (state_.failure) (is_bad_input(state_.failure) ? mine.bad_input : mine.machine_failure) = 1;
   mine.samples = static_cast<std::int64_t>(state_.counters.rays_camera);
-  mine.items_done += static_cast<std::int64_t>(items_before_);
+  if (!state_.photons || !state_.photons->flying())
+    mine.items_done += static_cast<std::int64_t>(items_before_);
   const TraceCounters& c = state_.counters;
   mine.rays_traced = static_cast<std::int64_t>(c.rays_camera + c.rays_indirect + c.rays_shadow);
   return mine;
@@ -265,11 +323,13 @@ Rank::Decision Rank::decide(const RoundSums& sums) {
   }
   state_.work_available.notify_all();
   if (quiet == Scheduler::Decision::go_on) return Decision::go_on;
+  if (state_.photons && begin_next_phase(sums)) return Decision::go_on;
   return ending_of(sums) == Ending::none ? Decision::checkpoint : Decision::end;
 }
 
 Ending Rank::ending_of(const RoundSums& sums) const {
-  if (sums.items_done == static_cast<std::int64_t>(state_.plan.items())) return Ending::finished;
+  const bool flying = state_.photons && state_.photons->flying();
+  if (!flying && sums.items_done == static_cast<std::int64_t>(state_.plan.items())) return Ending::finished;
   return stop_of(sums);
 }
 
@@ -281,6 +341,7 @@ Ending Rank::stop_of(const RoundSums& sums) {
 
 void Rank::collect_done() {
   const std::lock_guard lock(state_.mutex);
+  if (state_.photons && state_.photons->flying()) return;
   for (; reported_ < state_.scheduler.items_dealt(); ++reported_) {
     const std::uint64_t item = state_.share[reported_];
     done_[item / 64] |= std::uint64_t{1} << (item % 64);

@@ -45,6 +45,9 @@ class Rank {
   void start_items(std::vector<std::uint64_t> done);
   void collect_done();
   std::optional<Ending> begin_next_round(Ending stop);
+  void begin_iteration(std::uint32_t iteration);
+  bool begin_next_phase(const RoundSums& sums);
+  void take_in(RayBatch batch);
   void write(const std::filesystem::path& file, bool last);
   void watch_clock();
   void watch_ranks();
@@ -62,8 +65,11 @@ class Rank {
   std::vector<std::uint64_t>
       done_;                  // bits of finished items that rank 0 does not hold yet; all of them on rank 0
   std::size_t reported_ = 0;  // items of the share already in done_
-  std::uint64_t items_before_ = 0;  // on rank 0: done by earlier runs or rounds
-  double time_before_s_ = 0;        // render time of earlier runs
+  std::uint64_t items_before_ = 0;  // on rank 0: done by earlier runs or rounds; of earlier iterations here
+  // Of photon mapping: what was done before this run, and the job's items up to this iteration's last.
+  std::vector<std::uint64_t> done_before_;
+  std::uint64_t items_until_ = 0;
+  double time_before_s_ = 0;  // render time of earlier runs
   std::string about_;
   FilmKeeper* keeper_;
   bool want_checkpoint_ = false, time_is_up_ = false;

@@ -95,6 +95,7 @@ FilmKey key_of(const Manifest& m, const RenderOptions& options) {
   if (key.direct_only) key.threshold = rounded_threshold(options.threshold);
   key.straight_counts = m.settings.straight_counts;
   key.clamp = options.clamp;
+  key.photons = photons_of(options, m);
   return key;
 }
 
@@ -196,6 +197,7 @@ RenderStats render(Transport& transport, const RenderOptions& options) {
   Goal goal;
   MemoryPlan memory;
   std::optional<FilmKeeper> keeper;
+  PhotonKey photons;
   agree(transport, [&] {
     job = set_up(options);
     // Refused before it takes the memory.
@@ -205,8 +207,10 @@ RenderStats render(Transport& transport, const RenderOptions& options) {
                            (goal.adaptive ? map_bytes(m.film.crop) : 0) +
                            table_bytes(m.domains.size(), threads) + connection_bytes(transport.size());
     stats.setup_peak_rss_bytes = peak_resident_bytes();
-    memory =
-        plan_for(m, options, threads, stats.base_rss_bytes + job->texture_bytes, stats.setup_peak_rss_bytes);
+    photons = photons_of(options, m);
+    const std::uint64_t photon_bytes = PhotonMap::photon_bytes * most_landed(photons, options.memory_bytes);
+    memory = plan_for(m, options, threads, stats.base_rss_bytes + job->texture_bytes + photon_bytes,
+                      stats.setup_peak_rss_bytes);
     job->film = Film(m.film, key_of(m, options), film_exponent(*job->scene),
                      m.film.layers.any() ? length_exponent(*job->scene) : default_exponent);
     if (transport.rank() == 0 && !options.dry_run) keeper.emplace(options.film, file_bytes(m.film));
@@ -227,6 +231,9 @@ RenderStats render(Transport& transport, const RenderOptions& options) {
                                         home_ranks(manifest, transport.size()), transport.rank())),
       options.bundle);
   state.most_sent_bytes = bounds.being_sent;
+  if (photons.photons > 0)
+    state.photons.emplace(*job->scene, photons, most_landed(photons, options.memory_bytes),
+                          home_ranks(manifest, transport.size()), transport.rank(), transport.size());
   if (transport.rank() == 0 && !options.quiet && manifest.lights.empty() && manifest.area_lights.empty())
     say("vitrail: the scene has no light: its picture is black\n");
   if (!options.profile.empty()) state.traffic.emplace(manifest.domains.size());

@@ -18,6 +18,7 @@ struct Goal {
   std::uint32_t samples = 0;  // a pixel at most, on the average
   bool in_rounds = false;     // else all samples are one
   bool adaptive = false;
+  bool one_by_one = false;  // a sample of all pixels is an iteration of photon mapping
   bool open_ended = false;  // `samples` is only what nobody wants more than
   std::optional<TargetError> target;
   std::uint32_t first_samples() const;  // a pixel, of the first round
@@ -25,6 +26,7 @@ struct Goal {
 
 // Where neither the number of samples nor the scene's counts: with --target-error and --time.
 inline constexpr int most_samples_unasked = 65536;
+inline constexpr int most_iterations_unasked = 4096;  // of photon mapping
 
 Goal goal_of(const RenderOptions& options, int samples_of_scene);
 

@@ -71,12 +71,12 @@ WorkItem WorkPlan::item(std::uint64_t index) const {
 }
 
 WorkPlan make_work_plan(const PixelRect& crop, std::uint32_t samples,
-                        std::span<const std::uint32_t> earlier_ends) {
+                        std::span<const std::uint32_t> earlier_ends, bool one_by_one) {
   WorkPlan plan{crop, {}, {}, {}};
   std::uint32_t first = 0;
   const auto add = [&](std::uint32_t end) {
     // Few enough items that their list stays small, many enough to share and to stop between.
-    plan.parts.push_back({first, end, std::clamp(end / 128, 1u, 16u)});
+    plan.parts.push_back({first, end, one_by_one ? 1 : std::clamp(end / 128, 1u, 16u)});
     first = end;
   };
   for (const std::uint32_t end : earlier_ends) add(end);
@@ -114,10 +114,14 @@ std::vector<std::uint64_t> all_done(std::uint64_t items) {
 
 std::vector<std::uint64_t> share_of(const WorkPlan& plan, const std::vector<std::uint64_t>& done, int rank,
                                     int ranks) {
+  return share_of(done, 0, plan.items(), rank, ranks);
+}
+
+std::vector<std::uint64_t> share_of(const std::vector<std::uint64_t>& done, std::uint64_t first,
+                                    std::uint64_t end, int rank, int ranks) {
   std::vector<std::uint64_t> share;
-  const std::uint64_t items = plan.items();
   std::uint64_t open = 0;
-  for (std::uint64_t i = 0; i < items; ++i) {
+  for (std::uint64_t i = first; i < end; ++i) {
     if (!done.empty() && (done[i / 64] >> (i % 64) & 1)) continue;
     // Every block of as many items as there are ranks gives each of them one, in an order of its own, so that
     // the tiles of a rank do not line up in columns.

@@ -49,8 +49,9 @@ struct WorkPlan {
 };
 
 // `earlier_ends`: the samples a pixel of the renders that it goes on from, ascending, below `samples`.
+// `one_by_one`: an item has one sample of each of its pixels.
 WorkPlan make_work_plan(const PixelRect& crop, std::uint32_t samples,
-                        std::span<const std::uint32_t> earlier_ends = {});
+                        std::span<const std::uint32_t> earlier_ends = {}, bool one_by_one = false);
 
 // An adaptive round: `held` and `more` as in WorkPlan.
 WorkPlan make_adaptive_round(const PixelRect& crop, std::vector<std::uint32_t> held,
@@ -78,7 +79,10 @@ void for_each_sample(const WorkPlan& plan, const WorkItem& item, std::uint64_t f
 }
 
 // The items of `rank` of `ranks` among those not yet done, dealt out in turn, in ascending order.
-// `done` holds a bit an item, or is empty: none is.
+// `done` holds a bit an item, or is empty: none is. Of the items [first, end).
+std::vector<std::uint64_t> share_of(const std::vector<std::uint64_t>& done, std::uint64_t first,
+                                    std::uint64_t end, int rank, int ranks);
+// Of all of a plan's.
 std::vector<std::uint64_t> share_of(const WorkPlan& plan, const std::vector<std::uint64_t>& done, int rank,
                                     int ranks);
 

@@ -24,7 +24,8 @@ struct Task {
   Scheduler::Work work = Scheduler::Work::none;
   RayBatch batch;
   WorkItem item;
-  std::uint64_t first = 0, end = 0;  // samples of the item
+  std::uint64_t first = 0, end = 0;  // samples of the item, or photons by number
+  bool photons = false;
   std::shared_ptr<const ResidentTable> table;
 };
 
@@ -32,11 +33,25 @@ struct Task {
 Task take_task(RankState& s) {
   Task task;
   task.table = s.domains.table();
+  if (s.photons && !s.photons->questions.empty()) {
+    task.work = Scheduler::Work::trace;
+    task.batch = std::move(s.photons->questions.back());
+    s.photons->questions.pop_back();
+    return task;
+  }
   const Scheduler::Task next = s.scheduler.next_task();
   task.work = next.work;
   if (next.work == Scheduler::Work::trace) {
     task.batch = s.queues.pop(next.domain);
     s.scheduler.begin_batch(next.domain, task.batch.count());
+  } else if (next.work == Scheduler::Work::generate && s.photons && s.photons->flying()) {
+    const std::uint64_t chunk = s.share[s.scheduler.items_dealt()], all = s.photons->photons_in(chunk);
+    const std::uint64_t first = s.item_at, end = std::min(all, first + next.rays);
+    s.item_at = end == all ? 0 : end;
+    task.photons = true;
+    task.first = chunk * PhotonWork::chunk_photons + first;
+    task.end = chunk * PhotonWork::chunk_photons + end;
+    s.scheduler.begin_rays(end - first, end == all);
   } else if (next.work == Scheduler::Work::generate) {
     task.item = s.plan.item(s.share[s.scheduler.items_dealt()]);
     const std::uint64_t samples = s.plan.samples(task.item);
@@ -51,6 +66,13 @@ Task take_task(RankState& s) {
 // `traced` is called behind every ray.
 template <class Traced>
 void perform(Task& task, const WorkPlan& plan, PathTracer& tracer, const Traced& traced) {
+  if (task.photons) {
+    for (std::uint64_t i = task.first; i < task.end; ++i) {
+      tracer.trace_photon(static_cast<std::uint32_t>(i));
+      traced();
+    }
+    return;
+  }
   if (task.work == Scheduler::Work::generate) {
     for_each_sample(plan, task.item, task.first, task.end, [&](int x, int y, std::uint32_t sample) {
       tracer.trace_camera(x, y, sample);
@@ -67,6 +89,11 @@ void perform(Task& task, const WorkPlan& plan, PathTracer& tracer, const Traced&
   };
   if (batch.kind() == RayKind::path)
     resume_all(batch.records<PathRecord>());
+  else if (batch.kind() == RayKind::question)
+    for (const Gather& question : batch.records<Gather>()) {
+      tracer.answer(question);
+      traced();
+    }
   else
     resume_all(batch.records<ShadowRecord>());
 }
@@ -79,10 +106,23 @@ void route(RankState& s, const std::vector<Entry>& entries) {
   }
 }
 
+// Photons that landed, and questions, count as rays while they are on their way.
+void send_photons_and_questions(RankState& s, const Outbox& outbox, TraceCounters& counters) {
+  for (const Photon& photon : outbox.photons)
+    s.photons->deal_out(photon, [&](std::uint32_t domain) {
+      s.outgoing.push(domain, photon);
+      s.scheduler.goes_out(1);
+      ++counters.born;
+    });
+  for (const Outbox::Question& question : outbox.questions) s.outgoing.push(question.domain, question.record);
+  s.scheduler.goes_out(outbox.questions.size());
+}
+
 // The mutex is held. Rays are counted as born before another thread or rank can see them, and as dead in the
 // same step, so that the sums of a round never miss one that is alive.
 void publish(RankState& s, Outbox& outbox, TraceCounters& counters) {
   const bool more = !outbox.paths.empty() || !outbox.shadows.empty();
+  send_photons_and_questions(s, outbox, counters);
   s.counters += counters;
   s.scheduler.count(counters.born, counters.died);
   route(s, outbox.paths);
@@ -90,6 +130,8 @@ void publish(RankState& s, Outbox& outbox, TraceCounters& counters) {
   counters = {};
   outbox.paths.clear();
   outbox.shadows.clear();
+  outbox.photons.clear();
+  outbox.questions.clear();
   if (!more) return;
   s.load_wanted.notify_one();
   if (s.scheduler.workers_waiting() > 0) s.work_available.notify_one();
@@ -118,9 +160,10 @@ void work(RankState& s) {
     }
     lock.unlock();
     const auto start = Clock::now();
-    PathTracer tracer(s.scene, task.table->views, s.film, outbox, counters, traffic ? &*traffic : nullptr);
+    PathTracer tracer(s.scene, task.table->views, s.film, outbox, counters, traffic ? &*traffic : nullptr,
+                      s.photons ? &s.photons->pass() : nullptr);
     perform(task, s.plan, tracer, [&] {
-      if (outbox.paths.size() + outbox.shadows.size() < most_rays_in_hand) return;
+      if (outbox.size() < most_rays_in_hand) return;
       const std::lock_guard now(s.mutex);
       publish(s, outbox, counters);
     });

@@ -8,6 +8,7 @@
 #include <mutex>
 #include <thread>
 
+#include "farm/photon_work.h"
 #include "farm/queues.h"
 #include "farm/resident_domains.h"
 #include "farm/scheduler/scheduler.h"
@@ -32,8 +33,9 @@ struct RankState {
   RayQueues outgoing;                 // of the others' domains
   std::uint64_t most_sent_bytes = 0;  // that the transport holds; what is more stays in `outgoing`
   ResidentDomains domains;
-  std::vector<std::uint64_t> share;  // items of this rank
-  std::uint64_t item_at = 0;         // samples of the open item that are dealt
+  std::vector<std::uint64_t> share;   // items of this rank
+  std::uint64_t item_at = 0;          // samples of the open item that are dealt
+  std::optional<PhotonWork> photons;  // while they fly, the share is of their chunks
   bool finished = false;
 
   TraceCounters counters;

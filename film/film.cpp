@@ -214,6 +214,11 @@ std::string difference(const Film& a, const Film& b) {
   if (k.threshold != l.threshold) return differ("their thresholds differ", k.threshold, l.threshold);
   if (k.straight_counts != l.straight_counts)
     return "one counts going straight through a sheet as scattering, the other does not";
+  const auto photons = [](const PhotonKey& p) {
+    return p.photons == 0 ? std::string("none")
+                          : fmt::format("{} from radius {} on with α {}", p.photons, p.first_radius, p.alpha);
+  };
+  if (k.photons != l.photons) return differ("their photons differ", photons(k.photons), photons(l.photons));
   if (k.clamp != l.clamp) return differ("their clamps differ", k.clamp, l.clamp);
   if (a.bins() != b.bins())
     return differ("their spectral bins differ",

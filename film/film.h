@@ -18,6 +18,13 @@
 namespace vitrail {
 
 // Identifies what a film is of. Films of the same key but different seeds merge; a resume needs all equal.
+// Of photon mapping, whose iterations are the samples of all pixels.
+struct PhotonKey {
+  std::uint64_t photons = 0;           // an iteration; 0: no photon mapping
+  double first_radius = 0, alpha = 0;  // in scene units, > 0; in (0,1), see tracer/photons/progressive.h
+  bool operator==(const PhotonKey&) const = default;
+};
+
 struct FilmKey {
   std::uint64_t scene_hash = 0;
   std::uint64_t seed = 0;
@@ -30,6 +37,7 @@ struct FilmKey {
   // Of direct light alone, in [0, 1): a path ends where it brings less of what it sees. Of 8 bits, so that it
   // has room in a film's header (rounded_threshold).
   float threshold = 0;
+  PhotonKey photons = {};
   bool operator==(const FilmKey&) const = default;
 };
 

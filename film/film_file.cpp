@@ -8,6 +8,7 @@
 #include <xxhash.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstddef>
@@ -25,7 +26,8 @@ static_assert(std::endian::native == std::endian::little, "files are written as 
 namespace {
 
 constexpr char film_magic[8] = {'v', 'i', 't', 'f', 'i', 'l', 'm', '\n'};
-constexpr std::uint32_t film_version = 4, adaptive_version = 5;
+// Of the last, what photons its samples gathered follows the header.
+constexpr std::uint32_t film_version = 4, adaptive_version = 5, photon_version = 6;
 constexpr std::int32_t max_extent = 1 << 20;  // pixels a side
 
 // What a film was rendered with, in Header::options.
@@ -113,7 +115,7 @@ Header read_header(Reader& in) {
   if (in.size() < sizeof h) in.fail("this is not a film file: it is too short");
   in.read(&h, sizeof h);
   if (std::memcmp(h.magic, film_magic, sizeof film_magic) != 0) in.fail("this is not a film file");
-  if (h.version != film_version && h.version != adaptive_version)
+  if (h.version != film_version && h.version != adaptive_version && h.version != photon_version)
     in.fail(
         fmt::format("film file of version {}, but this program ({}) reads version {}: it was made by "
                     "another one, and can be developed by that alone",
@@ -144,7 +146,8 @@ bool FilmProgress::complete() const {
 void write_film(const std::filesystem::path& file, const Film& film, const FilmProgress& progress) {
   Header h{};
   std::memcpy(h.magic, film_magic, sizeof film_magic);
-  h.version = progress.adaptive ? adaptive_version : film_version;
+  const bool photons = film.key_.photons.photons > 0;
+  h.version = progress.adaptive ? adaptive_version : photons ? photon_version : film_version;
   h.full_width = film.full_width_, h.full_height = film.full_height_;
   h.x0 = film.crop_.x0, h.x1 = film.crop_.x1, h.y0 = film.crop_.y0, h.y1 = film.crop_.y1;
   h.imaging_ratio = film.imaging_ratio_;
@@ -170,6 +173,7 @@ void write_film(const std::filesystem::path& file, const Film& film, const FilmP
   h.checksum = checksum(h);
   AtomicFile out(file);
   out.write(std::as_bytes(std::span(&h, 1)));
+  if (photons) write_array(out, std::array{key.photons});
   write_array(out, progress.earlier_ends);
   write_array(out, progress.about);
   write_array(out, progress.done);
@@ -191,12 +195,19 @@ Film read_film(const std::filesystem::path& file, FilmProgress* progress) {
                                          id_planes(layers) * sizeof(std::int64_t)) +
                                h.earlier_ends * std::uint64_t{sizeof(std::uint32_t)} + h.about_bytes + 6 * 8 +
                                (h.clamp > 0 ? sizeof(WideSum) : 0) +
+                               (h.version == photon_version ? sizeof(PhotonKey) + 8 : 0) +
                                (open_round ? pixels * sizeof(std::uint32_t) + 8 : 0);
   if (in.size() - sizeof h < arrays || (in.size() - sizeof h - arrays) % 8 != 0 ||
       (in.size() - sizeof h - arrays) / 8 != words_of(h.items))
     in.fail(fmt::format("the film file is truncated or has bytes too many: {} bytes", in.size()));
   FilmProgress read{
       h.items, h.samples_per_pixel, {}, h.render_time_s, {}, {}, (h.options & option_adaptive) != 0, {}};
+  std::vector<PhotonKey> photons;
+  if (h.version == photon_version) {
+    in.read_array(photons, 1, "photons");
+    if (photons[0].photons == 0 || !(photons[0].first_radius > 0) || !(photons[0].alpha > 0))
+      in.fail("the film file is corrupt: its photons make no sense");
+  }
   in.read_array(read.earlier_ends, h.earlier_ends, "earlier ends");
   const auto not_ascending = [](std::uint32_t a, std::uint32_t b) { return a >= b; };
   if (std::ranges::adjacent_find(read.earlier_ends, not_ascending) != read.earlier_ends.end() ||
@@ -218,7 +229,8 @@ Film read_film(const std::filesystem::path& file, FilmProgress* progress) {
                (h.options & option_straight_counts) != 0,
                h.clamp,
                {h.renderer, h.picture_revision},
-               std::bit_cast<float>(h.options & threshold_bits)};
+               std::bit_cast<float>(h.options & threshold_bits),
+               photons.empty() ? PhotonKey{} : photons[0]};
   film.exponent_ = h.exponent, film.length_exponent_ = h.length_exponent;
   film.layers_ = layers;
   film.refused_ = {h.nonfinite, h.too_large};

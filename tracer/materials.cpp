@@ -29,6 +29,17 @@ MaterialKind kind_of(const Material& material) {
   return kind;
 }
 
+bool has_diffuse_part(const Manifest& m, const Material& material) {
+  const auto part = [&](Id<Material> id) { return has_diffuse_part(m, m.materials[id.value]); };
+  if (const auto* sided = std::get_if<TwoSidedMaterial>(&material.model))
+    return part(sided->front) || part(sided->back);
+  if (const auto* blend = std::get_if<BlendMaterial>(&material.model))
+    return part(blend->first) || part(blend->second);
+  if (const auto* mask = std::get_if<MaskMaterial>(&material.model)) return part(mask->material);
+  return std::holds_alternative<DiffuseMaterial>(material.model) ||
+         std::holds_alternative<DiffuseTransmissionMaterial>(material.model);
+}
+
 // n + ∇h: the normal of a surface that is raised by a height h(u,v) along n (Blinn 1978).
 Vector3d bumped(const FloatParameter& height, const Interaction& at, Vector3d n, const Textures& textures) {
   constexpr double step = 1.0 / 4096;  // in u and v
@@ -86,6 +97,7 @@ Materials::Materials(const Manifest& manifest, const Textures& textures)
   std::map<std::tuple<float, float, Roughness::Distribution>, std::uint32_t> known;
   for (std::size_t i = 0; i < manifest.materials.size(); ++i) {
     kinds_.push_back(kind_of(manifest.materials[i]));
+    kinds_.back().diffuse = has_diffuse_part(manifest, manifest.materials[i]);
     if (const auto* principled = std::get_if<PrincipledMaterial>(&manifest.materials[i].model))
       if (const auto* color = std::get_if<Spectrum>(&principled->base_color); color && has_tint(*principled))
         luminance_[i] = luminance(*color);

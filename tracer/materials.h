@@ -17,6 +17,7 @@ struct MaterialKind {
   bool is_interface = false;       // nothing is there
   bool smooth_dielectric = false;  // bends light as it is: of panes and connections through them
   bool dispersive = false;         // its index depends on λ
+  bool diffuse = false;            // it, or a part of it, scatters as is_diffuse says
 };
 
 class Materials {

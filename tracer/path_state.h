@@ -22,9 +22,9 @@ struct PathTracer::Shadow {
 inline constexpr std::uint32_t scattered_once = 1u << 16;
 
 struct PathTracer::Path {
-  std::uint32_t pixel = 0, sample = 0;
-  SampleKey key;           // of these
-  std::uint64_t seed = 0;  // sample_seed of it
+  std::uint32_t pixel = 0, sample = 0;  // of a photon: its number, and PhotonHistory
+  SampleKey key;                        // of these
+  std::uint64_t seed = 0;               // sample_seed of it
   std::uint32_t depth = 0;
   std::uint8_t flags = 0;
   float pdf = 0;            // of the last scattering, as density_beside says; 0: specular or camera

@@ -41,7 +41,8 @@ TraceCounters& operator+=(TraceCounters& a, const TraceCounters& b) {
 }
 
 PathTracer::PathTracer(const RenderScene& scene, ResidentViews resident, Film& film, Outbox& outbox,
-                       TraceCounters& counters, RayTraffic* traffic, const KernelFunctions& kernel)
+                       TraceCounters& counters, RayTraffic* traffic, const PhotonPass* photons,
+                       const KernelFunctions& kernel)
     : scene_(scene),
       manifest_(scene.manifest),
       resident_(resident),
@@ -49,7 +50,8 @@ PathTracer::PathTracer(const RenderScene& scene, ResidentViews resident, Film& f
       film_(film),
       outbox_(outbox),
       counters_(counters),
-      traffic_(traffic) {}
+      traffic_(traffic),
+      photons_(photons) {}
 
 SampleKey PathTracer::key_of(std::uint32_t pixel, std::uint32_t sample) const {
   const auto width = static_cast<std::uint32_t>(film_.width());
@@ -58,11 +60,22 @@ SampleKey PathTracer::key_of(std::uint32_t pixel, std::uint32_t sample) const {
   return {scene_.seed, y * static_cast<std::uint32_t>(film_.full_width()) + x, sample};
 }
 
+// Among photons all paths of an iteration have its wavelengths.
+std::array<float, 4> PathTracer::camera_numbers(const SampleKey& key) const {
+  std::array<float, 4> numbers = sample_4d(key, sample_set::camera);
+  if (photons_) numbers[2] = photons_->wavelength_number;
+  return numbers;
+}
+
 // Of a path whose pixel and sample are known.
 void PathTracer::begin(Path& path) const {
+  if (flies()) {
+    begin_photon(path);
+    return;
+  }
   path.key = key_of(path.pixel, path.sample);
   path.seed = sample_seed(path.key);
-  path.camera = sample_4d(path.key, sample_set::camera);
+  path.camera = camera_numbers(path.key);
 }
 
 // The first event at a depth has a stratified set; those that follow where going straight on counts for no
@@ -177,7 +190,7 @@ bool PathTracer::has_cone(const Path& path) const {
 void PathTracer::run(Path& path, std::optional<std::uint32_t> at) {
   while (find_hit(path, at)) {
     at.reset();
-    if (!shade(path)) {
+    if (!(flies() ? shade_photon(path) : shade(path))) {
       ++counters_.died;
       return;
     }
@@ -276,7 +289,7 @@ void PathTracer::trace_shadow(const Shadow& shadow, const SensorWeights* weights
   if (weights) {
     deposit(shadow.pixel, shadow.sample, *weights, shadow.radiance);
   } else {
-    const std::array<float, 4> u = sample_4d(key_of(shadow.pixel, shadow.sample), sample_set::camera);
+    const std::array<float, 4> u = camera_numbers(key_of(shadow.pixel, shadow.sample));
     deposit(shadow.pixel, shadow.sample, sensor_of(u, sample_wavelengths(u[2])), shadow.radiance);
   }
   if (at) ++counters_.died;

@@ -12,6 +12,7 @@
 
 #include "film/film.h"
 #include "tracer/intersect/intersector.h"
+#include "tracer/photons/photon_pass.h"
 #include "tracer/ray_traffic.h"
 #include "tracer/records.h"
 #include "tracer/render_scene.h"
@@ -30,8 +31,16 @@ struct Outbox {
     std::uint32_t domain;
     ShadowRecord record;
   };
+  struct Question {
+    std::uint32_t domain;  // in whose cell the point lies
+    Gather record;
+  };
   std::vector<Path> paths;
   std::vector<Shadow> shadows;
+  std::vector<Photon> photons;      // that landed
+  std::vector<Question> questions;  // to the maps of other ranks
+
+  std::size_t size() const { return paths.size() + shadows.size() + photons.size() + questions.size(); }
 };
 
 struct TraceCounters {
@@ -68,9 +77,9 @@ enum class RayRandom : std::uint64_t {
 class PathTracer {
  public:
   // All references outlive the tracer. One tracer a thread; the film is shared. `traffic`, if any, is told
-  // where the rays go.
+  // where the rays go. `photons`, if any: of photon mapping.
   PathTracer(const RenderScene& scene, ResidentViews resident, Film& film, Outbox& outbox,
-             TraceCounters& counters, RayTraffic* traffic = nullptr,
+             TraceCounters& counters, RayTraffic* traffic = nullptr, const PhotonPass* photons = nullptr,
              const KernelFunctions& kernel = best_kernel());
 
   // Sample `sample` of the pixel (x, y) of the whole film, which lies in the crop.
@@ -78,6 +87,11 @@ class PathTracer {
   // Goes on with a ray in `domain`, which is resident.
   void resume(const PathRecord& record, std::uint32_t domain);
   void resume(const ShadowRecord& record, std::uint32_t domain);
+
+  // While photons fly: that one of the iteration's.
+  void trace_photon(std::uint32_t number);
+  // What the map has for a path that ended elsewhere.
+  void answer(const Gather& question);
 
  private:
   struct Path;
@@ -99,7 +113,7 @@ class PathTracer {
   bool shade_surface(Path& path);
   bool scatter_dielectric(Path& path, const Interaction& at, const Surface& surface);
   bool scatter_in_medium(Path& path, Point3d p);
-  bool go_on(Path& path, float u, bool specular) const;
+  bool go_on(Path& path, float u, bool specular, bool gathered = false) const;
   bool passes_at_the_end(Path& path, const Interaction& at, const Surface& surface) const;
   SampledSpectrum straight_through(const Path& path, const Interaction& at, const Surface& surface) const;
   bool is_too_dark(const Path& path) const;
@@ -107,6 +121,14 @@ class PathTracer {
   double opacity_at(const Surface& surface, const Interaction& at) const;
   void add_emission(const Path& path, const Interaction& at, std::uint32_t light);
   void add_environment(const Path& path);
+
+  // photon_tracing.cpp
+  void begin_photon(Path& path) const;
+  bool shade_photon(Path& path);
+  bool is_connected_to(const Path& path) const;
+  void land(const Path& path, const Interaction& at);
+  void gather(const Path& path, const Interaction& at, const Scattering& scattering, Vector3d out);
+  bool flies() const { return photons_ && photons_->flying; }
 
   // first_surface.cpp
   void record_first_surface(Path& path, const Interaction& at, const Surface& surface);
@@ -164,6 +186,7 @@ class PathTracer {
   SensorWeights sensor_of(const std::array<float, 4>& camera, const SampledWavelengths& wavelengths) const;
   void find_wavelengths(Path& path) const;
   SampleKey key_of(std::uint32_t pixel, std::uint32_t sample) const;
+  std::array<float, 4> camera_numbers(const SampleKey& key) const;
   void begin(Path& path) const;
   std::array<float, 4> numbers_for_scattering(const Path& path, Wanted wanted = Wanted::four) const;
   std::array<float, 4> numbers_for_light(const Path& path) const;
@@ -176,6 +199,7 @@ class PathTracer {
   Outbox& outbox_;
   TraceCounters& counters_;
   RayTraffic* traffic_;
+  const PhotonPass* photons_;
 };
 
 }  // namespace vitrail

@@ -4,6 +4,7 @@
 #include "tracer/media/phase.h"
 #include "tracer/path_state.h"
 #include "tracer/path_tracer.h"
+#include "tracer/photon_tracing.h"
 #include "tracer/portable_math.h"
 
 namespace vitrail {
@@ -107,6 +108,8 @@ bool PathTracer::shade_surface(Path& path) {
       is_specular(scattering->bsdf) ? 0 : light_candidates(path, at.p, is_diffuse(scattering->bsdf));
   if (candidates > 0 && scene_.lights.can_sample())
     connect_surface(path, at, surface, *scattering, out, candidates);
+  const bool gathered = photons_ && gathers(*scattering);
+  if (gathered) gather(path, at, *scattering, out);
   const bool two_are_enough = path.depth < roulette_depth && has_one_lobe(scattering->bsdf);
   const std::array<float, 4> u = numbers_for_scattering(path, two_are_enough ? Wanted::two : Wanted::four);
   const std::optional<BsdfSample> chosen = sample(scattering->bsdf, out, u[2], {u[0], u[1]});
@@ -133,7 +136,7 @@ bool PathTracer::shade_surface(Path& path) {
   }
   path.pdf = chosen->specular ? 0 : density_beside(chosen->pdf, candidates);
   if (!chosen->specular && !(path.pdf > 0)) return false;
-  if (!go_on(path, u[3], chosen->specular)) return false;
+  if (!go_on(path, u[3], chosen->specular, gathered)) return false;
   continue_from(path, at, surface, direction);
   return true;
 }
@@ -193,8 +196,9 @@ double PathTracer::opacity_at(const Surface& surface, const Interaction& at) con
   return scene_.textures.number(surface.opacity, at.texture_point());
 }
 
-// Counts a scattering event, and decides by roulette whether the path lives on.
-bool PathTracer::go_on(Path& path, float u, bool specular) const {
+// Counts a scattering event, and decides by roulette whether the path lives on. Where it has gathered what
+// photons bring, it lives on for the light that it may still see directly.
+bool PathTracer::go_on(Path& path, float u, bool specular, bool gathered) const {
   ++path.depth;
   path.clear(path_passed);
   path.travelled = 0;
@@ -205,7 +209,9 @@ bool PathTracer::go_on(Path& path, float u, bool specular) const {
     }
     return true;
   }
-  if (manifest_.settings.direct_only) {
+  if (gathered) {
+    path.depth = static_cast<std::uint32_t>(manifest_.settings.max_depth);
+  } else if (manifest_.settings.direct_only) {
     path.depth |= scattered_once;
   } else if (path.depth > roulette_depth) {
     const float brightest = max_value(path.throughput) * (path.is(path_dispersed) ? 1.0f / hero_count : 1.0f);
@@ -279,6 +285,7 @@ bool PathTracer::scatter_dielectric(Path& path, const Interaction& at, const Sur
   const double reflects = attainable(reflected / all);
   Vector3d direction;
   const std::array<float, 4> u = numbers_for_scattering(path);
+  if (flies()) path.sample |= static_cast<double>(u[2]) < reflects ? photon_scattered : photon_refracted;
   if (static_cast<double>(u[2]) < reflects) {
     direction = normal * (2 * cosine) - at.out;
     path.throughput =
@@ -286,11 +293,11 @@ bool PathTracer::scatter_dielectric(Path& path, const Interaction& at, const Sur
         scene_.textures.spectrum(material.reflectance_factor, at.texture_point(), path.wavelengths);
   } else {
     if (!refract(at.out, normal, hero_eta, direction)) return false;
-    // Radiance is compressed into the smaller solid angle by 1/η² (Veach 1997, §5.2).
+    // Radiance is compressed into the smaller solid angle by 1/η² (Veach 1997, §5.2), power is not.
     for (std::size_t i = 0; i < active; ++i) {
       const double e = static_cast<double>(eta.v[i]);
-      path.throughput.v[i] *=
-          static_cast<float>((1 - static_cast<double>(reflectance.v[i])) / (1 - reflects) / (e * e));
+      path.throughput.v[i] *= static_cast<float>((1 - static_cast<double>(reflectance.v[i])) /
+                                                 (1 - reflects) / (flies() ? 1 : e * e));
     }
     path.throughput = path.throughput * scene_.textures.spectrum(material.transmittance_factor,
                                                                  at.texture_point(), path.wavelengths);
@@ -305,6 +312,7 @@ bool PathTracer::scatter_dielectric(Path& path, const Interaction& at, const Sur
       }
     }
   }
+  if (flies()) path.throughput = path.throughput * adjoint_of_shading(at, normal, direction);
   if (is_black(path.throughput)) return false;
   path.pdf = 0;
   if (!go_on(path, u[3], true)) return false;

@@ -43,6 +43,8 @@ class Scheduler {
 
   // --- Rays. `true`: they wait here, else for being sent to the domain's home.
   bool route(std::uint32_t domain, std::uint64_t rays);
+  // What is no ray of a domain's, but is sent and counted as alive like one.
+  void goes_out(std::uint64_t records) { outgoing_ += records, forwarded_ += records; }
   void arrived(std::uint32_t domain, std::uint64_t rays);
   bool send_is_due(double now_s) const;
   void sent(std::uint64_t rays, double now_s);

@@ -80,7 +80,7 @@ double trace_all(const RenderScene& scene, const DomainView* view, const KernelF
   Film film(scene.manifest.film, {});
   Outbox outbox;
   TraceCounters counters;
-  PathTracer tracer(scene, ResidentViews(&view, 1), film, outbox, counters, {}, kernel);
+  PathTracer tracer(scene, ResidentViews(&view, 1), film, outbox, counters, {}, nullptr, kernel);
   const double start = cpu_seconds();
   for (int y = 0; y < film.height(); ++y)
     for (int x = 0; x < film.width(); ++x)

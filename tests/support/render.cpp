@@ -7,15 +7,19 @@
 namespace vitrail::test {
 
 Rendered render(const Scene& scene, int samples_per_pixel, std::uint32_t domains, std::uint64_t seed) {
+  RenderOptions options;
+  options.samples_per_pixel = samples_per_pixel;
+  options.seed = seed;
+  return render(scene, std::move(options), domains);
+}
+
+Rendered render(const Scene& scene, RenderOptions options, std::uint32_t domains) {
   const TemporaryDirectory directory;
   PartitionOptions partitioning;
   partitioning.domains = domains;
   partition(scene, directory / "scene.vit", partitioning);
-  RenderOptions options;
   options.bundle = directory / "scene.vit";
   options.film = directory / "scene.film";
-  options.samples_per_pixel = samples_per_pixel;
-  options.seed = seed;
   int argc = 0;
   char** argv = nullptr;
   const auto transport = make_transport(&argc, &argv);

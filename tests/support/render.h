@@ -15,6 +15,8 @@ struct Rendered {
 
 // Through a bundle of `domains` in a temporary directory, in this process.
 Rendered render(const Scene& scene, int samples_per_pixel, std::uint32_t domains = 1, std::uint64_t seed = 0);
+// With all other options; those of files are filled in.
+Rendered render(const Scene& scene, RenderOptions options, std::uint32_t domains = 1);
 
 // A pinhole at `eye` that sees `fov_rad` on the shorter axis; a box filter of one pixel.
 void set_camera(Scene& scene, Point3d eye, Point3d target, Vector3d up, double fov_rad, int width,

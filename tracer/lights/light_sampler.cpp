@@ -291,6 +291,21 @@ SampledSpectrum emitted(const LightSampler& s, std::uint32_t area_light, const T
   return emitted(s, area_light, at, cosine, wavelengths, last);
 }
 
+SampledSpectrum leaving(const LightSampler& s, std::size_t light, const EmissivePoint& point,
+                        const SampledWavelengths& wavelengths) {
+  const std::size_t triangles = s.scene.triangles.size();
+  LastLamp last;
+  if (light >= triangles) {
+    const EmissiveQuadric& q = s.quadrics[light - triangles].record();
+    return surface_radiance(s, q.area_light, point.point(), wavelengths, last) *
+           shining_share(s, q.opacity, point.point());
+  }
+  const SampledSpectrum radiance =
+      surface_radiance(s, s.scene.triangles[light].area_light, point.point(), wavelengths, last);
+  if (s.scene.opacities.empty()) return radiance;
+  return radiance * shining_share(s, s.scene.opacities[light], point.point());
+}
+
 Background background(const LightSampler& s, Vector3d direction, const SampledWavelengths& wavelengths) {
   Background sum{filled(0)};
   for (const std::uint32_t i : s.infinite)

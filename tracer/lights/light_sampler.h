@@ -114,6 +114,10 @@ struct LightSampler {
 // Opens an image by its name in the records.
 using ImageSource = std::function<std::shared_ptr<const LightImage>(const std::string& filename)>;
 
+// Of the triangles and then the quadrics: luminous flux over 683 lm/W of both sides that shine, by a few of
+// their points.
+std::vector<double> flux_of_surfaces(const LightScene& scene, std::span<const QuadricLight> quadrics);
+
 // Throws Error where an image is damaged.
 LightSampler make_light_sampler(const LightScene& scene, const std::filesystem::path& bundle,
                                 LightChoice choice = LightChoice::tree);
@@ -162,6 +166,10 @@ SampledSpectrum emitted(const LightSampler& sampler, std::uint32_t area_light, c
                         double cosine, const SampledWavelengths& wavelengths, LastLamp& last);
 SampledSpectrum emitted(const LightSampler& sampler, std::uint32_t area_light, const TexturePoint& at,
                         double cosine, const SampledWavelengths& wavelengths);
+// Radiance that leaves a light of the tree, a triangle or quadric, at a point of it: of what is there of the
+// surface, and of one that nothing meets as if it was whole.
+SampledSpectrum leaving(const LightSampler& sampler, std::size_t light, const EmissivePoint& point,
+                        const SampledWavelengths& wavelengths);
 // What a ray finds that leaves the scene: the sum of constant and image environments, and the density, as of
 // triangle_pdf, with which sample_light gives the direction.
 struct Background {

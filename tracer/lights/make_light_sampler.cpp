@@ -102,6 +102,16 @@ std::vector<LightBounds> bounds_of_surfaces(const LightScene& scene, std::span<c
   return all;
 }
 
+}  // namespace
+
+std::vector<double> flux_of_surfaces(const LightScene& scene, std::span<const QuadricLight> quadrics) {
+  std::vector<double> flux;
+  for (const LightBounds& b : bounds_of_surfaces(scene, quadrics)) flux.push_back(b.power);
+  return flux;
+}
+
+namespace {
+
 std::vector<LightSampler::Run> runs_of(const LightScene& scene) {
   std::vector<LightSampler::Run> runs;
   std::uint32_t index = 0;

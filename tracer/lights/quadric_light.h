@@ -40,6 +40,8 @@ class QuadricLight {
 
   // Uniform by the area of its own space, (u,v) in the unit square.
   Point3d point_by_area(double u, double v) const;
+  // One over the density of its points, per area where it stands; `unit_normal` there.
+  double area_by(Vector3d unit_normal) const { return own_area_ * stretch(unit_normal); }
   TexturePoint texture_point(Point3d local) const;
   double area() const;         // where it stands
   LightBounds bounds() const;  // box and normals

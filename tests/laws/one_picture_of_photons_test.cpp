@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+// Photons land with other ranks and are asked of others, and the film is the same bit for bit: whatever the
+// domains, ranks, threads, memory and order, and however often the job is killed between or within
+// iterations.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <chrono>
+#include <thread>
+
+#include "tests/support/background.h"
+#include "tests/support/command.h"
+#include "tests/support/temporary_directory.h"
+
+namespace vitrail::test {
+namespace {
+
+using namespace std::chrono_literals;
+
+class OnePictureOfPhotons : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    for (const int domains : {1, 8, 64}) {
+      const CommandResult made =
+          run(fmt::format("{} '{}/examples/cornell-box/cornell-box.pbrt' -o '{}' --domains {} --quiet",
+                          vitrail("partition"), VITRAIL_SOURCE_DIR, bundle(domains), domains));
+      ASSERT_EQ(made.status, 0) << made.output;
+    }
+  }
+  std::string bundle(int domains) const { return (directory_ / fmt::format("{}.vit", domains)).string(); }
+  std::string command(const std::string& film, int domains, int ranks, const std::string& more) const {
+    return fmt::format("{} '{}' -o '{}' --width 40 --integrator photon --quiet --stats '{}' {}",
+                       mpi_vitrail("render", ranks), bundle(domains), (directory_ / film).string(),
+                       (directory_ / (film + ".json")).string(), more);
+  }
+  nlohmann::json stats(const std::string& film) const { return read_json(directory_ / (film + ".json")); }
+
+  TemporaryDirectory directory_;
+};
+
+TEST_F(OnePictureOfPhotons, HoweverItIsRendered) {
+  std::string hash;
+  std::uint64_t forwarded = 0, evictions = 0;
+  struct Manner {
+    int domains, ranks;
+    const char* options;
+  };
+  for (const Manner& m :
+       {Manner{1, 1, "--threads 1"}, Manner{1, 2, "--threads 1"}, Manner{8, 1, "--threads 2"},
+        Manner{8, 2, "--threads 2 --memory 200M"}, Manner{64, 1, "--threads 1 --domain-memory 1"},
+        Manner{64, 4, "--threads 1"}, Manner{64, 3, "--threads 2 --domain-memory 1 --shuffle-delivery 5"}}) {
+    const CommandResult done = run(
+        command("a.film", m.domains, m.ranks, fmt::format("--force --spp 2 --photons 6000 {}", m.options)));
+    ASSERT_EQ(done.status, 0) << done.output;
+    const nlohmann::json s = stats("a.film");
+    if (hash.empty()) hash = s["film_hash"];
+    EXPECT_EQ(s["film_hash"], hash) << m.domains << " domains, " << m.ranks << " ranks, " << m.options;
+    forwarded += s["forwarded_rays"].get<std::uint64_t>();
+    evictions += s["evictions"].get<std::uint64_t>();
+  }
+  EXPECT_GT(forwarded, 0u);
+  EXPECT_GT(evictions, 0u);
+}
+
+TEST_F(OnePictureOfPhotons, KilledAndContinued) {
+  const std::string photons = "--photons 20000 --threads 1 --spp 20";
+  ASSERT_EQ(run(command("whole.film", 8, 1, photons)).status, 0);
+  const auto partial = directory_ / "killed.film.partial";
+  int kills = 0;
+  for (int tries = 0; tries < 4; ++tries) {
+    std::error_code none;
+    const auto before = std::filesystem::last_write_time(partial, none);
+    Background job(command("killed.film", 8, 1 + tries % 2, photons + " --checkpoint-every 0.02"));
+    while (job.running() && std::filesystem::last_write_time(partial, none) == before)
+      std::this_thread::sleep_for(2ms);
+    std::this_thread::sleep_for(std::chrono::milliseconds(37 * tries));
+    for (const pid_t pid : job.ranks()) kills += ::kill(pid, SIGKILL) == 0;
+    job.wait();
+  }
+  EXPECT_GT(kills, 0);
+  ASSERT_EQ(run(command("killed.film", 8, 2, photons)).status, 0);
+  EXPECT_EQ(stats("killed.film")["film_hash"], stats("whole.film")["film_hash"]);
+  // More iterations behind a finished film's, as if all had been asked for at once.
+  const std::string more = "--photons 20000 --threads 1 --spp 22";
+  ASSERT_EQ(run(command("killed.film", 8, 1, more)).status, 0);
+  ASSERT_EQ(run(command("whole.film", 1, 2, more + " --force")).status, 0);
+  EXPECT_EQ(stats("killed.film")["film_hash"], stats("whole.film")["film_hash"]);
+  // Of other photons it is another picture.
+  for (const char* other :
+       {"--photons 20001", "--photons 20000 --photon-radius 0.01", "--photons 20000 --photon-alpha 0.5"}) {
+    const CommandResult refused = run(command("whole.film", 8, 1, fmt::format("--spp 24 {}", other)));
+    EXPECT_EQ(refused.status, 3) << refused.output;
+    EXPECT_THAT(refused.output, ::testing::HasSubstr("photons differ"));
+  }
+}
+
+TEST_F(OnePictureOfPhotons, RefusesWhatItCannotDo) {
+  const auto refused = [&](const std::string& options, int status, const char* words) {
+    const CommandResult r = run(command("no.film", 1, 1, options));
+    EXPECT_EQ(r.status, status) << options;
+    EXPECT_THAT(r.output, ::testing::HasSubstr(words)) << options;
+  };
+  refused("--spp 2 --adaptive", 2, "no --adaptive");
+  refused("--target-error 0.1", 2, "no --target-error");
+  refused("--spp 2 --photons 2000000 --memory 64M", 4, "is needed");
+}
+
+}  // namespace
+}  // namespace vitrail::test

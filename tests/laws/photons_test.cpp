@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+// What photon mapping converges to: closed forms where photons alone bring light, and path tracing.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/laws/flat_scenes.h"
+#include "tracer/photons/progressive.h"
+#include "tracer/portable_math.h"
+
+namespace vitrail::test {
+namespace {
+
+constexpr int iterations = 64;
+
+Rendered photon_mapped(const Scene& scene, std::uint64_t photons, double radius, double alpha = 2.0 / 3,
+                       int spp = iterations) {
+  RenderOptions options;
+  options.samples_per_pixel = spp;
+  options.photons = {photons, radius, alpha};
+  return render(scene, std::move(options));
+}
+
+double mean(const Rendered& rendered) { return brightness(rendered.film).mean; }
+
+Material glass(const Spectrum& eta) {
+  DielectricMaterial glass;
+  glass.eta = eta;
+  return Material{glass};
+}
+
+// A point light behind a sheet that bends nothing, and that no connection passes: intensity/d²·cos θ over the
+// disc of each radius. Path tracing sees nothing of it.
+TEST(Photons, IrradianceBehindASheet) {
+  Scene scene;
+  const double reflectance = 0.5, d = 1;
+  add_shape(scene, square(scene, 0, 2), Material{DiffuseMaterial{ConstantSpectrum{0.5f}}});
+  add_shape(scene, square(scene, 0.5f, 2), glass(ConstantSpectrum{1}));
+  scene.lights.push_back({PointLight{{0, 0, d}, ConstantSpectrum{3}}, {}});
+  look_along(scene, {0, 0, 1}, {}, 0.01);
+  EXPECT_EQ(mean(render(scene, 4)), 0);
+  const PhotonKey key{40000, 0.25, 0.8};
+  double expected = 0;
+  for (std::uint32_t i = 0; i < iterations; ++i) {
+    const double r = radius_of(key, i);
+    expected += 3 * 2 / (r * r) * (1 / d - 1 / std::sqrt(d * d + r * r)) * d * reflectance / pi / iterations;
+  }
+  EXPECT_NEAR(mean(photon_mapped(scene, key.photons, key.first_radius, key.alpha)), expected,
+              0.02 * expected);
+}
+
+// All walls of a box shine: Σ ρᵏ over the depths.
+TEST(Photons, FurnaceToEachDepth) {
+  for (const int depth : {1, 2, 6}) {
+    Scene scene = lit_box(12);
+    scene.shapes.resize(1);
+    scene.area_lights[0].radiance = ConstantSpectrum{1};
+    scene.shapes[0].area_light = Id<AreaLight>{0};
+    scene.settings.max_depth = depth;
+    set_camera(scene, {0, 0, 0}, {0, 0, 1}, {0, 1, 0}, 0.8, 12, 12);
+    double expected = 0;
+    for (int k = 0; k <= depth; ++k) expected += std::pow(0.6, k);
+    EXPECT_NEAR(mean(photon_mapped(scene, 20000, 0.2)), expected, 0.01 * expected) << depth;
+  }
+}
+
+// Beyond the edges of the walls a wide disc finds no photons; as it shrinks the picture becomes that of path
+// tracing.
+TEST(Photons, AsPathsAsTheRadiusShrinks) {
+  const Scene scene = lit_box(16);
+  const double paths = mean(render(scene, 256));
+  EXPECT_LT(mean(photon_mapped(scene, 2000, 1)) / paths, 0.985);
+  EXPECT_NEAR(mean(photon_mapped(scene, 20000, 0.05)) / paths, 1, 0.01);
+}
+
+// A slanted block of glass, without and with dispersion: refraction, total reflection, shading by what comes
+// through, and photons that keep one wavelength.
+TEST(Photons, AsPathsBehindGlass) {
+  // SF11 (Schott).
+  const Spectrum flint =
+      SellmeierSpectrum{{1.73759695, 0.313747346, 1.89878101}, {0.013188707, 0.0623068142, 155.23629}};
+  for (const bool disperses : {false, true}) {
+    Scene scene = lit_box(16);
+    const Vector3d x = normalize(Vector3d{1, 0.4, 0.2}), z = normalize(cross(x, Vector3d{-0.4, 1, 0.3})),
+                   y = cross(z, x);
+    auto faces = box_faces({-.45f, -.3f, -.4f}, {.45f, .3f, .4f});
+    for (auto& face : faces)
+      for (Point3f& corner : face) {
+        const Point3d p = cast<double>(corner);
+        corner = cast<float>(Point3d{0.1, -0.3, 0.2} + x * p.x + y * p.y + z * p.z);
+      }
+    add_shape(scene, add_quads(scene, faces), glass(disperses ? flint : ConstantSpectrum{1.5f}));
+    scene.settings.max_depth = 8;
+    const double paths = mean(render(scene, 1024));
+    EXPECT_NEAR(mean(photon_mapped(scene, 20000, 0.06)) / paths, 1, 0.012) << disperses;
+  }
+}
+
+}  // namespace
+}  // namespace vitrail::test

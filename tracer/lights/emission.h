@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where light sets out: photons of all lights of a scene, chosen by the flux that each sends.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "tracer/guide_table.h"
+#include "tracer/lights/light_sampler.h"
+
+namespace vitrail {
+
+struct EmittedPhoton {
+  Point3d p;
+  Vector3d direction;            // unit, the way it travels
+  Vector3d normal{};             // of the surface it leaves, unit, on that side; 0: it leaves none
+  std::uint32_t triangle = ~0u;  // global id of that surface
+  SampledSpectrum power;         // W·nm⁻¹, over the density of all that was chosen
+  bool is_distant = false;       // of a light that has one direction
+};
+
+class Emission {
+ public:
+  // `lights` outlives it. Distant lights and environments reach what lies in `bounds`, through the disc that
+  // covers the sphere around it, and, where `eye` lies within, through smaller and smaller ones around that,
+  // alike many through each: light that enters near the eye counts most, how near nobody knows. Lights whose
+  // flux is 0 have no photons.
+  Emission(const LightSampler& lights, const Bounds3f& bounds, Point3d eye);
+
+  // Luminous flux of all lights over 683 lm/W (∫ Φ ȳ dλ / ∫ ȳ dλ), through the least disc: about the power of
+  // what is sampled. 0: no light.
+  double flux() const { return flux_; }
+  // place: u, v of the point, which light (two numbers, the second refines); way: u, v of the direction,
+  // side.
+  EmittedPhoton sample(const std::array<float, 4>& place, const std::array<float, 4>& way,
+                       const SampledWavelengths& wavelengths) const;
+
+ private:
+  EmittedPhoton of_surface(std::size_t light, const std::array<float, 4>& place,
+                           const std::array<float, 4>& way, const SampledWavelengths& wavelengths) const;
+  EmittedPhoton of_emitter(std::size_t emitter, const std::array<float, 4>& way,
+                           const SampledWavelengths& wavelengths) const;
+  // Of irradiance across a direction, through one of the discs.
+  EmittedPhoton through_disc(Vector3d direction, const SampledSpectrum& irradiance, float u, float v,
+                             float choice) const;
+
+  struct Sphere {
+    Point3d centre;
+    double radius = 0;
+  };
+  const LightSampler& lights_;
+  std::vector<Sphere> spheres_;  // that discs cover, the scene's first
+  double flux_ = 0;
+  // Of surfaces, emitters, distant lights, environments, constant infinite lights, in that order: sums of
+  // their shares, from 0 to 1.
+  std::vector<double> cumulative_;
+  GuideTable guide_;
+};
+
+}  // namespace vitrail

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tracer/photon_tracing.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tracer/path_state.h"
+#include "tracer/path_tracer.h"
+#include "tracer/photons/places.h"
+
+namespace vitrail {
+
+void PathTracer::begin_photon(Path& path) const {
+  path.key = photon_key(scene_.seed, photons_->iteration, path.pixel);
+  path.seed = sample_seed(path.key);
+  path.wavelengths = photons_->wavelengths;
+  path.has_wavelengths = true;
+}
+
+void PathTracer::trace_photon(std::uint32_t number) {
+  Path path;
+  path.pixel = number;
+  begin_photon(path);
+  const EmittedPhoton photon = photons_->emission->sample(
+      sample_4d(path.key, sample_set::camera), sample_4d(path.key, sample_set::lens), path.wavelengths);
+  ++counters_.rays_indirect;
+  ++counters_.born;
+  if (is_black(photon.power)) {
+    ++counters_.died;
+    return;
+  }
+  path.throughput = photon.power * static_cast<float>(1 / photons_->emission->flux());
+  path.inside = scene_.interiors.state_in(manifest_.camera_medium);
+  Departure from{photon.p, cast<float>(photon.p), no_triangle, path.inside};
+  if (dot(photon.normal, photon.normal) > 0) {
+    Interaction at;
+    at.p = photon.p;
+    at.geometric = photon.normal;
+    from.origin = offset_origin(at, photon.direction);
+    from.exclude = photon.triangle;
+  }
+  if (traffic_) traffic_->set({});
+  depart(path, from, photon.direction);
+  run(path, std::nullopt);
+}
+
+// False when it ends here.
+bool PathTracer::shade_photon(Path& path) {
+  if (path.hit.triangle == no_triangle) return false;
+  const Surface& surface = surface_at(path);
+  Interaction at = interaction_at(path);
+  widen_cone(path, path.hit.t);
+  const MaterialKind& kind = scene_.materials.kind(surface.material);
+  if (!is_there(path, surface, at) || kind.is_interface) {
+    pass_straight(path, at, &surface);
+    return true;
+  }
+  if (path.is(path_in_pane) && (at.front || !kind.smooth_dielectric)) path.disperse();
+  // Before chance decides what of the surface is met: it decides once more for the path that gathers.
+  if (kind.diffuse && !is_connected_to(path)) land(path, at);
+  if (const double opacity = opacity_at(surface, at);
+      opacity < 1 && RandomStream(stream_of(path, RayRandom::coverage)).next() >= opacity) {
+    pass_straight(path, at, nullptr);
+    return true;
+  }
+  // One scattering more, and that where the light is gathered.
+  if (path.depth + 2 > static_cast<std::uint32_t>(manifest_.settings.max_depth)) {
+    if (manifest_.settings.straight_counts || !manifest_.requirements.see_through) return false;
+    path.throughput =
+        path.throughput * scene_.materials.passes_straight(surface.material, at, path.wavelengths);
+    if (is_black(path.throughput)) return false;
+    pass_straight(path, at, &surface);
+    return true;
+  }
+  if (kind.smooth_dielectric) return scatter_dielectric(path, at, surface);
+
+  RandomStream chance(stream_of(path, RayRandom::choice));
+  const Material* material = scene_.materials.choose(surface.material, at, chance);
+  if (!material) {
+    path.depth += manifest_.settings.straight_counts;
+    pass_straight(path, at, &surface);
+    return true;
+  }
+  if (scene_.materials.disperses(*material, at)) path.disperse();
+  const auto scattering = scene_.materials.scattering_at(*material, at, path.wavelengths, path.throughput,
+                                                         stream_of(path, RayRandom::layers));
+  if (!scattering) return false;
+  const Vector3d out = scattering->frame.to_local(at.out);
+  const std::array<float, 4> u = numbers_for_scattering(path);
+  const std::optional<BsdfSample> chosen = sample(scattering->bsdf, out, u[2], {u[0], u[1]});
+  if (!chosen) return false;
+  SampledSpectrum weight = chosen->weight;
+  if (chosen->specular && chosen->in == -out) {
+    path.throughput = path.throughput * weight;
+    if (is_black(path.throughput)) return false;
+    if (manifest_.settings.straight_counts)
+      ++path.depth;
+    else
+      path.set(path_passed);
+    pass_straight(path, at, &surface);
+    return true;
+  }
+  // Through a surface f(out, in) is not f(in, out).
+  if (!chosen->specular && out.z * chosen->in.z < 0)
+    weight = eval(scattering->bsdf, chosen->in, out).value *
+             static_cast<float>(std::abs(chosen->in.z / out.z) / chosen->pdf);
+  Vector3d direction = scattering->frame.to_world(chosen->in);
+  if (!scattering->transmits &&
+      (dot(direction, at.geometric) > 0) != (dot(at.out, at.geometric) * out.z * chosen->in.z > 0)) {
+    if (!chosen->specular || out.z * chosen->in.z <= 0) return false;
+    direction = at.geometric * (2 * dot(at.out, at.geometric)) - at.out;
+  }
+  path.throughput = path.throughput * weight *
+                    static_cast<float>(scattering->bump_shadowing(dot(at.out, at.shading))) *
+                    adjoint_of_shading(at, scattering->frame.normal, direction);
+  if (is_black(path.throughput)) return false;
+  path.sample |= photon_scattered;
+  path.pdf = chosen->specular ? 0 : static_cast<float>(chosen->pdf);
+  if (!go_on(path, u[3], chosen->specular)) return false;
+  continue_from(path, at, surface, direction);
+  return true;
+}
+
+// Whether paths find the photon's light by a connection to it, or by a sample of a BSDF that sees it: light
+// that came straight, and that of a distant light behind panes, which goes on as it came.
+bool PathTracer::is_connected_to(const Path& path) const {
+  if (path.sample == 0) return true;
+  if ((path.sample & photon_scattered) || scene_.lights.distant.empty()) return false;
+  const EmittedPhoton photon = photons_->emission->sample(
+      sample_4d(path.key, sample_set::camera), sample_4d(path.key, sample_set::lens), path.wavelengths);
+  constexpr double parallel_rad = 2e-4;
+  return photon.is_distant &&
+         length(cross(photon.direction, cast<double>(path.ray.direction))) < parallel_rad &&
+         dot(photon.direction, cast<double>(path.ray.direction)) > 0;
+}
+
+void PathTracer::land(const Path& path, const Interaction& at) {
+  Photon photon;
+  const Point3f p = cast<float>(at.p);
+  photon.p[0] = p.x, photon.p[1] = p.y, photon.p[2] = p.z;
+  photon.direction = path.direction;
+  for (std::size_t i = 0; i < hero_count; ++i) photon.power[i] = path.throughput.v[i];
+  photon.number = path.pixel;
+  photon.depth = static_cast<std::uint16_t>(std::min<std::uint32_t>(path.depth, Photon::most_depth) |
+                                            (path.is(path_dispersed) ? Photon::dispersed : 0u));
+  outbox_.photons.push_back(photon);
+}
+
+void PathTracer::gather(const Path& path, const Interaction& at, const Scattering& scattering, Vector3d out) {
+  // Of the side where the path is, and of the other, where light comes through.
+  const Vector3d surface = dot(at.out, at.geometric) > 0 ? at.geometric : -at.geometric,
+                 shading = out.z > 0 ? scattering.frame.normal : -scattering.frame.normal;
+  Gather question{};
+  const Point3f p = cast<float>(at.p);
+  question.p[0] = p.x, question.p[1] = p.y, question.p[2] = p.z;
+  question.out = encode_direction(at.out);
+  question.pixel = path.pixel;
+  question.depth = static_cast<std::uint16_t>(std::min<std::uint32_t>(path.depth, Photon::most_depth) |
+                                              (path.is(path_dispersed) ? Photon::dispersed : 0u));
+  const auto ask = [&](const SampledSpectrum& share, double side) {
+    if (is_black(share)) return;
+    question.geometric = encode_direction(surface * side);
+    question.shading = encode_direction(shading * side);
+    for (std::size_t i = 0; i < hero_count; ++i) question.weight[i] = path.throughput.v[i] * share.v[i];
+    const bool here = photons_->answers->empty();
+    const std::uint32_t domain = here ? 0 : domain_of(manifest_, question.p);
+    if (here || (*photons_->answers)[domain]) {
+      ++counters_.born;
+      answer(question);
+    } else {
+      outbox_.questions.push_back({domain, question});
+      ++counters_.born;
+    }
+  };
+  if (const auto* lambert = std::get_if<LambertBsdf>(&scattering.bsdf)) {
+    ask(lambert->reflectance, 1);
+  } else if (const auto* sheet = std::get_if<DiffuseTransmissionBsdf>(&scattering.bsdf)) {
+    ask(sheet->reflectance, 1);
+    ask(sheet->transmittance, -1);
+  } else if (const auto* grooves = std::get_if<OrenNayarBsdf>(&scattering.bsdf)) {
+    // Its reflectance as it is limited, by what goes back along the normal.
+    constexpr Vector3d up{0, 0, 1};
+    question.sigma_rad = static_cast<float>(grooves->sigma_rad);
+    const OrenNayarBsdf half{filled(0.5f), static_cast<double>(question.sigma_rad)};
+    ask(eval(*grooves, up, up).value * (0.5f / eval(half, up, up).value[0]), 1);
+  }
+}
+
+void PathTracer::answer(const Gather& question) {
+  const auto max_depth = static_cast<std::uint32_t>(manifest_.settings.max_depth);
+  const SampledSpectrum radiance =
+      photons_->map->gather(question, max_depth) * static_cast<float>(photons_->power_w_nm);
+  ++counters_.died;
+  if (is_black(radiance)) return;
+  const std::array<float, 4> u = camera_numbers(key_of(question.pixel, photons_->iteration));
+  deposit(question.pixel, photons_->iteration, sensor_of(u, photons_->wavelengths), radiance);
+}
+
+}  // namespace vitrail

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tracer/photons/photon_map.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "scene/diagnostics.h"
+#include "tracer/bsdf/diffuse.h"
+#include "tracer/bsdf/local.h"
+#include "tracer/portable_math.h"
+
+namespace vitrail {
+
+namespace {
+
+constexpr int cell_bits = 21;  // an axis
+constexpr double most_cells = 0x1p20;
+// Of the disc's radius: photons above or below it are of other surfaces.
+constexpr double half_height = 0.25;
+
+Vector3d decoded(const DirectionCode& code) { return cast<double>(decode_direction(code)); }
+
+}  // namespace
+
+PhotonMap::PhotonMap(std::size_t most) : most_(most) {
+  if (most > 0) photons_.reserve(most);  // takes no memory before it is used
+}
+
+void PhotonMap::add(const Photon& photon) {
+  if (most_ > 0 && photons_.size() == most_)
+    throw MachineError(fmt::format(
+        "more than {} photons landed in one iteration, which the {:.0f}M set aside for them do not "
+        "hold: give fewer --photons, or more --memory",
+        most_, static_cast<double>(most_ * photon_bytes) / (1 << 20)));
+  photons_.push_back({0, photon});
+}
+
+void PhotonMap::clear() { photons_.clear(); }
+
+std::uint64_t PhotonMap::row(int axis, double coordinate) const {
+  const double cell = std::floor((coordinate - origin_[axis]) / edge_) + 1;
+  return static_cast<std::uint64_t>(std::clamp(cell, 0.0, 2 * most_cells - 1));
+}
+
+void PhotonMap::build(double radius, const Bounds3f& bounds) {
+  radius_ = radius;
+  edge_ = 2 * radius;
+  if (!bounds.empty()) {
+    origin_ = cast<double>(bounds.lower);
+    for (int axis = 0; axis < 3; ++axis)
+      edge_ = std::max(
+          edge_,
+          (static_cast<double>(bounds.upper[axis]) - static_cast<double>(bounds.lower[axis])) / most_cells);
+  }
+  for (Placed& p : photons_) {
+    const auto at = [&](int axis) { return row(axis, static_cast<double>(p.photon.p[axis])); };
+    p.cell = (at(2) << cell_bits | at(1)) << cell_bits | at(0);
+  }
+  std::ranges::sort(photons_, [](const Placed& a, const Placed& b) {
+    if (a.cell != b.cell) return a.cell < b.cell;
+    if (a.photon.number != b.photon.number) return a.photon.number < b.photon.number;
+    if (a.photon.depth != b.photon.depth) return a.photon.depth < b.photon.depth;
+    return std::memcmp(a.photon.p, b.photon.p, sizeof a.photon.p) < 0;
+  });
+}
+
+SampledSpectrum PhotonMap::gather(const Gather& at, std::uint32_t max_depth) const {
+  const Point3d p{static_cast<double>(at.p[0]), static_cast<double>(at.p[1]), static_cast<double>(at.p[2])};
+  const Vector3d out = decoded(at.out), geometric = decoded(at.geometric), shading = decoded(at.shading);
+  const Frame frame(shading);
+  const auto to_local = [&](Vector3d v) {
+    return Vector3d{dot(v, frame.tangent), dot(v, frame.bitangent), dot(v, frame.normal)};
+  };
+  const Vector3d local_out = to_local(out);
+  // Its reflectance has no part in its shape.
+  const OrenNayarBsdf grooves{filled(0.5f), static_cast<double>(at.sigma_rad)};
+  const bool path_dispersed = (at.depth & Photon::dispersed) != 0;
+  const std::uint32_t path_depth = at.depth & Photon::most_depth;
+  std::array<double, hero_count> sum{};
+  const auto add = [&](const Photon& photon) {
+    const Vector3d way = Point3d{static_cast<double>(photon.p[0]), static_cast<double>(photon.p[1]),
+                                 static_cast<double>(photon.p[2])} -
+                         p;
+    if (!(dot(way, way) < radius_ * radius_) || std::abs(dot(way, geometric)) > half_height * radius_) return;
+    const std::uint32_t depth = photon.depth & Photon::most_depth;
+    if (path_depth + 1 + depth > max_depth) return;
+    const Vector3d in = -decoded(photon.direction);
+    const double cosine = dot(in, geometric), local_cosine = dot(in, shading);
+    if (!(cosine > 0) || !(local_cosine > 0)) return;
+    double f = local_cosine / (pi * cosine);
+    if (at.sigma_rad > 0)
+      f = 2 * static_cast<double>(eval(grooves, local_out, to_local(in)).value[0]) / cosine;
+    // Of the two that lost the wavelengths but one, each counts it for all.
+    if (path_dispersed && (photon.depth & Photon::dispersed)) f /= hero_count;
+    for (std::size_t i = 0; i < hero_count; ++i) sum[i] += f * static_cast<double>(photon.power[i]);
+  };
+  const auto low = [&](int axis) { return row(axis, p[axis] - radius_); };
+  const auto high = [&](int axis) { return row(axis, p[axis] + radius_); };
+  const std::uint64_t x0 = low(0), x1 = high(0), y1 = high(1), z1 = high(2);
+  for (std::uint64_t z = low(2); z <= z1; ++z)
+    for (std::uint64_t y = low(1); y <= y1; ++y) {
+      const std::uint64_t row_of_cells = (z << cell_bits | y) << cell_bits;
+      auto photon = std::ranges::lower_bound(photons_, row_of_cells | x0, {}, &Placed::cell);
+      for (; photon != photons_.end() && photon->cell <= (row_of_cells | x1); ++photon) add(photon->photon);
+    }
+  SampledSpectrum result;
+  const double density = 1 / (pi * radius_ * radius_);
+  for (std::size_t i = 0; i < hero_count; ++i)
+    result.v[i] = static_cast<float>(static_cast<double>(at.weight[i]) * sum[i] * density);
+  return result;
+}
+
+}  // namespace vitrail

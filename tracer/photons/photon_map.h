@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// The photons of one iteration that landed where a rank answers for them. What is gathered is a function of
+// the photons within the radius alone, to the bit: they are added up in an order of their own (cell, number,
+// depth), whatever else the map holds and in whatever order they came.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "scene/bounds.h"
+#include "tracer/photons/records.h"
+
+namespace vitrail {
+
+class PhotonMap {
+ public:
+  // `most`: photons that there is memory for, 0: no limit.
+  explicit PhotonMap(std::size_t most = 0);
+
+  // Throws MachineError beyond the limit.
+  void add(const Photon& photon);
+  // Puts them in order for `gather`. `bounds` of the scene: the cells' origin.
+  void build(double radius, const Bounds3f& bounds);
+  void clear();
+
+  // Σ f·Φ·|cos θ_s|/|cos θ_g| / (πr²) over the photons in the disc around the point that were scattered less
+  // than `max_depth` times together with its path, θ_s and θ_g from the shading and the surface's normal:
+  // what scatters by the shading normal is lit by the surface's (Veach 1997, §5.3). Times the weight.
+  SampledSpectrum gather(const Gather& at, std::uint32_t max_depth) const;
+
+  std::size_t size() const { return photons_.size(); }
+  static constexpr std::size_t photon_bytes = sizeof(std::uint64_t) + sizeof(Photon);
+
+ private:
+  struct Placed {
+    std::uint64_t cell = 0;
+    Photon photon;
+  };
+  std::uint64_t row(int axis, double coordinate) const;
+
+  std::vector<Placed> photons_;
+  std::size_t most_;
+  double radius_ = 0, edge_ = 1;
+  Point3d origin_;
+};
+
+}  // namespace vitrail

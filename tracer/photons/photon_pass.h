@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// What one iteration of photon mapping is to the tracer: first photons fly, then paths gather them.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "tracer/lights/emission.h"
+#include "tracer/photons/photon_map.h"
+#include "tracer/sampler.h"
+#include "tracer/wavelengths.h"
+
+namespace vitrail {
+
+struct PhotonPass {
+  std::uint32_t iteration = 0;  // the sample of all pixels
+  std::uint64_t photons = 0;    // in it
+  double radius = 0;
+  float wavelength_number = 0;  // of all of its photons and paths
+  SampledWavelengths wavelengths;
+  double power_w_nm = 0;  // of a photon whose throughput is 1
+  bool flying = false;    // records are of photons; else of paths, which gather
+
+  const Emission* emission = nullptr;
+  const PhotonMap* map = nullptr;
+  // Of the domains whose cell a point may lie in, 1: the map knows of all photons about. Empty: of all.
+  const std::vector<std::uint8_t>* answers = nullptr;
+};
+
+// Of a photon: the sequence is stratified over the photons of an iteration.
+inline SampleKey photon_key(std::uint64_t seed, std::uint32_t iteration, std::uint32_t number) {
+  constexpr std::uint64_t apart_from_paths = 0x9c5d1ab7f20e4c61u;
+  return {mix(seed ^ apart_from_paths), iteration, number};
+}
+// Which wavelengths an iteration has, for sample_wavelengths. All four are shared by the whole picture, so
+// they are stratified over the iterations together: one number places them in their quarters, another says
+// whose is the hero.
+inline float wavelength_number(std::uint64_t seed, std::uint32_t iteration) {
+  constexpr std::uint64_t apart = 0x51a7e5d0c3b92f87u;
+  const std::array<float, 4> u = sample_4d({mix(seed ^ apart), 0, iteration}, sample_set::camera);
+  return std::min(u[0] / 4 + std::floor(4 * u[1]) / 4, 0x1.fffffep-1f);
+}
+
+}  // namespace vitrail
