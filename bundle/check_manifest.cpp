@@ -180,6 +180,9 @@ void check_lights(const Checker& c, const Manifest& m) {
   for (const Light& light : m.lights)
     if (const auto* distant = std::get_if<DistantLight>(&light.model))
       c.require(length(distant->direction) > 0, "a distant light has no direction");
+  for (const Light& light : m.lights)
+    if (const auto* sky = std::get_if<SkyLight>(&light.model))
+      c.require(std::abs(length(sky->to_sun) - 1) < 1e-6 && sky->sun_diameter_deg > 0, "a sky has no sun");
 }
 
 void check_media(const Checker& c, const Manifest& m) {

@@ -161,14 +161,11 @@ ConversionCounts count(const std::vector<ConversionItem>& items) {
 
 void write_conversion_report(const std::filesystem::path& file, const std::filesystem::path& in,
                              const std::filesystem::path& out, const std::string& quadrics,
-                             const nlohmann::ordered_json& pictures,
+                             const std::vector<std::string>& options, const nlohmann::ordered_json& pictures,
                              const std::vector<ConversionItem>& items) {
   const ConversionCounts counts = count(items);
-  Json report{{"input", in.string()},
-              {"output", out.string()},
-              {"quadrics", quadrics},
-              {"exact", counts.exact},
-              {"approximated", counts.approximated},
+  Json report{{"input", in.string()},     {"output", out.string()}, {"options", options},
+              {"quadrics", quadrics},     {"exact", counts.exact},  {"approximated", counts.approximated},
               {"dropped", counts.dropped}};
   if (!pictures.is_null()) report["pictures"] = pictures;
   report["items"] = Json::array();

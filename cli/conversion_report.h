@@ -28,12 +28,12 @@ struct ConversionCounts {
 };
 ConversionCounts count(const std::vector<ConversionItem>& items);
 
-// {input, output, quadrics, pictures (of check_conversion.h, where there are some), exact, approximated,
-// dropped, items: [{item, fidelity, file, line, column, notes:
+// {input, output, options, quadrics, pictures (of check_conversion.h, where there are some), exact,
+// approximated, dropped, items: [{item, fidelity, file, line, column, notes:
 // [{fidelity, what, file, line, column}]}]}. Throws MachineError.
 void write_conversion_report(const std::filesystem::path& file, const std::filesystem::path& in,
                              const std::filesystem::path& out, const std::string& quadrics,
-                             const nlohmann::ordered_json& pictures,
+                             const std::vector<std::string>& options, const nlohmann::ordered_json& pictures,
                              const std::vector<ConversionItem>& items);
 
 }  // namespace vitrail

@@ -104,7 +104,8 @@ int run(const Arguments& a) {
   nlohmann::ordered_json pictures;
   if (a.check && !refused)
     pictures = compare_pictures(a.input, reading_options(a), a.output, imported.scene.film);
-  if (!a.report.empty()) write_conversion_report(a.report, a.input, a.output, quadrics, pictures, items);
+  if (!a.report.empty())
+    write_conversion_report(a.report, a.input, a.output, quadrics, reading_options(a), pictures, items);
   if (!a.quiet) {
     say("{}", summarise(diagnostics));
     const ConversionCounts counts = count(items);
@@ -119,21 +120,22 @@ int run(const Arguments& a) {
 
 int run_many(const Arguments& a) {
   if (a.output.empty()) throw UsageError("--to needs the folder for all: -o FOLDER");
+  if (a.check) require_checkable("scene." + a.format);
   if (!a.report.empty()) throw UsageError("--to gives every scene its report: leave --report out");
-  ManyConversions many{a.files, a.output, a.format, a.at_once, a.again, a.check, a.quiet, reading_options(a)};
+  ManyConversions many{a.files, a.output, a.format, a.at_once,         a.again,
+                       a.check, a.strict, a.quiet,  reading_options(a)};
   if (many.at_once == 0) many.at_once = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-  if (a.strict) many.options.push_back("--strict");
   return convert_many(many);
 }
 
 int run_one(Arguments a) {
   if (a.again || a.at_once != 0) throw UsageError("--again and --jobs belong to --to");
-  if (a.output.empty() && a.files.size() == 2) {
-    a.output = a.files.back();
-    a.files.pop_back();
-  }
-  if (a.files.size() != 1 || a.output.empty())
-    throw UsageError("takes a scene and what it becomes, or scenes, --to FORMAT and -o FOLDER");
+  const std::size_t most = a.output.empty() ? 2 : 1;
+  if (a.files.size() > most)
+    throw UsageError(fmt::format("'{}' is one argument too many; many scenes take --to FORMAT and -o FOLDER",
+                                 a.files[most].string()));
+  if (a.output.empty() && a.files.size() == 1) throw UsageError("takes a scene and what it becomes");
+  if (a.output.empty()) a.output = a.files.back();
   a.input = a.files.front();
   return run(a);
 }

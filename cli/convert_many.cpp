@@ -34,12 +34,14 @@ struct Conversion {
 
 using Json = nlohmann::ordered_json;
 
-// Of a conversion that is at its end, and of the scene as it is now.
-std::optional<Json> report_of(const Conversion& c) {
+// Of a conversion that is at its end, of the scene's file as it is now.
+std::optional<Json> report_of(const Conversion& c, const ManyConversions& many) {
   std::error_code missing;
   const auto written = fs::last_write_time(c.report, missing);
   if (missing || !fs::exists(c.output) || written <= fs::last_write_time(c.input)) return {};
-  return Json::parse(std::ifstream(c.report));
+  Json report = Json::parse(std::ifstream(c.report));
+  if (report.at("options") != Json(many.options) || (many.check && !report.contains("pictures"))) return {};
+  return report;
 }
 
 bool looks_different(const Json& report) {
@@ -91,10 +93,10 @@ void convert(const Conversion& c, const ManyConversions& many, Outcomes& outcome
                                  "--quiet"};
   words.insert(words.end(), many.options.begin(), many.options.end());
   if (many.check) words.push_back("--check");
+  if (many.strict) words.push_back("--strict");
   try {
     std::optional<Json> report;
-    if (!many.again) report = report_of(c);
-    if (report && many.check && !report->contains("pictures")) report.reset();
+    if (!many.again) report = report_of(c, many);
     const char* when = report ? "converted already: " : "";
     if (!report) {
       fs::create_directories(c.output.parent_path());
@@ -102,8 +104,12 @@ void convert(const Conversion& c, const ManyConversions& many, Outcomes& outcome
       run_program("vitrail-convert", words);
       report = Json::parse(std::ifstream(c.report));
     }
+    if (many.strict && (report->at("approximated") != 0 || report->at("dropped") != 0))
+      return outcomes.add(c, exit_bad_input, "refused: " + in_words(*report));
     outcomes.add(c, looks_different(*report) ? exit_differs : exit_done, when + in_words(*report));
   } catch (const Error&) {
+    outcomes.add(c, exit_bad_input, "refused");
+  } catch (const UsageError&) {  // options that are not of its format
     outcomes.add(c, exit_bad_input, "refused");
   } catch (const MachineError& e) {
     outcomes.add(c, exit_machine, e.what());
@@ -113,7 +119,7 @@ void convert(const Conversion& c, const ManyConversions& many, Outcomes& outcome
 }  // namespace
 
 int convert_many(const ManyConversions& many) {
-  const std::vector<FoundScene> scenes = find_scenes(many.inputs);
+  const std::vector<FoundScene> scenes = find_scenes(many.inputs, many.folder);
   if (scenes.empty()) throw UsageError("there is no scene to convert");
   const std::vector<fs::path> names = converted_names(scenes, many.format);
   Outcomes outcomes(scenes.size(), many.quiet);

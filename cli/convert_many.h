@@ -14,14 +14,14 @@ struct ManyConversions {
   std::string format;                         // "xml": the extension
   int at_once = 1;
   bool again = false;  // also what is converted already
-  bool check = false, quiet = false;
-  std::vector<std::string> options;  // of each
+  bool check = false, strict = false, quiet = false;
+  std::vector<std::string> options;  // of reading each
 };
 
 // Beside each output comes its report, NAME.report.json, last: a scene whose report is younger than its own
-// file is converted already, and the rest of a list that was interrupted is what is left. What one scene is
-// refused for does not keep the others. Returns the exit status that is the worst of all: machine, bad input,
-// differs, done.
+// file and of the same options is converted already, and the rest of a list that was interrupted is what is
+// left. What one scene is refused for does not keep the others. Returns the exit status that is the worst of
+// all: machine, bad input, differs, done.
 int convert_many(const ManyConversions& many);
 
 }  // namespace vitrail

@@ -196,6 +196,9 @@ int main(int argc, char** argv) {
     if (!with_variance) picture.variance = {};
     if (tone == "aces") picture.rgb = aces_tone_mapped(picture.rgb);
     if (!false_color.empty()) {
+      const double ratio = sum.film.imaging_ratio();  // of the scene's camera: its exposure is not light
+      if (!(ratio > 0)) throw Error("an exposure of 0 leaves no luminances", {sum.file.string()});
+      for (float& value : picture.rgb.values) value = static_cast<float>(static_cast<double>(value) / ratio);
       picture.rgb = false_colored(picture.rgb, parse_false_color(false_color, logarithmic));
       picture.window = {0, picture.rgb.width, 0, picture.rgb.height};
       picture.full_width = picture.rgb.width, picture.full_height = picture.rgb.height;

@@ -237,7 +237,12 @@ Report inspect_film(const std::filesystem::path& file) {
           {"glazing", glazing_of(progress)},
           {"made_by", to_string(film.key().renderer)},
           {"max_depth", film.key().max_depth},
-          {"integrator", film.key().direct_only ? "direct" : "path"},
+          {"integrator", film.key().direct_only           ? "direct"
+                         : film.key().photons.photons > 0 ? "photon"
+                                                          : "path"},
+          {"photons", film.key().photons.photons},
+          {"photon_radius", film.key().photons.first_radius},
+          {"photon_alpha", film.key().photons.alpha},
           {"straight_counts", film.key().straight_counts},
           {"clamp", film.key().clamp},
           {"clamped_share", film.clamped_share()},

@@ -84,12 +84,10 @@ int render_job(const CLI::App& app, Transport& transport, RenderArguments& a) {
   a.options.bundle = a.is_bundle() ? a.input : beside_the_film;
   std::optional<TemporaryBundle> temporary;
   if (!a.is_bundle()) temporary.emplace(transport, a.input, beside_the_film, partition_arguments(a));
-  if (!a.settings.empty()) {
-    agree(transport, [&] {
-      if (first) set_glazing(a);
-    });
-    share_from_root(transport, a.options.sheets);
-  }
+  agree(transport, [&] {
+    if (first && !a.settings.empty()) set_glazing(a);
+  });
+  share_from_root(transport, a.options.sheets);
   agree(transport, [] {
     if (stop_signal()) throw Interrupted(stop_signal(), "interrupted before rendering began");
   });
@@ -99,6 +97,7 @@ int render_job(const CLI::App& app, Transport& transport, RenderArguments& a) {
     a.options.after_checkpoint = [&](const fs::path& checkpoint) { preview->develop(checkpoint); };
   }
   const RenderStats stats = render(transport, a.options);
+  preview.reset();  // the picture is the last
   agree(transport, [&] { require_unsaturated(stats.refused, a.options.film); });
   const int signal = number_of(stats.ending);
   if (!first) return signal ? 128 + signal : exit_done;
@@ -121,10 +120,6 @@ int guarded_job(const CLI::App& app, Transport& transport, RenderArguments& a) {
   } catch (const OtherRankFailed& failed) {
     if (stop_signal()) return 128 + stop_signal();
     return failed.bad_input ? exit_bad_input : exit_machine;
-  } catch (const SilentRanks& silent) {
-    say("vitrail: {}{}\n", who, silent.what());
-    transport.abandon(exit_machine);
-    return exit_machine;
   } catch (const Interrupted&) {
     throw;
   } catch (const Error& error) {

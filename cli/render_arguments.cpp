@@ -53,10 +53,10 @@ void declare(CLI::App& app, RenderArguments& a) {
   app.add_option("--seed", o.seed, "films of different seeds are independent")
       ->check(not_below_0)
       ->capture_default_str();
-  app.add_option(
-         "--integrator", a.integrator,
-         "path; direct: light from lamps alone, also through glass and by mirrors; or photon: photon mapping, "
-         "for caustics; default: as the scene says")
+  app.add_option("--integrator", a.integrator,
+                 "path; direct: light from lamps alone, also through glass and by mirrors; or photon: photon "
+                 "mapping, "
+                 "for caustics; default: as the scene says")
       ->check(CLI::IsMember({"path", "direct", "photon"}));
   app.add_option("--set", a.settings,
                  "NAME.state=0.6: glass that switches in another state, without partitioning again; also "

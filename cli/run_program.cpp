@@ -59,6 +59,8 @@ int run_program(const std::string& name, const std::vector<std::string>& argumen
     return WEXITSTATUS(status);
   if (WIFSIGNALED(status) && (WTERMSIG(status) == SIGINT || WTERMSIG(status) == SIGTERM))
     throw Interrupted(WTERMSIG(status), name + " was interrupted");
+  if (WIFEXITED(status) && WEXITSTATUS(status) == exit_usage)
+    throw UsageError(name + " was given wrong options");
   if (WIFEXITED(status) && WEXITSTATUS(status) == exit_bad_input) throw Error(name + " refused its input");
   throw MachineError(name + " failed");
 }

@@ -36,9 +36,14 @@ bool is_whole_scene(const fs::path& file) {
   return file.extension() == ".xml" && has_any_of(file, {"<sensor", "<camera"});
 }
 
+bool lies_in(const fs::path& file, const fs::path& folder) {
+  const fs::path from_there = fs::weakly_canonical(file).lexically_relative(fs::weakly_canonical(folder));
+  return !from_there.empty() && *from_there.begin() != "..";
+}
+
 }  // namespace
 
-std::vector<FoundScene> find_scenes(const std::vector<fs::path>& inputs) {
+std::vector<FoundScene> find_scenes(const std::vector<fs::path>& inputs, const fs::path& results) {
   std::vector<FoundScene> scenes;
   for (const fs::path& input : inputs) {
     if (!fs::exists(input)) throw UsageError("there is no " + input.string());
@@ -49,7 +54,8 @@ std::vector<FoundScene> find_scenes(const std::vector<fs::path>& inputs) {
     std::vector<fs::path> files;
     for (const fs::directory_entry& entry :
          fs::recursive_directory_iterator(input, fs::directory_options::skip_permission_denied))
-      if (entry.is_regular_file() && is_whole_scene(entry.path())) files.push_back(entry.path());
+      if (entry.is_regular_file() && !lies_in(entry.path(), results) && is_whole_scene(entry.path()))
+        files.push_back(entry.path());
     std::ranges::sort(files);
     for (const fs::path& file : files) scenes.push_back({file, file.lexically_relative(input)});
   }

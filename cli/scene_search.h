@@ -15,8 +15,10 @@ struct FoundScene {
 
 // A file is itself. A folder is searched with all below it for whole scenes, in alphabetical order: .pbrt
 // files with a WorldBegin, .xml files with a sensor; what these include, and OBJ and PLY files, which are
-// mostly parts of scenes, count only where they are named. Throws UsageError for what is not there.
-std::vector<FoundScene> find_scenes(const std::vector<std::filesystem::path>& inputs);
+// mostly parts of scenes, count only where they are named; so does what lies in `results`. Throws UsageError
+// for what is not there.
+std::vector<FoundScene> find_scenes(const std::vector<std::filesystem::path>& inputs,
+                                    const std::filesystem::path& results);
 
 // name.pbrt → name.xml for "xml"; where two scenes would become one file, name.pbrt.xml. Those of equal names
 // from different folders throw UsageError.

@@ -46,14 +46,23 @@ int run_once(const std::vector<std::string>& command) {
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
+  // A signal between the fork and the note of whom to pass it on to would reach nobody.
+  sigset_t passed, before;
+  ::sigemptyset(&passed);
+  for (const int number : {SIGTERM, SIGINT, SIGUSR1}) ::sigaddset(&passed, number);
+  ::sigprocmask(SIG_BLOCK, &passed, &before);
   const pid_t process = ::fork();
   if (process == 0) {
+    for (const int number : {SIGTERM, SIGINT, SIGUSR1}) std::signal(number, SIG_DFL);
+    ::sigprocmask(SIG_SETMASK, &before, nullptr);
     ::prctl(PR_SET_PDEATHSIG, SIGTERM);
     ::execvp(argv[0], argv.data());
     ::_exit(127);
   }
+  if (process < 0) ::sigprocmask(SIG_SETMASK, &before, nullptr);
   if (process < 0) throw MachineError("no process can be made");
   child = process;
+  ::sigprocmask(SIG_SETMASK, &before, nullptr);
   int status = 0;
   while (::waitpid(process, &status, 0) < 0 && errno == EINTR) {
   }

@@ -33,7 +33,7 @@ FilmProgress progress_of(const WorkPlan& plan, const std::vector<std::uint64_t>&
   }
   for (std::size_t i = 0; i + 1 < plan.parts.size(); ++i) progress.earlier_ends.push_back(plan.parts[i].end);
   if (!progress.complete() || progress.earlier_ends.empty()) return progress;
-  progress.items = make_work_plan(plan.crop, plan.samples()).items();
+  progress.items = make_work_plan(plan.crop, plan.samples(), {}, plan.one_by_one).items();
   progress.done = all_done(progress.items);
   progress.earlier_ends.clear();
   return progress;

@@ -35,12 +35,12 @@ struct RenderOptions {
   std::optional<int> max_depth;
   std::optional<bool> direct_only;
   std::optional<PhotonOptions> photons;  // empty: no photon mapping
-  double threshold = 0;              // FilmKey::threshold, where only direct light is asked for
-  std::vector<SetSheet> sheets;      // in place of the bundle's; of all ranks the same
-  std::string glazing;               // how they were asked for: "window.state=0.6"; empty: not at all
-  std::optional<int> width, height;  // one of them alone: in the scene's proportions
-  double scale = 1;                  // of both, where neither is given
-  std::filesystem::path sensors;     // measured in place of the picture (scene/sensor_file.h); empty: none
+  double threshold = 0;                  // FilmKey::threshold, where only direct light is asked for
+  std::vector<SetSheet> sheets;          // in place of the bundle's; of all ranks the same
+  std::string glazing;                   // how they were asked for: "window.state=0.6"; empty: not at all
+  std::optional<int> width, height;      // one of them alone: in the scene's proportions
+  double scale = 1;                      // of both, where neither is given
+  std::filesystem::path sensors;  // measured in place of the picture (scene/sensor_file.h); empty: none
   std::optional<PixelRect> crop;
   std::optional<SpectralBins> bins;
   double clamp = 0;                     // FilmKey::clamp

@@ -13,6 +13,11 @@ PhotonKey photons_of(const RenderOptions& options, const Manifest& m) {
   if (m.requirements.media)
     throw UsageError(
         "--integrator photon has no photons in media, and the scene has some: --integrator path");
+  if (!options.sensors.empty())
+    throw UsageError(
+        "the samples of --sensors would share the photons of --integrator photon, and their errors could not "
+        "be "
+        "told: --integrator path");
   PhotonKey key;
   key.photons = o.photons.value_or(default_photons(m.film));
   key.first_radius = o.first_radius.value_or(default_radius(m, key.photons));
@@ -30,7 +35,7 @@ Point3d eye_of(const Manifest& m) {
 
 }  // namespace
 
-std::size_t most_landed(const PhotonKey& key, std::uint64_t memory_bytes) {
+std::size_t least_room(const PhotonKey& key, std::uint64_t memory_bytes) {
   return memory_bytes == 0 ? 0 : static_cast<std::size_t>(3 * key.photons);
 }
 

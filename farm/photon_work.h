@@ -21,8 +21,8 @@ namespace vitrail {
 // Of the options; photons = 0 where there is no photon mapping. Throws UsageError for what it does not cover.
 PhotonKey photons_of(const RenderOptions& options, const Manifest& manifest);
 
-// What `--memory` sets aside for the photons that land on a rank: three of each that flies.
-std::size_t most_landed(const PhotonKey& key, std::uint64_t memory_bytes);
+// What `--memory` sets aside at least for the photons that land on a rank: three of each that flies.
+std::size_t least_room(const PhotonKey& key, std::uint64_t memory_bytes);
 
 class PhotonWork {
  public:

@@ -10,7 +10,8 @@ RayQueues::RayQueues(std::size_t domains, std::uint64_t most_bytes, std::optiona
   if (shuffle_seed) shuffle_.emplace(*shuffle_seed);
 }
 
-// The last batches are the open ones, one a kind, in any order: paths, shadow rays, and photons or what is asked of them.
+// The last batches are the open ones, one a kind, in any order: paths, shadow rays, and photons or what is
+// asked of them.
 constexpr std::size_t open_batches = 3;
 
 RayBatch& RayQueues::open_batch(std::uint32_t domain, RayKind kind) {

@@ -13,6 +13,7 @@
 #include "farm/render.h"
 #include "farm/signals.h"
 #include "scene/diagnostics.h"
+#include "scene/say.h"
 
 namespace vitrail {
 
@@ -72,8 +73,10 @@ void Rank::start_items(std::vector<std::uint64_t> done) {
     done.resize((state_.plan.items() + 63) / 64);
     mark_empty_items(state_.plan, done);
   }
-  state_.share = share_of(state_.plan, done, transport_.rank(), transport_.size());
-  state_.scheduler.begin_items(state_.share.size());
+  if (!state_.photons) {  // theirs are dealt out an iteration at a time
+    state_.share = share_of(state_.plan, done, transport_.rank(), transport_.size());
+    state_.scheduler.begin_items(state_.share.size());
+  }
   reported_ = 0;
   done_.assign((state_.plan.items() + 63) / 64, 0);
   if (transport_.rank() != 0) return;
@@ -282,11 +285,12 @@ void Rank::watch_ranks() {
   if (step != Watch::Step::give_up) return;
   const std::vector<int> silent = watch_.silent();
   const bool one = silent.size() == 1;
-  throw SilentRanks(
-      fmt::format("{} {} of {} {} not answered for {} s (--patience): the job ends; what its "
-                  "last checkpoint holds is not lost, the same command goes on from there",
-                  one ? "rank" : "ranks", fmt::join(silent, ", "), transport_.size(), one ? "has" : "have",
-                  options_.patience_s));
+  say("vitrail: rank {} of {}: {} {} {} not answered for {} s (--patience): the job ends; what its last "
+      "checkpoint holds is not lost, the same command goes on from there\n",
+      transport_.rank(), transport_.size(), one ? "rank" : "ranks", fmt::join(silent, ", "),
+      one ? "has" : "have", options_.patience_s);
+  constexpr int machine_failed = 4;    // the exit status of that
+  transport_.abandon(machine_failed);  // at once: what stopped them may have stopped this rank's loader too
 }
 
 RoundSums Rank::contribution() {
@@ -415,11 +419,14 @@ void Rank::leave_together() {
     mine.born = static_cast<std::int64_t>(messages_);
     mine.died = static_cast<std::int64_t>(received_);
     transport_.start_round(mine);
+    watch_.round_begins(elapsed_s());
     std::optional<RoundSums> sums;
     while (!(sums = transport_.finish_round())) {
+      watch_ranks();
       while (transport_.receive()) ++received_;
       std::this_thread::sleep_for(shortest_nap);
     }
+    watch_.round_ends();
     if (sums->born == sums->died) return;
   }
 }

@@ -74,8 +74,8 @@ Manifest read_with_overrides(const RenderOptions& options) {
     throw UsageError("an error is estimated from 4 samples a pixel or more: give --spp more than that");
   if (m.settings.max_depth < 0) throw UsageError("the depth must not be negative");
   if (!options.sensors.empty()) put_sensors(m, options);
-  m.settings.max_depth =
-      std::min(m.settings.max_depth, m.settings.direct_only ? max_direct_depth : max_path_depth);
+  m.settings.max_depth = std::min(
+      m.settings.max_depth, m.settings.direct_only || options.photons ? max_direct_depth : max_path_depth);
   resize_film(m, options);
   if (options.crop) m.film.crop = *options.crop;
   if (options.bins) m.film.spectrum = *options.bins;
@@ -198,6 +198,7 @@ RenderStats render(Transport& transport, const RenderOptions& options) {
   MemoryPlan memory;
   std::optional<FilmKeeper> keeper;
   PhotonKey photons;
+  std::size_t most_photons = 0;  // that land here in an iteration; 0: no limit
   agree(transport, [&] {
     job = set_up(options);
     // Refused before it takes the memory.
@@ -208,9 +209,15 @@ RenderStats render(Transport& transport, const RenderOptions& options) {
                            table_bytes(m.domains.size(), threads) + connection_bytes(transport.size());
     stats.setup_peak_rss_bytes = peak_resident_bytes();
     photons = photons_of(options, m);
-    const std::uint64_t photon_bytes = PhotonMap::photon_bytes * most_landed(photons, options.memory_bytes);
-    memory = plan_for(m, options, threads, stats.base_rss_bytes + job->texture_bytes + photon_bytes,
+    most_photons = least_room(photons, options.memory_bytes);
+    memory = plan_for(m, options, threads,
+                      stats.base_rss_bytes + job->texture_bytes + PhotonMap::photon_bytes * most_photons,
                       stats.setup_peak_rss_bytes);
+    // What no domain needs is room for more landings.
+    if (const std::uint64_t all = bytes_of_all(m); most_photons > 0 && memory.domains_bytes > all) {
+      most_photons += (memory.domains_bytes - all) / PhotonMap::photon_bytes;
+      memory.domains_bytes = all;
+    }
     job->film = Film(m.film, key_of(m, options), film_exponent(*job->scene),
                      m.film.layers.any() ? length_exponent(*job->scene) : default_exponent);
     if (transport.rank() == 0 && !options.dry_run) keeper.emplace(options.film, file_bytes(m.film));
@@ -232,8 +239,8 @@ RenderStats render(Transport& transport, const RenderOptions& options) {
       options.bundle);
   state.most_sent_bytes = bounds.being_sent;
   if (photons.photons > 0)
-    state.photons.emplace(*job->scene, photons, most_landed(photons, options.memory_bytes),
-                          home_ranks(manifest, transport.size()), transport.rank(), transport.size());
+    state.photons.emplace(*job->scene, photons, most_photons, home_ranks(manifest, transport.size()),
+                          transport.rank(), transport.size());
   if (transport.rank() == 0 && !options.quiet && manifest.lights.empty() && manifest.area_lights.empty())
     say("vitrail: the scene has no light: its picture is black\n");
   if (!options.profile.empty()) state.traffic.emplace(manifest.domains.size());

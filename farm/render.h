@@ -16,15 +16,10 @@ struct OtherRankFailed : std::runtime_error {
   bool bad_input;
 };
 
-// Some ranks hang: this one says which, and cannot end together with them (Transport::abandon).
-struct SilentRanks : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
-
 // Called by every rank with the same options. Writes the film, or a checkpoint if it is stopped before the
 // end, and the statistics; all on rank 0. The job's statistics are returned on rank 0. Errors end the job on
-// all ranks: the rank that failed throws what happened, the others OtherRankFailed. Throws SilentRanks, on
-// one rank or more.
+// all ranks: the rank that failed throws what happened, the others OtherRankFailed. Where ranks
+// hang, one says which and ends the job at once (Transport::abandon).
 RenderStats render(Transport& transport, const RenderOptions& options);
 
 }  // namespace vitrail

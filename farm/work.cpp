@@ -72,7 +72,7 @@ WorkItem WorkPlan::item(std::uint64_t index) const {
 
 WorkPlan make_work_plan(const PixelRect& crop, std::uint32_t samples,
                         std::span<const std::uint32_t> earlier_ends, bool one_by_one) {
-  WorkPlan plan{crop, {}, {}, {}};
+  WorkPlan plan{crop, {}, {}, {}, one_by_one};
   std::uint32_t first = 0;
   const auto add = [&](std::uint32_t end) {
     // Few enough items that their list stays small, many enough to share and to stop between.

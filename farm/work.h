@@ -30,6 +30,7 @@ struct WorkPlan {
   PixelRect crop;
   std::vector<Part> parts;
   std::vector<std::uint32_t> held, more;  // a pixel of the crop, row by row; empty: all pixels alike
+  bool one_by_one = false;                // an item has one sample of each of its pixels
   static constexpr int tile = 16;         // pixels a side
 
   std::uint32_t samples() const { return parts.back().end; }  // a pixel, at most
@@ -49,7 +50,6 @@ struct WorkPlan {
 };
 
 // `earlier_ends`: the samples a pixel of the renders that it goes on from, ascending, below `samples`.
-// `one_by_one`: an item has one sample of each of its pixels.
 WorkPlan make_work_plan(const PixelRect& crop, std::uint32_t samples,
                         std::span<const std::uint32_t> earlier_ends = {}, bool one_by_one = false);
 

@@ -17,7 +17,6 @@
 
 namespace vitrail {
 
-// Identifies what a film is of. Films of the same key but different seeds merge; a resume needs all equal.
 // Of photon mapping, whose iterations are the samples of all pixels.
 struct PhotonKey {
   std::uint64_t photons = 0;           // an iteration; 0: no photon mapping
@@ -25,6 +24,7 @@ struct PhotonKey {
   bool operator==(const PhotonKey&) const = default;
 };
 
+// Identifies what a film is of. Films of the same key but different seeds merge; a resume needs all equal.
 struct FilmKey {
   std::uint64_t scene_hash = 0;
   std::uint64_t seed = 0;

@@ -18,7 +18,8 @@ struct PathTracer::Shadow {
   std::uint32_t pixel = 0, sample = 0;
 };
 
-// Of Path::depth where only direct light is asked for: the path has scattered, and goes straight on at most.
+// Of Path::depth where only direct light is asked for, or photons bring the rest: the path has scattered, and
+// goes straight on at most.
 inline constexpr std::uint32_t scattered_once = 1u << 16;
 
 struct PathTracer::Path {

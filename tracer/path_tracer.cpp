@@ -127,6 +127,7 @@ void PathTracer::leave_sensor(Path& path, const Sensor& sensor) {
   const Vector3d x = normalize(cross(std::abs(n.x) < 0.5 ? Vector3d{1, 0, 0} : Vector3d{0, 1, 0}, n));
   path.pdf = density_beside(cosine / pi, candidates);
   ++path.depth;
+  if (manifest_.settings.direct_only) path.depth |= scattered_once;
   depart(path, from, x * disk.x + cross(n, x) * disk.y + n * cosine);
 }
 

@@ -100,8 +100,12 @@ bool PathTracer::shade_photon(Path& path) {
     pass_straight(path, at, &surface);
     return true;
   }
-  // Through a surface f(out, in) is not f(in, out).
-  if (!chosen->specular && out.z * chosen->in.z < 0)
+  // Through a surface f(out, in) is not f(in, out): light that is refracted is not compressed as radiance is.
+  const bool through = out.z * chosen->in.z < 0;
+  if (const auto* glass = std::get_if<DielectricBsdf>(&scattering->bsdf);
+      glass && through && chosen->specular)
+    weight = weight * static_cast<float>(out.z > 0 ? glass->eta * glass->eta : 1 / (glass->eta * glass->eta));
+  else if (through && !chosen->specular)
     weight = eval(scattering->bsdf, chosen->in, out).value *
              static_cast<float>(std::abs(chosen->in.z / out.z) / chosen->pdf);
   Vector3d direction = scattering->frame.to_world(chosen->in);
@@ -115,7 +119,7 @@ bool PathTracer::shade_photon(Path& path) {
                     adjoint_of_shading(at, scattering->frame.normal, direction);
   if (is_black(path.throughput)) return false;
   path.sample |= photon_scattered;
-  path.pdf = chosen->specular ? 0 : static_cast<float>(chosen->pdf);
+  path.pdf = chosen->specular ? 0 : density_beside(chosen->pdf, 1);  // as its record says
   if (!go_on(path, u[3], chosen->specular)) return false;
   continue_from(path, at, surface, direction);
   return true;

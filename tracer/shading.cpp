@@ -209,9 +209,7 @@ bool PathTracer::go_on(Path& path, float u, bool specular, bool gathered) const 
     }
     return true;
   }
-  if (gathered) {
-    path.depth = static_cast<std::uint32_t>(manifest_.settings.max_depth);
-  } else if (manifest_.settings.direct_only) {
+  if (gathered || manifest_.settings.direct_only) {
     path.depth |= scattered_once;
   } else if (path.depth > roulette_depth) {
     const float brightest = max_value(path.throughput) * (path.is(path_dispersed) ? 1.0f / hero_count : 1.0f);

@@ -19,6 +19,8 @@ SunPosition read_sun_position(const Object& o, const Report& report) {
   time.hour = o.number("hour", time.hour, report) + o.number("minute", 0, report) / 60 +
               o.number("second", 0, report) / 3600;
   time.timezone_h = o.number("timezone", time.timezone_h, report);
+  constexpr int furthest = 9999;
+  if (std::abs(time.year) > furthest) report.fail("the year has to be within ±9999", o.origin);
   const double latitude = o.number("latitude", 35.6894, report),
                longitude = o.number("longitude", 139.6917, report);
   return sun_position(time, {latitude, longitude});

@@ -130,22 +130,24 @@ TEST_F(Convert, ManyScenesBecomeOneFormat) {
   write("in/part.pbrt", triangle_);  // no scene of its own
   write("in/deep/b.pbrt", "WorldBegin\n" + triangle_);
   write("in/deep/broken.pbrt", "WorldBegin\nShape\n");
-  const std::string command = path("in") + " --to xml -o " + path("out");
+  const std::string command = path("in") + " --to xml -o " + path("in/out");
   const auto result = convert(command);
   EXPECT_EQ(result.status, 3) << result.output;
   EXPECT_THAT(result.output, HasSubstr("broken.pbrt:"));
   EXPECT_THAT(result.output, HasSubstr("3 scenes: 2 converted, 0 that look different, 1 refused, 0 failed"));
-  EXPECT_TRUE(std::filesystem::exists(folder_ / "out/a.xml"));
-  EXPECT_FALSE(std::filesystem::exists(folder_ / "out/part.xml"));
-  EXPECT_EQ(test::read_json(folder_ / "out/deep/b.report.json").at("dropped"), 0);
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "in/out/a.xml"));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "in/out/part.xml"));
+  EXPECT_EQ(test::read_json(folder_ / "in/out/deep/b.report.json").at("dropped"), 0);
 
-  std::filesystem::remove(folder_ / "out/a.report.json");  // as if it had been ended there
+  std::filesystem::remove(folder_ / "in/out/a.report.json");  // as if it had been ended there
   write("in/deep/broken.pbrt", "WorldBegin\n" + triangle_);
   const auto again = convert(command);
   EXPECT_EQ(again.status, 0) << again.output;
   EXPECT_THAT(again.output, HasSubstr("b.xml: converted already"));
   EXPECT_THAT(again.output, ::testing::Not(HasSubstr("a.xml: converted already")));
   EXPECT_THAT(convert(command + " --again").output, ::testing::Not(HasSubstr("already")));
+  EXPECT_THAT(convert(command + " --tessellate 5").output, ::testing::Not(HasSubstr("already")));
+  for (int i = 0; i < 2; ++i) EXPECT_EQ(convert(command + " --strict").status, 3);
 }
 
 TEST_F(Convert, ScenesOfOneNameKeepTheirExtensions) {

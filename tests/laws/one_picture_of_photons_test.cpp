@@ -8,10 +8,13 @@
 #include <signal.h>
 
 #include <chrono>
+#include <fstream>
+#include <iterator>
 #include <thread>
 
 #include "tests/support/background.h"
 #include "tests/support/command.h"
+#include "tests/support/png.h"
 #include "tests/support/temporary_directory.h"
 
 namespace vitrail::test {
@@ -21,11 +24,24 @@ using namespace std::chrono_literals;
 
 class OnePictureOfPhotons : public ::testing::Test {
  protected:
+  // The box with an image on its block that is looked up by a photon's footprint.
   void SetUp() override {
+    write_png(directory_ / "image.png", 4, 4, 1,
+              {0, 90, 250, 40, 180, 20, 70, 255, 5, 130, 240, 60, 200, 15, 99, 30});
+    std::ifstream in(VITRAIL_SOURCE_DIR "/examples/cornell-box/cornell-box.pbrt");
+    std::string text((std::istreambuf_iterator<char>(in)), {});
+    const std::string block = "  NamedMaterial \"white\"\n  Translate -0.36";
+    const std::size_t at = text.find(block);
+    ASSERT_NE(at, std::string::npos);
+    text.replace(
+        at, block.size(),
+        "  Texture \"image\" \"spectrum\" \"imagemap\" \"string filename\" \"image.png\" \"string filter\" "
+        "\"trilinear\"\n  Material \"diffuse\" \"texture reflectance\" \"image\"\n  Translate -0.36");
+    std::ofstream(directory_ / "box.pbrt") << text;
     for (const int domains : {1, 8, 64}) {
       const CommandResult made =
-          run(fmt::format("{} '{}/examples/cornell-box/cornell-box.pbrt' -o '{}' --domains {} --quiet",
-                          vitrail("partition"), VITRAIL_SOURCE_DIR, bundle(domains), domains));
+          run(fmt::format("{} '{}' -o '{}' --domains {} --quiet", vitrail("partition"),
+                          (directory_ / "box.pbrt").string(), bundle(domains), domains));
       ASSERT_EQ(made.status, 0) << made.output;
     }
   }
@@ -62,6 +78,18 @@ TEST_F(OnePictureOfPhotons, HoweverItIsRendered) {
   }
   EXPECT_GT(forwarded, 0u);
   EXPECT_GT(evictions, 0u);
+}
+
+// Items stay one iteration each, however many there are.
+TEST_F(OnePictureOfPhotons, ManyIterationsGoOn) {
+  const std::string few = "--photons 300 --threads 1 --crop 0,8,0,8 --spp ";
+  ASSERT_EQ(run(command("long.film", 1, 1, few + "130")).status, 0);
+  ASSERT_EQ(run(command("long.film", 1, 1, few + "300")).status, 0);
+  const CommandResult again = run(command("long.film", 1, 1, few + "300"));
+  EXPECT_EQ(again.status, 0) << again.output;
+  const std::string hash = stats("long.film")["film_hash"];
+  ASSERT_EQ(run(command("at-once.film", 1, 1, few + "300")).status, 0);
+  EXPECT_EQ(stats("at-once.film")["film_hash"], hash);
 }
 
 TEST_F(OnePictureOfPhotons, KilledAndContinued) {

@@ -74,6 +74,19 @@ TEST(Photons, AsPathsAsTheRadiusShrinks) {
   EXPECT_NEAR(mean(photon_mapped(scene, 20000, 0.05)) / paths, 1, 0.01);
 }
 
+// Light that connections do not look for, here of a sky that is the same all around, is seen through a sheet
+// by the path that gathers, as no photon that came straight is kept.
+TEST(Photons, ASkyBehindASheet) {
+  Scene scene;
+  add_shape(scene, square(scene, 0, 2), Material{DiffuseMaterial{ConstantSpectrum{0.5f}}});
+  add_shape(scene, square(scene, 0.5f, 2), Material{ThinDielectricMaterial{}});
+  scene.lights.push_back({InfiniteLight{ConstantSpectrum{1}}, {}});
+  look_along(scene, {0, 0, 1}, {}, 0.01);
+  const double paths = mean(render(scene, 1024));
+  EXPECT_GT(paths, 0.3);
+  EXPECT_NEAR(mean(photon_mapped(scene, 20000, 0.25)) / paths, 1, 0.02);
+}
+
 // A slanted block of glass, without and with dispersion: refraction, total reflection, shading by what comes
 // through, and photons that keep one wavelength.
 TEST(Photons, AsPathsBehindGlass) {

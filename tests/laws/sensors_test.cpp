@@ -79,6 +79,20 @@ TEST(Sensors, RectangularLamp) {
   }
 }
 
+// Direct light passes a pane once, straight, whichever way a lamp is found; a path is bent by it, and finds
+// nearly the same.
+TEST(Sensors, ALampBehindGlassCountsOnce) {
+  Scene scene = with_sensors({{{0, 0, 0}, {0, 0, 1}}});
+  scene.settings.max_depth = 8;
+  add_shape(scene, add_quads(scene, box_faces({-20, -20, 0.5f}, {20, 20, 0.51f})),
+            Material{DielectricMaterial{}});
+  add_shape(scene, add_quads(scene, {{{{-1, -1, 1}, {-1, 1, 1}, {1, 1, 1}, {1, -1, 1}}}}), black,
+            AreaLight{ConstantSpectrum{10}});
+  const double path = measure(scene, 4096)[0].illuminance_lx.mean;
+  scene.settings.direct_only = true;
+  expect("behind glass", measure(scene, 1024)[0].illuminance_lx, path, 0.01);
+}
+
 // A round lamp of radius r, its centre at distance 1 along the normal of a sensor, or seen at grazing angle:
 // E = π L r²/(1 + r²) and, wholly before the sensor at the angle θ, times cos θ.
 TEST(Sensors, DiscFacingAndGrazing) {

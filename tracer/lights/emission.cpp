@@ -78,12 +78,10 @@ EmittedPhoton Emission::sample(const std::array<float, 4>& place, const std::arr
     index -= lights_.distant.size();
     if (index < lights_.environments.size()) {
       const Environment& e = lights_.environments[index];
-      const Vector3d to_light =
-          sample_direction(e, static_cast<double>(way[0]), static_cast<double>(way[1]));
+      const Vector3d to_light = sample_direction(e, static_cast<double>(way[0]), static_cast<double>(way[1]));
       const EnvironmentValue value = value_towards(e, to_light, wavelengths);
-      return through_disc(-to_light,
-                          value.radiance * static_cast<float>(value.pdf > 0 ? 1 / value.pdf : 0), place[0],
-                          place[1], way[2]);
+      return through_disc(-to_light, value.radiance * static_cast<float>(value.pdf > 0 ? 1 / value.pdf : 0),
+                          place[0], place[1], way[2]);
     }
     index -= lights_.environments.size();
     const auto& light = std::get<InfiniteLight>(lights_.scene.lights[lights_.infinite[index]].model);
@@ -150,7 +148,8 @@ EmittedPhoton Emission::of_emitter(std::size_t emitter, const std::array<float, 
                                    const SampledWavelengths& wavelengths) const {
   const PointEmitter& e = lights_.emitters[emitter];
   const auto* spot = std::get_if<PointEmitter::Spot>(&e.shape);
-  const double least_z = spot ? spot->cos_cutoff : -1;
+  // Sheared or scaled, a beam is no cone of the world.
+  const double least_z = spot && e.bounds.theta_o_rad < pi ? spot->cos_cutoff : -1;
   EmittedPhoton photon;
   photon.p = e.position;
   const Vector3d local = uniform_direction(way[0], way[1], least_z);

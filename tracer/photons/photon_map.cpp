@@ -63,7 +63,7 @@ void PhotonMap::build(double radius, const Bounds3f& bounds) {
     if (a.cell != b.cell) return a.cell < b.cell;
     if (a.photon.number != b.photon.number) return a.photon.number < b.photon.number;
     if (a.photon.depth != b.photon.depth) return a.photon.depth < b.photon.depth;
-    return std::memcmp(a.photon.p, b.photon.p, sizeof a.photon.p) < 0;
+    return std::memcmp(&a.photon, &b.photon, sizeof a.photon) < 0;  // through what it passes straight
   });
 }
 
