@@ -9,8 +9,7 @@
 
 #include "film/film.h"
 #include "tests/support/background.h"
-#include "tests/support/command.h"
-#include "tests/support/temporary_directory.h"
+#include "tests/support/partitioned_box.h"
 
 namespace vitrail::test {
 namespace {
@@ -19,15 +18,9 @@ using namespace std::chrono_literals;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-class NothingLost : public ::testing::Test {
+class NothingLost : public PartitionedBox {
  protected:
-  void SetUp() override {
-    const CommandResult made =
-        run(fmt::format("{} '{}/examples/cornell-box/cornell-box.pbrt' -o '{}' --domains 1 --quiet",
-                        vitrail("partition"), VITRAIL_SOURCE_DIR, path("box.vit")));
-    ASSERT_EQ(made.status, 0) << made.output;
-  }
-  std::string path(const std::string& name) const { return (directory_ / name).string(); }
+  NothingLost() : PartitionedBox(1) {}
   std::string line(const std::string& out, const std::string& more) const {
     return fmt::format("{} '{}' -o '{}' --crop 0,32,0,32 --threads 1 --stats '{}' {}", vitrail("render"),
                        path("box.vit"), path(out), path("stats.json"), more);
@@ -45,8 +38,6 @@ class NothingLost : public ::testing::Test {
     std::ifstream in(directory_ / name);
     return {std::istreambuf_iterator<char>(in), {}};
   }
-
-  TemporaryDirectory directory_;
 };
 
 TEST_F(NothingLost, AFilmOfOtherWorkIsKept) {

@@ -9,8 +9,7 @@
 
 #include "film/film.h"
 #include "tests/support/background.h"
-#include "tests/support/command.h"
-#include "tests/support/temporary_directory.h"
+#include "tests/support/partitioned_box.h"
 
 namespace vitrail::test {
 namespace {
@@ -19,15 +18,9 @@ namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 using ::testing::HasSubstr;
 
-class ChangedFiles : public ::testing::Test {
+class ChangedFiles : public PartitionedBox {
  protected:
-  void SetUp() override {
-    const CommandResult made =
-        run(fmt::format("{} '{}/examples/cornell-box/cornell-box.pbrt' -o '{}' --domains 4 --quiet",
-                        vitrail("partition"), VITRAIL_SOURCE_DIR, path("box.vit")));
-    ASSERT_EQ(made.status, 0) << made.output;
-  }
-  std::string path(const std::string& name) const { return (directory_ / name).string(); }
+  ChangedFiles() : PartitionedBox(4) {}
   std::string line(const std::string& out) const {
     return fmt::format("{} '{}' -o '{}' --crop 0,64,0,64 --spp 256 --threads 1 --checkpoint-every .1 --quiet",
                        vitrail("render"), path("box.vit"), path(out));
@@ -51,8 +44,6 @@ class ChangedFiles : public ::testing::Test {
     result.output.assign(std::istreambuf_iterator<char>(said), {});
     return result;
   }
-
-  TemporaryDirectory directory_;
 };
 
 TEST_F(ChangedFiles, ChangedInPlaceEndsTheJob) {

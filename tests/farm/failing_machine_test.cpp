@@ -5,23 +5,16 @@
 #include <gtest/gtest.h>
 
 #include "film/film.h"
-#include "tests/support/command.h"
-#include "tests/support/temporary_directory.h"
+#include "tests/support/partitioned_box.h"
 
 namespace vitrail::test {
 namespace {
 
 using ::testing::HasSubstr;
 
-class FailingMachine : public ::testing::Test {
+class FailingMachine : public PartitionedBox {
  protected:
-  void SetUp() override {
-    const CommandResult made =
-        run(fmt::format("{} '{}/examples/cornell-box/cornell-box.pbrt' -o '{}' --domains 2 --quiet",
-                        vitrail("partition"), VITRAIL_SOURCE_DIR, path("box.vit")));
-    ASSERT_EQ(made.status, 0) << made.output;
-  }
-  std::string path(const std::string& name) const { return (directory_ / name).string(); }
+  FailingMachine() : PartitionedBox(2) {}
   std::string arguments(const std::string& out, const std::string& more) const {
     return fmt::format("'{}' -o '{}' --crop 0,32,0,32 --threads 1 {} {}", path("box.vit"), out,
                        more.find("--spp") == std::string::npos ? "--spp 4" : "", more);
@@ -29,8 +22,6 @@ class FailingMachine : public ::testing::Test {
   std::string line(const std::string& out, const std::string& more) const {
     return vitrail("render ") + arguments(path(out), more);
   }
-
-  TemporaryDirectory directory_;
 };
 
 TEST_F(FailingMachine, FullOrClosedStreamsLoseNothing) {

@@ -8,8 +8,7 @@
 
 #include "film/film.h"
 #include "tests/support/background.h"
-#include "tests/support/command.h"
-#include "tests/support/temporary_directory.h"
+#include "tests/support/partitioned_box.h"
 
 namespace vitrail::test {
 namespace {
@@ -18,15 +17,9 @@ namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 using ::testing::HasSubstr;
 
-class Launchers : public ::testing::Test {
+class Launchers : public PartitionedBox {
  protected:
-  void SetUp() override {
-    const CommandResult made =
-        run(fmt::format("{} '{}/examples/cornell-box/cornell-box.pbrt' -o '{}' --domains 4 --quiet",
-                        vitrail("partition"), VITRAIL_SOURCE_DIR, path("box.vit")));
-    ASSERT_EQ(made.status, 0) << made.output;
-  }
-  std::string path(const std::string& name) const { return (directory_ / name).string(); }
+  Launchers() : PartitionedBox(4) {}
   std::string arguments(const std::string& out, const std::string& more = "") const {
     return fmt::format(" '{}' -o '{}' {} {} --threads 1 --checkpoint-every .1 --quiet {}", path("box.vit"),
                        path(out), more.find("--crop") == std::string::npos ? "--crop 0,64,0,64" : "",
@@ -63,8 +56,6 @@ class Launchers : public ::testing::Test {
     std::ifstream in(fmt::format("/proc/{}/cmdline", pid));
     return {std::istreambuf_iterator<char>(in), {}};
   }
-
-  TemporaryDirectory directory_;
 };
 
 TEST_F(Launchers, TasksOfSrunThatDoNotKnowOfEachOtherAreRefused) {
