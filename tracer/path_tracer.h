@@ -114,6 +114,7 @@ class PathTracer {
   bool scatter_dielectric(Path& path, const Interaction& at, const Surface& surface);
   bool scatter_in_medium(Path& path, Point3d p);
   bool go_on(Path& path, float u, bool specular, bool gathered = false) const;
+  void scatter_straight(Path& path, const Interaction& at, const Surface& surface) const;
   bool passes_at_the_end(Path& path, const Interaction& at, const Surface& surface) const;
   SampledSpectrum straight_through(const Path& path, const Interaction& at, const Surface& surface) const;
   bool is_too_dark(const Path& path) const;

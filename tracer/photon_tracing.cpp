@@ -93,11 +93,7 @@ bool PathTracer::shade_photon(Path& path) {
   if (chosen->specular && chosen->in == -out) {
     path.throughput = path.throughput * weight;
     if (is_black(path.throughput)) return false;
-    if (manifest_.settings.straight_counts)
-      ++path.depth;
-    else
-      path.set(path_passed);
-    pass_straight(path, at, &surface);
+    scatter_straight(path, at, surface);
     return true;
   }
   // Through a surface f(out, in) is not f(in, out): light that is refracted is not compressed as radiance is.
@@ -109,14 +105,14 @@ bool PathTracer::shade_photon(Path& path) {
     weight = eval(scattering->bsdf, chosen->in, out).value *
              static_cast<float>(std::abs(chosen->in.z / out.z) / chosen->pdf);
   Vector3d direction = scattering->frame.to_world(chosen->in);
-  if (!scattering->transmits &&
-      (dot(direction, at.geometric) > 0) != (dot(at.out, at.geometric) * out.z * chosen->in.z > 0)) {
-    if (!chosen->specular || out.z * chosen->in.z <= 0) return false;
-    direction = at.geometric * (2 * dot(at.out, at.geometric)) - at.out;
+  float adjoint = adjoint_of_shading(at, scattering->frame.normal, direction);
+  if (leaves_its_side(*scattering, at, out, *chosen, direction)) {
+    if (!chosen->specular || !(out.z * chosen->in.z > 0)) return false;
+    direction = mirrored(at);
+    adjoint = 1;  // about the surface's own normal
   }
   path.throughput = path.throughput * weight *
-                    static_cast<float>(scattering->bump_shadowing(dot(at.out, at.shading))) *
-                    adjoint_of_shading(at, scattering->frame.normal, direction);
+                    static_cast<float>(scattering->bump_shadowing(dot(at.out, at.shading))) * adjoint;
   if (is_black(path.throughput)) return false;
   path.sample |= photon_scattered;
   path.pdf = chosen->specular ? 0 : density_beside(chosen->pdf, 1);  // as its record says

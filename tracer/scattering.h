@@ -11,6 +11,7 @@
 #include "tracer/bsdf/measured.h"
 #include "tracer/bsdf/plastic.h"
 #include "tracer/bsdf/principled.h"
+#include "tracer/interaction.h"
 
 namespace vitrail {
 
@@ -60,6 +61,19 @@ struct Scattering {
   // What is left of light from a direction that makes this cosine with the surface's smooth normal.
   double bump_shadowing(double cosine) const;
 };
+
+// Whether the shading normal would let the sampled `direction` through the surface, or reflect it into it;
+// `out` in the scattering's frame.
+inline bool leaves_its_side(const Scattering& scattering, const Interaction& at, Vector3d out,
+                            const BsdfSample& chosen, Vector3d direction) {
+  return !scattering.transmits &&
+         (dot(direction, at.geometric) > 0) != (dot(at.out, at.geometric) * out.z * chosen.in.z > 0);
+}
+
+// What a mirror does then: it goes by the surface's own normal.
+inline Vector3d mirrored(const Interaction& at) {
+  return at.geometric * (2 * dot(at.out, at.geometric)) - at.out;
+}
 
 // α² of microfacets among which a normal that a bump has turned, at this cosine to the smooth one, would be
 // usual (Conty Estevez, Lecocq and Stein, "A Microfacet-Based Shadowing Function to Solve the Bump Terminator

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // What happens where a path arrives: in a medium, at a surface, outside of the scene.
+#include "scene/portable_math.h"
 #include "tracer/bsdf/local.h"
 #include "tracer/media/phase.h"
 #include "tracer/path_state.h"
 #include "tracer/path_tracer.h"
 #include "tracer/photon_tracing.h"
-#include "tracer/portable_math.h"
 
 namespace vitrail {
 
@@ -117,28 +117,30 @@ bool PathTracer::shade_surface(Path& path) {
   path.throughput = path.throughput * chosen->weight;
   if (is_black(path.throughput)) return false;
   if (chosen->specular && chosen->in == -out) {
-    if (manifest_.settings.straight_counts)
-      ++path.depth;
-    else
-      path.set(path_passed);
-    pass_straight(path, at, &surface);
+    scatter_straight(path, at, surface);
     return true;
   }
   Vector3d direction = scattering->frame.to_world(chosen->in);
   path.throughput =
       path.throughput * static_cast<float>(scattering->bump_shadowing(dot(direction, at.shading)));
-  // The shading normal must not let light through the surface, nor reflect it into it: for a mirror the
-  // surface's own normal decides then.
-  if (!scattering->transmits &&
-      (dot(direction, at.geometric) > 0) != (dot(at.out, at.geometric) * out.z * chosen->in.z > 0)) {
+  if (leaves_its_side(*scattering, at, out, *chosen, direction)) {
     if (!chosen->specular || out.z * chosen->in.z <= 0) return false;
-    direction = at.geometric * (2 * dot(at.out, at.geometric)) - at.out;
+    direction = mirrored(at);
   }
   path.pdf = chosen->specular ? 0 : density_beside(chosen->pdf, candidates);
   if (!chosen->specular && !(path.pdf > 0)) return false;
   if (!go_on(path, u[3], chosen->specular, gathered)) return false;
   continue_from(path, at, surface, direction);
   return true;
+}
+
+// An event after which the path goes on as it came.
+void PathTracer::scatter_straight(Path& path, const Interaction& at, const Surface& surface) const {
+  if (manifest_.settings.straight_counts)
+    ++path.depth;
+  else
+    path.set(path_passed);
+  pass_straight(path, at, &surface);
 }
 
 // Whether a path that scatters no more goes on to see a lamp behind a surface, as connections to it do: else
