@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "tracer/portable_math.h"
+#include "scene/portable_math.h"
 #include "tracer/wavelengths.h"
 
 namespace vitrail {

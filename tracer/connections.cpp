@@ -5,12 +5,12 @@
 #include <cmath>
 #include <limits>
 
+#include "scene/portable_math.h"
 #include "tracer/bsdf/local.h"
 #include "tracer/connection_code.h"
 #include "tracer/media/phase.h"
 #include "tracer/path_state.h"
 #include "tracer/path_tracer.h"
-#include "tracer/portable_math.h"
 #include "tracer/quadrics/quadric_hits.h"
 #include "tracer/quadrics/quadric_surface.h"
 #include "tracer/rounding.h"

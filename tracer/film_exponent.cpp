@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "film/film.h"
+#include "scene/portable_math.h"
 #include "scene/spectrum.h"
-#include "tracer/portable_math.h"
 #include "tracer/wavelengths.h"
 
 namespace vitrail {

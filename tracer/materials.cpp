@@ -3,10 +3,10 @@
 
 #include <map>
 
+#include "scene/portable_math.h"
 #include "tracer/bsdf/fresnel.h"
 #include "tracer/bsdf/local.h"
 #include "tracer/bsdf_of.h"
-#include "tracer/portable_math.h"
 #include "tracer/wavelengths.h"
 
 namespace vitrail {

@@ -6,8 +6,8 @@
 #include <limits>
 #include <utility>
 
+#include "scene/portable_math.h"
 #include "tracer/path_state.h"
-#include "tracer/portable_math.h"
 #include "tracer/walk.h"
 
 namespace vitrail {

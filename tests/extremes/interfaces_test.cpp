@@ -6,10 +6,10 @@
 #include <boost/multiprecision/mpfr.hpp>
 #include <cmath>
 
+#include "scene/portable_math.h"
 #include "tests/extremes/measure.h"
 #include "tracer/bsdf/fresnel.h"
 #include "tracer/bsdf/local.h"
-#include "tracer/portable_math.h"
 
 namespace vitrail::test {
 namespace {

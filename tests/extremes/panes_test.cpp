@@ -6,9 +6,9 @@
 #include <cmath>
 #include <vector>
 
+#include "scene/portable_math.h"
 #include "tests/extremes/measure.h"
 #include "tracer/bsdf/local.h"
-#include "tracer/portable_math.h"
 
 namespace vitrail::test {
 namespace {

@@ -8,10 +8,10 @@
 
 #include "farm/render.h"
 #include "partitioner/partition.h"
+#include "scene/portable_math.h"
 #include "tests/extremes/measure.h"
 #include "tests/support/command.h"
 #include "tests/support/temporary_directory.h"
-#include "tracer/portable_math.h"
 
 namespace vitrail::test {
 namespace {

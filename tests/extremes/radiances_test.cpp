@@ -5,8 +5,8 @@
 
 #include <cmath>
 
+#include "scene/portable_math.h"
 #include "tests/extremes/measure.h"
-#include "tracer/portable_math.h"
 
 namespace vitrail::test {
 namespace {

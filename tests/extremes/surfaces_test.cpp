@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/portable_math.h"
 #include "tests/extremes/measure.h"
 #include "tracer/bsdf/microfacet.h"
-#include "tracer/portable_math.h"
 #include "tracer/records.h"
 
 namespace vitrail::test {

@@ -8,8 +8,8 @@
 #include <cmath>
 
 #include "scene/named_spectra.h"
+#include "scene/portable_math.h"
 #include "tests/support/render.h"
-#include "tracer/portable_math.h"
 
 namespace vitrail::test {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "tracer/portable_math.h"
+#include "scene/portable_math.h"
 
 namespace vitrail::test {
 

@@ -4,8 +4,8 @@
 
 #include "scene/color.h"
 #include "scene/named_spectra.h"
+#include "scene/portable_math.h"
 #include "tests/support/render.h"
-#include "tracer/portable_math.h"
 
 namespace vitrail::test {
 namespace {

@@ -8,10 +8,10 @@
 #include "glazing/system_file.h"
 #include "importers/glazing_material.h"
 #include "partitioner/partition.h"
+#include "scene/portable_math.h"
 #include "tests/glazing/glazing_files.h"
 #include "tests/laws/flat_scenes.h"
 #include "tracer/bsdf/local.h"
-#include "tracer/portable_math.h"
 
 namespace vitrail::test {
 namespace {

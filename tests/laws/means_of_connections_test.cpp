@@ -6,8 +6,8 @@
 
 #include <cmath>
 
+#include "scene/portable_math.h"
 #include "tests/support/render.h"
-#include "tracer/portable_math.h"
 
 namespace vitrail::test {
 namespace {

@@ -7,9 +7,9 @@
 
 #include <cmath>
 
+#include "scene/portable_math.h"
 #include "tests/laws/flat_scenes.h"
 #include "tracer/bsdf/local.h"
-#include "tracer/portable_math.h"
 
 namespace vitrail::test {
 namespace {

@@ -8,9 +8,9 @@
 #include <functional>
 
 #include "images/image_files.h"
+#include "scene/portable_math.h"
 #include "tests/support/render.h"
 #include "tests/support/temporary_directory.h"
-#include "tracer/portable_math.h"
 
 namespace vitrail::test {
 namespace {

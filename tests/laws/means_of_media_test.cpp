@@ -6,9 +6,9 @@
 
 #include <cmath>
 
+#include "scene/portable_math.h"
 #include "tests/laws/flat_scenes.h"
 #include "tracer/media/medium.h"
-#include "tracer/portable_math.h"
 
 namespace vitrail::test {
 namespace {

@@ -7,10 +7,10 @@
 #include <cmath>
 #include <fstream>
 
+#include "scene/portable_math.h"
 #include "tests/laws/flat_scenes.h"
 #include "tests/support/temporary_directory.h"
 #include "tracer/bsdf/local.h"
-#include "tracer/portable_math.h"
 
 namespace vitrail::test {
 namespace {

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "scene/color.h"
+#include "scene/portable_math.h"
 #include "tests/laws/flat_scenes.h"
 #include "tracer/bsdf/conductor.h"
 #include "tracer/bsdf/dielectric.h"
@@ -17,7 +18,6 @@
 #include "tracer/bsdf/local.h"
 #include "tracer/bsdf/plastic.h"
 #include "tracer/bsdf/principled.h"
-#include "tracer/portable_math.h"
 
 namespace vitrail::test {
 namespace {

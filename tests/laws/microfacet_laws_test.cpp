@@ -4,10 +4,10 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "scene/portable_math.h"
 #include "tests/laws/bsdf_laws.h"
 #include "tests/laws/rough_cases.h"
 #include "tests/laws/sphere_cells.h"
-#include "tracer/portable_math.h"
 
 namespace vitrail {
 namespace {

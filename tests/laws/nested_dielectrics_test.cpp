@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "bundle/interiors.h"
+#include "scene/portable_math.h"
 #include "tests/support/render.h"
-#include "tracer/portable_math.h"
 
 namespace vitrail::test {
 namespace {

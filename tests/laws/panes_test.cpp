@@ -9,9 +9,9 @@
 
 #include "scene/color.h"
 #include "scene/named_spectra.h"
+#include "scene/portable_math.h"
 #include "tests/support/render.h"
 #include "tracer/bsdf/local.h"
-#include "tracer/portable_math.h"
 
 namespace vitrail::test {
 namespace {

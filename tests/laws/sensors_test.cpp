@@ -8,11 +8,11 @@
 #include "film/sensor_readings.h"
 #include "images/image_files.h"
 #include "scene/photometry.h"
+#include "scene/portable_math.h"
 #include "scene/sensor_file.h"
 #include "scene/sky_model.h"
 #include "tests/support/render.h"
 #include "tests/support/temporary_directory.h"
-#include "tracer/portable_math.h"
 
 namespace vitrail::test {
 namespace {

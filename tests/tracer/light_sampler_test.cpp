@@ -6,8 +6,8 @@
 
 #include <limits>
 
+#include "scene/portable_math.h"
 #include "tests/tracer/light_fixtures.h"
-#include "tracer/portable_math.h"
 
 namespace vitrail {
 

@@ -5,11 +5,11 @@
 #include <bit>
 
 #include "bundle/texture_file.h"
+#include "scene/portable_math.h"
 #include "scene/rgb_to_spectrum.h"
 #include "tests/support/temporary_directory.h"
 #include "tests/tracer/light_fixtures.h"
 #include "tracer/lights/luminance_of.h"
-#include "tracer/portable_math.h"
 #include "tracer/quadrics/quadric_surface.h"
 
 namespace vitrail {

@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "scene/portable_math.h"
 #include "tests/tracer/light_fixtures.h"
-#include "tracer/portable_math.h"
 
 namespace vitrail {
 

@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include "scene/portable_math.h"
 #include "tests/tracer/light_fixtures.h"
-#include "tracer/portable_math.h"
 #include "tracer/quadrics/quadric_surface.h"
 
 namespace vitrail {

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <random>
 
+#include "scene/portable_math.h"
 #include "scene/rgb_to_spectrum.h"
 #include "tracer/bsdf/local.h"
 #include "tracer/connection_code.h"
-#include "tracer/portable_math.h"
 #include "tracer/wavelengths.h"
 
 namespace vitrail {

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/portable_math.h"
 #include "tracer/bsdf/local.h"
-#include "tracer/portable_math.h"
 
 namespace vitrail {
 

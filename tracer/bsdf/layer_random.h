@@ -5,8 +5,8 @@
 #include <bit>
 #include <cstdint>
 
+#include "scene/portable_math.h"
 #include "tracer/bsdf/local.h"
-#include "tracer/portable_math.h"
 
 namespace vitrail {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tracer/bsdf/microfacet.h"
 
+#include "scene/portable_math.h"
 #include "tracer/bsdf/quick_math.h"
-#include "tracer/portable_math.h"
 
 namespace vitrail {
 

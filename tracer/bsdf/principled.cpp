@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/portable_math.h"
 #include "tracer/bsdf/local.h"
 #include "tracer/bsdf/principled_lobes.h"
-#include "tracer/portable_math.h"
 
 namespace vitrail {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tracer/portable_math.h"
+#include "scene/portable_math.h"
 
 namespace vitrail::principled {
 

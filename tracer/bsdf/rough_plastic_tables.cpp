@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <vector>
 
+#include "scene/portable_math.h"
 #include "tracer/bsdf/local.h"
 #include "tracer/bsdf/plastic.h"
-#include "tracer/portable_math.h"
 
 namespace vitrail {
 

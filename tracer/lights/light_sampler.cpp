@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "tracer/portable_math.h"
+#include "scene/portable_math.h"
 #include "tracer/rounding.h"
 #include "tracer/wavelengths.h"
 

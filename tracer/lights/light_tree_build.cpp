@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include "scene/portable_math.h"
 #include "tracer/lights/light_tree.h"
 #include "tracer/lights/normal_cone.h"
-#include "tracer/portable_math.h"
 
 namespace vitrail {
 

@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/portable_math.h"
 #include "tracer/lights/baked_light_image.h"
 #include "tracer/lights/light_sampler.h"
-#include "tracer/portable_math.h"
 #include "tracer/textures/tile_cache.h"
 
 namespace vitrail {

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/portable_math.h"
 #include "tracer/lights/environment.h"
 #include "tracer/lights/luminance_of.h"
-#include "tracer/portable_math.h"
 #include "tracer/wavelengths.h"
 
 namespace vitrail {

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/portable_math.h"
 #include "tracer/bsdf/local.h"
 #include "tracer/lights/normal_cone.h"
-#include "tracer/portable_math.h"
 #include "tracer/quadrics/quadric_surface.h"
 
 namespace vitrail {

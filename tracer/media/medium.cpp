@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "scene/portable_math.h"
 #include "tracer/media/grid.h"
-#include "tracer/portable_math.h"
 
 namespace vitrail {
 

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
+#include "scene/portable_math.h"
 #include "tracer/bsdf/local.h"
-#include "tracer/portable_math.h"
 
 namespace vitrail {
 

@@ -8,9 +8,9 @@
 #include <cstring>
 
 #include "scene/diagnostics.h"
+#include "scene/portable_math.h"
 #include "tracer/bsdf/diffuse.h"
 #include "tracer/bsdf/local.h"
-#include "tracer/portable_math.h"
 
 namespace vitrail {
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "scene/portable_math.h"
 #include "tracer/intersect/ray.h"
-#include "tracer/portable_math.h"
 
 namespace vitrail {
 
