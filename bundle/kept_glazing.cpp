@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "bundle/checked_json.h"
+#include "bundle/manifest.h"
 #include "scene/diagnostics.h"
 
 namespace vitrail {
@@ -33,18 +34,21 @@ void write_glazings(const std::filesystem::path& bundle, std::uint64_t scene_has
                                             {"systems", systems}});
 }
 
-std::vector<KeptGlazing> read_glazings(const std::filesystem::path& bundle, std::uint64_t scene_hash,
-                                       std::size_t materials) {
+std::vector<KeptGlazing> read_glazings(const std::filesystem::path& bundle, const Manifest& manifest) {
   const std::filesystem::path file = glazing_path(bundle);
   const auto require = [&](bool condition, const char* what) {
     if (!condition) throw Error(what, {file.string()});
   };
-  if (!std::filesystem::exists(file)) return {};
+  if (!std::filesystem::exists(file)) {
+    require(manifest.switching_glazings == 0,
+            "it is lost: the bundle has glass that switches; partition the scene again");
+    return {};
+  }
   const Json json = read_checked_json(file, "the glazing");
   try {
     require(json.at("format") == "vitrail glazing", "not the glazing of a bundle");
     require(json.at("version") == glazing_version, "glazing of a version that this program does not read");
-    require(json.at("scene_hash") == fmt::format("{:016x}", scene_hash),
+    require(json.at("scene_hash") == fmt::format("{:016x}", manifest.scene_hash),
             "this file belongs to another bundle; partition the scene again");
     std::vector<KeptGlazing> glazings;
     for (const Json& system : json.at("systems")) {
@@ -53,7 +57,8 @@ std::vector<KeptGlazing> read_glazings(const std::filesystem::path& bundle, std:
       glazing.system = system.at("system").get<std::string>();
       for (const Json& sheet : system.at("sheets")) {
         glazing.sheets.push_back({sheet.at(0).get<std::uint32_t>(), sheet.at(1).get<std::uint32_t>()});
-        require(glazing.sheets.back().front < materials && glazing.sheets.back().back < materials,
+        const auto& [front, back] = glazing.sheets.back();
+        require(front < manifest.materials.size() && back < manifest.materials.size(),
                 "the glazing refers to a material that is not there");
       }
       require(!glazing.sheets.empty(), "a glazing has no surface");

@@ -12,6 +12,8 @@
 
 namespace vitrail {
 
+struct Manifest;
+
 struct KeptGlazing {
   // A surface of it: indices of two materials, both sheets. Before partitioning, of the scene's; in a bundle
   // of the bundle's.
@@ -37,9 +39,8 @@ std::filesystem::path glazing_path(const std::filesystem::path& bundle);
 void write_glazings(const std::filesystem::path& bundle, std::uint64_t scene_hash,
                     const std::vector<KeptGlazing>& glazings);
 
-// None where there is no such file. Throws Error where it is damaged, belongs to another scene or refers to a
-// material beyond `materials`.
-std::vector<KeptGlazing> read_glazings(const std::filesystem::path& bundle, std::uint64_t scene_hash,
-                                       std::size_t materials);
+// None where the bundle has no such glass. Throws Error where the file is lost, damaged, belongs to another
+// scene or refers to a material that is not there.
+std::vector<KeptGlazing> read_glazings(const std::filesystem::path& bundle, const Manifest& manifest);
 
 }  // namespace vitrail

@@ -138,6 +138,8 @@ struct Manifest {
   std::int32_t camera_medium = -1;  // index, or −1: vacuum
   std::vector<TextureFileEntry> texture_files;
   std::uint32_t attributes = 0;  // mesh attributes that textures read: slots a vertex
+  std::uint32_t switching_glazings =
+      0;  // systems in glazing.json; where there are none there is no such file
   FilmSettings film;
   RenderSettings settings;
   Requirements requirements;

@@ -289,6 +289,7 @@ Json manifest_to_json(const Manifest& m) {
   j["scale"] = m.scale;
   j["requirements"] = requirements_to_json(m.requirements);
   j["attributes"] = m.attributes;
+  if (m.switching_glazings > 0) j["switching_glazings"] = m.switching_glazings;
   j["camera"] = camera_to_json(m.camera);
   j["camera_medium"] = m.camera_medium;
   j["texture_files"] = Json::array();
@@ -298,6 +299,7 @@ Json manifest_to_json(const Manifest& m) {
                    {"max_depth", m.settings.max_depth},
                    {"direct_only", m.settings.direct_only},
                    {"straight_counts", m.settings.straight_counts}};
+  if (m.settings.rgb == RgbMethod::matrix_r) j["settings"]["rgb"] = "matrix-r";
   j["kd_nodes"] = Json::array();
   for (const KdNode& n : m.kd_nodes) j["kd_nodes"].push_back(kd_node_to_json(n));
   j["domains"] = Json::array();
@@ -318,13 +320,15 @@ Manifest manifest_from_json(const Json& j) {
   m.scale = j.at("scale").get<float>();
   m.requirements = requirements_from_json(j.at("requirements"));
   m.attributes = j.at("attributes").get<std::uint32_t>();
+  m.switching_glazings = j.value("switching_glazings", 0u);
   m.camera_medium = j.at("camera_medium").get<std::int32_t>();
   for (const Json& t : j.at("texture_files")) m.texture_files.push_back(texture_file_from_json(t));
   m.camera = camera_from_json(j.at("camera"));
   m.film = film_from_json(j.at("film"));
   const Json& s = j.at("settings");
   m.settings = {s.at("samples_per_pixel").get<int>(), s.at("max_depth").get<int>(),
-                s.at("direct_only").get<bool>(), s.at("straight_counts").get<bool>()};
+                s.at("direct_only").get<bool>(), s.at("straight_counts").get<bool>(),
+                s.value("rgb", "jakob-hanika") == "matrix-r" ? RgbMethod::matrix_r : RgbMethod::jakob_hanika};
   for (const Json& n : j.at("kd_nodes")) m.kd_nodes.push_back(kd_node_from_json(n));
   for (const Json& d : j.at("domains")) m.domains.push_back(domain_from_json(d));
   if (j.contains("objects"))

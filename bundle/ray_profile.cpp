@@ -54,6 +54,11 @@ RayProfile::RayProfile(const Manifest& m, const std::vector<std::uint64_t>& rays
   }
 }
 
+void RayProfile::require_of(const Manifest& manifest) const {
+  if (domains.size() != manifest.domains.size() || kd_nodes != manifest.kd_nodes)
+    throw Error("the profile is of a bundle with other domains; render this one with --profile");
+}
+
 std::uint32_t RayProfile::domain_at(Point3d world) const {
   std::uint32_t at = kd_nodes.empty() ? KdNode::leaf_bit : 0;
   while (!(at & KdNode::leaf_bit)) {

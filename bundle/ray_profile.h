@@ -43,6 +43,9 @@ struct RayProfile {
   RayProfile(const Manifest& manifest, const std::vector<std::uint64_t>& rays, std::vector<Way> ways,
              Cost cost);
 
+  // Throws Error where it is of a bundle with other domains.
+  void require_of(const Manifest& manifest) const;
+
   // The domain that a point of the world lies in.
   std::uint32_t domain_at(Point3d world) const;
 };

@@ -22,8 +22,18 @@ enum class TexelFormat : std::uint32_t {
   reflectance,   // three Real21: x
   unbounded,     // the same, and a float: scale. Value: scale · S
   illuminant,    // the same times D65
+  // By Matrix-R (scene/matrix_r.h), q(λ) = clamp(Σ aₖ(λ)·xₖ, 0, 1): three Real21, x, and a float w; linear
+  // between bands of 5 nm.
+  matrix_r_reflectance,  // 1 − w·(1 − q)
+  matrix_r_unbounded,    // w·q; w where all of x are 0, a grey
+  matrix_r_illuminant,   // the same times D65
 };
-inline constexpr std::uint32_t texel_format_count = 7;
+inline constexpr std::uint32_t texel_format_count = 10;
+
+constexpr bool by_matrix_r(TexelFormat format) { return format >= TexelFormat::matrix_r_reflectance; }
+constexpr bool is_illuminant(TexelFormat format) {
+  return format == TexelFormat::illuminant || format == TexelFormat::matrix_r_illuminant;
+}
 
 constexpr std::uint32_t words_per_texel(TexelFormat format) {
   switch (format) {
@@ -70,7 +80,7 @@ using SigmoidNodes = std::array<float, 3>;
 SigmoidNodes nodes_of(const SigmoidSpectrum& sigmoid);
 
 struct SpectralTexel {
-  SigmoidNodes x{};
+  std::array<float, 3> x{};
   float scale = 1;
 };
 

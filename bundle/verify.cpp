@@ -123,10 +123,10 @@ class Verifier {
   // Glass that can be set; without a manifest it is not known whether there is to be some.
   void read_glazing() {
     const fs::path file = glazing_path(bundle_);
-    if (!present_.contains(file)) return;
+    if (!present_.contains(file) && !(manifest_ && manifest_->switching_glazings > 0)) return;
     expect(file);
     read(file, [&] {
-      if (manifest_) read_glazings(bundle_, manifest_->scene_hash, manifest_->materials.size());
+      if (manifest_) read_glazings(bundle_, *manifest_);
     });
   }
 

@@ -2,6 +2,7 @@
 // vitrail compare: how far an image is from a reference, and whether that is too far.
 #include <fmt/format.h>
 
+#include <cmath>
 #include <filesystem>
 
 #include "cli/compare_arguments.h"
@@ -70,11 +71,12 @@ int run(const CompareArguments& options) {
   Picture image = load(options.image, options), reference = load(options.reference, options);
   align(image, reference);
   const Mask mask = mask_of(options, image);
-  ZTestInput test{&image.rgb, &reference.rgb, {}, {}};
+  ZTestInput test{&image.rgb, &reference.rgb, {}, {}, 0};
   if (metric == Metric::ztest)
     find_variances(test, image, reference, options.variance, options.variance_samples);
   const Image image_part = without(image.rgb, mask), reference_part = without(reference.rgb, mask);
-  test = {&image_part, &reference_part, without(test.variance, mask), without(test.degrees_of_freedom, mask)};
+  test = {&image_part, &reference_part, without(test.variance, mask), without(test.degrees_of_freedom, mask),
+          std::hypot(image.shared_error, reference.shared_error)};
   Comparison comparison = compare(test, *metric, options.fail_above, options.mean_within,
                                   without(flip_map(options, image.rgb, reference.rgb), mask));
   const std::size_t compared = comparison.error_map.size();

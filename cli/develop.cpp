@@ -84,6 +84,7 @@ void put_about(PictureOrigin& origin, const std::string& about) {
   if (!json.is_object()) return;
   origin.scene = json.value("scene", "");
   origin.glazing = json.value("glazing", "");
+  origin.sampling = json.value("sampling", "");
   const auto matrix = [&](const char* name) {
     std::vector<float> numbers;
     if (const auto found = json.find(name); found != json.end() && found->is_array())

@@ -26,6 +26,19 @@ void declare_import_options(CLI::App& app, ImportArguments& a) {
                  "2026-06-21T12:00+02:00");
 }
 
+void declare_rgb_option(CLI::App& app, std::string& method) {
+  app.add_option(
+         "--rgb", method,
+         "how colours given as RGB become spectra: smooth ones (Jakob and Hanika's) or Matrix-R (Cohen and "
+         "Kappauf's)")
+      ->check(CLI::IsMember({usual_rgb, "matrix-r"}))
+      ->capture_default_str();
+}
+
+RgbMethod rgb_method(const std::string& method) {
+  return method == usual_rgb ? RgbMethod::jakob_hanika : RgbMethod::matrix_r;
+}
+
 ImportOptions import_options(const ImportArguments& a) {
   ImportOptions options{{}, a.missing == "replace", a.sky, a.camera};
   for (const std::string& word : a.definitions) {

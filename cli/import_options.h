@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "importers/import_options.h"
+#include "scene/camera.h"
 
 namespace vitrail {
 
@@ -15,6 +16,11 @@ struct ImportArguments {
   int camera = 0;
   std::string missing = "refuse", sky;
 };
+
+// --rgb jakob-hanika|matrix-r: how a scene's colours become spectra as it is partitioned.
+inline constexpr const char* usual_rgb = "jakob-hanika";
+void declare_rgb_option(CLI::App& app, std::string& method);
+RgbMethod rgb_method(const std::string& method);
 
 // A definition that is not name=value is refused as the options are parsed.
 void declare_import_options(CLI::App& app, ImportArguments& arguments);

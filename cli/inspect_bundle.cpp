@@ -25,7 +25,7 @@ Report domain_line(std::uint32_t index, const DomainInfo& d) {
 // Glass that can be set.
 Report describe_glazing(const std::filesystem::path& bundle, const Manifest& m) {
   Report table = Report::array();
-  for (const KeptGlazing& g : read_glazings(bundle, m.scene_hash, m.materials.size())) {
+  for (const KeptGlazing& g : read_glazings(bundle, m)) {
     const GlazingSystem system = kept_system(g.system, glazing_path(bundle).string());
     table.push_back({{"name", g.name},
                      {"system", system.name.empty() ? "-" : system.name},

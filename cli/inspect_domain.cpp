@@ -82,8 +82,16 @@ Report inspect_domain(const std::filesystem::path& file) {
 }
 
 Report inspect_texture(const std::filesystem::path& file) {
-  constexpr std::array names{"number",      "vector of 8 bits", "vector of 16 bits", "vector of floats",
-                             "reflectance", "unbounded",        "illuminant"};
+  constexpr std::array names{"number",
+                             "vector of 8 bits",
+                             "vector of 16 bits",
+                             "vector of floats",
+                             "reflectance",
+                             "unbounded",
+                             "illuminant",
+                             "reflectance by Matrix-R",
+                             "unbounded by Matrix-R",
+                             "illuminant by Matrix-R"};
   static_assert(names.size() == texel_format_count);
   const TextureFile texture(file);
   texture.check_tiles();

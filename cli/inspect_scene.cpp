@@ -145,7 +145,8 @@ Report describe_view(const Manifest& m) {
           {"crop", {f.crop.x0, f.crop.x1, f.crop.y0, f.crop.y1}},
           {"layers", names_of(f.layers)},
           {"samples_per_pixel", m.settings.samples_per_pixel},
-          {"max_depth", m.settings.max_depth}};
+          {"max_depth", m.settings.max_depth},
+          {"rgb", m.settings.rgb == RgbMethod::matrix_r ? "matrix-r" : "jakob-hanika"}};
 }
 
 Report describe_diagnostics(const Diagnostics& diagnostics) {
@@ -157,12 +158,11 @@ Report describe_diagnostics(const Diagnostics& diagnostics) {
   return list;
 }
 
-// The state of the glass, where it was set.
-std::string glazing_of(const FilmProgress& progress) {
+// What was asked for, "glazing" or "sampling", as the film tells; `otherwise` where nothing was.
+std::string asked_of(const FilmProgress& progress, const char* what, const char* otherwise) {
   const Report about = Report::parse(progress.about, nullptr, false);
-  return about.is_object() && about.contains("glazing") && about["glazing"].is_string()
-             ? about["glazing"].get<std::string>()
-             : "as the scene says";
+  return about.is_object() && about.contains(what) && about[what].is_string() ? about[what].get<std::string>()
+                                                                              : otherwise;
 }
 
 }  // namespace
@@ -234,7 +234,8 @@ Report inspect_film(const std::filesystem::path& file) {
           {"render_time_s", progress.render_time_s},
           {"seed", film.key().seed},
           {"scene_hash", fmt::format("{:016x}", film.key().scene_hash)},
-          {"glazing", glazing_of(progress)},
+          {"glazing", asked_of(progress, "glazing", "as the scene says")},
+          {"sampling", asked_of(progress, "sampling", "as usual")},
           {"made_by", to_string(film.key().renderer)},
           {"max_depth", film.key().max_depth},
           {"integrator", film.key().direct_only           ? "direct"
@@ -243,6 +244,7 @@ Report inspect_film(const std::filesystem::path& file) {
           {"photons", film.key().photons.photons},
           {"photon_radius", film.key().photons.first_radius},
           {"photon_alpha", film.key().photons.alpha},
+          {"shared_error", film.shared_error()},
           {"straight_counts", film.key().straight_counts},
           {"clamp", film.key().clamp},
           {"clamped_share", film.clamped_share()},

@@ -41,9 +41,11 @@ int run(const MeasureOptions& options, bool quiet) {
     std::fflush(stdout);
   };
   news.progress = [&](double fraction, const char* what) { line.show(fraction, what); };
-  const Execute execute = [](const std::string& program, const std::vector<std::string>& arguments) {
+  const Execute execute = [](const std::string& program, const std::vector<std::string>& arguments,
+                             const std::filesystem::path& standard_output) {
     try {
-      run_program(program, arguments, [] { return stop_number != 0; });
+      run_program(
+          program, arguments, [] { return stop_number != 0; }, standard_output);
     } catch (const Interrupted& e) {
       throw Interrupted(e.signal, "stopped; the same command goes on where it was");
     }
@@ -57,7 +59,8 @@ int run(const MeasureOptions& options, bool quiet) {
   for (const std::string& finding : findings(m)) fmt::print("{}\n", finding);
   fmt::print("\n");
   for (std::size_t i = 1; i < m.settings.size(); ++i)
-    if (m.settings[i].spp == m.settings[0].spp) fmt::print("{}\n", what_it_buys(m, m.settings[i]));
+    if (m.settings[i].changes() < 2 && !m.settings[i].again)
+      fmt::print("{}\n", what_it_buys(m, m.settings[i]));
   fmt::print("\n");
   for (const Recommendation& r : m.recommendations) fmt::print("{}\n", advice(r));
   fmt::print("{} shows it\n", (options.folder / "index.html").string());
@@ -90,6 +93,13 @@ int main(int argc, char** argv) {
   app.add_option("--budget", options.budget_s,
                  "seconds that all may take, roughly; less than enough takes longer")
       ->check(more_than_0)
+      ->capture_default_str();
+  app.add_option("--ranks", options.farm.ranks,
+                 "of a cluster, whose seconds for the whole picture are planned of each setting; 0: none")
+      ->check(CLI::Range(0, 100000))
+      ->capture_default_str();
+  app.add_option("--threads", options.farm.threads, "of each of those ranks")
+      ->check(CLI::Range(1, 4096))
       ->capture_default_str();
   app.add_option("--width", options.width, "of the measured pictures, in pixels")
       ->check(CLI::Range(16, 1 << 14))

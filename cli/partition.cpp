@@ -121,6 +121,7 @@ int run(PartitionArguments& a, Stage& stage) {
         },
         import_options(a.imports));
   });
+  imported.scene.settings.rgb = rgb_method(a.rgb);
   stage = {"preparing the scene", 0, to_string(ledger_of(imported.scene))};
   Diagnostics diagnostics = std::move(imported.diagnostics);
   std::ranges::copy(appearance_of(imported.scene, {}).diagnostics, std::back_inserter(diagnostics));

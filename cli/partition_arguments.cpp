@@ -35,6 +35,7 @@ void declare(CLI::App& app, PartitionArguments& a) {
                  "where the rays of an earlier render of this scene went (`render --profile`): cut for them");
   app.add_option("--aov", a.aov, layers_help);
   declare_import_options(app, a.imports);
+  declare_rgb_option(app, a.rgb);
   declare_mesh_options(app, a.meshes);
   app.add_flag("--force", a.force, "replace a bundle of another scene");
   app.add_flag("--strict", a.strict, "fail if anything in the scene is not imported exactly");
@@ -55,6 +56,7 @@ BundleOrigin origin_of(const PartitionArguments& a) {
   if (!a.aov.empty()) words.push_back("--aov " + a.aov);
   if (!a.profile.empty()) words.push_back("--profile " + a.profile.string());
   std::ranges::copy(arguments_of(a.imports), std::back_inserter(words));
+  if (a.rgb != usual_rgb) words.push_back("--rgb=" + a.rgb);
   return {std::filesystem::absolute(a.input).string(), "", fmt::format("{}", fmt::join(words, " "))};
 }
 

@@ -16,6 +16,7 @@ struct PartitionArguments {
   std::string domain_bytes, memory, aov, progress = "auto";
   bool force = false, strict = false, quiet = false, summary = true;
   ImportArguments imports;
+  std::string rgb = usual_rgb;
   MeshOptions meshes;
   std::optional<FilmLayers> layers;  // none: the scene's
   PartitionOptions options{.durable = true};

@@ -4,6 +4,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "cli/distribution.h"
 #include "cli/main_guard.h"
 #include "cli/number_checks.h"
 #include "cli/plan_svg.h"
@@ -26,6 +27,8 @@ struct Arguments {
   std::string memory, network = "12G", disk = "1G";
   double pictures = 1, latency_us = 5, disk_latency_ms = 1;
   int threads = 16;
+  Distribution distribution = Distribution::automatic;
+  std::filesystem::path homes;
   bool json = false;
 };
 
@@ -85,6 +88,9 @@ int plan(const Arguments& a) {
   share_memory(a, manifest, machine);
   const std::int64_t rays_a_rank = machine.rays_allowed;
   const std::uint64_t scene_bytes = std::max<std::uint64_t>(1, bytes_of_all(manifest));
+  machine.distribution = a.distribution;
+  std::optional<RayProfile> homes;
+  if (!a.homes.empty()) homes = read_ray_profile(a.homes);
   std::vector<PlanPoint> points;
   if (!a.json) fmt::print(" ranks    seconds  effic.  copies     loaded   loads  forwarded  limited by\n");
   for (const int ranks : a.ranks) {
@@ -92,7 +98,9 @@ int plan(const Arguments& a) {
     const double items = 1e4 + 50.0 * ranks * a.threads;
     const Workload workload = workload_of(manifest, profile, a.pictures, items);
     machine.ranks = ranks;
-    machine.rays_allowed = rays_a_rank * ranks;
+    machine.homes = homes ? homes_by_work(manifest, *homes, ranks) : homes_by_bytes(manifest, ranks);
+    const bool in_flow = is_in_flow(manifest, *machine.homes, a.distribution, machine.domain_bytes);
+    machine.rays_allowed = (in_flow ? rays_allowed_in_flow(a.threads) : rays_a_rank) * ranks;
     // Rounds take the simulator time, too: a long job has fewer of them.
     const double work_s = profile.cost.trace_s * a.pictures / ranks / a.threads;
     machine.round_interval_s = std::clamp(work_s / 20'000, 1e-3, .05);
@@ -128,6 +136,7 @@ int main(int argc, char** argv) {
       ->delimiter(',')
       ->check(CLI::Range(1, 100000));
   app.add_option("--threads", a.threads, "of a rank; default 16")->check(CLI::Range(1, 4096));
+  declare_distribution(app, a.distribution, a.homes);
   app.add_option("--memory", a.memory, "of a rank, as for render; default: no limit");
   app.add_option("--times", a.pictures, "as many times the samples of the profile")->check(more_than_0);
   app.add_option("--latency", a.latency_us, "of a message, µs; default 5")->check(not_below_0);

@@ -15,7 +15,8 @@ struct Quality {
   bool adaptive;           // not worth while in a few samples
 };
 
-constexpr Quality table[] = {{"draft", 4, 64, false}, {"good", 1, 4096, true}, {"final", 0.4, 32768, true}};
+constexpr Quality table[] = {
+    {"draft", 3.8, 64, false}, {"good", 1, 4096, true}, {"final", 0.25, 32768, true}};
 
 }  // namespace
 

@@ -9,6 +9,7 @@
 #include <iterator>
 
 #include "cli/default_output.h"
+#include "cli/distribution.h"
 #include "cli/layer_names.h"
 #include "cli/number_checks.h"
 #include "cli/quality.h"
@@ -58,6 +59,7 @@ void declare(CLI::App& app, RenderArguments& a) {
                  "mapping, "
                  "for caustics; default: as the scene says")
       ->check(CLI::IsMember({"path", "direct", "photon"}));
+  declare_sample_options(app, a.samples);
   app.add_option("--set", a.settings,
                  "NAME.state=0.6: glass that switches in another state, without partitioning again; also "
                  "NAME.temperature (°C), NAME.uv (W/m²), NAME.seconds; may repeat")
@@ -83,6 +85,7 @@ void declare(CLI::App& app, RenderArguments& a) {
   app.add_option("--memory", a.memory, "most memory a rank may use, e.g. 512M or 2G; default: no limit");
   app.add_option("-t,--threads,--nthreads", o.threads, "worker threads a rank; default: all cores")
       ->check(CLI::Range(1, 4096));
+  declare_distribution(app, o.distribution, o.homes);
   app.add_option("--crop,--pixelbounds", a.crop, "x0,x1,y0,y1 in pixels from the top left; default: all");
   app.add_option(
          "--spectral", a.bins,
@@ -112,8 +115,8 @@ void declare(CLI::App& app, RenderArguments& a) {
       "samples to a finished one, needs no option");
   app.add_flag("--force", o.force, "replace the film, checkpoint or picture that has the output's name");
   app.add_option("--time", o.time_limit_s,
-                 "end after this many seconds with what there is, and without --spp not before; the same "
-                 "command then goes on")
+                 "end after this many seconds, the picture's file included, with what there is, and without "
+                 "--spp not before; the same command then goes on")
       ->check(more_than_0);
   app.add_flag("--dry-run", o.dry_run,
                "render for a few seconds, write nothing, and say what memory and time it would all take");
@@ -132,6 +135,7 @@ void declare(CLI::App& app, RenderArguments& a) {
   app.add_option("--stats", o.stats, "write statistics as JSON");
   app.add_option("--profile", o.profile, "write where rays went, for `partition --profile` and `plan`");
   declare_import_options(app, a.imports);
+  declare_rgb_option(app, a.rgb);
   declare_mesh_options(app, a.meshes);
   app.add_option("--progress", a.progress,
                  "bar; lines: one a minute; json: lines of it on standard output, the last with the event "
@@ -166,6 +170,8 @@ void require_renderable(const RenderArguments& a) {
                      " to partition");
   if (const auto words = arguments_of(a.imports); !words.empty() && a.is_bundle())
     throw UsageError("what a bundle was made of is not read again: give " + words[0] + " to partition");
+  if (a.rgb != usual_rgb && a.is_bundle())
+    throw UsageError("what a bundle was made of is not read again: give --rgb to partition");
   if (a.strict && a.is_bundle())
     throw UsageError("what a bundle was made of is not read again: give --strict to partition");
 }
@@ -222,6 +228,7 @@ void interpret(const CLI::App& app, RenderArguments& a) {
     o.photons = a.photons;
   else if (app.count("--photons") + app.count("--photon-radius") + app.count("--photon-alpha") > 0)
     throw UsageError("--photons, --photon-radius and --photon-alpha are of --integrator photon");
+  o.samples = sample_choices(a.samples);
   if (!a.target_error.empty()) o.target_error = parse_target_error(a.target_error);
   if (!a.quality.empty()) apply_quality(a.quality, app.count("--adaptive") > 0, o);
   o.progress = progress_mode(a);
@@ -236,6 +243,7 @@ std::vector<std::string> partition_arguments(const RenderArguments& a) {
   std::vector<std::string> arguments = arguments_of(a.meshes);
   arguments.insert(arguments.end(), {"--no-sync", "--no-summary"});
   std::ranges::copy(arguments_of(a.imports), std::back_inserter(arguments));
+  if (a.rgb != usual_rgb) arguments.push_back("--rgb=" + a.rgb);
   if (a.quiet) arguments.push_back("--quiet");
   if (a.strict) arguments.push_back("--strict");
   if (!a.aov.empty()) arguments.insert(arguments.end(), {"--aov", a.aov});

@@ -6,6 +6,7 @@
 
 #include "cli/import_options.h"
 #include "cli/mesh_options.h"
+#include "cli/sample_choices.h"
 #include "farm/options.h"
 
 namespace vitrail {
@@ -17,7 +18,9 @@ struct RenderArguments {
   std::vector<std::string> settings;  // of --set
   bool quiet = false, strict = false;
   ImportArguments imports;
+  std::string rgb = usual_rgb;
   MeshOptions meshes;
+  SampleArguments samples;
   PhotonOptions photons;
   RenderOptions options;
   int restarts = 0;

@@ -68,6 +68,23 @@ std::string name_of(const Material& material, const std::string& file, const Gla
   return std::filesystem::path(file.substr(0, file.find('#'))).stem().string();
 }
 
+// A state is given, or computed from light and warmth.
+void require_one_state(const std::vector<GlazingSetting>& settings, const std::string& name,
+                       const GlazingSystem& system) {
+  const auto is_set = [&](Quantity quantity) {
+    return std::ranges::any_of(
+        settings, [&](const GlazingSetting& s) { return s.name == name && s.quantity == quantity; });
+  };
+  const auto is_photochromic = [](const GlazingLayer& layer) { return layer.light.has_value(); };
+  if (!is_set(Quantity::state) || std::ranges::none_of(system.layers, is_photochromic)) return;
+  for (const Quantity other : {Quantity::temperature, Quantity::uv, Quantity::seconds})
+    if (is_set(other))
+      throw UsageError(
+          fmt::format("--set {0}.state together with {0}.{1}: the state is given, or computed from "
+                      "light and temperature; set one of the two",
+                      name, kind_of(other).name));
+}
+
 // "window (state), roof (temperature)".
 std::string list_of(const std::vector<KeptGlazing>& glazings, const std::filesystem::path& file) {
   std::set<std::string> words;
@@ -134,13 +151,13 @@ std::string names_of_quantities(const GlazingSystem& system) {
 
 std::vector<SetSheet> sheets_under(const std::vector<GlazingSetting>& settings,
                                    const std::filesystem::path& bundle, const Manifest& manifest) {
-  const std::vector<KeptGlazing> glazings =
-      read_glazings(bundle, manifest.scene_hash, manifest.materials.size());
+  const std::vector<KeptGlazing> glazings = read_glazings(bundle, manifest);
   const std::filesystem::path file = glazing_path(bundle);
   std::vector<bool> used(settings.size());
   std::vector<SetSheet> sheets;
   for (const KeptGlazing& glazing : glazings) {
     GlazingSystem system = kept_system(glazing.system, file.string());
+    require_one_state(settings, glazing.name, system);
     bool any = false;
     for (std::size_t i = 0; i < settings.size(); ++i)
       if (settings[i].name == glazing.name && set(system, settings[i].quantity, settings[i].value))

@@ -35,10 +35,11 @@ struct Comparison {
   bool judged() const { return threshold.has_value() || mean_within.has_value(); }
   std::size_t nonfinite_image = 0, nonfinite_reference = 0;  // pixels
   MeanRatios ratios;
-  double luminance_ratio_error = 0;  // standard error of ratios.luminance, from the scatter of the pixels
-  std::optional<ZTest> test;         // its map moved to error_map
-  std::vector<WorstPixel> worst;     // greatest error first
-  std::vector<double> error_map;     // one value a pixel, ≥ 0; NaN where not finite
+  double luminance_ratio_error =
+      0;  // standard error of ratios.luminance, from the scatter of the pixels, and what they share
+  std::optional<ZTest> test;      // its map moved to error_map
+  std::vector<WorstPixel> worst;  // greatest error first
+  std::vector<double> error_map;  // one value a pixel, ≥ 0; NaN where not finite
 };
 
 // The images of `input` by a metric; its variances are needed by ztest alone. Without a threshold, ztest has

@@ -88,6 +88,8 @@ ZTest ztest(const ZTestInput& input) {
       sums[c].reference += std::abs(b[c]);
     }
   }
+  for (MeanSums& s : sums)
+    s.variance = std::max(s.variance, input.shared_error * input.shared_error * s.reference * s.reference);
   judge_means(result, std::span(sums).first(channels), pixels);
   return result;
 }

@@ -29,6 +29,9 @@ struct ZTestInput {
   // z's distribution in each pixel: Student's with so many degrees of freedom, where the variance is an
   // estimate. Empty: the normal distribution, where the variances are known well.
   std::vector<int> degrees_of_freedom;
+  // Standard error of the ratio of the means that all pixels have in common, of both images together; 0 where
+  // pixels are independent.
+  double shared_error = 0;
 };
 
 struct ZTest {

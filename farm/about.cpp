@@ -47,6 +47,7 @@ std::string about(const Manifest& m, const RenderOptions& options) {
              {"camera", kind_of(m.camera)},
              {"world_to_camera", numbers_of(world_to_camera)}};
   if (!options.glazing.empty()) about["glazing"] = options.glazing;
+  if (const std::string sampling = words_of(options.samples); !sampling.empty()) about["sampling"] = sampling;
   if (const auto* sensors = std::get_if<SensorCamera>(&m.camera))
     for (const Sensor& s : sensors->sensors) {
       const Point3d p = transform_point(translate(m.offset) * camera_to_bundle, s.position);

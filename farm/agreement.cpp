@@ -18,12 +18,13 @@ void agree(Transport& transport, const std::function<void()>& step) {
   RoundSums mine;
   if (failure) (is_bad_input(failure) ? mine.bad_input : mine.machine_failure) = 1;
   transport.start_round(mine);
-  std::optional<RoundSums> sums;
-  while (!(sums = transport.finish_round())) {
+  std::optional<Round> round;
+  while (!(round = transport.finish_round())) {
     if (transport.while_waiting) transport.while_waiting();
     std::this_thread::sleep_for(std::chrono::microseconds(100));
   }
-  if (sums->bad_input + sums->machine_failure > 0) leave(failure, *sums);
+  const RoundSums& sums = round->sums;
+  if (sums.bad_input + sums.machine_failure > 0) leave(failure, sums);
 }
 
 void leave(std::exception_ptr own, const RoundSums& sums) {

@@ -198,9 +198,17 @@ EarlierWork read_earlier_work(Transport& transport, const RenderOptions& options
   agree(transport, [&] {
     if (transport.rank() != 0) return;
     const std::filesystem::path checkpoint = checkpoint_path(options.film);
-    std::optional<Held> held = held_by(options.film, "film", film, goal);
-    std::optional<Held> partial = held_by(checkpoint, "checkpoint", film, goal);
-    if (partial && (!held || partial->film.samples() > held->film.samples())) held = std::move(partial);
+    // One of them in memory at a time.
+    std::optional<Held> held = held_by(checkpoint, "checkpoint", film, goal);
+    if (std::filesystem::exists(options.film)) {
+      const std::uint64_t samples = held ? held->film.samples() : 0;
+      held.reset();
+      held = held_by(options.film, "film", film, goal);
+      if (held->film.samples() < samples) {
+        held.reset();
+        held = held_by(checkpoint, "checkpoint", film, goal);
+      }
+    }
     if (!held) {
       if (options.resume && !options.quiet)
         say("vitrail: there is no checkpoint {}; starting from the beginning\n", checkpoint.string());
@@ -211,8 +219,8 @@ EarlierWork read_earlier_work(Transport& transport, const RenderOptions& options
     work.done.resize((work.plan.items() + 63) / 64);
     work.render_time_s = held->progress.render_time_s;
     work.finished = finished(*held, options, goal);
-    film.merge(held->film);
     if (!options.quiet) say_what_is_held(work, *held, options, goal);
+    film = std::move(held->film);
   });
   broadcast(transport, work, goal);
   return work;

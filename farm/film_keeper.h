@@ -25,6 +25,9 @@ class FilmKeeper {
   // name that is free there. Throws MachineError, which says where the film is, unless it is in its place.
   void write_last(const std::filesystem::path& file, const Film& film, const FilmProgress& progress);
 
+  // What the last one takes, by a trial on its disk.
+  double time_to_write_s() const { return reserved_.time_to_write_s(); }
+
  private:
   ReservedSpace reserved_;
 };

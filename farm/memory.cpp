@@ -53,6 +53,11 @@ std::uint64_t connection_bytes(int ranks) {
   return a_rank * static_cast<std::uint64_t>(ranks - 1);
 }
 
+std::int64_t rays_allowed_in_flow(int threads) {
+  constexpr std::int64_t a_thread = 8192;  // some milliseconds of its work
+  return a_thread * threads;
+}
+
 std::int64_t rays_allowed_a_rank(const MemoryPlan& plan) {
   // The more rays wait, the more of them a domain that is loaded serves; a pause waits for all of them. A
   // growing batch holds up to twice its rays, and while it is sent or received once more.

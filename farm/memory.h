@@ -19,6 +19,9 @@ MemoryPlan plan_memory(std::uint64_t budget, std::uint64_t base, std::uint64_t p
 // The most rays a rank that may be alive in the whole job. The disk takes those that the queues have no room
 // for.
 std::int64_t rays_allowed_a_rank(const MemoryPlan& plan);
+// The same where rays are in flow (scheduler/residency.h): with more of them the ranks before the camera have
+// all at once while the others have nothing yet.
+std::int64_t rays_allowed_in_flow(int threads);
 
 // Of queue_bytes. The farm holds these bounds, whatever comes.
 struct QueueBounds {

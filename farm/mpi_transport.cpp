@@ -4,6 +4,7 @@
 #include <mpi.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdlib>
 #include <list>
@@ -38,6 +39,7 @@ class MpiTransport final : public Transport {
       throw MachineError("this MPI does not allow threads beside the one that calls it");
     MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
     MPI_Comm_size(MPI_COMM_WORLD, &size_);
+    waiting_.resize(static_cast<std::size_t>(size_));
     MPI_Type_contiguous(2, MPI_UINT64_T, &wide_sum_);
     MPI_Type_commit(&wide_sum_);
     MPI_Op_create(add_wide_sums, /*commute=*/1, &add_wide_sums_);
@@ -51,21 +53,21 @@ class MpiTransport final : public Transport {
   int rank() const override { return rank_; }
   int size() const override { return size_; }
 
-  void send(int to, RayBatch batch) override {
+  void send(int to, std::vector<std::byte> message) override {
     complete_sends();
-    Sending& s = sending_.emplace_back(Sending{std::move(batch), MPI_REQUEST_NULL});
-    MPI_Isend(s.batch.bytes().data(), static_cast<int>(s.batch.bytes().size()), MPI_BYTE, to, tag_of_rays,
-              MPI_COMM_WORLD, &s.request);
+    Sending& s = sending_.emplace_back(Sending{std::move(message), MPI_REQUEST_NULL});
+    MPI_Isend(s.message.data(), static_cast<int>(s.message.size()), MPI_BYTE, to, tag_of_rays, MPI_COMM_WORLD,
+              &s.request);
   }
 
   std::uint64_t sending_bytes() override {
     complete_sends();
     std::uint64_t bytes = 0;
-    for (const Sending& s : sending_) bytes += s.batch.held_bytes();
+    for (const Sending& s : sending_) bytes += s.message.capacity();
     return bytes;
   }
 
-  std::optional<RayBatch> receive() override {
+  std::optional<std::vector<std::byte>> receive() override {
     complete_sends();
     int arrived = 0;
     MPI_Message message;
@@ -76,20 +78,22 @@ class MpiTransport final : public Transport {
     MPI_Get_count(&status, MPI_BYTE, &bytes);
     std::vector<std::byte> buffer(static_cast<std::size_t>(bytes));
     MPI_Mrecv(buffer.data(), bytes, MPI_BYTE, &message, MPI_STATUS_IGNORE);
-    return RayBatch(std::move(buffer));
+    return buffer;
   }
 
   void start_round(const RoundSums& mine) override {
     mine_ = mine;
     MPI_Iallreduce(&mine_, &sums_, static_cast<int>(round_values), MPI_INT64_T, MPI_SUM, MPI_COMM_WORLD,
-                   &round_);
+                   &round_[0]);
+    MPI_Iallgather(&mine_.waiting, 1, MPI_INT64_T, waiting_.data(), 1, MPI_INT64_T, MPI_COMM_WORLD,
+                   &round_[1]);
   }
 
-  std::optional<RoundSums> finish_round() override {
+  std::optional<Round> finish_round() override {
     int done = 0;
-    MPI_Test(&round_, &done, MPI_STATUS_IGNORE);
+    MPI_Testall(static_cast<int>(round_.size()), round_.data(), &done, MPI_STATUSES_IGNORE);
     if (!done) return std::nullopt;
-    return sums_;
+    return Round{sums_, waiting_};
   }
 
   void say(int to, Word word) override {
@@ -126,7 +130,7 @@ class MpiTransport final : public Transport {
 
  private:
   struct Sending {
-    RayBatch batch;
+    std::vector<std::byte> message;
     MPI_Request request;
   };
 
@@ -159,7 +163,10 @@ class MpiTransport final : public Transport {
                   0, MPI_COMM_WORLD, &request);
       wait(request);
     }
-    if (rank_ != 0) std::ranges::fill(values, T{});
+    // Pages that nothing was written to stay so.
+    if (rank_ != 0)
+      for (T& value : values)
+        if (!(value == T{})) value = T{};
   }
 
   template <class T>
@@ -176,7 +183,8 @@ class MpiTransport final : public Transport {
   int rank_ = 0, size_ = 1;
   std::list<Sending> sending_;
   RoundSums mine_, sums_;
-  MPI_Request round_ = MPI_REQUEST_NULL;
+  std::vector<std::int64_t> waiting_;
+  std::array<MPI_Request, 2> round_{MPI_REQUEST_NULL, MPI_REQUEST_NULL};
   MPI_Datatype wide_sum_ = MPI_DATATYPE_NULL;
   MPI_Op add_wide_sums_ = MPI_OP_NULL;
 };

@@ -6,6 +6,8 @@
 #include <functional>
 #include <optional>
 
+#include "farm/sample_choices.h"
+#include "farm/scheduler/residency.h"
 #include "farm/set_sheets.h"
 #include "scene/scene.h"
 
@@ -24,6 +26,11 @@ struct PhotonOptions {
   std::optional<std::uint64_t> photons;  // an iteration
   std::optional<double> first_radius;    // scene units
   double alpha = 2.0 / 3;
+};
+
+// What is done with a film that was written, before the program ends: so long of any film, and of its bytes.
+struct AfterFilm {
+  double s = 0, s_per_byte = 0;
 };
 
 // What `vitrail render` is asked for. Empty optionals: as the scene says.
@@ -47,11 +54,16 @@ struct RenderOptions {
   std::optional<std::uint32_t> layers;  // bits of FilmLayers
   std::optional<bool> layers_in_camera_space;
   std::uint64_t seed = 0;
-  std::uint64_t memory_bytes = 0;   // a rank; 0: no limit
-  int threads = 0;                  // a rank; 0: one a core
+  SampleChoices samples;
+  std::uint64_t memory_bytes = 0;  // a rank; 0: no limit
+  int threads = 0;                 // a rank; 0: one a core
+  Distribution distribution = Distribution::automatic;
+  std::filesystem::path homes;      // a RayProfile: ranks answer for equal work; empty: for equal bytes
   double checkpoint_every_s = 600;  // 0: only when asked by a signal
-  double time_limit_s = 0;          // from `start` on; 0: none. The film then holds what was done
-  double stop_after_s = 0;          // from `start` on; 0: never. As if told to stop, by a TERM
+  // From `start` to the end of what comes after the film; 0: none. The film then holds what was done.
+  double time_limit_s = 0;
+  AfterFilm after_film;
+  double stop_after_s = 0;  // from `start` on; 0: never. As if told to stop, by a TERM
   std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
   double patience_s = 600;                  // a rank that does not answer for so long ends the job; 0: never
   bool adaptive = false;                    // samples go where the picture is noisy

@@ -39,17 +39,17 @@ std::size_t least_room(const PhotonKey& key, std::uint64_t memory_bytes) {
   return memory_bytes == 0 ? 0 : static_cast<std::size_t>(3 * key.photons);
 }
 
-PhotonWork::PhotonWork(const RenderScene& scene, const PhotonKey& key, std::size_t most_landed,
-                       std::vector<int> home, int rank, int ranks)
+PhotonWork::PhotonWork(const RenderScene& scene, const PhotonKey& key, std::size_t most_landed, Homes homes,
+                       int rank, int ranks)
     : scene_(scene),
       key_(key),
       emission_(scene.lights, scene.manifest.bounds, eye_of(scene.manifest)),
       map_(most_landed),
-      home_(std::move(home)),
+      homes_(std::move(homes)),
       rank_(rank),
       ranks_(ranks) {
   if (ranks > 1)
-    for (const int r : home_) answers_.push_back(r == rank);
+    for (std::uint32_t d = 0; d < homes_.domains(); ++d) answers_.push_back(homes_.first(d) == rank);
   pass_.photons = emission_.flux() > 0 ? key.photons : 0;
   pass_.power_w_nm = pass_.photons > 0 ? emission_.flux() / static_cast<double>(pass_.photons) : 0;
   pass_.emission = &emission_;

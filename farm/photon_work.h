@@ -11,6 +11,7 @@
 
 #include "farm/batch.h"
 #include "farm/options.h"
+#include "farm/scheduler/homes.h"
 #include "tracer/photons/photon_pass.h"
 #include "tracer/photons/places.h"
 #include "tracer/photons/progressive.h"
@@ -26,9 +27,9 @@ std::size_t least_room(const PhotonKey& key, std::uint64_t memory_bytes);
 
 class PhotonWork {
  public:
-  // `home`: the rank of each domain. `scene` outlives it.
-  PhotonWork(const RenderScene& scene, const PhotonKey& key, std::size_t most_landed, std::vector<int> home,
-             int rank, int ranks);
+  // Each domain's first home answers for it. `scene` outlives it.
+  PhotonWork(const RenderScene& scene, const PhotonKey& key, std::size_t most_landed, Homes homes, int rank,
+             int ranks);
   PhotonWork(const PhotonWork&) = delete;  // its parts refer to each other
 
   // Photons are dealt out in chunks, in turn.
@@ -57,7 +58,7 @@ class PhotonWork {
   Emission emission_;
   PhotonMap map_;
   PhotonPass pass_;
-  std::vector<int> home_;
+  Homes homes_;
   std::vector<std::uint8_t> answers_;
   int rank_, ranks_;
   double reach_ = 0;
@@ -73,7 +74,7 @@ void PhotonWork::deal_out(const Photon& photon, const Send& send) {
   }
   reached_.clear();
   for_each_domain_near(scene_.manifest, photon.p, reach_, [&](std::uint32_t domain) {
-    const int rank = home_[domain];
+    const int rank = homes_.first(domain);
     if (std::ranges::find(reached_, rank) != reached_.end()) return;
     reached_.push_back(rank);
     if (rank == rank_)

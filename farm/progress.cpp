@@ -34,6 +34,13 @@ void print_json(const Json& event) {
   std::fflush(stdout);
 }
 
+// Where there are several ranks: whether some drown in rays while others wait for them.
+std::string waiting_text(const std::vector<std::int64_t>& waiting) {
+  if (waiting.size() < 2) return {};
+  const auto [least, most] = std::ranges::minmax(waiting);
+  return fmt::format("{} to {} krays wait on a rank, ", least / 1000, most / 1000);
+}
+
 const char* word(Ending ending) {
   return ending == Ending::finished     ? "finished"
          : ending == Ending::time_is_up ? "time is up"
@@ -52,12 +59,12 @@ Progress::Progress(const RenderOptions& options, int rank, const Film& film, dou
       limit_start_(options.start),
       last_(start_) {}
 
-void Progress::show(const RoundSums& sums) {
+void Progress::show(const Round& round) {
   if (mode_ == ProgressMode::none) return;
   const auto now = std::chrono::steady_clock::now();
   if (now - last_ < interval_of(mode_)) return;
   last_ = now;
-  print(sums, std::chrono::duration<double>(now - start_).count());
+  print(round, std::chrono::duration<double>(now - start_).count());
 }
 
 double Progress::remaining_s(double done, double elapsed_s) const {
@@ -69,7 +76,8 @@ double Progress::remaining_s(double done, double elapsed_s) const {
   return here > 0 ? std::min(left_s, until_limit_s) : until_limit_s;
 }
 
-void Progress::print(const RoundSums& sums, double elapsed_s) {
+void Progress::print(const Round& round, double elapsed_s) {
+  const RoundSums& sums = round.sums;
   const double done =
       std::min(1.0, (samples_before_ + static_cast<double>(sums.samples) / pixels_) / samples_);
   const double left_s = remaining_s(done, elapsed_s);
@@ -82,17 +90,20 @@ void Progress::print(const RoundSums& sums, double elapsed_s) {
                        {"remaining_s", left_s},
                        {"rays", sums.rays_traced},
                        {"rays_waiting", sums.born - sums.died},
+                       {"rays_waiting_by_rank", round.waiting},
                        {"domain_loads", sums.domain_loads}});
   if (mode_ == ProgressMode::lines) {
-    say("vitrail: {:.1f} % after {}, {:.4g} of {} samples a pixel, {:.2f} Mray/s, {} left\n", 100 * done,
-        duration(elapsed_s), samples_ * done, samples_, rate * 1e-6, duration(left_s));
+    say("vitrail: {:.1f} % after {}, {:.4g} of {} samples a pixel, {:.2f} Mray/s, {}{} left\n", 100 * done,
+        duration(elapsed_s), samples_ * done, samples_, rate * 1e-6, waiting_text(round.waiting),
+        duration(left_s));
     return;
   }
   constexpr int width = 32;
   const int filled = static_cast<int>(done * width);
-  say("\r\033[Krender [{}{}] {:5.1f} %  {:.2f} Mray/s  {} left",
+  say("\r\033[Krender [{}{}] {:5.1f} %  {:.2f} Mray/s  {}{} left",
       std::string(static_cast<std::size_t>(filled), '#'),
-      std::string(static_cast<std::size_t>(width - filled), ' '), 100 * done, rate * 1e-6, duration(left_s));
+      std::string(static_cast<std::size_t>(width - filled), ' '), 100 * done, rate * 1e-6,
+      waiting_text(round.waiting), duration(left_s));
   std::fflush(stderr);
   line_open_ = true;
 }

@@ -20,11 +20,11 @@ class Progress {
   Progress(const RenderOptions& options, int rank, const Film& film, double samples);
   void expect(double samples) { samples_ = samples; }
   // Called as often as one likes; prints at its own pace.
-  void show(const RoundSums& sums);
+  void show(const Round& round);
   void finish();
 
  private:
-  void print(const RoundSums& sums, double elapsed_s);
+  void print(const Round& round, double elapsed_s);
   double remaining_s(double done, double elapsed_s) const;
 
   ProgressMode mode_;

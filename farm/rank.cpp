@@ -6,10 +6,13 @@
 
 #include <bit>
 #include <csignal>
+#include <map>
 #include <thread>
 
 #include "bundle/watched_files.h"
 #include "farm/agreement.h"
+#include "farm/ending_time.h"
+#include "farm/parcel.h"
 #include "farm/render.h"
 #include "farm/signals.h"
 #include "scene/diagnostics.h"
@@ -60,6 +63,8 @@ Rank::Rank(Transport& transport, RankState& state, const RenderOptions& options,
   }
   start_items(std::move(earlier.done));
   if (state.photons) begin_iteration(0);
+  if (keeper_ && options.time_limit_s > 0) write_s_ = keeper_->time_to_write_s();
+  expect_ending(0);
   transport_.while_waiting = [this] { watch_ranks(); };
 }
 
@@ -130,15 +135,15 @@ Ending Rank::run() {
     watch_clock();
     watch_ranks();
     if (in_round) {
-      if (const auto sums = transport_.finish_round()) {
+      if (const auto round = transport_.finish_round()) {
         in_round = false;
         watch_.round_ends();
-        progress_.show(*sums);
-        const Decision decision = decide(*sums);
+        progress_.show(*round);
+        const Decision decision = decide(*round);
         if (decision != Decision::go_on) {
           // What follows is done by all together.
           watch_.round_begins(elapsed_s());
-          const std::optional<Ending> ending = act_on(decision, *sums);
+          const std::optional<Ending> ending = act_on(decision, round->sums);
           watch_.round_ends();
           if (ending) return *ending;
         }
@@ -193,14 +198,15 @@ bool Rank::try_to_move_rays() {
 bool Rank::move_rays() {
   if (transport_.size() == 1) return false;
   bool moved = false;
-  while (auto batch = transport_.receive()) {
+  while (const auto message = transport_.receive()) {
     ++received_;
     moved = true;
-    if (!batch->is_whole(state_.scene.manifest.domains.size()) ||
-        (!is_ray(batch->kind()) && !state_.photons) ||
-        state_.scheduler.residency().home(batch->domain()) != transport_.rank())
-      throw MachineError("a message came that holds no rays for a domain of this rank");
-    take_in(std::move(*batch));
+    for (RayBatch& batch : unpack(*message, state_.scene.manifest.domains.size())) {
+      if ((!is_ray(batch.kind()) && !state_.photons) ||
+          !state_.scheduler.residency().homes().has(batch.domain(), transport_.rank()))
+        throw MachineError("a message came that holds no rays for a domain of this rank");
+      take_in(std::move(batch));
+    }
   }
   std::vector<RayBatch> batches;
   {
@@ -208,13 +214,35 @@ bool Rank::move_rays() {
     if (!state_.scheduler.send_is_due(elapsed_s())) return moved;
     batches = take_outgoing();
   }
-  for (RayBatch& batch : batches) {
+  if (batches.empty()) return moved;
+  send(std::move(batches));
+  return true;
+}
+
+// A message a destination.
+void Rank::send(std::vector<RayBatch> batches) {
+  std::map<int, Parcel> parcels;
+  const auto send_parcel = [&](int to, Parcel& parcel) {
+    std::vector<std::byte> message = parcel.take();
     ++messages_;
-    sent_bytes_ += batch.bytes().size();
-    const int home = state_.scheduler.residency().home(batch.domain());
-    transport_.send(home, std::move(batch));
+    sent_bytes_ += message.size();
+    transport_.send(to, std::move(message));
+  };
+  for (RayBatch& batch : batches) {
+    const int to = destination(batch);
+    Parcel& parcel = parcels[to];
+    parcel.add(std::exchange(batch, {}));
+    if (parcel.full()) send_parcel(to, parcel);
   }
-  return moved || !batches.empty();
+  for (auto& [to, parcel] : parcels)
+    if (!parcel.empty()) send_parcel(to, parcel);
+}
+
+// What photons land at and paths ask them for has one place.
+int Rank::destination(const RayBatch& batch) {
+  if (!is_ray(batch.kind())) return state_.scheduler.residency().homes().first(batch.domain());
+  const std::lock_guard lock(state_.mutex);
+  return state_.scheduler.destination(batch.domain(), batch.count());
 }
 
 // As much as the transport has room for; it begins where the last time ended, so that none waits for ever.
@@ -257,13 +285,19 @@ void Rank::take_in(RayBatch batch) {
   state_.load_wanted.notify_one();
 }
 
+void Rank::expect_ending(double gather_s) {
+  if (!keeper_ || options_.time_limit_s <= 0) return;
+  ending_s_ =
+      ending_time_s(options_, film_bytes(state_.scene.manifest.film), transport_.size(), write_s_, gather_s);
+}
+
 void Rank::watch_clock() {
   if (take_checkpoint_signal() && !options_.dry_run) want_checkpoint_ = true;
   if (transport_.rank() != 0) return;
   const auto since_checkpoint = std::chrono::duration<double>(Clock::now() - last_checkpoint_).count();
   if (checkpoint_after_s_ > 0 && since_checkpoint >= checkpoint_after_s_) want_checkpoint_ = true;
   const double since_start_s = std::chrono::duration<double>(Clock::now() - options_.start).count();
-  if (options_.time_limit_s > 0 && since_start_s >= options_.time_limit_s) time_is_up_ = true;
+  if (options_.time_limit_s > 0 && since_start_s + ending_s_ >= options_.time_limit_s) time_is_up_ = true;
   if (options_.stop_after_s > 0 && since_start_s >= options_.stop_after_s) ask_to_stop();
 }
 
@@ -310,7 +344,8 @@ RoundSums Rank::contribution() {
 }
 
 // The same on every rank, since the sums are.
-Rank::Decision Rank::decide(const RoundSums& sums) {
+Rank::Decision Rank::decide(const Round& round) {
+  const RoundSums& sums = round.sums;
   if (sums.bad_input + sums.machine_failure > 0) {
     leave_together();
     std::exception_ptr mine;
@@ -323,6 +358,7 @@ Rank::Decision Rank::decide(const RoundSums& sums) {
   auto quiet = Scheduler::Decision::go_on;
   {
     const std::lock_guard lock(state_.mutex);
+    state_.scheduler.rays_wait(round.waiting);
     quiet = state_.scheduler.decide(sums);
   }
   state_.work_available.notify_all();
@@ -356,12 +392,14 @@ void Rank::collect_done() {
 // with `stop` where that is one; empty if another round has begun.
 std::optional<Ending> Rank::begin_next_round(Ending stop) {
   collect_done();
+  const double before_s = elapsed_s();
   gather_film(transport_, state_.film, done_);
+  expect_ending(elapsed_s() - before_s);
   std::optional<NextRound> next;
   agree(transport_, [&] {
     if (transport_.rank() == 0) next = next_round(state_.film, goal_);
   });
-  auto plan = agree_on_round(transport_, next, state_.film, state_.plan);
+  auto plan = agree_on_round(transport_, std::move(next), state_.film, state_.plan);
   if (!plan) return Ending::finished;
   if (stop != Ending::none) return stop;
   if (transport_.rank() == 0) progress_.expect(expected_samples(state_.film, goal_));
@@ -420,14 +458,14 @@ void Rank::leave_together() {
     mine.died = static_cast<std::int64_t>(received_);
     transport_.start_round(mine);
     watch_.round_begins(elapsed_s());
-    std::optional<RoundSums> sums;
-    while (!(sums = transport_.finish_round())) {
+    std::optional<Round> round;
+    while (!(round = transport_.finish_round())) {
       watch_ranks();
       while (transport_.receive()) ++received_;
       std::this_thread::sleep_for(shortest_nap);
     }
     watch_.round_ends();
-    if (sums->born == sums->died) return;
+    if (round->sums.born == round->sums.died) return;
   }
 }
 
@@ -442,6 +480,10 @@ void Rank::add_to(RenderStats& stats) const {
   stats.spilled_bytes = state_.queues.written_bytes() + state_.outgoing.written_bytes();
   stats.domain_loads = state_.scheduler.residency().loads();
   stats.evictions = state_.scheduler.residency().evictions();
+  if (state_.photons) {
+    stats.photons_landed = state_.photons->landed;
+    stats.photons_kept = state_.photons->most_kept;
+  }
 }
 
 }  // namespace vitrail

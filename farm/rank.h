@@ -38,8 +38,10 @@ class Rank {
   bool try_to_move_rays();
   bool move_rays();
   std::vector<RayBatch> take_outgoing();
+  int destination(const RayBatch& batch);
+  void send(std::vector<RayBatch> batches);
   RoundSums contribution();
-  Decision decide(const RoundSums& sums);
+  Decision decide(const Round& round);
   Ending ending_of(const RoundSums& sums) const;
   static Ending stop_of(const RoundSums& sums);
   void start_items(std::vector<std::uint64_t> done);
@@ -54,6 +56,7 @@ class Rank {
   std::optional<Ending> act_on(Decision decision, const RoundSums& sums);
   void leave_together();
   double elapsed_s() const;
+  void expect_ending(double gather_s);
 
   Transport& transport_;
   RankState& state_;
@@ -73,6 +76,8 @@ class Rank {
   std::string about_;
   FilmKeeper* keeper_;
   bool want_checkpoint_ = false, time_is_up_ = false;
+  // On rank 0, where time is limited: what is left for the film, of which the first is but for gathering.
+  double write_s_ = 0, ending_s_ = 0;
   std::uint32_t sent_from_ = 0;  // the domain that is looked at first when rays are sent
   std::uint64_t messages_ = 0, received_ = 0, sent_bytes_ = 0;
   std::chrono::steady_clock::time_point start_, last_checkpoint_;

@@ -45,8 +45,10 @@ void override_layers(Manifest& m, const RenderOptions& options) {
 
 // They belong to what the film is of.
 void put_sensors(Manifest& m, const RenderOptions& options) {
-  if (options.width || options.height || options.scale != 1 || options.crop || options.bins || options.layers)
-    throw UsageError("--sensors has no picture whose size, crop, spectrum or channels could be given");
+  if (options.width || options.height || options.scale != 1 || options.crop || options.bins ||
+      options.layers || options.samples.filter)
+    throw UsageError(
+        "--sensors has no picture whose size, crop, filter, spectrum or channels could be given");
   SensorCamera camera{translate(-m.offset), read_sensors(options.sensors)};
   m.film = sensor_film(camera.sensors.size());
   m.camera = std::move(camera);
@@ -80,6 +82,7 @@ Manifest read_with_overrides(const RenderOptions& options) {
   if (options.crop) m.film.crop = *options.crop;
   if (options.bins) m.film.spectrum = *options.bins;
   override_layers(m, options);
+  apply(options.samples, m);
   const PixelRect& c = m.film.crop;
   if (c.x0 < 0 || c.y0 < 0 || c.x1 > m.film.width || c.y1 > m.film.height || c.x0 >= c.x1 || c.y0 >= c.y1)
     throw UsageError("the crop lies outside the film or is empty");
@@ -116,7 +119,8 @@ std::uint64_t texture_budget(const Manifest& m, std::uint64_t memory_bytes) {
 Job set_up(const RenderOptions& options) {
   Manifest manifest = read_with_overrides(options);
   const std::uint64_t textures = texture_budget(manifest, options.memory_bytes);
-  auto scene = std::make_unique<RenderScene>(std::move(manifest), options.bundle, textures, options.seed);
+  auto scene = std::make_unique<RenderScene>(std::move(manifest), options.bundle, textures, options.seed,
+                                             options.samples.sampling);
   return {std::move(scene), {}, textures};
 }
 
@@ -134,6 +138,11 @@ MemoryPlan plan_for(const Manifest& manifest, const RenderOptions& options, int 
   return plan;
 }
 
+Homes homes_of(const Manifest& manifest, const RenderOptions& options, int ranks) {
+  if (options.homes.empty()) return homes_by_bytes(manifest, ranks);
+  return homes_by_work(manifest, read_ray_profile(options.homes), ranks);
+}
+
 // Of a film's file: its sums, and what it says of itself.
 std::uint64_t file_bytes(const FilmSettings& film) {
   constexpr std::uint64_t header_and_words = 16 << 10;
@@ -141,9 +150,10 @@ std::uint64_t file_bytes(const FilmSettings& film) {
   return sums + sums / 32 + header_and_words;
 }
 
-// Of an adaptive round's numbers, and what it takes to find them.
+// Of an adaptive round's numbers, and what it takes to find them, or those of the round before beside its
+// own.
 std::uint64_t map_bytes(const PixelRect& crop) {
-  constexpr std::uint64_t held_and_more = 8, finding_them = 12;
+  constexpr std::uint64_t held_and_more = 8, finding_them = 8;
   return static_cast<std::uint64_t>(crop.x1 - crop.x0) * static_cast<std::uint64_t>(crop.y1 - crop.y0) *
          (held_and_more + finding_them);
 }
@@ -198,15 +208,17 @@ RenderStats render(Transport& transport, const RenderOptions& options) {
   MemoryPlan memory;
   std::optional<FilmKeeper> keeper;
   PhotonKey photons;
+  std::optional<Homes> homes;
   std::size_t most_photons = 0;  // that land here in an iteration; 0: no limit
   agree(transport, [&] {
     job = set_up(options);
     // Refused before it takes the memory.
     const Manifest& m = job->scene->manifest;
     goal = goal_of(options, m.settings.samples_per_pixel);
-    stats.base_rss_bytes = resident_bytes() + film_bytes(m.film) +
-                           (goal.adaptive ? map_bytes(m.film.crop) : 0) +
-                           table_bytes(m.domains.size(), threads) + connection_bytes(transport.size());
+    stats.base_rss_bytes =
+        resident_bytes() + film_bytes(m.film) + (goal.adaptive ? map_bytes(m.film.crop) : 0) +
+        list_bytes(make_work_plan(m.film.crop, goal.samples, {}, goal.one_by_one), transport.size()) +
+        table_bytes(m.domains.size(), threads) + connection_bytes(transport.size());
     stats.setup_peak_rss_bytes = peak_resident_bytes();
     photons = photons_of(options, m);
     most_photons = least_room(photons, options.memory_bytes);
@@ -220,27 +232,28 @@ RenderStats render(Transport& transport, const RenderOptions& options) {
     }
     job->film = Film(m.film, key_of(m, options), film_exponent(*job->scene),
                      m.film.layers.any() ? length_exponent(*job->scene) : default_exponent);
+    homes = homes_of(m, options, transport.size());
     if (transport.rank() == 0 && !options.dry_run) keeper.emplace(options.film, file_bytes(m.film));
   });
   const Manifest& manifest = job->scene->manifest;
-  expect_same_job(transport, manifest, job->film.key(), goal, options);
+  expect_same_job(transport, manifest, job->film.key(), goal, *homes, options);
   EarlierWork earlier = read_earlier_work(transport, options, job->film, goal);
   const std::uint64_t samples_before = job->film.samples();  // on rank 0
 
-  const Scheduler::Job of_this_rank{transport.size(), threads,
-                                    rays_allowed_a_rank(memory) * transport.size()};
+  const bool in_flow = is_in_flow(manifest, *homes, options.distribution, memory.domains_bytes);
+  const std::int64_t rays_a_rank = in_flow ? rays_allowed_in_flow(threads) : rays_allowed_a_rank(memory);
+  const Scheduler::Job of_this_rank{transport.size(), threads, rays_a_rank * transport.size(),
+                                    transport.rank()};
   const QueueBounds bounds = queue_bounds(memory, transport.size());
-  RankState state(
-      *job->scene, job->film, std::move(earlier.plan),
-      RayQueues(manifest.domains.size(), bounds.waiting, options.shuffle_seed),
-      RayQueues(manifest.domains.size(), bounds.outgoing, std::nullopt),
-      Scheduler(of_this_rank, Residency(manifest, memory.domains_bytes,
-                                        home_ranks(manifest, transport.size()), transport.rank())),
-      options.bundle);
+  RankState state(*job->scene, job->film, std::move(earlier.plan),
+                  RayQueues(manifest.domains.size(), bounds.waiting, options.shuffle_seed),
+                  RayQueues(manifest.domains.size(), bounds.outgoing, std::nullopt),
+                  Scheduler(of_this_rank, Residency(manifest, memory.domains_bytes, *homes, transport.rank(),
+                                                    options.distribution)),
+                  options.bundle);
   state.most_sent_bytes = bounds.being_sent;
   if (photons.photons > 0)
-    state.photons.emplace(*job->scene, photons, most_photons, home_ranks(manifest, transport.size()),
-                          transport.rank(), transport.size());
+    state.photons.emplace(*job->scene, photons, most_photons, *homes, transport.rank(), transport.size());
   if (transport.rank() == 0 && !options.quiet && manifest.lights.empty() && manifest.area_lights.empty())
     say("vitrail: the scene has no light: its picture is black\n");
   if (!options.profile.empty()) state.traffic.emplace(manifest.domains.size());

@@ -20,6 +20,8 @@ class ReservedSpace {
   void release();
   // False where there is no room any more.
   bool renew();
+  // What a file of so many bytes takes on this disk, by a part of it that is written there and synced.
+  double time_to_write_s() const;
 
  private:
   std::filesystem::path beside_;

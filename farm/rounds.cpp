@@ -5,6 +5,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <utility>
 
 #include "film/sample_map.h"
 
@@ -108,8 +109,8 @@ double expected_samples(const Film& film, const Goal& goal) {
   return std::min<double>(goal.samples, samples_of_a_pixel(film) * std::max(1.0, excess(film, *goal.target)));
 }
 
-std::optional<WorkPlan> agree_on_round(Transport& transport, const std::optional<NextRound>& next,
-                                       const Film& film, const WorkPlan& plan) {
+std::optional<WorkPlan> agree_on_round(Transport& transport, std::optional<NextRound> next, const Film& film,
+                                       const WorkPlan& plan) {
   std::array<std::uint64_t, 3> told{};
   if (next) told = {1, next->samples, !next->more.empty()};
   transport.broadcast_from_root(told);
@@ -119,10 +120,10 @@ std::optional<WorkPlan> agree_on_round(Transport& transport, const std::optional
     for (const WorkPlan::Part& part : plan.parts) ends.push_back(part.end);
     return make_work_plan(plan.crop, static_cast<std::uint32_t>(told[1]), ends);
   }
-  std::vector<std::uint32_t> held(film.pixels()), more(film.pixels());
+  std::vector<std::uint32_t> held(film.pixels()), more(next ? 0 : film.pixels());
   if (next) {
     for (std::uint32_t p = 0; p < film.pixels(); ++p) held[p] = static_cast<std::uint32_t>(film.samples(p));
-    more = next->more;
+    more = std::move(next->more);
   }
   transport.broadcast_from_root(std::span(held));
   transport.broadcast_from_root(std::span(more));

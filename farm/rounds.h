@@ -51,7 +51,7 @@ double expected_samples(const Film& film, const Goal& goal);
 
 // The work of a round that follows `plan`. To be called by all ranks together; `next` and `film` are rank
 // 0's. Empty: there is none.
-std::optional<WorkPlan> agree_on_round(Transport& transport, const std::optional<NextRound>& next,
-                                       const Film& film, const WorkPlan& plan);
+std::optional<WorkPlan> agree_on_round(Transport& transport, std::optional<NextRound> next, const Film& film,
+                                       const WorkPlan& plan);
 
 }  // namespace vitrail

@@ -14,14 +14,23 @@ struct Part {
   std::string value;
 };
 
+std::string to_string(const Homes& homes) {
+  std::string text;
+  for (std::uint32_t d = 0; d < homes.domains(); ++d)
+    text += fmt::format("{}-{} ", homes.first(d), homes.last(d));
+  return text;
+}
+
 // Everything that ranks decide alike by, or that enters the film.
-std::vector<Part> parts_of(const Manifest& m, const FilmKey& key, const Goal& goal, const RenderOptions& o) {
+std::vector<Part> parts_of(const Manifest& m, const FilmKey& key, const Goal& goal, const Homes& homes,
+                           const RenderOptions& o) {
   std::string bundle = fmt::format("{:x}", m.scene_hash);
   for (const DomainInfo& d : m.domains) bundle += fmt::format(" {:x}", d.hash);
   for (const ObjectInfo& object : m.objects) bundle += fmt::format(" {:x}", object.hash);
   for (const TextureFileEntry& t : m.texture_files) bundle += fmt::format(" {:x}", t.hash);
   const PixelRect& crop = m.film.crop;
   return {{"build", to_string(key.renderer)},
+          {"way to sample the picture", words_of(o.samples)},
           {"bundle", std::move(bundle)},
           {"state of its glass (--set)", o.glazing},
           {"seed", fmt::format("{}", key.seed)},
@@ -37,6 +46,7 @@ std::vector<Part> parts_of(const Manifest& m, const FilmKey& key, const Goal& go
            fmt::format("{} {} {} {} {} {} {}", goal.samples, goal.in_rounds, goal.adaptive, goal.open_ended,
                        goal.target ? goal.target->value : 0, goal.target && goal.target->just_noticeable,
                        o.time_limit_s)},
+          {"distribution or homes", fmt::format("{} {}", static_cast<int>(o.distribution), to_string(homes))},
           {"output, profile, dry run or --force",
            fmt::format("{}\n{}\n{} {}", o.film.string(), o.profile.string(), o.dry_run, o.force)}};
 }
@@ -44,8 +54,8 @@ std::vector<Part> parts_of(const Manifest& m, const FilmKey& key, const Goal& go
 }  // namespace
 
 void expect_same_job(Transport& transport, const Manifest& manifest, const FilmKey& key, const Goal& goal,
-                     const RenderOptions& options) {
-  const std::vector<Part> parts = parts_of(manifest, key, goal, options);
+                     const Homes& homes, const RenderOptions& options) {
+  const std::vector<Part> parts = parts_of(manifest, key, goal, homes, options);
   std::vector<std::uint64_t> mine;
   for (const Part& p : parts) mine.push_back(checksum(std::as_bytes(std::span(p.value))));
   std::vector<std::uint64_t> first = mine;

@@ -16,11 +16,11 @@ class SoloTransport final : public Transport {
  public:
   int rank() const override { return 0; }
   int size() const override { return 1; }
-  void send(int, RayBatch) override { throw std::logic_error("a single rank sent rays"); }
+  void send(int, std::vector<std::byte>) override { throw std::logic_error("a single rank sent rays"); }
   std::uint64_t sending_bytes() override { return 0; }
-  std::optional<RayBatch> receive() override { return std::nullopt; }
-  void start_round(const RoundSums& mine) override { round_ = mine; }
-  std::optional<RoundSums> finish_round() override { return round_; }
+  std::optional<std::vector<std::byte>> receive() override { return std::nullopt; }
+  void start_round(const RoundSums& mine) override { round_ = {mine, {mine.waiting}}; }
+  std::optional<Round> finish_round() override { return round_; }
   void say(int, Word) override {}
   std::optional<std::pair<int, Word>> hear() override { return std::nullopt; }
   void abandon(int status) override { std::_Exit(status); }
@@ -33,7 +33,7 @@ class SoloTransport final : public Transport {
   void broadcast_from_root(std::span<std::uint32_t>) override {}
 
  private:
-  RoundSums round_;
+  Round round_;
 };
 
 }  // namespace

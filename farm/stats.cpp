@@ -6,13 +6,25 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "tracer/photons/photon_map.h"
+
 namespace vitrail {
 
 void gather_stats(Transport& transport, RenderStats& s, const std::vector<bool>& touched) {
-  std::uint64_t* const summed[] = {&s.traced.rays_camera, &s.traced.rays_indirect, &s.traced.rays_shadow,
-                                   &s.traced.crossings,   &s.forwarded_rays,       &s.forwarded_bytes,
-                                   &s.messages,           &s.domain_loads,         &s.evictions,
-                                   &s.spilled_bytes};
+  std::uint64_t* const summed[] = {&s.traced.rays_camera,
+                                   &s.traced.rays_indirect,
+                                   &s.traced.rays_shadow,
+                                   &s.traced.crossings,
+                                   &s.forwarded_rays,
+                                   &s.forwarded_bytes,
+                                   &s.messages,
+                                   &s.domain_loads,
+                                   &s.evictions,
+                                   &s.spilled_bytes,
+                                   &s.traced.photons_emitted,
+                                   &s.traced.gathers,
+                                   &s.traced.photons_gathered,
+                                   &s.photons_landed};
   std::vector<std::int64_t> counts;
   for (const std::uint64_t* value : summed) counts.push_back(static_cast<std::int64_t>(*value));
   transport.sum_to_root(std::span(counts));
@@ -29,13 +41,14 @@ void gather_stats(Transport& transport, RenderStats& s, const std::vector<bool>&
   s.trace_s = times[2];
   s.idle_s = times[3];
 
-  std::int64_t memory[] = {static_cast<std::int64_t>(s.peak_rss_bytes),
-                           static_cast<std::int64_t>(s.base_rss_bytes),
-                           static_cast<std::int64_t>(s.setup_peak_rss_bytes)};
+  std::int64_t memory[] = {
+      static_cast<std::int64_t>(s.peak_rss_bytes), static_cast<std::int64_t>(s.base_rss_bytes),
+      static_cast<std::int64_t>(s.setup_peak_rss_bytes), static_cast<std::int64_t>(s.photons_kept)};
   transport.max_to_root(memory);
   s.peak_rss_bytes = static_cast<std::uint64_t>(memory[0]);
   s.base_rss_bytes = static_cast<std::uint64_t>(memory[1]);
   s.setup_peak_rss_bytes = static_cast<std::uint64_t>(memory[2]);
+  s.photons_kept = static_cast<std::uint64_t>(memory[3]);
 }
 
 std::string to_json(const RenderStats& s) {
@@ -71,6 +84,11 @@ std::string to_json(const RenderStats& s) {
                                  {"saturated_samples", s.refused.too_large},
                                  {"clamped_share", s.clamped_share},
                                  {"film_hash", fmt::format("{:016x}", s.film_hash)}};
+  json["photons_emitted"] = s.traced.photons_emitted;
+  json["photons_landed"] = s.photons_landed;
+  json["photon_gathers"] = s.traced.gathers;
+  json["photons_gathered"] = s.traced.photons_gathered;
+  json["photon_bytes"] = s.photons_kept * PhotonMap::photon_bytes;
   json["adaptive"] = s.adaptive;
   json["rounds"] = s.rounds;
   if (s.target.value > 0) {

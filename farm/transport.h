@@ -2,15 +2,15 @@
 // How ranks reach each other. One implementation speaks MPI, the other is a rank alone.
 #pragma once
 
-#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <span>
 #include <utility>
+#include <vector>
 
-#include "farm/batch.h"
 #include "farm/scheduler/round.h"
 #include "film/wide_sum.h"
 
@@ -23,12 +23,12 @@ class Transport {
   virtual int size() const = 0;
 
   // None of these waits.
-  virtual void send(int to, RayBatch batch) = 0;
+  virtual void send(int to, std::vector<std::byte> message) = 0;
   virtual std::uint64_t sending_bytes() = 0;  // that no receiver has taken over yet
-  virtual std::optional<RayBatch> receive() = 0;
-  // Joins the next round; one at a time. `finish_round` gives its sums once every rank has joined.
+  virtual std::optional<std::vector<std::byte>> receive() = 0;
+  // Joins the next round; one at a time. `finish_round` gives what came of it once every rank has joined.
   virtual void start_round(const RoundSums& mine) = 0;
-  virtual std::optional<RoundSums> finish_round() = 0;
+  virtual std::optional<Round> finish_round() = 0;
 
   // Beside rays and rounds; `hear` gives who said it. What nobody hears is lost without harm.
   enum class Word : std::uint8_t { are_you_there, here };

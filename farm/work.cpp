@@ -76,7 +76,8 @@ WorkPlan make_work_plan(const PixelRect& crop, std::uint32_t samples,
   std::uint32_t first = 0;
   const auto add = [&](std::uint32_t end) {
     // Few enough items that their list stays small, many enough to share and to stop between.
-    plan.parts.push_back({first, end, one_by_one ? 1 : std::clamp(end / 128, 1u, 16u)});
+    constexpr std::uint32_t longest = 4096;
+    plan.parts.push_back({first, end, one_by_one ? 1 : std::clamp(end / 128, 1u, longest)});
     first = end;
   };
   for (const std::uint32_t end : earlier_ends) add(end);
@@ -110,6 +111,11 @@ std::vector<std::uint64_t> all_done(std::uint64_t items) {
   std::vector<std::uint64_t> done((items + 63) / 64, ~std::uint64_t{0});
   if (items % 64 != 0) done.back() = (std::uint64_t{1} << items % 64) - 1;
   return done;
+}
+
+std::uint64_t list_bytes(const WorkPlan& plan, int ranks) {
+  const std::uint64_t listed = plan.one_by_one ? plan.tiles_x() * plan.tiles_y() : plan.items();
+  return listed * sizeof(std::uint64_t) / static_cast<std::uint64_t>(ranks) + plan.items() / 4;
 }
 
 std::vector<std::uint64_t> share_of(const WorkPlan& plan, const std::vector<std::uint64_t>& done, int rank,

@@ -78,6 +78,10 @@ void for_each_sample(const WorkPlan& plan, const WorkItem& item, std::uint64_t f
     }
 }
 
+// Of memory: a rank's share of the items by number, of which photon mapping has those of an iteration at a
+// time, and a bit of each, twice.
+std::uint64_t list_bytes(const WorkPlan& plan, int ranks);
+
 // The items of `rank` of `ranks` among those not yet done, dealt out in turn, in ascending order.
 // `done` holds a bit an item, or is empty: none is. Of the items [first, end).
 std::vector<std::uint64_t> share_of(const std::vector<std::uint64_t>& done, std::uint64_t first,

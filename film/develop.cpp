@@ -58,6 +58,7 @@ Picture develop(const Film& film) {
   picture.window = film.crop();
   picture.full_width = film.full_width();
   picture.full_height = film.full_height();
+  picture.shared_error = film.shared_error();
   std::uint64_t most_samples = 0, least_samples = ~std::uint64_t{0};
   for (std::uint32_t p = 0; p < film.pixels(); ++p) {
     const RGB c = xyz_to_srgb(film.mean(p));

@@ -11,6 +11,7 @@ namespace vitrail {
 struct PictureOrigin {
   std::string software, scene, scene_hash, seeds, film_hash;
   std::string glazing;    // in which state it was set; empty: as the scene says
+  std::string sampling;   // options that say how; empty: as usual
   int least_samples = 0;  // of a pixel
   // 16 numbers each, row by row, of matrices that take columns; empty where unknown.
   std::vector<float> world_to_camera, world_to_ndc;
@@ -35,7 +36,8 @@ struct Picture {
   int full_width = 0, full_height = 0;
   int samples_per_pixel = 0;
   double render_time_s = 0;
-  PictureOrigin origin;  // written, not read
+  double shared_error = 0;  // Film's
+  PictureOrigin origin;     // written, not read
 };
 
 // The means of the film in linear sRGB, not clamped, and the variances of their luminance;

@@ -81,8 +81,8 @@ Film::Film(const FilmSettings& settings, const FilmKey& key, int exponent, int l
   if (bins_.count < 0 || bins_.count > max_spectral_bins || !(bins_.min_nm < bins_.max_nm))
     throw Error(fmt::format("a film keeps at most {} spectral bins over an interval of wavelengths",
                             max_spectral_bins));
-  sums_.resize((plane_count + static_cast<std::size_t>(bins_.count) + sum_planes(layers_)) * size);
-  if (key_.clamp > 0) sums_.emplace_back();
+  sums_.resize((plane_count + static_cast<std::size_t>(bins_.count) + sum_planes(layers_)) * size +
+               single_sums(key_));
   counts_.resize(sample_groups * size);
   ids_.resize(id_planes(layers_) * size);
 }
@@ -117,7 +117,9 @@ bool Film::deposit(std::uint32_t pixel, std::uint32_t sample, const XYZ& value) 
   const std::size_t plane = pixels();
   add_shared(sums_[x_plane * plane + pixel], rounded(quanta * value.x, bits));
   add_shared(sums_[z_plane * plane + pixel], rounded(quanta * value.z, bits >> 21));
-  add_shared(sums_[(y_planes + group(sample)) * plane + pixel], rounded(quanta * value.y, bits >> 42));
+  const WideSum light = rounded(quanta * value.y, bits >> 42);
+  add_shared(sums_[(y_planes + group(sample)) * plane + pixel], light);
+  if (key_.photons.photons > 0) add_shared(sums_[first_batch() + batch_of(sample)], light);
   return true;
 }
 
@@ -189,6 +191,8 @@ double Film::mean_of_layer(std::uint32_t pixel, Layer layer, std::size_t plane) 
 
 void Film::count_sample(std::uint32_t pixel, std::uint32_t sample) {
   std::atomic_ref(counts_[group(sample) * pixels() + pixel]).fetch_add(1, std::memory_order_relaxed);
+  if (key_.photons.photons > 0)
+    add_shared(sums_[first_batch() + photon_batches + batch_of(sample)], wide_sum_of(1));
 }
 
 float rounded_threshold(double threshold) {
@@ -202,7 +206,8 @@ std::string difference(const Film& a, const Film& b) {
     return fmt::format("{}: {} and {}", what, x, y);
   };
   const auto text = [](const PixelRect& r) { return fmt::format("{},{},{},{}", r.x0, r.x1, r.y0, r.y1); };
-  if (k.scene_hash != l.scene_hash) return "they are of different scenes, or of glass in different states";
+  if (k.scene_hash != l.scene_hash)
+    return "they are of different scenes or of glass in different states, or sampled in different ways";
   if (k.renderer != l.renderer)
     return differ("they were made by different programs", to_string(k.renderer), to_string(l.renderer));
   if (a.full_width() != b.full_width()) return differ("their widths differ", a.full_width(), b.full_width());
@@ -291,6 +296,24 @@ double Film::variance_of_mean(std::uint32_t pixel) const {
   if (n0 == 0 || n1 == 0) return 0;
   const double d = imaging_ratio_ * (value(y_planes, pixel) / n0 - value(y_planes + 1, pixel) / n1);
   return d * d * (n0 / n) * (n1 / n);
+}
+
+// The mean is a ratio of sums over k batches, m = ΣY/Σn: Var[m] = k/(k − 1)·Σ(Y_b − m·n_b)²/(Σn)² (Cochran,
+// "Sampling Techniques", 1977, §2.11).
+double Film::shared_error() const {
+  if (key_.photons.photons == 0) return 0;
+  double light = 0, count = 0, squares = 0, batches = 0;
+  const auto sum = [&](std::size_t i) { return static_cast<double>(value_of(sums_[first_batch() + i])); };
+  for (std::size_t b = 0; b < photon_batches; ++b) {
+    light += sum(b), count += sum(photon_batches + b);
+    batches += sum(photon_batches + b) > 0;
+  }
+  if (batches < 2 || !(light > 0)) return 0;
+  for (std::size_t b = 0; b < photon_batches; ++b) {
+    const double d = sum(b) / light - sum(photon_batches + b) / count;
+    squares += d * d;
+  }
+  return std::sqrt(batches / (batches - 1) * squares);
 }
 
 std::uint64_t Film::samples(std::uint32_t pixel) const {

@@ -11,6 +11,7 @@
 
 #include "film/renderer_version.h"
 #include "film/sample_groups.h"
+#include "film/untouched.h"
 #include "film/wide_sum.h"
 #include "scene/color.h"
 #include "scene/scene.h"
@@ -49,6 +50,18 @@ struct Refused {
   std::uint64_t too_large = 0;  // the picture lacks light: the film is saturated
   bool operator==(const Refused&) const = default;
 };
+
+// What the pixels of an iteration of photon mapping have in common errs alike in all of them, and no pixel's
+// scatter tells. So such a film keeps the sums of Y and the samples of all pixels in batches of iterations
+// that follow on each other, each batch well stratified: iteration i in batch ⌊i/8⌋ mod 32.
+inline constexpr std::uint32_t photon_batches = 32, iterations_a_batch = 8;
+constexpr std::uint32_t batch_of(std::uint32_t iteration) {
+  return iteration / iterations_a_batch % photon_batches;
+}
+// Sums of a film beside its planes.
+constexpr std::size_t single_sums(const FilmKey& key) {
+  return (key.photons.photons > 0 ? 2 * photon_batches : 0) + (key.clamp > 0 ? 1 : 0);
+}
 
 // What a sum counts in: 2^exponent. A deposit has to be below 2^(exponent + deposit_bits), so that a sum
 // holds 2⁴² deposits, 2¹⁰ of each of 2³² samples, whatever they are.
@@ -112,6 +125,9 @@ class Film {
   // Variance of the mean's Y, from the scatter of the groups; 0 where one has no samples. An estimate
   // of one degree of freedom: of use where many are put together.
   double variance_of_mean(std::uint32_t pixel) const;
+  // Of photon mapping: the standard error of the picture's mean Y, relative to it, by the scatter of the
+  // batches. 0 where it is not known: of fewer than two batches, and of paths, whose pixels are independent.
+  double shared_error() const;
   std::uint64_t samples(std::uint32_t pixel) const;
   std::uint64_t samples() const;  // of all pixels
 
@@ -126,8 +142,9 @@ class Film {
   std::uint64_t hash() const;
 
   // The raw planes, for exchange between ranks: X, Z, Y of each group, then one a spectral bin and those of
-  // layers, each width·height, and, where there is a clamp, the Y that it took of all pixels; the samples of
-  // each group; and what was refused.
+  // layers, each width·height; of photon mapping the Y, then the samples, of all pixels in each batch; and,
+  // where there is a clamp, the Y that it took of all pixels; the samples of each group; and what was
+  // refused.
   std::span<WideSum> sums() { return sums_; }
   std::span<const WideSum> sums() const { return sums_; }
   std::span<std::uint32_t> counts() { return counts_; }
@@ -147,6 +164,7 @@ class Film {
   std::size_t first_plane(Layer layer) const;
   int exponent_of(Layer layer) const;
   std::size_t place_of_id(std::uint32_t pixel, Layer layer) const;
+  std::size_t first_batch() const { return sums_.size() - single_sums(key_); }
 
   PixelRect crop_{};
   int full_width_ = 0, full_height_ = 0;
@@ -155,9 +173,9 @@ class Film {
   FilmKey key_{};
   int exponent_ = default_exponent, length_exponent_ = default_exponent;
   FilmLayers layers_;
-  std::vector<WideSum> sums_;
-  std::vector<std::uint32_t> counts_;
-  std::vector<std::int64_t> ids_;
+  UntouchedVector<WideSum> sums_;
+  UntouchedVector<std::uint32_t> counts_;
+  UntouchedVector<std::int64_t> ids_;
   Refused refused_;
 };
 

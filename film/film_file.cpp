@@ -27,7 +27,7 @@ namespace {
 
 constexpr char film_magic[8] = {'v', 'i', 't', 'f', 'i', 'l', 'm', '\n'};
 // Of the last, what photons its samples gathered follows the header.
-constexpr std::uint32_t film_version = 4, adaptive_version = 5, photon_version = 6;
+constexpr std::uint32_t film_version = 4, adaptive_version = 5, photon_version = 7;
 constexpr std::int32_t max_extent = 1 << 20;  // pixels a side
 
 // What a film was rendered with, in Header::options.
@@ -191,12 +191,13 @@ Film read_film(const std::filesystem::path& file, FilmProgress* progress) {
   const FilmLayers layers{h.layers, (h.options & option_camera_space) != 0};
   const bool open_round = (h.options & option_open_round) != 0;
   const std::uint64_t planes = 2 + sample_groups + static_cast<std::uint64_t>(h.bins) + sum_planes(layers);
-  const std::uint64_t arrays = pixels * (planes * sizeof(WideSum) + sample_groups * sizeof(std::uint32_t) +
-                                         id_planes(layers) * sizeof(std::int64_t)) +
-                               h.earlier_ends * std::uint64_t{sizeof(std::uint32_t)} + h.about_bytes + 6 * 8 +
-                               (h.clamp > 0 ? sizeof(WideSum) : 0) +
-                               (h.version == photon_version ? sizeof(PhotonKey) + 8 : 0) +
-                               (open_round ? pixels * sizeof(std::uint32_t) + 8 : 0);
+  const std::uint64_t arrays =
+      pixels * (planes * sizeof(WideSum) + sample_groups * sizeof(std::uint32_t) +
+                id_planes(layers) * sizeof(std::int64_t)) +
+      h.earlier_ends * std::uint64_t{sizeof(std::uint32_t)} + h.about_bytes + 6 * 8 +
+      (h.clamp > 0 ? sizeof(WideSum) : 0) +
+      (h.version == photon_version ? sizeof(PhotonKey) + 8 + 2 * photon_batches * sizeof(WideSum) : 0) +
+      (open_round ? pixels * sizeof(std::uint32_t) + 8 : 0);
   if (in.size() - sizeof h < arrays || (in.size() - sizeof h - arrays) % 8 != 0 ||
       (in.size() - sizeof h - arrays) / 8 != words_of(h.items))
     in.fail(fmt::format("the film file is truncated or has bytes too many: {} bytes", in.size()));
@@ -234,7 +235,7 @@ Film read_film(const std::filesystem::path& file, FilmProgress* progress) {
   film.exponent_ = h.exponent, film.length_exponent_ = h.length_exponent;
   film.layers_ = layers;
   film.refused_ = {h.nonfinite, h.too_large};
-  in.read_array(film.sums_, planes * pixels + (h.clamp > 0 ? 1 : 0), "sums");
+  in.read_array(film.sums_, planes * pixels + single_sums(film.key_), "sums");
   in.read_array(film.counts_, sample_groups * pixels, "counts");
   in.read_array(film.ids_, id_planes(layers) * pixels, "ids");
   if (open_round) in.read_array(read.more, pixels, "open round");

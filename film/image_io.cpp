@@ -122,6 +122,7 @@ void put_origin(OIIO::ImageSpec& spec, const PictureOrigin& origin) {
   put("scene", origin.scene);
   put("sceneHash", origin.scene_hash);
   put("glazing", origin.glazing);
+  put("sampling", origin.sampling);
   put("seed", origin.seeds);
   put("filmHash", origin.film_hash);
   if (origin.least_samples > 0) spec.attribute("samplesPerPixelLeast", origin.least_samples);

@@ -8,36 +8,51 @@ namespace vitrail {
 
 namespace {
 
+// The greatest Y of the eight pixels around; 0 where there is none.
+double greatest_around(const Film& film, int x, int y) {
+  double greatest = 0;
+  for (int j = std::max(y - 1, 0); j <= std::min(y + 1, film.height() - 1); ++j)
+    for (int i = std::max(x - 1, 0); i <= std::min(x + 1, film.width() - 1); ++i)
+      if (i != x || j != y)
+        greatest = std::max(greatest, film.mean(static_cast<std::uint32_t>(j * film.width() + i)).y);
+  return greatest;
+}
+
 // Y² of the pixel to divide its squared error by. With a and b the means of the two groups it is ab, which
 // knows nothing of their difference: where one alone has found something bright, the pixel is as dark as the
 // other says. And it is no more than the greatest of the pixels around.
-double square_without_specks(const Film& film, int x, int y, double variance) {
-  const auto luminance = [&](int i, int j) {
-    return film.mean(static_cast<std::uint32_t>(j * film.width() + i)).y;
-  };
-  const double own = luminance(x, y), product = std::max(0.0, own * own - variance);
-  double around = 0;
-  bool any = false;
-  for (int j = std::max(y - 1, 0); j <= std::min(y + 1, film.height() - 1); ++j)
-    for (int i = std::max(x - 1, 0); i <= std::min(x + 1, film.width() - 1); ++i)
-      if (i != x || j != y) around = std::max(around, luminance(i, j)), any = true;
-  return any ? std::min(product, around * around) : product;
+double square_without_specks(double own, double variance, double around) {
+  return std::min(std::max(0.0, own * own - variance), around * around);
+}
+
+// Of the squared error, what a pixel would have of something as bright as the brightest beside it that its
+// samples missed: half a sample's worth of it (Krichevsky & Trofimov 1981), which is the expected number
+// where none was found, in one of two such pixels: the edge runs through one of two that meet there. The
+// estimate does not have it.
+double unseen(double own, double around, double samples) {
+  const double of_a_sample = std::max(0.0, around - own) / samples;
+  return 0.5 * (0.5 * of_a_sample) * (0.5 * of_a_sample);
 }
 
 // `weight(Y²)`: of a squared error at that luminance.
 template <class Weight>
 NoiseEstimate weighted(const Film& film, Weight weight) {
+  const bool single = film.pixels() == 1;
   double sum = 0, squares = 0;
   for (int y = 0; y < film.height(); ++y)
     for (int x = 0; x < film.width(); ++x) {
       const auto pixel = static_cast<std::uint32_t>(y * film.width() + x);
-      const double variance = film.variance_of_mean(pixel);
-      const double error = variance > 0 ? variance * weight(square_without_specks(film, x, y, variance)) : 0;
-      sum += error, squares += error * error;
+      if (film.samples(pixel) == 0) continue;
+      const double own = film.mean(pixel).y, variance = film.variance_of_mean(pixel),
+                   around = single ? own : greatest_around(film, x, y),
+                   each = weight(square_without_specks(own, variance, around)), error = variance * each,
+                   missed = each * unseen(own, around, static_cast<double>(film.samples(pixel)));
+      sum += error;
+      // Twice: the error that the film has is as far from its expectation as the estimate is.
+      squares += 2 * error * error + missed * missed;
     }
   const double n = film.pixels(), mean = sum / n;
-  // Twice: the error that the film has is as far from its expectation as the estimate is.
-  return {mean, std::sqrt(2 * std::max(0.0, squares / n - mean * mean) / n)};
+  return {mean, std::sqrt(std::max(0.0, squares / n - 2 * mean * mean) / n)};
 }
 
 // Newton's; the C library's cube root depends on the machine. `v` in [0.008, 1].

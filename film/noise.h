@@ -11,7 +11,9 @@ namespace vitrail {
 inline constexpr double relative_error_floor = 0.01;
 
 // Of a mean over pixels. The standard error is that of the difference between the estimate and the error that
-// the film really has, which scatters as much as the estimate does.
+// the film really has, which scatters as much as the estimate does; and in it is what a pixel may have missed
+// of something as bright as the brightest pixel beside it: half a sample of it (Krichevsky & Trofimov 1981),
+// in one of two such pixels.
 struct NoiseEstimate {
   double mean = 0, standard_error = 0;
   // The true error is below with a probability of 99 % at one look, where no few pixels decide: of several

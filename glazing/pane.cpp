@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "glazing/thin_film.h"
 #include "scene/diagnostics.h"
+#include "scene/portable_math.h"
 
 namespace vitrail {
 
@@ -49,7 +49,7 @@ Sheet sheet(double rho, double a) {
 std::array<Sheet, 2> sheet_at(double t, double r, double cosine) {
   const double rho = face_reflectance(t, r), n = index_of_face(rho);
   const double inner = std::sqrt(1 - (1 - cosine * cosine) / (n * n));
-  const double a = std::pow(passage(t, r, rho), 1 / inner);
+  const double a = portable_pow(passage(t, r, rho), 1 / inner);
   return {sheet(square((cosine - n * inner) / (cosine + n * inner)), a),
           sheet(square((n * cosine - inner) / (n * cosine + inner)), a)};
 }
@@ -88,7 +88,7 @@ PolarisedValues clear_glass(PaneValues normal, double cosine) {
 
 IndexRow clear_glass_index(double nm, double t, double r, double thickness_mm) {
   const double rho = face_reflectance(t, r), a = std::max(passage(t, r, rho), 1e-300);
-  return {nm, index_of_face(rho), -std::log(a) * nm * 1e-6 / (4 * std::numbers::pi * thickness_mm)};
+  return {nm, index_of_face(rho), -portable_log(a) * nm * 1e-6 / (4 * pi * thickness_mm)};
 }
 
 PaneValues coated_glass(PaneValues normal, double cosine) {

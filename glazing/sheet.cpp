@@ -2,9 +2,8 @@
 #include "glazing/sheet.h"
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 
+#include "scene/portable_math.h"
 #include "scene/spectrum.h"
 
 namespace vitrail {
@@ -30,7 +29,7 @@ GlazingSheets sheets_of(const GlazingSystem& system, Polarisation polarisation) 
   const std::vector<double> nm = visible_wavelengths(system);
   std::vector<double> cosines;
   constexpr int steps = 180;
-  for (int i = 0; i <= steps; ++i) cosines.push_back(std::sin(i * std::numbers::pi / (2 * steps)));
+  for (int i = 0; i <= steps; ++i) cosines.push_back(sin_pi(i / (2.0 * steps)));
   cosines.back() = 1;
 
   GlazingSheets sheets;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "glazing/evaluation.h"
+#include "scene/portable_math.h"
 
 namespace vitrail {
 
@@ -13,7 +14,7 @@ namespace {
 double absorbance_mix(double a, double b, double w) {
   constexpr double dark = 1e-6;  // below what is measured
   if (std::max(a, b) < dark) return a + w * (b - a);
-  return std::exp((1 - w) * std::log(std::max(a, dark)) + w * std::log(std::max(b, dark)));
+  return portable_exp((1 - w) * portable_log(std::max(a, dark)) + w * portable_log(std::max(b, dark)));
 }
 
 PaneValues mix(const PaneValues& a, const PaneValues& b, double w) {
@@ -35,7 +36,8 @@ OpticalRows mix(const OpticalRows& a, const OpticalRows& b, double w) {
 
 double band(double nm, double centre_ev, double width_ev) {
   constexpr double ev_nm = 1239.841984;  // h·c/e
-  return std::exp(-0.5 * std::pow((ev_nm / nm - centre_ev) / width_ev, 2));
+  const double x = (ev_nm / nm - centre_ev) / width_ev;
+  return portable_exp(-0.5 * x * x);
 }
 
 // At steps that a band needs, whatever those of the clear state.
@@ -56,7 +58,8 @@ double free_absorbance(double nm) { return nm > 780 ? nm * nm / (780.0 * 780.0) 
 OpticalRows absorbed(const OpticalRows& clear, double centre_ev, const Absorption& a) {
   OpticalRows rows = clear;
   for (OpticalRow& row : rows)
-    row.at.t *= std::exp(-a.band * band(row.nm, centre_ev, a.width_ev) - a.free * free_absorbance(row.nm));
+    row.at.t *=
+        portable_exp(-a.band * band(row.nm, centre_ev, a.width_ev) - a.free * free_absorbance(row.nm));
   return rows;
 }
 
@@ -125,7 +128,7 @@ std::optional<OpticalRows> tinted(const OpticalRows& clear, const TintTarget& ta
 double fading_per_s(const Photochromic& p, double temperature_c) {
   constexpr double gas_j_per_mol_k = 8.314462618, zero_k = 273.15;
   const double inverse = 1 / (temperature_c + zero_k) - 1 / (20 + zero_k);
-  return p.k_f_per_s * std::exp(-p.activation_j_per_mol / gas_j_per_mol_k * inverse);
+  return p.k_f_per_s * portable_exp(-p.activation_j_per_mol / gas_j_per_mol_k * inverse);
 }
 
 double photochromic_equilibrium(const Photochromic& p, double uv_w_per_m2, double temperature_c) {
@@ -138,7 +141,7 @@ double photochromic_state(const Photochromic& p, double s, double uv_w_per_m2, d
   const double rate = p.k_d_m2_per_j * uv_w_per_m2 + fading_per_s(p, temperature_c);
   if (!(rate > 0)) return s;
   const double end = photochromic_equilibrium(p, uv_w_per_m2, temperature_c);
-  return end + (s - end) * std::exp(-rate * seconds);
+  return end + (s - end) * portable_exp(-rate * seconds);
 }
 
 double state_under(const PhotochromicLight& light) {

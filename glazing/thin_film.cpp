@@ -3,7 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "scene/portable_math.h"
 
 namespace vitrail {
 
@@ -11,9 +12,17 @@ namespace {
 
 using Complex = std::complex<double>;
 
+// Of the library's only what IEEE 754 rounds: a sheet has the same bits on every machine.
+Complex square_root(Complex z) {
+  const double root = std::sqrt((std::abs(z.real()) + std::sqrt(std::norm(z))) / 2);
+  if (root == 0) return 0;
+  const double other = z.imag() / (2 * root);
+  return z.real() >= 0 ? Complex(root, other) : Complex(std::abs(other), std::copysign(root, z.imag()));
+}
+
 // n·cos θ in a medium, on the branch where a wave decays forwards.
 Complex n_cosine(Complex n, double sine) {
-  const Complex root = std::sqrt(n * n - sine * sine);
+  const Complex root = square_root(n * n - sine * sine);
   return root.imag() > 0 ? -root : root;
 }
 
@@ -36,14 +45,16 @@ OneWay one_way(Complex n_first, std::span<const FilmAt> films, bool reversed, Co
   for (std::size_t i = 0; i < films.size(); ++i) {
     const FilmAt& film = films[reversed ? i : films.size() - 1 - i];
     const Complex eta = admittance(film.index, sine, parallel);
-    Complex delta = 2 * std::numbers::pi * film.thickness_nm / nm * n_cosine(film.index, sine);
-    const double decay = std::min(-delta.imag(), 300.0);
-    delta = {delta.real(), -decay};
-    const Complex cosine = std::cos(delta), sine_i = Complex(0, 1) * std::sin(delta);
+    const Complex delta = 2 * pi * film.thickness_nm / nm * n_cosine(film.index, sine);
+    // cos δ and i·sin δ, both times |e^(−iδ)| = √faded.
+    const double faded = portable_exp(2 * delta.imag());
+    const double even = (1 + faded) / 2, odd = (1 - faded) / 2;
+    const Complex cosine(even * portable_cos(delta.real()), odd * portable_sin(delta.real()));
+    const Complex sine_i(odd * portable_cos(delta.real()), even * portable_sin(delta.real()));
     const Complex b_next = cosine * b + sine_i / eta * c;
-    c = (eta * sine_i * b + cosine * c) * std::exp(-decay);
-    b = b_next * std::exp(-decay);
-    scale *= std::exp(-2 * decay);
+    c = eta * sine_i * b + cosine * c;
+    b = b_next;
+    scale *= faded;
   }
   const Complex sum = first * b + c;
   return {std::norm((first * b - c) / sum), 4 * first.real() * last.real() * scale / std::norm(sum)};
@@ -87,9 +98,7 @@ PaneValues stack_values(const StackPane& stack, double nm, double cosine, bool p
     const double n_cos = n_cosine(n.real(), sine).real();
     const double inner = n_cos / n.real();
     const double passage =
-        inner > 0
-            ? std::exp(4 * std::numbers::pi * n.imag() * stack.slabs[i].thickness_mm * 1e6 / (nm * inner))
-            : 0;
+        inner > 0 ? portable_exp(4 * pi * n.imag() * stack.slabs[i].thickness_mm * 1e6 / (nm * inner)) : 0;
     all = joined(all, {0, passage, 0, passage});
     n_before = n.real();
   }

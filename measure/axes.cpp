@@ -32,6 +32,12 @@ std::vector<Choice> partition_choices(const std::string& option, const std::vect
   return choices;
 }
 
+// Its first round is a quarter of the samples: where those are few it knows too little.
+std::vector<Choice> adaptive() {
+  constexpr int least_spp = 64;
+  return {as_the_scene_says(), {"on", {"--adaptive"}, {}, least_spp}};
+}
+
 std::vector<Choice> clamps(double mean_luminance) {
   std::vector<Choice> choices{as_the_scene_says()};
   for (const int times : {64, 16, 4}) {
@@ -45,17 +51,36 @@ std::vector<Choice> clamps(double mean_luminance) {
 
 std::vector<Axis> known_axes(const PictureFacts& facts) {
   return {
-      {"depth", "most scattering events of a path (--max-depth)", depths()},
-      {"clamp", "the most that one connection adds to a sample (--clamp)", clamps(facts.mean_luminance)},
+      {"depth", "most scattering events of a path (--max-depth)", depths(), Effect::bias},
+      {"clamp", "the most that one connection adds to a sample (--clamp)", clamps(facts.mean_luminance),
+       Effect::bias},
       {"integrator", "whole paths or direct light alone (--integrator)",
-       render_choices("--integrator", {"direct"})},
+       render_choices("--integrator", {"direct"}), Effect::bias},
       {"decimate", "the part of each mesh's triangles that stays (--decimate)",
-       partition_choices("--decimate", {"0.3", "0.1"})},
+       partition_choices("--decimate", {"0.3", "0.1"}), Effect::bias},
+      {"rgb", "how RGB colours become spectra (partition --rgb)", partition_choices("--rgb", {"matrix-r"}),
+       Effect::bias},
+      {"textures", "images without regard to distance, or to what is between texels (--texture-filter)",
+       render_choices("--texture-filter", {"none", "nearest"}), Effect::bias},
+      {"filter", "over the samples of a pixel (--filter)",
+       render_choices("--filter", {"box:0.5", "triangle:1", "gaussian:1.5", "mitchell:2"}), Effect::bias},
+      {"adaptivity", "more samples where the picture is noisy (--adaptive)", adaptive(), Effect::noise},
+      {"roulette", "when paths may end by chance (--roulette)",
+       render_choices("--roulette", {"early", "never"}), Effect::noise},
+      {"wavelengths", "of a path (--wavelengths)", render_choices("--wavelengths", {"1"}), Effect::noise},
+      {"lights", "by what lamps are chosen (--light-sampling)", render_choices("--light-sampling", {"power"}),
+       Effect::noise},
+      {"candidates", "points on lamps of which one is connected to (--light-candidates)",
+       render_choices("--light-candidates", {"1", "2", "8"}), Effect::noise},
       {"domains", "sub-domains of the bundle (partition --domains)",
-       partition_choices("--domains", {"1", "8", "32"}), true},
-      {"memory", "most memory a rank may use (--memory)", render_choices("--memory", {"256M", "64M"}), true,
-       true},
+       partition_choices("--domains", {"1", "8", "32"}), Effect::nothing},
+      {"memory", "most memory a rank may use (--memory)", render_choices("--memory", {"256M", "64M"}),
+       Effect::nothing, true},
   };
+}
+
+const char* name_of(Effect effect) {
+  return effect == Effect::nothing ? "nothing" : effect == Effect::noise ? "noise" : "bias";
 }
 
 std::vector<std::string> axis_names() {
@@ -80,6 +105,26 @@ std::string name_of(const std::vector<Axis>& axes, const Setting& setting) {
   for (std::size_t i = 0; i < axes.size(); ++i)
     if (setting[i] > 0) parts.push_back(axes[i].name + ' ' + axes[i].choices[setting[i]].label);
   return parts.empty() ? "as the scene says" : fmt::format("{}", fmt::join(parts, ", "));
+}
+
+Effect effect_of(const std::vector<Axis>& axes, const Setting& setting) {
+  Effect greatest = Effect::nothing;
+  for (std::size_t i = 0; i < axes.size(); ++i)
+    if (setting[i] > 0) greatest = std::max(greatest, axes[i].effect);
+  return greatest;
+}
+
+bool limits_memory(const std::vector<Axis>& axes, const Setting& setting) {
+  bool any = false;
+  for (std::size_t i = 0; i < axes.size(); ++i) any = any || (setting[i] > 0 && axes[i].limits_memory);
+  return any;
+}
+
+int least_spp(const std::vector<Axis>& axes, const Setting& setting) {
+  int least = 1;
+  for (std::size_t i = 0; i < axes.size(); ++i)
+    least = std::max(least, axes[i].choices[setting[i]].least_spp);
+  return least;
 }
 
 namespace {

@@ -11,13 +11,19 @@ namespace vitrail {
 struct Choice {
   std::string label;
   std::vector<std::string> render, partition;
+  int least_spp = 1;  // of fewer samples a pixel it is nothing else than the first
 };
+
+// What a change may do to the pictures: nothing (law 1: time and memory alone), change their noise and keep
+// their mean, or change the mean, which no samples bring back.
+enum class Effect { nothing, noise, bias };
+const char* name_of(Effect effect);
 
 struct Axis {
   std::string name, about;
   std::vector<Choice> choices;  // the first: as the scene says
-  bool same_picture = false;    // changes time and memory alone (law 1)
-  bool limits_memory = false;   // too little of it is a finding, no failure of the machine
+  Effect effect = Effect::bias;
+  bool limits_memory = false;  // too little of it is a finding, no failure of the machine
 };
 
 // What the values depend on.
@@ -37,6 +43,10 @@ using Setting = std::vector<std::size_t>;
 
 // "depth 4, clamp 16"; "as the scene says" where every choice is the first.
 std::string name_of(const std::vector<Axis>& axes, const Setting& setting);
+// The greatest effect of what is not the first choice, and the least samples.
+Effect effect_of(const std::vector<Axis>& axes, const Setting& setting);
+int least_spp(const std::vector<Axis>& axes, const Setting& setting);
+bool limits_memory(const std::vector<Axis>& axes, const Setting& setting);
 std::vector<std::string> render_arguments(const std::vector<Axis>& axes, const Setting& setting);
 std::vector<std::string> partition_arguments(const std::vector<Axis>& axes, const Setting& setting);
 

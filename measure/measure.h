@@ -24,14 +24,26 @@ struct MeasureOptions {
   double budget_s = 300;           // wall time that all may take, roughly
   bool every_combination = false;  // of the axes that change the picture, not only the promising ones
   int spp = 0, reference_spp = 0;  // of a picture, and of a half of the reference; 0: what the budget allows
-  std::optional<double> error;     // relMSE to recommend for
-  std::optional<double> seconds;   // wall time of the whole picture of the scene's size to recommend for
+  Farm farm;
+  std::optional<double> error;    // relMSE to recommend for
+  std::optional<double> seconds;  // wall time of the whole picture of the scene's size to recommend for
+};
+
+// Of the whole picture on a cluster: start_s + samples · sample_s, about; 0 where it was not planned.
+struct FarmTime {
+  double start_s = 0, sample_s = 0;
+  bool is_known() const { return sample_s > 0; }
+  double operator()(double samples) const { return start_s + samples * sample_s; }
 };
 
 // One setting and what its pictures show.
 struct MeasuredSetting {
   Setting setting;
   std::string name;
+  Effect effect = Effect::nothing;
+  int least_spp = 1;
+  bool again = false;  // was measured before, with fewer samples
+  FarmTime farm;
   std::string failure;     // why there is no picture; empty: there is
   bool identical = false;  // its pictures are those of the scene's own setting, bit for bit
   int spp = 0;
@@ -42,6 +54,7 @@ struct MeasuredSetting {
   Image first, mean;  // a picture, and the mean of all
 
   Tradeoff tradeoff() const;
+  std::ptrdiff_t changes() const;  // of the scene's own
 };
 
 struct Recommendation {
@@ -54,6 +67,7 @@ struct Recommendation {
   double error = 0, cpu_s = 0, wall_s = 0;  // predicted, of the whole picture
   double bias = 0;                          // of the error
   double bias_within = 0;                   // half the width of its interval
+  double farm_s = 0;                        // on the cluster; 0: not known
   Estimate luminance;                       // off, as ErrorStatistics
 };
 
@@ -65,8 +79,9 @@ struct Measurement {
   std::vector<MeasuredSetting> settings;
   std::vector<MeasuredSetting> samples;  // the scene's own at other counts, ascending
   ScalingLaw law;
-  int scene_spp = 1;       // samples that the scene asks for
-  double full_size = 1;    // pixels of the whole picture over those measured
+  int scene_spp = 1;     // samples that the scene asks for
+  double full_size = 1;  // pixels of the whole picture over those measured
+  Farm farm;
   double parallelism = 1;  // CPU seconds a second
   std::vector<Recommendation> recommendations;
 };

@@ -16,13 +16,14 @@ double predicted_cpu_s(const Tradeoff& t, const ScalingLaw& law, double spp) {
 
 std::optional<double> samples_for_error(const Tradeoff& t, const ScalingLaw& law, double error) {
   if (t.bias >= error) return std::nullopt;
-  if (t.noise <= 0) return 1;
-  return std::max(1.0, t.spp * std::pow(t.noise / (error - t.bias), 1 / law.slope));
+  const double least = t.least_spp;
+  if (t.noise <= 0) return least;
+  return std::max(least, t.spp * std::pow(t.noise / (error - t.bias), 1 / law.slope));
 }
 
 std::optional<double> samples_within(const Tradeoff& t, const ScalingLaw& law, double cpu_s) {
   const double spp = t.sample_s > 0 ? (cpu_s - law.start_s) / t.sample_s : 1;
-  if (spp < 1) return std::nullopt;
+  if (spp < t.least_spp) return std::nullopt;
   return spp;
 }
 
@@ -42,12 +43,14 @@ std::optional<Prediction> best(std::span<const Tradeoff> tradeoffs, const Scalin
   return found;
 }
 
-Tradeoff combined(const Tradeoff& base, std::span<const Tradeoff> changes) {
+Tradeoff combined(const Tradeoff& base, std::span<const Tradeoff> changes, const ScalingLaw& law) {
   Tradeoff t = base;
   for (const Tradeoff& change : changes) {
-    if (base.noise > 0) t.noise *= change.noise / base.noise;
+    const double own = predicted_error({base.noise, 0, base.spp}, law, change.spp);
+    if (own > 0) t.noise *= change.noise / own;
     if (base.sample_s > 0) t.sample_s *= change.sample_s / base.sample_s;
     t.bias = std::max(t.bias, change.bias);
+    t.least_spp = std::max(t.least_spp, change.least_spp);
   }
   return t;
 }

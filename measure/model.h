@@ -20,6 +20,7 @@ struct Tradeoff {
   double noise = 0, bias = 0;  // relMSE; bias ≥ 0
   int spp = 1;
   double sample_s = 0;  // CPU seconds of one sample of every pixel
+  int least_spp = 1;    // of fewer it is not known
 };
 
 double predicted_error(const Tradeoff& t, const ScalingLaw& law, double spp);
@@ -43,7 +44,7 @@ std::optional<Prediction> best(std::span<const Tradeoff> tradeoffs, const Scalin
 // A guess at a setting that takes choices of several axes, of those that take one of them each: noise and
 // time multiply; of the biases the greatest, less than which they are only where they cancel. It is
 // optimistic, so that the search that measures what looks best does not pass it by.
-Tradeoff combined(const Tradeoff& base, std::span<const Tradeoff> changes);
+Tradeoff combined(const Tradeoff& base, std::span<const Tradeoff> changes, const ScalingLaw& law);
 
 // The slope of log noise over log samples by least squares, within what such curves are: [0.7, 1.6]; 1 for
 // fewer than two points. Points whose noise is not positive are left out.

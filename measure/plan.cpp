@@ -2,19 +2,10 @@
 #include "measure/plan.h"
 
 #include <algorithm>
-#include <bit>
 
 #include "measure/recommend.h"
 
 namespace vitrail {
-
-namespace {
-
-int power_of_two_below(double v) {
-  return v < 2 ? 1 : static_cast<int>(std::bit_floor(static_cast<unsigned>(std::min(v, 65536.0))));
-}
-
-}  // namespace
 
 // A reference of 16 times the samples of a picture leaves what bias is found ten times as far above its noise
 // as above that of the mean of six pictures.
@@ -22,23 +13,37 @@ Plan make_plan(const MeasureOptions& o, const std::vector<Axis>& axes, double sa
                double start_wall_s) {
   constexpr int reference_factor = 16, short_search = 3;
   int settings = 1, combinations = 1, once = 0;
+  std::vector<int> least;  // of each choice, whatever the samples of the others
   for (const Axis& axis : axes) {
     const int choices = static_cast<int>(axis.choices.size());
-    (axis.same_picture ? once : settings) += choices - 1;
-    if (!axis.same_picture) combinations *= choices;
+    const bool same_picture = axis.effect == Effect::nothing;
+    (same_picture ? once : settings) += choices - 1;
+    if (!same_picture) combinations *= choices;
+    for (const Choice& choice : axis.choices) least.push_back(choice.least_spp);
   }
   if (o.every_combination) settings = combinations;
   Plan plan;
-  plan.renders = o.seeds * (settings + 2) + once + 2;
+  // With the pictures that biases are differences to, at as many counts of samples.
+  plan.renders = o.seeds * (settings + 2 + 3) + once + 2;
   plan.search_renders = o.seeds * most_searched(o);
-  // The samples' axis: a quarter and four times as many.
-  const double pictures = o.seeds * (settings + 0.25 + 4) + once, searched = o.seeds * short_search;
+  // The samples' axis: a quarter and four times as many. What biases are differences to is the choice of all
+  // depths, where depth is an axis.
+  const double whole = std::ranges::find(axes, "depth", &Axis::name) == axes.end() ? 1 : 0;
+  const double pictures = o.seeds * (settings + 2 * (0.25 + 4) + whole) + once,
+               searched = o.seeds * short_search;
   const double fixed_s = plan.renders * start_wall_s;
   const double left_s = o.budget_s - fixed_s - searched * start_wall_s;
   const double per_sample_s = sample_wall_s * (pictures + searched + 2 * reference_factor);
-  plan.spp = o.spp > 0 ? o.spp : std::clamp(power_of_two_below(left_s / per_sample_s), 4, 64);
+  const auto beyond_s = [&](int spp) {
+    double samples = 0;
+    for (const int n : least) samples += o.seeds * std::max(0, n - spp);
+    return samples * sample_wall_s;
+  };
+  plan.spp = o.spp;
+  if (o.spp == 0)
+    for (plan.spp = 64; plan.spp > 4 && per_sample_s * plan.spp + beyond_s(plan.spp) > left_s;) plan.spp /= 2;
   plan.reference_spp = o.reference_spp > 0 ? o.reference_spp : reference_factor * plan.spp;
-  plan.wall_s = fixed_s + sample_wall_s * (pictures * plan.spp + 2 * plan.reference_spp);
+  plan.wall_s = fixed_s + sample_wall_s * (pictures * plan.spp + 2 * plan.reference_spp) + beyond_s(plan.spp);
   return plan;
 }
 

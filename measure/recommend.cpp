@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <bit>
 #include <iterator>
+#include <map>
+#include <span>
 
 namespace vitrail {
 
@@ -18,47 +20,111 @@ const MeasuredSetting* found(const Measurement& m, const Setting& setting) {
   return at == m.settings.rend() ? nullptr : &*at;
 }
 
+// What is known best of the biases: they depend on the axes that have one, whatever the others are.
+class Biases {
+ public:
+  explicit Biases(const Measurement& m) : axes_(m.axes) {
+    for (const MeasuredSetting& s : m.settings) {
+      if (!s.failure.empty()) continue;
+      const auto [known, is_new] = best_.try_emplace(part(s.setting), &s);
+      if (!is_new && s.error.bias.half_width < known->second->error.bias.half_width) known->second = &s;
+    }
+  }
+  // Null where none was measured.
+  const MeasuredSetting* of(const Setting& setting) const {
+    const auto known = best_.find(part(setting));
+    return known == best_.end() ? nullptr : known->second;
+  }
+  Tradeoff with(Tradeoff t, const Setting& setting) const {
+    if (const MeasuredSetting* s = of(setting)) t.bias = s->tradeoff().bias;
+    return t;
+  }
+
+ private:
+  Setting part(Setting setting) const {
+    for (std::size_t i = 0; i < setting.size(); ++i)
+      if (axes_[i].effect != Effect::bias) setting[i] = 0;
+    return setting;
+  }
+  const std::vector<Axis>& axes_;
+  std::map<Setting, const MeasuredSetting*> best_;
+};
+
 // A bias that was not seen may still be as great as its interval. It has to be small beside the error that is
 // promised, else more samples are taken, up to a limit.
-bool is_too_uncertain(const MeasuredSetting& s, int first_spp, double error) {
+bool is_too_uncertain(const Estimate& bias, const MeasuredSetting& s, int first_spp, double error) {
   constexpr double share = 0.3;
-  return s.error.bias.half_width > share * error && s.spp < most_samples_factor * first_spp;
+  return bias.half_width > share * error && s.spp < most_samples_factor * std::max(first_spp, s.least_spp);
 }
 
 constexpr int most_measured = 12;  // for a goal
 
 bool is_useful(const MeasuredSetting& s) { return s.failure.empty() && !s.identical; }
 
-// Every combination of useful choices of axes that change the picture.
-std::vector<Setting> combinations(const Measurement& m) {
-  std::vector<Setting> all{Setting(m.axes.size(), 0)};
+struct Candidate {
+  Setting setting;
+  Tradeoff guess;  // from its changes alone
+};
+
+struct Change {
+  std::size_t choice = 0;
+  Tradeoff tradeoff;
+  double noise = 0;  // over the scene's own at as many samples
+};
+
+// In nothing better, in something worse, or the same but later.
+bool is_beaten(const Change& c, const Change& by) {
+  return by.noise <= c.noise && by.tradeoff.sample_s <= c.tradeoff.sample_s &&
+         by.tradeoff.bias <= c.tradeoff.bias && by.tradeoff.least_spp <= c.tradeoff.least_spp &&
+         (by.noise < c.noise || by.tradeoff.sample_s < c.tradeoff.sample_s ||
+          by.tradeoff.bias < c.tradeoff.bias || by.choice < c.choice);
+}
+
+// Of each axis that changes the picture, the scene's own and what is useful; where `promising`, only what no
+// other of the axis beats in all, as no guess with it is then the best.
+std::vector<std::vector<Change>> useful_changes(const Measurement& m, bool promising) {
+  const Tradeoff own = m.settings[0].tradeoff();
+  std::vector<std::vector<Change>> all(m.axes.size());
   for (std::size_t axis = 0; axis < m.axes.size(); ++axis) {
-    if (m.axes[axis].same_picture) continue;
-    std::vector<Setting> more;
+    std::vector<Change> changes{{0, own, 1}};
     for (std::size_t choice = 1; choice < m.axes[axis].choices.size(); ++choice) {
       Setting alone(m.axes.size(), 0);
       alone[axis] = choice;
       const MeasuredSetting* s = found(m, alone);
-      if (!s || !is_useful(*s)) continue;
-      for (Setting changed : all) {
-        changed[axis] = choice;
-        more.push_back(changed);
-      }
+      if (m.axes[axis].effect == Effect::nothing || !s || !is_useful(*s)) continue;
+      const double noise = predicted_error({own.noise, 0, own.spp}, m.law, s->spp);
+      changes.push_back({choice, s->tradeoff(), noise > 0 ? s->tradeoff().noise / noise : 1});
     }
-    all.insert(all.end(), more.begin(), more.end());
+    // Nothing else than the scene's own is sure to have no bias that was not seen.
+    const auto sure = m.axes[axis].effect == Effect::bias ? std::span(changes).first(1) : std::span(changes);
+    for (const Change& c : changes) {
+      const bool beaten = std::ranges::any_of(sure, [&](const Change& by) { return is_beaten(c, by); });
+      if (!promising || !beaten) all[axis].push_back(c);
+    }
   }
   return all;
 }
 
-Tradeoff guessed(const Measurement& m, const Setting& setting) {
+std::vector<Candidate> combinations(const Measurement& m, bool promising) {
+  const std::vector<std::vector<Change>> axes = useful_changes(m, promising);
+  const Tradeoff own = m.settings[0].tradeoff();
+  std::vector<Candidate> all;
+  Setting setting(m.axes.size(), 0);
   std::vector<Tradeoff> changes;
-  for (std::size_t axis = 0; axis < setting.size(); ++axis) {
-    if (setting[axis] == 0) continue;
-    Setting alone(setting.size(), 0);
-    alone[axis] = setting[axis];
-    changes.push_back(found(m, alone)->tradeoff());
-  }
-  return combined(m.settings[0].tradeoff(), changes);
+  const auto choose = [&](const auto& self, std::size_t axis) -> void {
+    if (axis == axes.size()) {
+      all.push_back({setting, combined(own, changes, m.law)});
+      return;
+    }
+    for (const Change& c : axes[axis]) {
+      setting[axis] = c.choice;
+      if (c.choice > 0) changes.push_back(c.tradeoff);
+      self(self, axis + 1);
+      if (c.choice > 0) changes.pop_back();
+    }
+  };
+  choose(choose, 0);
+  return all;
 }
 
 // Of the whole picture: a sample of every pixel takes as much longer as there are more pixels.
@@ -68,22 +134,27 @@ Tradeoff whole_picture(const Measurement& m, Tradeoff t) {
 }
 
 void search(Measurement& m, Session& session, Recommendation& r) {
-  const std::vector<Setting> settings = combinations(m);
+  const std::vector<Candidate> candidates = combinations(m, true);
   for (int tried = 0; tried <= most_measured; ++tried) {
     std::vector<Tradeoff> tradeoffs;
-    std::vector<std::size_t> of;
-    for (std::size_t i = 0; i < settings.size(); ++i) {
-      const MeasuredSetting* s = found(m, settings[i]);
+    std::vector<const Candidate*> of;
+    const Biases biases(m);
+    std::map<Setting, const MeasuredSetting*> measured;  // the last of each
+    for (const MeasuredSetting& s : m.settings) measured[s.setting] = &s;
+    for (const Candidate& c : candidates) {
+      const auto known = measured.find(c.setting);
+      const MeasuredSetting* s = known == measured.end() ? nullptr : known->second;
       if (s ? !s->failure.empty() : tried == most_measured) continue;
-      tradeoffs.push_back(whole_picture(m, s ? s->tradeoff() : guessed(m, settings[i])));
-      of.push_back(i);
+      tradeoffs.push_back(whole_picture(m, biases.with(s ? s->tradeoff() : c.guess, c.setting)));
+      of.push_back(&c);
     }
     const std::optional<Prediction> p = best(tradeoffs, m.law, r.asked);
     if (!p) return;
-    const Setting& setting = settings[of[p->index]];
+    const Setting& setting = of[p->index]->setting;
     const int first_spp = m.settings[0].spp;
     const MeasuredSetting* s = found(m, setting);
-    if (s && is_too_uncertain(*s, first_spp, p->error) && tried < most_measured) {
+    if (s && is_too_uncertain(biases.of(setting)->error.bias, *s, first_spp, p->error) &&
+        tried < most_measured) {
       m.settings.push_back(session.measure_setting(m, setting, 4 * s->spp));
       continue;
     }
@@ -92,7 +163,9 @@ void search(Measurement& m, Session& session, Recommendation& r) {
       r.name = s->name;
       r.render = render_arguments(m.axes, setting);
       r.partition = partition_arguments(m.axes, setting);
-      r.bias = s->tradeoff().bias, r.bias_within = s->error.bias.half_width, r.luminance = s->error.luminance;
+      const MeasuredSetting& biased = *biases.of(setting);
+      r.bias = biased.tradeoff().bias, r.bias_within = biased.error.bias.half_width;
+      r.luminance = biased.error.luminance;
       r.spp = p->spp, r.error = p->error, r.cpu_s = p->cpu_s;
       r.wall_s = p->cpu_s / session.parallelism();
       return;
@@ -120,7 +193,11 @@ void recommend(Measurement& m, Session& session, const MeasureOptions& o) {
   if (all.empty()) {
     const int spp = m.scene_spp;
     const auto own = [&] { return whole_picture(m, found(m, own_setting)->tradeoff()); };
-    while (is_too_uncertain(*found(m, own_setting), m.settings[0].spp, predicted_error(own(), m.law, spp)))
+    const auto is_unsure = [&] {
+      const MeasuredSetting& s = *found(m, own_setting);
+      return is_too_uncertain(s.error.bias, s, m.settings[0].spp, predicted_error(own(), m.law, spp));
+    };
+    while (is_unsure())
       m.settings.push_back(session.measure_setting(m, own_setting, 4 * found(m, own_setting)->spp));
     all.push_back({fmt::format("the error of the scene's own setting at its {} samples", spp),
                    {predicted_error(own(), m.law, spp), {}}});
@@ -128,7 +205,7 @@ void recommend(Measurement& m, Session& session, const MeasureOptions& o) {
                    {{}, predicted_cpu_s(own(), m.law, spp)}});
   }
   if (o.every_combination)
-    for (const Setting& setting : combinations(m))
+    for (const auto& [setting, guess] : combinations(m, false))
       if (!found(m, setting)) m.settings.push_back(session.measure_setting(m, setting, m.settings[0].spp));
   for (Recommendation& r : all) search(m, session, r);
 }

@@ -26,6 +26,8 @@ Json json_of(const MeasuredSetting& s) {
   Json json{{"name", s.name}, {"setting", s.setting}, {"failure", s.failure}};
   if (!s.failure.empty()) return json;
   json.update({{"identical", s.identical},
+               {"effect", name_of(s.effect)},
+               {"again", s.again},
                {"spp", s.spp},
                {"relmse", json_of(s.error.relmse)},
                {"noise", json_of(s.error.noise)},
@@ -41,13 +43,15 @@ Json json_of(const MeasuredSetting& s) {
                {"rays", s.rays},
                {"peak_memory_bytes", s.peak_memory_bytes},
                {"bundle_bytes", s.bundle_bytes}});
+  if (s.farm.is_known())
+    json.update({{"farm_start_s", s.farm.start_s}, {"farm_s_per_sample", s.farm.sample_s}});
   return json;
 }
 
 Json json_of(const Recommendation& r) {
   return {{"goal", r.goal},     {"found", r.found},         {"name", r.name},    {"spp", r.spp},
           {"render", r.render}, {"partition", r.partition}, {"relmse", r.error}, {"cpu_s", r.cpu_s},
-          {"wall_s", r.wall_s}, {"words", advice(r)}};
+          {"wall_s", r.wall_s}, {"farm_s", r.farm_s},       {"words", advice(r)}};
 }
 
 Json json_of(const MeasureOptions& options, const Measurement& m) {
@@ -58,6 +62,8 @@ Json json_of(const MeasureOptions& options, const Measurement& m) {
             {"full_size", m.full_size},
             {"scene_spp", m.scene_spp},
             {"parallelism", m.parallelism},
+            {"farm_ranks", m.farm.ranks},
+            {"farm_threads", m.farm.threads},
             {"reference_spp", m.reference_spp},
             {"reference_relmse", m.reference.relmse},
             {"noise_slope", m.law.slope},
@@ -65,10 +71,8 @@ Json json_of(const MeasureOptions& options, const Measurement& m) {
   for (const Axis& axis : m.axes) {
     Json labels = Json::array();
     for (const Choice& choice : axis.choices) labels.push_back(choice.label);
-    json["axes"].push_back({{"name", axis.name},
-                            {"about", axis.about},
-                            {"same_picture", axis.same_picture},
-                            {"choices", labels}});
+    json["axes"].push_back(
+        {{"name", axis.name}, {"about", axis.about}, {"effect", name_of(axis.effect)}, {"choices", labels}});
   }
   const std::vector<bool> on_it = front(m);
   for (std::size_t i = 0; i < m.settings.size(); ++i) {

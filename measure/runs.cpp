@@ -3,9 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <bit>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "compare/web_page.h"
 #include "film/develop.h"
@@ -73,7 +75,7 @@ fs::path Runs::bundle(const std::vector<std::string>& partition) {
   if (!none && made_at > fs::last_write_time(scene_)) return made;
   std::vector<std::string> arguments{scene_.string(), "-o", made.string(), "--quiet", "--force", "--no-sync"};
   arguments.insert(arguments.end(), partition.begin(), partition.end());
-  execute_("vitrail-partition", arguments);
+  execute_("vitrail-partition", arguments, {});
   return made;
 }
 
@@ -90,7 +92,8 @@ std::string Runs::key(const RunRequest& r) {
 fs::path Runs::record(const RunRequest& r) { return folder_ / "runs" / (short_name(key(r)) + ".json"); }
 
 RunResult Runs::operator()(const RunRequest& request) {
-  const fs::path file = record(request), pixels = fs::path(file).replace_extension(".rgb");
+  const fs::path file = record(request), pixels = fs::path(file).replace_extension(".rgb"),
+                 profile = fs::path(file).replace_extension(".profile");
   Json json = read_json(file);
   RunResult result;
   const auto take = [&] {
@@ -103,7 +106,8 @@ RunResult Runs::operator()(const RunRequest& request) {
     result.bundle_bytes = json.value("bundle_bytes", 0.0);
     result.film_hash = stats.value("film_hash", "");
   };
-  if (json.is_object() && json.value("key", "") == key(request)) {
+  if (json.is_object() && json.value("key", "") == key(request) &&
+      (!request.profile || fs::exists(profile))) {
     result.picture = black_image(json.value("width", 1), json.value("height", 1), 3);
     if (read_pixels(pixels, result.picture)) {
       take();
@@ -128,7 +132,8 @@ RunResult Runs::operator()(const RunRequest& request) {
                                      "--quiet",
                                      "--force"};
   arguments.insert(arguments.end(), request.render.begin(), request.render.end());
-  execute_("vitrail-render", arguments);
+  if (request.profile) arguments.insert(arguments.end(), {"--profile", profile.string()});
+  execute_("vitrail-render", arguments, {});
   result.picture = develop(read_film(film_file, nullptr)).rgb;
   write_pixels(pixels, result.picture);
   json = {{"key", key(request)},
@@ -141,6 +146,35 @@ RunResult Runs::operator()(const RunRequest& request) {
   fs::remove(stats_file);
   take();
   return result;
+}
+
+PlannedJob Runs::plan_job(const RunRequest& request, const Farm& farm, double times) {
+  const fs::path profile = record(request).replace_extension(".profile"), made = bundle(request.partition);
+  const fs::path file =
+      folder_ / "runs" /
+      (short_name(fmt::format("{}; {} × {}, {} times", key(request), farm.ranks, farm.threads, times)) +
+       ".plan");
+  const auto known = [&]() -> std::optional<PlannedJob> {
+    const Json json = read_json(file);
+    if (!json.is_object() || !json.contains("plan")) return std::nullopt;
+    const Json& point = json["plan"].at(0);
+    return PlannedJob{point.value("seconds", 0.0), point.value("efficiency", 0.0), point.value("limit", "")};
+  };
+  if (const auto job = known()) return *job;
+  std::vector<std::string> arguments{made.string(),
+                                     "--profile",
+                                     profile.string(),
+                                     "--ranks",
+                                     std::to_string(farm.ranks),
+                                     "--threads",
+                                     std::to_string(farm.threads),
+                                     "--times",
+                                     fmt::format("{}", times),
+                                     "--json"};
+  if (const auto memory = std::ranges::find(request.render, "--memory"); memory != request.render.end())
+    arguments.insert(arguments.end(), memory, memory + 2);
+  execute_("vitrail-plan", arguments, file);
+  return known().value_or(PlannedJob{});
 }
 
 double Runs::full_size_ratio() {

@@ -13,14 +13,28 @@
 
 namespace vitrail {
 
-// Runs a program of the suite, of this name and these arguments, to its end; throws where it fails.
-using Execute = std::function<void(const std::string& program, const std::vector<std::string>& arguments)>;
+// Runs a program of the suite, of this name and these arguments, to its end; throws where it fails. What it
+// prints goes to a file where one is named.
+using Execute = std::function<void(const std::string& program, const std::vector<std::string>& arguments,
+                                   const std::filesystem::path& standard_output)>;
+
+// A cluster that jobs are planned on.
+struct Farm {
+  int ranks = 64, threads = 16;  // of a rank; no ranks: nothing is planned
+};
+
+// What `vitrail plan` says of a job there. Without seconds where it says nothing.
+struct PlannedJob {
+  double seconds = 0, efficiency = 0;
+  std::string limit;  // what its efficiency is lost to
+};
 
 // What is asked for, and what of it is not for the eye.
 struct RunRequest {
   std::vector<std::string> render, partition;  // arguments
   int spp = 1;
   std::uint64_t seed = 0;
+  bool profile = false;  // keep where its rays went
 };
 
 struct RunResult {
@@ -39,6 +53,9 @@ class Runs {
   // Renders, or reads what was rendered before. A scene file that changed since is rendered again; files that
   // it names are not looked at.
   RunResult operator()(const RunRequest& request);
+
+  // Of `times` as many samples, for a request with a profile that was rendered.
+  PlannedJob plan_job(const RunRequest& request, const Farm& farm, double times);
 
   // Pixels of the whole picture that the scene asks for, over those of one that is measured.
   double full_size_ratio();

@@ -12,6 +12,9 @@ namespace {
 // Seeds of the reference are far from those of the settings: 1, 2, …
 constexpr std::uint64_t reference_seed = 1'000'001;
 
+// Of the reference, and of the choice of all depths, whose pictures are then rendered once.
+const std::vector<std::string> whole{"--max-depth", "-1"};
+
 double median(std::vector<double> values) {
   std::ranges::sort(values);
   const std::size_t n = values.size();
@@ -33,22 +36,39 @@ RunResult Session::run(const RunRequest& request, const std::string& what) {
 
 Reference Session::reference(int spp) {
   const std::uint64_t seed = reference_seed + options_.first_seed - 1;
-  const std::vector<std::string> whole{"--max-depth", "-1"};
   Image first = run({whole, {}, spp, seed}, "reference").picture;
   return make_reference(std::move(first), run({whole, {}, spp, seed + 1}, "reference").picture);
 }
 
-MeasuredSetting Session::measure_setting(const Measurement& m, const Setting& setting, int spp) {
+const std::vector<Image>& Session::unbiased_pictures(int spp) {
+  std::vector<Image>& pictures = unbiased_[spp];
+  for (int seed = static_cast<int>(pictures.size()); seed < options_.seeds; ++seed)
+    // With a profile where the setting of the same arguments has one, so that they are one render.
+    pictures.push_back(run({whole,
+                            {},
+                            spp,
+                            options_.first_seed + static_cast<std::uint64_t>(seed),
+                            seed == 0 && options_.farm.ranks > 0},
+                           "all depths")
+                           .picture);
+  return pictures;
+}
+
+RunRequest Session::request(const Measurement& m, const Setting& setting, int spp, int seed) const {
+  return {render_arguments(m.axes, setting), partition_arguments(m.axes, setting), spp,
+          options_.first_seed + static_cast<std::uint64_t>(seed) - 1, seed == 1 && options_.farm.ranks > 0};
+}
+
+MeasuredSetting Session::measure_setting(const Measurement& m, const Setting& setting, int asked_spp) {
   MeasuredSetting s;
   s.setting = setting;
   s.name = name_of(m.axes, setting);
-  s.spp = spp;
-  bool same_picture = true, own = true, is_short_of_memory = false;
-  for (std::size_t i = 0; i < setting.size(); ++i) {
-    own &= setting[i] == 0;
-    same_picture &= setting[i] == 0 || m.axes[i].same_picture;
-    is_short_of_memory |= setting[i] > 0 && m.axes[i].limits_memory;
-  }
+  s.effect = effect_of(m.axes, setting);
+  s.least_spp = least_spp(m.axes, setting);
+  const int spp = s.spp = std::max(asked_spp, s.least_spp);
+  s.again = std::ranges::find(m.settings, setting, &MeasuredSetting::setting) != m.settings.end();
+  const bool same_picture = s.effect == Effect::nothing;
+  const bool own = s.changes() == 0;
   std::vector<Image> pictures;
   std::vector<double> sample_s;
   const int seeds = same_picture && !own ? 1 : options_.seeds;
@@ -56,14 +76,12 @@ MeasuredSetting Session::measure_setting(const Measurement& m, const Setting& se
   for (int seed = 1; seed <= seeds; ++seed) {
     RunResult r;
     try {  // what a machine cannot do ends the measurement, but for memory that was made scarce on purpose
-      r = run({render_arguments(m.axes, setting), partition_arguments(m.axes, setting), spp,
-               options_.first_seed + static_cast<std::uint64_t>(seed) - 1},
-              s.name);
+      r = run(request(m, setting, spp, seed), s.name);
     } catch (const Error& e) {
       s.failure = e.what();
       return s;
     } catch (const MachineError& e) {
-      if (!is_short_of_memory) throw;
+      if (!limits_memory(m.axes, setting)) throw;
       s.failure = e.what();
       return s;
     }
@@ -93,9 +111,31 @@ MeasuredSetting Session::measure_setting(const Measurement& m, const Setting& se
     s.mean = m.settings[0].mean;
     if (!same_picture) s.sample_s = m.settings[0].sample_s;  // the same work
   } else {
-    s.error = error_statistics(pictures, m.reference);
+    const bool noise_alone = s.effect == Effect::noise && !m.settings.empty();
+    s.error =
+        error_statistics(pictures, m.reference,
+                         noise_alone || pictures.size() < 2 ? std::span<const Image>()
+                                                            : std::span<const Image>(unbiased_pictures(spp)));
+    // Its mean is that of the scene's own setting.
+    if (noise_alone) s.error.bias = m.settings[0].error.bias;
   }
   return s;
+}
+
+// By a plan of a job that the simulator is done with soon: its efficiency, with the CPU seconds that all
+// seeds took. What is lost at the ends of a job does not grow with it; what is lost to the network or to
+// loading does.
+FarmTime Session::plan_farm(const Measurement& m, const MeasuredSetting& s) {
+  constexpr double most_samples = 3e6;  // of pixels
+  news_.progress(0.99, "the cluster");
+  const double pixels = static_cast<double>(s.first.width) * s.first.height;
+  const double spp = std::min(std::max<double>(most_samples / pixels, s.spp), m.full_size * m.scene_spp);
+  const PlannedJob job = runs_.plan_job(request(m, s.setting, s.spp, 1), options_.farm, spp / s.spp);
+  if (!(job.efficiency > 0)) return {};
+  const double work_s = s.sample_s / (options_.farm.ranks * options_.farm.threads),
+               lost = 1 / job.efficiency - 1;
+  const bool grows = job.limit == "network" || job.limit == "loading";
+  return {grows ? 0 : work_s * spp * lost, m.full_size * work_s * (grows ? 1 + lost : 1)};
 }
 
 void Session::measure_axes(Measurement& m) {

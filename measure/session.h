@@ -2,6 +2,10 @@
 // Settings become statistics: which renders each takes, and how far all are.
 #pragma once
 
+#include <map>
+#include <string>
+#include <vector>
+
 #include "measure/measure.h"
 
 namespace vitrail {
@@ -19,21 +23,27 @@ class Session {
   void measure_axes(Measurement& m);
   // The scene's own at other counts of samples, and the law that they follow.
   void measure_samples(Measurement& m);
+  // Of `spp` samples, or as many as the setting takes at least.
   MeasuredSetting measure_setting(const Measurement& m, const Setting& setting, int spp);
+  // What `plan` says of a setting that was measured so, on the options' farm. Throws as the programs do.
+  FarmTime plan_farm(const Measurement& m, const MeasuredSetting& setting);
 
   // CPU seconds a second of all renders.
   double parallelism() const { return wall_s_ > 0 ? cpu_s_ / wall_s_ : 1; }
 
  private:
+  RunRequest request(const Measurement& m, const Setting& setting, int spp, int seed) const;
   RunResult run(const RunRequest& request, const std::string& what);
+  const std::vector<Image>& unbiased_pictures(int spp);
 
   Runs& runs_;
   const MeasureOptions& options_;
   int spp_, renders_;
   int done_ = 0;
   double cpu_s_ = 0, wall_s_ = 0;
-  std::vector<Image> own_pictures_;  // of the scene's own setting, of each seed
-  std::string own_hash_;             // of the film of the first
+  std::vector<Image> own_pictures_;             // of the scene's own setting, of each seed
+  std::string own_hash_;                        // of the film of the first
+  std::map<int, std::vector<Image>> unbiased_;  // of the reference's setting, by samples; of each seed
   const MeasureNews& news_;
 };
 

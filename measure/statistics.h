@@ -16,6 +16,11 @@ struct Estimate {
 // Of independent values; half_width is infinite for one.
 Estimate mean_of(std::span<const double> values);
 
+// What a bias, which is not below 0, is expected to be after an estimate of it: the mean of the normal
+// distribution about the estimate, above 0. One that was not seen counts by how well it would have been seen,
+// so that of many settings the one whose bias came out least by chance is not the best.
+double expected_bias(const Estimate& estimate);
+
 // Two pictures of independent seeds.
 struct Reference {
   Image first, second, mean;
@@ -40,8 +45,13 @@ struct ErrorStatistics {
   bool is_biased() const { return bias.value > bias.half_width && bias.value > 0; }
 };
 
-// `pictures`: of the same setting and samples, of independent seeds; at least two.
-ErrorStatistics error_statistics(std::span<const Image> pictures, const Reference& reference);
+// `pictures`: of the same setting and samples, of independent seeds; at least two. `unbiased`: pictures of
+// the reference's own setting, of the same seeds and samples, or none. The noise that they share with
+// `pictures`, whose paths begin alike, is then not in the bias: E[(xᵢ − uᵢ)(xⱼ − uⱼ)] = (E x − truth)². Where
+// these are noisier than the reference, as those are whose specks `pictures` cut, the bias is against the
+// reference: the narrower interval counts.
+ErrorStatistics error_statistics(std::span<const Image> pictures, const Reference& reference,
+                                 std::span<const Image> unbiased = {});
 
 Image mean_picture(std::span<const Image> pictures);
 

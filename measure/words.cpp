@@ -40,6 +40,7 @@ std::string what_it_buys(const Measurement& m, const MeasuredSetting& s) {
     return fmt::format("{}: the same picture, bit for bit; {}, {} MiB at most instead of {}", s.name, times,
                        megabytes(s.peak_memory_bytes), megabytes(own.peak_memory_bytes));
   std::string text = fmt::format("{}: a sample is {}", s.name, times);
+  if (s.spp != own.spp) text = fmt::format("{}, of {} samples: one is {}", s.name, s.spp, times);
   const double own_noise = predicted_error({own.error.noise.value, 0, own.spp, 1}, m.law, s.spp);
   if (own_noise > 0 && s.error.noise.value > 0) {
     const double noise = s.error.noise.value / own_noise;
@@ -49,6 +50,7 @@ std::string what_it_buys(const Measurement& m, const MeasuredSetting& s) {
   } else {
     text += s.error.noise.value > 0 ? ", and it is noisy" : ", and no noise is seen";
   }
+  if (s.effect == Effect::noise) return text + "; its mean is the same";
   if (!s.error.is_biased()) return text + "; no bias is seen";
   text += fmt::format("; bias {} ({})", with_error(s.error.bias), brightness(s.error.luminance));
   return text + fmt::format(", which no samples remove: not for a relMSE below {:.2g}", s.error.bias.value);
@@ -74,6 +76,11 @@ std::vector<std::string> findings(const Measurement& m) {
                   "takes {:.3g} CPU "
                   "seconds, and there were {:.1f} CPU seconds a second.",
                   m.full_size, own.sample_s * m.full_size, m.parallelism));
+  if (own.farm.is_known())
+    lines.push_back(fmt::format(
+        "The whole picture at its {} samples would take about {:.2g} s on a cluster of {} × {} cores "
+        "(vitrail plan; --ranks, --threads).",
+        m.scene_spp, own.farm(m.scene_spp), m.farm.ranks, m.farm.threads));
   return lines;
 }
 
@@ -89,6 +96,7 @@ std::string advice(const Recommendation& r) {
   if (r.bias_within > share * r.error)
     text += fmt::format(" Beware: its bias is known to ± {:.2g} only; more --seeds or --spp know better.",
                         r.bias_within);
+  if (r.farm_s > 0) text += fmt::format(" On the cluster: about {:.2g} s.", r.farm_s);
   if (r.bias > 0) text += fmt::format(" {:.3g} of it is bias: {}.", r.bias, brightness(r.luminance));
   return text;
 }
@@ -109,10 +117,10 @@ std::vector<bool> front(const Measurement& m) {
 
 std::string table(const Measurement& m) {
   const auto line = [](auto&&... cells) {
-    return fmt::format("{:2}{:<28}{:>5}{:>9}{:>9}{:>19}{:>19}{:>19}{:>9}{:>8}{:>8}\n", cells...);
+    return fmt::format("{:2}{:<28}{:>5}{:>9}{:>9}{:>19}{:>19}{:>19}{:>9}{:>8}{:>8}{:>9}\n", cells...);
   };
-  std::string text =
-      line("", "setting", "spp", "cpu s", "Mrays", "relMSE", "noise", "bias", "FLIP", "ΔE00", "MiB");
+  std::string text = line("", "setting", "spp", "cpu s", "Mrays", "relMSE", "noise", "bias", "FLIP", "ΔE00",
+                          "MiB", "farm s");
   const std::vector<bool> on_it = front(m);
   for (std::size_t i = 0; i < m.settings.size(); ++i) {
     const MeasuredSetting& s = m.settings[i];
@@ -123,9 +131,13 @@ std::string table(const Measurement& m) {
     text += line(on_it[i] ? "*" : "", s.name, s.spp, fmt::format("{:.3g}", s.sample_s * s.spp),
                  fmt::format("{:.3g}", s.rays / 1e6), with_error(s.error.relmse), with_error(s.error.noise),
                  with_error(s.error.bias), fmt::format("{:.3g}", s.error.flip.value),
-                 fmt::format("{:.3g}", s.error.delta_e.value), megabytes(s.peak_memory_bytes));
+                 fmt::format("{:.3g}", s.error.delta_e.value), megabytes(s.peak_memory_bytes),
+                 s.farm.is_known() ? fmt::format("{:.2g}", s.farm(m.scene_spp)) : "");
   }
-  return text + "±: 95 %; *: no other of as many samples is better in both time and error\n";
+  return text +
+         "±: 95 %; *: no other of as many samples is better in both time and error; farm s: the whole "
+         "picture on "
+         "the cluster\n";
 }
 
 }  // namespace vitrail

@@ -173,6 +173,7 @@ class Partitioner {
     const std::vector<std::uint32_t> kept = leave_out_unused_domains(manifest_);
     for (std::uint32_t i = 0; i < kept.size(); ++i)
       if (kept[i] != i) std::filesystem::rename(domain_path(bundle_, kept[i]), domain_path(bundle_, i));
+    manifest_.switching_glazings = static_cast<std::uint32_t>(glazings_.size());
     write_manifest(bundle_, manifest_);
     write_glazings(bundle_, manifest_.scene_hash, glazings_);
     phases_.end();

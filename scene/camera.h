@@ -112,6 +112,12 @@ inline constexpr int unlimited_depth = 1 << 20;
 
 // What the scene file asks for; the command line overrides it. Depth counts scattering events as pbrt does: 0
 // shows emitters only, 1 adds direct light.
+// How colours given as RGB become spectra.
+enum class RgbMethod {
+  jakob_hanika,  // smooth sigmoids (scene/rgb_to_spectrum.h)
+  matrix_r,      // sums of D65 times the colour-matching functions (scene/matrix_r.h)
+};
+
 struct RenderSettings {
   int samples_per_pixel = 16;
   int max_depth = 5;
@@ -120,6 +126,7 @@ struct RenderSettings {
   // volumetric integrators do not count it. (Going through where a shape's opacity says that nothing is there
   // never is.)
   bool straight_counts = true;
+  RgbMethod rgb = RgbMethod::jakob_hanika;
   bool operator==(const RenderSettings&) const = default;
 };
 

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/rgb_to_spectrum.h"
+
 namespace vitrail {
 
 namespace {
@@ -137,21 +139,35 @@ BandReflectance fundamental_metamer(RGB c) {
   return n;
 }
 
-BandReflectance matrix_r_reflectance(RGB c) {
+MatrixRReflectance matrix_r_weights(RGB c) {
   c = {std::clamp(c.r, 0.0, 1.0), std::clamp(c.g, 0.0, 1.0), std::clamp(c.b, 0.0, 1.0)};
-  BandReflectance s{};
-  if (c.r == c.g && c.g == c.b) {
-    s.fill(c.r);
-    return s;
-  }
+  if (c.r == c.g && c.g == c.b) return {{}, 1 - c.r};
   // Towards white λ grows without bound: there 1 − S is a part of that of a colour farther off.
   constexpr double white_distance = 0.01;
   const double distance = 1 - std::min({c.r, c.g, c.b}), part = std::min(1.0, distance / white_distance);
   const auto farther = [&](double x) { return 1 - (1 - x) / part; };
-  const Column3 lambda = bounded_lambda(tristimulus({farther(c.r), farther(c.g), farther(c.b)}));
+  return {bounded_lambda(tristimulus({farther(c.r), farther(c.g), farther(c.b)})), part};
+}
+
+BandReflectance matrix_r_reflectance(RGB c) {
+  const MatrixRReflectance r = matrix_r_weights(c);
+  BandReflectance s{};
   for (std::size_t i = 0; i < s.size(); ++i)
-    s[i] = 1 - part * (1 - std::clamp(dot(matrix_a()[i], lambda), 0.0, 1.0));
+    s[i] = 1 - r.part * (1 - std::clamp(dot(matrix_a()[i], r.weights), 0.0, 1.0));
   return s;
+}
+
+MatrixRBasis matrix_r_basis(float lambda_nm) {
+  constexpr float last = matrix_r_bands - 1;
+  const float x = (lambda_nm - static_cast<float>(lambda_min_nm)) / step;
+  const float at = x > 0 ? (x < last ? x : last) : 0;
+  const std::size_t band = at < last ? static_cast<std::size_t>(at) : matrix_r_bands - 2;
+  MatrixRBasis basis{.part_above = at - static_cast<float>(band)};
+  for (std::size_t c = 0; c < 3; ++c) {
+    basis.below[c] = static_cast<float>(matrix_a()[band][c]);
+    basis.above[c] = static_cast<float>(matrix_a()[band + 1][c]);
+  }
+  return basis;
 }
 
 RGB reflected_rgb(const BandReflectance& reflectance) {
@@ -179,6 +195,30 @@ TabulatedSpectrum tabulated(const BandReflectance& reflectance) {
     table.values.push_back(static_cast<float>((1 - part) * reflectance[band] + part * next));
   }
   return table;
+}
+
+namespace {
+
+bool is_grey(const std::array<float, 3>& c) { return c[0] == c[1] && c[1] == c[2]; }
+
+// S of rgb/scale, times scale.
+Spectrum colored(const std::array<float, 3>& rgb, double scale) {
+  const auto part = [&](std::size_t i) { return static_cast<double>(rgb[i]) / scale; };
+  return scaled(tabulated(matrix_r_reflectance({part(0), part(1), part(2)})), scale);
+}
+
+}  // namespace
+
+Spectrum resolved(const Spectrum& spectrum, RgbMethod method) {
+  if (method == RgbMethod::matrix_r) {
+    if (const auto* s = std::get_if<SigmoidSpectrum>(&spectrum); s && !is_grey(s->rgb))
+      return colored(s->rgb, 1);
+    if (const auto* s = std::get_if<RgbUnboundedSpectrum>(&spectrum); s && !is_grey(s->rgb))
+      return colored(s->rgb, static_cast<double>(s->scale));
+    if (const auto* s = std::get_if<RgbIlluminantSpectrum>(&spectrum); s && !is_grey(s->rgb))
+      return product(resolved(emission_from_rgb({1, 1, 1})), colored(s->rgb, static_cast<double>(s->scale)));
+  }
+  return resolved(spectrum);
 }
 
 }  // namespace vitrail

@@ -5,6 +5,7 @@
 
 #include <array>
 
+#include "scene/camera.h"
 #include "scene/color.h"
 #include "scene/spectrum.h"
 
@@ -24,10 +25,30 @@ BandReflectance fundamental_metamer(RGB c);
 // off. Greys are exact constants; components of c are clamped to [0, 1].
 BandReflectance matrix_r_reflectance(RGB c);
 
+// The same S in four numbers: 1 − part·(1 − clamp(a(λ)·weights)), `a` as below. Greys have no weights, and
+// `part` 1 − grey.
+struct MatrixRReflectance {
+  std::array<double, 3> weights{};
+  double part = 0;
+};
+MatrixRReflectance matrix_r_weights(RGB c);
+
+// A of the bands about a wavelength, D65 times x̄, ȳ, z̄ over 5 nm, and which part the upper one has: what is
+// linear between the bands is the reflectance. Held beyond 360 and 830 nm.
+struct MatrixRBasis {
+  std::array<float, 3> below{}, above{};
+  float part_above = 0;
+};
+MatrixRBasis matrix_r_basis(float lambda_nm);
+
 // The linear sRGB colour of a reflectance under D65. Of a spectrum: at 1 nm.
 RGB reflected_rgb(const BandReflectance& reflectance);
 RGB reflected_rgb(const Spectrum& reflectance);
 
 TabulatedSpectrum tabulated(const BandReflectance& reflectance);
+
+// `resolved`, with what was given as RGB by the method: scale · S, and D65 where it shines. Greys stay as
+// they are, constants.
+Spectrum resolved(const Spectrum& spectrum, RgbMethod method);
 
 }  // namespace vitrail

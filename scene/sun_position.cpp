@@ -18,20 +18,20 @@ constexpr double radian = pi / 180;
 double sine(double degrees) { return portable_sin(degrees * radian); }
 double cosine(double degrees) { return portable_cos(degrees * radian); }
 
-// Days from J2000.0, the noon of January 1st 2000; midnight by Fliegel and Van Flandern 1968.
-double days_from_2000(const LocalTime& t) {
-  const int a = (t.month - 14) / 12;
-  const int noon = (1461 * (t.year + 4800 + a)) / 4 + (367 * (t.month - 2 - 12 * a)) / 12 -
-                   (3 * ((t.year + 4900 + a) / 100)) / 4 + t.day - 32075;
-  return noon - 2451545 - 0.5 + (t.hour - t.timezone_h) / 24;
-}
-
 int days_of(int year, int month) {
   if (month == 2) return (year % 4 == 0 && year % 100 != 0) || year % 400 == 0 ? 29 : 28;
   return month == 4 || month == 6 || month == 9 || month == 11 ? 30 : 31;
 }
 
 }  // namespace
+
+// Midnight by Fliegel and Van Flandern 1968.
+double days_from_2000(const LocalTime& t) {
+  const int a = (t.month - 14) / 12;
+  const int noon = (1461 * (t.year + 4800 + a)) / 4 + (367 * (t.month - 2 - 12 * a)) / 12 -
+                   (3 * ((t.year + 4900 + a) / 100)) / 4 + t.day - 32075;
+  return noon - 2451545 - 0.5 + (t.hour - t.timezone_h) / 24;
+}
 
 LocalTime local_time(const std::string& text) {
   LocalTime t;

@@ -21,6 +21,9 @@ struct Place {
   double latitude_deg = 0, longitude_deg = 0;
 };
 
+// UTC, from the noon of January 1st 2000 (J2000.0).
+double days_from_2000(const LocalTime& time);
+
 // "2026-06-21T12:00+02:00": date, T, hours and minutes, perhaps :seconds, then Z or ±hh:mm (ISO 8601).
 // Throws Error, also where there is no such date.
 LocalTime local_time(const std::string& text);

@@ -77,21 +77,21 @@ float float_below(double x) {
 
 namespace {
 
-constexpr std::uint32_t max_light_candidates = 4;
-
 double sum_of(const SampledSpectrum& s) {
   double sum = 0;
   for (const float x : s.v) sum += static_cast<double>(x);
   return sum;
 }
 
-// Of the numbers of a set, those of its candidate `k`: digits are flipped as in the first four points of
-// Sobol's sequence, so that the candidates lie in different quarters of each dimension, and each alone keeps
-// the strata of the set.
+// Of the numbers of a set, those of its candidate `k`: digits are flipped as in the first points of Sobol's
+// sequence, so that four candidates lie in different quarters of each dimension, 16 in different 16ths, and
+// each alone keeps the strata of the set.
 std::array<float, 4> numbers_of_candidate(std::array<float, 4> u, std::uint32_t k) {
-  constexpr std::array<std::uint32_t, 4> straight{0, 2, 1, 3}, turned{0, 2, 3, 1};
+  constexpr std::array<std::uint32_t, most_light_candidates> straight{0, 8, 4, 12, 2, 10, 6, 14,
+                                                                      1, 9, 5, 13, 3, 11, 7, 15},
+      turned{0, 8, 12, 4, 10, 2, 6, 14, 15, 7, 3, 11, 5, 13, 9, 1};
   const auto flipped = [](float x, std::uint32_t digits) {
-    return static_cast<float>(static_cast<std::uint32_t>(x * 0x1p24f) ^ digits << 22) * 0x1p-24f;
+    return static_cast<float>(static_cast<std::uint32_t>(x * 0x1p24f) ^ digits << 20) * 0x1p-24f;
   };
   return {flipped(u[0], straight[k]), flipped(u[1], turned[k]), flipped(u[2], straight[k]),
           flipped(u[3], turned[k])};
@@ -107,9 +107,9 @@ std::uint32_t PathTracer::light_candidates(const Path& path, Point3d p, bool dif
     case Variety::none:
       return 1;
     case Variety::little:
-      return diffuse ? 1 : max_light_candidates;
+      return diffuse ? 1 : scene_.sampling.light_candidates;
     default:
-      return max_light_candidates;
+      return scene_.sampling.light_candidates;
   }
 }
 
@@ -121,13 +121,14 @@ template <class Scatter, class Depart>
 void PathTracer::connect(const Path& path, Point3d p, std::uint32_t count, const Scatter& scatter,
                          const Depart& depart) {
   const std::array<float, 4> numbers = numbers_for_light(path);
+  const std::array<float, 2> far = numbers_for_far_lights(path);
   double choice = static_cast<double>(path.camera[3]);
   LightSample light;
   SampledSpectrum radiance;
   double all = 0, chosen = 0;
   for (std::uint32_t k = 0; k < count; ++k) {
     const auto candidate = sample_light(scene_.lights, p, k > 0 ? numbers_of_candidate(numbers, k) : numbers,
-                                        path.wavelengths, path.lamp);
+                                        far, path.wavelengths, path.lamp);
     if (!candidate) continue;
     const BsdfValue scattered = scatter(candidate->to_light);
     const double beside = candidate->is_delta ? 0 : static_cast<double>(density_beside(scattered.pdf, count));
@@ -280,7 +281,8 @@ bool PathTracer::connect_onwards(Path& path) {
   const bool refracts = path.is(path_in_pane);
   if (path.hit.triangle == no_triangle) {
     const auto is_direction = [&](Vector3d to_light) { return encode_direction(to_light) == path.direction; };
-    if (!refracts || any_distant_light(scene_.lights, RefractedAim::of(path.aim).light, is_direction))
+    if (!refracts || any_distant_light(scene_.lights, RefractedAim::of(path.aim).light,
+                                       numbers_for_far_lights(path), is_direction))
       deposit(path.pixel, path.sample, path.sensor, path.throughput);
     return false;
   }
@@ -359,10 +361,11 @@ bool PathTracer::refract_connection(Path& path, const Interaction& at, const Sur
   aim.doubt_rad += normal_doubt(*resident_[path.hit_domain], path.hit, !(normal == at.geometric * at.side()));
   const double hero_eta = static_cast<double>(eta[0]), cosine = dot(at.out, normal);
   Vector3d direction;
-  const bool is_out = any_distant_light(scene_.lights, aim.light, [&](Vector3d to_light) {
-    direction = to_light;
-    return leads_to(-at.out, to_light, hero_eta, normal, aim.doubt_rad);
-  });
+  const bool is_out =
+      any_distant_light(scene_.lights, aim.light, numbers_for_far_lights(path), [&](Vector3d to_light) {
+        direction = to_light;
+        return leads_to(-at.out, to_light, hero_eta, normal, aim.doubt_rad);
+      });
   if (!is_out && !refract(at.out, normal, hero_eta, direction)) return false;
   if (is_out && !at.front) aim.doubt_rad = 0;
   // All wavelengths share the angle outside, not the one in the glass.

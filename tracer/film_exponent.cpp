@@ -107,8 +107,7 @@ void add_points(const LightSampler& s, Tally& tally) {
 
 void add_far_lights(const LightSampler& s, Tally& tally) {
   for (const LightSampler::Distant& d : s.distant) {
-    const Spectrum& irradiance = std::get<DistantLight>(s.scene.lights[d.light].model).irradiance;
-    tally.add(luminance(irradiance) * dimmer_surface, greatest(irradiance) * brighter_point);
+    tally.add(luminance(d.irradiance) * dimmer_surface, greatest(d.irradiance) * brighter_point);
   }
   for (const std::uint32_t light : s.infinite)
     tally.add(std::get<InfiniteLight>(s.scene.lights[light].model).radiance, 1);

@@ -36,6 +36,8 @@ bool has_diffuse_part(const Manifest& m, const Material& material) {
   if (const auto* blend = std::get_if<BlendMaterial>(&material.model))
     return part(blend->first) || part(blend->second);
   if (const auto* mask = std::get_if<MaskMaterial>(&material.model)) return part(mask->material);
+  if (const auto* plastic = std::get_if<PlasticMaterial>(&material.model))
+    return plastic->roughness.alpha_u == FloatParameter{0.0f};
   return std::holds_alternative<DiffuseMaterial>(material.model) ||
          std::holds_alternative<DiffuseTransmissionMaterial>(material.model);
 }

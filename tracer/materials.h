@@ -17,7 +17,7 @@ struct MaterialKind {
   bool is_interface = false;       // nothing is there
   bool smooth_dielectric = false;  // bends light as it is: of panes and connections through them
   bool dispersive = false;         // its index depends on λ
-  bool diffuse = false;            // it, or a part of it, scatters as is_diffuse says
+  bool diffuse = false;            // it, or a part of it, may be one that gathers photons
 };
 
 class Materials {

@@ -37,6 +37,9 @@ TraceCounters& operator+=(TraceCounters& a, const TraceCounters& b) {
   a.crossings += b.crossings;
   a.born += b.born;
   a.died += b.died;
+  a.photons_emitted += b.photons_emitted;
+  a.gathers += b.gathers;
+  a.photons_gathered += b.photons_gathered;
   return a;
 }
 
@@ -90,6 +93,14 @@ std::array<float, 4> PathTracer::numbers_for_light(const Path& path) const {
                    scene_.lights.three_numbers ? Wanted::three : Wanted::four);
 }
 
+// The point of the sun's disc that all of a sample's connections go to, so that one which glass has turned
+// can tell whether it has come there.
+std::array<float, 2> PathTracer::numbers_for_far_lights(const Path& path) const {
+  if (!scene_.lights.has_discs) return {};
+  const std::array<float, 4> u = sample_4d(path.key, sample_set::lens);
+  return {u[2], u[3]};
+}
+
 void PathTracer::find_wavelengths(Path& path) const {
   if (path.has_wavelengths) return;
   path.has_wavelengths = true;
@@ -139,6 +150,7 @@ void PathTracer::trace_camera(int x, int y, std::uint32_t sample) {
   const CameraRay ray = camera_ray(x, y, path);
   if (film_.layers().any()) path.set(path_unrecorded);
   path.throughput = filled(1);
+  if (scene_.sampling.one_wavelength) path.disperse();
   path.inside = scene_.interiors.state_in(manifest_.camera_medium);
   path.direction = ray.direction;
   path.ray = {ray.origin, decode_direction(ray.direction), no_triangle};

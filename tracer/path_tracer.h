@@ -48,6 +48,8 @@ struct TraceCounters {
   std::uint64_t crossings = 0;  // domains entered after the first one of a ray
   // Rays alive: paths begun, and connections and shadow rays put into an outbox; the same when they end.
   std::uint64_t born = 0, died = 0;
+  // Of photon mapping: sent from lights, questions answered, and photons found for them.
+  std::uint64_t photons_emitted = 0, gathers = 0, photons_gathered = 0;
 };
 TraceCounters& operator+=(TraceCounters& a, const TraceCounters& b);
 
@@ -113,6 +115,10 @@ class PathTracer {
   bool shade_surface(Path& path);
   bool scatter_dielectric(Path& path, const Interaction& at, const Surface& surface);
   bool scatter_in_medium(Path& path, Point3d p);
+  // By roulette, once it has scattered so often.
+  bool may_end(std::uint32_t depth) const {
+    return depth > static_cast<std::uint32_t>(scene_.sampling.roulette);
+  }
   bool go_on(Path& path, float u, bool specular, bool gathered = false) const;
   void scatter_straight(Path& path, const Interaction& at, const Surface& surface) const;
   bool passes_at_the_end(Path& path, const Interaction& at, const Surface& surface) const;
@@ -191,6 +197,7 @@ class PathTracer {
   void begin(Path& path) const;
   std::array<float, 4> numbers_for_scattering(const Path& path, Wanted wanted = Wanted::four) const;
   std::array<float, 4> numbers_for_light(const Path& path) const;
+  std::array<float, 2> numbers_for_far_lights(const Path& path) const;
 
   const RenderScene& scene_;
   const Manifest& manifest_;

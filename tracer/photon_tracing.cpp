@@ -23,6 +23,7 @@ void PathTracer::trace_photon(std::uint32_t number) {
   begin_photon(path);
   const EmittedPhoton photon = photons_->emission->sample(
       sample_4d(path.key, sample_set::camera), sample_4d(path.key, sample_set::lens), path.wavelengths);
+  ++counters_.photons_emitted;
   ++counters_.rays_indirect;
   ++counters_.born;
   if (is_black(photon.power)) {
@@ -180,16 +181,20 @@ void PathTracer::gather(const Path& path, const Interaction& at, const Scatterin
   } else if (const auto* grooves = std::get_if<OrenNayarBsdf>(&scattering.bsdf)) {
     // Its reflectance as it is limited, by what goes back along the normal.
     constexpr Vector3d up{0, 0, 1};
-    question.sigma_rad = static_cast<float>(grooves->sigma_rad);
-    const OrenNayarBsdf half{filled(0.5f), static_cast<double>(question.sigma_rad)};
+    question.shape = static_cast<float>(grooves->sigma_rad);
+    const OrenNayarBsdf half{filled(0.5f), static_cast<double>(question.shape)};
     ask(eval(*grooves, up, up).value * (0.5f / eval(half, up, up).value[0]), 1);
+  } else if (const auto* coated = std::get_if<PlasticBsdf>(&scattering.bsdf); coated && out.z > 0) {
+    question.shape = -static_cast<float>(coated->eta);
+    ask(base_of(*coated, out.z), 1);
   }
 }
 
 void PathTracer::answer(const Gather& question) {
   const auto max_depth = static_cast<std::uint32_t>(manifest_.settings.max_depth);
-  const SampledSpectrum radiance =
-      photons_->map->gather(question, max_depth) * static_cast<float>(photons_->power_w_nm);
+  ++counters_.gathers;
+  const SampledSpectrum radiance = photons_->map->gather(question, max_depth, counters_.photons_gathered) *
+                                   static_cast<float>(photons_->power_w_nm);
   ++counters_.died;
   if (is_black(radiance)) return;
   const std::array<float, 4> u = camera_numbers(key_of(question.pixel, photons_->iteration));

@@ -15,9 +15,11 @@ enum PhotonHistory : std::uint32_t {
   photon_scattered = 2,  // reflected, or by anything else
 };
 
-// Whether paths end at it with what photons bring.
+// Whether what photons bring is looked up there, for all but what a smooth coat mirrors: paths go on with
+// that.
 inline bool gathers(const Scattering& scattering) {
-  return is_diffuse(scattering.bsdf) && scattering.bump_alpha2 == 0;
+  return (is_diffuse(scattering.bsdf) || std::holds_alternative<PlasticBsdf>(scattering.bsdf)) &&
+         scattering.bump_alpha2 == 0;
 }
 
 // A shading normal is not symmetric: importance has the cosines of where it goes, power those of where it

@@ -28,13 +28,15 @@ LightScene light_scene(const Manifest& m, const Textures& textures) {
           .lights = m.lights,
           .textures = &textures,
           .texture_records = m.textures,
-          .bounds = core_of(m)};
+          .bounds = core_of(m),
+          .refracts = m.requirements.refraction};
 }
 
 }  // namespace
 
 RenderScene::RenderScene(Manifest the_manifest, const std::filesystem::path& bundle,
-                         std::uint64_t texture_bytes, std::uint64_t the_seed)
+                         std::uint64_t texture_bytes, std::uint64_t the_seed,
+                         const SamplingChoices& the_sampling)
     : manifest(std::move(the_manifest)),
       interiors(manifest),
       camera(manifest.camera, manifest.film),
@@ -42,10 +44,11 @@ RenderScene::RenderScene(Manifest the_manifest, const std::filesystem::path& bun
       textures(manifest.textures, bundle, texture_bytes),
       materials(manifest, textures),
       media(prepare(manifest.media)),
-      lights(make_light_sampler(light_scene(manifest, textures), bundle)),
+      lights(make_light_sampler(light_scene(manifest, textures), bundle, the_sampling.lights)),
       bundle_to_camera(inverse(camera_to_bundle(manifest))),
       pixel_angle(vitrail::pixel_angle(manifest)),
-      seed(the_seed) {
+      seed(the_seed),
+      sampling(the_sampling) {
   for (const TextureFileEntry& t : manifest.texture_files)
     check_texture(t, TextureFile(bundle / t.name), bundle / t.name);
 }

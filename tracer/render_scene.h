@@ -10,13 +10,14 @@
 #include "tracer/materials.h"
 #include "tracer/media/medium.h"
 #include "tracer/pixel_filter.h"
+#include "tracer/sampling_choices.h"
 
 namespace vitrail {
 
 struct RenderScene {
   // `texture_bytes`: for tiles of images in memory. Throws Error for texture files that are damaged.
   RenderScene(Manifest manifest, const std::filesystem::path& bundle, std::uint64_t texture_bytes,
-              std::uint64_t seed);
+              std::uint64_t seed, const SamplingChoices& sampling = {});
   RenderScene(const RenderScene&) = delete;  // its parts refer to each other
   RenderScene& operator=(const RenderScene&) = delete;
 
@@ -31,6 +32,7 @@ struct RenderScene {
   Transform bundle_to_camera;
   double pixel_angle = 0;  // between neighbouring camera rays in the middle of the picture, rad
   std::uint64_t seed = 0;
+  SamplingChoices sampling;
 };
 
 // The surface that the hit's triangle belongs to; `domain` holds the hit.

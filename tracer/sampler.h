@@ -63,7 +63,7 @@ constexpr std::uint32_t scatter(std::uint32_t depth) {
 constexpr std::uint32_t light(std::uint32_t depth) {
   return 2 + 2 * depth;
 }  // point u, v, which light, which kind
-inline constexpr std::uint32_t lens = 0xffffffffu;  // point u, v, unused, unused
+inline constexpr std::uint32_t lens = 0xffffffffu;  // point u, v; point u, v of the sun's disc
 }  // namespace sample_set
 
 }  // namespace vitrail

@@ -11,7 +11,6 @@ namespace vitrail {
 
 namespace {
 
-constexpr std::uint32_t roulette_depth = 3;
 // A ray that total reflection holds in a glass would go on for ever: beyond this depth mirrors and interfaces
 // let go of one in 64.
 constexpr std::uint32_t long_chain = 254;
@@ -110,7 +109,7 @@ bool PathTracer::shade_surface(Path& path) {
     connect_surface(path, at, surface, *scattering, out, candidates);
   const bool gathered = photons_ && gathers(*scattering);
   if (gathered) gather(path, at, *scattering, out);
-  const bool two_are_enough = path.depth < roulette_depth && has_one_lobe(scattering->bsdf);
+  const bool two_are_enough = !may_end(path.depth + 1) && has_one_lobe(scattering->bsdf);
   const std::array<float, 4> u = numbers_for_scattering(path, two_are_enough ? Wanted::two : Wanted::four);
   const std::optional<BsdfSample> chosen = sample(scattering->bsdf, out, u[2], {u[0], u[1]});
   if (!chosen) return false;
@@ -213,7 +212,7 @@ bool PathTracer::go_on(Path& path, float u, bool specular, bool gathered) const 
   }
   if (gathered || manifest_.settings.direct_only) {
     path.depth |= scattered_once;
-  } else if (path.depth > roulette_depth) {
+  } else if (may_end(path.depth)) {
     const float brightest = max_value(path.throughput) * (path.is(path_dispersed) ? 1.0f / hero_count : 1.0f);
     const auto survival = static_cast<float>(attainable(static_cast<double>(brightest)));
     if (survival < 1) {

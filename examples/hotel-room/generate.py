@@ -6,6 +6,7 @@ Sample runs:
     ./generate.py -o /tmp/hotel-room                     the full scene
     ./generate.py -o /tmp/hotel-room --detail 0.1        a tenth of the triangles, for tests
     ./generate.py -o /tmp/hotel-room --switching         with electrochromic glass in the door
+    ./generate.py -o /tmp/hotel-room --lamps 0           lamps off
     ./generate.py -o /tmp/hotel-room --width 1920 --height 1080 --spp 256
 """
 
@@ -105,8 +106,8 @@ def shape(name, material_name, radiance):
     )
 
 
-def write_scene(folder, detail, width, height, spp, switching=False):
-    """Returns the number of triangles."""
+def write_scene(folder, detail, width, height, spp, switching=False, lamps=1):
+    """Returns the number of triangles. `lamps` is a factor of what they emit."""
     (folder / "meshes").mkdir(parents=True, exist_ok=True)
     objects = collect((max(detail, LEAST_DETAIL) - PLAIN_SHARE) / (1 - PLAIN_SHARE), switching)
     if switching:
@@ -115,7 +116,10 @@ def write_scene(folder, detail, width, height, spp, switching=False):
         write_ply(folder / "meshes" / f"{name}.ply", mesh)
     used = sorted({m for m, _, _ in objects.values()})
     text = [header(width, height, spp)] + [material(m) for m in used] + [""]
-    text += [shape(name, m, radiance) for name, (m, _, radiance) in objects.items()]
+    text += [
+        shape(name, m, [lamps * r for r in radiance] if radiance and lamps else None)
+        for name, (m, _, radiance) in objects.items()
+    ]
     (folder / "hotel-room.pbrt").write_text("\n".join(text) + "\n")
     return sum(len(mesh.f) for _, mesh, _ in objects.values())
 
@@ -136,8 +140,9 @@ def main():
     parser.add_argument(
         "--switching", action="store_true", help="glaze the door with glass that switches (glazing/)"
     )
+    parser.add_argument("--lamps", type=float, default=1, metavar="F", help="factor of the lamps' light; 0: off")
     args = parser.parse_args()
-    count = write_scene(args.output, args.detail, args.width, args.height, args.spp, args.switching)
+    count = write_scene(args.output, args.detail, args.width, args.height, args.spp, args.switching, args.lamps)
     print(f"{args.output / 'hotel-room.pbrt'}: {count} triangles")
 
 

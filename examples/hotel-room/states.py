@@ -12,11 +12,11 @@ The scene is partitioned once; each state is set when it is rendered. A run goes
 
 import argparse
 import subprocess
-import sys
 from pathlib import Path
 from shutil import which
 
 from generate import write_scene
+from pictures import write_mosaic
 
 
 def run(*words):
@@ -48,9 +48,7 @@ def main():
     for state, picture in zip(args.states, pictures):
         render(args.vitrail, bundle, picture, state, options)
     strip = args.output / f"{args.integrator}.png"
-    if which("oiiotool") is None:
-        sys.exit(f"the pictures are in {args.output}; oiiotool (openimageio-tools) puts them into one")
-    run("oiiotool", *pictures, "--mosaic:pad=4", f"{len(pictures)}x1", "-o", strip)
+    write_mosaic(strip, [pictures])
     print(strip)
 
 

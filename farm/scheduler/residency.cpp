@@ -25,10 +25,12 @@ std::uint64_t mark_objects(const Manifest& manifest, std::uint32_t domain, std::
 
 }  // namespace
 
-Residency::Residency(const Manifest& manifest, std::uint64_t budget_bytes, std::vector<int> home, int rank)
+Residency::Residency(const Manifest& manifest, std::uint64_t budget_bytes, Homes homes, int rank,
+                     Distribution distribution)
     : manifest_(manifest),
       budget_(budget_bytes),
-      home_(std::move(home)),
+      homes_(std::move(homes)),
+      distribution_(distribution),
       local_(manifest.domains.size()),
       local_objects_(manifest.objects.size()),
       state_(manifest.domains.size(), State::absent),
@@ -37,13 +39,18 @@ Residency::Residency(const Manifest& manifest, std::uint64_t budget_bytes, std::
       object_users_(manifest.objects.size()),
       resident_(manifest.domains.size()),
       absent_(manifest.domains.size()) {
-  const bool everything = bytes_of_all(manifest) <= budget_;
+  const bool everything = distribution == Distribution::replicate ||
+                          (distribution == Distribution::automatic && bytes_of_all(manifest) <= budget_);
   std::uint64_t at_home = 0;
-  for (std::uint32_t d = 0; d < home_.size(); ++d) {
-    local_[d] = everything || home_[d] == rank;
+  for (std::uint32_t d = 0; d < homes_.domains(); ++d) {
+    const bool home = homes_.has(d, rank);
+    local_[d] = everything || home;
     if (local_[d]) absent_.insert(d, 0);
-    if (home_[d] == rank) at_home += manifest.domains[d].bytes + mark_objects(manifest, d, local_objects_);
+    if (home) at_home += manifest.domains[d].bytes + mark_objects(manifest, d, local_objects_);
   }
+  places_ = distribution == Distribution::replicate
+                ? homes_.domains() * static_cast<std::uint64_t>(homes_.ranks())
+                : homes_.places();
   spare_ = at_home < budget_ ? budget_ - at_home : 0;
 }
 
@@ -63,6 +70,7 @@ void Residency::rays_taken(std::uint32_t domain, std::uint64_t rays) {
 }
 
 void Residency::rays_forwarded(std::uint32_t domain, std::uint64_t rays) {
+  if (distribution_ == Distribution::decompose) return;
   forwarded_[domain] += rays;
   if (local_[domain] || forwarded_[domain] < rays_that_earn_a_replica) return;
   std::vector<bool> objects = local_objects_;
@@ -124,10 +132,10 @@ bool Residency::make_room(std::uint32_t wanted, std::uint64_t bytes, std::uint64
     const std::uint64_t fewest = waiting_[*victim], candidate = waiting_[wanted];
     const bool worthwhile = candidate >= rays_worth_a_load && fewest * worth_a_swap <= candidate;
     // Even in need a swap waits until a domain has its even share of the rays alive: a rank with little to do
-    // would else swap for a handful of rays over and over while the others work. The domain with the most
-    // rays always has its share, so somewhere work goes on: twice, since the fullest that is found may have
+    // would else swap for a handful of rays over and over while the others work. Where most rays wait there
+    // is always such a share, so somewhere work goes on: twice, since the fullest that is found may have
     // half.
-    const bool needed = starving && 2 * candidate * local_.size() >= alive;
+    const bool needed = starving && 2 * candidate * places_ >= alive;
     if (fewest >= candidate || !(needed || worthwhile)) return false;
     ++evictions_;
     evicted.push_back(*victim);
@@ -152,19 +160,16 @@ std::uint64_t bytes_of_all(const Manifest& manifest) {
   return bytes;
 }
 
-std::vector<int> home_ranks(const Manifest& manifest, int ranks) {
-  std::uint64_t total = 0;
-  for (std::uint32_t d = 0; d < manifest.domains.size(); ++d) total += bytes_needed(manifest, d);
-  std::vector<int> home;
-  std::uint64_t before = 0;
-  for (std::uint32_t d = 0; d < manifest.domains.size(); ++d) {
-    const std::uint64_t bytes = bytes_needed(manifest, d), middle = before + bytes / 2;
-    home.push_back(total == 0 ? 0
-                              : std::min(ranks - 1, static_cast<int>(
-                                                        middle * static_cast<std::uint64_t>(ranks) / total)));
-    before += bytes;
-  }
-  return home;
+bool is_in_flow(const Manifest& manifest, const Homes& homes, Distribution distribution,
+                std::uint64_t bytes_a_rank) {
+  const bool by_work = homes.places() > homes.domains(), all_fits = bytes_of_all(manifest) <= bytes_a_rank;
+  if (!by_work || distribution == Distribution::replicate) return false;
+  if (all_fits) return distribution == Distribution::decompose;
+  std::vector<std::uint64_t> bytes(static_cast<std::size_t>(homes.ranks()));
+  for (std::uint32_t d = 0; d < homes.domains(); ++d)
+    for (int rank = homes.first(d); rank <= homes.last(d); ++rank)
+      bytes[static_cast<std::size_t>(rank)] += bytes_needed(manifest, d);
+  return std::ranges::all_of(bytes, [&](std::uint64_t b) { return b <= bytes_a_rank; });
 }
 
 }  // namespace vitrail

@@ -9,8 +9,13 @@
 
 #include "bundle/manifest.h"
 #include "farm/scheduler/fullest.h"
+#include "farm/scheduler/homes.h"
 
 namespace vitrail {
+
+// Which domains a rank traces in, whatever of them is in memory: all, or those that it answers for;
+// `automatic`: all where they fit into memory, else its own and those that it has much asked others for.
+enum class Distribution : std::uint8_t { automatic, decompose, replicate };
 
 // What the loader does next: first some domains leave, then one is mapped, where there is room for it
 // already.
@@ -27,13 +32,14 @@ struct LoadStep {
 // Objects are shared by the domains that need them, and counted once.
 class Residency {
  public:
-  // `budget_bytes` for mapped domains and objects; `home[d]` is the rank that answers for domain d. The
-  // manifest's sizes and what needs which are all that is used of it.
-  Residency(const Manifest& manifest, std::uint64_t budget_bytes, std::vector<int> home, int rank);
+  // `budget_bytes` for mapped domains and objects. The manifest's sizes and what needs which are all that is
+  // used of it.
+  Residency(const Manifest& manifest, std::uint64_t budget_bytes, Homes homes, int rank,
+            Distribution distribution = Distribution::automatic);
 
-  // Whether rays for the domain wait here; otherwise they go to `home`.
+  // Whether rays for the domain wait here; otherwise they go to one of its homes.
   bool is_local(std::uint32_t domain) const { return local_[domain]; }
-  int home(std::uint32_t domain) const { return home_[domain]; }
+  const Homes& homes() const { return homes_; }
   std::uint64_t waiting(std::uint32_t domain) const { return waiting_[domain]; }
   // The resident domain that most rays wait for, if any do.
   std::optional<std::uint32_t> fullest() const { return resident_.most(); }
@@ -65,7 +71,9 @@ class Residency {
 
   const Manifest& manifest_;
   std::uint64_t budget_, spare_ = 0;
-  std::vector<int> home_;
+  std::uint64_t places_ = 0;  // where rays may wait: domains, each as often as ranks trace in it
+  Homes homes_;
+  Distribution distribution_;
   std::vector<bool> local_;
   std::vector<bool> local_objects_;          // that a domain kept here needs
   std::vector<State> state_;                 // by domain
@@ -81,8 +89,9 @@ class Residency {
 // Of all domains and objects.
 std::uint64_t bytes_of_all(const Manifest& manifest);
 
-// Contiguous runs of domains in kd order, of about equal bytes: neighbours share a rank and rays stay home
-// longer.
-std::vector<int> home_ranks(const Manifest& manifest, int ranks);
+// Whether rays go from rank to rank and wait for no load: ranks have equal work, trace in the domains that
+// they answer for, and keep all of these. Objects count in each domain that needs them.
+bool is_in_flow(const Manifest& manifest, const Homes& homes, Distribution distribution,
+                std::uint64_t bytes_a_rank);
 
 }  // namespace vitrail

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 namespace vitrail {
 
@@ -21,6 +22,12 @@ struct RoundSums {
   std::int64_t samples = 0;
   std::int64_t rays_traced = 0;
   std::int64_t domain_loads = 0;
+  std::int64_t waiting = 0;  // rays that wait to be traced
+};
+// What a round gives: the sums, and how many rays waited on each rank.
+struct Round {
+  RoundSums sums;
+  std::vector<std::int64_t> waiting;  // by rank
 };
 inline constexpr std::size_t round_values = sizeof(RoundSums) / sizeof(std::int64_t);
 

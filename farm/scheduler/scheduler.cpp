@@ -15,7 +15,8 @@ constexpr double longest_wait_s = .002;
 
 }  // namespace
 
-Scheduler::Scheduler(const Job& job, Residency residency) : job_(job), residency_(std::move(residency)) {}
+Scheduler::Scheduler(const Job& job, Residency residency)
+    : job_(job), residency_(std::move(residency)), pair_(static_cast<unsigned>(job.rank) + 1) {}
 
 Scheduler::Task Scheduler::next_task() const {
   const auto fullest = residency_.fullest();
@@ -83,6 +84,22 @@ bool Scheduler::send_is_due(double now_s) const {
          (outgoing_ >= rays_worth_sending || workers_waiting_ > 0 || now_s - last_sent_s_ > longest_wait_s);
 }
 
+// The power of two choices (Mitzenmacher 2001): the fuller of two is avoided, and no rank has all others'
+// rays at once, as the emptiest of all would.
+int Scheduler::destination(std::uint32_t domain, std::uint64_t rays) {
+  const Homes& homes = residency_.homes();
+  const int first = homes.first(domain);
+  const auto count = static_cast<std::uint64_t>(homes.last(domain) - first + 1);
+  int chosen = first;
+  if (count > 1 && !busy_.empty()) {
+    const std::uint64_t one = pair_() % count, other = (one + 1 + pair_() % (count - 1)) % count;
+    const auto waiting = [&](std::uint64_t home) { return busy_[static_cast<std::size_t>(first) + home]; };
+    chosen += static_cast<int>(waiting(other) < waiting(one) ? other : one);
+    busy_[static_cast<std::size_t>(chosen)] += static_cast<std::int64_t>(rays);
+  }
+  return chosen;
+}
+
 void Scheduler::sent(std::uint64_t rays, double now_s) {
   outgoing_ -= rays;
   last_sent_s_ = now_s;
@@ -97,6 +114,7 @@ RoundSums Scheduler::contribution() const {
   mine.reserved = static_cast<std::int64_t>(rays_in_hand_ + (mine.wanting ? allowance_ : 0));
   mine.quiet = in_hand_ == 0 && !mine.wanting;
   mine.items_done = static_cast<std::int64_t>(next_item_ - std::min(next_item_, in_hand_));
+  mine.waiting = static_cast<std::int64_t>(waiting_);
   mine.domain_loads = static_cast<std::int64_t>(residency_.loads());
   return mine;
 }

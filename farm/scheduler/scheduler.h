@@ -5,6 +5,10 @@
 // of the caller's clock.
 #pragma once
 
+#include <random>
+#include <span>
+#include <vector>
+
 #include "farm/scheduler/residency.h"
 #include "farm/scheduler/round.h"
 
@@ -16,6 +20,7 @@ class Scheduler {
     int ranks = 1;
     int workers = 1;                // of this rank
     std::int64_t rays_allowed = 0;  // alive in the whole job; as many as there are ranks at least
+    int rank = 0;                   // this one
   };
   Scheduler(const Job& job, Residency residency);
 
@@ -47,6 +52,8 @@ class Scheduler {
   void goes_out(std::uint64_t records) { outgoing_ += records, forwarded_ += records; }
   void arrived(std::uint32_t domain, std::uint64_t rays);
   bool send_is_due(double now_s) const;
+  // Where rays that are sent go: of two of the domain's homes the one where fewer wait, as far as is known.
+  int destination(std::uint32_t domain, std::uint64_t rays);
   void sent(std::uint64_t rays, double now_s);
 
   // --- Domains.
@@ -55,7 +62,9 @@ class Scheduler {
   void released(std::uint64_t bytes) { residency_.released(bytes); }
   const Residency& residency() const { return residency_; }
 
-  // --- Rounds. Whoever asks for a pause or an end adds it to the contribution.
+  // --- Rounds. `rays_wait`: how many waited on each rank when it joined the round that ended.
+  void rays_wait(std::span<const std::int64_t> by_rank) { busy_.assign(by_rank.begin(), by_rank.end()); }
+  // Whoever asks for a pause or an end adds it to the contribution.
   RoundSums contribution() const;
   enum class Decision { go_on, all_quiet };
   // The same on every rank, since the sums are. `all_quiet`: no ray is alive and none will be born, until
@@ -81,6 +90,8 @@ class Scheduler {
   std::uint64_t allowance_ = 0;                 // rays that may be generated
   std::uint64_t waiting_ = 0;                   // rays that wait to be traced here
   std::uint64_t outgoing_ = 0, forwarded_ = 0;  // rays
+  std::vector<std::int64_t> busy_;              // rays that wait, by rank, with those sent there since
+  std::minstd_rand pair_;                       // which two homes are compared next
   double last_sent_s_ = 0;
   int workers_waiting_ = 0;
   bool paused_ = false;

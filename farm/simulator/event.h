@@ -11,8 +11,7 @@ struct SimulationEvent {
   enum class Kind { task_done, load_done, message, round_begins, round_ends, watch, ask, answer, checkpoint };
   Kind kind = Kind::task_done;
   int rank = 0;
-  std::uint32_t domain = 0;  // of a message or a load
-  std::uint64_t number = 0;  // of rays in a message, of the worker of a task
+  std::uint64_t number = 0;  // of the message, the domain that was loaded, or the worker of the task
   double time = 0;
   std::uint64_t order = 0;  // of events at one time
   bool operator<(const SimulationEvent& e) const { return time != e.time ? time > e.time : order > e.order; }

@@ -31,15 +31,16 @@ class SimulatedJob {
         mishaps_(mishaps),
         random_(seed),
         standing_(workload.domains.size()) {
-    const std::vector<int> home = home_ranks(workload.manifest, machine.ranks);
+    const Homes homes = machine.homes ? *machine.homes : homes_by_bytes(workload.manifest, machine.ranks);
     for (int r = 0; r < machine.ranks; ++r) {
       const auto ranks = static_cast<std::uint64_t>(machine.ranks), rank = static_cast<std::uint64_t>(r);
       const auto share = [&](std::uint64_t all) { return all / ranks + (rank < all % ranks); };
-      ranks_.emplace_back(SchedulerType({machine.ranks, machine.workers, machine.rays_allowed},
-                                        Residency(workload.manifest, machine.domain_bytes, home, r)),
-                          WatchType(r, machine.ranks, machine.patience_s),
-                          SpillType(workload.domains.size(), machine.queue_bytes), workload.domains.size(),
-                          static_cast<std::size_t>(machine.workers));
+      ranks_.emplace_back(
+          SchedulerType({machine.ranks, machine.workers, machine.rays_allowed, r},
+                        Residency(workload.manifest, machine.domain_bytes, homes, r, machine.distribution)),
+          WatchType(r, machine.ranks, machine.patience_s),
+          SpillType(workload.domains.size(), machine.queue_bytes), workload.domains.size(),
+          static_cast<std::size_t>(machine.workers));
       ranks_.back().items = share(workload.items);
       ranks_.back().rounds_of_samples = mishaps.kept.rounds;
       ranks_.back().scheduler.begin_items(share(workload.items - mishaps.kept.items));
@@ -106,6 +107,7 @@ class SimulatedJob {
 
  private:
   using Event = SimulationEvent;
+  using Message = std::vector<std::pair<std::uint32_t, std::uint64_t>>;  // batches: domain, rays
   struct Worker {
     typename SchedulerType::Work work = SchedulerType::Work::none;
     std::map<std::uint32_t, std::uint64_t> made;  // rays by domain, when it is done
@@ -153,9 +155,10 @@ class SimulatedJob {
     std::uint64_t round = 0;
     double sending_until = 0;
   };
-  struct Round {
-    int joined = 0;
+  struct OpenRound {
+    int joined = 0, left = 0;
     RoundSums sums;
+    std::vector<std::int64_t> waiting;  // by rank
   };
 
   [[noreturn]] void broken(const std::string& what) const {
@@ -180,9 +183,9 @@ class SimulatedJob {
       case Event::Kind::task_done:
         return finish_task(e.rank, r.workers[static_cast<std::size_t>(e.number)]);
       case Event::Kind::load_done:
-        return finish_load(e.rank, e.domain);
+        return finish_load(e.rank, static_cast<std::uint32_t>(e.number));
       case Event::Kind::message:
-        return receive(e.rank, e.domain, e.number);
+        return receive(e.rank, messages_.extract(e.number).mapped());
       case Event::Kind::round_begins:
         return begin_round(e.rank);
       case Event::Kind::round_ends:
@@ -193,7 +196,7 @@ class SimulatedJob {
       case Event::Kind::ask:
         r.watch.asked(now_);
         return at(now_ + late() * machine_.latency_s,
-                  {Event::Kind::answer, static_cast<int>(e.number), 0, static_cast<std::uint64_t>(e.rank)});
+                  {Event::Kind::answer, static_cast<int>(e.number), static_cast<std::uint64_t>(e.rank)});
       case Event::Kind::answer:
         return r.watch.answered(static_cast<int>(e.number));
       case Event::Kind::checkpoint:
@@ -237,11 +240,12 @@ class SimulatedJob {
       alive_ += w.born;
       result_.most_alive = std::max(result_.most_alive, alive_);
       std::uint64_t left = w.born;
-      for (const Workload::Way& way : workload_.entry) {
-        const std::uint64_t rays = std::min(left, rounded(way.rays * static_cast<double>(w.generated)));
-        go_to(way.domain, rays);
-        left -= rays;
-      }
+      go_on(w.generated, workload_.entry, workload_.entry_until,
+            [&](std::uint32_t domain, std::uint64_t rays) {
+              rays = std::min(left, rays);
+              go_to(domain, rays);
+              left -= rays;
+            });
       // The others meet nothing.
       alive_ -= left;
       w.died += left;
@@ -260,19 +264,34 @@ class SimulatedJob {
       seconds += d.seconds * static_cast<double>(rays);
       result_.rays += rays;
       w.died += rays;
-      for (const Workload::Way& way : d.ways) {
-        const std::uint64_t leave = rounded(way.rays * static_cast<double>(rays));
-        go_to(way.domain, leave);
+      go_on(rays, d.ways, d.rays_until, [&](std::uint32_t to, std::uint64_t leave) {
+        go_to(to, leave);
         w.born += leave;
         alive_ += leave;
-      }
+      });
       alive_ -= rays;
     }
     entered_.clear();
     seconds *= late() * (rank == 0 ? mishaps_.slow_rank : 1);
     r.busy_s += seconds;
-    at(now_ + seconds, {Event::Kind::task_done, rank, 0, number});
+    at(now_ + seconds, {Event::Kind::task_done, rank, number});
     return true;
+  }
+
+  // Where those go on to that come of `rays`: few each by a way of its own, many by all ways at once.
+  template <class Leave>
+  void go_on(std::uint64_t rays, const std::vector<Workload::Way>& ways, const std::vector<double>& until,
+             const Leave& leave) {
+    if (ways.empty()) return;
+    const double all = until.back() * static_cast<double>(rays);
+    if (all >= static_cast<double>(ways.size())) {
+      for (const Workload::Way& way : ways) leave(way.domain, rounded(way.rays * static_cast<double>(rays)));
+      return;
+    }
+    for (std::uint64_t left = rounded(all); left > 0; --left) {
+      const auto way = std::ranges::upper_bound(until, uniform() * until.back()) - until.begin();
+      leave(ways[std::min(static_cast<std::size_t>(way), ways.size() - 1)].domain, 1);
+    }
   }
 
   void go_to(std::uint32_t domain, std::uint64_t rays) {
@@ -385,27 +404,41 @@ class SimulatedJob {
     Rank& r = ranks_[static_cast<std::size_t>(rank)];
     if (!r.scheduler.send_is_due(now_)) return;
     std::uint64_t sent = 0;
+    std::map<int, Message> messages;  // by destination
     for (const auto& [domain, rays] : r.outgoing) {
       sent += rays;
+      for (std::uint64_t left = rays; left > 0;) {
+        const std::uint64_t batch = std::min(left, machine_.rays_of_a_batch);
+        messages[r.scheduler.destination(domain, batch)].emplace_back(domain, batch);
+        left -= batch;
+      }
+    }
+    for (auto& [to, message] : messages) {
+      std::uint64_t rays = 0;
+      for (const auto& [domain, batch] : message) rays += batch;
       const double seconds = static_cast<double>(rays * machine_.bytes_a_ray) / machine_.network_bytes_s;
       r.sending_until = std::max(r.sending_until, now_) + seconds;
       r.sending_s += seconds;
-      r.rays -= rays;
-      ++result_.messages;
-      at(r.sending_until + late() * machine_.latency_s,
-         {Event::Kind::message, r.scheduler.residency().home(domain), domain, rays});
+      const std::uint64_t number = result_.messages++;
+      messages_.emplace(number, std::move(message));
+      at(r.sending_until + late() * machine_.latency_s, {Event::Kind::message, to, number});
     }
+    r.rays -= sent;
     r.outgoing.clear();
     r.scheduler.sent(sent, now_);
   }
 
-  void receive(int rank, std::uint32_t domain, std::uint64_t rays) {
+  void receive(int rank, const Message& message) {
     Rank& r = ranks_[static_cast<std::size_t>(rank)];
-    if (r.ended) broken(fmt::format("rank {} had ended when {} rays arrived", rank, rays));
-    put_in_queue(r, domain, rays);
-    r.rays += rays;
+    for (const auto& [domain, rays] : message) {
+      if (r.ended) broken(fmt::format("rank {} had ended when {} rays arrived", rank, rays));
+      if (!r.scheduler.residency().homes().has(domain, rank))
+        broken(fmt::format("rank {} got {} rays for a domain of another", rank, rays));
+      put_in_queue(r, domain, rays);
+      r.rays += rays;
+      r.scheduler.arrived(domain, rays);
+    }
     result_.most_on_a_rank = std::max(result_.most_on_a_rank, r.rays);
-    r.scheduler.arrived(domain, rays);
     wake_workers(rank);
   }
 
@@ -441,8 +474,10 @@ class SimulatedJob {
     mine.pause = r.wants_checkpoint;
     r.watch.round_begins(now_);
     expect_watch(rank);
-    Round& round = rounds_[r.round];
+    OpenRound& round = rounds_[r.round];
     add(round.sums, mine);
+    round.waiting.resize(ranks_.size());
+    round.waiting[static_cast<std::size_t>(rank)] = mine.waiting;
     if (++round.joined < machine_.ranks) return;
     ++result_.rounds;
     const double steps = std::bit_width(static_cast<unsigned>(machine_.ranks));
@@ -452,7 +487,10 @@ class SimulatedJob {
 
   void end_round(int rank) {
     Rank& r = ranks_[static_cast<std::size_t>(rank)];
-    const RoundSums sums = rounds_.at(r.round).sums;
+    OpenRound& round = rounds_.at(r.round);
+    const RoundSums sums = round.sums;
+    r.scheduler.rays_wait(round.waiting);
+    if (++round.left == machine_.ranks) rounds_.erase(r.round);
     ++r.round;
     r.watch.round_ends();
     if (r.scheduler.decide(sums) == SchedulerType::Decision::all_quiet) {
@@ -511,8 +549,7 @@ class SimulatedJob {
     if (step == WatchType::Step::ask_all)
       for (int other = 0; other < machine_.ranks; ++other)
         if (other != rank)
-          at(now_ + late() * machine_.latency_s,
-             {Event::Kind::ask, other, 0, static_cast<std::uint64_t>(rank)});
+          at(now_ + late() * machine_.latency_s, {Event::Kind::ask, other, static_cast<std::uint64_t>(rank)});
     // The launcher ends all ranks then.
     if (step == WatchType::Step::give_up) result_.silent = r.watch.silent();
     expect_watch(rank);
@@ -585,7 +622,8 @@ class SimulatedJob {
   std::vector<Rank> ranks_;
   std::vector<std::uint64_t> standing_;  // rays of the task that is worked out, by domain
   std::vector<std::uint32_t> entered_;   // domains of these
-  std::map<std::uint64_t, Round> rounds_;
+  std::map<std::uint64_t, OpenRound> rounds_;
+  std::map<std::uint64_t, Message> messages_;  // under way, by number
   std::priority_queue<Event> events_;
   std::uint64_t next_order_ = 0, progress_then_ = 0;
   double now_ = 0;

@@ -4,9 +4,11 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <stdexcept>
 #include <vector>
 
+#include "farm/scheduler/residency.h"
 #include "farm/simulator/workload.h"
 
 namespace vitrail {
@@ -16,7 +18,9 @@ struct Machine {
   int ranks = 1;
   int workers = 1;                 // a rank
   std::uint64_t domain_bytes = 0;  // a rank, for domains
-  std::int64_t rays_allowed = 0;   // alive in the whole job
+  std::optional<Homes> homes;      // empty: by bytes
+  Distribution distribution = Distribution::automatic;
+  std::int64_t rays_allowed = 0;  // alive in the whole job
   // A rank, for rays that wait; the others go to the disk, which takes no time here.
   std::uint64_t queue_bytes = std::numeric_limits<std::uint64_t>::max();
   std::uint64_t bytes_a_ray = 48;

@@ -20,8 +20,7 @@ constexpr std::uint32_t rays_of_an_item = 4096;
 
 Workload workload_of(const Manifest& manifest, const RayProfile& profile, double pictures,
                      double most_items) {
-  if (profile.domains.size() != manifest.domains.size() || profile.kd_nodes != manifest.kd_nodes)
-    throw Error("the profile is of a bundle with other domains; render this one with --profile");
+  profile.require_of(manifest);
   if (profile.cost.camera_rays == 0) throw Error("the profile has no rays");
   Workload w;
   w.domains.resize(manifest.domains.size());
@@ -49,7 +48,18 @@ Workload workload_of(const Manifest& manifest, const RayProfile& profile, double
   w.rays_an_item = static_cast<std::uint32_t>(
       std::min(std::max(rays, 1.0), std::max(double{rays_of_an_item}, std::ceil(rays / most_items))));
   w.items = static_cast<std::uint64_t>(std::max(1.0, std::round(rays / w.rays_an_item)));
+  add_up(w);
   return w;
+}
+
+void add_up(Workload& w) {
+  const auto sums = [](const std::vector<Workload::Way>& ways) {
+    std::vector<double> until;
+    for (const Workload::Way& way : ways) until.push_back((until.empty() ? 0 : until.back()) + way.rays);
+    return until;
+  };
+  for (Workload::Domain& d : w.domains) d.rays_until = sums(d.ways);
+  w.entry_until = sums(w.entry);
 }
 
 Workload random_workload(std::mt19937_64& random, std::uint32_t domains, std::uint64_t items,
@@ -74,6 +84,7 @@ Workload random_workload(std::mt19937_64& random, std::uint32_t domains, std::ui
   }
   const auto seen = static_cast<std::uint32_t>(1 + random() % domains);
   for (std::uint32_t d = 0; d < seen; ++d) w.entry.push_back({d, 1.0 / seen});
+  add_up(w);
   return w;
 }
 

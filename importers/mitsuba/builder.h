@@ -34,8 +34,9 @@ struct Builder {
       textures;  // by object and whether it is read as a number
   std::map<const Object*, Id<Prototype>> prototypes;
   std::map<std::tuple<std::string, int, int>, Id<TriangleMesh>>
-      mesh_files;            // path, index in it, variant of reading
-  std::string integrator{};  // its kind
+      mesh_files;                              // path, index in it, variant of reading
+  std::string integrator{};                    // its kind
+  double shutter_open = 0, shutter_close = 0;  // of the sensor
   MeshMemory mesh_memory{};
   bool replace_missing = false;               // leave out shapes whose file is not there
   std::set<std::uint32_t> smoothed_meshes{};  // whose normals were made here

@@ -181,7 +181,7 @@ std::vector<std::string> names() {
 
 // Why an emitter is not one of the scene's, and what to do.
 std::string advice(const std::string& kind) {
-  if (kind == "timed_sunsky" || kind == "skylight")
+  if (kind == "skylight")
     return "is dropped: the Scene has no model of the sky; let Mitsuba write it as an image and give that to "
            "an "
            "\"envmap\"";

@@ -192,7 +192,9 @@ void read_sensor(Builder& builder, const Object& sensor) {
     report.dropped("the spectral response of a sensor: the CIE 1931 observer takes its place",
                    place_of(sensor, "srf"));
   for (const Object* object : {&sensor, &camera}) {
-    object->ignore({"near_clip", "far_clip", "shutter_open", "shutter_close"});
+    builder.shutter_open = object->number("shutter_open", builder.shutter_open, report);
+    builder.shutter_close = object->number("shutter_close", builder.shutter_close, report);
+    object->ignore({"near_clip", "far_clip"});
     object->children("film"), object->children("sampler");
     if (const Object* medium = object->child("medium")) scene.camera_medium = add_medium(builder, *medium);
     report.begin_item({object->origin, RecordKind::camera});

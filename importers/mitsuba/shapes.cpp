@@ -79,6 +79,27 @@ Transform to_world(Builder& builder, const Object& object) {
   return t;
 }
 
+// A sensor of a shape measures the mean irradiance of it: for a rectangle the report says how it is measured
+// here.
+void report_sensors(Builder& builder, const Object& shape, const Transform& to_world) {
+  for (const Property* sensor : shape.children("sensor")) {
+    const std::string& kind = std::get<ObjectPtr>(sensor->value)->type;
+    if (kind != "irradiancemeter" || shape.type != "rectangle") {
+      builder.report.dropped(fmt::format("sensor \"{}\" of a {}", kind, shape.type), sensor->origin);
+      continue;
+    }
+    Vector3d u = transform_vector(to_world, {2, 0, 0}), v = transform_vector(to_world, {0, 2, 0});
+    Point3d corner = transform_point(to_world, {-1, -1, 0});
+    if (shape.boolean("flip_normals", false, builder.report) != swaps_handedness(to_world)) std::swap(u, v);
+    corner = corner + unit(cross(u, v)) * (1e-4 * std::max(length(u), length(v)));  // off the surface
+    builder.report.dropped(
+        fmt::format("sensor \"irradiancemeter\": the mean of what render --sensors measures by the line "
+                    "\"plane {:g} {:g} {:g}  {:g} {:g} {:g}  {:g} {:g} {:g}  8x8\"",
+                    corner.x, corner.y, corner.z, u.x, u.y, u.z, v.x, v.y, v.z),
+        sensor->origin);
+  }
+}
+
 void add_geometry(Builder& builder, const Object& object, const ShapeGeometry& geometry, bool in_group,
                   std::vector<Shape>& shapes) {
   Shape shape;
@@ -86,6 +107,7 @@ void add_geometry(Builder& builder, const Object& object, const ShapeGeometry& g
   shape.name = name_of(object);
   shape.origin = object.origin;
   shape.object_to_world = to_world(builder, object);
+  if (!in_group) report_sensors(builder, object, shape.object_to_world);
   if (geometry.mesh_to_object != Transform{})
     shape.object_to_world = shape.object_to_world * geometry.mesh_to_object;
   shape.material = material_of(builder, object);

@@ -78,7 +78,7 @@ void bake_media(const Scene& scene, const Used& used, Appearance& result, Notes&
   result.medium_ids = renumbered(used.media, [&](std::size_t i, const auto&) {
     const Medium& medium = scene.media[i];
     std::vector<std::string> notes;
-    const std::optional<Medium> baked = bake_medium(medium, notes);
+    const std::optional<Medium> baked = bake_medium(medium, scene.settings.rgb, notes);
     for (const std::string& note : notes) {
       const std::string message = fmt::format("medium \"{}\": {}", medium.name, note);
       if (baked)
@@ -122,11 +122,11 @@ struct LightBaker {
   SourceLocation where;
 
   LightModel operator()(PointLight l) const {
-    l.intensity = resolved(l.intensity);
+    l.intensity = textures.as_rendered(l.intensity);
     return l;
   }
   LightModel operator()(SpotLight l) const {
-    l.intensity = resolved(l.intensity);
+    l.intensity = textures.as_rendered(l.intensity);
     if (l.texture) {
       const SpectrumParameter baked = textures.bake(SpectrumParameter{*l.texture}, TextureUse::unbounded);
       l.texture = std::get<Id<Texture>>(baked);
@@ -134,38 +134,36 @@ struct LightBaker {
     return l;
   }
   LightModel operator()(ProjectionLight l) const {
-    l.scale = resolved(l.scale);
+    l.scale = textures.as_rendered(l.scale);
     l.image = textures.bake(l.image, TextureUse::illuminant);
     return l;
   }
   LightModel operator()(GoniometricLight l) const {
-    l.intensity = resolved(l.intensity);
+    l.intensity = textures.as_rendered(l.intensity);
     l.filename = textures.bake_image(image_of(l), TextureUse::number, where);
     l.encoding = {}, l.number = {};  // they are in its values
     return l;
   }
   LightModel operator()(DistantLight l) const {
-    l.irradiance = resolved(l.irradiance);
+    l.irradiance = textures.as_rendered(l.irradiance);
     return l;
   }
   LightModel operator()(InfiniteLight l) const {
-    l.radiance = resolved(l.radiance);
+    l.radiance = textures.as_rendered(l.radiance);
     return l;
   }
   LightModel operator()(EnvironmentLight l) const {
-    l.scale = resolved(l.scale);
+    l.scale = textures.as_rendered(l.scale);
     l.filename = textures.bake_image(image_of(l), TextureUse::illuminant, where);
     l.encoding = {}, l.primaries = {};  // they are in its values
     return l;
   }
   LightModel operator()(SkyLight l) const {
-    l.albedo = resolved(l.albedo);
+    l.albedo = textures.as_rendered(l.albedo);
     return l;
   }
 };
 
-// Connections to light from one direction go through smooth glass, those to a disc do not: there the sun is
-// parallel light of the same irradiance.
 bool is_refracting(const Scene& scene, const Used& used) {
   for (std::size_t i = 0; i < scene.materials.size(); ++i) {
     const auto* glass = std::get_if<DielectricMaterial>(&scene.materials[i].model);
@@ -174,15 +172,6 @@ bool is_refracting(const Scene& scene, const Used& used) {
       return true;
   }
   return false;
-}
-
-std::optional<Light> take_sun(SkyLight& sky) {
-  const SkyModel model(sky);
-  if (!model.has_sun()) return std::nullopt;
-  sky.sun_scale = 0;
-  return Light{DistantLight{normalize(transform_vector(sky.light_to_world, model.to_sun())) * -1.0,
-                            spectrum_of_bands(model.sun_irradiance(model.to_sun()))},
-               {}};
 }
 
 }  // namespace
@@ -208,19 +197,18 @@ Appearance appearance_of(const Scene& scene, const std::filesystem::path& bundle
   for (const Light& light : scene.lights) {
     result.lights.push_back(
         {std::visit(LightBaker{textures, location(scene, light.origin)}, light.model), {}});
-    if (auto* sky = std::get_if<SkyLight>(&result.lights.back().model); sky && glass) {
-      if (std::optional<Light> sun = take_sun(*sky)) {
-        result.lights.push_back(std::move(*sun));
-        report.approximated("the sun of a sky: parallel light, which shines through smooth glass",
-                            light.origin);
-      }
-    }
+    if (const auto* sky = std::get_if<SkyLight>(&light.model); sky && glass && SkyModel(*sky).has_sun())
+      report.approximated("the sun's disc is not seen where smooth glass is, only what it lights",
+                          light.origin);
     const auto* environment = std::get_if<EnvironmentLight>(&light.model);
     if (environment && environment->portal)
       report.approximated("environment light: its portal is not looked at, it shines from everywhere",
                           light.origin);
   }
   result.attributes = textures.attributes();
+  if (scene.settings.rgb == RgbMethod::matrix_r &&
+      std::ranges::any_of(result.attributes, [](const auto& a) { return a.use == TextureUse::reflectance; }))
+    report.approximated("the colours of vertices become spectra by Jakob and Hanika's method", {});
   result.texture_files = textures.files();
   result.textures = textures.take_textures();
   return result;

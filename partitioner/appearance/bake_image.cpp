@@ -13,6 +13,7 @@
 
 #include "bundle/texture_writer.h"
 #include "partitioner/appearance/row_halver.h"
+#include "scene/matrix_r.h"
 
 namespace vitrail {
 
@@ -58,16 +59,19 @@ struct Survey {
   }
 };
 
-TexelFormat format_for(const Survey& all, TextureUse use) {
+TexelFormat format_for(const Survey& all, TextureUse use, RgbMethod method) {
   if (use == TextureUse::number) return TexelFormat::number;
   if (use == TextureUse::vector)
     return all.of_255     ? TexelFormat::vector_8
            : all.of_65535 ? TexelFormat::vector_16
                           : TexelFormat::vector_float;
-  if (use == TextureUse::illuminant) return TexelFormat::illuminant;
+  const bool matrix_r = method == RgbMethod::matrix_r && !all.grey;
+  if (use == TextureUse::illuminant)
+    return matrix_r ? TexelFormat::matrix_r_illuminant : TexelFormat::illuminant;
   if (all.grey) return TexelFormat::number;
-  if (use == TextureUse::reflectance || all.greatest <= 1) return TexelFormat::reflectance;
-  return TexelFormat::unbounded;
+  if (use == TextureUse::reflectance || all.greatest <= 1)
+    return matrix_r ? TexelFormat::matrix_r_reflectance : TexelFormat::reflectance;
+  return matrix_r ? TexelFormat::matrix_r_unbounded : TexelFormat::unbounded;
 }
 
 TexelWords vector_words(const Color& c, TexelFormat format) {
@@ -82,8 +86,27 @@ TexelWords vector_words(const Color& c, TexelFormat format) {
   return {part(0) | part(1) << 16, part(2)};
 }
 
+// As matrix_r_reflectance.
+TexelWords matrix_r_words(const Color& c, TexelFormat format) {
+  const RGB color{static_cast<double>(c[0]), static_cast<double>(c[1]), static_cast<double>(c[2])};
+  const double scale =
+      format == TexelFormat::matrix_r_reflectance ? 1 : 2 * std::max({color.r, color.g, color.b});
+  if (!(scale > 0)) return pack({{}, 0});
+  const MatrixRReflectance s = matrix_r_weights({color.r / scale, color.g / scale, color.b / scale});
+  const double largest = std::max({std::abs(s.weights[0]), std::abs(s.weights[1]), std::abs(s.weights[2])});
+  const double within = std::min(1.0, static_cast<double>(real21_max) / std::max(largest, 1.0));
+  SpectralTexel texel;
+  for (std::size_t i = 0; i < 3; ++i) texel.x[i] = static_cast<float>(s.weights[i] * within);
+  if (format == TexelFormat::matrix_r_reflectance)
+    texel.scale = static_cast<float>(s.part);
+  else
+    texel.scale = static_cast<float>(largest > 0 ? scale : scale * (1 - s.part));
+  return pack(texel);
+}
+
 // As reflectance_from_rgb, unbounded_from_rgb and emission_from_rgb.
 TexelWords spectral_words(const Color& c, TexelFormat format, const ReflectanceFitter& fitter) {
+  if (by_matrix_r(format)) return matrix_r_words(c, format);
   const double greatest = static_cast<double>(std::max({c[0], c[1], c[2]}));
   double scale = 1;
   if (format == TexelFormat::illuminant || (format == TexelFormat::unbounded && greatest > 1))
@@ -197,12 +220,12 @@ Image sane(Image values, TextureUse use) {
 }  // namespace
 
 WrittenTextureFile write_baked_image(const std::filesystem::path& file, const ImageRows& rows, TextureUse use,
-                                     bool all_levels, const ReflectanceFitter& fitter) {
+                                     bool all_levels, const ReflectanceFitter& fitter, RgbMethod method) {
   Survey survey;
   if (use != TextureUse::number)
     rows.read([&](Image values) { survey.add(sane(std::move(values), use), use); });
   const auto width = static_cast<std::uint32_t>(rows.width), height = static_cast<std::uint32_t>(rows.height);
-  const TextureFileInfo info{format_for(survey, use), width, height,
+  const TextureFileInfo info{format_for(survey, use, method), width, height,
                              all_levels ? texture_level_count(width, height) : 1};
   TextureWriter writer(file, info);
   Levels levels(writer, info, fitter);

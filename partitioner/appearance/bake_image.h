@@ -7,6 +7,7 @@
 #include "bundle/texture_file.h"
 #include "partitioner/appearance/image_rows.h"
 #include "partitioner/appearance/reflectance_fitter.h"
+#include "scene/camera.h"
 
 namespace vitrail {
 
@@ -17,6 +18,7 @@ enum class TextureUse { reflectance, unbounded, illuminant, number, vector };
 // greys become numbers, and unbounded ones that stay within [0,1] reflectances. Values that are not finite
 // count as 0. The image is read twice and never in memory as a whole. Throws MachineError.
 WrittenTextureFile write_baked_image(const std::filesystem::path& file, const ImageRows& rows, TextureUse use,
-                                     bool all_levels, const ReflectanceFitter& fitter);
+                                     bool all_levels, const ReflectanceFitter& fitter,
+                                     RgbMethod method = RgbMethod::jakob_hanika);
 
 }  // namespace vitrail

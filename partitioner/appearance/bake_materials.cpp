@@ -67,7 +67,8 @@ class MaterialBaker {
     const auto* sigma_s = given ? std::get_if<Spectrum>(&given->sigma_s) : nullptr;
     if (!sigma_a || !sigma_s) return grey("its interior");
     Medium medium;
-    medium.coefficients = AbsorptionScattering{resolved(*sigma_a), resolved(*sigma_s)};
+    medium.coefficients =
+        AbsorptionScattering{textures_.as_rendered(*sigma_a), textures_.as_rendered(*sigma_s)};
     medium.scale = m.scale;
     medium.g = m.g;
     result_.interior = medium;

@@ -10,6 +10,7 @@
 #include "partitioner/appearance/reflectance_fitter.h"
 #include "scene/color.h"
 #include "scene/diagnostics.h"
+#include "scene/matrix_r.h"
 
 namespace vitrail {
 
@@ -77,17 +78,20 @@ void make_spectra(Grid& grid) {
   grid.channels = 4;
 }
 
-bool bake_volume(VolumeParameter& volume, std::vector<std::string>& notes) {
+bool bake_volume(VolumeParameter& volume, RgbMethod method, std::vector<std::string>& notes) {
   if (auto* spectrum = std::get_if<Spectrum>(&volume)) {
-    *spectrum = resolved(*spectrum);
+    *spectrum = resolved(*spectrum, method);
     return true;
   }
   Grid& grid = std::get<Grid>(volume);
   if (!bake_grid(grid, notes)) return false;
-  if (grid.channels == 3)
+  if (grid.channels == 3) {
+    if (method == RgbMethod::matrix_r)
+      notes.push_back("the colours of its grids become spectra by Jakob and Hanika's method");
     make_spectra(grid);
-  else
+  } else {
     make_grey(grid, notes);
+  }
   return true;
 }
 
@@ -99,14 +103,14 @@ bool bake_number(Grid& grid, std::vector<std::string>& notes) {
 
 }  // namespace
 
-std::optional<Medium> bake_medium(const Medium& medium, std::vector<std::string>& notes) {
+std::optional<Medium> bake_medium(const Medium& medium, RgbMethod method, std::vector<std::string>& notes) {
   Medium baked = medium;
   baked.name.clear();
   bool whole = true;
   if (auto* k = std::get_if<AbsorptionScattering>(&baked.coefficients))
-    whole = bake_volume(k->sigma_a, notes) && bake_volume(k->sigma_s, notes);
+    whole = bake_volume(k->sigma_a, method, notes) && bake_volume(k->sigma_s, method, notes);
   else if (auto* albedo = std::get_if<ExtinctionAlbedo>(&baked.coefficients))
-    whole = bake_volume(albedo->sigma_t, notes) && bake_volume(albedo->albedo, notes);
+    whole = bake_volume(albedo->sigma_t, method, notes) && bake_volume(albedo->albedo, method, notes);
   else
     whole = false, notes.push_back("its coefficients are known by name alone, and not here");
   if (auto* grid = std::get_if<Grid>(&baked.density))
@@ -120,7 +124,7 @@ std::optional<Medium> bake_medium(const Medium& medium, std::vector<std::string>
     baked.emission.reset();
   }
   if (baked.emission)
-    *baked.emission = scaled(resolved(*baked.emission), static_cast<double>(baked.emission_factor));
+    *baked.emission = scaled(resolved(*baked.emission, method), static_cast<double>(baked.emission_factor));
   if (baked.emission_scale && !bake_number(*baked.emission_scale, notes)) baked.emission.reset();
   if (!baked.emission) baked.emission_scale.reset();
   baked.emission_factor = 1;

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "scene/camera.h"
 #include "scene/medium.h"
 
 namespace vitrail {
@@ -14,6 +15,6 @@ namespace vitrail {
 // σ_a, σ_s or σ_t, albedo. A grid of coefficients of colours has four channels then: x of a sigmoid at 360,
 // 595 and 830 nm (bundle/texel.h) and its scale; any other has one. Empty where nothing of it can be shown;
 // `notes` say what stands for something else. Throws Error for files that cannot be read.
-std::optional<Medium> bake_medium(const Medium& medium, std::vector<std::string>& notes);
+std::optional<Medium> bake_medium(const Medium& medium, RgbMethod method, std::vector<std::string>& notes);
 
 }  // namespace vitrail

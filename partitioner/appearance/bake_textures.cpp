@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "images/texture_values.h"
+#include "scene/matrix_r.h"
 #include "scene/rgb_to_spectrum.h"
 
 namespace vitrail {
@@ -18,7 +19,7 @@ RGB to_rgb(const std::array<float, 3>& c) { return {c[0], c[1], c[2]}; }
 
 // A colour within a texture means what the texture is used for, and what shines is under D65; other spectra
 // are what they are.
-Spectrum as_used(const Spectrum& spectrum, TextureUse use) {
+Spectrum as_used(const Spectrum& spectrum, TextureUse use, RgbMethod method) {
   const std::array<float, 3>* rgb = nullptr;
   if (const auto* s = std::get_if<SigmoidSpectrum>(&spectrum)) rgb = &s->rgb;
   if (const auto* s = std::get_if<RgbUnboundedSpectrum>(&spectrum)) rgb = &s->rgb;
@@ -31,12 +32,12 @@ Spectrum as_used(const Spectrum& spectrum, TextureUse use) {
       return ConstantSpectrum{static_cast<float>(value)};
     }
     case TextureUse::illuminant:
-      return rgb ? emission_from_rgb(to_rgb(*rgb))
+      return rgb ? resolved(emission_from_rgb(to_rgb(*rgb)), method)
                  : product(emission_from_rgb({1, 1, 1}), resolved(spectrum));
     case TextureUse::reflectance:
-      return rgb ? reflectance_from_rgb(to_rgb(*rgb)) : resolved(spectrum);
+      return rgb ? resolved(reflectance_from_rgb(to_rgb(*rgb)), method) : resolved(spectrum);
     default:
-      return rgb ? unbounded_from_rgb(to_rgb(*rgb)) : resolved(spectrum);
+      return rgb ? resolved(unbounded_from_rgb(to_rgb(*rgb)), method) : resolved(spectrum);
   }
 }
 
@@ -97,7 +98,11 @@ TextureBaker::TextureBaker(const Scene& scene, std::filesystem::path bundle, Dia
 
 SpectrumParameter TextureBaker::bake(const SpectrumParameter& parameter, TextureUse use) {
   if (const auto* texture = std::get_if<Id<Texture>>(&parameter)) return bake_texture(*texture, use);
-  return resolved(std::get<Spectrum>(parameter));
+  return as_rendered(std::get<Spectrum>(parameter));
+}
+
+Spectrum TextureBaker::as_rendered(const Spectrum& spectrum) const {
+  return resolved(spectrum, scene_.settings.rgb);
 }
 
 FloatParameter TextureBaker::bake(const FloatParameter& parameter) {
@@ -122,7 +127,7 @@ Id<Texture> TextureBaker::bake_vector(Id<Texture> texture) {
 
 SpectrumParameter TextureBaker::bake_input(const SpectrumParameter& parameter, TextureUse use) {
   if (const auto* texture = std::get_if<Id<Texture>>(&parameter)) return bake_texture(*texture, use);
-  return as_used(std::get<Spectrum>(parameter), use);
+  return as_used(std::get<Spectrum>(parameter), use, scene_.settings.rgb);
 }
 
 // What multiplies a colour, rather than being one.
@@ -191,7 +196,7 @@ struct TextureBaker::Clone {
   SpectrumParameter operator()(const NoiseTexture& t) const {
     return use == TextureUse::illuminant ? lit(t) : baker.add(t, use);
   }
-  SpectrumParameter operator()(const PtexTexture& t) const { return as_used(baker.grey_of(id, t), use); }
+  SpectrumParameter operator()(const PtexTexture& t) const { return as_used(baker.grey_of(id, t), use, {}); }
 
  private:
   SpectrumParameter input(const SpectrumParameter& parameter) const {
@@ -321,7 +326,8 @@ std::string TextureBaker::write_image(const ImageRows& rows, TextureUse use, boo
       throw MachineError(
           fmt::format("cannot create {}: {}", (bundle_ / "textures").string(), failure.message()));
   }
-  const WrittenTextureFile written = write_baked_image(bundle_ / name, rows, use, all_levels, fitter_);
+  const WrittenTextureFile written =
+      write_baked_image(bundle_ / name, rows, use, all_levels, fitter_, scene_.settings.rgb);
   files_.push_back({name, written.bytes, written.hash});
   return name;
 }

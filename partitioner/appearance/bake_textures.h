@@ -27,6 +27,8 @@ class TextureBaker {
   // MachineError.
   SpectrumParameter bake(const SpectrumParameter& parameter, TextureUse use);
   FloatParameter bake(const FloatParameter& parameter);
+  // `resolved`, colours by the scene's method.
+  Spectrum as_rendered(const Spectrum& spectrum) const;
   Id<Texture> bake_vector(Id<Texture> texture);
   // Of a light: the name in the bundle. All MIP levels.
   std::string bake_image(const ImageTexture& image, TextureUse use, const SourceLocation& where);

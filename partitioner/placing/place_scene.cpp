@@ -201,12 +201,14 @@ void SceneTally::finish(Manifest& m) {
   Hasher hasher;
   hasher.add(std::as_bytes(std::span(hashes_)));
   for (const ObjectInfo& object : m.objects) hasher.add(std::as_bytes(std::span(&object.hash, 1)));
-  hasher.add(std::as_bytes(std::span(world_.uses)));
-  for (const QuadricRun& run : world_.runs)
-    for_each_use(run, [&](const ObjectUse& use) {
-      hasher.add(std::as_bytes(std::span(use.to_parent.m)));
-      hasher.add(std::as_bytes(std::span(&use.first_triangle, 1)));
-    });
+  // A member at a time: what lies between them is anything.
+  const auto add_use = [&](const ObjectUse& use) {
+    hasher.add(std::as_bytes(std::span(&use.object, 1)));
+    hasher.add(std::as_bytes(std::span(use.to_parent.m)));
+    hasher.add(std::as_bytes(std::span(&use.first_triangle, 1)));
+  };
+  for (const ObjectUse& use : world_.uses) add_use(use);
+  for (const QuadricRun& run : world_.runs) for_each_use(run, add_use);
   hasher.add(std::as_bytes(std::span(&records, 1)));
   m.scene_hash = hasher.digest();
 }

@@ -5,7 +5,8 @@
   adaptive.py gain   [--seeds 30] [--spp 64]     --adaptive against uniform: errors, cost, means
   adaptive.py target [--seeds 50]                the true error against the one asked for
   adaptive.py target --short                     of two scenes and 12 seeds
-  adaptive.py quality [--seeds 3]                what the presets of --quality take and give
+  adaptive.py presets [--seeds 2]                what root mean square the presets of --quality are to ask for
+  adaptive.py quality [--seeds 3]                what they take and give
 
 Errors are of luminance, (Y - Y')²/(Y'² + 0.01), against the mean of the other seeds' films.
 """
@@ -30,12 +31,13 @@ def luminance(film, imaging_ratio_at=40):
     ratio = np.frombuffer(data[imaging_ratio_at:imaging_ratio_at + 8], dtype="<f8")[0]
     items, exponent = np.frombuffer(data[80:88], dtype="<u8")[0], header[33]
     ends, about = header[40], header[41]
-    at = 184 + 4 * ends + 8 + about + 8 + 8 * ((int(items) + 63) // 64) + 8
+    of_photons = header[2] == 7
+    at = 184 + (32 if of_photons else 0) + 4 * ends + 8 + about + 8 + 8 * ((int(items) + 63) // 64) + 8
     pixels = width * height
     halves = np.frombuffer(data[at:at + 4 * pixels * 16], dtype="<u8").reshape(4, pixels, 2).astype(np.float64)
     signed = np.where(halves[..., 1] >= 2.0**63, halves[..., 1] - 2.0**64, halves[..., 1])
     sums = (halves[..., 0] + signed * 2.0**64) * 2.0**float(exponent)
-    at += 4 * pixels * 16 + 8
+    at += 4 * pixels * 16 + (64 * 16 if of_photons else 0) + 8
     counts = np.frombuffer(data[at:at + 2 * pixels * 4], dtype="<u4").reshape(2, pixels).sum(axis=0)
     return ratio * (sums[2] + sums[3]) / counts, counts
 
@@ -121,6 +123,46 @@ def lightness(y):
     return np.where(y > 216 / 24389, 116 * np.cbrt(y) - 16, y * 24389 / 27)
 
 
+# What a quality promises: this share of the pixels is within so many just noticeable differences.
+PROMISES = {"draft": (0.75, 4), "good": (0.95, 2), "final": (0.99, 1)}
+
+
+def rms_of_promise(seen, share, most):
+    """The greatest root mean square at which `share` of the pixels keeps within `most`; inf where any. `seen`: the differences of each
+    rung. Where none of them keeps it, all differences of the last are scaled until they do."""
+    rms = [math.sqrt(np.mean(np.square(s))) for s in seen]
+    needed = [r * most / max(np.quantile(s, share), 1e-9) for r, s in zip(rms, seen)]
+    kept = [i for i, (r, n) in enumerate(zip(rms, needed)) if r <= n]
+    if not kept:
+        return needed[-1]
+    # Between the two rungs about it, on logarithms, where the excess r/n is 1.
+    first = kept[0]
+    if first == 0:
+        return math.inf
+    over, under = (math.log(rms[i] / needed[i]) for i in (first - 1, first))
+    return math.exp(math.log(rms[first - 1]) + over / (over - under) * math.log(rms[first] / rms[first - 1]))
+
+
+def presets(bench, names, seeds):
+    """Of uniform films of 2 to 512 samples a pixel, against one of 2048, whose own noise is taken off as the share that it has."""
+    rungs, most_samples = (2, 4, 8, 16, 32, 64, 128, 256, 512), 2048
+    print("| scene | rms of 2 samples | of 512 | " + " | ".join(f"{q}: {100 * s:.0f} % within {d}" for q, (s, d) in PROMISES.items()) + " |")
+    print("|---" * (len(PROMISES) + 3) + "|", flush=True)
+    found = {q: [] for q in PROMISES}
+    for name in names:
+        bundle = bench.bundle(name)
+        reference = lightness(bench.render(bundle, 9999, "--spp", str(most_samples))[0])
+        seen = [[np.abs(lightness(bench.render(bundle, seed, "--spp", str(n))[0]) - reference) / 2.3 / math.sqrt(1 + n / most_samples)
+                 for seed in range(seeds)] for n in rungs]
+        for q, (share, most) in PROMISES.items():
+            found[q].append(rms_of_promise(seen, share, most))
+        first, last = (math.sqrt(np.mean(np.square(seen[i]))) for i in (0, -1))
+        print(f"| {name} | {first:.2f} | {last:.2f} | " + " | ".join(f"{found[q][-1]:.2f}" for q in PROMISES) + " |", flush=True)
+    # Of the scenes where noise breaks a promise at all.
+    broken = {q: sorted(f for f in found[q] if f < math.inf) or [math.inf] for q in PROMISES}
+    print("| **kept in three of four** | | | " + " | ".join(f"**{b[len(b) // 4]:.2f}**" for b in broken.values()) + " |")
+
+
 def quality(bench, names, seeds):
     print("| scene | quality | samples a pixel | seconds of tracing | relMSE | just noticeable differences, rms | of pixels above 2 |")
     print("|---|---|---|---|---|---|---|")
@@ -144,7 +186,7 @@ def quality(bench, names, seeds):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("what", choices=("gain", "target", "quality"))
+    parser.add_argument("what", choices=("gain", "target", "presets", "quality"))
     parser.add_argument("--vitrail", default=str(pathlib.Path(__file__).parents[2] / "build/release/bin/vitrail"))
     parser.add_argument("--scenes", help="names, separated by commas")
     parser.add_argument("--seeds", type=int)
@@ -156,6 +198,9 @@ def main():
         bench = Bench(a.vitrail, folder)
         if a.what == "gain":
             gain(bench, a.scenes.split(",") if a.scenes else SCENES, a.seeds or 30, a.spp)
+            return 0
+        if a.what == "presets":
+            presets(bench, a.scenes.split(",") if a.scenes else SCENES, a.seeds or 2)
             return 0
         if a.what == "quality":
             quality(bench, a.scenes.split(",") if a.scenes else SCENES, a.seeds or 3)

@@ -23,7 +23,7 @@ SCENES = {"box, diffuse": speed_scenes.cornell_diffuse, "glass": speed_scenes.gl
 
 def measure(options, scene, folder, *words):
     subprocess.run([options.bin / "vitrail", "measure", scene, "-o", folder, "--width", str(options.size), "--axes", options.axes,
-                    "--quiet", *map(str, words)], check=True, stderr=subprocess.DEVNULL)
+                    "--quiet", "--ranks", "0", *map(str, words)], check=True, stderr=subprocess.DEVNULL)
     return json.loads((folder / "measure.json").read_text())
 
 

@@ -199,6 +199,7 @@ TEST_F(BadInput, RanksThatRenderDifferentPictures) {
   } cases[] = {{bundle + " --spp 4 --seed 7", "seed"},
                {bundle + " --spp 5", "number of samples"},
                {bundle + " --spp 4 --max-depth 1", "depth"},
+               {bundle + " --spp 4 --roulette never", "way to sample"},
                {fmt::format("'{}' --crop 0,32,0,32 --spp 4", (directory_ / "other.vit").string()), "bundle"}};
   for (const auto& [other, what] : cases) {
     std::filesystem::remove(directory_ / "picture.film");

@@ -72,6 +72,9 @@ TEST(Everyday, ProgressAsJsonLines) {
     for (const nlohmann::json& event : all) {
       EXPECT_GE(event["progress"].get<double>(), last);
       EXPECT_LE(event["remaining_s"].get<double>(), 2.5) << "the time limit comes first";
+      if (&event != &all.back()) {
+        EXPECT_EQ(event["rays_waiting_by_rank"].size(), 1u);
+      }
       last = event["progress"];
       EXPECT_EQ(event["event"], &event == &all.back() ? "end" : "progress");
     }
@@ -113,7 +116,7 @@ TEST(Everyday, QualityIsWhatIsNotGiven) {
     return read_json(stats);
   };
   const nlohmann::json draft = render("--quality draft");
-  EXPECT_EQ(draft["target_error"], 4);
+  EXPECT_EQ(draft["target_error"], 3.8);
   EXPECT_EQ(draft["target_error_unit"], "jnd");
   EXPECT_FALSE(draft["adaptive"].get<bool>());
   const nlohmann::json good = render("--quality good --spp 32");
@@ -144,6 +147,28 @@ TEST(Everyday, FilmsOfDifferentSeedsMerge) {
   const CommandResult differs =
       run(fmt::format("{} '{}' '{}' --metric bitwise", vitrail("compare"), one, two));
   EXPECT_EQ(differs.status, 1) << differs.output;
+}
+
+// Shapes that stand and are used, whose records have gaps, partitioned in memory full of one byte or another.
+TEST(Everyday, ABundleIsOfItsSceneAlone) {
+  const TemporaryDirectory directory;
+  std::ofstream(directory / "scene.pbrt")
+      << "Film \"rgb\" \"integer xresolution\" 4 \"integer yresolution\" 4\nWorldBegin\n"
+         "LightSource \"infinite\" \"rgb L\" [1 1 1]\nMaterial \"diffuse\" \"rgb reflectance\" [0.8 0.2 "
+         "0.1]\n"
+         "Shape \"sphere\"\nObjectBegin \"o\"\nShape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0]\n"
+         "Shape \"disk\"\nObjectEnd\nTranslate 1 2 3\nObjectInstance \"o\"\nTranslate 1 2 3\nObjectInstance "
+         "\"o\"\n";
+  std::vector<std::string> manifests;
+  for (const int byte : {85, 170}) {
+    const CommandResult made =
+        run(fmt::format("MALLOC_PERTURB_={} {} '{}' -o '{}' --force --quiet", byte, vitrail("partition"),
+                        (directory / "scene.pbrt").string(), (directory / "a.vit").string()));
+    ASSERT_EQ(made.status, 0) << made.output;
+    std::ifstream in(directory / "a.vit" / "manifest.json");
+    manifests.emplace_back(std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>());
+  }
+  EXPECT_EQ(manifests[0], manifests[1]);
 }
 
 TEST(Everyday, InspectSaysWhatASceneRequires) {

@@ -45,6 +45,23 @@ TEST_F(Mistakes, MisspelledWordsAreRecognised) {
   EXPECT_THAT(verb("convert", "a b --reprot c").output, HasSubstr("did you mean --report?"));
 }
 
+TEST_F(Mistakes, WaysToSampleThatAreNotThere) {
+  for (const auto& [option, hint] : {std::pair("--filter box:", "number of pixels"),
+                                     {"--filter box:0", "number of pixels"},
+                                     {"--filter box:1e9", "number of pixels"},
+                                     {"--filter box:1x", "number of pixels"},
+                                     {"--filter bix", "there are box"},
+                                     {"--wavelengths 2", "1,4"},
+                                     {"--light-candidates 0", "range 1 to 16"},
+                                     {"--roulette 3", "early"},
+                                     {"--texture-filter trilinear", "nearest"}}) {
+    const CommandResult result = render(option);
+    EXPECT_EQ(result.status, 2) << option;
+    EXPECT_THAT(result.output, HasSubstr(hint)) << option;
+  }
+  EXPECT_EQ(render("--filter lanczos:1.5 --light-candidates 16").status, 0);
+}
+
 TEST_F(Mistakes, LayersThatAreNotThere) {
   for (const auto& [program, output] : {std::pair("render", "a.film"), {"partition", "a.vit"}}) {
     const CommandResult unknown =

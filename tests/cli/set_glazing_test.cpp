@@ -132,6 +132,12 @@ TEST_F(SetGlazing, SaysWhatCanBeSet) {
   EXPECT_THAT(refused("--set window.tint=0.5"), HasSubstr("what can be set"));
   EXPECT_THAT(refused("--set sunny.temperature=-300"), HasSubstr("-273.15"));
   EXPECT_THAT(refused("--set window.state=0 --set window.state=1"), HasSubstr("already"));
+  for (const char* computed : {"uv=5", "seconds=60", "temperature=40"}) {
+    EXPECT_THAT(refused(fmt::format("--set sunny.state=0.5 --set sunny.{}", computed)),
+                HasSubstr("given, or computed"));
+    EXPECT_THAT(refused(fmt::format("--set sunny.{} --set sunny.state=0.5", computed)),
+                HasSubstr("given, or computed"));
+  }
   const CommandResult shown = run(fmt::format("{} '{}'", vitrail("inspect"), path("clear.vit")));
   EXPECT_THAT(shown.output, AllOf(HasSubstr("window"), HasSubstr("state 0, temperature 20 °C"),
                                   HasSubstr("state, temperature, uv, seconds")));
@@ -154,6 +160,17 @@ TEST_F(SetGlazing, RefusesWhatIsDamaged) {
   std::filesystem::copy_file(directory / "glazing.json", directory / "other.vit" / "glazing.json",
                              std::filesystem::copy_options::overwrite_existing);
   EXPECT_EQ(render("other.vit", "o.film", "--set window.state=1").status, 3);
+}
+
+TEST_F(SetGlazing, NoticesThatItIsLost) {
+  std::filesystem::remove(directory / "clear.vit" / "glazing.json");
+  const CommandResult verified = run(fmt::format("{} '{}'", vitrail("verify"), path("clear.vit")));
+  EXPECT_EQ(verified.status, 3);
+  EXPECT_THAT(verified.output, AllOf(HasSubstr("glazing.json"), HasSubstr("1 problem")));
+  const CommandResult rendered = render("clear.vit", "d.film", "--set window.state=1");
+  EXPECT_EQ(rendered.status, 3);
+  EXPECT_THAT(rendered.output, HasSubstr("lost"));
+  EXPECT_EQ(render("clear.vit", "d.film").status, 0) << "who sets nothing does not need it";
 }
 
 TEST_F(SetGlazing, ASceneWithoutSaysSo) {

@@ -50,6 +50,23 @@ TEST_F(Checkpoint, OfTheSameProgramAndOptionsIsResumed) {
   EXPECT_EQ(resumed.status, 0) << resumed.output;
 }
 
+// What is gone on with is in memory once, though a film and a checkpoint lie there.
+TEST_F(Checkpoint, GoingOnKeepsWithinItsMemory) {
+  const auto large = directory_ / "large.film", stats = directory_ / "stats.json";
+  const auto render = [&](const std::string& more) {
+    return run(fmt::format("{} '{}' -o '{}' --width 900 --height 900 --max-depth 1 --threads 1 --quiet {}",
+                           vitrail("render"), (directory_ / "box.vit").string(), large.string(), more));
+  };
+  ASSERT_EQ(render("--spp 1").status, 0);
+  std::filesystem::copy_file(large, directory_ / "large.film.partial");
+  const double film = static_cast<double>(std::filesystem::file_size(large));
+  const auto budget = static_cast<std::uint64_t>(1.5 * film) + (40u << 20);
+  const CommandResult done = render(fmt::format("--spp 2 --memory {} --stats '{}'", budget, stats.string()));
+  ASSERT_EQ(done.status, 0) << done.output;
+  EXPECT_EQ(read_json(stats)["samples"], 2 * 900 * 900);
+  EXPECT_LE(read_json(stats)["peak_rss_bytes"].get<std::uint64_t>(), budget);
+}
+
 TEST_F(Checkpoint, OfAnotherProgramIsRefused) {
   FilmKey key = read_film(partial_, nullptr).key();
   for (const RendererVersion& older :

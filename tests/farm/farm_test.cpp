@@ -7,12 +7,16 @@
 #include <random>
 #include <set>
 
+#include "farm/ending_time.h"
 #include "farm/memory.h"
+#include "farm/parcel.h"
 #include "farm/queues.h"
+#include "farm/reserved_space.h"
 #include "farm/rounds.h"
-#include "farm/scheduler/residency.h"
+#include "farm/scheduler/scheduler.h"
 #include "farm/work.h"
 #include "scene/diagnostics.h"
+#include "tests/support/temporary_directory.h"
 
 namespace vitrail {
 namespace {
@@ -155,6 +159,41 @@ TEST(Rounds, NoneIsWithoutSamples) {
   EXPECT_GT(over, 0) << "no film had too few samples left";
 }
 
+TEST(Rounds, TimeIsLeftForFilmAndPicture) {
+  RenderOptions options;
+  options.time_limit_s = 60;
+  constexpr std::uint64_t bytes = 100'000'000;
+  const auto left = [&](int ranks, double gather_s) {
+    return ending_time_s(options, bytes, ranks, /*write_s=*/0.5, gather_s);
+  };
+  EXPECT_GT(left(1, 0), 0.5);
+  EXPECT_GT(left(2, 0), left(1, 0));
+  EXPECT_NEAR(left(2, 3), left(1, 0) + 3, 1e-9);  // what was measured counts
+  const double film_alone = left(1, 0);
+  options.after_film = {0.25, 1e-8};
+  EXPECT_NEAR(left(1, 0), film_alone + 0.25 + 1, 1e-9);
+  options.time_limit_s = 2;
+  EXPECT_EQ(left(1, 0), 1) << "half of the time is for samples";
+}
+
+TEST(ReservedSpace, TimesItsDisk) {
+  const test::TemporaryDirectory folder;
+  const ReservedSpace a_gibibyte(folder.path() / "a", 1 << 30);
+  EXPECT_GT(a_gibibyte.time_to_write_s(), 0.02) << "no memory is so fast";
+  EXPECT_LT(a_gibibyte.time_to_write_s(), 1000);
+}
+
+TEST(Work, ManySamplesHaveFewItems) {
+  const PixelRect hd{0, 1920, 0, 1080};
+  const WorkPlan iterations = make_work_plan(hd, 65536, {}, /*one_by_one=*/true);
+  EXPECT_LE(list_bytes(iterations, 1), iterations.items() / 4 + (1u << 20)) << "one iteration is dealt out";
+  for (const std::uint32_t samples : {1u, 1000u, 10'000u, 500'000u}) {
+    const WorkPlan plan = make_work_plan(hd, samples);
+    EXPECT_LE(list_bytes(plan, 1), 20u << 20) << samples;
+    EXPECT_LE(8 * share_of(plan, {}, 0, 1).size(), list_bytes(plan, 1));
+  }
+}
+
 // Of a round whose samples are all in one tile.
 TEST(Work, ItemsWithoutSamplesAreDone) {
   const PixelRect crop{0, 40, 0, 30};
@@ -231,6 +270,33 @@ TEST(Wire, WhatIsNoBatchIsSeen) {
   EXPECT_FALSE(RayBatch(std::vector<std::byte>(3)).is_whole(3));
 }
 
+TEST(Wire, AParcelHoldsItsBatches) {
+  Parcel parcel;
+  EXPECT_TRUE(parcel.empty());
+  for (std::uint32_t domain = 0; domain < 3; ++domain) {
+    RayBatch batch(domain, domain == 1 ? RayKind::shadow : RayKind::path);
+    for (std::uint32_t i = 0; i <= domain; ++i)
+      domain == 1 ? batch.append(ShadowRecord{.pixel = i}) : batch.append(PathRecord{.pixel = i});
+    parcel.add(batch);
+  }
+  const std::vector<std::byte> message = parcel.take();
+  EXPECT_TRUE(parcel.empty());
+  const std::vector<RayBatch> batches = unpack(message, 3);
+  ASSERT_EQ(batches.size(), 3u);
+  for (std::uint32_t domain = 0; domain < 3; ++domain) {
+    EXPECT_EQ(batches[domain].domain(), domain);
+    EXPECT_EQ(batches[domain].count(), domain + 1);
+  }
+  EXPECT_THROW(unpack(message, 2), MachineError) << "a domain that is none";
+  for (std::size_t bytes = 1; bytes < message.size(); ++bytes) {
+    const std::vector<std::byte> part(message.begin(), message.begin() + static_cast<std::ptrdiff_t>(bytes));
+    try {
+      EXPECT_LT(unpack(part, 3).size(), 3u) << bytes;  // it ends between two batches
+    } catch (const MachineError&) {
+    }
+  }
+}
+
 // Exact of a few, within a factor of two of many.
 TEST(Fullest, FindsMostAndFewest) {
   std::mt19937 random(3);
@@ -289,14 +355,72 @@ Manifest of_domains(std::vector<std::uint64_t> bytes) {
 
 TEST(Residency, HomesAreContiguousAndBalanced) {
   const Manifest m = of_domains(std::vector<std::uint64_t>(64, 100));
-  const auto home = home_ranks(m, 4);
-  EXPECT_TRUE(std::ranges::is_sorted(home));
-  for (int rank = 0; rank < 4; ++rank) EXPECT_EQ(std::ranges::count(home, rank), 16);
+  const Homes homes = homes_by_bytes(m, 4);
+  EXPECT_EQ(homes.places(), 64u);
+  for (std::uint32_t d = 0; d < 64; ++d) EXPECT_EQ(homes.first(d), static_cast<int>(d / 16));
+}
+
+// A profile of as many rays in each domain as given.
+RayProfile of_rays(const Manifest& m, const std::vector<std::uint64_t>& rays) {
+  return RayProfile(m, rays, {}, {});
+}
+
+TEST(Homes, RanksHaveEqualWorkAndCrowdedDomainsSeveral) {
+  const Manifest m = of_domains(std::vector<std::uint64_t>(8, 100));
+  const Homes homes = homes_by_work(m, of_rays(m, {10, 10, 10, 10, 360, 0, 0, 0}), 10);
+  EXPECT_EQ(homes.last(4) - homes.first(4) + 1, 10) << "nine tenths of the rays, and a little further";
+  for (std::uint32_t d = 0; d < 8; ++d) {
+    EXPECT_LE(homes.first(d), homes.last(d));
+    EXPECT_EQ(homes.has(d, 0), d <= 4) << d;
+    if (d > 0) {
+      EXPECT_GE(homes.first(d), homes.first(d - 1)) << "in order";
+    }
+  }
+  EXPECT_TRUE(is_in_flow(m, homes, Distribution::decompose, 800));
+  EXPECT_FALSE(is_in_flow(m, homes, Distribution::automatic, 800)) << "all are traced in everywhere";
+  EXPECT_TRUE(is_in_flow(m, homes, Distribution::automatic, 500)) << "five domains begin at the first rank";
+  EXPECT_FALSE(is_in_flow(m, homes, Distribution::decompose, 499));
+  EXPECT_FALSE(is_in_flow(m, homes, Distribution::replicate, 800));
+  EXPECT_FALSE(is_in_flow(m, homes_by_bytes(m, 10), Distribution::decompose, 800));
+  EXPECT_EQ(homes.last(7), 9);
+  EXPECT_THROW(homes_by_work(of_domains({1, 2}), of_rays(m, std::vector<std::uint64_t>(8)), 3), Error);
+  // Nothing was seen: by bytes.
+  const Homes unseen = homes_by_work(m, of_rays(m, std::vector<std::uint64_t>(8)), 4);
+  for (std::uint32_t d = 0; d < 8; ++d) EXPECT_TRUE(unseen.has(d, static_cast<int>(d / 2)));
+}
+
+// What is told of the ranks' queues decides between homes; what was sent since counts as well.
+TEST(Homes, RaysGoWhereFewerWait) {
+  const Manifest m = of_domains({100, 100});
+  Scheduler scheduler({4, 1, 1000}, Residency(m, 100, Homes({0, 1}, {0, 3}, 4), 0, Distribution::decompose));
+  EXPECT_EQ(scheduler.destination(0, 5), 0) << "it has one home";
+  const std::vector<std::int64_t> waiting = {0, 900, 0, 900};
+  scheduler.rays_wait(waiting);
+  std::vector<int> sent(4);
+  for (int i = 0; i < 100; ++i) ++sent[static_cast<std::size_t>(scheduler.destination(1, 10))];
+  EXPECT_GT(sent[2], sent[1] + sent[3]);
+  EXPECT_EQ(sent[0], 0);
+  for (int i = 0; i < 900; ++i) ++sent[static_cast<std::size_t>(scheduler.destination(1, 10))];
+  EXPECT_LT(std::abs(sent[1] - sent[3]), 50) << "all are equally full by now";
+}
+
+TEST(Residency, TracesWhereItsDistributionSays) {
+  const Manifest m = of_domains({100, 100});
+  const auto local = [&](Distribution distribution, std::uint64_t budget) {
+    Residency residency(m, budget, Homes({0, 1}, 2), 0, distribution);
+    residency.rays_forwarded(1, 1'000'000);
+    EXPECT_TRUE(residency.is_local(0));
+    return residency.is_local(1);
+  };
+  EXPECT_TRUE(local(Distribution::automatic, 200)) << "all fit, or much asked for";
+  EXPECT_FALSE(local(Distribution::automatic, 150));
+  EXPECT_FALSE(local(Distribution::decompose, 200));
+  EXPECT_TRUE(local(Distribution::replicate, 100));
 }
 
 TEST(Residency, TakesTheFullestAndKeepsWithinItsBudget) {
   const Manifest m = of_domains({100, 100, 100});
-  Residency residency(m, 200, {0, 0, 0}, 0);
+  Residency residency(m, 200, Homes({0, 0, 0}, 1), 0);
   residency.rays_wait(0, 5);
   residency.rays_wait(1, 9);
   residency.rays_wait(2, 7);
@@ -323,7 +447,7 @@ TEST(Residency, CountsObjectsOnce) {
   m.domains[1].objects = {0, 1};
   EXPECT_EQ(bytes_needed(m, 1), 160u);
   EXPECT_EQ(bytes_of_all(m), 180u);
-  Residency residency(m, 165, {0, 0, 1}, 0);
+  Residency residency(m, 165, Homes({0, 0, 1}, 2), 0);
   EXPECT_TRUE(residency.is_local(1));
   residency.rays_forwarded(2, 1000000);
   EXPECT_FALSE(residency.is_local(2)) << "its own two and their objects take 170 bytes";
@@ -337,13 +461,13 @@ TEST(Residency, CountsObjectsOnce) {
 
 TEST(Residency, KeepsAnothersDomainOnlyIfMuchAskedFor) {
   const Manifest m = of_domains({100, 100});
-  Residency residency(m, 150, {0, 1}, 0);
+  Residency residency(m, 150, Homes({0, 1}, 2), 0);
   EXPECT_TRUE(residency.is_local(0));
   EXPECT_FALSE(residency.is_local(1));
   residency.rays_forwarded(1, 1000000);
   EXPECT_FALSE(residency.is_local(1)) << "it does not fit beside the rank's own";
   const Manifest three = of_domains({100, 100, 100});
-  Residency roomy(three, 220, {0, 1, 1}, 0);
+  Residency roomy(three, 220, Homes({0, 1, 1}, 2), 0);
   roomy.rays_forwarded(1, 10);
   EXPECT_FALSE(roomy.is_local(1));
   roomy.rays_forwarded(1, 1000000);

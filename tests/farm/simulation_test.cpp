@@ -48,6 +48,16 @@ struct Case {
     machine.patience_s = 2;
     if (among(4) == 0)
       for (std::uint64_t silences = 1 + among(3); silences > 0; --silences) add_silence(random);
+    constexpr Distribution distributions[] = {Distribution::automatic, Distribution::automatic,
+                                              Distribution::decompose, Distribution::replicate};
+    machine.distribution = distributions[among(4)];
+    if (among(2) == 0) {
+      std::vector<std::uint64_t> rays(domains);
+      for (std::uint64_t& r : rays) r = among(1000);
+      rays[among(domains)] *= 100;
+      machine.homes =
+          homes_by_work(workload.manifest, RayProfile(workload.manifest, rays, {}, {}), machine.ranks);
+    }
   }
 
   // Dead, or silent for a moment up to half again the patience.

@@ -62,6 +62,7 @@ class FilmFile : public testing::Test {
   std::filesystem::path file_ = directory_ / "a.film";
   Film film_;
   FilmProgress progress_;
+  std::vector<std::uint64_t> all_done_{(1ull << 40) - 1};
 };
 
 TEST_F(FilmFile, ComesBackAsItWas) {
@@ -83,6 +84,24 @@ TEST_F(FilmFile, ComesBackAsItWas) {
   EXPECT_EQ(progress.earlier_ends, (std::vector<std::uint32_t>{4, 8}));
   EXPECT_EQ(progress.about, "{\"scene\":\"a.pbrt\"}");
   EXPECT_FALSE(progress.complete());
+}
+
+TEST_F(FilmFile, OfPhotonsComesBackToo) {
+  for (const double clamp : {0.0, 4.0}) {
+    FilmSettings settings;
+    settings.width = settings.height = 3;
+    settings.crop = {0, 3, 0, 3};
+    Film film(settings, {.scene_hash = 2, .clamp = clamp, .photons = {1000, 0.25, 0.75}});
+    for (std::uint32_t i = 0; i < 40; ++i)
+      film.count_sample(i % 9, i), film.deposit(i % 9, i, {0, 1 + 0.1 * i, 0}), film.clamp(0, i, {0, 9, 0});
+    EXPECT_GT(film.shared_error(), 0);
+    write_film(file_, film, {40, 40, all_done_, 1, {}, {}});
+    const Film read = read_film(file_, nullptr);
+    EXPECT_EQ(read.hash(), film.hash());
+    EXPECT_EQ(read.key(), film.key());
+    EXPECT_EQ(read.shared_error(), film.shared_error());
+    EXPECT_EQ(read.clamped_share(), film.clamped_share());
+  }
 }
 
 // Within an adaptive round a film has the round's map, and between rounds none.

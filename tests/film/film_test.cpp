@@ -82,6 +82,25 @@ TEST(Film, ClampsDepositsAndKnowsWhatItTook) {
 }
 
 // Whole numbers of quanta exactly; what is between two of them as either, and right on the average.
+// What all pixels of a batch of iterations have in common: ±0.1 from batch to batch, and as much in each
+// pixel, whose own scatter knows nothing of it.
+TEST(Film, OfPhotonsKnowsTheErrorThatPixelsShare) {
+  const FilmKey key{.scene_hash = 1, .photons = {100, 0.1, 0.5}};
+  Film film(settings(4, 3), key), other(settings(4, 3), key), paths = film_of(0);
+  EXPECT_EQ(film.shared_error(), 0) << "of nothing";
+  constexpr std::uint32_t batches = 8;
+  for (std::uint32_t i = 0; i < batches * iterations_a_batch; ++i)
+    for (std::uint32_t p = 0; p < film.pixels(); ++p)
+      for (Film* f : {i % 3 == 0 ? &film : &other, &paths}) {
+        f->count_sample(p, i);
+        ASSERT_TRUE(f->deposit(p, i, {0, batch_of(i) % 2 == 0 ? 1.1 : 0.9, 0}));
+      }
+  film.merge(other);
+  EXPECT_NEAR(film.shared_error(), 0.1 / std::sqrt(batches - 1.0), 1e-9);
+  EXPECT_EQ(paths.shared_error(), 0);
+  EXPECT_EQ(develop(film).shared_error, film.shared_error());
+}
+
 TEST(Film, RoundsWithoutBias) {
   constexpr int n = 100000;
   for (const double quanta : {3.0, -2.0, 0.25, 0.001, -0.7, 1e6 + 0.5}) {
@@ -207,7 +226,8 @@ TEST(FilmMerge, RefusesStrangersAndSaysWhy) {
   };
   EXPECT_EQ(difference(film, film_of(9)), "");
   differs(film_of(1, 3, 3), "their widths differ: 4 and 3");
-  differs(Film(settings(4, 3), {9, 1}), "they are of different scenes, or of glass in different states");
+  differs(Film(settings(4, 3), {9, 1}),
+          "they are of different scenes or of glass in different states, or sampled in different ways");
   differs(Film(settings(4, 3), {1, 2, 8}), "their depths differ: 0 and 8");
   differs(Film(settings(4, 3), {1, 2, 0, true}), "one has direct light only");
   differs(film_of(2, 4, 3, -50), "their sums count in different powers of two: -45 and -50");

@@ -130,5 +130,18 @@ TEST(Noise, ASpeckDoesNotDivideByItself) {
   EXPECT_GT(noise.standard_error, noise.mean) << "one pixel says it all";
 }
 
+// A lamp before the dark, of which the pixels at its edge have no sample yet: no group differs.
+TEST(Noise, WhatAnEdgeHidesIsUncertain) {
+  Film film = film_of(width, height), flat = film_of(width, height);
+  for (std::uint32_t p = 0; p < pixels; ++p)
+    put(film, p, p == 500 ? 10 : 0.01, p == 500 ? 10 : 0.01), put(flat, p, 1, 1);
+  const NoiseEstimate noise = relative_squared_error(film);
+  EXPECT_NEAR(noise.mean, 0, 1e-9);
+  // Half a sample of four, of one in two of eight pixels.
+  const double each = 0.5 * std::pow((10 - 0.01) / 8, 2) / (0.01 * 0.01 + 0.01);
+  EXPECT_NEAR(noise.standard_error, each * std::sqrt(8.0) / pixels, 1e-4);
+  EXPECT_EQ(relative_squared_error(flat).upper(), 0);
+}
+
 }  // namespace
 }  // namespace vitrail

@@ -180,7 +180,7 @@ TEST_F(MitsubaEmitters, EnvironmentInTheScenesFrame) {
 }
 
 TEST_F(MitsubaEmitters, WhatIsDroppedIsSaid) {
-  read_text("<emitter type='timed_sunsky'/><emitter type='pont'/><emitter type='area'/>");
+  read_text("<emitter type='skylight'/><emitter type='pont'/><emitter type='area'/>");
   EXPECT_THAT(scene_.lights, IsEmpty());
   ASSERT_THAT(diagnostics_, SizeIs(3));
   EXPECT_THAT(diagnostics_, says("\"envmap\""));

@@ -297,6 +297,64 @@ TEST_F(MitsubaLoad, Daylight) {
   }
 }
 
+// The sun of one moment, or the mean of several while the sensor's shutter is open. Where it stands is what
+// Mitsuba's sunsky has of the same hour.
+TEST_F(MitsubaLoad, DaylightOverTime) {
+  const auto lights = [&](const std::string& sensor, const std::string& emitter) {
+    return read_mitsuba(
+               folder_.write("scene.xml", "<scene version=\"3.0.0\">" + sensor + emitter + "</scene>"))
+        .scene.lights;
+  };
+  const auto sun = [](const Light& light) { return std::get<SkyLight>(light.model).to_sun; };
+  const std::string day =
+      "<integer name=\"start_year\" value=\"2024\"/><integer name=\"start_month\" value=\"2\"/><integer "
+      "name=\"start_day\" value=\"28\"/><integer name=\"end_year\" value=\"2024\"/><integer "
+      "name=\"end_month\" value=\"3\"/><integer name=\"end_day\" value=\"2\"/>";
+  const std::string timed = "<emitter type=\"timed_sunsky\">" + day + "</emitter>";
+  const auto at = [&](int month, int date, double hour) {
+    return sun(
+        lights("", fmt::format("<emitter type=\"sunsky\"><integer name=\"year\" value=\"2024\"/><integer "
+                               "name=\"month\" value=\"{}\"/><integer name=\"day\" value=\"{}\"/><float "
+                               "name=\"hour\" value=\"{}\"/></emitter>",
+                               month, date, hour))
+            .at(0));
+  };
+  const auto once = lights("", timed);
+  ASSERT_EQ(once.size(), 1u);
+  EXPECT_LT(length(sun(once[0]) - at(2, 28, 7)), 1e-9);
+  EXPECT_EQ(std::get<SkyLight>(once[0].model).sun_scale, 1);
+
+  // Half of the shutter's time: the first one and a half of three days, of a leap year.
+  const auto over =
+      lights("<sensor type=\"perspective\"><float name=\"shutter_close\" value=\"0.5\"/></sensor>", timed);
+  ASSERT_EQ(over.size(), 32u);
+  EXPECT_EQ(std::get<SkyLight>(over[7].model).sky_scale, 1 / 32.0f);
+  for (const int i : {0, 20, 25, 31}) {
+    const double days = (i + 0.5) / 32 * 1.5, hour = 7 + 12 * (days - std::floor(days));
+    EXPECT_LT(length(sun(over[static_cast<std::size_t>(i)]) - at(2, days < 1 ? 28 : 29, hour)), 1e-9) << i;
+  }
+  EXPECT_THROW(lights("",
+                      "<emitter type=\"timed_sunsky\"><float name=\"window_end_time\" "
+                      "value=\"3\"/></emitter>"),
+               Error);
+}
+
+// The mean over the rectangle is that of a grid on it, on the side of its normal.
+TEST_F(MitsubaLoad, IrradianceMetersAreMeasuredBySensors) {
+  const auto says = [&](const std::string& shape, const std::string& more, const std::string& what) {
+    const ImportedScene imported = read_mitsuba(folder_.write(
+        "scene.xml", "<scene version=\"3.0.0\"><shape type=\"" + shape +
+                         "\"><transform name=\"to_world\"><scale x=\"2\" y=\"3\" z=\"1\"/>" + more +
+                         "</transform><sensor type=\"irradiancemeter\"/></shape></scene>"));
+    return std::ranges::any_of(imported.diagnostics, [&](const Diagnostic& d) {
+      return d.fidelity == Fidelity::dropped && d.message.find(what) != std::string::npos;
+    });
+  };
+  EXPECT_TRUE(says("rectangle", "<translate x=\"10\" z=\"5\"/>", "plane 8 -3 5.0006  4 0 0  0 6 0  8x8"));
+  EXPECT_TRUE(says("rectangle", "<scale x=\"-1\"/>", "plane 2 -3 0.0006  0 6 0  -4 0 0  8x8"));
+  EXPECT_TRUE(says("disk", "", "sensor \"irradiancemeter\" of a disk"));
+}
+
 // How its integrators sample is no loss, and what nobody knows is said once.
 TEST_F(MitsubaLoad, OldIntegratorsAndFilms) {
   const std::string old =

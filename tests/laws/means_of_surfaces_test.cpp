@@ -9,6 +9,7 @@
 
 #include "scene/color.h"
 #include "scene/portable_math.h"
+#include "scene/rgb_to_spectrum.h"
 #include "tests/laws/flat_scenes.h"
 #include "tracer/bsdf/conductor.h"
 #include "tracer/bsdf/dielectric.h"
@@ -50,6 +51,22 @@ void expect_plane(const Material& material, const Model& model, const std::strin
   const double albedo = over_sphere([&](Vector3d in) { return value(model, view, in); });
   expect_luminance(plane_under_sky(material, view, 1024), albedo + mirrored, 5e-3, name + " under the sky",
                    slack);
+}
+
+// Under the light that it is made for, a colour by Matrix-R is that colour.
+TEST(MeanOfPlane, AColorByMatrixRComesBack) {
+  const RGB color{0.8, 0.25, 0.1};
+  Scene scene;
+  scene.settings.rgb = RgbMethod::matrix_r;
+  scene.lights.push_back({InfiniteLight{emission_from_rgb({1, 1, 1})}, {}});
+  add_shape(scene, square(scene, 0), Material{DiffuseMaterial{reflectance_from_rgb(color)}});
+  look_along(scene, view);
+  const Mean found = mean_of(render(scene, 1024).film);
+  const XYZ expected = srgb_to_xyz(color);
+  for (const auto part : {&XYZ::x, &XYZ::y, &XYZ::z}) {
+    EXPECT_LT(found.error.*part, 3e-3 * expected.*part);
+    EXPECT_NEAR(found.value.*part, expected.*part, 4.5 * found.error.*part + 1e-4);
+  }
 }
 
 TEST(MeanOfPlane, Diffuse) {

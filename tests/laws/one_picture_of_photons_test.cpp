@@ -58,6 +58,7 @@ class OnePictureOfPhotons : public ::testing::Test {
 
 TEST_F(OnePictureOfPhotons, HoweverItIsRendered) {
   std::string hash;
+  nlohmann::json first;
   std::uint64_t forwarded = 0, evictions = 0;
   struct Manner {
     int domains, ranks;
@@ -71,7 +72,16 @@ TEST_F(OnePictureOfPhotons, HoweverItIsRendered) {
         command("a.film", m.domains, m.ranks, fmt::format("--force --spp 2 --photons 6000 {}", m.options)));
     ASSERT_EQ(done.status, 0) << done.output;
     const nlohmann::json s = stats("a.film");
-    if (hash.empty()) hash = s["film_hash"];
+    if (hash.empty()) {
+      hash = s["film_hash"];
+      first = s;
+      EXPECT_EQ(s["photons_emitted"], 12000);
+      EXPECT_GT(s["photon_bytes"], 0);
+    }
+    for (const char* key : {"photons_emitted", "photons_landed", "photon_gathers", "photons_gathered"}) {
+      EXPECT_EQ(s[key], first[key]) << key << ": " << m.domains << " domains, " << m.ranks << " ranks";
+      EXPECT_GT(s[key], 0) << key;
+    }
     EXPECT_EQ(s["film_hash"], hash) << m.domains << " domains, " << m.ranks << " ranks, " << m.options;
     forwarded += s["forwarded_rays"].get<std::uint64_t>();
     evictions += s["evictions"].get<std::uint64_t>();

@@ -97,6 +97,15 @@ void expect_one_picture(const TemporaryDirectory& directory, const std::filesyst
   render(directory, make_bundle(directory, scene, 8), 2, 1, fmt::format("--profile '{}'", profile));
   const Bundle recut = make_bundle(directory, scene, 8, fmt::format("--profile '{}'", profile));
   check(render(directory, recut, 1, 2, ""), "cut by a profile");
+  // Domains shared out otherwise, by the rays of the bundle itself.
+  const Bundle shared = make_bundle(directory, scene, 8);
+  render(directory, shared, 1, 2, fmt::format("--profile '{}'", profile));
+  for (const char* how : {"decompose", "decompose --homes", "replicate"}) {
+    const bool homes = std::string(how).ends_with("homes");
+    check(render(directory, shared, 4, 1,
+                 fmt::format("--distribution {}{}", how, homes ? fmt::format(" '{}'", profile) : "")),
+          how);
+  }
   EXPECT_GT(forwarded, 0u) << "no run ever sent a ray";
   EXPECT_GT(evictions, 0u) << "no run ever evicted a domain";
   EXPECT_GT(spilled, 0u) << "no ray ever waited on the disk";

@@ -47,7 +47,7 @@ Shape "trianglemesh" "integer indices" [0 1 2 0 2 3] "point3 P" [-1 0 -1  -1 0 1
 };
 
 TEST_F(MeasureProgram, SaysWhatEachSettingBuysAndResumes) {
-  const std::string options = "--axes depth,domains --error 0.01";
+  const std::string options = "--axes depth,roulette,domains --error 0.01 --ranks 4 --threads 1";
   const CommandResult first = measure(options);
   ASSERT_EQ(first.status, 0) << first.output;
   EXPECT_THAT(first.output, AllOf(HasSubstr("a reference of 2 × 64"), HasSubstr("depth 1"),
@@ -60,6 +60,11 @@ TEST_F(MeasureProgram, SaysWhatEachSettingBuysAndResumes) {
     if (s.at("name").get<std::string>().starts_with("domains")) domains_show = !s.at("identical").get<bool>();
   }
   EXPECT_TRUE(direct_is_biased);
+  // On four cores it takes a little more than a quarter of the CPU seconds.
+  const nlohmann::json& own = json.at("settings").at(0);
+  const double work_s = own.at("cpu_s_per_sample").get<double>() * json.at("full_size").get<double>();
+  EXPECT_NEAR(own.at("farm_s_per_sample").get<double>(), work_s / 4, 0.2 * work_s / 4);
+  EXPECT_GT(json.at("recommendations").at(0).at("farm_s").get<double>(), 0);
   EXPECT_FALSE(domains_show);
 
   std::ifstream in(directory_ / "out" / "index.html");
@@ -78,7 +83,7 @@ TEST_F(MeasureProgram, SaysWhatEachSettingBuysAndResumes) {
 }
 
 TEST_F(MeasureProgram, RefusesWhatItDoesNotKnow) {
-  const CommandResult axis = measure("--axes roulette");
+  const CommandResult axis = measure("--axes roulete");
   EXPECT_EQ(axis.status, 2);
   EXPECT_THAT(axis.output, HasSubstr("there are depth, clamp"));
   EXPECT_EQ(run(vitrail("measure") + " no.pbrt -o out").status, 3);

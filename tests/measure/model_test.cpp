@@ -49,10 +49,21 @@ TEST(Model, TheBestDependsOnTheGoal) {
 TEST(Model, ChangesCombine) {
   const Tradeoff base{1, 0, 4, 2}, fast{1, 0.01, 4, 1}, quiet{0.5, 0.02, 4, 2};
   const Tradeoff changes[] = {fast, quiet};
-  const Tradeoff t = combined(base, changes);
+  const Tradeoff t = combined(base, changes, law);
   EXPECT_DOUBLE_EQ(t.noise, 0.5);
   EXPECT_DOUBLE_EQ(t.sample_s, 1);
   EXPECT_DOUBLE_EQ(t.bias, 0.02);
+}
+
+// What was measured at more samples counts against as many of the others, and is not known below them.
+TEST(Model, ChangesOfMoreSamplesCombine) {
+  const Tradeoff base{1, 0, 4, 2}, adaptive{0.05, 0, 16, 2, 16};
+  const Tradeoff t = combined(base, std::span(&adaptive, 1), law);
+  EXPECT_DOUBLE_EQ(t.noise, 0.2);  // 0.05 of 0.25
+  EXPECT_EQ(t.least_spp, 16);
+  EXPECT_DOUBLE_EQ(samples_for_error(t, law, 10).value(), 16);
+  EXPECT_FALSE(samples_within(t, law, 2 + 15.9 * 2));
+  EXPECT_TRUE(samples_within(t, law, 2 + 16 * 2));
 }
 
 TEST(Model, TheSlopeIsFitted) {
@@ -78,18 +89,41 @@ TEST(Axes, AreChosenByNameAndBecomeArguments) {
   EXPECT_THROW(chosen_axes(known_axes({}), {"dept"}), UsageError);
 }
 
+TEST(Axes, SayWhatTheyMayDo) {
+  const std::vector<Axis> axes = chosen_axes(known_axes({}), {"roulette", "adaptivity", "filter", "domains"});
+  ASSERT_EQ(axes[1].name, "adaptivity");
+  EXPECT_EQ(effect_of(axes, {0, 0, 0, 0}), Effect::nothing);
+  EXPECT_EQ(effect_of(axes, {0, 0, 0, 2}), Effect::nothing);
+  EXPECT_EQ(effect_of(axes, {0, 1, 2, 0}), Effect::noise);
+  EXPECT_EQ(effect_of(axes, {1, 1, 2, 1}), Effect::bias);
+  EXPECT_EQ(least_spp(axes, {1, 0, 2, 1}), 1);
+  EXPECT_EQ(least_spp(axes, {0, 1, 0, 0}), 64);
+}
+
+TEST(Plan, CountsSamplesThatSettingsTakeAtLeast) {
+  MeasureOptions options;
+  options.seeds = 3, options.spp = 8;
+  const std::vector<Axis> plain = chosen_axes(known_axes({}), {"lights"}),
+                          adaptive = chosen_axes(known_axes({}), {"adaptivity"});
+  const auto wall_s = [&](const std::vector<Axis>& axes) { return make_plan(options, axes, 0.5, 0).wall_s; };
+  EXPECT_DOUBLE_EQ(wall_s(adaptive) - wall_s(plain), 0.5 * 3 * (64 - 8));
+}
+
 TEST(Plan, CountsEveryRender) {
   MeasureOptions options;
   options.seeds = 3, options.spp = 8;
   const std::vector<Axis> axes = chosen_axes(known_axes({}), {"depth", "integrator", "memory"});
   const Plan one_by_one = make_plan(options, axes, 0.5, 0);
   // The reference's halves, two budgets of memory, and with each seed: the scene's own, six depths, one
-  // integrator and two other counts of samples.
-  EXPECT_EQ(one_by_one.renders, 2 + 2 + 3 * (1 + 6 + 1 + 2));
-  EXPECT_DOUBLE_EQ(one_by_one.wall_s, 0.5 * (2 * 128 + 2 * 8 + 3 * (8 * 8 + 2 + 32)));
+  // integrator and two other counts of samples; at all three counts the pictures that biases are differences
+  // to, of which those of the first are among the depths.
+  EXPECT_EQ(one_by_one.renders, 2 + 2 + 3 * (1 + 6 + 1 + 2 + 3));
+  EXPECT_DOUBLE_EQ(one_by_one.wall_s, 0.5 * (2 * 128 + 2 * 8 + 3 * (8 * 8 + 2 * (2 + 32))));
+  EXPECT_DOUBLE_EQ(make_plan(options, {axes[1], axes[2]}, 0.5, 0).wall_s,
+                   0.5 * (2 * 128 + 2 * 8 + 3 * (2 * 8 + 2 * (2 + 32) + 8)));
   EXPECT_EQ(one_by_one.search_renders, 3 * (2 * 12 + 2));
   options.every_combination = true;
-  EXPECT_EQ(make_plan(options, axes, 0.5, 0).renders, 2 + 2 + 3 * (7 * 2 + 2));
+  EXPECT_EQ(make_plan(options, axes, 0.5, 0).renders, 2 + 2 + 3 * (7 * 2 + 2 + 3));
   options.error = 0.1;
   EXPECT_EQ(make_plan(options, axes, 0.5, 0).search_renders, 3 * 12);
 }

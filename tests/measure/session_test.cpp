@@ -36,11 +36,28 @@ class SessionTest : public testing::Test {
     return session_.measure_setting(measurement_, setting, 4);
   }
 
+  // As bright as the seed's number, times what is given; the reference is as bright as their mean.
+  static void write_picture_of(const Words& words, double times) {
+    const std::uint64_t seed = std::stoull(after(words, "--seed"));
+    FilmSettings settings;
+    settings.width = settings.height = 16;
+    settings.crop = {0, 16, 0, 16};
+    Film film(settings, {1, seed, 5});
+    for (std::uint32_t p = 0; p < 256; ++p) {
+      film.count_sample(p, 0);
+      const double v = times * static_cast<double>(seed <= 3 ? seed : 2);
+      film.deposit(p, 0, srgb_to_xyz(RGB{v, v, v}));
+    }
+    write_film(after(words, "-o"), film, {1, 1, {1}, 1});
+    std::ofstream(after(words, "--stats")) << "{}";
+    if (has(words, "--profile")) std::ofstream(after(words, "--profile")) << "{}";
+  }
+
   TemporaryDirectory directory_;
   MeasureOptions options_;
   std::function<void(const Words&)> render_;
   Runs runs_{directory_ / "scene.pbrt", directory_ / "out", 32,
-             [this](const std::string& program, const Words& words) {
+             [this](const std::string& program, const Words& words, const std::filesystem::path&) {
                if (program == "vitrail-render") return render_(words);
                std::filesystem::create_directory(after(words, "-o"));
              }};
@@ -58,23 +75,35 @@ TEST_F(SessionTest, OnlyScarceMemoryMayFail) {
   EXPECT_EQ(measured("integrator", {1}).failure, "refused");
 }
 
+// Roulette cannot have a bias: what there is of it is the scene's own. Adaptivity takes its least samples.
+TEST_F(SessionTest, NoiseHasNoBiasAndTakesItsSamples) {
+  std::vector<std::string> spp;
+  render_ = [&](const Words& words) {
+    spp.push_back(after(words, "--spp"));
+    write_picture_of(words, has(words, "early") ? 9 : 1);
+  };
+  measurement_.reference = session_.reference(4);
+  measurement_.settings.push_back(measured("roulette", {0}));
+  const MeasuredSetting early = measured("roulette", {1}), clamped = measured("clamp", {1});
+  EXPECT_EQ(early.effect, Effect::noise);
+  EXPECT_EQ(early.error.bias.value, measurement_.settings[0].error.bias.value);
+  // Nine times as far apart. The scene's own, which is known to have no bias, has two thirds of the variance
+  // that three pictures tell of.
+  EXPECT_NEAR(early.error.noise.value, 81 * 1.5 * measurement_.settings[0].error.noise.value,
+              0.001 * early.error.noise.value);
+  EXPECT_EQ(clamped.effect, Effect::bias);
+  spp.clear();
+  EXPECT_EQ(measured("adaptivity", {1}).spp, 64);
+  EXPECT_EQ(spp, (std::vector<std::string>{"64", "64", "64"}));
+}
+
 TEST_F(SessionTest, SettingsAreIdenticalWhereAllSeedsAre) {
   // The clamp of choice 1 meets no seed, that of choice 2 the third.
   const Words third = known_axes({})[1].choices[2].render;
   render_ = [&](const Words& words) {
     const std::uint64_t seed = std::stoull(after(words, "--seed"));
     const bool is_clamped = has(words, "--clamp") && after(words, "--clamp") == third[1] && seed == 3;
-    FilmSettings settings;
-    settings.width = settings.height = 16;
-    settings.crop = {0, 16, 0, 16};
-    Film film(settings, {1, seed, 5});
-    for (std::uint32_t p = 0; p < 256; ++p) {
-      film.count_sample(p, 0);
-      const double v = is_clamped ? 0.5 : static_cast<double>(seed);
-      film.deposit(p, 0, srgb_to_xyz(RGB{v, v, v}));
-    }
-    write_film(after(words, "-o"), film, {1, 1, {1}, 1});
-    std::ofstream(after(words, "--stats")) << "{}";
+    write_picture_of(words, is_clamped ? 0.5 / static_cast<double>(seed) : 1);
   };
   measurement_.reference = session_.reference(4);
   measurement_.settings.push_back(measured("clamp", {0}));

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <random>
 
 namespace vitrail {
@@ -55,6 +56,33 @@ TEST(Statistics, TakeOutTheReferencesOwnNoise) {
   const double of_mean = error_statistics(pictures(1, 0.1, 0), coarse).relmse.value;
   const Reference fine = make_reference(noisy(1003, 1e-3), noisy(1004, 1e-3));
   EXPECT_NEAR(of_mean, error_statistics(pictures(1, 0.1, 0), fine).relmse.value, 0.005);
+}
+
+// What two settings' pictures of a seed have in common is not taken for a part of the bias.
+TEST(Statistics, SeeTheBiasThatIsLessThanTheNoise) {
+  constexpr double sigma = 0.4, bias = 0.01;
+  const Reference reference = make_reference(noisy(1001, 0.1), noisy(1002, 0.1));
+  const std::vector<Image> off = pictures(1, sigma, bias), unbiased = pictures(1, sigma, 0);
+  const Estimate alone = error_statistics(off, reference).bias,
+                 beside = error_statistics(off, reference, unbiased).bias;
+  EXPECT_GT(alone.half_width, bias * bias * weight);
+  EXPECT_NEAR(beside.value, bias * bias * weight, 0.1 * bias * bias * weight);
+  EXPECT_LT(beside.half_width, 0.1 * bias * bias * weight);
+  const Estimate none = error_statistics(unbiased, reference, unbiased).bias;
+  EXPECT_EQ(none.value, 0);
+  EXPECT_EQ(none.half_width, 0);
+}
+
+TEST(Statistics, BiasThatWasNotSeenMayStillBe) {
+  EXPECT_EQ(expected_bias({0.5, 0}), 0.5);
+  EXPECT_EQ(expected_bias({-0.5, 0}), 0);
+  EXPECT_NEAR(expected_bias({0, 1.96}), std::sqrt(2 / std::numbers::pi), 1e-6);  // of a half normal
+  EXPECT_NEAR(expected_bias({10, 1.96}), 10, 1e-6);
+  double last = 0;
+  for (const double value : {-40.0, -10.0, -5.1, -4.9, -1.0, 0.0, 1.0, 5.0}) {
+    EXPECT_GT(expected_bias({value, 1.96}), last) << value;
+    last = expected_bias({value, 1.96});
+  }
 }
 
 TEST(Statistics, IntervalsAreStudents) {

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "partitioner/appearance/row_halver.h"
+#include "scene/matrix_r.h"
 #include "tests/partitioner/baked_scene.h"
 #include "tracer/textures/baked_image.h"
 
@@ -89,6 +90,56 @@ TEST(BakeTextures, PixelsThatEmit) {
   expect_pixels(
       s, s.bake().bake(id, TextureUse::illuminant), image,
       [](RGB c) { return Spectrum{emission_from_rgb(c)}; }, 1e-2);
+}
+
+// The colour of light that is D65 times the spectrum, or the spectrum itself.
+RGB color_of(const Textures& textures, const SpectrumParameter& parameter, const TexturePoint& at,
+             bool shines) {
+  XYZ xyz{};
+  for (std::size_t i = 0; i < table_size; ++i) {
+    SampledWavelengths w = some_wavelengths;
+    w.lambda_nm.fill(static_cast<float>(lambda_min_nm) + static_cast<float>(i));
+    const double light = shines ? 1 : static_cast<double>(cie_d65()[i]),
+                 value = static_cast<double>(textures.spectrum(parameter, at, w).v[0]) * light /
+                         cie_y_integral_nm;
+    xyz.x += value * static_cast<double>(cie_1931()[i][0]);
+    xyz.y += value * static_cast<double>(cie_1931()[i][1]);
+    xyz.z += value * static_cast<double>(cie_1931()[i][2]);
+  }
+  return xyz_to_srgb(xyz);
+}
+
+// Each pixel has the spectrum that a colour of its own would have, within what 21 bits of its three numbers
+// hold, and its colour comes back; greys among them too.
+TEST(BakeTextures, ColorsByMatrixR) {
+  for (const auto& [use, greatest] : {std::pair{TextureUse::reflectance, 1.0f},
+                                      {TextureUse::unbounded, 3.0f},
+                                      {TextureUse::illuminant, 20.0f}}) {
+    test::BakedScene s;
+    s.scene.settings.rgb = RgbMethod::matrix_r;
+    Image image = colors(9, 5, greatest);
+    for (std::size_t c = 0; c < 3; ++c) image.values[c] = 0.25f * greatest, image.values[3 + c] = 0.995f;
+    image.values[4] = 1;
+    write_exr_image(s.directory / "a.exr", image);
+    const Id<Texture> id = s.add(s.image("a.exr"));
+    const SpectrumParameter baked = s.bake().bake(id, use);
+    const Textures textures = s.look_up();
+    const bool shines = use == TextureUse::illuminant;
+    for (int y = 0; y < image.height; ++y)
+      for (int x = 0; x < image.width; ++x) {
+        const TexturePoint at = at_uv((x + 0.5) / image.width, 1 - (y + 0.5) / image.height);
+        const RGB c = color_of(image, x, y), back = color_of(textures, baked, at, shines);
+        const Spectrum own = shines                         ? Spectrum{emission_from_rgb(c)}
+                             : use == TextureUse::unbounded ? unbounded_from_rgb(c)
+                                                            : Spectrum{reflectance_from_rgb(c)};
+        const double most = std::max({c.r, c.g, c.b});
+        if (most > 1 || use != TextureUse::unbounded)  // of others the scale differs
+          test::expect_near(textures.spectrum(baked, at, some_wavelengths),
+                            resolved(own, RgbMethod::matrix_r), 4e-3 * (most > 1 ? 2 * most : 1));
+        for (const auto channel : {&RGB::r, &RGB::g, &RGB::b})
+          EXPECT_NEAR(back.*channel, c.*channel, 1e-3 * std::max(1.0, 2 * most)) << x << ' ' << y;
+      }
+  }
 }
 
 TEST(BakeTextures, DecodesScalesAndInverts) {

@@ -27,7 +27,7 @@ Medium baked(const Grid& sigma_t) {
   Medium medium;
   medium.coefficients = ExtinctionAlbedo{sigma_t, ConstantSpectrum{0}};
   std::vector<std::string> notes;
-  const Medium result = bake_medium(medium, notes).value();
+  const Medium result = bake_medium(medium, RgbMethod::jakob_hanika, notes).value();
   EXPECT_TRUE(notes.empty()) << notes.at(0);
   return result;
 }

@@ -58,6 +58,10 @@ BsdfValue eval(const PlasticBsdf& bsdf, Vector3d out, Vector3d in) {
           (1 - specular_probability(bsdf, 1 - t_out)) * in.z / pi};
 }
 
+SampledSpectrum base_of(const PlasticBsdf& bsdf, double cosine_out) {
+  return base(bsdf, bsdf.internal_reflectance) * static_cast<float>(transmittance(bsdf, cosine_out));
+}
+
 double pdf(const PlasticBsdf& bsdf, Vector3d out, Vector3d in) {
   if (!reflects(out, in)) return 0;
   return (1 - specular_probability(bsdf, 1 - transmittance(bsdf, out.z))) * in.z / pi;

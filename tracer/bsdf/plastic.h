@@ -25,6 +25,9 @@ BsdfValue eval(const PlasticBsdf& bsdf, Vector3d out, Vector3d in);
 double pdf(const PlasticBsdf& bsdf, Vector3d out, Vector3d in);
 std::optional<BsdfSample> sample(const PlasticBsdf& bsdf, Vector3d out, float u_lobe, Point2f u);
 
+// π·f/T(in) of the base, seen at a cosine > 0.
+SampledSpectrum base_of(const PlasticBsdf& bsdf, double cosine_out);
+
 // What a rough coat does, for a material: computed when it is loaded.
 struct RoughPlasticTables {
   static constexpr int count = 64;

@@ -38,8 +38,7 @@ Emission::Emission(const LightSampler& lights, const Bounds3f& bounds, Point3d e
   const double disc = pi * spheres_.back().radius * spheres_.back().radius;
   std::vector<double> flux = flux_of_surfaces(lights.scene, lights.quadrics);
   for (const PointEmitter& e : lights.emitters) flux.push_back(e.bounds.power);
-  for (const LightSampler::Distant& d : lights.distant)
-    flux.push_back(disc * luminance(std::get<DistantLight>(lights.scene.lights[d.light].model).irradiance));
+  for (const LightSampler::Distant& d : lights.distant) flux.push_back(disc * luminance(d.irradiance));
   for (const Environment& e : lights.environments) flux.push_back(disc * 4 * pi * e.mean_luminance);
   for (const std::uint32_t i : lights.infinite)
     flux.push_back(disc * 4 * pi * luminance(std::get<InfiniteLight>(lights.scene.lights[i].model).radiance));
@@ -68,10 +67,9 @@ EmittedPhoton Emission::sample(const std::array<float, 4>& place, const std::arr
     index -= lights_.emitters.size();
     if (index < lights_.distant.size()) {
       const LightSampler::Distant& d = lights_.distant[index];
-      EmittedPhoton photon = through_disc(
-          d.direction,
-          evaluate(std::get<DistantLight>(lights_.scene.lights[d.light].model).irradiance, wavelengths),
-          place[0], place[1], way[2]);
+      const Vector3d to_light = d.to_light(way[0], way[1]);
+      EmittedPhoton photon =
+          through_disc(-to_light, d.irradiance_from(to_light, wavelengths), place[0], place[1], way[2]);
       photon.is_distant = true;
       return photon;
     }

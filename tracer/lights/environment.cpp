@@ -160,15 +160,14 @@ Environment make_environment(const EnvironmentLight& light, std::shared_ptr<cons
   return e;
 }
 
-namespace {
-
-// Over the disc, uniform per solid angle.
 Vector3d sample_sun(const SkyModel& sky, double u, double v) {
   const Vector3d n = sky.to_sun();
   const Vector3d x = normalize(cross(std::abs(n.x) < 0.5 ? Vector3d{1, 0, 0} : Vector3d{0, 1, 0}, n));
   const double below = u * (1 - sky.sun_cosine()), sine = safe_sqrt(below * (2 - below)), phi = 2 * pi * v;
   return x * (sine * portable_cos(phi)) + cross(n, x) * (sine * portable_sin(phi)) + n * (1 - below);
 }
+
+namespace {
 
 double luminance_of_sky(const SkyModel& sky, Vector3d d) {
   return luminance_of([&](const SampledWavelengths& w) { return sky.sky(d, w); }, 2);

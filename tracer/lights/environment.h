@@ -44,6 +44,8 @@ struct EnvironmentValue {
 // `direction` unit, of the world.
 EnvironmentValue value_towards(const Environment& environment, Vector3d direction,
                                const SampledWavelengths& wavelengths);
+// Of a sky's own frame: over the sun's disc, uniform per solid angle. u, v in [0,1)
+Vector3d sample_sun(const SkyModel& sky, double u, double v);
 // u, v in [0,1)
 Vector3d sample_direction(const Environment& environment, double u, double v);
 

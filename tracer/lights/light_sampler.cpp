@@ -208,10 +208,23 @@ TexturePoint EmissivePoint::point() const {
 std::optional<LightSample> sample_light(const LightSampler& s, Point3d p, const std::array<float, 4>& u,
                                         const SampledWavelengths& wavelengths) {
   LastLamp last;
-  return sample_light(s, p, u, wavelengths, last);
+  return sample_light(s, p, u, {u[0], u[1]}, wavelengths, last);
+}
+
+Vector3d LightSampler::Distant::to_light(float u, float v) const {
+  if (!sun) return -direction;
+  return frame.to_world(sample_sun(*sun, static_cast<double>(u), static_cast<double>(v)));
+}
+
+SampledSpectrum LightSampler::Distant::irradiance_from(Vector3d to_light,
+                                                       const SampledWavelengths& wavelengths) const {
+  if (!sun) return evaluate(irradiance, wavelengths);
+  return sun->sun(frame.to_light(to_light), wavelengths) *
+         static_cast<float>(2 * pi * (1 - sun->sun_cosine()));
 }
 
 std::optional<LightSample> sample_light(const LightSampler& s, Point3d p, const std::array<float, 4>& u,
+                                        const std::array<float, 2>& far,
                                         const SampledWavelengths& wavelengths, LastLamp& last) {
   if (s.three_numbers) return sample_tree(s, p, u, static_cast<double>(u[2]), wavelengths, last);
   if (s.share.empty()) return std::nullopt;
@@ -230,10 +243,9 @@ std::optional<LightSample> sample_light(const LightSampler& s, Point3d p, const 
   }
   if (kind <= s.distant.size()) {
     const LightSampler::Distant& distant = s.distant[kind - 1];
-    sample.to_light = -distant.direction;
+    sample.to_light = distant.to_light(far[0], far[1]);
     sample.distance = infinity;
-    sample.radiance =
-        evaluate(std::get<DistantLight>(s.scene.lights[distant.light].model).irradiance, wavelengths);
+    sample.radiance = distant.irradiance_from(sample.to_light, wavelengths);
     sample.pdf = share;
     sample.is_delta = true;
     sample.light = distant.light;

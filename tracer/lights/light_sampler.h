@@ -34,6 +34,7 @@ struct LightScene {
   const Textures* textures = nullptr;        // null: no light has a texture; images get 16 MiB
   std::span<const Texture> texture_records;  // of `textures`: for the shape of a projected image
   Bounds3f bounds;                           // of the scene
+  bool refracts = false;                     // some smooth surface of it does
 };
 
 // A point of an emissive triangle or quadric with what its textures read.
@@ -81,9 +82,19 @@ struct LightSampler {
   std::vector<QuadricLight> quadrics;
   std::vector<PointEmitter> emitters;
   std::vector<std::uint32_t> emitter_light;  // index into scene.lights
+  // Light of one direction. The sun of a sky is one where something refracts: no sample of a BSDF would find
+  // its disc through glass, and of a disc a connection could not tell where behind the glass it ends. So each
+  // path and each photon sees one point of the disc.
   struct Distant {
-    Vector3d direction;
+    Vector3d direction;  // unit, the way the light travels; of a sun, of its middle
     std::uint32_t light = 0;
+    Spectrum irradiance{};  // across its direction; of a sun, of all its disc
+    std::shared_ptr<const SkyModel> sun{};
+    DirectionFrame frame{};
+    // Unit, for two numbers in [0,1).
+    Vector3d to_light(float u, float v) const;
+    // For one of those directions.
+    SampledSpectrum irradiance_from(Vector3d to_light, const SampledWavelengths& wavelengths) const;
   };
   std::vector<Distant> distant;
   std::vector<Environment> environments;
@@ -107,6 +118,7 @@ struct LightSampler {
 
   // Whether sample_light may ever give something.
   bool can_sample() const { return !share.empty(); }
+  bool has_discs = false;  // some distant light is a sun
   // Whether background's radiance may be other than 0.
   bool has_background() const { return !infinite.empty() || !environments.empty(); }
 };
@@ -143,9 +155,11 @@ struct LastLamp {
   SampledSpectrum radiance;
 };
 
-// A connection from p. u[0], u[1] are for the point, u[2], u[3] for the light. Empty where nothing arrives.
-// `last`: what a path keeps from one to the next.
+// A connection from p. u[0], u[1] are for the point, u[2], u[3] for the light; `far`: what distant lights
+// take for that, one pair for all of a path. Empty where nothing arrives. `last`: what a path keeps from one
+// to the next.
 std::optional<LightSample> sample_light(const LightSampler& sampler, Point3d p, const std::array<float, 4>& u,
+                                        const std::array<float, 2>& far,
                                         const SampledWavelengths& wavelengths, LastLamp& last);
 std::optional<LightSample> sample_light(const LightSampler& sampler, Point3d p, const std::array<float, 4>& u,
                                         const SampledWavelengths& wavelengths);
@@ -180,11 +194,12 @@ struct Background {
 Background background(const LightSampler& sampler, Vector3d direction, const SampledWavelengths& wavelengths);
 
 // Whether `accept` any of the directions to distant lights whose numbers (LightSample::light) end on these 16
-// bits.
+// bits. `far` as of sample_light.
 template <class Accept>
-bool any_distant_light(const LightSampler& sampler, std::uint32_t bits, Accept&& accept) {
+bool any_distant_light(const LightSampler& sampler, std::uint32_t bits, const std::array<float, 2>& far,
+                       Accept&& accept) {
   for (const LightSampler::Distant& d : sampler.distant)
-    if ((d.light & 0xffff) == bits && accept(-d.direction)) return true;
+    if ((d.light & 0xffff) == bits && accept(d.to_light(far[0], far[1]))) return true;
   return false;
 }
 

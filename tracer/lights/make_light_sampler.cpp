@@ -163,17 +163,33 @@ struct Sorter {
   }
   void operator()(const GoniometricLight& l) { add(make_emitter(l, images(l.filename))); }
   void operator()(const DistantLight& l) {
-    const Vector3d along = unit(l.direction);
-    const double power = luminance(l.irradiance) * cross_section;
-    if (!(power > 0) || !(length(along) > 0.5)) return;
-    s.distant.push_back({along, light});
-    distant_power.push_back(power);
+    add({.direction = unit(l.direction), .light = light, .irradiance = l.irradiance});
   }
   void operator()(const InfiniteLight&) { s.infinite.push_back(light); }
   void operator()(const EnvironmentLight& l) { add(make_environment(l, images(l.filename))); }
-  void operator()(const SkyLight& l) { add(make_environment(l)); }
+  void operator()(const SkyLight& l) {
+    if (!s.scene.refracts) return add(make_environment(l));
+    const auto sun = std::make_shared<const SkyModel>(l);
+    const DirectionFrame frame(l.light_to_world);
+    if (sun->has_sun())
+      add({.direction = -frame.to_world(sun->to_sun()),
+           .light = light,
+           .irradiance = spectrum_of_bands(sun->sun_irradiance(sun->to_sun())),
+           .sun = sun,
+           .frame = frame});
+    SkyLight sky = l;
+    sky.sun_scale = 0;
+    add(make_environment(sky));
+  }
 
  private:
+  void add(LightSampler::Distant d) {
+    const double power = luminance(d.irradiance) * cross_section;
+    if (!(power > 0) || !(length(d.direction) > 0.5)) return;
+    s.has_discs = s.has_discs || d.sun;
+    s.distant.push_back(std::move(d));
+    distant_power.push_back(power);
+  }
   void add(Environment e) {
     if (!(e.mean_luminance > 0)) return;
     environment_power.push_back(4 * pi * e.mean_luminance * cross_section);

@@ -10,6 +10,7 @@
 #include "scene/diagnostics.h"
 #include "scene/portable_math.h"
 #include "tracer/bsdf/diffuse.h"
+#include "tracer/bsdf/fresnel.h"
 #include "tracer/bsdf/local.h"
 
 namespace vitrail {
@@ -67,7 +68,7 @@ void PhotonMap::build(double radius, const Bounds3f& bounds) {
   });
 }
 
-SampledSpectrum PhotonMap::gather(const Gather& at, std::uint32_t max_depth) const {
+SampledSpectrum PhotonMap::gather(const Gather& at, std::uint32_t max_depth, std::uint64_t& found) const {
   const Point3d p{static_cast<double>(at.p[0]), static_cast<double>(at.p[1]), static_cast<double>(at.p[2])};
   const Vector3d out = decoded(at.out), geometric = decoded(at.geometric), shading = decoded(at.shading);
   const Frame frame(shading);
@@ -76,7 +77,8 @@ SampledSpectrum PhotonMap::gather(const Gather& at, std::uint32_t max_depth) con
   };
   const Vector3d local_out = to_local(out);
   // Its reflectance has no part in its shape.
-  const OrenNayarBsdf grooves{filled(0.5f), static_cast<double>(at.sigma_rad)};
+  const auto shape = static_cast<double>(at.shape);
+  const OrenNayarBsdf grooves{filled(0.5f), std::max(shape, 0.0)};
   const bool path_dispersed = (at.depth & Photon::dispersed) != 0;
   const std::uint32_t path_depth = at.depth & Photon::most_depth;
   std::array<double, hero_count> sum{};
@@ -91,11 +93,12 @@ SampledSpectrum PhotonMap::gather(const Gather& at, std::uint32_t max_depth) con
     const double cosine = dot(in, geometric), local_cosine = dot(in, shading);
     if (!(cosine > 0) || !(local_cosine > 0)) return;
     double f = local_cosine / (pi * cosine);
-    if (at.sigma_rad > 0)
-      f = 2 * static_cast<double>(eval(grooves, local_out, to_local(in)).value[0]) / cosine;
+    if (shape < 0) f *= 1 - fresnel_dielectric(std::min(local_cosine, 1.0), -shape);
+    if (shape > 0) f = 2 * static_cast<double>(eval(grooves, local_out, to_local(in)).value[0]) / cosine;
     // Of the two that lost the wavelengths but one, each counts it for all.
     if (path_dispersed && (photon.depth & Photon::dispersed)) f /= hero_count;
     for (std::size_t i = 0; i < hero_count; ++i) sum[i] += f * static_cast<double>(photon.power[i]);
+    ++found;
   };
   const auto low = [&](int axis) { return row(axis, p[axis] - radius_); };
   const auto high = [&](int axis) { return row(axis, p[axis] + radius_); };

@@ -26,7 +26,8 @@ class PhotonMap {
   // Σ f·Φ·|cos θ_s|/|cos θ_g| / (πr²) over the photons in the disc around the point that were scattered less
   // than `max_depth` times together with its path, θ_s and θ_g from the shading and the surface's normal:
   // what scatters by the shading normal is lit by the surface's (Veach 1997, §5.3). Times the weight.
-  SampledSpectrum gather(const Gather& at, std::uint32_t max_depth) const;
+  // `found`: their number is added to it.
+  SampledSpectrum gather(const Gather& at, std::uint32_t max_depth, std::uint64_t& found) const;
 
   std::size_t size() const { return photons_.size(); }
   static constexpr std::size_t photon_bytes = sizeof(std::uint64_t) + sizeof(Photon);

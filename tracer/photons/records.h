@@ -22,12 +22,13 @@ struct Photon {
   static constexpr std::uint16_t most_depth = 0x7fff, dispersed = 0x8000;
 };
 
-// What light a point of a diffuse surface gets that photons bring, and what of it goes to the camera.
+// What light a point of a diffuse surface, or of one below a smooth coat, gets that photons bring, and what
+// of it goes to the camera.
 struct Gather {
   float p[3];
   DirectionCode out, geometric, shading;  // towards the camera; normals on the side that is lit
   float weight[hero_count];               // of the path, times the reflectance or transmittance
-  float sigma_rad;                        // of OrenNayarBsdf; 0: Lambertian
+  float shape;  // 0: Lambertian; > 0: σ of OrenNayarBsdf, radians; < 0: −η of PlasticBsdf's coat
   std::uint32_t pixel;
   std::uint16_t depth;  // scatterings of the path before, and the bit of Photon::dispersed as there
 };

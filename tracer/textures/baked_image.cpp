@@ -126,7 +126,7 @@ struct BakedImage::Implementation {
   }
 
   SampledSpectrum lit(const SampledSpectrum& value, const SampledWavelengths& wavelengths) const {
-    return format == TexelFormat::illuminant ? value * d65_at(wavelengths) : value;
+    return is_illuminant(format) ? value * d65_at(wavelengths) : value;
   }
 
   TextureFile file;
@@ -154,7 +154,8 @@ int BakedImage::height(int level) const {
 
 SampledSpectrum BakedImage::texel(int x, int y, int level, const SampledWavelengths& wavelengths) const {
   const Implementation& image = *implementation_;
-  return image.lit(spectrum_of(image.format, image.one(x, y, level), NodeWeights(wavelengths)), wavelengths);
+  return image.lit(spectrum_of(image.format, image.one(x, y, level), NodeWeights(wavelengths, image.format)),
+                   wavelengths);
 }
 
 SampledSpectrum BakedImage::nearest(double s, double t, Wrap wrap, int level,
@@ -166,7 +167,7 @@ SampledSpectrum BakedImage::nearest(double s, double t, Wrap wrap, int level,
 SampledSpectrum BakedImage::bilinear(double s, double t, Wrap wrap, int level,
                                      const SampledWavelengths& wavelengths) const {
   const Implementation& image = *implementation_;
-  const NodeWeights weights(wavelengths);
+  const NodeWeights weights(wavelengths, image.format);
   SampledSpectrum sum;
   image.blend(s, t, wrap, level, [&](const TexelWords& words, float weight) {
     add_texel(image.format, words, weights, weight, sum);
@@ -195,9 +196,9 @@ namespace {
 struct LuminanceRule {
   static constexpr std::array<int, 5> lambda_nm{470, 515, 555, 595, 640};
   std::array<double, 5> share{};
-  std::array<NodeWeights, 2> weights{at(lambda_nm[0]), at(lambda_nm[4])};
+  std::array<NodeWeights, 2> weights;
 
-  LuminanceRule() {
+  explicit LuminanceRule(TexelFormat format) : weights{at(lambda_nm[0], format), at(lambda_nm[4], format)} {
     double total = 0;
     for (std::size_t i = 0; i < table_size; ++i) {
       const double w = static_cast<double>(cie_d65()[i]) * static_cast<double>(cie_1931()[i][1]);
@@ -217,21 +218,21 @@ struct LuminanceRule {
   }
 
  private:
-  static NodeWeights at(int lambda) {
+  static NodeWeights at(int lambda, TexelFormat format) {
     SampledWavelengths w;
     if (lambda == lambda_nm[4])
       w.lambda_nm.fill(static_cast<float>(lambda));
     else
       for (std::size_t i = 0; i < hero_count; ++i) w.lambda_nm[i] = static_cast<float>(lambda_nm[i]);
-    return NodeWeights(w);
+    return NodeWeights(w, format);
   }
 };
 
 }  // namespace
 
 double BakedImage::luminance(int x, int y, int level) const {
-  static const LuminanceRule rule;
-  return rule(format(), implementation_->one(x, y, level));
+  static const LuminanceRule sigmoids(TexelFormat::reflectance), matrix_r(TexelFormat::matrix_r_reflectance);
+  return (by_matrix_r(format()) ? matrix_r : sigmoids)(format(), implementation_->one(x, y, level));
 }
 
 }  // namespace vitrail

@@ -6,14 +6,25 @@
 
 #include "bundle/texel.h"
 #include "scene/color.h"
+#include "scene/matrix_r.h"
 #include "scene/sampled_spectrum.h"
 
 namespace vitrail {
 
-// x(λ) = Σ l[k]·x_k of the parabola through x at 360, 595 and 830 nm (Lagrange).
+// x(λ) = Σ l[k]·x_k of the parabola through x at 360, 595 and 830 nm (Lagrange). Of Matrix-R l[k] and
+// above[k] are its basis at the bands about the wavelengths; other formats have no `above`.
 struct NodeWeights {
-  std::array<std::array<float, hero_count>, 3> l;
-  explicit NodeWeights(const SampledWavelengths& wavelengths) {
+  std::array<std::array<float, hero_count>, 3> l, above;
+  std::array<float, hero_count> part_above;
+  explicit NodeWeights(const SampledWavelengths& wavelengths, TexelFormat format = TexelFormat::reflectance) {
+    if (by_matrix_r(format)) {
+      for (std::size_t i = 0; i < hero_count; ++i) {
+        const MatrixRBasis basis = matrix_r_basis(wavelengths.lambda_nm[i]);
+        part_above[i] = basis.part_above;
+        for (std::size_t k = 0; k < 3; ++k) l[k][i] = basis.below[k], above[k][i] = basis.above[k];
+      }
+      return;
+    }
     for (std::size_t i = 0; i < hero_count; ++i) {
       const float t = (wavelengths.lambda_nm[i] - 595) * (1.0f / 235);
       l[0][i] = 0.5f * t * (t - 1);
@@ -40,6 +51,19 @@ inline SampledSpectrum sigmoid_of(const SigmoidNodes& x, const NodeWeights& weig
   return s;
 }
 
+// sum += base + factor · q of Matrix-R
+inline void add_matrix_r(const std::array<float, 3>& x, const NodeWeights& weights, float base, float factor,
+                         SampledSpectrum& sum) {
+  const auto q = [&](const auto& a, std::size_t i) {
+    const float at = a[0][i] * x[0] + a[1][i] * x[1] + a[2][i] * x[2];
+    return at > 0 ? (at < 1 ? at : 1) : 0;
+  };
+  for (std::size_t i = 0; i < hero_count; ++i) {
+    const float below = q(weights.l, i), above = q(weights.above, i);
+    sum.v[i] += base + factor * (below + weights.part_above[i] * (above - below));
+  }
+}
+
 // sum += factor · the texel of an image of spectra or numbers; D65 is left to the caller.
 inline void add_texel(TexelFormat format, const TexelWords& words, const NodeWeights& weights, float factor,
                       SampledSpectrum& sum) {
@@ -54,6 +78,19 @@ inline void add_texel(TexelFormat format, const TexelWords& words, const NodeWei
     case TexelFormat::illuminant:
       add_sigmoid(unpack_nodes(words.data()), weights, factor * std::bit_cast<float>(words[2]), sum);
       return;
+    case TexelFormat::matrix_r_reflectance: {
+      const float part = std::bit_cast<float>(words[2]);
+      add_matrix_r(unpack_nodes(words.data()), weights, factor * (1 - part), factor * part, sum);
+      return;
+    }
+    case TexelFormat::matrix_r_unbounded:
+    case TexelFormat::matrix_r_illuminant: {
+      const std::array<float, 3> x = unpack_nodes(words.data());
+      const float value = factor * std::bit_cast<float>(words[2]);
+      const bool grey = x[0] == 0 && x[1] == 0 && x[2] == 0;
+      add_matrix_r(x, weights, grey ? value : 0, value, sum);
+      return;
+    }
     default:
       return;
   }

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+// The sun's disc behind glass: what of it stands beside a straight edge, in a penumbra, against the closed
+// form.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "scene/portable_math.h"
+#include "tests/laws/flat_scenes.h"
+
+namespace vitrail::test {
+namespace {
+
+constexpr double diameter_deg = 8, height = 1;
+constexpr float index = 1.5f;
+
+// The share of a uniform disc beside an edge that runs s radii from its middle.
+double share_beside(double s) { return 1 - (std::acos(s) - s * std::sqrt(1 - s * s)) / pi; }
+
+Material glass() {
+  DielectricMaterial m;
+  m.eta = ConstantSpectrum{index};
+  return Material{m};
+}
+
+// White ground, seen at x < 0 from above, with the sun in the zenith; an opaque half-plane at that height
+// from x = 0 on.
+Scene ground_beside_an_edge(double x, double half_width) {
+  Scene scene;
+  add_shape(scene, square(scene, 0, 0.3f), Material{DiffuseMaterial{ConstantSpectrum{0.5f}}});
+  add_shape(scene, square(scene, static_cast<float>(height), 0.2f, 0.2f),
+            Material{DiffuseMaterial{ConstantSpectrum{0}}});
+  SkyLight sun;
+  sun.sky_scale = 0;
+  sun.sun_diameter_deg = diameter_deg;
+  sun.limb_darkening = false;
+  scene.lights.push_back({sun, {}});
+  look_along(scene, {0, 0, 1}, {x, 0, 0}, half_width);
+  return scene;
+}
+
+// Where an edge at the height seen through `thickness` of glass has the rim of the sun before it.
+double penumbra(double thickness) {
+  const double sine = std::sin(diameter_deg / 360 * pi), inside = sine / static_cast<double>(index);
+  const auto tangent = [](double s) { return s / std::sqrt(1 - s * s); };
+  return (height - thickness) * tangent(sine) + thickness * tangent(inside);
+}
+
+// Behind a pane: by connections.
+TEST(SunDisc, CastsAPenumbraThroughAPane) {
+  const float low = 0.3f, high = 0.7f;
+  const double width = penumbra(static_cast<double>(high - low));
+  const auto seen = [&](double x) {
+    Scene scene = ground_beside_an_edge(x, 1e-4);
+    add_shape(scene, add_quads(scene, box_faces({-.25f, -.25f, low}, {.25f, .25f, high})), glass());
+    scene.settings.max_depth = 4;
+    return mean_of(render(scene, 64).film);
+  };
+  const double lit = seen(-2 * width).value.y;
+  ASSERT_GT(lit, 0);
+  for (const double s : {0.05, 0.4, 0.8})
+    expect_luminance(seen(-s * width), lit * share_beside(s), 0.01, fmt::format("{} radii", s), 0.005);
+}
+
+// Under the surface of glass that fills what is below, where connections find nothing: by photons. Without a
+// disc there was no penumbra.
+TEST(SunDisc, CastsAPenumbraOfPhotons) {
+  const float surface = 0.8f;
+  const double width = penumbra(static_cast<double>(surface));
+  const auto seen = [&](double x, bool photons) {
+    Scene scene = ground_beside_an_edge(x, 0.002);
+    add_shape(scene, square(scene, surface, 0.3f), glass());
+    scene.settings.max_depth = 4;
+    RenderOptions options;
+    options.samples_per_pixel = photons ? 64 : 16;
+    if (photons) options.photons = {25000, 0.016, 0.9};
+    return mean_of(render(scene, std::move(options)).film).value.y;
+  };
+  EXPECT_EQ(seen(-2 * width, false), 0);
+  const double lit = seen(-2 * width, true);
+  ASSERT_GT(lit, 0);
+  for (const double s : {0.05, 0.5}) {
+    const double found = seen(-s * width, true) / lit;
+    fmt::print("{} radii: {:.4f} of {:.4f}\n", s, found, share_beside(s));
+    EXPECT_NEAR(found, share_beside(s), 0.05) << s;
+  }
+}
+
+// The point of the disc is a function of the sample, whoever traces it.
+TEST(SunDisc, IsOneWhateverTheDomains) {
+  Scene scene = ground_beside_an_edge(-0.01, 0.02);
+  add_shape(scene, add_quads(scene, box_faces({-.25f, -.25f, 0.3f}, {.25f, .25f, 0.7f})), glass());
+  scene.settings.max_depth = 4;
+  const Rendered one = render(scene, 8, 1), eight = render(scene, 8, 8);
+  EXPECT_GT(brightness(one.film).mean, 0);
+  EXPECT_EQ(one.film.hash(), eight.film.hash());
+}
+
+}  // namespace
+}  // namespace vitrail::test

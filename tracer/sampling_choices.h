@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// Ways to sample one picture: they differ in noise and time, and agree in the mean.
+#pragma once
+
+#include <cstdint>
+
+#include "tracer/lights/light_tree.h"
+
+namespace vitrail {
+
+// Paths end by chance after more scattering events than this, mirrors and smooth interfaces apart. One that
+// never did would go on for ever between white walls.
+enum class Roulette : std::uint32_t { early = 0, usual = 3, never = 254 };
+
+inline constexpr std::uint32_t most_light_candidates = 16;
+
+struct SamplingChoices {
+  Roulette roulette = Roulette::usual;
+  bool one_wavelength = false;  // paths carry their hero wavelength alone, as dispersed ones do
+  LightChoice lights = LightChoice::tree;
+  // Of which one is connected to, where the camera sees the point and they differ; 1 … most_light_candidates.
+  std::uint32_t light_candidates = 4;
+  bool operator==(const SamplingChoices&) const = default;
+};
+
+}  // namespace vitrail
