@@ -16,6 +16,7 @@
 #include "film/image_io.h"
 #include "film/sensor_readings.h"
 #include "film/tone_map.h"
+#include "film/white_balance.h"
 #include "scene/atomic_file.h"
 #include "scene/diagnostics.h"
 #include "scene/input_files.h"
@@ -143,7 +144,7 @@ int main(int argc, char** argv) {
   CLI::App app("Turns films into an image; films of different seeds are merged exactly.", "vitrail develop");
   std::vector<std::string> films;
   std::string output, tone = "none", false_color;
-  double exposure_ev = 0;
+  double exposure_ev = 0, white_balance_K = 0;
   int bits = 0;
   bool with_variance = false, spectral = false, logarithmic = false;
   Manner manner;
@@ -154,6 +155,11 @@ int main(int argc, char** argv) {
   app.add_option("--bits", bits, "a channel: 8 or 16; default: 8, and 16 for .tif; .exr has 32")
       ->check(CLI::IsMember({8, 16}));
   app.add_option("--exposure", exposure_ev, "brighten by this many stops")->capture_default_str();
+  app.add_option(
+         "--white-balance", white_balance_K,
+         "show colours as if they had been under D65 and not under daylight of this temperature in K, "
+         "as the `whitebalance` of pbrt's films does")
+      ->check(CLI::PositiveNumber);
   app.add_option("--tone", tone,
                  "none: what is brighter than white is white; aces: the output transform of ACES 1.x, after "
                  "--exposure; not for .exr")
@@ -173,9 +179,10 @@ int main(int argc, char** argv) {
       throw UsageError("spectra are written as .exr only");
     if (tone != "none" && std::filesystem::path(output).extension() == ".exr")
       throw UsageError("--tone is for screens; an .exr holds the light of the scene");
-    if (!false_color.empty() &&
-        (tone != "none" || exposure_ev != 0 || std::filesystem::path(output).extension() == ".exr"))
-      throw UsageError("--false-color shows luminances: not with --tone or --exposure, and not as .exr");
+    if (!false_color.empty() && (tone != "none" || exposure_ev != 0 || white_balance_K > 0 ||
+                                 std::filesystem::path(output).extension() == ".exr"))
+      throw UsageError(
+          "--false-color shows luminances: not with --tone, --exposure or --white-balance, and not as .exr");
     if (logarithmic && false_color.empty()) throw UsageError("--log belongs to --false-color");
     require_place(output);
     const Exposed sum = merge_all(films, manner);
@@ -194,6 +201,7 @@ int main(int argc, char** argv) {
       throw Error("the film keeps no spectra: render with --spectral N", {sum.file.string()});
     if (!spectral) picture.spectrum = {};
     expose(picture, exposure_ev);
+    if (white_balance_K > 0) balance_white(picture, white_balance_K);
     if (!with_variance) picture.variance = {};
     if (tone == "aces") picture.rgb = aces_tone_mapped(picture.rgb);
     if (!false_color.empty()) {

@@ -92,6 +92,38 @@ void read_layers(ParameterSet& parameters, Context& context, FilmLayers& layers)
       parameters.place());
 }
 
+// A film holds what was seen. The matrix of a named sensor takes its curves to what the CIE observer sees
+// under the light that it is balanced for, as that would look under D65.
+void read_sensor(ParameterSet& parameters, Context& context) {
+  const std::string sensor = parameters.text("sensor", "cie1931");
+  double kelvin = parameters.number("whitebalance", 0);
+  if (!(kelvin >= 0)) fail("\"whitebalance\" is negative", parameters.place());
+  if (sensor != "cie1931") {
+    context.report.approximated(
+        fmt::format("sensor \"{}\" becomes the CIE 1931 observer: its measured curves are not here", sensor),
+        parameters.place());
+    if (kelvin == 0) kelvin = 6500;
+  }
+  if (kelvin > 0 && kelvin != 6500)  // D65's name: no change
+    context.report.dropped(
+        fmt::format("the film's white balance: it is done by develop --white-balance {}", kelvin),
+        parameters.place());
+}
+
+// v4's is of the greatest of the sensor's three values, v3's of the luminance before the film's scale.
+void read_limits(ParameterSet& parameters, Context& context, double scale) {
+  for (const auto& [name, factor] : {std::pair{"maxcomponentvalue", 1.0}, {"maxsampleluminance", scale}}) {
+    const double most = parameters.number(name, 0) * factor;
+    if (most > 0 && std::isfinite(most))
+      context.report.dropped(
+          fmt::format(
+              "\"{}\": bright samples are not clamped; render --clamp {} cuts what each connection of a "
+              "path adds",
+              name, most),
+          parameters.place());
+  }
+}
+
 // v3's shutter only blurs; v4's exposes, and one that never opens is refused there.
 double shutter_time(ParameterSet& parameters, Context& context) {
   const double seconds = parameters.number("shutterclose", 1) - parameters.number("shutteropen", 0);
@@ -173,16 +205,8 @@ void read_film(const std::string& kind, ParameterSet& parameters, Context& conte
   read_crop(parameters, view.film);
   view.exposure = parameters.number("iso", 100) / 100 * parameters.number("scale", 1);
   view.exposure *= parameters.number("exposuretime", 1);
-  const std::string sensor = parameters.text("sensor", "cie1931");
-  if (sensor != "cie1931")
-    context.report.approximated(fmt::format("sensor \"{}\" becomes the CIE 1931 observer", sensor),
-                                parameters.place());
-  if (parameters.find("whitebalance", {ParameterType::number}))
-    context.report.dropped("the film's white balance is left out", parameters.place());
-  for (const char* limit : {"maxcomponentvalue", "maxsampleluminance"})
-    if (parameters.find(limit, {ParameterType::number}))
-      context.report.dropped(fmt::format("\"{}\": bright samples are not clamped", limit),
-                             parameters.place());
+  read_sensor(parameters, context);
+  read_limits(parameters, context, view.exposure);
   parameters.ignore({"filename", "savefp16", "diagonal", "coordinatesystem"});
   parameters.report_unused(context.report);
 }

@@ -204,6 +204,7 @@ TEST(Everyday, StatisticsKeepTheirContract) {
                           "cpu_s",
                           "load_s",
                           "trace_s",
+                          "busiest_trace_s",
                           "idle_s",
                           "rays_camera",
                           "rays_indirect",

@@ -119,14 +119,24 @@ TEST(PbrtFilm, AClosedShutterIsRefusedByV4Alone) {
 TEST(PbrtFilm, WhatItLosesIsReported) {
   EXPECT_TRUE(
       mentions(settings("Film \"rgb\" \"string sensor\" \"canon_eos_100d\"").diagnostics, "canon_eos_100d"));
-  EXPECT_TRUE(mentions(settings("Film \"rgb\" \"float maxcomponentvalue\" 10").diagnostics, "not clamped"));
+  EXPECT_TRUE(mentions(settings("Film \"rgb\" \"float iso\" 50 \"float maxcomponentvalue\" 10").diagnostics,
+                       "--clamp 10 "));
+  EXPECT_TRUE(  // v3 scales what it has limited
+      mentions(settings("Film \"image\" \"float scale\" 3 \"float maxsampleluminance\" 10").diagnostics,
+               "--clamp 30 "));
   const ImportedScene spectral =
       settings("Film \"spectral\" \"integer nbuckets\" 5 \"float lambdamin\" 400 \"float lambdamax\" 700");
   EXPECT_EQ(spectral.scene.film.spectrum, (SpectralBins{5, 400, 700}));
   EXPECT_TRUE(spectral.diagnostics.empty());
   EXPECT_EQ(settings("Film \"spectral\"").scene.film.spectrum, (SpectralBins{16, 360, 830}));
   EXPECT_EQ(settings("Film \"rgb\"").scene.film.spectrum.count, 0);
-  EXPECT_TRUE(mentions(settings("Film \"rgb\" \"float whitebalance\" 5000").diagnostics, "white balance"));
+  EXPECT_TRUE(mentions(settings("Film \"rgb\" \"float whitebalance\" 5000").diagnostics,
+                       "develop --white-balance 5000"));
+  EXPECT_TRUE(settings("Film \"rgb\" \"float whitebalance\" 6500").diagnostics.empty());
+  EXPECT_THROW(settings("Film \"rgb\" \"float whitebalance\" -1"), Error);
+  EXPECT_TRUE(mentions(
+      settings("Film \"rgb\" \"string sensor\" \"nikon_d850\" \"float whitebalance\" 3200").diagnostics,
+      "develop --white-balance 3200"));
   EXPECT_TRUE(mentions(settings("Film \"rgb\" \"integer xresoluton\" 3").diagnostics,
                        "did you mean \"xresolution\""));
 }
