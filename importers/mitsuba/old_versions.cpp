@@ -62,6 +62,8 @@ void upgrade(Object& object) {
   // Where its models of daylight have their zenith; +z since version 3.
   const bool daylight = object.type == "sky" || object.type == "sun" || object.type == "sunsky";
   if (daylight && object.tag == "emitter") object.properties.push_back({"y_is_up", true, object.origin});
+  if (object.tag == "texture" && object.type == "bitmap")
+    object.properties.push_back({"gamma_of_file", true, object.origin});
   if (moved) object.properties.push_back({"to_uv", translate(offset) * scale(size), place});
 }
 

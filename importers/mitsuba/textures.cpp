@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "importers/mitsuba/builder.h"
+#include "importers/mitsuba/png_gamma.h"
 
 namespace vitrail::mitsuba {
 
@@ -35,7 +36,9 @@ TextureModel bitmap(Builder& b, const Object& o, bool) {
   if (!std::filesystem::is_regular_file(image.filename, ignored))
     b.report.approximated(fmt::format("cannot find the file \"{}\"", image.filename), o.origin);
   if (o.boolean("raw", false, b.report)) image.encoding = Encoding::linear;
-  const double gamma = o.number("gamma", 0, b.report);  // 0.6: 0 stands for the file's own
+  double gamma = o.number("gamma", 0, b.report);  // 0.6: 0 stands for the file's own
+  if (o.boolean("gamma_of_file", false, b.report) && gamma == 0)
+    gamma = png_gamma(image.filename).value_or(0);
   if (gamma > 0) image.encoding = Encoding::gamma, image.gamma = static_cast<float>(gamma);
   if (gamma < 0) image.encoding = Encoding::srgb;
   const std::string filter = o.text("filter_type", "bilinear", b.report);

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "importers/pbrt/image_numbers.h"
 
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
 #include <fstream>
 
 namespace vitrail::pbrt {
@@ -24,6 +27,12 @@ ImageNumber number_taken(Version version, const std::string& filename, TextureFi
   const bool may_be_rgba =
       filename.ends_with(".exr") || (filename.ends_with(".png") && is_rgba_png(filename));
   return may_be_rgba ? ImageNumber::alpha_or_mean : ImageNumber::mean;
+}
+
+bool takes_encoding(const std::string& filename) {
+  std::string extension = std::filesystem::path(filename).extension().string();
+  std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::tolower(c); });
+  return extension == ".png";
 }
 
 Primaries primaries_taken(Version version, bool is_float) {

@@ -12,6 +12,9 @@ namespace vitrail::pbrt {
 // than PNG and EXR). v3 knows no alpha, and decodes the luminance of what is stored.
 ImageNumber number_taken(Version version, const std::string& filename, TextureFilter filter);
 
+// v4 asks for the encoding of PNG files alone: other integers are sRGB, and floats linear.
+bool takes_encoding(const std::string& filename);
+
 // v4 looks at the chromaticities that it knows, for colours; v3 at none.
 Primaries primaries_taken(Version version, bool is_float = false);
 

@@ -178,6 +178,7 @@ TextureModel image_texture(const Maker& m) {
   t.wrap = read_wrap(m);
   t.filter = read_texture_filter(m);
   read_encoding(m, t.encoding, t.gamma);
+  if (!m.is_v3() && !takes_encoding(t.filename)) t.encoding = Encoding::automatic, t.gamma = 1;
   t.scale = m.number("scale", 1);
   t.invert = m.parameters.boolean("invert", false);
   const Version version = m.scope.context.version;

@@ -24,11 +24,10 @@ bool is_read_by_pbrt(const std::string& filename) {
   return std::ranges::count(known, extension_of(filename)) > 0;
 }
 
-// pbrt asks for the encoding of PNG files alone: other integers are sRGB, and floats linear.
 Encoding encoding_taken(const std::string& filename, Encoding wanted) {
   const std::string extension = extension_of(filename);
   const bool is_float = extension == ".exr" || extension == ".pfm" || extension == ".hdr";
-  return extension == ".png" || (is_float && wanted == Encoding::linear) ? wanted : Encoding::automatic;
+  return takes_encoding(filename) || (is_float && wanted == Encoding::linear) ? wanted : Encoding::automatic;
 }
 
 // What pbrt makes of the texture's own file.

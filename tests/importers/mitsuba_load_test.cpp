@@ -210,6 +210,30 @@ TEST_F(MitsubaLoad, OldSpectraAreLinearRgb) {
               ::testing::HasSubstr("3 numbers, has 2"));
 }
 
+// 0.6 decodes a PNG file by the gAMA chunk that it has, version 3 none.
+TEST_F(MitsubaLoad, OldPngFilesHaveAGammaOfTheirOwn) {
+  const auto bytes = [](std::string_view text) { return std::string(text); };
+  using namespace std::string_view_literals;
+  const std::string signature = bytes("\x89PNG\r\n\x1a\n"sv),
+                    header = bytes("\0\0\0\x0dIHDR\0\0\0\1\0\0\0\1\x08\2\0\0\0????"sv),
+                    gamma = bytes("\0\0\0\4gAMA\0\0\xc3\x50????"sv),  // 50000: 1/2
+      srgb = bytes("\0\0\0\1sRGB\0????"sv), end = bytes("\0\0\0\0IEND????"sv);
+  const auto image = [&](const char* version, const std::string& chunks, const std::string& parameters) {
+    folder_.write("a.png", signature + header + chunks + end);
+    const std::string text = std::string("<scene version=\"") + version +
+                             "\"><bsdf type=\"diffuse\" id=\"m\"><texture type=\"bitmap\" "
+                             "name=\"reflectance\"><string name=\"filename\" value=\"a.png\"/>" +
+                             parameters + "</texture></bsdf>" + floor + tail;
+    return std::get<ImageTexture>(read_mitsuba(folder_.write("scene.xml", text)).scene.textures.at(0).model);
+  };
+  EXPECT_EQ(image("0.6.0", gamma, "").encoding, Encoding::gamma);
+  EXPECT_EQ(image("0.6.0", gamma, "").gamma, 2);
+  EXPECT_EQ(image("0.6.0", gamma + srgb, "").encoding, Encoding::automatic);
+  EXPECT_EQ(image("0.6.0", "", "").encoding, Encoding::automatic);
+  EXPECT_EQ(image("0.6.0", gamma, "<float name=\"gamma\" value=\"1.8\"/>").gamma, 1.8f);
+  EXPECT_EQ(image("3.0.0", gamma, "").encoding, Encoding::automatic);
+}
+
 // The parts of a mixture count by their weights, and what lacks to 1 is black.
 TEST_F(MitsubaLoad, OldMixtures) {
   const auto mixture = [&](const std::string& weights) {

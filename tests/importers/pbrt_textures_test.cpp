@@ -47,6 +47,19 @@ TEST(PbrtTextures, ImagesKeepHowTheyAreRead) {
   EXPECT_EQ(image.primaries, Primaries::named);
 }
 
+// pbrt-v4 decodes other files than PNG as it wants; v3's `gamma` holds for all.
+TEST(PbrtTextures, OnlyPngFilesTakeAnEncoding) {
+  const auto encoding = [](const std::string& file, const std::string& how) {
+    return model<ImageTexture>("Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"" + file +
+                               "\" \"string encoding\" \"" + how + "\"")
+        .encoding;
+  };
+  EXPECT_EQ(encoding("a.PNG", "linear"), Encoding::linear);
+  EXPECT_EQ(encoding("a.jpg", "linear"), Encoding::automatic);
+  EXPECT_EQ(encoding("a.exr", "sRGB"), Encoding::automatic);
+  EXPECT_EQ(encoding("a.tga", "gamma 1.8"), Encoding::automatic);
+}
+
 // pbrt-v4: the first channel alone where it takes single texels, else alpha (of RGBA files) or the mean; v3:
 // the luminance of what is stored.
 TEST(PbrtTextures, WhichNumberAnImageIs) {
