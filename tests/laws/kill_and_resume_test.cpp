@@ -91,6 +91,13 @@ TEST_F(KillAndResume, ARankThatHangsIsNamedAndTheJobGoesOn) {
   EXPECT_EQ(stats("hung.film")["samples"], 128 * 128 * 192);
 }
 
+TEST_F(KillAndResume, ADiskMayTakeLongerThanRanksHavePatience) {
+  const std::string slow = fmt::format("LD_PRELOAD='{}' ", VITRAIL_SLOW_DISK);
+  const CommandResult written = run(slow + command("slow.film", "--patience 1"));
+  EXPECT_EQ(written.status, 0) << written.output;
+  EXPECT_TRUE(std::filesystem::exists(directory_ / "slow.film"));
+}
+
 TEST_F(KillAndResume, TermWritesACheckpointAndEndsByItself) {
   for (const bool alone : {true, false}) {
     std::string line = command("stopped.film", "");
