@@ -18,15 +18,15 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 RayProfile from_json(const Json& json) {
-  if (json.at("format") != "vitrail ray profile" || json.at("version") != 2)
-    throw Error("not a ray profile of version 2");
+  if (json.at("format") != "vitrail ray profile" || json.at("version") != 3)
+    throw Error("not a ray profile of version 3");
   RayProfile p;
   for (int axis = 0; axis < 3; ++axis) p.offset[axis] = json.at("offset").at(static_cast<std::size_t>(axis));
   for (const Json& n : json.at("kd_nodes"))
     p.kd_nodes.push_back({n.at(1).get<float>(), n.at(0).get<std::uint32_t>(), n.at(2).get<std::uint32_t>(),
                           n.at(3).get<std::uint32_t>()});
   for (const Json& d : json.at("domains"))
-    p.domains.push_back({d.at(0).get<std::uint64_t>(), d.at(1).get<std::uint64_t>()});
+    p.domains.push_back({d.at(0).get<std::uint64_t>(), d.at(1).get<std::uint64_t>(), d.at(2).get<double>()});
   for (const Json& w : json.at("ways")) {
     const auto from = w.at(0).get<std::int64_t>();
     const auto to = w.at(1).get<std::uint32_t>();
@@ -38,19 +38,20 @@ RayProfile from_json(const Json& json) {
   }
   const Json& cost = json.at("cost");
   p.cost = {cost.at("camera_rays").get<std::uint64_t>(), cost.at("trace_s").get<double>(),
-            cost.at("load_s").get<double>(), cost.at("loads").get<std::uint64_t>()};
+            cost.at("camera_s").get<double>(), cost.at("load_s").get<double>(),
+            cost.at("loads").get<std::uint64_t>()};
   if (const char* fault = fault_of_kd_tree(p.kd_nodes, p.domains.size())) throw Error(fault);
   return p;
 }
 
 }  // namespace
 
-RayProfile::RayProfile(const Manifest& m, const std::vector<std::uint64_t>& rays, std::vector<Way> the_ways,
-                       Cost the_cost)
+RayProfile::RayProfile(const Manifest& m, const std::vector<std::uint64_t>& rays,
+                       const std::vector<double>& seconds, std::vector<Way> the_ways, Cost the_cost)
     : offset(m.offset), kd_nodes(m.kd_nodes), ways(std::move(the_ways)), cost(the_cost) {
   for (std::size_t i = 0; i < m.domains.size(); ++i) {
     const DomainInfo& d = m.domains[i];
-    domains.push_back({rays[i], d.triangles + d.instances});
+    domains.push_back({rays[i], d.triangles + d.instances, seconds[i]});
   }
 }
 
@@ -71,18 +72,19 @@ std::uint32_t RayProfile::domain_at(Point3d world) const {
 
 void write_ray_profile(const std::filesystem::path& file, const RayProfile& p) {
   Json json{{"format", "vitrail ray profile"},
-            {"version", 2},
+            {"version", 3},
             {"offset", {p.offset.x, p.offset.y, p.offset.z}},
             {"kd_nodes", Json::array()},
             {"domains", Json::array()}};
   for (const KdNode& n : p.kd_nodes) json["kd_nodes"].push_back({n.axis, n.split, n.below, n.above});
-  for (const RayProfile::Domain& d : p.domains) json["domains"].push_back({d.rays, d.items});
+  for (const RayProfile::Domain& d : p.domains) json["domains"].push_back({d.rays, d.items, d.seconds});
   json["ways"] = Json::array();  // from −1: the camera
   for (const RayProfile::Way& w : p.ways)
     json["ways"].push_back(
         {w.from == RayProfile::Way::camera ? std::int64_t{-1} : std::int64_t{w.from}, w.to, w.rays});
   json["cost"] = {{"camera_rays", p.cost.camera_rays},
                   {"trace_s", p.cost.trace_s},
+                  {"camera_s", p.cost.camera_s},
                   {"load_s", p.cost.load_s},
                   {"loads", p.cost.loads}};
   const std::string text = json.dump() + "\n";

@@ -15,6 +15,7 @@ struct RayProfile {
   struct Domain {
     std::uint64_t rays = 0;   // that were traced in it
     std::uint64_t items = 0;  // triangles, pieces and instances
+    double seconds = 0;       // that they took
     bool operator==(const Domain&) const = default;
   };
 
@@ -28,7 +29,9 @@ struct RayProfile {
   // Seconds are summed over threads and ranks.
   struct Cost {
     std::uint64_t camera_rays = 0;
-    double trace_s = 0, load_s = 0;
+    double trace_s = 0;   // all of tracing: of the processor
+    double camera_s = 0;  // of this, until rays were in their first domain
+    double load_s = 0;
     std::uint64_t loads = 0;  // of domains
     bool operator==(const Cost&) const = default;
   };
@@ -40,8 +43,9 @@ struct RayProfile {
   Cost cost;
 
   RayProfile() = default;
-  RayProfile(const Manifest& manifest, const std::vector<std::uint64_t>& rays, std::vector<Way> ways,
-             Cost cost);
+  // `rays` and `seconds` by domain.
+  RayProfile(const Manifest& manifest, const std::vector<std::uint64_t>& rays,
+             const std::vector<double>& seconds, std::vector<Way> ways, Cost cost);
 
   // Throws Error where it is of a bundle with other domains.
   void require_of(const Manifest& manifest) const;

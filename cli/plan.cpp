@@ -30,6 +30,7 @@ struct Arguments {
   Distribution distribution = Distribution::automatic;
   std::filesystem::path homes;
   bool json = false;
+  std::uint64_t domain_memory = 0;  // for tests, as render's: at most so much of it for domains; 0: no limit
 };
 
 const char* limit_of(const SimulationResult& r) {
@@ -47,6 +48,8 @@ void share_memory(const Arguments& a, const Manifest& m, Machine& machine) {
   const MemoryPlan plan = plan_memory(a.memory.empty() ? 0 : parse_bytes(a.memory), base, base, a.threads,
                                       largest, bytes_of_all(m));
   machine.domain_bytes = plan.domains_bytes;
+  if (a.domain_memory > 0)
+    machine.domain_bytes = std::max(largest, std::min(plan.domains_bytes, a.domain_memory));
   machine.rays_allowed = rays_allowed_a_rank(plan);  // times the ranks, see below
 }
 
@@ -61,6 +64,7 @@ Json to_json(const PlanPoint& p, std::uint64_t scene_bytes) {
           {"domain_loads", r.loads},
           {"forwarded_rays", r.forwarded_rays},
           {"messages", r.messages},
+          {"trace_s", r.busy_s},
           {"busiest_workers", r.busiest_workers},
           {"busiest_loader", r.busiest_loader},
           {"busiest_link", r.busiest_link},
@@ -144,6 +148,7 @@ int main(int argc, char** argv) {
   app.add_option("--disk-latency", a.disk_latency_ms, "of a file, ms; default 1")->check(not_below_0);
   app.add_option("--disk", a.disk, "bytes a second that a rank reads; default 1G");
   app.add_option("--svg", a.svg, "seconds and efficiency as a plot");
+  app.add_option("--domain-memory", a.domain_memory)->group("");
   app.add_flag("--json", a.json, "print JSON");
   return run_guarded(app, argc, argv, [&] { return plan(a); });
 }

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "farm/gather_profile.h"
 
+#include <algorithm>
 #include <map>
+#include <numeric>
 
 namespace vitrail {
 
@@ -44,11 +46,17 @@ RayProfile gather_profile(Transport& transport, const Manifest& manifest, const 
                           const RenderStats& stats) {
   std::vector<std::int64_t> visits(mine.visits().begin(), mine.visits().end());
   transport.sum_to_root(std::span(visits));
+  std::vector<double> seconds = mine.seconds();
+  transport.sum_to_root(std::span(seconds));
+  // A few rays were timed; together all took trace_s.
+  const double timed = std::accumulate(seconds.begin(), seconds.end(), 0.0);
+  for (double& s : seconds) s *= stats.trace_s / std::max(timed, 1e-9);
   std::vector<RayProfile::Way> ways;
   for (const auto& [way, rays] : gather_ways(transport, mine))
     ways.push_back({static_cast<std::uint32_t>(way >> 32), static_cast<std::uint32_t>(way), rays});
-  const RayProfile::Cost cost{stats.traced.rays_camera, stats.trace_s, stats.load_s, stats.domain_loads};
-  return {manifest, {visits.begin(), visits.end()}, std::move(ways), cost};
+  const RayProfile::Cost cost{stats.traced.rays_camera, stats.trace_s, seconds.back(), stats.load_s,
+                              stats.domain_loads};
+  return {manifest, {visits.begin(), visits.end()}, seconds, std::move(ways), cost};
 }
 
 }  // namespace vitrail

@@ -6,6 +6,7 @@
 
 #include <bit>
 #include <csignal>
+#include <future>
 #include <map>
 #include <thread>
 
@@ -327,6 +328,14 @@ void Rank::watch_ranks() {
   transport_.abandon(machine_failed);  // at once: what stopped them may have stopped this rank's loader too
 }
 
+// A disk may take longer than the others have patience with a rank.
+void Rank::answer_during(const std::function<void()>& work) {
+  if (transport_.size() == 1) return work();
+  std::future<void> working = std::async(std::launch::async, work);
+  while (working.wait_for(longest_nap) != std::future_status::ready) watch_ranks();
+  working.get();
+}
+
 RoundSums Rank::contribution() {
   const std::lock_guard lock(state_.mutex);
   RoundSums mine = state_.scheduler.contribution();
@@ -358,7 +367,7 @@ Rank::Decision Rank::decide(const Round& round) {
   auto quiet = Scheduler::Decision::go_on;
   {
     const std::lock_guard lock(state_.mutex);
-    state_.scheduler.rays_wait(round.waiting);
+    state_.scheduler.rays_wait(std::make_shared<const std::vector<std::int64_t>>(round.waiting));
     quiet = state_.scheduler.decide(sums);
   }
   state_.work_available.notify_all();
@@ -427,10 +436,12 @@ void Rank::write(const std::filesystem::path& file, bool last) {
   agree(transport_, [&] {
     if (transport_.rank() != 0) return;
     const FilmProgress progress = progress_of(state_.plan, done_, render_time_s, about_);
-    if (last)
-      keeper_->write_last(file, state_.film, progress);
-    else
-      written = keeper_->write_checkpoint(file, state_.film, progress);
+    answer_during([&] {
+      if (last)
+        keeper_->write_last(file, state_.film, progress);
+      else
+        written = keeper_->write_checkpoint(file, state_.film, progress);
+    });
     if (!last && written && options_.after_checkpoint) options_.after_checkpoint(file);
   });
   {

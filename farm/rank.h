@@ -4,6 +4,7 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 
 #include "farm/checkpoint.h"
 #include "farm/film_keeper.h"
@@ -53,6 +54,7 @@ class Rank {
   void write(const std::filesystem::path& file, bool last);
   void watch_clock();
   void watch_ranks();
+  void answer_during(const std::function<void()>& work);
   std::optional<Ending> act_on(Decision decision, const RoundSums& sums);
   void leave_together();
   double elapsed_s() const;

@@ -25,7 +25,7 @@ struct Reservation {
   std::map<std::uint32_t, SharedDomain> held;  // by number
 };
 
-// Not synchronised, except `load`: the rank's mutex guards it. One thread begins and loads.
+// Not synchronised, except `load`: the rank's mutex guards it. No two loads under way bring the same object.
 class ResidentDomains {
  public:
   ResidentDomains(const Manifest& manifest, std::filesystem::path bundle);

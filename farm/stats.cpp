@@ -34,6 +34,10 @@ void gather_stats(Transport& transport, RenderStats& s, const std::vector<bool>&
   transport.max_to_root(anywhere);
   s.domains_touched = static_cast<std::uint64_t>(std::ranges::count(anywhere, 1));
 
+  std::int64_t busiest_ns[] = {static_cast<std::int64_t>(1e9 * s.trace_s)};
+  transport.max_to_root(busiest_ns);
+  s.busiest_trace_s = 1e-9 * static_cast<double>(busiest_ns[0]);
+
   double times[] = {s.cpu_s, s.load_s, s.trace_s, s.idle_s};
   transport.sum_to_root(std::span(times));
   s.cpu_s = times[0];
@@ -63,6 +67,7 @@ std::string to_json(const RenderStats& s) {
                                  {"cpu_s", s.cpu_s},
                                  {"load_s", s.load_s},
                                  {"trace_s", s.trace_s},
+                                 {"busiest_trace_s", s.busiest_trace_s},
                                  {"idle_s", s.idle_s},
                                  {"rays_camera", s.traced.rays_camera},
                                  {"rays_indirect", s.traced.rays_indirect},

@@ -20,6 +20,7 @@ struct RenderStats {
   int ranks = 1, threads = 1, spectral_bins = 0;
   std::uint64_t spp = 0, seed = 0, samples = 0;
   double wall_s = 0, cpu_s = 0, load_s = 0, trace_s = 0, idle_s = 0;
+  double busiest_trace_s = 0;  // of the rank that traced longest
   TraceCounters traced;
   bool adaptive = false;
   int rounds = 0;            // of samples, begun by this run

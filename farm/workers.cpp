@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "scene/diagnostics.h"
+#include "scene/resource_usage.h"
 
 namespace vitrail {
 
@@ -159,7 +160,7 @@ void work(RankState& s) {
       continue;
     }
     lock.unlock();
-    const auto start = Clock::now();
+    const double start = thread_cpu_seconds();
     PathTracer tracer(s.scene, task.table->views, s.film, outbox, counters, traffic ? &*traffic : nullptr,
                       s.photons ? &s.photons->pass() : nullptr);
     perform(task, s.plan, tracer, [&] {
@@ -168,7 +169,8 @@ void work(RankState& s) {
       publish(s, outbox, counters);
     });
     task.table.reset();
-    const double busy = seconds_since(start);
+    if (traffic) traffic->end();
+    const double busy = thread_cpu_seconds() - start;
     lock.lock();
     s.trace_s += busy;
     publish(s, outbox, counters);
@@ -224,11 +226,12 @@ RankState::RankState(const RenderScene& the_scene, Film& the_film, WorkPlan the_
 Workers::Workers(RankState& state, int threads) : state_(state) {
   try {
     for (int i = 0; i < threads; ++i) threads_.emplace_back([&state] { guarded(state, work); });
-    threads_.emplace_back([&state] { guarded(state, load); });
+    for (int i = 0; i < loaders_of_a_rank; ++i) threads_.emplace_back([&state] { guarded(state, load); });
   } catch (const std::system_error& e) {
     const std::size_t made = threads_.size();
     end();
-    throw MachineError(fmt::format("only {} of {} threads can be made: {}", made, threads + 1, e.what()));
+    throw MachineError(
+        fmt::format("only {} of {} threads can be made: {}", made, threads + loaders_of_a_rank, e.what()));
   }
 }
 

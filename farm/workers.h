@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The threads of a rank: workers that generate and trace rays, one that loads domains. They share the rank's
+// The threads of a rank: workers that generate and trace rays, some that load domains. They share the rank's
 // state under one mutex that is held for moments; tracing runs outside it.
 #pragma once
 
@@ -40,11 +40,12 @@ struct RankState {
 
   TraceCounters counters;
   std::optional<RayTraffic> traffic;  // empty: not recorded
-  double trace_s = 0, idle_s = 0, load_s = 0;
+  double trace_s = 0;                 // of the processor; the others are of the clock
+  double idle_s = 0, load_s = 0;
   std::exception_ptr failure;
 };
 
-// Starts `threads` workers and the loader; the destructor ends and joins them. Throws MachineError where the
+// Starts `threads` workers and the loaders; the destructor ends and joins them. Throws MachineError where the
 // system makes no more threads.
 class Workers {
  public:

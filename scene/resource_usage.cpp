@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <sys/resource.h>
+#include <time.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -15,22 +16,16 @@ namespace vitrail {
 
 namespace {
 
-rusage usage() {
-  rusage u{};
-  ::getrusage(RUSAGE_SELF, &u);
-  return u;
-}
-
-double seconds(const timeval& t) {
-  return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+double seconds(clockid_t clock) {
+  timespec t{};
+  ::clock_gettime(clock, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
 }  // namespace
 
-double cpu_seconds() {
-  const rusage u = usage();
-  return seconds(u.ru_utime) + seconds(u.ru_stime);
-}
+double cpu_seconds() { return seconds(CLOCK_PROCESS_CPUTIME_ID); }
+double thread_cpu_seconds() { return seconds(CLOCK_THREAD_CPUTIME_ID); }
 
 // Not ru_maxrss, which begins with what the process that started this one had taken.
 std::uint64_t peak_resident_bytes() {
@@ -39,7 +34,9 @@ std::uint64_t peak_resident_bytes() {
     std::uint64_t kib = 0;
     if (word == "VmHWM:" && status >> kib) return kib * 1024;
   }
-  return static_cast<std::uint64_t>(usage().ru_maxrss) * 1024;
+  rusage u{};
+  ::getrusage(RUSAGE_SELF, &u);
+  return static_cast<std::uint64_t>(u.ru_maxrss) * 1024;
 }
 
 // The second number of the file is pages. Asked for often, and where nothing may be allocated.

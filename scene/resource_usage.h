@@ -7,6 +7,7 @@
 namespace vitrail {
 
 double cpu_seconds();                 // of all threads, user's and system's
+double thread_cpu_seconds();          // of this one
 std::uint64_t peak_resident_bytes();  // at its highest
 std::uint64_t resident_bytes();       // now
 

@@ -157,7 +157,7 @@ void PathTracer::trace_camera(int x, int y, std::uint32_t sample) {
   path.random = hash_of_ray(path);
   film_.count_sample(path.pixel, sample);
   ++counters_.rays_camera;
-  if (traffic_) traffic_->set({});
+  if (traffic_) traffic_->begin({});
   ++counters_.born;
   if (const auto sensor = scene_.camera.sensor(x)) {
     leave_sensor(path, *sensor);
@@ -192,7 +192,7 @@ void PathTracer::resume(const PathRecord& record, std::uint32_t domain) {
   path.hit.t = record.hit_t;
   path.hit.triangle = record.hit_triangle;
   path.hit_domain = record.hit_domain;
-  if (traffic_) traffic_->set({domain, true});
+  if (traffic_) traffic_->begin({domain, true});
   run(path, domain);
 }
 
@@ -277,7 +277,7 @@ bool PathTracer::forward(const Path& path, std::uint32_t domain, bool resolved) 
 void PathTracer::resume(const ShadowRecord& record, std::uint32_t domain) {
   Shadow shadow{unpacked(record), record.direction, record.tmax, {}, record.pixel, record.sample};
   for (std::size_t i = 0; i < hero_count; ++i) shadow.radiance.v[i] = unpack_radiance(record.radiance[i]);
-  if (traffic_) traffic_->set({domain, true});
+  if (traffic_) traffic_->begin({domain, true});
   trace_shadow(shadow, nullptr, domain);
 }
 

@@ -40,7 +40,7 @@ void PathTracer::trace_photon(std::uint32_t number) {
     from.origin = offset_origin(at, photon.direction);
     from.exclude = photon.triangle;
   }
-  if (traffic_) traffic_->set({});
+  if (traffic_) traffic_->begin({});
   depart(path, from, photon.direction);
   run(path, std::nullopt);
 }

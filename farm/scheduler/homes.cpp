@@ -36,13 +36,13 @@ Homes homes_by_work(const Manifest& manifest, const RayProfile& profile, int ran
   constexpr double spread = .3;  // of a rank's share
   const auto domains = static_cast<std::uint32_t>(manifest.domains.size());
   std::vector<double> work(domains);
-  double all_rays = 0, all_bytes = 0;
+  double all_s = 0, all_bytes = 0;
   for (std::uint32_t d = 0; d < domains; ++d) {
-    all_rays += static_cast<double>(profile.domains[d].rays);
+    all_s += profile.domains[d].seconds;
     all_bytes += static_cast<double>(bytes_needed(manifest, d));
   }
   for (std::uint32_t d = 0; d < domains; ++d)
-    work[d] = (1 - unseen_share) * static_cast<double>(profile.domains[d].rays) / std::max(1.0, all_rays) +
+    work[d] = (all_s > 0 ? (1 - unseen_share) * profile.domains[d].seconds / all_s : 0) +
               unseen_share * static_cast<double>(bytes_needed(manifest, d)) / std::max(1.0, all_bytes);
   const double total = std::accumulate(work.begin(), work.end(), 0.0);
   std::vector<int> first(domains), last(domains);

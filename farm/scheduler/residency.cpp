@@ -37,6 +37,7 @@ Residency::Residency(const Manifest& manifest, std::uint64_t budget_bytes, Homes
       waiting_(manifest.domains.size()),
       forwarded_(manifest.domains.size()),
       object_users_(manifest.objects.size()),
+      object_is_loading_(manifest.objects.size()),
       resident_(manifest.domains.size()),
       absent_(manifest.domains.size()) {
   const bool everything = distribution == Distribution::replicate ||
@@ -102,11 +103,13 @@ std::uint64_t Residency::remove_users(std::uint32_t domain) {
   return bytes;
 }
 
-// Whatever of its objects is in memory stays there meanwhile.
+// Whatever of its objects is in memory stays there meanwhile. What another load brings is waited for.
 LoadStep Residency::loader_is_free(std::uint64_t alive, bool starving) {
   LoadStep step;
   const std::optional<std::uint32_t> best = absent_.most();
-  if (!best) return step;
+  if (!best || std::ranges::any_of(manifest_.domains[*best].objects,
+                                   [&](std::uint32_t object) { return object_is_loading_[object]; }))
+    return step;
   LoadStep::Load load{*best, {}};
   const std::uint64_t own = manifest_.domains[*best].bytes, objects = add_users(*best, &load.missing);
   in_table_ += objects;
@@ -118,6 +121,7 @@ LoadStep Residency::loader_is_free(std::uint64_t alive, bool starving) {
   in_table_ += own;
   absent_.erase(*best);
   state_[*best] = State::loading;
+  for (const std::uint32_t object : load.missing) object_is_loading_[object] = true;
   step.load = std::move(load);
   return step;
 }
@@ -149,6 +153,7 @@ bool Residency::make_room(std::uint32_t wanted, std::uint64_t bytes, std::uint64
 
 void Residency::loaded(std::uint32_t domain) {
   ++loads_;
+  for (const std::uint32_t object : manifest_.domains[domain].objects) object_is_loading_[object] = false;
   state_[domain] = State::resident;
   resident_.insert(domain, waiting_[domain]);
 }

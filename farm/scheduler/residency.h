@@ -17,7 +17,11 @@ namespace vitrail {
 // `automatic`: all where they fit into memory, else its own and those that it has much asked others for.
 enum class Distribution : std::uint8_t { automatic, decompose, replicate };
 
-// What the loader does next: first some domains leave, then one is mapped, where there is room for it
+// So many loads may be under way at once: a disk that is far away, or many in one, gives more to several. Of
+// two, no gain has been measured yet.
+inline constexpr int loaders_of_a_rank = 1;
+
+// What a loader does next: first some domains leave, then one is mapped, where there is room for it
 // already.
 struct LoadStep {
   struct Load {
@@ -54,7 +58,8 @@ class Residency {
   void rays_taken(std::uint32_t domain, std::uint64_t rays);
   // Rays for a domain of another rank left: a domain much asked for is kept here too, if it fits.
   void rays_forwarded(std::uint32_t domain, std::uint64_t rays);
-  // The loader is free. `alive`: rays in the whole job; `starving`: the workers have nothing else to do.
+  // A loader is free; others may be at work. `alive`: rays in the whole job; `starving`: the workers have
+  // nothing else to do.
   LoadStep loader_is_free(std::uint64_t alive, bool starving);
   void loaded(std::uint32_t domain);
   // Workers let go of what was evicted.
@@ -80,9 +85,10 @@ class Residency {
   std::vector<std::uint64_t> waiting_;       // rays, by domain
   std::vector<std::uint64_t> forwarded_;     // rays, by domain
   std::vector<std::uint32_t> object_users_;  // resident domains and those being loaded, by object
-  Fullest resident_, absent_;                // the latter of local domains
-  std::uint64_t held_ = 0;                   // bytes
-  std::uint64_t in_table_ = 0;               // of which resident or being loaded, with all objects of these
+  std::vector<bool> object_is_loading_;
+  Fullest resident_, absent_;   // the latter of local domains
+  std::uint64_t held_ = 0;      // bytes
+  std::uint64_t in_table_ = 0;  // of which resident or being loaded, with all objects of these
   std::uint64_t loads_ = 0, evictions_ = 0;
 };
 

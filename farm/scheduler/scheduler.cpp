@@ -91,11 +91,16 @@ int Scheduler::destination(std::uint32_t domain, std::uint64_t rays) {
   const int first = homes.first(domain);
   const auto count = static_cast<std::uint64_t>(homes.last(domain) - first + 1);
   int chosen = first;
-  if (count > 1 && !busy_.empty()) {
+  if (count > 1 && waiting_there_) {
     const std::uint64_t one = pair_() % count, other = (one + 1 + pair_() % (count - 1)) % count;
-    const auto waiting = [&](std::uint64_t home) { return busy_[static_cast<std::size_t>(first) + home]; };
+    const auto waiting = [&](std::uint64_t home) {
+      const int rank = first + static_cast<int>(home);
+      const auto sent = sent_there_.find(rank);
+      return (*waiting_there_)[static_cast<std::size_t>(rank)] +
+             (sent == sent_there_.end() ? 0 : sent->second);
+    };
     chosen += static_cast<int>(waiting(other) < waiting(one) ? other : one);
-    busy_[static_cast<std::size_t>(chosen)] += static_cast<std::int64_t>(rays);
+    sent_there_[chosen] += static_cast<std::int64_t>(rays);
   }
   return chosen;
 }
@@ -103,6 +108,11 @@ int Scheduler::destination(std::uint32_t domain, std::uint64_t rays) {
 void Scheduler::sent(std::uint64_t rays, double now_s) {
   outgoing_ -= rays;
   last_sent_s_ = now_s;
+}
+
+void Scheduler::rays_wait(std::shared_ptr<const std::vector<std::int64_t>> by_rank) {
+  waiting_there_ = std::move(by_rank);
+  sent_there_.clear();
 }
 
 RoundSums Scheduler::contribution() const {

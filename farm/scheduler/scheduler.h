@@ -5,8 +5,9 @@
 // of the caller's clock.
 #pragma once
 
+#include <memory>
 #include <random>
-#include <span>
+#include <unordered_map>
 #include <vector>
 
 #include "farm/scheduler/residency.h"
@@ -62,8 +63,9 @@ class Scheduler {
   void released(std::uint64_t bytes) { residency_.released(bytes); }
   const Residency& residency() const { return residency_; }
 
-  // --- Rounds. `rays_wait`: how many waited on each rank when it joined the round that ended.
-  void rays_wait(std::span<const std::int64_t> by_rank) { busy_.assign(by_rank.begin(), by_rank.end()); }
+  // --- Rounds. `rays_wait`: how many waited on each rank when it joined the round that ended. Of many
+  // ranks that is a long list, which those that are simulated share.
+  void rays_wait(std::shared_ptr<const std::vector<std::int64_t>> by_rank);
   // Whoever asks for a pause or an end adds it to the contribution.
   RoundSums contribution() const;
   enum class Decision { go_on, all_quiet };
@@ -90,8 +92,9 @@ class Scheduler {
   std::uint64_t allowance_ = 0;                 // rays that may be generated
   std::uint64_t waiting_ = 0;                   // rays that wait to be traced here
   std::uint64_t outgoing_ = 0, forwarded_ = 0;  // rays
-  std::vector<std::int64_t> busy_;              // rays that wait, by rank, with those sent there since
-  std::minstd_rand pair_;                       // which two homes are compared next
+  std::shared_ptr<const std::vector<std::int64_t>> waiting_there_;  // at the last round; null: none yet
+  std::unordered_map<int, std::int64_t> sent_there_;                // since then
+  std::minstd_rand pair_;                                           // which two homes are compared next
   double last_sent_s_ = 0;
   int workers_waiting_ = 0;
   bool paused_ = false;

@@ -31,6 +31,13 @@ class SimulatedJob {
         mishaps_(mishaps),
         random_(seed),
         standing_(workload.domains.size()) {
+    const auto add_up = [&](const Workload::Domain& from) {
+      std::vector<double>& until = until_.emplace_back();
+      for (const Workload::Way& way : from.ways)
+        until.push_back((until.empty() ? 0 : until.back()) + way.rays);
+    };
+    for (const Workload::Domain& d : workload.domains) add_up(d);
+    add_up(workload.camera);
     const Homes homes = machine.homes ? *machine.homes : homes_by_bytes(workload.manifest, machine.ranks);
     for (int r = 0; r < machine.ranks; ++r) {
       const auto ranks = static_cast<std::uint64_t>(machine.ranks), rank = static_cast<std::uint64_t>(r);
@@ -94,7 +101,7 @@ class SimulatedJob {
     for (const Rank& r : ranks_) {
       result_.busy_s += r.busy_s;
       result_.busiest_workers = std::max(result_.busiest_workers, r.busy_s / worker_s);
-      result_.busiest_loader = std::max(result_.busiest_loader, r.loading_s / now_);
+      result_.busiest_loader = std::max(result_.busiest_loader, r.loading_s / now_ / machine_.loaders);
       result_.busiest_link = std::max(result_.busiest_link, r.sending_s / now_);
       result_.most_bytes += r.most_bytes;
       result_.loads += r.scheduler.residency().loads();
@@ -143,10 +150,9 @@ class SimulatedJob {
     std::uint64_t item_at = 0;      // rays of the open item that are generated
     std::set<std::uint32_t> table;  // resident domains
     std::vector<Evicted> evicted;
-    std::uint64_t evictions = 0, bytes = 0;  // bytes mapped or reserved
-    std::uint64_t on_the_way = 0;            // bytes of the load
-    std::uint32_t on_its_way = 0;            // its domain
-    bool loading = false, ended = false, wants_checkpoint = false;
+    std::uint64_t evictions = 0, bytes = 0;                     // bytes mapped or reserved
+    std::map<std::uint32_t, std::vector<std::uint32_t>> loads;  // under way: objects that they bring
+    bool ended = false, wants_checkpoint = false;
     std::uint64_t items = 0;
     std::uint64_t items_before = 0;  // on rank 0: of this round of samples, done by an earlier run
     int rounds_of_samples = 0;       // done
@@ -158,7 +164,7 @@ class SimulatedJob {
   struct OpenRound {
     int joined = 0, left = 0;
     RoundSums sums;
-    std::vector<std::int64_t> waiting;  // by rank
+    std::shared_ptr<std::vector<std::int64_t>> waiting;  // by rank
   };
 
   [[noreturn]] void broken(const std::string& what) const {
@@ -210,7 +216,7 @@ class SimulatedJob {
     Rank& r = ranks_[static_cast<std::size_t>(rank)];
     for (std::size_t i = 0; i < r.workers.size() && r.scheduler.workers_waiting() > 0; ++i)
       if (r.workers[i].work == SchedulerType::Work::none && !begin_task(rank, i)) break;
-    wake_loader(rank);
+    wake_loaders(rank);
   }
 
   bool begin_task(int rank, std::size_t number) {
@@ -240,17 +246,16 @@ class SimulatedJob {
       alive_ += w.born;
       result_.most_alive = std::max(result_.most_alive, alive_);
       std::uint64_t left = w.born;
-      go_on(w.generated, workload_.entry, workload_.entry_until,
-            [&](std::uint32_t domain, std::uint64_t rays) {
-              rays = std::min(left, rays);
-              go_to(domain, rays);
-              left -= rays;
-            });
+      go_on(w.generated, workload_.camera, until_.back(), [&](std::uint32_t domain, std::uint64_t rays) {
+        rays = std::min(left, rays);
+        go_to(domain, rays);
+        left -= rays;
+      });
       // The others meet nothing.
       alive_ -= left;
       w.died += left;
     }
-    double seconds = 1e-6;
+    double seconds = 1e-6 + workload_.camera.seconds * static_cast<double>(w.generated);
     w.made.clear();
     // Domains that rays stand in, the first that was entered first.
     for (std::size_t i = 0; i < entered_.size(); ++i) {
@@ -264,7 +269,7 @@ class SimulatedJob {
       seconds += d.seconds * static_cast<double>(rays);
       result_.rays += rays;
       w.died += rays;
-      go_on(rays, d.ways, d.rays_until, [&](std::uint32_t to, std::uint64_t leave) {
+      go_on(rays, d, until_[domain], [&](std::uint32_t to, std::uint64_t leave) {
         go_to(to, leave);
         w.born += leave;
         alive_ += leave;
@@ -280,8 +285,9 @@ class SimulatedJob {
 
   // Where those go on to that come of `rays`: few each by a way of its own, many by all ways at once.
   template <class Leave>
-  void go_on(std::uint64_t rays, const std::vector<Workload::Way>& ways, const std::vector<double>& until,
+  void go_on(std::uint64_t rays, const Workload::Domain& from, const std::vector<double>& until,
              const Leave& leave) {
+    const std::vector<Workload::Way>& ways = from.ways;
     if (ways.empty()) return;
     const double all = until.back() * static_cast<double>(rays);
     if (all >= static_cast<double>(ways.size())) {
@@ -321,45 +327,62 @@ class SimulatedJob {
   }
 
   // --- domains
-  void wake_loader(int rank) {
+  void wake_loaders(int rank) {
+    const Rank& r = ranks_[static_cast<std::size_t>(rank)];
+    while (r.loads.size() < static_cast<std::size_t>(machine_.loaders) && take_load_step(rank)) {
+    }
+  }
+
+  // False: there is none.
+  bool take_load_step(int rank) {
     Rank& r = ranks_[static_cast<std::size_t>(rank)];
-    if (r.loading) return;
     const LoadStep step = r.scheduler.loader_is_free();
+    if (step.load) check_objects(rank, *step.load);
     ++r.evictions;
     for (const std::uint32_t domain : step.evicted) {
       if (!r.table.contains(domain)) broken(fmt::format("rank {} evicts an absent domain", rank));
       r.table.erase(domain);
     }
-    if (step.load) {
-      r.on_the_way = workload_.manifest.domains[step.load->domain].bytes;
-      for (const std::uint32_t o : step.load->missing) r.on_the_way += workload_.manifest.objects[o].bytes;
-      r.loading = true;
-      r.on_its_way = step.load->domain;
-      const double files = 1 + static_cast<double>(step.load->missing.size());
-      const double seconds = late() * (files * machine_.disk_latency_s +
-                                       static_cast<double>(r.on_the_way) / machine_.disk_bytes_s);
-      r.loading_s += seconds;
-      result_.loaded_bytes += r.on_the_way;
-      at(now_ + seconds, {Event::Kind::load_done, rank, step.load->domain});
-    }
+    const std::uint64_t reserved = step.load ? begin_load(rank, *step.load) : 0;
     if (!step.evicted.empty()) {
       // What no resident domain and no load needs any more leaves memory with the last worker that began
       // before.
-      std::set<std::uint32_t> table = r.table;
-      if (step.load) table.insert(step.load->domain);
-      const std::uint64_t kept = bytes_of(table);
+      const std::uint64_t kept = bytes_of(with_loads(r));
       std::uint64_t leaving = 0;
       for (const Evicted& e : r.evicted) leaving += e.bytes;
-      const std::uint64_t reserved = step.load ? r.on_the_way : 0;
       if (r.bytes + reserved < kept + leaving) broken("bytes are miscounted");
       const std::uint64_t bytes = r.bytes + reserved - kept - leaving;
       r.evicted.push_back({r.evictions, bytes});
     }
-    if (step.load) r.bytes += r.on_the_way;
+    r.bytes += reserved;
     r.most_bytes = std::max(r.most_bytes, r.bytes);
     release(r);
     if (step.load || !step.evicted.empty()) check_table(rank);
-    if (!step.evicted.empty() && !step.load) wake_loader(rank);
+    return step.load || !step.evicted.empty();
+  }
+
+  // The bytes that it brings.
+  std::uint64_t begin_load(int rank, const LoadStep::Load& load) {
+    Rank& r = ranks_[static_cast<std::size_t>(rank)];
+    if (r.table.contains(load.domain) || r.loads.contains(load.domain))
+      broken(fmt::format("rank {} loads domain {} twice", rank, load.domain));
+    std::uint64_t bytes = workload_.manifest.domains[load.domain].bytes;
+    for (const std::uint32_t o : load.missing) bytes += workload_.manifest.objects[o].bytes;
+    r.loads.emplace(load.domain, load.missing);
+    const double files = 1 + static_cast<double>(load.missing.size());
+    const double seconds =
+        late() * (files * machine_.disk_latency_s + static_cast<double>(bytes) / machine_.disk_bytes_s);
+    r.loading_s += seconds;
+    result_.loaded_bytes += bytes;
+    at(now_ + seconds, {Event::Kind::load_done, rank, load.domain});
+    return bytes;
+  }
+
+  // Resident domains and those under way.
+  static std::set<std::uint32_t> with_loads(const Rank& r) {
+    std::set<std::uint32_t> domains = r.table;
+    for (const auto& [domain, objects] : r.loads) domains.insert(domain);
+    return domains;
   }
 
   // With their objects, each counted once.
@@ -392,7 +415,7 @@ class SimulatedJob {
 
   void finish_load(int rank, std::uint32_t domain) {
     Rank& r = ranks_[static_cast<std::size_t>(rank)];
-    r.loading = false;
+    r.loads.erase(domain);
     r.table.insert(domain);
     r.scheduler.loaded(domain);
     check_table(rank);
@@ -476,8 +499,8 @@ class SimulatedJob {
     expect_watch(rank);
     OpenRound& round = rounds_[r.round];
     add(round.sums, mine);
-    round.waiting.resize(ranks_.size());
-    round.waiting[static_cast<std::size_t>(rank)] = mine.waiting;
+    if (!round.waiting) round.waiting = std::make_shared<std::vector<std::int64_t>>(ranks_.size());
+    (*round.waiting)[static_cast<std::size_t>(rank)] = mine.waiting;
     if (++round.joined < machine_.ranks) return;
     ++result_.rounds;
     const double steps = std::bit_width(static_cast<unsigned>(machine_.ranks));
@@ -599,11 +622,22 @@ class SimulatedJob {
     if (r.bytes > machine_.domain_bytes)
       broken(fmt::format("rank {} holds {} bytes of {}", rank, r.bytes, machine_.domain_bytes));
   }
+  // What a load does not bring is in memory, and not on its way; what leaves for it may have it.
+  void check_objects(int rank, const LoadStep::Load& load) const {
+    const Rank& r = ranks_[static_cast<std::size_t>(rank)];
+    std::set<std::uint32_t> there;
+    for (const std::uint32_t domain : with_loads(r))
+      for (const std::uint32_t object : workload_.manifest.domains[domain].objects) there.insert(object);
+    for (const auto& [domain, objects] : r.loads)
+      for (const std::uint32_t object : objects) there.erase(object);
+    there.insert(load.missing.begin(), load.missing.end());
+    for (const std::uint32_t object : workload_.manifest.domains[load.domain].objects)
+      if (!there.contains(object))
+        broken(fmt::format("rank {} loads domain {} without object {}", rank, load.domain, object));
+  }
   void check_table(int rank) const {
     const Rank& r = ranks_[static_cast<std::size_t>(rank)];
-    std::set<std::uint32_t> table = r.table;
-    if (r.loading) table.insert(r.on_its_way);
-    const std::uint64_t bytes = bytes_of(table), counted = r.scheduler.residency().table_bytes();
+    const std::uint64_t bytes = bytes_of(with_loads(r)), counted = r.scheduler.residency().table_bytes();
     if (bytes != counted)
       broken(fmt::format("rank {} has {} bytes in its table and counts {}", rank, bytes, counted));
   }
@@ -620,8 +654,9 @@ class SimulatedJob {
   const Mishaps mishaps_;
   std::mt19937_64 random_;
   std::vector<Rank> ranks_;
-  std::vector<std::uint64_t> standing_;  // rays of the task that is worked out, by domain
-  std::vector<std::uint32_t> entered_;   // domains of these
+  std::vector<std::vector<double>> until_;  // sums of the ways' rays, by domain, the camera's last
+  std::vector<std::uint64_t> standing_;     // rays of the task that is worked out, by domain
+  std::vector<std::uint32_t> entered_;      // domains of these
   std::map<std::uint64_t, OpenRound> rounds_;
   std::map<std::uint64_t, Message> messages_;  // under way, by number
   std::priority_queue<Event> events_;

@@ -16,7 +16,8 @@ namespace vitrail {
 // The cluster. Seconds and bytes a second.
 struct Machine {
   int ranks = 1;
-  int workers = 1;                 // a rank
+  int workers = 1;  // a rank
+  int loaders = loaders_of_a_rank;
   std::uint64_t domain_bytes = 0;  // a rank, for domains
   std::optional<Homes> homes;      // empty: by bytes
   Distribution distribution = Distribution::automatic;

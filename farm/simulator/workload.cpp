@@ -28,10 +28,14 @@ Workload workload_of(const Manifest& manifest, const RayProfile& profile, double
   w.manifest.objects.resize(manifest.objects.size());
   std::uint64_t visits = 0;
   for (const RayProfile::Domain& d : profile.domains) visits += d.rays;
+  const double mean = profile.cost.trace_s / static_cast<double>(std::max<std::uint64_t>(visits, 1));
+  w.camera.seconds = profile.cost.camera_s / static_cast<double>(profile.cost.camera_rays);
   for (std::size_t i = 0; i < manifest.domains.size(); ++i) {
     w.manifest.domains[i].bytes = manifest.domains[i].bytes;
     w.manifest.domains[i].objects = manifest.domains[i].objects;
-    w.domains[i].seconds = profile.cost.trace_s / static_cast<double>(std::max<std::uint64_t>(visits, 1));
+    // Where few rays were, none may have been timed.
+    const RayProfile::Domain& seen = profile.domains[i];
+    w.domains[i].seconds = seen.seconds > 0 ? seen.seconds / static_cast<double>(seen.rays) : mean;
   }
   for (std::size_t i = 0; i < manifest.objects.size(); ++i) {
     w.manifest.objects[i].bytes = manifest.objects[i].bytes;
@@ -41,25 +45,14 @@ Workload workload_of(const Manifest& manifest, const RayProfile& profile, double
     const bool enters = way.from == RayProfile::Way::camera;
     const std::uint64_t of = enters ? profile.cost.camera_rays : profile.domains[way.from].rays;
     if (of == 0) throw Error("the profile has ways from where no ray was");
-    (enters ? w.entry : w.domains[way.from].ways)
-        .push_back({way.to, static_cast<double>(way.rays) / static_cast<double>(of)});
+    (enters ? w.camera : w.domains[way.from])
+        .ways.push_back({way.to, static_cast<double>(way.rays) / static_cast<double>(of)});
   }
   const double rays = static_cast<double>(profile.cost.camera_rays) * pictures;
   w.rays_an_item = static_cast<std::uint32_t>(
       std::min(std::max(rays, 1.0), std::max(double{rays_of_an_item}, std::ceil(rays / most_items))));
   w.items = static_cast<std::uint64_t>(std::max(1.0, std::round(rays / w.rays_an_item)));
-  add_up(w);
   return w;
-}
-
-void add_up(Workload& w) {
-  const auto sums = [](const std::vector<Workload::Way>& ways) {
-    std::vector<double> until;
-    for (const Workload::Way& way : ways) until.push_back((until.empty() ? 0 : until.back()) + way.rays);
-    return until;
-  };
-  for (Workload::Domain& d : w.domains) d.rays_until = sums(d.ways);
-  w.entry_until = sums(w.entry);
 }
 
 Workload random_workload(std::mt19937_64& random, std::uint32_t domains, std::uint64_t items,
@@ -83,8 +76,7 @@ Workload random_workload(std::mt19937_64& random, std::uint32_t domains, std::ui
       w.domains[d].ways.push_back({to, rays / static_cast<double>(near.size())});
   }
   const auto seen = static_cast<std::uint32_t>(1 + random() % domains);
-  for (std::uint32_t d = 0; d < seen; ++d) w.entry.push_back({d, 1.0 / seen});
-  add_up(w);
+  for (std::uint32_t d = 0; d < seen; ++d) w.camera.ways.push_back({d, 1.0 / seen});
   return w;
 }
 

@@ -18,17 +18,13 @@ struct Workload {
   struct Domain {
     double seconds = 0;  // of a worker, a ray
     std::vector<Way> ways;
-    std::vector<double> rays_until;  // sums of the ways' rays, each with those before; by add_up
   };
-  Manifest manifest;                // bytes of domains and objects alone
-  std::vector<Domain> domains;      // a ray bears fewer than one in the mean, or no picture ends
-  std::vector<Way> entry;           // where camera rays begin, of one
-  std::vector<double> entry_until;  // as rays_until
-  std::uint64_t items = 0;          // of the job
+  Manifest manifest;            // bytes of domains and objects alone
+  std::vector<Domain> domains;  // a ray bears fewer than one in the mean, or no picture ends
+  Domain camera;                // of one of its rays, what is before the first domain
+  std::uint64_t items = 0;      // of the job
   std::uint32_t rays_an_item = 0;
 };
-
-void add_up(Workload& workload);
 
 // What a profile saw of a bundle, for `pictures` times its samples. Of many, items are larger than the
 // farm's, so that there are at most `most_items`. Throws Error for a profile of another bundle.

@@ -360,14 +360,14 @@ TEST(Residency, HomesAreContiguousAndBalanced) {
   for (std::uint32_t d = 0; d < 64; ++d) EXPECT_EQ(homes.first(d), static_cast<int>(d / 16));
 }
 
-// A profile of as many rays in each domain as given.
-RayProfile of_rays(const Manifest& m, const std::vector<std::uint64_t>& rays) {
-  return RayProfile(m, rays, {}, {});
+// A profile of as much time in each domain as given.
+RayProfile of_seconds(const Manifest& m, const std::vector<double>& seconds) {
+  return RayProfile(m, std::vector<std::uint64_t>(seconds.size()), seconds, {}, {});
 }
 
 TEST(Homes, RanksHaveEqualWorkAndCrowdedDomainsSeveral) {
   const Manifest m = of_domains(std::vector<std::uint64_t>(8, 100));
-  const Homes homes = homes_by_work(m, of_rays(m, {10, 10, 10, 10, 360, 0, 0, 0}), 10);
+  const Homes homes = homes_by_work(m, of_seconds(m, {10, 10, 10, 10, 360, 0, 0, 0}), 10);
   EXPECT_EQ(homes.last(4) - homes.first(4) + 1, 10) << "nine tenths of the rays, and a little further";
   for (std::uint32_t d = 0; d < 8; ++d) {
     EXPECT_LE(homes.first(d), homes.last(d));
@@ -383,9 +383,9 @@ TEST(Homes, RanksHaveEqualWorkAndCrowdedDomainsSeveral) {
   EXPECT_FALSE(is_in_flow(m, homes, Distribution::replicate, 800));
   EXPECT_FALSE(is_in_flow(m, homes_by_bytes(m, 10), Distribution::decompose, 800));
   EXPECT_EQ(homes.last(7), 9);
-  EXPECT_THROW(homes_by_work(of_domains({1, 2}), of_rays(m, std::vector<std::uint64_t>(8)), 3), Error);
+  EXPECT_THROW(homes_by_work(of_domains({1, 2}), of_seconds(m, std::vector<double>(8)), 3), Error);
   // Nothing was seen: by bytes.
-  const Homes unseen = homes_by_work(m, of_rays(m, std::vector<std::uint64_t>(8)), 4);
+  const Homes unseen = homes_by_work(m, of_seconds(m, std::vector<double>(8)), 4);
   for (std::uint32_t d = 0; d < 8; ++d) EXPECT_TRUE(unseen.has(d, static_cast<int>(d / 2)));
 }
 
@@ -394,8 +394,8 @@ TEST(Homes, RaysGoWhereFewerWait) {
   const Manifest m = of_domains({100, 100});
   Scheduler scheduler({4, 1, 1000}, Residency(m, 100, Homes({0, 1}, {0, 3}, 4), 0, Distribution::decompose));
   EXPECT_EQ(scheduler.destination(0, 5), 0) << "it has one home";
-  const std::vector<std::int64_t> waiting = {0, 900, 0, 900};
-  scheduler.rays_wait(waiting);
+  scheduler.rays_wait(
+      std::make_shared<const std::vector<std::int64_t>>(std::vector<std::int64_t>{0, 900, 0, 900}));
   std::vector<int> sent(4);
   for (int i = 0; i < 100; ++i) ++sent[static_cast<std::size_t>(scheduler.destination(1, 10))];
   EXPECT_GT(sent[2], sent[1] + sent[3]);

@@ -38,6 +38,7 @@ struct Case {
     machine.domain_bytes = std::max(largest, all >> among(6));
     machine.rays_allowed = static_cast<std::int64_t>(1 + among(50'000));
     if (among(2) == 0) machine.queue_bytes = machine.bytes_a_ray * among(5000);
+    machine.loaders = 1 + static_cast<int>(among(4));
     machine.jitter = among(2) == 0 ? 0 : static_cast<double>(among(100));
     machine.latency_s = 1e-6 * static_cast<double>(1 + among(1000));
     machine.disk_latency_s = 1e-5 * static_cast<double>(1 + among(1000));
@@ -52,11 +53,12 @@ struct Case {
                                               Distribution::decompose, Distribution::replicate};
     machine.distribution = distributions[among(4)];
     if (among(2) == 0) {
-      std::vector<std::uint64_t> rays(domains);
-      for (std::uint64_t& r : rays) r = among(1000);
-      rays[among(domains)] *= 100;
-      machine.homes =
-          homes_by_work(workload.manifest, RayProfile(workload.manifest, rays, {}, {}), machine.ranks);
+      std::vector<double> seconds(domains);
+      for (double& s : seconds) s = static_cast<double>(among(1000));
+      seconds[among(domains)] *= 100;
+      machine.homes = homes_by_work(
+          workload.manifest,
+          RayProfile(workload.manifest, std::vector<std::uint64_t>(domains), seconds, {}, {}), machine.ranks);
     }
   }
 
@@ -159,6 +161,27 @@ struct NeverLoads : Scheduler {
   LoadStep loader_is_free() { return {}; }
 };
 
+// As if what is loaded were there at once.
+struct NeverWaitsForLoads : Scheduler {
+  using Scheduler::Scheduler;
+  LoadStep loader_is_free() {
+    const LoadStep step = Scheduler::loader_is_free();
+    if (step.load) Scheduler::loaded(step.load->domain);
+    return step;
+  }
+  void loaded(std::uint32_t) {}
+};
+
+// As if another load would bring them.
+struct ForgetsObjects : Scheduler {
+  using Scheduler::Scheduler;
+  LoadStep loader_is_free() {
+    LoadStep step = Scheduler::loader_is_free();
+    if (step.load && !step.load->missing.empty()) step.load->missing.pop_back();
+    return step;
+  }
+};
+
 struct SaysThatItIsQuiet : Scheduler {
   using Scheduler::Scheduler;
   RoundSums contribution() const {
@@ -232,6 +255,8 @@ TEST(Simulation, CatchesBrokenSchedulers) {
   EXPECT_TRUE(is_caught<ForgetsDeaths>(300));
   EXPECT_TRUE(is_caught<LetsGoTwice>(300));
   EXPECT_TRUE(is_caught<NeverLoads>(300));
+  EXPECT_TRUE(is_caught<NeverWaitsForLoads>(300));
+  EXPECT_TRUE(is_caught<ForgetsObjects>(300));
   EXPECT_TRUE(is_caught<SaysThatItIsQuiet>(300));
   EXPECT_TRUE(is_caught<PausesInAnItem>(300));
 }

@@ -16,9 +16,9 @@ RayProfile profile() {
   RayProfile p;
   p.offset = {10, 0, 0};
   p.kd_nodes = {{0, 0, KdNode::leaf_bit, KdNode::leaf_bit | 1}};
-  p.domains = {{100, 100}, {3900, 300}};
+  p.domains = {{100, 100, .125}, {3900, 300, 2.25}};
   p.ways = {{0, 0, 5}, {0, 1, 70}, {RayProfile::Way::camera, 1, 1000}};
-  p.cost = {1500, 2.5, .125, 2};
+  p.cost = {1500, 2.5, .25, .125, 2};
   return p;
 }
 
@@ -41,7 +41,7 @@ TEST(WorkEstimate, HalfOfTheWorkIsTheRays) {
 
 TEST(WorkEstimate, NoRaysAtAll) {
   RayProfile p = profile();
-  p.domains = {{0, 100}, {0, 0}};
+  p.domains = {{0, 100, 0}, {0, 0, 0}};
   EXPECT_FLOAT_EQ(WorkEstimate(p, p.offset).items({box_at(-5)})[0].work, 1);
 }
 
@@ -62,11 +62,11 @@ TEST(RayProfile, WhatIsNoneIsAnError) {
   const auto file = directory.path() / "profile.json";
   for (
       const char* text :
-      {"", "[]", "{}", R"({"format": "vitrail ray profile", "version": 2})",
-       R"({"format": "vitrail ray profile", "version": 1, "offset": [0, 0, 0], "kd_nodes": [], "domains": [[1, 1]]})",
-       R"({"format": "vitrail ray profile", "version": 2, "offset": [0, 0, 0], "kd_nodes": [], "domains": []})",
-       R"({"format": "vitrail ray profile", "version": 2, "offset": [0, 0, 0], "kd_nodes": [[0, 0, 0, 0]], "domains": [[1, 1], [1, 1]]})",
-       R"({"format": "vitrail ray profile", "version": 2, "offset": [0, 0, 0], "kd_nodes": [[3, 0, 2147483648, 2147483649]], "domains": [[1, 1], [1, 1]]})"}) {
+      {"", "[]", "{}", R"({"format": "vitrail ray profile", "version": 3})",
+       R"({"format": "vitrail ray profile", "version": 2, "offset": [0, 0, 0], "kd_nodes": [], "domains": [[1, 1, 1]]})",
+       R"({"format": "vitrail ray profile", "version": 3, "offset": [0, 0, 0], "kd_nodes": [], "domains": []})",
+       R"({"format": "vitrail ray profile", "version": 3, "offset": [0, 0, 0], "kd_nodes": [[0, 0, 0, 0]], "domains": [[1, 1, 1], [1, 1, 1]]})",
+       R"({"format": "vitrail ray profile", "version": 3, "offset": [0, 0, 0], "kd_nodes": [[3, 0, 2147483648, 2147483649]], "domains": [[1, 1, 1], [1, 1, 1]]})"}) {
     std::ofstream(file) << text;
     EXPECT_THROW(read_ray_profile(file), Error) << text;
   }
