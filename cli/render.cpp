@@ -140,13 +140,15 @@ int guarded_job(const CLI::App& app, Transport& transport, RenderArguments& a) {
   }
 }
 
-int supervise_job(const RenderArguments& a, int argc, char** argv) {
+int supervise_job(RenderArguments& a, int argc, char** argv) {
   if (launched_by_mpi())
     throw UsageError(
         "a rank cannot start the job again: vitrail render --restarts N --launcher 'mpirun …' can");
   if (a.options.force && a.restarts > 0)
     throw UsageError("--force would begin anew at each restart: remove what is to be replaced instead");
-  return supervise(supervised_command(argc, argv, a.launcher), a.restarts);
+  a.name_outputs();
+  return supervise(supervised_command(argc, argv, a.launcher), a.options.film, a.restarts,
+                   a.options.patience_s);
 }
 
 }  // namespace

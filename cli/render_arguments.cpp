@@ -148,6 +148,11 @@ void declare(CLI::App& app, RenderArguments& a) {
   app.add_option("--domain-memory", o.domain_memory_bytes)->group("");
 }
 
+void RenderArguments::name_outputs() {
+  if (output.empty()) output = default_output(input);
+  options.film = std::filesystem::path(output).replace_extension(".film");
+}
+
 bool RenderArguments::is_bundle() const {
   return std::filesystem::exists(input / "manifest.json") || input.extension() == ".vit";
 }
@@ -207,7 +212,7 @@ ProgressMode progress_mode(const RenderArguments& a) {
 
 void interpret(const CLI::App& app, RenderArguments& a) {
   require_renderable(a);
-  if (a.output.empty()) a.output = default_output(a.input);
+  a.name_outputs();
   const std::string extension = a.output.extension().string();
   constexpr const char* known[] = {".exr", ".png", ".jpg", ".jpeg", ".tif", ".tiff", ".film"};
   const bool is_table = extension == ".csv" && !a.options.sensors.empty();
@@ -216,7 +221,6 @@ void interpret(const CLI::App& app, RenderArguments& a) {
   if (!is_table && std::ranges::find(known, extension) == std::end(known))
     throw UsageError("the output must end in .exr, .png, .jpg, .tif or .film: " + a.output.string());
   RenderOptions& o = a.options;
-  o.film = std::filesystem::path(a.output).replace_extension(".film");
   if (!a.memory.empty()) o.memory_bytes = parse_bytes(a.memory);
   if (!a.crop.empty()) o.crop = parse_rectangle("--crop", a.crop);
   if (a.bins > 0) o.bins = SpectralBins{a.bins};

@@ -28,6 +28,7 @@ struct RenderArguments {
   std::filesystem::path preview;
 
   bool is_bundle() const;
+  void name_outputs();  // the picture where the user names none, and its film
 };
 
 void declare(CLI::App& app, RenderArguments& arguments);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -9,8 +10,10 @@ namespace vitrail {
 // Runs a render, mpirun's or its own, and starts the same again where it was killed or the machine failed it,
 // at most `restarts` times, after 1, 2, 4 … 60 s: it goes on from its checkpoint. What is done, used wrongly
 // or given bad input is not started again, nor what was told to stop: TERM, INT and USR1 are passed on.
+// A launcher that goes on `patience_s` after the process that had the lock of `film` is killed; 0: never.
 // Returns the last exit status, 128 + the signal's number where one ended it.
-int supervise(const std::vector<std::string>& command, int restarts);
+int supervise(const std::vector<std::string>& command, const std::filesystem::path& film, int restarts,
+              double patience_s);
 
 // The words of this program's command line without the supervisor's own options, after those of `launcher`.
 std::vector<std::string> supervised_command(int argc, char** argv, const std::string& launcher);

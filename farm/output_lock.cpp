@@ -9,9 +9,9 @@
 
 #include <array>
 #include <cerrno>
-#include <csignal>
 #include <cstdio>
 #include <cstring>
+#include <fstream>
 #include <string>
 #include <utility>
 
@@ -40,6 +40,15 @@ std::string this_process() {
   return fmt::format("process {} on {}", ::getpid(), host.data());
 }
 
+// What has ended and is not waited for by its parent has given its locks back.
+bool lives(int process) {
+  std::ifstream status(fmt::format("/proc/{}/stat", process));
+  std::string text;
+  std::getline(status, text);
+  const std::size_t name_end = text.rfind(')');
+  return name_end != std::string::npos && text.size() > name_end + 2 && text[name_end + 2] != 'Z';
+}
+
 // Where the file system has no locks there is only what the file says: of this host's processes it is known
 // whether they live, others are believed to.
 bool holder_may_live(const std::string& who) {
@@ -47,8 +56,10 @@ bool holder_may_live(const std::string& who) {
   std::array<char, 128> host{}, own{};
   ::gethostname(own.data(), own.size() - 1);
   if (std::sscanf(who.c_str(), "process %d on %127s", &process, host.data()) != 2) return false;
-  return std::strcmp(host.data(), own.data()) != 0 || (process != ::getpid() && ::kill(process, 0) == 0);
+  return std::strcmp(host.data(), own.data()) != 0 || (process != ::getpid() && lives(process));
 }
+
+std::filesystem::path lock_of(std::filesystem::path output) { return output += ".lock"; }
 
 enum class Taken { by_us, by_another, not_known };
 
@@ -59,8 +70,7 @@ Taken try_to_lock(int descriptor) {
 
 }  // namespace
 
-OutputLock::OutputLock(const std::filesystem::path& output) : file_(output) {
-  file_ += ".lock";
+OutputLock::OutputLock(const std::filesystem::path& output) : file_(lock_of(output)) {
   while (descriptor_ < 0) {
     descriptor_ = ::open(file_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
     if (descriptor_ < 0)
@@ -91,6 +101,14 @@ OutputLock::OutputLock(const std::filesystem::path& output) : file_(output) {
 OutputLock::~OutputLock() {
   ::unlink(file_.c_str());
   ::close(descriptor_);
+}
+
+bool is_being_written(const std::filesystem::path& output) {
+  const int descriptor = ::open(lock_of(output).c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) return false;
+  const std::string who = holder(descriptor);
+  ::close(descriptor);
+  return holder_may_live(who);
 }
 
 }  // namespace vitrail

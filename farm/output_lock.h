@@ -20,4 +20,8 @@ class OutputLock {
   int descriptor_ = -1;
 };
 
+// Whether a job has that lock, as far as this host can know: not where the process in the file is of this
+// host and has ended.
+bool is_being_written(const std::filesystem::path& output);
+
 }  // namespace vitrail

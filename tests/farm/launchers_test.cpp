@@ -126,6 +126,21 @@ TEST_F(Launchers, AKilledRankOfMpirunIsBroughtBack) {
   EXPECT_EQ(hash("a.film"), hash("whole.film"));
 }
 
+// As mpirun at times, whose rank it was.
+TEST_F(Launchers, ALauncherThatDoesNotEndIsKilled) {
+  ASSERT_EQ(run(alone("whole.film")).status, 0);
+  const std::string script = path("launcher.sh");
+  std::ofstream(script) << fmt::format(
+      "[ -e '{0}/again' ] && exec \"$@\"\n"
+      "touch '{0}/again'; \"$@\" &\n"
+      "while [ ! -e '{0}/a.film.partial' ]; do sleep .01; done\n"
+      "kill -9 $!; exec sleep 600\n",
+      directory_.path().string());
+  Background job(alone("a.film", fmt::format("--restarts 1 --patience 1 --launcher 'sh {}'", script)));
+  EXPECT_EQ(job.wait(), 0);
+  EXPECT_EQ(hash("a.film"), hash("whole.film"));
+}
+
 TEST_F(Launchers, WhatCannotBecomeBetterIsNotStartedAgain) {
   const CommandResult bad = run(vitrail("render") + " no-such.pbrt --restarts 5");
   EXPECT_EQ(bad.status, 3);

@@ -24,7 +24,7 @@ class Background {
   int wait();                   // exit status; 128 + signal where one ended it
   bool signalled() const;       // once it has ended: by a signal
   pid_t pid() const { return pid_; }
-  // The render processes below it.
+  // The render processes below it that live.
   std::vector<pid_t> ranks() const;
 
  private:
