@@ -80,7 +80,7 @@ def main():
         dice, repeated, kills, done = random.Random(20), [], 0, 0.
         while True:
             job.start()
-            moment = time.monotonic() + dice.uniform(.02, .1) * job_s + 2
+            moment = time.monotonic() + dice.uniform(.01, .06) * job_s + 2
             lines, killed = [], False
             while line := job.process.stdout.readline():
                 if '"progress"' in line:
