@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """A bundle rendered in less memory than it has bytes, beside the same with all of it mapped and paged by the kernel, and Mitsuba 3.
 
-  . scripts/mpi-environment; tests/bench/out_of_core.py BUNDLE [--mitsuba SCENE.xml PYTHON] [--ranks 1 2] [--spp 64]
+  . scripts/mpi-environment; tests/bench/out_of_core.py BUNDLE [--mitsuba SCENE.xml PYTHON] [--ranks 1 2] [--spp 64] [options of render]
 
 Each process has a memory cgroup (v1; as root) with a limit of all, 1/2, 1/4 and 1/8 of the bundle's bytes, and the bundle's files are
 out of the page cache when it begins. `decomposed` is `render --memory LIMIT`; `paged` is `--distribution replicate` that believes in
@@ -73,8 +73,7 @@ def main():
     parser.add_argument("--fractions", type=float, nargs="+", default=[1, .5, .25, .125])
     parser.add_argument("--spp", type=int, default=64)
     parser.add_argument("--patience", type=float, default=1800, help="seconds for one run")
-    parser.add_argument("render_options", nargs="*", default=[], help="after --")
-    a = parser.parse_args()
+    a, render_options = parser.parse_known_args()
     total = sum(f.stat().st_size for f in a.bundle.rglob("*") if f.is_file())
     print(f"{a.bundle}: {total / 1e6:.0f} MB\n")
     print("| ranks | memory each | | processor s | wall s | loads | peak | film |\n|---|---|---|---|---|---|---|---|")
@@ -90,7 +89,7 @@ def main():
                                         ("paged", ["--memory", PLENTY, "--distribution", "replicate"])):
                     forget_pages(a.bundle)
                     wall, said = run([a.vitrail, "render", a.bundle, "-o", film, "--force", "--quiet", "--threads", 1, "--spp", a.spp,
-                                      "--stats", stats_file, *options, *a.render_options], limit, ranks, a.patience)
+                                      "--stats", stats_file, *options, *render_options], limit, ranks, a.patience)
                     line = f"| {ranks} | {limit / 1e6:.0f} MB | {manner} | "
                     if wall is None:
                         print(line + f"{said} | | | | |", flush=True)
