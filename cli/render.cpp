@@ -44,7 +44,8 @@ void require_own_picture(const RenderArguments& a) {
 
 void check_outputs(const RenderArguments& a) {
   note_input(a.input);
-  for (const fs::path& file : {a.output, a.options.film, a.options.stats, a.options.profile, a.preview})
+  for (const fs::path& file :
+       {a.output, a.options.film, a.options.stats, a.options.profile, a.options.trace, a.preview})
     if (!file.empty()) require_place(file);
   require_own_picture(a);
 }

@@ -134,6 +134,9 @@ void declare(CLI::App& app, RenderArguments& a) {
                  "a picture of each checkpoint, .png or another, while the render goes on");
   app.add_option("--stats", o.stats, "write statistics as JSON");
   app.add_option("--profile", o.profile, "write where rays went, for `partition --profile` and `plan`");
+  app.add_option("--trace", o.trace,
+                 "write what each thread of each rank did when: loads, batches, idleness, messages; opens in "
+                 "Perfetto (ui.perfetto.dev)");
   declare_import_options(app, a.imports);
   declare_rgb_option(app, a.rgb);
   declare_mesh_options(app, a.meshes);
@@ -186,7 +189,7 @@ void prepare_dry_run(RenderOptions& o) {
   o.time_limit_s = long_enough_s;
   o.checkpoint_every_s = 0;
   o.progress = ProgressMode::none;
-  o.stats.clear(), o.profile.clear();
+  o.stats.clear(), o.profile.clear(), o.trace.clear();
 }
 
 TargetError parse_target_error(const std::string& text) {

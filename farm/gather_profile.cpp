@@ -5,35 +5,25 @@
 #include <map>
 #include <numeric>
 
+#include "farm/list_to_root.h"
+
 namespace vitrail {
 
 namespace {
 
 using Ways = std::map<std::uint64_t, std::uint64_t>;  // rays, by from << 32 | to
 
-// One rank after the other gives what it has, as the sum with the others' zeros: ways are few, though any
-// pair of domains may be one. Whole on rank 0.
+// Ways are few, though any pair of domains may be one. Whole on rank 0.
 Ways gather_ways(Transport& transport, const RayTraffic& mine) {
-  std::vector<std::uint64_t> sizes;
-  {
-    std::vector<std::int64_t> counted(static_cast<std::size_t>(transport.size()));
-    counted[static_cast<std::size_t>(transport.rank())] = static_cast<std::int64_t>(mine.ways().size());
-    transport.sum_to_root(std::span(counted));
-    sizes.assign(counted.begin(), counted.end());
-  }
-  transport.broadcast_from_root(std::span(sizes));
   Ways all;
   for (int rank = 0; rank < transport.size(); ++rank) {
     std::vector<std::int64_t> list;
-    list.reserve(2 * sizes[static_cast<std::size_t>(rank)]);
     if (rank == transport.rank())
       for (const auto& [way, rays] : mine.ways()) {
         list.push_back(static_cast<std::int64_t>(way));
         list.push_back(static_cast<std::int64_t>(rays));
       }
-    list.resize(2 * sizes[static_cast<std::size_t>(rank)]);
-    transport.sum_to_root(std::span(list));
-    if (transport.rank() != 0) continue;
+    list = list_to_root(transport, rank, std::move(list));
     for (std::size_t i = 0; i < list.size(); i += 2)
       all[static_cast<std::uint64_t>(list[i])] += static_cast<std::uint64_t>(list[i + 1]);
   }

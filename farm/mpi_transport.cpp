@@ -67,7 +67,7 @@ class MpiTransport final : public Transport {
     return bytes;
   }
 
-  std::optional<std::vector<std::byte>> receive() override {
+  std::optional<Message> receive() override {
     complete_sends();
     int arrived = 0;
     MPI_Message message;
@@ -78,7 +78,7 @@ class MpiTransport final : public Transport {
     MPI_Get_count(&status, MPI_BYTE, &bytes);
     std::vector<std::byte> buffer(static_cast<std::size_t>(bytes));
     MPI_Mrecv(buffer.data(), bytes, MPI_BYTE, &message, MPI_STATUS_IGNORE);
-    return buffer;
+    return Message{status.MPI_SOURCE, std::move(buffer)};
   }
 
   void start_round(const RoundSums& mine) override {

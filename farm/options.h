@@ -75,6 +75,7 @@ struct RenderOptions {
   std::function<void(const std::filesystem::path&)> after_checkpoint;
   std::filesystem::path stats;    // empty: none
   std::filesystem::path profile;  // where a RayProfile of a whole picture goes; empty: none
+  std::filesystem::path trace;    // where what all threads did when goes (trace_events.h); empty: nowhere
   ProgressMode progress = ProgressMode::none;
   bool quiet = false;  // nothing is said but what is wrong
   // For tests: at most this for domains, whatever memory_bytes leaves, and so little for rays that they go to

@@ -200,14 +200,19 @@ bool Rank::move_rays() {
   if (transport_.size() == 1) return false;
   bool moved = false;
   while (const auto message = transport_.receive()) {
+    const auto begin = Clock::now();
     ++received_;
     moved = true;
-    for (RayBatch& batch : unpack(*message, state_.scene.manifest.domains.size())) {
+    std::size_t rays = 0;
+    for (RayBatch& batch : unpack(message->bytes, state_.scene.manifest.domains.size())) {
+      rays += batch.count();
       if ((!is_ray(batch.kind()) && !state_.photons) ||
           !state_.scheduler.residency().homes().has(batch.domain(), transport_.rank()))
         throw MachineError("a message came that holds no rays for a domain of this rank");
       take_in(std::move(batch));
     }
+    note(Timeline::Kind::receive, begin,
+         {message->from, static_cast<std::int64_t>(message->bytes.size()), static_cast<std::int64_t>(rays)});
   }
   std::vector<RayBatch> batches;
   {
@@ -222,21 +227,29 @@ bool Rank::move_rays() {
 
 // A message a destination.
 void Rank::send(std::vector<RayBatch> batches) {
-  std::map<int, Parcel> parcels;
-  const auto send_parcel = [&](int to, Parcel& parcel) {
-    std::vector<std::byte> message = parcel.take();
+  struct Filling {
+    Parcel parcel;
+    std::int64_t rays = 0;
+  };
+  std::map<int, Filling> parcels;
+  const auto send_parcel = [&](int to, Filling& filling) {
+    const auto begin = Clock::now();
+    std::vector<std::byte> message = filling.parcel.take();
+    const std::size_t bytes = message.size();
     ++messages_;
-    sent_bytes_ += message.size();
+    sent_bytes_ += bytes;
     transport_.send(to, std::move(message));
+    note(Timeline::Kind::send, begin, {to, static_cast<std::int64_t>(bytes), std::exchange(filling.rays, 0)});
   };
   for (RayBatch& batch : batches) {
     const int to = destination(batch);
-    Parcel& parcel = parcels[to];
-    parcel.add(std::exchange(batch, {}));
-    if (parcel.full()) send_parcel(to, parcel);
+    Filling& filling = parcels[to];
+    filling.rays += static_cast<std::int64_t>(batch.count());
+    filling.parcel.add(std::exchange(batch, {}));
+    if (filling.parcel.full()) send_parcel(to, filling);
   }
-  for (auto& [to, parcel] : parcels)
-    if (!parcel.empty()) send_parcel(to, parcel);
+  for (auto& [to, filling] : parcels)
+    if (!filling.parcel.empty()) send_parcel(to, filling);
 }
 
 // What photons land at and paths ask them for has one place.
@@ -284,6 +297,27 @@ void Rank::take_in(RayBatch batch) {
   state_.queues.push(std::move(batch));
   state_.work_available.notify_one();
   state_.load_wanted.notify_one();
+}
+
+// Into the timeline, where one is recorded: what this thread has done since `begin`.
+void Rank::note(Timeline::Kind kind, Clock::time_point begin, const Timeline::Values& values) {
+  if (!state_.timeline) return;
+  const std::lock_guard lock(state_.mutex);
+  state_.timeline->add(kind, 0, begin, Clock::now(), values);
+}
+
+// The mutex is held.
+void Rank::note_counters(std::int64_t rays_waiting) {
+  constexpr auto interval = 50ms;
+  const auto now = Clock::now();
+  if (now - last_counters_ < interval) return;
+  last_counters_ = now;
+  const Scheduler& scheduler = state_.scheduler;
+  const Residency& domains = scheduler.residency();
+  state_.timeline->add(Timeline::Kind::counters, 0, now, now,
+                       {rays_waiting, static_cast<std::int64_t>(scheduler.rays_to_send()),
+                        static_cast<std::int64_t>(domains.loads() - domains.evictions()),
+                        static_cast<std::int64_t>(domains.held_bytes())});
 }
 
 void Rank::expect_ending(double gather_s) {
@@ -339,6 +373,7 @@ void Rank::answer_during(const std::function<void()>& work) {
 RoundSums Rank::contribution() {
   const std::lock_guard lock(state_.mutex);
   RoundSums mine = state_.scheduler.contribution();
+  if (state_.timeline) note_counters(mine.waiting);
   mine.pause = want_checkpoint_;
   mine.interrupted = stop_signal() == SIGINT;
   mine.terminated = stop_signal() == SIGTERM;
@@ -428,6 +463,7 @@ std::optional<Ending> Rank::begin_next_round(Ending stop) {
 
 // No ray is alive, and no worker begins before it is written.
 void Rank::write(const std::filesystem::path& file, bool last) {
+  const auto begin = Clock::now();
   const double render_time_s = time_before_s_ + elapsed_s();
   agree(transport_, require_unchanged_files);
   collect_done();
@@ -448,6 +484,7 @@ void Rank::write(const std::filesystem::path& file, bool last) {
     const std::lock_guard lock(state_.mutex);
     state_.scheduler.resume();
   }
+  note(Timeline::Kind::write, begin, {});
   want_checkpoint_ = false;
   last_checkpoint_ = Clock::now();
   checkpoint_after_s_ = interval_s(options_);

@@ -52,6 +52,8 @@ class Rank {
   bool begin_next_phase(const RoundSums& sums);
   void take_in(RayBatch batch);
   void write(const std::filesystem::path& file, bool last);
+  void note(Timeline::Kind kind, std::chrono::steady_clock::time_point begin, const Timeline::Values& values);
+  void note_counters(std::int64_t rays_waiting);
   void watch_clock();
   void watch_ranks();
   void answer_during(const std::function<void()>& work);
@@ -82,7 +84,7 @@ class Rank {
   double write_s_ = 0, ending_s_ = 0;
   std::uint32_t sent_from_ = 0;  // the domain that is looked at first when rays are sent
   std::uint64_t messages_ = 0, received_ = 0, sent_bytes_ = 0;
-  std::chrono::steady_clock::time_point start_, last_checkpoint_;
+  std::chrono::steady_clock::time_point start_, last_checkpoint_, last_counters_;
   double checkpoint_after_s_;  // since the last one; 0: never
 };
 

@@ -14,6 +14,7 @@
 #include "farm/agreement.h"
 #include "farm/film_size.h"
 #include "farm/gather_profile.h"
+#include "farm/gather_timeline.h"
 #include "farm/memory.h"
 #include "farm/rank.h"
 #include "farm/same_job.h"
@@ -218,7 +219,8 @@ RenderStats render(Transport& transport, const RenderOptions& options) {
     stats.base_rss_bytes =
         resident_bytes() + film_bytes(m.film) + (goal.adaptive ? map_bytes(m.film.crop) : 0) +
         list_bytes(make_work_plan(m.film.crop, goal.samples, {}, goal.one_by_one), transport.size()) +
-        table_bytes(m.domains.size(), threads) + connection_bytes(transport.size());
+        table_bytes(m.domains.size(), threads) + connection_bytes(transport.size()) +
+        (options.trace.empty() ? 0 : Timeline::most_bytes(transport.size()));
     stats.setup_peak_rss_bytes = peak_resident_bytes();
     photons = photons_of(options, m);
     most_photons = least_room(photons, options.memory_bytes);
@@ -257,6 +259,7 @@ RenderStats render(Transport& transport, const RenderOptions& options) {
   if (transport.rank() == 0 && !options.quiet && manifest.lights.empty() && manifest.area_lights.empty())
     say("vitrail: the scene has no light: its picture is black\n");
   if (!options.profile.empty()) state.traffic.emplace(manifest.domains.size());
+  if (!options.trace.empty()) state.timeline.emplace(Timeline::most_events(transport.size()));
   stats.finished_before = earlier.finished;
   Rank rank(transport, state, options, goal, std::move(earlier), about(manifest, options),
             keeper ? &*keeper : nullptr);
@@ -324,6 +327,7 @@ RenderStats render(Transport& transport, const RenderOptions& options) {
   agree(transport, [&] {
     if (transport.rank() == 0) conclude();
   });
+  if (state.timeline) write_timelines(transport, *state.timeline, threads, start, options.trace);
   return stats;
 }
 

@@ -47,8 +47,9 @@ std::vector<Part> parts_of(const Manifest& m, const FilmKey& key, const Goal& go
                        goal.target ? goal.target->value : 0, goal.target && goal.target->just_noticeable,
                        o.time_limit_s)},
           {"distribution or homes", fmt::format("{} {}", static_cast<int>(o.distribution), to_string(homes))},
-          {"output, profile, dry run or --force",
-           fmt::format("{}\n{}\n{} {}", o.film.string(), o.profile.string(), o.dry_run, o.force)}};
+          {"output, profile, trace, dry run or --force",
+           fmt::format("{}\n{}\n{}\n{} {}", o.film.string(), o.profile.string(), o.trace.string(), o.dry_run,
+                       o.force)}};
 }
 
 }  // namespace

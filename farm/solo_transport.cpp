@@ -18,7 +18,7 @@ class SoloTransport final : public Transport {
   int size() const override { return 1; }
   void send(int, std::vector<std::byte>) override { throw std::logic_error("a single rank sent rays"); }
   std::uint64_t sending_bytes() override { return 0; }
-  std::optional<std::vector<std::byte>> receive() override { return std::nullopt; }
+  std::optional<Message> receive() override { return std::nullopt; }
   void start_round(const RoundSums& mine) override { round_ = {mine, {mine.waiting}}; }
   std::optional<Round> finish_round() override { return round_; }
   void say(int, Word) override {}

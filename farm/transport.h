@@ -25,7 +25,11 @@ class Transport {
   // None of these waits.
   virtual void send(int to, std::vector<std::byte> message) = 0;
   virtual std::uint64_t sending_bytes() = 0;  // that no receiver has taken over yet
-  virtual std::optional<std::vector<std::byte>> receive() = 0;
+  struct Message {
+    int from = 0;
+    std::vector<std::byte> bytes;
+  };
+  virtual std::optional<Message> receive() = 0;
   // Joins the next round; one at a time. `finish_round` gives what came of it once every rank has joined.
   virtual void start_round(const RoundSums& mine) = 0;
   virtual std::optional<Round> finish_round() = 0;

@@ -141,12 +141,29 @@ void publish(RankState& s, Outbox& outbox, TraceCounters& counters) {
 // A task may make far more rays than it takes: a worker holds no more of them than this, some hundred KB.
 constexpr std::size_t most_rays_in_hand = 4096;
 
-void work(RankState& s) {
+// Into the timeline, where one is recorded. The mutex is held.
+void note_task(RankState& s, int thread, Clock::time_point begin, const Task& task) {
+  if (task.work == Scheduler::Work::generate)
+    s.timeline->add(Timeline::Kind::generate, thread, begin, Clock::now(),
+                    {static_cast<std::int64_t>(task.end - task.first)});
+  else
+    s.timeline->add(Timeline::Kind::trace, thread, begin, Clock::now(),
+                    {task.batch.domain(), static_cast<std::int64_t>(task.batch.count())});
+}
+
+// A worker that is woken in vain goes on to be idle. The mutex is held.
+void note_idleness(RankState& s, int thread, std::optional<Clock::time_point>& since) {
+  if (s.timeline && since) s.timeline->add(Timeline::Kind::idle, thread, *since, Clock::now());
+  since.reset();
+}
+
+void work(RankState& s, int thread) {
   Outbox outbox;
   TraceCounters counters;
   std::unique_lock lock(s.mutex);
   std::optional<RayTraffic> traffic;
   if (s.traffic) traffic.emplace(s.scene.manifest.domains.size());
+  std::optional<Clock::time_point> idle_since;
   while (!s.finished) {
     Task task = take_task(s);
     if (task.work == Scheduler::Work::none) {
@@ -157,9 +174,12 @@ void work(RankState& s) {
       s.work_available.wait(lock);
       s.scheduler.worker_wakes();
       s.idle_s += seconds_since(start);
+      if (!idle_since) idle_since = start;
       continue;
     }
+    note_idleness(s, thread, idle_since);
     lock.unlock();
+    const Clock::time_point begin = s.timeline ? Clock::now() : Clock::time_point();
     const double start = thread_cpu_seconds();
     PathTracer tracer(s.scene, task.table->views, s.film, outbox, counters, traffic ? &*traffic : nullptr,
                       s.photons ? &s.photons->pass() : nullptr);
@@ -173,13 +193,21 @@ void work(RankState& s) {
     const double busy = thread_cpu_seconds() - start;
     lock.lock();
     s.trace_s += busy;
+    if (s.timeline) note_task(s, thread, begin, task);
     publish(s, outbox, counters);
     s.scheduler.finish_task(task.end - task.first);
   }
+  note_idleness(s, thread, idle_since);
   if (traffic) s.traffic->add(*traffic);
 }
 
-void load(RankState& s) {
+std::int64_t bytes_of(const LoadStep::Load& load, const Manifest& manifest) {
+  std::uint64_t bytes = manifest.domains[load.domain].bytes;
+  for (const std::uint32_t object : load.missing) bytes += manifest.objects[object].bytes;
+  return static_cast<std::int64_t>(bytes);
+}
+
+void load(RankState& s, int thread) {
   std::unique_lock lock(s.mutex);
   while (!s.finished) {
     s.scheduler.released(s.domains.take_released());
@@ -192,9 +220,12 @@ void load(RankState& s) {
     lock.unlock();
     const auto start = Clock::now();
     auto loaded = s.domains.load(*reservation);
-    const double taken = seconds_since(start);
+    const auto end = Clock::now();
     lock.lock();
-    s.load_s += taken;
+    s.load_s += std::chrono::duration<double>(end - start).count();
+    if (s.timeline)
+      s.timeline->add(Timeline::Kind::load, thread, start, end,
+                      {reservation->load.domain, bytes_of(reservation->load, s.scene.manifest)});
     s.domains.insert(reservation->load.domain, std::move(loaded));
     s.scheduler.loaded(reservation->load.domain);
     s.work_available.notify_all();
@@ -202,9 +233,9 @@ void load(RankState& s) {
 }
 
 // A thread that fails leaves the reason to the rank's loop, which tells the others.
-void guarded(RankState& s, void (*body)(RankState&)) {
+void guarded(RankState& s, int thread, void (*body)(RankState&, int)) {
   try {
-    body(s);
+    body(s, thread);
   } catch (...) {
     const std::lock_guard lock(s.mutex);
     if (!s.failure) s.failure = std::current_exception();
@@ -225,8 +256,8 @@ RankState::RankState(const RenderScene& the_scene, Film& the_film, WorkPlan the_
 
 Workers::Workers(RankState& state, int threads) : state_(state) {
   try {
-    for (int i = 0; i < threads; ++i) threads_.emplace_back([&state] { guarded(state, work); });
-    for (int i = 0; i < loaders_of_a_rank; ++i) threads_.emplace_back([&state] { guarded(state, load); });
+    for (int i = 0; i < threads + loaders_of_a_rank; ++i)
+      threads_.emplace_back([&state, i, threads] { guarded(state, i + 1, i < threads ? work : load); });
   } catch (const std::system_error& e) {
     const std::size_t made = threads_.size();
     end();

@@ -12,6 +12,7 @@
 #include "farm/queues.h"
 #include "farm/resident_domains.h"
 #include "farm/scheduler/scheduler.h"
+#include "farm/timeline.h"
 #include "farm/work.h"
 #include "tracer/path_tracer.h"
 
@@ -40,6 +41,7 @@ struct RankState {
 
   TraceCounters counters;
   std::optional<RayTraffic> traffic;  // empty: not recorded
+  std::optional<Timeline> timeline;   // the same
   double trace_s = 0;                 // of the processor; the others are of the clock
   double idle_s = 0, load_s = 0;
   std::exception_ptr failure;

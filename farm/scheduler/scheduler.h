@@ -56,6 +56,7 @@ class Scheduler {
   // Where rays that are sent go: of two of the domain's homes the one where fewer wait, as far as is known.
   int destination(std::uint32_t domain, std::uint64_t rays);
   void sent(std::uint64_t rays, double now_s);
+  std::uint64_t rays_to_send() const { return outgoing_; }
 
   // --- Domains.
   LoadStep loader_is_free() { return residency_.loader_is_free(alive_, workers_waiting_ == job_.workers); }
