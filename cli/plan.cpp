@@ -11,6 +11,7 @@
 #include "cli/sizes.h"
 #include "farm/memory.h"
 #include "farm/scheduler/residency.h"
+#include "farm/scheduler/round.h"
 #include "farm/simulator/simulation.h"
 #include "film/film.h"
 #include "scene/atomic_file.h"
@@ -80,6 +81,18 @@ void print_row(const PlanPoint& p, std::uint64_t scene_bytes) {
   std::fflush(stdout);
 }
 
+// Of the rank that has most to do, with all else in its favour.
+double longest_work_s(const Arguments& a, const RayProfile& profile, const Homes& homes, double pictures) {
+  std::vector<double> work_s(static_cast<std::size_t>(homes.ranks()));
+  for (std::uint32_t d = 0; d < homes.domains(); ++d) {
+    const bool at_home = a.distribution == Distribution::decompose;
+    const int first = at_home ? homes.first(d) : 0, last = at_home ? homes.last(d) : homes.ranks() - 1;
+    for (int rank = first; rank <= last; ++rank)
+      work_s[static_cast<std::size_t>(rank)] += profile.domains[d].seconds / (last - first + 1);
+  }
+  return std::ranges::max(work_s) * pictures / a.threads;
+}
+
 int plan(const Arguments& a) {
   const Manifest manifest = read_manifest(a.bundle);
   const RayProfile profile = read_ray_profile(a.profile);
@@ -98,16 +111,21 @@ int plan(const Arguments& a) {
   std::vector<PlanPoint> points;
   if (!a.json) fmt::print(" ranks    seconds  effic.  copies     loaded   loads  forwarded  limited by\n");
   for (const int ranks : a.ranks) {
-    // So many that their size does not show, and no more: each takes the simulator time.
-    const double items = 1e4 + 50.0 * ranks * a.threads;
-    const Workload workload = workload_of(manifest, profile, a.pictures, items);
     machine.ranks = ranks;
     machine.homes = homes ? homes_by_work(manifest, *homes, ranks) : homes_by_bytes(manifest, ranks);
     const bool in_flow = is_in_flow(manifest, *machine.homes, a.distribution, machine.domain_bytes);
     machine.rays_allowed = (in_flow ? rays_allowed_in_flow(a.threads) : rays_a_rank) * ranks;
-    // Rounds take the simulator time, too: a long job has fewer of them.
-    const double work_s = profile.cost.trace_s * a.pictures / ranks / a.threads;
-    machine.round_interval_s = std::clamp(work_s / 20'000, 1e-3, .05);
+    // All takes the simulator time. Of a long job as much is simulated as has a steady middle, when rays
+    // alive have reached their bound and their items still come; in items so small that their size does not
+    // show, with fewer rounds where one rank has much to do.
+    constexpr double most_rays = 1 << 24;
+    const auto rays = static_cast<double>(profile.cost.camera_rays);
+    const double pictures =
+        std::min(a.pictures, (most_rays + 4 * static_cast<double>(machine.rays_allowed)) / rays);
+    Workload workload = workload_of(manifest, profile, pictures, 1e4 + 50.0 * ranks * a.threads);
+    workload.middle_again = 3 * (a.pictures / pictures - 1);
+    machine.round_interval_s = std::clamp(longest_work_s(a, profile, *machine.homes, pictures) / 5'000,
+                                          round_interval_s(ranks), .05);
     machine.rays_of_a_batch = std::max<std::uint64_t>(1024, workload.rays_an_item / 4);
     points.push_back({ranks, simulate(workload, machine, {}, 1)});
     if (!a.json) print_row(points.back(), scene_bytes);

@@ -26,7 +26,6 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using namespace std::chrono_literals;
 
-constexpr auto round_interval = 1ms;
 // The loop naps while nothing moves, longer and longer: a rank that spins takes the core from one that works.
 constexpr auto shortest_nap = 20us, longest_nap = 1000us;
 
@@ -129,7 +128,8 @@ bool Rank::begin_next_phase(const RoundSums& sums) {
 
 Ending Rank::run() {
   auto nap = std::chrono::microseconds(shortest_nap);
-  auto last_round = Clock::now() - round_interval;
+  const std::chrono::duration<double> round_interval(round_interval_s(transport_.size()));
+  Clock::time_point last_round;
   bool in_round = false;
   for (;;) {
     bool moved = try_to_move_rays();

@@ -2,6 +2,7 @@
 // What every rank adds to a round; the sums are what all ranks decide by, so they decide alike.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -29,6 +30,9 @@ struct Round {
   RoundSums sums;
   std::vector<std::int64_t> waiting;  // by rank
 };
+// From one round to the next, at least: each tells every rank a number of every other, which takes longer the
+// more there are, and some milliseconds of work are in flight in between.
+inline double round_interval_s(int ranks) { return std::max(1e-3, .4e-6 * ranks); }
 inline constexpr std::size_t round_values = sizeof(RoundSums) / sizeof(std::int64_t);
 
 }  // namespace vitrail

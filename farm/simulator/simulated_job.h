@@ -18,6 +18,7 @@
 #include "farm/scheduler/spill.h"
 #include "farm/scheduler/watch.h"
 #include "farm/simulator/event.h"
+#include "farm/simulator/lengthen.h"
 #include "farm/simulator/simulation.h"
 
 namespace vitrail {
@@ -96,20 +97,7 @@ class SimulatedJob {
     for (const auto& [round, ranks] : quiet_)
       if (ranks != ranks_.size())
         broken(fmt::format("in round {} only {} ranks thought that all was quiet", round, ranks));
-    result_.seconds = now_;
-    const double worker_s = now_ * static_cast<double>(machine_.workers);
-    for (const Rank& r : ranks_) {
-      result_.busy_s += r.busy_s;
-      result_.busiest_workers = std::max(result_.busiest_workers, r.busy_s / worker_s);
-      result_.busiest_loader = std::max(result_.busiest_loader, r.loading_s / now_ / machine_.loaders);
-      result_.busiest_link = std::max(result_.busiest_link, r.sending_s / now_);
-      result_.most_bytes += r.most_bytes;
-      result_.loads += r.scheduler.residency().loads();
-      result_.evictions += r.scheduler.residency().evictions();
-      result_.forwarded_rays += r.scheduler.forwarded_rays();
-    }
-    result_.efficiency = result_.busy_s / (worker_s * static_cast<double>(ranks_.size()));
-    return result_;
+    return whole_job();
   }
 
  private:
@@ -156,11 +144,44 @@ class SimulatedJob {
     std::uint64_t items = 0;
     std::uint64_t items_before = 0;  // on rank 0: of this round of samples, done by an earlier run
     int rounds_of_samples = 0;       // done
-    double busy_s = 0, loading_s = 0, sending_s = 0;
+    Busy busy;
     std::uint64_t most_bytes = 0;
     std::uint64_t round = 0;
     double sending_until = 0;
   };
+  // A third, and two, of the items are dealt.
+  void note_thirds() {
+    const std::uint64_t all = workload_.items * workload_.rays_an_item;
+    if (workload_.middle_again > 0 && thirds_.size() < 2 && 3 * generated_ >= (thirds_.size() + 1) * all)
+      thirds_.push_back(moment());
+  }
+  Moment moment() const {
+    Moment now{result_, {}};
+    now.sums.seconds = now_;
+    for (const Rank& r : ranks_) {
+      now.ranks.push_back(r.busy);
+      now.sums.busy_s += r.busy.working_s;
+      now.sums.most_bytes += r.most_bytes;
+      now.sums.loads += r.scheduler.residency().loads();
+      now.sums.evictions += r.scheduler.residency().evictions();
+      now.sums.forwarded_rays += r.scheduler.forwarded_rays();
+    }
+    return now;
+  }
+  SimulationResult whole_job() const {
+    Moment end = moment();
+    if (thirds_.size() == 2) lengthen(end, thirds_[0], thirds_[1], workload_.middle_again);
+    SimulationResult& all = end.sums;
+    const double worker_s = all.seconds * static_cast<double>(machine_.workers);
+    for (const Busy& rank : end.ranks) {
+      all.busiest_workers = std::max(all.busiest_workers, rank.working_s / worker_s);
+      all.busiest_loader = std::max(all.busiest_loader, rank.loading_s / all.seconds / machine_.loaders);
+      all.busiest_link = std::max(all.busiest_link, rank.sending_s / all.seconds);
+    }
+    all.efficiency = all.busy_s / (worker_s * static_cast<double>(ranks_.size()));
+    return all;
+  }
+
   struct OpenRound {
     int joined = 0, left = 0;
     RoundSums sums;
@@ -278,7 +299,7 @@ class SimulatedJob {
     }
     entered_.clear();
     seconds *= late() * (rank == 0 ? mishaps_.slow_rank : 1);
-    r.busy_s += seconds;
+    r.busy.working_s += seconds;
     at(now_ + seconds, {Event::Kind::task_done, rank, number});
     return true;
   }
@@ -319,6 +340,7 @@ class SimulatedJob {
     r.scheduler.count(w.born, w.died);
     r.scheduler.finish_task(w.generated);
     generated_ += w.generated;
+    note_thirds();
     w.work = SchedulerType::Work::none;
     r.scheduler.worker_waits();
     release(r);
@@ -372,7 +394,7 @@ class SimulatedJob {
     const double files = 1 + static_cast<double>(load.missing.size());
     const double seconds =
         late() * (files * machine_.disk_latency_s + static_cast<double>(bytes) / machine_.disk_bytes_s);
-    r.loading_s += seconds;
+    r.busy.loading_s += seconds;
     result_.loaded_bytes += bytes;
     at(now_ + seconds, {Event::Kind::load_done, rank, load.domain});
     return bytes;
@@ -441,7 +463,7 @@ class SimulatedJob {
       for (const auto& [domain, batch] : message) rays += batch;
       const double seconds = static_cast<double>(rays * machine_.bytes_a_ray) / machine_.network_bytes_s;
       r.sending_until = std::max(r.sending_until, now_) + seconds;
-      r.sending_s += seconds;
+      r.busy.sending_s += seconds;
       const std::uint64_t number = result_.messages++;
       messages_.emplace(number, std::move(message));
       at(r.sending_until + late() * machine_.latency_s, {Event::Kind::message, to, number});
@@ -667,6 +689,7 @@ class SimulatedJob {
   KeptWork kept_;                               // what a checkpoint holds that is being written
   std::map<std::uint64_t, std::size_t> quiet_;  // ranks that thought so, by round
   std::optional<std::uint64_t> over_;           // the round that said so
+  std::vector<Moment> thirds_;
   SimulationResult result_;
 };
 

@@ -85,6 +85,19 @@ TEST_F(Plan, SharesTheRecordedWork) {
   EXPECT_THAT(table.output, HasSubstr("limited by"));
 }
 
+// However many samples: as much is simulated as is needed.
+TEST_F(Plan, ReckonsTenMillionPictures) {
+  const auto seconds = [&](const char* times) {
+    const CommandResult planned =
+        plan("box.vit",
+             fmt::format("--threads 1 --ranks 100 --distribution decompose --homes '{}' --json --times {}",
+                         path("box.json"), times));
+    EXPECT_EQ(planned.status, 0) << planned.output;
+    return nlohmann::json::parse(planned.output)["plan"][0]["seconds"].get<double>();
+  };
+  EXPECT_NEAR(seconds("1e7") / seconds("1e6"), 10, .1);
+}
+
 TEST_F(Plan, RefusesTheProfileOfAnotherBundle) {
   ASSERT_EQ(make("other.vit", 4), 0);
   const CommandResult planned = plan("other.vit", "");

@@ -111,6 +111,35 @@ TEST(Simulation, NothingIsLostAndEveryJobEnds) {
   std::printf("%.3g events\n", static_cast<double>(events));
 }
 
+// A job five times as long has more of the same middle.
+TEST(Simulation, ReckonsTheMiddleOfALongJob) {
+  std::mt19937_64 random(1);
+  Machine machine;
+  machine.ranks = 6;
+  machine.workers = 2;
+  machine.rays_allowed = 60'000;
+  machine.distribution = Distribution::decompose;
+  Workload workload = random_workload(random, 24, 1500, 2000);
+  for (const std::uint64_t share : {1, 3}) {
+    machine.domain_bytes = bytes_of_all(workload.manifest) / share;
+    workload.items = 1500;
+    workload.middle_again = 0;
+    const SimulationResult all = simulate(workload, machine, {}, 1);
+    workload.items = 300;
+    workload.middle_again = 12;
+    const SimulationResult reckoned = simulate(workload, machine, {}, 1);
+    EXPECT_LT(reckoned.events, all.events / 3);
+    const auto near = [](double x, double y) { EXPECT_NEAR(x / y, 1, .03); };
+    near(reckoned.seconds, all.seconds);
+    near(reckoned.efficiency, all.efficiency);
+    near(reckoned.busiest_workers, all.busiest_workers);
+    near(static_cast<double>(reckoned.rays), static_cast<double>(all.rays));
+    near(static_cast<double>(reckoned.forwarded_rays), static_cast<double>(all.forwarded_rays));
+    EXPECT_NEAR(static_cast<double>(reckoned.loads), static_cast<double>(all.loads),
+                .1 * static_cast<double>(all.loads));
+  }
+}
+
 // Deliberately wrong ones: what they do is found out.
 template <class SchedulerType, class WatchType = Watch, class SpillType = Spill>
 bool is_caught(int jobs) {
