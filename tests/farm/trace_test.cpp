@@ -98,8 +98,8 @@ TEST_F(Trace, OfARenderThatEndsEarlyIsWritten) {
   expect_in_order(trace(), 1e6 * read_json(path("stats.json"))["wall_s"].get<double>());
   EXPECT_FALSE(of_category(trace(), "trace").empty());
   fs::remove(path("trace.json"));
-  Background job(mpi_vitrail("render", 2) + traced("--spp 100000"));
-  std::this_thread::sleep_for(2s);
+  Background job(mpi_vitrail("render", 2) + traced("--spp 100000 --checkpoint-every .1"));
+  while (job.running() && !fs::exists(path("a.film.partial"))) std::this_thread::sleep_for(5ms);
   for (const pid_t rank : job.ranks()) ::kill(rank, SIGTERM);
   EXPECT_EQ(job.wait(), 128 + SIGTERM);
   EXPECT_FALSE(of_category(trace(), "trace").empty());
@@ -107,10 +107,9 @@ TEST_F(Trace, OfARenderThatEndsEarlyIsWritten) {
 
 TEST_F(Trace, WhereNothingTakesItTheFilmIsWrittenAllTheSame) {
   fs::create_directory(path("gone"));
-  Background job(
-      mpi_vitrail("render", 2) +
-      arguments(fmt::format("--trace '{}' --spp 64 --checkpoint-every .1", path("gone/trace.json"))));
-  while (job.running() && !fs::exists(path("a.film.partial"))) std::this_thread::sleep_for(5ms);
+  Background job(mpi_vitrail("render", 2) +
+                 arguments(fmt::format("--trace '{}' --spp 100000 --time 2", path("gone/trace.json"))));
+  while (job.running() && !fs::exists(path("a.film.lock"))) std::this_thread::sleep_for(5ms);
   ASSERT_TRUE(job.running());
   fs::remove(path("gone"));
   EXPECT_EQ(job.wait(), 4);
