@@ -27,7 +27,7 @@ struct Arguments {
   std::vector<int> ranks{1, 2, 4, 8, 16, 32, 64, 128, 256, 512, 1024};
   std::string memory, network = "12G", disk = "1G";
   double pictures = 1, latency_us = 5, disk_latency_ms = 1;
-  int threads = 16;
+  int threads = 16, ranks_of_a_disk = 1;
   Distribution distribution = Distribution::automatic;
   std::filesystem::path homes;
   bool json = false;
@@ -102,6 +102,7 @@ int plan(const Arguments& a) {
   machine.network_bytes_s = static_cast<double>(parse_bytes(a.network));
   machine.disk_latency_s = a.disk_latency_ms * 1e-3;
   machine.disk_bytes_s = static_cast<double>(parse_bytes(a.disk));
+  machine.ranks_of_a_disk = a.ranks_of_a_disk;
   share_memory(a, manifest, machine);
   const std::int64_t rays_a_rank = machine.rays_allowed;
   const std::uint64_t scene_bytes = std::max<std::uint64_t>(1, bytes_of_all(manifest));
@@ -164,7 +165,10 @@ int main(int argc, char** argv) {
   app.add_option("--latency", a.latency_us, "of a message, µs; default 5")->check(not_below_0);
   app.add_option("--network", a.network, "bytes a second that a rank sends; default 12G");
   app.add_option("--disk-latency", a.disk_latency_ms, "of a file, ms; default 1")->check(not_below_0);
-  app.add_option("--disk", a.disk, "bytes a second that a rank reads; default 1G");
+  app.add_option("--disk", a.disk, "bytes a second that a disk reads; default 1G");
+  app.add_option("--ranks-a-disk", a.ranks_of_a_disk,
+                 "that read from one, one file after the other; default 1")
+      ->check(CLI::Range(1, 100000));
   app.add_option("--svg", a.svg, "seconds and efficiency as a plot");
   app.add_option("--domain-memory", a.domain_memory)->group("");
   app.add_flag("--json", a.json, "print JSON");

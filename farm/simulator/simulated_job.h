@@ -31,6 +31,7 @@ class SimulatedJob {
         machine_(machine),
         mishaps_(mishaps),
         random_(seed),
+        disks_(static_cast<std::size_t>((machine.ranks - 1) / machine.ranks_of_a_disk + 1)),
         standing_(workload.domains.size()) {
     const auto add_up = [&](const Workload::Domain& from) {
       std::vector<double>& until = until_.emplace_back();
@@ -392,11 +393,13 @@ class SimulatedJob {
     for (const std::uint32_t o : load.missing) bytes += workload_.manifest.objects[o].bytes;
     r.loads.emplace(load.domain, load.missing);
     const double files = 1 + static_cast<double>(load.missing.size());
-    const double seconds =
-        late() * (files * machine_.disk_latency_s + static_cast<double>(bytes) / machine_.disk_bytes_s);
-    r.busy.loading_s += seconds;
+    const double slow = late();
+    double& read_until = disks_[static_cast<std::size_t>(rank / machine_.ranks_of_a_disk)];
+    read_until = std::max(read_until, now_ + slow * files * machine_.disk_latency_s) +
+                 slow * static_cast<double>(bytes) / machine_.disk_bytes_s;
+    r.busy.loading_s += read_until - now_;
     result_.loaded_bytes += bytes;
-    at(now_ + seconds, {Event::Kind::load_done, rank, load.domain});
+    at(read_until, {Event::Kind::load_done, rank, load.domain});
     return bytes;
   }
 
@@ -675,6 +678,7 @@ class SimulatedJob {
   const Machine machine_;
   const Mishaps mishaps_;
   std::mt19937_64 random_;
+  std::vector<double> disks_;  // until when each reads
   std::vector<Rank> ranks_;
   std::vector<std::vector<double>> until_;  // sums of the ways' rays, by domain, the camera's last
   std::vector<std::uint64_t> standing_;     // rays of the task that is worked out, by domain

@@ -28,7 +28,8 @@ struct Machine {
   double latency_s = 5e-6;        // of a message
   double network_bytes_s = 1e10;  // a rank
   double disk_latency_s = 1e-3;   // of a file
-  double disk_bytes_s = 1e9;      // a rank
+  double disk_bytes_s = 1e9;      // a disk, which reads one file after the other
+  int ranks_of_a_disk = 1;        // its neighbours by number
   std::uint64_t rays_of_a_batch = 1024;
   double round_interval_s = 1e-3;
   double jitter = 0;      // any of these takes up to 1 + this times as long: messages overtake

@@ -42,6 +42,8 @@ struct Case {
     machine.jitter = among(2) == 0 ? 0 : static_cast<double>(among(100));
     machine.latency_s = 1e-6 * static_cast<double>(1 + among(1000));
     machine.disk_latency_s = 1e-5 * static_cast<double>(1 + among(1000));
+    machine.ranks_of_a_disk =
+        1 + static_cast<int>(among(2) * among(static_cast<std::uint64_t>(machine.ranks)));
     mishaps.checkpoints = among(3) == 0 ? static_cast<int>(among(4)) : 0;
     mishaps.checkpoint_mean_s = .01;
     mishaps.rounds_of_samples = 1 + static_cast<int>(among(3));
@@ -138,6 +140,23 @@ TEST(Simulation, ReckonsTheMiddleOfALongJob) {
     EXPECT_NEAR(static_cast<double>(reckoned.loads), static_cast<double>(all.loads),
                 .1 * static_cast<double>(all.loads));
   }
+}
+
+// Files that several ranks want from one disk come one after the other; where each has its own, at once.
+TEST(Simulation, RanksWaitForTheirDisk) {
+  std::mt19937_64 random(1);
+  Machine machine;
+  machine.ranks = 4;
+  machine.rays_allowed = 1'000'000;
+  machine.distribution = Distribution::replicate;
+  machine.disk_bytes_s = 1e6;
+  const Workload workload = random_workload(random, 8, 40, 100);
+  machine.domain_bytes = bytes_of_all(workload.manifest);
+  const double own_s = simulate(workload, machine, {}, 1).seconds;
+  machine.ranks_of_a_disk = 2;
+  EXPECT_NEAR(simulate(workload, machine, {}, 1).seconds / own_s, 2, .1);
+  machine.ranks_of_a_disk = 4;
+  EXPECT_NEAR(simulate(workload, machine, {}, 1).seconds / own_s, 4, .2);
 }
 
 // Deliberately wrong ones: what they do is found out.
