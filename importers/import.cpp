@@ -56,13 +56,15 @@ ImportedScene read_scene(const std::filesystem::path& file, MeshMemory memory,
     if (options.replace_missing) replace_missing_images(imported);
     return imported;
   }
-  if (format == ".obj")
+  if (format == ".obj") {
     imported = read_obj(file);
-  else if (format == ".ply")
+    for (TriangleMesh& mesh : imported.scene.meshes) mesh = memory.keep(std::move(mesh), {});
+  } else if (format == ".ply") {
     imported = mesh_alone(file, memory);
-  else
+  } else {
     throw Error("unknown format: the name has to end in .pbrt, .xml, .obj or .ply; .gz may follow",
                 {file.string()});
+  }
   add_default_view(imported, file);
   if (options.replace_missing) replace_missing_images(imported);
   return imported;

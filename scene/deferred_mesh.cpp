@@ -2,10 +2,13 @@
 #include "scene/deferred_mesh.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <span>
 
 #include "scene/diagnostics.h"
 #include "scene/quadric_places.h"
+#include "scene/temporary_file.h"
 #include "scene/tessellate.h"
 
 namespace vitrail {
@@ -40,6 +43,42 @@ double greatest(Vector3d v) { return std::max({std::abs(v.x), std::abs(v.y), std
 template <class T>
 std::uint64_t size_bytes(const std::vector<T>& v) {
   return v.size() * sizeof(T);
+}
+
+template <class F>
+void each_array(auto& mesh, const F& f) {
+  f(mesh.positions), f(mesh.triangles), f(mesh.normals), f(mesh.uvs);
+  for (auto& attribute : mesh.attributes) f(attribute.values);
+}
+
+// Reads the mesh back from one file that all such meshes go to, one after the other.
+MeshLoader spilled(const TriangleMesh& mesh) {
+  static constexpr const char* kept = "meshes";
+  static const std::shared_ptr<std::FILE> file(open_temporary(kept), [](std::FILE* f) { std::fclose(f); });
+  static std::atomic<std::uint64_t> end{0};
+  const std::uint64_t first = end.fetch_add(bytes_of(mesh));
+  std::uint64_t at = first;
+  std::vector<std::size_t> counts;
+  each_array(mesh, [&](const auto& values) {
+    write_at(file.get(), at, std::as_bytes(std::span(values)), kept);
+    at += size_bytes(values);
+    counts.push_back(values.size());
+  });
+  TriangleMesh frame;
+  frame.missing_uv = mesh.missing_uv;
+  for (const MeshAttribute& a : mesh.attributes)
+    frame.attributes.push_back({a.name, a.per_face, a.channels, {}});
+  return [frame, counts, first, in = file] {
+    TriangleMesh read = frame;
+    std::uint64_t from = first;
+    auto count = counts.begin();
+    each_array(read, [&](auto& values) {
+      values.resize(*count++);
+      read_at(in.get(), from, std::as_writable_bytes(std::span(values)), kept);
+      from += size_bytes(values);
+    });
+    return read;
+  };
 }
 
 }  // namespace
@@ -128,7 +167,7 @@ TriangleMesh MeshMemory::keep(TriangleMesh mesh, MeshLoader load) {
     return mesh;
   }
   const auto deferred = std::make_shared<DeferredMesh>();
-  deferred->load = std::move(load);
+  deferred->load = load ? std::move(load) : spilled(mesh);
   deferred->triangles = mesh.triangles.size();
   deferred->bytes = bytes;
   deferred->has_normals = !mesh.normals.empty();

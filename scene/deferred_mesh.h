@@ -67,7 +67,8 @@ class MeshMemory {
   std::uint64_t limit_bytes() const { return limit_; }
   bool is_limited() const { return limit_ != ~std::uint64_t{0}; }
 
-  // The mesh itself while it fits, else what stands for it.
+  // The mesh itself while it fits, else what stands for it. Without `load` it goes to a file without a name
+  // in the folder for temporary files; MachineError where that is full.
   TriangleMesh keep(TriangleMesh mesh, MeshLoader load);
 
  private:

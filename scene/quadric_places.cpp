@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/quadric_places.h"
 
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <cstring>
 
-#include "scene/diagnostics.h"
+#include "scene/temporary_file.h"
 
 namespace vitrail {
 
@@ -28,10 +24,7 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-[[noreturn]] void fail(const char* what) {
-  throw MachineError(std::string(what) +
-                     " the shapes kept in the folder for temporary files: " + std::strerror(errno));
-}
+constexpr const char* kept = "shapes";
 
 }  // namespace
 
@@ -54,10 +47,8 @@ void QuadricPlaces::add(const Transform& place) {
 }
 
 void QuadricPlaces::spill() {
-  if (!file_) file_.reset(std::tmpfile());
-  if (!file_ || std::fwrite(block_.data(), sizeof(Place), block_.size(), file_.get()) != block_.size() ||
-      std::fflush(file_.get()) != 0)
-    fail("cannot write");
+  if (!file_) file_.reset(open_temporary(kept));
+  write_at(file_.get(), spilled_ * sizeof(Place), std::as_bytes(std::span(block_)), kept);
   spilled_ += block_.size();
   block_.clear();
 }
@@ -65,14 +56,8 @@ void QuadricPlaces::spill() {
 void QuadricPlaces::read(std::size_t first, std::span<Transform> out) const {
   const std::size_t on_disk = first < spilled_ ? std::min(out.size(), spilled_ - first) : 0;
   std::vector<Place> places(on_disk);
-  const auto bytes = std::as_writable_bytes(std::span(places));
-  for (std::size_t done = 0; done < bytes.size();) {
-    const ssize_t n = ::pread(::fileno(file_.get()), bytes.data() + done, bytes.size() - done,
-                              static_cast<off_t>(first * sizeof(Place) + done));
-    if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) fail("cannot read");
-    done += static_cast<std::size_t>(n);
-  }
+  if (on_disk > 0)
+    read_at(file_.get(), first * sizeof(Place), std::as_writable_bytes(std::span(places)), kept);
   for (std::size_t i = 0; i < out.size(); ++i)
     out[i] = transform_of(i < on_disk ? places[i] : block_[first + i - spilled_]);
 }

@@ -27,8 +27,7 @@ Id<TriangleMesh> shared_mesh(Builder& builder, const Object& shape, const MeshKe
     builder.report.fail(error.what(), shape.origin);
   }
   const Id<TriangleMesh> id{static_cast<std::uint32_t>(builder.scene.meshes.size())};
-  builder.scene.meshes.push_back(again ? builder.mesh_memory.keep(std::move(mesh), std::move(again))
-                                       : std::move(mesh));
+  builder.scene.meshes.push_back(builder.mesh_memory.keep(std::move(mesh), std::move(again)));
   builder.mesh_files.emplace(key, id);
   return id;
 }

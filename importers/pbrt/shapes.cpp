@@ -239,7 +239,7 @@ void ShapeMaker::read_ahead() {
 }
 
 Id<TriangleMesh> ShapeMaker::add(TriangleMesh mesh) {
-  meshes_.push_back(std::move(mesh));
+  meshes_.push_back(context_.mesh_memory.keep(std::move(mesh), {}));
   return {static_cast<std::uint32_t>(meshes_.size() - 1)};
 }
 
@@ -284,8 +284,8 @@ std::vector<ShapeGeometry> ShapeMaker::ply_mesh(ParameterSet& parameters, bool u
     const auto load = [path, quads = quads_of(context_.version), uvs_show, i] {
       return std::move(meshes_of(read_pbrt_ply(path, quads), uvs_show)[i].mesh);
     };
-    made.push_back(
-        {add(context_.mesh_memory.keep(std::move(parts[i].mesh), load)), false, {}, parts[i].parts});
+    meshes_.push_back(context_.mesh_memory.keep(std::move(parts[i].mesh), load));
+    made.push_back({{static_cast<std::uint32_t>(meshes_.size() - 1)}, false, {}, parts[i].parts});
   }
   return made;
 }

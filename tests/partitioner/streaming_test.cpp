@@ -90,6 +90,38 @@ TEST_F(Streaming, DeferredMeshesGiveTheSameBytes) {
   }
 }
 
+// Meshes that no file of their own holds go to one without a name.
+TEST_F(Streaming, MeshesInTheSceneFileGiveTheSameBytes) {
+  const auto patch = [](int x, const char* more) {
+    return fmt::format(
+        "Shape \"trianglemesh\" \"point3 P\" [{0} 0 0 {1} 0 0 {1} 1 .5 {0} 1 0] "
+        "\"integer indices\" [0 1 2 0 2 3] {2}\n",
+        x, x + 1, more);
+  };
+  std::ofstream(directory / "in.pbrt")
+      << "WorldBegin\n"
+      << patch(0, "") << patch(2, "\"point2 uv\" [0 0 1 0 1 1 0 1]")
+      << patch(4, "\"normal N\" [0 0 1 0 0 1 0 1 1 0 0 1]")
+      << "Shape \"loopsubdiv\" \"integer levels\" 2 \"integer indices\" [0 2 1 0 1 3 1 2 3 0 3 2] "
+         "\"point3 P\" [7 0 0 8 0 0 7 1 0 7 0 1]\n";
+  std::ofstream(directory / "in.obj") << "v 0 0 0\nv 1 0 0\nv 1 1 0\nvn 0 0 1\nusemtl a\nf 1//1 2//1 3//1\n"
+                                         "v 3 0 0\nv 4 0 0\nv 4 1 1\nusemtl b\nf 4 5 6\n";
+  for (const char* name : {"in.pbrt", "in.obj"}) {
+    const Scene all = import_scene(directory / name).scene,
+                none = import_scene(directory / name, MeshMemory(0)).scene;
+    ASSERT_EQ(none.meshes.size(), all.meshes.size());
+    for (std::size_t i = 0; i < all.meshes.size(); ++i) {
+      TriangleMesh storage;
+      ASSERT_TRUE(none.meshes[i].deferred) << name;
+      EXPECT_EQ(loaded(none.meshes[i], storage), all.meshes[i]) << name;
+    }
+    partition(all, out, {.domains = 3});
+    const auto expected = contents(out);
+    partition(none, out, {.domains = 3});
+    EXPECT_TRUE(contents(out) == expected) << name;
+  }
+}
+
 TEST_F(Streaming, FileThatIsCutShortMeanwhile) {
   const Scene scene = import_scene(written_scene(), MeshMemory(0)).scene;
   std::filesystem::resize_file(directory / "3.ply", 4000);
