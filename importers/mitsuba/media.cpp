@@ -5,6 +5,7 @@
 
 #include "importers/mitsuba/builder.h"
 #include "importers/mitsuba/properties.h"
+#include "importers/mitsuba/subsurface.h"
 #include "importers/mitsuba/suggestion.h"
 #include "importers/mitsuba/volume_file.h"
 
@@ -144,7 +145,7 @@ void read_coefficients(MediumReader& reader) {
   const Object& object = reader.object;
   const Spectrum one = ConstantSpectrum{1};
   if (object.has("material")) {
-    reader.medium.coefficients = NamedMedium{object.text("material", "", reader.builder.report)};
+    reader.medium.coefficients = measured_coefficients(reader.builder, object);
   } else if (object.has("sigma_a") || object.has("sigma_s")) {
     AbsorptionScattering c;
     c.sigma_a = read_volume(reader, "sigma_a", Quantity::unbounded, one);

@@ -113,14 +113,24 @@ Camera stand_in(const Object& sensor, double fov_deg, const FilmSettings& film, 
   return camera;
 }
 
-const std::vector<std::string> kinds{"perspective",    "thinlens",        "orthographic",     "telecentric",
-                                     "radiancemeter",  "irradiancemeter", "distant",          "batch",
-                                     "mradiancemeter", "mdistant",        "perspective_rdist"};
+// 0.6's image of all directions: its middle looks along +z, ours along −x.
+Camera spherical(const Object& sensor, const Report& report) {
+  const Transform t = sensor.transform("to_world", report);
+  if (!is_invertible(t)) report.fail("the camera's to_world has no inverse", place_of(sensor, "to_world"));
+  Transform turn;
+  turn.m[0] = {0, 0, 1, 0}, turn.m[2] = {-1, 0, 0, 0};
+  return SphericalCamera{snapped(t * turn), SphericalCamera::Projection::latitude_longitude};
+}
+
+const std::vector<std::string> kinds{"perspective",    "thinlens",        "orthographic",      "telecentric",
+                                     "radiancemeter",  "irradiancemeter", "distant",           "batch",
+                                     "mradiancemeter", "mdistant",        "perspective_rdist", "spherical"};
 
 Camera read_camera(const Object& sensor, const FilmSettings& film, Report& report) {
   const std::string& kind = sensor.type;
   if (kind == "perspective" || kind == "thinlens") return perspective(sensor, film, report);
   if (kind == "orthographic" || kind == "telecentric") return orthographic(sensor, film, report);
+  if (kind == "spherical") return spherical(sensor, report);
   const auto nearest = [&](const char* camera) {
     report.approximated(fmt::format("sensor \"{}\": {} at its place stands for it", kind, camera),
                         sensor.origin);
@@ -138,7 +148,7 @@ Camera read_camera(const Object& sensor, const FilmSettings& film, Report& repor
     nearest("a perspective camera of 1 degree");
     return stand_in(sensor, 1, film, report);
   }
-  if (kind == "irradiancemeter" || kind == "fluencemeter" || kind == "spherical") {
+  if (kind == "irradiancemeter" || kind == "fluencemeter") {
     nearest("a perspective camera of 90 degrees");
     return stand_in(sensor, 90, film, report);
   }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "importers/mitsuba/shape_geometry.h"
+#include "importers/mitsuba/subsurface.h"
 #include "importers/shapes/vertex_normals.h"
 
 namespace vitrail::mitsuba {
@@ -111,6 +112,7 @@ void add_geometry(Builder& builder, const Object& object, const ShapeGeometry& g
   if (geometry.mesh_to_object != Transform{})
     shape.object_to_world = shape.object_to_world * geometry.mesh_to_object;
   shape.material = material_of(builder, object);
+  if (const auto inside = subsurface_material(builder, object, shape.material)) shape.material = *inside;
   add_media(builder, object, shape);
   add_emission(builder, object, in_group, shape);
   shape.flip_orientation = object.boolean("flip_normals", false, builder.report);

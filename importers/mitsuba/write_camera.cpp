@@ -279,7 +279,8 @@ void write_integrator(Context& context, Element root) {
   });
   const bool volpath = media || nothing || !scene.settings.straight_counts;
   Element element = add(root, "integrator", volpath ? "volpath" : "path");
-  const int depth = scene.settings.max_depth;
+  // A depth is meant for what scatters at surfaces, not in their interiors.
+  const int depth = context.interiors.empty() ? scene.settings.max_depth : unlimited_depth;
   if (volpath && scene.settings.straight_counts && depth < unlimited_depth &&
       std::ranges::any_of(scene.materials,
                           [&](const Material& m) { return is_passed_straight(m, scene.materials); })) {

@@ -2,11 +2,12 @@
 #include "importers/mitsuba/write_media.h"
 
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <span>
 
 #include "scene/atomic_file.h"
+#include "scene/measured_media.h"
+#include "scene/subsurface.h"
 
 namespace vitrail::mitsuba_writer {
 
@@ -89,16 +90,17 @@ Spectrum spectrum_of(Context& context, const VolumeParameter& value, const char*
 }
 
 ExtinctionAlbedo extinction_and_albedo(Context& context, const Medium& medium) {
+  const auto of_sum = [&](const AbsorptionScattering& m) {
+    const Spectrum a = spectrum_of(context, m.sigma_a, "absorption"),
+                   s = spectrum_of(context, m.sigma_s, "scattering");
+    return ExtinctionAlbedo{combined(a, s, [](double x, double y) { return x + y; }),
+                            combined(a, s, [](double x, double y) { return x + y > 0 ? y / (x + y) : 0; })};
+  };
   return std::visit(Overloaded{
                         [](const ExtinctionAlbedo& m) { return m; },
-                        [&](const AbsorptionScattering& m) {
-                          const Spectrum a = spectrum_of(context, m.sigma_a, "absorption"),
-                                         s = spectrum_of(context, m.sigma_s, "scattering");
-                          return ExtinctionAlbedo{
-                              combined(a, s, [](double x, double y) { return x + y; }),
-                              combined(a, s, [](double x, double y) { return x + y > 0 ? y / (x + y) : 0; })};
-                        },
+                        of_sum,
                         [&](const NamedMedium& m) {
+                          if (const auto measured = measured_medium(m.name)) return of_sum(*measured);
                           context.dropped(fmt::format(
                               "Mitsuba has no medium \"{}\": its default, σt 1 and albedo 0.75", m.name));
                           return ExtinctionAlbedo{};
@@ -151,35 +153,19 @@ void write_medium(Context& context, Element root, const Medium& medium, const st
   add_phase(element, medium.g);
 }
 
-// The single-scattering albedo of a half space of diffuse reflectance r: Kulla and Conty, "Revisiting
-// Physically Based Shading at Imageworks" (2017).
-double albedo_of_reflectance(double r) {
-  const double s = 4.09712 + 4.20863 * r - std::sqrt(9.59217 + 41.6808 * r + 17.7126 * r * r);
-  return 1 - s * s;
-}
-
-std::optional<Medium> interior_medium(Context& context, const SubsurfaceMaterial& material) {
-  Medium medium;
-  medium.scale = material.scale;
-  medium.g = material.g;
-  if (const auto* m = std::get_if<SubsurfaceMaterial::Coefficients>(&material.interior)) {
-    medium.coefficients =
-        AbsorptionScattering{constant_of(context, m->sigma_a, "the absorption of a medium"),
-                             constant_of(context, m->sigma_s, "the scattering of a medium")};
-    return medium;
+std::optional<Medium> interior_medium(Context& context, SubsurfaceMaterial material) {
+  const auto constant = [&](SpectrumParameter& p, const char* what) { p = constant_of(context, p, what); };
+  if (auto* m = std::get_if<SubsurfaceMaterial::Coefficients>(&material.interior)) {
+    constant(m->sigma_a, "the absorption of a medium"), constant(m->sigma_s, "the scattering of a medium");
+  } else if (auto* e = std::get_if<SubsurfaceMaterial::Effective>(&material.interior)) {
+    constant(e->reflectance, "the albedo of a medium");
+    constant(e->mean_free_path, "the extinction of a medium");
   }
-  if (const auto* m = std::get_if<SubsurfaceMaterial::Effective>(&material.interior)) {
-    const Spectrum r = constant_of(context, m->reflectance, "the albedo of a medium"),
-                   path = constant_of(context, m->mean_free_path, "the extinction of a medium");
-    const Spectrum one = ConstantSpectrum{1};
-    medium.coefficients =
-        ExtinctionAlbedo{combined(path, one, [](double p, double) { return p > 0 ? 1 / p : 1e6; }),
-                         combined(r, one, [](double x, double) { return albedo_of_reflectance(x); })};
-    return medium;
-  }
-  context.dropped(fmt::format("Mitsuba has no medium \"{}\": the inside is empty",
-                              std::get<SubsurfaceMaterial::Named>(material.interior).name));
-  return std::nullopt;
+  std::optional<Medium> medium = interior_of(material);
+  if (!medium)
+    context.dropped(fmt::format("Mitsuba has no medium \"{}\": the inside is empty",
+                                std::get<SubsurfaceMaterial::Named>(material.interior).name));
+  return medium;
 }
 
 }  // namespace

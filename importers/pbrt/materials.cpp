@@ -6,6 +6,7 @@
 
 #include "importers/glazing_material.h"
 #include "importers/pbrt/material_parameters.h"
+#include "importers/pbrt/measured_name.h"
 #include "importers/spectra/measured_sheet.h"
 #include "scene/rgb_to_spectrum.h"
 #include "scene/transmission.h"
@@ -130,12 +131,13 @@ MaterialModel subsurface(const Maker& m) {
   s.g = static_cast<float>(m.parameters.number("g", 0));
   s.eta = m.index({"eta", "index"}, 1.33);
   s.roughness = m.roughness(0);
-  if (const std::string name = m.parameters.text("name", ""); !name.empty()) {
+  const std::string name = m.parameters.text("name", "");
+  if (!name.empty() && is_measured(name, m.parameters, m.scope)) {
     s.interior = SubsurfaceMaterial::Named{name};
   } else if (m.kind == "kdsubsurface" || m.parameters.find_spectrum("reflectance") ||
              m.parameters.find("reflectance", {ParameterType::texture})) {
     s.interior = SubsurfaceMaterial::Effective{m.reflectance({"reflectance", "Kd"}, 0.5),
-                                               m.unbounded({"mfp"}, Maker::grey(1))};
+                                               m.unbounded({"mfp"}, Maker::grey(m.v3() ? 0.5 : 1))};
   } else {  // of skim milk, per mm: pbrt's defaults
     s.interior = SubsurfaceMaterial::Coefficients{
         m.unbounded({"sigma_a"}, unbounded_from_rgb({0.0011, 0.0024, 0.014})),

@@ -5,6 +5,8 @@
 
 #include <array>
 
+#include "importers/pbrt/measured_name.h"
+#include "scene/measured_media.h"
 #include "scene/rgb_to_spectrum.h"
 
 namespace vitrail::pbrt {
@@ -73,7 +75,7 @@ void homogeneous(const Maker& m, Medium& medium) {
   const Spectrum skim_milk_a = unbounded_from_rgb({0.0011, 0.0024, 0.014}),
                  skim_milk_s = unbounded_from_rgb({2.55, 3.21, 3.77}), one = ConstantSpectrum{1};
   const std::string preset = m.parameters.text("preset", "");
-  if (!preset.empty())
+  if (!preset.empty() && is_measured(preset, m.parameters, m.scope))
     medium.coefficients = NamedMedium{preset};
   else
     medium.coefficients = m.scope.context.version == Version::v3 ? coefficients(m, skim_milk_a, skim_milk_s)
@@ -137,6 +139,16 @@ constexpr std::array<Kind, 6> kinds{{{"homogeneous", homogeneous},
                                      {"nanovdb", nanovdb}}};
 
 }  // namespace
+
+bool is_measured(const std::string& name, const ParameterSet& parameters, const Scope& scope) {
+  if (measured_medium(name)) return true;
+  const std::string closest = closest_word(name, measured_media());
+  scope.context.report.approximated(
+      fmt::format("no measured medium is known by the name \"{}\": the default stands for it{}", name,
+                  closest.empty() ? "" : fmt::format("; did you mean \"{}\"?", closest)),
+      parameters.place());
+  return false;
+}
 
 Medium make_medium(const std::string& kind, const std::string& name, ParameterSet& parameters,
                    const Transform& ctm, const Scope& scope) {

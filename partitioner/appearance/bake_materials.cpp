@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include "scene/subsurface.h"
+
 namespace vitrail {
 
 namespace {
@@ -56,22 +58,25 @@ class MaterialBaker {
       number(*p);
     return m;
   }
-  // A dielectric boundary around a medium.
-  MaterialModel operator()(const SubsurfaceMaterial& m) {
-    if (const auto* effective = std::get_if<SubsurfaceMaterial::Effective>(&m.interior)) {
-      note("becomes diffuse with the reflectance of its interior");
+  // A dielectric boundary around a medium; where that depends on the place, what is known of its colour.
+  MaterialModel operator()(SubsurfaceMaterial m) {
+    const auto render = [&](SpectrumParameter& p) {
+      if (auto* spectrum = std::get_if<Spectrum>(&p)) *spectrum = textures_.as_rendered(*spectrum);
+    };
+    if (auto* given = std::get_if<SubsurfaceMaterial::Coefficients>(&m.interior))
+      render(given->sigma_a), render(given->sigma_s);
+    auto* effective = std::get_if<SubsurfaceMaterial::Effective>(&m.interior);
+    if (effective) render(effective->reflectance), render(effective->mean_free_path);
+    std::optional<Medium> medium = interior_of(m);
+    if (!medium && effective) {
+      note("a texture of its interior: it becomes diffuse with the reflectance of that");
       return (*this)(DiffuseMaterial{effective->reflectance});
     }
-    const auto* given = std::get_if<SubsurfaceMaterial::Coefficients>(&m.interior);
-    const auto* sigma_a = given ? std::get_if<Spectrum>(&given->sigma_a) : nullptr;
-    const auto* sigma_s = given ? std::get_if<Spectrum>(&given->sigma_s) : nullptr;
-    if (!sigma_a || !sigma_s) return grey("its interior");
-    Medium medium;
-    medium.coefficients =
-        AbsorptionScattering{textures_.as_rendered(*sigma_a), textures_.as_rendered(*sigma_s)};
-    medium.scale = m.scale;
-    medium.g = m.g;
-    result_.interior = medium;
+    if (!medium) return grey("its interior");
+    if (auto* measured = std::get_if<AbsorptionScattering>(&medium->coefficients))
+      for (VolumeParameter* v : {&measured->sigma_a, &measured->sigma_s})
+        *v = textures_.as_rendered(std::get<Spectrum>(*v));
+    result_.interior = std::move(medium);
     return (*this)(DielectricMaterial{m.eta, ConstantSpectrum{1}, m.roughness});
   }
   MaterialModel operator()(const HairMaterial& m) {

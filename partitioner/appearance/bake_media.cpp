@@ -11,6 +11,7 @@
 #include "scene/color.h"
 #include "scene/diagnostics.h"
 #include "scene/matrix_r.h"
+#include "scene/measured_media.h"
 
 namespace vitrail {
 
@@ -107,6 +108,8 @@ std::optional<Medium> bake_medium(const Medium& medium, RgbMethod method, std::v
   Medium baked = medium;
   baked.name.clear();
   bool whole = true;
+  if (const auto* named = std::get_if<NamedMedium>(&baked.coefficients))
+    if (const auto measured = measured_medium(named->name)) baked.coefficients = *measured;
   if (auto* k = std::get_if<AbsorptionScattering>(&baked.coefficients))
     whole = bake_volume(k->sigma_a, method, notes) && bake_volume(k->sigma_s, method, notes);
   else if (auto* albedo = std::get_if<ExtinctionAlbedo>(&baked.coefficients))

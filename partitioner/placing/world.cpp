@@ -82,6 +82,9 @@ void move_records(const Scene& scene, Appearance& appearance, Manifest& m) {
   std::visit([&](auto& c) { c.camera_to_world = translate(-m.offset) * c.camera_to_world; }, m.camera);
   m.camera_medium = new_id(appearance.medium_ids, scene.camera_medium);
   m.settings = scene.settings;
+  // A depth is meant for what scatters at surfaces.
+  if (std::ranges::any_of(appearance.material_interiors, [](std::int32_t medium) { return medium >= 0; }))
+    m.settings.max_depth = unlimited_depth;
 }
 
 }  // namespace

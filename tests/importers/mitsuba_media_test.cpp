@@ -7,8 +7,10 @@
 #include <cstring>
 #include <limits>
 
+#include "importers/mitsuba/subsurface.h"
 #include "importers/mitsuba/volume_file.h"
 #include "importers/mitsuba/write_mitsuba.h"
+#include "scene/measured_media.h"
 #include "tests/importers/mitsuba_objects.h"
 #include "tests/importers/temporary_folder.h"
 #include "tests/importers/written_scenes.h"
@@ -95,12 +97,62 @@ TEST_F(MitsubaMedia, Defaults) {
   EXPECT_EQ(medium("<phase type='isotropic'/>").g, 0);
 }
 
+// 0.6 looks at no capitals, and takes a hundred times what is measured per mm.
+TEST_F(MitsubaMedia, MeasuredMediaOf06) {
+  for (const auto& [word, name] : {std::pair{"skin1", "Skin1"}, {"Budweiser Beder", "Budweiser Beer"}}) {
+    const auto coefficients =
+        medium("<string name='material' value='" + std::string(word) + "'/>").coefficients;
+    const auto &given = std::get<AbsorptionScattering>(coefficients), known = measured_medium(name).value();
+    for (const double lambda : {450.0, 550.0, 650.0}) {
+      const auto at = [&](const VolumeParameter& v) { return evaluate(std::get<Spectrum>(v), lambda); };
+      EXPECT_NEAR(at(given.sigma_s), 100 * at(known.sigma_s), 1e-4 * at(given.sigma_s)) << word;
+      EXPECT_NEAR(at(given.sigma_a), 100 * at(known.sigma_a), 1e-4 * at(given.sigma_a)) << word;
+    }
+  }
+  EXPECT_THAT(diagnostics_, IsEmpty());
+  EXPECT_THROW(medium("<string name='material' value='skin3'/>"), Error);
+}
+
+TEST_F(MitsubaMedia, DiffusionBelowSurfacesOf06) {
+  const auto read_dipole = [&](const std::string& inside, const std::string& plastic) {
+    const Object root = load_objects_of_text("<shape type='sphere'><subsurface type='dipole'>" + inside +
+                                             "<integer name='irr_samples' value='64'/></subsurface>"
+                                             "<bsdf type='roughplastic'><float name='alpha' value='.2'/>" +
+                                             plastic + "</bsdf></shape>");
+    TestBuilder test;
+    test.scene.files = {"scene.xml"};
+    const Object& shape = *root.child("shape");
+    const Id<Material> made =
+        subsurface_material(test.builder, shape, add_material(test.builder, *shape.child("bsdf"))).value();
+    diagnostics_ = test.report.take();
+    return std::get<SubsurfaceMaterial>(test.scene.materials.at(made.value).model);
+  };
+  const std::string black = "<spectrum name='diffuse_reflectance' value='0'/>";
+  const SubsurfaceMaterial given = read_dipole(
+      "<float name='sigma_s' value='3'/><float name='sigma_a' value='.5'/><float name='g' value='.75'/>"
+      "<float name='scale' value='7'/><float name='int_ior' value='1.5'/><float name='ext_ior' "
+      "value='1.25'/>",
+      black);
+  EXPECT_EQ(given.interior, (decltype(SubsurfaceMaterial::interior){SubsurfaceMaterial::Coefficients{
+                                Spectrum{ConstantSpectrum{.5f}}, Spectrum{ConstantSpectrum{.75f}}}}));
+  EXPECT_EQ(given.eta, Spectrum{ConstantSpectrum{1.2f}});
+  EXPECT_EQ(given.roughness.alpha_u, FloatParameter{.2f});
+  EXPECT_EQ(given.scale, 7);
+  EXPECT_THAT(diagnostics_, SizeIs(1));
+  EXPECT_THAT(diagnostics_, says("every order of scattering"));
+  const SubsurfaceMaterial marble = read_dipole("<string name='material' value='marble'/>", "");
+  EXPECT_EQ(marble.eta, Spectrum{ConstantSpectrum{1.5f}});
+  EXPECT_THAT(diagnostics_, says("becomes a dielectric boundary"));
+  const SubsurfaceMaterial thick =
+      read_dipole("<float name='sigma_t' value='4'/><float name='albedo' value='.25'/>", black);
+  EXPECT_EQ(thick.interior, (decltype(SubsurfaceMaterial::interior){SubsurfaceMaterial::Coefficients{
+                                Spectrum{ConstantSpectrum{3}}, Spectrum{ConstantSpectrum{1}}}}));
+}
+
 TEST_F(MitsubaMedia, OlderForms) {
   EXPECT_EQ(medium("<float name='sigma_a' value='2'/><float name='sigma_s' value='3'/>").coefficients,
             (decltype(Medium::coefficients){
                 AbsorptionScattering{Spectrum{ConstantSpectrum{2}}, Spectrum{ConstantSpectrum{3}}}}));
-  EXPECT_EQ(medium("<string name='material' value='Skin1'/>").coefficients,
-            (decltype(Medium::coefficients){NamedMedium{"Skin1"}}));
   EXPECT_EQ(medium("<volume type='constvolume' name='density'><float name='value' value='7'/></volume>",
                    "heterogeneous")
                 .coefficients,

@@ -49,6 +49,25 @@ std::string sensor(const std::string& type, const std::string& properties, int w
          "'/></film></sensor>";
 }
 
+// Of 0.6: (sin φ sin θ, cos θ, −cos φ sin θ) at (φ/2π, θ/π) of the image.
+TEST(SphericalSensor, LooksWhere06Looks) {
+  const Reading reading =
+      read_text(sensor("spherical", "<transform name='to_world'><translate x='3'/></transform>"));
+  EXPECT_THAT(reading.diagnostics, IsEmpty());
+  const auto& camera = std::get<SphericalCamera>(reading.scene.camera);
+  EXPECT_EQ(camera.projection, SphericalCamera::Projection::latitude_longitude);
+  EXPECT_EQ(transform_point(camera.camera_to_world, {0, 0, 0}), (Point3d{3, 0, 0}));
+  for (const double phi : {0.3, 2.0, 5.0})
+    for (const double theta : {0.2, 1.8}) {
+      // SphericalCamera: by latitude and longitude around +y
+      const Vector3d ours{std::sin(theta) * std::cos(phi), std::cos(theta), std::sin(theta) * std::sin(phi)};
+      const Vector3d d = transform_vector(camera.camera_to_world, ours);
+      EXPECT_NEAR(d.x, std::sin(phi) * std::sin(theta), 1e-12);
+      EXPECT_NEAR(d.y, std::cos(theta), 1e-12);
+      EXPECT_NEAR(d.z, -std::cos(phi) * std::sin(theta), 1e-12);
+    }
+}
+
 ScreenWindow screen_of(const Scene& scene) { return std::get<PerspectiveCamera>(scene.camera).screen; }
 
 struct AxisCase {

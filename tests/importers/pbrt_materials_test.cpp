@@ -300,6 +300,22 @@ TEST(PbrtAlpha, IsNoEventAndAThinSheetIsOne) {
         << integrator;
 }
 
+TEST(PbrtMaterials, UnknownMeasuredMediaAreTheDefault) {
+  for (const char* text :
+       {"WorldBegin Material \"subsurface\" \"string name\" \"Skin3\" ",
+        "WorldBegin MakeNamedMedium \"m\" \"string type\" \"homogeneous\" \"string preset\" "
+        "\"Skin3\" "}) {
+    const ImportedScene imported = import_text(std::string(text) + triangle);
+    EXPECT_TRUE(mentions(imported.diagnostics, "did you mean \"Skin1\"")) << text;
+    for (const Medium& medium : imported.scene.media)
+      EXPECT_TRUE(std::holds_alternative<AbsorptionScattering>(medium.coefficients));
+    for (const Material& material : imported.scene.materials) {
+      const auto* m = std::get_if<SubsurfaceMaterial>(&material.model);
+      EXPECT_TRUE(!m || std::holds_alternative<SubsurfaceMaterial::Coefficients>(m->interior));
+    }
+  }
+}
+
 // uber with opacity or a mirror is made of others, which have its bumps.
 TEST(PbrtMaterials, BumpsAreOfTheParts) {
   const std::string bumps = "Texture \"d\" \"float\" \"fbm\" Material \"uber\" \"texture bumpmap\" \"d\" ";

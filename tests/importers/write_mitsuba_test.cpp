@@ -310,8 +310,8 @@ TEST_F(WriteMitsuba, ApproximatedModels) {
   EXPECT_THAT(diagnostics_, approximates("without its coating"));
   EXPECT_EQ(type(DiffuseTransmissionMaterial{}), "principledthin");
   EXPECT_THAT(diagnostics_, approximates("diffuse transmission"));
-  EXPECT_EQ(type(SubsurfaceMaterial{SubsurfaceMaterial::Named{"Skin1"}}), "dielectric");
-  EXPECT_THAT(diagnostics_, drops("Skin1"));
+  EXPECT_EQ(type(SubsurfaceMaterial{SubsurfaceMaterial::Named{"Skin3"}}), "dielectric");
+  EXPECT_THAT(diagnostics_, drops("Skin3"));
   EXPECT_EQ(type(SubsurfaceMaterial{SubsurfaceMaterial::Coefficients{Spectrum{ConstantSpectrum{1}},
                                                                      Spectrum{ConstantSpectrum{2}}}}),
             "dielectric");

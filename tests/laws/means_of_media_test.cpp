@@ -8,6 +8,7 @@
 
 #include "scene/portable_math.h"
 #include "tests/laws/flat_scenes.h"
+#include "tracer/bsdf/fresnel.h"
 #include "tracer/media/medium.h"
 
 namespace vitrail::test {
@@ -229,6 +230,33 @@ TEST(HalfSpace, OfExtinctionsFarApart) {
   EXPECT_NEAR(found.value.z, want.z, 4.5 * found.error.z + 2e-3 * want.z);
   EXPECT_LT(found.error.x, 0.02 * want.x);
   EXPECT_LT(found.error.z, 0.02 * want.z);
+}
+
+// ---- Under a surface
+
+// Of the sky that falls on a sphere, the surface sends back 2∫F(μ)μ dμ and the interior `reflectance` of the
+// rest, whatever the depth that paths may have.
+TEST(Subsurface, SphereSendsBackItsReflectance) {
+  constexpr float eta = 1.33f;
+  const double surface = fresnel_diffuse(static_cast<double>(eta));
+  for (const double reflectance : {0.25, 0.8}) {
+    Scene scene;
+    SubsurfaceMaterial m;
+    m.eta = ConstantSpectrum{eta};
+    m.interior = SubsurfaceMaterial::Effective{ConstantSpectrum{static_cast<float>(reflectance)},
+                                               ConstantSpectrum{1e-3f}};
+    TriangleMesh mesh;
+    mesh.quadric = Quadric{QuadricKind::sphere};
+    scene.meshes.push_back(mesh);
+    add_shape(scene, Id<TriangleMesh>{0}, Material{m});
+    scene.lights.push_back(Light{InfiniteLight{ConstantSpectrum{1}}});
+    look_along(scene, direction(0), {}, 1);
+    scene.settings.max_depth = 4;
+    const double disc = pi / 4, sent = surface + (1 - surface) * reflectance;
+    const Brightness found = brightness(render(scene, 64).film);
+    EXPECT_NEAR(found.mean, 1 - disc + disc * sent, 4.5 * found.standard_error + 1e-3) << reflectance;
+    EXPECT_LT(found.standard_error, 0.005);
+  }
 }
 
 // ---- Absorption and glow

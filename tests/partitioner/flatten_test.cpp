@@ -150,7 +150,7 @@ TEST(Flatten, OpacitiesAreOfSurfaces) {
 
 TEST(Flatten, MediaStandOnTheSidesOfSurfaces) {
   Scene scene = scene_of(triangle_facing_z());
-  scene.media = {Medium{}, Medium{.coefficients = NamedMedium{"Skin1"}}, Medium{}};
+  scene.media = {Medium{}, Medium{.coefficients = NamedMedium{"nobody's"}}, Medium{}};
   scene.shapes[0].interior = Id<Medium>{2};
   scene.shapes[0].exterior = Id<Medium>{1};  // cannot be shown
   scene.camera_medium = Id<Medium>{2};

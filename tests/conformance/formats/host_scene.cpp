@@ -77,6 +77,8 @@ std::string mitsuba_scene(const char* version, const PluginCase& plugin, const s
   if (word == "volume")
     inside = filled("<medium type='heterogeneous' name='interior'>" + element("sigma_t") + "</medium>");
   if (of_shape) inside += element("");
+  if (word == "subsurface")
+    inside = "<bsdf type='plastic'><spectrum name='diffuseReflectance' value='0'/></bsdf>" + element("");
   if (word == "shape")
     scene += fmt::format("<shape type='{}'>{}{}{}</shape>\n", type, parameters, plugin.needs, inside);
   else
