@@ -49,6 +49,9 @@ void declare_sample_options(CLI::App& app, SampleArguments& a) {
       "--filter", a.filter,
       "NAME or NAME:RADIUS in pixels: box, triangle, gaussian, mitchell or sinc over the samples of "
       "a pixel; default: as the scene says");
+  app.add_flag("--splat", a.splat,
+               "each sample adds to all pixels that the filter reaches from it, by its values, instead of to "
+               "one: less noise, and neighbours alike; the border of a crop has what falls inside");
   app.add_option("--texture-filter", a.texture_filter,
                  "none: images are as fine far away as near; nearest: their texels are seen as squares too; "
                  "default: as the scene says of each")
@@ -79,6 +82,7 @@ SampleChoices sample_choices(const SampleArguments& a) {
   if (!a.filter.empty()) choices.filter = parse_filter(a.filter);
   if (!a.texture_filter.empty())
     choices.textures = a.texture_filter == "nearest" ? TextureChoice::nearest : TextureChoice::unfiltered;
+  choices.sampling.splat = a.splat;
   SamplingChoices& s = choices.sampling;
   s.roulette = a.roulette == "early"   ? Roulette::early
                : a.roulette == "never" ? Roulette::never

@@ -322,8 +322,8 @@ void Rank::note_counters(std::int64_t rays_waiting) {
 
 void Rank::expect_ending(double gather_s) {
   if (!keeper_ || options_.time_limit_s <= 0) return;
-  ending_s_ =
-      ending_time_s(options_, film_bytes(state_.scene.manifest.film), transport_.size(), write_s_, gather_s);
+  ending_s_ = ending_time_s(options_, film_bytes(state_.scene.manifest.film, state_.film.key().splats),
+                            transport_.size(), write_s_, gather_s);
 }
 
 void Rank::watch_clock() {

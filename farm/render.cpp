@@ -61,6 +61,22 @@ void put_sensors(Manifest& m, const RenderOptions& options) {
   m.scene_hash = hasher.digest();
 }
 
+void check_splat(const Manifest& m, const RenderOptions& options) {
+  if (!options.samples.sampling.splat) return;
+  if (options.adaptive || options.target_error)
+    throw UsageError(
+        "--splat makes the errors of neighbours alike, which --adaptive, --target-error and --quality take "
+        "for "
+        "independent: give --spp instead");
+  if (std::holds_alternative<SensorCamera>(m.camera))
+    throw UsageError("--splat is of pictures: sensors are no neighbours of each other");
+  const auto [x, y] =
+      std::visit([](const auto& f) { return std::pair(f.radius_x, f.radius_y); }, m.film.filter);
+  if (std::max(x, y) > greatest_splat_radius)
+    throw UsageError(fmt::format("--splat takes filters of up to {} pixels in radius, this one has {}",
+                                 greatest_splat_radius, std::max(x, y)));
+}
+
 Manifest read_with_overrides(const RenderOptions& options) {
   Manifest m = read_manifest(options.bundle);
   if (m.domains.size() > max_domains) throw Error("more than 65535 domains", {options.bundle.string()});
@@ -84,6 +100,7 @@ Manifest read_with_overrides(const RenderOptions& options) {
   if (options.bins) m.film.spectrum = *options.bins;
   override_layers(m, options);
   apply(options.samples, m);
+  check_splat(m, options);
   const PixelRect& c = m.film.crop;
   if (c.x0 < 0 || c.y0 < 0 || c.x1 > m.film.width || c.y1 > m.film.height || c.x0 >= c.x1 || c.y0 >= c.y1)
     throw UsageError("the crop lies outside the film or is empty");
@@ -99,6 +116,7 @@ FilmKey key_of(const Manifest& m, const RenderOptions& options) {
   if (key.direct_only) key.threshold = rounded_threshold(options.threshold);
   key.straight_counts = m.settings.straight_counts;
   key.clamp = options.clamp;
+  key.splats = options.samples.sampling.splat;
   key.photons = photons_of(options, m);
   return key;
 }
@@ -145,9 +163,9 @@ Homes homes_of(const Manifest& manifest, const RenderOptions& options, int ranks
 }
 
 // Of a film's file: its sums, and what it says of itself.
-std::uint64_t file_bytes(const FilmSettings& film) {
+std::uint64_t file_bytes(const FilmSettings& film, bool splats) {
   constexpr std::uint64_t header_and_words = 16 << 10;
-  const std::uint64_t sums = film_bytes(film);
+  const std::uint64_t sums = film_bytes(film, splats);
   return sums + sums / 32 + header_and_words;
 }
 
@@ -217,7 +235,8 @@ RenderStats render(Transport& transport, const RenderOptions& options) {
     const Manifest& m = job->scene->manifest;
     goal = goal_of(options, m.settings.samples_per_pixel);
     stats.base_rss_bytes =
-        resident_bytes() + film_bytes(m.film) + (goal.adaptive ? map_bytes(m.film.crop) : 0) +
+        resident_bytes() + film_bytes(m.film, options.samples.sampling.splat) +
+        (goal.adaptive ? map_bytes(m.film.crop) : 0) +
         list_bytes(make_work_plan(m.film.crop, goal.samples, {}, goal.one_by_one), transport.size()) +
         table_bytes(m.domains.size(), threads) + connection_bytes(transport.size()) +
         (options.trace.empty() ? 0 : Timeline::most_bytes(transport.size()));
@@ -235,7 +254,8 @@ RenderStats render(Transport& transport, const RenderOptions& options) {
     job->film = Film(m.film, key_of(m, options), film_exponent(*job->scene),
                      m.film.layers.any() ? length_exponent(*job->scene) : default_exponent);
     homes = homes_of(m, options, transport.size());
-    if (transport.rank() == 0 && !options.dry_run) keeper.emplace(options.film, file_bytes(m.film));
+    if (transport.rank() == 0 && !options.dry_run)
+      keeper.emplace(options.film, file_bytes(m.film, options.samples.sampling.splat));
   });
   const Manifest& manifest = job->scene->manifest;
   expect_same_job(transport, manifest, job->film.key(), goal, *homes, options);

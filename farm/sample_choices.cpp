@@ -52,6 +52,7 @@ std::string words_of(const SampleChoices& c) {
   std::string words;
   const auto add = [&](const std::string& word) { words += (words.empty() ? "" : " ") + word; };
   if (c.filter) add(words_of(*c.filter));
+  if (c.sampling.splat) add("--splat");
   if (c.textures)
     add(fmt::format("--texture-filter {}", *c.textures == TextureChoice::nearest ? "nearest" : "none"));
   if (c.sampling.roulette != usual.roulette)

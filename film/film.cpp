@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <atomic>
 #include <bit>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -60,9 +61,9 @@ std::uint64_t pixels_of(const FilmSettings& s) {
 
 }  // namespace
 
-std::uint64_t film_bytes(const FilmSettings& settings) {
-  const std::uint64_t planes =
-      plane_count + static_cast<std::uint64_t>(settings.spectrum.count) + sum_planes(settings.layers);
+std::uint64_t film_bytes(const FilmSettings& settings, bool splats) {
+  const std::uint64_t planes = plane_count + static_cast<std::uint64_t>(settings.spectrum.count) +
+                               sum_planes(settings.layers) + (splats ? sample_groups : 0);
   return pixels_of(settings) * (planes * sizeof(WideSum) + sample_groups * sizeof(std::uint32_t) +
                                 id_planes(settings.layers) * sizeof(std::int64_t));
 }
@@ -81,8 +82,7 @@ Film::Film(const FilmSettings& settings, const FilmKey& key, int exponent, int l
   if (bins_.count < 0 || bins_.count > max_spectral_bins || !(bins_.min_nm < bins_.max_nm))
     throw Error(fmt::format("a film keeps at most {} spectral bins over an interval of wavelengths",
                             max_spectral_bins));
-  sums_.resize((plane_count + static_cast<std::size_t>(bins_.count) + sum_planes(layers_)) * size +
-               single_sums(key_));
+  sums_.resize((first_weights() + (key_.splats ? sample_groups : 0)) * size + single_sums(key_));
   counts_.resize(sample_groups * size);
   ids_.resize(id_planes(layers_) * size);
 }
@@ -95,7 +95,7 @@ std::size_t Film::group(std::uint32_t sample) const {
 
 // `size` of the parts of a deposit together, `largest` of them.
 bool Film::accepts(double size, double largest) {
-  if (largest < power_of_two(exponent_ + deposit_bits) && std::isfinite(size)) return true;
+  if (largest < power_of_two(exponent_ + deposit_bits(key_.splats)) && std::isfinite(size)) return true;
   std::uint64_t& count = std::isfinite(size) ? refused_.too_large : refused_.nonfinite;
   std::atomic_ref(count).fetch_add(1, std::memory_order_relaxed);
   return false;
@@ -109,16 +109,32 @@ std::uint32_t Film::place(std::uint32_t pixel) const {
          static_cast<std::uint32_t>(crop_.x0) + pixel % crop_width;
 }
 
-bool Film::deposit(std::uint32_t pixel, std::uint32_t sample, const XYZ& value) {
+// The same sums however deposits are put together: their quanta are whole before weights multiply them.
+void Film::add(std::size_t plane, std::uint32_t pixel, const WideSum& quanta, const Footprint* spread) {
+  assert((spread != nullptr) == key_.splats);
+  WideSum* const sums = sums_.data() + plane * pixels();
+  if (!spread) return add_shared(sums[pixel], quanta);
+  const auto across = static_cast<std::uint32_t>(width());
+  const int x0 = static_cast<int>(pixel % across) + spread->x,
+            y0 = static_cast<int>(pixel / across) + spread->y;
+  const int first = std::max(0, -x0), end = std::min(spread->wide, width() - x0);
+  const Int128 value = value_of(quanta);
+  for (int j = std::max(0, -y0); j < std::min(spread->high, height() - y0); ++j)
+    for (int i = first; i < end; ++i)
+      if (const std::int32_t w = spread->weights[static_cast<std::size_t>(j * spread->wide + i)]; w != 0)
+        add_shared(sums[static_cast<std::size_t>(y0 + j) * across + static_cast<std::size_t>(x0 + i)],
+                   wide_sum(value * w));
+}
+
+bool Film::deposit(std::uint32_t pixel, std::uint32_t sample, const XYZ& value, const Footprint* spread) {
   const double x = std::abs(value.x), y = std::abs(value.y), z = std::abs(value.z);
   if (!accepts(x + y + z, std::max({x, y, z}))) return false;
   const std::uint64_t bits = dice(place(pixel), sample, value.x, value.y, value.z);
   const double quanta = power_of_two(-exponent_);
-  const std::size_t plane = pixels();
-  add_shared(sums_[x_plane * plane + pixel], rounded(quanta * value.x, bits));
-  add_shared(sums_[z_plane * plane + pixel], rounded(quanta * value.z, bits >> 21));
+  add(x_plane, pixel, rounded(quanta * value.x, bits), spread);
+  add(z_plane, pixel, rounded(quanta * value.z, bits >> 21), spread);
   const WideSum light = rounded(quanta * value.y, bits >> 42);
-  add_shared(sums_[(y_planes + group(sample)) * plane + pixel], light);
+  add(y_planes + group(sample), pixel, light, spread);
   if (key_.photons.photons > 0) add_shared(sums_[first_batch() + batch_of(sample)], light);
   return true;
 }
@@ -129,21 +145,26 @@ double Film::clamp(std::uint32_t pixel, std::uint32_t sample, const XYZ& value) 
   if (!(largest > key_.clamp) || !std::isfinite(largest)) return 1;
   const double left = key_.clamp / largest, taken = (1 - left) * value.y;
   if (accepts(taken, std::abs(taken)))
-    add_shared(sums_.back(), rounded(power_of_two(-exponent_) * taken, dice(place(pixel), sample, taken)));
+    add_shared(sums_.back(), rounded(power_of_two((key_.splats ? weight_bits : 0) - exponent_) * taken,
+                                     dice(place(pixel), sample, taken)));
   return left;
 }
 
-bool Film::deposit_bin(std::uint32_t pixel, std::uint32_t sample, std::size_t bin, double value) {
+bool Film::deposit_bin(std::uint32_t pixel, std::uint32_t sample, std::size_t bin, double value,
+                       const Footprint* spread) {
   if (!accepts(value, std::abs(value))) return false;
   const double quanta = power_of_two(-exponent_);
-  add_shared(sums_[(bin_planes + bin) * pixels() + pixel],
-             rounded(quanta * value, dice(place(pixel), sample, value)));
+  add(bin_planes + bin, pixel, rounded(quanta * value, dice(place(pixel), sample, value)), spread);
   return true;
 }
 
 std::size_t Film::first_plane(Layer layer) const {
   return bin_planes + static_cast<std::size_t>(bins_.count) +
          sum_planes(layers_, static_cast<std::size_t>(layer));
+}
+
+std::size_t Film::first_weights() const {
+  return bin_planes + static_cast<std::size_t>(bins_.count) + sum_planes(layers_);
 }
 
 int Film::exponent_of(Layer layer) const {
@@ -155,17 +176,17 @@ std::size_t Film::place_of_id(std::uint32_t pixel, Layer layer) const {
 }
 
 void Film::deposit_layer(std::uint32_t pixel, std::uint32_t sample, Layer layer,
-                         std::span<const double> values) {
+                         std::span<const double> values, const Footprint* spread) {
   const int exponent = exponent_of(layer);
-  const double limit = power_of_two(exponent + deposit_bits);
+  const double limit = power_of_two(exponent + deposit_bits(key_.splats));
   if (!std::ranges::all_of(values, [&](double v) { return std::abs(v) < limit; })) {
     std::atomic_ref(refused_.nonfinite).fetch_add(1, std::memory_order_relaxed);
     return;
   }
   const std::size_t first = first_plane(layer);
   for (std::size_t i = 0; i < values.size(); ++i)
-    add_shared(sums_[(first + i) * pixels() + pixel],
-               rounded(power_of_two(-exponent) * values[i], dice(place(pixel), sample, values[i])));
+    add(first + i, pixel, rounded(power_of_two(-exponent) * values[i], dice(place(pixel), sample, values[i])),
+        spread);
 }
 
 // The greater, the earlier the sample; of one sample, the lesser the id.
@@ -183,14 +204,15 @@ std::uint32_t Film::id(std::uint32_t pixel, Layer layer) const {
 }
 
 double Film::mean_of_layer(std::uint32_t pixel, Layer layer, std::size_t plane) const {
-  const std::uint64_t n = samples(pixel);
-  if (n == 0) return 0;
+  const double n = weight(pixel);
+  if (!(n > 0)) return 0;
   const WideSum& sum = sums_[(first_plane(layer) + plane) * pixels() + pixel];
-  return power_of_two(exponent_of(layer)) * static_cast<double>(value_of(sum)) / static_cast<double>(n);
+  return power_of_two(exponent_of(layer)) * static_cast<double>(value_of(sum)) / n;
 }
 
-void Film::count_sample(std::uint32_t pixel, std::uint32_t sample) {
+void Film::count_sample(std::uint32_t pixel, std::uint32_t sample, const Footprint* spread) {
   std::atomic_ref(counts_[group(sample) * pixels() + pixel]).fetch_add(1, std::memory_order_relaxed);
+  if (key_.splats) add(first_weights() + group(sample), pixel, wide_sum_of(1), spread);
   if (key_.photons.photons > 0)
     add_shared(sums_[first_batch() + photon_batches + batch_of(sample)], wide_sum_of(1));
 }
@@ -219,6 +241,7 @@ std::string difference(const Film& a, const Film& b) {
   if (k.threshold != l.threshold) return differ("their thresholds differ", k.threshold, l.threshold);
   if (k.straight_counts != l.straight_counts)
     return "one counts going straight through a sheet as scattering, the other does not";
+  if (k.splats != l.splats) return "samples of one add to several pixels, those of the other to their own";
   const auto photons = [](const PhotonKey& p) {
     return p.photons == 0 ? std::string("none")
                           : fmt::format("{} from radius {} on with α {}", p.photons, p.first_radius, p.alpha);
@@ -262,14 +285,13 @@ double Film::value(std::size_t plane, std::uint32_t pixel) const {
 }
 
 XYZ Film::mean(std::uint32_t pixel) const {
-  const std::uint64_t n = samples(pixel);
-  if (n == 0) return {};
-  const double weight = imaging_ratio_ / static_cast<double>(n);
+  const double n = weight(pixel);
+  if (!(n > 0)) return {};
+  const double each = imaging_ratio_ / n;
   WideSum y;
   for (std::size_t g = 0; g < sample_groups; ++g) y += sums_[(y_planes + g) * pixels() + pixel];
-  return {weight * value(x_plane, pixel),
-          weight * (power_of_two(exponent_) * static_cast<double>(value_of(y))),
-          weight * value(z_plane, pixel)};
+  return {each * value(x_plane, pixel), each * (power_of_two(exponent_) * static_cast<double>(value_of(y))),
+          each * value(z_plane, pixel)};
 }
 
 double Film::clamped_share() const {
@@ -282,8 +304,19 @@ double Film::clamped_share() const {
 }
 
 double Film::mean_of_bin(std::uint32_t pixel, std::size_t bin) const {
-  const std::uint64_t n = samples(pixel);
-  return n == 0 ? 0 : imaging_ratio_ / static_cast<double>(n) * value(bin_planes + bin, pixel);
+  const double n = weight(pixel);
+  return n > 0 ? imaging_ratio_ / n * value(bin_planes + bin, pixel) : 0;
+}
+
+double Film::weight(std::size_t group, std::uint32_t pixel) const {
+  if (!key_.splats) return counts_[group * pixels() + pixel];
+  return static_cast<double>(value_of(sums_[(first_weights() + group) * pixels() + pixel]));
+}
+
+double Film::weight(std::uint32_t pixel) const {
+  double sum = 0;
+  for (std::size_t g = 0; g < sample_groups; ++g) sum += weight(g, pixel);
+  return sum;
 }
 
 // With Y_g the sum of the n_g samples of group g, n = n₀ + n₁, the groups being independent with the means
@@ -292,8 +325,8 @@ double Film::mean_of_bin(std::uint32_t pixel, std::size_t bin) const {
 // are as the numbers of samples.
 double Film::variance_of_mean(std::uint32_t pixel) const {
   static_assert(sample_groups == 2);
-  const double n0 = counts_[pixel], n1 = counts_[pixels() + pixel], n = n0 + n1;
-  if (n0 == 0 || n1 == 0) return 0;
+  const double n0 = weight(0, pixel), n1 = weight(1, pixel), n = n0 + n1;
+  if (!(n0 > 0) || !(n1 > 0)) return 0;
   const double d = imaging_ratio_ * (value(y_planes, pixel) / n0 - value(y_planes + 1, pixel) / n1);
   return d * d * (n0 / n) * (n1 / n);
 }

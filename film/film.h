@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "film/footprint.h"
 #include "film/renderer_version.h"
 #include "film/sample_groups.h"
 #include "film/untouched.h"
@@ -39,6 +40,7 @@ struct FilmKey {
   // has room in a film's header (rounded_threshold).
   float threshold = 0;
   PhotonKey photons = {};
+  bool splats = false;  // samples add to several pixels
   bool operator==(const FilmKey&) const = default;
 };
 
@@ -63,14 +65,15 @@ constexpr std::size_t single_sums(const FilmKey& key) {
   return (key.photons.photons > 0 ? 2 * photon_batches : 0) + (key.clamp > 0 ? 1 : 0);
 }
 
-// What a sum counts in: 2^exponent. A deposit has to be below 2^(exponent + deposit_bits), so that a sum
-// holds 2⁴² deposits, 2¹⁰ of each of 2³² samples, whatever they are.
-inline constexpr int deposit_bits = 85;
+// What a sum counts in: 2^exponent. A deposit has to be below 2^(exponent + deposit_bits(…)), so that a sum
+// holds 2⁴² deposits, 2¹⁰ of each of 2³² samples, whatever they are. Where samples add to several pixels it
+// counts in 2^(exponent − weight_bits), as a deposit of whole quanta times a weight does.
+constexpr int deposit_bits(bool splats) { return splats ? 85 - weight_bits : 85; }
 inline constexpr int default_exponent = -45;                          // for radiances about 1
 inline constexpr int least_exponent = -900, greatest_exponent = 900;  // so that all are doubles
 
 // Memory of a film's sums, counts and ids, before there is one.
-std::uint64_t film_bytes(const FilmSettings& settings);
+std::uint64_t film_bytes(const FilmSettings& settings, bool splats = false);
 
 // Width × height of the crop; planes row-major from the top left.
 class Film {
@@ -96,25 +99,30 @@ class Film {
   // Adds to a pixel. Safe from many threads. `pixel` = y·width + x within the crop. Each component is rounded
   // once to a whole number of quanta, up or down with the probabilities that make the mean exact, by a hash
   // of pixel, sample and value: light below the quantum is not lost. Returns false, and adds and counts in
-  // `refused` what it is, if the value is not finite or too large.
-  bool deposit(std::uint32_t pixel, std::uint32_t sample, const XYZ& value);
+  // `refused` what it is, if the value is not finite or too large. `spread`: where the film splats, and
+  // nowhere else, the sample's pixels, of which those outside the crop get nothing.
+  bool deposit(std::uint32_t pixel, std::uint32_t sample, const XYZ& value,
+               const Footprint* spread = nullptr);
   // Adds to a bin of a pixel's spectrum, as above: radiance over (pdf of its wavelength · width of the bin).
-  bool deposit_bin(std::uint32_t pixel, std::uint32_t sample, std::size_t bin, double value);
+  bool deposit_bin(std::uint32_t pixel, std::uint32_t sample, std::size_t bin, double value,
+                   const Footprint* spread = nullptr);
   // The part of a deposit's light that the key's clamp leaves, in (0,1]; what it takes is counted.
   double clamp(std::uint32_t pixel, std::uint32_t sample, const XYZ& value);
   // Adds to a layer of sums that the film keeps; `values`: one a plane of it. As above, but a value that is
   // too large counts as one that is not finite: it is no light.
-  void deposit_layer(std::uint32_t pixel, std::uint32_t sample, Layer layer, std::span<const double> values);
+  void deposit_layer(std::uint32_t pixel, std::uint32_t sample, Layer layer, std::span<const double> values,
+                     const Footprint* spread = nullptr);
   // To a layer of ids that the film keeps. A pixel has the id of the first of its samples that has one, by
   // number; of films of several seeds, the least of the first ones. `id` < 2³² − 1.
   void put_id(std::uint32_t pixel, std::uint32_t sample, Layer layer, std::uint32_t id);
   // Counts one sample of a pixel, whatever it deposits.
-  void count_sample(std::uint32_t pixel, std::uint32_t sample);
+  void count_sample(std::uint32_t pixel, std::uint32_t sample, const Footprint* spread = nullptr);
 
   // Sums of another film of the same size. Exact in any order. Throws Error where they do not fit together.
   void merge(const Film& other);
 
-  // Mean of the samples: Σ/count, imaging ratio applied; black where the count is 0.
+  // Mean of the samples, imaging ratio applied: Σ over their number, or where the film splats over the sum of
+  // their weights; black where that is not above 0.
   XYZ mean(std::uint32_t pixel) const;
   // Mean radiance of a bin, W·m⁻²·sr⁻¹·nm⁻¹, imaging ratio applied.
   double mean_of_bin(std::uint32_t pixel, std::size_t bin) const;
@@ -142,9 +150,9 @@ class Film {
   std::uint64_t hash() const;
 
   // The raw planes, for exchange between ranks: X, Z, Y of each group, then one a spectral bin and those of
-  // layers, each width·height; of photon mapping the Y, then the samples, of all pixels in each batch; and,
-  // where there is a clamp, the Y that it took of all pixels; the samples of each group; and what was
-  // refused.
+  // layers, each width·height; where the film splats the weights of each group; of photon mapping the Y, then
+  // the samples, of all pixels in each batch; and, where there is a clamp, the Y that it took of all pixels;
+  // the samples of each group; and what was refused.
   std::span<WideSum> sums() { return sums_; }
   std::span<const WideSum> sums() const { return sums_; }
   std::span<std::uint32_t> counts() { return counts_; }
@@ -160,6 +168,10 @@ class Film {
   std::size_t group(std::uint32_t sample) const;
   std::uint32_t place(std::uint32_t pixel) const;
   bool accepts(double size, double largest);
+  void add(std::size_t plane, std::uint32_t pixel, const WideSum& quanta, const Footprint* spread);
+  double weight(std::size_t group, std::uint32_t pixel) const;  // of its samples
+  double weight(std::uint32_t pixel) const;
+  std::size_t first_weights() const;
   double value(std::size_t plane, std::uint32_t pixel) const;
   std::size_t first_plane(Layer layer) const;
   int exponent_of(Layer layer) const;

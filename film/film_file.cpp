@@ -32,10 +32,10 @@ constexpr std::int32_t max_extent = 1 << 20;  // pixels a side
 
 // What a film was rendered with, in Header::options.
 constexpr std::uint32_t option_direct_only = 1, option_straight_counts = 2, option_camera_space = 4,
-                        option_adaptive = 8, option_open_round = 16;
+                        option_adaptive = 8, option_open_round = 16, option_splats = 32;
 constexpr std::uint32_t threshold_bits = 0xffff0000;  // the upper half of a float
 constexpr std::uint32_t options_of(std::uint32_t version) {
-  return threshold_bits | (version == adaptive_version ? 31 : 7);
+  return threshold_bits | option_splats | (version == adaptive_version ? 31 : 7);
 }
 
 struct Header {
@@ -159,7 +159,7 @@ void write_film(const std::filesystem::path& file, const Film& film, const FilmP
   h.max_depth = key.max_depth;
   h.options = (key.direct_only ? option_direct_only : 0) |
               (key.straight_counts ? option_straight_counts : 0) |
-              (film.layers_.in_camera_space ? option_camera_space : 0) |
+              (film.layers_.in_camera_space ? option_camera_space : 0) | (key.splats ? option_splats : 0) |
               (std::bit_cast<std::uint32_t>(key.threshold) & threshold_bits) |
               (progress.adaptive ? option_adaptive : 0) | (progress.more.empty() ? 0 : option_open_round);
   h.exponent = film.exponent_, h.length_exponent = film.length_exponent_;
@@ -190,7 +190,9 @@ Film read_film(const std::filesystem::path& file, FilmProgress* progress) {
   const auto pixels = static_cast<std::uint64_t>(h.x1 - h.x0) * static_cast<std::uint64_t>(h.y1 - h.y0);
   const FilmLayers layers{h.layers, (h.options & option_camera_space) != 0};
   const bool open_round = (h.options & option_open_round) != 0;
-  const std::uint64_t planes = 2 + sample_groups + static_cast<std::uint64_t>(h.bins) + sum_planes(layers);
+  const bool splats = (h.options & option_splats) != 0;
+  const std::uint64_t planes = 2 + sample_groups + static_cast<std::uint64_t>(h.bins) + sum_planes(layers) +
+                               (splats ? sample_groups : 0);
   const std::uint64_t arrays =
       pixels * (planes * sizeof(WideSum) + sample_groups * sizeof(std::uint32_t) +
                 id_planes(layers) * sizeof(std::int64_t)) +
@@ -231,7 +233,8 @@ Film read_film(const std::filesystem::path& file, FilmProgress* progress) {
                h.clamp,
                {h.renderer, h.picture_revision},
                std::bit_cast<float>(h.options & threshold_bits),
-               photons.empty() ? PhotonKey{} : photons[0]};
+               photons.empty() ? PhotonKey{} : photons[0],
+               splats};
   film.exponent_ = h.exponent, film.length_exponent_ = h.length_exponent;
   film.layers_ = layers;
   film.refused_ = {h.nonfinite, h.too_large};

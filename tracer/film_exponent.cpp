@@ -138,11 +138,11 @@ std::optional<LightRange> light_range(const RenderScene& scene) {
   return tally.range();
 }
 
-int film_exponent(const LightRange& range, double brighter) {
+int film_exponent(const LightRange& range, double brighter, bool splats) {
   constexpr int below = 40, above = 40, least_above = 16;
   const int dim = std::ilogb(range.dimmest), bright = std::ilogb(range.brightest * std::max(brighter, 1.0));
-  const int exponent =
-      std::clamp(dim - below, bright - deposit_bits + least_above, bright - deposit_bits + above);
+  const int top = bright - deposit_bits(splats);
+  const int exponent = std::clamp(dim - below, top + least_above, top + above);
   return std::clamp(exponent, least_exponent, greatest_exponent);
 }
 
@@ -150,7 +150,7 @@ int film_exponent(const RenderScene& scene) {
   double brighter = std::abs(scene.filter.weight(0, 0));
   const SpectralBins& bins = scene.manifest.film.spectrum;
   if (bins.count > 0) brighter *= std::max(1.0, greatest_bin_weight(bins));
-  return film_exponent(light_range(scene).value_or(LightRange{1, 1}), brighter);
+  return film_exponent(light_range(scene).value_or(LightRange{1, 1}), brighter, scene.sampling.splat);
 }
 
 int length_exponent(const RenderScene& scene) {

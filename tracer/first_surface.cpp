@@ -74,16 +74,17 @@ void PathTracer::record_first_surface(Path& path, const Interaction& at, const S
 
   const FilmLayers& layers = film_.layers();
   const double weight = scene_.filter.weight(path.camera[0], path.camera[1]);
+  const Footprint* const spread = footprint_of(path.pixel, path.sample);
   for (const Layer layer :
        {Layer::position, Layer::geometric_normal, Layer::shading_normal, Layer::uv, Layer::depth}) {
     if (!layers.has(layer)) continue;
     std::array<double, 3> values = value_at(path, at, *material, layer);
     for (double& v : values) v *= weight;
-    film_.deposit_layer(path.pixel, path.sample, layer, std::span(values).first(kind_of(layer).sums));
+    film_.deposit_layer(path.pixel, path.sample, layer, std::span(values).first(kind_of(layer).sums), spread);
   }
   if (layers.has(Layer::albedo)) {
     const XYZ c = albedo_at(path, at, *material);
-    film_.deposit_layer(path.pixel, path.sample, Layer::albedo, std::array{c.x, c.y, c.z});
+    film_.deposit_layer(path.pixel, path.sample, Layer::albedo, std::array{c.x, c.y, c.z}, spread);
   }
   const auto put_id = [&](Layer layer, std::size_t id) {
     if (layers.has(layer)) film_.put_id(path.pixel, path.sample, layer, static_cast<std::uint32_t>(id));

@@ -81,6 +81,16 @@ void PathTracer::begin(Path& path) const {
   path.camera = camera_numbers(path.key);
 }
 
+// Where the film splats, the pixels of a sample; else null.
+const Footprint* PathTracer::footprint_of(std::uint32_t pixel, std::uint32_t sample) {
+  if (!scene_.sampling.splat) return nullptr;
+  if (const std::uint64_t of = std::uint64_t{pixel} << 32 | sample; of != landed_.of) {
+    const std::array<float, 4> u = camera_numbers(key_of(pixel, sample));
+    landed_ = {of, scene_.filter.footprint(u[0], u[1])};
+  }
+  return &landed_.footprint;
+}
+
 // The first event at a depth has a stratified set; those that follow where going straight on counts for no
 // depth have numbers of their ray.
 std::array<float, 4> PathTracer::numbers_for_scattering(const Path& path, Wanted wanted) const {
@@ -155,7 +165,7 @@ void PathTracer::trace_camera(int x, int y, std::uint32_t sample) {
   path.direction = ray.direction;
   path.ray = {ray.origin, decode_direction(ray.direction), no_triangle};
   path.random = hash_of_ray(path);
-  film_.count_sample(path.pixel, sample);
+  film_.count_sample(path.pixel, sample, footprint_of(path.pixel, sample));
   ++counters_.rays_camera;
   if (traffic_) traffic_->begin({});
   ++counters_.born;
@@ -342,12 +352,13 @@ void PathTracer::deposit(std::uint32_t pixel, std::uint32_t sample, const Sensor
                          const SampledSpectrum& radiance) {
   const XYZ light = sense(weights, radiance);
   const double left = film_.clamp(pixel, sample, light);
-  if (!film_.deposit(pixel, sample, {left * light.x, left * light.y, left * light.z}) ||
+  const Footprint* const spread = footprint_of(pixel, sample);
+  if (!film_.deposit(pixel, sample, {left * light.x, left * light.y, left * light.z}, spread) ||
       film_.bins().count == 0)
     return;
   for (std::size_t i = 0; i < hero_count; ++i) {
     const double value = left * static_cast<double>(radiance.v[i]) * static_cast<double>(weights.spectral[i]);
-    if (value != 0) film_.deposit_bin(pixel, sample, weights.bin[i], value);
+    if (value != 0) film_.deposit_bin(pixel, sample, weights.bin[i], value, spread);
   }
 }
 

@@ -192,6 +192,7 @@ class PathTracer {
                const SampledSpectrum& radiance);
   SensorWeights sensor_of(const std::array<float, 4>& camera, const SampledWavelengths& wavelengths) const;
   void find_wavelengths(Path& path) const;
+  const Footprint* footprint_of(std::uint32_t pixel, std::uint32_t sample);
   SampleKey key_of(std::uint32_t pixel, std::uint32_t sample) const;
   std::array<float, 4> camera_numbers(const SampleKey& key) const;
   void begin(Path& path) const;
@@ -208,6 +209,10 @@ class PathTracer {
   TraceCounters& counters_;
   RayTraffic* traffic_;
   const PhotonPass* photons_;
+  struct {
+    std::uint64_t of = ~std::uint64_t{0};  // pixel and sample
+    Footprint footprint;
+  } landed_;  // the last one
 };
 
 }  // namespace vitrail

@@ -54,7 +54,7 @@ void FilterSampler::Axis::tabulate(auto&& f) {
   negative = std::move(below);
 }
 
-FilterSampler::FilterSampler(const Filter& filter) {
+FilterSampler::FilterSampler(const Filter& filter, bool splats) : splats_(splats) {
   std::visit(
       [&](const auto& f) {
         x_.radius = f.radius_x;
@@ -74,7 +74,33 @@ FilterSample FilterSampler::Axis::sample(double u) const {
   return {{offset, 0}, !negative.empty() && negative[bin] ? -total_weight : total_weight};
 }
 
+double FilterSampler::Axis::value(double x) const {
+  if (!(-radius <= x && x < radius)) return 0;
+  const double bin_width = 2 * radius / resolution;
+  if (cumulative.empty()) return 1 / (2 * radius);
+  const auto bin = std::min(static_cast<std::size_t>((x + radius) / bin_width), resolution - 1);
+  const double share = (cumulative[bin + 1] - cumulative[bin]) * total_weight / bin_width;
+  return !negative.empty() && negative[bin] ? -share : share;
+}
+
+Footprint FilterSampler::footprint(float u, float v) const {
+  const double x = static_cast<double>(u) - 0.5, y = static_cast<double>(v) - 0.5;
+  const auto first = [](double at, double radius) { return static_cast<int>(std::floor(at - radius)) + 1; };
+  const auto pixels = [&](double at, double radius) {
+    return std::min(static_cast<int>(std::floor(at + radius)) + 1 - first(at, radius), most_splat_pixels);
+  };
+  Footprint print{first(x, x_.radius), first(y, y_.radius), pixels(x, x_.radius), pixels(y, y_.radius), {}};
+  std::size_t next = 0;
+  for (int j = 0; j < print.high; ++j) {
+    const double row = std::ldexp(y_.value(y - (print.y + j)), weight_bits);
+    for (int i = 0; i < print.wide; ++i)
+      print.weights[next++] = static_cast<std::int32_t>(std::lround(row * x_.value(x - (print.x + i))));
+  }
+  return print;
+}
+
 FilterSample FilterSampler::sample(float u, float v) const {
+  if (splats_) return {{static_cast<double>(u) - 0.5, static_cast<double>(v) - 0.5}, 1};
   const FilterSample x = x_.sample(static_cast<double>(u)), y = y_.sample(static_cast<double>(v));
   return {{x.offset.x, y.offset.x}, x.weight * y.weight};
 }

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "film/footprint.h"
 #include "scene/camera.h"
 #include "scene/vec.h"
 #include "tracer/guide_table.h"
@@ -16,12 +17,14 @@ struct FilterSample {
 
 // Sampling by a separable reconstruction filter f, so that a sample lands in one pixel (Ernst, Stamminger &
 // Greiner 2006): offsets are distributed as |f|, with weight ∫|f|/∫f, negative in f's negative lobes; 1 where
-// it has none.
+// it has none. Of samples that splat, offsets are even over the pixel, and the filter is in their footprint.
 class FilterSampler {
  public:
-  explicit FilterSampler(const Filter& filter);
+  explicit FilterSampler(const Filter& filter, bool splats = false);
+  bool splats() const { return splats_; }
   FilterSample sample(float u, float v) const;                                             // u, v in [0,1)
   double weight(float u, float v) const { return has_lobes() ? sample(u, v).weight : 1; }  // of that sample
+  Footprint footprint(float u, float v) const;  // of that sample; radii ≤ greatest_splat_radius
 
  private:
   static constexpr std::size_t resolution = 256;
@@ -33,9 +36,11 @@ class FilterSampler {
     std::vector<bool> negative;  // f of each bin is; empty: nowhere
     void tabulate(auto&& f);
     FilterSample sample(double u) const;  // along this axis, as offset.x
+    double value(double x) const;         // of f/∫f at a distance from its centre
   };
-  bool has_lobes() const { return !x_.negative.empty() || !y_.negative.empty(); }
+  bool has_lobes() const { return !splats_ && (!x_.negative.empty() || !y_.negative.empty()); }
   Axis x_, y_;
+  bool splats_;
 };
 
 }  // namespace vitrail

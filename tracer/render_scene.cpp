@@ -40,7 +40,7 @@ RenderScene::RenderScene(Manifest the_manifest, const std::filesystem::path& bun
     : manifest(std::move(the_manifest)),
       interiors(manifest),
       camera(manifest.camera, manifest.film),
-      filter(manifest.film.filter),
+      filter(manifest.film.filter, the_sampling.splat),
       textures(manifest.textures, bundle, texture_bytes),
       materials(manifest, textures),
       media(prepare(manifest.media)),

@@ -20,6 +20,9 @@ struct SamplingChoices {
   LightChoice lights = LightChoice::tree;
   // Of which one is connected to, where the camera sees the point and they differ; 1 … most_light_candidates.
   std::uint32_t light_candidates = 4;
+  // Samples lie evenly in their pixels and add to all that the filter reaches from there, by its values; else
+  // it chooses where they lie.
+  bool splat = false;
   bool operator==(const SamplingChoices&) const = default;
 };
 

@@ -54,7 +54,10 @@ TEST_F(Mistakes, WaysToSampleThatAreNotThere) {
                                      {"--wavelengths 2", "1,4"},
                                      {"--light-candidates 0", "range 1 to 16"},
                                      {"--roulette 3", "early"},
-                                     {"--texture-filter trilinear", "nearest"}}) {
+                                     {"--texture-filter trilinear", "nearest"},
+                                     {"--splat --adaptive", "give --spp instead"},
+                                     {"--splat --quality draft", "give --spp instead"},
+                                     {"--splat --filter box:5", "up to 4.5 pixels"}}) {
     const CommandResult result = render(option);
     EXPECT_EQ(result.status, 2) << option;
     EXPECT_THAT(result.output, HasSubstr(hint)) << option;

@@ -104,6 +104,34 @@ TEST_F(FilmFile, OfPhotonsComesBackToo) {
   }
 }
 
+TEST_F(FilmFile, OfSamplesThatSplatComesBackToo) {
+  FilmSettings settings;
+  settings.width = settings.height = 3;
+  settings.crop = {0, 3, 0, 3};
+  const Film plain(settings, {.scene_hash = 2});
+  Film film(settings, {.scene_hash = 2, .clamp = 4, .splats = true});
+  // Half to the pixel, a quarter to the one at its right, if that is in the picture.
+  constexpr std::int32_t one = 1 << weight_bits;
+  const Footprint print{0, 0, 2, 1, {one / 2, one / 4}};
+  for (std::uint32_t p = 0; p < 9; ++p)
+    for (std::uint32_t s = 0; s < 2; ++s) {
+      film.count_sample(p, s, &print);
+      ASSERT_TRUE(film.deposit(p, s, {0, 1.0 + p, 0}, &print));
+    }
+  film.clamp(0, 0, {0, 8, 0});
+  EXPECT_DOUBLE_EQ(film.mean(0).y, 1);
+  EXPECT_DOUBLE_EQ(film.mean(4).y, (5 * 2 + 4) / 3.0);
+  EXPECT_EQ(film.variance_of_mean(4), 0);
+  EXPECT_DOUBLE_EQ(film.clamped_share(), 4 / (4 + 2 * (0.5 * 45 + 0.25 * 27)));
+  write_film(file_, film, {9, 2, {511}, 1, {}, {}});
+  const Film read = read_film(file_, nullptr);
+  EXPECT_EQ(read.key(), film.key());
+  EXPECT_EQ(read.hash(), film.hash());
+  EXPECT_EQ(read.mean(4), film.mean(4));
+  EXPECT_EQ(read.clamped_share(), film.clamped_share());
+  EXPECT_NE(difference(film, plain), "");
+}
+
 // Within an adaptive round a film has the round's map, and between rounds none.
 TEST_F(FilmFile, OfAdaptiveSamplesComesBackToo) {
   for (const bool open : {true, false}) {

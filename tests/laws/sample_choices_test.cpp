@@ -116,13 +116,37 @@ TEST(SampleChoices, FiltersMoveTheLightAndKeepIt) {
   for (const auto& [filter, reaches] :
        {Spread{BoxFilter{0.25, 0.25}, false}, Spread{BoxFilter{3, 3}, true}, Spread{TriangleFilter{}, true},
         Spread{GaussianFilter{}, true}, Spread{MitchellFilter{}, true}, Spread{SincFilter{}, true}}) {
-    const Film film = rendered(scene, 256, {filter, {}, {}});
-    EXPECT_NEAR(brightness(film).mean, lamp, 0.004 * lamp) << filter.index();
-    if (reaches)
-      EXPECT_GT(std::abs(reach(film)), 0.01) << filter.index();
-    else
-      EXPECT_EQ(reach(film), 0);
+    for (const bool splat : {false, true}) {
+      const Film film = rendered(scene, 256, {filter, {}, {.splat = splat}});
+      EXPECT_NEAR(brightness(film).mean, lamp, 0.004 * lamp) << filter.index() << splat;
+      if (reaches)
+        EXPECT_GT(std::abs(reach(film)), 0.01) << filter.index() << splat;
+      else
+        EXPECT_EQ(reach(film), 0);
+    }
   }
+}
+
+// Of each pixel, what its two groups say of its error is true on the average, though the errors of neighbours
+// are alike; and there is less of it than where the filter chooses where samples lie.
+TEST(SampleChoices, SplattingHasLessErrorAndSaysHowMuch) {
+  const Scene scene = lit_box(12);
+  const auto errors = [&](bool splat) {
+    const SampleChoices ways{GaussianFilter{}, {}, {.splat = splat}};
+    const Film truth = rendered(scene, 512, ways, 99);
+    double squares = 0, said = 0;
+    for (std::uint64_t seed = 0; seed < 4; ++seed) {
+      const Film film = rendered(scene, 16, ways, seed);
+      for (std::uint32_t p = 0; p < film.pixels(); ++p) {
+        const double off = film.mean(p).y - truth.mean(p).y;
+        squares += off * off, said += film.variance_of_mean(p);
+      }
+    }
+    fmt::print("{}: error {:.4g}, said {:.4g}\n", splat ? "splatted" : "chosen", squares, said);
+    EXPECT_NEAR(said / squares, 1, 0.35) << splat;
+    return squares;
+  };
+  EXPECT_LT(errors(true), 0.6 * errors(false));
 }
 
 // An image far away, that its scene filters in one way or another, lit by itself.
@@ -173,15 +197,17 @@ class OnePictureOfSamples : public PartitionedBox {
 };
 
 TEST_F(OnePictureOfSamples, HoweverItIsRendered) {
-  const std::string choices =
-      "--filter mitchell:1 --roulette early --wavelengths 1 --light-sampling power --light-candidates 7";
-  ASSERT_EQ(render("a.film", 1, choices + " --threads 2").status, 0);
-  for (const char* manner : {"--threads 1", "--threads 2 --domain-memory 1 --shuffle-delivery 5"}) {
-    const CommandResult done = render("b.film", 2, choices + " --force " + manner);
-    ASSERT_EQ(done.status, 0) << done.output;
-    EXPECT_EQ(hash("b.film"), hash("a.film")) << manner;
+  for (const std::string choices :
+       {"--filter mitchell:1 --roulette early --wavelengths 1 --light-sampling power --light-candidates 7",
+        "--splat --filter gaussian:1.5 --spectral 3 --clamp 1 --aov albedo,depth,normal"}) {
+    ASSERT_EQ(render("a.film", 1, choices + " --force --threads 2").status, 0);
+    for (const char* manner : {"--threads 1", "--threads 2 --domain-memory 1 --shuffle-delivery 5"}) {
+      const CommandResult done = render("b.film", 2, choices + " --force " + manner);
+      ASSERT_EQ(done.status, 0) << done.output;
+      EXPECT_EQ(hash("b.film"), hash("a.film")) << manner;
+    }
+    EXPECT_GT(read_json(path("b.film.json"))["forwarded_rays"].get<int>(), 0);
   }
-  EXPECT_GT(read_json(path("b.film.json"))["forwarded_rays"].get<int>(), 0);
 }
 
 TEST_F(OnePictureOfSamples, WaysDoNotMix) {
@@ -192,7 +218,7 @@ TEST_F(OnePictureOfSamples, WaysDoNotMix) {
                 .status,
             0);
   EXPECT_EQ(hash("same.film"), hash("usual.film"));
-  for (const char* way : {"--filter box:0.25", "--roulette never", "--wavelengths 1",
+  for (const char* way : {"--filter box:0.25", "--splat", "--roulette never", "--wavelengths 1",
                           "--light-sampling power", "--light-candidates 5"}) {
     // A film is not gone on with in another way.
     CommandResult result = render("usual.film", 1, way);

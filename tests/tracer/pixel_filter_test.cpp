@@ -38,8 +38,39 @@ double mitchell(double x, double b, double c) {
 constexpr std::array parts{-0.8, -0.55, -0.3, 0.0, 0.1, 0.45, 0.7, 1.0};  // of the radius
 
 // Impulses at many places: what the samples gather of one left of x is ∫f up to there.
+// Of samples all over a pixel, what one `steps` to the right of it gets is ∫f over a pixel there.
+void expect_footprints(const Filter& filter, double radius_x, double radius_y, const Function& f,
+                       const Function& g) {
+  const FilterSampler sampler(filter, true);
+  constexpr int n = 256, reach = 5;
+  std::array<double, 2 * reach + 1> right{}, down{};
+  for (int j = 0; j < n; ++j)
+    for (int i = 0; i < n; ++i) {
+      const float u = (static_cast<float>(i) + 0.5f) / n, v = (static_cast<float>(j) + 0.5f) / n;
+      EXPECT_EQ(sampler.sample(u, v).offset.x, static_cast<double>(u) - 0.5);
+      EXPECT_EQ(sampler.weight(u, v), 1);
+      const Footprint print = sampler.footprint(u, v);
+      for (int y = 0; y < print.high; ++y)
+        for (int x = 0; x < print.wide; ++x) {
+          const double w =
+              std::ldexp(print.weights[static_cast<std::size_t>(y * print.wide + x)], -weight_bits);
+          right[static_cast<std::size_t>(print.x + x + reach)] += w / (n * n);
+          down[static_cast<std::size_t>(print.y + y + reach)] += w / (n * n);
+        }
+    }
+  const auto share = [](const Function& of, double radius, int steps) {
+    const double a = std::max(steps - 0.5, -radius), b = std::min(steps + 0.5, radius);
+    return a < b ? simpson(of, a, b) / simpson(of, -radius, radius) : 0;
+  };
+  for (int steps = -reach; steps <= reach; ++steps) {
+    EXPECT_NEAR(right[static_cast<std::size_t>(steps + reach)], share(f, radius_x, steps), 3e-3) << steps;
+    EXPECT_NEAR(down[static_cast<std::size_t>(steps + reach)], share(g, radius_y, steps), 3e-3) << steps;
+  }
+}
+
 void expect_filter(const Filter& filter, double radius_x, double radius_y, const Function& f,
                    const Function& g) {
+  expect_footprints(filter, radius_x, radius_y, f, g);
   const FilterSampler sampler(filter);
   constexpr int n = 2048;
   std::array<double, parts.size()> left{}, below{};
@@ -93,7 +124,7 @@ TEST(PixelFilter, LobesAreNegativeAndTheMeanIsOne) {
 }
 
 // Through the whole renderer: a bright half plane under a sharp filter rings, and what is even stays even.
-TEST(PixelFilter, RingsBesideAnEdge) {
+void expect_rings_beside_an_edge(bool splat) {
   Scene scene;
   test::set_camera(scene, {0, 0, 1}, {0, 0, 0}, {0, 1, 0}, 1.5, 24, 24);
   const Id<TriangleMesh> mesh = test::add_quads(scene, {{{{0, -2, 0}, {2, -2, 0}, {2, 2, 0}, {0, 2, 0}}}});
@@ -103,7 +134,10 @@ TEST(PixelFilter, RingsBesideAnEdge) {
   test::add_shape(scene, mesh, Material{DiffuseMaterial{Spectrum{ConstantSpectrum{0}}}}, light);
   scene.film.filter = MitchellFilter{2, 2, 0, 0.75};
   scene.settings.max_depth = 0;
-  const Film film = test::render(scene, 1024).film;
+  RenderOptions options;
+  options.samples_per_pixel = 1024;
+  options.samples.sampling.splat = splat;
+  const Film film = test::render(scene, options).film;
   const auto column = [&](std::uint32_t x) {
     double sum = 0;
     for (std::uint32_t y = 4; y < 20; ++y) sum += film.mean(24 * y + x).y / 16;
@@ -122,6 +156,9 @@ TEST(PixelFilter, RingsBesideAnEdge) {
   }
   EXPECT_GT(lit(1), 1.01);
 }
+
+TEST(PixelFilter, RingsBesideAnEdge) { expect_rings_beside_an_edge(false); }
+TEST(PixelFilter, RingsBesideAnEdgeWhereSamplesSplat) { expect_rings_beside_an_edge(true); }
 
 }  // namespace
 }  // namespace vitrail
