@@ -54,7 +54,7 @@ std::uint64_t connection_bytes(int ranks) {
 }
 
 std::int64_t rays_allowed_in_flow(int threads) {
-  constexpr std::int64_t a_thread = 8192;  // some milliseconds of its work
+  constexpr std::int64_t a_thread = 4096;  // some milliseconds of its work
   return a_thread * threads;
 }
 
