@@ -31,7 +31,7 @@ What to know of the rows:
 
 - *hotel room*: Mitsuba's path tracer cannot connect through the panes to the sun, so its picture lacks the sunlight in the room (the
   means show it) and what makes ours noisy. The two do not solve the same problem there.
-- Its pixel filter is a Gaussian, too: Mitsuba adds each sample to several pixels, Vitrail chooses the sample's place by the filter. The
+- Its pixel filter is a Gaussian, too: Mitsuba adds each sample to several pixels, Vitrail, but for `--splat`, chooses the sample's place by the filter. The
   first makes neighbouring pixels alike, which this measure counts as less noise.
 - *killeroo-simple*: Mitsuba gets what `vitrail convert` writes of the lamps, spheres of PBRT.
 - Means that differ by more than the noise are said in the table: a model is then not the same, and its row says less.
