@@ -56,7 +56,6 @@ TEST_F(Mistakes, WaysToSampleThatAreNotThere) {
                                      {"--roulette 3", "early"},
                                      {"--texture-filter trilinear", "nearest"},
                                      {"--splat --adaptive", "give --spp instead"},
-                                     {"--splat --quality draft", "give --spp instead"},
                                      {"--splat --filter box:5", "up to 4.5 pixels"}}) {
     const CommandResult result = render(option);
     EXPECT_EQ(result.status, 2) << option;
