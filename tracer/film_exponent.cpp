@@ -82,7 +82,8 @@ void add_surfaces(const LightSampler& s, Tally& tally) {
   for (const QuadricLight& q : s.quadrics) {
     const AreaLight& light = s.scene.area_lights[q.record().area_light];
     if (std::holds_alternative<Spectrum>(light.radiance)) continue;
-    for (const auto& b : points) add(light, q.texture_point(q.point_by_area(b[0], b[1])));
+    for (const auto& b : points)
+      add(light, q.texture_point(point_by_area(q.record().quadric.quadric, b[0], b[1])));
   }
 }
 

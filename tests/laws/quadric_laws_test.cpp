@@ -79,8 +79,9 @@ Scene crowd() {
   add_shape(scene, add_quads(scene, {{{{-1, -1, 3}, {-1, 1, 3}, {1, 1, 3}, {1, -1, 3}}}}),
             Material{DiffuseMaterial{}}, AreaLight{ConstantSpectrum{5}});
   for (const QuadricKind kind : {QuadricKind::sphere, QuadricKind::cylinder, QuadricKind::cone}) {
-    add_shape(scene, add(scene, Quadric{.kind = kind}), Material{DiffuseMaterial{}},
-              AreaLight{ConstantSpectrum{20}});
+    AreaLight lamp{ConstantSpectrum{20}};
+    lamp.two_sided = kind != QuadricKind::sphere;
+    add_shape(scene, add(scene, Quadric{.kind = kind}), Material{DiffuseMaterial{}}, lamp);
     scene.shapes.back().object_to_world =
         translate({static_cast<double>(kind) - 1, 1, 1}) * scale({.1, .1, .2});
   }

@@ -117,7 +117,8 @@ EmittedPhoton Emission::of_surface(std::size_t light, const std::array<float, 4>
     photon.power = leaving(lights_, light, point, wavelengths);
   } else {
     const QuadricLight& quadric = lights_.quadrics[light - triangles];
-    const Point3d local = quadric.point_by_area(static_cast<double>(place[0]), static_cast<double>(place[1]));
+    const Point3d local = point_by_area(quadric.record().quadric.quadric, static_cast<double>(place[0]),
+                                        static_cast<double>(place[1]));
     const EmissivePoint point(quadric, local);
     record = &lights_.scene.area_lights[quadric.record().area_light];
     front = placed_quadric_normal(quadric.record().quadric, quadric.record().to_bundle, local);

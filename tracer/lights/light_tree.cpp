@@ -133,7 +133,7 @@ std::optional<LightTree::Chosen> LightTree::choose(Point3d p, double u) const {
     u = std::min((target - (lane > 0 ? sums[lane - 1] : 0)) / w, below_one);
     probability *= w / total;
     const Slots slots{node.first[lane], node.first[lane + 1]};
-    if (slots.end - slots.begin == 1) return Chosen{slots.begin, probability};
+    if (slots.end - slots.begin == 1) return Chosen{slots.begin, probability, u};
     if (are_alike(node, weights, lane)) {
       auto chosen = choose_by_power(slots, u);
       if (chosen) chosen->probability *= probability;
@@ -187,7 +187,7 @@ std::optional<LightTree::Chosen> LightTree::choose_by_power(Slots slots, double 
   }
   const double share = share_of_power(slots, low);
   if (!(share > 0)) return std::nullopt;  // by rounding, at the end
-  return Chosen{low, share};
+  return Chosen{low, share, std::min((target - sums_[low]) / (sums_[low + 1] - sums_[low]), below_one)};
 }
 
 double LightTree::share_of_power(Slots slots, std::uint32_t slot) const {

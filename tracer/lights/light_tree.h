@@ -56,6 +56,7 @@ class LightTree {
   struct Chosen {
     std::uint32_t slot = 0;
     double probability = 0;
+    double rest = 0;  // of u: uniform in [0,1) again
   };
   // u in [0,1). Empty where no light reaches p, as far as the bounds can tell.
   std::optional<Chosen> choose(Point3d p, double u) const;

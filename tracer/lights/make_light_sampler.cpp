@@ -27,8 +27,8 @@ double mean_over(const QuadricLight& quadric, F&& value) {
   constexpr int side = 8;
   double sum = 0;
   for (int i = 0; i < side * side; ++i)
-    sum +=
-        value(quadric.texture_point(quadric.point_by_area((i % side + 0.5) / side, (i / side + 0.5) / side)));
+    sum += value(quadric.texture_point(
+        point_by_area(quadric.record().quadric.quadric, (i % side + 0.5) / side, (i / side + 0.5) / side)));
   return sum / (side * side);
 }
 
@@ -244,8 +244,10 @@ LightSampler make_light_sampler(const LightScene& scene, const ImageSource& imag
   for (; sorter.light < scene.lights.size(); ++sorter.light)
     std::visit(sorter, scene.lights[sorter.light].model);
 
+  // All together 2¹⁴ of them, of about 100 bytes.
+  const int patches = static_cast<int>((1u << 14) / std::max<std::size_t>(scene.quadrics.size(), 1));
   for (const EmissiveQuadric& q : scene.quadrics)
-    s.quadrics.emplace_back(q, scene.area_lights[q.area_light].two_sided);
+    s.quadrics.emplace_back(q, scene.area_lights[q.area_light].two_sided, patches);
   std::vector<LightBounds> local = bounds_of_surfaces(scene, s.quadrics);
   const std::size_t triangles = scene.triangles.size(), surfaces = local.size();
   for (const PointEmitter& e : s.emitters) local.push_back(e.bounds);

@@ -7,6 +7,7 @@
 #include "scene/portable_math.h"
 #include "tracer/bsdf/local.h"
 #include "tracer/lights/normal_cone.h"
+#include "tracer/quadrics/quadric_area.h"
 #include "tracer/quadrics/quadric_surface.h"
 
 namespace vitrail {
@@ -18,22 +19,6 @@ constexpr Point3d middle{};
 Vector3d column(const Affine& a, int j) { return {a.m[0][j], a.m[1][j], a.m[2][j]}; }
 double hypotenuse(double x, double y) { return std::sqrt(x * x + y * y); }
 Point3d origin_of(const Affine& a) { return {a.m[0][3], a.m[1][3], a.m[2][3]}; }
-
-double own_area(const Quadric& q) {
-  switch (q.kind) {
-    case QuadricKind::sphere:
-      return q.phi_max_rad * (q.high - q.low);
-    case QuadricKind::cylinder:
-      return q.phi_max_rad;
-    case QuadricKind::disk:
-      return q.phi_max_rad * (1 - q.low * q.low) / 2;
-    case QuadricKind::cone:
-      return q.phi_max_rad / std::sqrt(2.0);
-    case QuadricKind::paraboloid:
-      return q.phi_max_rad * (5 * std::sqrt(5.0) - portable_pow(1 + 4 * q.low, 1.5)) / 12;
-  }
-  return 0;
-}
 
 // A direction of light that leaves, from the point whose normal is the middle of all, and how far the others
 // are off it in the quadric's own space.
@@ -73,7 +58,7 @@ bool is_similarity(const Affine& a) {
 
 }  // namespace
 
-QuadricLight::QuadricLight(const EmissiveQuadric& record, bool two_sided)
+QuadricLight::QuadricLight(const EmissiveQuadric& record, bool two_sided, int patches)
     : record_(&record), own_area_(own_area(record.quadric.quadric)), two_sided_(two_sided) {
   const Affine& to = record.to_bundle;
   const Vector3d x = column(to, 0), y = column(to, 1), z = column(to, 2);
@@ -89,10 +74,13 @@ QuadricLight::QuadricLight(const EmissiveQuadric& record, bool two_sided)
   const Quadric& q = record.quadric.quadric;
   if (is_whole_sphere(q)) way_ = Way::sphere;
   if (q.kind == QuadricKind::disk && is_whole_turn(q) && q.low <= 0) way_ = Way::disk;
-  if (q.kind == QuadricKind::cylinder && is_whole_turn(q) && !two_sided && !record.quadric.inside_out) {
+  if (q.kind == QuadricKind::cylinder && is_whole_turn(q) && (two_sided || !record.quadric.inside_out)) {
     way_ = Way::cylinder;
     own_height_ = length(z) / std::sqrt(length(x) * length(y));
   }
+  const bool by_area = way_ == Way::area || (way_ == Way::cylinder && two_sided);
+  if (by_area && patches >= QuadricPatches::fewest && determinant_ > 0)
+    patches_ = std::make_shared<const QuadricPatches>(record, two_sided, patches);
 }
 
 Vector3d QuadricLight::own(Vector3d v) const {
@@ -223,7 +211,7 @@ std::optional<QuadricLight::Sample> QuadricLight::sample_cylinder(Point3d from, 
   sample.distance = length(way);
   sample.to_light = way * (1 / sample.distance);
   sample.normal = placed_quadric_normal(record_->quadric, record_->to_bundle, sample.local);
-  sample.front = true;
+  sample.front = is_front(true);
   const double longer = sample.distance / length(own_way);
   sample.pdf = arc.pdf(own_way, own_height_) * longer * longer * longer / determinant_;
   return sample;
@@ -292,62 +280,43 @@ std::optional<QuadricLight::Sample> QuadricLight::sample_disk(Point3d from, floa
 
 // ---- Others
 
-// By how much larger surfaces are where they stand, of that normal there: dA = |det| / |Mᵀ n| dA′.
-double QuadricLight::stretch(Vector3d n) const {
-  const Affine& to = record_->to_bundle;
-  return determinant_ / length(Vector3d{dot(column(to, 0), n), dot(column(to, 1), n), dot(column(to, 2), n)});
-}
-
-Point3d QuadricLight::point_by_area(double u, double v) const {
-  const Quadric& q = record_->quadric.quadric;
-  const double phi = q.phi_max_rad * u;
-  const auto at = [&](double rho, double z) {
-    return Point3d{rho * portable_cos(phi), rho * portable_sin(phi), z};
-  };
-  switch (q.kind) {
-    case QuadricKind::sphere: {
-      const double z = q.low + (q.high - q.low) * v;
-      return at(safe_sqrt((1 - z) * (1 + z)), z);
-    }
-    case QuadricKind::cylinder:
-      return at(1, v);
-    case QuadricKind::disk:
-      return at(std::sqrt(q.low * q.low + (1 - q.low * q.low) * v), 0);
-    case QuadricKind::cone: {
-      const double rho = std::sqrt(v);
-      return at(rho, 1 - rho);
-    }
-    case QuadricKind::paraboloid: {
-      // The area below z goes with (1 + 4z)^{3/2}.
-      const double least = portable_pow(1 + 4 * q.low, 1.5);
-      const double root = portable_pow(least + (5 * std::sqrt(5.0) - least) * v, 1 / 3.0);
-      const double z = std::clamp((root * root - 1) / 4, q.low, 1.0);
-      return at(std::sqrt(z), z);
-    }
-  }
-  return middle;
-}
-
 std::optional<QuadricLight::Sample> QuadricLight::sample_area(Point3d from, float u, float v) const {
+  QuadricPatches::Place place{static_cast<double>(u), static_cast<double>(v), 1};
+  const Quadric& quadric = record_->quadric.quadric;
+  if (patches_) {
+    const auto chosen = patches_->choose(from, sides(from), place.s, place.t);
+    if (!chosen) return std::nullopt;
+    place = *chosen;
+  }
   Sample s;
-  s.local = point_by_area(static_cast<double>(u), static_cast<double>(v));
+  s.local = point_by_area(quadric, place.s, place.t);
   const Vector3d way = placed_point(record_->to_bundle, s.local) - from;
   s.distance = length(way);
   s.to_light = way * (1 / s.distance);
   s.normal = placed_quadric_normal(record_->quadric, record_->to_bundle, s.local);
   const double cosine = -dot(s.to_light, s.normal);
   s.front = cosine > 0;
-  s.pdf = s.distance * s.distance / (std::max(std::abs(cosine), 1e-12) * own_area_ * stretch(s.normal));
+  s.pdf = place.density * s.distance * s.distance / (std::max(std::abs(cosine), 1e-12) * area_by(s.normal));
   return s;
 }
 
 // ---- Any
 
+Sides QuadricLight::sides(Point3d from) const {
+  return sides_seen(record_->quadric.quadric, middle + own(from - origin_of(record_->to_bundle)));
+}
+
+QuadricLight::Way QuadricLight::way(Point3d from) const {
+  const bool by_sides = way_ == Way::cylinder && two_sided_;
+  return by_sides && sides(from) != Sides::outer ? Way::area : way_;
+}
+
 std::optional<QuadricLight::Sample> QuadricLight::sample(Point3d from, float u, float v) const {
-  const auto sample = way_ == Way::sphere     ? sample_sphere(from, u, v)
-                      : way_ == Way::cylinder ? sample_cylinder(from, u, v)
-                      : way_ == Way::disk     ? sample_disk(from, u, v)
-                                              : sample_area(from, u, v);
+  const Way way = this->way(from);
+  const auto sample = way == Way::sphere     ? sample_sphere(from, u, v)
+                      : way == Way::cylinder ? sample_cylinder(from, u, v)
+                      : way == Way::disk     ? sample_disk(from, u, v)
+                                             : sample_area(from, u, v);
   if (!sample || !(sample->distance > 0) || !(sample->pdf > 0)) return std::nullopt;
   if (!sample->front && !two_sided_) return std::nullopt;
   return sample;
@@ -355,20 +324,23 @@ std::optional<QuadricLight::Sample> QuadricLight::sample(Point3d from, float u, 
 
 double QuadricLight::pdf(Point3d from, Point3d at, double cosine) const {
   if (cosine <= 0 && !two_sided_) return 0;
-  const Vector3d way = at - from, own_way = own(way);
-  const double distance = length(way), own_distance = length(own_way);
+  const Vector3d way_there = at - from, own_way = own(way_there);
+  const double distance = length(way_there), own_distance = length(own_way);
   if (!(own_distance > 0)) return 0;
   const Vector3d q = own(from - origin_of(record_->to_bundle));
-  if (way_ == Way::area) {
-    const Vector3d normal =
-        placed_quadric_normal(record_->quadric, record_->to_bundle, middle + (q + own_way));
-    return distance * distance / (std::max(std::abs(cosine), 1e-12) * own_area_ * stretch(normal));
+  const Way way = this->way(from);
+  if (way == Way::area) {
+    const Point3d local = middle + (q + own_way);
+    const Vector3d normal = placed_quadric_normal(record_->quadric, record_->to_bundle, local);
+    const double density = patches_ ? patches_->density(from, sides(from), local) : 1;
+    return density * distance * distance / (std::max(std::abs(cosine), 1e-12) * area_by(normal));
   }
   // Of directions dω = |det| / |M ω′|³ dω′.
   const double longer = distance / own_distance;
-  const double own_pdf = way_ == Way::sphere     ? cone(q).pdf(is_front(cosine > 0))
-                         : way_ == Way::cylinder ? arc(q).pdf(own_way, own_height_)
-                                                 : EllipticCone(q).pdf(own_way);
+  const bool outer = is_front(cosine > 0);
+  const double own_pdf = way == Way::sphere     ? cone(q).pdf(outer)
+                         : way == Way::cylinder ? (outer ? arc(q).pdf(own_way, own_height_) : 0)
+                                                : EllipticCone(q).pdf(own_way);
   return own_pdf * longer * longer * longer / determinant_;
 }
 
@@ -383,8 +355,10 @@ double QuadricLight::area() const {
   constexpr int cells = 16;  // a side; exact where all is stretched alike
   double sum = 0;
   for (int i = 0; i < cells * cells; ++i) {
-    const Point3d local = point_by_area((i % cells + 0.5) / cells, (i / cells + 0.5) / cells);
-    sum += stretch(placed_quadric_normal(record_->quadric, record_->to_bundle, local));
+    const Point3d local =
+        point_by_area(record_->quadric.quadric, (i % cells + 0.5) / cells, (i / cells + 0.5) / cells);
+    sum +=
+        area_stretch(record_->to_bundle, placed_quadric_normal(record_->quadric, record_->to_bundle, local));
   }
   return own_area_ * sum / (cells * cells);
 }

@@ -3,26 +3,29 @@
 //
 //   whole sphere, from outside    uniform in the cone of directions that meets it, in its own space
 //   whole sphere, from inside     uniform in all directions of its own space
-//   cylinder that goes all the way round and shines outwards alone
+//   cylinder that goes all the way round and whose outside alone shines or is seen
 //                                 uniform in the angle about its axis that it is seen under, and at each of
 //                                 these equiangular along the axis (Kulla & Fajardo 2012)
 //   whole disk                    in the elliptic cone of directions that meets it, uniform where that is
 //                                 squeezed to a circular one
-//   others                        uniform by the area of their own space
+//   others                        uniform by the area of their own space in one of its patches, if it has any
 #pragma once
 
+#include <memory>
 #include <optional>
 
 #include "bundle/manifest.h"
 #include "tracer/lights/light_tree.h"
+#include "tracer/lights/quadric_patches.h"
+#include "tracer/quadrics/quadric_area.h"
 #include "tracer/textures/textures.h"
 
 namespace vitrail {
 
 class QuadricLight {
  public:
-  // Refers to the record. `two_sided`: of its area light.
-  QuadricLight(const EmissiveQuadric& record, bool two_sided);
+  // Refers to the record. `two_sided`: of its area light. `patches`: about how many it may have.
+  QuadricLight(const EmissiveQuadric& record, bool two_sided, int patches = QuadricPatches::most);
 
   struct Sample {
     Point3d local;        // in the quadric's own space
@@ -38,10 +41,10 @@ class QuadricLight {
   // its normal (> 0: its front).
   double pdf(Point3d from, Point3d at, double cosine) const;
 
-  // Uniform by the area of its own space, (u,v) in the unit square.
-  Point3d point_by_area(double u, double v) const;
-  // One over the density of its points, per area where it stands; `unit_normal` there.
-  double area_by(Vector3d unit_normal) const { return own_area_ * stretch(unit_normal); }
+  // One over the density, per area where it stands, of points uniform by the area of its own space.
+  double area_by(Vector3d unit_normal) const {
+    return own_area_ * area_stretch(record_->to_bundle, unit_normal);
+  }
   TexturePoint texture_point(Point3d local) const;
   double area() const;         // where it stands
   LightBounds bounds() const;  // box and normals
@@ -61,7 +64,8 @@ class QuadricLight {
   std::optional<Sample> sample_cylinder(Point3d from, float u, float v) const;
   std::optional<Sample> sample_disk(Point3d from, float u, float v) const;
   std::optional<Sample> sample_area(Point3d from, float u, float v) const;
-  double stretch(Vector3d unit_normal) const;
+  Sides sides(Point3d from) const;
+  Way way(Point3d from) const;
   bool is_front(bool outside) const { return outside != record_->quadric.inside_out; }
 
   const EmissiveQuadric* record_;
@@ -72,6 +76,7 @@ class QuadricLight {
   double own_height_ = 1;  // of a cylinder, over its radius
   Way way_ = Way::area;
   bool two_sided_ = false;
+  std::shared_ptr<const QuadricPatches> patches_;  // or none
 };
 
 }  // namespace vitrail
