@@ -24,6 +24,15 @@ LoadedDomain::LoadedDomain(const Manifest& manifest, std::uint32_t domain, Share
   view_.objects = object_views_;
 }
 
+std::uint64_t bytes_loaded(const Manifest& manifest, std::uint32_t domain) {
+  const DomainInfo& d = manifest.domains[domain];
+  if (d.objects.empty()) return d.bytes;
+  std::uint64_t tables = sizeof(DomainView*) * (d.objects.back() + std::uint64_t{1});
+  for (const std::uint32_t object : d.objects)
+    tables += manifest.objects[object].quadric ? sizeof(DomainView) : sizeof(SharedDomain);
+  return d.bytes + tables;
+}
+
 SharedDomain map_domain(const Manifest& manifest, const std::filesystem::path& bundle, std::uint32_t domain) {
   const std::filesystem::path file = domain_path(bundle, domain);
   watch(file);

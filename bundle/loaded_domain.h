@@ -31,6 +31,10 @@ class LoadedDomain {
   DomainView view_;
 };
 
+// Of memory, when it is loaded: its file, and the tables of its objects, which have a place for every number
+// up to the greatest.
+std::uint64_t bytes_loaded(const Manifest& manifest, std::uint32_t domain);
+
 // Maps and checks a file of a bundle.
 SharedDomain map_domain(const Manifest& manifest, const std::filesystem::path& bundle, std::uint32_t domain);
 SharedDomain map_object(const Manifest& manifest, const std::filesystem::path& bundle, std::uint32_t object);

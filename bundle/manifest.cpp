@@ -10,6 +10,7 @@
 
 #include "bundle/checked_json.h"
 #include "bundle/checksum.h"
+#include "bundle/loaded_domain.h"
 #include "bundle/manifest_json.h"
 #include "bundle/read_file.h"
 #include "bundle/records.h"
@@ -109,7 +110,7 @@ std::span<const Surface> surfaces_of(const Manifest& m, const ObjectInfo& object
 }
 
 std::uint64_t bytes_needed(const Manifest& manifest, std::uint32_t domain) {
-  std::uint64_t bytes = manifest.domains[domain].bytes;
+  std::uint64_t bytes = bytes_loaded(manifest, domain);
   for (const std::uint32_t object : manifest.domains[domain].objects) bytes += manifest.objects[object].bytes;
   return bytes;
 }

@@ -25,7 +25,7 @@ using Json = nlohmann::ordered_json;
 struct Arguments {
   std::filesystem::path bundle, profile, svg;
   std::vector<int> ranks{1, 2, 4, 8, 16, 32, 64, 128, 256, 512, 1024};
-  std::string memory, network = "12G", disk = "1G";
+  std::string memory, network = "12G", disk = "1G", scratch = "1G";
   double pictures = 1, latency_us = 5, disk_latency_ms = 1;
   int threads = 16, ranks_of_a_disk = 1;
   Distribution distribution = Distribution::automatic;
@@ -42,16 +42,15 @@ const char* limit_of(const SimulationResult& r) {
 }
 
 // As the farm shares out the memory of a rank.
-void share_memory(const Arguments& a, const Manifest& m, Machine& machine) {
+MemoryPlan share_memory(const Arguments& a, const Manifest& m) {
   std::uint64_t largest = 0;
   for (std::uint32_t d = 0; d < m.domains.size(); ++d) largest = std::max(largest, bytes_needed(m, d));
   const std::uint64_t base = resident_bytes() + film_bytes(m.film);
-  const MemoryPlan plan = plan_memory(a.memory.empty() ? 0 : parse_bytes(a.memory), base, base, a.threads,
-                                      largest, bytes_of_all(m));
-  machine.domain_bytes = plan.domains_bytes;
+  MemoryPlan plan = plan_memory(a.memory.empty() ? 0 : parse_bytes(a.memory), base, base, a.threads, largest,
+                                bytes_of_all(m));
   if (a.domain_memory > 0)
-    machine.domain_bytes = std::max(largest, std::min(plan.domains_bytes, a.domain_memory));
-  machine.rays_allowed = rays_allowed_a_rank(plan);  // times the ranks, see below
+    plan = {std::max(largest, std::min(plan.domains_bytes, a.domain_memory)), few_rays_bytes};
+  return plan;
 }
 
 Json to_json(const PlanPoint& p, std::uint64_t scene_bytes) {
@@ -69,6 +68,8 @@ Json to_json(const PlanPoint& p, std::uint64_t scene_bytes) {
           {"busiest_workers", r.busiest_workers},
           {"busiest_loader", r.busiest_loader},
           {"busiest_link", r.busiest_link},
+          {"items_given", r.given_items},
+          {"spilled_rays", r.spilled_rays},
           {"most_rays_alive", r.most_alive},
           {"most_rays_on_a_rank", r.most_on_a_rank}};
 }
@@ -102,9 +103,10 @@ int plan(const Arguments& a) {
   machine.network_bytes_s = static_cast<double>(parse_bytes(a.network));
   machine.disk_latency_s = a.disk_latency_ms * 1e-3;
   machine.disk_bytes_s = static_cast<double>(parse_bytes(a.disk));
+  machine.scratch_bytes_s = static_cast<double>(parse_bytes(a.scratch));
   machine.ranks_of_a_disk = a.ranks_of_a_disk;
-  share_memory(a, manifest, machine);
-  const std::int64_t rays_a_rank = machine.rays_allowed;
+  const MemoryPlan memory = share_memory(a, manifest);
+  machine.domain_bytes = memory.domains_bytes;
   const std::uint64_t scene_bytes = std::max<std::uint64_t>(1, bytes_of_all(manifest));
   machine.distribution = a.distribution;
   std::optional<RayProfile> homes;
@@ -115,7 +117,8 @@ int plan(const Arguments& a) {
     machine.ranks = ranks;
     machine.homes = homes ? homes_by_work(manifest, *homes, ranks) : homes_by_bytes(manifest, ranks);
     const bool in_flow = is_in_flow(manifest, *machine.homes, a.distribution, machine.domain_bytes);
-    machine.rays_allowed = (in_flow ? rays_allowed_in_flow(a.threads) : rays_a_rank) * ranks;
+    machine.rays_allowed = (in_flow ? rays_allowed_in_flow(a.threads) : rays_allowed_a_rank(memory)) * ranks;
+    machine.queue_bytes = queue_bounds(memory, ranks).waiting;
     // All takes the simulator time. Of a long job as much is simulated as has a steady middle, when rays
     // alive have reached their bound and their items still come; in items so small that their size does not
     // show, with fewer rounds where one rank has much to do.
@@ -166,6 +169,9 @@ int main(int argc, char** argv) {
   app.add_option("--network", a.network, "bytes a second that a rank sends; default 12G");
   app.add_option("--disk-latency", a.disk_latency_ms, "of a file, ms; default 1")->check(not_below_0);
   app.add_option("--disk", a.disk, "bytes a second that a disk reads; default 1G");
+  app.add_option(
+      "--scratch", a.scratch,
+      "bytes a second that the disk takes, and gives, of rays that memory has no room for; default 1G");
   app.add_option("--ranks-a-disk", a.ranks_of_a_disk,
                  "that read from one, one file after the other; default 1")
       ->check(CLI::Range(1, 100000));

@@ -32,14 +32,14 @@ namespace fs = std::filesystem;
 bool is_film(const fs::path& output) { return output.extension() == ".film"; }
 
 // A picture is known by the film beside it. Without one it may be anybody's.
-void require_own_picture(const RenderArguments& a) {
-  if (a.options.force || is_film(a.output) || !fs::exists(a.output) || fs::exists(a.options.film) ||
+void require_own_picture(const RenderArguments& a, const fs::path& picture) {
+  if (a.options.force || !fs::exists(picture) || fs::exists(a.options.film) ||
       fs::exists(checkpoint_path(a.options.film)))
     return;
   throw Error(fmt::format("it is there already, and there is no {} to say that this render made it; --force "
-                          "replaces it, and another name for the output keeps it",
+                          "replaces it, and another name keeps it",
                           a.options.film.filename().string()),
-              {a.output.string()});
+              {picture.string()});
 }
 
 void check_outputs(const RenderArguments& a) {
@@ -47,7 +47,8 @@ void check_outputs(const RenderArguments& a) {
   for (const fs::path& file :
        {a.output, a.options.film, a.options.stats, a.options.profile, a.options.trace, a.preview})
     if (!file.empty()) require_place(file);
-  require_own_picture(a);
+  if (!is_film(a.output)) require_own_picture(a, a.output);
+  if (!a.preview.empty()) require_own_picture(a, a.preview);
 }
 
 void set_glazing(RenderArguments& a) {

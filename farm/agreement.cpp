@@ -17,7 +17,7 @@ void agree(Transport& transport, const std::function<void()>& step) {
   }
   RoundSums mine;
   if (failure) (is_bad_input(failure) ? mine.bad_input : mine.machine_failure) = 1;
-  transport.start_round(mine);
+  transport.start_round(mine, {});
   std::optional<Round> round;
   while (!(round = transport.finish_round())) {
     if (transport.while_waiting) transport.while_waiting();

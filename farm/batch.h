@@ -13,15 +13,17 @@
 
 namespace vitrail {
 
-// The last two travel as rays do and wait for no domain: photons that landed, and what paths ask photons.
-enum class RayKind : std::uint32_t { path, shadow, landed, question };
+// The others travel as rays do and wait for no domain: photons that landed, what paths ask photons, and items
+// of work by number.
+enum class RayKind : std::uint32_t { path, shadow, landed, question, item };
 
 template <class Record>
 constexpr RayKind kind_of() {
   return std::is_same_v<Record, PathRecord>     ? RayKind::path
          : std::is_same_v<Record, ShadowRecord> ? RayKind::shadow
          : std::is_same_v<Record, Photon>       ? RayKind::landed
-                                                : RayKind::question;
+         : std::is_same_v<Record, Gather>       ? RayKind::question
+                                                : RayKind::item;
 }
 constexpr bool is_ray(RayKind kind) { return kind == RayKind::path || kind == RayKind::shadow; }
 
@@ -43,7 +45,7 @@ class RayBatch {
   std::size_t count() const { return bytes_.empty() ? 0 : (bytes_.size() - header_bytes) / record_bytes(); }
   // Whether what was received is a batch for one of `domains`.
   bool is_whole(std::size_t domains) const {
-    return bytes_.size() > header_bytes && domain() < domains && kind() <= RayKind::question &&
+    return bytes_.size() > header_bytes && domain() < domains && kind() <= RayKind::item &&
            (bytes_.size() - header_bytes) % record_bytes() == 0;
   }
   bool full() const { return bytes_.size() + sizeof(PathRecord) > full_bytes; }
@@ -73,8 +75,10 @@ class RayBatch {
         return sizeof(ShadowRecord);
       case RayKind::landed:
         return sizeof(Photon);
-      default:
+      case RayKind::question:
         return sizeof(Gather);
+      default:
+        return sizeof(std::uint64_t);
     }
   }
   template <class T>

@@ -27,7 +27,7 @@ Meetings meet(Transport& transport) {
   Meetings all;
   for (Meeting& m : all) {
     m.came_ns = in_ns(Timeline::Clock::now());
-    transport.start_round({});
+    transport.start_round({}, {});
     while (!transport.finish_round()) {
       if (transport.while_waiting) transport.while_waiting();
       std::this_thread::yield();

@@ -16,6 +16,9 @@ struct MemoryPlan {
 MemoryPlan plan_memory(std::uint64_t budget, std::uint64_t base, std::uint64_t peak, int threads,
                        std::uint64_t largest_domain, std::uint64_t all_domains);
 
+// For rays, where tests say how much there is for domains: they go to the disk.
+inline constexpr std::uint64_t few_rays_bytes = 1 << 18;
+
 // The most rays a rank that may be alive in the whole job. The disk takes those that the queues have no room
 // for.
 std::int64_t rays_allowed_a_rank(const MemoryPlan& plan);

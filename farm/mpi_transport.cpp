@@ -23,6 +23,7 @@ template <class T>
 constexpr std::size_t collective_part = collective_bytes / sizeof(T);
 
 constexpr int tag_of_rays = 0, tag_of_words = 1;
+constexpr int report_values = sizeof(RankReport) / sizeof(std::int64_t);
 
 void add_wide_sums(void* from, void* to, int* count, MPI_Datatype*) {
   for (int i = 0; i < *count; ++i) static_cast<WideSum*>(to)[i] += static_cast<const WideSum*>(from)[i];
@@ -39,7 +40,7 @@ class MpiTransport final : public Transport {
       throw MachineError("this MPI does not allow threads beside the one that calls it");
     MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
     MPI_Comm_size(MPI_COMM_WORLD, &size_);
-    waiting_.resize(static_cast<std::size_t>(size_));
+    reports_.resize(static_cast<std::size_t>(size_));
     MPI_Type_contiguous(2, MPI_UINT64_T, &wide_sum_);
     MPI_Type_commit(&wide_sum_);
     MPI_Op_create(add_wide_sums, /*commute=*/1, &add_wide_sums_);
@@ -81,19 +82,20 @@ class MpiTransport final : public Transport {
     return Message{status.MPI_SOURCE, std::move(buffer)};
   }
 
-  void start_round(const RoundSums& mine) override {
+  void start_round(const RoundSums& mine, const RankReport& report) override {
     mine_ = mine;
+    report_ = report;
     MPI_Iallreduce(&mine_, &sums_, static_cast<int>(round_values), MPI_INT64_T, MPI_SUM, MPI_COMM_WORLD,
                    &round_[0]);
-    MPI_Iallgather(&mine_.waiting, 1, MPI_INT64_T, waiting_.data(), 1, MPI_INT64_T, MPI_COMM_WORLD,
-                   &round_[1]);
+    MPI_Iallgather(&report_, report_values, MPI_INT64_T, reports_.data(), report_values, MPI_INT64_T,
+                   MPI_COMM_WORLD, &round_[1]);
   }
 
   std::optional<Round> finish_round() override {
     int done = 0;
     MPI_Testall(static_cast<int>(round_.size()), round_.data(), &done, MPI_STATUSES_IGNORE);
     if (!done) return std::nullopt;
-    return Round{sums_, waiting_};
+    return Round{sums_, reports_};
   }
 
   void say(int to, Word word) override {
@@ -183,7 +185,8 @@ class MpiTransport final : public Transport {
   int rank_ = 0, size_ = 1;
   std::list<Sending> sending_;
   RoundSums mine_, sums_;
-  std::vector<std::int64_t> waiting_;
+  RankReport report_;
+  std::vector<RankReport> reports_;
   std::array<MPI_Request, 2> round_{MPI_REQUEST_NULL, MPI_REQUEST_NULL};
   MPI_Datatype wide_sum_ = MPI_DATATYPE_NULL;
   MPI_Op add_wide_sums_ = MPI_OP_NULL;

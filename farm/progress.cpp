@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <ranges>
 #include <string>
 
 namespace vitrail {
@@ -35,10 +36,16 @@ void print_json(const Json& event) {
 }
 
 // Where there are several ranks: whether some drown in rays while others wait for them.
-std::string waiting_text(const std::vector<std::int64_t>& waiting) {
-  if (waiting.size() < 2) return {};
-  const auto [least, most] = std::ranges::minmax(waiting);
+std::string waiting_text(const std::vector<RankReport>& ranks) {
+  if (ranks.size() < 2) return {};
+  const auto [least, most] = std::ranges::minmax(ranks | std::views::transform(&RankReport::waiting));
   return fmt::format("{} to {} krays wait on a rank, ", least / 1000, most / 1000);
+}
+
+std::vector<std::int64_t> by_rank(const Round& round, std::int64_t RankReport::*number) {
+  std::vector<std::int64_t> numbers;
+  for (const RankReport& rank : round.ranks) numbers.push_back(rank.*number);
+  return numbers;
 }
 
 const char* word(Ending ending) {
@@ -90,11 +97,12 @@ void Progress::print(const Round& round, double elapsed_s) {
                        {"remaining_s", left_s},
                        {"rays", sums.rays_traced},
                        {"rays_waiting", sums.born - sums.died},
-                       {"rays_waiting_by_rank", round.waiting},
+                       {"rays_waiting_by_rank", by_rank(round, &RankReport::waiting)},
+                       {"resident_domains_by_rank", by_rank(round, &RankReport::resident)},
                        {"domain_loads", sums.domain_loads}});
   if (mode_ == ProgressMode::lines) {
     say("vitrail: {:.1f} % after {}, {:.4g} of {} samples a pixel, {:.2f} Mray/s, {}{} left\n", 100 * done,
-        duration(elapsed_s), samples_ * done, samples_, rate * 1e-6, waiting_text(round.waiting),
+        duration(elapsed_s), samples_ * done, samples_, rate * 1e-6, waiting_text(round.ranks),
         duration(left_s));
     return;
   }
@@ -103,7 +111,7 @@ void Progress::print(const Round& round, double elapsed_s) {
   say("\r\033[Krender [{}{}] {:5.1f} %  {:.2f} Mray/s  {}{} left",
       std::string(static_cast<std::size_t>(filled), '#'),
       std::string(static_cast<std::size_t>(width - filled), ' '), 100 * done, rate * 1e-6,
-      waiting_text(round.waiting), duration(left_s));
+      waiting_text(round.ranks), duration(left_s));
   std::fflush(stderr);
   line_open_ = true;
 }

@@ -57,6 +57,9 @@ void RayQueues::shuffle(RayBatch& batch) {
       break;
     case RayKind::question:
       std::ranges::shuffle(batch.records<Gather>(), *shuffle_);
+      break;
+    case RayKind::item:
+      break;
   }
 }
 

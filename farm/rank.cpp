@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <bit>
 #include <csignal>
 #include <future>
@@ -78,15 +79,19 @@ void Rank::start_items(std::vector<std::uint64_t> done) {
     done.resize((state_.plan.items() + 63) / 64);
     mark_empty_items(state_.plan, done);
   }
-  if (!state_.photons) {  // theirs are dealt out an iteration at a time
-    state_.share = share_of(state_.plan, done, transport_.rank(), transport_.size());
-    state_.scheduler.begin_items(state_.share.size());
-  }
-  reported_ = 0;
-  done_.assign((state_.plan.items() + 63) / 64, 0);
+  if (!state_.photons)  // theirs are dealt out an iteration at a time
+    deal(share_of(state_.plan, done, transport_.rank(), transport_.size()));
+  state_.done.assign((state_.plan.items() + 63) / 64, 0);
   if (transport_.rank() != 0) return;
   items_before_ = bits_set(done);
-  if (!done.empty()) done_ = std::move(done);
+  if (!done.empty()) state_.done = std::move(done);
+}
+
+// No worker has begun, or the mutex is held.
+void Rank::deal(std::vector<std::uint64_t> share) {
+  std::ranges::reverse(share);
+  state_.share = std::move(share);
+  state_.scheduler.begin_items(state_.share.size());
 }
 
 // The first one from `iteration` on that is not done; no worker has begun, or the mutex is held.
@@ -99,8 +104,7 @@ void Rank::begin_iteration(std::uint32_t iteration) {
   while (iteration + 1 < plan.samples() && open().empty()) ++iteration;
   items_until_ += open().size();
   state_.photons->begin_flying(iteration);
-  state_.share = state_.photons->chunks_of_this_rank();
-  state_.scheduler.begin_items(state_.share.size());
+  deal(state_.photons->chunks_of_this_rank());
 }
 
 // No ray is alive. False where what was begun is not at its end, or nothing is left: the same on every rank.
@@ -112,14 +116,11 @@ bool Rank::begin_next_phase(const RoundSums& sums) {
     state_.photons->begin_gathering();
     const std::uint64_t a_pass = state_.plan.tiles_x() * state_.plan.tiles_y(),
                         first = state_.photons->pass().iteration * a_pass;
-    state_.share = share_of(done_before_, first, first + a_pass, transport_.rank(), transport_.size());
-    state_.scheduler.begin_items(state_.share.size());
-    reported_ = 0;
+    deal(share_of(done_before_, first, first + a_pass, transport_.rank(), transport_.size()));
   } else {
     if (done < items_until_ || done == state_.plan.items()) return false;
-    collect_done();
     const std::lock_guard lock(state_.mutex);
-    items_before_ += state_.share.size();
+    items_before_ += state_.scheduler.items_dealt();
     begin_iteration(state_.photons->pass().iteration + 1);
   }
   state_.work_available.notify_all();
@@ -151,7 +152,7 @@ Ending Rank::run() {
       }
     } else if (Clock::now() - last_round >= round_interval) {
       last_round = Clock::now();
-      transport_.start_round(contribution());
+      join_round();
       watch_.round_begins(elapsed_s());
       in_round = moved = true;
     }
@@ -206,9 +207,7 @@ bool Rank::move_rays() {
     std::size_t rays = 0;
     for (RayBatch& batch : unpack(message->bytes, state_.scene.manifest.domains.size())) {
       rays += batch.count();
-      if ((!is_ray(batch.kind()) && !state_.photons) ||
-          !state_.scheduler.residency().homes().has(batch.domain(), transport_.rank()))
-        throw MachineError("a message came that holds no rays for a domain of this rank");
+      if (!may_come(batch)) throw MachineError("a message came that holds no rays for a domain of this rank");
       take_in(std::move(batch));
     }
     note(Timeline::Kind::receive, begin,
@@ -233,13 +232,7 @@ void Rank::send(std::vector<RayBatch> batches) {
   };
   std::map<int, Filling> parcels;
   const auto send_parcel = [&](int to, Filling& filling) {
-    const auto begin = Clock::now();
-    std::vector<std::byte> message = filling.parcel.take();
-    const std::size_t bytes = message.size();
-    ++messages_;
-    sent_bytes_ += bytes;
-    transport_.send(to, std::move(message));
-    note(Timeline::Kind::send, begin, {to, static_cast<std::int64_t>(bytes), std::exchange(filling.rays, 0)});
+    send(to, std::exchange(filling.parcel, {}), std::exchange(filling.rays, 0));
   };
   for (RayBatch& batch : batches) {
     const int to = destination(batch);
@@ -250,6 +243,16 @@ void Rank::send(std::vector<RayBatch> batches) {
   }
   for (auto& [to, filling] : parcels)
     if (!filling.parcel.empty()) send_parcel(to, filling);
+}
+
+void Rank::send(int to, Parcel parcel, std::int64_t rays) {
+  const auto begin = Clock::now();
+  std::vector<std::byte> message = parcel.take();
+  const auto bytes = static_cast<std::int64_t>(message.size());
+  ++messages_;
+  sent_bytes_ += message.size();
+  transport_.send(to, std::move(message));
+  note(Timeline::Kind::send, begin, {to, bytes, rays});
 }
 
 // What photons land at and paths ask them for has one place.
@@ -281,8 +284,47 @@ std::vector<RayBatch> Rank::take_outgoing() {
   return batches;
 }
 
+// The last ones that it has, so that the picture goes on evenly.
+void Rank::give_items() {
+  std::vector<std::pair<int, RayBatch>> given;
+  {
+    const std::lock_guard lock(state_.mutex);
+    for (const auto& [to, items] : state_.scheduler.give_items()) {
+      const auto first = state_.share.begin(), end = first + static_cast<std::ptrdiff_t>(items);
+      RayBatch& batch = given.emplace_back(to, RayBatch(0, RayKind::item)).second;
+      std::for_each(first, end, [&](std::uint64_t item) { batch.append(item); });
+      state_.share.erase(first, end);
+    }
+  }
+  for (const auto& [to, batch] : given) {
+    Parcel parcel;
+    parcel.add(batch);
+    send(to, std::move(parcel), 0);
+  }
+}
+
+std::uint64_t Rank::items_of_phase() const {
+  return state_.photons && state_.photons->flying() ? state_.photons->chunks() : state_.plan.items();
+}
+
+// Nothing but what ranks send each other.
+bool Rank::may_come(RayBatch& batch) const {
+  if (batch.kind() == RayKind::item)
+    return std::ranges::all_of(batch.records<std::uint64_t>(),
+                               [&](std::uint64_t item) { return item < items_of_phase(); });
+  return (is_ray(batch.kind()) || state_.photons) &&
+         state_.scheduler.residency().homes().has(batch.domain(), transport_.rank());
+}
+
 void Rank::take_in(RayBatch batch) {
   const std::lock_guard lock(state_.mutex);
+  if (batch.kind() == RayKind::item) {
+    const std::span<std::uint64_t> items = batch.records<std::uint64_t>();
+    state_.share.insert(state_.share.begin(), items.begin(), items.end());
+    state_.scheduler.items_arrived(items.size());
+    state_.work_available.notify_all();
+    return;
+  }
   if (batch.kind() == RayKind::landed) {
     for (const Photon& photon : batch.records<Photon>()) state_.photons->land(photon);
     state_.scheduler.count(0, batch.count());
@@ -370,10 +412,11 @@ void Rank::answer_during(const std::function<void()>& work) {
   working.get();
 }
 
-RoundSums Rank::contribution() {
+void Rank::join_round() {
   const std::lock_guard lock(state_.mutex);
   RoundSums mine = state_.scheduler.contribution();
-  if (state_.timeline) note_counters(mine.waiting);
+  const RankReport report = state_.scheduler.report();
+  if (state_.timeline) note_counters(report.waiting);
   mine.pause = want_checkpoint_;
   mine.interrupted = stop_signal() == SIGINT;
   mine.terminated = stop_signal() == SIGTERM;
@@ -384,7 +427,7 @@ RoundSums Rank::contribution() {
     mine.items_done += static_cast<std::int64_t>(items_before_);
   const TraceCounters& c = state_.counters;
   mine.rays_traced = static_cast<std::int64_t>(c.rays_camera + c.rays_indirect + c.rays_shadow);
-  return mine;
+  transport_.start_round(mine, report);
 }
 
 // The same on every rank, since the sums are.
@@ -402,10 +445,11 @@ Rank::Decision Rank::decide(const Round& round) {
   auto quiet = Scheduler::Decision::go_on;
   {
     const std::lock_guard lock(state_.mutex);
-    state_.scheduler.rays_wait(std::make_shared<const std::vector<std::int64_t>>(round.waiting));
+    state_.scheduler.ranks_told(std::make_shared<const std::vector<RankReport>>(round.ranks));
     quiet = state_.scheduler.decide(sums);
   }
   state_.work_available.notify_all();
+  give_items();
   if (quiet == Scheduler::Decision::go_on) return Decision::go_on;
   if (state_.photons && begin_next_phase(sums)) return Decision::go_on;
   return ending_of(sums) == Ending::none ? Decision::checkpoint : Decision::end;
@@ -423,21 +467,11 @@ Ending Rank::stop_of(const RoundSums& sums) {
   return sums.time_is_up > 0 ? Ending::time_is_up : Ending::none;
 }
 
-void Rank::collect_done() {
-  const std::lock_guard lock(state_.mutex);
-  if (state_.photons && state_.photons->flying()) return;
-  for (; reported_ < state_.scheduler.items_dealt(); ++reported_) {
-    const std::uint64_t item = state_.share[reported_];
-    done_[item / 64] |= std::uint64_t{1} << (item % 64);
-  }
-}
-
 // All items of a round are done and no ray is alive. Returns how the render ends: with the last round, or
 // with `stop` where that is one; empty if another round has begun.
 std::optional<Ending> Rank::begin_next_round(Ending stop) {
-  collect_done();
   const double before_s = elapsed_s();
-  gather_film(transport_, state_.film, done_);
+  gather_film(transport_, state_.film, state_.done);
   expect_ending(elapsed_s() - before_s);
   std::optional<NextRound> next;
   agree(transport_, [&] {
@@ -466,12 +500,11 @@ void Rank::write(const std::filesystem::path& file, bool last) {
   const auto begin = Clock::now();
   const double render_time_s = time_before_s_ + elapsed_s();
   agree(transport_, require_unchanged_files);
-  collect_done();
-  gather_film(transport_, state_.film, done_);
+  gather_film(transport_, state_.film, state_.done);
   bool written = true;
   agree(transport_, [&] {
     if (transport_.rank() != 0) return;
-    const FilmProgress progress = progress_of(state_.plan, done_, render_time_s, about_);
+    const FilmProgress progress = progress_of(state_.plan, state_.done, render_time_s, about_);
     answer_during([&] {
       if (last)
         keeper_->write_last(file, state_.film, progress);
@@ -504,7 +537,7 @@ void Rank::leave_together() {
     RoundSums mine;
     mine.born = static_cast<std::int64_t>(messages_);
     mine.died = static_cast<std::int64_t>(received_);
-    transport_.start_round(mine);
+    transport_.start_round(mine, {});
     watch_.round_begins(elapsed_s());
     std::optional<Round> round;
     while (!(round = transport_.finish_round())) {
@@ -525,6 +558,7 @@ void Rank::add_to(RenderStats& stats) const {
   stats.forwarded_rays = state_.scheduler.forwarded_rays();
   stats.forwarded_bytes = sent_bytes_;
   stats.messages = messages_;
+  stats.items_given = state_.scheduler.items_given();
   stats.spilled_bytes = state_.queues.written_bytes() + state_.outgoing.written_bytes();
   stats.domain_loads = state_.scheduler.residency().loads();
   stats.evictions = state_.scheduler.residency().evictions();

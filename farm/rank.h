@@ -9,6 +9,7 @@
 #include "farm/checkpoint.h"
 #include "farm/film_keeper.h"
 #include "farm/options.h"
+#include "farm/parcel.h"
 #include "farm/progress.h"
 #include "farm/scheduler/watch.h"
 #include "farm/stats.h"
@@ -41,12 +42,16 @@ class Rank {
   std::vector<RayBatch> take_outgoing();
   int destination(const RayBatch& batch);
   void send(std::vector<RayBatch> batches);
-  RoundSums contribution();
+  void send(int to, Parcel parcel, std::int64_t rays);
+  bool may_come(RayBatch& batch) const;
+  std::uint64_t items_of_phase() const;
+  void join_round();
   Decision decide(const Round& round);
   Ending ending_of(const RoundSums& sums) const;
   static Ending stop_of(const RoundSums& sums);
   void start_items(std::vector<std::uint64_t> done);
-  void collect_done();
+  void deal(std::vector<std::uint64_t> share);
+  void give_items();
   std::optional<Ending> begin_next_round(Ending stop);
   void begin_iteration(std::uint32_t iteration);
   bool begin_next_phase(const RoundSums& sums);
@@ -69,9 +74,6 @@ class Rank {
   int rounds_ = 1;
   Progress progress_;
   Watch watch_;
-  std::vector<std::uint64_t>
-      done_;                  // bits of finished items that rank 0 does not hold yet; all of them on rank 0
-  std::size_t reported_ = 0;  // items of the share already in done_
   std::uint64_t items_before_ = 0;  // on rank 0: done by earlier runs or rounds; of earlier iterations here
   // Of photon mapping: what was done before this run, and the job's items up to this iteration's last.
   std::vector<std::uint64_t> done_before_;

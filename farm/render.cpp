@@ -143,8 +143,6 @@ Job set_up(const RenderOptions& options) {
   return {std::move(scene), {}, textures};
 }
 
-constexpr std::uint64_t few_rays_bytes = 1 << 18;  // with domain_memory_bytes
-
 MemoryPlan plan_for(const Manifest& manifest, const RenderOptions& options, int threads, std::uint64_t base,
                     std::uint64_t setup_peak) {
   std::uint64_t largest = 0;

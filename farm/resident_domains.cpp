@@ -37,11 +37,10 @@ std::optional<Reservation> ResidentDomains::begin(LoadStep step) {
   return reservation;
 }
 
-// The same file, whose bytes are told when it is let go.
-SharedDomain ResidentDomains::counted(SharedDomain mapped) const {
+// The same file, whose `bytes`, and those of the tables that go with it, are told when it is let go.
+SharedDomain ResidentDomains::counted(SharedDomain mapped, std::uint64_t bytes) const {
   const MappedDomain* const file = mapped.get();
-  return {file, [mapped = std::move(mapped), released = released_](const MappedDomain*) mutable {
-            const std::uint64_t bytes = mapped->bytes();
+  return {file, [mapped = std::move(mapped), released = released_, bytes](const MappedDomain*) mutable {
             mapped.reset();
             *released += bytes;
           }};
@@ -50,13 +49,13 @@ SharedDomain ResidentDomains::counted(SharedDomain mapped) const {
 std::shared_ptr<const LoadedDomain> ResidentDomains::load(const Reservation& reservation) {
   const auto object = [&](std::uint32_t number) {
     if (const auto held = reservation.held.find(number); held != reservation.held.end()) return held->second;
-    SharedDomain mapped = counted(map_object(manifest_, bundle_, number));
+    SharedDomain mapped = counted(map_object(manifest_, bundle_, number), manifest_.objects[number].bytes);
     objects_[number] = mapped;
     return mapped;
   };
   const std::uint32_t domain = reservation.load.domain;
-  return std::make_shared<const LoadedDomain>(manifest_, domain,
-                                              counted(map_domain(manifest_, bundle_, domain)), object);
+  SharedDomain mapped = counted(map_domain(manifest_, bundle_, domain), bytes_loaded(manifest_, domain));
+  return std::make_shared<const LoadedDomain>(manifest_, domain, std::move(mapped), object);
 }
 
 void ResidentDomains::insert(std::uint32_t domain, std::shared_ptr<const LoadedDomain> loaded) {

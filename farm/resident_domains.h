@@ -43,7 +43,7 @@ class ResidentDomains {
   std::uint64_t take_released() { return released_->exchange(0); }
 
  private:
-  SharedDomain counted(SharedDomain mapped) const;
+  SharedDomain counted(SharedDomain mapped, std::uint64_t bytes) const;
 
   const Manifest& manifest_;
   std::filesystem::path bundle_;

@@ -19,7 +19,7 @@ class SoloTransport final : public Transport {
   void send(int, std::vector<std::byte>) override { throw std::logic_error("a single rank sent rays"); }
   std::uint64_t sending_bytes() override { return 0; }
   std::optional<Message> receive() override { return std::nullopt; }
-  void start_round(const RoundSums& mine) override { round_ = {mine, {mine.waiting}}; }
+  void start_round(const RoundSums& mine, const RankReport& report) override { round_ = {mine, {report}}; }
   std::optional<Round> finish_round() override { return round_; }
   void say(int, Word) override {}
   std::optional<std::pair<int, Word>> hear() override { return std::nullopt; }

@@ -11,20 +11,11 @@
 namespace vitrail {
 
 void gather_stats(Transport& transport, RenderStats& s, const std::vector<bool>& touched) {
-  std::uint64_t* const summed[] = {&s.traced.rays_camera,
-                                   &s.traced.rays_indirect,
-                                   &s.traced.rays_shadow,
-                                   &s.traced.crossings,
-                                   &s.forwarded_rays,
-                                   &s.forwarded_bytes,
-                                   &s.messages,
-                                   &s.domain_loads,
-                                   &s.evictions,
-                                   &s.spilled_bytes,
-                                   &s.traced.photons_emitted,
-                                   &s.traced.gathers,
-                                   &s.traced.photons_gathered,
-                                   &s.photons_landed};
+  std::uint64_t* const summed[] = {
+      &s.traced.rays_camera, &s.traced.rays_indirect,    &s.traced.rays_shadow, &s.traced.crossings,
+      &s.forwarded_rays,     &s.forwarded_bytes,         &s.messages,           &s.domain_loads,
+      &s.evictions,          &s.spilled_bytes,           &s.items_given,        &s.traced.photons_emitted,
+      &s.traced.gathers,     &s.traced.photons_gathered, &s.photons_landed};
   std::vector<std::int64_t> counts;
   for (const std::uint64_t* value : summed) counts.push_back(static_cast<std::int64_t>(*value));
   transport.sum_to_root(std::span(counts));
@@ -81,6 +72,7 @@ std::string to_json(const RenderStats& s) {
                                  {"domain_loads", s.domain_loads},
                                  {"evictions", s.evictions},
                                  {"spilled_bytes", s.spilled_bytes},
+                                 {"items_given", s.items_given},
                                  {"memory_budget_bytes", s.memory_budget_bytes},
                                  {"peak_rss_bytes", s.peak_rss_bytes},
                                  {"base_rss_bytes", s.base_rss_bytes},

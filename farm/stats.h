@@ -31,6 +31,7 @@ struct RenderStats {
   std::uint64_t forwarded_rays = 0, forwarded_bytes = 0, messages = 0;
   std::uint64_t domains_total = 0, domains_touched = 0, domain_loads = 0, evictions = 0;
   std::uint64_t spilled_bytes = 0;  // of rays, to the disk
+  std::uint64_t items_given = 0;    // from rank to rank
   // Of photon mapping: landings of all iterations, and most of an iteration that a rank kept.
   std::uint64_t photons_landed = 0, photons_kept = 0;
   std::uint64_t memory_budget_bytes = 0, peak_rss_bytes = 0, base_rss_bytes = 0, setup_peak_rss_bytes = 0;

@@ -31,7 +31,7 @@ class Transport {
   };
   virtual std::optional<Message> receive() = 0;
   // Joins the next round; one at a time. `finish_round` gives what came of it once every rank has joined.
-  virtual void start_round(const RoundSums& mine) = 0;
+  virtual void start_round(const RoundSums& mine, const RankReport& report) = 0;
   virtual std::optional<Round> finish_round() = 0;
 
   // Beside rays and rounds; `hear` gives who said it. What nobody hears is lost without harm.

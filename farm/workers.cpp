@@ -46,20 +46,26 @@ Task take_task(RankState& s) {
     task.batch = s.queues.pop(next.domain);
     s.scheduler.begin_batch(next.domain, task.batch.count());
   } else if (next.work == Scheduler::Work::generate && s.photons && s.photons->flying()) {
-    const std::uint64_t chunk = s.share[s.scheduler.items_dealt()], all = s.photons->photons_in(chunk);
+    const std::uint64_t chunk = s.share.back(), all = s.photons->photons_in(chunk);
     const std::uint64_t first = s.item_at, end = std::min(all, first + next.rays);
     s.item_at = end == all ? 0 : end;
     task.photons = true;
     task.first = chunk * PhotonWork::chunk_photons + first;
     task.end = chunk * PhotonWork::chunk_photons + end;
     s.scheduler.begin_rays(end - first, end == all);
+    if (end == all) s.share.pop_back();
   } else if (next.work == Scheduler::Work::generate) {
-    task.item = s.plan.item(s.share[s.scheduler.items_dealt()]);
+    const std::uint64_t item = s.share.back();
+    task.item = s.plan.item(item);
     const std::uint64_t samples = s.plan.samples(task.item);
     task.first = s.item_at;
     task.end = std::min(samples, s.item_at + next.rays);
     s.item_at = task.end == samples ? 0 : task.end;
     s.scheduler.begin_rays(task.end - task.first, task.end == samples);
+    if (task.end == samples) {
+      s.share.pop_back();
+      s.done[item / 64] |= std::uint64_t{1} << (item % 64);
+    }
   }
   return task;
 }

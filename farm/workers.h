@@ -34,8 +34,11 @@ struct RankState {
   RayQueues outgoing;                 // of the others' domains
   std::uint64_t most_sent_bytes = 0;  // that the transport holds; what is more stays in `outgoing`
   ResidentDomains domains;
-  std::vector<std::uint64_t> share;   // items of this rank
-  std::uint64_t item_at = 0;          // samples of the open item that are dealt
+  std::vector<std::uint64_t> share;  // items of this rank that are not dealt, the next one last
+  std::uint64_t item_at = 0;         // samples of the open item that are dealt
+  // Bits of the items dealt that rank 0 does not hold yet; all of them on rank 0. They are done when no ray
+  // is alive.
+  std::vector<std::uint64_t> done;
   std::optional<PhotonWork> photons;  // while they fly, the share is of their chunks
   bool finished = false;
 

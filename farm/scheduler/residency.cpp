@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "bundle/loaded_domain.h"
+
 namespace vitrail {
 
 namespace {
@@ -31,6 +33,8 @@ Residency::Residency(const Manifest& manifest, std::uint64_t budget_bytes, Homes
       budget_(budget_bytes),
       homes_(std::move(homes)),
       distribution_(distribution),
+      everything_(distribution == Distribution::replicate ||
+                  (distribution == Distribution::automatic && bytes_of_all(manifest) <= budget_bytes)),
       local_(manifest.domains.size()),
       local_objects_(manifest.objects.size()),
       state_(manifest.domains.size(), State::absent),
@@ -40,14 +44,12 @@ Residency::Residency(const Manifest& manifest, std::uint64_t budget_bytes, Homes
       object_is_loading_(manifest.objects.size()),
       resident_(manifest.domains.size()),
       absent_(manifest.domains.size()) {
-  const bool everything = distribution == Distribution::replicate ||
-                          (distribution == Distribution::automatic && bytes_of_all(manifest) <= budget_);
   std::uint64_t at_home = 0;
   for (std::uint32_t d = 0; d < homes_.domains(); ++d) {
     const bool home = homes_.has(d, rank);
-    local_[d] = everything || home;
+    local_[d] = everything_ || home;
     if (local_[d]) absent_.insert(d, 0);
-    if (home) at_home += manifest.domains[d].bytes + mark_objects(manifest, d, local_objects_);
+    if (home) at_home += bytes_loaded(manifest, d) + mark_objects(manifest, d, local_objects_);
   }
   places_ = distribution == Distribution::replicate
                 ? homes_.domains() * static_cast<std::uint64_t>(homes_.ranks())
@@ -75,7 +77,7 @@ void Residency::rays_forwarded(std::uint32_t domain, std::uint64_t rays) {
   forwarded_[domain] += rays;
   if (local_[domain] || forwarded_[domain] < rays_that_earn_a_replica) return;
   std::vector<bool> objects = local_objects_;
-  const std::uint64_t bytes = manifest_.domains[domain].bytes + mark_objects(manifest_, domain, objects);
+  const std::uint64_t bytes = bytes_loaded(manifest_, domain) + mark_objects(manifest_, domain, objects);
   if (bytes > spare_) return;
   spare_ -= bytes;
   local_[domain] = true;
@@ -111,7 +113,7 @@ LoadStep Residency::loader_is_free(std::uint64_t alive, bool starving) {
                                    [&](std::uint32_t object) { return object_is_loading_[object]; }))
     return step;
   LoadStep::Load load{*best, {}};
-  const std::uint64_t own = manifest_.domains[*best].bytes, objects = add_users(*best, &load.missing);
+  const std::uint64_t own = bytes_loaded(manifest_, *best), objects = add_users(*best, &load.missing);
   in_table_ += objects;
   if (!make_room(*best, own + objects, alive, starving, step.evicted)) {
     in_table_ -= remove_users(*best);
@@ -130,7 +132,7 @@ bool Residency::make_room(std::uint32_t wanted, std::uint64_t bytes, std::uint64
                           std::vector<std::uint32_t>& evicted) {
   while (held_ + bytes > budget_) {
     // What was evicted before and is still held by a worker will come free without further evictions.
-    if (in_table_ + manifest_.domains[wanted].bytes <= budget_) return false;
+    if (in_table_ + bytes_loaded(manifest_, wanted) <= budget_) return false;
     const std::optional<std::uint32_t> victim = resident_.fewest();
     if (!victim) return false;
     const std::uint64_t fewest = waiting_[*victim], candidate = waiting_[wanted];
@@ -146,7 +148,7 @@ bool Residency::make_room(std::uint32_t wanted, std::uint64_t bytes, std::uint64
     resident_.erase(*victim);
     absent_.insert(*victim, fewest);
     state_[*victim] = State::absent;
-    in_table_ -= manifest_.domains[*victim].bytes + remove_users(*victim);
+    in_table_ -= bytes_loaded(manifest_, *victim) + remove_users(*victim);
   }
   return true;
 }
@@ -160,7 +162,7 @@ void Residency::loaded(std::uint32_t domain) {
 
 std::uint64_t bytes_of_all(const Manifest& manifest) {
   std::uint64_t bytes = 0;
-  for (const DomainInfo& d : manifest.domains) bytes += d.bytes;
+  for (std::uint32_t d = 0; d < manifest.domains.size(); ++d) bytes += bytes_loaded(manifest, d);
   for (const ObjectInfo& o : manifest.objects) bytes += o.bytes;
   return bytes;
 }

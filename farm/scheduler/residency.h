@@ -43,6 +43,7 @@ class Residency {
 
   // Whether rays for the domain wait here; otherwise they go to one of its homes.
   bool is_local(std::uint32_t domain) const { return local_[domain]; }
+  bool all_are_local() const { return everything_; }
   const Homes& homes() const { return homes_; }
   std::uint64_t waiting(std::uint32_t domain) const { return waiting_[domain]; }
   // The resident domain that most rays wait for, if any do.
@@ -79,6 +80,7 @@ class Residency {
   std::uint64_t places_ = 0;  // where rays may wait: domains, each as often as ranks trace in it
   Homes homes_;
   Distribution distribution_;
+  bool everything_;  // is traced in here
   std::vector<bool> local_;
   std::vector<bool> local_objects_;          // that a domain kept here needs
   std::vector<State> state_;                 // by domain

@@ -23,15 +23,20 @@ struct RoundSums {
   std::int64_t samples = 0;
   std::int64_t rays_traced = 0;
   std::int64_t domain_loads = 0;
-  std::int64_t waiting = 0;  // rays that wait to be traced
+  std::int64_t idle = 0;  // 1: has nothing to do, and no item left
 };
-// What a round gives: the sums, and how many rays waited on each rank.
+// What each rank tells all others beside.
+struct RankReport {
+  std::int64_t waiting = 0;   // rays that wait to be traced
+  std::int64_t resident = 0;  // domains
+  std::int64_t items = 0;     // to spare; −1: it has none, and nothing else to do
+};
 struct Round {
   RoundSums sums;
-  std::vector<std::int64_t> waiting;  // by rank
+  std::vector<RankReport> ranks;
 };
-// From one round to the next, at least: each tells every rank a number of every other, which takes longer the
-// more there are, and some milliseconds of work are in flight in between.
+// From one round to the next, at least: each tells every rank some numbers of every other, which takes longer
+// the more there are, and some milliseconds of work are in flight in between.
 inline double round_interval_s(int ranks) { return std::max(1e-3, .4e-6 * ranks); }
 inline constexpr std::size_t round_values = sizeof(RoundSums) / sizeof(std::int64_t);
 

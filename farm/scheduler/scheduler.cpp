@@ -12,6 +12,8 @@ constexpr std::uint64_t rays_worth_tracing_first = 4096;
 // Rays for other ranks leave when this many wait, when a worker here has nothing to do, or after this time.
 constexpr std::uint64_t rays_worth_sending = 4096;
 constexpr double longest_wait_s = .002;
+// In one message; the next round gives more.
+constexpr std::uint64_t most_items_given = 4096;
 
 }  // namespace
 
@@ -35,6 +37,37 @@ void Scheduler::begin_items(std::uint64_t items) {
   items_ = items;
   next_item_ = 0;
   calm_ = false;
+}
+
+// Those that have nothing to do are dealt out to those that have something to spare, one after the other, and
+// each of these keeps as much as it gives to one.
+std::vector<Scheduler::Gift> Scheduler::give_items() {
+  std::vector<Gift> gifts;
+  if (idle_ranks_ == 0 || paused_ || spare_items() == 0 ||
+      (*ranks_)[static_cast<std::size_t>(job_.rank)].items <= 0)
+    return gifts;
+  const auto givers = static_cast<std::size_t>(
+      std::ranges::count_if(*ranks_, [](const RankReport& r) { return r.items > 0; }));
+  const auto before_this = static_cast<std::size_t>(std::count_if(
+      ranks_->begin(), ranks_->begin() + job_.rank, [](const RankReport& r) { return r.items > 0; }));
+  std::size_t idle = 0;
+  for (std::size_t r = 0; r < ranks_->size(); ++r)
+    if ((*ranks_)[r].items < 0 && idle++ % givers == before_this) gifts.push_back({static_cast<int>(r)});
+  std::uint64_t shares = gifts.size() + 1;
+  for (Gift& gift : gifts) {
+    gift.items = std::min(most_items_given, (spare_items() + shares - 1) / shares);
+    --shares;
+    items_ -= gift.items;
+    given_ += gift.items;
+    born_ += gift.items;
+  }
+  std::erase_if(gifts, [](const Gift& gift) { return gift.items == 0; });
+  return gifts;
+}
+
+void Scheduler::items_arrived(std::uint64_t items) {
+  items_ += items;
+  died_ += items;
 }
 
 // An item may have no rays.
@@ -76,7 +109,7 @@ void Scheduler::arrived(std::uint32_t domain, std::uint64_t rays) {
 // So many times its even share wait here: they are on the disk, and more would only come behind them.
 bool Scheduler::is_full() const {
   constexpr std::uint64_t shares = 8;
-  return waiting_ + outgoing_ > shares * static_cast<std::uint64_t>(job_.rays_allowed / job_.ranks + 1);
+  return waiting_ + outgoing_ > shares * even_share();
 }
 
 bool Scheduler::send_is_due(double now_s) const {
@@ -91,12 +124,12 @@ int Scheduler::destination(std::uint32_t domain, std::uint64_t rays) {
   const int first = homes.first(domain);
   const auto count = static_cast<std::uint64_t>(homes.last(domain) - first + 1);
   int chosen = first;
-  if (count > 1 && waiting_there_) {
+  if (count > 1 && ranks_) {
     const std::uint64_t one = pair_() % count, other = (one + 1 + pair_() % (count - 1)) % count;
     const auto waiting = [&](std::uint64_t home) {
       const int rank = first + static_cast<int>(home);
       const auto sent = sent_there_.find(rank);
-      return (*waiting_there_)[static_cast<std::size_t>(rank)] +
+      return (*ranks_)[static_cast<std::size_t>(rank)].waiting +
              (sent == sent_there_.end() ? 0 : sent->second);
     };
     chosen += static_cast<int>(waiting(other) < waiting(one) ? other : one);
@@ -110,23 +143,32 @@ void Scheduler::sent(std::uint64_t rays, double now_s) {
   last_sent_s_ = now_s;
 }
 
-void Scheduler::rays_wait(std::shared_ptr<const std::vector<std::int64_t>> by_rank) {
-  waiting_there_ = std::move(by_rank);
+void Scheduler::ranks_told(std::shared_ptr<const std::vector<RankReport>> by_rank) {
+  ranks_ = std::move(by_rank);
   sent_there_.clear();
 }
 
-RoundSums Scheduler::contribution() const {
+RoundSums Scheduler::contribution() {
   RoundSums mine;
+  const bool wants = wants_to_generate();
+  // A slow rank would else keep more and more of what all may generate.
+  asked_ = wants && allowance_ < even_share();
   mine.born = static_cast<std::int64_t>(born_);
   mine.died = static_cast<std::int64_t>(died_);
-  mine.wanting = wants_to_generate();
+  mine.wanting = asked_;
   mine.full = is_full();
-  mine.reserved = static_cast<std::int64_t>(rays_in_hand_ + (mine.wanting ? allowance_ : 0));
-  mine.quiet = in_hand_ == 0 && !mine.wanting;
+  mine.reserved = static_cast<std::int64_t>(rays_in_hand_ + (wants ? allowance_ : 0));
+  mine.quiet = in_hand_ == 0 && !wants;
   mine.items_done = static_cast<std::int64_t>(next_item_ - std::min(next_item_, in_hand_));
-  mine.waiting = static_cast<std::int64_t>(waiting_);
   mine.domain_loads = static_cast<std::int64_t>(residency_.loads());
+  mine.idle = is_idle();
   return mine;
+}
+
+RankReport Scheduler::report() const {
+  return {static_cast<std::int64_t>(waiting_),
+          static_cast<std::int64_t>(residency_.loads() - residency_.evictions()),
+          is_idle() ? -1 : static_cast<std::int64_t>(spare_items())};
 }
 
 Scheduler::Decision Scheduler::decide(const RoundSums& sums) {
@@ -138,11 +180,12 @@ Scheduler::Decision Scheduler::decide(const RoundSums& sums) {
   calm_ = calm;
   born_then_ = sums.born;
   alive_ = static_cast<std::uint64_t>(std::max<std::int64_t>(0, alive));
+  idle_ranks_ = sums.idle;
   paused_ = sums.pause + sums.interrupted + sums.terminated + sums.time_is_up > 0;
-  // What is free is shared by those that want some; who wants none gives back what it had.
+  // What is free is shared by those that asked for some; who wants none gives back what it had.
   if (!wants_to_generate()) {
     allowance_ = 0;
-  } else if (sums.wanting > 0 && sums.full == 0) {
+  } else if (asked_ && sums.full == 0) {
     const std::int64_t allowed = std::max<std::int64_t>(job_.rays_allowed, job_.ranks);
     allowance_ +=
         static_cast<std::uint64_t>(std::max<std::int64_t>(0, allowed - alive - sums.reserved) / sums.wanting);

@@ -37,6 +37,14 @@ class Scheduler {
   void begin_batch(std::uint32_t domain, std::uint64_t rays);
   // From now on these many items are the rank's; of those before, all are done, everywhere.
   void begin_items(std::uint64_t items);
+  // Items that another rank is to have, of those that no worker has begun. On their way they count as rays
+  // do that are alive, so that nothing ends or pauses meanwhile.
+  struct Gift {
+    int to = 0;
+    std::uint64_t items = 0;
+  };
+  std::vector<Gift> give_items();
+  void items_arrived(std::uint64_t items);
   // Generates `rays` of item items_dealt(), its last ones if it `ends` with them.
   void begin_rays(std::uint64_t rays, bool ends);
   // What a task made, or a part of it, is counted in one step with where it waits, so that no round misses a
@@ -64,11 +72,12 @@ class Scheduler {
   void released(std::uint64_t bytes) { residency_.released(bytes); }
   const Residency& residency() const { return residency_; }
 
-  // --- Rounds. `rays_wait`: how many waited on each rank when it joined the round that ended. Of many
-  // ranks that is a long list, which those that are simulated share.
-  void rays_wait(std::shared_ptr<const std::vector<std::int64_t>> by_rank);
+  // --- Rounds. `ranks_told`: what each rank told when it joined the round that ended. Of many ranks that is
+  // a long list, which those that are simulated share.
+  void ranks_told(std::shared_ptr<const std::vector<RankReport>> by_rank);
   // Whoever asks for a pause or an end adds it to the contribution.
-  RoundSums contribution() const;
+  RoundSums contribution();
+  RankReport report() const;
   enum class Decision { go_on, all_quiet };
   // The same on every rank, since the sums are. `all_quiet`: no ray is alive and none will be born, until
   // `resume` where the job was paused.
@@ -76,28 +85,39 @@ class Scheduler {
   void resume() { calm_ = false; }
 
   std::uint64_t items_dealt() const { return next_item_; }  // to the last ray
+  std::uint64_t items_given() const { return given_; }
   std::uint64_t forwarded_rays() const { return forwarded_; }
 
  private:
   bool is_full() const;
+  std::uint64_t even_share() const { return static_cast<std::uint64_t>(job_.rays_allowed / job_.ranks + 1); }
   bool wants_to_generate() const { return item_is_open_ || (!paused_ && next_item_ < items_); }
+  // None where rays go to where their domains are: whoever generates them, the same ranks trace them. And a
+  // rank whose workers wait keeps its own: it waits for leave to generate, and would else get back what it
+  // has just given.
+  std::uint64_t spare_items() const {
+    return residency_.all_are_local() && workers_waiting_ == 0 ? items_ - next_item_ - item_is_open_ : 0;
+  }
+  bool is_idle() const { return next_item_ == items_ && workers_waiting_ > 0; }
 
   Job job_;
   Residency residency_;
-  std::uint64_t items_ = 0, next_item_ = 0;
-  bool item_is_open_ = false;                   // some of its rays are generated, some not
-  std::uint64_t in_hand_ = 0;                   // tasks that generate
-  std::uint64_t rays_in_hand_ = 0;              // that these generate
-  std::uint64_t born_ = 0, died_ = 0;           // rays, here
-  std::uint64_t alive_ = 0;                     // in the whole job, at the last round
-  std::uint64_t allowance_ = 0;                 // rays that may be generated
-  std::uint64_t waiting_ = 0;                   // rays that wait to be traced here
-  std::uint64_t outgoing_ = 0, forwarded_ = 0;  // rays
-  std::shared_ptr<const std::vector<std::int64_t>> waiting_there_;  // at the last round; null: none yet
-  std::unordered_map<int, std::int64_t> sent_there_;                // since then
-  std::minstd_rand pair_;                                           // which two homes are compared next
+  std::uint64_t items_ = 0, next_item_ = 0, given_ = 0;
+  bool item_is_open_ = false;                             // some of its rays are generated, some not
+  std::uint64_t in_hand_ = 0;                             // tasks that generate
+  std::uint64_t rays_in_hand_ = 0;                        // that these generate
+  std::uint64_t born_ = 0, died_ = 0;                     // rays, here
+  std::uint64_t alive_ = 0;                               // in the whole job, at the last round
+  std::uint64_t allowance_ = 0;                           // rays that may be generated
+  std::uint64_t waiting_ = 0;                             // rays that wait to be traced here
+  std::uint64_t outgoing_ = 0, forwarded_ = 0;            // rays
+  std::shared_ptr<const std::vector<RankReport>> ranks_;  // at the last round; null: none yet
+  std::int64_t idle_ranks_ = 0;                           // of them
+  std::unordered_map<int, std::int64_t> sent_there_;      // rays, since then
+  std::minstd_rand pair_;                                 // which two homes are compared next
   double last_sent_s_ = 0;
   int workers_waiting_ = 0;
+  bool asked_ = false;  // for leave to generate, in the round that it has joined
   bool paused_ = false;
   bool calm_ = false;  // the last round saw no ray alive and nothing to generate
   std::int64_t born_then_ = -1;

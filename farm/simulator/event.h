@@ -8,10 +8,22 @@ namespace vitrail {
 // What happens next under the simulated clock.
 struct SimulationEvent {
   // Those behind `message` alone bring nothing on.
-  enum class Kind { task_done, load_done, message, round_begins, round_ends, watch, ask, answer, checkpoint };
+  enum class Kind {
+    task_done,
+    load_done,
+    message,
+    items,  // that another rank gave
+    round_begins,
+    round_ends,
+    watch,
+    ask,
+    answer,
+    checkpoint
+  };
   Kind kind = Kind::task_done;
   int rank = 0;
-  std::uint64_t number = 0;  // of the message, the domain that was loaded, or the worker of the task
+  // Of the message, the domain that was loaded, or the worker of the task; or how many items.
+  std::uint64_t number = 0;
   double time = 0;
   std::uint64_t order = 0;  // of events at one time
   bool operator<(const SimulationEvent& e) const { return time != e.time ? time > e.time : order > e.order; }

@@ -14,6 +14,7 @@
 #include <set>
 #include <utility>
 
+#include "bundle/loaded_domain.h"
 #include "farm/scheduler/scheduler.h"
 #include "farm/scheduler/spill.h"
 #include "farm/scheduler/watch.h"
@@ -86,12 +87,19 @@ class SimulatedJob {
         result_.seconds = now_;
         return result_;
       }
-      if (e.kind < Event::Kind::round_begins) ++progress;
+      if (e.kind <= Event::Kind::message) ++progress;
       if (e.kind == Event::Kind::round_ends && e.rank == 0) {
         rounds_without_progress = progress == progress_then_ ? rounds_without_progress + 1 : 0;
         progress_then_ = progress;
         if (rounds_without_progress > 10'000) broken("10,000 rounds without any other event: no progress");
       }
+    }
+    if (result_.failed) {
+      for (const auto& [round, ranks] : failed_)
+        if (ranks != ranks_.size())
+          broken(fmt::format("in round {} only {} ranks ended because of a disk", round, ranks));
+      result_.seconds = now_;
+      return result_;
     }
     if (alive_ != 0) broken(fmt::format("the job ended with {} rays alive", alive_));
     check_generated({mishaps_.rounds_of_samples, 0});
@@ -142,6 +150,7 @@ class SimulatedJob {
     std::uint64_t evictions = 0, bytes = 0;                     // bytes mapped or reserved
     std::map<std::uint32_t, std::vector<std::uint32_t>> loads;  // under way: objects that they bring
     bool ended = false, wants_checkpoint = false;
+    bool failed = false;  // a load of its own
     std::uint64_t items = 0;
     std::uint64_t items_before = 0;  // on rank 0: of this round of samples, done by an earlier run
     int rounds_of_samples = 0;       // done
@@ -166,6 +175,7 @@ class SimulatedJob {
       now.sums.loads += r.scheduler.residency().loads();
       now.sums.evictions += r.scheduler.residency().evictions();
       now.sums.forwarded_rays += r.scheduler.forwarded_rays();
+      now.sums.given_items += r.scheduler.items_given();
     }
     return now;
   }
@@ -186,7 +196,7 @@ class SimulatedJob {
   struct OpenRound {
     int joined = 0, left = 0;
     RoundSums sums;
-    std::shared_ptr<std::vector<std::int64_t>> waiting;  // by rank
+    std::shared_ptr<std::vector<RankReport>> reports;
   };
 
   [[noreturn]] void broken(const std::string& what) const {
@@ -214,6 +224,8 @@ class SimulatedJob {
         return finish_load(e.rank, static_cast<std::uint32_t>(e.number));
       case Event::Kind::message:
         return receive(e.rank, messages_.extract(e.number).mapped());
+      case Event::Kind::items:
+        return take_items(e.rank, e.number);
       case Event::Kind::round_begins:
         return begin_round(e.rank);
       case Event::Kind::round_ends:
@@ -250,12 +262,14 @@ class SimulatedJob {
     w.work = task.work;
     w.began = r.evictions;
     w.generated = w.born = w.died = 0;
+    double seconds = 0;
     if (task.work == SchedulerType::Work::trace) {
       if (!r.table.contains(task.domain)) broken(fmt::format("rank {} traces in an absent domain", rank));
       check_queue(rank, task.domain);
       const std::uint64_t rays = std::min(r.queues[task.domain], machine_.rays_of_a_batch);
       if (rays == 0) broken(fmt::format("rank {} traces where no ray waits", rank));
-      take_from_queue(r, task.domain, rays);
+      const std::uint64_t from_disk = take_from_queue(r, task.domain, rays);
+      seconds = 2 * static_cast<double>(from_disk * machine_.bytes_a_ray) / machine_.scratch_bytes_s;
       r.rays -= rays;
       r.scheduler.begin_batch(task.domain, rays);
       go_to(task.domain, rays);
@@ -277,7 +291,7 @@ class SimulatedJob {
       alive_ -= left;
       w.died += left;
     }
-    double seconds = 1e-6 + workload_.camera.seconds * static_cast<double>(w.generated);
+    seconds += 1e-6 + workload_.camera.seconds * static_cast<double>(w.generated);
     w.made.clear();
     // Domains that rays stand in, the first that was entered first.
     for (std::size_t i = 0; i < entered_.size(); ++i) {
@@ -389,7 +403,7 @@ class SimulatedJob {
     Rank& r = ranks_[static_cast<std::size_t>(rank)];
     if (r.table.contains(load.domain) || r.loads.contains(load.domain))
       broken(fmt::format("rank {} loads domain {} twice", rank, load.domain));
-    std::uint64_t bytes = workload_.manifest.domains[load.domain].bytes;
+    std::uint64_t bytes = bytes_loaded(workload_.manifest, load.domain);
     for (const std::uint32_t o : load.missing) bytes += workload_.manifest.objects[o].bytes;
     r.loads.emplace(load.domain, load.missing);
     const double files = 1 + static_cast<double>(load.missing.size());
@@ -415,7 +429,7 @@ class SimulatedJob {
     std::vector<bool> counted(workload_.manifest.objects.size());
     std::uint64_t bytes = 0;
     for (const std::uint32_t domain : domains) {
-      bytes += workload_.manifest.domains[domain].bytes;
+      bytes += bytes_loaded(workload_.manifest, domain);
       for (const std::uint32_t o : workload_.manifest.domains[domain].objects)
         if (!counted[o]) {
           counted[o] = true;
@@ -440,6 +454,10 @@ class SimulatedJob {
 
   void finish_load(int rank, std::uint32_t domain) {
     Rank& r = ranks_[static_cast<std::size_t>(rank)];
+    if (rank == mishaps_.disk_error.rank && now_ >= mishaps_.disk_error.from_s) {
+      r.failed = true;
+      return;
+    }
     r.loads.erase(domain);
     r.table.insert(domain);
     r.scheduler.loaded(domain);
@@ -476,8 +494,21 @@ class SimulatedJob {
     r.scheduler.sent(sent, now_);
   }
 
+  void give_items(Rank& r) {
+    for (const auto& [to, items] : r.scheduler.give_items())
+      at(now_ + late() * machine_.latency_s, {Event::Kind::items, to, items});
+  }
+  void take_items(int rank, std::uint64_t items) {
+    Rank& r = ranks_[static_cast<std::size_t>(rank)];
+    if (r.ended && !result_.failed) broken(fmt::format("rank {} had ended when items came", rank));
+    r.scheduler.items_arrived(items);
+    wake_workers(rank);
+  }
+
   void receive(int rank, const Message& message) {
     Rank& r = ranks_[static_cast<std::size_t>(rank)];
+    // A rank that leaves because of another takes what comes until all have left.
+    if (r.ended && result_.failed) return;
     for (const auto& [domain, rays] : message) {
       if (r.ended) broken(fmt::format("rank {} had ended when {} rays arrived", rank, rays));
       if (!r.scheduler.residency().homes().has(domain, rank))
@@ -501,10 +532,12 @@ class SimulatedJob {
       hold(r, *full, -static_cast<std::int64_t>(written));
     }
   }
-  // Those in memory first.
-  void take_from_queue(Rank& r, std::uint32_t domain, std::uint64_t rays) {
+  // Those in memory first; gives how many the others are.
+  std::uint64_t take_from_queue(Rank& r, std::uint32_t domain, std::uint64_t rays) {
     r.queues[domain] -= rays;
-    hold(r, domain, -static_cast<std::int64_t>(std::min(rays, r.in_memory[domain])));
+    const std::uint64_t held = std::min(rays, r.in_memory[domain]);
+    hold(r, domain, -static_cast<std::int64_t>(held));
+    return rays - held;
   }
   void hold(Rank& r, std::uint32_t domain, std::int64_t rays) {
     const auto bytes = static_cast<std::uint64_t>(std::abs(rays)) * machine_.bytes_a_ray;
@@ -520,12 +553,13 @@ class SimulatedJob {
     RoundSums mine = r.scheduler.contribution();
     mine.items_done += static_cast<std::int64_t>(r.items_before);
     mine.pause = r.wants_checkpoint;
+    mine.machine_failure = r.failed;
     r.watch.round_begins(now_);
     expect_watch(rank);
     OpenRound& round = rounds_[r.round];
     add(round.sums, mine);
-    if (!round.waiting) round.waiting = std::make_shared<std::vector<std::int64_t>>(ranks_.size());
-    (*round.waiting)[static_cast<std::size_t>(rank)] = mine.waiting;
+    if (!round.reports) round.reports = std::make_shared<std::vector<RankReport>>(ranks_.size());
+    (*round.reports)[static_cast<std::size_t>(rank)] = r.scheduler.report();
     if (++round.joined < machine_.ranks) return;
     ++result_.rounds;
     const double steps = std::bit_width(static_cast<unsigned>(machine_.ranks));
@@ -537,10 +571,18 @@ class SimulatedJob {
     Rank& r = ranks_[static_cast<std::size_t>(rank)];
     OpenRound& round = rounds_.at(r.round);
     const RoundSums sums = round.sums;
-    r.scheduler.rays_wait(round.waiting);
+    r.scheduler.ranks_told(round.reports);
     if (++round.left == machine_.ranks) rounds_.erase(r.round);
     ++r.round;
     r.watch.round_ends();
+    if (sums.machine_failure > 0) {
+      result_.failed = r.ended = true;
+      ++failed_[r.round];
+      ++ended_;
+      // They leave together.
+      r.watch.round_begins(now_);
+      return expect_watch(rank);
+    }
     if (r.scheduler.decide(sums) == SchedulerType::Decision::all_quiet) {
       if (!over_ || *over_ != r.round) {
         if (alive_ != 0)
@@ -567,6 +609,8 @@ class SimulatedJob {
         r.wants_checkpoint = false;
         r.scheduler.resume();
       }
+    } else {
+      give_items(r);
     }
     wake_workers(rank);
     at(now_ + machine_.round_interval_s * late(), {Event::Kind::round_begins, rank});
@@ -579,6 +623,8 @@ class SimulatedJob {
     to.full += from.full;
     to.died += from.died;
     to.quiet += from.quiet;
+    to.idle += from.idle;
+    to.machine_failure += from.machine_failure;
     to.pause += from.pause;
     to.items_done += from.items_done;
   }
@@ -690,9 +736,10 @@ class SimulatedJob {
   double now_ = 0;
   std::uint64_t alive_ = 0, generated_ = 0;
   std::size_t ended_ = 0;
-  KeptWork kept_;                               // what a checkpoint holds that is being written
-  std::map<std::uint64_t, std::size_t> quiet_;  // ranks that thought so, by round
-  std::optional<std::uint64_t> over_;           // the round that said so
+  KeptWork kept_;                                // what a checkpoint holds that is being written
+  std::map<std::uint64_t, std::size_t> quiet_;   // ranks that thought so, by round
+  std::optional<std::uint64_t> over_;            // the round that said so
+  std::map<std::uint64_t, std::size_t> failed_;  // ranks that ended because of a disk, by round
   std::vector<Moment> thirds_;
   SimulationResult result_;
 };

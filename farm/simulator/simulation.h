@@ -22,8 +22,10 @@ struct Machine {
   std::optional<Homes> homes;      // empty: by bytes
   Distribution distribution = Distribution::automatic;
   std::int64_t rays_allowed = 0;  // alive in the whole job
-  // A rank, for rays that wait; the others go to the disk, which takes no time here.
+  // A rank, for rays that wait; the others go to its scratch disk, and a worker that takes them waits for
+  // writing and reading them.
   std::uint64_t queue_bytes = std::numeric_limits<std::uint64_t>::max();
+  double scratch_bytes_s = 1e9;
   std::uint64_t bytes_a_ray = 48;
   double latency_s = 5e-6;        // of a message
   double network_bytes_s = 1e10;  // a rank
@@ -49,6 +51,12 @@ struct Silence {
   double to_s = std::numeric_limits<double>::infinity();  // ∞: it is dead
 };
 
+// From a moment on no file can be loaded on a rank: the job ends everywhere.
+struct DiskError {
+  int rank = -1;
+  double from_s = std::numeric_limits<double>::infinity();
+};
+
 // What goes wrong on purpose.
 struct Mishaps {
   int checkpoints = 0;        // at random moments
@@ -56,7 +64,8 @@ struct Mishaps {
   double checkpoint_mean_s = 1e-3;
   double slow_rank = 1;           // a rank whose work takes so many times as long
   std::vector<Silence> silences;  // at most one a rank
-  KeptWork kept;                  // of an earlier run: this one goes on from there
+  DiskError disk_error;
+  KeptWork kept;  // of an earlier run: this one goes on from there
 };
 
 // Something that may never happen did. The message says what, where and when.
@@ -76,8 +85,10 @@ struct SimulationResult {
   std::uint64_t most_bytes = 0;      // of domains in memory: each rank's most, summed
   std::uint64_t most_alive = 0;      // rays in the whole job
   std::uint64_t spilled_rays = 0;    // that waited on a disk
+  std::uint64_t given_items = 0;     // from rank to rank
   std::uint64_t most_on_a_rank = 0;  // rays that wait on one
   std::vector<int> silent;           // the job ended because these did not answer
+  bool failed = false;               // it ended because of a disk
   KeptWork kept;                     // in its last checkpoint
 };
 

@@ -69,7 +69,7 @@ def main():
     parser.add_argument("bundle", type=pathlib.Path)
     parser.add_argument("--vitrail", default=ROOT / "build/release/bin/vitrail")
     parser.add_argument("--mitsuba", nargs=2, metavar=("SCENE", "PYTHON"))
-    parser.add_argument("--ranks", type=int, nargs="+", default=[1])
+    parser.add_argument("--ranks", type=int, nargs="*", default=[1], help="none: Mitsuba alone")
     parser.add_argument("--fractions", type=float, nargs="+", default=[1, .5, .25, .125])
     parser.add_argument("--spp", type=int, default=64)
     parser.add_argument("--patience", type=float, default=1800, help="seconds for one run")

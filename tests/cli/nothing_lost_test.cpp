@@ -90,6 +90,16 @@ TEST_F(NothingLost, APictureThatNoFilmSpeaksOfIsKept) {
   EXPECT_NE(read("holiday.png"), "a photograph");
 }
 
+TEST_F(NothingLost, APreviewTakesNobodysPicture) {
+  write("mine.png", "a picture");
+  const std::string preview = fmt::format("--spp 8 --preview '{}'", path("mine.png"));
+  const CommandResult refused = render("a.film", preview);
+  EXPECT_EQ(refused.status, 3) << refused.output;
+  EXPECT_THAT(refused.output, HasSubstr("mine.png: "));
+  EXPECT_EQ(read("mine.png"), "a picture");
+  EXPECT_EQ(render("a.film", preview + " --force").status, 0);
+}
+
 TEST_F(NothingLost, AFinishedJobSaysSo) {
   ASSERT_EQ(render("a.png", "--spp 8").status, 0);
   write("a.png", "retouched");

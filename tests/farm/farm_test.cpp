@@ -394,14 +394,49 @@ TEST(Homes, RaysGoWhereFewerWait) {
   const Manifest m = of_domains({100, 100});
   Scheduler scheduler({4, 1, 1000}, Residency(m, 100, Homes({0, 1}, {0, 3}, 4), 0, Distribution::decompose));
   EXPECT_EQ(scheduler.destination(0, 5), 0) << "it has one home";
-  scheduler.rays_wait(
-      std::make_shared<const std::vector<std::int64_t>>(std::vector<std::int64_t>{0, 900, 0, 900}));
+  scheduler.ranks_told(
+      std::make_shared<const std::vector<RankReport>>(std::vector<RankReport>{{0}, {900}, {0}, {900}}));
   std::vector<int> sent(4);
   for (int i = 0; i < 100; ++i) ++sent[static_cast<std::size_t>(scheduler.destination(1, 10))];
   EXPECT_GT(sent[2], sent[1] + sent[3]);
   EXPECT_EQ(sent[0], 0);
   for (int i = 0; i < 900; ++i) ++sent[static_cast<std::size_t>(scheduler.destination(1, 10))];
   EXPECT_LT(std::abs(sent[1] - sent[3]), 50) << "all are equally full by now";
+}
+
+// Given by who is busy to who has nothing to do; on their way they are alive.
+TEST(Work, IdleRanksAreGivenItems) {
+  const Manifest m = of_domains({100});
+  const auto scheduler_of = [&](int rank) {
+    return Scheduler({3, 1, 30'000, rank}, Residency(m, 100, Homes({0}, 3), rank, Distribution::replicate));
+  };
+  Scheduler busy = scheduler_of(0), idle = scheduler_of(1);
+  busy.begin_items(10);
+  idle.worker_waits();
+  const auto round = [&] {
+    RoundSums sums;
+    for (Scheduler* s : {&busy, &idle}) {
+      const RoundSums mine = s->contribution();
+      sums.born += mine.born, sums.died += mine.died, sums.idle += mine.idle, sums.wanting += mine.wanting;
+    }
+    const auto told = std::make_shared<const std::vector<RankReport>>(
+        std::vector<RankReport>{busy.report(), idle.report(), {0, 0, 0}});
+    for (Scheduler* s : {&busy, &idle}) s->ranks_told(told), s->decide(sums);
+    return sums.born - sums.died;
+  };
+  EXPECT_EQ(round(), 0);
+  EXPECT_TRUE(idle.give_items().empty());
+  const std::vector<Scheduler::Gift> gifts = busy.give_items();
+  ASSERT_EQ(gifts.size(), 1u);
+  EXPECT_EQ(gifts[0].to, 1);
+  EXPECT_EQ(gifts[0].items, 5u) << "it keeps as many";
+  EXPECT_EQ(busy.items_given(), 5u);
+  EXPECT_EQ(round(), 5) << "nothing can end before they have come";
+  idle.items_arrived(5);
+  EXPECT_EQ(round(), 0);
+  EXPECT_TRUE(busy.give_items().empty()) << "nobody is idle";
+  busy.worker_waits();
+  EXPECT_EQ(busy.report().items, 0) << "its own worker waits for leave to generate";
 }
 
 TEST(Residency, TracesWhereItsDistributionSays) {
@@ -445,9 +480,10 @@ TEST(Residency, CountsObjectsOnce) {
   m.objects = {{.triangles = 1, .bytes = 100}, {.triangles = 1, .bytes = 50}};
   m.domains[0].objects = {0};
   m.domains[1].objects = {0, 1};
-  EXPECT_EQ(bytes_needed(m, 1), 160u);
-  EXPECT_EQ(bytes_of_all(m), 180u);
-  Residency residency(m, 165, Homes({0, 0, 1}, 2), 0);
+  const std::uint64_t one = 8 + 16, both = 2 * (8 + 16);  // tables of views, and who holds them
+  EXPECT_EQ(bytes_needed(m, 1), 160u + both);
+  EXPECT_EQ(bytes_of_all(m), 180u + one + both);
+  Residency residency(m, 165 + one + both, Homes({0, 0, 1}, 2), 0);
   EXPECT_TRUE(residency.is_local(1));
   residency.rays_forwarded(2, 1000000);
   EXPECT_FALSE(residency.is_local(2)) << "its own two and their objects take 170 bytes";
@@ -456,7 +492,10 @@ TEST(Residency, CountsObjectsOnce) {
   const auto load = residency.loader_is_free(14, true).load;
   ASSERT_TRUE(load);
   EXPECT_EQ(load->missing, (std::vector<std::uint32_t>{0, 1}));
-  EXPECT_EQ(residency.held_bytes(), 160u);
+  EXPECT_EQ(residency.held_bytes(), 160u + both);
+  m.objects.resize(100'000, {.triangles = 1, .bytes = 1});
+  m.domains[2].objects = {99'999};
+  EXPECT_EQ(bytes_needed(m, 2), 10u + 8 * 100'000 + 16 + 1) << "by number";
 }
 
 TEST(Residency, KeepsAnothersDomainOnlyIfMuchAskedFor) {

@@ -51,6 +51,10 @@ struct Case {
     machine.patience_s = 2;
     if (among(4) == 0)
       for (std::uint64_t silences = 1 + among(3); silences > 0; --silences) add_silence(random);
+    machine.scratch_bytes_s = among(2) == 0 ? 1e9 : 1e6;
+    if (among(10) == 0)
+      mishaps.disk_error = {static_cast<int>(among(static_cast<std::uint64_t>(machine.ranks))),
+                            1e-4 * static_cast<double>(among(1000))};
     constexpr Distribution distributions[] = {Distribution::automatic, Distribution::automatic,
                                               Distribution::decompose, Distribution::replicate};
     machine.distribution = distributions[among(4)];
@@ -78,15 +82,16 @@ struct Case {
   }
 };
 
-// A job that ended because of silent ranks goes on from its last checkpoint without them.
+// A job that ended because of silent ranks, or a disk, goes on from its last checkpoint without them.
 template <class SchedulerType, class WatchType = Watch, class SpillType = Spill>
 SimulationResult run(Case c, std::uint64_t seed) {
   for (;;) {
     const auto result =
         SimulatedJob<SchedulerType, WatchType, SpillType>(c.workload, c.machine, c.mishaps, seed).run();
-    if (result.silent.empty()) return result;
+    if (result.silent.empty() && !result.failed) return result;
     c.mishaps.kept = result.kept;
     c.mishaps.silences.clear();
+    if (result.failed) c.mishaps.disk_error = {};
   }
 }
 
@@ -124,10 +129,10 @@ TEST(Simulation, ReckonsTheMiddleOfALongJob) {
   Workload workload = random_workload(random, 24, 1500, 2000);
   for (const std::uint64_t share : {1, 3}) {
     machine.domain_bytes = bytes_of_all(workload.manifest) / share;
-    workload.items = 1500;
+    workload.items = 3000;
     workload.middle_again = 0;
     const SimulationResult all = simulate(workload, machine, {}, 1);
-    workload.items = 300;
+    workload.items = 600;
     workload.middle_again = 12;
     const SimulationResult reckoned = simulate(workload, machine, {}, 1);
     EXPECT_LT(reckoned.events, all.events / 3);
@@ -157,6 +162,50 @@ TEST(Simulation, RanksWaitForTheirDisk) {
   EXPECT_NEAR(simulate(workload, machine, {}, 1).seconds / own_s, 2, .1);
   machine.ranks_of_a_disk = 4;
   EXPECT_NEAR(simulate(workload, machine, {}, 1).seconds / own_s, 4, .2);
+}
+
+// Rays that memory has no room for cost what writing and reading them takes.
+TEST(Simulation, RaysWaitForTheirDisk) {
+  std::mt19937_64 random(1);
+  Machine machine;
+  machine.rays_allowed = 100'000;
+  machine.queue_bytes = 0;
+  machine.distribution = Distribution::replicate;
+  const Workload workload = random_workload(random, 24, 300, 1000);
+  machine.domain_bytes = bytes_of_all(workload.manifest) / 4;
+  machine.scratch_bytes_s = 1e12;
+  const SimulationResult quick = simulate(workload, machine, {}, 1);
+  machine.scratch_bytes_s = 1e6;
+  const SimulationResult slow = simulate(workload, machine, {}, 1);
+  const double disk_s = 2e-6 * static_cast<double>(slow.spilled_rays * machine.bytes_a_ray);
+  EXPECT_GT(slow.spilled_rays, 100'000u);
+  EXPECT_NEAR((slow.busy_s - quick.busy_s) / disk_s, 1, .1);
+}
+
+struct KeepsItsItems : Scheduler {
+  using Scheduler::Scheduler;
+  std::vector<Gift> give_items() { return {}; }
+};
+
+// One node of eight is twenty times slower, and has everything in memory as the others have: they take what
+// it would else hold up.
+TEST(Simulation, IdleRanksTakeItems) {
+  std::mt19937_64 random(1);
+  Machine machine;
+  machine.ranks = 8;
+  machine.workers = 4;
+  machine.rays_allowed = 100'000;
+  machine.distribution = Distribution::replicate;
+  const Workload workload = random_workload(random, 8, 4000, 1000);
+  machine.domain_bytes = bytes_of_all(workload.manifest);
+  Mishaps slow;
+  slow.slow_rank = 20;
+  const double even_s = simulate(workload, machine, {}, 1).seconds;
+  const SimulationResult taken = simulate(workload, machine, slow, 1);
+  const double kept_s = SimulatedJob<KeepsItsItems>(workload, machine, slow, 1).run().seconds;
+  EXPECT_GT(kept_s / even_s, 15);
+  EXPECT_LT(taken.seconds / even_s, 2) << "8/7, and an item of its own that ends late";
+  EXPECT_GT(taken.given_items, 400u);
 }
 
 // Deliberately wrong ones: what they do is found out.
@@ -232,7 +281,7 @@ struct ForgetsObjects : Scheduler {
 
 struct SaysThatItIsQuiet : Scheduler {
   using Scheduler::Scheduler;
-  RoundSums contribution() const {
+  RoundSums contribution() {
     RoundSums mine = Scheduler::contribution();
     mine.quiet = 1;
     return mine;
@@ -254,12 +303,42 @@ struct PausesInAnItem : Scheduler {
     const Task task = Scheduler::next_task();
     return pause && task.work == Work::generate ? Task{} : task;
   }
-  RoundSums contribution() const {
+  RoundSums contribution() {
     RoundSums mine = Scheduler::contribution();
     if (pause && mine.reserved == 0) mine.quiet = 1;
     return mine;
   }
   bool pause = false;
+};
+
+struct GivesTwice : Scheduler {
+  using Scheduler::Scheduler;
+  void items_arrived(std::uint64_t items) { Scheduler::items_arrived(2 * items), count(items, 0); }
+};
+
+struct ForgetsWhatIsGiven : Scheduler {
+  using Scheduler::Scheduler;
+  void items_arrived(std::uint64_t items) { count(0, items); }
+};
+
+// Whether or not it may soon begin them.
+struct GivesToAndFro : Scheduler {
+  using Scheduler::Scheduler;
+  template <class Act>
+  auto as_if_busy(const Act& act) {
+    const int waiting = workers_waiting();
+    for (int i = 0; i < waiting; ++i) worker_wakes();
+    auto result = act();
+    for (int i = 0; i < waiting; ++i) worker_waits();
+    return result;
+  }
+  std::vector<Gift> give_items() {
+    return as_if_busy([&] { return Scheduler::give_items(); });
+  }
+  RankReport report() {
+    const RankReport told = Scheduler::report();
+    return told.items < 0 ? told : as_if_busy([&] { return Scheduler::report(); });
+  }
 };
 
 struct WaitsForEver : Watch {
@@ -307,6 +386,9 @@ TEST(Simulation, CatchesBrokenSchedulers) {
   EXPECT_TRUE(is_caught<ForgetsObjects>(300));
   EXPECT_TRUE(is_caught<SaysThatItIsQuiet>(300));
   EXPECT_TRUE(is_caught<PausesInAnItem>(300));
+  EXPECT_TRUE(is_caught<GivesTwice>(300));
+  EXPECT_TRUE(is_caught<ForgetsWhatIsGiven>(300));
+  EXPECT_TRUE(is_caught<GivesToAndFro>(2000));
 }
 
 }  // namespace
