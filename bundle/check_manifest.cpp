@@ -113,6 +113,7 @@ void check_quadric(const Checker& c, const OrientedQuadric& q, const ObjectInfo&
 // Objects refer to smaller numbers, so no chain of instances comes back to where it was.
 void check_objects(const Checker& c, const Manifest& m) {
   std::vector<int> depth(m.objects.size(), 1);
+  bool moves = m.camera_motion.moves();
   for (std::size_t i = 0; i < m.objects.size(); ++i) {
     const ObjectInfo& o = m.objects[i];
     c.require(o.triangles > 0 && o.triangles <= m.triangles, "an object has no triangles, or too many");
@@ -121,12 +122,17 @@ void check_objects(const Checker& c, const Manifest& m) {
               "an object has surfaces that are not there");
     check_surfaces(c, m, surfaces_of(m, o), o.triangles);
     if (o.quadric) check_quadric(c, *o.quadric, o);
+    moves = moves || o.motion.moves();
     for (const std::uint32_t other : o.objects) {
       c.require(other < i, "an object holds itself");
       depth[i] = std::max(depth[i], depth[other] + 1);
     }
     c.require(depth[i] <= max_instance_depth, "instances are nested too deep");
   }
+  c.require(moves == m.requirements.motion, "it says that something moves, or nothing, and that is not so");
+  c.require(std::isfinite(m.shutter.open_s) && m.shutter.open_s <= m.shutter.close_s &&
+                std::isfinite(m.shutter.close_s),
+            "the shutter closes before it has opened");
   for (const DomainInfo& d : m.domains) {
     c.require(std::ranges::is_sorted(d.objects), "the objects of a domain are out of order");
     for (const std::uint32_t object : d.objects) {
@@ -268,7 +274,8 @@ void check_manifest(const Manifest& m, const std::filesystem::path& file) {
 }
 
 std::uint64_t hash_of_records(const Manifest& manifest) {
-  const std::string text = camera_to_json(manifest.camera).dump() + film_to_json(manifest.film).dump();
+  std::string text = camera_to_json(manifest.camera).dump() + film_to_json(manifest.film).dump();
+  if (manifest.requirements.motion) text += motions_to_json(manifest).dump();
   Hasher hasher;
   hasher.add(encode_materials(manifest));
   hasher.add(encode_lights(manifest));

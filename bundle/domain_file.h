@@ -17,6 +17,8 @@
 
 namespace vitrail {
 
+class Motion;
+
 namespace layout {  // domain_layout.h
 struct DomainHeader;
 struct Section;
@@ -117,6 +119,7 @@ struct DomainView {
   // Of a domain, for its instances and theirs: by number, those it needs. Whoever loads it sets the two.
   std::span<const DomainView* const> objects;
   const OrientedQuadric* quadric = nullptr;  // if it is one: all the rest is empty
+  const Motion* motion = nullptr;            // if it moves: of all that is in it
   float reach = 0;                           // no |coordinate| in the trees is greater
 };
 

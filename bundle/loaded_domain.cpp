@@ -11,15 +11,19 @@ LoadedDomain::LoadedDomain(const Manifest& manifest, std::uint32_t domain, Share
   const std::vector<std::uint32_t>& needed = manifest.domains.at(domain).objects;
   if (needed.empty()) return;
   object_views_.resize(needed.back() + std::size_t{1});
-  quadrics_.reserve(needed.size());  // views of it are given away
+  own_views_.reserve(needed.size());  // views of it are given away
   for (const std::uint32_t number : needed) {
-    if (const auto& quadric = manifest.objects[number].quadric) {
-      object_views_[number] = &quadrics_.emplace_back();
-      quadrics_.back().quadric = &*quadric;
+    const ObjectInfo& info = manifest.objects[number];
+    if (info.quadric) {
+      object_views_[number] = &own_views_.emplace_back();
+      own_views_.back().quadric = &*info.quadric;
       continue;
     }
     objects_.push_back(object(number));
     object_views_[number] = &objects_.back()->view();
+    if (!info.motion.moves()) continue;
+    object_views_[number] = &own_views_.emplace_back(objects_.back()->view());
+    own_views_.back().motion = &info.motion;
   }
   view_.objects = object_views_;
 }

@@ -26,7 +26,7 @@ class LoadedDomain {
  private:
   SharedDomain mapped_;
   std::vector<SharedDomain> objects_;
-  std::vector<DomainView> quadrics_;             // of the manifest, which outlives them
+  std::vector<DomainView> own_views_;            // of what the manifest, which outlives them, says of objects
   std::vector<const DomainView*> object_views_;  // by number, null where it is not needed
   DomainView view_;
 };

@@ -97,6 +97,7 @@ Features features_of(const Manifest& m) {
                                        std::holds_alternative<DotsTexture>(t.model);
                               }),
           required_feature::procedural);
+  require(m.requirements.motion, required_feature::motion);
   if (m.cut_triangles > 0) f.optional |= optional_feature::pieces;
   return f;
 }

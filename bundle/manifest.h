@@ -51,6 +51,7 @@ struct ObjectInfo {
   std::uint32_t first_surface = 0, surface_count = 0;  // the surfaces of its own triangles
   std::vector<std::uint32_t> objects;      // that its own instances are of, ascending, below its own number
   std::optional<OrientedQuadric> quadric;  // with one id
+  Motion motion;  // of all that is in it, within the coordinates that its instances place
   bool operator==(const ObjectInfo&) const = default;
 };
 
@@ -97,6 +98,7 @@ struct Requirements {
   // Some surface lets light straight through: interfaces, masks, thin sheets, opacities.
   bool see_through = false;
   bool media = false;
+  bool motion = false;  // the camera or an object moves
   bool operator==(const Requirements&) const = default;
 };
 
@@ -135,6 +137,8 @@ struct Manifest {
   std::vector<EmissiveQuadric> emissive_quadrics;
   std::vector<Light> lights;
   Camera camera;
+  Motion camera_motion;
+  Shutter shutter;
   std::int32_t camera_medium = -1;  // index, or −1: vacuum
   std::vector<TextureFileEntry> texture_files;
   std::uint32_t attributes = 0;  // mesh attributes that textures read: slots a vertex

@@ -71,9 +71,37 @@ Filter filter_from_json(const Json& j) {
   return SincFilter{x, y, j.at("tau").get<double>()};
 }
 
-Camera camera_from_json(const Json& j) {
+Transform transform_from_json(const Json& j) {
   Transform t;
-  for (std::size_t i = 0; i < 16; ++i) t.m[i / 4][i % 4] = j.at("camera_to_world").at(i).get<double>();
+  for (std::size_t i = 0; i < 16; ++i) t.m[i / 4][i % 4] = j.at(i).get<double>();
+  return t;
+}
+
+Json transform_to_json(const Transform& t) {
+  Json j;
+  for (const auto& row : t.m)
+    for (const double x : row) j.push_back(x);
+  return j;
+}
+
+Json motion_to_json(const Motion& motion) {
+  Json j = Json::array();
+  for (const Keyframe& key : motion.keys())
+    j.push_back({{"time_s", key.time_s}, {"transform", transform_to_json(key.transform)}});
+  return j;
+}
+
+// None where there is no such key.
+Motion motion_from_json(const Json& of, const char* key) {
+  if (!of.contains(key)) return {};
+  std::vector<Keyframe> keys;
+  for (const Json& k : of[key])
+    keys.push_back({k.at("time_s").get<double>(), transform_from_json(k.at("transform"))});
+  return Motion(std::move(keys));
+}
+
+Camera camera_from_json(const Json& j) {
+  const Transform t = transform_from_json(j.at("camera_to_world"));
   const std::size_t kind = kind_index(j, camera_kinds);
   if (kind == 2)
     return SphericalCamera{
@@ -136,12 +164,14 @@ constexpr std::array requirement_names{std::pair{"shading_normals", &Requirement
 Json requirements_to_json(const Requirements& r) {
   Json j;
   for (const auto& [name, member] : requirement_names) j[name] = r.*member;
+  if (r.motion) j["motion"] = true;
   return j;
 }
 
 Requirements requirements_from_json(const Json& j) {
   Requirements r;
   for (const auto& [name, member] : requirement_names) r.*member = j.at(name).get<bool>();
+  r.motion = j.value("motion", false);
   return r;
 }
 
@@ -218,6 +248,7 @@ Json object_to_json(const ObjectInfo& o) {
     j["quadric"] = quadric_to_json(*o.quadric);
   else
     j.update({{"bytes", o.bytes}, {"objects", o.objects}});
+  if (o.motion.moves()) j["motion"] = motion_to_json(o.motion);
   return j;
 }
 
@@ -232,6 +263,7 @@ ObjectInfo object_from_json(const Json& j) {
   }
   o.bytes = j.at("bytes").get<std::uint64_t>();
   o.objects = j.at("objects").get<std::vector<std::uint32_t>>();
+  o.motion = motion_from_json(j, "motion");
   return o;
 }
 
@@ -241,8 +273,7 @@ Json camera_to_json(const Camera& camera) {
   Json j{{"kind", camera_kinds.at(camera.index())}};
   std::visit(
       [&](const auto& c) {
-        for (const auto& row : c.camera_to_world.m)
-          for (const double x : row) j["camera_to_world"].push_back(x);
+        j["camera_to_world"] = transform_to_json(c.camera_to_world);
         if constexpr (requires { c.projection; }) {
           j["projection"] = {{"kind", sphere_kinds.at(static_cast<std::size_t>(c.projection))}};
         } else if constexpr (requires { c.sensors; }) {
@@ -257,6 +288,12 @@ Json camera_to_json(const Camera& camera) {
         }
       },
       camera);
+  return j;
+}
+
+Json motions_to_json(const Manifest& m) {
+  Json j{{"shutter_s", {m.shutter.open_s, m.shutter.close_s}}, {"camera", motion_to_json(m.camera_motion)}};
+  for (const ObjectInfo& o : m.objects) j["objects"].push_back(motion_to_json(o.motion));
   return j;
 }
 
@@ -291,6 +328,8 @@ Json manifest_to_json(const Manifest& m) {
   j["attributes"] = m.attributes;
   if (m.switching_glazings > 0) j["switching_glazings"] = m.switching_glazings;
   j["camera"] = camera_to_json(m.camera);
+  if (m.requirements.motion) j["shutter_s"] = {m.shutter.open_s, m.shutter.close_s};
+  if (m.camera_motion.moves()) j["camera_motion"] = motion_to_json(m.camera_motion);
   j["camera_medium"] = m.camera_medium;
   j["texture_files"] = Json::array();
   for (const TextureFileEntry& t : m.texture_files) j["texture_files"].push_back(texture_file_to_json(t));
@@ -324,6 +363,9 @@ Manifest manifest_from_json(const Json& j) {
   m.camera_medium = j.at("camera_medium").get<std::int32_t>();
   for (const Json& t : j.at("texture_files")) m.texture_files.push_back(texture_file_from_json(t));
   m.camera = camera_from_json(j.at("camera"));
+  if (m.requirements.motion)
+    m.shutter = {j.at("shutter_s").at(0).get<double>(), j.at("shutter_s").at(1).get<double>()};
+  m.camera_motion = motion_from_json(j, "camera_motion");
   m.film = film_from_json(j.at("film"));
   const Json& s = j.at("settings");
   m.settings = {s.at("samples_per_pixel").get<int>(), s.at("max_depth").get<int>(),

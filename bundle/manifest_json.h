@@ -13,6 +13,8 @@ using Json = nlohmann::ordered_json;
 Json manifest_to_json(const Manifest& manifest);
 Json camera_to_json(const Camera& camera);
 Json film_to_json(const FilmSettings& film);
+// The shutter, and how the camera and each object move.
+Json motions_to_json(const Manifest& manifest);
 
 // Throws nlohmann's exceptions for keys that are missing and values of a wrong type, Error for unknown words.
 Manifest manifest_from_json(const Json& json);

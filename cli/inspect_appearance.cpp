@@ -104,6 +104,10 @@ Report describe_needs(const Scene& scene) {
       yes_or_no(scene.instances.empty()
                     ? ""
                     : fmt::format("{} of {} objects", scene.instances.size(), scene.prototypes.size()));
+  std::string moves = scene.camera_motion.moves() ? "of the camera" : "";
+  if (!scene.motions.empty())
+    moves += fmt::format("{}{} of objects", moves.empty() ? "" : " and ", scene.motions.size());
+  needs["motion"] = yes_or_no(moves);
   const auto* perspective = std::get_if<PerspectiveCamera>(&scene.camera);
   const auto* orthographic = std::get_if<OrthographicCamera>(&scene.camera);
   const double radius = perspective ? perspective->lens.radius : orthographic ? orthographic->lens.radius : 0;

@@ -74,6 +74,7 @@ void PhotonWork::begin_flying(std::uint32_t iteration) {
   pass_.iteration = iteration;
   pass_.radius = radius_of(key_, iteration);
   pass_.wavelength_number = wavelength_number(scene_.seed, iteration);
+  pass_.time_number = time_number(scene_.seed, iteration);
   pass_.wavelengths = sample_wavelengths(pass_.wavelength_number);
   // Where a point is rounded to float decides nothing.
   reach_ = pass_.radius * (1 + 1e-6);

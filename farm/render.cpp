@@ -53,6 +53,7 @@ void put_sensors(Manifest& m, const RenderOptions& options) {
   SensorCamera camera{translate(-m.offset), read_sensors(options.sensors)};
   m.film = sensor_film(camera.sensors.size());
   m.camera = std::move(camera);
+  m.camera_motion = {};
   ++m.settings.max_depth;  // the sensor's own event
   Hasher hasher;
   hasher.add(std::as_bytes(std::span(&m.scene_hash, 1)));

@@ -39,12 +39,7 @@ const Format& format_of(const std::filesystem::path& out) {
                   out.string()));
 }
 
-}  // namespace
-
-Diagnostics export_scene(const Scene& scene, const std::filesystem::path& out) {
-  const Format& format = format_of(out);
-  if (!has_nested_instances(scene)) return format.write(scene, out);
-  Diagnostics diagnostics = format.write(without_nested_instances(scene), out);
+void note_nested_instances(const Scene& scene, Diagnostics& diagnostics) {
   for (const Prototype& prototype : scene.prototypes)
     for (const Instance& instance : prototype.instances) {
       const SourceLocation where = location(scene, instance.origin);
@@ -54,6 +49,35 @@ Diagnostics export_scene(const Scene& scene, const std::filesystem::path& out) {
            "shapes of that object, or as instances of their own",
            where, where, RecordKind::instance});
     }
+}
+
+// pbrt's format alone has any, and not with instances within objects.
+void note_motion(const Scene& scene, const Format& format, Diagnostics& diagnostics) {
+  const bool has_motion = format.extension == ".pbrt";
+  const auto note = [&](const Origin& origin, RecordKind kind) {
+    const SourceLocation where = location(scene, origin);
+    diagnostics.push_back({Fidelity::dropped,
+                           "motion: the format has none here; it stands where it is when the shutter opens",
+                           where, where, kind});
+  };
+  if (scene.camera_motion.moves() && !has_motion) note(scene.camera_origin, RecordKind::camera);
+  for (const Instance& instance : scene.instances) {
+    const bool nested = !scene.prototypes[instance.prototype.value].instances.empty();
+    if (instance.motion && (nested || !has_motion)) note(instance.origin, RecordKind::instance);
+  }
+  for (const Prototype& prototype : scene.prototypes)
+    for (const Instance& instance : prototype.instances)
+      if (instance.motion) note(instance.origin, RecordKind::instance);
+}
+
+}  // namespace
+
+Diagnostics export_scene(const Scene& scene, const std::filesystem::path& out) {
+  const Format& format = format_of(out);
+  const bool nested = has_nested_instances(scene);
+  Diagnostics diagnostics = format.write(nested ? without_nested_instances(scene) : scene, out);
+  if (nested) note_nested_instances(scene, diagnostics);
+  note_motion(scene, format, diagnostics);
   return diagnostics;
 }
 

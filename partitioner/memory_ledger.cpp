@@ -68,6 +68,8 @@ MemoryLedger ledger_of(const Scene& scene) {
   }
   ledger.shapes = shapes * shape;
   ledger.instances = instances * instance;
+  for (const Motion& motion : scene.motions)  // here and, of its object, in the manifest
+    ledger.instances += sizeof(Assembly) + sizeof(ObjectInfo) + 4 * block + 2 * motion.bytes();
   ledger.prototypes =
       scene.prototypes.size() * (sizeof(Prototype) + sizeof(Assembly) + sizeof(ObjectInfo) + 4 * block);
   ledger.materials = with_names(scene.materials);

@@ -95,6 +95,7 @@ class Unnesting {
       for (std::size_t i = prototype.instances.size(); i-- > 0;) {
         Instance& inner = open.emplace_back(prototype.instances[i]);
         inner.prototype_to_world = instance.prototype_to_world * inner.prototype_to_world;
+        inner.motion.reset();
       }
     }
   }

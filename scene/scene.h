@@ -15,6 +15,7 @@
 #include "scene/material.h"
 #include "scene/medium.h"
 #include "scene/mesh.h"
+#include "scene/motion.h"
 #include "scene/texture.h"
 
 namespace vitrail {
@@ -44,6 +45,8 @@ struct Instance {
   Id<Prototype> prototype;
   Transform prototype_to_world;  // to the outer prototype's space for instances in a prototype
   Origin origin;
+  std::optional<Id<Motion>> motion =
+      {};  // of prototype_to_world, which is where it is when the shutter opens
   bool operator==(const Instance&) const = default;
 };
 
@@ -75,7 +78,10 @@ struct Scene {
   std::vector<Shape> shapes;
   std::vector<Prototype> prototypes;
   std::vector<Instance> instances;
+  std::vector<Motion> motions;  // of instances
   Camera camera = PerspectiveCamera{};
+  Motion camera_motion;                     // of its transform, which is where it is when the shutter opens
+  Shutter shutter;                          // where anything moves
   std::optional<Id<Medium>> camera_medium;  // what the camera is in; none: vacuum
   FilmSettings film;
   RenderSettings settings;

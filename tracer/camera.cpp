@@ -100,31 +100,35 @@ struct WorldRay {
   Vector3d direction;
 };
 
-WorldRay world_ray(const Camera& camera, const FilmSettings& film, Point2d raster, Point2d lens) {
+// `moved`: where the camera is instead, if it moves.
+WorldRay world_ray(const Camera& camera, const FilmSettings& film, Point2d raster, Point2d lens,
+                   const Transform* moved) {
   return std::visit(
       [&](const auto& c) -> WorldRay {
         const LocalRay ray = local_ray(c, film, raster, lens);
-        return {transform_point(c.camera_to_world, ray.origin),
-                transform_vector(c.camera_to_world, ray.direction)};
+        const Transform& to_world = moved ? *moved : c.camera_to_world;
+        return {transform_point(to_world, ray.origin), transform_vector(to_world, ray.direction)};
       },
       camera);
 }
 
 }  // namespace
 
-CameraSampler::CameraSampler(const Camera& camera, const FilmSettings& film) : camera_(camera), film_(film) {
+CameraSampler::CameraSampler(const Camera& camera, const Motion& motion, const FilmSettings& film)
+    : camera_(camera), motion_(motion), film_(film) {
   std::visit(
       [&](const auto& c) {
         if constexpr (requires { c.lens; }) {
           has_lens_ = c.lens.radius > 0;
-          is_linear_ = !has_lens_;
+          is_linear_ = !has_lens_ && !motion.moves();
         }
       },
       camera);
   if (!is_linear_) return;
   const double w = film.width, h = film.height;
-  const WorldRay corner = world_ray(camera, film, {0, 0}, {}), right = world_ray(camera, film, {w, 0}, {}),
-                 below = world_ray(camera, film, {0, h}, {});
+  const WorldRay corner = world_ray(camera, film, {0, 0}, {}, nullptr),
+                 right = world_ray(camera, film, {w, 0}, {}, nullptr),
+                 below = world_ray(camera, film, {0, h}, {}, nullptr);
   const auto linear = [&](Vector3d at, Vector3d at_right, Vector3d at_below) {
     return Linear{at, (at_right - at) * (1 / w), (at_below - at) * (1 / h)};
   };
@@ -132,12 +136,14 @@ CameraSampler::CameraSampler(const Camera& camera, const FilmSettings& film) : c
   direction_ = linear(corner.direction, right.direction, below.direction);
 }
 
-CameraRay CameraSampler::ray(Point2d raster, Point2d lens) const {
+CameraRay CameraSampler::ray(Point2d raster, Point2d lens, double time_s) const {
   if (is_linear_) {
     const Vector3d o = origin_.at(raster);
     return {cast<float>(Point3d{o.x, o.y, o.z}), encode_direction(direction_.at(raster))};
   }
-  const WorldRay ray = world_ray(camera_, film_, raster, lens);
+  std::optional<Transform> moved;
+  if (motion_.moves()) moved = motion_.at(time_s);
+  const WorldRay ray = world_ray(camera_, film_, raster, lens, moved ? &*moved : nullptr);
   return {cast<float>(ray.origin), encode_direction(ray.direction)};
 }
 

@@ -261,6 +261,7 @@ void PathTracer::send_shadow_ray(const Path& path, const Departure& from, const 
                                  const SampledSpectrum& radiance) {
   const Aimed aimed = aim(from, light);
   Shadow shadow{{from.origin, aimed.rounded, from.exclude}, aimed.direction};
+  shadow.time_s = path.time_s;
   shadow.tmax = std::isinf(light.distance) ? std::numeric_limits<float>::max() : float_below(aimed.end);
   for (std::size_t i = 0; i < hero_count; ++i)
     shadow.radiance.v[i] = rounded_radiance(std::max(0.0f, radiance.v[i]));
@@ -358,7 +359,8 @@ bool PathTracer::refract_connection(Path& path, const Interaction& at, const Sur
   const SampledSpectrum eta = relative_index(material, at, path.wavelengths);
   const Vector3d normal = scene_.materials.shading_normal(record, at) * at.side();
   RefractedAim aim = RefractedAim::of(path.aim);
-  aim.doubt_rad += normal_doubt(*resident_[path.hit_domain], path.hit, !(normal == at.geometric * at.side()));
+  aim.doubt_rad +=
+      normal_doubt(*resident_[path.hit_domain], path.hit, !(normal == at.geometric * at.side()), path.time_s);
   const double hero_eta = static_cast<double>(eta[0]), cosine = dot(at.out, normal);
   Vector3d direction;
   const bool is_out =

@@ -104,7 +104,7 @@ Point3f PathTracer::offset_origin(const Interaction& at, Vector3d direction) con
 Interaction PathTracer::interaction_at(const Path& path) const {
   const double width = manifest_.requirements.filtering ? cone_width(path, path.hit.t) : 0;
   return make_interaction(*resident_[path.hit_domain], path.hit, path.ray.direction, width,
-                          manifest_.attributes);
+                          manifest_.attributes, path.time_s);
 }
 
 const Surface& PathTracer::surface_at(const Path& path) const {

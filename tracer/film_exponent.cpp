@@ -159,9 +159,12 @@ int length_exponent(const RenderScene& scene) {
   const Transform& camera =
       std::visit([](const auto& c) -> const Transform& { return c.camera_to_world; }, m.camera);
   double reach = static_cast<double>(m.scale);
-  for (int axis = 0; axis < 3; ++axis)
-    reach =
-        std::max({reach, std::abs(m.offset[axis]), std::abs(camera.m[static_cast<std::size_t>(axis)][3])});
+  const auto extend = [&](const Transform& t) {
+    for (std::size_t axis = 0; axis < 3; ++axis) reach = std::max(reach, std::abs(t.m[axis][3]));
+  };
+  for (int axis = 0; axis < 3; ++axis) reach = std::max(reach, std::abs(m.offset[axis]));
+  extend(camera);
+  for (const Keyframe& key : m.camera_motion.keys()) extend(key.transform);
   if (!(reach > 0)) return default_exponent;
   return std::clamp(std::ilogb(reach) + default_exponent, least_exponent, greatest_exponent);
 }

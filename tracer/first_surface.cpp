@@ -22,6 +22,12 @@ std::array<double, 3> values_of(Vector3d v) { return {v.x, v.y, v.z}; }
 
 }  // namespace
 
+// As the camera stands when the path sees the scene.
+Transform PathTracer::bundle_to_camera(const Path& path) const {
+  const Motion& motion = manifest_.camera_motion;
+  return motion.moves() ? inverse(motion.at(path.time_s)) : scene_.bundle_to_camera;
+}
+
 // Of the layers that are looked up; the others have none.
 std::array<double, 3> PathTracer::value_at(const Path& path, const Interaction& at, const Material& material,
                                            Layer layer) const {
@@ -29,12 +35,12 @@ std::array<double, 3> PathTracer::value_at(const Path& path, const Interaction& 
   const auto facing = [&](Vector3d normal) {
     const Vector3d n = normal * at.side();
     if (!in_camera_space) return values_of(n);
-    return values_of(normalize(to_vector(transform_normal(scene_.bundle_to_camera, to_normal(n)))));
+    return values_of(normalize(to_vector(transform_normal(bundle_to_camera(path), to_normal(n)))));
   };
   switch (layer) {
     case Layer::position: {
       const Point3d p =
-          in_camera_space ? transform_point(scene_.bundle_to_camera, at.p) : at.p + manifest_.offset;
+          in_camera_space ? transform_point(bundle_to_camera(path), at.p) : at.p + manifest_.offset;
       return {p.x, p.y, p.z};
     }
     case Layer::geometric_normal:

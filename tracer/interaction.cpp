@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tracer/intersect/instance_ray.h"
 #include "tracer/quadrics/quadric_surface.h"
 #include "tracer/rounding.h"
 
@@ -45,13 +46,13 @@ struct Holder {
   }
 };
 
-Holder holder_of(const DomainView& domain, const Hit& hit) {
+Holder holder_of(const DomainView& domain, const Hit& hit, double time_s) {
   if (hit.depth == 0) return {domain};
   const DomainView* at = &domain;
   Affine to_bundle{};
   for (std::uint32_t i = 0; i < hit.depth; ++i) {
     const InstanceRef& ref = at->instances[hit.chain[i]];
-    to_bundle = i == 0 ? ref.to_parent : compose(to_bundle, ref.to_parent);
+    to_bundle = through_instance(i == 0 ? nullptr : &to_bundle, ref, *domain.objects[ref.object], time_s);
     at = domain.objects[ref.object];
   }
   const bool mirrored = mirrors(to_bundle);
@@ -110,8 +111,8 @@ Interaction quadric_interaction(const Holder& holder, const Hit& hit, Vector3f d
 }  // namespace
 
 Interaction make_interaction(const DomainView& domain, const Hit& hit, Vector3f direction, double cone_width,
-                             std::uint32_t attributes) {
-  const Holder holder = holder_of(domain, hit);
+                             std::uint32_t attributes, double time_s) {
+  const Holder holder = holder_of(domain, hit, time_s);
   if (holder.content.quadric) return quadric_interaction(holder, hit, direction, cone_width, attributes);
   const Cluster& cluster = holder.content.clusters[hit.cluster];
   const auto vertex = [&](std::size_t k) { return cast<double>(holder.vertex(cluster, hit.lane, k)); };
@@ -143,8 +144,8 @@ Interaction make_interaction(const DomainView& domain, const Hit& hit, Vector3f 
   return at;
 }
 
-double normal_doubt(const DomainView& domain, const Hit& hit, bool shading) {
-  const Holder holder = holder_of(domain, hit);
+double normal_doubt(const DomainView& domain, const Hit& hit, bool shading, double time_s) {
+  const Holder holder = holder_of(domain, hit, time_s);
   // Of a normal's code, of 16 bits a coordinate; a placed normal is coded twice.
   constexpr double code_rounding = 6.5e-5;
   if (holder.content.quadric) return 1e-12;

@@ -34,12 +34,13 @@ struct Interaction {
   }
 };
 
-// `domain` holds the hit. `direction` of the ray, decoded, `cone_width` of its cone at the hit (0: none).
+// `domain` holds the hit. `direction` of the ray, decoded, `cone_width` of its cone at the hit (0: none), and
+// its time, where anything moves.
 Interaction make_interaction(const DomainView& domain, const Hit& hit, Vector3f direction, double cone_width,
-                             std::uint32_t attributes);
+                             std::uint32_t attributes, double time_s = 0);
 
 // What the rounding of what is stored can turn its normal by, in rad: of the shading normal, or the
 // surface's.
-double normal_doubt(const DomainView& domain, const Hit& hit, bool shading);
+double normal_doubt(const DomainView& domain, const Hit& hit, bool shading, double time_s = 0);
 
 }  // namespace vitrail

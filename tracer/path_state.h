@@ -16,6 +16,7 @@ struct PathTracer::Shadow {
   float tmax = 0;
   SampledSpectrum radiance;
   std::uint32_t pixel = 0, sample = 0;
+  double time_s = 0;  // its path's
 };
 
 // Of Path::depth where only direct light is asked for, or photons bring the rest: the path has scattered, and
@@ -43,6 +44,7 @@ struct PathTracer::Path {
   Hit hit;
   std::uint32_t hit_domain = 0;
   std::array<float, 4> camera{};  // its sample's numbers for the camera; wavelengths follow from them
+  double time_s = 0;              // when its sample sees the scene, where anything moves
   bool has_wavelengths = false;   // only what sees anything needs them
   SampledWavelengths wavelengths;
   mutable LastLamp lamp;

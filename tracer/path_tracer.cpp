@@ -70,6 +70,14 @@ std::array<float, 4> PathTracer::camera_numbers(const SampleKey& key) const {
   return numbers;
 }
 
+// When a sample sees the scene. Among photons all paths of an iteration see it at once.
+double PathTracer::time_of(const SampleKey& key) const {
+  if (!manifest_.requirements.motion) return 0;
+  const float number = photons_ ? photons_->time_number : sample_4d(key, sample_set::time, Wanted::two)[0];
+  const Shutter& shutter = manifest_.shutter;
+  return shutter.open_s + static_cast<double>(number) * (shutter.close_s - shutter.open_s);
+}
+
 // Of a path whose pixel and sample are known.
 void PathTracer::begin(Path& path) const {
   if (flies()) {
@@ -79,6 +87,7 @@ void PathTracer::begin(Path& path) const {
   path.key = key_of(path.pixel, path.sample);
   path.seed = sample_seed(path.key);
   path.camera = camera_numbers(path.key);
+  path.time_s = time_of(path.key);
 }
 
 // Where the film splats, the pixels of a sample; else null.
@@ -131,7 +140,7 @@ CameraRay PathTracer::camera_ray(int x, int y, const Path& path) const {
     const std::array<float, 4> point = sample_4d(path.key, sample_set::lens);
     lens = {static_cast<double>(point[0]), static_cast<double>(point[1])};
   }
-  return scene_.camera.ray({x + 0.5 + offset.x, y + 0.5 + offset.y}, lens);
+  return scene_.camera.ray({x + 0.5 + offset.x, y + 0.5 + offset.y}, lens, path.time_s);
 }
 
 // A sensor is a white diffuse surface at which paths begin: radiance leaves it, the irradiance over π. That
@@ -233,7 +242,7 @@ void PathTracer::intersect(Path& path, std::uint32_t domain) {
 // elsewhere.
 bool PathTracer::find_hit(Path& path, std::optional<std::uint32_t> at) {
   bool located = true;  // hit.cluster, lane and chain are known
-  path.constants = prepare(path.ray);
+  path.constants = prepare(path.ray, path.time_s);
   if (at && path.is(path_resolved)) {
     path.clear(path_resolved);
     located = false;
@@ -287,6 +296,7 @@ bool PathTracer::forward(const Path& path, std::uint32_t domain, bool resolved) 
 void PathTracer::resume(const ShadowRecord& record, std::uint32_t domain) {
   Shadow shadow{unpacked(record), record.direction, record.tmax, {}, record.pixel, record.sample};
   for (std::size_t i = 0; i < hero_count; ++i) shadow.radiance.v[i] = unpack_radiance(record.radiance[i]);
+  shadow.time_s = time_of(key_of(shadow.pixel, shadow.sample));
   if (traffic_) traffic_->begin({domain, true});
   trace_shadow(shadow, nullptr, domain);
 }
@@ -320,7 +330,7 @@ void PathTracer::trace_shadow(const Shadow& shadow, const SensorWeights* weights
 
 // Also where it went on elsewhere.
 bool PathTracer::is_occluded(const Shadow& shadow, std::optional<std::uint32_t> at) {
-  const RayConstants constants = prepare(shadow.ray);
+  const RayConstants constants = prepare(shadow.ray, shadow.time_s);
   DomainWalk walk(manifest_, shadow.ray, resident_);
   if (at) {
     count_visit(*at);

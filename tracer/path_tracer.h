@@ -138,6 +138,7 @@ class PathTracer {
   bool flies() const { return photons_ && photons_->flying; }
 
   // first_surface.cpp
+  Transform bundle_to_camera(const Path& path) const;
   void record_first_surface(Path& path, const Interaction& at, const Surface& surface);
   std::array<double, 3> value_at(const Path& path, const Interaction& at, const Material& material,
                                  Layer layer) const;
@@ -195,6 +196,7 @@ class PathTracer {
   const Footprint* footprint_of(std::uint32_t pixel, std::uint32_t sample);
   SampleKey key_of(std::uint32_t pixel, std::uint32_t sample) const;
   std::array<float, 4> camera_numbers(const SampleKey& key) const;
+  double time_of(const SampleKey& key) const;
   void begin(Path& path) const;
   std::array<float, 4> numbers_for_scattering(const Path& path, Wanted wanted = Wanted::four) const;
   std::array<float, 4> numbers_for_light(const Path& path) const;

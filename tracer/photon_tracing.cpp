@@ -13,6 +13,7 @@ namespace vitrail {
 void PathTracer::begin_photon(Path& path) const {
   path.key = photon_key(scene_.seed, photons_->iteration, path.pixel);
   path.seed = sample_seed(path.key);
+  path.time_s = time_of(path.key);
   path.wavelengths = photons_->wavelengths;
   path.has_wavelengths = true;
 }

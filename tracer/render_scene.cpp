@@ -39,7 +39,7 @@ RenderScene::RenderScene(Manifest the_manifest, const std::filesystem::path& bun
                          const SamplingChoices& the_sampling)
     : manifest(std::move(the_manifest)),
       interiors(manifest),
-      camera(manifest.camera, manifest.film),
+      camera(manifest.camera, manifest.camera_motion, manifest.film),
       filter(manifest.film.filter, the_sampling.splat),
       textures(manifest.textures, bundle, texture_bytes),
       materials(manifest, textures),

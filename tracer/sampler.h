@@ -54,9 +54,9 @@ constexpr std::uint64_t stream_seed(const SampleKey& key, std::uint64_t a, std::
   return stream_seed(sample_seed(key), a, b);
 }
 
-// Which set is for what: one for the camera and one for its lens, two a bounce.
+// Which set is for what: one for the camera, one for its lens and one for its time, two a bounce.
 namespace sample_set {
-inline constexpr std::uint32_t camera = 0;  // film x, film y, wavelength, unused
+inline constexpr std::uint32_t camera = 0;  // film x, film y, wavelength, choice of a light
 constexpr std::uint32_t scatter(std::uint32_t depth) {
   return 1 + 2 * depth;
 }  // direction u, v, lobe, roulette
@@ -64,6 +64,7 @@ constexpr std::uint32_t light(std::uint32_t depth) {
   return 2 + 2 * depth;
 }  // point u, v, which light, which kind
 inline constexpr std::uint32_t lens = 0xffffffffu;  // point u, v; point u, v of the sun's disc
+inline constexpr std::uint32_t time = 0xfffffffeu;  // of the shutter, where anything moves
 }  // namespace sample_set
 
 }  // namespace vitrail

@@ -75,6 +75,8 @@ std::optional<Id<AreaLight>> add_area_light(Builder& builder, const Object& emit
 void add_shape(Builder& builder, const Object& shape);
 
 // ---- sensor.cpp
+// Of keyframes in order; nothing, and reported, where they do not make one.
+std::optional<Motion> motion_of(Builder& builder, std::vector<Keyframe> keys, const Origin& place);
 // Camera, film, filter, sampler.
 void read_sensor(Builder& builder, const Object& sensor);
 // max_depth and what the integrator leaves out.

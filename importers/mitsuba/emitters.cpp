@@ -197,6 +197,9 @@ void add_emitter(Builder& builder, const Object& emitter) {
   Report& report = builder.report;
   report.begin_item({emitter.origin, RecordKind::light});
   emitter.ignore({"sampling_weight"});
+  if (!emitter.keyframes("to_world").empty())
+    report.approximated("motion of an emitter: its first keyframe holds for the whole picture",
+                        emitter.origin);
   if (is_daylight(emitter.type)) return add_daylight(builder, emitter);
   for (const Kind& kind : kinds) {
     if (emitter.type != kind.name) continue;

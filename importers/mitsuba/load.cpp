@@ -28,9 +28,9 @@ constexpr std::size_t most_expanded_in_all = 64 << 20;
 constexpr std::array object_tags{"scene",    "shape",  "bsdf",   "emitter",    "texture",
                                  "spectrum", "sensor", "film",   "rfilter",    "sampler",
                                  "medium",   "phase",  "volume", "integrator", "subsurface"};
-constexpr std::array value_tags{"boolean", "integer", "float",   "string",    "vector",
-                                "point",   "rgb",     "srgb",    "transform", "blackbody",
-                                "ref",     "include", "default", "path",      "alias"};
+constexpr std::array value_tags{"boolean", "integer", "float",     "string",    "vector", "point",
+                                "rgb",     "srgb",    "transform", "blackbody", "ref",    "include",
+                                "default", "path",    "alias",     "animation"};
 
 // Rodrigues' formula with the axis as it is: since version 2 Mitsuba does not make it a unit vector, and
 // files depend on that.
@@ -338,6 +338,8 @@ class Loader {
       read_blackbody(node, source, parent, place);
     } else if (tag == "transform") {
       put(read_transform(node, source));
+    } else if (tag == "animation") {
+      put(read_animation(node, source, place));
     } else {
       unknown_tag(tag, place);
     }
@@ -451,6 +453,25 @@ class Loader {
     for (const pugi::xml_node step : node.children())
       if (step.type() == pugi::node_element) total = read_step(step, source, origin(source, step)) * total;
     return total;
+  }
+
+  // 0.6's: transforms with times, in any order.
+  std::vector<Keyframe> read_animation(pugi::xml_node node, const Source& source, const Origin& place) {
+    std::vector<Keyframe> keys;
+    for (const pugi::xml_node child : node.children()) {
+      if (child.type() != pugi::node_element) continue;
+      const Origin at = origin(source, child);
+      if (std::string_view(child.name()) != "transform")
+        fail(fmt::format("an <animation> has <transform time=\"…\"> alone, not <{}>", child.name()), at);
+      keys.push_back(
+          {parse_number(required(child, "time", at), failing_at(at)), read_transform(child, source)});
+    }
+    if (keys.empty()) fail("an <animation> needs a <transform time=\"…\">", place);
+    std::ranges::stable_sort(keys, {}, &Keyframe::time_s);
+    for (std::size_t i = 1; i < keys.size(); ++i)
+      if (keys[i - 1].time_s == keys[i].time_s)
+        fail(fmt::format("two transforms of an <animation> have the time {}", keys[i].time_s), place);
+    return keys;
   }
 
   // ---- References

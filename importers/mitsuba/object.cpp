@@ -71,7 +71,14 @@ std::optional<Vector3d> Object::vector(std::string_view name, const Report& repo
   return value ? std::optional(*value) : std::nullopt;
 }
 
+std::vector<Keyframe> Object::keyframes(std::string_view name) const {
+  const Property* property = find(name);
+  const auto* keys = property ? std::get_if<std::vector<Keyframe>>(&property->value) : nullptr;
+  return keys ? *keys : std::vector<Keyframe>{};
+}
+
 Transform Object::transform(std::string_view name, const Report& report) const {
+  if (const auto keys = keyframes(name); !keys.empty()) return keys.front().transform;
   const auto* value = value_of<Transform>(*this, name, "a transform", report);
   return value ? *value : Transform{};
 }

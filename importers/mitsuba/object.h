@@ -32,7 +32,7 @@ struct SpectrumValue {
 };
 
 using Value = std::variant<bool, long long, double, std::string, Vector3d, RgbValue, SpectrumValue, Transform,
-                           ObjectPtr>;
+                           std::vector<Keyframe>, ObjectPtr>;
 
 struct Property {
   std::string name;  // "" of a nested object without one
@@ -61,7 +61,10 @@ struct Object {
   bool boolean(std::string_view name, bool otherwise, const Report& report) const;
   std::string text(std::string_view name, const std::string& otherwise, const Report& report) const;
   std::optional<Vector3d> vector(std::string_view name, const Report& report) const;
-  Transform transform(std::string_view name, const Report& report) const;  // the identity where absent
+  // The identity where absent; where it moves the first keyframe.
+  Transform transform(std::string_view name, const Report& report) const;
+  // Empty where it does not move. They are in order.
+  std::vector<Keyframe> keyframes(std::string_view name) const;
 
   // Nested objects of a tag, whatever their names, in order. Marks them as queried.
   std::vector<const Property*> children(std::string_view tag) const;

@@ -14,9 +14,17 @@ namespace vitrail::mitsuba {
 
 namespace {
 
-// Mitsuba's camera has +x on the left of the picture.
+// From the space of our camera to that of Mitsuba's, which has +x on the left of the picture. 0.6's image of
+// all directions: its middle looks along +z, ours along −x.
+Transform camera_to_mitsuba(const Object& sensor) {
+  if (sensor.type != "spherical") return scale({-1, 1, 1});
+  Transform turn;
+  turn.m[0] = {0, 0, 1, 0}, turn.m[2] = {-1, 0, 0, 0};
+  return turn;
+}
+
 Transform read_camera_to_world(const Object& sensor, const Report& report) {
-  const Transform t = sensor.transform("to_world", report) * scale({-1, 1, 1});
+  const Transform t = sensor.transform("to_world", report) * camera_to_mitsuba(sensor);
   if (!is_invertible(t)) report.fail("the camera's to_world has no inverse", place_of(sensor, "to_world"));
   return snapped(t);
 }
@@ -113,13 +121,19 @@ Camera stand_in(const Object& sensor, double fov_deg, const FilmSettings& film, 
   return camera;
 }
 
-// 0.6's image of all directions: its middle looks along +z, ours along −x.
 Camera spherical(const Object& sensor, const Report& report) {
-  const Transform t = sensor.transform("to_world", report);
-  if (!is_invertible(t)) report.fail("the camera's to_world has no inverse", place_of(sensor, "to_world"));
-  Transform turn;
-  turn.m[0] = {0, 0, 1, 0}, turn.m[2] = {-1, 0, 0, 0};
-  return SphericalCamera{snapped(t * turn), SphericalCamera::Projection::latitude_longitude};
+  return SphericalCamera{read_camera_to_world(sensor, report),
+                         SphericalCamera::Projection::latitude_longitude};
+}
+
+void read_motion(Builder& builder, const Object& camera) {
+  Scene& scene = builder.scene;
+  std::vector<Keyframe> keys = camera.keyframes("to_world");
+  for (Keyframe& key : keys) key.transform = snapped(key.transform * camera_to_mitsuba(camera));
+  const std::optional<Motion> motion = motion_of(builder, std::move(keys), place_of(camera, "to_world"));
+  if (!motion) return;
+  std::visit([&](auto& c) { c.camera_to_world = motion->at(scene.shutter.open_s); }, scene.camera);
+  if (!stands_still(*motion, scene.shutter)) scene.camera_motion = *motion;
 }
 
 const std::vector<std::string> kinds{"perspective",    "thinlens",        "orthographic",      "telecentric",
@@ -213,6 +227,20 @@ void read_sensor(Builder& builder, const Object& sensor) {
                    "principal_point_offset_y", "aperture_radius", "focus_distance"});
     if (object == &camera) break;
   }
+  if (!(builder.shutter_open <= builder.shutter_close))
+    report.fail("the shutter closes before it has opened", place_of(camera, "shutter_close"));
+  scene.shutter = {builder.shutter_open, builder.shutter_close};
+  read_motion(builder, camera);
+}
+
+std::optional<Motion> motion_of(Builder& builder, std::vector<Keyframe> keys, const Origin& place) {
+  if (keys.empty()) return std::nullopt;
+  if (can_move(keys)) return Motion(std::move(keys));
+  builder.report.approximated(
+      "motion between transforms of which one mirrors or is no affine one: the first holds for the whole "
+      "picture",
+      place);
+  return std::nullopt;
 }
 
 }  // namespace vitrail::mitsuba

@@ -71,8 +71,11 @@ bool sides_matter(const Builder& builder, const Shape& shape) {
   return shape.area_light || shape.interior || shape.exterior || builder.sided.at(shape.material.value);
 }
 
+// Where it moves, where it is when the shutter opens.
 Transform to_world(Builder& builder, const Object& object) {
-  const Transform t = object.transform("to_world", builder.report);
+  const std::vector<Keyframe> keys = object.keyframes("to_world");
+  const Transform t = can_move(keys) ? Motion(keys).at(builder.scene.shutter.open_s)
+                                     : object.transform("to_world", builder.report);
   for (const auto& row : t.m)
     for (const double entry : row)
       if (!std::isfinite(entry))
@@ -101,13 +104,13 @@ void report_sensors(Builder& builder, const Object& shape, const Transform& to_w
   }
 }
 
-void add_geometry(Builder& builder, const Object& object, const ShapeGeometry& geometry, bool in_group,
-                  std::vector<Shape>& shapes) {
+void add_geometry(Builder& builder, const Object& object, const ShapeGeometry& geometry,
+                  const Transform& to_world, bool in_group, std::vector<Shape>& shapes) {
   Shape shape;
   shape.mesh = geometry.mesh;
   shape.name = name_of(object);
   shape.origin = object.origin;
-  shape.object_to_world = to_world(builder, object);
+  shape.object_to_world = to_world;
   if (!in_group) report_sensors(builder, object, shape.object_to_world);
   if (geometry.mesh_to_object != Transform{})
     shape.object_to_world = shape.object_to_world * geometry.mesh_to_object;
@@ -169,6 +172,14 @@ Id<Prototype> prototype_of(Builder& builder, const Object& group) {
   return id;
 }
 
+void move(Builder& builder, const Motion& motion, Instance& instance) {
+  Scene& scene = builder.scene;
+  instance.prototype_to_world = motion.at(scene.shutter.open_s);
+  if (stands_still(motion, scene.shutter)) return;
+  instance.motion = Id<Motion>{static_cast<std::uint32_t>(scene.motions.size())};
+  scene.motions.push_back(motion);
+}
+
 void add_instance(Builder& builder, const Object& object) {
   const auto groups = object.children("shape");
   const Object* group = groups.empty() ? nullptr : std::get<ObjectPtr>(groups.front()->value).get();
@@ -179,9 +190,23 @@ void add_instance(Builder& builder, const Object& object) {
   instance.prototype = prototype_of(builder, *group);
   builder.report.begin_item({object.origin, RecordKind::instance});
   instance.prototype_to_world = to_world(builder, object);
+  if (const auto motion = motion_of(builder, object.keyframes("to_world"), object.origin))
+    move(builder, *motion, instance);
   instance.origin = object.origin;
   builder.scene.instances.push_back(instance);
   report_unused(object, builder.report, {"to_world"});
+}
+
+// What moves is an instance, as in Mitsuba 0.6.
+void add_moving(Builder& builder, const Object& object, const ShapeGeometry& geometry, const Motion& motion) {
+  Scene& scene = builder.scene;
+  Prototype prototype;
+  prototype.origin = object.origin;
+  add_geometry(builder, object, geometry, {}, true, prototype.shapes);
+  Instance instance{Id<Prototype>{static_cast<std::uint32_t>(scene.prototypes.size())}, {}, object.origin};
+  move(builder, motion, instance);
+  scene.prototypes.push_back(std::move(prototype));
+  scene.instances.push_back(std::move(instance));
 }
 
 void add_shapes(Builder& builder, const Object& object, bool in_group, std::vector<Shape>& shapes) {
@@ -209,7 +234,15 @@ void add_shapes(Builder& builder, const Object& object, bool in_group, std::vect
   if (!geometry) geometry = shape_of_file(builder, object);
   if (!geometry) geometry = curve_shape(builder, object);
   if (!geometry) return drop(builder, object);
-  add_geometry(builder, object, *geometry, in_group, shapes);
+  const std::vector<Keyframe> keys = object.keyframes("to_world");
+  if (in_group && !keys.empty())
+    builder.report.approximated("motion of a shape in a group: it stands where it is when the shutter opens",
+                                object.origin);
+  const auto motion = in_group ? std::nullopt : motion_of(builder, keys, object.origin);
+  if (motion && !stands_still(*motion, builder.scene.shutter))
+    add_moving(builder, object, *geometry, *motion);
+  else
+    add_geometry(builder, object, *geometry, to_world(builder, object), in_group, shapes);
   builder.report.begin_item({object.origin, RecordKind::shape});
   report_unused(object, builder.report, parameters);
 }

@@ -125,8 +125,8 @@ void read_limits(ParameterSet& parameters, Context& context, double scale) {
 }
 
 // v3's shutter only blurs; v4's exposes, and one that never opens is refused there.
-double shutter_time(ParameterSet& parameters, Context& context) {
-  const double seconds = parameters.number("shutterclose", 1) - parameters.number("shutteropen", 0);
+double exposure_time(const Shutter& shutter, ParameterSet& parameters, Context& context) {
+  const double seconds = shutter.close_s - shutter.open_s;
   if (context.version == Version::v3) return 1;
   if (seconds > 0) return seconds;
   if (context.version_is_certain) fail("the shutter closes before it has opened", parameters.place());
@@ -187,7 +187,9 @@ void read_camera(const std::string& kind, ParameterSet& parameters, const Transf
   view.lens.focal_distance = parameters.number("focaldistance", 1e6);
   if (!(view.lens.radius >= 0 && view.lens.focal_distance > 0))
     fail("\"lensradius\" is negative or \"focaldistance\" not above 0", parameters.place());
-  view.shutter_s = shutter_time(parameters, context);
+  view.shutter = {parameters.number("shutteropen", 0), parameters.number("shutterclose", 1)};
+  view.exposure_s = exposure_time(view.shutter, parameters, context);
+  if (view.shutter.close_s < view.shutter.open_s) std::swap(view.shutter.open_s, view.shutter.close_s);
   parameters.report_unused(context.report);
 }
 
@@ -299,14 +301,18 @@ ScreenWindow screen_of(const ViewSettings& view) {
 
 void apply(const ViewSettings& view, Scene& scene) {
   const ScreenWindow screen = screen_of(view);
+  scene.shutter = view.shutter;
+  if (!stands_still(view.motion, scene.shutter)) scene.camera_motion = view.motion;
+  const Transform camera_to_world =
+      view.motion.moves() ? view.motion.at(view.shutter.open_s) : view.camera_to_world;
   if (view.projection == ViewSettings::Projection::spherical)
-    scene.camera = SphericalCamera{view.camera_to_world, view.sphere};
+    scene.camera = SphericalCamera{camera_to_world, view.sphere};
   else if (view.projection == ViewSettings::Projection::orthographic)
-    scene.camera = OrthographicCamera{view.camera_to_world, screen, view.lens};
+    scene.camera = OrthographicCamera{camera_to_world, screen, view.lens};
   else
-    scene.camera = PerspectiveCamera{view.camera_to_world, screen, view.lens};
+    scene.camera = PerspectiveCamera{camera_to_world, screen, view.lens};
   scene.film = view.film;
-  scene.film.imaging_ratio = view.exposure * view.shutter_s;
+  scene.film.imaging_ratio = view.exposure * view.exposure_s;
   scene.settings = view.render;
 }
 

@@ -20,10 +20,12 @@ struct ViewSettings {
   Projection projection = Projection::perspective;
   SphericalCamera::Projection sphere = SphericalCamera::Projection::equal_area;
   Transform camera_to_world;
+  Motion motion;  // of it
   Lens lens;
   double fov_deg = 90, frame_aspect = 0;  // 0: the film's
   std::optional<ScreenWindow> window;
-  double shutter_s = 1;
+  double exposure_s = 1;
+  Shutter shutter;
 
   FilmSettings film;
   double exposure = 1;  // iso / 100, or v3's film scale

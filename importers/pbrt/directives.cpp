@@ -215,7 +215,7 @@ void Interpreter::transform_end(const Place& place) {
   if (context_.version == Version::v4)
     state_ = std::move(before);
   else
-    state_.ctm = before.ctm;
+    state_.ctm = before.ctm, state_.ctm_end = before.ctm_end;
 }
 
 void Interpreter::object_begin(const Place& place) {
@@ -242,7 +242,7 @@ void Interpreter::world_begin(const Place& place) {
   if (world_ != World::before) fail("WorldBegin comes a second time", place);
   world_ = World::inside;
   world_place_ = place;
-  state_.ctm = {};
+  state_.ctm = state_.ctm_end = {};
   state_.transform_start = state_.transform_end = true;
   coordinate_systems_["world"] = {};
 }

@@ -72,8 +72,20 @@ class Interpreter {
   void coord_sys_transform(const Place&);
   void active_transform(const Place&);
   void transform_times(const Place&);
-  void set_ctm(const Transform& ctm, const Place& place);
-  void apply_transform(const Transform& by, const Place& place) { set_ctm(state_.ctm * by, place); }
+  template <class Changed>
+  void change_active(const Place& place, Changed&& changed);
+  void set_transform(const Transform& t, const Place& place);
+  void apply_transform(const Transform& by, const Place& place);
+  bool is_moving() const { return state_.ctm != state_.ctm_end; }
+  Motion motion_between(const Transform& start, const Transform& end, const Place& place);
+  void report_held(const char* what, const Place& place);
+  // Where what the current transforms place is when the shutter opens, and what moves it.
+  struct Placing {
+    Transform at_open;
+    std::optional<Id<Motion>> motion;
+  };
+  const Placing& placing(const Place& place);
+  Id<Prototype> moving_prototype(const Placing& placing, const Place& place);
   Transform read_matrix(const Place& place);
 
   // Blocks.
@@ -153,7 +165,18 @@ class Interpreter {
   World world_ = World::before;
   Place world_place_;
   std::map<const std::string*, std::uint32_t> file_numbers_;
-  std::map<std::string, Transform> coordinate_systems_;
+  struct TransformPair {
+    Transform start, end;
+  };
+  std::map<std::string, TransformPair> coordinate_systems_;
+  struct LastPlacing {
+    TransformPair of;
+    bool in_object = false;
+    Placing placing;
+    std::optional<Id<Prototype>> moved;  // by it: shapes that move together are one object
+  };
+  LastPlacing last_placing_;
+  double transform_start_s_ = 0, transform_end_s_ = 1;  // TransformTimes
   TextureTable textures_;
   UvUses uv_uses_{scene_.textures};
   ShapeMaker shapes_;

@@ -21,8 +21,8 @@ struct AreaLightState {
 
 // What AttributeBegin saves and AttributeEnd restores.
 struct GraphicsState {
-  Transform ctm;
-  bool transform_start = true, transform_end = true;  // ActiveTransform
+  Transform ctm, ctm_end;                             // at the two TransformTimes
+  bool transform_start = true, transform_end = true;  // which of them change: ActiveTransform
   bool reverse_orientation = false;
   std::optional<Id<Material>> material;  // none: pbrt's default, diffuse 0.5
   std::optional<Id<Medium>> interior, exterior;

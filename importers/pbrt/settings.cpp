@@ -14,7 +14,9 @@ void Interpreter::camera(const Place& place) {
   const std::string kind = read_text("a kind of camera");
   ParameterSet parameters = read_set("Camera", kind, place);
   read_camera(kind, parameters, state_.ctm, context_, view_);
-  coordinate_systems_["camera"] = view_.camera_to_world;
+  const Transform at_end = snapped(inverse(state_.ctm_end));
+  coordinate_systems_["camera"] = {view_.camera_to_world, at_end};
+  view_.motion = is_moving() ? motion_between(view_.camera_to_world, at_end, place) : Motion{};
   scene_.camera_origin = origin(place);
   scene_.camera_medium = state_.exterior;
 }

@@ -6,16 +6,64 @@
 
 namespace vitrail::pbrt {
 
-void Interpreter::set_ctm(const Transform& ctm, const Place& place) {
-  if (!state_.transform_start || !state_.transform_end)
-    context_.report.approximated(
-        "motion: the transform at the start of the shutter holds for the whole picture", place);
-  if (!state_.transform_start) return;
-  if (!is_invertible(ctm)) fail("the transform becomes singular here: it has no inverse", place);
-  state_.ctm = ctm;
+template <class Changed>
+void Interpreter::change_active(const Place& place, Changed&& changed) {
+  const auto change = [&](Transform& ctm) {
+    ctm = changed(ctm);
+    if (!is_invertible(ctm)) fail("the transform becomes singular here: it has no inverse", place);
+  };
+  if (state_.transform_start) change(state_.ctm);
+  if (state_.transform_end) change(state_.ctm_end);
 }
 
-void Interpreter::identity(const Place& place) { set_ctm({}, place); }
+void Interpreter::set_transform(const Transform& t, const Place& place) {
+  change_active(place, [&](const Transform&) { return t; });
+}
+
+void Interpreter::apply_transform(const Transform& by, const Place& place) {
+  change_active(place, [&](const Transform& ctm) { return ctm * by; });
+}
+
+// None where there is no way from one to the other, or no time between them: the start holds.
+Motion Interpreter::motion_between(const Transform& start, const Transform& end, const Place& place) {
+  std::vector<Keyframe> keys{{transform_start_s_, start}, {transform_end_s_, end}};
+  if (can_move(keys)) return Motion(std::move(keys));
+  context_.report.approximated(
+      "motion with TransformTimes that do not ascend, or between transforms of which one mirrors or is no "
+      "affine one: the start holds for the whole picture",
+      place);
+  return {};
+}
+
+// What pbrt, too, holds.
+void Interpreter::report_held(const char* what, const Place& place) {
+  if (is_moving())
+    context_.report.approximated(
+        fmt::format("motion of {}: as in pbrt, the start holds for the whole picture", what), place);
+}
+
+const Interpreter::Placing& Interpreter::placing(const Place& place) {
+  LastPlacing& last = last_placing_;
+  const bool in_object = current_object_.has_value();
+  if (last.of.start == state_.ctm && last.of.end == state_.ctm_end && last.in_object == in_object)
+    return last.placing;
+  last = {{state_.ctm, state_.ctm_end}, in_object, {state_.ctm, {}}, {}};
+  if (!is_moving()) return last.placing;
+  Motion motion = motion_between(state_.ctm, state_.ctm_end, place);
+  if (!motion.moves()) return last.placing;
+  last.placing.at_open = motion.at(view_.shutter.open_s);
+  if (stands_still(motion, view_.shutter)) return last.placing;
+  if (in_object) {
+    context_.report.approximated("motion within an object: it stands where it is when the shutter opens",
+                                 place);
+    return last.placing;
+  }
+  last.placing.motion = Id<Motion>{static_cast<std::uint32_t>(scene_.motions.size())};
+  scene_.motions.push_back(std::move(motion));
+  return last.placing;
+}
+
+void Interpreter::identity(const Place& place) { set_transform({}, place); }
 
 void Interpreter::translate(const Place& place) {
   const auto v = read_numbers(3, place);
@@ -52,18 +100,22 @@ Transform Interpreter::read_matrix(const Place& place) {
   return t;
 }
 
-void Interpreter::transform(const Place& place) { set_ctm(read_matrix(place), place); }
+void Interpreter::transform(const Place& place) { set_transform(read_matrix(place), place); }
 
 void Interpreter::concat_transform(const Place& place) { apply_transform(read_matrix(place), place); }
 
 void Interpreter::coordinate_system(const Place&) {
-  coordinate_systems_[read_text("the name of a coordinate system")] = state_.ctm;
+  coordinate_systems_[read_text("the name of a coordinate system")] = {state_.ctm, state_.ctm_end};
 }
 
 void Interpreter::coord_sys_transform(const Place& place) {
   const std::string name = read_text("the name of a coordinate system");
   const auto found = coordinate_systems_.find(name);
-  if (found != coordinate_systems_.end()) return set_ctm(found->second, place);
+  if (found != coordinate_systems_.end()) {
+    state_.ctm = found->second.start;
+    state_.ctm_end = found->second.end;
+    return;
+  }
   std::vector<std::string> known;
   for (const auto& entry : coordinate_systems_) known.push_back(entry.first);
   const std::string closest = closest_word(name, known);
@@ -83,6 +135,10 @@ void Interpreter::active_transform(const Place& place) {
   state_.transform_end = all || end;
 }
 
-void Interpreter::transform_times(const Place& place) { read_numbers(2, place); }
+void Interpreter::transform_times(const Place& place) {
+  const auto times = read_numbers(2, place);
+  transform_start_s_ = times[0], transform_end_s_ = times[1];
+  last_placing_ = {};
+}
 
 }  // namespace vitrail::pbrt

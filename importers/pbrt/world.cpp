@@ -101,6 +101,7 @@ void Interpreter::texture(const Place& place) {
                     kind = read_text("a kind of texture");
   ParameterSet parameters = read_set("Texture", name, place, "texture");
   const bool spectral = type == "spectrum" || type == "color";
+  report_held("a texture", place);
   if (!spectral && type != "float")
     fail(fmt::format("expected a texture of type float or spectrum, found \"{}\"", type), place);
   if (spectral)
@@ -133,6 +134,7 @@ void Interpreter::make_named_medium(const Place& place) {
   const std::string name = read_text("the name of a medium");
   ParameterSet parameters = read_set("medium", name, place, "medium");
   const std::string kind = parameters.text("type", "homogeneous");
+  report_held("a medium", place);
   Medium medium = make_medium(kind, name, parameters, state_.ctm, scope(place));
   const auto next = static_cast<std::uint32_t>(media_.size());
   const auto [slot, redefined] = medium_names_.define(name, place, next);
@@ -164,6 +166,7 @@ void Interpreter::medium_interface(const Place& place) {
 void Interpreter::light_source(const Place& place) {
   const std::string kind = read_text("a kind of light");
   ParameterSet parameters = read_set("LightSource", kind, place, "light");
+  report_held("a light", place);
   if (auto light = make_light(kind, parameters, state_.ctm, scope(place)))
     scene_.lights.push_back(std::move(*light));
 }
@@ -201,6 +204,10 @@ std::optional<Id<AreaLight>> Interpreter::shape_light(const ShapeGeometry& geome
   if (!state_.area_light) return std::nullopt;
   if (current_object_) {
     context_.report.dropped("area lights of objects that are instanced do not shine, as in pbrt", place);
+    return std::nullopt;
+  }
+  if (placing(place).motion) {
+    context_.report.dropped("area lights that move do not shine: as in pbrt-v3, and v4 refuses them", place);
     return std::nullopt;
   }
   AreaLightState& state = *state_.area_light;
@@ -293,16 +300,20 @@ void Interpreter::add_shape(const ShapeGeometry& geometry, const FloatParameter&
   shape.area_light = shape_light(geometry, place);
   if (opacity == FloatParameter{0.0f} && !shape.area_light) return;
   if (shape.area_light && opacity != FloatParameter{1.0f}) report_shining_alpha(opacity, place);
-  shape.object_to_world = state_.ctm * geometry.mesh_to_object;
+  const Placing& at = placing(place);
+  const bool moves = at.motion.has_value();
+  shape.object_to_world = moves ? geometry.mesh_to_object : at.at_open * geometry.mesh_to_object;
   // Meshes: pbrt flips the winding normal of the world, so that the object's front stays the front. Analytic
   // shapes: it flips the normal of the object and then transforms it, so a mirror turns them inside out;
   // their light does not turn, and one that shines goes by its light.
-  const bool mirrored = swaps_handedness(state_.ctm);
+  const bool mirrored = !moves && swaps_handedness(at.at_open);
   shape.flip_orientation =
       state_.reverse_orientation != (mirrored && (!geometry.quadric || shape.area_light));
   if (mirrored && geometry.quadric && shape.area_light)
     context_.report.approximated("a mirrored shape that shines has its front where it shines", place);
-  if (current_object_)
+  if (moves)
+    scene_.prototypes[moving_prototype(at, place).value].shapes.push_back(std::move(shape));
+  else if (current_object_)
     scene_.prototypes[*current_object_].shapes.push_back(std::move(shape));
   else if (quadric_runs_)
     quadric_runs_->add(scene_, std::move(shape));
@@ -319,7 +330,18 @@ void Interpreter::object_instance(const Place& place) {
     fail(fmt::format("object \"{}\" has to be defined before the object that it is used in", name), place);
   if (slot == next) scene_.prototypes.push_back({});
   auto& instances = current_object_ ? scene_.prototypes[*current_object_].instances : scene_.instances;
-  instances.push_back({Id<Prototype>{slot}, state_.ctm, origin(place)});
+  const Placing& at = placing(place);
+  instances.push_back({Id<Prototype>{slot}, at.at_open, origin(place), at.motion});
+}
+
+// Of which the one instance is moved so.
+Id<Prototype> Interpreter::moving_prototype(const Placing& at, const Place& place) {
+  std::optional<Id<Prototype>>& moved = last_placing_.moved;
+  if (moved) return *moved;
+  moved = Id<Prototype>{static_cast<std::uint32_t>(scene_.prototypes.size())};
+  scene_.prototypes.push_back({.name = "", .shapes = {}, .instances = {}, .origin = origin(place)});
+  scene_.instances.push_back({*moved, at.at_open, origin(place), at.motion});
+  return *moved;
 }
 
 // ---- The end ------------------------------------------------------------------------------------

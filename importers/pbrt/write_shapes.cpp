@@ -196,7 +196,10 @@ class ShapeWriter {
 void write_instance(Writer& w, ShapeWriter& shapes, const Instance& instance) {
   const Prototype& prototype = w.scene.prototypes.at(instance.prototype.value);
   w.begin("AttributeBegin");
-  w.transform(instance.prototype_to_world);
+  if (instance.motion)
+    w.transforms(w.scene.motions.at(instance.motion->value), instance.origin, RecordKind::instance);
+  else
+    w.transform(instance.prototype_to_world);
   w.line("ObjectInstance " + in_quotes(w.objects.at(instance.prototype.value)));
   w.end("AttributeEnd");
   for (const Shape& of : prototype.shapes) {

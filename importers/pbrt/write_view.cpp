@@ -48,6 +48,8 @@ void lens(Parameters& p, const Lens& lens) {
   p.number("lensradius", lens.radius).number("focaldistance", lens.focal_distance);
 }
 
+bool moves(const Scene& scene) { return scene.camera_motion.moves() || !scene.motions.empty(); }
+
 struct CameraWriter {
   Writer& w;
   Parameters p{w, "camera", w.scene.camera_origin, RecordKind::camera};
@@ -79,7 +81,13 @@ struct CameraWriter {
 
  private:
   void finish(const char* kind, const Transform& camera_to_world) {
-    w.transform(inverse(camera_to_world));
+    const Motion& motion = w.scene.camera_motion;
+    if (motion.moves())
+      w.transforms(motion, w.scene.camera_origin, RecordKind::camera);
+    else
+      w.transform(inverse(camera_to_world));
+    if (moves(w.scene))
+      p.number("shutteropen", w.scene.shutter.open_s).number("shutterclose", w.scene.shutter.close_s);
     if (w.scene.camera_medium)
       w.line("MediumInterface \"\" " + in_quotes(w.media.at(w.scene.camera_medium->value)));
     w.line(fmt::format("Camera \"{}\"{}", kind, p.list()));
@@ -104,11 +112,16 @@ struct FilterWriter {
   }
 };
 
+// pbrt's film is exposed while the shutter is open.
+double exposure_s(const Scene& scene) {
+  return moves(scene) ? scene.shutter.close_s - scene.shutter.open_s : 1;
+}
+
 // The iso that gives the ratio back, where dividing by 100 does.
-double iso_of(double ratio) {
-  double iso = ratio * 100;
+double iso_of(double ratio, double seconds) {
+  double iso = ratio / seconds * 100;
   for (const double candidate : {iso, std::nextafter(iso, 0.0), std::nextafter(iso, 1e300)})
-    if (candidate / 100 == ratio) iso = candidate;
+    if (candidate / 100 * seconds == ratio) iso = candidate;
   return iso;
 }
 
@@ -139,7 +152,8 @@ void write_film(Writer& w) {
   const PixelRect& c = f.crop;
   if (c != PixelRect{0, f.width, 0, f.height})
     p.numbers("integer pixelbounds", std::array{c.x0, c.x1, c.y0, c.y1});
-  if (f.imaging_ratio != 1) p.number("iso", iso_of(f.imaging_ratio));
+  if (const double seconds = exposure_s(w.scene); f.imaging_ratio != seconds)
+    p.number("iso", iso_of(f.imaging_ratio, seconds));
   if (f.spectrum.count > 0)
     p.integer("nbuckets", f.spectrum.count)
         .number("lambdamin", f.spectrum.min_nm)
@@ -149,9 +163,19 @@ void write_film(Writer& w) {
   w.line(fmt::format("Film \"{}\"{} \"string filename\" \"render.exr\"", film, p.list()));
 }
 
+// TransformTimes hold for all that moves: those of what moves first.
+void write_times(Writer& w) {
+  if (!moves(w.scene)) return;
+  const Motion& first = w.scene.camera_motion.moves() ? w.scene.camera_motion : w.scene.motions.front();
+  w.transform_times_s = {first.keys().front().time_s, first.keys().back().time_s};
+  if (w.transform_times_s != std::array{0.0, 1.0})
+    w.line(fmt::format("TransformTimes {} {}", w.transform_times_s[0], w.transform_times_s[1]));
+}
+
 }  // namespace
 
 void write_view(Writer& w) {
+  write_times(w);
   std::visit(CameraWriter{w}, w.scene.camera);
   w.line("Identity");
   write_film(w);

@@ -72,6 +72,19 @@ void Writer::transform(const Transform& t) {
   line(fmt::format("Transform [ {} ]", fmt::join(columns, " ")));
 }
 
+void Writer::transforms(const Motion& motion, const Origin& origin, RecordKind kind) {
+  const std::vector<Keyframe>& keys = motion.keys();
+  const auto& [start, end] = transform_times_s;
+  if (keys.size() != 2 || keys.front().time_s != start || keys.back().time_s != end)
+    approximated("motion: pbrt has two keyframes, of the same times for all that moves", origin, kind);
+  for (const auto& [name, time] : {std::pair{"StartTime", start}, {"EndTime", end}}) {
+    const Transform at = motion.at(time);
+    line(fmt::format("ActiveTransform {}", name));
+    transform(kind == RecordKind::camera ? inverse(at) : at);
+  }
+  line("ActiveTransform All");
+}
+
 std::string Writer::add_name(std::vector<std::string>& names, std::string_view wanted) {
   std::string name(wanted);
   for (std::size_t n = names.size(); std::ranges::find(names, name) != names.end(); ++n)

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <filesystem>
 #include <map>
 #include <string>
@@ -40,6 +41,9 @@ struct Writer {
   void begin(std::string_view block) { line(block), indent += 4; }
   void end(std::string_view block) { indent -= 4, line(block); }
   void transform(const Transform& t);  // nothing for the identity
+  // Of what moves: at both of `transform_times_s`, the inverse where it is a camera's.
+  void transforms(const Motion& motion, const Origin& origin, RecordKind kind);
+  std::array<double, 2> transform_times_s{0, 1};
   int indent = 0;
 
   // A name that no other record of the names has; it is added to them.

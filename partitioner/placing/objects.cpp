@@ -114,8 +114,9 @@ class Planner {
       : scene_(scene), uses_(scene), shared_(scene), object_of_(scene.prototypes.size(), -1) {}
 
   ScenePlan plan() {
+    const std::vector<bool> moves = moving_prototypes();
     for (std::size_t i = 0; i < scene_.prototypes.size(); ++i) {
-      if (uses_.uses(i) < 2) continue;
+      if (uses_.triangles(i) == 0 || (uses_.uses(i) < 2 && !moves[i])) continue;
       Assembly object;
       for (const Shape& shape : scene_.prototypes[i].shapes) add(object, shape, {});
       add(object, i, scene_.prototypes[i].instances);
@@ -123,14 +124,40 @@ class Planner {
                            instance_bytes * static_cast<double>(object.uses.size()) + file_bytes;
       const double copies = triangle_bytes * static_cast<double>(object.triangles);
       const auto uses = static_cast<double>(uses_.uses(i));
-      if (bytes + instance_bytes * uses >= copies * uses) continue;
+      if (!moves[i] && bytes + instance_bytes * uses >= copies * uses) continue;
       object_of_[i] = static_cast<int>(add(std::move(object)));
     }
     plan_scene();
+    if (plan_.scene.depth > max_instance_depth) throw Error("what moves is nested too deep within objects");
     return std::move(plan_);
   }
 
  private:
+  std::vector<bool> moving_prototypes() const {
+    std::vector<bool> moves(scene_.prototypes.size());
+    const auto note = [&](const std::vector<Instance>& instances) {
+      for (const Instance& instance : instances)
+        if (instance.motion) moves[instance.prototype.value] = true;
+    };
+    note(scene_.instances);
+    for (const Prototype& prototype : scene_.prototypes) note(prototype.instances);
+    return moves;
+  }
+
+  // Of a prototype that is an object.
+  std::uint32_t moving_object(Id<Prototype> prototype, Id<Motion> motion) {
+    const auto [known, is_new] = moving_.try_emplace({prototype.value, motion.value});
+    if (is_new) {
+      Assembly object;
+      object.motion = &scene_.motions[motion.value];
+      use(object, static_cast<std::uint32_t>(object_of_[prototype.value]), {});
+      object.bounds = swept(*object.motion, box_of(object.uses[0]));
+      known->second = static_cast<std::uint32_t>(plan_.objects.size());
+      plan_.objects.push_back(std::move(object));
+    }
+    return known->second;
+  }
+
   void plan_scene() {
     std::vector<std::uint32_t> object_of_group;
     for (const Shape* shape : shared_.groups()) {
@@ -236,23 +263,32 @@ class Planner {
 
   // The instances of a prototype, or of the scene, and those within what is copied of them.
   void add(Assembly& a, std::size_t outer, const std::vector<Instance>& instances) {
-    std::vector<Instance> open(instances.rbegin(), instances.rend());
+    struct Open {
+      const Instance* instance;
+      Transform to_a;  // from the space that it stands in
+    };
+    std::vector<Open> open;
+    const auto put = [&](const std::vector<Instance>& more, const Transform& to_a) {
+      for (std::size_t i = more.size(); i-- > 0;) open.push_back({&more[i], to_a});
+    };
+    put(instances, {});
     while (!open.empty()) {
-      const Instance instance = open.back();
+      const auto [instance, to_a] = open.back();
       open.pop_back();
-      const std::uint32_t inner = instance.prototype.value;
-      const Transform& t = instance.prototype_to_world;
+      const std::uint32_t inner = instance->prototype.value;
       if (uses_.triangles(inner) == 0) continue;
+      if (instance->motion) {
+        use(a, moving_object(instance->prototype, *instance->motion), to_a);
+        continue;
+      }
+      const Transform t = to_a * instance->prototype_to_world;
       if (object_of_[inner] >= 0 && uses_.may_keep(outer, inner) && can_be_kept(t)) {
         use(a, static_cast<std::uint32_t>(object_of_[inner]), t);
         continue;
       }
       const Prototype& prototype = scene_.prototypes[inner];
       for (const Shape& shape : prototype.shapes) add(a, shape, t);
-      for (std::size_t i = prototype.instances.size(); i-- > 0;) {
-        Instance& next = open.emplace_back(prototype.instances[i]);
-        next.prototype_to_world = t * next.prototype_to_world;
-      }
+      put(prototype.instances, t);
     }
   }
 
@@ -320,6 +356,10 @@ class Planner {
     const auto& m = use.to_parent.m;
     const Assembly& object = plan_.objects[use.object];
     const auto row = [&](std::size_t i) { return std::abs(m[i][0]) + std::abs(m[i][1]) + std::abs(m[i][2]); };
+    if (object.motion) {
+      const Bounds3d box = box_of(use);
+      return {center(box), greatest(extent(box)) / 2, static_cast<double>(object.triangles)};
+    }
     return {{m[0][3], m[1][3], m[2][3]},
             std::max({row(0), row(1), row(2)}) * object.radius,
             static_cast<double>(object.triangles)};
@@ -358,6 +398,8 @@ class Planner {
   std::vector<int> object_of_;                  // of each prototype; −1: copied wherever it is used
   std::map<ShapeKey, std::uint32_t> quadrics_;  // objects
   std::map<std::uint32_t, const TriangleMesh*> tessellated_;  // by mesh
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t>
+      moving_;  // objects, by prototype and motion
   ScenePlan plan_;
 };
 
@@ -378,6 +420,8 @@ Bounds3f placed_bounds(const Quadric& quadric, const Affine& to_parent) {
   return rounded(bounds_of(quadric, transform_of(to_parent)));
 }
 
+Bounds3f swept(const Motion& motion, const Bounds3d& box) { return rounded(motion.swept(box)); }
+
 Bounds3f placed_bounds(const Assembly& object, const Affine& to_parent) {
   return object.quadric ? placed_bounds(*object.quadric->mesh->quadric, to_parent)
                         : placed_bounds(to_parent, object.bounds);
@@ -386,12 +430,13 @@ Bounds3f placed_bounds(const Assembly& object, const Affine& to_parent) {
 namespace {
 
 // Calls visit(object, chain, first id) for every use of the scene and within, of objects that `enter` says
-// to.
+// to. What moves has no place for what is within it.
 void for_each_use(const ScenePlan& plan, const std::vector<bool>& enter, const auto& visit) {
   const std::function<void(const ObjectUse&, const Affine&, std::uint64_t)> expand =
       [&](const ObjectUse& use, const Affine& chain, std::uint64_t first) {
         if (!enter[use.object]) return;
         visit(use.object, chain, first);
+        if (plan.objects[use.object].motion) return;
         for (const ObjectUse& inner : plan.objects[use.object].uses)
           expand(inner, compose(chain, inner.to_parent), first + inner.first_triangle);
       };
@@ -426,26 +471,36 @@ std::vector<Placement> expanded(const ScenePlan& plan, const std::function<bool(
 }
 
 void flatten(ScenePlan& plan) {
+  // Those that stay whatever is copied, and of what is within those that move all.
+  std::vector<bool> stays(plan.objects.size()), within(plan.objects.size());
+  for (std::size_t i = plan.objects.size(); i-- > 0;) {
+    const Assembly& object = plan.objects[i];
+    stays[i] = object.quadric || object.motion || within[i];
+    if (object.motion || within[i])
+      for (const ObjectUse& use : object.uses) within[use.object] = true;
+  }
   std::vector<Placement>& own = plan.scene.placements;
   std::ranges::copy(expanded(plan, [](const Placement& p) { return !p.mesh->quadric; }),
                     std::back_inserter(own));
   std::ranges::sort(own, {}, &Placement::first_triangle);
-  std::vector<ObjectUse> quadrics;
+  std::vector<ObjectUse> uses;
   for_each_use(plan, std::vector(plan.objects.size(), true),
                [&](std::uint32_t object, const Affine& chain, std::uint64_t first) {
-                 if (plan.objects[object].quadric) quadrics.push_back({object, chain, first});
+                 const Assembly& used = plan.objects[object];
+                 if (used.quadric || used.motion) uses.push_back({object, chain, first});
                });
   std::vector<std::uint32_t> kept(plan.objects.size());
   std::vector<Assembly> objects;
   for (std::size_t i = 0; i < plan.objects.size(); ++i) {
-    if (!plan.objects[i].quadric) continue;
+    if (!stays[i]) continue;
     kept[i] = static_cast<std::uint32_t>(objects.size());
     objects.push_back(std::move(plan.objects[i]));
+    for (ObjectUse& use : objects.back().uses) use.object = kept[use.object];
   }
-  for (ObjectUse& use : quadrics) use.object = kept[use.object];
+  for (ObjectUse& use : uses) use.object = kept[use.object];
   for (QuadricRun& run : plan.scene.runs) run.object = kept[run.object];
-  std::ranges::sort(quadrics, {}, &ObjectUse::first_triangle);
-  plan.scene.uses = std::move(quadrics);
+  std::ranges::sort(uses, {}, &ObjectUse::first_triangle);
+  plan.scene.uses = std::move(uses);
   plan.objects = std::move(objects);
 }
 

@@ -45,8 +45,10 @@ struct Assembly {
   std::uint64_t triangles = 0;   // ids: of its own and of its uses, in their order
   Vector3d centre;
   double radius = 0;  // about it, on the greatest axis, half of the triangles lie
-  Bounds3f bounds;    // of all
+  Bounds3f bounds;    // of all, wherever it moves
   int depth = 0;      // most uses within each other
+  // If it moves; it has one use then, and its coordinates are where the motion takes that, about no centre.
+  const Motion* motion = nullptr;
 };
 
 struct ScenePlan {
@@ -59,21 +61,23 @@ struct ScenePlan {
       0;  // shapes and instances that rounding moves by more than a thousandth of their size
 };
 
-// A prototype becomes an object where references to it take fewer bytes than copies of it, and so do shapes
-// that share a mesh (shared_shapes.h). What a singular, projective or extreme transform places is copied, of
-// quadrics as triangles; all others are objects, one for all that are alike but for where they stand.
-// Throws Error for vertices that are not finite where they stand, and for 2³² − 1 triangles or more.
+// A prototype becomes an object where it moves, or where references to it take fewer bytes than copies of it,
+// and so do shapes that share a mesh (shared_shapes.h). What a singular, projective or extreme transform
+// places is copied, of quadrics as triangles; all others are objects, one for all that are alike but for
+// where they stand. Throws Error for vertices that are not finite where they stand, and for 2³² − 1 triangles
+// or more.
 ScenePlan plan_scene(const Scene& scene);
 
 Bounds3f placed_bounds(const Quadric& quadric, const Affine& to_parent);
-// Where the object stands that a use of the scene, or a use within its object, is of.
+Bounds3f swept(const Motion& motion, const Bounds3d& box);
+// Where the object stands, or moves, that a use of the scene, or a use within its object, is of.
 Bounds3f placed_bounds(const Assembly& object, const Affine& to_parent);
 
-// The placements of every use of the scene, as `select` chooses them, in the order of ids. It is asked once
-// for each placement of an object, however often that is used.
+// The placements of every use of the scene that does not move, as `select` chooses them, in the order of ids.
+// It is asked once for each placement of an object, however often that is used.
 std::vector<Placement> expanded(const ScenePlan& plan, const std::function<bool(const Placement&)>& select);
 
-// The plan without instances: copies of meshes, and a use of the scene for each quadric.
+// The plan without instances: copies of meshes, and a use of the scene for each quadric and all that moves.
 void flatten(ScenePlan& plan);
 
 }  // namespace vitrail

@@ -80,6 +80,7 @@ void move_records(const Scene& scene, Appearance& appearance, Manifest& m) {
   m.attributes = static_cast<std::uint32_t>(appearance.attributes.size());
   m.camera = scene.camera;
   std::visit([&](auto& c) { c.camera_to_world = translate(-m.offset) * c.camera_to_world; }, m.camera);
+  m.camera_motion = translate(-m.offset) * scene.camera_motion;
   m.camera_medium = new_id(appearance.medium_ids, scene.camera_medium);
   m.settings = scene.settings;
   // A depth is meant for what scatters at surfaces.
@@ -131,6 +132,10 @@ World world_of(const Scene& scene, const std::filesystem::path& bundle, const Wo
   move_records(scene, appearance, m);
   static_cast<void>(Interiors(m));  // throws where there are too many
   m.requirements = options.everything ? all_requirements() : requirements_of(m, normals);
+  m.requirements.motion =
+      m.camera_motion.moves() ||
+      std::ranges::any_of(world.objects, [](const WorldObject& o) { return o.assembly.motion != nullptr; });
+  if (m.requirements.motion) m.shutter = scene.shutter;
   world.attributes = std::move(appearance.attributes);
   world.material_ids = std::move(appearance.material_ids);
   return world;

@@ -134,6 +134,9 @@ void write_object(const World& world, const WorldObject& o, std::uint32_t first,
     info = {o.assembly.triangles, 0, 0, o.first_surface, o.surface_count, objects_of(refs)};
     add_instances(std::move(refs), content);
     info.bytes = write_domain_file(object_path(bundle, file), content, &info.hash);
+    if (!o.assembly.motion) continue;
+    info.motion = *o.assembly.motion;
+    box = swept(info.motion, {cast<double>(box.lower), cast<double>(box.upper)});
   }
 }
 

@@ -63,13 +63,92 @@ TEST(PbrtTransforms, WorldBeginResets) {
   EXPECT_EQ(imported.scene.shapes[0].object_to_world, Transform{});
 }
 
-TEST(PbrtTransforms, MotionKeepsItsStart) {
-  const ImportedScene imported = import_v4(
-      "TransformTimes 0 1 ActiveTransform StartTime Translate 1 0 0 ActiveTransform EndTime Translate 2 0 0 "
-      "ActiveTransform All Translate 10 0 0 " +
+// ---- Motion
+
+const std::string moving =
+    "ActiveTransform StartTime Translate 1 0 0 ActiveTransform EndTime Translate 2 0 0 "
+    "ActiveTransform All Translate 10 0 0 ";
+
+// Shapes that move together are one object, whose fronts are those of its own space.
+TEST(PbrtMotion, ShapesThatMoveAreInstances) {
+  const ImportedScene imported =
+      import_text("TransformTimes -1 1 Film \"rgb\" WorldBegin AttributeBegin " + moving +
+                  "Scale -1 1 1 ReverseOrientation " + triangle + triangle + "AttributeEnd " + triangle);
+  expect_no_diagnostics(imported);
+  const Scene& scene = imported.scene;
+  ASSERT_EQ(scene.shapes.size(), 1u);
+  ASSERT_EQ(scene.prototypes.size(), 1u);
+  ASSERT_EQ(scene.prototypes[0].shapes.size(), 2u);
+  EXPECT_EQ(scene.prototypes[0].shapes[1].object_to_world, Transform{});
+  EXPECT_TRUE(scene.prototypes[0].shapes[1].flip_orientation);
+  ASSERT_EQ(scene.instances.size(), 1u);
+  ASSERT_EQ(scene.motions.size(), 1u);
+  EXPECT_EQ(scene.instances[0].motion, Id<Motion>{0});
+  const std::vector<Keyframe> keys{{-1, translate({11, 0, 0}) * scale({-1, 1, 1})},
+                                   {1, translate({12, 0, 0}) * scale({-1, 1, 1})}};
+  EXPECT_EQ(scene.motions[0].keys(), keys);
+  expect_near(transform_point(scene.instances[0].prototype_to_world, {}), {11.5, 0, 0});  // at 0
+  EXPECT_EQ(scene.shutter, (Shutter{0, 1}));
+}
+
+TEST(PbrtMotion, InstancesMove) {
+  const ImportedScene imported =
+      import_v4("ObjectBegin \"a\" " + triangle + "ObjectEnd " + moving + "ObjectInstance \"a\"");
+  expect_no_diagnostics(imported);
+  ASSERT_EQ(imported.scene.instances.size(), 1u);
+  EXPECT_TRUE(imported.scene.instances[0].motion);
+}
+
+// Each of the two transforms of its own time, and both of what was named.
+TEST(PbrtMotion, DirectivesChangeTheActiveTransforms) {
+  const Scene scene = import_v4("AttributeBegin " + moving +
+                                "CoordinateSystem \"here\" AttributeEnd "
+                                "ActiveTransform EndTime CoordSysTransform \"here\" Identity Scale 2 2 2 " +
+                                triangle)
+                          .scene;
+  ASSERT_EQ(scene.motions.size(), 1u);
+  EXPECT_EQ(scene.motions[0].keys()[0].transform, translate({11, 0, 0}));
+  EXPECT_EQ(scene.motions[0].keys()[1].transform, scale({2, 2, 2}));
+}
+
+TEST(PbrtMotion, CamerasMove) {
+  const ImportedScene imported = import_text(
+      "TransformTimes 0 2 ActiveTransform EndTime Translate 0 0 4 ActiveTransform All "
+      "Camera \"perspective\" \"float shutteropen\" 1 \"float shutterclose\" 2 Film \"rgb\" WorldBegin " +
       triangle);
-  expect_near(transform_point(imported.scene.shapes[0].object_to_world, {}), {11, 0, 0});
-  EXPECT_TRUE(mentions(imported.diagnostics, "motion"));
+  expect_no_diagnostics(imported);
+  const Scene& scene = imported.scene;
+  EXPECT_EQ(scene.shutter, (Shutter{1, 2}));
+  const std::vector<Keyframe> keys{{0, {}}, {2, translate({0, 0, -4})}};
+  EXPECT_EQ(scene.camera_motion.keys(), keys);
+  expect_near(transform_point(std::get<PerspectiveCamera>(scene.camera).camera_to_world, {}), {0, 0, -2});
+}
+
+TEST(PbrtMotion, WhatTheShutterDoesNotSeeStandsStill) {
+  const std::string camera =
+      "Camera \"perspective\" \"float shutteropen\" 1 \"float shutterclose\" 2 Film \"rgb\" ";
+  const Scene scene = import_text(camera + "WorldBegin " + moving + triangle).scene;
+  EXPECT_TRUE(scene.motions.empty());
+  ASSERT_EQ(scene.shapes.size(), 1u);
+  expect_near(transform_point(scene.shapes[0].object_to_world, {}), {12, 0, 0});
+}
+
+TEST(PbrtMotion, WhatIsHeldIsReported) {
+  for (const char* what : {"LightSource \"point\"", "Texture \"t\" \"float\" \"wrinkled\"",
+                           "MakeNamedMedium \"m\" \"string type\" \"homogeneous\""})
+    EXPECT_TRUE(mentions(import_v4(moving + what).diagnostics, "as in pbrt, the start holds")) << what;
+  EXPECT_TRUE(mentions(
+      import_v4("ObjectBegin \"a\" " + moving + triangle + "ObjectEnd ObjectInstance \"a\"").diagnostics,
+      "motion within an object"));
+  const ImportedScene mirrored = import_v4("ActiveTransform EndTime Scale -1 1 1 " + triangle);
+  EXPECT_TRUE(mentions(mirrored.diagnostics, "of which one mirrors"));
+  EXPECT_EQ(mirrored.scene.shapes.size(), 1u);
+}
+
+TEST(PbrtMotion, LightsOfWhatMovesDoNotShine) {
+  const ImportedScene imported = import_v4("AreaLightSource \"diffuse\" " + moving + triangle);
+  EXPECT_TRUE(mentions(imported.diagnostics, "area lights that move do not shine"));
+  EXPECT_TRUE(imported.scene.area_lights.empty());
 }
 
 // ---- Blocks

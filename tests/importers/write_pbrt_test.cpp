@@ -57,6 +57,38 @@ TEST(WritePbrt, Cameras) {
       expect_exact(std::string(camera) + " Film \"rgb\" " + film + " WorldBegin " + triangle);
 }
 
+TEST(WritePbrt, Motion) {
+  const std::string camera =
+      "TransformTimes .25 2.5 ActiveTransform StartTime LookAt 1 2 3 4 5.5 6 0 0 1 ActiveTransform EndTime "
+      "LookAt 1 2 4 4 5.5 7 0 .1 1 ActiveTransform All Camera \"perspective\" \"float shutteropen\" .5 "
+      "\"float "
+      "shutterclose\" .7 ";
+  const std::string world =
+      "WorldBegin ObjectBegin \"a\" " + triangle +
+      "ObjectEnd AttributeBegin ActiveTransform EndTime Rotate 50 1 2 3 Translate 1 2 3 ActiveTransform All "
+      "Scale "
+      "2 1 1 ObjectInstance \"a\" AttributeEnd AttributeBegin ActiveTransform StartTime Translate 0 0 7.1 "
+      "ActiveTransform All " +
+      triangle + triangle + " AttributeEnd " + triangle;
+  expect_exact(camera + "Film \"rgb\" \"float iso\" 250 " + world);
+  expect_exact("Film \"rgb\" " + world);
+  expect_exact(camera + "Film \"rgb\" WorldBegin " + triangle);
+}
+
+// Keyframes of other times are looked up at those that are written.
+TEST(WritePbrt, MotionOfMoreKeyframes) {
+  Scene scene = import_v4("ActiveTransform EndTime Translate 1 0 0 " + triangle).scene;
+  scene.motions[0] = Motion({{0, {}}, {1, translate({3, 0, 0})}, {4, translate({4, 0, 0})}});
+  scene.shutter = {0, 4};
+  const TemporaryFolder folder;
+  const Diagnostics written = write_pbrt(scene, folder / "out.pbrt");
+  EXPECT_TRUE(mentions(written, "two keyframes"));
+  const Scene again = read_pbrt(folder / "out.pbrt").scene;
+  const std::vector<Keyframe> keys{{0, {}}, {4, translate({4, 0, 0})}};
+  ASSERT_EQ(again.motions.size(), 1u);
+  EXPECT_EQ(again.motions[0].keys(), keys);
+}
+
 TEST(WritePbrt, FilmsFiltersAndSettings) {
   for (const char* settings :
        {"Film \"rgb\" \"integer pixelbounds\" [10 20 30 50] \"float iso\" 150 PixelFilter \"box\"",

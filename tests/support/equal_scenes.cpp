@@ -45,8 +45,12 @@ class Renumbering {
     copy(id, prototypes_, from_.prototypes, to.prototypes, [&](Prototype& prototype) {
       prototype.name.clear();
       for (Shape& shape : prototype.shapes) use(shape);
-      for (Instance& instance : prototype.instances) use(instance.prototype);
+      for (Instance& instance : prototype.instances) use(instance);
     });
+  }
+  void use(Instance& instance) {
+    use(instance.prototype);
+    if (instance.motion) copy(*instance.motion, motions_, from_.motions, to.motions, [](Motion&) {});
   }
   void use(Shape& shape) {
     shape.name.clear();
@@ -142,7 +146,7 @@ class Renumbering {
   void use_inputs(TwoSidedMaterial& m) { use(m.front), use(m.back); }
 
   const Scene& from_;
-  Numbers meshes_, textures_, materials_, media_, area_lights_, prototypes_;
+  Numbers meshes_, textures_, materials_, media_, area_lights_, prototypes_, motions_;
 };
 
 template <class Record>
@@ -162,7 +166,7 @@ Scene canonical(const Scene& scene) {
     numbers.to.shapes.push_back(std::move(shape));
   }
   for (Instance instance : scene.instances) {
-    numbers.use(instance.prototype);
+    numbers.use(instance);
     numbers.to.instances.push_back(instance);
   }
   for (Light light : scene.lights) {
@@ -170,6 +174,8 @@ Scene canonical(const Scene& scene) {
     numbers.to.lights.push_back(std::move(light));
   }
   numbers.to.camera = scene.camera;
+  numbers.to.camera_motion = scene.camera_motion;
+  if (scene.camera_motion.moves() || !scene.motions.empty()) numbers.to.shutter = scene.shutter;
   numbers.to.camera_medium = scene.camera_medium;
   if (numbers.to.camera_medium) numbers.use(*numbers.to.camera_medium);
   numbers.to.film = scene.film;
@@ -192,6 +198,7 @@ Scene with_explicit_uvs(Scene scene) {
 std::string difference(const Scene& one, const Scene& other) {
   const Scene a = canonical(with_explicit_uvs(one)), b = canonical(with_explicit_uvs(other));
   if (!(a.camera == b.camera)) return "the camera";
+  if (!(a.camera_motion == b.camera_motion && a.shutter == b.shutter)) return "the motion of the camera";
   if (!(a.film == b.film)) return "the film";
   if (!(a.settings == b.settings)) return "the settings";
   if (a.camera_medium != b.camera_medium) return "the medium of the camera";
@@ -200,7 +207,7 @@ std::string difference(const Scene& one, const Scene& other) {
         difference("material", a.materials, b.materials), difference("medium", a.media, b.media),
         difference("area light", a.area_lights, b.area_lights), difference("light", a.lights, b.lights),
         difference("shape", a.shapes, b.shapes), difference("prototype", a.prototypes, b.prototypes),
-        difference("instance", a.instances, b.instances)})
+        difference("instance", a.instances, b.instances), difference("motion", a.motions, b.motions)})
     if (!found.empty()) return found;
   return "";
 }

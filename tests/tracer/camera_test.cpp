@@ -35,9 +35,9 @@ TEST(ConcentricDisk, CoversTheDiskEvenly) {
 }
 
 CameraRay camera_ray(const Camera& camera, Point2d raster, Point2d lens) {
-  return CameraSampler(camera, film).ray(raster, lens);
+  return CameraSampler(camera, {}, film).ray(raster, lens, 0);
 }
-bool has_lens(const Camera& camera) { return CameraSampler(camera, film).has_lens(); }
+bool has_lens(const Camera& camera) { return CameraSampler(camera, {}, film).has_lens(); }
 
 // Where a ray of the camera, which looks along +z, meets the plane z.
 Point2d at_plane(const CameraRay& ray, double z) {

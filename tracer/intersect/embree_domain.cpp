@@ -7,6 +7,7 @@
 #include <string>
 
 #include "scene/diagnostics.h"
+#include "tracer/intersect/instance_ray.h"
 #include "tracer/intersect/intersector.h"
 #include "tracer/quadrics/quadric_hits.h"
 
@@ -112,9 +113,11 @@ struct Chain {
 
 Chain extended(const Query& query, const Chain& chain, std::uint32_t index) {
   const InstanceRef& ref = chain.end->instances[index];
-  Chain next{query.domain->objects[ref.object],
-             chain.instances.empty() ? ref.to_parent : compose(chain.to_bundle, ref.to_parent),
-             chain.first_triangle + ref.first_triangle, chain.instances};
+  const DomainView* object = query.domain->objects[ref.object];
+  Chain next{
+      object,
+      through_instance(chain.instances.empty() ? nullptr : &chain.to_bundle, ref, *object, query.ray.time_s),
+      chain.first_triangle + ref.first_triangle, chain.instances};
   next.instances.push_back(index);
   return next;
 }
@@ -252,18 +255,18 @@ EmbreeDomain::EmbreeDomain(const DomainView& domain) {
 
 EmbreeDomain::~EmbreeDomain() = default;
 
-void EmbreeDomain::closest(const Ray& ray, Hit& hit) const {
+void EmbreeDomain::closest(const Ray& ray, Hit& hit, double time_s) const {
   const Implementation& self = *implementation_;
-  Query query{{}, &self.kernel, &self.domain, prepare(ray), &hit};
+  Query query{{}, &self.kernel, &self.domain, prepare(ray, time_s), &hit};
   RTCRayHit r{};
   if (!begin_query(query, ray, self.box, hit.t, r.ray)) return;
   r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   rtcIntersect1(self.scene.get(), &query.context, &r);
 }
 
-bool EmbreeDomain::occluded(const Ray& ray, float tmax) const {
+bool EmbreeDomain::occluded(const Ray& ray, float tmax, double time_s) const {
   const Implementation& self = *implementation_;
-  Query query{{}, &self.kernel, &self.domain, prepare(ray), nullptr, tmax};
+  Query query{{}, &self.kernel, &self.domain, prepare(ray, time_s), nullptr, tmax};
   RTCRay r{};
   if (!begin_query(query, ray, self.box, double{tmax}, r)) return false;
   rtcOccluded1(self.scene.get(), &query.context, &r);

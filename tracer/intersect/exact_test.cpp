@@ -50,7 +50,7 @@ bool well_conditioned(double det, Sheared a, Sheared b, Sheared c, double m) {
 
 }  // namespace
 
-RayConstants prepare(const Ray& ray) {
+RayConstants prepare(const Ray& ray, double time_s) {
   RayConstants r;
   r.z = greatest_axis(ray.direction);
   r.x = r.z == 2 ? 0 : r.z + 1;
@@ -71,6 +71,7 @@ RayConstants prepare(const Ray& ray) {
   r.drift = 0x1p-47f * std::max({std::abs(r.origin[0]), std::abs(r.origin[1]), std::abs(r.origin[2])});
   r.exclude = ray.exclude;
   r.direction_z = double{dz};
+  r.time_s = time_s;
   return r;
 }
 

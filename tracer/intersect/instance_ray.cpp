@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/motion.h"
 #include "tracer/quadrics/quadric_hits.h"
 
 namespace vitrail {
@@ -79,12 +80,15 @@ void show(const DomainView& object, InstanceRay& ray) {
   ray.instances = object.instances.data();
 }
 
+const Affine* matrix_of(const InstanceRay& ray) { return ray.depth == 0 ? nullptr : &ray.to_bundle; }
+
 // The chain to instance `index`.
-void extend_chain(const InstanceRay& outer, std::uint32_t index, InstanceRay& inner) {
+void extend_chain(const InstanceRay& outer, std::uint32_t index, double time_s, InstanceRay& inner) {
   const InstanceRef& ref = outer.instances[index];
+  const DomainView& object = *outer.domain->objects[ref.object];
   inner.domain = outer.domain;
-  show(*outer.domain->objects[ref.object], inner);
-  inner.to_bundle = outer.depth == 0 ? ref.to_parent : compose(outer.to_bundle, ref.to_parent);
+  show(object, inner);
+  inner.to_bundle = through_instance(matrix_of(outer), ref, object, time_s);
   inner.mirrored = mirrors(inner.to_bundle);
   inner.first_triangle = outer.first_triangle + ref.first_triangle;
   inner.depth = outer.depth + 1;
@@ -94,15 +98,21 @@ void extend_chain(const InstanceRay& outer, std::uint32_t index, InstanceRay& in
 
 }  // namespace
 
+Affine through_instance(const Affine* outer, const InstanceRef& ref, const DomainView& object,
+                        double time_s) {
+  const Affine to_bundle = outer ? compose(*outer, ref.to_parent) : ref.to_parent;
+  return object.motion ? compose(to_bundle, affine(object.motion->at(time_s))) : to_bundle;
+}
+
 namespace {
 
 // Of instance `index`, a quadric.
 QuadricHits hits_of(const RayConstants& ray, const InstanceRay& outer, std::uint32_t index) {
   const InstanceRef& ref = outer.instances[index];
-  const Quadric& quadric = outer.domain->objects[ref.object]->quadric->quadric;
+  const DomainView& object = *outer.domain->objects[ref.object];
   const bool starts_there = outer.first_triangle + ref.first_triangle == ray.exclude;
-  if (outer.depth == 0) return quadric_hits(ray, ref.to_parent, quadric, starts_there);
-  return quadric_hits(ray, compose(outer.to_bundle, ref.to_parent), quadric, starts_there);
+  return quadric_hits(ray, through_instance(matrix_of(outer), ref, object, ray.time_s),
+                      object.quadric->quadric, starts_there);
 }
 
 }  // namespace
@@ -150,7 +160,7 @@ bool enter_instance(const RayConstants& ray, const InstanceRay& outer, std::uint
                  enter, leave))
     return false;
   if (outer.depth == max_instance_depth) return false;
-  extend_chain(outer, index, inner);
+  extend_chain(outer, index, ray.time_s, inner);
   inner.entry = outer.entry + enter / outer.unit;
   inner.exit = outer.entry + leave / outer.unit;
 

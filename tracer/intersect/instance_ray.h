@@ -9,6 +9,10 @@
 
 namespace vitrail {
 
+// The matrix of a chain of instances that `ref` extends to `object`, as it is at a time. `outer`: the
+// chain's; null where `ref` is its first.
+Affine through_instance(const Affine* outer, const InstanceRef& ref, const DomainView& object, double time_s);
+
 // Without initialisers: the kernels must not instantiate a constructor.
 struct InstanceRay {
   const DomainView* domain;  // has the objects

@@ -58,8 +58,8 @@ class EmbreeDomain {
   ~EmbreeDomain();
   EmbreeDomain(const EmbreeDomain&) = delete;
   EmbreeDomain& operator=(const EmbreeDomain&) = delete;
-  void closest(const Ray& ray, Hit& hit) const;
-  bool occluded(const Ray& ray, float tmax) const;
+  void closest(const Ray& ray, Hit& hit, double time_s = 0) const;
+  bool occluded(const Ray& ray, float tmax, double time_s = 0) const;
 
  private:
   struct Implementation;

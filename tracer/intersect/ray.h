@@ -44,7 +44,8 @@ struct RayConstants {
   std::uint32_t exclude;
   double exact_shear_x, exact_shear_y;
   double direction_z;  // d_z
+  double time_s;       // where anything moves
 };
-RayConstants prepare(const Ray& ray);
+RayConstants prepare(const Ray& ray, double time_s = 0);
 
 }  // namespace vitrail

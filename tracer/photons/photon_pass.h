@@ -18,7 +18,7 @@ struct PhotonPass {
   std::uint32_t iteration = 0;  // the sample of all pixels
   std::uint64_t photons = 0;    // in it
   double radius = 0;
-  float wavelength_number = 0;  // of all of its photons and paths
+  float wavelength_number = 0, time_number = 0;  // of all of its photons and paths
   SampledWavelengths wavelengths;
   double power_w_nm = 0;  // of a photon whose throughput is 1
   bool flying = false;    // records are of photons; else of paths, which gather
@@ -41,6 +41,11 @@ inline float wavelength_number(std::uint64_t seed, std::uint32_t iteration) {
   constexpr std::uint64_t apart = 0x51a7e5d0c3b92f87u;
   const std::array<float, 4> u = sample_4d({mix(seed ^ apart), 0, iteration}, sample_set::camera);
   return std::min(u[0] / 4 + std::floor(4 * u[1]) / 4, 0x1.fffffep-1f);
+}
+// When it sees the scene, in parts of the time that the shutter is open.
+inline float time_number(std::uint64_t seed, std::uint32_t iteration) {
+  constexpr std::uint64_t apart = 0x2f8b6c41d9e07a35u;
+  return sample_4d({mix(seed ^ apart), 0, iteration}, sample_set::camera)[0];
 }
 
 }  // namespace vitrail

@@ -57,12 +57,13 @@ std::string mitsuba_scene(const char* version, const PluginCase& plugin, const s
       word == "film" ? element("")
                      : "<film type='hdrfilm'>" + unless("rfilter", "<rfilter type='box'/>") + "</film>";
   const std::string in_sensor =
+      std::string(version[0] == '0' ? "<float name='shutterClose' value='1'/>" : "") +
       "<transform name='to_world'><lookat origin='0,0,5' target='0,0,0' up='0,1,0'/></transform>" + film +
       unless("sampler", "<sampler type='independent'/>");
   std::string scene = fmt::format("<scene version='{}'>\n", version);
   scene += unless("integrator", "<integrator type='volpath'/>") + "\n";
   if (word == "sensor")
-    scene += fmt::format("<sensor type='{}'>{}{}{}</sensor>\n", type, parameters, plugin.needs, in_sensor);
+    scene += fmt::format("<sensor type='{}'>{}{}{}</sensor>\n", type, in_sensor, parameters, plugin.needs);
   else
     scene += "<sensor type='perspective'>" + in_sensor + "</sensor>\n";
   scene += (word == "emitter" && !of_shape ? element("") : "<emitter type='constant'/>") + "\n";

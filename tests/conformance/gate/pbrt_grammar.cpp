@@ -29,10 +29,11 @@ struct Transforming {
   std::size_t numbers;
   bool brackets;
 };
-constexpr std::array transforms{Transforming{"Identity", 0, false},       Transforming{"Translate", 3, false},
-                                Transforming{"Scale", 3, false},          Transforming{"Rotate", 4, false},
-                                Transforming{"LookAt", 9, false},         Transforming{"Transform", 16, true},
-                                Transforming{"ConcatTransform", 16, true}};
+constexpr std::array transforms{
+    Transforming{"Identity", 0, false},        Transforming{"Translate", 3, false},
+    Transforming{"Scale", 3, false},           Transforming{"Rotate", 4, false},
+    Transforming{"LookAt", 9, false},          Transforming{"Transform", 16, true},
+    Transforming{"ConcatTransform", 16, true}, Transforming{"TransformTimes", 2, false}};
 
 class Checker {
  public:
@@ -104,6 +105,11 @@ class Checker {
       if (!value || !std::isfinite(*value)) complain(line_, fmt::format("{} needs finite numbers", t.name));
     }
     if (t.brackets && next().text != "]") complain(line_, "a matrix needs brackets");
+  }
+  void active_transform() {
+    const Token& which = next();
+    if (which.quoted || (which.text != "All" && which.text != "StartTime" && which.text != "EndTime"))
+      complain(which.line, "ActiveTransform is of All, StartTime or EndTime");
   }
   void world_begin() {
     if (world_) complain(line_, "a second WorldBegin");
@@ -346,6 +352,7 @@ const std::map<std::string, std::function<void(Checker&)>, std::less<>> Checker:
     {"Integrator", [](Checker& c) { c.option("Integrator"); }},
     {"MakeNamedMedium", &Checker::medium},
     {"MediumInterface", &Checker::interface},
+    {"ActiveTransform", &Checker::active_transform},
     {"Texture", &Checker::texture},
     {"MakeNamedMaterial", &Checker::named_material},
     {"NamedMaterial", &Checker::use_material},
