@@ -35,6 +35,7 @@ struct FieldChecker {
     if constexpr (std::floating_point<T>) check.require(std::isfinite(value), "a number is not finite");
   }
   void operator()(Id<Texture> id) const { check.require(id.value < textures, "a texture is not there"); }
+  void operator()(Id<ScatteringTable>) const {}  // check_tables
   void operator()(Id<Material> id) const { check.require(id.value < materials, "a material is not there"); }
   void may_be_infinite(float value) const { check.require(!std::isnan(value), "a number is not a number"); }
 };
@@ -171,6 +172,21 @@ void check_sheets(const Checker& c, const Manifest& m) {
   }
 }
 
+void check_tables(const Checker& c, const Manifest& m) {
+  for (const ScatteringTable& table : m.tables)
+    if (const char* fault = fault_of(table)) c.require(false, fault);
+  for (const Material& material : m.materials)
+    if (const auto* t = std::get_if<TabulatedMaterial>(&material.model))
+      c.require(t->table.value < m.tables.size() &&
+                    std::holds_alternative<FourierTable>(m.tables[t->table.value]) ==
+                        (t->format == TabulatedMaterial::Format::fourier),
+                "a material has no table");
+  for (const Material& material : m.materials)
+    if (const auto* slab = std::get_if<SlabMaterial>(&material.model))
+      c.require(slab->thickness >= 0 && slab->g > -1 && slab->g < 1,
+                "a slab has a negative thickness, or its g is not between -1 and 1");
+}
+
 void check_lights(const Checker& c, const Manifest& m) {
   for (const EmissiveTriangle& t : m.emissive_triangles)
     c.require(t.triangle < m.triangles && t.area_light < m.area_lights.size(), "a light shines from nowhere");
@@ -266,6 +282,7 @@ void check_manifest(const Manifest& m, const std::filesystem::path& file) {
   check_objects(c, m);
   check_records(c, m);
   check_sheets(c, m);
+  check_tables(c, m);
   check_lights(c, m);
   check_media(c, m);
   c.require(m.attributes <= max_attributes, "its textures read more than 8 mesh attributes");

@@ -98,6 +98,10 @@ Features features_of(const Manifest& m) {
                               }),
           required_feature::procedural);
   require(m.requirements.motion, required_feature::motion);
+  require(!m.tables.empty(), required_feature::tables);
+  require(std::ranges::any_of(
+              m.materials, [](const Material& a) { return std::holds_alternative<SlabMaterial>(a.model); }),
+          required_feature::slabs);
   if (m.cut_triangles > 0) f.optional |= optional_feature::pieces;
   return f;
 }

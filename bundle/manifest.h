@@ -128,6 +128,7 @@ struct Manifest {
   // their filenames naming texture files.
   std::vector<Material> materials;
   std::vector<Texture> textures;
+  std::vector<ScatteringTable> tables;  // of tabulated materials; each once
   std::vector<Medium> media;
   std::vector<AreaLight> area_lights;
   std::vector<EmissiveTriangle> emissive_triangles;

@@ -49,6 +49,8 @@ inline constexpr E last_of = E{};
 template <>
 inline constexpr auto last_of<Roughness::Distribution> = Roughness::Distribution::beckmann;
 template <>
+inline constexpr auto last_of<TabulatedMaterial::Format> = TabulatedMaterial::Format::fourier;
+template <>
 inline constexpr auto last_of<QuadricKind> = QuadricKind::paraboloid;
 template <>
 inline constexpr auto last_of<QuadricUv> = QuadricUv::mitsuba;
@@ -249,6 +251,10 @@ void fields(auto& io, Is<MeasuredSheet> auto& s) {
   list(io, s.wavelengths_nm), list(io, s.cosines), list(io, s.reflectance), list(io, s.transmittance);
 }
 void fields(auto& io, Is<MeasuredMaterial> auto& m) { fields(io, m.sheet); }
+void fields(auto& io, Is<TabulatedMaterial> auto& m) { fields(io, m.format), fields(io, m.table); }
+void fields(auto& io, Is<SlabMaterial> auto& m) {
+  fields(io, m.sigma_a), fields(io, m.sigma_s), io(m.thickness), io(m.g);
+}
 // Other materials stand for these in a bundle.
 template <class T>
 concept Replaced = Is<T, SubsurfaceMaterial> || Is<T, HairMaterial>;
@@ -263,6 +269,17 @@ void fields(auto& io, Is<Material> auto& m) {
 void fields(auto& io, Is<Surface> auto& s) {
   io(s.first_triangle), io(s.material), io(s.area_light), io(s.interior), io(s.exterior);
   fields(io, s.opacity);
+}
+
+void fields(auto& io, Is<FourierTable> auto& t) {
+  io(t.eta), io(t.channels), list(io, t.mu), list(io, t.first), list(io, t.orders), list(io, t.coefficients);
+}
+void fields(auto& io, Is<SquareTable> auto& t) { io(t.rows), io(t.columns), list(io, t.values); }
+void fields(auto& io, Is<AdaptiveTable> auto& t) {
+  list(io, t.phi_i), list(io, t.theta_i), list(io, t.wavelengths_nm);
+  for (auto* square : {&t.normals, &t.projected_area, &t.visible_normals, &t.luminance, &t.spectra})
+    fields(io, *square);
+  fields(io, t.normalised);
 }
 
 // ---- Media

@@ -35,8 +35,15 @@ struct Reader {
   void may_be_infinite(float& value) { value = stream.get<float>(); }
 };
 
+// The last list is there where it has something.
 void materials(auto& io, auto& m) {
   list(io, m.surfaces), list(io, m.materials), list(io, m.textures), list(io, m.media);
+  if constexpr (reads<decltype(io)>) {
+    m.tables.clear();
+    if (!io.stream.at_end()) list(io, m.tables);
+  } else if (!m.tables.empty()) {
+    list(io, m.tables);
+  }
 }
 // The last lists are there where they, or what comes after them, have something.
 void lights(Writer& io, const Manifest& m) {

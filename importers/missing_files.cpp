@@ -38,6 +38,16 @@ class Replacer {
       if (material.normal_map && missing_.contains(material.normal_map->value)) material.normal_map.reset();
   }
 
+  void tables() {
+    for (Material& material : scene_.materials)
+      if (const auto* table = std::get_if<TabulatedMaterial>(&material.model);
+          table && is_missing(table->filename)) {
+        say(table->filename, "a diffuse reflectance of 0.5 stands for it", material.origin,
+            RecordKind::material);
+        material.model = DiffuseMaterial{};
+      }
+  }
+
   void lights() {
     for (Light& light : scene_.lights) {
       if (auto* sky = std::get_if<EnvironmentLight>(&light.model); sky && is_missing(sky->filename)) {
@@ -71,6 +81,7 @@ void replace_missing_images(ImportedScene& imported) {
   Replacer replacer(imported);
   replacer.textures();
   replacer.normal_maps();
+  replacer.tables();
   replacer.lights();
 }
 

@@ -10,8 +10,8 @@ namespace vitrail {
 // Said with an error about such a file.
 inline constexpr const char* how_to_replace_missing = "; --missing=replace goes on without it";
 
-// Textures whose image is not there become 0.5, normal maps nothing, lights around and goniometric ones the
-// same in all directions; a diagnostic each.
+// Textures whose image is not there become 0.5, normal maps nothing, materials by a table diffuse, lights
+// around and goniometric ones the same in all directions; a diagnostic each.
 void replace_missing_images(ImportedScene& imported);
 
 }  // namespace vitrail

@@ -29,7 +29,7 @@ const char* kind_of(const MaterialModel& model) {
   return name_of(
       model, std::array{"diffuse", "dielectric", "thin dielectric", "conductor", "plastic", "coated diffuse",
                         "coated conductor", "diffuse transmission", "principled", "subsurface", "hair",
-                        "measured", "interface", "blend", "mask", "two-sided"});
+                        "measured", "interface", "blend", "mask", "two-sided", "tabulated", "slab"});
 }
 
 const char* kind_of(const LightModel& model) {

@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "scene/measured_sheet.h"
+#include "scene/scattering_table.h"
 #include "scene/texture.h"
 
 namespace vitrail {
@@ -160,12 +161,31 @@ struct HairMaterial {
   bool operator==(const HairMaterial&) const = default;
 };
 
-// A table of measurements in a file of its own format (pbrt's and Mitsuba's .bsdf, Dupuy and Jakob 2018), or
-// a sheet of glass, whose table is here.
+// A sheet of glass by its table (docs/measured-glass.md), or, without a sheet, what only Mitsuba can show:
+// its polarised measurements.
 struct MeasuredMaterial {
-  std::string filename;  // absolute
+  std::string filename;  // absolute; of the table
   std::optional<MeasuredSheet> sheet{};
   bool operator==(const MeasuredMaterial&) const = default;
+};
+
+// A surface by the table of a file: Dupuy and Jakob's (pbrt-v4's and Mitsuba 3's "measured"), which reflects,
+// or pbrt-v3's "fourier", which is asked from either side.
+struct TabulatedMaterial {
+  enum class Format : std::uint8_t { adaptive, fourier };
+  Format format = Format::adaptive;
+  std::string filename;            // absolute
+  Id<ScatteringTable> table = {};  // of the bundle
+  bool operator==(const TabulatedMaterial&) const = default;
+};
+
+// A slab of a medium without boundaries, in which light scatters once or goes straight through (Hanrahan and
+// Krueger 1993, as Mitsuba 0.6 has it). Coefficients are per unit of length.
+struct SlabMaterial {
+  SpectrumParameter sigma_a = ConstantSpectrum{0}, sigma_s = ConstantSpectrum{0};
+  float thickness = 1;
+  float g = 0;  // of Henyey and Greenstein
+  bool operator==(const SlabMaterial&) const = default;
 };
 
 // No interface at all: rays go through unchanged.
@@ -197,7 +217,7 @@ using MaterialVariant =
     std::variant<DiffuseMaterial, DielectricMaterial, ThinDielectricMaterial, ConductorMaterial,
                  PlasticMaterial, CoatedDiffuseMaterial, CoatedConductorMaterial, DiffuseTransmissionMaterial,
                  PrincipledMaterial, SubsurfaceMaterial, HairMaterial, MeasuredMaterial, InterfaceMaterial,
-                 BlendMaterial, MaskMaterial, TwoSidedMaterial>;
+                 BlendMaterial, MaskMaterial, TwoSidedMaterial, TabulatedMaterial, SlabMaterial>;
 // Copied, moved, destroyed and compared in scene/records.cpp alone: in every file that handles a scene, that
 // took up to two thirds of its compiling.
 struct MaterialModel : MaterialVariant {

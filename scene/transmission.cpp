@@ -16,6 +16,8 @@ struct Transmits {
   }
   bool operator()(const SubsurfaceMaterial&) const { return true; }
   bool operator()(const HairMaterial&) const { return true; }
+  bool operator()(const TabulatedMaterial& m) const { return m.format == TabulatedMaterial::Format::fourier; }
+  bool operator()(const SlabMaterial&) const { return true; }
   bool operator()(const InterfaceMaterial&) const { return true; }
   bool operator()(const MaskMaterial&) const { return true; }
   bool operator()(const BlendMaterial& m) const {
@@ -47,7 +49,8 @@ bool is_passed_straight(const Material& material, const std::vector<Material>& a
     return is_nothing(blend->first) || is_nothing(blend->second);
   return std::holds_alternative<MaskMaterial>(material.model) ||
          std::holds_alternative<ThinDielectricMaterial>(material.model) ||
-         std::holds_alternative<MeasuredMaterial>(material.model);
+         std::holds_alternative<MeasuredMaterial>(material.model) ||
+         std::holds_alternative<SlabMaterial>(material.model);
 }
 
 bool lets_straight(const Material& material, const std::vector<bool>& others) {
@@ -57,7 +60,8 @@ bool lets_straight(const Material& material, const std::vector<bool>& others) {
     return others.at(sided->front.value) || others.at(sided->back.value);
   return std::holds_alternative<InterfaceMaterial>(material.model) ||
          std::holds_alternative<MaskMaterial>(material.model) ||
-         std::holds_alternative<ThinDielectricMaterial>(material.model);
+         std::holds_alternative<ThinDielectricMaterial>(material.model) ||
+         std::holds_alternative<SlabMaterial>(material.model);
 }
 
 bool has_sides(const Material& material, bool lets_through, const std::vector<bool>& others) {

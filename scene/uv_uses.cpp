@@ -56,7 +56,11 @@ struct Search {
       any(e->reflectance, e->mean_free_path);
   }
   void operator()(const HairMaterial&) { found = true; }  // runs along u
-  void operator()(const MeasuredMaterial& m) { found = found || !m.filename.empty(); }
+  void operator()(const MeasuredMaterial&) {}
+  void operator()(const TabulatedMaterial& m) {
+    found = found || m.format == TabulatedMaterial::Format::adaptive;  // may be anisotropic
+  }
+  void operator()(const SlabMaterial& m) { any(m.sigma_a, m.sigma_s); }
   void operator()(const InterfaceMaterial&) {}
   void operator()(const BlendMaterial& m) { one(m.amount); }
   void operator()(const MaskMaterial& m) { one(m.opacity); }

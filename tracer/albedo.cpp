@@ -25,6 +25,9 @@ float decompression(const DielectricBsdf& bsdf, Vector3d out, Vector3d in) {
 float decompression(const PrincipledBsdf& bsdf, Vector3d out, Vector3d in) {
   return out.z * in.z < 0 ? decompressed(bsdf.eta, out) : 1;
 }
+float decompression(const FourierBsdf& bsdf, Vector3d out, Vector3d in) {
+  return out.z * in.z < 0 ? decompressed(static_cast<double>(bsdf.table->eta), out) : 1;
+}
 
 // Point i of a sequence that is evenly spread over the cube (Roberts 2018, "The Unreasonable Effectiveness of
 // Quasirandom Sequences"), shifted.

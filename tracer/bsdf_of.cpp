@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "scene/portable_math.h"
+#include "scene/srgb_basis.h"
 #include "tracer/wavelengths.h"
 
 namespace vitrail {
@@ -21,10 +22,19 @@ SampledSpectrum ratio(const SampledSpectrum& a, const SampledSpectrum& b) {
 bool transmits(const MaterialModel& model) {
   if (const auto* principled = std::get_if<PrincipledMaterial>(&model))
     return principled->thin || principled->spec_trans != FloatParameter{0.0f};
+  if (const auto* tabulated = std::get_if<TabulatedMaterial>(&model))
+    return tabulated->format == TabulatedMaterial::Format::fourier;
   return std::holds_alternative<DielectricMaterial>(model) ||
          std::holds_alternative<ThinDielectricMaterial>(model) ||
          std::holds_alternative<DiffuseTransmissionMaterial>(model) ||
-         std::holds_alternative<MeasuredMaterial>(model);
+         std::holds_alternative<MeasuredMaterial>(model) || std::holds_alternative<SlabMaterial>(model);
+}
+
+LoadedTable loaded_table(const ScatteringTable& table) {
+  if (const auto* fourier = std::get_if<FourierTable>(&table))
+    return LoadedFourier{fourier, integrals_of(*fourier)};
+  const auto& adaptive = std::get<AdaptiveTable>(table);
+  return LoadedAdaptive{&adaptive, warps_of(adaptive)};
 }
 
 bool has_tint(const PrincipledMaterial& m) {
@@ -125,6 +135,28 @@ Bsdf BsdfMaker::operator()(const CoatedConductorMaterial& m) const {
 
 Bsdf BsdfMaker::operator()(const DiffuseTransmissionMaterial& m) const {
   return DiffuseTransmissionBsdf{spectrum(m.reflectance) * m.scale, spectrum(m.transmittance) * m.scale};
+}
+
+Bsdf BsdfMaker::operator()(const TabulatedMaterial& m) const {
+  const LoadedTable& loaded = tables[m.table.value];
+  if (const auto* adaptive = std::get_if<LoadedAdaptive>(&loaded))
+    return AdaptiveBsdf{adaptive->table, &adaptive->warps, wavelengths};
+  const auto& fourier = std::get<LoadedFourier>(loaded);
+  FourierBsdf b{fourier.table, &fourier.integrals, {}};
+  for (std::size_t i = 0; i < hero_count; ++i) {
+    const std::array<double, 3> rgb = srgb_basis(static_cast<double>(wavelengths.lambda_nm[i]));
+    for (std::size_t c = 0; c < 3; ++c) b.primaries[c].v[i] = static_cast<float>(rgb[c]);
+  }
+  return b;
+}
+
+SlabBsdf BsdfMaker::slab(const SlabMaterial& m) const {
+  const SampledSpectrum absorbed = spectrum(m.sigma_a), scattered = spectrum(m.sigma_s);
+  const SampledSpectrum extinction = absorbed + scattered;
+  SlabBsdf b{extinction * m.thickness, {}, static_cast<double>(m.g), throughput};
+  for (std::size_t i = 0; i < hero_count; ++i)
+    b.albedo.v[i] = extinction.v[i] > 0 ? scattered.v[i] / extinction.v[i] : 0;
+  return b;
 }
 
 // Tints are of the colour: they do not depend on the wavelengths that a path has.

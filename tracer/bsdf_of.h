@@ -2,6 +2,8 @@
 // From a material's record to its model of scattering at one point: every parameter is looked up.
 #pragma once
 
+#include <span>
+
 #include "scene/material.h"
 #include "tracer/scattering.h"
 #include "tracer/textures/textures.h"
@@ -13,6 +15,18 @@ bool transmits(const MaterialModel& model);
 
 bool has_tint(const PrincipledMaterial& m);
 
+// A table of the bundle and what is made of it when it is loaded.
+struct LoadedFourier {
+  const FourierTable* table;  // outlives it
+  FourierIntegrals integrals;
+};
+struct LoadedAdaptive {
+  const AdaptiveTable* table;  // outlives it
+  AdaptiveWarps warps;
+};
+using LoadedTable = std::variant<LoadedFourier, LoadedAdaptive>;
+LoadedTable loaded_table(const ScatteringTable& table);
+
 struct BsdfMaker {
   const Textures& textures;
   TexturePoint at;
@@ -22,6 +36,7 @@ struct BsdfMaker {
   SampledSpectrum throughput;                // of the path
   std::uint64_t event;                       // what walks in layers are a function of
   double luminance;                          // of a constant colour, where the material has a tint of it
+  std::span<const LoadedTable> tables;       // the bundle's
 
   Bsdf operator()(const DiffuseMaterial& m) const;
   Bsdf operator()(const DielectricMaterial& m) const;
@@ -35,10 +50,13 @@ struct BsdfMaker {
   Bsdf operator()(const MeasuredMaterial& m) const {
     return MeasuredSheetBsdf{&*m.sheet, wavelengths, throughput};
   }
+  Bsdf operator()(const TabulatedMaterial& m) const;
+  Bsdf operator()(const SlabMaterial& m) const { return slab(m); }
   // Those that are made of others, and those that bundles do not have: black.
   Bsdf operator()(const auto&) const { return LambertBsdf{}; }
 
   ThinDielectricBsdf thin(const ThinDielectricMaterial& m) const;
+  SlabBsdf slab(const SlabMaterial& m) const;
 
  private:
   SampledSpectrum spectrum(const SpectrumParameter& p) const;

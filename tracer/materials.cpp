@@ -96,6 +96,7 @@ Materials::Materials(const Manifest& manifest, const Textures& textures)
       textures_(textures),
       plastic_table_(manifest.materials.size()),
       luminance_(manifest.materials.size(), 1) {
+  for (const ScatteringTable& table : manifest.tables) tables_.push_back(loaded_table(table));
   std::map<std::tuple<float, float, Roughness::Distribution>, std::uint32_t> known;
   for (std::size_t i = 0; i < manifest.materials.size(); ++i) {
     kinds_.push_back(kind_of(manifest.materials[i]));
@@ -155,8 +156,12 @@ SampledSpectrum Materials::passes_straight(std::uint32_t material, const Interac
   if (const auto* measured = std::get_if<MeasuredMaterial>(&m.model))
     return sheet_fractions(*measured->sheet, wavelengths, std::abs(dot(at.out, at.shading))).transmitted;
   if (const auto* thin = std::get_if<ThinDielectricMaterial>(&m.model)) {
-    const BsdfMaker maker{textures_, at.texture_point(), wavelengths, nullptr, nullptr, filled(1), 0, 1};
+    const BsdfMaker maker{textures_, at.texture_point(), wavelengths, nullptr, nullptr, filled(1), 0, 1, {}};
     return straight_transmittance(maker.thin(*thin), std::abs(dot(at.out, at.shading)));
+  }
+  if (const auto* slab = std::get_if<SlabMaterial>(&m.model)) {
+    const BsdfMaker maker{textures_, at.texture_point(), wavelengths, nullptr, nullptr, filled(1), 0, 1, {}};
+    return straight_transmittance(maker.slab(*slab), std::abs(dot(at.out, at.shading)));
   }
   return {};
 }
@@ -189,7 +194,8 @@ std::optional<Scattering> Materials::scattering_at(const Material& material, con
       plastic_tables_.empty() ? nullptr : &plastic_tables_[plastic_table_[index_of(material)]],
       throughput,
       event,
-      luminance_[index_of(material)]};
+      luminance_[index_of(material)],
+      tables_};
   return Scattering{std::visit(maker, material.model), frame_around(normal, at, both_sides ? 1.0 : at.side()),
                     both_sides, material.bump_shadowing ? bump_alpha2(dot(normal, at.shading)) : 0};
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bundle/manifest.h"
+#include "tracer/bsdf_of.h"
 #include "tracer/interaction.h"
 #include "tracer/sampler.h"
 #include "tracer/scattering.h"
@@ -55,7 +56,8 @@ class Materials {
   std::vector<MaterialKind> kinds_;
   std::vector<RoughPlasticTables> plastic_tables_;
   std::vector<std::uint32_t> plastic_table_;  // of a material: index into plastic_tables_
-  std::vector<double> luminance_;             // of a material: of the constant colour that it has a tint of
+  std::vector<LoadedTable> tables_;
+  std::vector<double> luminance_;  // of a material: of the constant colour that it has a tint of
 };
 
 // Index behind over index in front at the four wavelengths, seen from where the ray came.

@@ -4,20 +4,24 @@
 
 #include <variant>
 
+#include "tracer/bsdf/adaptive.h"
 #include "tracer/bsdf/conductor.h"
 #include "tracer/bsdf/dielectric.h"
 #include "tracer/bsdf/diffuse.h"
+#include "tracer/bsdf/fourier.h"
 #include "tracer/bsdf/layered.h"
 #include "tracer/bsdf/measured.h"
 #include "tracer/bsdf/plastic.h"
 #include "tracer/bsdf/principled.h"
+#include "tracer/bsdf/slab.h"
 #include "tracer/interaction.h"
 
 namespace vitrail {
 
 using Bsdf = std::variant<LambertBsdf, OrenNayarBsdf, DiffuseTransmissionBsdf, ConductorBsdf, DielectricBsdf,
                           ThinDielectricBsdf, PlasticBsdf, RoughPlasticBsdf, PrincipledBsdf,
-                          PrincipledThinBsdf, CoatedDiffuseBsdf, CoatedConductorBsdf, MeasuredSheetBsdf>;
+                          PrincipledThinBsdf, CoatedDiffuseBsdf, CoatedConductorBsdf, MeasuredSheetBsdf,
+                          FourierBsdf, AdaptiveBsdf, SlabBsdf>;
 
 inline BsdfValue eval(const Bsdf& bsdf, Vector3d out, Vector3d in) {
   return std::visit([&](const auto& b) { return eval(b, out, in); }, bsdf);

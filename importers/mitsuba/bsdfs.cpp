@@ -9,6 +9,8 @@
 #include "importers/glazing_material.h"
 #include "importers/mitsuba/builder.h"
 #include "importers/mitsuba/index_of_refraction.h"
+#include "importers/mitsuba/properties.h"
+#include "importers/mitsuba/subsurface.h"
 #include "importers/mitsuba/values.h"
 #include "importers/spectra/greatest_value.h"
 #include "importers/spectra/measured_sheet.h"
@@ -253,17 +255,41 @@ MaterialModel hair(Builder& b, const Object& o) {
 }
 
 MaterialModel measured(Builder& b, const Object& o) {
-  MeasuredMaterial m{o.text("filename", "", b.report)};
-  if (m.filename.empty()) b.report.fail("a measured material needs a \"filename\"", o.origin);
+  const std::string filename = o.text("filename", "", b.report);
+  if (filename.empty()) b.report.fail("a measured material needs a \"filename\"", o.origin);
   o.ignore({"alpha_sample", "wavelength"});
-  if (is_glazing(m.filename)) return glazing(b, o, m.filename);
-  if (is_measured_sheet(m.filename)) {
-    MeasuredSheetFile file = read_measured_sheet(m.filename);
+  if (is_glazing(filename)) return glazing(b, o, filename);
+  if (is_measured_sheet(filename)) {
+    MeasuredSheetFile file = read_measured_sheet(filename);
     for (const std::string& repair : file.repairs) b.report.approximated(repair, o.origin);
-    m.sheet = std::move(file.sheet);
+    return MeasuredMaterial{filename, std::move(file.sheet)};
   }
-  if (o.type == "measured_polarized")
+  if (o.type == "measured_polarized") {
     b.report.approximated("what it does to polarisation is left out", o.origin);
+    return MeasuredMaterial{filename};  // of another format
+  }
+  return TabulatedMaterial{TabulatedMaterial::Format::adaptive, filename};
+}
+
+// 0.6's Hanrahan and Krueger: of the measured media it takes the first by default.
+MaterialModel slab(Builder& b, const Object& o) {
+  SlabMaterial m;
+  if (o.has("sigma_t") || o.has("albedo")) {
+    if (!o.has("sigma_t") || !o.has("albedo"))
+      b.report.fail("\"sigmaT\" and \"albedo\" go together", o.origin);
+    const Spectrum sigma_t = spectrum_value(b, o, "sigma_t", Quantity::unbounded, ConstantSpectrum{1}),
+                   albedo = spectrum_value(b, o, "albedo", Quantity::reflectance, ConstantSpectrum{1});
+    m.sigma_s = product(sigma_t, albedo);
+    m.sigma_a = weighted_sum(sigma_t, 1, product(sigma_t, albedo), -1);
+  } else {
+    const AbsorptionScattering c = measured_coefficients(b, o);
+    m.sigma_a = spectrum_parameter(b, o, "sigma_a", Quantity::unbounded, std::get<Spectrum>(c.sigma_a));
+    m.sigma_s = spectrum_parameter(b, o, "sigma_s", Quantity::unbounded, std::get<Spectrum>(c.sigma_s));
+  }
+  const double thickness = o.number("thickness", 1, b.report);
+  if (!(thickness >= 0)) b.report.fail("a slab has a negative \"thickness\"", place_of(o, "thickness"));
+  m.thickness = static_cast<float>(std::min(thickness, 1e10));
+  m.g = read_phase(o, b.report);
   return m;
 }
 
@@ -331,7 +357,7 @@ struct Kind {
   std::string_view name;
   MaterialModel (*make)(Builder&, const Object&);
 };
-constexpr std::array<Kind, 27> kinds{{{"diffuse", diffuse},
+constexpr std::array<Kind, 28> kinds{{{"diffuse", diffuse},
                                       {"roughdiffuse", rough_diffuse},
                                       {"dielectric", dielectric},
                                       {"roughdielectric", dielectric},
@@ -344,6 +370,7 @@ constexpr std::array<Kind, 27> kinds{{{"diffuse", diffuse},
                                       {"phong", phong},
                                       {"ward", phong},
                                       {"difftrans", diffuse_transmitter},
+                                      {"hk", slab},
                                       {"principled", principled},
                                       {"principledthin", principled},
                                       {"hair", hair},

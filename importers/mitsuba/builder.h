@@ -62,6 +62,8 @@ Id<Material> add_material(Builder& builder, const Object& bsdf);
 
 // ---- media.cpp
 Id<Medium> add_medium(Builder& builder, const Object& medium);
+// g of the phase function inside of an object.
+float read_phase(const Object& around, Report& report);
 
 // ---- emitters.cpp
 // A light of the scene (not "area"). Unknown kinds are reported and dropped.

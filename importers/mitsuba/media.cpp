@@ -122,8 +122,10 @@ void bound_by_volume(MediumReader& reader) {
   reader.medium.density = cell;
 }
 
-float read_phase(const Object& medium, Report& report) {
-  const Object* phase = medium.child("phase");
+}  // namespace
+
+float read_phase(const Object& around, Report& report) {
+  const Object* phase = around.child("phase");
   if (!phase) return 0;
   double g = 0;
   if (phase->type == "hg") {
@@ -139,6 +141,8 @@ float read_phase(const Object& medium, Report& report) {
   report_unused(*phase, report, {"g"});
   return static_cast<float>(g);
 }
+
+namespace {
 
 // Mitsuba 0.6 takes a list of measured media, absorption and scattering, or the density by itself, too.
 void read_coefficients(MediumReader& reader) {

@@ -262,6 +262,18 @@ void write(Context& context, Element parent, ElementId id, const MeasuredMateria
   add_string(add(parent, "bsdf", "measured", "", id), "filename", context.relative(m.filename));
 }
 
+void write(Context& context, Element parent, ElementId id, const TabulatedMaterial& m) {
+  if (m.format == TabulatedMaterial::Format::adaptive)
+    return add_string(add(parent, "bsdf", "measured", "", id), "filename", context.relative(m.filename));
+  context.approximated("Mitsuba reads no tables of Fourier coefficients: it becomes diffuse, 0.5");
+  write(context, parent, id, DiffuseMaterial{});
+}
+
+void write(Context& context, Element parent, ElementId id, const SlabMaterial&) {
+  context.approximated("Mitsuba 3 has no slab of a medium: it becomes diffuse transmission, 0.25 each way");
+  write(context, parent, id, DiffuseTransmissionMaterial{});
+}
+
 void write(Context&, Element parent, ElementId id, const InterfaceMaterial&) {
   add(parent, "bsdf", "null", "", id);
 }

@@ -178,6 +178,8 @@ class Writer : MtlText {
     color("Kd", "map_Kd", *m.color);
   }
   void put(const MeasuredMaterial&) { put_grey("measured material", 0.5); }
+  void put(const TabulatedMaterial&) { put_grey("tabulated material", 0.5); }
+  void put(const SlabMaterial&) { put_grey("slab of a medium", 0.5); }
   void put(const InterfaceMaterial&) { text += "Kd 0 0 0\nd 0\n"; }
 
   void put(const BlendMaterial& m) {

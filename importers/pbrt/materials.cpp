@@ -170,13 +170,11 @@ MaterialModel measured(const Maker& m) {
     fail("a measured material needs a \"string filename\"", m.parameters.place());
   if (is_glazing(std::filesystem::absolute(m.scope.context.resolve(file->strings.front())).string()))
     return glazing(m, *file);
-  MeasuredMaterial material{find_file(*file, m.scope.context)};
-  if (is_measured_sheet(material.filename)) {
-    MeasuredSheetFile table = read_measured_sheet(material.filename);
-    for (const std::string& repair : table.repairs) m.scope.context.report.approximated(repair, file->place);
-    material.sheet = std::move(table.sheet);
-  }
-  return material;
+  const std::string filename = find_file(*file, m.scope.context);
+  if (!is_measured_sheet(filename)) return TabulatedMaterial{TabulatedMaterial::Format::adaptive, filename};
+  MeasuredSheetFile table = read_measured_sheet(filename);
+  for (const std::string& repair : table.repairs) m.scope.context.report.approximated(repair, file->place);
+  return MeasuredMaterial{filename, std::move(table.sheet)};
 }
 
 // v4's amount weights the second material, v3's the first.

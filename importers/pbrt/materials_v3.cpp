@@ -213,9 +213,10 @@ MaterialModel disney(const Maker& m) {
 }
 
 MaterialModel fourier(const Maker& m) {
-  m.parameters.ignore({"bsdffile"});
-  m.dropped("v3's tables of Fourier coefficients: it becomes diffuse, 0.5");
-  return DiffuseMaterial{};
+  const Parameter* file = m.parameters.find("bsdffile", {ParameterType::text});
+  if (!file || file->strings.size() != 1)
+    fail("a fourier material needs a \"string bsdffile\"", m.parameters.place());
+  return TabulatedMaterial{TabulatedMaterial::Format::fourier, find_file(*file, m.scope.context)};
 }
 
 struct Kind {

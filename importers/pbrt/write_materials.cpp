@@ -137,6 +137,19 @@ class MaterialWriter {
     p_.file("filename", m.filename);
     return "measured";
   }
+  const char* operator()(const TabulatedMaterial& m) {
+    if (m.format == TabulatedMaterial::Format::fourier) {
+      p_.approximated("pbrt-v4 reads no tables of Fourier coefficients: it becomes diffuse, 0.5");
+      p_.albedo("reflectance", ConstantSpectrum{0.5f});
+      return "diffuse";
+    }
+    p_.file("filename", m.filename);
+    return "measured";
+  }
+  const char* operator()(const SlabMaterial&) {
+    p_.approximated("pbrt has no slab of a medium: it becomes diffuse transmission, 0.25 each way");
+    return "diffusetransmission";
+  }
   const char* operator()(const InterfaceMaterial&) { return "interface"; }
   const char* operator()(const BlendMaterial& m) {
     const std::vector<std::string>& names = p_.writer().materials;

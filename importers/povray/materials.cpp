@@ -267,6 +267,11 @@ class Builder {
     return {diffuse(pigment(*m.color)), "", ""};
   }
   Surface surface_of(const MeasuredMaterial&) { return opaque_instead("measured material", 0.5); }
+  Surface surface_of(const TabulatedMaterial&) { return opaque_instead("tabulated material", 0.5); }
+  Surface surface_of(const SlabMaterial&) {
+    approximated("slab of a medium: diffuse transmission, 0.25 each way");
+    return surface_of(DiffuseTransmissionMaterial{});
+  }
   Surface surface_of(const InterfaceMaterial&) { return {"texture { Clear }\n", "", ""}; }
 
   // ---- Made of others ---------------------------------------------------------------------------

@@ -93,10 +93,11 @@ void bake_media(const Scene& scene, const Used& used, Appearance& result, Notes&
 
 void bake_materials(const Scene& scene, const Used& used, TextureBaker& textures, Appearance& result,
                     Notes& report) {
+  TableBaker tables;
   result.material_interiors.assign(scene.materials.size(), -1);
   result.material_ids = renumbered(used.materials, [&](std::size_t i, const auto& ids) {
     const Material& material = scene.materials[i];
-    BakedMaterial baked = bake_material(material, ids, textures);
+    BakedMaterial baked = bake_material(material, ids, textures, tables);
     if (baked.interior) {
       if (scene.settings.max_depth < unlimited_depth)
         baked.notes.push_back("the depth: its interior would use it up, so paths end by roulette alone");
@@ -116,6 +117,7 @@ void bake_materials(const Scene& scene, const Used& used, TextureBaker& textures
                           material.origin);
     return true;
   });
+  result.tables = tables.take();
 }
 
 // The images of lights are baked like any other.

@@ -17,6 +17,7 @@ namespace vitrail {
 struct Appearance {
   std::vector<Material> materials;
   std::vector<Texture> textures;
+  std::vector<ScatteringTable> tables;
   std::vector<Medium> media;
   std::vector<AreaLight> area_lights;
   std::vector<Light> lights;

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "partitioner/appearance/table_files.h"
 #include "scene/subsurface.h"
 
 namespace vitrail {
@@ -11,8 +12,9 @@ namespace {
 
 class MaterialBaker {
  public:
-  MaterialBaker(const std::vector<std::int32_t>& ids, TextureBaker& textures, BakedMaterial& result)
-      : ids_(ids), textures_(textures), result_(result) {}
+  MaterialBaker(const std::vector<std::int32_t>& ids, TextureBaker& textures, TableBaker& tables,
+                BakedMaterial& result)
+      : ids_(ids), textures_(textures), tables_(tables), result_(result) {}
 
   MaterialModel operator()(DiffuseMaterial m) {
     reflectance(m.reflectance), number(m.sigma_deg);
@@ -88,6 +90,13 @@ class MaterialBaker {
     if (m.sheet) return MeasuredMaterial{"", m.sheet};
     return grey("its measurements");
   }
+  MaterialModel operator()(const TabulatedMaterial& m) {
+    return TabulatedMaterial{m.format, "", tables_.bake(m)};
+  }
+  MaterialModel operator()(SlabMaterial m) {
+    factor(m.sigma_a), factor(m.sigma_s);
+    return m;
+  }
   MaterialModel operator()(const InterfaceMaterial& m) { return m; }
   MaterialModel operator()(BlendMaterial m) {
     part(m.first), part(m.second), number(m.amount);
@@ -126,17 +135,28 @@ class MaterialBaker {
 
   const std::vector<std::int32_t>& ids_;
   TextureBaker& textures_;
+  TableBaker& tables_;
   BakedMaterial& result_;
 };
 
 }  // namespace
 
+Id<ScatteringTable> TableBaker::bake(const TabulatedMaterial& material) {
+  const auto [known, is_new] =
+      known_.try_emplace({material.format, material.filename}, static_cast<std::uint32_t>(tables_.size()));
+  if (is_new && material.format == TabulatedMaterial::Format::fourier)
+    tables_.push_back(read_fourier_table(material.filename));
+  else if (is_new)
+    tables_.push_back(read_adaptive_table(material.filename));
+  return {known->second};
+}
+
 BakedMaterial bake_material(const Material& material, const std::vector<std::int32_t>& ids,
-                            TextureBaker& textures) {
+                            TextureBaker& textures, TableBaker& tables) {
   BakedMaterial result;
   result.material.two_sided = material.two_sided;
   result.material.bump_shadowing = material.bump_shadowing;
-  result.material.model = std::visit(MaterialBaker(ids, textures, result), material.model);
+  result.material.model = std::visit(MaterialBaker(ids, textures, tables, result), material.model);
   if (material.displacement) result.material.displacement = textures.bake(*material.displacement);
   if (material.normal_map) result.material.normal_map = textures.bake_vector(*material.normal_map);
   return result;

@@ -2,6 +2,7 @@
 // The materials of a bundle.
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -18,9 +19,21 @@ struct BakedMaterial {
   std::optional<Medium> interior;
 };
 
+// The tables of files, each read once.
+class TableBaker {
+ public:
+  // Throws Error for a file that is not what the material says.
+  Id<ScatteringTable> bake(const TabulatedMaterial& material);
+  std::vector<ScatteringTable> take() { return std::move(tables_); }
+
+ private:
+  std::vector<ScatteringTable> tables_;
+  std::map<std::pair<TabulatedMaterial::Format, std::string>, std::uint32_t> known_;
+};
+
 // `ids[i]` is the new id of the scene's material i; those that `material` refers to have one.
 BakedMaterial bake_material(const Material& material, const std::vector<std::int32_t>& ids,
-                            TextureBaker& textures);
+                            TextureBaker& textures, TableBaker& tables);
 
 // The materials that it refers to.
 std::vector<Id<Material>> parts_of(const Material& material);

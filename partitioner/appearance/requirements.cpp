@@ -14,6 +14,7 @@ struct TextureCollector {
   void operator()(Number auto) const {}
   void operator()(Id<Texture> id) const { textures.at(id.value) = true; }
   void operator()(Id<Material>) const {}
+  void operator()(Id<ScatteringTable>) const {}
   void may_be_infinite(float) const {}
 };
 
@@ -59,6 +60,7 @@ bool is_zero(const FloatParameter& p) { return p == FloatParameter{0.0f}; }
 
 struct MaterialNeeds {
   Requirements& r;
+  const std::vector<ScatteringTable>& tables;
   void operator()(const DielectricMaterial& m) {
     r.uv |= !is_isotropic(m.roughness);
     r.refraction |= is_smooth(m.roughness);
@@ -73,6 +75,11 @@ struct MaterialNeeds {
   void operator()(const PrincipledMaterial& m) { r.uv |= !is_zero(m.anisotropic); }
   void operator()(const ThinDielectricMaterial&) { r.see_through = true; }
   void operator()(const MeasuredMaterial&) { r.see_through = true; }
+  void operator()(const SlabMaterial&) { r.see_through = true; }
+  void operator()(const TabulatedMaterial& m) {
+    const auto* table = std::get_if<AdaptiveTable>(&tables.at(m.table.value));
+    r.uv |= table && !is_isotropic(*table);
+  }
   void operator()(const InterfaceMaterial&) { r.see_through = true; }
   void operator()(const MaskMaterial& m) { r.see_through |= m.opacity != FloatParameter{1.0f}; }
   void operator()(const auto&) {}
@@ -89,7 +96,7 @@ Requirements requirements_of(const Manifest& m, bool has_normals) {
   for (std::size_t i = 0; i < used.size(); ++i)
     if (used[i]) std::visit(TextureNeeds{r}, m.textures[i].model);
   for (const Material& material : m.materials) {
-    std::visit(MaterialNeeds{r}, material.model);
+    std::visit(MaterialNeeds{r, m.tables}, material.model);
     r.uv |= material.displacement || material.normal_map;
   }
   for (const Surface& surface : m.surfaces) r.see_through |= surface.opacity != FloatParameter{1.0f};

@@ -73,6 +73,7 @@ void move_records(const Scene& scene, Appearance& appearance, Manifest& m) {
   m.media = std::move(appearance.media);
   for (Medium& medium : m.media) medium.medium_to_world = translate(-m.offset) * medium.medium_to_world;
   m.textures = std::move(appearance.textures);
+  m.tables = std::move(appearance.tables);
   move(m.textures, -m.offset);
   m.lights = std::move(appearance.lights);
   for (Light& light : m.lights) std::visit(LightMover{m.offset}, light.model);

@@ -49,6 +49,58 @@ TEST_F(ManifestFile, ComesBackAsItWas) {
   EXPECT_EQ(r.scene_hash, m.scene_hash);
 }
 
+// A reflector with one coefficient a pair, and measurements of nothing in particular.
+ScatteringTable fourier_table() {
+  return FourierTable{
+      1.5f, 1, {-1, 0, 0, 1}, std::vector<std::uint32_t>(16), std::vector<std::uint32_t>(16, 1), {0.25f}};
+}
+ScatteringTable adaptive_table() {
+  const SquareTable square{2, 2, {1, 2, 3, 4}};
+  return AdaptiveTable{{0}, {0.5f}, {500}, square, square, square, square, square, true};
+}
+
+TEST_F(ManifestFile, Tables) {
+  Manifest m = sample_manifest();
+  using Format = TabulatedMaterial::Format;
+  m.tables = {fourier_table(), adaptive_table()};
+  m.materials.push_back(Material{TabulatedMaterial{Format::adaptive, "", {1}}});
+  m.materials.push_back(Material{SlabMaterial{ConstantSpectrum{1}, ConstantSpectrum{2}, 3, 0.5f}});
+  EXPECT_EQ(features_of(m).required & (required_feature::tables | required_feature::slabs),
+            required_feature::tables | required_feature::slabs);
+  const Manifest r = written_and_read(m);
+  EXPECT_EQ(r.tables, m.tables);
+  EXPECT_EQ(r.materials, m.materials);
+
+  const auto refused = [&](auto&& spoil) {
+    Manifest bad = m;
+    spoil(bad);
+    EXPECT_THROW(write_manifest(directory.path(), bad), Error);
+  };
+  const auto fourier = [](Manifest& bad) -> FourierTable& { return std::get<FourierTable>(bad.tables[0]); };
+  const auto adaptive = [](Manifest& bad) -> AdaptiveTable& {
+    return std::get<AdaptiveTable>(bad.tables[1]);
+  };
+  using Material = TabulatedMaterial;
+  const auto tabulated = [&](Manifest& bad) -> Material& {
+    return std::get<Material>(bad.materials[bad.materials.size() - 2].model);
+  };
+  refused([&](Manifest& bad) { tabulated(bad).table.value = 2; });
+  refused([&](Manifest& bad) { tabulated(bad).table.value = 0; });  // of the other format
+  refused([&](Manifest& bad) { fourier(bad).first[3] = 1; });
+  refused([&](Manifest& bad) { fourier(bad).orders[15] = 0x7fffffff; });
+  refused([&](Manifest& bad) { fourier(bad).mu = {-1, 0, 0, 0}; });
+  refused([&](Manifest& bad) { fourier(bad).mu = {-1, 0.5f, 0, 1}; });
+  refused([&](Manifest& bad) { fourier(bad).eta = 0; });
+  refused([&](Manifest& bad) { fourier(bad).channels = 2; });
+  refused([&](Manifest& bad) { adaptive(bad).theta_i = {}; });
+  refused([&](Manifest& bad) { adaptive(bad).theta_i = {0.5f, 0.5f}; });
+  refused([&](Manifest& bad) { adaptive(bad).luminance.values = {0, 0, 0, 0}; });
+  refused([&](Manifest& bad) { adaptive(bad).visible_normals.values[1] = -1; });
+  refused([&](Manifest& bad) { adaptive(bad).spectra.values.pop_back(); });
+  refused([&](Manifest& bad) { adaptive(bad).normals.rows = 1; });
+  refused([&](Manifest& bad) { std::get<SlabMaterial>(bad.materials.back().model).g = 1; });
+}
+
 TEST_F(ManifestFile, OpacitiesOfWhatShines) {
   Manifest m = sample_manifest();
   m.emissive_opacities.assign(m.emissive_triangles.size(), 0.25f);

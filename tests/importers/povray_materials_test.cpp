@@ -56,11 +56,11 @@ Scene all_materials() {
            ConductorMaterial{}, ConductorMaterial{PerfectReflector{}, rough}, PlasticMaterial{},
            CoatedDiffuseMaterial{}, CoatedConductorMaterial{}, DiffuseTransmissionMaterial{},
            PrincipledMaterial{}, SubsurfaceMaterial{}, HairMaterial{}, MeasuredMaterial{},
-           InterfaceMaterial{}})
+           TabulatedMaterial{}, SlabMaterial{}, InterfaceMaterial{}})
     scene.materials.push_back({std::move(model)});
   scene.materials.push_back({BlendMaterial{{0}, {1}, 0.75f}});
   scene.materials.push_back({MaskMaterial{0.5f, {6}}});
-  scene.materials.push_back({TwoSidedMaterial{{7}, {16}}});
+  scene.materials.push_back({TwoSidedMaterial{{7}, {18}}});
   scene.materials.push_back({DiffuseMaterial{}, false});
   scene.lights.push_back({PointLight{{0, 0, 3}, ConstantSpectrum{1}}});
   show_all(scene);

@@ -292,7 +292,9 @@ TEST_F(WriteMitsuba, ExactModels) {
   element = write_material(PrincipledMaterial{});
   EXPECT_EQ(std::distance(element.begin(), element.end()), 12);
   EXPECT_STREQ(write_material(InterfaceMaterial{}).attribute("type").value(), "null");
-  EXPECT_STREQ(write_material(MeasuredMaterial{"/m.bsdf"}).attribute("type").value(), "measured");
+  using Format = TabulatedMaterial::Format;
+  EXPECT_STREQ(write_material(TabulatedMaterial{Format::adaptive, "/m.bsdf"}).attribute("type").value(),
+               "measured");
   EXPECT_THAT(diagnostics_, IsEmpty());
 }
 

@@ -245,6 +245,8 @@ TEST_F(WriteObj, AllMaterials) {
                                     SubsurfaceMaterial{},
                                     HairMaterial{},
                                     MeasuredMaterial{},
+                                    TabulatedMaterial{},
+                                    SlabMaterial{},
                                     InterfaceMaterial{}};
   Scene scene = triangle();
   for (MaterialModel& model : models) scene.materials.push_back({std::move(model)});

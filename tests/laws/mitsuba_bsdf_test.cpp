@@ -5,6 +5,8 @@
 
 #include "tests/importers/mitsuba_oracle.h"
 #include "tests/laws/bsdf_laws.h"
+#include "tests/laws/table_cases.h"
+#include "tracer/bsdf/adaptive.h"
 #include "tracer/bsdf/conductor.h"
 #include "tracer/bsdf/dielectric.h"
 #include "tracer/bsdf/diffuse.h"
@@ -49,10 +51,11 @@ class MitsubaBsdf : public testing::Test {
     return result;
   }
 
-  void ask(const Json& bsdf, const Subject& s, std::vector<Pair> asked) {
+  void ask(const Json& bsdf, const Subject& s, std::vector<Pair> asked, const Json& wavelengths = {}) {
     Json numbers = Json::array();
     for (const Pair& p : asked) numbers.push_back({p.out.x, p.out.y, p.out.z, p.in.x, p.in.y, p.in.z});
     request_.push_back({{"bsdf", bsdf}, {"pairs", numbers}});
+    if (!wavelengths.is_null()) request_.back()["wavelengths"] = wavelengths;
     questions_.push_back({bsdf.dump(), s, std::move(asked)});
   }
   void ask(const Json& bsdf, const Subject& s) { ask(bsdf, s, pairs(s)); }
@@ -179,6 +182,23 @@ TEST_F(MitsubaBsdf, RoughPlastic) {
                                            &tables.back(), nonlinear}));
       }
   expect_same(0.01, 0.02);
+}
+
+TEST_F(MitsubaBsdf, Measured) {
+  std::deque<std::pair<AdaptiveTable, AdaptiveWarps>> tables;
+  for (const auto& [u, v] : {std::pair{0.3, 0.3}, {0.15, 0.4}}) {
+    const AdaptiveTable made =
+        laws::adaptive_table({.facets = make_microfacets(u, v), .low = 0.2, .high = 0.8});
+    tables.emplace_back(made, warps_of(made));
+    const std::string file = (folder_ / fmt::format("{}.bsdf", v)).string();
+    laws::write(made, file);
+    for (const float nm : {380.0f, 487.0f, 640.0f}) {
+      const std::array<float, 4> wavelengths{nm, 500, 600, 700};
+      const Subject s = subject(AdaptiveBsdf{&tables.back().first, &tables.back().second, {wavelengths, {}}});
+      ask({{"type", "measured"}, {"filename", file}}, s, pairs(s), wavelengths);
+    }
+  }
+  expect_same(2e-3, 2e-3);
 }
 
 TEST_F(MitsubaBsdf, Deltas) {

@@ -30,7 +30,7 @@ TEST(Appearance, WhatTheRendererHasStaysAsItIs) {
   for (const MaterialModel& model : std::vector<MaterialModel>{
            DiffuseMaterial{grey(.25f), 20.0f}, DielectricMaterial{}, ThinDielectricMaterial{},
            ConductorMaterial{PerfectReflector{}}, PlasticMaterial{}, CoatedDiffuseMaterial{},
-           DiffuseTransmissionMaterial{}, PrincipledMaterial{}, InterfaceMaterial{}}) {
+           DiffuseTransmissionMaterial{}, PrincipledMaterial{}, InterfaceMaterial{}, SlabMaterial{}}) {
     const Appearance a = baked(model);
     EXPECT_TRUE(a.diagnostics.empty()) << model.index();
     EXPECT_EQ(a.materials.at(0).model, model) << model.index();
@@ -52,7 +52,7 @@ TEST(Appearance, OthersBecomeTheNearestAndSaySo) {
     return luminance(std::get<Spectrum>(diffuse.reflectance));
   };
   EXPECT_NEAR(reflectance(HairMaterial{}), .5, 1e-4);
-  EXPECT_NEAR(reflectance(MeasuredMaterial{"table.bsdf"}), .5, 1e-4);
+  EXPECT_NEAR(reflectance(MeasuredMaterial{"table.pbsdf"}), .5, 1e-4);
 }
 
 TEST(Appearance, SubsurfaceMaterialsBringTheirMedium) {

@@ -1,32 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tracer/bsdf/measured.h"
 
-#include <algorithm>
 #include <cmath>
-#include <span>
 
+#include "tracer/bsdf/between.h"
 #include "tracer/bsdf/local.h"
 
 namespace vitrail {
 
 namespace {
-
-// Of a position between the nodes `first` and `first + 1`, or at `first` where part = 0.
-struct Between {
-  std::size_t first;
-  double part;
-};
-
-Between locate(std::span<const float> nodes, double x) {
-  const auto above = std::upper_bound(nodes.begin(), nodes.end(), x, [](double value, float node) {
-    return value < static_cast<double>(node);
-  });
-  if (above == nodes.begin()) return {0, 0};
-  const auto first = static_cast<std::size_t>(above - nodes.begin()) - 1;
-  if (above == nodes.end()) return {first, 0};
-  const auto low = static_cast<double>(nodes[first]), high = static_cast<double>(nodes[first + 1]);
-  return {first, (x - low) / (high - low)};  // low ≤ x < high
-}
 
 double interpolate(std::span<const float> values, std::size_t row_length, Between row, Between column) {
   const auto in_row = [&](std::size_t i) {
