@@ -20,7 +20,7 @@ struct Features {
 
 namespace required_feature {
 inline constexpr std::uint32_t normals = 1, uvs = 2, attributes = 4, instances = 8, textures = 16,
-                               quadrics = 32, procedural = 64;
+                               quadrics = 32, procedural = 64, hair = 128;
 }
 namespace optional_feature {
 inline constexpr std::uint32_t pieces = 1;

@@ -96,6 +96,9 @@ Features features_of(const Manifest& m) {
                                        std::holds_alternative<DotsTexture>(t.model);
                               }),
           required_feature::procedural);
+  require(std::ranges::any_of(
+              m.materials, [](const Material& of) { return std::holds_alternative<HairMaterial>(of.model); }),
+          required_feature::hair);
   if (m.cut_triangles > 0) f.optional |= optional_feature::pieces;
   return f;
 }

@@ -7,6 +7,7 @@
 #include "tracer/bsdf/conductor.h"
 #include "tracer/bsdf/dielectric.h"
 #include "tracer/bsdf/diffuse.h"
+#include "tracer/bsdf/hair.h"
 #include "tracer/bsdf/layered.h"
 #include "tracer/bsdf/measured.h"
 #include "tracer/bsdf/plastic.h"
@@ -15,9 +16,10 @@
 
 namespace vitrail {
 
-using Bsdf = std::variant<LambertBsdf, OrenNayarBsdf, DiffuseTransmissionBsdf, ConductorBsdf, DielectricBsdf,
-                          ThinDielectricBsdf, PlasticBsdf, RoughPlasticBsdf, PrincipledBsdf,
-                          PrincipledThinBsdf, CoatedDiffuseBsdf, CoatedConductorBsdf, MeasuredSheetBsdf>;
+using Bsdf =
+    std::variant<LambertBsdf, OrenNayarBsdf, DiffuseTransmissionBsdf, ConductorBsdf, DielectricBsdf,
+                 ThinDielectricBsdf, PlasticBsdf, RoughPlasticBsdf, PrincipledBsdf, PrincipledThinBsdf,
+                 CoatedDiffuseBsdf, CoatedConductorBsdf, MeasuredSheetBsdf, HairBsdf>;
 
 inline BsdfValue eval(const Bsdf& bsdf, Vector3d out, Vector3d in) {
   return std::visit([&](const auto& b) { return eval(b, out, in); }, bsdf);
