@@ -182,7 +182,8 @@ TEST_F(MitsubaBsdf, RoughPlastic) {
   expect_same(0.01, 0.02);
 }
 
-// Mitsuba's fibre runs along y of the local frame.
+// Mitsuba's fibre runs along y of the local frame. Its ln I₀(x) lacks 1/(16x) where x > 12: 0.5 % there;
+// where lobes are so wide that x stays below, the two agree to 7e-5.
 TEST_F(MitsubaBsdf, Hair) {
   const auto along_y = [](Vector3d v) { return Vector3d{v.y, -v.x, v.z}; };
   for (const auto& [beta_m, beta_n] : {std::pair{0.1, 0.3}, {0.3, 0.3}, {0.6, 0.1}, {1.0, 1.0}})
@@ -205,7 +206,7 @@ TEST_F(MitsubaBsdf, Hair) {
         };
         ask(bsdf, s);
       }
-  expect_same(2e-3, 2e-3);
+  expect_same(0.01, 0.01);
 }
 
 TEST_F(MitsubaBsdf, Deltas) {

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "scene/color.h"
+#include "scene/hair.h"
 #include "scene/rgb_to_spectrum.h"
 
 namespace vitrail {
@@ -61,9 +62,9 @@ TEST(Appearance, MelaninBecomesAbsorption) {
   EXPECT_TRUE(a.diagnostics.empty());
   const auto& made = std::get<HairMaterial>(a.materials.at(0).model);
   EXPECT_FALSE(made.eumelanin || made.pheomelanin || made.color);
-  EXPECT_EQ(made.sigma_a, SpectrumParameter{unbounded_from_rgb({0.25625, 0.4485, 0.9475})});
+  EXPECT_EQ(made.sigma_a, SpectrumParameter{melanin_absorption(0.5, 0.25)});
   EXPECT_EQ(std::get<HairMaterial>(baked(HairMaterial{}).materials.at(0).model).sigma_a,
-            SpectrumParameter{grey(0)});
+            SpectrumParameter{unbounded_from_rgb({0, 0, 0})});
 }
 
 TEST(Appearance, SubsurfaceMaterialsBringTheirMedium) {
