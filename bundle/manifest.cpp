@@ -102,6 +102,9 @@ Features features_of(const Manifest& m) {
   require(std::ranges::any_of(
               m.materials, [](const Material& a) { return std::holds_alternative<SlabMaterial>(a.model); }),
           required_feature::slabs);
+  require(std::ranges::any_of(
+              m.materials, [](const Material& of) { return std::holds_alternative<HairMaterial>(of.model); }),
+          required_feature::hair);
   if (m.cut_triangles > 0) f.optional |= optional_feature::pieces;
   return f;
 }

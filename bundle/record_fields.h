@@ -241,6 +241,11 @@ void fields(auto& io, Is<PrincipledMaterial> auto& m) {
     fields(io, *p);
   io(m.eta), fields(io, m.thin);
 }
+void fields(auto& io, Is<HairMaterial> auto& m) {
+  fields(io, m.sigma_a), fields(io, m.color), fields(io, m.eumelanin), fields(io, m.pheomelanin);
+  io(m.eta), io(m.exterior_eta), fields(io, m.beta_m), fields(io, m.beta_n), fields(io, m.alpha_deg);
+  fields(io, m.along_v);
+}
 void fields(auto&, Is<InterfaceMaterial> auto&) {}
 void fields(auto& io, Is<BlendMaterial> auto& m) {
   fields(io, m.first), fields(io, m.second), fields(io, m.amount);
@@ -257,7 +262,7 @@ void fields(auto& io, Is<SlabMaterial> auto& m) {
 }
 // Other materials stand for these in a bundle.
 template <class T>
-concept Replaced = Is<T, SubsurfaceMaterial> || Is<T, HairMaterial>;
+concept Replaced = Is<T, SubsurfaceMaterial>;
 void fields(auto& io, Replaced auto&) {
   if constexpr (reads<decltype(io)>) io.stream.fail("a material is of a kind that bundles do not have");
   throw std::logic_error("a bundle does not take this material");

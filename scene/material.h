@@ -152,12 +152,14 @@ struct SubsurfaceMaterial {
   bool operator==(const SubsurfaceMaterial&) const = default;
 };
 
-// A fibre (Chiang et al. 2016). Its absorption comes from the first of these that is given.
+// A fibre (Chiang et al. 2016): a cylinder seen from outside, of which nothing is met from within. Its
+// absorption, over the radius, comes from the first of these that is given.
 struct HairMaterial {
   std::optional<SpectrumParameter> sigma_a, color;
   std::optional<FloatParameter> eumelanin, pheomelanin;
   float eta = 1.55f, exterior_eta = 1;
   FloatParameter beta_m = 0.3f, beta_n = 0.3f, alpha_deg = 2.0f;
+  bool along_v = false;  // it runs along v, as in Mitsuba, not along u, as in pbrt
   bool operator==(const HairMaterial&) const = default;
 };
 

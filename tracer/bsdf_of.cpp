@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "scene/hair.h"
 #include "scene/portable_math.h"
 #include "scene/srgb_basis.h"
 #include "tracer/wavelengths.h"
@@ -27,7 +28,8 @@ bool transmits(const MaterialModel& model) {
   return std::holds_alternative<DielectricMaterial>(model) ||
          std::holds_alternative<ThinDielectricMaterial>(model) ||
          std::holds_alternative<DiffuseTransmissionMaterial>(model) ||
-         std::holds_alternative<MeasuredMaterial>(model) || std::holds_alternative<SlabMaterial>(model);
+         std::holds_alternative<HairMaterial>(model) || std::holds_alternative<MeasuredMaterial>(model) ||
+         std::holds_alternative<SlabMaterial>(model);
 }
 
 LoadedTable loaded_table(const ScatteringTable& table) {
@@ -189,6 +191,22 @@ Bsdf BsdfMaker::operator()(const PrincipledMaterial& m) const {
                         n(m.flatness),
                         n(m.clearcoat),
                         n(m.clearcoat_gloss)};
+}
+
+SampledSpectrum BsdfMaker::absorption(const HairMaterial& m) const {
+  if (m.sigma_a) return spectrum(*m.sigma_a);
+  if (m.color) return hair_absorption(spectrum(*m.color), number(m.beta_n));
+  static const Spectrum eumelanin = melanin_absorption(1, 0), pheomelanin = melanin_absorption(0, 1);
+  const auto of = [&](const std::optional<FloatParameter>& amount, const Spectrum& pigment) {
+    return evaluate(pigment, wavelengths) * static_cast<float>(amount ? std::max(0.0, number(*amount)) : 0);
+  };
+  return of(m.eumelanin, eumelanin) + of(m.pheomelanin, pheomelanin);
+}
+
+Bsdf BsdfMaker::operator()(const HairMaterial& m) const {
+  return make_hair(absorption(m), throughput,
+                   static_cast<double>(m.eta) / static_cast<double>(m.exterior_eta), number(m.beta_m),
+                   number(m.beta_n), number(m.alpha_deg));
 }
 
 }  // namespace vitrail

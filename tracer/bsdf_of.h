@@ -47,6 +47,7 @@ struct BsdfMaker {
   Bsdf operator()(const CoatedConductorMaterial& m) const;
   Bsdf operator()(const DiffuseTransmissionMaterial& m) const;
   Bsdf operator()(const PrincipledMaterial& m) const;
+  Bsdf operator()(const HairMaterial& m) const;
   Bsdf operator()(const MeasuredMaterial& m) const {
     return MeasuredSheetBsdf{&*m.sheet, wavelengths, throughput};
   }
@@ -65,6 +66,7 @@ struct BsdfMaker {
   ConductorBsdf metal(const Metal& metal) const;
   LayerVolume coating(const CoatingVolume& v) const;
   double luminance_of(const PrincipledMaterial& m) const;
+  SampledSpectrum absorption(const HairMaterial& m) const;
 };
 
 }  // namespace vitrail

@@ -290,7 +290,7 @@ bool PathTracer::connect_onwards(Path& path) {
   Interaction at = interaction_at(path);
   const Surface& surface = surface_at(path);
   const MaterialKind& kind = scene_.materials.kind(surface.material);
-  const bool is_gone = !is_there(path, surface, at), passes = is_gone || kind.is_interface;
+  const bool is_gone = !is_there(path, surface, at), passes = is_gone || kind.is_nothing(at);
   const bool bends = refracts && kind.smooth_dielectric && !passes;
   const SampledSpectrum straight = passes  ? filled(1)
                                    : bends ? filled(0)

@@ -29,6 +29,21 @@ MaterialKind kind_of(const Material& material) {
   return kind;
 }
 
+// Of a fibre there is nothing from behind.
+bool is_nothing(const Material& m, bool front) {
+  return std::holds_alternative<InterfaceMaterial>(m.model) ||
+         (std::holds_alternative<HairMaterial>(m.model) && !front);
+}
+
+// Hair, and what is made of nothing but hair.
+bool is_fibre(const Manifest& m, const Material& material) {
+  const auto part = [&](Id<Material> id) { return is_fibre(m, m.materials[id.value]); };
+  if (const auto* blend = std::get_if<BlendMaterial>(&material.model))
+    return part(blend->first) && part(blend->second);
+  if (const auto* mask = std::get_if<MaskMaterial>(&material.model)) return part(mask->material);
+  return std::holds_alternative<HairMaterial>(material.model);
+}
+
 bool has_diffuse_part(const Manifest& m, const Material& material) {
   const auto part = [&](Id<Material> id) { return has_diffuse_part(m, m.materials[id.value]); };
   if (const auto* sided = std::get_if<TwoSidedMaterial>(&material.model))
@@ -74,10 +89,10 @@ RoughPlasticTables plastic_tables(double alpha, double eta, Roughness::Distribut
   return smooth;
 }
 
-ShadingFrame frame_around(Vector3d n, const Interaction& at, double side) {
+ShadingFrame frame_around(Vector3d n, Vector3d along, double side) {
   ShadingFrame frame;
-  frame.tangent = at.dpdu - n * dot(n, at.dpdu);
-  if (dot(frame.tangent, frame.tangent) > 1e-12 * dot(at.dpdu, at.dpdu)) {
+  frame.tangent = along - n * dot(n, along);
+  if (dot(frame.tangent, frame.tangent) > 1e-12 * dot(along, along)) {
     frame.tangent = normalize(frame.tangent);
     frame.bitangent = cross(n, frame.tangent);
   } else {
@@ -100,6 +115,7 @@ Materials::Materials(const Manifest& manifest, const Textures& textures)
   std::map<std::tuple<float, float, Roughness::Distribution>, std::uint32_t> known;
   for (std::size_t i = 0; i < manifest.materials.size(); ++i) {
     kinds_.push_back(kind_of(manifest.materials[i]));
+    kinds_.back().is_fibre = is_fibre(manifest, manifest.materials[i]);
     kinds_.back().diffuse = has_diffuse_part(manifest, manifest.materials[i]);
     if (const auto* principled = std::get_if<PrincipledMaterial>(&manifest.materials[i].model))
       if (const auto* color = std::get_if<Spectrum>(&principled->base_color); color && has_tint(*principled))
@@ -130,7 +146,7 @@ const Material* Materials::choose(std::uint32_t material, const Interaction& at,
       if (chance.next() >= textures_.number(mask->opacity, at.texture_point())) return nullptr;
       material = mask->material.value;
     } else {
-      return std::holds_alternative<InterfaceMaterial>(m.model) ? nullptr : &m;
+      return is_nothing(m, at.front) ? nullptr : &m;
     }
   }
 }
@@ -152,7 +168,7 @@ SampledSpectrum Materials::passes_straight(std::uint32_t material, const Interac
     const float opacity = share(mask->opacity);
     return filled(1 - opacity) + part(mask->material) * opacity;
   }
-  if (std::holds_alternative<InterfaceMaterial>(m.model)) return filled(1);
+  if (is_nothing(m, at.front)) return filled(1);
   if (const auto* measured = std::get_if<MeasuredMaterial>(&m.model))
     return sheet_fractions(*measured->sheet, wavelengths, std::abs(dot(at.out, at.shading))).transmitted;
   if (const auto* thin = std::get_if<ThinDielectricMaterial>(&m.model)) {
@@ -196,8 +212,11 @@ std::optional<Scattering> Materials::scattering_at(const Material& material, con
       event,
       luminance_[index_of(material)],
       tables_};
-  return Scattering{std::visit(maker, material.model), frame_around(normal, at, both_sides ? 1.0 : at.side()),
-                    both_sides, material.bump_shadowing ? bump_alpha2(dot(normal, at.shading)) : 0};
+  const auto* hair = std::get_if<HairMaterial>(&material.model);
+  return Scattering{
+      std::visit(maker, material.model),
+      frame_around(normal, hair && hair->along_v ? at.dpdv : at.dpdu, both_sides ? 1.0 : at.side()),
+      both_sides, material.bump_shadowing ? bump_alpha2(dot(normal, at.shading)) : 0};
 }
 
 namespace {

@@ -16,9 +16,12 @@ namespace vitrail {
 // What a path has to know of a surface's material before anything is looked up.
 struct MaterialKind {
   bool is_interface = false;       // nothing is there
+  bool is_fibre = false;           // nothing is there from behind
   bool smooth_dielectric = false;  // bends light as it is: of panes and connections through them
   bool dispersive = false;         // its index depends on λ
   bool diffuse = false;            // it, or a part of it, may be one that gathers photons
+
+  bool is_nothing(const Interaction& at) const { return is_interface || (is_fibre && !at.front); }
 };
 
 class Materials {

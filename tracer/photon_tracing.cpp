@@ -53,7 +53,7 @@ bool PathTracer::shade_photon(Path& path) {
   Interaction at = interaction_at(path);
   widen_cone(path, path.hit.t);
   const MaterialKind& kind = scene_.materials.kind(surface.material);
-  if (!is_there(path, surface, at) || kind.is_interface) {
+  if (!is_there(path, surface, at) || kind.is_nothing(at)) {
     pass_straight(path, at, &surface);
     return true;
   }
@@ -99,7 +99,9 @@ bool PathTracer::shade_photon(Path& path) {
     return true;
   }
   // Through a surface f(out, in) is not f(in, out): light that is refracted is not compressed as radiance is.
-  const bool through = out.z * chosen->in.z < 0;
+  // Of a fibre, which is not reciprocal, they are taken as one, and cosines mean nothing.
+  const bool fibre = std::holds_alternative<HairBsdf>(scattering->bsdf);
+  const bool through = !fibre && out.z * chosen->in.z < 0;
   if (const auto* glass = std::get_if<DielectricBsdf>(&scattering->bsdf);
       glass && through && chosen->specular)
     weight = weight * static_cast<float>(out.z > 0 ? glass->eta * glass->eta : 1 / (glass->eta * glass->eta));
@@ -107,7 +109,7 @@ bool PathTracer::shade_photon(Path& path) {
     weight = eval(scattering->bsdf, chosen->in, out).value *
              static_cast<float>(std::abs(chosen->in.z / out.z) / chosen->pdf);
   Vector3d direction = scattering->frame.to_world(chosen->in);
-  float adjoint = adjoint_of_shading(at, scattering->frame.normal, direction);
+  float adjoint = fibre ? 1 : adjoint_of_shading(at, scattering->frame.normal, direction);
   if (leaves_its_side(*scattering, at, out, *chosen, direction)) {
     if (!chosen->specular || !(out.z * chosen->in.z > 0)) return false;
     direction = mirrored(at);

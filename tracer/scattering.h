@@ -9,6 +9,7 @@
 #include "tracer/bsdf/dielectric.h"
 #include "tracer/bsdf/diffuse.h"
 #include "tracer/bsdf/fourier.h"
+#include "tracer/bsdf/hair.h"
 #include "tracer/bsdf/layered.h"
 #include "tracer/bsdf/measured.h"
 #include "tracer/bsdf/plastic.h"
@@ -21,7 +22,7 @@ namespace vitrail {
 using Bsdf = std::variant<LambertBsdf, OrenNayarBsdf, DiffuseTransmissionBsdf, ConductorBsdf, DielectricBsdf,
                           ThinDielectricBsdf, PlasticBsdf, RoughPlasticBsdf, PrincipledBsdf,
                           PrincipledThinBsdf, CoatedDiffuseBsdf, CoatedConductorBsdf, MeasuredSheetBsdf,
-                          FourierBsdf, AdaptiveBsdf, SlabBsdf>;
+                          FourierBsdf, AdaptiveBsdf, SlabBsdf, HairBsdf>;
 
 inline BsdfValue eval(const Bsdf& bsdf, Vector3d out, Vector3d in) {
   return std::visit([&](const auto& b) { return eval(b, out, in); }, bsdf);

@@ -78,7 +78,7 @@ bool PathTracer::shade_surface(Path& path) {
   if (path.is(path_in_pane) && (at.front || !kind.smooth_dielectric)) path.disperse();
   if (surface.area_light >= 0) add_emission(path, at, static_cast<std::uint32_t>(surface.area_light));
   const bool is_last = path.depth >= static_cast<std::uint32_t>(manifest_.settings.max_depth);
-  if (kind.is_interface) {
+  if (kind.is_nothing(at)) {
     pass_straight(path, at, &surface);
     return true;
   }

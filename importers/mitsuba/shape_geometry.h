@@ -25,7 +25,7 @@ std::string kind_of(const Object& shape);
 std::optional<ShapeGeometry> analytic_shape(Builder& builder, const Object& shape);
 // obj, ply, serialized.
 std::optional<ShapeGeometry> shape_of_file(Builder& builder, const Object& shape);
-// linearcurve, bsplinecurve.
+// linearcurve, bsplinecurve, and hair of 0.6.
 std::optional<ShapeGeometry> curve_shape(Builder& builder, const Object& shape);
 
 // The mesh under this key: made where it is not there yet. An Error that it throws without a place gets that

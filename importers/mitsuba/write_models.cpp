@@ -4,6 +4,7 @@
 
 #include "importers/mitsuba/write_materials.h"
 #include "scene/color.h"
+#include "scene/hair.h"
 #include "scene/metal_tables.h"
 #include "scene/rgb_to_spectrum.h"
 
@@ -224,13 +225,10 @@ void write(Context& context, Element parent, ElementId id, const SubsurfaceMater
   write(context, parent, id, DielectricMaterial{.eta = m.eta, .roughness = m.roughness});
 }
 
-// Chiang et al. 2016, eq. 9: the absorption that gives hair of azimuthal roughness β the colour c.
+// The absorption that gives hair of azimuthal roughness β the colour c.
 Spectrum hair_absorption(RGB c, double beta) {
-  const double b = beta;
-  const double scale = 5.969 - 0.215 * b + 2.532 * b * b - 10.73 * b * b * b + 5.574 * b * b * b * b +
-                       0.245 * b * b * b * b * b;
   const auto absorption = [&](double component) {
-    const double root = std::log(std::clamp(component, 1e-4, 1.0)) / scale;
+    const double root = std::log(std::clamp(component, 1e-4, 1.0)) / hair_color_scale(beta);
     return root * root;
   };
   return unbounded_from_rgb({absorption(c.r), absorption(c.g), absorption(c.b)});
@@ -238,6 +236,7 @@ Spectrum hair_absorption(RGB c, double beta) {
 
 void write(Context& context, Element parent, ElementId id, const HairMaterial& m) {
   Element element = add(parent, "bsdf", "hair", "", id);
+  if (!m.along_v) context.approximated("Mitsuba's hair runs along v, this along u");
   add_float(element, "int_ior", m.eta);
   add_float(element, "ext_ior", m.exterior_eta);
   const float beta_n = constant_of(context, m.beta_n, "the roughness of hair");
@@ -251,9 +250,11 @@ void write(Context& context, Element parent, ElementId id, const HairMaterial& m
     return add_spectrum(element, "sigma_a", hair_absorption(color, static_cast<double>(beta_n)),
                         Meaning::unbounded);
   }
-  const bool melanin = m.eumelanin || m.pheomelanin;
-  add_parameter(context, element, "eumelanin", m.eumelanin.value_or(melanin ? 0.0f : 1.3f));
-  add_parameter(context, element, "pheomelanin", m.pheomelanin.value_or(0.0f));
+  const auto melanin = [&](const std::optional<FloatParameter>& p) {
+    return constant_of(context, p.value_or(0.0f), "the melanin of hair");
+  };
+  add_float(element, "eumelanin", melanin(m.eumelanin));
+  add_float(element, "pheomelanin", melanin(m.pheomelanin));
 }
 
 void write(Context& context, Element parent, ElementId id, const MeasuredMaterial& m) {

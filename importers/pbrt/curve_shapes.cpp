@@ -119,7 +119,7 @@ std::optional<ShapeGeometry> ShapeMaker::curve(ParameterSet& parameters) {
                                : ribbon       ? "ribbons become triangles"
                                               : "curves become tubes of triangles",
                                parameters.place());
-  return ShapeGeometry{add(std::move(mesh)), true, {}, 1};
+  return ShapeGeometry{add(std::move(mesh)), true, {}, 1, !ribbon};
 }
 
 }  // namespace vitrail::pbrt

@@ -24,6 +24,7 @@ struct ShapeGeometry {
   Transform mesh_to_object;
   // How many shapes pbrt makes of it, each with the whole `power` of an area light: triangles, patches, or 1.
   std::size_t parts = 1;
+  bool tube = false;  // around a curve
 };
 
 // Makes meshes and keeps those that come again (the same file, any sphere).

@@ -279,6 +279,15 @@ bool Interpreter::uvs_show(Id<Material> id, int depth) {
   return std::ranges::any_of(parts, [&](Id<Material> part) { return uvs_show(part, depth - 1); });
 }
 
+// Whether the material, or a part of it, is hair; of one that is not known yet that is not known either.
+bool Interpreter::meets_hair(Id<Material> id, int depth) const {
+  const Material& material = materials_[id.value];
+  if (!material_is_made_[id.value] || depth == 0) return false;
+  const std::vector<Id<Material>> parts = parts_of(material.model);
+  return std::holds_alternative<HairMaterial>(material.model) ||
+         std::ranges::any_of(parts, [&](Id<Material> part) { return meets_hair(part, depth - 1); });
+}
+
 void Interpreter::shape(const Place& place) {
   const std::string kind = read_text("a kind of shape");
   ParameterSet parameters = read_set("Shape", kind, place, "shape");
@@ -309,6 +318,15 @@ void Interpreter::add_shape(const ShapeGeometry& geometry, const FloatParameter&
   const bool mirrored = !moves && swaps_handedness(at.at_open);
   shape.flip_orientation =
       state_.reverse_orientation != (mirrored && (!geometry.quadric || shape.area_light));
+  if (meets_hair(shape.material, 16)) {
+    if (geometry.tube)
+      shape.flip_orientation = mirrored;  // hair is met from outside, whatever a file says
+    else
+      context_.report.approximated(
+          "hair on what is no round or flat curve: it shows from the front alone, and where light meets its "
+          "width goes by the normal, not by v",
+          place);
+  }
   if (mirrored && geometry.quadric && shape.area_light)
     context_.report.approximated("a mirrored shape that shines has its front where it shines", place);
   if (moves)

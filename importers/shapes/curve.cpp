@@ -132,11 +132,14 @@ void require_room(const TriangleMesh& mesh, std::size_t more) {
     throw Error("curves: more vertices than 32 bits count");
 }
 
+// The ring's polygon has the circumference of its circle. So it is as wide as that, in the mean of all sides
+// that it is seen from (Cauchy 1841).
 void append_ring(const Ring& ring, int corners, TriangleMesh& mesh) {
+  const double to_corner = ring.radius * (pi / corners) / unit_circle(pi / corners).y;
   for (int i = 0; i <= corners; ++i) {
     const Point2d d = unit_circle(2 * pi * (i % corners) / corners);
     const Vector3d across = ring.axes.first * d.x + ring.axes.second * d.y;
-    const Point3f p = cast<float>(ring.center + across * ring.radius);
+    const Point3f p = cast<float>(ring.center + across * to_corner);
     if (!is_finite(p)) throw Error("curves: a point is not finite in single precision");
     mesh.positions.push_back(p);
     mesh.normals.push_back(

@@ -36,9 +36,10 @@ CurveDetail curve_detail(std::size_t segments, bool straight);
 // Steps a segment after which chords are this near to the curve (Wang 1984), at most `most`.
 int steps_within(std::span<const CurveSegment> segments, double tolerance, int most);
 
-// Appends the tube around a curve; its front is outside. u runs around it from 0 to 1, beginning at the
-// second axis of Duff's frame (2017) around the first tangent; v runs along it from `v_first` to `v_last`,
-// equally for all segments. `round_ends` adds half a sphere at either end, else the ends are open.
+// Appends the tube around a curve, as wide as that in the mean of all sides; its front is outside. u runs
+// around it from 0 to 1, beginning at the second axis of Duff's frame (2017) around the first tangent; v runs
+// along it from `v_first` to `v_last`, equally for all segments. `round_ends` adds half a sphere at either
+// end, else the ends are open.
 void append_tube(std::span<const CurveSegment> segments, const CurveDetail& detail, double v_first,
                  double v_last, bool round_ends, TriangleMesh& mesh);
 

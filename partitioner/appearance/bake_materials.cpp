@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "partitioner/appearance/table_files.h"
+#include "scene/hair.h"
 #include "scene/subsurface.h"
 
 namespace vitrail {
@@ -81,10 +82,24 @@ class MaterialBaker {
     result_.interior = std::move(medium);
     return (*this)(DielectricMaterial{m.eta, ConstantSpectrum{1}, m.roughness});
   }
-  MaterialModel operator()(const HairMaterial& m) {
-    if (!m.color) return grey("its fibres");
-    note("becomes diffuse with its colour");
-    return (*this)(DiffuseMaterial{*m.color});
+  // Concentrations that do not depend on the place become the absorption that they lead to.
+  MaterialModel operator()(HairMaterial m) {
+    if (m.sigma_a) {
+      m.sigma_a = textures_.bake(*m.sigma_a, TextureUse::unbounded);
+      m.color.reset();
+    } else if (m.color) {
+      reflectance(*m.color);
+    } else {
+      for (auto* melanin : {&m.eumelanin, &m.pheomelanin}) *melanin = textures_.bake(melanin->value_or(0.0f));
+      const auto* eumelanin = std::get_if<float>(&*m.eumelanin);
+      const auto* pheomelanin = std::get_if<float>(&*m.pheomelanin);
+      if (eumelanin && pheomelanin)
+        m.sigma_a = textures_.as_rendered(
+            melanin_absorption(static_cast<double>(*eumelanin), static_cast<double>(*pheomelanin)));
+    }
+    if (m.sigma_a || m.color) m.eumelanin.reset(), m.pheomelanin.reset();
+    number(m.beta_m), number(m.beta_n), number(m.alpha_deg);
+    return m;
   }
   MaterialModel operator()(const MeasuredMaterial& m) {
     if (m.sheet) return MeasuredMaterial{"", m.sheet};

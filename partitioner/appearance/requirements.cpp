@@ -73,6 +73,9 @@ struct MaterialNeeds {
     r.uv |= !is_isotropic(m.conductor_roughness) || !is_isotropic(m.interface_roughness);
   }
   void operator()(const PrincipledMaterial& m) { r.uv |= !is_zero(m.anisotropic); }
+  void operator()(const HairMaterial&) {
+    r.uv = r.see_through = true;
+  }  // runs along u or v; open from within
   void operator()(const ThinDielectricMaterial&) { r.see_through = true; }
   void operator()(const MeasuredMaterial&) { r.see_through = true; }
   void operator()(const SlabMaterial&) { r.see_through = true; }

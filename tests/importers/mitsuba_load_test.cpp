@@ -46,6 +46,22 @@ class MitsubaLoad : public ::testing::Test {
   ImportedScene imported_;
 };
 
+// Mitsuba 3.9.1 has 1.3 and .2, each where the file does not give it.
+TEST_F(MitsubaLoad, HairHasBothMelaninsAndRunsAlongV) {
+  const auto hair = [&](const std::string& inside) {
+    return std::get<HairMaterial>(material("<bsdf type=\"hair\" id=\"m\">" + inside + "</bsdf>").model);
+  };
+  EXPECT_TRUE(hair("").along_v);
+  EXPECT_EQ(hair("").eumelanin, FloatParameter{1.3f});
+  EXPECT_EQ(hair("").pheomelanin, FloatParameter{0.2f});
+  EXPECT_EQ(hair("<float name=\"eumelanin\" value=\".5\"/>").pheomelanin, FloatParameter{0.2f});
+  EXPECT_FALSE(hair("<float name=\"pheomelanin\" value=\"0\"/>").pheomelanin);
+  const auto absorbing =
+      hair("<spectrum name=\"sigma_a\" value=\".25\"/><float name=\"scale\" value=\"4\"/>");
+  EXPECT_EQ(absorbing.sigma_a, SpectrumParameter{ConstantSpectrum{1}});
+  EXPECT_FALSE(absorbing.eumelanin || absorbing.pheomelanin);
+}
+
 const std::string red = "<rgb name=\"reflectance\" value=\"1 0 0\"/>";
 
 TEST_F(MitsubaLoad, BareOpaqueMaterialsHaveOneSide) {

@@ -21,6 +21,7 @@ std::vector<MaterialModel> all_models() {
   const Spectrum glass = NamedSpectrum{"glass-BK7"}, color = unbounded_from_rgb({2, 1, 0.5});
   HairMaterial hair, absorbing, colored;
   hair.eumelanin = 1.0f;
+  hair.along_v = absorbing.along_v = true;
   absorbing.sigma_a = color;
   colored.color = rgb_reflectance(0.6, 0.4, 0.2);
   PrincipledMaterial clear, sheet;

@@ -318,6 +318,13 @@ TEST(MitsubaShapes, UnknownKindsAreDropped) {
   EXPECT_THAT(diagnostics[1].message, HasSubstr("did you mean \"sphere\""));
 }
 
+template <class... T>
+std::string bytes(T... values) {
+  std::string result;
+  ((result += std::string(reinterpret_cast<const char*>(&values), sizeof values)), ...);
+  return result;
+}
+
 TEST(MitsubaShapes, CurvesBecomeTubes) {
   TemporaryFolder folder;
   const std::string file =
@@ -333,6 +340,33 @@ TEST(MitsubaShapes, CurvesBecomeTubes) {
   EXPECT_NEAR(area(linear.mesh()), 2 * pi * 3 * (.1 + .2) + 4 * pi * (.01 + .04), 0.1);
   for (const TriangleMesh& mesh : {bspline.mesh(), linear.mesh()})
     for (const Point2f uv : mesh.uvs) ASSERT_TRUE(uv.x >= 0 && uv.x <= 1 && uv.y >= 0 && uv.y <= 1);
+}
+
+// 0.6's: as text and binary, one radius for all; points alone are no hair.
+TEST(MitsubaShapes, HairOf06BecomesTubes) {
+  TemporaryFolder folder;
+  const float end = INFINITY;
+  const std::string text =
+      folder.write("h.txt", "0 0 0\n1 0 0\n3 0 0\n\n7 7 7\n# next\n0 5 0\n0 5 1\n").string();
+  std::string binary = "BINARY_HAIR" + bytes(6u, 0.f, 0.f, 0.f, 1.f, 0.f, 0.f, 3.f, 0.f, 0.f, end, 7.f, 7.f,
+                                             7.f, end, 0.f, 5.f, 0.f, 0.f, 5.f, 1.f);
+  const auto read = [&](const std::string& file) {
+    return std::move(Reading().add(shape("hair", {{"filename", file, {}}, {"radius", .1, {}}})));
+  };
+  const Reading as_text = read(text), as_binary = read(folder.write("h.hair", binary).string());
+  EXPECT_NEAR(area(as_text.mesh()), 2 * pi * .1 * 4, 0.05);
+  expect_fronts_follow_normals(as_text.mesh());
+  EXPECT_EQ(as_text.mesh().positions, as_binary.mesh().positions);
+  EXPECT_EQ(as_text.mesh().triangles, as_binary.mesh().triangles);
+  const auto error = [&](const std::string& content, double radius = .1) {
+    return error_of(
+        shape("hair", {{"filename", folder.write("e.hair", content).string(), {}}, {"radius", radius, {}}}));
+  };
+  EXPECT_THAT(error("0 0 0\n1 x 0\n"), HasSubstr("e.hair:2:3"));
+  EXPECT_THAT(error("0 0 0\n\n"), HasSubstr("no hair"));
+  EXPECT_THAT(error("0 0 0\n1 0 0\n", 0), HasSubstr("the radius of hair is 0"));
+  EXPECT_THAT(error(binary.substr(0, binary.size() - 1)), HasSubstr("ends within its points"));
+  EXPECT_THAT(error("BINARY_HAIR" + bytes(1u, NAN, 0.f, 0.f)), HasSubstr("point 0 is not finite"));
 }
 
 TEST(Curves, BasesAgreeWhereTheyDescribeOneCurve) {
@@ -412,13 +446,6 @@ TEST(MitsubaShapes, BadParametersAreErrorsWithTheirPlace) {
 }
 
 // ---- Serialized files ---------------------------------------------------------------------------
-
-template <class... T>
-std::string bytes(T... values) {
-  std::string result;
-  ((result += std::string(reinterpret_cast<const char*>(&values), sizeof values)), ...);
-  return result;
-}
 
 std::string deflated(const std::string& text) {
   uLongf size = ::compressBound(text.size());

@@ -134,7 +134,11 @@ TEST(PbrtMaterials, OthersOfV4AreExact) {
       exact<SubsurfaceMaterial>("Material \"subsurface\" \"rgb reflectance\" [.5 .4 .3] \"rgb mfp\" [1 2 3]");
   EXPECT_EQ(std::get<SubsurfaceMaterial::Effective>(skin.interior).mean_free_path,
             SpectrumParameter{unbounded_from_rgb({1, 2, 3})});
-  const auto hair = exact<HairMaterial>("Material \"hair\" \"float eumelanin\" .5 \"float beta_m\" .25");
+  const ImportedScene fur =
+      import_v4("Material \"hair\" \"float eumelanin\" .5 \"float beta_m\" .25 " + triangle);
+  EXPECT_EQ(fur.diagnostics.size(), 1u);  // on a triangle
+  const auto hair = model_of<HairMaterial>(fur);
+  EXPECT_FALSE(hair.along_v);
   EXPECT_EQ(hair.eumelanin, FloatParameter{.5f});
   EXPECT_EQ(hair.beta_m, FloatParameter{.25f});
   EXPECT_FALSE(hair.color || hair.sigma_a || hair.pheomelanin);

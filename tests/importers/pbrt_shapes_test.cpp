@@ -246,7 +246,8 @@ TEST(PbrtCurves, BecomeTubesAndRibbons) {
   const TriangleMesh tube = mesh_of("Shape \"curve\" \"string type\" \"cylinder\"" + p);
   EXPECT_EQ(tube.triangles.size(), 12u);  // straight: one step
   EXPECT_EQ(tube.positions[0].x, 0);
-  EXPECT_NEAR(std::hypot(tube.positions[0].y, tube.positions[0].z), 1, 1e-6);
+  // A hexagon of the circumference 2π.
+  EXPECT_NEAR(std::hypot(tube.positions[0].y, tube.positions[0].z), std::numbers::pi / 3, 1e-6);
   EXPECT_EQ(tube.uvs.back(), (Point2f{1, 1}));
   EXPECT_EQ(tube.positions.back().x, 3);
   const TriangleMesh ribbon =
@@ -258,6 +259,24 @@ TEST(PbrtCurves, BecomeTubesAndRibbons) {
             0.5f);
   const ImportedScene flat = import_v4("Shape \"curve\"" + p);
   EXPECT_EQ(flat.diagnostics.size(), 1u);
+}
+
+// Hair is met from outside, whatever turns the sides of other shapes; on other shapes that is reported.
+TEST(PbrtCurves, OfHairHaveTheirFrontOutside) {
+  const std::string curve = " Shape \"curve\" \"point3 P\" [0 0 0 1 0 0 2 0 0 3 0 0] ";
+  const auto read = [&](const std::string& before) {
+    return import_v4(before + " Material \"hair\" " + curve).scene.shapes.at(0).flip_orientation;
+  };
+  EXPECT_FALSE(read(""));
+  EXPECT_FALSE(read("ReverseOrientation"));
+  EXPECT_TRUE(read("Scale -1 1 1"));
+  EXPECT_TRUE(read("Scale -1 1 1 ReverseOrientation"));
+  EXPECT_EQ(import_v4("Material \"hair\" " + curve).diagnostics.size(), 1u);
+  EXPECT_EQ(
+      import_v4("MakeNamedMaterial \"h\" \"string type\" \"hair\" Material \"mix\" \"string materials\" "
+                "[\"h\" \"h\"] Shape \"sphere\"")
+          .diagnostics.size(),
+      1u);
 }
 
 TEST(PbrtCurves, AreRefusedWhereTheyMakeNoSense) {

@@ -43,6 +43,14 @@ void expect_exact(const std::string& text) {
 void expect_exact_world(const std::string& world) { expect_exact("Film \"rgb\"\nWorldBegin\n" + world); }
 void expect_exact_material(const std::string& directives) { expect_exact_world(directives + " " + triangle); }
 
+// What is written of it passes pbrt's grammar, and the report mentions it.
+RoundTrip expect_reported(const std::string& world, const char* report) {
+  RoundTrip trip = round_trip("Film \"rgb\"\nWorldBegin\n" + world);
+  EXPECT_THAT(test::pbrt_complaints(trip.text, ""), testing::IsEmpty()) << trip.text;
+  EXPECT_TRUE(mentions(trip.written, report)) << trip.text;
+  return trip;
+}
+
 TEST(WritePbrt, Cameras) {
   for (const char* camera :
        {"LookAt 1 2 3 4 5.5 6 0 0 1 Camera \"perspective\" \"float fov\" 36.7",
@@ -130,8 +138,7 @@ TEST(WritePbrt, Materials) {
         "Material \"diffuse\" \"float reflectance\" .3",
         "Material \"dielectric\" \"spectrum eta\" \"glass-BK7\"",
         "Material \"dielectric\" \"float eta\" 1.31 \"float uroughness\" .2 \"float vroughness\" .3",
-        "Material \"thindielectric\" \"float eta\" 1.31",
-        "Material \"conductor\" \"float roughness\" .1",
+        "Material \"thindielectric\" \"float eta\" 1.31", "Material \"conductor\" \"float roughness\" .1",
         "Material \"conductor\" \"spectrum eta\" \"metal-Au-eta\" \"spectrum k\" \"metal-Au-k\"",
         "Material \"conductor\" \"rgb reflectance\" [.9 .8 .7]",
         "Material \"coateddiffuse\" \"rgb reflectance\" [.9 .8 .7] \"float thickness\" .3 \"rgb albedo\" [.1 "
@@ -141,15 +148,26 @@ TEST(WritePbrt, Materials) {
         "Material \"subsurface\" \"string name\" \"Skin1\"",
         "Material \"subsurface\" \"rgb sigma_a\" [.1 2 3]",
         "Material \"subsurface\" \"rgb mfp\" [1 2 3] \"rgb reflectance\" [.1 .2 .3]",
-        "Material \"hair\" \"rgb reflectance\" [.1 .2 .3]",
-        "Material \"hair\" \"float eumelanin\" .7",
-        "Material \"measured\" \"string filename\" \"paper.bsdf\"",
-        "Material \"interface\"",
+        "Material \"measured\" \"string filename\" \"paper.bsdf\"", "Material \"interface\"",
         "MakeNamedMaterial \"a \\\"b\\\"\" \"string type\" \"diffuse\" MakeNamedMaterial \"c\" \"string "
         "type\" \"conductor\" "
         "Material \"mix\" \"string materials\" [\"a \\\"b\\\"\" \"c\"] \"float amount\" .3",
         "Material \"diffuse\" \"string normalmap\" \"n.png\""})
     expect_exact_material(material);
+}
+
+TEST(WritePbrt, HairIsExactAndMeantForCurves) {
+  for (const char* material :
+       {"Material \"hair\" \"rgb reflectance\" [.1 .2 .3]", "Material \"hair\" \"float eumelanin\" .7"}) {
+    const RoundTrip trip = expect_reported(material + (" " + triangle), "meant for curves");
+    EXPECT_EQ(test::difference(trip.first.scene, trip.second.scene), "");
+  }
+  Scene scene = round_trip("Film \"rgb\"\nWorldBegin\n" + triangle).first.scene;
+  HairMaterial hair;
+  hair.along_v = true;
+  scene.materials.at(0).model = hair;
+  const TemporaryFolder folder;
+  EXPECT_TRUE(mentions(write_pbrt(scene, folder / "out.pbrt"), "runs along u"));
 }
 
 TEST(WritePbrt, NamesOfMaterialsSurvive) {
@@ -499,14 +517,6 @@ TEST(WritePbrt, WhatV4CannotSayIsReported) {
   EXPECT_TRUE(mentions(trip.written, "mirror"));
   EXPECT_TRUE(mentions(trip.written, "factors of reflection"));
   for (const Diagnostic& d : trip.written) EXPECT_GT(d.location.line, 0) << d.message;
-}
-
-// What is written of it passes pbrt's grammar, and the report mentions it.
-RoundTrip expect_reported(const std::string& world, const char* report) {
-  RoundTrip trip = round_trip("Film \"rgb\"\nWorldBegin\n" + world);
-  EXPECT_THAT(test::pbrt_complaints(trip.text, ""), testing::IsEmpty()) << trip.text;
-  EXPECT_TRUE(mentions(trip.written, report)) << trip.text;
-  return trip;
 }
 
 TEST(WritePbrt, MaterialsHaveOnlyWhatPbrtTakesOfThem) {

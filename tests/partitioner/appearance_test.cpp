@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "scene/color.h"
+#include "scene/hair.h"
 #include "scene/rgb_to_spectrum.h"
 
 namespace vitrail {
@@ -51,8 +52,19 @@ TEST(Appearance, OthersBecomeTheNearestAndSaySo) {
     const auto& diffuse = std::get<DiffuseMaterial>(a.materials.at(0).model);
     return luminance(std::get<Spectrum>(diffuse.reflectance));
   };
-  EXPECT_NEAR(reflectance(HairMaterial{}), .5, 1e-4);
   EXPECT_NEAR(reflectance(MeasuredMaterial{"table.pbsdf"}), .5, 1e-4);
+}
+
+TEST(Appearance, MelaninBecomesAbsorption) {
+  HairMaterial hair;
+  hair.eumelanin = 0.5f, hair.pheomelanin = 0.25f;
+  const Appearance a = baked(hair);
+  EXPECT_TRUE(a.diagnostics.empty());
+  const auto& made = std::get<HairMaterial>(a.materials.at(0).model);
+  EXPECT_FALSE(made.eumelanin || made.pheomelanin || made.color);
+  EXPECT_EQ(made.sigma_a, SpectrumParameter{melanin_absorption(0.5, 0.25)});
+  EXPECT_EQ(std::get<HairMaterial>(baked(HairMaterial{}).materials.at(0).model).sigma_a,
+            SpectrumParameter{unbounded_from_rgb({0, 0, 0})});
 }
 
 TEST(Appearance, SubsurfaceMaterialsBringTheirMedium) {
