@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/deferred_mesh.h"
+
 namespace vitrail {
 
 namespace {
@@ -93,6 +95,24 @@ RGB mean_of_noise(const NoiseTexture& noise) {
   double sum = 0, weight = 1;
   for (int i = 0; i < noise.octaves; ++i, weight *= static_cast<double>(noise.roughness)) sum += weight;
   return {octave * sum, octave * sum, octave * sum};
+}
+
+std::optional<RGB> mean_of_attribute(const Scene& scene, const MeshAttributeTexture& texture) {
+  RGB sum;
+  double count = 0;
+  for (const TriangleMesh& stored : scene.meshes) {
+    TriangleMesh storage;
+    for (const MeshAttribute& a : loaded(stored, storage).attributes) {
+      if (a.name != texture.name) continue;
+      const std::size_t step = a.channels == 3 ? 3 : 1;
+      const auto value = [&](std::size_t i) { return static_cast<double>(a.values[i]); };
+      for (std::size_t i = 0; i + step <= a.values.size(); i += step, ++count)
+        sum = {sum.r + value(i), sum.g + value(i + step / 2), sum.b + value(i + step - 1)};
+    }
+  }
+  if (count == 0) return std::nullopt;
+  const double factor = static_cast<double>(texture.scale) / count;
+  return RGB{sum.r * factor, sum.g * factor, sum.b * factor};
 }
 
 double diffuse_fresnel_outside(double eta) {

@@ -2,8 +2,10 @@
 // What formats of three numbers a colour can say of spectra: linear sRGB, without negative components.
 #pragma once
 
+#include <optional>
+
 #include "scene/color.h"
-#include "scene/material.h"
+#include "scene/scene.h"
 
 namespace vitrail {
 
@@ -25,6 +27,10 @@ RGB normal_reflectance_rgb(const Metal& metal);
 
 // The mean of noise over space, by sampling: marble's at its defaults.
 RGB mean_of_noise(const NoiseTexture& noise);
+
+// The mean of the values that meshes have by that name, where there are any, times its scale. Meshes that are
+// left in their files are read for it.
+std::optional<RGB> mean_of_attribute(const Scene& scene, const MeshAttributeTexture& texture);
 
 // The mean reflectance of a smooth interface of relative index eta for diffuse light from outside, and from
 // inside (integrals of Fresnel's equations over the hemisphere).

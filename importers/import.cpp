@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <optional>
 
 #include "importers/default_view.h"
 #include "importers/given_sky.h"
@@ -30,9 +31,15 @@ std::string format_of(std::filesystem::path file) {
 
 ImportedScene mesh_alone(const std::filesystem::path& file, MeshMemory& memory) {
   ImportedScene imported;
-  imported.scene.meshes.push_back(
-      memory.keep(read_ply(file, &imported.diagnostics), [file] { return read_ply(file); }));
-  imported.scene.materials.push_back({DiffuseMaterial{}});
+  Scene& scene = imported.scene;
+  TriangleMesh mesh = read_ply(file, &imported.diagnostics, PlyAttributes::colors);
+  scene.materials.push_back({DiffuseMaterial{}});
+  if (!mesh.attributes.empty()) {
+    scene.textures.push_back({MeshAttributeTexture{mesh.attributes.front().name}});
+    scene.materials.front().model = DiffuseMaterial{Id<Texture>{0}};
+  }
+  scene.meshes.push_back(
+      memory.keep(std::move(mesh), [file] { return read_ply(file, nullptr, PlyAttributes::colors); }));
   imported.scene.shapes.push_back({});
   return imported;
 }
@@ -70,14 +77,38 @@ ImportedScene read_scene(const std::filesystem::path& file, MeshMemory memory,
   return imported;
 }
 
+bool is_endless(const LightModel& light) {
+  return std::holds_alternative<DistantLight>(light) || std::holds_alternative<InfiniteLight>(light) ||
+         std::holds_alternative<EnvironmentLight>(light) || std::holds_alternative<SkyLight>(light);
+}
+
+// Here nothing comes through a medium without end; pbrt and Mitsuba let light come from the edge of the
+// scene.
+void report_endless_medium(ImportedScene& imported) {
+  const Scene& scene = imported.scene;
+  if (!scene.camera_medium) return;
+  const Medium& medium = scene.media.at(scene.camera_medium->value);
+  if (!std::holds_alternative<std::monostate>(medium.density)) return;
+  for (const Light& light : scene.lights) {
+    if (!is_endless(light.model)) continue;
+    const SourceLocation place = location(scene, light.origin);
+    imported.diagnostics.push_back({Fidelity::approximated,
+                                    "a medium around the camera, without end, lets no light through from "
+                                    "infinitely far: pbrt and Mitsuba weaken "
+                                    "it over the size of the scene alone",
+                                    place, place, RecordKind::light});
+  }
+}
+
 }  // namespace
 
 ImportedScene import_scene(const std::filesystem::path& file, MeshMemory memory,
                            std::function<void(double)> progress, const ImportOptions& options) {
-  if (options.sky.empty()) return read_scene(file, std::move(memory), std::move(progress), options);
-  const GivenSky sky = parse_sky(options.sky);
+  const std::optional<GivenSky> sky =
+      options.sky.empty() ? std::nullopt : std::optional(parse_sky(options.sky));
   ImportedScene imported = read_scene(file, std::move(memory), std::move(progress), options);
-  replace_sky(imported, sky);
+  if (sky) replace_sky(imported, *sky);
+  report_endless_medium(imported);
   return imported;
 }
 

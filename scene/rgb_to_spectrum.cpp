@@ -2,8 +2,12 @@
 #include "scene/rgb_to_spectrum.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <optional>
 
 namespace vitrail {
 
@@ -223,12 +227,27 @@ Scaled scaled_reflectance(RGB c) {
 
 }  // namespace
 
+// Of a colour that is no grey. Scenes have the same ones again and again, and a fit takes some thousand times
+// as long as to look it up: the last of each hash is kept.
+static SigmoidSpectrum remembered_fit(const std::array<float, 3>& rgb) {
+  constexpr std::size_t kept = 512;
+  thread_local std::array<std::optional<SigmoidSpectrum>, kept> fits;
+  std::size_t hash = 0;
+  for (const float v : rgb) hash = (hash ^ std::bit_cast<std::uint32_t>(v)) * 0x9E3779B97F4A7C15u;
+  std::optional<SigmoidSpectrum>& fit = fits[hash >> 55];  // 9 bits
+  if (!fit || fit->rgb != rgb) {
+    fit = in_nm(fit_by_continuation(to_color(rgb)).p);
+    fit->rgb = rgb;
+  }
+  return *fit;
+}
+
 SigmoidSpectrum reflectance_from_rgb(RGB c) {
   std::array<float, 3> rgb = at_least_zero(c);
   for (float& v : rgb) v = std::min(v, 1.0f);
   c = to_color(rgb);
-  SigmoidSpectrum fit =
-      c.r == c.g && c.g == c.b ? constant_reflectance(c.r) : in_nm(fit_by_continuation(c).p);
+  if (c.r != c.g || c.g != c.b) return remembered_fit(rgb);
+  SigmoidSpectrum fit = constant_reflectance(c.r);
   fit.rgb = rgb;
   return fit;
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "importers/export_colors.h"
 
@@ -93,6 +94,21 @@ Image resized(Image image, const ImageTexture& texture, int width, int height) {
   return result;
 }
 
+// θ of the middle of each texel.
+void multiply_by_cosine(Image& image, int power, Point2d half) {
+  float* value = image.values.data();
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x) {
+      const double px = (2 * (x + 0.5) / image.width - 1) * half.x,
+                   py = (2 * (y + 0.5) / image.height - 1) * half.y;
+      const double factor = std::pow(1 + px * px + py * py, -0.5 * power);
+      for (int c = 0; c < image.channels; ++c, ++value)
+        *value = static_cast<float>(static_cast<double>(*value) * factor);
+    }
+}
+
+}  // namespace
+
 void multiply(Image& image, RGB tint) {
   const std::array factors{tint.r, tint.g, tint.b};
   const auto channels = static_cast<std::size_t>(image.channels);
@@ -100,7 +116,15 @@ void multiply(Image& image, RGB tint) {
     image.values[i] = static_cast<float>(static_cast<double>(image.values[i]) * factors[i % channels]);
 }
 
-}  // namespace
+Point2d half_size(const ProjectionLight& light, double aspect) {
+  const double half = std::tan(static_cast<double>(light.fov_deg) / 360 * std::numbers::pi);
+  return light.irradiance || aspect < 1 ? Point2d{half, half / aspect} : Point2d{half * aspect, half};
+}
+
+UvMapping composed(const UvMapping& m, const UvMapping& n) {
+  return {m.a * n.a + m.b * n.d, m.a * n.b + m.b * n.e, m.a * n.c + m.b * n.f + m.c,
+          m.d * n.a + m.e * n.d, m.d * n.b + m.e * n.e, m.d * n.c + m.e * n.f + m.f};
+}
 
 Image with_three_channels(Image image) {
   if (image.channels != 1) return image;
@@ -112,17 +136,17 @@ Image with_three_channels(Image image) {
 ConvertedImages::Key ConvertedImages::key_of(const ImageTexture& t, ImageUse use, const ImageChange& change) {
   const UvMapping& m = change.mapping;
   const auto f = [](double v) { return static_cast<float>(v); };
-  return {
-      t.filename,
-      t.encoding,
-      use == ImageUse::number ? t.number : ImageNumber{},
-      t.primaries,
-      m == UvMapping{} ? Wrap{} : t.wrap,
-      m == UvMapping{} ? TextureFilter{} : t.filter,
-      use,
-      t.invert,
-      change.three_channels,
-      {t.gamma, t.scale, f(change.tint.r), f(change.tint.g), f(change.tint.b), m.a, m.b, m.c, m.d, m.e, m.f}};
+  return {t.filename,
+          t.encoding,
+          use == ImageUse::number ? t.number : ImageNumber{},
+          t.primaries,
+          m == UvMapping{} ? Wrap{} : t.wrap,
+          m == UvMapping{} ? TextureFilter{} : t.filter,
+          use,
+          t.invert,
+          change.three_channels,
+          {t.gamma, t.scale, f(change.tint.r), f(change.tint.g), f(change.tint.b), m.a, m.b, m.c, m.d, m.e,
+           m.f, static_cast<float>(change.cosine_power), f(change.half.x), f(change.half.y)}};
 }
 
 std::filesystem::path ConvertedImages::write(const ImageTexture& texture, ImageUse use,
@@ -134,6 +158,7 @@ std::filesystem::path ConvertedImages::write(const ImageTexture& texture, ImageU
   if (is_colored || change.three_channels) values = with_three_channels(std::move(values));
   if (change.tint != RGB{1, 1, 1}) multiply(values, change.tint);
   if (change.mapping != UvMapping{}) values = mapped(values, texture, change.mapping);
+  if (change.cosine_power != 0) multiply_by_cosine(values, change.cosine_power, change.half);
   const std::filesystem::path file = new_file_();
   write_exr_image(file, values);
   return written_[key] = file;

@@ -18,7 +18,16 @@ struct ImageChange {
   RGB tint{1, 1, 1};  // multiplies them
   UvMapping mapping;  // at (s,t) is what the texture has at mapping(s,t): turned, mirrored, repeated
   bool three_channels = false;  // also for greys
+  // Times cosⁿθ of the angle from the axis at which a point of the axis sees each texel: the image is
+  // ±half.x, ±half.y wide and high at distance 1. n = 0: nothing.
+  int cosine_power = 0;
+  Point2d half;
 };
+
+// The half width and height, at distance 1, of the image that a light throws: `aspect` is its width ÷ height.
+Point2d half_size(const ProjectionLight& light, double aspect);
+// (s,t) → outer(inner(s,t)).
+UvMapping composed(const UvMapping& outer, const UvMapping& inner);
 
 // An image times a colour: what products of the two and of such products come to.
 struct TintedImage {
@@ -51,7 +60,7 @@ class ConvertedImages {
   std::filesystem::path new_file() const { return new_file_(); }
 
  private:
-  using Numbers = std::array<float, 11>;
+  using Numbers = std::array<float, 14>;
   using Key = std::tuple<std::string, Encoding, ImageNumber, Primaries, Wrap, TextureFilter, ImageUse, bool,
                          bool, Numbers>;
   static Key key_of(const ImageTexture& texture, ImageUse use, const ImageChange& change);
@@ -60,6 +69,8 @@ class ConvertedImages {
   std::map<Key, std::filesystem::path> written_;
 };
 
+// Of three channels, or one.
+void multiply(Image& image, RGB tint);
 // A grey image as one of colours; others as they are.
 Image with_three_channels(Image image);
 

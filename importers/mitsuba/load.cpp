@@ -9,11 +9,13 @@
 #include <cmath>
 #include <map>
 #include <new>
+#include <optional>
 #include <pugixml.hpp>
 #include <set>
 
 #include "importers/mitsuba/old_versions.h"
 #include "importers/mitsuba/values.h"
+#include "importers/mitsuba/xml_text.h"
 #include "importers/ply/input_bytes.h"
 
 namespace vitrail::mitsuba {
@@ -124,7 +126,18 @@ class Loader {
 
   // ---- Files
 
+  // A path of Windows counts with slashes where there is no such file.
   std::filesystem::path resolve(const std::string& name) const {
+    std::error_code ignored;
+    if (name.find('\\') != std::string::npos && !std::filesystem::exists(found(name), ignored)) {
+      std::string with_slashes = name;
+      std::ranges::replace(with_slashes, '\\', '/');
+      return found(with_slashes);
+    }
+    return found(name);
+  }
+
+  std::filesystem::path found(const std::string& name) const {
     std::error_code ignored;
     for (auto folder = search_.rbegin(); folder != search_.rend(); ++folder)
       if (std::filesystem::exists(*folder / name, ignored)) return (*folder / name).lexically_normal();
@@ -145,15 +158,18 @@ class Loader {
     if (open_.contains(canonical)) fail(fmt::format("the file \"{}\" includes itself", file.string()), from);
     if (depth > most_included) fail("includes are nested too deeply", from);
     open_.insert(canonical);
-    const InputBytes bytes(file);
+    const InputBytes stored(file);
+    const std::optional<std::string> converted = in_utf8({stored.begin(), stored.size()});
+    const std::string_view bytes = converted ? *converted : std::string_view{stored.begin(), stored.size()};
     files_.push_back(file.string());
     // What `new` refuses, the document is refused too (scene/memory_guard.h).
     pugi::set_memory_management_functions([](std::size_t size) { return ::operator new(size, std::nothrow); },
                                           [](void* block) { ::operator delete(block); });
-    Source source{static_cast<std::uint32_t>(files_.size() - 1), Lines(bytes.begin(), bytes.end())};
+    Source source{static_cast<std::uint32_t>(files_.size() - 1),
+                  Lines(bytes.data(), bytes.data() + bytes.size())};
     pugi::xml_document document;
     const auto parsed =
-        document.load_buffer(bytes.begin(), bytes.size(), pugi::parse_default, pugi::encoding_utf8);
+        document.load_buffer(bytes.data(), bytes.size(), pugi::parse_default, pugi::encoding_utf8);
     if (!parsed)
       fail(fmt::format("this is not XML: {}", parsed.description()),
            source.lines.origin(source.number, parsed.offset));

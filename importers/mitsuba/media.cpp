@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "importers/mitsuba/builder.h"
 #include "importers/mitsuba/properties.h"
 #include "importers/mitsuba/subsurface.h"
 #include "importers/mitsuba/suggestion.h"
+#include "importers/mitsuba/values.h"
 #include "importers/mitsuba/volume_file.h"
 
 namespace vitrail::mitsuba {
@@ -122,24 +125,72 @@ void bound_by_volume(MediumReader& reader) {
   reader.medium.density = cell;
 }
 
+Fail failing_at(const Report& report, const Origin& place) {
+  return [&report, place](const std::string& message) { report.fail(message, place); };
+}
+
+// Of linear pieces between values at equal steps of the cosine from −1 to 1: ∫μp ÷ ∫p.
+double mean_cosine_of(const std::vector<double>& values) {
+  double sum = 0, total = 0;
+  const double step = 2 / static_cast<double>(std::max<std::size_t>(values.size(), 2) - 1);
+  for (std::size_t i = 0; i + 1 < values.size(); ++i) {
+    const double left = -1 + static_cast<double>(i) * step, a = values[i], b = values[i + 1];
+    total += step * (a + b) / 2;
+    sum += step * (left * (a + b) / 2 + step * (a + 2 * b) / 6);
+  }
+  return total > 0 ? sum / total : 0;
+}
+
+// The mean cosine of the angle that light turns by: g of Henyey and Greenstein's; nothing for those that
+// depend on more than the angle.
+std::optional<double> mean_cosine(const Object& phase, const Report& report) {
+  const Fail fail = failing_at(report, phase.origin);
+  if (phase.type == "isotropic" || phase.type == "rayleigh") return 0;
+  if (phase.type == "tabphase") return mean_cosine_of(parse_numbers(phase.text("values", "", report), fail));
+  if (phase.type == "hg") {
+    const double g = phase.number("g", 0.8, report);
+    if (!(std::abs(g) < 1))
+      report.fail(fmt::format("\"g\" is {}, which is not between -1 and 1", g), place_of(phase, "g"));
+    return g;
+  }
+  if (phase.type != "blendphase" && phase.type != "mixturephase") return std::nullopt;
+  const auto parts = phase.children("phase");
+  std::vector<double> weights =
+      parse_numbers(phase.has("weights") ? phase.text("weights", "", report) : "", fail);
+  if (phase.type == "blendphase") {
+    const Property* weight = phase.find("weight");
+    if (!weight || std::holds_alternative<ObjectPtr>(weight->value)) return std::nullopt;
+    const double second = phase.number("weight", 0.5, report);
+    weights = {1 - second, second};
+  }
+  if (weights.size() != parts.size()) return std::nullopt;
+  double sum = 0, total = 0;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const auto part = mean_cosine(*std::get<ObjectPtr>(parts[i]->value), report);
+    if (!part) return std::nullopt;
+    sum += weights[i] * *part, total += weights[i];
+  }
+  return total > 0 ? std::optional(sum / total) : std::nullopt;
+}
+
 }  // namespace
 
-float read_phase(const Object& around, Report& report) {
-  const Object* phase = around.child("phase");
+float read_phase(const Object& medium, Report& report) {
+  const Object* phase = medium.child("phase");
   if (!phase) return 0;
-  double g = 0;
-  if (phase->type == "hg") {
-    g = phase->number("g", 0.8, report);
-    if (!(std::abs(g) < 1))
-      report.fail(fmt::format("\"g\" is {}, which is not between -1 and 1", g), place_of(*phase, "g"));
-  } else if (phase->type != "isotropic") {
-    report.approximated(fmt::format("phase function \"{}\" becomes isotropic{}", phase->type,
-                                    suggestion(phase->type, {"isotropic", "hg"})),
-                        phase->origin);
-    return 0;
-  }
-  report_unused(*phase, report, {"g"});
-  return static_cast<float>(g);
+  const std::optional<double> g = mean_cosine(*phase, report);
+  if (phase->type != "isotropic" && phase->type != "hg")
+    report.approximated(
+        g && *g != 0
+            ? fmt::format(
+                  "phase function \"{}\" becomes Henyey and Greenstein's of the same mean cosine, {:.3g}",
+                  phase->type, *g)
+            : fmt::format("phase function \"{}\" becomes isotropic{}", phase->type,
+                          suggestion(phase->type, {"isotropic", "hg"})),
+        phase->origin);
+  else
+    report_unused(*phase, report, {"g"});
+  return static_cast<float>(std::clamp(g.value_or(0), -0.999, 0.999));
 }
 
 namespace {

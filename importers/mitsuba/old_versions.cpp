@@ -59,9 +59,15 @@ void upgrade(Object& object) {
     moved = p.queried = true;
     place = p.origin;
   }
+  // Names of version 0.3.
+  if (object.tag == "emitter" && object.type != "point" && object.type != "spot")
+    for (Property& p : object.properties)
+      if (p.name == "intensity") p.name = object.type == "directional" ? "irradiance" : "radiance";
   // Where its models of daylight have their zenith; +z since version 3.
   const bool daylight = object.type == "sky" || object.type == "sun" || object.type == "sunsky";
   if (daylight && object.tag == "emitter") object.properties.push_back({"y_is_up", true, object.origin});
+  if (object.tag == "shape" && object.type == "ply")
+    object.properties.push_back({"colors_in_srgb", true, object.origin});
   if (object.tag == "texture" && object.type == "bitmap")
     object.properties.push_back({"gamma_of_file", true, object.origin});
   if (moved) object.properties.push_back({"to_uv", translate(offset) * scale(size), place});

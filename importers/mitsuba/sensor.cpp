@@ -218,7 +218,7 @@ void read_sensor(Builder& builder, const Object& sensor) {
   for (const Object* object : {&sensor, &camera}) {
     builder.shutter_open = object->number("shutter_open", builder.shutter_open, report);
     builder.shutter_close = object->number("shutter_close", builder.shutter_close, report);
-    object->ignore({"near_clip", "far_clip"});
+    object->ignore({"near_clip", "far_clip", "focus_distance"});
     object->children("film"), object->children("sampler");
     if (const Object* medium = object->child("medium")) scene.camera_medium = add_medium(builder, *medium);
     report.begin_item({object->origin, RecordKind::camera});

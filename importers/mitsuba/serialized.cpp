@@ -174,7 +174,12 @@ TriangleMesh read_mesh(Inflater& in, int version, const Place& place) {
   mesh.positions = read_rows<3, Point3f>(in, vertices, doubles, place, "positions");
   if (flags & has_normals) mesh.normals = read_rows<3, Normal3f>(in, vertices, doubles, place, "normals");
   if (flags & has_uvs) mesh.uvs = read_rows<2, Point2f>(in, vertices, doubles, place, "texture coordinates");
-  if (flags & has_colors) read_rows<3, Point3f>(in, vertices, doubles, place, "colours");
+  if (flags & has_colors) {
+    const auto colors = read_rows<3, Point3f>(in, vertices, doubles, place, "colours");
+    MeshAttribute attribute{"vertex_color", false, 3, {}};
+    for (const Point3f& c : colors) attribute.values.insert(attribute.values.end(), {c.x, c.y, c.z});
+    mesh.attributes.push_back(std::move(attribute));
+  }
   mesh.triangles = read_triangles(in, triangles, vertices, place);
   return mesh;
 }

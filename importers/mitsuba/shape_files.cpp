@@ -72,12 +72,13 @@ struct MeshFile {
   std::filesystem::path path;
   int index = 0;
   Reading reading;
+  PlyAttributes attributes = PlyAttributes::read;
 };
 
 TriangleMesh read_geometry(const MeshFile& file, Diagnostics& diagnostics) {
-  const auto& [kind, path, index, reading] = file;
+  const auto& [kind, path, index, reading, attributes] = file;
   if (kind == "serialized") return read_serialized(path, index);
-  if (kind == "ply") return read_ply(path, &diagnostics, PlyAttributes::read);
+  if (kind == "ply") return read_ply(path, &diagnostics, attributes);
   ObjGeometry geometry = read_obj_geometry(path);
   diagnostics = std::move(geometry.diagnostics);
   return merge(std::move(geometry.meshes));
@@ -103,7 +104,10 @@ std::optional<ShapeGeometry> shape_of_file(Builder& builder, const Object& shape
   const int index = obj || ply ? 0 : shape.integer("shape_index", 0, builder.report);
   bool smoothed = false;
   const MeshKey key{path.string(), index, reading.variant()};
-  const MeshFile file{kind, path, index, reading};
+  // 0.6 decodes them as sRGB, 3 takes the numbers as they are.
+  const bool decoded =
+      shape.boolean("colors_in_srgb", false, builder.report) && shape.boolean("srgb", true, builder.report);
+  const MeshFile file{kind, path, index, reading, decoded ? PlyAttributes::colors : PlyAttributes::read};
   const auto read = [&] {
     Diagnostics diagnostics;
     TriangleMesh made = read_mesh(file, diagnostics, smoothed);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 
@@ -28,7 +29,20 @@ UvMapping flipped(const UvMapping& m) {
 // Cells of a checkerboard are half a unit.
 UvMapping doubled(const UvMapping& m) { return {2 * m.a, 2 * m.b, 2 * m.c, 2 * m.d, 2 * m.e, 2 * m.f}; }
 
-TextureModel bitmap(Builder& b, const Object& o, bool) {
+// 0.6 takes one channel of an image, for colours too.
+ImageNumber channel_of(Builder& b, const Object& o, bool as_float) {
+  static constexpr std::string_view names = "rgba";
+  static constexpr std::array numbers{ImageNumber::red, ImageNumber::green, ImageNumber::blue,
+                                      ImageNumber::alpha};
+  const std::string name = o.text("channel", "", b.report);
+  if (name.empty()) return ImageNumber::luminance;
+  const std::size_t channel = names.find(name);
+  if (name.size() == 1 && channel != names.npos && as_float) return numbers.at(channel);
+  b.report.dropped(fmt::format("the channel \"{}\" of an image: all of its colour counts", name), o.origin);
+  return ImageNumber::luminance;
+}
+
+TextureModel bitmap(Builder& b, const Object& o, bool as_float) {
   ImageTexture image;
   image.filename = o.text("filename", "", b.report);
   if (image.filename.empty()) b.report.fail("a bitmap needs a \"filename\"", o.origin);
@@ -54,7 +68,7 @@ TextureModel bitmap(Builder& b, const Object& o, bool) {
   if (wrap == "clamp") image.wrap = Wrap::clamp;
   if (wrap != "mirror" && wrap != "clamp" && wrap != "repeat")
     b.report.approximated(fmt::format("wrap_mode \"{}\" becomes \"repeat\"", wrap), o.origin);
-  image.number = ImageNumber::luminance;
+  image.number = channel_of(b, o, as_float);
   image.mapping = flipped(mapping_of(o.transform("to_uv", b.report)));
   o.ignore({"format", "accel", "max_anisotropy", "cache"});
   return image;
@@ -79,7 +93,8 @@ TextureModel checkerboard(Builder& b, const Object& o, bool as_float) {
 
 TextureModel mesh_attribute(Builder& b, const Object& o, bool) {
   MeshAttributeTexture attribute;
-  attribute.name = o.text("name", "", b.report);
+  const bool is_of_0_6 = o.type == "vertexcolors";  // of the mesh itself
+  attribute.name = is_of_0_6 ? "vertex_color" : o.text("name", "", b.report);
   attribute.scale = static_cast<float>(o.number("scale", 1, b.report));
   if (attribute.name.empty()) b.report.fail("a mesh_attribute needs a \"name\"", o.origin);
   return attribute;
@@ -93,14 +108,33 @@ TextureModel scaled_texture(Builder& b, const Object& o, bool as_float) {
   return ProductTexture{first, input(b, o, "scale", 1, as_float)};
 }
 
+// 0.6's lines of a width on each side of whole u and v, and the edges of triangles.
+TextureModel lines(Builder& b, const Object& o, bool as_float) {
+  const bool is_grid = o.type == "gridtexture";
+  const SpectrumParameter between = input(b, o, is_grid ? "color0" : "interior_color", is_grid ? 0.2 : 0.5,
+                                          as_float),
+                          line =
+                              input(b, o, is_grid ? "color1" : "edge_color", is_grid ? 0.4 : 0.1, as_float);
+  const double width = std::clamp(o.number("line_width", 0.01, b.report), 0.0, 0.5);
+  o.ignore({"to_uv", "step_width"});
+  const double share = is_grid ? 1 - (1 - 2 * width) * (1 - 2 * width) : 0;
+  b.report.approximated(
+      is_grid ? fmt::format("texture \"gridtexture\": its mean, of which {:.3g} are lines", share)
+              : "texture \"wireframe\": the colour between its edges, of which it is nearly all",
+      o.origin);
+  return MixTexture{between, line, static_cast<float>(share)};
+}
+
 struct Kind {
   std::string_view name;
   TextureModel (*make)(Builder&, const Object&, bool);
 };
-constexpr std::array<Kind, 5> kinds{{{"bitmap", bitmap},
+constexpr std::array<Kind, 7> kinds{{{"bitmap", bitmap},
                                      {"checkerboard", checkerboard},
                                      {"mesh_attribute", mesh_attribute},
                                      {"vertexcolors", mesh_attribute},
+                                     {"gridtexture", lines},
+                                     {"wireframe", lines},
                                      {"scale", scaled_texture}}};
 
 TextureModel make_model(Builder& b, const Object& o, bool as_float) {

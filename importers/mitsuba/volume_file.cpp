@@ -23,7 +23,7 @@ struct Header {
   std::int32_t nx = 0, ny = 0, nz = 0, channels = 0;
   std::array<float, 6> bounds{};
 };
-static_assert(sizeof(Header) == 48);
+static_assert(sizeof(Header) == volume_header_bytes);
 
 [[noreturn]] void fail(const std::filesystem::path& path, const std::string& what) {
   throw std::runtime_error(fmt::format("{}: {}", path.string(), what));

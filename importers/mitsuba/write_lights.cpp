@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "importers/mitsuba/write_lights.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
 
 #include "images/image_files.h"
+#include "importers/export_colors.h"
 #include "importers/images/environment_images.h"
 #include "importers/mitsuba/write_surroundings.h"
+#include "importers/spot_falloff.h"
 #include "scene/flat_emission.h"
 
 namespace vitrail::mitsuba_writer {
@@ -43,11 +46,14 @@ void write(Context& context, Element root, const SpotLight& light) {
   Element element = add(root, "emitter", "spot");
   add_transform(element, light.light_to_world);
   add_spectrum(element, "intensity", light.intensity, Meaning::emission);
-  add_float(element, "cutoff_angle", light.cutoff_deg);
-  add_float(element, "beam_width", light.beam_deg);
-  if (light.falloff != SpotLight::Falloff::linear)
-    context.approximated(
-        "between beam and cutoff Mitsuba's spot falls linearly with the angle; the end angles agree");
+  const MatchedSpot spot = matched_spot(light, SpotLight::Falloff::linear);
+  add_float(element, "cutoff_angle", static_cast<float>(spot.cutoff_deg));
+  add_float(element, "beam_width", static_cast<float>(spot.beam_deg));
+  if (spot.difference > 0)
+    context.approximated(fmt::format(
+        "towards the edge Mitsuba's spot falls linearly with the angle: of the same flux, its intensity "
+        "is within {:.2g} of the greatest",
+        spot.difference));
   if (!light.texture) return;
   const SpectrumParameter texture = *light.texture;
   if (value_of(context, texture))
@@ -55,42 +61,83 @@ void write(Context& context, Element root, const SpotLight& light) {
   add_parameter(context, element, "texture", texture, Meaning::reflectance);
 }
 
-// Of the image's width; pbrt measures its shorter axis. An image that cannot be read counts as a square.
-double fov_of_width(const Scene& scene, const ProjectionLight& light) {
-  const double fov_deg = static_cast<double>(light.fov_deg);
-  const auto* texture = std::get_if<Id<Texture>>(&light.image);
-  const auto* image = texture ? std::get_if<ImageTexture>(&scene.textures[texture->value].model) : nullptr;
-  if (light.irradiance || !image) return fov_deg;
+// The image of a light, its width ÷ height; 1 where it cannot be read.
+double aspect_of(const TintedImage& image) {
   try {
-    const ImageLayout layout = read_image_layout(image->filename);
-    if (layout.width <= layout.height) return fov_deg;
-    const double wide = static_cast<double>(layout.width) / layout.height;
-    return 2 * std::atan(wide * std::tan(fov_deg * std::numbers::pi / 360)) * 180 / std::numbers::pi;
+    const ImageLayout layout = read_image_layout(image.image.filename);
+    return static_cast<double>(layout.width) / layout.height;
   } catch (const Error&) {
-    return fov_deg;
+    return 1;
   }
 }
 
-// Mitsuba's projector is a camera: u = 0 on the left, at +x, and v = 0 at the top, at +y. pbrt has u = 0 at
-// −x, and the image's upper row at −y. The image times π is the irradiance at distance 1.
-void write(Context& context, Element root, const ProjectionLight& light) {
-  const bool is_image = !value_of(context, light.image);
-  if (!light.irradiance && !is_image) return context.dropped("a projection light without an image");
+double greatest_value(const ImageTexture& texture) {
+  const Image values = texture_values(texture, read_stored_image(texture.filename), ImageUse::light);
+  return values.values.empty() ? 0 : static_cast<double>(*std::ranges::max_element(values.values));
+}
+
+// ∫ Y dω of an image of cos³θ times the radiance, dω = cos³θ dA, over ±half at distance 1.
+double flux_of(const std::filesystem::path& file, Point2d half) {
+  const Image image = read_linear_image(file);
+  double sum = 0;
+  for (std::size_t i = 0; i + 2 < image.values.size(); i += 3)
+    sum += srgb_to_xyz({image.values[i], image.values[i + 1], image.values[i + 2]}).y;
+  return 4 * half.x * half.y * sum / static_cast<double>(std::max<std::size_t>(image.pixels(), 1));
+}
+
+// Mitsuba's projector is a camera: u = 0 on the left, at +x, and v = 0 at the top, at +y.
+Element add_projector(Element root, const ProjectionLight& light, float fov_deg) {
   Element element = add(root, "emitter", "projector");
   add_transform(element, light.light_to_world * scale({-1, 1, 1}));
+  add_float(element, "fov", fov_deg);
+  add_string(element, "fov_axis", "x");
+  return element;
+}
+
+// pbrt's: u = 0 at −x, and the image's upper row at +y. Mitsuba's image times π is the irradiance on a plane
+// at distance 1: the intensity times cos³θ.
+void write_intensity(Context& context, Element root, const ProjectionLight& light) {
+  const auto* texture = std::get_if<Id<Texture>>(&light.image);
+  const auto image = texture ? tinted_image(context.scene, *texture) : std::nullopt;
+  const auto* mapping = image ? std::get_if<UvMapping>(&image->image.mapping) : nullptr;
+  if (!mapping) return context.dropped("a projection light without an image");
+  const Point2d half = half_size(light, aspect_of(*image));
+  const RGB color = factor_rgb(light.scale);
+  RGB tint{image->tint.r * color.r, image->tint.g * color.g, image->tint.b * color.b};
+  try {
+    // Mitsuba cuts images at 1.
+    const double brightest = std::max({tint.r, tint.g, tint.b}) * greatest_value(image->image);
+    if (!(brightest > 0)) return context.dropped("a projection light that is black");
+    tint = {tint.r / brightest, tint.g / brightest, tint.b / brightest};
+    const ImageChange change{tint, *mapping, true, 3, half};
+    const std::filesystem::path file = context.images.write(image->image, ImageUse::light, change);
+    const std::string name = context.relative(std::filesystem::absolute(file).string());
+    const double fov_deg = std::atan(half.x) * 360 / std::numbers::pi;
+    Element lit =
+        add(add_projector(root, light, static_cast<float>(fov_deg)), "texture", "d65", "irradiance");
+    add_string(add(lit, "texture", "bitmap", "nested"), "filename", name);
+    double factor = brightest / std::numbers::pi;
+    if (light.power)
+      if (const double flux = brightest * flux_of(file, half); flux > 0)
+        factor *= static_cast<double>(*light.power) / flux;
+    add_float(lit, "scale", static_cast<float>(factor));
+    context.approximated(
+        fmt::format("Mitsuba's projector has an image of irradiance: it is written as {}", name));
+  } catch (const Error& error) {
+    context.dropped(fmt::format("a projection light: {}", error.what()));
+  }
+}
+
+void write(Context& context, Element root, const ProjectionLight& light) {
+  if (!light.irradiance) return write_intensity(context, root, light);
+  const bool is_image = !value_of(context, light.image);
+  Element element = add_projector(root, light, light.fov_deg);
   const auto flat = multiple_of_inverse_d65(light.scale);
   if (is_image && !flat)
     add_lit_image(context, element, "irradiance", light.image, 1);
   else
     add_parameter(context, element, "irradiance", light.image, Meaning::emission);
-  add_float(element, "fov", static_cast<float>(fov_of_width(context.scene, light)));
-  add_string(element, "fov_axis", "x");
-  const double factor = flat ? *flat : number_of(context, light.scale, brightness);
-  add_float(element, "scale", static_cast<float>(light.irradiance ? factor : factor / std::numbers::pi));
-  if (!light.irradiance)
-    context.approximated(
-        "the image of a projector is irradiance in Mitsuba: brighter off its axis by 1/cos³");
-  if (light.power) context.dropped("the power of a projection light: its image counts as it is");
+  add_float(element, "scale", static_cast<float>(flat ? *flat : number_of(context, light.scale, brightness)));
 }
 
 void write(Context& context, Element root, const GoniometricLight& light) {

@@ -128,7 +128,8 @@ std::string find_file(std::string name, const std::filesystem::path& folder) {
 std::optional<MtlMap> read_map(TextCursor& cursor, const std::string& keyword,
                                const std::filesystem::path& folder, const Drop& drop) {
   MtlMap map = MapReader(cursor, keyword, drop).read_options();
-  const std::string name(cursor.rest_of_line());
+  std::string name(cursor.rest_of_line());
+  if (name.size() >= 2 && name.front() == '"' && name.back() == '"') name = name.substr(1, name.size() - 2);
   if (name.empty()) cursor.fail(fmt::format("{} without a file name", keyword));
   map.filename = find_file(name, folder);
   if (!map.filename.empty()) return map;

@@ -132,7 +132,8 @@ void StatementReader::read_position() {
   if (at_end()) return;
   int more = 0;
   for (; !at_end(); ++more) finite_number("a vertex's weight or colour");
-  if (more % 2 == 1) note("weight", Fidelity::dropped, "weights (w) of vertices: they count for curves only");
+  const bool has_weight = more == 1 || more == 4;
+  if (has_weight) note("weight", Fidelity::dropped, "weights (w) of vertices: they count for curves only");
   if (more >= 3) note("colour", Fidelity::dropped, "colours of vertices");
 }
 

@@ -136,6 +136,32 @@ double exposure_time(const Shutter& shutter, ParameterSet& parameters, Context& 
   return 1;
 }
 
+std::optional<LensSystem> read_lens_system(ParameterSet& parameters, Context& context) {
+  const std::string name = parameters.text("lensfile", "");
+  const double aperture_mm = parameters.number("aperturediameter", 1);
+  LensSystem system{{}, positive(parameters, "focusdistance", 10)};
+  system.exposes = context.version == Version::v4 || !parameters.boolean("simpleweighting", true);
+  const std::filesystem::path file = context.resolve(name);
+  std::error_code ignored;
+  if (name.empty() || !std::filesystem::is_regular_file(file, ignored)) {
+    context.report.dropped(
+        fmt::format("camera \"realistic\": there is no lens file \"{}\": a perspective camera of 90 degrees",
+                    name),
+        parameters.place());
+    return std::nullopt;
+  }
+  system.lens = read_lens(file, aperture_mm);
+  context.report.approximated(
+      fmt::format(
+          "camera \"realistic\": a thin lens of its focal length, {:.3g} mm, and its pupil, {:.3g} mm "
+          "wide, without distortion and without its darker corners",
+          system.lens.focal_length, 2 * system.lens.pupil_radius),
+      parameters.place());
+  if (parameters.find("aperture", {ParameterType::text}))
+    context.report.approximated("camera \"realistic\": its aperture is round", parameters.place());
+  return system;
+}
+
 }  // namespace
 
 ViewSettings default_view(Version version) {
@@ -152,6 +178,7 @@ ViewSettings default_view(Version version) {
 void read_camera(const std::string& kind, ParameterSet& parameters, const Transform& ctm, Context& context,
                  ViewSettings& view) {
   view.has_camera = true;
+  view.lens_system.reset();
   view.camera_to_world = snapped(inverse(ctm));
   using Projection = ViewSettings::Projection;
   view.projection = Projection::perspective;
@@ -165,11 +192,12 @@ void read_camera(const std::string& kind, ParameterSet& parameters, const Transf
            parameters.place());
     view.sphere = mapping == "equalarea" ? SphericalCamera::Projection::equal_area
                                          : SphericalCamera::Projection::latitude_longitude;
+  } else if (kind == "realistic") {
+    view.lens_system = read_lens_system(parameters, context);
   } else if (!is_one_of(kind, {"perspective", "orthographic"})) {
     context.report.dropped(
         fmt::format("camera \"{}\" is not supported: a perspective camera at its place stands for it", kind),
         parameters.place());
-    parameters.ignore({"lensfile", "aperturediameter", "aperture", "simpleweighting"});
   }
   view.fov_deg = parameters.number("fov", 90);
   const double half = parameters.number("halffov", -1);
@@ -209,7 +237,8 @@ void read_film(const std::string& kind, ParameterSet& parameters, Context& conte
   view.exposure *= parameters.number("exposuretime", 1);
   read_sensor(parameters, context);
   read_limits(parameters, context, view.exposure);
-  parameters.ignore({"filename", "savefp16", "diagonal", "coordinatesystem"});
+  view.film_diagonal_mm = positive(parameters, "diagonal", 35);
+  parameters.ignore({"filename", "savefp16", "coordinatesystem"});
   parameters.report_unused(context.report);
 }
 
@@ -299,7 +328,24 @@ ScreenWindow screen_of(const ViewSettings& view) {
 
 }  // namespace
 
-void apply(const ViewSettings& view, Scene& scene) {
+// A lens sees as a hole in its front principal plane does, on a film as far from it as its own is from the
+// rear one. The middle of the film gets π(r/s′)² of the radiance.
+static ViewSettings with_thin_lens(ViewSettings view, const LensSystem& system) {
+  constexpr double mm = 1e-3;
+  const ThinLens& lens = system.lens;
+  const double image = image_distance(lens, system.focus_distance / mm);
+  const double width = view.film.width, height = view.film.height;
+  const double shorter = view.film_diagonal_mm * std::min(width, height) / std::hypot(width, height);
+  view.fov_deg = 2 * std::atan(shorter / 2 / image) * 180 / std::numbers::pi;
+  view.lens.radius = lens.pupil_radius * mm;
+  view.lens.focal_distance = lens.focal_length * image / (image - lens.focal_length) * mm;
+  view.camera_to_world = snapped(view.camera_to_world * translate({0, 0, (image + lens.principal_gap) * mm}));
+  if (system.exposes) view.exposure *= std::numbers::pi * std::pow(lens.pupil_radius / image, 2);
+  return view;
+}
+
+void apply(const ViewSettings& given, Scene& scene) {
+  const ViewSettings view = given.lens_system ? with_thin_lens(given, *given.lens_system) : given;
   const ScreenWindow screen = screen_of(view);
   scene.shutter = view.shutter;
   if (!stands_still(view.motion, scene.shutter)) scene.camera_motion = view.motion;

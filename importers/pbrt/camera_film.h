@@ -7,10 +7,18 @@
 #include <string>
 
 #include "importers/pbrt/context.h"
+#include "importers/pbrt/lens_file.h"
 #include "importers/pbrt/parameters.h"
 #include "scene/scene.h"
 
 namespace vitrail::pbrt {
+
+// Of the realistic camera. Its film is at the camera's place.
+struct LensSystem {
+  ThinLens lens;
+  double focus_distance = 10;  // from the film, in the scene's units, which are metres
+  bool exposes = true;         // by the share of all directions that the film sees the pupil in
+};
 
 // What Camera, Film, PixelFilter, Sampler and Integrator said. The camera's screen depends on the film's
 // resolution and the film's exposure on the camera's shutter, so both are completed at the end.
@@ -26,8 +34,10 @@ struct ViewSettings {
   std::optional<ScreenWindow> window;
   double exposure_s = 1;
   Shutter shutter;
+  std::optional<LensSystem> lens_system;
 
   FilmSettings film;
+  double film_diagonal_mm = 35;
   double exposure = 1;  // iso / 100, or v3's film scale
   RenderSettings render;
 };

@@ -139,6 +139,7 @@ class Interpreter {
   void set_material(std::uint32_t slot, Material material);
   std::uint32_t add_material(Material material);
   Id<Material> shape_material();
+  std::optional<Id<Material>> overridden_material(ParameterSet& shape, const Place& place);
   FloatParameter shape_opacity(ParameterSet& parameters, const Place& place);
   void report_shining_alpha(const FloatParameter& alpha, const Place& place);
   bool uvs_show(const FloatParameter& opacity);
@@ -195,6 +196,11 @@ class Interpreter {
   std::vector<Material> materials_;
   std::vector<bool> material_is_made_;
   std::vector<DeferredMaterial> deferred_;
+  struct GivenMaterial {
+    std::string kind;
+    std::vector<Parameter> parameters;
+  };
+  std::map<std::uint32_t, GivenMaterial> given_;  // by slot, in v3, whose shapes may change them
   std::map<std::uint32_t, std::string> named_slots_;
   std::optional<Id<Material>> default_material_;
   std::set<std::uint32_t> shares_of_v3_;  // textures that are a shape's "alpha" in a file of v3

@@ -3,12 +3,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 
 #include "importers/given_sky.h"
 #include "importers/pbrt/image_numbers.h"
+#include "scene/color.h"
 #include "scene/rgb_to_spectrum.h"
 
 namespace vitrail::pbrt {
@@ -33,12 +35,16 @@ struct Maker {
                                         : Spectrum{emission_from_rgb({total, total, total})};
     return plain ? spectrum : product(spectrum, read_unbounded(*scale, scope));
   }
-  // What an image is multiplied by: `scale` and the rest of the light's spectrum, 1 where there is none.
+  // What an image is multiplied by: `scale` and the colour of the light's spectrum, 1 where there is none.
+  // The image is lit by D65 already: v3 multiplies rgb.
   Spectrum factor_of_image(std::string_view name) const {
-    const bool colored = parameters.find_spectrum(name) != nullptr;
-    if (colored) return emission(name);
-    const Parameter* scale = parameters.find_spectrum("scale");
-    return scale ? read_unbounded(*scale, scope) : Spectrum{ConstantSpectrum{1}};
+    const Parameter *color = parameters.find_spectrum(name), *scale = parameters.find_spectrum("scale");
+    const Spectrum factor = scale ? read_unbounded(*scale, scope) : Spectrum{ConstantSpectrum{1}};
+    if (!color) return factor;
+    if (color->type == ParameterType::rgb || color->type == ParameterType::xyz)
+      return product(read_unbounded(*color, scope), factor);
+    const RGB c = xyz_to_srgb(to_xyz(resolved(read_emission(*color, 1, scope))));
+    return product(unbounded_from_rgb({std::max(c.r, 0.0), std::max(c.g, 0.0), std::max(c.b, 0.0)}), factor);
   }
   // v3 decodes the images of textures alone.
   Encoding encoding_of_image() const {

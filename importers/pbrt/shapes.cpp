@@ -370,6 +370,10 @@ std::vector<ShapeGeometry> ShapeMaker::make(const std::string& kind, ParameterSe
     context_.report.approximated("the tangents \"S\" of vertices: brushed materials follow (u,v)",
                                  tangents->place);
   report_shadow_alpha(parameters);
+  if (const Parameter* points = parameters.find_list("P"); points && number_count(*points) == 0) {
+    context_.report.dropped(fmt::format("shape \"{}\" has no points", kind), points->place);
+    return {};
+  }
   std::vector<ShapeGeometry> made;
   const auto take = [&](std::optional<ShapeGeometry> geometry) {
     if (geometry) made.push_back(*geometry);

@@ -133,9 +133,9 @@ Wrap read_wrap(const Maker& m) {
 }
 
 TextureFilter read_texture_filter(const Maker& m) {
+  m.parameters.ignore({"maxanisotropy"});
   if (m.parameters.boolean("trilinear", false)) return TextureFilter::trilinear;
   const std::string filter = m.parameters.text("filter", m.is_v3() ? "ewa" : "bilinear");
-  m.parameters.ignore({"maxanisotropy"});
   if (filter == "point") return TextureFilter::nearest;
   if (filter == "trilinear") return TextureFilter::trilinear;
   if (filter == "ewa" || filter == "EWA") return TextureFilter::anisotropic;

@@ -50,6 +50,7 @@ Material Interpreter::made_material(const std::string& kind, ParameterSet& param
 // v4 lets materials name textures that come later; they wait for the end.
 void Interpreter::define_material(std::uint32_t slot, const std::string& kind, ParameterSet parameters,
                                   const Place& place) {
+  if (context_.version == Version::v3) given_.insert_or_assign(slot, GivenMaterial{kind, parameters.all()});
   if (!textures_are_known(parameters, textures_)) {
     deferred_.push_back({slot, kind, state_.color_space, std::move(parameters), place});
     return;
@@ -244,6 +245,29 @@ Id<Material> Interpreter::shape_material() {
   return *default_material_;
 }
 
+// In v3 the colours and textures of a shape are those of its material, too.
+std::optional<Id<Material>> Interpreter::overridden_material(ParameterSet& shape, const Place& place) {
+  const auto given = state_.material ? given_.find(state_.material->value) : given_.end();
+  if (given == given_.end()) return std::nullopt;
+  std::vector<Parameter> all = given->second.parameters, own;
+  for (const Parameter& p : shape.all()) {
+    const bool is_color = p.type == ParameterType::rgb || p.type == ParameterType::xyz ||
+                          p.type == ParameterType::blackbody || p.type == ParameterType::spectrum;
+    const bool is_texture = p.type == ParameterType::texture && p.name != "alpha" && p.name != "shadowalpha";
+    if (is_color || is_texture) own.push_back(p);
+  }
+  if (own.empty()) return std::nullopt;
+  for (const Parameter& p : own) {
+    shape.ignore({p.name});
+    std::erase_if(all, [&](const Parameter& of_material) { return of_material.name == p.name; });
+  }
+  all.insert(all.end(), own.begin(), own.end());
+  const std::string kind = given->second.kind;
+  const std::uint32_t slot = new_material_slot();
+  define_material(slot, kind, {fmt::format("Material \"{}\"", kind), place, std::move(all)}, place);
+  return Id<Material>{slot};
+}
+
 // v4 goes by shares; to v3 a surface is there wherever its alpha is not 0.
 FloatParameter Interpreter::shape_opacity(ParameterSet& parameters, const Place& place) {
   const FloatParameter alpha = float_parameter(parameters, {"alpha"}, 1, scope(place));
@@ -293,8 +317,11 @@ void Interpreter::shape(const Place& place) {
   ParameterSet parameters = read_set("Shape", kind, place, "shape");
   const FloatParameter opacity = shape_opacity(parameters, place);
   if (opacity == FloatParameter{0.0f} && !state_.area_light) return;  // nothing shows
+  const std::optional<Id<Material>> before = state_.material;
+  if (const auto own = overridden_material(parameters, place)) state_.material = own;
   for (const ShapeGeometry& geometry : shapes_.make(kind, parameters, uvs_show(opacity)))
     if (triangles_of(scene_.meshes[geometry.mesh.value]) > 0) add_shape(geometry, opacity, place);
+  state_.material = before;
 }
 
 void Interpreter::add_shape(const ShapeGeometry& geometry, const FloatParameter& opacity,

@@ -80,19 +80,24 @@ ImageTexture image_for_pbrt(Parameters& p, const ImageTexture& image, ImageUse u
   }
 }
 
-std::optional<std::string> file_for_pbrt(Parameters& p, Id<Texture> texture, ImageUse use) {
+std::optional<std::string> file_for_pbrt(Parameters& p, Id<Texture> texture, ImageUse use,
+                                         const ImageChange& besides) {
   const auto tinted = tinted_image(p.writer().scene, texture);
   if (!tinted) return {};
   const ImageTexture& image = tinted->image;
-  ImageChange change{tinted->tint, {}, true};
+  ImageChange change = besides;
+  change.three_channels = true;
+  change.tint = {tinted->tint.r * besides.tint.r, tinted->tint.g * besides.tint.g,
+                 tinted->tint.b * besides.tint.b};
   if (const auto* uv = std::get_if<UvMapping>(&image.mapping))
-    change.mapping = *uv;
+    change.mapping = composed(*uv, besides.mapping);
   else
     p.approximated("its image is mapped by the uv, not by position");
   try {
-    const bool as_it_is =
-        change.tint == RGB{1, 1, 1} && change.mapping == UvMapping{} && is_read_by_pbrt(image.filename) &&
-        have_same_values(image, taken_by_name(image, use), use) && has_three_channels(image);
+    const bool as_it_is = change.tint == RGB{1, 1, 1} && change.mapping == UvMapping{} &&
+                          change.cosine_power == 0 && is_read_by_pbrt(image.filename) &&
+                          have_same_values(image, taken_by_name(image, use), use) &&
+                          has_three_channels(image);
     return as_it_is ? image.filename : written(p, image, use, change);
   } catch (const Error& error) {
     p.approximated(fmt::format("{}: referred to as it is", error.what()));
@@ -115,19 +120,21 @@ std::string goniometric_for_pbrt(Parameters& p, const GoniometricLight& light) {
 }
 
 // pbrt-v4 reads equal-area maps alone, of three channels.
-std::string environment_for_pbrt(Parameters& p, const EnvironmentLight& light) {
+std::string environment_for_pbrt(Parameters& p, const EnvironmentLight& light, RGB tint) {
   using enum EnvironmentLight::Projection;
   const ImageTexture image = image_of(light);
   try {
     if (light.projection == equal_area) {
-      if (has_three_channels(image) &&
+      if (tint == RGB{1, 1, 1} && has_three_channels(image) &&
           have_same_values(image, taken_by_name(image, ImageUse::light), ImageUse::light))
         return light.filename;
-      return written(p, image, ImageUse::light, {{1, 1, 1}, {}, true});
+      return written(p, image, ImageUse::light, {tint, {}, true});
     }
-    const Image values = texture_values(image, read_stored_image(light.filename), ImageUse::light);
+    Image values = texture_values(image, read_stored_image(light.filename), ImageUse::light);
+    values = with_three_channels(reproject(values, latitude_longitude, equal_area));
+    multiply(values, tint);
     const std::filesystem::path file = std::filesystem::absolute(p.writer().new_image());
-    write_exr_image(file, with_three_channels(reproject(values, latitude_longitude, equal_area)));
+    write_exr_image(file, values);
     p.approximated("its image of latitude and longitude is resampled to the equal-area map");
     return file.string();
   } catch (const Error& error) {

@@ -1,8 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <numbers>
 
+#include "images/image_files.h"
+#include "importers/export_colors.h"
 #include "importers/images/sky_image.h"
 #include "importers/pbrt/write_images.h"
+#include "importers/spot_falloff.h"
 
 namespace vitrail::pbrt {
 
@@ -22,26 +28,39 @@ class LightWriter {
   }
   const char* operator()(const SpotLight& l) {
     light_to_world_ = l.light_to_world;
-    if (l.falloff != SpotLight::Falloff::smoothstep)
-      p_.approximated("between the two angles it falls off as pbrt-v4's smoothstep of the cosine");
+    const MatchedSpot spot = matched_spot(l, SpotLight::Falloff::smoothstep);
+    if (spot.difference > 0)
+      p_.approximated(fmt::format(
+          "it falls off as pbrt-v4's smoothstep of the cosine: of the same flux, its intensity is within "
+          "{:.2g} of the greatest",
+          spot.difference));
     if (l.texture) p_.dropped("the texture of a spot light");
-    p_.number("coneangle", l.cutoff_deg);
-    p_.number("conedeltaangle", static_cast<double>(l.cutoff_deg) - static_cast<double>(l.beam_deg));
+    p_.number("coneangle", static_cast<float>(spot.cutoff_deg));
+    p_.number("conedeltaangle", spot.cutoff_deg - spot.beam_deg);
     p_.emission("I", l.intensity);
     return "spot";
   }
   const char* operator()(const ProjectionLight& l) {
     light_to_world_ = l.light_to_world;
     const auto* texture = std::get_if<Id<Texture>>(&l.image);
-    const auto file = texture ? file_for_pbrt(p_, *texture, ImageUse::light) : std::nullopt;
+    const ImageScale scale = scale_of(l.scale);
+    ImageChange change{scale.tint};
+    if (l.irradiance) {
+      change.cosine_power = -3, change.half = half_size(l, aspect_of(l.image));
+      change.mapping = {1, 0, 0, 0, -1, 1};  // Mitsuba's v runs down
+    }
+    const auto file = texture ? file_for_pbrt(p_, *texture, ImageUse::light, change) : std::nullopt;
     if (!file) {
       p_.dropped("a projection of something that is not an image");
       return nullptr;
     }
-    if (l.irradiance)
-      p_.approximated("the image is of the intensity, not of the irradiance on a plane (less by cos³)");
-    p_.file("filename", *file).number("fov", l.fov_deg);
-    scale_of_image(l.scale);
+    p_.file("filename", *file);
+    if (l.irradiance) {
+      p_.number("fov", std::atan(std::min(change.half.x, change.half.y)) * 360 / std::numbers::pi);
+      p_.number("scale", static_cast<float>(scale.number * std::numbers::pi));
+    } else {
+      p_.number("fov", l.fov_deg).number("scale", static_cast<float>(scale.number));
+    }
     if (l.power) p_.number("power", *l.power);
     return "projection";
   }
@@ -65,8 +84,9 @@ class LightWriter {
   }
   const char* operator()(const EnvironmentLight& l) {
     light_to_world_ = l.light_to_world;
-    p_.file("filename", environment_for_pbrt(p_, l));
-    scale_of_image(l.scale);
+    const ImageScale scale = scale_of(l.scale);
+    p_.file("filename", environment_for_pbrt(p_, l, scale.tint))
+        .number("scale", static_cast<float>(scale.number));
     if (l.illuminance) p_.number("illuminance", *l.illuminance);
     if (l.portal) portal(*l.portal);
     return "infinite";
@@ -74,10 +94,25 @@ class LightWriter {
   const char* operator()(const SkyLight&) { return nullptr; }  // its parts are written
 
  private:
-  void scale_of_image(const Spectrum& scale) {
-    if (!is_constant(scale)) p_.approximated("the colour that multiplies its image becomes its luminance");
-    p_.number("scale",
-              static_cast<float>(is_constant(scale) ? evaluate(scale, lambda_min_nm) : luminance(scale)));
+  // What multiplies an image, as a number and a colour of the image's own.
+  struct ImageScale {
+    double number = 1;
+    RGB tint{1, 1, 1};
+  };
+  static ImageScale scale_of(const Spectrum& scale) {
+    const RGB c = factor_rgb(scale);
+    if (c.r == c.g && c.g == c.b) return {c.r, {1, 1, 1}};
+    return {1, c};
+  }
+  double aspect_of(const SpectrumParameter& image) {
+    const auto* texture = std::get_if<Id<Texture>>(&image);
+    const auto tinted = texture ? tinted_image(p_.writer().scene, *texture) : std::nullopt;
+    try {
+      const ImageLayout layout = read_image_layout(tinted ? tinted->image.filename : "");
+      return static_cast<double>(layout.width) / layout.height;
+    } catch (const Error&) {
+      return 1;
+    }
   }
   void portal(const std::array<Point3d, 4>& corners) {
     const Transform to_light = inverse(light_to_world_);

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "importers/export_colors.h"
 #include "importers/pbrt/write_images.h"
+#include "scene/rgb_to_spectrum.h"
 
 namespace vitrail::pbrt {
 
@@ -87,8 +89,13 @@ class TextureWriter {
     return name_of(t.kind);
   }
   const char* operator()(const MeshAttributeTexture& t) {
-    p_.dropped(fmt::format("pbrt has no attributes of meshes; 0.5 stands for \"{}\"", t.name));
-    return nullptr;
+    const RGB mean = mean_of_attribute(p_.writer().scene, t).value_or(RGB{0.5, 0.5, 0.5});
+    p_.dropped(fmt::format(
+        "pbrt has no attributes of meshes; the mean of \"{}\" stands for it, rgb {:.3g} {:.3g} {:.3g}",
+        t.name, mean.r, mean.g, mean.b));
+    input("value", is_float_ ? Spectrum{ConstantSpectrum{static_cast<float>((mean.r + mean.g + mean.b) / 3)}}
+                             : reflectance_from_rgb(mean));
+    return "constant";
   }
   const char* operator()(const UvTexture&) {
     p_.dropped("pbrt-v4 has no texture that shows (u,v); 0.5 stands for it");

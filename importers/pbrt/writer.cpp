@@ -63,7 +63,7 @@ Writer::Writer(const Scene& s, const std::filesystem::path& out)
       textures(unique_names(s.textures, "texture")),
       media(unique_names(s.media, "medium")),
       objects(unique_names(s.prototypes, "object")),
-      images_(out.parent_path() / (out.stem().string() + "-images")) {}
+      side_files_(out) {}
 
 void Writer::transform(const Transform& t) {
   if (t == Transform{}) return;
@@ -93,10 +93,7 @@ std::string Writer::add_name(std::vector<std::string>& names, std::string_view w
 }
 
 std::filesystem::path Writer::new_image() {
-  std::error_code error;
-  std::filesystem::create_directories(images_, error);
-  if (error) throw MachineError(fmt::format("cannot create {}: {}", images_.string(), error.message()));
-  return images_ / fmt::format("{:06}.exr", image_count_++);
+  return directory / side_files_.name("images", image_count_++, "exr");
 }
 
 std::string in_quotes(std::string_view text) {

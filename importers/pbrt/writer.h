@@ -14,6 +14,7 @@
 #include "importers/images/converted_images.h"
 #include "importers/mesh_files.h"
 #include "importers/opacity_key.h"
+#include "importers/side_files.h"
 #include "scene/scene.h"
 
 namespace vitrail::pbrt {
@@ -61,8 +62,8 @@ struct Writer {
   }
 
  private:
-  std::filesystem::path images_;  // OUT-images
-  int image_count_ = 0;
+  SideFiles side_files_;
+  std::size_t image_count_ = 0;
 
   void note(Fidelity fidelity, std::string message, const Origin& origin, RecordKind kind) {
     const SourceLocation place = location(scene, origin);

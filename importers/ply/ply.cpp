@@ -4,11 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <span>
 #include <string_view>
 
 #include "importers/ply/ply_attributes.h"
 #include "importers/ply/ply_body.h"
+#include "scene/color.h"
 
 namespace vitrail {
 
@@ -113,6 +115,31 @@ void report_skipped(const Header& header, const BodyPlan& plan, const Attributes
   }
 }
 
+bool is_color(const AttributePlan& plan) {
+  return plan.properties.size() == 3 && (plan.name == "vertex_color" || plan.name == "face_color");
+}
+
+Attributes plan_of(const Header& header, const BodyPlan& plan, PlyAttributes wanted) {
+  if (wanted == PlyAttributes::skip) return {};
+  Attributes attributes = plan_attributes(header, plan);
+  if (wanted == PlyAttributes::colors) {
+    std::erase_if(attributes, [](const AttributePlan& a) { return !is_color(a); });
+    if (attributes.size() > 1) attributes.resize(1);  // those of vertices come first
+  }
+  return attributes;
+}
+
+void decode_colors(const Header& header, const Attributes& attributes, TriangleMesh& mesh) {
+  for (std::size_t i = 0; i < attributes.size(); ++i) {
+    const Type type = header.elements[attributes[i].element].properties[attributes[i].properties[0]].type;
+    if (!is_integer(type)) continue;
+    const bool is_signed = type == Type::int8 || type == Type::int16 || type == Type::int32;
+    const double most = std::ldexp(1.0, static_cast<int>(8 * size_of(type)) - (is_signed ? 1 : 0)) - 1;
+    for (float& value : mesh.attributes[i].values)
+      value = static_cast<float>(srgb_decode(std::clamp(static_cast<double>(value) / most, 0.0, 1.0)));
+  }
+}
+
 }  // namespace
 
 namespace {
@@ -124,9 +151,10 @@ Body read_file(const std::filesystem::path& file, Diagnostics* diagnostics, PlyA
   TextCursor cursor(name, bytes.begin(), bytes.end());
   const Header header = read_header(cursor);
   const BodyPlan plan = make_plan(header, cursor);
-  const Attributes attributes = wanted == PlyAttributes::read ? plan_attributes(header, plan) : Attributes{};
+  const Attributes attributes = plan_of(header, plan, wanted);
   Body body = read_body(bytes, cursor, header, plan, quads);
   read_attributes(bytes, cursor, header, plan, attributes, body.mesh);
+  if (wanted == PlyAttributes::colors) decode_colors(header, attributes, body.mesh);
   if (diagnostics) {
     report_skipped(header, plan, attributes, *diagnostics);
     if (body.dropped_faces > 0) {

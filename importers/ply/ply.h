@@ -17,7 +17,9 @@ namespace vitrail {
 // element skipped. Bad input throws Error: in ASCII with the place of the offender, in binary with its byte
 // offset in the message and the line of the header that declares it. Memory is claimed only for what the
 // bytes of the file can hold.
-enum class PlyAttributes { skip, read };
+// `colors`: of vertices, or of faces, alone, linear: integers are shares of the greatest of their type, in
+// sRGB's encoding.
+enum class PlyAttributes { skip, read, colors };
 TriangleMesh read_ply(const std::filesystem::path& file, Diagnostics* diagnostics = nullptr,
                       PlyAttributes wanted = PlyAttributes::skip);
 

@@ -186,20 +186,11 @@ Pigment bilinear(Context& context, const BilinearTexture& texture, const Origin&
   return p;
 }
 
-// The mean of the values that the meshes have by that name.
 Pigment attribute(Context& context, const MeshAttributeTexture& texture, const Origin& origin,
                   const Use& use) {
-  RGB sum;
-  double count = 0;
-  for (const TriangleMesh& mesh : context.scene.meshes)
-    for (const MeshAttribute& a : mesh.attributes) {
-      if (a.name != texture.name) continue;
-      const std::size_t step = a.channels == 3 ? 3 : 1;
-      for (std::size_t i = 0; i + step <= a.values.size(); i += step, ++count)
-        sum = {sum.r + a.values[i], sum.g + a.values[i + step / 2], sum.b + a.values[i + step - 1]};
-    }
   context.approximated(fmt::format("mesh attribute {}: its mean", texture.name), origin);
-  return count > 0 ? constant(sum * (texture.scale / count), use) : grey(0.5, use);
+  const auto mean = mean_of_attribute(context.scene, texture);
+  return mean ? constant(*mean, use) : grey(0.5, use);
 }
 
 Pigment build(Context& context, Id<Texture> id, const Use& use) {

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "pbrt_text.h"
+#include "scene/color.h"
 #include "scene/spectrum.h"
 
 namespace vitrail {
@@ -56,6 +57,28 @@ TEST(ImportScene, ShowsAllOfGeometryAloneUnderASky) {
   EXPECT_NEAR(sky + luminance(sun.irradiance) / std::numbers::pi, 1, 1e-3);
   EXPECT_LT(sky, 0.5);
   EXPECT_LT(sun.direction.y, 0) << "it shines down";
+}
+
+// Of 8 bits, in sRGB's encoding, as programs that scan have them.
+TEST(ImportScene, ShowsTheColoursOfAPly) {
+  const TemporaryFolder folder;
+  const std::string colored =
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+      "property uchar red\nproperty uchar green\nproperty uchar blue\nproperty uchar alpha\nproperty float "
+      "quality\n"
+      "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+      "0 0 0 255 128 0 255 1\n1 0 0 0 0 0 255 1\n0 1 0 255 255 255 255 1\n3 0 1 2\n";
+  const ImportedScene imported = import_scene(folder.write("a.ply", colored));
+  const auto& diffuse = std::get<DiffuseMaterial>(imported.scene.materials.at(0).model);
+  const Texture& texture = imported.scene.textures.at(std::get<Id<Texture>>(diffuse.reflectance).value);
+  EXPECT_EQ(std::get<MeshAttributeTexture>(texture.model).name, "vertex_color");
+  const TriangleMesh& mesh = imported.scene.meshes.at(0);
+  ASSERT_EQ(mesh.attributes.size(), 1u);
+  const auto half = static_cast<float>(srgb_decode(128 / 255.0));
+  EXPECT_EQ(mesh.attributes[0].values, (std::vector<float>{1, half, 0, 0, 0, 0, 1, 1, 1}));
+  EXPECT_TRUE(mentions(imported.diagnostics, "property quality"));
+  EXPECT_FALSE(mentions(imported.diagnostics, "property red"));
+  EXPECT_TRUE(import_scene(folder.write("b.ply", ply)).scene.textures.empty());
 }
 
 TEST(ImportScene, AddsNoSkyWhereSomethingShines) {

@@ -8,6 +8,7 @@
 
 #include "importers/mitsuba/mitsuba.h"
 #include "importers/mitsuba/sun_and_sky.h"
+#include "scene/color.h"
 #include "scene/rgb_to_spectrum.h"
 #include "temporary_folder.h"
 
@@ -290,6 +291,16 @@ TEST_F(MitsubaLoad, OldCoatings) {
   EXPECT_EQ(plastic.eta, 1.5f);
   EXPECT_FALSE(plastic.nonlinear);
   EXPECT_FALSE(coat.two_sided);
+
+  // Of index 1 light goes on as it comes: (2∫exp(−τ/μ)μ dμ)² = (2E₃(τ))², E₃(0.1) = 0.4163.
+  const Material dark = material(
+      "<bsdf type=\"coating\" id=\"m\"><float name=\"int_ior\" value=\"1.000001\"/><float name=\"ext_ior\" "
+      "value=\"1\"/>"
+      "<float name=\"thickness\" value=\"2\"/><float name=\"sigma_a\" value=\"0.05\"/>"
+      "<bsdf type=\"conductor\"/></bsdf>");
+  const auto& factor = std::get<ConductorMaterial>(dark.model).reflectance_factor;
+  EXPECT_NEAR(luminance(std::get<Spectrum>(factor)), 0.8326 * 0.8326, 2e-3);
+  EXPECT_TRUE(mentions("0.69"));
 }
 
 // Sums of a Lambertian part and a gloss without Fresnel's factor.
@@ -437,6 +448,75 @@ TEST_F(MitsubaLoad, MistakesAreErrorsWithTheirPlace) {
               ::testing::HasSubstr("/dev/zero"));
   EXPECT_THAT(error_inside("<bsdf type=\"diffuse\" id=\"a\"/><bsdf type=\"diffuse\" id=\"a\"/>"),
               ::testing::HasSubstr("twice"));
+}
+
+// As programs on Windows write them.
+TEST_F(MitsubaLoad, OtherEncodingsAndSeparators) {
+  std::filesystem::create_directory(folder_ / "meshes");
+  folder_.write("meshes/m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  const std::string text = head +
+                           "<bsdf type=\"diffuse\" id=\"wei\xC3\x9F\"/><shape type=\"obj\"><string "
+                           "name=\"filename\" value=\"meshes\\m.obj\"/><ref id=\"wei\xC3\x9F\"/></shape>" +
+                           tail;
+  std::string latin = "<?xml version=\"1.0\" encoding=\"ISO-8859-1\"?>\n" + text, utf16 = "\xFF\xFE";
+  for (std::size_t at = latin.find("\xC3\x9F"); at != std::string::npos; at = latin.find("\xC3\x9F"))
+    latin.replace(at, 2, "\xDF");
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const bool two = text[i] == '\xC3';
+    utf16 += two ? '\xDF' : text[i];
+    utf16 += '\0';
+    i += two;
+  }
+  for (const std::string& file : {text, "\xEF\xBB\xBF" + text, latin, utf16}) {
+    const Scene scene = read_mitsuba(folder_.write("scene.xml", file)).scene;
+    ASSERT_EQ(scene.materials.size(), 1u);
+    EXPECT_EQ(scene.materials[0].name, "wei\xC3\x9F");
+  }
+}
+
+// Colours of vertices are decoded in 0.6, and numbers as they are in 3.
+TEST_F(MitsubaLoad, OldColoursOfVertices) {
+  folder_.write(
+      "m.ply",
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+      "property uchar red\nproperty uchar green\nproperty uchar blue\nelement face 1\n"
+      "property list uchar int vertex_indices\nend_header\n"
+      "0 0 0 255 128 0\n1 0 0 255 128 0\n0 1 0 255 128 0\n3 0 1 2\n");
+  const auto values = [&](const std::string& version, const std::string& texture) {
+    const ImportedScene imported = read_mitsuba(folder_.write(
+        "scene.xml", "<scene version=\"" + version +
+                         "\"><shape type=\"ply\"><string name=\"filename\" "
+                         "value=\"m.ply\"/><bsdf type=\"diffuse\"><texture name=\"reflectance\" type=\"" +
+                         texture + "</texture></bsdf></shape></scene>"));
+    EXPECT_EQ(std::get<MeshAttributeTexture>(imported.scene.textures.at(0).model).name, "vertex_color");
+    return imported.scene.meshes.at(0).attributes.at(0).values;
+  };
+  EXPECT_FLOAT_EQ(values("0.6.0", "vertexcolors\">").at(1), static_cast<float>(srgb_decode(128 / 255.0)));
+  EXPECT_EQ(values("3.0.0", "mesh_attribute\"><string name=\"name\" value=\"vertex_color\"/>").at(1), 128);
+}
+
+TEST_F(MitsubaLoad, OldTexturesOfLines) {
+  const auto share = [&](const std::string& texture) {
+    imported_ = read_mitsuba(folder_.write(
+        "scene.xml",
+        "<scene version=\"0.6.0\"><bsdf type=\"diffuse\" id=\"m\"><texture name=\"reflectance\" type=\"" +
+            texture + "</texture></bsdf>" + floor + "</scene>"));
+    return std::get<float>(std::get<MixTexture>(imported_.scene.textures.at(0).model).amount);
+  };
+  EXPECT_FLOAT_EQ(share("gridtexture\"><float name=\"lineWidth\" value=\".1\"/>"), 0.36f);
+  EXPECT_TRUE(mentions("0.36 are lines"));
+  EXPECT_EQ(share("wireframe\">"), 0);
+}
+
+TEST_F(MitsubaLoad, OldLuminairesAndPinholes) {
+  imported_ = read_mitsuba(folder_.write(
+      "scene.xml",
+      "<scene version=\"0.3.0\"><camera type=\"perspective\"><float name=\"focusDistance\" "
+      "value=\"3\"/></camera>"
+      "<luminaire type=\"constant\"><rgb name=\"intensity\" value=\"1 2 3\"/></luminaire></scene>"));
+  EXPECT_EQ(std::get<InfiniteLight>(imported_.scene.lights.at(0).model).radiance,
+            Spectrum{emission_from_rgb({1, 2, 3})});
+  EXPECT_TRUE(imported_.diagnostics.empty());
 }
 
 TEST_F(MitsubaLoad, HarmIsBounded) {

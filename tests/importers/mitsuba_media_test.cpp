@@ -190,6 +190,18 @@ TEST_F(MitsubaMedia, WhatIsNotExactIsSaid) {
   folder_.write("a.vol", volume({2, 3, 4, 1}, 24));
   medium("<phase type='rayleigh'/>");
   EXPECT_THAT(diagnostics_, says("\"rayleigh\" becomes isotropic"));
+  const std::string lobes =
+      "<phase type='hg'><float name='g' value='0.6'/></phase><phase type='hg'><float name='g' "
+      "value='-0.4'/></phase>";
+  EXPECT_NEAR(medium("<phase type='blendphase'><float name='weight' value='0.25'/>" + lobes + "</phase>").g,
+              0.35, 1e-6);
+  EXPECT_THAT(diagnostics_, says("of the same mean cosine, 0.35"));
+  EXPECT_NEAR(
+      medium("<phase type='mixturephase'><string name='weights' value='1, 3'/>" + lobes + "</phase>").g,
+      -0.15, 1e-6);
+  // 1 + μ: ∫μ(1 + μ) ÷ ∫(1 + μ) = 1/3
+  EXPECT_NEAR(medium("<phase type='tabphase'><string name='values' value='0, 1, 2'/></phase>").g, 1.0 / 3,
+              1e-6);
   medium("<phase type='isotropc'/>");
   EXPECT_THAT(diagnostics_, says("did you mean \"isotropic\""));
   medium("", "homogenous");

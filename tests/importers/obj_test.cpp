@@ -190,6 +190,12 @@ TEST_F(Obj, WhatIsDroppedIsSaidOnce) {
   for (const Diagnostic& d : diagnostics) EXPECT_GT(d.location.line, 0) << d.message;
 }
 
+TEST_F(Obj, ColoursOfVerticesAreNoWeights) {
+  const ImportedScene imported = read("v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 0 1 0 0 0 1\nf 1 2 3\n");
+  EXPECT_THAT(imported.diagnostics, says("colours of vertices"));
+  EXPECT_THAT(imported.diagnostics, Not(says("weights")));
+}
+
 TEST_F(Obj, SmoothingIsNotMissedWhereThereAreNormals) {
   EXPECT_THAT(read(square + "vn 0 0 1\ns 1\nf 1//1 2//1 3//1\n").diagnostics, IsEmpty());
   EXPECT_THAT(read(square + "s off\nf 1 2 3\n").diagnostics, IsEmpty());
@@ -359,6 +365,7 @@ TEST_F(Obj, ImagesAndTheirOptions) {
     return std::get<DiffuseMaterial>(material(mtl)).reflectance;
   };
   EXPECT_EQ(image(reflectance("map_Kd a b.png\n")), (ImageTexture{(folder_ / "a b.png").string()}));
+  EXPECT_EQ(image(reflectance("map_Kd \"a b.png\"\n")), (ImageTexture{(folder_ / "a b.png").string()}));
   EXPECT_EQ(image(reflectance("Kd 0 0 0\nmap_Kd a b.png\n")).scale, 1);
   EXPECT_EQ(image(reflectance("Kd .25 .25 .25\nmap_Kd a b.png\n")).scale, .25f);
   const ImageTexture placed =

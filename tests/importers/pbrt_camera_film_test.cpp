@@ -43,6 +43,34 @@ TEST(PbrtCamera, FovIsOfTheShorterAxis) {
                 -t, t, -t, t);
 }
 
+// A ball of glass of index 2, radius 20 mm, has f = nR/(2(n − 1)) = 20 mm, and both principal planes in its
+// middle. The stop lies on it, where rays are as high as outside.
+TEST(PbrtCamera, ARealisticLensIsAThinOneOfItsFocalLength) {
+  const TemporaryFolder folder;
+  folder.write("ball.dat", "# radius thickness index diameter\n0 0 1 10\n20 40 2 30\n-20 12 1 30\n");
+  const std::string lens =
+      "Camera \"realistic\" \"string lensfile\" \"ball.dat\" \"float aperturediameter\" 4 ";
+  const auto read = [&](const std::string& film, const std::string& more) {
+    return read_pbrt(folder.write("scene.pbrt", film + lens + more + "\nWorldBegin\n" + triangle));
+  };
+  const std::string film =
+      "Film \"rgb\" \"integer xresolution\" 80 \"integer yresolution\" 60 \"float diagonal\" 20\n";
+  const ImportedScene imported = read(film, "\"float focusdistance\" .1");
+  // s + s′ = 100 mm, 1/s + 1/s′ = 1/20
+  const double image = 50 - std::sqrt(2500 - 2000), object = 100 - image;
+  const auto& camera = std::get<PerspectiveCamera>(imported.scene.camera);
+  expect_screen(camera.screen, -8 / image, 8 / image, -6 / image, 6 / image);
+  EXPECT_NEAR(camera.lens.radius, 0.002, 1e-12);
+  EXPECT_NEAR(camera.lens.focal_distance, object / 1000, 1e-12);
+  EXPECT_NEAR(camera.camera_to_world.m[2][3], image / 1000, 1e-9);
+  EXPECT_NEAR(imported.scene.film.imaging_ratio, std::numbers::pi * std::pow(2 / image, 2), 1e-9);
+  EXPECT_TRUE(mentions(imported.diagnostics, "thin lens of its focal length, 20 mm, and its pupil, 4 mm"));
+  // v3 leaves the exposure out.
+  EXPECT_EQ(read("Film \"image\"\n", "").scene.film.imaging_ratio, 1);
+  folder.write("ball.dat", "20 40 2");
+  EXPECT_THROW(read(film, ""), Error);
+}
+
 TEST(PbrtCamera, OrthographicScreensAreInTheWorld) {
   const Camera camera =
       settings("Camera \"orthographic\" \"float screenwindow\" [-3.2 3.2 -2.4 2.4] Film \"rgb\"")
@@ -72,8 +100,7 @@ TEST(PbrtCamera, LensesAndSpheresAreKept) {
           .scene.camera);
   EXPECT_EQ(transform_point(spherical.camera_to_world, {}), (Point3d{0, 0, -4}));
   EXPECT_EQ(spherical.projection, SphericalCamera::Projection::latitude_longitude);
-  EXPECT_TRUE(mentions(settings("Camera \"realistic\" Film \"rgb\"").diagnostics,
-                       "camera \"realistic\" is not supported"));
+  EXPECT_TRUE(mentions(settings("Camera \"realistic\" Film \"rgb\"").diagnostics, "there is no lens file"));
 }
 
 TEST(PbrtCamera, NoiseOfTheInverseIsRoundedOff) {

@@ -158,6 +158,23 @@ TEST(PbrtLights, ImagesOfEnvironmentsAreKept) {
   EXPECT_EQ(old.projection, EnvironmentLight::Projection::latitude_longitude);
 }
 
+// They are lit by D65; v3's L is an rgb that multiplies them.
+TEST(PbrtLights, ImagesAreLitOnce) {
+  const auto scale = [](const std::string& parameters) {
+    const ImportedScene imported =
+        import_v3("LightSource \"infinite\" \"string mapname\" \"sky.exr\" " + parameters);
+    return std::get<EnvironmentLight>(imported.scene.lights.at(0).model).scale;
+  };
+  EXPECT_EQ(scale(""), Spectrum{ConstantSpectrum{1}});
+  EXPECT_EQ(scale("\"rgb L\" [1 1 1]"), Spectrum{ConstantSpectrum{1}});
+  EXPECT_EQ(scale("\"rgb L\" [2 1 .5]"), unbounded_from_rgb({2, 1, 0.5}));
+  EXPECT_EQ(scale("\"rgb scale\" [2 1 .5]"), unbounded_from_rgb({2, 1, 0.5}));
+  const Spectrum warm = scale("\"blackbody L\" [3000 1]");
+  const RGB seen = xyz_to_srgb(to_xyz(product(warm, NamedSpectrum{"stdillum-D65"}))),
+            direct = xyz_to_srgb(to_xyz(infinite_v3("\"blackbody L\" [3000 1]")));
+  EXPECT_NEAR(seen.g / seen.r, direct.g / direct.r, 0.02);
+}
+
 TEST(PbrtLights, SpotsKeepTheirCone) {
   const ImportedScene imported = import_v4(
       "LightSource \"spot\" \"point3 from\" [1 2 3] \"point3 to\" [1 2 9] \"rgb I\" [2 2 2] \"float "

@@ -8,6 +8,7 @@
 #include "importers/pbrt/pbrt.h"
 #include "pbrt_text.h"
 #include "scene/quadric_places.h"
+#include "scene/rgb_to_spectrum.h"
 #include "scene/tessellate.h"
 
 namespace vitrail {
@@ -371,6 +372,33 @@ TEST(PbrtShapes, AHyperboloidIsWhatALineSweeps) {
     EXPECT_NEAR(p.x * p.x + p.y * p.y - p.z * p.z, 1, 1e-6);
     EXPECT_NEAR(length(cross(normalize(gradient), normalize(n))), 0, 1e-6);
   }
+}
+
+TEST(PbrtShapes, WithoutPointsAreLeftOut) {
+  const ImportedScene imported =
+      import_v4("Shape \"trianglemesh\" \"integer indices\" [] \"point3 P\" []\n" + triangle);
+  EXPECT_EQ(imported.scene.shapes.size(), 1u);
+  EXPECT_TRUE(mentions(imported.diagnostics, "has no points"));
+}
+
+// Only in v3.
+TEST(PbrtShapes, ChangeTheColoursOfTheirMaterial) {
+  const std::string world =
+      "Texture \"t\" \"color\" \"checkerboard\"\n"
+      "Material \"matte\" \"texture Kd\" \"t\" \"float sigma\" 20\n"
+      "Shape \"sphere\" \"rgb Kd\" [.1 .2 .3]\nShape \"sphere\"\n";
+  const ImportedScene imported = import_v3(world);
+  expect_no_diagnostics(imported);
+  const auto material = [&](std::size_t shape) {
+    const Id<Material> id = imported.scene.shapes.at(shape).material;
+    return std::get<DiffuseMaterial>(imported.scene.materials.at(id.value).model);
+  };
+  EXPECT_EQ(material(0).reflectance, SpectrumParameter{reflectance_from_rgb({0.1, 0.2, 0.3})});
+  EXPECT_EQ(material(0).sigma_deg, FloatParameter{20.0f});
+  EXPECT_EQ(material(1).reflectance, SpectrumParameter{Id<Texture>{0}});
+  EXPECT_TRUE(
+      mentions(import_v4("Material \"diffuse\"\nShape \"sphere\" \"rgb reflectance\" [.1 .2 .3]").diagnostics,
+               "is not used"));
 }
 
 }  // namespace

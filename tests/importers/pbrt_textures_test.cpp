@@ -182,5 +182,14 @@ TEST(PbrtTextures, UnknownNamesAndKindsAreErrorsWithASuggestion) {
             std::string::npos);
 }
 
+TEST(PbrtTextures, FilteringIsNoLoss) {
+  const TemporaryFolder folder;
+  folder.write("a.png", "");
+  expect_no_diagnostics(read_pbrt(folder.write(
+      "scene.pbrt",
+      "Film \"image\"\nWorldBegin\nTexture \"t\" \"color\" \"imagemap\" \"string filename\" \"a.png\" "
+      "\"bool trilinear\" \"true\" \"float maxanisotropy\" 4\nWorldEnd\n")));
+}
+
 }  // namespace
 }  // namespace vitrail

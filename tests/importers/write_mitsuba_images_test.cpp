@@ -2,6 +2,9 @@
 // What Mitsuba takes from an image is what the Scene says.
 #include <gmock/gmock.h>
 
+#include <cmath>
+#include <numbers>
+
 #include "images/texture_values.h"
 #include "importers/mitsuba/mitsuba.h"
 #include "importers/mitsuba/write_mitsuba.h"
@@ -137,6 +140,35 @@ TEST_F(MitsubaImages, AProductOfTwoIsOne) {
       EXPECT_NEAR(found[3 * x + c], b[x] * (left * a[c] + (1 - left) * a[3 + c]), 1e-6) << x << " " << c;
       EXPECT_NEAR(found[12 + 3 * x + c], b[4 + x] * (left * a[c] + (1 - left) * a[3 + c]), 1e-6);
     }
+}
+
+// Red above and blue below: as in pbrt, times cos³θ, which the plane at distance 1 gets of it.
+TEST_F(MitsubaImages, ProjectionsOfPbrtKeepTheirIntensity) {
+  Image two = black_image(4, 2, 3);
+  for (std::size_t i = 0; i < 12; ++i)
+    two.values[i] = i % 3 == 0 ? 1.0f : 0.0f, two.values[12 + i] = i % 3 == 2 ? 1.0f : 0.0f;
+  write_exr_image(folder_ / "two.exr", two);
+  Scene scene = square_scene(Material{DiffuseMaterial{}});
+  scene.textures.push_back({image("two.exr"), false, "", {}});
+  ProjectionLight light;
+  light.image = Id<Texture>{0};
+  light.fov_deg = 90;
+  light.scale = ConstantSpectrum{3};
+  scene.lights = {{light, {}}};
+  write_mitsuba(scene, folder_ / "out.xml");
+  const Scene again = read_mitsuba(folder_ / "out.xml").scene;
+  const auto& read = std::get<ProjectionLight>(again.lights.at(0).model);
+  EXPECT_NEAR(std::tan(read.fov_deg / 360 * std::numbers::pi), 2, 1e-5) << "of the width";
+  EXPECT_NEAR(evaluate(read.scale, 500), 3 / std::numbers::pi, 1e-6);
+  const auto& texture =
+      std::get<ImageTexture>(again.textures.at(std::get<Id<Texture>>(read.image).value).model);
+  EXPECT_EQ(texture.mapping, (TextureMapping{UvMapping{1, 0, 0, 0, -1, 1}}));
+  const std::vector<float> found = values(texture, ImageUse::light);
+  ASSERT_EQ(found.size(), two.values.size());
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const double x = static_cast<double>(i / 3 % 4) - 1.5, y = 0.5;
+    EXPECT_NEAR(found[i], static_cast<double>(two.values[i]) * std::pow(1 + x * x + y * y, -1.5), 1e-5) << i;
+  }
 }
 
 }  // namespace

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // What pbrt takes from an image is what the Scene says.
+#include <cmath>
 #include <fstream>
+#include <numbers>
 
 #include "importers/pbrt/write_pbrt.h"
 #include "pbrt_text.h"
@@ -130,6 +132,75 @@ TEST_F(PbrtImages, LightsAndNormalMapsAreTurnedAsTheyLie) {
   EXPECT_EQ(values(again.textures.at(shining.value), ImageUse::light), expected);
   const Id<Texture> normal = again.materials.at(again.shapes.at(0).material.value).normal_map.value();
   EXPECT_EQ(values(again.textures.at(normal.value), ImageUse::vector), expected);
+}
+
+// The image is red above and blue below. Mitsuba's numbers are irradiance on a plane ÷ π.
+TEST_F(PbrtImages, ProjectorsOfMitsubaKeepTheirIntensity) {
+  Image two = black_image(4, 2, 3);
+  for (std::size_t i = 0; i < 12; ++i)
+    two.values[i] = i % 3 == 0 ? 1.0f : 0.0f, two.values[12 + i] = i % 3 == 2 ? 1.0f : 0.0f;
+  write_exr_image(folder_ / "two.exr", two);
+  ImageTexture texture = image("two.exr");
+  texture.mapping = UvMapping{1, 0, 0, 0, -1, 1};  // Mitsuba's v runs down
+  Scene scene = square_scene(Material{DiffuseMaterial{}});
+  scene.textures.push_back({texture, false, "", {}});
+  ProjectionLight light;
+  light.image = Id<Texture>{0};
+  light.irradiance = true;
+  light.fov_deg = 90;
+  light.scale = ConstantSpectrum{3};
+  scene.lights = {{light, {}}};
+  write_pbrt(scene, folder_ / "out.pbrt");
+  const Scene again = read_pbrt(folder_ / "out.pbrt").scene;
+  const auto& read = std::get<ProjectionLight>(again.lights.at(0).model);
+  EXPECT_NEAR(std::tan(read.fov_deg / 360 * std::numbers::pi), 0.5, 1e-6) << "of the shorter side";
+  EXPECT_NEAR(evaluate(read.scale, 500), 3 * std::numbers::pi, 1e-5);
+  const std::vector<float> found =
+      values(again.textures.at(std::get<Id<Texture>>(read.image).value), ImageUse::light);
+  ASSERT_EQ(found.size(), two.values.size());
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const double x = static_cast<double>(i / 3 % 4) * 0.5 - 0.75, y = 0.25;
+    EXPECT_NEAR(found[i], static_cast<double>(two.values[i]) * std::pow(1 + x * x + y * y, 1.5), 1e-5) << i;
+  }
+}
+
+// What multiplies the image of a light is in it, where it is a colour.
+TEST_F(PbrtImages, ColoursOfEnvironmentsAreInTheirImages) {
+  Image sky = black_image(4, 2, 3);
+  std::ranges::fill(sky.values, 1.0f);
+  write_exr_image(folder_ / "sky.exr", sky);
+  EnvironmentLight light;
+  light.filename = (folder_ / "sky.exr").string();
+  light.projection = EnvironmentLight::Projection::latitude_longitude;
+  light.scale = unbounded_from_rgb({2, 1, 0.5});
+  Scene scene = square_scene(Material{DiffuseMaterial{}});
+  scene.lights = {{light, {}}};
+  write_pbrt(scene, folder_ / "out.pbrt");
+  const auto read = std::get<EnvironmentLight>(read_pbrt(folder_ / "out.pbrt").scene.lights.at(0).model);
+  EXPECT_EQ(read.scale, Spectrum{ConstantSpectrum{1}});
+  const Image written = read_stored_image(read.filename).image;
+  EXPECT_NEAR(written.values[0], 2, 1e-5);
+  EXPECT_NEAR(written.values[1], 1, 1e-5);
+  EXPECT_NEAR(written.values[2], 0.5, 1e-5);
+}
+
+// Another scene beside it has images of that name.
+TEST_F(PbrtImages, NoImageOfAnotherIsReplaced) {
+  Scene scene = square_scene(Material{DiffuseMaterial{}});
+  std::filesystem::create_directory(folder_ / "out-images");
+  folder_.write("out-images/000000.exr", "somebody's");
+  Image sky = black_image(4, 2, 3);
+  write_exr_image(folder_ / "sky.exr", sky);
+  EnvironmentLight light;
+  light.filename = (folder_ / "sky.exr").string();
+  light.projection = EnvironmentLight::Projection::latitude_longitude;
+  scene.lights = {{light, {}}};
+  for (int again = 0; again < 2; ++again) {
+    write_pbrt(scene, folder_ / "out.pbrt");
+    const auto read = std::get<EnvironmentLight>(read_pbrt(folder_ / "out.pbrt").scene.lights.at(0).model);
+    EXPECT_EQ(std::filesystem::path(read.filename).filename(), "000000-2.exr");
+  }
+  EXPECT_EQ(std::filesystem::file_size(folder_ / "out-images/000000.exr"), 10u);
 }
 
 }  // namespace
