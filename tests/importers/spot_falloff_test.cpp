@@ -33,7 +33,7 @@ double flux(SpotLight::Falloff falloff, double beam_deg, double cutoff_deg) {
 }
 
 TEST(SpotFalloff, FluxIsKept) {
-  for (const auto [beam, cutoff] : {std::pair{25.0f, 30.0f}, {0.0f, 40.0f}, {10.0f, 80.0f}, {2.0f, 3.0f}})
+  for (const auto& [beam, cutoff] : {std::pair{25.0f, 30.0f}, {0.0f, 40.0f}, {10.0f, 80.0f}, {2.0f, 3.0f}})
     for (const SpotLight::Falloff from : {smoothstep, quartic, linear})
       for (const SpotLight::Falloff to : {smoothstep, linear}) {
         SpotLight light;
