@@ -89,9 +89,9 @@ TEST_P(MitsubaReference, IsMatched) {
   const std::string wrong =
       render_scene(corpus() / scene.path, directory / "picture.film", fmt::format("--spp {}", samples));
   if (!wrong.empty()) return conclude(false, scene.name(), wrong);
-  const nlohmann::json result = compare_pictures(
-      directory / "picture.film", reference.mean,
-      fmt::format("--metric ztest --variance '{}'", reference.variance.string()));
+  const nlohmann::json result =
+      compare_pictures(directory / "picture.film", reference.mean,
+                       fmt::format("--metric ztest --variance '{}'", reference.variance.string()));
   ASSERT_TRUE(result.is_object());
   const double failed = result["value"];
   const MeanXyz means = mean_xyz(result);
