@@ -46,6 +46,7 @@ std::optional<ShapeGeometry> distance_shape(Builder& builder, const Object& shap
   const Id<TriangleMesh> mesh = shared_mesh(builder, shape, {path.string(), 0, 0}, [&] {
     LevelSet made = level_set(read_distances(path));
     distance = made.distance;
+    made.mesh.missing_uv = MissingUv::zero;  // measured: Mitsuba has (0,0) everywhere
     return std::move(made.mesh);
   });
   builder.report.approximated(

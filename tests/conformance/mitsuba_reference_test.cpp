@@ -18,11 +18,6 @@ namespace {
 
 constexpr std::size_t sample_budget = 2'000'000;
 
-// The sdfgrid of one scene, and what stands in its shadow.
-const std::string left_out(const CorpusScene& scene) {
-  return scene.name() == "test_various_shapes_path" ? "--ignore 280,420,300,440" : "";
-}
-
 struct Reference {
   std::filesystem::path mean, variance;
 };
@@ -94,9 +89,9 @@ TEST_P(MitsubaReference, IsMatched) {
   const std::string wrong =
       render_scene(corpus() / scene.path, directory / "picture.film", fmt::format("--spp {}", samples));
   if (!wrong.empty()) return conclude(false, scene.name(), wrong);
-  const nlohmann::json result = compare_pictures(
-      directory / "picture.film", reference.mean,
-      fmt::format("--metric ztest --variance '{}' {}", reference.variance.string(), left_out(scene)));
+  const nlohmann::json result =
+      compare_pictures(directory / "picture.film", reference.mean,
+                       fmt::format("--metric ztest --variance '{}'", reference.variance.string()));
   ASSERT_TRUE(result.is_object());
   const double failed = result["value"];
   const MeanXyz means = mean_xyz(result);

@@ -311,7 +311,7 @@ TEST(MitsubaShapes, GroupsBecomePrototypes) {
 
 TEST(MitsubaShapes, UnknownKindsAreDropped) {
   Reading reading;
-  reading.add(shape("sdfgrid")).add(shape("spere")).add(shape("heightfield"));
+  reading.add(shape("deformable")).add(shape("spere")).add(shape("heightfield"));
   EXPECT_TRUE(reading.scene.shapes.empty());
   const Diagnostics diagnostics = reading.report.take();
   ASSERT_EQ(diagnostics.size(), 3u);

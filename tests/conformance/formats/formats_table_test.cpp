@@ -62,9 +62,11 @@ class Trials {
     });
     if (!tried.scene) return tried;
     guard(tried.said[1], [&] { note(tried.said[1], appearance_of(*tried.scene, {}).diagnostics); });
-    for (std::size_t step = 2; step < steps.size(); ++step)
+    for (std::size_t step = 2; step < steps.size(); ++step) {
+      fs::remove_all(folder_ / "out-images");  // so that names of images do not depend on what came before
       guard(tried.said[step],
             [&] { note(tried.said[step], export_scene(*tried.scene, folder_ / files[step])); });
+    }
     return tried;
   }
 

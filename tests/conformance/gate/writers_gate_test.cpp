@@ -93,6 +93,8 @@ std::string read_again(const std::filesystem::path& file, const Scene* exact,
     return std::ranges::any_of(
         written, [&](const Diagnostic& w) { return w.kind == d.kind && w.item.line == record; });
   });
+  // Of how hair on a mesh is shown, whatever the file says.
+  std::erase_if(more, [](const Diagnostic& d) { return d.message.starts_with("hair on what is no round"); });
   if (!more.empty()) return "not read exactly: " + joined(more);
   const std::string unequal = exact ? difference(*exact, again.scene) : "";
   if (unequal.empty()) return "";
