@@ -7,6 +7,7 @@
 #include <unordered_map>
 
 #include "importers/glazing_material.h"
+#include "importers/mitsuba/bsdf_models.h"
 #include "importers/mitsuba/builder.h"
 #include "importers/mitsuba/index_of_refraction.h"
 #include "importers/mitsuba/properties.h"
@@ -200,44 +201,6 @@ MaterialModel diffuse_transmitter(Builder& b, const Object& o) {
 }
 
 // "specular" s is another way to say eta: s·0.08 is the reflectance at normal incidence.
-float principled_eta(Builder& b, const Object& o) {
-  if (!o.has("specular")) return static_cast<float>(o.number("eta", 1.5, b.report));
-  const double specular = std::clamp(o.number("specular", 0.5, b.report), 1e-3, 12.0);
-  return static_cast<float>(2 / (1 - std::sqrt(0.08 * specular)) - 1);
-}
-
-MaterialModel principled(Builder& b, const Object& o) {
-  PrincipledMaterial m;
-  m.thin = o.type == "principledthin";
-  m.base_color = reflectance(b, o, "base_color", 0.5);
-  m.roughness = float_parameter(b, o, "roughness", 0.5);
-  m.anisotropic = float_parameter(b, o, "anisotropic", 0);
-  m.spec_trans = float_parameter(b, o, "spec_trans", 0);
-  m.spec_tint = float_parameter(b, o, "spec_tint", 0);
-  m.sheen = float_parameter(b, o, "sheen", 0);
-  m.sheen_tint = float_parameter(b, o, "sheen_tint", 0);
-  m.flatness = float_parameter(b, o, "flatness", 0);
-  m.eta = principled_eta(b, o);
-  if (m.thin) {
-    m.diff_trans = float_parameter(b, o, "diff_trans", 0);
-  } else {
-    m.metallic = float_parameter(b, o, "metallic", 0);
-    m.clearcoat = float_parameter(b, o, "clearcoat", 0);
-    m.clearcoat_gloss = float_parameter(b, o, "clearcoat_gloss", 0);
-  }
-  if (is_tinted(m))
-    b.report.approximated(
-        "tints of the base colour are by its luminance; Mitsuba's spectral variants take that of each "
-        "sample's few "
-        "wavelengths",
-        o.origin);
-  o.ignore({"diffuse_reflectance_sampling_rate", "specular_reflectance_sampling_rate",
-            "main_specular_sampling_rate", "clearcoat_sampling_rate", "specular_transmittance_sampling_rate",
-            "diffuse_sampling_rate", "spec_refl_sampling_rate", "spec_trans_sampling_rate",
-            "diff_trans_sampling_rate", "diff_refl_sampling_rate"});
-  return m;
-}
-
 MaterialModel hair(Builder& b, const Object& o) {
   HairMaterial m;
   m.eta = index_of(b, o, "int_ior", "amber");
@@ -276,28 +239,6 @@ MaterialModel measured(Builder& b, const Object& o) {
     return MeasuredMaterial{filename};  // of another format
   }
   return TabulatedMaterial{TabulatedMaterial::Format::adaptive, filename};
-}
-
-// 0.6's Hanrahan and Krueger: of the measured media it takes the first by default.
-MaterialModel slab(Builder& b, const Object& o) {
-  SlabMaterial m;
-  if (o.has("sigma_t") || o.has("albedo")) {
-    if (!o.has("sigma_t") || !o.has("albedo"))
-      b.report.fail("\"sigmaT\" and \"albedo\" go together", o.origin);
-    const Spectrum sigma_t = spectrum_value(b, o, "sigma_t", Quantity::unbounded, ConstantSpectrum{1}),
-                   albedo = spectrum_value(b, o, "albedo", Quantity::reflectance, ConstantSpectrum{1});
-    m.sigma_s = product(sigma_t, albedo);
-    m.sigma_a = weighted_sum(sigma_t, 1, product(sigma_t, albedo), -1);
-  } else {
-    const AbsorptionScattering c = measured_coefficients(b, o);
-    m.sigma_a = spectrum_parameter(b, o, "sigma_a", Quantity::unbounded, std::get<Spectrum>(c.sigma_a));
-    m.sigma_s = spectrum_parameter(b, o, "sigma_s", Quantity::unbounded, std::get<Spectrum>(c.sigma_s));
-  }
-  const double thickness = o.number("thickness", 1, b.report);
-  if (!(thickness >= 0)) b.report.fail("a slab has a negative \"thickness\"", place_of(o, "thickness"));
-  m.thickness = static_cast<float>(std::min(thickness, 1e10));
-  m.g = read_phase(o, b.report);
-  return m;
 }
 
 MaterialModel nothing(Builder&, const Object&) { return InterfaceMaterial{}; }
