@@ -11,7 +11,6 @@
 #include "importers/mitsuba/builder.h"
 #include "importers/mitsuba/index_of_refraction.h"
 #include "importers/mitsuba/properties.h"
-#include "importers/mitsuba/subsurface.h"
 #include "importers/mitsuba/values.h"
 #include "importers/spectra/greatest_value.h"
 #include "importers/spectra/measured_sheet.h"
