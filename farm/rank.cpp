@@ -433,6 +433,7 @@ void Rank::join_round() {
 // The same on every rank, since the sums are.
 Rank::Decision Rank::decide(const Round& round) {
   const RoundSums& sums = round.sums;
+  if (sums.pause > 0 && !pause_) pause_ = Clock::now();
   if (sums.bad_input + sums.machine_failure > 0) {
     leave_together();
     std::exception_ptr mine;
@@ -518,6 +519,13 @@ void Rank::write(const std::filesystem::path& file, bool last) {
     state_.scheduler.resume();
   }
   note(Timeline::Kind::write, begin, {});
+  if (!last && pause_) {
+    const double pause_s = std::chrono::duration<double>(Clock::now() - *pause_).count();
+    ++checkpoints_;
+    checkpoints_s_ += pause_s;
+    longest_checkpoint_s_ = std::max(longest_checkpoint_s_, pause_s);
+    pause_.reset();
+  }
   want_checkpoint_ = false;
   last_checkpoint_ = Clock::now();
   checkpoint_after_s_ = interval_s(options_);
@@ -558,6 +566,9 @@ void Rank::add_to(RenderStats& stats) const {
   stats.forwarded_rays = state_.scheduler.forwarded_rays();
   stats.forwarded_bytes = sent_bytes_;
   stats.messages = messages_;
+  stats.checkpoints = checkpoints_;
+  stats.checkpoint_s = checkpoints_s_;
+  stats.longest_checkpoint_s = longest_checkpoint_s_;
   stats.items_given = state_.scheduler.items_given();
   stats.spilled_bytes = state_.queues.written_bytes() + state_.outgoing.written_bytes();
   stats.domain_loads = state_.scheduler.residency().loads();

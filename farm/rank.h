@@ -87,7 +87,10 @@ class Rank {
   std::uint32_t sent_from_ = 0;  // the domain that is looked at first when rays are sent
   std::uint64_t messages_ = 0, received_ = 0, sent_bytes_ = 0;
   std::chrono::steady_clock::time_point start_, last_checkpoint_, last_counters_;
-  double checkpoint_after_s_;  // since the last one; 0: never
+  std::optional<std::chrono::steady_clock::time_point> pause_;  // since when the job empties for a checkpoint
+  std::uint64_t checkpoints_ = 0;                               // written or tried
+  double checkpoints_s_ = 0, longest_checkpoint_s_ = 0;         // from the pause until work goes on
+  double checkpoint_after_s_;                                   // since the last one; 0: never
 };
 
 }  // namespace vitrail

@@ -21,6 +21,9 @@ struct RenderStats {
   std::uint64_t spp = 0, seed = 0, samples = 0;
   double wall_s = 0, cpu_s = 0, load_s = 0, trace_s = 0, idle_s = 0;
   double busiest_trace_s = 0;  // of the rank that traced longest
+  // Of those in the midst of the job, from the moment from which no ray is born until work goes on: all, and
+  // the longest.
+  double checkpoint_s = 0, longest_checkpoint_s = 0;
   TraceCounters traced;
   bool adaptive = false;
   int rounds = 0;            // of samples, begun by this run
@@ -32,6 +35,7 @@ struct RenderStats {
   std::uint64_t domains_total = 0, domains_touched = 0, domain_loads = 0, evictions = 0;
   std::uint64_t spilled_bytes = 0;  // of rays, to the disk
   std::uint64_t items_given = 0;    // from rank to rank
+  std::uint64_t checkpoints = 0;
   // Of photon mapping: landings of all iterations, and most of an iteration that a rank kept.
   std::uint64_t photons_landed = 0, photons_kept = 0;
   std::uint64_t memory_budget_bytes = 0, peak_rss_bytes = 0, base_rss_bytes = 0, setup_peak_rss_bytes = 0;

@@ -10,9 +10,9 @@ namespace vitrail {
 namespace {
 
 constexpr std::uint64_t rays_that_earn_a_replica = 16384;
-// Without need, a resident domain makes room only for one with this many times its rays, and this many at
-// least.
-constexpr std::uint64_t worth_a_swap = 4, rays_worth_a_load = 4096;
+// Without need, a resident domain makes room only for one with this many times its rays, and a ray at least
+// for so many bytes that have to be read: tracing takes as long as a fast disk then.
+constexpr std::uint64_t worth_a_swap = 4, bytes_worth_a_ray = 2048;
 
 // Of those of the domain's objects that are not marked yet; marks them.
 std::uint64_t mark_objects(const Manifest& manifest, std::uint32_t domain, std::vector<bool>& marked) {
@@ -136,7 +136,7 @@ bool Residency::make_room(std::uint32_t wanted, std::uint64_t bytes, std::uint64
     const std::optional<std::uint32_t> victim = resident_.fewest();
     if (!victim) return false;
     const std::uint64_t fewest = waiting_[*victim], candidate = waiting_[wanted];
-    const bool worthwhile = candidate >= rays_worth_a_load && fewest * worth_a_swap <= candidate;
+    const bool worthwhile = candidate * bytes_worth_a_ray >= bytes && fewest * worth_a_swap <= candidate;
     // Even in need a swap waits until a domain has its even share of the rays alive: a rank with little to do
     // would else swap for a handful of rays over and over while the others work. Where most rays wait there
     // is always such a share, so somewhere work goes on: twice, since the fullest that is found may have

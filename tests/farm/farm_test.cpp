@@ -474,6 +474,23 @@ TEST(Residency, TakesTheFullestAndKeepsWithinItsBudget) {
   EXPECT_EQ(residency.held_bytes(), 200u);
 }
 
+// While the workers have other things to do, a domain is worth reading by its bytes and its rays.
+TEST(Residency, SwapsWithoutNeedWhatItsRaysAreWorth) {
+  const auto swaps = [](std::uint64_t bytes, std::uint64_t rays, std::uint64_t rays_of_the_other) {
+    const Manifest m = of_domains({bytes, bytes});
+    Residency residency(m, bytes, Homes({0, 0}, 1), 0);
+    residency.rays_wait(0, rays_of_the_other);
+    EXPECT_TRUE(residency.loader_is_free(rays, true).load);
+    residency.loaded(0);
+    residency.rays_wait(1, rays);
+    return !residency.loader_is_free(rays, false).evicted.empty();
+  };
+  EXPECT_TRUE(swaps(1 << 20, 512, 128));
+  EXPECT_FALSE(swaps(1 << 20, 512, 129)) << "the other has more than a quarter of its rays";
+  EXPECT_FALSE(swaps(1 << 20, 511, 1)) << "reading takes longer than tracing";
+  EXPECT_FALSE(swaps(100 << 20, 4096, 1));
+}
+
 // An object counts once, whatever the number of domains that need it.
 TEST(Residency, CountsObjectsOnce) {
   Manifest m = of_domains({10, 10, 10});
