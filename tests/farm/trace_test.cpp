@@ -44,8 +44,10 @@ std::int64_t sum(const std::vector<Json>& events, const char* value) {
   return all;
 }
 
-// Nothing lies before the job's start, and a thread does one thing at a time.
-void expect_in_order(const Json& trace, double most_us) {
+// Nothing lies before the job's start or, but for ranks that end later than the first, after its end; and a
+// thread does one thing at a time.
+void expect_in_order(const Json& trace, double wall_s) {
+  const double most_us = 1e6 * (wall_s + 1);
   std::map<std::pair<int, int>, std::vector<std::pair<double, double>>> spans;
   for (const Json& e : trace["traceEvents"])
     if (e["ph"] == "X")
@@ -65,7 +67,7 @@ TEST_F(Trace, OfTwoRanksAgreesWithTheStatistics) {
   const CommandResult made = run(mpi_vitrail("render", 2) + traced("--spp 8 --checkpoint-every .2"));
   ASSERT_EQ(made.status, 0) << made.output;
   const Json all = trace(), stats = read_json(path("stats.json"));
-  expect_in_order(all, 1e6 * stats["wall_s"].get<double>());
+  expect_in_order(all, stats["wall_s"]);
   const std::vector<Json> loads = of_category(all, "load"), sends = of_category(all, "send"),
                           receives = of_category(all, "receive"), batches = of_category(all, "trace");
   EXPECT_EQ(loads.size(), stats["domain_loads"]);
@@ -93,9 +95,31 @@ TEST_F(Trace, OfTwoRanksAgreesWithTheStatistics) {
     for (const Json& left_out : all["otherData"][rank]["left_out"]) EXPECT_EQ(left_out, 0);
 }
 
+TEST_F(Trace, AgreesOnCheckpoints) {
+  const CommandResult made =
+      run(vitrail("render") +
+          fmt::format(" '{}' -o '{}' --stats '{}' --trace '{}' --crop 0,48,0,48 --spp 128 "
+                      "--threads 1 --checkpoint-every .05 --quiet",
+                      path("box.vit"), path("a.film"), path("stats.json"), path("trace.json")));
+  ASSERT_EQ(made.status, 0) << made.output;
+  const Json stats = read_json(path("stats.json"));
+  const std::vector<Json> writes = of_category(trace(), "write");
+  EXPECT_GT(stats["checkpoints"], 1);
+  ASSERT_EQ(writes.size(), stats["checkpoints"].get<std::size_t>() + 1) << "the last is the film's";
+  double written_s = 0, longest_s = 0;
+  for (std::size_t i = 0; i + 1 < writes.size(); ++i) {
+    const double s = 1e-6 * writes[i]["dur"].get<double>();
+    written_s += s, longest_s = std::max(longest_s, s);
+  }
+  EXPECT_GE(stats["checkpoint_s"], written_s);
+  EXPECT_GE(stats["longest_checkpoint_s"], longest_s);
+  EXPECT_LT(stats["longest_checkpoint_s"], stats["checkpoint_s"]);
+  EXPECT_LT(stats["checkpoint_s"], stats["wall_s"]);
+}
+
 TEST_F(Trace, OfARenderThatEndsEarlyIsWritten) {
   ASSERT_EQ(run(vitrail("render") + traced("--time 1 --spp 100000")).status, 0);
-  expect_in_order(trace(), 1e6 * read_json(path("stats.json"))["wall_s"].get<double>());
+  expect_in_order(trace(), read_json(path("stats.json"))["wall_s"]);
   EXPECT_FALSE(of_category(trace(), "trace").empty());
   fs::remove(path("trace.json"));
   Background job(mpi_vitrail("render", 2) + traced("--spp 100000 --checkpoint-every .1"));
