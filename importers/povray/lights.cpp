@@ -73,7 +73,7 @@ std::string text_of(Context& context, const GoniometricLight& light, const Origi
   return point(context, transform_point(light.light_to_world, {0, 0, 0}), emission_rgb(light.intensity));
 }
 
-std::string text_of(Context& context, const InfiniteLight& light, const Origin&) {
+std::string text_of(Context&, const InfiniteLight& light, const Origin&) {
   return fmt::format("background {{ {} }}\n", color(emission_rgb(light.radiance)));
 }
 
