@@ -5,8 +5,10 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <fstream>
+#include <optional>
 
 #include "cli/run_program.h"
 #include "scene/diagnostics.h"
@@ -16,6 +18,22 @@ namespace vitrail {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr double two_sided_95 = 1.96;
+// Errors of the mean (95 %): beyond the first, more samples are worth their time; beyond the second nothing
+// is seen.
+constexpr double wanted_error = 0.02, blind_error = 0.1;
+constexpr std::array samples{32, 256};
+
+// Nothing where the reference is black.
+std::optional<double> number(const nlohmann::ordered_json& pictures, const char* key) {
+  const auto& value = pictures.at(key);
+  return value.is_number() ? std::optional(value.get<double>()) : std::nullopt;
+}
+
+double error_of(const nlohmann::ordered_json& pictures) {
+  return two_sided_95 * number(pictures, "luminance_ratio_error").value_or(0);
+}
 
 class TemporaryFolder {
  public:
@@ -30,7 +48,7 @@ class TemporaryFolder {
   }
   TemporaryFolder(const TemporaryFolder&) = delete;
   TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  std::string file(const char* name) const { return (path_ / name).string(); }
+  std::string file(const std::string& name) const { return (path_ / name).string(); }
 
  private:
   fs::path path_;
@@ -51,28 +69,36 @@ nlohmann::ordered_json compare_pictures(const fs::path& in, const std::vector<st
   constexpr double longer_side = 64;
   const double scale = std::clamp(longer_side / std::max(film.width, film.height), 0.001, 1.0);
   const TemporaryFolder folder;
-  const auto render = [&](const fs::path& scene, const std::string& to, const char* seed,
-                          std::vector<std::string> words) {
-    words.insert(words.end(), {scene.string(), "-o", to, "--spp", "32", "--scale", fmt::format("{}", scale),
+  const auto render = [&](const fs::path& scene, const std::string& to, const std::string& spp,
+                          const char* seed, std::vector<std::string> words) {
+    words.insert(words.end(), {scene.string(), "-o", to, "--spp", spp, "--scale", fmt::format("{}", scale),
                                "--seed", seed, "--aov", "none", "--quiet"});
     run_program("vitrail-render", words);
   };
-  const std::string before = folder.file("before.film"), after = folder.file("after.film");
-  render(in, before, "1", options);
-  render(out, after, "2", {});
-  const std::string said = folder.file("comparison.json");
-  run_program("vitrail-compare", {after, before, "--metric", "ztest", "--worst", "0", "--json"}, nullptr,
-              said);
-  return nlohmann::ordered_json::parse(std::ifstream(said));
+  nlohmann::ordered_json pictures;
+  for (const int count : samples) {
+    const std::string spp = std::to_string(count), name = folder.file(spp), before = name + "-before.film",
+                      after = name + "-after.film", said = name + ".json";
+    render(in, before, spp, "1", options);
+    render(out, after, spp, "2", {});
+    run_program("vitrail-compare", {after, before, "--metric", "ztest", "--worst", "0", "--json"}, nullptr,
+                said);
+    pictures = nlohmann::ordered_json::parse(std::ifstream(said));
+    pictures["samples"] = count;
+    if (error_of(pictures) <= wanted_error) break;
+  }
+  return pictures;
 }
 
 std::string pictures_in_words(const nlohmann::ordered_json& pictures) {
-  constexpr double two_sided_95 = 1.96;
+  const double error = error_of(pictures);
+  const char* verdict = !pictures.at("passed").get<bool>() ? "looks different"
+                        : error > blind_error              ? "is too noisy to tell"
+                                                           : "looks the same";
+  const std::optional<double> ratio = number(pictures, "luminance_ratio");
+  if (!ratio) return fmt::format("{}: the scene shows nothing", verdict);
   return fmt::format("{}: luminance {:+.2f} % ± {:.2f} %, {:.2f} % of the pixels differ by more than noise",
-                     pictures.at("passed").get<bool>() ? "looks the same" : "looks different",
-                     100 * (pictures.at("luminance_ratio").get<double>() - 1),
-                     100 * two_sided_95 * pictures.at("luminance_ratio_error").get<double>(),
-                     100 * pictures.at("value").get<double>());
+                     verdict, 100 * (*ratio - 1), 100 * error, 100 * pictures.at("value").get<double>());
 }
 
 }  // namespace vitrail

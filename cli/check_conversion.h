@@ -11,10 +11,10 @@
 
 namespace vitrail {
 
-// The pictures of a scene and of what it was converted to: both are rendered small (96 pixels of the longer
-// side, 32 samples, two seeds) and put before `compare --metric ztest --json`, whose words these are:
-// "passed", "luminance_ratio" … `options`: of reading the input. What the writer writes and the reader of
-// that format reads wrongly in the same way is not seen.
+// The pictures of a scene and of what it was converted to: both are rendered small (64 pixels of the longer
+// side, 32 samples, 256 where these leave the mean unknown, two seeds) and put before `compare --metric ztest
+// --json`, whose words these are: "passed", "luminance_ratio" … and the "samples". `options`: of reading the
+// input. What the writer writes and the reader of that format reads wrongly in the same way is not seen.
 nlohmann::ordered_json compare_pictures(const std::filesystem::path& in,
                                         const std::vector<std::string>& options,
                                         const std::filesystem::path& out, const FilmSettings& film);

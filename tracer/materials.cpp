@@ -213,10 +213,13 @@ std::optional<Scattering> Materials::scattering_at(const Material& material, con
       luminance_[index_of(material)],
       tables_};
   const auto* hair = std::get_if<HairMaterial>(&material.model);
-  return Scattering{
-      std::visit(maker, material.model),
-      frame_around(normal, hair && hair->along_v ? at.dpdv : at.dpdu, both_sides ? 1.0 : at.side()),
-      both_sides, material.bump_shadowing ? bump_alpha2(dot(normal, at.shading)) : 0};
+  Vector3d along = hair && hair->along_v ? at.dpdv : at.dpdu;
+  // A map turns the frame of the smooth normal, whose tangent is perpendicular to that, as in pbrt and
+  // Mitsuba.
+  if (material.normal_map) along = along - at.shading * dot(at.shading, along);
+  return Scattering{std::visit(maker, material.model),
+                    frame_around(normal, along, both_sides ? 1.0 : at.side()), both_sides,
+                    material.bump_shadowing ? bump_alpha2(dot(normal, at.shading)) : 0};
 }
 
 namespace {

@@ -94,7 +94,8 @@ Image resized(Image image, const ImageTexture& texture, int width, int height) {
   return result;
 }
 
-// θ of the middle of each texel.
+}  // namespace
+
 void multiply_by_cosine(Image& image, int power, Point2d half) {
   float* value = image.values.data();
   for (int y = 0; y < image.height; ++y)
@@ -106,8 +107,6 @@ void multiply_by_cosine(Image& image, int power, Point2d half) {
         *value = static_cast<float>(static_cast<double>(*value) * factor);
     }
 }
-
-}  // namespace
 
 void multiply(Image& image, RGB tint) {
   const std::array factors{tint.r, tint.g, tint.b};

@@ -71,6 +71,8 @@ class ConvertedImages {
 
 // Of three channels, or one.
 void multiply(Image& image, RGB tint);
+// Times cosⁿθ of each texel's middle, as ImageChange has it.
+void multiply_by_cosine(Image& image, int power, Point2d half);
 // A grey image as one of colours; others as they are.
 Image with_three_channels(Image image);
 

@@ -13,6 +13,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "importers/exposed_lights.h"
 #include "importers/images/converted_images.h"
 #include "importers/mesh_files.h"
 #include "importers/mitsuba/material_parts.h"
@@ -45,6 +46,7 @@ struct Context {
   Context(const Scene& scene_to_write, const std::filesystem::path& out)
       : scene(scene_to_write),
         file(out),
+        exposed(scene_to_write),
         meshes(scene_to_write, out),
         side_files(out),
         roles(scene_to_write),
@@ -57,6 +59,7 @@ struct Context {
 
   const Scene& scene;
   std::filesystem::path file;  // of the scene
+  ExposedLights exposed;
   MeshFiles meshes;
   SideFiles side_files;
   TextureRoles roles;

@@ -69,9 +69,6 @@ void write_film(Context& context, Element sensor) {
   add_string(film, "pixel_format", "rgb");
   add_string(film, "component_format", "float32");
   add_boolean(film, "sample_border", false);
-  if (settings.imaging_ratio != 1)
-    context.dropped(
-        fmt::format("Mitsuba has no exposure: multiply the picture by {}", settings.imaging_ratio));
   if (settings.spectrum.count > 0)
     context.dropped("the film's spectral bins: a film of Mitsuba's \"rgb\" stands for it");
   std::visit([&](const auto& filter) { write(context, film, filter); }, settings.filter);

@@ -119,7 +119,7 @@ void write_intensity(Context& context, Element root, const ProjectionLight& ligh
     double factor = brightest / std::numbers::pi;
     if (light.power)
       if (const double flux = brightest * flux_of(file, half); flux > 0)
-        factor *= static_cast<double>(*light.power) / flux;
+        factor *= static_cast<double>(*light.power) * luminance(light.scale) / flux;
     add_float(lit, "scale", static_cast<float>(factor));
     context.approximated(
         fmt::format("Mitsuba's projector has an image of irradiance: it is written as {}", name));
@@ -243,7 +243,7 @@ void write_lights(Context& context, Element root) {
   };
   std::optional<LightModel> around = joined_surroundings(context);
   const bool joined = around.has_value();
-  for (const Light& light : context.scene.lights) {
+  for (const Light& light : context.exposed.lights) {
     context.begin(RecordKind::light, light.origin);
     if (!joined || !is_around(light))
       write_model(light.model);

@@ -113,7 +113,7 @@ void add_media(const Context& context, Element element, const Shape& shape) {
 
 // Of a surface of which something is not there: Mitsuba's masks leave the light of the surface alone.
 AreaLight light_of(Context& context, const Shape& shape) {
-  AreaLight light = context.scene.area_lights[shape.area_light->value];
+  AreaLight light = context.exposed.area_lights[shape.area_light->value];
   if (shape.opacity == FloatParameter{0.0f})
     context.approximated("a light that nothing meets is seen in Mitsuba");
   else if (!is_there(shape))

@@ -111,7 +111,7 @@ bool is_around(const Light& light) {
 std::optional<LightModel> joined_surroundings(Context& context) {
   std::vector<const Light*> lights;
   bool uniform = true;
-  for (const Light& light : context.scene.lights) {
+  for (const Light& light : context.exposed.lights) {
     if (!is_around(light)) continue;
     lights.push_back(&light);
     uniform = uniform && std::holds_alternative<InfiniteLight>(light.model);

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "images/ptex_means.h"
 #include "importers/export_colors.h"
 #include "importers/mitsuba/write_images.h"
 #include "scene/flat_emission.h"
@@ -52,6 +53,7 @@ RGB mean_of(const Context& context, const TextureModel& model) {
             return mix(mean(t.outside), mean(t.inside), covered);
           },
           [](const NoiseTexture& t) { return mean_of_noise(t); },
+          [](const PtexTexture& t) { return mean_of_ptex(t).color; },
           [](const UvTexture&) {
             return RGB{0.5, 0.5, 0};
           },

@@ -191,6 +191,10 @@ TextureModel ptex_texture(const Maker& m) {
   PtexTexture t;
   t.filename = file_of(m);
   read_encoding(m, t.encoding, t.gamma);
+  if (const double gamma = m.parameters.number("gamma", 2.2); gamma != 2.2) {  // v3's
+    t.encoding = gamma == 1 ? Encoding::linear : Encoding::gamma;
+    t.gamma = static_cast<float>(gamma);
+  }
   t.scale = m.number("scale", 1);
   return t;
 }

@@ -43,6 +43,7 @@ class LightWriter {
   const char* operator()(const ProjectionLight& l) {
     light_to_world_ = l.light_to_world;
     const auto* texture = std::get_if<Id<Texture>>(&l.image);
+    if (!texture && l.irradiance) return uniform_irradiance(l);
     const ImageScale scale = scale_of(l.scale);
     ImageChange change{scale.tint};
     if (l.irradiance) {
@@ -94,6 +95,22 @@ class LightWriter {
   const char* operator()(const SkyLight&) { return nullptr; }  // its parts are written
 
  private:
+  // pbrt's image is of the intensity.
+  const char* uniform_irradiance(const ProjectionLight& l) {
+    constexpr int pixels = 64;
+    const Point2d half = half_size(l, 1);
+    Image image = black_image(pixels, pixels, 3);
+    std::ranges::fill(image.values, 1.0f);
+    multiply(image, emission_rgb(product(std::get<Spectrum>(l.image), l.scale)));
+    multiply_by_cosine(image, -3, half);
+    const std::filesystem::path file = std::filesystem::absolute(p_.writer().new_image());
+    write_exr_image(file, image);
+    p_.approximated("pbrt projects images alone: it is one of uniform irradiance");
+    p_.file("filename", file.string()).number("fov", std::atan(half.x) * 360 / std::numbers::pi);
+    p_.number("scale", static_cast<float>(std::numbers::pi));
+    if (l.power) p_.number("power", *l.power);
+    return "projection";
+  }
   // What multiplies an image, as a number and a colour of the image's own.
   struct ImageScale {
     double number = 1;

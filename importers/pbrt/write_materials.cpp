@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
@@ -54,7 +55,8 @@ class MaterialWriter {
       p_.albedo("reflectance", m.reflectance_factor);
     } else {
       metal(m.metal);
-      if (!is_one(m.reflectance_factor)) p_.approximated("the factor of its reflection becomes 1");
+      if (std::holds_alternative<Id<Texture>>(m.reflectance_factor))
+        p_.approximated("the texture that its reflection is multiplied by becomes 1");
     }
     roughness(m.roughness);
     return "conductor";
@@ -249,6 +251,17 @@ void bumps(Parameters& p, const Material& m) {
   p.file("normalmap", *file);
 }
 
+// Of what a metal reflects by its index, the share that is left. pbrt has no such factor: the rest is black.
+float share_of_metal(Parameters& p, const Material& material) {
+  const auto* metal = std::get_if<ConductorMaterial>(&material.model);
+  const auto* factor = metal ? std::get_if<Spectrum>(&metal->reflectance_factor) : nullptr;
+  if (!factor || std::holds_alternative<PerfectReflector>(metal->metal)) return 1;
+  const RGB color = factor_rgb(*factor);
+  if (color.r != color.g || color.g != color.b)
+    p.approximated("the colour that its reflection is multiplied by becomes grey");
+  return static_cast<float>(std::clamp(luminance(*factor), 0.0, 1.0));
+}
+
 // The material that is all that is there of one that is made of others.
 std::optional<Id<Material>> the_same_as(Writer& w, std::size_t index) {
   const Material& material = w.scene.materials[index];
@@ -283,6 +296,30 @@ void write_glazing(Writer& w, std::size_t index, const std::string& file) {
   w.end("AttributeEnd");
 }
 
+void write_named(Writer& w, std::string_view name, const char* type, const Parameters& p) {
+  w.line(fmt::format("MakeNamedMaterial {} \"string type\" \"{}\"{}", in_quotes(name), type, p.list()));
+}
+
+const std::string& black(Writer& w) {
+  if (w.black.empty()) {
+    w.black = Writer::add_name(w.materials, "black");
+    write_named(
+        w, w.black, "diffuse",
+        Parameters(w, "", {}, RecordKind::material).albedo("reflectance", Spectrum{ConstantSpectrum{0}}));
+  }
+  return w.black;
+}
+
+void write_material(Writer& w, std::size_t index, const char* type, Parameters& p) {
+  const float share = share_of_metal(p, w.scene.materials[index]);
+  if (share == 1) return write_named(w, w.materials[index], type, p);
+  const std::string name = w.materials[index], whole = Writer::add_name(w.materials, name + "-whole");
+  write_named(w, whole, type, p);
+  Parameters parts(w, "", {}, RecordKind::material);
+  parts.texts("materials", {black(w), whole}).number("amount", share);
+  write_named(w, name, "mix", parts);
+}
+
 }  // namespace
 
 void write_materials(Writer& w) {
@@ -309,8 +346,7 @@ void write_materials(Writer& w) {
                         !std::holds_alternative<InterfaceMaterial>(material.model);
     if (!material.two_sided && opaque) p.approximated("its black back becomes as its front");
     if (!is_made) bumps(p, material);
-    w.line(fmt::format("MakeNamedMaterial {} \"string type\" \"{}\"{}", in_quotes(w.materials[i]), type,
-                       p.list()));
+    write_material(w, i, type, p);
   }
 }
 

@@ -29,8 +29,8 @@ struct Writer {
   // Of materials, as write_coverage finds it: which share of a surface is there, and of a blend the weight of
   // its second material in that share. Textures may be new ones, which only `textures` knows.
   std::vector<FloatParameter> coverage, amounts;
-  // What surface_of has written already: names of materials, and the product of two opacities.
-  std::string sheer, nothing;
+  // What has been written already: names of materials, and the product of two opacities.
+  std::string sheer, nothing, black;
   std::map<std::uint32_t, std::string> shining;  // by the material of a shape
   std::map<std::pair<OpacityKey, OpacityKey>, FloatParameter> alphas;
 

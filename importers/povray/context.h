@@ -7,6 +7,7 @@
 #include <set>
 #include <string>
 
+#include "importers/exposed_lights.h"
 #include "importers/images/converted_images.h"
 #include "scene/color.h"
 #include "scene/scene.h"
@@ -26,6 +27,7 @@ struct Units {
 // What the parts of the writer share.
 struct Context {
   const Scene& scene;
+  ExposedLights exposed;
   std::filesystem::path directory;  // of the scene file
   Units units;
   bool has_delta_lights = false;

@@ -31,7 +31,7 @@ std::string emitter_of(Context& context, const Shape& shape, const Surface& surf
   if (light.directional)
     context.approximated("light along the normal only: shines in all directions", light.origin);
   const std::uint32_t material = shape.material.value;
-  const double factor = context.scene.film.imaging_ratio * light.scale;
+  const double factor = static_cast<double>(light.scale);
   const Pigment radiance = pigment_of(context, light.radiance, light.origin, Colors::emissions);
   if (!radiance.filters.empty())
     context.approximated("product of textures that shines: its first factor", light.origin);

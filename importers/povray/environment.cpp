@@ -56,7 +56,7 @@ std::string octahedral_pigment() {
 
 std::string environment_text(Context& context, const EnvironmentLight& light, const Origin& origin) {
   const auto image = image_of(context, image_of(light), ImageUse::light, origin);
-  const RGB factor = factor_rgb(light.scale) * context.scene.film.imaging_ratio;
+  const RGB factor = factor_rgb(light.scale);
   if (!image) return fmt::format("background {{ {} }}\n", color(factor * 0.5));
   if (light.illuminance)
     context.dropped("illuminance of an environment: the image is written with its own values", origin);

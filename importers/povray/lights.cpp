@@ -24,7 +24,7 @@ std::string fading(const Context& context) {
 // Intensities have the unit of an area.
 std::string intensity_color(const Context& context, RGB intensity) {
   const double f = fade_distance(context), area = context.units.scale * context.units.scale;
-  return color(intensity * (context.scene.film.imaging_ratio * area / (2 * pi * f * f)));
+  return color(intensity * (area / (2 * pi * f * f)));
 }
 
 std::string at(const Context& context, Point3d p) { return vector(transform_point(context.units.to_pov, p)); }
@@ -56,8 +56,7 @@ std::string text_of(Context& context, const DistantLight& light, const Origin&) 
   const Point3d target = context.units.center;
   const Point3d from = target - normalize(light.direction) * (4 * context.units.radius);
   return fmt::format("light_source {{ {} {} parallel point_at {} }}\n", at(context, from),
-                     color(emission_rgb(light.irradiance) * (context.scene.film.imaging_ratio / pi)),
-                     at(context, target));
+                     color(emission_rgb(light.irradiance) * (1 / pi)), at(context, target));
 }
 
 std::string text_of(Context& context, const ProjectionLight&, const Origin& origin) {
@@ -74,9 +73,8 @@ std::string text_of(Context& context, const GoniometricLight& light, const Origi
   return point(context, transform_point(light.light_to_world, {0, 0, 0}), emission_rgb(light.intensity));
 }
 
-std::string text_of(Context& context, const InfiniteLight& light, const Origin&) {
-  return fmt::format("background {{ {} }}\n",
-                     color(emission_rgb(light.radiance) * context.scene.film.imaging_ratio));
+std::string text_of(Context&, const InfiniteLight& light, const Origin&) {
+  return fmt::format("background {{ {} }}\n", color(emission_rgb(light.radiance)));
 }
 
 std::string text_of(Context& context, const EnvironmentLight& light, const Origin& origin) {
@@ -123,8 +121,7 @@ std::string light_text(Context& context, const Light& light) {
 }
 
 std::string rectangle_light_text(Context& context, const Rectangle& rectangle, const AreaLight& light) {
-  const RGB radiance =
-      emission_rgb(std::get<Spectrum>(light.radiance)) * (context.scene.film.imaging_ratio * light.scale);
+  const RGB radiance = emission_rgb(std::get<Spectrum>(light.radiance)) * static_cast<double>(light.scale);
   std::string text = facing(context, rectangle, rectangle.front, radiance);
   if (light.two_sided) text += facing(context, rectangle, -rectangle.front, radiance);
   return text;

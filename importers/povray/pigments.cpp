@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "images/ptex_means.h"
 #include "importers/export_colors.h"
 
 namespace vitrail::povray {
@@ -221,8 +222,9 @@ Pigment build(Context& context, Id<Texture> id, const Use& use) {
     context.approximated("texture of noise: its mean", origin);
     return constant(mean_of_noise(*t), use);
   }
-  context.approximated("texture of Ptex: 0.5", origin);
-  return grey(0.5, use);
+  const PtexMean mean = mean_of_ptex(std::get<PtexTexture>(texture.model));
+  context.approximated(fmt::format("texture of Ptex: {}", mean.how), origin);
+  return constant(mean.color, use);
 }
 
 Pigment build(Context& context, const SpectrumParameter& parameter, const Use& use) {

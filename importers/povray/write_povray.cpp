@@ -29,8 +29,14 @@ class Writer {
  public:
   Writer(const Scene& scene, const std::filesystem::path& out)
       : out_(out),
-        context_{
-            scene, out.parent_path(), units_of(scene), false, {}, {}, ConvertedImages{images_beside(out)}},
+        context_{scene,
+                 ExposedLights(scene),
+                 out.parent_path(),
+                 units_of(scene),
+                 false,
+                 {},
+                 {},
+                 ConvertedImages{images_beside(out)}},
         folder_(out.stem().string() + "-meshes") {}
 
   Diagnostics write() {
@@ -40,7 +46,7 @@ class Writer {
              std::holds_alternative<DistantLight>(light.model);
     });
     std::string body = camera_text(context_);
-    for (const Light& light : scene().lights) body += light_text(context_, light);
+    for (const Light& light : context_.exposed.lights) body += light_text(context_, light);
     body += materials();
     for (const Prototype& prototype : scene().prototypes) body += prototype_text(prototype);
     for (const Shape& shape : scene().shapes) body += world_shape(shape);
@@ -181,7 +187,7 @@ class Writer {
   }
 
   const AreaLight* light_of(const Shape& shape) const {
-    return shape.area_light ? &scene().area_lights.at(shape.area_light->value) : nullptr;
+    return shape.area_light ? &context_.exposed.area_lights.at(shape.area_light->value) : nullptr;
   }
 
   std::string shape_text(const Shape& shape, const MeshText& mesh, const char* flags) {

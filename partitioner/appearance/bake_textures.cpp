@@ -7,6 +7,7 @@
 #include <cmath>
 #include <memory>
 
+#include "images/ptex_means.h"
 #include "images/texture_values.h"
 #include "scene/matrix_r.h"
 #include "scene/rgb_to_spectrum.h"
@@ -196,7 +197,7 @@ struct TextureBaker::Clone {
   SpectrumParameter operator()(const NoiseTexture& t) const {
     return use == TextureUse::illuminant ? lit(t) : baker.add(t, use);
   }
-  SpectrumParameter operator()(const PtexTexture& t) const { return as_used(baker.grey_of(id, t), use, {}); }
+  SpectrumParameter operator()(const PtexTexture& t) const { return as_used(baker.mean_of(id, t), use, {}); }
 
  private:
   SpectrumParameter input(const SpectrumParameter& parameter) const {
@@ -221,15 +222,17 @@ SpectrumParameter TextureBaker::bake_texture(Id<Texture> texture, TextureUse use
   return baked;
 }
 
-Spectrum TextureBaker::grey_of(Id<Texture> texture, const PtexTexture& ptex) {
+Spectrum TextureBaker::mean_of(Id<Texture> texture, const PtexTexture& ptex) {
   const Texture& original = scene_.textures[texture.value];
   const SourceLocation where = location(scene_, original.origin);
   const std::string name = original.name.empty() ? "" : fmt::format(" \"{}\"", original.name);
-  const float grey = 0.5f * ptex.scale;
+  const PtexMean mean = mean_of_ptex(ptex);
   diagnostics_.push_back({Fidelity::approximated,
-                          fmt::format("texture{} of ptex is rendered as grey, {}", name, grey), where, where,
+                          fmt::format("texture{} of ptex is rendered as {}", name, mean.how), where, where,
                           RecordKind::texture});
-  return ConstantSpectrum{grey};
+  const RGB& c = mean.color;
+  if (c.r == c.g && c.g == c.b) return ConstantSpectrum{static_cast<float>(c.r)};
+  return unbounded_from_rgb(c);
 }
 
 Id<Texture> TextureBaker::add(TextureModel model, TextureUse use) {

@@ -48,7 +48,7 @@ class TextureBaker {
   struct Clone;
   SpectrumParameter bake_input(const SpectrumParameter& parameter, TextureUse use);
   SpectrumParameter bake_texture(Id<Texture> texture, TextureUse use);
-  Spectrum grey_of(Id<Texture> texture, const PtexTexture& ptex);
+  Spectrum mean_of(Id<Texture> texture, const PtexTexture& ptex);
   std::string bake_file(const ImageTexture& image, TextureUse use, bool all_levels,
                         const SourceLocation& where);
   std::string write_file(const ImageTexture& image, TextureUse use, bool all_levels,

@@ -169,7 +169,9 @@ TEST_F(Convert, ACheckSeesWhatLooksDifferent) {
   const auto good = convert(same + " " + path("same.xml") + " --check --report " + path("report.json"));
   EXPECT_EQ(good.status, 0) << good.output;
   EXPECT_THAT(good.output, HasSubstr("looks the same"));
-  EXPECT_EQ(test::read_json(path("report.json")).at("pictures").at("passed"), true);
+  const auto pictures = test::read_json(path("report.json")).at("pictures");
+  EXPECT_EQ(pictures.at("passed"), true);
+  EXPECT_EQ(pictures.at("samples"), 32);
 
   // Mitsuba's media do not shine.
   const std::string glow =
@@ -180,6 +182,26 @@ TEST_F(Convert, ACheckSeesWhatLooksDifferent) {
   EXPECT_EQ(bad.status, 1) << bad.output;
   EXPECT_THAT(bad.output, HasSubstr("looks different"));
   EXPECT_EQ(convert(same + " " + path("same.pov") + " --check").status, 2);
+
+  const std::string nothing =
+      write("nothing.pbrt", "Camera \"perspective\"\nWorldBegin\nTranslate 0 0 3\nShape \"sphere\"\n");
+  const auto black = convert(nothing + " " + path("nothing.xml") + " --check");
+  EXPECT_EQ(black.status, 0) << black.output;
+  EXPECT_THAT(black.output, HasSubstr("looks the same: the scene shows nothing"));
+}
+
+TEST_F(Convert, ACheckTakesMoreSamplesWhereNoiseHidesTheMean) {
+  // A lamp within glass is found by chance alone.
+  const std::string noisy =
+      write("noisy.pbrt",
+            "Film \"rgb\" \"integer xresolution\" 8 \"integer yresolution\" 8\nPixelFilter \"box\"\n"
+            "Camera \"perspective\"\nWorldBegin\nTranslate 0 0 3\nShape \"disk\" \"float radius\" 9 \"float "
+            "height\" 3\n"
+            "Material \"dielectric\"\nShape \"sphere\" \"float radius\" 0.5\n"
+            "AreaLightSource \"diffuse\" \"float scale\" 50\nShape \"sphere\" \"float radius\" 0.1\n");
+  const auto result = convert(noisy + " " + path("noisy.xml") + " --check --report " + path("report.json"));
+  EXPECT_EQ(result.status, 0) << result.output;
+  EXPECT_EQ(test::read_json(path("report.json")).at("pictures").at("samples"), 256) << result.output;
 }
 
 }  // namespace

@@ -422,17 +422,30 @@ TEST_F(WriteMitsuba, Media) {
 TEST_F(WriteMitsuba, WhatCamerasAndFilmsCannotSay) {
   Scene scene = square_scene({});
   scene.film.filter = GaussianFilter{1.5, 1.5, 0.5};
-  scene.film.imaging_ratio = 2;
   scene.settings.max_depth = unlimited_depth;
   EXPECT_EQ(value(write(scene).child("integrator"), "max_depth"), "-1");
   EXPECT_THAT(diagnostics_, approximates("4σ"));
-  EXPECT_THAT(diagnostics_, drops("exposure"));
   scene.camera = SphericalCamera{};
   write(scene);
   EXPECT_THAT(diagnostics_, drops("all directions"));
   scene.camera = PerspectiveCamera{{}, {-1, 1, -1, 1}, {}};  // the film is 8 × 4
   write(scene);
   EXPECT_THAT(diagnostics_, approximates("square"));
+}
+
+// Its film has none.
+TEST_F(WriteMitsuba, ExposureIsInTheLights) {
+  Scene scene = square_scene({});
+  scene.film.imaging_ratio = 2;
+  scene.lights = {{PointLight{{1, 2, 3}, ConstantSpectrum{3}}, {}}};
+  scene.area_lights.push_back({.radiance = ConstantSpectrum{5}, .scale = 7});
+  scene.shapes[0].area_light = Id<AreaLight>{0};
+  const auto root = write(scene);
+  EXPECT_THAT(diagnostics_, IsEmpty());
+  EXPECT_EQ(value(root.child("emitter"), "intensity"), "6");
+  EXPECT_EQ(value(root.child("shape").child("emitter"), "radiance"), "70");
+  scene.lights = {{InfiniteLight{ConstantSpectrum{1}}, {}}, {InfiniteLight{ConstantSpectrum{2}}, {}}};
+  EXPECT_EQ(value(write(scene).child("emitter"), "radiance"), "6");  // of both
 }
 
 TEST_F(WriteMitsuba, LightsThatMitsubaDoesNotHave) {

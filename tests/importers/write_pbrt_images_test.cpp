@@ -164,6 +164,27 @@ TEST_F(PbrtImages, ProjectorsOfMitsubaKeepTheirIntensity) {
   }
 }
 
+TEST_F(PbrtImages, UniformIrradianceIsAnImageOfIntensity) {
+  Scene scene = square_scene(Material{DiffuseMaterial{}});
+  ProjectionLight light;
+  light.image = Spectrum{emission_from_rgb({1, 2, 3})};
+  light.irradiance = true;
+  light.fov_deg = 60;
+  light.scale = ConstantSpectrum{2};
+  scene.lights = {{light, {}}};
+  write_pbrt(scene, folder_ / "out.pbrt");
+  const Scene again = read_pbrt(folder_ / "out.pbrt").scene;
+  const auto& read = std::get<ProjectionLight>(again.lights.at(0).model);
+  EXPECT_NEAR(read.fov_deg, 60, 1e-4);
+  const std::vector<float> found =
+      values(again.textures.at(std::get<Id<Texture>>(read.image).value), ImageUse::light);
+  const double corner = std::tan(std::numbers::pi / 6) * (1 - 1.0 / 64);
+  const double scale = evaluate(read.scale, 500) / std::numbers::pi;
+  for (std::size_t c = 0; c < 3; ++c)
+    EXPECT_NEAR(scale * static_cast<double>(found[c]),
+                2 * static_cast<double>(c + 1) * std::pow(1 + 2 * corner * corner, 1.5), 1e-4);
+}
+
 // What multiplies the image of a light is in it, where it is a colour.
 TEST_F(PbrtImages, ColoursOfEnvironmentsAreInTheirImages) {
   Image sky = black_image(4, 2, 3);

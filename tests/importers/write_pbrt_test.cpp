@@ -156,6 +156,29 @@ TEST(WritePbrt, Materials) {
     expect_exact_material(material);
 }
 
+// The rest of what it reflects is black.
+TEST(WritePbrt, MetalsTimesAFactor) {
+  const TemporaryFolder folder;
+  Scene scene = read_pbrt(folder.write("scene.pbrt", "Film \"rgb\"\nWorldBegin\n" + triangle)).scene;
+  ConductorMaterial metal;
+  metal.metal = ComplexIndex{NamedSpectrum{"metal-Au-eta"}, NamedSpectrum{"metal-Au-k"}};
+  metal.roughness = {0.2f, 0.2f};
+  metal.reflectance_factor = reflectance_from_rgb({0.25, 0.25, 0.25});
+  scene.materials = {{metal}};
+  scene.materials[0].name = "gold";
+  EXPECT_THAT(write_pbrt(scene, folder / "out.pbrt"), testing::IsEmpty());
+  const Scene again = read_pbrt(folder / "out.pbrt").scene;
+  const auto& blend = std::get<BlendMaterial>(again.materials[again.shapes[0].material.value].model);
+  EXPECT_NEAR(std::get<float>(blend.amount), 0.25, 1e-6);
+  EXPECT_EQ(again.materials[blend.first.value].model,
+            MaterialModel(DiffuseMaterial{.reflectance = ConstantSpectrum{0}}));
+  metal.reflectance_factor = ConstantSpectrum{1};
+  EXPECT_EQ(again.materials[blend.second.value].model, MaterialModel(metal));
+  metal.reflectance_factor = reflectance_from_rgb({0.25, 0.5, 0.25});
+  scene.materials[0].model = metal;
+  EXPECT_TRUE(mentions(write_pbrt(scene, folder / "out.pbrt"), "becomes grey"));
+}
+
 TEST(WritePbrt, HairIsExactAndMeantForCurves) {
   for (const char* material :
        {"Material \"hair\" \"rgb reflectance\" [.1 .2 .3]", "Material \"hair\" \"float eumelanin\" .7"}) {

@@ -10,7 +10,7 @@
 namespace vitrail::test {
 namespace {
 
-constexpr std::uint32_t known_revision = 6;
+constexpr std::uint32_t known_revision = 7;
 constexpr const char* known_pictures = "f109c6ed73b80046";
 
 std::array<Point3f, 4> tile(float x, float z) {

@@ -269,7 +269,7 @@ TEST(BakeTextures, ValuesThatAreNotFiniteCountAsZero) {
       s, baked, image, [](RGB c) { return Spectrum{emission_from_rgb(c)}; }, 1e-3);
 }
 
-TEST(BakeTextures, PtexIsGrey) {
+TEST(BakeTextures, PtexThatCannotBeReadIsGrey) {
   test::BakedScene s;
   PtexTexture ptex;
   ptex.scale = 0.5f;
