@@ -81,15 +81,19 @@ class Tetrahedra {
   void add_cell(const std::array<std::int64_t, 3>& low) {
     static constexpr std::array<std::array<int, 3>, 6> ways{
         {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}}};
+    std::array<Corner, 8> corners;
+    int inside = 0;
+    for (int i = 0; i < 8; ++i) {
+      Corner& c = corners[static_cast<std::size_t>(i)];
+      c = corner({low[0] + (i & 1), low[1] + (i >> 1 & 1), low[2] + (i >> 2)});
+      inside += c.value < 0;
+    }
+    if (inside == 0 || inside == 8) return;
     for (const auto& way : ways) {
-      std::array<Corner, 4> corners;
-      std::array<std::int64_t, 3> at = low;
-      corners[0] = corner(at);
-      for (std::size_t i = 0; i < 3; ++i) {
-        ++at[static_cast<std::size_t>(way[i])];
-        corners[i + 1] = corner(at);
-      }
-      add_tetrahedron(corners);
+      std::array<const Corner*, 4> tetrahedron{&corners[0]};
+      for (std::size_t i = 0, at = 0; i < 3; ++i)
+        tetrahedron[i + 1] = &corners[at |= std::size_t{1} << way[i]];
+      add_tetrahedron(tetrahedron);
     }
   }
 
@@ -120,10 +124,10 @@ class Tetrahedra {
     return {static_cast<std::uint64_t>(id), p, f_(p)};
   }
 
-  void add_tetrahedron(const std::array<Corner, 4>& corners) {
+  void add_tetrahedron(const std::array<const Corner*, 4>& corners) {
     std::array<const Corner*, 4> in{}, out{};
     std::size_t ins = 0, outs = 0;
-    for (const Corner& c : corners) (c.value < 0 ? in[ins++] : out[outs++]) = &c;
+    for (const Corner* c : corners) (c->value < 0 ? in[ins++] : out[outs++]) = c;
     if (ins == 0 || outs == 0) return;
     const Vector3d outwards = out[0]->place - in[0]->place;
     const auto v = [&](std::size_t i, std::size_t o) { return vertex(*in[i], *out[o]); };
