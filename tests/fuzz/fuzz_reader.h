@@ -59,6 +59,9 @@ inline void check(const Scene& scene) {
     for (const Instance& instance : scene.prototypes[i].instances) require(instance.prototype.value < i);
   for (const Instance& instance : scene.instances)
     require(instance.prototype.value < scene.prototypes.size());
+  const PixelRect& crop = scene.film.crop;
+  require(0 <= crop.x0 && crop.x0 < crop.x1 && crop.x1 <= scene.film.width);
+  require(0 <= crop.y0 && crop.y0 < crop.y1 && crop.y1 <= scene.film.height);
 }
 
 template <class Read>
