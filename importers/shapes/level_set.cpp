@@ -77,24 +77,17 @@ class Tetrahedra {
  public:
   Tetrahedra(const Trilinear& f, int parts) : f_(f), parts_(parts) {}
 
-  // The six around the diagonal of a small cell, each a way from its lowest corner to its highest.
-  void add_cell(const std::array<std::int64_t, 3>& low) {
-    static constexpr std::array<std::array<int, 3>, 6> ways{
-        {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}}};
-    std::array<Corner, 8> corners;
-    int inside = 0;
-    for (int i = 0; i < 8; ++i) {
-      Corner& c = corners[static_cast<std::size_t>(i)];
-      c = corner({low[0] + (i & 1), low[1] + (i >> 1 & 1), low[2] + (i >> 2)});
-      inside += c.value < 0;
-    }
-    if (inside == 0 || inside == 8) return;
-    for (const auto& way : ways) {
-      std::array<const Corner*, 4> tetrahedron{&corners[0]};
-      for (std::size_t i = 0, at = 0; i < 3; ++i)
-        tetrahedron[i + 1] = &corners[at |= std::size_t{1} << way[i]];
-      add_tetrahedron(tetrahedron);
-    }
+  void add_cell(const std::array<int, 3>& cell) {
+    const std::size_t side = static_cast<std::size_t>(parts_) + 1;
+    const auto [x, y, z] = cell;
+    corners_.clear();
+    for (std::int64_t k = 0; k <= parts_; ++k)
+      for (std::int64_t j = 0; j <= parts_; ++j)
+        for (std::int64_t i = 0; i <= parts_; ++i)
+          corners_.push_back(corner({x * parts_ + i, y * parts_ + j, z * parts_ + k}));
+    for (std::size_t k = 0; k + 1 < side; ++k)
+      for (std::size_t j = 0; j + 1 < side; ++j)
+        for (std::size_t i = 0; i + 1 < side; ++i) add_small_cell((k * side + j) * side + i, side);
   }
 
   LevelSet take() {
@@ -122,6 +115,25 @@ class Tetrahedra {
     const Point3d p{place(0), place(1), place(2)};
     const std::int64_t id = (at[2] * (size(1) + 1) + at[1]) * (size(0) + 1) + at[0];
     return {static_cast<std::uint64_t>(id), p, f_(p)};
+  }
+
+  // The six around its diagonal, each a way from its lowest corner to its highest.
+  void add_small_cell(std::size_t low, std::size_t side) {
+    static constexpr std::array<std::array<int, 3>, 6> ways{
+        {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}}};
+    std::array<const Corner*, 8> corners{};  // bit i: the higher along axis i
+    std::size_t inside = 0;
+    for (std::size_t i = 0; i < 8; ++i) {
+      corners[i] = &corners_[low + (i & 1) + ((i >> 1 & 1) + (i >> 2) * side) * side];
+      inside += corners[i]->value < 0;
+    }
+    if (inside == 0 || inside == 8) return;
+    for (const auto& way : ways) {
+      std::array<const Corner*, 4> tetrahedron{corners[0]};
+      for (std::size_t i = 0, at = 0; i < 3; ++i)
+        tetrahedron[i + 1] = corners[at |= std::size_t{1} << way[i]];
+      add_tetrahedron(tetrahedron);
+    }
   }
 
   void add_tetrahedron(const std::array<const Corner*, 4>& corners) {
@@ -163,6 +175,7 @@ class Tetrahedra {
 
   const Trilinear& f_;
   std::int64_t parts_;
+  std::vector<Corner> corners_;  // of the small cells of one cell
   std::unordered_map<std::uint64_t, std::unordered_map<std::uint64_t, std::uint32_t>> vertices_;
   LevelSet result_;
 };
@@ -178,11 +191,7 @@ LevelSet level_set(const SampledFunction& function) {
       std::sqrt(wanted_triangles / 6 / static_cast<double>(std::max<std::size_t>(crossed.size(), 1)));
   const int n = static_cast<int>(std::clamp(parts, 1.0, most_parts));
   Tetrahedra made(f, n);
-  for (const auto& [x, y, z] : crossed)
-    for (int k = 0; k < n; ++k)
-      for (int j = 0; j < n; ++j)
-        for (int i = 0; i < n; ++i)
-          made.add_cell({std::int64_t{x} * n + i, std::int64_t{y} * n + j, std::int64_t{z} * n + k});
+  for (const auto& cell : crossed) made.add_cell(cell);
   return made.take();
 }
 
