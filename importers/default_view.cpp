@@ -6,30 +6,41 @@
 
 #include "scene/bounds.h"
 #include "scene/deferred_mesh.h"
+#include "scene/quadric_places.h"
 #include "scene/rgb_to_spectrum.h"
 
 namespace vitrail {
 
 namespace {
 
+void extend_by_corners(Bounds3d& bounds, const Transform& to_world, const Bounds3d& box) {
+  for (int corner = 0; corner < 8 && !box.empty(); ++corner)
+    extend(bounds, transform_point(to_world, {(corner & 1 ? box.upper : box.lower).x,
+                                              (corner & 2 ? box.upper : box.lower).y,
+                                              (corner & 4 ? box.upper : box.lower).z}));
+}
+
+// Of quadrics without making triangles of them.
 void extend_by(Bounds3d& bounds, const Scene& scene, const std::vector<Shape>& shapes) {
   for (const Shape& shape : shapes) {
-    TriangleMesh storage;
-    for (const Point3f& p : loaded(scene.meshes[shape.mesh.value], storage).positions)
-      extend(bounds, transform_point(shape.object_to_world, cast<double>(p)));
+    const TriangleMesh& mesh = scene.meshes[shape.mesh.value];
+    if (mesh.places) {
+      extend_by_corners(bounds, shape.object_to_world, mesh.places->bounds());
+    } else if (mesh.quadric) {
+      extend(bounds, bounds_of(*mesh.quadric, shape.object_to_world));
+    } else {
+      TriangleMesh storage;
+      for (const Point3f& p : loaded(mesh, storage).positions)
+        extend(bounds, transform_point(shape.object_to_world, cast<double>(p)));
+    }
   }
 }
 
 // Instances count by the boxes of their prototypes.
 void extend_by(Bounds3d& bounds, const std::vector<Instance>& instances,
                const std::vector<Bounds3d>& prototypes) {
-  for (const Instance& instance : instances) {
-    const Bounds3d& box = prototypes.at(instance.prototype.value);
-    for (int corner = 0; corner < 8 && !box.empty(); ++corner)
-      extend(bounds, transform_point(instance.prototype_to_world, {(corner & 1 ? box.upper : box.lower).x,
-                                                                   (corner & 2 ? box.upper : box.lower).y,
-                                                                   (corner & 4 ? box.upper : box.lower).z}));
-  }
+  for (const Instance& instance : instances)
+    extend_by_corners(bounds, instance.prototype_to_world, prototypes.at(instance.prototype.value));
 }
 
 Bounds3d world_bounds(const Scene& scene) {

@@ -39,6 +39,8 @@ std::string closest_word(const std::string& word, const std::vector<std::string>
   std::string best;
   std::size_t best_distance = word.size() / 3 + 1;
   for (const std::string& candidate : candidates) {
+    const auto [shorter, longer] = std::minmax({word.size(), candidate.size()});
+    if (longer - shorter >= best_distance) continue;  // a word may be as long as its file
     const std::size_t d = edit_distance(word, candidate);
     if (d < best_distance) {
       best_distance = d;

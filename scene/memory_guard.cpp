@@ -99,8 +99,17 @@ MemoryRefusal memory_refusal() { return {refused, resident_then, asked_then}; }
 
 }  // namespace vitrail
 
-// Sanitizers and valgrind have a `new` of their own, which they want to keep.
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+// Sanitizers and valgrind have a `new` of their own, which they want to keep. GCC says by macros that they
+// are there, clang by features.
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define VITRAIL_SANITIZED
+#endif
+#elif defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define VITRAIL_SANITIZED
+#endif
+
+#if !defined(VITRAIL_SANITIZED)
 
 void* operator new(std::size_t bytes) { return vitrail::block_of(bytes, 1); }
 void* operator new(std::size_t bytes, std::align_val_t alignment) {

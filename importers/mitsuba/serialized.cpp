@@ -116,7 +116,7 @@ std::vector<T> read_rows(Inflater& in, std::uint64_t count, bool doubles, const 
                          const char* what) {
   static_assert(sizeof(T) == width * sizeof(float) && std::is_trivially_copyable_v<T>);
   in.require_room(count, width * (doubles ? sizeof(double) : sizeof(float)), what);
-  constexpr std::size_t piece = 4096;
+  const std::size_t piece = std::min<std::uint64_t>(4096, count);
   std::vector<T> rows;
   std::vector<float> values(width * piece);
   std::vector<double> wide(doubles ? values.size() : 0);

@@ -13,7 +13,7 @@ namespace vitrail::mitsuba {
 
 namespace {
 
-constexpr int furthest_year = 9999;
+constexpr int furthest = 9999;  // year, month or day
 
 // Mitsuba's defaults are of Tokyo.
 Place read_place(const Object& o, const Report& report) {
@@ -24,7 +24,9 @@ void read_date(const Object& o, const std::string& prefix, LocalTime& time, cons
   time.year = o.integer(prefix + "year", time.year, report);
   time.month = o.integer(prefix + "month", time.month, report);
   time.day = o.integer(prefix + "day", time.day, report);
-  if (std::abs(time.year) > furthest_year) report.fail("the year has to be within ±9999", o.origin);
+  for (const int part : {time.year, time.month, time.day})
+    if (part < -furthest || part > furthest)
+      report.fail("year, month and day have to be within ±9999", o.origin);
 }
 
 SunPosition read_sun_position(const Object& o, const Report& report) {
@@ -84,7 +86,7 @@ std::vector<Vector3d> suns_over_time(const Builder& builder, const Object& o) {
     const double part = once ? 0 : (i + 0.5) / moments,
                  time = builder.shutter_open + part * (builder.shutter_close - builder.shutter_open);
     const double day = (time - open) / (close - open) * days;
-    if (!(std::abs(day) < furthest_year * 366.0))
+    if (!(std::abs(day) < furthest * 366.0))
       report.fail("the sensor's shutter is open thousands of years before or after the emitter's", o.origin);
     LocalTime at = start;
     at.day += static_cast<int>(std::floor(day));

@@ -26,8 +26,8 @@ std::string excerpt(const Place& place) {
     for (int n = 1; n < place.line && line != bytes.end(); ++line)
       if (*line == '\n' || (*line == '\r' && (line + 1 == bytes.end() || line[1] != '\n'))) ++n;
     const char* stop = std::find_if(line, bytes.end(), [](char c) { return c == '\n' || c == '\r'; });
-    const char* at = std::min(line + (place.column - 1), stop);
-    return {std::max(line, at - width / 2), std::min(stop, at + width / 2)};
+    const std::ptrdiff_t length = stop - line, at = std::min<std::ptrdiff_t>(place.column - 1, length);
+    return {line + std::max<std::ptrdiff_t>(0, at - width / 2), line + std::min(length, at + width / 2)};
   } catch (const Error&) {
     return {};  // the file has gone meanwhile: the message goes without its excerpt
   }

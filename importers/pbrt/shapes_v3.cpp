@@ -45,6 +45,16 @@ Spline spline(ParameterSet& parameters, const std::string& axis) {
   return s;
 }
 
+// What of a surface cannot be is said where it stands.
+template <class Make>
+TriangleMesh made(const ParameterSet& parameters, Make&& make) {
+  try {
+    return make();
+  } catch (const Error& error) {
+    fail(error.what(), parameters.place());
+  }
+}
+
 }  // namespace
 
 ShapeGeometry ShapeMaker::heightfield(ParameterSet& parameters) {
@@ -61,7 +71,13 @@ ShapeGeometry ShapeMaker::hyperboloid(ParameterSet& parameters) {
   const double phimax_rad = std::clamp(parameters.number("phimax", 360), 0.0, 360.0) * std::numbers::pi / 180;
   if (!(phimax_rad > 0) || p1 == p2) fail("a hyperboloid of which nothing is left", parameters.place());
   context_.report.approximated("a hyperboloid becomes triangles, 256 for a full turn", parameters.place());
-  return {add(vitrail::hyperboloid({p1[0], p1[1], p1[2]}, {p2[0], p2[1], p2[2]}, phimax_rad)), true, {}, 1};
+  return {add(made(parameters,
+                   [&] {
+                     return vitrail::hyperboloid({p1[0], p1[1], p1[2]}, {p2[0], p2[1], p2[2]}, phimax_rad);
+                   })),
+          true,
+          {},
+          1};
 }
 
 ShapeGeometry ShapeMaker::nurbs(ParameterSet& parameters) {
@@ -73,13 +89,9 @@ ShapeGeometry ShapeMaker::nurbs(ParameterSet& parameters) {
   std::vector<std::array<double, 4>> points(size);
   for (std::size_t i = 0; i < size; ++i)
     for (std::size_t c = 0; c < 4; ++c) points[i][c] = c < each ? values[i * each + c] : 1;
-  try {
-    TriangleMesh mesh = vitrail::nurbs(u, v, points);
-    const std::size_t parts = mesh.triangles.size();
-    return {add(std::move(mesh)), false, {}, parts};
-  } catch (const Error& error) {
-    fail(error.what(), parameters.place());
-  }
+  TriangleMesh mesh = made(parameters, [&] { return vitrail::nurbs(u, v, points); });
+  const std::size_t parts = mesh.triangles.size();
+  return {add(std::move(mesh)), false, {}, parts};
 }
 
 }  // namespace vitrail::pbrt

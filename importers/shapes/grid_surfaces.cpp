@@ -13,8 +13,13 @@ namespace vitrail {
 
 namespace {
 
-Point3f to_point(const Vector3d& p) {
-  return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
+// A point or a normal.
+template <class T>
+T single(const Vector3d& v) {
+  const T made{static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+  if (!std::isfinite(made.x) || !std::isfinite(made.y) || !std::isfinite(made.z))
+    throw Error("a surface is not finite in single precision");
+  return made;
 }
 
 // The triangles of columns × rows vertices: of each cell (0,0) (1,0) (1,1) and (0,0) (1,1) (0,1), as in
@@ -31,8 +36,10 @@ std::vector<std::array<std::uint32_t, 3>> grid_triangles(std::uint32_t columns, 
   return triangles;
 }
 
-// Weights of the control points at t, and their derivatives.
+// Weights of control points at t, and their derivatives: of as many from `first` on as the order is. The
+// others have none.
 struct Weights {
+  std::size_t first = 0;
   std::vector<double> values, derivatives;
 };
 
@@ -45,19 +52,22 @@ Weights weights(const Spline& s, double t) {
   std::size_t span = order - 1;  // the last one that is not empty and begins at t or before
   for (std::size_t i = span; i < count; ++i)
     if (k[i] <= t && k[i] < k[i + 1]) span = i;
+  const std::size_t first = span - (order - 1);
   std::vector<double> n(count + order, 0), lower;
   n[span] = 1;
   for (std::size_t degree = 1; degree < order; ++degree) {
     lower = n;
-    for (std::size_t i = 0; i + degree + 1 < k.size(); ++i)
+    for (std::size_t i = first; i <= span; ++i)
       n[i] = ratio((t - k[i]) * lower[i], k[i + degree] - k[i]) +
              ratio((k[i + degree + 1] - t) * lower[i + 1], k[i + degree + 1] - k[i + 1]);
   }
-  Weights w{{n.begin(), n.begin() + static_cast<std::ptrdiff_t>(count)}, std::vector<double>(count)};
+  Weights w{first, {}, {}};
   const auto degree = static_cast<double>(order - 1);
-  for (std::size_t i = 0; i < count; ++i)
-    w.derivatives[i] =
-        degree * (ratio(lower[i], k[i + order - 1] - k[i]) - ratio(lower[i + 1], k[i + order] - k[i + 1]));
+  for (std::size_t i = first; i <= span; ++i) {
+    w.values.push_back(n[i]);
+    w.derivatives.push_back(
+        degree * (ratio(lower[i], k[i + order - 1] - k[i]) - ratio(lower[i + 1], k[i + order] - k[i + 1])));
+  }
   return w;
 }
 
@@ -65,6 +75,8 @@ void require_valid(const Spline& s, const char* direction) {
   const auto fail = [&](const std::string& what) {
     throw Error(fmt::format("a NURBS surface in {}: {}", direction, what));
   };
+  constexpr int highest_order = 256;  // the work grows with its square
+  if (s.order > highest_order) fail(fmt::format("an order of {}; at most {}", s.order, highest_order));
   if (s.order < 2 || s.order > s.points)
     fail(fmt::format("an order of {} with {} points; it has to be at least 2 and at most their number",
                      s.order, s.points));
@@ -79,16 +91,15 @@ void require_valid(const Spline& s, const char* direction) {
 }
 
 struct Surface {
-  const Spline &u, &v;
+  const Spline& u;
   const std::vector<std::array<double, 4>>& points;
 
-  Vector3d at(double s, double t, Vector3d& normal) const {
-    const Weights a = weights(u, s), b = weights(v, t);
+  Vector3d at(const Weights& a, const Weights& b, Vector3d& normal) const {
     std::array<double, 4> p{}, du{}, dv{};
     for (std::size_t y = 0; y < b.values.size(); ++y)
       for (std::size_t x = 0; x < a.values.size(); ++x)
         for (std::size_t c = 0; c < 4; ++c) {
-          const double point = points[y * a.values.size() + x][c];
+          const double point = points[(b.first + y) * static_cast<std::size_t>(u.points) + a.first + x][c];
           p[c] += a.values[x] * b.values[y] * point;
           du[c] += a.derivatives[x] * b.values[y] * point;
           dv[c] += a.values[x] * b.derivatives[y] * point;
@@ -110,7 +121,7 @@ TriangleMesh heightfield(int columns, int rows, const std::vector<double>& heigh
   for (int y = 0; y < rows; ++y)
     for (int x = 0; x < columns; ++x) {
       const double u = x / static_cast<double>(columns - 1), v = y / static_cast<double>(rows - 1);
-      mesh.positions.push_back(to_point({u, v, heights[mesh.positions.size()]}));
+      mesh.positions.push_back(single<Point3f>({u, v, heights[mesh.positions.size()]}));
       mesh.uvs.push_back({static_cast<float>(u), static_cast<float>(v)});
     }
   mesh.triangles = grid_triangles(static_cast<std::uint32_t>(columns), static_cast<std::uint32_t>(rows));
@@ -124,15 +135,14 @@ TriangleMesh hyperboloid(const Vector3d& p1, const Vector3d& p2, double phimax_r
   for (int y = 0; y <= rows; ++y)
     for (int x = 0; x <= columns; ++x) {
       const double u = x / static_cast<double>(columns), v = y / static_cast<double>(rows);
-      const auto [c, s] = unit_circle(u * phimax_rad);
+      const Point2d circle = unit_circle(u * phimax_rad);
       const auto turned = [&](const Vector3d& p) {
-        return Vector3d{p.x * c - p.y * s, p.x * s + p.y * c, p.z};
+        return Vector3d{p.x * circle.x - p.y * circle.y, p.x * circle.y + p.y * circle.x, p.z};
       };
       const Vector3d along = p2 - p1, p = turned(p1 + along * v);
       const Vector3d normal = cross({-p.y, p.x, 0}, turned(along));
-      mesh.positions.push_back(to_point(p));
-      mesh.normals.push_back(
-          {static_cast<float>(normal.x), static_cast<float>(normal.y), static_cast<float>(normal.z)});
+      mesh.positions.push_back(single<Point3f>(p));
+      mesh.normals.push_back(single<Normal3f>(normal));
       mesh.uvs.push_back({static_cast<float>(u), static_cast<float>(v)});
     }
   mesh.triangles = grid_triangles(columns + 1, rows + 1);
@@ -143,22 +153,29 @@ TriangleMesh nurbs(const Spline& u, const Spline& v, const std::vector<std::arra
   constexpr int diced = 30;
   require_valid(u, "u");
   require_valid(v, "v");
-  const Surface surface{u, v, points};
+  const Surface surface{u, points};
+  const auto place = [](const Spline& spline, int i) {
+    return std::lerp(spline.begin, spline.end, i / (diced - 1.0));
+  };
+  std::array<Weights, diced> of_column, of_row;
+  for (int i = 0; i < diced; ++i) {
+    of_column[static_cast<std::size_t>(i)] = weights(u, place(u, i));
+    of_row[static_cast<std::size_t>(i)] = weights(v, place(v, i));
+  }
   TriangleMesh mesh;
   for (int y = 0; y < diced; ++y)
     for (int x = 0; x < diced; ++x) {
-      const double s = std::lerp(u.begin, u.end, x / (diced - 1.0)),
-                   t = std::lerp(v.begin, v.end, y / (diced - 1.0));
+      const double s = place(u, x), t = place(v, y);
       Vector3d normal;
-      mesh.positions.push_back(to_point(surface.at(s, t, normal)));
+      mesh.positions.push_back(single<Point3f>(
+          surface.at(of_column[static_cast<std::size_t>(x)], of_row[static_cast<std::size_t>(y)], normal)));
       if (!(length(normal) > 0)) {  // a pole: the normal beside it
         constexpr double beside = 1e-4;
-        surface.at(std::lerp(s, (u.begin + u.end) / 2, beside), std::lerp(t, (v.begin + v.end) / 2, beside),
-                   normal);
+        surface.at(weights(u, std::lerp(s, (u.begin + u.end) / 2, beside)),
+                   weights(v, std::lerp(t, (v.begin + v.end) / 2, beside)), normal);
       }
       const Vector3d unit = length(normal) > 0 ? normalize(normal) : Vector3d{0, 0, 1};
-      mesh.normals.push_back(
-          {static_cast<float>(unit.x), static_cast<float>(unit.y), static_cast<float>(unit.z)});
+      mesh.normals.push_back(single<Normal3f>(unit));
       mesh.uvs.push_back({static_cast<float>(s), static_cast<float>(t)});
     }
   mesh.triangles = grid_triangles(diced, diced);

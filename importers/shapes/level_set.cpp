@@ -77,20 +77,17 @@ class Tetrahedra {
  public:
   Tetrahedra(const Trilinear& f, int parts) : f_(f), parts_(parts) {}
 
-  // The six around the diagonal of a small cell, each a way from its lowest corner to its highest.
-  void add_cell(const std::array<std::int64_t, 3>& low) {
-    static constexpr std::array<std::array<int, 3>, 6> ways{
-        {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}}};
-    for (const auto& way : ways) {
-      std::array<Corner, 4> corners;
-      std::array<std::int64_t, 3> at = low;
-      corners[0] = corner(at);
-      for (std::size_t i = 0; i < 3; ++i) {
-        ++at[static_cast<std::size_t>(way[i])];
-        corners[i + 1] = corner(at);
-      }
-      add_tetrahedron(corners);
-    }
+  void add_cell(const std::array<int, 3>& cell) {
+    const std::size_t side = static_cast<std::size_t>(parts_) + 1;
+    const auto [x, y, z] = cell;
+    corners_.clear();
+    for (std::int64_t k = 0; k <= parts_; ++k)
+      for (std::int64_t j = 0; j <= parts_; ++j)
+        for (std::int64_t i = 0; i <= parts_; ++i)
+          corners_.push_back(corner({x * parts_ + i, y * parts_ + j, z * parts_ + k}));
+    for (std::size_t k = 0; k + 1 < side; ++k)
+      for (std::size_t j = 0; j + 1 < side; ++j)
+        for (std::size_t i = 0; i + 1 < side; ++i) add_small_cell((k * side + j) * side + i, side);
   }
 
   LevelSet take() {
@@ -120,10 +117,29 @@ class Tetrahedra {
     return {static_cast<std::uint64_t>(id), p, f_(p)};
   }
 
-  void add_tetrahedron(const std::array<Corner, 4>& corners) {
+  // The six around its diagonal, each a way from its lowest corner to its highest.
+  void add_small_cell(std::size_t low, std::size_t side) {
+    static constexpr std::array<std::array<int, 3>, 6> ways{
+        {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}}};
+    std::array<const Corner*, 8> corners{};  // bit i: the higher along axis i
+    std::size_t inside = 0;
+    for (std::size_t i = 0; i < 8; ++i) {
+      corners[i] = &corners_[low + (i & 1) + ((i >> 1 & 1) + (i >> 2) * side) * side];
+      inside += corners[i]->value < 0;
+    }
+    if (inside == 0 || inside == 8) return;
+    for (const auto& way : ways) {
+      std::array<const Corner*, 4> tetrahedron{corners[0]};
+      for (std::size_t i = 0, at = 0; i < 3; ++i)
+        tetrahedron[i + 1] = corners[at |= std::size_t{1} << way[i]];
+      add_tetrahedron(tetrahedron);
+    }
+  }
+
+  void add_tetrahedron(const std::array<const Corner*, 4>& corners) {
     std::array<const Corner*, 4> in{}, out{};
     std::size_t ins = 0, outs = 0;
-    for (const Corner& c : corners) (c.value < 0 ? in[ins++] : out[outs++]) = &c;
+    for (const Corner* c : corners) (c->value < 0 ? in[ins++] : out[outs++]) = c;
     if (ins == 0 || outs == 0) return;
     const Vector3d outwards = out[0]->place - in[0]->place;
     const auto v = [&](std::size_t i, std::size_t o) { return vertex(*in[i], *out[o]); };
@@ -159,6 +175,7 @@ class Tetrahedra {
 
   const Trilinear& f_;
   std::int64_t parts_;
+  std::vector<Corner> corners_;  // of the small cells of one cell
   std::unordered_map<std::uint64_t, std::unordered_map<std::uint64_t, std::uint32_t>> vertices_;
   LevelSet result_;
 };
@@ -174,11 +191,7 @@ LevelSet level_set(const SampledFunction& function) {
       std::sqrt(wanted_triangles / 6 / static_cast<double>(std::max<std::size_t>(crossed.size(), 1)));
   const int n = static_cast<int>(std::clamp(parts, 1.0, most_parts));
   Tetrahedra made(f, n);
-  for (const auto& [x, y, z] : crossed)
-    for (int k = 0; k < n; ++k)
-      for (int j = 0; j < n; ++j)
-        for (int i = 0; i < n; ++i)
-          made.add_cell({std::int64_t{x} * n + i, std::int64_t{y} * n + j, std::int64_t{z} * n + k});
+  for (const auto& cell : crossed) made.add_cell(cell);
   return made.take();
 }
 

@@ -4,5 +4,5 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace vitrail;
-  return fuzz::run([&] { return read_obj(fuzz::write("scene.obj", data, size)).scene; });
+  return fuzz::run([&] { fuzz::check(read_obj(fuzz::write("scene.obj", data, size)).scene); });
 }

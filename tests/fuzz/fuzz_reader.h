@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Gives a fuzzer's bytes to a reader as a file. A reader may throw Error and MachineError, and nothing else;
-// what it imports has to keep the Scene's promises.
+// what it gives has to keep its promises.
 #pragma once
 
 #include <unistd.h>
@@ -32,6 +32,10 @@ inline std::filesystem::path write(const char* name, const std::uint8_t* data, s
   return file;
 }
 
+inline std::filesystem::path write(const char* name, const std::string& text) {
+  return write(name, reinterpret_cast<const std::uint8_t*>(text.data()), text.size());
+}
+
 inline void require(bool condition) {
   if (!condition) __builtin_trap();
 }
@@ -55,12 +59,15 @@ inline void check(const Scene& scene) {
     for (const Instance& instance : scene.prototypes[i].instances) require(instance.prototype.value < i);
   for (const Instance& instance : scene.instances)
     require(instance.prototype.value < scene.prototypes.size());
+  const PixelRect& crop = scene.film.crop;
+  require(0 <= crop.x0 && crop.x0 < crop.x1 && crop.x1 <= scene.film.width);
+  require(0 <= crop.y0 && crop.y0 < crop.y1 && crop.y1 <= scene.film.height);
 }
 
 template <class Read>
 int run(Read&& read) {
   try {
-    check(read());
+    read();
   } catch (const Error&) {
   } catch (const MachineError&) {
   }

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <limits>
 #include <numbers>
 
 #include "importers/mitsuba/mitsuba.h"
@@ -370,6 +371,9 @@ TEST_F(MitsubaLoad, DaylightOverTime) {
                                month, date, hour))
             .at(0));
   };
+  EXPECT_NO_THROW(at(13, -400, 7));
+  EXPECT_THROW(at(std::numeric_limits<int>::min(), 28, 7), Error);
+  EXPECT_THROW(at(2, std::numeric_limits<int>::max(), 7), Error);
   const auto once = lights("", timed);
   ASSERT_EQ(once.size(), 1u);
   EXPECT_LT(length(sun(once[0]) - at(2, 28, 7)), 1e-9);

@@ -67,8 +67,10 @@ TEST(PbrtCamera, ARealisticLensIsAThinOneOfItsFocalLength) {
   EXPECT_TRUE(mentions(imported.diagnostics, "thin lens of its focal length, 20 mm, and its pupil, 4 mm"));
   // v3 leaves the exposure out.
   EXPECT_EQ(read("Film \"image\"\n", "").scene.film.imaging_ratio, 1);
-  folder.write("ball.dat", "20 40 2");
-  EXPECT_THROW(read(film, ""), Error);
+  for (const char* wrong : {"20 40 2", ""}) {
+    folder.write("ball.dat", wrong);
+    EXPECT_THROW(read(film, ""), Error) << wrong;
+  }
 }
 
 TEST(PbrtCamera, OrthographicScreensAreInTheWorld) {

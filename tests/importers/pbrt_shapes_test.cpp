@@ -359,6 +359,27 @@ TEST(PbrtShapes, ANurbsArcIsRound) {
   EXPECT_THROW(import_v3(arc + row + "]"), Error);
 }
 
+TEST(PbrtShapes, NurbsOfAnOrderThatNobodyHasAreRefused) {
+  const auto surface = [](int order, double weight) {
+    std::string text = fmt::format(
+        "Shape \"nurbs\" \"integer nv\" 2 \"integer vorder\" 2 \"float vknots\" [0 0 1 1] \"integer nu\" {0} "
+        "\"integer uorder\" {0} \"float uknots\" [",
+        order);
+    for (int i = 0; i < 2 * order; ++i) text += i < order ? "0 " : "1 ";
+    text += "] \"float Pw\" [";
+    for (int i = 0; i < 2 * order; ++i) text += fmt::format("{} {} 0 {} ", i % order, i / order, weight);
+    return text + "]";
+  };
+  EXPECT_EQ(import_v3(surface(100, 1)).scene.meshes.at(0).positions.size(), 900U);
+  EXPECT_THROW(import_v3(surface(257, 1)), Error);
+  EXPECT_THROW(import_v3(surface(3, 1e-45)), Error);  // points beyond single precision
+}
+
+TEST(PbrtShapes, HyperboloidsBeyondSinglePrecisionAreRefused) {
+  EXPECT_THROW(import_v3("Shape \"hyperboloid\" \"point p1\" [3e38 3e38 0] \"point p2\" [3e38 3e38 1]"),
+               Error);
+}
+
 // x² + y² − z² = 1 is swept by the line from (1,−1,−1) to (1,1,1).
 TEST(PbrtShapes, AHyperboloidIsWhatALineSweeps) {
   const ImportedScene read =

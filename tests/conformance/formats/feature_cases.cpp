@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/conformance/formats/feature_cases.h"
 
-#include <array>
-#include <cmath>
+#include <cstdint>
 #include <fstream>
 #include <stdexcept>
-
-#include "tests/laws/table_cases.h"
 
 namespace vitrail::test {
 
@@ -56,17 +53,13 @@ std::string parameter_name(const std::string& parameter) {
   return tag + " " + (tag == "phase" || name.empty() ? attribute("type") : name);
 }
 
-void write_case_files(const std::filesystem::path& folder) {
+void write_opened_files(const std::filesystem::path& folder) {
   write(folder / "mesh.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 1\nf 1//1 2//1 3//1\n");
   write(folder / "mesh.ply",
         "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
         "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
   write(folder / "curve.txt", "0 0 0 .1\n.3 .3 0 .1\n.6 .3 0 .1\n1 0 0 .1\n");
   write(folder / "grid.vol", volume_file());
-  laws::write(laws::fourier_table([](Vector3d, Vector3d in) { return std::abs(in.z); }, 2, 1),
-              folder / "fourier.bsdf");
-  laws::write(laws::adaptive_table({.facets = make_microfacets(.3, .3), .resolution = 4, .incidences = 2}),
-              folder / "measured.bsdf");
   write(folder / "lens.dat", "29 2 1.6 20\n0 1 0 15\n-29 2 1 20\n");
 }
 

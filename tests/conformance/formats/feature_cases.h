@@ -25,7 +25,8 @@ enum class SceneFormat { pbrt_v3, pbrt_v4, mitsuba_06, mitsuba_3 };
 // light …; of "", the scene around it.
 std::string host_scene(SceneFormat format, const PluginCase& plugin, const std::string& parameters);
 
-// The images, meshes, volumes and tables that the cases name.
+// The files that the cases name, images apart; those of them that a reader of scenes opens.
 void write_case_files(const std::filesystem::path& folder);
+void write_opened_files(const std::filesystem::path& folder);
 
 }  // namespace vitrail::test

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+
+#include "tests/conformance/formats/feature_cases.h"
+#include "tests/laws/table_cases.h"
+
+namespace vitrail::test {
+
+void write_case_files(const std::filesystem::path& folder) {
+  write_opened_files(folder);
+  laws::write(laws::fourier_table([](Vector3d, Vector3d in) { return std::abs(in.z); }, 2, 1),
+              folder / "fourier.bsdf");
+  laws::write(laws::adaptive_table({.facets = make_microfacets(.3, .3), .resolution = 4, .incidences = 2}),
+              folder / "measured.bsdf");
+}
+
+}  // namespace vitrail::test

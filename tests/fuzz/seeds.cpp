@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: Apache-2.0
+// Small inputs that fuzzing starts from: fuzz_seeds FOLDER writes FOLDER/FORMAT/*. Scenes are those of
+// docs/formats.md: every plugin and parameter.
+#include <bit>
+#include <cstdint>
+#include <fstream>
+#include <iostream>
+#include <limits>
+#include <map>
+
+#include "tests/conformance/formats/feature_cases.h"
+#include "tests/glazing/glazing_files.h"
+
+namespace vitrail::test {
+namespace {
+
+class Seeds {
+ public:
+  explicit Seeds(std::filesystem::path folder) : folder_(std::move(folder)) {}
+  void add(const std::string& format, const std::string& bytes) {
+    std::filesystem::create_directories(folder_ / format);
+    write_text(folder_ / format / ("own-" + std::to_string(count_[format]++)), bytes);
+  }
+
+ private:
+  std::filesystem::path folder_;
+  std::map<std::string, int> count_;
+};
+
+template <class... T>
+std::string bytes_of(T... values) {
+  std::string bytes;
+  (bytes.append(reinterpret_cast<const char*>(&values), sizeof values), ...);
+  return bytes;
+}
+
+void add_scenes(Seeds& seeds) {
+  const std::filesystem::path lists = VITRAIL_FORMATS_DIR;
+  const auto add = [&](const char* format, SceneFormat scenes, const char* list) {
+    for (const PluginCase& plugin : read_cases(lists / list)) {
+      seeds.add(format, host_scene(scenes, plugin, ""));
+      for (const std::string& parameter : plugin.parameters)
+        seeds.add(format, host_scene(scenes, plugin, parameter));
+    }
+  };
+  add("pbrt", SceneFormat::pbrt_v3, "pbrt-v3.txt");
+  add("pbrt", SceneFormat::pbrt_v4, "pbrt-v4.txt");
+  add("mitsuba", SceneFormat::mitsuba_06, "mitsuba-0.6.txt");
+  add("mitsuba", SceneFormat::mitsuba_3, "mitsuba-3.txt");
+}
+
+void add_meshes(Seeds& seeds) {
+  seeds.add(
+      "obj",
+      "mtllib none.mtl\no a\ng b\nv 0 0 0 1\nv 1 0 0 .5 .5 .5\nv 0 1 0\nv 1 1 .1\nvt 0 0\nvt 1 0 0\nvn 0 0 "
+      "1\n"
+      "usemtl m\ns 1\nf 1/1/1 2/2/1 3/1/1\ns off\nf 1 2 4 3\nf -4// -3// -1//\nf 1//1 2//1 4//1 \\\n 3//1\n");
+  seeds.add("obj",
+            "v 0 0 0\nv 1 0 0\nv 2 0 1\nv 3 0 1\nvp .1 .2\ncstype bspline\ndeg 3\ncurv 0 1 1 2 3 4\n"
+            "parm u 0 0 0 0 1 1 1 1\nend\nl 1 2 3\np 1 2\n");
+  seeds.add("obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 0 1 2\n");
+  seeds.add(
+      "mtl",
+      "newmtl a\nKa .1 .1 .1\nKd .5 .4 .3\nKs spectral file.rfl 1\nKe 1 1 1\nTf xyz .1 .2 .3\nNs 30\nNi "
+      "1.5\nd .5\n"
+      "Tr .3\nillum 2\nsharpness 60\nmap_Kd -s 2 2 1 -o .1 .2 -t 0 0 -mm 0 1 -clamp on -blendu off a.png\n"
+      "map_Bump -bm .5 -imfchan r b.png\nnorm n.png\ndisp d.png\nrefl -type sphere e.png\nmap_d o.png\n"
+      "newmtl b\nPr .3\nPm 1\nPs .2\nPc .5\nPcr .1\naniso .3\nanisor .1\nmap_Pr r.png\nmap_Ke e.png\n");
+  const std::string header =
+      "element vertex 4\nproperty float x\nproperty float y\nproperty float z\nproperty uchar red\n"
+      "property uchar green\nproperty uchar blue\nelement face 1\nproperty list uchar int vertex_indices\n"
+      "element tristrips 1\nproperty list int int vertex_indices\nend_header\n";
+  std::string rows;
+  for (const float i : {0.F, 1.F, 2.F, 3.F})
+    rows += bytes_of(i, i * i, 0.F, std::uint8_t{1}, std::uint8_t{2}, std::uint8_t{3});
+  rows += bytes_of(std::uint8_t{4}, 0, 1, 2, 3, 5, 0, 1, 2, -1, 3);
+  seeds.add("ply", "ply\nformat binary_little_endian 1.0\n" + header + rows);
+  seeds.add("ply", "ply\nformat binary_big_endian 1.0\n" + header + rows);
+  seeds.add("ply", "ply\nformat ascii 1.0\ncomment a\nobj_info b\n" + header +
+                       "0 0 0 1 2 3\n1 0 0 1 2 3\n0 1 0 1 2 3\n1 1 .5 1 2 3\n4 0 1 2 3\n5 0 1 2 -1 3\n");
+  seeds.add(
+      "ply",
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty double x\nproperty double y\nproperty double z\n"
+      "property float nx\nproperty float ny\nproperty float nz\nproperty float u\nproperty float v\n"
+      "property float face_area\nelement face 1\nproperty list uint8 uint32 vertex_index\n"
+      "property ushort face_id\nend_header\n0 0 0 0 0 1 0 0 .1\n1 0 0 0 0 1 1 0 .2\n0 1 0 0 0 1 0 1 .3\n3 0 "
+      "1 2 7\n");
+  const std::string corners = bytes_of(0.F, 0.F, 0.F, 1.F, 0.F, 0.F, 0.F, 1.F, 0.F),
+                    triangle = bytes_of(0, 1, 2);
+  const std::string counts = bytes_of(std::uint64_t{3}, std::uint64_t{1});
+  seeds.add("serialized", "\3" + bytes_of(0x1000) + counts + corners + triangle);
+  seeds.add("serialized", "\4" + bytes_of(0x101B) + std::string("name\0", 5) + counts + corners + corners +
+                              std::string(24, '\0') + corners + triangle);
+  seeds.add("serialized",
+            "\4" + bytes_of(0x2000) + std::string("n\0", 2) + counts + std::string(72, '\0') + triangle);
+}
+
+// A table of two nodes, and one of four and three channels.
+std::string fourier(int nodes, int channels) {
+  const int pairs = nodes * nodes;
+  std::string bytes =
+      "SCATFUN\1" + bytes_of(1, nodes, pairs * channels, 1, channels, 1, 0, 0, 0, 1.5F, 0, 0, 0, 0);
+  for (int i = 0; i < nodes; ++i)
+    bytes += bytes_of(-1 + 2.F * static_cast<float>(i) / static_cast<float>(nodes - 1));
+  bytes.append(static_cast<std::size_t>(4 * pairs), '\0');
+  for (int i = 0; i < pairs; ++i) bytes += bytes_of(i * channels, 1);
+  for (int i = 0; i < pairs * channels; ++i) bytes += bytes_of(.1F);
+  return bytes;
+}
+
+std::string tensors() {
+  struct Field {
+    std::string name;
+    std::uint8_t type;
+    std::vector<std::uint64_t> shape;
+    std::string values;
+  };
+  const std::string four = bytes_of(1.F, 2.F, 3.F, 4.F);
+  const std::vector<Field> fields{{"phi_i", 10, {1}, bytes_of(0.F)},
+                                  {"theta_i", 10, {1}, bytes_of(0.F)},
+                                  {"wavelengths", 10, {2}, bytes_of(400.F, 700.F)},
+                                  {"ndf", 10, {2, 2}, four},
+                                  {"sigma", 10, {2, 2}, four},
+                                  {"vndf", 10, {1, 1, 2, 2}, four},
+                                  {"luminance", 10, {1, 1, 2, 2}, four},
+                                  {"spectra", 10, {1, 1, 2, 2, 2}, four + four},
+                                  {"jacobian", 1, {1}, "\1"}};
+  std::uint64_t at = 18;
+  for (const Field& f : fields) at += 13 + f.name.size() + 8 * f.shape.size();
+  std::string head =
+                  std::string("tensor_file\0\1\0", 14) + bytes_of(static_cast<std::uint32_t>(fields.size())),
+              body;
+  for (const Field& f : fields) {
+    head += bytes_of(static_cast<std::uint16_t>(f.name.size())) + f.name +
+            bytes_of(static_cast<std::uint16_t>(f.shape.size())) + bytes_of(f.type) +
+            bytes_of(at + body.size());
+    for (const std::uint64_t n : f.shape) head += bytes_of(n);
+    body += f.values;
+  }
+  return head + body;
+}
+
+std::string volume(int nx, int channels) {
+  std::string bytes = "VOL\3" + bytes_of(1, nx, 2, 2, channels, 0.F, 0.F, 0.F, 1.F, 1.F, 1.F);
+  for (int i = 0; i < 4 * nx * channels; ++i) bytes += bytes_of(static_cast<float>(i % 3) - .5F);
+  return bytes;
+}
+
+void add_tables(Seeds& seeds) {
+  seeds.add("fourier", fourier(2, 1));
+  seeds.add("fourier", fourier(4, 3));
+  seeds.add("tensors", tensors());
+  seeds.add("volume", volume(2, 1));
+  seeds.add("volume", volume(3, 3));
+  seeds.add("curves", "c0 0 0 .1\n.3 .3 0 .1\n.6 .3 0 .1\n1 0 0 .1\n\n0 0 1 1\n0 1 1 1\n0 2 1 1\n0 3 1 0\n");
+  seeds.add("curves", "h# hair\n0 0 0\n.3 .3 0\n.6 .3 0\n\n0 0 1\n0 1 1\n");
+  seeds.add("curves",
+            "hBINARY_HAIR" + bytes_of(4, 0.F, 0.F, 0.F, 0.F, 1.F, 0.F, std::numeric_limits<float>::infinity(),
+                                      1.F, 0.F, 0.F, 1.F, 1.F, 0.F));
+  seeds.add("lens", "29 2 1.6 20\n0 1 0 15\n-29 2 1 20\n");
+  seeds.add("lens",
+            "# a doublet\n85.5 11.6 1 76\n0 2 0 70.6 -42 11 1.67 58 185 1 1 58\n-185 6 1.5 53\n-42 3 1 53");
+  seeds.add("spectrum", "# samples\n400 .1\n500, .2; 600 .3\n500 .25\n");
+  seeds.add("spectrum",
+            "wavelength_nm angle_deg R T\n700 0 .1 .8\n700 60 .2 .7\n400 0 .1 .95\n400 60 .2 .7 # last\n");
+  for (const char* attributes :
+       {"value='.5'", "n='1.5' kappa='2'", "n='1.5' k='2'", "k='.3' s='.5'", "x='.1' y='.2' z='.3'"})
+    seeds.add("spectrum", std::string("<spectrum><entry wavelength='400' ") + attributes +
+                              "/><entry wavelength='500' " + attributes + "/></spectrum>");
+  for (const std::string& text : {igsdb_text, optics_text, table_text, index_text, idf_text, epjson_text})
+    seeds.add("glazing", text);
+  seeds.add("glazing",
+            R"({"name": "unit", "layers": [{"pane": "glazing.json", "flipped": true}, {"gap_mm": 12.7},
+ {"stack": [{"index": 1.46, "thickness_nm": 90}, {"index": 1.5, "thickness_mm": 4}]}]})");
+}
+
+}  // namespace
+}  // namespace vitrail::test
+
+int main(int argc, char** argv) {
+  if (argc != 2) {
+    std::cerr << "usage: fuzz_seeds FOLDER\n";
+    return 2;
+  }
+  vitrail::test::Seeds seeds(argv[1]);
+  vitrail::test::add_scenes(seeds);
+  vitrail::test::add_meshes(seeds);
+  vitrail::test::add_tables(seeds);
+  return 0;
+}
