@@ -173,11 +173,13 @@ bool meets(const Occupancy& occupancy, const Bounds3f& box, Point3d p, Vector3d 
     step[a] = along > 0 ? 1 : -1;
     const bool moves = along != 0 && axes[a].size > 0;
     const double bound = axes[a].lower + (cell[a] + (step[a] > 0)) * axes[a].size;
-    next[a] = moves ? (bound - p[static_cast<int>(a)]) / along : std::numeric_limits<double>::infinity();
-    per_cell[a] = moves ? axes[a].size / std::abs(along) : 0;
+    const double inverse = moves ? 1 / along : std::numeric_limits<double>::infinity();  // of a float: finite
+    next[a] = moves ? (bound - p[static_cast<int>(a)]) * inverse : inverse;
+    per_cell[a] = moves ? axes[a].size * std::abs(inverse) : 0;
   }
   do {
-    const std::size_t a = next[0] < next[1] ? (next[0] < next[2] ? 0 : 2) : (next[1] < next[2] ? 1 : 2);
+    std::size_t a = next[1] <= next[0];
+    a = next[2] <= next[a] ? 2 : a;
     if (next[a] > t1) return false;
     cell[a] += step[a];
     if (cell[a] < 0 || cell[a] >= n) return false;
