@@ -155,28 +155,37 @@ Occupancy occupancy_of(const Bounds3f& box, const DomainView& view, std::span<co
   return occupancy;
 }
 
-// Amanatides and Woo 1987.
 bool meets(const Occupancy& occupancy, const Bounds3f& box, Point3d p, Vector3d d, double t0, double t1) {
   const std::array<Axis, 3> axes = axes_of(box);
-  std::array<int, 3> cell, step;
+  std::array<int, 3> cell;
+  for (std::size_t a = 0; a < 3; ++a)
+    cell[a] = axes[a].cell(p[static_cast<int>(a)] + t0 * d[static_cast<int>(a)]);
+  const auto is_marked = [&] {
+    return (occupancy.slice[static_cast<std::size_t>(cell[2])] & bit(cell[0], cell[1])) != 0;
+  };
+  // A ray that starts on what the domain holds mostly ends here.
+  if (is_marked()) return true;
+  // Amanatides and Woo 1987.
+  std::array<int, 3> step;
   std::array<double, 3> next, per_cell;  // t of the next bound, and from one bound to another
-  for (int a = 0; a < 3; ++a) {
-    const auto at = static_cast<std::size_t>(a);
-    cell[at] = axes[at].cell(p[a] + t0 * d[a]);
-    step[at] = d[a] > 0 ? 1 : -1;
-    const bool moves = d[a] != 0 && axes[at].size > 0;
-    const double bound = axes[at].lower + (cell[at] + (step[at] > 0)) * axes[at].size;
-    next[at] = moves ? (bound - p[a]) / d[a] : std::numeric_limits<double>::infinity();
-    per_cell[at] = moves ? axes[at].size / std::abs(d[a]) : 0;
+  for (std::size_t a = 0; a < 3; ++a) {
+    const double along = d[static_cast<int>(a)];
+    step[a] = along > 0 ? 1 : -1;
+    const bool moves = along != 0 && axes[a].size > 0;
+    const double bound = axes[a].lower + (cell[a] + (step[a] > 0)) * axes[a].size;
+    const double inverse = moves ? 1 / along : std::numeric_limits<double>::infinity();  // of a float: finite
+    next[a] = moves ? (bound - p[static_cast<int>(a)]) * inverse : inverse;
+    per_cell[a] = moves ? axes[a].size * std::abs(inverse) : 0;
   }
-  for (;;) {
-    if (occupancy.slice[static_cast<std::size_t>(cell[2])] & bit(cell[0], cell[1])) return true;
-    const std::size_t a = next[0] < next[1] ? (next[0] < next[2] ? 0 : 2) : (next[1] < next[2] ? 1 : 2);
+  do {
+    std::size_t a = next[1] <= next[0];
+    a = next[2] <= next[a] ? 2 : a;
     if (next[a] > t1) return false;
     cell[a] += step[a];
     if (cell[a] < 0 || cell[a] >= n) return false;
     next[a] += per_cell[a];
-  }
+  } while (!is_marked());
+  return true;
 }
 
 }  // namespace vitrail

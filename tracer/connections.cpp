@@ -2,6 +2,7 @@
 // Connections to lights: rays that deposit what they carry where nothing is in their way. Where the scene has
 // something that light passes straight through, they are paths of their own that go on behind it.
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -27,7 +28,7 @@ struct Aimed {
   DirectionCode direction;
   Vector3f rounded = decode_direction(direction);
   double end = far_away;
-  double slope = 0;  // of StraightAim
+  double cosine = 1;  // of its direction to the surface's normal there; of StraightAim's slope
 };
 
 double slope_of(double cosine) { return std::sqrt(std::max(0.0, 1 - cosine * cosine)) / std::abs(cosine); }
@@ -41,7 +42,7 @@ void end_on_quadric(const Ray& ray, const EmissiveQuadric& q, Aimed& aimed) {
   const auto& [t, local] = hits.at[hits.count == 2 && off(1) < off(0) ? 1 : 0];
   const Vector3d direction = cast<double>(ray.direction);
   aimed.end = t * (1 - 1e-12);
-  aimed.slope = slope_of(dot(direction, placed_quadric_normal(q.quadric, q.to_bundle, local)));
+  aimed.cosine = dot(direction, placed_quadric_normal(q.quadric, q.to_bundle, local));
 }
 
 // From where it departs, beside the point that the light was sampled for. It ends at the light, where it
@@ -64,13 +65,14 @@ Aimed aim(const Departure& from, const LightSample& light) {
   const double aside = direction_rounding * distance / std::abs(cosine);
   const double plane = (height / cosine) * (1 - 1e-12) - aside * light.tilt_rad / std::abs(cosine);
   aimed.end = std::clamp(plane, 0.5 * there, 2 * there);
-  aimed.slope = slope_of(cosine);
+  aimed.cosine = cosine;
   return aimed;
 }
 
-float float_below(double x) {
+float float_below(double x) {  // x ≥ 0
   const auto nearest = static_cast<float>(x);
-  return static_cast<double>(nearest) > x ? std::nextafter(nearest, 0.0f) : nearest;
+  if (!(static_cast<double>(nearest) > x)) return nearest;
+  return std::bit_cast<float>(std::bit_cast<std::uint32_t>(nearest) - 1);
 }
 
 }  // namespace
@@ -123,7 +125,7 @@ void PathTracer::connect(const Path& path, Point3d p, std::uint32_t count, const
   const std::array<float, 4> numbers = numbers_for_light(path);
   const std::array<float, 2> far = numbers_for_far_lights(path);
   double choice = static_cast<double>(path.camera[3]);
-  LightSample light;
+  std::optional<LightSample> light;
   SampledSpectrum radiance;
   double all = 0, chosen = 0;
   for (std::uint32_t k = 0; k < count; ++k) {
@@ -147,22 +149,22 @@ void PathTracer::connect(const Path& path, Point3d p, std::uint32_t count, const
       }
       choice /= share;
     }
-    light = *candidate;
+    light = candidate;
     radiance = brought;
     chosen = target;
   }
   if (all == 0) return;
   if (count > 1) radiance = radiance * static_cast<float>(all / (count * chosen));
   ++counters_.rays_shadow;
-  const Departure from = depart(light.to_light);
-  const bool distant = std::isinf(light.distance);
+  const Departure from = depart(light->to_light);
+  const bool distant = std::isinf(light->distance);
   const Requirements& r = manifest_.requirements;
   const bool bends = r.refraction && !manifest_.settings.direct_only;
-  const bool refracts = distant && light.is_delta && bends;
+  const bool refracts = distant && light->is_delta && bends;
   if (r.see_through || r.media || refracts || bends != r.refraction)
-    send_connection(path, from, light, radiance, refracts);
+    send_connection(path, from, *light, radiance, refracts);
   else
-    send_shadow_ray(path, from, light, radiance);
+    send_shadow_ray(path, from, *light, radiance);
 }
 
 void PathTracer::connect_surface(const Path& path, const Interaction& at, const Surface& surface,
@@ -215,7 +217,7 @@ void PathTracer::send_connection(const Path& path, const Departure& from, const 
     sent.set(path_in_pane);
     sent.aim = RefractedAim{light.light}.bits();
   } else {
-    sent.aim = StraightAim{aimed.slope}.bits();
+    sent.aim = StraightAim{slope_of(aimed.cosine)}.bits();
     sent.travelled = end_value(end_code(aimed.end));
     sent.hit.t = aimed.end;
   }

@@ -62,11 +62,11 @@ std::array<double, 3> PathTracer::value_at(const Path& path, const Interaction& 
 
 // As XYZ, under white light, weighted as the picture is.
 XYZ PathTracer::albedo_at(const Path& path, const Interaction& at, const Material& material) const {
-  const auto scattering = scene_.materials.scattering_at(material, at, path.wavelengths, filled(1),
-                                                         stream_of(path, RayRandom::layers));
-  if (!scattering) return {};
+  if (!scene_.materials.scatters(material, at)) return {};
+  const Scattering scattering = scene_.materials.scattering_at(material, at, path.wavelengths, filled(1),
+                                                               stream_of(path, RayRandom::layers));
   const SampledSpectrum share =
-      albedo(scattering->bsdf, scattering->frame.to_local(at.out), path.random + albedo_stream);
+      albedo(scattering.bsdf, scattering.frame.to_local(at.out), path.random + albedo_stream);
   return sense(path.sensor, share * evaluate(white_light(), path.wavelengths));
 }
 

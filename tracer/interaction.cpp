@@ -29,8 +29,15 @@ Vector3d back_along(Vector3f direction) {
 struct Holder {
   const DomainView& content;
   bool is_object = false;
-  Affine to_bundle{};
+  Affine to_bundle;                   // of an object
   std::size_t corner[3] = {0, 1, 2};  // of the stored triangle that the placed one's come from
+
+  explicit Holder(const DomainView& domain) : content(domain) {}
+  Holder(const DomainView& object, const Affine& placed)
+      : content(object),
+        is_object(true),
+        to_bundle(placed),
+        corner{0, source_corner(mirrors(placed), 1), source_corner(mirrors(placed), 2)} {}
 
   Point3f stored(const Cluster& cluster, std::uint32_t lane, std::size_t k) const {
     const auto& v = cluster.vertex[corner[k]];
@@ -47,7 +54,7 @@ struct Holder {
 };
 
 Holder holder_of(const DomainView& domain, const Hit& hit, double time_s) {
-  if (hit.depth == 0) return {domain};
+  if (hit.depth == 0) return Holder(domain);
   const DomainView* at = &domain;
   Affine to_bundle{};
   for (std::uint32_t i = 0; i < hit.depth; ++i) {
@@ -55,8 +62,7 @@ Holder holder_of(const DomainView& domain, const Hit& hit, double time_s) {
     to_bundle = through_instance(i == 0 ? nullptr : &to_bundle, ref, *domain.objects[ref.object], time_s);
     at = domain.objects[ref.object];
   }
-  const bool mirrored = mirrors(to_bundle);
-  return {*at, true, to_bundle, {0, source_corner(mirrored, 1), source_corner(mirrored, 2)}};
+  return {*at, to_bundle};
 }
 
 Vector3d interpolated_normal(const Holder& holder, const Hit& hit) {
@@ -108,12 +114,8 @@ Interaction quadric_interaction(const Holder& holder, const Hit& hit, Vector3f d
   return at;
 }
 
-}  // namespace
-
-Interaction make_interaction(const DomainView& domain, const Hit& hit, Vector3f direction, double cone_width,
-                             std::uint32_t attributes, double time_s) {
-  const Holder holder = holder_of(domain, hit, time_s);
-  if (holder.content.quadric) return quadric_interaction(holder, hit, direction, cone_width, attributes);
+Interaction triangle_interaction(const Holder& holder, const Hit& hit, Vector3f direction, double cone_width,
+                                 std::uint32_t attributes) {
   const Cluster& cluster = holder.content.clusters[hit.cluster];
   const auto vertex = [&](std::size_t k) { return cast<double>(holder.vertex(cluster, hit.lane, k)); };
   const Point3d p0 = vertex(0);
@@ -142,6 +144,15 @@ Interaction make_interaction(const DomainView& domain, const Hit& hit, Vector3f 
       std::ranges::copy(v[holder.corner[k]], at.attributes[slot].corners[k].begin());
   }
   return at;
+}
+
+}  // namespace
+
+Interaction make_interaction(const DomainView& domain, const Hit& hit, Vector3f direction, double cone_width,
+                             std::uint32_t attributes, double time_s) {
+  const Holder holder = holder_of(domain, hit, time_s);
+  if (holder.content.quadric) return quadric_interaction(holder, hit, direction, cone_width, attributes);
+  return triangle_interaction(holder, hit, direction, cone_width, attributes);
 }
 
 double normal_doubt(const DomainView& domain, const Hit& hit, bool shading, double time_s) {

@@ -195,12 +195,14 @@ Vector3d Materials::shading_normal(const Material& material, const Interaction& 
   return usable() ? n : at.shading;
 }
 
-std::optional<Scattering> Materials::scattering_at(const Material& material, const Interaction& at,
-                                                   const SampledWavelengths& wavelengths,
-                                                   const SampledSpectrum& throughput,
-                                                   std::uint64_t event) const {
+bool Materials::scatters(const Material& material, const Interaction& at) const {
+  return at.front || material.two_sided || transmits(material.model);
+}
+
+Scattering Materials::scattering_at(const Material& material, const Interaction& at,
+                                    const SampledWavelengths& wavelengths, const SampledSpectrum& throughput,
+                                    std::uint64_t event) const {
   const bool both_sides = transmits(material.model);
-  if (!both_sides && !material.two_sided && !at.front) return std::nullopt;
   const Vector3d normal = shading_normal(material, at);
   const BsdfMaker maker{
       textures_,

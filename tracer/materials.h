@@ -42,11 +42,13 @@ class Materials {
   bool disperses(const Material& material, const Interaction& at) const {
     return kind(index_of(material)).dispersive || (at.exterior_eta && !is_constant(*at.exterior_eta));
   }
-  // Of a chosen material; empty where it is black: the back of a one-sided surface. `throughput` of the path
-  // guides choices between wavelengths; `event` is what walks in layers are a function of.
-  std::optional<Scattering> scattering_at(const Material& material, const Interaction& at,
-                                          const SampledWavelengths& wavelengths,
-                                          const SampledSpectrum& throughput, std::uint64_t event) const;
+  // Whether a chosen material scatters: the back of a one-sided surface is black.
+  bool scatters(const Material& material, const Interaction& at) const;
+  // Of one that does. `throughput` of the path guides choices between wavelengths; `event` is what walks in
+  // layers are a function of.
+  Scattering scattering_at(const Material& material, const Interaction& at,
+                           const SampledWavelengths& wavelengths, const SampledSpectrum& throughput,
+                           std::uint64_t event) const;
   // The normal as bump and normal maps turn it; on the same side as at.geometric.
   Vector3d shading_normal(const Material& material, const Interaction& at) const;
 

@@ -40,7 +40,6 @@ struct PathTracer::Path {
   DirectionCode direction;
   Ray ray;
   std::uint64_t random = 0;  // a hash of the ray
-  RayConstants constants;
   Hit hit;
   std::uint32_t hit_domain = 0;
   std::array<float, 4> camera{};  // its sample's numbers for the camera; wavelengths follow from them

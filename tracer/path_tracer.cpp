@@ -230,11 +230,11 @@ void PathTracer::run(Path& path, std::optional<std::uint32_t> at) {
   }
 }
 
-void PathTracer::intersect(Path& path, std::uint32_t domain) {
+void PathTracer::intersect(Path& path, const RayConstants& constants, std::uint32_t domain) {
   count_visit(domain);
   const double t = path.hit.t;
   const std::uint32_t triangle = path.hit.triangle;
-  kernel_.closest(*resident_[domain], path.constants, path.hit);
+  kernel_.closest(*resident_[domain], constants, path.hit);
   if (path.hit.t != t || path.hit.triangle != triangle) path.hit_domain = domain;
 }
 
@@ -242,7 +242,7 @@ void PathTracer::intersect(Path& path, std::uint32_t domain) {
 // elsewhere.
 bool PathTracer::find_hit(Path& path, std::optional<std::uint32_t> at) {
   bool located = true;  // hit.cluster, lane and chain are known
-  path.constants = prepare(path.ray, path.time_s);
+  const RayConstants constants = prepare(path.ray, path.time_s);
   if (at && path.is(path_resolved)) {
     path.clear(path_resolved);
     located = false;
@@ -250,7 +250,7 @@ bool PathTracer::find_hit(Path& path, std::optional<std::uint32_t> at) {
     DomainWalk walk(manifest_, path.ray, resident_);
     if (at) {
       const std::uint32_t carried = path.hit.triangle;
-      intersect(path, *at);
+      intersect(path, constants, *at);
       located = carried == no_triangle || path.hit.triangle != carried || path.hit_domain == *at;
       walk.skip_past(*at);
     }
@@ -260,14 +260,14 @@ bool PathTracer::find_hit(Path& path, std::optional<std::uint32_t> at) {
       first = false;
       if (!resident_[visit.domain]) return forward(path, visit.domain, false);
       const std::uint32_t holder = path.hit_domain;
-      intersect(path, visit.domain);
+      intersect(path, constants, visit.domain);
       if (path.hit_domain != holder) located = true;
     }
   }
   if (path.hit.triangle == no_triangle || located) return true;
   if (!resident_[path.hit_domain]) return forward(path, path.hit_domain, true);
   path.hit = {};
-  intersect(path, path.hit_domain);
+  intersect(path, constants, path.hit_domain);
   return true;
 }
 

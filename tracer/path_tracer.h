@@ -103,7 +103,7 @@ class PathTracer {
   void leave_sensor(Path& path, const Sensor& sensor);
   void run(Path& path, std::optional<std::uint32_t> at);
   bool find_hit(Path& path, std::optional<std::uint32_t> at);
-  void intersect(Path& path, std::uint32_t domain);
+  void intersect(Path& path, const RayConstants& constants, std::uint32_t domain);
   void count_visit(std::uint32_t domain) {
     if (traffic_) traffic_->visit(domain);
   }

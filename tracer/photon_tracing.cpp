@@ -84,12 +84,12 @@ bool PathTracer::shade_photon(Path& path) {
     return true;
   }
   if (scene_.materials.disperses(*material, at)) path.disperse();
-  const auto scattering = scene_.materials.scattering_at(*material, at, path.wavelengths, path.throughput,
-                                                         stream_of(path, RayRandom::layers));
-  if (!scattering) return false;
-  const Vector3d out = scattering->frame.to_local(at.out);
+  if (!scene_.materials.scatters(*material, at)) return false;
+  const Scattering scattering = scene_.materials.scattering_at(
+      *material, at, path.wavelengths, path.throughput, stream_of(path, RayRandom::layers));
+  const Vector3d out = scattering.frame.to_local(at.out);
   const std::array<float, 4> u = numbers_for_scattering(path);
-  const std::optional<BsdfSample> chosen = sample(scattering->bsdf, out, u[2], {u[0], u[1]});
+  const std::optional<BsdfSample> chosen = sample(scattering.bsdf, out, u[2], {u[0], u[1]});
   if (!chosen) return false;
   SampledSpectrum weight = chosen->weight;
   if (chosen->specular && chosen->in == -out) {
@@ -100,23 +100,22 @@ bool PathTracer::shade_photon(Path& path) {
   }
   // Through a surface f(out, in) is not f(in, out): light that is refracted is not compressed as radiance is.
   // Of a fibre, which is not reciprocal, they are taken as one, and cosines mean nothing.
-  const bool fibre = std::holds_alternative<HairBsdf>(scattering->bsdf);
+  const bool fibre = std::holds_alternative<HairBsdf>(scattering.bsdf);
   const bool through = !fibre && out.z * chosen->in.z < 0;
-  if (const auto* glass = std::get_if<DielectricBsdf>(&scattering->bsdf);
-      glass && through && chosen->specular)
+  if (const auto* glass = std::get_if<DielectricBsdf>(&scattering.bsdf); glass && through && chosen->specular)
     weight = weight * static_cast<float>(out.z > 0 ? glass->eta * glass->eta : 1 / (glass->eta * glass->eta));
   else if (through && !chosen->specular)
-    weight = eval(scattering->bsdf, chosen->in, out).value *
+    weight = eval(scattering.bsdf, chosen->in, out).value *
              static_cast<float>(std::abs(chosen->in.z / out.z) / chosen->pdf);
-  Vector3d direction = scattering->frame.to_world(chosen->in);
-  float adjoint = fibre ? 1 : adjoint_of_shading(at, scattering->frame.normal, direction);
-  if (leaves_its_side(*scattering, at, out, *chosen, direction)) {
+  Vector3d direction = scattering.frame.to_world(chosen->in);
+  float adjoint = fibre ? 1 : adjoint_of_shading(at, scattering.frame.normal, direction);
+  if (leaves_its_side(scattering, at, out, *chosen, direction)) {
     if (!chosen->specular || !(out.z * chosen->in.z > 0)) return false;
     direction = mirrored(at);
     adjoint = 1;  // about the surface's own normal
   }
   path.throughput = path.throughput * weight *
-                    static_cast<float>(scattering->bump_shadowing(dot(at.out, at.shading))) * adjoint;
+                    static_cast<float>(scattering.bump_shadowing(dot(at.out, at.shading))) * adjoint;
   if (is_black(path.throughput)) return false;
   path.sample |= photon_scattered;
   path.pdf = chosen->specular ? 0 : density_beside(chosen->pdf, 1);  // as its record says

@@ -99,19 +99,19 @@ bool PathTracer::shade_surface(Path& path) {
     return true;
   }
   if (scene_.materials.disperses(*material, at)) path.disperse();
-  const auto scattering = scene_.materials.scattering_at(*material, at, path.wavelengths, path.throughput,
-                                                         stream_of(path, RayRandom::layers));
-  if (!scattering) return false;
-  const Vector3d out = scattering->frame.to_local(at.out);
+  if (!scene_.materials.scatters(*material, at)) return false;
+  const Scattering scattering = scene_.materials.scattering_at(
+      *material, at, path.wavelengths, path.throughput, stream_of(path, RayRandom::layers));
+  const Vector3d out = scattering.frame.to_local(at.out);
   const std::uint32_t candidates =
-      is_specular(scattering->bsdf) ? 0 : light_candidates(path, at.p, is_diffuse(scattering->bsdf));
+      is_specular(scattering.bsdf) ? 0 : light_candidates(path, at.p, is_diffuse(scattering.bsdf));
   if (candidates > 0 && scene_.lights.can_sample())
-    connect_surface(path, at, surface, *scattering, out, candidates);
-  const bool gathered = photons_ && gathers(*scattering);
-  if (gathered) gather(path, at, *scattering, out);
-  const bool two_are_enough = !may_end(path.depth + 1) && has_one_lobe(scattering->bsdf);
+    connect_surface(path, at, surface, scattering, out, candidates);
+  const bool gathered = photons_ && gathers(scattering);
+  if (gathered) gather(path, at, scattering, out);
+  const bool two_are_enough = !may_end(path.depth + 1) && has_one_lobe(scattering.bsdf);
   const std::array<float, 4> u = numbers_for_scattering(path, two_are_enough ? Wanted::two : Wanted::four);
-  const std::optional<BsdfSample> chosen = sample(scattering->bsdf, out, u[2], {u[0], u[1]});
+  const std::optional<BsdfSample> chosen = sample(scattering.bsdf, out, u[2], {u[0], u[1]});
   if (!chosen) return false;
   path.throughput = path.throughput * chosen->weight;
   if (is_black(path.throughput)) return false;
@@ -119,10 +119,10 @@ bool PathTracer::shade_surface(Path& path) {
     scatter_straight(path, at, surface);
     return true;
   }
-  Vector3d direction = scattering->frame.to_world(chosen->in);
+  Vector3d direction = scattering.frame.to_world(chosen->in);
   path.throughput =
-      path.throughput * static_cast<float>(scattering->bump_shadowing(dot(direction, at.shading)));
-  if (leaves_its_side(*scattering, at, out, *chosen, direction)) {
+      path.throughput * static_cast<float>(scattering.bump_shadowing(dot(direction, at.shading)));
+  if (leaves_its_side(scattering, at, out, *chosen, direction)) {
     if (!chosen->specular || out.z * chosen->in.z <= 0) return false;
     direction = mirrored(at);
   }

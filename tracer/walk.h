@@ -12,10 +12,6 @@
 
 namespace vitrail {
 
-// Slab test in double; conservative for boxes that are padded, by `margin` more. Returns the entry, or +∞
-// when missed within [0, tmax].
-double enter_box(const Bounds3f& box, double margin, Point3d origin, Vector3d reciprocal, double tmax);
-
 // The leaves of one ray, one after the other. The sequence is a function of the ray and the manifest alone,
 // so a rank that receives a ray finds its place in it again with `skip_past`.
 class DomainWalk {
@@ -58,14 +54,13 @@ class DomainWalk {
   }
   void begin(const Ray& ray);
   bool next_of_many(double tmax, Visit& visit);
-  bool next_leaf(Pending& leaf);
+  bool next_leaf(double tmax, Pending& leaf);
 
   const Manifest& manifest_;
   std::span<const DomainView* const> resident_;
   bool only_one_ = false;  // the scene has one domain, resident, and it is still to come
-  Point3d origin_;
-  Vector3d direction_, reciprocal_;
-  double rounding_;  // of points on the ray
+  std::array<double, 3> origin_, direction_, reciprocal_;  // by axis: nodes are cut along any
+  double rounding_;                                        // of points on the ray
   double epsilon_;
   std::array<Pending, 64> stack_;
   int size_ = 0;

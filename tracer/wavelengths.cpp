@@ -130,13 +130,20 @@ namespace {
 // end and does not cancel.
 SampledSpectrum sigmoid(const SigmoidSpectrum& s, const SampledWavelengths& wavelengths) {
   if (std::isinf(s.c2)) return filled(s.c2 > 0 ? 1 : 0);
-  SampledSpectrum result;
+  const double c0 = s.c0, c1 = s.c1, c2 = s.c2;
+  std::array<float, hero_count> x;
   for (std::size_t i = 0; i < hero_count; ++i) {
     const auto l = static_cast<double>(wavelengths.lambda_nm[i]);
-    const auto x = static_cast<float>(std::clamp((s.c0 * l + s.c1) * l + s.c2, -1e18, 1e18));
-    const float root = std::sqrt(1 + x * x);
-    const float rest = 0.5f / (root * (root + std::abs(x)));
-    result.v[i] = x < 0 ? rest : 1 - rest;
+    const double y = (c0 * l + c1) * l + c2;
+    const double above = y < -1e18 ? -1e18 : y;
+    x[i] = static_cast<float>(above > 1e18 ? 1e18 : above);
+  }
+  SampledSpectrum result;
+  for (std::size_t i = 0; i < hero_count; ++i) {
+    const float root = std::sqrt(1 + x[i] * x[i]);
+    const float rest = 0.5f / (root * (root + std::abs(x[i])));
+    const float other = 1 - rest;
+    result.v[i] = x[i] < 0 ? rest : other;
   }
   return result;
 }

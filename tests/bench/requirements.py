@@ -2,9 +2,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """What it costs to have, store and send what a scene does not require: four small scenes, each partitioned as
 its requirements say and with --require-everything. Prints a table for docs/measurements.md. The two pictures differ
-by noise alone: tangents follow (u, v) where a bundle has them, and samples turn with them.
+by noise alone: tangents follow (u, v) where a bundle has them, and samples turn with them. Instructions are those of
+valgrind's callgrind on the middle of the picture, one thread, all of the process but for what a render of one sample a
+pixel takes: other work on the machine does not show in them.
 
-    tests/bench/requirements.py [--bin build/release/bin] [--keep DIR] [--runs 5]
+    tests/bench/requirements.py [--bin build/release/bin] [--keep DIR] [--spp 9]
 """
 
 import argparse
@@ -12,7 +14,7 @@ import json
 import math
 import os
 import random
-import statistics
+import re
 import struct
 import subprocess
 import tempfile
@@ -28,6 +30,7 @@ MPI = {
     "OMPI_MCA_hwloc_base_binding_policy": "none",
 }
 MIB = 1 << 20
+MIDDLE = (60, 100, 45, 75)  # x0, x1, y0, y1
 
 
 def write_png(path, size=256):
@@ -122,13 +125,27 @@ class Bench:
 
     def partition(self, scene, name, everything):
         bundle = self.folder / f"{name}.vit"
-        stats = self.call("partition", scene, "-o", bundle, "--domains", 16, *["--require-everything"] * everything)
+        stats = self.call("partition", scene, "-o", bundle, "--domains", 16, "--force", *["--require-everything"] * everything)
         needs = json.loads((bundle / "manifest.json").read_text())["requirements"]
         return bundle, stats["bundle_bytes"] / stats["input_triangles"], needs
 
     def render(self, bundle, *more, ranks=0, threads=1):
         film = self.folder / "x.film"
-        return self.call("render", bundle, "-o", film, "--threads", threads, "--progress", "none", *more, ranks=ranks)
+        return self.call("render", bundle, "-o", film, "--force", "--threads", threads, "--progress", "none", *more,
+                         ranks=ranks)
+
+    def instructions(self, bundle, spp):
+        command = ["valgrind", "--tool=callgrind", "--callgrind-out-file=/dev/null", str(self.programs / "vitrail-render"),
+                   str(bundle), "-o", str(self.folder / "x.film"), "--threads", "1", "--progress", "none", "--force",
+                   "--spp", str(spp), "--crop", ",".join(map(str, MIDDLE))]
+        done = subprocess.run(command, capture_output=True, text=True)
+        if done.returncode:
+            raise SystemExit(f"{' '.join(command)}\n{done.stdout}{done.stderr}")
+        return int(re.search(r"Collected : (\d+)", done.stderr)[1])
+
+    def instructions_a_sample(self, bundle, spp):
+        pixels = (MIDDLE[1] - MIDDLE[0]) * (MIDDLE[3] - MIDDLE[2])
+        return (self.instructions(bundle, spp) - self.instructions(bundle, 1)) / (pixels * (spp - 1))
 
     def bytes_a_ray(self, bundle):
         """Two ranks with a quarter of the memory each."""
@@ -144,8 +161,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--bin", type=Path, default=ROOT / "build/release/bin")
     parser.add_argument("--keep", type=Path, metavar="DIR", help="where to leave scenes and bundles")
-    parser.add_argument("--runs", type=int, default=5)
-    parser.add_argument("--spp", type=int, default=16)
+    parser.add_argument("--spp", type=int, default=9, help="samples a pixel whose instructions are counted")
     args = parser.parse_args()
     temporary = None if args.keep else tempfile.TemporaryDirectory()
     folder = args.keep or Path(temporary.name)
@@ -155,22 +171,18 @@ def main():
     write_spheres(folder / "flat.ply", normals=False, uvs=True)
     write_spheres(folder / "smooth.ply", normals=True, uvs=True)
 
-    rows, bundles = {}, {}
+    rows = {}
     for name, (mesh, material) in SCENES.items():
         scene = folder / f"{name.replace(' ', '-')}.pbrt"
         scene.write_text(scene_text(mesh, material, args.spp))
         for everything in (False, True):
             kind = "all" if everything else "own"
             bundle, per_triangle, needs = bench.partition(scene, f"{scene.stem}-{kind}", everything)
-            rows[name, everything] = [per_triangle, bench.bytes_a_ray(bundle), [], needs]
-            bundles[name, everything] = bundle
-    for _ in range(args.runs):
-        for key, bundle in bundles.items():
-            stats = bench.render(bundle)
-            rows[key][2].append(stats["cpu_s"] / stats["samples"] * 1e9)
+            rows[name, everything] = [per_triangle, bench.bytes_a_ray(bundle),
+                                      bench.instructions_a_sample(bundle, args.spp), needs]
 
     print("| scene | requires | bytes a triangle | with everything | bytes a ray | with everything |"
-          " ns a sample | with everything |")
+          " instructions a sample | with everything |")
     print("|---|---|---|---|---|---|---|---|")
     for name in SCENES:
         own, everything = rows[name, False], rows[name, True]
@@ -178,7 +190,7 @@ def main():
         cells = [name, needs]
         for i in (0, 1):
             cells += [f"{own[i]:.1f}", f"{everything[i]:.1f}"]
-        cells += [f"{statistics.median(row[2]):.0f}" for row in (own, everything)]
+        cells += [f"{row[2]:.0f}" for row in (own, everything)]
         print("| " + " | ".join(cells) + " |")
 
 

@@ -64,6 +64,23 @@ std::vector<Ray> rays() {
   return result;
 }
 
+// Subtrees behind the end are left out as a whole.
+TEST(Walk, AnEndLeavesOutWhatLiesBehindItAndNothingElse) {
+  const Manifest m = grid(6);
+  for (const Ray& ray : rays()) {
+    const auto all = all_visits(m, ray);
+    for (int eighths = 1; eighths <= 8 && !all.empty(); ++eighths) {
+      const double tmax = all.back().entry * eighths / 8 + 1e-6;
+      std::vector<std::uint32_t> expected, visited;
+      for (const auto& v : all)
+        if (v.entry <= tmax) expected.push_back(v.domain);
+      DomainWalk walk(m, ray);
+      for (DomainWalk::Visit v; walk.next(tmax, v);) visited.push_back(v.domain);
+      EXPECT_EQ(visited, expected);
+    }
+  }
+}
+
 TEST(Walk, VisitsEveryDomainThatThePointsOfARayLieIn) {
   const Manifest m = grid(6);
   for (const Ray& ray : rays()) {

@@ -29,42 +29,45 @@ double max3(double a, double b, double c) { return std::max(std::max(a, b), c); 
 double min3(double a, double b, double c) { return std::min(std::min(a, b), c); }
 double lateral(Sheared a) { return std::max(std::abs(a.x), std::abs(a.y)); }
 
-double greatest_coordinate(const Cluster& cluster, unsigned lane) {
-  float greatest = 0;
-  for (const auto& vertex : cluster.vertex) {
-    for (const auto& axis : vertex) greatest = std::max(greatest, std::abs(axis[lane]));
-  }
-  return double{greatest};
+double greatest_coordinate(const float vertex[3][cluster_width], unsigned lane) {
+  return double{std::max({std::abs(vertex[0][lane]), std::abs(vertex[1][lane]), std::abs(vertex[2][lane])})};
 }
 
 // Whether det is great enough for t to be trusted: of vertices up to m from the origin, w away and s beside
 // the ray, |det| > s·w·(5e-9·depth/m + 6e-15). The first term keeps t so near to the true triangle's that the
 // padding of the boxes, 2e-6·m at least, makes up for the rest; the second is the rounding of det itself, so
-// that a triangle without area is never hit. docs/exact-intersection.md has the derivation.
-bool well_conditioned(double det, Sheared a, Sheared b, Sheared c, double m) {
+// that a triangle without area is never hit. docs/exact-intersection.md has the derivation. What holds for
+// one vertex' m holds for the greatest, and mostly does.
+bool well_conditioned(double det, Sheared a, Sheared b, Sheared c, const Cluster& cluster, unsigned lane) {
   const double s = max3(lateral(a), lateral(b), lateral(c));
   const double w = s + max3(std::abs(a.z), std::abs(b.z), std::abs(c.z));
   const double depth = max3(a.z, b.z, c.z) - min3(a.z, b.z, c.z);
-  return std::abs(det) * m > s * w * (5e-9 * depth + 6e-15 * m);
+  const auto holds = [&](double m) { return std::abs(det) * m > s * w * (5e-9 * depth + 6e-15 * m); };
+  const auto m = [&](int k) { return greatest_coordinate(cluster.vertex[k], lane); };
+  const double first = m(0);
+  return holds(first) || holds(max3(first, m(1), m(2)));
 }
 
 }  // namespace
 
 RayConstants prepare(const Ray& ray, double time_s) {
   RayConstants r;
+  // Arrays, so that an axis that chance has chosen is an index and no branch.
+  const float direction[3] = {ray.direction.x, ray.direction.y, ray.direction.z};
+  const float origin[3] = {ray.origin.x, ray.origin.y, ray.origin.z};
   r.z = greatest_axis(ray.direction);
   r.x = r.z == 2 ? 0 : r.z + 1;
   r.y = r.x == 2 ? 0 : r.x + 1;
-  const float dz = ray.direction[static_cast<int>(r.z)];
-  for (int axis = 0; axis < 3; ++axis) {
-    const float d = ray.direction[axis];
+  const float dz = direction[r.z];
+  for (std::uint32_t axis = 0; axis < 3; ++axis) {
+    const float d = direction[axis];
     const bool along = std::abs(d) * 1e18f > std::abs(dz);
-    r.origin[axis] = ray.origin[axis];
+    r.origin[axis] = origin[axis];
     r.inverse_direction[axis] = along ? std::abs(dz) / d : std::copysign(1e18f, d);
-    r.near_row[axis] = static_cast<std::uint32_t>(std::signbit(d) ? axis + 3 : axis);
+    r.near_row[axis] = axis + 3 * static_cast<std::uint32_t>(std::signbit(d));
   }
-  r.exact_shear_x = double{ray.direction[static_cast<int>(r.x)]} / double{dz};
-  r.exact_shear_y = double{ray.direction[static_cast<int>(r.y)]} / double{dz};
+  r.exact_shear_x = double{direction[r.x]} / double{dz};
+  r.exact_shear_y = double{direction[r.y]} / double{dz};
   r.shear_x = static_cast<float>(r.exact_shear_x);
   r.shear_y = static_cast<float>(r.exact_shear_y);
   r.sign_z = std::copysign(1.0f, dz);
@@ -84,7 +87,7 @@ bool exact_hit(const RayConstants& ray, const Cluster& cluster, unsigned lane, E
   const double w = b.x * a.y - b.y * a.x;
   if (min3(u, v, w) < 0 && max3(u, v, w) > 0) return false;
   const double det = u + v + w;
-  if (!well_conditioned(det, a, b, c, greatest_coordinate(cluster, lane))) return false;
+  if (!well_conditioned(det, a, b, c, cluster, lane)) return false;
   const double t = (u * a.z + v * b.z + w * c.z) / det / ray.direction_z;
   if (!(t > 0)) return false;
   hit = {t, v / det, w / det};

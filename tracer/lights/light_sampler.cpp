@@ -60,21 +60,23 @@ SampledSpectrum shining(const LightSampler& s, const LightSampler::Slot& t, cons
   return constant ? all({}) : all(point().point());
 }
 
+// Each of these fills in a sample whose values are those that it is made with, in place, as copies cost as
+// much as the rest; false where nothing arrives.
+
 // A directional light shines from where p lies on the triangle, seen along its normal.
-std::optional<LightSample> sample_directional(const LightSampler& s, const LightSampler::Slot& t, Point3d p,
-                                              const SampledWavelengths& wavelengths, LastLamp& last) {
+bool draw_directional(const LightSampler& s, const LightSampler::Slot& t, Point3d p,
+                      const SampledWavelengths& wavelengths, LastLamp& last, LightSample& sample) {
   const Edges edges(t.p);
   const LightSampler::Face face = s.face(t.light);
-  if (!(face.area > 0)) return std::nullopt;
+  if (!(face.area > 0)) return false;
   const AreaLight& light = s.scene.area_lights[t.area_light];
   const Vector3d from = p - edges.p0;
   const double height = dot(from, face.normal);
-  if (height == 0 || (height < 0 && !light.two_sided)) return std::nullopt;
+  if (height == 0 || (height < 0 && !light.two_sided)) return false;
   const double twice = 2 * face.area;
   const double b1 = dot(cross(from, edges.e2), face.normal) / twice,
                b2 = dot(cross(edges.e1, from), face.normal) / twice;
-  if (b1 < 0 || b2 < 0 || b1 + b2 > 1) return std::nullopt;
-  LightSample sample;
+  if (b1 < 0 || b2 < 0 || b1 + b2 > 1) return false;
   sample.to_light = face.normal * (height > 0 ? -1.0 : 1.0);
   sample.distance = std::abs(height);
   sample.normal = face.normal;
@@ -83,15 +85,14 @@ std::optional<LightSample> sample_directional(const LightSampler& s, const Light
   sample.pdf = 1;
   sample.is_delta = true;
   sample.light = t.area_light;
-  return sample;
+  return true;
 }
 
 // pdf: given the triangle.
-std::optional<LightSample> sample_triangle(const LightSampler& s, const LightSampler::Slot& t, Point3d p,
-                                           float u, float v, const SampledWavelengths& wavelengths,
-                                           LastLamp& last) {
+bool draw_triangle(const LightSampler& s, const LightSampler::Slot& t, Point3d p, float u, float v,
+                   const SampledWavelengths& wavelengths, LastLamp& last, LightSample& sample) {
   const AreaLight& light = s.scene.area_lights[t.area_light];
-  if (light.directional) return sample_directional(s, t, p, wavelengths, last);
+  if (light.directional) return draw_directional(s, t, p, wavelengths, last, sample);
 
   // Uniform on the triangle (Heitz 2019): a low-distortion map of the square.
   double b1 = static_cast<double>(u) / 2, b2 = static_cast<double>(v) / 2;
@@ -102,13 +103,11 @@ std::optional<LightSample> sample_triangle(const LightSampler& s, const LightSam
   const LightSampler::Face face = s.face(t.light);
   const Vector3d towards = (edges.p0 + edges.e1 * b1 + edges.e2 * b2) - p;
   const double distance2 = dot(towards, towards);
-  if (!(distance2 > 0)) return std::nullopt;
-
-  LightSample sample;
+  if (!(distance2 > 0)) return false;
   sample.distance = std::sqrt(distance2);
   sample.to_light = towards * (1 / sample.distance);
   const double cosine = -dot(sample.to_light, face.normal);  // > 0: its front is seen
-  if (cosine == 0 || (cosine < 0 && !light.two_sided)) return std::nullopt;
+  if (cosine == 0 || (cosine < 0 && !light.two_sided)) return false;
   sample.normal = face.normal;
   sample.tilt_rad = face.tilt_rad;
   sample.pdf = distance2 / (std::abs(cosine) * face.area);
@@ -116,16 +115,14 @@ std::optional<LightSample> sample_triangle(const LightSampler& s, const LightSam
       s, t, [&] { return EmissivePoint(s.scene, t.light, b1, b2); }, wavelengths, last);
   sample.is_delta = is_invisible(t.opacity);
   sample.light = t.area_light;
-  return sample;
+  return true;
 }
 
-std::optional<LightSample> sample_quadric(const LightSampler& s, const LightSampler::Slot& t, Point3d p,
-                                          float u, float v, const SampledWavelengths& wavelengths,
-                                          LastLamp& last) {
+bool draw_quadric(const LightSampler& s, const LightSampler::Slot& t, Point3d p, float u, float v,
+                  const SampledWavelengths& wavelengths, LastLamp& last, LightSample& sample) {
   const QuadricLight& quadric = s.quadrics[t.light - s.scene.triangles.size()];
   const auto drawn = quadric.sample(p, u, v);
-  if (!drawn) return std::nullopt;
-  LightSample sample;
+  if (!drawn) return false;
   sample.to_light = drawn->to_light;
   sample.distance = drawn->distance;
   sample.normal = drawn->normal;
@@ -135,16 +132,15 @@ std::optional<LightSample> sample_quadric(const LightSampler& s, const LightSamp
       s, t, [&] { return EmissivePoint(quadric, drawn->local); }, wavelengths, last);
   sample.is_delta = is_invisible(t.opacity);
   sample.light = t.area_light;
-  return sample;
+  return true;
 }
 
-std::optional<LightSample> sample_emitter(const LightSampler& s, std::size_t index, Point3d p,
-                                          const SampledWavelengths& wavelengths) {
+bool draw_emitter(const LightSampler& s, std::size_t index, Point3d p, const SampledWavelengths& wavelengths,
+                  LightSample& sample) {
   const PointEmitter& e = s.emitters[index];
   const Vector3d towards = e.position - p;
   const double distance2 = dot(towards, towards);
-  if (!(distance2 > 0)) return std::nullopt;
-  LightSample sample;
+  if (!(distance2 > 0)) return false;
   sample.distance = std::sqrt(distance2);
   sample.to_light = towards * (1 / sample.distance);
   sample.radiance =
@@ -152,20 +148,20 @@ std::optional<LightSample> sample_emitter(const LightSampler& s, std::size_t ind
   sample.pdf = 1;
   sample.is_delta = true;
   sample.light = s.emitter_light[index];
-  return sample;
+  return true;
 }
 
-std::optional<LightSample> sample_tree(const LightSampler& s, Point3d p, const std::array<float, 4>& u,
-                                       double choice, const SampledWavelengths& wavelengths, LastLamp& last) {
+bool draw_tree(const LightSampler& s, Point3d p, const std::array<float, 4>& u, double choice,
+               const SampledWavelengths& wavelengths, LastLamp& last, LightSample& sample) {
   const auto chosen = s.tree.choose(p, choice);
-  if (!chosen) return std::nullopt;
+  if (!chosen) return false;
   const LightSampler::Slot& slot = s.slots[chosen->slot];
   const std::size_t triangles = s.scene.triangles.size(), surfaces = triangles + s.quadrics.size();
-  auto sample = slot.light < triangles  ? sample_triangle(s, slot, p, u[0], u[1], wavelengths, last)
-                : slot.light < surfaces ? sample_quadric(s, slot, p, u[0], u[1], wavelengths, last)
-                                        : sample_emitter(s, slot.light - surfaces, p, wavelengths);
-  if (sample) sample->pdf *= chosen->probability * s.share[0];
-  return sample;
+  const bool drawn = slot.light < triangles ? draw_triangle(s, slot, p, u[0], u[1], wavelengths, last, sample)
+                     : slot.light < surfaces ? draw_quadric(s, slot, p, u[0], u[1], wavelengths, last, sample)
+                                             : draw_emitter(s, slot.light - surfaces, p, wavelengths, sample);
+  sample.pdf *= chosen->probability * s.share[0];
+  return drawn;
 }
 
 }  // namespace
@@ -223,23 +219,24 @@ SampledSpectrum LightSampler::Distant::irradiance_from(Vector3d to_light,
          static_cast<float>(2 * pi * (1 - sun->sun_cosine()));
 }
 
-std::optional<LightSample> sample_light(const LightSampler& s, Point3d p, const std::array<float, 4>& u,
-                                        const std::array<float, 2>& far,
-                                        const SampledWavelengths& wavelengths, LastLamp& last) {
-  if (s.three_numbers) return sample_tree(s, p, u, static_cast<double>(u[2]), wavelengths, last);
-  if (s.share.empty()) return std::nullopt;
+namespace {
+
+bool draw_light(const LightSampler& s, Point3d p, const std::array<float, 4>& u,
+                const std::array<float, 2>& far, const SampledWavelengths& wavelengths, LastLamp& last,
+                LightSample& sample) {
+  if (s.three_numbers) return draw_tree(s, p, u, static_cast<double>(u[2]), wavelengths, last, sample);
+  if (s.share.empty()) return false;
   double rest = static_cast<double>(u[3]);
   std::size_t kind = 0;
   while (kind + 1 < s.share.size() && rest >= s.share[kind]) rest -= s.share[kind++];
   const double share = s.share[kind];
-  if (!(share > 0)) return std::nullopt;
+  if (!(share > 0)) return false;
 
-  LightSample sample;
   if (kind == 0) {
     // What is left of u[3] refines u[2]: 24 bits cannot reach every one of many lights.
     const double fine = std::clamp(rest / share, 0.0, 0x1.fffffp-1);
     const double choice = std::min(static_cast<double>(u[2]) + fine * 0x1p-24, 0x1.fffffffffffffp-1);
-    return sample_tree(s, p, u, choice, wavelengths, last);
+    return draw_tree(s, p, u, choice, wavelengths, last, sample);
   }
   if (kind <= s.distant.size()) {
     const LightSampler::Distant& distant = s.distant[kind - 1];
@@ -249,17 +246,27 @@ std::optional<LightSample> sample_light(const LightSampler& s, Point3d p, const 
     sample.pdf = share;
     sample.is_delta = true;
     sample.light = distant.light;
-    return sample;
+    return true;
   }
   const std::size_t index = kind - 1 - s.distant.size();
   const Environment& e = s.environments[index];
   sample.to_light = sample_direction(e, static_cast<double>(u[0]), static_cast<double>(u[1]));
   sample.distance = infinity;
   const Background seen = background(s, sample.to_light, wavelengths);
-  if (!(seen.pdf > 0)) return std::nullopt;
+  if (!(seen.pdf > 0)) return false;
   sample.pdf = seen.pdf;
   sample.radiance = seen.radiance;
   sample.light = s.environment_light[index];
+  return true;
+}
+
+}  // namespace
+
+std::optional<LightSample> sample_light(const LightSampler& s, Point3d p, const std::array<float, 4>& u,
+                                        const std::array<float, 2>& far,
+                                        const SampledWavelengths& wavelengths, LastLamp& last) {
+  std::optional<LightSample> sample(std::in_place);
+  if (!draw_light(s, p, u, far, wavelengths, last, *sample)) sample.reset();
   return sample;
 }
 
