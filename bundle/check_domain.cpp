@@ -6,6 +6,7 @@
 
 #include "bundle/manifest.h"
 #include "bundle/texture_file.h"
+#include "scene/curve.h"
 #include "scene/diagnostics.h"
 
 namespace vitrail {
@@ -43,6 +44,12 @@ void check(const Manifest& manifest, const Expected& expected, const MappedDomai
     if (!std::ranges::binary_search(expected.objects, ref.object) ||
         ref.first_triangle + manifest.objects[ref.object].triangles > expected.triangles)
       reject(fmt::format("it holds an instance of object {}, which the scene does not have", ref.object));
+  for (std::size_t i = 0; i < view.instances.size(); ++i) {
+    const InstanceRef& ref = view.instances[i];
+    const auto& quadric = manifest.objects[ref.object].quadric;
+    if (quadric && is_curve(quadric->quadric) && !is_valid(unpacked_curve(ref.to_parent.m)))
+      reject(fmt::format("instance {} is no curve", i));
+  }
 }
 
 }  // namespace

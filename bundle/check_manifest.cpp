@@ -191,6 +191,7 @@ void check_lights(const Checker& c, const Manifest& m) {
   for (const EmissiveTriangle& t : m.emissive_triangles)
     c.require(t.triangle < m.triangles && t.area_light < m.area_lights.size(), "a light shines from nowhere");
   for (const EmissiveQuadric& q : m.emissive_quadrics) {
+    c.require(!is_curve(q.quadric.quadric), "a curve shines");
     check_shape(c, q.quadric.quadric);
     c.require(q.triangle < m.triangles && q.area_light < m.area_lights.size(), "a light shines from nowhere");
   }

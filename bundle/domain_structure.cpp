@@ -28,10 +28,10 @@ class OnceEach {
   std::size_t count_ = 0;
 };
 
-// Children come after their parent and every node and leaf (cluster or instance) hangs in exactly one place,
-// so a traversal ends and its stack is bounded by the depth.
+// Children come after their parent and every node and leaf hangs in exactly one place, so a traversal ends
+// and its stack is bounded by the depth; a curve, which is an instance, may have several leaves.
 void check_tree(const std::filesystem::path& file, std::span<const BvhNode> tree, std::size_t leaf_count,
-                const char* leaf) {
+                const char* leaf, bool may_repeat = false) {
   OnceEach nodes(tree.size()), leaves(leaf_count);
   std::vector<std::uint8_t> depth(tree.size(), 1);
   if (!tree.empty()) nodes.mark(0);
@@ -40,7 +40,7 @@ void check_tree(const std::filesystem::path& file, std::span<const BvhNode> tree
       if (child == BvhNode::empty) continue;
       const std::size_t index = child & ~BvhNode::cluster_bit;
       if (child & BvhNode::cluster_bit) {
-        if (index >= leaf_count || !leaves.mark(index))
+        if (index >= leaf_count || (!leaves.mark(index) && !may_repeat))
           reject_domain(file, fmt::format("node {} refers to {} {}", i, leaf, index));
       } else {
         if (index <= i || index >= tree.size() || !nodes.mark(index))
@@ -78,7 +78,7 @@ void check_structure(const DomainView& view, const std::filesystem::path& file) 
   if (!view.uvs.empty() && view.uvs.size() != view.clusters.size())
     reject_domain(file, "it does not have one group of (u,v) a cluster");
   check_tree(file, view.nodes, view.clusters.size(), "cluster");
-  check_tree(file, view.instance_nodes, view.instances.size(), "instance");
+  check_tree(file, view.instance_nodes, view.instances.size(), "instance", true);
   check_instances(file, view.instances);
 }
 

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "bundle/domain_file.h"
+#include "scene/curve.h"
 
 namespace vitrail {
 
@@ -34,6 +35,11 @@ Affine compose(const Affine& a, const Affine& b) {
       product.m[i][j] =
           a.m[i][0] * b.m[0][j] + a.m[i][1] * b.m[1][j] + a.m[i][2] * b.m[2][j] + (j == 3 ? a.m[i][3] : 0);
   return product;
+}
+
+Affine compose(const Affine& outer, const Quadric& quadric, const Affine& place) {
+  if (!is_curve(quadric)) return compose(outer, place);
+  return affine(packed(transformed(transform_of(outer), unpacked_curve(place.m))));
 }
 
 bool mirrors(const Affine& a) {

@@ -8,6 +8,7 @@
 #include <cstdint>
 
 #include "scene/bounds.h"
+#include "scene/quadric.h"
 #include "scene/transform.h"
 #include "scene/vec.h"
 
@@ -28,6 +29,9 @@ bool is_affine(const Transform& t);
 // a∘b. The matrix of a chain of instances is ((m₁∘m₂)∘m₃)∘…
 Affine compose(const Affine& a, const Affine& b);
 
+// A place of the quadric taken through `outer`: as matrices are, or as a curve is.
+Affine compose(const Affine& outer, const Quadric& quadric, const Affine& place);
+
 // Whether triangles have to be wound the other way for their fronts to stay their fronts.
 bool mirrors(const Affine& m);
 
@@ -45,7 +49,7 @@ constexpr std::size_t source_corner(bool mirrored, std::size_t k) { return mirro
 
 // An object where it stands in its parent, which is an object or, in a domain, the scene.
 struct InstanceRef {
-  Affine to_parent{};  // to the parent's coordinates
+  Affine to_parent{};  // to the parent's coordinates; of a curve, itself in them (scene/curve.h)
   // Holds all that is wanted of it, in the parent's coordinates: in a domain, the part in its cell; inflated.
   float lower[3] = {}, upper[3] = {};
   std::uint32_t object = 0;          // number of the object

@@ -91,6 +91,9 @@ Features features_of(const Manifest& m) {
   require(!m.texture_files.empty(), required_feature::textures);
   require(std::ranges::any_of(m.objects, [](const ObjectInfo& o) { return o.quadric.has_value(); }),
           required_feature::quadrics);
+  require(std::ranges::any_of(m.objects,
+                              [](const ObjectInfo& o) { return o.quadric && is_curve(o.quadric->quadric); }),
+          required_feature::curves);
   require(std::ranges::any_of(m.textures,
                               [](const Texture& t) {
                                 return std::holds_alternative<NoiseTexture>(t.model) ||

@@ -39,7 +39,7 @@ std::uint64_t hash_from(const Json& j) {
 // The kinds of a variant, in the order of its alternatives.
 constexpr std::array camera_kinds{"perspective", "orthographic", "spherical", "sensors"};
 constexpr std::array sphere_kinds{"equal area", "latitude longitude"};
-constexpr std::array quadric_kinds{"sphere", "cylinder", "disk", "cone", "paraboloid"};
+constexpr std::array quadric_kinds{"sphere", "cylinder", "disk", "cone", "paraboloid", "curve"};
 constexpr std::array quadric_uvs{"pbrt", "mitsuba"};
 constexpr std::array filter_kinds{"box", "triangle", "gaussian", "mitchell", "sinc"};
 

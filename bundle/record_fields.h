@@ -51,7 +51,7 @@ inline constexpr auto last_of<Roughness::Distribution> = Roughness::Distribution
 template <>
 inline constexpr auto last_of<TabulatedMaterial::Format> = TabulatedMaterial::Format::fourier;
 template <>
-inline constexpr auto last_of<QuadricKind> = QuadricKind::paraboloid;
+inline constexpr auto last_of<QuadricKind> = QuadricKind::curve;
 template <>
 inline constexpr auto last_of<QuadricUv> = QuadricUv::mitsuba;
 template <>

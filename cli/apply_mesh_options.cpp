@@ -17,12 +17,12 @@ namespace vitrail {
 
 namespace {
 
-// A quadric that stands in many places becomes as many shapes.
+// A quadric that stands in many places becomes as many shapes; curves stay together.
 void part_places(Scene& scene) {
   std::vector<Shape> shapes;
   for (Shape& shape : scene.shapes) {
     const auto places = scene.meshes[shape.mesh.value].places;
-    if (!places) {
+    if (!places || is_curve(*scene.meshes[shape.mesh.value].quadric)) {
       shapes.push_back(std::move(shape));
       continue;
     }
@@ -34,7 +34,8 @@ void part_places(Scene& scene) {
     }
   }
   scene.shapes = std::move(shapes);
-  for (TriangleMesh& mesh : scene.meshes) mesh.places.reset();
+  for (TriangleMesh& mesh : scene.meshes)
+    if (mesh.quadric && !is_curve(*mesh.quadric)) mesh.places.reset();
 }
 
 // Makes meshes of quadrics, which are made anew whenever they are loaded if they are too large to keep.
@@ -44,7 +45,9 @@ void tessellate_quadrics(Scene& scene, int segments, std::uint64_t kept_bytes) {
   MeshMemory memory(kept_bytes - std::min(kept_bytes, in_memory));
   for (TriangleMesh& mesh : scene.meshes) {
     if (!mesh.quadric) continue;
-    const auto make = [quadric = *mesh.quadric, segments] { return tessellate(quadric, segments); };
+    const auto make = [quadric = *mesh.quadric, places = mesh.places, segments] {
+      return places ? tessellate(quadric, *places, segments) : tessellate(quadric, segments);
+    };
     mesh = memory.keep(make(), make);
     triangles += triangles_of(mesh);
     ++quadrics;

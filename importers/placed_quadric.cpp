@@ -28,7 +28,7 @@ bool is_whole(const Quadric& q) {
 std::optional<PlacedQuadric> placed_quadric(const Scene& scene, const Shape& shape, QuadricUv uv,
                                             ShapeUvUses& uvs) {
   const std::optional<Quadric>& quadric = scene.meshes.at(shape.mesh.value).quadric;
-  if (!quadric) return std::nullopt;
+  if (!quadric || is_curve(*quadric)) return std::nullopt;
   PlacedQuadric q{*quadric, shape.object_to_world, shape.flip_orientation};
   const bool differs = q.quadric.uv != uv && uvs.of(shape);
   q.quadric.uv = uv;
@@ -57,6 +57,7 @@ Axes axes_of(const Transform& t) {
 }
 
 std::string as_triangles(const Quadric& q) {
+  if (is_curve(q)) return "curves become tubes of triangles";
   return fmt::format("a {}{} becomes triangles, {} for a full turn", is_whole(q) ? "" : "partial ",
                      kind_of(q.kind), quadric_segments);
 }

@@ -146,7 +146,7 @@ class Partitioner {
                                [&](std::uint64_t n) { phases_.advance(n); });
     rest_ = static_cast<double>(world_.own_triangles) / all;
     needs.instance_bytes = instances_.refs.size() * bytes_of_reference;
-    needs.quadrics = instances_.in_runs();
+    needs.quadrics = instances_.room_in_runs();
     items_ = world_.own_triangles + instances_.refs.size() + instances_.in_runs();
     plan_ = plan_with_pieces(needs);
     if (options.domains == 0 && options.domain_bytes > 0 && !instances_.refs.empty()) {

@@ -42,7 +42,7 @@ const char* kind_of(const Camera& camera) {
 }
 
 const char* kind_of(QuadricKind kind) {
-  constexpr std::array names{"sphere", "cylinder", "disk", "cone", "paraboloid"};
+  constexpr std::array names{"sphere", "cylinder", "disk", "cone", "paraboloid", "curve"};
   return names.at(static_cast<std::size_t>(kind));
 }
 

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/curve.h"
+
 namespace vitrail {
 
 namespace {
@@ -25,6 +27,8 @@ double farthest(const Quadric& q, double a, double h) {
       const double rho = a < 0 ? std::clamp(-h / (2 * a), std::sqrt(q.low), 1.0) : 1;
       return rho * (a * rho + h);
     }
+    case QuadricKind::curve:
+      break;
   }
   return 0;
 }
@@ -38,6 +42,7 @@ bool is_whole_sphere(const Quadric& q) {
 }
 
 Bounds3d bounds_of(const Quadric& q, const Transform& to) {
+  if (is_curve(q)) return bounds_of(unpacked_curve(to));
   Bounds3d box;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto& row = to.m[axis];

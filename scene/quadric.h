@@ -9,12 +9,12 @@
 
 namespace vitrail {
 
-enum class QuadricKind : std::uint8_t { sphere, cylinder, disk, cone, paraboloid };
+enum class QuadricKind : std::uint8_t { sphere, cylinder, disk, cone, paraboloid, curve };
 
 // Of (u,v), with φ from +x towards +y:
 //   pbrt     u = φ/phi_max; v runs from 0 to 1: with the polar angle from low to high (sphere), from the edge
-//            to `low` (disk), with z (others)
-//   mitsuba  as pbrt's, but of a sphere v = 1 − v, and of a disk (ρ, φ/phi_max)
+//            to `low` (disk), with z (others); of a curve u runs along it and v around
+//   mitsuba  as pbrt's, but of a sphere v = 1 − v, and of a disk (ρ, φ/phi_max), of a curve (around, along)
 enum class QuadricUv : std::uint8_t { pbrt, mitsuba };
 
 // In its own space, about z, where 0 ≤ φ ≤ phi_max; sizes are its transform's:
@@ -23,6 +23,7 @@ enum class QuadricUv : std::uint8_t { pbrt, mitsuba };
 //   disk        z = 0,               low ≤ ρ ≤ 1, ρ² = x² + y²
 //   cone        x² + y² = (1 − z)²,  0 ≤ z ≤ 1
 //   paraboloid  x² + y² = z,         low ≤ z ≤ 1
+//   curve       no quadric: its place is all of it (scene/curve.h)
 // The front is outside, of a disk +z; as of triangles, a transform that mirrors swaps the sides.
 struct Quadric {
   QuadricKind kind = QuadricKind::sphere;
@@ -36,6 +37,9 @@ struct Quadric {
 bool is_whole_turn(const Quadric& quadric);
 // A sphere without a hole.
 bool is_whole_sphere(const Quadric& quadric);
+
+// Whether a place of it is a curve, packed, and no matrix.
+inline bool is_curve(const Quadric& quadric) { return quadric.kind == QuadricKind::curve; }
 
 // Holds the surface where an affine transform puts it; tight where it goes all the way round.
 Bounds3d bounds_of(const Quadric& quadric, const Transform& to);

@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "scene/curve.h"
+
 namespace vitrail {
 
 namespace {
@@ -19,14 +21,16 @@ bool may_be_one_of_many(const Scene& scene, const Shape& shape) {
   return determinant3(t) > 1e-6 * x * y * z && std::max({x, y, z}) < 1e5 * std::min({x, y, z});
 }
 
+bool look_alike(const Shape& a, const Shape& b) {
+  return a.material == b.material && a.opacity == b.opacity && a.interior == b.interior &&
+         a.exterior == b.exterior && a.flip_orientation == b.flip_orientation;
+}
+
 }  // namespace
 
 bool QuadricRuns::continues(const Scene& scene, const Shape& shape) const {
-  if (count_ == 0 || first_ >= scene.shapes.size()) return false;
-  const Shape& first = scene.shapes[first_];
-  return shape.mesh == quadric_ && shape.material == first.material && shape.opacity == first.opacity &&
-         shape.interior == first.interior && shape.exterior == first.exterior &&
-         shape.flip_orientation == first.flip_orientation;
+  return count_ > 0 && first_ < scene.shapes.size() && shape.mesh == quadric_ &&
+         look_alike(shape, scene.shapes[first_]);
 }
 
 void QuadricRuns::add(Scene& scene, Shape shape) {
@@ -42,6 +46,29 @@ void QuadricRuns::add(Scene& scene, Shape shape) {
   }
   scene.shapes.push_back(std::move(shape));
   if (count_ == least_run) gather(scene);
+}
+
+void QuadricRuns::add_curve(Scene& scene, std::vector<Shape>& shapes, Shape shape) {
+  TriangleMesh& mesh = scene.meshes[shape.mesh.value];
+  // What places a curve is in its record, where that can have it.
+  const bool joins = !shape.area_light && shape.name.empty() && shape.object_to_world.m[3][3] == 1 &&
+                     is_similarity(shape.object_to_world) && &mesh == &scene.meshes.back();
+  const TriangleMesh* before =
+      joins && curves_ && !shapes.empty() ? &scene.meshes[shapes.back().mesh.value] : nullptr;
+  const bool continues = before && before->places == curves_ && before->quadric == mesh.quadric &&
+                         look_alike(shape, shapes.back());
+  if (joins) {
+    if (!continues) curves_ = std::make_shared<QuadricPlaces>(*mesh.quadric, memory_bytes_);
+    for (std::size_t i = 0; i < mesh.places->size(); ++i) {
+      Transform place;
+      mesh.places->read(i, {&place, 1});
+      curves_->add(packed(transformed(shape.object_to_world, unpacked_curve(place))));
+    }
+    if (continues) return scene.meshes.pop_back();
+    mesh.places = curves_;
+    shape.object_to_world = {};
+  }
+  shapes.push_back(std::move(shape));
 }
 
 void QuadricRuns::gather(Scene& scene) {

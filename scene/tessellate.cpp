@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "scene/curve_meshes.h"
 #include "scene/quadric_places.h"
 #include "scene/unit_circle.h"
 
@@ -123,6 +124,8 @@ std::vector<Ring> rings_of(const Quadric& q, int segments) {
     }
     case QuadricKind::paraboloid:
       return rings_of_paraboloid(q, segments);
+    case QuadricKind::curve:
+      break;
   }
   return {};
 }
@@ -135,6 +138,43 @@ void take_mitsuba_uv(QuadricKind kind, TriangleMesh& mesh) {
       uv = {1 - uv.y, uv.x};
 }
 
+// Those that follow each other as segments of one curve, as one tube.
+TriangleMesh tubes(const Quadric& q, const QuadricPlaces& places, int corners) {
+  TriangleMesh mesh;
+  std::vector<CurveSegment> strand;
+  PlacedCurve first, last;
+  const auto end_strand = [&] {
+    if (strand.empty()) return;
+    double widest = 0;
+    for (const CurveSegment& s : strand)
+      for (const CurvePoint& p : s) widest = std::max(widest, p.radius);
+    CurveDetail detail = curve_detail(places.size(), last.straight);
+    detail.steps = last.straight ? 1 : steps_within(strand, widest / 6, 2 * detail.steps);
+    if (corners > 0) detail.corners = std::max(3, corners);
+    append_tube(strand, detail, double{first.along_first}, double{last.along_last},
+                first.straight && first.to[0] == Vector3f{}, mesh);
+    strand.clear();
+  };
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    Transform place;
+    places.read(i, {&place, 1});
+    const PlacedCurve next = unpacked_curve(place);
+    const CurveSegment segment = segment_of(next);
+    if (!strand.empty()) {
+      const double gap = length(strand.back()[3].position - segment[0].position);
+      const double size = length(strand.back()[3].position - strand.back()[0].position);
+      if (next.along_first != last.along_last || !(gap <= 1e-5 * size)) end_strand();
+    }
+    if (strand.empty()) first = next;
+    strand.push_back(segment);
+    last = next;
+  }
+  end_strand();
+  if (q.uv == QuadricUv::pbrt)
+    for (Point2f& uv : mesh.uvs) uv = {uv.y, uv.x};
+  return mesh;
+}
+
 }  // namespace
 
 TriangleMesh tessellate(const Quadric& q, int segments) {
@@ -144,7 +184,8 @@ TriangleMesh tessellate(const Quadric& q, int segments) {
 }
 
 TriangleMesh tessellate(const Quadric& q, const QuadricPlaces& places, int segments) {
-  const TriangleMesh one = tessellate(q, segments);
+  if (is_curve(q)) return tubes(q, places, segments);
+  const TriangleMesh one = tessellate(q, segments > 0 ? segments : quadric_segments);
   TriangleMesh all;
   for (std::size_t i = 0; i < places.size(); ++i) {
     Transform place;

@@ -14,7 +14,8 @@ inline constexpr int quadric_segments = 256;
 // the same share of them, rounded up. Where a surface closes on itself (poles, seam), positions agree bit for
 // bit.
 TriangleMesh tessellate(const Quadric& quadric, int segments = quadric_segments);
-// All of them in one mesh.
-TriangleMesh tessellate(const Quadric& quadric, const QuadricPlaces& places, int segments = quadric_segments);
+// All of them in one mesh. Curves are tubes, each as wide as the curve in the mean of all sides, of
+// `segments` corners or, for 0, of fewer for more of them.
+TriangleMesh tessellate(const Quadric& quadric, const QuadricPlaces& places, int segments = 0);
 
 }  // namespace vitrail

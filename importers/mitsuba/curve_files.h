@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "importers/shapes/curve.h"
+#include "scene/curve.h"
 
 namespace vitrail::mitsuba {
 

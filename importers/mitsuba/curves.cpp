@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Curves as tubes.
+// Curves.
 #include <fmt/format.h>
 
 #include <bit>
@@ -7,16 +7,16 @@
 
 #include "importers/mitsuba/curve_files.h"
 #include "importers/mitsuba/shape_geometry.h"
+#include "scene/curve_meshes.h"
 
 namespace vitrail::mitsuba {
 
 namespace {
 
-TriangleMesh tubes(const CurveFile& file, bool linear, bool round_ends) {
+TriangleMesh curves_of(const Builder& builder, const CurveFile& file, bool linear, bool round_ends) {
   const std::size_t fewer = linear ? 1 : 3;  // segments than points
   const std::size_t total = file.points.size() - fewer * file.ends.size();
-  const CurveDetail detail = curve_detail(total, linear);
-  TriangleMesh mesh;
+  KeptCurves curves(QuadricUv::mitsuba, builder.mesh_memory.limit_bytes() / 4);
   std::size_t begin = 0, done = 0;
   for (const std::size_t end : file.ends) {
     const std::span points(file.points.data() + begin, end - begin);
@@ -24,11 +24,11 @@ TriangleMesh tubes(const CurveFile& file, bool linear, bool round_ends) {
     const auto v = [&](std::size_t segment) {
       return static_cast<double>(segment) / static_cast<double>(total);
     };
-    append_tube(segments, detail, v(done), v(done + segments.size()), round_ends, mesh);
+    curves.add(placed_curves(segments, v(done), v(done + segments.size()), linear, round_ends));
     done += segments.size();
     begin = end;
   }
-  return mesh;
+  return std::move(curves.mesh);
 }
 
 // Mitsuba 0.6's. Its lengths are the object's. It joins segments that turn by less than an angle, for speed.
@@ -40,10 +40,9 @@ ShapeGeometry hair_shape(Builder& builder, const Object& shape) {
   if (shape.number("reduction", 0, builder.report) != 0)
     builder.report.approximated("hair is not thinned: all of it is there, as wide as it is", shape.origin);
   const std::filesystem::path path = shape_file(builder, shape);
-  const Id<TriangleMesh> mesh =
-      shared_mesh(builder, shape, {path.string(), 2, std::bit_cast<int>(radius)},
-                  [&] { return tubes(read_hair_file(path, static_cast<double>(radius)), true, false); });
-  builder.report.approximated("hair becomes tubes of triangles", shape.origin);
+  const Id<TriangleMesh> mesh = shared_mesh(
+      builder, shape, {path.string(), 2, std::bit_cast<int>(radius)},
+      [&] { return curves_of(builder, read_hair_file(path, static_cast<double>(radius)), true, false); });
   return {mesh, {}, true};
 }
 
@@ -56,9 +55,8 @@ std::optional<ShapeGeometry> curve_shape(Builder& builder, const Object& shape) 
   if (!linear && kind != "bsplinecurve") return std::nullopt;
   const std::filesystem::path path = shape_file(builder, shape);
   const Id<TriangleMesh> mesh = shared_mesh(builder, shape, {path.string(), linear, 0}, [&] {
-    return tubes(read_curve_file(path, linear ? 2 : 4), linear, linear);
+    return curves_of(builder, read_curve_file(path, linear ? 2 : 4), linear, linear);
   });
-  builder.report.approximated("curves become tubes of triangles", shape.origin);
   return ShapeGeometry{mesh, {}, true};
 }
 

@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "importers/pbrt/shapes.h"
-#include "importers/shapes/curve.h"
+#include "scene/curve_meshes.h"
 
 namespace vitrail::pbrt {
 
@@ -74,6 +74,13 @@ void set_widths(std::vector<CurveSegment>& segments, double width0, double width
       segments[i][k].radius = std::lerp(width0, width1, static_cast<double>(3 * i + k) / thirds) / 2;
 }
 
+bool has_length(const std::vector<CurveSegment>& segments) {
+  const Point3d start = segments.front()[0].position;
+  return std::ranges::any_of(segments, [&](const CurveSegment& s) {
+    return std::ranges::any_of(s, [&](const CurvePoint& p) { return !(p.position == start); });
+  });
+}
+
 std::vector<Vector3d> ribbon_normals(ParameterSet& parameters, std::size_t segments) {
   std::vector<Vector3d> normals = triples(parameters, "N");
   if (normals.size() != segments + 1)
@@ -92,22 +99,33 @@ std::optional<ShapeGeometry> ShapeMaker::curve(ParameterSet& parameters) {
   set_widths(segments, width0, width1);
   const std::string type = choice(parameters, "type", "flat", {"flat", "ribbon", "cylinder"});
   parameters.ignore({"splitdepth"});
-  // Scenes have very many curves: a sixth of the radius is near enough for such thin things.
-  constexpr int most_steps = 16, corners = 6;
-  const double tolerance = std::max(width0, width1) / 12;
-  const CurveDetail detail{steps_within(segments, tolerance, most_steps), corners};
-  const bool ribbon = type == "ribbon";
-  const std::vector<Vector3d> normals =
-      ribbon ? ribbon_normals(parameters, segments.size()) : std::vector<Vector3d>{};
+  if (type == "ribbon") return ribbon(parameters, segments, std::max(width0, width1));
+  parameters.ignore({"N"});
+  if (!has_length(segments) || !(std::max(width0, width1) > 0)) {
+    context_.report.dropped("a curve without length or width", parameters.place());
+    return std::nullopt;
+  }
+  if (type == "flat")
+    context_.report.approximated("flat curves, which face the ray, are round ones of their width",
+                                 parameters.place());
+  KeptCurves curves(QuadricUv::pbrt, context_.mesh_memory.limit_bytes() / 4);
+  try {
+    curves.add(placed_curves(segments, 0, 1, false, false));
+  } catch (const Error& error) {
+    fail(error.what(), parameters.place());
+  }
+  meshes_.push_back(std::move(curves.mesh));
+  return ShapeGeometry{{static_cast<std::uint32_t>(meshes_.size() - 1)}, true, {}, 1, true};
+}
+
+std::optional<ShapeGeometry> ShapeMaker::ribbon(ParameterSet& parameters,
+                                                const std::vector<CurveSegment>& segments, double width) {
+  // Scenes have very many curves: a sixth of half the width is near enough for such thin things.
+  constexpr int most_steps = 16;
+  const std::vector<Vector3d> normals = ribbon_normals(parameters, segments.size());
   TriangleMesh mesh;
   try {
-    if (ribbon) {
-      append_ribbon(segments, normals, detail, mesh);
-    } else {
-      parameters.ignore({"N"});
-      append_tube(segments, detail, 0, 1, false, mesh);
-      for (Point2f& uv : mesh.uvs) uv = {uv.y, uv.x};
-    }
+    append_ribbon(segments, normals, steps_within(segments, width / 12, most_steps), mesh);
   } catch (const Error& error) {
     fail(error.what(), parameters.place());
   }
@@ -115,11 +133,8 @@ std::optional<ShapeGeometry> ShapeMaker::curve(ParameterSet& parameters) {
     context_.report.dropped("a curve without length", parameters.place());
     return std::nullopt;
   }
-  context_.report.approximated(type == "flat" ? "flat curves, which face the ray, become tubes of their width"
-                               : ribbon       ? "ribbons become triangles"
-                                              : "curves become tubes of triangles",
-                               parameters.place());
-  return ShapeGeometry{add(std::move(mesh)), true, {}, 1, !ribbon};
+  context_.report.approximated("ribbons become triangles", parameters.place());
+  return ShapeGeometry{add(std::move(mesh)), true, {}, 1};
 }
 
 }  // namespace vitrail::pbrt

@@ -79,8 +79,8 @@ Interpreter::Interpreter(TokenStream& tokens, Context& context)
     : tokens_(tokens),
       context_(context),
       view_(default_view(context.version)),
-      shapes_(context, scene_.meshes) {
-  if (context.mesh_memory.is_limited()) quadric_runs_.emplace(context.mesh_memory.limit_bytes() / 4);
+      shapes_(context, scene_.meshes),
+      quadric_runs_(context.mesh_memory.limit_bytes() / 4) {
   context_.upcoming = [this](std::size_t bytes) { return tokens_.upcoming(bytes); };
 }
 

@@ -182,8 +182,8 @@ class Interpreter {
   TextureTable textures_;
   UvUses uv_uses_{scene_.textures};
   ShapeMaker shapes_;
-  std::optional<QuadricRuns> quadric_runs_;  // where memory is limited
-  std::vector<Place> area_light_places_;     // one for each of the scene's area lights
+  QuadricRuns quadric_runs_;
+  std::vector<Place> area_light_places_;  // one for each of the scene's area lights
 
   // Materials by number; named ones may be used before they are defined.
   struct DeferredMaterial {

@@ -11,6 +11,7 @@
 #include "importers/pbrt/parameters.h"
 #include "importers/ply/mesh_read_ahead.h"
 #include "importers/shapes/quadrics.h"
+#include "scene/curve.h"
 #include "scene/scene.h"
 
 namespace vitrail::pbrt {
@@ -24,7 +25,7 @@ struct ShapeGeometry {
   Transform mesh_to_object;
   // How many shapes pbrt makes of it, each with the whole `power` of an area light: triangles, patches, or 1.
   std::size_t parts = 1;
-  bool tube = false;  // around a curve
+  bool curve = false;
 };
 
 // Makes meshes and keeps those that come again (the same file, any sphere).
@@ -43,6 +44,8 @@ class ShapeMaker {
   ShapeGeometry bilinear_mesh(ParameterSet& parameters, bool uvs_show);
   ShapeGeometry loop_subdivision(ParameterSet& parameters, bool uvs_show);
   std::optional<ShapeGeometry> curve(ParameterSet& parameters);
+  std::optional<ShapeGeometry> ribbon(ParameterSet& parameters, const std::vector<CurveSegment>& segments,
+                                      double width);
   ShapeGeometry heightfield(ParameterSet& parameters);
   ShapeGeometry hyperboloid(ParameterSet& parameters);
   ShapeGeometry nurbs(ParameterSet& parameters);

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "importers/pbrt/directives.h"
+#include "scene/curve.h"
 
 namespace vitrail::pbrt {
 
@@ -183,7 +184,8 @@ void Interpreter::area_light_source(const Place& place) {
 double Interpreter::area_per_part(const ShapeGeometry& geometry, const Place& place) {
   TriangleMesh storage;
   const TriangleMesh& stored = scene_.meshes[geometry.mesh.value];
-  if (stored.quadric) return area_of(*stored.quadric, state_.ctm * geometry.mesh_to_object);
+  if (stored.quadric && !geometry.curve)
+    return area_of(*stored.quadric, state_.ctm * geometry.mesh_to_object);
   const TriangleMesh& mesh = loaded(stored, storage);
   double total = 0, least = INFINITY, greatest = 0;
   for (const auto& triangle : mesh.triangles) {
@@ -346,7 +348,7 @@ void Interpreter::add_shape(const ShapeGeometry& geometry, const FloatParameter&
   shape.flip_orientation =
       state_.reverse_orientation != (mirrored && (!geometry.quadric || shape.area_light));
   if (meets_hair(shape.material, 16)) {
-    if (geometry.tube)
+    if (geometry.curve)
       shape.flip_orientation = mirrored;  // hair is met from outside, whatever a file says
     else
       context_.report.approximated(
@@ -356,14 +358,19 @@ void Interpreter::add_shape(const ShapeGeometry& geometry, const FloatParameter&
   }
   if (mirrored && geometry.quadric && shape.area_light)
     context_.report.approximated("a mirrored shape that shines has its front where it shines", place);
-  if (moves)
-    scene_.prototypes[moving_prototype(at, place).value].shapes.push_back(std::move(shape));
-  else if (current_object_)
-    scene_.prototypes[*current_object_].shapes.push_back(std::move(shape));
-  else if (quadric_runs_)
-    quadric_runs_->add(scene_, std::move(shape));
-  else
-    scene_.shapes.push_back(std::move(shape));
+  std::vector<Shape>& shapes = moves             ? scene_.prototypes[moving_prototype(at, place).value].shapes
+                               : current_object_ ? scene_.prototypes[*current_object_].shapes
+                                                 : scene_.shapes;
+  if (geometry.curve) {
+    if (shape.area_light || !is_similarity(shape.object_to_world))
+      context_.report.approximated(
+          "curves that shine, or that no similarity places, become tubes of triangles", place);
+    quadric_runs_.add_curve(scene_, shapes, std::move(shape));
+  } else if (&shapes == &scene_.shapes && context_.mesh_memory.is_limited()) {
+    quadric_runs_.add(scene_, std::move(shape));
+  } else {
+    shapes.push_back(std::move(shape));
+  }
 }
 
 void Interpreter::object_instance(const Place& place) {

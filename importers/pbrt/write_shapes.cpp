@@ -8,9 +8,9 @@
 #include "importers/pbrt/write_images.h"
 #include "importers/placed_quadric.h"
 #include "scene/bounds.h"
+#include "scene/deferred_mesh.h"
 #include "scene/kinds.h"
 #include "scene/mesh_uv.h"
-#include "scene/tessellate.h"
 #include "scene/uv_uses.h"
 
 namespace vitrail::pbrt {
@@ -166,7 +166,7 @@ class ShapeWriter {
     std::optional<TriangleMesh>& fixed = fixed_[shape.mesh.value];
     if (mesh.quadric) {
       p.approximated(as_triangles(*mesh.quadric));
-      if (!fixed) fixed = tessellate(*mesh.quadric);
+      if (!fixed) loaded(mesh, fixed.emplace());
     }
     const bool follow = fronts_follow_normals(mesh);
     const bool lacks_uvs =

@@ -14,7 +14,7 @@
 #include "importers/povray/pigments.h"
 #include "importers/povray/units.h"
 #include "scene/atomic_file.h"
-#include "scene/tessellate.h"
+#include "scene/deferred_mesh.h"
 
 namespace vitrail {
 
@@ -209,7 +209,8 @@ class Writer {
     if (!mesh.mesh.quadric) return has_area(mesh) ? "mesh2 {\n" + triangles(mesh) : "";
     if (std::string text = quadric_text(mesh); !text.empty()) return text;
     context_.approximated(as_triangles(*mesh.mesh.quadric), shape.origin);
-    const TriangleMesh tessellated = tessellate(*mesh.mesh.quadric);
+    TriangleMesh tessellated;
+    loaded(mesh.mesh, tessellated);
     return geometry_text(shape, {tessellated, mesh.to_pov, mesh.flip, mesh.with_uvs});
   }
 

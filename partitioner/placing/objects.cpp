@@ -10,6 +10,7 @@
 #include "partitioner/placing/frame.h"
 #include "partitioner/placing/prototype_uses.h"
 #include "partitioner/placing/shared_shapes.h"
+#include "scene/curve.h"
 #include "scene/deferred_mesh.h"
 #include "scene/tessellate.h"
 
@@ -150,7 +151,7 @@ class Planner {
     if (is_new) {
       Assembly object;
       object.motion = &scene_.motions[motion.value];
-      use(object, static_cast<std::uint32_t>(object_of_[prototype.value]), {});
+      use(object, static_cast<std::uint32_t>(object_of_[prototype.value]), Transform{});
       object.bounds = swept(*object.motion, box_of(object.uses[0]));
       known->second = static_cast<std::uint32_t>(plan_.objects.size());
       plan_.objects.push_back(std::move(object));
@@ -197,8 +198,12 @@ class Planner {
   void add(Assembly& a, const Shape& shape, const Transform& outer) {
     const TriangleMesh* stored = &scene_.meshes.at(shape.mesh.value);
     if (triangles_of(*stored) == 0) return;
-    if (stored->places) return add_run(a, shape, *stored->places, outer * shape.object_to_world);
-    if (stored->quadric) {
+    if (stored->places) {
+      const Transform to_a = outer * shape.object_to_world;
+      if (!is_curve(*stored->quadric) || (!shape.area_light && is_affine(to_a) && is_similarity(to_a)))
+        return add_run(a, shape, *stored->places, to_a);
+      stored = &tessellated(shape.mesh);
+    } else if (stored->quadric) {
       if (!shines_along_its_normals(shape) &&
           can_be_kept(outer * shape.object_to_world, most_condition_of_quadrics))
         return use(a, object_of_quadric(shape), outer * shape.object_to_world);
@@ -211,13 +216,14 @@ class Planner {
 
   // Lights are uses by themselves: sampling has them all.
   void add_run(Assembly& a, const Shape& shape, const QuadricPlaces& places, const Transform& t) {
-    const QuadricRun run{object_of_quadric(shape), &places, affine(t), a.triangles};
+    const Quadric& quadric = *scene_.meshes[shape.mesh.value].quadric;
+    const QuadricRun run{&quadric, object_of_quadric(shape), &places, affine(t), a.triangles};
     if (&a == &plan_.scene && !shape.area_light) {
       a.runs.push_back(run);
       a.triangles += places.size();
       a.depth = std::max(a.depth, 1);
     } else {
-      for_each_use(run, [&](const ObjectUse& u) { use(a, u.object, transform_of(u.to_parent)); });
+      for_each_use(run, [&](const ObjectUse& u) { use(a, u.object, u.to_parent); });
     }
   }
 
@@ -246,7 +252,8 @@ class Planner {
   const TriangleMesh& tessellated(Id<TriangleMesh> quadric) {
     const auto [known, is_new] = tessellated_.try_emplace(quadric.value);
     if (is_new) {
-      auto mesh = std::make_unique<const TriangleMesh>(tessellate(*scene_.meshes[quadric.value].quadric));
+      auto mesh = std::make_unique<TriangleMesh>();
+      loaded(scene_.meshes[quadric.value], *mesh);
       known->second = mesh.get();
       plan_.tessellated.push_back(std::move(mesh));
     }
@@ -254,9 +261,13 @@ class Planner {
   }
 
   void use(Assembly& a, std::uint32_t object, const Transform& t) const {
+    use(a, object, affine(t * translate(plan_.objects[object].centre)));
+  }
+
+  // Finished when the centre of `a` is known.
+  void use(Assembly& a, std::uint32_t object, const Affine& to_a) const {
     const Assembly& part = plan_.objects[object];
-    // Finished when the centre is known.
-    a.uses.push_back({object, affine(t * translate(part.centre)), a.triangles});
+    a.uses.push_back({object, to_a, a.triangles});
     a.triangles += part.triangles;
     a.depth = std::max(a.depth, part.depth + 1);
   }
@@ -356,7 +367,7 @@ class Planner {
     const auto& m = use.to_parent.m;
     const Assembly& object = plan_.objects[use.object];
     const auto row = [&](std::size_t i) { return std::abs(m[i][0]) + std::abs(m[i][1]) + std::abs(m[i][2]); };
-    if (object.motion) {
+    if (object.motion || (object.quadric && is_curve(*object.quadric->mesh->quadric))) {
       const Bounds3d box = box_of(use);
       return {center(box), greatest(extent(box)) / 2, static_cast<double>(object.triangles)};
     }
@@ -429,6 +440,11 @@ Bounds3f placed_bounds(const Assembly& object, const Affine& to_parent) {
 
 namespace {
 
+Affine placed_use(const Assembly& object, const Affine& outer, const Affine& to_parent) {
+  return object.quadric ? compose(outer, *object.quadric->mesh->quadric, to_parent)
+                        : compose(outer, to_parent);
+}
+
 // Calls visit(object, chain, first id) for every use of the scene and within, of objects that `enter` says
 // to. What moves has no place for what is within it.
 void for_each_use(const ScenePlan& plan, const std::vector<bool>& enter, const auto& visit) {
@@ -438,7 +454,8 @@ void for_each_use(const ScenePlan& plan, const std::vector<bool>& enter, const a
         visit(use.object, chain, first);
         if (plan.objects[use.object].motion) return;
         for (const ObjectUse& inner : plan.objects[use.object].uses)
-          expand(inner, compose(chain, inner.to_parent), first + inner.first_triangle);
+          expand(inner, placed_use(plan.objects[inner.object], chain, inner.to_parent),
+                 first + inner.first_triangle);
       };
   for (const ObjectUse& use : plan.scene.uses) expand(use, use.to_parent, use.first_triangle);
 }

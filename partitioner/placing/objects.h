@@ -23,13 +23,14 @@ struct ObjectUse {
 // Uses of one quadric that differ in where they stand alone, too many to be held one by one. Ids run in their
 // order.
 struct QuadricRun {
+  const Quadric* quadric = nullptr;
   std::uint32_t object = 0;  // index
   const QuadricPlaces* places = nullptr;
   Affine to_parent{};  // from the places' space
   std::uint64_t first_triangle = 0;
 
   ObjectUse use(std::size_t i, const Transform& place) const {
-    return {object, compose(to_parent, affine(place)), first_triangle + i};
+    return {object, compose(to_parent, *quadric, affine(place)), first_triangle + i};
   }
 };
 // Calls visit(use) for each of the run, in order.

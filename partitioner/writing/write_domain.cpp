@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include "partitioner/hierarchy/build_bvh.h"
+#include "partitioner/writing/curve_boxes.h"
 #include "partitioner/writing/write_objects.h"
 #include "scene/huge_pages.h"
 
@@ -113,14 +115,26 @@ DomainContent make_domain(const NumberedTriangles& triangles, const CellContent&
   return content;
 }
 
-void add_instances(std::vector<InstanceRef> instances, DomainContent& content) {
+void add_instances(std::vector<InstanceRef> instances, std::span<const ObjectInfo> objects,
+                   DomainContent& content) {
   std::vector<Bounds3f> boxes;
-  for (InstanceRef& ref : instances) {
-    boxes.push_back(box_of(ref));
-    set_box(ref, inflated(boxes.back(), 0));
+  std::vector<std::uint32_t> instance_of;  // of each box
+  for (std::uint32_t i = 0; i < instances.size(); ++i) {
+    InstanceRef& ref = instances[i];
+    const auto& quadric = objects[ref.object].quadric;
+    if (quadric && is_curve(quadric->quadric))
+      std::ranges::copy(curve_boxes(ref), std::back_inserter(boxes));
+    else
+      boxes.push_back(box_of(ref));
+    instance_of.resize(boxes.size(), i);
+    set_box(ref, inflated(box_of(ref), 0));
   }
   content.instances = std::move(instances);
   content.instance_nodes = build_tree(boxes);
+  for (BvhNode& node : content.instance_nodes)
+    for (std::uint32_t& child : node.child)
+      if (child != BvhNode::empty && child & BvhNode::cluster_bit)
+        child = BvhNode::cluster_bit | instance_of[child & ~BvhNode::cluster_bit];
 }
 
 StoreDomain domain_files(std::filesystem::path bundle) {
@@ -133,7 +147,7 @@ DomainInfo write_domain(const Manifest& manifest, const NumberedTriangles& trian
                         std::vector<InstanceRef> instances, const StoreDomain& store, std::uint32_t index,
                         Census& census) {
   DomainContent content = make_domain(triangles, cell, true);
-  add_instances(std::move(instances), content);
+  add_instances(std::move(instances), manifest.objects, content);
   census.add(index, view_of(content), content.pieces, content.piece_vertices);
   DomainInfo info{.triangles = cell.size(), .pieces = cell.pieces.size()};
   info.tight_bounds = content_bounds(view_of(content));

@@ -13,7 +13,8 @@ namespace vitrail {
 // What a file holds of these of the triangles.
 DomainContent make_domain(const NumberedTriangles& triangles, const CellContent& cell, bool padded);
 // The boxes of the instances are not inflated yet.
-void add_instances(std::vector<InstanceRef> instances, DomainContent& content);
+void add_instances(std::vector<InstanceRef> instances, std::span<const ObjectInfo> objects,
+                   DomainContent& content);
 
 // Where domains go. Completes the domain's line in the manifest with what its file says. From any thread.
 using StoreDomain = std::function<void(std::uint32_t domain, DomainContent content, DomainInfo& info)>;

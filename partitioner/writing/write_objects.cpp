@@ -132,7 +132,7 @@ void write_object(const World& world, const WorldObject& o, std::uint32_t first,
     DomainContent content = make_domain(object, {std::move(part), {}, {}}, false);
     ObjectInfo& info = infos[file];
     info = {o.assembly.triangles, 0, 0, o.first_surface, o.surface_count, objects_of(refs)};
-    add_instances(std::move(refs), content);
+    add_instances(std::move(refs), infos, content);
     info.bytes = write_domain_file(object_path(bundle, file), content, &info.hash);
     if (!o.assembly.motion) continue;
     info.motion = *o.assembly.motion;
@@ -178,6 +178,12 @@ std::uint64_t triangles_of_objects(const World& world) {
 std::uint64_t SceneInstances::in_runs() const {
   std::uint64_t count = 0;
   for (const Run& r : runs) count += r.run.places->size();
+  return count;
+}
+
+std::uint64_t SceneInstances::room_in_runs() const {
+  std::uint64_t count = 0;
+  for (const Run& r : runs) count += r.run.places->size() * (is_curve(r.quadric) ? 3 : 1);
   return count;
 }
 

@@ -27,6 +27,8 @@ struct SceneInstances {
   std::vector<Run> runs;
 
   std::uint64_t in_runs() const;
+  // In quadrics: a curve takes as much as three.
+  std::uint64_t room_in_runs() const;
   void for_each_of_runs(const std::function<void(const InstanceRef&)>& visit) const;
 };
 

@@ -11,7 +11,7 @@
 #include "importers/mitsuba/serialized.h"
 #include "importers/ply/ply.h"
 #include "importers/ply/write_ply.h"
-#include "importers/shapes/curve.h"
+#include "scene/curve_meshes.h"
 #include "scene/deferred_mesh.h"
 #include "tests/importers/temporary_folder.h"
 
@@ -325,7 +325,14 @@ std::string bytes(T... values) {
   return result;
 }
 
-TEST(MitsubaShapes, CurvesBecomeTubes) {
+// Curves stay curves; what is tessellated of them has the area of the tubes.
+TriangleMesh as_tubes(const TriangleMesh& curves) {
+  EXPECT_TRUE(curves.quadric && is_curve(*curves.quadric));
+  TriangleMesh storage;
+  return loaded(curves, storage);
+}
+
+TEST(MitsubaShapes, CurvesStayCurves) {
   TemporaryFolder folder;
   const std::string file =
       folder
@@ -333,17 +340,19 @@ TEST(MitsubaShapes, CurvesBecomeTubes) {
                  "0 0 0 .1\n1 0 0 .1\n2 0 0 .1\n3 0 0 .1\n\n\n0 5 0 .2\n0 5 1 .2\n0 5 2 .2\n0 5 3 .2\n")
           .string();
   const Reading bspline = std::move(Reading().add(shape("bsplinecurve", {{"filename", file, {}}})));
-  expect_fronts_follow_normals(bspline.mesh());
-  EXPECT_NEAR(area(bspline.mesh()), 2 * pi * (.1 + .2), 0.02);
+  EXPECT_EQ(bspline.mesh().places->size(), 2u);
+  expect_fronts_follow_normals(as_tubes(bspline.mesh()));
+  EXPECT_NEAR(area(as_tubes(bspline.mesh())), 2 * pi * (.1 + .2), 0.02);
   const Reading linear = std::move(Reading().add(shape("linearcurve", {{"filename", file, {}}})));
-  expect_fronts_follow_normals(linear.mesh());
-  EXPECT_NEAR(area(linear.mesh()), 2 * pi * 3 * (.1 + .2) + 4 * pi * (.01 + .04), 0.1);
-  for (const TriangleMesh& mesh : {bspline.mesh(), linear.mesh()})
+  EXPECT_EQ(linear.mesh().places->size(), 6u);
+  expect_fronts_follow_normals(as_tubes(linear.mesh()));
+  EXPECT_NEAR(area(as_tubes(linear.mesh())), 2 * pi * 3 * (.1 + .2) + 4 * pi * (.01 + .04), 0.1);
+  for (const TriangleMesh& mesh : {as_tubes(bspline.mesh()), as_tubes(linear.mesh())})
     for (const Point2f uv : mesh.uvs) ASSERT_TRUE(uv.x >= 0 && uv.x <= 1 && uv.y >= 0 && uv.y <= 1);
 }
 
 // 0.6's: as text and binary, one radius for all; points alone are no hair.
-TEST(MitsubaShapes, HairOf06BecomesTubes) {
+TEST(MitsubaShapes, HairOf06IsCurves) {
   TemporaryFolder folder;
   const float end = INFINITY;
   const std::string text =
@@ -354,10 +363,9 @@ TEST(MitsubaShapes, HairOf06BecomesTubes) {
     return std::move(Reading().add(shape("hair", {{"filename", file, {}}, {"radius", .1, {}}})));
   };
   const Reading as_text = read(text), as_binary = read(folder.write("h.hair", binary).string());
-  EXPECT_NEAR(area(as_text.mesh()), 2 * pi * .1 * 4, 0.05);
-  expect_fronts_follow_normals(as_text.mesh());
-  EXPECT_EQ(as_text.mesh().positions, as_binary.mesh().positions);
-  EXPECT_EQ(as_text.mesh().triangles, as_binary.mesh().triangles);
+  EXPECT_NEAR(area(as_tubes(as_text.mesh())), 2 * pi * .1 * 4, 0.05);
+  expect_fronts_follow_normals(as_tubes(as_text.mesh()));
+  EXPECT_EQ(as_tubes(as_text.mesh()), as_tubes(as_binary.mesh()));
   const auto error = [&](const std::string& content, double radius = .1) {
     return error_of(
         shape("hair", {{"filename", folder.write("e.hair", content).string(), {}}, {"radius", radius, {}}}));
@@ -408,7 +416,7 @@ TEST(Curves, RibbonsFaceTheirNormals) {
   const std::vector<CurvePoint> straight{{{0, 0, 0}, .5}, {{1, 0, 0}, .5}, {{2, 0, 0}, .5}, {{3, 0, 0}, .5}};
   const std::vector<Vector3d> normals{{0, 0, 1}, {0, 2, 0}};
   TriangleMesh mesh;
-  append_ribbon(bezier_segments(straight), normals, {8, 0}, mesh);
+  append_ribbon(bezier_segments(straight), normals, 8, mesh);
   expect_fronts_follow_normals(mesh);
   EXPECT_EQ(mesh.positions.size(), 18u);
   EXPECT_NEAR(mesh.normals[8].y, std::sqrt(0.5), 1e-6);  // half-way

@@ -7,6 +7,7 @@
 
 #include "importers/pbrt/pbrt.h"
 #include "pbrt_text.h"
+#include "scene/curve.h"
 #include "scene/quadric_places.h"
 #include "scene/rgb_to_spectrum.h"
 #include "scene/tessellate.h"
@@ -241,23 +242,42 @@ TEST(PbrtShapes, PowerCountsTheAreaOfQuadrics) {
   EXPECT_NEAR(area("Shape \"cylinder\" \"float radius\" 3") / rectangle, 4 * 12 * std::numbers::pi, 1e-3);
 }
 
-TEST(PbrtCurves, BecomeTubesAndRibbons) {
+TEST(PbrtCurves, StayCurvesAndRibbonsBecomeTriangles) {
   const std::string p = " \"point3 P\" [0 0 0 1 0 0 2 0 0 3 0 0] \"float width\" 2 ";
   const auto mesh_of = [](const std::string& world) { return import_v4(world).scene.meshes.at(0); };
-  const TriangleMesh tube = mesh_of("Shape \"curve\" \"string type\" \"cylinder\"" + p);
-  EXPECT_EQ(tube.triangles.size(), 12u);  // straight: one step
-  EXPECT_EQ(tube.positions[0].x, 0);
-  // A hexagon of the circumference 2π.
-  EXPECT_NEAR(std::hypot(tube.positions[0].y, tube.positions[0].z), std::numbers::pi / 3, 1e-6);
-  EXPECT_EQ(tube.uvs.back(), (Point2f{1, 1}));
-  EXPECT_EQ(tube.positions.back().x, 3);
+  const auto curves_of = [&](const std::string& world) {
+    const TriangleMesh mesh = mesh_of(world);
+    std::vector<Transform> places(mesh.places->size());
+    mesh.places->read(0, places);
+    std::vector<PlacedCurve> curves;
+    for (const Transform& place : places) curves.push_back(unpacked_curve(place));
+    return curves;
+  };
+  const std::vector<PlacedCurve> round = curves_of("Shape \"curve\" \"string type\" \"cylinder\"" + p);
+  ASSERT_EQ(round.size(), 1u);
+  EXPECT_EQ(round[0].to[2], (Vector3f{3, 0, 0}));
+  EXPECT_EQ(round[0].radius, (std::array<float, 4>{1, 1, 1, 1}));
+  EXPECT_EQ(std::pair(round[0].along_first, round[0].along_last), std::pair(0.f, 1.f));
+  // Two segments; those that follow each other and are alike become one shape.
+  const std::string two =
+      "Shape \"curve\" \"point3 P\" [0 0 0 1 0 0 2 0 0 3 0 0 4 0 0 5 0 0 6 1 0] \"float width0\" 2 "
+      "\"float width1\" 0 ";
+  const ImportedScene many = import_v4(two + "Scale 2 2 2 " + two + "Material \"conductor\" " + two);
+  ASSERT_EQ(many.scene.shapes.size(), 2u);
+  ASSERT_EQ(many.scene.meshes.size(), 2u);
+  const std::vector<PlacedCurve> run = curves_of(two + "Scale 2 2 2 " + two);
+  ASSERT_EQ(run.size(), 4u);
+  EXPECT_EQ(run[1].radius[0], 0.5f);
+  EXPECT_EQ(run[1].along_first, 0.5f);
+  EXPECT_EQ(run[2].radius[0], 2.f);
+  EXPECT_EQ(run[2].to[2], (Vector3f{6, 0, 0}));
   const TriangleMesh ribbon =
       mesh_of("Shape \"curve\" \"string type\" \"ribbon\" \"normal N\" [0 0 1 0 0 1] \"float width1\" 0" + p);
   EXPECT_EQ(ribbon.triangles.size(), 2u);
   EXPECT_EQ(ribbon.positions[0], (Point3f{0, -1, 0}));
   EXPECT_EQ(ribbon.positions[3], (Point3f{3, 0, 0}));
-  EXPECT_EQ(mesh_of("Shape \"curve\" \"string basis\" \"bspline\" \"integer degree\" 2" + p).positions[0].x,
-            0.5f);
+  EXPECT_EQ(curves_of("Shape \"curve\" \"string basis\" \"bspline\" \"integer degree\" 2" + p)[0].origin.x,
+            0.5);
   const ImportedScene flat = import_v4("Shape \"curve\"" + p);
   EXPECT_EQ(flat.diagnostics.size(), 1u);
 }

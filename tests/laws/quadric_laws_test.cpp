@@ -8,7 +8,7 @@
 #include "bundle/loaded_domain.h"
 #include "bundle/verify.h"
 #include "partitioner/partition.h"
-#include "scene/quadric_places.h"
+#include "scene/curve_meshes.h"
 #include "scene/tessellate.h"
 #include "tests/support/render.h"
 #include "tests/support/temporary_directory.h"
@@ -90,6 +90,66 @@ Scene crowd() {
   return scene;
 }
 
+// Curves through each other, bent and straight, and hair; as runs of the scene, in prototypes within
+// prototypes, mirrored too, and one that no similarity places.
+Scene hairy() {
+  std::mt19937 random(17);
+  std::uniform_real_distribution<double> u(-1, 1);
+  Scene scene;
+  HairMaterial fibre;
+  fibre.sigma_a = ConstantSpectrum{0.3f};
+  scene.materials = {Material{DiffuseMaterial{ConstantSpectrum{0.7f}}}, Material{fibre},
+                     Material{ConductorMaterial{}}};
+  const auto strands = [&](int count, double reach) {
+    KeptCurves curves(count % 2 ? QuadricUv::pbrt : QuadricUv::mitsuba, 0);
+    for (int i = 0; i < count; ++i) {
+      std::vector<CurvePoint> points;
+      Point3d p{reach * u(random), reach * u(random), reach * u(random)};
+      for (int k = 0; k < 7; ++k) {
+        points.push_back({p, 0.02 + 0.01 * u(random)});
+        p = p + Vector3d{u(random), u(random), u(random)} * 0.3;
+      }
+      const bool straight = i % 3 == 0;
+      curves.add(placed_curves(straight ? linear_segments(points) : bspline_segments(points), 0, 1, straight,
+                               i % 2 == 0));
+    }
+    scene.meshes.push_back(curves.mesh);
+    return Id<TriangleMesh>{static_cast<std::uint32_t>(scene.meshes.size() - 1)};
+  };
+  const auto similarity = [&](double reach) {
+    const double size = std::pow(2, u(random));
+    return translate({reach * u(random), reach * u(random), reach * u(random)}) *
+           rotate(3 * u(random), {u(random), u(random), u(random)}) *
+           scale({size, size, random() % 2 ? -size : size});
+  };
+  const auto add_to = [&](std::vector<Shape>& shapes, Id<TriangleMesh> mesh) {
+    Shape shape;
+    shape.mesh = mesh;
+    shape.material = {static_cast<std::uint32_t>(random() % 3)};
+    shape.object_to_world = similarity(0.3);
+    shape.flip_orientation = swaps_handedness(shape.object_to_world);
+    shapes.push_back(shape);
+  };
+  for (int i = 0; i < 6; ++i) add_to(scene.shapes, strands(20 + i, 1));
+  for (std::uint32_t p = 0; p < 2; ++p) {
+    std::vector<Shape> shapes;
+    add_to(shapes, strands(9, 0.3));
+    Prototype& prototype = scene.prototypes.emplace_back();
+    prototype.shapes = shapes;
+    if (p > 0) prototype.instances.push_back({{0}, similarity(0.3), {}});
+  }
+  for (std::uint32_t i = 0; i < 8; ++i) scene.instances.push_back({{i % 2}, similarity(1), {}});
+  add_to(scene.shapes, strands(3, 1));
+  scene.shapes.back().object_to_world = scene.shapes.back().object_to_world * scale({1, 1, 0.5});
+  add_shape(scene, add_quads(scene, {{{{-3, -3, -1.5f}, {3, -3, -1.5f}, {3, 3, -1.5f}, {-3, 3, -1.5f}}}}),
+            Material{DiffuseMaterial{}});
+  add_shape(scene, add_quads(scene, {{{{-1, -1, 3}, {-1, 1, 3}, {1, 1, 3}, {1, -1, 3}}}}),
+            Material{DiffuseMaterial{}}, AreaLight{ConstantSpectrum{5}});
+  set_camera(scene, {3, 3.5, 2.5}, {0, 0, 0}, {0, 0, 1}, 0.7, 40, 30);
+  scene.settings.max_depth = 6;
+  return scene;
+}
+
 std::uint64_t film_hash(const Scene& scene, const PartitionOptions& partitioning) {
   const TemporaryDirectory directory;
   partition(scene, directory / "scene.vit", partitioning);
@@ -104,14 +164,16 @@ std::uint64_t film_hash(const Scene& scene, const PartitionOptions& partitioning
   return vitrail::render(*transport, options).film_hash;
 }
 
-TEST(Quadrics, OnePictureHoweverTheyAreCut) {
-  const Scene scene = crowd();
+void expect_one_picture(const Scene& scene) {
   const std::uint64_t hash = film_hash(scene, {.domains = 1});
   for (const std::uint32_t domains : {2u, 8u, 64u})
     EXPECT_EQ(film_hash(scene, {.domains = domains}), hash) << domains << " domains";
   EXPECT_EQ(film_hash(scene, {.domains = 8, .flatten = true}), hash) << "copies of instances";
   EXPECT_EQ(film_hash(scene, {.domains = 8, .domains_at_once = 2}), hash) << "spilled";
 }
+
+TEST(Quadrics, OnePictureHoweverTheyAreCut) { expect_one_picture(crowd()); }
+TEST(Curves, OnePictureHoweverTheyAreCut) { expect_one_picture(hairy()); }
 
 // Places of one quadric, in memory or in a file, are the same shapes one by one.
 TEST(Quadrics, OnePictureOfManyPlaces) {
@@ -153,8 +215,10 @@ struct Standing {
 void collect(const DomainView& domain, const DomainView& at, const Affine* chain, std::uint32_t first,
              std::map<std::uint32_t, Standing>& out) {
   for (const InstanceRef& ref : at.instances) {
-    const Affine to_bundle = chain ? compose(*chain, ref.to_parent) : ref.to_parent;
     const DomainView& object = *domain.objects[ref.object];
+    const Affine to_bundle = !chain           ? ref.to_parent
+                             : object.quadric ? compose(*chain, object.quadric->quadric, ref.to_parent)
+                                              : compose(*chain, ref.to_parent);
     const std::uint32_t id = first + ref.first_triangle;
     if (object.quadric)
       out[id] = {to_bundle, object.quadric->quadric, id};
@@ -163,8 +227,7 @@ void collect(const DomainView& domain, const DomainView& at, const Affine* chain
   }
 }
 
-TEST(Quadrics, HitsAreTheLeastOfAll) {
-  Scene scene = crowd();
+void expect_the_least_of_all(Scene scene) {
   std::erase_if(scene.shapes, [&](const Shape& s) { return !scene.meshes[s.mesh.value].quadric; });
   scene.shapes.pop_back();  // the flat one becomes triangles
   for (Prototype& p : scene.prototypes)
@@ -231,6 +294,41 @@ TEST(Quadrics, HitsAreTheLeastOfAll) {
   EXPECT_GT(hits, 5'000u);
   EXPECT_EQ(differ, 0u);
   EXPECT_EQ(occlusion, 0u);
+}
+
+TEST(Quadrics, HitsAreTheLeastOfAll) { expect_the_least_of_all(crowd()); }
+TEST(Curves, HitsAreTheLeastOfAll) {
+  Scene scene = hairy();
+  std::swap(scene.shapes.back(),
+            scene.shapes[scene.shapes.size() - 3]);  // the one that becomes triangles last
+  expect_the_least_of_all(scene);
+}
+
+// The picture of fine tubes.
+TEST(Curves, LookLikeTubes) {
+  Scene scene = hairy();
+  const Brightness exact = brightness(render(scene, 64).film);
+  for (TriangleMesh& mesh : scene.meshes)
+    if (mesh.places) mesh = tessellate(*mesh.quadric, *mesh.places, 48);
+  const Brightness triangles = brightness(render(scene, 64).film);
+  EXPECT_NEAR(exact.mean, triangles.mean, 4 * std::hypot(exact.standard_error, triangles.standard_error));
+  EXPECT_LT(exact.standard_error, 0.03 * exact.mean);
+}
+
+// Hair that absorbs nothing cannot be seen under a uniform sky.
+TEST(Curves, WhiteHairVanishesUnderAUniformSky) {
+  Scene scene = hairy();
+  scene.shapes.resize(6);
+  scene.instances.clear();
+  scene.prototypes.clear();
+  scene.area_lights.clear();
+  HairMaterial fibre;
+  fibre.sigma_a = ConstantSpectrum{0};
+  for (Material& material : scene.materials) material = Material{fibre};
+  scene.lights.push_back(Light{InfiniteLight{ConstantSpectrum{1}}});
+  scene.settings.max_depth = 200;
+  const Brightness result = brightness(render(scene, 64).film);
+  EXPECT_NEAR(result.mean, 1, 4 * result.standard_error + 1e-3);
 }
 
 // The picture of finely tessellated ones, which are a little smaller.

@@ -197,13 +197,20 @@ void occluded_in_instance(const RTCOccludedFunctionNArguments* arguments) {
 std::vector<RTCBounds> leaf_bounds(const DomainView& domain, std::span<const BvhNode> nodes,
                                    std::size_t leaves) {
   const auto pad = static_cast<float>(padding(double{domain.reach}));
-  std::vector<RTCBounds> bounds(leaves);
+  constexpr float infinity = std::numeric_limits<float>::infinity();
+  std::vector<RTCBounds> bounds(leaves,
+                                {infinity, infinity, infinity, 0, -infinity, -infinity, -infinity, 0});
   for (const BvhNode& node : nodes) {
     for (std::size_t i = 0; i < 8; ++i) {
       if (node.child[i] == BvhNode::empty || !(node.child[i] & BvhNode::cluster_bit)) continue;
-      bounds[node.child[i] & ~BvhNode::cluster_bit] = {
-          node.lower[0][i] - pad, node.lower[1][i] - pad, node.lower[2][i] - pad, 0,
-          node.upper[0][i] + pad, node.upper[1][i] + pad, node.upper[2][i] + pad, 0};
+      // Curves have several.
+      RTCBounds& box = bounds[node.child[i] & ~BvhNode::cluster_bit];
+      box.lower_x = std::min(box.lower_x, node.lower[0][i] - pad);
+      box.lower_y = std::min(box.lower_y, node.lower[1][i] - pad);
+      box.lower_z = std::min(box.lower_z, node.lower[2][i] - pad);
+      box.upper_x = std::max(box.upper_x, node.upper[0][i] + pad);
+      box.upper_y = std::max(box.upper_y, node.upper[1][i] + pad);
+      box.upper_z = std::max(box.upper_z, node.upper[2][i] + pad);
     }
   }
   return bounds;

@@ -100,6 +100,7 @@ void extend_chain(const InstanceRay& outer, std::uint32_t index, double time_s, 
 
 Affine through_instance(const Affine* outer, const InstanceRef& ref, const DomainView& object,
                         double time_s) {
+  if (outer && object.quadric) return compose(*outer, object.quadric->quadric, ref.to_parent);
   const Affine to_bundle = outer ? compose(*outer, ref.to_parent) : ref.to_parent;
   return object.motion ? compose(to_bundle, affine(object.motion->at(time_s))) : to_bundle;
 }

@@ -43,6 +43,8 @@ Facing facing_of(const Quadric& q) {
       return {{0, 0, 1}, pi / 4};
     case QuadricKind::paraboloid:
       return {{0, 0, 0}, portable_atan2(2, 1)};
+    case QuadricKind::curve:
+      break;
   }
   return {};
 }

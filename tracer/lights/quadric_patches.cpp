@@ -59,6 +59,8 @@ Profile profile_of(const Quadric& q, double t0, double t1) {
       return {{a, b}, {{1, 1}}};
     case QuadricKind::paraboloid:
       return {{a, {(a.rho + b.rho) / 2, a.rho * b.rho}, b}, {{2 * a.rho, -1}, {2 * b.rho, -1}}};
+    case QuadricKind::curve:
+      break;
   }
   return {};
 }
@@ -144,6 +146,8 @@ Sides sides_seen(const Quadric& q, Point3d p) {
     case QuadricKind::paraboloid:
       if (p.z > 1 || (q.low > 0 && p.z < q.low)) return Sides::both;
       outside = rho2 - p.z;
+      break;
+    case QuadricKind::curve:
       break;
   }
   return std::abs(outside) <= doubt ? Sides::both : outside > 0 ? Sides::outer : Sides::inner;

@@ -27,6 +27,8 @@ double own_area(const Quadric& q) {
       return q.phi_max_rad / std::sqrt(2.0);
     case QuadricKind::paraboloid:
       return q.phi_max_rad * (below(1) - below(q.low)) / 12;
+    case QuadricKind::curve:
+      break;
   }
   return 0;
 }
@@ -54,6 +56,8 @@ Point3d point_by_area(const Quadric& q, double s, double t) {
       const double z = std::clamp((root * root - 1) / 4, q.low, 1.0);
       return at(std::sqrt(z), z);
     }
+    case QuadricKind::curve:
+      break;
   }
   return {};
 }
@@ -72,6 +76,8 @@ Point2d place_by_area(const Quadric& q, Point3d p) {
       return {s, (1 - p.z) * (1 - p.z)};
     case QuadricKind::paraboloid:
       return {s, (below(std::max(p.z, q.low)) - below(q.low)) / (below(1) - below(q.low))};
+    case QuadricKind::curve:
+      break;
   }
   return {};
 }

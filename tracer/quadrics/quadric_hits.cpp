@@ -7,6 +7,7 @@
 
 #include "scene/portable_math.h"
 #include "tracer/intersect/ray.h"
+#include "tracer/quadrics/curve_hits.h"
 
 namespace vitrail {
 
@@ -17,16 +18,24 @@ struct LocalRay {
   Vector3d direction;
 };
 
-// By cofactors. Where the transform cannot be inverted nothing is finite, and every comparison says no.
-LocalRay to_local(const RayConstants& ray, const Affine& to_bundle) {
-  const auto& m = to_bundle.m;
+Vector3d direction_of(const RayConstants& ray) {
   double d[3];
   d[ray.x] = ray.exact_shear_x * ray.direction_z;
   d[ray.y] = ray.exact_shear_y * ray.direction_z;
   d[ray.z] = ray.direction_z;
-  const Vector3d direction{d[0], d[1], d[2]};
-  const Vector3d from{double{ray.origin[0]} - m[0][3], double{ray.origin[1]} - m[1][3],
-                      double{ray.origin[2]} - m[2][3]};
+  return {d[0], d[1], d[2]};
+}
+
+// From where the origin of the quadric's space stands.
+Vector3d origin_of(const RayConstants& ray, const Affine& to_bundle) {
+  const auto& m = to_bundle.m;
+  return {double{ray.origin[0]} - m[0][3], double{ray.origin[1]} - m[1][3], double{ray.origin[2]} - m[2][3]};
+}
+
+// By cofactors. Where the transform cannot be inverted nothing is finite, and every comparison says no.
+LocalRay to_local(const RayConstants& ray, const Affine& to_bundle) {
+  const auto& m = to_bundle.m;
+  const Vector3d direction = direction_of(ray), from = origin_of(ray, to_bundle);
   const auto column = [&](int j) { return Vector3d{m[0][j], m[1][j], m[2][j]}; };
   const Vector3d x = cross(column(1), column(2)), y = cross(column(2), column(0)),
                  z = cross(column(0), column(1));
@@ -55,6 +64,8 @@ Quadratic quadratic_of(QuadricKind kind, Point3d p, Vector3d d) {
     }
     case QuadricKind::paraboloid:
       return {a, b - d.z / 2, c - p.z};
+    case QuadricKind::curve:
+      break;
   }
   return {0, 0, 1};
 }
@@ -79,6 +90,8 @@ Point3d on_surface(QuadricKind kind, Point3d p) {
       return scaled_to(1 - p.z);
     case QuadricKind::paraboloid:
       return {p.x, p.y, p.x * p.x + p.y * p.y};
+    case QuadricKind::curve:
+      break;
   }
   return p;
 }
@@ -110,6 +123,9 @@ bool is_within(const Quadric& q, Point3d p) {
 // from 10⁶ radii away, too, roots are off by what rounding moves that point.
 QuadricHits quadric_hits(const RayConstants& ray, const Affine& to_bundle, const Quadric& quadric,
                          bool starts_there) {
+  if (is_curve(quadric))
+    return curve_hits(origin_of(ray, to_bundle), direction_of(ray), unpacked_curve(to_bundle.m),
+                      starts_there);
   const auto [origin, d] = to_local(ray, to_bundle);
   const Vector3d away = origin - Point3d{};
   const double nearest = -dot(away, d) / dot(d, d);

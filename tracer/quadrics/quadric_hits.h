@@ -12,7 +12,8 @@ struct RayConstants;  // tracer/intersect/ray.h
 
 struct QuadricHit {
   double t;
-  Point3d local;  // in the quadric's own space, on the surface as far as doubles tell
+  Point3d local;  // in the quadric's own space, on the surface as far as doubles tell; of a curve, from its
+                  // origin
 };
 
 // At most two, t ascending, all > 0.

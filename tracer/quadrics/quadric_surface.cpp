@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "scene/portable_math.h"
+#include "tracer/quadrics/curve_hits.h"
 
 namespace vitrail {
 
@@ -29,6 +30,8 @@ Vector3d outwards(QuadricKind kind, Point3d p) {
       return p.z < 1 ? Vector3d{p.x, p.y, 1 - p.z} : Vector3d{0, 0, 1};
     case QuadricKind::paraboloid:
       return {2 * p.x, 2 * p.y, -1};
+    case QuadricKind::curve:
+      break;
   }
   return {};
 }
@@ -70,6 +73,8 @@ Chart pbrt_chart(const Quadric& q, Point3d p) {
       chart.uv.y = (p.z - q.low) / (1 - q.low);
       if (rho > 0) chart.dv = Vector3d{cosine / (2 * rho), sine / (2 * rho), 1} * (1 - q.low);
       break;
+    case QuadricKind::curve:
+      break;
   }
   return chart;
 }
@@ -104,9 +109,13 @@ Vector3d placed_quadric_normal(const OrientedQuadric& quadric, const Affine& to_
 }
 
 QuadricPoint quadric_point(const OrientedQuadric& quadric, const Affine& to_bundle, Point3d local) {
+  if (is_curve(quadric.quadric))
+    return curve_point(unpacked_curve(to_bundle.m), local, quadric.quadric.uv == QuadricUv::mitsuba,
+                       quadric.inside_out);
   const Chart chart = chart_of(quadric.quadric, local);
-  return {placed_point(to_bundle, local), placed_quadric_normal(quadric, to_bundle, local),
-          placed_vector(to_bundle, chart.du), placed_vector(to_bundle, chart.dv), chart.uv};
+  const Vector3d normal = placed_quadric_normal(quadric, to_bundle, local);
+  return {placed_point(to_bundle, local),     normal,  normal, placed_vector(to_bundle, chart.du),
+          placed_vector(to_bundle, chart.dv), chart.uv};
 }
 
 }  // namespace vitrail

@@ -10,6 +10,7 @@ namespace vitrail {
 struct QuadricPoint {
   Point3d p;
   Vector3d normal;      // unit, of the front
+  Vector3d shading;     // the same, but of a curve: perpendicular to the curve itself
   Vector3d dpdu, dpdv;  // 0 where (u,v) do not span a plane: at poles
   Point2d uv;
 };

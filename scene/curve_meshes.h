@@ -2,28 +2,23 @@
 // Curves with a radius as triangle meshes: tubes, and ribbons of twice the radius as their width.
 #pragma once
 
-#include <array>
 #include <span>
-#include <vector>
 
+#include "scene/curve.h"
 #include "scene/mesh.h"
+#include "scene/quadric_places.h"
 
 namespace vitrail {
 
-struct CurvePoint {
-  Point3d position;
-  double radius = 0;
+// Curves kept as what they are, which go to places as they come. Throws Error for numbers that are not finite
+// in single precision.
+struct KeptCurves {
+  KeptCurves(QuadricUv uv, std::uint64_t memory_bytes);
+  void add(std::span<const PlacedCurve> curves);
+
+  TriangleMesh mesh;
+  std::shared_ptr<QuadricPlaces> places;  // the mesh's
 };
-
-// Cubic, by its Bézier control points; radii are interpolated like positions.
-using CurveSegment = std::array<CurvePoint, 4>;
-
-// The segments of a curve with these control points: none where they are too few for one.
-std::vector<CurveSegment> linear_segments(std::span<const CurvePoint> points);             // n − 1
-std::vector<CurveSegment> bspline_segments(std::span<const CurvePoint> points);            // n − 3, cubic
-std::vector<CurveSegment> quadratic_bspline_segments(std::span<const CurvePoint> points);  // n − 2
-std::vector<CurveSegment> bezier_segments(std::span<const CurvePoint> points);             // (n − 1) / 3
-std::vector<CurveSegment> quadratic_bezier_segments(std::span<const CurvePoint> points);   // (n − 1) / 2
 
 // How finely curves are cut: steps along a segment, corners around a tube.
 struct CurveDetail {
@@ -45,7 +40,7 @@ void append_tube(std::span<const CurveSegment> segments, const CurveDetail& deta
 
 // Appends a ribbon across a curve: it is perpendicular to the normals, one a segment's end (segments + 1),
 // which are interpolated on the sphere. Its front is where they point; u runs along it, v across.
-void append_ribbon(std::span<const CurveSegment> segments, std::span<const Vector3d> normals,
-                   const CurveDetail& detail, TriangleMesh& mesh);
+void append_ribbon(std::span<const CurveSegment> segments, std::span<const Vector3d> normals, int steps,
+                   TriangleMesh& mesh);
 
 }  // namespace vitrail

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "importers/shapes/curve.h"
+#include "scene/curve_meshes.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 
 #include "scene/diagnostics.h"
 #include "scene/unit_circle.h"
@@ -17,11 +16,6 @@ namespace {
 
 CurvePoint mix(const CurvePoint& a, const CurvePoint& b, double t) {
   return {a.position + (b.position - a.position) * t, a.radius + (b.radius - a.radius) * t};
-}
-
-// Degree 2 written as degree 3.
-CurveSegment elevated(const CurvePoint& a, const CurvePoint& b, const CurvePoint& c) {
-  return {a, mix(a, b, 2.0 / 3), mix(c, b, 2.0 / 3), c};
 }
 
 // A point of the curve: what a ring or the two edges of a ribbon are made of.
@@ -160,40 +154,16 @@ void join_rings(std::uint32_t lower, int corners, bool lower_is_point, bool uppe
 
 }  // namespace
 
-std::vector<CurveSegment> linear_segments(std::span<const CurvePoint> p) {
-  std::vector<CurveSegment> result;
-  for (std::size_t i = 0; i + 1 < p.size(); ++i)
-    result.push_back({p[i], mix(p[i], p[i + 1], 1.0 / 3), mix(p[i], p[i + 1], 2.0 / 3), p[i + 1]});
-  return result;
+KeptCurves::KeptCurves(QuadricUv uv, std::uint64_t memory_bytes) {
+  mesh.quadric = Quadric{.kind = QuadricKind::curve, .uv = uv};
+  mesh.places = places = std::make_shared<QuadricPlaces>(*mesh.quadric, memory_bytes);
 }
 
-std::vector<CurveSegment> bspline_segments(std::span<const CurvePoint> p) {
-  std::vector<CurveSegment> result;
-  for (std::size_t i = 0; i + 3 < p.size(); ++i) {
-    const CurvePoint b = mix(p[i + 1], p[i + 2], 1.0 / 3), c = mix(p[i + 1], p[i + 2], 2.0 / 3);
-    const CurvePoint before = mix(p[i], p[i + 1], 2.0 / 3), after = mix(p[i + 2], p[i + 3], 1.0 / 3);
-    result.push_back({mix(before, b, 0.5), b, c, mix(c, after, 0.5)});
+void KeptCurves::add(std::span<const PlacedCurve> curves) {
+  for (const PlacedCurve& curve : curves) {
+    if (!is_valid(curve)) throw Error("curves: a point is not finite in single precision");
+    places->add(packed(curve));
   }
-  return result;
-}
-
-std::vector<CurveSegment> quadratic_bspline_segments(std::span<const CurvePoint> p) {
-  std::vector<CurveSegment> result;
-  for (std::size_t i = 0; i + 2 < p.size(); ++i)
-    result.push_back(elevated(mix(p[i], p[i + 1], 0.5), p[i + 1], mix(p[i + 1], p[i + 2], 0.5)));
-  return result;
-}
-
-std::vector<CurveSegment> bezier_segments(std::span<const CurvePoint> p) {
-  std::vector<CurveSegment> result;
-  for (std::size_t i = 0; i + 3 < p.size(); i += 3) result.push_back({p[i], p[i + 1], p[i + 2], p[i + 3]});
-  return result;
-}
-
-std::vector<CurveSegment> quadratic_bezier_segments(std::span<const CurvePoint> p) {
-  std::vector<CurveSegment> result;
-  for (std::size_t i = 0; i + 2 < p.size(); i += 2) result.push_back(elevated(p[i], p[i + 1], p[i + 2]));
-  return result;
 }
 
 CurveDetail curve_detail(std::size_t segments, bool straight) {
@@ -243,9 +213,9 @@ Vector3d interpolate_on_sphere(Vector3d a, Vector3d b, double t) {
 
 }  // namespace
 
-void append_ribbon(std::span<const CurveSegment> segments, std::span<const Vector3d> normals,
-                   const CurveDetail& detail, TriangleMesh& mesh) {
-  const std::vector<Sample> samples = samples_of(segments, detail.steps);
+void append_ribbon(std::span<const CurveSegment> segments, std::span<const Vector3d> normals, int steps,
+                   TriangleMesh& mesh) {
+  const std::vector<Sample> samples = samples_of(segments, steps);
   if (samples.size() < 2) return;
   require_room(mesh, 2 * samples.size());
   const auto first = static_cast<std::uint32_t>(mesh.positions.size());

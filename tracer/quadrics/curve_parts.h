@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+// How a segment of a curve is cut into parts.
+#pragma once
+
+#include <algorithm>
+
+#include "scene/curve.h"
+
+namespace vitrail {
+
+// A control point, or a ball on the curve.
+struct CurveBall {
+  Vector3d at;
+  double radius;
+};
+
+inline CurveBall halfway(const CurveBall& a, const CurveBall& b) {
+  return {(a.at + b.at) * 0.5, (a.radius + b.radius) * 0.5};
+}
+
+// A Bézier curve, and its two halves (de Casteljau).
+struct CubicPart {
+  CurveBall b[4];
+
+  void halves(CubicPart& first, CubicPart& second) const {
+    const CurveBall ab = halfway(b[0], b[1]), bc = halfway(b[1], b[2]), cd = halfway(b[2], b[3]);
+    const CurveBall abc = halfway(ab, bc), bcd = halfway(bc, cd), middle = halfway(abc, bcd);
+    first = {{b[0], ab, abc, middle}};
+    second = {{middle, bcd, cd, b[3]}};
+  }
+};
+
+inline constexpr int most_halvings = 6;
+
+// So many that chords are within an eighth of the greatest radius of the curve (Wang 1984: ¾ of the greatest
+// second difference, over the square of the number of parts).
+inline int halvings(const PlacedCurve& c, double greatest_radius) {
+  if (c.straight) return 0;
+  const Vector3d p1 = cast<double>(c.to[0]), p2 = cast<double>(c.to[1]), p3 = cast<double>(c.to[2]);
+  const Vector3d bend0 = p2 - p1 * 2.0, bend1 = p3 - p2 * 2.0 + p1;
+  const double off = 0.5625 * std::max(dot(bend0, bend0), dot(bend1, bend1));
+  double within = greatest_radius * greatest_radius / 64;
+  int k = 0;
+  for (; k < most_halvings && off > within; ++k) within *= 16;
+  return k;
+}
+
+inline double greatest_radius(const PlacedCurve& c) { return double{*std::ranges::max_element(c.radius)}; }
+
+// Into the curve, of the plane that cuts off its first end; 0 where that is round. Of its last end, likewise,
+// out of the curve.
+inline Vector3d first_plane(const PlacedCurve& c) {
+  for (const Vector3f& to : c.to)
+    if (c.straight || !(to == Vector3f{})) return cast<double>(to);
+  return {};
+}
+inline Vector3d last_plane(const PlacedCurve& c) {
+  const Vector3d end = cast<double>(c.to[2]), from[3] = {cast<double>(c.to[1]), cast<double>(c.to[0]), {}};
+  for (const Vector3d& p : from)
+    if (c.straight || !(p == end)) return end - p;
+  return {};
+}
+
+}  // namespace vitrail
