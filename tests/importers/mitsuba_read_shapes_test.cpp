@@ -51,9 +51,10 @@ struct Reading {
     add_shape(builder, object);
     return *this;
   }
+  const TriangleMesh& stored(std::size_t i = 0) const { return scene.meshes[scene.shapes[i].mesh.value]; }
   TriangleMesh mesh(std::size_t i = 0) const {
     TriangleMesh storage;
-    return loaded(scene.meshes[scene.shapes[i].mesh.value], storage);
+    return loaded(stored(i), storage);
   }
 };
 
@@ -326,12 +327,6 @@ std::string bytes(T... values) {
 }
 
 // Curves stay curves; what is tessellated of them has the area of the tubes.
-TriangleMesh as_tubes(const TriangleMesh& curves) {
-  EXPECT_TRUE(curves.quadric && is_curve(*curves.quadric));
-  TriangleMesh storage;
-  return loaded(curves, storage);
-}
-
 TEST(MitsubaShapes, CurvesStayCurves) {
   TemporaryFolder folder;
   const std::string file =
@@ -340,14 +335,16 @@ TEST(MitsubaShapes, CurvesStayCurves) {
                  "0 0 0 .1\n1 0 0 .1\n2 0 0 .1\n3 0 0 .1\n\n\n0 5 0 .2\n0 5 1 .2\n0 5 2 .2\n0 5 3 .2\n")
           .string();
   const Reading bspline = std::move(Reading().add(shape("bsplinecurve", {{"filename", file, {}}})));
-  EXPECT_EQ(bspline.mesh().places->size(), 2u);
-  expect_fronts_follow_normals(as_tubes(bspline.mesh()));
-  EXPECT_NEAR(area(as_tubes(bspline.mesh())), 2 * pi * (.1 + .2), 0.02);
+  ASSERT_TRUE(is_curve(bspline.stored().quadric.value()));
+  EXPECT_EQ(bspline.stored().places->size(), 2u);
+  expect_fronts_follow_normals(bspline.mesh());
+  EXPECT_NEAR(area(bspline.mesh()), 2 * pi * (.1 + .2), 0.02);
   const Reading linear = std::move(Reading().add(shape("linearcurve", {{"filename", file, {}}})));
-  EXPECT_EQ(linear.mesh().places->size(), 6u);
-  expect_fronts_follow_normals(as_tubes(linear.mesh()));
-  EXPECT_NEAR(area(as_tubes(linear.mesh())), 2 * pi * 3 * (.1 + .2) + 4 * pi * (.01 + .04), 0.1);
-  for (const TriangleMesh& mesh : {as_tubes(bspline.mesh()), as_tubes(linear.mesh())})
+  ASSERT_TRUE(is_curve(linear.stored().quadric.value()));
+  EXPECT_EQ(linear.stored().places->size(), 6u);
+  expect_fronts_follow_normals(linear.mesh());
+  EXPECT_NEAR(area(linear.mesh()), 2 * pi * 3 * (.1 + .2) + 4 * pi * (.01 + .04), 0.1);
+  for (const TriangleMesh& mesh : {bspline.mesh(), linear.mesh()})
     for (const Point2f uv : mesh.uvs) ASSERT_TRUE(uv.x >= 0 && uv.x <= 1 && uv.y >= 0 && uv.y <= 1);
 }
 
@@ -363,9 +360,9 @@ TEST(MitsubaShapes, HairOf06IsCurves) {
     return std::move(Reading().add(shape("hair", {{"filename", file, {}}, {"radius", .1, {}}})));
   };
   const Reading as_text = read(text), as_binary = read(folder.write("h.hair", binary).string());
-  EXPECT_NEAR(area(as_tubes(as_text.mesh())), 2 * pi * .1 * 4, 0.05);
-  expect_fronts_follow_normals(as_tubes(as_text.mesh()));
-  EXPECT_EQ(as_tubes(as_text.mesh()), as_tubes(as_binary.mesh()));
+  EXPECT_NEAR(area(as_text.mesh()), 2 * pi * .1 * 4, 0.05);
+  expect_fronts_follow_normals(as_text.mesh());
+  EXPECT_EQ(as_text.mesh(), as_binary.mesh());
   const auto error = [&](const std::string& content, double radius = .1) {
     return error_of(
         shape("hair", {{"filename", folder.write("e.hair", content).string(), {}}, {"radius", radius, {}}}));
