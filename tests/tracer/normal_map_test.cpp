@@ -43,13 +43,13 @@ TEST(NormalMap, TurnsTheTangentOfTheSmoothFrame) {
   at.dpdu = {2, 0.5, 0}, at.dpdv = {0, 3, 0};
   at.out = normalize(Vector3d{0.1, 0.2, 1});
   at.front = true;
-  const auto scattering = materials.scattering_at(manifest.materials[0], at, {}, {}, 0);
-  ASSERT_TRUE(scattering);
+  ASSERT_TRUE(materials.scatters(manifest.materials[0], at));
+  const Scattering scattering = materials.scattering_at(manifest.materials[0], at, {}, {}, 0);
 
   const Vector3d s = orthogonal(at.shading, at.dpdu), t = cross(at.shading, s);
   const Vector3d local = normalize(Vector3d{0.4, -0.3, 0.8});
   const Vector3d normal = s * local.x + t * local.y + at.shading * local.z;
-  const ShadingFrame& frame = scattering->frame;
+  const ShadingFrame& frame = scattering.frame;
   EXPECT_NEAR(dot(frame.normal, normal), 1, 1e-6);
   EXPECT_NEAR(dot(frame.tangent, orthogonal(normal, s)), 1, 1e-6);
   EXPECT_LT(dot(frame.tangent, orthogonal(normal, at.dpdu)), 0.999);  // what it is not
