@@ -18,7 +18,10 @@ constexpr std::uint64_t most_items_given = 4096;
 }  // namespace
 
 Scheduler::Scheduler(const Job& job, Residency residency)
-    : job_(job), residency_(std::move(residency)), pair_(static_cast<unsigned>(job.rank) + 1) {}
+    : job_(job),
+      residency_(std::move(residency)),
+      homes_overlap_(residency_.homes().places() > residency_.homes().domains()),
+      pair_(static_cast<unsigned>(job.rank) + 1) {}
 
 Scheduler::Task Scheduler::next_task() const {
   const auto fullest = residency_.fullest();
@@ -151,8 +154,10 @@ void Scheduler::ranks_told(std::shared_ptr<const std::vector<RankReport>> by_ran
 RoundSums Scheduler::contribution() {
   RoundSums mine;
   const bool wants = wants_to_generate();
-  // A slow rank would else keep more and more of what all may generate.
-  asked_ = wants && allowance_ < even_share();
+  // A slow rank would else keep more and more of what all may generate. And where ranks share domains one
+  // that has much to trace would make as many rays as one that waits for some, and trace those itself.
+  const bool has_enough = homes_overlap_ && waiting_ > even_share();
+  asked_ = wants && allowance_ < even_share() && !has_enough;
   mine.born = static_cast<std::int64_t>(born_);
   mine.died = static_cast<std::int64_t>(died_);
   mine.wanting = asked_;

@@ -92,16 +92,19 @@ class Scheduler {
   bool is_full() const;
   std::uint64_t even_share() const { return static_cast<std::uint64_t>(job_.rays_allowed / job_.ranks + 1); }
   bool wants_to_generate() const { return item_is_open_ || (!paused_ && next_item_ < items_); }
-  // None where rays go to where their domains are: whoever generates them, the same ranks trace them. And a
-  // rank whose workers wait keeps its own: it waits for leave to generate, and would else get back what it
-  // has just given.
+  // None where each domain has one home: whoever generates its rays, the same rank traces them. And a rank
+  // whose workers wait keeps its own: it waits for leave to generate, and would else get back what it has
+  // just given.
   std::uint64_t spare_items() const {
-    return residency_.all_are_local() && workers_waiting_ == 0 ? items_ - next_item_ - item_is_open_ : 0;
+    return (residency_.all_are_local() || homes_overlap_) && workers_waiting_ == 0
+               ? items_ - next_item_ - item_is_open_
+               : 0;
   }
   bool is_idle() const { return next_item_ == items_ && workers_waiting_ > 0; }
 
   Job job_;
   Residency residency_;
+  bool homes_overlap_;  // some domain has several
   std::uint64_t items_ = 0, next_item_ = 0, given_ = 0;
   bool item_is_open_ = false;                             // some of its rays are generated, some not
   std::uint64_t in_hand_ = 0;                             // tasks that generate
