@@ -208,6 +208,27 @@ TEST(Simulation, IdleRanksTakeItems) {
   EXPECT_GT(taken.given_items, 400u);
 }
 
+// Two ranks share a domain with seven tenths of the work, and one of them has the rest. Where both generate
+// as many rays, the latter traces .65 of all.
+TEST(Simulation, WhoWaitsForWorkGeneratesIt) {
+  Workload workload;
+  workload.manifest.domains.resize(2);
+  for (DomainInfo& d : workload.manifest.domains) d.bytes = 1000;
+  workload.domains.assign(2, {2e-6, {}});
+  workload.camera.ways = {{0, .7}, {1, .3}};
+  workload.items = 2000;
+  workload.rays_an_item = 1000;
+  Machine machine;
+  machine.ranks = 2;
+  machine.rays_allowed = 8192;
+  machine.domain_bytes = bytes_of_all(workload.manifest);
+  machine.distribution = Distribution::decompose;
+  machine.homes = Homes({0, 1}, {1, 1}, 2);
+  const SimulationResult shared = simulate(workload, machine, {}, 1);
+  EXPECT_GT(shared.efficiency, .95);
+  EXPECT_GT(shared.given_items, 0u);
+}
+
 // Deliberately wrong ones: what they do is found out.
 template <class SchedulerType, class WatchType = Watch, class SpillType = Spill>
 bool is_caught(int jobs) {
