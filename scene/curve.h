@@ -20,6 +20,18 @@ struct CurvePoint {
 // Cubic, by its Bézier control points; radii are interpolated like positions.
 using CurveSegment = std::array<CurvePoint, 4>;
 
+inline CurvePoint halfway(const CurvePoint& a, const CurvePoint& b) {
+  return {a.position + (b.position - a.position) * 0.5, (a.radius + b.radius) * 0.5};
+}
+// The two halves of a Bézier curve (de Casteljau).
+template <class Point>
+void halve(const std::array<Point, 4>& p, std::array<Point, 4>& first, std::array<Point, 4>& second) {
+  const Point ab = halfway(p[0], p[1]), bc = halfway(p[1], p[2]), cd = halfway(p[2], p[3]);
+  const Point abc = halfway(ab, bc), bcd = halfway(bc, cd), middle = halfway(abc, bcd);
+  first = {p[0], ab, abc, middle};
+  second = {middle, bcd, cd, p[3]};
+}
+
 // The segments of a curve with these control points: none where they are too few for one.
 std::vector<CurveSegment> linear_segments(std::span<const CurvePoint> points);             // n − 1
 std::vector<CurveSegment> bspline_segments(std::span<const CurvePoint> points);            // n − 3, cubic

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "scene/diagnostics.h"
+#include "scene/frame.h"
 #include "scene/unit_circle.h"
 
 namespace vitrail {
@@ -62,14 +63,14 @@ std::vector<Sample> samples_of(std::span<const CurveSegment> segments, int steps
   return samples;
 }
 
-// The second and the negated first axis of Duff et al. (2017), listing 3: Mitsuba counts angles from them.
+// The second and the negated first axis of the frame: Mitsuba counts angles from them.
 struct Axes {
   Vector3d first, second;
 };
 
 Axes axes_around(Vector3d n) {
-  const double sign = std::copysign(1.0, n.z), a = -1 / (sign + n.z), b = n.x * n.y * a;
-  return {{b, sign + n.y * n.y * a, -n.y}, Vector3d{-1 - sign * n.x * n.x * a, -sign * b, sign * n.x}};
+  const Frame frame(n);
+  return {frame.bitangent, -frame.tangent};
 }
 
 // The axes carried along the curve without twist.

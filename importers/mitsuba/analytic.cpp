@@ -7,6 +7,7 @@
 
 #include "importers/mitsuba/shape_geometry.h"
 #include "importers/shapes/quadrics.h"
+#include "scene/frame.h"
 
 namespace vitrail::mitsuba {
 
@@ -67,15 +68,8 @@ Vector3d point(Builder& builder, const Object& shape, std::string_view name, Vec
   builder.report.fail(fmt::format("\"{}\" is not finite", name), shape.find(name)->origin);
 }
 
-// The frame around unit n in which Mitsuba counts angles: its z is n (Duff et al. 2017, listing 3).
-Transform frame_around(Vector3d n) {
-  const double sign = std::copysign(1.0, n.z), a = -1 / (sign + n.z), b = n.x * n.y * a;
-  Transform t;
-  t.m[0] = {1 + sign * n.x * n.x * a, b, n.x, 0};
-  t.m[1] = {sign * b, sign + n.y * n.y * a, n.y, 0};
-  t.m[2] = {-sign * n.x, -n.y, n.z, 0};
-  return t;
-}
+// The frame around unit n in which Mitsuba counts angles: its z is n.
+Transform frame_around(Vector3d n) { return transform_of(Frame(n)); }
 
 Transform cylinder_to_object(Builder& builder, const Object& shape) {
   const Vector3d p0 = point(builder, shape, "p0", {0, 0, 0}), p1 = point(builder, shape, "p1", {0, 0, 1});

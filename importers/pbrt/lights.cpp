@@ -11,6 +11,7 @@
 #include "importers/given_sky.h"
 #include "importers/pbrt/image_numbers.h"
 #include "scene/color.h"
+#include "scene/frame.h"
 #include "scene/rgb_to_spectrum.h"
 
 namespace vitrail::pbrt {
@@ -82,12 +83,7 @@ LightModel point_light(const Maker& m) {
 }
 
 // Takes +z to `z` (unit) and is the identity where they agree.
-Transform frame(Vector3d z) {
-  const double sign = std::copysign(1.0, z.z);  // Duff et al. 2017: 1 + |z.z| ≥ 1
-  const double a = -1 / (sign + z.z), b = z.x * z.y * a;
-  const Vector3d x{1 + sign * z.x * z.x * a, sign * b, -sign * z.x}, y{b, sign + z.y * z.y * a, -z.y};
-  return {{{{x.x, y.x, z.x, 0}, {x.y, y.y, z.y, 0}, {x.z, y.z, z.z, 0}, {0, 0, 0, 1}}}};
-}
+Transform frame(Vector3d z) { return transform_of(Frame(z)); }
 
 LightModel spot_light(const Maker& m) {
   const bool v3 = m.scope.context.version == Version::v3;

@@ -11,17 +11,6 @@ namespace vitrail {
 
 namespace {
 
-CurvePoint halfway(const CurvePoint& a, const CurvePoint& b) {
-  return {a.position + (b.position - a.position) * 0.5, (a.radius + b.radius) / 2};
-}
-
-void halve(const CurveSegment& s, CurveSegment& first, CurveSegment& second) {
-  const CurvePoint ab = halfway(s[0], s[1]), bc = halfway(s[1], s[2]), cd = halfway(s[2], s[3]);
-  const CurvePoint abc = halfway(ab, bc), bcd = halfway(bc, cd), middle = halfway(abc, bcd);
-  first = {s[0], ab, abc, middle};
-  second = {middle, bcd, cd, s[3]};
-}
-
 Bounds3d box_of(const CurveSegment& s) {
   double r = 0;
   for (const CurvePoint& p : s) r = std::max(r, p.radius);

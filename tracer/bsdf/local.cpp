@@ -8,13 +8,6 @@
 
 namespace vitrail {
 
-Frame::Frame(Vector3d n) : normal(n) {
-  const double sign = std::copysign(1.0, n.z);
-  const double a = -1 / (sign + n.z), b = n.x * n.y * a;
-  tangent = {1 + sign * n.x * n.x * a, sign * b, -sign * n.x};
-  bitangent = {b, sign + n.y * n.y * a, -n.y};
-}
-
 Vector3d sample_cosine_hemisphere(float u, float v) {
   const double a = 2 * static_cast<double>(u) - 1, b = 2 * static_cast<double>(v) - 1;
   if (a == 0 && b == 0) return {0, 0, 1};

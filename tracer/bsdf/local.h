@@ -3,19 +3,10 @@
 // normal.
 #pragma once
 
+#include "scene/frame.h"
 #include "scene/sampled_spectrum.h"
-#include "scene/vec.h"
 
 namespace vitrail {
-
-// Orthonormal frame around a unit normal (Duff et al. 2017).
-struct Frame {
-  Vector3d tangent, bitangent, normal;
-  explicit Frame(Vector3d unit_normal);
-  Vector3d to_world(Vector3d local) const {
-    return tangent * local.x + bitangent * local.y + normal * local.z;
-  }
-};
 
 // Cosine-weighted direction on the upper hemisphere, pdf cosθ/π: Shirley & Chiu's (1997) disk lifted up.
 Vector3d sample_cosine_hemisphere(float u, float v);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "scene/frame.h"
 #include "scene/portable_math.h"
 #include "tracer/quadrics/curve_parts.h"
 
@@ -81,7 +82,7 @@ class Line {
  private:
   bool may_meet(const CubicPart& p) const {
     double least[2] = {INFINITY, INFINITY}, most[2] = {-INFINITY, -INFINITY};
-    for (const CurveBall& b : p.b) {
+    for (const CurveBall& b : p) {
       least[0] = std::min(least[0], b.at.x), most[0] = std::max(most[0], b.at.x);
       least[1] = std::min(least[1], b.at.y), most[1] = std::max(most[1], b.at.y);
     }
@@ -90,9 +91,9 @@ class Line {
 
   void find(const CubicPart& part, int level, bool has_first, bool has_last) {
     if (!may_meet(part)) return;
-    if (level == 0) return add(part.b[0], part.b[3], has_first, has_last);
+    if (level == 0) return add(part[0], part[3], has_first, has_last);
     CubicPart a, b;
-    part.halves(a, b);
+    halve(part, a, b);
     find(a, level - 1, has_first, false);
     find(b, level - 1, false, has_last);
   }
@@ -126,32 +127,26 @@ class Line {
   Interval found_[1 << most_halvings];
 };
 
-// Perpendicular to a unit vector (Duff et al. 2017, listing 3).
-void find_axes(Vector3d n, Vector3d& x, Vector3d& y) {
-  const double sign = std::copysign(1.0, n.z), a = -1 / (sign + n.z), b = n.x * n.y * a;
-  x = {1 + sign * n.x * n.x * a, sign * b, -sign * n.x};
-  y = {b, sign + n.y * n.y * a, -n.y};
-}
-
 }  // namespace
 
 QuadricHits curve_hits(Vector3d origin, Vector3d direction, const PlacedCurve& c, bool starts_there) {
   QuadricHits hits;
   const double widest = greatest_radius(c), speed = length(direction);
   if (!(widest > 0)) return hits;
-  const Vector3d z = direction * (1 / speed);
-  Vector3d x, y;
-  find_axes(z, x, y);
+  const Frame axes(direction * (1 / speed));
+  const Vector3d z = axes.normal;
   // From the point of the line that is nearest to the middle of the curve nothing is large.
   const Vector3d end = cast<double>(c.to[2]);
   const double nearest = dot(end * 0.5 - origin, z);
   const Vector3d base = origin + z * nearest;
-  const auto seen = [&](Vector3d p) { return Vector3d{dot(p, x), dot(p, y), dot(p, z)}; };
+  const auto seen = [&](Vector3d p) {
+    return Vector3d{dot(p, axes.tangent), dot(p, axes.bitangent), dot(p, z)};
+  };
   CubicPart whole;
-  whole.b[0] = {seen(base * -1.0), double{c.radius[0]}};
+  whole[0] = {seen(base * -1.0), double{c.radius[0]}};
   for (std::size_t i = 0; i < 3; ++i)
-    whole.b[i + 1] = {seen(cast<double>(c.to[i]) - base), double{c.radius[i + 1]}};
-  if (c.straight) whole.b[1] = whole.b[0], whole.b[2] = whole.b[3];
+    whole[i + 1] = {seen(cast<double>(c.to[i]) - base), double{c.radius[i + 1]}};
+  if (c.straight) whole[1] = whole[0], whole[2] = whole[3];
   Line line(c, whole, widest, seen(first_plane(c)), seen(last_plane(c)));
   const int count = line.merge();
   int next = 0;
@@ -199,8 +194,8 @@ CurveBall at(const CubicPart& c, double s, CurveBall& derivative) {
   const auto mix = [s](const CurveBall& a, const CurveBall& b) {
     return CurveBall{a.at * (1 - s) + b.at * s, a.radius * (1 - s) + b.radius * s};
   };
-  const CurveBall bc = mix(c.b[1], c.b[2]);
-  const CurveBall first = mix(mix(c.b[0], c.b[1]), bc), second = mix(bc, mix(c.b[2], c.b[3]));
+  const CurveBall bc = mix(c[1], c[2]);
+  const CurveBall first = mix(mix(c[0], c[1]), bc), second = mix(bc, mix(c[2], c[3]));
   derivative = {(second.at - first.at) * 3.0, (second.radius - first.radius) * 3};
   return mix(first, second);
 }
@@ -208,7 +203,7 @@ CurveBall at(const CubicPart& c, double s, CurveBall& derivative) {
 CubicPart own_space(const PlacedCurve& c) {
   const CurveSegment segment = segment_of(c);
   CubicPart part;
-  for (std::size_t i = 0; i < 4; ++i) part.b[i] = {segment[i].position - c.origin, segment[i].radius};
+  for (std::size_t i = 0; i < 4; ++i) part[i] = {segment[i].position - c.origin, segment[i].radius};
   return part;
 }
 
@@ -216,7 +211,7 @@ Foot foot_of(const PlacedCurve& c, const CubicPart& cubic, Vector3d p) {
   const int parts = 1 << halvings(c, greatest_radius(c));
   Foot best{};
   double least = INFINITY;
-  CurveBall derivative, a = cubic.b[0];
+  CurveBall derivative, a = cubic[0];
   for (int i = 0; i < parts; ++i) {
     const CurveBall b = at(cubic, (i + 1.0) / parts, derivative);
     double along;
@@ -235,7 +230,7 @@ QuadricPoint curve_point(const PlacedCurve& c, Point3d local, bool along_v, bool
   const Foot foot = foot_of(c, cubic, local - Point3d{});
   CurveBall derivative;
   at(cubic, foot.s, derivative);
-  if (!(length(derivative.at) > 0)) derivative.at = cubic.b[3].at;
+  if (!(length(derivative.at) > 0)) derivative.at = cubic[3].at;
   const double speed = length(derivative.at);
   const Vector3d tangent = speed > 0 ? derivative.at * (1 / speed) : Vector3d{0, 0, 1};
   const Vector3d out = normalize(local - Point3d{} - foot.ball.at);
@@ -245,9 +240,8 @@ QuadricPoint curve_point(const PlacedCurve& c, Point3d local, bool along_v, bool
   Vector3d smooth = out;
   if (!c.straight && width > 0.1)
     smooth = normalize(across * (1 / width) - tangent * (speed > 0 ? derivative.radius / speed : 0));
-  Vector3d x, y;
-  find_axes(tangent, x, y);
-  const double angle = portable_atan2(dot(out, x), dot(out, y));
+  const Frame axes(tangent);
+  const double angle = portable_atan2(dot(out, axes.tangent), dot(out, axes.bitangent));
   const double turn = (angle < 0 ? angle + 2 * pi : angle) / (2 * pi);
   const double range = double{c.along_last} - double{c.along_first};
   QuadricPoint point;

@@ -18,17 +18,7 @@ inline CurveBall halfway(const CurveBall& a, const CurveBall& b) {
   return {(a.at + b.at) * 0.5, (a.radius + b.radius) * 0.5};
 }
 
-// A Bézier curve, and its two halves (de Casteljau).
-struct CubicPart {
-  CurveBall b[4];
-
-  void halves(CubicPart& first, CubicPart& second) const {
-    const CurveBall ab = halfway(b[0], b[1]), bc = halfway(b[1], b[2]), cd = halfway(b[2], b[3]);
-    const CurveBall abc = halfway(ab, bc), bcd = halfway(bc, cd), middle = halfway(abc, bcd);
-    first = {{b[0], ab, abc, middle}};
-    second = {{middle, bcd, cd, b[3]}};
-  }
-};
+using CubicPart = std::array<CurveBall, 4>;  // by its Bézier control points
 
 inline constexpr int most_halvings = 6;
 
