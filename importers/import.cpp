@@ -12,6 +12,8 @@
 #include "importers/obj/obj.h"
 #include "importers/pbrt/pbrt.h"
 #include "importers/ply/ply.h"
+#include "scene/curve.h"
+#include "scene/curve_uses.h"
 #include "scene/diagnostics.h"
 
 namespace vitrail {
@@ -100,6 +102,28 @@ void report_endless_medium(ImportedScene& imported) {
   }
 }
 
+void report_tubes(ImportedScene& imported) {
+  const Scene& scene = imported.scene;
+  const std::vector<bool> with_curves = prototypes_with_curves(scene);
+  const auto say = [&](const Origin& origin, RecordKind kind, const char* what) {
+    const SourceLocation place = location(scene, origin);
+    imported.diagnostics.push_back({Fidelity::approximated, what, place, place, kind});
+  };
+  const auto look_at = [&](const std::vector<Shape>& shapes, const std::vector<Instance>& instances) {
+    for (const Shape& shape : shapes)
+      if (is_of_curves(scene, shape) && (shape.area_light || !is_similarity(shape.object_to_world)))
+        say(shape.origin, RecordKind::shape,
+            "curves that shine, or that no similarity places, become tubes of triangles");
+    for (const Instance& instance : instances)
+      if (with_curves[instance.prototype.value] && !is_similarity(instance.prototype_to_world))
+        say(instance.origin, RecordKind::instance,
+            instance.motion ? "curves that move and are stretched have radii of its root mean square"
+                            : "curves that are stretched become tubes of triangles");
+  };
+  look_at(scene.shapes, scene.instances);
+  for (const Prototype& prototype : scene.prototypes) look_at(prototype.shapes, prototype.instances);
+}
+
 }  // namespace
 
 ImportedScene import_scene(const std::filesystem::path& file, MeshMemory memory,
@@ -109,6 +133,7 @@ ImportedScene import_scene(const std::filesystem::path& file, MeshMemory memory,
   ImportedScene imported = read_scene(file, std::move(memory), std::move(progress), options);
   if (sky) replace_sky(imported, *sky);
   report_endless_medium(imported);
+  report_tubes(imported);
   return imported;
 }
 

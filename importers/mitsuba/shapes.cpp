@@ -7,7 +7,6 @@
 #include "importers/mitsuba/shape_geometry.h"
 #include "importers/mitsuba/subsurface.h"
 #include "importers/shapes/vertex_normals.h"
-#include "scene/curve.h"
 
 namespace vitrail::mitsuba {
 
@@ -133,10 +132,6 @@ void add_geometry(Builder& builder, const Object& object, const ShapeGeometry& g
             object.origin);
     }
   }
-  if (const auto& quadric = builder.scene.meshes[shape.mesh.value].quadric;
-      quadric && is_curve(*quadric) && (shape.area_light || !is_similarity(shape.object_to_world)))
-    builder.report.approximated("curves that shine, or that no similarity places, become tubes of triangles",
-                                object.origin);
   if (in_group && has_read_vertices(builder.scene, builder.scene.meshes[shape.mesh.value]))
     builder.report.approximated(
         "attributes of vertices in instances are those of the place met: Mitsuba 3.9 takes them from "

@@ -7,7 +7,6 @@
 #include <numbers>
 
 #include "importers/pbrt/directives.h"
-#include "scene/curve.h"
 
 namespace vitrail::pbrt {
 
@@ -362,9 +361,6 @@ void Interpreter::add_shape(const ShapeGeometry& geometry, const FloatParameter&
                                : current_object_ ? scene_.prototypes[*current_object_].shapes
                                                  : scene_.shapes;
   if (geometry.curve) {
-    if (shape.area_light || !is_similarity(shape.object_to_world))
-      context_.report.approximated(
-          "curves that shine, or that no similarity places, become tubes of triangles", place);
     quadric_runs_.add_curve(scene_, shapes, std::move(shape));
   } else if (&shapes == &scene_.shapes && context_.mesh_memory.is_limited()) {
     quadric_runs_.add(scene_, std::move(shape));

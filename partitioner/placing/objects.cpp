@@ -11,6 +11,7 @@
 #include "partitioner/placing/prototype_uses.h"
 #include "partitioner/placing/shared_shapes.h"
 #include "scene/curve.h"
+#include "scene/curve_uses.h"
 #include "scene/deferred_mesh.h"
 #include "scene/tessellate.h"
 
@@ -112,7 +113,11 @@ FramePart part_of_mesh(const Placement& p) {
 class Planner {
  public:
   explicit Planner(const Scene& scene)
-      : scene_(scene), uses_(scene), shared_(scene), object_of_(scene.prototypes.size(), -1) {}
+      : scene_(scene),
+        uses_(scene),
+        shared_(scene),
+        with_curves_(prototypes_with_curves(scene)),
+        object_of_(scene.prototypes.size(), -1) {}
 
   ScenePlan plan() {
     const std::vector<bool> moves = moving_prototypes();
@@ -293,7 +298,8 @@ class Planner {
         continue;
       }
       const Transform t = to_a * instance->prototype_to_world;
-      if (object_of_[inner] >= 0 && uses_.may_keep(outer, inner) && can_be_kept(t)) {
+      if (object_of_[inner] >= 0 && uses_.may_keep(outer, inner) && can_be_kept(t) &&
+          (!with_curves_[inner] || is_similarity(t))) {
         use(a, static_cast<std::uint32_t>(object_of_[inner]), t);
         continue;
       }
@@ -406,6 +412,7 @@ class Planner {
   const Scene& scene_;
   PrototypeUses uses_;
   SharedShapes shared_;
+  std::vector<bool> with_curves_;               // by prototype
   std::vector<int> object_of_;                  // of each prototype; −1: copied wherever it is used
   std::map<ShapeKey, std::uint32_t> quadrics_;  // objects
   std::map<std::uint32_t, const TriangleMesh*> tessellated_;  // by mesh

@@ -34,6 +34,24 @@ TEST(ImportScene, GoesByTheNameOfTheFile) {
   EXPECT_THROW(import_scene(folder.path() / "none.pbrt"), Error);
 }
 
+TEST(ImportScene, SaysWhichCurvesBecomeTubes) {
+  const TemporaryFolder folder;
+  const std::string curve =
+      "Shape \"curve\" \"string type\" \"cylinder\" \"point3 P\" [0 0 0 1 0 0 2 1 0 3 1 0] ";
+  const auto said = [&](const std::string& world, const char* what) {
+    return mentions(import_scene(folder.write("a.pbrt", "Film \"rgb\" WorldBegin " + world)).diagnostics,
+                    what);
+  };
+  const std::string object = "ObjectBegin \"a\" " + curve + "ObjectEnd ";
+  EXPECT_FALSE(said("Scale 2 2 -2 " + curve, "tubes of triangles"));
+  EXPECT_TRUE(said("Scale 2 2 3 " + curve, "that no similarity places, become tubes"));
+  EXPECT_TRUE(said("AreaLightSource \"diffuse\" " + curve, "curves that shine"));
+  EXPECT_FALSE(said(object + "Scale 2 2 2 ObjectInstance \"a\"", "tubes of triangles"));
+  EXPECT_TRUE(said(object + "Scale 2 2 3 ObjectInstance \"a\"", "curves that are stretched"));
+  EXPECT_FALSE(said("ObjectBegin \"a\" " + triangle + " ObjectEnd Scale 2 2 3 ObjectInstance \"a\"",
+                    "curves that are stretched"));
+}
+
 TEST(ImportScene, ShowsAllOfGeometryAloneUnderASky) {
   const TemporaryFolder folder;
   const ImportedScene imported = import_scene(folder.write("a.ply", ply));

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "scene/curve_meshes.h"
 #include "scene/diagnostics.h"
 #include "tests/support/test_scenes.h"
 
@@ -93,6 +94,24 @@ TEST(Objects, ExpandedIsEveryPlacementInOrder) {
   const auto all = expanded(plan, [](const Placement&) { return true; });
   ASSERT_EQ(all.size(), 16u);
   for (std::size_t i = 0; i < all.size(); ++i) EXPECT_EQ(all[i].first_triangle, 200 * i);
+}
+
+// Balls that are stretched are none: a copy of tubes.
+TEST(Objects, StretchedCurvesAreNotKept) {
+  Scene scene = levels(60, 0);
+  KeptCurves curves(QuadricUv::pbrt, 0);
+  const CurveSegment segment{{{{0, 0, 0}, .1}, {{1, 0, 0}, .1}, {{2, 1, 0}, .1}, {{3, 1, 0}, .1}}};
+  curves.add(placed_curves({&segment, 1}, 0, 1, false, false));
+  Shape curve = scene.prototypes[0].shapes[0];
+  curve.mesh = {static_cast<std::uint32_t>(scene.meshes.size())};
+  scene.meshes.push_back(curves.mesh);
+  scene.prototypes[0].shapes.push_back(curve);
+  scene.instances = {at(0, {}), at(0, scale({2, 2, 2})), at(0, scale({1, 1, 2})), at(0, scale({1, 1, 2}))};
+  const ScenePlan plan = plan_scene(scene);
+  EXPECT_EQ(plan.scene.uses.size(), 2u);
+  EXPECT_EQ(plan.scene.placements.size(), 2u * 2) << "torus and tube";
+  scene.prototypes[0].shapes.pop_back();
+  EXPECT_EQ(plan_scene(scene).scene.uses.size(), 4u);
 }
 
 // ---- Shapes that share a mesh
