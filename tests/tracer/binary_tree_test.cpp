@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <tbb/parallel_for.h>
 
+#include <atomic>
 #include <cmath>
 #include <random>
 
@@ -45,7 +46,7 @@ double cost(const BinaryTree& tree) {
   return sum;
 }
 
-// The same of Embree's builder.
+// The same of Embree's builder, which has threads of its own however many its device is given.
 double embree_cost(const Boxes& boxes) {
   std::vector<RTCBuildPrimitive> primitives;
   for (const Bounds3f& b : boxes)
@@ -53,7 +54,7 @@ double embree_cost(const Boxes& boxes) {
                           static_cast<unsigned>(primitives.size())});
   const RTCDevice device = rtcNewDevice("threads=1");
   const RTCBVH bvh = rtcNewBVH(device);
-  double sum = 0;
+  std::atomic<double> sum = 0;
   RTCBuildArguments a = rtcDefaultBuildArguments();
   a.buildQuality = RTC_BUILD_QUALITY_MEDIUM;
   a.sahBlockSize = a.maxLeafSize = leaf_size;
@@ -68,7 +69,7 @@ double embree_cost(const Boxes& boxes) {
   a.setNodeBounds = [](void*, const RTCBounds** bounds, unsigned count, void* user) {
     for (unsigned i = 0; i < count; ++i) {
       const RTCBounds& b = *bounds[i];
-      *static_cast<double*>(user) +=
+      *static_cast<std::atomic<double>*>(user) +=
           double{half_area(Float4{b.upper_x - b.lower_x, b.upper_y - b.lower_y, b.upper_z - b.lower_z})};
     }
   };
