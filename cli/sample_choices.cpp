@@ -58,8 +58,9 @@ void declare_sample_options(CLI::App& app, SampleArguments& a) {
       ->check(CLI::IsMember({"none", "nearest"}));
   app.add_option(
          "--roulette", a.roulette,
-         "paths end by chance from the first scattering event on (early), after three (usual), or not "
-         "in the first 254 (never): the same picture, quicker and noisier or slower and less so")
+         "paths end by chance once they carry less than all of a camera ray (early), less than a quarter of "
+         "it (usual), or not in the first 254 events (never): the same picture, quicker and noisier or slower "
+         "and less so")
       ->check(CLI::IsMember({"early", "usual", "never"}))
       ->capture_default_str();
   app.add_option("--wavelengths", a.wavelengths, "of a path: 4, or 1, which has more noise of colour")

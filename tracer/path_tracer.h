@@ -115,10 +115,7 @@ class PathTracer {
   bool shade_surface(Path& path);
   bool scatter_dielectric(Path& path, const Interaction& at, const Surface& surface);
   bool scatter_in_medium(Path& path, Point3d p);
-  // By roulette, once it has scattered so often.
-  bool may_end(std::uint32_t depth) const {
-    return depth > static_cast<std::uint32_t>(scene_.sampling.roulette);
-  }
+  float survival(const Path& path) const;
   bool go_on(Path& path, float u, bool specular, bool gathered = false) const;
   void scatter_straight(Path& path, const Interaction& at, const Surface& surface) const;
   bool passes_at_the_end(Path& path, const Interaction& at, const Surface& surface) const;

@@ -8,9 +8,10 @@
 
 namespace vitrail {
 
-// Paths end by chance after more scattering events than this, mirrors and smooth interfaces apart. One that
-// never did would go on for ever between white walls.
-enum class Roulette : std::uint32_t { early = 0, usual = 3, never = 254 };
+// When paths end by chance, mirrors and smooth interfaces apart: where they carry less than all of what a
+// camera ray does, less than a quarter of it, or only after 254 events; one that never did would go on for
+// ever between white walls.
+enum class Roulette : std::uint32_t { early, usual, never };
 
 inline constexpr std::uint32_t most_light_candidates = 16;
 

@@ -109,8 +109,8 @@ bool PathTracer::shade_surface(Path& path) {
     connect_surface(path, at, surface, scattering, out, candidates);
   const bool gathered = photons_ && gathers(scattering);
   if (gathered) gather(path, at, scattering, out);
-  const bool two_are_enough = !may_end(path.depth + 1) && has_one_lobe(scattering.bsdf);
-  const std::array<float, 4> u = numbers_for_scattering(path, two_are_enough ? Wanted::two : Wanted::four);
+  const bool one_lobe = has_one_lobe(scattering.bsdf);
+  std::array<float, 4> u = numbers_for_scattering(path, one_lobe ? Wanted::two : Wanted::four);
   const std::optional<BsdfSample> chosen = sample(scattering.bsdf, out, u[2], {u[0], u[1]});
   if (!chosen) return false;
   path.throughput = path.throughput * chosen->weight;
@@ -128,6 +128,7 @@ bool PathTracer::shade_surface(Path& path) {
   }
   path.pdf = chosen->specular ? 0 : density_beside(chosen->pdf, candidates);
   if (!chosen->specular && !(path.pdf > 0)) return false;
+  if (one_lobe && survival(path) < 1) u = numbers_for_scattering(path);
   if (!go_on(path, u[3], chosen->specular, gathered)) return false;
   continue_from(path, at, surface, direction);
   return true;
@@ -197,9 +198,21 @@ double PathTracer::opacity_at(const Surface& surface, const Interaction& at) con
   return scene_.textures.number(surface.opacity, at.texture_point());
 }
 
+// The chance that a path lives on after the event at hand: what it carries over what is worth going on for,
+// which is what it carries then.
+float PathTracer::survival(const Path& path) const {
+  constexpr std::uint32_t longest = 254;
+  const Roulette roulette = scene_.sampling.roulette;
+  if (roulette == Roulette::never && path.depth < longest) return 1;
+  const float brightest = max_value(path.throughput) * (path.is(path_dispersed) ? 1.0f / hero_count : 1.0f);
+  const float worth = roulette == Roulette::usual ? 0.25f : 1.0f;
+  return static_cast<float>(attainable(static_cast<double>(brightest / worth)));
+}
+
 // Counts a scattering event, and decides by roulette whether the path lives on. Where it has gathered what
 // photons bring, it lives on for the light that it may still see directly.
 bool PathTracer::go_on(Path& path, float u, bool specular, bool gathered) const {
+  const float lives = specular ? 1 : survival(path);
   ++path.depth;
   path.clear(path_passed);
   path.travelled = 0;
@@ -212,13 +225,9 @@ bool PathTracer::go_on(Path& path, float u, bool specular, bool gathered) const 
   }
   if (gathered || manifest_.settings.direct_only) {
     path.depth |= scattered_once;
-  } else if (may_end(path.depth)) {
-    const float brightest = max_value(path.throughput) * (path.is(path_dispersed) ? 1.0f / hero_count : 1.0f);
-    const auto survival = static_cast<float>(attainable(static_cast<double>(brightest)));
-    if (survival < 1) {
-      if (u >= survival) return false;
-      path.throughput = path.throughput * (1 / survival);
-    }
+  } else if (lives < 1) {
+    if (u >= lives) return false;
+    path.throughput = path.throughput * (1 / lives);
   }
   return true;
 }

@@ -10,8 +10,8 @@
 namespace vitrail::test {
 namespace {
 
-constexpr std::uint32_t known_revision = 7;
-constexpr const char* known_pictures = "f109c6ed73b80046";
+constexpr std::uint32_t known_revision = 8;
+constexpr const char* known_pictures = "57e8640b49ecf664";
 
 std::array<Point3f, 4> tile(float x, float z) {
   return {{{x, 0, z}, {x + 1, 0, z}, {x + 1, 1, z + 0.2f}, {x, 1, z + 0.2f}}};
