@@ -32,6 +32,10 @@ from speed_scenes import SCENES
 HERE = pathlib.Path(__file__).resolve().parent
 CORPUS = pathlib.Path(os.environ.get("VITRAIL_CORPUS", HERE.parents[2] / "shared/corpus"))
 PEERS = ["llvm_ad_spectral", "scalar_spectral"]
+# What one may choose instead of path tracing with the usual samples, where it is for that.
+WAYS = {name: {"photons": ["--integrator", "photon", "--photons"]} for name in ("box, diffuse", "box, spheres", "glass")}
+WAYS |= {name: {"adaptive": ["--adaptive"]} for name in ("arealight", "envmap", "four lamps", "killeroo-simple")}
+WAYS["hotel room"] = {"splat": ["--splat"]}
 
 
 def noise(a, b):
@@ -40,21 +44,27 @@ def noise(a, b):
     return float(np.mean(errors[: int(0.999 * errors.size)])) / 2
 
 
+def error(a, truth):
+    """The same measure of what is between a picture and the truth."""
+    errors = np.sort(((a - truth) ** 2 / (truth ** 2 + 0.01 * np.mean(truth) ** 2)).ravel())
+    return float(np.mean(errors[: int(0.999 * errors.size)]))
+
+
 class Vitrail:
     def __init__(self, programs, scene, folder):
         self.programs, self.folder, self.bundle = programs, folder, folder / "scene.vit"
         subprocess.run([str(programs / "vitrail-partition"), str(scene), "-o", str(self.bundle), "--quiet", "--force"], check=True)
         self.start_s = statistics.median(self.cpu(1, 0) for _ in range(3))
 
-    def cpu(self, spp, seed):
+    def cpu(self, spp, seed, options=()):
         picture, stats = self.folder / "vitrail.exr", self.folder / "stats.json"
         subprocess.run([str(self.programs / "vitrail-render"), str(self.bundle), "-o", str(picture), "--force", "--spp", str(spp),
-                        "--seed", str(seed), "--threads", "1", "--progress", "none", "--quiet", "--stats", str(stats)], check=True)
+                        "--seed", str(seed), "--threads", "1", "--progress", "none", "--quiet", "--stats", str(stats), *options], check=True)
         return json.loads(stats.read_text())["cpu_s"]
 
-    def render(self, spp, seed):
+    def render(self, spp, seed, options=()):
         """The seconds of a render of one sample, most of which is start-up, are left out and made up for."""
-        seconds = (self.cpu(spp, seed) - self.start_s) * spp / (spp - 1)
+        seconds = (self.cpu(spp, seed, options) - self.start_s) * spp / (spp - 1)
         bitmap = mi.Bitmap(str(self.folder / "vitrail.exr")).convert(mi.Bitmap.PixelFormat.RGB, mi.Struct.Type.Float32, False)
         return np.array(bitmap), seconds
 
@@ -100,16 +110,29 @@ def measure(options, name, folder):
         for r, ((a, seconds_a), (b, seconds_b)) in taken.items():
             rows[r].append({"spp": spp, "seconds": (seconds_a + seconds_b) / 2, "noise": noise(a, b),
                             "mean": float((a.mean() + b.mean()) / 2)})
+    pixels = a.shape[0] * a.shape[1]
+    ways = {way: of_way(renderers, words, options.spp[-1], pixels) for way, words in WAYS.get(name, {}).items()}
     for renderer in renderers.values():
         renderer.close()
-    pixels = a.shape[0] * a.shape[1]
-    return {"pixels": pixels, "rows": rows, "start_s": {r: renderer.start_s for r, renderer in renderers.items()}}
+    return {"pixels": pixels, "rows": rows, "ways": ways, "start_s": {r: renderer.start_s for r, renderer in renderers.items()}}
 
 
-def ratio(result, peer):
-    """(time × noise) of the peer over that of Vitrail, at the most samples."""
-    cost = {r: rows[-1]["seconds"] * rows[-1]["noise"] for r, rows in result["rows"].items()}
-    return cost[peer] / cost["vitrail"]
+def of_way(renderers, words, spp, pixels):
+    """Photons have a bias: their error is that to many paths of Mitsuba, less what is noise of those."""
+    words = [*words, str(pixels)] if words[-1] == "--photons" else words
+    pictures, seconds = zip(*(renderers["vitrail"].render(spp, seed, words) for seed in (1, 2)))
+    found = {"seconds": sum(seconds) / 2, "noise": noise(*pictures), "mean": float(np.mean(pictures))}
+    if "--photons" in words:
+        halves = [sum(renderers["llvm_ad_spectral"].render(512, seed)[0] for seed in range(s, s + 4)) / 4 for s in (10, 20)]
+        truth = (halves[0] + halves[1]) / 2
+        found["error"] = sum(error(p, truth) for p in pictures) / 2 - noise(*halves) / 2
+    return found
+
+
+def ratio(result, peer, way=None):
+    """(time × error) of the peer over that of Vitrail, at the most samples."""
+    cost = lambda row: row["seconds"] * row.get("error", row["noise"])
+    return cost(result["rows"][peer][-1]) / cost(result["ways"][way] if way else result["rows"]["vitrail"][-1])
 
 
 def of_bench_render(options):
@@ -140,7 +163,7 @@ def main():
     parser.add_argument("scenes", nargs="*", default=list(SCENES), metavar="SCENE", help=", ".join(SCENES))
     parser.add_argument("--bin", type=pathlib.Path, default=HERE.parents[1] / "build/release/bin")
     parser.add_argument("--out", type=pathlib.Path, default=HERE.parents[1] / "docs")
-    parser.add_argument("--size", type=int, default=192, help="of the pictures, in pixels")
+    parser.add_argument("--size", type=int, default=96, help="of the pictures, in pixels")
     parser.add_argument("--spp", type=int, nargs="+", default=[4, 16, 64], help="the last one decides")
     options = parser.parse_args()
     options.bin = options.bin.resolve()
@@ -152,16 +175,20 @@ def main():
             folder.mkdir()
             results[name] = measure(options, name, folder)
             last = {r: rows[-1] for r, rows in results[name]["rows"].items()}
+            for way, row in results[name]["ways"].items():
+                print(f"{name}, {way}:" + "".join(f"  {p} {ratio(results[name], p, way):5.2f}" for p in PEERS)
+                      + f"  {1e9 * row['seconds'] / results[name]['pixels'] / last['vitrail']['spp']:.0f} ns {row}", flush=True)
             print(f"{name:26}" + "".join(f"  {p} {ratio(results[name], p):5.2f}" for p in PEERS) + "  "
                   + "  ".join(f"{r} {1e9 * row['seconds'] / results[name]['pixels'] / row['spp']:.0f} ns {row['noise']:.2e}"
                               f" mean {row['mean']:.4g}" for r, row in last.items()), flush=True)
         own = of_bench_render(options) | {f"start_{k}": v for k, v in start_seconds(options, pathlib.Path(temporary)).items()}
     ratios = {p: {name: ratio(result, p) for name, result in results.items()} for p in PEERS}
+    by_ways = {p: {(name, way): ratio(result, p, way) for name, result in results.items() for way in result["ways"]} for p in PEERS}
     for p in PEERS:
         print(f"geometric mean, {p}: {math.prod(ratios[p].values()) ** (1 / len(results)):.2f}")
     seconds = time.time() - began
     print(", ".join(f"{k} {v:.3g}" for k, v in own.items()), f"; {seconds:.0f} s in all")
-    write_page(options.out, options, results, ratios, own, seconds, mi.__version__)
+    write_page(options.out, options, results, ratios, by_ways, own, seconds, mi.__version__)
 
 
 if __name__ == "__main__":

@@ -27,11 +27,20 @@ Each panel is one scene: noise against nanoseconds a pixel, from {least} to {spp
 
 ![noise against time](images/speed-noise.svg)
 
+### What else one may choose
+
+The same comparison, of path tracing by Mitsuba, where a scene asks for something else than path tracing with the usual samples:
+`--integrator photon --photons N` with a photon a pixel and iteration for light that glass and white walls gather, `--splat` where the scene's
+filter is wider than a pixel. Photons have a bias, so what counts of them is no noise: it is the error to 4096 paths a pixel of Mitsuba, less the noise of those. The
+last row has the better of the two for each scene.
+
+{ways}
+
 What to know of the rows:
 
 - *hotel room*: Mitsuba's path tracer cannot connect through the panes to the sun, so its picture lacks the sunlight in the room (the
   means show it) and what makes ours noisy. The two do not solve the same problem there.
-- Its pixel filter is a Gaussian, too: Mitsuba adds each sample to several pixels, Vitrail, but for `--splat`, chooses the sample's place by the filter. The
+- Its pixel filter is a Gaussian, too: Mitsuba adds each sample to several pixels, as Vitrail does with `--splat`; else that chooses the sample's place by the filter. The
   first makes neighbouring pixels alike, which this measure counts as less noise.
 - *killeroo-simple*: Mitsuba gets what `vitrail convert` writes of the lamps, spheres of PBRT.
 - Means that differ by more than the noise are said in the table: a model is then not the same, and its row says less.
@@ -70,6 +79,21 @@ def table(results, ratios):
                      + each(f"{row['noise']:.2g}" for row in last) + f" | within {100 * apart:.1f} % |")
     means = " | ".join(f"{math.prod(r.values()) ** (1 / len(r)):.2f}" for r in ratios.values())
     return "\n".join(lines + [f"| geometric mean | {means} | | | |"])
+
+
+def table_of_ways(results, ratios, by_ways):
+    bold = lambda r: f"**{r:.2f}**" if r < 1 else f"{r:.2f}"
+    lines = ["| | llvm_ad_spectral | scalar_spectral | ns a sample | noise | error | mean ÷ that of paths |", "|---|---|---|---|---|---|---|"]
+    for name, result in results.items():
+        paths = result["rows"]["vitrail"][-1]
+        for way, row in result["ways"].items():
+            err = f"{row['error']:.2g}" if "error" in row else ""
+            lines.append(f"| {name}, {way} | {' | '.join(bold(of[name, way]) for of in by_ways.values())} | "
+                         f"{1e9 * row['seconds'] / result['pixels'] / paths['spp']:.0f} | {row['noise']:.2g} | {err} | "
+                         f"{row['mean'] / paths['mean']:.4f} |")
+    best = [math.prod(max([r, *(v for (n, _), v in by_ways[p].items() if n == name)]) for name, r in of.items()) ** (1 / len(of))
+            for p, of in ratios.items()]
+    return "\n".join(lines + [f"| geometric mean of all scenes | {' | '.join(f'{b:.2f}' for b in best)} | | | | |"])
 
 
 def verdict(ratios):
@@ -148,10 +172,10 @@ def noise_plot(results, columns=4):
     return svg(240 * columns + 20, 50 + 240 * math.ceil(len(results) / columns), parts)
 
 
-def write_page(folder, options, results, ratios, own, seconds, version):
+def write_page(folder, options, results, ratios, by_ways, own, seconds, version):
     (folder / "images").mkdir(parents=True, exist_ok=True)
     (folder / "images/speed-ratios.svg").write_text(ratios_plot(ratios))
     (folder / "images/speed-noise.svg").write_text(noise_plot(results))
-    page = TEXT.format(version=version, size=options.size, spp=options.spp[-1], least=options.spp[0], table=table(results, ratios),
+    page = TEXT.format(version=version, size=options.size, spp=options.spp[-1], least=options.spp[0], table=table(results, ratios), ways=table_of_ways(results, ratios, by_ways),
                        verdict=verdict(ratios), minutes=math.ceil(seconds / 60), **own)
     (folder / "speed.md").write_text(page)
