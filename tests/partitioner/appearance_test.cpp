@@ -108,9 +108,9 @@ TEST(Appearance, TexturedCoefficientsBecomeTheirMeans) {
   EXPECT_TRUE(std::holds_alternative<DielectricMaterial>(a.materials.at(0).model));
   const auto& c = std::get<AbsorptionScattering>(a.media.at(0).coefficients);
   EXPECT_NEAR(evaluate(resolved(std::get<Spectrum>(c.sigma_s)), 550), 1.2, 1e-5);
-  ASSERT_EQ(a.diagnostics.size(), 1u);
-  EXPECT_NE(a.diagnostics[0].message.find("rgb 1.2 1.2 1.2, from which it is 0.6 in"), std::string::npos)
-      << a.diagnostics[0].message;
+  EXPECT_TRUE(std::ranges::any_of(a.diagnostics, [](const Diagnostic& d) {
+    return d.message.find("rgb 1.2 1.2 1.2, from which it is 0.6 in") != std::string::npos;
+  }));
 }
 
 TEST(Appearance, PartsOfMaterialsComeAlong) {
