@@ -100,6 +100,12 @@ Features features_of(const Manifest& m) {
                                        std::holds_alternative<DotsTexture>(t.model);
                               }),
           required_feature::procedural);
+  require(std::ranges::any_of(m.textures,
+                              [](const Texture& t) {
+                                const auto* image = std::get_if<ImageTexture>(&t.model);
+                                return image && std::holds_alternative<AttributeMapping>(image->mapping);
+                              }),
+          required_feature::faces);
   require(m.requirements.motion, required_feature::motion);
   require(!m.tables.empty(), required_feature::tables);
   require(std::ranges::any_of(

@@ -163,6 +163,7 @@ void fields(auto& io, Is<CylindricalMapping> auto& m) { fields(io, m.texture_to_
 void fields(auto& io, Is<PlanarMapping> auto& m) {
   fields(io, m.texture_to_world), fields(io, m.v1), fields(io, m.v2), io(m.offset_s), io(m.offset_t);
 }
+void fields(auto& io, Is<AttributeMapping> auto& m) { fields(io, m.slot); }
 // What its file holds is final: encoding, scale and inversion are applied.
 void fields(auto& io, Is<ImageTexture> auto& t) {
   fields(io, t.filename), fields(io, t.mapping), fields(io, t.wrap), fields(io, t.filter);

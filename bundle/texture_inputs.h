@@ -29,7 +29,9 @@ bool reads_attribute(std::span<const Texture> textures, const Parameter& paramet
   const auto* id = std::get_if<Id<Texture>>(&parameter);
   if (!id) return false;
   const TextureModel& model = textures[id->value].model;
-  bool reads = std::holds_alternative<MeshAttributeTexture>(model);
+  const auto* image = std::get_if<ImageTexture>(&model);
+  bool reads = std::holds_alternative<MeshAttributeTexture>(model) ||
+               (image && std::holds_alternative<AttributeMapping>(image->mapping));
   for_inputs(model, [&](const auto& input) { reads = reads || reads_attribute(textures, input); });
   return reads;
 }

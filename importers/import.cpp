@@ -79,29 +79,6 @@ ImportedScene read_scene(const std::filesystem::path& file, MeshMemory memory,
   return imported;
 }
 
-bool is_endless(const LightModel& light) {
-  return std::holds_alternative<DistantLight>(light) || std::holds_alternative<InfiniteLight>(light) ||
-         std::holds_alternative<EnvironmentLight>(light) || std::holds_alternative<SkyLight>(light);
-}
-
-// Here nothing comes through a medium without end; pbrt and Mitsuba let light come from the edge of the
-// scene.
-void report_endless_medium(ImportedScene& imported) {
-  const Scene& scene = imported.scene;
-  if (!scene.camera_medium) return;
-  const Medium& medium = scene.media.at(scene.camera_medium->value);
-  if (!std::holds_alternative<std::monostate>(medium.density)) return;
-  for (const Light& light : scene.lights) {
-    if (!is_endless(light.model)) continue;
-    const SourceLocation place = location(scene, light.origin);
-    imported.diagnostics.push_back({Fidelity::approximated,
-                                    "a medium around the camera, without end, lets no light through from "
-                                    "infinitely far: pbrt and Mitsuba weaken "
-                                    "it over the size of the scene alone",
-                                    place, place, RecordKind::light});
-  }
-}
-
 void report_tubes(ImportedScene& imported) {
   const Scene& scene = imported.scene;
   const std::vector<bool> with_curves = prototypes_with_curves(scene);
@@ -132,7 +109,6 @@ ImportedScene import_scene(const std::filesystem::path& file, MeshMemory memory,
       options.sky.empty() ? std::nullopt : std::optional(parse_sky(options.sky));
   ImportedScene imported = read_scene(file, std::move(memory), std::move(progress), options);
   if (sky) replace_sky(imported, *sky);
-  report_endless_medium(imported);
   report_tubes(imported);
   return imported;
 }

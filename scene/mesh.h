@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "scene/quadric.h"
@@ -21,6 +22,10 @@ struct MeshAttribute {
   std::vector<float> values;
   bool operator==(const MeshAttribute&) const = default;
 };
+
+// The attribute, one number a face, that says which face of Ptex's files a triangle belongs to. Without it
+// all are of face 0, as in pbrt.
+inline constexpr std::string_view face_indices = "face_indices";
 
 // The (u,v) of a triangle's three corners where the file gives none. `turned`: of triangles whose second and
 // third corner have changed places since.

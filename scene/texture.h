@@ -45,7 +45,13 @@ struct PlanarMapping {
   double offset_s = 0, offset_t = 0;
   bool operator==(const PlanarMapping&) const = default;
 };
-using TextureMapping = std::variant<UvMapping, SphericalMapping, CylindricalMapping, PlanarMapping>;
+// The first two numbers of the mesh's attribute of that slot. In bundles alone.
+struct AttributeMapping {
+  std::string slot;
+  bool operator==(const AttributeMapping&) const = default;
+};
+using TextureMapping =
+    std::variant<UvMapping, SphericalMapping, CylindricalMapping, PlanarMapping, AttributeMapping>;
 
 // ---- Kinds of texture
 

@@ -29,6 +29,8 @@ std::optional<ShapeGeometry> shape_of_file(Builder& builder, const Object& shape
 std::optional<ShapeGeometry> curve_shape(Builder& builder, const Object& shape);
 // sdfgrid.
 std::optional<ShapeGeometry> distance_shape(Builder& builder, const Object& shape);
+// heightfield of 0.6.
+std::optional<ShapeGeometry> height_shape(Builder& builder, const Object& shape);
 
 // The mesh under this key: made where it is not there yet. An Error that it throws without a place gets that
 // of the object. Where there is a way to make it `again`, it need not stay in memory.

@@ -234,6 +234,7 @@ void add_shapes(Builder& builder, const Object& object, bool in_group, std::vect
   if (!geometry) geometry = shape_of_file(builder, object);
   if (!geometry) geometry = curve_shape(builder, object);
   if (!geometry) geometry = distance_shape(builder, object);
+  if (!geometry) geometry = height_shape(builder, object);
   if (!geometry) return drop(builder, object);
   const std::vector<Keyframe> keys = object.keyframes("to_world");
   if (in_group && !keys.empty())

@@ -29,20 +29,23 @@ UvMapping flipped(const UvMapping& m) {
 // Cells of a checkerboard are half a unit.
 UvMapping doubled(const UvMapping& m) { return {2 * m.a, 2 * m.b, 2 * m.c, 2 * m.d, 2 * m.e, 2 * m.f}; }
 
-// 0.6 takes one channel of an image, for colours too.
-ImageNumber channel_of(Builder& b, const Object& o, bool as_float) {
+// What 0.6 may take of an image in place of its colour.
+ImageNumber channel_of(Builder& b, const Object& o) {
   static constexpr std::string_view names = "rgba";
   static constexpr std::array numbers{ImageNumber::red, ImageNumber::green, ImageNumber::blue,
                                       ImageNumber::alpha};
   const std::string name = o.text("channel", "", b.report);
   if (name.empty()) return ImageNumber::luminance;
   const std::size_t channel = names.find(name);
-  if (name.size() == 1 && channel != names.npos && as_float) return numbers.at(channel);
+  if (name.size() == 1 && channel != names.npos) return numbers.at(channel);
   b.report.dropped(fmt::format("the channel \"{}\" of an image: all of its colour counts", name), o.origin);
   return ImageNumber::luminance;
 }
 
 TextureModel bitmap(Builder& b, const Object& o, bool as_float) {
+  // A channel is a grey where a colour is asked for.
+  if (!as_float && !o.text("channel", "", b.report).empty())
+    return ProductTexture{ConstantSpectrum{1}, add_texture(b, o, true)};
   ImageTexture image;
   image.filename = o.text("filename", "", b.report);
   if (image.filename.empty()) b.report.fail("a bitmap needs a \"filename\"", o.origin);
@@ -68,7 +71,7 @@ TextureModel bitmap(Builder& b, const Object& o, bool as_float) {
   if (wrap == "clamp") image.wrap = Wrap::clamp;
   if (wrap != "mirror" && wrap != "clamp" && wrap != "repeat")
     b.report.approximated(fmt::format("wrap_mode \"{}\" becomes \"repeat\"", wrap), o.origin);
-  image.number = channel_of(b, o, as_float);
+  image.number = channel_of(b, o);
   image.mapping = flipped(mapping_of(o.transform("to_uv", b.report)));
   o.ignore({"format", "accel", "max_anisotropy", "cache"});
   return image;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "importers/mitsuba/write_sides.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "importers/ply/write_ply.h"
@@ -30,10 +31,15 @@ bool lacks_uvs(const Context& context, const Shape& shape, const TriangleMesh& m
   return context.uvs_show[shape.mesh.value] && mesh.uvs.empty() && mesh.missing_uv != MissingUv::barycentric;
 }
 
+bool is_face_indices(const MeshAttribute& a) { return a.name == face_indices; }
+
+// Without the numbers of faces, which Mitsuba warns of.
 TriangleMesh copy_of(const Context& context, const Shape& shape) {
   TriangleMesh storage;
   const TriangleMesh& mesh = loaded(context.scene.meshes[shape.mesh.value], storage);
-  return lacks_uvs(context, shape, mesh) ? with_uvs(mesh) : mesh;
+  TriangleMesh copy = lacks_uvs(context, shape, mesh) ? with_uvs(mesh) : mesh;
+  std::erase_if(copy.attributes, is_face_indices);
+  return copy;
 }
 
 // Mitsuba transforms normals so that they keep their side where the transform mirrors, and the winding does
@@ -48,9 +54,12 @@ MeshFile mesh_file(Context& context, const Shape& shape, bool sides_matter) {
   TriangleMesh storage;
   const TriangleMesh& mesh = loaded(context.scene.meshes[shape.mesh.value], storage);
   if (!sides_matter || !normals_point_behind(mesh, shape)) {
-    const bool derived = lacks_uvs(context, shape, mesh) && !context.meshes.has_name(shape.mesh);
-    return {derived ? context.meshes.name(shape.mesh, with_uvs(mesh)) : context.meshes.name(shape.mesh),
-            shape.flip_orientation};
+    const bool derived =
+        (lacks_uvs(context, shape, mesh) || std::ranges::any_of(mesh.attributes, is_face_indices)) &&
+        !context.meshes.has_name(shape.mesh);
+    return {
+        derived ? context.meshes.name(shape.mesh, copy_of(context, shape)) : context.meshes.name(shape.mesh),
+        shape.flip_orientation};
   }
   context.approximated(
       "Mitsuba goes by the shading normals: a copy of the mesh is written, wound the other way");

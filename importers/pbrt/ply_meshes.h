@@ -16,7 +16,10 @@ struct PlyMesh {
 };
 
 // The mesh of the triangles and that of the patches: at least one of them. Fronts follow the normals.
-// `differs`, if given, gets whether it depends on `uvs_show`.
-std::vector<PlyMesh> meshes_of(PbrtPly ply, bool uvs_show, bool* differs = nullptr);
+// `faces_show`: whether their numbers are kept. `differs`, if given, gets whether it depends on the two.
+std::vector<PlyMesh> meshes_of(PbrtPly ply, bool uvs_show, bool faces_show, bool* differs = nullptr);
+
+// Gives a mesh that was made of so many faces their face_indices: each has as many of the triangles.
+void add_face_indices(TriangleMesh& mesh, const std::vector<float>& faces);
 
 }  // namespace vitrail::pbrt

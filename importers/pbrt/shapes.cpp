@@ -243,7 +243,24 @@ Id<TriangleMesh> ShapeMaker::add(TriangleMesh mesh) {
   return {static_cast<std::uint32_t>(meshes_.size() - 1)};
 }
 
-ShapeGeometry ShapeMaker::triangle_mesh(ParameterSet& parameters, bool uvs_show) {
+// pbrt leaves out numbers that are not as many as the faces.
+std::vector<float> ShapeMaker::face_numbers(ParameterSet& parameters, std::size_t faces, bool show) {
+  Parameter* numbers = parameters.find_list("faceIndices");
+  if (!numbers || !show) return {};
+  if (number_count(*numbers) != faces) {
+    context_.report.dropped(
+        fmt::format("\"faceIndices\" are {}, but there are {} faces", number_count(*numbers), faces),
+        numbers->place);
+    return {};
+  }
+  std::vector<float> values;
+  consume_numbers(*numbers, 1, [&](auto chunk) {
+    for (const auto value : chunk) values.push_back(static_cast<float>(value));
+  });
+  return values;
+}
+
+ShapeGeometry ShapeMaker::triangle_mesh(ParameterSet& parameters, bool uvs_show, bool faces_show) {
   TriangleMesh mesh;
   Parameter& positions = required_list(parameters, "P");
   require_groups(positions, 3);
@@ -254,10 +271,11 @@ ShapeGeometry ShapeMaker::triangle_mesh(ParameterSet& parameters, bool uvs_show)
   mesh.uvs = vertex_values<Point2f, 2>(texture_coordinates(parameters), mesh.positions.size());
   orient_by_normals(mesh, uvs_show);
   const std::size_t parts = mesh.triangles.size();
+  add_face_indices(mesh, face_numbers(parameters, parts, faces_show));
   return {add(std::move(mesh)), false, translate(offset), parts};
 }
 
-std::vector<ShapeGeometry> ShapeMaker::ply_mesh(ParameterSet& parameters, bool uvs_show) {
+std::vector<ShapeGeometry> ShapeMaker::ply_mesh(ParameterSet& parameters, bool uvs_show, bool faces_show) {
   const Parameter* filename = parameters.find("filename", {ParameterType::text});
   if (!filename || filename->strings.size() != 1)
     fail("Shape \"plymesh\" needs a parameter \"string filename\"", parameters.place());
@@ -271,18 +289,19 @@ std::vector<ShapeGeometry> ShapeMaker::ply_mesh(ParameterSet& parameters, bool u
   }
   const auto [known, is_new] = ply_files_.try_emplace(path.string());
   PlyFile& file = known->second;
-  std::vector<ShapeGeometry>& shapes = file.shapes[file.differs && uvs_show];
+  const std::size_t kind = (uvs_show ? 1u : 0u) + (faces_show ? 2u : 0u);
+  std::vector<ShapeGeometry>& shapes = file.shapes[file.differs ? kind : 0];
   if (!is_new && !shapes.empty()) return shapes;
   read_ahead();
   auto [ply, diagnostics] = ply_reader_.take(path);
   if (is_new)
     for (Diagnostic& diagnostic : diagnostics) context_.report.add(std::move(diagnostic));
-  std::vector<PlyMesh> parts = meshes_of(std::move(ply), uvs_show, &file.differs);
-  std::vector<ShapeGeometry>& made = file.shapes[file.differs && uvs_show];
+  std::vector<PlyMesh> parts = meshes_of(std::move(ply), uvs_show, faces_show, &file.differs);
+  std::vector<ShapeGeometry>& made = file.shapes[file.differs ? kind : 0];
   for (std::size_t i = 0; i < parts.size(); ++i) {
     if (parts[i].tessellated) report_patches(context_.report, parameters.place());
-    const auto load = [path, quads = quads_of(context_.version), uvs_show, i] {
-      return std::move(meshes_of(read_pbrt_ply(path, quads), uvs_show)[i].mesh);
+    const auto load = [path, quads = quads_of(context_.version), uvs_show, faces_show, i] {
+      return std::move(meshes_of(read_pbrt_ply(path, quads), uvs_show, faces_show)[i].mesh);
     };
     meshes_.push_back(context_.mesh_memory.keep(std::move(parts[i].mesh), load));
     made.push_back({{static_cast<std::uint32_t>(meshes_.size() - 1)}, false, {}, parts[i].parts});
@@ -290,7 +309,7 @@ std::vector<ShapeGeometry> ShapeMaker::ply_mesh(ParameterSet& parameters, bool u
   return made;
 }
 
-ShapeGeometry ShapeMaker::bilinear_mesh(ParameterSet& parameters, bool uvs_show) {
+ShapeGeometry ShapeMaker::bilinear_mesh(ParameterSet& parameters, bool uvs_show, bool faces_show) {
   const std::vector<Point3f> positions = tuples<Point3f, 3>(required_list(parameters, "P"));
   const auto patches = groups_of<4>(parameters, positions.size());
   const auto normals = vertex_values<Normal3f, 3>(parameters.find_list("N"), positions.size());
@@ -298,6 +317,7 @@ ShapeGeometry ShapeMaker::bilinear_mesh(ParameterSet& parameters, bool uvs_show)
   TriangleMesh mesh = tessellate_bilinear(positions, patches, normals, uvs, uvs_show);
   if (mesh.triangles.size() > 2 * patches.size()) report_patches(context_.report, parameters.place());
   orient_by_normals(mesh, uvs_show);
+  add_face_indices(mesh, face_numbers(parameters, patches.size(), faces_show));
   return {add(std::move(mesh)), false, {}, patches.size()};
 }
 
@@ -363,9 +383,8 @@ void ShapeMaker::report_shadow_alpha(ParameterSet& parameters) {
     context_.report.dropped("\"shadowalpha\" of shapes: shadows follow \"alpha\"", shadow->place);
 }
 
-std::vector<ShapeGeometry> ShapeMaker::make(const std::string& kind, ParameterSet& parameters,
-                                            bool uvs_show) {
-  parameters.ignore({"faceIndices"});
+std::vector<ShapeGeometry> ShapeMaker::make(const std::string& kind, ParameterSet& parameters, bool uvs_show,
+                                            bool faces_show) {
   if (const Parameter* tangents = parameters.find_list("S"))
     context_.report.approximated("the tangents \"S\" of vertices: brushed materials follow (u,v)",
                                  tangents->place);
@@ -381,11 +400,11 @@ std::vector<ShapeGeometry> ShapeMaker::make(const std::string& kind, ParameterSe
   if (kind == "curve")
     take(curve(parameters));
   else if (kind == "trianglemesh")
-    take(triangle_mesh(parameters, uvs_show));
+    take(triangle_mesh(parameters, uvs_show, faces_show));
   else if (kind == "plymesh")
-    made = ply_mesh(parameters, uvs_show);
+    made = ply_mesh(parameters, uvs_show, faces_show);
   else if (kind == "bilinearmesh")
-    take(bilinear_mesh(parameters, uvs_show));
+    take(bilinear_mesh(parameters, uvs_show, faces_show));
   else if (kind == "loopsubdiv")
     take(loop_subdivision(parameters, uvs_show));
   else if (kind == "sphere" || kind == "disk" || kind == "cylinder" || kind == "cone" || kind == "paraboloid")

@@ -35,13 +35,15 @@ class ShapeMaker {
 
   // Nothing where the kind cannot be represented and is dropped with a diagnostic, or where nothing of it
   // shows; two of a PLY file of triangles and quadrilaterals. The triangles' own orientation is pbrt's front
-  // side before ReverseOrientation and the transform. `uvs_show`: whether (u,v) may matter.
-  std::vector<ShapeGeometry> make(const std::string& kind, ParameterSet& parameters, bool uvs_show);
+  // side before ReverseOrientation and the transform. What may matter: `uvs_show`,
+  // (u,v); `faces_show`, the numbers of faces.
+  std::vector<ShapeGeometry> make(const std::string& kind, ParameterSet& parameters, bool uvs_show,
+                                  bool faces_show);
 
  private:
-  ShapeGeometry triangle_mesh(ParameterSet& parameters, bool uvs_show);
-  std::vector<ShapeGeometry> ply_mesh(ParameterSet& parameters, bool uvs_show);
-  ShapeGeometry bilinear_mesh(ParameterSet& parameters, bool uvs_show);
+  ShapeGeometry triangle_mesh(ParameterSet& parameters, bool uvs_show, bool faces_show);
+  std::vector<ShapeGeometry> ply_mesh(ParameterSet& parameters, bool uvs_show, bool faces_show);
+  ShapeGeometry bilinear_mesh(ParameterSet& parameters, bool uvs_show, bool faces_show);
   ShapeGeometry loop_subdivision(ParameterSet& parameters, bool uvs_show);
   std::optional<ShapeGeometry> curve(ParameterSet& parameters);
   std::optional<ShapeGeometry> ribbon(ParameterSet& parameters, const std::vector<CurveSegment>& segments,
@@ -52,6 +54,7 @@ class ShapeMaker {
   ShapeGeometry quadric(const std::string& kind, ParameterSet& parameters);
   static SizedQuadric sized_quadric(const std::string& kind, ParameterSet& parameters);
   Id<TriangleMesh> add(TriangleMesh mesh);
+  std::vector<float> face_numbers(ParameterSet& parameters, std::size_t faces, bool show);
   void report_shadow_alpha(ParameterSet& parameters);
   // Has the meshes read that the text to come names.
   void read_ahead();
@@ -59,11 +62,11 @@ class ShapeMaker {
   using QuadricKey = std::tuple<QuadricKind, double, double, double>;  // low, high, phi_max_rad
   Context& context_;
   std::vector<TriangleMesh>& meshes_;
-  // The shapes of a file where (u,v) do not show and where they do: the same but for patches and for
-  // triangles of which some are turned.
+  // The shapes of a file where (u,v) do not show and where they do, and likewise the numbers of faces: the
+  // same but for patches, for triangles of which some are turned, and for those numbers.
   struct PlyFile {
     bool differs = false;
-    std::array<std::vector<ShapeGeometry>, 2> shapes;
+    std::array<std::vector<ShapeGeometry>, 4> shapes;
   };
   std::map<std::string, PlyFile> ply_files_;
   MeshReadAhead ply_reader_;

@@ -320,7 +320,9 @@ void Interpreter::shape(const Place& place) {
   if (opacity == FloatParameter{0.0f} && !state_.area_light) return;  // nothing shows
   const std::optional<Id<Material>> before = state_.material;
   if (const auto own = overridden_material(parameters, place)) state_.material = own;
-  for (const ShapeGeometry& geometry : shapes_.make(kind, parameters, uvs_show(opacity)))
+  const bool faces_show = std::ranges::any_of(
+      scene_.textures, [](const Texture& t) { return std::holds_alternative<PtexTexture>(t.model); });
+  for (const ShapeGeometry& geometry : shapes_.make(kind, parameters, uvs_show(opacity), faces_show))
     if (triangles_of(scene_.meshes[geometry.mesh.value]) > 0) add_shape(geometry, opacity, place);
   state_.material = before;
 }

@@ -21,7 +21,7 @@ namespace {
 // are read.
 bool stands_in_file(const TriangleMesh& mesh) {
   constexpr std::size_t most_triangles = 64;
-  if (mesh.triangles.size() > most_triangles || !mesh.attributes.empty()) return false;
+  if (mesh.triangles.size() > most_triangles) return false;
   Bounds3f bounds;
   for (const Point3f& p : mesh.positions) extend(bounds, p);
   const double half = length(extent(bounds)) / 2.0, away = length(center(bounds) - Point3f{});
@@ -46,6 +46,11 @@ std::string inline_mesh(const TriangleMesh& mesh) {
   text += " ]" + listed("point3 P", mesh.positions);
   if (!mesh.normals.empty()) text += listed("normal N", mesh.normals);
   if (!mesh.uvs.empty()) text += listed("point2 uv", mesh.uvs);
+  for (const MeshAttribute& faces : mesh.attributes) {
+    text += " \"integer faceIndices\" [";
+    for (const float face : faces.values) text += fmt::format(" {}", face);
+    text += " ]";
+  }
   return text;
 }
 
@@ -171,12 +176,14 @@ class ShapeWriter {
     const bool follow = fronts_follow_normals(mesh);
     const bool lacks_uvs =
         uvs_show_[shape.mesh.value] && mesh.uvs.empty() && mesh.missing_uv != MissingUv::pbrt;
-    if (!fixed && (!follow || lacks_uvs || !mesh.attributes.empty())) {
+    const auto is_foreign = [](const MeshAttribute& a) { return a.name != face_indices; };
+    const bool has_foreign = std::ranges::any_of(mesh.attributes, is_foreign);
+    if (!fixed && (!follow || lacks_uvs || has_foreign)) {
       fixed = lacks_uvs ? with_uvs(mesh) : mesh;
       if (!fronts_follow_normals(*fixed)) fixed = with_normals_in_front(std::move(*fixed));
-      fixed->attributes.clear();
+      std::erase_if(fixed->attributes, is_foreign);
     }
-    if (!mesh.attributes.empty()) p.dropped("the attributes of a mesh: pbrt has none");
+    if (has_foreign) p.dropped("the attributes of a mesh: pbrt has none");
     if (fixed && fixed->normals.empty() && !mesh.normals.empty())
       p.approximated("its shading normals lie on both sides of its faces and are left out");
     const TriangleMesh& written = fixed ? *fixed : mesh;

@@ -122,6 +122,8 @@ bool is_color(const AttributePlan& plan) {
 Attributes plan_of(const Header& header, const BodyPlan& plan, PlyAttributes wanted) {
   if (wanted == PlyAttributes::skip) return {};
   Attributes attributes = plan_attributes(header, plan);
+  if (wanted == PlyAttributes::faces)
+    std::erase_if(attributes, [](const AttributePlan& a) { return a.name != face_indices; });
   if (wanted == PlyAttributes::colors) {
     std::erase_if(attributes, [](const AttributePlan& a) { return !is_color(a); });
     if (attributes.size() > 1) attributes.resize(1);  // those of vertices come first
@@ -153,7 +155,7 @@ Body read_file(const std::filesystem::path& file, Diagnostics* diagnostics, PlyA
   const BodyPlan plan = make_plan(header, cursor);
   const Attributes attributes = plan_of(header, plan, wanted);
   Body body = read_body(bytes, cursor, header, plan, quads);
-  read_attributes(bytes, cursor, header, plan, attributes, body.mesh);
+  read_attributes(bytes, cursor, header, plan, attributes, body);
   if (wanted == PlyAttributes::colors) decode_colors(header, attributes, body.mesh);
   if (diagnostics) {
     report_skipped(header, plan, attributes, *diagnostics);
@@ -179,8 +181,8 @@ TriangleMesh read_ply(const std::filesystem::path& file, Diagnostics* diagnostic
 }
 
 PbrtPly read_pbrt_ply(const std::filesystem::path& file, PbrtQuads quads, Diagnostics* diagnostics) {
-  Body body = read_file(file, diagnostics, PlyAttributes::skip, quads);
-  return {std::move(body.mesh), std::move(body.patches)};
+  Body body = read_file(file, diagnostics, PlyAttributes::faces, quads);
+  return {std::move(body.mesh), std::move(body.patches), std::move(body.patch_faces)};
 }
 
 }  // namespace vitrail

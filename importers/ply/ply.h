@@ -19,7 +19,8 @@ namespace vitrail {
 // bytes of the file can hold.
 // `colors`: of vertices, or of faces, alone, linear: integers are shares of the greatest of their type, in
 // sRGB's encoding.
-enum class PlyAttributes { skip, read, colors };
+// `faces`: face_indices alone.
+enum class PlyAttributes { skip, read, colors, faces };
 TriangleMesh read_ply(const std::filesystem::path& file, Diagnostics* diagnostics = nullptr,
                       PlyAttributes wanted = PlyAttributes::skip);
 
@@ -28,7 +29,8 @@ enum class PbrtQuads { v3, v4 };
 struct PbrtPly {
   TriangleMesh mesh;  // without the patches
   std::vector<std::array<std::uint32_t, 4>>
-      patches;  // as tessellate_bilinear takes them, of the mesh's vertices
+      patches;                     // as tessellate_bilinear takes them, of the mesh's vertices
+  std::vector<float> patch_faces;  // their face_indices where the file has some, as the triangles have them
 };
 PbrtPly read_pbrt_ply(const std::filesystem::path& file, PbrtQuads quads, Diagnostics* diagnostics = nullptr);
 

@@ -58,6 +58,10 @@ void plan_element(const Header& header, const BodyPlan& plan, std::size_t e, boo
   const Element& element = header.elements[e];
   for (std::size_t i = 0; i < element.properties.size(); ++i) {
     if (element.properties[i].count_type || is_taken(plan, e, i)) continue;
+    if (per_face && element.properties[i].name == face_indices) {
+      attributes.push_back({std::string(face_indices), true, e, {i}});
+      continue;
+    }
     const Run run = attribute_at(element, i);
     const bool is_color = run.count == 4 && run.name == "color";  // whose alpha is left out
     if (run.count == 1 || run.count == 3 || is_color) {
@@ -73,15 +77,18 @@ void plan_element(const Header& header, const BodyPlan& plan, std::size_t e, boo
 // The attributes of one element.
 template <class Source>
 void read_element(Source& source, const Element& element, const std::vector<const AttributePlan*>& plans,
-                  std::optional<std::size_t> corner_list, TriangleMesh& mesh) {
+                  std::optional<std::size_t> corner_list, Body& body) {
   source.require_room(element);
   std::vector<MeshAttribute> attributes;
   for (const AttributePlan* plan : plans)
     attributes.push_back({plan->name, plan->per_face, static_cast<int>(plan->properties.size()), {}});
   std::vector<float> row(element.properties.size());
   std::uint64_t rows = 0, copies = 1;
+  bool is_patch = false;
   const auto end_row = [&](std::size_t property) {
     if (property + 1 < row.size()) return;
+    if (is_patch)
+      for (const AttributePlan* plan : plans) body.patch_faces.push_back(row[plan->properties.front()]);
     for (std::uint64_t copy = 0; copy < copies; ++copy)
       for (std::size_t k = 0; k < plans.size(); ++k)
         for (const std::size_t i : plans[k]->properties) attributes[k].values.push_back(row[i]);
@@ -103,15 +110,18 @@ void read_element(Source& source, const Element& element, const std::vector<cons
         end_row(i);
       },
       [&](std::size_t i, const std::vector<double>& items) {
-        if (i == corner_list) copies = items.size() < 3 ? 0 : items.size() - 2;
+        if (i == corner_list) {
+          is_patch = body.quads == PbrtQuads::v4 && items.size() == 4;
+          copies = is_patch || items.size() < 3 ? 0 : items.size() - 2;
+        }
         end_row(i);
       });
-  for (MeshAttribute& attribute : attributes) mesh.attributes.push_back(std::move(attribute));
+  for (MeshAttribute& attribute : attributes) body.mesh.attributes.push_back(std::move(attribute));
 }
 
 template <class Source>
 void read(Source source, const Header& header, const BodyPlan& plan,
-          const std::vector<AttributePlan>& attributes, TriangleMesh& mesh) {
+          const std::vector<AttributePlan>& attributes, Body& body) {
   std::size_t last = 0;
   for (const AttributePlan& attribute : attributes) last = std::max(last, attribute.element);
   for (std::size_t e = 0; e <= last; ++e) {
@@ -121,7 +131,7 @@ void read(Source source, const Header& header, const BodyPlan& plan,
     const bool faces = plan.faces && plan.faces->element == e;
     const auto list = faces ? std::optional(plan.faces->corner_list) : std::nullopt;
     plans.empty() ? skip_element(source, header.elements[e])
-                  : read_element(source, header.elements[e], plans, list, mesh);
+                  : read_element(source, header.elements[e], plans, list, body);
   }
 }
 
@@ -136,15 +146,15 @@ std::vector<AttributePlan> plan_attributes(const Header& header, const BodyPlan&
 }
 
 void read_attributes(const InputBytes& bytes, const TextCursor& cursor, const Header& header,
-                     const BodyPlan& plan, const std::vector<AttributePlan>& attributes, TriangleMesh& mesh) {
+                     const BodyPlan& plan, const std::vector<AttributePlan>& attributes, Body& body) {
   if (attributes.empty()) return;
   switch (header.format) {
     case Format::ascii:
-      return read(AsciiSource(bytes, cursor), header, plan, attributes, mesh);
+      return read(AsciiSource(bytes, cursor), header, plan, attributes, body);
     case Format::binary_big_endian:
-      return read(BinarySource<true>(bytes, cursor), header, plan, attributes, mesh);
+      return read(BinarySource<true>(bytes, cursor), header, plan, attributes, body);
     default:
-      return read(BinarySource<false>(bytes, cursor), header, plan, attributes, mesh);
+      return read(BinarySource<false>(bytes, cursor), header, plan, attributes, body);
   }
 }
 

@@ -34,6 +34,7 @@ struct Body {
   TriangleMesh mesh;
   std::optional<PbrtQuads> quads;  // else they are polygons as others are
   std::vector<std::array<std::uint32_t, 4>> patches;
+  std::vector<float> patch_faces;   // their face_indices, or empty
   std::uint64_t dropped_faces = 0;  // with fewer than three corners
   std::uint64_t polygons = 0;       // with more than four
 };

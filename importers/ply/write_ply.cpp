@@ -17,6 +17,10 @@ static_assert(std::endian::native == std::endian::little, "values are written as
 
 // Mitsuba finds an attribute by the element that it belongs to, and by a suffix for its channel.
 void declare(std::string& header, const MeshAttribute& attribute) {
+  if (attribute.name == face_indices) {
+    header += "property float face_indices\n";
+    return;
+  }
   const std::string_view element = attribute.per_face ? "face_" : "vertex_";
   std::string_view name = attribute.name;
   if (name.starts_with(element)) name.remove_prefix(element.size());

@@ -178,6 +178,23 @@ bool is_refracting(const Scene& scene, const Used& used) {
   return false;
 }
 
+bool is_infinitely_far(const LightModel& light) {
+  return std::holds_alternative<DistantLight>(light) || std::holds_alternative<InfiniteLight>(light) ||
+         std::holds_alternative<EnvironmentLight>(light) || std::holds_alternative<SkyLight>(light);
+}
+
+// Nothing would come through a medium without end.
+void report_endless_medium(const Scene& scene, const Light& light, Notes& report) {
+  if (!scene.camera_medium || !is_infinitely_far(light.model)) return;
+  const Medium& medium = scene.media.at(scene.camera_medium->value);
+  if (std::holds_alternative<std::monostate>(medium.density))
+    report.approximated(
+        "light from infinitely far comes through as much of the medium around the camera as the scene is "
+        "wide, as pbrt and Mitsuba have it where they choose a light; there none comes by rays that meet "
+        "nothing",
+        light.origin);
+}
+
 }  // namespace
 
 Appearance appearance_of(const Scene& scene, const std::filesystem::path& bundle) {
@@ -204,6 +221,7 @@ Appearance appearance_of(const Scene& scene, const std::filesystem::path& bundle
     if (const auto* sky = std::get_if<SkyLight>(&light.model); sky && glass && SkyModel(*sky).has_sun())
       report.approximated("the sun's disc is not seen where smooth glass is, only what it lights",
                           light.origin);
+    report_endless_medium(scene, light, report);
     const auto* environment = std::get_if<EnvironmentLight>(&light.model);
     if (environment && environment->portal)
       report.approximated("environment light: its portal is not looked at, it shines from everywhere",

@@ -5,6 +5,7 @@
 
 #include "partitioner/appearance/table_files.h"
 #include "scene/hair.h"
+#include "scene/rgb_to_spectrum.h"
 #include "scene/subsurface.h"
 
 namespace vitrail {
@@ -66,13 +67,28 @@ class MaterialBaker {
     const auto render = [&](SpectrumParameter& p) {
       if (auto* spectrum = std::get_if<Spectrum>(&p)) *spectrum = textures_.as_rendered(*spectrum);
     };
+    const auto render_mean = [&](SpectrumParameter& p, const char* name) {
+      if (std::holds_alternative<Id<Texture>>(p))
+        if (const auto mean = textures_.mean(p)) {
+          note(fmt::format(
+              "the texture of its {} becomes the mean of that, rgb {:.3g} {:.3g} {:.3g}, from which "
+              "it is {:.2g} in the root mean square",
+              name, mean->color.r, mean->color.g, mean->color.b, mean->deviation));
+          p = unbounded_from_rgb(mean->color);
+        }
+      render(p);
+    };
     if (auto* given = std::get_if<SubsurfaceMaterial::Coefficients>(&m.interior))
-      render(given->sigma_a), render(given->sigma_s);
+      render_mean(given->sigma_a, "absorption"), render_mean(given->sigma_s, "scattering");
     auto* effective = std::get_if<SubsurfaceMaterial::Effective>(&m.interior);
-    if (effective) render(effective->reflectance), render(effective->mean_free_path);
+    if (effective) render(effective->reflectance), render_mean(effective->mean_free_path, "mean free path");
     std::optional<Medium> medium = interior_of(m);
     if (!medium && effective) {
-      note("a texture of its interior: it becomes diffuse with the reflectance of that");
+      std::string how = "a texture of its interior: it becomes diffuse with the reflectance of that";
+      if (const auto* path = std::get_if<Spectrum>(&effective->mean_free_path))
+        how += fmt::format(", without the spread of light below it by a mean free path of {:.3g}",
+                           static_cast<double>(m.scale) * evaluate(resolved(*path), 550));
+      note(std::move(how));
       return (*this)(DiffuseMaterial{effective->reflectance});
     }
     if (!medium) return grey("its interior");
@@ -172,7 +188,11 @@ BakedMaterial bake_material(const Material& material, const std::vector<std::int
   result.material.two_sided = material.two_sided;
   result.material.bump_shadowing = material.bump_shadowing;
   result.material.model = std::visit(MaterialBaker(ids, textures, tables, result), material.model);
-  if (material.displacement) result.material.displacement = textures.bake(*material.displacement);
+  if (material.displacement) {
+    result.material.displacement = textures.bake(*material.displacement);
+    if (textures.reads_attribute(*result.material.displacement))
+      result.notes.push_back("what textures by face and attributes of meshes say of its bumps is left out");
+  }
   if (material.normal_map) result.material.normal_map = textures.bake_vector(*material.normal_map);
   return result;
 }

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <memory>
 
+#include "bundle/texture_inputs.h"
 #include "images/ptex_means.h"
 #include "images/texture_values.h"
 #include "scene/matrix_r.h"
@@ -114,6 +115,20 @@ FloatParameter TextureBaker::bake(const FloatParameter& parameter) {
   return static_cast<float>(evaluate(std::get<Spectrum>(baked), lambda_min_nm));
 }
 
+std::optional<TextureMean> TextureBaker::mean(const SpectrumParameter& parameter) const {
+  try {
+    return mean_of(scene_, parameter);
+  } catch (const Error& error) {
+    const auto* id = std::get_if<Id<Texture>>(&parameter);
+    if (!id) throw;
+    throw Error(error.what(), location(scene_, scene_.textures[id->value].origin));
+  }
+}
+
+bool TextureBaker::reads_attribute(const FloatParameter& baked) const {
+  return vitrail::reads_attribute(textures_, baked);
+}
+
 Id<Texture> TextureBaker::bake_vector(Id<Texture> texture) {
   if (std::holds_alternative<ImageTexture>(scene_.textures.at(texture.value).model))
     return std::get<Id<Texture>>(bake_texture(texture, TextureUse::vector));
@@ -186,7 +201,8 @@ struct TextureBaker::Clone {
     return baker.add(image, use);
   }
   SpectrumParameter operator()(MeshAttributeTexture t) const {
-    t.name = baker.slot_of(t.name, use);
+    const bool plain = use == TextureUse::number || use == TextureUse::vector;
+    t.name = baker.slot_of({t.name, plain ? use : TextureUse::reflectance});
     if (use != TextureUse::illuminant) return baker.add(t, use);
     return lit(t);
   }
@@ -197,7 +213,7 @@ struct TextureBaker::Clone {
   SpectrumParameter operator()(const NoiseTexture& t) const {
     return use == TextureUse::illuminant ? lit(t) : baker.add(t, use);
   }
-  SpectrumParameter operator()(const PtexTexture& t) const { return as_used(baker.mean_of(id, t), use, {}); }
+  SpectrumParameter operator()(const PtexTexture& t) const { return baker.bake_ptex(id, t, use); }
 
  private:
   SpectrumParameter input(const SpectrumParameter& parameter) const {
@@ -222,17 +238,31 @@ SpectrumParameter TextureBaker::bake_texture(Id<Texture> texture, TextureUse use
   return baked;
 }
 
-Spectrum TextureBaker::mean_of(Id<Texture> texture, const PtexTexture& ptex) {
+// What shines, and a file that cannot be read, is its mean.
+SpectrumParameter TextureBaker::bake_ptex(Id<Texture> texture, const PtexTexture& ptex, TextureUse use) {
   const Texture& original = scene_.textures[texture.value];
   const SourceLocation where = location(scene_, original.origin);
   const std::string name = original.name.empty() ? "" : fmt::format(" \"{}\"", original.name);
+  const auto report = [&](const std::string& how) {
+    diagnostics_.push_back({Fidelity::approximated,
+                            fmt::format("texture{} of ptex is rendered as {}", name, how), where, where,
+                            RecordKind::texture});
+  };
+  if (use != TextureUse::illuminant) try {
+      const PtexImage image = ptex_image(ptex, use == TextureUse::number);
+      ImageTexture baked;
+      baked.filename = write_image(image.rows, use, false);
+      baked.mapping = AttributeMapping{slot_of({std::string(face_indices), TextureUse::vector, image.tiles})};
+      baked.wrap = Wrap::clamp;
+      report(image.how);
+      return add(baked, use);
+    } catch (const Error&) {  // which the mean says
+    }
   const PtexMean mean = mean_of_ptex(ptex);
-  diagnostics_.push_back({Fidelity::approximated,
-                          fmt::format("texture{} of ptex is rendered as {}", name, mean.how), where, where,
-                          RecordKind::texture});
+  report(mean.how);
   const RGB& c = mean.color;
-  if (c.r == c.g && c.g == c.b) return ConstantSpectrum{static_cast<float>(c.r)};
-  return unbounded_from_rgb(c);
+  if (c.r == c.g && c.g == c.b) return as_used(ConstantSpectrum{static_cast<float>(c.r)}, use, {});
+  return as_used(unbounded_from_rgb(c), use, {});
 }
 
 Id<Texture> TextureBaker::add(TextureModel model, TextureUse use) {
@@ -240,9 +270,7 @@ Id<Texture> TextureBaker::add(TextureModel model, TextureUse use) {
   return {static_cast<std::uint32_t>(textures_.size() - 1)};
 }
 
-std::string TextureBaker::slot_of(const std::string& attribute, TextureUse use) {
-  const bool plain = use == TextureUse::number || use == TextureUse::vector;
-  const Attribute wanted{attribute, plain ? use : TextureUse::reflectance};
+std::string TextureBaker::slot_of(const Attribute& wanted) {
   const auto found = std::find(attributes_.begin(), attributes_.end(), wanted);
   const auto slot = found - attributes_.begin();
   if (found == attributes_.end()) attributes_.push_back(wanted);

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -11,6 +12,8 @@
 
 #include "bundle/manifest.h"
 #include "partitioner/appearance/bake_image.h"
+#include "partitioner/appearance/bake_ptex.h"
+#include "partitioner/appearance/texture_mean.h"
 #include "scene/scene.h"
 
 namespace vitrail {
@@ -30,6 +33,10 @@ class TextureBaker {
   // `resolved`, colours by the scene's method.
   Spectrum as_rendered(const Spectrum& spectrum) const;
   Id<Texture> bake_vector(Id<Texture> texture);
+  // Throws as `bake` does.
+  std::optional<TextureMean> mean(const SpectrumParameter& parameter) const;
+  // Whether an attribute of meshes counts in what was baked.
+  bool reads_attribute(const FloatParameter& baked) const;
   // Of a light: the name in the bundle. All MIP levels.
   std::string bake_image(const ImageTexture& image, TextureUse use, const SourceLocation& where);
 
@@ -38,6 +45,7 @@ class TextureBaker {
   struct Attribute {
     std::string name;
     TextureUse use;
+    std::shared_ptr<const PtexTiles> tiles = nullptr;  // of face_indices: the corners' places among them
     bool operator==(const Attribute&) const = default;
   };
   const std::vector<Attribute>& attributes() const { return attributes_; }
@@ -48,14 +56,14 @@ class TextureBaker {
   struct Clone;
   SpectrumParameter bake_input(const SpectrumParameter& parameter, TextureUse use);
   SpectrumParameter bake_texture(Id<Texture> texture, TextureUse use);
-  Spectrum mean_of(Id<Texture> texture, const PtexTexture& ptex);
+  SpectrumParameter bake_ptex(Id<Texture> texture, const PtexTexture& ptex, TextureUse use);
   std::string bake_file(const ImageTexture& image, TextureUse use, bool all_levels,
                         const SourceLocation& where);
   std::string write_file(const ImageTexture& image, TextureUse use, bool all_levels,
                          const SourceLocation& where);
   std::string write_image(const ImageRows& rows, TextureUse use, bool all_levels);
   Id<Texture> add(TextureModel model, TextureUse use);
-  std::string slot_of(const std::string& attribute, TextureUse use);
+  std::string slot_of(const Attribute& wanted);
   bool is_number(const SpectrumParameter& parameter) const;
 
   const Scene& scene_;

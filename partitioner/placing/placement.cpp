@@ -140,6 +140,20 @@ CornerValues MeshPlacer::values(std::size_t i, const MeshAttribute& attribute, T
   return corners;
 }
 
+// Of the corners, among the tiles.
+CornerValues MeshPlacer::tile_places(std::size_t i, const PtexTiles& tiles) const {
+  const CornerUvs uv = uvs_of(mesh_, i);
+  const auto faces = std::ranges::find(mesh_.attributes, face_indices, &MeshAttribute::name);
+  const float face = faces == mesh_.attributes.end() ? 0 : faces->values[i];
+  CornerValues corners;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Point2f place = tiles.at(face, uv[k]);
+    corners[k] = {place.x, place.y, 0};
+  }
+  if (placement_.flip) std::swap(corners[1], corners[2]);
+  return corners;
+}
+
 void MeshPlacer::place(std::size_t begin, std::size_t end, PlacedTriangles& out, std::uint64_t at) const {
   for (std::size_t i = begin; i != end; ++i) {
     const std::uint64_t to = at + (i - begin);
@@ -147,12 +161,18 @@ void MeshPlacer::place(std::size_t begin, std::size_t end, PlacedTriangles& out,
     if (rule_.normals) out.normals[to] = normals(i, t);
     if (rule_.uvs) out.uvs[to] = uvs(i);
   }
-  for (std::size_t slot = 0; slot < rule_.attributes.size(); ++slot)
-    for (const MeshAttribute& attribute : mesh_.attributes) {
-      if (attribute.name != rule_.attributes[slot].name) continue;
-      for (std::size_t i = begin; i != end; ++i)
-        out.attributes[slot][at + (i - begin)] = values(i, attribute, rule_.attributes[slot].use);
+  for (std::size_t slot = 0; slot < rule_.attributes.size(); ++slot) {
+    const TextureBaker::Attribute& wanted = rule_.attributes[slot];
+    const auto put = [&](const auto& value) {
+      for (std::size_t i = begin; i != end; ++i) out.attributes[slot][at + (i - begin)] = value(i);
+    };
+    if (wanted.tiles) {
+      put([&](std::size_t i) { return tile_places(i, *wanted.tiles); });
+      continue;
     }
+    for (const MeshAttribute& attribute : mesh_.attributes)
+      if (attribute.name == wanted.name) put([&](std::size_t i) { return values(i, attribute, wanted.use); });
+  }
   if (placement_.standing) stand(*placement_.standing, out, at, at + (end - begin));
 }
 

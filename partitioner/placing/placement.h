@@ -72,6 +72,7 @@ class MeshPlacer {
   CornerNormals normals(std::size_t i, const Triangle& placed) const;
   CornerUvs uvs(std::size_t i) const;
   CornerValues values(std::size_t i, const MeshAttribute& attribute, TextureUse use) const;
+  CornerValues tile_places(std::size_t i, const PtexTiles& tiles) const;
   [[noreturn]] void reject(std::size_t i) const;
 
   const Placement& placement_;

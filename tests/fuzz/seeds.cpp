@@ -10,6 +10,7 @@
 
 #include "tests/conformance/formats/feature_cases.h"
 #include "tests/glazing/glazing_files.h"
+#include "tests/images/ptex_bytes.h"
 
 namespace vitrail::test {
 namespace {
@@ -150,6 +151,11 @@ void add_tables(Seeds& seeds) {
   seeds.add("fourier", fourier(2, 1));
   seeds.add("fourier", fourier(4, 3));
   seeds.add("tensors", tensors());
+  seeds.add("ptex",
+            test::ptex_bytes(test::PtexType::uint8, 3,
+                             {{0, 0, "abc"},
+                              {1, 0, "abc", test::PtexEncoding::zipped, test::zipped("aabbcc")},
+                              {1, 0, "abc", test::PtexEncoding::differences, test::zipped("aabbcc")}}));
   seeds.add("volume", volume(2, 1));
   seeds.add("volume", volume(3, 3));
   seeds.add("curves", "c0 0 0 .1\n.3 .3 0 .1\n.6 .3 0 .1\n1 0 0 .1\n\n0 0 1 1\n0 1 1 1\n0 2 1 1\n0 3 1 0\n");

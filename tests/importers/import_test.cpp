@@ -4,6 +4,7 @@
 
 #include <numbers>
 
+#include "importers/default_view.h"
 #include "pbrt_text.h"
 #include "scene/color.h"
 #include "scene/spectrum.h"
@@ -151,6 +152,46 @@ TEST(ImportScene, GoesOnWithoutLostFiles) {
     for (const Texture& texture : imported.scene.textures)
       EXPECT_FALSE(std::holds_alternative<ImageTexture>(texture.model));
   }
+}
+
+// The view of a box is that of the quadrics in it: an ellipsoid, half a sphere, a disk that lies askew, and
+// two spheres in an instance.
+TEST(DefaultView, SeesQuadricsByTheirExtent) {
+  const auto camera_of = [](ImportedScene imported) {
+    add_default_view(imported, "a.xml");
+    return std::get<PerspectiveCamera>(imported.scene.camera).camera_to_world;
+  };
+  const auto of_box = [&](Bounds3f box) {
+    ImportedScene imported;
+    imported.scene.meshes.push_back({{box.lower, box.upper}, {{0, 1, 0}}});
+    imported.scene.shapes.emplace_back();
+    return camera_of(imported);
+  };
+  const auto of_quadric = [&](const Quadric& quadric, const Transform& to_world) {
+    ImportedScene imported;
+    imported.scene.meshes.emplace_back().quadric = quadric;
+    imported.scene.shapes.emplace_back().object_to_world = to_world;
+    return camera_of(imported);
+  };
+  const auto expect_alike = [](const Transform& a, const Transform& b) {
+    for (std::size_t row = 0; row < 3; ++row)
+      for (std::size_t column = 0; column < 4; ++column)
+        EXPECT_NEAR(a.m[row][column], b.m[row][column], 1e-5);
+  };
+  const Quadric sphere{.kind = QuadricKind::sphere};
+  expect_alike(of_quadric(sphere, translate({10, 0, 0}) * scale({2, 1, 3})),
+               of_box({{8, -1, -3}, {12, 1, 3}}));
+  expect_alike(of_quadric({.kind = QuadricKind::sphere, .low = 0}, {}), of_box({{-1, -1, 0}, {1, 1, 1}}));
+  const float half = std::sqrt(.5f);
+  expect_alike(of_quadric({.kind = QuadricKind::disk, .low = 0}, rotate(std::numbers::pi / 4, {0, 1, 0})),
+               of_box({{-half, -1, -half}, {half, 1, half}}));
+  ImportedScene imported;
+  imported.scene.meshes.emplace_back().quadric = sphere;
+  Prototype pair;
+  for (const double x : {-2, 2}) pair.shapes.emplace_back().object_to_world = translate({x, 0, 0});
+  imported.scene.prototypes.push_back(pair);
+  imported.scene.instances.push_back({Id<Prototype>{0}, scale({2, 2, 2}), {}});
+  expect_alike(camera_of(imported), of_box({{-6, -2, -2}, {6, 2, 2}}));
 }
 
 }  // namespace

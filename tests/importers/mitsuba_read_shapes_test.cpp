@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <numbers>
 
+#include "images/image_files.h"
 #include "importers/mitsuba/builder.h"
 #include "importers/mitsuba/serialized.h"
 #include "importers/ply/ply.h"
@@ -228,6 +229,47 @@ TEST(MitsubaShapes, ObjIsOneMeshWithItsTextureCoordinatesTurned) {
   EXPECT_THAT(reading.report.take(), testing::IsEmpty());
 }
 
+// 3 × 2 heights, which 0.6 makes 3 × 2 patches' corners of: 2¹ + 1 and 2⁰ + 1. The upper row is y = −1.
+TEST(MitsubaShapes, HeightFieldsBecomeTriangles) {
+  TemporaryFolder folder;
+  const auto file = folder.write("h.exr", "");
+  write_exr_image(file, {3, 2, 1, {0, .1f, .4f, .2f, .3f, .2f}});
+  Reading reading;
+  reading.add(shape("heightfield", {{"filename", file.string(), {}}, {"scale", 2.0, {}}}));
+  const TriangleMesh& mesh = reading.mesh();
+  ASSERT_EQ(mesh.positions.size(), 6u);
+  EXPECT_EQ(mesh.triangles.size(), 4u);
+  const auto at = [&](std::size_t i) {
+    return transform_point(reading.scene.shapes.at(0).object_to_world, cast<double>(mesh.positions[i]));
+  };
+  EXPECT_NEAR(length(at(1) - Point3d{0, -1, .2}), 0, 1e-6);
+  EXPECT_NEAR(length(at(5) - Point3d{1, 1, .4}), 0, 1e-6);
+  EXPECT_EQ(mesh.uvs[1], (Point2f{.5f, 0}));
+  // At (0, 0): one patch, whose sides rise by .2 and .4 a cell, which is 1 wide and 2 high.
+  const Vector3d grid = normalize(Vector3d{-.2, -.4, 1}), n = normalize(Vector3d{grid.x, grid.y / 2, grid.z});
+  const Normal3d corner =
+      transform_normal(reading.scene.shapes[0].object_to_world, cast<double>(mesh.normals[0]));
+  EXPECT_NEAR(length(normalize(to_vector(corner)) - n), 0, 1e-6);
+  const Diagnostics said = reading.report.take();
+  ASSERT_EQ(said.size(), 1u);  // the second patch: |.2 + .4 − .8 − .6| / 4
+  EXPECT_THAT(said[0].message, HasSubstr("at most 0.2 in height"));
+}
+
+// 4 columns become 5, between their middles.
+TEST(MitsubaShapes, HeightFieldsOfOtherSizesAreResampled) {
+  TemporaryFolder folder;
+  const auto file = folder.write("h.exr", "");
+  write_exr_image(file, {4, 1, 1, {0, 1, 2, 3}});
+  Reading reading;
+  reading.add(shape("heightfield", {{"filename", file.string(), {}}, {"shading_normals", false, {}}}));
+  const TriangleMesh& mesh = reading.mesh();
+  ASSERT_EQ(mesh.positions.size(), 10u);
+  EXPECT_TRUE(mesh.normals.empty());
+  for (std::size_t i = 0; i < 5; ++i)
+    EXPECT_NEAR(mesh.positions[i].z, std::clamp(.8 * (static_cast<double>(i) + .5) - .5, 0.0, 3.0), 1e-6);
+  EXPECT_THAT(reading.report.take().at(0).message, HasSubstr("4 × 1 heights become 5 × 2"));
+}
+
 TEST(MitsubaShapes, PlyFilesKeepTheirAttributes) {
   TemporaryFolder folder;
   const auto file = folder.write(
@@ -312,7 +354,7 @@ TEST(MitsubaShapes, GroupsBecomePrototypes) {
 
 TEST(MitsubaShapes, UnknownKindsAreDropped) {
   Reading reading;
-  reading.add(shape("deformable")).add(shape("spere")).add(shape("heightfield"));
+  reading.add(shape("deformable")).add(shape("spere")).add(shape("ellipsoids"));
   EXPECT_TRUE(reading.scene.shapes.empty());
   const Diagnostics diagnostics = reading.report.take();
   ASSERT_EQ(diagnostics.size(), 3u);

@@ -158,6 +158,14 @@ TEST(PbrtLights, ImagesOfEnvironmentsAreKept) {
   EXPECT_EQ(old.projection, EnvironmentLight::Projection::latitude_longitude);
 }
 
+TEST(PbrtLights, ProjectionsKeepPowerAndScaleApart) {
+  const ImportedScene imported = import_v4(
+      "LightSource \"projection\" \"string filename\" \"slide.exr\" \"float power\" 50 \"float scale\" 3");
+  const auto& light = std::get<ProjectionLight>(imported.scene.lights.at(0).model);
+  EXPECT_EQ(light.power, 50.0f);
+  EXPECT_EQ(light.scale, Spectrum{ConstantSpectrum{3}});
+}
+
 // They are lit by D65; v3's L is an rgb that multiplies them.
 TEST(PbrtLights, ImagesAreLitOnce) {
   const auto scale = [](const std::string& parameters) {

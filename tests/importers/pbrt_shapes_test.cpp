@@ -187,6 +187,32 @@ TEST(PbrtShapes, PlyFilesAreReadOnce) {
   EXPECT_EQ(front(scene, scene.shapes[1]), down);
 }
 
+// Of triangles, of a patch that becomes two, and of a file with both; only where a texture asks for them.
+TEST(PbrtShapes, NumbersOfFacesAreKeptForPtex) {
+  const TemporaryFolder folder;
+  folder.write("t.ply",
+               "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\nproperty float "
+               "z\nelement face 2\nproperty list uchar int vertex_indices\nproperty int face_indices\n"
+               "end_header\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n2 0 0\n4 0 1 2 3 7\n3 1 4 2 9\n");
+  const auto faces = [&](const std::string& before) {
+    const Scene scene =
+        read_pbrt(
+            folder.write("s.pbrt", "Film \"rgb\" WorldBegin " + before +
+                                       " Shape \"plymesh\" \"string filename\" \"t.ply\" "
+                                       "Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0 1 1 0] "
+                                       "\"integer indices\" [0 1 2 1 3 2] \"integer faceIndices\" [4 5]"))
+            .scene;
+    std::vector<std::vector<float>> values;
+    for (const TriangleMesh& mesh : scene.meshes)
+      values.push_back(mesh.attributes.empty() ? std::vector<float>() : mesh.attributes.at(0).values);
+    return values;
+  };
+  using Faces = std::vector<std::vector<float>>;
+  EXPECT_EQ(faces("Texture \"t\" \"spectrum\" \"ptex\" \"string filename\" \"t.ptx\""),
+            (Faces{{9}, {7, 7}, {4, 5}}));
+  EXPECT_EQ(faces(""), (Faces{{}, {}, {}}));
+}
+
 TEST(PbrtShapes, QuadricsAreKept) {
   const ImportedScene imported = import_v4(
       "Shape \"sphere\" Scale 1 2 3 Shape \"sphere\" \"float radius\" 2 Shape \"disk\" \"float height\" 4 "

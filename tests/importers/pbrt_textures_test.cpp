@@ -47,6 +47,20 @@ TEST(PbrtTextures, ImagesKeepHowTheyAreRead) {
   EXPECT_EQ(image.primaries, Primaries::named);
 }
 
+// What v3 says of Ptex by one number: 2.2 unless it is given.
+TEST(PbrtTextures, PtexOfV3HasAGamma) {
+  const auto ptex = [](const std::string& parameters) {
+    const ImportedScene imported =
+        import_v3("Texture \"t\" \"spectrum\" \"ptex\" \"string filename\" \"a.ptx\" " + parameters +
+                  " Material \"matte\" \"texture Kd\" \"t\" " + triangle);
+    const auto t = std::get<PtexTexture>(imported.scene.textures.at(0).model);
+    return std::pair(t.encoding, t.gamma);
+  };
+  EXPECT_EQ(ptex("").first, Encoding::automatic);
+  EXPECT_EQ(ptex("\"float gamma\" 1").first, Encoding::linear);
+  EXPECT_EQ(ptex("\"float gamma\" 1.8"), std::pair(Encoding::gamma, 1.8f));
+}
+
 // pbrt-v4 decodes other files than PNG as it wants; v3's `gamma` holds for all.
 TEST(PbrtTextures, OnlyPngFilesTakeAnEncoding) {
   const auto encoding = [](const std::string& file, const std::string& how) {

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "scene/portable_math.h"
+#include "scene/rgb_to_spectrum.h"
 #include "tests/laws/flat_scenes.h"
 #include "tracer/bsdf/fresnel.h"
 #include "tracer/media/medium.h"
@@ -310,6 +311,34 @@ Mean glow_of_infinite_medium(float sigma_a, int depth, int pixels, int samples) 
   scene.settings.max_depth = depth;
   scene.settings.straight_counts = false;
   return mean_of(render(scene, samples).film);
+}
+
+// A white square under a sky and a sun, in a medium that only absorbs: what comes from infinitely far comes
+// through as much of it as the scene is wide, or as twice the distance from its centre.
+TEST(InfiniteMedium, WeakensLightFromFarOverTheWidthOfTheScene) {
+  for (const bool sun : {false, true}) {
+    constexpr double sigma = 0.3, width = 2 * std::numbers::sqrt2, distance = 4;
+    Scene scene;
+    add_shape(scene, add_quads(scene, {{{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}}}),
+              Material{DiffuseMaterial{Spectrum{ConstantSpectrum{1}}}});
+    Medium medium;
+    medium.coefficients =
+        AbsorptionScattering{ConstantSpectrum{static_cast<float>(sigma)}, ConstantSpectrum{0}};
+    scene.media.push_back(medium);
+    scene.camera_medium = Id<Medium>{0};
+    scene.shapes.back().exterior = scene.shapes.back().interior = Id<Medium>{0};
+    if (sun)
+      scene.lights.push_back({DistantLight{{0, 0, -1}, emission_from_rgb({pi, pi, pi})}});
+    else
+      scene.lights.push_back({InfiniteLight{emission_from_rgb({1, 1, 1})}});
+    set_camera(scene, {0, 0, distance}, {0, 0, 0}, {0, 1, 0}, 0.01, 4, 4);
+    expect_luminance(mean_of(render(scene, 64).film), std::exp(-sigma * (distance + width)), 0.01,
+                     sun ? "sun" : "sky", 1e-3);
+    if (sun) continue;
+    set_camera(scene, {0, 0, distance}, {0, 0, 2 * distance}, {0, 1, 0}, 0.01, 4, 4);
+    expect_luminance(mean_of(render(scene, 64).film), std::exp(-sigma * 2 * distance), 0.01, "sky alone",
+                     1e-5);
+  }
 }
 
 // 1 − ωⁿ⁺¹ after n scatterings.

@@ -100,6 +100,19 @@ TEST(Appearance, TexturedInteriorsShowTheirReflectance) {
   EXPECT_EQ(a.diagnostics.size(), 1u);
 }
 
+TEST(Appearance, TexturedCoefficientsBecomeTheirMeans) {
+  SubsurfaceMaterial skin;
+  skin.interior = SubsurfaceMaterial::Coefficients{grey(.1f), Id<Texture>{1}};
+  const Appearance a = baked({Material{skin}}, {{CheckerboardTexture{grey(.2f), grey(.6f)}},
+                                                {ProductTexture{Id<Texture>{0}, grey(3)}}});
+  EXPECT_TRUE(std::holds_alternative<DielectricMaterial>(a.materials.at(0).model));
+  const auto& c = std::get<AbsorptionScattering>(a.media.at(0).coefficients);
+  EXPECT_NEAR(evaluate(resolved(std::get<Spectrum>(c.sigma_s)), 550), 1.2, 1e-5);
+  EXPECT_TRUE(std::ranges::any_of(a.diagnostics, [](const Diagnostic& d) {
+    return d.message.find("rgb 1.2 1.2 1.2, from which it is 0.6 in") != std::string::npos;
+  }));
+}
+
 TEST(Appearance, PartsOfMaterialsComeAlong) {
   const Material unused{InterfaceMaterial{}}, glass{DielectricMaterial{}}, chalk{DiffuseMaterial{}};
   const Appearance a = baked({unused, glass, unused, chalk, {BlendMaterial{{1}, {3}, .25f}}});

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Texture graphs: baked by the partitioner, evaluated by the tracer.
+#include <fstream>
 #include <numbers>
 
 #include "scene/diagnostics.h"
+#include "tests/images/ptex_bytes.h"
 #include "tests/partitioner/baked_scene.h"
 #include "tracer/textures/noise.h"
 #include "tracer/textures/tile_cache.h"
@@ -141,6 +143,54 @@ TEST(TextureGraph, SpectraThatShineAreUnderD65) {
   const Textures textures = s.look_up();
   test::expect_near(textures.spectrum(emission, at_uv(0.1, 0.1), some_wavelengths),
                     emission_from_rgb({0.5, 0.5, 0.5}), 1e-5);
+}
+
+// Two faces: 4 × 2 numbers, and one constant. The corners of a triangle of a face lie where its (u,v) do.
+TEST(TextureGraph, PtexShowsTheTexelsOfItsFaces) {
+  test::BakedScene s;
+  std::string texels, one, mean;
+  const auto texel = [](int x, int y) { return static_cast<float>(1 + 3 * x * x + 10 * y); };
+  for (int y = 0; y < 2; ++y)
+    for (int x = 0; x < 4; ++x) test::put(texels, texel(x, y));
+  test::put(one, 100.0f), test::put(mean, 17.0f);
+  PtexTexture ptex{(s.directory / "a.ptx").string(), Encoding::linear};
+  ptex.scale = 0.5f;
+  std::ofstream(ptex.filename, std::ios::binary)
+      << test::ptex_bytes(test::PtexType::single, 1,
+                          {{2, 1, mean, test::PtexEncoding::zipped, test::zipped(texels)}, {3, 3, one}});
+  const Id<Texture> id = s.add(ptex, true);
+  const FloatParameter baked = s.bake().bake(FloatParameter{id});
+  ASSERT_EQ(s.baker->attributes().size(), 1u);
+  const PtexTiles tiles = *s.baker->attributes()[0].tiles;
+  const Textures textures = s.look_up();
+  const auto at = [&](float face, double u, double v) {  // in the triangle (0,0) (1,0) (0,1)
+    AttributeValue value;
+    value.weights = {static_cast<float>(1 - u - v), static_cast<float>(u), static_cast<float>(v)};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Point2f place = tiles.at(face, {k == 1 ? 1.0f : 0.0f, k == 2 ? 1.0f : 0.0f});
+      value.corners[k] = {place.x, place.y, 0};
+    }
+    TexturePoint point;
+    point.attributes = std::span(&value, 1);
+    return textures.number(baked, point);
+  };
+  const auto smoothed = [&](int x, int y) {
+    double sum = 0;
+    for (int dy = -1; dy <= 1; ++dy)
+      for (int dx = -1; dx <= 1; ++dx)
+        sum += (dx == 0 ? 4 : 1) * (dy == 0 ? 4 : 1) / 36.0 *
+               static_cast<double>(texel(std::clamp(x + dx, 0, 3), std::clamp(y + dy, 0, 1)));
+    return sum / 2;
+  };
+  for (int y = 0; y < 2; ++y)
+    for (int x = 0; x < 4; ++x)
+      EXPECT_NEAR(at(0, (x + 0.5) / 4, (y + 0.5) / 2), smoothed(x, y), 2e-3) << x << " " << y;
+  EXPECT_NEAR(at(0, 0.25, 0.25), (smoothed(0, 0) + smoothed(1, 0)) / 2, 2e-3);
+  EXPECT_NEAR(at(0, 0, 0), smoothed(0, 0), 2e-3);  // nothing of what lies beside it
+  EXPECT_NEAR(at(0, 1, 0), smoothed(3, 0), 2e-3);
+  EXPECT_NEAR(at(1, 0.3, 0.9), 50, 1e-3);
+  EXPECT_EQ(at(2, 0.5, 0.5), 0);
+  EXPECT_EQ(s.diagnostics.size(), 1u);
 }
 
 TEST(TextureGraph, MappingsByPosition) {

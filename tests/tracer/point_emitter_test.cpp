@@ -125,6 +125,10 @@ TEST(PointEmitter, ProjectionsHaveTheirPower) {
     const PointEmitter e = make_emitter(light, aspect, nullptr);
     EXPECT_NEAR(flux_of(e), 100, 1);
     EXPECT_NEAR(e.bounds.power, 100, 1e-3);
+    light.scale = ConstantSpectrum{2.5f};  // still multiplies it, as in pbrt-v4
+    const PointEmitter scaled = make_emitter(light, aspect, nullptr);
+    EXPECT_NEAR(flux_of(scaled), 250, 2.5);
+    EXPECT_NEAR(scaled.bounds.power, 250, 1e-2);
     const Vector3d axis = transform_vector(light.light_to_world, {0, 0, 1});
     EXPECT_GT(intensity_along(e, axis), 0);
     EXPECT_EQ(intensity_along(e, -axis), 0);

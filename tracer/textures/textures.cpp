@@ -32,7 +32,7 @@ struct Node {
   PreparedMapping mapping;
   MappedPoint stretch;       // of images
   Transform world_to_solid;  // of solid checkerboards and noise
-  std::size_t slot = 0;      // of mesh attributes
+  std::size_t slot = 0;      // of mesh attributes, and of mappings by them
   std::uint64_t lookups = 1, nested = 1;
 };
 
@@ -61,6 +61,19 @@ std::size_t slot_of(const std::string& name, std::size_t id) {
   const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), slot);
   if (error != std::errc{} || end != name.data() + name.size()) fail(id, "names no slot of an attribute");
   return slot;
+}
+
+MappedPoint mapped(const Node& node, const TexturePoint& at) {
+  if (!std::holds_alternative<AttributeMapping>(node.mapping.mapping))
+    return map_point(node.mapping, at.uv, at.p);
+  MappedPoint p;
+  if (node.slot >= at.attributes.size()) return p;
+  const AttributeValue& value = at.attributes[node.slot];
+  for (std::size_t k = 0; k < 3; ++k) {
+    p.s += static_cast<double>(value.corners[k][0]) * static_cast<double>(value.weights[k]);
+    p.t += static_cast<double>(value.corners[k][1]) * static_cast<double>(value.weights[k]);
+  }
+  return p;
 }
 
 bool is_even(double cell) { return cell - 2 * std::floor(cell / 2) == 0; }
@@ -165,7 +178,7 @@ typename Lookup::Value trilinear(const Lookup& lookup, const Node& node, MappedP
 
 template <class Lookup>
 typename Lookup::Value image_value(const Lookup& lookup, const Node& node, const ImageTexture& t) {
-  const MappedPoint p = map_point(node.mapping, lookup.at.uv, lookup.at.p);
+  const MappedPoint p = mapped(node, lookup.at);
   switch (t.filter) {
     case TextureFilter::nearest:
       return lookup.nearest(*node.image, p, t.wrap);
@@ -200,7 +213,7 @@ struct Evaluation {
       const Point3d p = transform_point(node.world_to_solid, at.p);
       return is_even(std::floor(p.x) + std::floor(p.y) + std::floor(p.z)) ? of(t.even) : of(t.odd);
     }
-    const MappedPoint p = map_point(node.mapping, at.uv, at.p);
+    const MappedPoint p = mapped(node, at);
     return is_even(std::floor(p.s) + std::floor(p.t)) ? of(t.even) : of(t.odd);
   }
   Value operator()(const ProductTexture& t) const { return of(t.first) * of(t.second); }
@@ -212,7 +225,7 @@ struct Evaluation {
     return mixed(t.second, t.first, std::abs(dot(lookup.at.normal, t.direction)));
   }
   Value operator()(const BilinearTexture& t) const {
-    const MappedPoint p = map_point(node.mapping, lookup.at.uv, lookup.at.p);
+    const MappedPoint p = mapped(node, lookup.at);
     return Lookup::scaled(of(t.v00), (1 - p.s) * (1 - p.t)) + Lookup::scaled(of(t.v01), (1 - p.s) * p.t) +
            Lookup::scaled(of(t.v10), p.s * (1 - p.t)) + Lookup::scaled(of(t.v11), p.s * p.t);
   }
@@ -222,7 +235,7 @@ struct Evaluation {
                           static_cast<double>(t.scale));
   }
   Value operator()(const DotsTexture& t) const {
-    const MappedPoint p = map_point(node.mapping, lookup.at.uv, lookup.at.p);
+    const MappedPoint p = mapped(node, lookup.at);
     return inside_dot(p.s, p.t) ? of(t.inside) : of(t.outside);
   }
   Value operator()(const NoiseTexture& t) const {
@@ -284,7 +297,11 @@ struct Textures::Implementation {
     if (node.lookups > most_lookups || node.nested > most_nested) fail(id, "is nested too deeply");
     std::visit(
         [&](const auto& model) {
-          if constexpr (requires { model.mapping; }) node.mapping = prepared(model.mapping, id);
+          if constexpr (requires { model.mapping; }) {
+            node.mapping = prepared(model.mapping, id);
+            if (const auto* m = std::get_if<AttributeMapping>(&model.mapping))
+              node.slot = slot_of(m->slot, id);
+          }
         },
         texture.model);
     if (const auto* t = std::get_if<ImageTexture>(&texture.model)) {
