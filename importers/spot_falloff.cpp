@@ -73,6 +73,11 @@ Profile linear_of(const Moments& m) {
 
 }  // namespace
 
+double spot_falloff(const SpotLight& light, double theta_rad) {
+  return Profile{radians * static_cast<double>(light.beam_deg),
+                 radians * static_cast<double>(light.cutoff_deg), light.falloff}(theta_rad);
+}
+
 MatchedSpot matched_spot(const SpotLight& light, SpotLight::Falloff to) {
   const Profile given{static_cast<double>(light.beam_deg) * radians,
                       static_cast<double>(light.cutoff_deg) * radians, light.falloff};

@@ -6,6 +6,9 @@
 
 namespace vitrail {
 
+// Its share of the greatest intensity at an angle from the axis.
+double spot_falloff(const SpotLight& light, double theta_rad);
+
 // The light with the other falloff: of the same flux, and as wide between full and no light as their
 // deviation says; `difference` is the greatest of the two intensities, relative to the greatest intensity.
 struct MatchedSpot {

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "importers/export_colors.h"
+#include "importers/spot_falloff.h"
 
 namespace vitrail {
 
@@ -94,6 +95,21 @@ Image resized(Image image, const ImageTexture& texture, int width, int height) {
   return result;
 }
 
+Image under_spot(Image image, const ImageTexture& texture, const SpotLight& spot) {
+  const int side = std::max({image.width, image.height, 512});
+  image = resized(std::move(image), texture, side, side);
+  const double half = std::tan(static_cast<double>(spot.cutoff_deg) / 180 * std::numbers::pi);
+  float* value = image.values.data();
+  for (int y = 0; y < side; ++y)
+    for (int x = 0; x < side; ++x) {
+      const double px = (2 * (x + 0.5) / side - 1) * half, py = (2 * (y + 0.5) / side - 1) * half;
+      const double share = spot_falloff(spot, std::atan(std::hypot(px, py)));
+      for (int c = 0; c < image.channels; ++c, ++value)
+        *value = static_cast<float>(static_cast<double>(*value) * share);
+    }
+  return image;
+}
+
 }  // namespace
 
 void multiply_by_cosine(Image& image, int power, Point2d half) {
@@ -145,7 +161,9 @@ ConvertedImages::Key ConvertedImages::key_of(const ImageTexture& t, ImageUse use
           t.invert,
           change.three_channels,
           {t.gamma, t.scale, f(change.tint.r), f(change.tint.g), f(change.tint.b), m.a, m.b, m.c, m.d, m.e,
-           m.f, static_cast<float>(change.cosine_power), f(change.half.x), f(change.half.y)}};
+           m.f, static_cast<float>(change.cosine_power), f(change.half.x), f(change.half.y),
+           change.spot ? change.spot->beam_deg : 0, change.spot ? change.spot->cutoff_deg : 0,
+           change.spot ? static_cast<float>(change.spot->falloff) : 0}};
 }
 
 std::filesystem::path ConvertedImages::write(const ImageTexture& texture, ImageUse use,
@@ -157,6 +175,7 @@ std::filesystem::path ConvertedImages::write(const ImageTexture& texture, ImageU
   if (is_colored || change.three_channels) values = with_three_channels(std::move(values));
   if (change.tint != RGB{1, 1, 1}) multiply(values, change.tint);
   if (change.mapping != UvMapping{}) values = mapped(values, texture, change.mapping);
+  if (change.spot) values = under_spot(std::move(values), texture, *change.spot);
   if (change.cosine_power != 0) multiply_by_cosine(values, change.cosine_power, change.half);
   const std::filesystem::path file = new_file_();
   write_exr_image(file, values);

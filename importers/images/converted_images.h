@@ -22,6 +22,8 @@ struct ImageChange {
   // ±half.x, ±half.y wide and high at distance 1. n = 0: nothing.
   int cosine_power = 0;
   Point2d half;
+  // Times this light's falloff, over the square frame of its cutoff, of at least 512 × 512 texels.
+  const SpotLight* spot = nullptr;
 };
 
 // The half width and height, at distance 1, of the image that a light throws: `aspect` is its width ÷ height.
@@ -60,7 +62,7 @@ class ConvertedImages {
   std::filesystem::path new_file() const { return new_file_(); }
 
  private:
-  using Numbers = std::array<float, 14>;
+  using Numbers = std::array<float, 17>;
   using Key = std::tuple<std::string, Encoding, ImageNumber, Primaries, Wrap, TextureFilter, ImageUse, bool,
                          bool, Numbers>;
   static Key key_of(const ImageTexture& texture, ImageUse use, const ImageChange& change);

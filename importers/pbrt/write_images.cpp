@@ -95,7 +95,7 @@ std::optional<std::string> file_for_pbrt(Parameters& p, Id<Texture> texture, Ima
     p.approximated("its image is mapped by the uv, not by position");
   try {
     const bool as_it_is = change.tint == RGB{1, 1, 1} && change.mapping == UvMapping{} &&
-                          change.cosine_power == 0 && is_read_by_pbrt(image.filename) &&
+                          change.cosine_power == 0 && !change.spot && is_read_by_pbrt(image.filename) &&
                           have_same_values(image, taken_by_name(image, use), use) &&
                           has_three_channels(image);
     return as_it_is ? image.filename : written(p, image, use, change);

@@ -28,6 +28,7 @@ class LightWriter {
   }
   const char* operator()(const SpotLight& l) {
     light_to_world_ = l.light_to_world;
+    if (l.texture && textured_spot(l)) return "projection";
     const MatchedSpot spot = matched_spot(l, SpotLight::Falloff::smoothstep);
     if (spot.difference > 0)
       p_.approximated(fmt::format(
@@ -95,6 +96,16 @@ class LightWriter {
   const char* operator()(const SkyLight&) { return nullptr; }  // its parts are written
 
  private:
+  // A projection of its texture, dark beyond its edge; false where that is no image.
+  bool textured_spot(const SpotLight& l) {
+    ImageChange change{emission_rgb(l.intensity)};
+    change.spot = &l;
+    const auto file = file_for_pbrt(p_, *l.texture, ImageUse::light, change);
+    if (!file) return false;
+    if (!is_rgb(l.intensity)) p_.approximated("the intensity of a spot light with a texture is an rgb");
+    p_.file("filename", *file).number("fov", 2 * static_cast<double>(l.cutoff_deg));
+    return true;
+  }
   // pbrt's image is of the intensity.
   const char* uniform_irradiance(const ProjectionLight& l) {
     constexpr int pixels = 64;

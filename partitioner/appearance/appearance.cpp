@@ -100,7 +100,7 @@ void bake_materials(const Scene& scene, const Used& used, TextureBaker& textures
     BakedMaterial baked = bake_material(material, ids, textures, tables);
     if (baked.interior) {
       if (scene.settings.max_depth < unlimited_depth)
-        baked.notes.push_back("the depth: its interior would use it up, so paths end by roulette alone");
+        baked.notes.emplace_back("the depth: its interior would use it up, so paths end by roulette alone");
       result.material_interiors[i] = static_cast<std::int32_t>(result.media.size());
       result.media.push_back(std::move(*baked.interior));
     }

@@ -143,7 +143,7 @@ class MaterialBaker {
   }
 
  private:
-  void note(std::string what) { result_.notes.push_back(std::move(what)); }
+  void note(std::string_view what) { result_.notes.emplace_back(what); }
   void reflectance(SpectrumParameter& p) { p = textures_.bake(p, TextureUse::reflectance); }
   // Above 1 where a blend makes a sum of lobes.
   void factor(SpectrumParameter& p) { p = textures_.bake(p, TextureUse::unbounded); }

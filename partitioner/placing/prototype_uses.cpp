@@ -16,7 +16,7 @@ namespace vitrail {
 namespace {
 
 // Of 2⁰ to 2⁴, 2⁴ to 2⁸ … 2²⁸ to 2³² triangles.
-int magnitude(std::uint64_t triangles) { return (std::bit_width(triangles) - 1) / 4; }
+int magnitude(std::uint64_t triangles) { return (static_cast<int>(std::bit_width(triangles)) - 1) / 4; }
 constexpr int max_depth = max_instance_depth - 1;  // of prototypes: the quadrics in them are instances, too
 static_assert(max_depth >= 32 / 4);
 

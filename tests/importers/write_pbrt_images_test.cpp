@@ -224,5 +224,37 @@ TEST_F(PbrtImages, NoImageOfAnotherIsReplaced) {
   EXPECT_EQ(std::filesystem::file_size(folder_ / "out-images/000000.exr"), 10u);
 }
 
+// pbrt's spot lights have no texture: they become projections, dark from the cutoff on.
+TEST_F(PbrtImages, SpotLightsWithTexturesBecomeProjections) {
+  Image two = black_image(4, 2, 3);
+  for (std::size_t i = 0; i < two.values.size(); ++i) two.values[i] = i < 12 ? 2.0f : 4.0f;
+  write_exr_image(folder_ / "two.exr", two);
+  Scene scene = square_scene(Material{DiffuseMaterial{}});
+  ImageTexture texture = image("two.exr");
+  texture.filter = TextureFilter::nearest;
+  scene.textures.push_back({texture, false, "", {}});
+  SpotLight light;
+  light.intensity = emission_from_rgb({3, 3, 3});
+  light.beam_deg = 20, light.cutoff_deg = 40;
+  light.falloff = SpotLight::Falloff::linear;
+  light.texture = Id<Texture>{0};
+  scene.lights = {{light, {}}};
+  write_pbrt(scene, folder_ / "out.pbrt");
+  const Scene again = read_pbrt(folder_ / "out.pbrt").scene;
+  const auto& read = std::get<ProjectionLight>(again.lights.at(0).model);
+  EXPECT_FLOAT_EQ(read.fov_deg, 80);
+  EXPECT_NEAR(evaluate(read.scale, 500), 1, 1e-6);
+  const std::vector<float> found =
+      values(again.textures.at(std::get<Id<Texture>>(read.image).value), ImageUse::light);
+  ASSERT_EQ(found.size(), 512u * 512 * 3);
+  const auto at = [&](std::size_t x, std::size_t y) { return found[(y * 512 + x) * 3]; };
+  constexpr double degree = std::numbers::pi / 180;
+  const double theta = std::atan(std::tan(40 * degree) * (1 - 81 / 512.0));
+  EXPECT_NEAR(at(256, 40), 6 * (2 - theta / (20 * degree)), .02);
+  EXPECT_NEAR(at(256, 200), 6, 1e-4);
+  EXPECT_NEAR(at(256, 300), 12, 1e-4);
+  EXPECT_EQ(at(3, 3), 0);
+}
+
 }  // namespace
 }  // namespace vitrail
