@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "scene/curve_meshes.h"
+#include "scene/curve_strands.h"
 #include "scene/quadric_places.h"
 #include "scene/unit_circle.h"
 
@@ -138,38 +139,22 @@ void take_mitsuba_uv(QuadricKind kind, TriangleMesh& mesh) {
       uv = {1 - uv.y, uv.x};
 }
 
-// Those that follow each other as segments of one curve, as one tube.
 TriangleMesh tubes(const Quadric& q, const QuadricPlaces& places, int corners) {
   TriangleMesh mesh;
-  std::vector<CurveSegment> strand;
-  PlacedCurve first, last;
-  const auto end_strand = [&] {
-    if (strand.empty()) return;
+  for_each_strand(places, [&](std::span<const PlacedCurve> strand) {
+    std::vector<CurveSegment> segments;
     double widest = 0;
-    for (const CurveSegment& s : strand)
-      for (const CurvePoint& p : s) widest = std::max(widest, p.radius);
-    CurveDetail detail = curve_detail(places.size(), last.straight);
-    detail.steps = last.straight ? 1 : steps_within(strand, widest / 6, 2 * detail.steps);
-    if (corners > 0) detail.corners = std::max(3, corners);
-    append_tube(strand, detail, double{first.along_first}, double{last.along_last},
-                first.straight && first.to[0] == Vector3f{}, mesh);
-    strand.clear();
-  };
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    Transform place;
-    places.read(i, {&place, 1});
-    const PlacedCurve next = unpacked_curve(place);
-    const CurveSegment segment = segment_of(next);
-    if (!strand.empty()) {
-      const double gap = length(strand.back()[3].position - segment[0].position);
-      const double size = length(strand.back()[3].position - strand.back()[0].position);
-      if (next.along_first != last.along_last || !(gap <= 1e-5 * size)) end_strand();
+    for (const PlacedCurve& c : strand) {
+      segments.push_back(segment_of(c));
+      for (const float r : c.radius) widest = std::max(widest, double{r});
     }
-    if (strand.empty()) first = next;
-    strand.push_back(segment);
-    last = next;
-  }
-  end_strand();
+    const bool straight = strand.front().straight;
+    CurveDetail detail = curve_detail(places.size(), straight);
+    detail.steps = straight ? 1 : steps_within(segments, widest / 6, 2 * detail.steps);
+    if (corners > 0) detail.corners = std::max(3, corners);
+    append_tube(segments, detail, double{strand.front().along_first}, double{strand.back().along_last},
+                straight && strand.front().to[0] == Vector3f{}, mesh);
+  });
   if (q.uv == QuadricUv::pbrt)
     for (Point2f& uv : mesh.uvs) uv = {uv.y, uv.x};
   return mesh;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/uv_uses.h"
 
+#include <algorithm>
+
 namespace vitrail {
 
 namespace {
@@ -55,7 +57,10 @@ struct Search {
     if (const auto* e = std::get_if<SubsurfaceMaterial::Effective>(&m.interior))
       any(e->reflectance, e->mean_free_path);
   }
-  void operator()(const HairMaterial&) { found = true; }  // runs along u
+  void operator()(const HairMaterial& m) {
+    found = found || !uses.on_curves;  // runs along u or v
+    any(m.sigma_a, m.color, m.eumelanin, m.pheomelanin, m.beta_m, m.beta_n, m.alpha_deg);
+  }
   void operator()(const MeasuredMaterial&) {}
   void operator()(const TabulatedMaterial& m) {
     found = found || m.format == TabulatedMaterial::Format::adaptive;  // may be anisotropic
@@ -123,8 +128,19 @@ std::vector<Id<Material>> parts_of(const MaterialModel& model) {
   return {};
 }
 
-ShapeUvUses::ShapeUvUses(const Scene& scene)
-    : scene_(scene), uses_(scene.textures), materials_(scene.materials.size(), Shows::unknown) {}
+std::vector<bool> with_hair(const std::vector<Material>& materials, bool also_along_v) {
+  std::vector<bool> result;
+  for (const Material& material : materials) {
+    const auto* hair = std::get_if<HairMaterial>(&material.model);
+    const auto is_with = [&](Id<Material> part) { return result.at(part.value); };
+    result.push_back((hair && (also_along_v || !hair->along_v)) ||
+                     std::ranges::any_of(parts_of(material.model), is_with));
+  }
+  return result;
+}
+
+ShapeUvUses::ShapeUvUses(const Scene& scene, bool on_curves)
+    : scene_(scene), uses_(scene.textures, on_curves), materials_(scene.materials.size(), Shows::unknown) {}
 
 bool ShapeUvUses::of(std::uint32_t id) {
   if (materials_[id] == Shows::unknown) {

@@ -11,7 +11,11 @@ namespace vitrail {
 // Of textures that may become more.
 class UvUses {
  public:
-  explicit UvUses(const std::vector<Texture>& textures) : textures_(textures) {}
+  // `of_curves`: there hair knows where it runs.
+  explicit UvUses(const std::vector<Texture>& textures, bool of_curves = false)
+      : on_curves(of_curves), textures_(textures) {}
+
+  const bool on_curves;
 
   bool of(Id<Texture> texture);
   bool of(const FloatParameter& parameter);
@@ -26,11 +30,13 @@ class UvUses {
 
 // The materials that a material refers to.
 std::vector<Id<Material>> parts_of(const MaterialModel& model);
+// Of each material, whether it or a part of it is hair, which also may run along v.
+std::vector<bool> with_hair(const std::vector<Material>& materials, bool also_along_v);
 
 // Of the shapes of a scene that stays as it is.
 class ShapeUvUses {
  public:
-  explicit ShapeUvUses(const Scene& scene);
+  explicit ShapeUvUses(const Scene& scene, bool on_curves = false);
 
   bool of(const Shape& shape);
 

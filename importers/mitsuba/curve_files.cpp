@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -29,9 +30,22 @@ CurvePoint read_point(TextCursor& cursor) {
   CurvePoint point;
   for (int axis = 0; axis < 3; ++axis) point.position[axis] = finite_number(cursor, "a coordinate");
   point.radius = finite_number(cursor, "the radius");
-  if (point.radius < 0) cursor.fail(fmt::format("the radius {} is negative", point.radius));
   if (!cursor.at_line_end()) cursor.fail("unexpected text behind the radius");
   return point;
+}
+
+// Of the curve so far. Control points of a B-spline may have negative radii where the curve does not, as
+// those of its Bézier points tell, of which 0 may be rounded.
+void require_radii(std::span<const CurvePoint> points, bool bspline, const TextCursor& cursor) {
+  double least = points.back().radius, tolerance = 0;
+  if (bspline) {
+    if (points.size() < 4) return;
+    const CurveSegment segment = bspline_segments(points.last(4))[0];
+    const auto radius = [](const CurvePoint& p) { return p.radius; };
+    least = std::ranges::min(segment, {}, radius).radius;
+    tolerance = 1e-6 * std::abs(std::ranges::max(points.last(4), {}, radius).radius);
+  }
+  if (least < -tolerance) cursor.fail(fmt::format("the radius {} is negative", least));
 }
 
 void end_curve(CurveFile& file, std::size_t least, const TextCursor& cursor) {
@@ -50,10 +64,13 @@ CurveFile read_curve_file(const std::filesystem::path& path, std::size_t least) 
   TextCursor cursor(name, bytes.begin(), bytes.end());
   CurveFile file;
   while (cursor.at() != cursor.end()) {
-    if (cursor.at_line_end())
+    if (cursor.at_line_end()) {
       end_curve(file, least, cursor);
-    else
+    } else {
       file.points.push_back(read_point(cursor));
+      const std::size_t begin = file.ends.empty() ? 0 : file.ends.back();
+      require_radii(std::span(file.points).subspan(begin), least == 4, cursor);
+    }
     cursor.skip_line();
     bytes.release_before(cursor.at());
   }

@@ -2,7 +2,9 @@
 // Curves.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <bit>
+#include <cmath>
 #include <limits>
 
 #include "importers/mitsuba/curve_files.h"
@@ -20,7 +22,9 @@ TriangleMesh curves_of(const Builder& builder, const CurveFile& file, bool linea
   std::size_t begin = 0, done = 0;
   for (const std::size_t end : file.ends) {
     const std::span points(file.points.data() + begin, end - begin);
-    const auto segments = linear ? linear_segments(points) : bspline_segments(points);
+    auto segments = linear ? linear_segments(points) : bspline_segments(points);
+    for (CurveSegment& s : segments)
+      for (CurvePoint& p : s) p.radius = std::max(p.radius, 0.0);  // of 0, rounded
     const auto v = [&](std::size_t segment) {
       return static_cast<double>(segment) / static_cast<double>(total);
     };
@@ -54,10 +58,18 @@ std::optional<ShapeGeometry> curve_shape(Builder& builder, const Object& shape) 
   if (kind == "hair") return hair_shape(builder, shape);
   if (!linear && kind != "bsplinecurve") return std::nullopt;
   const std::filesystem::path path = shape_file(builder, shape);
-  const Id<TriangleMesh> mesh = shared_mesh(builder, shape, {path.string(), linear, 0}, [&] {
-    return curves_of(builder, read_curve_file(path, linear ? 2 : 4), linear, linear);
+  // Mitsuba's to_world takes the control points along and leaves radii as they are.
+  const Transform to_world =
+      shape.keyframes("to_world").empty() ? shape.transform("to_world", builder.report) : Transform{};
+  const bool keeps_radii = is_similarity(to_world) && std::abs(std::abs(determinant3(to_world)) - 1) < 1e-6;
+  const std::string own = keeps_radii ? "" : fmt::format(" {}", builder.scene.meshes.size());
+  const Id<TriangleMesh> mesh = shared_mesh(builder, shape, {path.string() + own, linear, 0}, [&] {
+    CurveFile file = read_curve_file(path, linear ? 2 : 4);
+    if (!keeps_radii)
+      for (CurvePoint& p : file.points) p.position = transform_point(to_world, p.position);
+    return curves_of(builder, file, linear, linear);
   });
-  return ShapeGeometry{mesh, {}, true};
+  return ShapeGeometry{mesh, {}, true, !keeps_radii};
 }
 
 }  // namespace vitrail::mitsuba

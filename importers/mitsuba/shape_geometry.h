@@ -16,6 +16,7 @@ struct ShapeGeometry {
   // Mitsuba's front is where the shading normals point, which keep their side under mirrors; otherwise it is
   // where the triangles run counter-clockwise in the world.
   bool front_by_normals = false;
+  bool in_world = false;  // `to_world` is in the mesh
 };
 
 // The object's type; scenes in use also say "Sphere" and "Rectangle".

@@ -110,7 +110,7 @@ void add_geometry(Builder& builder, const Object& object, const ShapeGeometry& g
   shape.mesh = geometry.mesh;
   shape.name = name_of(object);
   shape.origin = object.origin;
-  shape.object_to_world = to_world;
+  shape.object_to_world = geometry.in_world ? Transform{} : to_world;
   if (!in_group) report_sensors(builder, object, shape.object_to_world);
   if (geometry.mesh_to_object != Transform{})
     shape.object_to_world = shape.object_to_world * geometry.mesh_to_object;

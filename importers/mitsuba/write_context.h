@@ -55,7 +55,9 @@ struct Context {
         lobes(lobes_of(scene_to_write.materials)),
         parts(mitsuba::parts_of(scene_to_write.materials)),
         uvs_show(meshes_whose_uvs_show(scene_to_write)),
-        uv_uses(scene_to_write) {}
+        uv_uses(scene_to_write),
+        uv_uses_of_curves(scene_to_write, true),
+        hair_along_u(with_hair(scene_to_write.materials, false)) {}
 
   const Scene& scene;
   std::filesystem::path file;  // of the scene
@@ -68,7 +70,8 @@ struct Context {
   std::vector<Lobes> lobes;
   std::vector<mitsuba::MaterialParts> parts;
   std::vector<bool> uvs_show;  // of each mesh
-  ShapeUvUses uv_uses;
+  ShapeUvUses uv_uses, uv_uses_of_curves;
+  std::vector<bool> hair_along_u;  // with_hair
   Diagnostics diagnostics;
   // Of the record that is being written.
   Origin origin;
@@ -83,7 +86,7 @@ struct Context {
   mutable std::unordered_map<std::uint32_t, RGB> means;  // of the textures whose mean was asked for
   std::unordered_map<std::size_t, std::string>
       interiors;  // media inside of subsurface materials, by material
-  std::size_t derived_meshes = 0, derived_images = 0, derived_volumes = 0;
+  std::size_t curve_files = 0, derived_meshes = 0, derived_images = 0, derived_volumes = 0;
   ConvertedImages images{[this] { return file.parent_path() / new_file("images", "exr", derived_images); }};
 
   void approximated(std::string message) { report(Fidelity::approximated, std::move(message)); }

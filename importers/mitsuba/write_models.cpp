@@ -236,7 +236,6 @@ Spectrum hair_absorption(RGB c, double beta) {
 
 void write(Context& context, Element parent, ElementId id, const HairMaterial& m) {
   Element element = add(parent, "bsdf", "hair", "", id);
-  if (!m.along_v) context.approximated("Mitsuba's hair runs along v, this along u");
   add_float(element, "int_ior", m.eta);
   add_float(element, "ext_ior", m.exterior_eta);
   const float beta_n = constant_of(context, m.beta_n, "the roughness of hair");

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "importers/mitsuba/write_curves.h"
 #include "importers/mitsuba/write_lights.h"
 #include "importers/mitsuba/write_materials.h"
 #include "importers/mitsuba/write_media.h"
@@ -124,6 +125,14 @@ AreaLight light_of(Context& context, const Shape& shape) {
 void write_shape(Context& context, Element parent, const Shape& shape, std::size_t index) {
   context.begin(RecordKind::shape, shape.origin);
   const std::string id = shape.name.empty() ? "" : context.new_id(shape.name, "shape", index);
+  const std::vector<Element> curves = add_curves(context, parent, shape, sides_matter(context, shape), id);
+  for (Element element : curves) {
+    add_reference(element, bsdf_of(context, shape), "bsdf");
+    add_media(context, element, shape);
+  }
+  if (!curves.empty()) return;
+  if (context.hair_along_u[shape.material.value])
+    context.approximated("Mitsuba's hair runs along v, this along u");
   const auto quadric = quadric_of(context, shape);
   if (const auto& mesh = context.scene.meshes[shape.mesh.value]; mesh.quadric && !quadric)
     context.approximated(as_triangles(*mesh.quadric));

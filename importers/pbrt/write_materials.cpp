@@ -125,8 +125,6 @@ class MaterialWriter {
     return "subsurface";
   }
   const char* operator()(const HairMaterial& m) {
-    if (m.along_v) p_.approximated("pbrt's hair runs along u, this along v");
-    p_.approximated("pbrt's hair takes where light meets its width from v: it is meant for curves");
     if (m.sigma_a) p_.spectrum("sigma_a", *m.sigma_a);
     if (m.color) p_.albedo("reflectance", *m.color);
     if (m.eumelanin) p_.number("eumelanin", *m.eumelanin);

@@ -5,9 +5,11 @@
 #include <numbers>
 
 #include "importers/pbrt/shapes.h"
+#include "importers/pbrt/write_curves.h"
 #include "importers/pbrt/write_images.h"
 #include "importers/placed_quadric.h"
 #include "scene/bounds.h"
+#include "scene/curve_uses.h"
 #include "scene/deferred_mesh.h"
 #include "scene/kinds.h"
 #include "scene/mesh_uv.h"
@@ -106,7 +108,12 @@ std::optional<Written> written(const PlacedQuadric& placed, bool shines) {
 class ShapeWriter {
  public:
   explicit ShapeWriter(Writer& w)
-      : w_(w), fixed_(w.scene.meshes.size()), uvs_show_(meshes_whose_uvs_show(w.scene)), uv_uses_(w.scene) {}
+      : w_(w),
+        fixed_(w.scene.meshes.size()),
+        uvs_show_(meshes_whose_uvs_show(w.scene)),
+        uv_uses_(w.scene),
+        uv_uses_of_curves_(w.scene, true),
+        hair_(with_hair(w.scene.materials, true)) {}
 
   void write(const Shape& shape) {
     const ShapeSurface surface = surface_of(w_, shape);
@@ -116,11 +123,20 @@ class ShapeWriter {
     if (shape.interior || shape.exterior)
       w_.line(fmt::format("MediumInterface {} {}", medium(shape.interior), medium(shape.exterior)));
     if (shape.area_light) w_.line(area_light(*shape.area_light));
-    const Written as = surface_written(shape, p);
+    const bool curves = is_of_curves(w_.scene, shape) && !shape.area_light;
+    const Written as = curves ? Written{{}, shape.object_to_world} : surface_written(shape, p);
     w_.transform(as.to_world);
     if (as.reversed) w_.line("ReverseOrientation");
     if (surface.alpha != FloatParameter{1.0f}) p.number("alpha", surface.alpha);
-    w_.line(as.shape + p.list());
+    if (curves) {
+      w_.line("Include " + in_quotes(write_curves(w_, shape, uv_uses_of_curves_.of(shape), p)));
+    } else {
+      if (hair_[shape.material.value])
+        p.approximated(
+            "pbrt's hair runs along u and takes where light meets its width from v: it is meant "
+            "for curves");
+      w_.line(as.shape + p.list());
+    }
     w_.end("AttributeEnd");
   }
 
@@ -188,7 +204,8 @@ class ShapeWriter {
   Writer& w_;
   std::vector<std::optional<TriangleMesh>> fixed_;  // what is written instead of a mesh
   std::vector<bool> uvs_show_;                      // of meshes
-  ShapeUvUses uv_uses_;
+  ShapeUvUses uv_uses_, uv_uses_of_curves_;
+  std::vector<bool> hair_;                            // by material
   std::map<std::uint32_t, std::string> area_lights_;  // their directives
 };
 

@@ -92,8 +92,8 @@ std::string Writer::add_name(std::vector<std::string>& names, std::string_view w
   return names.emplace_back(std::move(name));
 }
 
-std::filesystem::path Writer::new_image() {
-  return directory / side_files_.name("images", image_count_++, "exr");
+std::string Writer::new_file(const std::string& kind, const char* extension) {
+  return side_files_.name(kind, file_counts_[kind]++, extension);
 }
 
 std::string in_quotes(std::string_view text) {

@@ -49,8 +49,9 @@ struct Writer {
 
   // A name that no other record of the names has; it is added to them.
   static std::string add_name(std::vector<std::string>& names, std::string_view wanted);
-  // The path of a new image in OUT-images/, which is created.
-  std::filesystem::path new_image();
+  // The path of a new file in OUT-KIND/, which is created, relative to the scene's folder.
+  std::string new_file(const std::string& kind, const char* extension);
+  std::filesystem::path new_image() { return directory / new_file("images", "exr"); }
   ConvertedImages images{[this] { return std::filesystem::absolute(new_image()); }};
 
   // ---- Diagnostics
@@ -63,7 +64,7 @@ struct Writer {
 
  private:
   SideFiles side_files_;
-  std::size_t image_count_ = 0;
+  std::map<std::string, std::size_t> file_counts_;  // by kind
 
   void note(Fidelity fidelity, std::string message, const Origin& origin, RecordKind kind) {
     const SourceLocation place = location(scene, origin);

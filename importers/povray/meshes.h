@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "importers/text_sink.h"
 #include "scene/scene.h"
 
 namespace vitrail::povray {
@@ -23,6 +24,11 @@ struct MeshText {
 // The beginning of the object, up to its texture, that is what the shape's quadric is after `to_pov`; ""
 // where POV-Ray has none or would need uvs.
 std::string quadric_text(const MeshText& text);
+
+// Whether the shape's quadric is of curves that sphere sweeps can be.
+bool has_sweeps(const MeshText& text);
+// They are the hulls of balls along the curves. Returns whether all end round, as sweeps do.
+bool put_sweeps(const MeshText& text, TextSink& out);
 
 // False where no triangle has an area: POV-Ray refuses such a mesh.
 bool has_area(const MeshText& text);

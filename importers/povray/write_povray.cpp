@@ -207,6 +207,7 @@ class Writer {
   // The beginning of an object; "" for one without area.
   std::string geometry_text(const Shape& shape, const MeshText& mesh) {
     if (!mesh.mesh.quadric) return has_area(mesh) ? "mesh2 {\n" + triangles(mesh) : "";
+    if (has_sweeps(mesh)) return "union {\n" + sweeps(shape, mesh);
     if (std::string text = quadric_text(mesh); !text.empty()) return text;
     context_.approximated(as_triangles(*mesh.mesh.quadric), shape.origin);
     TriangleMesh tessellated;
@@ -214,15 +215,34 @@ class Writer {
     return geometry_text(shape, {tessellated, mesh.to_pov, mesh.flip, mesh.with_uvs});
   }
 
+  std::string sweeps(const Shape& shape, const MeshText& mesh) {
+    const std::filesystem::path name = new_file();
+    AtomicFile file(context_.directory / name);
+    TextSink out(&file);
+    if (!put_sweeps(mesh, out))
+      context_.approximated("curves that are cut off end in half a ball", shape.origin);
+    out.flush();
+    file.commit();
+    return include(name);
+  }
+
   std::string triangles(const MeshText& mesh) {
     if (mesh.mesh.triangles.size() <= most_triangles_inline) return mesh_text(mesh);
+    const std::filesystem::path file = new_file();
+    write_mesh_text(mesh, context_.directory / file);
+    return include(file);
+  }
+
+  // OUT-meshes/000000.inc and so on, relative to the scene's folder.
+  std::filesystem::path new_file() {
     std::error_code error;
     std::filesystem::create_directories(context_.directory / folder_, error);
     if (error)
       throw MachineError(
           fmt::format("cannot create {}: {}", (context_.directory / folder_).string(), error.message()));
-    const std::filesystem::path file = folder_ / fmt::format("{:06}.inc", files_++);
-    write_mesh_text(mesh, context_.directory / file);
+    return folder_ / fmt::format("{:06}.inc", files_++);
+  }
+  static std::string include(const std::filesystem::path& file) {
     return fmt::format("#include {}\n", quoted(file.generic_string()));
   }
 

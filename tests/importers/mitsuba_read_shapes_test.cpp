@@ -13,6 +13,7 @@
 #include "importers/ply/write_ply.h"
 #include "scene/curve_meshes.h"
 #include "scene/deferred_mesh.h"
+#include "tests/importers/curve_records.h"
 #include "tests/importers/temporary_folder.h"
 
 namespace vitrail::mitsuba {
@@ -348,6 +349,26 @@ TEST(MitsubaShapes, CurvesStayCurves) {
     for (const Point2f uv : mesh.uvs) ASSERT_TRUE(uv.x >= 0 && uv.x <= 1 && uv.y >= 0 && uv.y <= 1);
 }
 
+// As in Mitsuba 3.9.1, where a transform takes centres along and leaves radii.
+TEST(MitsubaShapes, TransformsLeaveTheRadiiOfCurves) {
+  TemporaryFolder folder;
+  const std::string file = folder.write("c.txt", "0 0 0 .1\n1 0 0 .1\n2 0 0 .1\n3 0 0 .1\n").string();
+  const auto read = [&](const Transform& t) {
+    const Reading reading =
+        std::move(Reading().add(shape("linearcurve", {{"filename", file, {}}, {"to_world", t, {}}})));
+    return test::curves_of(reading.scene, reading.scene.shapes).at(2);
+  };
+  const PlacedCurve moved = read(translate({1, 2, 3}) * rotate(pi / 2, {0, 0, 1}));
+  EXPECT_LT(length(moved.origin - Point3d{1, 4, 3}), 1e-9);
+  EXPECT_FLOAT_EQ(moved.radius[0], .1f);
+  for (const Transform& t : {vitrail::scale({5, 5, 5}), vitrail::scale({5, 1, 2})}) {
+    const PlacedCurve larger = read(t);
+    EXPECT_EQ(larger.origin, (Point3d{10, 0, 0}));
+    EXPECT_EQ(larger.to[2].x, 5);
+    EXPECT_EQ(larger.radius[0], .1f);
+  }
+}
+
 // 0.6's: as text and binary, one radius for all; points alone are no hair.
 TEST(MitsubaShapes, HairOf06IsCurves) {
   TemporaryFolder folder;
@@ -426,11 +447,21 @@ TEST(MitsubaShapes, BadCurvesAreErrorsWithTheirPlace) {
   const auto error = [&](const std::string& text) {
     return error_of(shape("bsplinecurve", {{"filename", folder.write("c.txt", text).string(), {}}}));
   };
-  EXPECT_THAT(error("0 0 0 1\n1 0 0 -2\n"), HasSubstr("c.txt:2:9: the radius -2 is negative"));
+  EXPECT_THAT(error("0 0 0 1\n1 0 0 1\n2 0 0 1\n3 0 0 -20\n"),
+              HasSubstr("c.txt:4:10: the radius -2.5 is negative"));
   EXPECT_THAT(error("0 0 nan 1\n"), HasSubstr("c.txt:1:5"));
   EXPECT_THAT(error("0 0 0\n"), HasSubstr("c.txt:1:6"));
   EXPECT_THAT(error("0 0 0 1\n\n0 0 0 1\n"), HasSubstr("has 1 control points, but needs 4"));
   EXPECT_THAT(error(""), HasSubstr("no curves"));
+  // A cone to its point has a negative radius behind it, but no curve has.
+  const std::string cone = "0 0 0 .2\n1 0 0 .1\n2 0 0 0\n3 0 0 ";
+  folder.write("cone.txt", cone + "-.1\n");
+  EXPECT_EQ(Reading()
+                .add(shape("bsplinecurve", {{"filename", (folder / "cone.txt").string(), {}}}))
+                .stored()
+                .places->size(),
+            1u);
+  EXPECT_THAT(error(cone + "-.2\n"), HasSubstr("c.txt:4"));
 }
 
 TEST(MitsubaShapes, BadParametersAreErrorsWithTheirPlace) {

@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "scene/tessellate.h"
+#include "tests/importers/curve_records.h"
 #include "tests/importers/mitsuba_oracle.h"
 
 namespace vitrail {
@@ -242,6 +243,45 @@ TEST_F(MitsubaOracle, GridsOfDensity) {
   EXPECT_NEAR(answer[1]["sigma_t"][0].get<double>(), 4, 1e-4);
   EXPECT_NEAR(answer[2]["sigma_t"][0].get<double>(), 6, 1e-4);
   EXPECT_NEAR(answer[1]["sigma_s"][0].get<double>(), 3, 1e-4);
+}
+
+// A cone to its point, which a B-spline has with a negative radius at its last control point: it is as wide
+// as it should be all along, ends where it should, and stretches with an instance.
+TEST_F(MitsubaOracle, CurvesHaveTheirWidthAndEnds) {
+  const std::vector<CurvePoint> axis{{{0, 0, 0}, .3}, {{1, 0, 0}, .2}, {{2, 0, 0}, .1}, {{3, 0, 0}, 0}};
+  const auto bent = placed_curves(bezier_segments(axis), 0, 1, false, false);
+  const auto straight = placed_curves(linear_segments(axis), 0, 1, true, true);
+  Scene scene = square_scene({});
+  scene.shapes = {test::add_curves(scene, bent, QuadricUv::mitsuba)};
+  const double tilt =
+      1 / std::sqrt(1 - .01);  // radii are balls' on a straight segment, circles' on a bent one
+  for (const bool is_straight : {false, true}) {
+    const Id<TriangleMesh> mesh =
+        test::add_curves(scene, is_straight ? straight : bent, QuadricUv::mitsuba).mesh;
+    Shape shape = scene.shapes[0];
+    shape.mesh = mesh;
+    scene.shapes = {shape};
+    scene.prototypes = {{"p", {shape}, {}, {}}};
+    scene.instances = {{{0}, translate({0, 5, 0}) * vitrail::scale({1, 2, 1}), {}}};
+    Json queries = Json::array();
+    std::vector<bool> meets;
+    for (const double x : {.05, .7, 1.5, 2.2, 2.9})
+      for (const double off : {.99, 1.01})
+        for (const bool instance : {false, true}) {
+          const double radius = .3 - x / 10, width = (is_straight ? radius * tilt : radius) * off;
+          queries.push_back(ray("hit", {x, instance ? 5 + 2 * width : width, 5}, {0, 0, -1}));
+          meets.push_back(off < 1);
+        }
+    for (const double x : {-.01, 3.01}) {
+      queries.push_back(ray("hit", {x, 1e-4, 5}, {0, 0, -1}));
+      meets.push_back(is_straight && x < 0);
+    }
+    const Json answer = ask(scene, queries);
+    EXPECT_TRUE(diagnostics_.empty());
+    ASSERT_EQ(answer.size(), meets.size());
+    for (std::size_t i = 0; i < meets.size(); ++i)
+      EXPECT_EQ(answer[i]["valid"].get<bool>(), meets[i]) << is_straight << ' ' << i << ' ' << queries[i];
+  }
 }
 
 }  // namespace

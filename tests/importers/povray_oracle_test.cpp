@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "scene/tessellate.h"
+#include "tests/importers/curve_records.h"
 #include "tests/importers/povray_render.h"
 #include "tests/support/png.h"
 
@@ -190,6 +191,51 @@ TEST_F(PovrayOracle, QuadricsAreTheirTriangles) {
   }
   EXPECT_GT(shining, 500);
   EXPECT_LE(differ, 10) << "pixels on outlines";
+}
+
+// A sheaf of curves, bent and straight, to a point and not, as sweeps and as fine tubes.
+TEST_F(PovrayOracle, CurvesAreTheirTubes) {
+  const auto pictures = [&](bool straight, const Transform& t) {
+    std::vector<PlacedCurve> curves;
+    for (int i = 0; i < 7; ++i) {
+      const double x = 1.2 * i - 3.6, r = .2 + .05 * (i % 3), bend = straight ? .3 : 1;
+      const std::vector<CurvePoint> points{{{x, -6, .5}, r},
+                                           {{x + .5 * bend, -2, .5 + 1.5 * bend}, r},
+                                           {{x - .5 * bend, 2, .5 + .5 * bend}, r / 2},
+                                           {{x, 6, .5}, i % 2 ? r : 0}};
+      const auto next =
+          placed_curves(straight ? linear_segments(points) : bezier_segments(points), 0, 1, straight, true);
+      curves.insert(curves.end(), next.begin(), next.end());
+    }
+    std::vector<PovPicture> seen;
+    for (const bool tubes : {false, true}) {
+      Scene scene = plane();
+      scene.lights.push_back({PointLight{{1, 0, 9}, Spectrum{ConstantSpectrum{60}}}});
+      scene.shapes.push_back(test::add_curves(scene, curves, QuadricUv::pbrt));
+      scene.shapes.back().material = {0};
+      scene.shapes.back().object_to_world = t;
+      scene.shapes.back().flip_orientation = swaps_handedness(t);
+      TriangleMesh& mesh = scene.meshes.back();
+      if (tubes) mesh = tessellate(*mesh.quadric, *mesh.places, 64);
+      Diagnostics diagnostics;
+      seen.push_back(render_povray(scene, folder_, &diagnostics));
+      for (const Diagnostic& d : diagnostics) EXPECT_THAT(d.message, testing::HasSubstr("half a ball"));
+      EXPECT_EQ(diagnostics.size(), !tubes && !straight ? 1u : 0u);
+    }
+    return seen;
+  };
+  for (const bool straight : {false, true}) {
+    const std::vector<PovPicture> seen = pictures(straight, straight ? scale({-1, 1, 1}) : Transform{});
+    ASSERT_EQ(seen[0].values.size(), seen[1].values.size());
+    double difference = 0, sum = 0, plain = 0;
+    for (std::size_t i = 0; i < seen[0].values.size(); ++i) {
+      difference += std::abs(seen[0].values[i] - seen[1].values[i]);
+      plain += seen[0].values[i] - seen[1].values[i];
+      sum += seen[1].values[i];
+    }
+    EXPECT_LT(difference, 0.02 * sum) << straight;
+    EXPECT_LT(std::abs(plain), 0.01 * sum) << straight;
+  }
 }
 
 TEST_F(PovrayOracle, SurfacesThatReflectAndShine) {

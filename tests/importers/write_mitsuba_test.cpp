@@ -13,6 +13,7 @@
 #include "images/image_files.h"
 #include "importers/mitsuba/mitsuba.h"
 #include "importers/mitsuba/write_camera.h"
+#include "tests/importers/curve_records.h"
 #include "tests/importers/temporary_folder.h"
 #include "tests/importers/written_scenes.h"
 
@@ -394,6 +395,60 @@ TEST_F(WriteMitsuba, PrototypesComeInTheOrderOfTheirMeshes) {
   std::vector<std::string> types;
   for (const auto shape : write(scene).children("shape")) types.emplace_back(shape.attribute("type").value());
   EXPECT_THAT(types, ElementsAre("shapegroup", "ply", "instance"));
+}
+
+// Bent curves of radii that end in 0, of which some go on smoothly and some do not, and straight ones.
+TEST_F(WriteMitsuba, CurvesStayCurves) {
+  const std::vector<CurvePoint> points{{{0, 0, 0}, .1},    {{1, .3, 0}, .07}, {{2, 1, .7}, .02},
+                                       {{3, 1, 0}, 0},     {{4, 1, -.7}, .1}, {{5, 0, 0}, .2},
+                                       {{1006, .1, 0}, .1}};
+  const std::vector<PlacedCurve> smooth = placed_curves(bspline_segments(points), 0, 1, false, false),
+                                 kinked = placed_curves(bezier_segments(points), 0, 1, false, false),
+                                 straight = placed_curves(linear_segments(points), 0, 1, true, true);
+  std::vector<PlacedCurve> all = smooth;
+  all.insert(all.end(), kinked.begin(), kinked.end());
+  Scene scene = square_scene({});
+  scene.shapes = {test::add_curves(scene, all, QuadricUv::mitsuba)};
+  scene.shapes.push_back(test::add_curves(scene, straight, QuadricUv::mitsuba));
+  scene.shapes[1].object_to_world = rotate(1, {1, 2, 3}) * scale({2, 2, 2});
+  all.insert(all.end(), straight.begin(), straight.end());
+  scene.prototypes.push_back({"p", {test::add_curves(scene, all, QuadricUv::mitsuba)}, {}, {}});
+  scene.instances.push_back({{0}, scale({1, 2, 1}), {}});
+  const auto elements = write(scene);
+  EXPECT_THAT(diagnostics_, IsEmpty());
+  EXPECT_EQ(elements.select_nodes(".//shape[@type='bsplinecurve']").size(), 2u);
+  EXPECT_EQ(elements.select_nodes(".//shape[@type='linearcurve']").size(), 2u);
+  std::ifstream file(folder_ / "scene-meshes" / "000000.txt");
+  const std::string text(std::istreambuf_iterator<char>(file), {});
+  EXPECT_EQ(std::ranges::count(text, '\n'), 7 + 1 + 4 + 1 + 4) << text;
+  const Scene again = read_mitsuba(folder_ / "scene.xml").scene;
+  test::expect_near(test::curves_of(scene, scene.shapes), test::curves_of(again, again.shapes), 4e-6);
+  test::expect_near(test::curves_of(scene, scene.prototypes.at(0).shapes),
+                    test::curves_of(again, again.prototypes.at(0).shapes), 4e-6);
+}
+
+TEST_F(WriteMitsuba, CurvesThatMitsubaDoesNotHave) {
+  const std::vector<CurvePoint> points{{{0, 0, 0}, .1}, {{1, .3, 0}, .1}, {{2, 1, .7}, .1}, {{3, 1, 0}, .1}};
+  const auto written = [&](const Shape& of, Scene& scene, const char* report) {
+    scene.shapes = {of};
+    const auto elements = write(scene);
+    EXPECT_THAT(diagnostics_, Contains(Field(&Diagnostic::message, HasSubstr(report))));
+    return std::string(elements.child("shape").attribute("type").value());
+  };
+  Scene scene = square_scene({});
+  const Shape open =
+      test::add_curves(scene, placed_curves(linear_segments(points), 0, 1, true, false), QuadricUv::mitsuba);
+  EXPECT_EQ(written(open, scene, "half balls"), "linearcurve");
+  Shape bent =
+      test::add_curves(scene, placed_curves(bezier_segments(points), 0, 1, false, false), QuadricUv::pbrt);
+  scene.film.layers.add(Layer::uv);
+  EXPECT_EQ(written(bent, scene, "(u,v) of curves"), "bsplinecurve");
+  bent.object_to_world = vitrail::scale({1, 1, 2});
+  EXPECT_EQ(written(bent, scene, "tubes of triangles"), "ply");
+  bent.object_to_world = {};
+  bent.flip_orientation = true;  // its front is inside
+  scene.materials[0].two_sided = false;
+  EXPECT_EQ(written(bent, scene, "tubes of triangles"), "ply");
 }
 
 TEST_F(WriteMitsuba, Media) {

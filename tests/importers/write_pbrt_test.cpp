@@ -11,6 +11,7 @@
 #include "scene/rgb_to_spectrum.h"
 #include "scene/tessellate.h"
 #include "tests/conformance/gate/pbrt_grammar.h"
+#include "tests/importers/curve_records.h"
 #include "tests/support/equal_scenes.h"
 
 namespace vitrail {
@@ -20,6 +21,7 @@ struct RoundTrip {
   ImportedScene first, second;
   Diagnostics written;
   std::string text;
+  std::vector<std::string> complaints;
 };
 RoundTrip round_trip(const std::string& text) {
   const TemporaryFolder folder;
@@ -30,6 +32,7 @@ RoundTrip round_trip(const std::string& text) {
   std::ifstream file(out);
   result.text.assign(std::istreambuf_iterator<char>(file), {});
   result.second = read_pbrt(out);
+  result.complaints = test::pbrt_complaints(out);
   return result;
 }
 
@@ -191,6 +194,76 @@ TEST(WritePbrt, HairIsExactAndMeantForCurves) {
   scene.materials.at(0).model = hair;
   const TemporaryFolder folder;
   EXPECT_TRUE(mentions(write_pbrt(scene, folder / "out.pbrt"), "runs along u"));
+}
+
+TEST(WritePbrt, CurvesStayCurves) {
+  const std::string type = "Shape \"curve\" \"string type\" \"cylinder\" ";
+  const std::string bent = type + "\"point3 P\" [0 0 0 1 .3 0 2 1 .7 3 1 0 4 1 -.7 5 0 0 6 .1 .2] ";
+  const std::string taper = "\"float width0\" .1 \"float width1\" 0 ";
+  for (const std::string& world :
+       {bent + "\"float width\" .3", bent + taper + "\"string basis\" \"bspline\" \"float alpha\" .5",
+        "Scale 2 2 -2 " + bent + taper + bent, "ReverseOrientation " + bent + "ReverseOrientation " + bent,
+        "Material \"hair\" \"float eumelanin\" 1 Scale 1 -1 1 " + bent + taper, "Scale 1 2 1 " + bent + taper,
+        "ObjectBegin \"a\" " + bent + taper +
+            "ObjectEnd ObjectInstance \"a\" Scale 1 2 3 ObjectInstance \"a\""}) {
+    SCOPED_TRACE(world);
+    const RoundTrip trip = round_trip("Film \"rgb\"\nWorldBegin\n" + world);
+    EXPECT_THAT(trip.complaints, testing::IsEmpty()) << trip.text;
+    for (const Diagnostic& d : trip.written) ADD_FAILURE() << d.message;
+    const Scene &first = trip.first.scene, &second = trip.second.scene;
+    ASSERT_EQ(first.prototypes.size(), second.prototypes.size());
+    const bool in_object = !first.prototypes.empty();
+    const std::vector<Shape>& before = in_object ? first.prototypes[0].shapes : first.shapes;
+    const std::vector<Shape>& after = in_object ? second.prototypes[0].shapes : second.shapes;
+    ASSERT_FALSE(before.empty());
+    test::expect_near(test::curves_of(first, before), test::curves_of(second, after), 1e-6);
+    EXPECT_EQ(before[0].opacity, after[0].opacity);
+  }
+}
+
+TEST(WritePbrt, CurvesThatPbrtDoesNotHave) {
+  const TemporaryFolder folder;
+  const std::vector<CurvePoint> points{{{0, 0, 0}, .2}, {{1, 0, 0}, .1}, {{2, 1, 0}, .3}, {{3, 1, 1}, .1}};
+  const auto written = [&](const std::vector<PlacedCurve>& curves, const char* report) {
+    Scene scene = round_trip("Film \"rgb\"\nWorldBegin\n" + triangle).first.scene;
+    scene.shapes = {test::add_curves(scene, curves, QuadricUv::mitsuba)};
+    const Diagnostics diagnostics = write_pbrt(scene, folder / "out.pbrt");
+    EXPECT_EQ(diagnostics.size(), 1u);
+    EXPECT_TRUE(mentions(diagnostics, report)) << report;
+    const Scene again = read_pbrt(folder / "out.pbrt").scene;
+    return test::curves_of(again, again.shapes);
+  };
+  // Radii that are cubic: in 4 parts each, where the radius is the same within 1 %.
+  const std::vector<PlacedCurve> cubic = placed_curves(bspline_segments(points), 0, 1, false, false);
+  const std::vector<PlacedCurve> parts = written(cubic, "radii that are cubic");
+  ASSERT_GT(parts.size(), 1u);
+  CurveSegment first, second;
+  halve(segment_of(cubic[0]), first, second);
+  double greatest = 0, nearest = 1, radius = 0;
+  for (const PlacedCurve& part : parts) {
+    for (const float r : part.radius) greatest = std::max(greatest, double{r});
+    const double away = length(part.origin - second[0].position);
+    if (away >= nearest) continue;
+    nearest = away;
+    radius = double{part.radius[0]};
+  }
+  EXPECT_LT(nearest, 1e-6);
+  EXPECT_NEAR(radius, second[0].radius, .002);
+  EXPECT_NEAR(greatest, .2, .04);
+  const std::vector<PlacedCurve> straight = placed_curves(linear_segments(points), 0, 1, true, true);
+  const std::vector<PlacedCurve> bezier = written(straight, "in a mitre");
+  ASSERT_EQ(bezier.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(bezier[i].to[2], straight[i].to[2]);
+    EXPECT_EQ(bezier[i].radius[3], straight[i].radius[3]);
+  }
+}
+
+TEST(WritePbrt, CurvesThatShineAreTubes) {
+  expect_reported(
+      "AreaLightSource \"diffuse\" Shape \"curve\" \"string type\" \"cylinder\" \"point3 P\" "
+      "[0 0 0 1 0 0 2 1 0 3 1 0]",
+      "tubes of triangles");
 }
 
 TEST(WritePbrt, NamesOfMaterialsSurvive) {

@@ -322,6 +322,15 @@ class Checker {
     if (const std::string object = name("ObjectInstance"); !objects_.contains(object))
       complain(line_, fmt::format("no object \"{}\"", object));
   }
+  // What is in the file stands here.
+  void include() {
+    const std::filesystem::path file = directory_ / name("Include");
+    std::ifstream in(file, std::ios::binary);
+    if (!in) return complain(line_, fmt::format("cannot open {}", file.string()));
+    const std::string text{std::istreambuf_iterator<char>(in), {}};
+    const std::vector<Token> words = tokens(text);
+    words_.insert(words_.begin() + static_cast<std::ptrdiff_t>(at_), words.begin(), words.end());
+  }
   void reverse() { require_world(true, "ReverseOrientation"); }
 
   static const std::map<std::string, std::function<void(Checker&)>, std::less<>> directives_;
@@ -359,6 +368,7 @@ const std::map<std::string, std::function<void(Checker&)>, std::less<>> Checker:
     {"LightSource", &Checker::light},
     {"AreaLightSource", &Checker::area_light},
     {"Shape", &Checker::shape},
+    {"Include", &Checker::include},
     {"ReverseOrientation", &Checker::reverse},
     {"AttributeBegin", [](Checker& c) { c.begin('a'); }},
     {"AttributeEnd", [](Checker& c) { c.end('a'); }},

@@ -101,6 +101,8 @@ constexpr std::array table{
     Kind{"Shape", "sphere", "radius:f zmin:f zmax:f phimax:f alpha:ft"},
     Kind{"Shape", "disk", "height:f radius:f innerradius:f phimax:f alpha:ft"},
     Kind{"Shape", "cylinder", "radius:f zmin:f zmax:f phimax:f alpha:ft"},
+    Kind{"Shape", "curve",
+         "P:p* type:s basis:s degree:i width:f width0:f width1:f N:n* splitdepth:i alpha:ft"},
 };
 
 constexpr std::array spectra{
