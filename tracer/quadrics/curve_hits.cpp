@@ -59,10 +59,10 @@ struct Hull {
 
 class Line {
  public:
-  Line(const PlacedCurve& curve, const CubicPart& whole, double widest, Vector3d first, Vector3d last)
-      : widest_(widest), first_(first), last_(last) {
-    levels_ = halvings(curve, widest);
-    find(whole, levels_, true, true);
+  // `slack`: more than rounding moves what is found of a part.
+  Line(const CubicPart& whole, int levels, double widest, double slack, Vector3d first, Vector3d last)
+      : widest_(widest), slack_(slack), first_(first), last_(last) {
+    find(whole, levels, true, true);
   }
 
   // The overlapping as one, ascending.
@@ -89,8 +89,21 @@ class Line {
     return least[0] <= widest_ && most[0] >= -widest_ && least[1] <= widest_ && most[1] >= -widest_;
   }
 
+  // Whether all of the part is on one side of its chord's direction as the line sees it.
+  bool passes(const CubicPart& p) const {
+    const double nx = p[0].at.y - p[3].at.y, ny = p[3].at.x - p[0].at.x;
+    double least = INFINITY, most = -INFINITY, radius = 0;
+    for (const CurveBall& b : p) {
+      const double side = nx * b.at.x + ny * b.at.y;
+      least = std::min(least, side), most = std::max(most, side);
+      radius = std::max(radius, b.radius);
+    }
+    const double away = std::max(least, -most), reach = radius + slack_;
+    return away > 0 && away * away > (nx * nx + ny * ny) * (reach * reach);
+  }
+
   void find(const CubicPart& part, int level, bool has_first, bool has_last) {
-    if (!may_meet(part)) return;
+    if (!may_meet(part) || passes(part)) return;
     if (level == 0) return add(part[0], part[3], has_first, has_last);
     CubicPart a, b;
     halve(part, a, b);
@@ -121,11 +134,59 @@ class Line {
     if (normal.z == 0 && least > 0) found.end = -INFINITY;
   }
 
-  double widest_;
+  double widest_, slack_;
   Vector3d first_, last_;
-  int levels_ = 0, count_ = 0;
+  int count_ = 0;
   Interval found_[1 << most_halvings];
 };
+
+double sum_of(Vector3d v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); }
+
+// A length that the curve and the line's part near it do not exceed.
+double size_of(const PlacedCurve& c, double widest) {
+  double size = widest;
+  for (const Vector3f& to : c.to) size += sum_of(cast<double>(to));
+  return size;
+}
+
+// Chords of a cubic between so many equal steps of its parameter; lanes are filled up.
+constexpr int chords = 16, lanes = 20;
+struct Bernstein {
+  float of[4][lanes];
+};
+constexpr Bernstein bernstein_at_steps() {
+  Bernstein w{};
+  for (int i = 0; i <= chords; ++i) {
+    const double t = static_cast<double>(i) / chords, u = 1 - t;
+    const double values[4] = {u * u * u, 3 * u * u * t, 3 * u * t * t, t * t * t};
+    for (int k = 0; k < 4; ++k) w.of[k][i] = static_cast<float>(values[k]);
+  }
+  return w;
+}
+constexpr Bernstein weights = bernstein_at_steps();
+
+// Whether the line is further than `reach` from all chords, in floats: that has to exceed what they round.
+bool passes_chords(const CubicPart& whole, double reach_of_all) {
+  float px[4], py[4], x[lanes], y[lanes];
+  for (std::size_t k = 0; k < 4; ++k)
+    px[k] = static_cast<float>(whole[k].at.x), py[k] = static_cast<float>(whole[k].at.y);
+  for (int i = 0; i < lanes; ++i) {
+    x[i] = weights.of[0][i] * px[0] + weights.of[1][i] * px[1] + weights.of[2][i] * px[2] +
+           weights.of[3][i] * px[3];
+    y[i] = weights.of[0][i] * py[0] + weights.of[1][i] * py[1] + weights.of[2][i] * py[2] +
+           weights.of[3][i] * py[3];
+  }
+  const auto reach = static_cast<float>(reach_of_all);
+  int near = 0;
+  for (int i = 0; i < chords; ++i) {
+    const float ex = x[i + 1] - x[i], ey = y[i + 1] - y[i];
+    const float square = ex * ex + ey * ey, size = std::sqrt(square), wide = reach * size;
+    const float beside = std::abs(x[i] * ey - y[i] * ex), along = -(x[i] * ex + y[i] * ey);
+    near |= static_cast<int>(beside <= wide) & static_cast<int>(along >= -wide) &
+            static_cast<int>(along <= square + wide);
+  }
+  return near == 0;
+}
 
 }  // namespace
 
@@ -147,7 +208,18 @@ QuadricHits curve_hits(Vector3d origin, Vector3d direction, const PlacedCurve& c
   for (std::size_t i = 0; i < 3; ++i)
     whole[i + 1] = {seen(cast<double>(c.to[i]) - base), double{c.radius[i + 1]}};
   if (c.straight) whole[1] = whole[0], whole[2] = whole[3];
-  Line line(c, whole, widest, seen(first_plane(c)), seen(last_plane(c)));
+  // What is decided below is off by rounding, of squares too, of which the roots are within 10⁻⁷ of the size.
+  const double size = size_of(c, widest), slack = 1e-6 * size;
+  double last = -INFINITY;
+  for (const CurveBall& b : whole) last = std::max(last, b.at.z);
+  if (nearest + last + widest + slack < 0) return hits;
+  const int levels = halvings(c, widest);
+  if (levels >= 2) {
+    const double off = std::sqrt(squared_chord_error(c));
+    if (passes_chords(whole, widest + off / (chords * chords) + off / (1 << 2 * levels) + 10 * slack))
+      return hits;
+  }
+  Line line(whole, levels, widest, slack, seen(first_plane(c)), seen(last_plane(c)));
   const int count = line.merge();
   int next = 0;
   if (starts_there && count > 0) {
@@ -207,20 +279,60 @@ CubicPart own_space(const PlacedCurve& c) {
   return part;
 }
 
-Foot foot_of(const PlacedCurve& c, const CubicPart& cubic, Vector3d p) {
-  const int parts = 1 << halvings(c, greatest_radius(c));
+class NearestFoot {
+ public:
+  // Of parts that are further than `within` off, none.
+  NearestFoot(const CubicPart& cubic, Vector3d p, int levels, double within)
+      : cubic_(cubic), p_(p), within_(within), parts_(1 << levels) {
+    find(cubic, levels, 0);
+  }
+
   Foot best{};
-  double least = INFINITY;
-  CurveBall derivative, a = cubic[0];
-  for (int i = 0; i < parts; ++i) {
-    const CurveBall b = at(cubic, (i + 1.0) / parts, derivative);
+  double least = INFINITY;  // how far it is off
+
+ private:
+  bool may_be_near(const CubicPart& part) const {
+    double radius = 0;
+    for (const CurveBall& b : part) radius = std::max(radius, b.radius);
+    for (int axis = 0; axis < 3; ++axis) {
+      double low = INFINITY, high = -INFINITY;
+      for (const CurveBall& b : part) low = std::min(low, b.at[axis]), high = std::max(high, b.at[axis]);
+      if (low - p_[axis] > radius + within_ || p_[axis] - high > radius + within_) return false;
+    }
+    return true;
+  }
+
+  void find(const CubicPart& part, int level, int first) {
+    if (!may_be_near(part)) return;
+    if (level == 0) return look_at(first);
+    CubicPart a, b;
+    halve(part, a, b);
+    find(a, level - 1, first);
+    find(b, level - 1, first + (1 << (level - 1)));
+  }
+
+  void look_at(int i) {
+    CurveBall derivative;
+    const CurveBall a = i == 0 ? cubic_[0] : at(cubic_, static_cast<double>(i) / parts_, derivative),
+                    b = at(cubic_, (i + 1.0) / parts_, derivative);
     double along;
     CurveBall ball;
-    const double distance = off(p, a, b, along, ball);
-    if (distance < least) least = distance, best = {ball, (i + along) / parts};
-    a = b;
+    const double distance = off(p_, a, b, along, ball);
+    if (distance < least) least = distance, best = {ball, (i + along) / parts_};
   }
-  return best;
+
+  const CubicPart& cubic_;
+  Vector3d p_;
+  double within_;
+  int parts_;
+};
+
+Foot foot_of(const PlacedCurve& c, const CubicPart& cubic, Vector3d p) {
+  const double widest = greatest_radius(c), near = 0.01 * widest;
+  const int levels = halvings(c, widest);
+  const NearestFoot found(cubic, p, levels, near);
+  if (found.least < 0.5 * near) return found.best;  // the others are further off, whatever rounding does
+  return NearestFoot(cubic, p, levels, INFINITY).best;
 }
 
 }  // namespace

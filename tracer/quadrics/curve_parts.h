@@ -22,13 +22,18 @@ using CubicPart = std::array<CurveBall, 4>;  // by its Bézier control points
 
 inline constexpr int most_halvings = 6;
 
-// So many that chords are within an eighth of the greatest radius of the curve (Wang 1984: ¾ of the greatest
-// second difference, over the square of the number of parts).
-inline int halvings(const PlacedCurve& c, double greatest_radius) {
-  if (c.straight) return 0;
+// The square of how far a cubic is from its chord at most (Wang 1984: ¾ of the greatest second difference),
+// which falls with the fourth power of the number of parts.
+inline double squared_chord_error(const PlacedCurve& c) {
   const Vector3d p1 = cast<double>(c.to[0]), p2 = cast<double>(c.to[1]), p3 = cast<double>(c.to[2]);
   const Vector3d bend0 = p2 - p1 * 2.0, bend1 = p3 - p2 * 2.0 + p1;
-  const double off = 0.5625 * std::max(dot(bend0, bend0), dot(bend1, bend1));
+  return 0.5625 * std::max(dot(bend0, bend0), dot(bend1, bend1));
+}
+
+// So many that chords are within an eighth of the greatest radius of the curve.
+inline int halvings(const PlacedCurve& c, double greatest_radius) {
+  if (c.straight) return 0;
+  const double off = squared_chord_error(c);
   double within = greatest_radius * greatest_radius / 64;
   int k = 0;
   for (; k < most_halvings && off > within; ++k) within *= 16;
