@@ -129,6 +129,8 @@ void over_surface(const EmissiveQuadric& e, bool two_sided, Point3d p, int cells
         case QuadricKind::paraboloid:
           rho = std::sqrt(q.low) + (1 - std::sqrt(q.low)) * x, z = rho * rho;
           break;
+        case QuadricKind::curve:
+          break;
       }
       const QuadricPoint at =
           quadric_point(e.quadric, e.to_bundle, {rho * std::cos(phi), rho * std::sin(phi), z});
