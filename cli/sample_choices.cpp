@@ -59,7 +59,8 @@ void declare_sample_options(CLI::App& app, SampleArguments& a) {
   app.add_option(
          "--roulette", a.roulette,
          "paths end by chance once they carry less than all of a camera ray (early), less than a quarter of "
-         "it (usual), or not in the first 254 events (never): the same picture, quicker and noisier or slower "
+         "it (usual), or not in the first 254 events (never): the same picture, quicker and noisier or "
+         "slower "
          "and less so")
       ->check(CLI::IsMember({"early", "usual", "never"}))
       ->capture_default_str();
