@@ -255,6 +255,35 @@ TEST(Curves, WhatIsThereIsOnTheTube) {
   EXPECT_GT(checked, 400);
 }
 
+// Out of one leg of a hairpin into the other, which is nearer than the leg is thick.
+TEST(Curves, WhatLeavesALegMeetsTheOther) {
+  CurveSegment s;
+  const Point3d points[4] = {{0, 0, 0}, {4, 0, 0}, {4, .12, 0}, {0, .12, 0}};
+  for (std::size_t k = 0; k < 4; ++k) s[k] = {points[k], .05};
+  const PlacedCurve c = placed_curve(s, 0, 1, false);
+  for (double x = .5; x < 1.5; x += .01) {
+    const QuadricHits back = curve_hits({x, .06, 0}, {0, -1, 0}, c, false);
+    ASSERT_EQ(back.count, 1) << x;
+    const QuadricHits found = curve_hits({x, .06 - back.at[0].t, 0}, {0, 1, 0}, c, true);
+    ASSERT_EQ(found.count, 1) << x;
+    EXPECT_LT(found.at[0].t, .03);
+  }
+}
+
+TEST(Curves, NormalsOfATaperLeanToItsPoint) {
+  CurveSegment s;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const double x = static_cast<double>(k);
+    s[k] = {{x, 0, 0}, .3 - x / 10};
+  }
+  const PlacedCurve c = placed_curve(s, 0, 1, false);
+  const QuadricHits hit = curve_hits({1.3, 0, 5}, {0, 0, -1}, c, false);
+  ASSERT_EQ(hit.count, 1);
+  const QuadricPoint at = curve_point(c, hit.at[0].local, false, false);
+  EXPECT_NEAR(at.shading.x, .1 / std::sqrt(1.01), 1e-6);  // of circles across
+  EXPECT_NEAR(at.normal.x, .1, 1e-6);                     // of balls
+}
+
 TEST(Curves, NothingOfACurveWithoutWidthOrLengthBreaks) {
   const Vector3d z{0, 0, 1};
   PlacedCurve c;  // one point
