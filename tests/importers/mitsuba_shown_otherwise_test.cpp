@@ -129,6 +129,25 @@ TEST_F(ShownOtherwise, BumpMapsWhereNormalsOpposeTheWinding) {
               testing::Not(say("shows black")));
 }
 
+// 0.6 takes one channel of an image for a colour, too.
+TEST_F(ShownOtherwise, ChannelsOfColoursAreGreys) {
+  const Scene scene =
+      read_mitsuba(
+          folder_.write("a.xml",
+                        "<scene version=\"0.6.0\"><shape type=\"sphere\"><bsdf type=\"diffuse\"><texture "
+                        "type=\"bitmap\" name=\"reflectance\"><string name=\"filename\" "
+                        "value=\"n.exr\"/><string name=\"channel\" value=\"b\"/></texture></bsdf>"
+                        "</shape></scene>"))
+          .scene;
+  const auto& diffuse = std::get<DiffuseMaterial>(scene.materials.at(0).model);
+  const Texture& color = scene.textures.at(std::get<Id<Texture>>(diffuse.reflectance).value);
+  EXPECT_FALSE(color.is_float);
+  const auto& grey = std::get<ProductTexture>(color.model);
+  const Texture& image = scene.textures.at(std::get<Id<Texture>>(grey.second).value);
+  EXPECT_TRUE(image.is_float);
+  EXPECT_EQ(std::get<ImageTexture>(image.model).number, ImageNumber::blue);
+}
+
 TEST_F(ShownOtherwise, AttributesOfVerticesInInstances) {
   const auto place = [&](const char* name, bool per_face) {
     scene_ = square_scene({});
