@@ -248,6 +248,7 @@ SpectrumParameter TextureBaker::bake_ptex(Id<Texture> texture, const PtexTexture
                             fmt::format("texture{} of ptex is rendered as {}", name, how), where, where,
                             RecordKind::texture});
   };
+  std::string why;
   if (use != TextureUse::illuminant) try {
       const PtexImage image = ptex_image(ptex, use == TextureUse::number);
       ImageTexture baked;
@@ -256,10 +257,12 @@ SpectrumParameter TextureBaker::bake_ptex(Id<Texture> texture, const PtexTexture
       baked.wrap = Wrap::clamp;
       report(image.how);
       return add(baked, use);
-    } catch (const Error&) {  // which the mean says
+    } catch (const Error& error) {
+      why = error.what();
     }
   const PtexMean mean = mean_of_ptex(ptex);
-  report(mean.how);
+  const bool is_said = mean.how.find(why) != std::string::npos;  // its means cannot be read either
+  report(is_said ? mean.how : fmt::format("{}: {}", mean.how, why));
   const RGB& c = mean.color;
   if (c.r == c.g && c.g == c.b) return as_used(ConstantSpectrum{static_cast<float>(c.r)}, use, {});
   return as_used(unbounded_from_rgb(c), use, {});

@@ -145,6 +145,21 @@ TEST(TextureGraph, SpectraThatShineAreUnderD65) {
                     emission_from_rgb({0.5, 0.5, 0.5}), 1e-5);
 }
 
+// Where means can be read and texels cannot, the report says why it is the mean.
+TEST(TextureGraph, PtexWhoseTexelsAreDamagedIsItsMean) {
+  test::BakedScene s;
+  std::string texels, mean;
+  for (int i = 0; i < 8; ++i) test::put(texels, 1.0f);
+  test::put(mean, 17.0f);
+  PtexTexture ptex{(s.directory / "a.ptx").string(), Encoding::linear};
+  std::ofstream(ptex.filename, std::ios::binary) << test::ptex_bytes(
+      test::PtexType::single, 1, {{2, 1, mean, test::PtexEncoding::zipped, test::zipped(texels).substr(4)}});
+  const Id<Texture> id = s.add(ptex, true);
+  EXPECT_EQ(std::get<float>(s.bake().bake(FloatParameter{id})), 17);
+  ASSERT_EQ(s.diagnostics.size(), 1u);
+  EXPECT_NE(s.diagnostics[0].message.find("its zipped parts are damaged"), std::string::npos);
+}
+
 // Two faces: 4 × 2 numbers, and one constant. The corners of a triangle of a face lie where its (u,v) do.
 TEST(TextureGraph, PtexShowsTheTexelsOfItsFaces) {
   test::BakedScene s;
