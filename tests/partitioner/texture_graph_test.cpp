@@ -145,6 +145,20 @@ TEST(TextureGraph, SpectraThatShineAreUnderD65) {
                     emission_from_rgb({0.5, 0.5, 0.5}), 1e-5);
 }
 
+TEST(TextureGraph, MeansOfImagesSayHowFarTheyAreOff) {
+  test::BakedScene s;
+  Image two = black_image(2, 1, 1);
+  two.values = {0.2f, 0.6f};
+  ImageTexture texture = s.image("two.exr");
+  texture.encoding = Encoding::linear;
+  write_exr_image(texture.filename, two);
+  const Id<Texture> id = s.add(texture);
+  const auto mean = s.bake().mean(id);
+  ASSERT_TRUE(mean);
+  EXPECT_NEAR(mean->color.g, 0.4, 1e-6);
+  EXPECT_NEAR(mean->deviation, 0.2, 1e-6);
+}
+
 // Where means can be read and texels cannot, the report says why it is the mean.
 TEST(TextureGraph, PtexWhoseTexelsAreDamagedIsItsMean) {
   test::BakedScene s;
