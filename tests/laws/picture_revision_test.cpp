@@ -10,7 +10,7 @@
 namespace vitrail::test {
 namespace {
 
-constexpr std::uint32_t known_revision = 8;
+constexpr std::uint32_t known_revision = 9;
 constexpr const char* known_pictures = "e42fcaca884a3547";
 
 std::array<Point3f, 4> tile(float x, float z) {
