@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 namespace vitrail {
 
@@ -45,13 +46,17 @@ struct StraightAim {
 };
 
 // What such a connection has left, rounded down to 32 bits of mantissa, in 40 bits with 8 of exponent above
-// them. 0 of less than 2⁻¹²⁶.
+// them. 0 of less than 2⁻¹²⁶; ∞, of lights infinitely far, stays ∞, and so does what is beyond 2¹²⁸.
+inline constexpr std::uint64_t endless_code = std::uint64_t{0xff} << 32;
 inline std::uint64_t end_code(double left) {
   if (!(left >= 0x1p-126)) return 0;
+  if (!(left < 0x1p128)) return endless_code;
   return (std::bit_cast<std::uint64_t>(left) - (std::uint64_t{1023 - 127} << 52)) >> 20;
 }
 inline double end_value(std::uint64_t code) {
-  return code == 0 ? 0 : std::bit_cast<double>((code << 20) + (std::uint64_t{1023 - 127} << 52));
+  if (code == 0) return 0;
+  if (code >= endless_code) return std::numeric_limits<double>::infinity();
+  return std::bit_cast<double>((code << 20) + (std::uint64_t{1023 - 127} << 52));
 }
 
 }  // namespace vitrail

@@ -21,13 +21,12 @@ namespace vitrail {
 namespace {
 
 constexpr std::uint32_t max_surfaces_crossed = 64;  // before a connection is given up
-constexpr double far_away = 1e30;                   // ends of rays to environments
 
-// A connection's ray: coded, and as far as it goes, in lengths of its direction.
+// A connection's ray: coded, and as far as it goes, in lengths of its direction; ∞ where its light is.
 struct Aimed {
   DirectionCode direction;
   Vector3f rounded = decode_direction(direction);
-  double end = far_away;
+  double end = std::numeric_limits<double>::infinity();
   double cosine = 1;  // of its direction to the surface's normal there; of StraightAim's slope
 };
 
@@ -282,7 +281,7 @@ bool PathTracer::connect_onwards(Path& path) {
     if (is_black(path.throughput)) return false;
   }
   const bool refracts = path.is(path_in_pane);
-  if (path.hit.triangle == no_triangle) {
+  if (path.met() != Met::surface) {
     const auto is_direction = [&](Vector3d to_light) { return encode_direction(to_light) == path.direction; };
     if (!refracts || any_distant_light(scene_.lights, RefractedAim::of(path.aim).light,
                                        numbers_for_far_lights(path), is_direction))

@@ -8,15 +8,15 @@
 
 namespace vitrail {
 
-// A medium without end would let nothing through of the light from infinitely far: that comes through as much
-// of it as the scene is wide, or as a sphere around its centre on which the point lies (Mitsuba, where it
-// chooses such a light).
+// To what it has met. A medium without end would let nothing through of the light from infinitely far: that
+// comes through as much of it as the scene is wide, or as a sphere around its centre on which the point lies
+// (Mitsuba, where it chooses such a light).
 Flight PathTracer::flight_of(const Path& path) const {
   const Vector3d d = cast<double>(path.ray.direction);
   const double scale = length(d);
   const Point3d p = cast<double>(path.ray.origin);
   double t_max = path.hit.t * scale;
-  if (path.hit.triangle == no_triangle && (path.is(path_connection) || scene_.lights.has_background())) {
+  if (path.met() == Met::nothing && (path.is(path_connection) || scene_.lights.has_background())) {
     const Bounds3f& box = manifest_.bounds;
     t_max = std::max(length(cast<double>(extent(box))), 2 * length(p - cast<double>(center(box))));
   }

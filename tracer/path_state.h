@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 
 #include "tracer/interaction.h"
 #include "tracer/path_tracer.h"
@@ -22,6 +23,10 @@ struct PathTracer::Shadow {
 // Of Path::depth where only direct light is asked for, or photons bring the rest: the path has scattered, and
 // goes straight on at most.
 inline constexpr std::uint32_t scattered_once = 1u << 16;
+
+// What a ray has come to once its hit is known. A connection to a light at a finite distance is given its end
+// as the distance of its hit and no triangle, one to a light infinitely far has no end.
+enum class Met { surface, light, nothing };
 
 struct PathTracer::Path {
   std::uint32_t pixel = 0, sample = 0;  // of a photon: its number, and PhotonHistory
@@ -49,6 +54,10 @@ struct PathTracer::Path {
   mutable LastLamp lamp;
   SensorWeights sensor;
 
+  Met met() const {
+    if (hit.triangle != no_triangle) return Met::surface;
+    return std::isinf(hit.t) ? Met::nothing : Met::light;
+  }
   bool is(PathFlags flag) const { return flags & flag; }
   void set(PathFlags flag) { flags = static_cast<std::uint8_t>(flags | flag); }
   void clear(PathFlags flag) { flags = static_cast<std::uint8_t>(flags & ~flag); }

@@ -48,7 +48,7 @@ void PathTracer::trace_photon(std::uint32_t number) {
 
 // False when it ends here.
 bool PathTracer::shade_photon(Path& path) {
-  if (path.hit.triangle == no_triangle) return false;
+  if (path.met() == Met::nothing) return false;
   const Surface& surface = surface_at(path);
   Interaction at = interaction_at(path);
   widen_cone(path, path.hit.t);

@@ -21,7 +21,7 @@ constexpr float chain_survival = 63.0f / 64;
 // False when the path ends here.
 bool PathTracer::shade(Path& path) {
   const PreparedMedium* medium = medium_of(path);
-  const bool escapes = path.hit.triangle == no_triangle && !medium && !path.is(path_connection);
+  const bool escapes = path.met() == Met::nothing && !medium && !path.is(path_connection);
   if (escapes && !scene_.lights.has_background()) return false;
   find_wavelengths(path);
   if (path.is(path_connection)) return connect_onwards(path);
@@ -40,7 +40,7 @@ bool PathTracer::shade(Path& path) {
       return scatter_in_medium(path, flight.p + flight.d * *flown.scattered_at);
     }
   }
-  if (path.hit.triangle == no_triangle) {
+  if (path.met() == Met::nothing) {
     if (path.is(path_in_pane)) path.disperse();
     add_environment(path);
     return false;
