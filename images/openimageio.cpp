@@ -5,8 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <exception>
 #include <memory>
+#include <new>
 #include <span>
+#include <string_view>
 
 #include "images/image_codec.h"
 
@@ -14,16 +17,77 @@ namespace vitrail {
 
 namespace {
 
+// Kinds of files whose pixels tests hold to known ones (tests/images/image_kinds_test.cpp). OpenImageIO opens
+// others too: videos, volumes, depths, files that need not be there, and Softimage's, whose uncompressed
+// pixels it leaves as its memory was.
+constexpr std::array known_kinds{"bmp", "dds", "dpx",  "fits",  "gif",      "hdr",     "heif",
+                                 "ico", "iff", "jpeg", "png",   "jpeg2000", "openexr", "pnm",
+                                 "psd", "rla", "sgi",  "targa", "tiff",     "webp"};
+
+// Why nothing can be made of it, or nothing.
+std::string fault_of(const OIIO::ImageInput& in) {
+  const OIIO::ImageSpec& spec = in.spec();
+  if (std::ranges::find(known_kinds, std::string_view(in.format_name())) == known_kinds.end())
+    return std::string("files of the kind \"") + in.format_name() + "\" are not read as pictures";
+  if (spec.deep) return "deep images have many values a pixel";
+  if (spec.depth > 1) return "volumes are not images";
+  if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1) return "its header is damaged";
+  return {};
+}
+
+// −1 where there is none. The library's own search aborts where there are fewer names than channels (FITS).
+int channel_named(std::string_view name, const OIIO::ImageSpec& spec) {
+  for (std::size_t c = 0; c < spec.channelnames.size() && static_cast<int>(c) < spec.nchannels; ++c)
+    if (spec.channelnames[c] == name) return static_cast<int>(c);
+  return -1;
+}
+
+// The library has that of GIF beyond the last channel.
+int alpha_of(const OIIO::ImageSpec& spec) {
+  return spec.alpha_channel < spec.nchannels ? spec.alpha_channel : channel_named("A", spec);
+}
+
 // The channels R, G and B by name, else the first three; the first alone of a picture with fewer. After them
 // alpha, where there is one.
 std::vector<int> channels_of(const OIIO::ImageSpec& spec) {
-  std::vector<int> channels{spec.channelindex("R"), spec.channelindex("G"), spec.channelindex("B")};
+  std::vector<int> channels;
+  for (const char* name : {"R", "G", "B"}) channels.push_back(channel_named(name, spec));
   if (*std::min_element(channels.begin(), channels.end()) < 0)
     channels = spec.nchannels >= 3 ? std::vector{0, 1, 2} : std::vector{0};
-  const int alpha = spec.alpha_channel;
+  const int alpha = alpha_of(spec);
   if (alpha >= 0 && std::find(channels.begin(), channels.end(), alpha) == channels.end())
     channels.push_back(alpha);
   return channels;
+}
+
+bool are_integers(const std::vector<int>& channels, const OIIO::ImageSpec& spec) {
+  return std::ranges::none_of(channels, [&](int c) { return spec.channelformat(c).is_floating_point(); });
+}
+
+// OpenImageIO 2.4 multiplies alpha into the colours of WebP, whatever it is asked for.
+bool is_multiplied(const OIIO::ImageInput& in) {
+  return std::string_view(in.format_name()) == "webp" && alpha_of(in.spec()) >= 0 &&
+         in.spec().get_int_attribute("oiio:UnassociatedAlpha") == 0;
+}
+
+void divide_by_alpha(Image& image) {
+  const auto channels = static_cast<std::size_t>(image.channels);
+  for (std::size_t at = 0; at < image.values.size(); at += channels) {
+    const float alpha = image.values[at + channels - 1];
+    for (std::size_t c = 0; c + 1 < channels && alpha > 0; ++c)
+      image.values[at + c] = std::min(1.0f, image.values[at + c] / alpha);
+  }
+}
+
+// Of pixels of `stride` values, the first of which is the file's channel `first`.
+Image taken(const std::vector<float>& values, std::size_t stride, int first, const std::vector<int>& channels,
+            int width, int rows) {
+  Image image = black_image(width, rows, static_cast<int>(channels.size()));
+  float* out = image.values.data();
+  for (std::size_t pixel = 0; pixel < image.pixels(); ++pixel)
+    for (const int channel : channels)
+      *out++ = values[pixel * stride + static_cast<std::size_t>(channel - first)];
+  return image;
 }
 
 std::optional<Chromaticities> chromaticities_of(const OIIO::ImageSpec& spec) {
@@ -39,30 +103,29 @@ std::unique_ptr<OIIO::ImageInput> open(const std::string& file) {
   return OIIO::ImageInput::open(file, &wanted);
 }
 
-std::string read(const std::string& file, ImageLayout& layout, Image* image) {
+std::string read_picture(const std::string& file, ImageLayout& layout, Image* image) {
   const auto in = open(file);
   if (!in) return OIIO::geterror();
+  if (std::string fault = fault_of(*in); !fault.empty()) return fault;
   const OIIO::ImageSpec& spec = in->spec();
-  if (spec.depth > 1) return "volumes are not images";
   const std::vector<int> channels = channels_of(spec);
-  layout = {spec.width, spec.height, static_cast<int>(channels.size()), !spec.format.is_floating_point(),
+  layout = {spec.width, spec.height, static_cast<int>(channels.size()), are_integers(channels, spec),
             chromaticities_of(spec)};
   if (!image) return {};
-  std::vector<float> values(spec.image_pixels() * static_cast<std::size_t>(spec.nchannels));
+  const auto stride = static_cast<std::size_t>(spec.nchannels);
+  std::vector<float> values(spec.image_pixels() * stride);
   if (!in->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, values.data())) return in->geterror();
-  *image = black_image(layout.width, layout.height, layout.channels);
-  float* out = image->values.data();
-  for (std::size_t pixel = 0; pixel < image->pixels(); ++pixel)
-    for (const int channel : channels)
-      *out++ = values[pixel * static_cast<std::size_t>(spec.nchannels) + static_cast<std::size_t>(channel)];
+  *image = taken(values, stride, 0, channels, layout.width, layout.height);
+  if (is_multiplied(*in)) divide_by_alpha(*image);
   return {};
 }
 
 // Rows of tiles, or as many scan lines as take about so much.
 constexpr std::size_t band_bytes = std::size_t{4} << 20;
 
-std::string read_rows(const std::string& file, ImageLayout& layout, const std::function<void(Image)>& visit) {
-  if (std::string problem = read(file, layout, nullptr); !problem.empty()) return problem;
+std::string read_picture_rows(const std::string& file, ImageLayout& layout,
+                              const std::function<void(Image)>& visit) {
+  if (std::string problem = read_picture(file, layout, nullptr); !problem.empty()) return problem;
   const auto in = open(file);
   if (!in) return OIIO::geterror();
   const OIIO::ImageSpec& spec = in->spec();
@@ -95,14 +158,38 @@ std::string read_rows(const std::string& file, ImageLayout& layout, const std::f
           in->read_scanlines(0, 0, top, top + rows, spec.z, begin, end, OIIO::TypeDesc::FLOAT, values.data());
     }
     if (!done) return in->geterror();
-    Image band = black_image(layout.width, rows, layout.channels);
-    float* out = band.values.data();
-    for (std::size_t pixel = 0; pixel < band.pixels(); ++pixel)
-      for (const int channel : channels)
-        *out++ = values[pixel * stride + static_cast<std::size_t>(channel - begin)];
+    Image band = taken(values, stride, begin, channels, layout.width, rows);
+    if (is_multiplied(*in)) divide_by_alpha(band);
     visit(std::move(band));
   }
   return {};
+}
+
+// Exceptions of the library say what is wrong with a file; lack of memory, and what `visit` throws, pass.
+std::string read(const std::string& file, ImageLayout& layout, Image* image) {
+  try {
+    return read_picture(file, layout, image);
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+}
+
+std::string read_rows(const std::string& file, ImageLayout& layout, const std::function<void(Image)>& visit) {
+  bool is_of_visit = false;
+  try {
+    return read_picture_rows(file, layout, [&](Image rows) {
+      is_of_visit = true;
+      visit(std::move(rows));
+      is_of_visit = false;
+    });
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& error) {
+    if (is_of_visit) throw;
+    return error.what();
+  }
 }
 
 std::string encode_exr(const Image& image, std::vector<std::byte>& bytes) {
