@@ -32,20 +32,40 @@ int halvings_of(const std::vector<PtexFile::Face>& faces) {
   }
 }
 
+// How much finer than the file the image is, along u and v: pbrt decodes what its filter makes of the texels,
+// and between those of the image values are blended after they were decoded.
+std::uint32_t refinement_of(const PtexFile& file, const PtexTexture& texture, int halvings) {
+  constexpr std::uint64_t enough_texels = 1u << 22;
+  if (texture.encoding == Encoding::linear || file.is_of_triangles() || halvings > 0) return 1;
+  for (std::uint32_t fine = 8; fine > 1; fine /= 2) {
+    std::uint64_t texels = 0;
+    std::uint32_t side = 0;
+    for (const auto& f : file.faces()) {
+      if (f.constant) continue;
+      texels += std::uint64_t{f.width} * f.height * fine * fine;
+      side = std::max({side, f.width, f.height});
+    }
+    if (texels <= enough_texels && side * fine <= widest) return fine;
+  }
+  return 1;
+}
+
 // Shelves, the highest tiles first.
 struct Layout {
   PtexTiles tiles;
   std::vector<std::vector<std::uint32_t>> shelves;  // their tiles
 };
 
-Layout layout_of(const PtexFile& file, int halvings) {
+Layout layout_of(const PtexFile& file, int halvings, std::uint32_t refinement) {
   Layout layout;
   PtexTiles& t = layout.tiles;
   std::uint64_t texels = 0;
   for (const auto& f : file.faces()) {
     const bool one = file.is_of_triangles() || f.constant;
-    t.tiles.push_back(
-        {0, 0, one ? 1 : std::max(1u, f.width >> halvings), one ? 1 : std::max(1u, f.height >> halvings)});
+    const auto size = [&](std::uint32_t texels) {
+      return one ? 1 : std::max(1u, texels >> halvings) * refinement;
+    };
+    t.tiles.push_back({0, 0, size(f.width), size(f.height)});
   }
   t.tiles.push_back({});
   for (const auto& tile : t.tiles) {
@@ -78,14 +98,23 @@ struct Values {
   std::vector<double> v;
 };
 
-Values decoded(const std::vector<float>& texels, const PtexFile& file, const PtexFile::Face& face,
-               const PtexTexture& texture, bool numbers) {
-  Values values{face.width, face.height, numbers ? 1u : 3u, {}};
+// As the file has them.
+Values stored(const std::vector<float>& texels, const PtexFile& file, const PtexFile::Face& face) {
+  Values values{face.width, face.height, 3, {}};
   const std::size_t from = file.channels();
-  for (std::size_t i = 0; i < texels.size(); i += from) {
-    std::array<double, 3> c{};  // one or two channels are grey, and alpha
-    for (std::size_t k = 0; k < 3; ++k)
-      c[k] = ptex_value(static_cast<double>(texels[i + (from < 3 ? 0 : k)]), texture);
+  for (std::size_t i = 0; i < texels.size(); i += from)
+    for (std::size_t k = 0; k < 3; ++k) {  // one or two channels are grey, and alpha
+      const auto value = static_cast<double>(texels[i + (from < 3 ? 0 : k)]);
+      values.v.push_back(std::isfinite(value) ? value : 0);
+    }
+  return values;
+}
+
+Values decoded(const Values& of, const PtexTexture& texture, bool numbers) {
+  Values values{of.width, of.height, numbers ? 1u : 3u, {}};
+  for (std::size_t i = 0; i < of.v.size(); i += 3) {
+    std::array<double, 3> c{};
+    for (std::size_t k = 0; k < 3; ++k) c[k] = ptex_value(of.v[i + k], texture);
     if (numbers)
       values.v.push_back((c[0] + c[1] + c[2]) / 3);
     else
@@ -105,22 +134,38 @@ Values halved(const Values& of, std::size_t width, std::size_t height) {
   return less;
 }
 
-// Along one axis, whose neighbours are `stride` apart.
-void smooth(Values& values, std::size_t count, std::size_t stride, std::size_t first) {
-  double before = values.v[first];
-  for (std::size_t i = 0; i < count; ++i) {
-    double& here = values.v[first + i * stride];
-    const double next = i + 1 < count ? values.v[first + (i + 1) * stride] : here;
-    before = std::exchange(here, (before + 4 * here + next) / 6);
+// The cubic B-spline around `x` texels from the first one's centre: of the texels from floor(x) − 1 on.
+std::array<double, 4> spline_weights(double x) {
+  const double f = x - std::floor(x), g = 1 - f;
+  return {g * g * g / 6, (4 - 6 * f * f + 3 * f * f * f) / 6, (4 - 6 * g * g + 3 * g * g * g) / 6,
+          f * f * f / 6};
+}
+
+// Of one row or column of `count` numbers, `stride` apart, to `to`, `fine` times as many.
+void smooth(const double* from, std::size_t count, std::size_t stride, std::size_t fine, double* to) {
+  const auto last = static_cast<std::ptrdiff_t>(count) - 1;
+  for (std::size_t i = 0; i < count * fine; ++i) {
+    const double x = (static_cast<double>(i) + 0.5) / static_cast<double>(fine) - 0.5;
+    const std::array<double, 4> weights = spline_weights(x);
+    const auto first = static_cast<std::ptrdiff_t>(std::floor(x)) - 1;
+    double sum = 0;
+    for (std::ptrdiff_t k = 0; k < 4; ++k)
+      sum += weights[static_cast<std::size_t>(k)] *
+             from[static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(first + k, 0, last)) * stride];
+    to[i * stride] = sum;
   }
 }
 
-void smooth(Values& values) {
-  const std::size_t row = values.width * values.channels;
-  for (std::size_t y = 0; y < values.height; ++y)
-    for (std::size_t c = 0; c < values.channels; ++c)
-      smooth(values, values.width, values.channels, y * row + c);
-  for (std::size_t i = 0; i < row; ++i) smooth(values, values.height, row, i);
+Values smoothed(const Values& of, std::size_t width, std::size_t height) {
+  const std::size_t channels = of.channels, row = of.width * channels, wide = width * channels;
+  Values across{width, of.height, channels, std::vector<double>(wide * of.height)};
+  for (std::size_t y = 0; y < of.height; ++y)
+    for (std::size_t c = 0; c < channels; ++c)
+      smooth(&of.v[y * row + c], of.width, channels, width / of.width, &across.v[y * wide + c]);
+  Values both{width, height, channels, std::vector<double>(wide * height)};
+  for (std::size_t i = 0; i < wide; ++i)
+    smooth(&across.v[i], of.height, wide, height / of.height, &both.v[i]);
+  return both;
 }
 
 // With its margin, into the image of its shelf.
@@ -146,12 +191,13 @@ Values values_of(std::size_t face, const PtexTiles::Tile& tile, PtexFile& file, 
   const bool one = file.is_of_triangles() || file.faces()[face].constant;
   const auto first = file.means().begin() + static_cast<std::ptrdiff_t>(face * file.channels());
   if (one)
-    return decoded({first, first + static_cast<std::ptrdiff_t>(file.channels())}, file, mean, texture,
+    return decoded(stored({first, first + static_cast<std::ptrdiff_t>(file.channels())}, file, mean), texture,
                    numbers);
-  Values values =
-      halved(decoded(file.texels(face), file, file.faces()[face], texture, numbers), tile.width, tile.height);
-  smooth(values);
-  return values;
+  const PtexFile::Face& whole = file.faces()[face];
+  Values values = stored(file.texels(face), file, whole);
+  if (tile.width < whole.width || tile.height < whole.height)
+    values = halved(values, tile.width, tile.height);
+  return decoded(smoothed(values, tile.width, tile.height), texture, numbers);
 }
 
 std::string in_words(const PtexFile& file, int halvings) {
@@ -177,7 +223,8 @@ Point2f PtexTiles::at(float face, Point2f uv) const {
 PtexImage ptex_image(const PtexTexture& texture, bool numbers) {
   const auto file = std::make_shared<PtexFile>(texture.filename);
   const int halvings = halvings_of(file->faces());
-  const auto layout = std::make_shared<const Layout>(layout_of(*file, halvings));
+  const auto layout =
+      std::make_shared<const Layout>(layout_of(*file, halvings, refinement_of(*file, texture, halvings)));
   const PtexTiles& tiles = layout->tiles;
   const auto read = [=](const std::function<void(Image)>& visit) {
     for (const auto& shelf : layout->shelves) {

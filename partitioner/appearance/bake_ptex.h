@@ -30,9 +30,9 @@ struct PtexImage {
   std::string how;  // what of the texture it is
 };
 
-// The texels of the finest level as pbrt's filter shows them from near by: weighted 1 4 1 along u and v
-// (cubic B-spline at integers), but that its edge is repeated, where pbrt goes on to the next face. Its files
-// of triangles: the mean of each face. Throws Error, also in `rows`, for files that cannot be read.
+// The texels of the finest level as pbrt's filter shows them from near by: blended by the cubic B-spline as
+// the file stores them, and then decoded; but that its edge is repeated, where pbrt goes on to the next face.
+// Its files of triangles: the mean of each face. Throws Error, also in `rows`, for files that cannot be read.
 PtexImage ptex_image(const PtexTexture& texture, bool numbers);
 
 }  // namespace vitrail

@@ -222,6 +222,47 @@ TEST(TextureGraph, PtexShowsTheTexelsOfItsFaces) {
   EXPECT_EQ(s.diagnostics.size(), 1u);
 }
 
+// pbrt's filter blends what the file stores, by a cubic B-spline, and what comes of it is decoded.
+TEST(TextureGraph, PtexIsSmoothedBeforeItIsDecoded) {
+  test::BakedScene s;
+  std::string texels, mean;
+  const auto texel = [](int x, int y) { return (7 * x + 5 * y + 3 * x * y) % 11 / 10.0; };
+  for (int y = 0; y < 4; ++y)
+    for (int x = 0; x < 4; ++x) test::put(texels, static_cast<float>(texel(x, y)));
+  test::put(mean, 0.5f);
+  PtexTexture ptex{(s.directory / "a.ptx").string()};
+  std::ofstream(ptex.filename, std::ios::binary) << test::ptex_bytes(
+      test::PtexType::single, 1, {{2, 2, mean, test::PtexEncoding::zipped, test::zipped(texels)}});
+  const Id<Texture> id = s.add(ptex, true);
+  const FloatParameter baked = s.bake().bake(FloatParameter{id});
+  const PtexTiles tiles = *s.baker->attributes()[0].tiles;
+  const Textures textures = s.look_up();
+  const auto spline = [](double t) {
+    t = std::abs(t);
+    return t < 1 ? 2.0 / 3 - t * t + t * t * t / 2 : t < 2 ? (2 - t) * (2 - t) * (2 - t) / 6 : 0;
+  };
+  double greatest = 0, sum = 0, expected_sum = 0;
+  for (double v = 0.02; v < 1; v += 0.06)
+    for (double u = 0.02; u < 1; u += 0.06) {
+      double stored = 0;
+      for (int y = -2; y < 6; ++y)
+        for (int x = -2; x < 6; ++x)
+          stored += spline(4 * u - 0.5 - x) * spline(4 * v - 0.5 - y) *
+                    texel(std::clamp(x, 0, 3), std::clamp(y, 0, 3));
+      AttributeValue value;
+      value.weights = {1, 0, 0};
+      const Point2f place = tiles.at(0, {static_cast<float>(u), static_cast<float>(v)});
+      value.corners[0] = {place.x, place.y, 0};
+      TexturePoint point;
+      point.attributes = std::span(&value, 1);
+      const double found = textures.number(baked, point), expected = std::pow(stored, 2.2);
+      greatest = std::max(greatest, std::abs(found - expected));
+      sum += found, expected_sum += expected;
+    }
+  EXPECT_LT(greatest, 0.01);
+  EXPECT_NEAR(sum / expected_sum, 1, 2e-3);
+}
+
 TEST(TextureGraph, MappingsByPosition) {
   test::BakedScene s;
   const Transform place = translate({10, 0, 0}) * scale({2, 2, 2});
