@@ -71,6 +71,19 @@ void check_version(const Json& json, const std::filesystem::path& file) {
   required_bits(json.at("features").at("required").get<std::vector<std::string>>(), file);
 }
 
+bool has_correlated_masking(const Material& material) {
+  return std::visit(
+      [](const auto& m) {
+        bool found = false;
+        const auto look = [&](const Roughness& r) { found |= r.masking == Masking::correlated; };
+        if constexpr (requires { m.roughness.masking; }) look(m.roughness);
+        if constexpr (requires { m.conductor_roughness; }) look(m.conductor_roughness);
+        if constexpr (requires { m.interface_roughness; }) look(m.interface_roughness);
+        return found;
+      },
+      material.model);
+}
+
 }  // namespace
 
 std::filesystem::path domain_path(const std::filesystem::path& bundle, std::uint32_t domain) {
@@ -114,6 +127,7 @@ Features features_of(const Manifest& m) {
   require(std::ranges::any_of(
               m.materials, [](const Material& of) { return std::holds_alternative<HairMaterial>(of.model); }),
           required_feature::hair);
+  require(std::ranges::any_of(m.materials, has_correlated_masking), required_feature::masking);
   if (m.cut_triangles > 0) f.optional |= optional_feature::pieces;
   return f;
 }

@@ -47,8 +47,6 @@ void fields(auto& io, Is<bool> auto& value) {
 template <class E>
 inline constexpr E last_of = E{};
 template <>
-inline constexpr auto last_of<Roughness::Distribution> = Roughness::Distribution::beckmann;
-template <>
 inline constexpr auto last_of<TabulatedMaterial::Format> = TabulatedMaterial::Format::fourier;
 template <>
 inline constexpr auto last_of<QuadricKind> = QuadricKind::curve;
@@ -200,8 +198,19 @@ void fields(auto& io, Is<Texture> auto& t) { fields(io, t.model), fields(io, t.i
 
 // ---- Materials
 
+// The distribution is the lowest bit of its byte, and masking the next one, which only those of the feature
+// `masking` have.
+void facets(auto& io, Is<Roughness> auto& r) {
+  auto byte = static_cast<std::uint8_t>(static_cast<int>(r.distribution) | static_cast<int>(r.masking) << 1);
+  io(byte);
+  if constexpr (reads<decltype(io)>) {
+    if (byte > 3) io.stream.fail("a record has an unknown choice");
+    r.distribution = Roughness::Distribution{static_cast<std::uint8_t>(byte & 1)};
+    r.masking = Masking{static_cast<std::uint8_t>(byte >> 1)};
+  }
+}
 void fields(auto& io, Is<Roughness> auto& r) {
-  fields(io, r.alpha_u), fields(io, r.alpha_v), fields(io, r.distribution), fields(io, r.square_root);
+  fields(io, r.alpha_u), fields(io, r.alpha_v), facets(io, r), fields(io, r.square_root);
 }
 void fields(auto& io, Is<DiffuseMaterial> auto& m) { fields(io, m.reflectance), fields(io, m.sigma_deg); }
 void fields(auto& io, Is<DielectricMaterial> auto& m) {

@@ -15,6 +15,11 @@ namespace vitrail {
 
 struct Material;
 
+// How masking of one direction and shadowing of the other combine: as if independent (Walter et al. 2007,
+// Eq. 23: Mitsuba), or as functions of one height (Heitz 2014, Eq. 99: pbrt). They differ by a third at
+// grazing directions of a rough surface.
+enum class Masking : std::uint8_t { separable, correlated };
+
 // Microfacets. α is the width of the distribution along the two tangents (0: a smooth surface), whatever the
 // file calls roughness.
 struct Roughness {
@@ -22,6 +27,7 @@ struct Roughness {
   FloatParameter alpha_u = 0.0f, alpha_v = 0.0f;
   Distribution distribution = Distribution::ggx;
   bool square_root = false;  // α is the square root of what a texture gives (pbrt's remapped roughness)
+  Masking masking = Masking::separable;
   bool operator==(const Roughness&) const = default;
 };
 
@@ -95,6 +101,7 @@ struct CoatingVolume {
   int max_depth = 10, samples = 1;
   bool operator==(const CoatingVolume&) const = default;
 };
+// The facets of such layers mask as pbrt's do, whatever their roughness says.
 
 struct CoatedDiffuseMaterial {
   SpectrumParameter reflectance = ConstantSpectrum{0.5f};

@@ -48,6 +48,8 @@ SampledSpectrum BsdfMaker::spectrum(const SpectrumParameter& p) const {
 }
 double BsdfMaker::number(const FloatParameter& p) const { return textures.number(p, at); }
 
+Microfacets BsdfMaker::microfacets(const Roughness& r) const { return microfacets(r, r.masking); }
+
 Microfacets BsdfMaker::microfacets(const Roughness& r, Masking masking) const {
   const auto alpha = [&](const FloatParameter& p) {
     const double value = std::max(0.0, number(p));
@@ -66,8 +68,8 @@ Bsdf BsdfMaker::operator()(const DiffuseMaterial& m) const {
 Bsdf BsdfMaker::operator()(const DielectricMaterial& m) const {
   const SampledSpectrum eta = ratio(evaluate(m.eta, wavelengths),
                                     evaluate(exterior_eta ? *exterior_eta : m.exterior_eta, wavelengths));
-  return DielectricBsdf{static_cast<double>(eta[0]), microfacets(m.roughness, Masking::separable),
-                        spectrum(m.reflectance_factor), spectrum(m.transmittance_factor)};
+  return DielectricBsdf{static_cast<double>(eta[0]), microfacets(m.roughness), spectrum(m.reflectance_factor),
+                        spectrum(m.transmittance_factor)};
 }
 
 ThinDielectricBsdf BsdfMaker::thin(const ThinDielectricMaterial& m) const {
@@ -96,7 +98,7 @@ ConductorBsdf BsdfMaker::metal(const Metal& metal) const {
 
 Bsdf BsdfMaker::operator()(const ConductorMaterial& m) const {
   ConductorBsdf b = metal(m.metal);
-  b.microfacets = microfacets(m.roughness, Masking::separable);
+  b.microfacets = microfacets(m.roughness);
   b.factor = spectrum(m.reflectance_factor);
   return b;
 }
@@ -109,7 +111,7 @@ Bsdf BsdfMaker::operator()(const PlasticMaterial& m) const {
   return RoughPlasticBsdf{spectrum(m.diffuse_reflectance),
                           spectrum(m.specular_reflectance),
                           eta,
-                          microfacets(m.roughness, Masking::separable),
+                          microfacets(m.roughness),
                           plastic_tables,
                           m.nonlinear};
 }

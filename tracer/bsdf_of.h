@@ -62,6 +62,7 @@ struct BsdfMaker {
  private:
   SampledSpectrum spectrum(const SpectrumParameter& p) const;
   double number(const FloatParameter& p) const;
+  Microfacets microfacets(const Roughness& r) const;
   Microfacets microfacets(const Roughness& r, Masking masking) const;
   ConductorBsdf metal(const Metal& metal) const;
   LayerVolume coating(const CoatingVolume& v) const;

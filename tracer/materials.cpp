@@ -82,8 +82,8 @@ Vector3d mapped(Id<Texture> map, const Interaction& at, Vector3d n, const Textur
   return normalize(tangent * local.x + cross(n, tangent) * local.y + n * local.z);
 }
 
-RoughPlasticTables plastic_tables(double alpha, double eta, Roughness::Distribution distribution) {
-  if (alpha > 0) return make_rough_plastic_tables(std::max(least_alpha, alpha), eta, distribution);
+RoughPlasticTables plastic_tables(double eta, const Microfacets& facets) {
+  if (!facets.smooth()) return make_rough_plastic_tables(eta, facets);
   RoughPlasticTables smooth;
   smooth.internal_reflectance = fresnel_diffuse(1 / eta);
   return smooth;
@@ -112,7 +112,7 @@ Materials::Materials(const Manifest& manifest, const Textures& textures)
       plastic_table_(manifest.materials.size()),
       luminance_(manifest.materials.size(), 1) {
   for (const ScatteringTable& table : manifest.tables) tables_.push_back(loaded_table(table));
-  std::map<std::tuple<float, float, Roughness::Distribution>, std::uint32_t> known;
+  std::map<std::tuple<float, float, Roughness::Distribution, Masking>, std::uint32_t> known;
   for (std::size_t i = 0; i < manifest.materials.size(); ++i) {
     kinds_.push_back(kind_of(manifest.materials[i]));
     kinds_.back().is_fibre = is_fibre(manifest, manifest.materials[i]);
@@ -125,11 +125,14 @@ Materials::Materials(const Manifest& manifest, const Textures& textures)
     // A textured width is tabulated by what it is in the middle.
     const auto* alpha = std::get_if<float>(&plastic->roughness.alpha_u);
     const float eta = plastic->eta / plastic->exterior_eta, width = alpha ? *alpha : 0.3f;
-    const auto [at, is_new] = known.try_emplace({width, eta, plastic->roughness.distribution},
+    const auto& [distribution, masking] =
+        std::tie(plastic->roughness.distribution, plastic->roughness.masking);
+    const auto [at, is_new] = known.try_emplace({width, eta, distribution, masking},
                                                 static_cast<std::uint32_t>(plastic_tables_.size()));
     if (is_new)
-      plastic_tables_.push_back(plastic_tables(static_cast<double>(width), static_cast<double>(eta),
-                                               plastic->roughness.distribution));
+      plastic_tables_.push_back(plastic_tables(
+          static_cast<double>(eta),
+          make_microfacets(static_cast<double>(width), static_cast<double>(width), distribution, masking)));
     plastic_table_[i] = at->second;
   }
 }

@@ -22,8 +22,17 @@ const char* name_of(Roughness::Distribution distribution) {
   return distribution == Roughness::Distribution::ggx ? "ggx" : "beckmann";
 }
 
+// Of light from all around, rough metals lose .5 % at α = .3, 1.6 % at .5, 8 % at 1; glass .4, 1.4 and 7 %.
+void report_masking(Context& context, const Roughness& r) {
+  if (r.masking != Masking::separable)
+    context.approximated(
+        "the height-correlated masking of its facets becomes Mitsuba's, which takes the two directions as "
+        "independent: darker by 1.5 % at α .5, by 7 % at 1");
+}
+
 void add_roughness(Context& context, Element element, const Roughness& r) {
   if (is_smooth(context, r)) return;
+  report_masking(context, r);
   add_string(element, "distribution", name_of(r.distribution));
   const bool textured = !value_of(context, r.alpha_u) || !value_of(context, r.alpha_v);
   if (r.square_root && textured)
@@ -151,6 +160,7 @@ void write(Context& context, Element parent, ElementId id, const PlasticMaterial
   const float u = constant_of(context, m.roughness.alpha_u, "the roughness of plastic"),
               v = constant_of(context, m.roughness.alpha_v, "the roughness of plastic");
   if (u != v) context.approximated("Mitsuba's plastic has no direction of roughness: the geometric mean");
+  report_masking(context, m.roughness);
   add_string(element, "distribution", name_of(m.roughness.distribution));
   add_float(element, "alpha", u == v ? u : std::sqrt(u * v));
 }

@@ -70,7 +70,8 @@ struct MtlSurface {
 //                                               the image has one
 //   map_bump, bump, disp; norm                  heights (times -bm), as a displacement; a normal map
 //   Ke, map_Ke                                  area light, from both sides, since MTL has no sides
-// `d` goes before `Tr` where both are given.
+// `d` goes before `Tr` where both are given. Facets mask as Mitsuba's do (Masking::separable): MTL does not
+// say.
 MtlSurface add_mtl_material(const MtlMaterial& material, MtlTextures& textures, Scene& scene,
                             Diagnostics& diagnostics);
 

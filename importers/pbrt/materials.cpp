@@ -33,6 +33,8 @@ Roughness MaterialMaker::roughness(double otherwise, const std::string& prefix) 
     return given ? number(name, otherwise) : both;
   };
   Roughness r{of("u"), of("v")};
+  if (r.alpha_u != FloatParameter{0.0f} || r.alpha_v != FloatParameter{0.0f})
+    r.masking = Masking::correlated;  // Λ of the two directions is added in all versions
   const bool remap = parameters.boolean("remaproughness", true);
   for (FloatParameter* alpha : {&r.alpha_u, &r.alpha_v}) {
     if (auto* value = std::get_if<float>(alpha)) {

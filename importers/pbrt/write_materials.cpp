@@ -66,21 +66,21 @@ class MaterialWriter {
     if (!is_one(m.specular_reflectance)) p_.approximated("the factor of its reflection becomes 1");
     p_.albedo("reflectance", m.diffuse_reflectance);
     p_.number("eta", m.eta / std::max(m.exterior_eta, 1e-3f));
-    roughness(m.roughness);
+    roughness(m.roughness, "", true);
     return "coateddiffuse";
   }
   const char* operator()(const CoatedDiffuseMaterial& m) {
     p_.albedo("reflectance", m.reflectance);
     index("eta", m.eta);
-    roughness(m.roughness);
+    roughness(m.roughness, "", true);
     coating(m.volume);
     return "coateddiffuse";
   }
   const char* operator()(const CoatedConductorMaterial& m) {
     metal(m.metal, "conductor.");
     index("interface.eta", m.interface_eta);
-    roughness(m.conductor_roughness, "conductor.");
-    roughness(m.interface_roughness, "interface.");
+    roughness(m.conductor_roughness, "conductor.", true);
+    roughness(m.interface_roughness, "interface.", true);
     coating(m.volume);
     return "coatedconductor";
   }
@@ -89,7 +89,8 @@ class MaterialWriter {
     return "diffusetransmission";
   }
   const char* operator()(const PrincipledMaterial& m) {
-    const Roughness surface{squared(m.roughness), squared(m.roughness)};
+    const Roughness surface{
+        .alpha_u = squared(m.roughness), .alpha_v = squared(m.roughness), .masking = Masking::correlated};
     if (mean(m.spec_trans) > 0.5f) {
       p_.number("eta", m.eta);
       if (m.thin) {
@@ -207,10 +208,14 @@ class MaterialWriter {
       p_.albedo("reflectance", Spectrum{ConstantSpectrum{1}});
     }
   }
-  void roughness(const Roughness& r, const std::string& prefix = "") {
+  void roughness(const Roughness& r, const std::string& prefix = "", bool in_layers = false) {
     const bool rough = !is_zero(r.alpha_u) || !is_zero(r.alpha_v);
     if (rough && r.distribution == Roughness::Distribution::beckmann)
       p_.approximated("Beckmann's distribution of facets becomes GGX");
+    if (rough && r.masking != Masking::correlated && !in_layers)
+      p_.approximated(
+          "the masking of its facets, which takes the two directions as independent, becomes pbrt's "
+          "height-correlated one: brighter by 1.5 % at α .5, by 7 % at 1");
     const auto put = [&](const std::string& name, const FloatParameter& alpha) {
       const auto* value = std::get_if<float>(&alpha);
       p_.number(prefix + name, value && r.square_root ? FloatParameter{*value * *value} : alpha);

@@ -33,6 +33,23 @@ Model exact(const std::string& directives, bool v3 = false) {
 Material grey(float value) { return Material{DiffuseMaterial{ConstantSpectrum{value}}}; }
 Spectrum number(float value) { return ConstantSpectrum{value}; }
 
+// G = 1/(1 + Λ(ωo) + Λ(ωi)) of every rough material, in both versions; smooth ones have none.
+TEST(PbrtMaterials, FacetsHideEachOtherByOneHeight) {
+  const auto masking = [](const std::string& directives, bool v3) {
+    return std::visit(
+        [](const auto& m) {
+          if constexpr (requires { m.roughness.masking; }) return m.roughness.masking;
+          return Masking::separable;
+        },
+        (v3 ? exact_v3(directives) : exact_v4(directives)).model);
+  };
+  EXPECT_EQ(masking("Material \"conductor\" \"float roughness\" .3", false), Masking::correlated);
+  EXPECT_EQ(masking("Material \"dielectric\" \"float uroughness\" .3", false), Masking::correlated);
+  EXPECT_EQ(masking("Material \"coateddiffuse\" \"float roughness\" .3", false), Masking::correlated);
+  EXPECT_EQ(masking("Material \"metal\" \"float roughness\" .3", true), Masking::correlated);
+  EXPECT_EQ(masking("Material \"conductor\" \"float roughness\" 0", false), Masking::separable);
+}
+
 TEST(PbrtMaterials, DiffuseOnesAreExact) {
   EXPECT_EQ(exact_v4(""), grey(.5f));
   EXPECT_EQ(exact_v4("Material \"diffuse\""), grey(.5f));
@@ -79,9 +96,12 @@ TEST(PbrtMaterials, RoughnessBecomesAlpha) {
   const auto roughness = [](const std::string& parameters) {
     return exact<DielectricMaterial>("Material \"dielectric\" " + parameters).roughness;
   };
-  EXPECT_EQ(roughness("\"float roughness\" .25"), (Roughness{.5f, .5f})) << "v4: the square root";
-  EXPECT_EQ(roughness("\"float roughness\" .25 \"bool remaproughness\" false"), (Roughness{.25f, .25f}));
-  EXPECT_EQ(roughness("\"float uroughness\" .25 \"float vroughness\" .04"), (Roughness{.5f, .2f}));
+  const auto rough = [](float u, float v) {
+    return Roughness{.alpha_u = u, .alpha_v = v, .masking = Masking::correlated};
+  };
+  EXPECT_EQ(roughness("\"float roughness\" .25"), rough(.5f, .5f)) << "v4: the square root";
+  EXPECT_EQ(roughness("\"float roughness\" .25 \"bool remaproughness\" false"), rough(.25f, .25f));
+  EXPECT_EQ(roughness("\"float uroughness\" .25 \"float vroughness\" .04"), rough(.5f, .2f));
   const auto v3 = exact<ConductorMaterial>("Material \"metal\" \"float roughness\" .1", true).roughness;
   // pbrt-v3's polynomial at ln 0.1.
   EXPECT_NEAR(std::get<float>(v3.alpha_u), .46176, 1e-5);
@@ -113,7 +133,8 @@ TEST(PbrtMaterials, MetalsAreKeptByName) {
       "interface.roughness\" "
       ".25 \"float thickness\" .5 \"integer nsamples\" 3");
   EXPECT_EQ(coated.metal, (Metal{ComplexIndex{number(1.5f), number(2)}}));
-  EXPECT_EQ(coated.interface_roughness, (Roughness{.5f, .5f}));
+  EXPECT_EQ(coated.interface_roughness,
+            (Roughness{.alpha_u = .5f, .alpha_v = .5f, .masking = Masking::correlated}));
   EXPECT_EQ(coated.volume.thickness, FloatParameter{.5f});
   EXPECT_EQ(coated.volume.samples, 3);
 }

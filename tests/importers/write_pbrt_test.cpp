@@ -165,7 +165,7 @@ TEST(WritePbrt, MetalsTimesAFactor) {
   Scene scene = read_pbrt(folder.write("scene.pbrt", "Film \"rgb\"\nWorldBegin\n" + triangle)).scene;
   ConductorMaterial metal;
   metal.metal = ComplexIndex{NamedSpectrum{"metal-Au-eta"}, NamedSpectrum{"metal-Au-k"}};
-  metal.roughness = {0.2f, 0.2f};
+  metal.roughness = {.alpha_u = 0.2f, .alpha_v = 0.2f, .masking = Masking::correlated};
   metal.reflectance_factor = reflectance_from_rgb({0.25, 0.25, 0.25});
   scene.materials = {{metal}};
   scene.materials[0].name = "gold";
@@ -180,6 +180,28 @@ TEST(WritePbrt, MetalsTimesAFactor) {
   metal.reflectance_factor = reflectance_from_rgb({0.25, 0.5, 0.25});
   scene.materials[0].model = metal;
   EXPECT_TRUE(mentions(write_pbrt(scene, folder / "out.pbrt"), "becomes grey"));
+}
+
+// Mitsuba's facets are darker.
+TEST(WritePbrt, MaskingThatPbrtDoesNotHaveIsSaid) {
+  const TemporaryFolder folder;
+  Scene scene = read_pbrt(folder.write("scene.pbrt", "Film \"rgb\"\nWorldBegin\n" + triangle)).scene;
+  DielectricMaterial glass;
+  scene.materials = {{glass}};
+  EXPECT_THAT(write_pbrt(scene, folder / "out.pbrt"), testing::IsEmpty()) << "smooth";
+  glass.roughness = {0.2f, 0.2f};
+  scene.materials = {{glass}};
+  EXPECT_TRUE(mentions(write_pbrt(scene, folder / "out.pbrt"), "masking of its facets"));
+}
+
+TEST(WritePbrt, PhotonsOfSppm) {
+  const TemporaryFolder folder;
+  Scene scene = read_pbrt(folder.write("scene.pbrt", "Film \"rgb\"\nWorldBegin\n" + triangle)).scene;
+  scene.settings.photons = PhotonSettings{1000, 0.25, {}};
+  EXPECT_THAT(write_pbrt(scene, folder / "out.pbrt"), testing::IsEmpty());
+  EXPECT_EQ(read_pbrt(folder / "out.pbrt").scene.settings, scene.settings);
+  scene.settings.photons = PhotonSettings{{}, {}, 0.5};
+  EXPECT_TRUE(mentions(write_pbrt(scene, folder / "out.pbrt"), "pbrt's own share"));
 }
 
 TEST(WritePbrt, HairIsExactAndMeantForCurves) {

@@ -171,7 +171,8 @@ TEST_F(MitsubaBsdf, RoughPlastic) {
     for (double alpha : {0.02, 0.1, 0.3, 0.8})
       for (bool nonlinear : {false, true}) {
         const double eta = 1.49 / 1.000277;
-        tables.push_back(make_rough_plastic_tables(alpha, eta, d));
+        tables.push_back(
+            make_rough_plastic_tables(eta, make_microfacets(alpha, alpha, d, Masking::separable)));
         const Json bsdf{{"type", "roughplastic"},
                         {"diffuse_reflectance", 0.6},
                         {"specular_reflectance", 0.7},

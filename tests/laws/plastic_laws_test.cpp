@@ -56,18 +56,20 @@ TEST(PlasticLaws, NonlinearDarkensColours) {
 }
 
 TEST(PlasticLaws, RoughPlasticObeysThem) {
+  Masking masking = Masking::separable;
   for (const auto distribution : {Roughness::Distribution::ggx, Roughness::Distribution::beckmann})
     for (double eta : {1.49, 4.0})
       for (double alpha : {1e-3, 1e-2, 0.1, 0.3, 1.0}) {
-        const auto tables = make_rough_plastic_tables(alpha, eta, distribution);
+        masking = masking == Masking::correlated ? Masking::separable : Masking::correlated;
+        const Microfacets coat = make_microfacets(alpha, alpha, distribution, masking);
+        const auto tables = make_rough_plastic_tables(eta, coat);
         for (bool nonlinear : {false, true}) {
           if (nonlinear != (alpha < 0.2)) continue;
-          const RoughPlasticBsdf bsdf{
-              .diffuse_reflectance = {{1, 0.5f, 0, 1}},
-              .eta = eta,
-              .microfacets = make_microfacets(alpha, alpha, distribution, Masking::separable),
-              .tables = &tables,
-              .nonlinear = nonlinear};
+          const RoughPlasticBsdf bsdf{.diffuse_reflectance = {{1, 0.5f, 0, 1}},
+                                      .eta = eta,
+                                      .microfacets = coat,
+                                      .tables = &tables,
+                                      .nonlinear = nonlinear};
           const std::string name = fmt::format("η = {}, {}", eta, laws::name_of(bsdf.microfacets));
           laws::expect_laws(subject(bsdf), name, {.samples = 4000});
           laws::expect_finite_at_extremes(subject(bsdf), name);
@@ -78,7 +80,7 @@ TEST(PlasticLaws, RoughPlasticObeysThem) {
 // The tables of a flat coat are Fresnel's laws.
 TEST(PlasticLaws, TablesOfAFlatCoat) {
   for (const auto distribution : {Roughness::Distribution::ggx, Roughness::Distribution::beckmann}) {
-    const auto tables = make_rough_plastic_tables(1e-4, 1.5, distribution);
+    const auto tables = make_rough_plastic_tables(1.5, make_microfacets(1e-4, 1e-4, distribution));
     for (int i = 1; i < RoughPlasticTables::count; ++i)
       EXPECT_NEAR(static_cast<double>(tables.external_transmittance[static_cast<std::size_t>(i)]),
                   1 - fresnel_dielectric(i / 63.0, 1.5), 1e-3)

@@ -10,11 +10,6 @@
 
 namespace vitrail {
 
-// How masking of one direction and shadowing of the other combine: as functions of one height (Heitz 2014,
-// Eq. 99: pbrt), or as if independent (Walter et al. 2007, Eq. 23: Mitsuba). They differ by a third at
-// grazing directions of a rough surface.
-enum class Masking : std::uint8_t { correlated, separable };
-
 struct Microfacets {
   double alpha_u = 0, alpha_v = 0;  // both 0: a smooth surface; else ≥ least_alpha
   Roughness::Distribution distribution = Roughness::Distribution::ggx;

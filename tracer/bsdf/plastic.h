@@ -34,8 +34,8 @@ struct RoughPlasticTables {
   std::array<float, count> external_transmittance{};  // of light at cosine i/(count − 1)
   double internal_reflectance = 0;
 };
-// For alpha ≥ least_alpha. Takes about 4 ms.
-RoughPlasticTables make_rough_plastic_tables(double alpha, double eta, Roughness::Distribution distribution);
+// Of facets that are not smooth. Takes about 4 ms.
+RoughPlasticTables make_rough_plastic_tables(double eta, const Microfacets& microfacets);
 
 // The coat reflects by microfacets, both widths the same.
 struct RoughPlasticBsdf {

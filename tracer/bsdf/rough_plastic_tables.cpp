@@ -11,8 +11,8 @@ namespace vitrail {
 namespace {
 
 // Of light at that cosine: what part facets let through from outside, and what part they reflect of light
-// from inside, whose index to the other is 1/η. Means over visible normals of (1 − F)·G₁(refracted) and
-// F·G₁(reflected).
+// from inside, whose index to the other is 1/η. Means over visible normals of (1 − F)·G₂(refracted)/G₁(out)
+// and F·G₂(reflected)/G₁(out).
 struct Shares {
   double transmitted = 0, reflected_inside = 0;
 };
@@ -53,19 +53,20 @@ class VisibleNormals {
 Shares shares(const Microfacets& mf, double cosine, double eta) {
   const Vector3d out{safe_sqrt(1 - cosine * cosine), 0, cosine};
   const VisibleNormals normals(mf, out);
+  const double area = visible_area(mf, out);
+  const auto seen = [&](Vector3d in) {
+    return shadowing_over_cosines(mf, out, area, in) * area * std::abs(in.z);
+  };
   Shares sum;
   for (int i = 0; i < normals.halves(); ++i)
     for (int j = 0; j < normals.others(); ++j) {
       const Vector3d m = normals.at(i, j);
       const double facing = std::clamp(dot(out, m), 0.0, 1.0);
       const Vector3d reflected = mirror(out, m);
-      if (reflected.z > 0)
-        sum.reflected_inside +=
-            fresnel_dielectric(facing, 1 / eta) * reflected.z / visible_area(mf, reflected);
+      if (reflected.z > 0) sum.reflected_inside += fresnel_dielectric(facing, 1 / eta) * seen(reflected);
       Vector3d refracted;
       if (refract(out, m, eta, refracted) && refracted.z < 0)
-        sum.transmitted +=
-            (1 - fresnel_dielectric(facing, eta)) * -refracted.z / visible_area(mf, -refracted);
+        sum.transmitted += (1 - fresnel_dielectric(facing, eta)) * seen(refracted);
     }
   const double count = normals.halves() * normals.others();
   return {sum.transmitted / count, sum.reflected_inside / count};
@@ -73,8 +74,7 @@ Shares shares(const Microfacets& mf, double cosine, double eta) {
 
 }  // namespace
 
-RoughPlasticTables make_rough_plastic_tables(double alpha, double eta, Roughness::Distribution distribution) {
-  const Microfacets mf = make_microfacets(alpha, alpha, distribution, Masking::separable);
+RoughPlasticTables make_rough_plastic_tables(double eta, const Microfacets& mf) {
   constexpr int count = RoughPlasticTables::count;
   RoughPlasticTables tables;
   double internal = 0;
