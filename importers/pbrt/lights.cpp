@@ -10,6 +10,7 @@
 
 #include "importers/given_sky.h"
 #include "importers/pbrt/image_numbers.h"
+#include "importers/pbrt/sphere_images.h"
 #include "scene/color.h"
 #include "scene/frame.h"
 #include "scene/rgb_to_spectrum.h"
@@ -122,6 +123,7 @@ LightModel goniometric_light(const Maker& m) {
   const Parameter* file = m.image();
   if (!file) return PointLight{transform_point(m.ctm, {0, 0, 0}), m.emission("I", power_factor(m, 4 * pi))};
   light.filename = find_file(*file, m.scope.context);
+  expect_map_of_sphere(light.filename, *file, m.scope.context);
   light.intensity = m.emission("I");
   light.latitude_longitude = m.scope.context.version == Version::v3;
   light.power = m.optional_number("power");
@@ -179,6 +181,7 @@ LightModel infinite_light(const Maker& m) {
   }
   EnvironmentLight light;
   light.filename = find_file(*file, m.scope.context);
+  expect_map_of_sphere(light.filename, *file, m.scope.context);
   light.light_to_world = m.ctm;
   light.projection = m.scope.context.version == Version::v3 ? EnvironmentLight::Projection::latitude_longitude
                                                             : EnvironmentLight::Projection::equal_area;

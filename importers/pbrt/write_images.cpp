@@ -105,12 +105,25 @@ std::optional<std::string> file_for_pbrt(Parameters& p, Id<Texture> texture, Ima
   }
 }
 
+// pbrt-v4 takes the equal-area map alone: `values`, which were of latitude and longitude.
+static std::string resampled(Parameters& p, const Image& values) {
+  const std::filesystem::path file = std::filesystem::absolute(p.writer().new_image());
+  write_exr_image(file, values);
+  p.approximated("its image of latitude and longitude is resampled to the equal-area map");
+  return file.string();
+}
+
 // pbrt takes the mean of the colours, and knows no alpha.
 std::string goniometric_for_pbrt(Parameters& p, const GoniometricLight& light) {
   const ImageTexture image = image_of(light);
   ImageTexture taken = taken_by_name(image, ImageUse::number);
   taken.number = ImageNumber::mean;
+  using enum EnvironmentLight::Projection;
   try {
+    if (light.latitude_longitude) {
+      const Image values = texture_values(image, read_stored_image(light.filename), ImageUse::number);
+      return resampled(p, reproject(values, latitude_longitude, equal_area));
+    }
     if (have_same_values(image, taken, ImageUse::number)) return light.filename;
     return written(p, image, ImageUse::number, {});
   } catch (const Error& error) {
@@ -133,10 +146,7 @@ std::string environment_for_pbrt(Parameters& p, const EnvironmentLight& light, R
     Image values = texture_values(image, read_stored_image(light.filename), ImageUse::light);
     values = with_three_channels(reproject(values, latitude_longitude, equal_area));
     multiply(values, tint);
-    const std::filesystem::path file = std::filesystem::absolute(p.writer().new_image());
-    write_exr_image(file, values);
-    p.approximated("its image of latitude and longitude is resampled to the equal-area map");
-    return file.string();
+    return resampled(p, values);
   } catch (const Error& error) {
     p.dropped(fmt::format("its image cannot be resampled to the equal-area map: {}", error.what()));
     return light.filename;

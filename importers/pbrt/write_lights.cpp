@@ -68,8 +68,6 @@ class LightWriter {
   }
   const char* operator()(const GoniometricLight& l) {
     light_to_world_ = l.light_to_world;
-    if (l.latitude_longitude)
-      p_.approximated("its image is of latitude and longitude, but pbrt-v4 reads it as the equal-area map");
     p_.file("filename", goniometric_for_pbrt(p_, l)).emission("I", l.intensity);
     if (l.power) p_.number("power", *l.power);
     return "goniometric";

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a pixel that sees a light shows, and where lights are, in v3 and v4.
+#include <fmt/format.h>
+
 #include <fstream>
 #include <numbers>
 
@@ -39,6 +41,33 @@ TEST(PbrtEmission, OfRgbIsWhatThePixelShowsInBothVersions) {
   EXPECT_NEAR(luminance(infinite_v4("\"rgb L\" [3 3 3]")), 3, 1e-3);
   EXPECT_NEAR(luminance(infinite_v4("")), 1, 1e-3);
   EXPECT_NEAR(luminance(infinite_v3("")), 1, 1e-3);
+}
+
+// v4 refuses others, as v3 takes longitude and latitude.
+TEST(PbrtLights, ImagesOfAllDirectionsAreSquareInV4) {
+  const TemporaryFolder folder;
+  folder.write("wide.pfm", "PF\n2 1\n-1\n" + std::string(24, '\0'));
+  folder.write("square.pfm", "PF\n1 1\n-1\n" + std::string(12, '\0'));
+  const auto import = [&](const std::string& kind, const char* image, const char* film) {
+    return read_pbrt(folder.write(
+        "s.pbrt",
+        fmt::format("{} WorldBegin\nLightSource \"{}\" \"string filename\" \"{}.pfm\"", film, kind, image)));
+  };
+  for (const char* const kind : {"infinite", "goniometric"}) {
+    EXPECT_EQ(import(kind, "wide", "Film \"image\"").scene.lights.size(), 1u);
+    for (const char* const film : {"Film \"rgb\"", ""}) {
+      EXPECT_EQ(import(kind, "square", film).scene.lights.size(), 1u);
+      try {
+        import(kind, "wide", film);
+        ADD_FAILURE() << kind << " " << film;
+      } catch (const Error& error) {
+        EXPECT_EQ(error.location.line, 2);
+        EXPECT_THAT(error.what(), testing::HasSubstr("2 × 1 pixels"));
+        EXPECT_THAT(error.what(), testing::HasSubstr("imgtool makeequiarea"));
+        EXPECT_EQ(std::string(error.what()).find("WorldEnd") != std::string::npos, *film == '\0');
+      }
+    }
+  }
 }
 
 TEST(PbrtEmission, OfXyzIsConverted) {
