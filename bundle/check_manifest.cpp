@@ -233,6 +233,12 @@ void check_media(const Checker& c, const Manifest& m) {
   }
 }
 
+bool in_range(const PhotonSettings& p) {
+  return p.photons.value_or(1) >= 1 && p.photons.value_or(1) <= std::uint64_t{1} << 31 &&
+         p.first_radius.value_or(1) > 0 && std::isfinite(p.first_radius.value_or(1)) &&
+         p.alpha.value_or(0.5) > 0 && p.alpha.value_or(0.5) < 1;
+}
+
 }  // namespace
 
 const char* fault_of_kd_tree(std::span<const KdNode> tree, std::size_t leaves) {
@@ -274,6 +280,7 @@ void check_manifest(const Manifest& m, const std::filesystem::path& file) {
       m.camera);
   c.require(m.settings.samples_per_pixel > 0 && m.settings.max_depth >= 0,
             "the samples a pixel or the depth is out of range");
+  c.require(!m.settings.photons || in_range(*m.settings.photons), "its photons are out of range");
   for (const TextureFileEntry& t : m.texture_files)
     c.require(t.name.starts_with("textures/") && t.name.find("..") == std::string::npos,
               "a texture has no place in it");

@@ -314,6 +314,26 @@ Json film_to_json(const FilmSettings& f) {
   return j;
 }
 
+namespace {
+
+Json photons_to_json(const PhotonSettings& p) {
+  Json j = Json::object();
+  if (p.photons) j["count"] = *p.photons;
+  if (p.first_radius) j["radius"] = *p.first_radius;
+  if (p.alpha) j["alpha"] = *p.alpha;
+  return j;
+}
+
+PhotonSettings photons_from_json(const Json& j) {
+  PhotonSettings p;
+  if (j.contains("count")) p.photons = j["count"].get<std::uint64_t>();
+  if (j.contains("radius")) p.first_radius = j["radius"].get<double>();
+  if (j.contains("alpha")) p.alpha = j["alpha"].get<double>();
+  return p;
+}
+
+}  // namespace
+
 Json manifest_to_json(const Manifest& m) {
   Json j;
   j["units"] = {{"length", "scene units"}, {"wavelength", "nm"}, {"radiance", "W·m⁻²·sr⁻¹·nm⁻¹"}};
@@ -339,6 +359,7 @@ Json manifest_to_json(const Manifest& m) {
                    {"direct_only", m.settings.direct_only},
                    {"straight_counts", m.settings.straight_counts}};
   if (m.settings.rgb == RgbMethod::matrix_r) j["settings"]["rgb"] = "matrix-r";
+  if (m.settings.photons) j["settings"]["photons"] = photons_to_json(*m.settings.photons);
   j["kd_nodes"] = Json::array();
   for (const KdNode& n : m.kd_nodes) j["kd_nodes"].push_back(kd_node_to_json(n));
   j["domains"] = Json::array();
@@ -371,6 +392,7 @@ Manifest manifest_from_json(const Json& j) {
   m.settings = {s.at("samples_per_pixel").get<int>(), s.at("max_depth").get<int>(),
                 s.at("direct_only").get<bool>(), s.at("straight_counts").get<bool>(),
                 s.value("rgb", "jakob-hanika") == "matrix-r" ? RgbMethod::matrix_r : RgbMethod::jakob_hanika};
+  if (s.contains("photons")) m.settings.photons = photons_from_json(s["photons"]);
   for (const Json& n : j.at("kd_nodes")) m.kd_nodes.push_back(kd_node_from_json(n));
   for (const Json& d : j.at("domains")) m.domains.push_back(domain_from_json(d));
   if (j.contains("objects"))

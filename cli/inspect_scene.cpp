@@ -138,6 +138,16 @@ Report describe_requirements(const Manifest& m) {
       {"media", r.media ? fmt::format("yes: {}", m.media.size()) : "no"}};
 }
 
+std::string integrator_of(const RenderSettings& s) {
+  if (s.direct_only) return "direct";
+  if (!s.photons) return "path";
+  const PhotonSettings& p = *s.photons;
+  return fmt::format("photon: {} an iteration, first radius {}, alpha {}",
+                     p.photons ? fmt::to_string(*p.photons) : "as many as pixels",
+                     p.first_radius ? fmt::to_string(*p.first_radius) : "by the extent",
+                     p.alpha.value_or(2.0 / 3));
+}
+
 Report describe_view(const Manifest& m) {
   const FilmSettings& f = m.film;
   return {{"camera", kind_of(m.camera)},
@@ -146,6 +156,7 @@ Report describe_view(const Manifest& m) {
           {"layers", names_of(f.layers)},
           {"samples_per_pixel", m.settings.samples_per_pixel},
           {"max_depth", m.settings.max_depth},
+          {"integrator", integrator_of(m.settings)},
           {"rgb", m.settings.rgb == RgbMethod::matrix_r ? "matrix-r" : "jakob-hanika"}};
 }
 

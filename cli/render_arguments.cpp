@@ -70,18 +70,20 @@ void declare(CLI::App& app, RenderArguments& a) {
       ->check(CLI::Range(0.0, 0.999))
       ->capture_default_str();
   app.add_option(
-         "--photons", a.photons.photons,
-         "of --integrator photon, an iteration, which is a sample of every pixel; default: as many as "
-         "the picture has pixels, at least 65536")
+         "--photons", o.photons.photons,
+         "of --integrator photon, an iteration, which is a sample of every pixel; default: as the scene "
+         "says, else as many as the picture has pixels, at least 65536")
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 31));
-  app.add_option("--photon-radius", a.photons.first_radius,
-                 "around a point in which the first iteration gathers photons, in scene units; default: by "
-                 "the scene's extent and their number")
+  app.add_option(
+         "--photon-radius", o.photons.first_radius,
+         "around a point in which the first iteration gathers photons, in scene units; default: as the "
+         "scene says, else by its extent and their number")
       ->check(more_than_0);
-  app.add_option("--photon-alpha", a.photons.alpha,
-                 "between 0 and 1: how fast the radius shrinks, from fast and noisy to slow and blurred")
-      ->check(CLI::Range(0.01, 0.99))
-      ->capture_default_str();
+  app.add_option(
+         "--photon-alpha", o.photons.alpha,
+         "between 0 and 1: how fast the radius shrinks, from fast and noisy to slow and blurred; default: "
+         "as the scene says, else 0.667")
+      ->check(CLI::Range(0.01, 0.99));
   app.add_option("--memory", a.memory, "most memory a rank may use, e.g. 512M or 2G; default: no limit");
   app.add_option("-t,--threads,--nthreads", o.threads, "worker threads a rank; default: all cores")
       ->check(CLI::Range(1, 4096));
@@ -230,11 +232,10 @@ void interpret(const CLI::App& app, RenderArguments& a) {
   if (!a.aov.empty()) o.layers = parse_layers(a.aov).bits;
   if (!a.aov_space.empty()) o.layers_in_camera_space = a.aov_space == "camera";
   if (app.count("--max-depth") > 0) o.max_depth = a.max_depth < 0 ? unlimited_depth : a.max_depth;
-  if (!a.integrator.empty()) o.direct_only = a.integrator == "direct";
-  if (a.integrator == "photon")
-    o.photons = a.photons;
-  else if (app.count("--photons") + app.count("--photon-radius") + app.count("--photon-alpha") > 0)
-    throw UsageError("--photons, --photon-radius and --photon-alpha are of --integrator photon");
+  if (!a.integrator.empty())
+    o.integrator = a.integrator == "direct"   ? Integrator::direct
+                   : a.integrator == "photon" ? Integrator::photon
+                                              : Integrator::path;
   o.samples = sample_choices(a.samples);
   if (!a.target_error.empty()) o.target_error = parse_target_error(a.target_error);
   if (!a.quality.empty()) apply_quality(a.quality, app.count("--adaptive") > 0, o);

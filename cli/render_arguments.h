@@ -21,7 +21,6 @@ struct RenderArguments {
   std::string rgb = usual_rgb;
   MeshOptions meshes;
   SampleArguments samples;
-  PhotonOptions photons;
   RenderOptions options;
   int restarts = 0;
   std::string launcher;  // empty: this process alone

@@ -21,12 +21,7 @@ struct TargetError {
   bool just_noticeable = false;  // in just noticeable differences, root mean square; else relMSE
 };
 
-// Photon mapping. Empty optionals: as the scene and the picture's size suggest.
-struct PhotonOptions {
-  std::optional<std::uint64_t> photons;  // an iteration
-  std::optional<double> first_radius;    // scene units
-  double alpha = 2.0 / 3;
-};
+enum class Integrator : std::uint8_t { path, direct, photon };
 
 // What is done with a film that was written, before the program ends: so long of any film, and of its bytes.
 struct AfterFilm {
@@ -40,14 +35,14 @@ struct RenderOptions {
   std::filesystem::path film;  // where the finished film goes; the checkpoint lies beside it as FILM.partial
   std::optional<int> samples_per_pixel;
   std::optional<int> max_depth;
-  std::optional<bool> direct_only;
-  std::optional<PhotonOptions> photons;  // empty: no photon mapping
-  double threshold = 0;                  // FilmKey::threshold, where only direct light is asked for
-  std::vector<SetSheet> sheets;          // in place of the bundle's; of all ranks the same
-  std::string glazing;                   // how they were asked for: "window.state=0.6"; empty: not at all
-  std::optional<int> width, height;      // one of them alone: in the scene's proportions
-  double scale = 1;                      // of both, where neither is given
-  std::filesystem::path sensors;  // measured in place of the picture (scene/sensor_file.h); empty: none
+  std::optional<Integrator> integrator;
+  PhotonSettings photons;            // what of them is given; refused where no photons are traced
+  double threshold = 0;              // FilmKey::threshold, where only direct light is asked for
+  std::vector<SetSheet> sheets;      // in place of the bundle's; of all ranks the same
+  std::string glazing;               // how they were asked for: "window.state=0.6"; empty: not at all
+  std::optional<int> width, height;  // one of them alone: in the scene's proportions
+  double scale = 1;                  // of both, where neither is given
+  std::filesystem::path sensors;     // measured in place of the picture (scene/sensor_file.h); empty: none
   std::optional<PixelRect> crop;
   std::optional<SpectralBins> bins;
   double clamp = 0;                     // FilmKey::clamp

@@ -6,22 +6,23 @@
 namespace vitrail {
 
 PhotonKey photons_of(const RenderOptions& options, const Manifest& m) {
-  if (!options.photons) return {};
-  const PhotonOptions& o = *options.photons;
+  if (!m.settings.photons) return {};
+  const PhotonSettings& o = *m.settings.photons;
   if (options.adaptive || options.target_error)
-    throw UsageError("--integrator photon takes --spp or --time; it has no --adaptive and no --target-error");
+    throw UsageError(
+        "photon mapping, which --integrator photon or the scene asks for, takes --spp or --time; it has no "
+        "--adaptive and no --target-error: --integrator path has them");
   if (m.requirements.media)
     throw UsageError(
         "--integrator photon has no photons in media, and the scene has some: --integrator path");
   if (!options.sensors.empty())
     throw UsageError(
-        "the samples of --sensors would share the photons of --integrator photon, and their errors could not "
-        "be "
+        "the samples of --sensors would share the photons of photon mapping, and their errors could not be "
         "told: --integrator path");
   PhotonKey key;
   key.photons = o.photons.value_or(default_photons(m.film));
   key.first_radius = o.first_radius.value_or(default_radius(m, key.photons));
-  key.alpha = o.alpha;
+  key.alpha = o.alpha.value_or(2.0 / 3);
   return key;
 }
 

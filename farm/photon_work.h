@@ -19,7 +19,8 @@
 
 namespace vitrail {
 
-// Of the options; photons = 0 where there is no photon mapping. Throws UsageError for what it does not cover.
+// As the manifest's settings ask; photons = 0 where there is no photon mapping. Throws UsageError for what it
+// does not cover.
 PhotonKey photons_of(const RenderOptions& options, const Manifest& manifest);
 
 // What `--memory` sets aside at least for the photons that land on a rank: three of each that flies.

@@ -78,13 +78,32 @@ void check_splat(const Manifest& m, const RenderOptions& options) {
                                  greatest_splat_radius, std::max(x, y)));
 }
 
+void choose_integrator(const RenderOptions& options, RenderSettings& s) {
+  if (options.integrator) {
+    s.direct_only = options.integrator == Integrator::direct;
+    if (options.integrator != Integrator::photon)
+      s.photons.reset();
+    else if (!s.photons)
+      s.photons.emplace();
+  }
+  const PhotonSettings& given = options.photons;
+  if (!s.photons) {
+    if (given != PhotonSettings{})
+      throw UsageError("--photons, --photon-radius and --photon-alpha are of --integrator photon");
+    return;
+  }
+  if (given.photons) s.photons->photons = given.photons;
+  if (given.first_radius) s.photons->first_radius = given.first_radius;
+  if (given.alpha) s.photons->alpha = given.alpha;
+}
+
 Manifest read_with_overrides(const RenderOptions& options) {
   Manifest m = read_manifest(options.bundle);
   if (m.domains.size() > max_domains) throw Error("more than 65535 domains", {options.bundle.string()});
   m.settings.samples_per_pixel = static_cast<int>(goal_of(options, m.settings.samples_per_pixel).samples);
   set_sheets(options.sheets, options.bundle, m);
   if (options.max_depth) m.settings.max_depth = *options.max_depth;
-  if (options.direct_only) m.settings.direct_only = *options.direct_only;
+  choose_integrator(options, m.settings);
   if (options.threshold > 0 && !m.settings.direct_only)
     throw UsageError("--threshold is of direct light alone: give --integrator direct too");
   if (m.settings.samples_per_pixel < 1 ||
@@ -95,7 +114,7 @@ Manifest read_with_overrides(const RenderOptions& options) {
   if (m.settings.max_depth < 0) throw UsageError("the depth must not be negative");
   if (!options.sensors.empty()) put_sensors(m, options);
   m.settings.max_depth = std::min(
-      m.settings.max_depth, m.settings.direct_only || options.photons ? max_direct_depth : max_path_depth);
+      m.settings.max_depth, m.settings.direct_only || m.settings.photons ? max_direct_depth : max_path_depth);
   resize_film(m, options);
   if (options.crop) m.film.crop = *options.crop;
   if (options.bins) m.film.spectrum = *options.bins;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -118,6 +119,14 @@ enum class RgbMethod {
   matrix_r,      // sums of D65 times the colour-matching functions (scene/matrix_r.h)
 };
 
+// Photon mapping. Empty optionals: as the extent of the scene and the size of the picture suggest.
+struct PhotonSettings {
+  std::optional<std::uint64_t> photons;  // an iteration, which is a sample of every pixel
+  std::optional<double> first_radius;    // in which they are gathered, scene units
+  std::optional<double> alpha;           // how fast the radius shrinks, in (0, 1); ⅔
+  bool operator==(const PhotonSettings&) const = default;
+};
+
 struct RenderSettings {
   int samples_per_pixel = 16;
   int max_depth = 5;
@@ -127,6 +136,7 @@ struct RenderSettings {
   // never is.)
   bool straight_counts = true;
   RgbMethod rgb = RgbMethod::jakob_hanika;
+  std::optional<PhotonSettings> photons;  // empty: no photon mapping
   bool operator==(const RenderSettings&) const = default;
 };
 

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <tuple>
 
+#include "importers/integrator.h"
 #include "importers/mitsuba/material_parts.h"
 #include "importers/mitsuba/object.h"
 #include "scene/deferred_mesh.h"
@@ -34,8 +35,9 @@ struct Builder {
       textures;  // by object and whether it is read as a number
   std::map<const Object*, Id<Prototype>> prototypes;
   std::map<std::tuple<std::string, int, int>, Id<TriangleMesh>>
-      mesh_files;                              // path, index in it, variant of reading
-  std::string integrator{};                    // its kind
+      mesh_files;  // path, index in it, variant of reading
+  AskedIntegrator integrator{};
+  std::optional<int> passes{};  // of its photons, each a sample of every pixel; empty: as the sampler says
   double shutter_open = 0, shutter_close = 0;  // of the sensor
   MeshMemory mesh_memory{};
   bool replace_missing = false;               // leave out shapes whose file is not there

@@ -224,7 +224,7 @@ std::optional<Id<AreaLight>> add_area_light(Builder& builder, const Object& emit
         emitter.origin);
     return std::nullopt;
   }
-  if (directional && builder.integrator != "ptracer")
+  if (directional && builder.integrator.name != "ptracer")
     report.approximated(
         "\"directionalarea\": its light is seen, of which Mitsuba's path tracers show nothing",
         emitter.origin);

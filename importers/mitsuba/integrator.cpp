@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <sstream>
 
 #include "importers/mitsuba/aovs.h"
@@ -13,25 +14,61 @@ namespace vitrail::mitsuba {
 
 namespace {
 
-// What converges to the picture of a path tracer, Mitsuba 0.6's too.
-const std::vector<std::string> path_tracers{
-    "path",           "volpath", "volpathmis", "ptracer", "prb",  "prb_basic", "prbvolpath", "prb_projective",
-    "volpath_simple", "bdpt",    "mlt",        "pssmlt",  "erpt", "sppm",      "ppm",        "vpl",
-    "photonmapper",   "adaptive"};
+using Kind = AskedIntegrator::Kind;
+
+// Of all versions. Those that show another quantity ("depth", "ao") are not here.
+constexpr std::array<std::pair<std::string_view, Kind>, 20> kinds{{{"path", Kind::paths},
+                                                                   {"volpath", Kind::paths},
+                                                                   {"volpathmis", Kind::paths},
+                                                                   {"volpath_simple", Kind::paths},
+                                                                   {"prb", Kind::paths},
+                                                                   {"prb_projective", Kind::paths},
+                                                                   {"prbvolpath", Kind::paths},
+                                                                   {"vpl", Kind::paths},
+                                                                   {"prb_basic", Kind::by_chance},
+                                                                   {"bdpt", Kind::both_ends},
+                                                                   {"mlt", Kind::both_ends},
+                                                                   {"pssmlt", Kind::both_ends},
+                                                                   {"erpt", Kind::both_ends},
+                                                                   {"ptracer", Kind::from_lamps},
+                                                                   {"sppm", Kind::photons},
+                                                                   {"ppm", Kind::photons},
+                                                                   {"photonmapper", Kind::photon_map},
+                                                                   {"direct", Kind::first_hit},
+                                                                   {"direct_projective", Kind::first_hit},
+                                                                   {"emission", Kind::first_hit}}};
 const std::vector<std::string> volumetric{"volpath", "volpathmis", "volpath_simple", "prbvolpath"};
-const std::vector<std::string> direct_only{"direct", "direct_projective", "emission"};
-// Around another integrator whose picture is the first of what they write.
-const std::vector<std::string> wrappers{"moment", "aov", "stokes", "multichannel"};
+// Around another integrator whose picture is the first of what they write, or is found with fewer samples.
+const std::vector<std::string> wrappers{"moment", "aov", "stokes", "multichannel", "adaptive", "irrcache"};
 
 bool is_one_of(const std::string& word, const std::vector<std::string>& words) {
   return std::find(words.begin(), words.end(), word) != words.end();
 }
 
-std::vector<std::string> all_kinds() {
-  std::vector<std::string> all = path_tracers;
-  all.insert(all.end(), direct_only.begin(), direct_only.end());
-  all.insert(all.end(), wrappers.begin(), wrappers.end());
-  return all;
+AskedIntegrator asked_for(const std::string& name) {
+  const auto known = std::ranges::find(kinds, name, [](const auto& kind) { return kind.first; });
+  if (known != kinds.end()) return {name, known->second};
+  if (is_one_of(name, wrappers)) return {name, Kind::other, ": it has none inside"};
+  std::vector<std::string> names = wrappers;
+  for (const auto& kind : kinds) names.emplace_back(kind.first);
+  return {name, Kind::other, suggestion(name, names)};
+}
+
+// Of 0.6's, which has its radii as shares of the scene for the one, and in its units for the others.
+PhotonSettings read_photons(Builder& b, const Object& integrator) {
+  Report& report = b.report;
+  PhotonSettings photons;
+  const char* const count = integrator.type == "photonmapper" ? "global_photons" : "photon_count";
+  if (const int given = integrator.integer(count, -1, report); given > 0)
+    photons.photons = static_cast<std::uint64_t>(given);
+  if (integrator.type == "photonmapper") return photons;
+  if (const double radius = integrator.number("initial_radius", 0, report); radius > 0)
+    photons.first_radius = radius;
+  photons.alpha = integrator.number("alpha", 0.7, report);
+  if (!(*photons.alpha > 0 && *photons.alpha < 1))
+    report.fail("\"alpha\" has to be between 0 and 1", place_of(integrator, "alpha"));
+  if (const int passes = integrator.integer("max_passes", -1, report); passes > 0) b.passes = passes;
+  return photons;
 }
 
 // Mitsuba counts the eye's ray, and −1 is without end.
@@ -62,15 +99,6 @@ void read_aovs(Builder& builder, const Object& integrator) {
   builder.scene.film.layers.bits |= layers.bits;
 }
 
-void report_kind(const Object& integrator, Report& report) {
-  if (is_one_of(integrator.type, path_tracers) || is_one_of(integrator.type, direct_only)) return;
-  const bool wrapper = is_one_of(integrator.type, wrappers);
-  report.approximated(
-      fmt::format("integrator \"{}\" becomes a path tracer{}", integrator.type,
-                  wrapper ? ": it has none inside" : suggestion(integrator.type, all_kinds())),
-      integrator.origin);
-}
-
 // How light is found, by the integrators of versions 0.5 to 3 and those of papers that were built on them:
 // the picture that they converge to is the same.
 void ignore_sampling(const Object& integrator) {
@@ -99,11 +127,13 @@ void read_integrator(Builder& builder, const Object& integrator) {
     return read_integrator(builder, *nested);
   }
   builder.scene.integrator_origin = integrator.origin;
-  report_kind(integrator, report);
-  builder.integrator = integrator.type;
+  builder.integrator = asked_for(integrator.type);
   if (integrator.type == "aov") read_aovs(builder, integrator);
   RenderSettings& settings = builder.scene.settings;
-  settings.direct_only = is_one_of(integrator.type, direct_only);
+  const Kind kind = builder.integrator.kind;
+  settings.direct_only = kind == Kind::first_hit;
+  settings.photons.reset();
+  if (kind == Kind::photons || kind == Kind::photon_map) settings.photons = read_photons(builder, integrator);
   // Mitsuba's direct light ends at the first surface, specular or not.
   settings.max_depth = settings.direct_only ? 1 : read_depth(integrator, report);
   if (integrator.type == "emission") settings.max_depth = 0;

@@ -272,6 +272,10 @@ void write_integrator(Context& context, Element root) {
     add_integer(element, "bsdf_samples", 1);
     return add_boolean(element, "hide_emitters", false);
   }
+  if (scene.settings.photons) {
+    context.begin(RecordKind::integrator, scene.integrator_origin);
+    context.approximated("photon mapping becomes path tracing: Mitsuba 3 has no photons");
+  }
   // Only the volumetric one counts no event where a mask or `null` stands for what is not there.
   const bool media = !scene.media.empty() || !context.interiors.empty();
   const bool nothing = !context.masks.empty() || std::ranges::any_of(scene.materials, [](const Material& m) {

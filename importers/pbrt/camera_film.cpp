@@ -286,27 +286,6 @@ void read_sampler(const std::string&, ParameterSet& parameters, Context& context
   parameters.report_unused(context.report);
 }
 
-void read_integrator(const std::string& kind, ParameterSet& parameters, Context& context,
-                     ViewSettings& view) {
-  const int depth = parameters.integer("maxdepth", 5);
-  if (depth < 0) fail("\"maxdepth\" is negative", parameters.place());
-  view.render.max_depth = depth;
-  view.render.direct_only = is_one_of(kind, {"directlighting", "whitted"});
-  const bool same_picture =
-      view.render.direct_only || is_one_of(kind, {"path", "volpath", "bdpt", "mlt", "sppm", "simplepath",
-                                                  "simplevolpath", "lightpath", "randomwalk"});
-  if (!same_picture)
-    context.report.approximated(fmt::format("integrator \"{}\" becomes a path tracer", kind),
-                                parameters.place());
-  if (parameters.boolean("regularize", false))
-    context.report.dropped("rough paths are not regularised", parameters.place());
-  parameters.ignore({"rrthreshold", "lightsampler", "lightsamplestrategy", "samplelights", "samplebsdf",
-                     "strategy", "visualizestrategies", "visualizeweights", "bootstrapsamples", "chains",
-                     "mutationsperpixel", "largestepprobability", "sigma", "photonsperiteration", "radius",
-                     "seed", "iterations", "numiterations", "imagewritefrequency"});
-  parameters.report_unused(context.report);
-}
-
 namespace {
 
 // tan 45° is 1, so that a screen window can be given as it is.
@@ -360,6 +339,7 @@ void apply(const ViewSettings& given, Scene& scene) {
   scene.film = view.film;
   scene.film.imaging_ratio = view.exposure * view.exposure_s;
   scene.settings = view.render;
+  if (view.iterations) scene.settings.samples_per_pixel = *view.iterations;
 }
 
 }  // namespace vitrail::pbrt

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "importers/integrator.h"
 #include "importers/pbrt/context.h"
 #include "importers/pbrt/lens_file.h"
 #include "importers/pbrt/parameters.h"
@@ -40,6 +41,8 @@ struct ViewSettings {
   double film_diagonal_mm = 35;
   double exposure = 1;  // iso / 100, or v3's film scale
   RenderSettings render;
+  AskedIntegrator integrator{};
+  std::optional<int> iterations{};  // of photons, each a sample of every pixel; empty: the sampler's samples
 };
 
 // The defaults of a version.

@@ -103,6 +103,7 @@ Scene Interpreter::run() {
   drop_lights_of_interfaces();
   resolve_instances();
   apply(view_, scene_);
+  report_integrator();
   return std::move(scene_);
 }
 

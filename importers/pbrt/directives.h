@@ -114,6 +114,7 @@ class Interpreter {
   void pixel_filter(const Place&);
   void sampler(const Place&);
   void integrator(const Place&);
+  void report_integrator();  // once all is read
   void accelerator(const Place&);
   void option(const Place&);
   void color_space(const Place&);
@@ -162,6 +163,7 @@ class Interpreter {
   Context& context_;
   Scene scene_;
   ViewSettings view_;
+  Place integrator_place_;
   GraphicsState state_;
   std::vector<Saved> saved_;
   World world_ = World::before;

@@ -49,6 +49,13 @@ void Interpreter::integrator(const Place& place) {
   ParameterSet parameters = read_set("Integrator", kind, place);
   read_integrator(kind, parameters, context_, view_);
   scene_.integrator_origin = origin(place);
+  integrator_place_ = place;
+}
+
+void Interpreter::report_integrator() {
+  context_.report.begin_item(integrator_place_, RecordKind::integrator);
+  for (const std::string& difference : settle_integrator(view_.integrator, scene_))
+    context_.report.approximated(difference, integrator_place_);
 }
 
 // No accelerator changes the picture.

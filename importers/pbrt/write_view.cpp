@@ -172,6 +172,16 @@ void write_times(Writer& w) {
     w.line(fmt::format("TransformTimes {} {}", w.transform_times_s[0], w.transform_times_s[1]));
 }
 
+void write_photons(Writer& w, const PhotonSettings& photons, int depth) {
+  std::string given;
+  if (photons.photons) given += fmt::format(" \"integer photonsperiteration\" {}", *photons.photons);
+  if (photons.first_radius) given += fmt::format(" \"float radius\" {}", *photons.first_radius);
+  if (photons.alpha && *photons.alpha != 2.0 / 3)
+    w.approximated("the radius of photons shrinks by pbrt's own share, 2/3", w.scene.integrator_origin,
+                   RecordKind::integrator);
+  w.line(fmt::format("Integrator \"sppm\" \"integer maxdepth\" {}{}", depth, given));
+}
+
 }  // namespace
 
 void write_view(Writer& w) {
@@ -187,6 +197,7 @@ void write_view(Writer& w) {
                    w.scene.integrator_origin, RecordKind::integrator);
     depth = 1;
   }
+  if (s.photons) return write_photons(w, *s.photons, depth);
   w.line(fmt::format("Integrator \"{}\" \"integer maxdepth\" {}", w.scene.media.empty() ? "path" : "volpath",
                      depth));
 }

@@ -181,6 +181,9 @@ TEST_F(ManifestFile, WrongContentIsFound) {
         m.film.filter = BoxFilter{0, 1};
       },
       [](Manifest& m) { m.settings.samples_per_pixel = 0; },
+      [](Manifest& m) { m.settings.photons->photons = 0; },
+      [](Manifest& m) { m.settings.photons->first_radius = -1; },
+      [](Manifest& m) { m.settings.photons->alpha = 1; },
   };
   for (std::size_t i = 0; i < harms.size(); ++i) {
     Manifest m = sample_manifest();

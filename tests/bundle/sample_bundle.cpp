@@ -119,6 +119,7 @@ Manifest sample_manifest() {
   m.camera = OrthographicCamera{translate({0.1, 1e-300, 3}), {-1.0 / 3, 1, -2, 2}, {0.1, 1.0 / 3}};
   m.film = {640, 480, {10, 600, 20, 400}, GaussianFilter{1.25, 1.5, 0.1}, 0.7, {5, 400, 700}};
   m.settings = {33, 7, true, false};
+  m.settings.photons = PhotonSettings{5000, 0.25, {}};
   m.requirements = {true, false, true, false, true, true, true};
   m.scene_hash = 0xfedcba9876543210u;
   return m;

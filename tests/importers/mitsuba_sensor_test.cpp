@@ -312,6 +312,37 @@ TEST(MitsubaIntegrator, AovsAreWritten) {
   EXPECT_THAT(written, says("are the world's"));
 }
 
+TEST(MitsubaIntegrator, PhotonMappersOfOldTracePhotons) {
+  const auto of = [](const std::string& type, const std::string& inside) {
+    return integrator("<integrator type='" + type + "'>" + inside + "</integrator>");
+  };
+  EXPECT_EQ(of("sppm", "").photons, (PhotonSettings{{}, {}, 0.7}));
+  const RenderSettings ppm =
+      of("ppm",
+         "<integer name='photonCount' value='300'/><float name='alpha' value='0.5'/>"
+         "<float name='initialRadius' value='2'/><integer name='maxPasses' value='9'/>");
+  EXPECT_EQ(ppm.photons, (PhotonSettings{300, 2, 0.5}));
+  EXPECT_EQ(ppm.samples_per_pixel, 9);
+  EXPECT_EQ(of("photonmapper", "<integer name='globalPhotons' value='400'/>").photons,
+            (PhotonSettings{400, {}, {}}));
+  EXPECT_THAT(read_text("<integrator type='photonmapper'/>").diagnostics, says("progressive photon mapping"));
+  EXPECT_EQ(of("path", "").photons, std::nullopt);
+}
+
+TEST(MitsubaIntegrator, OthersSayWhatTheyMiss) {
+  const std::string mirror = "<shape type='rectangle'><bsdf type='conductor'/></shape>";
+  for (const char* const type : {"bdpt", "mlt", "pssmlt", "erpt", "ptracer"}) {
+    const std::string text = std::string("<integrator type='") + type + "'/>";
+    EXPECT_THAT(read_text(text).diagnostics, IsEmpty()) << type;
+    EXPECT_THAT(read_text(text + mirror).diagnostics, says("from small lamps is missed")) << type;
+  }
+  for (const char* const type : {"path", "volpath", "volpathmis", "direct", "prb", "emission"})
+    EXPECT_THAT(read_text(std::string("<integrator type='") + type + "'/>" + mirror).diagnostics, IsEmpty())
+        << type;
+  EXPECT_THAT(read_text("<integrator type='prb_basic'/><emitter type='point'/>").diagnostics,
+              says("lamps that no ray meets"));
+}
+
 TEST(MitsubaIntegrator, WhatItLeavesOutIsSaid) {
   EXPECT_THAT(read_text("<integrator type='path'><boolean name='hide_emitters' value='true'/></integrator>")
                   .diagnostics,

@@ -214,10 +214,58 @@ TEST(PbrtSettings, SamplesAndDepth) {
   EXPECT_EQ(render("Sampler \"stratified\" \"integer pixelsamples\" 64").samples_per_pixel, 64);
   EXPECT_TRUE(render("Integrator \"directlighting\"").direct_only);
   EXPECT_FALSE(render("Integrator \"bdpt\"").direct_only);
-  EXPECT_TRUE(mentions(settings("Integrator \"ambientocclusion\" Film \"rgb\"").diagnostics,
-                       "becomes a path tracer"));
   EXPECT_TRUE(mentions(settings("Integrator \"path\" \"integer maxdept\" 3 Film \"rgb\"").diagnostics,
                        "did you mean \"maxdepth\""));
+}
+
+std::string integrator(const std::string& name) {
+  return "Film \"rgb\" Integrator \"" + name + "\" WorldBegin ";
+}
+const std::string metal = "Material \"conductor\" " + triangle;
+
+TEST(PbrtIntegrators, WhatFindsTheSameLightIsExact) {
+  for (const char* const name : {"path", "volpath", "simplepath", "simplevolpath"})
+    expect_no_diagnostics(import_text(integrator(name) + metal));
+  for (const char* const name :
+       {"bdpt", "mlt", "lightpath", "randomwalk", "directlighting", "whitted", "sppm"})
+    expect_no_diagnostics(import_text(integrator(name) + "LightSource \"infinite\" " + triangle));
+}
+
+TEST(PbrtIntegrators, OthersSayWhatTheyMiss) {
+  const auto says = [](const std::string& text, const char* what) {
+    return mentions(import_text(text).diagnostics, what);
+  };
+  for (const char* const name : {"bdpt", "mlt", "lightpath"})
+    EXPECT_TRUE(says(integrator(name) + metal, "from small lamps is missed")) << name;
+  EXPECT_TRUE(says(integrator("randomwalk") + "LightSource \"point\"", "lamps that no ray meets"));
+  for (const char* const name : {"directlighting", "whitted"})
+    EXPECT_TRUE(says(integrator(name) + "Material \"dielectric\" " + triangle, "straight through panes"))
+        << name;
+  EXPECT_TRUE(says(integrator("ambientocclusion"), "becomes a path tracer"));
+  EXPECT_TRUE(says(integrator("phath"), "did you mean \"path\""));
+}
+
+TEST(PbrtIntegrators, SppmTracesPhotons) {
+  const std::string more =
+      "\" \"integer photonsperiteration\" 5000 \"float radius\" .25 \"integer maxdepth\" 9 "
+      "\"integer iterations\" 7";
+  const auto of = [](const std::string& text) { return import_text(text).scene.settings; };
+  const RenderSettings v4 = of("Sampler \"zsobol\" \"integer pixelsamples\" 32 " + integrator("sppm"));
+  EXPECT_EQ(v4.photons, PhotonSettings{});
+  EXPECT_EQ(v4.samples_per_pixel, 32);
+  EXPECT_FALSE(v4.direct_only);
+  const RenderSettings given = of("Integrator \"sppm" + more + " Film \"rgb\"");
+  EXPECT_EQ(given.photons, (PhotonSettings{5000, .25, {}}));
+  EXPECT_EQ(given.samples_per_pixel, 7);
+  EXPECT_EQ(given.max_depth, 9);
+  EXPECT_EQ(of("Integrator \"sppm\" Sampler \"halton\" Film \"image\"").samples_per_pixel, 64) << "of v3";
+  // Photons do not cross media.
+  const ImportedScene fog = import_text(integrator("sppm") +
+                                        "MakeNamedMedium \"m\" \"string type\" \"homogeneous\" "
+                                        "MediumInterface \"m\" \"\" " +
+                                        triangle);
+  EXPECT_EQ(fog.scene.settings.photons, std::nullopt);
+  EXPECT_TRUE(mentions(fog.diagnostics, "photons do not cross media"));
 }
 
 }  // namespace

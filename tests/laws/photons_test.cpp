@@ -20,6 +20,7 @@ Rendered photon_mapped(const Scene& scene, std::uint64_t photons, double radius,
                        int spp = iterations) {
   RenderOptions options;
   options.samples_per_pixel = spp;
+  options.integrator = Integrator::photon;
   options.photons = {photons, radius, alpha};
   return render(scene, std::move(options));
 }
@@ -50,6 +51,28 @@ TEST(Photons, IrradianceBehindASheet) {
   }
   EXPECT_NEAR(mean(photon_mapped(scene, key.photons, key.first_radius, key.alpha)), expected,
               0.02 * expected);
+}
+
+// Where the scene asks for photons it gets them, with what it says of them; what is asked for goes before.
+TEST(Photons, AsTheSceneAsks) {
+  Scene scene;
+  add_shape(scene, square(scene, 0, 2), Material{DiffuseMaterial{ConstantSpectrum{0.5f}}});
+  add_shape(scene, square(scene, 0.5f, 2), glass(ConstantSpectrum{1}));
+  scene.lights.push_back({PointLight{{0, 0, 1}, ConstantSpectrum{3}}, {}});
+  look_along(scene, {0, 0, 1}, {}, 0.01);
+  const Rendered asked = photon_mapped(scene, 2000, 0.25, 0.8, 4);
+  scene.settings.photons = PhotonSettings{2000, 0.25, 0.8};
+  EXPECT_EQ(render(scene, 4).film.hash(), asked.film.hash());
+  scene.settings.photons = PhotonSettings{77, 0.5, 0.8};
+  RenderOptions options;
+  options.samples_per_pixel = 4;
+  options.photons = {2000, 0.25, {}};
+  EXPECT_EQ(render(scene, options).film.hash(), asked.film.hash());
+  options.photons = {};
+  options.integrator = Integrator::path;
+  EXPECT_EQ(mean(render(scene, options)), 0);
+  options.photons.photons = 10;
+  EXPECT_THROW(render(scene, options), UsageError);
 }
 
 // The same below a varnish: of what falls in along the normal the coat and the base send so much back.
@@ -104,6 +127,7 @@ TEST(Photons, TheFilmKnowsTheErrorOfItsMean) {
     RenderOptions options;
     options.samples_per_pixel = 64;
     options.seed = static_cast<std::uint64_t>(seed);
+    options.integrator = Integrator::photon;
     options.photons = {500, 0.2, 0.8};
     const Rendered rendered = render(scene, std::move(options));
     const Brightness b = brightness(rendered.film);

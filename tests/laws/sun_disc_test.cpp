@@ -74,7 +74,7 @@ TEST(SunDisc, CastsAPenumbraOfPhotons) {
     scene.settings.max_depth = 4;
     RenderOptions options;
     options.samples_per_pixel = photons ? 64 : 16;
-    if (photons) options.photons = {25000, 0.016, 0.9};
+    if (photons) options.integrator = Integrator::photon, options.photons = {25000, 0.016, 0.9};
     return mean_of(render(scene, std::move(options)).film).value.y;
   };
   EXPECT_EQ(seen(-2 * width, false), 0);
