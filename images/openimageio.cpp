@@ -35,6 +35,9 @@ std::string fault_of(const OIIO::ImageInput& in) {
   return {};
 }
 
+// An empty text would mean that all is well.
+std::string reason(std::string said) { return said.empty() ? "OpenImageIO does not say why" : said; }
+
 // −1 where there is none. The library's own search aborts where there are fewer names than channels (FITS).
 int channel_named(std::string_view name, const OIIO::ImageSpec& spec) {
   for (std::size_t c = 0; c < spec.channelnames.size() && static_cast<int>(c) < spec.nchannels; ++c)
@@ -105,7 +108,7 @@ std::unique_ptr<OIIO::ImageInput> open(const std::string& file) {
 
 std::string read_picture(const std::string& file, ImageLayout& layout, Image* image) {
   const auto in = open(file);
-  if (!in) return OIIO::geterror();
+  if (!in) return reason(OIIO::geterror());
   if (std::string fault = fault_of(*in); !fault.empty()) return fault;
   const OIIO::ImageSpec& spec = in->spec();
   const std::vector<int> channels = channels_of(spec);
@@ -114,7 +117,8 @@ std::string read_picture(const std::string& file, ImageLayout& layout, Image* im
   if (!image) return {};
   const auto stride = static_cast<std::size_t>(spec.nchannels);
   std::vector<float> values(spec.image_pixels() * stride);
-  if (!in->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, values.data())) return in->geterror();
+  if (!in->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, values.data()))
+    return reason(in->geterror());
   *image = taken(values, stride, 0, channels, layout.width, layout.height);
   if (is_multiplied(*in)) divide_by_alpha(*image);
   return {};
@@ -127,7 +131,7 @@ std::string read_picture_rows(const std::string& file, ImageLayout& layout,
                               const std::function<void(Image)>& visit) {
   if (std::string problem = read_picture(file, layout, nullptr); !problem.empty()) return problem;
   const auto in = open(file);
-  if (!in) return OIIO::geterror();
+  if (!in) return reason(OIIO::geterror());
   const OIIO::ImageSpec& spec = in->spec();
   const std::vector<int> channels = channels_of(spec);
   const auto [first, last] = std::minmax_element(channels.begin(), channels.end());
@@ -157,7 +161,7 @@ std::string read_picture_rows(const std::string& file, ImageLayout& layout,
       done =
           in->read_scanlines(0, 0, top, top + rows, spec.z, begin, end, OIIO::TypeDesc::FLOAT, values.data());
     }
-    if (!done) return in->geterror();
+    if (!done) return reason(in->geterror());
     Image band = taken(values, stride, begin, channels, layout.width, rows);
     if (is_multiplied(*in)) divide_by_alpha(band);
     visit(std::move(band));
