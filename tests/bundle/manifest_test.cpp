@@ -49,6 +49,19 @@ TEST_F(ManifestFile, ComesBackAsItWas) {
   EXPECT_EQ(r.scene_hash, m.scene_hash);
 }
 
+// A program that does not know of it would render another one.
+TEST_F(ManifestFile, Masking) {
+  Manifest m = sample_manifest();
+  ConductorMaterial metal;
+  metal.roughness = {0.25f, 0.5f, Roughness::Distribution::beckmann};
+  m.materials.push_back(Material{metal});
+  EXPECT_EQ(features_of(m).required & required_feature::masking, 0u);
+  metal.roughness.masking = Masking::correlated;
+  m.materials.push_back(Material{metal});
+  EXPECT_NE(features_of(m).required & required_feature::masking, 0u);
+  EXPECT_EQ(written_and_read(m).materials, m.materials);
+}
+
 // A reflector with one coefficient a pair, and measurements of nothing in particular.
 ScatteringTable fourier_table() {
   return FourierTable{
