@@ -24,11 +24,13 @@ const DielectricMaterial* with_priority(const Material& material) {
 Interiors::Interiors(const Manifest& manifest)
     : manifest_(manifest), bases_(static_cast<int>(manifest.media.size()) + 1) {
   for (const Surface& surface : manifest.surfaces) {
+    divide_space_ = divide_space_ || surface.interior != surface.exterior;
     const DielectricMaterial* dielectric = with_priority(manifest.materials[surface.material]);
     if (!dielectric) continue;
     const Volume volume{surface.material, surface.interior, surface.exterior, dielectric};
     if (std::find(volumes_.begin(), volumes_.end(), volume) == volumes_.end()) volumes_.push_back(volume);
   }
+  divide_space_ = divide_space_ || !volumes_.empty();
   // An order that does not depend on where surfaces stand in their list.
   const auto key = [](const Volume& v) {
     return std::tuple(-v.dielectric->priority, v.material, v.interior, v.exterior);
@@ -101,6 +103,19 @@ std::uint8_t Interiors::beside(std::uint8_t state, const Surface& surface, bool 
   if (surface.interior == surface.exterior) return state;
   return static_cast<std::uint8_t>(state - state % bases_ +
                                    (front_side ? surface.exterior : surface.interior) + 1);
+}
+
+// Counts may fall below none on the way, where the ray enters before it leaves: they go round.
+Interiors::Told Interiors::told_by(Told told, const Surface& surface, bool from_front) const {
+  if (const int volume = volume_of(surface); volume >= 0) {
+    const int before = count(told.state, volume), step = from_front ? most_ : 1;
+    const int change = (before + step) % (most_ + 1) - before;
+    told.state = static_cast<std::uint8_t>(told.state + change * stride_[static_cast<std::size_t>(volume)]);
+  } else if (!told.medium && surface.interior != surface.exterior) {
+    told.state = beside(told.state, surface, from_front, false);
+    told.medium = true;
+  }
+  return told;
 }
 
 }  // namespace vitrail

@@ -37,6 +37,18 @@ class Interiors {
   // On the front side or the back of a surface that was reached in `state`, with or without crossing it.
   std::uint8_t beside(std::uint8_t state, const Surface& surface, bool front_side, bool crossed) const;
 
+  // Whether any surface has two states beside it.
+  bool divide_space() const { return divide_space_; }
+  // What a ray that leaves a place tells of it by the surfaces that it crosses, on its way out of everything:
+  // the medium by the first one that bounds any, of dielectrics how often it leaves each more than it enters.
+  struct Told {
+    std::uint8_t state = 0;
+    bool medium = false;  // is known; vacuum in `state` until it is
+  };
+  Told told_by(Told told, const Surface& surface, bool from_front) const;
+  // Whether no surface behind can tell more.
+  bool tells_all(const Told& told) const { return told.medium && volumes_.empty(); }
+
  private:
   // The inside of a dielectric with a priority, wherever surfaces bound it.
   struct Volume {
@@ -62,6 +74,7 @@ class Interiors {
   std::vector<Volume> volumes_;  // greatest priority first
   std::vector<int> stride_;      // of a volume's count in a state
   std::vector<std::int8_t> volume_of_surface_;
+  bool divide_space_ = false;
   std::array<std::int16_t, 256> media_{};
 };
 

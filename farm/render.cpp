@@ -44,13 +44,20 @@ void override_layers(Manifest& m, const RenderOptions& options) {
   require(Layer::shape, kept.has(Layer::shape), "account of which shape is which");
 }
 
-// They belong to what the film is of.
-void put_sensors(Manifest& m, const RenderOptions& options) {
+Point3d place_of(const Camera& camera) {
+  return std::visit([](const auto& c) { return transform_point(c.camera_to_world, {0, 0, 0}); }, camera);
+}
+
+// In the place of the camera, whose own is returned. They belong to what the film is of.
+Point3d put_sensors(Manifest& m, const RenderOptions& options) {
   if (options.width || options.height || options.scale != 1 || options.crop || options.bins ||
       options.layers || options.samples.filter)
     throw UsageError(
         "--sensors has no picture whose size, crop, filter, spectrum or channels could be given");
+  if (options.clamp > 0)
+    throw UsageError("--clamp is of pictures: it would take light from what --sensors measures");
   SensorCamera camera{translate(-m.offset), read_sensors(options.sensors)};
+  const Point3d replaced = place_of(m.camera);
   m.film = sensor_film(camera.sensors.size());
   m.camera = std::move(camera);
   m.camera_motion = {};
@@ -60,6 +67,7 @@ void put_sensors(Manifest& m, const RenderOptions& options) {
   const std::string text = camera_to_json(m.camera).dump();
   hasher.add(std::as_bytes(std::span(text)));
   m.scene_hash = hasher.digest();
+  return replaced;
 }
 
 void check_splat(const Manifest& m, const RenderOptions& options) {
@@ -97,8 +105,14 @@ void choose_integrator(const RenderOptions& options, RenderSettings& s) {
   if (given.alpha) s.photons->alpha = given.alpha;
 }
 
-Manifest read_with_overrides(const RenderOptions& options) {
-  Manifest m = read_manifest(options.bundle);
+struct Overridden {
+  Manifest manifest;
+  std::optional<Point3d> replaced_camera;  // RenderScene's
+};
+
+Overridden read_with_overrides(const RenderOptions& options) {
+  Overridden result{read_manifest(options.bundle), std::nullopt};
+  Manifest& m = result.manifest;
   if (m.domains.size() > max_domains) throw Error("more than 65535 domains", {options.bundle.string()});
   m.settings.samples_per_pixel = static_cast<int>(goal_of(options, m.settings.samples_per_pixel).samples);
   set_sheets(options.sheets, options.bundle, m);
@@ -112,7 +126,7 @@ Manifest read_with_overrides(const RenderOptions& options) {
   if (options.target_error && m.settings.samples_per_pixel < 4)
     throw UsageError("an error is estimated from 4 samples a pixel or more: give --spp more than that");
   if (m.settings.max_depth < 0) throw UsageError("the depth must not be negative");
-  if (!options.sensors.empty()) put_sensors(m, options);
+  if (!options.sensors.empty()) result.replaced_camera = put_sensors(m, options);
   m.settings.max_depth = std::min(
       m.settings.max_depth, m.settings.direct_only || m.settings.photons ? max_direct_depth : max_path_depth);
   resize_film(m, options);
@@ -124,7 +138,7 @@ Manifest read_with_overrides(const RenderOptions& options) {
   const PixelRect& c = m.film.crop;
   if (c.x0 < 0 || c.y0 < 0 || c.x1 > m.film.width || c.y1 > m.film.height || c.x0 >= c.x1 || c.y0 >= c.y1)
     throw UsageError("the crop lies outside the film or is empty");
-  return m;
+  return result;
 }
 
 FilmKey key_of(const Manifest& m, const RenderOptions& options) {
@@ -156,10 +170,11 @@ std::uint64_t texture_budget(const Manifest& m, std::uint64_t memory_bytes) {
 }
 
 Job set_up(const RenderOptions& options) {
-  Manifest manifest = read_with_overrides(options);
-  const std::uint64_t textures = texture_budget(manifest, options.memory_bytes);
-  auto scene = std::make_unique<RenderScene>(std::move(manifest), options.bundle, textures, options.seed,
+  Overridden read = read_with_overrides(options);
+  const std::uint64_t textures = texture_budget(read.manifest, options.memory_bytes);
+  auto scene = std::make_unique<RenderScene>(std::move(read.manifest), options.bundle, textures, options.seed,
                                              options.samples.sampling);
+  scene->replaced_camera = read.replaced_camera;
   return {std::move(scene), {}, textures};
 }
 

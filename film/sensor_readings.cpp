@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "film/sensor_readings.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "film/develop.h"
@@ -29,6 +31,11 @@ std::vector<SensorReading> sensor_readings(const Film& film) {
   require_unsaturated(film.refused(), {});
   const SpectralBins& bins = film.bins();
   if (bins.count == 0) throw Error("the film keeps no spectrum, which sensors need", {});
+  if (film.key().clamp > 0)
+    throw Error(fmt::format("the film was rendered with --clamp, which took {:.3g} % of the light that its "
+                            "sensors measure: render again without",
+                            100 * film.clamped_share()),
+                {});
   std::vector<double> melanopic_of_bin;
   for (int b = 0; b < bins.count; ++b) {
     const double low = bins.min_nm + b * bins.width_nm();

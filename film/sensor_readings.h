@@ -20,7 +20,7 @@ struct SensorReading {
   std::uint64_t samples = 0;
 };
 
-// One a column of the film. Throws Error if it is saturated or keeps no spectrum.
+// One a column of the film. Throws Error if it is saturated, keeps no spectrum or was clamped.
 std::vector<SensorReading> sensor_readings(const Film& film);
 
 }  // namespace vitrail

@@ -143,24 +143,6 @@ CameraRay PathTracer::camera_ray(int x, int y, const Path& path) const {
   return scene_.camera.ray({x + 0.5 + offset.x, y + 0.5 + offset.y}, lens, path.time_s);
 }
 
-// A sensor is a white diffuse surface at which paths begin: radiance leaves it, the irradiance over π. That
-// is the path's first event.
-void PathTracer::leave_sensor(Path& path, const Sensor& sensor) {
-  find_wavelengths(path);
-  const Departure from{sensor.position, cast<float>(sensor.position), no_triangle, path.inside};
-  const std::uint32_t candidates = light_candidates(path, from.p, true);
-  if (scene_.lights.can_sample()) connect_sensor(path, from, sensor.normal, candidates);
-  const std::array<float, 4> u = numbers_for_scattering(path);
-  const Point2d disk = concentric_disk({static_cast<double>(u[0]), static_cast<double>(u[1])});
-  const double cosine = safe_sqrt(1 - disk.x * disk.x - disk.y * disk.y);
-  const Vector3d n = sensor.normal;
-  const Vector3d x = normalize(cross(std::abs(n.x) < 0.5 ? Vector3d{1, 0, 0} : Vector3d{0, 1, 0}, n));
-  path.pdf = density_beside(cosine / pi, candidates);
-  ++path.depth;
-  if (manifest_.settings.direct_only) path.depth |= scattered_once;
-  depart(path, from, x * disk.x + cross(n, x) * disk.y + n * cosine);
-}
-
 void PathTracer::trace_camera(int x, int y, std::uint32_t sample) {
   Path path;
   path.pixel = static_cast<std::uint32_t>((y - film_.crop().y0) * film_.width() + x - film_.crop().x0);
@@ -178,12 +160,9 @@ void PathTracer::trace_camera(int x, int y, std::uint32_t sample) {
   ++counters_.rays_camera;
   if (traffic_) traffic_->begin({});
   ++counters_.born;
-  if (const auto sensor = scene_.camera.sensor(x)) {
-    leave_sensor(path, *sensor);
-    if (!(path.pdf > 0)) {  // along the sensor's plane
-      ++counters_.died;
-      return;
-    }
+  if (const auto sensor = scene_.camera.sensor(x); sensor && !begin_at(path, *sensor)) {
+    ++counters_.died;
+    return;
   }
   run(path, std::nullopt);
 }
@@ -194,7 +173,7 @@ void PathTracer::resume(const PathRecord& record, std::uint32_t domain) {
   path.sample = record.sample_depth >> 9;
   begin(path);
   path.depth = (record.sample_depth & 0x1ff) << 8 | record.depth;
-  path.flags = record.flags & (record.flags & (path_in_pane | path_connection) ? 0xf : 0x3f);
+  path.flags = record.flags & (record.flags & (path_in_pane | path_connection) ? 0xf : 0xff);
   if (path.is(path_in_pane))
     path.entered_by = {static_cast<std::uint32_t>(record.flags >> 4) << 16 | record.pdf};
   else
@@ -202,6 +181,7 @@ void PathTracer::resume(const PathRecord& record, std::uint32_t domain) {
   path.throughput = unpack_throughput(record.throughput);
   std::array<std::uint8_t, 3> travelled = std::to_array(record.travelled);
   if (has_cone(path)) path.cone = std::exchange(travelled[0], std::uint8_t{0});
+  if (path.is(path_in_pane) && std::exchange(travelled[1], std::uint8_t{0}) != 0) path.set(path_connected);
   path.travelled = static_cast<double>(unpack_radiance(travelled.data()));
   if (path.is(path_connection)) unpack_connection(record, path);
   path.inside = record.inside;
@@ -284,9 +264,12 @@ bool PathTracer::forward(const Path& path, std::uint32_t domain, bool resolved) 
   r.pixel = path.pixel;
   r.sample_depth = path.sample << 9 | path.depth >> 8;
   r.depth = static_cast<std::uint8_t>(path.depth);
-  const std::uint32_t face = path.is(path_in_pane) ? path.entered_by.bits : 0;
-  r.pdf = path.is(path_in_pane) ? static_cast<std::uint16_t>(face) : pdf_code(path.pdf);
-  r.flags = static_cast<std::uint8_t>(path.flags | (resolved ? path_resolved : 0) | face >> 16 << 4);
+  const bool in_pane = path.is(path_in_pane);
+  const std::uint32_t face = in_pane ? path.entered_by.bits : 0;
+  r.pdf = in_pane ? static_cast<std::uint16_t>(face) : pdf_code(path.pdf);
+  r.flags = static_cast<std::uint8_t>((in_pane ? path.flags & 0xf : path.flags) |
+                                      (resolved ? path_resolved : 0) | face >> 16 << 4);
+  if (in_pane) r.travelled[1] = path.is(path_connected);
   if (path.is(path_connection)) pack_connection(path, r);
   outbox_.paths.push_back({domain, r});
   if (traffic_) traffic_->leave_for(domain);

@@ -100,7 +100,6 @@ class PathTracer {
   struct Shadow;
 
   CameraRay camera_ray(int x, int y, const Path& path) const;
-  void leave_sensor(Path& path, const Sensor& sensor);
   void run(Path& path, std::optional<std::uint32_t> at);
   bool find_hit(Path& path, std::optional<std::uint32_t> at);
   void intersect(Path& path, const RayConstants& constants, std::uint32_t domain);
@@ -133,6 +132,12 @@ class PathTracer {
   void land(const Path& path, const Interaction& at);
   void gather(const Path& path, const Interaction& at, const Scattering& scattering, Vector3d out);
   bool flies() const { return photons_ && photons_->flying; }
+
+  // sensors.cpp
+  bool begin_at(Path& path, const Sensor& sensor);
+  void seek(Path& path, Point3d from, Vector3d direction) const;
+  bool seek_on(Path& path);
+  bool leave_sensor(Path& path, const Sensor& sensor);
 
   // first_surface.cpp
   Transform bundle_to_camera(const Path& path) const;

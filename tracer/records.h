@@ -34,6 +34,9 @@ enum PathFlags : std::uint8_t {
   path_passed = 16,     // went straight on at an event that had the random numbers of its depth; never in a
                         // pane, nor of a connection
   path_unrecorded = 32,  // the film keeps layers of the first surface, and it is yet to be met; as above
+  path_seeks = 64,       // not a path yet: looks for what is around its sensor; as above
+  path_connected =
+      128,  // it was scattered where connections to lights are made from; as above, but in a pane
 };
 
 #pragma pack(push, 1)
@@ -56,8 +59,9 @@ struct PathRecord {
   std::uint8_t flags;  // PathFlags; in a pane and of a connection the first 4, and above them the high
                        // bits of the FaceCode or the aim
   // Since the last scattering, straight through surfaces, as radiance_code. Where images are filtered, a path
-  // has the cone_code of its ray's width in the lowest byte. Of a straight connection: what is left to its
-  // light, the high bits of the end_code.
+  // has the cone_code of its ray's width in the lowest byte. In a pane, where that is 0, the second byte says
+  // whether it is path_connected. Of a straight connection: what is left to its light, the high bits of the
+  // end_code.
   std::uint8_t travelled[3];
   std::uint8_t inside;  // state of Interiors
 };

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 
 #include "bundle/interiors.h"
 #include "tracer/camera.h"
@@ -30,6 +31,9 @@ struct RenderScene {
   std::vector<PreparedMedium> media;
   LightSampler lights;
   Transform bundle_to_camera;
+  // Where the camera is that sensors take the place of: what is known to be around it tells what is around
+  // all. None: the camera's medium is around all.
+  std::optional<Point3d> replaced_camera;
   double pixel_angle = 0;  // between neighbouring camera rays in the middle of the picture, rad
   std::uint64_t seed = 0;
   SamplingChoices sampling;

@@ -20,6 +20,8 @@ constexpr float chain_survival = 63.0f / 64;
 
 // False when the path ends here.
 bool PathTracer::shade(Path& path) {
+  if (path.is(path_seeks)) [[unlikely]]
+    return seek_on(path);
   const PreparedMedium* medium = medium_of(path);
   const bool escapes = path.met() == Met::nothing && !medium && !path.is(path_connection);
   if (escapes && !scene_.lights.has_background()) return false;
@@ -48,9 +50,13 @@ bool PathTracer::shade(Path& path) {
   return shade_surface(path);
 }
 
+// The discs of suns that are connected to as distant lights are seen as well, but where connections were made
+// before: those find them.
 void PathTracer::add_environment(const Path& path) {
   const Vector3d direction = normalize(cast<double>(path.ray.direction));
-  const auto [radiance, light_pdf] = background(scene_.lights, direction, path.wavelengths);
+  auto [radiance, light_pdf] = background(scene_.lights, direction, path.wavelengths);
+  if (scene_.lights.has_discs && !path.is(path_connected))
+    radiance = radiance + discs(scene_.lights, direction, path.wavelengths);
   if (is_black(radiance)) return;
   double weight = 1;
   if (path.pdf > 0) {
@@ -127,6 +133,7 @@ bool PathTracer::shade_surface(Path& path) {
     direction = mirrored(at);
   }
   path.pdf = chosen->specular ? 0 : density_beside(chosen->pdf, candidates);
+  if (!chosen->specular) path.set(path_connected);
   if (!chosen->specular && !(path.pdf > 0)) return false;
   if (one_lobe && survival(path) < 1) u = numbers_for_scattering(path);
   if (!go_on(path, u[3], chosen->specular, gathered)) return false;
@@ -258,6 +265,7 @@ bool PathTracer::scatter_in_medium(Path& path, Point3d p) {
   const std::array<float, 4> u = numbers_for_scattering(path);
   const Vector3d in = sample_phase(g, out, u[0], u[1]);
   path.pdf = density_beside(phase(g, out, in), candidates);
+  path.set(path_connected);
   if (!(path.pdf > 0) || !go_on(path, u[3], false)) return false;
   depart(path, from, in);
   return true;

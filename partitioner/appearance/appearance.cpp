@@ -168,14 +168,13 @@ struct LightBaker {
   }
 };
 
-bool is_refracting(const Scene& scene, const Used& used) {
-  for (std::size_t i = 0; i < scene.materials.size(); ++i) {
-    const auto* glass = std::get_if<DielectricMaterial>(&scene.materials[i].model);
-    if (used.materials[i] && glass && glass->roughness.alpha_u == FloatParameter{0.0f} &&
-        glass->roughness.alpha_v == FloatParameter{0.0f})
-      return true;
-  }
-  return false;
+// As requirements_of finds it: also what other materials have become.
+bool is_refracting(const std::vector<Material>& baked) {
+  return std::ranges::any_of(baked, [](const Material& material) {
+    const auto* glass = std::get_if<DielectricMaterial>(&material.model);
+    return glass && glass->roughness.alpha_u == FloatParameter{0.0f} &&
+           glass->roughness.alpha_v == FloatParameter{0.0f};
+  });
 }
 
 bool is_infinitely_far(const LightModel& light) {
@@ -214,13 +213,15 @@ Appearance appearance_of(const Scene& scene, const std::filesystem::path& bundle
   result.opacities.resize(scene.textures.size(), 1.0f);
   for (std::uint32_t i = 0; i < used.opacities.size(); ++i)
     if (used.opacities[i]) result.opacities[i] = textures.bake(FloatParameter{Id<Texture>{i}});
-  const bool glass = is_refracting(scene, used);
+  const bool glass = is_refracting(result.materials);
   for (const Light& light : scene.lights) {
     result.lights.push_back(
         {std::visit(LightBaker{textures, location(scene, light.origin)}, light.model), {}});
     if (const auto* sky = std::get_if<SkyLight>(&light.model); sky && glass && SkyModel(*sky).has_sun())
-      report.approximated("the sun's disc is not seen where smooth glass is, only what it lights",
-                          light.origin);
+      report.approximated(
+          "where smooth glass or what scatters below a smooth surface is, the light that mirrors and curved "
+          "glass throw of the sun's disc is found by photons alone (--integrator photon)",
+          light.origin);
     report_endless_medium(scene, light, report);
     const auto* environment = std::get_if<EnvironmentLight>(&light.model);
     if (environment && environment->portal)

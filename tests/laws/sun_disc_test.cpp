@@ -6,7 +6,9 @@
 
 #include <cmath>
 
+#include "scene/named_spectra.h"
 #include "scene/portable_math.h"
+#include "scene/sky_model.h"
 #include "tests/laws/flat_scenes.h"
 
 namespace vitrail::test {
@@ -24,8 +26,8 @@ Material glass() {
   return Material{m};
 }
 
-// White ground, seen at x < 0 from above, with the sun in the zenith; an opaque half-plane at that height
-// from x = 0 on.
+// White ground, seen at x < 0 from above, but not from where glass mirrors the sun, which is in the zenith;
+// an opaque half-plane at that height from x = 0 on.
 Scene ground_beside_an_edge(double x, double half_width) {
   Scene scene;
   add_shape(scene, square(scene, 0, 0.3f), Material{DiffuseMaterial{ConstantSpectrum{0.5f}}});
@@ -36,7 +38,7 @@ Scene ground_beside_an_edge(double x, double half_width) {
   sun.sun_diameter_deg = diameter_deg;
   sun.limb_darkening = false;
   scene.lights.push_back({sun, {}});
-  look_along(scene, {0, 0, 1}, {x, 0, 0}, half_width);
+  look_along(scene, direction(12, 90), {x, 0, 0}, half_width);
   return scene;
 }
 
@@ -87,14 +89,62 @@ TEST(SunDisc, CastsAPenumbraOfPhotons) {
   }
 }
 
+// Parallel rays into its middle, past or through or by a body of this material.
+double seen_disc(const std::optional<Material>& material, bool in_the_way, Vector3d turned = {0, 0, 1}) {
+  Scene scene;
+  SkyLight sun;
+  sun.sky_scale = 0;
+  sun.sun_diameter_deg = diameter_deg;
+  sun.limb_darkening = false;
+  scene.lights.push_back({sun, {}});
+  add_shape(scene, square(scene, -30, 0.1f, 8), Material{DiffuseMaterial{ConstantSpectrum{0.5f}}});
+  const float x = in_the_way ? -1 : 5;
+  if (material) add_shape(scene, add_quads(scene, box_faces({x, -1, 1}, {x + 2, 1, 2})), *material);
+  look_along(scene, -turned, {0, 0, 0}, 0.1);
+  scene.settings.max_depth = 30;
+  return mean_of(render(scene, 64).film).value.y;
+}
+
+// What connections go to as a distant light where something refracts is seen all the same: by the camera,
+// through glass and in mirrors.
+TEST(SunDisc, IsSeenWhateverRefracts) {
+  const double bare = seen_disc(std::nullopt, false);
+  SkyLight sun;
+  sun.sky_scale = 0, sun.sun_diameter_deg = diameter_deg, sun.limb_darkening = false;
+  const SkyModel model(sun);
+  EXPECT_NEAR(bare, luminance(spectrum_of_bands(model.sun(model.to_sun()))), 0.02 * bare);
+  SubsurfaceMaterial wax;
+  wax.eta = ConstantSpectrum{1.3f};
+  EXPECT_NEAR(seen_disc(Material{wax}, false), bare, 0.01 * bare) << "beside wax";
+  EXPECT_NEAR(seen_disc(glass(), false), bare, 0.01 * bare) << "beside glass";
+  const double reflected = 0.04;  // of index 1.5
+  EXPECT_NEAR(seen_disc(glass(), true), bare * (1 - reflected) / (1 + reflected), 0.02 * bare)
+      << "through glass";
+  EXPECT_NEAR(seen_disc(glass(), true, {0, 0, -1}), bare * 2 * reflected / (1 + reflected), 0.02 * bare)
+      << "in the faces of glass";
+}
+
+// Seen by what scatters it counts once.
+TEST(SunDisc, LightsAsMuchBesideGlass) {
+  const auto lit = [](bool beside) {
+    Scene scene = ground_beside_an_edge(-0.1, 0.02);
+    if (beside) add_shape(scene, add_quads(scene, box_faces({5, 5, 5}, {6, 6, 6})), glass());
+    scene.settings.max_depth = 4;
+    return mean_of(render(scene, 64).film);
+  };
+  expect_luminance(lit(true), lit(false).value.y, 0.01, "beside glass", 0.005);
+}
+
 // The point of the disc is a function of the sample, whoever traces it.
 TEST(SunDisc, IsOneWhateverTheDomains) {
-  Scene scene = ground_beside_an_edge(-0.01, 0.02);
-  add_shape(scene, add_quads(scene, box_faces({-.25f, -.25f, 0.3f}, {.25f, .25f, 0.7f})), glass());
-  scene.settings.max_depth = 4;
-  const Rendered one = render(scene, 8, 1), eight = render(scene, 8, 8);
-  EXPECT_GT(brightness(one.film).mean, 0);
-  EXPECT_EQ(one.film.hash(), eight.film.hash());
+  for (const Material& pane : {glass(), Material{DielectricMaterial{bk7()}}}) {
+    Scene scene = ground_beside_an_edge(-0.01, 0.02);
+    add_shape(scene, add_quads(scene, box_faces({-.25f, -.25f, 0.3f}, {.25f, .25f, 0.7f})), pane);
+    scene.settings.max_depth = 8;
+    const Rendered one = render(scene, 8, 1), eight = render(scene, 8, 8);
+    EXPECT_GT(brightness(one.film).mean, 0);
+    EXPECT_EQ(one.film.hash(), eight.film.hash());
+  }
 }
 
 }  // namespace

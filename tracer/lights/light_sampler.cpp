@@ -338,4 +338,12 @@ Background background(const LightSampler& s, Vector3d direction, const SampledWa
   return sum;
 }
 
+SampledSpectrum discs(const LightSampler& s, Vector3d direction, const SampledWavelengths& wavelengths) {
+  SampledSpectrum sum;
+  for (const LightSampler::Distant& d : s.distant)
+    if (const Vector3d local = d.frame.to_light(direction); d.sun && d.sun->meets_sun(local))
+      sum = sum + d.sun->sun(local, wavelengths);
+  return sum;
+}
+
 }  // namespace vitrail

@@ -119,8 +119,8 @@ struct LightSampler {
   // Whether sample_light may ever give something.
   bool can_sample() const { return !share.empty(); }
   bool has_discs = false;  // some distant light is a sun
-  // Whether background's radiance may be other than 0.
-  bool has_background() const { return !infinite.empty() || !environments.empty(); }
+  // Whether background's radiance may be other than 0, or that of discs.
+  bool has_background() const { return !infinite.empty() || !environments.empty() || has_discs; }
 };
 
 // Opens an image by its name in the records.
@@ -192,6 +192,9 @@ struct Background {
 };
 // `direction` unit, outwards.
 Background background(const LightSampler& sampler, Vector3d direction, const SampledWavelengths& wavelengths);
+
+// Radiance of the suns among the distant lights where a ray leaves the scene through their discs.
+SampledSpectrum discs(const LightSampler& sampler, Vector3d direction, const SampledWavelengths& wavelengths);
 
 // Whether `accept` any of the directions to distant lights whose numbers (LightSample::light) end on these 16
 // bits. `far` as of sample_light.
