@@ -32,7 +32,9 @@ Picture load(const std::string& file, const CompareArguments& options) {
     const Film film = read_film(file, &progress);
     if (!progress.complete() && options.strict) throw Error("the film is not finished", {});
     if (!progress.complete() && !options.quiet) say("vitrail: {}: the film is not finished\n", file);
-    return develop(film);
+    Picture picture = develop(film);
+    picture.neighbours = neighbours_of(progress.about);
+    return picture;
   } catch (const Error& e) {
     throw Error(e.what(), {file});
   }
@@ -71,12 +73,16 @@ int run(const CompareArguments& options) {
   Picture image = load(options.image, options), reference = load(options.reference, options);
   align(image, reference);
   const Mask mask = mask_of(options, image);
-  ZTestInput test{&image.rgb, &reference.rgb, {}, {}, 0};
+  ZTestInput test{&image.rgb, &reference.rgb, {}, {}, 0, 1};
   if (metric == Metric::ztest)
     find_variances(test, image, reference, options.variance, options.variance_samples);
   const Image image_part = without(image.rgb, mask), reference_part = without(reference.rgb, mask);
-  test = {&image_part, &reference_part, without(test.variance, mask), without(test.degrees_of_freedom, mask),
-          std::hypot(image.shared_error, reference.shared_error)};
+  test = {&image_part,
+          &reference_part,
+          without(test.variance, mask),
+          without(test.degrees_of_freedom, mask),
+          std::hypot(image.shared_error, reference.shared_error),
+          neighbours_of_mean(image, reference)};
   Comparison comparison = compare(test, *metric, options.fail_above, options.mean_within,
                                   without(flip_map(options, image.rgb, reference.rgb), mask));
   const std::size_t compared = comparison.error_map.size();

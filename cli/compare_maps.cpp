@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/compare_maps.h"
 
+#include "cli/compare_variances.h"
 #include "compare/comparison_page.h"
 #include "compare/error_images.h"
 #include "compare/web_page.h"
@@ -42,9 +43,9 @@ void write_maps(const CompareArguments& options, const Comparison& c, const Pict
     write_map(options.signed_map, difference, signed_map(difference, scale), scale, Palette::sides);
   }
   if (!options.html.empty())
-    write_whole(options.html,
-                comparison_page({options.image, options.reference, &a, &b, image.window.x0, image.window.y0,
-                                 options.pixels_per_degree, of_low_range(options)}));
+    write_whole(options.html, comparison_page({options.image, options.reference, &a, &b, image.window.x0,
+                                               image.window.y0, options.pixels_per_degree,
+                                               neighbours_of_mean(image, reference), of_low_range(options)}));
 }
 
 }  // namespace vitrail

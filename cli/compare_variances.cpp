@@ -2,6 +2,7 @@
 #include "cli/compare_variances.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "compare/alignment.h"
 #include "compare/metrics.h"
@@ -22,7 +23,7 @@ EstimatedVariance estimated_variance(const Picture& picture) {
   const std::vector<float>& values = picture.variance.values;
   if (std::any_of(values.begin(), values.end(), [](float v) { return !(v >= 0); }))
     throw Error("a variance is negative or not a number");
-  return {&picture.variance, groups - 1};
+  return {&picture.variance, groups - 1, picture.neighbours.of_variances};
 }
 
 // Of the mean that a picture of `samples` has, after Mitsuba's image of the variance of one; the image's own,
@@ -39,6 +40,18 @@ void add_mitsuba_variance(ZTestInput& test, const Image& of_sample, const Pictur
 }
 
 }  // namespace
+
+double neighbours_of_mean(const Picture& image, const Picture& reference) {
+  const auto noise = [](const Picture& picture) {
+    double sum = 0;
+    for (const float v : picture.variance.values)
+      if (std::isfinite(v)) sum += static_cast<double>(v);
+    return sum;
+  };
+  const double a = image.neighbours.of_mean, b = reference.neighbours.of_mean, of_a = noise(image),
+               of_b = noise(reference);
+  return of_a > 0 && of_b > 0 ? (a * of_a + b * of_b) / (of_a + of_b) : std::max(a, b);
+}
 
 void find_variances(ZTestInput& test, const Picture& image, const Picture& reference, const std::string& file,
                     std::optional<double> samples) {

@@ -15,4 +15,7 @@ namespace vitrail {
 void find_variances(ZTestInput& test, const Picture& image, const Picture& reference, const std::string& file,
                     std::optional<double> samples);
 
+// Of the difference of two pictures: by the noise of each where both know it, else the greater.
+double neighbours_of_mean(const Picture& image, const Picture& reference);
+
 }  // namespace vitrail

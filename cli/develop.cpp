@@ -186,6 +186,8 @@ int main(int argc, char** argv) {
     if (logarithmic && false_color.empty()) throw UsageError("--log belongs to --false-color");
     require_place(output);
     const Exposed sum = merge_all(films, manner);
+    if (sum.film.samples() == 0)
+      throw Error("the film holds no sample yet: its picture would be black", {sum.file.string()});
     if (std::filesystem::path(output).extension() == ".csv") {
       write_table(output, sum);
       return exit_done;
@@ -194,6 +196,7 @@ int main(int argc, char** argv) {
     picture.render_time_s = sum.render_time_s;
     picture.origin.seeds = sum.seeds;
     put_about(picture.origin, sum.about);
+    picture.neighbours = neighbours_of(sum.about);
     if (sum.film.key().clamp > 0 && !manner.quiet)
       say("vitrail: rendered with --clamp {}, which took {:.3g} % of the light\n", sum.film.key().clamp,
           100 * sum.film.clamped_share());

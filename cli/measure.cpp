@@ -90,8 +90,15 @@ int main(int argc, char** argv) {
   app.add_option("--seconds", options.seconds,
                  "recommend the most accurate setting that renders the whole picture within this time here")
       ->check(more_than_0);
+  app.add_option(
+         "--bias", options.most_bias,
+         "recommend nothing that changes the picture's mean light by more than this share, or may: it "
+         "is compared with paths of any length")
+      ->check(more_than_0)
+      ->capture_default_str();
   app.add_option("--budget", options.budget_s,
-                 "seconds that all may take, roughly; less than enough takes longer")
+                 "seconds that all may take, roughly; less than enough takes longer; rendering what is "
+                 "recommended with its own samples may take as long again")
       ->check(more_than_0)
       ->capture_default_str();
   app.add_option("--ranks", options.farm.ranks,

@@ -117,8 +117,9 @@ void declare(CLI::App& app, RenderArguments& a) {
       "samples to a finished one, needs no option");
   app.add_flag("--force", o.force, "replace the film, checkpoint or picture that has the output's name");
   app.add_option("--time", o.time_limit_s,
-                 "end after this many seconds, the picture's file included, with what there is, and without "
-                 "--spp not before; the same command then goes on")
+                 "end after this many seconds, partitioning and the picture's file included, with what there "
+                 "is, and without --spp not before; the same command then goes on. Tracing has half of them "
+                 "at least, and some samples are always finished")
       ->check(more_than_0);
   app.add_flag("--dry-run", o.dry_run,
                "render for a few seconds, write nothing, and say what memory and time it would all take");

@@ -81,8 +81,9 @@ Comparison compare(const ZTestInput& input, Metric metric, std::optional<double>
   c.nonfinite_image = count_nonfinite(*input.image);
   c.nonfinite_reference = count_nonfinite(*input.reference);
   c.ratios = mean_ratios(*input.image, *input.reference);
-  c.luminance_ratio_error = std::max(luminance_ratio_error(*input.image, *input.reference),
-                                     c.ratios.luminance * input.shared_error);
+  c.luminance_ratio_error =
+      std::max(luminance_ratio_error(*input.image, *input.reference, input.neighbours_of_mean),
+               c.ratios.luminance * input.shared_error);
   measure(c, input);
   const bool within = !c.threshold || c.value <= *c.threshold;
   c.passed = within && means_agree(c) && c.nonfinite_image == 0 && c.nonfinite_reference == 0;

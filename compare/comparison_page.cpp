@@ -65,7 +65,9 @@ Json rows(const ComparisonPage& page, const Json& all) {
   table.push_back({"psnr", psnr_of_mse(mse), "dB, for a peak of 1"});
   table.push_back({"bitwise", mean_of_valid(difference_map(a, b)), "pixels with any bit different"});
   table.push_back({"luminance", ratios.luminance, "mean of the image over that of the reference"});
-  table.push_back({"± (95 %)", 1.96 * luminance_ratio_error(a, b), "if the pixels' errors are independent"});
+  table.push_back({"± (95 %)", 1.96 * luminance_ratio_error(a, b, page.neighbours_of_mean),
+                   page.neighbours_of_mean > 1 ? "with what splatting makes alike"
+                                               : "if the pixels' errors are independent"});
   table.push_back({"red", ratios.red, "as luminance"});
   table.push_back({"green", ratios.green, ""});
   table.push_back({"blue", ratios.blue, ""});

@@ -14,7 +14,8 @@ struct ComparisonPage {
   const Image* reference = nullptr;
   int x0 = 0, y0 = 0;  // of the first pixel in the whole picture
   double pixels_per_degree = 0;
-  bool low_range = false;  // FLIP is that of images for screens
+  double neighbours_of_mean = 1;  // film/neighbours.h
+  bool low_range = false;         // FLIP is that of images for screens
 };
 
 // One HTML file that a browser shows without a network: both images and the maps of their errors, flipped

@@ -102,7 +102,7 @@ MeanRatios mean_ratios(const Image& image, const Image& reference) {
           ratio(a.r, b.r),         ratio(a.g, b.g),         ratio(a.b, b.b)};
 }
 
-double luminance_ratio_error(const Image& image, const Image& reference) {
+double luminance_ratio_error(const Image& image, const Image& reference, double neighbours_of_mean) {
   require_same_size(image, reference);
   const auto luminance = [](const Image& of, std::size_t p) {
     const float* v = &of.values[3 * p];
@@ -118,7 +118,8 @@ double luminance_ratio_error(const Image& image, const Image& reference) {
     ++count;
   }
   const double variance = std::max(0.0, squares / count - (sum / count) * (sum / count));
-  return reference_sum == 0 ? nan : std::sqrt(variance / count) / (reference_sum / count);
+  return reference_sum == 0 ? nan
+                            : std::sqrt(neighbours_of_mean * variance / count) / (reference_sum / count);
 }
 
 }  // namespace vitrail

@@ -43,9 +43,10 @@ struct MeanRatios {
 };
 MeanRatios mean_ratios(const Image& image, const Image& reference);
 
-// The standard error of the ratio of the means of luminance, if the pixels' differences are independent: of
-// noise they are, of a wrong shadow they are not. NaN where the reference is black.
-double luminance_ratio_error(const Image& image, const Image& reference);
+// The standard error of the ratio of the means of luminance, if the pixels' differences are independent but
+// for what splatting makes alike (Neighbours::of_mean): of noise they are, of a wrong shadow they are not.
+// NaN where the reference is black.
+double luminance_ratio_error(const Image& image, const Image& reference, double neighbours_of_mean = 1);
 
 void require_same_size(const Image& image, const Image& reference);
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "scene/color.h"
+#include "scene/pixel_place.h"
 
 namespace vitrail {
 
@@ -15,13 +16,13 @@ constexpr double least_mitsuba_variance = 1e-4;
 constexpr int reach = 3;  // of a neighbourhood, pixels to each side
 
 // Of estimates s² with ν degrees of freedom each. E[s⁴/(ν + 2)] = σ⁴/ν, which is what Satterthwaite's formula
-// asks for.
+// asks for; where neighbours are alike the variance of the sum is so many times as much.
 struct Sums {
   double sum = 0, of_squares = 0, count = 0, freedom = 0;
-  void add(double estimate, int degrees_of_freedom) {
+  void add(double estimate, const EstimatedVariance& part) {
     sum += estimate;
-    of_squares += estimate * estimate / (degrees_of_freedom + 2);
-    freedom += degrees_of_freedom;
+    of_squares += part.neighbours_of_variances * estimate * estimate / (part.degrees_of_freedom + 2);
+    freedom += part.degrees_of_freedom / part.neighbours_of_variances;
     ++count;
   }
   int degrees_of_freedom() const {
@@ -45,12 +46,12 @@ PooledVariance pooled(std::span<const EstimatedVariance> parts) {
       Sums around, own;
       for (const EstimatedVariance& part : parts) {
         const auto estimate = [&](int column, int row) {
-          return static_cast<double>(part.variance->values[static_cast<std::size_t>(row * width + column)]);
+          return static_cast<double>(part.variance->values[pixel_place(column, row, width)]);
         };
         for (int row = std::max(y - reach, 0); row <= std::min(y + reach, height - 1); ++row)
           for (int column = std::max(x - reach, 0); column <= std::min(x + reach, width - 1); ++column)
-            around.add(estimate(column, row), part.degrees_of_freedom);
-        own.add(estimate(x, y), part.degrees_of_freedom);
+            around.add(estimate(column, row), part);
+        own.add(estimate(x, y), part);
       }
       const double mean = around.sum * static_cast<double>(parts.size()) / around.count;
       result.variance.push_back(std::max(mean, own.sum));

@@ -15,13 +15,14 @@ namespace vitrail {
 struct EstimatedVariance {
   const Image* variance = nullptr;
   int degrees_of_freedom = 0;
+  double neighbours_of_variances = 1;  // film/neighbours.h
 };
 
 // Variances of the sum of what the parts are of, pooled: each pixel has the mean over the 7 × 7 pixels around
 // it, or its own estimate where that is greater, so that a pixel noisier than those around it is not taken
-// for wrong. Pixels share no samples, so their estimates are independent; where their variances differ the
-// mean has fewer degrees of freedom (Satterthwaite, "An approximate distribution of estimates of variance
-// components", Biometrics Bulletin 2, 1946).
+// for wrong. Estimates of pixels that share no samples are independent. Where they share some, or where their
+// variances differ, the mean has fewer degrees of freedom (Satterthwaite, "An approximate distribution of
+// estimates of variance components", Biometrics Bulletin 2, 1946).
 struct PooledVariance {
   std::vector<double> variance;         // one a pixel
   std::vector<int> degrees_of_freedom;  // ≥ 1

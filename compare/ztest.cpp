@@ -56,7 +56,6 @@ void judge_means(ZTest& result, std::span<const MeanSums> sums, std::size_t pixe
   result.means_differ =
       two_sided_p(result.mean_sigmas, 0) < -std::expm1(std::log1p(-ztest_mean_significance) / channels);
   const MeanSums& luminance = sums[sums.size() == 1 ? 0 : 1];
-  result.noise_rms = std::sqrt(luminance.variance / static_cast<double>(pixels));
   result.difference_rms = std::sqrt(luminance.squares / static_cast<double>(pixels));
 }
 
@@ -88,8 +87,10 @@ ZTest ztest(const ZTestInput& input) {
       sums[c].reference += std::abs(b[c]);
     }
   }
+  result.noise_rms = std::sqrt(sums[channels == 1 ? 0 : 1].variance / static_cast<double>(pixels));
   for (MeanSums& s : sums)
-    s.variance = std::max(s.variance, input.shared_error * input.shared_error * s.reference * s.reference);
+    s.variance = std::max(input.neighbours_of_mean * s.variance,
+                          input.shared_error * input.shared_error * s.reference * s.reference);
   judge_means(result, std::span(sums).first(channels), pixels);
   return result;
 }

@@ -32,6 +32,8 @@ struct ZTestInput {
   // Standard error of the ratio of the means that all pixels have in common, of both images together; 0 where
   // pixels are independent.
   double shared_error = 0;
+  // The variance of a mean over pixels, over that of independent ones (film/neighbours.h).
+  double neighbours_of_mean = 1;
 };
 
 struct ZTest {

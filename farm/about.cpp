@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "scene/kinds.h"
+#include "tracer/pixel_filter.h"
 
 namespace vitrail {
 
@@ -48,6 +49,10 @@ std::string about(const Manifest& m, const RenderOptions& options) {
              {"world_to_camera", numbers_of(world_to_camera)}};
   if (!options.glazing.empty()) about["glazing"] = options.glazing;
   if (const std::string sampling = words_of(options.samples); !sampling.empty()) about["sampling"] = sampling;
+  if (const FilterSampler filter(m.film.filter, options.samples.sampling.splat); filter.splats()) {
+    const Neighbours n = filter.neighbours();
+    about["neighbours"] = {n.of_mean, n.of_variances};
+  }
   if (const auto* sensors = std::get_if<SensorCamera>(&m.camera))
     for (const Sensor& s : sensors->sensors) {
       const Point3d p = transform_point(translate(m.offset) * camera_to_bundle, s.position);

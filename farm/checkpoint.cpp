@@ -8,6 +8,7 @@
 #include <cstdio>
 
 #include "farm/agreement.h"
+#include "scene/pixel_place.h"
 #include "scene/say.h"
 
 namespace vitrail {
@@ -73,7 +74,7 @@ std::vector<std::uint32_t> held_before(const Film& film, const FilmProgress& p) 
     for (int y = item.pixels.y0; y < item.pixels.y1; ++y)
       for (int x = item.pixels.x0; x < item.pixels.x1; ++x) {
         const WorkPlan::Range given = round.samples(item, x, y);
-        std::uint32_t& left = held[static_cast<std::size_t>((y - crop.y0) * film.width() + x - crop.x0)];
+        std::uint32_t& left = held[pixel_place(x - crop.x0, y - crop.y0, film.width())];
         if (left < given.end - given.first) return {};
         left -= given.end - given.first;
       }
@@ -193,7 +194,7 @@ void broadcast(Transport& transport, EarlierWork& work, const Goal& goal) {
 EarlierWork read_earlier_work(Transport& transport, const RenderOptions& options, Film& film,
                               const Goal& goal) {
   EarlierWork work;
-  work.plan = make_work_plan(film.crop(), goal.first_samples(), {}, goal.one_by_one);
+  work.plan = make_work_plan(film.crop(), goal.first_samples(film.pixels()), {}, goal.one_by_one);
   if (options.force) return work;
   agree(transport, [&] {
     if (transport.rank() != 0) return;

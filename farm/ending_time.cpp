@@ -5,6 +5,13 @@
 
 namespace vitrail {
 
+using Clock = std::chrono::steady_clock;
+
+Clock::time_point limit_start(const RenderOptions& options, Clock::time_point tracing) {
+  const std::chrono::duration<double> half(options.time_limit_s / 2);
+  return std::max(options.start, tracing - std::chrono::duration_cast<Clock::duration>(half));
+}
+
 double ending_time_s(const RenderOptions& options, std::uint64_t film_bytes, int ranks, double write_s,
                      double gather_s) {
   // Measured, see docs/adaptive.md: sums are hashed, checked and freed; of another rank's they are added.

@@ -8,7 +8,8 @@ namespace vitrail {
 
 namespace {
 
-int rounded(double pixels) { return std::max(1, static_cast<int>(std::lround(pixels))); }
+// What is beyond the int is refused with the film.
+int rounded(double pixels) { return static_cast<int>(std::lround(std::clamp(pixels, 1.0, 0x1p30))); }
 
 void stretch(double& from, double& to, double factor) {
   const double centre = (from + to) / 2, half = (to - from) / 2 * factor;

@@ -55,7 +55,8 @@ struct RenderOptions {
   Distribution distribution = Distribution::automatic;
   std::filesystem::path homes;      // a RayProfile: ranks answer for equal work; empty: for equal bytes
   double checkpoint_every_s = 600;  // 0: only when asked by a signal
-  // From `start` to the end of what comes after the film; 0: none. The film then holds what was done.
+  // From `start` to the end of what comes after the film; 0: none. The film then holds what was done. At
+  // least half of it is for tracing, and ends no sooner than with some samples.
   double time_limit_s = 0;
   AfterFilm after_film;
   double stop_after_s = 0;  // from `start` on; 0: never. As if told to stop, by a TERM

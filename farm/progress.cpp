@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "farm/progress.h"
-#include "scene/say.h"
 
 #include <fmt/format.h>
 
@@ -9,6 +8,9 @@
 #include <nlohmann/json.hpp>
 #include <ranges>
 #include <string>
+
+#include "farm/ending_time.h"
+#include "scene/say.h"
 
 namespace vitrail {
 
@@ -63,7 +65,7 @@ Progress::Progress(const RenderOptions& options, int rank, const Film& film, dou
       samples_(samples),
       samples_before_(static_cast<double>(film.samples()) / pixels_),
       start_(std::chrono::steady_clock::now()),
-      limit_start_(options.start),
+      limit_start_(limit_start(options, start_)),
       last_(start_) {}
 
 void Progress::show(const Round& round) {
@@ -138,6 +140,11 @@ std::string text_of(const Goal& goal) {
 }  // namespace
 
 void print_start(const RenderOptions& options, const Manifest& m, const Goal& goal, int ranks, int threads) {
+  const auto now = std::chrono::steady_clock::now();
+  if (options.time_limit_s > 0 && !options.quiet && limit_start(options, now) > options.start)
+    say("vitrail: {} of --time {} went by before tracing began: tracing has half of it all the same; "
+        "partition once, and render the bundle, to spare that time\n",
+        duration(std::chrono::duration<double>(now - options.start).count()), options.time_limit_s);
   if (options.progress != ProgressMode::lines) return;
   const PixelRect& c = m.film.crop;
   say("vitrail: rendering {} × {} pixels, {}, {} domains, {} × {} threads\n", c.x1 - c.x0, c.y1 - c.y0,

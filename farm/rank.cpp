@@ -56,6 +56,7 @@ Rank::Rank(Transport& transport, RankState& state, const RenderOptions& options,
       about_(std::move(about)),
       keeper_(keeper),
       start_(Clock::now()),
+      limit_start_(limit_start(options, start_)),
       last_checkpoint_(start_),
       checkpoint_after_s_(interval_s(options)) {
   if (state.photons) {
@@ -364,8 +365,11 @@ void Rank::note_counters(std::int64_t rays_waiting) {
 
 void Rank::expect_ending(double gather_s) {
   if (!keeper_ || options_.time_limit_s <= 0) return;
-  ending_s_ = ending_time_s(options_, film_bytes(state_.scene.manifest.film, state_.film.key().splats),
-                            transport_.size(), write_s_, gather_s);
+  const std::chrono::duration<double> gone = start_ - limit_start_;
+  ending_s_ =
+      std::min((options_.time_limit_s - gone.count()) / 2,
+               ending_time_s(options_, film_bytes(state_.scene.manifest.film, state_.film.key().splats),
+                             transport_.size(), write_s_, gather_s));
 }
 
 void Rank::watch_clock() {
@@ -374,7 +378,9 @@ void Rank::watch_clock() {
   const auto since_checkpoint = std::chrono::duration<double>(Clock::now() - last_checkpoint_).count();
   if (checkpoint_after_s_ > 0 && since_checkpoint >= checkpoint_after_s_) want_checkpoint_ = true;
   const double since_start_s = std::chrono::duration<double>(Clock::now() - options_.start).count();
-  if (options_.time_limit_s > 0 && since_start_s + ending_s_ >= options_.time_limit_s) time_is_up_ = true;
+  const double limited_s = std::chrono::duration<double>(Clock::now() - limit_start_).count();
+  if (options_.time_limit_s > 0 && has_gained_ && limited_s + ending_s_ >= options_.time_limit_s)
+    time_is_up_ = true;
   if (options_.stop_after_s > 0 && since_start_s >= options_.stop_after_s) ask_to_stop();
 }
 
@@ -433,6 +439,8 @@ void Rank::join_round() {
 // The same on every rank, since the sums are.
 Rank::Decision Rank::decide(const Round& round) {
   const RoundSums& sums = round.sums;
+  const bool flying = state_.photons && state_.photons->flying();
+  has_gained_ = has_gained_ || (!flying && sums.items_done > static_cast<std::int64_t>(items_before_));
   if (sums.pause > 0 && !pause_) pause_ = Clock::now();
   if (sums.bad_input + sums.machine_failure > 0) {
     leave_together();
@@ -512,7 +520,8 @@ void Rank::write(const std::filesystem::path& file, bool last) {
       else
         written = keeper_->write_checkpoint(file, state_.film, progress);
     });
-    if (!last && written && options_.after_checkpoint) options_.after_checkpoint(file);
+    if (!last && written && options_.after_checkpoint && state_.film.samples() > 0)
+      options_.after_checkpoint(file);
   });
   {
     const std::lock_guard lock(state_.mutex);

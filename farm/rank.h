@@ -84,9 +84,10 @@ class Rank {
   bool want_checkpoint_ = false, time_is_up_ = false;
   // On rank 0, where time is limited: what is left for the film, of which the first is but for gathering.
   double write_s_ = 0, ending_s_ = 0;
+  bool has_gained_ = false;      // items are done that were not when this run began
   std::uint32_t sent_from_ = 0;  // the domain that is looked at first when rays are sent
   std::uint64_t messages_ = 0, received_ = 0, sent_bytes_ = 0;
-  std::chrono::steady_clock::time_point start_, last_checkpoint_, last_counters_;
+  std::chrono::steady_clock::time_point start_, limit_start_, last_checkpoint_, last_counters_;
   std::optional<std::chrono::steady_clock::time_point> pause_;  // since when the job empties for a checkpoint
   std::uint64_t checkpoints_ = 0;                               // written or tried
   double checkpoints_s_ = 0, longest_checkpoint_s_ = 0;         // from the pause until work goes on

@@ -46,12 +46,15 @@ Goal goal_of(const RenderOptions& o, int samples_of_scene) {
   return goal;
 }
 
-std::uint32_t Goal::first_samples() const {
+std::uint32_t Goal::first_samples(std::uint32_t pixels) const {
   if (!in_rounds) return samples;
   const std::uint32_t quarter = std::max(quickest_samples, std::bit_floor(samples / 4));
-  const std::uint32_t first = target || (adaptive && open_ended) ? pilot_samples
-                              : adaptive                         ? quarter
-                                                                 : quickest_samples;
+  const std::uint32_t estimated =
+      std::max(pilot_samples, even_above(static_cast<double>(least_samples_of_estimate) / pixels));
+  const std::uint32_t first = target       ? estimated
+                              : !adaptive  ? quickest_samples
+                              : open_ended ? pilot_samples
+                                           : quarter;
   return std::min(first, samples);
 }
 
@@ -83,7 +86,8 @@ std::optional<NextRound> next_round(const Film& film, const Goal& goal) {
                                                    : goal.samples / held;
   bool adaptive = goal.adaptive;
   if (goal.target) {
-    const double over = excess(film, *goal.target);
+    const double least = goal.first_samples(film.pixels());
+    const double over = held < least ? least / held : excess(film, *goal.target);
     if (over <= 1) return std::nullopt;
     // Near its end a picture does not become adaptive any more.
     if (even && over < first_growth) adaptive = false;

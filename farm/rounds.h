@@ -21,7 +21,7 @@ struct Goal {
   bool one_by_one = false;  // a sample of all pixels is an iteration of photon mapping
   bool open_ended = false;  // `samples` is only what nobody wants more than
   std::optional<TargetError> target;
-  std::uint32_t first_samples() const;  // a pixel, of the first round
+  std::uint32_t first_samples(std::uint32_t pixels) const;  // a pixel, of the first round
 };
 
 // Where neither the number of samples nor the scene's counts: with --target-error and --time.

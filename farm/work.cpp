@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "scene/pixel_place.h"
+
 namespace vitrail {
 
 namespace {
@@ -40,9 +42,7 @@ std::uint64_t WorkPlan::all_samples() const {
 
 WorkPlan::Range WorkPlan::samples(const WorkItem& item, int x, int y) const {
   if (more.empty()) return {item.sample0, item.sample1};
-  const std::size_t pixel =
-      static_cast<std::size_t>(y - crop.y0) * static_cast<std::size_t>(crop.x1 - crop.x0) +
-      static_cast<std::size_t>(x - crop.x0);
+  const std::size_t pixel = pixel_place(x - crop.x0, y - crop.y0, crop.x1 - crop.x0);
   return {held[pixel] + std::min(item.sample0, more[pixel]),
           held[pixel] + std::min(item.sample1, more[pixel])};
 }
@@ -100,8 +100,7 @@ void mark_empty_items(const WorkPlan& plan, std::vector<std::uint64_t>& done) {
     std::uint32_t most = 0;
     for (int y = p.y0; y < p.y1; ++y)
       for (int x = p.x0; x < p.x1; ++x)
-        most = std::max(most,
-                        plan.more[static_cast<std::size_t>((y - plan.crop.y0) * width + x - plan.crop.x0)]);
+        most = std::max(most, plan.more[pixel_place(x - plan.crop.x0, y - plan.crop.y0, width)]);
     for (std::uint64_t i = tile; i < plan.items(); i += a_pass)
       if (plan.item(i).sample0 >= most) done[i / 64] |= std::uint64_t{1} << (i % 64);
   }

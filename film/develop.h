@@ -3,6 +3,7 @@
 #pragma once
 
 #include "film/film.h"
+#include "film/neighbours.h"
 #include "scene/image.h"
 
 namespace vitrail {
@@ -37,7 +38,8 @@ struct Picture {
   int samples_per_pixel = 0;
   double render_time_s = 0;
   double shared_error = 0;  // Film's
-  PictureOrigin origin;     // written, not read
+  Neighbours neighbours;
+  PictureOrigin origin;  // written, not read
 };
 
 // The means of the film in linear sRGB, not clamped, and the variances of their luminance;

@@ -10,6 +10,7 @@
 
 #include "scene/color.h"
 #include "scene/photometry.h"
+#include "scene/pixel_place.h"
 
 namespace vitrail {
 
@@ -78,8 +79,7 @@ class Canvas {
   void fill(int x0, int x1, int y0, int y1, const Color& color) {
     for (int y = std::max(0, y0); y < std::min(y1, image_.height); ++y)
       for (int x = std::max(0, x0); x < std::min(x1, image_.width); ++x)
-        std::copy(color.begin(), color.end(),
-                  &image_.values[static_cast<std::size_t>(3 * (y * image_.width + x))]);
+        std::copy(color.begin(), color.end(), &image_.values[3 * pixel_place(x, y, image_.width)]);
   }
   void text(int x, int y, std::string_view words) {
     for (const char letter : words) {
@@ -143,9 +143,8 @@ Image false_colored(const Image& rgb, FalseColor manner) {
                             std::max(rgb.height, least), 3);
   for (int y = 0; y < rgb.height; ++y)
     for (int x = 0; x < rgb.width; ++x) {
-      const Color color = color_at(part_of(luminances[static_cast<std::size_t>(y * rgb.width + x)], manner));
-      std::copy(color.begin(), color.end(),
-                &image.values[static_cast<std::size_t>(3 * (y * image.width + x))]);
+      const Color color = color_at(part_of(luminances[pixel_place(x, y, rgb.width)], manner));
+      std::copy(color.begin(), color.end(), &image.values[3 * pixel_place(x, y, image.width)]);
     }
 
   Canvas canvas(image, zoom);

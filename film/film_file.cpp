@@ -28,7 +28,6 @@ namespace {
 constexpr char film_magic[8] = {'v', 'i', 't', 'f', 'i', 'l', 'm', '\n'};
 // Of the last, what photons its samples gathered follows the header.
 constexpr std::uint32_t film_version = 4, adaptive_version = 5, photon_version = 7;
-constexpr std::int32_t max_extent = 1 << 20;  // pixels a side
 
 // What a film was rendered with, in Header::options.
 constexpr std::uint32_t option_direct_only = 1, option_straight_counts = 2, option_camera_space = 4,
@@ -122,8 +121,8 @@ Header read_header(Reader& in) {
                     h.version, to_string(this_renderer()), film_version));
   if (h.checksum != checksum(h)) in.fail("the film file is corrupt: the checksum of its header is wrong");
   const bool sizes_in_order = 0 <= h.x0 && h.x0 < h.x1 && h.x1 <= h.full_width &&
-                              h.full_width <= max_extent && 0 <= h.y0 && h.y0 < h.y1 &&
-                              h.y1 <= h.full_height && h.full_height <= max_extent;
+                              h.full_width <= most_extent && 0 <= h.y0 && h.y0 < h.y1 &&
+                              h.y1 <= h.full_height && h.full_height <= most_extent;
   const bool bins_in_order = 0 <= h.bins && h.bins <= max_spectral_bins && h.bins_min_nm < h.bins_max_nm &&
                              std::isfinite(h.bins_max_nm - h.bins_min_nm);
   const bool key_in_order = std::memchr(h.renderer, 0, sizeof h.renderer) != nullptr && h.max_depth >= 0 &&

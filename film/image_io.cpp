@@ -130,6 +130,22 @@ void put_origin(OIIO::ImageSpec& spec, const PictureOrigin& origin) {
   put_matrix(spec, "worldToNDC", origin.world_to_ndc);
 }
 
+constexpr const char *of_mean_name = "neighboursOfMean", *of_variances_name = "neighboursOfVariances";
+
+void put_neighbours(OIIO::ImageSpec& spec, const Neighbours& neighbours) {
+  if (neighbours == Neighbours{}) return;
+  spec.attribute(of_mean_name, static_cast<float>(neighbours.of_mean));
+  spec.attribute(of_variances_name, static_cast<float>(neighbours.of_variances));
+}
+
+Neighbours neighbours_of(const OIIO::ImageSpec& spec) {
+  const auto number = [&](const char* name) {
+    const double v = static_cast<double>(spec.get_float_attribute(name, 1));
+    return std::isfinite(v) ? std::max(v, 1.0) : 1;
+  };
+  return {number(of_mean_name), number(of_variances_name)};
+}
+
 void write_exr(const std::filesystem::path& file, const Picture& picture) {
   const std::vector<Plane> planes = planes_of(picture);
   OIIO::ImageSpec spec = spec_of(picture, static_cast<int>(planes.size()), OIIO::TypeDesc::FLOAT);
@@ -138,6 +154,7 @@ void write_exr(const std::filesystem::path& file, const Picture& picture) {
   if (picture.render_time_s > 0)
     spec.attribute("renderTimeSeconds", static_cast<float>(picture.render_time_s));
   put_origin(spec, picture.origin);
+  put_neighbours(spec, picture.neighbours);
   if (picture.spectrum.pixels() > 0) {
     spec.attribute("spectralLayoutVersion", "1.0");
     spec.attribute("emissiveUnits", "W.m^-2.sr^-1");
@@ -245,6 +262,7 @@ Picture read_picture(const std::filesystem::path& file) {
   picture.full_height = spec.full_height;
   picture.samples_per_pixel = spec.get_int_attribute("samplesPerPixel");
   picture.render_time_s = static_cast<double>(spec.get_float_attribute("renderTimeSeconds"));
+  picture.neighbours = neighbours_of(spec);
   return picture;
 }
 

@@ -16,10 +16,17 @@ inline constexpr double relative_error_floor = 0.01;
 // in one of two such pixels.
 struct NoiseEstimate {
   double mean = 0, standard_error = 0;
-  // The true error is below with a probability of 99 % at one look, where no few pixels decide: of several
-  // looks and with errors as skewed as those of pictures, nine times in ten.
-  double upper() const { return mean + 2.33 * standard_error; }
+  std::uint32_t noisy_pixels = 0;  // whose two groups differ
+  // The true error is below with a probability of 99 % at one look: of several looks and with errors as
+  // skewed as those of pictures, nine times in ten. Few pixels say little of their own scatter: of n of them,
+  // alike, true error and estimate are two independent χ² of n degrees of freedom, and the bound is at least
+  // what their ratio exceeds in 3 % of cases.
+  double upper() const;
 };
+
+// So many samples in all, at least, before an estimate is looked at: of few, the two groups of a pixel may
+// agree by chance, and each further look is another chance to end too soon.
+inline constexpr std::uint32_t least_samples_of_estimate = 1024;
 
 // Of the mean of (Y − Y∞)²/(Y∞² + 0.01) over the pixels. The denominator is by the product of
 // the pixel's two groups, or the greatest of the eight pixels around where that is less: a bright speck would

@@ -8,6 +8,7 @@
 #include "film/develop.h"
 #include "scene/diagnostics.h"
 #include "scene/photometry.h"
+#include "scene/pixel_place.h"
 
 namespace vitrail {
 
@@ -46,7 +47,7 @@ std::vector<SensorReading> sensor_readings(const Film& film) {
     SensorReading reading;
     std::vector<double> illuminance, melanopic, irradiance;
     for (int y = 0; y < film.height(); ++y) {
-      const auto pixel = static_cast<std::uint32_t>(y * film.width() + x);
+      const auto pixel = static_cast<std::uint32_t>(pixel_place(x, y, film.width()));
       if (film.samples(pixel) == 0) continue;
       reading.samples += film.samples(pixel);
       illuminance.push_back(photometric(film.mean(pixel).y));

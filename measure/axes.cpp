@@ -55,7 +55,7 @@ std::vector<Axis> known_axes(const PictureFacts& facts) {
       {"clamp", "the most that one connection adds to a sample (--clamp)", clamps(facts.mean_luminance),
        Effect::bias},
       {"integrator", "whole paths or direct light alone (--integrator)",
-       render_choices("--integrator", {"direct"}), Effect::bias},
+       render_choices("--integrator", {facts.is_direct ? "path" : "direct"}), Effect::bias},
       {"decimate", "the part of each mesh's triangles that stays (--decimate)",
        partition_choices("--decimate", {"0.3", "0.1"}), Effect::bias},
       {"rgb", "how RGB colours become spectra (partition --rgb)", partition_choices("--rgb", {"matrix-r"}),

@@ -29,6 +29,7 @@ struct Axis {
 // What the values depend on.
 struct PictureFacts {
   double mean_luminance = 1;
+  bool is_direct = false;  // of direct light alone, as the scene says
 };
 
 // All axes. One more is one more line of this function.

@@ -55,6 +55,7 @@ Measurement measure(const MeasureOptions& options, const Execute& execute, const
   m.full_size = runs.full_size_ratio();
   m.scene_spp = runs.scene_spp();
   m.farm = options.farm;
+  m.most_bias = options.most_bias;
   const Plan plan =
       make_plan(options, m.axes, sample_wall_s, std::max(0.0, start.wall_s - sample_wall_s) + 0.2);
   news.say(
@@ -69,7 +70,7 @@ Measurement measure(const MeasureOptions& options, const Execute& execute, const
   Session session(runs, options, plan.spp, plan.renders + plan.search_renders, news);
   m.reference_spp = plan.reference_spp;
   m.reference = session.reference(plan.reference_spp);
-  m.axes = chosen_axes(known_axes({m.reference.mean_luminance}), options.axes);
+  m.axes = chosen_axes(known_axes({m.reference.mean_luminance, runs.scene_is_direct()}), options.axes);
   session.measure_axes(m);
   session.measure_samples(m);
   recommend(m, session, options);

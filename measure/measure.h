@@ -25,6 +25,7 @@ struct MeasureOptions {
   bool every_combination = false;  // of the axes that change the picture, not only the promising ones
   int spp = 0, reference_spp = 0;  // of a picture, and of a half of the reference; 0: what the budget allows
   Farm farm;
+  double most_bias = 0.01;        // of the picture's mean light, of what is recommended
   std::optional<double> error;    // relMSE to recommend for
   std::optional<double> seconds;  // wall time of the whole picture of the scene's size to recommend for
 };
@@ -61,14 +62,18 @@ struct Recommendation {
   std::string goal;  // in words
   Goal asked;        // for the whole picture
   bool found = false;
+  bool bound_counts = false;  // a setting was left out whose bias is, or may be, beyond the most
+  double most_bias = 0;       // MeasureOptions::most_bias
   std::string name;
   std::vector<std::string> render, partition;
   int spp = 0;
-  double error = 0, cpu_s = 0, wall_s = 0;  // predicted, of the whole picture
-  double bias = 0;                          // of the error
-  double bias_within = 0;                   // half the width of its interval
-  double farm_s = 0;                        // on the cluster; 0: not known
-  Estimate luminance;                       // off, as ErrorStatistics
+  double error = 0, error_within = 0;  // of the whole picture; half the width of its interval
+  int rendered_spp = 0;                // where it was measured: `spp` unless that would take too long
+  double cpu_s = 0, wall_s = 0;        // predicted, of the whole picture
+  double bias = 0;                     // of the error
+  double bias_within = 0;              // half the width of its interval
+  double farm_s = 0;                   // on the cluster; 0: not known
+  Estimate luminance;                  // off, as ErrorStatistics
 };
 
 struct Measurement {
@@ -79,8 +84,9 @@ struct Measurement {
   std::vector<MeasuredSetting> settings;
   std::vector<MeasuredSetting> samples;  // the scene's own at other counts, ascending
   ScalingLaw law;
-  int scene_spp = 1;     // samples that the scene asks for
-  double full_size = 1;  // pixels of the whole picture over those measured
+  double most_bias = 0.01;  // as the options have it
+  int scene_spp = 1;        // samples that the scene asks for
+  double full_size = 1;     // pixels of the whole picture over those measured
   Farm farm;
   double parallelism = 1;  // CPU seconds a second
   std::vector<Recommendation> recommendations;

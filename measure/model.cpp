@@ -6,8 +6,14 @@
 
 namespace vitrail {
 
+namespace {
+
+double slope_of(const Tradeoff& t, const ScalingLaw& law) { return t.slope > 0 ? t.slope : law.slope; }
+
+}  // namespace
+
 double predicted_error(const Tradeoff& t, const ScalingLaw& law, double spp) {
-  return t.bias + t.noise * std::pow(spp / t.spp, -law.slope);
+  return t.bias + t.noise * std::pow(spp / t.spp, -slope_of(t, law));
 }
 
 double predicted_cpu_s(const Tradeoff& t, const ScalingLaw& law, double spp) {
@@ -18,7 +24,7 @@ std::optional<double> samples_for_error(const Tradeoff& t, const ScalingLaw& law
   if (t.bias >= error) return std::nullopt;
   const double least = t.least_spp;
   if (t.noise <= 0) return least;
-  return std::max(least, t.spp * std::pow(t.noise / (error - t.bias), 1 / law.slope));
+  return std::max(least, t.spp * std::pow(t.noise / (error - t.bias), 1 / slope_of(t, law)));
 }
 
 std::optional<double> samples_within(const Tradeoff& t, const ScalingLaw& law, double cpu_s) {

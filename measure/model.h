@@ -21,6 +21,7 @@ struct Tradeoff {
   int spp = 1;
   double sample_s = 0;  // CPU seconds of one sample of every pixel
   int least_spp = 1;    // of fewer it is not known
+  double slope = 0;     // its own, where it was measured at several counts; 0: the law's
 };
 
 double predicted_error(const Tradeoff& t, const ScalingLaw& law, double spp);

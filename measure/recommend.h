@@ -9,13 +9,19 @@ namespace vitrail {
 // axes.
 constexpr int most_samples_factor = 16;
 
+// What is recommended was rendered with these samples, or so many times more or less, unless that would take
+// longer than the whole measurement may.
+constexpr double most_unrendered_factor = 1.25;
+
 // How many measurements `recommend` makes at most, each of all seeds.
 int most_searched(const MeasureOptions& options);
 
 // Adds the recommendations that the options ask for, else those for the error, and for the time, of the
 // scene's own setting and samples. What looks best is measured before it is recommended, and joins
 // `m.settings`: a search, best first, over all combinations of the axes that change the picture, ending where
-// the best is one that was measured, and whose bias is known well enough beside the error.
+// the best is one that was measured, whose bias is known well enough beside the error, and which was rendered
+// with the samples that are recommended. What changes the picture's mean light by more than the options
+// allow, or may, is left out.
 void recommend(Measurement& m, Session& session, const MeasureOptions& options);
 
 }  // namespace vitrail

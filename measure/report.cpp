@@ -49,9 +49,21 @@ Json json_of(const MeasuredSetting& s) {
 }
 
 Json json_of(const Recommendation& r) {
-  return {{"goal", r.goal},     {"found", r.found},         {"name", r.name},    {"spp", r.spp},
-          {"render", r.render}, {"partition", r.partition}, {"relmse", r.error}, {"cpu_s", r.cpu_s},
-          {"wall_s", r.wall_s}, {"farm_s", r.farm_s},       {"words", advice(r)}};
+  return {{"goal", r.goal},
+          {"found", r.found},
+          {"name", r.name},
+          {"spp", r.spp},
+          {"render", r.render},
+          {"partition", r.partition},
+          {"relmse", r.error},
+          {"relmse_half_width_95", r.error_within},
+          {"rendered_spp", r.rendered_spp},
+          {"luminance_off", json_of(r.luminance)},
+          {"most_bias", r.most_bias},
+          {"cpu_s", r.cpu_s},
+          {"wall_s", r.wall_s},
+          {"farm_s", r.farm_s},
+          {"words", advice(r)}};
 }
 
 Json json_of(const MeasureOptions& options, const Measurement& m) {

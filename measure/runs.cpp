@@ -183,6 +183,11 @@ double Runs::full_size_ratio() {
   return width * width / (static_cast<double>(width_) * width_);
 }
 
+bool Runs::scene_is_direct() {
+  const Json manifest = read_json(bundle({}) / "manifest.json");
+  return manifest.is_object() && manifest.at("settings").value("direct_only", false);
+}
+
 int Runs::scene_spp() {
   const Json manifest = read_json(bundle({}) / "manifest.json");
   return std::max(1, manifest.at("settings").value("samples_per_pixel", 1));

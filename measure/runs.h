@@ -59,7 +59,8 @@ class Runs {
 
   // Pixels of the whole picture that the scene asks for, over those of one that is measured.
   double full_size_ratio();
-  int scene_spp();  // that it asks for
+  int scene_spp();         // that it asks for
+  bool scene_is_direct();  // asks for direct light alone
 
  private:
   std::filesystem::path bundle(const std::vector<std::string>& partition);

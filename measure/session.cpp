@@ -13,7 +13,10 @@ namespace {
 constexpr std::uint64_t reference_seed = 1'000'001;
 
 // Of the reference, and of the choice of all depths, whose pictures are then rendered once.
-const std::vector<std::string> whole{"--max-depth", "-1"};
+std::vector<std::string> whole_paths(bool scene_is_direct) {
+  if (scene_is_direct) return {"--max-depth", "-1", "--integrator", "path"};
+  return {"--max-depth", "-1"};
+}
 
 double median(std::vector<double> values) {
   std::ranges::sort(values);
@@ -24,7 +27,12 @@ double median(std::vector<double> values) {
 }  // namespace
 
 Session::Session(Runs& runs, const MeasureOptions& options, int spp, int renders, const MeasureNews& news)
-    : runs_(runs), options_(options), spp_(spp), renders_(renders), news_(news) {}
+    : runs_(runs),
+      options_(options),
+      spp_(spp),
+      renders_(renders),
+      whole_(whole_paths(runs.scene_is_direct())),
+      news_(news) {}
 
 RunResult Session::run(const RunRequest& request, const std::string& what) {
   news_.progress(std::min(0.99, static_cast<double>(done_++) / renders_), what.c_str());
@@ -36,15 +44,15 @@ RunResult Session::run(const RunRequest& request, const std::string& what) {
 
 Reference Session::reference(int spp) {
   const std::uint64_t seed = reference_seed + options_.first_seed - 1;
-  Image first = run({whole, {}, spp, seed}, "reference").picture;
-  return make_reference(std::move(first), run({whole, {}, spp, seed + 1}, "reference").picture);
+  Image first = run({whole_, {}, spp, seed}, "reference").picture;
+  return make_reference(std::move(first), run({whole_, {}, spp, seed + 1}, "reference").picture);
 }
 
 const std::vector<Image>& Session::unbiased_pictures(int spp) {
   std::vector<Image>& pictures = unbiased_[spp];
   for (int seed = static_cast<int>(pictures.size()); seed < options_.seeds; ++seed)
     // With a profile where the setting of the same arguments has one, so that they are one render.
-    pictures.push_back(run({whole,
+    pictures.push_back(run({whole_,
                             {},
                             spp,
                             options_.first_seed + static_cast<std::uint64_t>(seed),
@@ -59,7 +67,28 @@ RunRequest Session::request(const Measurement& m, const Setting& setting, int sp
           options_.first_seed + static_cast<std::uint64_t>(seed) - 1, seed == 1 && options_.farm.ranks > 0};
 }
 
-MeasuredSetting Session::measure_setting(const Measurement& m, const Setting& setting, int asked_spp) {
+MeasuredSetting Session::measure_setting(const Measurement& m, const Setting& setting, int spp) {
+  return measure_setting(m, setting, spp, Beside::unbiased);
+}
+
+MeasuredSetting Session::check(const Measurement& m, const MeasuredSetting& known, int spp) {
+  const Estimate bias = known.error.bias, luminance = known.error.luminance;
+  const double before_s = wall_s_;
+  MeasuredSetting s = measure_setting(m, known.setting, spp, Beside::reference);
+  checks_s_ += wall_s_ - before_s;
+  s.error.luminance = luminance;
+  if (bias.half_width < s.error.bias.half_width) s.error.bias = bias;
+  return s;
+}
+
+int Session::checkable(const MeasuredSetting& s, int wanted_spp) const {
+  const double a_sample_s = options_.seeds * s.sample_s / parallelism();
+  const double affordable = (options_.budget_s - checks_s_) / a_sample_s;
+  return static_cast<int>(std::clamp(affordable, 0.0, static_cast<double>(wanted_spp)));
+}
+
+MeasuredSetting Session::measure_setting(const Measurement& m, const Setting& setting, int asked_spp,
+                                         Beside beside) {
   MeasuredSetting s;
   s.setting = setting;
   s.name = name_of(m.axes, setting);
@@ -112,12 +141,12 @@ MeasuredSetting Session::measure_setting(const Measurement& m, const Setting& se
     if (!same_picture) s.sample_s = m.settings[0].sample_s;  // the same work
   } else {
     const bool noise_alone = s.effect == Effect::noise && !m.settings.empty();
-    s.error =
-        error_statistics(pictures, m.reference,
-                         noise_alone || pictures.size() < 2 ? std::span<const Image>()
-                                                            : std::span<const Image>(unbiased_pictures(spp)));
+    std::span<const Image> unbiased;
+    if (!noise_alone && pictures.size() >= 2 && beside == Beside::unbiased) unbiased = unbiased_pictures(spp);
+    s.error = error_statistics(pictures, m.reference, unbiased);
     // Its mean is that of the scene's own setting.
-    if (noise_alone) s.error.bias = m.settings[0].error.bias;
+    if (noise_alone)
+      s.error.bias = m.settings[0].error.bias, s.error.luminance = m.settings[0].error.luminance;
   }
   return s;
 }

@@ -25,6 +25,10 @@ class Session {
   void measure_samples(Measurement& m);
   // Of `spp` samples, or as many as the setting takes at least.
   MeasuredSetting measure_setting(const Measurement& m, const Setting& setting, int spp);
+  // The same, once more, for its error alone: what is known of its bias stays.
+  MeasuredSetting check(const Measurement& m, const MeasuredSetting& known, int spp);
+  // As many samples of a setting as a check may have, of those that are wanted, within the budget.
+  int checkable(const MeasuredSetting& s, int wanted_spp) const;
   // What `plan` says of a setting that was measured so, on the options' farm. Throws as the programs do.
   FarmTime plan_farm(const Measurement& m, const MeasuredSetting& setting);
 
@@ -32,6 +36,8 @@ class Session {
   double parallelism() const { return wall_s_ > 0 ? cpu_s_ / wall_s_ : 1; }
 
  private:
+  enum class Beside { unbiased, reference };  // what a bias is measured against
+  MeasuredSetting measure_setting(const Measurement& m, const Setting& setting, int spp, Beside beside);
   RunRequest request(const Measurement& m, const Setting& setting, int spp, int seed) const;
   RunResult run(const RunRequest& request, const std::string& what);
   const std::vector<Image>& unbiased_pictures(int spp);
@@ -39,8 +45,10 @@ class Session {
   Runs& runs_;
   const MeasureOptions& options_;
   int spp_, renders_;
+  std::vector<std::string> whole_;  // arguments of the reference
   int done_ = 0;
   double cpu_s_ = 0, wall_s_ = 0;
+  double checks_s_ = 0;                         // wall time of checks
   std::vector<Image> own_pictures_;             // of the scene's own setting, of each seed
   std::string own_hash_;                        // of the film of the first
   std::map<int, std::vector<Image>> unbiased_;  // of the reference's setting, by samples; of each seed

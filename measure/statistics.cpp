@@ -135,7 +135,8 @@ ErrorStatistics error_statistics(std::span<const Image> pictures, const Referenc
   std::vector<double> own(n), luminance(n), flip(n), delta_e(n), noise(n);
   for (std::size_t i = 0; i < n; ++i) {
     own[i] = product(pictures[i], pictures[i], r);
-    luminance[i] = mean_ratios(pictures[i], r.mean).luminance - 1;
+    luminance[i] = mean_ratios(pictures[i], r.mean).luminance -
+                   (unbiased.empty() ? 1 : mean_ratios(unbiased[i], r.mean).luminance);
     flip[i] = mean_of_valid(hdr_flip(pictures[i], r.mean));
     delta_e[i] = mean_of_valid(ciede2000_map(pictures[i], r.mean, r.white));
   }

@@ -35,12 +35,14 @@ Reference make_reference(Image first, Image second);
 // halves' noises are independent: E[(x − r₁)(x − r₂)] = (E x − truth)² + Var x. relMSE is that of
 // compare/metrics.h.
 struct ErrorStatistics {
-  Estimate relmse;     // of one picture: noise + bias
-  Estimate noise;      // the part that more samples remove
-  Estimate bias;       // the part that stays: of the pixels' means. May come out below 0 where it is none
-  Estimate luminance;  // mean of the picture over the reference's, − 1
-  Estimate flip;       // HDR-FLIP, mean of the pixels
-  Estimate delta_e;    // ΔE₀₀, mean of the pixels
+  Estimate relmse;  // of one picture: noise + bias
+  Estimate noise;   // the part that more samples remove
+  Estimate bias;    // the part that stays: of the pixels' means. May come out below 0 where it is none
+  // Mean of the picture over the reference's, − 1; where there are `unbiased` pictures, less theirs: neither
+  // the reference's noise nor what paths that begin alike have in common is in it.
+  Estimate luminance;
+  Estimate flip;            // HDR-FLIP, mean of the pixels
+  Estimate delta_e;         // ΔE₀₀, mean of the pixels
   double flip_of_mean = 0;  // of the mean of the pictures: little noise, all bias
   bool is_biased() const { return bias.value > bias.half_width && bias.value > 0; }
 };

@@ -6,6 +6,9 @@
 #include <cmath>
 #include <limits>
 
+#include "measure/biases.h"
+#include "measure/recommend.h"
+
 namespace vitrail {
 
 namespace {
@@ -51,6 +54,9 @@ std::string what_it_buys(const Measurement& m, const MeasuredSetting& s) {
     text += s.error.noise.value > 0 ? ", and it is noisy" : ", and no noise is seen";
   }
   if (s.effect == Effect::noise) return text + "; its mean is the same";
+  const Estimate& light = s.error.luminance;
+  if (!s.error.is_biased() && std::abs(light.value) > light.half_width)
+    return text + "; it is " + brightness(light);
   if (!s.error.is_biased()) return text + "; no bias is seen";
   text += fmt::format("; bias {} ({})", with_error(s.error.bias), brightness(s.error.luminance));
   return text + fmt::format(", which no samples remove: not for a relMSE below {:.2g}", s.error.bias.value);
@@ -65,7 +71,7 @@ std::vector<std::string> findings(const Measurement& m) {
                   "taken out of the errors of the others.",
                   m.reference_spp, m.reference.relmse));
   lines.push_back(fmt::format("Noise falls as samples^−{:.2f} here.", m.law.slope));
-  if (own.error.is_biased())
+  if (own.error.is_biased() || judge(own.error.luminance, m.most_bias) == LightVerdict::beyond)
     lines.push_back(fmt::format("The scene's own setting has a bias of {} against paths of any length ({}).",
                                 with_error(own.error.bias), brightness(own.error.luminance)));
   else
@@ -85,19 +91,34 @@ std::vector<std::string> findings(const Measurement& m) {
 }
 
 std::string advice(const Recommendation& r) {
-  if (!r.found) return fmt::format("For {}: none of the settings reaches it.", r.goal);
+  if (!r.found)
+    return fmt::format("For {}: none of the settings reaches it{}.", r.goal,
+                       r.bound_counts
+                           ? fmt::format(" whose mean light is surely within {:.3g} % of that of whole "
+                                         "paths; --bias allows more",
+                                         100 * r.most_bias)
+                           : "");
   std::string options = fmt::format("--spp {}", r.spp);
   for (const auto* words : {&r.render, &r.partition})
     for (const std::string& word : *words) options += ' ' + word;
   std::string text =
-      fmt::format("For {}: render {} — a relMSE of {:.3g} in {:.3g} CPU seconds, {:.3g} s here ({}).", r.goal,
-                  options, r.error, r.cpu_s, r.wall_s, r.name);
+      fmt::format("For {}: render {} — a relMSE of {} in {:.3g} CPU seconds, {:.3g} s here ({}).", r.goal,
+                  options, with_error({r.error, r.error_within}), r.cpu_s, r.wall_s, r.name);
+  const double beyond = static_cast<double>(r.spp) / r.rendered_spp;
+  if (beyond > most_unrendered_factor || beyond < 1 / most_unrendered_factor)
+    text += fmt::format(
+        " Beware: it was rendered with {} samples, and the error is extrapolated from there; a longer "
+        "--budget "
+        "renders it.",
+        r.rendered_spp);
   constexpr double share = 0.3;
   if (r.bias_within > share * r.error)
     text += fmt::format(" Beware: its bias is known to ± {:.2g} only; more --seeds or --spp know better.",
                         r.bias_within);
   if (r.farm_s > 0) text += fmt::format(" On the cluster: about {:.2g} s.", r.farm_s);
-  if (r.bias > 0) text += fmt::format(" {:.3g} of it is bias: {}.", r.bias, brightness(r.luminance));
+  if (r.bias > 0) text += fmt::format(" {:.3g} of it is bias.", r.bias);
+  if (r.luminance.value != 0 || r.luminance.half_width > 0)
+    text += fmt::format(" It is {}.", brightness(r.luminance));
   return text;
 }
 
@@ -117,22 +138,28 @@ std::vector<bool> front(const Measurement& m) {
 
 std::string table(const Measurement& m) {
   const auto line = [](auto&&... cells) {
-    return fmt::format("{:2}{:<28}{:>5}{:>9}{:>9}{:>19}{:>19}{:>19}{:>9}{:>8}{:>8}{:>9}\n", cells...);
+    return fmt::format("{:2}{:<28}{:>5}{:>9}{:>9}{:>19}{:>19}{:>19}{:>20}{:>9}{:>8}{:>8}{:>9}\n", cells...);
   };
-  std::string text = line("", "setting", "spp", "cpu s", "Mrays", "relMSE", "noise", "bias", "FLIP", "ΔE00",
-                          "MiB", "farm s");
+  std::string text = line("", "setting", "spp", "cpu s", "Mrays", "relMSE", "noise", "bias", "light %",
+                          "FLIP", "ΔE00", "MiB", "farm s");
   const std::vector<bool> on_it = front(m);
-  for (std::size_t i = 0; i < m.settings.size(); ++i) {
+  const auto put = [&](std::size_t i) {
     const MeasuredSetting& s = m.settings[i];
     if (!s.failure.empty()) {
       text += fmt::format("  {:<28}cannot be rendered here: {}\n", s.name, s.failure);
-      continue;
+      return;
     }
     text += line(on_it[i] ? "*" : "", s.name, s.spp, fmt::format("{:.3g}", s.sample_s * s.spp),
                  fmt::format("{:.3g}", s.rays / 1e6), with_error(s.error.relmse), with_error(s.error.noise),
-                 with_error(s.error.bias), fmt::format("{:.3g}", s.error.flip.value),
-                 fmt::format("{:.3g}", s.error.delta_e.value), megabytes(s.peak_memory_bytes),
+                 with_error(s.error.bias), with_error(s.error.luminance, 100),
+                 fmt::format("{:.3g}", s.error.flip.value), fmt::format("{:.3g}", s.error.delta_e.value),
+                 megabytes(s.peak_memory_bytes),
                  s.farm.is_known() ? fmt::format("{:.2g}", s.farm(m.scene_spp)) : "");
+  };
+  for (const bool biased : {false, true}) {
+    if (biased) text += "  what may change the picture for good:\n";
+    for (std::size_t i = 0; i < m.settings.size(); ++i)
+      if ((m.settings[i].effect == Effect::bias) == biased) put(i);
   }
   return text +
          "±: 95 %; *: no other of as many samples is better in both time and error; farm s: the whole "

@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "scene/pixel_place.h"
 #include "scene/portable_math.h"
 #include "tracer/path_state.h"
 #include "tracer/walk.h"
@@ -145,7 +146,8 @@ CameraRay PathTracer::camera_ray(int x, int y, const Path& path) const {
 
 void PathTracer::trace_camera(int x, int y, std::uint32_t sample) {
   Path path;
-  path.pixel = static_cast<std::uint32_t>((y - film_.crop().y0) * film_.width() + x - film_.crop().x0);
+  path.pixel =
+      static_cast<std::uint32_t>(pixel_place(x - film_.crop().x0, y - film_.crop().y0, film_.width()));
   path.sample = sample;
   begin(path);
   const CameraRay ray = camera_ray(x, y, path);

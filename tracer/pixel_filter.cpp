@@ -99,6 +99,26 @@ Footprint FilterSampler::footprint(float u, float v) const {
   return print;
 }
 
+Neighbours FilterSampler::Axis::neighbours() const {
+  constexpr int steps = 8 * static_cast<int>(resolution);
+  const double step = 2 * radius / steps;
+  std::vector<double> correlations;
+  for (int apart = 0; apart < 2 * radius; ++apart) {
+    double sum = 0;
+    for (int i = 0; i < steps; ++i) {
+      const double x = (i + 0.5) * step - radius;
+      sum += value(x) * value(x + apart) * step;
+    }
+    correlations.push_back(sum);
+  }
+  return along_axis(correlations);
+}
+
+Neighbours FilterSampler::neighbours() const {
+  if (!splats_) return {};
+  return product(x_.neighbours(), y_.neighbours());
+}
+
 FilterSample FilterSampler::sample(float u, float v) const {
   if (splats_) return {{static_cast<double>(u) - 0.5, static_cast<double>(v) - 0.5}, 1};
   const FilterSample x = x_.sample(static_cast<double>(u)), y = y_.sample(static_cast<double>(v));

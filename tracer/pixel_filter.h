@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "film/footprint.h"
+#include "film/neighbours.h"
 #include "scene/camera.h"
 #include "scene/vec.h"
 #include "tracer/guide_table.h"
@@ -25,6 +26,7 @@ class FilterSampler {
   FilterSample sample(float u, float v) const;                                             // u, v in [0,1)
   double weight(float u, float v) const { return has_lobes() ? sample(u, v).weight : 1; }  // of that sample
   Footprint footprint(float u, float v) const;  // of that sample; radii ≤ greatest_splat_radius
+  Neighbours neighbours() const;                // none where samples do not splat
 
  private:
   static constexpr std::size_t resolution = 256;
@@ -37,6 +39,7 @@ class FilterSampler {
     void tabulate(auto&& f);
     FilterSample sample(double u) const;  // along this axis, as offset.x
     double value(double x) const;         // of f/∫f at a distance from its centre
+    Neighbours neighbours() const;
   };
   bool has_lobes() const { return !splats_ && (!x_.negative.empty() || !y_.negative.empty()); }
   Axis x_, y_;

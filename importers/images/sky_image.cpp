@@ -4,6 +4,7 @@
 #include "images/image_files.h"
 #include "importers/images/environment_images.h"
 #include "scene/color.h"
+#include "scene/pixel_place.h"
 #include "scene/sky_model.h"
 
 namespace vitrail {
@@ -38,7 +39,7 @@ Image sky_image(const SkyLight& light, EnvironmentLight::Projection projection, 
         sum.z += bands[b] * colors[b].z;
       }
       const RGB rgb = xyz_to_srgb(sum);
-      float* pixel = &image.values[static_cast<std::size_t>(3 * (y * width + x))];
+      float* pixel = &image.values[3 * pixel_place(x, y, width)];
       pixel[0] = static_cast<float>(rgb.r), pixel[1] = static_cast<float>(rgb.g);
       pixel[2] = static_cast<float>(rgb.b);
     }

@@ -8,6 +8,7 @@
 #include "importers/export_colors.h"
 #include "importers/images/environment_images.h"
 #include "importers/images/sky_image.h"
+#include "scene/pixel_place.h"
 #include "scene/sky_model.h"
 
 namespace vitrail::mitsuba_writer {
@@ -51,7 +52,7 @@ Image summed(const std::vector<Radiance>& lights, int height) {
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < image.width; ++x) {
       const Vector3d direction = direction_of(map, {(x + 0.5) / image.width, (y + 0.5) / height});
-      float* pixel = &image.values[static_cast<std::size_t>(3 * (y * image.width + x))];
+      float* pixel = &image.values[3 * pixel_place(x, y, image.width)];
       for (const Radiance& light : lights) {
         const RGB radiance = light(direction);
         pixel[0] += static_cast<float>(radiance.r);

@@ -11,6 +11,7 @@
 #include "images/ptex_means.h"
 #include "images/texture_values.h"
 #include "scene/matrix_r.h"
+#include "scene/pixel_place.h"
 #include "scene/rgb_to_spectrum.h"
 
 namespace vitrail {
@@ -86,7 +87,7 @@ Image uv_image() {
   Image image = black_image(size, size, 3);
   for (int y = 0; y < size; ++y)
     for (int x = 0; x < size; ++x) {
-      float* const rgb = &image.values[static_cast<std::size_t>(3 * (y * size + x))];
+      float* const rgb = &image.values[3 * pixel_place(x, y, size)];
       rgb[0] = (static_cast<float>(x) + 0.5f) / size;
       rgb[1] = 1 - (static_cast<float>(y) + 0.5f) / size;
     }

@@ -105,6 +105,36 @@ TEST(Everyday, ARenderOfSomeSeconds) {
   EXPECT_GT(samples(), before);
 }
 
+// However short the time is, and however long partitioning takes: the picture goes on at each run.
+TEST(Everyday, ATimeThatPartitioningTakesBringsSamplesAllTheSame) {
+  const TemporaryDirectory directory;
+  const std::string line =
+      fmt::format("{} '{}' -o '{}' --time 0.02", vitrail("render"), scene, (directory / "a.film").string());
+  std::uint64_t before = 0;
+  for (int turn = 0; turn < 3; ++turn) {
+    const CommandResult done = run(line);
+    EXPECT_EQ(done.status, 0) << done.output;
+    EXPECT_THAT(done.output, HasSubstr("went by before tracing began"));
+    const std::uint64_t samples = read_film(directory / "a.film", nullptr).samples();
+    EXPECT_GT(samples, before) << "turn " << turn;
+    before = samples;
+  }
+}
+
+TEST(Everyday, AFilmWithoutSamplesIsNoPicture) {
+  const TemporaryDirectory directory;
+  FilmSettings settings;
+  settings.width = settings.height = 4;
+  settings.crop = {0, 4, 0, 4};
+  write_film(directory / "a.film", Film(settings, {}), {1, 1, {0}, 0, {}, {}, false, {}});
+  const CommandResult done =
+      run(fmt::format("{} '{}' -o '{}'", vitrail("develop"), (directory / "a.film").string(),
+                      (directory / "a.png").string()));
+  EXPECT_EQ(done.status, 3);
+  EXPECT_THAT(done.output, HasSubstr("holds no sample yet"));
+  EXPECT_FALSE(std::filesystem::exists(directory / "a.png"));
+}
+
 TEST(Everyday, QualityIsWhatIsNotGiven) {
   const TemporaryDirectory directory;
   const auto stats = directory / "stats.json";

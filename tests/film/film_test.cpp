@@ -12,6 +12,7 @@
 
 #include "film/develop.h"
 #include "scene/diagnostics.h"
+#include "scene/pixel_place.h"
 
 namespace vitrail {
 namespace {
@@ -55,6 +56,21 @@ TEST(Film, MeanIsSumOverCountTimesRatio) {
   EXPECT_EQ(film.mean(1), (XYZ{1.5, 3, 6}));
   EXPECT_EQ(film.mean(0), XYZ{});
   EXPECT_EQ(film.samples(1), 4u);
+}
+
+// More pixels than an int counts: 65535² are.
+TEST(Film, CountsPixelsBeyondAnInt) {
+  constexpr int side = 65535;
+  static_assert(pixel_place(side - 1, side - 1, side) == 4'294'836'224u);
+  static_assert(pixel_place(0, 40'000, side) == 2'621'400'000u);
+  const FilmSettings s = settings(side, side);
+  EXPECT_GT(film_bytes(s), 4'294'836'225u * 4 * sizeof(WideSum));
+  EXPECT_THROW(film_bytes(settings(side + 1, side + 1)), Error);
+  FilmSettings part = settings(most_extent, most_extent);
+  part.crop = {most_extent - 8, most_extent, most_extent - 8, most_extent};
+  EXPECT_EQ(Film(part, {}).pixels(), 64u);
+  part.width = most_extent + 1;
+  EXPECT_THROW(film_bytes(part), Error);
 }
 
 TEST(Film, ClampsDepositsAndKnowsWhatItTook) {

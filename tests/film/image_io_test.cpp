@@ -40,6 +40,11 @@ TEST(ImageIo, ExrKeepsEveryBitAndTheMetadata) {
   EXPECT_EQ(back.full_height, 6);
   EXPECT_EQ(back.samples_per_pixel, 16);
   EXPECT_EQ(back.render_time_s, 2.5);
+  EXPECT_EQ(back.neighbours, Neighbours{});
+  Picture splatted = picture();
+  splatted.neighbours = {3.5, 1.75};
+  write_picture(directory / "a.exr", splatted);
+  EXPECT_EQ(read_picture(directory / "a.exr").neighbours, splatted.neighbours);
 }
 
 TEST(ImageIo, ExrWithoutVariance) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 
 #include "film/noise.h"
@@ -141,6 +142,21 @@ TEST(Noise, WhatAnEdgeHidesIsUncertain) {
   const double each = 0.5 * std::pow((10 - 0.01) / 8, 2) / (0.01 * 0.01 + 0.01);
   EXPECT_NEAR(noise.standard_error, each * std::sqrt(8.0) / pixels, 1e-4);
   EXPECT_EQ(relative_squared_error(flat).upper(), 0);
+}
+
+// The ratio of two χ² of n degrees that is exceeded in 3 % of cases: for n = 2 it is (1 − q)/q itself, for
+// n = 1 tan²(π(½ − q/2)). Of many pixels it is less than 2.33 standard errors.
+TEST(Noise, OfFewPixelsIsHardlyKnown) {
+  const auto bound = [](int pixels) {
+    Film film = film_of(pixels, 1);
+    for (std::uint32_t p = 0; p < film.pixels(); ++p) put(film, p, 0.52, 0.48);
+    const NoiseEstimate noise = relative_squared_error(film);
+    return noise.upper() / noise.mean;
+  };
+  EXPECT_NEAR(bound(1), std::pow(std::tan(std::numbers::pi * (0.5 - 0.03 / 2)), 2), 1);
+  EXPECT_NEAR(bound(2), 0.97 / 0.03, 0.02);
+  EXPECT_GT(bound(3), 13);
+  EXPECT_LT(bound(1000), 1.13);
 }
 
 }  // namespace

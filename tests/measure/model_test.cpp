@@ -121,7 +121,7 @@ TEST(Plan, CountsEveryRender) {
   EXPECT_DOUBLE_EQ(one_by_one.wall_s, 0.5 * (2 * 128 + 2 * 8 + 3 * (8 * 8 + 2 * (2 + 32))));
   EXPECT_DOUBLE_EQ(make_plan(options, {axes[1], axes[2]}, 0.5, 0).wall_s,
                    0.5 * (2 * 128 + 2 * 8 + 3 * (2 * 8 + 2 * (2 + 32) + 8)));
-  EXPECT_EQ(one_by_one.search_renders, 3 * (2 * 12 + 2));
+  EXPECT_EQ(one_by_one.search_renders, 3 * (2 * 12 + 3));
   options.every_combination = true;
   EXPECT_EQ(make_plan(options, axes, 0.5, 0).renders, 2 + 2 + 3 * (7 * 2 + 2 + 3));
   options.error = 0.1;
