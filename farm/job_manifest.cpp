@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "farm/job_manifest.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "bundle/checksum.h"
+#include "bundle/manifest_json.h"
+#include "farm/film_size.h"
+#include "farm/photon_work.h"
+#include "farm/rounds.h"
+#include "scene/sensor_file.h"
+#include "tracer/records.h"
+
+namespace vitrail {
+
+namespace {
+
+void override_layers(Manifest& m, const RenderOptions& options) {
+  const FilmLayers kept = m.film.layers;
+  if (options.layers) m.film.layers.bits = *options.layers;
+  if (options.layers_in_camera_space) m.film.layers.in_camera_space = *options.layers_in_camera_space;
+  const auto require = [&](Layer layer, bool there, const char* what) {
+    if (m.film.layers.has(layer) && !there)
+      throw Error(fmt::format("the bundle keeps no {0}: partition the scene with --aov {1}", what,
+                              kind_of(layer).name),
+                  {options.bundle.string()});
+  };
+  require(Layer::uv, m.requirements.uv, "(u,v), as nothing in the scene needs them");
+  require(Layer::shape, kept.has(Layer::shape), "account of which shape is which");
+}
+
+Point3d place_of(const Camera& camera) {
+  return std::visit([](const auto& c) { return transform_point(c.camera_to_world, {0, 0, 0}); }, camera);
+}
+
+// In the place of the camera, whose own is returned. They belong to what the film is of.
+Point3d put_sensors(Manifest& m, const RenderOptions& options) {
+  if (options.width || options.height || options.scale != 1 || options.crop || options.bins ||
+      options.layers || options.samples.filter)
+    throw UsageError(
+        "--sensors has no picture whose size, crop, filter, spectrum or channels could be given");
+  if (options.clamp > 0)
+    throw UsageError("--clamp is of pictures: it would take light from what --sensors measures");
+  SensorCamera camera{translate(-m.offset), read_sensors(options.sensors)};
+  const Point3d replaced = place_of(m.camera);
+  m.film = sensor_film(camera.sensors.size());
+  m.camera = std::move(camera);
+  m.camera_motion = {};
+  ++m.settings.max_depth;  // the sensor's own event
+  Hasher hasher;
+  hasher.add(std::as_bytes(std::span(&m.scene_hash, 1)));
+  const std::string text = camera_to_json(m.camera).dump();
+  hasher.add(std::as_bytes(std::span(text)));
+  m.scene_hash = hasher.digest();
+  return replaced;
+}
+
+void check_splat(const Manifest& m, const RenderOptions& options) {
+  if (!options.samples.sampling.splat) return;
+  if (options.adaptive || options.target_error)
+    throw UsageError(
+        "--splat makes the errors of neighbours alike, which --adaptive, --target-error and --quality take "
+        "for "
+        "independent: give --spp instead");
+  if (std::holds_alternative<SensorCamera>(m.camera))
+    throw UsageError("--splat is of pictures: sensors are no neighbours of each other");
+  const auto [x, y] =
+      std::visit([](const auto& f) { return std::pair(f.radius_x, f.radius_y); }, m.film.filter);
+  if (std::max(x, y) > greatest_splat_radius)
+    throw UsageError(fmt::format("--splat takes filters of up to {} pixels in radius, this one has {}",
+                                 greatest_splat_radius, std::max(x, y)));
+}
+
+void choose_integrator(const RenderOptions& options, RenderSettings& s) {
+  if (options.integrator) {
+    s.direct_only = options.integrator == Integrator::direct;
+    if (options.integrator != Integrator::photon)
+      s.photons.reset();
+    else if (!s.photons)
+      s.photons.emplace();
+  }
+  const PhotonSettings& given = options.photons;
+  if (!s.photons) {
+    if (given != PhotonSettings{})
+      throw UsageError("--photons, --photon-radius and --photon-alpha are of --integrator photon");
+    return;
+  }
+  if (given.photons) s.photons->photons = given.photons;
+  if (given.first_radius) s.photons->first_radius = given.first_radius;
+  if (given.alpha) s.photons->alpha = given.alpha;
+}
+
+void override_settings(Manifest& m, const RenderOptions& options) {
+  RenderSettings& s = m.settings;
+  s.samples_per_pixel = static_cast<int>(goal_of(options, s.samples_per_pixel).samples);
+  if (options.max_depth) s.max_depth = *options.max_depth;
+  choose_integrator(options, s);
+  if (options.threshold > 0 && !s.direct_only)
+    throw UsageError("--threshold is of direct light alone: give --integrator direct too");
+  if (s.samples_per_pixel < 1 || static_cast<std::uint32_t>(s.samples_per_pixel) >= max_samples)
+    throw UsageError(fmt::format("samples a pixel must be between 1 and {}", max_samples - 1));
+  if (options.target_error && s.samples_per_pixel < 4)
+    throw UsageError("an error is estimated from 4 samples a pixel or more: give --spp more than that");
+  if (s.max_depth < 0) throw UsageError("the depth must not be negative");
+}
+
+void override_film(Manifest& m, const RenderOptions& options) {
+  resize_film(m, options);
+  if (options.crop) m.film.crop = *options.crop;
+  if (options.bins) m.film.spectrum = *options.bins;
+  override_layers(m, options);
+  apply(options.samples, m);
+  check_splat(m, options);
+  const PixelRect& c = m.film.crop;
+  if (c.x0 < 0 || c.y0 < 0 || c.x1 > m.film.width || c.y1 > m.film.height || c.x0 >= c.x1 || c.y0 >= c.y1)
+    throw UsageError("the crop lies outside the film or is empty");
+}
+
+}  // namespace
+
+JobManifest read_job_manifest(const RenderOptions& options) {
+  JobManifest read{read_manifest(options.bundle), std::nullopt};
+  Manifest& m = read.manifest;
+  if (m.domains.size() > max_domains) throw Error("more than 65535 domains", {options.bundle.string()});
+  set_sheets(options.sheets, options.bundle, m);
+  override_settings(m, options);
+  if (!options.sensors.empty()) read.replaced_camera = put_sensors(m, options);
+  const bool whole_paths = !m.settings.direct_only && !m.settings.photons;
+  m.settings.max_depth = std::min(m.settings.max_depth, whole_paths ? max_path_depth : max_direct_depth);
+  override_film(m, options);
+  return read;
+}
+
+FilmKey key_of(const Manifest& m, const RenderOptions& options) {
+  FilmKey key;
+  key.scene_hash = m.scene_hash;
+  key.seed = options.seed;
+  key.max_depth = m.settings.max_depth;
+  key.direct_only = m.settings.direct_only;
+  if (key.direct_only) key.threshold = rounded_threshold(options.threshold);
+  key.straight_counts = m.settings.straight_counts;
+  key.clamp = options.clamp;
+  key.splats = options.samples.sampling.splat;
+  key.photons = photons_of(options, m);
+  return key;
+}
+
+}  // namespace vitrail
