@@ -189,16 +189,16 @@ double minutes(double s) { return s / 60; }
 void print_estimate(const RenderStats& s, const MemoryPlan& memory, std::uint64_t all_domains,
                     std::uint64_t samples_before, std::uint64_t samples_in_all) {
   constexpr double mib = 1 << 20;
-  fmt::print("memory of a rank: {:.0f} MiB of program, film and textures, {:.0f} MiB of domains{}\n",
-             static_cast<double>(s.base_rss_bytes) / mib,
-             static_cast<double>(std::min(memory.domains_bytes, all_domains)) / mib,
-             memory.domains_bytes < all_domains
-                 ? fmt::format(" of {:.0f}: they come and go", static_cast<double>(all_domains) / mib)
-                 : "");
+  show("memory of a rank: {:.0f} MiB of program, film and textures, {:.0f} MiB of domains{}\n",
+       static_cast<double>(s.base_rss_bytes) / mib,
+       static_cast<double>(std::min(memory.domains_bytes, all_domains)) / mib,
+       memory.domains_bytes < all_domains
+           ? fmt::format(" of {:.0f}: they come and go", static_cast<double>(all_domains) / mib)
+           : "");
   const double here = static_cast<double>(s.samples - samples_before),
                left = static_cast<double>(samples_in_all - s.samples) + here;
   if (left > 0 && here > 0)
-    fmt::print(
+    show(
         "time: about {:.1f} min on {} × {} threads for {:.3g} million samples, by {:.3g} million that took "
         "{:.1f} s\n",
         minutes(s.wall_s * left / here), s.ranks, s.threads, left * 1e-6, here * 1e-6, s.wall_s);
