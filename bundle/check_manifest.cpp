@@ -9,6 +9,8 @@
 #include "bundle/record_fields.h"
 #include "bundle/records.h"
 #include "scene/diagnostics.h"
+#include "scene/film_extent.h"
+#include "scene/nesting_limits.h"
 
 namespace vitrail {
 
@@ -48,6 +50,8 @@ bool finite(Vector3d v) { return std::isfinite(v.x) && std::isfinite(v.y) && std
 
 void check_film(const Checker& c, const FilmSettings& f) {
   c.require(f.width > 0 && f.height > 0, "the film has no pixels");
+  c.require(f.width <= max_film_extent && f.height <= max_film_extent,
+            "the film has more than 1048576 pixels a side");
   c.require(0 <= f.crop.x0 && f.crop.x0 < f.crop.x1 && f.crop.x1 <= f.width && 0 <= f.crop.y0 &&
                 f.crop.y0 < f.crop.y1 && f.crop.y1 <= f.height,
             "the crop window is empty or not within the film");
@@ -150,6 +154,9 @@ void check_records(const Checker& c, const Manifest& m) {
   records::FieldChecker io{c};
   for (const Texture& t : m.textures) records::fields(io, t), ++io.textures;
   for (const Material& material : m.materials) records::fields(io, material), ++io.materials;
+  for (const Nesting& nesting : nesting_of(m.materials))
+    c.require(nesting.levels <= most_nested_baked && nesting.lookups <= most_lookups_baked,
+              "a material is nested too deeply");
   records::list(io, m.media), records::list(io, m.area_lights), records::list(io, m.lights);
   records::list(io, m.emissive_triangles), records::list(io, m.emissive_attributes);
   records::list(io, m.emissive_quadrics);
@@ -208,13 +215,22 @@ void check_lights(const Checker& c, const Manifest& m) {
       c.require(std::abs(length(sky->to_sun) - 1) < 1e-6 && sky->sun_diameter_deg > 0, "a sky has no sun");
 }
 
+// Of positive factors, whose product may be more than can be counted.
+bool is_product(std::size_t product, std::initializer_list<int> factors) {
+  std::size_t left = product;
+  for (const int factor : factors) {
+    if (left % static_cast<std::size_t>(factor) != 0) return false;
+    left /= static_cast<std::size_t>(factor);
+  }
+  return left == 1;
+}
+
 void check_media(const Checker& c, const Manifest& m) {
   // Numbers, or spectra of four: x of the sigmoid at three wavelengths, and a scale.
   const auto check_grid = [&](const Grid& g, bool may_be_spectra = false) {
     c.require(g.nx > 0 && g.ny > 0 && g.nz > 0 && (g.channels == 1 || (may_be_spectra && g.channels == 4)),
               "a grid has no cells");
-    c.require(g.values.size() == static_cast<std::size_t>(g.nx) * static_cast<std::size_t>(g.ny) *
-                                     static_cast<std::size_t>(g.nz) * static_cast<std::size_t>(g.channels),
+    c.require(is_product(g.values.size(), {g.nx, g.ny, g.nz, g.channels}),
               "a grid does not have one value a cell");
     c.require(!g.bounds.empty(), "a grid has no bounds");
   };

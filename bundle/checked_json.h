@@ -2,10 +2,38 @@
 // Small JSON files whose first line is a checksum of the rest.
 #pragma once
 
+#include <fmt/format.h>
+
+#include <cmath>
+#include <concepts>
+#include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <nlohmann/json.hpp>
+#include <utility>
+
+#include "scene/diagnostics.h"
 
 namespace vitrail {
+
+// The number of a key or at a place, which is there and is one of T: whole where T is, and finite. Throws
+// Error that names it. (get<T>() takes any number, and makes of 1e300 what it likes.)
+template <class T, class Key>
+T number(const nlohmann::ordered_json& json, const Key& key) {
+  const nlohmann::ordered_json& j = json.at(key);
+  if constexpr (std::floating_point<T>) {
+    const double value = j.is_number() ? j.get<double>() : NAN;
+    if (std::abs(value) <= static_cast<double>(std::numeric_limits<T>::max())) return static_cast<T>(value);
+  } else {
+    if (j.is_number_unsigned() && std::in_range<T>(j.get<std::uint64_t>()))
+      return static_cast<T>(j.get<std::uint64_t>());
+    if (j.is_number_integer() && !j.is_number_unsigned() && std::in_range<T>(j.get<std::int64_t>()))
+      return static_cast<T>(j.get<std::int64_t>());
+  }
+  throw Error(
+      fmt::format("{} is {}, which is not a number that can stand there", key,
+                  j.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace).substr(0, 40)));
+}
 
 // An object with at least one member. Throws MachineError.
 void write_checked_json(const std::filesystem::path& file, const nlohmann::ordered_json& json);

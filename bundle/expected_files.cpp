@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "bundle/manifest.h"
+#include "scene/input_files.h"
 
 namespace vitrail {
 
@@ -52,7 +53,7 @@ std::set<fs::path> expected_files(const fs::path& bundle, const std::set<fs::pat
   const auto at_least = [&](const std::string& folder, std::uint32_t count) {
     counts[folder] = std::max(counts[folder], count);
   };
-  std::ifstream in(bundle / "manifest.json");
+  std::ifstream in = open_regular(bundle / "manifest.json");
   const auto manifest = nlohmann::json::parse(in, nullptr, false);
   for (const char* folder : folders)
     at_least(folder, static_cast<std::uint32_t>(listed(manifest, folder).size()));

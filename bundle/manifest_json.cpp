@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include "bundle/checked_json.h"
+
 namespace vitrail {
 
 namespace {
@@ -15,7 +17,7 @@ Json triple(const V& v) {
 template <class V>
 V triple_from(const Json& j) {
   using T = decltype(V{}.x);
-  return {j.at(0).get<T>(), j.at(1).get<T>(), j.at(2).get<T>()};
+  return {number<T>(j, 0), number<T>(j, 1), number<T>(j, 2)};
 }
 
 // Empty boxes are null: JSON has no infinity.
@@ -23,7 +25,15 @@ Json box(const Bounds3f& b) { return b.empty() ? Json(nullptr) : Json{triple(b.l
 
 Bounds3f box_from(const Json& j) {
   if (j.is_null()) return {};
-  return {triple_from<Point3f>(j.at(0)), triple_from<Point3f>(j.at(1))};
+  const Bounds3f b{triple_from<Point3f>(j.at(0)), triple_from<Point3f>(j.at(1))};
+  if (b.empty()) throw Error("the bounds of something end before they begin");
+  return b;
+}
+
+std::vector<std::uint32_t> ids_from(const Json& j) {
+  std::vector<std::uint32_t> ids;
+  for (std::size_t i = 0; i < j.size(); ++i) ids.push_back(number<std::uint32_t>(j, i));
+  return ids;
 }
 
 // 64-bit hashes are hexadecimal strings: many JSON readers keep 53 bits of a number.
@@ -61,19 +71,18 @@ Json filter_to_json(const Filter& filter) {
 }
 
 Filter filter_from_json(const Json& j) {
-  const double x = j.at("radius_px").at(0).get<double>(), y = j.at("radius_px").at(1).get<double>();
+  const double x = number<double>(j.at("radius_px"), 0), y = number<double>(j.at("radius_px"), 1);
   const std::size_t kind = kind_index(j, filter_kinds);
   if (kind == 0) return BoxFilter{x, y};
   if (kind == 1) return TriangleFilter{x, y};
-  if (kind == 2) return GaussianFilter{x, y, j.at("sigma_px").get<double>()};
-  if (kind == 3)
-    return MitchellFilter{x, y, j.at("b_c").at(0).get<double>(), j.at("b_c").at(1).get<double>()};
-  return SincFilter{x, y, j.at("tau").get<double>()};
+  if (kind == 2) return GaussianFilter{x, y, number<double>(j, "sigma_px")};
+  if (kind == 3) return MitchellFilter{x, y, number<double>(j.at("b_c"), 0), number<double>(j.at("b_c"), 1)};
+  return SincFilter{x, y, number<double>(j, "tau")};
 }
 
 Transform transform_from_json(const Json& j) {
   Transform t;
-  for (std::size_t i = 0; i < 16; ++i) t.m[i / 4][i % 4] = j.at(i).get<double>();
+  for (std::size_t i = 0; i < 16; ++i) t.m[i / 4][i % 4] = number<double>(j, i);
   return t;
 }
 
@@ -96,7 +105,7 @@ Motion motion_from_json(const Json& of, const char* key) {
   if (!of.contains(key)) return {};
   std::vector<Keyframe> keys;
   for (const Json& k : of[key])
-    keys.push_back({k.at("time_s").get<double>(), transform_from_json(k.at("transform"))});
+    keys.push_back({number<double>(k, "time_s"), transform_from_json(k.at("transform"))});
   return Motion(std::move(keys));
 }
 
@@ -109,16 +118,16 @@ Camera camera_from_json(const Json& j) {
   if (kind == 3) {
     SensorCamera camera{t, {}};
     for (const Json& sensor : j.at("sensors")) {
-      const auto n = [&](std::size_t i) { return sensor.at(i).get<double>(); };
+      const auto n = [&](std::size_t i) { return number<double>(sensor, i); };
       camera.sensors.push_back({{n(0), n(1), n(2)}, {n(3), n(4), n(5)}});
     }
     return camera;
   }
-  const auto s = [&](std::size_t i) { return j.at("screen").at(i).get<double>(); };
+  const auto s = [&](std::size_t i) { return number<double>(j.at("screen"), i); };
   const ScreenWindow screen{s(0), s(1), s(2), s(3)};
   Lens lens;
   if (j.contains("lens"))
-    lens = {j["lens"].at("radius").get<double>(), j["lens"].at("focal_distance").get<double>()};
+    lens = {number<double>(j["lens"], "radius"), number<double>(j["lens"], "focal_distance")};
   if (kind == 0) return PerspectiveCamera{t, screen, lens};
   return OrthographicCamera{t, screen, lens};
 }
@@ -126,7 +135,7 @@ Camera camera_from_json(const Json& j) {
 SpectralBins bins_from_json(const Json& film) {
   if (!film.contains("spectrum")) return {};
   const Json& j = film["spectrum"];
-  return {j.at("bins").get<int>(), j.at("min_nm").get<double>(), j.at("max_nm").get<double>()};
+  return {number<int>(j, "bins"), number<double>(j, "min_nm"), number<double>(j, "max_nm")};
 }
 
 FilmLayers layers_from_json(const Json& film) {
@@ -142,12 +151,12 @@ FilmLayers layers_from_json(const Json& film) {
 }
 
 FilmSettings film_from_json(const Json& j) {
-  const auto crop = [&](std::size_t i) { return j.at("crop_px").at(i).get<int>(); };
-  return {j.at("width_px").get<int>(),
-          j.at("height_px").get<int>(),
+  const auto crop = [&](std::size_t i) { return number<int>(j.at("crop_px"), i); };
+  return {number<int>(j, "width_px"),
+          number<int>(j, "height_px"),
           {crop(0), crop(1), crop(2), crop(3)},
           filter_from_json(j.at("filter")),
-          j.at("imaging_ratio").get<double>(),
+          number<double>(j, "imaging_ratio"),
           bins_from_json(j),
           layers_from_json(j)};
 }
@@ -180,7 +189,7 @@ Json texture_file_to_json(const TextureFileEntry& t) {
 }
 
 TextureFileEntry texture_file_from_json(const Json& j) {
-  return {j.at("name").get<std::string>(), j.at("bytes").get<std::uint64_t>(), hash_from(j.at("hash"))};
+  return {j.at("name").get<std::string>(), number<std::uint64_t>(j, "bytes"), hash_from(j.at("hash"))};
 }
 
 Json kd_node_to_json(const KdNode& n) {
@@ -194,11 +203,11 @@ KdNode kd_node_from_json(const Json& j) {
   const auto child = [&](const char* side) {
     const Json& c = j.at(side);
     const bool leaf = c.contains("domain");
-    const auto index = c.at(leaf ? "domain" : "node").get<std::uint64_t>();
+    const auto index = number<std::uint64_t>(c, leaf ? "domain" : "node");
     if (index >= KdNode::leaf_bit) throw Error("a node of the kd-tree has a child out of range");
     return static_cast<std::uint32_t>(index) | (leaf ? KdNode::leaf_bit : 0u);
   };
-  return {j.at("split").get<float>(), j.at("axis").get<std::uint32_t>(), child("below"), child("above")};
+  return {number<float>(j, "split"), number<std::uint32_t>(j, "axis"), child("below"), child("above")};
 }
 
 Json domain_to_json(const DomainInfo& d) {
@@ -213,13 +222,13 @@ Json domain_to_json(const DomainInfo& d) {
 }
 
 DomainInfo domain_from_json(const Json& j) {
-  DomainInfo d{j.at("triangles").get<std::uint64_t>(), j.at("pieces").get<std::uint64_t>(),
-               j.at("bytes").get<std::uint64_t>(), hash_from(j.at("hash")), box_from(j.at("tight_bounds"))};
+  DomainInfo d{number<std::uint64_t>(j, "triangles"), number<std::uint64_t>(j, "pieces"),
+               number<std::uint64_t>(j, "bytes"), hash_from(j.at("hash")), box_from(j.at("tight_bounds"))};
   for (std::size_t z = 0; z < d.occupancy.slice.size(); ++z)
     d.occupancy.slice[z] = hash_from(j.at("occupancy").at(z));
   if (!j.contains("instances")) return d;
-  d.instances = j["instances"].get<std::uint64_t>();
-  d.objects = j.at("objects").get<std::vector<std::uint32_t>>();
+  d.instances = number<std::uint64_t>(j, "instances");
+  d.objects = ids_from(j.at("objects"));
   return d;
 }
 
@@ -235,9 +244,9 @@ Json quadric_to_json(const OrientedQuadric& q) {
 OrientedQuadric quadric_from_json(const Json& j) {
   return {{.kind = static_cast<QuadricKind>(kind_index(j, quadric_kinds)),
            .uv = static_cast<QuadricUv>(kind_index(j, quadric_uvs, "uv")),
-           .low = j.at("low").get<double>(),
-           .high = j.at("high").get<double>(),
-           .phi_max_rad = j.at("phi_max_rad").get<double>()},
+           .low = number<double>(j, "low"),
+           .high = number<double>(j, "high"),
+           .phi_max_rad = number<double>(j, "phi_max_rad")},
           j.at("inside_out").get<bool>()};
 }
 
@@ -253,16 +262,16 @@ Json object_to_json(const ObjectInfo& o) {
 }
 
 ObjectInfo object_from_json(const Json& j) {
-  ObjectInfo o{.triangles = j.at("triangles").get<std::uint64_t>(),
+  ObjectInfo o{.triangles = number<std::uint64_t>(j, "triangles"),
                .hash = hash_from(j.at("hash")),
-               .first_surface = j.at("surfaces").at(0).get<std::uint32_t>(),
-               .surface_count = j.at("surfaces").at(1).get<std::uint32_t>()};
+               .first_surface = number<std::uint32_t>(j.at("surfaces"), 0),
+               .surface_count = number<std::uint32_t>(j.at("surfaces"), 1)};
   if (j.contains("quadric")) {
     o.quadric = quadric_from_json(j["quadric"]);
     return o;
   }
-  o.bytes = j.at("bytes").get<std::uint64_t>();
-  o.objects = j.at("objects").get<std::vector<std::uint32_t>>();
+  o.bytes = number<std::uint64_t>(j, "bytes");
+  o.objects = ids_from(j.at("objects"));
   o.motion = motion_from_json(j, "motion");
   return o;
 }
@@ -372,24 +381,24 @@ Json manifest_to_json(const Manifest& m) {
 Manifest manifest_from_json(const Json& j) {
   Manifest m;
   m.scene_hash = hash_from(j.at("scene_hash"));
-  m.triangles = j.at("triangles").get<std::uint64_t>();
-  m.cut_triangles = j.at("cut_triangles").get<std::uint64_t>();
+  m.triangles = number<std::uint64_t>(j, "triangles");
+  m.cut_triangles = number<std::uint64_t>(j, "cut_triangles");
   m.offset = triple_from<Vector3d>(j.at("offset"));
   m.bounds = box_from(j.at("bounds"));
   if (j.contains("core")) m.core = box_from(j["core"]);
-  m.scale = j.at("scale").get<float>();
+  m.scale = number<float>(j, "scale");
   m.requirements = requirements_from_json(j.at("requirements"));
-  m.attributes = j.at("attributes").get<std::uint32_t>();
-  m.switching_glazings = j.value("switching_glazings", 0u);
-  m.camera_medium = j.at("camera_medium").get<std::int32_t>();
+  m.attributes = number<std::uint32_t>(j, "attributes");
+  if (j.contains("switching_glazings")) m.switching_glazings = number<std::uint32_t>(j, "switching_glazings");
+  m.camera_medium = number<std::int32_t>(j, "camera_medium");
   for (const Json& t : j.at("texture_files")) m.texture_files.push_back(texture_file_from_json(t));
   m.camera = camera_from_json(j.at("camera"));
   if (m.requirements.motion)
-    m.shutter = {j.at("shutter_s").at(0).get<double>(), j.at("shutter_s").at(1).get<double>()};
+    m.shutter = {number<double>(j.at("shutter_s"), 0), number<double>(j.at("shutter_s"), 1)};
   m.camera_motion = motion_from_json(j, "camera_motion");
   m.film = film_from_json(j.at("film"));
   const Json& s = j.at("settings");
-  m.settings = {s.at("samples_per_pixel").get<int>(), s.at("max_depth").get<int>(),
+  m.settings = {number<int>(s, "samples_per_pixel"), number<int>(s, "max_depth"),
                 s.at("direct_only").get<bool>(), s.at("straight_counts").get<bool>(),
                 s.value("rgb", "jakob-hanika") == "matrix-r" ? RgbMethod::matrix_r : RgbMethod::jakob_hanika};
   if (s.contains("photons")) m.settings.photons = photons_from_json(s["photons"]);

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/mman.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -15,6 +13,7 @@
 #include "bundle/features.h"
 #include "bundle/piece_code.h"
 #include "scene/diagnostics.h"
+#include "scene/input_files.h"
 
 namespace vitrail {
 
@@ -30,19 +29,14 @@ constexpr std::array<std::size_t, 3> piece_sections{layout::pieces, layout::piec
                                                     layout::cut_vertices};
 
 std::span<const std::byte> map(const std::filesystem::path& file) {
-  const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
-  if (descriptor < 0)
-    throw MachineError(fmt::format("cannot open {}: {}", file.string(), std::strerror(errno)));
-  struct stat status {};
-  void* data = MAP_FAILED;
-  if (::fstat(descriptor, &status) == 0 && status.st_size > 0)
-    data = ::mmap(nullptr, static_cast<std::size_t>(status.st_size), PROT_READ, MAP_PRIVATE, descriptor, 0);
-  const int reason = errno;
-  ::close(descriptor);
-  if (status.st_size == 0) reject_domain(file, "it is empty");
+  const RegularFile in(file);
+  if (!in.is_open())
+    throw MachineError(fmt::format("cannot open {}: {}", file.string(), std::strerror(in.reason())));
+  if (in.size() == 0) reject_domain(file, "it is empty");
+  void* const data = ::mmap(nullptr, in.size(), PROT_READ, MAP_PRIVATE, in.descriptor(), 0);
   if (data == MAP_FAILED)
-    throw MachineError(fmt::format("cannot map {}: {}", file.string(), std::strerror(reason)));
-  return {static_cast<const std::byte*>(data), static_cast<std::size_t>(status.st_size)};
+    throw MachineError(fmt::format("cannot map {}: {}", file.string(), std::strerror(errno)));
+  return {static_cast<const std::byte*>(data), in.size()};
 }
 
 const layout::DomainHeader& header_of(const std::byte* data) {

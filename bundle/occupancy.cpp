@@ -15,7 +15,8 @@ constexpr int n = Occupancy::cells;
 struct Axis {
   double lower, size;
   int cell(double x) const {
-    return size > 0 ? static_cast<int>(std::clamp((x - lower) / size, 0.0, n - 1.0)) : 0;
+    const double at = size > 0 ? (x - lower) / size : 0;
+    return at > 0 ? static_cast<int>(std::min(at, n - 1.0)) : 0;  // no number counts as 0
   }
 };
 

@@ -3,9 +3,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "bundle/checked_json.h"
 #include "bundle/records.h"
 #include "scene/atomic_file.h"
 #include "scene/diagnostics.h"
@@ -21,25 +24,29 @@ RayProfile from_json(const Json& json) {
   if (json.at("format") != "vitrail ray profile" || json.at("version") != 3)
     throw Error("not a ray profile of version 3");
   RayProfile p;
-  for (int axis = 0; axis < 3; ++axis) p.offset[axis] = json.at("offset").at(static_cast<std::size_t>(axis));
+  for (int axis = 0; axis < 3; ++axis) p.offset[axis] = number<double>(json.at("offset"), axis);
   for (const Json& n : json.at("kd_nodes"))
-    p.kd_nodes.push_back({n.at(1).get<float>(), n.at(0).get<std::uint32_t>(), n.at(2).get<std::uint32_t>(),
-                          n.at(3).get<std::uint32_t>()});
+    p.kd_nodes.push_back({number<float>(n, 1), number<std::uint32_t>(n, 0), number<std::uint32_t>(n, 2),
+                          number<std::uint32_t>(n, 3)});
   for (const Json& d : json.at("domains"))
-    p.domains.push_back({d.at(0).get<std::uint64_t>(), d.at(1).get<std::uint64_t>(), d.at(2).get<double>()});
+    p.domains.push_back({number<std::uint64_t>(d, 0), number<std::uint64_t>(d, 1), number<double>(d, 2)});
   for (const Json& w : json.at("ways")) {
-    const auto from = w.at(0).get<std::int64_t>();
-    const auto to = w.at(1).get<std::uint32_t>();
+    const auto from = number<std::int64_t>(w, 0);
+    const auto to = number<std::uint32_t>(w, 1);
     const auto domains = static_cast<std::int64_t>(p.domains.size());
     if (from < -1 || from >= domains || to >= p.domains.size())
       throw Error("a way between domains that are none");
     p.ways.push_back({from < 0 ? RayProfile::Way::camera : static_cast<std::uint32_t>(from), to,
-                      w.at(2).get<std::uint64_t>()});
+                      number<std::uint64_t>(w, 2)});
   }
   const Json& cost = json.at("cost");
-  p.cost = {cost.at("camera_rays").get<std::uint64_t>(), cost.at("trace_s").get<double>(),
-            cost.at("camera_s").get<double>(), cost.at("load_s").get<double>(),
-            cost.at("loads").get<std::uint64_t>()};
+  p.cost = {number<std::uint64_t>(cost, "camera_rays"), number<double>(cost, "trace_s"),
+            number<double>(cost, "camera_s"), number<double>(cost, "load_s"),
+            number<std::uint64_t>(cost, "loads")};
+  const auto is_duration = [](double s) { return s >= 0; };
+  if (!std::ranges::all_of(p.domains, is_duration, &RayProfile::Domain::seconds) ||
+      !std::ranges::all_of(std::array{p.cost.trace_s, p.cost.camera_s, p.cost.load_s}, is_duration))
+    throw Error("something took less than no time");
   if (const char* fault = fault_of_kd_tree(p.kd_nodes, p.domains.size())) throw Error(fault);
   return p;
 }
@@ -95,7 +102,7 @@ void write_ray_profile(const std::filesystem::path& file, const RayProfile& p) {
 
 RayProfile read_ray_profile(const std::filesystem::path& file) {
   note_input(file);
-  std::ifstream in(file);
+  std::ifstream in = open_regular(file);
   if (!in) throw Error("cannot be read", {file.string()});
   try {
     return from_json(Json::parse(in));

@@ -1,19 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bundle/texture_file.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cstring>
 
 #include "bundle/checksum.h"
 #include "bundle/features.h"
 #include "bundle/texture_layout.h"
 #include "scene/diagnostics.h"
+#include "scene/input_files.h"
 
 namespace vitrail {
 
@@ -23,38 +20,21 @@ static_assert(std::endian::native == std::endian::little);
 
 constexpr std::uint32_t ceil_div(std::uint32_t a, std::uint32_t b) { return (a + b - 1) / b; }
 
-// A file descriptor that is closed.
 class OpenFile {
  public:
-  explicit OpenFile(const std::filesystem::path& file)
-      : descriptor_(::open(file.c_str(), O_RDONLY | O_CLOEXEC)) {
-    if (descriptor_ < 0)
-      throw MachineError(fmt::format("cannot open {}: {}", file.string(), std::strerror(errno)));
+  explicit OpenFile(const std::filesystem::path& file) : file_(file) {
+    if (!file_.is_open())
+      throw MachineError(fmt::format("cannot open {}: {}", file.string(), std::strerror(file_.reason())));
   }
-  ~OpenFile() { ::close(descriptor_); }
-  OpenFile(const OpenFile&) = delete;
-  OpenFile& operator=(const OpenFile&) = delete;
 
-  std::uint64_t size() const {
-    struct stat status {};
-    return ::fstat(descriptor_, &status) == 0 ? static_cast<std::uint64_t>(status.st_size) : 0;
-  }
+  std::uint64_t size() const { return file_.size(); }
   // False where the file ends before.
   bool read(void* to, std::uint64_t bytes, std::uint64_t offset) const {
-    auto* at = static_cast<std::byte*>(to);
-    while (bytes > 0) {
-      const ssize_t n = ::pread(descriptor_, at, bytes, static_cast<off_t>(offset));
-      if (n < 0 && errno == EINTR) continue;
-      if (n <= 0) return false;
-      at += n;
-      offset += static_cast<std::uint64_t>(n);
-      bytes -= static_cast<std::uint64_t>(n);
-    }
-    return true;
+    return file_.read({static_cast<std::byte*>(to), bytes}, offset);
   }
 
  private:
-  int descriptor_;
+  RegularFile file_;
 };
 
 [[noreturn]] void fail(const std::filesystem::path& file, const std::string& what) {

@@ -4,11 +4,11 @@
 #include <sys/stat.h>
 
 #include <ctime>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "bundle/origin_file.h"
 #include "scene/atomic_file.h"
+#include "scene/input_files.h"
 
 namespace vitrail {
 
@@ -24,7 +24,7 @@ void write_bundle_origin(const std::filesystem::path& bundle, const BundleOrigin
 }
 
 BundleOrigin read_bundle_origin(const std::filesystem::path& bundle) {
-  std::ifstream in(bundle / bundle_origin_file);
+  std::ifstream in = open_regular(bundle / bundle_origin_file);
   const Json json = Json::parse(in, nullptr, false);
   const auto text = [&](const char* key) {
     return json.is_object() && json.contains(key) && json[key].is_string() ? json[key].get<std::string>()

@@ -90,9 +90,9 @@ int run(const CompareArguments& options) {
   comparison.worst =
       worst_pixels(map, image.rgb, reference.rgb, image.window.x0, image.window.y0, options.worst);
   if (options.json)
-    fmt::print("{}", to_json(comparison));
+    show("{}", to_json(comparison));
   else if (!options.quiet)
-    fmt::print("{}{}", about_part(image, compared), to_text(comparison));
+    show("{}{}", about_part(image, compared), to_text(comparison));
   comparison.error_map = map;
   write_maps(options, comparison, image, reference);
   return comparison.passed ? exit_done : exit_differs;

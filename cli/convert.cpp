@@ -109,10 +109,9 @@ int run(const Arguments& a) {
   if (!a.quiet) {
     say("{}", summarise(diagnostics));
     const ConversionCounts counts = count(items);
-    fmt::print("{}: {} items exact, {} approximated, {} dropped\n",
-               refused ? "not written" : a.output.string(), counts.exact, counts.approximated,
-               counts.dropped);
-    if (!pictures.is_null()) fmt::print("{}\n", pictures_in_words(pictures));
+    show("{}: {} items exact, {} approximated, {} dropped\n", refused ? "not written" : a.output.string(),
+         counts.exact, counts.approximated, counts.dropped);
+    if (!pictures.is_null()) show("{}\n", pictures_in_words(pictures));
   }
   if (a.strict && !exact) require_exact(diagnostics);
   return pictures.is_null() || pictures.at("passed").get<bool>() ? exit_done : exit_differs;

@@ -21,6 +21,7 @@
 #include "cli/scene_search.h"
 #include "cli/terminal.h"
 #include "scene/diagnostics.h"
+#include "scene/say.h"
 
 namespace vitrail {
 
@@ -65,7 +66,7 @@ class Outcomes {
     const std::lock_guard lock(mutex_);
     line_.clear();
     if (!quiet_) {
-      fmt::print("{}: {}\n", (status <= exit_differs ? c.output : c.input).string(), what);
+      show("{}: {}\n", (status <= exit_differs ? c.output : c.input).string(), what);
       std::fflush(stdout);  // what is done is said now, also to a file
     }
     ++counts_[status];
@@ -144,7 +145,7 @@ int convert_many(const ManyConversions& many) {
     work();
   }
   if (ended) std::rethrow_exception(ended);
-  if (!many.quiet) fmt::print("{}", outcomes.summary());
+  if (!many.quiet) show("{}", outcomes.summary());
   return outcomes.worst();
 }
 

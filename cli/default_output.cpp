@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/default_output.h"
 
-#include <fstream>
 #include <regex>
 #include <string>
+
+#include "scene/input_files.h"
 
 namespace vitrail {
 
@@ -12,7 +13,7 @@ namespace {
 // The beginning of a pbrt file, up to the world, without its comments.
 std::string header_of(const std::filesystem::path& file) {
   constexpr std::size_t longest = 1 << 20;
-  std::ifstream in(file);
+  std::ifstream in = open_regular(file);
   std::string header;
   for (std::string line; header.size() < longest && std::getline(in, line);) {
     header += line.substr(0, line.find('#')) + "\n";
@@ -36,7 +37,9 @@ std::string film_name(const std::filesystem::path& scene) {
 }  // namespace
 
 std::filesystem::path default_output(const std::filesystem::path& input) {
-  std::filesystem::path output = input.extension() == ".pbrt" ? film_name(input) : "";
+  std::filesystem::path output;
+  if (input.extension() == ".pbrt") output = std::filesystem::path(film_name(input)).filename();
+  if (output == "." || output == "..") output.clear();
   if (output.empty()) {
     std::filesystem::path name = input.has_filename() ? input.filename() : input.parent_path().filename();
     if (name.extension() == ".gz") name = name.stem();

@@ -108,7 +108,7 @@ int run(const Arguments& a) {
   }
   if (!a.json)
     for (const std::string& note : input.notes) say("vitrail: note: {}\n", note);
-  fmt::print("{}\n", a.json ? glazing_json(report) : glazing_table(report));
+  show("{}\n", a.json ? glazing_json(report) : glazing_table(report));
   return exit_done;
 }
 

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/import_options.h"
 
+#include "cli/sizes.h"
+#include "scene/input_files.h"
+
 namespace vitrail {
 
 void declare_import_options(CLI::App& app, ImportArguments& a) {
@@ -24,6 +27,10 @@ void declare_import_options(CLI::App& app, ImportArguments& a) {
                  "the clear sky and sun in place of all light from infinitely far: "
                  "LATITUDE,LONGITUDE,TIME[,turbidity=3,albedo=0.2,up=y,north=-z,sun=1,sky=1], TIME as "
                  "2026-06-21T12:00+02:00");
+  app.add_option("--include-limit", a.include_limit,
+                 "most text of files that a scene includes more than once, in all (default: 1G)");
+  app.add_option("--root", a.root,
+                 "read of the files that a scene names only those in this folder, links resolved");
 }
 
 void declare_rgb_option(CLI::App& app, std::string& method) {
@@ -45,6 +52,8 @@ ImportOptions import_options(const ImportArguments& a) {
     const std::size_t at = word.find('=');
     options.definitions[word.substr(0, at)] = word.substr(at + 1);
   }
+  if (!a.include_limit.empty()) options.include_limit = parse_bytes(a.include_limit);
+  if (!a.root.empty()) confine_inputs(a.root);
   return options;
 }
 
@@ -54,6 +63,8 @@ std::vector<std::string> arguments_of(const ImportArguments& a) {
   if (a.camera != 0) words.insert(words.end(), {"--camera", std::to_string(a.camera)});
   if (a.missing != "refuse") words.push_back("--missing=" + a.missing);
   if (!a.sky.empty()) words.push_back("--sky=" + a.sky);
+  if (!a.include_limit.empty()) words.push_back("--include-limit=" + a.include_limit);
+  if (!a.root.empty()) words.push_back("--root=" + a.root);
   return words;
 }
 

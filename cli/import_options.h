@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// -D name=value, --camera N, --missing and --sky: what a scene is loaded with.
+// -D name=value, --camera N, --missing, --sky, --include-limit and --root: what a scene is loaded with.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -14,7 +14,7 @@ namespace vitrail {
 struct ImportArguments {
   std::vector<std::string> definitions;
   int camera = 0;
-  std::string missing = "refuse", sky;
+  std::string missing = "refuse", sky, include_limit, root;
 };
 
 // --rgb jakob-hanika|matrix-r: how a scene's colours become spectra as it is partitioned.
@@ -25,6 +25,7 @@ RgbMethod rgb_method(const std::string& method);
 // A definition that is not name=value is refused as the options are parsed.
 void declare_import_options(CLI::App& app, ImportArguments& arguments);
 
+// What --root allows holds from then on.
 ImportOptions import_options(const ImportArguments& arguments);
 
 // The words of a command line that give them again; none for what is as usual.

@@ -3,17 +3,19 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
-
 #include "cli/import_options.h"
 #include "cli/main_guard.h"
+#include "cli/sizes.h"
+#include "cli/within_memory.h"
+#include "scene/input_files.h"
+#include "scene/say.h"
 
 namespace vitrail {
 namespace {
 
 bool begins_with(const std::filesystem::path& file, std::string_view magic) {
   std::string head(magic.size(), '\0');
-  std::ifstream(file, std::ios::binary).read(head.data(), static_cast<std::streamsize>(head.size()));
+  open_regular(file).read(head.data(), static_cast<std::streamsize>(head.size()));
   return head == magic;
 }
 
@@ -33,6 +35,10 @@ int status_of(const Report& report, bool strict) {
   return report.contains("problems") || (strict && inexact) ? exit_bad_input : exit_done;
 }
 
+std::string as_json(const Report& report) {
+  return report.dump(1, ' ', false, Report::error_handler_t::replace) + "\n";
+}
+
 }  // namespace
 }  // namespace vitrail
 
@@ -43,16 +49,21 @@ int main(int argc, char** argv) {
   std::filesystem::path file;
   ImportArguments imports;
   bool json = false, quiet = false, strict = false;
+  std::string memory;
   app.add_option("file", file,
                  "scene file, bundle (NAME.vit), sub-domain or object (.dom), texture (.tex) or film (.film)")
       ->required();
   declare_import_options(app, imports);
   app.add_flag("--json", json, "print JSON");
+  app.add_option("--memory", memory, "never have more resident, such as 2G; default: no limit");
   app.add_flag("--strict", strict, "exit with 3 where something of a scene is not read or rendered exactly");
   app.add_flag("--quiet", quiet, "say nothing but what is wrong; the exit status does");
   return run_guarded(app, argc, argv, [&] {
-    const Report report = inspect(file, import_options(imports));
-    if (!quiet) fmt::print("{}", json ? report.dump(1) + "\n" : to_text(report));
-    return status_of(report, strict);
+    const auto body = [&] {
+      const Report report = inspect(file, import_options(imports));
+      if (!quiet) show("{}", json ? as_json(report) : to_text(report));
+      return status_of(report, strict);
+    };
+    return memory.empty() ? body() : within_memory(parse_bytes(memory), {"inspecting"}, body);
   });
 }

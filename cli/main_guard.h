@@ -23,8 +23,9 @@ struct Interrupted : std::runtime_error {
 int end_with(int status);
 
 // Runs `body` and returns its status. What it throws is printed as "vitrail: place: message" and the excerpt:
-// Error → 3, MachineError → 4, UsageError and CLI::ParseError → 2, Interrupted → 128 + the signal's number,
-// any other exception → 4.
+// Error → 3, MachineError → 4, UsageError and CLI::ParseError → 2, Interrupted → 128 + the signal's number.
+// Of other exceptions those about a file (of JSON, of names, of lengths) → 3, the rest → 4. Standard output
+// that could not be written → 4.
 int run_guarded(const std::function<int()>& body);
 
 // Parses the command line before it runs `body`: --help prints the help (0), a wrong line says what is wrong

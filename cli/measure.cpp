@@ -15,6 +15,7 @@
 #include "measure/words.h"
 #include "scene/diagnostics.h"
 #include "scene/output_place.h"
+#include "scene/say.h"
 
 using namespace vitrail;
 
@@ -37,7 +38,7 @@ int run(const MeasureOptions& options, bool quiet) {
   MeasureNews news;
   news.say = [&](const std::string& text) {
     line.clear();
-    if (!quiet) fmt::print("{}\n", text);
+    if (!quiet) show("{}\n", text);
     std::fflush(stdout);
   };
   news.progress = [&](double fraction, const char* what) { line.show(fraction, what); };
@@ -55,15 +56,14 @@ int run(const MeasureOptions& options, bool quiet) {
   line.clear();
   write_report(options, m);
   if (quiet) return exit_done;
-  fmt::print("\n{}\n", table(m));
-  for (const std::string& finding : findings(m)) fmt::print("{}\n", finding);
-  fmt::print("\n");
+  show("\n{}\n", table(m));
+  for (const std::string& finding : findings(m)) show("{}\n", finding);
+  show("\n");
   for (std::size_t i = 1; i < m.settings.size(); ++i)
-    if (m.settings[i].changes() < 2 && !m.settings[i].again)
-      fmt::print("{}\n", what_it_buys(m, m.settings[i]));
-  fmt::print("\n");
-  for (const Recommendation& r : m.recommendations) fmt::print("{}\n", advice(r));
-  fmt::print("{} shows it\n", (options.folder / "index.html").string());
+    if (m.settings[i].changes() < 2 && !m.settings[i].again) show("{}\n", what_it_buys(m, m.settings[i]));
+  show("\n");
+  for (const Recommendation& r : m.recommendations) show("{}\n", advice(r));
+  show("{} shows it\n", (options.folder / "index.html").string());
   return exit_done;
 }
 

@@ -7,6 +7,7 @@
 
 #include "cli/sizes.h"
 #include "scene/atomic_file.h"
+#include "scene/say.h"
 
 namespace vitrail {
 
@@ -42,40 +43,39 @@ void write_stats(const std::filesystem::path& file, const PartitionStats& s) {
                                     {"spill_bytes", s.spill_bytes},
                                     {"triangles_per_s", s.triangles_per_s},
                                     {"coarse_shapes", s.coarse_shapes}};
-  const std::string text = json.dump(1) + "\n";
+  const std::string text = json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
   AtomicFile out(file);
   out.write(std::as_bytes(std::span(text)));
   out.commit();
 }
 
 void print_summary(const PartitionStats& s, const std::filesystem::path& bundle) {
-  fmt::print("{}: {} triangles{} in {} domains, {}\n", bundle.string(), s.input_triangles,
-             s.quadrics > 0 ? fmt::format(" and {} quadrics", s.quadrics) : "", s.domains,
-             format_bytes(s.bundle_bytes));
+  show("{}: {} triangles{} in {} domains, {}\n", bundle.string(), s.input_triangles,
+       s.quadrics > 0 ? fmt::format(" and {} quadrics", s.quadrics) : "", s.domains,
+       format_bytes(s.bundle_bytes));
   if (s.domains < s.domains_planned)
-    fmt::print(
-        "  these are fewer domains than {}: more would part nothing, only cut triangles into more pieces\n",
-        s.domains_planned);
-  fmt::print("  a domain has {} to {} triangles, {:.0f} on average\n", s.triangles_min, s.triangles_max,
-             s.triangles_mean);
-  fmt::print("  {} triangles were cut into {} pieces; {} duplicates, area error {:.2g}\n", s.cut_triangles,
-             s.pieces, s.duplicates, s.area_error);
+    show("  these are fewer domains than {}: more would part nothing, only cut triangles into more pieces\n",
+         s.domains_planned);
+  show("  a domain has {} to {} triangles, {:.0f} on average\n", s.triangles_min, s.triangles_max,
+       s.triangles_mean);
+  show("  {} triangles were cut into {} pieces; {} duplicates, area error {:.2g}\n", s.cut_triangles,
+       s.pieces, s.duplicates, s.area_error);
   if (s.objects > 0)
-    fmt::print("  {} instances of {} objects are kept; a domain takes at most {} with its objects\n",
-               s.instances, s.objects, format_bytes(s.domain_bytes_max));
+    show("  {} instances of {} objects are kept; a domain takes at most {} with its objects\n", s.instances,
+         s.objects, format_bytes(s.domain_bytes_max));
   if (s.coarse_shapes > 0)
-    fmt::print(
+    show(
         "  {} shapes are so far from the others that rounding moves their vertices by more than a thousandth "
         "of "
         "their size\n",
         s.coarse_shapes);
-  fmt::print("  {:.2f} s, {:.2f} s of processor time, {:.2f} million triangles a second\n", s.wall_s, s.cpu_s,
-             s.triangles_per_s * 1e-6);
-  fmt::print("  at most {} of memory of {} allowed; {}\n", format_bytes(s.peak_rss_bytes),
-             format_bytes(s.memory_budget_bytes),
-             s.buckets > 1
-                 ? fmt::format("in {} parts, {} on disk on the way", s.buckets, format_bytes(s.spill_bytes))
-                 : "all triangles at once");
+  show("  {:.2f} s, {:.2f} s of processor time, {:.2f} million triangles a second\n", s.wall_s, s.cpu_s,
+       s.triangles_per_s * 1e-6);
+  show("  at most {} of memory of {} allowed; {}\n", format_bytes(s.peak_rss_bytes),
+       format_bytes(s.memory_budget_bytes),
+       s.buckets > 1
+           ? fmt::format("in {} parts, {} on disk on the way", s.buckets, format_bytes(s.spill_bytes))
+           : "all triangles at once");
 }
 
 }  // namespace vitrail

@@ -16,6 +16,7 @@
 #include "film/film.h"
 #include "scene/atomic_file.h"
 #include "scene/resource_usage.h"
+#include "scene/say.h"
 
 namespace vitrail {
 namespace {
@@ -76,9 +77,9 @@ Json to_json(const PlanPoint& p, std::uint64_t scene_bytes) {
 
 void print_row(const PlanPoint& p, std::uint64_t scene_bytes) {
   const SimulationResult& r = p.result;
-  fmt::print("{:>6} {:>10.2f} {:>6.0f} % {:>7.2f} {:>10} {:>7} {:>10.3g}  {}\n", p.ranks, r.seconds,
-             100 * r.efficiency, static_cast<double>(r.most_bytes) / static_cast<double>(scene_bytes),
-             format_bytes(r.loaded_bytes), r.loads, static_cast<double>(r.forwarded_rays), limit_of(r));
+  show("{:>6} {:>10.2f} {:>6.0f} % {:>7.2f} {:>10} {:>7} {:>10.3g}  {}\n", p.ranks, r.seconds,
+       100 * r.efficiency, static_cast<double>(r.most_bytes) / static_cast<double>(scene_bytes),
+       format_bytes(r.loaded_bytes), r.loads, static_cast<double>(r.forwarded_rays), limit_of(r));
   std::fflush(stdout);
 }
 
@@ -112,7 +113,7 @@ int plan(const Arguments& a) {
   std::optional<RayProfile> homes;
   if (!a.homes.empty()) homes = read_ray_profile(a.homes);
   std::vector<PlanPoint> points;
-  if (!a.json) fmt::print(" ranks    seconds  effic.  copies     loaded   loads  forwarded  limited by\n");
+  if (!a.json) show(" ranks    seconds  effic.  copies     loaded   loads  forwarded  limited by\n");
   for (const int ranks : a.ranks) {
     machine.ranks = ranks;
     machine.homes = homes ? homes_by_work(manifest, *homes, ranks) : homes_by_bytes(manifest, ranks);
@@ -137,7 +138,8 @@ int plan(const Arguments& a) {
   if (a.json) {
     Json list = Json::array();
     for (const PlanPoint& p : points) list.push_back(to_json(p, scene_bytes));
-    fmt::print("{}\n", Json{{"bundle", a.bundle.string()}, {"plan", list}}.dump(1));
+    show("{}\n", Json{{"bundle", a.bundle.string()}, {"plan", list}}.dump(1, ' ', false,
+                                                                          Json::error_handler_t::replace));
   }
   if (!a.svg.empty()) {
     AtomicFile out(a.svg);

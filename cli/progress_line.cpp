@@ -18,14 +18,12 @@ void ProgressLine::show(double fraction, const char* what) {
   const double elapsed_s = std::chrono::duration<double>(now - start_).count();
   const std::string left =
       fraction > 0.02 ? fmt::format("  {:.0f} s left", elapsed_s * (1 - fraction) / fraction) : "";
-  say("\r\033[K{:3.0f} % {}{}", 100 * fraction, what, left);
-  std::fflush(stderr);
+  say_over("{:3.0f} % {}{}", 100 * fraction, what, left);
 }
 
 void ProgressLine::clear() {
   if (!visible_ || shown_ == start_) return;
-  say("\r\033[K");
-  std::fflush(stderr);
+  say_over("");
 }
 
 }  // namespace vitrail

@@ -10,6 +10,7 @@
 #include "importers/images/sky_image.h"
 #include "scene/output_place.h"
 #include "scene/photometry.h"
+#include "scene/say.h"
 #include "scene/sky_model.h"
 
 namespace vitrail {
@@ -49,13 +50,12 @@ Json measured(const Bands& bands) {
 }
 
 void print(const char* name, const Json& j) {
-  fmt::print("{:26} {:10.0f} lx {:10.0f} lx melanopic EDI {:8.1f} W/m2", name,
-             j["illuminance_lx"].get<double>(), j["melanopic_edi_lx"].get<double>(),
-             j["irradiance_w_m2"].get<double>());
+  show("{:26} {:10.0f} lx {:10.0f} lx melanopic EDI {:8.1f} W/m2", name, j["illuminance_lx"].get<double>(),
+       j["melanopic_edi_lx"].get<double>(), j["irradiance_w_m2"].get<double>());
   if (j.contains("x"))
-    fmt::print("  x {:.4f} y {:.4f} {:6.0f} K", j["x"].get<double>(), j["y"].get<double>(),
-               j["color_temperature_k"].get<double>());
-  fmt::print("\n");
+    show("  x {:.4f} y {:.4f} {:6.0f} K", j["x"].get<double>(), j["y"].get<double>(),
+         j["color_temperature_k"].get<double>());
+  show("\n");
 }
 
 int run(const Arguments& a) {
@@ -72,11 +72,11 @@ int run(const Arguments& a) {
       {"direct_normal", measured(beam)},         {"direct_horizontal", measured(direct)},
       {"diffuse_horizontal", measured(diffuse)}, {"global_horizontal", measured(sum(direct, diffuse))}};
   if (a.json) {
-    fmt::print("{}\n", report.dump(2));
+    show("{}\n", report.dump(2));
   } else {
-    fmt::print("sun: {:.2f} degrees above the horizon, {:.2f} degrees from north to east\n",
-               sky.sun.elevation_deg, sky.sun.azimuth_deg);
-    if (!model.is_day()) fmt::print("night: the model has no twilight, nothing shines\n");
+    show("sun: {:.2f} degrees above the horizon, {:.2f} degrees from north to east\n", sky.sun.elevation_deg,
+         sky.sun.azimuth_deg);
+    if (!model.is_day()) show("night: the model has no twilight, nothing shines\n");
     print("sun, across its direction", report["direct_normal"]);
     print("sun, on the ground", report["direct_horizontal"]);
     print("sky, on the ground", report["diffuse_horizontal"]);

@@ -7,6 +7,7 @@
 #include "cli/main_guard.h"
 #include "cli/spectrum_methods.h"
 #include "scene/atomic_file.h"
+#include "scene/say.h"
 
 namespace vitrail {
 namespace {
@@ -57,36 +58,36 @@ Json to_json(const Row& row) {
 }
 
 void print_table(const std::vector<Row>& rows, const std::string& of) {
-  fmt::print("{} colours of {} and back, under D65\n{:<14}{:>12}{:>12}{:>10}{:>10}{:>14}\n",
-             rows[0].cube.colors, of, "", "max error", "mean error", "least", "greatest", "step of 5 nm");
+  show("{} colours of {} and back, under D65\n{:<14}{:>12}{:>12}{:>10}{:>10}{:>14}\n", rows[0].cube.colors,
+       of, "", "max error", "mean error", "least", "greatest", "step of 5 nm");
   for (const Row& r : rows)
-    fmt::print("{:<14}{:12.2e}{:12.2e}{:10.6f}{:10.6f}{:14.5f}\n", name_of(r.method), r.cube.max_error,
-               r.cube.mean_error, r.cube.min_value, r.cube.max_value, r.cube.roughness);
-  fmt::print(
+    show("{:<14}{:12.2e}{:12.2e}{:10.6f}{:10.6f}{:14.5f}\n", name_of(r.method), r.cube.max_error,
+         r.cube.mean_error, r.cube.min_value, r.cube.max_value, r.cube.roughness);
+  show(
       "\nColorChecker, difference from the measured reflectance (root mean square, largest), 380–780 "
       "nm\n{:<22}",
       "");
-  for (const Row& r : rows) fmt::print("{:>20}", name_of(r.method));
+  for (const Row& r : rows) show("{:>20}", name_of(r.method));
   for (std::size_t i = 0; i < rows[0].patches.size(); ++i) {
-    fmt::print("\n{:<22}", rows[0].patches[i].name);
-    for (const Row& r : rows) fmt::print("{:12.4f}{:8.4f}", r.patches[i].rms, r.patches[i].max);
-    if (!rows[0].patches[i].in_gamut) fmt::print("  outside of sRGB: clamped");
+    show("\n{:<22}", rows[0].patches[i].name);
+    for (const Row& r : rows) show("{:12.4f}{:8.4f}", r.patches[i].rms, r.patches[i].max);
+    if (!rows[0].patches[i].in_gamut) show("  outside of sRGB: clamped");
   }
-  fmt::print("\n{:<22}", "mean");
+  show("\n{:<22}", "mean");
   for (const Row& r : rows) {
     double rms = 0, max = 0;
     for (const PatchError& p : r.patches) rms += p.rms, max += p.max;
     const auto count = static_cast<double>(r.patches.size());
-    fmt::print("{:12.4f}{:8.4f}", rms / count, max / count);
+    show("{:12.4f}{:8.4f}", rms / count, max / count);
   }
-  fmt::print("\n");
+  show("\n");
 }
 
 int run(const Arguments& a) {
   if (!a.plot.empty()) write_text(a.plot, patches_svg());
   if (!a.rgb.empty()) {
     const std::string csv = spectra_csv({a.rgb[0], a.rgb[1], a.rgb[2]});
-    a.csv.empty() ? fmt::print("{}", csv) : write_text(a.csv, csv);
+    a.csv.empty() ? show("{}", csv) : write_text(a.csv, csv);
     return exit_done;
   }
   const std::vector<CountedColor> colors =
@@ -97,7 +98,7 @@ int run(const Arguments& a) {
   if (!a.json) return print_table(rows, a.picture.empty() ? "the sRGB cube" : a.picture.string()), exit_done;
   Json json = Json::array();
   for (const Row& row : rows) json.push_back(to_json(row));
-  fmt::print("{}\n", json.dump(1));
+  show("{}\n", json.dump(1));
   return exit_done;
 }
 

@@ -10,6 +10,7 @@
 #include "cli/main_guard.h"
 #include "cli/progress_line.h"
 #include "cli/sizes.h"
+#include "scene/say.h"
 
 namespace vitrail {
 namespace {
@@ -43,16 +44,16 @@ Json to_json(const std::filesystem::path& bundle, const VerifyResult& r) {
 }
 
 void print(const std::filesystem::path& bundle, const VerifyResult& r, bool quiet) {
-  for (const VerifyFinding& f : r.problems) fmt::print("{}: {}\n", f.file, f.what);
+  for (const VerifyFinding& f : r.problems) show("{}: {}\n", f.file, f.what);
   if (quiet) return;
-  for (const VerifyFinding& f : r.warnings) fmt::print("{}: warning: {}\n", f.file, f.what);
+  for (const VerifyFinding& f : r.warnings) show("{}: warning: {}\n", f.file, f.what);
   std::set<std::string> damaged;
   for (const VerifyFinding& f : r.problems) damaged.insert(f.file);
   const std::string verdict =
       r.problems.empty() ? "whole"
                          : fmt::format("{} problems in {} places", r.problems.size(), damaged.size());
-  fmt::print("{}: {}; {} files, {}, {:.2f} s, {}/s\n", bundle.string(), verdict, r.files,
-             format_bytes(r.bytes), r.wall_s, format_bytes(static_cast<std::uint64_t>(bytes_per_s(r))));
+  show("{}: {}; {} files, {}, {:.2f} s, {}/s\n", bundle.string(), verdict, r.files, format_bytes(r.bytes),
+       r.wall_s, format_bytes(static_cast<std::uint64_t>(bytes_per_s(r))));
 }
 
 }  // namespace
@@ -75,7 +76,7 @@ int main(int argc, char** argv) {
     const VerifyResult result = verify_bundle(bundle, options);
     line.clear();
     if (json)
-      fmt::print("{}\n", to_json(bundle, result).dump(1));
+      show("{}\n", to_json(bundle, result).dump(1, ' ', false, Json::error_handler_t::replace));
     else
       print(bundle, result, quiet);
     return result.problems.empty() && !(strict && !result.warnings.empty()) ? exit_done : exit_bad_input;

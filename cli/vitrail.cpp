@@ -42,20 +42,20 @@ int no_such(const std::string& verb) {
   return 2;
 }
 
+int answer(const char* text) {
+  if (std::fputs(text, stdout) >= 0 && std::fflush(stdout) == 0) return 0;
+  std::fprintf(stderr, "vitrail: cannot write to standard output: %s\n", std::strerror(errno));
+  return 4;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   std::vector<std::string> words(argv + 1, argv + argc);
   if (words.size() > 1 && words[0] == "help") words = {words[1], "--help"};
   const std::string verb = words.empty() ? "" : words[0];
-  if (verb == "--help" || verb == "-h" || verb == "help") {
-    std::fputs(usage, stdout);
-    return 0;
-  }
-  if (verb == "--version") {
-    std::puts("vitrail " VITRAIL_VERSION);
-    return 0;
-  }
+  if (verb == "--help" || verb == "-h" || verb == "help") return answer(usage);
+  if (verb == "--version") return answer("vitrail " VITRAIL_VERSION "\n");
   if (verb.empty()) {
     std::fputs(usage, stderr);
     return 2;

@@ -29,7 +29,7 @@ void print_estimate(const RenderStats& s, const Job& job, std::uint64_t samples_
   constexpr double mib = 1 << 20;
   const std::uint64_t in_memory = job.plan.memory.domains_bytes, all_domains = job.plan.all_domains;
   const std::uint64_t samples_in_all = std::uint64_t{job.plan.goal.samples} * job.film.pixels();
-  fmt::print("memory of a rank: {:.0f} MiB of program, film and textures, {:.0f} MiB of domains{}\n",
+  show("memory of a rank: {:.0f} MiB of program, film and textures, {:.0f} MiB of domains{}\n",
              static_cast<double>(s.base_rss_bytes) / mib,
              static_cast<double>(std::min(in_memory, all_domains)) / mib,
              in_memory < all_domains
@@ -38,7 +38,7 @@ void print_estimate(const RenderStats& s, const Job& job, std::uint64_t samples_
   const double here = static_cast<double>(s.samples - samples_before),
                left = static_cast<double>(samples_in_all - s.samples) + here;
   if (left > 0 && here > 0)
-    fmt::print(
+    show(
         "time: about {:.1f} min on {} × {} threads for {:.3g} million samples, by {:.3g} million that took "
         "{:.1f} s\n",
         minutes(s.wall_s * left / here), s.ranks, s.threads, left * 1e-6, here * 1e-6, s.wall_s);

@@ -2,6 +2,7 @@
 #include "farm/progress.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -33,8 +34,8 @@ std::string duration(double s) {
 
 // Standard output, which nothing else of a render writes to. Lost where that is full or nobody reads it.
 void print_json(const Json& event) {
-  std::fputs((event.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n").c_str(), stdout);
-  std::fflush(stdout);
+  const std::string line = event.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+  [[maybe_unused]] const ssize_t lost = ::write(STDOUT_FILENO, line.data(), line.size());
 }
 
 // Where there are several ranks: whether some drown in rays while others wait for them.
@@ -110,16 +111,15 @@ void Progress::print(const Round& round, double elapsed_s) {
   }
   constexpr int width = 32;
   const int filled = static_cast<int>(done * width);
-  say("\r\033[Krender [{}{}] {:5.1f} %  {:.2f} Mray/s  {}{} left",
-      std::string(static_cast<std::size_t>(filled), '#'),
-      std::string(static_cast<std::size_t>(width - filled), ' '), 100 * done, rate * 1e-6,
-      waiting_text(round.ranks), duration(left_s));
-  std::fflush(stderr);
+  say_over("render [{}{}] {:5.1f} %  {:.2f} Mray/s  {}{} left",
+           std::string(static_cast<std::size_t>(filled), '#'),
+           std::string(static_cast<std::size_t>(width - filled), ' '), 100 * done, rate * 1e-6,
+           waiting_text(round.ranks), duration(left_s));
   line_open_ = true;
 }
 
 void Progress::finish() {
-  if (line_open_) say("\r\033[K");
+  if (line_open_) say_over("");
   line_open_ = false;
 }
 

@@ -98,7 +98,7 @@ std::string to_json(const RenderStats& s) {
     json["reached_error_upper"] = s.reached.upper;
     json["target_reached"] = s.reached.upper <= s.target.value;
   }
-  return json.dump(1);
+  return json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
 }  // namespace vitrail

@@ -15,6 +15,7 @@
 #include <numeric>
 
 #include "scene/diagnostics.h"
+#include "scene/film_extent.h"
 
 namespace vitrail {
 
@@ -52,9 +53,9 @@ std::uint64_t pixels_of(const FilmSettings& s) {
   if (c.x0 < 0 || c.y0 < 0 || c.x1 <= c.x0 || c.y1 <= c.y0 || c.x1 > s.width || c.y1 > s.height)
     throw Error(fmt::format("the crop {}..{} × {}..{} is empty or leaves the image of {}×{} pixels", c.x0,
                             c.x1, c.y0, c.y1, s.width, s.height));
-  if (s.width > most_extent || s.height > most_extent)
+  if (s.width > max_film_extent || s.height > max_film_extent)
     throw Error(fmt::format("a picture of {}×{} pixels is too large: at most {} a side", s.width, s.height,
-                            most_extent));
+                            max_film_extent));
   const int width = c.x1 - c.x0, height = c.y1 - c.y0;
   const std::uint64_t pixels = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
   if (pixels > std::numeric_limits<std::uint32_t>::max())

@@ -72,9 +72,6 @@ constexpr int deposit_bits(bool splats) { return splats ? 85 - weight_bits : 85;
 inline constexpr int default_exponent = -45;                          // for radiances about 1
 inline constexpr int least_exponent = -900, greatest_exponent = 900;  // so that all are doubles
 
-// Of a picture, of which a film may hold a part: pixels a side.
-inline constexpr int most_extent = 1 << 20;
-
 // Memory of a film's sums, counts and ids, before there is one. Throws Error where there cannot be such a
 // film: of more than 2³² − 1 pixels, or of a picture that is too large.
 std::uint64_t film_bytes(const FilmSettings& settings, bool splats = false);

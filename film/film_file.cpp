@@ -18,6 +18,8 @@
 #include "film/film.h"
 #include "scene/atomic_file.h"
 #include "scene/diagnostics.h"
+#include "scene/film_extent.h"
+#include "scene/input_files.h"
 
 namespace vitrail {
 
@@ -78,7 +80,7 @@ void write_array(AtomicFile& out, const T& array) {
 
 class Reader {
  public:
-  explicit Reader(const std::filesystem::path& file) : file_(file.string()), in_(file, std::ios::binary) {
+  explicit Reader(const std::filesystem::path& file) : file_(file.string()), in_(open_regular(file)) {
     std::error_code unreadable;
     size_ = std::filesystem::file_size(file, unreadable);
     if (!in_ || unreadable) throw Error("cannot open the film", {file_});
@@ -121,8 +123,8 @@ Header read_header(Reader& in) {
                     h.version, to_string(this_renderer()), film_version));
   if (h.checksum != checksum(h)) in.fail("the film file is corrupt: the checksum of its header is wrong");
   const bool sizes_in_order = 0 <= h.x0 && h.x0 < h.x1 && h.x1 <= h.full_width &&
-                              h.full_width <= most_extent && 0 <= h.y0 && h.y0 < h.y1 &&
-                              h.y1 <= h.full_height && h.full_height <= most_extent;
+                              h.full_width <= max_film_extent && 0 <= h.y0 && h.y0 < h.y1 &&
+                              h.y1 <= h.full_height && h.full_height <= max_film_extent;
   const bool bins_in_order = 0 <= h.bins && h.bins <= max_spectral_bins && h.bins_min_nm < h.bins_max_nm &&
                              std::isfinite(h.bins_max_nm - h.bins_min_nm);
   const bool key_in_order = std::memchr(h.renderer, 0, sizeof h.renderer) != nullptr && h.max_depth >= 0 &&
@@ -207,7 +209,9 @@ Film read_film(const std::filesystem::path& file, FilmProgress* progress) {
   std::vector<PhotonKey> photons;
   if (h.version == photon_version) {
     in.read_array(photons, 1, "photons");
-    if (photons[0].photons == 0 || !(photons[0].first_radius > 0) || !(photons[0].alpha > 0))
+    if (photons[0].photons == 0 || !(photons[0].first_radius > 0) ||
+        !std::isfinite(photons[0].first_radius) || !(photons[0].alpha > 0) ||
+        !std::isfinite(photons[0].alpha))
       in.fail("the film file is corrupt: its photons make no sense");
   }
   in.read_array(read.earlier_ends, h.earlier_ends, "earlier ends");

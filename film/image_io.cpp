@@ -242,7 +242,7 @@ void write_picture(const std::filesystem::path& file, const Picture& picture, in
 }
 
 Picture read_picture(const std::filesystem::path& file) {
-  note_input(file);
+  check_input(file);
   const auto in = OIIO::ImageInput::open(file.string());
   if (!in) throw Error(fmt::format("cannot read the image: {}", OIIO::geterror()), {file.string()});
   const OIIO::ImageSpec& spec = in->spec();

@@ -6,13 +6,13 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
-#include <fstream>
 
 #include "glazing/json_node.h"
 #include "glazing/product.h"
 #include "glazing/product_formats.h"
 #include "glazing/text_file.h"
 #include "scene/diagnostics.h"
+#include "scene/input_files.h"
 
 namespace vitrail {
 
@@ -40,7 +40,7 @@ std::optional<SwitchedFile> switched_file(const std::string& text) {
 
 // Tables of measured materials are binary and large: they are not read whole to be refused.
 bool may_be_text(const std::string& file) {
-  std::ifstream in(file, std::ios::binary);
+  std::ifstream in = open_input(file);
   std::array<char, 4096> head{};
   in.read(head.data(), head.size());
   const auto end = head.begin() + in.gcount();

@@ -65,7 +65,7 @@ std::string from_latin_1(std::string_view text) {
 
 std::string read_text(const std::filesystem::path& file) {
   constexpr std::uintmax_t most_bytes = 64 << 20;
-  note_input(file);
+  check_input(file);
   std::error_code error;
   if (std::filesystem::is_directory(file, error)) throw Error("is a directory, not a file", {file.string()});
   if (!std::filesystem::exists(file, error)) throw Error("there is no such file", {file.string()});

@@ -4,8 +4,10 @@
 #include <dlfcn.h>
 #include <fmt/format.h>
 
+#include <array>
 #include <atomic>
 #include <cmath>
+#include <fstream>
 
 #include "images/image_codec.h"
 #include "images/texture_values.h"
@@ -18,6 +20,8 @@ namespace vitrail {
 namespace {
 
 std::atomic<bool> loaded = false;
+
+constexpr std::uint64_t most_pixels_of_gif = 1 << 26;  // of which its reader holds several copies
 
 const ImageCodec& load_codec() {
   const auto folder = std::filesystem::read_symlink("/proc/self/exe").parent_path();
@@ -44,10 +48,43 @@ void check(const std::filesystem::path& file, const std::string& problem) {
   if (!problem.empty()) throw Error(fmt::format("cannot read the image: {}", problem), {file.string()});
 }
 
-ImageLayout read(const std::filesystem::path& file, Image* image) {
-  note_input(file);
+// A GIF states its size in the first bytes; its reader makes room for it before it can be asked.
+bool is_large_gif(const std::filesystem::path& file) {
+  std::array<unsigned char, 10> head{};
+  std::ifstream in = open_regular(file);
+  if (!in.read(reinterpret_cast<char*>(head.data()), head.size()) || head[0] != 'G' || head[1] != 'I' ||
+      head[2] != 'F')
+    return false;
+  const auto number = [&](std::size_t at) { return std::uint64_t{head[at]} + 256 * head[at + 1]; };
+  return number(6) * number(8) > most_pixels_of_gif;
+}
+
+void require_size(const std::filesystem::path& file, const ImageLayout& layout) {
+  if (layout.width < 1 || layout.height < 1 || layout.width > max_image_extent ||
+      layout.height > max_image_extent ||
+      static_cast<std::uint64_t>(layout.width) * static_cast<std::uint64_t>(layout.height) >
+          most_image_pixels)
+    throw Error(fmt::format("cannot read the image: it states {} × {} pixels, and the most are {} a side and "
+                            "{} in all",
+                            layout.width, layout.height, max_image_extent, most_image_pixels),
+                {file.string()});
+}
+
+// By what the file states, before there is room for it.
+ImageLayout checked_layout(const std::filesystem::path& file) {
+  check_input(file);
+  if (is_large_gif(file))
+    throw Error(fmt::format("cannot read the image: a GIF has at most {} pixels here", most_pixels_of_gif),
+                {file.string()});
   ImageLayout layout;
-  check(file, codec().read(file.string(), layout, image));
+  check(file, codec().read(file.string(), layout, nullptr));
+  require_size(file, layout);
+  return layout;
+}
+
+ImageLayout read(const std::filesystem::path& file, Image* image) {
+  ImageLayout layout = checked_layout(file);
+  if (image) check(file, codec().read(file.string(), layout, image));
   if (layout.chromaticities && !are_primaries(*layout.chromaticities)) layout.chromaticities.reset();
   return layout;
 }

@@ -3,6 +3,7 @@
 // first.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -29,6 +30,10 @@ struct ImageLayout {
 
 // Whether there was a first.
 bool image_library_is_loaded();
+
+// The most that a file may state, which is looked at before there is room for it.
+inline constexpr int max_image_extent = 1 << 20;
+inline constexpr std::uint64_t most_image_pixels = std::uint64_t{1} << 30;
 
 // These throw Error with the file's name, or MachineError where OpenImageIO cannot be loaded.
 ImageLayout read_image_layout(const std::filesystem::path& file);

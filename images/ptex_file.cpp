@@ -12,6 +12,7 @@
 #include <string_view>
 
 #include "scene/diagnostics.h"
+#include "scene/input_files.h"
 
 namespace vitrail {
 
@@ -111,7 +112,7 @@ std::vector<unsigned char> PtexFile::unzipped(std::uint64_t at, std::uint64_t zi
   return result;
 }
 
-PtexFile::PtexFile(const std::filesystem::path& file) : file_(file), in_(file, std::ios::binary) {
+PtexFile::PtexFile(const std::filesystem::path& file) : file_(file), in_(open_input(file)) {
   std::error_code unknown;
   file_bytes_ = std::filesystem::file_size(file, unknown);
   if (!in_ || unknown) fail("there is no such file");

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "importers/default_view.h"
+#include "importers/foreign_text.h"
 #include "importers/given_sky.h"
 #include "importers/missing_files.h"
 #include "importers/mitsuba/mitsuba.h"
@@ -15,6 +16,7 @@
 #include "scene/curve.h"
 #include "scene/curve_uses.h"
 #include "scene/diagnostics.h"
+#include "scene/nesting_limits.h"
 
 namespace vitrail {
 
@@ -59,9 +61,8 @@ ImportedScene read_scene(const std::filesystem::path& file, MeshMemory memory,
     throw UsageError(file.string() + ": only scenes of Mitsuba have more than one camera");
   ImportedScene imported;
   if (format == ".pbrt" || format == ".xml") {
-    imported = format == ".xml"
-                   ? read_mitsuba(file, std::move(memory), options)
-                   : read_pbrt(file, std::move(memory), std::move(progress), options.replace_missing);
+    imported = format == ".xml" ? read_mitsuba(file, std::move(memory), options)
+                                : read_pbrt(file, std::move(memory), std::move(progress), options);
     if (options.replace_missing) replace_missing_images(imported);
     return imported;
   }
@@ -107,7 +108,13 @@ ImportedScene import_scene(const std::filesystem::path& file, MeshMemory memory,
                            std::function<void(double)> progress, const ImportOptions& options) {
   const std::optional<GivenSky> sky =
       options.sky.empty() ? std::nullopt : std::optional(parse_sky(options.sky));
-  ImportedScene imported = read_scene(file, std::move(memory), std::move(progress), options);
+  ImportedScene imported;
+  try {
+    imported = read_scene(file, std::move(memory), std::move(progress), options);
+  } catch (const Error& error) {
+    throw without_foreign_text(error, file);
+  }
+  require_shallow(imported.scene);
   if (sky) replace_sky(imported, *sky);
   report_tubes(imported);
   return imported;

@@ -2,6 +2,7 @@
 // What a scene leaves to those who load it.
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <string>
 
@@ -14,6 +15,7 @@ struct ImportOptions {
   bool replace_missing = false;  // go on without images and meshes that are not there (missing_files.h)
   std::string sky;  // in place of all light from infinitely far (given_sky.h); "": as the file says
   int camera = 0;   // which of a Mitsuba scene's sensors, in the file's order, from 0
+  std::uint64_t include_limit = 1 << 30;  // bytes of text that is included again (included_text.h)
 };
 
 }  // namespace vitrail

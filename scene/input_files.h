@@ -1,10 +1,51 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a program has read, it must not write over.
+// The door of files: what a user names, and what that names in turn, is opened here. What a program has read,
+// it must not write over.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
+#include <fstream>
+#include <span>
 
 namespace vitrail {
+
+// An open regular file. A pipe or a device would be waited for, or read without end.
+class RegularFile {
+ public:
+  // Throws Error for what is there and is no regular file. `reason` is errno where it cannot be opened.
+  explicit RegularFile(const std::filesystem::path& file);
+  ~RegularFile();
+  RegularFile(const RegularFile&) = delete;
+  RegularFile& operator=(const RegularFile&) = delete;
+
+  bool is_open() const { return descriptor_ >= 0; }
+  int reason() const { return reason_; }
+  int descriptor() const { return descriptor_; }
+  std::uint64_t size() const { return size_; }
+  // False where the file ends before, or cannot be read.
+  bool read(std::span<std::byte> to, std::uint64_t offset) const;
+
+ private:
+  int descriptor_, reason_ = 0;
+  std::uint64_t size_ = 0;
+};
+
+// As a stream, which is not open where there is no such file.
+std::ifstream open_regular(const std::filesystem::path& file);
+
+// Files that a scene names are to lie within that folder, links resolved: others throw Error from now on.
+// Throws UsageError where it is no folder.
+void confine_inputs(const std::filesystem::path& folder);
+// Throws Error where it does not.
+void require_confined(const std::filesystem::path& file);
+
+// Before a library opens a file by its name: notes it, and throws Error where it is not within the folder, or
+// is there and not regular.
+void check_input(const std::filesystem::path& file);
+// The same, opened as open_regular does.
+std::ifstream open_input(const std::filesystem::path& file);
 
 // A program asks for it before it reads anything; until then nothing is noted.
 void protect_inputs();

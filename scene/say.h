@@ -5,10 +5,21 @@
 #include <fmt/format.h>
 
 #include <string>
+#include <string_view>
 
 namespace vitrail {
 
-// One write to standard error. Where that is full or closed the words are lost: no work ends for their sake.
+// Bytes of the well-formed UTF-8 character that `text`, which is not empty, begins with (Unicode 15, table
+// 3-7); 0 if there is none.
+std::size_t utf8_size(std::string_view text);
+
+// The text as a terminal may have it, whatever a scene calls its things: control characters, those that turn
+// the direction of what follows, and bytes that are not UTF-8 are written out ("\u001b", "\xff"). `lines`:
+// line feeds and tabs stay as they are.
+std::string for_terminal(std::string_view text, bool lines = true);
+
+// One write to standard error, for_terminal. Where that is full or closed the words are lost: no work ends
+// for their sake.
 void say_text(const std::string& text);
 
 template <class... Values>
@@ -16,8 +27,28 @@ void say(fmt::format_string<Values...> format, Values&&... values) {
   say_text(fmt::format(format, std::forward<Values>(values)...));
 }
 
+// The same in place of the terminal's line that is open.
+void say_over_text(const std::string& text);
+
+template <class... Values>
+void say_over(fmt::format_string<Values...> format, Values&&... values) {
+  say_over_text(fmt::format(format, std::forward<Values>(values)...));
+}
+
+// What a program was asked for, on standard output, for_terminal. Throws MachineError where it cannot be
+// written; what is still on its way shows in flush_shown.
+void show_text(const std::string& text);
+
+template <class... Values>
+void show(fmt::format_string<Values...> format, Values&&... values) {
+  show_text(fmt::format(format, std::forward<Values>(values)...));
+}
+
+// For the end of main: throws MachineError where standard output could not be written.
+void flush_shown();
+
 // For the start of main: a stream that is closed becomes /dev/null. Else the next file that is opened takes
-// its place, and what is said goes into it.
+// its place, and what is said goes into it. Standard output can then not be written.
 void open_standard_streams();
 
 }  // namespace vitrail

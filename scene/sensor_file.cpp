@@ -5,11 +5,11 @@
 
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <numbers>
 #include <sstream>
 
 #include "scene/diagnostics.h"
+#include "scene/input_files.h"
 
 namespace vitrail {
 
@@ -67,7 +67,7 @@ void add_plane(std::vector<Sensor>& sensors, const Line& line, const std::vector
 }  // namespace
 
 std::vector<Sensor> read_sensors(const std::filesystem::path& file) {
-  std::ifstream in(file);
+  std::ifstream in = open_input(file);
   if (!in) throw Error("cannot read the sensors", {file.string()});
   std::vector<Sensor> sensors;
   Line line{file, 0, {}};

@@ -35,17 +35,17 @@ bool is_nothing(const Material& m, bool front) {
          (std::holds_alternative<HairMaterial>(m.model) && !front);
 }
 
-// Hair, and what is made of nothing but hair.
-bool is_fibre(const Manifest& m, const Material& material) {
-  const auto part = [&](Id<Material> id) { return is_fibre(m, m.materials[id.value]); };
+// Hair, and what is made of nothing but hair. `kinds` are those of the parts at least.
+bool is_fibre(const std::vector<MaterialKind>& kinds, const Material& material) {
+  const auto part = [&](Id<Material> id) { return kinds[id.value].is_fibre; };
   if (const auto* blend = std::get_if<BlendMaterial>(&material.model))
     return part(blend->first) && part(blend->second);
   if (const auto* mask = std::get_if<MaskMaterial>(&material.model)) return part(mask->material);
   return std::holds_alternative<HairMaterial>(material.model);
 }
 
-bool has_diffuse_part(const Manifest& m, const Material& material) {
-  const auto part = [&](Id<Material> id) { return has_diffuse_part(m, m.materials[id.value]); };
+bool has_diffuse_part(const std::vector<MaterialKind>& kinds, const Material& material) {
+  const auto part = [&](Id<Material> id) { return kinds[id.value].diffuse; };
   if (const auto* sided = std::get_if<TwoSidedMaterial>(&material.model))
     return part(sided->front) || part(sided->back);
   if (const auto* blend = std::get_if<BlendMaterial>(&material.model))
@@ -114,9 +114,10 @@ Materials::Materials(const Manifest& manifest, const Textures& textures)
   for (const ScatteringTable& table : manifest.tables) tables_.push_back(loaded_table(table));
   std::map<std::tuple<float, float, Roughness::Distribution, Masking>, std::uint32_t> known;
   for (std::size_t i = 0; i < manifest.materials.size(); ++i) {
-    kinds_.push_back(kind_of(manifest.materials[i]));
-    kinds_.back().is_fibre = is_fibre(manifest, manifest.materials[i]);
-    kinds_.back().diffuse = has_diffuse_part(manifest, manifest.materials[i]);
+    MaterialKind kind = kind_of(manifest.materials[i]);
+    kind.is_fibre = is_fibre(kinds_, manifest.materials[i]);
+    kind.diffuse = has_diffuse_part(kinds_, manifest.materials[i]);
+    kinds_.push_back(kind);
     if (const auto* principled = std::get_if<PrincipledMaterial>(&manifest.materials[i].model))
       if (const auto* color = std::get_if<Spectrum>(&principled->base_color); color && has_tint(*principled))
         luminance_[i] = luminance(*color);

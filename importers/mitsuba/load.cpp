@@ -13,17 +13,17 @@
 #include <pugixml.hpp>
 #include <set>
 
+#include "importers/included_text.h"
 #include "importers/mitsuba/old_versions.h"
 #include "importers/mitsuba/values.h"
 #include "importers/mitsuba/xml_text.h"
 #include "importers/ply/input_bytes.h"
+#include "importers/xml_nesting.h"
 
 namespace vitrail::mitsuba {
 
 namespace {
 
-constexpr int most_nested = 128;  // elements, and references through objects
-constexpr int most_included = 16;
 constexpr std::size_t most_expanded = 1 << 20;  // bytes of an attribute after defaults are put in
 constexpr std::size_t most_expanded_in_all = 64 << 20;
 
@@ -74,9 +74,8 @@ using MutablePtr = std::shared_ptr<MutableObject>;
 
 class Loader {
  public:
-  Loader(const std::map<std::string, std::string>& definitions, std::vector<std::string>& files,
-         Report& report)
-      : files_(files), report_(report), defaults_(definitions) {}
+  Loader(const ImportOptions& options, std::vector<std::string>& files, Report& report)
+      : files_(files), report_(report), defaults_(options.definitions), included_(options.include_limit) {}
 
   ObjectPtr run(const std::filesystem::path& file) {
     scene_ = std::make_shared<MutableObject>();
@@ -156,9 +155,10 @@ class Loader {
     if (!first && !std::filesystem::is_regular_file(file, ignored))
       fail(fmt::format("cannot find the file \"{}\"", file.string()), from);
     if (open_.contains(canonical)) fail(fmt::format("the file \"{}\" includes itself", file.string()), from);
-    if (depth > most_included) fail("includes are nested too deeply", from);
+    if (depth > static_cast<int>(most_included)) fail("includes are nested too deeply", from);
     open_.insert(canonical);
     const InputBytes stored(file);
+    if (!included_.add(file, stored.size())) fail(included_.refusal(), from);
     const std::optional<std::string> converted = in_utf8({stored.begin(), stored.size()});
     const std::string_view bytes = converted ? *converted : std::string_view{stored.begin(), stored.size()};
     files_.push_back(file.string());
@@ -173,6 +173,8 @@ class Loader {
     if (!parsed)
       fail(fmt::format("this is not XML: {}", parsed.description()),
            source.lines.origin(source.number, parsed.offset));
+    if (const pugi::xml_node deep = too_deep_element(document))
+      fail("elements are nested too deeply", origin(source, deep));
     const pugi::xml_node root = document.document_element();
     if (std::string_view(root.name()) == "scene") {
       read_version(root, source);
@@ -540,6 +542,7 @@ class Loader {
   std::set<std::string> parameters_;  // that the scene has
   std::map<std::string, MutablePtr> ids_;
   std::vector<MutablePtr> objects_;
+  IncludedText included_;
   std::size_t expanded_ = 0;
   int nesting_ = 0;
   bool main_is_old_ = false;
@@ -547,9 +550,9 @@ class Loader {
 
 }  // namespace
 
-ObjectPtr load(const std::filesystem::path& file, const std::map<std::string, std::string>& definitions,
+ObjectPtr load(const std::filesystem::path& file, const ImportOptions& options,
                std::vector<std::string>& files, Report& report) {
-  return Loader(definitions, files, report).run(file);
+  return Loader(options, files, report).run(file);
 }
 
 }  // namespace vitrail::mitsuba

@@ -2,10 +2,10 @@
 #pragma once
 
 #include <filesystem>
-#include <map>
 #include <string>
 #include <vector>
 
+#include "importers/import_options.h"
 #include "importers/mitsuba/object.h"
 
 namespace vitrail::mitsuba {
@@ -14,9 +14,9 @@ namespace vitrail::mitsuba {
 // versions 0.5 to 2 translated to those of 3. `files` gets the names that Origins speak of. Malformed XML and
 // values, cycles of includes or references, unknown tags, names without a definition, and expansions or
 // nesting without end throw Error.
-// `definitions` stand before the <default>s of the same names; one that the scene never asks for throws
-// Error.
-ObjectPtr load(const std::filesystem::path& file, const std::map<std::string, std::string>& definitions,
+// The options' definitions stand before the <default>s of the same names; one that the scene never asks for
+// throws Error.
+ObjectPtr load(const std::filesystem::path& file, const ImportOptions& options,
                std::vector<std::string>& files, Report& report);
 
 }  // namespace vitrail::mitsuba

@@ -89,7 +89,7 @@ ImportedScene read_mitsuba(const std::filesystem::path& file, MeshMemory memory,
                            const ImportOptions& options) {
   ImportedScene imported;
   mitsuba::Report report(imported.scene.files);
-  const mitsuba::ObjectPtr root = mitsuba::load(file, options.definitions, imported.scene.files, report);
+  const mitsuba::ObjectPtr root = mitsuba::load(file, options, imported.scene.files, report);
   mitsuba::Builder builder{imported.scene, report};
   builder.mesh_memory = std::move(memory);
   builder.replace_missing = options.replace_missing;

@@ -6,6 +6,8 @@
 #include <fstream>
 #include <string_view>
 
+#include "scene/input_files.h"
+
 namespace vitrail::mitsuba {
 
 namespace {
@@ -23,7 +25,7 @@ bool read(std::ifstream& in, std::array<unsigned char, 8>& to, std::streamsize b
 std::optional<double> png_gamma(const std::filesystem::path& file) {
   constexpr std::array<unsigned char, 8> signature{0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
   constexpr std::uint32_t checksum_bytes = 4;
-  std::ifstream in(file, std::ios::binary);
+  std::ifstream in = open_input(file);
   std::array<unsigned char, 8> b{};
   if (!read(in, b, 8) || b != signature) return {};
   std::optional<double> gamma;

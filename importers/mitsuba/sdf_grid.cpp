@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <fstream>
 
 #include "importers/mitsuba/shape_geometry.h"
 #include "importers/mitsuba/volume_file.h"
 #include "importers/shapes/level_set.h"
+#include "scene/input_files.h"
 
 namespace vitrail::mitsuba {
 
@@ -25,7 +25,7 @@ SampledFunction read_distances(const std::filesystem::path& path) {
   SampledFunction f{grid.nx, grid.ny, grid.nz, {}};
   f.values.resize(static_cast<std::size_t>(f.nx) * static_cast<std::size_t>(f.ny) *
                   static_cast<std::size_t>(f.nz));
-  std::ifstream file(path, std::ios::binary);
+  std::ifstream file = open_input(path);
   file.seekg(volume_header_bytes);
   file.read(reinterpret_cast<char*>(f.values.data()),
             static_cast<std::streamsize>(f.values.size() * sizeof(float)));

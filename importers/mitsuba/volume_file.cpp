@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
-#include <fstream>
 #include <stdexcept>
 
 #include "scene/input_files.h"
@@ -30,8 +29,7 @@ static_assert(sizeof(Header) == volume_header_bytes);
 }
 
 Header read_header(const std::filesystem::path& path) {
-  note_input(path);
-  std::ifstream file(path, std::ios::binary);
+  std::ifstream file = open_input(path);
   std::array<char, sizeof(Header)> bytes{};
   if (!file.read(bytes.data(), bytes.size())) fail(path, "not a volume file: it ends within its header");
   Header header;

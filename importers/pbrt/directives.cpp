@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <iterator>
 
+#include "scene/nesting_limits.h"
+
 namespace vitrail::pbrt {
 
 const std::map<std::string, Interpreter::Handler, std::less<>>& Interpreter::handlers() {
@@ -178,8 +180,7 @@ ParameterSet Interpreter::read_set(const std::string& directive, const std::stri
 // ---- Blocks -------------------------------------------------------------------------------------
 
 void Interpreter::open(Block block, const Place& place) {
-  constexpr std::size_t depth_limit = 100'000;
-  if (saved_.size() >= depth_limit) fail("blocks are nested too deeply", place);
+  if (saved_.size() >= most_open_blocks) fail("blocks are nested too deeply", place);
   saved_.push_back({block, place, state_, {}});
 }
 

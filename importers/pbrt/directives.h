@@ -144,8 +144,8 @@ class Interpreter {
   FloatParameter shape_opacity(ParameterSet& parameters, const Place& place);
   void report_shining_alpha(const FloatParameter& alpha, const Place& place);
   bool uvs_show(const FloatParameter& opacity);
-  bool uvs_show(Id<Material> material, int depth);
-  bool meets_hair(Id<Material> material, int depth) const;
+  std::vector<Id<Material>> with_parts(Id<Material> material) const;
+  bool meets_hair(Id<Material> material) const;
   void add_shape(const ShapeGeometry& geometry, const FloatParameter& opacity, const Place& place);
   std::optional<Id<Medium>> medium_named(const std::string& name, const Place& place);
   std::optional<Id<AreaLight>> shape_light(const ShapeGeometry& geometry, const Place& place);

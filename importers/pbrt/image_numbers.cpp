@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
-#include <fstream>
+
+#include "scene/input_files.h"
 
 namespace vitrail::pbrt {
 
@@ -14,7 +15,7 @@ namespace {
 bool is_rgba_png(const std::string& filename) {
   constexpr std::streamoff color_type = 25;
   constexpr int truecolor_with_alpha = 6;
-  std::ifstream file(filename, std::ios::binary);
+  std::ifstream file = open_input(filename);
   file.seekg(color_type);
   return file.get() == truecolor_with_alpha;
 }

@@ -7,16 +7,16 @@
 namespace vitrail {
 
 ImportedScene read_pbrt(const std::filesystem::path& file, MeshMemory memory,
-                        std::function<void(double)> progress, bool replace_missing) {
+                        std::function<void(double)> progress, const ImportOptions& options) {
   pbrt::Context context;
-  context.replace_missing = replace_missing;
+  context.replace_missing = options.replace_missing;
   context.mesh_memory = std::move(memory);
   context.progress = std::move(progress);
   const pbrt::DetectedVersion detected = pbrt::detect_version(file);
   context.version = detected.version;
   context.version_is_certain = detected.certain;
   context.directory = file.parent_path();
-  pbrt::TokenStream tokens(file);
+  pbrt::TokenStream tokens(file, options.include_limit);
   pbrt::Interpreter interpreter(tokens, context);
   ImportedScene imported;
   imported.scene = interpreter.run();

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 
+#include "importers/import_options.h"
 #include "scene/deferred_mesh.h"
 #include "scene/scene.h"
 
@@ -15,8 +16,8 @@ namespace vitrail {
 // (importers/README.md). Bad input throws Error with its place. A file without WorldBegin is a part of a
 // scene: it gets a camera and a sky.
 // `progress`, if given, gets the fraction of the file that is read; what it throws stops the reading.
-// `replace_missing`: meshes that are not there are left out, which is reported.
+// Of the options only replace_missing, of meshes here, and include_limit count.
 ImportedScene read_pbrt(const std::filesystem::path& file, MeshMemory memory = MeshMemory{},
-                        std::function<void(double)> progress = {}, bool replace_missing = false);
+                        std::function<void(double)> progress = {}, const ImportOptions& options = {});
 
 }  // namespace vitrail

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "scene/nesting_limits.h"
+
 namespace vitrail::pbrt {
 
 TokenStream::Source::Source(const std::filesystem::path& path, const std::string* name, bool imported)
@@ -13,13 +15,13 @@ TokenStream::Source::Source(const std::filesystem::path& path, const std::string
       identity(std::filesystem::weakly_canonical(path)),
       import(imported) {}
 
-TokenStream::TokenStream(const std::filesystem::path& file) {
+TokenStream::TokenStream(const std::filesystem::path& file, std::uint64_t include_limit)
+    : included_(include_limit) {
   names_.push_back(file.string());
   sources_.push_back(std::make_unique<Source>(file, &names_.back(), false));
 }
 
 void TokenStream::include(const std::filesystem::path& file, bool import, const Place& where) {
-  constexpr std::size_t depth_limit = 64;
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(file, ignored))
     fail(fmt::format("cannot find the included file \"{}\"", file.string()), where);
@@ -27,10 +29,11 @@ void TokenStream::include(const std::filesystem::path& file, bool import, const 
   for (const auto& source : sources_)
     if (source->identity == identity)
       fail(fmt::format("\"{}\" includes itself, directly or through others", file.string()), where);
-  if (sources_.size() > depth_limit)
-    fail(fmt::format("files are included more than {} levels deep", depth_limit), where);
+  if (sources_.size() > most_included)
+    fail(fmt::format("files are included more than {} levels deep", most_included), where);
   names_.push_back(file.string());
   sources_.push_back(std::make_unique<Source>(file, &names_.back(), import));
+  if (!included_.add(file, sources_.back()->bytes.size())) fail(included_.refusal(), where);
 }
 
 Lexer& TokenStream::current() {

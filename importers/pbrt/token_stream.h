@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "importers/included_text.h"
 #include "importers/pbrt/lexer.h"
 #include "importers/ply/input_bytes.h"
 
@@ -17,9 +18,10 @@ namespace vitrail::pbrt {
 // its own.
 class TokenStream {
  public:
-  explicit TokenStream(const std::filesystem::path& file);
+  TokenStream(const std::filesystem::path& file, std::uint64_t include_limit);
 
-  // Continues with `file`, then comes back. Cycles and more than 64 levels throw Error at `where`.
+  // Continues with `file`, then comes back. Cycles, too many levels (scene/nesting_limits.h) and more text
+  // that is included again than the limit throw Error at `where`.
   void include(const std::filesystem::path& file, bool import, const Place& where);
 
   Token next();
@@ -48,6 +50,7 @@ class TokenStream {
   Lexer& current();
 
   std::deque<std::string> names_;
+  IncludedText included_;
   std::vector<std::unique_ptr<Source>> sources_;
 };
 

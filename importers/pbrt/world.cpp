@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "importers/pbrt/directives.h"
+#include "scene/nesting_limits.h"
 
 namespace vitrail::pbrt {
 
@@ -294,23 +295,31 @@ void Interpreter::report_shining_alpha(const FloatParameter& alpha, const Place&
 bool Interpreter::uvs_show(const FloatParameter& opacity) {
   if (uv_uses_.of(opacity) || (state_.area_light && uv_uses_.of(state_.area_light->emission.light.radiance)))
     return true;
-  return state_.material && uvs_show(*state_.material, 16);
+  return state_.material && std::ranges::any_of(with_parts(*state_.material), [&](Id<Material> part) {
+           return !material_is_made_[part.value] || uv_uses_.of(materials_[part.value]);
+         });
 }
 
-bool Interpreter::uvs_show(Id<Material> id, int depth) {
-  const Material& material = materials_[id.value];
-  if (!material_is_made_[id.value] || depth == 0 || uv_uses_.of(material)) return true;
-  const std::vector<Id<Material>> parts = parts_of(material.model);
-  return std::ranges::any_of(parts, [&](Id<Material> part) { return uvs_show(part, depth - 1); });
+// What a shape's material is made of decides for every shape.
+constexpr std::size_t most_looked_at = 1024;
+
+// The material and what it is made of as far as that is known, each once. There may be cycles yet.
+std::vector<Id<Material>> Interpreter::with_parts(Id<Material> id) const {
+  std::vector<Id<Material>> found{id};
+  std::set<std::uint32_t> seen{id.value};
+  for (std::size_t i = 0; i < found.size() && i < most_looked_at; ++i)
+    if (material_is_made_[found[i].value])
+      for (const Id<Material> part : parts_of(materials_[found[i].value].model))
+        if (seen.insert(part.value).second) found.push_back(part);
+  return found;
 }
 
 // Whether the material, or a part of it, is hair; of one that is not known yet that is not known either.
-bool Interpreter::meets_hair(Id<Material> id, int depth) const {
-  const Material& material = materials_[id.value];
-  if (!material_is_made_[id.value] || depth == 0) return false;
-  const std::vector<Id<Material>> parts = parts_of(material.model);
-  return std::holds_alternative<HairMaterial>(material.model) ||
-         std::ranges::any_of(parts, [&](Id<Material> part) { return meets_hair(part, depth - 1); });
+bool Interpreter::meets_hair(Id<Material> id) const {
+  return std::ranges::any_of(with_parts(id), [&](Id<Material> part) {
+    return material_is_made_[part.value] &&
+           std::holds_alternative<HairMaterial>(materials_[part.value].model);
+  });
 }
 
 void Interpreter::shape(const Place& place) {
@@ -348,7 +357,7 @@ void Interpreter::add_shape(const ShapeGeometry& geometry, const FloatParameter&
   const bool mirrored = !moves && swaps_handedness(at.at_open);
   shape.flip_orientation =
       state_.reverse_orientation != (mirrored && (!geometry.quadric || shape.area_light));
-  if (meets_hair(shape.material, 16)) {
+  if (meets_hair(shape.material)) {
     if (geometry.curve)
       shape.flip_orientation = mirrored;  // hair is met from outside, whatever a file says
     else
@@ -420,14 +429,13 @@ class MaterialOrder {
       : slots_(slots), scene_(scene), ids_(slots.size(), none) {}
 
   Id<Material> place(std::uint32_t slot, int depth = 0) {
-    constexpr int most_nested = 64;
     const auto refuse = [&](const char* why) {
       throw Error(fmt::format("the mix of materials \"{}\" {}", slots_[slot].name, why),
                   location(scene_, slots_[slot].origin));
     };
     if (ids_[slot] < open) return {ids_[slot]};
     if (ids_[slot] == open) refuse("contains itself");
-    if (depth > most_nested) refuse("is nested too deeply");
+    if (depth >= most_nested) refuse("is nested too deeply");
     ids_[slot] = open;
     Material material = slots_[slot];
     for_each_reference(material, [&](Id<Material>& id) { id = place(id.value, depth + 1); });

@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "importers/ply/input_bytes.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/mman.h>
-#include <sys/stat.h>
 #include <unistd.h>
 #include <zlib.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cstring>
 #include <memory>
 #include <new>
@@ -26,34 +23,30 @@ bool starts_gzip(int descriptor) {
   return ::pread(descriptor, magic, 2, 0) == 2 && magic[0] == 0x1f && magic[1] == 0x8b;
 }
 
-// What a gzipped file or a pipe may hold. Text and meshes deflate to between a third and a twentieth; a bomb
+// What a gzipped file may hold. Text and meshes deflate to between a third and a twentieth; a bomb
 // of one byte repeated to a thousandth. And half of the machine's memory, because all of it is held.
-std::size_t most_inflated(const struct stat& status) {
+std::size_t most_inflated(std::uint64_t file_bytes) {
   constexpr std::size_t always = std::size_t{64} << 20, most_ratio = 128;
   const auto pages = static_cast<std::size_t>(::sysconf(_SC_PHYS_PAGES));
   const std::size_t half_memory = pages * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE)) / 2;
-  if (!S_ISREG(status.st_mode)) return half_memory;
-  return std::min(half_memory, std::max(always, most_ratio * static_cast<std::size_t>(status.st_size)));
+  return std::min(half_memory, std::max(always, most_ratio * file_bytes));
 }
 
 }  // namespace
 
 InputBytes::InputBytes(const std::filesystem::path& file) {
+  require_confined(file);
   note_input(file);
-  const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
-  struct stat status = {};
-  if (descriptor < 0 || ::fstat(descriptor, &status) != 0) {
-    const int reason = errno;
-    if (descriptor >= 0) ::close(descriptor);
-    throw Error(fmt::format("cannot open the file: {}", std::strerror(reason)), {file.string()});
-  }
-  // zlib's reader, which closes what it is given, passes what is not gzipped through as it is: pipes too.
-  const std::unique_ptr<gzFile_s, int (*)(gzFile)> reader(::gzdopen(descriptor, "rb"), &::gzclose);
+  const RegularFile input(file);
+  if (!input.is_open())
+    throw Error(fmt::format("cannot open the file: {}", std::strerror(input.reason())), {file.string()});
+  if (input.size() > 0 && !starts_gzip(input.descriptor())) map(input.descriptor(), input.size());
+  if (mapped_) return;
+  // zlib's reader, which closes what it is given, passes what is not gzipped through as it is.
+  const std::unique_ptr<gzFile_s, int (*)(gzFile)> reader(::gzdopen(::dup(input.descriptor()), "rb"),
+                                                          &::gzclose);
   if (!reader) throw std::bad_alloc();
-  if (S_ISDIR(status.st_mode)) throw Error("this is a directory, not a file", {file.string()});
-  const bool mappable = S_ISREG(status.st_mode) && status.st_size > 0 && !starts_gzip(descriptor);
-  if (mappable) map(descriptor, static_cast<std::size_t>(status.st_size));
-  if (!mapped_) inflate(reader.get(), file, most_inflated(status));
+  inflate(reader.get(), file, most_inflated(input.size()));
 }
 
 InputBytes::~InputBytes() {

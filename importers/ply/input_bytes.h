@@ -11,8 +11,9 @@ struct gzFile_s;
 namespace vitrail {
 
 // The bytes of an input file: mapped, or inflated where it is gzipped (by content, whatever its name). They
-// stay at their address for the life of the object. A file that cannot be opened or inflated, or inflates to
-// more than 128 times its size (and 64 MiB) or than half of the machine's memory, throws Error.
+// stay at their address for the life of the object. A file that cannot be opened or inflated, is not regular,
+// is outside of what may be read (scene/input_files.h), or inflates to more than 128 times its size (and 64
+// MiB) or than half of the machine's memory, throws Error.
 class InputBytes {
  public:
   explicit InputBytes(const std::filesystem::path& file);

@@ -7,28 +7,9 @@
 #include <algorithm>
 #include <charconv>
 
+#include "scene/say.h"
+
 namespace vitrail {
-
-namespace {
-
-// Bytes of the well-formed UTF-8 character that `text` begins with (Unicode 15, table 3-7); 0 if there is
-// none.
-std::size_t utf8_size(std::string_view text) {
-  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-  const unsigned first = byte(0);
-  if (first < 0x80) return 1;
-  const std::size_t size = first < 0xc2 ? 0 : first < 0xe0 ? 2 : first < 0xf0 ? 3 : first < 0xf5 ? 4 : 0;
-  if (size == 0 || text.size() < size) return 0;
-  const unsigned low = first == 0xe0 ? 0xa0 : first == 0xf0 ? 0x90 : 0x80;
-  const unsigned high = first == 0xed ? 0x9f : first == 0xf4 ? 0x8f : 0xbf;
-  if (byte(1) < low || byte(1) > high) return 0;
-  for (std::size_t i = 2; i < size; ++i) {
-    if (byte(i) < 0x80 || byte(i) > 0xbf) return 0;
-  }
-  return size;
-}
-
-}  // namespace
 
 std::string printable(std::string_view text, std::size_t longest) {
   std::string shown;

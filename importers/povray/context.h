@@ -4,12 +4,15 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <map>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "importers/exposed_lights.h"
 #include "importers/images/converted_images.h"
 #include "scene/color.h"
+#include "scene/nesting_limits.h"
 #include "scene/scene.h"
 
 namespace vitrail::povray {
@@ -34,6 +37,8 @@ struct Context {
   Diagnostics diagnostics;
   std::set<std::string> noted;
   ConvertedImages images;
+  std::vector<Nesting> nesting = nesting_of(scene.textures);
+  std::map<std::uint32_t, std::string> interiors = {};  // of materials that others are made of
 
   // Each message once a place.
   void note(Fidelity fidelity, std::string message, const Origin& origin = {}) {

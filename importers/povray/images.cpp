@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <fstream>
 #include <map>
 
 #include "importers/mesh_files.h"
 #include "importers/povray/pigments.h"
+#include "scene/input_files.h"
 
 namespace vitrail::povray {
 
@@ -18,7 +18,7 @@ std::string suffix_of(const std::string& filename) {
 
 // By the header of a PNG file; the depth of others is taken as 8.
 bool has_16_bits(const std::string& filename) {
-  std::ifstream file(filename, std::ios::binary);
+  std::ifstream file = open_input(filename);
   constexpr std::streamoff depth = 24;
   file.seekg(depth);
   return file.get() == 16;

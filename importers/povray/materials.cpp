@@ -277,7 +277,11 @@ class Builder {
   // ---- Made of others ---------------------------------------------------------------------------
 
   std::string name(Id<Material> id) { return fmt::format("Material_{}", id.value); }
-  std::string interior(Id<Material> id) { return povray::surface_of(context_, id).interior; }
+  std::string interior(Id<Material> id) {
+    if (const auto known = context_.interiors.find(id.value); known != context_.interiors.end())
+      return known->second;
+    return context_.interiors[id.value] = povray::surface_of(context_, id).interior;
+  }
 
   Surface surface_of(const BlendMaterial& m) {
     Surface surface{weighted(context_, m.amount, name(m.first), name(m.second), material_.origin), "", ""};

@@ -2,13 +2,18 @@
 #include "importers/povray/pigments.h"
 
 #include <cmath>
+#include <set>
 
 #include "images/ptex_means.h"
 #include "importers/export_colors.h"
+#include "scene/texture_inputs.h"
 
 namespace vitrail::povray {
 
 namespace {
+
+// A pigment holds all pigments that it is made of, and those that it shares as often as it asks for them.
+constexpr std::uint64_t most_pigments = 1024;
 
 // How a pigment is used: as a colour, or as a filter of what lies below it.
 struct Use {
@@ -197,6 +202,13 @@ Pigment attribute(Context& context, const MeshAttributeTexture& texture, const O
 Pigment build(Context& context, Id<Texture> id, const Use& use) {
   const Texture& texture = context.scene.textures.at(id.value);
   const Origin& origin = texture.origin;
+  if (context.nesting.at(id.value).lookups > most_pigments) {
+    context.approximated(
+        fmt::format("texture that leads to more than {} others, each written on every way: 0.5",
+                    most_pigments),
+        origin);
+    return grey(0.5, use);
+  }
   if (const auto* t = std::get_if<ImageTexture>(&texture.model))
     return image(context, *t, texture.is_float, origin, use);
   if (const auto* t = std::get_if<CheckerboardTexture>(&texture.model))
@@ -236,9 +248,20 @@ Pigment build(Context& context, const SpectrumParameter& parameter, const Use& u
 
 bool is_uv(const TextureMapping& mapping) { return std::holds_alternative<UvMapping>(mapping); }
 
-bool uses_uvs(const Scene& scene, const SpectrumParameter& parameter) {
-  const auto* id = std::get_if<Id<Texture>>(&parameter);
-  return id && povray::uses_uvs(scene, *id);
+// What of a texture is shown by uv is itself or an input, of those that this writer shows.
+bool shows_uvs(const TextureModel& model) {
+  if (const auto* t = std::get_if<ImageTexture>(&model)) return is_uv(t->mapping);
+  if (const auto* t = std::get_if<CheckerboardTexture>(&model)) return !t->solid && is_uv(t->mapping);
+  const auto* t = std::get_if<BilinearTexture>(&model);
+  return t && is_uv(t->mapping);
+}
+
+template <class F>
+void for_shown_inputs(const TextureModel& model, F&& f) {
+  if (std::holds_alternative<BilinearTexture>(model)) return;
+  const auto* dots = std::get_if<DotsTexture>(&model);
+  if (!dots) return for_texture_inputs(model, f);
+  if (const auto* id = std::get_if<Id<Texture>>(&dots->outside)) f(*id);
 }
 
 }  // namespace
@@ -261,21 +284,17 @@ std::optional<Pattern> pattern_of(Context& context, Id<Texture> id, const Origin
       placement.transform};
 }
 
-bool uses_uvs(const Scene& scene, Id<Texture> id) {
-  const TextureModel& model = scene.textures.at(id.value).model;
-  if (const auto* t = std::get_if<ImageTexture>(&model)) return is_uv(t->mapping);
-  if (const auto* t = std::get_if<CheckerboardTexture>(&model))
-    return (!t->solid && is_uv(t->mapping)) || uses_uvs(scene, t->even) || uses_uvs(scene, t->odd);
-  if (const auto* t = std::get_if<ProductTexture>(&model))
-    return uses_uvs(scene, t->first) || uses_uvs(scene, t->second);
-  if (const auto* t = std::get_if<MixTexture>(&model)) {
-    const auto* amount = std::get_if<Id<Texture>>(&t->amount);
-    return uses_uvs(scene, t->first) || uses_uvs(scene, t->second) || (amount && uses_uvs(scene, *amount));
+bool uses_uvs(const Scene& scene, Id<Texture> texture) {
+  std::vector<Id<Texture>> open{texture};
+  std::set<std::uint32_t> seen;
+  while (!open.empty()) {
+    const Id<Texture> id = open.back();
+    open.pop_back();
+    if (!seen.insert(id.value).second) continue;
+    const TextureModel& model = scene.textures.at(id.value).model;
+    if (shows_uvs(model)) return true;
+    for_shown_inputs(model, [&](Id<Texture> input) { open.push_back(input); });
   }
-  if (const auto* t = std::get_if<DirectionMixTexture>(&model))
-    return uses_uvs(scene, t->first) || uses_uvs(scene, t->second);
-  if (const auto* t = std::get_if<DotsTexture>(&model)) return uses_uvs(scene, t->outside);
-  if (const auto* t = std::get_if<BilinearTexture>(&model)) return is_uv(t->mapping);
   return false;
 }
 

@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <fstream>
 #include <numeric>
 
 #include "partitioner/appearance/reflectance_fitter.h"
 #include "scene/color.h"
 #include "scene/diagnostics.h"
+#include "scene/input_files.h"
 #include "scene/matrix_r.h"
 #include "scene/measured_media.h"
 
@@ -26,7 +26,7 @@ void read_values(Grid& grid) {
   const std::size_t count = static_cast<std::size_t>(grid.nx) * static_cast<std::size_t>(grid.ny) *
                             static_cast<std::size_t>(grid.nz) * static_cast<std::size_t>(grid.channels);
   grid.values.resize(count);
-  std::ifstream in(grid.filename, std::ios::binary);
+  std::ifstream in = open_input(grid.filename);
   in.seekg(header_bytes);
   in.read(reinterpret_cast<char*>(grid.values.data()), static_cast<std::streamsize>(count * sizeof(float)));
   if (!in) throw Error("the file ends before the grid that its header announces", {grid.filename});

@@ -7,12 +7,12 @@
 #include <cmath>
 #include <memory>
 
-#include "bundle/texture_inputs.h"
 #include "images/ptex_means.h"
 #include "images/texture_values.h"
 #include "scene/matrix_r.h"
 #include "scene/pixel_place.h"
 #include "scene/rgb_to_spectrum.h"
+#include "scene/texture_inputs.h"
 
 namespace vitrail {
 
@@ -116,9 +116,9 @@ FloatParameter TextureBaker::bake(const FloatParameter& parameter) {
   return static_cast<float>(evaluate(std::get<Spectrum>(baked), lambda_min_nm));
 }
 
-std::optional<TextureMean> TextureBaker::mean(const SpectrumParameter& parameter) const {
+std::optional<TextureMean> TextureBaker::mean(const SpectrumParameter& parameter) {
   try {
-    return mean_of(scene_, parameter);
+    return mean_of(scene_, means_, parameter);
   } catch (const Error& error) {
     const auto* id = std::get_if<Id<Texture>>(&parameter);
     if (!id) throw;

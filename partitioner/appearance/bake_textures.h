@@ -34,7 +34,7 @@ class TextureBaker {
   Spectrum as_rendered(const Spectrum& spectrum) const;
   Id<Texture> bake_vector(Id<Texture> texture);
   // Throws as `bake` does.
-  std::optional<TextureMean> mean(const SpectrumParameter& parameter) const;
+  std::optional<TextureMean> mean(const SpectrumParameter& parameter);
   // Whether an attribute of meshes counts in what was baked.
   bool reads_attribute(const FloatParameter& baked) const;
   // Of a light: the name in the bundle. All MIP levels.
@@ -77,6 +77,7 @@ class TextureBaker {
   using ImageKey =
       std::tuple<std::string, Encoding, float, float, bool, ImageNumber, Primaries, TextureUse, bool>;
   std::map<ImageKey, std::string> images_;
+  KnownMeans means_;
 };
 
 // What a vertex has in a slot of that use. Numbers: the mean of the colour. Spectra: x at 360, 595 and 830 nm

@@ -9,6 +9,7 @@
 
 #include "bundle/read_file.h"
 #include "scene/diagnostics.h"
+#include "scene/input_files.h"
 
 namespace vitrail {
 
@@ -20,6 +21,7 @@ class TableBytes {
     if (!std::filesystem::is_regular_file(file))
       throw Error("cannot find the table of a material; --missing=replace goes on without it",
                   {file.string()});
+    check_input(file);
     bytes_ = read_file(file);
   }
 

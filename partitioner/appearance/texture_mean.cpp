@@ -46,6 +46,7 @@ double greatest(const RGB& c) { return std::max({std::abs(c.r), std::abs(c.g), s
 
 struct Finder {
   const Scene& scene;
+  KnownMeans& known;
   bool is_float;
 
   Mean operator()(const ImageTexture& t) const { return of_image(t, is_float); }
@@ -54,7 +55,7 @@ struct Finder {
     return TextureMean{mean.color, mean.deviation};
   }
   Mean operator()(const CheckerboardTexture& t) const {
-    const Mean a = mean_of(scene, t.even), b = mean_of(scene, t.odd);
+    const Mean a = mean_of(scene, known, t.even), b = mean_of(scene, known, t.odd);
     if (!a || !b) return std::nullopt;
     const RGB half{(a->color.r - b->color.r) / 2, (a->color.g - b->color.g) / 2,
                    (a->color.b - b->color.b) / 2};
@@ -62,7 +63,7 @@ struct Finder {
                        std::hypot(greatest(half), std::hypot(a->deviation, b->deviation) / std::sqrt(2.0))};
   }
   Mean operator()(const ProductTexture& t) const {
-    const Mean a = mean_of(scene, t.first), b = mean_of(scene, t.second);
+    const Mean a = mean_of(scene, known, t.first), b = mean_of(scene, known, t.second);
     if (!a || !b || (a->deviation > 0 && b->deviation > 0)) return std::nullopt;
     return TextureMean{times(a->color, b->color),
                        a->deviation * greatest(b->color) + b->deviation * greatest(a->color)};
@@ -72,11 +73,14 @@ struct Finder {
 
 }  // namespace
 
-Mean mean_of(const Scene& scene, const SpectrumParameter& parameter) {
+Mean mean_of(const Scene& scene, KnownMeans& known, const SpectrumParameter& parameter) {
   const auto* id = std::get_if<Id<Texture>>(&parameter);
   if (!id) return of(std::get<Spectrum>(parameter));
+  if (const auto found = known.find(id->value); found != known.end()) return found->second;
   const Texture& texture = scene.textures.at(id->value);
-  return std::visit(Finder{scene, texture.is_float}, static_cast<const TextureVariant&>(texture.model));
+  const Mean mean =
+      std::visit(Finder{scene, known, texture.is_float}, static_cast<const TextureVariant&>(texture.model));
+  return known[id->value] = mean;
 }
 
 }  // namespace vitrail

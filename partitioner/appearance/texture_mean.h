@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <map>
 #include <optional>
 
 #include "scene/color.h"
@@ -15,8 +16,11 @@ struct TextureMean {
   double deviation = 0;
 };
 
+// By texture: each is looked at once, however often it is shared.
+using KnownMeans = std::map<std::uint32_t, std::optional<TextureMean>>;
+
 // Of images, Ptex, checkerboards, and these times a constant; nothing for others. Throws Error for images
 // that cannot be read.
-std::optional<TextureMean> mean_of(const Scene& scene, const SpectrumParameter& parameter);
+std::optional<TextureMean> mean_of(const Scene& scene, KnownMeans& known, const SpectrumParameter& parameter);
 
 }  // namespace vitrail

@@ -13,8 +13,8 @@
 
 #include "bundle/checksum.h"
 #include "bundle/records.h"
-#include "bundle/texture_inputs.h"
 #include "scene/deferred_mesh.h"
+#include "scene/texture_inputs.h"
 
 namespace vitrail {
 

@@ -7,6 +7,7 @@
 #include <functional>
 #include <limits>
 
+#include "bundle/checked_json.h"
 #include "bundle/checksum.h"
 #include "bundle/records.h"
 #include "scene/diagnostics.h"
@@ -281,6 +282,63 @@ TEST_F(ManifestFile, UnknownFeaturesAreNamedOrIgnored) {
   const std::string message = message_with(directory.path(), "\"normals\"", "\"tea leaves\"");
   EXPECT_NE(message.find("it needs 'tea leaves'"), std::string::npos) << message;
   EXPECT_EQ(message_with(directory.path(), "\"pieces\"", "\"tea leaves\""), "");
+}
+
+// The sample's manifest with another number at a JSON pointer, its checksum right.
+std::string message_of_number(const std::filesystem::path& bundle, const char* where, double number) {
+  write_manifest(bundle, sample_manifest());
+  const auto file = bundle / "manifest.json";
+  nlohmann::ordered_json json = read_checked_json(file, "it");
+  json.erase("checksum");
+  json.at(nlohmann::ordered_json::json_pointer(where)) = number;
+  write_checked_json(file, json);
+  try {
+    read_manifest(bundle);
+  } catch (const Error& e) {
+    EXPECT_NE(e.location.file.find("manifest.json"), std::string::npos);
+    return e.what();
+  }
+  return "read";
+}
+
+TEST_F(ManifestFile, NumbersThatCannotBeAreNamed) {
+  for (const char* where : {"/domains/0/tight_bounds/0/0", "/domains/0/triangles", "/domains/0/bytes",
+                            "/triangles", "/film/width_px", "/film/crop_px/0", "/kd_nodes/0/split",
+                            "/kd_nodes/0/axis", "/kd_nodes/0/above/domain", "/settings/max_depth",
+                            "/attributes", "/camera_medium", "/scale", "/bounds/1/2"})
+    for (const double number : {-1e300, 1e300}) {
+      const std::string message = message_of_number(directory.path(), where, number);
+      EXPECT_NE(message.find("e+300, which is not a number that can stand there"), std::string::npos)
+          << where << ": " << message;
+    }
+  const std::string message = message_of_number(directory.path(), "/film/width_px", 1.5);
+  EXPECT_NE(message.find("width_px is 1.5"), std::string::npos) << message;
+}
+
+TEST_F(ManifestFile, BoundsBeginBeforeTheyEnd) {
+  const std::string message = message_of_number(directory.path(), "/domains/0/tight_bounds/0/0", 1e30);
+  EXPECT_NE(message.find("end before they begin"), std::string::npos) << message;
+}
+
+// 40 · 429509837 · 2147418113 is 8 in 64 bits.
+TEST_F(ManifestFile, AGridWhoseCellsCannotBeCountedIsNone) {
+  Manifest m = sample_manifest();
+  Medium medium;
+  Grid grid;
+  grid.nx = 40, grid.ny = 429509837, grid.nz = 2147418113;
+  grid.values.resize(8, 1.0f);
+  medium.density = grid;
+  m.media.push_back(medium);
+  EXPECT_THROW(write_manifest(directory.path(), m), Error);
+}
+
+TEST_F(ManifestFile, MaterialsThatDoubleAreRefused) {
+  Manifest m = sample_manifest();
+  for (int i = 0; i < 40; ++i) {
+    const Id<Material> last{static_cast<std::uint32_t>(m.materials.size() - 1)};
+    m.materials.push_back({BlendMaterial{last, last}});
+  }
+  EXPECT_THROW(write_manifest(directory.path(), m), Error);
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 
 #include "film/develop.h"
 #include "scene/diagnostics.h"
+#include "scene/film_extent.h"
 #include "scene/pixel_place.h"
 
 namespace vitrail {
@@ -66,10 +67,10 @@ TEST(Film, CountsPixelsBeyondAnInt) {
   const FilmSettings s = settings(side, side);
   EXPECT_GT(film_bytes(s), 4'294'836'225u * 4 * sizeof(WideSum));
   EXPECT_THROW(film_bytes(settings(side + 1, side + 1)), Error);
-  FilmSettings part = settings(most_extent, most_extent);
-  part.crop = {most_extent - 8, most_extent, most_extent - 8, most_extent};
+  FilmSettings part = settings(max_film_extent, max_film_extent);
+  part.crop = {max_film_extent - 8, max_film_extent, max_film_extent - 8, max_film_extent};
   EXPECT_EQ(Film(part, {}).pixels(), 64u);
-  part.width = most_extent + 1;
+  part.width = max_film_extent + 1;
   EXPECT_THROW(film_bytes(part), Error);
 }
 

@@ -9,6 +9,7 @@
 #include <map>
 
 #include "tests/conformance/formats/feature_cases.h"
+#include "tests/fuzz/bundle_seeds.h"
 #include "tests/glazing/glazing_files.h"
 #include "tests/images/ptex_bytes.h"
 
@@ -180,6 +181,19 @@ void add_tables(Seeds& seeds) {
  {"stack": [{"index": 1.46, "thickness_nm": 90}, {"index": 1.5, "thickness_mm": 4}]}]})");
 }
 
+// Behind the number of the format (fuzz_image.cpp).
+void add_images(Seeds& seeds) {
+  const auto byte = [](int value) { return std::string(1, static_cast<char>(value)); };
+  seeds.add("image",
+            byte(0) + "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n\x10\x20\x30\x80\x10\x20\x30\x80");
+  seeds.add("image", byte(2) + "GIF89a" +
+                         bytes_of(std::uint16_t{1}, std::uint16_t{1}, std::uint8_t{0x80}, std::uint8_t{0},
+                                  std::uint8_t{0}) +
+                         std::string("\0\0\0\xff\xff\xff,\0\0\0\0\1\0\1\0\0\2\2D\1\0;", 22));
+  seeds.add("image", byte(3) + "PF\n1 1\n-1\n" + bytes_of(0.1F, 0.2F, 0.3F));
+  seeds.add("image", byte(5) + std::string("\0\0\2\0\0\0\0\0\0\0\0\0\1\0\1\0\x18\0\1\2\3", 21));
+}
+
 }  // namespace
 }  // namespace vitrail::test
 
@@ -192,5 +206,8 @@ int main(int argc, char** argv) {
   vitrail::test::add_scenes(seeds);
   vitrail::test::add_meshes(seeds);
   vitrail::test::add_tables(seeds);
+  vitrail::test::add_images(seeds);
+  vitrail::test::add_bundle_seeds(
+      [&](const char* format, const std::string& bytes) { seeds.add(format, bytes); });
   return 0;
 }

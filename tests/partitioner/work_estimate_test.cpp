@@ -73,5 +73,17 @@ TEST(RayProfile, WhatIsNoneIsAnError) {
   EXPECT_THROW(read_ray_profile(directory.path() / "none"), Error);
 }
 
+TEST(RayProfile, NothingTakesLessThanNoTime) {
+  const test::TemporaryDirectory directory;
+  const auto file = directory.path() / "profile.json";
+  RayProfile of_a_domain = profile(), of_all = profile();
+  of_a_domain.domains[0].seconds = -1;
+  of_all.cost.trace_s = -1;
+  for (const RayProfile& p : {of_a_domain, of_all}) {
+    write_ray_profile(file, p);
+    EXPECT_THROW(read_ray_profile(file), Error);
+  }
+}
+
 }  // namespace
 }  // namespace vitrail

@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <sys/syscall.h>
 #include <unistd.h>
 
+#include <array>
 #include <fstream>
 #include <iterator>
 
 #include "scene/atomic_file.h"
 #include "scene/diagnostics.h"
+#include "scene/input_files.h"
+#include "scene/say.h"
 #include "tests/support/temporary_directory.h"
 
 // In place of the library's: counts.
@@ -94,6 +98,30 @@ TEST(ClosestWord, FindsTyposOnly) {
   EXPECT_EQ(closest_word("difuse", words), "diffuse");
   EXPECT_EQ(closest_word("dieletcric", words), "dielectric");
   EXPECT_EQ(closest_word("mirror", words), "");
+}
+
+TEST(ForTerminal, EscapesWhatATerminalWouldObey) {
+  EXPECT_EQ(for_terminal("blau, größer\n\tβ 😀"), "blau, größer\n\tβ 😀");
+  EXPECT_EQ(for_terminal("a\nb", false), "a\\u000ab");
+  EXPECT_EQ(for_terminal("\x1b[31m\r\x7f"), "\\u001b[31m\\u000d\\u007f");
+  EXPECT_EQ(for_terminal("\xc2\x9b"
+                         "1m \xe2\x80\xae"),
+            "\\u009b1m \\u202e");
+  EXPECT_EQ(for_terminal("\xff\xc0\x80 \xed\xa0\x80 \xe2\x82"), "\\xff\\xc0\\x80 \\xed\\xa0\\x80 \\xe2\\x82");
+}
+
+TEST(RegularFile, IsNoPipeAndNoDevice) {
+  const test::TemporaryDirectory directory;
+  ASSERT_EQ(::mkfifo((directory / "pipe").c_str(), 0600), 0);
+  EXPECT_THROW(RegularFile(directory / "pipe"), Error);
+  EXPECT_THROW(RegularFile("/dev/zero"), Error);
+  EXPECT_THROW(RegularFile(directory.path()), Error);
+  EXPECT_FALSE(RegularFile(directory / "none").is_open());
+  std::ofstream(directory / "a") << "abc";
+  std::array<std::byte, 2> bytes{};
+  EXPECT_TRUE(RegularFile(directory / "a").read(bytes, 1));
+  EXPECT_EQ(bytes[1], std::byte{'c'});
+  EXPECT_FALSE(RegularFile(directory / "a").read(bytes, 2));
 }
 
 }  // namespace

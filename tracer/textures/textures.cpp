@@ -7,8 +7,9 @@
 #include <map>
 #include <optional>
 
-#include "bundle/texture_inputs.h"
 #include "scene/diagnostics.h"
+#include "scene/nesting_limits.h"
+#include "scene/texture_inputs.h"
 #include "tracer/textures/baked_image.h"
 #include "tracer/textures/mapping.h"
 #include "tracer/textures/noise.h"
@@ -20,9 +21,6 @@ namespace vitrail {
 
 namespace {
 
-// Of lookups that one lookup leads to: a graph whose textures share their inputs has as many as paths.
-constexpr std::uint64_t most_lookups = 1 << 16;
-constexpr std::uint64_t most_nested = 256;
 constexpr int most_octaves = 64;
 
 // What a texture needs besides its record.
@@ -33,7 +31,7 @@ struct Node {
   MappedPoint stretch;       // of images
   Transform world_to_solid;  // of solid checkerboards and noise
   std::size_t slot = 0;      // of mesh attributes, and of mappings by them
-  std::uint64_t lookups = 1, nested = 1;
+  Nesting nesting;
 };
 
 [[noreturn]] void fail(std::size_t id, const char* what) {
@@ -287,14 +285,12 @@ struct Textures::Implementation {
   Node make_node(const Texture& texture, std::size_t id) const {
     Node node;
     node.texture = &texture;
-    for_inputs(texture.model, [&](const auto& parameter) {
-      const auto* input = std::get_if<Id<Texture>>(&parameter);
-      if (!input) return;
-      if (input->value >= id) fail(id, "refers to one that does not come before it");
-      node.lookups += nodes[input->value].lookups;
-      node.nested = std::max(node.nested, nodes[input->value].nested + 1);
+    for_texture_inputs(texture.model, [&](Id<Texture> input) {
+      if (input.value >= id) fail(id, "refers to one that does not come before it");
+      node.nesting.add(nodes[input.value].nesting);
     });
-    if (node.lookups > most_lookups || node.nested > most_nested) fail(id, "is nested too deeply");
+    if (node.nesting.lookups > most_lookups_baked || node.nesting.levels > most_nested_baked)
+      fail(id, "is nested too deeply");
     std::visit(
         [&](const auto& model) {
           if constexpr (requires { model.mapping; }) {

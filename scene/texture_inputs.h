@@ -23,17 +23,20 @@ void for_inputs(const TextureModel& model, F&& f) {
       model);
 }
 
-// Whether some attribute of a mesh counts in the parameter's value.
+// Calls f(id) for those that are textures.
+template <class F>
+void for_texture_inputs(const TextureModel& model, F&& f) {
+  for_inputs(model, [&](const auto& parameter) {
+    if (const auto* id = std::get_if<Id<Texture>>(&parameter)) f(*id);
+  });
+}
+
+// Whether some attribute of a mesh counts in the texture's or parameter's value.
+bool reads_attribute(std::span<const Texture> textures, Id<Texture> texture);
 template <class Parameter>
 bool reads_attribute(std::span<const Texture> textures, const Parameter& parameter) {
   const auto* id = std::get_if<Id<Texture>>(&parameter);
-  if (!id) return false;
-  const TextureModel& model = textures[id->value].model;
-  const auto* image = std::get_if<ImageTexture>(&model);
-  bool reads = std::holds_alternative<MeshAttributeTexture>(model) ||
-               (image && std::holds_alternative<AttributeMapping>(image->mapping));
-  for_inputs(model, [&](const auto& input) { reads = reads || reads_attribute(textures, input); });
-  return reads;
+  return id && reads_attribute(textures, *id);
 }
 
 }  // namespace vitrail

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <sys/types.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <set>
+#include <string>
+#include <utility>
+
+namespace vitrail {
+
+// Counts the text of files that are included more than once: forty that each include the next one twice are
+// small, and without end when they are read.
+class IncludedText {
+ public:
+  explicit IncludedText(std::uint64_t most_bytes) : most_bytes_(most_bytes) {}
+
+  // The file is about to be read, of so many bytes. False where that is too much.
+  [[nodiscard]] bool add(const std::filesystem::path& file, std::uint64_t bytes);
+  // What to say then.
+  std::string refusal() const;
+
+ private:
+  std::uint64_t most_bytes_, again_bytes_ = 0;
+  std::set<std::pair<dev_t, ino_t>> seen_;
+};
+
+}  // namespace vitrail
