@@ -85,5 +85,7 @@ std::optional<Motion> motion_of(Builder& builder, std::vector<Keyframe> keys, co
 void read_sensor(Builder& builder, const Object& sensor);
 // max_depth and what the integrator leaves out.
 void read_integrator(Builder& builder, const Object& integrator);
+// Once the scene is read.
+void finish_integrator(Builder& builder);
 
 }  // namespace vitrail::mitsuba

@@ -144,4 +144,12 @@ void read_integrator(Builder& builder, const Object& integrator) {
   report_unused_in_one(integrator, report, {"max_depth", "hide_emitters"});
 }
 
+void finish_integrator(Builder& builder) {
+  if (builder.passes) builder.scene.settings.samples_per_pixel = *builder.passes;
+  const Origin& place = builder.scene.integrator_origin;
+  builder.report.begin_item({place, RecordKind::integrator});
+  for (const std::string& difference : settle_integrator(builder.integrator, builder.scene))
+    builder.report.approximated(difference, place);
+}
+
 }  // namespace vitrail::mitsuba

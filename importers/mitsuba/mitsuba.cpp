@@ -44,14 +44,6 @@ static void report_dark_bumps(Builder& b) {
   }
 }
 
-static void report_integrator(Builder& b) {
-  if (b.passes) b.scene.settings.samples_per_pixel = *b.passes;
-  const Origin& place = b.scene.integrator_origin;
-  b.report.begin_item({place, RecordKind::integrator});
-  for (const std::string& difference : settle_integrator(b.integrator, b.scene))
-    b.report.approximated(difference, place);
-}
-
 static void build(Builder& b, const Object& root, const ImportOptions& options) {
   // Objects that others refer to come first, so that they have their places in the order of the file.
   for (const Property& p : root.properties) {
@@ -76,7 +68,7 @@ static void build(Builder& b, const Object& root, const ImportOptions& options) 
   }
   report_null_depth(b);
   report_dark_bumps(b);
-  report_integrator(b);
+  finish_integrator(b);
   root.ignore({"camera", "version"});
   root.children("sampler");
   root.children("film");

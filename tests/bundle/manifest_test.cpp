@@ -53,7 +53,7 @@ TEST_F(ManifestFile, ComesBackAsItWas) {
 // A program that does not know of it would render another one.
 TEST_F(ManifestFile, Masking) {
   Manifest m = sample_manifest();
-  ConductorMaterial metal;
+  ConductorMaterial metal{PerfectReflector{}};
   metal.roughness = {0.25f, 0.5f, Roughness::Distribution::beckmann};
   m.materials.push_back(Material{metal});
   EXPECT_EQ(features_of(m).required & required_feature::masking, 0u);

@@ -128,6 +128,7 @@ void read_all(Builder& builder, const Object& root) {
   for (const Property& property : root.properties) {
     const Object& object = *std::get<ObjectPtr>(property.value);
     if (object.tag == "medium") add_medium(builder, object);
+    if (object.tag == "bsdf") add_material(builder, object);
   }
   for (const Property& property : root.properties) {
     const Object& object = *std::get<ObjectPtr>(property.value);
@@ -137,6 +138,7 @@ void read_all(Builder& builder, const Object& root) {
     if (object.tag == "shape")
       if (const Object* emitter = object.child("emitter")) add_area_light(builder, *emitter);
   }
+  finish_integrator(builder);
 }
 
 }  // namespace vitrail::mitsuba
