@@ -2,7 +2,6 @@
 #include "tracer/film_exponent.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "film/film.h"
@@ -26,7 +25,7 @@ constexpr double dimmer_surface = 0.25;
 double greatest(const Spectrum& spectrum) {
   if (const auto* table = std::get_if<TabulatedSpectrum>(&spectrum))
     return static_cast<double>(*std::max_element(table->values.begin(), table->values.end()));
-  constexpr double step_nm = 10;
+  constexpr double step_nm = 1;
   double most = 0;
   for (double nm = lambda_min_nm; nm <= lambda_max_nm; nm += step_nm)
     most = std::max(most, evaluate(spectrum, nm));
@@ -54,37 +53,9 @@ void add_surfaces(const LightSampler& s, Tally& tally) {
   for (const AreaLight& light : s.scene.area_lights)
     if (const auto* radiance = std::get_if<Spectrum>(&light.radiance))
       tally.add(*radiance, static_cast<double>(light.scale));
-  constexpr std::array<std::array<double, 2>, 4> points{
-      {{1 / 3.0, 1 / 3.0}, {1 / 6.0, 1 / 6.0}, {2 / 3.0, 1 / 6.0}, {1 / 6.0, 2 / 3.0}}};
-  // Attributes are 1 as numbers and as spectra: the sigmoid of λ².
-  std::array<AttributeValue, max_attributes> white;
-  white.fill({{{{1, 0, 0}, {1, 0, 0}, {1, 0, 0}}}, {1, 0, 0}});
-  const auto add = [&](const AreaLight& light, TexturePoint at) {
-    at.uv_width = 1;  // the mean of an image
-    at.attributes = white;
-    const double mean =
-        luminance_at(light.radiance, at, s.scene.textures, 2) * static_cast<double>(light.scale);
-    tally.add(mean, mean * brighter_texel);
-  };
-  for (const EmissiveTriangle& t : s.scene.triangles) {
-    const AreaLight& light = s.scene.area_lights[t.area_light];
-    if (std::holds_alternative<Spectrum>(light.radiance)) continue;
-    for (const auto& b : points) {
-      const auto mix = [&](auto&& of) { return of(0) * (1 - b[0] - b[1]) + of(1) * b[0] + of(2) * b[1]; };
-      TexturePoint at;
-      at.uv = {mix([&](int i) { return static_cast<double>(t.uv[i].x); }),
-               mix([&](int i) { return static_cast<double>(t.uv[i].y); })};
-      const Point3d p0 = cast<double>(t.p[0]);
-      at.p = p0 + (cast<double>(t.p[1]) - p0) * b[0] + (cast<double>(t.p[2]) - p0) * b[1];
-      add(light, at);
-    }
-  }
-  for (const QuadricLight& q : s.quadrics) {
-    const AreaLight& light = s.scene.area_lights[q.record().area_light];
-    if (std::holds_alternative<Spectrum>(light.radiance)) continue;
-    for (const auto& b : points)
-      add(light, q.texture_point(point_by_area(q.record().quadric.quadric, b[0], b[1])));
-  }
+  for (std::size_t i = 0; i < s.glows.size(); ++i)
+    if (const Glow& glow = s.glows[i]; !std::holds_alternative<Spectrum>(s.scene.area_lights[i].radiance))
+      tally.add(glow.mean, std::max(glow.most, glow.mean * brighter_texel));
 }
 
 // By the irradiance that they give the nearest and the farthest corner of the scene.

@@ -148,6 +148,8 @@ class Interpreter {
   bool meets_hair(Id<Material> material) const;
   void add_shape(const ShapeGeometry& geometry, const FloatParameter& opacity, const Place& place);
   std::optional<Id<Medium>> medium_named(const std::string& name, const Place& place);
+  // Of an image that shines; nothing where its light is not known.
+  std::optional<double> mean_of_image(Id<Texture> texture);
   std::optional<Id<AreaLight>> shape_light(const ShapeGeometry& geometry, const Place& place);
   double area_per_part(const ShapeGeometry& geometry, const Place& place);
 
@@ -185,7 +187,8 @@ class Interpreter {
   UvUses uv_uses_{scene_.textures};
   ShapeMaker shapes_;
   QuadricRuns quadric_runs_;
-  std::vector<Place> area_light_places_;  // one for each of the scene's area lights
+  std::map<std::uint32_t, std::optional<double>> image_means_;  // by the texture
+  std::vector<Place> area_light_places_;                        // one for each of the scene's area lights
 
   // Materials by number; named ones may be used before they are defined.
   struct DeferredMaterial {

@@ -109,7 +109,10 @@ LightModel projection_light(const Maker& m) {
   light.light_to_world = m.ctm;
   const Parameter* file = m.image();
   if (!file) fail("a projection light needs a \"string filename\"", m.parameters.place());
-  light.image = add_image(*file, m.encoding_of_image(), m.scope);
+  const Id<Texture> image = add_image(*file, m.encoding_of_image(), m.scope);
+  light.image = image;
+  if (m.scope.context.version == Version::v4)  // texel by texel
+    std::get<ImageTexture>(m.scope.made.at(image.value).model).filter = TextureFilter::nearest;
   light.scale = m.factor_of_image("I");
   light.fov_deg =
       static_cast<float>(m.parameters.number("fov", m.scope.context.version == Version::v3 ? 45 : 90));

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "importers/pbrt/directives.h"
+#include "importers/pbrt/image_power.h"
 #include "scene/nesting_limits.h"
 
 namespace vitrail::pbrt {
@@ -203,6 +204,12 @@ double Interpreter::area_per_part(const ShapeGeometry& geometry, const Place& pl
   return total / static_cast<double>(geometry.parts);
 }
 
+std::optional<double> Interpreter::mean_of_image(Id<Texture> texture) {
+  const auto [known, is_new] = image_means_.try_emplace(texture.value);
+  if (is_new) known->second = mean_luminance(std::get<ImageTexture>(scene_.textures.at(texture.value).model));
+  return known->second;
+}
+
 std::optional<Id<AreaLight>> Interpreter::shape_light(const ShapeGeometry& geometry, const Place& place) {
   if (!state_.area_light) return std::nullopt;
   if (current_object_) {
@@ -222,9 +229,12 @@ std::optional<Id<AreaLight>> Interpreter::shape_light(const ShapeGeometry& geome
     const double factor = state.emission.power / (area * std::numbers::pi);
     if (const auto* radiance = std::get_if<Spectrum>(&light.radiance))
       light.radiance = scaled(*radiance, factor);
+    else if (const auto mean = mean_of_image(std::get<Id<Texture>>(light.radiance)))
+      light.scale = static_cast<float>(static_cast<double>(light.scale) * factor / *mean);
     else
-      context_.report.approximated("the power of an area light with an image: the image counts by its scale",
-                                   place);
+      context_.report.approximated(
+          "the power of an area light whose image is black or cannot be read: the image counts by its scale",
+          place);
   }
   // An equal one that came not long ago is shared.
   constexpr std::size_t looked_back = 16;

@@ -5,10 +5,12 @@
 #include <fstream>
 #include <numbers>
 
+#include "images/image_files.h"
 #include "pbrt_text.h"
 #include "scene/color.h"
 #include "scene/named_spectra.h"
 #include "scene/rgb_to_spectrum.h"
+#include "tests/support/temporary_directory.h"
 
 namespace vitrail {
 namespace {
@@ -270,6 +272,20 @@ TEST(PbrtAreaLights, DivideTheirPowerByTheirArea) {
   EXPECT_NEAR(area_radiance(import_v4(light + "Shape \"disk\"")) / (10 / (pi * pi * 9)), 1, 1e-4);
   const ImportedScene several = import_v4(light + square + "Shape \"disk\"");
   EXPECT_EQ(several.scene.area_lights.size(), 2u);
+}
+
+// By the mean of all of its pixels, as in pbrt-v4: one of 40 × 30 is bright.
+TEST(PbrtAreaLights, DivideTheirPowerByTheMeanOfTheirImage) {
+  const test::TemporaryDirectory directory;
+  Image image{40, 30, 3, std::vector<float>(40 * 30 * 3, 0.0f)};
+  for (std::size_t c = 0; c < 3; ++c) image.values[3 * (17 * 40 + 23) + c] = 5;
+  write_exr_image(directory / "lamp.exr", image);
+  const ImportedScene imported =
+      import_v4("Scale 3 3 3 AreaLightSource \"diffuse\" \"string filename\" \"" +
+                (directory / "lamp.exr").string() + "\" \"float power\" 10 \"float scale\" 2 Shape \"disk\"");
+  const double mean = 5.0 / (40 * 30);
+  EXPECT_NEAR(static_cast<double>(imported.scene.area_lights.at(0).scale) / (2 * 10 / (pi * pi * 9) / mean), 1,
+              1e-4);
 }
 
 TEST(PbrtAreaLights, DoNotShineOnInterfaces) {

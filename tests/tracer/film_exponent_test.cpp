@@ -9,6 +9,7 @@
 #include <map>
 
 #include "film/film.h"
+#include "images/image_files.h"
 #include "partitioner/partition.h"
 #include "tests/support/render.h"
 #include "tests/support/temporary_directory.h"
@@ -114,6 +115,23 @@ TEST(LightRange, GrowsWithEveryKindOfLight) {
       EXPECT_NEAR(std::ldexp(other->dimmest, -power) / one->dimmest, 1, 1e-5) << kind;
       EXPECT_NEAR(std::ldexp(other->brightest, -power) / one->brightest, 1, 1e-5) << kind;
     }
+  }
+}
+
+// An image of which one texel in 4096 shines.
+TEST(LightRange, KnowsALoneTexel) {
+  const test::TemporaryDirectory directory;
+  for (const std::size_t texel : {0u, 1234u, 4095u}) {
+    Image image{64, 64, 3, std::vector<float>(64 * 64 * 3, 0.0f)};
+    for (std::size_t c = 0; c < 3; ++c) image.values[3 * texel + c] = 4096;
+    write_exr_image(directory / "lamp.exr", image);
+    ImageTexture texture;
+    texture.filename = (directory / "lamp.exr").string();
+    texture.wrap = Wrap::clamp;
+    const std::optional<LightRange> range = range_of(textured(texture));
+    ASSERT_TRUE(range) << texel;
+    EXPECT_NEAR(range->dimmest, 1, 0.2) << texel;
+    EXPECT_GT(range->brightest, 4095) << texel;
   }
 }
 

@@ -6,6 +6,7 @@
 
 #include "scene/portable_math.h"
 #include "tracer/bsdf/local.h"
+#include "tracer/lights/surface_lights.h"
 #include "tracer/quadrics/quadric_surface.h"
 #include "tracer/wavelengths.h"
 
@@ -13,9 +14,8 @@ namespace vitrail {
 
 namespace {
 
-// Of a sphere of directions, or of the part where z ≥ `least_z`.
-Vector3d uniform_direction(float u, float v, double least_z) {
-  const double z = 1 - static_cast<double>(u) * (1 - least_z), r = safe_sqrt(1 - z * z);
+Vector3d uniform_direction(float u, float v) {
+  const double z = 1 - 2 * static_cast<double>(u), r = safe_sqrt(1 - z * z);
   const double phi = 2 * pi * static_cast<double>(v);
   return {r * portable_cos(phi), r * portable_sin(phi), z};
 }
@@ -36,8 +36,12 @@ Emission::Emission(const LightSampler& lights, const Bounds3f& bounds, Point3d e
   }
   // By what comes near the eye: else a sun over all of a wide scene would leave no photons to its lamps.
   const double disc = pi * spheres_.back().radius * spheres_.back().radius;
-  std::vector<double> flux = flux_of_surfaces(lights.scene, lights.quadrics);
-  for (const PointEmitter& e : lights.emitters) flux.push_back(e.bounds.power);
+  std::vector<double> flux;
+  for (const LightBounds& b : surface_lights(lights.scene, lights.quadrics).bounds) flux.push_back(b.power);
+  for (const PointEmitter& e : lights.emitters) {
+    flux.push_back(e.bounds.power);
+    directions_.emplace_back(e, lights.scene);
+  }
   for (const LightSampler::Distant& d : lights.distant) flux.push_back(disc * luminance(d.irradiance));
   for (const Environment& e : lights.environments) flux.push_back(disc * 4 * pi * e.mean_luminance);
   for (const std::uint32_t i : lights.infinite)
@@ -47,6 +51,9 @@ Emission::Emission(const LightSampler& lights, const Bounds3f& bounds, Point3d e
     flux_ += f;
   }
   if (!(flux_ > 0)) return;
+  constexpr double least_share = 1e-9;  // what shines is chosen now and then
+  for (double& f : flux)
+    if (f > 0) f = std::max(f, least_share * flux_);
   cumulative_.push_back(0);
   for (const double f : flux) cumulative_.push_back(cumulative_.back() + f / flux_);
   for (double& sum : cumulative_) sum /= cumulative_.back();
@@ -61,7 +68,10 @@ EmittedPhoton Emission::sample(const std::array<float, 4>& place, const std::arr
   const double share = cumulative_[index + 1] - cumulative_[index];
   const auto chosen = [&]() -> EmittedPhoton {
     const std::size_t surfaces = lights_.scene.triangles.size() + lights_.quadrics.size();
-    if (index < surfaces) return of_surface(index, place, way, wavelengths);
+    if (index < surfaces) {
+      const double rest = share > 0 ? (choice - cumulative_[index]) / share : 0;
+      return of_surface(index, std::clamp(rest, 0.0, 0x1.fffffffffffffp-1), place, way, wavelengths);
+    }
     index -= surfaces;
     if (index < lights_.emitters.size()) return of_emitter(index, way, wavelengths);
     index -= lights_.emitters.size();
@@ -83,7 +93,7 @@ EmittedPhoton Emission::sample(const std::array<float, 4>& place, const std::arr
     }
     index -= lights_.environments.size();
     const auto& light = std::get<InfiniteLight>(lights_.scene.lights[lights_.infinite[index]].model);
-    return through_disc(uniform_direction(way[0], way[1], -1),
+    return through_disc(uniform_direction(way[0], way[1]),
                         evaluate(light.radiance, wavelengths) * static_cast<float>(4 * pi), place[0],
                         place[1], way[2]);
   };
@@ -92,7 +102,7 @@ EmittedPhoton Emission::sample(const std::array<float, 4>& place, const std::arr
   return photon;
 }
 
-EmittedPhoton Emission::of_surface(std::size_t light, const std::array<float, 4>& place,
+EmittedPhoton Emission::of_surface(std::size_t light, double choice, const std::array<float, 4>& place,
                                    const std::array<float, 4>& way,
                                    const SampledWavelengths& wavelengths) const {
   EmittedPhoton photon;
@@ -101,16 +111,14 @@ EmittedPhoton Emission::of_surface(std::size_t light, const std::array<float, 4>
   Vector3d front;
   const AreaLight* record = nullptr;
   if (light < triangles) {
-    // Uniform on the triangle (Heitz 2019).
-    double b1 = static_cast<double>(place[0]) / 2, b2 = static_cast<double>(place[1]) / 2;
-    const double offset = b2 - b1;
-    b1 -= std::min(offset, 0.0);
-    b2 += std::max(offset, 0.0);
-    const EmissivePoint point(lights_.scene, light, b1, b2);
+    const TriangleParts* parts = lights_.parts_of_triangle(light);
+    const TriangleParts::Place at =
+        parts ? parts->choose(choice, place[0], place[1]) : uniform_place(place[0], place[1]);
+    const EmissivePoint point(lights_.scene, light, at.b1, at.b2);
     const LightSampler::Face face = lights_.face(light);
     const EmissiveTriangle& t = lights_.scene.triangles[light];
     record = &lights_.scene.area_lights[t.area_light];
-    area = face.area;
+    area = face.area / at.density;
     front = face.normal;
     photon.p = point.at.p;
     photon.triangle = t.triangle;
@@ -146,15 +154,13 @@ EmittedPhoton Emission::of_surface(std::size_t light, const std::array<float, 4>
 EmittedPhoton Emission::of_emitter(std::size_t emitter, const std::array<float, 4>& way,
                                    const SampledWavelengths& wavelengths) const {
   const PointEmitter& e = lights_.emitters[emitter];
-  const auto* spot = std::get_if<PointEmitter::Spot>(&e.shape);
-  // Sheared or scaled, a beam is no cone of the world.
-  const double least_z = spot && e.bounds.theta_o_rad < pi ? spot->cos_cutoff : -1;
   EmittedPhoton photon;
   photon.p = e.position;
-  const Vector3d local = uniform_direction(way[0], way[1], least_z);
-  photon.direction = spot ? Frame(normalize(e.bounds.axis)).to_world(local) : local;
+  const EmitterDirections::Way chosen = directions_[emitter].sample(way[0], way[1], way[2]);
+  photon.direction = chosen.direction;
+  if (!(chosen.pdf > 0)) return photon;
   photon.power = intensity(e, photon.direction, lights_.scene.textures, wavelengths) *
-                 static_cast<float>(2 * pi * (1 - least_z));
+                 static_cast<float>(1 / chosen.pdf);
   return photon;
 }
 

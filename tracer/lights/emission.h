@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "tracer/guide_table.h"
+#include "tracer/lights/emitter_directions.h"
 #include "tracer/lights/light_sampler.h"
 
 namespace vitrail {
@@ -37,7 +38,8 @@ class Emission {
                        const SampledWavelengths& wavelengths) const;
 
  private:
-  EmittedPhoton of_surface(std::size_t light, const std::array<float, 4>& place,
+  // `choice`: in [0,1), of one of its parts.
+  EmittedPhoton of_surface(std::size_t light, double choice, const std::array<float, 4>& place,
                            const std::array<float, 4>& way, const SampledWavelengths& wavelengths) const;
   EmittedPhoton of_emitter(std::size_t emitter, const std::array<float, 4>& way,
                            const SampledWavelengths& wavelengths) const;
@@ -50,7 +52,8 @@ class Emission {
     double radius = 0;
   };
   const LightSampler& lights_;
-  std::vector<Sphere> spheres_;  // that discs cover, the scene's first
+  std::vector<EmitterDirections> directions_;  // of the emitters
+  std::vector<Sphere> spheres_;                // that discs cover, the scene's first
   double flux_ = 0;
   // Of surfaces, emitters, distant lights, environments, constant infinite lights, in that order: sums of
   // their shares, from 0 to 1.

@@ -3,9 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include "scene/portable_math.h"
-#include "tracer/lights/luminance_of.h"
+#include "tracer/luminance_of.h"
 #include "tracer/wavelengths.h"
 
 namespace vitrail {
@@ -126,21 +127,53 @@ ImageTable tabulate_image(const LightImage& image, SphereProjection projection, 
   return result;
 }
 
-double exact_flux(const LightImage& image, SphereProjection projection, const DirectionTable& table,
-                  bool upward) {
-  constexpr int count = 1 << 14;
+namespace {
+
+// Of texels that are looked up one by one: ∫ dω, of max(0,z) where `upward`, of texel (x,y) from the top.
+double weight_of_texel(int x, int y, int width, int height, bool upward) {
+  const double solid_angle = 4 * pi / width / height;
+  if (!upward) return solid_angle;
+  const int side = std::max(1, 256 / std::min(width, height));
   double sum = 0;
-  for (int i = 0; i < count; ++i) {
-    double bits = 0;  // van der Corput's sequence
-    for (int k = i, digit = count / 2; k > 0; k >>= 1, digit >>= 1) bits += (k & 1) * digit;
-    const Vector3d d = table.sample((i + 0.5) / count, (bits + 0.5) / count);
-    const double weight = upward ? d.z : 1;
-    const Point2d at = sphere_point(projection, d);
-    if (weight > 0)
-      sum += weight / table.pdf(at) *
-             luminance_of([&](const SampledWavelengths& w) { return look_up(image, projection, at, w); }, 8);
+  for (int i = 0; i < side * side; ++i)
+    sum += std::max(0.0, sphere_direction(equal_area, {(x + (i % side + 0.5) / side) / width,
+                                                       (y + (i / side + 0.5) / side) / height})
+                             .z);
+  return solid_angle * sum / (side * side);
+}
+
+// Of texels of row y that are interpolated: the first and the last row lie on the poles.
+double weight_in_row(int y, int width, int height, bool upward) {
+  if (height == 1) return (upward ? pi : 4 * pi) / width;
+  const int steps = std::max(16, 2048 / height);
+  const double height_rad = pi / (height - 1);
+  double sum = 0;
+  for (int i = -steps; i < steps; ++i) {
+    const double off = (i + 0.5) / steps, polar = (y + off) * height_rad;
+    if (polar > 0 && polar < pi)
+      sum += (1 - std::abs(off)) * portable_sin(polar) * (upward ? std::max(0.0, portable_cos(polar)) : 1);
   }
-  return sum / count;
+  return 2 * pi / width * sum * height_rad / steps;
+}
+
+}  // namespace
+
+double flux_of(const LightImage& image, SphereProjection projection, bool upward) {
+  constexpr std::int64_t most_texels = 1 << 22;  // of coarser levels each is a mean
+  int level = 0;
+  while (level + 1 < image.levels() && std::int64_t{image.width(level)} * image.height(level) > most_texels)
+    ++level;
+  const int width = image.width(level), height = image.height(level);
+  double sum = 0;
+  for (int y = 0; y < height; ++y) {
+    const double of_row = projection == equal_area ? 0 : weight_in_row(y, width, height, upward);
+    for (int x = 0; x < width; ++x) {
+      const double luminance = image.luminance(x, height - 1 - y, level);
+      if (luminance > 0 && std::isfinite(luminance))
+        sum += luminance * (projection == equal_area ? weight_of_texel(x, y, width, height, upward) : of_row);
+    }
+  }
+  return sum;
 }
 
 Environment make_environment(const EnvironmentLight& light, std::shared_ptr<const LightImage> image) {
@@ -152,8 +185,7 @@ Environment make_environment(const EnvironmentLight& light, std::shared_ptr<cons
   e.table = std::move(sampled.table);
   e.scale = light.scale;
   if (light.illuminance) {
-    const DirectionTable all = tabulate_image(*e.image, e.projection, false).table;
-    const double up = exact_flux(*e.image, e.projection, all, true);
+    const double up = flux_of(*e.image, e.projection, true);
     if (up > 0) e.factor = static_cast<float>(static_cast<double>(*light.illuminance) / up);
   }
   e.mean_luminance = sampled.flux / (4 * pi) * luminance(e.scale) * static_cast<double>(e.factor);

@@ -63,8 +63,7 @@ struct ImageTable {
 };
 ImageTable tabulate_image(const LightImage& image, SphereProjection projection, bool beside_bsdf);
 
-// ∫ Y dω, of max(0,z)·Y where `upward`, within about a thousandth.
-double exact_flux(const LightImage& image, SphereProjection projection, const DirectionTable& table,
-                  bool upward);
+// ∫ Y dω, of max(0,z)·Y where `upward`, by all texels.
+double flux_of(const LightImage& image, SphereProjection projection, bool upward);
 
 }  // namespace vitrail

@@ -24,6 +24,11 @@ struct Edges {
     e1 = cast<double>(p[1]) - p0;
     e2 = cast<double>(p[2]) - p0;
   }
+  // b₁, b₂ of the point over p0 + from, along the normal.
+  std::array<double, 2> barycentric(Vector3d from, const LightSampler::Face& face) const {
+    const double twice = 2 * face.area;
+    return {dot(cross(from, e2), face.normal) / twice, dot(cross(e1, from), face.normal) / twice};
+  }
 };
 
 SampledSpectrum surface_radiance(const LightSampler& s, std::uint32_t area_light, const TexturePoint& at,
@@ -73,32 +78,28 @@ bool draw_directional(const LightSampler& s, const LightSampler::Slot& t, Point3
   const Vector3d from = p - edges.p0;
   const double height = dot(from, face.normal);
   if (height == 0 || (height < 0 && !light.two_sided)) return false;
-  const double twice = 2 * face.area;
-  const double b1 = dot(cross(from, edges.e2), face.normal) / twice,
-               b2 = dot(cross(edges.e1, from), face.normal) / twice;
+  const auto [b1, b2] = edges.barycentric(from, face);
   if (b1 < 0 || b2 < 0 || b1 + b2 > 1) return false;
   sample.to_light = face.normal * (height > 0 ? -1.0 : 1.0);
   sample.distance = std::abs(height);
   sample.normal = face.normal;
   sample.radiance = shining(
-      s, t, [&] { return EmissivePoint(s.scene, t.light, b1, b2); }, wavelengths, last);
+      s, t, [&, x = b1, y = b2] { return EmissivePoint(s.scene, t.light, x, y); }, wavelengths, last);
   sample.pdf = 1;
   sample.is_delta = true;
   sample.light = t.area_light;
   return true;
 }
 
-// pdf: given the triangle.
+// pdf: given the triangle. `choice`: in [0,1), of one of its parts.
 bool draw_triangle(const LightSampler& s, const LightSampler::Slot& t, Point3d p, float u, float v,
-                   const SampledWavelengths& wavelengths, LastLamp& last, LightSample& sample) {
+                   double choice, const SampledWavelengths& wavelengths, LastLamp& last,
+                   LightSample& sample) {
   const AreaLight& light = s.scene.area_lights[t.area_light];
   if (light.directional) return draw_directional(s, t, p, wavelengths, last, sample);
 
-  // Uniform on the triangle (Heitz 2019): a low-distortion map of the square.
-  double b1 = static_cast<double>(u) / 2, b2 = static_cast<double>(v) / 2;
-  const double offset = b2 - b1;
-  b1 -= std::min(offset, 0.0);
-  b2 += std::max(offset, 0.0);
+  const TriangleParts* parts = s.parts_of_triangle(t.light);
+  const auto [b1, b2, density] = parts ? parts->choose(choice, u, v) : uniform_place(u, v);
   const Edges edges(t.p);
   const LightSampler::Face face = s.face(t.light);
   const Vector3d towards = (edges.p0 + edges.e1 * b1 + edges.e2 * b2) - p;
@@ -110,9 +111,9 @@ bool draw_triangle(const LightSampler& s, const LightSampler::Slot& t, Point3d p
   if (cosine == 0 || (cosine < 0 && !light.two_sided)) return false;
   sample.normal = face.normal;
   sample.tilt_rad = face.tilt_rad;
-  sample.pdf = distance2 / (std::abs(cosine) * face.area);
+  sample.pdf = density * distance2 / (std::abs(cosine) * face.area);
   sample.radiance = shining(
-      s, t, [&] { return EmissivePoint(s.scene, t.light, b1, b2); }, wavelengths, last);
+      s, t, [&, x = b1, y = b2] { return EmissivePoint(s.scene, t.light, x, y); }, wavelengths, last);
   sample.is_delta = is_invisible(t.opacity);
   sample.light = t.area_light;
   return true;
@@ -157,7 +158,8 @@ bool draw_tree(const LightSampler& s, Point3d p, const std::array<float, 4>& u, 
   if (!chosen) return false;
   const LightSampler::Slot& slot = s.slots[chosen->slot];
   const std::size_t triangles = s.scene.triangles.size(), surfaces = triangles + s.quadrics.size();
-  const bool drawn = slot.light < triangles ? draw_triangle(s, slot, p, u[0], u[1], wavelengths, last, sample)
+  const bool drawn = slot.light < triangles
+                         ? draw_triangle(s, slot, p, u[0], u[1], chosen->rest, wavelengths, last, sample)
                      : slot.light < surfaces ? draw_quadric(s, slot, p, u[0], u[1], wavelengths, last, sample)
                                              : draw_emitter(s, slot.light - surfaces, p, wavelengths, sample);
   sample.pdf *= chosen->probability * s.share[0];
@@ -291,10 +293,15 @@ double triangle_pdf(const LightSampler& s, Point3d from, std::uint32_t triangle,
   const EmissiveTriangle& t = s.scene.triangles[index];
   const AreaLight& light = s.scene.area_lights[t.area_light];
   if (light.directional || (cosine <= 0 && !light.two_sided)) return 0;
-  const double area = s.face(index).area;
-  if (!(area > 0)) return 0;
-  return s.share[0] * s.tree.probability(from, index) * distance * distance /
-         (std::max(std::abs(cosine), 1e-12) * area);
+  const LightSampler::Face face = s.face(index);
+  if (!(face.area > 0)) return 0;
+  double density = s.share[0] * s.tree.probability(from, index);
+  if (const TriangleParts* parts = s.parts_of_triangle(index)) {
+    const Edges edges(t.p);
+    const auto [b1, b2] = edges.barycentric(at - edges.p0, face);
+    density *= parts->density(b1, b2);
+  }
+  return density * distance * distance / (std::max(std::abs(cosine), 1e-12) * face.area);
 }
 
 SampledSpectrum emitted(const LightSampler& s, std::uint32_t area_light, const TexturePoint& at,

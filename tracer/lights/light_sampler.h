@@ -18,6 +18,7 @@
 #include "tracer/lights/light_tree.h"
 #include "tracer/lights/point_emitter.h"
 #include "tracer/lights/quadric_light.h"
+#include "tracer/lights/triangle_parts.h"
 #include "tracer/textures/textures.h"
 
 namespace vitrail {
@@ -51,6 +52,12 @@ struct EmissivePoint {
 // Whether an emissive surface is a light that nothing meets.
 inline bool is_invisible(const FloatParameter& opacity) { return opacity == FloatParameter{0.0f}; }
 
+// Of an area light that its surfaces have: luminances, what nothing meets counts as whole.
+struct Glow {
+  double mean = 0;  // over the surfaces
+  double most = 0;  // of what is seen of any point, about; 0: certainly nothing shines
+};
+
 // One choice is the tree over all triangles, quadrics and point-like lights; every distant light and every
 // environment image is one more. Each has a share: half of them equal, half by power. Constant infinite
 // lights are left to the BSDF's own samples, which find them with weight 1.
@@ -79,7 +86,15 @@ struct LightSampler {
   Face face(std::size_t triangle) const {
     return faces.empty() ? Face(scene.triangles[triangle].p) : faces[triangle];
   }
+  // Of triangles with a texture that shines in places: which of `parts`, or `whole`; empty where all are.
+  static constexpr std::uint32_t whole = ~0u;
+  std::vector<TriangleParts> parts;
+  std::vector<std::uint32_t> parts_of;
+  const TriangleParts* parts_of_triangle(std::size_t triangle) const {
+    return triangle < parts_of.size() && parts_of[triangle] != whole ? &parts[parts_of[triangle]] : nullptr;
+  }
   std::vector<QuadricLight> quadrics;
+  std::vector<Glow> glows;  // of the area lights
   std::vector<PointEmitter> emitters;
   std::vector<std::uint32_t> emitter_light;  // index into scene.lights
   // Light of one direction. The sun of a sky is one where something refracts: no sample of a BSDF would find
@@ -125,10 +140,6 @@ struct LightSampler {
 
 // Opens an image by its name in the records.
 using ImageSource = std::function<std::shared_ptr<const LightImage>(const std::string& filename)>;
-
-// Of the triangles and then the quadrics: luminous flux over 683 lm/W of both sides that shine, by a few of
-// their points.
-std::vector<double> flux_of_surfaces(const LightScene& scene, std::span<const QuadricLight> quadrics);
 
 // Throws Error where an image is damaged.
 LightSampler make_light_sampler(const LightScene& scene, const std::filesystem::path& bundle,

@@ -5,110 +5,10 @@
 #include "scene/portable_math.h"
 #include "tracer/lights/baked_light_image.h"
 #include "tracer/lights/light_sampler.h"
+#include "tracer/lights/surface_lights.h"
 #include "tracer/textures/tile_cache.h"
 
 namespace vitrail {
-
-namespace {
-
-// Mean over a triangle, by four points of it.
-template <class F>
-double mean_over(const LightScene& scene, std::size_t triangle, F&& value) {
-  constexpr std::array<std::array<double, 2>, 4> points{
-      {{1 / 3.0, 1 / 3.0}, {1 / 6.0, 1 / 6.0}, {2 / 3.0, 1 / 6.0}, {1 / 6.0, 2 / 3.0}}};
-  double sum = 0;
-  for (const auto& b : points) sum += value(EmissivePoint(scene, triangle, b[0], b[1]).point());
-  return sum / 4;
-}
-
-// Over a quadric, by 64.
-template <class F>
-double mean_over(const QuadricLight& quadric, F&& value) {
-  constexpr int side = 8;
-  double sum = 0;
-  for (int i = 0; i < side * side; ++i)
-    sum += value(quadric.texture_point(
-        point_by_area(quadric.record().quadric.quadric, (i % side + 0.5) / side, (i / side + 0.5) / side)));
-  return sum / (side * side);
-}
-
-// Flux of all surfaces, π·A·L a side. A texture may be dark where it was asked and bright elsewhere: none of
-// its surfaces counts for less than a tenth of what all of them have for their area.
-std::vector<LightBounds> bounds_of_surfaces(const LightScene& scene, std::span<const QuadricLight> quadrics) {
-  struct Sum {
-    double area = 0, power = 0;
-    std::optional<double> luminance;  // where it is the same everywhere
-    bool varies = false;              // by a texture
-  };
-  std::vector<Sum> sums(scene.area_lights.size());
-  for (std::size_t i = 0; i < sums.size(); ++i)
-    if (const auto* spectrum = std::get_if<Spectrum>(&scene.area_lights[i].radiance))
-      sums[i].luminance = luminance(*spectrum);
-    else
-      sums[i].varies = true;
-
-  struct Part {
-    double area = 0;
-    std::uint32_t area_light = 0;
-  };
-  std::vector<Part> parts;
-  std::vector<LightBounds> all;
-  // `mean` over the surface, of a function of its points. A light that nothing meets shines as if it was
-  // whole.
-  const auto add = [&](LightBounds b, Part part, const FloatParameter& opacity, const auto& mean) {
-    const AreaLight& light = scene.area_lights[part.area_light];
-    Sum& sum = sums[part.area_light];
-    double radiance = static_cast<double>(light.scale);
-    radiance *= sum.luminance ? *sum.luminance : mean([&](const TexturePoint& at) {
-      return luminance_at(light.radiance, at, scene.textures, 2);
-    });
-    if (const auto* constant = std::get_if<float>(&opacity); !constant)
-      radiance *= mean(
-          [&](const TexturePoint& at) { return std::clamp(scene.textures->number(opacity, at), 0.0, 1.0); });
-    else if (!is_invisible(opacity))
-      radiance *= std::clamp(static_cast<double>(*constant), 0.0, 1.0);
-    sum.varies = sum.varies || std::holds_alternative<Id<Texture>>(opacity);
-    b.theta_e_rad = pi / 2;
-    b.two_sided = light.two_sided;
-    b.power = part.area * radiance * pi * (light.two_sided ? 2 : 1);
-    if (!(b.power > 0) || !std::isfinite(b.power)) b.power = 0;
-    sum.area += part.area;
-    sum.power += b.power;
-    parts.push_back(part);
-    all.push_back(b);
-  };
-  for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
-    const EmissiveTriangle& t = scene.triangles[i];
-    LightBounds b;
-    for (const Point3f& p : t.p) extend(b.box, cast<double>(p));
-    const Point3d p0 = cast<double>(t.p[0]);
-    const Vector3d across = cross(cast<double>(t.p[1]) - p0, cast<double>(t.p[2]) - p0);
-    const double area = length(across) / 2;
-    if (area > 0) b.axis = across * (0.5 / area);
-    add(b, {area, t.area_light}, scene.opacities.empty() ? FloatParameter{1.0f} : scene.opacities[i],
-        [&](const auto& value) { return mean_over(scene, i, value); });
-  }
-  for (const QuadricLight& q : quadrics) {
-    const EmissiveQuadric& record = q.record();
-    const bool shines = !scene.area_lights[record.area_light].directional;
-    add(q.bounds(), {shines ? q.area() : 0, record.area_light}, record.opacity,
-        [&](const auto& value) { return mean_over(q, value); });
-  }
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    const Sum& sum = sums[parts[i].area_light];
-    if (sum.varies && sum.area > 0)
-      all[i].power = std::max(all[i].power, 0.1 * sum.power / sum.area * parts[i].area);
-  }
-  return all;
-}
-
-}  // namespace
-
-std::vector<double> flux_of_surfaces(const LightScene& scene, std::span<const QuadricLight> quadrics) {
-  std::vector<double> flux;
-  for (const LightBounds& b : bounds_of_surfaces(scene, quadrics)) flux.push_back(b.power);
-  return flux;
-}
 
 namespace {
 
@@ -157,9 +57,9 @@ struct Sorter {
   std::vector<double> distant_power{}, environment_power{};
 
   void operator()(const PointLight& l) { add(make_emitter(l)); }
-  void operator()(const SpotLight& l) { add(make_emitter(l)); }
+  void operator()(const SpotLight& l) { add(make_emitter(l, s.scene.textures, s.scene.texture_records)); }
   void operator()(const ProjectionLight& l) {
-    add(make_emitter(l, aspect_of(l.image, s.scene, images), s.scene.textures));
+    add(make_emitter(l, aspect_of(l.image, s.scene, images), s.scene.textures, s.scene.texture_records));
   }
   void operator()(const GoniometricLight& l) { add(make_emitter(l, images(l.filename))); }
   void operator()(const DistantLight& l) {
@@ -227,6 +127,8 @@ bool is_one_flat_lamp(std::span<const LightBounds> lights) {
   if (lights.size() != 2) return false;
   const LightBounds &a = lights[0], &b = lights[1];
   constexpr double all_around = 1.5;  // not along the normal alone
+  constexpr double unlike = 16;       // an image may leave one of them dark
+  if (std::max(a.power, b.power) > unlike * std::min(a.power, b.power)) return false;
   if (a.theta_e_rad < all_around || b.theta_e_rad < all_around || !(dot(a.axis, b.axis) > 1 - 1e-9))
     return false;
   for (int axis = 0; axis < 3; ++axis)
@@ -248,7 +150,11 @@ LightSampler make_light_sampler(const LightScene& scene, const ImageSource& imag
   const int patches = static_cast<int>((1u << 14) / std::max<std::size_t>(scene.quadrics.size(), 1));
   for (const EmissiveQuadric& q : scene.quadrics)
     s.quadrics.emplace_back(q, scene.area_lights[q.area_light].two_sided, patches);
-  std::vector<LightBounds> local = bounds_of_surfaces(scene, s.quadrics);
+  SurfaceLights shining = surface_lights(scene, s.quadrics);
+  s.glows = std::move(shining.glows);
+  s.parts = std::move(shining.parts);
+  s.parts_of = std::move(shining.parts_of);
+  std::vector<LightBounds> local = std::move(shining.bounds);
   const std::size_t triangles = scene.triangles.size(), surfaces = local.size();
   for (const PointEmitter& e : s.emitters) local.push_back(e.bounds);
   double flux = 0;

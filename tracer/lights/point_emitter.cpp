@@ -6,7 +6,7 @@
 
 #include "scene/portable_math.h"
 #include "tracer/lights/environment.h"
-#include "tracer/lights/luminance_of.h"
+#include "tracer/lights/projected_flux.h"
 #include "tracer/wavelengths.h"
 
 namespace vitrail {
@@ -51,9 +51,7 @@ struct DirectionalPart {
 
   // The map's +z is the light's +y (pbrt).
   SampledSpectrum operator()(const PointEmitter::Goniometric& g) const {
-    const SphereProjection projection =
-        g.latitude_longitude ? SphereProjection::latitude_longitude : SphereProjection::equal_area;
-    return look_up(*g.image, projection, sphere_point(projection, {d.x, d.z, d.y}), wavelengths);
+    return look_up(*g.image, g.projection(), sphere_point(g.projection(), {d.x, d.z, d.y}), wavelengths);
   }
 
  private:
@@ -69,16 +67,6 @@ struct DirectionalPart {
   }
 };
 
-PointEmitter placed(const Transform& light_to_world) {
-  PointEmitter e;
-  e.position = transform_point(light_to_world, {0, 0, 0});
-  if (is_invertible(light_to_world)) e.world_to_light = inverse(light_to_world);
-  e.bounds.axis = normalize(transform_vector(light_to_world, {0, 0, 1}));
-  if (!(length(e.bounds.axis) > 0.5)) e.bounds.axis = {0, 0, 1};
-  extend(e.bounds.box, e.position);
-  return e;
-}
-
 bool is_rigid(const Transform& t) {
   const auto column = [&](Vector3d axis) { return transform_vector(t, axis); };
   const Vector3d x = column({1, 0, 0}), y = column({0, 1, 0}), z = column({0, 0, 1});
@@ -87,9 +75,20 @@ bool is_rigid(const Transform& t) {
          std::abs(dot(x, y)) < 1e-6 * s && std::abs(dot(y, z)) < 1e-6 * s && std::abs(dot(z, x)) < 1e-6 * s;
 }
 
+PointEmitter placed(const Transform& light_to_world) {
+  PointEmitter e;
+  e.position = transform_point(light_to_world, {0, 0, 0});
+  if (is_invertible(light_to_world)) e.world_to_light = inverse(light_to_world);
+  e.bounds.axis = normalize(transform_vector(light_to_world, {0, 0, 1}));
+  if (!(length(e.bounds.axis) > 0.5)) e.bounds.axis = {0, 0, 1};
+  extend(e.bounds.box, e.position);
+  e.is_rigid = is_rigid(light_to_world);
+  return e;
+}
+
 // Light within `half_rad` of the axis: all of the cone counts alike, and nothing outside of it.
-void bound_cone(PointEmitter& e, double half_rad, const Transform& light_to_world) {
-  e.bounds.theta_o_rad = is_rigid(light_to_world) ? std::min(pi, half_rad + 0.01) : pi;
+void bound_cone(PointEmitter& e, double half_rad) {
+  e.bounds.theta_o_rad = e.is_rigid ? std::min(pi, half_rad + 0.01) : pi;
   e.bounds.theta_e_rad = e.bounds.theta_o_rad < pi ? 0.01 : pi / 2;
 }
 
@@ -103,13 +102,6 @@ SampledSpectrum intensity(const PointEmitter& e, Vector3d direction, const Textu
   return part * (evaluate(e.intensity, wavelengths) * e.factor);
 }
 
-double luminance_at(const SpectrumParameter& parameter, const TexturePoint& at, const Textures* textures,
-                    int groups) {
-  if (const auto* spectrum = std::get_if<Spectrum>(&parameter)) return luminance(*spectrum);
-  return luminance_of([&](const SampledWavelengths& w) { return value_of(parameter, at, textures, w); },
-                      groups);
-}
-
 PointEmitter make_emitter(const PointLight& light) {
   PointEmitter e;
   e.position = light.position;
@@ -121,7 +113,8 @@ PointEmitter make_emitter(const PointLight& light) {
   return e;
 }
 
-PointEmitter make_emitter(const SpotLight& light) {
+PointEmitter make_emitter(const SpotLight& light, const Textures* textures,
+                          std::span<const Texture> records) {
   PointEmitter e = placed(light.light_to_world);
   e.intensity = light.intensity;
   PointEmitter::Spot spot;
@@ -136,12 +129,14 @@ PointEmitter make_emitter(const SpotLight& light) {
   const double mean = spot.falloff == SpotLight::Falloff::quartic ? 0.2 : 0.5;
   e.bounds.power =
       2 * pi * (1 - spot.cos_beam + mean * (spot.cos_beam - spot.cos_cutoff)) * luminance(e.intensity);
-  bound_cone(e, spot.cutoff_rad, light.light_to_world);
+  if (spot.texture) e.bounds.power *= mean_over_frame(*spot.texture, textures, records);
+  bound_cone(e, spot.cutoff_rad);
   e.shape = spot;
   return e;
 }
 
-PointEmitter make_emitter(const ProjectionLight& light, double aspect, const Textures* textures) {
+PointEmitter make_emitter(const ProjectionLight& light, double aspect, const Textures* textures,
+                          std::span<const Texture> records) {
   PointEmitter e = placed(light.light_to_world);
   e.intensity = light.scale;
   PointEmitter::Projection p;
@@ -152,22 +147,11 @@ PointEmitter make_emitter(const ProjectionLight& light, double aspect, const Tex
   const double half = portable_tan(fov / 2 * radians);
   p.half = light.irradiance || aspect < 1 ? Point2d{half, half / aspect} : Point2d{half * aspect, half};
 
-  // ∫ I dω over the rectangle, dω = cos³θ dA.
-  const int steps = light.power ? 256 : 32, groups = light.power ? 8 : 2;
-  double flux = 0;
-  for (int y = 0; y < steps; ++y)
-    for (int x = 0; x < steps; ++x) {
-      const double s = (x + 0.5) / steps, t = (y + 0.5) / steps;
-      const double px = (2 * s - 1) * p.half.x, py = (2 * t - 1) * p.half.y;
-      const double cosine = 1 / std::sqrt(1 + px * px + py * py);
-      const TexturePoint at{{s, p.irradiance ? 1 - t : t}, {}, {}};
-      flux += luminance_at(p.image, at, textures, groups) * (p.irradiance ? pi : cosine * cosine * cosine);
-    }
-  flux *= 4 * p.half.x * p.half.y / (steps * steps);
+  const double flux = projected_flux(light, p.half, textures, records);
   if (light.power && flux > 0) e.factor = static_cast<float>(static_cast<double>(*light.power) / flux);
   e.bounds.power = flux * static_cast<double>(e.factor) * luminance(light.scale);
   const double corner = std::sqrt(p.half.x * p.half.x + p.half.y * p.half.y);
-  bound_cone(e, portable_atan2(corner, 1), light.light_to_world);
+  bound_cone(e, portable_atan2(corner, 1));
   e.shape = p;
   return e;
 }
@@ -175,15 +159,13 @@ PointEmitter make_emitter(const ProjectionLight& light, double aspect, const Tex
 PointEmitter make_emitter(const GoniometricLight& light, std::shared_ptr<const LightImage> image) {
   PointEmitter e = placed(light.light_to_world);
   e.intensity = light.intensity;
-  const auto projection =
-      light.latitude_longitude ? SphereProjection::latitude_longitude : SphereProjection::equal_area;
-  const ImageTable about = tabulate_image(*image, projection, false);
-  const double flux = light.power ? exact_flux(*image, projection, about.table, false) : about.flux;
+  const PointEmitter::Goniometric goniometric{std::move(image), light.latitude_longitude};
+  const double flux = flux_of(*goniometric.image, goniometric.projection(), false);
   if (light.power && flux > 0) e.factor = static_cast<float>(static_cast<double>(*light.power) / flux);
   e.bounds.power = flux * static_cast<double>(e.factor) * luminance(light.intensity);
   e.bounds.theta_o_rad = pi;
   e.bounds.theta_e_rad = pi / 2;
-  e.shape = PointEmitter::Goniometric{std::move(image), light.latitude_longitude};
+  e.shape = goniometric;
   return e;
 }
 

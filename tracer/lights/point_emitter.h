@@ -4,11 +4,13 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <variant>
 
 #include "scene/light.h"
 #include "tracer/lights/light_image.h"
 #include "tracer/lights/light_tree.h"
+#include "tracer/lights/sphere_map.h"
 #include "tracer/textures/textures.h"
 
 namespace vitrail {
@@ -31,29 +33,32 @@ struct PointEmitter {
   struct Goniometric {
     std::shared_ptr<const LightImage> image;
     bool latitude_longitude = false;
+    SphereProjection projection() const {
+      return latitude_longitude ? SphereProjection::latitude_longitude : SphereProjection::equal_area;
+    }
   };
 
   Point3d position;
   Transform world_to_light;  // its 3×3 block
+  bool is_rigid = true;      // that turns, mirrors and scales alike
   Spectrum intensity;        // multiplies all that follows
   float factor = 1;          // beside it
   std::variant<Everywhere, Spot, Projection, Goniometric> shape;
   LightBounds bounds;  // power: luminous flux
 };
 
-// `image`: of a goniometric light. `aspect`: width over height of a projection's image.
+// `image`: of a goniometric light. `aspect`: width over height of a projection's image. `records`: of the
+// textures.
 PointEmitter make_emitter(const PointLight& light);
-PointEmitter make_emitter(const SpotLight& light);
-PointEmitter make_emitter(const ProjectionLight& light, double aspect, const Textures* textures);
+PointEmitter make_emitter(const SpotLight& light, const Textures* textures = nullptr,
+                          std::span<const Texture> records = {});
+PointEmitter make_emitter(const ProjectionLight& light, double aspect, const Textures* textures,
+                          std::span<const Texture> records = {});
 PointEmitter make_emitter(const GoniometricLight& light, std::shared_ptr<const LightImage> image);
 
 // Radiant intensity, W·sr⁻¹·nm⁻¹. `direction` unit, from the light, in the world. `textures` may be null
 // where no emitter has one.
 SampledSpectrum intensity(const PointEmitter& emitter, Vector3d direction, const Textures* textures,
                           const SampledWavelengths& wavelengths);
-
-// The luminance of the parameter's value; of a texture by that many groups of wavelengths (luminance_of.h).
-double luminance_at(const SpectrumParameter& parameter, const TexturePoint& at, const Textures* textures,
-                    int groups);
 
 }  // namespace vitrail

@@ -3,64 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
+#include "tracer/textures/texel_places.h"
 #include "tracer/textures/texel_value.h"
 #include "tracer/textures/tile_cache.h"
 
 namespace vitrail {
 
 namespace {
-
-// floor without a call of the C library, for |x| < 2³¹.
-int floor_to_int(double x) {
-  const int i = static_cast<int>(x);
-  return i - (x < i);
-}
-
-// s or t where the image is repeated, so that what follows fits an int; beyond, in [-1, 2].
-double folded(double s, Wrap wrap) {
-  if (!(std::abs(s) < 1e9)) {
-    if (!std::isfinite(s)) return 0;
-    if (wrap == Wrap::repeat) return s - std::floor(s);
-    if (wrap == Wrap::mirror) return s - 2 * std::floor(s / 2);
-  }
-  if (wrap == Wrap::repeat) return s - floor_to_int(s);
-  if (wrap == Wrap::mirror) return s - 2.0 * floor_to_int(s / 2);
-  return std::clamp(s, -1.0, 2.0);
-}
-
-// The texel that stands for texel i of a row of n, or −1 for black.
-int wrapped(int i, int n, Wrap wrap) {
-  switch (wrap) {
-    case Wrap::repeat:
-      return i < 0 ? i + n : i >= n ? i - n : i;
-    case Wrap::mirror:
-      if (i < 0) return -1 - i;
-      if (i >= 2 * n) return i - 2 * n;
-      return i >= n ? 2 * n - 1 - i : i;
-    case Wrap::clamp:
-      return std::clamp(i, 0, n - 1);
-    default:
-      return i < 0 || i >= n ? -1 : i;
-  }
-}
-
-// The two texels of a row around a coordinate, and their weights: 0 for black ones, which any texel stands
-// for.
-struct Pair {
-  std::array<std::uint32_t, 2> texel;
-  std::array<float, 2> weight;
-};
-Pair pair_at(double s, int n, Wrap wrap) {
-  const double x = folded(s, wrap) * n - 0.5;
-  const int below = floor_to_int(x);
-  const int i = wrapped(below, n, wrap), j = wrapped(below + 1, n, wrap);
-  const auto f = static_cast<float>(x - below);
-  return {{static_cast<std::uint32_t>(i < 0 ? 0 : i), static_cast<std::uint32_t>(j < 0 ? 0 : j)},
-          {i < 0 ? 0 : 1 - f, j < 0 ? 0 : f}};
-}
-
-int single_at(double s, int n, Wrap wrap) { return wrapped(floor_to_int(folded(s, wrap) * n), n, wrap); }
 
 constexpr int shift_of(std::uint32_t size) { return std::countr_zero(size); }
 
@@ -118,8 +69,8 @@ struct BakedImage::Implementation {
   // Calls add(words, weight) for the texels around (s,t).
   template <class Add>
   void blend(double s, double t, Wrap wrap, int level, Add&& add) const {
-    const Pair h = pair_at(s, static_cast<int>(levels[level].width), wrap);
-    const Pair v = pair_at(t, static_cast<int>(levels[level].height), wrap);
+    const TexelPair h = pair_at(s, static_cast<int>(levels[level].width), wrap);
+    const TexelPair v = pair_at(t, static_cast<int>(levels[level].height), wrap);
     std::array<TexelWords, 4> words;
     read(level, h.texel, v.texel, words);
     for (std::size_t i = 0; i < 4; ++i) add(words[i], h.weight[i % 2] * v.weight[i / 2]);
@@ -192,43 +143,46 @@ std::array<double, 3> BakedImage::bilinear_vector(double s, double t, Wrap wrap,
 
 namespace {
 
-// ∫ S·D65·ȳ dλ / ∫ D65·ȳ dλ as Σ share·S at five wavelengths: each stands for its surroundings.
-struct LuminanceRule {
-  static constexpr std::array<int, 5> lambda_nm{470, 515, 555, 595, 640};
-  std::array<double, 5> share{};
-  std::array<NodeWeights, 2> weights;
-
-  explicit LuminanceRule(TexelFormat format) : weights{at(lambda_nm[0], format), at(lambda_nm[4], format)} {
+// ∫ S·D65·ȳ dλ / ∫ D65·ȳ dλ as Σ share·S at the middles of bands of equal share: within 1e-3 for sigmoids.
+class LuminanceRule {
+ public:
+  explicit LuminanceRule(TexelFormat format) {
+    std::array<double, table_size> sums{};
     double total = 0;
-    for (std::size_t i = 0; i < table_size; ++i) {
-      const double w = static_cast<double>(cie_d65()[i]) * static_cast<double>(cie_1931()[i][1]);
-      const int lambda = static_cast<int>(lambda_min_nm) + static_cast<int>(i);
-      std::size_t nearest = 0;
-      while (nearest < 4 && 2 * lambda > lambda_nm[nearest] + lambda_nm[nearest + 1]) ++nearest;
-      share[nearest] += w;
-      total += w;
+    for (std::size_t i = 0; i < table_size; ++i)
+      sums[i] = total += static_cast<double>(cie_d65()[i]) * static_cast<double>(cie_1931()[i][1]);
+    for (std::size_t group = 0; group < groups; ++group) {
+      SampledWavelengths w;
+      for (std::size_t i = 0; i < hero_count; ++i) {
+        const double middle =
+            total * (static_cast<double>(group * hero_count + i) + 0.5) / (groups * hero_count);
+        const auto above = std::ranges::lower_bound(sums, middle);  // not the first: the bands are wider
+        const double into_nm = (middle - *(above - 1)) / (*above - *(above - 1)) - 0.5;
+        w.lambda_nm[i] =
+            static_cast<float>(lambda_min_nm + static_cast<double>(above - sums.begin()) + into_nm);
+      }
+      weights_.emplace_back(w, format);
     }
-    for (double& s : share) s /= total;
   }
   double operator()(TexelFormat format, const TexelWords& words) const {
-    const SampledSpectrum first = spectrum_of(format, words, weights[0]);
-    double sum = share[4] * static_cast<double>(spectrum_of(format, words, weights[1]).v[0]);
-    for (std::size_t i = 0; i < hero_count; ++i) sum += share[i] * static_cast<double>(first.v[i]);
-    return std::max(sum, 0.0);
+    double sum = 0;
+    for (const NodeWeights& weights : weights_) {
+      const SampledSpectrum values = spectrum_of(format, words, weights);
+      for (std::size_t i = 0; i < hero_count; ++i) sum += static_cast<double>(values.v[i]);
+    }
+    return std::max(sum / (groups * hero_count), 0.0);
   }
 
  private:
-  static NodeWeights at(int lambda, TexelFormat format) {
-    SampledWavelengths w;
-    if (lambda == lambda_nm[4])
-      w.lambda_nm.fill(static_cast<float>(lambda));
-    else
-      for (std::size_t i = 0; i < hero_count; ++i) w.lambda_nm[i] = static_cast<float>(lambda_nm[i]);
-    return NodeWeights(w, format);
-  }
+  static constexpr std::size_t groups = 8;
+  std::vector<NodeWeights> weights_;
 };
 
 }  // namespace
+
+double BakedImage::number(int x, int y, int level) const {
+  return vector_of(format(), implementation_->one(x, y, level))[0];
+}
 
 double BakedImage::luminance(int x, int y, int level) const {
   static const LuminanceRule sigmoids(TexelFormat::reflectance), matrix_r(TexelFormat::matrix_r_reflectance);

@@ -45,8 +45,10 @@ class BakedImage {
   std::array<double, 3> nearest_vector(double s, double t, Wrap wrap, int level) const;
   std::array<double, 3> bilinear_vector(double s, double t, Wrap wrap, int level) const;
 
-  // About the luminance of a texel (Y of D65 = 1): for importance sampling. Never negative.
+  // The luminance of a texel (Y of D65 = 1), within 1e-3 of an image of light. Never negative.
   double luminance(int x, int y, int level) const;
+  // Of an image of numbers.
+  double number(int x, int y, int level) const;
 
   const TextureFile& file() const;
   // What a tile costs while it is not in memory: its checksum and where it would be.

@@ -349,6 +349,10 @@ std::array<double, 3> Textures::vector(Id<Texture> texture, const TexturePoint& 
   return image_value(VectorLookup{at}, node, *image);
 }
 
+const BakedImage& Textures::image(Id<Texture> texture) const {
+  return *implementation_->nodes[texture.value].image;
+}
+
 const std::shared_ptr<TileCache>& Textures::tiles() const { return implementation_->cache; }
 std::uint64_t Textures::tile_loads() const { return tiles()->tile_loads(); }
 std::uint64_t Textures::resident_bytes() const { return tiles()->resident_bytes(); }

@@ -16,6 +16,7 @@
 
 namespace vitrail {
 
+class BakedImage;
 class TileCache;
 
 // A mesh attribute at the corners of a triangle, and how much each counts at a point. Spectra are blended as
@@ -51,6 +52,9 @@ class Textures {
   double number(const FloatParameter& parameter, const TexturePoint& at) const;
   // Of a normal map: the file's three numbers.
   std::array<double, 3> vector(Id<Texture> texture, const TexturePoint& at) const;
+
+  // Of an ImageTexture.
+  const BakedImage& image(Id<Texture> texture) const;
 
   // For a rank's other images: BakedImage(file, tiles()). Counts of tiles read, and bytes of tiles in memory.
   const std::shared_ptr<TileCache>& tiles() const;

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <variant>
+#include <vector>
+
+#include "tracer/guide_table.h"
+#include "tracer/lights/direction_table.h"
+#include "tracer/lights/light_sampler.h"
+
+namespace vitrail {
+
+// The directions of photons that leave a point: about as the light's image has it, and with a density above 0
+// wherever that may shine.
+class EmitterDirections {
+ public:
+  EmitterDirections(const PointEmitter& emitter, const LightScene& scene);
+
+  struct Way {
+    Vector3d direction;  // unit, of the world
+    double pdf = 0;      // solid angle; 0: nothing shines
+  };
+  // All in [0,1).
+  Way sample(float u, float v, float choice) const;
+
+ private:
+  // Uniform in the cone of directions, of the world, with a cosine of at least that.
+  struct Cone {
+    Vector3d axis;
+    double least_z;
+  };
+  // By the cells of a projection's frame, `side` along each of its edges.
+  struct Cells {
+    static constexpr int side = 128;
+    Point2d half;
+    std::vector<double> cumulative;
+    GuideTable guide;
+  };
+  void tabulate(const PointEmitter::Projection& projection, const LightScene& scene);
+  void tabulate(const PointEmitter::Goniometric& goniometric);
+  Way in_cells(const Cells& cells, float u, float v, float choice) const;
+
+  std::variant<Cone, Cells, DirectionTable> how_{Cone{{0, 0, 1}, -1}};
+  Transform light_to_world_;
+};
+
+}  // namespace vitrail
