@@ -21,7 +21,7 @@ struct Features {
 namespace required_feature {
 inline constexpr std::uint32_t normals = 1, uvs = 2, attributes = 4, instances = 8, textures = 16,
                                quadrics = 32, procedural = 64, motion = 128, tables = 256, slabs = 512,
-                               hair = 1024, curves = 2048, faces = 4096;
+                               hair = 1024, curves = 2048, faces = 4096, decimals = 8192;
 }
 namespace optional_feature {
 inline constexpr std::uint32_t pieces = 1;
