@@ -329,6 +329,7 @@ RenderStats render(Transport& transport, const RenderOptions& options) {
     if (options.clamp > 0 && !options.quiet)
       say("vitrail: --clamp {} took {:.3g} % of the light: so much darker is the picture\n", options.clamp,
           100 * stats.clamped_share);
+    print_wedges(options, stats.traced);
     stats.film_hash = job->film.hash();
     print_end(options, stats, job->film.pixels());
     // The film holds all that the checkpoint does.

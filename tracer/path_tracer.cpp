@@ -40,6 +40,9 @@ TraceCounters& operator+=(TraceCounters& a, const TraceCounters& b) {
   a.photons_emitted += b.photons_emitted;
   a.gathers += b.gathers;
   a.photons_gathered += b.photons_gathered;
+  a.connections_in_glass += b.connections_in_glass;
+  a.connections_in_wedges += b.connections_in_wedges;
+  a.widest_wedge_nrad = std::max(a.widest_wedge_nrad, b.widest_wedge_nrad);
   return a;
 }
 
@@ -103,7 +106,8 @@ const Footprint* PathTracer::footprint_of(std::uint32_t pixel, std::uint32_t sam
 // The first event at a depth has a stratified set; those that follow where going straight on counts for no
 // depth have numbers of their ray.
 std::array<float, 4> PathTracer::numbers_for_scattering(const Path& path, Wanted wanted) const {
-  if (path.is(path_passed)) return hashed_4d(stream_of(path, RayRandom::scattering));
+  if (path.is(path_passed) || (path.is(path_in_pane) && path.owes))
+    return hashed_4d(stream_of(path, RayRandom::scattering));
   return sample_4d(path.key, sample_set::scatter(path.depth), wanted);
 }
 std::array<float, 4> PathTracer::numbers_for_light(const Path& path) const {
@@ -203,7 +207,13 @@ void PathTracer::resume(const PathRecord& record, std::uint32_t domain) {
   std::array<std::uint8_t, 3> travelled = std::to_array(record.travelled);
   if (has_cone(path)) path.cone = std::exchange(travelled[0], std::uint8_t{0});
   path.travelled = static_cast<double>(unpack_radiance(travelled.data()));
-  if (path.is(path_connection)) unpack_connection(record, path);
+  if (path.is(path_connection)) {
+    unpack_connection(record, path);
+  } else if (path.is(path_in_pane)) {
+    path.parts = travelled[2] & pane_parts;
+    path.owes = travelled[2] & pane_owes;
+    path.travelled = 0;
+  }
   path.inside = record.inside;
   path.direction = record.direction;
   path.ray = unpacked(record);
@@ -287,7 +297,10 @@ bool PathTracer::forward(const Path& path, std::uint32_t domain, bool resolved) 
   const std::uint32_t face = path.is(path_in_pane) ? path.entered_by.bits : 0;
   r.pdf = path.is(path_in_pane) ? static_cast<std::uint16_t>(face) : pdf_code(path.pdf);
   r.flags = static_cast<std::uint8_t>(path.flags | (resolved ? path_resolved : 0) | face >> 16 << 4);
-  if (path.is(path_connection)) pack_connection(path, r);
+  if (path.is(path_connection))
+    pack_connection(path, r);
+  else if (path.is(path_in_pane))
+    r.travelled[2] = static_cast<std::uint8_t>((path.parts ? pane_parts : 0) | (path.owes ? pane_owes : 0));
   outbox_.paths.push_back({domain, r});
   if (traffic_) traffic_->leave_for(domain);
   return false;
