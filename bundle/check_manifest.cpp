@@ -89,6 +89,8 @@ void check_surfaces(const Checker& c, const Manifest& m, std::span<const Surface
                 "a surface has a medium that is not there");
     c.require(s.area_light >= -1 && s.area_light < static_cast<std::int64_t>(m.area_lights.size()),
               "a surface has a light that is not there");
+    c.require(s.vertex_doubt >= 0 && std::isfinite(s.vertex_doubt),
+              "a surface has vertices that stand anywhere");
   }
 }
 

@@ -128,8 +128,13 @@ Features features_of(const Manifest& m) {
               m.materials, [](const Material& of) { return std::holds_alternative<HairMaterial>(of.model); }),
           required_feature::hair);
   require(std::ranges::any_of(m.materials, has_correlated_masking), required_feature::masking);
+  require(has_vertex_doubts(m), required_feature::decimals);
   if (m.cut_triangles > 0) f.optional |= optional_feature::pieces;
   return f;
+}
+
+bool has_vertex_doubts(const Manifest& m) {
+  return std::ranges::any_of(m.surfaces, [](const Surface& s) { return s.vertex_doubt > 0; });
 }
 
 std::span<const Surface> scene_surfaces(const Manifest& m) {

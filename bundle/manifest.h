@@ -65,6 +65,9 @@ struct Surface {
   // medium and does not bound one.
   std::int32_t interior = -1, exterior = -1;
   FloatParameter opacity = 1.0f;  // as a Shape's
+  // Of smooth glass under a distant light: how far its vertices may stand from where they were meant, as its
+  // file rounded them to decimals. In the coordinates of the scene, or of the object.
+  float vertex_doubt = 0;
   bool operator==(const Surface&) const = default;
 };
 
@@ -167,6 +170,9 @@ inline constexpr int max_kd_depth = 62;
 std::filesystem::path domain_path(const std::filesystem::path& bundle, std::uint32_t domain);
 
 std::filesystem::path object_path(const std::filesystem::path& bundle, std::uint32_t object);
+
+// Whether a surface has one.
+bool has_vertex_doubts(const Manifest& m);
 
 // The surfaces of triangles that no instance has, and those of an object's own triangles.
 std::span<const Surface> scene_surfaces(const Manifest& m);

@@ -35,14 +35,19 @@ struct Reader {
   void may_be_infinite(float& value) { value = stream.get<float>(); }
 };
 
-// The last list is there where it has something.
+// The last lists are there where they, or what comes after them, have something.
 void materials(auto& io, auto& m) {
   list(io, m.surfaces), list(io, m.materials), list(io, m.textures), list(io, m.media);
   if constexpr (reads<decltype(io)>) {
     m.tables.clear();
     if (!io.stream.at_end()) list(io, m.tables);
-  } else if (!m.tables.empty()) {
-    list(io, m.tables);
+    if (!io.stream.at_end())
+      for (Surface& s : m.surfaces) io(s.vertex_doubt);
+  } else {
+    const bool doubts = has_vertex_doubts(m);
+    if (doubts || !m.tables.empty()) list(io, m.tables);
+    if (doubts)
+      for (const Surface& s : m.surfaces) io(s.vertex_doubt);
   }
 }
 // The last lists are there where they, or what comes after them, have something.

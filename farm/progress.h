@@ -38,5 +38,8 @@ class Progress {
 void print_start(const RenderOptions& options, const Manifest& manifest, const Goal& goal, int ranks,
                  int threads);
 void print_end(const RenderOptions& options, const RenderStats& stats, std::uint64_t pixels);
+// Where more than a hundredth of the sunlight in glass met faces that are not quite parallel, which only
+// photons pass.
+void print_wedges(const RenderOptions& options, const TraceCounters& traced);
 
 }  // namespace vitrail

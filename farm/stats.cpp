@@ -11,11 +11,23 @@
 namespace vitrail {
 
 void gather_stats(Transport& transport, RenderStats& s, const std::vector<bool>& touched) {
-  std::uint64_t* const summed[] = {
-      &s.traced.rays_camera, &s.traced.rays_indirect,    &s.traced.rays_shadow, &s.traced.crossings,
-      &s.forwarded_rays,     &s.forwarded_bytes,         &s.messages,           &s.domain_loads,
-      &s.evictions,          &s.spilled_bytes,           &s.items_given,        &s.traced.photons_emitted,
-      &s.traced.gathers,     &s.traced.photons_gathered, &s.photons_landed};
+  std::uint64_t* const summed[] = {&s.traced.rays_camera,
+                                   &s.traced.rays_indirect,
+                                   &s.traced.rays_shadow,
+                                   &s.traced.crossings,
+                                   &s.forwarded_rays,
+                                   &s.forwarded_bytes,
+                                   &s.messages,
+                                   &s.domain_loads,
+                                   &s.evictions,
+                                   &s.spilled_bytes,
+                                   &s.items_given,
+                                   &s.traced.photons_emitted,
+                                   &s.traced.gathers,
+                                   &s.traced.photons_gathered,
+                                   &s.photons_landed,
+                                   &s.traced.connections_in_glass,
+                                   &s.traced.connections_in_wedges};
   std::vector<std::int64_t> counts;
   for (const std::uint64_t* value : summed) counts.push_back(static_cast<std::int64_t>(*value));
   transport.sum_to_root(std::span(counts));
@@ -38,12 +50,14 @@ void gather_stats(Transport& transport, RenderStats& s, const std::vector<bool>&
 
   std::int64_t memory[] = {
       static_cast<std::int64_t>(s.peak_rss_bytes), static_cast<std::int64_t>(s.base_rss_bytes),
-      static_cast<std::int64_t>(s.setup_peak_rss_bytes), static_cast<std::int64_t>(s.photons_kept)};
+      static_cast<std::int64_t>(s.setup_peak_rss_bytes), static_cast<std::int64_t>(s.photons_kept),
+      static_cast<std::int64_t>(s.traced.widest_wedge_nrad)};
   transport.max_to_root(memory);
   s.peak_rss_bytes = static_cast<std::uint64_t>(memory[0]);
   s.base_rss_bytes = static_cast<std::uint64_t>(memory[1]);
   s.setup_peak_rss_bytes = static_cast<std::uint64_t>(memory[2]);
   s.photons_kept = static_cast<std::uint64_t>(memory[3]);
+  s.traced.widest_wedge_nrad = static_cast<std::uint64_t>(memory[4]);
 }
 
 std::string to_json(const RenderStats& s) {
@@ -89,6 +103,9 @@ std::string to_json(const RenderStats& s) {
   json["photon_gathers"] = s.traced.gathers;
   json["photons_gathered"] = s.traced.photons_gathered;
   json["photon_bytes"] = s.photons_kept * PhotonMap::photon_bytes;
+  json["connections_in_glass"] = s.traced.connections_in_glass;
+  json["connections_in_wedges"] = s.traced.connections_in_wedges;
+  json["widest_wedge_rad"] = 1e-9 * static_cast<double>(s.traced.widest_wedge_nrad);
   json["adaptive"] = s.adaptive;
   json["rounds"] = s.rounds;
   if (s.target.value > 0) {

@@ -2,6 +2,7 @@
 // What connections carry beside what paths do: 20 bits where paths have their pdf and the face of a pane.
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -24,15 +25,24 @@ struct PowerCode {
   }
 };
 
-// Of a connection to a distant light that smooth interfaces refract: the light, and how far the normals of
-// what it crossed since it last had the light's direction may be off together.
+// How far the faces of glass that light has crossed since it last had the direction of its distant light may
+// be off, in rad: the greatest of them, at most 3.6°. The same in either direction, for two faces no less
+// than their sum.
+struct FaceDoubt {
+  using Code = PowerCode<-18>;
+  std::uint32_t code = 0;
+
+  void cross(double face_rad) { code = std::max(code, Code::of(face_rad)); }
+  double allowed_rad() const { return 2 * Code::value(code); }
+};
+
+// Of a connection to a distant light that smooth interfaces refract: the light, and the faces' doubt.
 struct RefractedAim {
   std::uint32_t light = 0;  // lowest 16 bits of its number
-  double doubt_rad = 0;     // rounded up, at most 3.6°
+  FaceDoubt doubt;
 
-  using Doubt = PowerCode<-18>;
-  std::uint32_t bits() const { return (light & 0xffff) | Doubt::of(doubt_rad) << 16; }
-  static RefractedAim of(std::uint32_t bits) { return {bits & 0xffff, Doubt::value(bits >> 16)}; }
+  std::uint32_t bits() const { return (light & 0xffff) | doubt.code << 16; }
+  static RefractedAim of(std::uint32_t bits) { return {bits & 0xffff, {bits >> 16}}; }
 };
 
 // Of any other connection: how much earlier its ray meets the plane of its light for each length that it is

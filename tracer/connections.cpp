@@ -10,6 +10,7 @@
 #include "tracer/bsdf/local.h"
 #include "tracer/connection_code.h"
 #include "tracer/media/phase.h"
+#include "tracer/parallel_faces.h"
 #include "tracer/path_state.h"
 #include "tracer/path_tracer.h"
 #include "tracer/quadrics/quadric_hits.h"
@@ -273,7 +274,7 @@ void PathTracer::send_shadow_ray(const Path& path, const Departure& from, const 
 
 // A connection goes straight on through whatever lets it; one to a distant light through every smooth
 // interface, refracted by the hero's index. All wavelengths leave a pane with parallel faces in the direction
-// they came, so all four stay.
+// they came, so all four stay unless it is thick.
 bool PathTracer::connect_onwards(Path& path) {
   if (const PreparedMedium* medium = medium_of(path)) {
     RandomStream random(stream_of(path, RayRandom::flight));
@@ -339,40 +340,42 @@ bool PathTracer::connect_straight(Path& path, const Interaction& at, const Surfa
   return false;
 }
 
-namespace {
-
-// Whether a face that light on its way along `direction` meets lets it out along `to_light`, as far as the
-// normal is known: the parts of index · direction along the face are equal on both sides. eta as of
-// `refract`.
-bool leads_to(Vector3d direction, Vector3d to_light, double eta, Vector3d normal, double doubt_rad) {
-  if (!(dot(to_light, normal) < 0)) return false;
-  const Vector3d across = direction - to_light * eta;  // along the normal
-  return length(cross(across, normal)) <= doubt_rad * length(across) + direction_rounding * (1 + eta);
+// Of a smooth face whose normal, as it is shaded, is `normal`.
+double PathTracer::face_doubt(const Path& path, const Interaction& at, const Surface& surface,
+                              Vector3d normal) const {
+  const bool shading = !(normal == at.geometric * at.side());
+  return std::max(float_glass_rad, normal_doubt(*resident_[path.hit_domain], path.hit, shading,
+                                                static_cast<double>(surface.vertex_doubt), path.time_s));
 }
 
-}  // namespace
-
 // Behind parallel faces light goes on as it came. Faces are parallel where their normals agree as far as what
-// is stored tells, and then the light's own direction is given back: so no rounding turns it.
+// is stored tells, or as those of real panes, and then the light's own direction is given back: so no
+// rounding turns it.
 bool PathTracer::refract_connection(Path& path, const Interaction& at, const Surface& surface) const {
   const Material& record = manifest_.materials[surface.material];
   const auto& material = std::get<DielectricMaterial>(record.model);
   const SampledSpectrum eta = relative_index(material, at, path.wavelengths);
   const Vector3d normal = scene_.materials.shading_normal(record, at) * at.side();
   RefractedAim aim = RefractedAim::of(path.aim);
-  aim.doubt_rad +=
-      normal_doubt(*resident_[path.hit_domain], path.hit, !(normal == at.geometric * at.side()), path.time_s);
+  aim.doubt.cross(face_doubt(path, at, surface, normal));
   const double hero_eta = static_cast<double>(eta[0]), cosine = dot(at.out, normal);
   Vector3d direction;
+  double wedge = 2;
   const bool is_out =
       any_distant_light(scene_.lights, aim.light, numbers_for_far_lights(path), [&](Vector3d to_light) {
         direction = to_light;
-        return leads_to(-at.out, to_light, hero_eta, normal, aim.doubt_rad);
+        wedge = std::min(wedge, wedge_of(-at.out, to_light, hero_eta, normal));
+        return wedge <= aim.doubt.allowed_rad();
       });
+  if (!at.front && !at.exterior_eta) counters_.count_leaving(is_out, wedge);
   if (!is_out && !refract(at.out, normal, hero_eta, direction)) return false;
-  if (is_out && !at.front) aim.doubt_rad = 0;
+  if (is_out && !at.front) aim.doubt = {};
   // All wavelengths share the angle outside, not the one in the glass.
   const double outside = -dot(direction, normal);
+  if (is_out && !at.front && !path.is(path_dispersed) && scene_.materials.disperses(record, at)) {
+    const double thickness = path.hit.t * length(cast<double>(path.ray.direction)) * cosine;
+    if (parts_aside(path, at.p, eta, thickness, outside)) path.disperse();
+  }
   for (std::size_t i = 0; i < hero_count; ++i) {
     const double e = static_cast<double>(eta.v[i]);
     const double reflected = is_out ? fresnel_dielectric(outside, 1 / e) : fresnel_dielectric(cosine, e);

@@ -131,9 +131,9 @@ double PathTracer::cone_unit() const {
 
 // Between the rays of a pixel's samples, in rad: they lie the closer the more of them there are. A sample
 // does not know how many will follow, as a render may be resumed to have more, so each counts those before
-// it. Not less than an eighth of a pixel.
+// it. Not less than an eighth of a pixel. Photons are taken as those of a first sample.
 double PathTracer::ray_angle(const Path& path) const {
-  return scene_.pixel_angle * std::max(0.125, 1 / std::sqrt(1.0 + path.sample));
+  return scene_.pixel_angle * (flies() ? 1 : std::max(0.125, 1 / std::sqrt(1.0 + path.sample)));
 }
 
 // At a distance (Akenine-Möller et al., "Texture Level of Detail Strategies for Real-Time Ray

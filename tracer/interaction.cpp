@@ -155,7 +155,8 @@ Interaction make_interaction(const DomainView& domain, const Hit& hit, Vector3f 
   return triangle_interaction(holder, hit, direction, cone_width, attributes);
 }
 
-double normal_doubt(const DomainView& domain, const Hit& hit, bool shading, double time_s) {
+double normal_doubt(const DomainView& domain, const Hit& hit, bool shading, double vertex_doubt,
+                    double time_s) {
   const Holder holder = holder_of(domain, hit, time_s);
   // Of a normal's code, of 16 bits a coordinate; a placed normal is coded twice.
   constexpr double code_rounding = 6.5e-5;
@@ -177,7 +178,9 @@ double normal_doubt(const DomainView& domain, const Hit& hit, bool shading, doub
     if (holder.is_object)
       off[k] += rounding_along(local_normal, cast<double>(holder.stored(cluster, hit.lane, k)));
   }
-  return tilt_of(e1, e2, length(across), off);
+  const double decimals = vertex_doubt * (holder.is_object ? length(local_normal) : 1);
+  return tilt_of(e1, e2, length(across), off) +
+         std::min(tilt_of(e1, e2, length(across), {decimals, decimals, decimals}), most_of_decimals_rad);
 }
 
 }  // namespace vitrail

@@ -39,8 +39,13 @@ struct Interaction {
 Interaction make_interaction(const DomainView& domain, const Hit& hit, Vector3f direction, double cone_width,
                              std::uint32_t attributes, double time_s = 0);
 
-// What the rounding of what is stored can turn its normal by, in rad: of the shading normal, or the
-// surface's.
-double normal_doubt(const DomainView& domain, const Hit& hit, bool shading, double time_s = 0);
+// What rounding can turn its normal by, in rad: of what is stored of the shading normal, or of the surface,
+// whose vertices may stand `vertex_doubt` off beside (Surface). Decimals count up to `most_of_decimals_rad`.
+double normal_doubt(const DomainView& domain, const Hit& hit, bool shading, double vertex_doubt,
+                    double time_s = 0);
+
+// A face that decimals make less certain than this is taken by what it is: a pane's two together turn light
+// by less than the radius of the sun's disc.
+inline constexpr double most_of_decimals_rad = 0x1p-8;
 
 }  // namespace vitrail

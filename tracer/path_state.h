@@ -35,7 +35,9 @@ struct PathTracer::Path {
   std::uint32_t depth = 0;
   std::uint8_t flags = 0;
   float pdf = 0;            // of the last scattering, as density_beside says; 0: specular or camera
-  FaceCode entered_by;      // in a pane: the face it came in through
+  FaceCode entered_by;      // in a pane: the face it came in through,
+  bool parts = false;       // whether its wavelengths part but at a face parallel to that,
+  bool owes = false;        // and whether it counts as scattered there then
   std::uint32_t aim = 0;    // of a connection: bits of a RefractedAim or a StraightAim
   double travelled = 0;     // since the last scattering, straight through surfaces; of a straight connection
                             // what is left, in lengths of its direction; already rounded
@@ -68,7 +70,6 @@ struct PathTracer::Path {
   }
   // Ends the secondary wavelengths: their ways part from the hero's here.
   void disperse() {
-    clear(path_in_pane);
     if (is(path_dispersed)) return;
     set(path_dispersed);
     throughput = {{throughput[0] * hero_count, 0, 0, 0}};

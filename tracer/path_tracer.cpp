@@ -41,6 +41,9 @@ TraceCounters& operator+=(TraceCounters& a, const TraceCounters& b) {
   a.photons_emitted += b.photons_emitted;
   a.gathers += b.gathers;
   a.photons_gathered += b.photons_gathered;
+  a.connections_in_glass += b.connections_in_glass;
+  a.connections_in_wedges += b.connections_in_wedges;
+  a.widest_wedge_nrad = std::max(a.widest_wedge_nrad, b.widest_wedge_nrad);
   return a;
 }
 
@@ -104,7 +107,8 @@ const Footprint* PathTracer::footprint_of(std::uint32_t pixel, std::uint32_t sam
 // The first event at a depth has a stratified set; those that follow where going straight on counts for no
 // depth have numbers of their ray.
 std::array<float, 4> PathTracer::numbers_for_scattering(const Path& path, Wanted wanted) const {
-  if (path.is(path_passed)) return hashed_4d(stream_of(path, RayRandom::scattering));
+  if (path.is(path_passed) || (path.is(path_in_pane) && path.owes))
+    return hashed_4d(stream_of(path, RayRandom::scattering));
   return sample_4d(path.key, sample_set::scatter(path.depth), wanted);
 }
 std::array<float, 4> PathTracer::numbers_for_light(const Path& path) const {
@@ -183,9 +187,15 @@ void PathTracer::resume(const PathRecord& record, std::uint32_t domain) {
   path.throughput = unpack_throughput(record.throughput);
   std::array<std::uint8_t, 3> travelled = std::to_array(record.travelled);
   if (has_cone(path)) path.cone = std::exchange(travelled[0], std::uint8_t{0});
-  if (path.is(path_in_pane) && std::exchange(travelled[1], std::uint8_t{0}) != 0) path.set(path_connected);
   path.travelled = static_cast<double>(unpack_radiance(travelled.data()));
-  if (path.is(path_connection)) unpack_connection(record, path);
+  if (path.is(path_connection)) {
+    unpack_connection(record, path);
+  } else if (path.is(path_in_pane)) {
+    path.parts = travelled[2] & pane_parts;
+    path.owes = travelled[2] & pane_owes;
+    if (travelled[2] & pane_connected) path.set(path_connected);
+    path.travelled = 0;
+  }
   path.inside = record.inside;
   path.direction = record.direction;
   path.ray = unpacked(record);
@@ -271,8 +281,11 @@ bool PathTracer::forward(const Path& path, std::uint32_t domain, bool resolved) 
   r.pdf = in_pane ? static_cast<std::uint16_t>(face) : pdf_code(path.pdf);
   r.flags = static_cast<std::uint8_t>((in_pane ? path.flags & 0xf : path.flags) |
                                       (resolved ? path_resolved : 0) | face >> 16 << 4);
-  if (in_pane) r.travelled[1] = path.is(path_connected);
-  if (path.is(path_connection)) pack_connection(path, r);
+  if (path.is(path_connection))
+    pack_connection(path, r);
+  else if (in_pane)
+    r.travelled[2] = static_cast<std::uint8_t>((path.parts ? pane_parts : 0) | (path.owes ? pane_owes : 0) |
+                                               (path.is(path_connected) ? pane_connected : 0));
   outbox_.paths.push_back({domain, r});
   if (traffic_) traffic_->leave_for(domain);
   return false;

@@ -4,6 +4,7 @@
 // absent domain is put into the outbox; nothing about the picture depends on which ones were absent.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -50,6 +51,18 @@ struct TraceCounters {
   std::uint64_t born = 0, died = 0;
   // Of photon mapping: sent from lights, questions answered, and photons found for them.
   std::uint64_t photons_emitted = 0, gathers = 0, photons_gathered = 0;
+  // Connections to distant lights at faces where they leave glass, those that end there as the faces are not
+  // quite parallel, and the widest wedge of these in 10⁻⁹ rad.
+  std::uint64_t connections_in_glass = 0, connections_in_wedges = 0, widest_wedge_nrad = 0;
+
+  // What is further from parallel than this is no pane, but a prism or a lens.
+  static constexpr double widest_told_rad = 0.02;
+  void count_leaving(bool leaves, double wedge_rad) {
+    ++connections_in_glass;
+    if (leaves || wedge_rad > widest_told_rad) return;
+    ++connections_in_wedges;
+    widest_wedge_nrad = std::max(widest_wedge_nrad, static_cast<std::uint64_t>(1e9 * wedge_rad));
+  }
 };
 TraceCounters& operator+=(TraceCounters& a, const TraceCounters& b);
 
@@ -112,7 +125,6 @@ class PathTracer {
   // shading.cpp
   bool shade(Path& path);
   bool shade_surface(Path& path);
-  bool scatter_dielectric(Path& path, const Interaction& at, const Surface& surface);
   bool scatter_in_medium(Path& path, Point3d p);
   float survival(const Path& path) const;
   bool go_on(Path& path, float u, bool specular, bool gathered = false) const;
@@ -125,10 +137,27 @@ class PathTracer {
   void add_emission(const Path& path, const Interaction& at, std::uint32_t light);
   void add_environment(const Path& path);
 
+  // glass.cpp
+  bool scatter_dielectric(Path& path, const Interaction& at, const Surface& surface);
+  double reflect_share(const Path& path, const SampledSpectrum& eta, double cosine, double outside,
+                       SampledSpectrum& reflectance) const;
+  bool passes_for_nothing(const Path& path, const Interaction& at) const;
+  bool count_refraction(Path& path, float u, bool for_nothing) const;
+  bool is_spent(const Path& path) const;
+  bool sees_through(const Path& path, const Interaction& at) const;
+  void count_straight(Path& path) const;
+  bool leave_pane(Path& path) const;
+  bool parts_aside(const Path& path, Point3d p, const SampledSpectrum& eta, double thickness,
+                   double outside) const;
+  double pixel_width(const Path& path, Point3d p) const;
+
   // photon_tracing.cpp
   void begin_photon(Path& path) const;
   bool shade_photon(Path& path);
   bool is_connected_to(const Path& path) const;
+  EmittedPhoton emission_of(const Path& path) const;
+  void give_back(Path& path, const Interaction& at, const Surface& surface, Vector3d normal, double hero_eta,
+                 Vector3d& direction) const;
   void land(const Path& path, const Interaction& at);
   void gather(const Path& path, const Interaction& at, const Scattering& scattering, Vector3d out);
   bool flies() const { return photons_ && photons_->flying; }
@@ -186,6 +215,7 @@ class PathTracer {
   bool connects_through_hole(Path& path, const Interaction& at, const Surface& surface, bool opaque) const;
   bool connect_straight(Path& path, const Interaction& at, const Surface* surface);
   bool refract_connection(Path& path, const Interaction& at, const Surface& surface) const;
+  double face_doubt(const Path& path, const Interaction& at, const Surface& surface, Vector3d normal) const;
   static void pack_connection(const Path& path, PathRecord& record);
   static void unpack_connection(const PathRecord& record, Path& path);
 

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tracer/connection_code.h"
+#include "tracer/parallel_faces.h"
 #include "tracer/path_state.h"
 #include "tracer/path_tracer.h"
 #include "tracer/photons/places.h"
@@ -22,8 +24,7 @@ void PathTracer::trace_photon(std::uint32_t number) {
   Path path;
   path.pixel = number;
   begin_photon(path);
-  const EmittedPhoton photon = photons_->emission->sample(
-      sample_4d(path.key, sample_set::camera), sample_4d(path.key, sample_set::lens), path.wavelengths);
+  const EmittedPhoton photon = emission_of(path);
   ++counters_.photons_emitted;
   ++counters_.rays_indirect;
   ++counters_.born;
@@ -57,7 +58,7 @@ bool PathTracer::shade_photon(Path& path) {
     pass_straight(path, at, &surface);
     return true;
   }
-  if (path.is(path_in_pane) && (at.front || !kind.smooth_dielectric)) path.disperse();
+  if ((at.front || !kind.smooth_dielectric) && !leave_pane(path)) return false;
   // Before chance decides what of the surface is met: it decides once more for the path that gathers.
   if (kind.diffuse && !is_connected_to(path)) land(path, at);
   if (const double opacity = opacity_at(surface, at);
@@ -65,8 +66,8 @@ bool PathTracer::shade_photon(Path& path) {
     pass_straight(path, at, nullptr);
     return true;
   }
-  // One scattering more, and that where the light is gathered.
-  if (path.depth + 2 > static_cast<std::uint32_t>(manifest_.settings.max_depth)) {
+  if (is_spent(path)) {
+    if (kind.smooth_dielectric && sees_through(path, at)) return scatter_dielectric(path, at, surface);
     if (manifest_.settings.straight_counts || !manifest_.requirements.see_through) return false;
     path.throughput =
         path.throughput * scene_.materials.passes_straight(surface.material, at, path.wavelengths);
@@ -79,7 +80,7 @@ bool PathTracer::shade_photon(Path& path) {
   RandomStream chance(stream_of(path, RayRandom::choice));
   const Material* material = scene_.materials.choose(surface.material, at, chance);
   if (!material) {
-    path.depth += manifest_.settings.straight_counts;
+    count_straight(path);
     pass_straight(path, at, &surface);
     return true;
   }
@@ -127,14 +128,31 @@ bool PathTracer::shade_photon(Path& path) {
 // Whether paths find the photon's light by a connection to it, or by a sample of a BSDF that sees it: light
 // that came straight, and that of a distant light behind panes, which goes on as it came.
 bool PathTracer::is_connected_to(const Path& path) const {
-  if (path.sample == 0) return true;
+  if (!(path.sample & (photon_refracted | photon_scattered))) return true;
   if ((path.sample & photon_scattered) || scene_.lights.distant.empty()) return false;
-  const EmittedPhoton photon = photons_->emission->sample(
-      sample_4d(path.key, sample_set::camera), sample_4d(path.key, sample_set::lens), path.wavelengths);
-  constexpr double parallel_rad = 2e-4;
-  return photon.is_distant &&
-         length(cross(photon.direction, cast<double>(path.ray.direction))) < parallel_rad &&
-         dot(photon.direction, cast<double>(path.ray.direction)) > 0;
+  const EmittedPhoton photon = emission_of(path);
+  return photon.is_distant && encode_direction(photon.direction) == path.direction;
+}
+
+EmittedPhoton PathTracer::emission_of(const Path& path) const {
+  return photons_->emission->sample(sample_4d(path.key, sample_set::camera),
+                                    sample_4d(path.key, sample_set::lens), path.wavelengths);
+}
+
+// A photon that a face refracts into `direction` has that of its distant light again where a connection
+// through the face would have it.
+void PathTracer::give_back(Path& path, const Interaction& at, const Surface& surface, Vector3d normal,
+                           double hero_eta, Vector3d& direction) const {
+  path.sample |= photon_refracted;
+  if ((path.sample & photon_scattered) || scene_.lights.distant.empty()) return;
+  const EmittedPhoton photon = emission_of(path);
+  if (!photon.is_distant) return;
+  FaceDoubt doubt{path.sample / (photon_history + 1)};
+  doubt.cross(face_doubt(path, at, surface, normal));
+  const bool is_out = wedge_of(-at.out, photon.direction, hero_eta, normal) <= doubt.allowed_rad();
+  if (is_out) direction = photon.direction;
+  if (is_out && !at.front) doubt = {};
+  path.sample = (path.sample & photon_history) | doubt.code * (photon_history + 1);
 }
 
 void PathTracer::land(const Path& path, const Interaction& at) {

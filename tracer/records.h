@@ -29,8 +29,8 @@ enum PathFlags : std::uint8_t {
   path_connection = 2,  // on its way to a light through what lets light straight through; `throughput` is the
                         // radiance that it will deposit
   path_resolved = 4,    // the hit is certain: to be shaded in hit_domain
-  path_in_pane = 8,     // inside a dispersive medium, all wavelengths alive: the face it entered by is known;
-                        // of a connection: smooth interfaces refract it
+  path_in_pane = 8,     // inside smooth glass: the face it entered by is known; of a connection: smooth
+                        // interfaces refract it
   path_passed = 16,     // went straight on at an event that had the random numbers of its depth; never in a
                         // pane, nor of a connection
   path_unrecorded = 32,  // the film keeps layers of the first surface, and it is yet to be met; as above
@@ -38,6 +38,9 @@ enum PathFlags : std::uint8_t {
   path_connected =
       128,  // it was scattered where connections to lights are made from; as above, but in a pane
 };
+
+// Of a path in a pane (Path::parts, Path::owes, path_connected).
+enum PaneBits : std::uint8_t { pane_parts = 1, pane_owes = 2, pane_connected = 4 };
 
 #pragma pack(push, 1)
 // A path on its way to its next hit, with the best hit so far. Or a connection: it ends at hit_t, where its
@@ -58,10 +61,9 @@ struct PathRecord {
                                // where that is straight of its end_code
   std::uint8_t flags;  // PathFlags; in a pane and of a connection the first 4, and above them the high
                        // bits of the FaceCode or the aim
-  // Since the last scattering, straight through surfaces, as radiance_code. Where images are filtered, a path
-  // has the cone_code of its ray's width in the lowest byte. In a pane, where that is 0, the second byte says
-  // whether it is path_connected. Of a straight connection: what is left to its light, the high bits of the
-  // end_code.
+  // Since the last scattering, straight through surfaces, as radiance_code; in a pane PaneBits in the highest
+  // byte. Where images are filtered, a path has the cone_code of its ray's width in the lowest byte. Of a
+  // straight connection: what is left to its light, the high bits of the end_code.
   std::uint8_t travelled[3];
   std::uint8_t inside;  // state of Interiors
 };

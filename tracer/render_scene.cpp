@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "bundle/texture_file.h"
+#include "scene/portable_math.h"
 #include "tracer/records.h"
 
 namespace vitrail {
@@ -13,6 +14,14 @@ namespace {
 double pixel_angle(const Manifest& m) {
   const auto* perspective = std::get_if<PerspectiveCamera>(&m.camera);
   return perspective ? (perspective->screen.y1 - perspective->screen.y0) / m.film.height : 0;
+}
+
+RenderScene::Pixel pixel_of(const Manifest& m) {
+  if (std::holds_alternative<SphericalCamera>(m.camera)) return {0, pi / m.film.height};
+  const auto* parallel = std::get_if<OrthographicCamera>(&m.camera);
+  if (!parallel) return {0, pixel_angle(m)};
+  const double per_unit = length(transform_vector(parallel->camera_to_world, {0, 1, 0}));
+  return {per_unit * (parallel->screen.y1 - parallel->screen.y0) / m.film.height, 0};
 }
 
 const Transform& camera_to_bundle(const Manifest& m) {
@@ -47,6 +56,7 @@ RenderScene::RenderScene(Manifest the_manifest, const std::filesystem::path& bun
       lights(make_light_sampler(light_scene(manifest, textures), bundle, the_sampling.lights)),
       bundle_to_camera(inverse(camera_to_bundle(manifest))),
       pixel_angle(vitrail::pixel_angle(manifest)),
+      pixel(pixel_of(manifest)),
       seed(the_seed),
       sampling(the_sampling) {
   for (const TextureFileEntry& t : manifest.texture_files)

@@ -35,6 +35,10 @@ struct RenderScene {
   // all. None: the camera's medium is around all.
   std::optional<Point3d> replaced_camera;
   double pixel_angle = 0;  // between neighbouring camera rays in the middle of the picture, rad
+  // Of what a pixel is wide that stands so far off: width + angle · distance. 0: it sees no edges.
+  struct Pixel {
+    double width = 0, angle_rad = 0;
+  } pixel;
   std::uint64_t seed = 0;
   SamplingChoices sampling;
 };

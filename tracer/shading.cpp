@@ -43,8 +43,7 @@ bool PathTracer::shade(Path& path) {
     }
   }
   if (path.met() == Met::nothing) {
-    if (path.is(path_in_pane)) path.disperse();
-    add_environment(path);
+    if (leave_pane(path)) add_environment(path);
     return false;
   }
   return shade_surface(path);
@@ -81,7 +80,7 @@ bool PathTracer::shade_surface(Path& path) {
   }
   const MaterialKind& kind = scene_.materials.kind(surface.material);
   // Only the far face of a pane lets the wavelengths out the way they came in.
-  if (path.is(path_in_pane) && (at.front || !kind.smooth_dielectric)) path.disperse();
+  if ((at.front || !kind.smooth_dielectric) && !leave_pane(path)) return false;
   if (surface.area_light >= 0) add_emission(path, at, static_cast<std::uint32_t>(surface.area_light));
   const bool is_last = path.depth >= static_cast<std::uint32_t>(manifest_.settings.max_depth);
   if (kind.is_nothing(at)) {
@@ -91,6 +90,7 @@ bool PathTracer::shade_surface(Path& path) {
   if (path.is(path_unrecorded)) [[unlikely]]
     record_first_surface(path, at, surface);
   if (is_last) {
+    if (kind.smooth_dielectric && sees_through(path, at)) return scatter_dielectric(path, at, surface);
     if (!passes_at_the_end(path, at, surface)) return false;
     pass_straight(path, at, &surface);
     return true;
@@ -100,7 +100,7 @@ bool PathTracer::shade_surface(Path& path) {
   RandomStream chance(stream_of(path, RayRandom::choice));
   const Material* material = scene_.materials.choose(surface.material, at, chance);
   if (!material) {
-    path.depth += manifest_.settings.straight_counts;
+    count_straight(path);
     pass_straight(path, at, &surface);
     return true;
   }
@@ -144,7 +144,7 @@ bool PathTracer::shade_surface(Path& path) {
 // An event after which the path goes on as it came.
 void PathTracer::scatter_straight(Path& path, const Interaction& at, const Surface& surface) const {
   if (manifest_.settings.straight_counts)
-    ++path.depth;
+    count_straight(path);
   else
     path.set(path_passed);
   pass_straight(path, at, &surface);
@@ -256,7 +256,7 @@ void PathTracer::add_emission(const Path& path, const Interaction& at, std::uint
 bool PathTracer::scatter_in_medium(Path& path, Point3d p) {
   path.clear(path_unrecorded);
   if (path.depth >= static_cast<std::uint32_t>(manifest_.settings.max_depth)) return false;
-  if (path.is(path_in_pane)) path.disperse();
+  if (!leave_pane(path)) return false;
   const double g = medium_of(path)->g;
   const Vector3d out = normalize(-cast<double>(path.ray.direction));
   const Departure from{p, cast<float>(p), no_triangle, path.inside};
@@ -268,71 +268,6 @@ bool PathTracer::scatter_in_medium(Path& path, Point3d p) {
   path.set(path_connected);
   if (!(path.pdf > 0) || !go_on(path, u[3], false)) return false;
   depart(path, from, in);
-  return true;
-}
-
-// Dispersion ends the secondary wavelengths where their ways part. Through a pane of parallel faces they do
-// not: all leave in the direction they came, micrometres apart. So they stay until the path meets a face that
-// is not parallel to the one it entered by.
-bool PathTracer::scatter_dielectric(Path& path, const Interaction& at, const Surface& surface) {
-  const Material& record = manifest_.materials[surface.material];
-  const auto& material = std::get<DielectricMaterial>(record.model);
-  const Vector3d normal = scene_.materials.shading_normal(record, at) * at.side();
-  if (path.is(path_in_pane) && !is_parallel(path.entered_by, normal)) path.disperse();
-  const bool in_pane = path.is(path_in_pane);
-  const SampledSpectrum eta = relative_index(material, at, path.wavelengths);
-  const double hero_eta = static_cast<double>(eta[0]), cosine = dot(at.out, normal);
-  // Inside a pane the wavelengths differ in their angle, but share the one outside; reflectance is the same
-  // from both sides.
-  const double outside = safe_sqrt(1 - (1 - cosine * cosine) / (hero_eta * hero_eta));
-
-  // One choice for all wavelengths, by their mean reflectance for what the path carries: the sum of its
-  // throughput never grows.
-  SampledSpectrum reflectance;
-  const std::size_t active = path.active_wavelengths();
-  double reflected = 0, all = 0;
-  for (std::size_t i = 0; i < active; ++i) {
-    const double e = static_cast<double>(eta.v[i]);
-    reflectance.v[i] =
-        static_cast<float>(in_pane ? fresnel_dielectric(outside, 1 / e) : fresnel_dielectric(cosine, e));
-    reflected += static_cast<double>(path.throughput.v[i]) * static_cast<double>(reflectance.v[i]);
-    all += static_cast<double>(path.throughput.v[i]);
-  }
-  const double reflects = attainable(reflected / all);
-  Vector3d direction;
-  const std::array<float, 4> u = numbers_for_scattering(path);
-  if (flies()) path.sample |= static_cast<double>(u[2]) < reflects ? photon_scattered : photon_refracted;
-  if (static_cast<double>(u[2]) < reflects) {
-    direction = normal * (2 * cosine) - at.out;
-    path.throughput =
-        path.throughput * reflectance * static_cast<float>(1 / reflects) *
-        scene_.textures.spectrum(material.reflectance_factor, at.texture_point(), path.wavelengths);
-  } else {
-    if (!refract(at.out, normal, hero_eta, direction)) return false;
-    // Radiance is compressed into the smaller solid angle by 1/η² (Veach 1997, §5.2), power is not.
-    for (std::size_t i = 0; i < active; ++i) {
-      const double e = static_cast<double>(eta.v[i]);
-      path.throughput.v[i] *= static_cast<float>((1 - static_cast<double>(reflectance.v[i])) /
-                                                 (1 - reflects) / (flies() ? 1 : e * e));
-    }
-    path.throughput = path.throughput * scene_.textures.spectrum(material.transmittance_factor,
-                                                                 at.texture_point(), path.wavelengths);
-    if (in_pane) {
-      path.clear(path_in_pane);
-    } else if (scene_.materials.disperses(record, at) && !path.is(path_dispersed)) {
-      if (at.front && !at.exterior_eta) {
-        path.set(path_in_pane);
-        path.entered_by = encode_face(normal);
-      } else {
-        path.disperse();
-      }
-    }
-  }
-  if (flies()) path.throughput = path.throughput * adjoint_of_shading(at, normal, direction);
-  if (is_black(path.throughput)) return false;
-  path.pdf = 0;
-  if (!go_on(path, u[3], true)) return false;
-  continue_from(path, at, surface, direction);
   return true;
 }
 

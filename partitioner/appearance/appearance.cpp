@@ -7,6 +7,8 @@
 #include "partitioner/appearance/bake_materials.h"
 #include "partitioner/appearance/bake_media.h"
 #include "partitioner/appearance/bake_textures.h"
+#include "partitioner/appearance/requirements.h"
+#include "partitioner/placing/wedged_panes.h"
 #include "scene/kinds.h"
 #include "scene/sky_model.h"
 
@@ -177,6 +179,17 @@ bool is_refracting(const std::vector<Material>& baked) {
   });
 }
 
+// Paths find the light of the sun behind panes alone (docs/one-picture.md).
+void report_wedges(const Scene& scene, Notes& report) {
+  const WedgedPanes found = wedged_panes(scene);
+  if (found.count > 0)
+    report.approximated(
+        fmt::format("{} of glass with faces up to {:.2g} rad off parallel, which neither float glass nor the "
+                    "file's decimals explain: only --integrator photon brings sunlight through",
+                    found.count == 1 ? "a pane" : fmt::format("{} panes", found.count), found.widest_rad),
+        found.widest);
+}
+
 bool is_infinitely_far(const LightModel& light) {
   return std::holds_alternative<DistantLight>(light) || std::holds_alternative<InfiniteLight>(light) ||
          std::holds_alternative<EnvironmentLight>(light) || std::holds_alternative<SkyLight>(light);
@@ -228,6 +241,8 @@ Appearance appearance_of(const Scene& scene, const std::filesystem::path& bundle
       report.approximated("environment light: its portal is not looked at, it shines from everywhere",
                           light.origin);
   }
+  if (glass && std::ranges::any_of(scene.lights, [](const Light& l) { return is_distant(l); }))
+    report_wedges(scene, report);
   result.attributes = textures.attributes();
   if (scene.settings.rgb == RgbMethod::matrix_r &&
       std::ranges::any_of(result.attributes, [](const auto& a) { return a.use == TextureUse::reflectance; }))

@@ -58,6 +58,19 @@ bool is_smooth(const Roughness& r) {
 }
 bool is_zero(const FloatParameter& p) { return p == FloatParameter{0.0f}; }
 
+}  // namespace
+
+bool is_smooth_glass(const Material& material) {
+  const auto* glass = std::get_if<DielectricMaterial>(&material.model);
+  return glass && is_smooth(glass->roughness);
+}
+
+bool is_distant(const Light& light) {
+  return std::holds_alternative<DistantLight>(light.model) || std::holds_alternative<SkyLight>(light.model);
+}
+
+namespace {
+
 struct MaterialNeeds {
   Requirements& r;
   const std::vector<ScatteringTable>& tables;

@@ -7,6 +7,7 @@
 #include "bundle/interiors.h"
 #include "partitioner/appearance/appearance.h"
 #include "partitioner/appearance/requirements.h"
+#include "partitioner/placing/decimals.h"
 #include "scene/deferred_mesh.h"
 
 namespace vitrail {
@@ -19,10 +20,11 @@ std::int32_t new_id(const std::vector<std::int32_t>& ids, const auto& old) {
 
 // One a run of placements that are alike, or where the film tells shapes apart one each. Returns how many.
 std::uint32_t make_surfaces(const Appearance& appearance, const std::vector<Placement>& placements,
-                            Manifest& m) {
+                            VertexDoubts& doubts, Manifest& m) {
   const std::size_t first = m.surfaces.size();
   for (const Placement& p : placements) {
-    const Surface surface = surface_of(p, appearance);
+    Surface surface = surface_of(p, appearance);
+    surface.vertex_doubt = doubts.of(p);
     if (m.surfaces.size() > first && !m.film.layers.has(Layer::shape)) {
       Surface same = m.surfaces.back();
       same.first_triangle = surface.first_triangle;
@@ -118,7 +120,8 @@ World world_of(const Scene& scene, const std::filesystem::path& bundle, const Wo
     const Surface surface = surface_of(p, appearance);
     world.shining.push_back({p, static_cast<std::uint32_t>(surface.area_light), surface.opacity});
   }
-  make_surfaces(appearance, plan.scene.placements, m);
+  VertexDoubts doubts(appearance);
+  make_surfaces(appearance, plan.scene.placements, doubts, m);
   for (const Placement& p : plan.scene.placements) world.own_triangles += triangles_of(*p.mesh);
   world.placements = std::move(plan.scene.placements);
   world.uses = std::move(plan.scene.uses);
@@ -126,8 +129,8 @@ World world_of(const Scene& scene, const std::filesystem::path& bundle, const Wo
   world.quadrics = quadrics_in(world.uses, world.runs, plan.objects);
   for (Assembly& object : plan.objects) {
     const auto first = static_cast<std::uint32_t>(m.surfaces.size());
-    const std::uint32_t count =
-        make_surfaces(appearance, object.quadric ? std::vector{*object.quadric} : object.placements, m);
+    const std::uint32_t count = make_surfaces(
+        appearance, object.quadric ? std::vector{*object.quadric} : object.placements, doubts, m);
     world.objects.push_back({std::move(object), first, count});
   }
   move_records(scene, appearance, m);

@@ -31,7 +31,7 @@ constexpr long double r = 0.04L;  // of a face, (½/2½)²
 // The faces' interreflections summed: m faces let (1 − R)/(1 + (m − 1)R) through (Stokes 1862).
 double through(int faces) { return static_cast<double>((1 - r) / (1 + (faces - 1) * r)); }
 
-// What of it meets `depth` faces at most.
+// What of it meets `depth` faces at most before it goes straight on.
 double through(int faces, int depth) {
   const auto count = static_cast<std::size_t>(faces);
   std::vector<long double> down(count + 1), up(count + 1);  // about to meet face i, on its way down or up
@@ -47,6 +47,8 @@ double through(int faces, int depth) {
     next_down[count] = 0;
     down = next_down, up = next_up;
   }
+  for (std::size_t i = 0; i < count; ++i)
+    arrived += down[i] * std::pow(1 - r, static_cast<long double>(count - i));
   return static_cast<double>(arrived);
 }
 

@@ -81,20 +81,22 @@ TEST(Connections, RoundTheirDoubtsUpAndTheirEndsDown) {
   std::uniform_real_distribution<double> exponent(-40, 20);
   for (int i = 0; i < 20000; ++i) {
     const double x = std::exp2(exponent(random));
-    const RefractedAim refracted = RefractedAim::of(RefractedAim{0x1abcd, x}.bits());
+    FaceDoubt doubt;
+    doubt.cross(x), doubt.cross(x / 3);
+    const RefractedAim refracted = RefractedAim::of(RefractedAim{0x1abcd, doubt}.bits());
     EXPECT_EQ(refracted.light, 0xabcdu);
-    EXPECT_GE(refracted.doubt_rad, std::min(x, 0x1p-4));
-    EXPECT_LE(refracted.doubt_rad, std::max(2 * x, 0x1p-18));
+    EXPECT_GE(refracted.doubt.allowed_rad(), 2 * std::min(x, 0x1p-4));
+    EXPECT_LE(refracted.doubt.allowed_rad(), 2 * std::max(2 * x, 0x1p-18));
     const StraightAim straight = StraightAim::of(StraightAim{x}.bits());
     EXPECT_GE(straight.slope, std::min(x, 0x1p11));
     EXPECT_LE(straight.slope, std::max(2 * x, 0x1p-3));
-    EXPECT_LT(RefractedAim({0xffff, x}).bits(), 1u << 20);
+    EXPECT_LT(RefractedAim({0xffff, doubt}).bits(), 1u << 20);
     EXPECT_LT(end_code(x), std::uint64_t{1} << 40);
     EXPECT_LE(end_value(end_code(x)), x);
     EXPECT_GE(end_value(end_code(x)), x * (1 - 0x1p-32));
     EXPECT_EQ(end_code(end_value(end_code(x))), end_code(x));
   }
-  EXPECT_EQ(RefractedAim::of(RefractedAim{}.bits()).doubt_rad, 0);
+  EXPECT_EQ(RefractedAim::of(RefractedAim{}.bits()).doubt.allowed_rad(), 0);
   EXPECT_EQ(StraightAim::of(StraightAim{0x1p3}.bits()).slope, 0x1p3);
   for (const double none : {0.0, -1.0, 1e-60, std::nan("")}) EXPECT_EQ(end_value(end_code(none)), 0);
   EXPECT_NEAR(end_value(end_code(1e30)) / 1e30, 1, 1e-9);

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// Panes whose faces are less parallel than sunlight is connected through.
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "scene/mesh.h"
+#include "scene/scene.h"
+#include "scene/transform.h"
+
+namespace vitrail {
+
+// Of a mesh most of whose area faces one way and back: by how much the two sides are off parallel, and by how
+// much decimals that its file rounds to may have turned them together, in rad.
+struct PaneFaces {
+  double wedge_rad = 0, explained_rad = 0;
+};
+std::optional<PaneFaces> pane_faces(const TriangleMesh& mesh, const Transform& placed);
+
+// The panes of smooth glass that are less parallel than float glass is and their decimals explain.
+struct WedgedPanes {
+  std::size_t count = 0;
+  double widest_rad = 0;
+  Origin widest;
+};
+WedgedPanes wedged_panes(const Scene& scene);
+
+}  // namespace vitrail
