@@ -26,7 +26,7 @@ void declare_import_options(CLI::App& app, ImportArguments& a) {
   app.add_option("--sky", a.sky,
                  "the clear sky and sun in place of all light from infinitely far: "
                  "LATITUDE,LONGITUDE,TIME[,turbidity=3,albedo=0.2,up=y,north=-z,sun=1,sky=1], TIME as "
-                 "2026-06-21T12:00+02:00");
+                 "2026-06-21T12:00+02:00; up is the camera's where it is not given");
   app.add_option("--include-limit", a.include_limit,
                  "most text of files that a scene includes more than once, in all (default: 1G)");
   app.add_option("--root", a.root,

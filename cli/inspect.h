@@ -29,6 +29,8 @@ Report describe_materials(const Scene& scene);
 Report describe_textures(const Scene& scene);
 Report describe_media(const Scene& scene);
 Report describe_needs(const Scene& scene);
+// Parts of solid glass, of meshes, that enclose nothing: open, folded, or the face of a pane without its rim.
+Report describe_open_glass(const Scene& scene);
 // Of all meshes, each once.
 std::uint64_t mesh_bytes(const Scene& scene);
 

@@ -210,6 +210,7 @@ Report inspect_scene(const std::filesystem::path& file, const ImportOptions& opt
   r["materials_of_the_scene"] = describe_materials(s);
   r["textures"] = describe_textures(s);
   r["media"] = describe_media(s);
+  r["open_glass"] = describe_open_glass(s);
   r.update(describe(flatten(s, {}, {.keep_instances = true}).manifest));
   r["not_exact"] = describe_diagnostics(imported.diagnostics);
   r["not_rendered_exactly"] = describe_diagnostics(appearance_of(s, {}).diagnostics);

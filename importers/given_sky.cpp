@@ -6,6 +6,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "scene/photometry.h"
+
 namespace vitrail {
 
 namespace {
@@ -100,6 +102,55 @@ Transform sky_to_world(const std::string& up_name, const std::string& north_name
   return t;
 }
 
+std::string up_of_camera(const Camera& camera) {
+  const Transform to_world = std::visit([](const auto& c) { return c.camera_to_world; }, camera);
+  const Vector3d up = normalize(transform_vector(to_world, {0, 1, 0})),
+                 right = normalize(transform_vector(to_world, {1, 0, 0}));
+  std::string best = "y";
+  double most = 0;
+  for (const bool level : {true, false}) {
+    for (const char* name : {"y", "z", "x", "-y", "-z", "-x"}) {
+      const double rises = dot(axis(name), up);
+      if (rises > most + 1e-6 && (!level || std::abs(dot(axis(name), right)) < 1e-3))
+        most = rises, best = name;
+    }
+    if (most > 0.1) break;
+  }
+  return best;
+}
+
+namespace {
+
+// cd/m² of surfaces; a point's cd count as if they came from a square decimetre.
+double brightness_of(const Scene& scene) {
+  double most = 0;
+  const auto see = [&](const SpectrumParameter& p, double factor) {
+    if (const auto* spectrum = std::get_if<Spectrum>(&p))
+      most = std::max(most, photometric(luminance(*spectrum)) * factor);
+  };
+  for (const AreaLight& light : scene.area_lights) see(light.radiance, 1);
+  for (const Light& light : scene.lights) {
+    if (const auto* point = std::get_if<PointLight>(&light.model)) see(point->intensity, 100);
+    if (const auto* spot = std::get_if<SpotLight>(&light.model)) see(spot->intensity, 100);
+  }
+  return most;
+}
+
+void note_lamps(ImportedScene& imported) {
+  constexpr double luminaires = 2e4;
+  const double most = brightness_of(imported.scene);
+  if (most <= luminaires) return;
+  imported.diagnostics.push_back(
+      {Fidelity::approximated,
+       fmt::format(
+           "beside --sky the scene's own lamps count as W/(m2 sr nm): the brightest has {:.2g} cd/m2, the "
+           "clear sky some 1e4, a luminaire less; if the scene has units of its own, scale its lamps or "
+           "leave them out",
+           most)});
+}
+
+}  // namespace
+
 void replace_sky(ImportedScene& imported, const GivenSky& sky) {
   Scene& scene = imported.scene;
   std::vector<Light> kept;
@@ -113,9 +164,14 @@ void replace_sky(ImportedScene& imported, const GivenSky& sky) {
                                     place, place, RecordKind::light});
   }
   scene.lights = std::move(kept);
+  const std::string up = sky.up.empty() ? up_of_camera(scene.camera) : sky.up;
+  if (sky.up.empty() && up != "y")
+    imported.diagnostics.push_back(
+        {Fidelity::approximated, fmt::format("--sky: up={} by the camera; with up=… another axis is", up)});
+  note_lamps(imported);
   SkyLight light = sky.light;
-  const char* usual = sky.up.ends_with('y') ? "-z" : "y";
-  light.light_to_world = sky_to_world(sky.up, sky.north.empty() ? usual : sky.north);
+  const char* usual = up.ends_with('y') ? "-z" : "y";
+  light.light_to_world = sky_to_world(up, sky.north.empty() ? usual : sky.north);
   scene.lights.push_back({light, {}});
 }
 

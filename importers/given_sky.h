@@ -16,8 +16,8 @@ struct GivenSky {
   Place place;
   LocalTime time;
   SunPosition sun;
-  std::string up = "y", north;  // axes of the world; north "": −z where y is up, else +y
-  SkyLight light;               // but for light_to_world
+  std::string up, north;  // axes of the world; up "": the camera's, north "": −z where y is up, else +y
+  SkyLight light;         // but for light_to_world
 };
 // Throws UsageError.
 GivenSky parse_sky(const std::string& words);
@@ -25,7 +25,12 @@ GivenSky parse_sky(const std::string& words);
 // +x east, +y north, +z up, to the world with these axes. Throws UsageError where they are not across.
 Transform sky_to_world(const std::string& up, const std::string& north);
 
-// Puts it in place of all light from infinitely far, and says what is replaced.
+// The axis that is up in the camera's picture: of those that are level with the picture's rows the one that
+// points up most, since cameras look up and down more than they are tilted.
+std::string up_of_camera(const Camera& camera);
+
+// Puts it in place of all light from infinitely far, and says what is replaced, what is up where that was not
+// given, and how bright the scene's lamps are beside it where that is more than lamps mostly are.
 void replace_sky(ImportedScene& imported, const GivenSky& sky);
 
 }  // namespace vitrail

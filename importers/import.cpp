@@ -5,6 +5,7 @@
 #include <cctype>
 #include <optional>
 
+#include "importers/coincident_lamps.h"
 #include "importers/default_view.h"
 #include "importers/foreign_text.h"
 #include "importers/given_sky.h"
@@ -115,6 +116,7 @@ ImportedScene import_scene(const std::filesystem::path& file, MeshMemory memory,
     throw without_foreign_text(error, file);
   }
   require_shallow(imported.scene);
+  drop_coincident_lamps(imported);
   if (sky) replace_sky(imported, *sky);
   report_tubes(imported);
   return imported;

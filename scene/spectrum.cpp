@@ -106,31 +106,6 @@ bool is_constant(const Spectrum& spectrum) {
                     spectrum);
 }
 
-TabulatedSpectrum tabulate(const std::vector<std::array<double, 2>>& samples, bool extend) {
-  if (samples.empty())
-    throw Error("a spectrum needs at least one sample: give pairs of wavelength in nm and value");
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    const auto [lambda, value] = samples[i];
-    if (!std::isfinite(lambda) || !std::isfinite(value))
-      throw Error(fmt::format("sample {} of a spectrum is not finite: {} nm, {}", i + 1, lambda, value));
-    if (i > 0 && !(samples[i - 1][0] < lambda))
-      throw Error(fmt::format("the wavelengths of a spectrum must ascend, but {} nm follows {} nm", lambda,
-                              samples[i - 1][0]));
-  }
-  const double outside_below = extend ? samples.front()[1] : 0;
-  const double outside_above = extend ? samples.back()[1] : 0;
-  return tabulate_each_nm([&](double lambda) {
-    if (lambda < samples.front()[0]) return outside_below;
-    if (lambda > samples.back()[0]) return outside_above;
-    const auto above = std::upper_bound(samples.begin(), samples.end(), lambda,
-                                        [](double l, const std::array<double, 2>& s) { return l < s[0]; });
-    const auto [l0, v0] = *(above - 1);
-    if (above == samples.end()) return v0;
-    const auto [l1, v1] = *above;
-    return v0 + (v1 - v0) * ((lambda - l0) / (l1 - l0));
-  });
-}
-
 // B(λ,T)/B(λₘ,T) with B ∝ λ⁻⁵/(exp(c₂/λT) − 1), c₂ = hc/k (CODATA 2018), and λₘ = c₂/(w·T) the maximum by
 // Wien's law.
 TabulatedSpectrum blackbody(double kelvin) {

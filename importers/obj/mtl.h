@@ -58,6 +58,8 @@ struct MtlSurface {
 //                                               clearcoat Pc, its gloss 1 − Pcr); Ns gives a missing Pr
 //   Ni > 1, with d < 1 or illum 4, 6, 7, 9      smooth DielectricMaterial of that index; Tf is what it
 //                                               transmits. (Maya writes illum 4 with Ni 1 for opaque ones.)
+//                                               A ThinDielectricMaterial where it encloses nothing
+//                                               (open_glass.h)
 //   Ks > 0, illum ≥ 2                           PlasticMaterial: Ks times the Fresnel reflection of a coat of
 //                                               index Ni (1.5 if not above 1), α = √(2/(Ns + 2)) (Beckmann;
 //                                               Ns is 1 if not given)

@@ -182,7 +182,20 @@ class Builder {
     if (mtl_.pr)
       material.roughness.alpha_u = material.roughness.alpha_v = static_cast<float>(*mtl_.pr * *mtl_.pr);
     if (find("map_Kd")) note(Fidelity::dropped, "map_Kd of glass");
+    note_what_glass_ignores();
     return material;
+  }
+
+  // Programs write these of glass as of anything: black, white and 1 say nothing.
+  void note_what_glass_ignores() {
+    std::string words;
+    const auto add = [&](const char* word) { words += (words.empty() ? "" : ", ") + std::string(word); };
+    if (!is_black(mtl_.kd)) add("Kd");
+    if (mtl_.ks && *mtl_.ks != RGB{1, 1, 1}) add("Ks");
+    if (opacity() < 1) add(mtl_.d ? "d" : "Tr");
+    if (!words.empty())
+      note(Fidelity::dropped,
+           fmt::format("{} of glass: its Ni and Tf say what it reflects and lets through", words));
   }
 
   MaterialModel principled() {

@@ -8,6 +8,7 @@
 
 #include "importers/obj/mtl.h"
 #include "importers/obj/obj_meshes.h"
+#include "importers/obj/open_glass.h"
 #include "importers/ply/text_cursor.h"
 
 namespace vitrail::obj {
@@ -122,6 +123,7 @@ ImportedScene to_scene(Geometry&& geometry, Vector3d offset, const std::filesyst
   }
   result.scene.meshes = to_meshes(std::move(geometry));
   for (TriangleMesh& mesh : result.scene.meshes) mesh.missing_uv = MissingUv::zero;
+  make_open_glass_thin(result);
   return result;
 }
 

@@ -97,9 +97,12 @@ class Writer : MtlText {
       note(Fidelity::dropped, "factor of reflection");
     put_glass(outside > 0 ? eta / outside : eta, m.transmittance_factor, m.roughness);
   }
-  void put(const ThinDielectricMaterial&) {
-    approximated("thin dielectric: a clear surface, without its reflection");
-    text += "Kd 0 0 0\nd 0\n";
+  void put(const ThinDielectricMaterial& m) {
+    approximated("thin dielectric: glass, which Vitrail reads as thin where its surface is open");
+    const double eta = index_of_refraction(m.eta), outside = index_of_refraction(m.exterior_eta);
+    if (m.reflectance_factor != SpectrumParameter{ConstantSpectrum{1}})
+      note(Fidelity::dropped, "factor of reflection");
+    put_glass(outside > 0 ? eta / outside : eta, m.transmittance_factor, {});
   }
 
   void put_metal(const Metal& metal, const Roughness& roughness) {

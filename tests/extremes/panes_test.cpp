@@ -151,6 +151,40 @@ TEST(Coplanar, OtherTrianglesShowEither) {
   report("share of the samples that the first square gets", (measured(one).mean / cosine - 0.25) / 0.5);
 }
 
+// Two squares back to back, each cut along its own diagonal, and two disks: the one that faces the camera is
+// seen, whichever comes first, in any number of domains. They lie along no axis.
+TEST(Coplanar, TheFaceThatFacesIsSeen) {
+  for (const bool disks : {false, true}) {
+    for (const bool first_is_front : {true, false}) {
+      Scene scene = in_the_sun();
+      const Transform turn = rotate(0.02, {1, 2, 0.5});
+      const double cosine = transform_vector(turn, {0, 0, 1}).z;
+      for (const bool front : {first_is_front, !first_is_front}) {
+        auto square = square_at(0.1f, 2);
+        if (!front) std::swap(square[0], square[3]), std::swap(square[1], square[2]);
+        for (Point3f& p : square) p = cast<float>(transform_point(turn, cast<double>(p)));
+        Material material = matte(front ? 0.75f : 0.25f);
+        if (disks) {
+          TriangleMesh disk;
+          disk.quadric = Quadric{.kind = QuadricKind::disk, .low = 0};
+          scene.meshes.push_back(disk);
+          add_shape(scene, {static_cast<std::uint32_t>(scene.meshes.size() - 1)}, material);
+          scene.shapes.back().object_to_world = turn * scale({2, 2, 2});
+          scene.shapes.back().flip_orientation = !front;
+        } else {
+          add_shape(scene, add_quads(scene, {square}), material);
+        }
+      }
+      const Film one = render_finite(scene, 64, "faces").film, many = render_finite(scene, 64, "", 16).film;
+      const std::string what = fmt::format("two {} back to back, the {} one first",
+                                           disks ? "disks" : "squares", first_is_front ? "front" : "back");
+      expect_relative(what, 0.75 * cosine, measure(scene, 64).mean, 2e-5);
+      expect_exactly(what + ", 1 and 16 domains: pixels that differ", 0,
+                     static_cast<double>(picture_difference(one, many).pixels));
+    }
+  }
+}
+
 // Faces of a matte box on a matte floor, and of one box on another.
 TEST(Coplanar, ABoxOnAFloorLeaksNoLight) {
   Scene scene;

@@ -210,7 +210,7 @@ class Judge {
       if (certain && (c.t < nearest.t || (c.t == nearest.t && c.triangle < nearest.triangle))) nearest = c;
     }
     firm += nearest.triangle != no_triangle;
-    const double tolerance = 1e-6 / static_cast<double>(length(ray.direction));
+    const double tolerance = 2e-6 / static_cast<double>(length(ray.direction));
     if (nearest.t < hit.t - tolerance) ++missed;
     if (hit.triangle == no_triangle) return;
     const auto c = oracle_.crossing(ray, hit.triangle);

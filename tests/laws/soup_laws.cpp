@@ -216,7 +216,7 @@ class RayJudge {
       const double along = 1e-6 * m + 8 * u * z;
       if (i == expected_.triangle) {
         if (distance_aside(view) > 2 * e + 8 * u * s) differ("oracle: hit beside its triangle", expected_);
-        if (!(std::abs(view.zeta - zeta) <= along + 4 * u * zeta))
+        if (!(std::abs(view.zeta - zeta) <= along + 4 * u * zeta + 0x1p-21 * m))
           differ("oracle: hit before or behind its triangle", expected_);
       }
       const double least = std::min({std::abs(view.edge[0]), std::abs(view.edge[1]), std::abs(view.edge[2])});

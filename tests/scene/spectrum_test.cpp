@@ -33,6 +33,49 @@ TEST(Tabulate, ExtendsOnRequest) {
   EXPECT_TRUE(is_constant(tabulate({{550, 0.25}}, true)));
 }
 
+// A triangle of area `height`·`half_width`.
+std::vector<std::array<double, 2>> line(double nm, double half_width, double height) {
+  return {{600, 0}, {nm - half_width, 0}, {nm, height}, {nm + half_width, 0}, {700, 0}};
+}
+
+// Against the observer at the line itself, which changes by less than 10⁻⁴ over a nanometre and the line.
+TEST(Tabulate, KeepsTheIntegralOfALine) {
+  for (const double nm : {656.0, 656.08, 656.28, 656.5, 656.97, 625.3})
+    for (const double half_width : {0.001, 0.08, 0.7, 1.5}) {
+      const XYZ found = to_xyz(tabulate(line(nm, half_width, 100), false));
+      const auto i = static_cast<std::size_t>(nm - lambda_min_nm);
+      const double f = nm - std::floor(nm);
+      const auto y_at = [&](std::size_t k) { return static_cast<double>(cie_1931()[k][1]); };
+      const double y = ((1 - f) * y_at(i) + f * y_at(i + 1)) * 100 * half_width / cie_y_integral_nm;
+      EXPECT_NEAR(found.y, y, 1.5e-3 * y) << nm << " ± " << half_width;
+    }
+}
+
+TEST(Tabulate, KeepsTheIntegralOfEverything) {
+  const std::vector<std::array<double, 2>> samples{
+      {412.3, 2}, {412.35, 7}, {500.5, 0}, {500.6, 9}, {701.9, 4}};
+  const TabulatedSpectrum table = tabulate(samples, false);
+  double want = 0, found = 0;
+  for (std::size_t i = 1; i < samples.size(); ++i)
+    want += (samples[i][0] - samples[i - 1][0]) * (samples[i][1] + samples[i - 1][1]) / 2;
+  for (const float v : table.values) {
+    found += static_cast<double>(v);
+    EXPECT_GE(v, 0);
+  }
+  EXPECT_NEAR(found, want, 1e-6 * want);
+}
+
+TEST(Tabulate, KeepsConstantsAndWholeNanometres) {
+  EXPECT_TRUE(is_constant(tabulate({{400.3, 0.3}, {512.7, 0.3}}, true)));
+  const Spectrum held = tabulate({{400.5, 1}, {500.5, 3}}, true);
+  EXPECT_FLOAT_EQ(static_cast<float>(evaluate(held, 360)), 1);
+  EXPECT_FLOAT_EQ(static_cast<float>(evaluate(held, 450)), 1.99f);
+  EXPECT_FLOAT_EQ(static_cast<float>(evaluate(held, 830)), 3);
+  const Spectrum whole = tabulate({{350.5, 0}, {499, 0}, {500, 1}, {501, 0}, {840.5, 0}}, false);
+  EXPECT_EQ(evaluate(whole, 500), 1);
+  EXPECT_EQ(evaluate(whole, 501), 0);
+}
+
 TEST(Tabulate, RefusesWhatIsNoSpectrum) {
   EXPECT_THROW(tabulate({}, true), Error);
   EXPECT_THROW(tabulate({{400, 1}, {400, 2}}, true), Error);

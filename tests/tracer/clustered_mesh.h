@@ -65,7 +65,7 @@ inline Hit brute_force(const DomainView& domain, const Ray& ray) {
     for (std::uint32_t lane = 0; lane < cluster_width; ++lane) {
       const std::uint32_t id = domain.clusters[c].id[lane];
       ExactHit exact;
-      if (id == no_triangle || id == ray.exclude || !exact_hit(constants, domain.clusters[c], lane, exact))
+      if (id == no_triangle || id == ray.exclude || !seen_hit(constants, domain.clusters[c], lane, exact))
         continue;
       if (exact.t < hit.t || (exact.t == hit.t && id < hit.triangle))
         hit = {exact.t, id, c, lane, 0, exact.u, exact.v};

@@ -44,7 +44,7 @@ TEST(Intersect, OneTriangleFromBothSides) {
     const Ray ray{{0.25f, 0.5f, 2 * side}, {0, 0, -side}};
     const Hit hit = closest(c, ray);
     EXPECT_EQ(hit.triangle, 0u);
-    EXPECT_EQ(hit.t, 2);
+    EXPECT_EQ(hit.t, side > 0 ? 2 : 2 + 0x1p-21);  // the back by its setback
     EXPECT_EQ(hit.u, 0.25);
     EXPECT_EQ(hit.v, 0.5);
     EXPECT_TRUE(occluded(c, ray, 2.5f));
@@ -289,6 +289,68 @@ TEST(KernelsDeathTest, TheEnvironmentChooses) {
   EXPECT_EXIT(report_kernel("portable"), testing::ExitedWithCode(0), "");
   EXPECT_EXIT(report_kernel("mmx"), testing::ExitedWithCode(3),
               "VITRAIL_KERNEL=mmx is no kernel .* choose one of: portable");
+}
+
+Triangle random_triangle(std::mt19937& random) {
+  std::uniform_real_distribution<float> in(-1, 1);
+  Triangle t;
+  for (Point3f& p : t) p = {in(random), in(random), in(random)};
+  return t;
+}
+
+// To the middle of a triangle, from about 3 away.
+Ray ray_to(const Triangle& t, std::mt19937& random) {
+  std::normal_distribution<float> anywhere;
+  const Point3f from{3 * anywhere(random), 3 * anywhere(random), 3 * anywhere(random)};
+  const Vector3f to = (t[0] - Point3f{}) + (t[1] - Point3f{}) + (t[2] - Point3f{});
+  return {from, Point3f{} + to * (1.0f / 3) - from};
+}
+
+TEST(Intersect, TheOrderOfTheVerticesDoesNotChangeTheDistance) {
+  std::mt19937 random(1);
+  for (int i = 0; i < 2000; ++i) {
+    const Triangle t = random_triangle(random);
+    const RayConstants ray = prepare(ray_to(t, random));
+    constexpr int orders[6][3] = {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}};
+    ExactHit first;
+    for (int k = 0; k < 6; ++k) {
+      const ClusteredTriangles c =
+          cluster({{t[static_cast<std::size_t>(orders[k][0])], t[static_cast<std::size_t>(orders[k][1])],
+                    t[static_cast<std::size_t>(orders[k][2])]}});
+      const auto lane = static_cast<unsigned>(std::ranges::find(c.clusters[0].id, 0u) - c.clusters[0].id);
+      ExactHit hit;
+      ASSERT_TRUE(exact_hit(ray, c.clusters[0], lane, hit));
+      if (k == 0) first = hit;
+      EXPECT_EQ(hit.t, first.t);
+      EXPECT_EQ(hit.front, first.front == (k < 3));
+    }
+  }
+}
+
+// A parallelogram as floats have it, cut along either diagonal, with a copy of it that faces the other way,
+// itself cut along either.
+TEST(Intersect, OfFacesInOnePlaneTheOneThatFacesTheRayIsSeen) {
+  std::mt19937 random(2);
+  int seen = 0, front = 0;
+  for (int i = 0; i < 4000; ++i) {
+    const Triangle t = random_triangle(random);
+    const Point3f a = t[0], b = t[1], d = t[2], c = b + (d - a);
+    const bool turned = i & 1, swapped = i & 2;
+    Triangles faces{{a, b, c}, {a, c, d}};
+    const Triangles back = turned ? Triangles{{d, c, b}, {d, b, a}} : Triangles{{c, b, a}, {d, c, a}};
+    faces.insert(swapped ? faces.begin() : faces.end(), back.begin(), back.end());
+    const Ray ray = ray_to(t, random);
+    const Vector3f normal = cross(b - a, d - a);
+    const float cosine = dot(normal, ray.direction) / (length(normal) * length(ray.direction));
+    if (std::abs(cosine) < 0.15f) continue;
+    const Hit hit = closest(cluster(faces), ray);
+    ASSERT_NE(hit.triangle, no_triangle);
+    const bool is_first = (hit.triangle < 2) != swapped;
+    EXPECT_EQ(is_first, cosine < 0) << i;
+    ++seen, front += is_first ? 1 : 0;
+  }
+  EXPECT_GT(seen, 3000);
+  EXPECT_GT(front, 1000);
 }
 
 }  // namespace

@@ -145,8 +145,10 @@ void closest_in_chain(const Query& query, const Chain& chain) {
   Hit& hit = *query.hit;
   if (chain.end->quadric) {
     const QuadricHits hits = hits_of(query, chain);
-    const auto& [t, local] = hits.at[0];
-    if (hits.count == 0 || !(t < hit.t || (t == hit.t && chain.first_triangle < hit.triangle))) return;
+    if (hits.count == 0) return;
+    const Point3d local = hits.at[0].local;
+    const double t = seen_t(query.ray, chain.to_bundle, *chain.end->quadric, hits.at[0]);
+    if (!(t < hit.t || (t == hit.t && chain.first_triangle < hit.triangle))) return;
     hit = {t,
            chain.first_triangle,
            0,
@@ -172,7 +174,8 @@ void closest_in_chain(const Query& query, const Chain& chain) {
 bool occluded_in_chain(const Query& query, const Chain& chain) {
   if (chain.end->quadric) {
     const QuadricHits hits = hits_of(query, chain);
-    return hits.count > 0 && hits.at[0].t < static_cast<double>(query.tmax);
+    return hits.count > 0 && seen_t(query.ray, chain.to_bundle, *chain.end->quadric, hits.at[0]) <
+                                 static_cast<double>(query.tmax);
   }
   for (const Cluster& cluster : chain.end->clusters)
     if (query.kernel->cluster_occluded(placed(cluster, chain), query.ray, query.tmax)) return true;

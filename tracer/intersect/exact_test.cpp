@@ -27,10 +27,20 @@ Sheared shear(const RayConstants& r, const float vertex[3][cluster_width], unsig
 
 double max3(double a, double b, double c) { return std::max(std::max(a, b), c); }
 double min3(double a, double b, double c) { return std::min(std::min(a, b), c); }
+// a + b + c with the same bits whatever their order, and of −a, −b, −c the negative.
+double sum3(double a, double b, double c) {
+  const double low = std::min(a, b), high = std::max(a, b);
+  return std::min(low, c) + std::max(high, c) + std::max(low, std::min(high, c));
+}
 double lateral(Sheared a) { return std::max(std::abs(a.x), std::abs(a.y)); }
 
 double greatest_coordinate(const float vertex[3][cluster_width], unsigned lane) {
   return double{std::max({std::abs(vertex[0][lane]), std::abs(vertex[1][lane]), std::abs(vertex[2][lane])})};
+}
+
+double greatest_coordinate(const Cluster& cluster, unsigned lane) {
+  const auto m = [&](int k) { return greatest_coordinate(cluster.vertex[k], lane); };
+  return max3(m(0), m(1), m(2));
 }
 
 // Whether det is great enough for t to be trusted: of vertices up to m from the origin, w away and s beside
@@ -43,9 +53,7 @@ bool well_conditioned(double det, Sheared a, Sheared b, Sheared c, const Cluster
   const double w = s + max3(std::abs(a.z), std::abs(b.z), std::abs(c.z));
   const double depth = max3(a.z, b.z, c.z) - min3(a.z, b.z, c.z);
   const auto holds = [&](double m) { return std::abs(det) * m > s * w * (5e-9 * depth + 6e-15 * m); };
-  const auto m = [&](int k) { return greatest_coordinate(cluster.vertex[k], lane); };
-  const double first = m(0);
-  return holds(first) || holds(max3(first, m(1), m(2)));
+  return holds(greatest_coordinate(cluster.vertex[0], lane)) || holds(greatest_coordinate(cluster, lane));
 }
 
 }  // namespace
@@ -86,11 +94,22 @@ bool exact_hit(const RayConstants& ray, const Cluster& cluster, unsigned lane, E
   const double v = a.x * c.y - a.y * c.x;
   const double w = b.x * a.y - b.y * a.x;
   if (min3(u, v, w) < 0 && max3(u, v, w) > 0) return false;
-  const double det = u + v + w;
+  const double det = sum3(u, v, w);
   if (!well_conditioned(det, a, b, c, cluster, lane)) return false;
-  const double t = (u * a.z + v * b.z + w * c.z) / det / ray.direction_z;
+  const double t = sum3(u * a.z, v * b.z, w * c.z) / det / ray.direction_z;
   if (!(t > 0)) return false;
-  hit = {t, v / det, w / det};
+  hit = {t, v / det, w / det, (det > 0) == (ray.direction_z > 0)};
+  return true;
+}
+
+double setback(const RayConstants& ray, double t, double reach) {
+  const double from = double{ray.drift} * 0x1p47, depth = std::abs(ray.direction_z);
+  return 0x1p-21 * std::min(reach, from + t * depth) / depth;
+}
+
+bool seen_hit(const RayConstants& ray, const Cluster& cluster, unsigned lane, ExactHit& hit) {
+  if (!exact_hit(ray, cluster, lane, hit)) return false;
+  if (!hit.front) hit.t += setback(ray, hit.t, greatest_coordinate(cluster, lane));
   return true;
 }
 

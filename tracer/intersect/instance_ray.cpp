@@ -5,7 +5,8 @@
 #include <cmath>
 
 #include "scene/motion.h"
-#include "tracer/quadrics/quadric_hits.h"
+#include "tracer/intersect/exact_test.h"
+#include "tracer/quadrics/quadric_surface.h"
 
 namespace vitrail {
 
@@ -105,6 +106,16 @@ Affine through_instance(const Affine* outer, const InstanceRef& ref, const Domai
   return object.motion ? compose(to_bundle, affine(object.motion->at(time_s))) : to_bundle;
 }
 
+double seen_t(const RayConstants& ray, const Affine& to_bundle, const OrientedQuadric& quadric,
+              const QuadricHit& hit) {
+  if (is_curve(quadric.quadric)) return hit.t;
+  double d[3];
+  find_direction(ray, d);
+  const Vector3d normal = placed_quadric_normal(quadric, to_bundle, hit.local);
+  if (dot(normal, Vector3d{d[0], d[1], d[2]}) < 0) return hit.t;
+  return hit.t + setback(ray, hit.t, placed_reach(to_bundle.m, 1));
+}
+
 namespace {
 
 // Of instance `index`, a quadric.
@@ -116,13 +127,22 @@ QuadricHits hits_of(const RayConstants& ray, const InstanceRay& outer, std::uint
                       object.quadric->quadric, starts_there);
 }
 
+double seen_t_of(const RayConstants& ray, const InstanceRay& outer, std::uint32_t index,
+                 const QuadricHit& hit) {
+  const InstanceRef& ref = outer.instances[index];
+  const DomainView& object = *outer.domain->objects[ref.object];
+  return seen_t(ray, through_instance(matrix_of(outer), ref, object, ray.time_s), *object.quadric, hit);
+}
+
 }  // namespace
 
 bool closest_in_quadric(const RayConstants& ray, const InstanceRay& outer, std::uint32_t index, Hit& hit) {
   const QuadricHits hits = hits_of(ray, outer, index);
   if (hits.count == 0 || outer.depth == max_instance_depth) return false;
   const std::uint32_t id = outer.first_triangle + outer.instances[index].first_triangle;
-  const auto& [t, local] = hits.at[0];
+  const Point3d local = hits.at[0].local;
+  if (!(hits.at[0].t <= hit.t)) return false;
+  const double t = seen_t_of(ray, outer, index, hits.at[0]);
   if (!(t < hit.t || (t == hit.t && id < hit.triangle))) return false;
   hit.t = t;
   hit.triangle = id;
@@ -136,7 +156,8 @@ bool closest_in_quadric(const RayConstants& ray, const InstanceRay& outer, std::
 
 bool occluded_in_quadric(const RayConstants& ray, const InstanceRay& outer, std::uint32_t index, float tmax) {
   const QuadricHits hits = hits_of(ray, outer, index);
-  return hits.count > 0 && hits.at[0].t < static_cast<double>(tmax);
+  const auto end = static_cast<double>(tmax);
+  return hits.count > 0 && hits.at[0].t < end && seen_t_of(ray, outer, index, hits.at[0]) < end;
 }
 
 InstanceRay domain_ray(const DomainView& domain, const RayConstants& ray) {

@@ -5,7 +5,9 @@
 #pragma once
 
 #include "bundle/instance.h"
+#include "bundle/oriented_quadric.h"
 #include "tracer/intersect/ray.h"
+#include "tracer/quadrics/quadric_hits.h"
 
 namespace vitrail {
 
@@ -43,6 +45,9 @@ InstanceRay domain_ray(const DomainView& domain, const RayConstants& ray);
 inline bool is_quadric(const InstanceRay& outer, std::uint32_t index) {
   return outer.domain->objects[outer.instances[index].object]->quadric != nullptr;
 }
+// t of a hit as hits and shadows go by it: `seen_hit` of quadrics. Curves are never seen from within.
+double seen_t(const RayConstants& ray, const Affine& to_bundle, const OrientedQuadric& quadric,
+              const QuadricHit& hit);
 // Whether it lowers the hit, or is in the way.
 bool closest_in_quadric(const RayConstants& ray, const InstanceRay& outer, std::uint32_t index, Hit& hit);
 bool occluded_in_quadric(const RayConstants& ray, const InstanceRay& outer, std::uint32_t index, float tmax);

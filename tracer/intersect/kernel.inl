@@ -90,7 +90,7 @@ inline float closest_in_cluster(const Cluster& cluster, std::uint32_t index, con
     const unsigned lane = static_cast<unsigned>(__builtin_ctz(lanes));
     const std::uint32_t id = cluster.id[lane];
     ExactHit exact;
-    if (id == ray.exclude || !exact_hit(ray, cluster, lane, exact)) continue;
+    if (id == ray.exclude || !seen_hit(ray, cluster, lane, exact)) continue;
     if (!(exact.t < hit.t || (exact.t == hit.t && id < hit.triangle))) continue;
     hit.t = exact.t;
     hit.triangle = id;
@@ -115,7 +115,8 @@ inline bool occluded_in_cluster(const Cluster& cluster, const RayConstants& ray,
   // Lanes that the exact test certainly accepts.
   const Floats zero = fill(0);
   const Lanes inside = either(less_equal(e.error, e.least), less_equal(e.greatest, sub(zero, e.error)));
-  const float certain_limit = (limit - 3 * least_depth) * (1 - 6e-6f);
+  // 2⁻²⁰ of the origin and of the way is more than a setback.
+  const float certain_limit = (limit - 3 * least_depth) * (1 - 7e-6f) - ray.drift * 0x1p27f;
   const Lanes in_range =
       both(less_equal(fill(least_depth), d.earliest), less_equal(d.latest, mul(fill(certain_limit), d.det)));
   const unsigned certain = bits(both(both(inside, in_range), d.known));
@@ -123,7 +124,7 @@ inline bool occluded_in_cluster(const Cluster& cluster, const RayConstants& ray,
     const unsigned lane = static_cast<unsigned>(__builtin_ctz(lanes));
     if (cluster.id[lane] == ray.exclude) continue;
     ExactHit exact;
-    if (certain >> lane & 1 || (exact_hit(ray, cluster, lane, exact) && exact.t < double{tmax})) return true;
+    if (certain >> lane & 1 || (seen_hit(ray, cluster, lane, exact) && exact.t < double{tmax})) return true;
   }
   return false;
 }
