@@ -47,7 +47,7 @@ std::uint64_t hash_from(const Json& j) {
 }
 
 // The kinds of a variant, in the order of its alternatives.
-constexpr std::array camera_kinds{"perspective", "orthographic", "spherical", "sensors"};
+constexpr std::array camera_kinds{"perspective", "orthographic", "spherical", "sensors", "realistic"};
 constexpr std::array sphere_kinds{"equal area", "latitude longitude"};
 constexpr std::array quadric_kinds{"sphere", "cylinder", "disk", "cone", "paraboloid", "curve"};
 constexpr std::array quadric_uvs{"pbrt", "mitsuba"};
@@ -109,6 +109,23 @@ Motion motion_from_json(const Json& of, const char* key) {
   return Motion(std::move(keys));
 }
 
+RealisticCamera realistic_from_json(const Json& j, const Transform& camera_to_world) {
+  RealisticCamera camera{camera_to_world, j.at("film_diagonal").get<double>(), {}, {}};
+  for (const Json& s : j.at("surfaces")) {
+    const auto n = [&](std::size_t i) { return s.at(i).get<double>(); };
+    camera.surfaces.push_back({n(0), n(1), n(2), n(3)});
+  }
+  for (const Json& p : j.at("pupils")) {
+    const auto n = [&](std::size_t i) { return p.at(i).get<double>(); };
+    camera.pupils.push_back({{n(0), n(1), n(2), n(3)}, n(4)});
+  }
+  const auto positive_index = [](const LensSurface& s) { return s.index > 0; };
+  if (camera.surfaces.empty() || camera.pupils.empty() || !(camera.film_diagonal > 0) ||
+      !std::ranges::all_of(camera.surfaces, positive_index))
+    throw Error("the camera's lens makes no sense");
+  return camera;
+}
+
 Camera camera_from_json(const Json& j) {
   const Transform t = transform_from_json(j.at("camera_to_world"));
   const std::size_t kind = kind_index(j, camera_kinds);
@@ -123,6 +140,7 @@ Camera camera_from_json(const Json& j) {
     }
     return camera;
   }
+  if (kind == 4) return realistic_from_json(j, t);
   const auto s = [&](std::size_t i) { return number<double>(j.at("screen"), i); };
   const ScreenWindow screen{s(0), s(1), s(2), s(3)};
   Lens lens;
@@ -290,6 +308,12 @@ Json camera_to_json(const Camera& camera) {
           for (const Sensor& s : c.sensors)
             j["sensors"].push_back(
                 {s.position.x, s.position.y, s.position.z, s.normal.x, s.normal.y, s.normal.z});
+        } else if constexpr (requires { c.surfaces; }) {
+          j["film_diagonal"] = c.film_diagonal;
+          j["surfaces"] = j["pupils"] = Json::array();
+          for (const LensSurface& s : c.surfaces)
+            j["surfaces"].push_back({s.radius, s.thickness, s.index, s.aperture_radius});
+          for (const auto& [r, weight] : c.pupils) j["pupils"].push_back({r.x0, r.x1, r.y0, r.y1, weight});
         } else {
           j["screen"] = {c.screen.x0, c.screen.x1, c.screen.y0, c.screen.y1};
           if (c.lens != Lens{})

@@ -380,6 +380,14 @@ void fields(auto& io, Is<SphericalCamera> auto& c) {
 void fields(auto& io, Is<Sensor> auto& s) { fields(io, s.position), fields(io, s.normal); }
 void fields(auto& io, Is<SensorCamera> auto& c) { fields(io, c.camera_to_world), list(io, c.sensors); }
 
+void fields(auto& io, Is<LensSurface> auto& s) {
+  io(s.radius), io(s.thickness), io(s.index), io(s.aperture_radius);
+}
+void fields(auto& io, Is<ExitPupil> auto& p) { fields(io, p.rectangle), io(p.weight); }
+void fields(auto& io, Is<RealisticCamera> auto& c) {
+  fields(io, c.camera_to_world), io(c.film_diagonal), list(io, c.surfaces), list(io, c.pupils);
+}
+
 // ---- Building blocks, defined
 
 // A variant is its index in one byte, then the fields of that alternative.

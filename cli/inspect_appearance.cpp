@@ -111,7 +111,10 @@ Report describe_needs(const Scene& scene) {
   const auto* perspective = std::get_if<PerspectiveCamera>(&scene.camera);
   const auto* orthographic = std::get_if<OrthographicCamera>(&scene.camera);
   const double radius = perspective ? perspective->lens.radius : orthographic ? orthographic->lens.radius : 0;
-  needs["lens"] = yes_or_no(radius > 0 ? fmt::format("of radius {:.4g}", radius) : "");
+  const auto* realistic = std::get_if<RealisticCamera>(&scene.camera);
+  needs["lens"] = yes_or_no(radius > 0  ? fmt::format("of radius {:.4g}", radius)
+                            : realistic ? fmt::format("of {} surfaces", realistic->surfaces.size())
+                                        : "");
   return needs;
 }
 

@@ -65,7 +65,32 @@ struct SensorCamera {
   bool operator==(const SensorCamera&) const = default;
 };
 
-using Camera = std::variant<PerspectiveCamera, OrthographicCamera, SphericalCamera, SensorCamera>;
+// A lens of many surfaces before a film (Kolb, Mitchell, Hanrahan 1995), as pbrt's. The film is in the plane
+// z = 0, its middle at the origin.
+struct LensSurface {
+  double radius = 0;     // of curvature; above 0: its centre is on the film's side. 0: the stop, a plane
+  double thickness = 0;  // to the next surface towards the film; of the last, to the film
+  double index = 1;      // of refraction, towards the film
+  double aperture_radius = 0;
+  bool operator==(const LensSurface&) const = default;
+};
+// Of a ring of the film: where its rays to the plane of the lens's last vertex go to, for a point of the film
+// on the x axis (they turn with it), and what each brings beside cos⁴θ.
+struct ExitPupil {
+  ScreenWindow rectangle{0, 0, 0, 0};
+  double weight = 0;
+  bool operator==(const ExitPupil&) const = default;
+};
+struct RealisticCamera {
+  Transform camera_to_world;
+  double film_diagonal = 0;
+  std::vector<LensSurface> surfaces;  // from the scene to the film
+  std::vector<ExitPupil> pupils;      // of rings of the film, equally wide, out to half the diagonal
+  bool operator==(const RealisticCamera&) const = default;
+};
+
+using Camera =
+    std::variant<PerspectiveCamera, OrthographicCamera, SphericalCamera, SensorCamera, RealisticCamera>;
 
 // Pixel reconstruction filters, all normalised; radii and σ in pixels. The Gaussian is pbrt's: lowered to
 // reach 0 at its radius.

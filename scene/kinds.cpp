@@ -38,7 +38,7 @@ const char* kind_of(const LightModel& model) {
 }
 
 const char* kind_of(const Camera& camera) {
-  return name_of(camera, std::array{"perspective", "orthographic", "spherical", "sensors"});
+  return name_of(camera, std::array{"perspective", "orthographic", "spherical", "sensors", "realistic"});
 }
 
 const char* kind_of(QuadricKind kind) {

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/lens_tracing.h"
+#include "scene/paraxial_lens.h"
 #include "scene/portable_math.h"
 
 namespace vitrail {
@@ -14,6 +16,7 @@ namespace {
 struct LocalRay {
   Point3d origin;
   Vector3d direction;  // not 0, of any length
+  double weight = 1;
 };
 
 Point2d on_screen(const ScreenWindow& s, const FilmSettings& film, Point2d raster) {
@@ -82,6 +85,25 @@ LocalRay local_ray(const SensorCamera& camera, const FilmSettings&, Point2d rast
   return {sensor.position, sensor.normal};
 }
 
+// Backwards: from the film through the lens. The film's image is upside down and mirrored.
+LocalRay local_ray(const RealisticCamera& camera, const FilmSettings& film, Point2d raster, Point2d u) {
+  const Point2d half = half_film(camera, film);
+  const Point3d p{half.x * (1 - 2 * raster.x / film.width), half.y * (2 * raster.y / film.height - 1), 0};
+  const double off_axis = std::sqrt(p.x * p.x + p.y * p.y);
+  const auto rings = static_cast<double>(camera.pupils.size());
+  const auto ring = static_cast<std::size_t>(
+      std::clamp(std::floor(off_axis / (camera.film_diagonal / 2) * rings), 0.0, rings - 1));
+  const ExitPupil& pupil = camera.pupils[ring];
+  const ScreenWindow& r = pupil.rectangle;
+  const double x = r.x0 + u.x * (r.x1 - r.x0), y = r.y0 + u.y * (r.y1 - r.y0);
+  const double cosine = off_axis > 0 ? p.x / off_axis : 1, sine = off_axis > 0 ? p.y / off_axis : 0;
+  const Point2d rear{cosine * x - sine * y, sine * x + cosine * y};
+  const auto ray = through_lens(camera.surfaces, p, rear);
+  if (!ray || !(pupil.weight > 0)) return {{0, 0, 0}, {0, 0, 1}, 0};
+  return {ray->origin, ray->direction,
+          pupil.weight * cosine_4({p.x, p.y}, rear, rear_vertex(camera.surfaces))};
+}
+
 }  // namespace
 
 Point2d concentric_disk(Point2d u) {
@@ -98,6 +120,7 @@ namespace {
 struct WorldRay {
   Point3d origin;
   Vector3d direction;
+  double weight = 1;
 };
 
 // `moved`: where the camera is instead, if it moves.
@@ -107,7 +130,7 @@ WorldRay world_ray(const Camera& camera, const FilmSettings& film, Point2d raste
       [&](const auto& c) -> WorldRay {
         const LocalRay ray = local_ray(c, film, raster, lens);
         const Transform& to_world = moved ? *moved : c.camera_to_world;
-        return {transform_point(to_world, ray.origin), transform_vector(to_world, ray.direction)};
+        return {transform_point(to_world, ray.origin), transform_vector(to_world, ray.direction), ray.weight};
       },
       camera);
 }
@@ -121,6 +144,8 @@ CameraSampler::CameraSampler(const Camera& camera, const Motion& motion, const F
         if constexpr (requires { c.lens; }) {
           has_lens_ = c.lens.radius > 0;
           is_linear_ = !has_lens_ && !motion.moves();
+        } else if constexpr (requires { c.surfaces; }) {
+          has_lens_ = true;
         }
       },
       camera);
@@ -144,7 +169,7 @@ CameraRay CameraSampler::ray(Point2d raster, Point2d lens, double time_s) const 
   std::optional<Transform> moved;
   if (motion_.moves()) moved = motion_.at(time_s);
   const WorldRay ray = world_ray(camera_, film_, raster, lens, moved ? &*moved : nullptr);
-  return {cast<float>(ray.origin), encode_direction(ray.direction)};
+  return {cast<float>(ray.origin), encode_direction(ray.direction), ray.weight};
 }
 
 std::optional<Sensor> CameraSampler::sensor(int x) const {

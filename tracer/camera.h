@@ -11,6 +11,7 @@ namespace vitrail {
 struct CameraRay {
   Point3f origin;
   DirectionCode direction;
+  double weight = 1;  // of what it brings; 0: the lens lets nothing through
 };
 
 class CameraSampler {

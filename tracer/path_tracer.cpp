@@ -156,7 +156,7 @@ void PathTracer::trace_camera(int x, int y, std::uint32_t sample) {
   begin(path);
   const CameraRay ray = camera_ray(x, y, path);
   if (film_.layers().any()) path.set(path_unrecorded);
-  path.throughput = filled(1);
+  path.throughput = filled(static_cast<float>(ray.weight));
   if (scene_.sampling.one_wavelength) path.disperse();
   path.inside = scene_.interiors.state_in(manifest_.camera_medium);
   path.direction = ray.direction;
@@ -164,6 +164,7 @@ void PathTracer::trace_camera(int x, int y, std::uint32_t sample) {
   path.random = hash_of_ray(path);
   film_.count_sample(path.pixel, sample, footprint_of(path.pixel, sample));
   ++counters_.rays_camera;
+  if (!(ray.weight > 0)) return;  // dark: the lens holds it up
   if (traffic_) traffic_->begin({});
   ++counters_.born;
   if (const auto sensor = scene_.camera.sensor(x); sensor && !begin_at(path, *sensor)) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "bundle/texture_file.h"
+#include "scene/paraxial_lens.h"
 #include "scene/portable_math.h"
 #include "tracer/records.h"
 
@@ -12,8 +13,11 @@ namespace vitrail {
 namespace {
 
 double pixel_angle(const Manifest& m) {
-  const auto* perspective = std::get_if<PerspectiveCamera>(&m.camera);
-  return perspective ? (perspective->screen.y1 - perspective->screen.y0) / m.film.height : 0;
+  const auto angle = [&](const PerspectiveCamera& c) { return (c.screen.y1 - c.screen.y0) / m.film.height; };
+  if (const auto* perspective = std::get_if<PerspectiveCamera>(&m.camera)) return angle(*perspective);
+  if (const auto* realistic = std::get_if<RealisticCamera>(&m.camera))
+    return angle(view_of(*realistic, m.film));
+  return 0;
 }
 
 RenderScene::Pixel pixel_of(const Manifest& m) {

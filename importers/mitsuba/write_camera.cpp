@@ -12,6 +12,7 @@
 #include "importers/mitsuba/screen.h"
 #include "importers/mitsuba/write_film.h"
 #include "scene/bounds.h"
+#include "scene/paraxial_lens.h"
 
 namespace vitrail::mitsuba_writer {
 
@@ -204,6 +205,11 @@ Element write(Context& context, Element root, const SphericalCamera& camera) {
 
 Element write(Context& context, Element root, const SensorCamera& camera) {
   context.dropped("sensors of irradiance: a camera that looks along the first one's normal");
+  return write(context, root, view_of(camera, context.scene.film));
+}
+
+Element write(Context& context, Element root, const RealisticCamera& camera) {
+  context.approximated("lens of many surfaces: a thin one, without distortion and darker corners");
   return write(context, root, view_of(camera, context.scene.film));
 }
 

@@ -136,27 +136,19 @@ double exposure_time(const Shutter& shutter, ParameterSet& parameters, Context& 
   return 1;
 }
 
-std::optional<LensSystem> read_lens_system(ParameterSet& parameters, Context& context) {
+LensSystem read_lens_system(ParameterSet& parameters, Context& context) {
   const std::string name = parameters.text("lensfile", "");
   const double aperture_mm = parameters.number("aperturediameter", 1);
-  LensSystem system{{}, positive(parameters, "focusdistance", 10)};
-  system.exposes = context.version == Version::v4 || !parameters.boolean("simpleweighting", true);
+  if (name.empty())
+    fail("camera \"realistic\" has no \"lensfile\": name one, or use camera \"perspective\"",
+         parameters.place());
   const std::filesystem::path file = context.resolve(name);
   std::error_code ignored;
-  if (name.empty() || !std::filesystem::is_regular_file(file, ignored)) {
-    context.report.dropped(
-        fmt::format("camera \"realistic\": there is no lens file \"{}\": a perspective camera of 90 degrees",
-                    name),
-        parameters.place());
-    return std::nullopt;
-  }
-  system.lens = read_lens(file, aperture_mm);
-  context.report.approximated(
-      fmt::format(
-          "camera \"realistic\": a thin lens of its focal length, {:.3g} mm, and its pupil, {:.3g} mm "
-          "wide, without distortion and without its darker corners",
-          system.lens.focal_length, 2 * system.lens.pupil_radius),
-      parameters.place());
+  if (!std::filesystem::is_regular_file(file, ignored))
+    fail(fmt::format("camera \"realistic\": there is no lens file \"{}\"", name), parameters.place());
+  LensSystem system{read_lens(file, aperture_mm), positive(parameters, "focusdistance", 10)};
+  system.by_area = context.version == Version::v4 || !parameters.boolean("simpleweighting", true);
+  system.place = parameters.place();
   if (parameters.find("aperture", {ParameterType::text}))
     context.report.approximated("camera \"realistic\": its aperture is round", parameters.place());
   return system;
@@ -307,37 +299,37 @@ ScreenWindow screen_of(const ViewSettings& view) {
 
 }  // namespace
 
-// A lens sees as a hole in its front principal plane does, on a film as far from it as its own is from the
-// rear one. The middle of the film gets π(r/s′)² of the radiance.
-static ViewSettings with_thin_lens(ViewSettings view, const LensSystem& system) {
+static Camera realistic_camera(const ViewSettings& view, const Transform& camera_to_world, double& exposure) {
   constexpr double mm = 1e-3;
-  const ThinLens& lens = system.lens;
-  const double image = image_distance(lens, system.focus_distance / mm);
-  const double width = view.film.width, height = view.film.height;
-  const double shorter = view.film_diagonal_mm * std::min(width, height) / std::hypot(width, height);
-  view.fov_deg = 2 * std::atan(shorter / 2 / image) * 180 / std::numbers::pi;
-  view.lens.radius = lens.pupil_radius * mm;
-  view.lens.focal_distance = lens.focal_length * image / (image - lens.focal_length) * mm;
-  view.camera_to_world = snapped(view.camera_to_world * translate({0, 0, (image + lens.principal_gap) * mm}));
-  if (system.exposes) view.exposure *= std::numbers::pi * std::pow(lens.pupil_radius / image, 2);
-  return view;
+  const LensSystem& system = *view.lens_system;
+  try {
+    FocussedLens lens =
+        focussed(system.surfaces, system.focus_distance, view.film_diagonal_mm * mm, system.by_area);
+    exposure *= lens.middle;
+    return RealisticCamera{camera_to_world, view.film_diagonal_mm * mm, std::move(lens.surfaces),
+                           std::move(lens.pupils)};
+  } catch (const Error& e) {
+    fail(e.what(), system.place);
+  }
 }
 
-void apply(const ViewSettings& given, Scene& scene) {
-  const ViewSettings view = given.lens_system ? with_thin_lens(given, *given.lens_system) : given;
+void apply(const ViewSettings& view, Scene& scene) {
+  double exposure = view.exposure * view.exposure_s;
   const ScreenWindow screen = screen_of(view);
   scene.shutter = view.shutter;
   if (!stands_still(view.motion, scene.shutter)) scene.camera_motion = view.motion;
   const Transform camera_to_world =
       view.motion.moves() ? view.motion.at(view.shutter.open_s) : view.camera_to_world;
-  if (view.projection == ViewSettings::Projection::spherical)
+  if (view.lens_system)
+    scene.camera = realistic_camera(view, camera_to_world, exposure);
+  else if (view.projection == ViewSettings::Projection::spherical)
     scene.camera = SphericalCamera{camera_to_world, view.sphere};
   else if (view.projection == ViewSettings::Projection::orthographic)
     scene.camera = OrthographicCamera{camera_to_world, screen, view.lens};
   else
     scene.camera = PerspectiveCamera{camera_to_world, screen, view.lens};
   scene.film = view.film;
-  scene.film.imaging_ratio = view.exposure * view.exposure_s;
+  scene.film.imaging_ratio = exposure;
   scene.settings = view.render;
   if (view.iterations) scene.settings.samples_per_pixel = *view.iterations;
 }

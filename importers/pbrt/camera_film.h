@@ -16,9 +16,10 @@ namespace vitrail::pbrt {
 
 // Of the realistic camera. Its film is at the camera's place.
 struct LensSystem {
-  ThinLens lens;
+  std::vector<LensSurface> surfaces;
   double focus_distance = 10;  // from the film, in the scene's units, which are metres
-  bool exposes = true;         // by the share of all directions that the film sees the pupil in
+  bool by_area = true;         // see FocussedLens
+  Place place;
 };
 
 // What Camera, Film, PixelFilter, Sampler and Integrator said. The camera's screen depends on the film's
@@ -55,7 +56,7 @@ void read_filter(const std::string& kind, ParameterSet& parameters, Context& con
 void read_sampler(const std::string& kind, ParameterSet& parameters, Context& context, ViewSettings& view);
 void read_integrator(const std::string& kind, ParameterSet& parameters, Context& context, ViewSettings& view);
 
-// Puts camera, film and settings into the scene.
+// Puts camera, film and settings into the scene. Throws Error for a lens that cannot be focussed.
 void apply(const ViewSettings& view, Scene& scene);
 
 }  // namespace vitrail::pbrt

@@ -1,24 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
-// The lens of pbrt's realistic camera by its paraxial rays.
+// The lens of pbrt's realistic camera.
 #pragma once
 
 #include <filesystem>
+#include <vector>
+
+#include "scene/camera.h"
 
 namespace vitrail::pbrt {
 
-// What a system of lenses in air does to rays near its axis. Lengths in mm.
-struct ThinLens {
-  double focal_length = 0;
-  double principal_gap = 0;  // from the front principal plane to the rear one
-  double pupil_radius = 0;   // of the entrance pupil
-};
-
 // Of a file that has, from the scene to the film, each surface's radius of curvature (0: the stop), distance
-// to the next, index behind it and diameter. `aperture_mm`, if it is less than the file's, is the stop's
-// diameter. Throws Error for files that are no such list, and for lenses that do not gather light.
-ThinLens read_lens(const std::filesystem::path& file, double aperture_mm);
+// to the next, index behind it and diameter, in mm. In metres. `aperture_mm`, if it is less than the file's,
+// is the stop's diameter. Throws Error for files that are no such list, and for lenses that do not gather
+// light.
+std::vector<LensSurface> read_lens(const std::filesystem::path& file, double aperture_mm);
 
-// From the rear principal plane to the film that is sharp for what is `distance_mm` from it, the film.
-double image_distance(const ThinLens& lens, double distance_mm);
+// The lens so far from the film that what is `focus_distance` from the film is sharp, and what its film of
+// `film_diagonal` sees. All in metres. `by_area`: samples count by the size of the rectangle that they are
+// of, as in pbrt-v4 (and in v3 without simpleweighting), else they all count alike. Throws Error where
+// nothing so near is sharp, or where no light comes to the middle of the film.
+struct FocussedLens {
+  std::vector<LensSurface> surfaces;
+  std::vector<ExitPupil> pupils;
+  double middle =
+      0;  // what the middle of the film gets of a radiance of 1; the weights of pupils are over it
+};
+FocussedLens focussed(std::vector<LensSurface> surfaces, double focus_distance, double film_diagonal,
+                      bool by_area);
 
 }  // namespace vitrail::pbrt

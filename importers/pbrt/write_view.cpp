@@ -7,6 +7,7 @@
 #include "importers/pbrt/gbuffer.h"
 #include "importers/pbrt/writer.h"
 #include "importers/sensor_view.h"
+#include "scene/paraxial_lens.h"
 
 namespace vitrail::pbrt {
 
@@ -76,6 +77,10 @@ struct CameraWriter {
   }
   void operator()(const SensorCamera& c) {
     p.dropped("sensors of irradiance: a camera that looks along the first one's normal");
+    (*this)(view_of(c, w.scene.film));
+  }
+  void operator()(const RealisticCamera& c) {
+    p.approximated("lens of many surfaces: a thin one, without distortion and darker corners");
     (*this)(view_of(c, w.scene.film));
   }
 

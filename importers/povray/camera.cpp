@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "importers/povray/camera.h"
 #include "importers/sensor_view.h"
+#include "scene/paraxial_lens.h"
 
 #include <cmath>
 
@@ -74,6 +75,12 @@ std::string text_of(Context& context, const SphericalCamera& camera) {
 std::string text_of(Context& context, const SensorCamera& camera) {
   context.dropped("sensors of irradiance: a camera that looks along the first one's normal",
                   context.scene.camera_origin);
+  return text_of(context, view_of(camera, context.scene.film));
+}
+
+std::string text_of(Context& context, const RealisticCamera& camera) {
+  context.approximated("lens of many surfaces: a thin one, without distortion and darker corners",
+                       context.scene.camera_origin);
   return text_of(context, view_of(camera, context.scene.film));
 }
 

@@ -6,7 +6,10 @@
 #include <cmath>
 #include <functional>
 
+#include "scene/lens_tracing.h"
+#include "scene/paraxial_lens.h"
 #include "scene/portable_math.h"
+#include "tests/support/double_gauss.h"
 #include "tests/support/render.h"
 
 namespace vitrail::test {
@@ -201,6 +204,47 @@ TEST(MeansOfCameras, ThinLenses) {
             << (perspective ? "perspective" : "orthographic") << ", focus " << focus << ", column " << x;
       }
     }
+}
+
+// What a pixel of the film gets through its lens of a radiance of 1: ∫cos⁴θ dA/z² over all that comes
+// through, over what the middle gets.
+TEST(MeansOfCameras, ALensOfManySurfaces) {
+  constexpr double diagonal = 0.0432, height = 5;
+  RealisticCamera camera{look_at({0, 0, height}, {0, 0, 0}, {0, 1, 0}), diagonal, double_gauss(), {}};
+  const ThinLens thin = thin_lens(camera.surfaces);
+  const double z = camera.surfaces.back().thickness = *image_distance(thin, height) + thin.rear_principal;
+  camera.pupils = exit_pupils(camera.surfaces, diagonal / 2);
+  for (ExitPupil& p : camera.pupils)
+    p.weight = (p.rectangle.x1 - p.rectangle.x0) * (p.rectangle.y1 - p.rectangle.y0) / (z * z);
+  const double middle =
+      camera.pupils[0].weight * mean_weight(camera.surfaces, {0, 0}, camera.pupils[0].rectangle);
+  for (ExitPupil& p : camera.pupils) p.weight /= middle;
+
+  Scene scene = half_plane(1000, 1000);
+  scene.camera = camera;
+  const Film film = render(scene, 1024).film;
+  const Point2d half = half_film(camera, scene.film);
+  const double rear = camera.surfaces.back().aperture_radius * 1.5;
+  constexpr int grid = 96;
+  for (const Point2d& at : {Point2d{8, 8}, Point2d{2, 8}, Point2d{13, 3}, Point2d{0, 0}, Point2d{15, 0}}) {
+    double expected = 0;
+    for (int k = 0; k < 4; ++k) {
+      const Point3d on_film{half.x * (1 - (at.x + 0.25 + 0.5 * (k & 1)) / 8),
+                            half.y * ((at.y + 0.25 + 0.5 * (k >> 1)) / 8 - 1), 0};
+      for (int j = 0; j < grid; ++j)
+        for (int i = 0; i < grid; ++i) {
+          const Point2d p{rear * ((2 * i + 1.0) / grid - 1), rear * ((2 * j + 1.0) / grid - 1)};
+          const double dx = p.x - on_film.x, dy = p.y - on_film.y,
+                       squared = z * z / (dx * dx + dy * dy + z * z);
+          if (through_lens(camera.surfaces, on_film, p))
+            expected += squared * squared * 4 * rear * rear / (z * z) / middle / (4 * grid * grid);
+        }
+    }
+    const auto pixel = static_cast<std::uint32_t>(at.y * size + at.x);
+    EXPECT_NEAR(film.mean(pixel).y, expected, 0.02) << at.x << ' ' << at.y;
+  }
+  EXPECT_NEAR(film.mean(8 * size + 8).y, 1, 0.02) << "the middle";
+  EXPECT_LT(film.mean(0).y, 0.5) << "a corner";
 }
 
 // ---- The whole sphere
