@@ -37,6 +37,7 @@ struct PathTracer::Path {
   float pdf = 0;            // of the last scattering, as density_beside says; 0: specular or camera
   FaceCode entered_by;      // in a pane: the face it came in through
   std::uint32_t aim = 0;    // of a connection: bits of a RefractedAim or a StraightAim
+  std::uint32_t walk = 0;   // with a RefractedAim: bits of a PaneWalk
   double travelled = 0;     // since the last scattering, straight through surfaces; of a straight connection
                             // what is left, in lengths of its direction; already rounded
   std::uint8_t inside = 0;  // state of Interiors

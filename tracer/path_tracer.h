@@ -12,6 +12,7 @@
 
 #include "film/film.h"
 #include "tracer/intersect/intersector.h"
+#include "tracer/pane_walk.h"
 #include "tracer/photons/photon_pass.h"
 #include "tracer/ray_traffic.h"
 #include "tracer/records.h"
@@ -129,7 +130,10 @@ class PathTracer {
   // photon_tracing.cpp
   void begin_photon(Path& path) const;
   bool shade_photon(Path& path);
+  EmittedPhoton emitted_as(const Path& path) const;
   bool is_connected_to(const Path& path) const;
+  void pass_face(Path& path) const;
+  void turn_at_face(Path& path, const Interaction& at, const MetFace& face) const;
   void land(const Path& path, const Interaction& at);
   void gather(const Path& path, const Interaction& at, const Scattering& scattering, Vector3d out);
   bool flies() const { return photons_ && photons_->flying; }
@@ -174,15 +178,22 @@ class PathTracer {
   void connect(const Path& path, Point3d p, std::uint32_t count, const Scatter& scatter,
                const Depart& depart);
   void send_connection(const Path& path, const Departure& from, const LightSample& light,
-                       const SampledSpectrum& radiance, bool refracts);
+                       const SampledSpectrum& radiance, bool walks);
   void send_shadow_ray(const Path& path, const Departure& from, const LightSample& light,
                        const SampledSpectrum& radiance);
   bool connect_onwards(Path& path);
   bool connects_through_hole(Path& path, const Interaction& at, const Surface& surface, bool opaque) const;
   bool connect_straight(Path& path, const Interaction& at, const Surface* surface);
-  bool refract_connection(Path& path, const Interaction& at, const Surface& surface) const;
   static void pack_connection(const Path& path, PathRecord& record);
   static void unpack_connection(const PathRecord& record, Path& path);
+
+  // pane_connections.cpp
+  enum class AtFace : std::uint8_t { ends, passes, turns };
+  static void fade(Path& path, const SampledSpectrum& transmitted);
+  bool walks_on(Path& path) const;
+  AtFace walk_at(Path& path, const FaceLight<SampledSpectrum>& face, bool parallel) const;
+  bool walk_interface(Path& path, const Interaction& at, const Surface& surface) const;
+  bool walk_sheet(Path& path, const Interaction& at, const Surface& surface) const;
 
   void trace_shadow(const Shadow& shadow, const SensorWeights* weights, std::optional<std::uint32_t> at);
   bool is_occluded(const Shadow& shadow, std::optional<std::uint32_t> at);

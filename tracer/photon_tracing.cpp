@@ -71,6 +71,7 @@ bool PathTracer::shade_photon(Path& path) {
     path.throughput =
         path.throughput * scene_.materials.passes_straight(surface.material, at, path.wavelengths);
     if (is_black(path.throughput)) return false;
+    if (kind.sheet) pass_face(path);
     pass_straight(path, at, &surface);
     return true;
   }
@@ -80,6 +81,7 @@ bool PathTracer::shade_photon(Path& path) {
   const Material* material = scene_.materials.choose(surface.material, at, chance);
   if (!material) {
     path.depth += manifest_.settings.straight_counts;
+    if (kind.sheet) pass_face(path);
     pass_straight(path, at, &surface);
     return true;
   }
@@ -95,6 +97,7 @@ bool PathTracer::shade_photon(Path& path) {
   if (chosen->specular && chosen->in == -out) {
     path.throughput = path.throughput * weight;
     if (is_black(path.throughput)) return false;
+    if (kind.sheet) pass_face(path);
     scatter_straight(path, at, surface);
     return true;
   }
@@ -117,11 +120,25 @@ bool PathTracer::shade_photon(Path& path) {
   path.throughput = path.throughput * weight *
                     static_cast<float>(scattering.bump_shadowing(dot(at.out, at.shading))) * adjoint;
   if (is_black(path.throughput)) return false;
-  path.sample |= photon_scattered;
+  if (kind.sheet && chosen->specular && is_mirror(scattering.bsdf) && out.z * chosen->in.z > 0)
+    turn_at_face(path, at, {at.shading * at.side()});
+  else
+    path.sample |= photon_scattered;
   path.pdf = chosen->specular ? 0 : density_beside(chosen->pdf, 1);  // as its record says
   if (!go_on(path, u[3], chosen->specular)) return false;
   continue_from(path, at, surface, direction);
   return true;
+}
+
+namespace {
+
+constexpr double parallel_rad = 2e-4;  // as far as faces are taken for parallel
+
+}  // namespace
+
+EmittedPhoton PathTracer::emitted_as(const Path& path) const {
+  return photons_->emission->sample(sample_4d(path.key, sample_set::camera),
+                                    sample_4d(path.key, sample_set::lens), path.wavelengths);
 }
 
 // Whether paths find the photon's light by a connection to it, or by a sample of a BSDF that sees it: light
@@ -129,12 +146,35 @@ bool PathTracer::shade_photon(Path& path) {
 bool PathTracer::is_connected_to(const Path& path) const {
   if (path.sample == 0) return true;
   if ((path.sample & photon_scattered) || scene_.lights.distant.empty()) return false;
-  const EmittedPhoton photon = photons_->emission->sample(
-      sample_4d(path.key, sample_set::camera), sample_4d(path.key, sample_set::lens), path.wavelengths);
-  constexpr double parallel_rad = 2e-4;
+  if (PhotonWalk::of(path.sample >> photon_walk_shift).before > 0) return false;
+  const EmittedPhoton photon = emitted_as(path);
   return photon.is_distant &&
          length(cross(photon.direction, cast<double>(path.ray.direction))) < parallel_rad &&
          dot(photon.direction, cast<double>(path.ray.direction)) > 0;
+}
+
+// Through a smooth interface or a sheet.
+void PathTracer::pass_face(Path& path) const {
+  PhotonWalk walk = PhotonWalk::of(path.sample >> photon_walk_shift);
+  if (!walk.has_way_back()) path.sample |= photon_scattered;
+  if (path.sample & photon_scattered) return;
+  walk.pass();
+  path.sample = (path.sample & photon_refracted) | walk.bits() << photon_walk_shift;
+}
+
+// Reflected by one: as connections are where it is parallel to those that the photon has passed, else it has
+// scattered.
+void PathTracer::turn_at_face(Path& path, const Interaction& at, const MetFace& face) const {
+  PhotonWalk walk = PhotonWalk::of(path.sample >> photon_walk_shift);
+  if (!(path.sample & photon_scattered) && !scene_.lights.distant.empty()) {
+    const EmittedPhoton photon = emitted_as(path);
+    if (photon.is_distant && parallel_way(-at.out, walk.back, photon.direction, face, parallel_rad).holds()) {
+      walk.turn();
+      path.sample = photon_refracted | walk.bits() << photon_walk_shift;
+      return;
+    }
+  }
+  path.sample |= photon_scattered;
 }
 
 void PathTracer::land(const Path& path, const Interaction& at) {

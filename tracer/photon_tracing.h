@@ -11,9 +11,10 @@ namespace vitrail {
 // What has happened to a photon since its light, bits of what other paths have as their sample. Neither: it
 // went straight, and connections find the same light.
 enum PhotonHistory : std::uint32_t {
-  photon_refracted = 1,  // by smooth interfaces
-  photon_scattered = 2,  // reflected, or by anything else
+  photon_refracted = 1,  // by smooth interfaces, or reflected to and fro by parallel faces
+  photon_scattered = 2,  // by anything else
 };
+inline constexpr int photon_walk_shift = 2;  // of its PhotonWalk, above them
 
 // Whether what photons bring is looked up there, for all but what a smooth coat mirrors: paths go on with
 // that.

@@ -293,14 +293,18 @@ bool PathTracer::scatter_dielectric(Path& path, const Interaction& at, const Sur
   const double reflects = attainable(reflected / all);
   Vector3d direction;
   const std::array<float, 4> u = numbers_for_scattering(path);
-  if (flies()) path.sample |= static_cast<double>(u[2]) < reflects ? photon_scattered : photon_refracted;
   if (static_cast<double>(u[2]) < reflects) {
+    if (flies()) turn_at_face(path, at, {normal, near_index(material, at, path.wavelengths), hero_eta});
     direction = normal * (2 * cosine) - at.out;
     path.throughput =
         path.throughput * reflectance * static_cast<float>(1 / reflects) *
         scene_.textures.spectrum(material.reflectance_factor, at.texture_point(), path.wavelengths);
   } else {
     if (!refract(at.out, normal, hero_eta, direction)) return false;
+    if (flies()) {
+      path.sample |= photon_refracted;
+      pass_face(path);
+    }
     // Radiance is compressed into the smaller solid angle by 1/η² (Veach 1997, §5.2), power is not.
     for (std::size_t i = 0; i < active; ++i) {
       const double e = static_cast<double>(eta.v[i]);
