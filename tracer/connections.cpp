@@ -10,7 +10,6 @@
 #include "tracer/bsdf/local.h"
 #include "tracer/connection_code.h"
 #include "tracer/media/phase.h"
-#include "tracer/parallel_faces.h"
 #include "tracer/path_state.h"
 #include "tracer/path_tracer.h"
 #include "tracer/quadrics/quadric_hits.h"
@@ -20,8 +19,6 @@
 namespace vitrail {
 
 namespace {
-
-constexpr std::uint32_t max_surfaces_crossed = 64;  // before a connection is given up
 
 // A connection's ray: coded, and as far as it goes, in lengths of its direction; ∞ where its light is.
 struct Aimed {
@@ -159,10 +156,10 @@ void PathTracer::connect(const Path& path, Point3d p, std::uint32_t count, const
   const Departure from = depart(light->to_light);
   const bool distant = std::isinf(light->distance);
   const Requirements& r = manifest_.requirements;
-  const bool bends = r.refraction && !manifest_.settings.direct_only;
-  const bool refracts = distant && light->is_delta && bends;
-  if (r.see_through || r.media || refracts || bends != r.refraction)
-    send_connection(path, from, *light, radiance, refracts);
+  const bool straight = manifest_.settings.direct_only;
+  const bool walks = distant && light->is_delta && scene_.materials.have_panes() && !straight;
+  if (r.see_through || r.media || walks || (r.refraction && straight))
+    send_connection(path, from, *light, radiance, walks);
   else
     send_shadow_ray(path, from, *light, radiance);
 }
@@ -203,7 +200,7 @@ void PathTracer::connect_sensor(const Path& path, const Departure& from, Vector3
 }
 
 void PathTracer::send_connection(const Path& path, const Departure& from, const LightSample& light,
-                                 const SampledSpectrum& radiance, bool refracts) {
+                                 const SampledSpectrum& radiance, bool walks) {
   Path sent = path;
   sent.clear(path_in_pane);
   sent.clear(path_passed);
@@ -213,15 +210,16 @@ void PathTracer::send_connection(const Path& path, const Departure& from, const 
   const Aimed aimed = aim(from, light);
   depart(sent, from, light.to_light);
   turn(sent, aimed.direction);
-  if (refracts) {
+  if (walks) {
     sent.set(path_in_pane);
     sent.aim = RefractedAim{light.light}.bits();
+    sent.walk = 0;
   } else {
     sent.aim = StraightAim{slope_of(aimed.cosine)}.bits();
     sent.travelled = end_value(end_code(aimed.end));
     sent.hit.t = aimed.end;
   }
-  sent.depth = refracts ? 0 : path.depth + 1;
+  sent.depth = walks ? 0 : path.depth + 1;
   sent.pdf = 0;
   const std::size_t waiting = outbox_.paths.size();
   const std::uint64_t died = counters_.died, indirect = counters_.rays_indirect;
@@ -237,11 +235,12 @@ void PathTracer::send_connection(const Path& path, const Departure& from, const 
 
 void PathTracer::pack_connection(const Path& path, PathRecord& record) {
   std::uint32_t code = path.aim;
+  std::uint64_t travels = std::uint64_t{path.walk} << 16;
   if (!path.is(path_in_pane)) {
-    const std::uint64_t end = end_code(path.travelled);
-    for (int i = 0; i < 3; ++i) record.travelled[i] = static_cast<std::uint8_t>(end >> (16 + 8 * i));
-    code |= static_cast<std::uint32_t>(end & 0xffff);
+    travels = end_code(path.travelled);
+    code |= static_cast<std::uint32_t>(travels & 0xffff);
   }
+  for (int i = 0; i < 3; ++i) record.travelled[i] = static_cast<std::uint8_t>(travels >> (16 + 8 * i));
   record.pdf = static_cast<std::uint16_t>(code);
   record.flags = static_cast<std::uint8_t>((record.flags & 0xf) | code >> 16 << 4);
 }
@@ -250,13 +249,14 @@ void PathTracer::unpack_connection(const PathRecord& record, Path& path) {
   path.aim = static_cast<std::uint32_t>(record.flags >> 4) << 16;
   path.pdf = 0;
   path.travelled = 0;
+  std::uint64_t travels = record.pdf;
+  for (int i = 0; i < 3; ++i) travels |= std::uint64_t{record.travelled[i]} << (16 + 8 * i);
   if (path.is(path_in_pane)) {
     path.aim |= record.pdf;
-    return;
+    path.walk = static_cast<std::uint32_t>(travels >> 16);
+  } else {
+    path.travelled = end_value(travels);
   }
-  std::uint64_t end = record.pdf;
-  for (int i = 0; i < 3; ++i) end |= std::uint64_t{record.travelled[i]} << (16 + 8 * i);
-  path.travelled = end_value(end);
 }
 
 void PathTracer::send_shadow_ray(const Path& path, const Departure& from, const LightSample& light,
@@ -272,20 +272,20 @@ void PathTracer::send_shadow_ray(const Path& path, const Departure& from, const 
   trace_shadow(shadow, &path.sensor, std::nullopt);
 }
 
-// A connection goes straight on through whatever lets it; one to a distant light through every smooth
-// interface, refracted by the hero's index. All wavelengths leave a pane with parallel faces in the direction
-// they came, so all four stay unless it is thick.
+// A connection goes straight on through whatever lets it. One to a distant light walks through panes: smooth
+// interfaces refract it by the hero's index, and what parallel faces reflect to and fro is a part of it. All
+// wavelengths leave a pane with parallel faces in the direction they came, so all four stay unless it is thick.
 bool PathTracer::connect_onwards(Path& path) {
+  const bool walks = path.is(path_in_pane);
   if (const PreparedMedium* medium = medium_of(path)) {
     RandomStream random(stream_of(path, RayRandom::flight));
-    path.throughput = path.throughput * transmittance(*medium, flight_of(path), path.wavelengths, random);
+    fade(path, transmittance(*medium, flight_of(path), path.wavelengths, random));
     if (is_black(path.throughput)) return false;
   }
-  const bool refracts = path.is(path_in_pane);
   if (path.met() != Met::surface) {
     const auto is_direction = [&](Vector3d to_light) { return encode_direction(to_light) == path.direction; };
-    if (!refracts || any_distant_light(scene_.lights, RefractedAim::of(path.aim).light,
-                                       numbers_for_far_lights(path), is_direction))
+    if (!walks || any_distant_light(scene_.lights, RefractedAim::of(path.aim).light,
+                                    numbers_for_far_lights(path), is_direction))
       deposit(path.pixel, path.sample, path.sensor, path.throughput);
     return false;
   }
@@ -293,23 +293,22 @@ bool PathTracer::connect_onwards(Path& path) {
   const Surface& surface = surface_at(path);
   const MaterialKind& kind = scene_.materials.kind(surface.material);
   const bool is_gone = !is_there(path, surface, at), passes = is_gone || kind.is_nothing(at);
-  const bool bends = refracts && kind.smooth_dielectric && !passes;
-  const SampledSpectrum straight = passes  ? filled(1)
-                                   : bends ? filled(0)
-                                           : straight_through(path, at, surface);
-  if (!is_gone && connects_through_hole(path, at, surface, !bends && is_black(straight)))
+  const bool bends = walks && kind.smooth_dielectric && !passes, sheet = walks && kind.sheet;
+  const SampledSpectrum straight = passes           ? filled(1)
+                                   : bends || sheet ? filled(0)
+                                                    : straight_through(path, at, surface);
+  if (!is_gone && connects_through_hole(path, at, surface, !bends && !sheet && is_black(straight)))
     return connect_straight(path, at, nullptr);
-  if (bends) {
-    if (!refract_connection(path, at, surface)) return false;
+  if (bends || sheet) {
+    if (!(bends ? walk_interface(path, at, surface) : walk_sheet(path, at, surface))) return false;
   } else {
-    path.throughput = path.throughput * straight;
+    fade(path, straight);
     if (is_black(path.throughput)) return false;
-    if (!passes) path.depth += manifest_.settings.straight_counts || refracts;
+    if (!passes) path.depth += manifest_.settings.straight_counts || walks;
     if (!connect_straight(path, at, &surface)) return false;
   }
   if (passes) return true;
-  return path.depth <=
-         (refracts ? max_surfaces_crossed : static_cast<std::uint32_t>(manifest_.settings.max_depth));
+  return walks ? walks_on(path) : path.depth <= static_cast<std::uint32_t>(manifest_.settings.max_depth);
 }
 
 // Whether a connection goes on where nothing of the surface is. Where the rest of it lets no light through it
@@ -338,56 +337,6 @@ bool PathTracer::connect_straight(Path& path, const Interaction& at, const Surfa
   if (path.travelled > 0) return true;
   deposit(path.pixel, path.sample, path.sensor, path.throughput);
   return false;
-}
-
-// Of a smooth face whose normal, as it is shaded, is `normal`.
-double PathTracer::face_doubt(const Path& path, const Interaction& at, const Surface& surface,
-                              Vector3d normal) const {
-  const bool shading = !(normal == at.geometric * at.side());
-  return std::max(float_glass_rad, normal_doubt(*resident_[path.hit_domain], path.hit, shading,
-                                                static_cast<double>(surface.vertex_doubt), path.time_s));
-}
-
-// Behind parallel faces light goes on as it came. Faces are parallel where their normals agree as far as what
-// is stored tells, or as those of real panes, and then the light's own direction is given back: so no
-// rounding turns it.
-bool PathTracer::refract_connection(Path& path, const Interaction& at, const Surface& surface) const {
-  const Material& record = manifest_.materials[surface.material];
-  const auto& material = std::get<DielectricMaterial>(record.model);
-  const SampledSpectrum eta = relative_index(material, at, path.wavelengths);
-  const Vector3d normal = scene_.materials.shading_normal(record, at) * at.side();
-  RefractedAim aim = RefractedAim::of(path.aim);
-  aim.doubt.cross(face_doubt(path, at, surface, normal));
-  const double hero_eta = static_cast<double>(eta[0]), cosine = dot(at.out, normal);
-  Vector3d direction;
-  double wedge = 2;
-  const bool is_out =
-      any_distant_light(scene_.lights, aim.light, numbers_for_far_lights(path), [&](Vector3d to_light) {
-        direction = to_light;
-        wedge = std::min(wedge, wedge_of(-at.out, to_light, hero_eta, normal));
-        return wedge <= aim.doubt.allowed_rad();
-      });
-  if (!at.front && !at.exterior_eta) counters_.count_leaving(is_out, wedge);
-  if (!is_out && !refract(at.out, normal, hero_eta, direction)) return false;
-  if (is_out && !at.front) aim.doubt = {};
-  // All wavelengths share the angle outside, not the one in the glass.
-  const double outside = -dot(direction, normal);
-  if (is_out && !at.front && !path.is(path_dispersed) && scene_.materials.disperses(record, at)) {
-    const double thickness = path.hit.t * length(cast<double>(path.ray.direction)) * cosine;
-    if (parts_aside(path, at.p, eta, thickness, outside)) path.disperse();
-  }
-  for (std::size_t i = 0; i < hero_count; ++i) {
-    const double e = static_cast<double>(eta.v[i]);
-    const double reflected = is_out ? fresnel_dielectric(outside, 1 / e) : fresnel_dielectric(cosine, e);
-    path.throughput.v[i] *= static_cast<float>(1 - reflected);
-  }
-  path.throughput = path.throughput * scene_.textures.spectrum(material.transmittance_factor,
-                                                               at.texture_point(), path.wavelengths);
-  if (is_black(path.throughput)) return false;
-  ++path.depth;
-  continue_from(path, at, surface, direction);
-  path.aim = aim.bits();
-  return true;
 }
 
 }  // namespace vitrail

@@ -128,19 +128,20 @@ bool PathTracer::scatter_dielectric(Path& path, const Interaction& at, const Sur
   SampledSpectrum reflectance;
   const double share = reflect_share(path, eta, cosine, outside, reflectance);
   const double reflects = spent ? 0 : attainable(share);
+  const auto met = [&] { return MetFace{normal, near_index(material, at, path.wavelengths), hero_eta}; };
   Vector3d direction;
   const std::array<float, 4> u = numbers_for_scattering(path);
   bool for_nothing = false;
   if (static_cast<double>(u[2]) < reflects) {
-    if (flies()) path.sample |= photon_scattered;
     direction = normal * (2 * cosine) - at.out;
+    if (flies()) turn_at_face(path, at, surface, met(), direction);
     path.throughput =
         path.throughput * reflectance * static_cast<float>(1 / reflects) *
         scene_.textures.spectrum(material.reflectance_factor, at.texture_point(), path.wavelengths);
   } else {
     if (!refract(at.out, normal, hero_eta, direction)) return false;
     for_nothing = passes_for_nothing(path, at);
-    if (flies()) give_back(path, at, surface, normal, hero_eta, direction);
+    if (flies()) pass_interface(path, at, surface, met(), direction);
     // Radiance is compressed into the smaller solid angle by 1/η² (Veach 1997, §5.2), power is not.
     for (std::size_t i = 0; i < path.active_wavelengths(); ++i) {
       const double e = static_cast<double>(eta.v[i]);

@@ -57,6 +57,32 @@ bool has_diffuse_part(const std::vector<MaterialKind>& kinds, const Material& ma
          std::holds_alternative<DiffuseTransmissionMaterial>(material.model);
 }
 
+// What a material, or a part of it, does with light on the way of a connection.
+struct Straight {
+  bool passes = false, mirrors = false;
+};
+// `others`: of the materials that it refers to, which come before it.
+Straight straight_of(const std::vector<Straight>& others, const Material& material) {
+  const auto part = [&](Id<Material> id) { return others[id.value]; };
+  if (const auto* sided = std::get_if<TwoSidedMaterial>(&material.model)) {
+    const Straight front = part(sided->front), back = part(sided->back);
+    return {front.passes && back.passes, front.mirrors && back.mirrors};
+  }
+  if (const auto* blend = std::get_if<BlendMaterial>(&material.model)) {
+    const Straight first = part(blend->first), second = part(blend->second);
+    return {first.passes || second.passes, first.mirrors || second.mirrors};
+  }
+  if (const auto* mask = std::get_if<MaskMaterial>(&material.model))
+    return {true, part(mask->material).mirrors};
+  if (const auto* metal = std::get_if<ConductorMaterial>(&material.model))
+    return {false, is_zero(metal->roughness.alpha_u) && is_zero(metal->roughness.alpha_v)};
+  const bool sheet = std::holds_alternative<MeasuredMaterial>(material.model) ||
+                     std::holds_alternative<ThinDielectricMaterial>(material.model);
+  return {sheet || std::holds_alternative<SlabMaterial>(material.model) ||
+              std::holds_alternative<InterfaceMaterial>(material.model),
+          sheet};
+}
+
 // n + ∇h: the normal of a surface that is raised by a height h(u,v) along n (Blinn 1978).
 Vector3d bumped(const FloatParameter& height, const Interaction& at, Vector3d n, const Textures& textures) {
   constexpr double step = 1.0 / 4096;  // in u and v
@@ -112,11 +138,15 @@ Materials::Materials(const Manifest& manifest, const Textures& textures)
       plastic_table_(manifest.materials.size()),
       luminance_(manifest.materials.size(), 1) {
   for (const ScatteringTable& table : manifest.tables) tables_.push_back(loaded_table(table));
+  std::vector<Straight> straights;
   std::map<std::tuple<float, float, Roughness::Distribution, Masking>, std::uint32_t> known;
   for (std::size_t i = 0; i < manifest.materials.size(); ++i) {
     MaterialKind kind = kind_of(manifest.materials[i]);
     kind.is_fibre = is_fibre(kinds_, manifest.materials[i]);
     kind.diffuse = has_diffuse_part(kinds_, manifest.materials[i]);
+    straights.push_back(straight_of(straights, manifest.materials[i]));
+    kind.sheet = straights.back().passes && straights.back().mirrors;
+    have_panes_ = have_panes_ || kind.sheet || kind.smooth_dielectric;
     kinds_.push_back(kind);
     if (const auto* principled = std::get_if<PrincipledMaterial>(&manifest.materials[i].model))
       if (const auto* color = std::get_if<Spectrum>(&principled->base_color); color && has_tint(*principled))
@@ -155,10 +185,12 @@ const Material* Materials::choose(std::uint32_t material, const Interaction& at,
   }
 }
 
-SampledSpectrum Materials::passes_straight(std::uint32_t material, const Interaction& at,
-                                           const SampledWavelengths& wavelengths) const {
+// What parts of a material have in common with light, by their shares: of_part(material) of each.
+template <class OfPart>
+SampledSpectrum Materials::mixed(std::uint32_t material, const Interaction& at, float of_nothing,
+                                 const OfPart& of_part) const {
   const Material& m = manifest_.materials[material];
-  const auto part = [&](Id<Material> id) { return passes_straight(id.value, at, wavelengths); };
+  const auto part = [&](Id<Material> id) { return mixed(id.value, at, of_nothing, of_part); };
   const auto share = [&](const FloatParameter& p) {
     return static_cast<float>(std::clamp(textures_.number(p, at.texture_point()), 0.0, 1.0));
   };
@@ -170,20 +202,44 @@ SampledSpectrum Materials::passes_straight(std::uint32_t material, const Interac
   }
   if (const auto* mask = std::get_if<MaskMaterial>(&m.model)) {
     const float opacity = share(mask->opacity);
-    return filled(1 - opacity) + part(mask->material) * opacity;
+    return filled(of_nothing * (1 - opacity)) + part(mask->material) * opacity;
   }
-  if (is_nothing(m, at.front)) return filled(1);
-  if (const auto* measured = std::get_if<MeasuredMaterial>(&m.model))
-    return sheet_fractions(*measured->sheet, wavelengths, std::abs(dot(at.out, at.shading))).transmitted;
-  if (const auto* thin = std::get_if<ThinDielectricMaterial>(&m.model)) {
-    const BsdfMaker maker{textures_, at.texture_point(), wavelengths, nullptr, nullptr, filled(1), 0, 1, {}};
-    return straight_transmittance(maker.thin(*thin), std::abs(dot(at.out, at.shading)));
-  }
-  if (const auto* slab = std::get_if<SlabMaterial>(&m.model)) {
-    const BsdfMaker maker{textures_, at.texture_point(), wavelengths, nullptr, nullptr, filled(1), 0, 1, {}};
-    return straight_transmittance(maker.slab(*slab), std::abs(dot(at.out, at.shading)));
-  }
-  return {};
+  return is_nothing(m, at.front) ? filled(of_nothing) : of_part(m);
+}
+
+BsdfMaker Materials::maker_at(const Interaction& at, const SampledWavelengths& wavelengths) const {
+  return {textures_, at.texture_point(), wavelengths, nullptr, nullptr, filled(1), 0, 1, {}};
+}
+
+SampledSpectrum Materials::passes_straight(std::uint32_t material, const Interaction& at,
+                                           const SampledWavelengths& wavelengths) const {
+  const double cosine = std::abs(dot(at.out, at.shading));
+  return mixed(material, at, 1, [&](const Material& m) -> SampledSpectrum {
+    if (const auto* measured = std::get_if<MeasuredMaterial>(&m.model))
+      return sheet_fractions(*measured->sheet, wavelengths, cosine).transmitted;
+    if (const auto* thin = std::get_if<ThinDielectricMaterial>(&m.model))
+      return straight_transmittance(maker_at(at, wavelengths).thin(*thin), cosine);
+    if (const auto* slab = std::get_if<SlabMaterial>(&m.model))
+      return straight_transmittance(maker_at(at, wavelengths).slab(*slab), cosine);
+    return {};
+  });
+}
+
+SampledSpectrum Materials::mirrors(std::uint32_t material, const Interaction& at,
+                                   const SampledWavelengths& wavelengths) const {
+  const double cosine = std::abs(dot(at.out, at.shading));
+  return mixed(material, at, 0, [&](const Material& m) -> SampledSpectrum {
+    if (const auto* measured = std::get_if<MeasuredMaterial>(&m.model))
+      return sheet_fractions(*measured->sheet, wavelengths, cosine).reflected;
+    if (const auto* thin = std::get_if<ThinDielectricMaterial>(&m.model))
+      return mirrored_share(maker_at(at, wavelengths).thin(*thin), cosine);
+    const auto* metal = std::get_if<ConductorMaterial>(&m.model);
+    if (!metal || !scatters(m, at)) return {};
+    const Bsdf bsdf = maker_at(at, wavelengths)(*metal);
+    if (!is_specular(bsdf)) return {};
+    const auto chosen = sample(bsdf, {safe_sqrt(1 - cosine * cosine), 0, cosine}, 0, {});
+    return chosen ? chosen->weight : SampledSpectrum{};
+  });
 }
 
 Vector3d Materials::shading_normal(const Material& material, const Interaction& at) const {
@@ -252,6 +308,13 @@ SampledSpectrum relative_index(const DielectricMaterial& material, const Interac
   for (std::size_t i = 0; i < hero_count; ++i)
     eta.v[i] = at.front ? behind.v[i] / before.v[i] : before.v[i] / behind.v[i];
   return eta;
+}
+
+double near_index(const DielectricMaterial& material, const Interaction& at,
+                  const SampledWavelengths& wavelengths) {
+  const Spectrum& before = at.exterior_eta ? *at.exterior_eta : material.exterior_eta;
+  return static_cast<double>(
+      evaluate(at.front ? before : material.eta, static_cast<double>(wavelengths.lambda_nm[0])));
 }
 
 }  // namespace vitrail

@@ -20,6 +20,7 @@ struct MaterialKind {
   bool smooth_dielectric = false;  // bends light as it is: of panes and connections through them
   bool dispersive = false;         // its index depends on λ
   bool diffuse = false;            // it, or a part of it, may be one that gathers photons
+  bool sheet = false;              // lets light straight through, and mirrors some
 
   bool is_nothing(const Interaction& at) const { return is_interface || (is_fibre && !at.front); }
 };
@@ -30,6 +31,8 @@ class Materials {
   Materials(const Manifest& manifest, const Textures& textures);
 
   const MaterialKind& kind(std::uint32_t material) const { return kinds_[material]; }
+  // Whether some smooth interface or sheet may stand parallel to another.
+  bool have_panes() const { return have_panes_; }
 
   // The material that a path meets: of two sides the one it sees, of a blend one by chance, of a mask the
   // material or, null, nothing: light goes straight through.
@@ -37,6 +40,9 @@ class Materials {
   // The share of the light that goes straight through, by no chance.
   SampledSpectrum passes_straight(std::uint32_t material, const Interaction& at,
                                   const SampledWavelengths& wavelengths) const;
+  // And the share that sheets and smooth metal mirror.
+  SampledSpectrum mirrors(std::uint32_t material, const Interaction& at,
+                          const SampledWavelengths& wavelengths) const;
 
   // Whether a chosen material turns wavelengths into different directions.
   bool disperses(const Material& material, const Interaction& at) const {
@@ -56,9 +62,14 @@ class Materials {
   std::uint32_t index_of(const Material& material) const {
     return static_cast<std::uint32_t>(&material - manifest_.materials.data());
   }
+  template <class OfPart>
+  SampledSpectrum mixed(std::uint32_t material, const Interaction& at, float of_nothing,
+                        const OfPart& of_part) const;
+  BsdfMaker maker_at(const Interaction& at, const SampledWavelengths& wavelengths) const;
   const Manifest& manifest_;
   const Textures& textures_;
   std::vector<MaterialKind> kinds_;
+  bool have_panes_ = false;
   std::vector<RoughPlasticTables> plastic_tables_;
   std::vector<std::uint32_t> plastic_table_;  // of a material: index into plastic_tables_
   std::vector<LoadedTable> tables_;
@@ -68,5 +79,8 @@ class Materials {
 // Index behind over index in front at the four wavelengths, seen from where the ray came.
 SampledSpectrum relative_index(const DielectricMaterial& material, const Interaction& at,
                                const SampledWavelengths& wavelengths);
+// And the index in front, of the hero.
+double near_index(const DielectricMaterial& material, const Interaction& at,
+                  const SampledWavelengths& wavelengths);
 
 }  // namespace vitrail

@@ -39,6 +39,7 @@ struct PathTracer::Path {
   bool parts = false;       // whether its wavelengths part but at a face parallel to that,
   bool owes = false;        // and whether it counts as scattered there then
   std::uint32_t aim = 0;    // of a connection: bits of a RefractedAim or a StraightAim
+  std::uint32_t walk = 0;   // with a RefractedAim: bits of a PaneWalk
   double travelled = 0;     // since the last scattering, straight through surfaces; of a straight connection
                             // what is left, in lengths of its direction; already rounded
   std::uint8_t inside = 0;  // state of Interiors

@@ -13,6 +13,7 @@
 
 #include "film/film.h"
 #include "tracer/intersect/intersector.h"
+#include "tracer/pane_walk.h"
 #include "tracer/photons/photon_pass.h"
 #include "tracer/ray_traffic.h"
 #include "tracer/records.h"
@@ -154,10 +155,15 @@ class PathTracer {
   // photon_tracing.cpp
   void begin_photon(Path& path) const;
   bool shade_photon(Path& path);
-  bool is_connected_to(const Path& path) const;
   EmittedPhoton emission_of(const Path& path) const;
-  void give_back(Path& path, const Interaction& at, const Surface& surface, Vector3d normal, double hero_eta,
-                 Vector3d& direction) const;
+  bool is_connected_to(const Path& path) const;
+  std::optional<ParallelWay> parallel_way_of(const Path& path, const Interaction& at, const MetFace& face,
+                                             double doubt_rad) const;
+  void pass_sheet(Path& path) const;
+  void pass_interface(Path& path, const Interaction& at, const Surface& surface, const MetFace& face,
+                      Vector3d& direction) const;
+  void turn_at_face(Path& path, const Interaction& at, const Surface& surface, const MetFace& face,
+                    Vector3d& direction) const;
   void land(const Path& path, const Interaction& at);
   void gather(const Path& path, const Interaction& at, const Scattering& scattering, Vector3d out);
   bool flies() const { return photons_ && photons_->flying; }
@@ -208,16 +214,26 @@ class PathTracer {
   void connect(const Path& path, Point3d p, std::uint32_t count, const Scatter& scatter,
                const Depart& depart);
   void send_connection(const Path& path, const Departure& from, const LightSample& light,
-                       const SampledSpectrum& radiance, bool refracts);
+                       const SampledSpectrum& radiance, bool walks);
   void send_shadow_ray(const Path& path, const Departure& from, const LightSample& light,
                        const SampledSpectrum& radiance);
   bool connect_onwards(Path& path);
   bool connects_through_hole(Path& path, const Interaction& at, const Surface& surface, bool opaque) const;
   bool connect_straight(Path& path, const Interaction& at, const Surface* surface);
-  bool refract_connection(Path& path, const Interaction& at, const Surface& surface) const;
-  double face_doubt(const Path& path, const Interaction& at, const Surface& surface, Vector3d normal) const;
   static void pack_connection(const Path& path, PathRecord& record);
   static void unpack_connection(const PathRecord& record, Path& path);
+
+  // pane_connections.cpp
+  enum class AtFace : std::uint8_t { ends, passes, turns };
+  double face_doubt(const Path& path, const Interaction& at, const Surface& surface, Vector3d normal) const;
+  static void fade(Path& path, const SampledSpectrum& transmitted);
+  bool walks_on(Path& path) const;
+  AtFace walk_at(Path& path, const FaceLight<SampledSpectrum>& face, bool parallel) const;
+  FaceLight<SampledSpectrum> light_at(const Path& path, const Interaction& at,
+                                      const DielectricMaterial& material, double outside,
+                                      const SampledSpectrum& eta) const;
+  bool walk_interface(Path& path, const Interaction& at, const Surface& surface) const;
+  bool walk_sheet(Path& path, const Interaction& at, const Surface& surface) const;
 
   void trace_shadow(const Shadow& shadow, const SensorWeights* weights, std::optional<std::uint32_t> at);
   bool is_occluded(const Shadow& shadow, std::optional<std::uint32_t> at);

@@ -72,6 +72,7 @@ bool PathTracer::shade_photon(Path& path) {
     path.throughput =
         path.throughput * scene_.materials.passes_straight(surface.material, at, path.wavelengths);
     if (is_black(path.throughput)) return false;
+    if (kind.sheet) pass_sheet(path);
     pass_straight(path, at, &surface);
     return true;
   }
@@ -81,6 +82,7 @@ bool PathTracer::shade_photon(Path& path) {
   const Material* material = scene_.materials.choose(surface.material, at, chance);
   if (!material) {
     count_straight(path);
+    if (kind.sheet) pass_sheet(path);
     pass_straight(path, at, &surface);
     return true;
   }
@@ -96,6 +98,7 @@ bool PathTracer::shade_photon(Path& path) {
   if (chosen->specular && chosen->in == -out) {
     path.throughput = path.throughput * weight;
     if (is_black(path.throughput)) return false;
+    if (kind.sheet) pass_sheet(path);
     scatter_straight(path, at, surface);
     return true;
   }
@@ -118,11 +121,32 @@ bool PathTracer::shade_photon(Path& path) {
   path.throughput = path.throughput * weight *
                     static_cast<float>(scattering.bump_shadowing(dot(at.out, at.shading))) * adjoint;
   if (is_black(path.throughput)) return false;
-  path.sample |= photon_scattered;
+  if (kind.sheet && chosen->specular && is_mirror(scattering.bsdf) && out.z * chosen->in.z > 0)
+    turn_at_face(path, at, surface, {at.shading * at.side()}, direction);
+  else
+    path.sample |= photon_scattered;
   path.pdf = chosen->specular ? 0 : density_beside(chosen->pdf, 1);  // as its record says
   if (!go_on(path, u[3], chosen->specular)) return false;
   continue_from(path, at, surface, direction);
   return true;
+}
+
+namespace {
+
+PhotonWalk walk_of(std::uint32_t sample) { return PhotonWalk::of(sample >> photon_walk_shift); }
+FaceDoubt doubt_of(std::uint32_t sample) {
+  return {sample >> photon_doubt_shift & ((1u << (photon_walk_shift - photon_doubt_shift)) - 1)};
+}
+std::uint32_t with(std::uint32_t sample, const PhotonWalk& walk, const FaceDoubt& doubt) {
+  const std::uint32_t history = sample & ((1u << photon_doubt_shift) - 1);
+  return history | doubt.code << photon_doubt_shift | walk.bits() << photon_walk_shift;
+}
+
+}  // namespace
+
+EmittedPhoton PathTracer::emission_of(const Path& path) const {
+  return photons_->emission->sample(sample_4d(path.key, sample_set::camera),
+                                    sample_4d(path.key, sample_set::lens), path.wavelengths);
 }
 
 // Whether paths find the photon's light by a connection to it, or by a sample of a BSDF that sees it: light
@@ -130,29 +154,62 @@ bool PathTracer::shade_photon(Path& path) {
 bool PathTracer::is_connected_to(const Path& path) const {
   if (!(path.sample & (photon_refracted | photon_scattered))) return true;
   if ((path.sample & photon_scattered) || scene_.lights.distant.empty()) return false;
+  if (walk_of(path.sample).before > 0) return false;
   const EmittedPhoton photon = emission_of(path);
   return photon.is_distant && encode_direction(photon.direction) == path.direction;
 }
 
-EmittedPhoton PathTracer::emission_of(const Path& path) const {
-  return photons_->emission->sample(sample_4d(path.key, sample_set::camera),
-                                    sample_4d(path.key, sample_set::lens), path.wavelengths);
+// How a photon stands to a face, as a connection would; empty where none finds its light anyway.
+std::optional<ParallelWay> PathTracer::parallel_way_of(const Path& path, const Interaction& at,
+                                                       const MetFace& face, double doubt_rad) const {
+  if ((path.sample & photon_scattered) || scene_.lights.distant.empty()) return std::nullopt;
+  const EmittedPhoton photon = emission_of(path);
+  if (!photon.is_distant) return std::nullopt;
+  return parallel_way(-at.out, walk_of(path.sample).back, photon.direction, face, doubt_rad);
 }
 
-// A photon that a face refracts into `direction` has that of its distant light again where a connection
-// through the face would have it.
-void PathTracer::give_back(Path& path, const Interaction& at, const Surface& surface, Vector3d normal,
-                           double hero_eta, Vector3d& direction) const {
+void PathTracer::pass_sheet(Path& path) const {
+  PhotonWalk walk = walk_of(path.sample);
+  if (!walk.has_way_back()) path.sample |= photon_scattered;
+  if (path.sample & photon_scattered) return;
+  walk.pass();
+  path.sample = with(path.sample, walk, doubt_of(path.sample));
+}
+
+// Refracted into `direction`: what a connection through the face would have is given to the photon.
+void PathTracer::pass_interface(Path& path, const Interaction& at, const Surface& surface,
+                                const MetFace& face, Vector3d& direction) const {
   path.sample |= photon_refracted;
-  if ((path.sample & photon_scattered) || scene_.lights.distant.empty()) return;
-  const EmittedPhoton photon = emission_of(path);
-  if (!photon.is_distant) return;
-  FaceDoubt doubt{path.sample / (photon_history + 1)};
-  doubt.cross(face_doubt(path, at, surface, normal));
-  const bool is_out = wedge_of(-at.out, photon.direction, hero_eta, normal) <= doubt.allowed_rad();
-  if (is_out) direction = photon.direction;
-  if (is_out && !at.front) doubt = {};
-  path.sample = (path.sample & photon_history) | doubt.code * (photon_history + 1);
+  const double face_rad = face_doubt(path, at, surface, face.normal);
+  FaceDoubt alone, doubt = doubt_of(path.sample);
+  alone.cross(face_rad), doubt.cross(face_rad);
+  const std::optional<ParallelWay> way = parallel_way_of(path, at, face, doubt.allowed_rad());
+  if (!way) return;
+  const PhotonWalk walk = walk_of(path.sample);
+  if ((way->is_in || way->is_out) && way->passes) {
+    direction = way->passed;
+    doubt = way->is_out && !walk.back && !at.front ? FaceDoubt{} : alone;
+  }
+  path.sample = with(path.sample, walk, doubt);
+  pass_sheet(path);
+}
+
+// Reflected into `direction`: as connections are where the face is parallel to those that the photon has
+// passed, else it has scattered.
+void PathTracer::turn_at_face(Path& path, const Interaction& at, const Surface& surface, const MetFace& face,
+                              Vector3d& direction) const {
+  const double face_rad = face_doubt(path, at, surface, face.normal);
+  FaceDoubt alone, doubt = doubt_of(path.sample);
+  alone.cross(face_rad), doubt.cross(face_rad);
+  const std::optional<ParallelWay> way = parallel_way_of(path, at, face, doubt.allowed_rad());
+  if (!way || !way->holds()) {
+    path.sample |= photon_scattered;
+    return;
+  }
+  PhotonWalk walk = walk_of(path.sample);
+  walk.turn();
+  direction = way->turned;
+  path.sample = with(path.sample | photon_refracted, walk, way->is_in || way->is_out ? alone : doubt);
 }
 
 void PathTracer::land(const Path& path, const Interaction& at) {

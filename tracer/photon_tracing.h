@@ -9,13 +9,14 @@
 namespace vitrail {
 
 // What has happened to a photon since its light, bits of what other paths have as their sample. Neither: it
-// went straight, and connections find the same light. Above them the code of its FaceDoubt.
+// went straight, and connections find the same light.
 enum PhotonHistory : std::uint32_t {
-  photon_refracted = 1,  // by smooth interfaces
-  photon_scattered = 2,  // reflected, or by anything else
+  photon_refracted = 1,  // by smooth interfaces, or reflected to and fro by parallel faces
+  photon_scattered = 2,  // by anything else
   photon_counted = 4,    // of what connections pass, it has met something that counts for its depth
-  photon_history = 7,
 };
+// Above them the code of its FaceDoubt, in 4 bits, and the bits of its PhotonWalk.
+inline constexpr int photon_doubt_shift = 3, photon_walk_shift = 7;
 
 // Whether what photons bring is looked up there, for all but what a smooth coat mirrors: paths go on with
 // that.

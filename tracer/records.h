@@ -63,7 +63,8 @@ struct PathRecord {
                        // bits of the FaceCode or the aim
   // Since the last scattering, straight through surfaces, as radiance_code; in a pane PaneBits in the highest
   // byte. Where images are filtered, a path has the cone_code of its ray's width in the lowest byte. Of a
-  // straight connection: what is left to its light, the high bits of the end_code.
+  // straight connection: what is left to its light, the high bits of the end_code; of one that walks through
+  // panes the bits of its PaneWalk.
   std::uint8_t travelled[3];
   std::uint8_t inside;  // state of Interiors
 };

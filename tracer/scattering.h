@@ -38,6 +38,12 @@ inline bool is_specular(const Bsdf& bsdf) {
   return std::holds_alternative<ThinDielectricBsdf>(bsdf) || std::holds_alternative<MeasuredSheetBsdf>(bsdf);
 }
 
+// Whether a specular sample is one that Materials::mirrors counts, unless it goes straight on.
+inline bool is_mirror(const Bsdf& bsdf) {
+  return std::holds_alternative<ConductorBsdf>(bsdf) || std::holds_alternative<ThinDielectricBsdf>(bsdf) ||
+         std::holds_alternative<MeasuredSheetBsdf>(bsdf);
+}
+
 // Whether `sample` has no use for u_lobe, and is never specular.
 inline bool has_one_lobe(const Bsdf& bsdf) {
   return std::holds_alternative<LambertBsdf>(bsdf) || std::holds_alternative<OrenNayarBsdf>(bsdf);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The sun through panes, wherever they stand and however they are written and stored: each takes from its
-// light what its two faces reflect, and nothing else (what is reflected between the faces is not connected
-// to). What is no pane lets no light of a point-like sun through, but for photons.
+// light what its two faces reflect, to and fro between them, and nothing else. What is no pane lets no light
+// of a point-like sun through, but for photons.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -44,7 +44,7 @@ struct Site {
   }
   double open_sky() const { return albedo / pi * irradiance * to_sun.z; }
   // Of a film whose constant spectra have the luminance of these samples' wavelengths.
-  double seen(int samples = 4) const {
+  double seen(int samples = 64) const {
     Scene sky;
     sky.camera = scene.camera;
     sky.film = scene.film;
@@ -108,9 +108,10 @@ void add_pane(Scene& scene, const Pane& pane, Point3d centre) {
   scene.instances.push_back({id, place * translate({0, 0, 40 * pane.size}), {}});
 }
 
-double through(double cosine, double eta) {
-  const double passed = 1 - fresnel_dielectric(cosine, eta);
-  return passed * passed;
+// Of `count` panes, all reflections between their faces included.
+double through(double cosine, double eta, int count = 1) {
+  const double reflected = fresnel_dielectric(cosine, eta);
+  return (1 - reflected) / (1 + (2 * count - 1) * reflected);
 }
 
 // The bound of the error that the rounding of the corners makes, by the normal alone.
@@ -167,9 +168,8 @@ TEST(SunThroughAPane, AndAnother) {
         for (int i = 0; i < count; ++i)
           add_pane(site.scene, pane, site.point(2) + pane.normal() * (gap * (i - 1.5)));
         site.add_sun();
-        const double each = through(std::abs(dot(site.to_sun, pane.normal())), 1.5);
-        EXPECT_NEAR(site.seen() / (site.open_sky() * std::pow(each, count)), 1,
-                    count * rounding_of(site, pane))
+        const double all = through(std::abs(dot(site.to_sun, pane.normal())), 1.5, count);
+        EXPECT_NEAR(site.seen() / (site.open_sky() * all), 1, count * rounding_of(site, pane))
             << count << " panes, " << gap << " apart at " << x;
       }
 }
@@ -347,15 +347,20 @@ TEST(SunThroughDispersiveGlass, EachWavelengthByItsOwnFresnel) {
       const double incidence = degrees * pi / 180;
       const std::vector<double> open = spectrum_below(glass, incidence, false),
                                 below = spectrum_below(glass, incidence, true);
-      double worst = 0;
+      double worst = 0, mean = 0;
       for (std::size_t bin = 2; bin < 45; ++bin) {
         const double lambda = bins.centre_nm(static_cast<int>(bin));
         const double expected = through(std::cos(incidence), evaluate(glass, lambda));
-        worst = std::max(worst, std::abs(below[bin] / open[bin] / expected - 1));
+        const double off = below[bin] / open[bin] / expected - 1;
+        worst = std::max(worst, std::abs(off));
+        mean += off / 43;
       }
-      fmt::print("{} at {}°: off by {:.5f} at most\n", name, degrees, worst);
-      // By the width of a bin, and the direction rounded by 3.5e-7 rad.
-      EXPECT_LT(worst, 5e-4 + 7e-7 / std::cos(incidence)) << name << " at " << degrees;
+      fmt::print("{} at {}°: off by {:.5f} at most, by {:.5f} in the mean\n", name, degrees, worst, mean);
+      // By the width of a bin, and the direction rounded by 3.5e-7 rad; of a bin also by the noise of the few
+      // that go to and fro, by chances that suit the mean of four wavelengths.
+      const double rounding = 5e-4 + 7e-7 / std::cos(incidence);
+      EXPECT_LT(worst, 8e-3 + rounding) << name << " at " << degrees;
+      EXPECT_LT(std::abs(mean), rounding) << name << " at " << degrees;
     }
   }
 }

@@ -160,6 +160,10 @@ SampledSpectrum straight_transmittance(const ThinDielectricBsdf& bsdf, double co
   return bsdf.transmittance_factor * complement(sheet_reflectance(bsdf, cosine));
 }
 
+SampledSpectrum mirrored_share(const ThinDielectricBsdf& bsdf, double cosine) {
+  return bsdf.reflectance_factor * sheet_reflectance(bsdf, cosine);
+}
+
 std::optional<BsdfSample> sample(const ThinDielectricBsdf& bsdf, Vector3d out, float u_lobe, Point2f) {
   const SampledSpectrum r = sheet_reflectance(bsdf, std::abs(out.z));
   const SampledSpectrum reflected = bsdf.reflectance_factor * r;

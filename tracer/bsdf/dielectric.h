@@ -36,5 +36,7 @@ std::optional<BsdfSample> sample(const ThinDielectricBsdf& bsdf, Vector3d out, f
 
 // What goes straight through a thin sheet, for shadow rays that look for it.
 SampledSpectrum straight_transmittance(const ThinDielectricBsdf& bsdf, double cosine);
+// And what it mirrors.
+SampledSpectrum mirrored_share(const ThinDielectricBsdf& bsdf, double cosine);
 
 }  // namespace vitrail
