@@ -89,10 +89,17 @@ void report_tubes(ImportedScene& imported) {
     imported.diagnostics.push_back({Fidelity::approximated, what, place, place, kind});
   };
   const auto look_at = [&](const std::vector<Shape>& shapes, const std::vector<Instance>& instances) {
-    for (const Shape& shape : shapes)
-      if (is_of_curves(scene, shape) && (shape.area_light || !is_similarity(shape.object_to_world)))
-        say(shape.origin, RecordKind::shape,
-            "curves that shine, or that no similarity places, become tubes of triangles");
+    for (const Shape& shape : shapes) {
+      if (!is_of_curves(scene, shape) || (!shape.area_light && is_similarity(shape.object_to_world)))
+        continue;
+      const bool twice =
+          shape.opacity != FloatParameter{1.0f} && (shape.area_light || !std::get_if<float>(&shape.opacity));
+      say(shape.origin, RecordKind::shape,
+          twice ? "curves that shine, or that no similarity places, become tubes of triangles, in both of "
+                  "whose "
+                  "walls their opacity counts"
+                : "curves that shine, or that no similarity places, become tubes of triangles");
+    }
     for (const Instance& instance : instances)
       if (with_curves[instance.prototype.value] && !is_similarity(instance.prototype_to_world))
         say(instance.origin, RecordKind::instance,

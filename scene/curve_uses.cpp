@@ -2,6 +2,7 @@
 #include "scene/curve_uses.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace vitrail {
 
@@ -11,6 +12,10 @@ bool is_of_curves(const Scene& scene, const Shape& shape) {
 }
 
 // Those that a prototype uses stand before it.
+float opacity_of_wall(float opacity_of_curve) {
+  return static_cast<float>(1 - std::sqrt(1 - std::clamp(double{opacity_of_curve}, 0.0, 1.0)));
+}
+
 std::vector<bool> prototypes_with_curves(const Scene& scene) {
   std::vector<bool> with(scene.prototypes.size());
   for (std::size_t i = 0; i < with.size(); ++i) {

@@ -99,13 +99,14 @@ void PathTracer::depart(Path& path, const Departure& from, Vector3d direction) c
 }
 
 // Moves the hit along the normal, to the side of `direction`, by more than rounding to float can move it
-// back: so it keeps from the neighbours of the triangle that it leaves. Rounding moves it aside, too, which
+// back, and than it can part the surface from a copy of it: so it keeps from the neighbours of the triangle
+// that it leaves. Rounding moves it aside, too, which
 // brings it behind neighbours that are not quite in one plane; and the largest triangles, if there are any
 // about, lie where doubles place them.
 Point3f PathTracer::offset_origin(const Interaction& at, Vector3d direction) const {
   const double aside = 1e-9 * std::max({std::abs(at.p.x), std::abs(at.p.y), std::abs(at.p.z)});
   const double doubles = 0x1p-46 * static_cast<double>(manifest_.scale);
-  const double distance = 3 * rounding_along(at.geometric, at.p) + aside + doubles;
+  const double distance = 3 * at.rounding + aside + doubles;
   const double side = dot(direction, at.geometric) >= 0 ? 1 : -1;
   return cast<float>(at.p + at.geometric * (side * distance));
 }

@@ -95,6 +95,16 @@ void find_uv(const Holder& holder, const Hit& hit, Vector3d e1, Vector3d e2, dou
   if (cone_width > 0 && area > 0) at.uv_width = cone_width * std::sqrt(std::abs(determinant) / area);
 }
 
+// Of a triangle with such edges from p0, hit at p from `away`. Giants are not rounded as coarsely where they
+// are near as at their corners.
+double rounding_of(Vector3d normal, Point3d p0, Vector3d e1, Vector3d e2, Point3d p, double away) {
+  const auto along = [&](int i) {
+    const double corner = std::max({std::abs(p0[i]), std::abs(p0[i] + e1[i]), std::abs(p0[i] + e2[i])});
+    return std::min(corner, std::abs(p[i]) + away);
+  };
+  return rounding_along(normal, {along(0), along(1), along(2)});
+}
+
 // A quadric has no mesh attributes: they are 0.
 Interaction quadric_interaction(const Holder& holder, const Hit& hit, Vector3f direction, double cone_width,
                                 std::uint32_t attributes) {
@@ -104,6 +114,7 @@ Interaction quadric_interaction(const Holder& holder, const Hit& hit, Vector3f d
   at.out = back_along(direction);
   at.geometric = at.shading = point.normal;
   at.front = dot(at.out, at.geometric) > 0;
+  at.rounding = rounding_along(at.geometric, at.p);
   at.triangle = hit.triangle;
   at.uv = point.uv;
   at.dpdu = point.dpdu, at.dpdv = point.dpdv;
@@ -126,6 +137,7 @@ Interaction triangle_interaction(const Holder& holder, const Hit& hit, Vector3f 
   at.out = back_along(direction);
   at.geometric = normalize(cross(e1, e2));
   at.front = dot(at.out, at.geometric) > 0;
+  at.rounding = rounding_of(at.geometric, p0, e1, e2, at.p, hit.t);
   at.triangle = hit.triangle;
   at.shading = at.geometric;
   if (!holder.content.normals.empty()) {

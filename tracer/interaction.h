@@ -18,6 +18,9 @@ struct Interaction {
   Vector3d shading;    // unit, on the same side as `geometric`
   std::uint32_t triangle = no_triangle;
   bool front = false;  // the ray came from the front side
+  // What floats may have moved the surface by along its normal: its corners, which may be farther from 0 than
+  // p, as far as they count where the ray comes from.
+  double rounding = 0;
   // In front of a dielectric with a priority; null: the material's own.
   const Spectrum* exterior_eta = nullptr;
 

@@ -9,6 +9,7 @@
 #include "tracer/path_state.h"
 #include "tracer/path_tracer.h"
 #include "tracer/photons/places.h"
+#include "tracer/rounding.h"
 
 namespace vitrail {
 
@@ -39,6 +40,7 @@ void PathTracer::trace_photon(std::uint32_t number) {
     Interaction at;
     at.p = photon.p;
     at.geometric = photon.normal;
+    at.rounding = rounding_along(at.geometric, at.p);
     from.origin = offset_origin(at, photon.direction);
     from.exclude = photon.triangle;
   }

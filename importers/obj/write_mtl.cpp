@@ -9,6 +9,7 @@
 #include "importers/obj/mtl_text.h"
 #include "importers/unique_names.h"
 #include "scene/atomic_file.h"
+#include "scene/curve_uses.h"
 
 namespace vitrail {
 
@@ -24,6 +25,8 @@ class Writer : MtlText {
     text = fmt::format("newmtl {}\n", name);
     record = RecordKind::material;
     opacity_ = shape_opacity_ = shape.opacity;
+    if (const auto* of_curve = std::get_if<float>(&shape.opacity); of_curve && is_of_curves(scene_, shape))
+      opacity_ = shape_opacity_ = opacity_of_wall(*of_curve);
     put(shape.material);
     origin = shape.origin;
     if (!is_whole(opacity_)) put_opacity(scene_.materials.at(shape.material.value));

@@ -216,6 +216,7 @@ class Planner {
     }
     const TriangleMesh& mesh = *stored;
     a.placements.push_back(placement_of(mesh, shape, outer, a.triangles));
+    a.placements.back().tube = is_of_curves(scene_, shape);
     a.triangles += triangles_of(mesh);
   }
 

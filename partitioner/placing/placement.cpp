@@ -7,6 +7,7 @@
 
 #include <stdexcept>
 
+#include "scene/curve_uses.h"
 #include "scene/huge_pages.h"
 
 namespace vitrail {
@@ -195,6 +196,9 @@ Surface surface_of(const Placement& p, const Appearance& appearance) {
     surface.interior = appearance.material_interiors[material];
   const auto* texture = std::get_if<Id<Texture>>(&p.shape->opacity);
   surface.opacity = texture ? appearance.opacities.at(texture->value) : p.shape->opacity;
+  // What shines shows its outer wall alone, as much of it as the curve.
+  if (const auto* opacity = std::get_if<float>(&surface.opacity); opacity && p.tube && !p.shape->area_light)
+    surface.opacity = opacity_of_wall(*opacity);
   return surface;
 }
 

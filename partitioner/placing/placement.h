@@ -31,6 +31,7 @@ struct Placement {
   bool flip = false;                 // the winding there shows the back
   std::uint64_t first_triangle = 0;  // global id, or the object's
   std::optional<Standing> standing = {};
+  bool tube = false;  // of a curve: its opacity is that of both walls together
 };
 
 struct PlacedTriangles {

@@ -11,7 +11,7 @@ namespace vitrail::test {
 namespace {
 
 constexpr std::uint32_t known_revision = 9;
-constexpr const char* known_pictures = "6006955f222120be";
+constexpr const char* known_pictures = "ba3200daa08107fc";
 
 std::array<Point3f, 4> tile(float x, float z) {
   return {{{x, 0, z}, {x + 1, 0, z}, {x + 1, 1, z + 0.2f}, {x, 1, z + 0.2f}}};
