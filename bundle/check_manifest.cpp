@@ -245,7 +245,7 @@ void check_media(const Checker& c, const Manifest& m) {
     if (const auto* k = std::get_if<ExtinctionAlbedo>(&medium.coefficients))
       check_volume(k->sigma_t), check_volume(k->albedo);
     if (const auto* grid = std::get_if<Grid>(&medium.density)) check_grid(*grid);
-    if (medium.emission_scale) check_grid(*medium.emission_scale);
+    if (medium.emission_scale) check_grid(*medium.emission_scale, true);
     c.require(medium.g > -1 && medium.g < 1, "g of a medium is not between -1 and 1");
     c.require(is_invertible(medium.medium_to_world), "the transform of a medium cannot be inverted");
   }

@@ -94,6 +94,24 @@ std::filesystem::path object_path(const std::filesystem::path& bundle, std::uint
   return bundle / "objects" / fmt::format("{:06}.dom", object);
 }
 
+namespace {
+
+// That end in 0, or have colours that shine.
+bool has_newer_grids(const Medium& medium) {
+  const auto ends_in_0 = [](const auto& volume) {
+    const auto* grid = std::get_if<Grid>(&volume);
+    return grid && grid->edge == GridEdge::zero;
+  };
+  const auto* sum = std::get_if<AbsorptionScattering>(&medium.coefficients);
+  const auto* product = std::get_if<ExtinctionAlbedo>(&medium.coefficients);
+  return ends_in_0(medium.density) || (sum && (ends_in_0(sum->sigma_a) || ends_in_0(sum->sigma_s))) ||
+         (product && (ends_in_0(product->sigma_t) || ends_in_0(product->albedo))) ||
+         (medium.emission_scale &&
+          (medium.emission_scale->edge == GridEdge::zero || medium.emission_scale->channels > 1));
+}
+
+}  // namespace
+
 Features features_of(const Manifest& m) {
   Features f;
   const auto require = [&](bool needed, std::uint32_t bit) { f.required |= needed ? bit : 0; };
@@ -129,6 +147,7 @@ Features features_of(const Manifest& m) {
           required_feature::hair);
   require(std::ranges::any_of(m.materials, has_correlated_masking), required_feature::masking);
   require(has_vertex_doubts(m), required_feature::decimals);
+  require(std::ranges::any_of(m.media, has_newer_grids), required_feature::media_grids);
   if (m.cut_triangles > 0) f.optional |= optional_feature::pieces;
   return f;
 }

@@ -55,6 +55,8 @@ inline constexpr auto last_of<QuadricUv> = QuadricUv::mitsuba;
 template <>
 inline constexpr auto last_of<Wrap> = Wrap::black;
 template <>
+inline constexpr auto last_of<GridEdge> = GridEdge::zero;
+template <>
 inline constexpr auto last_of<NoiseTexture::Kind> = NoiseTexture::Kind::marble;
 template <>
 inline constexpr auto last_of<TextureFilter> = TextureFilter::anisotropic;
@@ -301,7 +303,7 @@ void fields(auto& io, Is<AdaptiveTable> auto& t) {
 
 void fields(auto& io, Is<Grid> auto& g) {
   io(g.nx), io(g.ny), io(g.nz), io(g.channels), list(io, g.values);
-  fields(io, g.bounds), fields(io, g.clamp);
+  fields(io, g.bounds), fields(io, g.edge);
 }
 void fields(auto& io, Is<AbsorptionScattering> auto& c) { fields(io, c.sigma_a), fields(io, c.sigma_s); }
 void fields(auto& io, Is<ExtinctionAlbedo> auto& c) { fields(io, c.sigma_t), fields(io, c.albedo); }

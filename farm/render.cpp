@@ -3,6 +3,7 @@
 
 #include <malloc.h>
 
+#include <algorithm>
 #include <chrono>
 
 #include "farm/about.h"
@@ -22,6 +23,11 @@ namespace vitrail {
 
 namespace {
 
+bool has_light(const Manifest& m) {
+  return !m.lights.empty() || !m.area_lights.empty() ||
+         std::ranges::any_of(m.media, [](const Medium& medium) { return medium.emission.has_value(); });
+}
+
 // Returns the statistics of this rank.
 RenderStats run(Transport& transport, const RenderOptions& options, const Job& job, RankState& state,
                 Rank& rank, bool finished_before) {
@@ -30,7 +36,7 @@ RenderStats run(Transport& transport, const RenderOptions& options, const Job& j
   RenderStats stats;
   add_plan(stats, job, options, transport.size());
   stats.finished_before = finished_before;
-  if (is_root && !options.quiet && manifest.lights.empty() && manifest.area_lights.empty())
+  if (is_root && !options.quiet && !has_light(manifest))
     say("vitrail: the scene has no light: its picture is black\n");
   if (finished_before) {
     stats.ending = Ending::finished;

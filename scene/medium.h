@@ -2,6 +2,7 @@
 // What fills space between surfaces.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <variant>
@@ -14,14 +15,20 @@
 
 namespace vitrail {
 
+// What a grid has outside of its cells: what it has at the other end, the edge's values (Mitsuba), or
+// nothing, so that it falls to half from the centres of the outermost cells to the edge (pbrt).
+enum class GridEdge : std::uint8_t { repeated, held, zero };
+
 // Values on a regular grid over a box, linear in between. Given here or in a file (Mitsuba's .vol, NanoVDB).
+// Of three channels: linear sRGB. Between cells Mitsuba averages hues and brightnesses, pbrt spectra; so do
+// grids of its edges.
 struct Grid {
   std::string filename;  // "" where `values` holds them
   std::string field;     // of a NanoVDB file: "density"
   int nx = 0, ny = 0, nz = 0, channels = 1;
   std::vector<float> values;  // x fastest, channels interleaved
   Bounds3d bounds{{0, 0, 0}, {1, 1, 1}};
-  bool clamp = true;  // outside: the edge's values, else repeated
+  GridEdge edge = GridEdge::held;
   bool operator==(const Grid&) const = default;
 };
 
@@ -54,8 +61,8 @@ struct Medium {
   float scale = 1;                                           // multiplies the coefficients
   std::variant<std::monostate, Grid, CloudDensity> density;  // multiplies them too, from place to place
   std::optional<Spectrum> emission;                          // radiance per unit of length
-  std::optional<Grid> emission_scale;
-  std::optional<Grid> temperature;  // emission as a blackbody, K
+  std::optional<Grid> emission_scale;                        // multiplies it, from place to place
+  std::optional<Grid> temperature;                           // emission as a blackbody, K
   float emission_factor = 1;
   float temperature_scale = 1, temperature_offset = 0;
   float g = 0;  // Henyey and Greenstein; 0 is isotropic

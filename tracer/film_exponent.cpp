@@ -7,6 +7,7 @@
 #include "film/film.h"
 #include "scene/portable_math.h"
 #include "scene/spectrum.h"
+#include "tracer/media/grid.h"
 #include "tracer/wavelengths.h"
 
 namespace vitrail {
@@ -93,8 +94,7 @@ void add_media(const Manifest& m, Tally& tally) {
   for (const Medium& medium : m.media) {
     if (!medium.emission) continue;
     double scale = 1;
-    if (medium.emission_scale && !medium.emission_scale->values.empty())
-      scale = static_cast<double>(*std::ranges::max_element(medium.emission_scale->values));
+    if (medium.emission_scale) scale = greatest_value(*medium.emission_scale);
     tally.add(luminance(*medium.emission) * thin, greatest(*medium.emission) * scale);
   }
 }

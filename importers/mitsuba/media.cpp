@@ -62,7 +62,7 @@ void place_grid(MediumReader& reader, Grid& grid, const Transform& to_world, con
 void read_lookup(const Object& volume, Grid& grid, Report& report) {
   const std::string wrap = volume.text("wrap_mode", "clamp", report),
                     filter = volume.text("filter_type", "trilinear", report);
-  grid.clamp = wrap != "repeat";
+  grid.edge = wrap == "repeat" ? GridEdge::repeated : GridEdge::held;
   if (wrap != "repeat" && wrap != "clamp")
     report.approximated(fmt::format("the wrap_mode \"{}\" of a grid becomes \"clamp\"", wrap),
                         place_of(volume, "wrap_mode"));

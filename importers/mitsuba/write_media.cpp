@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "importers/mitsuba/write_media.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -42,9 +43,33 @@ Transform grid_to_world(const Transform& medium_to_world, const Bounds3d& box) {
   return medium_to_world * translate({box.lower.x, box.lower.y, box.lower.z}) * scale(box.upper - box.lower);
 }
 
+// Held at its edges, a grid that is 0 outside is as it was with cells of 0 around it, within its own bounds.
+Grid with_zeros_around(const Grid& grid) {
+  Grid wide = grid;
+  wide.nx += 2, wide.ny += 2, wide.nz += 2;
+  const Vector3d size = grid.bounds.upper - grid.bounds.lower,
+                 cell{size.x / grid.nx, size.y / grid.ny, size.z / grid.nz};
+  wide.bounds = {grid.bounds.lower - cell, grid.bounds.upper + cell};
+  wide.edge = GridEdge::held;
+  const auto index = [](const Grid& g, int x, int y, int z) {
+    return (static_cast<std::size_t>(z) * static_cast<std::size_t>(g.ny) + static_cast<std::size_t>(y)) *
+               static_cast<std::size_t>(g.nx) +
+           static_cast<std::size_t>(x);
+  };
+  const auto channels = static_cast<std::size_t>(grid.channels);
+  wide.values.assign(index(wide, 0, 0, wide.nz) * channels, 0.0f);
+  for (int z = 0; z < grid.nz; ++z)
+    for (int y = 0; y < grid.ny; ++y)
+      std::copy_n(grid.values.begin() + static_cast<std::ptrdiff_t>(index(grid, 0, y, z) * channels),
+                  static_cast<std::size_t>(grid.nx) * channels,
+                  wide.values.begin() + static_cast<std::ptrdiff_t>(index(wide, 1, y + 1, z + 1) * channels));
+  return wide;
+}
+
 // False where Mitsuba cannot read the grid.
-bool add_grid(Context& context, Element parent, const std::string& name, const Grid& grid,
+bool add_grid(Context& context, Element parent, const std::string& name, const Grid& given,
               const Transform& medium_to_world) {
+  const Grid grid = given.edge == GridEdge::zero && given.filename.empty() ? with_zeros_around(given) : given;
   std::string filename = grid.filename.empty() ? "" : context.relative(grid.filename);
   if (grid.filename.ends_with(".nvdb")) return false;
   if (filename.empty()) {
@@ -54,7 +79,7 @@ bool add_grid(Context& context, Element parent, const std::string& name, const G
   Element element = add(parent, "volume", "gridvolume", name);
   add_string(element, "filename", filename);
   add_string(element, "filter_type", "trilinear");
-  add_string(element, "wrap_mode", grid.clamp ? "clamp" : "repeat");
+  add_string(element, "wrap_mode", grid.edge == GridEdge::repeated ? "repeat" : "clamp");
   add_boolean(element, "raw", false);
   add_transform(element, grid_to_world(medium_to_world, grid.bounds));
   return true;

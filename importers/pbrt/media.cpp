@@ -3,9 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 
 #include "importers/pbrt/measured_name.h"
+#include "scene/color.h"
 #include "scene/measured_media.h"
 #include "scene/rgb_to_spectrum.h"
 
@@ -38,9 +40,22 @@ AbsorptionScattering coefficients(const Maker& m, const Spectrum& sigma_a, const
   return {m.coefficient("sigma_a", sigma_a), m.coefficient("sigma_s", sigma_s)};
 }
 
-// nx·ny·nz values of `channels` floats under `name`.
+// Colours of the scope's space, in place.
+void to_linear_srgb(std::vector<float>& values, const std::string& color_space) {
+  if (color_space == "srgb") return;
+  for (std::size_t i = 0; i + 2 < values.size(); i += 3) {
+    const auto v = [&](std::size_t c) { return static_cast<double>(values[i + c]); };
+    const RGB color = to_srgb({v(0), v(1), v(2)}, color_space.c_str());
+    values[i] = static_cast<float>(std::max(0.0, color.r));
+    values[i + 1] = static_cast<float>(std::max(0.0, color.g));
+    values[i + 2] = static_cast<float>(std::max(0.0, color.b));
+  }
+}
+
+// nx·ny·nz values of `channels` floats under `name`. All grids of pbrt are 0 outside of their cells.
 Grid grid(const Maker& m, std::string_view name, int channels) {
   Grid g;
+  g.edge = GridEdge::zero;
   g.nx = m.parameters.integer("nx", 1);
   g.ny = m.parameters.integer("ny", 1);
   g.nz = m.parameters.integer("nz", 1);
@@ -56,6 +71,18 @@ Grid grid(const Maker& m, std::string_view name, int channels) {
                      name, values->numbers.size()),
          values->place);
   for (const double v : values->numbers) g.values.push_back(static_cast<float>(v));
+  if (channels == 3) to_linear_srgb(g.values, m.scope.color_space);
+  return g;
+}
+
+// What pbrt-v4 has in the place of a grid that is not given: one cell, so that what shines fades from the
+// middle of the bounds on.
+Grid one_cell(const Maker& m, float value) {
+  Grid g;
+  g.nx = g.ny = g.nz = 1;
+  g.values = {value};
+  g.bounds = m.bounds();
+  g.edge = GridEdge::zero;
   return g;
 }
 
@@ -91,6 +118,8 @@ void uniform_grid(const Maker& m, Medium& medium) {
   if (m.has("temperature")) medium.temperature = grid(m, "temperature", 1);
   if (const Parameter* scale = m.parameters.find_numbers("Lescale"); scale && scale->numbers.size() > 1)
     medium.emission_scale = grid(m, "Lescale", 1);
+  else if (medium.emission)
+    medium.emission_scale = one_cell(m, m.number("Lescale", 1));
   else
     medium.emission_factor = m.number("Lescale", 1);
   read_temperature(m, medium);
@@ -102,7 +131,7 @@ void rgb_grid(const Maker& m, Medium& medium) {
   if (m.has("sigma_s")) c.sigma_s = grid(m, "sigma_s", 3);
   medium.coefficients = c;
   if (m.has("Le")) {
-    medium.emission = ConstantSpectrum{1};
+    medium.emission = emission_from_rgb(white_of_rgb_grids);
     medium.emission_scale = grid(m, "Le", 3);
   }
   medium.emission_factor = m.number("Lescale", 1);

@@ -2,8 +2,10 @@
 // Media stand between Camera and WorldBegin: the camera's has to be known when the world begins.
 #include <algorithm>
 #include <array>
+#include <numeric>
 
 #include "importers/export_colors.h"
+#include "importers/pbrt/media.h"
 #include "importers/pbrt/writer.h"
 
 namespace vitrail::pbrt {
@@ -11,6 +13,8 @@ namespace vitrail::pbrt {
 namespace {
 
 void grid(Parameters& p, std::string_view type_and_name, const Grid& g, bool sizes) {
+  if (g.edge != GridEdge::zero)
+    p.approximated("its grids fade over half a cell at their edges, as pbrt's do");
   if (sizes) {
     p.integer("nx", g.nx).integer("ny", g.ny).integer("nz", g.nz);
     p.numbers("point3 p0", std::array{g.bounds.lower.x, g.bounds.lower.y, g.bounds.lower.z});
@@ -48,10 +52,12 @@ void coefficients(Parameters& p, const Medium& m, float scale = 1) {
   }
 }
 
-void emission(Parameters& p, const Medium& m) {
+// Times `factor`, where it is a colour.
+void emission(Parameters& p, const Medium& m, float factor = 1) {
   if (!m.emission) return;
   if (const auto* color = std::get_if<RgbIlluminantSpectrum>(&*m.emission)) {
-    p.numbers("rgb Le", color->rgb);
+    const auto& c = color->rgb;
+    p.numbers("rgb Le", std::array{c[0] * factor, c[1] * factor, c[2] * factor});
   } else {
     p.approximated("its emission is normalised to luminance 1, as pbrt does");
     p.spectrum("Le", *m.emission);
@@ -95,6 +101,17 @@ Grid in_each_cell(Parameters& p, const VolumeParameter& value, const Grid& cells
   return colors;
 }
 
+// What shines in each cell, as rgbgrid takes it.
+Grid glow_in_each_cell(Parameters& p, const Medium& m, const Grid& cells) {
+  Grid glow = in_each_cell(p, *m.emission_scale, cells);
+  if (!is_rgb(*m.emission)) p.approximated("its emission beside a grid becomes its colour");
+  const RGB of_one = emission_rgb(*m.emission);
+  const std::array factors{of_one.r / white_of_rgb_grids.r, of_one.g / white_of_rgb_grids.g,
+                           of_one.b / white_of_rgb_grids.b};
+  for (std::size_t i = 0; i < glow.values.size(); ++i) glow.values[i] *= static_cast<float>(factors[i % 3]);
+  return glow;
+}
+
 // pbrt counts a grid that is not given as 1.
 bool is_one(const VolumeParameter& value) {
   const auto* spectrum = std::get_if<Spectrum>(&value);
@@ -108,7 +125,7 @@ const char* rgb_grid(Parameters& p, const Medium& m, const AbsorptionScattering&
   if (!cells) cells = &std::get<Grid>(both.sigma_s);
   if (absorbs) grid(p, "rgb sigma_a", in_each_cell(p, both.sigma_a, *cells), true);
   if (!is_one(both.sigma_s)) grid(p, "rgb sigma_s", in_each_cell(p, both.sigma_s, *cells), !absorbs);
-  if (m.emission_scale) grid(p, "rgb Le", in_each_cell(p, *m.emission_scale, *cells), false);
+  if (m.emission && m.emission_scale) grid(p, "rgb Le", glow_in_each_cell(p, m, *cells), false);
   if (m.emission_factor != 1) p.number("Lescale", m.emission_factor);
   return "rgbgrid";
 }
@@ -133,10 +150,20 @@ const char* nanovdb(Parameters& p, const Medium& m, const Grid& density) {
   return "nanovdb";
 }
 
-// Emission has a factor in each cell, or none.
+// What pbrt takes where no factors of emission are given, but for its value.
+bool is_one_cell(const Grid& grid) { return grid.values.size() == 1 && grid.edge == GridEdge::zero; }
+
+// Emission has a factor in each cell.
 void emission_grid(Parameters& p, const Medium& m, const Grid& cells) {
+  if (!m.emission_scale && !m.emission) return;
   Grid factors = m.emission_scale ? *m.emission_scale : cells;
-  if (!m.emission_scale && (m.emission_factor == 1 || !m.emission)) return;
+  if (factors.values.size() != cells.values.size()) {
+    p.approximated("the grid of its emission, of another size than its density's, becomes its mean");
+    const float mean = std::accumulate(factors.values.begin(), factors.values.end(), 0.0f) /
+                       static_cast<float>(factors.values.size());
+    factors = cells;
+    std::ranges::fill(factors.values, mean);
+  }
   if (!m.emission_scale) std::ranges::fill(factors.values, 1.0f);
   for (float& factor : factors.values) factor *= m.emission_factor;
   grid(p, "float Lescale", factors, false);
@@ -149,10 +176,13 @@ const char* uniform_grid(Parameters& p, const Medium& m, const Grid& density) {
   if (m.temperature) {
     grid(p, "float temperature", *m.temperature, false);
     if (m.emission) p.dropped("its emission: pbrt takes none beside a temperature");
+    emission_grid(p, m, density);
+  } else if (m.emission_scale && is_one_cell(*m.emission_scale) && density.values.size() > 1) {
+    emission(p, m, m.emission_scale->values[0] * m.emission_factor);
   } else {
     emission(p, m);
+    emission_grid(p, m, density);
   }
-  emission_grid(p, m, density);
   return "uniformgrid";
 }
 

@@ -79,20 +79,22 @@ void make_spectra(Grid& grid) {
   grid.channels = 4;
 }
 
-bool bake_volume(VolumeParameter& volume, RgbMethod method, std::vector<std::string>& notes) {
-  if (auto* spectrum = std::get_if<Spectrum>(&volume)) {
-    *spectrum = resolved(*spectrum, method);
-    return true;
-  }
-  Grid& grid = std::get<Grid>(volume);
+bool bake_colors(Grid& grid, RgbMethod method, std::vector<std::string>& notes) {
   if (!bake_grid(grid, notes)) return false;
   if (grid.channels == 3) {
     if (method == RgbMethod::matrix_r)
-      notes.push_back("the colours of its grids become spectra by Jakob and Hanika's method");
+      notes.emplace_back("the colours of its grids become spectra by Jakob and Hanika's method");
     make_spectra(grid);
   } else {
     make_grey(grid, notes);
   }
+  return true;
+}
+
+bool bake_volume(VolumeParameter& volume, RgbMethod method, std::vector<std::string>& notes) {
+  if (auto* grid = std::get_if<Grid>(&volume)) return bake_colors(*grid, method, notes);
+  Spectrum& spectrum = std::get<Spectrum>(volume);
+  spectrum = resolved(spectrum, method);
   return true;
 }
 
@@ -128,7 +130,7 @@ std::optional<Medium> bake_medium(const Medium& medium, RgbMethod method, std::v
   }
   if (baked.emission)
     *baked.emission = scaled(resolved(*baked.emission, method), static_cast<double>(baked.emission_factor));
-  if (baked.emission_scale && !bake_number(*baked.emission_scale, notes)) baked.emission.reset();
+  if (baked.emission_scale && !bake_colors(*baked.emission_scale, method, notes)) baked.emission.reset();
   if (!baked.emission) baked.emission_scale.reset();
   baked.emission_factor = 1;
   return baked;

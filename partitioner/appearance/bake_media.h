@@ -12,9 +12,9 @@
 namespace vitrail {
 
 // A medium made ready for rendering: spectra resolved, grids read into memory, coefficients in the form
-// σ_a, σ_s or σ_t, albedo. A grid of coefficients of colours has four channels then: x of a sigmoid at 360,
-// 595 and 830 nm (bundle/texel.h) and its scale; any other has one. Empty where nothing of it can be shown;
-// `notes` say what stands for something else. Throws Error for files that cannot be read.
+// σ_a, σ_s or σ_t, albedo. A grid of coefficients or emission of colours has four channels then: x of a
+// sigmoid at 360, 595 and 830 nm (bundle/texel.h) and its scale; any other has one. Empty where nothing of it
+// can be shown; `notes` say what stands for something else. Throws Error for files that cannot be read.
 std::optional<Medium> bake_medium(const Medium& medium, RgbMethod method, std::vector<std::string>& notes);
 
 }  // namespace vitrail

@@ -82,7 +82,7 @@ TEST_F(MitsubaMedia, WrittenMediaComeBack) {
   a.filename = (folder_ / "a.vol").string();
   a.nx = 2, a.ny = 3, a.nz = 4;
   b.filename = (folder_ / "b.vol").string();
-  b.nx = 2, b.ny = 2, b.nz = 1, b.channels = 3, b.clamp = false;
+  b.nx = 2, b.ny = 2, b.nz = 1, b.channels = 3, b.edge = GridEdge::repeated;
   cloud.coefficients = ExtinctionAlbedo{a, b};
   cloud.medium_to_world = translate({1, 2, 3}) * rotate(0.3, {1, 2, 0}) * scale({2, 3, 4});
   original.media = {fog, dust, cloud};

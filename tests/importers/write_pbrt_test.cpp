@@ -707,6 +707,10 @@ TEST(WritePbrt, KindsOfMedia) {
         ".7]",
         "\"rgbgrid\" \"integer nx\" 2 \"rgb sigma_a\" [1 2 3 4 5 6] \"rgb sigma_s\" [6 5 4 3 2 1] \"float "
         "scale\" 3",
+        "\"uniformgrid\" \"integer nx\" 2 \"float density\" [1 2] \"rgb Le\" [1 2 3]",
+        "\"uniformgrid\" \"float density\" [1] \"rgb Le\" [1 2 3]",
+        "\"rgbgrid\" \"integer nx\" 2 \"rgb sigma_a\" [1 2 3 4 5 6] \"rgb Le\" [1 2 3 4 5 6] \"float "
+        "Lescale\" 2",
         "\"rgbgrid\" \"integer nx\" 2 \"rgb sigma_s\" [6 5 4 3 2 1]",
         "\"rgbgrid\" \"integer nx\" 2 \"rgb sigma_a\" [6 5 4 3 2 1]",
         "\"cloud\" \"float wispiness\" 3 \"rgb sigma_s\" [1 2 3]",

@@ -54,6 +54,37 @@ TEST(ColoredMedia, FadeToBlack) {
   expect_at(medium, 0.75, {0, 0, 0, 0});
 }
 
+// pbrt's are 0 outside of their cells, and average spectra.
+TEST(ColoredMedia, OfPbrtFadeAtTheirEdges) {
+  Grid cells = two_cells({1, 0.2f, 0.1f}, {0.1f, 0.3f, 2});
+  cells.edge = GridEdge::zero;
+  const Medium medium = baked(cells);
+  const Values left{0.121788, 0.14661, 0.236584, 0.886333}, right{1.89966, 0.739597, 0.32366, 0.143982};
+  const auto sum = [&](double of_left, double of_right) {
+    Values v;
+    for (std::size_t i = 0; i < v.size(); ++i) v[i] = of_left * left[i] + of_right * right[i];
+    return v;
+  };
+  expect_at(medium, 0.25, left);
+  expect_at(medium, 0.5, sum(0.5, 0.5));
+  expect_at(medium, 0, sum(0.5, 0));
+  expect_at(medium, 0.9375, sum(0, 0.625));
+  expect_at(medium, -0.3, {0, 0, 0, 0});
+}
+
+// Of one channel, too: an eighth in the corners.
+TEST(Grids, OfPbrtFadeAtTheirEdges) {
+  Grid cell;
+  cell.nx = cell.ny = cell.nz = 1, cell.values = {8}, cell.edge = GridEdge::zero;
+  EXPECT_EQ(look_up(cell, {0.5, 0.5, 0.5}, 0), 8);
+  EXPECT_EQ(look_up(cell, {0.5, 0.5, 0}, 0), 4);
+  EXPECT_EQ(look_up(cell, {0.75, 0.5, 0.5}, 0), 6);
+  EXPECT_EQ(look_up(cell, {0, 1, 0}, 0), 1);
+  EXPECT_EQ(look_up(cell, {1.5, 0.5, 0.5}, 0), 0);
+  cell.edge = GridEdge::held;
+  EXPECT_EQ(look_up(cell, {0, 1, 7}, 0), 8);
+}
+
 // No colour is denser than the majorant that flights are sampled by.
 TEST(ColoredMedia, AreBoundedByTheirScale) {
   const Medium medium = baked(two_cells({1, 0.2f, 0.1f}, {0.1f, 0.3f, 2}));

@@ -10,19 +10,23 @@ namespace vitrail {
 
 namespace {
 
-// The two cells that `x` (in cells, their centres at ½) lies between, and how far it is to the second.
+// The two cells that `x` (in cells, their centres at ½) lies between, and how much each counts.
 struct Between {
   int first, second;
-  double weight;
+  double of_first, of_second;
 };
-Between between(double x, int cells, bool clamp) {
+Between between(double x, int cells, GridEdge edge) {
   const double limit = 4.0 * cells + 4;  // far outside is as far as this
   const double at = std::clamp(x - 0.5, -limit, limit), below = std::floor(at);
   const int i = static_cast<int>(below);
-  const auto wrap = [&](int k) {
-    return clamp ? std::clamp(k, 0, cells - 1) : ((k % cells) + cells) % cells;
+  const auto there = [&](int k) {
+    return edge == GridEdge::repeated ? ((k % cells) + cells) % cells : std::clamp(k, 0, cells - 1);
   };
-  return {wrap(i), wrap(i + 1), at - below};
+  const auto counts = [&](int k, double weight) {
+    return edge == GridEdge::zero && (k < 0 || k >= cells) ? 0 : weight;
+  };
+  const double weight = at - below;
+  return {there(i), there(i + 1), counts(i, 1 - weight), counts(i + 1, weight)};
 }
 
 // The eight cells around a point, as the first of their values, and how much each of them counts.
@@ -33,13 +37,13 @@ struct Corner {
 std::array<Corner, 8> corners(const Grid& grid, Point3d p) {
   const Vector3d size = extent(grid.bounds), from = p - grid.bounds.lower;
   const auto axis = [&](int a, int cells) {
-    return between(size[a] > 0 ? from[a] / size[a] * cells : 0.5, cells, grid.clamp);
+    return between(size[a] > 0 ? from[a] / size[a] * cells : 0.5, cells, grid.edge);
   };
   const Between x = axis(0, grid.nx), y = axis(1, grid.ny), z = axis(2, grid.nz);
   std::array<Corner, 8> all;
   for (std::size_t i = 0; i < 8; ++i) {
     const auto side = [&](const Between& b, std::size_t bit) {
-      return i & bit ? std::pair{b.second, b.weight} : std::pair{b.first, 1 - b.weight};
+      return i & bit ? std::pair{b.second, b.of_second} : std::pair{b.first, b.of_first};
     };
     const auto [cx, wx] = side(x, 1);
     const auto [cy, wy] = side(y, 2);
@@ -66,6 +70,13 @@ double sigmoid(const float* nodes, double lambda_nm) {
 void look_up_colors(const Grid& grid, Point3d p, std::span<const double> lambda_nm,
                     std::span<double> values) {
   const std::array<Corner, 8> around = corners(grid, p);
+  if (grid.edge == GridEdge::zero) {
+    std::ranges::fill(values, 0.0);
+    for (const Corner& c : around)
+      for (std::size_t i = 0; i < values.size() && c.weight > 0; ++i)
+        values[i] += c.weight * static_cast<double>(c.values[3]) * sigmoid(c.values, lambda_nm[i]);
+    return;
+  }
   double scale = 0;
   for (const Corner& c : around) scale += c.weight * static_cast<double>(c.values[3]);
   for (std::size_t i = 0; i < values.size(); ++i) {
@@ -80,7 +91,7 @@ void look_up_colors(const Grid& grid, Point3d p, std::span<const double> lambda_
 double look_up(const Grid& grid, Point3d p, int channel) {
   const Vector3d size = extent(grid.bounds), from = p - grid.bounds.lower;
   const auto axis = [&](int a, int cells) {
-    return between(size[a] > 0 ? from[a] / size[a] * cells : 0.5, cells, grid.clamp);
+    return between(size[a] > 0 ? from[a] / size[a] * cells : 0.5, cells, grid.edge);
   };
   const Between x = axis(0, grid.nx), y = axis(1, grid.ny), z = axis(2, grid.nz);
   const auto value = [&](int i, int j, int k) {
@@ -92,10 +103,10 @@ double look_up(const Grid& grid, Point3d p, int channel) {
         grid.values[at * static_cast<std::size_t>(grid.channels) + static_cast<std::size_t>(channel)]);
   };
   const auto row = [&](int j, int k) {
-    return value(x.first, j, k) * (1 - x.weight) + value(x.second, j, k) * x.weight;
+    return value(x.first, j, k) * x.of_first + value(x.second, j, k) * x.of_second;
   };
-  const auto slice = [&](int k) { return row(y.first, k) * (1 - y.weight) + row(y.second, k) * y.weight; };
-  return slice(z.first) * (1 - z.weight) + slice(z.second) * z.weight;
+  const auto slice = [&](int k) { return row(y.first, k) * y.of_first + row(y.second, k) * y.of_second; };
+  return slice(z.first) * z.of_first + slice(z.second) * z.of_second;
 }
 
 double greatest_value(const Grid& grid) {

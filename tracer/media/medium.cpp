@@ -28,16 +28,13 @@ Values at_wavelengths(const Spectrum& spectrum, const SampledWavelengths& w) {
 
 using Wavelengths = std::array<double, hero_count>;
 
-// Grids of one channel are the same at all wavelengths.
-Values at_point(const VolumeParameter& volume, const Values& spectrum, const Wavelengths& lambda_nm,
-                Point3d p) {
-  const auto* grid = std::get_if<Grid>(&volume);
-  if (!grid) return spectrum;
+// Of one channel: the same at all wavelengths.
+Values at_point(const Grid& grid, const Wavelengths& lambda_nm, Point3d p) {
   Values v;
-  if (has_colors(*grid))
-    look_up_colors(*grid, p, lambda_nm, v);
+  if (has_colors(grid))
+    look_up_colors(grid, p, lambda_nm, v);
   else
-    v.fill(look_up(*grid, p, 0));
+    v.fill(look_up(grid, p, 0));
   return v;
 }
 
@@ -63,12 +60,22 @@ class Coefficients {
   void at(Point3d p, Values& sigma_t, Values& sigma_s) const {
     double density = scale_;
     if (const auto* grid = std::get_if<Grid>(&m_.medium->density)) density *= look_up(*grid, p, 0);
-    const Values a = at_point(*first_volume_, first_, lambda_nm_, p),
-                 b = at_point(*second_volume_, second_, lambda_nm_, p);
+    const auto there = [&](const VolumeParameter& volume, const Values& everywhere) {
+      const auto* grid = std::get_if<Grid>(&volume);
+      return grid ? at_point(*grid, lambda_nm_, p) : everywhere;
+    };
+    const Values a = there(*first_volume_, first_), b = there(*second_volume_, second_);
     for (std::size_t i = 0; i < hero_count; ++i) {
       sigma_s[i] = density * (is_sum_ ? b[i] : a[i] * b[i]);
       sigma_t[i] = density * (is_sum_ ? a[i] + b[i] : a[i]);
     }
+  }
+
+  Values emission_scale(Point3d p) const {
+    if (m_.medium->emission_scale) return at_point(*m_.medium->emission_scale, lambda_nm_, p);
+    Values one;
+    one.fill(1);
+    return one;
   }
 
   // σ_t is nowhere greater, at any of the wavelengths.
@@ -187,7 +194,7 @@ PreparedMedium prepare(const Medium& medium) {
   m.medium = &medium;
   m.to_medium = inverse(medium.medium_to_world);
   m.g = static_cast<double>(medium.g);
-  // Outside of a density and of a grid of extinction there is nothing.
+  // Outside of a density and of a grid of extinction, or of what it is the sum of, there is nothing.
   if (const auto* e = std::get_if<ExtinctionAlbedo>(&medium.coefficients))
     if (const auto* grid = std::get_if<Grid>(&e->sigma_t)) m.bounds = grid->bounds;
   if (const auto* grid = std::get_if<Grid>(&medium.density)) {
@@ -196,8 +203,11 @@ PreparedMedium prepare(const Medium& medium) {
     m.density_max = greatest_value(*grid);
   }
   const auto varies = [](const auto& v) { return std::holds_alternative<Grid>(v); };
-  if (const auto* k = std::get_if<AbsorptionScattering>(&medium.coefficients))
+  if (const auto* k = std::get_if<AbsorptionScattering>(&medium.coefficients)) {
     m.homogeneous &= !varies(k->sigma_a) && !varies(k->sigma_s);
+    for (const VolumeParameter* volume : {&k->sigma_a, &k->sigma_s})
+      if (const auto* grid = std::get_if<Grid>(volume)) extend(m.bounds, grid->bounds);
+  }
   if (const auto* k = std::get_if<ExtinctionAlbedo>(&medium.coefficients))
     m.homogeneous &= !varies(k->sigma_t) && !varies(k->albedo);
   m.homogeneous &= !medium.emission_scale;
@@ -237,10 +247,10 @@ FlightSample sample_flight(const PreparedMedium& m, const Flight& flight,
     if (!(sum > 0)) return s;
     const double p_real = std::clamp(real / sum, 0.0, 1.0);
     if (!is_black(glow)) {
-      const double scale = m.medium->emission_scale ? look_up(*m.medium->emission_scale, p, 0) : 1;
+      const Values scale = coefficients.emission_scale(p);
       for (std::size_t i = 0; i < active; ++i)
         s.emitted.v[i] +=
-            s.weight.v[i] * glow.v[i] * static_cast<float>(scale * (sigma_t[i] - sigma_s[i]) / majorant);
+            s.weight.v[i] * glow.v[i] * static_cast<float>(scale[i] * (sigma_t[i] - sigma_s[i]) / majorant);
     }
     const bool is_real = random.next() < p_real;  // so that p of what happens is above 0
     for (std::size_t i = 0; i < active; ++i)
