@@ -110,13 +110,13 @@ Motion motion_from_json(const Json& of, const char* key) {
 }
 
 RealisticCamera realistic_from_json(const Json& j, const Transform& camera_to_world) {
-  RealisticCamera camera{camera_to_world, j.at("film_diagonal").get<double>(), {}, {}};
+  RealisticCamera camera{camera_to_world, number<double>(j, "film_diagonal"), {}, {}};
   for (const Json& s : j.at("surfaces")) {
-    const auto n = [&](std::size_t i) { return s.at(i).get<double>(); };
+    const auto n = [&](std::size_t i) { return number<double>(s, i); };
     camera.surfaces.push_back({n(0), n(1), n(2), n(3)});
   }
   for (const Json& p : j.at("pupils")) {
-    const auto n = [&](std::size_t i) { return p.at(i).get<double>(); };
+    const auto n = [&](std::size_t i) { return number<double>(p, i); };
     camera.pupils.push_back({{n(0), n(1), n(2), n(3)}, n(4)});
   }
   const auto positive_index = [](const LensSurface& s) { return s.index > 0; };
@@ -359,9 +359,9 @@ Json photons_to_json(const PhotonSettings& p) {
 
 PhotonSettings photons_from_json(const Json& j) {
   PhotonSettings p;
-  if (j.contains("count")) p.photons = j["count"].get<std::uint64_t>();
-  if (j.contains("radius")) p.first_radius = j["radius"].get<double>();
-  if (j.contains("alpha")) p.alpha = j["alpha"].get<double>();
+  if (j.contains("count")) p.photons = number<std::uint64_t>(j, "count");
+  if (j.contains("radius")) p.first_radius = number<double>(j, "radius");
+  if (j.contains("alpha")) p.alpha = number<double>(j, "alpha");
   return p;
 }
 

@@ -274,7 +274,8 @@ void PathTracer::send_shadow_ray(const Path& path, const Departure& from, const 
 
 // A connection goes straight on through whatever lets it. One to a distant light walks through panes: smooth
 // interfaces refract it by the hero's index, and what parallel faces reflect to and fro is a part of it. All
-// wavelengths leave a pane with parallel faces in the direction they came, so all four stay unless it is thick.
+// wavelengths leave a pane with parallel faces in the direction they came, so all four stay unless it is
+// thick.
 bool PathTracer::connect_onwards(Path& path) {
   const bool walks = path.is(path_in_pane);
   if (const PreparedMedium* medium = medium_of(path)) {

@@ -284,8 +284,8 @@ TEST(PbrtAreaLights, DivideTheirPowerByTheMeanOfTheirImage) {
       import_v4("Scale 3 3 3 AreaLightSource \"diffuse\" \"string filename\" \"" +
                 (directory / "lamp.exr").string() + "\" \"float power\" 10 \"float scale\" 2 Shape \"disk\"");
   const double mean = 5.0 / (40 * 30);
-  EXPECT_NEAR(static_cast<double>(imported.scene.area_lights.at(0).scale) / (2 * 10 / (pi * pi * 9) / mean), 1,
-              1e-4);
+  EXPECT_NEAR(static_cast<double>(imported.scene.area_lights.at(0).scale) / (2 * 10 / (pi * pi * 9) / mean),
+              1, 1e-4);
 }
 
 TEST(PbrtAreaLights, DoNotShineOnInterfaces) {
