@@ -263,7 +263,7 @@ TEST_F(Hostile, OutputThatCannotBeWrittenIsAnError) {
   write("a.pbrt", world + triangle);
   for (const char* words :
        {"inspect --json a.pbrt", "inspect a.pbrt", "convert a.pbrt a.obj", "glazing --help",
-        "partition a.pbrt -o a.vit", "verify a.vit", "plan a.vit", "sky 48,2,2026-06-21T12:00+02:00"})
+        "partition a.pbrt -o a.vit", "verify a.vit", "plan --help", "sky 48,2,2026-06-21T12:00+02:00"})
     for (const char* stream : {">/dev/full", ">&-"}) {
       const CommandResult result = run_here(fmt::format("sh -c \"{} {}\"", vitrail(words), stream));
       EXPECT_EQ(result.status, 4) << words << stream << '\n' << result.output;

@@ -94,7 +94,7 @@ TEST(PbrtLexer, RefusesStringsThatDoNotEnd) {
 
 struct Parameters {
   explicit Parameters(const std::string& text)
-      : tokens(folder.write("parameters", text)), list(read_parameters(tokens, report)) {}
+      : tokens(folder.write("parameters", text), 1 << 20), list(read_parameters(tokens, report)) {}
   TemporaryFolder folder;
   TokenStream tokens;
   Report report;
