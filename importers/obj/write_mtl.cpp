@@ -10,6 +10,8 @@
 #include "importers/unique_names.h"
 #include "scene/atomic_file.h"
 #include "scene/curve_uses.h"
+#include "scene/deferred_mesh.h"
+#include "scene/mesh_parts.h"
 
 namespace vitrail {
 
@@ -27,6 +29,7 @@ class Writer : MtlText {
     opacity_ = shape_opacity_ = shape.opacity;
     if (const auto* of_curve = std::get_if<float>(&shape.opacity); of_curve && is_of_curves(scene_, shape))
       opacity_ = shape_opacity_ = opacity_of_wall(*of_curve);
+    is_open_ = is_thin(shape.material) && encloses_nothing(scene_.meshes.at(shape.mesh.value));
     put(shape.material);
     origin = shape.origin;
     if (!is_whole(opacity_)) put_opacity(scene_.materials.at(shape.material.value));
@@ -41,6 +44,17 @@ class Writer : MtlText {
     const double u = constant(roughness.alpha_u, "roughness"), v = constant(roughness.alpha_v, "roughness");
     if (u != v) approximated("anisotropic roughness: the mean of the two");
     return (u + v) / 2;
+  }
+
+  bool is_thin(Id<Material> id) const {
+    return std::holds_alternative<ThinDielectricMaterial>(scene_.materials.at(id.value).model);
+  }
+  static bool encloses_nothing(const TriangleMesh& mesh) {
+    TriangleMesh storage;
+    const PlacedMesh placed{&loaded(mesh, storage), {}};
+    return std::ranges::none_of(parts_of(std::span(&placed, 1)), [](const MeshPart& part) {
+      return part.kind == MeshPart::Kind::closed || part.kind == MeshPart::Kind::rimless;
+    });
   }
 
   static bool is_whole(const FloatParameter& opacity) { return opacity == FloatParameter{1.0f}; }
@@ -101,7 +115,7 @@ class Writer : MtlText {
     put_glass(outside > 0 ? eta / outside : eta, m.transmittance_factor, m.roughness);
   }
   void put(const ThinDielectricMaterial& m) {
-    approximated("thin dielectric: glass, which Vitrail reads as thin where its surface is open");
+    if (!is_open_) approximated("thin dielectric: glass, which is solid where its surface is closed");
     const double eta = index_of_refraction(m.eta), outside = index_of_refraction(m.exterior_eta);
     if (m.reflectance_factor != SpectrumParameter{ConstantSpectrum{1}})
       note(Fidelity::dropped, "factor of reflection");
@@ -242,6 +256,7 @@ class Writer : MtlText {
   }
 
   const Scene& scene_;
+  bool is_open_ = false;  // the shape: readers take its glass as thin
   FloatParameter shape_opacity_ = 1.0f;
   FloatParameter opacity_ = 1.0f;  // with that of its material
 };

@@ -275,7 +275,7 @@ TEST_F(WriteObj, OpacitiesOfShapes) {
   EXPECT_TRUE(std::holds_alternative<DiffuseMaterial>(model(0)));
   EXPECT_EQ(std::get<MaskMaterial>(model(1)).opacity, FloatParameter{0.25f});
   EXPECT_EQ(std::get<MaskMaterial>(model(2)).opacity, FloatParameter{0.125f});
-  EXPECT_TRUE(std::holds_alternative<DielectricMaterial>(model(3)));
+  EXPECT_TRUE(std::holds_alternative<ThinDielectricMaterial>(model(3)));  // of one face
   EXPECT_THAT(diagnostics_, says("glass of which"));
 }
 
