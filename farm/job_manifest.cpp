@@ -94,9 +94,9 @@ void choose_integrator(const RenderOptions& options, RenderSettings& s) {
 
 void override_settings(Manifest& m, const RenderOptions& options) {
   RenderSettings& s = m.settings;
-  s.samples_per_pixel = static_cast<int>(goal_of(options, s.samples_per_pixel).samples);
-  if (options.max_depth) s.max_depth = *options.max_depth;
   choose_integrator(options, s);
+  s.samples_per_pixel = static_cast<int>(goal_of(options, s).samples);
+  if (options.max_depth) s.max_depth = *options.max_depth;
   if (options.threshold > 0 && !s.direct_only)
     throw UsageError("--threshold is of direct light alone: give --integrator direct too");
   if (s.samples_per_pixel < 1 || static_cast<std::uint32_t>(s.samples_per_pixel) >= max_samples)

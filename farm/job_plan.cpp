@@ -82,7 +82,7 @@ JobPlan plan_job(const Manifest& m, const RenderOptions& options, const Place& p
                  const SceneMemory& scene) {
   JobPlan plan;
   plan.threads = threads_of(options);
-  plan.goal = goal_of(options, m.settings.samples_per_pixel);
+  plan.goal = goal_of(options, m.settings);
   plan.key = key_of(m, options);
   plan.scene = scene;
   plan.base_bytes = base_bytes(m, options, plan, place.ranks);

@@ -100,7 +100,7 @@ void conclude(Job& job, const RenderOptions& options, std::uint64_t samples_befo
   stats.refused = film.refused();
   stats.clamped_share = film.clamped_share();
   say_what_is_wrong(film, goal, options, stats);
-  print_wedges(options, stats.traced);
+  if (job.plan.key.photons.photons == 0) print_wedges(options, stats.traced);
   stats.film_hash = film.hash();
   print_end(options, stats, film.pixels());
   // The film holds all that the checkpoint does.

@@ -30,19 +30,19 @@ std::uint32_t even_above(double samples) { return 2 * static_cast<std::uint32_t>
 
 }  // namespace
 
-Goal goal_of(const RenderOptions& o, int samples_of_scene) {
+Goal goal_of(const RenderOptions& o, const RenderSettings& scene) {
   Goal goal;
   goal.adaptive = o.adaptive;
   goal.target = o.target_error;
   // With a time limit the picture is to be whole early on, and then better and better.
   const bool limited = o.time_limit_s > 0 && !o.dry_run, as_long_as_it_takes = o.target_error || limited;
-  goal.one_by_one = o.photons.has_value();
-  goal.in_rounds = !o.dry_run && !o.photons && (o.adaptive || as_long_as_it_takes);
+  goal.one_by_one = scene.photons.has_value();
+  goal.in_rounds = !o.dry_run && !scene.photons && (o.adaptive || as_long_as_it_takes);
   goal.open_ended = as_long_as_it_takes && !o.samples_per_pixel;
-  goal.samples = static_cast<std::uint32_t>(o.samples_per_pixel ? *o.samples_per_pixel
-                                            : as_long_as_it_takes
-                                                ? o.photons ? most_iterations_unasked : most_samples_unasked
-                                                : samples_of_scene);
+  goal.samples = static_cast<std::uint32_t>(o.samples_per_pixel   ? *o.samples_per_pixel
+                                            : as_long_as_it_takes ? scene.photons ? most_iterations_unasked
+                                                                                  : most_samples_unasked
+                                                                  : scene.samples_per_pixel);
   return goal;
 }
 

@@ -28,7 +28,8 @@ struct Goal {
 inline constexpr int most_samples_unasked = 65536;
 inline constexpr int most_iterations_unasked = 4096;  // of photon mapping
 
-Goal goal_of(const RenderOptions& options, int samples_of_scene);
+// `scene`: its settings, with the integrator that the options choose.
+Goal goal_of(const RenderOptions& options, const RenderSettings& scene);
 
 // What the film's error is in the unit of the target: relMSE, or just noticeable differences.
 struct ReachedError {

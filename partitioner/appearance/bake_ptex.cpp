@@ -62,8 +62,8 @@ Layout layout_of(const PtexFile& file, int halvings, std::uint32_t refinement) {
   std::uint64_t texels = 0;
   for (const auto& f : file.faces()) {
     const bool one = file.is_of_triangles() || f.constant;
-    const auto size = [&](std::uint32_t texels) {
-      return one ? 1 : std::max(1u, texels >> halvings) * refinement;
+    const auto size = [&](std::uint32_t side) {
+      return one ? 1 : std::max(1u, side >> halvings) * refinement;
     };
     t.tiles.push_back({0, 0, size(f.width), size(f.height)});
   }

@@ -188,7 +188,9 @@ TEST(PbrtMaterials, OfV3AreSumsOfTheirLobes) {
     EXPECT_EQ(value(gloss.diffuse_reflectance), 0);
     EXPECT_EQ(gloss.eta, 1.5f);
     EXPECT_EQ(gloss.exterior_eta, 1);
-    if (kd + ks <= 1) EXPECT_NEAR(value(gloss.specular_reflectance), 1, 1e-4) << "a coat as it is";
+    if (kd + ks <= 1) {
+      EXPECT_NEAR(value(gloss.specular_reflectance), 1, 1e-4) << "a coat as it is";
+    }
   }
   const ImportedScene leaf = import_v3("Material \"translucent\" \"rgb reflect\" [1 1 1] " + triangle);
   const auto blend = model_of<BlendMaterial>(leaf);
