@@ -45,6 +45,7 @@ double by_paths(const Scene& scene, int samples) { return brightness(render(scen
 double by_photons(const Scene& scene) {
   RenderOptions options;
   options.samples_per_pixel = 24;
+  options.integrator = Integrator::photon;
   options.photons = {40000, 0.25, 0.9};
   return brightness(render(scene, std::move(options)).film).mean;
 }

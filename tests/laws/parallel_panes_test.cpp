@@ -287,7 +287,7 @@ TEST(ParallelPanes, BringOnePictureByPhotonsAndPaths) {
       scene.settings.max_depth = 40;
       RenderOptions photons;
       photons.samples_per_pixel = 32;
-      photons.photons = {40000, 0.2, 0.9};
+      photons.integrator = Integrator::photon, photons.photons = {40000, 0.2, 0.9};
       const double mapped = brightness(render(scene, std::move(photons)).film).mean,
                    traced = brightness(render(scene, 256).film).mean;
       fmt::print("{} panes at {}°: photons {:.5f}, paths {:.5f}, {:+.2f} %\n", thin ? "thin" : "solid", theta,

@@ -12,6 +12,7 @@
 #include "scene/tessellate.h"
 #include "tests/support/render.h"
 #include "tests/support/temporary_directory.h"
+#include "tracer/intersect/instance_ray.h"
 #include "tracer/intersect/intersector.h"
 #include "tracer/quadrics/quadric_hits.h"
 #include "tracer/walk.h"
@@ -208,7 +209,7 @@ TEST(Quadrics, OnePictureOfManyPlaces) {
 // Of all quadrics where they stand the least (t, id) that a ray meets, by going through them one by one.
 struct Standing {
   Affine to_bundle;
-  Quadric quadric;
+  OrientedQuadric oriented;
   std::uint32_t id;
 };
 
@@ -221,7 +222,7 @@ void collect(const DomainView& domain, const DomainView& at, const Affine* chain
                                               : compose(*chain, ref.to_parent);
     const std::uint32_t id = first + ref.first_triangle;
     if (object.quadric)
-      out[id] = {to_bundle, object.quadric->quadric, id};
+      out[id] = {to_bundle, *object.quadric, id};
     else
       collect(domain, object, &to_bundle, id, out);
   }
@@ -257,10 +258,12 @@ void expect_the_least_of_all(Scene scene) {
     const auto find_least = [&] {
       least = {};
       for (const auto& [id, standing] : all) {
+        const RayConstants constants = prepare(ray);
         const QuadricHits found =
-            quadric_hits(prepare(ray), standing.to_bundle, standing.quadric, id == ray.exclude);
-        if (found.count > 0 && (found.at[0].t < least.t || (found.at[0].t == least.t && id < least.triangle)))
-          least.t = found.at[0].t, least.triangle = id;
+            quadric_hits(constants, standing.to_bundle, standing.oriented.quadric, id == ray.exclude);
+        if (found.count == 0) continue;
+        const double t = seen_t(constants, standing.to_bundle, standing.oriented, found.at[0]);
+        if (t < least.t || (t == least.t && id < least.triangle)) least.t = t, least.triangle = id;
       }
     };
     find_least();
