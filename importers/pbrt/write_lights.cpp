@@ -57,6 +57,9 @@ class LightWriter {
       return nullptr;
     }
     p_.file("filename", *file);
+    if (const auto shown = tinted_image(p_.writer().scene, *texture);
+        shown && shown->image.filter != TextureFilter::nearest)
+      p_.approximated("pbrt shows a projection texel by texel");
     if (l.irradiance) {
       p_.number("fov", std::atan(std::min(change.half.x, change.half.y)) * 360 / std::numbers::pi);
       p_.number("scale", static_cast<float>(scale.number * std::numbers::pi));

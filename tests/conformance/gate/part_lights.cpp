@@ -55,8 +55,9 @@ EnvironmentLight sky(const S& s, EnvironmentLight::Projection projection) {
   return light;
 }
 
-Id<Texture> picture(S& s, const char* name) {
+Id<Texture> picture(S& s, const char* name, TextureFilter filter = TextureFilter::bilinear) {
   ImageTexture image;
+  image.filter = filter;
   image.filename = s.image(name);
   return s.add(image, false);
 }
@@ -64,7 +65,7 @@ Id<Texture> picture(S& s, const char* name) {
 ProjectionLight projector(S& s, bool irradiance) {
   ProjectionLight light;
   light.light_to_world = from_above();
-  light.image = picture(s, "b.png");
+  light.image = picture(s, "b.png", irradiance ? TextureFilter::bilinear : TextureFilter::nearest);
   light.scale = ConstantSpectrum{20};
   light.fov_deg = 40;
   light.irradiance = irradiance;
