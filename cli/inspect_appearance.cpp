@@ -7,6 +7,7 @@
 
 #include "cli/inspect.h"
 #include "images/image_files.h"
+#include "images/ptex_file.h"
 #include "scene/kinds.h"
 
 namespace vitrail {
@@ -19,8 +20,12 @@ std::string file_of(const Texture& texture) {
   return "";
 }
 
-std::string pixels_of(const std::string& file) {
+std::string pixels_of(const Texture& texture) {
+  const std::string file = file_of(texture);
+  if (file.empty()) return "-";
   try {
+    if (std::holds_alternative<PtexTexture>(texture.model))
+      return fmt::format("{} faces", PtexFile(file).faces().size());
     const ImageLayout layout = read_image_layout(file);
     return fmt::format("{} × {} × {}", layout.width, layout.height, layout.channels);
   } catch (const Error&) {
@@ -72,7 +77,7 @@ Report describe_textures(const Scene& scene) {
     table.push_back({{"name", t.name.empty() ? "-" : t.name},
                      {"kind", kind_of(t.model)},
                      {"values", t.is_float ? "numbers" : "colours"},
-                     {"pixels", file.empty() ? "-" : pixels_of(file)},
+                     {"pixels", pixels_of(t)},
                      {"file", file.empty() ? "-" : file}});
   }
   return table;

@@ -5,6 +5,8 @@
 
 #include <charconv>
 #include <cmath>
+#include <functional>
+#include <set>
 
 #include "scene/photometry.h"
 
@@ -79,12 +81,12 @@ GivenSky parse_sky(const std::string& words) {
   } catch (const Error& error) {
     throw UsageError(fmt::format("--sky: {}", error.what()));
   }
+  std::set<std::string, std::less<>> given;
   for (std::size_t i = 3; i < parts.size(); ++i) {
     const std::size_t at = parts[i].find('=');
-    if (at == std::string::npos)
-      set(sky, "turbidity", parts[i]);
-    else
-      set(sky, parts[i].substr(0, at), parts[i].substr(at + 1));
+    const std::string key(at == std::string::npos ? "turbidity" : parts[i].substr(0, at));
+    if (!given.insert(key).second) throw UsageError(fmt::format("--sky: {} is given twice", key));
+    set(sky, key, at == std::string::npos ? parts[i] : parts[i].substr(at + 1));
   }
   sky.sun = sun_position(sky.time, sky.place);
   sky.light.to_sun = direction_of(sky.sun);

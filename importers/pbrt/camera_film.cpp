@@ -129,10 +129,11 @@ double exposure_time(const Shutter& shutter, ParameterSet& parameters, Context& 
   const double seconds = shutter.close_s - shutter.open_s;
   if (context.version == Version::v3) return 1;
   if (seconds > 0) return seconds;
-  if (context.version_is_certain) fail("the shutter closes before it has opened", parameters.place());
-  context.report.approximated(
-      "the shutter closes before it has opened, which pbrt-v4 refuses: it does not expose, as in v3",
-      parameters.place());
+  const char* const what =
+      seconds < 0 ? "the shutter closes before it has opened" : "the shutter closes as it opens";
+  if (context.version_is_certain) fail(what, parameters.place());
+  context.report.approximated(fmt::format("{}, which pbrt-v4 refuses: it does not expose, as in v3", what),
+                              parameters.place());
   return 1;
 }
 

@@ -41,6 +41,13 @@ Vector3d zenith(const ImportedScene& imported) {
   return transform_vector(std::get<SkyLight>(imported.scene.lights.back().model).light_to_world, {0, 0, 1});
 }
 
+TEST(GivenSky, TakesNothingTwice) {
+  const std::string place = "48.86,2.35,2026-06-21T12:00+02:00,";
+  EXPECT_FLOAT_EQ(parse_sky(place + "4,albedo=0.3").light.turbidity, 4);
+  for (const char* twice : {"turbidity=3,turbidity=4", "3,turbidity=4", "3,4"})
+    EXPECT_THROW(parse_sky(place + twice), UsageError) << twice;
+}
+
 TEST(GivenSky, StandsAsTheCameraDoesUnlessToldOtherwise) {
   const ImportedScene by_camera = under("", 0);
   EXPECT_EQ(zenith(by_camera), (Vector3d{0, 0, 1}));
