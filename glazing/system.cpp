@@ -75,7 +75,10 @@ bool set(GlazingSystem& system, Quantity quantity, double value) {
       layer.at = value;
     } else {
       if (quantity == Quantity::temperature) layer.light->temperature_c = value;
-      if (quantity == Quantity::uv) layer.light->uv_w_per_m2 = value;
+      if (quantity == Quantity::uv) {
+        layer.light->uv_w_per_m2 = value;
+        if (layer.light->seconds == 0) layer.light->seconds.reset();  // as where none were given
+      }
       if (quantity == Quantity::seconds) layer.light->seconds = value;
       layer.at = state_under(*layer.light);
     }

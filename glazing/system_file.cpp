@@ -198,7 +198,9 @@ class Reader {
                             .uv_w_per_m2 = not_negative("uv_w_per_m2", 0),
                             .temperature_c = json->number_or("temperature_c", 20)};
     if (!(light.temperature_c > -273.15)) json->fail("a temperature is above -273.15");
-    if (json->find("seconds")) light.seconds = not_negative("seconds", 0);
+    // No light and no time: it stands where the file says.
+    if (json->find("seconds") || (layer.find("state") && !json->find("uv_w_per_m2")))
+      light.seconds = not_negative("seconds", 0);
     return light;
   }
 

@@ -91,6 +91,13 @@ TEST(States, ComeFromASystemFile) {
   EXPECT_NEAR(visible_t(tint + R"(, "photochromic": {"k_d_m2_per_j": 1, "k_f_per_s": 1, "uv_w_per_m2": 1}})",
                         -1, false),
               std::sqrt(clear * dark), 1e-9);
+  // No light and no time: it stands where the file says. Light brings it to its equilibrium.
+  const std::string photochromic =
+      tint + R"(, "state": 0.5, "photochromic": {"k_d_m2_per_j": 1, "k_f_per_s": 1}})";
+  EXPECT_NEAR(visible_t(photochromic, -1, false), std::sqrt(clear * dark), 1e-9);
+  GlazingSystem lit = read_system({(directory / "unit.json").string()}).system;
+  EXPECT_TRUE(set(lit, Quantity::uv, 3));
+  EXPECT_NEAR(*value_of(lit, Quantity::state), 0.75, 1e-12);
   const std::string warm = R"({"pane": "windows.idf", "product": "Warm"})";
   EXPECT_NEAR(visible_t(warm, 25, true), visible_t(R"({"pane": "pane.dat"})", -1, false), 1e-9);
   EXPECT_NEAR(visible_t(warm, 60, true), 0.128, 1e-9);
