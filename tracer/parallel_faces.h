@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which light of a distant lamp goes on behind glass as it came: the one rule for connections, which find no
-// other, and for photons, which bring all other.
+// How far faces of panes are off parallel: what real glass may be, and what a face is, for those who are told
+// of it. Which light goes on behind glass as it came, by the same measure, is parallel_way's (pane_walk.h).
 #pragma once
 
 #include <cmath>

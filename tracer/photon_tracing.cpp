@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "tracer/connection_code.h"
-#include "tracer/parallel_faces.h"
 #include "tracer/path_state.h"
 #include "tracer/path_tracer.h"
 #include "tracer/photons/places.h"
