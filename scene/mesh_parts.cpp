@@ -162,7 +162,7 @@ class Parter {
     std::vector<std::uint32_t> ends;
     for (const Edge& e : rim) ends.push_back(e.low), ends.push_back(e.high);
     std::ranges::sort(ends);
-    ends.erase(std::ranges::unique(ends).begin(), ends.end());
+    ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
     const auto local = [&](std::uint32_t i) {
       return static_cast<std::uint32_t>(std::ranges::lower_bound(ends, i) - ends.begin());
     };
@@ -231,7 +231,7 @@ TriangleMesh only_triangles(const TriangleMesh& mesh, std::span<const std::uint3
   for (const std::uint32_t t : triangles)
     vertices.insert(vertices.end(), mesh.triangles[t].begin(), mesh.triangles[t].end());
   std::ranges::sort(vertices);
-  vertices.erase(std::ranges::unique(vertices).begin(), vertices.end());
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
   TriangleMesh part;
   part.missing_uv = mesh.missing_uv;
   part.positions = gathered(mesh.positions, vertices);
