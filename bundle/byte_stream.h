@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "scene/diagnostics.h"
+#include "scene/system/diagnostics.h"
 
 namespace vitrail {
 

@@ -6,8 +6,8 @@
 
 #include "bundle/manifest.h"
 #include "bundle/texture_file.h"
-#include "scene/curve.h"
-#include "scene/diagnostics.h"
+#include "scene/shapes/curve.h"
+#include "scene/system/diagnostics.h"
 
 namespace vitrail {
 

@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bundle/binary_records.h"
 #include "bundle/checksum.h"
 #include "bundle/manifest_json.h"
 #include "bundle/record_fields.h"
-#include "bundle/records.h"
-#include "scene/diagnostics.h"
-#include "scene/film_extent.h"
-#include "scene/nesting_limits.h"
+#include "scene/records/film_extent.h"
+#include "scene/records/nesting_limits.h"
+#include "scene/system/diagnostics.h"
 
 namespace vitrail {
 

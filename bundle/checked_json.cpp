@@ -9,7 +9,7 @@
 #include "bundle/checksum.h"
 #include "bundle/read_file.h"
 #include "bundle/write_file.h"
-#include "scene/diagnostics.h"
+#include "scene/system/diagnostics.h"
 
 namespace vitrail {
 

@@ -12,8 +12,8 @@
 
 #include "bundle/instance.h"
 #include "bundle/oriented_quadric.h"
-#include "scene/bounds.h"
-#include "scene/vec.h"
+#include "scene/geometry/bounds.h"
+#include "scene/geometry/vec.h"
 
 namespace vitrail {
 

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "scene/diagnostics.h"
+#include "scene/system/diagnostics.h"
 
 namespace vitrail {
 

@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "bundle/manifest.h"
-#include "scene/input_files.h"
+#include "scene/system/input_files.h"
 
 namespace vitrail {
 

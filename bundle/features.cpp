@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <array>
 
-#include "scene/diagnostics.h"
+#include "scene/system/diagnostics.h"
 
 namespace vitrail {
 

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "scene/diagnostics.h"
+#include "scene/system/diagnostics.h"
 
 namespace vitrail {
 

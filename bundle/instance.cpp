@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "bundle/domain_file.h"
-#include "scene/curve.h"
+#include "scene/shapes/curve.h"
 
 namespace vitrail {
 

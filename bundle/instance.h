@@ -7,10 +7,10 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "scene/bounds.h"
-#include "scene/quadric.h"
-#include "scene/transform.h"
-#include "scene/vec.h"
+#include "scene/geometry/bounds.h"
+#include "scene/geometry/transform.h"
+#include "scene/geometry/vec.h"
+#include "scene/shapes/quadric.h"
 
 namespace vitrail {
 
@@ -49,7 +49,7 @@ constexpr std::size_t source_corner(bool mirrored, std::size_t k) { return mirro
 
 // An object where it stands in its parent, which is an object or, in a domain, the scene.
 struct InstanceRef {
-  Affine to_parent{};  // to the parent's coordinates; of a curve, itself in them (scene/curve.h)
+  Affine to_parent{};  // to the parent's coordinates; of a curve, itself in them (scene/shapes/curve.h)
   // Holds all that is wanted of it, in the parent's coordinates: in a domain, the part in its cell; inflated.
   float lower[3] = {}, upper[3] = {};
   std::uint32_t object = 0;          // number of the object

@@ -5,7 +5,7 @@
 
 #include "bundle/checked_json.h"
 #include "bundle/manifest.h"
-#include "scene/diagnostics.h"
+#include "scene/system/diagnostics.h"
 
 namespace vitrail {
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/measured_sheet.h"
+#include "scene/records/measured_sheet.h"
 
 namespace vitrail {
 

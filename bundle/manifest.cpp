@@ -8,14 +8,14 @@
 #include <cstring>
 #include <span>
 
+#include "bundle/binary_records.h"
 #include "bundle/checked_json.h"
 #include "bundle/checksum.h"
 #include "bundle/loaded_domain.h"
 #include "bundle/manifest_json.h"
 #include "bundle/read_file.h"
-#include "bundle/records.h"
 #include "bundle/write_file.h"
-#include "scene/diagnostics.h"
+#include "scene/system/diagnostics.h"
 
 namespace vitrail {
 

@@ -14,8 +14,8 @@
 #include "bundle/features.h"
 #include "bundle/occupancy.h"
 #include "bundle/oriented_quadric.h"
-#include "scene/bounds.h"
-#include "scene/scene.h"
+#include "scene/geometry/bounds.h"
+#include "scene/records/scene.h"
 
 namespace vitrail {
 

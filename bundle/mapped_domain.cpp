@@ -12,8 +12,8 @@
 #include "bundle/domain_structure.h"
 #include "bundle/features.h"
 #include "bundle/piece_code.h"
-#include "scene/diagnostics.h"
-#include "scene/input_files.h"
+#include "scene/system/diagnostics.h"
+#include "scene/system/input_files.h"
 
 namespace vitrail {
 

@@ -8,7 +8,7 @@
 #include <span>
 
 #include "bundle/domain_file.h"
-#include "scene/bounds.h"
+#include "scene/geometry/bounds.h"
 
 namespace vitrail {
 

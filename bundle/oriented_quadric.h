@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "scene/quadric.h"
+#include "scene/shapes/quadric.h"
 
 namespace vitrail {
 

@@ -8,11 +8,11 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "bundle/binary_records.h"
 #include "bundle/checked_json.h"
-#include "bundle/records.h"
-#include "scene/atomic_file.h"
-#include "scene/diagnostics.h"
-#include "scene/input_files.h"
+#include "scene/system/atomic_file.h"
+#include "scene/system/diagnostics.h"
+#include "scene/system/input_files.h"
 
 namespace vitrail {
 

@@ -5,8 +5,8 @@
 
 #include <cstring>
 
-#include "scene/diagnostics.h"
-#include "scene/input_files.h"
+#include "scene/system/diagnostics.h"
+#include "scene/system/input_files.h"
 
 namespace vitrail {
 

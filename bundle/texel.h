@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "scene/spectrum.h"
+#include "scene/spectra/spectrum.h"
 
 namespace vitrail {
 
@@ -22,8 +22,8 @@ enum class TexelFormat : std::uint32_t {
   reflectance,   // three Real21: x
   unbounded,     // the same, and a float: scale. Value: scale · S
   illuminant,    // the same times D65
-  // By Matrix-R (scene/matrix_r.h), q(λ) = clamp(Σ aₖ(λ)·xₖ, 0, 1): three Real21, x, and a float w; linear
-  // between bands of 5 nm.
+  // By Matrix-R (scene/spectra/matrix_r.h), q(λ) = clamp(Σ aₖ(λ)·xₖ, 0, 1): three Real21, x, and a float w;
+  // linear between bands of 5 nm.
   matrix_r_reflectance,  // 1 − w·(1 − q)
   matrix_r_unbounded,    // w·q; w where all of x are 0, a grey
   matrix_r_illuminant,   // the same times D65

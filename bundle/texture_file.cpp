@@ -9,8 +9,8 @@
 #include "bundle/checksum.h"
 #include "bundle/features.h"
 #include "bundle/texture_layout.h"
-#include "scene/diagnostics.h"
-#include "scene/input_files.h"
+#include "scene/system/diagnostics.h"
+#include "scene/system/input_files.h"
 
 namespace vitrail {
 

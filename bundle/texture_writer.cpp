@@ -13,7 +13,7 @@
 
 #include "bundle/checksum.h"
 #include "bundle/texture_layout.h"
-#include "scene/diagnostics.h"
+#include "scene/system/diagnostics.h"
 
 namespace vitrail {
 

@@ -16,7 +16,7 @@
 #include "bundle/manifest.h"
 #include "bundle/origin_file.h"
 #include "bundle/texture_file.h"
-#include "scene/diagnostics.h"
+#include "scene/system/diagnostics.h"
 
 namespace vitrail {
 

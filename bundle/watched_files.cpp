@@ -8,7 +8,7 @@
 #include <string>
 #include <tuple>
 
-#include "scene/diagnostics.h"
+#include "scene/system/diagnostics.h"
 
 namespace vitrail {
 

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/diagnostics.h"
+#include "scene/system/diagnostics.h"
 
 namespace {
 

@@ -13,7 +13,7 @@ target_compile_options(vitrail_options INTERFACE
   # Nothing reads errno of mathematics: square roots and roundings are instructions, not calls.
   -fno-math-errno
   # GCC 12 loses the rounding of double → float → double where it vectorises straight-line code (a select between such a
-  # vector and zero, from -O2 on): tests/scene/rounding_test.cpp.
+  # vector and zero, from -O2 on): tests/scene/geometry/rounding_test.cpp.
   $<$<CXX_COMPILER_ID:GNU>:-fno-tree-slp-vectorize>
   # GCC 12 warns of what std::string does in its own headers where these are precompiled; clang and sanitizers still look.
   $<$<CXX_COMPILER_ID:GNU>:-Wno-array-bounds> $<$<CXX_COMPILER_ID:GNU>:-Wno-stringop-overflow>)

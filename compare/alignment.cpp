@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "compare/metrics.h"
-#include "scene/diagnostics.h"
+#include "scene/system/diagnostics.h"
 
 namespace vitrail {
 

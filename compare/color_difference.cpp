@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "compare/metrics.h"
-#include "scene/color.h"
+#include "scene/spectra/color.h"
 
 namespace vitrail {
 

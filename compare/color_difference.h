@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "scene/image.h"
+#include "scene/records/image.h"
 
 namespace vitrail {
 

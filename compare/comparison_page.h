@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "scene/image.h"
+#include "scene/records/image.h"
 
 namespace vitrail {
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-#include "scene/color.h"
+#include "scene/spectra/color.h"
 
 namespace vitrail {
 

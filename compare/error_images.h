@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "scene/image.h"
+#include "scene/records/image.h"
 
 namespace vitrail {
 

@@ -7,7 +7,7 @@
 
 #include <vector>
 
-#include "scene/image.h"
+#include "scene/records/image.h"
 
 namespace vitrail {
 

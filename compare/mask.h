@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "scene/camera.h"
-#include "scene/image.h"
+#include "scene/records/film_settings.h"
+#include "scene/records/image.h"
 
 namespace vitrail {
 

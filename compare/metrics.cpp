@@ -8,8 +8,8 @@
 #include <cstring>
 #include <limits>
 
-#include "scene/color.h"
-#include "scene/diagnostics.h"
+#include "scene/spectra/color.h"
+#include "scene/system/diagnostics.h"
 
 namespace vitrail {
 

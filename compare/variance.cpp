@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scene/color.h"
-#include "scene/pixel_place.h"
+#include "scene/records/pixel_place.h"
+#include "scene/spectra/color.h"
 
 namespace vitrail {
 

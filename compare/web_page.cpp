@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "scene/atomic_file.h"
+#include "scene/system/atomic_file.h"
 
 namespace vitrail {
 

@@ -8,7 +8,7 @@
 #include <span>
 
 #include "compare/metrics.h"
-#include "scene/color.h"
+#include "scene/spectra/color.h"
 
 namespace vitrail {
 

@@ -11,7 +11,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "scene/image.h"
+#include "scene/records/image.h"
 
 namespace vitrail {
 

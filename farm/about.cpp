@@ -4,8 +4,8 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "scene/kinds.h"
-#include "tracer/pixel_filter.h"
+#include "scene/records/kinds.h"
+#include "tracer/view/pixel_filter.h"
 
 namespace vitrail {
 

@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
-#include "tracer/photons/records.h"
-#include "tracer/records.h"
+#include "tracer/photons/photon_records.h"
+#include "tracer/rays/ray_records.h"
 
 namespace vitrail {
 

@@ -8,8 +8,8 @@
 #include <cstdio>
 
 #include "farm/agreement.h"
-#include "scene/pixel_place.h"
-#include "scene/say.h"
+#include "scene/records/pixel_place.h"
+#include "scene/system/say.h"
 
 namespace vitrail {
 

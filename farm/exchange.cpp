@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <map>
 
-#include "scene/diagnostics.h"
+#include "scene/system/diagnostics.h"
 
 namespace vitrail {
 

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "farm/signals.h"
-#include "scene/diagnostics.h"
-#include "scene/say.h"
+#include "scene/system/diagnostics.h"
+#include "scene/system/say.h"
 
 namespace vitrail {
 

@@ -4,7 +4,7 @@
 #include "bundle/ray_profile.h"
 #include "farm/stats.h"
 #include "farm/transport.h"
-#include "tracer/ray_traffic.h"
+#include "tracer/rays/ray_traffic.h"
 
 namespace vitrail {
 

@@ -2,8 +2,8 @@
 #include "farm/job.h"
 
 #include "farm/job_manifest.h"
-#include "scene/resource_usage.h"
-#include "tracer/film_exponent.h"
+#include "scene/system/resource_usage.h"
+#include "tracer/prepared/film_exponent.h"
 
 namespace vitrail {
 

@@ -5,7 +5,7 @@
 
 #include "farm/film_keeper.h"
 #include "farm/job_plan.h"
-#include "tracer/render_scene.h"
+#include "tracer/prepared/render_scene.h"
 
 namespace vitrail {
 

@@ -10,8 +10,8 @@
 #include "farm/film_size.h"
 #include "farm/photon_work.h"
 #include "farm/rounds.h"
-#include "scene/sensor_file.h"
-#include "tracer/records.h"
+#include "scene/models/sensor_file.h"
+#include "tracer/rays/ray_records.h"
 
 namespace vitrail {
 

@@ -7,9 +7,9 @@
 
 #include "farm/checkpoint.h"
 #include "farm/progress.h"
-#include "scene/atomic_file.h"
-#include "scene/resource_usage.h"
-#include "scene/say.h"
+#include "scene/system/atomic_file.h"
+#include "scene/system/resource_usage.h"
+#include "scene/system/say.h"
 
 namespace vitrail {
 

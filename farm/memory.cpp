@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
-#include "scene/diagnostics.h"
-#include "tracer/records.h"
+#include "scene/system/diagnostics.h"
+#include "tracer/rays/ray_records.h"
 
 namespace vitrail {
 

@@ -11,7 +11,7 @@
 #include <thread>
 
 #include "farm/transport.h"
-#include "scene/diagnostics.h"
+#include "scene/system/diagnostics.h"
 
 namespace vitrail {
 

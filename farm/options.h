@@ -9,13 +9,13 @@
 #include "farm/sample_choices.h"
 #include "farm/scheduler/residency.h"
 #include "farm/set_sheets.h"
-#include "scene/scene.h"
+#include "scene/records/scene.h"
 
 namespace vitrail {
 
 enum class ProgressMode { none, bar, lines, json };
 
-// Of the picture's luminance, as film/noise.h has it.
+// Of the picture's luminance, as film/film_noise.h has it.
 struct TargetError {
   double value = 0;
   bool just_noticeable = false;  // in just noticeable differences, root mean square; else relMSE
@@ -42,7 +42,8 @@ struct RenderOptions {
   std::string glazing;               // how they were asked for: "window.state=0.6"; empty: not at all
   std::optional<int> width, height;  // one of them alone: in the scene's proportions
   double scale = 1;                  // of both, where neither is given
-  std::filesystem::path sensors;     // measured in place of the picture (scene/sensor_file.h); empty: none
+  std::filesystem::path
+      sensors;  // measured in place of the picture (scene/models/sensor_file.h); empty: none
   std::optional<PixelRect> crop;
   std::optional<SpectralBins> bins;
   double clamp = 0;                     // FilmKey::clamp

@@ -15,7 +15,7 @@
 #include <string>
 #include <utility>
 
-#include "scene/diagnostics.h"
+#include "scene/system/diagnostics.h"
 
 namespace vitrail {
 

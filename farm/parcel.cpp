@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <cstring>
 
-#include "scene/diagnostics.h"
+#include "scene/system/diagnostics.h"
 
 namespace vitrail {
 

@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <future>
 
-#include "scene/say.h"
+#include "scene/system/say.h"
 
 namespace vitrail {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "farm/photon_work.h"
 
-#include "scene/diagnostics.h"
+#include "scene/system/diagnostics.h"
 
 namespace vitrail {
 

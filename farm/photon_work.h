@@ -15,7 +15,7 @@
 #include "tracer/photons/photon_pass.h"
 #include "tracer/photons/places.h"
 #include "tracer/photons/progressive.h"
-#include "tracer/render_scene.h"
+#include "tracer/prepared/render_scene.h"
 
 namespace vitrail {
 

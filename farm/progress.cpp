@@ -11,7 +11,7 @@
 #include <string>
 
 #include "farm/ending_time.h"
-#include "scene/say.h"
+#include "scene/system/say.h"
 
 namespace vitrail {
 

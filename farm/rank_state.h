@@ -14,7 +14,7 @@
 #include "farm/scheduler/scheduler.h"
 #include "farm/timeline.h"
 #include "farm/work.h"
-#include "tracer/path_tracer.h"
+#include "tracer/paths/path_tracer.h"
 
 namespace vitrail {
 

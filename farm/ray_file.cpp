@@ -9,7 +9,7 @@
 #include <cstdlib>
 #include <system_error>
 
-#include "scene/diagnostics.h"
+#include "scene/system/diagnostics.h"
 
 namespace vitrail {
 

@@ -16,8 +16,8 @@
 #include "farm/same_job.h"
 #include "farm/signals.h"
 #include "farm/workers.h"
-#include "scene/resource_usage.h"
-#include "scene/say.h"
+#include "scene/system/resource_usage.h"
+#include "scene/system/say.h"
 
 namespace vitrail {
 

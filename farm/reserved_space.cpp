@@ -14,8 +14,8 @@
 #include <utility>
 #include <vector>
 
-#include "scene/diagnostics.h"
-#include "scene/output_place.h"
+#include "scene/system/diagnostics.h"
+#include "scene/system/output_place.h"
 
 namespace vitrail {
 

@@ -10,7 +10,7 @@
 #include "farm/options.h"
 #include "farm/transport.h"
 #include "farm/work.h"
-#include "film/noise.h"
+#include "film/film_noise.h"
 
 namespace vitrail {
 
@@ -34,7 +34,7 @@ Goal goal_of(const RenderOptions& options, const RenderSettings& scene);
 // What the film's error is in the unit of the target: relMSE, or just noticeable differences.
 struct ReachedError {
   double estimate = 0;
-  double upper = 0;  // the true error is below in most pictures, see film/noise.h
+  double upper = 0;  // the true error is below in most pictures, see film/film_noise.h
 };
 ReachedError reached_error(const Film& film, const TargetError& target);
 

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "bundle/manifest.h"
-#include "tracer/sampling_choices.h"
+#include "tracer/prepared/sampling_choices.h"
 
 namespace vitrail {
 

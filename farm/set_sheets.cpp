@@ -5,7 +5,7 @@
 #include <bit>
 
 #include "bundle/checksum.h"
-#include "scene/diagnostics.h"
+#include "scene/system/diagnostics.h"
 
 namespace vitrail {
 

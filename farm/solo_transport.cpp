@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "farm/transport.h"
-#include "scene/diagnostics.h"
+#include "scene/system/diagnostics.h"
 
 namespace vitrail {
 

@@ -5,7 +5,7 @@
 
 #include "farm/rounds.h"
 #include "farm/transport.h"
-#include "tracer/path_tracer.h"
+#include "tracer/paths/path_tracer.h"
 
 namespace vitrail {
 

@@ -7,7 +7,7 @@
 
 #include "farm/clock_offset.h"
 #include "farm/timeline.h"
-#include "scene/atomic_file.h"
+#include "scene/system/atomic_file.h"
 
 namespace vitrail {
 

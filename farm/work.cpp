@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "scene/pixel_place.h"
+#include "scene/records/pixel_place.h"
 
 namespace vitrail {
 

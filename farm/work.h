@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "scene/scene.h"
+#include "scene/records/scene.h"
 
 namespace vitrail {
 

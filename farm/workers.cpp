@@ -8,8 +8,8 @@
 #include <system_error>
 
 #include "farm/tasks.h"
-#include "scene/diagnostics.h"
-#include "scene/resource_usage.h"
+#include "scene/system/diagnostics.h"
+#include "scene/system/resource_usage.h"
 
 namespace vitrail {
 

@@ -7,7 +7,7 @@
 #include <array>
 #include <cmath>
 
-#include "scene/diagnostics.h"
+#include "scene/system/diagnostics.h"
 
 namespace vitrail {
 

@@ -4,7 +4,7 @@
 
 #include "film/film.h"
 #include "film/neighbours.h"
-#include "scene/image.h"
+#include "scene/records/image.h"
 
 namespace vitrail {
 

@@ -8,9 +8,9 @@
 #include <string_view>
 #include <vector>
 
-#include "scene/color.h"
-#include "scene/photometry.h"
-#include "scene/pixel_place.h"
+#include "scene/daylight/photometry.h"
+#include "scene/records/pixel_place.h"
+#include "scene/spectra/color.h"
 
 namespace vitrail {
 

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "scene/image.h"
+#include "scene/records/image.h"
 
 namespace vitrail {
 

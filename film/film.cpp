@@ -14,8 +14,8 @@
 #include <limits>
 #include <numeric>
 
-#include "scene/diagnostics.h"
-#include "scene/film_extent.h"
+#include "scene/records/film_extent.h"
+#include "scene/system/diagnostics.h"
 
 namespace vitrail {
 

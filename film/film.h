@@ -14,8 +14,8 @@
 #include "film/sample_groups.h"
 #include "film/untouched.h"
 #include "film/wide_sum.h"
-#include "scene/color.h"
-#include "scene/scene.h"
+#include "scene/records/scene.h"
+#include "scene/spectra/color.h"
 
 namespace vitrail {
 
@@ -80,7 +80,7 @@ std::uint64_t film_bytes(const FilmSettings& settings, bool splats = false);
 class Film {
  public:
   Film() = default;
-  // `length_exponent`: of what layers keep of lengths, see tracer/film_exponent.h.
+  // `length_exponent`: of what layers keep of lengths, see tracer/prepared/film_exponent.h.
   Film(const FilmSettings& settings, const FilmKey& key, int exponent = default_exponent,
        int length_exponent = default_exponent);
 

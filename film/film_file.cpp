@@ -16,10 +16,10 @@
 #include <fstream>
 
 #include "film/film.h"
-#include "scene/atomic_file.h"
-#include "scene/diagnostics.h"
-#include "scene/film_extent.h"
-#include "scene/input_files.h"
+#include "scene/records/film_extent.h"
+#include "scene/system/atomic_file.h"
+#include "scene/system/diagnostics.h"
+#include "scene/system/input_files.h"
 
 namespace vitrail {
 

@@ -17,9 +17,9 @@
 #include <limits>
 #include <optional>
 
-#include "scene/atomic_file.h"
-#include "scene/diagnostics.h"
-#include "scene/input_files.h"
+#include "scene/system/atomic_file.h"
+#include "scene/system/diagnostics.h"
+#include "scene/system/input_files.h"
 
 namespace vitrail {
 

@@ -5,7 +5,7 @@
 #include <bit>
 #include <cmath>
 
-#include "film/noise.h"
+#include "film/film_noise.h"
 
 namespace vitrail {
 

@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "film/develop.h"
-#include "scene/diagnostics.h"
-#include "scene/photometry.h"
-#include "scene/pixel_place.h"
+#include "scene/daylight/photometry.h"
+#include "scene/records/pixel_place.h"
+#include "scene/system/diagnostics.h"
 
 namespace vitrail {
 

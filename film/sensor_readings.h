@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the sensors of a film measured (scene/camera.h, SensorCamera).
+// What the sensors of a film measured (scene/records/camera.h, SensorCamera).
 #pragma once
 
 #include <vector>
@@ -15,7 +15,7 @@ struct Measured {
 
 struct SensorReading {
   Measured illuminance_lx;
-  Measured melanopic_edi_lx;  // scene/photometry.h
+  Measured melanopic_edi_lx;  // scene/daylight/photometry.h
   Measured irradiance_w_m2;   // over the film's bins: 360 to 830 nm
   std::uint64_t samples = 0;
 };

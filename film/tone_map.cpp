@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <array>
 
-#include "scene/color.h"
+#include "scene/spectra/color.h"
 
 namespace vitrail {
 

@@ -3,7 +3,7 @@
 // OpenColorIO.
 #pragma once
 
-#include "scene/image.h"
+#include "scene/records/image.h"
 
 namespace vitrail {
 

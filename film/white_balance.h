@@ -2,7 +2,7 @@
 #pragma once
 
 #include "film/develop.h"
-#include "scene/color.h"
+#include "scene/spectra/color.h"
 
 namespace vitrail {
 

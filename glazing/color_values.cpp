@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "glazing/standard_tables.h"
-#include "scene/color.h"
+#include "scene/spectra/color.h"
 
 namespace vitrail {
 

@@ -8,7 +8,7 @@
 #include "glazing/band_spectrum.h"
 #include "glazing/product_formats.h"
 #include "glazing/text_file.h"
-#include "scene/diagnostics.h"
+#include "scene/system/diagnostics.h"
 
 namespace vitrail {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "glazing/text_file.h"
-#include "scene/diagnostics.h"
+#include "scene/system/diagnostics.h"
 
 namespace vitrail {
 

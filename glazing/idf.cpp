@@ -4,7 +4,7 @@
 #include "glazing/energyplus.h"
 #include "glazing/product_formats.h"
 #include "glazing/text_file.h"
-#include "scene/diagnostics.h"
+#include "scene/system/diagnostics.h"
 
 namespace vitrail {
 

@@ -4,7 +4,7 @@
 #include "glazing/json_node.h"
 #include "glazing/product_formats.h"
 #include "glazing/text_file.h"
-#include "scene/diagnostics.h"
+#include "scene/system/diagnostics.h"
 
 namespace vitrail {
 

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "scene/diagnostics.h"
-#include "scene/spectrum.h"
+#include "scene/spectra/spectrum.h"
+#include "scene/system/diagnostics.h"
 
 namespace vitrail {
 

@@ -5,7 +5,7 @@
 
 #include "glazing/product_formats.h"
 #include "glazing/text_file.h"
-#include "scene/diagnostics.h"
+#include "scene/system/diagnostics.h"
 
 namespace vitrail {
 

@@ -8,8 +8,8 @@
 #include <cmath>
 
 #include "glazing/thin_film.h"
-#include "scene/diagnostics.h"
-#include "scene/portable_math.h"
+#include "scene/geometry/portable_math.h"
+#include "scene/system/diagnostics.h"
 
 namespace vitrail {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "glazing/optical_rows.h"
-#include "scene/diagnostics.h"
+#include "scene/system/diagnostics.h"
 
 namespace vitrail {
 

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "scene/portable_math.h"
-#include "scene/spectrum.h"
+#include "scene/geometry/portable_math.h"
+#include "scene/spectra/spectrum.h"
 
 namespace vitrail {
 

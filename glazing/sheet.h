@@ -2,7 +2,7 @@
 #pragma once
 
 #include "glazing/system.h"
-#include "scene/measured_sheet.h"
+#include "scene/records/measured_sheet.h"
 
 namespace vitrail {
 

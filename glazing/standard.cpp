@@ -6,7 +6,7 @@
 
 #include "glazing/standard_tables.h"
 #include "glazing/text_file.h"
-#include "scene/color.h"
+#include "scene/spectra/color.h"
 
 namespace vitrail {
 

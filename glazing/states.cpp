@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "glazing/evaluation.h"
-#include "scene/portable_math.h"
+#include "scene/geometry/portable_math.h"
 
 namespace vitrail {
 

@@ -9,7 +9,7 @@
 #include <limits>
 #include <numbers>
 
-#include "scene/diagnostics.h"
+#include "scene/system/diagnostics.h"
 
 namespace vitrail {
 

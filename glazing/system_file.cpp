@@ -11,8 +11,8 @@
 #include "glazing/product.h"
 #include "glazing/product_formats.h"
 #include "glazing/text_file.h"
-#include "scene/diagnostics.h"
-#include "scene/input_files.h"
+#include "scene/system/diagnostics.h"
+#include "scene/system/input_files.h"
 
 namespace vitrail {
 

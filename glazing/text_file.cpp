@@ -9,8 +9,8 @@
 #include <cmath>
 #include <fstream>
 
-#include "scene/diagnostics.h"
-#include "scene/input_files.h"
+#include "scene/system/diagnostics.h"
+#include "scene/system/input_files.h"
 
 namespace vitrail {
 

@@ -11,9 +11,9 @@
 
 #include "images/image_codec.h"
 #include "images/texture_values.h"
-#include "scene/atomic_file.h"
-#include "scene/diagnostics.h"
-#include "scene/input_files.h"
+#include "scene/system/atomic_file.h"
+#include "scene/system/diagnostics.h"
+#include "scene/system/input_files.h"
 
 namespace vitrail {
 

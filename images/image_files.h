@@ -8,8 +8,8 @@
 #include <functional>
 #include <optional>
 
-#include "scene/color.h"
-#include "scene/image.h"
+#include "scene/records/image.h"
+#include "scene/spectra/color.h"
 
 namespace vitrail {
 

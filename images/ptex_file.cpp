@@ -11,8 +11,8 @@
 #include <cstring>
 #include <string_view>
 
-#include "scene/diagnostics.h"
-#include "scene/input_files.h"
+#include "scene/system/diagnostics.h"
+#include "scene/system/input_files.h"
 
 namespace vitrail {
 

@@ -9,8 +9,8 @@
 #include <optional>
 
 #include "images/ptex_file.h"
-#include "scene/diagnostics.h"
-#include "scene/portable_math.h"
+#include "scene/geometry/portable_math.h"
+#include "scene/system/diagnostics.h"
 
 namespace vitrail {
 

@@ -4,8 +4,8 @@
 
 #include <string>
 
-#include "scene/color.h"
-#include "scene/texture.h"
+#include "scene/records/texture.h"
+#include "scene/spectra/color.h"
 
 namespace vitrail {
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "images/image_files.h"
-#include "scene/light.h"
+#include "scene/records/light.h"
 
 namespace vitrail {
 

@@ -7,12 +7,12 @@
 #include <array>
 #include <cctype>
 
-#include "importers/mitsuba/write_mitsuba.h"
-#include "importers/obj/write_obj.h"
-#include "importers/pbrt/write_pbrt.h"
-#include "importers/ply/write_ply_scene.h"
-#include "importers/povray/write_povray.h"
-#include "scene/nesting.h"
+#include "importers/mitsuba/write/write_mitsuba.h"
+#include "importers/obj/write/write_obj.h"
+#include "importers/pbrt/write/write_pbrt.h"
+#include "importers/ply/write/write_ply_scene.h"
+#include "importers/povray/write/write_povray.h"
+#include "scene/records/nesting.h"
 
 namespace vitrail {
 

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "scene/scene.h"
+#include "scene/records/scene.h"
 
 namespace vitrail {
 

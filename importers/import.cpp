@@ -5,19 +5,19 @@
 #include <cctype>
 #include <optional>
 
-#include "importers/coincident_lamps.h"
-#include "importers/default_view.h"
-#include "importers/foreign_text.h"
-#include "importers/given_sky.h"
-#include "importers/missing_files.h"
-#include "importers/mitsuba/mitsuba.h"
-#include "importers/obj/obj.h"
-#include "importers/pbrt/pbrt.h"
-#include "importers/ply/ply.h"
-#include "scene/curve.h"
-#include "scene/curve_uses.h"
-#include "scene/diagnostics.h"
-#include "scene/nesting_limits.h"
+#include "importers/mitsuba/read/mitsuba.h"
+#include "importers/obj/read/obj.h"
+#include "importers/pbrt/read/pbrt.h"
+#include "importers/ply/read/ply.h"
+#include "importers/reading/coincident_lamps.h"
+#include "importers/reading/default_view.h"
+#include "importers/reading/foreign_text.h"
+#include "importers/reading/given_sky.h"
+#include "importers/reading/missing_files.h"
+#include "scene/records/curve_uses.h"
+#include "scene/records/nesting_limits.h"
+#include "scene/shapes/curve.h"
+#include "scene/system/diagnostics.h"
 
 namespace vitrail {
 

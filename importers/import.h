@@ -5,16 +5,16 @@
 #include <filesystem>
 #include <functional>
 
-#include "importers/import_options.h"
-#include "scene/deferred_mesh.h"
-#include "scene/scene.h"
+#include "importers/reading/import_options.h"
+#include "scene/records/scene.h"
+#include "scene/shapes/deferred_mesh.h"
 
 namespace vitrail {
 
 // Reads a scene in the format that the file name says (.pbrt, .pbrt.gz, .obj, .ply). Bad input throws Error
 // with its place. A file of geometry alone gets a camera that sees all of it and a constant sky, and
 // diagnostics that say so. Meshes with files of their own are in memory up to the limit; the others are read
-// and stay in their files (scene/deferred_mesh.h).
+// and stay in their files (scene/shapes/deferred_mesh.h).
 // `progress`, if given, gets the fraction that is read, of a pbrt scene; what it throws stops the reading.
 // Other `options` than the usual ones throw UsageError but for a Mitsuba scene.
 ImportedScene import_scene(const std::filesystem::path& file, MeshMemory memory = MeshMemory{},

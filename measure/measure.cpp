@@ -8,7 +8,7 @@
 #include "measure/plan.h"
 #include "measure/recommend.h"
 #include "measure/session.h"
-#include "scene/diagnostics.h"
+#include "scene/system/diagnostics.h"
 
 namespace vitrail {
 

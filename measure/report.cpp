@@ -12,7 +12,7 @@
 #include "film/image_io.h"
 #include "measure/measure_html.h"
 #include "measure/words.h"
-#include "scene/diagnostics.h"
+#include "scene/system/diagnostics.h"
 
 namespace vitrail {
 

@@ -12,7 +12,7 @@
 #include "compare/web_page.h"
 #include "film/develop.h"
 #include "film/film.h"
-#include "scene/diagnostics.h"
+#include "scene/system/diagnostics.h"
 
 namespace vitrail {
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/image.h"
+#include "scene/records/image.h"
 
 namespace vitrail {
 

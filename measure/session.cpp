@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "scene/diagnostics.h"
+#include "scene/system/diagnostics.h"
 
 namespace vitrail {
 

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "scene/image.h"
+#include "scene/records/image.h"
 
 namespace vitrail {
 

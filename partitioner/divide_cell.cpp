@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-#include "scene/deferred_mesh.h"
+#include "scene/shapes/deferred_mesh.h"
 
 namespace vitrail {
 

@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "partitioner/placing/objects.h"
-#include "scene/deferred_mesh.h"
-#include "scene/quadric_places.h"
+#include "scene/shapes/deferred_mesh.h"
+#include "scene/shapes/quadric_places.h"
 
 namespace vitrail {
 

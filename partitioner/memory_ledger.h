@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string>
 
-#include "scene/scene.h"
+#include "scene/records/scene.h"
 
 namespace vitrail {
 

@@ -11,7 +11,7 @@
 #include "partitioner/memory_plan.h"
 #include "partitioner/spilling/spill_scene.h"
 #include "partitioner/writing/write_objects.h"
-#include "scene/diagnostics.h"
+#include "scene/system/diagnostics.h"
 
 namespace vitrail {
 

@@ -20,8 +20,8 @@
 #include "partitioner/spilling/spill_instances.h"
 #include "partitioner/spilling/spill_scene.h"
 #include "partitioner/writing/bundle_directory.h"
-#include "scene/deferred_mesh.h"
-#include "scene/resource_usage.h"
+#include "scene/shapes/deferred_mesh.h"
+#include "scene/system/resource_usage.h"
 
 namespace vitrail {
 

@@ -10,7 +10,7 @@
 #include "bundle/kept_glazing.h"
 #include "bundle/ray_profile.h"
 #include "partitioner/memory_ledger.h"
-#include "scene/scene.h"
+#include "scene/records/scene.h"
 
 namespace vitrail {
 

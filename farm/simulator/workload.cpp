@@ -5,7 +5,7 @@
 #include <cmath>
 #include <set>
 
-#include "scene/diagnostics.h"
+#include "scene/system/diagnostics.h"
 
 namespace vitrail {
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "importers/export_colors.h"
-#include "importers/spot_falloff.h"
+#include "importers/writing/export_colors.h"
+#include "importers/writing/spot_falloff.h"
 
 namespace vitrail {
 

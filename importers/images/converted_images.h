@@ -9,7 +9,7 @@
 #include <tuple>
 
 #include "images/texture_values.h"
-#include "scene/scene.h"
+#include "scene/records/scene.h"
 
 namespace vitrail {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "scene/color.h"
+#include "scene/spectra/color.h"
 
 namespace vitrail {
 

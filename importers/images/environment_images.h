@@ -2,8 +2,8 @@
 // Pictures of all directions, in either of the projections of an EnvironmentLight.
 #pragma once
 
-#include "scene/image.h"
-#include "scene/light.h"
+#include "scene/records/image.h"
+#include "scene/records/light.h"
 
 namespace vitrail {
 

@@ -3,9 +3,9 @@
 
 #include "images/image_files.h"
 #include "importers/images/environment_images.h"
-#include "scene/color.h"
-#include "scene/pixel_place.h"
-#include "scene/sky_model.h"
+#include "scene/daylight/sky_model.h"
+#include "scene/records/pixel_place.h"
+#include "scene/spectra/color.h"
 
 namespace vitrail {
 

@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <vector>
 
-#include "scene/image.h"
-#include "scene/light.h"
+#include "scene/records/image.h"
+#include "scene/records/light.h"
 
 namespace vitrail {
 

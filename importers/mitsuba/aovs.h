@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/film_layers.h"
+#include "scene/records/film_layers.h"
 
 namespace vitrail::mitsuba {
 

@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "scene/scene.h"
-#include "scene/transmission.h"
+#include "scene/records/scene.h"
+#include "scene/records/transmission.h"
 
 namespace vitrail::mitsuba {
 

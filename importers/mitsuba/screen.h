@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "scene/camera.h"
+#include "scene/records/camera.h"
 
 namespace vitrail::mitsuba {
 

@@ -4,7 +4,7 @@
 
 #include "importers/shapes/polygon.h"
 #include "importers/shapes/shapes.h"
-#include "scene/bounds.h"
+#include "scene/geometry/bounds.h"
 
 namespace vitrail {
 

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scene/diagnostics.h"
-#include "scene/unit_circle.h"
+#include "scene/geometry/unit_circle.h"
+#include "scene/system/diagnostics.h"
 
 namespace vitrail {
 

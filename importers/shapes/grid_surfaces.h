@@ -5,7 +5,7 @@
 #include <array>
 #include <vector>
 
-#include "scene/mesh.h"
+#include "scene/shapes/mesh.h"
 
 namespace vitrail {
 

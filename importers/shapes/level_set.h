@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "scene/mesh.h"
+#include "scene/shapes/mesh.h"
 
 namespace vitrail {
 

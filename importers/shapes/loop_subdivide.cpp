@@ -9,7 +9,7 @@
 #include <limits>
 
 #include "importers/shapes/shapes.h"
-#include "scene/unit_circle.h"
+#include "scene/geometry/unit_circle.h"
 
 namespace vitrail {
 

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "scene/vec.h"
+#include "scene/geometry/vec.h"
 
 namespace vitrail {
 

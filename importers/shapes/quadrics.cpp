@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scene/diagnostics.h"
+#include "scene/system/diagnostics.h"
 
 namespace vitrail {
 

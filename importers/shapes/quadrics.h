@@ -3,8 +3,8 @@
 // zmin = zmax, phimax ≤ 0) throw Error.
 #pragma once
 
-#include "scene/mesh.h"
-#include "scene/transform.h"
+#include "scene/geometry/transform.h"
+#include "scene/shapes/mesh.h"
 
 namespace vitrail {
 

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "scene/scene.h"
+#include "scene/records/scene.h"
 
 namespace vitrail {
 

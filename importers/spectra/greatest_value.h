@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "scene/scene.h"
+#include "scene/records/scene.h"
 
 namespace vitrail {
 

@@ -7,10 +7,10 @@
 #include <cmath>
 #include <string_view>
 
-#include "importers/ply/input_bytes.h"
+#include "importers/bytes/input_bytes.h"
 #include "importers/spectra/spectrum_text.h"
 #include "importers/spectra/spectrum_xml.h"
-#include "scene/diagnostics.h"
+#include "scene/system/diagnostics.h"
 
 namespace vitrail {
 
@@ -48,7 +48,7 @@ Spectrum simplified(TabulatedSpectrum table) {
 }
 
 TabulatedSpectrum column(const SpectrumFile& file, std::size_t i, bool hold_ends) {
-  std::vector<std::array<double, 2>> samples;
+  std::vector<SpectrumSample> samples;
   for (const Row& row : file.rows) samples.push_back({row.lambda_nm, row.v[i]});
   return tabulate(samples, hold_ends || file.holds_ends);
 }
@@ -91,6 +91,7 @@ Spectrum spectrum_of(const SpectrumFile& file, SpectrumPart part, bool hold_ends
   for (std::size_t i = 0; i < k.values.size(); ++i)
     k.values[i] = static_cast<float>(
         opaque_reflectance(static_cast<double>(k.values[i]), static_cast<double>(s.values[i])));
+  k.samples.clear();  // of k, and not of what it has become
   return simplified(std::move(k));
 }
 

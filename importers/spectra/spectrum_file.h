@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/spectrum.h"
+#include "scene/spectra/spectrum.h"
 
 namespace vitrail {
 

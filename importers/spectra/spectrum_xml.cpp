@@ -7,7 +7,7 @@
 #include <pugixml.hpp>
 
 #include "importers/spectra/spectrum_text.h"
-#include "scene/diagnostics.h"
+#include "scene/system/diagnostics.h"
 
 namespace vitrail {
 

@@ -9,8 +9,8 @@
 #include "partitioner/appearance/bake_textures.h"
 #include "partitioner/appearance/requirements.h"
 #include "partitioner/placing/wedged_panes.h"
-#include "scene/kinds.h"
-#include "scene/sky_model.h"
+#include "scene/daylight/sky_model.h"
+#include "scene/records/kinds.h"
 
 namespace vitrail {
 

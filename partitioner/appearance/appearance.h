@@ -8,7 +8,7 @@
 
 #include "bundle/manifest.h"
 #include "partitioner/appearance/bake_textures.h"
-#include "scene/scene.h"
+#include "scene/records/scene.h"
 
 namespace vitrail {
 

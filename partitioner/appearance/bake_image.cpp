@@ -13,7 +13,7 @@
 
 #include "bundle/texture_writer.h"
 #include "partitioner/appearance/row_halver.h"
-#include "scene/matrix_r.h"
+#include "scene/spectra/matrix_r.h"
 
 namespace vitrail {
 

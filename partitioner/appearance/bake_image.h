@@ -7,7 +7,7 @@
 #include "bundle/texture_file.h"
 #include "partitioner/appearance/image_rows.h"
 #include "partitioner/appearance/reflectance_fitter.h"
-#include "scene/camera.h"
+#include "scene/spectra/rgb_method.h"
 
 namespace vitrail {
 

@@ -4,9 +4,9 @@
 #include <fmt/format.h>
 
 #include "partitioner/appearance/table_files.h"
-#include "scene/hair.h"
-#include "scene/rgb_to_spectrum.h"
-#include "scene/subsurface.h"
+#include "scene/models/hair_color.h"
+#include "scene/models/subsurface_media.h"
+#include "scene/spectra/rgb_to_spectrum.h"
 
 namespace vitrail {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "partitioner/appearance/bake_textures.h"
-#include "scene/scene.h"
+#include "scene/records/scene.h"
 
 namespace vitrail {
 

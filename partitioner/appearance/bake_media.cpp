@@ -7,11 +7,11 @@
 #include <numeric>
 
 #include "partitioner/appearance/reflectance_fitter.h"
-#include "scene/color.h"
-#include "scene/diagnostics.h"
-#include "scene/input_files.h"
-#include "scene/matrix_r.h"
-#include "scene/measured_media.h"
+#include "scene/models/measured_media.h"
+#include "scene/spectra/color.h"
+#include "scene/spectra/matrix_r.h"
+#include "scene/system/diagnostics.h"
+#include "scene/system/input_files.h"
 
 namespace vitrail {
 

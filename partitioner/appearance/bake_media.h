@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "scene/camera.h"
-#include "scene/medium.h"
+#include "scene/records/medium.h"
+#include "scene/spectra/rgb_method.h"
 
 namespace vitrail {
 

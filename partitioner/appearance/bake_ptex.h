@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "partitioner/appearance/image_rows.h"
-#include "scene/texture.h"
+#include "scene/records/texture.h"
 
 namespace vitrail {
 

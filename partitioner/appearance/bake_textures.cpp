@@ -9,10 +9,10 @@
 
 #include "images/ptex_means.h"
 #include "images/texture_values.h"
-#include "scene/matrix_r.h"
-#include "scene/pixel_place.h"
-#include "scene/rgb_to_spectrum.h"
-#include "scene/texture_inputs.h"
+#include "scene/records/pixel_place.h"
+#include "scene/records/texture_inputs.h"
+#include "scene/spectra/matrix_r.h"
+#include "scene/spectra/rgb_to_spectrum.h"
 
 namespace vitrail {
 

@@ -14,7 +14,7 @@
 #include "partitioner/appearance/bake_image.h"
 #include "partitioner/appearance/bake_ptex.h"
 #include "partitioner/appearance/texture_mean.h"
-#include "scene/scene.h"
+#include "scene/records/scene.h"
 
 namespace vitrail {
 

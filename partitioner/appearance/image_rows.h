@@ -6,7 +6,7 @@
 #include <memory>
 #include <utility>
 
-#include "scene/image.h"
+#include "scene/records/image.h"
 
 namespace vitrail {
 

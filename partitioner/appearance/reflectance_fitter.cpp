@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-#include "scene/rgb_to_spectrum.h"
+#include "scene/spectra/rgb_to_spectrum.h"
 
 namespace vitrail {
 

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "bundle/read_file.h"
-#include "scene/diagnostics.h"
-#include "scene/input_files.h"
+#include "scene/system/diagnostics.h"
+#include "scene/system/input_files.h"
 
 namespace vitrail {
 

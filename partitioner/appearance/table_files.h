@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "scene/scattering_table.h"
+#include "scene/records/scattering_table.h"
 
 namespace vitrail {
 

@@ -4,8 +4,8 @@
 #include <map>
 #include <optional>
 
-#include "scene/color.h"
-#include "scene/scene.h"
+#include "scene/records/scene.h"
+#include "scene/spectra/color.h"
 
 namespace vitrail {
 

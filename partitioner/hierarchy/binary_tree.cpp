@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <bit>
 
-#include "scene/deferred_mesh.h"
-#include "scene/huge_pages.h"
+#include "scene/shapes/deferred_mesh.h"
+#include "scene/system/huge_pages.h"
 
 namespace vitrail {
 

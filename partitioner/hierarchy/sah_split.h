@@ -6,7 +6,7 @@
 #include <optional>
 #include <span>
 
-#include "scene/bounds.h"
+#include "scene/geometry/bounds.h"
 
 namespace vitrail {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scene/bounds.h"
+#include "scene/geometry/bounds.h"
 
 namespace vitrail {
 

@@ -8,7 +8,7 @@
 
 #include "partitioner/meshes/collapse_rules.h"
 #include "partitioner/meshes/surface.h"
-#include "scene/bounds.h"
+#include "scene/geometry/bounds.h"
 
 namespace vitrail {
 

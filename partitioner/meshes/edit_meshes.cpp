@@ -14,9 +14,9 @@
 #include "partitioner/meshes/decimate.h"
 #include "partitioner/meshes/orient.h"
 #include "partitioner/meshes/repair.h"
-#include "scene/deferred_mesh.h"
-#include "scene/mesh_uv.h"
-#include "scene/uv_uses.h"
+#include "scene/records/uv_uses.h"
+#include "scene/shapes/deferred_mesh.h"
+#include "scene/shapes/mesh_uv.h"
 
 namespace vitrail {
 

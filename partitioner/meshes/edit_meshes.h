@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "partitioner/meshes/subdivide.h"
-#include "scene/scene.h"
+#include "scene/records/scene.h"
 
 namespace vitrail {
 

@@ -2,8 +2,8 @@
 // Decisions by CGAL's exact predicates: no rounding turns them.
 #pragma once
 
-#include "scene/mesh.h"
-#include "scene/vec.h"
+#include "scene/geometry/vec.h"
+#include "scene/shapes/mesh.h"
 
 namespace vitrail {
 

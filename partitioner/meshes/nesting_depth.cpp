@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <map>
 
-#include "scene/bounds.h"
+#include "scene/geometry/bounds.h"
 
 namespace vitrail {
 

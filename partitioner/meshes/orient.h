@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "scene/mesh.h"
+#include "scene/shapes/mesh.h"
 
 namespace vitrail {
 

@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include "scene/mesh.h"
+#include "scene/shapes/mesh.h"
 
 namespace vitrail {
 

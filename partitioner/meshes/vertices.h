@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "scene/mesh.h"
+#include "scene/shapes/mesh.h"
 
 namespace vitrail {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "partitioner/appearance/requirements.h"
-#include "scene/deferred_mesh.h"
+#include "scene/shapes/deferred_mesh.h"
 
 namespace vitrail {
 

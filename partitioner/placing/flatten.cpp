@@ -2,7 +2,7 @@
 #include "partitioner/placing/flatten.h"
 
 #include "partitioner/placing/place_scene.h"
-#include "scene/deferred_mesh.h"
+#include "scene/shapes/deferred_mesh.h"
 
 namespace vitrail {
 

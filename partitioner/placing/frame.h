@@ -6,9 +6,9 @@
 #include <optional>
 #include <vector>
 
-#include "scene/bounds.h"
-#include "scene/camera.h"
-#include "scene/deferred_mesh.h"
+#include "scene/geometry/bounds.h"
+#include "scene/records/camera.h"
+#include "scene/shapes/deferred_mesh.h"
 
 namespace vitrail {
 

@@ -10,10 +10,10 @@
 #include "partitioner/placing/frame.h"
 #include "partitioner/placing/prototype_uses.h"
 #include "partitioner/placing/shared_shapes.h"
-#include "scene/curve.h"
-#include "scene/curve_uses.h"
-#include "scene/deferred_mesh.h"
-#include "scene/tessellate.h"
+#include "scene/records/curve_uses.h"
+#include "scene/shapes/curve.h"
+#include "scene/shapes/deferred_mesh.h"
+#include "scene/shapes/tessellate.h"
 
 namespace vitrail {
 

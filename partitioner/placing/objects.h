@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "partitioner/placing/placement.h"
-#include "scene/quadric_places.h"
-#include "scene/scene.h"
+#include "scene/records/scene.h"
+#include "scene/shapes/quadric_places.h"
 
 namespace vitrail {
 

@@ -11,10 +11,10 @@
 #include <numeric>
 #include <span>
 
+#include "bundle/binary_records.h"
 #include "bundle/checksum.h"
-#include "bundle/records.h"
-#include "scene/deferred_mesh.h"
-#include "scene/texture_inputs.h"
+#include "scene/records/texture_inputs.h"
+#include "scene/shapes/deferred_mesh.h"
 
 namespace vitrail {
 

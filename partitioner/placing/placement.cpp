@@ -7,8 +7,8 @@
 
 #include <stdexcept>
 
-#include "scene/curve_uses.h"
-#include "scene/huge_pages.h"
+#include "scene/records/curve_uses.h"
+#include "scene/system/huge_pages.h"
 
 namespace vitrail {
 

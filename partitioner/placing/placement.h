@@ -10,8 +10,8 @@
 
 #include "bundle/instance.h"
 #include "partitioner/appearance/appearance.h"
-#include "scene/bounds.h"
-#include "scene/mesh_uv.h"
+#include "scene/geometry/bounds.h"
+#include "scene/shapes/mesh_uv.h"
 
 namespace vitrail {
 

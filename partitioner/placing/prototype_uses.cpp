@@ -9,7 +9,7 @@
 
 #include "bundle/domain_file.h"
 #include "bundle/instance.h"
-#include "scene/deferred_mesh.h"
+#include "scene/shapes/deferred_mesh.h"
 
 namespace vitrail {
 

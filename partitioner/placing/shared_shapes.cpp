@@ -5,7 +5,7 @@
 #include <bit>
 #include <map>
 
-#include "scene/deferred_mesh.h"
+#include "scene/shapes/deferred_mesh.h"
 
 namespace vitrail {
 

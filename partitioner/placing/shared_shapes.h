@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "scene/scene.h"
+#include "scene/records/scene.h"
 
 namespace vitrail {
 

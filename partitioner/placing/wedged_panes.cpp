@@ -7,7 +7,7 @@
 
 #include "partitioner/appearance/requirements.h"
 #include "partitioner/placing/decimals.h"
-#include "scene/deferred_mesh.h"
+#include "scene/shapes/deferred_mesh.h"
 
 namespace vitrail {
 

@@ -5,9 +5,9 @@
 #include <optional>
 #include <span>
 
-#include "scene/mesh.h"
-#include "scene/scene.h"
-#include "scene/transform.h"
+#include "scene/geometry/transform.h"
+#include "scene/records/scene.h"
+#include "scene/shapes/mesh.h"
 
 namespace vitrail {
 

@@ -11,7 +11,7 @@
 #include <cstring>
 #include <limits>
 
-#include "scene/diagnostics.h"
+#include "scene/system/diagnostics.h"
 
 namespace vitrail {
 

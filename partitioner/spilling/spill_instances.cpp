@@ -8,7 +8,7 @@
 #include <cstring>
 
 #include "partitioner/writing/write_objects.h"
-#include "scene/diagnostics.h"
+#include "scene/system/diagnostics.h"
 
 namespace vitrail {
 

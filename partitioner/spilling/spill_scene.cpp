@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "scene/deferred_mesh.h"
+#include "scene/shapes/deferred_mesh.h"
 
 namespace vitrail {
 

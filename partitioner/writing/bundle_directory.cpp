@@ -13,8 +13,8 @@
 #include <string>
 #include <utility>
 
-#include "scene/atomic_file.h"
-#include "scene/diagnostics.h"
+#include "scene/system/atomic_file.h"
+#include "scene/system/diagnostics.h"
 
 namespace vitrail {
 

@@ -5,7 +5,7 @@
 
 #include "bundle/domain_file.h"
 #include "partitioner/hierarchy/build_bvh.h"
-#include "scene/curve.h"
+#include "scene/shapes/curve.h"
 
 namespace vitrail {
 

@@ -9,7 +9,7 @@
 #include "partitioner/hierarchy/build_bvh.h"
 #include "partitioner/writing/curve_boxes.h"
 #include "partitioner/writing/write_objects.h"
-#include "scene/huge_pages.h"
+#include "scene/system/huge_pages.h"
 
 namespace vitrail {
 

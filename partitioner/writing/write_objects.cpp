@@ -15,8 +15,8 @@
 #include "partitioner/hierarchy/build_bvh.h"
 #include "partitioner/memory_plan.h"
 #include "partitioner/writing/write_domain.h"
-#include "scene/deferred_mesh.h"
-#include "scene/diagnostics.h"
+#include "scene/shapes/deferred_mesh.h"
+#include "scene/system/diagnostics.h"
 
 namespace vitrail {
 

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-#include "tests/tracer/clustered_mesh.h"
+#include "tests/partitioner/hierarchy/clustered_mesh.h"
 
 namespace vitrail::test {
 

@@ -13,8 +13,8 @@
 #include <stdexcept>
 
 #include "importers/import.h"
-#include "importers/ply/ply.h"
-#include "scene/resource_usage.h"
+#include "importers/ply/read/ply.h"
+#include "scene/system/resource_usage.h"
 #ifdef VITRAIL_BENCH_TINYOBJLOADER
 #include <tiny_obj_loader.h>
 #endif

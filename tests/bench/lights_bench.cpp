@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "tests/bench/timing.h"
-#include "tests/tracer/light_fixtures.h"
+#include "tests/tracer/lights/light_fixtures.h"
 
 namespace vitrail::test {
 namespace {

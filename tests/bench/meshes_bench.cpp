@@ -14,7 +14,7 @@
 #include "partitioner/meshes/orient.h"
 #include "partitioner/meshes/repair.h"
 #include "partitioner/meshes/subdivide.h"
-#include "scene/resource_usage.h"
+#include "scene/system/resource_usage.h"
 #include "tests/support/test_scenes.h"
 
 namespace vitrail {

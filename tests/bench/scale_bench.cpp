@@ -15,7 +15,7 @@
 #include "importers/import.h"
 #include "partitioner/appearance/bake_image.h"
 #include "partitioner/partition.h"
-#include "scene/rgb_to_spectrum.h"
+#include "scene/spectra/rgb_to_spectrum.h"
 
 namespace vitrail {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "bundle/texture_file.h"
 #include "partitioner/appearance/bake_image.h"
-#include "scene/rgb_to_spectrum.h"
+#include "scene/spectra/rgb_to_spectrum.h"
 #include "tests/support/temporary_directory.h"
 #include "tracer/textures/textures.h"
 

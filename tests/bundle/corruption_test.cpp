@@ -8,7 +8,7 @@
 #include "bundle/loaded_domain.h"
 #include "bundle/texture_file.h"
 #include "bundle/verify.h"
-#include "scene/diagnostics.h"
+#include "scene/system/diagnostics.h"
 #include "tests/bundle/sample_bundle.h"
 #include "tests/support/temporary_directory.h"
 

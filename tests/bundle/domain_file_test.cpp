@@ -8,7 +8,7 @@
 #include <functional>
 
 #include "bundle/manifest.h"
-#include "scene/diagnostics.h"
+#include "scene/system/diagnostics.h"
 #include "tests/bundle/sample_bundle.h"
 #include "tests/support/temporary_directory.h"
 

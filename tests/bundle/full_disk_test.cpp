@@ -3,7 +3,7 @@
 #include <sys/mount.h>
 
 #include "bundle/manifest.h"
-#include "scene/diagnostics.h"
+#include "scene/system/diagnostics.h"
 #include "tests/bundle/sample_bundle.h"
 #include "tests/support/temporary_directory.h"
 

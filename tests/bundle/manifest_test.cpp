@@ -7,10 +7,10 @@
 #include <functional>
 #include <limits>
 
+#include "bundle/binary_records.h"
 #include "bundle/checked_json.h"
 #include "bundle/checksum.h"
-#include "bundle/records.h"
-#include "scene/diagnostics.h"
+#include "scene/system/diagnostics.h"
 #include "tests/bundle/sample_bundle.h"
 #include "tests/support/temporary_directory.h"
 

@@ -9,7 +9,7 @@
 #include <numeric>
 #include <random>
 
-#include "scene/diagnostics.h"
+#include "scene/system/diagnostics.h"
 
 namespace vitrail {
 

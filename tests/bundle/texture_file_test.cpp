@@ -6,8 +6,8 @@
 #include <fstream>
 #include <random>
 
-#include "scene/diagnostics.h"
-#include "scene/rgb_to_spectrum.h"
+#include "scene/spectra/rgb_to_spectrum.h"
+#include "scene/system/diagnostics.h"
 #include "tests/support/temporary_directory.h"
 
 namespace vitrail {

@@ -9,7 +9,7 @@
 
 #include "bundle/checksum.h"
 #include "bundle/domain_layout.h"
-#include "scene/diagnostics.h"
+#include "scene/system/diagnostics.h"
 #include "tests/bundle/sample_bundle.h"
 #include "tests/support/temporary_directory.h"
 

@@ -13,7 +13,7 @@
 #include <random>
 #include <thread>
 
-#include "importers/ply/write_ply.h"
+#include "importers/writing/write_ply.h"
 #include "tests/partitioner/bundle_contents.h"
 #include "tests/support/command.h"
 #include "tests/support/temporary_directory.h"

@@ -13,7 +13,7 @@
 #include "compare/comparison.h"
 #include "compare/error_images.h"
 #include "compare/metrics.h"
-#include "scene/diagnostics.h"
+#include "scene/system/diagnostics.h"
 
 namespace vitrail {
 namespace {

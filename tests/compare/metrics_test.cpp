@@ -10,7 +10,7 @@
 
 #include "compare/comparison.h"
 #include "compare/error_images.h"
-#include "scene/diagnostics.h"
+#include "scene/system/diagnostics.h"
 
 namespace vitrail {
 namespace {

@@ -8,8 +8,8 @@
 #include "compare/comparison.h"
 #include "compare/mask.h"
 #include "compare/variance.h"
-#include "scene/color.h"
-#include "scene/diagnostics.h"
+#include "scene/spectra/color.h"
+#include "scene/system/diagnostics.h"
 
 namespace vitrail {
 namespace {

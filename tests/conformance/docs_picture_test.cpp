@@ -11,7 +11,7 @@
 #include <map>
 
 #include "film/image_io.h"
-#include "scene/color.h"
+#include "scene/spectra/color.h"
 #include "tests/conformance/corpus_render.h"
 #include "tests/support/command.h"
 

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "film/develop.h"
-#include "scene/diagnostics.h"
-#include "tests/importers/mitsuba_oracle.h"
+#include "scene/system/diagnostics.h"
+#include "tests/importers/mitsuba/mitsuba_oracle.h"
 #include "tests/support/command.h"
 #include "tests/support/temporary_directory.h"
 

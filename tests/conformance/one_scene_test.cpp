@@ -9,9 +9,9 @@
 
 #include "importers/export.h"
 #include "importers/import.h"
-#include "scene/deferred_mesh.h"
-#include "scene/rgb_to_spectrum.h"
-#include "tests/importers/mitsuba_oracle.h"
+#include "scene/shapes/deferred_mesh.h"
+#include "scene/spectra/rgb_to_spectrum.h"
+#include "tests/importers/mitsuba/mitsuba_oracle.h"
 #include "tests/support/command.h"
 #include "tests/support/equal_scenes.h"
 #include "tests/support/render.h"

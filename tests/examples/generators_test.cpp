@@ -10,7 +10,7 @@
 #include <ostream>
 
 #include "importers/import.h"
-#include "scene/nesting.h"
+#include "scene/records/nesting.h"
 #include "tests/support/command.h"
 #include "tests/support/temporary_directory.h"
 

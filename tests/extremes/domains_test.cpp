@@ -5,7 +5,7 @@
 
 #include "partitioner/partition.h"
 #include "tests/extremes/measure.h"
-#include "tests/laws/soup.h"
+#include "tests/laws/exact/soup.h"
 #include "tests/support/temporary_directory.h"
 
 namespace vitrail::test {

@@ -6,7 +6,7 @@
 #include <boost/multiprecision/mpfr.hpp>
 #include <cmath>
 
-#include "scene/portable_math.h"
+#include "scene/geometry/portable_math.h"
 #include "tests/extremes/measure.h"
 #include "tracer/bsdf/fresnel.h"
 #include "tracer/bsdf/local.h"

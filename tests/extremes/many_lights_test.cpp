@@ -5,10 +5,10 @@
 
 #include <cmath>
 
-#include "scene/portable_math.h"
-#include "scene/resource_usage.h"
+#include "scene/geometry/portable_math.h"
+#include "scene/system/resource_usage.h"
 #include "tests/extremes/measure.h"
-#include "tests/laws/soup.h"
+#include "tests/laws/exact/soup.h"
 
 namespace vitrail::test {
 namespace {

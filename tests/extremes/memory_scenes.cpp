@@ -9,8 +9,8 @@
 #include <fstream>
 #include <random>
 
-#include "importers/ply/write_ply.h"
-#include "scene/mesh.h"
+#include "importers/writing/write_ply.h"
+#include "scene/shapes/mesh.h"
 #include "tests/extremes/memory_text.h"
 
 namespace vitrail::test {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "scene/portable_math.h"
+#include "scene/geometry/portable_math.h"
 #include "tests/extremes/measure.h"
 #include "tracer/bsdf/local.h"
 

@@ -8,7 +8,7 @@
 
 #include "farm/render.h"
 #include "partitioner/partition.h"
-#include "scene/portable_math.h"
+#include "scene/geometry/portable_math.h"
 #include "tests/extremes/measure.h"
 #include "tests/support/command.h"
 #include "tests/support/temporary_directory.h"

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "scene/portable_math.h"
+#include "scene/geometry/portable_math.h"
 #include "tests/extremes/measure.h"
 
 namespace vitrail::test {

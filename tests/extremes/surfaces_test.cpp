@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scene/portable_math.h"
+#include "scene/geometry/portable_math.h"
 #include "tests/extremes/measure.h"
 #include "tracer/bsdf/microfacet.h"
-#include "tracer/records.h"
+#include "tracer/rays/ray_records.h"
 
 namespace vitrail::test {
 namespace {

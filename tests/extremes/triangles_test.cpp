@@ -5,10 +5,10 @@
 
 #include <cmath>
 
-#include "scene/portable_math.h"
+#include "scene/geometry/portable_math.h"
 #include "tests/extremes/measure.h"
-#include "tests/laws/exact_oracle.h"
-#include "tests/laws/soup.h"
+#include "tests/laws/exact/exact_oracle.h"
+#include "tests/laws/exact/soup.h"
 
 namespace vitrail::test {
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "tests/extremes/measure.h"
-#include "tracer/wavelengths.h"
+#include "tracer/sampling/wavelengths.h"
 
 namespace vitrail::test {
 namespace {

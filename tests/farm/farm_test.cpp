@@ -15,7 +15,7 @@
 #include "farm/rounds.h"
 #include "farm/scheduler/scheduler.h"
 #include "farm/work.h"
-#include "scene/diagnostics.h"
+#include "scene/system/diagnostics.h"
 #include "tests/support/temporary_directory.h"
 
 namespace vitrail {

@@ -5,8 +5,8 @@
 
 #include <cmath>
 
-#include "scene/color.h"
-#include "scene/photometry.h"
+#include "scene/daylight/photometry.h"
+#include "scene/spectra/color.h"
 
 namespace vitrail {
 namespace {

@@ -11,7 +11,7 @@
 
 #include "film/develop.h"
 #include "film/film.h"
-#include "scene/diagnostics.h"
+#include "scene/system/diagnostics.h"
 #include "tests/support/temporary_directory.h"
 
 namespace vitrail {

@@ -11,9 +11,9 @@
 #include <thread>
 
 #include "film/develop.h"
-#include "scene/diagnostics.h"
-#include "scene/film_extent.h"
-#include "scene/pixel_place.h"
+#include "scene/records/film_extent.h"
+#include "scene/records/pixel_place.h"
+#include "scene/system/diagnostics.h"
 
 namespace vitrail {
 namespace {

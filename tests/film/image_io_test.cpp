@@ -7,7 +7,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "scene/diagnostics.h"
+#include "scene/system/diagnostics.h"
 #include "tests/support/temporary_directory.h"
 
 namespace vitrail {

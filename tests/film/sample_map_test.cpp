@@ -7,7 +7,7 @@
 #include <numbers>
 #include <numeric>
 
-#include "film/noise.h"
+#include "film/film_noise.h"
 #include "film/sample_map.h"
 
 namespace vitrail {

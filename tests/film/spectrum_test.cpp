@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "film/image_io.h"
-#include "scene/diagnostics.h"
+#include "scene/system/diagnostics.h"
 #include "tests/support/temporary_directory.h"
 
 namespace vitrail {

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "scene/diagnostics.h"
+#include "scene/system/diagnostics.h"
 
 namespace vitrail {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Files of curves and of hair: the first byte says which.
-#include "importers/mitsuba/curve_files.h"
+#include "importers/mitsuba/read/curve_files.h"
 #include "tests/fuzz/fuzz_reader.h"
 
 namespace {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
 
-#include "importers/pbrt/lens_file.h"
-#include "scene/lens_tracing.h"
-#include "scene/paraxial_lens.h"
+#include "importers/pbrt/read/lens_file.h"
+#include "scene/models/lens_tracing.h"
+#include "scene/models/paraxial_lens.h"
 #include "tests/fuzz/fuzz_reader.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "importers/mitsuba/mitsuba.h"
+#include "importers/mitsuba/read/mitsuba.h"
 #include "tests/conformance/formats/feature_cases.h"
 #include "tests/fuzz/fuzz_reader.h"
 

@@ -11,7 +11,7 @@
 #include <filesystem>
 #include <string>
 
-#include "scene/scene.h"
+#include "scene/records/scene.h"
 
 namespace vitrail::fuzz {
 

@@ -5,7 +5,7 @@
 
 #include <cstring>
 
-#include "importers/mitsuba/serialized.h"
+#include "importers/mitsuba/read/serialized.h"
 #include "tests/fuzz/fuzz_reader.h"
 
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "importers/spectra/measured_sheet.h"
+#include "importers/spectra/sheet_file.h"
 #include "importers/spectra/spectrum_file.h"
 #include "tests/fuzz/fuzz_reader.h"
 

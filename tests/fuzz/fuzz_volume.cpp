@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A volume as the density of a medium and as signed distances of a surface.
-#include "importers/mitsuba/mitsuba.h"
+#include "importers/mitsuba/read/mitsuba.h"
 #include "tests/fuzz/fuzz_reader.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -21,7 +21,7 @@ class Seeds {
   explicit Seeds(std::filesystem::path folder) : folder_(std::move(folder)) {}
   void add(const std::string& format, const std::string& bytes) {
     std::filesystem::create_directories(folder_ / format);
-    write_text(folder_ / format / ("own-" + std::to_string(count_[format]++)), bytes);
+    std::ofstream(folder_ / format / ("own-" + std::to_string(count_[format]++)), std::ios::binary) << bytes;
   }
 
  private:

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "scene/diagnostics.h"
+#include "scene/system/diagnostics.h"
 #include "tests/glazing/glazing_files.h"
 
 namespace vitrail::test {

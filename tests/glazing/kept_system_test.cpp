@@ -10,7 +10,7 @@
 
 #include "glazing/sheet.h"
 #include "glazing/system_file.h"
-#include "scene/diagnostics.h"
+#include "scene/system/diagnostics.h"
 #include "tests/glazing/glazing_files.h"
 #include "tests/support/command.h"
 

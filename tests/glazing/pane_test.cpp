@@ -11,7 +11,7 @@
 
 #include "glazing/evaluation.h"
 #include "glazing/thin_film.h"
-#include "scene/named_spectra.h"
+#include "scene/spectra/named_spectra.h"
 
 namespace vitrail {
 namespace {

@@ -6,7 +6,7 @@
 #include "glazing/band_spectrum.h"
 #include "glazing/evaluation.h"
 #include "glazing/product.h"
-#include "scene/diagnostics.h"
+#include "scene/system/diagnostics.h"
 #include "tests/glazing/glazing_files.h"
 
 namespace vitrail::test {

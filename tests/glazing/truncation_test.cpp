@@ -5,7 +5,7 @@
 #include <random>
 
 #include "glazing/system_file.h"
-#include "scene/diagnostics.h"
+#include "scene/system/diagnostics.h"
 #include "tests/glazing/glazing_files.h"
 
 namespace vitrail::test {

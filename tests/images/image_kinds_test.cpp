@@ -9,7 +9,7 @@
 #include <fstream>
 
 #include "images/image_files.h"
-#include "scene/diagnostics.h"
+#include "scene/system/diagnostics.h"
 #include "tests/images/image_bytes.h"
 #include "tests/support/temporary_directory.h"
 

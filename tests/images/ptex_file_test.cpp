@@ -8,7 +8,7 @@
 #include <fstream>
 
 #include "images/ptex_means.h"
-#include "scene/diagnostics.h"
+#include "scene/system/diagnostics.h"
 #include "tests/images/ptex_bytes.h"
 #include "tests/support/temporary_directory.h"
 

@@ -5,8 +5,8 @@
 #include <OpenImageIO/imageio.h>
 #include <gmock/gmock.h>
 
-#include "scene/color.h"
-#include "scene/diagnostics.h"
+#include "scene/spectra/color.h"
+#include "scene/system/diagnostics.h"
 #include "tests/support/png.h"
 #include "tests/support/temporary_directory.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Lamps in one place count once.
-#include "importers/coincident_lamps.h"
+#include "importers/reading/coincident_lamps.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "scene/transform.h"
+#include "scene/geometry/transform.h"
 
 namespace vitrail {
 namespace {

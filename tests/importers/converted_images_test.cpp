@@ -3,7 +3,7 @@
 
 #include <gmock/gmock.h>
 
-#include "scene/rgb_to_spectrum.h"
+#include "scene/spectra/rgb_to_spectrum.h"
 #include "tests/importers/temporary_folder.h"
 
 namespace vitrail {

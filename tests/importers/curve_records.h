@@ -4,10 +4,10 @@
 
 #include <gtest/gtest.h>
 
-#include "scene/curve.h"
-#include "scene/curve_meshes.h"
-#include "scene/curve_uses.h"
-#include "scene/quadric_places.h"
+#include "scene/records/curve_uses.h"
+#include "scene/shapes/curve.h"
+#include "scene/shapes/curve_meshes.h"
+#include "scene/shapes/quadric_places.h"
 
 namespace vitrail::test {
 

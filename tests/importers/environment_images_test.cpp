@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "images/image_files.h"
-#include "scene/diagnostics.h"
+#include "scene/system/diagnostics.h"
 #include "tests/importers/temporary_folder.h"
 
 namespace vitrail {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "importers/exposed_lights.h"
+#include "importers/writing/exposed_lights.h"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "importers/given_sky.h"
+#include "importers/reading/given_sky.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "scene/rgb_to_spectrum.h"
+#include "scene/spectra/rgb_to_spectrum.h"
 
 namespace vitrail {
 namespace {

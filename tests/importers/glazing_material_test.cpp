@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Glazing named by a scene: in pbrt's and in Mitsuba's words, and what is said of it.
-#include "importers/glazing_material.h"
+#include "importers/reading/glazing_material.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

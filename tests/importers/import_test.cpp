@@ -4,10 +4,10 @@
 
 #include <numbers>
 
-#include "importers/default_view.h"
-#include "pbrt_text.h"
-#include "scene/color.h"
-#include "scene/spectrum.h"
+#include "importers/reading/default_view.h"
+#include "scene/spectra/color.h"
+#include "scene/spectra/spectrum.h"
+#include "tests/importers/pbrt/pbrt_text.h"
 
 namespace vitrail {
 namespace {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "importers/spectra/measured_sheet.h"
+#include "importers/spectra/sheet_file.h"
 
 #include <gmock/gmock.h>
 
-#include "importers/mitsuba/mitsuba.h"
-#include "importers/pbrt/pbrt.h"
-#include "scene/diagnostics.h"
-#include "temporary_folder.h"
+#include "importers/mitsuba/read/mitsuba.h"
+#include "importers/pbrt/read/pbrt.h"
+#include "scene/system/diagnostics.h"
+#include "tests/importers/temporary_folder.h"
 
 namespace vitrail {
 namespace {

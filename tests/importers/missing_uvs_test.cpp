@@ -9,8 +9,8 @@
 
 #include "importers/export.h"
 #include "importers/import.h"
-#include "scene/mesh_uv.h"
-#include "temporary_folder.h"
+#include "scene/shapes/mesh_uv.h"
+#include "tests/importers/temporary_folder.h"
 
 namespace vitrail {
 namespace {

@@ -11,8 +11,8 @@
 
 #include "importers/shapes/polygon.h"
 #include "importers/shapes/quadrics.h"
-#include "scene/tessellate.h"
-#include "scene/unit_circle.h"
+#include "scene/geometry/unit_circle.h"
+#include "scene/shapes/tessellate.h"
 
 namespace vitrail {
 namespace {

@@ -3,10 +3,10 @@
 
 #include <cmath>
 
-#include "importers/mitsuba/mitsuba.h"
-#include "importers/pbrt/pbrt.h"
+#include "importers/mitsuba/read/mitsuba.h"
+#include "importers/pbrt/read/pbrt.h"
 #include "importers/spectra/spectrum_file.h"
-#include "temporary_folder.h"
+#include "tests/importers/temporary_folder.h"
 
 namespace vitrail {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "importers/spot_falloff.h"
+#include "importers/writing/spot_falloff.h"
 
 #include <gtest/gtest.h>
 

@@ -2,8 +2,8 @@
 // Small Scenes in memory for the tests of writers.
 #pragma once
 
-#include "scene/rgb_to_spectrum.h"
-#include "scene/scene.h"
+#include "scene/records/scene.h"
+#include "scene/spectra/rgb_to_spectrum.h"
 
 namespace vitrail {
 

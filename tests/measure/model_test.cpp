@@ -7,7 +7,7 @@
 #include "measure/axes.h"
 #include "measure/plan.h"
 #include "measure/words.h"
-#include "scene/diagnostics.h"
+#include "scene/system/diagnostics.h"
 
 namespace vitrail {
 namespace {

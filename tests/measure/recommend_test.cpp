@@ -12,7 +12,7 @@
 
 #include "film/film.h"
 #include "measure/biases.h"
-#include "scene/diagnostics.h"
+#include "scene/system/diagnostics.h"
 #include "tests/support/temporary_directory.h"
 
 namespace vitrail::test {

@@ -8,7 +8,7 @@
 #include <fstream>
 
 #include "film/film.h"
-#include "scene/diagnostics.h"
+#include "scene/system/diagnostics.h"
 #include "tests/support/temporary_directory.h"
 
 namespace vitrail::test {

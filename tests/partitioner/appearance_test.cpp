@@ -4,9 +4,9 @@
 
 #include <gtest/gtest.h>
 
-#include "scene/color.h"
-#include "scene/hair.h"
-#include "scene/rgb_to_spectrum.h"
+#include "scene/models/hair_color.h"
+#include "scene/spectra/color.h"
+#include "scene/spectra/rgb_to_spectrum.h"
 
 namespace vitrail {
 namespace {

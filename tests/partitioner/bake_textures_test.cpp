@@ -5,7 +5,7 @@
 #include <span>
 
 #include "partitioner/appearance/row_halver.h"
-#include "scene/matrix_r.h"
+#include "scene/spectra/matrix_r.h"
 #include "tests/partitioner/baked_scene.h"
 #include "tracer/textures/baked_image.h"
 

@@ -6,7 +6,7 @@
 
 #include "images/image_files.h"
 #include "partitioner/appearance/bake_textures.h"
-#include "scene/rgb_to_spectrum.h"
+#include "scene/spectra/rgb_to_spectrum.h"
 #include "tests/support/png.h"
 #include "tests/support/temporary_directory.h"
 #include "tracer/textures/textures.h"

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "scene/deferred_mesh.h"
+#include "scene/shapes/deferred_mesh.h"
 
 namespace vitrail {
 namespace {

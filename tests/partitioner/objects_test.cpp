@@ -5,8 +5,8 @@
 
 #include <cmath>
 
-#include "scene/curve_meshes.h"
-#include "scene/diagnostics.h"
+#include "scene/shapes/curve_meshes.h"
+#include "scene/system/diagnostics.h"
 #include "tests/support/test_scenes.h"
 
 namespace vitrail {

@@ -10,7 +10,7 @@
 #include <random>
 
 #include "bundle/verify.h"
-#include "scene/diagnostics.h"
+#include "scene/system/diagnostics.h"
 #include "tests/partitioner/bundle_contents.h"
 #include "tests/support/temporary_directory.h"
 #include "tests/support/test_scenes.h"

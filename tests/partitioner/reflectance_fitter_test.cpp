@@ -7,7 +7,7 @@
 #include <random>
 #include <thread>
 
-#include "scene/rgb_to_spectrum.h"
+#include "scene/spectra/rgb_to_spectrum.h"
 
 namespace vitrail {
 

@@ -7,7 +7,7 @@
 
 #include "bundle/verify.h"
 #include "importers/import.h"
-#include "importers/ply/write_ply.h"
+#include "importers/writing/write_ply.h"
 #include "partitioner/partition.h"
 #include "tests/partitioner/bundle_contents.h"
 #include "tests/support/temporary_directory.h"

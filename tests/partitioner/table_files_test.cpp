@@ -10,8 +10,8 @@
 #include <random>
 
 #include "partitioner/appearance/appearance.h"
-#include "scene/diagnostics.h"
-#include "tests/laws/table_cases.h"
+#include "scene/system/diagnostics.h"
+#include "tests/laws/scattering/table_cases.h"
 #include "tests/support/temporary_directory.h"
 
 namespace vitrail {

@@ -3,7 +3,7 @@
 #include <fstream>
 #include <numbers>
 
-#include "scene/diagnostics.h"
+#include "scene/system/diagnostics.h"
 #include "tests/images/ptex_bytes.h"
 #include "tests/partitioner/baked_scene.h"
 #include "tracer/textures/noise.h"

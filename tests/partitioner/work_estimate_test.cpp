@@ -5,7 +5,7 @@
 
 #include <fstream>
 
-#include "scene/diagnostics.h"
+#include "scene/system/diagnostics.h"
 #include "tests/support/temporary_directory.h"
 
 namespace vitrail {

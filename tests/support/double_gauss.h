@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/camera.h"
+#include "scene/records/camera.h"
 
 namespace vitrail::test {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "equal_scenes.h"
+#include "tests/support/equal_scenes.h"
 
 #include <fmt/format.h>
 
@@ -7,10 +7,10 @@
 #include <cmath>
 #include <map>
 
-#include "scene/curve.h"
-#include "scene/mesh_uv.h"
-#include "scene/quadric_places.h"
-#include "scene/uv_uses.h"
+#include "scene/records/uv_uses.h"
+#include "scene/shapes/curve.h"
+#include "scene/shapes/mesh_uv.h"
+#include "scene/shapes/quadric_places.h"
 
 namespace vitrail::test {
 

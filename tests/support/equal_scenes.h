@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "scene/scene.h"
+#include "scene/records/scene.h"
 
 namespace vitrail::test {
 

@@ -4,7 +4,7 @@
 
 #include "farm/render.h"
 #include "film/film.h"
-#include "scene/scene.h"
+#include "scene/records/scene.h"
 
 namespace vitrail::test {
 

@@ -2,7 +2,7 @@
 // Scenes for tests of the partitioner.
 #pragma once
 
-#include "scene/scene.h"
+#include "scene/records/scene.h"
 
 namespace vitrail::test {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reflection by a table of measurements (Dupuy and Jakob 2018; scene/scattering_table.h). A place of the unit
-// square is warped twice, by the luminance and by the visible normals, to a microfacet's normal m, which
-// mirrors `out`: the table's spectra are by the place before the second warp.
+// Reflection by a table of measurements (Dupuy and Jakob 2018; scene/records/scattering_table.h). A place of
+// the unit square is warped twice, by the luminance and by the visible normals, to a microfacet's normal m,
+// which mirrors `out`: the table's spectra are by the place before the second warp.
 #pragma once
 
 #include <optional>

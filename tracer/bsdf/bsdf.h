@@ -12,8 +12,8 @@
 //   std::optional<BsdfSample> sample(const Model&, Vector3d out, float u_lobe, Point2f u);
 #pragma once
 
-#include "scene/sampled_spectrum.h"
-#include "scene/vec.h"
+#include "scene/geometry/vec.h"
+#include "scene/spectra/sampled_spectrum.h"
 
 namespace vitrail {
 

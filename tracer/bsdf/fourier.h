@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Scattering by a table of Fourier coefficients (scene/scattering_table.h), asked from either side.
+// Scattering by a table of Fourier coefficients (scene/records/scattering_table.h), asked from either side.
 // Directions are sampled by the luminance Y of f·|cos θ_in|: first the cosine, by the integrals of a₀ along
 // it, then the azimuth, by its integral; both inverted numerically. So the pdf is Y/∫Y d in, where Y > 0.
 #pragma once
@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "scene/scattering_table.h"
+#include "scene/records/scattering_table.h"
 #include "tracer/bsdf/bsdf.h"
 
 namespace vitrail {
@@ -23,7 +23,7 @@ FourierIntegrals integrals_of(const FourierTable& table);
 struct FourierBsdf {
   const FourierTable* table = nullptr;  // these two outlive it
   const FourierIntegrals* integrals = nullptr;
-  std::array<SampledSpectrum, 3> primaries;  // what red, green and blue reflect: scene/srgb_basis.h
+  std::array<SampledSpectrum, 3> primaries;  // what red, green and blue reflect: scene/spectra/srgb_basis.h
 };
 
 BsdfValue eval(const FourierBsdf& bsdf, Vector3d out, Vector3d in);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "scene/sampled_spectrum.h"
+#include "scene/spectra/sampled_spectrum.h"
 
 namespace vitrail {
 

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <array>
 
-#include "scene/hair.h"
-#include "scene/portable_math.h"
+#include "scene/geometry/portable_math.h"
+#include "scene/models/hair_color.h"
 #include "tracer/bsdf/local.h"
 #include "tracer/bsdf/quick_math.h"
 

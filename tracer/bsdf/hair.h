@@ -28,7 +28,8 @@ struct HairBsdf {
 HairBsdf make_hair(const SampledSpectrum& sigma_a, const SampledSpectrum& throughput, double eta,
                    double beta_m, double beta_n, double alpha_deg);
 
-// The absorption that gives a fibre of this azimuthal roughness among its like the colour (scene/hair.h).
+// The absorption that gives a fibre of this azimuthal roughness among its like the colour
+// (scene/models/hair_color.h).
 SampledSpectrum hair_absorption(const SampledSpectrum& color, double beta_n);
 
 BsdfValue eval(const HairBsdf& bsdf, Vector3d out, Vector3d in);

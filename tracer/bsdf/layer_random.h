@@ -5,7 +5,7 @@
 #include <bit>
 #include <cstdint>
 
-#include "scene/portable_math.h"
+#include "scene/geometry/portable_math.h"
 #include "tracer/bsdf/local.h"
 
 namespace vitrail {

@@ -3,8 +3,8 @@
 // normal.
 #pragma once
 
-#include "scene/frame.h"
-#include "scene/sampled_spectrum.h"
+#include "scene/geometry/frame.h"
+#include "scene/spectra/sampled_spectrum.h"
 
 namespace vitrail {
 

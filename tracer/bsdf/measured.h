@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "scene/measured_sheet.h"
+#include "scene/records/measured_sheet.h"
 #include "tracer/bsdf/bsdf.h"
 
 namespace vitrail {

@@ -5,8 +5,8 @@
 // side of the surface, those that are sampled from have v.z > 0.
 #pragma once
 
-#include "scene/material.h"
-#include "scene/vec.h"
+#include "scene/geometry/vec.h"
+#include "scene/records/material.h"
 
 namespace vitrail {
 

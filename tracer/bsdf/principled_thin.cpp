@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scene/portable_math.h"
+#include "scene/geometry/portable_math.h"
 #include "tracer/bsdf/local.h"
 #include "tracer/bsdf/principled.h"
 #include "tracer/bsdf/principled_lobes.h"

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "scene/portable_math.h"
+#include "scene/geometry/portable_math.h"
 #include "tracer/bsdf/local.h"
 #include "tracer/bsdf/plastic.h"
 

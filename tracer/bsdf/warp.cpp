@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scene/portable_math.h"
+#include "scene/geometry/portable_math.h"
 
 namespace vitrail {
 

@@ -6,8 +6,8 @@
 #include <array>
 #include <vector>
 
-#include "scene/scattering_table.h"
-#include "scene/vec.h"
+#include "scene/geometry/vec.h"
+#include "scene/records/scattering_table.h"
 
 namespace vitrail {
 

@@ -6,7 +6,7 @@
 #include <limits>
 #include <string>
 
-#include "scene/diagnostics.h"
+#include "scene/system/diagnostics.h"
 #include "tracer/intersect/instance_ray.h"
 #include "tracer/intersect/intersector.h"
 #include "tracer/quadrics/quadric_hits.h"

@@ -2,7 +2,7 @@
 // The test that decides every hit. It is compiled once, without FMA, and used by all kernels and traversals.
 #pragma once
 
-#include "tracer/intersect/ray.h"
+#include "tracer/rays/ray.h"
 
 namespace vitrail {
 

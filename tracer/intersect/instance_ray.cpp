@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scene/motion.h"
+#include "scene/geometry/motion.h"
 #include "tracer/intersect/exact_test.h"
 #include "tracer/quadrics/quadric_surface.h"
 

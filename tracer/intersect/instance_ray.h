@@ -6,8 +6,8 @@
 
 #include "bundle/instance.h"
 #include "bundle/oriented_quadric.h"
-#include "tracer/intersect/ray.h"
 #include "tracer/quadrics/quadric_hits.h"
+#include "tracer/rays/ray.h"
 
 namespace vitrail {
 

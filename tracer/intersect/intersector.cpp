@@ -6,7 +6,7 @@
 #include <iterator>
 #include <string>
 
-#include "scene/diagnostics.h"
+#include "scene/system/diagnostics.h"
 #include "tracer/intersect/kernels.h"
 
 namespace vitrail {

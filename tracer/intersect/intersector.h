@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "tracer/intersect/ray.h"
+#include "tracer/rays/ray.h"
 
 namespace vitrail {
 

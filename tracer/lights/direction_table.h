@@ -4,8 +4,8 @@
 #include <functional>
 #include <vector>
 
-#include "tracer/guide_table.h"
 #include "tracer/lights/sphere_map.h"
+#include "tracer/sampling/guide_table.h"
 
 namespace vitrail {
 

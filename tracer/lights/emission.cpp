@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scene/portable_math.h"
+#include "scene/geometry/portable_math.h"
 #include "tracer/bsdf/local.h"
 #include "tracer/lights/surface_lights.h"
 #include "tracer/quadrics/quadric_surface.h"
-#include "tracer/wavelengths.h"
+#include "tracer/sampling/wavelengths.h"
 
 namespace vitrail {
 

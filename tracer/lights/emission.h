@@ -6,9 +6,9 @@
 #include <optional>
 #include <vector>
 
-#include "tracer/guide_table.h"
 #include "tracer/lights/emitter_directions.h"
 #include "tracer/lights/light_sampler.h"
+#include "tracer/sampling/guide_table.h"
 
 namespace vitrail {
 

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scene/frame.h"
-#include "scene/portable_math.h"
+#include "scene/geometry/frame.h"
+#include "scene/geometry/portable_math.h"
 #include "tracer/bsdf/local.h"
 #include "tracer/lights/projected_flux.h"
 

@@ -4,9 +4,9 @@
 #include <variant>
 #include <vector>
 
-#include "tracer/guide_table.h"
 #include "tracer/lights/direction_table.h"
 #include "tracer/lights/light_sampler.h"
+#include "tracer/sampling/guide_table.h"
 
 namespace vitrail {
 

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <cstdint>
 
-#include "scene/portable_math.h"
-#include "tracer/luminance_of.h"
-#include "tracer/wavelengths.h"
+#include "scene/geometry/portable_math.h"
+#include "tracer/sampling/luminance_of.h"
+#include "tracer/sampling/wavelengths.h"
 
 namespace vitrail {
 

@@ -4,8 +4,8 @@
 
 #include <memory>
 
-#include "scene/light.h"
-#include "scene/sky_model.h"
+#include "scene/daylight/sky_model.h"
+#include "scene/records/light.h"
 #include "tracer/lights/direction_table.h"
 #include "tracer/lights/light_image.h"
 

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "scene/sampled_spectrum.h"
+#include "scene/spectra/sampled_spectrum.h"
 
 namespace vitrail {
 

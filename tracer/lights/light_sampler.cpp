@@ -5,9 +5,9 @@
 #include <cmath>
 #include <limits>
 
-#include "scene/portable_math.h"
-#include "tracer/rounding.h"
-#include "tracer/wavelengths.h"
+#include "scene/geometry/portable_math.h"
+#include "tracer/rays/rounding.h"
+#include "tracer/sampling/wavelengths.h"
 
 namespace vitrail {
 

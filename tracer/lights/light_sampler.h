@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "bundle/manifest.h"
-#include "scene/bounds.h"
-#include "scene/light.h"
+#include "scene/geometry/bounds.h"
+#include "scene/records/light.h"
 #include "tracer/lights/environment.h"
 #include "tracer/lights/light_tree.h"
 #include "tracer/lights/point_emitter.h"

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "scene/bounds.h"
+#include "scene/geometry/bounds.h"
 
 namespace vitrail {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "scene/portable_math.h"
+#include "scene/geometry/portable_math.h"
 #include "tracer/lights/light_tree.h"
 #include "tracer/lights/normal_cone.h"
 

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scene/portable_math.h"
+#include "scene/geometry/portable_math.h"
 #include "tracer/lights/baked_light_image.h"
 #include "tracer/lights/light_sampler.h"
 #include "tracer/lights/surface_lights.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "scene/vec.h"
+#include "scene/geometry/vec.h"
 
 namespace vitrail {
 

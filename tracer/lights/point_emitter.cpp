@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scene/portable_math.h"
+#include "scene/geometry/portable_math.h"
 #include "tracer/lights/environment.h"
 #include "tracer/lights/projected_flux.h"
-#include "tracer/wavelengths.h"
+#include "tracer/sampling/wavelengths.h"
 
 namespace vitrail {
 

@@ -7,7 +7,7 @@
 #include <span>
 #include <variant>
 
-#include "scene/light.h"
+#include "scene/records/light.h"
 #include "tracer/lights/light_image.h"
 #include "tracer/lights/light_tree.h"
 #include "tracer/lights/sphere_map.h"

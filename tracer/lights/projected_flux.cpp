@@ -6,7 +6,7 @@
 #include <functional>
 #include <vector>
 
-#include "scene/portable_math.h"
+#include "scene/geometry/portable_math.h"
 #include "tracer/textures/baked_image.h"
 #include "tracer/textures/texel_places.h"
 #include "tracer/textures/texture_ranges.h"

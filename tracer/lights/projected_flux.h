@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "scene/light.h"
+#include "scene/records/light.h"
 #include "tracer/textures/textures.h"
 
 namespace vitrail {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "scene/portable_math.h"
+#include "scene/geometry/portable_math.h"
 #include "tracer/quadrics/quadric_area.h"
 #include "tracer/quadrics/quadric_surface.h"
 

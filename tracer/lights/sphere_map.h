@@ -3,7 +3,7 @@
 // EnvironmentLight.
 #pragma once
 
-#include "scene/light.h"
+#include "scene/records/light.h"
 
 namespace vitrail {
 

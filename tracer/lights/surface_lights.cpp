@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "scene/portable_math.h"
+#include "scene/geometry/portable_math.h"
 #include "tracer/quadrics/quadric_area.h"
 #include "tracer/textures/texture_ranges.h"
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Looking up a scene/medium.h Grid.
+// Looking up a scene/records/medium.h Grid.
 #pragma once
 
 #include <span>
 
-#include "scene/medium.h"
+#include "scene/records/medium.h"
 
 namespace vitrail {
 

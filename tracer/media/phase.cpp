@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "scene/portable_math.h"
+#include "scene/geometry/portable_math.h"
 #include "tracer/bsdf/local.h"
 
 namespace vitrail {

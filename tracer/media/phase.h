@@ -3,7 +3,7 @@
 // p(cos θ) = (1 − g²)/(4π (1 + g² − 2g cos θ)^{3/2}), θ the angle by which light is turned.
 #pragma once
 
-#include "scene/vec.h"
+#include "scene/geometry/vec.h"
 
 namespace vitrail {
 

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <cstring>
 
-#include "scene/diagnostics.h"
-#include "scene/portable_math.h"
+#include "scene/geometry/portable_math.h"
+#include "scene/system/diagnostics.h"
 #include "tracer/bsdf/diffuse.h"
 #include "tracer/bsdf/fresnel.h"
 #include "tracer/bsdf/local.h"

@@ -7,8 +7,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "scene/bounds.h"
-#include "tracer/photons/records.h"
+#include "scene/geometry/bounds.h"
+#include "tracer/photons/photon_records.h"
 
 namespace vitrail {
 

@@ -9,8 +9,8 @@
 
 #include "tracer/lights/emission.h"
 #include "tracer/photons/photon_map.h"
-#include "tracer/sampler.h"
-#include "tracer/wavelengths.h"
+#include "tracer/sampling/sampler.h"
+#include "tracer/sampling/wavelengths.h"
 
 namespace vitrail {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <utility>
 
-#include "scene/frame.h"
-#include "scene/portable_math.h"
+#include "scene/geometry/frame.h"
+#include "scene/geometry/portable_math.h"
 #include "tracer/quadrics/curve_parts.h"
 
 namespace vitrail {

@@ -5,7 +5,7 @@
 // overlap are one, and a ray meets the curve where one begins. docs/hair.md has the why.
 #pragma once
 
-#include "scene/curve.h"
+#include "scene/shapes/curve.h"
 #include "tracer/quadrics/quadric_hits.h"
 #include "tracer/quadrics/quadric_surface.h"
 

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "scene/curve.h"
+#include "scene/shapes/curve.h"
 
 namespace vitrail {
 

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "bundle/instance.h"
-#include "scene/quadric.h"
+#include "scene/shapes/quadric.h"
 
 namespace vitrail {
 

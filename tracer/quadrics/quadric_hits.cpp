@@ -5,9 +5,9 @@
 #include <cmath>
 #include <utility>
 
-#include "scene/portable_math.h"
-#include "tracer/intersect/ray.h"
+#include "scene/geometry/portable_math.h"
 #include "tracer/quadrics/curve_hits.h"
+#include "tracer/rays/ray.h"
 
 namespace vitrail {
 

@@ -4,11 +4,11 @@
 #pragma once
 
 #include "bundle/instance.h"
-#include "scene/quadric.h"
+#include "scene/shapes/quadric.h"
 
 namespace vitrail {
 
-struct RayConstants;  // tracer/intersect/ray.h
+struct RayConstants;  // tracer/rays/ray.h
 
 struct QuadricHit {
   double t;

@@ -8,8 +8,8 @@
 #include <memory>
 
 #include "bundle/texture_file.h"
-#include "scene/sampled_spectrum.h"
-#include "scene/texture.h"
+#include "scene/records/texture.h"
+#include "scene/spectra/sampled_spectrum.h"
 
 namespace vitrail {
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "scene/texture.h"
+#include "scene/records/texture.h"
 
 namespace vitrail {
 

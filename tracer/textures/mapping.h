@@ -2,8 +2,8 @@
 // From a point of a surface to the (s,t) of a texture.
 #pragma once
 
-#include "scene/portable_math.h"
-#include "scene/texture.h"
+#include "scene/geometry/portable_math.h"
+#include "scene/records/texture.h"
 
 namespace vitrail {
 

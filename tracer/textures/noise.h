@@ -7,7 +7,7 @@
 
 #include <array>
 
-#include "scene/texture.h"
+#include "scene/records/texture.h"
 
 namespace vitrail {
 

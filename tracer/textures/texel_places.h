@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "scene/texture.h"
+#include "scene/records/texture.h"
 
 namespace vitrail {
 

@@ -5,9 +5,9 @@
 #include <bit>
 
 #include "bundle/texel.h"
-#include "scene/color.h"
-#include "scene/matrix_r.h"
-#include "scene/sampled_spectrum.h"
+#include "scene/spectra/color.h"
+#include "scene/spectra/matrix_r.h"
+#include "scene/spectra/sampled_spectrum.h"
 
 namespace vitrail {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <string>
 
-#include "tracer/luminance_of.h"
+#include "tracer/sampling/luminance_of.h"
 #include "tracer/textures/baked_image.h"
 #include "tracer/textures/noise.h"
 

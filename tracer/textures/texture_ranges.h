@@ -9,7 +9,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "scene/bounds.h"
+#include "scene/geometry/bounds.h"
 #include "tracer/textures/image_sums.h"
 #include "tracer/textures/textures.h"
 

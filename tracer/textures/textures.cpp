@@ -7,15 +7,15 @@
 #include <map>
 #include <optional>
 
-#include "scene/diagnostics.h"
-#include "scene/nesting_limits.h"
-#include "scene/texture_inputs.h"
+#include "scene/records/nesting_limits.h"
+#include "scene/records/texture_inputs.h"
+#include "scene/system/diagnostics.h"
+#include "tracer/sampling/wavelengths.h"
 #include "tracer/textures/baked_image.h"
 #include "tracer/textures/mapping.h"
 #include "tracer/textures/noise.h"
 #include "tracer/textures/texel_value.h"
 #include "tracer/textures/tile_cache.h"
-#include "tracer/wavelengths.h"
 
 namespace vitrail {
 

@@ -10,9 +10,9 @@
 #include <span>
 #include <vector>
 
-#include "scene/color.h"
-#include "scene/sampled_spectrum.h"
-#include "scene/texture.h"
+#include "scene/records/texture.h"
+#include "scene/spectra/color.h"
+#include "scene/spectra/sampled_spectrum.h"
 
 namespace vitrail {
 

@@ -8,7 +8,7 @@
 #include <cerrno>
 #include <cstring>
 
-#include "scene/diagnostics.h"
+#include "scene/system/diagnostics.h"
 
 namespace vitrail {
 

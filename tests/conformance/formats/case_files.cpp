@@ -4,7 +4,7 @@
 
 #include "tests/conformance/formats/feature_cases.h"
 #include "tests/images/ptex_bytes.h"
-#include "tests/laws/table_cases.h"
+#include "tests/laws/scattering/table_cases.h"
 
 namespace vitrail::test {
 

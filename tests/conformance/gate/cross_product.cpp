@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
-#include "scene/rgb_to_spectrum.h"
-#include "scene/transmission.h"
+#include "scene/records/transmission.h"
+#include "scene/spectra/rgb_to_spectrum.h"
 #include "tests/conformance/gate/pairs.h"
 #include "tests/conformance/gate/scene_parts.h"
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/scene.h"
+#include "scene/records/scene.h"
 
 namespace vitrail::test {
 

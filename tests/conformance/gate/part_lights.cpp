@@ -2,7 +2,7 @@
 #include <array>
 #include <numbers>
 
-#include "scene/rgb_to_spectrum.h"
+#include "scene/spectra/rgb_to_spectrum.h"
 #include "tests/conformance/gate/scene_parts.h"
 
 namespace vitrail::test {

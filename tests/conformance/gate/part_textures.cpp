@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <array>
 
-#include "scene/rgb_to_spectrum.h"
+#include "scene/spectra/rgb_to_spectrum.h"
 #include "tests/conformance/gate/scene_parts.h"
 
 namespace vitrail::test {

@@ -14,7 +14,7 @@
 #include <stdexcept>
 
 #include "images/image_files.h"
-#include "scene/diagnostics.h"
+#include "scene/system/diagnostics.h"
 #include "tests/conformance/gate/pbrt_table.h"
 #include "tests/conformance/gate/pbrt_values.h"
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/scene.h"
+#include "scene/records/scene.h"
 #include "tests/conformance/gate/block_means.h"
 
 namespace vitrail::test {

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <span>
 
-#include "scene/scene.h"
+#include "scene/records/scene.h"
 
 namespace vitrail::test {
 

@@ -11,8 +11,8 @@
 #include <set>
 
 #include "importers/import.h"
-#include "importers/mitsuba/write_mitsuba.h"
-#include "importers/pbrt/write_pbrt.h"
+#include "importers/mitsuba/write/write_mitsuba.h"
+#include "importers/pbrt/write/write_pbrt.h"
 #include "tests/conformance/gate/cross_product.h"
 #include "tests/conformance/gate/gate_report.h"
 #include "tests/conformance/gate/mitsuba_sources.h"

@@ -7,7 +7,7 @@
 
 #include "importers/import.h"
 #include "importers/shapes/shapes.h"
-#include "scene/deferred_mesh.h"
+#include "scene/shapes/deferred_mesh.h"
 #include "tests/partitioner/meshes/shapes.h"
 #include "tests/support/command.h"
 

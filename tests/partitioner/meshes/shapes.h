@@ -5,7 +5,7 @@
 #include <functional>
 #include <random>
 
-#include "scene/mesh.h"
+#include "scene/shapes/mesh.h"
 
 namespace vitrail::test {
 

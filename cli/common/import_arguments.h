@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// -D name=value, --camera N, --missing, --sky, --include-limit and --root: what a scene is loaded with.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+#include "importers/reading/import_options.h"
+#include "scene/spectra/rgb_method.h"
+
+namespace vitrail {
+
+struct ImportArguments {
+  std::vector<std::string> definitions;
+  int camera = 0;
+  std::string missing = "refuse", sky, include_limit, root;
+};
+
+// --rgb jakob-hanika|matrix-r: how a scene's colours become spectra as it is partitioned.
+inline constexpr const char* usual_rgb = "jakob-hanika";
+void declare_rgb_option(CLI::App& app, std::string& method);
+RgbMethod rgb_method(const std::string& method);
+
+// A definition that is not name=value is refused as the options are parsed.
+void declare_import_options(CLI::App& app, ImportArguments& arguments);
+
+// What --root allows holds from then on.
+ImportOptions import_options(const ImportArguments& arguments);
+
+// The words of a command line that give them again; none for what is as usual.
+std::vector<std::string> arguments_of(const ImportArguments& arguments);
+
+}  // namespace vitrail

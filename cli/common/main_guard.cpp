@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/common/main_guard.h"
+
+#include <fmt/format.h>
+
+#include <csignal>
+#include <cstdio>
+#include <filesystem>
+#include <new>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <string>
+
+#include "cli/common/unknown_options.h"
+#include "scene/system/diagnostics.h"
+#include "scene/system/input_files.h"
+#include "scene/system/say.h"
+
+namespace vitrail {
+
+namespace {
+
+int fail(int status, const std::string& message) {
+  say("vitrail: {}\n", message);
+  return status;
+}
+
+int fail(const Error& e) {
+  const std::string place = for_terminal(to_string(e.location), false);
+  say("vitrail: {}{}{}\n", place, place.empty() ? "" : ": ", e.what());
+  if (!e.excerpt.empty()) say("  | {}\n", for_terminal(e.excerpt, false));
+  return exit_bad_input;
+}
+
+// What a library throws about a file that is not as it should be, where nobody said which.
+int fail_in_library(const std::string& input, const std::string& message) {
+  return fail(exit_bad_input, fmt::format("{}{}this cannot be read: {}", for_terminal(input, false),
+                                          input.empty() ? "" : ": ", message));
+}
+
+// A full disk and what may not be written are the machine's; other names and files are the input's.
+int fail(const std::filesystem::filesystem_error& e) {
+  const std::error_code code = e.code();
+  for (const std::errc of_machine :
+       {std::errc::no_space_on_device, std::errc::io_error, std::errc::read_only_file_system,
+        std::errc::permission_denied, std::errc::too_many_files_open, std::errc::not_enough_memory})
+    if (code == of_machine)
+      return fail(exit_machine, fmt::format("{}: {}", e.path1().string(), code.message()));
+  return fail_in_library(e.path1().string(), code.message());
+}
+
+int run(const std::string& input, const std::function<int()>& body) {
+  open_standard_streams();
+  protect_inputs();
+  try {
+    const int status = body();
+    flush_shown();
+    return status;
+  } catch (const Error& e) {
+    return fail(e);
+  } catch (const UsageError& e) {
+    return fail(exit_usage, e.what());
+  } catch (const CLI::ParseError& e) {
+    return fail(exit_usage, e.what());
+  } catch (const Interrupted& e) {
+    return fail(128 + e.signal, e.what());
+  } catch (const std::bad_alloc&) {
+    return fail(exit_machine, "out of memory");
+  } catch (const std::filesystem::filesystem_error& e) {
+    return fail(e);
+  } catch (const std::length_error& e) {  // that a file states
+    return fail_in_library(input, e.what());
+  } catch (const std::out_of_range& e) {
+    return fail_in_library(input, e.what());
+  } catch (const nlohmann::json::exception& e) {
+    return fail_in_library(input, e.what());
+  } catch (const std::exception& e) {  // MachineError among them
+    return fail(exit_machine, e.what());
+  }
+}
+
+// What was named first: the scene, the bundle or the film.
+std::string first_input(const CLI::App& app) {
+  for (const CLI::Option* option : app.get_options())
+    if (option->get_positional() && !option->results().empty()) return option->results().front();
+  return {};
+}
+
+}  // namespace
+
+int run_guarded(const std::function<int()>& body) { return run({}, body); }
+
+int end_with(int status) {
+  const int number = status - 128;
+  if (number != SIGINT && number != SIGTERM) return status;
+  std::fflush(nullptr);
+  std::signal(number, SIG_DFL);
+  std::raise(number);
+  return status;
+}
+
+int run_guarded(CLI::App& app, int argc, char** argv, const std::function<int()>& body) {
+  std::string input;
+  return run(input, [&] {
+    try {
+      app.parse(argc, argv);
+      input = first_input(app);
+    } catch (const CLI::Success& e) {  // --help, --version
+      return app.exit(e);
+    } catch (const CLI::ExtrasError&) {
+      throw UsageError(fmt::format("{} (see {} --help)", about_unexpected(app), app.get_name()));
+    } catch (const CLI::ParseError& e) {
+      throw UsageError(fmt::format("{} (see {} --help)", e.what(), app.get_name()));
+    }
+    return body();
+  });
+}
+
+}  // namespace vitrail

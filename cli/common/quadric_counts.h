@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "scene/records/scene.h"
+
+namespace vitrail {
+
+// Of the scene's shapes and of those of its prototypes: "3 spheres, 2 disks", or "none".
+std::string quadric_counts(const Scene& scene);
+
+}  // namespace vitrail

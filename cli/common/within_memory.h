@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+
+namespace vitrail {
+
+// What a program is at.
+struct Stage {
+  const char* what = "starting";
+  double fraction = 0;  // of what is read of the input; 0: not known
+  std::string held{};   // what the scene takes, by kind; "": not known
+};
+
+// Runs `body` with no more memory resident than that (scene/system/memory_guard.h). Where this is too little
+// throws MachineError that says what is missing, in place of what body throws.
+int within_memory(std::uint64_t budget_bytes, const Stage& stage, const std::function<int()>& body);
+
+}  // namespace vitrail

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/compare/compare_arguments.h"
+
+#include <algorithm>
+#include <iterator>
+
+#include "cli/common/number_checks.h"
+#include "compare/comparison.h"
+
+namespace vitrail {
+
+void declare(CLI::App& app, CompareArguments& o) {
+  app.add_option("IMAGE", o.image, "image or .film")->required();
+  app.add_option("REFERENCE", o.reference, "image or .film")->required();
+  app.add_option("--metric", o.metric, "relmse, mse, rmse, mae, psnr, smape, flip, ztest or bitwise")
+      ->check(CLI::IsMember(metric_names()))
+      ->capture_default_str();
+  app.add_option(
+      "--variance", o.variance,
+      "for ztest: the reference's Variance.Y of develop --variance, or the variances of one sample "
+      "that Mitsuba's tests keep as NAME_var.exr: then X, Y and Z are tested apart");
+  app.add_option("--variance-samples", o.variance_samples,
+                 "samples a pixel that IMAGE has; default: as it says");
+  app.add_option("--mean-within", o.mean_within,
+                 "exit with 1 if the mean of X, Y or Z is off by more than this fraction; without it, ztest "
+                 "fails where the means differ by more than chance does once in 10,000 times");
+  app.add_option("--ignore", o.ignored, "x0,x1,y0,y1 in pixels from the whole picture's top left: left out")
+      ->allow_extra_args(false);
+  app.add_option("--mask", o.mask, "an image; pixels that are black in it are left out");
+  app.add_option("--fail-above", o.fail_above, "exit with 1 if the value is greater");
+  app.add_flag("--json", o.json, "print one JSON object");
+  app.add_flag("--strict", o.strict, "refuse films that are not finished");
+  app.add_flag("--quiet", o.quiet, "say nothing; the exit status does");
+  app.add_option("--worst", o.worst, "name so many of the worst pixels")->capture_default_str();
+  app.add_option(
+      "--heatmap", o.heatmap,
+      "write the error of each pixel: as numbers (.exr), or as colours from black (0) over red and "
+      "yellow to white, of flip those of magma (.png)");
+  app.add_option(
+      "--html", o.html,
+      "write a page for a browser, which needs no other file: both images and their errors, to flip, "
+      "split, zoom and expose, with all metrics");
+  app.add_option("--flip-range", o.flip_range,
+                 "of flip: ldr: the images as a screen shows them; hdr: at all exposures that show "
+                 "something; auto: ldr where both files are of 8 or 16 bits")
+      ->check(CLI::IsMember({"auto", "ldr", "hdr"}))
+      ->capture_default_str();
+  app.add_option(
+         "--pixels-per-degree", o.pixels_per_degree,
+         "of flip: of the viewer's field of vision; default: a screen 0.7 m wide of 3840 pixels, 0.7 m "
+         "away")
+      ->check(more_than_0)
+      ->capture_default_str();
+  app.add_option(
+      "--signed-map", o.signed_map,
+      "write image - reference: as numbers (.exr), or as colours, blue where the image is darker, red "
+      "where it is brighter (.png)");
+  app.add_option(
+         "--map-scale", o.map_scale,
+         "the error that is shown as white, or as full blue and red; default: the 99th percentile, of "
+         "flip 1")
+      ->check(more_than_0);
+}
+
+bool of_low_range(const CompareArguments& o) {
+  if (o.flip_range != "auto") return o.flip_range == "ldr";
+  constexpr const char* of_integers[] = {".png", ".jpg", ".jpeg", ".tif", ".tiff", ".bmp", ".tga"};
+  const auto shown = [&](const std::filesystem::path& file) {
+    return std::ranges::find(of_integers, file.extension().string()) != std::end(of_integers);
+  };
+  return shown(o.image) && shown(o.reference);
+}
+
+}  // namespace vitrail

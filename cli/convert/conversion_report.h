@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// What became of each item of a converted scene.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "scene/records/scene.h"
+
+namespace vitrail {
+
+// A record of the scene, or a directive that made none. With notes, it is as inexact as the worst of them.
+struct ConversionItem {
+  std::string what;  // "material \"floor\"", "shape", "sphere"
+  SourceLocation location;
+  std::vector<const Diagnostic*> notes;
+};
+
+// The records of the scene in the order of their kinds, then what the diagnostics speak of besides. A
+// diagnostic belongs to the records of its kind that come from its place: a material and its texture, from
+// one place, are two items. The items refer to `diagnostics`.
+std::vector<ConversionItem> conversion_items(const Scene& scene, const Diagnostics& diagnostics);
+
+struct ConversionCounts {
+  std::size_t exact = 0, approximated = 0, dropped = 0;  // items
+};
+ConversionCounts count(const std::vector<ConversionItem>& items);
+
+// {input, output, options, quadrics, pictures (of check_conversion.h, where there are some), exact,
+// approximated, dropped, items: [{item, fidelity, file, line, column, notes:
+// [{fidelity, what, file, line, column}]}]}. Throws MachineError.
+void write_conversion_report(const std::filesystem::path& file, const std::filesystem::path& in,
+                             const std::filesystem::path& out, const std::string& quadrics,
+                             const std::vector<std::string>& options, const nlohmann::ordered_json& pictures,
+                             const std::vector<ConversionItem>& items);
+
+}  // namespace vitrail

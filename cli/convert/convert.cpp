@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <thread>
+
+#include "cli/common/diagnostics_report.h"
+#include "cli/common/import_arguments.h"
+#include "cli/common/main_guard.h"
+#include "cli/common/mesh_options.h"
+#include "cli/common/quadric_counts.h"
+#include "cli/convert/check_conversion.h"
+#include "cli/convert/conversion_report.h"
+#include "cli/convert/convert_many.h"
+#include "importers/export.h"
+#include "importers/import.h"
+#include "partitioner/meshes/edit_meshes.h"
+#include "scene/system/input_files.h"
+#include "scene/system/output_place.h"
+#include "scene/system/say.h"
+
+namespace vitrail {
+namespace {
+
+struct Arguments {
+  std::vector<std::filesystem::path> files;
+  std::filesystem::path input, output, report;
+  std::string format;
+  int at_once = 0;
+  bool strict = false, quiet = false, check = false, again = false;
+  ImportArguments imports;
+  MeshOptions meshes;
+};
+
+void declare(CLI::App& app, Arguments& a) {
+  app.add_option(
+         "files", a.files,
+         "a scene (.pbrt, .xml, .obj, .ply) and what it becomes (.pbrt: v4, .xml: Mitsuba 3, .pov, .obj, "
+         ".ply); with --to: scenes, and folders that are searched for them")
+      ->required();
+  app.add_option("-o,--output", a.output, "what the scene becomes; with --to: the folder for all");
+  app.add_option("--to", a.format,
+                 "pbrt, xml, pov, obj or ply: convert many, each with NAME.report.json beside it; those that "
+                 "are done already are left out")
+      ->check(CLI::IsMember({"pbrt", "xml", "pov", "obj", "ply"}));
+  app.add_option("-j,--jobs", a.at_once, "with --to: so many at once; default: all cores")
+      ->check(CLI::Range(1, 4096));
+  app.add_flag("--again", a.again, "with --to: also those that are done already");
+  app.add_flag("--check", a.check,
+               "render the scene before and after, small, and exit with status 1 if they look different");
+  app.add_option("--report", a.report, "write what became of each item as JSON");
+  declare_import_options(app, a.imports);
+  declare_mesh_options(app, a.meshes);
+  app.add_flag("--strict", a.strict, "exit with status 3 if anything is not exact");
+  app.add_flag("--quiet", a.quiet, "say nothing but what is wrong");
+}
+
+void require_outputs(const Arguments& a) {
+  for (const std::filesystem::path& file : {a.output, a.report})
+    if (!file.empty()) require_place(file);
+  std::error_code none;
+  if (a.output == a.report || std::filesystem::equivalent(a.output, a.report, none))
+    throw UsageError("the report would be written over the scene: " + a.report.string());
+}
+
+// Files that the scene speaks of are its own, whether the conversion opens them or not.
+void note_referenced_files(const Scene& scene) {
+  const auto note = [](const auto& record) {
+    if constexpr (requires { record.filename; }) note_input(record.filename);
+  };
+  for (const Texture& texture : scene.textures) std::visit(note, texture.model);
+  for (const Material& material : scene.materials) std::visit(note, material.model);
+  for (const Light& light : scene.lights) std::visit(note, light.model);
+}
+
+// The words of a command line for what else becomes of the scene, whoever renders it.
+std::vector<std::string> reading_options(const Arguments& a) {
+  std::vector<std::string> words = arguments_of(a.imports);
+  std::ranges::move(arguments_of(a.meshes), std::back_inserter(words));
+  return words;
+}
+
+// With --strict nothing is written where the input is not read exactly already.
+int run(const Arguments& a) {
+  require_export_format(a.output);
+  if (a.check) require_checkable(a.output);
+  note_input(a.input);
+  require_outputs(a);
+  ImportedScene imported = import_scene(a.input, MeshMemory{}, {}, import_options(a.imports));
+  note_referenced_files(imported.scene);
+  require_outputs(a);  // other than all that was read
+  Diagnostics& diagnostics = imported.diagnostics;
+  const bool refused = a.strict && !diagnostics.empty();
+  const std::string quadrics = quadric_counts(imported.scene);
+  Diagnostics edits;  // as asked for
+  if (!refused) {
+    edits = apply_mesh_options(a.meshes, imported.scene, MeshResources{});
+    std::ranges::move(export_scene(imported.scene, a.output), std::back_inserter(diagnostics));
+  }
+  const bool exact = diagnostics.empty();
+  std::ranges::move(edits, std::back_inserter(diagnostics));
+  const std::vector<ConversionItem> items = conversion_items(imported.scene, diagnostics);
+  nlohmann::ordered_json pictures;
+  if (a.check && !refused)
+    pictures = compare_pictures(a.input, reading_options(a), a.output, imported.scene.film);
+  if (!a.report.empty())
+    write_conversion_report(a.report, a.input, a.output, quadrics, reading_options(a), pictures, items);
+  if (!a.quiet) {
+    say("{}", summarise(diagnostics));
+    const ConversionCounts counts = count(items);
+    show("{}: {} items exact, {} approximated, {} dropped\n", refused ? "not written" : a.output.string(),
+         counts.exact, counts.approximated, counts.dropped);
+    if (!pictures.is_null()) show("{}\n", pictures_in_words(pictures));
+  }
+  if (a.strict && !exact) require_exact(diagnostics);
+  return pictures.is_null() || pictures.at("passed").get<bool>() ? exit_done : exit_differs;
+}
+
+int run_many(const Arguments& a) {
+  if (a.output.empty()) throw UsageError("--to needs the folder for all: -o FOLDER");
+  if (a.check) require_checkable("scene." + a.format);
+  if (!a.report.empty()) throw UsageError("--to gives every scene its report: leave --report out");
+  ManyConversions many{a.files, a.output, a.format, a.at_once,         a.again,
+                       a.check, a.strict, a.quiet,  reading_options(a)};
+  if (many.at_once == 0) many.at_once = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  return convert_many(many);
+}
+
+int run_one(Arguments a) {
+  if (a.again || a.at_once != 0) throw UsageError("--again and --jobs belong to --to");
+  const std::size_t most = a.output.empty() ? 2 : 1;
+  if (a.files.size() > most)
+    throw UsageError(fmt::format("'{}' is one argument too many; many scenes take --to FORMAT and -o FOLDER",
+                                 a.files[most].string()));
+  if (a.output.empty() && a.files.size() == 1) throw UsageError("takes a scene and what it becomes");
+  if (a.output.empty()) a.output = a.files.back();
+  a.input = a.files.front();
+  return run(a);
+}
+
+}  // namespace
+}  // namespace vitrail
+
+int main(int argc, char** argv) {
+  using namespace vitrail;
+  CLI::App app("converts a scene from one format to another, and says what is not exact", "vitrail convert");
+  Arguments arguments;
+  declare(app, arguments);
+  return run_guarded(app, argc, argv,
+                     [&] { return arguments.format.empty() ? run_one(arguments) : run_many(arguments); });
+}

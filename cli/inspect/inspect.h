@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// What `vitrail inspect` finds, as JSON; its text form is the same, laid out.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "bundle/manifest.h"
+#include "importers/reading/import_options.h"
+
+namespace vitrail {
+
+using Report = nlohmann::ordered_json;
+
+// Each reads and verifies everything of its file, and throws Error where something is wrong.
+Report inspect_scene(const std::filesystem::path& file, const ImportOptions& options = {});
+Report inspect_bundle(const std::filesystem::path& bundle);
+Report inspect_domain(const std::filesystem::path& file);
+Report inspect_texture(const std::filesystem::path& file);
+Report inspect_film(const std::filesystem::path& file);
+
+// Shared by scenes and bundles: bounds, requirements and their reasons, materials, lights, camera and film.
+Report describe(const Manifest& manifest);
+
+// What a scene says in its own terms: materials, textures (images with their pixels), media; and what it
+// needs of a renderer beyond the requirements of what is partitioned.
+Report describe_materials(const Scene& scene);
+Report describe_textures(const Scene& scene);
+Report describe_media(const Scene& scene);
+Report describe_needs(const Scene& scene);
+// Parts of solid glass, of meshes, that enclose nothing: open, folded, or the face of a pane without its rim.
+Report describe_open_glass(const Scene& scene);
+// Of all meshes, each once.
+std::uint64_t mesh_bytes(const Scene& scene);
+
+// "key: value" lines, nested by indentation; lists of records as tables.
+std::string to_text(const Report& report);
+
+}  // namespace vitrail

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+// Glass whose surface encloses nothing: what is behind it is inside of it, as far as light goes.
+#include <algorithm>
+
+#include "cli/inspect/inspect.h"
+#include "scene/shapes/deferred_mesh.h"
+#include "scene/shapes/mesh_parts.h"
+
+namespace vitrail {
+
+namespace {
+
+bool is_solid_glass(const Material& material) {
+  if (const auto* disney = std::get_if<PrincipledMaterial>(&material.model))
+    return !disney->thin && disney->spec_trans != FloatParameter{0.0f};
+  return std::holds_alternative<DielectricMaterial>(material.model) ||
+         std::holds_alternative<SubsurfaceMaterial>(material.model);
+}
+
+// Materials that are solid glass, or hold some: they refer to smaller ids alone.
+std::vector<bool> glasses_of(const Scene& scene) {
+  std::vector<bool> glass;
+  for (const Material& m : scene.materials) {
+    bool is = is_solid_glass(m);
+    if (const auto* blend = std::get_if<BlendMaterial>(&m.model))
+      is = glass[blend->first.value] || glass[blend->second.value];
+    if (const auto* mask = std::get_if<MaskMaterial>(&m.model)) is = glass[mask->material.value];
+    if (const auto* sides = std::get_if<TwoSidedMaterial>(&m.model))
+      is = glass[sides->front.value] || glass[sides->back.value];
+    glass.push_back(is);
+  }
+  return glass;
+}
+
+const char* words_for(MeshPart::Kind kind) {
+  if (kind == MeshPart::Kind::folded) return "folded: two faces in one place";
+  return kind == MeshPart::Kind::rimless ? "one of two faces without a rim" : "open";
+}
+
+// Of shapes in one space. Meshes alone: quadrics may close one another.
+void add_open_parts(const Scene& scene, const std::vector<Shape>& shapes, const std::vector<bool>& glass,
+                    const std::string& space, Report& table) {
+  std::vector<const Shape*> used;
+  std::vector<TriangleMesh> storage(shapes.size());
+  std::vector<PlacedMesh> placed;
+  for (const Shape& shape : shapes) {
+    const TriangleMesh& mesh = scene.meshes[shape.mesh.value];
+    if (!glass[shape.material.value] || mesh.quadric || mesh.places) continue;
+    placed.push_back({&loaded(mesh, storage[used.size()]), shape.object_to_world});
+    used.push_back(&shape);
+  }
+  for (const MeshPart& part : parts_of(placed)) {
+    if (part.kind == MeshPart::Kind::closed) continue;
+    const Shape& shape = *used[part.triangles.front().mesh];
+    const std::string& name = scene.materials[shape.material.value].name;
+    table.push_back({{"material", name.empty() ? "-" : name},
+                     {"is", words_for(part.kind)},
+                     {"area", part.area},
+                     {"centre", {part.centre.x, part.centre.y, part.centre.z}},
+                     {"in", space},
+                     {"where", to_string(location(scene, shape.origin))}});
+  }
+}
+
+}  // namespace
+
+Report describe_open_glass(const Scene& scene) {
+  Report table = Report::array();
+  const std::vector<bool> glass = glasses_of(scene);
+  if (std::ranges::none_of(glass, [](bool is) { return is; })) return table;
+  add_open_parts(scene, scene.shapes, glass, "the scene", table);
+  for (const Prototype& prototype : scene.prototypes)
+    add_open_parts(scene, prototype.shapes, glass, "object \"" + prototype.name + "\"", table);
+  return table;
+}
+
+}  // namespace vitrail

@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <numbers>
+
+#include "bundle/census.h"
+#include "cli/common/quadric_counts.h"
+#include "cli/inspect/inspect.h"
+#include "film/film.h"
+#include "importers/import.h"
+#include "partitioner/appearance/appearance.h"
+#include "partitioner/placing/flatten.h"
+#include "scene/daylight/sky_model.h"
+#include "scene/records/kinds.h"
+
+namespace vitrail {
+
+namespace {
+
+Report triple(const auto& v) { return {v.x, v.y, v.z}; }
+
+// Where a spectrum lies: its values at blue, green and red.
+std::string in_words(const Spectrum& s) {
+  if (const auto* constant = std::get_if<ConstantSpectrum>(&s)) return fmt::format("{:.4g}", constant->value);
+  return fmt::format("{}: {:.4g} at 450 nm, {:.4g} at 550 nm, {:.4g} at 650 nm", kind_of(s), evaluate(s, 450),
+                     evaluate(s, 550), evaluate(s, 650));
+}
+
+Report describe(const Material& material) {
+  Report value = nullptr;
+  if (const auto* diffuse = std::get_if<DiffuseMaterial>(&material.model))
+    if (const auto* spectrum = std::get_if<Spectrum>(&diffuse->reflectance)) value = in_words(*spectrum);
+  if (const auto* dielectric = std::get_if<DielectricMaterial>(&material.model))
+    value = in_words(dielectric->eta);
+  return {{"kind", kind_of(material.model)}, {"reflectance or index", value}};
+}
+
+// Emitting area of each area light, scene units².
+std::vector<double> emitting_areas(const Manifest& m) {
+  std::vector<double> areas(m.area_lights.size(), 0);
+  for (const EmissiveTriangle& t : m.emissive_triangles)
+    areas[t.area_light] +=
+        polygon_area(std::array{cast<double>(t.p[0]), cast<double>(t.p[1]), cast<double>(t.p[2])});
+  return areas;
+}
+
+// The luminance of what has one value; null where an image decides.
+Report luminance_of(const SpectrumParameter& p) {
+  const auto* spectrum = std::get_if<Spectrum>(&p);
+  return spectrum ? Report(luminance(*spectrum)) : Report(nullptr);
+}
+
+struct LightDescriber {
+  Report operator()(const PointLight& l) const { return of(l.intensity, 4 * std::numbers::pi); }
+  Report operator()(const SpotLight& l) const { return of(l.intensity); }
+  Report operator()(const ProjectionLight& l) const { return of(l.scale); }
+  Report operator()(const GoniometricLight& l) const { return of(l.intensity); }
+  Report operator()(const DistantLight& l) const { return of(l.irradiance); }
+  Report operator()(const InfiniteLight& l) const { return of(l.radiance); }
+  Report operator()(const EnvironmentLight& l) const { return of(l.scale); }
+  // Of a plane that faces up, lit by the sky alone.
+  Report operator()(const SkyLight& l) const { return of(spectrum_of_bands(SkyModel(l).sky_irradiance())); }
+
+ private:
+  // `flux`: over the luminance; 0: not told.
+  static Report of(const Spectrum& s, double flux = 0) {
+    const double y = luminance(s);
+    return {{"luminance", y}, {"area", nullptr}, {"power", flux > 0 ? Report(flux * y) : Report(nullptr)}};
+  }
+};
+
+// `power` is ȳ-weighted: π·A·L of an area light (twice that if two-sided), 4π·I of a point light.
+Report describe_lights(const Manifest& m) {
+  Report lights = Report::array();
+  const std::vector<double> areas = emitting_areas(m);
+  for (std::size_t i = 0; i < areas.size(); ++i) {
+    const AreaLight& l = m.area_lights[i];
+    const Report y = luminance_of(l.radiance);
+    const double sides = l.two_sided ? 2 : 1;
+    lights.push_back(
+        {{"kind", l.two_sided ? "area, both sides" : "area"},
+         {"luminance", y},
+         {"area", areas[i]},
+         {"power", y.is_null() ? y : Report(std::numbers::pi * areas[i] * y.get<double>() * sides)}});
+  }
+  for (const Light& light : m.lights) {
+    Report described{{"kind", kind_of(light.model)}};
+    described.update(std::visit(LightDescriber{}, light.model));
+    lights.push_back(std::move(described));
+  }
+  return lights;
+}
+
+template <class Condition>
+std::string materials_that(const Manifest& m, const char* what, Condition condition) {
+  std::size_t count = 0, first = 0;
+  for (std::size_t i = 0; i < m.materials.size(); ++i)
+    if (condition(m.materials[i]) && count++ == 0) first = i;
+  return fmt::format("yes: {} of {} materials {}, the first is number {}", count, m.materials.size(), what,
+                     first);
+}
+
+template <class Model>
+bool is(const Material& material) {
+  return std::holds_alternative<Model>(material.model);
+}
+
+std::string why_see_through(const Manifest& m) {
+  const auto sheer = [](const Material& x) {
+    const auto* d = std::get_if<DielectricMaterial>(&x.model);
+    return (d && d->priority != 0) || is<InterfaceMaterial>(x) || is<MaskMaterial>(x) ||
+           is<ThinDielectricMaterial>(x);
+  };
+  const auto partly =
+      std::ranges::count_if(m.surfaces, [](const Surface& s) { return s.opacity != FloatParameter{1.0f}; });
+  if (partly > 0) return fmt::format("yes: {} of {} surfaces are there in part", partly, m.surfaces.size());
+  return materials_that(m, "let light straight through", sheer);
+}
+
+// What the scene asks of a renderer, and why.
+Report describe_requirements(const Manifest& m) {
+  const Requirements& r = m.requirements;
+  const auto disperses = [](const Material& x) {
+    const auto* d = std::get_if<DielectricMaterial>(&x.model);
+    return d && !(is_constant(d->eta) && is_constant(d->exterior_eta));
+  };
+  return {
+      {"shading_normals", r.shading_normals ? "yes: a mesh in use has normals at its vertices" : "no"},
+      {"uv", r.uv ? "yes: a texture, a tangent or a bump is looked up by (u,v)" : "no"},
+      {"filtering", r.filtering ? "yes: an image asks for it" : "no"},
+      {"textures", m.texture_files.empty() ? "no" : fmt::format("yes: {} images", m.texture_files.size())},
+      {"mesh_attributes", m.attributes == 0 ? "no" : fmt::format("yes: {} values a vertex", m.attributes)},
+      {"refraction", r.refraction ? materials_that(m, "are dielectric", is<DielectricMaterial>) : "no"},
+      {"dispersion", r.dispersion ? materials_that(m, "refract by wavelength", disperses) : "no"},
+      {"see_through", r.see_through ? why_see_through(m) : "no"},
+      {"media", r.media ? fmt::format("yes: {}", m.media.size()) : "no"}};
+}
+
+std::string integrator_of(const RenderSettings& s) {
+  if (s.direct_only) return "direct";
+  if (!s.photons) return "path";
+  const PhotonSettings& p = *s.photons;
+  return fmt::format("photon: {} an iteration, first radius {}, alpha {}",
+                     p.photons ? fmt::to_string(*p.photons) : "as many as pixels",
+                     p.first_radius ? fmt::to_string(*p.first_radius) : "by the extent",
+                     p.alpha.value_or(2.0 / 3));
+}
+
+Report describe_view(const Manifest& m) {
+  const FilmSettings& f = m.film;
+  return {{"camera", kind_of(m.camera)},
+          {"pixels", fmt::format("{} × {}", f.width, f.height)},
+          {"crop", {f.crop.x0, f.crop.x1, f.crop.y0, f.crop.y1}},
+          {"layers", names_of(f.layers)},
+          {"samples_per_pixel", m.settings.samples_per_pixel},
+          {"max_depth", m.settings.max_depth},
+          {"integrator", integrator_of(m.settings)},
+          {"rgb", m.settings.rgb == RgbMethod::matrix_r ? "matrix-r" : "jakob-hanika"}};
+}
+
+Report describe_diagnostics(const Diagnostics& diagnostics) {
+  Report list = Report::array();
+  for (const Diagnostic& d : diagnostics)
+    list.push_back({{"fidelity", d.fidelity == Fidelity::dropped ? "dropped" : "approximated"},
+                    {"where", to_string(d.location)},
+                    {"what", d.message}});
+  return list;
+}
+
+// What was asked for, "glazing" or "sampling", as the film tells; `otherwise` where nothing was.
+std::string asked_of(const FilmProgress& progress, const char* what, const char* otherwise) {
+  const Report about = Report::parse(progress.about, nullptr, false);
+  return about.is_object() && about.contains(what) && about[what].is_string() ? about[what].get<std::string>()
+                                                                              : otherwise;
+}
+
+}  // namespace
+
+Report describe(const Manifest& m) {
+  Report r;
+  r["scene_hash"] = fmt::format("{:016x}", m.scene_hash);
+  r["triangles"] = m.triangles;
+  r["surfaces"] = m.surfaces.size();
+  if (!m.bounds.empty()) {
+    r["bounds_lower"] = triple(cast<double>(m.bounds.lower) + m.offset);
+    r["bounds_upper"] = triple(cast<double>(m.bounds.upper) + m.offset);
+  }
+  r["requires"] = describe_requirements(m);
+  r["materials"] = Report::array();
+  for (const Material& material : m.materials) r["materials"].push_back(describe(material));
+  r["emissive_triangles"] = m.emissive_triangles.size();
+  r["lights"] = describe_lights(m);
+  r["view"] = describe_view(m);
+  return r;
+}
+
+Report inspect_scene(const std::filesystem::path& file, const ImportOptions& options) {
+  const ImportedScene imported = import_scene(file, MeshMemory{}, {}, options);
+  const Scene& s = imported.scene;
+  Report r{{"file", file.string()}, {"kind", "scene"}};
+  r["meshes"] = s.meshes.size();
+  r["shapes"] = s.shapes.size();
+  r["quadrics"] = quadric_counts(s);
+  r["prototypes"] = s.prototypes.size();
+  r["instances"] = s.instances.size();
+  r["mesh_bytes"] = mesh_bytes(s);
+  r["needs"] = describe_needs(s);
+  r["materials_of_the_scene"] = describe_materials(s);
+  r["textures"] = describe_textures(s);
+  r["media"] = describe_media(s);
+  r["open_glass"] = describe_open_glass(s);
+  r.update(describe(flatten(s, {}, {.keep_instances = true}).manifest));
+  r["not_exact"] = describe_diagnostics(imported.diagnostics);
+  r["not_rendered_exactly"] = describe_diagnostics(appearance_of(s, {}).diagnostics);
+  return r;
+}
+
+Report inspect_film(const std::filesystem::path& file) {
+  FilmProgress progress;
+  const Film film = read_film(file, &progress);
+  const auto pixels = film.pixels();
+  std::uint64_t least = pixels ? film.samples(0) : 0, most = 0, sum = 0;
+  double luminance = 0;
+  for (std::uint32_t i = 0; i < pixels; ++i) {
+    least = std::min(least, film.samples(i));
+    most = std::max(most, film.samples(i));
+    sum += film.samples(i);
+    luminance += film.mean(i).y;
+  }
+  const PixelRect& crop = film.crop();
+  return {{"file", file.string()},
+          {"kind", "film"},
+          {"pixels", fmt::format("{} × {}", film.full_width(), film.full_height())},
+          {"crop", {crop.x0, crop.x1, crop.y0, crop.y1}},
+          {"complete", progress.complete()},
+          {"adaptive", progress.adaptive},
+          {"samples_per_pixel_asked", progress.samples_per_pixel},
+          {"samples_per_pixel_least", least},
+          {"samples_per_pixel_most", most},
+          {"samples", sum},
+          {"mean_luminance", pixels ? luminance / pixels : 0},
+          {"nonfinite_samples", film.refused().nonfinite},
+          {"saturated_samples", film.refused().too_large},
+          {"render_time_s", progress.render_time_s},
+          {"seed", film.key().seed},
+          {"scene_hash", fmt::format("{:016x}", film.key().scene_hash)},
+          {"glazing", asked_of(progress, "glazing", "as the scene says")},
+          {"sampling", asked_of(progress, "sampling", "as usual")},
+          {"made_by", to_string(film.key().renderer)},
+          {"max_depth", film.key().max_depth},
+          {"integrator", film.key().direct_only           ? "direct"
+                         : film.key().photons.photons > 0 ? "photon"
+                                                          : "path"},
+          {"photons", film.key().photons.photons},
+          {"photon_radius", film.key().photons.first_radius},
+          {"photon_alpha", film.key().photons.alpha},
+          {"shared_error", film.shared_error()},
+          {"straight_counts", film.key().straight_counts},
+          {"clamp", film.key().clamp},
+          {"clamped_share", film.clamped_share()},
+          {"spectral_bins", film.bins().count},
+          {"layers", names_of(film.layers())},
+          {"layers_in_camera_space", film.layers().in_camera_space},
+          {"imaging_ratio", film.imaging_ratio()},
+          {"quantum", fmt::format("2^{}", film.exponent())},
+          {"film_hash", fmt::format("{:016x}", film.hash())}};
+}
+
+}  // namespace vitrail

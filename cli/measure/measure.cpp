@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+// vitrail measure: what each setting buys on this scene, and which to take.
+#include "measure/measure.h"
+
+#include <fmt/format.h>
+
+#include <csignal>
+
+#include "cli/common/main_guard.h"
+#include "cli/common/number_checks.h"
+#include "cli/common/progress_line.h"
+#include "cli/common/run_program.h"
+#include "cli/common/terminal.h"
+#include "measure/report.h"
+#include "measure/words.h"
+#include "scene/system/diagnostics.h"
+#include "scene/system/output_place.h"
+#include "scene/system/say.h"
+
+using namespace vitrail;
+
+namespace {
+
+volatile std::sig_atomic_t stop_number = 0;
+
+void catch_signals() {
+  for (const int number : {SIGINT, SIGTERM}) std::signal(number, [](int n) { stop_number = n; });
+}
+
+int run(const MeasureOptions& options, bool quiet) {
+  if (!std::filesystem::exists(options.scene)) throw Error("there is no such file", {options.scene.string()});
+  chosen_axes(known_axes({}), options.axes);  // refuses unknown names before any work
+  require_folder_of(options.folder);
+  require_own_page(options.folder);
+  std::filesystem::create_directories(options.folder);
+  catch_signals();
+  ProgressLine line(!quiet && on_terminal());
+  MeasureNews news;
+  news.say = [&](const std::string& text) {
+    line.clear();
+    if (!quiet) show("{}\n", text);
+    std::fflush(stdout);
+  };
+  news.progress = [&](double fraction, const char* what) { line.show(fraction, what); };
+  const Execute execute = [](const std::string& program, const std::vector<std::string>& arguments,
+                             const std::filesystem::path& standard_output) {
+    try {
+      run_program(
+          program, arguments, [] { return stop_number != 0; }, standard_output);
+    } catch (const Interrupted& e) {
+      throw Interrupted(e.signal, "stopped; the same command goes on where it was");
+    }
+    if (stop_number) throw Interrupted(stop_number, "stopped; the same command goes on where it was");
+  };
+  const Measurement m = measure(options, execute, news);
+  line.clear();
+  write_report(options, m);
+  if (quiet) return exit_done;
+  show("\n{}\n", table(m));
+  for (const std::string& finding : findings(m)) show("{}\n", finding);
+  show("\n");
+  for (std::size_t i = 1; i < m.settings.size(); ++i)
+    if (m.settings[i].changes() < 2 && !m.settings[i].again) show("{}\n", what_it_buys(m, m.settings[i]));
+  show("\n");
+  for (const Recommendation& r : m.recommendations) show("{}\n", advice(r));
+  show("{} shows it\n", (options.folder / "index.html").string());
+  return exit_done;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app(
+      "Measures what speed costs on a scene: renders it small with one setting changed at a time, against a "
+      "long "
+      "reference, and recommends. Interrupted, the same command goes on.",
+      "vitrail measure");
+  MeasureOptions options;
+  bool quiet = false;
+  app.add_option("input", options.scene, "a scene, or a bundle")->required();
+  app.add_option("-o,--output", options.folder,
+                 "folder to write: index.html, measure.json, and the renders that it rests on")
+      ->required();
+  app.add_option("--axes", options.axes,
+                 fmt::format("which settings to change, with commas between them, of {}; default: all",
+                             fmt::join(axis_names(), ", ")))
+      ->delimiter(',');
+  app.add_option("--error", options.error, "recommend the cheapest setting of at most this relMSE")
+      ->check(more_than_0);
+  app.add_option("--seconds", options.seconds,
+                 "recommend the most accurate setting that renders the whole picture within this time here")
+      ->check(more_than_0);
+  app.add_option(
+         "--bias", options.most_bias,
+         "recommend nothing that changes the picture's mean light by more than this share, or may: it "
+         "is compared with paths of any length")
+      ->check(more_than_0)
+      ->capture_default_str();
+  app.add_option("--budget", options.budget_s,
+                 "seconds that all may take, roughly; less than enough takes longer; rendering what is "
+                 "recommended with its own samples may take as long again")
+      ->check(more_than_0)
+      ->capture_default_str();
+  app.add_option("--ranks", options.farm.ranks,
+                 "of a cluster, whose seconds for the whole picture are planned of each setting; 0: none")
+      ->check(CLI::Range(0, 100000))
+      ->capture_default_str();
+  app.add_option("--threads", options.farm.threads, "of each of those ranks")
+      ->check(CLI::Range(1, 4096))
+      ->capture_default_str();
+  app.add_option("--width", options.width, "of the measured pictures, in pixels")
+      ->check(CLI::Range(16, 1 << 14))
+      ->capture_default_str();
+  app.add_option("--seeds", options.seeds, "pictures of each setting")
+      ->check(CLI::Range(3, 100))
+      ->capture_default_str();
+  app.add_option("--first-seed", options.first_seed, "of the pictures; of the reference: a million more")
+      ->group("");
+  app.add_option("--spp", options.spp, "samples of a measured picture; default: as --budget allows")
+      ->check(more_than_0);
+  app.add_option("--reference-spp", options.reference_spp,
+                 "samples of each half of the reference; default: 16 times those of a picture")
+      ->check(more_than_0);
+  app.add_flag("--every-combination", options.every_combination,
+               "measure all combinations of the axes, not only those that promise something: long");
+  app.add_flag("--quiet", quiet, "say nothing but what is wrong");
+  return end_with(run_guarded(app, argc, argv, [&] { return run(options, quiet); }));
+}

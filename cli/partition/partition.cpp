@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <atomic>
+#include <csignal>
+#include <iterator>
+
+#include "cli/common/bundle_origin.h"
+#include "cli/common/diagnostics_report.h"
+#include "cli/common/import_arguments.h"
+#include "cli/common/layer_names.h"
+#include "cli/common/main_guard.h"
+#include "cli/common/mesh_options.h"
+#include "cli/common/progress_line.h"
+#include "cli/common/sizes.h"
+#include "cli/common/switching_glazing.h"
+#include "cli/common/terminal.h"
+#include "cli/common/within_memory.h"
+#include "cli/partition/partition_arguments.h"
+#include "cli/partition/partition_report.h"
+#include "importers/import.h"
+#include "partitioner/appearance/appearance.h"
+#include "partitioner/meshes/edit_meshes.h"
+#include "scene/system/input_files.h"
+#include "scene/system/output_place.h"
+#include "scene/system/say.h"
+
+namespace vitrail {
+namespace {
+
+std::atomic<int> stop_signal{0};
+
+void on_signal(int number) { stop_signal = number; }
+
+void catch_signals() {
+  struct sigaction action {};
+  action.sa_handler = on_signal;
+  for (const int number : {SIGINT, SIGTERM}) ::sigaction(number, &action, nullptr);
+}
+
+// Stops the work on a signal; on a terminal shows where it stands.
+class Watch {
+ public:
+  Watch(bool visible, Stage& stage) : line_(visible), stage_(stage) {}
+
+  void operator()(double fraction, const char* what) {
+    if (stop_signal) throw Interrupted(stop_signal, "interrupted; nothing is left of the bundle");
+    stage_.what = what;
+    if (fraction < 1)
+      line_.show(fraction, what);
+    else
+      line_.clear();
+  }
+
+ private:
+  ProgressLine line_;
+  Stage& stage_;
+};
+
+std::uint64_t triangles_of(const Scene& scene) {
+  const auto sum = [&](const std::vector<Shape>& shapes) {
+    std::uint64_t triangles = 0;
+    for (const Shape& shape : shapes) triangles += vitrail::triangles_of(scene.meshes[shape.mesh.value]);
+    return triangles;
+  };
+  std::uint64_t triangles = sum(scene.shapes);
+  for (const Instance& instance : scene.instances)
+    triangles += sum(scene.prototypes[instance.prototype.value].shapes);
+  return triangles;
+}
+
+// Some more than triangles may be of use, to see that the picture does not change; many more are a mistake.
+void require_sense(const PartitionArguments& a, const Scene& scene) {
+  constexpr std::uint64_t always = 4096, a_triangle = 4;
+  const std::uint64_t triangles = triangles_of(scene);
+  if (a.options.domains > std::max(always, a_triangle * triangles))
+    throw UsageError(
+        fmt::format("{} domains for {} triangles: most would be empty", a.options.domains, triangles));
+}
+
+// The same scene's bundle is replaced as a matter of course; another one may have taken hours. One without an
+// origin is that of a job that was killed before it could say it.
+void require_no_other(const PartitionArguments& a) {
+  if (a.force || !std::filesystem::exists(a.output / "manifest.json")) return;
+  const std::string scene = read_bundle_origin(a.output).scene;
+  std::error_code gone;
+  if (scene.empty() || scene == std::filesystem::absolute(a.input) ||
+      std::filesystem::equivalent(scene, a.input, gone))
+    return;
+  throw Error(fmt::format("it is a bundle of {}; --force replaces it", scene), {a.output.string()});
+}
+
+void interpret(PartitionArguments& a) {
+  if (!a.domain_bytes.empty()) {
+    a.options.domain_bytes = parse_bytes(a.domain_bytes);
+    if (a.options.domain_bytes == 0) throw UsageError("--domain-bytes has to be more than 0");
+  }
+  note_input(a.input);
+  require_folder_of(a.output.has_filename() ? a.output : a.output.parent_path());
+  require_no_other(a);
+  if (!a.stats.empty()) require_place(a.stats);
+  if (!a.profile.empty()) a.options.profile = read_ray_profile(a.profile);
+  if (!a.aov.empty()) a.layers = parse_layers(a.aov);
+  a.options.memory_bytes = a.memory.empty() ? default_memory_bytes() : parse_bytes(a.memory);
+}
+
+int run(PartitionArguments& a, Stage& stage) {
+  const std::uint64_t kept_bytes =
+      a.options.domains_at_once > 0 ? 0 : mesh_bytes_within(a.options.memory_bytes);
+  const bool visible = !a.quiet && (a.progress == "bar" || (a.progress == "auto" && on_terminal()));
+  Watch reading(visible, stage);
+  tbb::task_arena arena(a.options.threads > 0 ? a.options.threads : tbb::task_arena::automatic);
+  ImportedScene imported = arena.execute([&] {
+    return import_scene(
+        a.input, MeshMemory(kept_bytes),
+        [&](double fraction) {
+          stage.fraction = fraction;
+          reading(std::min(fraction, 0.99), "reading the scene");
+        },
+        import_options(a.imports));
+  });
+  imported.scene.settings.rgb = rgb_method(a.rgb);
+  stage = {"preparing the scene", 0, to_string(ledger_of(imported.scene))};
+  Diagnostics diagnostics = std::move(imported.diagnostics);
+  std::ranges::copy(appearance_of(imported.scene, {}).diagnostics, std::back_inserter(diagnostics));
+  if (!a.quiet) say("{}", summarise(diagnostics));
+  if (a.strict) require_exact(diagnostics);
+  require_sense(a, imported.scene);
+  if (a.layers) imported.scene.film.layers.bits = a.layers->bits;
+  if (!a.quiet && a.summary && imported.scene.lights.empty() && imported.scene.area_lights.empty())
+    say("vitrail: {} has no light: its picture is black\n", a.input.string());
+  const MeshResources resources{kept_bytes, a.options.memory_bytes, a.options.threads};
+  const Diagnostics edits = apply_mesh_options(a.meshes, imported.scene, resources);
+  if (!a.quiet) say("{}", summarise(edits));
+  a.options.glazings = switching_glazings(imported.scene);
+  catch_signals();
+  Watch watch(visible, stage);
+  const PartitionStats stats = partition(imported.scene, a.output, a.options, std::ref(watch));
+  if (a.summary) write_bundle_origin(a.output, origin_of(a));
+  if (!a.stats.empty()) write_stats(a.stats, stats);
+  if (!a.quiet && a.summary) print_summary(stats, a.output);
+  return exit_done;
+}
+
+}  // namespace
+}  // namespace vitrail
+
+int main(int argc, char** argv) {
+  using namespace vitrail;
+  CLI::App app("cuts a scene into sub-domains that each fit into memory: a bundle", "vitrail partition");
+  PartitionArguments arguments;
+  declare(app, arguments);
+  return end_with(run_guarded(app, argc, argv, [&] {
+    interpret(arguments);
+    Stage stage{"reading the scene"};
+    return within_memory(arguments.options.memory_bytes, stage, [&] { return run(arguments, stage); });
+  }));
+}

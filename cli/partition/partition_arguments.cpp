@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/partition/partition_arguments.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+
+#include "cli/common/layer_names.h"
+
+namespace vitrail {
+
+void declare(CLI::App& app, PartitionArguments& a) {
+  app.add_option("input", a.input, "scene file")->required();
+  app.add_option("-o,--output", a.output, "bundle to write (NAME.vit)")->required();
+  auto* domains =
+      app.add_option("--domains", a.options.domains, "number of sub-domains; default: as --domain-bytes says")
+          ->check(CLI::Range(1, 999'999));
+  app.add_option("--domains-at-once", a.options.domains_at_once)->group("");
+  app.add_flag("--require-everything", a.options.everything,
+               "as if the scene required all that there is: to measure what the analysis saves");
+  app.add_flag("--median-cuts", a.options.median,
+               "halve the triangles at every cut: to measure what cuts by cost save");
+  app.add_flag("--flatten", a.options.flatten, "copy what instances place instead of keeping them");
+  app.add_option("--domain-bytes", a.domain_bytes, "size of a sub-domain, e.g. 256M; default: 64M")
+      ->excludes(domains);
+  app.add_option(
+      "--memory", a.memory,
+      "most memory to use, e.g. 512M; default: three quarters of the machine's. A larger scene goes to "
+      "disk beside the bundle on its way");
+  app.add_flag("--no-sync{false}", a.options.durable, "do not wait until the bundle is on the disk");
+  app.add_option("--threads", a.options.threads, "threads; default: all cores")->check(CLI::Range(1, 4096));
+  app.add_option("--stats", a.stats, "write statistics as JSON");
+  app.add_option("--profile", a.profile,
+                 "where the rays of an earlier render of this scene went (`render --profile`): cut for them");
+  app.add_option("--aov", a.aov, layers_help);
+  declare_import_options(app, a.imports);
+  declare_rgb_option(app, a.rgb);
+  declare_mesh_options(app, a.meshes);
+  app.add_flag("--force", a.force, "replace a bundle of another scene");
+  app.add_flag("--strict", a.strict, "fail if anything in the scene is not imported exactly");
+  app.add_option("--progress", a.progress, "bar, none, or auto: a bar on a terminal")
+      ->check(CLI::IsMember({"auto", "bar", "none"}))
+      ->capture_default_str();
+  app.add_flag("--no-summary{false}", a.summary)->group("");
+  app.add_flag("--quiet", a.quiet, "say nothing but what is wrong");
+}
+
+BundleOrigin origin_of(const PartitionArguments& a) {
+  std::vector<std::string> words = arguments_of(a.meshes);
+  if (a.options.domains > 0) words.push_back(fmt::format("--domains {}", a.options.domains));
+  if (!a.domain_bytes.empty()) words.push_back("--domain-bytes " + a.domain_bytes);
+  if (a.options.flatten) words.push_back("--flatten");
+  if (a.options.median) words.push_back("--median-cuts");
+  if (a.options.everything) words.push_back("--require-everything");
+  if (!a.aov.empty()) words.push_back("--aov " + a.aov);
+  if (!a.profile.empty()) words.push_back("--profile " + a.profile.string());
+  std::ranges::copy(arguments_of(a.imports), std::back_inserter(words));
+  if (a.rgb != usual_rgb) words.push_back("--rgb=" + a.rgb);
+  return {std::filesystem::absolute(a.input).string(), "", fmt::format("{}", fmt::join(words, " "))};
+}
+
+}  // namespace vitrail

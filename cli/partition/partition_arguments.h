@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// The command line of `vitrail partition`.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include "cli/common/bundle_origin.h"
+#include "cli/common/import_arguments.h"
+#include "cli/common/mesh_options.h"
+#include "partitioner/partition.h"
+
+namespace vitrail {
+
+struct PartitionArguments {
+  std::filesystem::path input, output, stats, profile;
+  std::string domain_bytes, memory, aov, progress = "auto";
+  bool force = false, strict = false, quiet = false, summary = true;
+  ImportArguments imports;
+  std::string rgb = usual_rgb;
+  MeshOptions meshes;
+  std::optional<FilmLayers> layers;  // none: the scene's
+  PartitionOptions options{.durable = true};
+};
+
+void declare(CLI::App& app, PartitionArguments& arguments);
+
+// What the bundle will say that it was made of, and how.
+BundleOrigin origin_of(const PartitionArguments& arguments);
+
+}  // namespace vitrail

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/render/job_limits.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+
+#include "scene/system/say.h"
+
+namespace vitrail {
+
+namespace {
+
+// Of "4", and of "4(x2),3" the first: this node's number is not told, and the first has the most.
+std::uint64_t number(const char* variable) {
+  const char* text = std::getenv(variable);
+  return text ? std::strtoull(text, nullptr, 10) : 0;
+}
+
+std::uint64_t ranks_of_node() {
+  for (const char* variable : {"OMPI_COMM_WORLD_LOCAL_SIZE", "SLURM_STEP_TASKS_PER_NODE"})
+    if (const std::uint64_t ranks = number(variable)) return ranks;
+  return 1;
+}
+
+std::uint64_t memory_of_node() {
+  constexpr std::uint64_t mib = 1 << 20;
+  if (const std::uint64_t node = number("SLURM_MEM_PER_NODE")) return node * mib;
+  return number("SLURM_MEM_PER_CPU") * number("SLURM_CPUS_ON_NODE") * mib;
+}
+
+// What squeue calls the time left: [[days-]hours:]minutes:seconds. 0 for words such as UNLIMITED.
+double parse_duration_s(const std::string& text) {
+  double s = 0, part = 0;
+  for (const char c : text) {
+    if (c >= '0' && c <= '9')
+      part = part * 10 + (c - '0');
+    else if (c == '-')
+      s = part * 24, part = 0;  // days, in hours
+    else if (c == ':')
+      s = (s + part) * 60, part = 0;
+    else if (c != '\n')
+      return 0;
+  }
+  return s + part;
+}
+
+// Newer Slurms say when the job ends, older ones have to be asked.
+double time_left_s() {
+  if (const std::uint64_t end = number("SLURM_JOB_END_TIME")) {
+    const auto now = std::chrono::system_clock::now().time_since_epoch();
+    return std::max(1.0, static_cast<double>(end) - std::chrono::duration<double>(now).count());
+  }
+  const std::string ask = fmt::format("timeout 5 squeue -h -o %L -j {} 2>/dev/null", number("SLURM_JOB_ID"));
+  std::FILE* answer = ::popen(ask.c_str(), "r");
+  if (!answer) return 0;
+  std::array<char, 64> text{};
+  const bool answered = std::fgets(text.data(), text.size(), answer) != nullptr;
+  ::pclose(answer);
+  return answered ? parse_duration_s(text.data()) : 0;
+}
+
+// A checkpoint is to be on the disk before the job is killed: a tenth of the time for it, a minute at most.
+double time_to_work_s(double left_s) { return std::max(1.0, left_s - std::min(60.0, left_s / 10)); }
+
+}  // namespace
+
+void take_limits_of_job(RenderOptions& o, bool rank_0) {
+  const bool say_so = rank_0 && !o.quiet;
+  if (number("SLURM_JOB_ID") == 0) return;
+  constexpr double mib = 1 << 20;
+  const std::uint64_t memory = memory_of_node() / ranks_of_node() / 10 * 9;
+  if (memory > 0 && o.memory_bytes == 0) {
+    o.memory_bytes = memory;
+    if (say_so)
+      say("vitrail: {:.0f} MiB a rank, as Slurm gives this job\n", static_cast<double>(memory) / mib);
+  }
+  if (!rank_0 || o.time_limit_s > 0) return;
+  if (const double left_s = time_left_s(); left_s > 0) {
+    o.stop_after_s = time_to_work_s(left_s);
+    if (say_so)
+      say("vitrail: stops with a checkpoint after {:.0f} s, as Slurm ends this job then\n", o.stop_after_s);
+  }
+}
+
+}  // namespace vitrail

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/render/preview.h"
+
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <string>
+
+#include "cli/common/run_program.h"
+
+namespace vitrail {
+
+Preview::~Preview() {
+  if (developing_ > 0) ::waitpid(developing_, nullptr, 0);
+}
+
+bool Preview::busy() {
+  if (developing_ > 0 && ::waitpid(developing_, nullptr, WNOHANG) == 0) return true;
+  developing_ = 0;
+  return false;
+}
+
+void Preview::develop(const std::filesystem::path& film) {
+  if (busy()) return;
+  std::array<std::string, 5> words{(program_folder() / "vitrail-develop").string(), film.string(), "-o",
+                                   picture_.string(), "--quiet"};
+  std::array<char*, 6> argv{};
+  for (std::size_t i = 0; i < words.size(); ++i) argv[i] = words[i].data();
+  if (::posix_spawn(&developing_, argv[0], nullptr, nullptr, argv.data(), environ) != 0) developing_ = 0;
+}
+
+}  // namespace vitrail

@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/render/render_arguments.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <iterator>
+
+#include "cli/common/default_output.h"
+#include "cli/common/distribution.h"
+#include "cli/common/layer_names.h"
+#include "cli/common/number_checks.h"
+#include "cli/common/rectangle.h"
+#include "cli/common/sizes.h"
+#include "cli/common/switching_glazing.h"
+#include "cli/common/terminal.h"
+#include "cli/render/quality.h"
+#include "scene/system/diagnostics.h"
+
+namespace vitrail {
+
+void declare(CLI::App& app, RenderArguments& a) {
+  RenderOptions& o = a.options;
+  app.add_option("input", a.input, "a bundle (NAME.vit) or a scene, which is partitioned first")->required();
+  app.add_option("-o,--output,--outfile", a.output,
+                 "picture (.exr, .png, .jpg, .tif) or film (.film); default: as the scene's film says, else "
+                 "the input's name with .exr, here");
+  app.add_option("--spp", o.samples_per_pixel, "samples a pixel; default: as the scene says")
+      ->check(more_than_0);
+  app.add_flag("--adaptive,!--no-adaptive", o.adaptive,
+               "more samples where the picture is noisy, fewer elsewhere; --spp is the mean then");
+  app.add_option(
+      "--target-error", a.target_error,
+      "render until the relative mean squared error of luminance is below this, e.g. 0.01, or what "
+      "is seen of it, e.g. 1jnd: one just noticeable difference; --spp is the most then");
+  app.add_option("--quality", a.quality,
+                 "draft, good or final: until noise is seen, hardly seen or not seen; sets --target-error, "
+                 "--spp and --adaptive where they are not given")
+      ->check(CLI::IsMember(qualities()));
+  app.add_option(
+         "--max-depth", a.max_depth,
+         "scattering events of a path; 0: emitters only, 1: direct light, -1: no limit; default: as the "
+         "scene says")
+      ->check(CLI::Range(-1, 1'000'000));
+  app.add_option("--width", o.width, "pixels; default: as the scene says, or in proportion to --height")
+      ->check(CLI::Range(1, 1 << 20));
+  app.add_option("--height", o.height, "pixels; default: as the scene says, or in proportion to --width")
+      ->check(CLI::Range(1, 1 << 20));
+  app.add_option("--scale", o.scale, "times the width and height that the scene says")
+      ->check(CLI::Range(1e-3, 1e3))
+      ->capture_default_str();
+  app.add_option("--seed", o.seed, "films of different seeds are independent")
+      ->check(not_below_0)
+      ->capture_default_str();
+  app.add_option("--integrator", a.integrator,
+                 "path; direct: light from lamps alone, also through glass and by mirrors; or photon: photon "
+                 "mapping, "
+                 "for caustics; default: as the scene says")
+      ->check(CLI::IsMember({"path", "direct", "photon"}));
+  declare_sample_options(app, a.samples);
+  app.add_option("--set", a.settings,
+                 "NAME.state=0.6: glass that switches in another state, without partitioning again; also "
+                 "NAME.temperature (°C), NAME.uv (W/m²), NAME.seconds; may repeat")
+      ->allow_extra_args(false);
+  app.add_option("--threshold", o.threshold,
+                 "of --integrator direct: end a path that brings less than this share of what it sees, e.g. "
+                 "0.01; no pixel becomes darker by more than this share of the brightest that is seen")
+      ->check(CLI::Range(0.0, 0.999))
+      ->capture_default_str();
+  app.add_option(
+         "--photons", o.photons.photons,
+         "of --integrator photon, an iteration, which is a sample of every pixel; default: as the scene "
+         "says, else as many as the picture has pixels, at least 65536")
+      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 31));
+  app.add_option(
+         "--photon-radius", o.photons.first_radius,
+         "around a point in which the first iteration gathers photons, in scene units; default: as the "
+         "scene says, else by its extent and their number")
+      ->check(more_than_0);
+  app.add_option(
+         "--photon-alpha", o.photons.alpha,
+         "between 0 and 1: how fast the radius shrinks, from fast and noisy to slow and blurred; default: "
+         "as the scene says, else 0.667")
+      ->check(CLI::Range(0.01, 0.99));
+  app.add_option("--memory", a.memory, "most memory a rank may use, e.g. 512M or 2G; default: no limit");
+  app.add_option("-t,--threads,--nthreads", o.threads, "worker threads a rank; default: all cores")
+      ->check(CLI::Range(1, 4096));
+  declare_distribution(app, o.distribution, o.homes);
+  app.add_option("--crop,--pixelbounds", a.crop, "x0,x1,y0,y1 in pixels from the top left; default: all");
+  app.add_option(
+         "--spectral", a.bins,
+         "keep the spectrum of each pixel in this many bins over 360 to 830 nm; default: as the scene says")
+      ->check(CLI::Range(1, max_spectral_bins));
+  app.add_option(
+         "--clamp", o.clamp,
+         "cut what one connection of a path adds to a sample down to this, in the picture's units: fewer "
+         "bright specks, but a darker picture, and the film says by how much; 0: no limit")
+      ->check(not_below_0)
+      ->capture_default_str();
+  app.add_option("--aov", a.aov, layers_help);
+  app.add_option("--aov-space", a.aov_space,
+                 "world or camera: of positions and normals of --aov; default: as the scene says, else world")
+      ->check(CLI::IsMember({"world", "camera"}));
+  app.add_option(
+         "--patience", o.patience_s,
+         "seconds; a rank that does not answer for so long is named and ends the job; default 600, 0: never")
+      ->check(not_below_0);
+  app.add_option("--checkpoint-every", o.checkpoint_every_s,
+                 "seconds between checkpoints; 0: none but those that signals ask for")
+      ->check(not_below_0)
+      ->capture_default_str();
+  app.add_flag(
+      "--resume", o.resume,
+      "say so where there is nothing to go on from; going on with a render that was begun, or adding "
+      "samples to a finished one, needs no option");
+  app.add_flag("--force", o.force, "replace the film, checkpoint or picture that has the output's name");
+  app.add_option("--time", o.time_limit_s,
+                 "end after this many seconds, partitioning and the picture's file included, with what there "
+                 "is, and without --spp not before; the same command then goes on. Tracing has half of them "
+                 "at least, and some samples are always finished")
+      ->check(more_than_0);
+  app.add_flag("--dry-run", o.dry_run,
+               "render for a few seconds, write nothing, and say what memory and time it would all take");
+  app.add_option(
+         "--restarts", a.restarts,
+         "start again as often as this where the render is killed or the machine fails it; it goes on "
+         "from its checkpoint")
+      ->check(CLI::Range(0, 1'000'000));
+  app.add_option("--launcher", a.launcher, "with --restarts: what starts the ranks, e.g. 'mpirun -np 8'");
+  app.add_option(
+      "--sensors", o.sensors,
+      "measure irradiance instead of a picture: a text of x y z nx ny nz lines, or plane O U V NXxNY; "
+      "each sensor gets 16 times --spp samples; develop writes the .csv");
+  app.add_option("--preview", a.preview,
+                 "a picture of each checkpoint, .png or another, while the render goes on");
+  app.add_option("--stats", o.stats, "write statistics as JSON");
+  app.add_option("--profile", o.profile, "write where rays went, for `partition --profile` and `plan`");
+  app.add_option("--trace", o.trace,
+                 "write what each thread of each rank did when: loads, batches, idleness, messages; opens in "
+                 "Perfetto (ui.perfetto.dev)");
+  declare_import_options(app, a.imports);
+  declare_rgb_option(app, a.rgb);
+  declare_mesh_options(app, a.meshes);
+  app.add_option("--progress", a.progress,
+                 "bar; lines: one a minute; json: lines of it on standard output, the last with the event "
+                 "\"end\"; none; auto: a bar on a terminal, else lines")
+      ->check(CLI::IsMember({"auto", "bar", "lines", "json", "none"}))
+      ->capture_default_str();
+  app.add_flag("--strict", a.strict, "refuse a scene that is not imported exactly");
+  app.add_flag("--quiet", a.quiet, "say nothing but what is wrong");
+  app.add_option("--shuffle-delivery", o.shuffle_seed)->group("");
+  app.add_option("--domain-memory", o.domain_memory_bytes)->group("");
+}
+
+void RenderArguments::name_outputs() {
+  if (output.empty()) output = default_output(input);
+  options.film = std::filesystem::path(output).replace_extension(".film");
+}
+
+bool RenderArguments::is_bundle() const {
+  return std::filesystem::exists(input / "manifest.json") || input.extension() == ".vit";
+}
+
+namespace {
+
+void require_renderable(const RenderArguments& a) {
+  const std::string name = a.input.string();
+  std::error_code unknown;
+  if (!std::filesystem::exists(a.input, unknown))
+    throw Error(a.is_bundle() ? "there is no such bundle; vitrail partition makes one of a scene"
+                              : "there is no such file",
+                {name});
+  if (a.input.extension() == ".film")
+    throw Error("this is a film, which was rendered already: vitrail develop makes a picture of it", {name});
+  if (std::filesystem::is_directory(a.input, unknown) && !std::filesystem::exists(a.input / "manifest.json"))
+    throw Error("this folder is no bundle: it has no manifest.json", {name});
+  if (a.meshes.any() && a.is_bundle())
+    throw UsageError("the meshes of a bundle stay as they are: give " + arguments_of(a.meshes)[0] +
+                     " to partition");
+  if (const auto words = arguments_of(a.imports); !words.empty() && a.is_bundle())
+    throw UsageError("what a bundle was made of is not read again: give " + words[0] + " to partition");
+  if (a.rgb != usual_rgb && a.is_bundle())
+    throw UsageError("what a bundle was made of is not read again: give --rgb to partition");
+  if (a.strict && a.is_bundle())
+    throw UsageError("what a bundle was made of is not read again: give --strict to partition");
+}
+
+void prepare_dry_run(RenderOptions& o) {
+  constexpr double long_enough_s = 3;
+  o.time_limit_s = long_enough_s;
+  o.checkpoint_every_s = 0;
+  o.progress = ProgressMode::none;
+  o.stats.clear(), o.profile.clear(), o.trace.clear();
+}
+
+TargetError parse_target_error(const std::string& text) {
+  constexpr std::string_view unit = "jnd";
+  TargetError target;
+  target.just_noticeable = text.ends_with(unit);
+  const std::string number = target.just_noticeable ? text.substr(0, text.size() - unit.size()) : text;
+  const auto [end, failed] = std::from_chars(number.data(), number.data() + number.size(), target.value);
+  if (failed != std::errc() || end != number.data() + number.size() || !(target.value > 0) ||
+      !std::isfinite(target.value))
+    throw UsageError("--target-error takes a number above 0, such as 0.01 or 1jnd: " + text);
+  return target;
+}
+
+ProgressMode progress_mode(const RenderArguments& a) {
+  if (a.progress == "json") return ProgressMode::json;
+  if (a.quiet || a.progress == "none") return ProgressMode::none;
+  if (a.progress == "auto") return on_terminal() ? ProgressMode::bar : ProgressMode::lines;
+  return a.progress == "bar" ? ProgressMode::bar : ProgressMode::lines;
+}
+
+}  // namespace
+
+void interpret(const CLI::App& app, RenderArguments& a) {
+  require_renderable(a);
+  a.name_outputs();
+  const std::string extension = a.output.extension().string();
+  constexpr const char* known[] = {".exr", ".png", ".jpg", ".jpeg", ".tif", ".tiff", ".film"};
+  const bool is_table = extension == ".csv" && !a.options.sensors.empty();
+  if (!a.options.sensors.empty() && !is_table && extension != ".film")
+    throw UsageError("what sensors measure is written as .csv or kept as .film: " + a.output.string());
+  if (!is_table && std::ranges::find(known, extension) == std::end(known))
+    throw UsageError("the output must end in .exr, .png, .jpg, .tif or .film: " + a.output.string());
+  RenderOptions& o = a.options;
+  if (!a.memory.empty()) o.memory_bytes = parse_bytes(a.memory);
+  if (!a.crop.empty()) o.crop = parse_rectangle("--crop", a.crop);
+  if (a.bins > 0) o.bins = SpectralBins{a.bins};
+  if (!a.aov.empty()) o.layers = parse_layers(a.aov).bits;
+  if (!a.aov_space.empty()) o.layers_in_camera_space = a.aov_space == "camera";
+  if (app.count("--max-depth") > 0) o.max_depth = a.max_depth < 0 ? unlimited_depth : a.max_depth;
+  if (!a.integrator.empty())
+    o.integrator = a.integrator == "direct"   ? Integrator::direct
+                   : a.integrator == "photon" ? Integrator::photon
+                                              : Integrator::path;
+  o.samples = sample_choices(a.samples);
+  if (!a.target_error.empty()) o.target_error = parse_target_error(a.target_error);
+  if (!a.quality.empty()) apply_quality(a.quality, app.count("--adaptive") > 0, o);
+  o.progress = progress_mode(a);
+  o.quiet = a.quiet;
+  if (o.dry_run) prepare_dry_run(o);
+  parse_settings(a.settings);
+  o.glazing = fmt::format("{}", fmt::join(a.settings, " "));
+  o.scene_name = a.input.string();
+}
+
+std::vector<std::string> partition_arguments(const RenderArguments& a) {
+  std::vector<std::string> arguments = arguments_of(a.meshes);
+  arguments.insert(arguments.end(), {"--no-sync", "--no-summary"});
+  std::ranges::copy(arguments_of(a.imports), std::back_inserter(arguments));
+  if (a.rgb != usual_rgb) arguments.push_back("--rgb=" + a.rgb);
+  if (a.quiet) arguments.push_back("--quiet");
+  if (a.strict) arguments.push_back("--strict");
+  if (!a.aov.empty()) arguments.insert(arguments.end(), {"--aov", a.aov});
+  arguments.insert(arguments.end(), {"--progress", a.options.progress == ProgressMode::bar ? "bar" : "none"});
+  // It may have to load what reads images, of more than 100 MiB, and is gone when rendering begins.
+  constexpr std::uint64_t least = 256u << 20;
+  if (!a.memory.empty())
+    arguments.insert(arguments.end(), {"--memory", std::to_string(std::max(parse_bytes(a.memory), least))});
+  if (a.options.threads > 0)
+    arguments.insert(arguments.end(), {"--threads", std::to_string(a.options.threads)});
+  return arguments;
+}
+
+}  // namespace vitrail

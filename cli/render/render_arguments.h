@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// The command line of `vitrail render`.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include "cli/common/import_arguments.h"
+#include "cli/common/mesh_options.h"
+#include "cli/render/sample_arguments.h"
+#include "farm/options.h"
+
+namespace vitrail {
+
+struct RenderArguments {
+  std::filesystem::path input, output;
+  int bins = 0, max_depth = 0;
+  std::string memory, crop, integrator, aov, aov_space, target_error, quality, progress = "auto";
+  std::vector<std::string> settings;  // of --set
+  bool quiet = false, strict = false;
+  ImportArguments imports;
+  std::string rgb = usual_rgb;
+  MeshOptions meshes;
+  SampleArguments samples;
+  RenderOptions options;
+  int restarts = 0;
+  std::string launcher;  // empty: this process alone
+  std::filesystem::path preview;
+
+  bool is_bundle() const;
+  void name_outputs();  // the picture where the user names none, and its film
+};
+
+void declare(CLI::App& app, RenderArguments& arguments);
+
+// Fills in `options`, but for the bundle of a scene that is yet to be made. Throws UsageError, and Error
+// where the input is not what can be rendered.
+void interpret(const CLI::App& app, RenderArguments& arguments);
+
+// Of the program that makes the bundle of a scene.
+std::vector<std::string> partition_arguments(const RenderArguments& arguments);
+
+}  // namespace vitrail

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/render/sample_arguments.h"
+
+#include <charconv>
+
+#include "scene/system/diagnostics.h"
+
+namespace vitrail {
+
+namespace {
+
+constexpr double greatest_radius = 64;  // pixels
+
+// Of the same shape, but as wide; sinc's window ends there.
+template <class F>
+F widened(F filter, std::optional<double> radius) {
+  if (!radius) return filter;
+  if constexpr (std::is_same_v<F, GaussianFilter>) filter.sigma *= *radius / filter.radius_x;
+  if constexpr (std::is_same_v<F, SincFilter>) filter.tau = *radius;
+  filter.radius_x = filter.radius_y = *radius;
+  return filter;
+}
+
+Filter parse_filter(const std::string& text) {
+  const auto refuse = [&](const std::string& why) { return UsageError("--filter " + text + ": " + why); };
+  const std::size_t colon = text.find(':');
+  const std::string name = text.substr(0, colon);
+  std::optional<double> radius;
+  if (colon != std::string::npos) {
+    double value = 0;
+    const char *first = text.data() + colon + 1, *last = text.data() + text.size();
+    const auto [end, failed] = std::from_chars(first, last, value);
+    if (failed != std::errc() || end != last || !(value > 0 && value <= greatest_radius))
+      throw refuse("the radius is a number of pixels above 0 and up to 64, as in box:0.5");
+    radius = value;
+  }
+  if (name == "box") return widened(BoxFilter{}, radius);
+  if (name == "triangle" || name == "tent") return widened(TriangleFilter{}, radius);
+  if (name == "gaussian") return widened(GaussianFilter{}, radius);
+  if (name == "mitchell") return widened(MitchellFilter{}, radius);
+  if (name == "sinc" || name == "lanczos") return widened(SincFilter{}, radius);
+  throw refuse("there are box, triangle, gaussian, mitchell and sinc, each with :RADIUS if wanted");
+}
+
+}  // namespace
+
+void declare_sample_options(CLI::App& app, SampleArguments& a) {
+  app.add_option(
+      "--filter", a.filter,
+      "NAME or NAME:RADIUS in pixels: box, triangle, gaussian, mitchell or sinc over the samples of "
+      "a pixel; default: as the scene says");
+  app.add_flag("--splat", a.splat,
+               "each sample adds to all pixels that the filter reaches from it, by its values, instead of to "
+               "one: less noise, and neighbours alike; the border of a crop has what falls inside");
+  app.add_option("--texture-filter", a.texture_filter,
+                 "none: images are as fine far away as near; nearest: their texels are seen as squares too; "
+                 "default: as the scene says of each")
+      ->check(CLI::IsMember({"none", "nearest"}));
+  app.add_option(
+         "--roulette", a.roulette,
+         "paths end by chance once they carry less than all of a camera ray (early), less than a quarter of "
+         "it (usual), or not in the first 254 events (never): the same picture, quicker and noisier or "
+         "slower "
+         "and less so")
+      ->check(CLI::IsMember({"early", "usual", "never"}))
+      ->capture_default_str();
+  app.add_option("--wavelengths", a.wavelengths, "of a path: 4, or 1, which has more noise of colour")
+      ->check(CLI::IsMember({1, 4}))
+      ->capture_default_str();
+  app.add_option("--light-sampling", a.light_sampling,
+                 "choose among lamps by what each can send to a point (tree), or by their power alone, which "
+                 "is quicker where they are few")
+      ->check(CLI::IsMember({"tree", "power"}))
+      ->capture_default_str();
+  app.add_option("--light-candidates", a.light_candidates,
+                 "points on lamps that are looked at before one is connected to, where the camera sees the "
+                 "surface and the lamps differ")
+      ->check(CLI::Range(1u, most_light_candidates))
+      ->capture_default_str();
+}
+
+SampleChoices sample_choices(const SampleArguments& a) {
+  SampleChoices choices;
+  if (!a.filter.empty()) choices.filter = parse_filter(a.filter);
+  if (!a.texture_filter.empty())
+    choices.textures = a.texture_filter == "nearest" ? TextureChoice::nearest : TextureChoice::unfiltered;
+  choices.sampling.splat = a.splat;
+  SamplingChoices& s = choices.sampling;
+  s.roulette = a.roulette == "early"   ? Roulette::early
+               : a.roulette == "never" ? Roulette::never
+                                       : Roulette::usual;
+  s.one_wavelength = a.wavelengths == 1;
+  s.lights = a.light_sampling == "power" ? LightChoice::power : LightChoice::tree;
+  s.light_candidates = a.light_candidates;
+  return choices;
+}
+
+}  // namespace vitrail

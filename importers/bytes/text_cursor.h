@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "importers/bytes/plain_decimal.h"
+#include "scene/system/diagnostics.h"
+
+namespace vitrail {
+
+// A piece of input as it can be shown in a message: about `longest` bytes of it, as well-formed UTF-8
+// (reports are JSON) without control characters.
+std::string printable(std::string_view text, std::size_t longest = 40);
+
+// Reads words and numbers of a text and knows where it is. Lines end with \n, \r\n or \r; a backslash before
+// the end of a line joins it with the next one if `continuations` is set. Cheap to copy; the text, of
+// which `begin` starts a line, and the name outlive it.
+class TextCursor {
+ public:
+  TextCursor(std::string_view file, const char* begin, const char* end, bool continuations = false,
+             int line = 1)
+      : file_(file), at_(begin), end_(end), line_begin_(begin), line_(line), continuations_(continuations) {}
+
+  const char* at() const { return at_; }
+  const char* end() const { return end_; }
+  int line() const { return line_; }
+  // True if `c` comes next.
+  bool sees(char c) const { return at_ != end_ && *at_ == c; }
+
+  // What may follow a word or a number.
+  bool at_separator() const { return at_ == end_ || blank() || line_break() || continuation(); }
+  // Skips blanks; true if the line has ended there.
+  bool at_line_end();
+  // Skips blanks and ends of lines; false at the end of the text.
+  bool skip_to_text();
+  void skip_line();
+
+  // The characters up to the next blank; empty at the end of the line.
+  std::string_view word();
+  // The rest of the line without the blanks around it.
+  std::string_view rest_of_line();
+  // A number that ends at a blank or the end of the line; anything else throws Error. `what` names it in the
+  // message.
+  double number(const char* what);
+  // The next number if it is a plain one (plain_decimal.h) behind spaces and line feeds; its place goes to
+  // `begin`. Otherwise false, and perhaps blanks have been skipped.
+  bool next_plain_number(double& value, const char*& begin) {
+    for (; at_ != end_ && (*at_ == ' ' || *at_ == '\n'); ++at_) {
+      if (*at_ != '\n') continue;
+      line_begin_ = at_ + 1;
+      ++line_;
+    }
+    const char* const stop = plain_decimal(at_, end_, value);
+    if (!stop || (stop != end_ && *stop != ' ' && *stop != '\n')) return false;
+    begin = at_;
+    at_ = stop;
+    return true;
+  }
+  // Consumes `c` if it comes next.
+  bool accept(char c);
+  // A decimal integer, which must fit; nothing is required to follow it.
+  std::int64_t integer(const char* what);
+
+  SourceLocation location() const { return location(at_); }
+  // Of a position in the present line.
+  SourceLocation location(const char* position) const;
+  // Throws Error at a position in the present line, with the line as the excerpt.
+  [[noreturn]] void fail(std::string message, const char* position) const;
+  [[noreturn]] void fail(std::string message) const { fail(std::move(message), at_); }
+
+ private:
+  bool blank() const { return *at_ == ' ' || *at_ == '\t' || *at_ == '\v' || *at_ == '\f'; }
+  bool line_break() const { return *at_ == '\n' || *at_ == '\r'; }
+  bool continuation() const {
+    return continuations_ && *at_ == '\\' && at_ + 1 != end_ && (at_[1] == '\n' || at_[1] == '\r');
+  }
+  void skip_blanks();
+  void break_line();
+
+  std::string_view file_;
+  const char* at_;
+  const char* end_;
+  const char* line_begin_;
+  int line_;
+  bool continuations_;
+};
+
+}  // namespace vitrail

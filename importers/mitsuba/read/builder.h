@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+// Makes the records of the Scene from the objects of a file. Each kind of object has its file.
+#pragma once
+
+#include <map>
+#include <set>
+#include <string>
+#include <string_view>
+#include <tuple>
+
+#include "importers/mitsuba/material_parts.h"
+#include "importers/mitsuba/read/object.h"
+#include "importers/reading/integrator.h"
+#include "scene/records/scene.h"
+#include "scene/records/transmission.h"
+#include "scene/shapes/deferred_mesh.h"
+
+namespace vitrail::mitsuba {
+
+// What a colour is for: a reflectance in [0,1], a factor without bound, or emission (rgb v is D65 of
+// luminance v).
+enum class Quantity { reflectance, unbounded, emission };
+
+struct Builder {
+  Scene& scene;
+  Report& report;
+  std::map<const Object*, Id<Material>> materials;
+  // One for each of the scene's materials (scene/records/transmission.h).
+  std::vector<bool> transmitting, sided;
+  std::vector<Lobes> lobes;
+  std::vector<MaterialParts> parts;
+  std::vector<Origin> bumps_of_straight;  // adapters around what lets light straight through
+  std::map<const Object*, Id<Medium>> media;
+  std::map<std::pair<const Object*, bool>, Id<Texture>>
+      textures;  // by object and whether it is read as a number
+  std::map<const Object*, Id<Prototype>> prototypes;
+  std::map<std::tuple<std::string, int, int>, Id<TriangleMesh>>
+      mesh_files;  // path, index in it, variant of reading
+  AskedIntegrator integrator{};
+  std::optional<int> passes{};  // of its photons, each a sample of every pixel; empty: as the sampler says
+  double shutter_open = 0, shutter_close = 0;  // of the sensor
+  MeshMemory mesh_memory{};
+  bool replace_missing = false;               // leave out shapes whose file is not there
+  std::set<std::uint32_t> smoothed_meshes{};  // whose normals were made here
+};
+
+// ---- spectra.cpp, textures.cpp
+// The property as a spectrum or texture; `otherwise` where it is absent. Numbers, <rgb>, <spectrum>, nested
+// <texture> and <spectrum type="…"> plugins.
+SpectrumParameter spectrum_parameter(Builder& builder, const Object& object, std::string_view name,
+                                     Quantity quantity, const Spectrum& otherwise);
+FloatParameter float_parameter(Builder& builder, const Object& object, std::string_view name,
+                               double otherwise);
+// The same where a texture cannot be: its mean stands for it, with a diagnostic.
+Spectrum spectrum_value(Builder& builder, const Object& object, std::string_view name, Quantity quantity,
+                        const Spectrum& otherwise);
+Id<Texture> add_texture(Builder& builder, const Object& texture, bool as_float);
+
+// ---- bsdfs.cpp
+// Adds a record that is made here; those that it refers to have been added.
+Id<Material> append(Builder& builder, Material material);
+// The material of a <bsdf>; the same object gives the same material.
+Id<Material> add_material(Builder& builder, const Object& bsdf);
+
+// ---- media.cpp
+Id<Medium> add_medium(Builder& builder, const Object& medium);
+// g of the phase function inside of an object.
+float read_phase(const Object& around, Report& report);
+
+// ---- emitters.cpp
+// A light of the scene (not "area"). Unknown kinds are reported and dropped.
+void add_emitter(Builder& builder, const Object& emitter);
+// An "area" or "directionalarea" emitter of a shape; nothing where it is of another kind, which is reported.
+std::optional<Id<AreaLight>> add_area_light(Builder& builder, const Object& emitter);
+
+// ---- shapes.cpp (and serialized.cpp, curves.cpp …)
+// A shape of the scene, or an instance of a shapegroup; shapegroups themselves are made when an instance
+// asks.
+void add_shape(Builder& builder, const Object& shape);
+
+// ---- sensor.cpp
+// Of keyframes in order; nothing, and reported, where they do not make one.
+std::optional<Motion> motion_of(Builder& builder, std::vector<Keyframe> keys, const Origin& place);
+// Camera, film, filter, sampler.
+void read_sensor(Builder& builder, const Object& sensor);
+// max_depth and what the integrator leaves out.
+void read_integrator(Builder& builder, const Object& integrator);
+// Once the scene is read.
+void finish_integrator(Builder& builder);
+
+}  // namespace vitrail::mitsuba

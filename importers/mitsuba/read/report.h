@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "scene/records/scene.h"
+
+namespace vitrail::mitsuba {
+
+// Diagnostics and errors with their places.
+class Report {
+ public:
+  explicit Report(const std::vector<std::string>& files) : files_(files) {}
+
+  // What comes is about the object there, of which a record of that kind is made. Gives what it was about
+  // before.
+  struct Item {
+    Origin origin;
+    RecordKind kind = RecordKind::any;
+  };
+  Item begin_item(const Item& item) { return std::exchange(item_, item); }
+  void approximated(std::string message, const Origin& place) {
+    add(Fidelity::approximated, std::move(message), place);
+  }
+  void dropped(std::string message, const Origin& place) {
+    add(Fidelity::dropped, std::move(message), place);
+  }
+  void add(Diagnostics more);
+
+  [[noreturn]] void fail(const std::string& message, const Origin& place) const;
+  SourceLocation location(const Origin& origin) const;
+  Diagnostics take() { return std::move(diagnostics_); }
+
+ private:
+  void add(Fidelity fidelity, std::string message, const Origin& place);
+
+  const std::vector<std::string>& files_;
+  Item item_;
+  Diagnostics diagnostics_;
+};
+
+}  // namespace vitrail::mitsuba

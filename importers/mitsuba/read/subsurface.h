@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+// What 0.6 says of the insides of things.
+#pragma once
+
+#include <optional>
+
+#include "importers/mitsuba/read/builder.h"
+
+namespace vitrail::mitsuba {
+
+// Those of the measured medium that "material" names, "Skin1" where it names none; per unit of the scene's
+// length a hundred times what is measured per mm.
+AbsorptionScattering measured_coefficients(Builder& builder, const Object& object);
+
+// The material of a shape that has a <subsurface> inside of its surface, which is of the material `surface`;
+// nothing where it has none.
+std::optional<Id<Material>> subsurface_material(Builder& builder, const Object& shape, Id<Material> surface);
+
+}  // namespace vitrail::mitsuba

@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "importers/mitsuba/write/write_media.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "scene/models/measured_media.h"
+#include "scene/models/subsurface_media.h"
+#include "scene/system/atomic_file.h"
+
+namespace vitrail::mitsuba_writer {
+
+namespace {
+
+// Mitsuba's volume file, version 3.
+struct VolumeHeader {
+  std::array<char, 4> magic{'V', 'O', 'L', 3};
+  std::int32_t encoding = 1;  // float32
+  std::int32_t nx = 0, ny = 0, nz = 0, channels = 0;
+  std::array<float, 6> bounds{};
+};
+static_assert(sizeof(VolumeHeader) == 48);
+
+void write_volume_file(const std::filesystem::path& path, const Grid& grid) {
+  const Point3f lower = cast<float>(grid.bounds.lower), upper = cast<float>(grid.bounds.upper);
+  VolumeHeader header;
+  header.nx = grid.nx;
+  header.ny = grid.ny;
+  header.nz = grid.nz;
+  header.channels = grid.channels;
+  header.bounds = {lower.x, lower.y, lower.z, upper.x, upper.y, upper.z};
+  AtomicFile file(path);
+  file.write(std::as_bytes(std::span(&header, 1)));
+  file.write(std::as_bytes(std::span(grid.values)));
+  file.commit_part();
+}
+
+// Mitsuba's grids fill the unit cube of their own space.
+Transform grid_to_world(const Transform& medium_to_world, const Bounds3d& box) {
+  if (box == Bounds3d{{0, 0, 0}, {1, 1, 1}}) return medium_to_world;
+  return medium_to_world * translate({box.lower.x, box.lower.y, box.lower.z}) * scale(box.upper - box.lower);
+}
+
+// Held at its edges, a grid that is 0 outside is as it was with cells of 0 around it, within its own bounds.
+Grid with_zeros_around(const Grid& grid) {
+  Grid wide = grid;
+  wide.nx += 2, wide.ny += 2, wide.nz += 2;
+  const Vector3d size = grid.bounds.upper - grid.bounds.lower,
+                 cell{size.x / grid.nx, size.y / grid.ny, size.z / grid.nz};
+  wide.bounds = {grid.bounds.lower - cell, grid.bounds.upper + cell};
+  wide.edge = GridEdge::held;
+  const auto index = [](const Grid& g, int x, int y, int z) {
+    return (static_cast<std::size_t>(z) * static_cast<std::size_t>(g.ny) + static_cast<std::size_t>(y)) *
+               static_cast<std::size_t>(g.nx) +
+           static_cast<std::size_t>(x);
+  };
+  const auto channels = static_cast<std::size_t>(grid.channels);
+  wide.values.assign(index(wide, 0, 0, wide.nz) * channels, 0.0f);
+  for (int z = 0; z < grid.nz; ++z)
+    for (int y = 0; y < grid.ny; ++y)
+      std::copy_n(grid.values.begin() + static_cast<std::ptrdiff_t>(index(grid, 0, y, z) * channels),
+                  static_cast<std::size_t>(grid.nx) * channels,
+                  wide.values.begin() + static_cast<std::ptrdiff_t>(index(wide, 1, y + 1, z + 1) * channels));
+  return wide;
+}
+
+// False where Mitsuba cannot read the grid.
+bool add_grid(Context& context, Element parent, const std::string& name, const Grid& given,
+              const Transform& medium_to_world) {
+  const Grid grid = given.edge == GridEdge::zero && given.filename.empty() ? with_zeros_around(given) : given;
+  std::string filename = grid.filename.empty() ? "" : context.relative(grid.filename);
+  if (grid.filename.ends_with(".nvdb")) return false;
+  if (filename.empty()) {
+    filename = context.new_file("volumes", "vol", context.derived_volumes);
+    write_volume_file(context.file.parent_path() / filename, grid);
+  }
+  Element element = add(parent, "volume", "gridvolume", name);
+  add_string(element, "filename", filename);
+  add_string(element, "filter_type", "trilinear");
+  add_string(element, "wrap_mode", grid.edge == GridEdge::repeated ? "repeat" : "clamp");
+  add_boolean(element, "raw", false);
+  add_transform(element, grid_to_world(medium_to_world, grid.bounds));
+  return true;
+}
+
+void add_volume(Context& context, Element parent, const std::string& name, const VolumeParameter& value,
+                const Transform& medium_to_world) {
+  if (const auto* spectrum = std::get_if<Spectrum>(&value))
+    return add_spectrum(parent, name, *spectrum, Meaning::unbounded);
+  if (!add_grid(context, parent, name, std::get<Grid>(value), medium_to_world)) {
+    context.dropped("Mitsuba cannot read NanoVDB files: a constant 1 stands for the grid");
+    add_spectrum(parent, name, ConstantSpectrum{1}, Meaning::unbounded);
+  }
+}
+
+// a(λ) op b(λ), a constant where both are.
+template <class F>
+Spectrum combined(const Spectrum& a, const Spectrum& b, F&& f) {
+  if (is_constant(a) && is_constant(b))
+    return ConstantSpectrum{static_cast<float>(f(evaluate(a, 550), evaluate(b, 550)))};
+  const Spectrum x = resolved(a), y = resolved(b);
+  return tabulated([&](double lambda) { return f(evaluate(x, lambda), evaluate(y, lambda)); });
+}
+
+Spectrum spectrum_of(Context& context, const VolumeParameter& value, const char* what) {
+  if (const auto* spectrum = std::get_if<Spectrum>(&value)) return *spectrum;
+  const Grid& grid = std::get<Grid>(value);
+  double sum = 0;
+  for (const float v : grid.values) sum += static_cast<double>(v);
+  context.approximated(fmt::format("a grid of {} is replaced by its mean", what));
+  return ConstantSpectrum{
+      grid.values.empty() ? 1.0f : static_cast<float>(sum / static_cast<double>(grid.values.size()))};
+}
+
+ExtinctionAlbedo extinction_and_albedo(Context& context, const Medium& medium) {
+  const auto of_sum = [&](const AbsorptionScattering& m) {
+    const Spectrum a = spectrum_of(context, m.sigma_a, "absorption"),
+                   s = spectrum_of(context, m.sigma_s, "scattering");
+    return ExtinctionAlbedo{combined(a, s, [](double x, double y) { return x + y; }),
+                            combined(a, s, [](double x, double y) { return x + y > 0 ? y / (x + y) : 0; })};
+  };
+  return std::visit(Overloaded{
+                        [](const ExtinctionAlbedo& m) { return m; },
+                        of_sum,
+                        [&](const NamedMedium& m) {
+                          if (const auto measured = measured_medium(m.name)) return of_sum(*measured);
+                          context.dropped(fmt::format(
+                              "Mitsuba has no medium \"{}\": its default, σt 1 and albedo 0.75", m.name));
+                          return ExtinctionAlbedo{};
+                        },
+                    },
+                    medium.coefficients);
+}
+
+void add_phase(Element parent, float g) {
+  if (g == 0) return void(add(parent, "phase", "isotropic"));
+  add_float(add(parent, "phase", "hg"), "g", g);
+}
+
+void report_rest(Context& context, const Medium& medium) {
+  if (medium.emission || medium.temperature)
+    context.dropped("the emission of a medium: Mitsuba's media do not shine");
+  if (std::holds_alternative<CloudDensity>(medium.density))
+    context.dropped("Mitsuba has no procedural cloud: the medium is homogeneous");
+}
+
+// Density times σt as one grid: σt has to be a number, which goes to the scale.
+bool write_density(Context& context, Element root, const Medium& medium, const ExtinctionAlbedo& coefficients,
+                   const std::string& id) {
+  const auto* density = std::get_if<Grid>(&medium.density);
+  if (!density) return false;
+  Element element = add(root, "medium", "heterogeneous", "", id);
+  if (!add_grid(context, element, "sigma_t", *density, medium.medium_to_world)) {
+    root.remove_child(element);
+    context.dropped("Mitsuba cannot read NanoVDB files: the medium is homogeneous");
+    return false;
+  }
+  add_volume(context, element, "albedo", coefficients.albedo, medium.medium_to_world);
+  const Spectrum sigma_t = spectrum_of(context, coefficients.sigma_t, "extinction");
+  const double factor = number_of(context, sigma_t, "the extinction of a medium with a density");
+  add_float(element, "scale", static_cast<float>(factor * static_cast<double>(medium.scale)));
+  add_phase(element, medium.g);
+  return true;
+}
+
+void write_medium(Context& context, Element root, const Medium& medium, const std::string& id) {
+  report_rest(context, medium);
+  const ExtinctionAlbedo coefficients = extinction_and_albedo(context, medium);
+  if (write_density(context, root, medium, coefficients, id)) return;
+  const bool varies =
+      std::holds_alternative<Grid>(coefficients.sigma_t) || std::holds_alternative<Grid>(coefficients.albedo);
+  Element element = add(root, "medium", varies ? "heterogeneous" : "homogeneous", "", id);
+  add_volume(context, element, "sigma_t", coefficients.sigma_t, medium.medium_to_world);
+  add_volume(context, element, "albedo", coefficients.albedo, medium.medium_to_world);
+  add_float(element, "scale", medium.scale);
+  add_phase(element, medium.g);
+}
+
+std::optional<Medium> interior_medium(Context& context, SubsurfaceMaterial material) {
+  const auto constant = [&](SpectrumParameter& p, const char* what) { p = constant_of(context, p, what); };
+  if (auto* m = std::get_if<SubsurfaceMaterial::Coefficients>(&material.interior)) {
+    constant(m->sigma_a, "the absorption of a medium"), constant(m->sigma_s, "the scattering of a medium");
+  } else if (auto* e = std::get_if<SubsurfaceMaterial::Effective>(&material.interior)) {
+    constant(e->reflectance, "the albedo of a medium");
+    constant(e->mean_free_path, "the extinction of a medium");
+  }
+  std::optional<Medium> medium = interior_of(material);
+  if (!medium)
+    context.dropped(fmt::format("Mitsuba has no medium \"{}\": the inside is empty",
+                                std::get<SubsurfaceMaterial::Named>(material.interior).name));
+  return medium;
+}
+
+}  // namespace
+
+void write_media(Context& context, Element root) {
+  for (std::size_t i = 0; i < context.scene.media.size(); ++i) {
+    const Medium& medium = context.scene.media[i];
+    context.begin(RecordKind::medium, medium.origin);
+    context.medium_ids.push_back(context.new_id(medium.name, "medium", i));
+    write_medium(context, root, medium, context.medium_ids.back());
+  }
+  for (std::size_t i = 0; i < context.scene.materials.size(); ++i) {
+    const Material& material = context.scene.materials[i];
+    context.begin(RecordKind::material, material.origin);
+    if (const auto* subsurface = std::get_if<SubsurfaceMaterial>(&material.model))
+      if (const auto medium = interior_medium(context, *subsurface)) {
+        const std::string id = context.new_id("", "interior", i);
+        context.interiors.emplace(i, id);
+        write_medium(context, root, *medium, id);
+      }
+  }
+}
+
+std::string interior_of(const Context& context, Id<Material> material) {
+  const auto found = context.interiors.find(material.value);
+  return found == context.interiors.end() ? "" : found->second;
+}
+
+}  // namespace vitrail::mitsuba_writer

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "importers/mitsuba/write/write_mitsuba.h"
+
+#include <span>
+
+#include "importers/mitsuba/write/write_camera.h"
+#include "importers/mitsuba/write/write_lights.h"
+#include "importers/mitsuba/write/write_materials.h"
+#include "importers/mitsuba/write/write_media.h"
+#include "importers/mitsuba/write/write_shapes.h"
+#include "scene/system/atomic_file.h"
+
+namespace vitrail {
+
+namespace {
+
+struct TextWriter : pugi::xml_writer {
+  std::string text;
+  void write(const void* data, std::size_t size) override {
+    text.append(static_cast<const char*>(data), size);
+  }
+};
+
+}  // namespace
+
+Diagnostics write_mitsuba(const Scene& scene, const std::filesystem::path& out) {
+  using namespace mitsuba_writer;
+  Context context(scene, out);
+  pugi::xml_document document;
+  document.append_child(pugi::node_comment)
+      .set_value(fmt::format(" Written by Vitrail {} for Mitsuba 3 ", VITRAIL_VERSION).c_str());
+  Element root = document.append_child("scene");
+  root.append_attribute("version") = "3.0.0";
+
+  // The integrator and the camera come first for readers, and know what follows them.
+  Element integrator = root.append_child("integrator"), sensor = root.append_child("sensor");
+  write_textures(context, root);
+  write_materials(context, root);
+  write_media(context, root);
+  write_lights(context, root);
+  write_shapes(context, root);
+  write_integrator(context, root);
+  write_camera(context, root);
+  root.insert_move_before(root.last_child(), sensor);
+  root.insert_move_before(root.last_child(), integrator);
+  root.remove_child(integrator);
+  root.remove_child(sensor);
+
+  TextWriter writer;
+  document.save(writer, "  ", pugi::format_indent, pugi::encoding_utf8);
+  AtomicFile file(out);
+  file.write(std::as_bytes(std::span(writer.text)));
+  file.commit();
+  return std::move(context.diagnostics);
+}
+
+}  // namespace vitrail

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "importers/mitsuba/write/write_spectra.h"
+
+namespace vitrail::mitsuba_writer {
+
+// Every texture that Mitsuba knows, as an element with an id; the others become values in context.textures.
+void write_textures(Context& context, Element root);
+
+void add_parameter(Context& context, Element parent, const std::string& name, const SpectrumParameter& value,
+                   Meaning meaning);
+void add_parameter(Context& context, Element parent, const std::string& name, const FloatParameter& value);
+
+// One value for a parameter where Mitsuba takes no texture (`what`, for the report).
+Spectrum constant_of(Context& context, const SpectrumParameter& value, const char* what);
+float constant_of(Context& context, const FloatParameter& value, const char* what);
+
+// The value, unless it is a texture with an element of its own.
+std::optional<Spectrum> value_of(const Context& context, const SpectrumParameter& value);
+std::optional<float> value_of(const Context& context, const FloatParameter& value);
+
+}  // namespace vitrail::mitsuba_writer

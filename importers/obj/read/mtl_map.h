@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+
+#include "importers/bytes/text_cursor.h"
+#include "importers/obj/read/mtl.h"
+
+namespace vitrail::obj {
+
+// Reads the options and the name that follow a keyword such as map_Kd. The name is sought in `folder`;
+// nothing is returned where it is not there. `drop(message)` reports.
+using Drop = std::function<void(std::string)>;
+std::optional<MtlMap> read_map(TextCursor& cursor, const std::string& keyword,
+                               const std::filesystem::path& folder, const Drop& drop);
+
+}  // namespace vitrail::obj

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// Wavefront OBJ with its MTL libraries, plain or gzipped.
+#pragma once
+
+#include <filesystem>
+
+#include "scene/records/scene.h"
+
+namespace vitrail {
+
+// Polygons, their normals and texture coordinates; one mesh and one shape for each material (two or more
+// where some of its faces have normals or texture coordinates and others have not). Objects and groups carry
+// nothing that shows. Vertices are in the order of the file where all corners have one index for everything,
+// else in that of their use. Materials (mtl.h); faces without one are diffuse, 0.5. The camera and the lights
+// besides Ke are left at their defaults. A file that lies far from the origin is moved to it, its place kept
+// in object_to_world: vertices are floats. Points, lines, curves and surfaces are dropped with diagnostics;
+// wrong indices and numbers throw Error. A face with vertex index 0 can only come from a program that counts
+// from 0: the whole file is then read so.
+ImportedScene read_obj(const std::filesystem::path& file);
+
+// The geometry alone, whatever its materials and wherever it lies.
+struct ObjGeometry {
+  std::vector<TriangleMesh> meshes;  // by whether their faces have normals and texture coordinates
+  Diagnostics diagnostics;
+};
+ObjGeometry read_obj_geometry(const std::filesystem::path& file);
+
+}  // namespace vitrail

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "importers/obj/read/obj_faces.h"
+
+namespace vitrail::obj {
+
+void FaceSink::add(std::span<const Corner> corners, std::size_t material, bool has_uvs, bool has_normals) {
+  Group& group = group_of(material, has_uvs, has_normals);
+  if (corners.size() == 3) return add_triangle(group, corners[0], corners[1], corners[2]);
+  points_.clear();
+  cut_.clear();
+  for (const Corner& c : corners) points_.push_back(cast<double>(geometry_.positions[c.position]));
+  triangulate_polygon(points_, cut_);
+  for (const auto& [a, b, c] : cut_) add_triangle(group, corners[a], corners[b], corners[c]);
+}
+
+Group& FaceSink::group_of(std::size_t material, bool has_uvs, bool has_normals) {
+  const std::size_t kind = (has_uvs ? 1u : 0u) + (has_normals ? 2u : 0u);
+  if (groups_of_material_.size() <= material) groups_of_material_.resize(material + 1);
+  std::optional<std::size_t>& group = groups_of_material_[material][kind];
+  if (!group) {
+    group = geometry_.groups.size();
+    geometry_.groups.emplace_back();
+    geometry_.groups.back().material = material;
+    geometry_.groups.back().has_uvs = has_uvs;
+    geometry_.groups.back().has_normals = has_normals;
+  }
+  return geometry_.groups[*group];
+}
+
+}  // namespace vitrail::obj

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "importers/obj/read/obj_parser.h"
+
+namespace vitrail::obj {
+
+// A mesh for each group, which has the vertices that its faces use: in the order of the file where the
+// corners' indices agree with each other, else in the order in which the faces use them.
+std::vector<TriangleMesh> to_meshes(Geometry&& geometry);
+
+}  // namespace vitrail::obj

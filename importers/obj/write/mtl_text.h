@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <set>
+#include <string>
+
+#include "importers/images/converted_images.h"
+#include "importers/writing/export_colors.h"
+#include "scene/records/scene.h"
+
+namespace vitrail {
+
+// The statements of MTL materials, and what they do not say exactly, with the place `origin`.
+class MtlText {
+ public:
+  MtlText(const Scene& scene, std::filesystem::path folder, Diagnostics& diagnostics)
+      : scene_(scene), folder_(std::move(folder)), diagnostics_(diagnostics) {}
+
+  std::string text;
+  Origin origin;  // of what is being written
+  RecordKind record = RecordKind::material;
+
+  void approximated(std::string message) { note(Fidelity::approximated, std::move(message)); }
+  void note(Fidelity fidelity, std::string message);
+
+  void line(const char* keyword, RGB c);
+  void line(const char* keyword, double value);
+  void line(const char* keyword, float value);  // by the digits that a float needs
+
+  // "keyword options name" of an image, its scale as `scale_option` if there is one.
+  void map(const char* keyword, const ImageTexture& image, ImageUse use, const char* scale_option);
+  // False where the texture is no image.
+  bool map(const char* keyword, Id<Texture> id, ImageUse use, const char* scale_option);
+  // A colour, with the image that it multiplies.
+  void color(const char* keyword, const char* map_keyword, const SpectrumParameter& parameter,
+             RGB (*rgb)(const Spectrum&) = factor_rgb, double factor = 1);
+  void number(const char* keyword, const char* map_keyword, const FloatParameter& parameter);
+  // The value, or 0.5 and a note where it is a texture.
+  double constant(const FloatParameter& parameter, const char* what);
+
+ private:
+  std::string channel_option(const char* keyword, const ImageTexture& image);
+
+  const Scene& scene_;
+  std::filesystem::path folder_;
+  Diagnostics& diagnostics_;
+  std::set<std::string> noted_;
+};
+
+}  // namespace vitrail

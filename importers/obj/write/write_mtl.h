@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "importers/writing/flat_shapes.h"
+#include "importers/writing/opacity_key.h"
+
+namespace vitrail {
+
+// A material of MTL is a material of the Scene with the light and the opacity of its surface.
+using MtlKey = std::tuple<std::uint32_t, std::optional<std::uint32_t>, OpacityKey>;
+using MtlNames = std::map<MtlKey, std::string>;
+
+inline MtlKey surface_key(const Shape& shape) {
+  return {shape.material.value, shape.area_light ? std::optional(shape.area_light->value) : std::nullopt,
+          opacity_key(shape.opacity)};
+}
+
+// Writes the materials of these shapes, and says what they are called there: by their own name, if no other
+// has it. What read_mtl makes (mtl.h has the table) is written so that it makes it again; other materials
+// become the nearest of those, with diagnostics. Smooth surfaces have Ns 10⁶. Throws MachineError.
+MtlNames write_mtl(const Scene& scene, const std::vector<FlatShape>& shapes,
+                   const std::filesystem::path& file, Diagnostics& diagnostics);
+
+}  // namespace vitrail

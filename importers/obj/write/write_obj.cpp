@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "importers/obj/write/write_obj.h"
+
+#include <algorithm>
+#include <map>
+
+#include "importers/obj/write/write_mtl.h"
+#include "importers/writing/flat_shapes.h"
+#include "importers/writing/side_files.h"
+#include "importers/writing/text_sink.h"
+#include "scene/records/uv_uses.h"
+#include "scene/shapes/deferred_mesh.h"
+#include "scene/shapes/mesh_uv.h"
+
+namespace vitrail {
+
+namespace {
+
+struct Counts {
+  std::uint64_t positions = 0, uvs = 0, normals = 0;
+};
+
+bool is_translation(const Transform& t) {
+  Transform still = t;
+  for (std::size_t axis = 0; axis < 3; ++axis) still.m[axis][3] = 0;
+  return still == Transform{};
+}
+
+void put_vertices(const TriangleMesh& mesh, const Transform& to_world, TextSink& out) {
+  if (to_world == Transform{}) {
+    for (const Point3f& p : mesh.positions) out.put(FMT_COMPILE("v {} {} {}\n"), p.x, p.y, p.z);
+  } else {
+    for (const Point3f& p : mesh.positions) {
+      const Point3d q = transform_point(to_world, cast<double>(p));
+      out.put(FMT_COMPILE("v {} {} {}\n"), q.x, q.y, q.z);
+    }
+  }
+  for (const Point2f& uv : mesh.uvs) out.put(FMT_COMPILE("vt {} {}\n"), uv.x, uv.y);
+  const bool is_still = is_translation(to_world);
+  for (const Normal3f& n : mesh.normals) {
+    const Normal3f moved =
+        is_still ? n
+                 : cast<float>(to_normal(normalize(to_vector(transform_normal(to_world, cast<double>(n))))));
+    out.put(FMT_COMPILE("vn {} {} {}\n"), moved.x, moved.y, moved.z);
+  }
+}
+
+// Corners v/vt/vn whose three indices agree but for where the mesh starts.
+void put_faces(const TriangleMesh& mesh, bool flip, const Counts& before, TextSink& out) {
+  const std::uint64_t v = before.positions + 1, t = before.uvs + 1, n = before.normals + 1;
+  for (const auto& triangle : mesh.triangles) {
+    const std::uint64_t a = triangle[0], b = triangle[flip ? 2 : 1], c = triangle[flip ? 1 : 2];
+    if (mesh.uvs.empty() && mesh.normals.empty())
+      out.put(FMT_COMPILE("f {} {} {}\n"), v + a, v + b, v + c);
+    else if (mesh.normals.empty())
+      out.put(FMT_COMPILE("f {}/{} {}/{} {}/{}\n"), v + a, t + a, v + b, t + b, v + c, t + c);
+    else if (mesh.uvs.empty())
+      out.put(FMT_COMPILE("f {}//{} {}//{} {}//{}\n"), v + a, n + a, v + b, n + b, v + c, n + c);
+    else
+      out.put(FMT_COMPILE("f {}/{}/{} {}/{}/{} {}/{}/{}\n"), v + a, t + a, n + a, v + b, t + b, n + b, v + c,
+              t + c, n + c);
+  }
+}
+
+std::string object_name(const Shape& shape, std::size_t index) {
+  if (shape.name.empty()) return fmt::format("shape_{}", index);
+  std::string name = shape.name;
+  std::ranges::replace_if(
+      name, [](char c) { return static_cast<unsigned char>(c) <= ' '; }, '_');
+  return name;
+}
+
+// (u,v) that a reader would take for (0,0), where they show.
+bool lacks_uvs(const TriangleMesh& mesh, bool uvs_show) {
+  return uvs_show && mesh.uvs.empty() && mesh.missing_uv != MissingUv::zero;
+}
+
+void put_geometry(const Scene& scene, const std::vector<FlatShape>& shapes, const MtlNames& names,
+                  TextSink& out) {
+  const std::vector<bool> uvs_show = meshes_whose_uvs_show(scene);
+  Counts counts;
+  std::string material;
+  for (std::size_t i = 0; i < shapes.size(); ++i) {
+    const Shape& shape = shapes[i].shape;
+    TriangleMesh storage, apart;
+    const TriangleMesh& shared = loaded(scene.meshes.at(shape.mesh.value), storage);
+    const bool lacking = lacks_uvs(shared, uvs_show[shape.mesh.value]);
+    if (lacking) apart = with_uvs(shared);
+    const TriangleMesh& mesh = lacking ? apart : shared;
+    out.put(FMT_COMPILE("o {}\n"), object_name(shape, i));
+    put_vertices(mesh, shapes[i].object_to_world, out);
+    const std::string& name = names.at(surface_key(shape));
+    if (name != material) out.put(FMT_COMPILE("usemtl {}\n"), name);
+    material = name;
+    put_faces(mesh, shapes[i].flip, counts, out);
+    counts.positions += mesh.positions.size();
+    counts.uvs += mesh.uvs.size();
+    counts.normals += mesh.normals.size();
+  }
+}
+
+}  // namespace
+
+Diagnostics write_obj(const Scene& scene, const std::filesystem::path& path) {
+  Diagnostics diagnostics;
+  note_geometry_only(scene, diagnostics);
+  const std::vector<FlatShape> shapes = flat_shapes(scene);
+  for (const FlatShape& flat : shapes)
+    if (!scene.meshes.at(flat.shape.mesh.value).attributes.empty()) {
+      const SourceLocation where = location(scene, flat.shape.origin);
+      diagnostics.push_back(
+          {Fidelity::dropped, "attributes of a mesh: OBJ has none", where, where, RecordKind::shape});
+    }
+  const std::filesystem::path library = path.parent_path() / SideFiles(path).name("mtl");
+  note_quadrics(scene, shapes, diagnostics);
+  const MtlNames names = write_mtl(scene, shapes, library, diagnostics);
+  AtomicFile file(path);
+  TextSink out(&file);
+  out.put(FMT_COMPILE("mtllib {}\n"), library.filename().string());
+  put_geometry(scene, shapes, names, out);
+  out.flush();
+  file.commit();
+  return diagnostics;
+}
+
+}  // namespace vitrail

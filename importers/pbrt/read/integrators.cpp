@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include "importers/pbrt/read/camera_film.h"
+
+namespace vitrail::pbrt {
+
+namespace {
+
+using Kind = AskedIntegrator::Kind;
+
+// Of all versions. What is not here is another picture ("ambientocclusion").
+constexpr std::array<std::pair<std::string_view, Kind>, 14> kinds{{{"path", Kind::paths},
+                                                                   {"volpath", Kind::paths},
+                                                                   {"simplepath", Kind::paths},
+                                                                   {"simplevolpath", Kind::paths},
+                                                                   {"bdpt", Kind::both_ends},
+                                                                   {"mlt", Kind::both_ends},
+                                                                   {"metropolis", Kind::both_ends},
+                                                                   {"lightpath", Kind::from_lamps},
+                                                                   {"randomwalk", Kind::by_chance},
+                                                                   {"sppm", Kind::photons},
+                                                                   {"photonmap", Kind::photon_map},
+                                                                   {"exphotonmap", Kind::photon_map},
+                                                                   {"directlighting", Kind::direct},
+                                                                   {"whitted", Kind::direct}}};
+
+AskedIntegrator asked_for(const std::string& name) {
+  const auto known = std::ranges::find(kinds, name, [](const auto& kind) { return kind.first; });
+  if (known != kinds.end()) return {name, known->second};
+  std::vector<std::string> names;
+  for (const auto& kind : kinds) names.emplace_back(kind.first);
+  const std::string closest = closest_word(name, names);
+  return {name, Kind::other, closest.empty() ? "" : fmt::format("; did you mean \"{}\"?", closest)};
+}
+
+// Its radius shrinks by the same share, γ = ⅔. v4 has an iteration for each of the sampler's samples.
+PhotonSettings read_photons(ParameterSet& parameters, Context& context, ViewSettings& view) {
+  PhotonSettings photons;
+  if (const int count = parameters.integer("photonsperiteration", -1); count > 0)
+    photons.photons = static_cast<std::uint64_t>(count);
+  if (const double radius = parameters.number("radius", -1); radius > 0) photons.first_radius = radius;
+  const int given = parameters.integer("iterations", parameters.integer("numiterations", -1));
+  if (given == 0 || given < -1) fail("\"iterations\" has to be above 0", parameters.place());
+  if (given > 0)
+    view.iterations = given;
+  else if (context.version == Version::v3)
+    view.iterations = 64;
+  return photons;
+}
+
+}  // namespace
+
+void read_integrator(const std::string& kind, ParameterSet& parameters, Context& context,
+                     ViewSettings& view) {
+  const int depth = parameters.integer("maxdepth", 5);
+  if (depth < 0) fail("\"maxdepth\" is negative", parameters.place());
+  view.integrator = asked_for(kind);
+  view.render.max_depth = depth;
+  view.render.direct_only = view.integrator.kind == Kind::direct;
+  view.render.photons.reset();
+  view.iterations.reset();
+  if (view.integrator.kind == Kind::photons)
+    view.render.photons = read_photons(parameters, context, view);
+  else if (view.integrator.kind == Kind::photon_map)
+    view.render.photons.emplace();
+  if (parameters.boolean("regularize", false))
+    context.report.dropped("rough paths are not regularised", parameters.place());
+  parameters.ignore({"rrthreshold", "lightsampler", "lightsamplestrategy", "samplelights", "samplebsdf",
+                     "strategy", "visualizestrategies", "visualizeweights", "bootstrapsamples", "chains",
+                     "mutationsperpixel", "largestepprobability", "sigma", "photonsperiteration", "radius",
+                     "seed", "iterations", "numiterations", "imagewritefrequency"});
+  parameters.report_unused(context.report);
+}
+
+}  // namespace vitrail::pbrt

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "importers/pbrt/read/textures.h"
+
+namespace vitrail::pbrt {
+
+// Whether a measured medium is known by the name, which is a value of `parameters`; reports where none is.
+bool is_measured(const std::string& name, const ParameterSet& parameters, const Scope& scope);
+
+}  // namespace vitrail::pbrt

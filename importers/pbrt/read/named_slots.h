@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "importers/pbrt/read/lexer.h"
+
+namespace vitrail::pbrt {
+
+// Numbers for names that may be used before they are defined.
+class NamedSlots {
+ public:
+  explicit NamedSlots(std::string what) : what_(std::move(what)) {}
+
+  // The number that the name has now; `next_free` if it has none yet.
+  std::uint32_t use(const std::string& name, const Place& place, std::uint32_t next_free) {
+    const auto [entry, added] = entries_.try_emplace(name, Entry{next_free, place, false});
+    return entry->second.slot;
+  }
+
+  // The number to define the name under: that of its uses, or `next_free` if it was defined before
+  // (`redefined`), which later uses then get.
+  struct Definition {
+    std::uint32_t slot;
+    bool redefined;
+  };
+  Definition define(const std::string& name, const Place& place, std::uint32_t next_free) {
+    Entry& entry = entries_.try_emplace(name, Entry{next_free, place, false}).first->second;
+    const bool redefined = entry.defined;
+    if (redefined) entry.slot = next_free;
+    entry.defined = true;
+    return {entry.slot, redefined};
+  }
+
+  // What `end` needs to undo the definition that comes next.
+  struct Before {
+    std::string name;
+    std::optional<std::uint32_t> slot;
+  };
+  Before before(const std::string& name) const {
+    const auto entry = entries_.find(name);
+    const bool defined = entry != entries_.end() && entry->second.defined;
+    return {name, defined ? std::optional(entry->second.slot) : std::nullopt};
+  }
+  // The name is what it was then.
+  void end(const Before& before) {
+    const auto entry = entries_.find(before.name);
+    if (before.slot) {
+      entry->second.slot = *before.slot;
+    } else {
+      ended_.insert(before.name);
+      entries_.erase(entry);
+    }
+  }
+  // Whether it had a definition and has none now.
+  bool has_ended(const std::string& name) const { return ended_.contains(name) && !entries_.contains(name); }
+
+  // Throws Error at the first use of a name that has no definition.
+  void require_definitions() const {
+    for (const auto& [name, entry] : entries_) {
+      if (entry.defined) continue;
+      std::vector<std::string> defined;
+      for (const auto& [other, state] : entries_)
+        if (state.defined) defined.push_back(other);
+      const std::string closest = closest_word(name, defined);
+      fail(what_ + " \"" + name + "\" is not defined" +
+               (closest.empty() ? "" : "; did you mean \"" + closest + "\"?"),
+           entry.place);
+    }
+  }
+
+ private:
+  struct Entry {
+    std::uint32_t slot;
+    Place place;  // first use or definition
+    bool defined;
+  };
+  std::string what_;
+  std::map<std::string, Entry> entries_;
+  std::set<std::string> ended_;
+};
+
+}  // namespace vitrail::pbrt

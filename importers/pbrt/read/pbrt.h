@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+// The scene files of pbrt, versions 3 and 4.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+
+#include "importers/reading/import_options.h"
+#include "scene/records/scene.h"
+#include "scene/shapes/deferred_mesh.h"
+
+namespace vitrail {
+
+// Reads a scene with all that it includes, plain or gzipped. Both syntaxes are read; where a word means
+// different things, the version decides that the main file's first tell-tale word belongs to
+// (importers/README.md). Bad input throws Error with its place. A file without WorldBegin is a part of a
+// scene: it gets a camera and a sky.
+// `progress`, if given, gets the fraction of the file that is read; what it throws stops the reading.
+// Of the options only replace_missing, of meshes here, and include_limit count.
+ImportedScene read_pbrt(const std::filesystem::path& file, MeshMemory memory = MeshMemory{},
+                        std::function<void(double)> progress = {}, const ImportOptions& options = {});
+
+}  // namespace vitrail

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "importers/pbrt/read/lexer.h"
+
+namespace vitrail::pbrt {
+
+// Collects diagnostics in the order of the file.
+class Report {
+ public:
+  void approximated(const std::string& message, const Place& place) {
+    add({Fidelity::approximated, message, location(place), {}});
+  }
+  void dropped(const std::string& message, const Place& place) {
+    add({Fidelity::dropped, message, location(place), {}});
+  }
+  void add(Diagnostic diagnostic);
+  // What comes is about the directive there, of which a record of that kind is made.
+  void begin_item(const Place& place, RecordKind kind = RecordKind::any) { item_ = place, kind_ = kind; }
+
+  Diagnostics take() { return std::move(diagnostics_); }
+
+ private:
+  Place item_;
+  RecordKind kind_ = RecordKind::any;
+  Diagnostics diagnostics_;
+};
+
+}  // namespace vitrail::pbrt

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <map>
+#include <optional>
+#include <string>
+#include <tuple>
+
+#include "importers/pbrt/read/context.h"
+#include "importers/pbrt/read/parameters.h"
+#include "importers/ply/read/mesh_read_ahead.h"
+#include "importers/shapes/quadrics.h"
+#include "scene/records/scene.h"
+#include "scene/shapes/curve.h"
+
+namespace vitrail::pbrt {
+
+// The surface of a Shape directive.
+struct ShapeGeometry {
+  Id<TriangleMesh> mesh;
+  // Analytic shapes: their front under a mirroring transform is on the other side than that of meshes.
+  bool quadric = false;
+  // The sizes of a quadric; where a mesh lies that is far from the origin.
+  Transform mesh_to_object;
+  // How many shapes pbrt makes of it, each with the whole `power` of an area light: triangles, patches, or 1.
+  std::size_t parts = 1;
+  bool curve = false;
+};
+
+// Makes meshes and keeps those that come again (the same file, any sphere).
+class ShapeMaker {
+ public:
+  ShapeMaker(Context& context, std::vector<TriangleMesh>& meshes);
+
+  // Nothing where the kind cannot be represented and is dropped with a diagnostic, or where nothing of it
+  // shows; two of a PLY file of triangles and quadrilaterals. The triangles' own orientation is pbrt's front
+  // side before ReverseOrientation and the transform. What may matter: `uvs_show`,
+  // (u,v); `faces_show`, the numbers of faces.
+  std::vector<ShapeGeometry> make(const std::string& kind, ParameterSet& parameters, bool uvs_show,
+                                  bool faces_show);
+
+ private:
+  ShapeGeometry triangle_mesh(ParameterSet& parameters, bool uvs_show, bool faces_show);
+  std::vector<ShapeGeometry> ply_mesh(ParameterSet& parameters, bool uvs_show, bool faces_show);
+  ShapeGeometry bilinear_mesh(ParameterSet& parameters, bool uvs_show, bool faces_show);
+  ShapeGeometry loop_subdivision(ParameterSet& parameters, bool uvs_show);
+  std::optional<ShapeGeometry> curve(ParameterSet& parameters);
+  std::optional<ShapeGeometry> ribbon(ParameterSet& parameters, const std::vector<CurveSegment>& segments,
+                                      double width);
+  ShapeGeometry heightfield(ParameterSet& parameters);
+  ShapeGeometry hyperboloid(ParameterSet& parameters);
+  ShapeGeometry nurbs(ParameterSet& parameters);
+  ShapeGeometry quadric(const std::string& kind, ParameterSet& parameters);
+  static SizedQuadric sized_quadric(const std::string& kind, ParameterSet& parameters);
+  Id<TriangleMesh> add(TriangleMesh mesh);
+  std::vector<float> face_numbers(ParameterSet& parameters, std::size_t faces, bool show);
+  void report_shadow_alpha(ParameterSet& parameters);
+  // Has the meshes read that the text to come names.
+  void read_ahead();
+
+  using QuadricKey = std::tuple<QuadricKind, double, double, double>;  // low, high, phi_max_rad
+  Context& context_;
+  std::vector<TriangleMesh>& meshes_;
+  // The shapes of a file where (u,v) do not show and where they do, and likewise the numbers of faces: the
+  // same but for patches, for triangles of which some are turned, and for those numbers.
+  struct PlyFile {
+    bool differs = false;
+    std::array<std::vector<ShapeGeometry>, 4> shapes;
+  };
+  std::map<std::string, PlyFile> ply_files_;
+  MeshReadAhead ply_reader_;
+  const char* looked_ahead_to_ = nullptr;  // in the text to come, or another file's
+  std::map<QuadricKey, Id<TriangleMesh>> quadrics_;
+};
+
+// Turns triangles whose corner normals, summed, point away from their own normal. pbrt's fronts follow the
+// normals. Returns whether the mesh is another where (u,v) show.
+bool orient_by_normals(TriangleMesh& mesh, bool uvs_show = true);
+
+// Whether orient_by_normals would leave the mesh as it is; and the mesh with its normals turned so that it
+// would, or without them where a vertex has faces on both of its sides.
+bool fronts_follow_normals(const TriangleMesh& mesh);
+TriangleMesh with_normals_in_front(TriangleMesh mesh);
+
+}  // namespace vitrail::pbrt

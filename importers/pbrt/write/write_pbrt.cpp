@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "importers/pbrt/write/write_pbrt.h"
+
+#include <span>
+
+#include "importers/pbrt/write/writer.h"
+#include "scene/system/atomic_file.h"
+
+namespace vitrail {
+
+Diagnostics write_pbrt(const Scene& scene, const std::filesystem::path& out) {
+  pbrt::Writer writer(scene, out);
+  writer.line("# pbrt-v4, written by Vitrail");
+  pbrt::write_view(writer);
+  pbrt::write_media(writer);
+  writer.line("\nWorldBegin\n");
+  pbrt::write_textures(writer);
+  pbrt::write_coverage(writer);
+  pbrt::write_materials(writer);
+  pbrt::write_lights(writer);
+  pbrt::write_shapes(writer);
+  AtomicFile file(out);
+  file.write(std::as_bytes(std::span(writer.text)));
+  file.commit();
+  return std::move(writer.diagnostics);
+}
+
+}  // namespace vitrail

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the parts of the pbrt writer share.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <array>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "importers/images/converted_images.h"
+#include "importers/writing/mesh_files.h"
+#include "importers/writing/opacity_key.h"
+#include "importers/writing/side_files.h"
+#include "scene/records/scene.h"
+
+namespace vitrail::pbrt {
+
+struct Writer {
+  const Scene& scene;
+  std::filesystem::path directory;  // of the scene's file
+  MeshFiles meshes;
+  std::string text;
+  Diagnostics diagnostics;
+  std::vector<std::string> materials, textures, media, objects;  // names
+  // Of materials, as write_coverage finds it: which share of a surface is there, and of a blend the weight of
+  // its second material in that share. Textures may be new ones, which only `textures` knows.
+  std::vector<FloatParameter> coverage, amounts;
+  // What has been written already: names of materials, and the product of two opacities.
+  std::string sheer, nothing, black;
+  std::map<std::uint32_t, std::string> shining;  // by the material of a shape
+  std::map<std::pair<OpacityKey, OpacityKey>, FloatParameter> alphas;
+
+  Writer(const Scene& scene, const std::filesystem::path& out);
+  Writer(const Writer&) = delete;
+
+  // ---- Text
+  void line(std::string_view what) { text += fmt::format("{:{}}{}\n", "", indent, what); }
+  void begin(std::string_view block) { line(block), indent += 4; }
+  void end(std::string_view block) { indent -= 4, line(block); }
+  void transform(const Transform& t);  // nothing for the identity
+  // Of what moves: at both of `transform_times_s`, the inverse where it is a camera's.
+  void transforms(const Motion& motion, const Origin& origin, RecordKind kind);
+  std::array<double, 2> transform_times_s{0, 1};
+  int indent = 0;
+
+  // A name that no other record of the names has; it is added to them.
+  static std::string add_name(std::vector<std::string>& names, std::string_view wanted);
+  // The path of a new file in OUT-KIND/, which is created, relative to the scene's folder.
+  std::string new_file(const std::string& kind, const char* extension);
+  std::filesystem::path new_image() { return directory / new_file("images", "exr"); }
+  ConvertedImages images{[this] { return std::filesystem::absolute(new_image()); }};
+
+  // ---- Diagnostics
+  void approximated(std::string message, const Origin& origin, RecordKind kind = RecordKind::any) {
+    note(Fidelity::approximated, std::move(message), origin, kind);
+  }
+  void dropped(std::string message, const Origin& origin, RecordKind kind = RecordKind::any) {
+    note(Fidelity::dropped, std::move(message), origin, kind);
+  }
+
+ private:
+  SideFiles side_files_;
+  std::map<std::string, std::size_t> file_counts_;  // by kind
+
+  void note(Fidelity fidelity, std::string message, const Origin& origin, RecordKind kind) {
+    const SourceLocation place = location(scene, origin);
+    diagnostics.push_back({fidelity, std::move(message), place, place, kind});
+  }
+};
+
+std::string in_quotes(std::string_view text);
+
+// A parameter list that is being written; `owner` is what its diagnostics are about.
+class Parameters {
+ public:
+  Parameters(Writer& writer, std::string owner, const Origin& origin, RecordKind kind)
+      : writer_(writer), owner_(std::move(owner)), origin_(origin), kind_(kind) {}
+
+  Parameters& text(std::string_view name, std::string_view value);
+  Parameters& texts(std::string_view name, std::initializer_list<std::string_view> values);
+  Parameters& file(std::string_view name, const std::string& absolute);
+  Parameters& boolean(std::string_view name, bool value);
+  Parameters& integer(std::string_view name, int value);
+  Parameters& number(std::string_view name, float value);
+  Parameters& number(std::string_view name, double value);
+  Parameters& numbers(std::string_view type_and_name, const auto& values) {
+    list_ += fmt::format(" \"{}\" [ {} ]", type_and_name, fmt::join(values, " "));
+    return *this;
+  }
+  Parameters& number(std::string_view name, const FloatParameter& value);
+  Parameters& texture(std::string_view name, std::string_view texture);
+  Parameters& spectrum(std::string_view name, const SpectrumParameter& value);
+  // The same where pbrt refuses an rgb above 1.
+  Parameters& albedo(std::string_view name, const SpectrumParameter& value);
+  // An input of a texture of the kind that `is_float` says.
+  Parameters& input(std::string_view name, const SpectrumParameter& value, bool is_float);
+  // Of a light: pbrt sets spectra and blackbodies to luminance 1, times "scale".
+  Parameters& emission(std::string_view name, const Spectrum& value);
+
+  void approximated(std::string_view how) {
+    writer_.approximated(fmt::format("{}: {}", owner_, how), origin_, kind_);
+  }
+  void dropped(std::string_view why) { writer_.dropped(fmt::format("{}: {}", owner_, why), origin_, kind_); }
+  const std::string& list() const { return list_; }
+  Writer& writer() { return writer_; }
+
+ private:
+  void tabulated(std::string_view name, const TabulatedSpectrum& table);
+
+  Writer& writer_;
+  std::string owner_;
+  Origin origin_;
+  RecordKind kind_;
+  std::string list_;
+};
+
+// ---- The parts, in the order of the file
+void write_view(Writer& writer);
+void write_media(Writer& writer);
+void write_textures(Writer& writer);
+void write_coverage(Writer& writer);
+void write_materials(Writer& writer);
+void write_lights(Writer& writer);
+void write_shapes(Writer& writer);
+
+// What a shape is made of: the name of its material, and which share of it is there. pbrt's masks are the
+// "alpha" of shapes. Writes what it needs for that: to be called outside of blocks of attributes.
+struct ShapeSurface {
+  std::string material;
+  FloatParameter alpha = 1.0f;
+};
+ShapeSurface surface_of(Writer& writer, const Shape& shape);
+
+}  // namespace vitrail::pbrt

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "importers/images/converted_images.h"
+#include "importers/writing/exposed_lights.h"
+#include "scene/records/nesting_limits.h"
+#include "scene/records/scene.h"
+#include "scene/spectra/color.h"
+
+namespace vitrail::povray {
+
+// POV-Ray's tolerances are lengths (1e-4 and 1e-3) and its meshes hold floats. A scene that is very small,
+// very large or far from the origin is written in other units: p' = scale · (p − center).
+struct Units {
+  Transform to_pov;
+  double scale = 1;
+  double radius = 1;  // of a sphere around the scene and its camera, in the units of the file
+  Point3d center;     // its centre, likewise
+  bool is_identity() const { return to_pov == Transform{}; }
+};
+
+// What the parts of the writer share.
+struct Context {
+  const Scene& scene;
+  ExposedLights exposed;
+  std::filesystem::path directory;  // of the scene file
+  Units units;
+  bool has_delta_lights = false;
+  Diagnostics diagnostics;
+  std::set<std::string> noted;
+  ConvertedImages images;
+  std::vector<Nesting> nesting = nesting_of(scene.textures);
+  std::map<std::uint32_t, std::string> interiors = {};  // of materials that others are made of
+
+  // Each message once a place.
+  void note(Fidelity fidelity, std::string message, const Origin& origin = {}) {
+    const SourceLocation where = location(scene, origin);
+    if (noted.insert(to_string(where) + '\n' + message).second)
+      diagnostics.push_back({fidelity, std::move(message), where, where});
+  }
+  void approximated(std::string message, const Origin& origin = {}) {
+    note(Fidelity::approximated, std::move(message), origin);
+  }
+  void dropped(std::string message, const Origin& origin = {}) {
+    note(Fidelity::dropped, std::move(message), origin);
+  }
+};
+
+inline std::string vector(Vector3d v) { return fmt::format("<{},{},{}>", v.x, v.y, v.z); }
+inline std::string vector(Point3d p) { return fmt::format("<{},{},{}>", p.x, p.y, p.z); }
+// Colours are floats in POV-Ray.
+inline std::string color(RGB c) {
+  return fmt::format("rgb <{},{},{}>", static_cast<float>(c.r), static_cast<float>(c.g),
+                     static_cast<float>(c.b));
+}
+
+inline RGB operator*(RGB c, double s) { return {c.r * s, c.g * s, c.b * s}; }
+inline RGB operator*(RGB a, RGB b) { return {a.r * b.r, a.g * b.g, a.b * b.b}; }
+inline double largest(RGB c) { return std::max({c.r, c.g, c.b}); }
+inline double mean(RGB c) { return (c.r + c.g + c.b) / 3; }
+
+// POV-Ray's matrix of the affine part of t.
+inline std::string matrix(const Transform& t) {
+  std::string text = "matrix <";
+  for (std::size_t column = 0; column < 4; ++column)
+    text += fmt::format("{}{},{},{}", column ? ", " : "", t.m[0][column], t.m[1][column], t.m[2][column]);
+  return text + ">";
+}
+
+// A file's name as a string of POV-Ray's language.
+inline std::string quoted(const std::string& text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') result += '\\';
+    result += c;
+  }
+  return result + '"';
+}
+
+}  // namespace vitrail::povray

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "scene/records/scene.h"
+
+namespace vitrail::povray {
+
+// The material itself and all that it is made of, those with smaller ids first, each once.
+std::vector<Id<Material>> parts_of(const Scene& scene, Id<Material> material);
+
+// The textures that a material refers to itself.
+std::vector<Id<Texture>> textures_of(const Material& material);
+
+}  // namespace vitrail::povray

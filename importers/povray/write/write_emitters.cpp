@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+// What shapes say of their materials, with and without light of their own.
+#include "importers/povray/write/write_materials.h"
+#include "importers/povray/write/write_pigments.h"
+#include "importers/writing/export_colors.h"
+
+namespace vitrail::povray {
+
+namespace {
+
+bool is_black(const Scene& scene, Id<Material> material) {
+  const auto* diffuse = std::get_if<DiffuseMaterial>(&scene.materials.at(material.value).model);
+  const auto* reflectance = diffuse ? std::get_if<Spectrum>(&diffuse->reflectance) : nullptr;
+  return is_invisible(scene, material) || (reflectance && largest(factor_rgb(*reflectance)) == 0);
+}
+
+}  // namespace
+
+std::string use_of(Context& context, const Shape& shape, const Surface& surface) {
+  const auto there = [&](const char* name) {
+    return weighted(context, shape.opacity, "Clear", fmt::format("{}_{}", name, shape.material.value),
+                    shape.origin);
+  };
+  std::string text = there("Material");
+  if (!surface.back.empty()) text += "interior_" + there("Back");
+  if (!surface.interior.empty()) text += fmt::format("interior {{ Interior_{} }}\n", shape.material.value);
+  return text;
+}
+
+std::string emitter_of(Context& context, const Shape& shape, const Surface& surface, const AreaLight& light) {
+  if (light.directional)
+    context.approximated("light along the normal only: shines in all directions", light.origin);
+  const std::uint32_t material = shape.material.value;
+  const double factor = static_cast<double>(light.scale);
+  const Pigment radiance = pigment_of(context, light.radiance, light.origin, Colors::emissions);
+  if (!radiance.filters.empty())
+    context.approximated("product of textures that shines: its first factor", light.origin);
+  // The emission of a pigment is multiplied by its colour.
+  const std::string emission = fmt::format(
+      "pigment {{ {} }} finish {{ diffuse 0 emission {} }}", radiance.is_constant ? "rgb 1" : radiance.text,
+      color(radiance.is_constant ? radiance.constant * factor : RGB{1, 1, 1} * (factor * radiance.factor)));
+  const auto there = [&](const std::string& texture) {
+    return weighted(context, shape.opacity, "Clear", texture, shape.origin);
+  };
+  std::string text;
+  if (is_black(context.scene, shape.material)) {
+    text = there(emission);
+  } else {  // an average is the sum over the sum of its weights, which may be negative
+    text =
+        there(fmt::format("average texture_map {{ [1 Material_{}] [1 {}] [-1 Black] }}", material, emission));
+    if (!surface.interior.empty()) text += fmt::format("interior {{ Interior_{} }}\n", material);
+  }
+  if (light.two_sided) return text;
+  return text + "interior_" +
+         there(fmt::format("{}_{}", surface.back.empty() ? "Material" : "Back", material));
+}
+
+}  // namespace vitrail::povray

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <map>
+
+#include "importers/povray/write/write_pigments.h"
+#include "importers/writing/mesh_files.h"
+#include "scene/system/input_files.h"
+
+namespace vitrail::povray {
+
+namespace {
+
+std::string suffix_of(const std::string& filename) {
+  std::string suffix = std::filesystem::path(filename).extension().string();
+  std::ranges::transform(suffix, suffix.begin(), [](unsigned char c) { return std::tolower(c); });
+  return suffix;
+}
+
+// By the header of a PNG file; the depth of others is taken as 8.
+bool has_16_bits(const std::string& filename) {
+  std::ifstream file = open_input(filename);
+  constexpr std::streamoff depth = 24;
+  file.seekg(depth);
+  return file.get() == 16;
+}
+
+const std::map<std::string, std::string>& kinds() {
+  static const std::map<std::string, std::string> known{
+      {".png", "png"},   {".jpg", "jpeg"}, {".jpeg", "jpeg"}, {".tga", "tga"}, {".tif", "tiff"},
+      {".tiff", "tiff"}, {".gif", "gif"},  {".bmp", "bmp"},   {".ppm", "ppm"}, {".pgm", "pgm"},
+      {".iff", "iff"},   {".exr", "exr"},  {".hdr", "hdr"}};
+  return known;
+}
+
+std::string words_of(const Context& context, const std::string& filename, Encoding encoding, float gamma) {
+  const std::string suffix = suffix_of(filename);
+  const bool is_linear_kind =
+      suffix == ".exr" || suffix == ".hdr" || (suffix == ".png" && has_16_bits(filename));
+  std::string text =
+      fmt::format("{} {}", kinds().at(suffix), quoted(relative_name(filename, context.directory)));
+  if (encoding == Encoding::gamma) return text + fmt::format(" gamma {}", gamma);
+  if (encoding == Encoding::linear || (encoding == Encoding::automatic && is_linear_kind))
+    return text + " gamma 1.0";
+  return text + " gamma srgb";
+}
+
+bool has_transparent_pixels(const ImageTexture& texture) {
+  if (read_image_layout(texture.filename).channels % 2 != 0) return false;
+  const Image alpha = numbers_of(read_stored_image(texture.filename).image, ImageNumber::alpha);
+  return std::ranges::any_of(alpha.values, [](float a) { return a != 1; });
+}
+
+// Whether every channel is the number.
+bool is_grey(ImageTexture texture) {
+  if (read_image_layout(texture.filename).channels < 3) return texture.number != ImageNumber::alpha;
+  for (const ImageNumber channel : {ImageNumber::red, ImageNumber::green, ImageNumber::blue}) {
+    ImageTexture other = texture;
+    other.number = channel;
+    if (!have_same_values(texture, other, ImageUse::number)) return false;
+  }
+  return true;
+}
+
+// POV-Ray sees through pixels by their alpha, and looks at no chromaticities.
+bool is_seen_as_meant(const ImageTexture& texture, ImageUse use) {
+  if (!kinds().contains(suffix_of(texture.filename)) || has_transparent_pixels(texture)) return false;
+  ImageTexture taken = texture;
+  taken.primaries = Primaries::srgb;
+  return have_same_values(texture, taken, use) && (use != ImageUse::number || is_grey(texture));
+}
+
+}  // namespace
+
+std::optional<std::string> image_of(Context& context, const ImageTexture& texture, ImageUse use,
+                                    const Origin& origin) {
+  ImageTexture plain = texture;
+  plain.scale = 1, plain.invert = false;
+  try {
+    if (is_seen_as_meant(plain, use))
+      return words_of(context, texture.filename, texture.encoding, texture.gamma);
+    const std::string file = context.images.write(plain, use, {{1, 1, 1}, {}, true}).string();
+    context.approximated(fmt::format("POV-Ray takes other values from the image {}: they are written as {}",
+                                     texture.filename, relative_name(file, context.directory)),
+                         origin);
+    return words_of(context, file, Encoding::linear, 1);
+  } catch (const Error& error) {
+    std::error_code ignored;
+    const bool is_there = std::filesystem::is_regular_file(texture.filename, ignored);
+    if (is_there && kinds().contains(suffix_of(texture.filename))) {
+      context.approximated(fmt::format("{}: referred to as it is", error.what()), origin);
+      return words_of(context, texture.filename, texture.encoding, texture.gamma);
+    }
+    context.dropped(fmt::format("image {}: {}; 0.5 is written", texture.filename,
+                                is_there ? "POV-Ray 3.7 does not read this kind" : "there is no such file"),
+                    origin);
+    return {};
+  }
+}
+
+}  // namespace vitrail::povray

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "importers/povray/write/write_lights.h"
+
+#include <numbers>
+
+#include "importers/images/sky_image.h"
+#include "importers/povray/write/write_environment.h"
+#include "importers/writing/export_colors.h"
+
+namespace vitrail::povray {
+
+namespace {
+
+using std::numbers::pi;
+
+// A diffuse surface of colour ρ that is lit by colour c shows ρ·c·cos θ·a(d): irradiance over π. With the
+// attenuation a(d) = 2/(1 + (d/f)²) ≈ 2f²/d², an intensity I is c = I/(2πf²) where f is much less than d.
+double fade_distance(const Context& context) { return 1e-4 * context.units.radius * context.units.scale; }
+
+std::string fading(const Context& context) {
+  return fmt::format("fade_distance {} fade_power 2", fade_distance(context));
+}
+
+// Intensities have the unit of an area.
+std::string intensity_color(const Context& context, RGB intensity) {
+  const double f = fade_distance(context), area = context.units.scale * context.units.scale;
+  return color(intensity * (area / (2 * pi * f * f)));
+}
+
+std::string at(const Context& context, Point3d p) { return vector(transform_point(context.units.to_pov, p)); }
+
+std::string point(Context& context, Point3d position, RGB intensity) {
+  return fmt::format("light_source {{ {} {} {} }}\n", at(context, position),
+                     intensity_color(context, intensity), fading(context));
+}
+
+std::string text_of(Context& context, const PointLight& light, const Origin&) {
+  return point(context, light.position, emission_rgb(light.intensity));
+}
+
+std::string text_of(Context& context, const SpotLight& light, const Origin& origin) {
+  if (light.falloff != SpotLight::Falloff::smoothstep)
+    context.approximated("falloff of a spot light: smoothstep of the cosine between the same angles", origin);
+  if (light.texture) context.approximated("texture of a spot light: without it", origin);
+  const Point3d from = transform_point(light.light_to_world, {0, 0, 0});
+  const Vector3d axis = normalize(transform_vector(light.light_to_world, {0, 0, 1}));
+  if (light.cutoff_deg > 90)
+    context.approximated("spot light of more than 90 degrees: POV-Ray's end there", origin);
+  return fmt::format("light_source {{ {} {} spotlight radius {} falloff {} tightness 0 point_at {} {} }}\n",
+                     at(context, from), intensity_color(context, emission_rgb(light.intensity)),
+                     std::min(light.beam_deg, 90.0f), std::min(light.cutoff_deg, 90.0f),
+                     at(context, from + axis * context.units.radius), fading(context));
+}
+
+std::string text_of(Context& context, const DistantLight& light, const Origin&) {
+  const Point3d target = context.units.center;
+  const Point3d from = target - normalize(light.direction) * (4 * context.units.radius);
+  return fmt::format("light_source {{ {} {} parallel point_at {} }}\n", at(context, from),
+                     color(emission_rgb(light.irradiance) * (1 / pi)), at(context, target));
+}
+
+std::string text_of(Context& context, const ProjectionLight&, const Origin& origin) {
+  context.dropped("projection light: POV-Ray's light sources have no images", origin);
+  return "";
+}
+
+std::string text_of(Context& context, const GoniometricLight& light, const Origin& origin) {
+  if (light.power) {
+    context.dropped("goniometric light of given power: POV-Ray has no images of intensity", origin);
+    return "";
+  }
+  context.approximated("goniometric light: equal in all directions, without its image", origin);
+  return point(context, transform_point(light.light_to_world, {0, 0, 0}), emission_rgb(light.intensity));
+}
+
+std::string text_of(Context&, const InfiniteLight& light, const Origin&) {
+  return fmt::format("background {{ {} }}\n", color(emission_rgb(light.radiance)));
+}
+
+std::string text_of(Context& context, const EnvironmentLight& light, const Origin& origin) {
+  return environment_text(context, light, origin);
+}
+
+std::string text_of(Context& context, const SkyLight& light, const Origin& origin) {
+  const std::filesystem::path file = std::filesystem::absolute(context.images.new_file());
+  context.approximated("sky: its image in linear sRGB, and the sun as parallel light", origin);
+  std::string text;
+  for (const LightModel& part : sky_as_image(light, EnvironmentLight::Projection::latitude_longitude, file))
+    std::visit([&](const auto& model) { text += text_of(context, model, origin); }, part);
+  return text;
+}
+
+bool is_rgb_light(const LightModel& model) {
+  if (const auto* l = std::get_if<PointLight>(&model)) return is_rgb(l->intensity);
+  if (const auto* l = std::get_if<SpotLight>(&model)) return is_rgb(l->intensity);
+  if (const auto* l = std::get_if<DistantLight>(&model)) return is_rgb(l->irradiance);
+  if (const auto* l = std::get_if<InfiniteLight>(&model)) return is_rgb(l->radiance);
+  return true;
+}
+
+std::string facing(const Context& context, const Rectangle& r, Vector3d front, RGB radiance) {
+  constexpr int n = 16;
+  const double f = fade_distance(context), area = length(r.edge_u) * length(r.edge_v);
+  const Point3d middle = r.corner + r.edge_u * 0.5 + r.edge_v * 0.5;
+  // POV-Ray puts the first and the last light on the ends of the axes; samples belong in the middle of cells.
+  const double inner = (n - 1.0) / n;
+  return fmt::format(
+      "light_source {{ {} {} spotlight radius 90 falloff 90 tightness 1 point_at {}\n  area_light {}, {}, "
+      "{}, "
+      "{} adaptive 2 area_illumination on {} }}\n",
+      vector(middle), color(radiance * (area / (2 * pi * f * f))), vector(middle + front * length(r.edge_u)),
+      vector(r.edge_u * inner), vector(r.edge_v * inner), n, n, fading(context));
+}
+
+}  // namespace
+
+std::string light_text(Context& context, const Light& light) {
+  if (!is_rgb_light(light.model))
+    context.approximated("spectrum of a light: written as its colour in linear sRGB", light.origin);
+  return std::visit([&](const auto& model) { return text_of(context, model, light.origin); }, light.model);
+}
+
+std::string rectangle_light_text(Context& context, const Rectangle& rectangle, const AreaLight& light) {
+  const RGB radiance = emission_rgb(std::get<Spectrum>(light.radiance)) * static_cast<double>(light.scale);
+  std::string text = facing(context, rectangle, rectangle.front, radiance);
+  if (light.two_sided) text += facing(context, rectangle, -rectangle.front, radiance);
+  return text;
+}
+
+}  // namespace vitrail::povray

@@ -1,0 +1,329 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "importers/povray/write/write_materials.h"
+
+#include <cmath>
+
+#include "importers/povray/write/write_pigments.h"
+#include "importers/writing/export_colors.h"
+
+namespace vitrail::povray {
+
+namespace {
+
+constexpr double smooth_alpha = 0.01;  // below it, microfacets do not show
+
+class Builder {
+ public:
+  Builder(Context& context, const Material& material) : context_(context), material_(material) {
+    normal_ = displacement();
+  }
+
+  Surface build() {
+    Surface surface = std::visit([this](const auto& model) { return surface_of(model); }, material_.model);
+    if (!material_.two_sided && surface.back.empty() && is_opaque()) surface.back = "texture { Black }\n";
+    return surface;
+  }
+
+ private:
+  // ---- Pieces -----------------------------------------------------------------------------------
+
+  void approximated(std::string message) { context_.approximated(std::move(message), material_.origin); }
+
+  bool is_opaque() const {
+    return !std::holds_alternative<DielectricMaterial>(material_.model) &&
+           !std::holds_alternative<ThinDielectricMaterial>(material_.model) &&
+           !std::holds_alternative<InterfaceMaterial>(material_.model) &&
+           !std::holds_alternative<MaskMaterial>(material_.model) &&
+           !std::holds_alternative<DiffuseTransmissionMaterial>(material_.model);
+  }
+
+  Pigment pigment(const SpectrumParameter& parameter) {
+    return pigment_of(context_, parameter, material_.origin);
+  }
+
+  double constant(const FloatParameter& parameter, const char* what) {
+    return constant_of(context_, parameter, what, material_.origin);
+  }
+
+  RGB constant_color(const SpectrumParameter& parameter, const char* what) {
+    const Pigment p = pigment(parameter);
+    if (p.is_constant) return p.constant * p.factor;
+    approximated(fmt::format("texture of the {}: 0.5", what));
+    return {0.5, 0.5, 0.5};
+  }
+
+  double index(const Spectrum& eta, const Spectrum& exterior) {
+    const double outside = index_of_refraction(exterior);
+    return outside > 0 ? index_of_refraction(eta) / outside : index_of_refraction(eta);
+  }
+
+  std::string displacement() {
+    if (material_.normal_map)
+      context_.dropped("normal map: POV-Ray tilts normals by heights only", material_.origin);
+    if (!material_.displacement) return "";
+    const auto* id = std::get_if<Id<Texture>>(&*material_.displacement);
+    if (!id) return "";  // a constant height tilts nothing
+    const auto* image = std::get_if<ImageTexture>(&context_.scene.textures.at(id->value).model);
+    const auto file =
+        image ? image_of(context_, *image, ImageUse::number, material_.origin) : std::optional<std::string>{};
+    if (!file || !std::holds_alternative<UvMapping>(image->mapping)) {
+      context_.dropped("displacement that is not an image by uv", material_.origin);
+      return "";
+    }
+    approximated("displacement: as a bump map, whose heights POV-Ray measures in its own way");
+    return fmt::format(" normal {{ uv_mapping bump_map {{ {} interpolate 2 bump_size {} }} }}", *file,
+                       image->scale);
+  }
+
+  double alpha_of(const Roughness& roughness) {
+    const double u = constant(roughness.alpha_u, "roughness"), v = constant(roughness.alpha_v, "roughness");
+    if (u != v) approximated("anisotropic roughness: the mean of the two");
+    return (u + v) / 2;
+  }
+
+  // Glossy reflection by normals that vary below the size of a pixel.
+  std::string rough_normal(double alpha) {
+    if (alpha < smooth_alpha || !normal_.empty()) return normal_;
+    approximated(fmt::format(
+        "roughness (α = {:.3g}): normals are tilted at random, and highlights are Blinn and Phong's", alpha));
+    return fmt::format(" normal {{ bumps {} scale {} }}", alpha,
+                       1e-4 * context_.units.radius * context_.units.scale);
+  }
+
+  // What lights without extent show: the exponent n = 2/α² − 2 has the width of the microfacets.
+  std::string highlight(double alpha, double strength, bool metallic) {
+    if (alpha < smooth_alpha || !context_.has_delta_lights || strength <= 0) return "";
+    const double limited = std::min(alpha, 0.9), squared = limited * limited;
+    return fmt::format(" specular albedo {} roughness {}{}", strength, squared / (2 - 2 * squared),
+                       metallic ? " metallic" : "");
+  }
+
+  std::string layer(const std::string& pigment, const std::string& finish, const std::string& normal) const {
+    return fmt::format("texture {{ pigment {{ {} }}{}{} }}\n", pigment, normal,
+                       finish.empty() ? "" : " finish { " + finish + " }");
+  }
+  std::string layer(const std::string& pigment, const std::string& finish) const {
+    return layer(pigment, finish, normal_);
+  }
+
+  // A pigment of diffuse reflectance p·share, and the filters above it.
+  std::string diffuse(const Pigment& p, double share = 1, const std::string& more = "") {
+    const double factor = p.factor * share;
+    std::string text = layer(p.text, (factor == 1 ? "" : fmt::format("diffuse {}", factor)) + more);
+    for (const std::string& filter : p.filters) text += layer(filter, "diffuse 0");
+    return text;
+  }
+
+  // A diffuse base under a smooth or rough interface that reflects `reflectance` · Fresnel.
+  Surface coated(const Pigment& base, double share, double eta, double alpha, RGB reflectance) {
+    const double grey = (eta - 1) * (eta - 1) / ((eta + 1) * (eta + 1));
+    const std::string finish =
+        fmt::format("diffuse 0 reflection {{ rgb 0, {} fresnel on }}{}", color(reflectance),
+                    highlight(alpha, grey * mean(reflectance), false));
+    return {diffuse(base, share) + layer("rgbt 1", finish, rough_normal(alpha)), "",
+            fmt::format("interior {{ ior {} }}\n", eta)};
+  }
+
+  // The reflectance of a diffuse base, white below, that light reaches and leaves through an interface.
+  double diffuse_share(const Pigment& base, double eta, bool nonlinear) {
+    const double in = 1 - diffuse_fresnel_outside(eta), back = diffuse_fresnel_inside(eta);
+    if (!nonlinear) return in;
+    const double rho = base.is_constant ? std::min(1.0, mean(base.constant) * base.factor) : 0.5;
+    return in * (1 - back) / (1 - rho * back);
+  }
+
+  // ---- Models -----------------------------------------------------------------------------------
+
+  Surface surface_of(const DiffuseMaterial& m) {
+    if (m.sigma_deg != FloatParameter{0.0f}) approximated("Oren and Nayar's reflection: Lambert's");
+    return {diffuse(pigment(m.reflectance)), "", ""};
+  }
+
+  Surface surface_of(const DielectricMaterial& m) {
+    const double alpha = alpha_of(m.roughness), eta = index(m.eta, m.exterior_eta);
+    const RGB reflected = constant_color(m.reflectance_factor, "factor of reflection");
+    const Pigment through = pigment(m.transmittance_factor);
+    approximated("dielectric: light of sources passes straight through it, without caustics");
+    const double ratio = dispersion_ratio(m.eta);
+    std::string dispersion;
+    if (std::abs(ratio - 1) > 1e-4) {
+      approximated("dispersion: POV-Ray's seven colours between n(700 nm) and n(400 nm)");
+      dispersion = fmt::format(" dispersion {} dispersion_samples 7", ratio);
+    }
+    const std::string finish =
+        fmt::format("diffuse 0 reflection {{ rgb 0, {} fresnel on }} conserve_energy{}", color(reflected),
+                    highlight(alpha, 0.04, false));
+    std::string filter = through.is_constant ? color(through.constant * through.factor) + " filter 1" : "";
+    if (filter.empty()) {
+      approximated("texture of the transmitted light: clear");
+      filter = "rgb 1 filter 1";
+    }
+    return {layer(filter, finish, rough_normal(alpha)), "",
+            fmt::format("interior {{ ior {}{} }}\n", eta, dispersion)};
+  }
+
+  Surface surface_of(const ThinDielectricMaterial& m) {
+    const double eta = index(m.eta, m.exterior_eta);
+    const double once = (eta - 1) * (eta - 1) / ((eta + 1) * (eta + 1));
+    const double sheet = 2 * once / (1 + once);  // of the light that goes to and fro in it
+    approximated("thin dielectric: reflects by Schlick's approximation");
+    const RGB reflected = constant_color(m.reflectance_factor, "factor of reflection");
+    const RGB through = constant_color(m.transmittance_factor, "factor of transmission");
+    return {layer(color(through) + " filter 1",
+                  fmt::format("diffuse 0 reflection {{ {}, {} falloff 5 }} conserve_energy",
+                              color(reflected * sheet), color(reflected))),
+            "", ""};
+  }
+
+  Surface conductor(const Metal& metal, const Roughness& roughness, const SpectrumParameter& factor) {
+    const double alpha = alpha_of(roughness);
+    const RGB tint = constant_color(factor, "factor of reflection");
+    const auto* normal = std::get_if<NormalReflectance>(&metal);
+    if (normal && std::holds_alternative<Id<Texture>>(normal->reflectance)) {
+      const Pigment p = pigment(normal->reflectance);
+      approximated("textured reflectance of a metal: POV-Ray's metallic reflection");
+      return {layer(p.text,
+                    fmt::format("diffuse 0 reflection {{ {} metallic }}{}", color(tint * p.factor),
+                                highlight(alpha, 1, true)),
+                    rough_normal(alpha)),
+              "", ""};
+    }
+    const RGB facing = normal_reflectance_rgb(metal) * tint;
+    const bool is_perfect = std::holds_alternative<PerfectReflector>(metal);
+    if (!is_perfect) approximated("conductor: Schlick's approximation from its colour at normal incidence");
+    return {layer(color(facing),
+                  fmt::format("diffuse 0 reflection {{ {}, {} falloff 5 }}{}", color(facing), color(tint),
+                              highlight(alpha, 1, true)),
+                  rough_normal(alpha)),
+            "", ""};
+  }
+
+  Surface surface_of(const ConductorMaterial& m) {
+    return conductor(m.metal, m.roughness, m.reflectance_factor);
+  }
+
+  Surface surface_of(const PlasticMaterial& m) {
+    const double eta = m.exterior_eta > 0 ? m.eta / m.exterior_eta : m.eta;
+    const Pigment base = pigment(m.diffuse_reflectance);
+    approximated("plastic: a diffuse base of the same mean albedo under Fresnel reflection");
+    return coated(base, diffuse_share(base, eta, m.nonlinear), eta, alpha_of(m.roughness),
+                  constant_color(m.specular_reflectance, "specular reflectance"));
+  }
+
+  Surface surface_of(const CoatedDiffuseMaterial& m) {
+    const double eta = index_of_refraction(m.eta);
+    const Pigment base = pigment(m.reflectance);
+    approximated("coated diffuse: a diffuse base of the same mean albedo under Fresnel reflection");
+    return coated(base, diffuse_share(base, eta, true), eta, alpha_of(m.roughness), {1, 1, 1});
+  }
+
+  Surface surface_of(const CoatedConductorMaterial& m) {
+    approximated("coated conductor: without its coating");
+    return conductor(m.metal, m.conductor_roughness, ConstantSpectrum{1});
+  }
+
+  // POV-Ray's second diffuse amount is for light from behind.
+  Surface surface_of(const DiffuseTransmissionMaterial& m) {
+    Pigment p = pigment(m.reflectance);
+    const double forth = mean(constant_color(m.transmittance, "transmittance"));
+    const double back = p.is_constant ? mean(p.constant) : 0.5;
+    approximated("diffuse transmission: light that passes has the colour of light that is reflected");
+    if (back <= 0) return {layer(color(RGB{1, 1, 1}), fmt::format("diffuse 0, {}", forth * m.scale)), "", ""};
+    return {layer(p.text, fmt::format("diffuse {}, {}", p.factor * m.scale, forth / back * m.scale)), "", ""};
+  }
+
+  Surface surface_of(const PrincipledMaterial& m) {
+    const double rough = constant(m.roughness, "roughness"), alpha = std::max(0.001, rough * rough);
+    const double metallic = constant(m.metallic, "metallic"), glass = constant(m.spec_trans, "spec_trans");
+    const char* const kind = metallic >= 0.5 ? "conductor" : glass >= 0.5 ? "dielectric" : "plastic";
+    approximated(fmt::format("principled material: a {}; sheen, tints and clearcoat are left out", kind));
+    Roughness roughness;
+    roughness.alpha_u = roughness.alpha_v = static_cast<float>(alpha);
+    if (metallic >= 0.5) return conductor(NormalReflectance{m.base_color}, roughness, ConstantSpectrum{1});
+    if (glass >= 0.5) {
+      DielectricMaterial dielectric;
+      dielectric.eta = ConstantSpectrum{m.eta};
+      dielectric.transmittance_factor = m.base_color;
+      dielectric.roughness = roughness;
+      return surface_of(dielectric);
+    }
+    const Pigment base = pigment(m.base_color);
+    return coated(base, diffuse_share(base, m.eta, false), m.eta, alpha, {1, 1, 1});
+  }
+
+  Surface opaque_instead(const char* what, double grey) {
+    approximated(fmt::format("{}: diffuse, {}", what, grey));
+    return {layer(color(RGB{grey, grey, grey}), ""), "", ""};
+  }
+  Surface surface_of(const SubsurfaceMaterial& m) {
+    const auto* effective = std::get_if<SubsurfaceMaterial::Effective>(&m.interior);
+    if (!effective) return opaque_instead("subsurface scattering", 0.5);
+    approximated("subsurface scattering: diffuse, of its reflectance");
+    return {diffuse(pigment(effective->reflectance)), "", ""};
+  }
+  Surface surface_of(const HairMaterial& m) {
+    if (!m.color) return opaque_instead("hair", 0.2);
+    approximated("hair: diffuse, of its colour");
+    return {diffuse(pigment(*m.color)), "", ""};
+  }
+  Surface surface_of(const MeasuredMaterial&) { return opaque_instead("measured material", 0.5); }
+  Surface surface_of(const TabulatedMaterial&) { return opaque_instead("tabulated material", 0.5); }
+  Surface surface_of(const SlabMaterial&) {
+    approximated("slab of a medium: diffuse transmission, 0.25 each way");
+    return surface_of(DiffuseTransmissionMaterial{});
+  }
+  Surface surface_of(const InterfaceMaterial&) { return {"texture { Clear }\n", "", ""}; }
+
+  // ---- Made of others ---------------------------------------------------------------------------
+
+  std::string name(Id<Material> id) { return fmt::format("Material_{}", id.value); }
+  std::string interior(Id<Material> id) {
+    if (const auto known = context_.interiors.find(id.value); known != context_.interiors.end())
+      return known->second;
+    return context_.interiors[id.value] = povray::surface_of(context_, id).interior;
+  }
+
+  Surface surface_of(const BlendMaterial& m) {
+    Surface surface{weighted(context_, m.amount, name(m.first), name(m.second), material_.origin), "", ""};
+    const std::string first = interior(m.first), second = interior(m.second);
+    if (!first.empty() && !second.empty() && first != second)
+      approximated("blend of two interiors: the first one's index of refraction");
+    surface.interior = first.empty() ? second : first;
+    return surface;
+  }
+
+  Surface surface_of(const MaskMaterial& m) {
+    Surface surface{weighted(context_, m.opacity, "Clear", name(m.material), material_.origin), "", ""};
+    surface.interior = interior(m.material);
+    return surface;
+  }
+
+  Surface surface_of(const TwoSidedMaterial& m) {
+    return {fmt::format("texture {{ {} }}\n", name(m.front)), fmt::format("texture {{ {} }}\n", name(m.back)),
+            interior(m.front)};
+  }
+
+  Context& context_;
+  const Material& material_;
+  std::string normal_;
+};
+
+}  // namespace
+
+std::string weighted(Context& context, const FloatParameter& amount, const std::string& at_0,
+                     const std::string& at_1, const Origin& user) {
+  if (const auto* id = std::get_if<Id<Texture>>(&amount))
+    if (const auto pattern = pattern_of(context, *id, user))
+      return fmt::format("texture {{ {} texture_map {{ [0 {}] [1 {}] }}{} }}\n", pattern->text, at_0, at_1,
+                         pattern->transform);
+  const double weight = std::clamp(constant_of(context, amount, "amount of a blend", user), 0.0, 1.0);
+  if (weight == 0 || weight == 1) return fmt::format("texture {{ {} }}\n", weight == 0 ? at_0 : at_1);
+  return fmt::format("texture {{ average texture_map {{ [{} {}] [{} {}] }} }}\n", 1 - weight, at_0, weight,
+                     at_1);
+}
+
+Surface surface_of(Context& context, Id<Material> material) {
+  return Builder(context, context.scene.materials.at(material.value)).build();
+}
+
+}  // namespace vitrail::povray

@@ -1,0 +1,309 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "importers/povray/write/write_pigments.h"
+
+#include <cmath>
+#include <set>
+
+#include "images/ptex_means.h"
+#include "importers/writing/export_colors.h"
+#include "scene/records/texture_inputs.h"
+
+namespace vitrail::povray {
+
+namespace {
+
+// A pigment holds all pigments that it is made of, and those that it shares as often as it asks for them.
+constexpr std::uint64_t most_pigments = 1024;
+
+// How a pigment is used: as a colour, or as a filter of what lies below it.
+struct Use {
+  Colors colors = Colors::factors;
+  bool as_filter = false;
+  Origin user;
+};
+
+const char* filter_of(const Use& use) { return use.as_filter ? " filter 1" : ""; }
+
+Pigment constant(RGB c, const Use& use) {
+  return {fmt::format("{}{}", color(c), filter_of(use)), 1, {}, true, c};
+}
+
+Pigment grey(double value, const Use& use) { return constant({value, value, value}, use); }
+
+Pigment build(Context& context, const SpectrumParameter& parameter, const Use& use);
+
+// ---- Mappings -----------------------------------------------------------------------------------
+
+struct Placement {
+  bool by_uv = false;
+  std::string map_type;   // of an image_map
+  std::string transform;  // of the pattern
+};
+
+Transform affine(const UvMapping& m) {
+  Transform t;
+  t.m[0] = {m.a, m.b, 0, m.c};
+  t.m[1] = {m.d, m.e, 0, m.f};
+  return t;
+}
+
+// Patterns are looked up at the inverse of their transform.
+std::string undoing(const Transform& pov_to_texture) {
+  return pov_to_texture == Transform{} ? "" : fmt::format(" {}", matrix(inverse(pov_to_texture)));
+}
+
+// p = to_texture(inverse(to_pov)(q)) of the point q of POV-Ray's space.
+Transform from_pov(const Context& context, const Transform& texture_to_world) {
+  return texture_to_world * inverse(context.units.to_pov);
+}
+
+Placement place(Context& context, const TextureMapping& mapping, const Origin& origin) {
+  if (const auto* uv = std::get_if<UvMapping>(&mapping)) {
+    const Transform t = affine(*uv);
+    if (is_invertible(t)) return {true, "", undoing(t)};
+    context.approximated("texture mapping that is constant along a direction: written as the uv themselves",
+                         origin);
+    return {true, "", ""};
+  }
+  Transform t, to_image;
+  std::string map_type = "map_type 0 ";
+  if (const auto* m = std::get_if<SphericalMapping>(&mapping)) {
+    t = inverse(m->texture_to_world);
+    // POV-Ray: around +y, from +x towards +z, the image's lower edge at −y. Ours: t = 0 at +z.
+    to_image.m = {{{1, 0, 0, 0}, {0, 0, -1, 0}, {0, 1, 0, 0}, {0, 0, 0, 1}}};
+    map_type = "map_type 1 ";
+  } else if (const auto* c = std::get_if<CylindricalMapping>(&mapping)) {
+    t = inverse(c->texture_to_world);
+    to_image.m = {{{1, 0, 0, 0}, {0, 0, 1, 0}, {0, 1, 0, 0}, {0, 0, 0, 1}}};
+    map_type = "map_type 2 ";
+  } else {
+    const auto& p = std::get<PlanarMapping>(mapping);
+    t = inverse(p.texture_to_world);
+    const Vector3d across = cross(p.v1, p.v2);
+    to_image.m = {{{p.v1.x, p.v1.y, p.v1.z, p.offset_s},
+                   {p.v2.x, p.v2.y, p.v2.z, p.offset_t},
+                   {across.x, across.y, across.z, 0},
+                   {0, 0, 0, 1}}};
+  }
+  const Transform whole = to_image * from_pov(context, t);
+  if (!is_invertible(whole)) {
+    context.approximated("texture mapping without an inverse: written without it", origin);
+    return {false, map_type, ""};
+  }
+  return {false, map_type, undoing(whole)};
+}
+
+const char* uv_of(const Placement& placement) { return placement.by_uv ? "uv_mapping " : ""; }
+
+// ---- Kinds of texture ---------------------------------------------------------------------------
+
+// A colour inside a map of pigments, where neither filters nor factors above 1 can be.
+std::string entry(Context& context, const SpectrumParameter& parameter, const Use& use) {
+  const Pigment p = build(context, parameter, use);
+  if (!p.filters.empty())
+    context.approximated("product of textures inside a texture: its first factor", use.user);
+  if (p.factor == 1) return p.text;
+  if (p.factor > 1) {
+    context.approximated(fmt::format("scale {} of a texture inside a texture: 1", p.factor), use.user);
+    return p.text;
+  }
+  return fmt::format("average pigment_map {{ [{} {}] [{} rgb 0{}] }}", p.factor, p.text, 1 - p.factor,
+                     filter_of(use));
+}
+
+Pigment image(Context& context, const ImageTexture& texture, bool is_float, const Origin& origin,
+              const Use& use) {
+  const auto file = image_of(context, texture, is_float ? ImageUse::number : ImageUse::color, origin);
+  if (!file) return grey(0.5, use);
+  if (texture.wrap != Wrap::repeat)
+    context.approximated("image that does not repeat: POV-Ray repeats it outside of (0,0) … (1,1)", origin);
+  const Placement placement = place(context, texture.mapping, origin);
+  Pigment p;
+  p.text = fmt::format("{}image_map {{ {} {}{}{}}}{}", uv_of(placement), *file, placement.map_type,
+                       texture.filter == TextureFilter::nearest ? "" : "interpolate 2 ",
+                       use.as_filter ? "filter all 1 " : "", placement.transform);
+  p.factor = texture.scale;
+  if (!texture.invert) return p;
+  if (texture.scale != 1) context.approximated("inverted image with a scale: the scale is left out", origin);
+  p.text = fmt::format("average pigment_map {{ [2 rgb 0.5{}] [-1 {}] }}", filter_of(use), p.text);
+  p.factor = 1;
+  return p;
+}
+
+Pigment checkerboard(Context& context, const CheckerboardTexture& texture, const Origin& origin,
+                     const Use& use) {
+  Placement placement;
+  if (texture.solid) {
+    const Transform t = from_pov(context, inverse(texture.texture_to_world));
+    if (is_invertible(t)) placement.transform = undoing(t);
+  } else {
+    placement = place(context, texture.mapping, origin);
+    if (placement.map_type.ends_with("1 ") || placement.map_type.ends_with("2 "))
+      context.approximated("checkerboard on a sphere or cylinder: written in space", origin);
+  }
+  Pigment p;
+  p.text =
+      fmt::format("{}checker pigment {{ {} }} pigment {{ {} }}{}", uv_of(placement),
+                  entry(context, texture.even, use), entry(context, texture.odd, use), placement.transform);
+  return p;
+}
+
+Pigment mix(Context& context, const MixTexture& texture, const Use& use) {
+  const std::string first = entry(context, texture.first, use), second = entry(context, texture.second, use);
+  Pigment p;
+  if (const auto* id = std::get_if<Id<Texture>>(&texture.amount)) {
+    if (const auto pattern = pattern_of(context, *id, use.user)) {
+      p.text = fmt::format("{} pigment_map {{ [0 {}] [1 {}] }}{}", pattern->text, first, second,
+                           pattern->transform);
+      return p;
+    }
+  }
+  const double amount = constant_of(context, texture.amount, "amount of a mix", use.user);
+  if (amount <= 0) return build(context, texture.first, use);
+  if (amount >= 1) return build(context, texture.second, use);
+  p.text = fmt::format("average pigment_map {{ [{} {}] [{} {}] }}", 1 - amount, first, amount, second);
+  return p;
+}
+
+Pigment product(Context& context, const ProductTexture& texture, const Use& use) {
+  Pigment first = build(context, texture.first, use);
+  Use above = use;
+  above.as_filter = true;
+  const Pigment second = build(context, texture.second, above);
+  if (first.is_constant && second.is_constant) return constant(first.constant * second.constant, use);
+  first.is_constant = false;
+  first.factor *= second.factor;
+  first.filters.push_back(second.text);
+  first.filters.insert(first.filters.end(), second.filters.begin(), second.filters.end());
+  return first;
+}
+
+Pigment bilinear(Context& context, const BilinearTexture& texture, const Origin& origin, const Use& use) {
+  const Placement placement = place(context, texture.mapping, origin);
+  const auto column = [&](const SpectrumParameter& low, const SpectrumParameter& high) {
+    return fmt::format("gradient y pigment_map {{ [0 {}] [1 {}] }}", entry(context, low, use),
+                       entry(context, high, use));
+  };
+  context.approximated("bilinear texture: it repeats outside of (0,0) … (1,1)", origin);
+  Pigment p;
+  p.text =
+      fmt::format("{}gradient x pigment_map {{ [0 {}] [1 {}] }}{}", uv_of(placement),
+                  column(texture.v00, texture.v01), column(texture.v10, texture.v11), placement.transform);
+  return p;
+}
+
+Pigment attribute(Context& context, const MeshAttributeTexture& texture, const Origin& origin,
+                  const Use& use) {
+  context.approximated(fmt::format("mesh attribute {}: its mean", texture.name), origin);
+  const auto mean = mean_of_attribute(context.scene, texture);
+  return mean ? constant(*mean, use) : grey(0.5, use);
+}
+
+Pigment build(Context& context, Id<Texture> id, const Use& use) {
+  const Texture& texture = context.scene.textures.at(id.value);
+  const Origin& origin = texture.origin;
+  if (context.nesting.at(id.value).lookups > most_pigments) {
+    context.approximated(
+        fmt::format("texture that leads to more than {} others, each written on every way: 0.5",
+                    most_pigments),
+        origin);
+    return grey(0.5, use);
+  }
+  if (const auto* t = std::get_if<ImageTexture>(&texture.model))
+    return image(context, *t, texture.is_float, origin, use);
+  if (const auto* t = std::get_if<CheckerboardTexture>(&texture.model))
+    return checkerboard(context, *t, origin, use);
+  if (const auto* t = std::get_if<ProductTexture>(&texture.model)) return product(context, *t, use);
+  if (const auto* t = std::get_if<MixTexture>(&texture.model)) return mix(context, *t, use);
+  if (const auto* t = std::get_if<BilinearTexture>(&texture.model)) return bilinear(context, *t, origin, use);
+  if (const auto* t = std::get_if<MeshAttributeTexture>(&texture.model))
+    return attribute(context, *t, origin, use);
+  if (const auto* t = std::get_if<DotsTexture>(&texture.model)) {
+    context.approximated("texture of dots: what is outside of them", origin);
+    return build(context, t->outside, use);
+  }
+  if (const auto* t = std::get_if<DirectionMixTexture>(&texture.model)) {
+    context.approximated("mix by direction: the mean of its colours", origin);
+    return mix(context, MixTexture{t->first, t->second, 0.5f}, use);
+  }
+  if (std::holds_alternative<UvTexture>(texture.model)) {
+    context.approximated("texture of the uv themselves: their mean colour", origin);
+    return constant({0.5, 0.5, 0}, use);
+  }
+  if (const auto* t = std::get_if<NoiseTexture>(&texture.model)) {
+    context.approximated("texture of noise: its mean", origin);
+    return constant(mean_of_noise(*t), use);
+  }
+  const PtexMean mean = mean_of_ptex(std::get<PtexTexture>(texture.model));
+  context.approximated(fmt::format("texture of Ptex: {}", mean.how), origin);
+  return constant(mean.color, use);
+}
+
+Pigment build(Context& context, const SpectrumParameter& parameter, const Use& use) {
+  if (const auto* id = std::get_if<Id<Texture>>(&parameter)) return build(context, *id, use);
+  const Spectrum& spectrum = std::get<Spectrum>(parameter);
+  if (!is_rgb(spectrum)) context.approximated("spectrum: written as its colour in linear sRGB", use.user);
+  return constant(use.colors == Colors::emissions ? emission_rgb(spectrum) : factor_rgb(spectrum), use);
+}
+
+bool is_uv(const TextureMapping& mapping) { return std::holds_alternative<UvMapping>(mapping); }
+
+// What of a texture is shown by uv is itself or an input, of those that this writer shows.
+bool shows_uvs(const TextureModel& model) {
+  if (const auto* t = std::get_if<ImageTexture>(&model)) return is_uv(t->mapping);
+  if (const auto* t = std::get_if<CheckerboardTexture>(&model)) return !t->solid && is_uv(t->mapping);
+  const auto* t = std::get_if<BilinearTexture>(&model);
+  return t && is_uv(t->mapping);
+}
+
+template <class F>
+void for_shown_inputs(const TextureModel& model, F&& f) {
+  if (std::holds_alternative<BilinearTexture>(model)) return;
+  const auto* dots = std::get_if<DotsTexture>(&model);
+  if (!dots) return for_texture_inputs(model, f);
+  if (const auto* id = std::get_if<Id<Texture>>(&dots->outside)) f(*id);
+}
+
+}  // namespace
+
+Pigment pigment_of(Context& context, const SpectrumParameter& parameter, const Origin& user, Colors colors) {
+  return build(context, parameter, Use{colors, false, user});
+}
+
+std::optional<Pattern> pattern_of(Context& context, Id<Texture> id, const Origin& user) {
+  const Texture& texture = context.scene.textures.at(id.value);
+  const auto* t = std::get_if<ImageTexture>(&texture.model);
+  if (!t) return {};
+  const auto file = image_of(context, *t, ImageUse::number, texture.origin);
+  if (!file) return {};
+  if (t->scale != 1 || t->invert)
+    context.approximated("image of weights with a scale or inverted: as it is in the file", user);
+  const Placement placement = place(context, t->mapping, texture.origin);
+  return Pattern{
+      fmt::format("{}image_pattern {{ {} {}interpolate 2 }}", uv_of(placement), *file, placement.map_type),
+      placement.transform};
+}
+
+bool uses_uvs(const Scene& scene, Id<Texture> texture) {
+  std::vector<Id<Texture>> open{texture};
+  std::set<std::uint32_t> seen;
+  while (!open.empty()) {
+    const Id<Texture> id = open.back();
+    open.pop_back();
+    if (!seen.insert(id.value).second) continue;
+    const TextureModel& model = scene.textures.at(id.value).model;
+    if (shows_uvs(model)) return true;
+    for_shown_inputs(model, [&](Id<Texture> input) { open.push_back(input); });
+  }
+  return false;
+}
+
+double constant_of(Context& context, const FloatParameter& parameter, const char* what, const Origin& user) {
+  if (const auto* value = std::get_if<float>(&parameter)) return *value;
+  const Texture& texture = context.scene.textures.at(std::get<Id<Texture>>(parameter).value);
+  context.approximated(fmt::format("texture of the {}: 0.5", what),
+                       texture.origin.line ? texture.origin : user);
+  return 0.5;
+}
+
+}  // namespace vitrail::povray

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "importers/reading/given_sky.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <functional>
+#include <set>
+
+#include "scene/daylight/photometry.h"
+
+namespace vitrail {
+
+namespace {
+
+double number(const std::string& word, double low, double high) {
+  double x = 0;
+  const char* begin = word.data() + (word.starts_with('+') ? 1 : 0);
+  const auto [end, error] = std::from_chars(begin, word.data() + word.size(), x);
+  if (error != std::errc() || end != word.data() + word.size() || !(x >= low && x <= high))
+    throw UsageError(
+        fmt::format("--sky: expected a number from {:g} to {:g}, found \"{}\"", low, high, word));
+  return x;
+}
+
+// Degrees, negative ones also as those of the other letter: 33.9S is −33.9.
+double degrees(std::string word, char positive, char negative, double most) {
+  const char last = word.empty() ? 0 : word.back();
+  if (last != positive && last != negative) return number(word, -most, most);
+  word.pop_back();
+  return number(word, 0, most) * (last == negative ? -1 : 1);
+}
+
+Vector3d axis(const std::string& name) {
+  const double sign = name.starts_with('-') ? -1 : 1;
+  const std::string letter = name.starts_with('-') || name.starts_with('+') ? name.substr(1) : name;
+  if (letter == "x") return {sign, 0, 0};
+  if (letter == "y") return {0, sign, 0};
+  if (letter == "z") return {0, 0, sign};
+  throw UsageError(fmt::format("--sky: expected an axis such as z or -y, found \"{}\"", name));
+}
+
+void set(GivenSky& sky, const std::string& key, const std::string& value) {
+  if (key == "turbidity")
+    sky.light.turbidity = static_cast<float>(number(value, 1, 10));
+  else if (key == "albedo")
+    sky.light.albedo = ConstantSpectrum{static_cast<float>(number(value, 0, 1))};
+  else if (key == "sun")
+    sky.light.sun_scale = static_cast<float>(number(value, 0, 1e6));
+  else if (key == "sky")
+    sky.light.sky_scale = static_cast<float>(number(value, 0, 1e6));
+  else if (key == "up" || key == "north")
+    axis(value), (key == "up" ? sky.up : sky.north) = value;
+  else
+    throw UsageError(
+        fmt::format("--sky: there is no \"{}\"; there are turbidity, albedo, up, north, sun and sky", key));
+}
+
+bool is_far(const LightModel& light) {
+  return std::holds_alternative<DistantLight>(light) || std::holds_alternative<InfiniteLight>(light) ||
+         std::holds_alternative<EnvironmentLight>(light) || std::holds_alternative<SkyLight>(light);
+}
+
+}  // namespace
+
+GivenSky parse_sky(const std::string& words) {
+  std::vector<std::string> parts;
+  for (std::size_t at = 0; at <= words.size();) {
+    const std::size_t end = std::min(words.find(',', at), words.size());
+    parts.push_back(words.substr(at, end - at));
+    at = end + 1;
+  }
+  if (parts.size() < 3)
+    throw UsageError("--sky takes LATITUDE,LONGITUDE,TIME such as 48.85,2.35,2026-06-21T12:00+02:00");
+  GivenSky sky;
+  sky.light.albedo = ConstantSpectrum{0.2f};
+  sky.place = {degrees(parts[0], 'N', 'S', 90), degrees(parts[1], 'E', 'W', 180)};
+  try {
+    sky.time = local_time(parts[2]);
+  } catch (const Error& error) {
+    throw UsageError(fmt::format("--sky: {}", error.what()));
+  }
+  std::set<std::string, std::less<>> given;
+  for (std::size_t i = 3; i < parts.size(); ++i) {
+    const std::size_t at = parts[i].find('=');
+    const std::string key(at == std::string::npos ? "turbidity" : parts[i].substr(0, at));
+    if (!given.insert(key).second) throw UsageError(fmt::format("--sky: {} is given twice", key));
+    set(sky, key, at == std::string::npos ? parts[i] : parts[i].substr(at + 1));
+  }
+  sky.sun = sun_position(sky.time, sky.place);
+  sky.light.to_sun = direction_of(sky.sun);
+  return sky;
+}
+
+Transform sky_to_world(const std::string& up_name, const std::string& north_name) {
+  const Vector3d up = axis(up_name), north = axis(north_name), east = cross(north, up);
+  if (!(length(east) > 0))
+    throw UsageError(fmt::format("--sky: up={} and north={} are along one axis", up_name, north_name));
+  Transform t;
+  t.m[0] = {east.x, north.x, up.x, 0};
+  t.m[1] = {east.y, north.y, up.y, 0};
+  t.m[2] = {east.z, north.z, up.z, 0};
+  return t;
+}
+
+std::string up_of_camera(const Camera& camera) {
+  const Transform to_world = std::visit([](const auto& c) { return c.camera_to_world; }, camera);
+  const Vector3d up = normalize(transform_vector(to_world, {0, 1, 0})),
+                 right = normalize(transform_vector(to_world, {1, 0, 0}));
+  std::string best = "y";
+  double most = 0;
+  for (const bool level : {true, false}) {
+    for (const char* name : {"y", "z", "x", "-y", "-z", "-x"}) {
+      const double rises = dot(axis(name), up);
+      if (rises > most + 1e-6 && (!level || std::abs(dot(axis(name), right)) < 1e-3))
+        most = rises, best = name;
+    }
+    if (most > 0.1) break;
+  }
+  return best;
+}
+
+namespace {
+
+// cd/m² of surfaces; a point's cd count as if they came from a square decimetre.
+double brightness_of(const Scene& scene) {
+  double most = 0;
+  const auto see = [&](const SpectrumParameter& p, double factor) {
+    if (const auto* spectrum = std::get_if<Spectrum>(&p))
+      most = std::max(most, photometric(luminance(*spectrum)) * factor);
+  };
+  for (const AreaLight& light : scene.area_lights) see(light.radiance, 1);
+  for (const Light& light : scene.lights) {
+    if (const auto* point = std::get_if<PointLight>(&light.model)) see(point->intensity, 100);
+    if (const auto* spot = std::get_if<SpotLight>(&light.model)) see(spot->intensity, 100);
+  }
+  return most;
+}
+
+void note_lamps(ImportedScene& imported) {
+  constexpr double luminaires = 2e4;
+  const double most = brightness_of(imported.scene);
+  if (most <= luminaires) return;
+  imported.diagnostics.push_back(
+      {Fidelity::approximated,
+       fmt::format(
+           "beside --sky the scene's own lamps count as W/(m2 sr nm): the brightest has {:.2g} cd/m2, the "
+           "clear sky some 1e4, a luminaire less; if the scene has units of its own, scale its lamps or "
+           "leave them out",
+           most)});
+}
+
+}  // namespace
+
+void replace_sky(ImportedScene& imported, const GivenSky& sky) {
+  Scene& scene = imported.scene;
+  std::vector<Light> kept;
+  for (Light& light : scene.lights) {
+    if (!is_far(light.model)) {
+      kept.push_back(std::move(light));
+      continue;
+    }
+    const SourceLocation place = location(scene, light.origin);
+    imported.diagnostics.push_back({Fidelity::dropped, "light from infinitely far: --sky stands for it",
+                                    place, place, RecordKind::light});
+  }
+  scene.lights = std::move(kept);
+  const std::string up = sky.up.empty() ? up_of_camera(scene.camera) : sky.up;
+  if (sky.up.empty() && up != "y")
+    imported.diagnostics.push_back(
+        {Fidelity::approximated, fmt::format("--sky: up={} by the camera; with up=… another axis is", up)});
+  note_lamps(imported);
+  SkyLight light = sky.light;
+  const char* usual = up.ends_with('y') ? "-z" : "y";
+  light.light_to_world = sky_to_world(up, sky.north.empty() ? usual : sky.north);
+  scene.lights.push_back({light, {}});
+}
+
+}  // namespace vitrail

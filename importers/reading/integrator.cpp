@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "importers/reading/integrator.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "scene/records/transmission.h"
+
+namespace vitrail {
+
+namespace {
+
+using Kind = AskedIntegrator::Kind;
+
+bool has_smooth(const Scene& scene) {
+  return std::ranges::any_of(lobes_of(scene.materials), [](const Lobes& l) { return l.smooth; });
+}
+
+bool has_smooth_glass(const Scene& scene) {
+  const std::vector<Lobes> lobes = lobes_of(scene.materials);
+  const std::vector<bool> through = transmitting(scene.materials);
+  for (std::size_t i = 0; i < lobes.size(); ++i)
+    if (lobes[i].smooth && through[i]) return true;
+  return false;
+}
+
+// Those that no ray meets.
+bool has_lamps_without_size(const Scene& scene) {
+  return std::ranges::any_of(scene.lights, [](const Light& light) {
+    const LightModel& m = light.model;
+    return !std::holds_alternative<InfiniteLight>(m) && !std::holds_alternative<EnvironmentLight>(m) &&
+           !std::holds_alternative<SkyLight>(m);
+  });
+}
+
+bool has_media(const Scene& scene) {
+  const auto in = [](const std::vector<Shape>& shapes) {
+    return std::ranges::any_of(shapes, [](const Shape& s) { return s.interior || s.exterior; });
+  };
+  return scene.camera_medium || in(scene.shapes) ||
+         std::ranges::any_of(scene.prototypes, [&](const Prototype& p) { return in(p.shapes); }) ||
+         std::ranges::any_of(scene.materials, [](const Material& m) {
+           return std::holds_alternative<SubsurfaceMaterial>(m.model);
+         });
+}
+
+constexpr const char* caustics =
+    "what mirrors and curved glass throw from small lamps is missed, or noisy; render --integrator photon "
+    "shows it";
+
+}  // namespace
+
+std::vector<std::string> settle_integrator(const AskedIntegrator& asked, Scene& scene) {
+  std::vector<std::string> differences;
+  const auto becomes = [&](const std::string& what) {
+    differences.push_back(fmt::format("integrator \"{}\" becomes {}", asked.name, what));
+  };
+  const bool smooth = has_smooth(scene);
+  if (asked.kind == Kind::both_ends && smooth) becomes(fmt::format("a path tracer: {}", caustics));
+  if (asked.kind == Kind::from_lamps && smooth)
+    becomes(fmt::format("a path tracer, which also shows what the camera sees by mirrors and glass: {}",
+                        caustics));
+  if (asked.kind == Kind::by_chance && has_lamps_without_size(scene))
+    becomes("a path tracer, which also finds the lamps that no ray meets");
+  if (asked.kind == Kind::direct && has_smooth_glass(scene))
+    becomes("direct light that also comes straight through panes, behind which that one's is dark");
+  if (asked.kind == Kind::other) becomes("a path tracer" + asked.suggestion);
+  if (!scene.settings.photons) return differences;
+  if (has_media(scene)) {
+    scene.settings.photons.reset();
+    becomes(fmt::format("a path tracer, as photons do not cross media here: {}", caustics));
+  } else if (asked.kind == Kind::photon_map) {
+    becomes("progressive photon mapping, in which each sample of the picture has photons of its own");
+  }
+  return differences;
+}
+
+}  // namespace vitrail

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the integrators of other renderers come to here.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "scene/records/scene.h"
+
+namespace vitrail {
+
+struct AskedIntegrator {
+  enum class Kind {
+    paths,       // from the camera, with connections to lights: the same picture
+    both_ends,   // paths from lamps too, of all or some of the light: bidirectional, Metropolis
+    from_lamps,  // these alone: what the camera sees by mirrors is dark
+    by_chance,   // paths that find lamps only where they meet them
+    photons,     // progressive photon mapping
+    photon_map,  // of one pass
+    direct,      // light at the first surface that is no mirror
+    first_hit,   // the same at the first surface, whatever it is
+    other,       // another picture, or not known
+  };
+  std::string name;  // empty: the scene has none
+  Kind kind = Kind::paths;
+  std::string suggestion{};  // "; did you mean …?"
+};
+
+// Says how the picture differs from that of the integrator, once the scene is read. Photon mapping becomes
+// path tracing where there are media, which photons do not cross here.
+std::vector<std::string> settle_integrator(const AskedIntegrator& asked, Scene& scene);
+
+}  // namespace vitrail

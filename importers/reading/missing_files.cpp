@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "importers/reading/missing_files.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <set>
+
+#include "scene/spectra/rgb_to_spectrum.h"
+
+namespace vitrail {
+
+namespace {
+
+bool is_missing(const std::string& file) {
+  std::error_code ignored;
+  return !std::filesystem::is_regular_file(file, ignored);
+}
+
+class Replacer {
+ public:
+  explicit Replacer(ImportedScene& imported) : scene_(imported.scene), diagnostics_(imported.diagnostics) {}
+
+  void textures() {
+    for (std::size_t i = 0; i < scene_.textures.size(); ++i) {
+      Texture& texture = scene_.textures[i];
+      const auto* image = std::get_if<ImageTexture>(&texture.model);
+      if (!image || !is_missing(image->filename)) continue;
+      say(image->filename, "grey 0.5 stands for it", texture.origin, RecordKind::texture);
+      texture.model = ProductTexture{ConstantSpectrum{0.5f}, ConstantSpectrum{1}};
+      missing_.insert(static_cast<std::uint32_t>(i));
+    }
+  }
+
+  // 0.5 would be a normal without a length.
+  void normal_maps() {
+    for (Material& material : scene_.materials)
+      if (material.normal_map && missing_.contains(material.normal_map->value)) material.normal_map.reset();
+  }
+
+  void tables() {
+    for (Material& material : scene_.materials)
+      if (const auto* table = std::get_if<TabulatedMaterial>(&material.model);
+          table && is_missing(table->filename)) {
+        say(table->filename, "a diffuse reflectance of 0.5 stands for it", material.origin,
+            RecordKind::material);
+        material.model = DiffuseMaterial{};
+      }
+  }
+
+  void lights() {
+    for (Light& light : scene_.lights) {
+      if (auto* sky = std::get_if<EnvironmentLight>(&light.model); sky && is_missing(sky->filename)) {
+        say(sky->filename, "grey 0.5 from all around stands for it", light.origin, RecordKind::light);
+        light.model = InfiniteLight{product(emission_from_rgb({0.5, 0.5, 0.5}), sky->scale)};
+      } else if (auto* lamp = std::get_if<GoniometricLight>(&light.model);
+                 lamp && is_missing(lamp->filename)) {
+        say(lamp->filename, "a light of half its intensity in all directions stands for it", light.origin,
+            RecordKind::light);
+        light.model =
+            PointLight{transform_point(lamp->light_to_world, {0, 0, 0}), scaled(lamp->intensity, 0.5)};
+      }
+    }
+  }
+
+ private:
+  void say(const std::string& file, const char* what, const Origin& origin, RecordKind kind) {
+    const SourceLocation place = location(scene_, origin);
+    diagnostics_.push_back(
+        {Fidelity::dropped, fmt::format("cannot find the file \"{}\": {}", file, what), place, place, kind});
+  }
+
+  Scene& scene_;
+  Diagnostics& diagnostics_;
+  std::set<std::uint32_t> missing_;
+};
+
+}  // namespace
+
+void replace_missing_images(ImportedScene& imported) {
+  Replacer replacer(imported);
+  replacer.textures();
+  replacer.normal_maps();
+  replacer.tables();
+  replacer.lights();
+}
+
+}  // namespace vitrail

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <pugixml.hpp>
+
+#include "scene/records/nesting_limits.h"
+
+namespace vitrail {
+
+// The first element that lies deeper in others than a scene may have it, or none. pugixml itself parses any
+// depth, but goes through it by recursion when it lets go.
+inline pugi::xml_node too_deep_element(pugi::xml_node document) {
+  int depth = 0;
+  for (pugi::xml_node node = document.first_child(); node;) {
+    if (depth >= most_nested) return node;
+    if (node.first_child()) {
+      node = node.first_child(), ++depth;
+      continue;
+    }
+    while (node != document && !node.next_sibling()) node = node.parent(), --depth;
+    if (node == document) break;
+    node = node.next_sibling();
+  }
+  return {};
+}
+
+}  // namespace vitrail

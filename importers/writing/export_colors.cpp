@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "importers/writing/export_colors.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "scene/shapes/deferred_mesh.h"
+
+namespace vitrail {
+
+namespace {
+
+RGB rgb(const std::array<float, 3>& c) { return {c[0], c[1], c[2]}; }
+
+RGB without_negatives(RGB c) { return {std::max(c.r, 0.0), std::max(c.g, 0.0), std::max(c.b, 0.0)}; }
+
+template <class Value>
+TabulatedSpectrum sample(Value&& value) {
+  TabulatedSpectrum table;
+  table.values.resize(table_size);
+  for (int i = 0; i < table_size; ++i)
+    table.values[static_cast<std::size_t>(i)] = static_cast<float>(value(lambda_min_nm + i));
+  return table;
+}
+
+RGB under_d65(const TabulatedSpectrum& factor) {
+  TabulatedSpectrum light = factor;
+  for (std::size_t i = 0; i < light.values.size(); ++i) light.values[i] *= cie_d65()[i];
+  return without_negatives(xyz_to_srgb(to_xyz(light)));
+}
+
+// Fresnel's equations for unpolarised light from vacuum.
+double fresnel(double cos_i, double eta) {
+  const double sin2_t = (1 - cos_i * cos_i) / (eta * eta);
+  if (sin2_t >= 1) return 1;
+  const double cos_t = std::sqrt(1 - sin2_t);
+  const double parallel = (eta * cos_i - cos_t) / (eta * cos_i + cos_t);
+  const double perpendicular = (cos_i - eta * cos_t) / (cos_i + eta * cos_t);
+  return (parallel * parallel + perpendicular * perpendicular) / 2;
+}
+
+}  // namespace
+
+RGB emission_rgb(const Spectrum& emission) {
+  if (const auto* light = std::get_if<RgbIlluminantSpectrum>(&emission)) return rgb(light->rgb);
+  return without_negatives(xyz_to_srgb(to_xyz(resolved(emission))));
+}
+
+RGB factor_rgb(const Spectrum& factor) {
+  const Spectrum values = resolved(factor);
+  if (const auto* c = std::get_if<ConstantSpectrum>(&values)) return {c->value, c->value, c->value};
+  if (const auto* c = std::get_if<SigmoidSpectrum>(&values)) return rgb(c->rgb);
+  if (const auto* c = std::get_if<RgbUnboundedSpectrum>(&values)) return rgb(c->rgb);
+  if (const auto* c = std::get_if<RgbIlluminantSpectrum>(&values)) return rgb(c->rgb);
+  return under_d65(sample([&](double lambda_nm) { return evaluate(values, lambda_nm); }));
+}
+
+bool is_rgb(const Spectrum& spectrum) {
+  return std::holds_alternative<ConstantSpectrum>(spectrum) ||
+         std::holds_alternative<SigmoidSpectrum>(spectrum) ||
+         std::holds_alternative<RgbUnboundedSpectrum>(spectrum) ||
+         std::holds_alternative<RgbIlluminantSpectrum>(spectrum);
+}
+
+double index_of_refraction(const Spectrum& eta) { return evaluate(resolved(eta), 587.6); }
+
+double dispersion_ratio(const Spectrum& eta) {
+  const Spectrum values = resolved(eta);
+  const double red = evaluate(values, 700);
+  return red > 0 ? evaluate(values, 400) / red : 1;
+}
+
+RGB normal_reflectance_rgb(const Metal& metal) {
+  if (std::holds_alternative<PerfectReflector>(metal)) return {1, 1, 1};
+  if (const auto* normal = std::get_if<NormalReflectance>(&metal)) {
+    const auto* value = std::get_if<Spectrum>(&normal->reflectance);
+    return value ? factor_rgb(*value) : RGB{0.5, 0.5, 0.5};
+  }
+  const auto& index = std::get<ComplexIndex>(metal);
+  const auto* eta = std::get_if<Spectrum>(&index.eta);
+  const auto* k = std::get_if<Spectrum>(&index.k);
+  if (!eta || !k) return {0.5, 0.5, 0.5};
+  const Spectrum etas = resolved(*eta), ks = resolved(*k);
+  return under_d65(sample([&](double lambda_nm) {
+    const double n = evaluate(etas, lambda_nm), kappa = evaluate(ks, lambda_nm);
+    const double above = (n + 1) * (n + 1) + kappa * kappa;
+    return above > 0 ? ((n - 1) * (n - 1) + kappa * kappa) / above : 1.0;
+  }));
+}
+
+RGB mean_of_noise(const NoiseTexture& noise) {
+  constexpr double octave = 0.218;  // of |noise|
+  if (noise.kind == NoiseTexture::Kind::marble) return {0.805, 0.803, 0.840};
+  if (noise.kind != NoiseTexture::Kind::wrinkled) return {0, 0, 0};
+  double sum = 0, weight = 1;
+  for (int i = 0; i < noise.octaves; ++i, weight *= static_cast<double>(noise.roughness)) sum += weight;
+  return {octave * sum, octave * sum, octave * sum};
+}
+
+std::optional<RGB> mean_of_attribute(const Scene& scene, const MeshAttributeTexture& texture) {
+  RGB sum;
+  double count = 0;
+  for (const TriangleMesh& stored : scene.meshes) {
+    TriangleMesh storage;
+    for (const MeshAttribute& a : loaded(stored, storage).attributes) {
+      if (a.name != texture.name) continue;
+      const std::size_t step = a.channels == 3 ? 3 : 1;
+      const auto value = [&](std::size_t i) { return static_cast<double>(a.values[i]); };
+      for (std::size_t i = 0; i + step <= a.values.size(); i += step, ++count)
+        sum = {sum.r + value(i), sum.g + value(i + step / 2), sum.b + value(i + step - 1)};
+    }
+  }
+  if (count == 0) return std::nullopt;
+  const double factor = static_cast<double>(texture.scale) / count;
+  return RGB{sum.r * factor, sum.g * factor, sum.b * factor};
+}
+
+double diffuse_fresnel_outside(double eta) {
+  if (!(eta > 0)) return 0;
+  constexpr int steps = 1000;  // midpoint rule in μ = cos θ of 2∫F μ dμ
+  double sum = 0;
+  for (int i = 0; i < steps; ++i) {
+    const double mu = (i + 0.5) / steps;
+    sum += 2 * fresnel(mu, eta) * mu / steps;
+  }
+  return sum;
+}
+
+double diffuse_fresnel_inside(double eta) {
+  return eta > 0 ? 1 - (1 - diffuse_fresnel_outside(eta)) / (eta * eta) : 0;
+}
+
+}  // namespace vitrail

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// What formats of three numbers a colour can say of spectra: linear sRGB, without negative components.
+#pragma once
+
+#include <optional>
+
+#include "scene/records/scene.h"
+#include "scene/spectra/color.h"
+
+namespace vitrail {
+
+// The colour of a radiance, intensity or irradiance.
+RGB emission_rgb(const Spectrum& emission);
+// The colour of a reflectance or factor under D65.
+RGB factor_rgb(const Spectrum& factor);
+// Whether rgb gives the spectrum back: it was made of one, or is constant.
+bool is_rgb(const Spectrum& spectrum);
+
+// The index of refraction at the d line of helium, 587.6 nm.
+double index_of_refraction(const Spectrum& eta);
+// n(400 nm) / n(700 nm); 1 without dispersion.
+double dispersion_ratio(const Spectrum& eta);
+
+// The reflectance of a metal at normal incidence, of light from vacuum. A textured index or reflectance
+// counts as 0.5.
+RGB normal_reflectance_rgb(const Metal& metal);
+
+// The mean of noise over space, by sampling: marble's at its defaults.
+RGB mean_of_noise(const NoiseTexture& noise);
+
+// The mean of the values that meshes have by that name, where there are any, times its scale. Meshes that are
+// left in their files are read for it.
+std::optional<RGB> mean_of_attribute(const Scene& scene, const MeshAttributeTexture& texture);
+
+// The mean reflectance of a smooth interface of relative index eta for diffuse light from outside, and from
+// inside (integrals of Fresnel's equations over the hemisphere).
+double diffuse_fresnel_outside(double eta);
+double diffuse_fresnel_inside(double eta);
+
+}  // namespace vitrail

@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/daylight/sky_model.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "scene/daylight/sky_tables.h"
+#include "scene/geometry/portable_math.h"
+
+namespace vitrail {
+
+namespace {
+
+constexpr double radian = pi / 180;
+// What the sun's data are of.
+constexpr double model_sun_radius_rad = 0.5358 / 2 * radian;
+
+// Where x lies between whole numbers from 0 to `last`.
+struct Between {
+  std::size_t low = 0;
+  double part = 0;  // of the next one
+  Between(double x, int last) {
+    const double held = std::clamp(x, 0.0, static_cast<double>(last));
+    low = std::min(static_cast<std::size_t>(held), static_cast<std::size_t>(last - 1));
+    part = held - static_cast<double>(low);
+  }
+};
+
+double mix(double a, double b, double part) { return a + (b - a) * part; }
+
+double band_nm(std::size_t band) { return first_sky_band_nm + sky_band_step_nm * static_cast<double>(band); }
+
+Between between_bands(double lambda_nm) {
+  return {(lambda_nm - first_sky_band_nm) / sky_band_step_nm, sky_bands - 1};
+}
+
+// Weights of the Bézier points, of degree 5.
+std::array<double, 6> bezier(double t) {
+  const double s = 1 - t, s2 = s * s, t2 = t * t;
+  return {s2 * s2 * s, 5 * s2 * s2 * t, 10 * s2 * s * t2, 10 * s2 * t2 * t, 5 * s * t2 * t2, t2 * t2 * t};
+}
+
+double segment_begin_rad(std::size_t segment) {
+  const double x = static_cast<double>(segment) / sky_tables::sun_segments;
+  return pi / 2 * x * x * x;
+}
+
+std::size_t segment_of(double elevation_rad) {
+  std::size_t low = 0, high = sky_tables::sun_segments;
+  while (low + 1 < high) {
+    const std::size_t middle = (low + high) / 2;
+    (elevation_rad < segment_begin_rad(middle) ? high : low) = middle;
+  }
+  return low;
+}
+
+}  // namespace
+
+SkyModel::SkyModel(const SkyLight& light)
+    : to_sun_(light.to_sun),
+      is_day_(light.to_sun.z >= 0),
+      limb_darkening_(light.limb_darkening),
+      sky_scale_(static_cast<double>(light.sky_scale)) {
+  const double radius = static_cast<double>(light.sun_diameter_deg) / 2 * radian;
+  sun_cosine_ = portable_cos(radius);
+  sun_sine2_ = portable_sin(radius) * portable_sin(radius);
+  const double half = portable_sin(model_sun_radius_rad / 2) / portable_sin(radius / 2);
+  sun_scale_ = static_cast<double>(light.sun_scale) * half * half;  // 1 − cos x = 2 sin²(x/2)
+
+  const double elevation = pi / 2 - portable_acos(to_sun_.z);
+  const Between turbidity(static_cast<double>(light.turbidity) - 1, sky_tables::turbidities - 1);
+  const auto weights = bezier(portable_pow(std::max(0.0, elevation) / (pi / 2), 1.0 / 3));
+  // `value(turbidity, albedo, point)`
+  const auto interpolated = [&](double albedo, auto&& value) {
+    double sum = 0;
+    for (std::size_t point = 0; point < weights.size(); ++point) {
+      const auto at = [&](std::size_t t) {
+        return mix(static_cast<double>(value(t, 0u, point)), static_cast<double>(value(t, 1u, point)),
+                   albedo);
+      };
+      sum += weights[point] * mix(at(turbidity.low), at(turbidity.low + 1), turbidity.part);
+    }
+    return sum;
+  };
+  for (std::size_t b = 0; b < sky_bands; ++b) {
+    const double albedo = std::clamp(evaluate(light.albedo, band_nm(b)), 0.0, 1.0);
+    for (std::size_t i = 0; i < bands_[b].shape.size(); ++i)
+      bands_[b].shape[i] = interpolated(albedo, [&](std::size_t t, std::size_t a, std::size_t point) {
+        return sky_tables::shape[t][a][point][b][i];
+      });
+    bands_[b].radiance = interpolated(albedo, [&](std::size_t t, std::size_t a, std::size_t point) {
+      return sky_tables::radiance[t][a][point][b];
+    });
+  }
+  for (std::size_t s = 0; s < sky_tables::sun_segments; ++s)
+    for (std::size_t b = 0; b < sky_bands; ++b)
+      for (std::size_t k = 0; k < sky_tables::sun_powers; ++k)
+        sun_.push_back(mix(static_cast<double>(sky_tables::sun[turbidity.low][s][b][k]),
+                           static_cast<double>(sky_tables::sun[turbidity.low + 1][s][b][k]), turbidity.part));
+  // Without limb darkening the disc has its mean, that of cosʲψ being 2/(j + 2), at its centre's elevation.
+  SunDirection centre = sun_direction(to_sun_);
+  for (std::size_t b = 0; b < sky_bands; ++b) {
+    double mean = 0;
+    for (std::size_t j = 0; j < sky_tables::limb_powers; ++j)
+      mean += static_cast<double>(sky_tables::limb[b][j]) * 2 / static_cast<double>(j + 2);
+    centre.cos_psi = 1;
+    double full = 0;
+    for (std::size_t j = 0; j < sky_tables::limb_powers; ++j)
+      full += static_cast<double>(sky_tables::limb[b][j]);
+    uniform_sun_[b] = sun(centre, b) * mean / full;
+  }
+}
+
+SkyModel::SkyDirection SkyModel::sky_direction(Vector3d d) const {
+  const double cosine = std::max(0.0, d.z), cos_gamma = std::clamp(dot(d, to_sun_), -1.0, 1.0);
+  return {std::sqrt(cosine), cosine, portable_acos(cos_gamma), cos_gamma};
+}
+
+// Equation 8 of 2012, with √cos θ as the authors' program has it.
+double SkyModel::sky(const SkyDirection& at, std::size_t band) const {
+  const auto& p = bands_[band].shape;
+  const double c2 = at.cos_gamma * at.cos_gamma;
+  const double base = 1 + p[8] * p[8] - 2 * p[8] * at.cos_gamma;
+  const double glow = (1 + c2) / (base * safe_sqrt(base));
+  const double gradient = 1 + p[0] * portable_exp(p[1] / (at.cosine + 0.01));
+  const double scattering =
+      p[2] + p[3] * portable_exp(p[4] * at.gamma_rad) + p[5] * c2 + p[6] * glow + p[7] * at.root_cosine;
+  return std::max(0.0, gradient * scattering * bands_[band].radiance * sky_scale_);
+}
+
+SkyModel::SunDirection SkyModel::sun_direction(Vector3d d) const {
+  const double elevation = pi / 2 - portable_acos(std::max(0.0, d.z));
+  const std::size_t segment = segment_of(elevation);
+  const Vector3d across = cross(d, to_sun_);  // sin γ, exact also where the cosine is nearly 1
+  return {segment, elevation - segment_begin_rad(segment), safe_sqrt(1 - dot(across, across) / sun_sine2_)};
+}
+
+double SkyModel::sun(const SunDirection& at, std::size_t band) const {
+  const double* c = &sun_[(at.segment * sky_bands + band) * sky_tables::sun_powers];
+  const double x = at.above_rad, clear = c[0] + x * (c[1] + x * (c[2] + x * c[3]));
+  double dark = 0;
+  for (std::size_t j = sky_tables::limb_powers; j-- > 0;)
+    dark = dark * at.cos_psi + static_cast<double>(sky_tables::limb[band][j]);
+  return std::max(0.0, clear * dark * sun_scale_);
+}
+
+namespace {
+
+// Of what `value(band)` gives, at the wavelengths.
+template <class F>
+SampledSpectrum sampled(const SampledWavelengths& wavelengths, F&& value) {
+  SampledSpectrum result;
+  for (std::size_t i = 0; i < hero_count; ++i) {
+    const Between at = between_bands(static_cast<double>(wavelengths.lambda_nm[i]));
+    result.v[i] = static_cast<float>(mix(value(at.low), value(at.low + 1), at.part));
+  }
+  return result;
+}
+
+template <class F>
+std::array<double, sky_bands> each_band(F&& value) {
+  std::array<double, sky_bands> result;
+  for (std::size_t b = 0; b < sky_bands; ++b) result[b] = value(b);
+  return result;
+}
+
+void add(std::array<double, sky_bands>& sum, const std::array<double, sky_bands>& values, double weight) {
+  for (std::size_t b = 0; b < sky_bands; ++b) sum[b] += values[b] * weight;
+}
+
+}  // namespace
+
+SampledSpectrum SkyModel::sky(Vector3d d, const SampledWavelengths& wavelengths) const {
+  if (!has_sky() || d.z < 0) return filled(0);
+  const SkyDirection at = sky_direction(d);
+  return sampled(wavelengths, [&](std::size_t b) { return sky(at, b); });
+}
+
+std::array<double, sky_bands> SkyModel::sky(Vector3d d) const {
+  if (!has_sky() || d.z < 0) return {};
+  const SkyDirection at = sky_direction(d);
+  return each_band([&](std::size_t b) { return sky(at, b); });
+}
+
+SampledSpectrum SkyModel::sun(Vector3d d, const SampledWavelengths& wavelengths) const {
+  if (!meets_sun(d)) return filled(0);
+  if (!limb_darkening_) return sampled(wavelengths, [&](std::size_t b) { return uniform_sun_[b]; });
+  const SunDirection at = sun_direction(d);
+  return sampled(wavelengths, [&](std::size_t b) { return sun(at, b); });
+}
+
+std::array<double, sky_bands> SkyModel::sun(Vector3d d) const {
+  if (!meets_sun(d)) return {};
+  if (!limb_darkening_) return uniform_sun_;
+  const SunDirection at = sun_direction(d);
+  return each_band([&](std::size_t b) { return sun(at, b); });
+}
+
+std::array<double, sky_bands> SkyModel::sun_irradiance(Vector3d normal) const {
+  std::array<double, sky_bands> sum{};
+  if (!has_sun()) return sum;
+  // Midpoints in w, the cosine ψ that limb darkening is smooth in: 1 − cos γ = (1 − w²)(1 − cos of the
+  // radius).
+  constexpr int rings = 48, spokes = 64;
+  const Vector3d u = normalize(
+                     cross(std::abs(to_sun_.x) < 0.5 ? Vector3d{1, 0, 0} : Vector3d{0, 1, 0}, to_sun_)),
+                 v = cross(to_sun_, u);
+  const double whole = sun_sine2_ / (1 + sun_cosine_);  // 1 − cos of the radius
+  for (int ring = 0; ring < rings; ++ring) {
+    const double w = (ring + 0.5) / rings, below = whole * (1 - w * w);
+    const double cosine = 1 - below, sine = safe_sqrt(below * (2 - below));
+    const double cell = 2 * pi * whole * 2 * w / (rings * spokes);
+    for (int spoke = 0; spoke < spokes; ++spoke) {
+      const double phi = 2 * pi * (spoke + 0.5) / spokes;
+      const Vector3d d = to_sun_ * cosine + (u * portable_cos(phi) + v * portable_sin(phi)) * sine;
+      add(sum, sun(d), cell * std::max(0.0, dot(d, normal)));
+    }
+  }
+  return sum;
+}
+
+std::array<double, sky_bands> SkyModel::sky_irradiance() const {
+  std::array<double, sky_bands> sum{};
+  if (!has_sky()) return sum;
+  constexpr int rows = 128, columns = 256;  // uniform in θ, where the model bends at the horizon
+  const double step = pi / 2 / rows;
+  for (int row = 0; row < rows; ++row) {
+    const double theta = (row + 0.5) * step, cosine = portable_cos(theta), sine = portable_sin(theta);
+    for (int column = 0; column < columns; ++column) {
+      const double phi = 2 * pi * (column + 0.5) / columns;
+      add(sum, sky({sine * portable_cos(phi), sine * portable_sin(phi), cosine}),
+          cosine * sine * step * (2 * pi / columns));
+    }
+  }
+  return sum;
+}
+
+TabulatedSpectrum spectrum_of_bands(const std::array<double, sky_bands>& values) {
+  TabulatedSpectrum spectrum;
+  for (int i = 0; i < table_size; ++i) {
+    const Between at = between_bands(lambda_min_nm + i);
+    spectrum.values.push_back(static_cast<float>(mix(values[at.low], values[at.low + 1], at.part)));
+  }
+  return spectrum;
+}
+
+}  // namespace vitrail

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+// The clear sky of Hošek and Wilkie ("An analytic model for full spectral sky-dome radiance", 2012) and their
+// sun ("Adding a solar-radiance function to the Hošek-Wilkie skylight model", 2013): ten bands from 360 to
+// 720 nm, linear in between, held beyond; linear in turbidity and albedo, as Mitsuba 3 has them. All numbers
+// have the same bits on every machine.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "scene/geometry/vec.h"
+#include "scene/records/light.h"
+#include "scene/spectra/sampled_spectrum.h"
+
+namespace vitrail {
+
+inline constexpr int sky_bands = 10;
+inline constexpr double first_sky_band_nm = 360, sky_band_step_nm = 40;
+
+// The model with all that does not depend on the direction worked out. Directions are unit and of the light's
+// frame, +z up; radiances W·m⁻²·sr⁻¹·nm⁻¹, the light's scales included.
+class SkyModel {
+ public:
+  explicit SkyModel(const SkyLight& light);
+
+  // False: it is night, and all is 0. There is no twilight in the model.
+  bool is_day() const { return is_day_; }
+  bool has_sky() const { return is_day_ && sky_scale_ > 0; }
+  bool has_sun() const { return is_day_ && sun_scale_ > 0; }
+  Vector3d to_sun() const { return to_sun_; }
+  double sun_cosine() const { return sun_cosine_; }  // of the disc's angular radius
+  bool meets_sun(Vector3d d) const { return has_sun() && d.z >= 0 && dot(d, to_sun_) >= sun_cosine_; }
+
+  // Of the sky alone, and of the sun alone where the direction meets it.
+  SampledSpectrum sky(Vector3d d, const SampledWavelengths& wavelengths) const;
+  SampledSpectrum sun(Vector3d d, const SampledWavelengths& wavelengths) const;
+  std::array<double, sky_bands> sky(Vector3d d) const;
+  std::array<double, sky_bands> sun(Vector3d d) const;
+
+  // ∫ L cos θ dω over what of the sun's disc is above the horizon and before a plane with this unit normal,
+  // W·m⁻²·nm⁻¹. Along to_sun(): what parallel light in its place has.
+  std::array<double, sky_bands> sun_irradiance(Vector3d normal) const;
+  // ∫ L cos θ dω over the sky: of a plane that faces up, within 10⁻⁴.
+  std::array<double, sky_bands> sky_irradiance() const;
+
+ private:
+  struct Band {
+    std::array<double, 9> shape{};  // A … I of the paper's equation 8
+    double radiance = 0;
+  };
+  // What the direction alone decides.
+  struct SkyDirection {
+    double root_cosine, cosine, gamma_rad, cos_gamma;  // to the zenith; to the sun
+  };
+  struct SunDirection {
+    std::size_t segment;
+    double above_rad;  // the segment's beginning
+    double cos_psi;    // between the line of sight and the sun's normal
+  };
+  SkyDirection sky_direction(Vector3d d) const;
+  SunDirection sun_direction(Vector3d d) const;
+  double sky(const SkyDirection& at, std::size_t band) const;
+  double sun(const SunDirection& at, std::size_t band) const;
+
+  Vector3d to_sun_;
+  bool is_day_ = false, limb_darkening_ = true;
+  double sky_scale_ = 1, sun_scale_ = 1;  // the latter times what another diameter makes of it
+  double sun_cosine_ = 1, sun_sine2_ = 0;
+  std::array<Band, sky_bands> bands_;
+  std::array<double, sky_bands> uniform_sun_{};  // radiance of a disc without limb darkening
+  std::vector<double> sun_;                      // [segment][band][power of the elevation]
+};
+
+// The bands' values as a spectrum.
+TabulatedSpectrum spectrum_of_bands(const std::array<double, sky_bands>& values);
+
+}  // namespace vitrail

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// Axis-aligned boxes. A default box is empty: lower > upper on every axis.
+#pragma once
+
+#include <limits>
+
+#include "scene/geometry/vec.h"
+
+namespace vitrail {
+
+template <class T>
+struct Bounds3 {
+  Point3<T> lower{std::numeric_limits<T>::infinity(), std::numeric_limits<T>::infinity(),
+                  std::numeric_limits<T>::infinity()};
+  Point3<T> upper{-std::numeric_limits<T>::infinity(), -std::numeric_limits<T>::infinity(),
+                  -std::numeric_limits<T>::infinity()};
+
+  bool empty() const { return !(lower.x <= upper.x && lower.y <= upper.y && lower.z <= upper.z); }
+  bool operator==(const Bounds3&) const = default;
+};
+
+using Bounds3f = Bounds3<float>;
+using Bounds3d = Bounds3<double>;
+
+template <class T>
+void extend(Bounds3<T>& b, Point3<T> p) {
+  b.lower = {std::min(b.lower.x, p.x), std::min(b.lower.y, p.y), std::min(b.lower.z, p.z)};
+  b.upper = {std::max(b.upper.x, p.x), std::max(b.upper.y, p.y), std::max(b.upper.z, p.z)};
+}
+
+template <class T>
+void extend(Bounds3<T>& b, const Bounds3<T>& other) {
+  extend(b, other.lower);
+  extend(b, other.upper);
+}
+
+template <class T>
+Vector3<T> extent(const Bounds3<T>& b) {
+  return b.empty() ? Vector3<T>{} : b.upper - b.lower;
+}
+
+// Surface area of the six faces; 0 when empty.
+template <class T>
+T surface_area(const Bounds3<T>& b) {
+  const Vector3<T> e = extent(b);
+  return T(2) * (e.x * e.y + e.y * e.z + e.z * e.x);
+}
+
+template <class T>
+Point3<T> center(const Bounds3<T>& b) {
+  return {(b.lower.x + b.upper.x) / 2, (b.lower.y + b.upper.y) / 2, (b.lower.z + b.upper.z) / 2};
+}
+
+}  // namespace vitrail

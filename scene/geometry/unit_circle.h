@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "scene/geometry/vec.h"
+
+namespace vitrail {
+
+inline constexpr double pi = 3.14159265358979323846;
+
+// (cos, sin) of an angle in [0, 2π] rad, within 4e-16. By + − × only: the C library's own differ in their
+// last bit between processors, and tessellations have to be equal everywhere. Exact at the multiples of π/2
+// given as doubles.
+Point2d unit_circle(double angle_rad);
+
+}  // namespace vitrail

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+// From where and through what the picture is taken.
+#pragma once
+
+#include <cstdint>
+#include <variant>
+#include <vector>
+
+#include "scene/geometry/transform.h"
+
+namespace vitrail {
+
+// Camera space: +z is the view, +x raster right, +y up. The raster covers `screen` (in units of the plane z =
+// 1 for the perspective camera, of the world for the orthographic one): x0 at the left edge, y1 at the top.
+struct ScreenWindow {
+  double x0 = -1, x1 = 1, y0 = -1, y1 = 1;
+  bool operator==(const ScreenWindow&) const = default;
+};
+
+// Rays start on a disk of `radius` around the camera's origin and meet in the plane z = `focal_distance`.
+struct Lens {
+  double radius = 0;  // 0: a pinhole, everything is in focus
+  double focal_distance = 1e6;
+  bool operator==(const Lens&) const = default;
+};
+
+struct PerspectiveCamera {
+  Transform camera_to_world;
+  ScreenWindow screen;  // tan of the half angles: ±tan(fov/2) on the axis that fov measures
+  Lens lens;
+  bool operator==(const PerspectiveCamera&) const = default;
+};
+
+struct OrthographicCamera {
+  Transform camera_to_world;
+  ScreenWindow screen;
+  Lens lens;
+  bool operator==(const OrthographicCamera&) const = default;
+};
+
+// The whole sphere of directions around the camera, +y up: by latitude and longitude, or the equal-area
+// octahedral map.
+struct SphericalCamera {
+  enum class Projection : std::uint8_t { equal_area, latitude_longitude };
+  Transform camera_to_world;
+  Projection projection = Projection::equal_area;
+  bool operator==(const SphericalCamera&) const = default;
+};
+
+// Irradiance meters instead of a picture: column x of the raster is sensor x, and every row repeats it with
+// samples of its own, so that rows tell how far their mean is off. A sensor is as a white diffuse surface
+// that is seen: its radiance times π, the film's imaging ratio, is the irradiance.
+struct Sensor {
+  Point3d position;          // in camera space
+  Vector3d normal{0, 0, 1};  // unit
+  bool operator==(const Sensor&) const = default;
+};
+struct SensorCamera {
+  Transform camera_to_world;
+  std::vector<Sensor> sensors;
+  bool operator==(const SensorCamera&) const = default;
+};
+
+// A lens of many surfaces before a film (Kolb, Mitchell, Hanrahan 1995), as pbrt's. The film is in the plane
+// z = 0, its middle at the origin.
+struct LensSurface {
+  double radius = 0;     // of curvature; above 0: its centre is on the film's side. 0: the stop, a plane
+  double thickness = 0;  // to the next surface towards the film; of the last, to the film
+  double index = 1;      // of refraction, towards the film
+  double aperture_radius = 0;
+  bool operator==(const LensSurface&) const = default;
+};
+// Of a ring of the film: where its rays to the plane of the lens's last vertex go to, for a point of the film
+// on the x axis (they turn with it), and what each brings beside cos⁴θ.
+struct ExitPupil {
+  ScreenWindow rectangle{0, 0, 0, 0};
+  double weight = 0;
+  bool operator==(const ExitPupil&) const = default;
+};
+struct RealisticCamera {
+  Transform camera_to_world;
+  double film_diagonal = 0;
+  std::vector<LensSurface> surfaces;  // from the scene to the film
+  std::vector<ExitPupil> pupils;      // of rings of the film, equally wide, out to half the diagonal
+  bool operator==(const RealisticCamera&) const = default;
+};
+
+using Camera =
+    std::variant<PerspectiveCamera, OrthographicCamera, SphericalCamera, SensorCamera, RealisticCamera>;
+
+}  // namespace vitrail

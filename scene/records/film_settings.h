@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the picture is gathered in: its pixels, their filter, and what is kept beside colours.
+#pragma once
+
+#include <variant>
+
+#include "scene/records/film_layers.h"
+#include "scene/spectra/spectral_bins.h"
+
+namespace vitrail {
+
+// Pixel reconstruction filters, all normalised; radii and σ in pixels. The Gaussian is pbrt's: lowered to
+// reach 0 at its radius.
+struct BoxFilter {
+  double radius_x = 0.5, radius_y = 0.5;
+  bool operator==(const BoxFilter&) const = default;
+};
+struct TriangleFilter {
+  double radius_x = 2, radius_y = 2;
+  bool operator==(const TriangleFilter&) const = default;
+};
+struct GaussianFilter {
+  double radius_x = 1.5, radius_y = 1.5, sigma = 0.5;
+  bool operator==(const GaussianFilter&) const = default;
+};
+// Mitchell and Netravali 1988, their B and C; its two radii of support are stretched to the radius.
+struct MitchellFilter {
+  double radius_x = 2, radius_y = 2, b = 1.0 / 3, c = 1.0 / 3;
+  bool operator==(const MitchellFilter&) const = default;
+};
+// sinc(x)·sinc(x/τ): Lanczos' window of τ lobes, cut at the radius.
+struct SincFilter {
+  double radius_x = 4, radius_y = 4, tau = 3;
+  bool operator==(const SincFilter&) const = default;
+};
+using Filter = std::variant<BoxFilter, TriangleFilter, GaussianFilter, MitchellFilter, SincFilter>;
+
+// Pixels x in [x0,x1), y in [y0,y1), from the top left.
+struct PixelRect {
+  int x0 = 0, x1 = 0, y0 = 0, y1 = 0;
+  bool operator==(const PixelRect&) const = default;
+};
+
+struct FilmSettings {
+  int width = 1280, height = 720;
+  PixelRect crop{0, 1280, 0, 720};
+  Filter filter = GaussianFilter{};
+  double imaging_ratio = 1;  // every pixel is multiplied by it (pbrt: exposure time · ISO / 100)
+  SpectralBins spectrum;     // kept beside the colours; none: colours alone
+  FilmLayers layers;         // of the first surfaces, kept too
+  bool operator==(const FilmSettings&) const = default;
+};
+
+}  // namespace vitrail

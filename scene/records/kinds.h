@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+// What people call the alternatives of the scene's variants.
+#pragma once
+
+#include "scene/records/camera.h"
+#include "scene/records/light.h"
+#include "scene/records/material.h"
+#include "scene/records/texture.h"
+#include "scene/shapes/quadric.h"
+
+namespace vitrail {
+
+const char* kind_of(const Spectrum& spectrum);
+const char* kind_of(const TextureModel& model);
+const char* kind_of(const MaterialModel& model);
+const char* kind_of(const LightModel& model);
+const char* kind_of(const Camera& camera);
+const char* kind_of(QuadricKind kind);
+
+}  // namespace vitrail

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <variant>
+
+#include "scene/records/texture.h"
+
+namespace vitrail {
+
+// Emission of a surface: radiance, W·m⁻²·sr⁻¹·nm⁻¹, from its front side or from both.
+struct AreaLight {
+  SpectrumParameter radiance;
+  float scale = 1;  // of a texture
+  bool two_sided = false;
+  bool directional = false;  // only along the normal (Mitsuba's directionalarea)
+  Origin origin;
+  bool operator==(const AreaLight&) const = default;
+};
+
+// Radiant intensity, W·sr⁻¹·nm⁻¹, equal in all directions.
+struct PointLight {
+  Point3d position;
+  Spectrum intensity;
+  bool operator==(const PointLight&) const = default;
+};
+
+// Intensity on its axis, local +z, and within `beam_deg` of it; from there it falls to 0 at `cutoff_deg`.
+struct SpotLight {
+  // smoothstep of the cosine (pbrt-v4), its fourth power (pbrt-v3), linear in the angle (Mitsuba)
+  enum class Falloff : std::uint8_t { smoothstep, quartic, linear };
+  Transform light_to_world;
+  Spectrum intensity;
+  float beam_deg = 25, cutoff_deg = 30;
+  Falloff falloff = Falloff::smoothstep;
+  std::optional<Id<Texture>> texture;  // multiplies, over the square frame of the cutoff
+  bool operator==(const SpotLight&) const = default;
+};
+
+// An image thrown from a point along local +z, times `scale`: the intensity in each direction (pbrt), or the
+// irradiance on a plane across the axis at distance 1 (Mitsuba), which is less by cos³. `fov_deg` is measured
+// on the image's shorter axis (pbrt) or its width (Mitsuba).
+struct ProjectionLight {
+  Transform light_to_world;
+  SpectrumParameter image;
+  Spectrum scale = ConstantSpectrum{1};
+  float fov_deg = 90;
+  bool irradiance = false;     // Mitsuba's measures
+  std::optional<float> power;  // luminous flux that the light is normalised to
+  bool operator==(const ProjectionLight&) const = default;
+};
+
+// A point light whose intensity in every direction is `intensity` times an image of it.
+struct GoniometricLight {
+  Transform light_to_world;
+  Spectrum intensity;
+  std::string filename;  // absolute; equal-area octahedral (pbrt-v4) or latitude-longitude (v3)
+  bool latitude_longitude = false;
+  std::optional<float> power;
+  Encoding encoding = Encoding::automatic;  // of the image
+  ImageNumber number = ImageNumber::mean;
+  bool operator==(const GoniometricLight&) const = default;
+};
+
+// Irradiance on a plane across `direction` (unit, the way the light travels), W·m⁻²·nm⁻¹.
+struct DistantLight {
+  Vector3d direction;
+  Spectrum irradiance;
+  bool operator==(const DistantLight&) const = default;
+};
+
+// Constant radiance from everywhere around the scene.
+struct InfiniteLight {
+  Spectrum radiance;
+  bool operator==(const InfiniteLight&) const = default;
+};
+
+// Radiance from an image around the scene, times `scale`. The direction d in the light's frame meets the
+// image at
+// - equal_area: the square octahedral map of Clarberg 2008, +z up (pbrt-v4),
+// - latitude_longitude: u = atan2(y,x)/2π (+1), v = acos(z)/π from the top, +z up (pbrt-v3).
+struct EnvironmentLight {
+  enum class Projection : std::uint8_t { equal_area, latitude_longitude };
+  std::string filename;  // absolute
+  Transform light_to_world;
+  Projection projection = Projection::equal_area;
+  Spectrum scale = ConstantSpectrum{1};
+  std::optional<float> illuminance;              // of an upward plane, lx; sets the scale of the image
+  std::optional<std::array<Point3d, 4>> portal;  // light enters the scene only through this rectangle
+  Encoding encoding = Encoding::automatic;       // of the image
+  Primaries primaries = Primaries::file;
+  bool operator==(const EnvironmentLight&) const = default;
+};
+
+// The clear sky and the sun's disc, by the model of scene/daylight/sky_model.h. In the light's frame +z is
+// the zenith; nothing shines from below the horizon, or with the sun there.
+struct SkyLight {
+  Transform light_to_world;
+  Vector3d to_sun{0, 0, 1};                  // unit, in the light's frame
+  float turbidity = 3;                       // 1 … 10, held beyond
+  Spectrum albedo = ConstantSpectrum{0.3f};  // of the ground, 0 … 1
+  float sky_scale = 1, sun_scale = 1;        // 0: without it
+  float sun_diameter_deg = 0.5358f;          // another one spreads the same irradiance
+  bool limb_darkening = true;                // else the disc is uniform
+  bool operator==(const SkyLight&) const = default;
+};
+
+using LightVariant = std::variant<PointLight, SpotLight, ProjectionLight, GoniometricLight, DistantLight,
+                                  InfiniteLight, EnvironmentLight, SkyLight>;
+// Copied, moved, destroyed and compared in scene/records/special_members.cpp alone: in every file that
+// handles a scene, that took up to two thirds of its compiling.
+struct LightModel : LightVariant {
+  using LightVariant::LightVariant;
+  LightModel();
+  LightModel(const LightModel&);
+  LightModel(LightModel&&) noexcept;
+  LightModel& operator=(const LightModel&);
+  LightModel& operator=(LightModel&&) noexcept;
+  ~LightModel();
+  bool operator==(const LightModel&) const;
+};
+
+struct Light {
+  LightModel model;
+  Origin origin;
+  bool operator==(const Light&) const = default;
+};
+
+}  // namespace vitrail

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+// What fills space between surfaces.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "scene/geometry/bounds.h"
+#include "scene/geometry/transform.h"
+#include "scene/records/origin.h"
+#include "scene/spectra/spectrum.h"
+
+namespace vitrail {
+
+// What a grid has outside of its cells: what it has at the other end, the edge's values (Mitsuba), or
+// nothing, so that it falls to half from the centres of the outermost cells to the edge (pbrt).
+enum class GridEdge : std::uint8_t { repeated, held, zero };
+
+// Values on a regular grid over a box, linear in between. Given here or in a file (Mitsuba's .vol, NanoVDB).
+// Of three channels: linear sRGB. Between cells Mitsuba averages hues and brightnesses, pbrt spectra; so do
+// grids of its edges.
+struct Grid {
+  std::string filename;  // "" where `values` holds them
+  std::string field;     // of a NanoVDB file: "density"
+  int nx = 0, ny = 0, nz = 0, channels = 1;
+  std::vector<float> values;  // x fastest, channels interleaved
+  Bounds3d bounds{{0, 0, 0}, {1, 1, 1}};
+  GridEdge edge = GridEdge::held;
+  bool operator==(const Grid&) const = default;
+};
+
+using VolumeParameter = std::variant<Spectrum, Grid>;
+
+// Coefficients per unit of length, in the form that the file gives.
+struct AbsorptionScattering {
+  VolumeParameter sigma_a = ConstantSpectrum{1}, sigma_s = ConstantSpectrum{1};
+  bool operator==(const AbsorptionScattering&) const = default;
+};
+struct ExtinctionAlbedo {
+  VolumeParameter sigma_t = ConstantSpectrum{1}, albedo = ConstantSpectrum{0.75f};
+  bool operator==(const ExtinctionAlbedo&) const = default;
+};
+struct NamedMedium {  // of pbrt's list of measured media: "Skin1"
+  std::string name;
+  bool operator==(const NamedMedium&) const = default;
+};
+
+// pbrt's procedural cloud.
+struct CloudDensity {
+  Bounds3d bounds{{0, 0, 0}, {1, 1, 1}};
+  float density = 1, wispiness = 1, frequency = 5;
+  bool operator==(const CloudDensity&) const = default;
+};
+
+struct Medium {
+  std::string name;
+  std::variant<AbsorptionScattering, ExtinctionAlbedo, NamedMedium> coefficients;
+  float scale = 1;                                           // multiplies the coefficients
+  std::variant<std::monostate, Grid, CloudDensity> density;  // multiplies them too, from place to place
+  std::optional<Spectrum> emission;                          // radiance per unit of length
+  std::optional<Grid> emission_scale;                        // multiplies it, from place to place
+  std::optional<Grid> temperature;                           // emission as a blackbody, K
+  float emission_factor = 1;
+  float temperature_scale = 1, temperature_offset = 0;
+  float g = 0;  // Henyey and Greenstein; 0 is isotropic
+  Transform medium_to_world;
+  Origin origin;
+  bool operator==(const Medium&) const = default;
+};
+
+}  // namespace vitrail

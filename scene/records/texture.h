@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: Apache-2.0
+// Values that vary over surfaces. Textures form a graph without cycles: a texture refers only to ones with a
+// smaller id.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <variant>
+
+#include "scene/geometry/transform.h"
+#include "scene/records/id.h"
+#include "scene/records/origin.h"
+#include "scene/spectra/spectrum.h"
+
+namespace vitrail {
+
+struct Texture;
+
+// A parameter that is one value, or looked up in a texture where it is used.
+using FloatParameter = std::variant<float, Id<Texture>>;
+using SpectrumParameter = std::variant<Spectrum, Id<Texture>>;
+
+// ---- From a point of a surface to the (s,t) of a texture
+
+// s = a·u + b·v + c, t = d·u + e·v + f.
+struct UvMapping {
+  float a = 1, b = 0, c = 0, d = 0, e = 1, f = 0;
+  bool operator==(const UvMapping&) const = default;
+};
+// s = acos(z)/π, t = atan2(y,x)/2π (+1 below 0) of the direction of the point in texture space, as in pbrt.
+struct SphericalMapping {
+  Transform texture_to_world;
+  bool operator==(const SphericalMapping&) const = default;
+};
+// s = ½ + atan2(y,x)/2π, t = z in texture space, as in pbrt.
+struct CylindricalMapping {
+  Transform texture_to_world;
+  bool operator==(const CylindricalMapping&) const = default;
+};
+// s = p·v1 + offset_s, t = p·v2 + offset_t in texture space.
+struct PlanarMapping {
+  Transform texture_to_world;
+  Vector3d v1{1, 0, 0}, v2{0, 1, 0};
+  double offset_s = 0, offset_t = 0;
+  bool operator==(const PlanarMapping&) const = default;
+};
+// The first two numbers of the mesh's attribute of that slot. In bundles alone.
+struct AttributeMapping {
+  std::string slot;
+  bool operator==(const AttributeMapping&) const = default;
+};
+using TextureMapping =
+    std::variant<UvMapping, SphericalMapping, CylindricalMapping, PlanarMapping, AttributeMapping>;
+
+// ---- Kinds of texture
+
+enum class Wrap : std::uint8_t { repeat, mirror, clamp, black };
+enum class TextureFilter : std::uint8_t { nearest, bilinear, trilinear, anisotropic };
+// How the numbers of the file become values: `automatic` is sRGB for 8-bit colour files and linear for
+// others.
+enum class Encoding : std::uint8_t { automatic, srgb, linear, gamma };
+
+// Which number a texture of numbers takes from a pixel of several channels; a grey image has but one beside
+// alpha. Every channel is decoded as the encoding says before it is looked at, alpha too (as in pbrt-v4).
+enum class ImageNumber : std::uint8_t {
+  mean,       // of R, G and B
+  luminance,  // of linear sRGB
+  red,
+  green,
+  blue,
+  alpha,               // 1 where the image has none
+  alpha_or_mean,       // alpha where the image has one that is not 1 everywhere (pbrt-v4)
+  alpha_or_luminance,  // likewise
+  stored_luminance,    // of R, G and B as stored: the luminance is what is decoded (pbrt-v3)
+};
+
+// What the chromaticities that an EXR file may state are to its renderer. Without them colours are of sRGB.
+enum class Primaries : std::uint8_t {
+  file,   // what they say, by colorimetry (Mitsuba)
+  named,  // looked at where they are those of a space that pbrt-v4 knows; white reflects as white
+  srgb,   // nothing (pbrt-v3)
+};
+
+// (s,t) = (0,0) is the lower left corner of the image, (1,1) the upper right one. Colours are as the file
+// stores them beside alpha: never multiplied by it, and never divided.
+struct ImageTexture {
+  std::string filename;  // absolute
+  TextureMapping mapping;
+  Wrap wrap = Wrap::repeat;
+  TextureFilter filter = TextureFilter::bilinear;
+  Encoding encoding = Encoding::automatic;
+  float gamma = 1;      // of Encoding::gamma: value = file^gamma
+  float scale = 1;      // multiplies the values
+  bool invert = false;  // 1 − value, after the scale
+  ImageNumber number = ImageNumber::mean;
+  Primaries primaries = Primaries::file;
+  bool operator==(const ImageTexture&) const = default;
+};
+
+// Cells of size 1 in (s,t), or in three dimensions of texture space where `solid`: `even` holds (0,0).
+struct CheckerboardTexture {
+  SpectrumParameter even, odd;
+  TextureMapping mapping;
+  bool solid = false;
+  Transform texture_to_world;  // of a solid one
+  bool operator==(const CheckerboardTexture&) const = default;
+};
+
+// first · second.
+struct ProductTexture {
+  SpectrumParameter first, second;
+  bool operator==(const ProductTexture&) const = default;
+};
+
+// (1 − amount)·first + amount·second.
+struct MixTexture {
+  SpectrumParameter first, second;
+  FloatParameter amount = 0.5f;
+  bool operator==(const MixTexture&) const = default;
+};
+
+// As a mix, by amount = |n·direction| of the shading normal n: `first` where they are parallel.
+struct DirectionMixTexture {
+  SpectrumParameter first, second;
+  Vector3d direction{0, 1, 0};  // world
+  bool operator==(const DirectionMixTexture&) const = default;
+};
+
+// Bilinear between the values at (s,t) = (0,0), (0,1), (1,0), (1,1).
+struct BilinearTexture {
+  SpectrumParameter v00, v01, v10, v11;
+  TextureMapping mapping;
+  bool operator==(const BilinearTexture&) const = default;
+};
+
+// Discs at random places in those unit cells of (s,t) where pbrt's noise is above 0: 39 % of them.
+struct DotsTexture {
+  SpectrumParameter inside, outside;
+  TextureMapping mapping;
+  bool operator==(const DotsTexture&) const = default;
+};
+
+// Sums of Perlin noise in texture space (pbrt's fbm, wrinkled, windy, marble).
+struct NoiseTexture {
+  enum class Kind : std::uint8_t { fbm, wrinkled, windy, marble };
+  Kind kind = Kind::fbm;
+  Transform texture_to_world;
+  int octaves = 8;
+  float roughness = 0.5f;
+  float scale = 1, variation = 0.2f;  // of marble
+  bool operator==(const NoiseTexture&) const = default;
+};
+
+// A texture by face of a subdivision surface, in Ptex's own files.
+struct PtexTexture {
+  std::string filename;
+  Encoding encoding = Encoding::automatic;
+  float gamma = 1;
+  float scale = 1;
+  bool operator==(const PtexTexture&) const = default;
+};
+
+// The mesh's attribute of that name.
+struct MeshAttributeTexture {
+  std::string name;
+  float scale = 1;
+  bool operator==(const MeshAttributeTexture&) const = default;
+};
+
+// The colour (frac s, frac t, 0) (pbrt-v3's uv).
+struct UvTexture {
+  TextureMapping mapping;
+  bool operator==(const UvTexture&) const = default;
+};
+
+using TextureVariant =
+    std::variant<ImageTexture, CheckerboardTexture, ProductTexture, MixTexture, DirectionMixTexture,
+                 BilinearTexture, DotsTexture, NoiseTexture, PtexTexture, MeshAttributeTexture, UvTexture>;
+// Copied, moved, destroyed and compared in scene/records/special_members.cpp alone: in every file that
+// handles a scene, that took up to two thirds of its compiling.
+struct TextureModel : TextureVariant {
+  using TextureVariant::TextureVariant;
+  TextureModel();
+  TextureModel(const TextureModel&);
+  TextureModel(TextureModel&&) noexcept;
+  TextureModel& operator=(const TextureModel&);
+  TextureModel& operator=(TextureModel&&) noexcept;
+  ~TextureModel();
+  bool operator==(const TextureModel&) const;
+};
+
+// A texture is either a colour or one number (`is_float`); inputs of a
+// number are numbers, as constant spectra or other such textures. What a colour means (a reflectance in
+// [0,1], a factor without bound, an emission) follows from where it is used.
+struct Texture {
+  TextureModel model;
+  bool is_float = false;
+  std::string name;  // "" where the file gives none
+  Origin origin;
+  bool operator==(const Texture&) const = default;
+};
+
+}  // namespace vitrail

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a texture's value is made of.
+#pragma once
+
+#include <span>
+#include <variant>
+
+#include "scene/records/texture.h"
+
+namespace vitrail {
+
+// Calls f(parameter) for the inputs of a texture.
+template <class F>
+void for_inputs(const TextureModel& model, F&& f) {
+  std::visit(
+      [&](const auto& m) {
+        if constexpr (requires { m.even; }) f(m.even), f(m.odd);
+        if constexpr (requires { m.first; }) f(m.first), f(m.second);
+        if constexpr (requires { m.amount; }) f(m.amount);
+        if constexpr (requires { m.inside; }) f(m.inside), f(m.outside);
+        if constexpr (requires { m.v00; }) f(m.v00), f(m.v01), f(m.v10), f(m.v11);
+      },
+      model);
+}
+
+// Calls f(id) for those that are textures.
+template <class F>
+void for_texture_inputs(const TextureModel& model, F&& f) {
+  for_inputs(model, [&](const auto& parameter) {
+    if (const auto* id = std::get_if<Id<Texture>>(&parameter)) f(*id);
+  });
+}
+
+// Whether some attribute of a mesh counts in the texture's or parameter's value.
+bool reads_attribute(std::span<const Texture> textures, Id<Texture> texture);
+template <class Parameter>
+bool reads_attribute(std::span<const Texture> textures, const Parameter& parameter) {
+  const auto* id = std::get_if<Id<Texture>>(&parameter);
+  return id && reads_attribute(textures, *id);
+}
+
+}  // namespace vitrail

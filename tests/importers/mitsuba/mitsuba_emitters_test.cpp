@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: Apache-2.0
+// Lights from Mitsuba's emitters: by definition, and back from what write_mitsuba writes.
+#include <gmock/gmock.h>
+
+#include <random>
+
+#include "importers/mitsuba/write/write_mitsuba.h"
+#include "scene/spectra/flat_emission.h"
+#include "scene/spectra/rgb_to_spectrum.h"
+#include "tests/importers/mitsuba/mitsuba_objects.h"
+#include "tests/importers/temporary_folder.h"
+#include "tests/importers/written_scenes.h"
+
+namespace vitrail::mitsuba {
+namespace {
+
+using testing::Contains;
+using testing::Field;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::SizeIs;
+
+class MitsubaEmitters : public testing::Test {
+ protected:
+  void read(const Object& root) {
+    TestBuilder test;
+    test.scene.files = {(folder_ / "scene.xml").string()};
+    read_all(test.builder, root);
+    scene_ = test.scene;
+    diagnostics_ = test.report.take();
+  }
+  // Nothing is reported but that, and images that are not beside the working directory.
+  void expect_only(const std::string& words) {
+    for (const Diagnostic& d : diagnostics_)
+      if (d.message.find("cannot find the file") == std::string::npos &&
+          (words.empty() || d.message.find(words) == std::string::npos))
+        ADD_FAILURE() << d.message;
+  }
+  void read_text(const std::string& xml) { read(load_objects_of_text(xml)); }
+  template <class T>
+  T light(const std::string& xml) {
+    read_text(xml);
+    return std::get<T>(scene_.lights.at(0).model);
+  }
+  Scene written_and_read(const Scene& scene) {
+    write_mitsuba(scene, folder_ / "scene.xml");
+    read(load_objects(folder_ / "scene.xml"));
+    return scene_;
+  }
+  static auto says(const std::string& text) { return Contains(Field(&Diagnostic::message, HasSubstr(text))); }
+
+  TemporaryFolder folder_;
+  Scene scene_;
+  Diagnostics diagnostics_;
+};
+
+Transform some_transform() { return translate({3, -2.5, 0.1}) * rotate(0.7, {1, 2, 3}) * scale({2, 2, 2}); }
+
+TEST_F(MitsubaEmitters, WrittenLightsComeBack) {
+  folder_.write("sky.exr", "x");
+  folder_.write("slide.png", "x");
+  Scene original = empty_scene();
+  const Spectrum red = emission_from_rgb({3, 0.1, 0.2}), white = emission_from_rgb({1, 1, 1});
+  ImageTexture image;
+  image.filename = (folder_ / "slide.png").string();
+  image.encoding = Encoding::srgb;
+  const Id<Texture> slide = add_to(original.textures, Texture{image, false, "slide", {}});
+  SpotLight spot{some_transform(), red, 10.5f, 33.25f, SpotLight::Falloff::linear, {}};
+  ProjectionLight projector;
+  projector.light_to_world = some_transform();
+  projector.image = slide;
+  projector.scale = ConstantSpectrum{0.3f};
+  projector.fov_deg = 37.5f;
+  projector.irradiance = true;
+  EnvironmentLight sky;
+  sky.filename = (folder_ / "sky.exr").string();
+  sky.light_to_world = some_transform();
+  sky.projection = EnvironmentLight::Projection::latitude_longitude;
+  sky.scale = ConstantSpectrum{0.7f};
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> any(-1, 1);
+  for (int i = 0; i < 20; ++i)
+    original.lights.push_back({DistantLight{unit(Vector3d{any(random), any(random), any(random)}), red}, {}});
+  for (const LightModel& model : {LightModel{PointLight{{1.5, 0.1, -3}, red}}, LightModel{spot},
+                                  LightModel{projector}, LightModel{sky}})
+    original.lights.push_back({model, {}});
+  spot.texture = slide;
+  original.lights.push_back({spot, {}});
+  projector.scale = scaled(inverse_d65(), 0.5);
+  original.lights.push_back({projector, {}});
+  const Scene again = written_and_read(original);
+  ASSERT_EQ(again.lights.size(), original.lights.size());
+  for (std::size_t i = 0; i < original.lights.size(); ++i)
+    EXPECT_EQ(again.lights[i], original.lights[i]) << i;
+  expect_only("");
+  // Mitsuba takes one light from all around.
+  for (const Spectrum& radiance : {white, Spectrum{ConstantSpectrum{2}}}) {
+    Scene around = empty_scene();
+    around.lights.push_back({InfiniteLight{radiance}, {}});
+    EXPECT_EQ(written_and_read(around).lights, around.lights);
+  }
+}
+
+TEST_F(MitsubaEmitters, WrittenAreaLightsComeBack) {
+  Scene original = square_scene({});
+  folder_.write("slide.png", "x");
+  ImageTexture image;
+  image.filename = (folder_ / "slide.png").string();
+  image.encoding = Encoding::srgb;
+  const Id<Texture> slide = add_to(original.textures, Texture{image, false, "slide", {}});
+  const Id<Texture> flat =
+      add_to(original.textures, Texture{ProductTexture{slide, inverse_d65()}, false, "", {}});
+  const Shape shape = original.shapes[0];
+  original.shapes.clear();
+  for (const AreaLight& light :
+       {AreaLight{Spectrum{emission_from_rgb({5, 4, 3})}, 1, false, false, {}},
+        AreaLight{Spectrum{ConstantSpectrum{2}}, 1, false, true, {}},
+        AreaLight{slide, 2.5f, false, false, {}}, AreaLight{flat, 1, false, false, {}}}) {
+    original.shapes.push_back(shape);
+    original.shapes.back().area_light = add_to(original.area_lights, light);
+  }
+  EXPECT_EQ(written_and_read(original).area_lights, original.area_lights);
+  expect_only("directionalarea");
+}
+
+TEST_F(MitsubaEmitters, PlacesByTransform) {
+  const std::string to_world = "<transform name='to_world'><translate x='1' y='2' z='3'/></transform>";
+  const auto point = light<PointLight>("<emitter type='point'>" + to_world + "</emitter>");
+  EXPECT_EQ(point.position, (Point3d{1, 2, 3}));
+  EXPECT_EQ(point.intensity, Spectrum{emission_from_rgb({1, 1, 1})});
+  const auto distant = light<DistantLight>(
+      "<emitter type='directional'><transform name='to_world'><matrix value='0 0 3 0 1 0 0 0 0 1 0 0 0 0 0 "
+      "1'/>"
+      "</transform></emitter>");
+  EXPECT_EQ(distant.direction, (Vector3d{1, 0, 0}));
+  EXPECT_THROW(
+      read_text("<emitter type='point'><point name='position' x='1' y='2' z='3'/>" + to_world + "</emitter>"),
+      Error);
+  EXPECT_THROW(
+      read_text("<emitter type='directional'><vector name='direction' x='0' y='0' z='0'/></emitter>"), Error);
+}
+
+TEST_F(MitsubaEmitters, SpotsFallOffLinearlyFromThreeQuarters) {
+  const auto spot =
+      light<SpotLight>("<emitter type='spot'><float name='cutoff_angle' value='40'/></emitter>");
+  EXPECT_EQ(spot.falloff, SpotLight::Falloff::linear);
+  EXPECT_EQ(spot.beam_deg, 30);
+  EXPECT_EQ(light<SpotLight>("<emitter type='spot'/>").cutoff_deg, 20);
+  EXPECT_EQ(light<SpotLight>("<emitter type='spot'><float name='beam_width' value='30'/></emitter>").beam_deg,
+            20);
+  EXPECT_THROW(read_text("<emitter type='spot'><float name='cutoff_angle' value='-1'/></emitter>"), Error);
+  EXPECT_EQ(
+      light<SpotLight>("<emitter type='spot'><rgb name='texture' value='0.5 0.5 0.5'/></emitter>").texture,
+      std::nullopt);
+}
+
+TEST_F(MitsubaEmitters, ProjectorsFieldOfView) {
+  const auto square = light<ProjectionLight>("<emitter type='projector'/>");  // 50 mm
+  EXPECT_NEAR(square.fov_deg, 34.0221, 1e-4);                                 // Mitsuba 3.9.1's x_fov
+  EXPECT_THAT(diagnostics_, says("counts as a square"));
+  light<ProjectionLight>("<emitter type='projector'><float name='fov' value='30'/></emitter>");
+  EXPECT_THAT(diagnostics_, IsEmpty());
+}
+
+// Mitsuba's map has its centre at −z... its zenith at +y: u = atan2(x, −z)/2π, v = acos(y)/π.
+TEST_F(MitsubaEmitters, EnvironmentInTheScenesFrame) {
+  folder_.write("sky.exr", "x");
+  const auto sky =
+      light<EnvironmentLight>("<emitter type='envmap'><string name='filename' value='sky.exr'/></emitter>");
+  EXPECT_EQ(sky.filename, (folder_ / "sky.exr").string());
+  for (const Vector3d world :
+       {Vector3d{0.1, 0.2, 0.3}, Vector3d{-0.5, 0.2, -0.7}, Vector3d{0.3, -0.9, 0.1}}) {
+    const Vector3d local = transform_vector(inverse(sky.light_to_world), world);
+    EXPECT_DOUBLE_EQ(std::atan2(local.y, local.x), std::atan2(world.x, -world.z));
+    EXPECT_DOUBLE_EQ(local.z, world.y);
+  }
+  EXPECT_THROW(read_text("<emitter type='envmap'><string name='filename' value='none.exr'/></emitter>"),
+               Error);
+  EXPECT_THROW(read_text("<emitter type='envmap'/>"), Error);
+}
+
+TEST_F(MitsubaEmitters, WhatIsDroppedIsSaid) {
+  read_text("<emitter type='skylight'/><emitter type='pont'/><emitter type='area'/>");
+  EXPECT_THAT(scene_.lights, IsEmpty());
+  ASSERT_THAT(diagnostics_, SizeIs(3));
+  EXPECT_THAT(diagnostics_, says("\"envmap\""));
+  EXPECT_THAT(diagnostics_, says("did you mean \"point\""));
+  EXPECT_THAT(diagnostics_, says("belongs into a shape"));
+  for (const Diagnostic& diagnostic : diagnostics_) EXPECT_GT(diagnostic.item.column, 0);
+  read_text("<shape type='sphere'><emitter type='aree'/></shape>");
+  EXPECT_THAT(scene_.area_lights, IsEmpty());
+  EXPECT_THAT(diagnostics_, says("did you mean \"area\""));
+  read_text("<emitter type='point'><float name='foo' value='1'/></emitter>");
+  EXPECT_THAT(diagnostics_, says("foo"));
+}
+
+}  // namespace
+}  // namespace vitrail::mitsuba

@@ -1,0 +1,640 @@
+// SPDX-License-Identifier: Apache-2.0
+// What surrounds the plugins of a Mitsuba file: includes, defaults, references, old spellings, and input that
+// means harm.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <limits>
+#include <numbers>
+
+#include "importers/mitsuba/read/mitsuba.h"
+#include "importers/mitsuba/read/sun_and_sky.h"
+#include "scene/spectra/color.h"
+#include "scene/spectra/rgb_to_spectrum.h"
+#include "tests/importers/temporary_folder.h"
+
+namespace vitrail {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string head = "<scene version=\"3.0.0\">", tail = "</scene>";
+const std::string floor = "<shape type=\"rectangle\"><ref id=\"m\"/></shape>";
+
+class MitsubaLoad : public ::testing::Test {
+ protected:
+  ImportedScene read(const std::string& inside) {
+    return read_mitsuba(folder_.write("scene.xml", head + inside + tail));
+  }
+  Material material(const std::string& inside) {
+    imported_ = read(inside + floor);
+    return imported_.scene.materials.at(imported_.scene.shapes.at(0).material.value);
+  }
+  std::string error(const std::string& text) {
+    try {
+      read_mitsuba(folder_.write("scene.xml", text));
+    } catch (const Error& e) {
+      EXPECT_FALSE(e.location.file.empty()) << e.what();
+      return e.what();
+    }
+    return "no error";
+  }
+  std::string error_inside(const std::string& inside) { return error(head + inside + tail); }
+  bool mentions(const std::string& words) const {
+    return std::any_of(imported_.diagnostics.begin(), imported_.diagnostics.end(),
+                       [&](const Diagnostic& d) { return d.message.find(words) != std::string::npos; });
+  }
+  TemporaryFolder folder_;
+  ImportedScene imported_;
+};
+
+// Mitsuba 3.9.1 has 1.3 and .2, each where the file does not give it.
+TEST_F(MitsubaLoad, HairHasBothMelaninsAndRunsAlongV) {
+  const auto hair = [&](const std::string& inside) {
+    return std::get<HairMaterial>(material("<bsdf type=\"hair\" id=\"m\">" + inside + "</bsdf>").model);
+  };
+  EXPECT_TRUE(hair("").along_v);
+  EXPECT_EQ(hair("").eumelanin, FloatParameter{1.3f});
+  EXPECT_EQ(hair("").pheomelanin, FloatParameter{0.2f});
+  EXPECT_EQ(hair("<float name=\"eumelanin\" value=\".5\"/>").pheomelanin, FloatParameter{0.2f});
+  EXPECT_FALSE(hair("<float name=\"pheomelanin\" value=\"0\"/>").pheomelanin);
+  const auto absorbing =
+      hair("<spectrum name=\"sigma_a\" value=\".25\"/><float name=\"scale\" value=\"4\"/>");
+  EXPECT_EQ(absorbing.sigma_a, SpectrumParameter{ConstantSpectrum{1}});
+  EXPECT_FALSE(absorbing.eumelanin || absorbing.pheomelanin);
+}
+
+const std::string red = "<rgb name=\"reflectance\" value=\"1 0 0\"/>";
+
+TEST_F(MitsubaLoad, BareOpaqueMaterialsHaveOneSide) {
+  const Material bare = material("<bsdf type=\"diffuse\" id=\"m\">" + red + "</bsdf>");
+  EXPECT_EQ(std::get<DiffuseMaterial>(bare.model).reflectance,
+            SpectrumParameter{reflectance_from_rgb({1, 0, 0})});
+  EXPECT_FALSE(bare.two_sided);
+  EXPECT_EQ(bare.name, "m");
+  EXPECT_EQ(bare.origin.line, 1u);
+  EXPECT_TRUE(material("<bsdf type=\"twosided\" id=\"m\"><bsdf type=\"diffuse\"/></bsdf>").two_sided);
+  EXPECT_TRUE(material("<bsdf type=\"dielectric\" id=\"m\"/>").two_sided);
+  const std::string white = "<bsdf type=\"diffuse\" id=\"white\"/>", ref = "<ref id=\"white\"/>";
+  const Material two = material(white + "<bsdf type=\"twosided\" id=\"m\">" + ref + ref + "</bsdf>");
+  const Id<Material> back = std::get<TwoSidedMaterial>(two.model).back;
+  EXPECT_TRUE(imported_.scene.materials.at(back.value).two_sided);
+  EXPECT_FALSE(imported_.scene.materials.at(0).two_sided) << "that is called white";
+}
+
+// What an adapter says of a material that is made of others holds for these, and not where they are used
+// without it.
+TEST_F(MitsubaLoad, AdaptersReachTheParts) {
+  const std::string parts =
+      "<bsdf type=\"diffuse\" id=\"a\"/><texture type=\"checkerboard\" id=\"t\"/>"
+      "<bsdf type=\"mask\" id=\"hole\"><ref id=\"a\"/></bsdf>"
+      "<bsdf type=\"blendbsdf\" id=\"blend\"><ref id=\"hole\"/><ref id=\"a\"/></bsdf>";
+  const auto leaf = [&](Material at) {
+    for (;;) {
+      if (const auto* blend = std::get_if<BlendMaterial>(&at.model))
+        at = imported_.scene.materials.at(blend->second.value);
+      else if (const auto* mask = std::get_if<MaskMaterial>(&at.model))
+        at = imported_.scene.materials.at(mask->material.value);
+      else
+        return at;
+    }
+  };
+  for (const std::string inside : {"hole", "blend"}) {
+    const Material bumped =
+        material(parts + "<bsdf type=\"bumpmap\" id=\"m\"><ref id=\"t\" name=\"texture\"/><ref id=\"" +
+                 inside + "\"/></bsdf>");
+    EXPECT_TRUE(leaf(bumped).displacement) << inside;
+    EXPECT_TRUE(leaf(bumped).bump_shadowing);
+    EXPECT_FALSE(bumped.displacement);
+    EXPECT_FALSE(imported_.scene.materials.at(0).displacement) << "that is called a";
+  }
+  const Material mapped =
+      material(parts +
+               "<bsdf type=\"normalmap\" id=\"m\"><texture type=\"checkerboard\" name=\"normalmap\"/>"
+               "<ref id=\"hole\"/></bsdf>");
+  EXPECT_TRUE(leaf(mapped).normal_map);
+  const std::string opaque =
+      "<bsdf type=\"blendbsdf\"><bsdf type=\"diffuse\"/><bsdf type=\"diffuse\"/></bsdf>";
+  EXPECT_TRUE(leaf(material("<bsdf type=\"twosided\" id=\"m\">" + opaque + "</bsdf>")).two_sided);
+}
+
+// Measured: behind bumps on a mask, a sheet or nothing no light of emitters gets through to volpath.
+TEST_F(MitsubaLoad, BumpsThatMitsubaMeansOtherwise) {
+  const auto says = [&](const std::string& words, const std::string& integrator, const std::string& bsdf) {
+    material("<integrator type=\"" + integrator + "\"/>" + bsdf);
+    return mentions(words);
+  };
+  const std::string bumps = "<texture type=\"checkerboard\" name=\"texture\"/>",
+                    diffuse = "<bsdf type=\"diffuse\"/>";
+  const auto with = [&](const char* type, const std::string& inside) {
+    return fmt::format("<bsdf type=\"{}\" id=\"m\">{}</bsdf>", type, inside);
+  };
+  const std::string mask = "<bsdf type=\"mask\">" + diffuse + "</bsdf>";
+  EXPECT_TRUE(says("these bumps", "volpath", with("bumpmap", bumps + mask)));
+  EXPECT_TRUE(says("these bumps", "volpath", with("normalmap", bumps + "<bsdf type=\"thindielectric\"/>")));
+  EXPECT_FALSE(says("these bumps", "path", with("bumpmap", bumps + mask)));
+  EXPECT_FALSE(says("these bumps", "volpath", with("bumpmap", bumps + diffuse)));
+
+  // It mirrors what twosided is around, and turns over what is around it.
+  EXPECT_TRUE(
+      says("on the back", "path", with("twosided", "<bsdf type=\"bumpmap\">" + bumps + diffuse + "</bsdf>")));
+  EXPECT_FALSE(
+      says("on the back", "path", with("bumpmap", bumps + "<bsdf type=\"twosided\">" + diffuse + "</bsdf>")));
+}
+
+TEST_F(MitsubaLoad, NullCountsInMitsubasPath) {
+  const auto says = [&](const std::string& integrator) {
+    material("<integrator type=\"" + integrator +
+             "\"><integer name=\"max_depth\" value=\"6\"/></integrator>"
+             "<bsdf type=\"null\" id=\"m\"/>");
+    return mentions("the depth");
+  };
+  EXPECT_TRUE(says("path"));
+  EXPECT_FALSE(says("volpath"));
+}
+
+TEST_F(MitsubaLoad, DefaultsReferencesAliasesAndIncludes) {
+  folder_.write("part.xml", head +
+                                "<default name=\"tone\" value=\"0.75\"/><bsdf type=\"diffuse\" id=\"part\">"
+                                "<spectrum name=\"reflectance\" value=\"$tone\"/></bsdf>" +
+                                tail);
+  const Material m = material(
+      "<default name=\"tone\" value=\"0.25\"/><include filename=\"part.xml\"/><alias id=\"part\" as=\"m\"/>");
+  EXPECT_EQ(std::get<DiffuseMaterial>(m.model).reflectance, SpectrumParameter{ConstantSpectrum{0.25f}})
+      << "the first default counts";
+  EXPECT_EQ(imported_.scene.files.size(), 2u);
+  EXPECT_EQ(m.origin.file, 1u);
+}
+
+TEST_F(MitsubaLoad, SharedFilesAreFoundFromTheWorkingDirectory) {
+  const std::string part = head + "<bsdf type=\"diffuse\" id=\"m\"/>" + tail;
+  const fs::path scenes = folder_.write("scene.xml", head + "<include filename=\"part.xml\"/>" + floor + tail)
+                              .parent_path(),
+                 before = fs::current_path();
+  fs::create_directory(scenes / "common");
+  folder_.write("common/part.xml", part);
+  fs::current_path(scenes);
+  EXPECT_NO_THROW(imported_ = read_mitsuba("scene.xml"));
+  fs::current_path(before);
+  EXPECT_EQ(imported_.scene.materials.size(), 1u);
+}
+
+TEST_F(MitsubaLoad, OldSpellings) {
+  const std::string old =
+      "<scene version=\"0.5.0\"><bsdf type=\"diffuse\" id=\"m\"><texture type=\"checkerboard\" "
+      "name=\"diffuseReflectance\">"
+      "<float name=\"uscale\" value=\"2\"/><float name=\"voffset\" value=\"0.5\"/></texture></bsdf>"
+      "<shape type=\"rectangle\"><transform name=\"toWorld\"><translate x=\"3\"/></transform><ref "
+      "id=\"m\"/></shape></scene>";
+  const ImportedScene imported = read_mitsuba(folder_.write("scene.xml", old));
+  EXPECT_EQ(transform_point(imported.scene.shapes.at(0).object_to_world, {0, 0, 0}), (Point3d{3, 0, 0}));
+  const auto& board = std::get<CheckerboardTexture>(imported.scene.textures.at(0).model);
+  EXPECT_EQ(board.mapping, (TextureMapping{UvMapping{4, 0, 0, 0, 2, 1}})) << "cells are half a unit";
+}
+
+// As Mitsuba 3.9 translates them: a run of capitals is one word.
+TEST_F(MitsubaLoad, OldAcronyms) {
+  const std::string old =
+      "<scene version=\"0.6.0\"><bsdf type=\"dielectric\" id=\"m\"><float name=\"intIOR\" value=\"1.33\"/>"
+      "<float name=\"extIOR\" value=\"1.1\"/></bsdf>" +
+      floor + tail;
+  const ImportedScene imported = read_mitsuba(folder_.write("scene.xml", old));
+  const auto& glass = std::get<DielectricMaterial>(imported.scene.materials.at(0).model);
+  EXPECT_EQ(glass.eta, Spectrum{ConstantSpectrum{1.33f}});
+  EXPECT_EQ(glass.exterior_eta, Spectrum{ConstantSpectrum{1.1f}});
+  for (const Diagnostic& d : imported.diagnostics) EXPECT_EQ(d.message.find("ior"), std::string::npos);
+}
+
+// 0.6 was built for three channels.
+TEST_F(MitsubaLoad, OldSpectraAreLinearRgb) {
+  const std::string old =
+      "<scene version=\"0.6.0\"><bsdf type=\"diffuse\" id=\"m\">"
+      "<spectrum name=\"reflectance\" value=\"0.1, 0.4 .9\"/></bsdf>"
+      "<emitter type=\"point\"><spectrum name=\"intensity\" value=\" 190, 254, 254 \"/></emitter>"
+      "<emitter type=\"constant\"><spectrum name=\"radiance\" value=\"2\"/></emitter>" +
+      floor + tail;
+  const Scene scene = read_mitsuba(folder_.write("scene.xml", old)).scene;
+  EXPECT_EQ(std::get<DiffuseMaterial>(scene.materials.at(0).model).reflectance,
+            SpectrumParameter{reflectance_from_rgb({0.1, 0.4, 0.9})});
+  EXPECT_EQ(std::get<PointLight>(scene.lights.at(0).model).intensity,
+            Spectrum{emission_from_rgb({190, 254, 254})});
+  EXPECT_EQ(std::get<InfiniteLight>(scene.lights.at(1).model).radiance,
+            Spectrum{emission_from_rgb({2, 2, 2})});
+  EXPECT_THAT(
+      error_inside("<emitter type=\"constant\"><spectrum name=\"radiance\" value=\"1 2 3\"/></emitter>"),
+      ::testing::HasSubstr("number"));
+  EXPECT_THAT(error("<scene version=\"0.6.0\"><emitter type=\"constant\"><spectrum name=\"radiance\" "
+                    "value=\"1 2\"/></emitter></scene>"),
+              ::testing::HasSubstr("3 numbers, has 2"));
+}
+
+// 0.6 decodes a PNG file by the gAMA chunk that it has, version 3 none.
+TEST_F(MitsubaLoad, OldPngFilesHaveAGammaOfTheirOwn) {
+  const auto bytes = [](std::string_view text) { return std::string(text); };
+  using namespace std::string_view_literals;
+  const std::string signature = bytes("\x89PNG\r\n\x1a\n"sv),
+                    header = bytes("\0\0\0\x0dIHDR\0\0\0\1\0\0\0\1\x08\2\0\0\0????"sv),
+                    gamma = bytes("\0\0\0\4gAMA\0\0\xc3\x50????"sv),  // 50000: 1/2
+      srgb = bytes("\0\0\0\1sRGB\0????"sv), end = bytes("\0\0\0\0IEND????"sv);
+  const auto image = [&](const char* version, const std::string& chunks, const std::string& parameters) {
+    folder_.write("a.png", signature + header + chunks + end);
+    const std::string text = std::string("<scene version=\"") + version +
+                             "\"><bsdf type=\"diffuse\" id=\"m\"><texture type=\"bitmap\" "
+                             "name=\"reflectance\"><string name=\"filename\" value=\"a.png\"/>" +
+                             parameters + "</texture></bsdf>" + floor + tail;
+    return std::get<ImageTexture>(read_mitsuba(folder_.write("scene.xml", text)).scene.textures.at(0).model);
+  };
+  EXPECT_EQ(image("0.6.0", gamma, "").encoding, Encoding::gamma);
+  EXPECT_EQ(image("0.6.0", gamma, "").gamma, 2);
+  EXPECT_EQ(image("0.6.0", gamma + srgb, "").encoding, Encoding::automatic);
+  EXPECT_EQ(image("0.6.0", "", "").encoding, Encoding::automatic);
+  EXPECT_EQ(image("0.6.0", gamma, "<float name=\"gamma\" value=\"1.8\"/>").gamma, 1.8f);
+  EXPECT_EQ(image("3.0.0", gamma, "").encoding, Encoding::automatic);
+}
+
+// The parts of a mixture count by their weights, and what lacks to 1 is black.
+TEST_F(MitsubaLoad, OldMixtures) {
+  const auto mixture = [&](const std::string& weights) {
+    return material("<bsdf type=\"mixturebsdf\" id=\"m\"><string name=\"weights\" value=\"" + weights +
+                    "\"/><bsdf type=\"diffuse\" id=\"a\"/><bsdf type=\"diffuse\" id=\"b\"/></bsdf>");
+  };
+  const auto share = [&](const Material& whole, const std::string& name) {
+    double found = 0;
+    const auto walk = [&](const auto& self, const Material& at, double weight) -> void {
+      if (const auto* blend = std::get_if<BlendMaterial>(&at.model)) {
+        const auto amount = static_cast<double>(std::get<float>(blend->amount));
+        self(self, imported_.scene.materials.at(blend->first.value), weight * (1 - amount));
+        self(self, imported_.scene.materials.at(blend->second.value), weight * amount);
+      } else if (at.name == name) {
+        found += weight;
+      }
+    };
+    walk(walk, whole, 1);
+    return found;
+  };
+  for (const auto& [weights, a, b] :
+       {std::tuple{"0.3, 0.7", 0.3, 0.7}, {"0.25 0.5", 0.25, 0.5}, {"3 1", 0.75, 0.25}, {"0, 1", 0.0, 1.0}}) {
+    const Material whole = mixture(weights);
+    EXPECT_NEAR(share(whole, "a"), a, 1e-6) << weights;
+    EXPECT_NEAR(share(whole, "b"), b, 1e-6) << weights;
+  }
+  EXPECT_THROW(mixture("0.5"), Error);
+}
+
+// (1 − r)·ρ/(1 − r) is ρ: no light goes back and forth below 0.6's coat.
+TEST_F(MitsubaLoad, OldCoatings) {
+  const Material coat = material(
+      "<bsdf type=\"coating\" id=\"m\"><float name=\"int_ior\" value=\"1.5\"/>"
+      "<float name=\"ext_ior\" value=\"1\"/><bsdf type=\"diffuse\"/></bsdf>");
+  const auto& plastic = std::get<PlasticMaterial>(coat.model);
+  constexpr double internal = 0.5963;  // of index 1.5 (Jacquez and Kuppenheim 1955)
+  EXPECT_NEAR(luminance(std::get<Spectrum>(plastic.diffuse_reflectance)), 0.5 * (1 - internal), 1e-4);
+  EXPECT_EQ(plastic.eta, 1.5f);
+  EXPECT_FALSE(plastic.nonlinear);
+  EXPECT_FALSE(coat.two_sided);
+
+  // Of index 1 light goes on as it comes: (2∫exp(−τ/μ)μ dμ)² = (2E₃(τ))², E₃(0.1) = 0.4163.
+  const Material dark = material(
+      "<bsdf type=\"coating\" id=\"m\"><float name=\"int_ior\" value=\"1.000001\"/><float name=\"ext_ior\" "
+      "value=\"1\"/>"
+      "<float name=\"thickness\" value=\"2\"/><float name=\"sigma_a\" value=\"0.05\"/>"
+      "<bsdf type=\"conductor\"/></bsdf>");
+  const auto& factor = std::get<ConductorMaterial>(dark.model).reflectance_factor;
+  EXPECT_NEAR(luminance(std::get<Spectrum>(factor)), 0.8326 * 0.8326, 2e-3);
+  EXPECT_TRUE(mentions("0.69"));
+}
+
+// Sums of a Lambertian part and a gloss without Fresnel's factor.
+TEST_F(MitsubaLoad, OldPhongAndWard) {
+  for (const char* kind : {"phong", "ward"}) {
+    const Material whole = material(fmt::format("<bsdf type=\"{}\" id=\"m\"/>", kind));
+    const auto& blend = std::get<BlendMaterial>(whole.model);
+    const auto amount = static_cast<double>(std::get<float>(blend.amount));
+    const auto& base = std::get<DiffuseMaterial>(imported_.scene.materials.at(blend.first.value).model);
+    const auto& gloss = std::get<ConductorMaterial>(imported_.scene.materials.at(blend.second.value).model);
+    EXPECT_NEAR(luminance(std::get<Spectrum>(base.reflectance)) * (1 - amount), 0.5, 1e-5);
+    EXPECT_NEAR(luminance(std::get<Spectrum>(gloss.reflectance_factor)) * amount, 0.2, 1e-5);
+    EXPECT_EQ(gloss.metal, Metal{PerfectReflector{}});
+  }
+}
+
+TEST_F(MitsubaLoad, Daylight) {
+  const ImportedScene old = read_mitsuba(folder_.write(
+      "scene.xml",
+      "<scene version=\"0.6.0\"><emitter type=\"sunsky\"><vector name=\"sunDirection\" x=\"0\" y=\"3\" "
+      "z=\"4\"/>"
+      "<float name=\"skyScale\" value=\"2\"/><float name=\"sunScale\" value=\"0.5\"/></emitter></scene>"));
+  ASSERT_EQ(old.scene.lights.size(), 1u);
+  const auto& both = std::get<SkyLight>(old.scene.lights[0].model);
+  EXPECT_NEAR(both.to_sun.z, 0.6, 1e-12);   // its +y is up
+  EXPECT_NEAR(both.to_sun.y, -0.8, 1e-12);  // and its +z in the south
+  EXPECT_NEAR(transform_vector(both.light_to_world, both.to_sun).z, 0.8, 1e-12);
+  EXPECT_EQ(both.sky_scale, 2);
+  EXPECT_EQ(both.sun_scale, 0.5f);
+  const auto says = [](const ImportedScene& imported, std::string_view what) {
+    return std::ranges::any_of(
+        imported.diagnostics, [&](const Diagnostic& d) { return d.message.find(what) != std::string::npos; });
+  };
+  EXPECT_TRUE(says(old, "the model of daylight of Mitsuba 0.6"));
+
+  // Where Mitsuba 3.9.1 has the sun of these hours in Tokyo, its default: up, and −y east and −x north.
+  for (const auto& [hour, direction] : {std::pair{9, Vector3d{0.0956952, -0.614786, 0.782867}},
+                                        {15, Vector3d{0.0513851, 0.691748, 0.720308}}}) {
+    const ImportedScene now = read_mitsuba(
+        folder_.write("scene.xml", fmt::format("<scene version=\"3.0.0\"><emitter type=\"sunsky\">"
+                                               "<float name=\"hour\" value=\"{}\"/></emitter></scene>",
+                                               hour)));
+    EXPECT_FALSE(says(now, "daylight"));
+    EXPECT_LT(length(std::get<SkyLight>(now.scene.lights.at(0).model).to_sun - direction), 5e-4) << hour;
+  }
+}
+
+// The sun of one moment, or the mean of several while the sensor's shutter is open. Where it stands is what
+// Mitsuba's sunsky has of the same hour.
+TEST_F(MitsubaLoad, DaylightOverTime) {
+  const auto lights = [&](const std::string& sensor, const std::string& emitter) {
+    return read_mitsuba(
+               folder_.write("scene.xml", "<scene version=\"3.0.0\">" + sensor + emitter + "</scene>"))
+        .scene.lights;
+  };
+  const auto sun = [](const Light& light) { return std::get<SkyLight>(light.model).to_sun; };
+  const std::string day =
+      "<integer name=\"start_year\" value=\"2024\"/><integer name=\"start_month\" value=\"2\"/><integer "
+      "name=\"start_day\" value=\"28\"/><integer name=\"end_year\" value=\"2024\"/><integer "
+      "name=\"end_month\" value=\"3\"/><integer name=\"end_day\" value=\"2\"/>";
+  const std::string timed = "<emitter type=\"timed_sunsky\">" + day + "</emitter>";
+  const auto at = [&](int month, int date, double hour) {
+    return sun(
+        lights("", fmt::format("<emitter type=\"sunsky\"><integer name=\"year\" value=\"2024\"/><integer "
+                               "name=\"month\" value=\"{}\"/><integer name=\"day\" value=\"{}\"/><float "
+                               "name=\"hour\" value=\"{}\"/></emitter>",
+                               month, date, hour))
+            .at(0));
+  };
+  EXPECT_NO_THROW(at(13, -400, 7));
+  EXPECT_THROW(at(std::numeric_limits<int>::min(), 28, 7), Error);
+  EXPECT_THROW(at(2, std::numeric_limits<int>::max(), 7), Error);
+  const auto once = lights("", timed);
+  ASSERT_EQ(once.size(), 1u);
+  EXPECT_LT(length(sun(once[0]) - at(2, 28, 7)), 1e-9);
+  EXPECT_EQ(std::get<SkyLight>(once[0].model).sun_scale, 1);
+
+  // Half of the shutter's time: the first one and a half of three days, of a leap year.
+  const auto over =
+      lights("<sensor type=\"perspective\"><float name=\"shutter_close\" value=\"0.5\"/></sensor>", timed);
+  ASSERT_EQ(over.size(), 32u);
+  EXPECT_EQ(std::get<SkyLight>(over[7].model).sky_scale, 1 / 32.0f);
+  for (const int i : {0, 20, 25, 31}) {
+    const double days = (i + 0.5) / 32 * 1.5, hour = 7 + 12 * (days - std::floor(days));
+    EXPECT_LT(length(sun(over[static_cast<std::size_t>(i)]) - at(2, days < 1 ? 28 : 29, hour)), 1e-9) << i;
+  }
+  EXPECT_THROW(lights("",
+                      "<emitter type=\"timed_sunsky\"><float name=\"window_end_time\" "
+                      "value=\"3\"/></emitter>"),
+               Error);
+}
+
+// The mean over the rectangle is that of a grid on it, on the side of its normal.
+TEST_F(MitsubaLoad, IrradianceMetersAreMeasuredBySensors) {
+  const auto says = [&](const std::string& shape, const std::string& more, const std::string& what) {
+    const ImportedScene imported = read_mitsuba(folder_.write(
+        "scene.xml", "<scene version=\"3.0.0\"><shape type=\"" + shape +
+                         "\"><transform name=\"to_world\"><scale x=\"2\" y=\"3\" z=\"1\"/>" + more +
+                         "</transform><sensor type=\"irradiancemeter\"/></shape></scene>"));
+    return std::ranges::any_of(imported.diagnostics, [&](const Diagnostic& d) {
+      return d.fidelity == Fidelity::dropped && d.message.find(what) != std::string::npos;
+    });
+  };
+  EXPECT_TRUE(says("rectangle", "<translate x=\"10\" z=\"5\"/>", "plane 8 -3 5.0006  4 0 0  0 6 0  8x8"));
+  EXPECT_TRUE(says("rectangle", "<scale x=\"-1\"/>", "plane 2 -3 0.0006  0 6 0  -4 0 0  8x8"));
+  EXPECT_TRUE(says("disk", "", "sensor \"irradiancemeter\" of a disk"));
+}
+
+// How its integrators sample is no loss, and what nobody knows is said once.
+TEST_F(MitsubaLoad, OldIntegratorsAndFilms) {
+  const std::string old =
+      "<scene version=\"0.6.0\"><integrator type=\"sppm\"><integer name=\"maxDepth\" value=\"6\"/>"
+      "<integer name=\"photonCount\" value=\"9\"/><integer name=\"kNN\" value=\"9\"/></integrator>"
+      "<sensor type=\"perspective\"><film type=\"hdrfilm\"><boolean name=\"banner\" value=\"false\"/>"
+      "<float name=\"madeUp\" value=\"1\"/><float name=\"widthh\" value=\"1\"/></film></sensor></scene>";
+  const ImportedScene imported = read_mitsuba(folder_.write("scene.xml", old));
+  EXPECT_EQ(imported.scene.settings.max_depth, 5);
+  ASSERT_EQ(imported.diagnostics.size(), 1u);
+  EXPECT_EQ(imported.diagnostics[0].message,
+            "film \"hdrfilm\": \"made_up\", \"widthh\" (did you mean \"width\"?) are not used");
+}
+
+TEST_F(MitsubaLoad, WhatIsNotUsedIsReportedWithASuggestion) {
+  material("<bsdf type=\"diffuse\" id=\"m\"><rgb name=\"reflectanse\" value=\"1 0 0\"/></bsdf>");
+  EXPECT_TRUE(mentions("did you mean \"reflectance\""));
+  material("<bsdf type=\"difuse\" id=\"m\"/>");
+  EXPECT_TRUE(mentions("did you mean \"diffuse\""));
+  material(
+      "<integrator type=\"path\"><integer name=\"max_depth\" value=\"$depth\"/></integrator><bsdf "
+      "type=\"diffuse\" id=\"m\"/>");
+  EXPECT_TRUE(mentions("\"$depth\" has no <default>"));
+}
+
+TEST_F(MitsubaLoad, MistakesAreErrorsWithTheirPlace) {
+  EXPECT_THAT(error("<scene version=\"3.0.0\"><shape></scene>"), ::testing::HasSubstr("not XML"));
+  EXPECT_THAT(error("<scene/>"), ::testing::HasSubstr("no version"));
+  EXPECT_THAT(error("<teapot/>"), ::testing::HasSubstr("not a Mitsuba scene"));
+  EXPECT_THAT(error_inside("<shap type=\"sphere\"/>"), ::testing::HasSubstr("did you mean <shape>"));
+  EXPECT_THAT(
+      error_inside("<bsdf type=\"diffuse\" id=\"wood\"/><shape type=\"sphere\"><ref id=\"wod\"/></shape>"),
+      ::testing::HasSubstr("did you mean \"wood\""));
+  EXPECT_THAT(error_inside("<shape type=\"sphere\"><float name=\"radius\" value=\"nan\"/></shape>"),
+              ::testing::HasSubstr("finite number"));
+  EXPECT_THAT(
+      error_inside("<shape type=\"ply\"><string name=\"filename\" value=\"../../../../none.ply\"/></shape>"),
+      ::testing::HasSubstr("none.ply"));
+  EXPECT_THAT(error_inside("<shape type=\"ply\"><string name=\"filename\" value=\"/dev/zero\"/></shape>"),
+              ::testing::HasSubstr("/dev/zero"));
+  EXPECT_THAT(error_inside("<bsdf type=\"diffuse\" id=\"a\"/><bsdf type=\"diffuse\" id=\"a\"/>"),
+              ::testing::HasSubstr("twice"));
+}
+
+// As programs on Windows write them.
+TEST_F(MitsubaLoad, OtherEncodingsAndSeparators) {
+  std::filesystem::create_directory(folder_ / "meshes");
+  folder_.write("meshes/m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  const std::string text = head +
+                           "<bsdf type=\"diffuse\" id=\"wei\xC3\x9F\"/><shape type=\"obj\"><string "
+                           "name=\"filename\" value=\"meshes\\m.obj\"/><ref id=\"wei\xC3\x9F\"/></shape>" +
+                           tail;
+  std::string latin = "<?xml version=\"1.0\" encoding=\"ISO-8859-1\"?>\n" + text, utf16 = "\xFF\xFE";
+  for (std::size_t at = latin.find("\xC3\x9F"); at != std::string::npos; at = latin.find("\xC3\x9F"))
+    latin.replace(at, 2, "\xDF");
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const bool two = text[i] == '\xC3';
+    utf16 += two ? '\xDF' : text[i];
+    utf16 += '\0';
+    i += two;
+  }
+  for (const std::string& file : {text, "\xEF\xBB\xBF" + text, latin, utf16}) {
+    const Scene scene = read_mitsuba(folder_.write("scene.xml", file)).scene;
+    ASSERT_EQ(scene.materials.size(), 1u);
+    EXPECT_EQ(scene.materials[0].name, "wei\xC3\x9F");
+  }
+}
+
+// Colours of vertices are decoded in 0.6, and numbers as they are in 3.
+TEST_F(MitsubaLoad, OldColoursOfVertices) {
+  folder_.write(
+      "m.ply",
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+      "property uchar red\nproperty uchar green\nproperty uchar blue\nelement face 1\n"
+      "property list uchar int vertex_indices\nend_header\n"
+      "0 0 0 255 128 0\n1 0 0 255 128 0\n0 1 0 255 128 0\n3 0 1 2\n");
+  const auto values = [&](const std::string& version, const std::string& texture) {
+    const ImportedScene imported = read_mitsuba(folder_.write(
+        "scene.xml", "<scene version=\"" + version +
+                         "\"><shape type=\"ply\"><string name=\"filename\" "
+                         "value=\"m.ply\"/><bsdf type=\"diffuse\"><texture name=\"reflectance\" type=\"" +
+                         texture + "</texture></bsdf></shape></scene>"));
+    EXPECT_EQ(std::get<MeshAttributeTexture>(imported.scene.textures.at(0).model).name, "vertex_color");
+    return imported.scene.meshes.at(0).attributes.at(0).values;
+  };
+  EXPECT_FLOAT_EQ(values("0.6.0", "vertexcolors\">").at(1), static_cast<float>(srgb_decode(128 / 255.0)));
+  EXPECT_EQ(values("3.0.0", "mesh_attribute\"><string name=\"name\" value=\"vertex_color\"/>").at(1), 128);
+}
+
+TEST_F(MitsubaLoad, OldTexturesOfLines) {
+  const auto share = [&](const std::string& texture) {
+    imported_ = read_mitsuba(folder_.write(
+        "scene.xml",
+        "<scene version=\"0.6.0\"><bsdf type=\"diffuse\" id=\"m\"><texture name=\"reflectance\" type=\"" +
+            texture + "</texture></bsdf>" + floor + "</scene>"));
+    return std::get<float>(std::get<MixTexture>(imported_.scene.textures.at(0).model).amount);
+  };
+  EXPECT_FLOAT_EQ(share("gridtexture\"><float name=\"lineWidth\" value=\".1\"/>"), 0.36f);
+  EXPECT_TRUE(mentions("0.36 are lines"));
+  EXPECT_EQ(share("wireframe\">"), 0);
+}
+
+TEST_F(MitsubaLoad, OldLuminairesAndPinholes) {
+  imported_ = read_mitsuba(folder_.write(
+      "scene.xml",
+      "<scene version=\"0.3.0\"><camera type=\"perspective\"><float name=\"focusDistance\" "
+      "value=\"3\"/></camera>"
+      "<luminaire type=\"constant\"><rgb name=\"intensity\" value=\"1 2 3\"/></luminaire></scene>"));
+  EXPECT_EQ(std::get<InfiniteLight>(imported_.scene.lights.at(0).model).radiance,
+            Spectrum{emission_from_rgb({1, 2, 3})});
+  EXPECT_TRUE(imported_.diagnostics.empty());
+}
+
+TEST_F(MitsubaLoad, HarmIsBounded) {
+  EXPECT_THAT(error_inside("<include filename=\"scene.xml\"/>"), ::testing::HasSubstr("includes itself"));
+  EXPECT_THAT(error_inside("<bsdf type=\"twosided\" id=\"a\"><ref id=\"b\"/></bsdf><bsdf type=\"twosided\" "
+                           "id=\"b\"><ref id=\"a\"/></bsdf>"),
+              ::testing::HasSubstr("contains itself"));
+  EXPECT_THAT(error_inside("<alias id=\"a\" as=\"b\"/><alias id=\"b\" as=\"a\"/><shape type=\"sphere\"><ref "
+                           "id=\"a\"/></shape>"),
+              ::testing::HasSubstr("stands for itself"));
+  std::string deep, close;
+  for (int i = 0; i < 100'000; ++i) deep += "<bsdf type=\"twosided\">", close += "</bsdf>";
+  EXPECT_THAT(error_inside(deep + close), ::testing::HasSubstr("nested too deeply"));
+  std::string laughs = "<default name=\"a0\" value=\"ha ha ha ha ha ha ha ha\"/>";
+  for (int i = 1; i < 40; ++i) {
+    const std::string before = "$a" + std::to_string(i - 1) + " ";
+    laughs += "<default name=\"a" + std::to_string(i) + "\" value=\"";
+    for (int k = 0; k < 10; ++k) laughs += before;
+    laughs += "\"/>";
+  }
+  EXPECT_THAT(error_inside(laughs), ::testing::HasSubstr("without bound"));
+  std::string blends = "<bsdf type=\"diffuse\" id=\"b0\"/>";
+  for (int i = 1; i < 60; ++i) {
+    const std::string ref = "<ref id=\"b" + std::to_string(i - 1) + "\"/>";
+    blends += "<bsdf type=\"blendbsdf\" id=\"b" + std::to_string(i) + "\">" + ref + ref + "</bsdf>";
+  }
+  EXPECT_EQ(read(blends).scene.materials.size(), 60u) << "sharing is not copying";
+  blends += "<bsdf type=\"twosided\"><ref id=\"b59\"/></bsdf>";
+  EXPECT_EQ(read(blends).scene.materials.size(), 120u) << "nor where each is changed";
+}
+
+// ---- Motion: 0.6's animations, of cameras, instances and shapes
+
+const std::string animation =
+    "<animation name=\"toWorld\"><transform time=\"2\"><translate x=\"4\"/></transform>"
+    "<transform time=\"0\"><translate x=\"1\"/></transform></animation>";
+std::string camera_of(const std::string& inside) {
+  return "<sensor type=\"perspective\">" + inside + "</sensor>";
+}
+const std::string open_shutter =
+    "<float name=\"shutterOpen\" value=\"1\"/><float name=\"shutterClose\" value=\"2\"/>";
+
+class MitsubaMotion : public MitsubaLoad {
+ protected:
+  const Scene& read_old(const std::string& inside) {
+    imported_ = read_mitsuba(folder_.write("scene.xml", "<scene version=\"0.6.0\">" + inside + "</scene>"));
+    return imported_.scene;
+  }
+  const std::vector<Keyframe> keys_{{0, translate({1, 0, 0})}, {2, translate({4, 0, 0})}};
+};
+
+TEST_F(MitsubaMotion, Cameras) {
+  const Scene& scene = read_old(camera_of(open_shutter + animation));
+  EXPECT_TRUE(imported_.diagnostics.empty());
+  EXPECT_EQ(scene.shutter, (Shutter{1, 2}));
+  std::vector<Keyframe> keys = keys_;
+  for (Keyframe& key : keys) key.transform = key.transform * scale({-1, 1, 1});
+  EXPECT_EQ(scene.camera_motion.keys(), keys);
+  EXPECT_EQ(transform_point(std::get<PerspectiveCamera>(scene.camera).camera_to_world, {}),
+            (Point3d{2.5, 0, 0}));
+}
+
+TEST_F(MitsubaMotion, ShapesAndInstances) {
+  const std::string group = "<shape type=\"shapegroup\" id=\"g\"><shape type=\"cube\"/></shape>",
+                    of_group = "<shape type=\"instance\"><ref id=\"g\"/>" + animation + "</shape>";
+  const Scene& scene = read_old(camera_of(open_shutter) + group + of_group +
+                                "<shape type=\"sphere\"><float name=\"radius\" value=\"2\"/>" + animation +
+                                "<emitter type=\"area\"/></shape>");
+  ASSERT_EQ(scene.instances.size(), 2u);
+  EXPECT_TRUE(scene.shapes.empty());
+  for (const Instance& instance : scene.instances) {
+    ASSERT_TRUE(instance.motion);
+    EXPECT_EQ(scene.motions[instance.motion->value].keys(), keys_);
+    EXPECT_EQ(instance.prototype_to_world, translate({2.5, 0, 0}));
+  }
+  const Shape& ball = scene.prototypes[scene.instances[1].prototype.value].shapes.at(0);
+  EXPECT_EQ(ball.object_to_world, scale({2, 2, 2}));
+  EXPECT_FALSE(ball.area_light);
+  EXPECT_TRUE(mentions("emitters in shape groups"));
+}
+
+// 0.6's shutter is open for no time if nothing is said.
+TEST_F(MitsubaMotion, AClosedShutterSeesNoMotion) {
+  const Scene& scene = read_old(camera_of(animation) + "<shape type=\"cube\">" + animation + "</shape>");
+  EXPECT_TRUE(imported_.diagnostics.empty());
+  EXPECT_FALSE(scene.camera_motion.moves());
+  EXPECT_TRUE(scene.motions.empty());
+  EXPECT_EQ(scene.shapes.at(0).object_to_world, translate({1, 0, 0}));
+}
+
+TEST_F(MitsubaMotion, WhatIsHeldIsReported) {
+  read_old(camera_of(open_shutter) + "<emitter type=\"point\">" + animation + "</emitter>");
+  EXPECT_TRUE(mentions("motion of an emitter"));
+  const std::string mirrored =
+      "<animation name=\"toWorld\"><transform time=\"2\"><scale x=\"-1\"/></transform>"
+      "<transform time=\"0\"/></animation>";
+  const Scene& scene = read_old(camera_of(open_shutter) + "<shape type=\"cube\">" + mirrored + "</shape>");
+  EXPECT_TRUE(mentions("of which one mirrors"));
+  EXPECT_EQ(scene.shapes.size(), 1u);
+}
+
+TEST_F(MitsubaMotion, Mistakes) {
+  const auto in_cube = [&](const std::string& inside) {
+    return error_inside("<shape type=\"cube\"><animation name=\"to_world\">" + inside +
+                        "</animation></shape>");
+  };
+  EXPECT_THAT(in_cube(""), testing::HasSubstr("needs a <transform"));
+  EXPECT_THAT(in_cube("<float/>"), testing::HasSubstr("alone, not <float>"));
+  EXPECT_THAT(in_cube("<transform/>"), testing::HasSubstr("needs an attribute \"time\""));
+  EXPECT_THAT(in_cube("<transform time=\"1\"/><transform time=\"1\"/>"),
+              testing::HasSubstr("have the time 1"));
+  EXPECT_THAT(error_inside(camera_of("<float name=\"shutter_open\" value=\"1\"/>")),
+              testing::HasSubstr("closes before"));
+}
+
+}  // namespace
+}  // namespace vitrail

@@ -1,0 +1,516 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "importers/obj/read/obj.h"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "scene/spectra/rgb_to_spectrum.h"
+#include "tests/importers/temporary_folder.h"
+
+namespace vitrail {
+namespace {
+
+using testing::Contains;
+using testing::ElementsAre;
+using testing::Field;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::SizeIs;
+using Triangle = std::array<std::uint32_t, 3>;
+
+class Obj : public testing::Test {
+ protected:
+  ImportedScene read(const std::string& content) { return read_obj(folder_.write("scene.obj", content)); }
+
+  Error error_of(const std::string& content) {
+    try {
+      read(content);
+    } catch (const Error& error) {
+      return error;
+    }
+    ADD_FAILURE() << "accepted: " << content;
+    return Error("");
+  }
+
+  // The only material of a library with this text.
+  Material whole_material(const std::string& mtl) {
+    folder_.write("m.mtl", "newmtl m\n" + mtl);
+    imported_ = read("mtllib m.mtl\n" + tetrahedron);
+    return imported_.scene.materials.at(imported_.scene.shapes.at(0).material.value);
+  }
+  MaterialModel material(const std::string& mtl) { return whole_material(mtl).model; }
+
+  const ImageTexture& image(const SpectrumParameter& parameter) {
+    return std::get<ImageTexture>(imported_.scene.textures.at(std::get<Id<Texture>>(parameter).value).model);
+  }
+  const ImageTexture& image(const FloatParameter& parameter) {
+    return std::get<ImageTexture>(imported_.scene.textures.at(std::get<Id<Texture>>(parameter).value).model);
+  }
+
+  static auto says(const std::string& text) { return Contains(Field(&Diagnostic::message, HasSubstr(text))); }
+
+  const std::string tetrahedron =
+      "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nusemtl m\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+  const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+  TemporaryFolder folder_;
+  ImportedScene imported_;
+};
+
+// ---- Geometry -----------------------------------------------------------------------------------
+
+TEST_F(Obj, AllFormsOfFaces) {
+  const std::string attributes = "vt .5 .25\nvt 1 0 0\nvn 0 0 1\n";
+  const std::vector<std::pair<std::string, std::array<bool, 2>>> forms{
+      {"f 1 2 3 4", {false, false}},
+      {"f 1/1 2/2 3/1 4/1", {true, false}},
+      {"f 1//1 2//1 3//1 4//1", {false, true}},
+      {"f 1/1/1 2/2/1 3/1/1 4/1/1", {true, true}},
+      {"f -4/-2/-1 -3/-1/-1 -2/-2/-1 -1/-2/-1", {true, true}},
+      {"f 1/ 2/ 3/ 4/", {false, false}},
+      {"f 1/1/ 2/2/ 3/1/ 4/1/", {true, false}},
+      {"f\t+1  2 3   4 \t# a comment", {false, false}},
+      {"f 1 2 \\\n 3\\\n4", {false, false}},
+      {"f 1 2 \\\r\n 3 4\r", {false, false}}};
+  for (const auto& [face, has] : forms) {
+    const ImportedScene imported = read(square + attributes + face);
+    ASSERT_THAT(imported.scene.meshes, SizeIs(1)) << face;
+    const TriangleMesh& mesh = imported.scene.meshes[0];
+    EXPECT_THAT(mesh.positions,
+                ElementsAre(Point3f{0, 0, 0}, Point3f{1, 0, 0}, Point3f{1, 1, 0}, Point3f{0, 1, 0}));
+    EXPECT_THAT(mesh.triangles, ElementsAre(Triangle{0, 1, 2}, Triangle{0, 2, 3})) << face;
+    ASSERT_EQ(mesh.uvs.size(), has[0] ? 4u : 0u) << face;
+    ASSERT_EQ(mesh.normals.size(), has[1] ? 4u : 0u) << face;
+    if (has[0]) {
+      EXPECT_EQ(mesh.uvs[0], (Point2f{.5f, .25f}));
+      EXPECT_EQ(mesh.uvs[1], (Point2f{1, 0}));
+    }
+    if (has[1]) {
+      EXPECT_EQ(mesh.normals[3], (Normal3f{0, 0, 1}));
+    }
+    EXPECT_THAT(imported.diagnostics, IsEmpty()) << face;
+  }
+}
+
+TEST_F(Obj, NumbersAndLineEnds) {
+  const TriangleMesh expected = read("v .5 -.25e1 +3\nv 1. 0 0\nv 0 1E0 0\nf 1 2 3\n").scene.meshes.at(0);
+  EXPECT_THAT(expected.positions, ElementsAre(Point3f{.5f, -2.5f, 3}, Point3f{1, 0, 0}, Point3f{0, 1, 0}));
+  EXPECT_EQ(read("v .5 -2.5 3\r\n\r\nv 1 0 0\r\nv 0 1 0\r\nf 1 2 3\r\n").scene.meshes.at(0), expected);
+  EXPECT_EQ(read("v .5 -2.5 3\rv 1 0 0\r# x\rv 0 1 0\rf 1 2 3").scene.meshes.at(0), expected);
+  EXPECT_EQ(read("\t v .5 -2.5 3 # x\n#v 7 7 7\\\n  # y\nv 1 0 0\nv 0 1 0\nf 1 2 3").scene.meshes.at(0),
+            expected);
+}
+
+TEST_F(Obj, VerticesAreSharedWhereAllIndicesAgree) {
+  const ImportedScene imported = read(square + "vt 0 0\nvt 1 1\nf 1/1 2/1 3/1\nf 1/1 3/2 4/1\nf 3/2 4/1 1/1");
+  const TriangleMesh& mesh = imported.scene.meshes.at(0);
+  EXPECT_THAT(mesh.triangles, ElementsAre(Triangle{0, 1, 2}, Triangle{0, 3, 4}, Triangle{3, 4, 0}));
+  EXPECT_EQ(mesh.positions[2], mesh.positions[3]);
+  EXPECT_NE(mesh.uvs[2], mesh.uvs[3]);
+}
+
+TEST_F(Obj, OneMeshAMaterialAndItsFacesInOrder) {
+  const ImportedScene imported =
+      read(square +
+           "o one\ng a b\nf 1 2 3\nusemtl red\nf 1 2 4\ng c\nusemtl\tgreen \nf 2 3 4\nusemtl red\nf 1 3 4\n");
+  const Scene& scene = imported.scene;
+  ASSERT_THAT(scene.meshes, SizeIs(3));
+  ASSERT_THAT(scene.shapes, SizeIs(3));
+  EXPECT_THAT(scene.materials, SizeIs(3));
+  EXPECT_THAT(scene.meshes[1].triangles, SizeIs(2));
+  EXPECT_EQ(scene.shapes[2].mesh.value, 2u);
+  EXPECT_THAT(scene.meshes[2].positions, ElementsAre(Point3f{1, 0, 0}, Point3f{1, 1, 0}, Point3f{0, 1, 0}));
+  EXPECT_THAT(imported.diagnostics, SizeIs(2));  // red and green are not defined
+  EXPECT_THAT(imported.diagnostics, says("'green' is not defined"));
+  EXPECT_EQ(imported.diagnostics[0].location.line, 8);
+}
+
+TEST_F(Obj, FacesWithAndWithoutNormalsAreApart) {
+  const ImportedScene imported = read(square + "vn 0 0 1\nf 1//1 2//1 3//1\nf 1 3 4\nf 1//1 2 4\n");
+  ASSERT_THAT(imported.scene.meshes, SizeIs(2));
+  EXPECT_THAT(imported.scene.meshes[0].normals, SizeIs(3));
+  EXPECT_THAT(imported.scene.meshes[1].normals, IsEmpty());
+  EXPECT_THAT(imported.scene.meshes[1].triangles, SizeIs(2));
+  EXPECT_THAT(imported.scene.materials, SizeIs(1));
+  EXPECT_THAT(imported.diagnostics, says("not all corners have them"));
+}
+
+TEST_F(Obj, ConcavePolygon) {
+  const ImportedScene imported =
+      read("v 0 2 0\nv 0 0 0\nv 2 0 0\nv 2 1 0\nv 1 1 0\nv 1 2 0\nf 1 2 3 4 5 6\n");
+  const TriangleMesh& mesh = imported.scene.meshes.at(0);
+  float area = 0;
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const float z = cross(mesh.positions[b] - mesh.positions[a], mesh.positions[c] - mesh.positions[a]).z;
+    EXPECT_GT(z, 0);
+    area += z / 2;
+  }
+  EXPECT_EQ(area, 3);
+}
+
+TEST_F(Obj, FacesMayComeBeforeTheirVertices) {
+  const ImportedScene imported = read("f 1/1 2/1 3/1 4/1\n" + square + "vt .5 .5\nf 1 2 3\n");
+  ASSERT_THAT(imported.scene.meshes, SizeIs(2));
+  EXPECT_THAT(imported.scene.meshes[1].triangles, SizeIs(2));
+  EXPECT_THAT(imported.scene.meshes[1].uvs, SizeIs(4));
+  EXPECT_EQ(error_of("v 0 0 0\nf 1 2 3\n" + square.substr(0, 8)).location.line, 2);
+}
+
+TEST_F(Obj, FilesThatCountFromZero) {
+  const ImportedScene imported = read(square + "vn 0 0 1\nf 3//0 2//0 1//0\nf 0//0 1//0 2//0\n");
+  const TriangleMesh& mesh = imported.scene.meshes.at(0);
+  EXPECT_EQ(mesh.positions[mesh.triangles[1][0]], (Point3f{0, 0, 0}));
+  EXPECT_EQ(mesh.positions[mesh.triangles[0][0]], (Point3f{0, 1, 0}));
+  EXPECT_THAT(mesh.normals, SizeIs(4));
+  EXPECT_THAT(imported.diagnostics, says("are counted from 0"));
+  EXPECT_EQ(imported.diagnostics[0].location.line, 7);
+  EXPECT_THAT(error_of(square + "f 0 1 4\n").what(), HasSubstr("counted from 0"));
+}
+
+TEST_F(Obj, FarFromTheOriginNothingIsLost) {
+  const ImportedScene imported =
+      read("v 5000000.001 0 0\nv 5000000.002 0 0\nv 5000000.001 0.001 0\nf 1 2 3\n");
+  const TriangleMesh& mesh = imported.scene.meshes.at(0);
+  const Transform& t = imported.scene.shapes.at(0).object_to_world;
+  EXPECT_NEAR(transform_point(t, cast<double>(mesh.positions[1])).x, 5000000.002, 1e-9);
+  EXPECT_NEAR(mesh.positions[1].x - mesh.positions[0].x, 0.001, 1e-9);
+  EXPECT_EQ(read(square + "f 1 2 3").scene.shapes.at(0).object_to_world, Transform{});
+}
+
+TEST_F(Obj, WhatIsDroppedIsSaidOnce) {
+  const ImportedScene imported = read(
+      "v 0 0 0 .5\nv 1 0 0 1 0 0\nv 1 1 0 1 0 0\np 1 2\np 1\nl 1 2 \\\n3\nf 1 2\nfoo bar\ns 1\nf 1 2 3\nf "
+      "1//5 2//5 3//5\n");
+  EXPECT_THAT(imported.scene.meshes.at(0).triangles, SizeIs(2));
+  const Diagnostics& diagnostics = imported.diagnostics;
+  for (const std::string text :
+       {"weights", "colours", "'p'", "'l'", "fewer than three", "'foo'", "smoothing", "normals"}) {
+    EXPECT_THAT(diagnostics, says(text));
+  }
+  EXPECT_THAT(diagnostics, SizeIs(8));
+  for (const Diagnostic& d : diagnostics) EXPECT_GT(d.location.line, 0) << d.message;
+}
+
+TEST_F(Obj, ColoursOfVerticesAreNoWeights) {
+  const ImportedScene imported = read("v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 0 1 0 0 0 1\nf 1 2 3\n");
+  EXPECT_THAT(imported.diagnostics, says("colours of vertices"));
+  EXPECT_THAT(imported.diagnostics, Not(says("weights")));
+}
+
+TEST_F(Obj, SmoothingIsNotMissedWhereThereAreNormals) {
+  EXPECT_THAT(read(square + "vn 0 0 1\ns 1\nf 1//1 2//1 3//1\n").diagnostics, IsEmpty());
+  EXPECT_THAT(read(square + "s off\nf 1 2 3\n").diagnostics, IsEmpty());
+}
+
+TEST_F(Obj, Deterministic) {
+  const std::string content = square + "vt 0 0\nf 1 2 3\nusemtl a\nf 1/1 2/1 4/1\nf 1 3 4\n";
+  const ImportedScene a = read(content), b = read(content);
+  EXPECT_EQ(a.scene.meshes, b.scene.meshes);
+  EXPECT_EQ(a.scene.shapes, b.scene.shapes);
+  EXPECT_EQ(a.scene.materials, b.scene.materials);
+}
+
+// ---- What has to be refused ---------------------------------------------------------------------
+
+TEST_F(Obj, ErrorsHaveTheirPlace) {
+  struct Case {
+    std::string content;
+    int line, column;
+    std::string message;
+  };
+  for (const Case& c : std::vector<Case>{{square + "f 1 2 5\n", 5, 7, "vertex index 5"},
+                                         {square + "f 1 2 -5\n", 5, 7, "vertex index -5"},
+                                         {"f -4 -3 -2", 1, 3, "vertex index -4"},
+                                         {"v 0 0 nan\n", 1, 7, "finite"},
+                                         {"v 0 -inf 0\n", 1, 5, "finite"},
+                                         {"v 0 1e39 0\n", 1, 5, "finite"},
+                                         {"v 0 1e999 0\n", 1, 5, "finite"},
+                                         {"vt nan\n", 1, 4, "finite"},
+                                         {"vn 0 0 inf\n", 1, 8, "finite"},
+                                         {"v 0 0\n", 1, 6, "missing"},
+                                         {"v 0 0 0x\n", 1, 7, "'0x'"},
+                                         {"\n\nv 0 0, 0\n", 3, 5, "'0,'"},
+                                         {square + "f 1 2 x\n", 5, 7, "'x'"},
+                                         {square + "f 1 2 3.5\n", 5, 8, "corner"},
+                                         {square + "f 1 2 3/1/1/1\n", 5, 12, "corner"},
+                                         {square + "f 1 2 \\\n 77\n", 6, 2, "vertex index 77"},
+                                         {square + "f 1 2 99999999999999999999\n", 5, 7, "64 bits"},
+                                         {square + "f 1 2 9223372036854775807\n", 5, 7, "out of range"},
+                                         {"solid cube\nfacet normal\n", 1, 1, "not an OBJ file"}}) {
+    const Error error = error_of(c.content);
+    EXPECT_THAT(error.what(), HasSubstr(c.message)) << c.content;
+    EXPECT_EQ(error.location.line, c.line) << c.content;
+    EXPECT_EQ(error.location.column, c.column) << c.content;
+    EXPECT_THAT(error.location.file, HasSubstr("scene.obj"));
+    EXPECT_FALSE(error.excerpt.empty()) << c.content;
+  }
+}
+
+TEST_F(Obj, LongLinesAndControlCharactersAreShownShort) {
+  const Error error = error_of(square + std::string(5000, ' ') + "f 1 2 \1" + std::string(5000, 'x') + "\n");
+  EXPECT_LT(error.excerpt.size(), 200u);
+  EXPECT_LT(std::string(error.what()).size(), 200u);
+  EXPECT_THAT(error.excerpt, HasSubstr("f 1 2 ?xxx"));
+}
+
+// Names in Latin-1 or cut off must not reach a report as they are: it is JSON.
+TEST_F(Obj, MessagesAreWellFormedText) {
+  const ImportedScene imported =
+      read(square + "usemtl gr\xfcn\xc3\nf 1 2 3\nusemtl gr\xc3\xbcn \xe2\x82\xac\xed\xa0\x80\nf 1 2 3\n");
+  EXPECT_THAT(imported.diagnostics, says("'gr?n?'"));
+  EXPECT_EQ(imported.scene.materials.at(0).name, "gr?n?");
+  EXPECT_THAT(imported.diagnostics, says("'gr\xc3\xbcn \xe2\x82\xac?"
+                                         "?"
+                                         "?'"));
+}
+
+TEST_F(Obj, FilesThatAreNotThere) { EXPECT_THROW(read_obj(folder_.path() / "none.obj"), Error); }
+
+// ---- Materials ----------------------------------------------------------------------------------
+
+TEST_F(Obj, Diffuse) {
+  EXPECT_EQ(material("  Kd .2 .4 .6\nKa 0 0 0\nKs 0 0 0\nNs 10\nillum 2\nd 1\nTf 1 1 1\nNi 1.5\nKe 0 0 0\n"),
+            MaterialModel(DiffuseMaterial{reflectance_from_rgb({.2, .4, .6})}));
+  EXPECT_THAT(imported_.diagnostics, IsEmpty());
+  EXPECT_THAT(imported_.scene.area_lights, IsEmpty());
+  EXPECT_EQ(material("Kd .3\n"), MaterialModel(DiffuseMaterial{reflectance_from_rgb({.3, .3, .3})}));
+  EXPECT_EQ(material(""), MaterialModel(DiffuseMaterial{reflectance_from_rgb({0, 0, 0})}));
+  material("Kd 1.5 0 0\n");
+  EXPECT_THAT(imported_.diagnostics, says("clamped"));
+  material("Kd 1 1 1\nKs 1 1 1\nillum 1\n");
+  EXPECT_TRUE(std::holds_alternative<DiffuseMaterial>(imported_.scene.materials[0].model));
+  EXPECT_EQ(whole_material("Kd 1 1 1\n").name, "m");
+}
+
+TEST_F(Obj, MaterialsAndLightsKnowTheirPlaces) {
+  const Material m = whole_material("Kd 1 1 1\nKe 1 1 1\nKs 1 1 1\n");
+  const SourceLocation where = location(imported_.scene, m.origin);
+  EXPECT_THAT(where.file, HasSubstr("m.mtl"));
+  EXPECT_EQ(where.line, 1);
+  EXPECT_THAT(location(imported_.scene, imported_.scene.area_lights.at(0).origin).file, HasSubstr("m.mtl"));
+  const SourceLocation shape = location(imported_.scene, imported_.scene.shapes.at(0).origin);
+  EXPECT_THAT(shape.file, HasSubstr("scene.obj"));
+  EXPECT_EQ(shape.line, 6);
+  ASSERT_THAT(imported_.diagnostics, SizeIs(1));
+  EXPECT_EQ(to_string(imported_.diagnostics[0].item), to_string(where));
+}
+
+TEST_F(Obj, Dielectric) {
+  const MaterialModel glass = DielectricMaterial{ConstantSpectrum{1.5f}};
+  for (const std::string text :
+       {"d 0.1\nNi 1.5\n", "Tr 0.9\nNi 1.5\n", "illum 4\nNi 1.5\n", "illum 6\nNi 1.5\nKs 1 1 1\nNs 100\n",
+        "illum 7\nNi 1.5\n", "illum 9\nNi 1.5\n"}) {
+    EXPECT_EQ(material(text), glass) << text;
+    const bool has_d = text.starts_with("d ") || text.starts_with("Tr ");
+    EXPECT_THAT(imported_.diagnostics, SizeIs(has_d ? 1 : 0)) << text;  // d says nothing of glass
+  }
+  const auto tinted = std::get<DielectricMaterial>(material("d 0\nNi 1.33\nTf .5 1 .5\n"));
+  EXPECT_EQ(tinted.transmittance_factor, SpectrumParameter(Spectrum(unbounded_from_rgb({.5, 1, .5}))));
+  EXPECT_EQ(material("d 0\n"), MaterialModel(InterfaceMaterial{}));
+  material("illum 4\nNi 1\nKd 1 1 1\n");  // Maya's Lambert
+  EXPECT_TRUE(std::holds_alternative<DiffuseMaterial>(imported_.scene.materials[0].model));
+  EXPECT_THAT(imported_.diagnostics, says("illum 4"));
+}
+
+TEST_F(Obj, Masks) {
+  const auto mask = std::get<MaskMaterial>(material("d 0.75\nTr 0.5\nKd 1 1 1\n"));
+  EXPECT_EQ(mask.opacity, FloatParameter(.75f));
+  EXPECT_EQ(imported_.scene.materials.at(mask.material.value).model,
+            MaterialModel(DiffuseMaterial{reflectance_from_rgb({1, 1, 1})}));
+  EXPECT_THAT(imported_.diagnostics, says("Tr: its d says otherwise"));
+  folder_.write("leaf.png", "");
+  const auto leaf = std::get<MaskMaterial>(material("Kd 1 1 1\nd 1\nNi 1.45\nmap_d leaf.png\n"));
+  EXPECT_EQ(image(leaf.opacity).encoding, Encoding::linear);
+  EXPECT_TRUE(imported_.scene.textures[0].is_float);
+  EXPECT_THAT(imported_.diagnostics, IsEmpty());
+}
+
+TEST_F(Obj, Plastic) {
+  const auto plastic = std::get<PlasticMaterial>(material("Kd .5 .5 .5\nKs .5 .5 .5\nNs 198\nNi 1.45\n"));
+  EXPECT_EQ(plastic.diffuse_reflectance, SpectrumParameter(Spectrum(reflectance_from_rgb({.5, .5, .5}))));
+  EXPECT_EQ(plastic.specular_reflectance, SpectrumParameter(Spectrum(reflectance_from_rgb({.5, .5, .5}))));
+  EXPECT_EQ(plastic.eta, 1.45f);
+  EXPECT_EQ(plastic.exterior_eta, 1);
+  EXPECT_EQ(plastic.roughness.alpha_u, FloatParameter(.1f));
+  EXPECT_EQ(plastic.roughness.alpha_v, FloatParameter(.1f));
+  EXPECT_THAT(imported_.diagnostics, says("Ks and Ns"));
+  EXPECT_EQ(std::get<PlasticMaterial>(material("Kd .5\nKs .5\nNi 1\n")).eta, 1.5f);
+}
+
+TEST_F(Obj, Conductor) {
+  const auto metal = std::get<ConductorMaterial>(material("Kd 0 0 0\nKs .9 .8 .1\nNs 198\nillum 3\n"));
+  EXPECT_EQ(std::get<NormalReflectance>(metal.metal).reflectance,
+            SpectrumParameter(Spectrum(reflectance_from_rgb({.9, .8, .1}))));
+  EXPECT_EQ(metal.roughness.alpha_u, FloatParameter(.1f));
+  EXPECT_TRUE(std::holds_alternative<PlasticMaterial>(material("Kd 1 0 0\nKs .9 .8 .1\nillum 3\n")));
+}
+
+TEST_F(Obj, Principled) {
+  folder_.write("m.png", "");
+  const auto m =
+      std::get<PrincipledMaterial>(material("Kd .2 .4 .6\nKs 1 1 1\nPr .25\nPm .5\nPs .125\nPc 1\nPcr "
+                                            ".25\naniso .75\nanisor 0\nNi 1.6\nmap_Pm m.png\n"));
+  EXPECT_EQ(m.base_color, SpectrumParameter(Spectrum(reflectance_from_rgb({.2, .4, .6}))));
+  EXPECT_EQ(m.roughness, FloatParameter(.25f));
+  EXPECT_EQ(image(m.metallic).encoding, Encoding::linear);
+  EXPECT_EQ(m.sheen, FloatParameter(.125f));
+  EXPECT_EQ(m.clearcoat, FloatParameter(1.0f));
+  EXPECT_EQ(m.clearcoat_gloss, FloatParameter(.75f));
+  EXPECT_EQ(m.anisotropic, FloatParameter(.75f));
+  EXPECT_EQ(m.eta, 1.6f);
+  EXPECT_THAT(imported_.diagnostics, IsEmpty());
+}
+
+TEST_F(Obj, ImagesAndTheirOptions) {
+  folder_.write("a b.png", "");
+  const auto reflectance = [&](const std::string& mtl) {
+    return std::get<DiffuseMaterial>(material(mtl)).reflectance;
+  };
+  EXPECT_EQ(image(reflectance("map_Kd a b.png\n")), (ImageTexture{(folder_ / "a b.png").string()}));
+  EXPECT_EQ(image(reflectance("map_Kd \"a b.png\"\n")), (ImageTexture{(folder_ / "a b.png").string()}));
+  EXPECT_EQ(image(reflectance("Kd 0 0 0\nmap_Kd a b.png\n")).scale, 1);
+  EXPECT_EQ(image(reflectance("Kd .25 .25 .25\nmap_Kd a b.png\n")).scale, .25f);
+  const ImageTexture placed =
+      image(reflectance("map_Kd -blendu off -s 2 3 1 -o .5 .25 -clamp on -mm 0 .5 -texres 256 a b.png\n"));
+  EXPECT_EQ(placed.mapping, TextureMapping(UvMapping{2, 0, .5f, 0, 3, .25f}));
+  EXPECT_EQ(placed.wrap, Wrap::clamp);
+  EXPECT_EQ(placed.scale, .5f);
+  EXPECT_THAT(imported_.diagnostics, IsEmpty());
+  EXPECT_EQ(std::get<UvMapping>(image(reflectance("map_Kd -s 2 a b.png\n")).mapping), (UvMapping{2}));
+  const SpectrumParameter product = reflectance("Kd .2 .4 .6\nmap_Kd .\\a b.png\n");
+  const Texture& texture = imported_.scene.textures.at(std::get<Id<Texture>>(product).value);
+  EXPECT_EQ(std::get<ProductTexture>(texture.model).first,
+            SpectrumParameter(Spectrum(unbounded_from_rgb({.2, .4, .6}))));
+  EXPECT_EQ(image(std::get<ProductTexture>(texture.model).second).scale, 1);
+  material("Kd 1\nmap_Kd -t 1 1 1 -mm .5 1 -imfchan r a b.png\n");
+  for (const std::string text : {"-t of map_Kd", "-mm of map_Kd", "-imfchan r of map_Kd"})
+    EXPECT_THAT(imported_.diagnostics, says(text));
+}
+
+TEST_F(Obj, WhichNumberAnImageIs) {
+  folder_.write("m.png", "");
+  const auto number = [&](const std::string& mtl) {
+    material(mtl);
+    return std::get<ImageTexture>(imported_.scene.textures.back().model).number;
+  };
+  EXPECT_EQ(number("Kd 1 1 1\nmap_Pm m.png\n"), ImageNumber::luminance);
+  EXPECT_EQ(number("Kd 1 1 1\nmap_d m.png\n"), ImageNumber::alpha_or_luminance);
+  EXPECT_EQ(number("Kd 1 1 1\nmap_d -imfchan l m.png\n"), ImageNumber::luminance);
+  EXPECT_EQ(number("Kd 1 1 1\nmap_Bump -imfchan m m.png\n"), ImageNumber::alpha);
+  EXPECT_EQ(number("Kd 1 1 1\nmap_Pr -imfchan g m.png\n"), ImageNumber::green);
+  material("Kd 1 1 1\nmap_Pr -imfchan z m.png\n");
+  EXPECT_THAT(imported_.diagnostics, says("-imfchan z of map_Pr"));
+}
+
+TEST_F(Obj, ImagesThatAreNotThere) {
+  EXPECT_EQ(material("map_Kd -s 1 1 1 a b.png\n"),
+            MaterialModel(DiffuseMaterial{reflectance_from_rgb({.5, .5, .5})}));
+  EXPECT_THAT(imported_.diagnostics, says("map_Kd 'a b.png'"));
+  EXPECT_THAT(imported_.scene.textures, IsEmpty());
+  EXPECT_EQ(material("Kd 1 0 0\nmap_Kd none.png\n"),
+            MaterialModel(DiffuseMaterial{reflectance_from_rgb({1, 0, 0})}));
+  EXPECT_THROW(material("map_Kd\n"), Error);
+  EXPECT_THROW(material("map_Kd -s x a.png\n"), Error);
+}
+
+TEST_F(Obj, BumpsAndNormalMaps) {
+  folder_.write("n.png", "");
+  Material m = whole_material("Kd 1 1 1\nmap_Bump -bm .5 n.png\nnorm n.png\n");
+  EXPECT_EQ(image(*m.displacement).scale, .5f);
+  EXPECT_EQ(image(*m.displacement).encoding, Encoding::linear);
+  ASSERT_TRUE(m.normal_map);
+  EXPECT_FALSE(imported_.scene.textures.at(m.normal_map->value).is_float);
+  EXPECT_THAT(imported_.diagnostics, says("heights"));
+  m = whole_material("Kd 1 1 1\nmap_d n.png\nbump n.png\n");
+  EXPECT_FALSE(m.displacement);  // the surface inside the mask has it
+  EXPECT_TRUE(imported_.scene.materials.at(std::get<MaskMaterial>(m.model).material.value).displacement);
+}
+
+TEST_F(Obj, Emission) {
+  material("Kd 1 1 1\nKe 2 3 4\n");
+  ASSERT_THAT(imported_.scene.area_lights, SizeIs(1));
+  AreaLight expected;
+  expected.radiance = Spectrum{emission_from_rgb({2, 3, 4})};
+  expected.two_sided = true;
+  EXPECT_EQ(imported_.scene.area_lights[0], expected);
+  EXPECT_EQ(imported_.scene.shapes[0].area_light, Id<AreaLight>{0});
+  folder_.write("e.hdr", "");
+  material("Kd 1 1 1\nKe 2 2 2\nmap_Ke e.hdr\n");
+  EXPECT_EQ(image(imported_.scene.area_lights.at(0).radiance).scale, 2);
+}
+
+TEST_F(Obj, WhatMaterialsLoseIsSaidWithEachPlace) {
+  material(
+      "Kd 1 1 1\nKa 1 1 1\nKa 1 1 1\nrefl a.png\nKt 1 1 1\nKd spectral a.rfl\nnewmtl other\nKa .5 .5 .5\n");
+  EXPECT_THAT(imported_.diagnostics, SizeIs(6));
+  for (const std::string text : {"Ka", "refl", "Kt", "Kd spectral"})
+    EXPECT_THAT(imported_.diagnostics, says(text));
+  EXPECT_THAT(imported_.diagnostics[0].location.file, HasSubstr("m.mtl"));
+  EXPECT_EQ(imported_.diagnostics[0].location.line, 3);
+  EXPECT_EQ(imported_.diagnostics[0].item.line, 1);
+  EXPECT_EQ(imported_.diagnostics[1].location.line, 4);
+  EXPECT_EQ(imported_.diagnostics[5].location.line, 9);
+  EXPECT_EQ(imported_.diagnostics[5].item.line, 8);
+  EXPECT_EQ(imported_.diagnostics[5].message, imported_.diagnostics[0].message) << "so they are counted";
+}
+
+TEST_F(Obj, BadMaterials) {
+  EXPECT_THROW(material("Kd 1 x 1\n"), Error);
+  EXPECT_THROW(material("Kd nan 1 1\n"), Error);
+  EXPECT_THROW(material("Ni\n"), Error);
+  folder_.write("m.mtl", "Kd 1 1 1\n");
+  const Error error = error_of("mtllib m.mtl\n");
+  EXPECT_THAT(error.location.file, HasSubstr("m.mtl"));
+  EXPECT_EQ(error.location.line, 1);
+}
+
+TEST_F(Obj, LibrariesAndTheirNames) {
+  const std::string faces = "usemtl my red\nf 1 2 3\n";
+  const MaterialModel red = DiffuseMaterial{reflectance_from_rgb({1, 0, 0})};
+  folder_.write("a b.mtl", "newmtl  my red \nKd 1 0 0\nnewmtl my red\nKd 0 1 0\n");
+  folder_.write("c.mtl", "newmtl c\n");
+  for (const std::string line : {"mtllib a b.mtl", "mtllib a\\ b.mtl", "mtllib c.mtl a\\ b.mtl",
+                                 "mtllib c.mtl\nmtllib a b.mtl\nmtllib c.mtl"}) {
+    const ImportedScene imported = read(line + "\n" + square + faces);
+    ASSERT_THAT(imported.scene.materials, SizeIs(1)) << line;  // those that are used
+    EXPECT_EQ(imported.scene.materials[0].model, red) << line;
+    EXPECT_THAT(imported.diagnostics, SizeIs(1));
+    EXPECT_THAT(imported.diagnostics, says("second definition"));
+  }
+  const ImportedScene after = read(square + faces + "mtllib a b.mtl\r\n");
+  EXPECT_EQ(after.scene.materials.at(0).model, red);
+  const ImportedScene missing = read("mtllib none.mtl\n" + square + faces);
+  EXPECT_EQ(missing.scene.materials.at(0).model, MaterialModel(DiffuseMaterial{}));
+  EXPECT_THAT(missing.diagnostics, says("'none.mtl'"));
+}
+
+// ---- Files of others ----------------------------------------------------------------------------
+
+TEST(ObjCorpus, AllAreReadOrRefusedWithTheirPlace) {
+  const char* const named = std::getenv("VITRAIL_CORPUS");
+  const std::filesystem::path corpus = named ? named : VITRAIL_SOURCE_DIR "/../shared/corpus";
+  if (!std::filesystem::is_directory(corpus / "obj"))
+    GTEST_SKIP() << "no corpus at " << corpus << " (set VITRAIL_CORPUS)";
+  int read = 0, refused = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(corpus / "obj")) {
+    if (entry.path().extension() != ".obj") continue;
+    const std::string name = entry.path().filename().string();
+    const bool is_bad = name.starts_with("invalid-") || name.ends_with("-nan.obj");
+    try {
+      read_obj(entry.path());
+      EXPECT_FALSE(is_bad) << name;
+      ++read;
+    } catch (const Error& error) {
+      EXPECT_TRUE(is_bad) << name << ": " << to_string(error.location) << ": " << error.what();
+      EXPECT_GT(error.location.column, 0) << name;
+      EXPECT_FALSE(error.excerpt.empty()) << name;
+      ++refused;
+    }
+  }
+  EXPECT_GT(read, 0);
+  EXPECT_GT(refused, 0);
+}
+
+}  // namespace
+}  // namespace vitrail

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/daylight/sky_model.h"
+
+#include <gtest/gtest.h>
+
+#include "scene/daylight/photometry.h"
+
+namespace vitrail {
+namespace {
+
+constexpr std::array<float, 6> lambdas_nm{380, 450, 550, 600, 650, 700};
+
+std::array<double, 6> radiances(const SkyModel& model, Vector3d d) {
+  std::array<double, 6> values{};
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    SampledWavelengths w;
+    w.lambda_nm.fill(lambdas_nm[i]);
+    values[i] = static_cast<double>((model.sky(d, w) + model.sun(d, w))[0]);
+  }
+  return values;
+}
+
+struct Seen {
+  Vector3d direction;
+  std::array<double, 6> radiances;
+};
+const Vector3d sun = normalize(Vector3d{0.5, 0.3, 0.6});
+
+void expect_as(const SkyLight& light, const std::vector<Seen>& reference, double sky_error,
+               double sun_error) {
+  const SkyModel model(light);
+  for (const Seen& seen : reference) {
+    const Vector3d d = normalize(seen.direction);
+    const auto found = radiances(model, d);
+    for (std::size_t i = 0; i < found.size(); ++i)
+      EXPECT_NEAR(found[i] / seen.radiances[i], 1, model.meets_sun(d) ? sun_error : sky_error)
+          << d.x << ' ' << d.y << ' ' << d.z << " at " << lambdas_nm[i];
+  }
+}
+
+// Evaluated by Mitsuba 3.9.1, variant llvm_ad_spectral, emitter sunsky.
+TEST(SkyModel, IsThatOfMitsuba) {
+  SkyLight light;
+  light.to_sun = sun;
+  light.limb_darkening = false;
+  expect_as(
+      light,
+      {{{0, 0, 1}, {8.224410e-02, 8.653176e-02, 4.128880e-02, 2.957802e-02, 2.106993e-02, 1.537529e-02}},
+       {{0.3, -0.5, 0.2},
+        {1.314432e-01, 1.722060e-01, 9.467371e-02, 6.866714e-02, 4.806652e-02, 3.457613e-02}},
+       {{-1, 0, 0.02}, {1.365331e-01, 2.433071e-01, 2.010857e-01, 1.681365e-01, 1.298782e-01, 9.951212e-02}},
+       {sun, {5.562091e+03, 1.357187e+04, 1.674561e+04, 1.744633e+04, 1.664944e+04, 1.574331e+04}}},
+      1e-5, 3e-3);
+  light.limb_darkening = true;
+  light.turbidity = 5.4f;
+  light.albedo = ConstantSpectrum{0.1f};
+  expect_as(
+      light,
+      {{{0.51, 0.31, 0.59},
+        {2.514812e-01, 4.705536e-01, 4.907591e-01, 4.575828e-01, 4.009672e-01, 3.401020e-01}},
+       {{1, 1, 0.3}, {1.885245e-01, 3.296218e-01, 2.773962e-01, 2.459078e-01, 2.053523e-01, 1.682019e-01}},
+       {sun, {7.036357e+03, 1.631762e+04, 1.904059e+04, 1.955073e+04, 1.845139e+04, 1.731762e+04}}},
+      1e-5, 1e-3);
+}
+
+// The disc's mean radiance times its solid angle is its irradiance, darkened or uniform, of any diameter.
+TEST(SkyModel, SunHasItsIrradianceWhateverItsDisc) {
+  SkyLight light;
+  light.to_sun = sun;
+  const auto darkened = SkyModel(light).sun_irradiance(sun);
+  light.limb_darkening = false;
+  light.sun_diameter_deg = 3;
+  const SkyModel wide(light);
+  const auto uniform = wide.sun_irradiance(sun);
+  for (std::size_t b = 0; b < sky_bands; ++b) {
+    EXPECT_NEAR(darkened[b] / uniform[b], 1, 2e-3);
+    EXPECT_NEAR(uniform[b] / (wide.sun(sun)[b] * 2 * 3.14159265358979 * (1 - wide.sun_cosine())), 1, 1e-3);
+    EXPECT_NEAR(wide.sun_irradiance({0, 0, 1})[b] / uniform[b], sun.z, 1e-3);
+  }
+}
+
+TEST(SkyModel, NightAndBelowTheHorizonAreBlack) {
+  SkyLight light;
+  light.to_sun = sun;
+  EXPECT_EQ(SkyModel(light).sky({0.6, 0, -0.8})[3], 0);
+  light.to_sun = normalize(Vector3d{1, 0, -0.01});
+  const SkyModel night(light);
+  EXPECT_FALSE(night.is_day());
+  EXPECT_EQ(night.sky({0, 0, 1})[3], 0);
+  EXPECT_EQ(night.sun(light.to_sun)[3], 0);
+  EXPECT_EQ(night.sky_irradiance()[3], 0);
+}
+
+TEST(SkyModel, GroundAndHazeBrightenTheSky) {
+  SkyLight light;
+  light.to_sun = sun;
+  const auto lux = [&] {
+    return photometric(luminance(spectrum_of_bands(SkyModel(light).sky_irradiance())));
+  };
+  const double usual = lux();
+  light.albedo = ConstantSpectrum{0.8f};
+  EXPECT_GT(lux(), usual);
+  light.albedo = ConstantSpectrum{0.3f};
+  light.turbidity = 6;
+  EXPECT_GT(lux(), usual);
+}
+
+}  // namespace
+}  // namespace vitrail

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+#include <array>
+#include <fstream>
+#include <iterator>
+
+#include "scene/system/atomic_file.h"
+#include "scene/system/diagnostics.h"
+#include "scene/system/input_files.h"
+#include "scene/system/say.h"
+#include "tests/support/temporary_directory.h"
+
+// In place of the library's: counts.
+static int file_syncs = 0, file_system_syncs = 0;
+extern "C" int fsync(int descriptor) {
+  ++file_syncs;
+  return static_cast<int>(::syscall(SYS_fsync, descriptor));
+}
+extern "C" int syncfs(int descriptor) noexcept {
+  ++file_system_syncs;
+  return static_cast<int>(::syscall(SYS_syncfs, descriptor));
+}
+
+namespace vitrail {
+namespace {
+
+std::string content(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+void write(AtomicFile& file, std::string_view text) { file.write(std::as_bytes(std::span(text))); }
+
+TEST(AtomicFile, AppearsOnCommitAlone) {
+  const test::TemporaryDirectory directory;
+  std::ofstream(directory / "a") << "old";
+  {
+    AtomicFile file(directory / "a");
+    write(file, "new ");
+    write(file, "text");
+    EXPECT_EQ(file.size(), 8u);
+    EXPECT_EQ(content(directory / "a"), "old");
+    file.commit();
+  }
+  EXPECT_EQ(content(directory / "a"), "new text");
+}
+
+TEST(AtomicFile, LeavesNothingWithoutCommit) {
+  const test::TemporaryDirectory directory;
+  {
+    AtomicFile file(directory / "a");
+    write(file, "half");
+  }
+  EXPECT_TRUE(std::filesystem::is_empty(directory.path()));
+  EXPECT_THROW(AtomicFile(directory / "nowhere/a"), MachineError);
+}
+
+TEST(AtomicFile, PartsReachTheDiskTogetherBeforeWhatSpeaksOfThem) {
+  const test::TemporaryDirectory directory;
+  file_syncs = file_system_syncs = 0;
+  for (const char* name : {"a", "b", "c"}) {
+    AtomicFile part(directory / name);
+    write(part, name);
+    part.commit_part();
+    EXPECT_EQ(content(directory / name), name);
+  }
+  EXPECT_EQ(file_syncs + file_system_syncs, 0);
+  for (const int waits : {1, 0}) {
+    file_system_syncs = 0;
+    AtomicFile whole(directory / "whole");
+    write(whole, "abc");
+    whole.commit();
+    EXPECT_EQ(file_system_syncs, waits);
+  }
+}
+
+TEST(AtomicFile, AFullDiskIsSaid) {
+  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
+  const test::TemporaryDirectory directory;
+  // The name that the temporary file will have leads to the full device.
+  std::filesystem::create_symlink("/dev/full", directory / ("a.tmp" + std::to_string(::getpid())));
+  AtomicFile file(directory / "a");
+  EXPECT_THROW(write(file, "text"), MachineError);
+}
+
+TEST(SourceLocation, NamesAsMuchAsIsKnown) {
+  EXPECT_EQ(to_string({"a.pbrt", 3, 7}), "a.pbrt:3:7");
+  EXPECT_EQ(to_string({"a.pbrt", 0, 0}), "a.pbrt");
+  EXPECT_EQ(to_string({}), "");
+}
+
+TEST(ClosestWord, FindsTyposOnly) {
+  const std::vector<std::string> words{"diffuse", "dielectric", "conductor"};
+  EXPECT_EQ(closest_word("difuse", words), "diffuse");
+  EXPECT_EQ(closest_word("dieletcric", words), "dielectric");
+  EXPECT_EQ(closest_word("mirror", words), "");
+}
+
+TEST(ForTerminal, EscapesWhatATerminalWouldObey) {
+  EXPECT_EQ(for_terminal("blau, größer\n\tβ 😀"), "blau, größer\n\tβ 😀");
+  EXPECT_EQ(for_terminal("a\nb", false), "a\\u000ab");
+  EXPECT_EQ(for_terminal("\x1b[31m\r\x7f"), "\\u001b[31m\\u000d\\u007f");
+  EXPECT_EQ(for_terminal("\xc2\x9b"
+                         "1m \xe2\x80\xae"),
+            "\\u009b1m \\u202e");
+  EXPECT_EQ(for_terminal("\xff\xc0\x80 \xed\xa0\x80 \xe2\x82"), "\\xff\\xc0\\x80 \\xed\\xa0\\x80 \\xe2\\x82");
+}
+
+TEST(RegularFile, IsNoPipeAndNoDevice) {
+  const test::TemporaryDirectory directory;
+  ASSERT_EQ(::mkfifo((directory / "pipe").c_str(), 0600), 0);
+  EXPECT_THROW(RegularFile(directory / "pipe"), Error);
+  EXPECT_THROW(RegularFile("/dev/zero"), Error);
+  EXPECT_THROW(RegularFile(directory.path()), Error);
+  EXPECT_FALSE(RegularFile(directory / "none").is_open());
+  std::ofstream(directory / "a") << "abc";
+  std::array<std::byte, 2> bytes{};
+  EXPECT_TRUE(RegularFile(directory / "a").read(bytes, 1));
+  EXPECT_EQ(bytes[1], std::byte{'c'});
+  EXPECT_FALSE(RegularFile(directory / "a").read(bytes, 2));
+}
+
+}  // namespace
+}  // namespace vitrail

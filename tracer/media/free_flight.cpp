@@ -1,0 +1,301 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tracer/media/free_flight.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "scene/geometry/portable_math.h"
+#include "tracer/media/grid.h"
+
+namespace vitrail {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+// A flight takes this many steps at most; what is left of it is given up. Reached only where the greatest
+// density is far beyond what light passes.
+constexpr int most_steps = 1 << 20;
+
+using Values = std::array<double, hero_count>;
+
+Values at_wavelengths(const Spectrum& spectrum, const SampledWavelengths& w) {
+  Values v;
+  for (std::size_t i = 0; i < hero_count; ++i)
+    v[i] = std::max(0.0, evaluate(spectrum, static_cast<double>(w.lambda_nm[i])));
+  return v;
+}
+
+using Wavelengths = std::array<double, hero_count>;
+
+// Of one channel: the same at all wavelengths.
+Values at_point(const Grid& grid, const Wavelengths& lambda_nm, Point3d p) {
+  Values v;
+  if (has_colors(grid))
+    look_up_colors(grid, p, lambda_nm, v);
+  else
+    v.fill(look_up(grid, p, 0));
+  return v;
+}
+
+// The coefficients of a medium at the wavelengths of a path.
+class Coefficients {
+ public:
+  Coefficients(const PreparedMedium& m, const SampledWavelengths& w) : m_(m) {
+    const auto constant = [&](const VolumeParameter& v) {
+      const auto* s = std::get_if<Spectrum>(&v);
+      return s ? at_wavelengths(*s, w) : Values{};
+    };
+    if (const auto* k = std::get_if<AbsorptionScattering>(&m.medium->coefficients))
+      first_volume_ = &k->sigma_a, second_volume_ = &k->sigma_s, is_sum_ = true;
+    else if (const auto* e = std::get_if<ExtinctionAlbedo>(&m.medium->coefficients))
+      first_volume_ = &e->sigma_t, second_volume_ = &e->albedo;
+    first_ = constant(*first_volume_);
+    second_ = constant(*second_volume_);
+    scale_ = static_cast<double>(m.medium->scale);
+    std::copy(w.lambda_nm.begin(), w.lambda_nm.end(), lambda_nm_.begin());
+  }
+
+  // σ_t and σ_s at a point of the medium's space.
+  void at(Point3d p, Values& sigma_t, Values& sigma_s) const {
+    double density = scale_;
+    if (const auto* grid = std::get_if<Grid>(&m_.medium->density)) density *= look_up(*grid, p, 0);
+    const auto there = [&](const VolumeParameter& volume, const Values& everywhere) {
+      const auto* grid = std::get_if<Grid>(&volume);
+      return grid ? at_point(*grid, lambda_nm_, p) : everywhere;
+    };
+    const Values a = there(*first_volume_, first_), b = there(*second_volume_, second_);
+    for (std::size_t i = 0; i < hero_count; ++i) {
+      sigma_s[i] = density * (is_sum_ ? b[i] : a[i] * b[i]);
+      sigma_t[i] = density * (is_sum_ ? a[i] + b[i] : a[i]);
+    }
+  }
+
+  Values emission_scale(Point3d p) const {
+    if (m_.medium->emission_scale) return at_point(*m_.medium->emission_scale, lambda_nm_, p);
+    Values one;
+    one.fill(1);
+    return one;
+  }
+
+  // σ_t is nowhere greater, at any of the wavelengths.
+  double majorant() const {
+    const auto greatest = [&](const VolumeParameter& volume, const Values& v) {
+      const auto* grid = std::get_if<Grid>(&volume);
+      return grid ? greatest_value(*grid) : *std::max_element(v.begin(), v.end());
+    };
+    const double a = greatest(*first_volume_, first_), b = greatest(*second_volume_, second_);
+    return scale_ * m_.density_max * (is_sum_ ? a + b : a);
+  }
+
+ private:
+  const PreparedMedium& m_;
+  const VolumeParameter* first_volume_ = nullptr;
+  const VolumeParameter* second_volume_ = nullptr;
+  Values first_{}, second_{};
+  Wavelengths lambda_nm_{};
+  double scale_ = 1;
+  bool is_sum_ = false;
+};
+
+double exponential(double u) { return -portable_log(1 - u); }  // u < 1
+double attenuation(double sigma, double t) {
+  const double depth = sigma * t;  // ∞·0 is no medium
+  return sigma <= 0 ? 1 : depth > 700 ? 0 : portable_exp(-depth);
+}
+
+// A wavelength, index < active, with a probability in proportion to the throughput.
+std::size_t choose_wavelength(const SampledSpectrum& throughput, std::size_t active, double u) {
+  double sum = 0;
+  for (std::size_t i = 0; i < active; ++i) sum += static_cast<double>(throughput.v[i]);
+  double left = u * sum;
+  std::size_t chosen = 0;
+  for (std::size_t i = 0; i < active; ++i) {
+    if (!(throughput.v[i] > 0)) continue;
+    chosen = i;
+    left -= static_cast<double>(throughput.v[i]);
+    if (left < 0) break;
+  }
+  return chosen;
+}
+
+FlightSample sample_homogeneous(const Coefficients& coefficients, double t_max, std::size_t active,
+                                const SampledSpectrum& glow, const SampledSpectrum& throughput,
+                                RandomStream& random) {
+  Values sigma_t, sigma_s;
+  coefficients.at({}, sigma_t, sigma_s);
+  FlightSample s;
+  // ∫₀^{t_max} e^{−σ_t x} σ_a L dx = (1 − e^{−σ_t t_max})·(1 − σ_s/σ_t)·L.
+  if (!is_black(glow))
+    for (std::size_t i = 0; i < active; ++i)
+      if (sigma_t[i] > 0)
+        s.emitted.v[i] = glow.v[i] * static_cast<float>((1 - attenuation(sigma_t[i], t_max)) *
+                                                        (1 - sigma_s[i] / sigma_t[i]));
+  // What only absorbs is no matter of chance: Beer and Lambert.
+  if (std::all_of(sigma_s.begin(), sigma_s.end(), [](double x) { return x == 0; })) {
+    for (std::size_t i = 0; i < active; ++i)
+      s.weight.v[i] = static_cast<float>(attenuation(sigma_t[i], t_max));
+    return s;
+  }
+  const std::size_t chosen = choose_wavelength(throughput, active, random.next());
+  const double distance = exponential(random.next());
+  const double t = sigma_t[chosen] > 0 ? distance / sigma_t[chosen] : infinity;
+  const bool arrives = t >= t_max;
+  if (!arrives) s.scattered_at = t;
+  double pdf = 0, sum = 0;
+  Values through;
+  for (std::size_t i = 0; i < active; ++i) {
+    const auto w = static_cast<double>(throughput.v[i]);
+    through[i] = attenuation(sigma_t[i], arrives ? t_max : t);
+    pdf += w * (arrives ? through[i] : through[i] * sigma_t[i]);
+    sum += w;
+  }
+  pdf /= sum;
+  // The chosen wavelength has a density above 0 here, unless it underflowed.
+  for (std::size_t i = 0; i < active && pdf > 0; ++i)
+    s.weight.v[i] = static_cast<float>((arrives ? through[i] : through[i] * sigma_s[i]) / pdf);
+  return s;
+}
+
+// The part of a flight within the bounds of a medium, in the medium's space; t stays the flight's.
+struct Inside {
+  Point3d p;
+  Vector3d d;
+  double t0 = 0, t1 = 0;
+};
+Inside inside(const PreparedMedium& m, const Flight& f) {
+  Inside in{transform_point(m.to_medium, f.p), transform_vector(m.to_medium, f.d), 0, f.t_max};
+  if (m.bounds.empty()) return in;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double d = in.d[axis], lower = m.bounds.lower[axis] - in.p[axis],
+                 upper = m.bounds.upper[axis] - in.p[axis];
+    if (std::abs(d) < 1e-300) {
+      if (lower > 0 || upper < 0) in.t1 = -1;
+      continue;
+    }
+    in.t0 = std::max(in.t0, std::min(lower / d, upper / d));
+    in.t1 = std::min(in.t1, std::max(lower / d, upper / d));
+  }
+  return in;
+}
+
+SampledSpectrum glow_of(const PreparedMedium& m, const SampledWavelengths& w) {
+  SampledSpectrum glow;
+  if (!m.medium->emission) return glow;
+  const Values v = at_wavelengths(*m.medium->emission, w);
+  for (std::size_t i = 0; i < hero_count; ++i) glow.v[i] = static_cast<float>(v[i]);
+  return glow;
+}
+
+}  // namespace
+
+PreparedMedium prepare(const Medium& medium) {
+  PreparedMedium m;
+  m.medium = &medium;
+  m.to_medium = inverse(medium.medium_to_world);
+  m.g = static_cast<double>(medium.g);
+  // Outside of a density and of a grid of extinction, or of what it is the sum of, there is nothing.
+  if (const auto* e = std::get_if<ExtinctionAlbedo>(&medium.coefficients))
+    if (const auto* grid = std::get_if<Grid>(&e->sigma_t)) m.bounds = grid->bounds;
+  if (const auto* grid = std::get_if<Grid>(&medium.density)) {
+    m.homogeneous = false;
+    m.bounds = grid->bounds;
+    m.density_max = greatest_value(*grid);
+  }
+  const auto varies = [](const auto& v) { return std::holds_alternative<Grid>(v); };
+  if (const auto* k = std::get_if<AbsorptionScattering>(&medium.coefficients)) {
+    m.homogeneous &= !varies(k->sigma_a) && !varies(k->sigma_s);
+    for (const VolumeParameter* volume : {&k->sigma_a, &k->sigma_s})
+      if (const auto* grid = std::get_if<Grid>(volume)) extend(m.bounds, grid->bounds);
+  }
+  if (const auto* k = std::get_if<ExtinctionAlbedo>(&medium.coefficients))
+    m.homogeneous &= !varies(k->sigma_t) && !varies(k->albedo);
+  m.homogeneous &= !medium.emission_scale;
+  return m;
+}
+
+std::vector<PreparedMedium> prepare(const std::vector<Medium>& media) {
+  std::vector<PreparedMedium> prepared;
+  for (const Medium& medium : media) prepared.push_back(prepare(medium));
+  return prepared;
+}
+
+FlightSample sample_flight(const PreparedMedium& m, const Flight& flight,
+                           const SampledWavelengths& wavelengths, std::size_t active,
+                           const SampledSpectrum& throughput, RandomStream& random) {
+  const Coefficients coefficients(m, wavelengths);
+  const SampledSpectrum glow = glow_of(m, wavelengths);
+  if (m.homogeneous) return sample_homogeneous(coefficients, flight.t_max, active, glow, throughput, random);
+
+  FlightSample s{std::nullopt, filled(1), {}};
+  const double majorant = coefficients.majorant();
+  if (!(majorant > 0)) return s;
+  const Inside in = inside(m, flight);
+  double t = in.t0;
+  for (int step = 0; step < most_steps; ++step) {
+    t += exponential(random.next()) / majorant;
+    if (!(t < in.t1)) return s;
+    const Point3d p = in.p + in.d * t;
+    Values sigma_t, sigma_s;
+    coefficients.at(p, sigma_t, sigma_s);
+    double real = 0, sum = 0;
+    for (std::size_t i = 0; i < active; ++i) {
+      const double w = static_cast<double>(throughput.v[i]) * static_cast<double>(s.weight.v[i]);
+      real += w * sigma_t[i] / majorant;
+      sum += w;
+    }
+    if (!(sum > 0)) return s;
+    const double p_real = std::clamp(real / sum, 0.0, 1.0);
+    if (!is_black(glow)) {
+      const Values scale = coefficients.emission_scale(p);
+      for (std::size_t i = 0; i < active; ++i)
+        s.emitted.v[i] +=
+            s.weight.v[i] * glow.v[i] * static_cast<float>(scale[i] * (sigma_t[i] - sigma_s[i]) / majorant);
+    }
+    const bool is_real = random.next() < p_real;  // so that p of what happens is above 0
+    for (std::size_t i = 0; i < active; ++i)
+      s.weight.v[i] *= static_cast<float>(is_real ? sigma_s[i] / (majorant * p_real)
+                                                  : std::max(0.0, 1 - sigma_t[i] / majorant) / (1 - p_real));
+    if (is_real) {
+      s.scattered_at = t;
+      return s;
+    }
+  }
+  s.weight = {};
+  return s;
+}
+
+SampledSpectrum transmittance(const PreparedMedium& m, const Flight& flight,
+                              const SampledWavelengths& wavelengths, RandomStream& random) {
+  const Coefficients coefficients(m, wavelengths);
+  SampledSpectrum through = filled(1);
+  Values sigma_t, sigma_s;
+  if (m.homogeneous) {
+    coefficients.at({}, sigma_t, sigma_s);
+    for (std::size_t i = 0; i < hero_count; ++i)
+      through.v[i] = static_cast<float>(attenuation(sigma_t[i], flight.t_max));
+    return through;
+  }
+  const double majorant = coefficients.majorant();
+  if (!(majorant > 0)) return through;
+  const Inside in = inside(m, flight);
+  double t = in.t0;
+  for (int step = 0; step < most_steps; ++step) {
+    t += exponential(random.next()) / majorant;
+    if (!(t < in.t1)) return through;
+    coefficients.at(in.p + in.d * t, sigma_t, sigma_s);
+    for (std::size_t i = 0; i < hero_count; ++i)
+      through.v[i] *= static_cast<float>(std::max(0.0, 1 - sigma_t[i] / majorant));
+    // Little light left: go on with it rarely, but then with more.
+    constexpr float little = 0.1f;
+    const float most = max_value(through);
+    if (most < little) {
+      if (random.next() >= 0.5) return {};
+      through = through * 2;
+    }
+    if (is_black(through)) return {};
+  }
+  return {};
+}
+
+}  // namespace vitrail

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// Free flight through a medium. Homogeneous media are sampled in closed form, by a wavelength chosen at
+// random and weighted by the mean density of all, or not at all where they only absorb; grids by null
+// collisions (Woodcock et al. 1965; for spectra Kutz et al., "Spectral and Decomposition Tracking", 2017).
+// Wavelengths are chosen, and densities averaged, in proportion to the path's throughput. So its sum never
+// grows, however many collisions there are; and where the albedo is the same at all wavelengths, a path is
+// weighed by the mean density of all of it, as if one wavelength had been chosen for all of its flights.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "scene/records/medium.h"
+#include "scene/spectra/sampled_spectrum.h"
+#include "tracer/sampling/sampler.h"
+
+namespace vitrail {
+
+// A medium of a bundle made ready. Coefficients in units of the scene's length.
+struct PreparedMedium {
+  const Medium* medium = nullptr;  // outlives it
+  bool homogeneous = true;
+  Transform to_medium;
+  Bounds3d bounds;         // in the medium's space: 0 outside; of grids
+  double density_max = 1;  // of what varies
+  double g = 0;
+};
+PreparedMedium prepare(const Medium& medium);
+std::vector<PreparedMedium> prepare(const std::vector<Medium>& media);
+
+// Points p + t·d, 0 ≤ t ≤ t_max; d unit, t_max may be ∞.
+struct Flight {
+  Point3d p;
+  Vector3d d;
+  double t_max;
+};
+
+struct FlightSample {
+  std::optional<double> scattered_at;  // t; else it arrives at t_max
+  SampledSpectrum weight;              // transmittance (and σ_s where it scatters) over pdf
+  SampledSpectrum emitted;             // what the medium itself sends along the flight, weighted
+};
+
+// `active`: wavelengths still carried; `throughput` is not black.
+FlightSample sample_flight(const PreparedMedium& medium, const Flight& flight,
+                           const SampledWavelengths& wavelengths, std::size_t active,
+                           const SampledSpectrum& throughput, RandomStream& random);
+
+// An unbiased estimate of the transmittance over the flight.
+SampledSpectrum transmittance(const PreparedMedium& medium, const Flight& flight,
+                              const SampledWavelengths& wavelengths, RandomStream& random);
+
+}  // namespace vitrail

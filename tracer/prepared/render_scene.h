@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// What every rank holds of the scene besides domains, prepared for tracing.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "bundle/interiors.h"
+#include "tracer/lights/light_sampler.h"
+#include "tracer/media/free_flight.h"
+#include "tracer/prepared/sampling_choices.h"
+#include "tracer/surfaces/surface_materials.h"
+#include "tracer/view/camera_rays.h"
+#include "tracer/view/pixel_filter.h"
+
+namespace vitrail {
+
+struct RenderScene {
+  // `texture_bytes`: for tiles of images in memory. Throws Error for texture files that are damaged.
+  RenderScene(Manifest manifest, const std::filesystem::path& bundle, std::uint64_t texture_bytes,
+              std::uint64_t seed, const SamplingChoices& sampling = {});
+  RenderScene(const RenderScene&) = delete;  // its parts refer to each other
+  RenderScene& operator=(const RenderScene&) = delete;
+
+  Manifest manifest;
+  Interiors interiors;
+  CameraSampler camera;
+  FilterSampler filter;
+  Textures textures;
+  Materials materials;
+  std::vector<PreparedMedium> media;
+  LightSampler lights;
+  Transform bundle_to_camera;
+  // Where the camera is that sensors take the place of: what is known to be around it tells what is around
+  // all. None: the camera's medium is around all.
+  std::optional<Point3d> replaced_camera;
+  double pixel_angle = 0;  // between neighbouring camera rays in the middle of the picture, rad
+  // Of what a pixel is wide that stands so far off: width + angle · distance. 0: it sees no edges.
+  struct Pixel {
+    double width = 0, angle_rad = 0;
+  } pixel;
+  std::uint64_t seed = 0;
+  SamplingChoices sampling;
+};
+
+// The surface that the hit's triangle belongs to; `domain` holds the hit.
+const Surface& surface_of(const Manifest& manifest, const DomainView& domain, const Hit& hit);
+
+}  // namespace vitrail

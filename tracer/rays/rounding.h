@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is lost where points become floats and directions codes.
+#pragma once
+
+#include <array>
+#include <cmath>
+
+#include "scene/geometry/vec.h"
+
+namespace vitrail {
+
+// Of a unit vector from encode_direction to decode_direction, in length. The worst of 2·10⁷ is 2.92e-7.
+inline constexpr double direction_rounding = 3.5e-7;
+
+// What rounding to float can move a point by along a unit vector.
+inline double rounding_along(Vector3d unit, Point3d p) {
+  return 0x1p-24 * (std::abs(unit.x * p.x) + std::abs(unit.y * p.y) + std::abs(unit.z * p.z));
+}
+
+// What the normal of a triangle can be off by, in rad, whose corners p0, p0 + e1, p0 + e2 may be off by that
+// much along it: each turns it about the opposite side. `twice_area` > 0.
+inline double tilt_of(Vector3d e1, Vector3d e2, double twice_area, const std::array<double, 3>& off) {
+  return (off[0] * length(e2 - e1) + off[1] * length(e2) + off[2] * length(e1)) / twice_area;
+}
+
+}  // namespace vitrail

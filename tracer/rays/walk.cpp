@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tracer/rays/walk.h"
+
+#include <limits>
+
+namespace vitrail {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+using Axes = std::array<double, 3>;
+
+double greatest(const Axes& v) { return std::max({std::abs(v[0]), std::abs(v[1]), std::abs(v[2])}); }
+
+// Slab test in double; conservative for boxes that are padded, by `margin` more. Returns the entry, or +∞
+// when missed within [0, tmax].
+double enter_box(const Bounds3f& box, double margin, const Axes& origin, const Axes& reciprocal,
+                 double tmax) {
+  double t0 = 0, t1 = tmax;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto i = static_cast<int>(axis);
+    const double a = (static_cast<double>(box.lower[i]) - margin - origin[axis]) * reciprocal[axis];
+    const double b = (static_cast<double>(box.upper[i]) + margin - origin[axis]) * reciprocal[axis];
+    t0 = std::max(t0, std::min(a, b));
+    t1 = std::min(t1, std::max(a, b));
+  }
+  return t0 <= t1 * (1 + 1e-12) ? t0 : infinity;
+}
+
+}  // namespace
+
+void DomainWalk::begin(const Ray& ray) {
+  const Point3d o = cast<double>(ray.origin);
+  const Vector3d d = cast<double>(ray.direction);
+  origin_ = {o.x, o.y, o.z};
+  direction_ = {d.x, d.y, d.z};
+  rounding_ = 0x1p-47 * greatest(origin_);
+  epsilon_ = interface_epsilon(manifest_) + rounding_;
+  // A component too small to divide by moves the ray by 10⁻¹⁸ of its way.
+  const double least = 1e-18 * greatest(direction_);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double along = direction_[axis];
+    reciprocal_[axis] = 1 / (std::abs(along) < least ? (along < 0 ? -least : least) : along);
+  }
+  stack_[static_cast<std::size_t>(size_++)] = {manifest_.kd_nodes.empty() ? KdNode::leaf_bit : 0u, 0,
+                                               infinity};
+}
+
+// The next one that the ray enters at tmax or before.
+bool DomainWalk::next_leaf(double tmax, Pending& leaf) {
+  while (size_ > 0) {
+    Pending at = stack_[static_cast<std::size_t>(--size_)];
+    at.t1 = std::min(at.t1, tmax);
+    while (at.t0 <= tmax && !(at.reference & KdNode::leaf_bit)) {
+      const KdNode& node = manifest_.kd_nodes[at.reference];
+      const std::size_t axis = node.axis;
+      const double to_plane = static_cast<double>(node.split) - origin_[axis];
+      const double reciprocal = reciprocal_[axis];
+      const bool ascending = reciprocal > 0;
+      const std::uint32_t near = ascending ? node.below : node.above,
+                          far = ascending ? node.above : node.below;
+      // The near side reaches until ε behind the plane, the far side begins ε before it.
+      const double along = ascending ? to_plane : -to_plane, rate = std::abs(reciprocal);
+      const double near_end = (along + epsilon_) * rate, far_begin = (along - epsilon_) * rate;
+      const bool in_near = near_end >= at.t0, in_far = far_begin <= at.t1;
+      if (in_near && in_far)
+        stack_[static_cast<std::size_t>(size_++)] = {far, std::max(at.t0, far_begin), at.t1};
+      if (in_near)
+        at = {near, at.t0, std::min(at.t1, near_end)};
+      else
+        at = {far, std::max(at.t0, far_begin), at.t1};
+    }
+    if (at.t0 > tmax) continue;
+    leaf = at;
+    return true;
+  }
+  return false;
+}
+
+bool DomainWalk::next_of_many(double tmax, Visit& visit) {
+  Pending leaf;
+  while (next_leaf(tmax, leaf)) {
+    const std::uint32_t domain = leaf.reference & ~KdNode::leaf_bit;
+    const DomainInfo& info = manifest_.domains[domain];
+    if (info.tight_bounds.empty()) continue;
+    const double entry = enter_box(info.tight_bounds, rounding_, origin_, reciprocal_, tmax);
+    if (entry == infinity) continue;
+    visit = {domain, std::max(leaf.t0, entry)};
+    // From far away the way through the cells is less certain than they are padded.
+    if (rounding_ < cell_margin(manifest_) &&
+        !meets(info.occupancy, info.tight_bounds, {origin_[0], origin_[1], origin_[2]},
+               {direction_[0], direction_[1], direction_[2]}, visit.entry, tmax))
+      continue;
+    return true;
+  }
+  return false;
+}
+
+void DomainWalk::skip_past(std::uint32_t domain) {
+  only_one_ = false;
+  Pending leaf;
+  while (next_leaf(infinity, leaf))
+    if ((leaf.reference & ~KdNode::leaf_bit) == domain) return;
+}
+
+}  // namespace vitrail

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+// The order in which a ray meets the sub-domains: front to back through the kd-tree, both sides of an
+// interface where the ray is within ε of it.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <span>
+
+#include "bundle/manifest.h"
+#include "tracer/rays/ray.h"
+
+namespace vitrail {
+
+// The leaves of one ray, one after the other. The sequence is a function of the ray and the manifest alone,
+// so a rank that receives a ray finds its place in it again with `skip_past`.
+class DomainWalk {
+ public:
+  struct Visit {
+    std::uint32_t domain;
+    double entry;  // no point of the ray before it lies in the domain
+  };
+
+  // `resident`: indexed by domain, null where absent; may be empty. The one domain of a scene is at once the
+  // first and the last, if it is at hand: its tree tells what misses it.
+  DomainWalk(const Manifest& manifest, const Ray& ray, std::span<const DomainView* const> resident = {})
+      : manifest_(manifest), resident_(resident) {
+    if (!starts_near(ray.origin)) return;
+    only_one_ = resident.size() == 1 && resident[0] && !manifest.domains[0].tight_bounds.empty();
+    if (!only_one_) begin(ray);
+  }
+
+  // The next domain whose tight bounds and marked cells the ray enters before tmax; false at the end.
+  bool next(double tmax, Visit& visit) {
+    if (!only_one_) return next_of_many(tmax, visit);
+    only_one_ = false;
+    visit = {0, 0};
+    return true;
+  }
+  // Goes on behind `domain`, which the walk visits.
+  void skip_past(std::uint32_t domain);
+
+ private:
+  struct Pending {
+    std::uint32_t reference;
+    double t0, t1;
+  };
+  // Of a ray's start from the scene's centre, of which no scene reaches 10¹⁵: its square and its product with
+  // 10¹⁸ (ray.h) are still floats. What starts beyond meets nothing. False for NaN.
+  static bool starts_near(Point3f origin) {
+    constexpr double farthest = 1e18;
+    const Point3d o = cast<double>(origin);
+    return std::abs(o.x) <= farthest && std::abs(o.y) <= farthest && std::abs(o.z) <= farthest;
+  }
+  void begin(const Ray& ray);
+  bool next_of_many(double tmax, Visit& visit);
+  bool next_leaf(double tmax, Pending& leaf);
+
+  const Manifest& manifest_;
+  std::span<const DomainView* const> resident_;
+  bool only_one_ = false;  // the scene has one domain, resident, and it is still to come
+  std::array<double, 3> origin_, direction_, reciprocal_;  // by axis: nodes are cut along any
+  double rounding_;                                        // of points on the ray
+  double epsilon_;
+  std::array<Pending, 64> stack_;
+  int size_ = 0;
+};
+
+}  // namespace vitrail

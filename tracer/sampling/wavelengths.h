@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// Hero wavelengths and what the sensor makes of them.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "scene/spectra/color.h"
+#include "scene/spectra/sampled_spectrum.h"
+#include "scene/spectra/spectral_bins.h"
+
+namespace vitrail {
+
+// Four wavelengths, stratified: u, u + ¼, u + ½, u + ¾ (mod 1) through the inverse of a cumulative density
+// that is proportional to x̄ + ȳ + z̄ plus a small floor, constant within each nanometre (Wilkie et al. 2014;
+// Radziszewski et al. 2009 for the density). u in [0,1).
+SampledWavelengths sample_wavelengths(float u);
+
+// Fixed ones, each the middle of a 16th of ∫ȳ: the mean of a spectrum over them is about its luminance.
+const std::array<SampledWavelengths, 4>& luminance_wavelengths();
+
+// What a pixel gets of radiance L at the four wavelengths: XYZ = Σᵢ Lᵢ · weight[·][i], unbiased; and where
+// the film keeps spectral bins, Lᵢ·spectral[i] for bin[i], so that the sum's mean is the mean of L over the
+// bin.
+struct SensorWeights {
+  std::array<float, hero_count> x{}, y{}, z{};
+  std::array<float, hero_count> spectral{};  // 0: in no bin
+  std::array<std::uint16_t, hero_count> bin{};
+};
+// `scale` multiplies them.
+SensorWeights sensor_weights(const SampledWavelengths& wavelengths, double scale = 1,
+                             const SpectralBins& bins = {});
+
+// SensorWeights::spectral is nowhere greater.
+double greatest_bin_weight(const SpectralBins& bins);
+
+inline XYZ sense(const SensorWeights& w, const SampledSpectrum& radiance) {
+  XYZ sum;
+  for (std::size_t i = 0; i < hero_count; ++i) {
+    const double l = static_cast<double>(radiance.v[i]);
+    sum.x += l * w.x[i];
+    sum.y += l * w.y[i];
+    sum.z += l * w.z[i];
+  }
+  return sum;
+}
+
+// To float precision.
+SampledSpectrum evaluate(const Spectrum& spectrum, const SampledWavelengths& wavelengths);
+
+}  // namespace vitrail

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// A hit made ready for shading.
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "bundle/manifest.h"
+#include "tracer/rays/ray.h"
+#include "tracer/textures/textures.h"
+
+namespace vitrail {
+
+struct Interaction {
+  Point3d p;
+  Vector3d out;        // unit, back along the ray
+  Vector3d geometric;  // unit normal of the front side
+  Vector3d shading;    // unit, on the same side as `geometric`
+  std::uint32_t triangle = no_triangle;
+  bool front = false;  // the ray came from the front side
+  // What floats may have moved the surface by along its normal: its corners, which may be farther from 0 than
+  // p, as far as they count where the ray comes from.
+  double rounding = 0;
+  // In front of a dielectric with a priority; null: the material's own.
+  const Spectrum* exterior_eta = nullptr;
+
+  // Of surfaces that textures are looked up on.
+  Point2d uv;
+  Vector3d dpdu, dpdv;  // 0 where the triangle's (u,v) do not span a plane
+  double uv_width = 0;  // of the ray's cone
+  std::uint32_t attribute_count = 0;
+  std::array<AttributeValue, max_attributes> attributes;
+
+  double side() const { return front ? 1 : -1; }
+  TexturePoint texture_point() const {
+    return {uv, p, shading, uv_width, std::span(attributes).first(attribute_count)};
+  }
+};
+
+// `domain` holds the hit. `direction` of the ray, decoded, `cone_width` of its cone at the hit (0: none), and
+// its time, where anything moves.
+Interaction make_interaction(const DomainView& domain, const Hit& hit, Vector3f direction, double cone_width,
+                             std::uint32_t attributes, double time_s = 0);
+
+// What rounding can turn its normal by, in rad: of what is stored of the shading normal, or of the surface,
+// whose vertices may stand `vertex_doubt` off beside (Surface). Decimals count up to `most_of_decimals_rad`.
+double normal_doubt(const DomainView& domain, const Hit& hit, bool shading, double vertex_doubt,
+                    double time_s = 0);
+
+// A face that decimals make less certain than this is taken by what it is: a pane's two together turn light
+// by less than the radius of the sun's disc.
+inline constexpr double most_of_decimals_rad = 0x1p-8;
+
+}  // namespace vitrail

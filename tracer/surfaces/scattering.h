@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+// Scattering at one point of a surface: a model with its parameters looked up, and the frame it is meant in.
+#pragma once
+
+#include <variant>
+
+#include "tracer/bsdf/adaptive.h"
+#include "tracer/bsdf/conductor.h"
+#include "tracer/bsdf/dielectric.h"
+#include "tracer/bsdf/diffuse.h"
+#include "tracer/bsdf/fourier.h"
+#include "tracer/bsdf/hair.h"
+#include "tracer/bsdf/layered.h"
+#include "tracer/bsdf/measured.h"
+#include "tracer/bsdf/plastic.h"
+#include "tracer/bsdf/principled.h"
+#include "tracer/bsdf/slab.h"
+#include "tracer/surfaces/interaction.h"
+
+namespace vitrail {
+
+using Bsdf = std::variant<LambertBsdf, OrenNayarBsdf, DiffuseTransmissionBsdf, ConductorBsdf, DielectricBsdf,
+                          ThinDielectricBsdf, PlasticBsdf, RoughPlasticBsdf, PrincipledBsdf,
+                          PrincipledThinBsdf, CoatedDiffuseBsdf, CoatedConductorBsdf, MeasuredSheetBsdf,
+                          FourierBsdf, AdaptiveBsdf, SlabBsdf, HairBsdf>;
+
+inline BsdfValue eval(const Bsdf& bsdf, Vector3d out, Vector3d in) {
+  return std::visit([&](const auto& b) { return eval(b, out, in); }, bsdf);
+}
+inline std::optional<BsdfSample> sample(const Bsdf& bsdf, Vector3d out, float u_lobe, Point2f u) {
+  return std::visit([&](const auto& b) { return sample(b, out, u_lobe, u); }, bsdf);
+}
+
+// Whether it scatters into single directions alone: eval and pdf are 0 everywhere.
+inline bool is_specular(const Bsdf& bsdf) {
+  if (const auto* metal = std::get_if<ConductorBsdf>(&bsdf)) return metal->microfacets.smooth();
+  if (const auto* glass = std::get_if<DielectricBsdf>(&bsdf)) return glass->microfacets.smooth();
+  return std::holds_alternative<ThinDielectricBsdf>(bsdf) || std::holds_alternative<MeasuredSheetBsdf>(bsdf);
+}
+
+// Whether a specular sample is one that Materials::mirrors counts, unless it goes straight on.
+inline bool is_mirror(const Bsdf& bsdf) {
+  return std::holds_alternative<ConductorBsdf>(bsdf) || std::holds_alternative<ThinDielectricBsdf>(bsdf) ||
+         std::holds_alternative<MeasuredSheetBsdf>(bsdf);
+}
+
+// Whether `sample` has no use for u_lobe, and is never specular.
+inline bool has_one_lobe(const Bsdf& bsdf) {
+  return std::holds_alternative<LambertBsdf>(bsdf) || std::holds_alternative<OrenNayarBsdf>(bsdf);
+}
+
+// Whether light from everywhere counts about alike.
+inline bool is_diffuse(const Bsdf& bsdf) {
+  return std::holds_alternative<LambertBsdf>(bsdf) || std::holds_alternative<OrenNayarBsdf>(bsdf) ||
+         std::holds_alternative<DiffuseTransmissionBsdf>(bsdf);
+}
+
+// Orthonormal. On the back of a surface that scatters there as in front, the normal is turned over and the
+// tangents stay: it is left-handed.
+struct ShadingFrame {
+  Vector3d tangent, bitangent, normal;
+  Vector3d to_world(Vector3d v) const { return tangent * v.x + bitangent * v.y + normal * v.z; }
+  Vector3d to_local(Vector3d v) const { return {dot(v, tangent), dot(v, bitangent), dot(v, normal)}; }
+};
+
+struct Scattering {
+  Bsdf bsdf;
+  ShadingFrame frame;
+  bool transmits = false;
+  double bump_alpha2 = 0;  // of bump_shadowing
+
+  // What is left of light from a direction that makes this cosine with the surface's smooth normal.
+  double bump_shadowing(double cosine) const;
+};
+
+// Whether the shading normal would let the sampled `direction` through the surface, or reflect it into it;
+// `out` in the scattering's frame.
+inline bool leaves_its_side(const Scattering& scattering, const Interaction& at, Vector3d out,
+                            const BsdfSample& chosen, Vector3d direction) {
+  return !scattering.transmits &&
+         (dot(direction, at.geometric) > 0) != (dot(at.out, at.geometric) * out.z * chosen.in.z > 0);
+}
+
+// What a mirror does then: it goes by the surface's own normal.
+inline Vector3d mirrored(const Interaction& at) {
+  return at.geometric * (2 * dot(at.out, at.geometric)) - at.out;
+}
+
+// α² of microfacets among which a normal that a bump has turned, at this cosine to the smooth one, would be
+// usual (Conty Estevez, Lecocq and Stein, "A Microfacet-Based Shadowing Function to Solve the Bump Terminator
+// Problem", 2019). Such facets shadow light by Smith's function: bump_shadowing.
+double bump_alpha2(double cosine);
+
+}  // namespace vitrail

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+// The materials of a bundle: from a record and a point to what scatters there.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "bundle/manifest.h"
+#include "tracer/sampling/sampler.h"
+#include "tracer/surfaces/bsdf_of.h"
+#include "tracer/surfaces/interaction.h"
+#include "tracer/surfaces/scattering.h"
+
+namespace vitrail {
+
+// What a path has to know of a surface's material before anything is looked up.
+struct MaterialKind {
+  bool is_interface = false;       // nothing is there
+  bool is_fibre = false;           // nothing is there from behind
+  bool smooth_dielectric = false;  // bends light as it is: of panes and connections through them
+  bool dispersive = false;         // its index depends on λ
+  bool diffuse = false;            // it, or a part of it, may be one that gathers photons
+  bool sheet = false;              // lets light straight through, and mirrors some
+
+  bool is_nothing(const Interaction& at) const { return is_interface || (is_fibre && !at.front); }
+};
+
+class Materials {
+ public:
+  // Both outlive it.
+  Materials(const Manifest& manifest, const Textures& textures);
+
+  const MaterialKind& kind(std::uint32_t material) const { return kinds_[material]; }
+  // Whether some smooth interface or sheet may stand parallel to another.
+  bool have_panes() const { return have_panes_; }
+
+  // The material that a path meets: of two sides the one it sees, of a blend one by chance, of a mask the
+  // material or, null, nothing: light goes straight through.
+  const Material* choose(std::uint32_t material, const Interaction& at, RandomStream& chance) const;
+  // The share of the light that goes straight through, by no chance.
+  SampledSpectrum passes_straight(std::uint32_t material, const Interaction& at,
+                                  const SampledWavelengths& wavelengths) const;
+  // And the share that sheets and smooth metal mirror.
+  SampledSpectrum mirrors(std::uint32_t material, const Interaction& at,
+                          const SampledWavelengths& wavelengths) const;
+
+  // Whether a chosen material turns wavelengths into different directions.
+  bool disperses(const Material& material, const Interaction& at) const {
+    return kind(index_of(material)).dispersive || (at.exterior_eta && !is_constant(*at.exterior_eta));
+  }
+  // Whether a chosen material scatters: the back of a one-sided surface is black.
+  bool scatters(const Material& material, const Interaction& at) const;
+  // Of one that does. `throughput` of the path guides choices between wavelengths; `event` is what walks in
+  // layers are a function of.
+  Scattering scattering_at(const Material& material, const Interaction& at,
+                           const SampledWavelengths& wavelengths, const SampledSpectrum& throughput,
+                           std::uint64_t event) const;
+  // The normal as bump and normal maps turn it; on the same side as at.geometric.
+  Vector3d shading_normal(const Material& material, const Interaction& at) const;
+
+ private:
+  std::uint32_t index_of(const Material& material) const {
+    return static_cast<std::uint32_t>(&material - manifest_.materials.data());
+  }
+  template <class OfPart>
+  SampledSpectrum mixed(std::uint32_t material, const Interaction& at, float of_nothing,
+                        const OfPart& of_part) const;
+  BsdfMaker maker_at(const Interaction& at, const SampledWavelengths& wavelengths) const;
+  const Manifest& manifest_;
+  const Textures& textures_;
+  std::vector<MaterialKind> kinds_;
+  bool have_panes_ = false;
+  std::vector<RoughPlasticTables> plastic_tables_;
+  std::vector<std::uint32_t> plastic_table_;  // of a material: index into plastic_tables_
+  std::vector<LoadedTable> tables_;
+  std::vector<double> luminance_;  // of a material: of the constant colour that it has a tint of
+};
+
+// Index behind over index in front at the four wavelengths, seen from where the ray came.
+SampledSpectrum relative_index(const DielectricMaterial& material, const Interaction& at,
+                               const SampledWavelengths& wavelengths);
+// And the index in front, of the hero.
+double near_index(const DielectricMaterial& material, const Interaction& at,
+                  const SampledWavelengths& wavelengths);
+
+}  // namespace vitrail

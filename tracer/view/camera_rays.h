@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+
+#include "scene/records/scene.h"
+#include "tracer/rays/direction.h"
+
+namespace vitrail {
+
+struct CameraRay {
+  Point3f origin;
+  DirectionCode direction;
+  double weight = 1;  // of what it brings; 0: the lens lets nothing through
+};
+
+class CameraSampler {
+ public:
+  // All outlive it.
+  CameraSampler(const Camera& camera, const Motion& motion, const FilmSettings& film);
+
+  // Whether rays need a point of the lens.
+  bool has_lens() const { return has_lens_; }
+  // The ray through raster position (x, y), in pixels of the whole film from the top left. `lens`, in [0,1)²,
+  // chooses the point of the lens, if there is one. `time_s`: where the camera moves.
+  CameraRay ray(Point2d raster, Point2d lens, double time_s) const;
+  // Of a column, where the camera is one of sensors: where it is and its unit normal.
+  std::optional<Sensor> sensor(int x) const;
+
+ private:
+  const Camera& camera_;
+  const Motion& motion_;
+  const FilmSettings& film_;
+  bool has_lens_ = false;
+  // Of a pinhole and of parallel rays that stand still: both are linear in the raster position.
+  bool is_linear_ = false;
+  struct Linear {
+    Vector3d at_corner, per_x, per_y;
+    Vector3d at(Point2d raster) const { return at_corner + per_x * raster.x + per_y * raster.y; }
+  };
+  Linear origin_, direction_;
+};
+
+// The square [0,1]² to the unit disk, area by area, neighbours staying neighbours (Shirley & Chiu 1997).
+Point2d concentric_disk(Point2d u);
+
+}  // namespace vitrail
