@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The fields of the records of materials.bin and lights.bin, listed once for whoever goes through them: a
-// writer, a reader, a checker. `io` is called with every number, and with every Id; its type is of this
-// namespace, so that all overloads are found. Names, origins and the
-// colours that sigmoids were fitted to are for writing scenes: they stay behind.
+// The fields of the records of materials.bin and lights.bin for whoever goes through them: a writer, a
+// reader, a checker. They are those of scene/records/fields.h, but where bundles leave some out. `io` is
+// called with every number, and with every Id; its type is of this namespace, so that all overloads are
+// found. Names, origins and the colours that sigmoids were fitted to are for writing scenes: they stay
+// behind.
 #pragma once
 
 #include <optional>
@@ -13,12 +14,9 @@
 
 #include "bundle/byte_stream.h"
 #include "bundle/manifest.h"
+#include "scene/records/fields.h"
 
 namespace vitrail::records {
-
-// T, or const T.
-template <class A, class T>
-concept Is = std::same_as<std::remove_const_t<A>, T>;
 
 template <class IO>
 constexpr bool reads = std::decay_t<IO>::reads;
@@ -155,41 +153,22 @@ void fields(auto& io, Unresolved auto&) {
   throw std::logic_error("a bundle takes resolved spectra");
 }
 
+// ---- Records as they are listed
+
+// Those of which bundles have other fields.
+template <class T>
+concept Reduced = IsOneOf<T, ImageTexture, PtexTexture, Roughness, SubsurfaceMaterial, MeasuredMaterial,
+                          TabulatedMaterial, GoniometricLight, EnvironmentLight>;
+template <HasFields T>
+requires(!Reduced<T>) void fields(auto& io, T& record) {
+  visit_fields(record, [&](auto&... field) { (fields(io, field), ...); });
+}
+
 // ---- Textures
 
-void fields(auto& io, Is<UvMapping> auto& m) { io(m.a), io(m.b), io(m.c), io(m.d), io(m.e), io(m.f); }
-void fields(auto& io, Is<SphericalMapping> auto& m) { fields(io, m.texture_to_world); }
-void fields(auto& io, Is<CylindricalMapping> auto& m) { fields(io, m.texture_to_world); }
-void fields(auto& io, Is<PlanarMapping> auto& m) {
-  fields(io, m.texture_to_world), fields(io, m.v1), fields(io, m.v2), io(m.offset_s), io(m.offset_t);
-}
-void fields(auto& io, Is<AttributeMapping> auto& m) { fields(io, m.slot); }
 // What its file holds is final: encoding, scale and inversion are applied.
 void fields(auto& io, Is<ImageTexture> auto& t) {
   fields(io, t.filename), fields(io, t.mapping), fields(io, t.wrap), fields(io, t.filter);
-}
-void fields(auto& io, Is<CheckerboardTexture> auto& t) {
-  fields(io, t.even), fields(io, t.odd), fields(io, t.mapping), fields(io, t.solid);
-  fields(io, t.texture_to_world);
-}
-void fields(auto& io, Is<ProductTexture> auto& t) { fields(io, t.first), fields(io, t.second); }
-void fields(auto& io, Is<MixTexture> auto& t) {
-  fields(io, t.first), fields(io, t.second), fields(io, t.amount);
-}
-void fields(auto& io, Is<DirectionMixTexture> auto& t) {
-  fields(io, t.first), fields(io, t.second), fields(io, t.direction);
-}
-void fields(auto& io, Is<BilinearTexture> auto& t) {
-  fields(io, t.v00), fields(io, t.v01), fields(io, t.v10), fields(io, t.v11), fields(io, t.mapping);
-}
-void fields(auto& io, Is<MeshAttributeTexture> auto& t) { fields(io, t.name), io(t.scale); }
-void fields(auto& io, Is<UvTexture> auto& t) { fields(io, t.mapping); }
-void fields(auto& io, Is<DotsTexture> auto& t) {
-  fields(io, t.inside), fields(io, t.outside), fields(io, t.mapping);
-}
-void fields(auto& io, Is<NoiseTexture> auto& t) {
-  fields(io, t.kind), fields(io, t.texture_to_world), io(t.octaves), io(t.roughness), io(t.scale);
-  io(t.variation);
 }
 // Its mean in a bundle.
 void fields(auto& io, Is<PtexTexture> auto&) {
@@ -214,74 +193,17 @@ void facets(auto& io, Is<Roughness> auto& r) {
 void fields(auto& io, Is<Roughness> auto& r) {
   fields(io, r.alpha_u), fields(io, r.alpha_v), facets(io, r), fields(io, r.square_root);
 }
-void fields(auto& io, Is<DiffuseMaterial> auto& m) { fields(io, m.reflectance), fields(io, m.sigma_deg); }
-void fields(auto& io, Is<DielectricMaterial> auto& m) {
-  fields(io, m.eta), fields(io, m.exterior_eta), fields(io, m.roughness);
-  fields(io, m.reflectance_factor), fields(io, m.transmittance_factor), io(m.priority);
-}
-void fields(auto& io, Is<ThinDielectricMaterial> auto& m) {
-  fields(io, m.eta), fields(io, m.exterior_eta);
-  fields(io, m.reflectance_factor), fields(io, m.transmittance_factor);
-}
-void fields(auto& io, Is<ComplexIndex> auto& m) { fields(io, m.eta), fields(io, m.k); }
-void fields(auto& io, Is<NormalReflectance> auto& m) { fields(io, m.reflectance); }
-void fields(auto&, Is<PerfectReflector> auto&) {}
-void fields(auto& io, Is<ConductorMaterial> auto& m) {
-  fields(io, m.metal), fields(io, m.roughness), fields(io, m.reflectance_factor);
-}
-void fields(auto& io, Is<PlasticMaterial> auto& m) {
-  fields(io, m.diffuse_reflectance), fields(io, m.specular_reflectance), io(m.eta), io(m.exterior_eta);
-  fields(io, m.roughness), fields(io, m.nonlinear);
-}
-void fields(auto& io, Is<CoatingVolume> auto& v) {
-  fields(io, v.thickness), fields(io, v.g), fields(io, v.albedo), io(v.max_depth), io(v.samples);
-}
-void fields(auto& io, Is<CoatedDiffuseMaterial> auto& m) {
-  fields(io, m.reflectance), fields(io, m.eta), fields(io, m.roughness), fields(io, m.volume);
-}
-void fields(auto& io, Is<CoatedConductorMaterial> auto& m) {
-  fields(io, m.metal), fields(io, m.conductor_roughness), fields(io, m.interface_eta);
-  fields(io, m.interface_roughness), fields(io, m.volume);
-}
-void fields(auto& io, Is<DiffuseTransmissionMaterial> auto& m) {
-  fields(io, m.reflectance), fields(io, m.transmittance), io(m.scale);
-}
-void fields(auto& io, Is<PrincipledMaterial> auto& m) {
-  fields(io, m.base_color);
-  for (auto* p : {&m.roughness, &m.anisotropic, &m.metallic, &m.spec_trans, &m.spec_tint, &m.sheen,
-                  &m.sheen_tint, &m.flatness, &m.clearcoat, &m.clearcoat_gloss, &m.diff_trans})
-    fields(io, *p);
-  io(m.eta), fields(io, m.thin);
-}
-void fields(auto& io, Is<HairMaterial> auto& m) {
-  fields(io, m.sigma_a), fields(io, m.color), fields(io, m.eumelanin), fields(io, m.pheomelanin);
-  io(m.eta), io(m.exterior_eta), fields(io, m.beta_m), fields(io, m.beta_n), fields(io, m.alpha_deg);
-  fields(io, m.along_v);
-}
-void fields(auto&, Is<InterfaceMaterial> auto&) {}
-void fields(auto& io, Is<BlendMaterial> auto& m) {
-  fields(io, m.first), fields(io, m.second), fields(io, m.amount);
-}
-void fields(auto& io, Is<MaskMaterial> auto& m) { fields(io, m.opacity), fields(io, m.material); }
-void fields(auto& io, Is<TwoSidedMaterial> auto& m) { fields(io, m.front), fields(io, m.back); }
 void fields(auto& io, Is<MeasuredSheet> auto& s) {
   list(io, s.wavelengths_nm), list(io, s.cosines), list(io, s.reflectance), list(io, s.transmittance);
 }
 void fields(auto& io, Is<MeasuredMaterial> auto& m) { fields(io, m.sheet); }
 void fields(auto& io, Is<TabulatedMaterial> auto& m) { fields(io, m.format), fields(io, m.table); }
-void fields(auto& io, Is<SlabMaterial> auto& m) {
-  fields(io, m.sigma_a), fields(io, m.sigma_s), io(m.thickness), io(m.g);
-}
 // Other materials stand for these in a bundle.
 template <class T>
 concept Replaced = Is<T, SubsurfaceMaterial>;
 void fields(auto& io, Replaced auto&) {
   if constexpr (reads<decltype(io)>) io.stream.fail("a material is of a kind that bundles do not have");
   throw std::logic_error("a bundle does not take this material");
-}
-void fields(auto& io, Is<Material> auto& m) {
-  fields(io, m.model), fields(io, m.two_sided), fields(io, m.displacement), fields(io, m.normal_map);
-  fields(io, m.bump_shadowing);
 }
 void fields(auto& io, Is<Surface> auto& s) {
   io(s.first_triangle), io(s.material), io(s.area_light), io(s.interior), io(s.exterior);
@@ -320,31 +242,13 @@ void fields(auto& io, Is<Medium> auto& m) {
 
 // ---- Lights
 
-void fields(auto& io, Is<AreaLight> auto& l) {
-  fields(io, l.radiance), io(l.scale), fields(io, l.two_sided), fields(io, l.directional);
-}
-void fields(auto& io, Is<PointLight> auto& l) { fields(io, l.position), fields(io, l.intensity); }
-void fields(auto& io, Is<SpotLight> auto& l) {
-  fields(io, l.light_to_world), fields(io, l.intensity), io(l.beam_deg), io(l.cutoff_deg);
-  fields(io, l.falloff), fields(io, l.texture);
-}
-void fields(auto& io, Is<ProjectionLight> auto& l) {
-  fields(io, l.light_to_world), fields(io, l.image), fields(io, l.scale), io(l.fov_deg);
-  fields(io, l.irradiance), fields(io, l.power);
-}
 void fields(auto& io, Is<GoniometricLight> auto& l) {
   fields(io, l.light_to_world), fields(io, l.intensity), fields(io, l.filename);
   fields(io, l.latitude_longitude), fields(io, l.power);
 }
-void fields(auto& io, Is<DistantLight> auto& l) { fields(io, l.direction), fields(io, l.irradiance); }
-void fields(auto& io, Is<InfiniteLight> auto& l) { fields(io, l.radiance); }
 void fields(auto& io, Is<EnvironmentLight> auto& l) {
   fields(io, l.filename), fields(io, l.light_to_world), fields(io, l.projection), fields(io, l.scale);
   fields(io, l.illuminance), fields(io, l.portal);
-}
-void fields(auto& io, Is<SkyLight> auto& l) {
-  fields(io, l.light_to_world), fields(io, l.to_sun), io(l.turbidity), fields(io, l.albedo);
-  io(l.sky_scale), io(l.sun_scale), io(l.sun_diameter_deg), fields(io, l.limb_darkening);
 }
 void fields(auto& io, Is<Light> auto& l) { fields(io, l.model); }
 void fields(auto& io, Is<EmissiveTriangle> auto& t) {

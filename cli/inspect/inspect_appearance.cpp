@@ -9,6 +9,7 @@
 #include "images/image_files.h"
 #include "images/ptex_file.h"
 #include "scene/records/kinds.h"
+#include "scene/records/material_traits.h"
 
 namespace vitrail {
 
@@ -61,12 +62,15 @@ Report yes_or_no(const std::string& why) { return why.empty() ? "no" : "yes: " +
 
 Report describe_materials(const Scene& scene) {
   Report table = Report::array();
-  for (const Material& m : scene.materials)
+  const std::vector<MaterialTraits> traits = traits_of(scene.materials);
+  for (std::size_t i = 0; i < traits.size(); ++i) {
+    const Material& m = scene.materials[i];
     table.push_back({{"name", m.name.empty() ? "-" : m.name},
                      {"kind", kind_of(m.model)},
-                     {"sides", m.two_sided ? "both" : "front"},
+                     {"sides", m.two_sided || traits[i].transmits ? "both" : "front"},
                      {"bumps", m.displacement || m.normal_map ? "yes" : "no"},
                      {"where", to_string(location(scene, m.origin))}});
+  }
   return table;
 }
 

@@ -14,6 +14,7 @@
 #include "partitioner/placing/flatten.h"
 #include "scene/daylight/sky_model.h"
 #include "scene/records/kinds.h"
+#include "scene/records/material_traits.h"
 
 namespace vitrail {
 
@@ -110,8 +111,8 @@ bool is(const Material& material) {
 std::string why_see_through(const Manifest& m) {
   const auto sheer = [](const Material& x) {
     const auto* d = std::get_if<DielectricMaterial>(&x.model);
-    return (d && d->priority != 0) || is<InterfaceMaterial>(x) || is<MaskMaterial>(x) ||
-           is<ThinDielectricMaterial>(x);
+    const MaterialTraits traits = traits_of(x.model);
+    return (d && d->priority != 0) || traits.straight || traits.fibre;
   };
   const auto partly =
       std::ranges::count_if(m.surfaces, [](const Surface& s) { return s.opacity != FloatParameter{1.0f}; });

@@ -30,10 +30,11 @@ std::vector<const char*> bumps_shown_otherwise(const Material& material) {
   if (!material.displacement && !material.normal_map) return sentences;
   if (material.displacement && is_brushed(material))
     sentences.push_back("a bump map on what is brushed: Mitsuba 3.9 brushes it in another direction");
-  if (lobes_of(material, std::vector<Lobes>{}).smooth)
+  const MaterialTraits traits = traits_of(material.model);
+  if (traits.lobes.smooth)
     sentences.push_back(
         "bumps of a mirror or smooth interface: what they reflect into the surface is black in Mitsuba");
-  if (transmits(material, {}))
+  if (traits.transmits)
     sentences.push_back(
         "bumps of what light goes through: Mitsuba shows no light between the bumped surface and the smooth "
         "one");
@@ -53,8 +54,9 @@ MaterialParts parts_of(const Material& material, const std::vector<MaterialParts
     return both(part(sided->front), part(sided->back));
   if (const auto* mask = std::get_if<MaskMaterial>(&material.model))
     return both(part(mask->material), {.straight = true});
-  return {.straight = lets_straight(material, {}),
-          .spread_through = transmits(material, {}) && lobes_of(material, std::vector<Lobes>{}).spread,
+  const MaterialTraits traits = traits_of(material.model);
+  return {.straight = traits.straight,
+          .spread_through = traits.transmits && traits.lobes.spread,
           .height = material.displacement.has_value(),
           .bumps = material.displacement || material.normal_map};
 }
@@ -75,12 +77,12 @@ bool has_read_vertices(const Scene& scene, const TriangleMesh& mesh) {
   });
 }
 
-bool is_darkened(const Material& material, const std::vector<Lobes>& lobes,
+bool is_darkened(const Material& material, const std::vector<MaterialTraits>& traits,
                  const std::vector<MaterialParts>& parts) {
   const auto* blend = std::get_if<BlendMaterial>(&material.model);
   if (!blend) return false;
   const MaterialParts first = parts.at(blend->first.value), second = parts.at(blend->second.value);
-  return blends_mirror_with_spread(material, lobes) || (first.straight && second.spread_through) ||
+  return blends_mirror_with_spread(material, traits) || (first.straight && second.spread_through) ||
          (first.spread_through && second.straight);
 }
 

@@ -4,8 +4,8 @@
 
 #include <vector>
 
+#include "scene/records/material_traits.h"
 #include "scene/records/scene.h"
-#include "scene/records/transmission.h"
 
 namespace vitrail::mitsuba {
 
@@ -29,7 +29,7 @@ bool is_tinted(const PrincipledMaterial& material);
 
 // Whether Mitsuba 3.9 shows the blend too dark: it divides what goes into one direction, as by a mirror, by
 // the density of what the other part spreads there.
-bool is_darkened(const Material& blend, const std::vector<Lobes>& lobes,
+bool is_darkened(const Material& blend, const std::vector<MaterialTraits>& traits,
                  const std::vector<MaterialParts>& parts);
 
 // Whether one of the scene's textures reads values at the mesh's vertices. In an instance that is not where

@@ -4,6 +4,7 @@
 #include "glazing/sheet.h"
 #include "glazing/system_file.h"
 #include "importers/spectra/sheet_file.h"
+#include "scene/records/material_traits.h"
 #include "scene/records/uv_uses.h"
 #include "scene/spectra/spectrum.h"
 

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "scene/records/transmission.h"
+#include "scene/records/material_traits.h"
 
 namespace vitrail {
 
@@ -14,15 +14,13 @@ namespace {
 using Kind = AskedIntegrator::Kind;
 
 bool has_smooth(const Scene& scene) {
-  return std::ranges::any_of(lobes_of(scene.materials), [](const Lobes& l) { return l.smooth; });
+  return std::ranges::any_of(traits_of(scene.materials),
+                             [](const MaterialTraits& t) { return t.lobes.smooth; });
 }
 
 bool has_smooth_glass(const Scene& scene) {
-  const std::vector<Lobes> lobes = lobes_of(scene.materials);
-  const std::vector<bool> through = transmitting(scene.materials);
-  for (std::size_t i = 0; i < lobes.size(); ++i)
-    if (lobes[i].smooth && through[i]) return true;
-  return false;
+  return std::ranges::any_of(traits_of(scene.materials),
+                             [](const MaterialTraits& t) { return t.lobes.smooth && t.transmits; });
 }
 
 // Those that no ray meets.

@@ -115,6 +115,18 @@ std::optional<RGB> mean_of_attribute(const Scene& scene, const MeshAttributeText
   return RGB{sum.r * factor, sum.g * factor, sum.b * factor};
 }
 
+SheetColors colors_at_normal(const MeasuredSheet& sheet) {
+  const std::size_t cosines = sheet.cosines.size();
+  const auto at_normal = [&](const std::vector<float>& values) {
+    std::vector<SpectrumSample> samples;
+    for (std::size_t i = 0; i < sheet.wavelengths_nm.size(); ++i)
+      samples.push_back({static_cast<double>(sheet.wavelengths_nm[i]),
+                         static_cast<double>(values[(i + 1) * cosines - 1])});  // cosines ascend
+    return factor_rgb(tabulate(samples, true));
+  };
+  return {at_normal(sheet.reflectance), at_normal(sheet.transmittance)};
+}
+
 double diffuse_fresnel_outside(double eta) {
   if (!(eta > 0)) return 0;
   constexpr int steps = 1000;  // midpoint rule in μ = cos θ of 2∫F μ dμ

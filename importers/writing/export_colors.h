@@ -25,6 +25,12 @@ double dispersion_ratio(const Spectrum& eta);
 // counts as 0.5.
 RGB normal_reflectance_rgb(const Metal& metal);
 
+// What a measured sheet reflects and lets through at normal incidence.
+struct SheetColors {
+  RGB reflected, transmitted;
+};
+SheetColors colors_at_normal(const MeasuredSheet& sheet);
+
 // The mean of noise over space, by sampling: marble's at its defaults.
 RGB mean_of_noise(const NoiseTexture& noise);
 

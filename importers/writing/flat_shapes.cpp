@@ -30,34 +30,27 @@ std::vector<FlatShape> flat_shapes(const Scene& scene) {
   return flat;
 }
 
-void note_geometry_only(const Scene& scene, Diagnostics& diagnostics) {
-  const auto note = [&](Fidelity fidelity, std::string message, RecordKind kind, const Origin& origin) {
-    const SourceLocation where = location(scene, origin);
-    diagnostics.push_back({fidelity, std::move(message), where, where, kind});
-  };
+void note_geometry_only(ConversionNotes& notes) {
+  const Scene& scene = notes.scene;
   if (scene.camera_origin.line > 0)
-    note(Fidelity::dropped, "camera: the format has none", RecordKind::camera, scene.camera_origin);
+    notes.dropped("camera: the format has none", scene.camera_origin, RecordKind::camera);
   if (scene.film_origin.line > 0)
-    note(Fidelity::dropped, "film: the format has none", RecordKind::film, scene.film_origin);
+    notes.dropped("film: the format has none", scene.film_origin, RecordKind::film);
   for (const Light& light : scene.lights)
-    note(Fidelity::dropped, "light: the format has surfaces only", RecordKind::light, light.origin);
+    notes.dropped("light: the format has surfaces only", light.origin, RecordKind::light);
   for (const Medium& medium : scene.media)
-    note(Fidelity::dropped, fmt::format("medium {}: the format has surfaces only", medium.name),
-         RecordKind::medium, medium.origin);
+    notes.dropped(fmt::format("medium {}: the format has surfaces only", medium.name), medium.origin,
+                  RecordKind::medium);
   if (!scene.instances.empty())
-    note(Fidelity::approximated,
-         fmt::format("{} instances: each is written with triangles of its own", scene.instances.size()),
-         RecordKind::instance, scene.instances.front().origin);
+    notes.approximated(
+        fmt::format("{} instances: each is written with triangles of its own", scene.instances.size()),
+        scene.instances.front().origin, RecordKind::instance);
 }
 
-void note_quadrics(const Scene& scene, const std::vector<FlatShape>& shapes, Diagnostics& diagnostics) {
-  std::unordered_set<const Shape*> noted;
-  for (const FlatShape& flat : shapes) {
-    const std::optional<Quadric>& quadric = scene.meshes.at(flat.shape.mesh.value).quadric;
-    if (!quadric || !noted.insert(&flat.shape).second) continue;
-    const SourceLocation where = location(scene, flat.shape.origin);
-    diagnostics.push_back({Fidelity::approximated, as_triangles(*quadric), where, where, RecordKind::shape});
-  }
+void note_quadrics(const std::vector<FlatShape>& shapes, ConversionNotes& notes) {
+  for (const FlatShape& flat : shapes)
+    if (const std::optional<Quadric>& quadric = notes.scene.meshes.at(flat.shape.mesh.value).quadric)
+      notes.approximated(as_triangles(*quadric), flat.shape.origin, RecordKind::shape);
 }
 
 }  // namespace vitrail

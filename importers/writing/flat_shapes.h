@@ -4,7 +4,7 @@
 #include <functional>
 #include <vector>
 
-#include "scene/records/scene.h"
+#include "importers/writing/conversion_notes.h"
 
 namespace vitrail {
 
@@ -21,9 +21,9 @@ std::vector<FlatShape> flat_shapes(const Scene& scene);
 
 // What formats of bare geometry lose: the camera (if the file gave one), lights, media, and that instances
 // share their shapes.
-void note_geometry_only(const Scene& scene, Diagnostics& diagnostics);
+void note_geometry_only(ConversionNotes& notes);
 
 // That quadrics are written as triangles, each shape once.
-void note_quadrics(const Scene& scene, const std::vector<FlatShape>& shapes, Diagnostics& diagnostics);
+void note_quadrics(const std::vector<FlatShape>& shapes, ConversionNotes& notes);
 
 }  // namespace vitrail

@@ -11,6 +11,7 @@
 #include "partitioner/placing/wedged_panes.h"
 #include "scene/daylight/sky_model.h"
 #include "scene/records/kinds.h"
+#include "scene/records/material_traits.h"
 
 namespace vitrail {
 
@@ -63,7 +64,7 @@ Used used_in(const Scene& scene) {
   // Materials refer to smaller ids alone.
   for (std::size_t i = scene.materials.size(); i-- > 0;)
     if (used.materials[i])
-      for (const Id<Material> part : parts_of(scene.materials[i])) used.materials.at(part.value) = true;
+      for (const Id<Material> part : parts_of(scene.materials[i].model)) used.materials.at(part.value) = true;
   return used;
 }
 
@@ -107,7 +108,7 @@ void bake_materials(const Scene& scene, const Used& used, TextureBaker& textures
       result.media.push_back(std::move(*baked.interior));
     }
     result.materials.push_back(std::move(baked.material));
-    for (const Id<Material> part : parts_of(material)) {
+    for (const Id<Material> part : parts_of(material.model)) {
       const auto* dielectric = std::get_if<DielectricMaterial>(&scene.materials[part.value].model);
       if (dielectric && dielectric->priority != 0)
         report.approximated("the priority of a dielectric that is part of another material is not looked at",

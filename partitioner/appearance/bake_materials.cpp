@@ -197,11 +197,4 @@ BakedMaterial bake_material(const Material& material, const std::vector<std::int
   return result;
 }
 
-std::vector<Id<Material>> parts_of(const Material& material) {
-  if (const auto* blend = std::get_if<BlendMaterial>(&material.model)) return {blend->first, blend->second};
-  if (const auto* mask = std::get_if<MaskMaterial>(&material.model)) return {mask->material};
-  if (const auto* sided = std::get_if<TwoSidedMaterial>(&material.model)) return {sided->front, sided->back};
-  return {};
-}
-
 }  // namespace vitrail

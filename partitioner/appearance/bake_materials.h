@@ -35,7 +35,4 @@ class TableBaker {
 BakedMaterial bake_material(const Material& material, const std::vector<std::int32_t>& ids,
                             TextureBaker& textures, TableBaker& tables);
 
-// The materials that it refers to.
-std::vector<Id<Material>> parts_of(const Material& material);
-
 }  // namespace vitrail

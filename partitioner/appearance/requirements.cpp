@@ -2,6 +2,7 @@
 #include "partitioner/appearance/requirements.h"
 
 #include "bundle/record_fields.h"
+#include "scene/records/material_traits.h"
 
 namespace vitrail {
 
@@ -46,17 +47,16 @@ struct TextureNeeds {
   void operator()(const BilinearTexture& t) { mapping(t.mapping); }
   void operator()(const DotsTexture& t) { mapping(t.mapping); }
   void operator()(const UvTexture& t) { mapping(t.mapping); }
-  void operator()(const auto&) {}
+  void operator()(const ProductTexture&) {}
+  void operator()(const MixTexture&) {}
+  void operator()(const DirectionMixTexture&) {}
+  void operator()(const NoiseTexture&) {}
+  void operator()(const PtexTexture&) {}
+  void operator()(const MeshAttributeTexture&) {}
 
  private:
   void mapping(const TextureMapping& m) { r.uv |= std::holds_alternative<UvMapping>(m); }
 };
-
-bool is_isotropic(const Roughness& r) { return r.alpha_u == r.alpha_v; }
-bool is_smooth(const Roughness& r) {
-  return r.alpha_u == FloatParameter{0.0f} && r.alpha_v == FloatParameter{0.0f};
-}
-bool is_zero(const FloatParameter& p) { return p == FloatParameter{0.0f}; }
 
 }  // namespace
 
@@ -71,35 +71,19 @@ bool is_distant(const Light& light) {
 
 namespace {
 
-struct MaterialNeeds {
-  Requirements& r;
-  const std::vector<ScatteringTable>& tables;
-  void operator()(const DielectricMaterial& m) {
-    r.uv |= !is_isotropic(m.roughness);
-    r.refraction |= is_smooth(m.roughness);
-    r.dispersion |= !is_constant(m.eta) || !is_constant(m.exterior_eta);
-    r.see_through |= m.priority != 0;
-  }
-  void operator()(const ConductorMaterial& m) { r.uv |= !is_isotropic(m.roughness); }
-  void operator()(const CoatedDiffuseMaterial& m) { r.uv |= !is_isotropic(m.roughness); }
-  void operator()(const CoatedConductorMaterial& m) {
-    r.uv |= !is_isotropic(m.conductor_roughness) || !is_isotropic(m.interface_roughness);
-  }
-  void operator()(const PrincipledMaterial& m) { r.uv |= !is_zero(m.anisotropic); }
-  void operator()(const HairMaterial&) {
-    r.uv = r.see_through = true;
-  }  // runs along u or v; open from within
-  void operator()(const ThinDielectricMaterial&) { r.see_through = true; }
-  void operator()(const MeasuredMaterial&) { r.see_through = true; }
-  void operator()(const SlabMaterial&) { r.see_through = true; }
-  void operator()(const TabulatedMaterial& m) {
-    const auto* table = std::get_if<AdaptiveTable>(&tables.at(m.table.value));
-    r.uv |= table && !is_isotropic(*table);
-  }
-  void operator()(const InterfaceMaterial&) { r.see_through = true; }
-  void operator()(const MaskMaterial& m) { r.see_through |= m.opacity != FloatParameter{1.0f}; }
-  void operator()(const auto&) {}
-};
+void add_needs(Requirements& r, const Material& material, const std::vector<ScatteringTable>& tables) {
+  const MaterialTraits traits = traits_of(material.model);
+  const auto* glass = std::get_if<DielectricMaterial>(&material.model);
+  const auto* mask = std::get_if<MaskMaterial>(&material.model);
+  const auto* tabulated = std::get_if<TabulatedMaterial>(&material.model);
+  const auto* table = tabulated ? std::get_if<AdaptiveTable>(&tables.at(tabulated->table.value)) : nullptr;
+  r.uv |= (traits.along_surface && !(table && is_isotropic(*table))) || material.displacement ||
+          material.normal_map;
+  r.refraction |= is_smooth_glass(material);
+  r.dispersion |= glass && traits.disperses;
+  const bool is_full_mask = mask && mask->opacity == FloatParameter{1.0f};
+  r.see_through |= (traits.straight && !is_full_mask) || traits.fibre || (glass && glass->priority != 0);
+}
 
 }  // namespace
 
@@ -111,10 +95,7 @@ Requirements requirements_of(const Manifest& m, bool has_normals) {
   const std::vector<bool> used = textures_on_surfaces(m);
   for (std::size_t i = 0; i < used.size(); ++i)
     if (used[i]) std::visit(TextureNeeds{r}, m.textures[i].model);
-  for (const Material& material : m.materials) {
-    std::visit(MaterialNeeds{r, m.tables}, material.model);
-    r.uv |= material.displacement || material.normal_map;
-  }
+  for (const Material& material : m.materials) add_needs(r, material, m.tables);
   for (const Surface& surface : m.surfaces) r.see_through |= surface.opacity != FloatParameter{1.0f};
   return r;
 }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "scene/records/material_traits.h"
 #include "scene/records/texture_inputs.h"
 #include "scene/records/uv_uses.h"
 

@@ -5,22 +5,18 @@
 #include <span>
 #include <variant>
 
-#include "scene/records/texture.h"
+#include "scene/records/fields.h"
 
 namespace vitrail {
 
 // Calls f(parameter) for the inputs of a texture.
 template <class F>
 void for_inputs(const TextureModel& model, F&& f) {
-  std::visit(
-      [&](const auto& m) {
-        if constexpr (requires { m.even; }) f(m.even), f(m.odd);
-        if constexpr (requires { m.first; }) f(m.first), f(m.second);
-        if constexpr (requires { m.amount; }) f(m.amount);
-        if constexpr (requires { m.inside; }) f(m.inside), f(m.outside);
-        if constexpr (requires { m.v00; }) f(m.v00), f(m.v01), f(m.v10), f(m.v11);
-      },
-      model);
+  const auto pass_on = [&]<class Field>(const Field& field) {
+    if constexpr (IsOneOf<Field, FloatParameter, SpectrumParameter>) f(field);
+  };
+  std::visit([&](const auto& m) { visit_fields(m, [&](const auto&... field) { (pass_on(field), ...); }); },
+             model);
 }
 
 // Calls f(id) for those that are textures.

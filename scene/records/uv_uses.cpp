@@ -3,94 +3,39 @@
 
 #include <algorithm>
 
+#include "scene/records/fields.h"
+#include "scene/records/material_traits.h"
+
 namespace vitrail {
 
 namespace {
 
-// Visits the parameters of a record, and asks of each whether (u,v) show in it.
+// Visits the fields of a record, and asks of each whether (u,v) show in it.
 struct Search {
   UvUses& uses;
   bool found = false;
 
-  void any(const auto&... fields) { (one(fields), ...); }
-
-  void one(const FloatParameter& p) { found = found || uses.of(p); }
-  void one(const SpectrumParameter& p) { found = found || uses.of(p); }
+  void in(const FloatParameter& p) { found = found || uses.of(p); }
+  void in(const SpectrumParameter& p) { found = found || uses.of(p); }
+  void in(const UvMapping&) { found = true; }
+  void in(const PtexTexture&) { found = true; }
+  void in(const CheckerboardTexture& t) {
+    if (!t.solid) in(t.mapping);
+    in(t.even), in(t.odd);
+  }
   template <class T>
-  void one(const std::optional<T>& p) {
-    if (p) one(*p);
+  void in(const std::optional<T>& field) {
+    if (field) in(*field);
   }
-  void one(const Roughness& r) {
-    found = found || r.alpha_u != r.alpha_v;
-    any(r.alpha_u, r.alpha_v);
+  template <class... T>
+  void in(const std::variant<T...>& field) {
+    std::visit([this](const auto& alternative) { in(alternative); }, field);
   }
-  void one(const CoatingVolume& v) { any(v.thickness, v.g, v.albedo); }
-  void one(const Metal& metal) {
-    if (const auto* index = std::get_if<ComplexIndex>(&metal)) any(index->eta, index->k);
-    if (const auto* normal = std::get_if<NormalReflectance>(&metal)) one(normal->reflectance);
+  template <HasFields Record>
+  void in(const Record& record) {
+    visit_fields(record, [this](const auto&... fields) { (in(fields), ...); });
   }
-  void one(const TextureMapping& m) { found = found || std::holds_alternative<UvMapping>(m); }
-
-  void operator()(const DiffuseMaterial& m) { any(m.reflectance, m.sigma_deg); }
-  void operator()(const DielectricMaterial& m) {
-    any(m.roughness, m.reflectance_factor, m.transmittance_factor);
-  }
-  void operator()(const ThinDielectricMaterial& m) { any(m.reflectance_factor, m.transmittance_factor); }
-  void operator()(const ConductorMaterial& m) { any(m.metal, m.roughness, m.reflectance_factor); }
-  void operator()(const PlasticMaterial& m) {
-    any(m.diffuse_reflectance, m.specular_reflectance, m.roughness);
-  }
-  void operator()(const CoatedDiffuseMaterial& m) { any(m.reflectance, m.roughness, m.volume); }
-  void operator()(const CoatedConductorMaterial& m) {
-    any(m.metal, m.conductor_roughness, m.interface_roughness, m.volume);
-  }
-  void operator()(const DiffuseTransmissionMaterial& m) { any(m.reflectance, m.transmittance); }
-  void operator()(const PrincipledMaterial& m) {
-    found = found || m.anisotropic != FloatParameter{0.0f};
-    any(m.base_color, m.roughness, m.metallic, m.spec_trans, m.spec_tint, m.sheen, m.sheen_tint, m.flatness,
-        m.clearcoat, m.clearcoat_gloss, m.diff_trans);
-  }
-  void operator()(const SubsurfaceMaterial& m) {
-    one(m.roughness);
-    if (const auto* c = std::get_if<SubsurfaceMaterial::Coefficients>(&m.interior))
-      any(c->sigma_a, c->sigma_s);
-    if (const auto* e = std::get_if<SubsurfaceMaterial::Effective>(&m.interior))
-      any(e->reflectance, e->mean_free_path);
-  }
-  void operator()(const HairMaterial& m) {
-    found = found || !uses.on_curves;  // runs along u or v
-    any(m.sigma_a, m.color, m.eumelanin, m.pheomelanin, m.beta_m, m.beta_n, m.alpha_deg);
-  }
-  void operator()(const MeasuredMaterial&) {}
-  void operator()(const TabulatedMaterial& m) {
-    found = found || m.format == TabulatedMaterial::Format::adaptive;  // may be anisotropic
-  }
-  void operator()(const SlabMaterial& m) { any(m.sigma_a, m.sigma_s); }
-  void operator()(const InterfaceMaterial&) {}
-  void operator()(const BlendMaterial& m) { one(m.amount); }
-  void operator()(const MaskMaterial& m) { one(m.opacity); }
-  void operator()(const TwoSidedMaterial&) {}
-
-  void operator()(const ImageTexture& t) { one(t.mapping); }
-  void operator()(const CheckerboardTexture& t) {
-    if (!t.solid) one(t.mapping);
-    any(t.even, t.odd);
-  }
-  void operator()(const ProductTexture& t) { any(t.first, t.second); }
-  void operator()(const MixTexture& t) { any(t.first, t.second, t.amount); }
-  void operator()(const DirectionMixTexture& t) { any(t.first, t.second); }
-  void operator()(const BilinearTexture& t) {
-    one(t.mapping);
-    any(t.v00, t.v01, t.v10, t.v11);
-  }
-  void operator()(const DotsTexture& t) {
-    one(t.mapping);
-    any(t.inside, t.outside);
-  }
-  void operator()(const NoiseTexture&) {}
-  void operator()(const PtexTexture&) { found = true; }
-  void operator()(const MeshAttributeTexture&) {}
-  void operator()(const UvTexture& t) { one(t.mapping); }
+  void in(const auto&) {}  // a number or a name
 };
 
 }  // namespace
@@ -98,7 +43,7 @@ struct Search {
 bool UvUses::of(Id<Texture> texture) {
   while (known_.size() <= texture.value) {
     Search search{*this};
-    std::visit(search, static_cast<const TextureVariant&>(textures_.at(known_.size()).model));
+    search.in(static_cast<const TextureVariant&>(textures_.at(known_.size()).model));
     known_.push_back(search.found);
   }
   return known_[texture.value];
@@ -116,16 +61,12 @@ bool UvUses::of(const SpectrumParameter& parameter) {
 
 bool UvUses::of(const Material& material) {
   if (material.normal_map || (material.displacement && of(*material.displacement))) return true;
+  const MaterialTraits traits = traits_of(material.model);
+  const bool knows_where_it_runs = traits.fibre && on_curves;
+  if (traits.along_surface && !knows_where_it_runs) return true;
   Search search{*this};
-  std::visit(search, static_cast<const MaterialVariant&>(material.model));
+  search.in(static_cast<const MaterialVariant&>(material.model));
   return search.found;
-}
-
-std::vector<Id<Material>> parts_of(const MaterialModel& model) {
-  if (const auto* m = std::get_if<BlendMaterial>(&model)) return {m->first, m->second};
-  if (const auto* m = std::get_if<MaskMaterial>(&model)) return {m->material};
-  if (const auto* m = std::get_if<TwoSidedMaterial>(&model)) return {m->front, m->back};
-  return {};
 }
 
 std::vector<bool> with_hair(const std::vector<Material>& materials, bool also_along_v) {

@@ -28,8 +28,6 @@ class UvUses {
   std::vector<bool> known_;  // of the first textures
 };
 
-// The materials that a material refers to.
-std::vector<Id<Material>> parts_of(const MaterialModel& model);
 // Of each material, whether it or a part of it is hair, which also may run along v.
 std::vector<bool> with_hair(const std::vector<Material>& materials, bool also_along_v);
 

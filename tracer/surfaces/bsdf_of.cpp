@@ -20,18 +20,6 @@ SampledSpectrum ratio(const SampledSpectrum& a, const SampledSpectrum& b) {
 
 }  // namespace
 
-bool transmits(const MaterialModel& model) {
-  if (const auto* principled = std::get_if<PrincipledMaterial>(&model))
-    return principled->thin || principled->spec_trans != FloatParameter{0.0f};
-  if (const auto* tabulated = std::get_if<TabulatedMaterial>(&model))
-    return tabulated->format == TabulatedMaterial::Format::fourier;
-  return std::holds_alternative<DielectricMaterial>(model) ||
-         std::holds_alternative<ThinDielectricMaterial>(model) ||
-         std::holds_alternative<DiffuseTransmissionMaterial>(model) ||
-         std::holds_alternative<HairMaterial>(model) || std::holds_alternative<MeasuredMaterial>(model) ||
-         std::holds_alternative<SlabMaterial>(model);
-}
-
 LoadedTable loaded_table(const ScatteringTable& table) {
   if (const auto* fourier = std::get_if<FourierTable>(&table))
     return LoadedFourier{fourier, integrals_of(*fourier)};

@@ -10,9 +10,6 @@
 
 namespace vitrail {
 
-// Whether light gets to the other side, so that the model knows which one it is asked from.
-bool transmits(const MaterialModel& model);
-
 bool has_tint(const PrincipledMaterial& m);
 
 // A table of the bundle and what is made of it when it is loaded.
@@ -53,8 +50,12 @@ struct BsdfMaker {
   }
   Bsdf operator()(const TabulatedMaterial& m) const;
   Bsdf operator()(const SlabMaterial& m) const { return slab(m); }
-  // Those that are made of others, and those that bundles do not have: black.
-  Bsdf operator()(const auto&) const { return LambertBsdf{}; }
+  // Never asked: parts are chosen, nothing is gone through, and bundles have no subsurface materials.
+  Bsdf operator()(const BlendMaterial&) const { return LambertBsdf{}; }
+  Bsdf operator()(const MaskMaterial&) const { return LambertBsdf{}; }
+  Bsdf operator()(const TwoSidedMaterial&) const { return LambertBsdf{}; }
+  Bsdf operator()(const InterfaceMaterial&) const { return LambertBsdf{}; }
+  Bsdf operator()(const SubsurfaceMaterial&) const { return LambertBsdf{}; }
 
   ThinDielectricBsdf thin(const ThinDielectricMaterial& m) const;
   SlabBsdf slab(const SlabMaterial& m) const;

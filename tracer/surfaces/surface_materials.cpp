@@ -4,6 +4,7 @@
 #include <map>
 
 #include "scene/geometry/portable_math.h"
+#include "scene/records/material_traits.h"
 #include "tracer/bsdf/fresnel.h"
 #include "tracer/bsdf/local.h"
 #include "tracer/sampling/wavelengths.h"
@@ -13,48 +14,10 @@ namespace vitrail {
 
 namespace {
 
-bool is_zero(const FloatParameter& p) { return p == FloatParameter{0.0f}; }
-
-MaterialKind kind_of(const Material& material) {
-  MaterialKind kind;
-  kind.is_interface = std::holds_alternative<InterfaceMaterial>(material.model);
-  if (const auto* d = std::get_if<DielectricMaterial>(&material.model)) {
-    kind.smooth_dielectric = is_zero(d->roughness.alpha_u) && is_zero(d->roughness.alpha_v);
-    kind.dispersive = !is_constant(d->eta) || !is_constant(d->exterior_eta);
-  }
-  if (const auto* coated = std::get_if<CoatedDiffuseMaterial>(&material.model))
-    kind.dispersive = !is_constant(coated->eta);
-  if (const auto* coated = std::get_if<CoatedConductorMaterial>(&material.model))
-    kind.dispersive = !is_constant(coated->interface_eta);
-  return kind;
-}
-
 // Of a fibre there is nothing from behind.
 bool is_nothing(const Material& m, bool front) {
   return std::holds_alternative<InterfaceMaterial>(m.model) ||
          (std::holds_alternative<HairMaterial>(m.model) && !front);
-}
-
-// Hair, and what is made of nothing but hair. `kinds` are those of the parts at least.
-bool is_fibre(const std::vector<MaterialKind>& kinds, const Material& material) {
-  const auto part = [&](Id<Material> id) { return kinds[id.value].is_fibre; };
-  if (const auto* blend = std::get_if<BlendMaterial>(&material.model))
-    return part(blend->first) && part(blend->second);
-  if (const auto* mask = std::get_if<MaskMaterial>(&material.model)) return part(mask->material);
-  return std::holds_alternative<HairMaterial>(material.model);
-}
-
-bool has_diffuse_part(const std::vector<MaterialKind>& kinds, const Material& material) {
-  const auto part = [&](Id<Material> id) { return kinds[id.value].diffuse; };
-  if (const auto* sided = std::get_if<TwoSidedMaterial>(&material.model))
-    return part(sided->front) || part(sided->back);
-  if (const auto* blend = std::get_if<BlendMaterial>(&material.model))
-    return part(blend->first) || part(blend->second);
-  if (const auto* mask = std::get_if<MaskMaterial>(&material.model)) return part(mask->material);
-  if (const auto* plastic = std::get_if<PlasticMaterial>(&material.model))
-    return plastic->roughness.alpha_u == FloatParameter{0.0f};
-  return std::holds_alternative<DiffuseMaterial>(material.model) ||
-         std::holds_alternative<DiffuseTransmissionMaterial>(material.model);
 }
 
 // What a material, or a part of it, does with light on the way of a connection.
@@ -68,19 +31,13 @@ Straight straight_of(const std::vector<Straight>& others, const Material& materi
     const Straight front = part(sided->front), back = part(sided->back);
     return {front.passes && back.passes, front.mirrors && back.mirrors};
   }
-  if (const auto* blend = std::get_if<BlendMaterial>(&material.model)) {
-    const Straight first = part(blend->first), second = part(blend->second);
-    return {first.passes || second.passes, first.mirrors || second.mirrors};
+  const MaterialTraits traits = traits_of(material.model);
+  Straight straight{traits.straight, traits.mirrors};
+  for (const Id<Material> id : parts_of(material.model)) {
+    straight.passes = straight.passes || part(id).passes;
+    straight.mirrors = straight.mirrors || part(id).mirrors;
   }
-  if (const auto* mask = std::get_if<MaskMaterial>(&material.model))
-    return {true, part(mask->material).mirrors};
-  if (const auto* metal = std::get_if<ConductorMaterial>(&material.model))
-    return {false, is_zero(metal->roughness.alpha_u) && is_zero(metal->roughness.alpha_v)};
-  const bool sheet = std::holds_alternative<MeasuredMaterial>(material.model) ||
-                     std::holds_alternative<ThinDielectricMaterial>(material.model);
-  return {sheet || std::holds_alternative<SlabMaterial>(material.model) ||
-              std::holds_alternative<InterfaceMaterial>(material.model),
-          sheet};
+  return straight;
 }
 
 // n + ∇h: the normal of a surface that is raised by a height h(u,v) along n (Blinn 1978).
@@ -138,14 +95,19 @@ Materials::Materials(const Manifest& manifest, const Textures& textures)
       plastic_table_(manifest.materials.size()),
       luminance_(manifest.materials.size(), 1) {
   for (const ScatteringTable& table : manifest.tables) tables_.push_back(loaded_table(table));
+  const std::vector<MaterialTraits> traits = traits_of(manifest.materials);
   std::vector<Straight> straights;
   std::map<std::tuple<float, float, Roughness::Distribution, Masking>, std::uint32_t> known;
   for (std::size_t i = 0; i < manifest.materials.size(); ++i) {
-    MaterialKind kind = kind_of(manifest.materials[i]);
-    kind.is_fibre = is_fibre(kinds_, manifest.materials[i]);
-    kind.diffuse = has_diffuse_part(kinds_, manifest.materials[i]);
+    const auto* glass = std::get_if<DielectricMaterial>(&manifest.materials[i].model);
     straights.push_back(straight_of(straights, manifest.materials[i]));
-    kind.sheet = straights.back().passes && straights.back().mirrors;
+    const MaterialKind kind{.is_interface = traits[i].nothing,
+                            .is_fibre = traits[i].fibre,
+                            .transmits = traits[i].transmits,
+                            .smooth_dielectric = glass && is_smooth(glass->roughness),
+                            .dispersive = traits_of(manifest.materials[i].model).disperses,
+                            .diffuse = traits[i].gathers,
+                            .sheet = straights.back().passes && straights.back().mirrors};
     have_panes_ = have_panes_ || kind.sheet || kind.smooth_dielectric;
     kinds_.push_back(kind);
     if (const auto* principled = std::get_if<PrincipledMaterial>(&manifest.materials[i].model))
@@ -256,13 +218,13 @@ Vector3d Materials::shading_normal(const Material& material, const Interaction& 
 }
 
 bool Materials::scatters(const Material& material, const Interaction& at) const {
-  return at.front || material.two_sided || transmits(material.model);
+  return at.front || material.two_sided || kind(index_of(material)).transmits;
 }
 
 Scattering Materials::scattering_at(const Material& material, const Interaction& at,
                                     const SampledWavelengths& wavelengths, const SampledSpectrum& throughput,
                                     std::uint64_t event) const {
-  const bool both_sides = transmits(material.model);
+  const bool both_sides = kind(index_of(material)).transmits;
   const Vector3d normal = shading_normal(material, at);
   const BsdfMaker maker{
       textures_,

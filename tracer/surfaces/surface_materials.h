@@ -17,6 +17,7 @@ namespace vitrail {
 struct MaterialKind {
   bool is_interface = false;       // nothing is there
   bool is_fibre = false;           // nothing is there from behind
+  bool transmits = false;          // light gets to the other side: asked from either
   bool smooth_dielectric = false;  // bends light as it is: of panes and connections through them
   bool dispersive = false;         // its index depends on λ
   bool diffuse = false;            // it, or a part of it, may be one that gathers photons

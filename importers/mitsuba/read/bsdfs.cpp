@@ -14,7 +14,7 @@
 #include "importers/reading/glazing_material.h"
 #include "importers/spectra/greatest_value.h"
 #include "importers/spectra/sheet_file.h"
-#include "scene/records/transmission.h"
+#include "scene/records/material_traits.h"
 #include "scene/spectra/named_spectra.h"
 
 namespace vitrail::mitsuba {
@@ -268,7 +268,7 @@ MaterialModel mask(Builder& b, const Object& o) {
 MaterialModel blend(Builder& b, const Object& o) {
   const std::vector<Id<Material>> both = nested(b, o, 2, 2);
   BlendMaterial blend{both[0], both[1], float_parameter(b, o, "weight", 0.5)};
-  if (is_darkened({blend}, b.lobes, b.parts))
+  if (is_darkened({blend}, b.traits, b.parts))
     b.report.approximated(
         "a blend of a mirror, a smooth interface or nothing with what spreads light to the same side is "
         "their "
@@ -563,7 +563,7 @@ Material make_material(Builder& b, const Object& o) {
     const auto kind =
         std::find_if(kinds.begin(), kinds.end(), [&](const Kind& k) { return k.name == o.type; });
     material = kind == kinds.end() ? unknown(b, o) : Material{kind->make(b, o)};
-    material.two_sided = transmits(material, b.transmitting);
+    material.two_sided = traits_of(material, b.traits).transmits;
   }
   report_unused(o, b.report,
                 {"reflectance", "diffuse_reflectance", "specular_reflectance", "alpha", "int_ior", "ext_ior",
@@ -575,10 +575,8 @@ Material make_material(Builder& b, const Object& o) {
 }  // namespace
 
 Id<Material> append(Builder& b, Material material) {
-  const bool through = transmits(material, b.transmitting);
-  b.transmitting.push_back(through);
-  b.sided.push_back(has_sides(material, through, b.sided));
-  b.lobes.push_back(lobes_of(material, b.lobes));
+  b.traits.push_back(traits_of(material, b.traits));
+  b.sided.push_back(has_sides(material, b.traits.back(), b.sided));
   b.parts.push_back(parts_of(material, b.parts));
   b.scene.materials.push_back(std::move(material));
   return {static_cast<std::uint32_t>(b.scene.materials.size() - 1)};

@@ -11,8 +11,8 @@
 #include "importers/mitsuba/material_parts.h"
 #include "importers/mitsuba/read/object.h"
 #include "importers/reading/integrator.h"
+#include "scene/records/material_traits.h"
 #include "scene/records/scene.h"
-#include "scene/records/transmission.h"
 #include "scene/shapes/deferred_mesh.h"
 
 namespace vitrail::mitsuba {
@@ -25,9 +25,9 @@ struct Builder {
   Scene& scene;
   Report& report;
   std::map<const Object*, Id<Material>> materials;
-  // One for each of the scene's materials (scene/records/transmission.h).
-  std::vector<bool> transmitting, sided;
-  std::vector<Lobes> lobes;
+  // One for each of the scene's materials (scene/records/material_traits.h).
+  std::vector<MaterialTraits> traits;
+  std::vector<bool> sided;
   std::vector<MaterialParts> parts;
   std::vector<Origin> bumps_of_straight;  // adapters around what lets light straight through
   std::map<const Object*, Id<Medium>> media;

@@ -292,8 +292,7 @@ void write_integrator(Context& context, Element root) {
   // A depth is meant for what scatters at surfaces, not in their interiors.
   const int depth = context.interiors.empty() ? scene.settings.max_depth : unlimited_depth;
   if (volpath && scene.settings.straight_counts && depth < unlimited_depth &&
-      std::ranges::any_of(scene.materials,
-                          [&](const Material& m) { return is_passed_straight(m, scene.materials); })) {
+      std::ranges::any_of(context.traits, &MaterialTraits::counts)) {
     context.origin = scene.camera_origin;
     context.approximated(
         "the depth: Mitsuba's volumetric path tracer does not count going straight through sheets and masks");

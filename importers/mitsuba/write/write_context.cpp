@@ -12,11 +12,6 @@ TextureRoles::TextureRoles(const Scene& scene)
   }
 }
 
-void Context::report(Fidelity fidelity, std::string message) {
-  const SourceLocation place = location(scene, origin);
-  diagnostics.push_back({fidelity, std::move(message), place, place, record});
-}
-
 std::string Context::new_id(const std::string& name, const char* kind, std::size_t index) {
   const bool substitutable = name.find('$') != std::string::npos;  // Mitsuba would look for a parameter
   std::string id = name.empty() || substitutable ? fmt::format("_unnamed_{}_{}", kind, index) : name;

@@ -15,12 +15,13 @@
 
 #include "importers/images/converted_images.h"
 #include "importers/mitsuba/material_parts.h"
+#include "importers/writing/conversion_notes.h"
 #include "importers/writing/exposed_lights.h"
 #include "importers/writing/mesh_files.h"
 #include "importers/writing/opacity_key.h"
 #include "importers/writing/unique_names.h"
+#include "scene/records/material_traits.h"
 #include "scene/records/scene.h"
-#include "scene/records/transmission.h"
 #include "scene/records/uv_uses.h"
 #include "scene/spectra/color.h"
 
@@ -42,41 +43,33 @@ struct TextureRoles {
   std::vector<bool> height, normal_map;
 };
 
-struct Context {
+struct Context : ConversionNotes {
   Context(const Scene& scene_to_write, const std::filesystem::path& out)
-      : scene(scene_to_write),
+      : ConversionNotes(scene_to_write),
         file(out),
         exposed(scene_to_write),
         meshes(scene_to_write, out),
         side_files(out),
         roles(scene_to_write),
-        transmitting(vitrail::transmitting(scene_to_write.materials)),
         sided(with_sides(scene_to_write.materials)),
-        lobes(lobes_of(scene_to_write.materials)),
+        traits(traits_of(scene_to_write.materials)),
         parts(mitsuba::parts_of(scene_to_write.materials)),
         uvs_show(meshes_whose_uvs_show(scene_to_write)),
         uv_uses(scene_to_write),
         uv_uses_of_curves(scene_to_write, true),
         hair_along_u(with_hair(scene_to_write.materials, false)) {}
 
-  const Scene& scene;
   std::filesystem::path file;  // of the scene
   ExposedLights exposed;
   MeshFiles meshes;
   SideFiles side_files;
   TextureRoles roles;
-  std::vector<bool> transmitting;  // Mitsuba allows no `twosided` around such materials
-  std::vector<bool> sided;         // with_sides
-  std::vector<Lobes> lobes;
+  std::vector<bool> sided;  // with_sides
+  std::vector<MaterialTraits> traits;
   std::vector<mitsuba::MaterialParts> parts;
   std::vector<bool> uvs_show;  // of each mesh
   ShapeUvUses uv_uses, uv_uses_of_curves;
   std::vector<bool> hair_along_u;  // with_hair
-  Diagnostics diagnostics;
-  // Of the record that is being written.
-  Origin origin;
-  RecordKind record = RecordKind::any;
-  void begin(RecordKind of, const Origin& from) { record = of, origin = from; }
 
   UniqueNames ids;  // Mitsuba has one name space for everything
   std::vector<std::string> material_ids, medium_ids, prototype_ids;
@@ -89,18 +82,12 @@ struct Context {
   std::size_t curve_files = 0, derived_meshes = 0, derived_images = 0, derived_volumes = 0;
   ConvertedImages images{[this] { return file.parent_path() / new_file("images", "exr", derived_images); }};
 
-  void approximated(std::string message) { report(Fidelity::approximated, std::move(message)); }
-  void dropped(std::string message) { report(Fidelity::dropped, std::move(message)); }
-
   // An id for a record called `name`; a record without a name gets one that starts with "_unnamed_".
   std::string new_id(const std::string& name, const char* kind, std::size_t index);
   // A file as the scene refers to it.
   std::string relative(const std::string& other);
   // The path of a new file in OUT-`kind`/, which is created; relative to the scene's.
   std::string new_file(const char* kind, const char* extension, std::size_t& counter) const;
-
- private:
-  void report(Fidelity fidelity, std::string message);
 };
 
 using Element = pugi::xml_node;

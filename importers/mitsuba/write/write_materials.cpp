@@ -13,7 +13,7 @@ namespace {
 // that are made of others have theirs.
 bool wants_two_sided(const Context& context, std::size_t index) {
   const Material& material = context.scene.materials[index];
-  return material.two_sided && !is_made_of_others(material) && !context.transmitting[index];
+  return material.two_sided && !is_made_of_others(material) && !context.traits[index].transmits;
 }
 
 // A height that is a texture times a number goes into the map's own scale.
@@ -57,7 +57,7 @@ void write_material(Context& context, Element parent, std::size_t index, std::st
     parent = add(parent, "bsdf", type, "", id);
     id.clear();
   };
-  if (mitsuba::is_darkened(material, context.lobes, context.parts))
+  if (mitsuba::is_darkened(material, context.traits, context.parts))
     context.approximated(
         "a blend of a mirror, a smooth interface or nothing with what spreads light to the same side: "
         "Mitsuba 3.9 "

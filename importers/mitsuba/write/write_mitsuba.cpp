@@ -51,7 +51,7 @@ Diagnostics write_mitsuba(const Scene& scene, const std::filesystem::path& out) 
   AtomicFile file(out);
   file.write(std::as_bytes(std::span(writer.text)));
   file.commit();
-  return std::move(context.diagnostics);
+  return context.take();
 }
 
 }  // namespace vitrail

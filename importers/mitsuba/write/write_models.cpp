@@ -302,7 +302,7 @@ void write(Context& context, Element parent, ElementId id, const MaskMaterial& m
 }
 
 void write(Context& context, Element parent, ElementId id, const TwoSidedMaterial& m) {
-  const auto through = [&](Id<Material> side) { return bool{context.transmitting[side.value]}; };
+  const auto through = [&](Id<Material> side) { return context.traits[side.value].transmits; };
   if (through(m.front) || through(m.back)) {
     context.approximated("Mitsuba's sides must be opaque: the front's material on both");
     Element element = add(parent, "bsdf", "blendbsdf", "", id);

@@ -9,12 +9,6 @@
 
 namespace vitrail {
 
-void MtlText::note(Fidelity fidelity, std::string message) {
-  const SourceLocation where = location(scene_, origin);
-  if (noted_.insert(to_string(where) + '\n' + message).second)
-    diagnostics_.push_back({fidelity, std::move(message), where, where, record});
-}
-
 void MtlText::line(const char* keyword, RGB c) {
   // The Scene's colours are floats.
   text += fmt::format("{} {} {} {}\n", keyword, static_cast<float>(c.r), static_cast<float>(c.g),

@@ -2,27 +2,24 @@
 #pragma once
 
 #include <filesystem>
-#include <set>
 #include <string>
 
 #include "importers/images/converted_images.h"
+#include "importers/writing/conversion_notes.h"
 #include "importers/writing/export_colors.h"
 #include "scene/records/scene.h"
 
 namespace vitrail {
 
-// The statements of MTL materials, and what they do not say exactly, with the place `origin`.
+// The statements of MTL materials, and what they do not say exactly.
 class MtlText {
  public:
-  MtlText(const Scene& scene, std::filesystem::path folder, Diagnostics& diagnostics)
-      : scene_(scene), folder_(std::move(folder)), diagnostics_(diagnostics) {}
+  MtlText(std::filesystem::path folder, ConversionNotes& of_record)
+      : notes(of_record), scene_(of_record.scene), folder_(std::move(folder)) {}
 
   std::string text;
-  Origin origin;  // of what is being written
-  RecordKind record = RecordKind::material;
-
-  void approximated(std::string message) { note(Fidelity::approximated, std::move(message)); }
-  void note(Fidelity fidelity, std::string message);
+  ConversionNotes& notes;
+  void approximated(std::string message) { notes.approximated(std::move(message)); }
 
   void line(const char* keyword, RGB c);
   void line(const char* keyword, double value);
@@ -44,8 +41,6 @@ class MtlText {
 
   const Scene& scene_;
   std::filesystem::path folder_;
-  Diagnostics& diagnostics_;
-  std::set<std::string> noted_;
 };
 
 }  // namespace vitrail

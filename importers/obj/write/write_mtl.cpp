@@ -20,18 +20,18 @@ namespace {
 // The text of one material.
 class Writer : MtlText {
  public:
-  Writer(const Scene& scene, const std::filesystem::path& folder, Diagnostics& diagnostics)
-      : MtlText(scene, folder, diagnostics), scene_(scene) {}
+  Writer(const std::filesystem::path& folder, ConversionNotes& conversion)
+      : MtlText(folder, conversion), scene_(conversion.scene) {}
 
   std::string write(const std::string& name, const Shape& shape) {
     text = fmt::format("newmtl {}\n", name);
-    record = RecordKind::material;
+    notes.record = RecordKind::material;
     opacity_ = shape_opacity_ = shape.opacity;
     if (const auto* of_curve = std::get_if<float>(&shape.opacity); of_curve && is_of_curves(scene_, shape))
       opacity_ = shape_opacity_ = opacity_of_wall(*of_curve);
     is_open_ = is_thin(shape.material) && encloses_nothing(scene_.meshes.at(shape.mesh.value));
     put(shape.material);
-    origin = shape.origin;
+    notes.origin = shape.origin;
     if (!is_whole(opacity_)) put_opacity(scene_.materials.at(shape.material.value));
     if (shape.area_light) put(scene_.area_lights.at(shape.area_light->value));
     return text + "\n";
@@ -80,16 +80,16 @@ class Writer : MtlText {
 
   void put(Id<Material> id) {
     const Material& material = scene_.materials.at(id.value);
-    origin = material.origin;
+    notes.origin = material.origin;
     std::visit([this](const auto& model) { put(model); }, material.model);
     if (!material.two_sided) approximated("one-sided material: MTL has no sides");
     if (material.displacement) {
       const auto* texture = std::get_if<Id<Texture>>(&*material.displacement);
       if (texture && !map("map_Bump", *texture, ImageUse::number, "-bm"))
-        note(Fidelity::dropped, "displacement that is no image");
+        notes.dropped("displacement that is no image");
     }
     if (material.normal_map && !map("norm", *material.normal_map, ImageUse::vector, nullptr))
-      note(Fidelity::dropped, "normal map that is no image");
+      notes.dropped("normal map that is no image");
   }
 
   void put(const DiffuseMaterial& m) {
@@ -110,15 +110,13 @@ class Writer : MtlText {
   void put(const DielectricMaterial& m) {
     const double eta = index_of_refraction(m.eta), outside = index_of_refraction(m.exterior_eta);
     if (!is_constant(m.eta)) approximated("dispersion: the index at 587.6 nm");
-    if (m.reflectance_factor != SpectrumParameter{ConstantSpectrum{1}})
-      note(Fidelity::dropped, "factor of reflection");
+    if (m.reflectance_factor != SpectrumParameter{ConstantSpectrum{1}}) notes.dropped("factor of reflection");
     put_glass(outside > 0 ? eta / outside : eta, m.transmittance_factor, m.roughness);
   }
   void put(const ThinDielectricMaterial& m) {
     if (!is_open_) approximated("thin dielectric: glass, which is solid where its surface is closed");
     const double eta = index_of_refraction(m.eta), outside = index_of_refraction(m.exterior_eta);
-    if (m.reflectance_factor != SpectrumParameter{ConstantSpectrum{1}})
-      note(Fidelity::dropped, "factor of reflection");
+    if (m.reflectance_factor != SpectrumParameter{ConstantSpectrum{1}}) notes.dropped("factor of reflection");
     put_glass(outside > 0 ? eta / outside : eta, m.transmittance_factor, {});
   }
 
@@ -135,7 +133,7 @@ class Writer : MtlText {
   }
   void put(const ConductorMaterial& m) {
     if (m.reflectance_factor != SpectrumParameter{ConstantSpectrum{1}})
-      note(Fidelity::dropped, "factor of a conductor's reflection");
+      notes.dropped("factor of a conductor's reflection");
     put_metal(m.metal, m.roughness);
   }
   void put(const CoatedConductorMaterial& m) {
@@ -178,8 +176,7 @@ class Writer : MtlText {
                                           {&m.sheen_tint, "tint of the sheen"},
                                           {&m.flatness, "flatness"},
                                           {&m.diff_trans, "diffuse transmission"}})
-      if (*parameter != FloatParameter{0.0f})
-        note(Fidelity::dropped, fmt::format("{} of a principled material", what));
+      if (*parameter != FloatParameter{0.0f}) notes.dropped(fmt::format("{} of a principled material", what));
   }
 
   void put_grey(const char* what, double grey) {
@@ -232,9 +229,9 @@ class Writer : MtlText {
     number("d", "map_d", opacity_);
   }
   void put_part(Id<Material> id) {
-    const Origin outer = origin;
+    const Origin outer = notes.origin;
     put(id);
-    origin = outer;
+    notes.origin = outer;
   }
 
   // ---- Emission ---------------------------------------------------------------------------------
@@ -248,8 +245,8 @@ class Writer : MtlText {
   }
 
   void put(const AreaLight& light) {
-    origin = light.origin;
-    record = RecordKind::area_light;
+    notes.origin = light.origin;
+    notes.record = RecordKind::area_light;
     color("Ke", "map_Ke", light.radiance, emission_rgb, light.scale * shining_share());
     if (!light.two_sided) approximated("one-sided light: shines from both sides, since MTL has none");
     if (light.directional) approximated("light along the normal only: shines in all directions");
@@ -271,16 +268,16 @@ std::string cleaned(std::string name) {
 
 }  // namespace
 
-MtlNames write_mtl(const Scene& scene, const std::vector<FlatShape>& shapes,
-                   const std::filesystem::path& path, Diagnostics& diagnostics) {
+MtlNames write_mtl(const std::vector<FlatShape>& shapes, const std::filesystem::path& path,
+                   ConversionNotes& notes) {
   MtlNames names;
   UniqueNames taken;
   std::string text;
-  Writer writer(scene, path.parent_path(), diagnostics);
+  Writer writer(path.parent_path(), notes);
   for (const FlatShape& flat : shapes) {
     const MtlKey key = surface_key(flat.shape);
     if (names.contains(key)) continue;
-    std::string name = cleaned(scene.materials.at(std::get<0>(key)).name);
+    std::string name = cleaned(notes.scene.materials.at(std::get<0>(key)).name);
     if (name.empty()) name = fmt::format("material_{}", std::get<0>(key));
     name = taken.take(name);
     text += writer.write(name, flat.shape);

@@ -25,7 +25,7 @@ inline MtlKey surface_key(const Shape& shape) {
 // Writes the materials of these shapes, and says what they are called there: by their own name, if no other
 // has it. What read_mtl makes (mtl.h has the table) is written so that it makes it again; other materials
 // become the nearest of those, with diagnostics. Smooth surfaces have Ns 10⁶. Throws MachineError.
-MtlNames write_mtl(const Scene& scene, const std::vector<FlatShape>& shapes,
-                   const std::filesystem::path& file, Diagnostics& diagnostics);
+MtlNames write_mtl(const std::vector<FlatShape>& shapes, const std::filesystem::path& file,
+                   ConversionNotes& notes);
 
 }  // namespace vitrail

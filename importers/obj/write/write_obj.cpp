@@ -102,25 +102,22 @@ void put_geometry(const Scene& scene, const std::vector<FlatShape>& shapes, cons
 }  // namespace
 
 Diagnostics write_obj(const Scene& scene, const std::filesystem::path& path) {
-  Diagnostics diagnostics;
-  note_geometry_only(scene, diagnostics);
+  ConversionNotes notes(scene);
+  note_geometry_only(notes);
   const std::vector<FlatShape> shapes = flat_shapes(scene);
   for (const FlatShape& flat : shapes)
-    if (!scene.meshes.at(flat.shape.mesh.value).attributes.empty()) {
-      const SourceLocation where = location(scene, flat.shape.origin);
-      diagnostics.push_back(
-          {Fidelity::dropped, "attributes of a mesh: OBJ has none", where, where, RecordKind::shape});
-    }
+    if (!scene.meshes.at(flat.shape.mesh.value).attributes.empty())
+      notes.dropped("attributes of a mesh: OBJ has none", flat.shape.origin, RecordKind::shape);
   const std::filesystem::path library = path.parent_path() / SideFiles(path).name("mtl");
-  note_quadrics(scene, shapes, diagnostics);
-  const MtlNames names = write_mtl(scene, shapes, library, diagnostics);
+  note_quadrics(shapes, notes);
+  const MtlNames names = write_mtl(shapes, library, notes);
   AtomicFile file(path);
   TextSink out(&file);
   out.put(FMT_COMPILE("mtllib {}\n"), library.filename().string());
   put_geometry(scene, shapes, names, out);
   out.flush();
   file.commit();
-  return diagnostics;
+  return notes.take();
 }
 
 }  // namespace vitrail

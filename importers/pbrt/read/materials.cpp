@@ -8,7 +8,7 @@
 #include "importers/pbrt/read/measured_name.h"
 #include "importers/reading/glazing_material.h"
 #include "importers/spectra/sheet_file.h"
-#include "scene/records/transmission.h"
+#include "scene/records/material_traits.h"
 #include "scene/spectra/rgb_to_spectrum.h"
 
 namespace vitrail::pbrt {

@@ -8,6 +8,7 @@
 
 #include "importers/pbrt/read/directives.h"
 #include "importers/pbrt/read/image_power.h"
+#include "scene/records/material_traits.h"
 #include "scene/records/nesting_limits.h"
 
 namespace vitrail::pbrt {

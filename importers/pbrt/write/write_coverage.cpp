@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "importers/pbrt/write/writer.h"
-#include "scene/records/transmission.h"
+#include "scene/records/material_traits.h"
 
 namespace vitrail::pbrt {
 
@@ -78,10 +78,11 @@ bool has_lights_without_extent(const Scene& scene) {
 // Where going straight does not count, the scene is of a path tracer that connects to lights so, too.
 void report_depth(Writer& w) {
   const RenderSettings& s = w.scene.settings;
+  const std::vector<MaterialTraits> traits = traits_of(w.scene.materials);
   const auto has = [&](bool masks) {
-    return std::ranges::any_of(w.scene.materials, [&](const Material& m) {
-      return is_passed_straight(m, w.scene.materials) && is_made_of_others(m) == masks;
-    });
+    for (std::size_t i = 0; i < traits.size(); ++i)
+      if (traits[i].counts && is_made_of_others(w.scene.materials[i]) == masks) return true;
+    return false;
   };
   if (!s.straight_counts && has(false) && has_lights_without_extent(w.scene))
     w.approximated("lights without extent do not shine through thin sheets in pbrt", w.scene.camera_origin,

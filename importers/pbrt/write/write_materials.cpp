@@ -8,7 +8,7 @@
 #include "importers/pbrt/write/writer.h"
 #include "importers/reading/glazing_material.h"
 #include "importers/writing/export_colors.h"
-#include "scene/records/transmission.h"
+#include "scene/records/material_traits.h"
 
 namespace vitrail::pbrt {
 
@@ -18,8 +18,6 @@ bool is_one(const SpectrumParameter& p) {
   const auto* s = std::get_if<Spectrum>(&p);
   return s && is_constant(*s) && evaluate(*s, lambda_min_nm) == 1;
 }
-
-bool is_zero(const FloatParameter& p) { return p == FloatParameter{0.0f}; }
 
 float mean(const FloatParameter& p) {
   const auto* value = std::get_if<float>(&p);
@@ -32,7 +30,8 @@ class MaterialWriter {
   MaterialWriter(Parameters& p, std::size_t index) : p_(p), index_(index) {}
 
   const char* operator()(const DiffuseMaterial& m) {
-    if (!is_zero(m.sigma_deg)) p_.approximated("sigma (Oren-Nayar roughness) becomes 0: pbrt-v4 has none");
+    if (m.sigma_deg != FloatParameter{0.0f})
+      p_.approximated("sigma (Oren-Nayar roughness) becomes 0: pbrt-v4 has none");
     p_.albedo("reflectance", m.reflectance);
     return "diffuse";
   }
@@ -209,7 +208,7 @@ class MaterialWriter {
     }
   }
   void roughness(const Roughness& r, const std::string& prefix = "", bool in_layers = false) {
-    const bool rough = !is_zero(r.alpha_u) || !is_zero(r.alpha_v);
+    const bool rough = !is_smooth(r);
     if (rough && r.distribution == Roughness::Distribution::beckmann)
       p_.approximated("Beckmann's distribution of facets becomes GGX");
     if (rough && r.masking != Masking::correlated && !in_layers)
@@ -327,6 +326,7 @@ void write_material(Writer& w, std::size_t index, const char* type, Parameters& 
 
 void write_materials(Writer& w) {
   const std::vector<bool> sides = sides_of_glazing(w.scene);
+  const std::vector<MaterialTraits> traits = traits_of(w.scene.materials);
   for (std::size_t i = 0; i < w.scene.materials.size(); ++i) {
     const Material& material = w.scene.materials[i];
     if (sides[i]) continue;
@@ -344,10 +344,7 @@ void write_materials(Writer& w) {
     }
     MaterialWriter writer(p, i);
     const char* type = std::visit(writer, material.model);
-    const bool opaque = !std::holds_alternative<DielectricMaterial>(material.model) &&
-                        !std::holds_alternative<ThinDielectricMaterial>(material.model) &&
-                        !std::holds_alternative<InterfaceMaterial>(material.model);
-    if (!material.two_sided && opaque) p.approximated("its black back becomes as its front");
+    if (!material.two_sided && !traits[i].transmits) p.approximated("its black back becomes as its front");
     if (!is_made) bumps(p, material);
     write_material(w, i, type, p);
   }

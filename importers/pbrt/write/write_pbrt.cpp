@@ -22,7 +22,7 @@ Diagnostics write_pbrt(const Scene& scene, const std::filesystem::path& out) {
   AtomicFile file(out);
   file.write(std::as_bytes(std::span(writer.text)));
   file.commit();
-  return std::move(writer.diagnostics);
+  return writer.take();
 }
 
 }  // namespace vitrail

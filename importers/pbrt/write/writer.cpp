@@ -56,7 +56,7 @@ TabulatedSpectrum each_nm(const Spectrum& spectrum) {
 }  // namespace
 
 Writer::Writer(const Scene& s, const std::filesystem::path& out)
-    : scene(s),
+    : ConversionNotes(s),
       directory(out.parent_path()),
       meshes(s, out),
       materials(unique_names(s.materials, "material")),
@@ -72,11 +72,11 @@ void Writer::transform(const Transform& t) {
   line(fmt::format("Transform [ {} ]", fmt::join(columns, " ")));
 }
 
-void Writer::transforms(const Motion& motion, const Origin& origin, RecordKind kind) {
+void Writer::transforms(const Motion& motion, const Origin& of, RecordKind kind) {
   const std::vector<Keyframe>& keys = motion.keys();
   const auto& [start, end] = transform_times_s;
   if (keys.size() != 2 || keys.front().time_s != start || keys.back().time_s != end)
-    approximated("motion: pbrt has two keyframes, of the same times for all that moves", origin, kind);
+    approximated("motion: pbrt has two keyframes, of the same times for all that moves", of, kind);
   for (const auto& [name, time] : {std::pair{"StartTime", start}, {"EndTime", end}}) {
     const Transform at = motion.at(time);
     line(fmt::format("ActiveTransform {}", name));

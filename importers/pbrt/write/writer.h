@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "importers/images/converted_images.h"
+#include "importers/writing/conversion_notes.h"
 #include "importers/writing/mesh_files.h"
 #include "importers/writing/opacity_key.h"
 #include "importers/writing/side_files.h"
@@ -19,12 +20,10 @@
 
 namespace vitrail::pbrt {
 
-struct Writer {
-  const Scene& scene;
+struct Writer : ConversionNotes {
   std::filesystem::path directory;  // of the scene's file
   MeshFiles meshes;
   std::string text;
-  Diagnostics diagnostics;
   std::vector<std::string> materials, textures, media, objects;  // names
   // Of materials, as write_coverage finds it: which share of a surface is there, and of a blend the weight of
   // its second material in that share. Textures may be new ones, which only `textures` knows.
@@ -43,7 +42,7 @@ struct Writer {
   void end(std::string_view block) { indent -= 4, line(block); }
   void transform(const Transform& t);  // nothing for the identity
   // Of what moves: at both of `transform_times_s`, the inverse where it is a camera's.
-  void transforms(const Motion& motion, const Origin& origin, RecordKind kind);
+  void transforms(const Motion& motion, const Origin& of, RecordKind kind);
   std::array<double, 2> transform_times_s{0, 1};
   int indent = 0;
 
@@ -54,22 +53,9 @@ struct Writer {
   std::filesystem::path new_image() { return directory / new_file("images", "exr"); }
   ConvertedImages images{[this] { return std::filesystem::absolute(new_image()); }};
 
-  // ---- Diagnostics
-  void approximated(std::string message, const Origin& origin, RecordKind kind = RecordKind::any) {
-    note(Fidelity::approximated, std::move(message), origin, kind);
-  }
-  void dropped(std::string message, const Origin& origin, RecordKind kind = RecordKind::any) {
-    note(Fidelity::dropped, std::move(message), origin, kind);
-  }
-
  private:
   SideFiles side_files_;
   std::map<std::string, std::size_t> file_counts_;  // by kind
-
-  void note(Fidelity fidelity, std::string message, const Origin& origin, RecordKind kind) {
-    const SourceLocation place = location(scene, origin);
-    diagnostics.push_back({fidelity, std::move(message), place, place, kind});
-  }
 };
 
 std::string in_quotes(std::string_view text);

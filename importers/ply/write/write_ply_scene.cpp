@@ -92,40 +92,28 @@ bool is_far_from_origin(const TriangleMesh& mesh) {
 }  // namespace
 
 Diagnostics write_ply_scene(const Scene& scene, const std::filesystem::path& file) {
-  Diagnostics diagnostics;
-  note_geometry_only(scene, diagnostics);
-  for (const Material& material : scene.materials) {
-    const SourceLocation where = location(scene, material.origin);
-    diagnostics.push_back({Fidelity::dropped, fmt::format("material {}: PLY has none", material.name), where,
-                           where, RecordKind::material});
-  }
-  for (const AreaLight& light : scene.area_lights) {
-    const SourceLocation where = location(scene, light.origin);
-    diagnostics.push_back(
-        {Fidelity::dropped, "area light: PLY has none", where, where, RecordKind::area_light});
-  }
+  ConversionNotes notes(scene);
+  note_geometry_only(notes);
+  for (const Material& material : scene.materials)
+    notes.dropped(fmt::format("material {}: PLY has none", material.name), material.origin,
+                  RecordKind::material);
+  for (const AreaLight& light : scene.area_lights)
+    notes.dropped("area light: PLY has none", light.origin, RecordKind::area_light);
   if (const auto partly = std::ranges::find_if(
           scene.shapes, [](const Shape& s) { return s.opacity != FloatParameter{1.0f}; });
-      partly != scene.shapes.end()) {
-    const SourceLocation where = location(scene, partly->origin);
-    diagnostics.push_back({Fidelity::dropped, "opacity of shapes: PLY has none", where, where});
-  }
+      partly != scene.shapes.end())
+    notes.dropped("opacity of shapes: PLY has none", partly->origin);
   if (std::ranges::any_of(scene.meshes, [](const TriangleMesh& m) { return !m.attributes.empty(); }))
-    diagnostics.push_back({Fidelity::dropped, "attributes of meshes: not all shapes have the same", {}, {}});
+    notes.dropped("attributes of meshes: not all shapes have the same");
   const std::vector<FlatShape> shapes = flat_shapes(scene);
-  note_quadrics(scene, shapes, diagnostics);
+  note_quadrics(shapes, notes);
   Merger merger(scene, shapes);
   for (const FlatShape& flat : shapes) merger.add(flat);
-  if (shapes.size() > 1)
-    diagnostics.push_back(
-        {Fidelity::approximated, fmt::format("{} shapes: merged into one mesh", shapes.size()), {}, {}});
+  if (shapes.size() > 1) notes.approximated(fmt::format("{} shapes: merged into one mesh", shapes.size()));
   if (is_far_from_origin(merger.merged()))
-    diagnostics.push_back({Fidelity::approximated,
-                           "the scene lies far from the origin: its coordinates are rounded to floats",
-                           {},
-                           {}});
+    notes.approximated("the scene lies far from the origin: its coordinates are rounded to floats");
   write_ply(merger.merged(), file);
-  return diagnostics;
+  return notes.take();
 }
 
 }  // namespace vitrail

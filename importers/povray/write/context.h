@@ -5,12 +5,13 @@
 
 #include <filesystem>
 #include <map>
-#include <set>
 #include <string>
 #include <vector>
 
 #include "importers/images/converted_images.h"
+#include "importers/writing/conversion_notes.h"
 #include "importers/writing/exposed_lights.h"
+#include "scene/records/material_traits.h"
 #include "scene/records/nesting_limits.h"
 #include "scene/records/scene.h"
 #include "scene/spectra/color.h"
@@ -28,30 +29,15 @@ struct Units {
 };
 
 // What the parts of the writer share.
-struct Context {
-  const Scene& scene;
+struct Context : ConversionNotes {
   ExposedLights exposed;
   std::filesystem::path directory;  // of the scene file
   Units units;
   bool has_delta_lights = false;
-  Diagnostics diagnostics;
-  std::set<std::string> noted;
   ConvertedImages images;
   std::vector<Nesting> nesting = nesting_of(scene.textures);
+  std::vector<MaterialTraits> traits = traits_of(scene.materials);
   std::map<std::uint32_t, std::string> interiors = {};  // of materials that others are made of
-
-  // Each message once a place.
-  void note(Fidelity fidelity, std::string message, const Origin& origin = {}) {
-    const SourceLocation where = location(scene, origin);
-    if (noted.insert(to_string(where) + '\n' + message).second)
-      diagnostics.push_back({fidelity, std::move(message), where, where});
-  }
-  void approximated(std::string message, const Origin& origin = {}) {
-    note(Fidelity::approximated, std::move(message), origin);
-  }
-  void dropped(std::string message, const Origin& origin = {}) {
-    note(Fidelity::dropped, std::move(message), origin);
-  }
 };
 
 inline std::string vector(Vector3d v) { return fmt::format("<{},{},{}>", v.x, v.y, v.z); }

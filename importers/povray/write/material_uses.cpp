@@ -6,21 +6,15 @@
 
 #include "importers/povray/write/write_materials.h"
 #include "importers/povray/write/write_pigments.h"
+#include "scene/records/material_traits.h"
 
 namespace vitrail::povray {
 
 namespace {
 
-std::vector<Id<Material>> children_of(const Material& material) {
-  if (const auto* m = std::get_if<BlendMaterial>(&material.model)) return {m->first, m->second};
-  if (const auto* m = std::get_if<MaskMaterial>(&material.model)) return {m->material};
-  if (const auto* m = std::get_if<TwoSidedMaterial>(&material.model)) return {m->front, m->back};
-  return {};
-}
-
 void collect(const Scene& scene, Id<Material> material, std::set<std::uint32_t>& found) {
   if (!found.insert(material.value).second) return;
-  for (const Id<Material> child : children_of(scene.materials.at(material.value)))
+  for (const Id<Material> child : vitrail::parts_of(scene.materials.at(material.value).model))
     collect(scene, child, found);
 }
 

@@ -14,13 +14,16 @@ constexpr double smooth_alpha = 0.01;  // below it, microfacets do not show
 
 class Builder {
  public:
-  Builder(Context& context, const Material& material) : context_(context), material_(material) {
+  Builder(Context& context, Id<Material> material)
+      : context_(context),
+        material_(context.scene.materials.at(material.value)),
+        transmits_(context.traits[material.value].transmits) {
     normal_ = displacement();
   }
 
   Surface build() {
     Surface surface = std::visit([this](const auto& model) { return surface_of(model); }, material_.model);
-    if (!material_.two_sided && surface.back.empty() && is_opaque()) surface.back = "texture { Black }\n";
+    if (!material_.two_sided && surface.back.empty() && !transmits_) surface.back = "texture { Black }\n";
     return surface;
   }
 
@@ -28,14 +31,6 @@ class Builder {
   // ---- Pieces -----------------------------------------------------------------------------------
 
   void approximated(std::string message) { context_.approximated(std::move(message), material_.origin); }
-
-  bool is_opaque() const {
-    return !std::holds_alternative<DielectricMaterial>(material_.model) &&
-           !std::holds_alternative<ThinDielectricMaterial>(material_.model) &&
-           !std::holds_alternative<InterfaceMaterial>(material_.model) &&
-           !std::holds_alternative<MaskMaterial>(material_.model) &&
-           !std::holds_alternative<DiffuseTransmissionMaterial>(material_.model);
-  }
 
   Pigment pigment(const SpectrumParameter& parameter) {
     return pigment_of(context_, parameter, material_.origin);
@@ -266,7 +261,14 @@ class Builder {
     approximated("hair: diffuse, of its colour");
     return {diffuse(pigment(*m.color)), "", ""};
   }
-  Surface surface_of(const MeasuredMaterial&) { return opaque_instead("measured material", 0.5); }
+  Surface surface_of(const MeasuredMaterial& m) {
+    if (!m.sheet) return opaque_instead("measured material", 0.5);
+    approximated("measured glass: at every angle what it is at normal incidence");
+    const SheetColors sheet = colors_at_normal(*m.sheet);
+    return {layer(color(sheet.transmitted) + " filter 1",
+                  fmt::format("diffuse 0 reflection {{ {} }}", color(sheet.reflected))),
+            "", ""};
+  }
   Surface surface_of(const TabulatedMaterial&) { return opaque_instead("tabulated material", 0.5); }
   Surface surface_of(const SlabMaterial&) {
     approximated("slab of a medium: diffuse transmission, 0.25 each way");
@@ -305,6 +307,7 @@ class Builder {
 
   Context& context_;
   const Material& material_;
+  const bool transmits_;
   std::string normal_;
 };
 
@@ -322,8 +325,6 @@ std::string weighted(Context& context, const FloatParameter& amount, const std::
                      at_1);
 }
 
-Surface surface_of(Context& context, Id<Material> material) {
-  return Builder(context, context.scene.materials.at(material.value)).build();
-}
+Surface surface_of(Context& context, Id<Material> material) { return Builder(context, material).build(); }
 
 }  // namespace vitrail::povray

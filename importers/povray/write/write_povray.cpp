@@ -29,13 +29,11 @@ class Writer {
  public:
   Writer(const Scene& scene, const std::filesystem::path& out)
       : out_(out),
-        context_{scene,
+        context_{ConversionNotes(scene),
                  ExposedLights(scene),
                  out.parent_path(),
                  units_of(scene),
                  false,
-                 {},
-                 {},
                  ConvertedImages{images_beside(out)}},
         folder_(out.stem().string() + "-meshes") {}
 
@@ -55,7 +53,7 @@ class Writer {
     save(std::filesystem::path(out_).replace_extension(".ini"),
          options_text(context_, out_.filename().generic_string()));
     save(out_, header() + body);
-    return std::move(context_.diagnostics);
+    return context_.take();
   }
 
  private:

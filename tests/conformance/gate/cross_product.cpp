@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "scene/records/transmission.h"
+#include "scene/records/material_traits.h"
 #include "scene/spectra/rgb_to_spectrum.h"
 #include "tests/conformance/gate/pairs.h"
 #include "tests/conformance/gate/scene_parts.h"
@@ -40,8 +40,7 @@ void add_plane(SceneParts& s, Spectrum color, const Transform& to_world) {
 // Light goes straight through sheets and masks here. In Mitsuba it does so to its volumetric path tracer,
 // which counts no such event; no light without extent gets through to the other.
 void agree_on_straight_light(Scene& scene) {
-  scene.settings.straight_counts = std::ranges::none_of(
-      scene.materials, [&](const Material& m) { return is_passed_straight(m, scene.materials); });
+  scene.settings.straight_counts = std::ranges::none_of(traits_of(scene.materials), &MaterialTraits::counts);
 }
 
 // The first of its kind comes from line 1.
