@@ -44,12 +44,13 @@ std::string about(const Manifest& m, const RenderOptions& options) {
   const Transform camera_to_bundle =
       std::visit([](const auto& camera) { return camera.camera_to_world; }, m.camera);
   const Transform world_to_camera = inverse(translate(m.offset) * camera_to_bundle);
-  Json about{{"scene", options.scene_name},
+  Json about{{"scene", options.outputs.scene_name},
              {"camera", kind_of(m.camera)},
              {"world_to_camera", numbers_of(world_to_camera)}};
-  if (!options.glazing.empty()) about["glazing"] = options.glazing;
-  if (const std::string sampling = words_of(options.samples); !sampling.empty()) about["sampling"] = sampling;
-  if (const FilterSampler filter(m.film.filter, options.samples.sampling.splat); filter.splats()) {
+  if (!options.picture.glazing.empty()) about["glazing"] = options.picture.glazing;
+  if (const std::string sampling = words_of(options.picture.samples); !sampling.empty())
+    about["sampling"] = sampling;
+  if (const FilterSampler filter(m.film.filter, options.picture.samples.sampling.splat); filter.splats()) {
     const Neighbours n = filter.neighbours();
     about["neighbours"] = {n.of_mean, n.of_variances};
   }

@@ -151,7 +151,7 @@ WorkPlan plan_of(const Held& held, const Goal& goal) {
 }
 
 bool finished(const Held& held, const RenderOptions& options, const Goal& goal) {
-  if (!held.progress.complete() || held.file != options.film) return false;
+  if (!held.progress.complete() || held.file != options.outputs.film) return false;
   return goal.in_rounds ? !next_round(held.film, goal) : held.progress.samples_per_pixel == goal.samples;
 }
 
@@ -160,7 +160,7 @@ void say_what_is_held(const EarlierWork& work, const Held& held, const RenderOpt
   const double samples = samples_of_a_pixel(held.film);
   if (work.finished)
     say("vitrail: {} is finished already, with {:.4g} samples a pixel; --force renders it again\n",
-        options.film.string(), samples);
+        options.outputs.film.string(), samples);
   else
     say("vitrail: going on from {}, with {:.4g} of {} samples a pixel\n", held.file.string(), samples,
         goal.samples);
@@ -195,23 +195,23 @@ EarlierWork read_earlier_work(Transport& transport, const RenderOptions& options
                               const Goal& goal) {
   EarlierWork work;
   work.plan = make_work_plan(film.crop(), goal.first_samples(film.pixels()), {}, goal.one_by_one);
-  if (options.force) return work;
+  if (options.outputs.force) return work;
   agree(transport, [&] {
     if (transport.rank() != 0) return;
-    const std::filesystem::path checkpoint = checkpoint_path(options.film);
+    const std::filesystem::path checkpoint = checkpoint_path(options.outputs.film);
     // One of them in memory at a time.
     std::optional<Held> held = held_by(checkpoint, "checkpoint", film, goal);
-    if (std::filesystem::exists(options.film)) {
+    if (std::filesystem::exists(options.outputs.film)) {
       const std::uint64_t samples = held ? held->film.samples() : 0;
       held.reset();
-      held = held_by(options.film, "film", film, goal);
+      held = held_by(options.outputs.film, "film", film, goal);
       if (held->film.samples() < samples) {
         held.reset();
         held = held_by(checkpoint, "checkpoint", film, goal);
       }
     }
     if (!held) {
-      if (options.resume && !options.quiet)
+      if (options.outputs.resume && !options.outputs.quiet)
         say("vitrail: there is no checkpoint {}; starting from the beginning\n", checkpoint.string());
       return;
     }
@@ -220,7 +220,7 @@ EarlierWork read_earlier_work(Transport& transport, const RenderOptions& options
     work.done.resize((work.plan.items() + 63) / 64);
     work.render_time_s = held->progress.render_time_s;
     work.finished = finished(*held, options, goal);
-    if (!options.quiet) say_what_is_held(work, *held, options, goal);
+    if (!options.outputs.quiet) say_what_is_held(work, *held, options, goal);
     film = std::move(held->film);
   });
   broadcast(transport, work, goal);

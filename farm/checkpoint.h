@@ -32,8 +32,8 @@ struct EarlierWork {
 
 // Rank 0 adds to `film` what lies under the job's two names, the one that holds more; every rank learns what
 // it is, and what is to be done first. Throws Error where either is of another picture or seed, was made by
-// another program, or aims at more than the goal's samples a pixel: it would be lost. With options.force
-// nothing is looked at.
+// another program, or aims at more than the goal's samples a pixel: it would be lost. With
+// options.outputs.force nothing is looked at.
 EarlierWork read_earlier_work(Transport& transport, const RenderOptions& options, Film& film,
                               const Goal& goal);
 

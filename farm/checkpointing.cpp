@@ -22,7 +22,8 @@ double seconds_since(Clock::time_point moment) {
 // Between checkpoints, so that work goes on in between however often they are asked for. 0: never.
 double interval_s(const RenderOptions& options) {
   constexpr double shortest_s = 0.05;
-  return options.checkpoint_every_s > 0 ? std::max(options.checkpoint_every_s, shortest_s) : 0;
+  return options.resources.checkpoint_every_s > 0 ? std::max(options.resources.checkpoint_every_s, shortest_s)
+                                                  : 0;
 }
 
 }  // namespace
@@ -39,26 +40,28 @@ Checkpointing::Checkpointing(Transport& transport, RankState& state, const Rende
       limit_start_(limit_start(options, state.begun)),
       last_(state.begun),
       due_after_s_(interval_s(options)) {
-  if (keeper_ && options.time_limit_s > 0) write_s_ = keeper_->time_to_write_s();
+  if (keeper_ && options.resources.time_limit_s > 0) write_s_ = keeper_->time_to_write_s();
   expect_ending(0);
 }
 
 void Checkpointing::expect_ending(double gather_s) {
-  if (!keeper_ || options_.time_limit_s <= 0) return;
+  if (!keeper_ || options_.resources.time_limit_s <= 0) return;
   const std::uint64_t bytes = film_bytes(state_.scene.manifest.film, state_.film.key().splats);
   const std::chrono::duration<double> gone = state_.begun - limit_start_;
-  ending_s_ = std::min((options_.time_limit_s - gone.count()) / 2,
+  ending_s_ = std::min((options_.resources.time_limit_s - gone.count()) / 2,
                        ending_time_s(options_, bytes, transport_.size(), write_s_, gather_s));
 }
 
 void Checkpointing::watch_clock() {
-  if (take_checkpoint_signal() && !options_.dry_run) wanted_ = true;
+  if (take_checkpoint_signal() && !options_.outputs.dry_run) wanted_ = true;
   if (transport_.rank() != 0) return;
   if (due_after_s_ > 0 && seconds_since(last_) >= due_after_s_) wanted_ = true;
-  if (options_.time_limit_s > 0 && has_gained_ &&
-      seconds_since(limit_start_) + ending_s_ >= options_.time_limit_s)
+  if (options_.resources.time_limit_s > 0 && has_gained_ &&
+      seconds_since(limit_start_) + ending_s_ >= options_.resources.time_limit_s)
     time_is_up_ = true;
-  if (options_.stop_after_s > 0 && seconds_since(options_.start) >= options_.stop_after_s) ask_to_stop();
+  if (options_.resources.stop_after_s > 0 &&
+      seconds_since(options_.resources.start) >= options_.resources.stop_after_s)
+    ask_to_stop();
 }
 
 void Checkpointing::gather() {
@@ -83,17 +86,17 @@ bool Checkpointing::write(const std::filesystem::path& file, bool last) {
       else
         written = keeper_->write_checkpoint(file, state_.film, progress);
     });
-    if (!last && written && options_.after_checkpoint && state_.film.samples() > 0)
-      options_.after_checkpoint(file);
+    if (!last && written && options_.outputs.after_checkpoint && state_.film.samples() > 0)
+      options_.outputs.after_checkpoint(file);
   });
   note(state_, Timeline::Kind::write, begin);
   return written;
 }
 
-void Checkpointing::write_checkpoint() { work_goes_on(write(checkpoint_path(options_.film), false)); }
+void Checkpointing::write_checkpoint() { work_goes_on(write(checkpoint_path(options_.outputs.film), false)); }
 
 void Checkpointing::write_last(bool as_film) {
-  write(as_film ? options_.film : checkpoint_path(options_.film), true);
+  write(as_film ? options_.outputs.film : checkpoint_path(options_.outputs.film), true);
 }
 
 void Checkpointing::work_goes_on(bool written) {

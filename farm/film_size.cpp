@@ -18,11 +18,15 @@ void stretch(double& from, double& to, double factor) {
 
 }  // namespace
 
-void resize_film(Manifest& m, const RenderOptions& o) {
+void resize_film(Manifest& m, const PictureSettings& picture) {
   FilmSettings& film = m.film;
   const double w = film.width, h = film.height;
-  const int width = o.width ? *o.width : o.height ? rounded(*o.height * w / h) : rounded(o.scale * w);
-  const int height = o.height ? *o.height : o.width ? rounded(*o.width * h / w) : rounded(o.scale * h);
+  const int width = picture.width    ? *picture.width
+                    : picture.height ? rounded(*picture.height * w / h)
+                                     : rounded(picture.scale * w);
+  const int height = picture.height  ? *picture.height
+                     : picture.width ? rounded(*picture.width * h / w)
+                                     : rounded(picture.scale * h);
   if (width == film.width && height == film.height) return;
   const double wider = width / w, taller = height / h, least = std::min(wider, taller);
   std::visit(

@@ -8,6 +8,6 @@ namespace vitrail {
 
 // Gives the film the size that is asked for. The camera sees all that it saw before, and more on one axis
 // where the proportions change; those of a pixel stay. A crop of the scene's goes along.
-void resize_film(Manifest& manifest, const RenderOptions& options);
+void resize_film(Manifest& manifest, const PictureSettings& picture);
 
 }  // namespace vitrail

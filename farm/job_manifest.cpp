@@ -17,15 +17,15 @@ namespace vitrail {
 
 namespace {
 
-void override_layers(Manifest& m, const RenderOptions& options) {
+void override_layers(Manifest& m, const PictureSettings& picture, const std::filesystem::path& bundle) {
   const FilmLayers kept = m.film.layers;
-  if (options.layers) m.film.layers.bits = *options.layers;
-  if (options.layers_in_camera_space) m.film.layers.in_camera_space = *options.layers_in_camera_space;
+  if (picture.layers) m.film.layers.bits = *picture.layers;
+  if (picture.layers_in_camera_space) m.film.layers.in_camera_space = *picture.layers_in_camera_space;
   const auto require = [&](Layer layer, bool there, const char* what) {
     if (m.film.layers.has(layer) && !there)
       throw Error(fmt::format("the bundle keeps no {0}: partition the scene with --aov {1}", what,
                               kind_of(layer).name),
-                  {options.bundle.string()});
+                  {bundle.string()});
   };
   require(Layer::uv, m.requirements.uv, "(u,v), as nothing in the scene needs them");
   require(Layer::shape, kept.has(Layer::shape), "account of which shape is which");
@@ -36,14 +36,14 @@ Point3d place_of(const Camera& camera) {
 }
 
 // In the place of the camera, whose own is returned. They belong to what the film is of.
-Point3d put_sensors(Manifest& m, const RenderOptions& options) {
-  if (options.width || options.height || options.scale != 1 || options.crop || options.bins ||
-      options.layers || options.samples.filter)
+Point3d put_sensors(Manifest& m, const PictureSettings& picture) {
+  if (picture.width || picture.height || picture.scale != 1 || picture.crop || picture.bins ||
+      picture.layers || picture.samples.filter)
     throw UsageError(
         "--sensors has no picture whose size, crop, filter, spectrum or channels could be given");
-  if (options.clamp > 0)
+  if (picture.clamp > 0)
     throw UsageError("--clamp is of pictures: it would take light from what --sensors measures");
-  SensorCamera camera{translate(-m.offset), read_sensors(options.sensors)};
+  SensorCamera camera{translate(-m.offset), read_sensors(picture.sensors)};
   const Point3d replaced = place_of(m.camera);
   m.film = sensor_film(camera.sensors.size());
   m.camera = std::move(camera);
@@ -57,9 +57,9 @@ Point3d put_sensors(Manifest& m, const RenderOptions& options) {
   return replaced;
 }
 
-void check_splat(const Manifest& m, const RenderOptions& options) {
-  if (!options.samples.sampling.splat) return;
-  if (options.adaptive || options.target_error)
+void check_splat(const Manifest& m, const PictureSettings& picture) {
+  if (!picture.samples.sampling.splat) return;
+  if (picture.adaptive || picture.target_error)
     throw UsageError(
         "--splat makes the errors of neighbours alike, which --adaptive, --target-error and --quality take "
         "for "
@@ -73,15 +73,15 @@ void check_splat(const Manifest& m, const RenderOptions& options) {
                                  greatest_splat_radius, std::max(x, y)));
 }
 
-void choose_integrator(const RenderOptions& options, RenderSettings& s) {
-  if (options.integrator) {
-    s.direct_only = options.integrator == Integrator::direct;
-    if (options.integrator != Integrator::photon)
+void choose_integrator(const PictureSettings& picture, RenderSettings& s) {
+  if (picture.integrator) {
+    s.direct_only = picture.integrator == Integrator::direct;
+    if (picture.integrator != Integrator::photon)
       s.photons.reset();
     else if (!s.photons)
       s.photons.emplace();
   }
-  const PhotonSettings& given = options.photons;
+  const PhotonSettings& given = picture.photons;
   if (!s.photons) {
     if (given != PhotonSettings{})
       throw UsageError("--photons, --photon-radius and --photon-alpha are of --integrator photon");
@@ -93,26 +93,27 @@ void choose_integrator(const RenderOptions& options, RenderSettings& s) {
 }
 
 void override_settings(Manifest& m, const RenderOptions& options) {
+  const PictureSettings& picture = options.picture;
   RenderSettings& s = m.settings;
-  choose_integrator(options, s);
+  choose_integrator(picture, s);
   s.samples_per_pixel = static_cast<int>(goal_of(options, s).samples);
-  if (options.max_depth) s.max_depth = *options.max_depth;
-  if (options.threshold > 0 && !s.direct_only)
+  if (picture.max_depth) s.max_depth = *picture.max_depth;
+  if (picture.threshold > 0 && !s.direct_only)
     throw UsageError("--threshold is of direct light alone: give --integrator direct too");
   if (s.samples_per_pixel < 1 || static_cast<std::uint32_t>(s.samples_per_pixel) >= max_samples)
     throw UsageError(fmt::format("samples a pixel must be between 1 and {}", max_samples - 1));
-  if (options.target_error && s.samples_per_pixel < 4)
+  if (picture.target_error && s.samples_per_pixel < 4)
     throw UsageError("an error is estimated from 4 samples a pixel or more: give --spp more than that");
   if (s.max_depth < 0) throw UsageError("the depth must not be negative");
 }
 
-void override_film(Manifest& m, const RenderOptions& options) {
-  resize_film(m, options);
-  if (options.crop) m.film.crop = *options.crop;
-  if (options.bins) m.film.spectrum = *options.bins;
-  override_layers(m, options);
-  apply(options.samples, m);
-  check_splat(m, options);
+void override_film(Manifest& m, const PictureSettings& picture, const std::filesystem::path& bundle) {
+  resize_film(m, picture);
+  if (picture.crop) m.film.crop = *picture.crop;
+  if (picture.bins) m.film.spectrum = *picture.bins;
+  override_layers(m, picture, bundle);
+  apply(picture.samples, m);
+  check_splat(m, picture);
   const PixelRect& c = m.film.crop;
   if (c.x0 < 0 || c.y0 < 0 || c.x1 > m.film.width || c.y1 > m.film.height || c.x0 >= c.x1 || c.y0 >= c.y1)
     throw UsageError("the crop lies outside the film or is empty");
@@ -124,26 +125,26 @@ JobManifest read_job_manifest(const RenderOptions& options) {
   JobManifest read{read_manifest(options.bundle), std::nullopt};
   Manifest& m = read.manifest;
   if (m.domains.size() > max_domains) throw Error("more than 65535 domains", {options.bundle.string()});
-  set_sheets(options.sheets, options.bundle, m);
+  set_sheets(options.picture.sheets, options.bundle, m);
   override_settings(m, options);
-  if (!options.sensors.empty()) read.replaced_camera = put_sensors(m, options);
+  if (!options.picture.sensors.empty()) read.replaced_camera = put_sensors(m, options.picture);
   const bool whole_paths = !m.settings.direct_only && !m.settings.photons;
   m.settings.max_depth = std::min(m.settings.max_depth, whole_paths ? max_path_depth : max_direct_depth);
-  override_film(m, options);
+  override_film(m, options.picture, options.bundle);
   return read;
 }
 
-FilmKey key_of(const Manifest& m, const RenderOptions& options) {
+FilmKey key_of(const Manifest& m, const PictureSettings& picture) {
   FilmKey key;
   key.scene_hash = m.scene_hash;
-  key.seed = options.seed;
+  key.seed = picture.seed;
   key.max_depth = m.settings.max_depth;
   key.direct_only = m.settings.direct_only;
-  if (key.direct_only) key.threshold = rounded_threshold(options.threshold);
+  if (key.direct_only) key.threshold = rounded_threshold(picture.threshold);
   key.straight_counts = m.settings.straight_counts;
-  key.clamp = options.clamp;
-  key.splats = options.samples.sampling.splat;
-  key.photons = photons_of(options, m);
+  key.clamp = picture.clamp;
+  key.splats = picture.samples.sampling.splat;
+  key.photons = photons_of(picture, m);
   return key;
 }
 

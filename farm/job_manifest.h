@@ -18,7 +18,7 @@ struct JobManifest {
 // UsageError for what the bundle cannot give, Error for what is wrong with it.
 JobManifest read_job_manifest(const RenderOptions& options);
 
-// Of the film of such a job.
-FilmKey key_of(const Manifest& manifest, const RenderOptions& options);
+// Of the film of such a job: nothing else of it counts.
+FilmKey key_of(const Manifest& manifest, const PictureSettings& picture);
 
 }  // namespace vitrail

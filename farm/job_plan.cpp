@@ -14,7 +14,7 @@ namespace vitrail {
 namespace {
 
 int threads_of(const RenderOptions& options) {
-  if (options.threads > 0) return options.threads;
+  if (options.resources.threads > 0) return options.resources.threads;
   return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
 
@@ -31,7 +31,7 @@ std::uint64_t base_bytes(const Manifest& m, const RenderOptions& options, const 
   return plan.scene.resident + film_bytes(m.film, plan.key.splats) +
          (plan.goal.adaptive ? map_bytes(m.film.crop) : 0) + list_bytes(work, ranks) +
          table_bytes(m.domains.size(), plan.threads) + connection_bytes(ranks) +
-         (options.trace.empty() ? 0 : Timeline::most_bytes(ranks));
+         (options.outputs.trace.empty() ? 0 : Timeline::most_bytes(ranks));
 }
 
 std::uint64_t largest_domain(const Manifest& manifest) {
@@ -43,14 +43,15 @@ std::uint64_t largest_domain(const Manifest& manifest) {
 
 // Memory for domains, rays, and photons that land.
 void share_out(JobPlan& plan, const RenderOptions& options, std::uint64_t largest) {
-  plan.most_photons = least_room(plan.key.photons, options.memory_bytes);
+  plan.most_photons = least_room(plan.key.photons, options.resources.memory_bytes);
   const std::uint64_t base =
       plan.base_bytes + plan.scene.textures + PhotonMap::photon_bytes * plan.most_photons;
-  plan.memory =
-      plan_memory(options.memory_bytes, base, plan.scene.peak, plan.threads, largest, plan.all_domains);
-  if (options.domain_memory_bytes > 0)
-    plan.memory = {std::max(largest, std::min(plan.memory.domains_bytes, options.domain_memory_bytes)),
-                   few_rays_bytes};
+  plan.memory = plan_memory(options.resources.memory_bytes, base, plan.scene.peak, plan.threads, largest,
+                            plan.all_domains);
+  if (options.resources.domain_memory_bytes > 0)
+    plan.memory = {
+        std::max(largest, std::min(plan.memory.domains_bytes, options.resources.domain_memory_bytes)),
+        few_rays_bytes};
   // What no domain needs is room for more landings.
   if (plan.most_photons > 0 && plan.memory.domains_bytes > plan.all_domains) {
     plan.most_photons += (plan.memory.domains_bytes - plan.all_domains) / PhotonMap::photon_bytes;
@@ -59,8 +60,8 @@ void share_out(JobPlan& plan, const RenderOptions& options, std::uint64_t larges
 }
 
 Homes homes_of(const Manifest& manifest, const RenderOptions& options, int ranks) {
-  if (options.homes.empty()) return homes_by_bytes(manifest, ranks);
-  return homes_by_work(manifest, read_ray_profile(options.homes), ranks);
+  if (options.resources.homes.empty()) return homes_by_bytes(manifest, ranks);
+  return homes_by_work(manifest, read_ray_profile(options.resources.homes), ranks);
 }
 
 }  // namespace
@@ -83,14 +84,14 @@ JobPlan plan_job(const Manifest& m, const RenderOptions& options, const Place& p
   JobPlan plan;
   plan.threads = threads_of(options);
   plan.goal = goal_of(options, m.settings);
-  plan.key = key_of(m, options);
+  plan.key = key_of(m, options.picture);
   plan.scene = scene;
   plan.base_bytes = base_bytes(m, options, plan, place.ranks);
   plan.all_domains = bytes_of_all(m);
   share_out(plan, options, largest_domain(m));
   plan.homes = homes_of(m, options, place.ranks);
   plan.queues = queue_bounds(plan.memory, place.ranks);
-  const bool in_flow = is_in_flow(m, plan.homes, options.distribution, plan.memory.domains_bytes);
+  const bool in_flow = is_in_flow(m, plan.homes, options.resources.distribution, plan.memory.domains_bytes);
   const std::int64_t rays_a_rank =
       in_flow ? rays_allowed_in_flow(plan.threads) : rays_allowed_a_rank(plan.memory);
   plan.scheduler = {place.ranks, plan.threads, rays_a_rank * place.ranks, place.rank};

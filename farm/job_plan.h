@@ -40,8 +40,8 @@ struct JobPlan {
 // For tiles of images: all of them if there is no limit (memory_bytes = 0), else a quarter of it at most.
 std::uint64_t texture_budget(const Manifest& manifest, std::uint64_t memory_bytes);
 
-// `manifest`: read_job_manifest's. Reads the profile that options.homes names. Throws MachineError where
-// options.memory_bytes is too little, with what would do.
+// `manifest`: read_job_manifest's. Reads the profile that options.resources.homes names. Throws MachineError
+// where options.resources.memory_bytes is too little, with what would do.
 JobPlan plan_job(const Manifest& manifest, const RenderOptions& options, const Place& place,
                  const SceneMemory& scene);
 

@@ -60,9 +60,9 @@ void say_what_is_wrong(const Film& film, const Goal& goal, const RenderOptions& 
     say("vitrail: {} of {} pixels have no sample yet and are black\n", none, film.pixels());
   if (stats.refused.nonfinite > 0)
     say("vitrail: {} samples were not finite and count as black\n", stats.refused.nonfinite);
-  if (options.clamp > 0 && !options.quiet)
-    say("vitrail: --clamp {} took {:.3g} % of the light: so much darker is the picture\n", options.clamp,
-        100 * stats.clamped_share);
+  if (options.picture.clamp > 0 && !options.outputs.quiet)
+    say("vitrail: --clamp {} took {:.3g} % of the light: so much darker is the picture\n",
+        options.picture.clamp, 100 * stats.clamped_share);
 }
 
 void write_profile(const std::filesystem::path& file, const RayProfile& profile, bool whole) {
@@ -79,10 +79,10 @@ void add_plan(RenderStats& stats, const Job& job, const RenderOptions& options, 
   stats.threads = job.plan.threads;
   stats.spectral_bins = manifest.film.spectrum.count;
   stats.spp = static_cast<std::uint64_t>(manifest.settings.samples_per_pixel);
-  stats.seed = options.seed;
+  stats.seed = options.picture.seed;
   stats.adaptive = job.plan.goal.adaptive;
   stats.domains_total = manifest.domains.size();
-  stats.memory_budget_bytes = options.memory_bytes;
+  stats.memory_budget_bytes = options.resources.memory_bytes;
   stats.base_rss_bytes = job.plan.base_bytes;
   stats.setup_peak_rss_bytes = job.plan.scene.peak;
 }
@@ -92,7 +92,7 @@ void conclude(Job& job, const RenderOptions& options, std::uint64_t samples_befo
   const Film& film = job.film;
   const Goal& goal = job.plan.goal;
   stats.samples = film.samples();
-  if (options.dry_run) return print_estimate(stats, job, samples_before);
+  if (options.outputs.dry_run) return print_estimate(stats, job, samples_before);
   if (goal.target) {
     stats.target = *goal.target;
     stats.reached = reached_error(film, *goal.target);
@@ -104,10 +104,10 @@ void conclude(Job& job, const RenderOptions& options, std::uint64_t samples_befo
   stats.film_hash = film.hash();
   print_end(options, stats, film.pixels());
   // The film holds all that the checkpoint does.
-  if (writes_film(stats.ending)) std::filesystem::remove(checkpoint_path(options.film));
-  if (!options.stats.empty()) write_stats(options.stats, stats);
+  if (writes_film(stats.ending)) std::filesystem::remove(checkpoint_path(options.outputs.film));
+  if (!options.outputs.stats.empty()) write_stats(options.outputs.stats, stats);
   if (profile)
-    write_profile(options.profile, *profile, samples_before == 0 && stats.ending == Ending::finished);
+    write_profile(options.outputs.profile, *profile, samples_before == 0 && stats.ending == Ending::finished);
 }
 
 }  // namespace vitrail

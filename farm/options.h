@@ -28,11 +28,8 @@ struct AfterFilm {
   double s = 0, s_per_byte = 0;
 };
 
-// What `vitrail render` is asked for. Empty optionals: as the scene says.
-struct RenderOptions {
-  std::filesystem::path bundle;
-  std::string scene_name;      // what the picture says that it is of; empty: nothing
-  std::filesystem::path film;  // where the finished film goes; the checkpoint lies beside it as FILM.partial
+// What the picture is: with the scene it makes the film, to the bit. Empty optionals: as the scene says.
+struct PictureSettings {
   std::optional<int> samples_per_pixel;
   std::optional<int> max_depth;
   std::optional<Integrator> integrator;
@@ -51,6 +48,13 @@ struct RenderOptions {
   std::optional<bool> layers_in_camera_space;
   std::uint64_t seed = 0;
   SampleChoices samples;
+  bool adaptive = false;                    // samples go where the picture is noisy
+  std::optional<TargetError> target_error;  // the render ends once this is reached
+};
+
+// What a job has, and how it takes it: nothing of it shows in the film but how many samples it has, where a
+// time limits them.
+struct JobResources {
   std::uint64_t memory_bytes = 0;  // a rank; 0: no limit
   int threads = 0;                 // a rank; 0: one a core
   Distribution distribution = Distribution::automatic;
@@ -62,12 +66,21 @@ struct RenderOptions {
   AfterFilm after_film;
   double stop_after_s = 0;  // from `start` on; 0: never. As if told to stop, by a TERM
   std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
-  double patience_s = 600;                  // a rank that does not answer for so long ends the job; 0: never
-  bool adaptive = false;                    // samples go where the picture is noisy
-  std::optional<TargetError> target_error;  // the render ends once this is reached
-  bool dry_run = false;  // renders until the time limit, writes nothing and says what all would take
-  bool resume = false;   // says where there is nothing to go on from; going on needs no asking
-  bool force = false;    // replaces what lies under the names of film and checkpoint, whatever it is
+  double patience_s = 600;  // a rank that does not answer for so long ends the job; 0: never
+  // For tests: at most this for domains, whatever memory_bytes leaves, and so little for rays that they go to
+  // the disk; 0: no such limit.
+  std::uint64_t domain_memory_bytes = 0;
+  // For tests: processes rays in an arbitrary order: no picture may depend on it.
+  std::optional<std::uint64_t> shuffle_seed;
+};
+
+// What a job writes, and says.
+struct JobOutputs {
+  std::filesystem::path film;  // where the finished film goes; the checkpoint lies beside it as FILM.partial
+  std::string scene_name;      // what the picture says that it is of; empty: nothing
+  bool dry_run = false;        // renders until the time limit, writes nothing and says what all would take
+  bool resume = false;         // says where there is nothing to go on from; going on needs no asking
+  bool force = false;          // replaces what lies under the names of film and checkpoint, whatever it is
   // On rank 0, of each checkpoint while the render goes on; empty: nothing.
   std::function<void(const std::filesystem::path&)> after_checkpoint;
   std::filesystem::path stats;    // empty: none
@@ -75,11 +88,14 @@ struct RenderOptions {
   std::filesystem::path trace;    // where what all threads did when goes (trace_events.h); empty: nowhere
   ProgressMode progress = ProgressMode::none;
   bool quiet = false;  // nothing is said but what is wrong
-  // For tests: at most this for domains, whatever memory_bytes leaves, and so little for rays that they go to
-  // the disk; 0: no such limit.
-  std::uint64_t domain_memory_bytes = 0;
-  // For tests: processes rays in an arbitrary order: no picture may depend on it.
-  std::optional<std::uint64_t> shuffle_seed;
+};
+
+// What `vitrail render` is asked for.
+struct RenderOptions {
+  std::filesystem::path bundle;
+  PictureSettings picture;
+  JobResources resources;
+  JobOutputs outputs;
 };
 
 }  // namespace vitrail

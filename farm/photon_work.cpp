@@ -5,17 +5,17 @@
 
 namespace vitrail {
 
-PhotonKey photons_of(const RenderOptions& options, const Manifest& m) {
+PhotonKey photons_of(const PictureSettings& picture, const Manifest& m) {
   if (!m.settings.photons) return {};
   const PhotonSettings& o = *m.settings.photons;
-  if (options.adaptive || options.target_error)
+  if (picture.adaptive || picture.target_error)
     throw UsageError(
         "photon mapping, which --integrator photon or the scene asks for, takes --spp or --time; it has no "
         "--adaptive and no --target-error: --integrator path has them");
   if (m.requirements.media)
     throw UsageError(
         "--integrator photon has no photons in media, and the scene has some: --integrator path");
-  if (!options.sensors.empty())
+  if (!picture.sensors.empty())
     throw UsageError(
         "the samples of --sensors would share the photons of photon mapping, and their errors could not be "
         "told: --integrator path");

@@ -21,7 +21,7 @@ namespace vitrail {
 
 // As the manifest's settings ask; photons = 0 where there is no photon mapping. Throws UsageError for what it
 // does not cover.
-PhotonKey photons_of(const RenderOptions& options, const Manifest& manifest);
+PhotonKey photons_of(const PictureSettings& picture, const Manifest& manifest);
 
 // What `--memory` sets aside at least for the photons that land on a rank: three of each that flies.
 std::size_t least_room(const PhotonKey& key, std::uint64_t memory_bytes);

@@ -60,8 +60,8 @@ const char* word(Ending ending) {
 }  // namespace
 
 Progress::Progress(const RenderOptions& options, int rank, const Film& film, double samples)
-    : mode_(rank == 0 ? options.progress : ProgressMode::none),
-      time_limit_s_(options.time_limit_s),
+    : mode_(rank == 0 ? options.outputs.progress : ProgressMode::none),
+      time_limit_s_(options.resources.time_limit_s),
       pixels_(static_cast<double>(film.pixels())),
       samples_(samples),
       samples_before_(static_cast<double>(film.samples()) / pixels_),
@@ -141,22 +141,24 @@ std::string text_of(const Goal& goal) {
 
 void print_start(const RenderOptions& options, const Manifest& m, const Goal& goal, int ranks, int threads) {
   const auto now = std::chrono::steady_clock::now();
-  if (options.time_limit_s > 0 && !options.quiet && limit_start(options, now) > options.start)
+  if (options.resources.time_limit_s > 0 && !options.outputs.quiet &&
+      limit_start(options, now) > options.resources.start)
     say("vitrail: {} of --time {} went by before tracing began: tracing has half of it all the same; "
         "partition once, and render the bundle, to spare that time\n",
-        duration(std::chrono::duration<double>(now - options.start).count()), options.time_limit_s);
-  if (options.progress != ProgressMode::lines) return;
+        duration(std::chrono::duration<double>(now - options.resources.start).count()),
+        options.resources.time_limit_s);
+  if (options.outputs.progress != ProgressMode::lines) return;
   const PixelRect& c = m.film.crop;
   say("vitrail: rendering {} × {} pixels, {}, {} domains, {} × {} threads\n", c.x1 - c.x0, c.y1 - c.y0,
       text_of(goal), m.domains.size(), ranks, threads);
 }
 
 void print_end(const RenderOptions& options, const RenderStats& s, std::uint64_t pixels) {
-  if (options.progress == ProgressMode::none) return;
+  if (options.outputs.progress == ProgressMode::none) return;
   const double samples = static_cast<double>(s.samples) / static_cast<double>(pixels);
   const double progress = s.ending == Ending::finished ? 1 : samples / static_cast<double>(s.spp);
   const std::uint64_t rays = s.traced.rays_camera + s.traced.rays_indirect + s.traced.rays_shadow;
-  if (options.progress == ProgressMode::json)
+  if (options.outputs.progress == ProgressMode::json)
     return print_json({{"event", "end"},
                        {"ending", word(s.ending)},
                        {"progress", progress},
@@ -164,22 +166,23 @@ void print_end(const RenderOptions& options, const RenderStats& s, std::uint64_t
                        {"elapsed_s", s.wall_s},
                        {"remaining_s", 0},
                        {"rays", rays},
-                       {"film", options.film.string()},
+                       {"film", options.outputs.film.string()},
                        {"film_hash", fmt::format("{:016x}", s.film_hash)}});
   if (s.finished_before || !writes_film(s.ending)) return;
   say("vitrail: {}: {:.4g} of {} samples a pixel after {}, {:.2f} Mray/s, {:.0f} MiB a rank{}\n",
-      options.film.string(), samples, s.spp, duration(s.wall_s), static_cast<double>(rays) / s.wall_s * 1e-6,
-      static_cast<double>(s.peak_rss_bytes) / 0x1p20,
+      options.outputs.film.string(), samples, s.spp, duration(s.wall_s),
+      static_cast<double>(rays) / s.wall_s * 1e-6, static_cast<double>(s.peak_rss_bytes) / 0x1p20,
       s.ending == Ending::time_is_up ? "; the same command goes on" : "");
-  if (options.target_error)
+  if (options.picture.target_error)
     say("vitrail: {}: error {:.3g}, in all likelihood below {:.3g}, where {} was asked for\n",
-        options.film.string(), s.reached.estimate, s.reached.upper, text_of(*options.target_error));
+        options.outputs.film.string(), s.reached.estimate, s.reached.upper,
+        text_of(*options.picture.target_error));
 }
 
 void print_wedges(const RenderOptions& options, const TraceCounters& traced) {
   const double share =
       static_cast<double>(traced.connections_in_wedges) / static_cast<double>(traced.connections_in_glass);
-  if (options.quiet || !(share > 0.01)) return;
+  if (options.outputs.quiet || !(share > 0.01)) return;
   say("vitrail: {:.3g} % of the sunlight behind glass is missing: faces of panes are up to {:.2g} rad off "
       "parallel; --integrator photon finds it\n",
       100 * share, 1e-9 * static_cast<double>(traced.widest_wedge_nrad));

@@ -64,7 +64,7 @@ Rank::Rank(Transport& transport, RankState& state, const RenderOptions& options,
       progress_(options, transport.rank(), state.film, expected_samples(state.film, goal_)),
       phases_(state, {transport.rank(), transport.size()}, std::move(earlier.done)),
       exchange_(transport, state, phases_, job.plan.queues.being_sent),
-      patience_(transport, state, options.patience_s),
+      patience_(transport, state, options.resources.patience_s),
       checkpointing_(transport, state, options, patience_, job.keeper.get(), std::move(about),
                      earlier.render_time_s) {}
 
@@ -150,7 +150,7 @@ std::optional<Ending> Rank::act_on(Decision decision, const RoundSums& sums) {
     if (!end) return std::nullopt;
     ending = *end;
   }
-  if (options_.dry_run)
+  if (options_.outputs.dry_run)
     transport_.sum_to_root(state_.film.counts());
   else
     checkpointing_.write_last(/*as_film=*/writes_film(ending));

@@ -9,15 +9,15 @@ RankState::RankState(const RenderScene& the_scene, Film& the_film, WorkPlan the_
       film(the_film),
       plan(std::move(the_work)),
       scheduler(job.scheduler, Residency(scene.manifest, job.memory.domains_bytes, job.homes,
-                                         job.scheduler.rank, options.distribution)),
-      queues(scene.manifest.domains.size(), job.queues.waiting, options.shuffle_seed),
+                                         job.scheduler.rank, options.resources.distribution)),
+      queues(scene.manifest.domains.size(), job.queues.waiting, options.resources.shuffle_seed),
       outgoing(scene.manifest.domains.size(), job.queues.outgoing, std::nullopt),
       domains(scene.manifest, options.bundle) {
   const int ranks = job.scheduler.ranks;
   if (job.key.photons.photons > 0)
     photons.emplace(scene, job.key.photons, job.most_photons, job.homes, job.scheduler.rank, ranks);
-  if (!options.profile.empty()) work.traffic.emplace(scene.manifest.domains.size());
-  if (!options.trace.empty()) work.timeline.emplace(Timeline::most_events(ranks));
+  if (!options.outputs.profile.empty()) work.traffic.emplace(scene.manifest.domains.size());
+  if (!options.outputs.trace.empty()) work.timeline.emplace(Timeline::most_events(ranks));
 }
 
 void note(RankState& state, Timeline::Kind kind, RankState::Clock::time_point begin,

@@ -36,7 +36,7 @@ RenderStats run(Transport& transport, const RenderOptions& options, const Job& j
   RenderStats stats;
   add_plan(stats, job, options, transport.size());
   stats.finished_before = finished_before;
-  if (is_root && !options.quiet && !has_light(manifest))
+  if (is_root && !options.outputs.quiet && !has_light(manifest))
     say("vitrail: the scene has no light: its picture is black\n");
   if (finished_before) {
     stats.ending = Ending::finished;
@@ -80,7 +80,7 @@ RenderStats render(Transport& transport, const RenderOptions& options) {
     if (transport.rank() == 0) conclude(job, options, samples_before, profile, stats);
   });
   if (state.work.timeline)
-    write_timelines(transport, *state.work.timeline, job.plan.threads, start, options.trace);
+    write_timelines(transport, *state.work.timeline, job.plan.threads, start, options.outputs.trace);
   return stats;
 }
 

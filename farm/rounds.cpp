@@ -32,14 +32,15 @@ std::uint32_t even_above(double samples) { return 2 * static_cast<std::uint32_t>
 
 Goal goal_of(const RenderOptions& o, const RenderSettings& scene) {
   Goal goal;
-  goal.adaptive = o.adaptive;
-  goal.target = o.target_error;
+  goal.adaptive = o.picture.adaptive;
+  goal.target = o.picture.target_error;
   // With a time limit the picture is to be whole early on, and then better and better.
-  const bool limited = o.time_limit_s > 0 && !o.dry_run, as_long_as_it_takes = o.target_error || limited;
+  const bool limited = o.resources.time_limit_s > 0 && !o.outputs.dry_run,
+             as_long_as_it_takes = o.picture.target_error || limited;
   goal.one_by_one = scene.photons.has_value();
-  goal.in_rounds = !o.dry_run && !scene.photons && (o.adaptive || as_long_as_it_takes);
-  goal.open_ended = as_long_as_it_takes && !o.samples_per_pixel;
-  goal.samples = static_cast<std::uint32_t>(o.samples_per_pixel   ? *o.samples_per_pixel
+  goal.in_rounds = !o.outputs.dry_run && !scene.photons && (o.picture.adaptive || as_long_as_it_takes);
+  goal.open_ended = as_long_as_it_takes && !o.picture.samples_per_pixel;
+  goal.samples = static_cast<std::uint32_t>(o.picture.samples_per_pixel ? *o.picture.samples_per_pixel
                                             : as_long_as_it_takes ? scene.photons ? most_iterations_unasked
                                                                                   : most_samples_unasked
                                                                   : scene.samples_per_pixel);

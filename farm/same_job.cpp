@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "bundle/checksum.h"
+#include "film/picture_fields.h"
 
 namespace vitrail {
 
@@ -28,28 +29,22 @@ std::vector<Part> parts_of(const Manifest& m, const FilmKey& key, const Goal& go
   for (const DomainInfo& d : m.domains) bundle += fmt::format(" {:x}", d.hash);
   for (const ObjectInfo& object : m.objects) bundle += fmt::format(" {:x}", object.hash);
   for (const TextureFileEntry& t : m.texture_files) bundle += fmt::format(" {:x}", t.hash);
-  const PixelRect& crop = m.film.crop;
-  return {{"build", to_string(key.renderer)},
-          {"way to sample the picture", words_of(o.samples)},
-          {"bundle", std::move(bundle)},
-          {"state of its glass (--set)", o.glazing},
-          {"seed", fmt::format("{}", key.seed)},
-          {"size, crop, layers or bins of the picture",
-           fmt::format("{} {} {} {} {} {} {} {} {} {} {}", m.film.width, m.film.height, crop.x0, crop.x1,
-                       crop.y0, crop.y1, m.film.layers.bits, m.film.layers.in_camera_space,
-                       m.film.spectrum.count, m.film.spectrum.min_nm, m.film.spectrum.max_nm)},
-          {"depth, integrator, threshold, photons or clamp",
-           fmt::format("{} {} {} {} {} {} {} {}", key.max_depth, key.direct_only, key.threshold,
-                       key.straight_counts, key.clamp, key.photons.photons, key.photons.first_radius,
-                       key.photons.alpha)},
-          {"number of samples, error or time",
-           fmt::format("{} {} {} {} {} {} {}", goal.samples, goal.in_rounds, goal.adaptive, goal.open_ended,
-                       goal.target ? goal.target->value : 0, goal.target && goal.target->just_noticeable,
-                       o.time_limit_s)},
-          {"distribution or homes", fmt::format("{} {}", static_cast<int>(o.distribution), to_string(homes))},
-          {"output, profile, trace, dry run or --force",
-           fmt::format("{}\n{}\n{}\n{} {}", o.film.string(), o.profile.string(), o.trace.string(), o.dry_run,
-                       o.force)}};
+  std::vector<Part> parts{{"way to sample the picture", words_of(o.picture.samples)},
+                          {"bundle", std::move(bundle)},
+                          {"state of its glass (--set)", o.picture.glazing},
+                          {"seed", fmt::format("{}", key.seed)}};
+  for (const PictureField& field : picture_fields(key, m.film)) parts.push_back({field.name, field.value});
+  parts.insert(parts.end(),
+               {{"number of samples, error or time",
+                 fmt::format("{} {} {} {} {} {} {}", goal.samples, goal.in_rounds, goal.adaptive,
+                             goal.open_ended, goal.target ? goal.target->value : 0,
+                             goal.target && goal.target->just_noticeable, o.resources.time_limit_s)},
+                {"distribution or homes",
+                 fmt::format("{} {}", static_cast<int>(o.resources.distribution), to_string(homes))},
+                {"output, profile, trace, dry run or --force",
+                 fmt::format("{}\n{}\n{}\n{} {}", o.outputs.film.string(), o.outputs.profile.string(),
+                             o.outputs.trace.string(), o.outputs.dry_run, o.outputs.force)}});
+  return parts;
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include <limits>
 #include <numeric>
 
+#include "film/picture_fields.h"
 #include "scene/records/film_extent.h"
 #include "scene/system/diagnostics.h"
 
@@ -73,22 +74,15 @@ std::uint64_t film_bytes(const FilmSettings& settings, bool splats) {
 }
 
 Film::Film(const FilmSettings& settings, const FilmKey& key, int exponent, int length_exponent)
-    : crop_(settings.crop),
-      full_width_(settings.width),
-      full_height_(settings.height),
-      imaging_ratio_(settings.imaging_ratio),
-      bins_(settings.spectrum),
-      key_(key),
-      exponent_(exponent),
-      length_exponent_(length_exponent),
-      layers_(settings.layers) {
+    : settings_(settings), key_(key), exponent_(exponent), length_exponent_(length_exponent) {
   const std::size_t size = pixels_of(settings);
-  if (bins_.count < 0 || bins_.count > max_spectral_bins || !(bins_.min_nm < bins_.max_nm))
+  if (settings_.spectrum.count < 0 || settings_.spectrum.count > max_spectral_bins ||
+      !(settings_.spectrum.min_nm < settings_.spectrum.max_nm))
     throw Error(fmt::format("a film keeps at most {} spectral bins over an interval of wavelengths",
                             max_spectral_bins));
   sums_.resize((first_weights() + (key_.splats ? sample_groups : 0)) * size + single_sums(key_));
   counts_.resize(sample_groups * size);
-  ids_.resize(id_planes(layers_) * size);
+  ids_.resize(id_planes(settings_.layers) * size);
 }
 
 // The seeds of films that are to be merged follow on each other as a rule: so the first samples of each,
@@ -108,9 +102,9 @@ bool Film::accepts(double size, double largest) {
 // Of a pixel in the whole picture: a crop rounds as the whole does.
 std::uint32_t Film::place(std::uint32_t pixel) const {
   const auto crop_width = static_cast<std::uint32_t>(width());
-  return (static_cast<std::uint32_t>(crop_.y0) + pixel / crop_width) *
-             static_cast<std::uint32_t>(full_width_) +
-         static_cast<std::uint32_t>(crop_.x0) + pixel % crop_width;
+  return (static_cast<std::uint32_t>(settings_.crop.y0) + pixel / crop_width) *
+             static_cast<std::uint32_t>(settings_.width) +
+         static_cast<std::uint32_t>(settings_.crop.x0) + pixel % crop_width;
 }
 
 // The same sums however deposits are put together: their quanta are whole before weights multiply them.
@@ -145,7 +139,8 @@ bool Film::deposit(std::uint32_t pixel, std::uint32_t sample, const XYZ& value, 
 
 double Film::clamp(std::uint32_t pixel, std::uint32_t sample, const XYZ& value) {
   if (!(key_.clamp > 0)) return 1;
-  const double largest = imaging_ratio_ * std::max({std::abs(value.x), std::abs(value.y), std::abs(value.z)});
+  const double largest =
+      settings_.imaging_ratio * std::max({std::abs(value.x), std::abs(value.y), std::abs(value.z)});
   if (!(largest > key_.clamp) || !std::isfinite(largest)) return 1;
   const double left = key_.clamp / largest, taken = (1 - left) * value.y;
   if (accepts(taken, std::abs(taken)))
@@ -163,12 +158,12 @@ bool Film::deposit_bin(std::uint32_t pixel, std::uint32_t sample, std::size_t bi
 }
 
 std::size_t Film::first_plane(Layer layer) const {
-  return bin_planes + static_cast<std::size_t>(bins_.count) +
-         sum_planes(layers_, static_cast<std::size_t>(layer));
+  return bin_planes + static_cast<std::size_t>(settings_.spectrum.count) +
+         sum_planes(settings_.layers, static_cast<std::size_t>(layer));
 }
 
 std::size_t Film::first_weights() const {
-  return bin_planes + static_cast<std::size_t>(bins_.count) + sum_planes(layers_);
+  return bin_planes + static_cast<std::size_t>(settings_.spectrum.count) + sum_planes(settings_.layers);
 }
 
 int Film::exponent_of(Layer layer) const {
@@ -176,7 +171,7 @@ int Film::exponent_of(Layer layer) const {
 }
 
 std::size_t Film::place_of_id(std::uint32_t pixel, Layer layer) const {
-  return id_planes(layers_, static_cast<std::size_t>(layer)) * pixels() + pixel;
+  return id_planes(settings_.layers, static_cast<std::size_t>(layer)) * pixels() + pixel;
 }
 
 void Film::deposit_layer(std::uint32_t pixel, std::uint32_t sample, Layer layer,
@@ -227,45 +222,17 @@ float rounded_threshold(double threshold) {
 }
 
 std::string difference(const Film& a, const Film& b) {
-  const FilmKey &k = a.key(), &l = b.key();
   const auto differ = [](const char* what, const auto& x, const auto& y) {
     return fmt::format("{}: {} and {}", what, x, y);
   };
-  const auto text = [](const PixelRect& r) { return fmt::format("{},{},{},{}", r.x0, r.x1, r.y0, r.y1); };
-  if (k.scene_hash != l.scene_hash)
-    return "they are of different scenes or of glass in different states, or sampled in different ways";
-  if (k.renderer != l.renderer)
-    return differ("they were made by different programs", to_string(k.renderer), to_string(l.renderer));
-  if (a.full_width() != b.full_width()) return differ("their widths differ", a.full_width(), b.full_width());
-  if (a.full_height() != b.full_height())
-    return differ("their heights differ", a.full_height(), b.full_height());
-  if (a.crop() != b.crop()) return differ("their crops differ", text(a.crop()), text(b.crop()));
-  if (k.max_depth != l.max_depth) return differ("their depths differ", k.max_depth, l.max_depth);
-  if (k.direct_only != l.direct_only) return "one has direct light only";
-  if (k.threshold != l.threshold) return differ("their thresholds differ", k.threshold, l.threshold);
-  if (k.straight_counts != l.straight_counts)
-    return "one counts going straight through a sheet as scattering, the other does not";
-  if (k.splats != l.splats) return "samples of one add to several pixels, those of the other to their own";
-  const auto photons = [](const PhotonKey& p) {
-    return p.photons == 0 ? std::string("none")
-                          : fmt::format("{} from radius {} on with α {}", p.photons, p.first_radius, p.alpha);
-  };
-  if (k.photons != l.photons) return differ("their photons differ", photons(k.photons), photons(l.photons));
-  if (k.clamp != l.clamp) return differ("their clamps differ", k.clamp, l.clamp);
-  if (a.bins() != b.bins())
-    return differ("their spectral bins differ",
-                  fmt::format("{} over {}..{} nm", a.bins().count, a.bins().min_nm, a.bins().max_nm),
-                  fmt::format("{} over {}..{} nm", b.bins().count, b.bins().min_nm, b.bins().max_nm));
-  if (a.imaging_ratio() != b.imaging_ratio())
-    return differ("their imaging ratios differ", a.imaging_ratio(), b.imaging_ratio());
+  const std::vector<PictureField> mine = picture_fields(a.key(), a.settings()),
+                                  theirs = picture_fields(b.key(), b.settings());
+  for (std::size_t i = 0; i < mine.size(); ++i)
+    if (mine[i].value != theirs[i].value)
+      return mine[i].is_shown ? differ(mine[i].difference, mine[i].value, theirs[i].value)
+                              : mine[i].difference;
   if (a.exponent() != b.exponent())
     return differ("their sums count in different powers of two", a.exponent(), b.exponent());
-  if (a.layers().bits != b.layers().bits)
-    return differ("they keep different layers of the first surfaces",
-                  a.layers().any() ? names_of(a.layers()) : "none",
-                  b.layers().any() ? names_of(b.layers()) : "none");
-  if (a.layers().in_camera_space != b.layers().in_camera_space)
-    return "one has positions and normals in camera space, the other in the world's";
   if (a.length_exponent() != b.length_exponent())
     return differ("their lengths count in different powers of two", a.length_exponent(), b.length_exponent());
   return {};
@@ -291,7 +258,7 @@ double Film::value(std::size_t plane, std::uint32_t pixel) const {
 XYZ Film::mean(std::uint32_t pixel) const {
   const double n = weight(pixel);
   if (!(n > 0)) return {};
-  const double each = imaging_ratio_ / n;
+  const double each = settings_.imaging_ratio / n;
   WideSum y;
   for (std::size_t g = 0; g < sample_groups; ++g) y += sums_[(y_planes + g) * pixels() + pixel];
   return {each * value(x_plane, pixel), each * (power_of_two(exponent_) * static_cast<double>(value_of(y))),
@@ -309,7 +276,7 @@ double Film::clamped_share() const {
 
 double Film::mean_of_bin(std::uint32_t pixel, std::size_t bin) const {
   const double n = weight(pixel);
-  return n > 0 ? imaging_ratio_ / n * value(bin_planes + bin, pixel) : 0;
+  return n > 0 ? settings_.imaging_ratio / n * value(bin_planes + bin, pixel) : 0;
 }
 
 double Film::weight(std::size_t group, std::uint32_t pixel) const {
@@ -331,7 +298,7 @@ double Film::variance_of_mean(std::uint32_t pixel) const {
   static_assert(sample_groups == 2);
   const double n0 = weight(0, pixel), n1 = weight(1, pixel), n = n0 + n1;
   if (!(n0 > 0) || !(n1 > 0)) return 0;
-  const double d = imaging_ratio_ * (value(y_planes, pixel) / n0 - value(y_planes + 1, pixel) / n1);
+  const double d = settings_.imaging_ratio * (value(y_planes, pixel) / n0 - value(y_planes + 1, pixel) / n1);
   return d * d * (n0 / n) * (n1 / n);
 }
 

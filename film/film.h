@@ -84,17 +84,19 @@ class Film {
   Film(const FilmSettings& settings, const FilmKey& key, int exponent = default_exponent,
        int length_exponent = default_exponent);
 
-  const PixelRect& crop() const { return crop_; }
-  int width() const { return crop_.x1 - crop_.x0; }   // of the crop
-  int height() const { return crop_.y1 - crop_.y0; }  // of the crop
+  // But for the filter, which a film does not keep.
+  const FilmSettings& settings() const { return settings_; }
+  const PixelRect& crop() const { return settings_.crop; }
+  int width() const { return crop().x1 - crop().x0; }   // of the crop
+  int height() const { return crop().y1 - crop().y0; }  // of the crop
   std::uint32_t pixels() const { return static_cast<std::uint32_t>(counts_.size() / sample_groups); }
-  int full_width() const { return full_width_; }
-  int full_height() const { return full_height_; }
-  double imaging_ratio() const { return imaging_ratio_; }
-  const SpectralBins& bins() const { return bins_; }
+  int full_width() const { return settings_.width; }
+  int full_height() const { return settings_.height; }
+  double imaging_ratio() const { return settings_.imaging_ratio; }
+  const SpectralBins& bins() const { return settings_.spectrum; }
   const FilmKey& key() const { return key_; }
   int exponent() const { return exponent_; }
-  const FilmLayers& layers() const { return layers_; }
+  const FilmLayers& layers() const { return settings_.layers; }
   int length_exponent() const { return length_exponent_; }
 
   // Adds to a pixel. Safe from many threads. `pixel` = y·width + x within the crop. Each component is rounded
@@ -179,13 +181,9 @@ class Film {
   std::size_t place_of_id(std::uint32_t pixel, Layer layer) const;
   std::size_t first_batch() const { return sums_.size() - single_sums(key_); }
 
-  PixelRect crop_{};
-  int full_width_ = 0, full_height_ = 0;
-  double imaging_ratio_ = 1;
-  SpectralBins bins_;
+  FilmSettings settings_{.width = 0, .height = 0, .crop = {}};
   FilmKey key_{};
   int exponent_ = default_exponent, length_exponent_ = default_exponent;
-  FilmLayers layers_;
   UntouchedVector<WideSum> sums_;
   UntouchedVector<std::uint32_t> counts_;
   UntouchedVector<std::int64_t> ids_;

@@ -111,6 +111,22 @@ class Reader {
   std::uint64_t size_ = 0;
 };
 
+// Whether what a header says can be.
+bool has_sizes(const Header& h) {
+  return 0 <= h.x0 && h.x0 < h.x1 && h.x1 <= h.full_width && h.full_width <= max_film_extent && 0 <= h.y0 &&
+         h.y0 < h.y1 && h.y1 <= h.full_height && h.full_height <= max_film_extent &&
+         std::isfinite(h.imaging_ratio);
+}
+bool has_bins(const Header& h) {
+  return 0 <= h.bins && h.bins <= max_spectral_bins && h.bins_min_nm < h.bins_max_nm &&
+         std::isfinite(h.bins_max_nm - h.bins_min_nm);
+}
+bool has_key(const Header& h) {
+  return std::memchr(h.renderer, 0, sizeof h.renderer) != nullptr && h.max_depth >= 0 &&
+         (h.options & ~options_of(h.version)) == 0 && (h.layers & ~all_layers) == 0 && in_range(h.exponent) &&
+         in_range(h.length_exponent) && h.clamp >= 0 && std::bit_cast<float>(h.options & threshold_bits) >= 0;
+}
+
 Header read_header(Reader& in) {
   Header h;
   if (in.size() < sizeof h) in.fail("this is not a film file: it is too short");
@@ -122,16 +138,7 @@ Header read_header(Reader& in) {
                     "another one, and can be developed by that alone",
                     h.version, to_string(this_renderer()), film_version));
   if (h.checksum != checksum(h)) in.fail("the film file is corrupt: the checksum of its header is wrong");
-  const bool sizes_in_order = 0 <= h.x0 && h.x0 < h.x1 && h.x1 <= h.full_width &&
-                              h.full_width <= max_film_extent && 0 <= h.y0 && h.y0 < h.y1 &&
-                              h.y1 <= h.full_height && h.full_height <= max_film_extent;
-  const bool bins_in_order = 0 <= h.bins && h.bins <= max_spectral_bins && h.bins_min_nm < h.bins_max_nm &&
-                             std::isfinite(h.bins_max_nm - h.bins_min_nm);
-  const bool key_in_order = std::memchr(h.renderer, 0, sizeof h.renderer) != nullptr && h.max_depth >= 0 &&
-                            (h.options & ~options_of(h.version)) == 0 && (h.layers & ~all_layers) == 0 &&
-                            in_range(h.exponent) && in_range(h.length_exponent);
-  if (!sizes_in_order || !bins_in_order || !key_in_order || !std::isfinite(h.imaging_ratio) ||
-      !(h.render_time_s >= 0) || !(h.clamp >= 0) || !(std::bit_cast<float>(h.options & threshold_bits) >= 0))
+  if (!has_sizes(h) || !has_bins(h) || !has_key(h) || !(h.render_time_s >= 0))
     in.fail("the film file is corrupt: its header makes no sense");
   return h;
 }
@@ -149,23 +156,25 @@ void write_film(const std::filesystem::path& file, const Film& film, const FilmP
   std::memcpy(h.magic, film_magic, sizeof film_magic);
   const bool photons = film.key_.photons.photons > 0;
   h.version = progress.adaptive ? adaptive_version : photons ? photon_version : film_version;
-  h.full_width = film.full_width_, h.full_height = film.full_height_;
-  h.x0 = film.crop_.x0, h.x1 = film.crop_.x1, h.y0 = film.crop_.y0, h.y1 = film.crop_.y1;
-  h.imaging_ratio = film.imaging_ratio_;
-  h.bins = film.bins_.count, h.bins_min_nm = film.bins_.min_nm, h.bins_max_nm = film.bins_.max_nm;
+  h.full_width = film.settings_.width, h.full_height = film.settings_.height;
+  h.x0 = film.settings_.crop.x0, h.x1 = film.settings_.crop.x1, h.y0 = film.settings_.crop.y0,
+  h.y1 = film.settings_.crop.y1;
+  h.imaging_ratio = film.settings_.imaging_ratio;
+  h.bins = film.settings_.spectrum.count, h.bins_min_nm = film.settings_.spectrum.min_nm,
+  h.bins_max_nm = film.settings_.spectrum.max_nm;
   const FilmKey& key = film.key_;
   h.scene_hash = key.scene_hash, h.seed = key.seed;
   key.renderer.number.copy(h.renderer, sizeof h.renderer - 1);
   h.picture_revision = key.renderer.revision;
   h.max_depth = key.max_depth;
-  h.options = (key.direct_only ? option_direct_only : 0) |
-              (key.straight_counts ? option_straight_counts : 0) |
-              (film.layers_.in_camera_space ? option_camera_space : 0) | (key.splats ? option_splats : 0) |
-              (std::bit_cast<std::uint32_t>(key.threshold) & threshold_bits) |
-              (progress.adaptive ? option_adaptive : 0) | (progress.more.empty() ? 0 : option_open_round);
+  h.options =
+      (key.direct_only ? option_direct_only : 0) | (key.straight_counts ? option_straight_counts : 0) |
+      (film.settings_.layers.in_camera_space ? option_camera_space : 0) | (key.splats ? option_splats : 0) |
+      (std::bit_cast<std::uint32_t>(key.threshold) & threshold_bits) |
+      (progress.adaptive ? option_adaptive : 0) | (progress.more.empty() ? 0 : option_open_round);
   h.exponent = film.exponent_, h.length_exponent = film.length_exponent_;
   h.clamp = key.clamp;
-  h.layers = film.layers_.bits;
+  h.layers = film.settings_.layers.bits;
   h.nonfinite = film.refused_.nonfinite, h.too_large = film.refused_.too_large;
   h.items = progress.items, h.samples_per_pixel = progress.samples_per_pixel;
   h.render_time_s = progress.render_time_s;
@@ -224,10 +233,10 @@ Film read_film(const std::filesystem::path& file, FilmProgress* progress) {
   if (h.items % 64 != 0 && read.done.back() >> (h.items % 64) != 0)
     in.fail("the film file is corrupt: it has work done beyond its work items");
   Film film;
-  film.crop_ = {h.x0, h.x1, h.y0, h.y1};
-  film.full_width_ = h.full_width, film.full_height_ = h.full_height;
-  film.imaging_ratio_ = h.imaging_ratio;
-  film.bins_ = {h.bins, h.bins_min_nm, h.bins_max_nm};
+  film.settings_.crop = {h.x0, h.x1, h.y0, h.y1};
+  film.settings_.width = h.full_width, film.settings_.height = h.full_height;
+  film.settings_.imaging_ratio = h.imaging_ratio;
+  film.settings_.spectrum = {h.bins, h.bins_min_nm, h.bins_max_nm};
   film.key_ = {h.scene_hash,
                h.seed,
                h.max_depth,
@@ -239,7 +248,7 @@ Film read_film(const std::filesystem::path& file, FilmProgress* progress) {
                photons.empty() ? PhotonKey{} : photons[0],
                splats};
   film.exponent_ = h.exponent, film.length_exponent_ = h.length_exponent;
-  film.layers_ = layers;
+  film.settings_.layers = layers;
   film.refused_ = {h.nonfinite, h.too_large};
   in.read_array(film.sums_, planes * pixels + single_sums(film.key_), "sums");
   in.read_array(film.counts_, sample_groups * pixels, "counts");

@@ -71,20 +71,21 @@ double time_to_work_s(double left_s) { return std::max(1.0, left_s - std::min(60
 }  // namespace
 
 void take_limits_of_job(RenderOptions& o, bool rank_0) {
-  const bool say_so = rank_0 && !o.quiet;
+  const bool say_so = rank_0 && !o.outputs.quiet;
   if (number("SLURM_JOB_ID") == 0) return;
   constexpr double mib = 1 << 20;
   const std::uint64_t memory = memory_of_node() / ranks_of_node() / 10 * 9;
-  if (memory > 0 && o.memory_bytes == 0) {
-    o.memory_bytes = memory;
+  if (memory > 0 && o.resources.memory_bytes == 0) {
+    o.resources.memory_bytes = memory;
     if (say_so)
       say("vitrail: {:.0f} MiB a rank, as Slurm gives this job\n", static_cast<double>(memory) / mib);
   }
-  if (!rank_0 || o.time_limit_s > 0) return;
+  if (!rank_0 || o.resources.time_limit_s > 0) return;
   if (const double left_s = time_left_s(); left_s > 0) {
-    o.stop_after_s = time_to_work_s(left_s);
+    o.resources.stop_after_s = time_to_work_s(left_s);
     if (say_so)
-      say("vitrail: stops with a checkpoint after {:.0f} s, as Slurm ends this job then\n", o.stop_after_s);
+      say("vitrail: stops with a checkpoint after {:.0f} s, as Slurm ends this job then\n",
+          o.resources.stop_after_s);
   }
 }
 

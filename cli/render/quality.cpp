@@ -28,9 +28,9 @@ std::vector<std::string> qualities() {
 
 void apply_quality(const std::string& quality, bool adaptive_is_given, RenderOptions& o) {
   const Quality& q = *std::ranges::find(table, quality, &Quality::name);
-  if (!o.target_error) o.target_error = TargetError{q.just_noticeable, true};
-  if (!o.samples_per_pixel) o.samples_per_pixel = q.most_samples;
-  if (!adaptive_is_given) o.adaptive = q.adaptive;
+  if (!o.picture.target_error) o.picture.target_error = TargetError{q.just_noticeable, true};
+  if (!o.picture.samples_per_pixel) o.picture.samples_per_pixel = q.most_samples;
+  if (!adaptive_is_given) o.picture.adaptive = q.adaptive;
 }
 
 }  // namespace vitrail

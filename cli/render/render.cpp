@@ -33,19 +33,19 @@ bool is_film(const fs::path& output) { return output.extension() == ".film"; }
 
 // A picture is known by the film beside it. Without one it may be anybody's.
 void require_own_picture(const RenderArguments& a, const fs::path& picture) {
-  if (a.options.force || !fs::exists(picture) || fs::exists(a.options.film) ||
-      fs::exists(checkpoint_path(a.options.film)))
+  if (a.options.outputs.force || !fs::exists(picture) || fs::exists(a.options.outputs.film) ||
+      fs::exists(checkpoint_path(a.options.outputs.film)))
     return;
   throw Error(fmt::format("it is there already, and there is no {} to say that this render made it; --force "
                           "replaces it, and another name keeps it",
-                          a.options.film.filename().string()),
+                          a.options.outputs.film.filename().string()),
               {picture.string()});
 }
 
 void check_outputs(const RenderArguments& a) {
   note_input(a.input);
-  for (const fs::path& file :
-       {a.output, a.options.film, a.options.stats, a.options.profile, a.options.trace, a.preview})
+  for (const fs::path& file : {a.output, a.options.outputs.film, a.options.outputs.stats,
+                               a.options.outputs.profile, a.options.outputs.trace, a.preview})
     if (!file.empty()) require_place(file);
   if (!is_film(a.output)) require_own_picture(a, a.output);
   if (!a.preview.empty()) require_own_picture(a, a.preview);
@@ -53,16 +53,17 @@ void check_outputs(const RenderArguments& a) {
 
 void set_glazing(RenderArguments& a) {
   const fs::path& bundle = a.options.bundle;
-  a.options.sheets = sheets_under(parse_settings(a.settings), bundle, read_manifest(bundle));
+  a.options.picture.sheets = sheets_under(parse_settings(a.settings), bundle, read_manifest(bundle));
 }
 
 void develop_film(const RenderArguments& a, const RenderStats& stats) {
   // One that is newer than its finished film was made of it, and perhaps worked on since.
   std::error_code none;
   const auto developed = fs::last_write_time(a.output, none);
-  if (stats.finished_before && !a.options.force && !none && developed >= fs::last_write_time(a.options.film))
+  if (stats.finished_before && !a.options.outputs.force && !none &&
+      developed >= fs::last_write_time(a.options.outputs.film))
     return;
-  std::vector<std::string> arguments{a.options.film.string(), "-o", a.output.string()};
+  std::vector<std::string> arguments{a.options.outputs.film.string(), "-o", a.output.string()};
   if (stats.spectral_bins > 0 && a.output.extension() == ".exr") arguments.push_back("--spectral");
   run_program("vitrail-develop", arguments);
 }
@@ -85,38 +86,39 @@ int render_job(const CLI::App& app, Transport& transport, RenderArguments& a) {
   agree(transport, [&] {
     if (!first) return;
     check_outputs(a);
-    lock.emplace(a.options.film);
-    for (const fs::path& file : {a.options.film, checkpoint_path(a.options.film)}) remove_temporaries(file);
+    lock.emplace(a.options.outputs.film);
+    for (const fs::path& file : {a.options.outputs.film, checkpoint_path(a.options.outputs.film)})
+      remove_temporaries(file);
   });
-  const auto beside_the_film = fs::path(a.options.film).replace_extension(".tmp.vit");
+  const auto beside_the_film = fs::path(a.options.outputs.film).replace_extension(".tmp.vit");
   a.options.bundle = a.is_bundle() ? a.input : beside_the_film;
   std::optional<TemporaryBundle> temporary;
   if (!a.is_bundle()) temporary.emplace(transport, a.input, beside_the_film, partition_arguments(a));
   agree(transport, [&] {
     if (first && !a.settings.empty()) set_glazing(a);
   });
-  share_from_root(transport, a.options.sheets);
+  share_from_root(transport, a.options.picture.sheets);
   agree(transport, [] {
     if (stop_signal()) throw Interrupted(stop_signal(), "interrupted before rendering began");
   });
   std::optional<Preview> preview;
   if (first && !a.preview.empty()) {
     preview.emplace(a.preview);
-    a.options.after_checkpoint = [&](const fs::path& checkpoint) { preview->develop(checkpoint); };
+    a.options.outputs.after_checkpoint = [&](const fs::path& checkpoint) { preview->develop(checkpoint); };
   }
-  a.options.after_film = developing(a.output);
+  a.options.resources.after_film = developing(a.output);
   const RenderStats stats = render(transport, a.options);
   preview.reset();  // the picture is the last
-  agree(transport, [&] { require_unsaturated(stats.refused, a.options.film); });
+  agree(transport, [&] { require_unsaturated(stats.refused, a.options.outputs.film); });
   const int signal = number_of(stats.ending);
   if (!first) return signal ? 128 + signal : exit_done;
   if (signal)
     throw Interrupted(signal,
-                      a.options.dry_run
+                      a.options.outputs.dry_run
                           ? "stopped"
                           : fmt::format("stopped; {} holds what was done, and the same command goes on",
-                                        checkpoint_path(a.options.film).string()));
-  if (!is_film(a.output) && !a.options.dry_run) develop_film(a, stats);
+                                        checkpoint_path(a.options.outputs.film).string()));
+  if (!is_film(a.output) && !a.options.outputs.dry_run) develop_film(a, stats);
   return exit_done;
 }
 
@@ -146,11 +148,11 @@ int supervise_job(RenderArguments& a, int argc, char** argv) {
   if (launched_by_mpi())
     throw UsageError(
         "a rank cannot start the job again: vitrail render --restarts N --launcher 'mpirun …' can");
-  if (a.options.force && a.restarts > 0)
+  if (a.options.outputs.force && a.restarts > 0)
     throw UsageError("--force would begin anew at each restart: remove what is to be replaced instead");
   a.name_outputs();
-  return supervise(supervised_command(argc, argv, a.launcher), a.options.film, a.restarts,
-                   a.options.patience_s);
+  return supervise(supervised_command(argc, argv, a.launcher), a.options.outputs.film, a.restarts,
+                   a.options.resources.patience_s);
 }
 
 }  // namespace

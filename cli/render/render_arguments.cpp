@@ -27,9 +27,9 @@ void declare(CLI::App& app, RenderArguments& a) {
   app.add_option("-o,--output,--outfile", a.output,
                  "picture (.exr, .png, .jpg, .tif) or film (.film); default: as the scene's film says, else "
                  "the input's name with .exr, here");
-  app.add_option("--spp", o.samples_per_pixel, "samples a pixel; default: as the scene says")
+  app.add_option("--spp", o.picture.samples_per_pixel, "samples a pixel; default: as the scene says")
       ->check(more_than_0);
-  app.add_flag("--adaptive,!--no-adaptive", o.adaptive,
+  app.add_flag("--adaptive,!--no-adaptive", o.picture.adaptive,
                "more samples where the picture is noisy, fewer elsewhere; --spp is the mean then");
   app.add_option(
       "--target-error", a.target_error,
@@ -44,14 +44,16 @@ void declare(CLI::App& app, RenderArguments& a) {
          "scattering events of a path; 0: emitters only, 1: direct light, -1: no limit; default: as the "
          "scene says")
       ->check(CLI::Range(-1, 1'000'000));
-  app.add_option("--width", o.width, "pixels; default: as the scene says, or in proportion to --height")
+  app.add_option("--width", o.picture.width,
+                 "pixels; default: as the scene says, or in proportion to --height")
       ->check(CLI::Range(1, 1 << 20));
-  app.add_option("--height", o.height, "pixels; default: as the scene says, or in proportion to --width")
+  app.add_option("--height", o.picture.height,
+                 "pixels; default: as the scene says, or in proportion to --width")
       ->check(CLI::Range(1, 1 << 20));
-  app.add_option("--scale", o.scale, "times the width and height that the scene says")
+  app.add_option("--scale", o.picture.scale, "times the width and height that the scene says")
       ->check(CLI::Range(1e-3, 1e3))
       ->capture_default_str();
-  app.add_option("--seed", o.seed, "films of different seeds are independent")
+  app.add_option("--seed", o.picture.seed, "films of different seeds are independent")
       ->check(not_below_0)
       ->capture_default_str();
   app.add_option("--integrator", a.integrator,
@@ -64,37 +66,37 @@ void declare(CLI::App& app, RenderArguments& a) {
                  "NAME.state=0.6: glass that switches in another state, without partitioning again; also "
                  "NAME.temperature (°C), NAME.uv (W/m²), NAME.seconds; may repeat")
       ->allow_extra_args(false);
-  app.add_option("--threshold", o.threshold,
+  app.add_option("--threshold", o.picture.threshold,
                  "of --integrator direct: end a path that brings less than this share of what it sees, e.g. "
                  "0.01; no pixel becomes darker by more than this share of the brightest that is seen")
       ->check(CLI::Range(0.0, 0.999))
       ->capture_default_str();
   app.add_option(
-         "--photons", o.photons.photons,
+         "--photons", o.picture.photons.photons,
          "of --integrator photon, an iteration, which is a sample of every pixel; default: as the scene "
          "says, else as many as the picture has pixels, at least 65536")
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 31));
   app.add_option(
-         "--photon-radius", o.photons.first_radius,
+         "--photon-radius", o.picture.photons.first_radius,
          "around a point in which the first iteration gathers photons, in scene units; default: as the "
          "scene says, else by its extent and their number")
       ->check(more_than_0);
   app.add_option(
-         "--photon-alpha", o.photons.alpha,
+         "--photon-alpha", o.picture.photons.alpha,
          "between 0 and 1: how fast the radius shrinks, from fast and noisy to slow and blurred; default: "
          "as the scene says, else 0.667")
       ->check(CLI::Range(0.01, 0.99));
   app.add_option("--memory", a.memory, "most memory a rank may use, e.g. 512M or 2G; default: no limit");
-  app.add_option("-t,--threads,--nthreads", o.threads, "worker threads a rank; default: all cores")
+  app.add_option("-t,--threads,--nthreads", o.resources.threads, "worker threads a rank; default: all cores")
       ->check(CLI::Range(1, 4096));
-  declare_distribution(app, o.distribution, o.homes);
+  declare_distribution(app, o.resources.distribution, o.resources.homes);
   app.add_option("--crop,--pixelbounds", a.crop, "x0,x1,y0,y1 in pixels from the top left; default: all");
   app.add_option(
          "--spectral", a.bins,
          "keep the spectrum of each pixel in this many bins over 360 to 830 nm; default: as the scene says")
       ->check(CLI::Range(1, max_spectral_bins));
   app.add_option(
-         "--clamp", o.clamp,
+         "--clamp", o.picture.clamp,
          "cut what one connection of a path adds to a sample down to this, in the picture's units: fewer "
          "bright specks, but a darker picture, and the film says by how much; 0: no limit")
       ->check(not_below_0)
@@ -104,24 +106,25 @@ void declare(CLI::App& app, RenderArguments& a) {
                  "world or camera: of positions and normals of --aov; default: as the scene says, else world")
       ->check(CLI::IsMember({"world", "camera"}));
   app.add_option(
-         "--patience", o.patience_s,
+         "--patience", o.resources.patience_s,
          "seconds; a rank that does not answer for so long is named and ends the job; default 600, 0: never")
       ->check(not_below_0);
-  app.add_option("--checkpoint-every", o.checkpoint_every_s,
+  app.add_option("--checkpoint-every", o.resources.checkpoint_every_s,
                  "seconds between checkpoints; 0: none but those that signals ask for")
       ->check(not_below_0)
       ->capture_default_str();
   app.add_flag(
-      "--resume", o.resume,
+      "--resume", o.outputs.resume,
       "say so where there is nothing to go on from; going on with a render that was begun, or adding "
       "samples to a finished one, needs no option");
-  app.add_flag("--force", o.force, "replace the film, checkpoint or picture that has the output's name");
-  app.add_option("--time", o.time_limit_s,
+  app.add_flag("--force", o.outputs.force,
+               "replace the film, checkpoint or picture that has the output's name");
+  app.add_option("--time", o.resources.time_limit_s,
                  "end after this many seconds, partitioning and the picture's file included, with what there "
                  "is, and without --spp not before; the same command then goes on. Tracing has half of them "
                  "at least, and some samples are always finished")
       ->check(more_than_0);
-  app.add_flag("--dry-run", o.dry_run,
+  app.add_flag("--dry-run", o.outputs.dry_run,
                "render for a few seconds, write nothing, and say what memory and time it would all take");
   app.add_option(
          "--restarts", a.restarts,
@@ -130,14 +133,15 @@ void declare(CLI::App& app, RenderArguments& a) {
       ->check(CLI::Range(0, 1'000'000));
   app.add_option("--launcher", a.launcher, "with --restarts: what starts the ranks, e.g. 'mpirun -np 8'");
   app.add_option(
-      "--sensors", o.sensors,
+      "--sensors", o.picture.sensors,
       "measure irradiance instead of a picture: a text of x y z nx ny nz lines, or plane O U V NXxNY; "
       "each sensor gets 16 times --spp samples; develop writes the .csv");
   app.add_option("--preview", a.preview,
                  "a picture of each checkpoint, .png or another, while the render goes on");
-  app.add_option("--stats", o.stats, "write statistics as JSON");
-  app.add_option("--profile", o.profile, "write where rays went, for `partition --profile` and `plan`");
-  app.add_option("--trace", o.trace,
+  app.add_option("--stats", o.outputs.stats, "write statistics as JSON");
+  app.add_option("--profile", o.outputs.profile,
+                 "write where rays went, for `partition --profile` and `plan`");
+  app.add_option("--trace", o.outputs.trace,
                  "write what each thread of each rank did when: loads, batches, idleness, messages; opens in "
                  "Perfetto (ui.perfetto.dev)");
   declare_import_options(app, a.imports);
@@ -150,13 +154,13 @@ void declare(CLI::App& app, RenderArguments& a) {
       ->capture_default_str();
   app.add_flag("--strict", a.strict, "refuse a scene that is not imported exactly");
   app.add_flag("--quiet", a.quiet, "say nothing but what is wrong");
-  app.add_option("--shuffle-delivery", o.shuffle_seed)->group("");
-  app.add_option("--domain-memory", o.domain_memory_bytes)->group("");
+  app.add_option("--shuffle-delivery", o.resources.shuffle_seed)->group("");
+  app.add_option("--domain-memory", o.resources.domain_memory_bytes)->group("");
 }
 
 void RenderArguments::name_outputs() {
   if (output.empty()) output = default_output(input);
-  options.film = std::filesystem::path(output).replace_extension(".film");
+  options.outputs.film = std::filesystem::path(output).replace_extension(".film");
 }
 
 bool RenderArguments::is_bundle() const {
@@ -189,10 +193,10 @@ void require_renderable(const RenderArguments& a) {
 
 void prepare_dry_run(RenderOptions& o) {
   constexpr double long_enough_s = 3;
-  o.time_limit_s = long_enough_s;
-  o.checkpoint_every_s = 0;
-  o.progress = ProgressMode::none;
-  o.stats.clear(), o.profile.clear(), o.trace.clear();
+  o.resources.time_limit_s = long_enough_s;
+  o.resources.checkpoint_every_s = 0;
+  o.outputs.progress = ProgressMode::none;
+  o.outputs.stats.clear(), o.outputs.profile.clear(), o.outputs.trace.clear();
 }
 
 TargetError parse_target_error(const std::string& text) {
@@ -221,31 +225,31 @@ void interpret(const CLI::App& app, RenderArguments& a) {
   a.name_outputs();
   const std::string extension = a.output.extension().string();
   constexpr const char* known[] = {".exr", ".png", ".jpg", ".jpeg", ".tif", ".tiff", ".film"};
-  const bool is_table = extension == ".csv" && !a.options.sensors.empty();
-  if (!a.options.sensors.empty() && !is_table && extension != ".film")
+  const bool is_table = extension == ".csv" && !a.options.picture.sensors.empty();
+  if (!a.options.picture.sensors.empty() && !is_table && extension != ".film")
     throw UsageError("what sensors measure is written as .csv or kept as .film: " + a.output.string());
   if (!is_table && std::ranges::find(known, extension) == std::end(known))
     throw UsageError("the output must end in .exr, .png, .jpg, .tif or .film: " + a.output.string());
   RenderOptions& o = a.options;
-  if (!a.memory.empty()) o.memory_bytes = parse_bytes(a.memory);
-  if (!a.crop.empty()) o.crop = parse_rectangle("--crop", a.crop);
-  if (a.bins > 0) o.bins = SpectralBins{a.bins};
-  if (!a.aov.empty()) o.layers = parse_layers(a.aov).bits;
-  if (!a.aov_space.empty()) o.layers_in_camera_space = a.aov_space == "camera";
-  if (app.count("--max-depth") > 0) o.max_depth = a.max_depth < 0 ? unlimited_depth : a.max_depth;
+  if (!a.memory.empty()) o.resources.memory_bytes = parse_bytes(a.memory);
+  if (!a.crop.empty()) o.picture.crop = parse_rectangle("--crop", a.crop);
+  if (a.bins > 0) o.picture.bins = SpectralBins{a.bins};
+  if (!a.aov.empty()) o.picture.layers = parse_layers(a.aov).bits;
+  if (!a.aov_space.empty()) o.picture.layers_in_camera_space = a.aov_space == "camera";
+  if (app.count("--max-depth") > 0) o.picture.max_depth = a.max_depth < 0 ? unlimited_depth : a.max_depth;
   if (!a.integrator.empty())
-    o.integrator = a.integrator == "direct"   ? Integrator::direct
-                   : a.integrator == "photon" ? Integrator::photon
-                                              : Integrator::path;
-  o.samples = sample_choices(a.samples);
-  if (!a.target_error.empty()) o.target_error = parse_target_error(a.target_error);
+    o.picture.integrator = a.integrator == "direct"   ? Integrator::direct
+                           : a.integrator == "photon" ? Integrator::photon
+                                                      : Integrator::path;
+  o.picture.samples = sample_choices(a.samples);
+  if (!a.target_error.empty()) o.picture.target_error = parse_target_error(a.target_error);
   if (!a.quality.empty()) apply_quality(a.quality, app.count("--adaptive") > 0, o);
-  o.progress = progress_mode(a);
-  o.quiet = a.quiet;
-  if (o.dry_run) prepare_dry_run(o);
+  o.outputs.progress = progress_mode(a);
+  o.outputs.quiet = a.quiet;
+  if (o.outputs.dry_run) prepare_dry_run(o);
   parse_settings(a.settings);
-  o.glazing = fmt::format("{}", fmt::join(a.settings, " "));
-  o.scene_name = a.input.string();
+  o.picture.glazing = fmt::format("{}", fmt::join(a.settings, " "));
+  o.outputs.scene_name = a.input.string();
 }
 
 std::vector<std::string> partition_arguments(const RenderArguments& a) {
@@ -256,13 +260,14 @@ std::vector<std::string> partition_arguments(const RenderArguments& a) {
   if (a.quiet) arguments.push_back("--quiet");
   if (a.strict) arguments.push_back("--strict");
   if (!a.aov.empty()) arguments.insert(arguments.end(), {"--aov", a.aov});
-  arguments.insert(arguments.end(), {"--progress", a.options.progress == ProgressMode::bar ? "bar" : "none"});
+  arguments.insert(arguments.end(),
+                   {"--progress", a.options.outputs.progress == ProgressMode::bar ? "bar" : "none"});
   // It may have to load what reads images, of more than 100 MiB, and is gone when rendering begins.
   constexpr std::uint64_t least = 256u << 20;
   if (!a.memory.empty())
     arguments.insert(arguments.end(), {"--memory", std::to_string(std::max(parse_bytes(a.memory), least))});
-  if (a.options.threads > 0)
-    arguments.insert(arguments.end(), {"--threads", std::to_string(a.options.threads)});
+  if (a.options.resources.threads > 0)
+    arguments.insert(arguments.end(), {"--threads", std::to_string(a.options.resources.threads)});
   return arguments;
 }
 

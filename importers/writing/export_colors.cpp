@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "importers/writing/export_colors.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -125,6 +127,10 @@ SheetColors colors_at_normal(const MeasuredSheet& sheet) {
     return factor_rgb(tabulate(samples, true));
   };
   return {at_normal(sheet.reflectance), at_normal(sheet.transmittance)};
+}
+
+std::string digits_of(const TabulatedSpectrum& table, double sample) {
+  return table.samples.empty() ? fmt::format("{}", static_cast<float>(sample)) : fmt::format("{}", sample);
 }
 
 double diffuse_fresnel_outside(double eta) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "scene/records/scene.h"
 #include "scene/spectra/color.h"
@@ -15,6 +16,9 @@ RGB emission_rgb(const Spectrum& emission);
 RGB factor_rgb(const Spectrum& factor);
 // Whether rgb gives the spectrum back: it was made of one, or is constant.
 bool is_rgb(const Spectrum& spectrum);
+
+// The digits that a sample needs: a table's own values are floats.
+std::string digits_of(const TabulatedSpectrum& table, double sample);
 
 // The index of refraction at the d line of helium, 587.6 nm.
 double index_of_refraction(const Spectrum& eta);

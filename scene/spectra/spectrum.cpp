@@ -139,7 +139,7 @@ Spectrum scaled(const Spectrum& spectrum, double factor) {
   TabulatedSpectrum table = tabulate_each_nm([&](double lambda) { return evaluate(known, lambda) * factor; });
   if (const auto* s = std::get_if<TabulatedSpectrum>(&known)) {
     table.samples = s->samples;
-    for (auto& [lambda, value] : table.samples) value *= factor;
+    table.sample_factor = s->sample_factor * factor;
   }
   return table;
 }

@@ -51,9 +51,11 @@ using SpectrumSample = std::array<double, 2>;
 // Values at 360, 361 … 830 nm, linear in between. Always `table_size` values.
 struct TabulatedSpectrum {
   std::vector<float> values;
-  // What `tabulate` made the values of, where that is something else: a file that is written says what was
-  // read. Nothing is rendered by it, and it is 0 beyond its ends. Empty: the values are all there is.
+  // What `tabulate` made the values of, so that a file that is written says what was read; times
+  // `sample_factor`. Nothing is rendered by it, and it is 0 beyond its ends. Empty: the values are all there
+  // is.
   std::vector<SpectrumSample> samples{};
+  double sample_factor = 1;
   bool operator==(const TabulatedSpectrum& other) const { return values == other.values; }
 };
 

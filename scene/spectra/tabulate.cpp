@@ -101,8 +101,9 @@ TabulatedSpectrum tabulate(const Samples& samples, bool extend) {
 }
 
 Samples samples_of(const TabulatedSpectrum& table) {
-  if (!table.samples.empty()) return table.samples;
-  Samples all;
+  Samples all = table.samples;
+  for (auto& [lambda, value] : all) value *= table.sample_factor;
+  if (!all.empty()) return all;
   for (std::size_t i = 0; i < table.values.size(); ++i)
     all.push_back({lambda_min_nm + static_cast<double>(i), static_cast<double>(table.values[i])});
   return all;

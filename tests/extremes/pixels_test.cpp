@@ -52,15 +52,15 @@ class Cropped {
   Film render(const PixelRect& crop, int samples) const {
     RenderOptions options;
     options.bundle = directory_ / "scene.vit";
-    options.film = directory_ / "scene.film";
-    options.samples_per_pixel = samples;
-    options.crop = crop;
-    options.force = true;
+    options.outputs.film = directory_ / "scene.film";
+    options.picture.samples_per_pixel = samples;
+    options.picture.crop = crop;
+    options.outputs.force = true;
     int argc = 0;
     char** argv = nullptr;
     const auto transport = make_transport(&argc, &argv);
     vitrail::render(*transport, options);
-    return read_film(options.film, nullptr);
+    return read_film(options.outputs.film, nullptr);
   }
 
  private:

@@ -161,7 +161,7 @@ TEST(Rounds, NoneIsWithoutSamples) {
 
 TEST(Rounds, TimeIsLeftForFilmAndPicture) {
   RenderOptions options;
-  options.time_limit_s = 60;
+  options.resources.time_limit_s = 60;
   constexpr std::uint64_t bytes = 100'000'000;
   const auto left = [&](int ranks, double gather_s) {
     return ending_time_s(options, bytes, ranks, /*write_s=*/0.5, gather_s);
@@ -170,9 +170,9 @@ TEST(Rounds, TimeIsLeftForFilmAndPicture) {
   EXPECT_GT(left(2, 0), left(1, 0));
   EXPECT_NEAR(left(2, 3), left(1, 0) + 3, 1e-9);  // what was measured counts
   const double film_alone = left(1, 0);
-  options.after_film = {0.25, 1e-8};
+  options.resources.after_film = {0.25, 1e-8};
   EXPECT_NEAR(left(1, 0), film_alone + 0.25 + 1, 1e-9);
-  options.time_limit_s = 2;
+  options.resources.time_limit_s = 2;
   EXPECT_EQ(left(1, 0), 1) << "half of the time is for samples";
 }
 

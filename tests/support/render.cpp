@@ -8,8 +8,8 @@ namespace vitrail::test {
 
 Rendered render(const Scene& scene, int samples_per_pixel, std::uint32_t domains, std::uint64_t seed) {
   RenderOptions options;
-  options.samples_per_pixel = samples_per_pixel;
-  options.seed = seed;
+  options.picture.samples_per_pixel = samples_per_pixel;
+  options.picture.seed = seed;
   return render(scene, std::move(options), domains);
 }
 
@@ -19,13 +19,13 @@ Rendered render(const Scene& scene, RenderOptions options, std::uint32_t domains
   partitioning.domains = domains;
   partition(scene, directory / "scene.vit", partitioning);
   options.bundle = directory / "scene.vit";
-  options.film = directory / "scene.film";
+  options.outputs.film = directory / "scene.film";
   int argc = 0;
   char** argv = nullptr;
   const auto transport = make_transport(&argc, &argv);
   Rendered result;
   result.stats = vitrail::render(*transport, options);
-  result.film = read_film(options.film, nullptr);
+  result.film = read_film(options.outputs.film, nullptr);
   return result;
 }
 

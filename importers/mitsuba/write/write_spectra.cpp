@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "importers/writing/export_colors.h"
 #include "scene/spectra/color.h"
 
 namespace vitrail::mitsuba_writer {
@@ -53,7 +54,7 @@ void add_table(Element parent, const std::string& name, const TabulatedSpectrum&
   if (black) return add_flat(parent, name, 0);  // Mitsuba refuses tables without any energy
   std::string list;
   for (const auto& [lambda, value] : knots(table))
-    list += fmt::format("{}{}:{}", list.empty() ? "" : ", ", lambda, static_cast<float>(value));
+    list += fmt::format("{}{}:{}", list.empty() ? "" : ", ", lambda, digits_of(table, value));
   add_value(parent, "spectrum", name, list);
 }
 

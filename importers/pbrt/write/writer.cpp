@@ -5,6 +5,7 @@
 #include <array>
 #include <set>
 
+#include "importers/writing/export_colors.h"
 #include "scene/spectra/named_spectra.h"
 
 namespace vitrail::pbrt {
@@ -157,7 +158,7 @@ Parameters& Parameters::texture(std::string_view name, std::string_view texture)
 void Parameters::tabulated(std::string_view name, const TabulatedSpectrum& table) {
   list_ += fmt::format(" \"spectrum {}\" [", name);
   for (const auto& [lambda, value] : samples_of(table))
-    list_ += fmt::format(" {} {}", lambda, static_cast<float>(value));
+    list_ += fmt::format(" {} {}", lambda, digits_of(table, value));
   list_ += " ]";
 }
 
@@ -206,6 +207,14 @@ Parameters& Parameters::emission(std::string_view name, const Spectrum& value) {
   if (const auto* hot = std::get_if<BlackbodySpectrum>(&value)) {
     list_ += fmt::format(" \"blackbody {}\" {}", name, hot->kelvin);
     return number("scale", hot->luminance);
+  }
+  // What was read, with the scale that gives it back: multiplied, its numbers would be others.
+  if (const auto* table = std::get_if<TabulatedSpectrum>(&value); table && !table->samples.empty()) {
+    TabulatedSpectrum as_read = tabulate(table->samples, false);
+    if (const double brightness = luminance(as_read); brightness > 0 && table->sample_factor > 0) {
+      tabulated(name, as_read);
+      return number("scale", table->sample_factor * brightness);
+    }
   }
   const double brightness = luminance(value);
   if (!(brightness > 0)) return numbers(fmt::format("rgb {}", name), std::array{0, 0, 0});

@@ -25,17 +25,17 @@ std::vector<BlockMeans> rendered(const Scene& scene, const Sampling& sampling) {
   partition(scene, directory / "scene.vit", partitioning);
   RenderOptions options;
   options.bundle = directory / "scene.vit";
-  options.film = directory / "scene.film";
-  options.samples_per_pixel = sampling.samples;
-  options.force = true;  // each seed is read before the next takes its name
+  options.outputs.film = directory / "scene.film";
+  options.picture.samples_per_pixel = sampling.samples;
+  options.outputs.force = true;  // each seed is read before the next takes its name
   int argc = 0;
   char** argv = nullptr;
   const auto transport = make_transport(&argc, &argv);
   std::vector<BlockMeans> means;
   for (int seed = 0; seed < sampling.seeds; ++seed) {
-    options.seed = static_cast<std::uint64_t>(seed);
+    options.picture.seed = static_cast<std::uint64_t>(seed);
     render(*transport, options);
-    means.push_back(block_means(read_film(options.film, nullptr)));
+    means.push_back(block_means(read_film(options.outputs.film, nullptr)));
   }
   return means;
 }

@@ -330,6 +330,7 @@ TEST(WritePbrt, Lights) {
        {"LightSource \"point\" \"rgb I\" [1 2 3] \"point3 from\" [.1 .2 .3] \"float scale\" .7",
         "LightSource \"point\" \"blackbody I\" 5000 \"float power\" 77",
         "LightSource \"point\" \"spectrum I\" [400 1 700 3]",
+        "LightSource \"point\" \"spectrum I\" [400 .1 546.05 .1 546.15 9 546.25 .1 700 .1] \"float scale\" 7",
         "LightSource \"point\" \"spectrum I\" \"stdillum-D65\" \"float scale\" 3",
         "LightSource \"point\" \"spectrum I\" [300 2 900 2] \"float scale\" .3",
         "Rotate 20 1 2 3 LightSource \"spot\" \"point3 from\" [1 2 3] \"point3 to\" [3 3 3] \"float "

@@ -157,8 +157,8 @@ std::uint64_t film_hash(const Scene& scene, const PartitionOptions& partitioning
   EXPECT_TRUE(verify_bundle(directory / "scene.vit", {}).problems.empty());
   RenderOptions options;
   options.bundle = directory / "scene.vit";
-  options.film = directory / "scene.film";
-  options.samples_per_pixel = 2;
+  options.outputs.film = directory / "scene.film";
+  options.picture.samples_per_pixel = 2;
   int argc = 0;
   char** argv = nullptr;
   const auto transport = make_transport(&argc, &argv);

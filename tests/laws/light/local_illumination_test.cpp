@@ -144,13 +144,13 @@ Film with_threshold(const Scene& scene, double threshold) {
   partition(scene, directory / "scene.vit", {.domains = 1});
   RenderOptions options;
   options.bundle = directory / "scene.vit";
-  options.film = directory / "scene.film";
-  options.samples_per_pixel = 16;
-  options.threshold = threshold;
+  options.outputs.film = directory / "scene.film";
+  options.picture.samples_per_pixel = 16;
+  options.picture.threshold = threshold;
   int argc = 0;
   char** argv = nullptr;
   vitrail::render(*make_transport(&argc, &argv), options);
-  return read_film(options.film, nullptr);
+  return read_film(options.outputs.film, nullptr);
 }
 
 // Sheets of T = 1/2 over a lamp: what is not followed any more brings less than the threshold.

@@ -39,9 +39,9 @@ void expect_means(const Scene& scene, double expected, const char* what) {
   for (const Way way : {Way{"path", Integrator::path, 0, 0.02}, Way{"direct", Integrator::direct, 0, 0.02},
                         Way{"photon", Integrator::photon, 20000, 0.06}}) {
     RenderOptions options;
-    options.samples_per_pixel = way.photons > 0 ? 32 : 256;
-    options.integrator = way.integrator;
-    if (way.photons > 0) options.photons = {way.photons, 0.2, 2.0 / 3};
+    options.picture.samples_per_pixel = way.photons > 0 ? 32 : 256;
+    options.picture.integrator = way.integrator;
+    if (way.photons > 0) options.picture.photons = {way.photons, 0.2, 2.0 / 3};
     const Brightness seen = brightness(render(scene, std::move(options)).film);
     fmt::print("{}, {}: {:.5g} ± {:.2g} of {:.5g}\n", what, way.name, seen.mean, seen.standard_error,
                expected);

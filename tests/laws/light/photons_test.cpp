@@ -19,9 +19,9 @@ constexpr int iterations = 64;
 Rendered photon_mapped(const Scene& scene, std::uint64_t photons, double radius, double alpha = 2.0 / 3,
                        int spp = iterations) {
   RenderOptions options;
-  options.samples_per_pixel = spp;
-  options.integrator = Integrator::photon;
-  options.photons = {photons, radius, alpha};
+  options.picture.samples_per_pixel = spp;
+  options.picture.integrator = Integrator::photon;
+  options.picture.photons = {photons, radius, alpha};
   return render(scene, std::move(options));
 }
 
@@ -65,13 +65,13 @@ TEST(Photons, AsTheSceneAsks) {
   EXPECT_EQ(render(scene, 4).film.hash(), asked.film.hash());
   scene.settings.photons = PhotonSettings{77, 0.5, 0.8};
   RenderOptions options;
-  options.samples_per_pixel = 4;
-  options.photons = {2000, 0.25, {}};
+  options.picture.samples_per_pixel = 4;
+  options.picture.photons = {2000, 0.25, {}};
   EXPECT_EQ(render(scene, options).film.hash(), asked.film.hash());
-  options.photons = {};
-  options.integrator = Integrator::path;
+  options.picture.photons = {};
+  options.picture.integrator = Integrator::path;
   EXPECT_EQ(mean(render(scene, options)), 0);
-  options.photons.photons = 10;
+  options.picture.photons.photons = 10;
   EXPECT_THROW(render(scene, options), UsageError);
 }
 
@@ -125,10 +125,10 @@ TEST(Photons, TheFilmKnowsTheErrorOfItsMean) {
   double sum = 0, squares = 0, told = 0;
   for (int seed = 0; seed < seeds; ++seed) {
     RenderOptions options;
-    options.samples_per_pixel = 64;
-    options.seed = static_cast<std::uint64_t>(seed);
-    options.integrator = Integrator::photon;
-    options.photons = {500, 0.2, 0.8};
+    options.picture.samples_per_pixel = 64;
+    options.picture.seed = static_cast<std::uint64_t>(seed);
+    options.picture.integrator = Integrator::photon;
+    options.picture.photons = {500, 0.2, 0.8};
     const Rendered rendered = render(scene, std::move(options));
     const Brightness b = brightness(rendered.film);
     const double shared = rendered.film.shared_error() * b.mean;

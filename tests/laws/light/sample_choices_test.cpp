@@ -49,9 +49,9 @@ Scene coloured_box(int side) {
 
 Film rendered(const Scene& scene, int samples, const SampleChoices& choices, std::uint64_t seed = 0) {
   RenderOptions options;
-  options.samples_per_pixel = samples;
-  options.samples = choices;
-  options.seed = seed;
+  options.picture.samples_per_pixel = samples;
+  options.picture.samples = choices;
+  options.picture.seed = seed;
   const Rendered result = render(scene, options);
   EXPECT_EQ(result.stats.refused, Refused{});
   return result.film;

@@ -49,8 +49,8 @@ class SensorsInMedia : public testing::Test {
   }
   Rendered rendered(std::uint32_t domains = 1) const {
     RenderOptions options;
-    options.samples_per_pixel = 64;
-    options.sensors = sensors;
+    options.picture.samples_per_pixel = 64;
+    options.picture.sensors = sensors;
     return render(scene, std::move(options), domains);
   }
   void expect_after(double optical_depth, const std::string& what) {
@@ -150,9 +150,9 @@ TEST_F(SensorsInMedia, AreTheSameWhateverTheDomains) {
 
 TEST_F(SensorsInMedia, AreNotClamped) {
   RenderOptions options;
-  options.samples_per_pixel = 1;
-  options.sensors = sensors;
-  options.clamp = 1;
+  options.picture.samples_per_pixel = 1;
+  options.picture.sensors = sensors;
+  options.picture.clamp = 1;
   EXPECT_THROW(render(scene, std::move(options)), UsageError);
 }
 

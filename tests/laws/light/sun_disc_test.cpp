@@ -75,8 +75,9 @@ TEST(SunDisc, CastsAPenumbraOfPhotons) {
     add_shape(scene, square(scene, surface, 0.3f), glass());
     scene.settings.max_depth = 4;
     RenderOptions options;
-    options.samples_per_pixel = photons ? 64 : 16;
-    if (photons) options.integrator = Integrator::photon, options.photons = {25000, 0.016, 0.9};
+    options.picture.samples_per_pixel = photons ? 64 : 16;
+    if (photons)
+      options.picture.integrator = Integrator::photon, options.picture.photons = {25000, 0.016, 0.9};
     return mean_of(render(scene, std::move(options)).film).value.y;
   };
   EXPECT_EQ(seen(-2 * width, false), 0);

@@ -21,11 +21,11 @@ class Films {
   }
   Film render(RenderOptions options, std::uint64_t seed) const {
     options.bundle = directory_ / "scene.vit";
-    options.film = directory_ / "scene.film";
-    options.seed = seed;
-    options.force = options.quiet = true;
+    options.outputs.film = directory_ / "scene.film";
+    options.picture.seed = seed;
+    options.outputs.force = options.outputs.quiet = true;
     vitrail::render(*transport_, options);
-    return read_film(options.film, nullptr);
+    return read_film(options.outputs.film, nullptr);
   }
 
  private:
@@ -76,11 +76,11 @@ Mean mean_of(const Films& films, const RenderOptions& options, int seeds) {
 TEST(Adaptive, MeansAreThoseOfUniformSamples) {
   const Films films(stars());
   RenderOptions uniform;
-  uniform.samples_per_pixel = 512;
+  uniform.picture.samples_per_pixel = 512;
   const Mean truth = mean_of(films, uniform, 8);
   RenderOptions adaptive;
-  adaptive.samples_per_pixel = 32;
-  adaptive.adaptive = true;
+  adaptive.picture.samples_per_pixel = 32;
+  adaptive.picture.adaptive = true;
   const Mean found = mean_of(films, adaptive, 80);
   const double error = std::hypot(truth.standard_error, found.standard_error);
   fmt::print("adaptive over truth: {:.4f} ± {:.4f}\n", found.value / truth.value, error / truth.value);
@@ -100,8 +100,8 @@ TEST(Adaptive, CoverageIsExact) {
   // Half the cross product of the diagonals, of the picture's 4.
   const double covered = std::abs(2 * a * (-2 * a) - (-0.2) * (-0.1)) / 2 / 4;
   RenderOptions options;
-  options.samples_per_pixel = 32;
-  options.adaptive = true;
+  options.picture.samples_per_pixel = 32;
+  options.picture.adaptive = true;
   const Mean found = mean_of(Films(scene), options, 32);
   EXPECT_NEAR(found.value, covered, 4 * found.standard_error);
   EXPECT_LT(found.standard_error, 1e-4);
@@ -123,7 +123,7 @@ void expect_target_kept(const Scene& scene, double target) {
   std::vector<Film> all;
   for (std::uint64_t seed = 0; seed < seeds; ++seed) {
     RenderOptions options;
-    options.target_error = TargetError{target};
+    options.picture.target_error = TargetError{target};
     all.push_back(films.render(options, seed));
   }
   int below = 0, above = 0;
@@ -152,13 +152,13 @@ void expect_target_kept_in_few_pixels(const Scene& scene, int x, int y, double t
   const Films films(scene);
   constexpr int seeds = 40, most_pixels = 3;
   RenderOptions options;
-  options.crop = PixelRect{x, x + most_pixels, y, y + 1};
-  options.samples_per_pixel = 1 << 17;
+  options.picture.crop = PixelRect{x, x + most_pixels, y, y + 1};
+  options.picture.samples_per_pixel = 1 << 17;
   const Film long_film = films.render(options, 1000);
-  options.samples_per_pixel.reset();
-  options.target_error = TargetError{target};
+  options.picture.samples_per_pixel.reset();
+  options.picture.target_error = TargetError{target};
   for (int pixels = 1; pixels <= most_pixels; ++pixels) {
-    options.crop->x1 = x + pixels;
+    options.picture.crop->x1 = x + pixels;
     std::vector<double> truth;
     for (int p = 0; p < pixels; ++p) truth.push_back(long_film.mean(static_cast<std::uint32_t>(p)).y);
     int below = 0;

@@ -44,12 +44,12 @@ std::vector<Film> films_of(std::uint32_t samples, std::uint64_t first_seed) {
   for (std::uint64_t seed = first_seed; seed < first_seed + seeds; ++seed) {
     RenderOptions options;
     options.bundle = directory / "box.vit";
-    options.film = directory / "box.film";
-    options.samples_per_pixel = static_cast<int>(samples);
-    options.seed = seed;
-    options.force = true;
+    options.outputs.film = directory / "box.film";
+    options.picture.samples_per_pixel = static_cast<int>(samples);
+    options.picture.seed = seed;
+    options.outputs.force = true;
     vitrail::render(*transport, options);
-    films.push_back(read_film(options.film, nullptr));
+    films.push_back(read_film(options.outputs.film, nullptr));
   }
   return films;
 }

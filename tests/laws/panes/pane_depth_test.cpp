@@ -44,9 +44,9 @@ double by_paths(const Scene& scene, int samples) { return brightness(render(scen
 
 double by_photons(const Scene& scene) {
   RenderOptions options;
-  options.samples_per_pixel = 24;
-  options.integrator = Integrator::photon;
-  options.photons = {40000, 0.25, 0.9};
+  options.picture.samples_per_pixel = 24;
+  options.picture.integrator = Integrator::photon;
+  options.picture.photons = {40000, 0.25, 0.9};
   return brightness(render(scene, std::move(options)).film).mean;
 }
 
@@ -88,8 +88,8 @@ double colours_at_an_edge(double thickness, double pixel, bool one_wavelength) {
   const Vector3d out{-std::sin(incidence), 0, std::cos(incidence)};
   set_camera(scene, Point3d{} + out * 10.0, {0, 0, 0}, {0, 1, 0}, pixel * 8 / 10, 32, 8);
   RenderOptions options;
-  options.samples_per_pixel = 256;
-  options.samples.sampling.one_wavelength = one_wavelength;
+  options.picture.samples_per_pixel = 256;
+  options.picture.samples.sampling.one_wavelength = one_wavelength;
   const Film film = render(scene, std::move(options)).film;
   std::array<XYZ, 32> column{};
   for (std::uint32_t i = 0; i < 32 * 8; ++i) {
@@ -122,8 +122,8 @@ TEST(ThinPanes, KeepTheirWavelengths) {
               Material{DielectricMaterial{*named_spectrum("glass-BK7")}});
     set_camera(scene, {-1, 0, 1}, {0, 0, 0}, {0, 1, 0}, 0.01, 16, 16);
     RenderOptions options;
-    options.samples_per_pixel = 16;
-    options.samples.sampling.one_wavelength = one;
+    options.picture.samples_per_pixel = 16;
+    options.picture.samples.sampling.one_wavelength = one;
     return brightness(render(scene, std::move(options)).film).standard_error;
   };
   const double four = noise(false), one = noise(true);

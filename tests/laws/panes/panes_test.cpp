@@ -57,8 +57,8 @@ struct Site {
     sky.film = scene.film;
     sky.lights.push_back(Light{InfiniteLight{ConstantSpectrum{1}}});
     RenderOptions options;
-    options.samples_per_pixel = 64;
-    options.integrator = Integrator::photon, options.photons = {20000, 0.1, 0.8};
+    options.picture.samples_per_pixel = 64;
+    options.picture.integrator = Integrator::photon, options.picture.photons = {20000, 0.1, 0.8};
     return brightness(render(scene, options).film).mean /
            brightness(render(sky, std::move(options)).film).mean;
   }

@@ -286,8 +286,8 @@ TEST(ParallelPanes, BringOnePictureByPhotonsAndPaths) {
       scene.lights.push_back(Light{DistantLight{-direction(theta, 20), ConstantSpectrum{1}}});
       scene.settings.max_depth = 40;
       RenderOptions photons;
-      photons.samples_per_pixel = 32;
-      photons.integrator = Integrator::photon, photons.photons = {40000, 0.2, 0.9};
+      photons.picture.samples_per_pixel = 32;
+      photons.picture.integrator = Integrator::photon, photons.picture.photons = {40000, 0.2, 0.9};
       const double mapped = brightness(render(scene, std::move(photons)).film).mean,
                    traced = brightness(render(scene, 256).film).mean;
       fmt::print("{} panes at {}°: photons {:.5f}, paths {:.5f}, {:+.2f} %\n", thin ? "thin" : "solid", theta,

@@ -135,8 +135,8 @@ void expect_rings_beside_an_edge(bool splat) {
   scene.film.filter = MitchellFilter{2, 2, 0, 0.75};
   scene.settings.max_depth = 0;
   RenderOptions options;
-  options.samples_per_pixel = 1024;
-  options.samples.sampling.splat = splat;
+  options.picture.samples_per_pixel = 1024;
+  options.picture.samples.sampling.splat = splat;
   const Film film = test::render(scene, options).film;
   const auto column = [&](std::uint32_t x) {
     double sum = 0;

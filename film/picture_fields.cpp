@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "film/picture_fields.h"
+
+#include <fmt/format.h>
+
+namespace vitrail {
+
+namespace {
+
+std::string words(const PixelRect& r) { return fmt::format("{},{},{},{}", r.x0, r.x1, r.y0, r.y1); }
+std::string words(const SpectralBins& bins) {
+  return fmt::format("{} over {}..{} nm", bins.count, bins.min_nm, bins.max_nm);
+}
+std::string words(const PhotonKey& p) {
+  if (p.photons == 0) return "none";
+  return fmt::format("{} from radius {} on with α {}", p.photons, p.first_radius, p.alpha);
+}
+std::string words(const RendererVersion& renderer) { return to_string(renderer); }
+std::string words(const FilmLayers& layers) { return layers.any() ? names_of(layers) : "none"; }
+std::string words(const auto& number) { return fmt::format("{}", number); }
+
+}  // namespace
+
+std::vector<PictureField> picture_fields(const FilmKey& key, const FilmSettings& film) {
+  constexpr bool hidden = false;
+  return {{"bundle, state of its glass (--set) or way to sample",
+           "they are of different scenes or of glass in different states, or sampled in different ways",
+           words(key.scene_hash), hidden},
+          {"build", "they were made by different programs", words(key.renderer)},
+          {"width", "their widths differ", words(film.width)},
+          {"height", "their heights differ", words(film.height)},
+          {"crop", "their crops differ", words(film.crop)},
+          {"depth", "their depths differ", words(key.max_depth)},
+          {"integrator", "one has direct light only", words(key.direct_only), hidden},
+          {"threshold", "their thresholds differ", words(key.threshold)},
+          {"way to count what light goes straight through",
+           "one counts going straight through a sheet as scattering, the other does not",
+           words(key.straight_counts), hidden},
+          {"--splat", "samples of one add to several pixels, those of the other to their own",
+           words(key.splats), hidden},
+          {"number, radius or alpha of photons", "their photons differ", words(key.photons)},
+          {"clamp", "their clamps differ", words(key.clamp)},
+          {"spectral bins", "their spectral bins differ", words(film.spectrum)},
+          {"imaging ratio", "their imaging ratios differ", words(film.imaging_ratio)},
+          {"layers", "they keep different layers of the first surfaces", words(film.layers)},
+          {"space of positions and normals",
+           "one has positions and normals in camera space, the other in the world's",
+           words(film.layers.in_camera_space), hidden}};
+}
+
+}  // namespace vitrail
