@@ -9,6 +9,7 @@
 #include <set>
 
 #include "scene/daylight/photometry.h"
+#include "scene/records/light_traits.h"
 
 namespace vitrail {
 
@@ -55,11 +56,6 @@ void set(GivenSky& sky, const std::string& key, const std::string& value) {
   else
     throw UsageError(
         fmt::format("--sky: there is no \"{}\"; there are turbidity, albedo, up, north, sun and sky", key));
-}
-
-bool is_far(const LightModel& light) {
-  return std::holds_alternative<DistantLight>(light) || std::holds_alternative<InfiniteLight>(light) ||
-         std::holds_alternative<EnvironmentLight>(light) || std::holds_alternative<SkyLight>(light);
 }
 
 }  // namespace
@@ -157,7 +153,7 @@ void replace_sky(ImportedScene& imported, const GivenSky& sky) {
   Scene& scene = imported.scene;
   std::vector<Light> kept;
   for (Light& light : scene.lights) {
-    if (!is_far(light.model)) {
+    if (!traits_of(light.model).is_far()) {
       kept.push_back(std::move(light));
       continue;
     }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "scene/records/light_traits.h"
 #include "scene/records/material_traits.h"
 
 namespace vitrail {
@@ -25,11 +26,8 @@ bool has_smooth_glass(const Scene& scene) {
 
 // Those that no ray meets.
 bool has_lamps_without_size(const Scene& scene) {
-  return std::ranges::any_of(scene.lights, [](const Light& light) {
-    const LightModel& m = light.model;
-    return !std::holds_alternative<InfiniteLight>(m) && !std::holds_alternative<EnvironmentLight>(m) &&
-           !std::holds_alternative<SkyLight>(m);
-  });
+  return std::ranges::any_of(scene.lights,
+                             [](const Light& light) { return !traits_of(light.model).surrounds; });
 }
 
 bool has_media(const Scene& scene) {

@@ -11,6 +11,7 @@
 #include "partitioner/placing/wedged_panes.h"
 #include "scene/daylight/sky_model.h"
 #include "scene/records/kinds.h"
+#include "scene/records/light_traits.h"
 #include "scene/records/material_traits.h"
 
 namespace vitrail {
@@ -191,14 +192,9 @@ void report_wedges(const Scene& scene, Notes& report) {
         found.widest);
 }
 
-bool is_infinitely_far(const LightModel& light) {
-  return std::holds_alternative<DistantLight>(light) || std::holds_alternative<InfiniteLight>(light) ||
-         std::holds_alternative<EnvironmentLight>(light) || std::holds_alternative<SkyLight>(light);
-}
-
 // Nothing would come through a medium without end.
 void report_endless_medium(const Scene& scene, const Light& light, Notes& report) {
-  if (!scene.camera_medium || !is_infinitely_far(light.model)) return;
+  if (!scene.camera_medium || !traits_of(light.model).is_far()) return;
   const Medium& medium = scene.media.at(scene.camera_medium->value);
   if (std::holds_alternative<std::monostate>(medium.density))
     report.approximated(
@@ -242,7 +238,7 @@ Appearance appearance_of(const Scene& scene, const std::filesystem::path& bundle
       report.approximated("environment light: its portal is not looked at, it shines from everywhere",
                           light.origin);
   }
-  if (glass && std::ranges::any_of(scene.lights, [](const Light& l) { return is_distant(l); }))
+  if (glass && std::ranges::any_of(scene.lights, [](const Light& l) { return traits_of(l.model).parallel; }))
     report_wedges(scene, report);
   result.attributes = textures.attributes();
   if (scene.settings.rgb == RgbMethod::matrix_r &&

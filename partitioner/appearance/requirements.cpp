@@ -65,10 +65,6 @@ bool is_smooth_glass(const Material& material) {
   return glass && is_smooth(glass->roughness);
 }
 
-bool is_distant(const Light& light) {
-  return std::holds_alternative<DistantLight>(light.model) || std::holds_alternative<SkyLight>(light.model);
-}
-
 namespace {
 
 void add_needs(Requirements& r, const Material& material, const std::vector<ScatteringTable>& tables) {

@@ -12,9 +12,6 @@ Requirements requirements_of(const Manifest& manifest, bool has_normals);
 // A dielectric without roughness.
 bool is_smooth_glass(const Material& material);
 
-// Whether connections to it pass panes: the sun, or a light as far away.
-bool is_distant(const Light& light);
-
 // Everything: for measuring what the analysis saves.
 Requirements all_requirements();
 

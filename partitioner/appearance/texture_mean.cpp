@@ -68,7 +68,14 @@ struct Finder {
     return TextureMean{times(a->color, b->color),
                        a->deviation * greatest(b->color) + b->deviation * greatest(a->color)};
   }
-  Mean operator()(const auto&) const { return std::nullopt; }
+  // What is not worth the search, or not known here.
+  Mean operator()(const MixTexture&) const { return std::nullopt; }
+  Mean operator()(const DirectionMixTexture&) const { return std::nullopt; }
+  Mean operator()(const BilinearTexture&) const { return std::nullopt; }
+  Mean operator()(const DotsTexture&) const { return std::nullopt; }
+  Mean operator()(const NoiseTexture&) const { return std::nullopt; }
+  Mean operator()(const MeshAttributeTexture&) const { return std::nullopt; }
+  Mean operator()(const UvTexture&) const { return std::nullopt; }
 };
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "partitioner/appearance/requirements.h"
+#include "scene/records/light_traits.h"
 #include "scene/shapes/deferred_mesh.h"
 
 namespace vitrail {
@@ -64,8 +65,9 @@ double decimal_step(std::span<const Point3f> positions) {
 }
 
 VertexDoubts::VertexDoubts(const Appearance& appearance)
-    : appearance_(appearance),
-      wanted_(std::ranges::any_of(appearance.lights, [](const Light& l) { return is_distant(l); })) {}
+    : appearance_(appearance), wanted_(std::ranges::any_of(appearance.lights, [](const Light& l) {
+        return traits_of(l.model).parallel;
+      })) {}
 
 // A coordinate is off by half a step at most. Where the transform M takes it, the vertex is off by no more
 // than the Frobenius norm of M times that.

@@ -35,7 +35,17 @@ struct Search {
   void in(const Record& record) {
     visit_fields(record, [this](const auto&... fields) { (in(fields), ...); });
   }
-  void in(const auto&) {}  // a number or a name
+  // What no texture can be in. A record without a list of its fields does not compile.
+  template <class T>
+  requires(!std::is_class_v<T>) void in(const T&) {}
+  template <class T>
+  requires(std::constructible_from<Spectrum, T>) void in(const T&) {}
+  template <class T>
+  void in(const Id<T>&) {}
+  void in(const std::string&) {}
+  void in(const Vector3d&) {}
+  void in(const Transform&) {}
+  void in(const MeasuredSheet&) {}
 };
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "importers/images/sky_image.h"
 #include "importers/writing/export_colors.h"
 #include "scene/daylight/sky_model.h"
+#include "scene/records/light_traits.h"
 #include "scene/records/pixel_place.h"
 
 namespace vitrail::mitsuba_writer {
@@ -103,11 +104,7 @@ LightModel joined_image(Context& context, const std::vector<const Light*>& light
 
 }  // namespace
 
-bool is_around(const Light& light) {
-  return std::holds_alternative<InfiniteLight>(light.model) ||
-         std::holds_alternative<EnvironmentLight>(light.model) ||
-         std::holds_alternative<SkyLight>(light.model);
-}
+bool is_around(const Light& light) { return traits_of(light.model).surrounds; }
 
 std::optional<LightModel> joined_surroundings(Context& context) {
   std::vector<const Light*> lights;

@@ -57,7 +57,7 @@ RGB mean_of(const Context& context, const TextureModel& model) {
           [](const UvTexture&) {
             return RGB{0.5, 0.5, 0};
           },
-          [](const auto&) {
+          [](const MeshAttributeTexture&) {
             return RGB{0.5, 0.5, 0.5};
           },
       },

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "importers/pbrt/write/writer.h"
+#include "scene/records/light_traits.h"
 #include "scene/records/material_traits.h"
 
 namespace vitrail::pbrt {
@@ -68,11 +69,8 @@ FloatParameter coverage_of(Writer& w, const Material& material) {
 }
 
 bool has_lights_without_extent(const Scene& scene) {
-  return std::ranges::any_of(scene.lights, [](const Light& light) {
-    return !std::holds_alternative<InfiniteLight>(light.model) &&
-           !std::holds_alternative<EnvironmentLight>(light.model) &&
-           !std::holds_alternative<SkyLight>(light.model);
-  });
+  return std::ranges::any_of(scene.lights,
+                             [](const Light& light) { return !traits_of(light.model).surrounds; });
 }
 
 // Where going straight does not count, the scene is of a path tracer that connects to lights so, too.

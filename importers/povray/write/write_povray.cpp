@@ -13,6 +13,7 @@
 #include "importers/povray/write/write_pigments.h"
 #include "importers/writing/export_colors.h"
 #include "importers/writing/placed_quadric.h"
+#include "scene/records/light_traits.h"
 #include "scene/shapes/deferred_mesh.h"
 #include "scene/system/atomic_file.h"
 
@@ -96,9 +97,7 @@ class Writer {
   // Light that no light source brings: it takes one bounce of radiosity to reach the first surface.
   bool has_indirect_sources() const {
     return shines_without_source_ || std::ranges::any_of(scene().lights, [](const Light& light) {
-             return std::holds_alternative<InfiniteLight>(light.model) ||
-                    std::holds_alternative<EnvironmentLight>(light.model) ||
-                    std::holds_alternative<SkyLight>(light.model);
+             return traits_of(light.model).surrounds;
            });
   }
 

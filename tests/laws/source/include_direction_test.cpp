@@ -9,6 +9,7 @@
 #include <regex>
 #include <set>
 #include <string>
+#include <vector>
 
 namespace vitrail {
 namespace {
@@ -57,6 +58,43 @@ TEST(IncludeDirection, FoldersDependOnlyOnThoseBelow) {
       }
     }
   EXPECT_GT(seen, 100);
+}
+
+// The rooms of a folder, lower floors first: each includes only what stands before it, or itself.
+const std::map<std::string, std::vector<std::string>>& floors() {
+  static const std::map<std::string, std::vector<std::string>> rooms{
+      {"scene", {"system", "geometry", "spectra", "shapes", "records", "daylight", "models"}},
+      {"tracer",
+       {"sampling", "rays", "quadrics", "bsdf", "textures", "intersect", "lights", "media", "surfaces",
+        "view", "prepared", "panes", "photons", "paths"}},
+      {"importers",
+       {"bytes", "shapes", "spectra", "reading", "writing", "images", "ply/read", "ply/write", "obj/read",
+        "obj/write", "pbrt/read", "pbrt/write", "mitsuba", "mitsuba/read", "mitsuba/write", "povray/write",
+        ""}}};
+  return rooms;
+}
+
+TEST(IncludeDirection, RoomsDependOnlyOnFloorsBelow) {
+  const std::filesystem::path root = VITRAIL_SOURCE_DIR;
+  for (const auto& [folder, rooms] : floors()) {
+    const std::regex include("^#include \"" + folder + R"rx(/(?:(.*)/)?[^/"]+")rx");
+    const auto floor_of = [&](const std::string& room) { return std::ranges::find(rooms, room); };
+    int seen = 0;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(root / folder)) {
+      if (!is_source(entry.path())) continue;
+      const std::string room = std::filesystem::relative(entry.path().parent_path(), root / folder).string();
+      const auto own = floor_of(room == "." ? "" : room);
+      EXPECT_NE(own, rooms.end()) << entry.path().string() << " stands in a room without a floor";
+      std::ifstream in(entry.path());
+      for (std::string line; std::getline(in, line);) {
+        std::smatch found;
+        if (!std::regex_search(line, found, include)) continue;
+        ++seen;
+        EXPECT_LE(floor_of(found[1]), own) << entry.path().string() << ": " << line;
+      }
+    }
+    EXPECT_GT(seen, 100);
+  }
 }
 
 TEST(IncludeDirection, OnlyTheFarmSpeaksMpi) {
