@@ -3,6 +3,10 @@
 
 #include <gmock/gmock.h>
 
+#include <fstream>
+#include <sstream>
+
+#include "importers/export.h"
 #include "importers/mitsuba/read/mitsuba.h"
 #include "importers/pbrt/read/pbrt.h"
 #include "scene/system/diagnostics.h"
@@ -87,6 +91,29 @@ TEST_F(MeasuredSheets, AreNamedByScenes) {
           "<scene version='3.0.0'><shape type='rectangle'><bsdf type='measured'><string name='filename' "
           "value='pane.txt'/></bsdf></shape></scene>"))),
       read(pane).sheet);
+}
+
+// Light goes through it from either side: no writer makes its back black, or closes it.
+TEST_F(MeasuredSheets, AreOpenToBothSidesInEveryFormat) {
+  folder_.write("pane.txt", pane);
+  const ImportedScene scene =
+      read_mitsuba(folder_.write("s.xml",
+                                 "<scene version='3.0.0'><sensor type='perspective'/><shape "
+                                 "type='rectangle'><bsdf type='measured'><string "
+                                 "name='filename' value='pane.txt'/></bsdf></shape></scene>"));
+  const auto written = [&](const std::string& name) {
+    const std::filesystem::path file = folder_ / name;
+    for (const Diagnostic& d : export_scene(scene.scene, file))
+      EXPECT_THAT(d.message, testing::Not(HasSubstr("black back"))) << name;
+    std::ostringstream text;
+    text << std::ifstream(file).rdbuf();
+    return text.str();
+  };
+  written("out.pbrt");
+  const std::string povray = written("out.pov");
+  EXPECT_THAT(povray, testing::Not(HasSubstr("interior_texture")));
+  EXPECT_THAT(povray, HasSubstr("filter 1"));
+  EXPECT_THAT(written("out.xml"), testing::Not(HasSubstr("twosided")));
 }
 
 }  // namespace
