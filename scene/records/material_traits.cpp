@@ -40,9 +40,11 @@ struct Traits {
             .lobes = coat(m.roughness)};
   }
   MaterialTraits operator()(const CoatedConductorMaterial& m) const {
+    const bool scatters = m.volume.albedo != SpectrumParameter{ConstantSpectrum{0}};
+    const bool spreads = !is_smooth(m.interface_roughness) || !is_smooth(m.conductor_roughness) || scatters;
     return {.disperses = !is_constant(m.interface_eta),
             .along_surface = is_brushed(m.conductor_roughness) || is_brushed(m.interface_roughness),
-            .lobes = coat(m.interface_roughness)};
+            .lobes = {is_smooth(m.interface_roughness), spreads}};
   }
   MaterialTraits operator()(const DiffuseTransmissionMaterial&) const {
     return {.transmits = true, .gathers = true, .lobes = spread};

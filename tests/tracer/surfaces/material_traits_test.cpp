@@ -44,6 +44,8 @@ std::vector<MaterialModel> models() {
           CoatedDiffuseMaterial{},
           rough_coat,
           CoatedConductorMaterial{.metal = silver},
+          CoatedConductorMaterial{.metal = silver, .conductor_roughness = rough},
+          CoatedConductorMaterial{.metal = silver, .interface_roughness = rough},
           DiffuseTransmissionMaterial{},
           PrincipledMaterial{},
           glassy,
