@@ -136,12 +136,15 @@ Spectrum scaled(const Spectrum& spectrum, double factor) {
   if (is_constant(spectrum))
     return ConstantSpectrum{static_cast<float>(evaluate(spectrum, lambda_min_nm) * factor)};
   const Spectrum known = resolved(spectrum);
-  TabulatedSpectrum table = tabulate_each_nm([&](double lambda) { return evaluate(known, lambda) * factor; });
-  if (const auto* s = std::get_if<TabulatedSpectrum>(&known)) {
-    table.samples = s->samples;
+  // Of samples that were read, whatever they are multiplied by on the way is rounded once.
+  if (const auto* s = std::get_if<TabulatedSpectrum>(&known); s && !s->samples.empty()) {
+    TabulatedSpectrum table = tabulate(s->samples, false);
     table.sample_factor = s->sample_factor * factor;
+    for (float& value : table.values)
+      value = static_cast<float>(static_cast<double>(value) * table.sample_factor);
+    return table;
   }
-  return table;
+  return tabulate_each_nm([&](double lambda) { return evaluate(known, lambda) * factor; });
 }
 
 namespace {
