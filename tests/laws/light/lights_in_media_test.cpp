@@ -198,5 +198,48 @@ TEST_F(LightsInMedia, DirectLightAlone) {
     for (const MediumPlace& place : places(lamp, true)) expect_weakened(lit, place, false, true);
 }
 
+// A lamp within glass that absorbs, seen straight through its face: (1 − F)·e^(−σd)/η² of its radiance.
+TEST_F(LightsInMedia, BehindAFaceOfGlass) {
+  const MediumPlace cube{"in glass", lamp, 1, false, 0.5};
+  for (const Lit& lit : {square_lamp(), disk_lamp()})
+    for (const bool grid : {false, true})
+      for (const bool direct_only : {false, true}) {
+        Scene scene;
+        lit.add(scene);
+        fill(scene, cube, grid, Material{DielectricMaterial{}});
+        look_along(scene, {0, 0, -1}, lamp, 1e-4);
+        scene.settings.max_depth = 4;
+        scene.settings.direct_only = direct_only;
+        const Mean found = mean_of(render(scene, grid ? 4096 : 1024).film);
+        expect_luminance(found, 0.96 * std::exp(-0.5) / 2.25, grid ? 0.02 : 0.005,
+                         fmt::format("{}{}{}", lit.name, grid ? ", grid" : "", direct_only ? ", direct" : ""),
+                         1e-3);
+      }
+}
+
+// The same scenes as instances of a prototype: what is between is where the instance is.
+TEST_F(LightsInMedia, WithinInstances) {
+  for (const MediumPlace& place : places(lamp, true)) {
+    if (place.reach > 2) continue;  // around the camera, which no instance holds
+    Scene scene;
+    add_shape(scene, square(scene, 0, 0.02f), Material{DiffuseMaterial{one}});
+    scene.lights.push_back(Light{PointLight{lamp, one}, {}});
+    const std::size_t before = scene.shapes.size();
+    fill(scene, place, false);
+    Prototype prototype;
+    prototype.shapes.assign(scene.shapes.begin() + static_cast<std::ptrdiff_t>(before), scene.shapes.end());
+    scene.shapes.resize(before);
+    const Transform away = translate({5, -7, 2});
+    for (Shape& shape : prototype.shapes) shape.object_to_world = inverse(away) * shape.object_to_world;
+    scene.prototypes.push_back(prototype);
+    scene.instances.push_back({Id<Prototype>{0}, away, {}});
+    look_along(scene, seen_from, spot, 1e-4);
+    scene.settings.max_depth = 1;
+    const double expected =
+        through(place, spot, lamp) / (height * height) / pi * through(place, spot, spot + seen_from * 20.0);
+    expect_luminance(mean_of(render(scene, 4).film), expected, 0.01, "instance, medium " + place.name, 1e-3);
+  }
+}
+
 }  // namespace
 }  // namespace vitrail::test
