@@ -8,6 +8,7 @@
 #include <cstdio>
 
 #include "farm/agreement.h"
+#include "film/film_progress.h"
 #include "scene/records/pixel_place.h"
 #include "scene/system/say.h"
 

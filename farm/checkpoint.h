@@ -6,7 +6,7 @@
 #include "farm/rounds.h"
 #include "farm/transport.h"
 #include "farm/work.h"
-#include "film/film.h"
+#include "film/film_progress.h"
 
 namespace vitrail {
 

@@ -8,6 +8,7 @@
 #include "farm/checkpoint.h"
 #include "farm/ending_time.h"
 #include "farm/signals.h"
+#include "film/film_progress.h"
 
 namespace vitrail {
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "farm/signals.h"
+#include "film/film_progress.h"
 #include "scene/system/diagnostics.h"
 #include "scene/system/say.h"
 

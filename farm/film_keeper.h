@@ -6,7 +6,7 @@
 #include <string>
 
 #include "farm/reserved_space.h"
-#include "film/film.h"
+#include "film/film_progress.h"
 
 namespace vitrail {
 

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "film/film_key.h"
 #include "film/footprint.h"
-#include "film/renderer_version.h"
 #include "film/sample_groups.h"
 #include "film/untouched.h"
 #include "film/wide_sum.h"
@@ -18,33 +18,6 @@
 #include "scene/spectra/color.h"
 
 namespace vitrail {
-
-// Of photon mapping, whose iterations are the samples of all pixels.
-struct PhotonKey {
-  std::uint64_t photons = 0;           // an iteration; 0: no photon mapping
-  double first_radius = 0, alpha = 0;  // in scene units, > 0; in (0,1), see tracer/photons/progressive.h
-  bool operator==(const PhotonKey&) const = default;
-};
-
-// Identifies what a film is of. Films of the same key but different seeds merge; a resume needs all equal.
-struct FilmKey {
-  std::uint64_t scene_hash = 0;
-  std::uint64_t seed = 0;
-  // What changes the picture besides scene, seed and sample count, and what the film itself says.
-  std::int32_t max_depth = 0;
-  bool direct_only = false;
-  bool straight_counts = true;
-  double clamp = 0;  // the most of X, Y and Z that a deposit has in the picture; 0: no limit
-  RendererVersion renderer = this_renderer();
-  // Of direct light alone, in [0, 1): a path ends where it brings less of what it sees. Of 8 bits, so that it
-  // has room in a film's header (rounded_threshold).
-  float threshold = 0;
-  PhotonKey photons = {};
-  bool splats = false;  // samples add to several pixels
-  bool operator==(const FilmKey&) const = default;
-};
-
-float rounded_threshold(double threshold);
 
 // Deposits that were refused.
 struct Refused {
@@ -193,29 +166,5 @@ class Film {
 // What keeps two films from being samples of one picture, in words; "" where nothing does. Seeds and sample
 // counts may differ.
 std::string difference(const Film& a, const Film& b);
-
-// Which samples a film holds: bit i of `done` is work item i of `items` (see farm/work.h). A finished film
-// has all.
-struct FilmProgress {
-  std::uint64_t items = 0;
-  std::uint64_t samples_per_pixel = 0;
-  std::vector<std::uint64_t> done;  // ⌈items/64⌉ words
-  double render_time_s = 0;
-  // Ends, in samples a pixel, of renders that this one goes on from: their items come first (see
-  // farm/work.h). Ascending, below samples_per_pixel; empty once all items are done.
-  std::vector<std::uint32_t> earlier_ends;
-  std::string about;  // the scene and how it is seen, as JSON, for those who read pictures; "" where unknown
-  // Pixels have samples of their own numbers. `items` are then those of the round that is open alone, in
-  // which each pixel is to have `more`; between rounds there are none. samples_per_pixel is the mean, rounded
-  // up.
-  bool adaptive = false;
-  std::vector<std::uint32_t> more;
-  bool complete() const;
-};
-
-// Writes under a temporary name, syncs and renames. Throws MachineError.
-void write_film(const std::filesystem::path& file, const Film& film, const FilmProgress& progress);
-// Throws Error for anything but a whole, checksummed film of this version. `progress` may be null.
-Film read_film(const std::filesystem::path& file, FilmProgress* progress);
 
 }  // namespace vitrail

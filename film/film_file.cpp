@@ -15,7 +15,7 @@
 #include <cstring>
 #include <fstream>
 
-#include "film/film.h"
+#include "film/film_progress.h"
 #include "scene/records/film_extent.h"
 #include "scene/system/atomic_file.h"
 #include "scene/system/diagnostics.h"

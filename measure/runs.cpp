@@ -11,7 +11,7 @@
 
 #include "compare/web_page.h"
 #include "film/develop.h"
-#include "film/film.h"
+#include "film/film_progress.h"
 #include "scene/system/diagnostics.h"
 
 namespace vitrail {

@@ -13,6 +13,7 @@
 #include "compare/alignment.h"
 #include "compare/comparison.h"
 #include "compare/mask.h"
+#include "film/film_progress.h"
 #include "film/image_io.h"
 #include "scene/system/diagnostics.h"
 #include "scene/system/input_files.h"

@@ -13,6 +13,7 @@
 
 #include "cli/common/main_guard.h"
 #include "film/false_color.h"
+#include "film/film_progress.h"
 #include "film/image_io.h"
 #include "film/sensor_readings.h"
 #include "film/tone_map.h"

@@ -8,7 +8,7 @@
 #include "bundle/census.h"
 #include "cli/common/quadric_counts.h"
 #include "cli/inspect/inspect.h"
-#include "film/film.h"
+#include "film/film_progress.h"
 #include "importers/import.h"
 #include "partitioner/appearance/appearance.h"
 #include "partitioner/placing/flatten.h"

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <fstream>
 
-#include "film/film.h"
+#include "film/film_progress.h"
 #include "tests/support/command.h"
 #include "tests/support/temporary_directory.h"
 

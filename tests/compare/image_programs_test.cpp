@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "compare/alignment.h"
+#include "film/film_progress.h"
 #include "film/image_io.h"
 #include "tests/support/command.h"
 #include "tests/support/temporary_directory.h"

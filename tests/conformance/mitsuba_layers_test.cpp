@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "film/develop.h"
+#include "film/film_progress.h"
 #include "scene/system/diagnostics.h"
 #include "tests/importers/mitsuba/mitsuba_oracle.h"
 #include "tests/support/command.h"

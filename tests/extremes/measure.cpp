@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/extremes/measure.h"
+#include "film/film_progress.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

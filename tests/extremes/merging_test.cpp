@@ -6,6 +6,7 @@
 #include <cmath>
 #include <random>
 
+#include "film/film_progress.h"
 #include "film/image_io.h"
 #include "tests/extremes/measure.h"
 #include "tests/support/command.h"

@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "farm/render.h"
+#include "film/film_progress.h"
 #include "partitioner/partition.h"
 #include "scene/geometry/portable_math.h"
 #include "tests/extremes/measure.h"

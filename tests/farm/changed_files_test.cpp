@@ -7,7 +7,7 @@
 #include <fstream>
 #include <functional>
 
-#include "film/film.h"
+#include "film/film_progress.h"
 #include "tests/support/background.h"
 #include "tests/support/partitioned_box.h"
 

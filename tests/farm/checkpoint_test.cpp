@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "film/film.h"
+#include "film/film_progress.h"
 #include "tests/support/command.h"
 #include "tests/support/temporary_directory.h"
 

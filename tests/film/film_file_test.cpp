@@ -10,7 +10,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "film/film.h"
+#include "film/film_progress.h"
 #include "scene/system/diagnostics.h"
 #include "tests/support/temporary_directory.h"
 

@@ -2,7 +2,7 @@
 #include "tests/fuzz/bundle_seeds.h"
 
 #include "bundle/ray_profile.h"
-#include "film/film.h"
+#include "film/film_progress.h"
 #include "tests/bundle/sample_bundle.h"
 #include "tests/support/temporary_directory.h"
 

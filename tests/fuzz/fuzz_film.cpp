@@ -6,7 +6,7 @@
 #include <cstring>
 #include <vector>
 
-#include "film/film.h"
+#include "film/film_progress.h"
 #include "tests/fuzz/fuzz_reader.h"
 
 namespace {

@@ -10,7 +10,7 @@
 #include <fstream>
 #include <random>
 
-#include "film/film.h"
+#include "film/film_progress.h"
 #include "measure/biases.h"
 #include "scene/system/diagnostics.h"
 #include "tests/support/temporary_directory.h"

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <fstream>
 
-#include "film/film.h"
+#include "film/film_progress.h"
 #include "scene/system/diagnostics.h"
 #include "tests/support/temporary_directory.h"
 

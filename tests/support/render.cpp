@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/support/render.h"
 
+#include "film/film_progress.h"
 #include "partitioner/partition.h"
 #include "tests/support/temporary_directory.h"
 

@@ -11,6 +11,7 @@
 #include <span>
 
 #include "farm/render.h"
+#include "film/film_progress.h"
 #include "partitioner/appearance/appearance.h"
 #include "partitioner/partition.h"
 #include "tests/support/command.h"

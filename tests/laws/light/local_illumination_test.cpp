@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "film/film_progress.h"
 #include "glazing/system_file.h"
 #include "importers/reading/glazing_material.h"
 #include "partitioner/partition.h"

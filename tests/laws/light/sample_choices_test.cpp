@@ -10,6 +10,7 @@
 #include "compare/metrics.h"
 #include "compare/ztest.h"
 #include "film/develop.h"
+#include "film/film_progress.h"
 #include "images/image_files.h"
 #include "scene/spectra/named_spectra.h"
 #include "tests/support/command.h"

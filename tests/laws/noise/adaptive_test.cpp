@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <random>
 
+#include "film/film_progress.h"
 #include "partitioner/partition.h"
 #include "tests/support/render.h"
 #include "tests/support/temporary_directory.h"

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "bundle/manifest.h"
-#include "film/film.h"
+#include "film/film_progress.h"
 #include "tests/support/command.h"
 #include "tests/support/temporary_directory.h"
 

@@ -9,7 +9,7 @@
 #include <chrono>
 #include <thread>
 
-#include "film/film.h"
+#include "film/film_progress.h"
 #include "tests/support/background.h"
 #include "tests/support/command.h"
 #include "tests/support/temporary_directory.h"

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// The film's file: a film, and which samples it holds, so that it is a checkpoint too.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "film/film.h"
+
+namespace vitrail {
+
+// Which samples a film holds: bit i of `done` is work item i of `items` (see farm/work.h). A finished film
+// has all.
+struct FilmProgress {
+  std::uint64_t items = 0;
+  std::uint64_t samples_per_pixel = 0;
+  std::vector<std::uint64_t> done;  // ⌈items/64⌉ words
+  double render_time_s = 0;
+  // Ends, in samples a pixel, of renders that this one goes on from: their items come first (see
+  // farm/work.h). Ascending, below samples_per_pixel; empty once all items are done.
+  std::vector<std::uint32_t> earlier_ends;
+  std::string about;  // the scene and how it is seen, as JSON, for those who read pictures; "" where unknown
+  // Pixels have samples of their own numbers. `items` are then those of the round that is open alone, in
+  // which each pixel is to have `more`; between rounds there are none. samples_per_pixel is the mean, rounded
+  // up.
+  bool adaptive = false;
+  std::vector<std::uint32_t> more;
+  bool complete() const;
+};
+
+// Writes under a temporary name, syncs and renames. Throws MachineError.
+void write_film(const std::filesystem::path& file, const Film& film, const FilmProgress& progress);
+// Throws Error for anything but a whole, checksummed film of this version. `progress` may be null.
+Film read_film(const std::filesystem::path& file, FilmProgress* progress);
+
+}  // namespace vitrail
