@@ -7,8 +7,8 @@
 
 #include "importers/mitsuba/read/builder.h"
 #include "importers/mitsuba/read/properties.h"
-#include "importers/mitsuba/read/suggestion.h"
 #include "importers/mitsuba/read/sun_and_sky.h"
+#include "importers/reading/suggestion.h"
 #include "scene/spectra/flat_emission.h"
 #include "scene/spectra/rgb_to_spectrum.h"
 

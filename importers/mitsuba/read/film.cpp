@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "importers/mitsuba/read/properties.h"
-#include "importers/mitsuba/read/suggestion.h"
+#include "importers/reading/suggestion.h"
 
 namespace vitrail::mitsuba {
 

@@ -8,7 +8,7 @@
 #include "importers/mitsuba/aovs.h"
 #include "importers/mitsuba/read/builder.h"
 #include "importers/mitsuba/read/properties.h"
-#include "importers/mitsuba/read/suggestion.h"
+#include "importers/reading/suggestion.h"
 
 namespace vitrail::mitsuba {
 

@@ -8,9 +8,9 @@
 #include "importers/mitsuba/read/builder.h"
 #include "importers/mitsuba/read/properties.h"
 #include "importers/mitsuba/read/subsurface.h"
-#include "importers/mitsuba/read/suggestion.h"
 #include "importers/mitsuba/read/values.h"
 #include "importers/mitsuba/read/volume_file.h"
+#include "importers/reading/suggestion.h"
 
 namespace vitrail::mitsuba {
 

@@ -7,8 +7,8 @@
 #include "importers/mitsuba/read/builder.h"
 #include "importers/mitsuba/read/film.h"
 #include "importers/mitsuba/read/properties.h"
-#include "importers/mitsuba/read/suggestion.h"
 #include "importers/mitsuba/screen.h"
+#include "importers/reading/suggestion.h"
 
 namespace vitrail::mitsuba {
 

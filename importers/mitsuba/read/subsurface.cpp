@@ -7,7 +7,7 @@
 #include <cctype>
 
 #include "importers/mitsuba/read/index_of_refraction.h"
-#include "importers/mitsuba/read/suggestion.h"
+#include "importers/reading/suggestion.h"
 #include "scene/models/measured_media.h"
 
 namespace vitrail::mitsuba {

@@ -6,7 +6,7 @@
 
 #include "scene/system/diagnostics.h"
 
-namespace vitrail::mitsuba {
+namespace vitrail {
 
 // "; did you mean "perspective"?", or nothing where no known word is near.
 inline std::string suggestion(const std::string& word, const std::vector<std::string>& known) {
@@ -14,4 +14,4 @@ inline std::string suggestion(const std::string& word, const std::vector<std::st
   return closest.empty() ? "" : "; did you mean \"" + closest + "\"?";
 }
 
-}  // namespace vitrail::mitsuba
+}  // namespace vitrail
