@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "importers/mitsuba/read/old_versions.h"
 
+#include <algorithm>
+#include <array>
 #include <cctype>
+#include <optional>
+#include <utility>
 
 namespace vitrail::mitsuba {
 
@@ -9,6 +13,43 @@ namespace {
 
 bool is_upper(char c) { return c >= 'A' && c <= 'Z'; }
 bool is_lower(char c) { return c >= 'a' && c <= 'z'; }
+
+void rename_properties(Object& object) {
+  // Names of version 0.3.
+  const bool had_intensity = object.tag == "emitter" && object.type != "point" && object.type != "spot";
+  for (Property& p : object.properties) {
+    if (object.type == "diffuse" && p.name == "diffuse_reflectance") p.name = "reflectance";
+    if (had_intensity && p.name == "intensity")
+      p.name = object.type == "directional" ? "irradiance" : "radiance";
+  }
+}
+
+// Properties for what a plugin of the same name does otherwise today.
+void mark_old_meanings(Object& object) {
+  const auto mark = [&](const char* name) { object.properties.push_back({name, true, object.origin}); };
+  const std::string& type = object.type;
+  // Where models of daylight have their zenith; +z since version 3.
+  if (object.tag == "emitter" && (type == "sky" || type == "sun" || type == "sunsky")) mark("y_is_up");
+  if (object.tag == "shape" && type == "ply") mark("colors_in_srgb");
+  if (object.tag == "texture" && type == "bitmap") mark("gamma_of_file");
+}
+
+// uscale … voffset become a to_uv.
+void join_uv_transform(Object& object) {
+  Vector3d size{1, 1, 1}, offset;
+  const std::array<std::pair<std::string_view, double*>, 4> parts{
+      {{"uscale", &size.x}, {"vscale", &size.y}, {"uoffset", &offset.x}, {"voffset", &offset.y}}};
+  std::optional<Origin> place;
+  for (const Property& p : object.properties) {
+    const auto target = std::ranges::find(parts, p.name, [](const auto& part) { return part.first; });
+    const auto* const number = std::get_if<double>(&p.value);
+    if (target == parts.end() || !number) continue;
+    *target->second = *number;
+    p.queried = true;
+    place = p.origin;
+  }
+  if (place) object.properties.push_back({"to_uv", translate(offset) * scale(size), *place});
+}
 
 }  // namespace
 
@@ -42,35 +83,9 @@ bool is_color_of_old_file(std::string_view value, const Object& owner) {
 }
 
 void upgrade(Object& object) {
-  Vector3d size{1, 1, 1}, offset;
-  bool moved = false;
-  Origin place;
-  for (Property& p : object.properties) {
-    if (object.type == "diffuse" && p.name == "diffuse_reflectance") p.name = "reflectance";
-    const bool plain = std::holds_alternative<double>(p.value);
-    double* target = !plain                ? nullptr
-                     : p.name == "uscale"  ? &size.x
-                     : p.name == "vscale"  ? &size.y
-                     : p.name == "uoffset" ? &offset.x
-                     : p.name == "voffset" ? &offset.y
-                                           : nullptr;
-    if (!target) continue;
-    *target = std::get<double>(p.value);
-    moved = p.queried = true;
-    place = p.origin;
-  }
-  // Names of version 0.3.
-  if (object.tag == "emitter" && object.type != "point" && object.type != "spot")
-    for (Property& p : object.properties)
-      if (p.name == "intensity") p.name = object.type == "directional" ? "irradiance" : "radiance";
-  // Where its models of daylight have their zenith; +z since version 3.
-  const bool daylight = object.type == "sky" || object.type == "sun" || object.type == "sunsky";
-  if (daylight && object.tag == "emitter") object.properties.push_back({"y_is_up", true, object.origin});
-  if (object.tag == "shape" && object.type == "ply")
-    object.properties.push_back({"colors_in_srgb", true, object.origin});
-  if (object.tag == "texture" && object.type == "bitmap")
-    object.properties.push_back({"gamma_of_file", true, object.origin});
-  if (moved) object.properties.push_back({"to_uv", translate(offset) * scale(size), place});
+  rename_properties(object);
+  mark_old_meanings(object);
+  join_uv_transform(object);
 }
 
 }  // namespace vitrail::mitsuba
