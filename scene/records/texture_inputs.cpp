@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/records/texture_inputs.h"
 
-#include <algorithm>
-#include <set>
-#include <vector>
-
 namespace vitrail {
 
 namespace {
@@ -18,16 +14,8 @@ bool is_of_attribute(const TextureModel& model) {
 }  // namespace
 
 bool reads_attribute(std::span<const Texture> textures, Id<Texture> texture) {
-  std::vector<Id<Texture>> open{texture};
-  std::set<std::uint32_t> seen;
-  while (!open.empty()) {
-    const Id<Texture> id = open.back();
-    open.pop_back();
-    if (!seen.insert(id.value).second) continue;
-    if (is_of_attribute(textures[id.value].model)) return true;
-    for_texture_inputs(textures[id.value].model, [&](Id<Texture> input) { open.push_back(input); });
-  }
-  return false;
+  return leads_to(textures, texture, is_of_attribute,
+                  [](const TextureModel& model, auto&& f) { for_texture_inputs(model, f); });
 }
 
 }  // namespace vitrail

@@ -2,8 +2,11 @@
 // What a texture's value is made of.
 #pragma once
 
+#include <cstdint>
+#include <set>
 #include <span>
 #include <variant>
+#include <vector>
 
 #include "scene/records/fields.h"
 
@@ -25,6 +28,24 @@ void for_texture_inputs(const TextureModel& model, F&& f) {
   for_inputs(model, [&](const auto& parameter) {
     if (const auto* id = std::get_if<Id<Texture>>(&parameter)) f(*id);
   });
+}
+
+// Whether is_wanted(model) holds of the texture or of one that it leads to. for_next(model, f) calls f(id)
+// with the inputs of a texture that count.
+template <class IsWanted, class ForNext>
+bool leads_to(std::span<const Texture> textures, Id<Texture> texture, IsWanted&& is_wanted,
+              ForNext&& for_next) {
+  std::vector<Id<Texture>> open{texture};
+  std::set<std::uint32_t> seen;
+  while (!open.empty()) {
+    const Id<Texture> id = open.back();
+    open.pop_back();
+    if (!seen.insert(id.value).second) continue;
+    const TextureModel& model = textures[id.value].model;
+    if (is_wanted(model)) return true;
+    for_next(model, [&](Id<Texture> input) { open.push_back(input); });
+  }
+  return false;
 }
 
 // Whether some attribute of a mesh counts in the texture's or parameter's value.

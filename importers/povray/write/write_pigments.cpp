@@ -2,7 +2,6 @@
 #include "importers/povray/write/write_pigments.h"
 
 #include <cmath>
-#include <set>
 
 #include "images/ptex_means.h"
 #include "importers/writing/export_colors.h"
@@ -285,17 +284,8 @@ std::optional<Pattern> pattern_of(Context& context, Id<Texture> id, const Origin
 }
 
 bool uses_uvs(const Scene& scene, Id<Texture> texture) {
-  std::vector<Id<Texture>> open{texture};
-  std::set<std::uint32_t> seen;
-  while (!open.empty()) {
-    const Id<Texture> id = open.back();
-    open.pop_back();
-    if (!seen.insert(id.value).second) continue;
-    const TextureModel& model = scene.textures.at(id.value).model;
-    if (shows_uvs(model)) return true;
-    for_shown_inputs(model, [&](Id<Texture> input) { open.push_back(input); });
-  }
-  return false;
+  return leads_to(scene.textures, texture, shows_uvs,
+                  [](const TextureModel& model, auto&& f) { for_shown_inputs(model, f); });
 }
 
 double constant_of(Context& context, const FloatParameter& parameter, const char* what, const Origin& user) {
