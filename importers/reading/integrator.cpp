@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "importers/reading/suggestion.h"
 #include "scene/records/light_traits.h"
 #include "scene/records/material_traits.h"
 
@@ -46,6 +47,15 @@ constexpr const char* caustics =
     "shows it";
 
 }  // namespace
+
+AskedIntegrator asked_for(const std::string& name, std::span<const NamedIntegrator> known,
+                          const std::vector<std::string>& also_named) {
+  const auto found = std::ranges::find(known, name, &NamedIntegrator::first);
+  if (found != known.end()) return {name, found->second};
+  std::vector<std::string> names = also_named;
+  for (const NamedIntegrator& other : known) names.emplace_back(other.first);
+  return {name, Kind::other, suggestion(name, names)};
+}
 
 std::vector<std::string> settle_integrator(const AskedIntegrator& asked, Scene& scene) {
   std::vector<std::string> differences;

@@ -2,7 +2,10 @@
 // What the integrators of other renderers come to here.
 #pragma once
 
+#include <span>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "scene/records/scene.h"
@@ -25,6 +28,14 @@ struct AskedIntegrator {
   Kind kind = Kind::paths;
   std::string suggestion{};  // "; did you mean …?"
 };
+
+// A name of a format's integrators.
+using NamedIntegrator = std::pair<std::string_view, AskedIntegrator::Kind>;
+
+// The integrator of that name, of those that are `known`. Another is `other`, with the nearest name of these
+// and of the `also_named`, if one is near.
+AskedIntegrator asked_for(const std::string& name, std::span<const NamedIntegrator> known,
+                          const std::vector<std::string>& also_named = {});
 
 // Says how the picture differs from that of the integrator, once the scene is read. Photon mapping becomes
 // path tracing where there are media, which photons do not cross here.

@@ -7,6 +7,8 @@
 #include <array>
 #include <cmath>
 
+#include "importers/reading/suggestion.h"
+
 namespace vitrail::mitsuba {
 
 namespace {
@@ -39,10 +41,9 @@ float index_of(Builder& b, const Object& o, const char* name, const char* otherw
     if (known.name == wanted) return static_cast<float>(known.value);
     names.emplace_back(known.name);
   }
-  const std::string closest = closest_word(wanted, names);
-  b.report.fail(fmt::format("no index of refraction is known for \"{}\"{}", wanted,
-                            closest.empty() ? "" : fmt::format("; did you mean \"{}\"?", closest)),
-                property ? property->origin : o.origin);
+  b.report.fail(
+      fmt::format("no index of refraction is known for \"{}\"{}", wanted, suggestion(wanted, names)),
+      property ? property->origin : o.origin);
 }
 
 double internal_reflectance(double eta) {

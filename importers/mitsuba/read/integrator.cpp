@@ -8,7 +8,6 @@
 #include "importers/mitsuba/aovs.h"
 #include "importers/mitsuba/read/builder.h"
 #include "importers/mitsuba/read/properties.h"
-#include "importers/reading/suggestion.h"
 
 namespace vitrail::mitsuba {
 
@@ -17,41 +16,32 @@ namespace {
 using Kind = AskedIntegrator::Kind;
 
 // Of all versions. Those that show another quantity ("depth", "ao") are not here.
-constexpr std::array<std::pair<std::string_view, Kind>, 20> kinds{{{"path", Kind::paths},
-                                                                   {"volpath", Kind::paths},
-                                                                   {"volpathmis", Kind::paths},
-                                                                   {"volpath_simple", Kind::paths},
-                                                                   {"prb", Kind::paths},
-                                                                   {"prb_projective", Kind::paths},
-                                                                   {"prbvolpath", Kind::paths},
-                                                                   {"vpl", Kind::paths},
-                                                                   {"prb_basic", Kind::by_chance},
-                                                                   {"bdpt", Kind::both_ends},
-                                                                   {"mlt", Kind::both_ends},
-                                                                   {"pssmlt", Kind::both_ends},
-                                                                   {"erpt", Kind::both_ends},
-                                                                   {"ptracer", Kind::from_lamps},
-                                                                   {"sppm", Kind::photons},
-                                                                   {"ppm", Kind::photons},
-                                                                   {"photonmapper", Kind::photon_map},
-                                                                   {"direct", Kind::first_hit},
-                                                                   {"direct_projective", Kind::first_hit},
-                                                                   {"emission", Kind::first_hit}}};
+constexpr std::array<NamedIntegrator, 20> kinds{{{"path", Kind::paths},
+                                                 {"volpath", Kind::paths},
+                                                 {"volpathmis", Kind::paths},
+                                                 {"volpath_simple", Kind::paths},
+                                                 {"prb", Kind::paths},
+                                                 {"prb_projective", Kind::paths},
+                                                 {"prbvolpath", Kind::paths},
+                                                 {"vpl", Kind::paths},
+                                                 {"prb_basic", Kind::by_chance},
+                                                 {"bdpt", Kind::both_ends},
+                                                 {"mlt", Kind::both_ends},
+                                                 {"pssmlt", Kind::both_ends},
+                                                 {"erpt", Kind::both_ends},
+                                                 {"ptracer", Kind::from_lamps},
+                                                 {"sppm", Kind::photons},
+                                                 {"ppm", Kind::photons},
+                                                 {"photonmapper", Kind::photon_map},
+                                                 {"direct", Kind::first_hit},
+                                                 {"direct_projective", Kind::first_hit},
+                                                 {"emission", Kind::first_hit}}};
 const std::vector<std::string> volumetric{"volpath", "volpathmis", "volpath_simple", "prbvolpath"};
 // Around another integrator whose picture is the first of what they write, or is found with fewer samples.
 const std::vector<std::string> wrappers{"moment", "aov", "stokes", "multichannel", "adaptive", "irrcache"};
 
 bool is_one_of(const std::string& word, const std::vector<std::string>& words) {
   return std::find(words.begin(), words.end(), word) != words.end();
-}
-
-AskedIntegrator asked_for(const std::string& name) {
-  const auto known = std::ranges::find(kinds, name, [](const auto& kind) { return kind.first; });
-  if (known != kinds.end()) return {name, known->second};
-  if (is_one_of(name, wrappers)) return {name, Kind::other, ": it has none inside"};
-  std::vector<std::string> names = wrappers;
-  for (const auto& kind : kinds) names.emplace_back(kind.first);
-  return {name, Kind::other, suggestion(name, names)};
 }
 
 // Of 0.6's, which has its radii as shares of the scene for the one, and in its units for the others.
@@ -127,7 +117,8 @@ void read_integrator(Builder& builder, const Object& integrator) {
     return read_integrator(builder, *nested);
   }
   builder.scene.integrator_origin = integrator.origin;
-  builder.integrator = asked_for(integrator.type);
+  builder.integrator = asked_for(integrator.type, kinds, wrappers);
+  if (is_one_of(integrator.type, wrappers)) builder.integrator.suggestion = ": it has none inside";
   if (integrator.type == "aov") read_aovs(builder, integrator);
   RenderSettings& settings = builder.scene.settings;
   const Kind kind = builder.integrator.kind;

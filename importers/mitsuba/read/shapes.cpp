@@ -6,6 +6,7 @@
 
 #include "importers/mitsuba/read/shape_geometry.h"
 #include "importers/mitsuba/read/subsurface.h"
+#include "importers/reading/suggestion.h"
 #include "importers/shapes/vertex_normals.h"
 
 namespace vitrail::mitsuba {
@@ -143,10 +144,9 @@ void add_geometry(Builder& builder, const Object& object, const ShapeGeometry& g
 void drop(Builder& builder, const Object& object) {
   const std::string kind = kind_of(object);
   const bool known = std::ranges::count(kinds, kind) > 0;
-  const std::string closest = known ? "" : closest_word(kind, kinds);
   builder.report.dropped(
       fmt::format("shape \"{}\" {}{}", object.type, known ? "is not supported" : "is unknown",
-                  closest.empty() ? "" : fmt::format("; did you mean \"{}\"?", closest)),
+                  known ? "" : suggestion(kind, kinds)),
       object.origin);
 }
 

@@ -8,6 +8,7 @@
 
 #include "importers/mitsuba/read/builder.h"
 #include "importers/mitsuba/read/values.h"
+#include "importers/reading/suggestion.h"
 #include "importers/spectra/spectrum_file.h"
 #include "scene/spectra/named_spectra.h"
 #include "scene/spectra/rgb_to_spectrum.h"
@@ -126,10 +127,9 @@ Spectrum from_plugin(Builder& b, const Object& object, Quantity quantity) {
     return v ? from_color({v->x, v->y, v->z}, quantity, object.origin, b.report)
              : from_number(object.number("value", 1, b.report), quantity, object.origin, b.report);
   }
-  const std::string closest = closest_word(
-      object.type, {"uniform", "regular", "irregular", "d65", "blackbody", "srgb", "rawconstant"});
   b.report.approximated(fmt::format("spectrum \"{}\" is not known and becomes 1{}", object.type,
-                                    closest.empty() ? "" : fmt::format("; did you mean \"{}\"?", closest)),
+                                    suggestion(object.type, {"uniform", "regular", "irregular", "d65",
+                                                             "blackbody", "srgb", "rawconstant"})),
                         object.origin);
   return ConstantSpectrum{1};
 }

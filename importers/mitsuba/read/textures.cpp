@@ -7,6 +7,7 @@
 
 #include "importers/mitsuba/read/builder.h"
 #include "importers/mitsuba/read/png_gamma.h"
+#include "importers/reading/suggestion.h"
 
 namespace vitrail::mitsuba {
 
@@ -151,10 +152,9 @@ TextureModel make_model(Builder& b, const Object& o, bool as_float) {
                    "color0", "color1", "name", "scale"});
     return model;
   }
-  const std::string closest = closest_word(o.type, names);
-  b.report.dropped(fmt::format("texture \"{}\" is not supported and becomes 0.5{}", o.type,
-                               closest.empty() ? "" : fmt::format("; did you mean \"{}\"?", closest)),
-                   o.origin);
+  b.report.dropped(
+      fmt::format("texture \"{}\" is not supported and becomes 0.5{}", o.type, suggestion(o.type, names)),
+      o.origin);
   return ProductTexture{ConstantSpectrum{0.5f}, ConstantSpectrum{1}};
 }
 

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "importers/pbrt/read/gbuffer.h"
+#include "importers/reading/suggestion.h"
 
 namespace vitrail::pbrt {
 
@@ -258,10 +259,9 @@ void read_filter(const std::string& kind, ParameterSet& parameters, Context& con
   } else if (kind == "sinc") {
     view.film.filter = SincFilter{radius('x', 4), radius('y', 4), positive(parameters, "tau", 3)};
   } else {
-    const std::string closest = closest_word(kind, {"box", "triangle", "gaussian", "mitchell", "sinc"});
     context.report.approximated(
         fmt::format("filter \"{}\" is not known and becomes a Gaussian of sigma 0.5{}", kind,
-                    closest.empty() ? "" : fmt::format("; did you mean \"{}\"?", closest)),
+                    suggestion(kind, {"box", "triangle", "gaussian", "mitchell", "sinc"})),
         parameters.place());
     view.film.filter = GaussianFilter{};
   }

@@ -1,9 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <array>
-#include <string_view>
 
 #include "importers/pbrt/read/camera_film.h"
 
@@ -14,29 +10,20 @@ namespace {
 using Kind = AskedIntegrator::Kind;
 
 // Of all versions. What is not here is another picture ("ambientocclusion").
-constexpr std::array<std::pair<std::string_view, Kind>, 14> kinds{{{"path", Kind::paths},
-                                                                   {"volpath", Kind::paths},
-                                                                   {"simplepath", Kind::paths},
-                                                                   {"simplevolpath", Kind::paths},
-                                                                   {"bdpt", Kind::both_ends},
-                                                                   {"mlt", Kind::both_ends},
-                                                                   {"metropolis", Kind::both_ends},
-                                                                   {"lightpath", Kind::from_lamps},
-                                                                   {"randomwalk", Kind::by_chance},
-                                                                   {"sppm", Kind::photons},
-                                                                   {"photonmap", Kind::photon_map},
-                                                                   {"exphotonmap", Kind::photon_map},
-                                                                   {"directlighting", Kind::direct},
-                                                                   {"whitted", Kind::direct}}};
-
-AskedIntegrator asked_for(const std::string& name) {
-  const auto known = std::ranges::find(kinds, name, [](const auto& kind) { return kind.first; });
-  if (known != kinds.end()) return {name, known->second};
-  std::vector<std::string> names;
-  for (const auto& kind : kinds) names.emplace_back(kind.first);
-  const std::string closest = closest_word(name, names);
-  return {name, Kind::other, closest.empty() ? "" : fmt::format("; did you mean \"{}\"?", closest)};
-}
+constexpr std::array<NamedIntegrator, 14> kinds{{{"path", Kind::paths},
+                                                 {"volpath", Kind::paths},
+                                                 {"simplepath", Kind::paths},
+                                                 {"simplevolpath", Kind::paths},
+                                                 {"bdpt", Kind::both_ends},
+                                                 {"mlt", Kind::both_ends},
+                                                 {"metropolis", Kind::both_ends},
+                                                 {"lightpath", Kind::from_lamps},
+                                                 {"randomwalk", Kind::by_chance},
+                                                 {"sppm", Kind::photons},
+                                                 {"photonmap", Kind::photon_map},
+                                                 {"exphotonmap", Kind::photon_map},
+                                                 {"directlighting", Kind::direct},
+                                                 {"whitted", Kind::direct}}};
 
 // Its radius shrinks by the same share, γ = ⅔. v4 has an iteration for each of the sampler's samples.
 PhotonSettings read_photons(ParameterSet& parameters, Context& context, ViewSettings& view) {
@@ -59,7 +46,7 @@ void read_integrator(const std::string& kind, ParameterSet& parameters, Context&
                      ViewSettings& view) {
   const int depth = parameters.integer("maxdepth", 5);
   if (depth < 0) fail("\"maxdepth\" is negative", parameters.place());
-  view.integrator = asked_for(kind);
+  view.integrator = asked_for(kind, kinds);
   view.render.max_depth = depth;
   view.render.direct_only = view.integrator.kind == Kind::direct;
   view.render.photons.reset();

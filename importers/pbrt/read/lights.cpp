@@ -11,6 +11,7 @@
 #include "importers/pbrt/read/image_numbers.h"
 #include "importers/pbrt/read/sphere_images.h"
 #include "importers/reading/given_sky.h"
+#include "importers/reading/suggestion.h"
 #include "scene/geometry/frame.h"
 #include "scene/spectra/color.h"
 #include "scene/spectra/rgb_to_spectrum.h"
@@ -221,11 +222,8 @@ std::optional<Light> make_light(const std::string& kind, ParameterSet& parameter
     parameters.report_unused(scope.context.report);
     return light;
   }
-  const std::string closest = closest_word(kind, names);
-  scope.context.report.dropped(
-      fmt::format("light \"{}\" is not known{}", kind,
-                  closest.empty() ? "" : fmt::format("; did you mean \"{}\"?", closest)),
-      parameters.place());
+  scope.context.report.dropped(fmt::format("light \"{}\" is not known{}", kind, suggestion(kind, names)),
+                               parameters.place());
   return std::nullopt;
 }
 

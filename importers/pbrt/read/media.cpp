@@ -7,6 +7,7 @@
 #include <array>
 
 #include "importers/pbrt/read/measured_name.h"
+#include "importers/reading/suggestion.h"
 #include "scene/models/measured_media.h"
 #include "scene/spectra/color.h"
 #include "scene/spectra/rgb_to_spectrum.h"
@@ -171,10 +172,9 @@ constexpr std::array<Kind, 6> kinds{{{"homogeneous", homogeneous},
 
 bool is_measured(const std::string& name, const ParameterSet& parameters, const Scope& scope) {
   if (measured_medium(name)) return true;
-  const std::string closest = closest_word(name, measured_media());
   scope.context.report.approximated(
       fmt::format("no measured medium is known by the name \"{}\": the default stands for it{}", name,
-                  closest.empty() ? "" : fmt::format("; did you mean \"{}\"?", closest)),
+                  suggestion(name, measured_media())),
       parameters.place());
   return false;
 }
@@ -197,9 +197,7 @@ Medium make_medium(const std::string& kind, const std::string& name, ParameterSe
     parameters.report_unused(scope.context.report);
     return medium;
   }
-  const std::string closest = closest_word(kind, names);
-  fail(fmt::format("medium \"{}\" is of the unknown kind \"{}\"{}", name, kind,
-                   closest.empty() ? "" : fmt::format("; did you mean \"{}\"?", closest)),
+  fail(fmt::format("medium \"{}\" is of the unknown kind \"{}\"{}", name, kind, suggestion(kind, names)),
        parameters.place());
 }
 

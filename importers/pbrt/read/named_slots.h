@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "importers/pbrt/read/lexer.h"
+#include "importers/reading/suggestion.h"
 
 namespace vitrail::pbrt {
 
@@ -66,10 +67,7 @@ class NamedSlots {
       std::vector<std::string> defined;
       for (const auto& [other, state] : entries_)
         if (state.defined) defined.push_back(other);
-      const std::string closest = closest_word(name, defined);
-      fail(what_ + " \"" + name + "\" is not defined" +
-               (closest.empty() ? "" : "; did you mean \"" + closest + "\"?"),
-           entry.place);
+      fail(what_ + " \"" + name + "\" is not defined" + suggestion(name, defined), entry.place);
     }
   }
 

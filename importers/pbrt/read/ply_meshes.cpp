@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "importers/pbrt/read/ply_meshes.h"
 
-#include "importers/pbrt/read/shapes.h"
+#include "importers/pbrt/read/mesh_fronts.h"
 #include "importers/shapes/shapes.h"
 
 namespace vitrail::pbrt {

@@ -5,7 +5,9 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <tuple>
+#include <vector>
 
 #include "importers/pbrt/read/context.h"
 #include "importers/pbrt/read/parameters.h"
@@ -41,6 +43,18 @@ class ShapeMaker {
                                   bool faces_show);
 
  private:
+  // What a Shape directive asks for.
+  struct Asked {
+    const std::string& kind;
+    ParameterSet& parameters;
+    bool uvs_show, faces_show;
+  };
+  struct Kind {
+    std::string_view name;
+    std::vector<ShapeGeometry> (*make)(ShapeMaker& maker, const Asked& asked);
+  };
+  static const std::array<Kind, 13>& kinds();
+
   ShapeGeometry triangle_mesh(ParameterSet& parameters, bool uvs_show, bool faces_show);
   std::vector<ShapeGeometry> ply_mesh(ParameterSet& parameters, bool uvs_show, bool faces_show);
   ShapeGeometry bilinear_mesh(ParameterSet& parameters, bool uvs_show, bool faces_show);
@@ -56,6 +70,7 @@ class ShapeMaker {
   Id<TriangleMesh> add(TriangleMesh mesh);
   std::vector<float> face_numbers(ParameterSet& parameters, std::size_t faces, bool show);
   void report_shadow_alpha(ParameterSet& parameters);
+  void report_patches(const Place& place);
   // Has the meshes read that the text to come names.
   void read_ahead();
 
@@ -73,14 +88,5 @@ class ShapeMaker {
   const char* looked_ahead_to_ = nullptr;  // in the text to come, or another file's
   std::map<QuadricKey, Id<TriangleMesh>> quadrics_;
 };
-
-// Turns triangles whose corner normals, summed, point away from their own normal. pbrt's fronts follow the
-// normals. Returns whether the mesh is another where (u,v) show.
-bool orient_by_normals(TriangleMesh& mesh, bool uvs_show = true);
-
-// Whether orient_by_normals would leave the mesh as it is; and the mesh with its normals turned so that it
-// would, or without them where a vertex has faces on both of its sides.
-bool fronts_follow_normals(const TriangleMesh& mesh);
-TriangleMesh with_normals_in_front(TriangleMesh mesh);
 
 }  // namespace vitrail::pbrt

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "importers/pbrt/read/image_numbers.h"
+#include "importers/reading/suggestion.h"
 #include "scene/spectra/rgb_to_spectrum.h"
 
 namespace vitrail::pbrt {
@@ -24,9 +25,8 @@ const auto* find_in(const Table& table, const Parameter& parameter) {
   for (const auto& entry : textures.spectra) known.push_back(entry.first);
   for (const auto& entry : textures.numbers) known.push_back(entry.first);
   std::sort(known.begin(), known.end());
-  const std::string closest = closest_word(parameter.strings.front(), known);
   fail(fmt::format("texture \"{}\" is not defined{}", parameter.strings.front(),
-                   closest.empty() ? "" : fmt::format("; did you mean \"{}\"?", closest)),
+                   suggestion(parameter.strings.front(), known)),
        parameter.place);
 }
 
@@ -288,9 +288,8 @@ Id<Texture> make_texture(const Maker& m) {
   }
   std::vector<std::string> names{"constant"};
   for (const Kind& known : kinds) names.emplace_back(known.name);
-  const std::string closest = closest_word(m.kind, names);
   fail(fmt::format("texture \"{}\" is of the unknown kind \"{}\"{}", m.name, m.kind,
-                   closest.empty() ? "" : fmt::format("; did you mean \"{}\"?", closest)),
+                   suggestion(m.kind, names)),
        m.parameters.place());
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "importers/pbrt/read/directives.h"
+#include "importers/reading/suggestion.h"
 
 namespace vitrail::pbrt {
 
@@ -118,10 +119,9 @@ void Interpreter::coord_sys_transform(const Place& place) {
   }
   std::vector<std::string> known;
   for (const auto& entry : coordinate_systems_) known.push_back(entry.first);
-  const std::string closest = closest_word(name, known);
   context_.report.dropped(
       fmt::format("coordinate system \"{}\" is not defined: CoordSysTransform has no effect{}", name,
-                  closest.empty() ? "" : fmt::format("; did you mean \"{}\"?", closest)),
+                  suggestion(name, known)),
       place);
 }
 

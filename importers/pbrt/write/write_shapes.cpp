@@ -4,7 +4,7 @@
 #include <map>
 #include <numbers>
 
-#include "importers/pbrt/read/shapes.h"
+#include "importers/pbrt/read/mesh_fronts.h"
 #include "importers/pbrt/write/write_curves.h"
 #include "importers/pbrt/write/write_images.h"
 #include "importers/writing/placed_quadric.h"
@@ -84,27 +84,38 @@ Sizes sizes_of(const Quadric& q, const Transform& to_world) {
   return sizes;
 }
 
+// What there is of the quadric, beside its radius; `height`: of a cylinder.
+std::string extent_parameters(const Quadric& q, double height) {
+  std::string text;
+  const auto number = [&](const char* name, double value) {
+    text += fmt::format(" \"float {}\" [ {} ]", name, value);
+  };
+  if (q.kind == QuadricKind::cylinder) {
+    number("zmin", 0), number("zmax", height);
+  } else if (q.kind == QuadricKind::sphere) {
+    if (q.low > -1) number("zmin", q.low);
+    if (q.high < 1) number("zmax", q.high);
+  } else if (q.low > 0) {
+    number("innerradius", q.low);
+  }
+  if (!is_whole_turn(q)) number("phimax", degrees_of(q.phi_max_rad));
+  return text;
+}
+
 // pbrt measures lights, and looks for their points, before the transform, and does not know that they may be
 // partial. Nothing where it would go wrong, and for what v4 does not have.
 std::optional<Written> written(const PlacedQuadric& placed, bool shines) {
   const Quadric& q = placed.quadric;
-  const bool sphere = q.kind == QuadricKind::sphere, cylinder = q.kind == QuadricKind::cylinder;
   if (q.kind == QuadricKind::cone || q.kind == QuadricKind::paraboloid) return std::nullopt;
   const Sizes sizes = sizes_of(q, placed.to_world);
-  const bool is_rigid = (cylinder || is_whole(q)) && axes_of(sizes.rest).keep_spheres();
+  const bool is_rigid =
+      (q.kind == QuadricKind::cylinder || is_whole(q)) && axes_of(sizes.rest).keep_spheres();
   if (shines && !is_rigid) return std::nullopt;
   const bool sized = is_rigid && (shines || sizes.rest * scale({sizes.radius, sizes.radius, sizes.height}) ==
                                                 placed.to_world);
-  const double radius = sized ? sizes.radius : 1;
-  std::string text = fmt::format("Shape \"{}\" \"float radius\" [ {} ]", kind_of(q.kind), radius);
-  const auto number = [&](const char* name, double value) {
-    text += fmt::format(" \"float {}\" [ {} ]", name, value);
-  };
-  if (cylinder) number("zmin", 0), number("zmax", sized ? sizes.height : 1);
-  if (sphere && q.low > -1) number("zmin", q.low);
-  if (sphere && q.high < 1) number("zmax", q.high);
-  if (!sphere && !cylinder && q.low > 0) number("innerradius", q.low);
-  if (!is_whole_turn(q)) number("phimax", degrees_of(q.phi_max_rad));
+  const std::string text =
+      fmt::format("Shape \"{}\" \"float radius\" [ {} ]{}", kind_of(q.kind), sized ? sizes.radius : 1,
+                  extent_parameters(q, sized ? sizes.height : 1));
   // A mirror turns quadrics inside out, but not their light.
   return Written{text, sized ? sizes.rest : placed.to_world,
                  placed.flip_orientation != (shines && swaps_handedness(placed.to_world))};
