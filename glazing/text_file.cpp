@@ -11,6 +11,7 @@
 
 #include "scene/system/diagnostics.h"
 #include "scene/system/input_files.h"
+#include "scene/system/say.h"
 
 namespace vitrail {
 
@@ -18,29 +19,9 @@ namespace {
 
 constexpr std::string_view separators = " \t\r\v\f,;";
 
-// Length of the UTF-8 sequence that begins a text; 0 where it is none.
-std::size_t sequence_length(std::string_view text) {
-  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-  const unsigned char first = byte(0);
-  const std::size_t length = first < 0x80             ? 1
-                             : (first & 0xE0) == 0xC0 ? 2
-                             : (first & 0xF0) == 0xE0 ? 3
-                             : (first & 0xF8) == 0xF0 ? 4
-                                                      : 0;
-  if (length == 0 || length > text.size() || first == 0xC0 || first == 0xC1 || first > 0xF4) return 0;
-  for (std::size_t i = 1; i < length; ++i)
-    if ((byte(i) & 0xC0) != 0x80) return 0;
-  if (length > 2) {  // overlong, surrogates, beyond the last code point
-    const int second = byte(1);
-    if ((first == 0xE0 && second < 0xA0) || (first == 0xED && second > 0x9F)) return 0;
-    if ((first == 0xF0 && second < 0x90) || (first == 0xF4 && second > 0x8F)) return 0;
-  }
-  return length;
-}
-
 bool is_utf8(std::string_view text) {
   while (!text.empty()) {
-    const std::size_t length = sequence_length(text);
+    const std::size_t length = utf8_size(text);
     if (length == 0) return false;
     text.remove_prefix(length);
   }
