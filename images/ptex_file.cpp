@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "images/ptex_file.h"
 
+// Its conversion is in the header then, and needs no library.
+#define IMATH_HALF_NO_LOOKUP_TABLE
+#include <Imath/half.h>
 #include <fmt/format.h>
 #include <zlib.h>
 
@@ -21,15 +24,6 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "as the file has it");
 
 // As they stand in the file.
-struct Header {
-  std::array<char, 4> magic;
-  std::uint32_t version, mesh_type, data_type, alpha_channel;
-  std::uint16_t channels, levels;
-  std::uint32_t faces, extended_header_bytes, face_info_bytes, means_bytes, level_info_bytes, minor_version;
-  std::uint64_t level_data_bytes;
-  std::uint32_t meta_data_zip_bytes, meta_data_bytes;
-};
-static_assert(sizeof(Header) == 64);
 struct FaceInfo {
   std::uint8_t log2_width, log2_height, edges, flags;
   std::array<std::uint32_t, 4> neighbours;
@@ -52,12 +46,11 @@ Encoded encoding_of(std::uint32_t block) { return Encoded{block >> 30}; }
 
 constexpr std::array<std::size_t, 4> bytes_of_type{1, 2, 2, 4};  // uint8, uint16, half, float
 
-double half(std::uint16_t bits) {
-  const int exponent = bits >> 10 & 31, fraction = bits & 1023;
-  double value = exponent == 0    ? std::ldexp(fraction, -24)
-                 : exponent == 31 ? NAN
-                                  : std::ldexp(1024 + fraction, exponent - 25);
-  return bits >> 15 ? -value : value;
+// What is not finite is not a number here, with its sign.
+float value_of_half(std::uint16_t bits) {
+  Imath::half value;
+  value.setBits(bits);
+  return value.isFinite() ? static_cast<float>(value) : std::copysign(NAN, value.isNegative() ? -1.0f : 1.0f);
 }
 
 template <class T>
@@ -70,7 +63,7 @@ T word(const unsigned char* at) {
 float number(const unsigned char* at, std::uint32_t type) {
   const double value = type == 0   ? *at / 255.0
                        : type == 1 ? word<std::uint16_t>(at) / 65535.0
-                       : type == 2 ? half(word<std::uint16_t>(at))
+                       : type == 2 ? static_cast<double>(value_of_half(word<std::uint16_t>(at)))
                                    : static_cast<double>(word<float>(at));
   return static_cast<float>(value);
 }
@@ -86,6 +79,16 @@ void add_up(std::vector<unsigned char>& bytes) {
 }
 
 }  // namespace
+
+// As it stands in the file.
+struct PtexFile::Header {
+  std::array<char, 4> magic;
+  std::uint32_t version, mesh_type, data_type, alpha_channel;
+  std::uint16_t channels, levels;
+  std::uint32_t faces, extended_header_bytes, face_info_bytes, means_bytes, level_info_bytes, minor_version;
+  std::uint64_t level_data_bytes;
+  std::uint32_t meta_data_zip_bytes, meta_data_bytes;
+};
 
 void PtexFile::fail(const char* why) const {
   throw Error(fmt::format("cannot read {}: {}", file_.string(), why));
@@ -112,33 +115,39 @@ std::vector<unsigned char> PtexFile::unzipped(std::uint64_t at, std::uint64_t zi
   return result;
 }
 
-PtexFile::PtexFile(const std::filesystem::path& file) : file_(file), in_(open_input(file)) {
-  std::error_code unknown;
-  file_bytes_ = std::filesystem::file_size(file, unknown);
-  if (!in_ || unknown) fail("there is no such file");
+PtexFile::Header PtexFile::read_header() {
+  static_assert(sizeof(Header) == 64);
   Header h;
   if (!in_.read(reinterpret_cast<char*>(&h), sizeof h) || std::string_view(h.magic.data(), 4) != "Ptex")
     fail("it is no Ptex file");
   if (h.version != 1) fail("its version is not 1");
   if (h.mesh_type > 1 || h.data_type > 3 || h.channels == 0 || h.faces == 0) fail("its header is damaged");
-  type_ = h.data_type, channels_ = h.channels, of_triangles_ = h.mesh_type == 0;
-  std::uint64_t at = sizeof h + std::uint64_t{h.extended_header_bytes};
-  const std::vector<unsigned char> infos =
-      unzipped(at, h.face_info_bytes, sizeof(FaceInfo) * std::uint64_t{h.faces});
-  at += h.face_info_bytes;
+  return h;
+}
+
+void PtexFile::read_means(std::uint64_t at, const Header& h) {
   const std::size_t size = bytes_of_type[type_], count = h.faces * channels_;
   const std::vector<unsigned char> means = unzipped(at, h.means_bytes, count * size);
   for (std::size_t i = 0; i < count; ++i) means_.push_back(number(&means[i * size], type_));
-  at += h.means_bytes;
+}
+
+std::vector<std::uint32_t> PtexFile::read_blocks(std::uint64_t& at, const Header& h) {
   const std::vector<unsigned char> levels = bytes(at, h.level_info_bytes);
   at += h.level_info_bytes;
   const LevelInfo finest = levels.size() < sizeof(LevelInfo) ? LevelInfo{} : word<LevelInfo>(levels.data());
   if (finest.faces != 0 && finest.faces != h.faces) fail("its levels are damaged");
-  const std::vector<unsigned char> blocks =
-      finest.faces == 0 ? std::vector<unsigned char>()
-                        : unzipped(at, finest.header_bytes, 4 * std::uint64_t{h.faces});
+  std::vector<std::uint32_t> blocks(finest.faces);
+  if (!blocks.empty()) {
+    const std::vector<unsigned char> words = unzipped(at, finest.header_bytes, 4 * std::uint64_t{h.faces});
+    std::memcpy(blocks.data(), words.data(), words.size());
+  }
   at += finest.header_bytes;
-  for (std::size_t i = 0; i < h.faces; ++i) {
+  return blocks;
+}
+
+void PtexFile::place_faces(const std::vector<unsigned char>& infos, const std::vector<std::uint32_t>& blocks,
+                           std::uint64_t at) {
+  for (std::size_t i = 0; i < infos.size() / sizeof(FaceInfo); ++i) {
     const auto info = word<FaceInfo>(&infos[i * sizeof(FaceInfo)]);
     if (info.log2_width > greatest_log2 || info.log2_height > greatest_log2) fail("its faces are damaged");
     Face& face = faces_.emplace_back(Face{1u << info.log2_width, 1u << info.log2_height});
@@ -146,9 +155,25 @@ PtexFile::PtexFile(const std::filesystem::path& file) : file_(file), in_(open_in
     if (!face.constant && std::uint64_t{face.width} * face.height * channels_ > most_values)
       fail("a face is too large");
     face.at = at;
-    if (!blocks.empty()) face.block = word<std::uint32_t>(&blocks[4 * i]);
+    if (!blocks.empty()) face.block = blocks[i];
     at += size_of(face.block);
   }
+}
+
+PtexFile::PtexFile(const std::filesystem::path& file) : file_(file), in_(open_input(file)) {
+  std::error_code unknown;
+  file_bytes_ = std::filesystem::file_size(file, unknown);
+  if (!in_ || unknown) fail("there is no such file");
+  const Header h = read_header();
+  type_ = h.data_type, channels_ = h.channels, of_triangles_ = h.mesh_type == 0;
+  std::uint64_t at = sizeof h + std::uint64_t{h.extended_header_bytes};
+  const std::vector<unsigned char> infos =
+      unzipped(at, h.face_info_bytes, sizeof(FaceInfo) * std::uint64_t{h.faces});
+  at += h.face_info_bytes;
+  read_means(at, h);
+  at += h.means_bytes;
+  const std::vector<std::uint32_t> blocks = read_blocks(at, h);
+  place_faces(infos, blocks, at);
 }
 
 // [texel][channel]; the file has all of a channel together.

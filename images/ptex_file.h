@@ -31,6 +31,13 @@ class PtexFile {
   std::vector<float> texels(std::size_t face);
 
  private:
+  struct Header;
+  Header read_header();
+  void read_means(std::uint64_t at, const Header& header);
+  // The word of each face's texels in the finest level; empty where no face has any.
+  std::vector<std::uint32_t> read_blocks(std::uint64_t& at, const Header& header);
+  void place_faces(const std::vector<unsigned char>& infos, const std::vector<std::uint32_t>& blocks,
+                   std::uint64_t at);
   [[noreturn]] void fail(const char* why) const;
   std::vector<unsigned char> bytes(std::uint64_t at, std::uint64_t count);
   std::vector<unsigned char> unzipped(std::uint64_t at, std::uint64_t zipped, std::uint64_t size);

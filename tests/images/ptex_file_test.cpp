@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <fstream>
@@ -52,6 +53,28 @@ TEST_F(Ptex, NumbersOfEveryType) {
   EXPECT_THAT(means(constant_faces(PtexType::uint16, 1, 3, words)), ElementsAre(0, FloatNear(.2f, 1e-7f), 1));
   EXPECT_THAT(means(constant_faces(PtexType::half, 1, 3, halves)), ElementsAre(.5f, -2, 0x1p-24f));
   EXPECT_THAT(means(constant_faces(PtexType::single, 3, 1, floats)), ElementsAre(.25f, -3, 1e-8f));
+}
+
+// IEEE 754's binary16: (−1)^s · 2^(e−15) · (1 + f/1024), and without the 1 where e is 0; what is not finite
+// is read as not a number.
+float value_of_half(std::uint16_t bits) {
+  const int sign = bits >> 15, exponent = bits >> 10 & 31, fraction = bits & 1023;
+  const double value = exponent == 31  ? NAN
+                       : exponent == 0 ? std::ldexp(fraction, -24)
+                                       : std::ldexp(1024 + fraction, exponent - 25);
+  return static_cast<float>(std::copysign(value, sign ? -1 : 1));
+}
+
+TEST_F(Ptex, EveryHalf) {
+  constexpr std::size_t count = 1 << 16;
+  std::string halves;
+  for (std::size_t bits = 0; bits < count; ++bits) put(halves, static_cast<std::uint16_t>(bits));
+  const std::vector<float> read = means(constant_faces(PtexType::half, 1, count, halves));
+  ASSERT_EQ(read.size(), count);
+  for (std::size_t bits = 0; bits < count; ++bits)
+    ASSERT_EQ(std::bit_cast<std::uint32_t>(read[bits]),
+              std::bit_cast<std::uint32_t>(value_of_half(static_cast<std::uint16_t>(bits))))
+        << bits;
 }
 
 // 4 × 2 texels of two channels, 0 … 7 and 10 … 17, each way that a file may have them.
