@@ -39,6 +39,17 @@ struct Manner {
   bool quiet = false, strict = false;
 };
 
+struct DevelopArguments {
+  std::vector<std::string> films;
+  std::string output, tone = "none", false_color;
+  double exposure_ev = 0, white_balance_K = 0;
+  int bits = 0;
+  bool with_variance = false, spectral = false, logarithmic = false;
+  Manner manner;
+
+  bool writes(const char* extension) const { return std::filesystem::path(output).extension() == extension; }
+};
+
 Exposed load(const std::string& file, const Manner& manner) {
   note_input(file);
   FilmProgress progress;
@@ -139,85 +150,95 @@ void write_table(const std::string& output, const Exposed& film) {
   file.commit();
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  CLI::App app("Turns films into an image; films of different seeds are merged exactly.", "vitrail develop");
-  std::vector<std::string> films;
-  std::string output, tone = "none", false_color;
-  double exposure_ev = 0, white_balance_K = 0;
-  int bits = 0;
-  bool with_variance = false, spectral = false, logarithmic = false;
-  Manner manner;
-  app.add_option("FILM", films, "films of one scene, each of its own seed")->required();
-  app.add_option("-o,--output", output,
+void declare(CLI::App& app, DevelopArguments& a) {
+  app.add_option("FILM", a.films, "films of one scene, each of its own seed")->required();
+  app.add_option("-o,--output", a.output,
                  "image to write: .exr (linear), .png, .jpg or .tif (sRGB); .csv of sensors")
       ->required();
-  app.add_option("--bits", bits, "a channel: 8 or 16; default: 8, and 16 for .tif; .exr has 32")
+  app.add_option("--bits", a.bits, "a channel: 8 or 16; default: 8, and 16 for .tif; .exr has 32")
       ->check(CLI::IsMember({8, 16}));
-  app.add_option("--exposure", exposure_ev, "brighten by this many stops")->capture_default_str();
+  app.add_option("--exposure", a.exposure_ev, "brighten by this many stops")->capture_default_str();
   app.add_option(
-         "--white-balance", white_balance_K,
+         "--white-balance", a.white_balance_K,
          "show colours as if they had been under D65 and not under daylight of this temperature in K, "
          "as the `whitebalance` of pbrt's films does")
       ->check(CLI::PositiveNumber);
-  app.add_option("--tone", tone,
+  app.add_option("--tone", a.tone,
                  "none: what is brighter than white is white; aces: the output transform of ACES 1.x, after "
                  "--exposure; not for .exr")
       ->check(CLI::IsMember({"none", "aces"}))
       ->capture_default_str();
-  app.add_option("--false-color", false_color,
+  app.add_option("--false-color", a.false_color,
                  "luminance as colours with a scale, up to this in cd/m², or auto; not for .exr");
-  app.add_flag("--log", logarithmic, "with --false-color: three decades, by their logarithm");
-  app.add_flag("--variance", with_variance,
+  app.add_flag("--log", a.logarithmic, "with --false-color: three decades, by their logarithm");
+  app.add_flag("--variance", a.with_variance,
                "add the channel Variance.Y: variance of each pixel's mean luminance");
-  app.add_flag("--spectral", spectral,
+  app.add_flag("--spectral", a.spectral,
                "add the spectrum of each pixel, for films of render --spectral; .exr only");
-  app.add_flag("--strict", manner.strict, "refuse films that are not finished");
-  app.add_flag("--quiet", manner.quiet, "say nothing but what is wrong");
+  app.add_flag("--strict", a.manner.strict, "refuse films that are not finished");
+  app.add_flag("--quiet", a.manner.quiet, "say nothing but what is wrong");
+}
+
+// Throws UsageError where options do not go together.
+void require_agreement(const DevelopArguments& a) {
+  const bool is_exr = a.writes(".exr");
+  if (a.spectral && !is_exr) throw UsageError("spectra are written as .exr only");
+  if (a.tone != "none" && is_exr)
+    throw UsageError("--tone is for screens; an .exr holds the light of the scene");
+  if (!a.false_color.empty() && (a.tone != "none" || a.exposure_ev != 0 || a.white_balance_K > 0 || is_exr))
+    throw UsageError(
+        "--false-color shows luminances: not with --tone, --exposure or --white-balance, and not as .exr");
+  if (a.logarithmic && a.false_color.empty()) throw UsageError("--log belongs to --false-color");
+}
+
+Picture picture_of(const Exposed& sum) {
+  Picture picture = develop(sum.film);
+  picture.render_time_s = sum.render_time_s;
+  picture.origin.seeds = sum.seeds;
+  put_about(picture.origin, sum.about);
+  picture.neighbours = neighbours_of(sum.about);
+  return picture;
+}
+
+void show_false_colors(Picture& picture, const Exposed& sum, const DevelopArguments& a) {
+  const double ratio = sum.film.imaging_ratio();  // of the scene's camera: its exposure is not light
+  if (!(ratio > 0)) throw Error("an exposure of 0 leaves no luminances", {sum.file.string()});
+  for (float& value : picture.rgb.values) value = static_cast<float>(static_cast<double>(value) / ratio);
+  picture.rgb = false_colored(picture.rgb, parse_false_color(a.false_color, a.logarithmic));
+  picture.window = {0, picture.rgb.width, 0, picture.rgb.height};
+  picture.full_width = picture.rgb.width, picture.full_height = picture.rgb.height;
+  picture.variance = {};
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Turns films into an image; films of different seeds are merged exactly.", "vitrail develop");
+  DevelopArguments a;
+  declare(app, a);
   return run_guarded(app, argc, argv, [&] {
-    if (spectral && std::filesystem::path(output).extension() != ".exr")
-      throw UsageError("spectra are written as .exr only");
-    if (tone != "none" && std::filesystem::path(output).extension() == ".exr")
-      throw UsageError("--tone is for screens; an .exr holds the light of the scene");
-    if (!false_color.empty() && (tone != "none" || exposure_ev != 0 || white_balance_K > 0 ||
-                                 std::filesystem::path(output).extension() == ".exr"))
-      throw UsageError(
-          "--false-color shows luminances: not with --tone, --exposure or --white-balance, and not as .exr");
-    if (logarithmic && false_color.empty()) throw UsageError("--log belongs to --false-color");
-    require_place(output);
-    const Exposed sum = merge_all(films, manner);
+    require_agreement(a);
+    require_place(a.output);
+    const Exposed sum = merge_all(a.films, a.manner);
     if (sum.film.samples() == 0)
       throw Error("the film holds no sample yet: its picture would be black", {sum.file.string()});
-    if (std::filesystem::path(output).extension() == ".csv") {
-      write_table(output, sum);
+    if (a.writes(".csv")) {
+      write_table(a.output, sum);
       return exit_done;
     }
-    Picture picture = develop(sum.film);
-    picture.render_time_s = sum.render_time_s;
-    picture.origin.seeds = sum.seeds;
-    put_about(picture.origin, sum.about);
-    picture.neighbours = neighbours_of(sum.about);
-    if (sum.film.key().clamp > 0 && !manner.quiet)
+    Picture picture = picture_of(sum);
+    if (sum.film.key().clamp > 0 && !a.manner.quiet)
       say("vitrail: rendered with --clamp {}, which took {:.3g} % of the light\n", sum.film.key().clamp,
           100 * sum.film.clamped_share());
-    if (spectral && picture.bins.count == 0)
+    if (a.spectral && picture.bins.count == 0)
       throw Error("the film keeps no spectra: render with --spectral N", {sum.file.string()});
-    if (!spectral) picture.spectrum = {};
-    expose(picture, exposure_ev);
-    if (white_balance_K > 0) balance_white(picture, white_balance_K);
-    if (!with_variance) picture.variance = {};
-    if (tone == "aces") picture.rgb = aces_tone_mapped(picture.rgb);
-    if (!false_color.empty()) {
-      const double ratio = sum.film.imaging_ratio();  // of the scene's camera: its exposure is not light
-      if (!(ratio > 0)) throw Error("an exposure of 0 leaves no luminances", {sum.file.string()});
-      for (float& value : picture.rgb.values) value = static_cast<float>(static_cast<double>(value) / ratio);
-      picture.rgb = false_colored(picture.rgb, parse_false_color(false_color, logarithmic));
-      picture.window = {0, picture.rgb.width, 0, picture.rgb.height};
-      picture.full_width = picture.rgb.width, picture.full_height = picture.rgb.height;
-      picture.variance = {};
-    }
-    write_picture(output, picture, bits);
+    if (!a.spectral) picture.spectrum = {};
+    expose(picture, a.exposure_ev);
+    if (a.white_balance_K > 0) balance_white(picture, a.white_balance_K);
+    if (!a.with_variance) picture.variance = {};
+    if (a.tone == "aces") picture.rgb = aces_tone_mapped(picture.rgb);
+    if (!a.false_color.empty()) show_false_colors(picture, sum, a);
+    write_picture(a.output, picture, a.bits);
     return exit_done;
   });
 }

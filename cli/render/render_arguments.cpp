@@ -21,12 +21,18 @@
 
 namespace vitrail {
 
-void declare(CLI::App& app, RenderArguments& a) {
-  RenderOptions& o = a.options;
+namespace {
+
+void declare_files(CLI::App& app, RenderArguments& a) {
   app.add_option("input", a.input, "a bundle (NAME.vit) or a scene, which is partitioned first")->required();
   app.add_option("-o,--output,--outfile", a.output,
                  "picture (.exr, .png, .jpg, .tif) or film (.film); default: as the scene's film says, else "
                  "the input's name with .exr, here");
+}
+
+// How many samples.
+void declare_samples(CLI::App& app, RenderArguments& a) {
+  RenderOptions& o = a.options;
   app.add_option("--spp", o.picture.samples_per_pixel, "samples a pixel; default: as the scene says")
       ->check(more_than_0);
   app.add_flag("--adaptive,!--no-adaptive", o.picture.adaptive,
@@ -39,6 +45,11 @@ void declare(CLI::App& app, RenderArguments& a) {
                  "draft, good or final: until noise is seen, hardly seen or not seen; sets --target-error, "
                  "--spp and --adaptive where they are not given")
       ->check(CLI::IsMember(qualities()));
+}
+
+// What of the scene is seen, and by which paths.
+void declare_picture(CLI::App& app, RenderArguments& a) {
+  RenderOptions& o = a.options;
   app.add_option(
          "--max-depth", a.max_depth,
          "scattering events of a path; 0: emitters only, 1: direct light, -1: no limit; default: as the "
@@ -71,6 +82,9 @@ void declare(CLI::App& app, RenderArguments& a) {
                  "0.01; no pixel becomes darker by more than this share of the brightest that is seen")
       ->check(CLI::Range(0.0, 0.999))
       ->capture_default_str();
+}
+
+void declare_photons(CLI::App& app, RenderOptions& o) {
   app.add_option(
          "--photons", o.picture.photons.photons,
          "of --integrator photon, an iteration, which is a sample of every pixel; default: as the scene "
@@ -86,10 +100,19 @@ void declare(CLI::App& app, RenderArguments& a) {
          "between 0 and 1: how fast the radius shrinks, from fast and noisy to slow and blurred; default: "
          "as the scene says, else 0.667")
       ->check(CLI::Range(0.01, 0.99));
+}
+
+void declare_resources(CLI::App& app, RenderArguments& a) {
+  RenderOptions& o = a.options;
   app.add_option("--memory", a.memory, "most memory a rank may use, e.g. 512M or 2G; default: no limit");
   app.add_option("-t,--threads,--nthreads", o.resources.threads, "worker threads a rank; default: all cores")
       ->check(CLI::Range(1, 4096));
   declare_distribution(app, o.resources.distribution, o.resources.homes);
+}
+
+// What the film keeps.
+void declare_film(CLI::App& app, RenderArguments& a) {
+  RenderOptions& o = a.options;
   app.add_option("--crop,--pixelbounds", a.crop, "x0,x1,y0,y1 in pixels from the top left; default: all");
   app.add_option(
          "--spectral", a.bins,
@@ -105,6 +128,11 @@ void declare(CLI::App& app, RenderArguments& a) {
   app.add_option("--aov-space", a.aov_space,
                  "world or camera: of positions and normals of --aov; default: as the scene says, else world")
       ->check(CLI::IsMember({"world", "camera"}));
+}
+
+// How long the job takes, and how it ends and goes on.
+void declare_job(CLI::App& app, RenderArguments& a) {
+  RenderOptions& o = a.options;
   app.add_option(
          "--patience", o.resources.patience_s,
          "seconds; a rank that does not answer for so long is named and ends the job; default 600, 0: never")
@@ -132,6 +160,11 @@ void declare(CLI::App& app, RenderArguments& a) {
          "from its checkpoint")
       ->check(CLI::Range(0, 1'000'000));
   app.add_option("--launcher", a.launcher, "with --restarts: what starts the ranks, e.g. 'mpirun -np 8'");
+}
+
+// What is written besides.
+void declare_outputs(CLI::App& app, RenderArguments& a) {
+  RenderOptions& o = a.options;
   app.add_option(
       "--sensors", o.picture.sensors,
       "measure irradiance instead of a picture: a text of x y z nx ny nz lines, or plane O U V NXxNY; "
@@ -144,9 +177,10 @@ void declare(CLI::App& app, RenderArguments& a) {
   app.add_option("--trace", o.outputs.trace,
                  "write what each thread of each rank did when: loads, batches, idleness, messages; opens in "
                  "Perfetto (ui.perfetto.dev)");
-  declare_import_options(app, a.imports);
-  declare_rgb_option(app, a.rgb);
-  declare_mesh_options(app, a.meshes);
+}
+
+// What is said, and what is refused.
+void declare_words(CLI::App& app, RenderArguments& a) {
   app.add_option("--progress", a.progress,
                  "bar; lines: one a minute; json: lines of it on standard output, the last with the event "
                  "\"end\"; none; auto: a bar on a terminal, else lines")
@@ -154,8 +188,30 @@ void declare(CLI::App& app, RenderArguments& a) {
       ->capture_default_str();
   app.add_flag("--strict", a.strict, "refuse a scene that is not imported exactly");
   app.add_flag("--quiet", a.quiet, "say nothing but what is wrong");
+}
+
+// For tests: not in the help.
+void declare_tests(CLI::App& app, RenderOptions& o) {
   app.add_option("--shuffle-delivery", o.resources.shuffle_seed)->group("");
   app.add_option("--domain-memory", o.resources.domain_memory_bytes)->group("");
+}
+
+}  // namespace
+
+void declare(CLI::App& app, RenderArguments& a) {
+  declare_files(app, a);
+  declare_samples(app, a);
+  declare_picture(app, a);
+  declare_photons(app, a.options);
+  declare_resources(app, a);
+  declare_film(app, a);
+  declare_job(app, a);
+  declare_outputs(app, a);
+  declare_import_options(app, a.imports);
+  declare_rgb_option(app, a.rgb);
+  declare_mesh_options(app, a.meshes);
+  declare_words(app, a);
+  declare_tests(app, a.options);
 }
 
 void RenderArguments::name_outputs() {
