@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cli/common/svg.h"
+
 namespace vitrail {
 
 namespace {
@@ -24,50 +26,72 @@ Axis axis_of(double least, double most, double from, double to) {
   return {std::floor(std::log10(least)), std::ceil(std::log10(most) + 1e-9), from, to};
 }
 
+std::string tenths(double value) { return fmt::format("{:.1f}", value); }
+
+const std::string grid = "#ddd", measured = "#1b6f8a", perfect = "#8f8f8f";
+
+// A line at each decade, with its number.
+std::string grid_lines(const Axis& x, const Axis& y) {
+  std::string lines;
+  for (double d = x.low; d <= x.high; ++d) {
+    const std::string at = tenths(x(std::pow(10, d)));
+    lines +=
+        svg_element("path", {{"d", fmt::format("M{} {}V{}", at, top, height - bottom)}, {"stroke", grid}}) +
+        svg_element("text", {{"x", at}, {"y", height - bottom + 16}, {"text-anchor", "middle"}},
+                    fmt::format("{:g}", std::pow(10, d))) +
+        "\n";
+  }
+  for (double d = y.low; d <= y.high; ++d) {
+    const double at = y(std::pow(10, d));
+    lines += svg_element("path",
+                         {{"d", fmt::format("M{} {:.1f}H{}", left, at, width - right)}, {"stroke", grid}}) +
+             svg_element("text", {{"x", left - 6}, {"y", tenths(at + 4)}, {"text-anchor", "end"}},
+                         fmt::format("{:g} s", std::pow(10, d))) +
+             "\n";
+  }
+  return lines;
+}
+
+// A point with its efficiency above it.
+std::string labelled_point(double x, double y, double efficiency) {
+  return svg_element("circle", {{"cx", tenths(x)}, {"cy", tenths(y)}, {"r", 3.5}, {"fill", measured}}) +
+         svg_element("text",
+                     {{"x", tenths(x)}, {"y", tenths(y - 9)}, {"text-anchor", "middle"}, {"fill", measured}},
+                     fmt::format("{:.0f} %", 100 * efficiency)) +
+         "\n";
+}
+
 }  // namespace
 
 std::string plan_svg(const std::vector<PlanPoint>& points) {
+  const auto ideal_s = [&](const PlanPoint& p) {
+    return points.front().result.seconds * points.front().ranks / p.ranks;
+  };
   double least = 1e300, most = 0;
   for (const PlanPoint& p : points) {
-    least =
-        std::min({least, p.result.seconds, points.front().result.seconds * points.front().ranks / p.ranks});
+    least = std::min({least, p.result.seconds, ideal_s(p)});
     most = std::max(most, p.result.seconds);
   }
   const Axis x = axis_of(points.front().ranks, points.back().ranks, left, width - right),
              y = axis_of(least, most, height - bottom, top);
-  std::string svg = fmt::format(
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\" font-family=\"sans-serif\" "
-      "font-size=\"12\">\n"
-      "<rect width=\"{0}\" height=\"{1}\" fill=\"white\"/>\n",
-      width, height);
-  for (double d = x.low; d <= x.high; ++d)
-    svg += fmt::format(
-        "<path d=\"M{0:.1f} {1}V{2}\" stroke=\"#ddd\"/><text x=\"{0:.1f}\" y=\"{3}\" "
-        "text-anchor=\"middle\">{4:g}</text>\n",
-        x(std::pow(10, d)), top, height - bottom, height - bottom + 16, std::pow(10, d));
-  for (double d = y.low; d <= y.high; ++d)
-    svg += fmt::format(
-        "<path d=\"M{1} {0:.1f}H{2}\" stroke=\"#ddd\"/><text x=\"{3}\" y=\"{4:.1f}\" "
-        "text-anchor=\"end\">{5:g} s</text>\n",
-        y(std::pow(10, d)), left, width - right, left - 6, y(std::pow(10, d)) + 4, std::pow(10, d));
-  std::string line, ideal;
+  std::string svg = grid_lines(x, y), line, ideal;
   for (const PlanPoint& p : points) {
     const char* step = line.empty() ? "M" : "L";
     line += fmt::format("{}{:.1f} {:.1f}", step, x(p.ranks), y(p.result.seconds));
-    ideal += fmt::format("{}{:.1f} {:.1f}", step, x(p.ranks),
-                         y(points.front().result.seconds * points.front().ranks / p.ranks));
-    svg += fmt::format(
-        "<circle cx=\"{0:.1f}\" cy=\"{1:.1f}\" r=\"3.5\" fill=\"#1b6f8a\"/><text x=\"{0:.1f}\" y=\"{2:.1f}\" "
-        "text-anchor=\"middle\" fill=\"#1b6f8a\">{3:.0f} %</text>\n",
-        x(p.ranks), y(p.result.seconds), y(p.result.seconds) - 9, 100 * p.result.efficiency);
+    ideal += fmt::format("{}{:.1f} {:.1f}", step, x(p.ranks), y(ideal_s(p)));
+    svg += labelled_point(x(p.ranks), y(p.result.seconds), p.result.efficiency);
   }
-  svg += fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"#8f8f8f\" stroke-dasharray=\"4 4\"/>\n", ideal);
-  svg += fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"#1b6f8a\" stroke-width=\"2\"/>\n", line);
-  svg += fmt::format(
-      "<text x=\"{:.1f}\" y=\"{}\" text-anchor=\"middle\">ranks (labels: efficiency; dashed: perfect "
-      "scaling)</text>\n</svg>\n",
-      (left + width - right) / 2, height - 12);
-  return svg;
+  svg += svg_element("path",
+                     {{"d", ideal}, {"fill", "none"}, {"stroke", perfect}, {"stroke-dasharray", "4 4"}}) +
+         "\n";
+  svg +=
+      svg_element("path", {{"d", line}, {"fill", "none"}, {"stroke", measured}, {"stroke-width", 2}}) + "\n";
+  svg +=
+      svg_element("text",
+                  {{"x", tenths((left + width - right) / 2)}, {"y", height - 12}, {"text-anchor", "middle"}},
+                  "ranks (labels: efficiency; dashed: perfect scaling)") +
+      "\n";
+  return svg_picture({{"viewBox", fmt::format("0 0 {} {}", width, height)}}, width, height, 12, svg);
 }
 
 }  // namespace vitrail

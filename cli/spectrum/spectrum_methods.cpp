@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 
+#include "cli/common/svg.h"
 #include "cli/spectrum/color_checker.h"
 #include "images/image_files.h"
 #include "scene/spectra/matrix_r.h"
@@ -33,14 +34,16 @@ TabulatedSpectrum measured(const ColorCheckerPatch& patch) {
 }
 
 std::string polyline(const std::vector<double>& values, double first_nm, double step, double x, double y,
-                     const char* style) {
+                     const std::vector<SvgAttribute>& stroke) {
   std::string points;
   for (std::size_t i = 0; i < values.size(); ++i) {
     const double nm = first_nm + step * static_cast<double>(i);
     if (nm < 380 || nm > 780) continue;
     points += fmt::format("{:.1f},{:.1f} ", x + (nm - 380) * 0.35, y + 100 * (1 - values[i]));
   }
-  return fmt::format("<polyline points=\"{}\" fill=\"none\" {}/>\n", points, style);
+  std::vector<SvgAttribute> attributes{{"points", points}, {"fill", "none"}};
+  attributes.insert(attributes.end(), stroke.begin(), stroke.end());
+  return svg_element("polyline", attributes) + "\n";
 }
 
 }  // namespace
@@ -131,29 +134,28 @@ std::vector<PatchError> patch_errors(UpsamplingMethod method) {
 }
 
 std::string patches_svg() {
+  constexpr double width = 980, height = 590;
   std::string svg =
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"980\" height=\"590\" font-family=\"sans-serif\" "
-      "font-size=\"10\">\n<rect width=\"980\" height=\"590\" fill=\"white\"/>\n"
-      "<text x=\"10\" y=\"16\">reflectance 0–1 over 380–780 nm: measured black, Jakob–Hanika blue, "
-      "Matrix-R orange</text>\n";
+      svg_element("text", {{"x", 10}, {"y", 16}},
+                  "reflectance 0–1 over 380–780 nm: measured black, Jakob–Hanika blue, Matrix-R orange") +
+      "\n";
   std::size_t i = 0;
   for (const ColorCheckerPatch& patch : color_checker()) {
     const double x = 10 + 160 * static_cast<double>(i % 6), y = 44 + 138 * static_cast<double>(i / 6);
     ++i;
-    svg += fmt::format(
-        "<rect x=\"{}\" y=\"{}\" width=\"140\" height=\"100\" fill=\"none\" stroke=\"#bbb\"/>\n<text "
-        "x=\"{}\" "
-        "y=\"{}\">{}</text>\n",
-        x, y, x, y - 4, patch.name);
+    svg += svg_element(
+               "rect",
+               {{"x", x}, {"y", y}, {"width", 140}, {"height", 100}, {"fill", "none"}, {"stroke", "#bbb"}}) +
+           "\n" + svg_element("text", {{"x", x}, {"y", y - 4}}, patch.name) + "\n";
     const RGB c = reflected_rgb(Spectrum{measured(patch)});
     svg += polyline({patch.reflectance.begin(), patch.reflectance.end()}, 380, 10, x, y,
-                    "stroke=\"black\" stroke-width=\"1.6\"");
+                    {{"stroke", "black"}, {"stroke-width", 1.6}});
     svg += polyline(make_reflectance(UpsamplingMethod::jakob_hanika, c).values, 360, 5, x, y,
-                    "stroke=\"#2060c0\"");
-    svg +=
-        polyline(make_reflectance(UpsamplingMethod::matrix_r, c).values, 360, 5, x, y, "stroke=\"#e07000\"");
+                    {{"stroke", "#2060c0"}});
+    svg += polyline(make_reflectance(UpsamplingMethod::matrix_r, c).values, 360, 5, x, y,
+                    {{"stroke", "#e07000"}});
   }
-  return svg + "</svg>\n";
+  return svg_picture({{"width", width}, {"height", height}}, width, height, 10, svg);
 }
 
 }  // namespace vitrail
