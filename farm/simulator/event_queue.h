@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
+// What happens next under the simulated clock.
 #pragma once
 
 #include <cstdint>
+#include <queue>
 
 namespace vitrail {
 
-// What happens next under the simulated clock.
 struct SimulationEvent {
   // Those behind `message` alone bring nothing on.
   enum class Kind {
@@ -27,6 +28,18 @@ struct SimulationEvent {
   double time = 0;
   std::uint64_t order = 0;  // of events at one time
   bool operator<(const SimulationEvent& e) const { return time != e.time ? time > e.time : order > e.order; }
+};
+
+// The earliest comes first; of those at one time, the one that was put in first.
+class EventQueue {
+ public:
+  void at(double time_s, SimulationEvent event);
+  bool empty() const { return events_.empty(); }
+  SimulationEvent pop();  // there is one
+
+ private:
+  std::priority_queue<SimulationEvent> events_;
+  std::uint64_t next_order_ = 0;
 };
 
 }  // namespace vitrail

@@ -30,4 +30,15 @@ void lengthen(Moment& end, const Moment& from, const Moment& to, double times) {
   }
 }
 
+void add_shares(Moment& end, const Machine& machine) {
+  SimulationResult& all = end.sums;
+  const double worker_s = all.seconds * static_cast<double>(machine.workers);
+  for (const Busy& rank : end.ranks) {
+    all.busiest_workers = std::max(all.busiest_workers, rank.working_s / worker_s);
+    all.busiest_loader = std::max(all.busiest_loader, rank.loading_s / all.seconds / machine.loaders);
+    all.busiest_link = std::max(all.busiest_link, rank.sending_s / all.seconds);
+  }
+  all.efficiency = all.busy_s / (worker_s * static_cast<double>(end.ranks.size()));
+}
+
 }  // namespace vitrail

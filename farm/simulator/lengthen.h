@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Of a long job the beginning, a steady middle and the end are simulated; more of the middle is reckoned.
+// What came of a job up to a moment. Of a long job the beginning, a steady middle and the end are simulated;
+// more of the middle is reckoned.
 #pragma once
 
 #include <vector>
@@ -21,5 +22,8 @@ struct Moment {
 
 // Adds to `end` what came between two moments `times` times more. What was most at any moment stays.
 void lengthen(Moment& end, const Moment& from, const Moment& to, double times);
+
+// What of the time the ranks were busy, for a job that has ended.
+void add_shares(Moment& end, const Machine& machine);
 
 }  // namespace vitrail

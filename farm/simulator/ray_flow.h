@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// How the rays of a task go from domain to domain, as numbers.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <set>
+#include <vector>
+
+#include "farm/simulator/simulated_machine.h"
+
+namespace vitrail {
+
+// What a task comes to, as is known when it begins.
+struct TaskRays {
+  std::uint64_t generated = 0, traced = 0;
+  std::uint64_t born = 0, died = 0;             // those that are generated are born
+  std::map<std::uint32_t, std::uint64_t> made;  // rays that enter absent domains, by domain
+  double seconds = 0;                           // of a worker
+};
+
+class RayFlow {
+ public:
+  using Domains = std::set<std::uint32_t>;
+
+  explicit RayFlow(const Workload& workload);
+
+  // Rays that wait for a domain, of `resident` ones, go on as far as these reach. `before_s` comes on top.
+  TaskRays trace(std::uint32_t domain, std::uint64_t rays, double before_s, const Domains& resident,
+                 SimulatedMachine& machine);
+  // So many camera rays do.
+  TaskRays generate(std::uint64_t rays, const Domains& resident, SimulatedMachine& machine);
+
+ private:
+  void enter(std::uint32_t domain, std::uint64_t rays);
+  void follow(TaskRays& task, const Domains& resident, SimulatedMachine& machine);
+
+  const Workload& workload_;
+  std::vector<std::vector<double>> until_;  // sums of the ways' rays, by domain, the camera's last
+  std::vector<std::uint64_t> standing_;     // rays of the task that is worked out, by domain
+  std::vector<std::uint32_t> entered_;      // domains of these
+};
+
+}  // namespace vitrail
