@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "farm/memory.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "farm/queues.h"
+
+namespace vitrail {
+namespace {
+
+constexpr std::uint64_t mib = 1 << 20, most = std::numeric_limits<std::uint64_t>::max();
+
+TEST(QueueBounds, AreTogetherWhatThereIsForRays) {
+  for (const std::uint64_t bytes : {std::uint64_t{0}, std::uint64_t{1}, std::uint64_t{3}, std::uint64_t{7},
+                                    std::uint64_t{RayBatch::full_bytes - 1}, few_rays_bytes, 512 * mib, most})
+    for (const int ranks : {2, 3, 100'000}) {
+      const QueueBounds bounds = queue_bounds({0, bytes}, ranks);
+      EXPECT_LE(bounds.waiting, bytes);
+      EXPECT_LE(bounds.outgoing, bytes - bounds.waiting);
+      EXPECT_LE(bounds.being_sent, bytes - bounds.waiting - bounds.outgoing);
+      EXPECT_LT(bytes - bounds.waiting - bounds.outgoing - bounds.being_sent, 4u) << "but for rounding";
+      EXPECT_GE(bounds.waiting, bounds.outgoing + bounds.being_sent) << "most rays wait";
+    }
+}
+
+TEST(QueueBounds, OfARankAloneAreForRaysThatWait) {
+  for (const std::uint64_t bytes : {std::uint64_t{0}, std::uint64_t{1}, few_rays_bytes, most}) {
+    const QueueBounds bounds = queue_bounds({0, bytes}, 1);
+    EXPECT_EQ(bounds.waiting, bytes);
+    EXPECT_EQ(bounds.outgoing + bounds.being_sent, 0u) << "it sends none";
+  }
+}
+
+TEST(QueueBounds, DoNotDependOnDomains) {
+  for (const int ranks : {1, 2})
+    EXPECT_EQ(queue_bounds({most, few_rays_bytes}, ranks).waiting,
+              queue_bounds({0, few_rays_bytes}, ranks).waiting);
+}
+
+// A batch, even a ray, may be more than there is room for: it goes to the disk.
+TEST(QueueBounds, AreHeldWhereTheyAreSmallerThanABatch) {
+  for (const std::uint64_t bytes :
+       {std::uint64_t{0}, std::uint64_t{1}, 2 * sizeof(PathRecord), std::uint64_t{RayBatch::full_bytes}}) {
+    const std::uint64_t waiting = queue_bounds({0, bytes}, 2).waiting;
+    RayQueues queues(1, waiting, {});
+    constexpr std::uint32_t rays = 2000;
+    for (std::uint32_t i = 0; i < rays; ++i) {
+      PathRecord path{};
+      path.pixel = i;
+      queues.push(0, path);
+      ASSERT_LE(queues.held_bytes(), waiting);
+    }
+    std::uint64_t sum = 0, number = 0;
+    while (!queues.empty(0)) {
+      RayBatch batch = queues.pop(0);
+      for (const PathRecord& path : batch.records<PathRecord>()) sum += path.pixel, ++number;
+    }
+    EXPECT_EQ(number, rays);
+    EXPECT_EQ(sum, std::uint64_t{rays} * (rays - 1) / 2);
+  }
+}
+
+TEST(RaysAllowed, FitThreeTimesIntoTheQueuesOrWhatTheDiskIsWorth) {
+  const auto bytes = [](std::uint64_t queues) {
+    return 3 * sizeof(PathRecord) * static_cast<std::uint64_t>(rays_allowed_a_rank({0, queues}));
+  };
+  for (const std::uint64_t queues : {128 * mib + 1000, 200 * mib, 512 * mib, most}) {
+    EXPECT_LE(bytes(queues), queues);
+    EXPECT_GT(bytes(queues), queues - 3 * sizeof(PathRecord));
+  }
+  for (const std::uint64_t queues : {std::uint64_t{0}, std::uint64_t{1}, few_rays_bytes, 128 * mib})
+    EXPECT_EQ(bytes(queues), bytes(128 * mib)) << "the others wait on the disk";
+}
+
+TEST(RaysAllowed, AreSomeWhateverThereIs) {
+  std::int64_t before = 1;
+  for (std::uint64_t queues = 1; queues <= most / 2; queues *= 2) {
+    const std::int64_t rays = rays_allowed_a_rank({0, queues});
+    EXPECT_GE(rays, before) << "more room for no fewer";
+    EXPECT_EQ(rays, rays_allowed_a_rank({most, queues})) << "that for domains does not count";
+    before = rays;
+  }
+}
+
+}  // namespace
+}  // namespace vitrail
