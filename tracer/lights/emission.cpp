@@ -64,94 +64,99 @@ EmittedPhoton Emission::sample(const std::array<float, 4>& place, const std::arr
                                const SampledWavelengths& wavelengths) const {
   const double choice =
       std::min(static_cast<double>(place[2]) + static_cast<double>(place[3]) * 0x1p-24, 0x1.fffffffffffffp-1);
-  std::size_t index = guide_.bin(cumulative_, choice);
-  const double share = cumulative_[index + 1] - cumulative_[index];
-  const auto chosen = [&]() -> EmittedPhoton {
-    const std::size_t surfaces = lights_.scene.triangles.size() + lights_.quadrics.size();
-    if (index < surfaces) {
-      const double rest = share > 0 ? (choice - cumulative_[index]) / share : 0;
-      return of_surface(index, std::clamp(rest, 0.0, 0x1.fffffffffffffp-1), place, way, wavelengths);
-    }
-    index -= surfaces;
-    if (index < lights_.emitters.size()) return of_emitter(index, way, wavelengths);
-    index -= lights_.emitters.size();
-    if (index < lights_.distant.size()) {
-      const LightSampler::Distant& d = lights_.distant[index];
+  const std::size_t number = guide_.bin(cumulative_, choice);
+  const double share = cumulative_[number + 1] - cumulative_[number];
+  const double rest = share > 0 ? (choice - cumulative_[number]) / share : 0;
+  EmittedPhoton photon = of_light(lights_.numbers.light(number), std::clamp(rest, 0.0, 0x1.fffffffffffffp-1),
+                                  place, way, wavelengths);
+  photon.power = photon.power * static_cast<float>(1 / share);
+  return photon;
+}
+
+EmittedPhoton Emission::of_light(LightRef light, double choice, const std::array<float, 4>& place,
+                                 const std::array<float, 4>& way,
+                                 const SampledWavelengths& wavelengths) const {
+  switch (light.kind) {
+    case LightKind::triangle:
+      return leave_surface(on_triangle(light.index, choice, place, wavelengths), way);
+    case LightKind::quadric:
+      return leave_surface(on_quadric(light.index, place, wavelengths), way);
+    case LightKind::emitter:
+      return of_emitter(light.index, way, wavelengths);
+    case LightKind::distant: {
+      const LightSampler::Distant& d = lights_.distant[light.index];
       const Vector3d to_light = d.to_light(way[0], way[1]);
       EmittedPhoton photon =
           through_disc(-to_light, d.irradiance_from(to_light, wavelengths), place[0], place[1], way[2]);
       photon.is_distant = true;
       return photon;
     }
-    index -= lights_.distant.size();
-    if (index < lights_.environments.size()) {
-      const Environment& e = lights_.environments[index];
+    case LightKind::environment: {
+      const Environment& e = lights_.environments[light.index];
       const Vector3d to_light = sample_direction(e, static_cast<double>(way[0]), static_cast<double>(way[1]));
       const EnvironmentValue value = value_towards(e, to_light, wavelengths);
       return through_disc(-to_light, value.radiance * static_cast<float>(value.pdf > 0 ? 1 / value.pdf : 0),
                           place[0], place[1], way[2]);
     }
-    index -= lights_.environments.size();
-    const auto& light = std::get<InfiniteLight>(lights_.scene.lights[lights_.infinite[index]].model);
-    return through_disc(uniform_direction(way[0], way[1]),
-                        evaluate(light.radiance, wavelengths) * static_cast<float>(4 * pi), place[0],
-                        place[1], way[2]);
-  };
-  EmittedPhoton photon = chosen();
-  photon.power = photon.power * static_cast<float>(1 / share);
-  return photon;
+    default: {
+      const auto& record = lights_.scene.lights[lights_.infinite[light.index]];
+      const auto& infinite = std::get<InfiniteLight>(record.model);
+      return through_disc(uniform_direction(way[0], way[1]),
+                          evaluate(infinite.radiance, wavelengths) * static_cast<float>(4 * pi), place[0],
+                          place[1], way[2]);
+    }
+  }
 }
 
-EmittedPhoton Emission::of_surface(std::size_t light, double choice, const std::array<float, 4>& place,
-                                   const std::array<float, 4>& way,
-                                   const SampledWavelengths& wavelengths) const {
+Emission::Exit Emission::on_triangle(std::uint32_t triangle, double choice, const std::array<float, 4>& place,
+                                     const SampledWavelengths& wavelengths) const {
+  const TriangleParts* parts = lights_.parts_of_triangle(triangle);
+  const TriangleParts::Place at =
+      parts ? parts->choose(choice, place[0], place[1]) : uniform_place(place[0], place[1]);
+  const EmissivePoint point(lights_.scene, triangle, at.b1, at.b2);
+  const LightSampler::Face face = lights_.face(triangle);
+  const EmissiveTriangle& t = lights_.scene.triangles[triangle];
+  return {point.at.p,
+          face.normal,
+          face.area / at.density,
+          &lights_.scene.area_lights[t.area_light],
+          t.triangle,
+          leaving(lights_, {LightKind::triangle, triangle}, point, wavelengths)};
+}
+
+Emission::Exit Emission::on_quadric(std::uint32_t index, const std::array<float, 4>& place,
+                                    const SampledWavelengths& wavelengths) const {
+  const QuadricLight& quadric = lights_.quadrics[index];
+  const EmissiveQuadric& record = quadric.record();
+  const Point3d local =
+      point_by_area(record.quadric.quadric, static_cast<double>(place[0]), static_cast<double>(place[1]));
+  const EmissivePoint point(quadric, local);
+  const Vector3d front = placed_quadric_normal(record.quadric, record.to_bundle, local);
+  return {point.at.p,
+          front,
+          quadric.area_by(front),
+          &lights_.scene.area_lights[record.area_light],
+          record.triangle,
+          leaving(lights_, {LightKind::quadric, index}, point, wavelengths)};
+}
+
+EmittedPhoton Emission::leave_surface(const Exit& exit, const std::array<float, 4>& way) {
   EmittedPhoton photon;
-  const std::size_t triangles = lights_.scene.triangles.size();
-  double area = 0;
-  Vector3d front;
-  const AreaLight* record = nullptr;
-  if (light < triangles) {
-    const TriangleParts* parts = lights_.parts_of_triangle(light);
-    const TriangleParts::Place at =
-        parts ? parts->choose(choice, place[0], place[1]) : uniform_place(place[0], place[1]);
-    const EmissivePoint point(lights_.scene, light, at.b1, at.b2);
-    const LightSampler::Face face = lights_.face(light);
-    const EmissiveTriangle& t = lights_.scene.triangles[light];
-    record = &lights_.scene.area_lights[t.area_light];
-    area = face.area / at.density;
-    front = face.normal;
-    photon.p = point.at.p;
-    photon.triangle = t.triangle;
-    photon.power = leaving(lights_, light, point, wavelengths);
-  } else {
-    const QuadricLight& quadric = lights_.quadrics[light - triangles];
-    const Point3d local = point_by_area(quadric.record().quadric.quadric, static_cast<double>(place[0]),
-                                        static_cast<double>(place[1]));
-    const EmissivePoint point(quadric, local);
-    record = &lights_.scene.area_lights[quadric.record().area_light];
-    front = placed_quadric_normal(quadric.record().quadric, quadric.record().to_bundle, local);
-    area = quadric.area_by(front);
-    photon.p = point.at.p;
-    photon.triangle = quadric.record().triangle;
-    photon.power = leaving(lights_, light, point, wavelengths);
-  }
-  double sides = 1;
-  if (record->two_sided) {
-    sides = 2;
-    if (way[2] >= 0.5f) front = -front;
-  }
-  photon.normal = front;
-  if (record->directional) {
-    photon.direction = front;
-    photon.power = photon.power * static_cast<float>(area * sides);
+  photon.p = exit.p;
+  photon.triangle = exit.triangle;
+  const double sides = exit.light->two_sided ? 2 : 1;
+  photon.normal = exit.light->two_sided && way[2] >= 0.5f ? -exit.front : exit.front;
+  if (exit.light->directional) {
+    photon.direction = photon.normal;
+    photon.power = exit.radiance * static_cast<float>(exit.area * sides);
     return photon;
   }
-  photon.direction = Frame(front).to_world(sample_cosine_hemisphere(way[0], way[1]));
-  photon.power = photon.power * static_cast<float>(pi * area * sides);
+  photon.direction = Frame(photon.normal).to_world(sample_cosine_hemisphere(way[0], way[1]));
+  photon.power = exit.radiance * static_cast<float>(pi * exit.area * sides);
   return photon;
 }
 
-EmittedPhoton Emission::of_emitter(std::size_t emitter, const std::array<float, 4>& way,
+EmittedPhoton Emission::of_emitter(std::uint32_t emitter, const std::array<float, 4>& way,
                                    const SampledWavelengths& wavelengths) const {
   const PointEmitter& e = lights_.emitters[emitter];
   EmittedPhoton photon;

@@ -38,10 +38,26 @@ class Emission {
                        const SampledWavelengths& wavelengths) const;
 
  private:
-  // `choice`: in [0,1), of one of its parts.
-  EmittedPhoton of_surface(std::size_t light, double choice, const std::array<float, 4>& place,
-                           const std::array<float, 4>& way, const SampledWavelengths& wavelengths) const;
-  EmittedPhoton of_emitter(std::size_t emitter, const std::array<float, 4>& way,
+  // `choice`: in [0,1), what is left of the number that chose the light. The power is that of all its
+  // photons.
+  EmittedPhoton of_light(LightRef light, double choice, const std::array<float, 4>& place,
+                         const std::array<float, 4>& way, const SampledWavelengths& wavelengths) const;
+  // Where photons leave a surface.
+  struct Exit {
+    Point3d p;
+    Vector3d front;                    // normal, unit
+    double area = 0;                   // over the density of points there, about uniform ones
+    const AreaLight* light = nullptr;  // the surface's
+    std::uint32_t triangle = 0;        // global id
+    SampledSpectrum radiance;
+  };
+  // `choice`: of one of its parts.
+  Exit on_triangle(std::uint32_t triangle, double choice, const std::array<float, 4>& place,
+                   const SampledWavelengths& wavelengths) const;
+  Exit on_quadric(std::uint32_t quadric, const std::array<float, 4>& place,
+                  const SampledWavelengths& wavelengths) const;
+  static EmittedPhoton leave_surface(const Exit& exit, const std::array<float, 4>& way);
+  EmittedPhoton of_emitter(std::uint32_t emitter, const std::array<float, 4>& way,
                            const SampledWavelengths& wavelengths) const;
   // Of irradiance across a direction, through one of the discs.
   EmittedPhoton through_disc(Vector3d direction, const SampledSpectrum& irradiance, float u, float v,
@@ -55,8 +71,7 @@ class Emission {
   std::vector<EmitterDirections> directions_;  // of the emitters
   std::vector<Sphere> spheres_;                // that discs cover, the scene's first
   double flux_ = 0;
-  // Of surfaces, emitters, distant lights, environments, constant infinite lights, in that order: sums of
-  // their shares, from 0 to 1.
+  // Of all lights by LightSampler's numbers: sums of their shares, from 0 to 1.
   std::vector<double> cumulative_;
   GuideTable guide_;
 };

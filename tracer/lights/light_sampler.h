@@ -15,6 +15,7 @@
 #include "scene/geometry/bounds.h"
 #include "scene/records/light.h"
 #include "tracer/lights/environment.h"
+#include "tracer/lights/light_ref.h"
 #include "tracer/lights/light_tree.h"
 #include "tracer/lights/point_emitter.h"
 #include "tracer/lights/quadric_light.h"
@@ -63,14 +64,16 @@ struct Glow {
 // lights are left to the BSDF's own samples, which find them with weight 1.
 struct LightSampler {
   LightScene scene;
-  LightTree tree;  // lights: the triangles, the quadrics, the emitters
+  LightNumbers numbers;  // of all its lights
+  LightTree tree;        // of the triangles, the quadrics, the emitters
   // What sampling reads of a triangle, in one cache line; the last three of a quadric, too.
   struct alignas(64) Slot {
     std::array<Point3f, 3> p;
-    std::uint32_t light = 0;  // of the tree
+    LightRef light;
     std::uint32_t area_light = 0;
     FloatParameter opacity = 1.0f;
   };
+  static_assert(sizeof(Slot) == 64);
   std::vector<Slot> slots;  // in the tree's order
   // What follows from the corners of a triangle, of each; empty where they are so many that reading it would
   // take longer than making it anew.
@@ -96,14 +99,13 @@ struct LightSampler {
   std::vector<QuadricLight> quadrics;
   std::vector<Glow> glows;  // of the area lights
   std::vector<PointEmitter> emitters;
-  std::vector<std::uint32_t> emitter_light;  // index into scene.lights
   // Light of one direction. The sun of a sky is one where something refracts: no sample of a BSDF would find
   // its disc through glass, and of a disc a connection could not tell where behind the glass it ends. So each
   // path and each photon sees one point of the disc.
   struct Distant {
-    Vector3d direction;  // unit, the way the light travels; of a sun, of its middle
-    std::uint32_t light = 0;
-    Spectrum irradiance{};  // across its direction; of a sun, of all its disc
+    Vector3d direction;       // unit, the way the light travels; of a sun, of its middle
+    std::uint32_t light = 0;  // index into scene.lights
+    Spectrum irradiance{};    // across its direction; of a sun, of all its disc
     std::shared_ptr<const SkyModel> sun{};
     DirectionFrame frame{};
     // Unit, for two numbers in [0,1).
@@ -113,13 +115,12 @@ struct LightSampler {
   };
   std::vector<Distant> distant;
   std::vector<Environment> environments;
-  std::vector<std::uint32_t> environment_light;
-  std::vector<std::uint32_t> infinite;
-  std::vector<double> share;  // of the tree, the distant lights, the environments; sums to 1, empty: no light
+  std::vector<std::uint32_t> infinite;  // index into scene.lights
+  std::vector<double> share;            // of each of LightNumbers' choices; sums to 1, empty: no light
 
-  // The global ids [first, first + count) are the tree's lights from `index` on: triangles, or quadrics.
+  // The global ids [first, first + count) are triangles and quadrics that emit, numbered from `number` on.
   struct Run {
-    std::uint32_t first = 0, count = 0, index = 0;
+    std::uint32_t first = 0, count = 0, number = 0;
   };
   std::vector<Run> runs;  // ascending
 
@@ -154,9 +155,9 @@ struct LightSample {
   const EmissiveQuadric* quadric = nullptr;  // that the surface is of
   double distance = 0;                       // ∞ for distant lights and environments
   SampledSpectrum radiance;                  // of points and distant lights: irradiance across the direction
-  double pdf = 0;           // solid angle, the choice included; of those: probability of the choice
-  bool is_delta = false;    // no ray finds it by chance
-  std::uint32_t light = 0;  // index into LightScene::lights, or of surfaces into area_lights
+  double pdf = 0;         // solid angle, the choice included; of those: probability of the choice
+  bool is_delta = false;  // no ray finds it by chance
+  LightRef light;
 };
 
 // The radiance, at the wavelengths of one path, of the lamp without a texture that was met last.
@@ -191,9 +192,9 @@ SampledSpectrum emitted(const LightSampler& sampler, std::uint32_t area_light, c
                         double cosine, const SampledWavelengths& wavelengths, LastLamp& last);
 SampledSpectrum emitted(const LightSampler& sampler, std::uint32_t area_light, const TexturePoint& at,
                         double cosine, const SampledWavelengths& wavelengths);
-// Radiance that leaves a light of the tree, a triangle or quadric, at a point of it: of what is there of the
-// surface, and of one that nothing meets as if it was whole.
-SampledSpectrum leaving(const LightSampler& sampler, std::size_t light, const EmissivePoint& point,
+// Radiance that leaves a triangle or quadric at a point of it: of what is there of the surface, and of one
+// that nothing meets as if it was whole.
+SampledSpectrum leaving(const LightSampler& sampler, LightRef light, const EmissivePoint& point,
                         const SampledWavelengths& wavelengths);
 // What a ray finds that leaves the scene: the sum of constant and image environments, and the density, as of
 // triangle_pdf, with which sample_light gives the direction.
@@ -207,8 +208,8 @@ Background background(const LightSampler& sampler, Vector3d direction, const Sam
 // Radiance of the suns among the distant lights where a ray leaves the scene through their discs.
 SampledSpectrum discs(const LightSampler& sampler, Vector3d direction, const SampledWavelengths& wavelengths);
 
-// Whether `accept` any of the directions to distant lights whose numbers (LightSample::light) end on these 16
-// bits. `far` as of sample_light.
+// Whether `accept` any of the directions to distant lights whose numbers (LightSampler::Distant::light) end
+// on these 16 bits. `far` as of sample_light.
 template <class Accept>
 bool any_distant_light(const LightSampler& sampler, std::uint32_t bits, const std::array<float, 2>& far,
                        Accept&& accept) {

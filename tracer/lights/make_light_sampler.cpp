@@ -14,13 +14,13 @@ namespace {
 
 std::vector<LightSampler::Run> runs_of(const LightScene& scene) {
   std::vector<LightSampler::Run> runs;
-  std::uint32_t index = 0;
+  std::uint32_t number = 0;
   const auto add = [&](std::uint32_t id) {
     if (!runs.empty() && runs.back().first + runs.back().count == id)
       ++runs.back().count;
     else
-      runs.push_back({id, 1, index});
-    ++index;
+      runs.push_back({id, 1, number});
+    ++number;
   };
   for (const EmissiveTriangle& t : scene.triangles) add(t.triangle);
   for (const EmissiveQuadric& q : scene.quadrics) add(q.triangle);
@@ -94,12 +94,8 @@ struct Sorter {
     if (!(e.mean_luminance > 0)) return;
     environment_power.push_back(4 * pi * e.mean_luminance * cross_section);
     s.environments.push_back(std::move(e));
-    s.environment_light.push_back(light);
   }
-  void add(PointEmitter e) {
-    s.emitters.push_back(std::move(e));
-    s.emitter_light.push_back(light);
-  }
+  void add(PointEmitter e) { s.emitters.push_back(std::move(e)); }
 };
 
 void find_variety(std::span<const LightBounds> lights, LightSampler& s) {
@@ -109,14 +105,14 @@ void find_variety(std::span<const LightBounds> lights, LightSampler& s) {
     s.one_is_enough = !s.distant.empty();
     return;
   }
-  const bool local = s.share[0] > 0;
+  const bool local = s.share[LightNumbers::choice_of_tree] > 0;
   s.one_is_enough = local ? s.slots.size() == 1 && s.emitters.size() == 1 : s.environments.empty();
   const bool plain = std::ranges::all_of(s.scene.area_lights, [](const AreaLight& light) {
     return std::holds_alternative<Spectrum>(light.radiance);
   });
   if (!local || !s.emitters.empty() || s.slots.size() > 2 || !plain) return;
   Bounds3d box;
-  for (const LightSampler::Slot& slot : s.slots) extend(box, lights[slot.light].box);
+  for (const LightSampler::Slot& slot : s.slots) extend(box, lights[s.numbers.number(slot.light)].box);
   s.lamp_center = box.lower + (box.upper - box.lower) * 0.5;
   s.lamp_radius2 = dot(box.upper - s.lamp_center, box.upper - s.lamp_center);
 }
@@ -136,6 +132,71 @@ bool is_one_flat_lamp(std::span<const LightBounds> lights) {
   return std::abs(dot(b.box.lower - a.box.lower, a.axis)) < 1e-6 * length(a.box.upper - a.box.lower);
 }
 
+void prepare_quadrics(LightSampler& s) {
+  // All together 2¹⁴ of them, of 50 bytes, or 150 where two sides shine.
+  const int patches = static_cast<int>((1u << 14) / std::max<std::size_t>(s.scene.quadrics.size(), 1));
+  for (const EmissiveQuadric& q : s.scene.quadrics)
+    s.quadrics.emplace_back(q, s.scene.area_lights[q.area_light].two_sided, patches);
+}
+
+// Of all lights of the tree, by their numbers; with what is known of surfaces beside.
+std::vector<LightBounds> bounds_of_tree(LightSampler& s) {
+  SurfaceLights shining = surface_lights(s.scene, s.quadrics);
+  s.glows = std::move(shining.glows);
+  s.parts = std::move(shining.parts);
+  s.parts_of = std::move(shining.parts_of);
+  std::vector<LightBounds> local = std::move(shining.bounds);
+  for (const PointEmitter& e : s.emitters) local.push_back(e.bounds);
+  return local;
+}
+
+double flux_of(std::span<const LightBounds> lights) {
+  double flux = 0;
+  for (const LightBounds& b : lights)
+    if (std::isfinite(b.power)) flux += b.power;
+  return flux;
+}
+
+// Flux becomes the power that counts for the tree.
+void weigh_for_tree(const LightNumbers& numbers, std::span<LightBounds> lights) {
+  for (std::size_t i = 0; i < lights.size(); ++i) {
+    const LightKind kind = numbers.light(i).kind;
+    if (kind == LightKind::quadric) by_projection(lights[i]);
+    if (kind == LightKind::emitter) by_intensity(lights[i]);
+  }
+}
+
+LightSampler::Slot slot_of(const LightSampler& s, LightRef light) {
+  LightSampler::Slot slot;
+  slot.light = light;
+  if (light.kind == LightKind::triangle) {
+    const EmissiveTriangle& t = s.scene.triangles[light.index];
+    std::copy(std::begin(t.p), std::end(t.p), slot.p.begin());
+    slot.area_light = t.area_light;
+    if (!s.scene.opacities.empty()) slot.opacity = s.scene.opacities[light.index];
+  } else if (light.kind == LightKind::quadric) {
+    const EmissiveQuadric& q = s.scene.quadrics[light.index];
+    slot.area_light = q.area_light;
+    slot.opacity = q.opacity;
+  }
+  return slot;
+}
+
+// Half of them equal, half by power, of the choices that have any; empty where none has. `flux`: of the tree.
+std::vector<double> shares_of(double flux, const Sorter& sorter) {
+  std::vector<double> power{flux};
+  power.insert(power.end(), sorter.distant_power.begin(), sorter.distant_power.end());
+  power.insert(power.end(), sorter.environment_power.begin(), sorter.environment_power.end());
+  double total = 0;
+  std::size_t choices = 0;
+  for (const double p : power) total += p, choices += p > 0;
+  std::vector<double> share;
+  if (choices == 0) return share;
+  for (const double p : power)
+    share.push_back(p > 0 ? 0.5 / static_cast<double>(choices) + 0.5 * p / total : 0);
+  return share;
+}
+
 }  // namespace
 
 LightSampler make_light_sampler(const LightScene& scene, const ImageSource& images, LightChoice choice) {
@@ -145,55 +206,22 @@ LightSampler make_light_sampler(const LightScene& scene, const ImageSource& imag
   Sorter sorter{s, images, pi * std::max(diagonal * diagonal / 4, 1e-30)};
   for (; sorter.light < scene.lights.size(); ++sorter.light)
     std::visit(sorter, scene.lights[sorter.light].model);
-
-  // All together 2¹⁴ of them, of 50 bytes, or 150 where two sides shine.
-  const int patches = static_cast<int>((1u << 14) / std::max<std::size_t>(scene.quadrics.size(), 1));
-  for (const EmissiveQuadric& q : scene.quadrics)
-    s.quadrics.emplace_back(q, scene.area_lights[q.area_light].two_sided, patches);
-  SurfaceLights shining = surface_lights(scene, s.quadrics);
-  s.glows = std::move(shining.glows);
-  s.parts = std::move(shining.parts);
-  s.parts_of = std::move(shining.parts_of);
-  std::vector<LightBounds> local = std::move(shining.bounds);
-  const std::size_t triangles = scene.triangles.size(), surfaces = local.size();
-  for (const PointEmitter& e : s.emitters) local.push_back(e.bounds);
-  double flux = 0;
-  for (const LightBounds& b : local)
-    if (std::isfinite(b.power)) flux += b.power;
-  if (choice == LightChoice::tree)
-    for (std::size_t i = triangles; i < local.size(); ++i)
-      i < surfaces ? by_projection(local[i]) : by_intensity(local[i]);
-  if (triangles == 2 && is_one_flat_lamp(local)) choice = LightChoice::power;
+  prepare_quadrics(s);
+  s.numbers = LightNumbers({scene.triangles.size(), s.quadrics.size(), s.emitters.size(), s.distant.size(),
+                            s.environments.size(), s.infinite.size()});
+  std::vector<LightBounds> local = bounds_of_tree(s);
+  const double flux = flux_of(local);
+  if (choice == LightChoice::tree) weigh_for_tree(s.numbers, local);
+  if (scene.triangles.size() == 2 && is_one_flat_lamp(local)) choice = LightChoice::power;
   s.tree = LightTree(local, choice);
-  for (const std::uint32_t light : s.tree.order()) {
-    LightSampler::Slot& slot = s.slots.emplace_back();
-    slot.light = light;
-    if (light >= surfaces) continue;
-    if (light >= triangles) {
-      slot.area_light = scene.quadrics[light - triangles].area_light;
-      slot.opacity = scene.quadrics[light - triangles].opacity;
-      continue;
-    }
-    const EmissiveTriangle& t = scene.triangles[light];
-    std::copy(std::begin(t.p), std::end(t.p), slot.p.begin());
-    slot.area_light = t.area_light;
-    if (!scene.opacities.empty()) slot.opacity = scene.opacities[light];
-  }
-  if (triangles <= LightSampler::most_faces)
+  for (const std::uint32_t number : s.tree.order()) s.slots.push_back(slot_of(s, s.numbers.light(number)));
+  if (scene.triangles.size() <= LightSampler::most_faces)
     for (const EmissiveTriangle& t : scene.triangles) s.faces.emplace_back(t.p);
   s.runs = runs_of(scene);
-
-  std::vector<double> power{flux};
-  power.insert(power.end(), sorter.distant_power.begin(), sorter.distant_power.end());
-  power.insert(power.end(), sorter.environment_power.begin(), sorter.environment_power.end());
-  double total = 0;
-  std::size_t choices = 0;
-  for (const double p : power) total += p, choices += p > 0;
-  if (choices == 0) return s;
-  for (const double p : power)
-    s.share.push_back(p > 0 ? 0.5 / static_cast<double>(choices) + 0.5 * p / total : 0);
+  s.share = shares_of(flux, sorter);
+  if (s.share.empty()) return s;
   constexpr std::size_t few = 1 << 12;
-  s.three_numbers = s.share[0] == 1 && local.size() <= few;
+  s.three_numbers = s.share[LightNumbers::choice_of_tree] == 1 && local.size() <= few;
   find_variety(local, s);
   return s;
 }

@@ -212,7 +212,7 @@ void PathTracer::send_connection(const Path& path, const Departure& from, const 
   turn(sent, aimed.direction);
   if (walks) {
     sent.set(path_in_pane);
-    sent.aim = RefractedAim{light.light}.bits();
+    sent.aim = RefractedAim{scene_.lights.distant[light.light.index].light}.bits();
     sent.walk = 0;
   } else {
     sent.aim = StraightAim{slope_of(aimed.cosine)}.bits();

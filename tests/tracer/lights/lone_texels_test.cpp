@@ -240,9 +240,10 @@ TEST(LoneTexels, OfLampsOfTriangles) {
     const LightSampler s = make_light_sampler(lamp.scene(bundle), bundle.directory.path());
     const Point3d p{0.3, 0.2, 1.5};
     const auto radiance = [&](double u, double v) {
-      const std::size_t triangle = u > v ? 0 : 1;
+      const std::uint32_t triangle = u > v ? 0 : 1;
       const EmissivePoint point(s.scene, triangle, triangle == 0 ? u - v : u, triangle == 0 ? v : v - u);
-      return static_cast<double>(leaving(s, triangle, point, test::some_wavelengths())[0]);
+      const LightRef light{LightKind::triangle, triangle};
+      return static_cast<double>(leaving(s, light, point, test::some_wavelengths())[0]);
     };
     const double flux = 4 * pi * integral(radiance),
                  seen = integral([&](double u, double v) {
@@ -293,7 +294,8 @@ TEST(LoneTexels, OfLampsOfQuadrics) {
     const LightSampler s = make_light_sampler(scene, bundle.directory.path());
     const double flux = pi * s.quadrics[0].area() * integral([&](double x, double y) {
                           const EmissivePoint point(s.quadrics[0], point_by_area(e.quadric.quadric, x, y));
-                          return static_cast<double>(leaving(s, 0, point, test::some_wavelengths())[0]);
+                          const LightRef lamp{LightKind::quadric, 0};
+                          return static_cast<double>(leaving(s, lamp, point, test::some_wavelengths())[0]);
                         });
     const Emission emission(s, scene.bounds, {});
     if (flux > 0)
@@ -352,13 +354,13 @@ TEST(LoneTexels, OfTexturesThatAreComputed) {
     const LightSampler s = make_light_sampler(scene, bundle.directory.path());
     int shining = 0;
     for (int i = 0; i < 40000; ++i) {
-      const std::size_t triangle = below(random, triangles.size());
+      const auto triangle = static_cast<std::uint32_t>(below(random, triangles.size()));
       const double u = random(), v = random();
       const EmissivePoint point(scene, triangle, u * (1 - v), v);
-      if (!(leaving(s, triangle, point, test::some_wavelengths())[0] > 0)) continue;
+      const LightRef lamp{LightKind::triangle, triangle};
+      if (!(leaving(s, lamp, point, test::some_wavelengths())[0] > 0)) continue;
       ++shining;
-      ASSERT_GT(triangle_pdf(s, {0.5, 0.5, 3}, static_cast<std::uint32_t>(triangle), point.at.p, 3, 0.9), 0)
-          << id;
+      ASSERT_GT(triangle_pdf(s, {0.5, 0.5, 3}, triangle, point.at.p, 3, 0.9), 0) << id;
     }
     EXPECT_GT(shining, 20) << id;
   }

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// How sample_light draws a connection to a light of each kind, and with what density: a file a kind.
+#pragma once
+
+#include "tracer/lights/light_sampler.h"
+
+namespace vitrail {
+
+// A connection that is asked for; members as the arguments of sample_light.
+struct LightQuery {
+  const LightSampler& lights;
+  Point3d p;
+  const std::array<float, 4>& u;
+  const std::array<float, 2>& far;
+  const SampledWavelengths& wavelengths;
+  LastLamp& last;
+};
+
+// Each of these fills in a sample whose values are those that it is made with, in place, as copies cost as
+// much as the rest; false where nothing arrives. pdf: given the light, but of environments.
+// `choice`: in [0,1), of one of the triangle's parts.
+bool draw_triangle(const LightQuery& query, const LightSampler::Slot& slot, double choice,
+                   LightSample& sample);
+bool draw_quadric(const LightQuery& query, const LightSampler::Slot& slot, LightSample& sample);
+bool draw_emitter(const LightQuery& query, std::uint32_t emitter, LightSample& sample);
+bool draw_distant(const LightQuery& query, std::uint32_t distant, LightSample& sample);
+// The pdf is of all environments together, their choice included: all that shine from there are seen.
+bool draw_environment(const LightQuery& query, std::uint32_t environment, LightSample& sample);
+
+// As triangle_pdf, of one of LightScene::triangles or LightSampler::quadrics.
+double density_of_triangle(const LightSampler& sampler, std::uint32_t triangle, Point3d from, Point3d at,
+                           double distance, double cosine);
+double density_of_quadric(const LightSampler& sampler, std::uint32_t quadric, Point3d from, Point3d at,
+                          double cosine);
+
+// The probability with which sample_light chooses a light of the tree.
+inline double probability_in_tree(const LightSampler& s, Point3d from, LightRef light) {
+  return s.share[LightNumbers::choice_of_tree] *
+         s.tree.probability(from, static_cast<std::uint32_t>(s.numbers.number(light)));
+}
+
+}  // namespace vitrail

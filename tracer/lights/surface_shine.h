@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// What emissive surfaces, triangles and quadrics alike, send from a point of them.
+#pragma once
+
+#include <algorithm>
+
+#include "tracer/lights/light_sampler.h"
+#include "tracer/sampling/wavelengths.h"
+
+namespace vitrail {
+
+// Of an area light, by its record: whatever the surface's opacity is.
+inline SampledSpectrum surface_radiance(const LightSampler& s, std::uint32_t area_light,
+                                        const TexturePoint& at, const SampledWavelengths& wavelengths,
+                                        LastLamp& last) {
+  if (last.area_light == area_light) return last.radiance;
+  const AreaLight& light = s.scene.area_lights[area_light];
+  if (const auto* spectrum = std::get_if<Spectrum>(&light.radiance)) {
+    last = {area_light, evaluate(*spectrum, wavelengths) * light.scale};
+    return last.radiance;
+  }
+  if (!s.scene.textures) return filled(0);
+  return s.scene.textures->spectrum(light.radiance, at, wavelengths) * light.scale;
+}
+
+// How much of the surface there is. None at all, everywhere: a light that nothing meets, and that shines as
+// if it was whole.
+inline float shining_share(const LightSampler& s, const FloatParameter& opacity, const TexturePoint& at) {
+  if (const auto* constant = std::get_if<float>(&opacity))
+    return is_invisible(opacity) ? 1 : std::clamp(*constant, 0.0f, 1.0f);
+  if (!s.scene.textures) return 1;
+  return static_cast<float>(std::clamp(s.scene.textures->number(opacity, at), 0.0, 1.0));
+}
+
+// What leaves a slot's surface, of which `point()` is an EmissivePoint.
+template <class Point>
+SampledSpectrum shining(const LightSampler& s, const LightSampler::Slot& t, const Point& point,
+                        const SampledWavelengths& wavelengths, LastLamp& last) {
+  const AreaLight& light = s.scene.area_lights[t.area_light];
+  const auto all = [&](const TexturePoint& at) {
+    return surface_radiance(s, t.area_light, at, wavelengths, last) * shining_share(s, t.opacity, at);
+  };
+  const bool constant =
+      std::holds_alternative<Spectrum>(light.radiance) && std::holds_alternative<float>(t.opacity);
+  return constant ? all({}) : all(point().point());
+}
+
+}  // namespace vitrail
