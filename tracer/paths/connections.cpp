@@ -277,37 +277,50 @@ void PathTracer::send_shadow_ray(const Path& path, const Departure& from, const 
 // wavelengths leave a pane with parallel faces in the direction they came, so all four stay unless it is
 // thick.
 bool PathTracer::connect_onwards(Path& path) {
-  const bool walks = path.is(path_in_pane);
   if (const PreparedMedium* medium = medium_of(path)) {
     RandomStream random(stream_of(path, RayRandom::flight));
     fade(path, transmittance(*medium, flight_of(path), path.wavelengths, random));
     if (is_black(path.throughput)) return false;
   }
-  if (path.met() != Met::surface) {
-    const auto is_direction = [&](Vector3d to_light) { return encode_direction(to_light) == path.direction; };
-    if (!walks || any_distant_light(scene_.lights, RefractedAim::of(path.aim).light,
-                                    numbers_for_far_lights(path), is_direction))
-      deposit(path.pixel, path.sample, path.sensor, path.throughput);
-    return false;
-  }
+  if (path.met() == Met::surface) return connect_at_surface(path);
+  reach_light(path);
+  return false;
+}
+
+// One that has walked through panes has come to its light if that is where it goes now.
+void PathTracer::reach_light(const Path& path) {
+  const auto is_direction = [&](Vector3d to_light) { return encode_direction(to_light) == path.direction; };
+  if (!path.is(path_in_pane) || any_distant_light(scene_.lights, RefractedAim::of(path.aim).light,
+                                                  numbers_for_far_lights(path), is_direction))
+    deposit(path.pixel, path.sample, path.sensor, path.throughput);
+}
+
+bool PathTracer::connect_at_surface(Path& path) {
+  const bool walks = path.is(path_in_pane);
   Interaction at = interaction_at(path);
   const Surface& surface = surface_at(path);
   const MaterialKind& kind = scene_.materials.kind(surface.material);
-  const bool is_gone = !is_there(path, surface, at), passes = is_gone || kind.is_nothing(at);
-  const bool bends = walks && kind.smooth_dielectric && !passes, sheet = walks && kind.sheet;
-  const SampledSpectrum straight = passes           ? filled(1)
-                                   : bends || sheet ? filled(0)
-                                                    : straight_through(path, at, surface);
-  if (!is_gone && connects_through_hole(path, at, surface, !bends && !sheet && is_black(straight)))
+  const Presence presence = !is_there(path, surface, at) ? Presence::gone
+                            : kind.is_nothing(at)        ? Presence::open
+                                                         : Presence::whole;
+  const bool bends = walks && kind.smooth_dielectric && presence == Presence::whole;
+  if (!bends && !(walks && kind.sheet)) return connect_past(path, at, surface, presence);
+  if (presence != Presence::gone && connects_through_hole(path, at, surface, false))
     return connect_straight(path, at, nullptr);
-  if (bends || sheet) {
-    if (!(bends ? walk_interface(path, at, surface) : walk_sheet(path, at, surface))) return false;
-  } else {
-    fade(path, straight);
-    if (is_black(path.throughput)) return false;
-    if (!passes) path.depth += manifest_.settings.straight_counts || walks;
-    if (!connect_straight(path, at, &surface)) return false;
-  }
+  if (!(bends ? walk_interface(path, at, surface) : walk_sheet(path, at, surface))) return false;
+  return presence != Presence::whole || walks_on(path);
+}
+
+// What a surface lets straight through goes on.
+bool PathTracer::connect_past(Path& path, const Interaction& at, const Surface& surface, Presence presence) {
+  const bool walks = path.is(path_in_pane), passes = presence != Presence::whole;
+  const SampledSpectrum straight = passes ? filled(1) : straight_through(path, at, surface);
+  if (presence != Presence::gone && connects_through_hole(path, at, surface, is_black(straight)))
+    return connect_straight(path, at, nullptr);
+  fade(path, straight);
+  if (is_black(path.throughput)) return false;
+  if (!passes) path.depth += manifest_.settings.straight_counts || walks;
+  if (!connect_straight(path, at, &surface)) return false;
   if (passes) return true;
   return walks ? walks_on(path) : path.depth <= static_cast<std::uint32_t>(manifest_.settings.max_depth);
 }
@@ -318,7 +331,7 @@ bool PathTracer::connects_through_hole(Path& path, const Interaction& at, const 
                                        bool opaque) const {
   const double opacity = opacity_at(surface, at);
   if (opacity >= 1) return false;
-  if (!opaque) return RandomStream(stream_of(path, RayRandom::coverage)).next() >= opacity;
+  if (!opaque) return misses(path, opacity);
   path.throughput = path.throughput * static_cast<float>(1 - std::max(opacity, 0.0));
   return true;
 }

@@ -106,60 +106,97 @@ bool PathTracer::count_refraction(Path& path, float u, bool for_nothing) const {
   return true;
 }
 
+// A smooth face of glass where a path has come to it.
+struct PathTracer::GlassFace {
+  const Material& record;
+  const DielectricMaterial& material;
+  Vector3d normal;              // on the path's side
+  SampledSpectrum eta;          // as of `refract`
+  double cosine = 1;            // of the path to the normal
+  double outside = 1;           // and behind the face, of the hero
+  SampledSpectrum reflectance;  // by wavelength
+  double reflects = 0;          // the chance that the path is reflected
+
+  double hero_eta() const { return static_cast<double>(eta[0]); }
+  MetFace met(const Interaction& at, const SampledWavelengths& wavelengths) const {
+    return {normal, near_index(material, at, wavelengths), hero_eta()};
+  }
+};
+
+// Where the wavelengths of a path have parted too far in its pane.
+void PathTracer::part_within(Path& path, const Interaction& at, const SampledSpectrum& eta, double cosine,
+                             double outside) const {
+  if (!path.is(path_in_pane) || !path.parts) return;
+  const double thickness = path.hit.t * length(cast<double>(path.ray.direction)) * cosine;
+  path.parts = !parts_aside(path, at.p, eta, thickness, outside);
+  if (!path.parts) path.disperse();
+}
+
+void PathTracer::reflect_at(Path& path, const Interaction& at, const Surface& surface, const GlassFace& face,
+                            Vector3d& direction) const {
+  direction = face.normal * (2 * face.cosine) - at.out;
+  if (flies()) turn_at_face(path, at, surface, face.met(at, path.wavelengths), direction);
+  path.throughput =
+      path.throughput * face.reflectance * static_cast<float>(1 / face.reflects) *
+      scene_.textures.spectrum(face.material.reflectance_factor, at.texture_point(), path.wavelengths);
+}
+
+// Into `direction`, as the hero goes.
+void PathTracer::refract_at(Path& path, const Interaction& at, const Surface& surface, const GlassFace& face,
+                            Vector3d& direction) const {
+  if (flies()) pass_interface(path, at, surface, face.met(at, path.wavelengths), direction);
+  // Radiance is compressed into the smaller solid angle by 1/η² (Veach 1997, §5.2), power is not.
+  for (std::size_t i = 0; i < path.active_wavelengths(); ++i) {
+    const double e = static_cast<double>(face.eta.v[i]);
+    path.throughput.v[i] *= static_cast<float>((1 - static_cast<double>(face.reflectance.v[i])) /
+                                               (1 - face.reflects) / (flies() ? 1 : e * e));
+  }
+  path.throughput = path.throughput * scene_.textures.spectrum(face.material.transmittance_factor,
+                                                               at.texture_point(), path.wavelengths);
+  pass_into(path, at, face);
+}
+
 // Dispersion ends the secondary wavelengths where their ways part. Through a pane of parallel faces they do
 // not: all leave in the direction they came, less than a pixel beside each other. So they stay until the path
 // meets a face that is not parallel to the one it entered by.
+void PathTracer::pass_into(Path& path, const Interaction& at, const GlassFace& face) const {
+  const bool in_pane = path.is(path_in_pane);
+  path.clear(path_in_pane);
+  const bool parts = !in_pane && scene_.materials.disperses(face.record, at) && !path.is(path_dispersed);
+  if (!in_pane && at.front && !at.exterior_eta) {
+    path.set(path_in_pane);
+    path.entered_by = encode_face(face.normal);
+    path.parts = parts;
+    path.owes = false;
+  } else if (parts) {
+    path.disperse();
+  }
+}
+
+// False when the path ends here.
 bool PathTracer::scatter_dielectric(Path& path, const Interaction& at, const Surface& surface) {
   const Material& record = manifest_.materials[surface.material];
   const auto& material = std::get<DielectricMaterial>(record.model);
   const Vector3d normal = scene_.materials.shading_normal(record, at) * at.side();
   if (path.is(path_in_pane) && !is_parallel(path.entered_by, normal) && !leave_pane(path)) return false;
-  const bool in_pane = path.is(path_in_pane), spent = is_spent(path);
+  const bool spent = is_spent(path);
   if (spent && !sees_through(path, at)) return false;
-  const SampledSpectrum eta = relative_index(material, at, path.wavelengths);
-  const double hero_eta = static_cast<double>(eta[0]), cosine = dot(at.out, normal);
-  const double outside = safe_sqrt(1 - (1 - cosine * cosine) / (hero_eta * hero_eta));
-  if (in_pane && path.parts) {
-    const double thickness = path.hit.t * length(cast<double>(path.ray.direction)) * cosine;
-    path.parts = !parts_aside(path, at.p, eta, thickness, outside);
-    if (!path.parts) path.disperse();
-  }
+  GlassFace face{record, material, normal, relative_index(material, at, path.wavelengths)};
+  face.cosine = dot(at.out, normal);
+  face.outside = safe_sqrt(1 - (1 - face.cosine * face.cosine) / (face.hero_eta() * face.hero_eta()));
+  part_within(path, at, face.eta, face.cosine, face.outside);
 
-  SampledSpectrum reflectance;
-  const double share = reflect_share(path, eta, cosine, outside, reflectance);
-  const double reflects = spent ? 0 : attainable(share);
-  const auto met = [&] { return MetFace{normal, near_index(material, at, path.wavelengths), hero_eta}; };
+  const double share = reflect_share(path, face.eta, face.cosine, face.outside, face.reflectance);
+  face.reflects = spent ? 0 : attainable(share);
   Vector3d direction;
   const std::array<float, 4> u = numbers_for_scattering(path);
   bool for_nothing = false;
-  if (static_cast<double>(u[2]) < reflects) {
-    direction = normal * (2 * cosine) - at.out;
-    if (flies()) turn_at_face(path, at, surface, met(), direction);
-    path.throughput =
-        path.throughput * reflectance * static_cast<float>(1 / reflects) *
-        scene_.textures.spectrum(material.reflectance_factor, at.texture_point(), path.wavelengths);
+  if (static_cast<double>(u[2]) < face.reflects) {
+    reflect_at(path, at, surface, face, direction);
   } else {
-    if (!refract(at.out, normal, hero_eta, direction)) return false;
+    if (!refract(at.out, normal, face.hero_eta(), direction)) return false;
     for_nothing = passes_for_nothing(path, at);
-    if (flies()) pass_interface(path, at, surface, met(), direction);
-    // Radiance is compressed into the smaller solid angle by 1/η² (Veach 1997, §5.2), power is not.
-    for (std::size_t i = 0; i < path.active_wavelengths(); ++i) {
-      const double e = static_cast<double>(eta.v[i]);
-      path.throughput.v[i] *= static_cast<float>((1 - static_cast<double>(reflectance.v[i])) /
-                                                 (1 - reflects) / (flies() ? 1 : e * e));
-    }
-    path.throughput = path.throughput * scene_.textures.spectrum(material.transmittance_factor,
-                                                                 at.texture_point(), path.wavelengths);
-    path.clear(path_in_pane);
-    const bool parts = !in_pane && scene_.materials.disperses(record, at) && !path.is(path_dispersed);
-    if (!in_pane && at.front && !at.exterior_eta) {
-      path.set(path_in_pane);
-      path.entered_by = encode_face(normal);
-      path.parts = parts;
-      path.owes = false;
-    } else if (parts) {
-      path.disperse();
-    }
+    refract_at(path, at, surface, face, direction);
   }
   if (flies()) path.throughput = path.throughput * adjoint_of_shading(at, normal, direction);
   if (is_black(path.throughput) || !count_refraction(path, u[3], for_nothing)) return false;

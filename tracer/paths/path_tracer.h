@@ -126,6 +126,12 @@ class PathTracer {
   // shading.cpp
   bool shade(Path& path);
   bool shade_surface(Path& path);
+  bool misses(const Path& path, double opacity) const;
+  bool end_at_surface(Path& path, const Interaction& at, const Surface& surface, const MaterialKind& kind);
+  const Material* material_at(Path& path, const Interaction& at, const Surface& surface,
+                              const MaterialKind& kind, bool& goes_on) const;
+  Scattering scattering_at(const Path& path, const Interaction& at, const Material& material) const;
+  bool scatter_path(Path& path, const Interaction& at, const Surface& surface, const MaterialKind& kind);
   bool scatter_in_medium(Path& path, Point3d p);
   float survival(const Path& path) const;
   bool go_on(Path& path, float u, bool specular, bool gathered = false) const;
@@ -142,6 +148,14 @@ class PathTracer {
   bool scatter_dielectric(Path& path, const Interaction& at, const Surface& surface);
   double reflect_share(const Path& path, const SampledSpectrum& eta, double cosine, double outside,
                        SampledSpectrum& reflectance) const;
+  void part_within(Path& path, const Interaction& at, const SampledSpectrum& eta, double cosine,
+                   double outside) const;
+  struct GlassFace;
+  void reflect_at(Path& path, const Interaction& at, const Surface& surface, const GlassFace& face,
+                  Vector3d& direction) const;
+  void refract_at(Path& path, const Interaction& at, const Surface& surface, const GlassFace& face,
+                  Vector3d& direction) const;
+  void pass_into(Path& path, const Interaction& at, const GlassFace& face) const;
   bool passes_for_nothing(const Path& path, const Interaction& at) const;
   bool count_refraction(Path& path, float u, bool for_nothing) const;
   bool is_spent(const Path& path) const;
@@ -155,6 +169,8 @@ class PathTracer {
   // photon_tracing.cpp
   void begin_photon(Path& path) const;
   bool shade_photon(Path& path);
+  bool end_photon(Path& path, const Interaction& at, const Surface& surface, const MaterialKind& kind);
+  bool scatter_photon(Path& path, const Interaction& at, const Surface& surface, const MaterialKind& kind);
   EmittedPhoton emission_of(const Path& path) const;
   bool is_connected_to(const Path& path) const;
   std::optional<ParallelWay> parallel_way_of(const Path& path, const Interaction& at, const MetFace& face,
@@ -218,6 +234,11 @@ class PathTracer {
   void send_shadow_ray(const Path& path, const Departure& from, const LightSample& light,
                        const SampledSpectrum& radiance);
   bool connect_onwards(Path& path);
+  void reach_light(const Path& path);
+  bool connect_at_surface(Path& path);
+  // Of a surface: `gone` in an interior of higher priority, `open` as nothing scatters at it.
+  enum class Presence : std::uint8_t { gone, open, whole };
+  bool connect_past(Path& path, const Interaction& at, const Surface& surface, Presence presence);
   bool connects_through_hole(Path& path, const Interaction& at, const Surface& surface, bool opaque) const;
   bool connect_straight(Path& path, const Interaction& at, const Surface* surface);
   static void pack_connection(const Path& path, PathRecord& record);

@@ -9,8 +9,27 @@
 #include "tracer/photons/places.h"
 #include "tracer/rays/connection_code.h"
 #include "tracer/rays/rounding.h"
+#include "tracer/surfaces/scattered_direction.h"
 
 namespace vitrail {
+
+namespace {
+
+// What a photon keeps of its power by a sample whose weight is that of radiance. Through a surface f(out, in)
+// is not f(in, out): light that is refracted is not compressed as radiance is. Of a fibre, which is not
+// reciprocal, they are taken as one, and cosines mean nothing.
+SampledSpectrum power_weight(const Bsdf& bsdf, Vector3d out, const BsdfSample& chosen) {
+  const bool through = !std::holds_alternative<HairBsdf>(bsdf) && out.z * chosen.in.z < 0;
+  if (!through) return chosen.weight;
+  if (!chosen.specular)
+    return eval(bsdf, chosen.in, out).value * static_cast<float>(std::abs(chosen.in.z / out.z) / chosen.pdf);
+  const auto* glass = std::get_if<DielectricBsdf>(&bsdf);
+  if (!glass) return chosen.weight;
+  const double eta2 = glass->eta * glass->eta;
+  return chosen.weight * static_cast<float>(out.z > 0 ? eta2 : 1 / eta2);
+}
+
+}  // namespace
 
 void PathTracer::begin_photon(Path& path) const {
   path.key = photon_key(scene_.seed, photons_->iteration, path.pixel);
@@ -62,66 +81,54 @@ bool PathTracer::shade_photon(Path& path) {
   if ((at.front || !kind.smooth_dielectric) && !leave_pane(path)) return false;
   // Before chance decides what of the surface is met: it decides once more for the path that gathers.
   if (kind.diffuse && !is_connected_to(path)) land(path, at);
-  if (const double opacity = opacity_at(surface, at);
-      opacity < 1 && RandomStream(stream_of(path, RayRandom::coverage)).next() >= opacity) {
+  if (misses(path, opacity_at(surface, at))) {
     pass_straight(path, at, nullptr);
     return true;
   }
-  if (is_spent(path)) {
-    if (kind.smooth_dielectric && sees_through(path, at)) return scatter_dielectric(path, at, surface);
-    if (manifest_.settings.straight_counts || !manifest_.requirements.see_through) return false;
-    path.throughput =
-        path.throughput * scene_.materials.passes_straight(surface.material, at, path.wavelengths);
-    if (is_black(path.throughput)) return false;
-    if (kind.sheet) pass_sheet(path);
-    pass_straight(path, at, &surface);
-    return true;
-  }
+  if (is_spent(path)) return end_photon(path, at, surface, kind);
   if (kind.smooth_dielectric) return scatter_dielectric(path, at, surface);
+  return scatter_photon(path, at, surface, kind);
+}
 
-  RandomStream chance(stream_of(path, RayRandom::choice));
-  const Material* material = scene_.materials.choose(surface.material, at, chance);
-  if (!material) {
-    count_straight(path);
-    if (kind.sheet) pass_sheet(path);
-    pass_straight(path, at, &surface);
-    return true;
-  }
-  if (scene_.materials.disperses(*material, at)) path.disperse();
-  if (!scene_.materials.scatters(*material, at)) return false;
-  const Scattering scattering = scene_.materials.scattering_at(
-      *material, at, path.wavelengths, path.throughput, stream_of(path, RayRandom::layers));
+// One that scatters no more: whether it goes on behind the surface.
+bool PathTracer::end_photon(Path& path, const Interaction& at, const Surface& surface,
+                            const MaterialKind& kind) {
+  if (kind.smooth_dielectric && sees_through(path, at)) return scatter_dielectric(path, at, surface);
+  if (manifest_.settings.straight_counts || !manifest_.requirements.see_through) return false;
+  path.throughput =
+      path.throughput * scene_.materials.passes_straight(surface.material, at, path.wavelengths);
+  if (is_black(path.throughput)) return false;
+  if (kind.sheet) pass_sheet(path);
+  pass_straight(path, at, &surface);
+  return true;
+}
+
+bool PathTracer::scatter_photon(Path& path, const Interaction& at, const Surface& surface,
+                                const MaterialKind& kind) {
+  bool goes_on = false;
+  const Material* material = material_at(path, at, surface, kind, goes_on);
+  if (!material) return goes_on;
+  const Scattering scattering = scattering_at(path, at, *material);
   const Vector3d out = scattering.frame.to_local(at.out);
   const std::array<float, 4> u = numbers_for_scattering(path);
   const std::optional<BsdfSample> chosen = sample(scattering.bsdf, out, u[2], {u[0], u[1]});
   if (!chosen) return false;
-  SampledSpectrum weight = chosen->weight;
   if (chosen->specular && chosen->in == -out) {
-    path.throughput = path.throughput * weight;
+    path.throughput = path.throughput * chosen->weight;
     if (is_black(path.throughput)) return false;
     if (kind.sheet) pass_sheet(path);
     scatter_straight(path, at, surface);
     return true;
   }
-  // Through a surface f(out, in) is not f(in, out): light that is refracted is not compressed as radiance is.
-  // Of a fibre, which is not reciprocal, they are taken as one, and cosines mean nothing.
-  const bool fibre = std::holds_alternative<HairBsdf>(scattering.bsdf);
-  const bool through = !fibre && out.z * chosen->in.z < 0;
-  if (const auto* glass = std::get_if<DielectricBsdf>(&scattering.bsdf); glass && through && chosen->specular)
-    weight = weight * static_cast<float>(out.z > 0 ? glass->eta * glass->eta : 1 / (glass->eta * glass->eta));
-  else if (through && !chosen->specular)
-    weight = eval(scattering.bsdf, chosen->in, out).value *
-             static_cast<float>(std::abs(chosen->in.z / out.z) / chosen->pdf);
-  Vector3d direction = scattering.frame.to_world(chosen->in);
-  float adjoint = fibre ? 1 : adjoint_of_shading(at, scattering.frame.normal, direction);
-  if (leaves_its_side(scattering, at, out, *chosen, direction)) {
-    if (!chosen->specular || !(out.z * chosen->in.z > 0)) return false;
-    direction = mirrored(at);
-    adjoint = 1;  // about the surface's own normal
-  }
-  path.throughput = path.throughput * weight *
+  const Vector3d sampled = scattering.frame.to_world(chosen->in);
+  const auto kept = kept_on_its_side(scattering, at, out, *chosen, sampled);
+  if (!kept) return false;
+  const bool symmetric = kept->by_surface || std::holds_alternative<HairBsdf>(scattering.bsdf);
+  const float adjoint = symmetric ? 1 : adjoint_of_shading(at, scattering.frame.normal, sampled);
+  path.throughput = path.throughput * power_weight(scattering.bsdf, out, *chosen) *
                     static_cast<float>(scattering.bump_shadowing(dot(at.out, at.shading))) * adjoint;
   if (is_black(path.throughput)) return false;
+  Vector3d direction = kept->world;
   if (kind.sheet && chosen->specular && is_mirror(scattering.bsdf) && out.z * chosen->in.z > 0)
     turn_at_face(path, at, surface, {at.shading * at.side()}, direction);
   else

@@ -6,6 +6,7 @@
 #include "tracer/paths/path_state.h"
 #include "tracer/paths/path_tracer.h"
 #include "tracer/paths/photon_tracing.h"
+#include "tracer/surfaces/scattered_direction.h"
 
 namespace vitrail {
 
@@ -73,8 +74,7 @@ bool PathTracer::shade_surface(Path& path) {
     pass_straight(path, at, &surface);
     return true;
   }
-  if (const double opacity = opacity_at(surface, at);
-      opacity < 1 && RandomStream(stream_of(path, RayRandom::coverage)).next() >= opacity) {
+  if (misses(path, opacity_at(surface, at))) {
     pass_straight(path, at, nullptr);
     return true;
   }
@@ -82,32 +82,62 @@ bool PathTracer::shade_surface(Path& path) {
   // Only the far face of a pane lets the wavelengths out the way they came in.
   if ((at.front || !kind.smooth_dielectric) && !leave_pane(path)) return false;
   if (surface.area_light >= 0) add_emission(path, at, static_cast<std::uint32_t>(surface.area_light));
-  const bool is_last = path.depth >= static_cast<std::uint32_t>(manifest_.settings.max_depth);
   if (kind.is_nothing(at)) {
     pass_straight(path, at, &surface);
     return true;
   }
   if (path.is(path_unrecorded)) [[unlikely]]
     record_first_surface(path, at, surface);
-  if (is_last) {
-    if (kind.smooth_dielectric && sees_through(path, at)) return scatter_dielectric(path, at, surface);
-    if (!passes_at_the_end(path, at, surface)) return false;
-    pass_straight(path, at, &surface);
-    return true;
-  }
+  if (path.depth >= static_cast<std::uint32_t>(manifest_.settings.max_depth))
+    return end_at_surface(path, at, surface, kind);
   if (kind.smooth_dielectric) return scatter_dielectric(path, at, surface);
+  return scatter_path(path, at, surface, kind);
+}
 
+// Whether a path meets nothing of a surface of which so much is there.
+bool PathTracer::misses(const Path& path, double opacity) const {
+  return opacity < 1 && RandomStream(stream_of(path, RayRandom::coverage)).next() >= opacity;
+}
+
+// A path that scatters no more: whether it goes on behind the surface.
+bool PathTracer::end_at_surface(Path& path, const Interaction& at, const Surface& surface,
+                                const MaterialKind& kind) {
+  if (kind.smooth_dielectric && sees_through(path, at)) return scatter_dielectric(path, at, surface);
+  if (!passes_at_the_end(path, at, surface)) return false;
+  pass_straight(path, at, &surface);
+  return true;
+}
+
+// Of a path or photon that scatters at the surface: the material that it meets. Null where it does not:
+// `goes_on` says whether it has passed, or ends.
+const Material* PathTracer::material_at(Path& path, const Interaction& at, const Surface& surface,
+                                        const MaterialKind& kind, bool& goes_on) const {
   RandomStream chance(stream_of(path, RayRandom::choice));
   const Material* material = scene_.materials.choose(surface.material, at, chance);
+  goes_on = !material;
   if (!material) {
     count_straight(path);
+    if (flies() && kind.sheet) pass_sheet(path);
     pass_straight(path, at, &surface);
-    return true;
+    return nullptr;
   }
   if (scene_.materials.disperses(*material, at)) path.disperse();
-  if (!scene_.materials.scatters(*material, at)) return false;
-  const Scattering scattering = scene_.materials.scattering_at(
-      *material, at, path.wavelengths, path.throughput, stream_of(path, RayRandom::layers));
+  return scene_.materials.scatters(*material, at) ? material : nullptr;
+}
+
+Scattering PathTracer::scattering_at(const Path& path, const Interaction& at,
+                                     const Material& material) const {
+  return scene_.materials.scattering_at(material, at, path.wavelengths, path.throughput,
+                                        stream_of(path, RayRandom::layers));
+}
+
+// Connects to lights, gathers what photons bring, and goes on by a sample of the BSDF.
+bool PathTracer::scatter_path(Path& path, const Interaction& at, const Surface& surface,
+                              const MaterialKind& kind) {
+  bool goes_on = false;
+  const Material* material = material_at(path, at, surface, kind, goes_on);
+  if (!material) return goes_on;
+  const Scattering scattering = scattering_at(path, at, *material);
   const Vector3d out = scattering.frame.to_local(at.out);
   const std::uint32_t candidates =
       is_specular(scattering.bsdf) ? 0 : light_candidates(path, at.p, is_diffuse(scattering.bsdf));
@@ -125,19 +155,16 @@ bool PathTracer::shade_surface(Path& path) {
     scatter_straight(path, at, surface);
     return true;
   }
-  Vector3d direction = scattering.frame.to_world(chosen->in);
-  path.throughput =
-      path.throughput * static_cast<float>(scattering.bump_shadowing(dot(direction, at.shading)));
-  if (leaves_its_side(scattering, at, out, *chosen, direction)) {
-    if (!chosen->specular || out.z * chosen->in.z <= 0) return false;
-    direction = mirrored(at);
-  }
+  const Vector3d sampled = scattering.frame.to_world(chosen->in);
+  path.throughput = path.throughput * static_cast<float>(scattering.bump_shadowing(dot(sampled, at.shading)));
+  const auto kept = kept_on_its_side(scattering, at, out, *chosen, sampled);
+  if (!kept) return false;
   path.pdf = chosen->specular ? 0 : density_beside(chosen->pdf, candidates);
   if (!chosen->specular) path.set(path_connected);
   if (!chosen->specular && !(path.pdf > 0)) return false;
   if (one_lobe && survival(path) < 1) u = numbers_for_scattering(path);
   if (!go_on(path, u[3], chosen->specular, gathered)) return false;
-  continue_from(path, at, surface, direction);
+  continue_from(path, at, surface, kept->world);
   return true;
 }
 
