@@ -143,6 +143,76 @@ Header read_header(Reader& in) {
   return h;
 }
 
+// What a header says of the arrays behind it.
+struct Arrays {
+  explicit Arrays(const Header& h)
+      : pixels(static_cast<std::uint64_t>(h.x1 - h.x0) * static_cast<std::uint64_t>(h.y1 - h.y0)),
+        layers{h.layers, (h.options & option_camera_space) != 0},
+        open_round((h.options & option_open_round) != 0),
+        planes(2 + sample_groups + static_cast<std::uint64_t>(h.bins) + sum_planes(layers) +
+               ((h.options & option_splats) != 0 ? sample_groups : 0)) {}
+
+  std::uint64_t pixels;
+  FilmLayers layers;
+  bool open_round;
+  std::uint64_t planes;  // of sums
+};
+
+// Throws unless the file has as many bytes as its header says.
+void check_size(const Reader& in, const Header& h, const Arrays& arrays) {
+  const std::uint64_t but_for_done =
+      arrays.pixels * (arrays.planes * sizeof(WideSum) + sample_groups * sizeof(std::uint32_t) +
+                       id_planes(arrays.layers) * sizeof(std::int64_t)) +
+      h.earlier_ends * std::uint64_t{sizeof(std::uint32_t)} + h.about_bytes + 6 * 8 +
+      (h.clamp > 0 ? sizeof(WideSum) : 0) +
+      (h.version == photon_version ? sizeof(PhotonKey) + 8 + 2 * photon_batches * sizeof(WideSum) : 0) +
+      (arrays.open_round ? arrays.pixels * sizeof(std::uint32_t) + 8 : 0);
+  const std::uint64_t bytes = in.size() - sizeof h;
+  if (bytes < but_for_done || (bytes - but_for_done) % 8 != 0 ||
+      (bytes - but_for_done) / 8 != words_of(h.items))
+    in.fail(fmt::format("the film file is truncated or has bytes too many: {} bytes", in.size()));
+}
+
+// Without photons where the film has none.
+PhotonKey read_photons(Reader& in, const Header& h) {
+  if (h.version != photon_version) return {};
+  std::vector<PhotonKey> photons;
+  in.read_array(photons, 1, "photons");
+  if (photons[0].photons == 0 || !(photons[0].first_radius > 0) || !std::isfinite(photons[0].first_radius) ||
+      !(photons[0].alpha > 0) || !std::isfinite(photons[0].alpha))
+    in.fail("the film file is corrupt: its photons make no sense");
+  return photons[0];
+}
+
+// All but `more`, which comes last.
+FilmProgress read_progress(Reader& in, const Header& h) {
+  FilmProgress read{
+      h.items, h.samples_per_pixel, {}, h.render_time_s, {}, {}, (h.options & option_adaptive) != 0, {}};
+  in.read_array(read.earlier_ends, h.earlier_ends, "earlier ends");
+  const auto not_ascending = [](std::uint32_t a, std::uint32_t b) { return a >= b; };
+  if (std::ranges::adjacent_find(read.earlier_ends, not_ascending) != read.earlier_ends.end() ||
+      (!read.earlier_ends.empty() && read.earlier_ends.back() >= h.samples_per_pixel))
+    in.fail("the film file is corrupt: it goes on from more samples than it has");
+  in.read_array(read.about, h.about_bytes, "description");
+  in.read_array(read.done, words_of(h.items), "progress");
+  if (h.items % 64 != 0 && read.done.back() >> (h.items % 64) != 0)
+    in.fail("the film file is corrupt: it has work done beyond its work items");
+  return read;
+}
+
+FilmKey key_of(const Header& h, const PhotonKey& photons) {
+  return {h.scene_hash,
+          h.seed,
+          h.max_depth,
+          (h.options & option_direct_only) != 0,
+          (h.options & option_straight_counts) != 0,
+          h.clamp,
+          {h.renderer, h.picture_revision},
+          std::bit_cast<float>(h.options & threshold_bits),
+          photons,
+          (h.options & option_splats) != 0};
+}
+
 }  // namespace
 
 bool FilmProgress::complete() const {
@@ -197,63 +267,23 @@ void write_film(const std::filesystem::path& file, const Film& film, const FilmP
 Film read_film(const std::filesystem::path& file, FilmProgress* progress) {
   Reader in(file);
   const Header h = read_header(in);
-  const auto pixels = static_cast<std::uint64_t>(h.x1 - h.x0) * static_cast<std::uint64_t>(h.y1 - h.y0);
-  const FilmLayers layers{h.layers, (h.options & option_camera_space) != 0};
-  const bool open_round = (h.options & option_open_round) != 0;
-  const bool splats = (h.options & option_splats) != 0;
-  const std::uint64_t planes = 2 + sample_groups + static_cast<std::uint64_t>(h.bins) + sum_planes(layers) +
-                               (splats ? sample_groups : 0);
-  const std::uint64_t arrays =
-      pixels * (planes * sizeof(WideSum) + sample_groups * sizeof(std::uint32_t) +
-                id_planes(layers) * sizeof(std::int64_t)) +
-      h.earlier_ends * std::uint64_t{sizeof(std::uint32_t)} + h.about_bytes + 6 * 8 +
-      (h.clamp > 0 ? sizeof(WideSum) : 0) +
-      (h.version == photon_version ? sizeof(PhotonKey) + 8 + 2 * photon_batches * sizeof(WideSum) : 0) +
-      (open_round ? pixels * sizeof(std::uint32_t) + 8 : 0);
-  if (in.size() - sizeof h < arrays || (in.size() - sizeof h - arrays) % 8 != 0 ||
-      (in.size() - sizeof h - arrays) / 8 != words_of(h.items))
-    in.fail(fmt::format("the film file is truncated or has bytes too many: {} bytes", in.size()));
-  FilmProgress read{
-      h.items, h.samples_per_pixel, {}, h.render_time_s, {}, {}, (h.options & option_adaptive) != 0, {}};
-  std::vector<PhotonKey> photons;
-  if (h.version == photon_version) {
-    in.read_array(photons, 1, "photons");
-    if (photons[0].photons == 0 || !(photons[0].first_radius > 0) ||
-        !std::isfinite(photons[0].first_radius) || !(photons[0].alpha > 0) ||
-        !std::isfinite(photons[0].alpha))
-      in.fail("the film file is corrupt: its photons make no sense");
-  }
-  in.read_array(read.earlier_ends, h.earlier_ends, "earlier ends");
-  const auto not_ascending = [](std::uint32_t a, std::uint32_t b) { return a >= b; };
-  if (std::ranges::adjacent_find(read.earlier_ends, not_ascending) != read.earlier_ends.end() ||
-      (!read.earlier_ends.empty() && read.earlier_ends.back() >= h.samples_per_pixel))
-    in.fail("the film file is corrupt: it goes on from more samples than it has");
-  in.read_array(read.about, h.about_bytes, "description");
-  in.read_array(read.done, words_of(h.items), "progress");
-  if (h.items % 64 != 0 && read.done.back() >> (h.items % 64) != 0)
-    in.fail("the film file is corrupt: it has work done beyond its work items");
+  const Arrays arrays(h);
+  check_size(in, h, arrays);
+  const PhotonKey photons = read_photons(in, h);
+  FilmProgress read = read_progress(in, h);
   Film film;
   film.settings_.crop = {h.x0, h.x1, h.y0, h.y1};
   film.settings_.width = h.full_width, film.settings_.height = h.full_height;
   film.settings_.imaging_ratio = h.imaging_ratio;
   film.settings_.spectrum = {h.bins, h.bins_min_nm, h.bins_max_nm};
-  film.key_ = {h.scene_hash,
-               h.seed,
-               h.max_depth,
-               (h.options & option_direct_only) != 0,
-               (h.options & option_straight_counts) != 0,
-               h.clamp,
-               {h.renderer, h.picture_revision},
-               std::bit_cast<float>(h.options & threshold_bits),
-               photons.empty() ? PhotonKey{} : photons[0],
-               splats};
+  film.settings_.layers = arrays.layers;
+  film.key_ = key_of(h, photons);
   film.exponent_ = h.exponent, film.length_exponent_ = h.length_exponent;
-  film.settings_.layers = layers;
   film.refused_ = {h.nonfinite, h.too_large};
-  in.read_array(film.sums_, planes * pixels + single_sums(film.key_), "sums");
-  in.read_array(film.counts_, sample_groups * pixels, "counts");
-  in.read_array(film.ids_, id_planes(layers) * pixels, "ids");
-  if (open_round) in.read_array(read.more, pixels, "open round");
+  in.read_array(film.sums_, arrays.planes * arrays.pixels + single_sums(film.key_), "sums");
+  in.read_array(film.counts_, sample_groups * arrays.pixels, "counts");
+  in.read_array(film.ids_, id_planes(arrays.layers) * arrays.pixels, "ids");
+  if (arrays.open_round) in.read_array(read.more, arrays.pixels, "open round");
   if (progress) *progress = std::move(read);
   return film;
 }
