@@ -94,61 +94,75 @@ MeasuredSetting Session::measure_setting(const Measurement& m, const Setting& se
   s.name = name_of(m.axes, setting);
   s.effect = effect_of(m.axes, setting);
   s.least_spp = least_spp(m.axes, setting);
-  const int spp = s.spp = std::max(asked_spp, s.least_spp);
+  s.spp = std::max(asked_spp, s.least_spp);
   s.again = std::ranges::find(m.settings, setting, &MeasuredSetting::setting) != m.settings.end();
-  const bool same_picture = s.effect == Effect::nothing;
   const bool own = s.changes() == 0;
+  const int seeds = s.effect == Effect::nothing && !own ? 1 : options_.seeds;
+  s.identical = !own && s.spp == spp_;  // until a seed shows that it is not
   std::vector<Image> pictures;
   std::vector<double> sample_s;
-  const int seeds = same_picture && !own ? 1 : options_.seeds;
-  s.identical = !own && spp == spp_;  // until a seed shows that it is not
   for (int seed = 1; seed <= seeds; ++seed) {
-    RunResult r;
-    try {  // what a machine cannot do ends the measurement, but for memory that was made scarce on purpose
-      r = run(request(m, setting, spp, seed), s.name);
-    } catch (const Error& e) {
-      s.failure = e.what();
-      return s;
-    } catch (const MachineError& e) {
-      if (!limits_memory(m.axes, setting)) throw;
-      s.failure = e.what();
-      return s;
-    }
-    sample_s.push_back(std::max(1e-9, (r.cpu_s - m.law.start_s) / spp));
-    const double count = seed;
-    s.cpu_s += (r.cpu_s - s.cpu_s) / count;
-    s.wall_s += (r.wall_s - s.wall_s) / count;
-    s.rays = r.rays;
-    s.peak_memory_bytes = std::max(s.peak_memory_bytes, r.peak_memory_bytes);
-    s.bundle_bytes = r.bundle_bytes;
-    const auto at = static_cast<std::size_t>(seed - 1);
-    if (own && spp == spp_) {
-      own_pictures_.push_back(r.picture);
-      if (seed == 1) own_hash_ = r.film_hash;
-    }
-    s.identical = s.identical && r.picture == own_pictures_[at];
-    if (same_picture && !own && r.film_hash != own_hash_)
-      throw Error("the film of '" + s.name +
-                  "' is another than that of the scene's own setting: it must not be");
-    pictures.push_back(std::move(r.picture));
+    std::optional<RunResult> r = try_run(m, s, seed);
+    if (!r) return s;
+    sample_s.push_back(std::max(1e-9, (r->cpu_s - m.law.start_s) / s.spp));
+    add_run(s, *r, seed);
+    pictures.push_back(std::move(r->picture));
   }
   s.sample_s = median(sample_s);
   s.first = pictures[0];
   s.mean = mean_picture(pictures);
+  find_error(m, s, pictures, beside);
+  return s;
+}
+
+// What a machine cannot do ends the measurement, but for memory that was made scarce on purpose: then empty,
+// and the setting has a `failure`.
+std::optional<RunResult> Session::try_run(const Measurement& m, MeasuredSetting& s, int seed) {
+  try {
+    return run(request(m, s.setting, s.spp, seed), s.name);
+  } catch (const Error& e) {
+    s.failure = e.what();
+  } catch (const MachineError& e) {
+    if (!limits_memory(m.axes, s.setting)) throw;
+    s.failure = e.what();
+  }
+  return std::nullopt;
+}
+
+// What a seed's render took, and whether its picture is that of the scene's own setting.
+void Session::add_run(MeasuredSetting& s, const RunResult& r, int seed) {
+  const double count = seed;
+  s.cpu_s += (r.cpu_s - s.cpu_s) / count;
+  s.wall_s += (r.wall_s - s.wall_s) / count;
+  s.rays = r.rays;
+  s.peak_memory_bytes = std::max(s.peak_memory_bytes, r.peak_memory_bytes);
+  s.bundle_bytes = r.bundle_bytes;
+  const bool own = s.changes() == 0;
+  if (own && s.spp == spp_) {
+    own_pictures_.push_back(r.picture);
+    if (seed == 1) own_hash_ = r.film_hash;
+  }
+  s.identical = s.identical && r.picture == own_pictures_[static_cast<std::size_t>(seed - 1)];
+  if (s.effect == Effect::nothing && !own && r.film_hash != own_hash_)
+    throw Error("the film of '" + s.name +
+                "' is another than that of the scene's own setting: it must not be");
+}
+
+// By the setting's pictures, of a seed each. Where they are those of the scene's own setting, so is all else.
+void Session::find_error(const Measurement& m, MeasuredSetting& s, const std::vector<Image>& pictures,
+                         Beside beside) {
   if (s.identical && !m.settings.empty()) {
     s.error = m.settings[0].error;
     s.mean = m.settings[0].mean;
-    if (!same_picture) s.sample_s = m.settings[0].sample_s;  // the same work
-  } else {
-    const bool noise_alone = s.effect == Effect::noise && !m.settings.empty();
-    std::span<const Image> unbiased;
-    if (!noise_alone && pictures.size() >= 2 && beside == Beside::unbiased) unbiased = unbiased_pictures(spp);
-    s.error = error_statistics(pictures, m.reference, unbiased);
-    // Its mean is that of the scene's own setting.
-    if (noise_alone)
-      s.error.bias = m.settings[0].error.bias, s.error.luminance = m.settings[0].error.luminance;
+    if (s.effect != Effect::nothing) s.sample_s = m.settings[0].sample_s;  // the same work
+    return;
   }
-  return s;
+  const bool noise_alone = s.effect == Effect::noise && !m.settings.empty();
+  std::span<const Image> unbiased;
+  if (!noise_alone && pictures.size() >= 2 && beside == Beside::unbiased) unbiased = unbiased_pictures(s.spp);
+  s.error = error_statistics(pictures, m.reference, unbiased);
+  // Its mean is that of the scene's own setting.
+  if (noise_alone) s.error.bias = m.settings[0].error.bias, s.error.luminance = m.settings[0].error.luminance;
 }
 
 // By a plan of a job that the simulator is done with soon: its efficiency, with the CPU seconds that all

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -38,6 +39,10 @@ class Session {
  private:
   enum class Beside { unbiased, reference };  // what a bias is measured against
   MeasuredSetting measure_setting(const Measurement& m, const Setting& setting, int spp, Beside beside);
+  std::optional<RunResult> try_run(const Measurement& m, MeasuredSetting& s, int seed);
+  void add_run(MeasuredSetting& s, const RunResult& r, int seed);
+  void find_error(const Measurement& m, MeasuredSetting& s, const std::vector<Image>& pictures,
+                  Beside beside);
   RunRequest request(const Measurement& m, const Setting& setting, int spp, int seed) const;
   RunResult run(const RunRequest& request, const std::string& what);
   const std::vector<Image>& unbiased_pictures(int spp);
