@@ -6,16 +6,16 @@
 #include <algorithm>
 #include <chrono>
 
-#include "farm/about.h"
-#include "farm/agreement.h"
-#include "farm/gather_profile.h"
-#include "farm/gather_timeline.h"
-#include "farm/job.h"
-#include "farm/job_report.h"
-#include "farm/rank.h"
-#include "farm/same_job.h"
-#include "farm/signals.h"
-#include "farm/workers.h"
+#include "farm/conclude/gather_profile.h"
+#include "farm/conclude/gather_timeline.h"
+#include "farm/conclude/job_report.h"
+#include "farm/files/signals.h"
+#include "farm/plan/job.h"
+#include "farm/plan/same_job.h"
+#include "farm/run/about.h"
+#include "farm/run/rank.h"
+#include "farm/run/workers.h"
+#include "farm/transport/agreement.h"
 #include "scene/system/resource_usage.h"
 #include "scene/system/say.h"
 

@@ -11,15 +11,15 @@
 
 namespace vitrail {
 
-// Which samples a film holds: bit i of `done` is work item i of `items` (see farm/work.h). A finished film
-// has all.
+// Which samples a film holds: bit i of `done` is work item i of `items` (see farm/plan/work.h). A finished
+// film has all.
 struct FilmProgress {
   std::uint64_t items = 0;
   std::uint64_t samples_per_pixel = 0;
   std::vector<std::uint64_t> done;  // ⌈items/64⌉ words
   double render_time_s = 0;
   // Ends, in samples a pixel, of renders that this one goes on from: their items come first (see
-  // farm/work.h). Ascending, below samples_per_pixel; empty once all items are done.
+  // farm/plan/work.h). Ascending, below samples_per_pixel; empty once all items are done.
   std::vector<std::uint32_t> earlier_ends;
   std::string about;  // the scene and how it is seen, as JSON, for those who read pictures; "" where unknown
   // Pixels have samples of their own numbers. `items` are then those of the round that is open alone, in

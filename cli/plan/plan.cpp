@@ -9,7 +9,7 @@
 #include "cli/common/number_checks.h"
 #include "cli/common/sizes.h"
 #include "cli/plan/plan_svg.h"
-#include "farm/memory.h"
+#include "farm/plan/memory.h"
 #include "farm/scheduler/residency.h"
 #include "farm/scheduler/round.h"
 #include "farm/simulator/simulation.h"

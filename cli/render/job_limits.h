@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "farm/options.h"
+#include "farm/plan/options.h"
 
 namespace vitrail {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "farm/options.h"
+#include "farm/plan/options.h"
 
 namespace vitrail {
 

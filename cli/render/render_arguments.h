@@ -7,7 +7,7 @@
 #include "cli/common/import_arguments.h"
 #include "cli/common/mesh_options.h"
 #include "cli/render/sample_arguments.h"
-#include "farm/options.h"
+#include "farm/plan/options.h"
 
 namespace vitrail {
 

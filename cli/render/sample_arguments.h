@@ -5,7 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
-#include "farm/sample_choices.h"
+#include "farm/plan/sample_choices.h"
 
 namespace vitrail {
 

@@ -14,7 +14,7 @@
 #include <thread>
 
 #include "cli/common/main_guard.h"
-#include "farm/output_lock.h"
+#include "farm/files/output_lock.h"
 #include "scene/system/diagnostics.h"
 #include "scene/system/say.h"
 

@@ -2,8 +2,8 @@
 #include "cli/render/temporary_bundle.h"
 
 #include "cli/common/run_program.h"
-#include "farm/agreement.h"
-#include "farm/signals.h"
+#include "farm/files/signals.h"
+#include "farm/transport/agreement.h"
 
 namespace vitrail {
 

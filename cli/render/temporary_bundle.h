@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "farm/transport.h"
+#include "farm/transport/transport.h"
 
 namespace vitrail {
 

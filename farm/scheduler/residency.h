@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which domains a rank keeps in memory: the one with the most waiting rays is loaded, the one with the fewest
-// makes room. Decisions alone; farm/resident_domains.h carries them out.
+// makes room. Decisions alone; farm/run/resident_domains.h carries them out.
 #pragma once
 
 #include <cstdint>

@@ -7,14 +7,14 @@
 #include <random>
 #include <set>
 
-#include "farm/ending_time.h"
-#include "farm/memory.h"
-#include "farm/parcel.h"
-#include "farm/queues.h"
-#include "farm/reserved_space.h"
-#include "farm/rounds.h"
+#include "farm/files/reserved_space.h"
+#include "farm/plan/ending_time.h"
+#include "farm/plan/memory.h"
+#include "farm/plan/rounds.h"
+#include "farm/plan/work.h"
+#include "farm/rays/parcel.h"
+#include "farm/rays/queues.h"
 #include "farm/scheduler/scheduler.h"
-#include "farm/work.h"
 #include "scene/system/diagnostics.h"
 #include "tests/support/temporary_directory.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "farm/film_keeper.h"
+#include "farm/files/film_keeper.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -14,7 +14,7 @@
 #include <thread>
 #include <vector>
 
-#include "farm/signals.h"
+#include "farm/files/signals.h"
 #include "scene/system/diagnostics.h"
 #include "tests/farm/machine_limits.h"
 #include "tests/support/temporary_directory.h"

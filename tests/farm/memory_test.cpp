@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "farm/memory.h"
+#include "farm/plan/memory.h"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 
-#include "farm/queues.h"
+#include "farm/rays/queues.h"
 
 namespace vitrail {
 namespace {

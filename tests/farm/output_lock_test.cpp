@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "farm/output_lock.h"
+#include "farm/files/output_lock.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>

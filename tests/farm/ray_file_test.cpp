@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "farm/ray_file.h"
+#include "farm/rays/ray_file.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>

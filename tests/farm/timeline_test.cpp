@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "farm/timeline.h"
+#include "farm/files/timeline.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "farm/gather_timeline.h"
-#include "farm/trace_events.h"
+#include "farm/conclude/gather_timeline.h"
+#include "farm/files/trace_events.h"
 #include "tests/support/command.h"
 #include "tests/support/temporary_directory.h"
 

@@ -127,11 +127,13 @@ class PathTracer {
   bool shade(Path& path);
   bool shade_surface(Path& path);
   bool misses(const Path& path, double opacity) const;
-  bool end_at_surface(Path& path, const Interaction& at, const Surface& surface, const MaterialKind& kind);
+  inline bool end_at_surface(Path& path, const Interaction& at, const Surface& surface,
+                             const MaterialKind& kind);
   const Material* material_at(Path& path, const Interaction& at, const Surface& surface,
                               const MaterialKind& kind, bool& goes_on) const;
   Scattering scattering_at(const Path& path, const Interaction& at, const Material& material) const;
-  bool scatter_path(Path& path, const Interaction& at, const Surface& surface, const MaterialKind& kind);
+  inline bool scatter_path(Path& path, const Interaction& at, const Surface& surface,
+                           const MaterialKind& kind);
   bool scatter_in_medium(Path& path, Point3d p);
   float survival(const Path& path) const;
   bool go_on(Path& path, float u, bool specular, bool gathered = false) const;
@@ -169,8 +171,9 @@ class PathTracer {
   // photon_tracing.cpp
   void begin_photon(Path& path) const;
   bool shade_photon(Path& path);
-  bool end_photon(Path& path, const Interaction& at, const Surface& surface, const MaterialKind& kind);
-  bool scatter_photon(Path& path, const Interaction& at, const Surface& surface, const MaterialKind& kind);
+  inline bool end_photon(Path& path, const Interaction& at, const Surface& surface, const MaterialKind& kind);
+  inline bool scatter_photon(Path& path, const Interaction& at, const Surface& surface,
+                             const MaterialKind& kind);
   EmittedPhoton emission_of(const Path& path) const;
   bool is_connected_to(const Path& path) const;
   std::optional<ParallelWay> parallel_way_of(const Path& path, const Interaction& at, const MetFace& face,

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+
+#include "farm/files/timeline.h"
+#include "farm/transport/transport.h"
+
+namespace vitrail {
+
+// All ranks call it, when no ray is alive; rank 0 writes what they did into one file, in turn. `origin`: rank
+// 0's, where the file's time begins.
+void write_timelines(Transport& transport, const Timeline& mine, int workers,
+                     Timeline::Clock::time_point origin, const std::filesystem::path& file);
+
+}  // namespace vitrail

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "farm/conclude/job_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "farm/run/checkpoint.h"
+#include "farm/run/progress.h"
+#include "scene/system/atomic_file.h"
+#include "scene/system/resource_usage.h"
+#include "scene/system/say.h"
+
+namespace vitrail {
+
+namespace {
+
+std::uint64_t pixels_without_samples(const Film& film) {
+  std::uint64_t none = 0;
+  for (std::uint32_t p = 0; p < film.pixels(); ++p)
+    if (film.samples(p) == 0) ++none;
+  return none;
+}
+
+double minutes(double s) { return s / 60; }
+
+// From what was done until the time limit. The first samples of a picture may be cheaper than its others.
+void print_estimate(const RenderStats& s, const Job& job, std::uint64_t samples_before) {
+  constexpr double mib = 1 << 20;
+  const std::uint64_t in_memory = job.plan.memory.domains_bytes, all_domains = job.plan.all_domains;
+  const std::uint64_t samples_in_all = std::uint64_t{job.plan.goal.samples} * job.film.pixels();
+  show("memory of a rank: {:.0f} MiB of program, film and textures, {:.0f} MiB of domains{}\n",
+       static_cast<double>(s.base_rss_bytes) / mib,
+       static_cast<double>(std::min(in_memory, all_domains)) / mib,
+       in_memory < all_domains
+           ? fmt::format(" of {:.0f}: they come and go", static_cast<double>(all_domains) / mib)
+           : "");
+  const double here = static_cast<double>(s.samples - samples_before),
+               left = static_cast<double>(samples_in_all - s.samples) + here;
+  if (left > 0 && here > 0)
+    show(
+        "time: about {:.1f} min on {} × {} threads for {:.3g} million samples, by {:.3g} million that took "
+        "{:.1f} s\n",
+        minutes(s.wall_s * left / here), s.ranks, s.threads, left * 1e-6, here * 1e-6, s.wall_s);
+}
+
+void write_stats(const std::filesystem::path& file, const RenderStats& stats) {
+  AtomicFile out(file);
+  const std::string json = to_json(stats) + "\n";
+  out.write(std::as_bytes(std::span(json)));
+  out.commit();
+}
+
+// What the picture lacks, or has too little of.
+void say_what_is_wrong(const Film& film, const Goal& goal, const RenderOptions& options,
+                       const RenderStats& stats) {
+  if (stats.ending == Ending::finished && stats.reached.upper > stats.target.value)
+    say("vitrail: the error is not reached with {} samples a pixel; --spp allows for more\n", goal.samples);
+  if (const std::uint64_t none = pixels_without_samples(film); none > 0 && writes_film(stats.ending))
+    say("vitrail: {} of {} pixels have no sample yet and are black\n", none, film.pixels());
+  if (stats.refused.nonfinite > 0)
+    say("vitrail: {} samples were not finite and count as black\n", stats.refused.nonfinite);
+  if (options.picture.clamp > 0 && !options.outputs.quiet)
+    say("vitrail: --clamp {} took {:.3g} % of the light: so much darker is the picture\n",
+        options.picture.clamp, 100 * stats.clamped_share);
+}
+
+void write_profile(const std::filesystem::path& file, const RayProfile& profile, bool whole) {
+  if (whole) return write_ray_profile(file, profile);
+  say("vitrail: {} is not written: a profile counts the rays of a whole picture, rendered without a stop\n",
+      file.string());
+}
+
+}  // namespace
+
+void add_plan(RenderStats& stats, const Job& job, const RenderOptions& options, int ranks) {
+  const Manifest& manifest = job.scene->manifest;
+  stats.ranks = ranks;
+  stats.threads = job.plan.threads;
+  stats.spectral_bins = manifest.film.spectrum.count;
+  stats.spp = static_cast<std::uint64_t>(manifest.settings.samples_per_pixel);
+  stats.seed = options.picture.seed;
+  stats.adaptive = job.plan.goal.adaptive;
+  stats.domains_total = manifest.domains.size();
+  stats.memory_budget_bytes = options.resources.memory_bytes;
+  stats.base_rss_bytes = job.plan.base_bytes;
+  stats.setup_peak_rss_bytes = job.plan.scene.peak;
+}
+
+void conclude(Job& job, const RenderOptions& options, std::uint64_t samples_before,
+              const std::optional<RayProfile>& profile, RenderStats& stats) {
+  const Film& film = job.film;
+  const Goal& goal = job.plan.goal;
+  stats.samples = film.samples();
+  if (options.outputs.dry_run) return print_estimate(stats, job, samples_before);
+  if (goal.target) {
+    stats.target = *goal.target;
+    stats.reached = reached_error(film, *goal.target);
+  }
+  stats.refused = film.refused();
+  stats.clamped_share = film.clamped_share();
+  say_what_is_wrong(film, goal, options, stats);
+  if (job.plan.key.photons.photons == 0) print_wedges(options, stats.traced);
+  stats.film_hash = film.hash();
+  print_end(options, stats, film.pixels());
+  // The film holds all that the checkpoint does.
+  if (writes_film(stats.ending)) std::filesystem::remove(checkpoint_path(options.outputs.film));
+  if (!options.outputs.stats.empty()) write_stats(options.outputs.stats, stats);
+  if (profile)
+    write_profile(options.outputs.profile, *profile, samples_before == 0 && stats.ending == Ending::finished);
+}
+
+}  // namespace vitrail

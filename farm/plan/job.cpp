@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "farm/plan/job.h"
+
+#include "farm/plan/job_manifest.h"
+#include "scene/system/resource_usage.h"
+#include "tracer/prepared/film_exponent.h"
+
+namespace vitrail {
+
+Job set_up(const RenderOptions& options, const Place& place) {
+  JobManifest read = read_job_manifest(options);
+  const std::uint64_t textures = texture_budget(read.manifest, options.resources.memory_bytes);
+  Job job;
+  job.scene = std::make_unique<RenderScene>(std::move(read.manifest), options.bundle, textures,
+                                            options.picture.seed, options.picture.samples.sampling);
+  job.scene->replaced_camera = read.replaced_camera;
+  const Manifest& m = job.scene->manifest;
+  job.plan = plan_job(m, options, place, {resident_bytes(), peak_resident_bytes(), textures});
+  job.film = Film(m.film, job.plan.key, film_exponent(*job.scene),
+                  m.film.layers.any() ? length_exponent(*job.scene) : default_exponent);
+  if (place.rank == 0 && !options.outputs.dry_run)
+    job.keeper =
+        std::make_unique<FilmKeeper>(options.outputs.film, film_file_bytes(m.film, job.plan.key.splats));
+  return job;
+}
+
+}  // namespace vitrail

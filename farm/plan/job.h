@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+
+#include "farm/files/film_keeper.h"
+#include "farm/plan/job_plan.h"
+#include "tracer/prepared/render_scene.h"
+
+namespace vitrail {
+
+// What a rank holds from the first step of a render to the last.
+struct Job {
+  std::unique_ptr<RenderScene> scene;
+  JobPlan plan;
+  Film film;
+  std::unique_ptr<FilmKeeper> keeper;  // on rank 0, unless it is a dry run
+};
+
+// Reads the bundle. What is too large for its memory is refused before it takes the memory.
+Job set_up(const RenderOptions& options, const Place& place);
+
+}  // namespace vitrail

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "farm/plan/job_manifest.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "bundle/checksum.h"
+#include "bundle/manifest_json.h"
+#include "farm/plan/film_size.h"
+#include "farm/plan/rounds.h"
+#include "scene/models/sensor_file.h"
+#include "tracer/photons/progressive.h"
+#include "tracer/rays/ray_records.h"
+
+namespace vitrail {
+
+namespace {
+
+void override_layers(Manifest& m, const PictureSettings& picture, const std::filesystem::path& bundle) {
+  const FilmLayers kept = m.film.layers;
+  if (picture.layers) m.film.layers.bits = *picture.layers;
+  if (picture.layers_in_camera_space) m.film.layers.in_camera_space = *picture.layers_in_camera_space;
+  const auto require = [&](Layer layer, bool there, const char* what) {
+    if (m.film.layers.has(layer) && !there)
+      throw Error(fmt::format("the bundle keeps no {0}: partition the scene with --aov {1}", what,
+                              kind_of(layer).name),
+                  {bundle.string()});
+  };
+  require(Layer::uv, m.requirements.uv, "(u,v), as nothing in the scene needs them");
+  require(Layer::shape, kept.has(Layer::shape), "account of which shape is which");
+}
+
+Point3d place_of(const Camera& camera) {
+  return std::visit([](const auto& c) { return transform_point(c.camera_to_world, {0, 0, 0}); }, camera);
+}
+
+// In the place of the camera, whose own is returned. They belong to what the film is of.
+Point3d put_sensors(Manifest& m, const PictureSettings& picture) {
+  if (picture.width || picture.height || picture.scale != 1 || picture.crop || picture.bins ||
+      picture.layers || picture.samples.filter)
+    throw UsageError(
+        "--sensors has no picture whose size, crop, filter, spectrum or channels could be given");
+  if (picture.clamp > 0)
+    throw UsageError("--clamp is of pictures: it would take light from what --sensors measures");
+  SensorCamera camera{translate(-m.offset), read_sensors(picture.sensors)};
+  const Point3d replaced = place_of(m.camera);
+  m.film = sensor_film(camera.sensors.size());
+  m.camera = std::move(camera);
+  m.camera_motion = {};
+  ++m.settings.max_depth;  // the sensor's own event
+  Hasher hasher;
+  hasher.add(std::as_bytes(std::span(&m.scene_hash, 1)));
+  const std::string text = camera_to_json(m.camera).dump();
+  hasher.add(std::as_bytes(std::span(text)));
+  m.scene_hash = hasher.digest();
+  return replaced;
+}
+
+void check_splat(const Manifest& m, const PictureSettings& picture) {
+  if (!picture.samples.sampling.splat) return;
+  if (picture.adaptive || picture.target_error)
+    throw UsageError(
+        "--splat makes the errors of neighbours alike, which --adaptive, --target-error and --quality take "
+        "for "
+        "independent: give --spp instead");
+  if (std::holds_alternative<SensorCamera>(m.camera))
+    throw UsageError("--splat is of pictures: sensors are no neighbours of each other");
+  const auto [x, y] =
+      std::visit([](const auto& f) { return std::pair(f.radius_x, f.radius_y); }, m.film.filter);
+  if (std::max(x, y) > greatest_splat_radius)
+    throw UsageError(fmt::format("--splat takes filters of up to {} pixels in radius, this one has {}",
+                                 greatest_splat_radius, std::max(x, y)));
+}
+
+void choose_integrator(const PictureSettings& picture, RenderSettings& s) {
+  if (picture.integrator) {
+    s.direct_only = picture.integrator == Integrator::direct;
+    if (picture.integrator != Integrator::photon)
+      s.photons.reset();
+    else if (!s.photons)
+      s.photons.emplace();
+  }
+  const PhotonSettings& given = picture.photons;
+  if (!s.photons) {
+    if (given != PhotonSettings{})
+      throw UsageError("--photons, --photon-radius and --photon-alpha are of --integrator photon");
+    return;
+  }
+  if (given.photons) s.photons->photons = given.photons;
+  if (given.first_radius) s.photons->first_radius = given.first_radius;
+  if (given.alpha) s.photons->alpha = given.alpha;
+}
+
+void override_settings(Manifest& m, const RenderOptions& options) {
+  const PictureSettings& picture = options.picture;
+  RenderSettings& s = m.settings;
+  choose_integrator(picture, s);
+  s.samples_per_pixel = static_cast<int>(goal_of(options, s).samples);
+  if (picture.max_depth) s.max_depth = *picture.max_depth;
+  if (picture.threshold > 0 && !s.direct_only)
+    throw UsageError("--threshold is of direct light alone: give --integrator direct too");
+  if (s.samples_per_pixel < 1 || static_cast<std::uint32_t>(s.samples_per_pixel) >= max_samples)
+    throw UsageError(fmt::format("samples a pixel must be between 1 and {}", max_samples - 1));
+  if (picture.target_error && s.samples_per_pixel < 4)
+    throw UsageError("an error is estimated from 4 samples a pixel or more: give --spp more than that");
+  if (s.max_depth < 0) throw UsageError("the depth must not be negative");
+}
+
+void override_film(Manifest& m, const PictureSettings& picture, const std::filesystem::path& bundle) {
+  resize_film(m, picture);
+  if (picture.crop) m.film.crop = *picture.crop;
+  if (picture.bins) m.film.spectrum = *picture.bins;
+  override_layers(m, picture, bundle);
+  apply(picture.samples, m);
+  check_splat(m, picture);
+  const PixelRect& c = m.film.crop;
+  if (c.x0 < 0 || c.y0 < 0 || c.x1 > m.film.width || c.y1 > m.film.height || c.x0 >= c.x1 || c.y0 >= c.y1)
+    throw UsageError("the crop lies outside the film or is empty");
+}
+
+}  // namespace
+
+JobManifest read_job_manifest(const RenderOptions& options) {
+  JobManifest read{read_manifest(options.bundle), std::nullopt};
+  Manifest& m = read.manifest;
+  if (m.domains.size() > max_domains) throw Error("more than 65535 domains", {options.bundle.string()});
+  set_sheets(options.picture.sheets, options.bundle, m);
+  override_settings(m, options);
+  if (!options.picture.sensors.empty()) read.replaced_camera = put_sensors(m, options.picture);
+  const bool whole_paths = !m.settings.direct_only && !m.settings.photons;
+  m.settings.max_depth = std::min(m.settings.max_depth, whole_paths ? max_path_depth : max_direct_depth);
+  override_film(m, options.picture, options.bundle);
+  return read;
+}
+
+namespace {
+
+// As the manifest's settings ask; photons = 0 where there is no photon mapping. Throws UsageError for what it
+// does not cover.
+PhotonKey photons_of(const PictureSettings& picture, const Manifest& m) {
+  if (!m.settings.photons) return {};
+  const PhotonSettings& o = *m.settings.photons;
+  if (picture.adaptive || picture.target_error)
+    throw UsageError(
+        "photon mapping, which --integrator photon or the scene asks for, takes --spp or --time; it has no "
+        "--adaptive and no --target-error: --integrator path has them");
+  if (m.requirements.media)
+    throw UsageError(
+        "--integrator photon has no photons in media, and the scene has some: --integrator path");
+  if (!picture.sensors.empty())
+    throw UsageError(
+        "the samples of --sensors would share the photons of photon mapping, and their errors could not be "
+        "told: --integrator path");
+  PhotonKey key;
+  key.photons = o.photons.value_or(default_photons(m.film));
+  key.first_radius = o.first_radius.value_or(default_radius(m, key.photons));
+  key.alpha = o.alpha.value_or(2.0 / 3);
+  return key;
+}
+
+}  // namespace
+
+FilmKey key_of(const Manifest& m, const PictureSettings& picture) {
+  FilmKey key;
+  key.scene_hash = m.scene_hash;
+  key.seed = picture.seed;
+  key.max_depth = m.settings.max_depth;
+  key.direct_only = m.settings.direct_only;
+  if (key.direct_only) key.threshold = rounded_threshold(picture.threshold);
+  key.straight_counts = m.settings.straight_counts;
+  key.clamp = picture.clamp;
+  key.splats = picture.samples.sampling.splat;
+  key.photons = photons_of(picture, m);
+  return key;
+}
+
+}  // namespace vitrail

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "farm/plan/job_plan.h"
+
+#include <algorithm>
+#include <thread>
+
+#include "farm/files/timeline.h"
+#include "farm/plan/job_manifest.h"
+#include "tracer/photons/photon_map.h"
+
+namespace vitrail {
+
+namespace {
+
+int threads_of(const RenderOptions& options) {
+  if (options.resources.threads > 0) return options.resources.threads;
+  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
+
+// Of an adaptive round's numbers, and what it takes to find them, or those of the round before beside its
+// own.
+std::uint64_t map_bytes(const PixelRect& crop) {
+  constexpr std::uint64_t held_and_more = 8, finding_them = 8;
+  return static_cast<std::uint64_t>(crop.x1 - crop.x0) * static_cast<std::uint64_t>(crop.y1 - crop.y0) *
+         (held_and_more + finding_them);
+}
+
+std::uint64_t base_bytes(const Manifest& m, const RenderOptions& options, const JobPlan& plan, int ranks) {
+  const WorkPlan work = make_work_plan(m.film.crop, plan.goal.samples, {}, plan.goal.one_by_one);
+  return plan.scene.resident + film_bytes(m.film, plan.key.splats) +
+         (plan.goal.adaptive ? map_bytes(m.film.crop) : 0) + list_bytes(work, ranks) +
+         table_bytes(m.domains.size(), plan.threads) + connection_bytes(ranks) +
+         (options.outputs.trace.empty() ? 0 : Timeline::most_bytes(ranks));
+}
+
+std::uint64_t largest_domain(const Manifest& manifest) {
+  std::uint64_t largest = 0;
+  for (std::uint32_t d = 0; d < manifest.domains.size(); ++d)
+    largest = std::max(largest, bytes_needed(manifest, d));
+  return largest;
+}
+
+// Memory for domains, rays, and photons that land.
+// What `--memory` sets aside at least for the photons that land on a rank: three of each that flies.
+std::size_t least_room(const PhotonKey& key, std::uint64_t memory_bytes) {
+  return memory_bytes == 0 ? 0 : static_cast<std::size_t>(3 * key.photons);
+}
+
+void share_out(JobPlan& plan, const RenderOptions& options, std::uint64_t largest) {
+  plan.most_photons = least_room(plan.key.photons, options.resources.memory_bytes);
+  const std::uint64_t base =
+      plan.base_bytes + plan.scene.textures + PhotonMap::photon_bytes * plan.most_photons;
+  plan.memory = plan_memory(options.resources.memory_bytes, base, plan.scene.peak, plan.threads, largest,
+                            plan.all_domains);
+  if (options.resources.domain_memory_bytes > 0)
+    plan.memory = {
+        std::max(largest, std::min(plan.memory.domains_bytes, options.resources.domain_memory_bytes)),
+        few_rays_bytes};
+  // What no domain needs is room for more landings.
+  if (plan.most_photons > 0 && plan.memory.domains_bytes > plan.all_domains) {
+    plan.most_photons += (plan.memory.domains_bytes - plan.all_domains) / PhotonMap::photon_bytes;
+    plan.memory.domains_bytes = plan.all_domains;
+  }
+}
+
+Homes homes_of(const Manifest& manifest, const RenderOptions& options, int ranks) {
+  if (options.resources.homes.empty()) return homes_by_bytes(manifest, ranks);
+  return homes_by_work(manifest, read_ray_profile(options.resources.homes), ranks);
+}
+
+}  // namespace
+
+std::uint64_t texture_budget(const Manifest& m, std::uint64_t memory_bytes) {
+  std::uint64_t all = 0;
+  for (const TextureFileEntry& t : m.texture_files) all += t.bytes;
+  all *= 2;  // tiles at an edge are smaller in the file than in memory
+  return memory_bytes == 0 ? all : std::min(all, memory_bytes / 4);
+}
+
+std::uint64_t film_file_bytes(const FilmSettings& film, bool splats) {
+  constexpr std::uint64_t header_and_words = 16 << 10;
+  const std::uint64_t sums = film_bytes(film, splats);
+  return sums + sums / 32 + header_and_words;
+}
+
+JobPlan plan_job(const Manifest& m, const RenderOptions& options, const Place& place,
+                 const SceneMemory& scene) {
+  JobPlan plan;
+  plan.threads = threads_of(options);
+  plan.goal = goal_of(options, m.settings);
+  plan.key = key_of(m, options.picture);
+  plan.scene = scene;
+  plan.base_bytes = base_bytes(m, options, plan, place.ranks);
+  plan.all_domains = bytes_of_all(m);
+  share_out(plan, options, largest_domain(m));
+  plan.homes = homes_of(m, options, place.ranks);
+  plan.queues = queue_bounds(plan.memory, place.ranks);
+  const bool in_flow = is_in_flow(m, plan.homes, options.resources.distribution, plan.memory.domains_bytes);
+  const std::int64_t rays_a_rank =
+      in_flow ? rays_allowed_in_flow(plan.threads) : rays_allowed_a_rank(plan.memory);
+  plan.scheduler = {place.ranks, plan.threads, rays_a_rank * place.ranks, place.rank};
+  return plan;
+}
+
+}  // namespace vitrail

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a job is to do and in how much memory: a function of the manifest and the options alone. Nothing is
+// traced, sent or allocated before it stands; `--dry-run` prints what came of it.
+#pragma once
+
+#include "farm/plan/memory.h"
+#include "farm/plan/options.h"
+#include "farm/plan/rounds.h"
+#include "farm/scheduler/homes.h"
+#include "farm/scheduler/scheduler.h"
+#include "film/film.h"
+
+namespace vitrail {
+
+// Which rank of how many.
+struct Place {
+  int rank = 0, ranks = 1;
+};
+
+// Bytes of this rank once the scene is read: what it holds, the most that it held, and room for tiles of
+// images that are read later.
+struct SceneMemory {
+  std::uint64_t resident = 0, peak = 0, textures = 0;
+};
+
+struct JobPlan {
+  int threads = 1;  // of this rank
+  Goal goal;
+  FilmKey key;
+  SceneMemory scene;
+  std::uint64_t base_bytes = 0;  // resident once film and tables are there, domains and rays aside
+  MemoryPlan memory;
+  std::uint64_t all_domains = 0;  // bytes
+  std::size_t most_photons = 0;   // that land here in an iteration; 0: no limit
+  Homes homes{{}, 1};
+  QueueBounds queues;
+  Scheduler::Job scheduler;
+};
+
+// For tiles of images: all of them if there is no limit (memory_bytes = 0), else a quarter of it at most.
+std::uint64_t texture_budget(const Manifest& manifest, std::uint64_t memory_bytes);
+
+// `manifest`: read_job_manifest's. Reads the profile that options.resources.homes names. Throws MachineError
+// where options.resources.memory_bytes is too little, with what would do.
+JobPlan plan_job(const Manifest& manifest, const RenderOptions& options, const Place& place,
+                 const SceneMemory& scene);
+
+// Of the file of such a film: its sums, and what it says of itself.
+std::uint64_t film_file_bytes(const FilmSettings& film, bool splats);
+
+}  // namespace vitrail

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "farm/plan/memory.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "scene/system/diagnostics.h"
+#include "tracer/rays/ray_records.h"
+
+namespace vitrail {
+
+namespace {
+
+constexpr std::uint64_t mib = 1 << 20;
+// Stacks, outboxes, buffers in flight, what the allocator keeps.
+constexpr std::uint64_t slack_bytes = 4 * mib, slack_a_thread = mib;
+constexpr std::uint64_t least_queue_bytes = 2 * mib, most_queue_bytes = 512 * mib;
+
+}  // namespace
+
+MemoryPlan plan_memory(std::uint64_t budget, std::uint64_t base, std::uint64_t peak, int threads,
+                       std::uint64_t largest_domain, std::uint64_t all_domains) {
+  if (budget == 0) return {all_domains, most_queue_bytes};
+  const std::uint64_t fixed = base + slack_bytes + slack_a_thread * static_cast<std::uint64_t>(threads);
+  const std::uint64_t least = std::max(peak, fixed + least_queue_bytes + largest_domain);
+  if (budget < least)
+    throw MachineError(
+        fmt::format("--memory {:.0f}M is too little: {:.0f}M for the program and the film, {:.0f}M for the "
+                    "largest domain and the objects in it, {:.0f}M at the highest while the scene was read; "
+                    "at least {:.0f}M is needed, or more domains",
+                    static_cast<double>(budget) / mib, static_cast<double>(fixed) / mib,
+                    static_cast<double>(largest_domain) / mib, static_cast<double>(peak) / mib,
+                    static_cast<double>(least + mib - 1) / mib));
+  const std::uint64_t free = budget - fixed;
+  const std::uint64_t queues =
+      std::clamp(free / 5, least_queue_bytes, std::min(most_queue_bytes, free - largest_domain));
+  return {free - queues, queues};
+}
+
+QueueBounds queue_bounds(const MemoryPlan& plan, int ranks) {
+  if (ranks == 1) return {plan.queue_bytes, 0, 0};
+  return {plan.queue_bytes / 2, plan.queue_bytes / 4, plan.queue_bytes / 4};
+}
+
+std::uint64_t table_bytes(std::uint64_t domains, int threads) {
+  constexpr std::uint64_t a_domain = 400, of_a_resident_table = 24;
+  return domains * (a_domain + of_a_resident_table * static_cast<std::uint64_t>(threads + 2));
+}
+
+std::uint64_t connection_bytes(int ranks) {
+  constexpr std::uint64_t a_rank = 64 << 10;
+  return a_rank * static_cast<std::uint64_t>(ranks - 1);
+}
+
+std::int64_t rays_allowed_in_flow(int threads) {
+  constexpr std::int64_t a_thread = 4096;  // some milliseconds of its work
+  return a_thread * threads;
+}
+
+std::int64_t rays_allowed_a_rank(const MemoryPlan& plan) {
+  // The more rays wait, the more of them a domain that is loaded serves; a pause waits for all of them. A
+  // growing batch holds up to twice its rays, and while it is sent or received once more.
+  constexpr std::uint64_t worth_the_disk_bytes = 128 * mib;
+  return static_cast<std::int64_t>(std::max(plan.queue_bytes, worth_the_disk_bytes) /
+                                   (3 * sizeof(PathRecord)));
+}
+
+}  // namespace vitrail

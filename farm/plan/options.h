@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <functional>
+#include <optional>
+
+#include "farm/plan/sample_choices.h"
+#include "farm/plan/set_sheets.h"
+#include "farm/scheduler/residency.h"
+#include "scene/records/scene.h"
+
+namespace vitrail {
+
+enum class ProgressMode { none, bar, lines, json };
+
+// Of the picture's luminance, as film/film_noise.h has it.
+struct TargetError {
+  double value = 0;
+  bool just_noticeable = false;  // in just noticeable differences, root mean square; else relMSE
+};
+
+enum class Integrator : std::uint8_t { path, direct, photon };
+
+// What is done with a film that was written, before the program ends: so long of any film, and of its bytes.
+struct AfterFilm {
+  double s = 0, s_per_byte = 0;
+};
+
+// What the picture is: with the scene it makes the film, to the bit. Empty optionals: as the scene says.
+struct PictureSettings {
+  std::optional<int> samples_per_pixel;
+  std::optional<int> max_depth;
+  std::optional<Integrator> integrator;
+  PhotonSettings photons;            // what of them is given; refused where no photons are traced
+  double threshold = 0;              // FilmKey::threshold, where only direct light is asked for
+  std::vector<SetSheet> sheets;      // in place of the bundle's; of all ranks the same
+  std::string glazing;               // how they were asked for: "window.state=0.6"; empty: not at all
+  std::optional<int> width, height;  // one of them alone: in the scene's proportions
+  double scale = 1;                  // of both, where neither is given
+  std::filesystem::path
+      sensors;  // measured in place of the picture (scene/models/sensor_file.h); empty: none
+  std::optional<PixelRect> crop;
+  std::optional<SpectralBins> bins;
+  double clamp = 0;                     // FilmKey::clamp
+  std::optional<std::uint32_t> layers;  // bits of FilmLayers
+  std::optional<bool> layers_in_camera_space;
+  std::uint64_t seed = 0;
+  SampleChoices samples;
+  bool adaptive = false;                    // samples go where the picture is noisy
+  std::optional<TargetError> target_error;  // the render ends once this is reached
+};
+
+// What a job has, and how it takes it: nothing of it shows in the film but how many samples it has, where a
+// time limits them.
+struct JobResources {
+  std::uint64_t memory_bytes = 0;  // a rank; 0: no limit
+  int threads = 0;                 // a rank; 0: one a core
+  Distribution distribution = Distribution::automatic;
+  std::filesystem::path homes;      // a RayProfile: ranks answer for equal work; empty: for equal bytes
+  double checkpoint_every_s = 600;  // 0: only when asked by a signal
+  // From `start` to the end of what comes after the film; 0: none. The film then holds what was done. At
+  // least half of it is for tracing, and ends no sooner than with some samples.
+  double time_limit_s = 0;
+  AfterFilm after_film;
+  double stop_after_s = 0;  // from `start` on; 0: never. As if told to stop, by a TERM
+  std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
+  double patience_s = 600;  // a rank that does not answer for so long ends the job; 0: never
+  // For tests: at most this for domains, whatever memory_bytes leaves, and so little for rays that they go to
+  // the disk; 0: no such limit.
+  std::uint64_t domain_memory_bytes = 0;
+  // For tests: processes rays in an arbitrary order: no picture may depend on it.
+  std::optional<std::uint64_t> shuffle_seed;
+};
+
+// What a job writes, and says.
+struct JobOutputs {
+  std::filesystem::path film;  // where the finished film goes; the checkpoint lies beside it as FILM.partial
+  std::string scene_name;      // what the picture says that it is of; empty: nothing
+  bool dry_run = false;        // renders until the time limit, writes nothing and says what all would take
+  bool resume = false;         // says where there is nothing to go on from; going on needs no asking
+  bool force = false;          // replaces what lies under the names of film and checkpoint, whatever it is
+  // On rank 0, of each checkpoint while the render goes on; empty: nothing.
+  std::function<void(const std::filesystem::path&)> after_checkpoint;
+  std::filesystem::path stats;    // empty: none
+  std::filesystem::path profile;  // where a RayProfile of a whole picture goes; empty: none
+  std::filesystem::path trace;    // where what all threads did when goes (trace_events.h); empty: nowhere
+  ProgressMode progress = ProgressMode::none;
+  bool quiet = false;  // nothing is said but what is wrong
+};
+
+// What `vitrail render` is asked for.
+struct RenderOptions {
+  std::filesystem::path bundle;
+  PictureSettings picture;
+  JobResources resources;
+  JobOutputs outputs;
+};
+
+}  // namespace vitrail

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "farm/rays/ray_file.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <system_error>
+
+#include "scene/system/diagnostics.h"
+
+namespace vitrail {
+
+namespace {
+
+[[noreturn]] void fail(const char* what) {
+  throw MachineError(fmt::format("rays that wait cannot be {} in {}: {}; TMPDIR names another place", what,
+                                 scratch_directory().string(), std::generic_category().message(errno)));
+}
+
+off_t offset_of(RayFile::Place place) { return static_cast<off_t>(place.slot) * RayBatch::full_bytes; }
+
+}  // namespace
+
+std::filesystem::path scratch_directory() {
+  const char* chosen = std::getenv("TMPDIR");
+  return chosen && *chosen ? chosen : "/var/tmp";
+}
+
+RayFile::~RayFile() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+void RayFile::open() {
+  descriptor_ = ::open(scratch_directory().c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
+  if (descriptor_ >= 0) return;
+  // Not every file system has files without names.
+  std::string name = scratch_directory() / "vitrail-rays-XXXXXX";
+  descriptor_ = ::mkostemp(name.data(), O_CLOEXEC);
+  if (descriptor_ < 0) fail("kept");
+  ::unlink(name.c_str());
+}
+
+RayFile::Place RayFile::write(const RayBatch& batch) {
+  if (descriptor_ < 0) open();
+  Place place{slots_, static_cast<std::uint32_t>(batch.bytes().size())};
+  if (free_.empty()) {
+    ++slots_;
+  } else {
+    place.slot = free_.back();
+    free_.pop_back();
+  }
+  for (std::size_t at = 0; at < place.bytes;) {
+    const ssize_t written = ::pwrite(descriptor_, batch.bytes().data() + at, place.bytes - at,
+                                     offset_of(place) + static_cast<off_t>(at));
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) fail("written");
+    at += static_cast<std::size_t>(written);
+  }
+  written_ += place.bytes;
+  return place;
+}
+
+RayBatch RayFile::read(Place place) {
+  std::vector<std::byte> bytes(place.bytes);
+  for (std::size_t at = 0; at < place.bytes;) {
+    const ssize_t got =
+        ::pread(descriptor_, bytes.data() + at, place.bytes - at, offset_of(place) + static_cast<off_t>(at));
+    if (got < 0 && errno == EINTR) continue;
+    if (got <= 0) fail("read");
+    at += static_cast<std::size_t>(got);
+  }
+  free_.push_back(place.slot);
+  return RayBatch(std::move(bytes));
+}
+
+}  // namespace vitrail

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// Batches of rays on the disk, of this process alone: the file has no name, so it goes with the process
+// however that ends.
+#pragma once
+
+#include <filesystem>
+
+#include "farm/rays/batch.h"
+
+namespace vitrail {
+
+class RayFile {
+ public:
+  // Where a batch lies.
+  struct Place {
+    std::uint32_t slot = 0, bytes = 0;
+  };
+
+  RayFile() = default;
+  ~RayFile();
+  RayFile(const RayFile&) = delete;
+  RayFile& operator=(const RayFile&) = delete;
+
+  // Throw MachineError: the disk is full or does not answer. The file is made with the first batch.
+  Place write(const RayBatch& batch);
+  RayBatch read(Place place);  // its room is used again
+  std::uint64_t written_bytes() const { return written_; }
+
+ private:
+  void open();
+
+  int descriptor_ = -1;
+  std::uint32_t slots_ = 0;          // of RayBatch::full_bytes
+  std::vector<std::uint32_t> free_;  // of these
+  std::uint64_t written_ = 0;
+};
+
+// $TMPDIR, else /var/tmp, which is on a disk where /tmp may be in memory.
+std::filesystem::path scratch_directory();
+
+}  // namespace vitrail

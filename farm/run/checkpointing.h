@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+// When the film is written while a job goes on and at its end, and what that takes. Rank 0 has the clock.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "farm/files/film_keeper.h"
+#include "farm/run/patience.h"
+#include "farm/run/stats.h"
+
+namespace vitrail {
+
+class Checkpointing {
+ public:
+  // `about`: FilmProgress's. `keeper`: on rank 0, unless it is a dry run. `time_before_s`: render time of
+  // earlier runs.
+  Checkpointing(Transport& transport, RankState& state, const RenderOptions& options, Patience& patience,
+                FilmKeeper* keeper, std::string about, double time_before_s);
+
+  // Asks for a checkpoint or an end where one is due.
+  void watch_clock();
+  // Items are done that were not when this run began: before that no time limit ends it.
+  void has_gained() { has_gained_ = true; }
+  bool wanted() const { return wanted_; }
+  bool time_is_up() const { return time_is_up_; }
+  // From now on the job empties, so that it can be written.
+  void pause_begins() {
+    if (!pause_) pause_ = RankState::Clock::now();
+  }
+  // All ranks together, while no ray is alive; no worker begins before it is written.
+  void write_checkpoint();
+  void write_last(bool as_film);
+  // Puts the film together on rank 0 between rounds.
+  void gather();
+
+  void add_to(RenderStats& stats) const;
+
+ private:
+  bool write(const std::filesystem::path& file, bool last);
+  void expect_ending(double gather_s);
+  void work_goes_on(bool written);
+
+  Transport& transport_;
+  RankState& state_;
+  const RenderOptions& options_;
+  Patience& patience_;
+  FilmKeeper* keeper_;
+  std::string about_;
+  double time_before_s_;
+  bool wanted_ = false, time_is_up_ = false, has_gained_ = false;
+  // On rank 0, where time is limited: what is left for the film, of which the first is but for gathering.
+  double write_s_ = 0, ending_s_ = 0;
+  RankState::Clock::time_point limit_start_, last_;
+  double due_after_s_;                                   // since the last one; 0: never
+  std::optional<RankState::Clock::time_point> pause_;    // since when the job empties
+  std::uint64_t checkpoints_ = 0;                        // written or tried
+  double checkpoints_s_ = 0, longest_checkpoint_s_ = 0;  // from the pause until work goes on
+};
+
+}  // namespace vitrail

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "farm/run/photon_work.h"
+
+namespace vitrail {
+
+namespace {
+
+Point3d eye_of(const Manifest& m) {
+  const Transform& t =
+      std::visit([](const auto& camera) -> const Transform& { return camera.camera_to_world; }, m.camera);
+  return {t.m[0][3], t.m[1][3], t.m[2][3]};
+}
+
+}  // namespace
+
+PhotonWork::PhotonWork(const RenderScene& scene, const PhotonKey& key, std::size_t most_landed, Homes homes,
+                       int rank, int ranks)
+    : scene_(scene),
+      key_(key),
+      emission_(scene.lights, scene.manifest.bounds, eye_of(scene.manifest)),
+      map_(most_landed),
+      homes_(std::move(homes)),
+      rank_(rank),
+      ranks_(ranks) {
+  if (ranks > 1)
+    for (std::uint32_t d = 0; d < homes_.domains(); ++d) answers_.push_back(homes_.first(d) == rank);
+  pass_.photons = emission_.flux() > 0 ? key.photons : 0;
+  pass_.power_w_nm = pass_.photons > 0 ? emission_.flux() / static_cast<double>(pass_.photons) : 0;
+  pass_.emission = &emission_;
+  pass_.map = &map_;
+  pass_.answers = &answers_;
+}
+
+std::vector<std::uint64_t> PhotonWork::chunks_of_this_rank() const {
+  std::vector<std::uint64_t> share;
+  for (auto i = static_cast<std::uint64_t>(rank_); i < chunks(); i += static_cast<std::uint64_t>(ranks_))
+    share.push_back(i);
+  return share;
+}
+
+std::uint64_t PhotonWork::photons_in(std::uint64_t chunk) const {
+  return std::min(chunk_photons, pass_.photons - chunk * chunk_photons);
+}
+
+void PhotonWork::begin_flying(std::uint32_t iteration) {
+  map_.clear();
+  pass_.flying = true;
+  pass_.iteration = iteration;
+  pass_.radius = radius_of(key_, iteration);
+  pass_.wavelength_number = wavelength_number(scene_.seed, iteration);
+  pass_.time_number = time_number(scene_.seed, iteration);
+  pass_.wavelengths = sample_wavelengths(pass_.wavelength_number);
+  // Where a point is rounded to float decides nothing.
+  reach_ = pass_.radius * (1 + 1e-6);
+}
+
+void PhotonWork::begin_gathering() {
+  most_kept = std::max(most_kept, map_.size());
+  map_.build(pass_.radius, scene_.manifest.bounds);
+  pass_.flying = false;
+}
+
+}  // namespace vitrail

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "farm/run/progress.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <ranges>
+#include <string>
+
+#include "farm/plan/ending_time.h"
+#include "scene/system/say.h"
+
+namespace vitrail {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::chrono::milliseconds interval_of(ProgressMode mode) {
+  using namespace std::chrono_literals;
+  return mode == ProgressMode::bar ? 100ms : mode == ProgressMode::json ? 1000ms : 60000ms;
+}
+
+std::string duration(double s) {
+  if (s < 10) return fmt::format("{:.1f} s", s);
+  if (s < 90) return fmt::format("{:.0f} s", s);
+  const auto minutes = static_cast<long>(s / 60 + 0.5);
+  return minutes < 90 ? fmt::format("{} min", minutes)
+                      : fmt::format("{} h {} min", minutes / 60, minutes % 60);
+}
+
+// Standard output, which nothing else of a render writes to. Lost where that is full or nobody reads it.
+void print_json(const Json& event) {
+  const std::string line = event.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+  [[maybe_unused]] const ssize_t lost = ::write(STDOUT_FILENO, line.data(), line.size());
+}
+
+// Where there are several ranks: whether some drown in rays while others wait for them.
+std::string waiting_text(const std::vector<RankReport>& ranks) {
+  if (ranks.size() < 2) return {};
+  const auto [least, most] = std::ranges::minmax(ranks | std::views::transform(&RankReport::waiting));
+  return fmt::format("{} to {} krays wait on a rank, ", least / 1000, most / 1000);
+}
+
+std::vector<std::int64_t> by_rank(const Round& round, std::int64_t RankReport::*number) {
+  std::vector<std::int64_t> numbers;
+  for (const RankReport& rank : round.ranks) numbers.push_back(rank.*number);
+  return numbers;
+}
+
+const char* word(Ending ending) {
+  return ending == Ending::finished     ? "finished"
+         : ending == Ending::time_is_up ? "time is up"
+                                        : "interrupted";
+}
+
+}  // namespace
+
+Progress::Progress(const RenderOptions& options, int rank, const Film& film, double samples)
+    : mode_(rank == 0 ? options.outputs.progress : ProgressMode::none),
+      time_limit_s_(options.resources.time_limit_s),
+      pixels_(static_cast<double>(film.pixels())),
+      samples_(samples),
+      samples_before_(static_cast<double>(film.samples()) / pixels_),
+      start_(std::chrono::steady_clock::now()),
+      limit_start_(limit_start(options, start_)),
+      last_(start_) {}
+
+void Progress::show(const Round& round) {
+  if (mode_ == ProgressMode::none) return;
+  const auto now = std::chrono::steady_clock::now();
+  if (now - last_ < interval_of(mode_)) return;
+  last_ = now;
+  print(round, std::chrono::duration<double>(now - start_).count());
+}
+
+double Progress::remaining_s(double done, double elapsed_s) const {
+  const double here = done - samples_before_ / samples_;
+  const double left_s = here > 0 ? elapsed_s * (1 - done) / here : 0;
+  if (time_limit_s_ <= 0) return left_s;
+  const double before_s = std::chrono::duration<double>(start_ - limit_start_).count();
+  const double until_limit_s = std::max(0.0, time_limit_s_ - before_s - elapsed_s);
+  return here > 0 ? std::min(left_s, until_limit_s) : until_limit_s;
+}
+
+void Progress::print(const Round& round, double elapsed_s) {
+  const RoundSums& sums = round.sums;
+  const double done =
+      std::min(1.0, (samples_before_ + static_cast<double>(sums.samples) / pixels_) / samples_);
+  const double left_s = remaining_s(done, elapsed_s);
+  const double rate = elapsed_s > 0 ? static_cast<double>(sums.rays_traced) / elapsed_s : 0;
+  if (mode_ == ProgressMode::json)
+    return print_json({{"event", "progress"},
+                       {"progress", done},
+                       {"samples_per_pixel", samples_ * done},
+                       {"elapsed_s", elapsed_s},
+                       {"remaining_s", left_s},
+                       {"rays", sums.rays_traced},
+                       {"rays_waiting", sums.born - sums.died},
+                       {"rays_waiting_by_rank", by_rank(round, &RankReport::waiting)},
+                       {"resident_domains_by_rank", by_rank(round, &RankReport::resident)},
+                       {"domain_loads", sums.domain_loads}});
+  if (mode_ == ProgressMode::lines) {
+    say("vitrail: {:.1f} % after {}, {:.4g} of {} samples a pixel, {:.2f} Mray/s, {}{} left\n", 100 * done,
+        duration(elapsed_s), samples_ * done, samples_, rate * 1e-6, waiting_text(round.ranks),
+        duration(left_s));
+    return;
+  }
+  constexpr int width = 32;
+  const int filled = static_cast<int>(done * width);
+  say_over("render [{}{}] {:5.1f} %  {:.2f} Mray/s  {}{} left",
+           std::string(static_cast<std::size_t>(filled), '#'),
+           std::string(static_cast<std::size_t>(width - filled), ' '), 100 * done, rate * 1e-6,
+           waiting_text(round.ranks), duration(left_s));
+  line_open_ = true;
+}
+
+void Progress::finish() {
+  if (line_open_) say_over("");
+  line_open_ = false;
+}
+
+namespace {
+
+std::string text_of(const TargetError& target) {
+  return fmt::format("{:g}{}", target.value, target.just_noticeable ? "jnd" : "");
+}
+
+// What the render is after.
+std::string text_of(const Goal& goal) {
+  const std::string samples =
+      fmt::format("{} samples {}", goal.samples, goal.adaptive ? "a pixel on the average" : "each");
+  if (!goal.target) return samples;
+  return fmt::format("to an error of {}, at most {}", text_of(*goal.target), samples);
+}
+
+}  // namespace
+
+void print_start(const RenderOptions& options, const Manifest& m, const Goal& goal, int ranks, int threads) {
+  const auto now = std::chrono::steady_clock::now();
+  if (options.resources.time_limit_s > 0 && !options.outputs.quiet &&
+      limit_start(options, now) > options.resources.start)
+    say("vitrail: {} of --time {} went by before tracing began: tracing has half of it all the same; "
+        "partition once, and render the bundle, to spare that time\n",
+        duration(std::chrono::duration<double>(now - options.resources.start).count()),
+        options.resources.time_limit_s);
+  if (options.outputs.progress != ProgressMode::lines) return;
+  const PixelRect& c = m.film.crop;
+  say("vitrail: rendering {} × {} pixels, {}, {} domains, {} × {} threads\n", c.x1 - c.x0, c.y1 - c.y0,
+      text_of(goal), m.domains.size(), ranks, threads);
+}
+
+void print_end(const RenderOptions& options, const RenderStats& s, std::uint64_t pixels) {
+  if (options.outputs.progress == ProgressMode::none) return;
+  const double samples = static_cast<double>(s.samples) / static_cast<double>(pixels);
+  const double progress = s.ending == Ending::finished ? 1 : samples / static_cast<double>(s.spp);
+  const std::uint64_t rays = s.traced.rays_camera + s.traced.rays_indirect + s.traced.rays_shadow;
+  if (options.outputs.progress == ProgressMode::json)
+    return print_json({{"event", "end"},
+                       {"ending", word(s.ending)},
+                       {"progress", progress},
+                       {"samples_per_pixel", samples},
+                       {"elapsed_s", s.wall_s},
+                       {"remaining_s", 0},
+                       {"rays", rays},
+                       {"film", options.outputs.film.string()},
+                       {"film_hash", fmt::format("{:016x}", s.film_hash)}});
+  if (s.finished_before || !writes_film(s.ending)) return;
+  say("vitrail: {}: {:.4g} of {} samples a pixel after {}, {:.2f} Mray/s, {:.0f} MiB a rank{}\n",
+      options.outputs.film.string(), samples, s.spp, duration(s.wall_s),
+      static_cast<double>(rays) / s.wall_s * 1e-6, static_cast<double>(s.peak_rss_bytes) / 0x1p20,
+      s.ending == Ending::time_is_up ? "; the same command goes on" : "");
+  if (options.picture.target_error)
+    say("vitrail: {}: error {:.3g}, in all likelihood below {:.3g}, where {} was asked for\n",
+        options.outputs.film.string(), s.reached.estimate, s.reached.upper,
+        text_of(*options.picture.target_error));
+}
+
+void print_wedges(const RenderOptions& options, const TraceCounters& traced) {
+  const double share =
+      static_cast<double>(traced.connections_in_wedges) / static_cast<double>(traced.connections_in_glass);
+  if (options.outputs.quiet || !(share > 0.01)) return;
+  say("vitrail: {:.3g} % of the sunlight behind glass is missing: faces of panes are up to {:.2g} rad off "
+      "parallel; --integrator photon finds it\n",
+      100 * share, 1e-9 * static_cast<double>(traced.widest_wedge_nrad));
+}
+
+}  // namespace vitrail

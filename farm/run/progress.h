@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a user sees while a picture is rendered: a bar on a terminal, a line a minute, JSON, or nothing.
+#pragma once
+
+#include <chrono>
+
+#include "bundle/manifest.h"
+#include "farm/plan/options.h"
+#include "farm/plan/rounds.h"
+#include "farm/run/stats.h"
+#include "farm/transport/transport.h"
+#include "film/film.h"
+
+namespace vitrail {
+
+class Progress {
+ public:
+  // `film`: with what earlier runs did. `samples`: a pixel, on the average, that the render is expected to
+  // take. Silent on other ranks than 0.
+  Progress(const RenderOptions& options, int rank, const Film& film, double samples);
+  void expect(double samples) { samples_ = samples; }
+  // Called as often as one likes; prints at its own pace.
+  void show(const Round& round);
+  void finish();
+
+ private:
+  void print(const Round& round, double elapsed_s);
+  double remaining_s(double done, double elapsed_s) const;
+
+  ProgressMode mode_;
+  double time_limit_s_;  // 0: none
+  double pixels_, samples_, samples_before_;
+  std::chrono::steady_clock::time_point start_, limit_start_, last_;
+  bool line_open_ = false;
+};
+
+// Before the first ray and after the last, on rank 0.
+void print_start(const RenderOptions& options, const Manifest& manifest, const Goal& goal, int ranks,
+                 int threads);
+void print_end(const RenderOptions& options, const RenderStats& stats, std::uint64_t pixels);
+// Where more than a hundredth of the sunlight in glass met faces that are not quite parallel, which only
+// photons pass.
+void print_wedges(const RenderOptions& options, const TraceCounters& traced);
+
+}  // namespace vitrail

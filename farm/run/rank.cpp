@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "farm/run/rank.h"
+
+#include <algorithm>
+#include <csignal>
+#include <thread>
+
+#include "farm/files/signals.h"
+#include "farm/transport/agreement.h"
+
+namespace vitrail {
+
+namespace {
+
+using Clock = RankState::Clock;
+using namespace std::chrono_literals;
+
+// The loop naps while nothing moves, longer and longer: a rank that spins takes the core from one that works.
+class Nap {
+ public:
+  static constexpr std::chrono::microseconds shortest = 20us, longest = 1000us;
+
+  void after_step(bool moved) {
+    if (moved) {
+      next_ = shortest;
+      return;
+    }
+    std::this_thread::sleep_for(next_);
+    next_ = std::min(next_ * 2, longest);
+  }
+
+ private:
+  std::chrono::microseconds next_ = shortest;
+};
+
+// Into the timeline, where one is recorded.
+void note_counters(const Locked&, RankState& state, std::int64_t rays_waiting, Clock::time_point& last) {
+  constexpr auto interval = 50ms;
+  const auto now = Clock::now();
+  if (!state.work.timeline || now - last < interval) return;
+  last = now;
+  const Residency& domains = state.scheduler.residency();
+  state.work.timeline->add(Timeline::Kind::counters, 0, now, now,
+                           {rays_waiting, static_cast<std::int64_t>(state.scheduler.rays_to_send()),
+                            static_cast<std::int64_t>(domains.loads() - domains.evictions()),
+                            static_cast<std::int64_t>(domains.held_bytes())});
+}
+
+// How the job ends where it is told to.
+Ending stop_of(const RoundSums& sums) {
+  if (sums.terminated > 0) return Ending::terminated;
+  if (sums.interrupted > 0) return Ending::interrupted;
+  return sums.time_is_up > 0 ? Ending::time_is_up : Ending::none;
+}
+
+}  // namespace
+
+Rank::Rank(Transport& transport, RankState& state, const RenderOptions& options, Job& job,
+           EarlierWork earlier, std::string about)
+    : transport_(transport),
+      state_(state),
+      options_(options),
+      goal_(job.plan.goal),
+      progress_(options, transport.rank(), state.film, expected_samples(state.film, goal_)),
+      phases_(state, {transport.rank(), transport.size()}, std::move(earlier.done)),
+      exchange_(transport, state, phases_, job.plan.queues.being_sent),
+      patience_(transport, state, options.resources.patience_s),
+      checkpointing_(transport, state, options, patience_, job.keeper.get(), std::move(about),
+                     earlier.render_time_s) {}
+
+Ending Rank::run() {
+  Nap nap;
+  const std::chrono::duration<double> round_interval(round_interval_s(transport_.size()));
+  Clock::time_point last_round;
+  bool in_round = false;
+  for (;;) {
+    bool moved = exchange_.move();
+    checkpointing_.watch_clock();
+    patience_.watch();
+    if (in_round) {
+      if (const auto round = transport_.finish_round()) {
+        in_round = false;
+        if (const std::optional<Ending> ending = after_round(*round)) return *ending;
+      }
+    } else if (Clock::now() - last_round >= round_interval) {
+      last_round = Clock::now();
+      join_round();
+      in_round = moved = true;
+    }
+    nap.after_step(moved);
+  }
+}
+
+void Rank::join_round() {
+  const Locked locked(state_);
+  RoundSums mine = state_.scheduler.contribution();
+  const RankReport report = state_.scheduler.report();
+  note_counters(locked, state_, report.waiting, last_counters_);
+  mine.pause = checkpointing_.wanted();
+  mine.interrupted = stop_signal() == SIGINT;
+  mine.terminated = stop_signal() == SIGTERM;
+  mine.time_is_up = checkpointing_.time_is_up();
+  if (state_.failure) (is_bad_input(state_.failure) ? mine.bad_input : mine.machine_failure) = 1;
+  const TraceCounters& c = state_.work.counters;
+  mine.samples = static_cast<std::int64_t>(c.rays_camera);
+  mine.items_done += phases_.items_done_before();
+  mine.rays_traced = static_cast<std::int64_t>(c.rays_camera + c.rays_indirect + c.rays_shadow);
+  transport_.start_round(mine, report);
+  patience_.round_begins();
+}
+
+// How the render ends, where it does.
+std::optional<Ending> Rank::after_round(const Round& round) {
+  patience_.round_ends();
+  progress_.show(round);
+  const Decision decision = decide(round);
+  if (decision == Decision::go_on) return std::nullopt;
+  patience_.round_begins();  // what follows is done by all together
+  const std::optional<Ending> ending = act_on(decision, round.sums);
+  patience_.round_ends();
+  return ending;
+}
+
+// The same on every rank, since the sums are.
+Rank::Decision Rank::decide(const Round& round) {
+  const RoundSums& sums = round.sums;
+  if (phases_.any_done(sums)) checkpointing_.has_gained();
+  if (sums.pause > 0) checkpointing_.pause_begins();
+  if (sums.bad_input + sums.machine_failure > 0) leave_failed(sums);
+  auto quiet = Scheduler::Decision::go_on;
+  {
+    const Locked locked(state_);
+    state_.scheduler.ranks_told(std::make_shared<const std::vector<RankReport>>(round.ranks));
+    quiet = state_.scheduler.decide(sums);
+  }
+  state_.work_available.notify_all();
+  exchange_.give_items();
+  if (quiet == Scheduler::Decision::go_on || phases_.begin_next(sums)) return Decision::go_on;
+  return ending_of(sums) == Ending::none ? Decision::checkpoint : Decision::end;
+}
+
+std::optional<Ending> Rank::act_on(Decision decision, const RoundSums& sums) {
+  if (decision == Decision::checkpoint) {
+    checkpointing_.write_checkpoint();
+    return std::nullopt;
+  }
+  Ending ending = ending_of(sums);
+  if (ending == Ending::finished && goal_.in_rounds) {
+    const std::optional<Ending> end = begin_next_round(stop_of(sums));
+    if (!end) return std::nullopt;
+    ending = *end;
+  }
+  if (options_.outputs.dry_run)
+    transport_.sum_to_root(state_.film.counts());
+  else
+    checkpointing_.write_last(/*as_film=*/writes_film(ending));
+  progress_.finish();
+  return ending;
+}
+
+Ending Rank::ending_of(const RoundSums& sums) const {
+  return phases_.all_done(sums) ? Ending::finished : stop_of(sums);
+}
+
+// All items of a round are done and no ray is alive. Returns how the render ends: with the last round, or
+// with `stop` where that is one; empty if another round has begun.
+std::optional<Ending> Rank::begin_next_round(Ending stop) {
+  checkpointing_.gather();
+  std::optional<NextRound> next;
+  agree(transport_, [&] {
+    if (transport_.rank() == 0) next = next_round(state_.film, goal_);
+  });
+  auto plan = agree_on_round(transport_, std::move(next), state_.film, state_.plan);
+  if (!plan) return Ending::finished;
+  if (stop != Ending::none) return stop;
+  if (transport_.rank() == 0) progress_.expect(expected_samples(state_.film, goal_));
+  phases_.begin_round(std::move(*plan));
+  return std::nullopt;
+}
+
+// Here or elsewhere. No rank may end while a message to it or from it is under way: messages sent and
+// received are counted until the sums agree.
+void Rank::leave_failed(const RoundSums& failures) {
+  {
+    const Locked locked(state_);
+    state_.finished = true;
+  }
+  state_.work_available.notify_all();
+  for (bool all_arrived = false; !all_arrived;) {
+    RoundSums mine;
+    mine.born = static_cast<std::int64_t>(exchange_.messages());
+    mine.died = static_cast<std::int64_t>(exchange_.received());
+    transport_.start_round(mine, {});
+    patience_.round_begins();
+    std::optional<Round> round;
+    while (!(round = transport_.finish_round())) {
+      patience_.watch();
+      exchange_.drop_arrivals();
+      std::this_thread::sleep_for(Nap::shortest);
+    }
+    patience_.round_ends();
+    all_arrived = round->sums.born == round->sums.died;
+  }
+  std::exception_ptr own;
+  {
+    const Locked locked(state_);
+    own = state_.failure;
+  }
+  leave(own, failures);
+}
+
+void Rank::add_to(RenderStats& stats) const {
+  stats.traced = state_.work.counters;
+  stats.load_s = state_.work.load_s;
+  stats.trace_s = state_.work.trace_s;
+  stats.idle_s = state_.work.idle_s;
+  stats.forwarded_rays = state_.scheduler.forwarded_rays();
+  stats.forwarded_bytes = exchange_.sent_bytes();
+  stats.messages = exchange_.messages();
+  stats.items_given = state_.scheduler.items_given();
+  stats.spilled_bytes = state_.queues.written_bytes() + state_.outgoing.written_bytes();
+  stats.domain_loads = state_.scheduler.residency().loads();
+  stats.evictions = state_.scheduler.residency().evictions();
+  checkpointing_.add_to(stats);
+  if (state_.photons) {
+    stats.photons_landed = state_.photons->landed;
+    stats.photons_kept = state_.photons->most_kept;
+  }
+}
+
+}  // namespace vitrail

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the threads of a rank share, under one mutex that is held for moments; tracing runs outside it.
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <exception>
+#include <mutex>
+
+#include "farm/files/timeline.h"
+#include "farm/plan/job_plan.h"
+#include "farm/plan/work.h"
+#include "farm/rays/queues.h"
+#include "farm/run/photon_work.h"
+#include "farm/run/resident_domains.h"
+#include "farm/scheduler/scheduler.h"
+#include "tracer/paths/path_tracer.h"
+
+namespace vitrail {
+
+// Items that are this rank's, of the phase at hand.
+struct ItemShare {
+  std::vector<std::uint64_t> items;  // that are not dealt, the next one last
+  std::uint64_t at = 0;              // samples of the open item that are dealt
+};
+
+// What the rank has traced so far, and where its time went.
+struct RankWork {
+  TraceCounters counters;
+  std::optional<RayTraffic> traffic;  // empty: not recorded
+  std::optional<Timeline> timeline;   // the same
+  double trace_s = 0;                 // of the processor; the others are of the clock
+  double idle_s = 0, load_s = 0;
+};
+
+// `mutex` guards all of it but the film, the scene and `begun`: functions that want it held take a Locked.
+struct RankState {
+  using Clock = std::chrono::steady_clock;
+  RankState(const RenderScene& scene, Film& film, WorkPlan work, const JobPlan& plan,
+            const RenderOptions& options);
+
+  const RenderScene& scene;
+  Film& film;
+  WorkPlan plan;  // of this round; changes while no item is in hand
+  const Clock::time_point begun = Clock::now();
+
+  std::mutex mutex;
+  std::condition_variable work_available, load_wanted;
+  Scheduler scheduler;
+  RayQueues queues;    // of local domains
+  RayQueues outgoing;  // of the others' domains
+  ResidentDomains domains;
+  ItemShare share;
+  // Bits of the items dealt that rank 0 does not hold yet; all of them on rank 0. They are done when no ray
+  // is alive.
+  std::vector<std::uint64_t> done;
+  std::optional<PhotonWork> photons;  // while they fly, the share is of their chunks
+  RankWork work;
+  bool finished = false;
+  std::exception_ptr failure;
+
+  double elapsed_s() const { return std::chrono::duration<double>(Clock::now() - begun).count(); }
+  bool photons_fly() const { return photons && photons->flying(); }
+};
+
+// Proof that a rank's mutex is held.
+class Locked {
+ public:
+  explicit Locked(RankState& state) : lock_(state.mutex) {}
+  // Runs something meanwhile without it.
+  template <class F>
+  void without(const F& something) {
+    lock_.unlock();
+    something();
+    lock_.lock();
+  }
+  void wait(std::condition_variable& of) { of.wait(lock_); }
+  void wait(std::condition_variable& of, std::chrono::milliseconds at_most) { of.wait_for(lock_, at_most); }
+
+ private:
+  std::unique_lock<std::mutex> lock_;
+};
+
+// Into the timeline, where one is recorded: what the thread that moves rays has done since `begin`.
+void note(RankState& state, Timeline::Kind kind, RankState::Clock::time_point begin,
+          const Timeline::Values& values = {});
+
+// What a thread did wrong; the first counts.
+void fail(RankState& state, std::exception_ptr why);
+
+}  // namespace vitrail

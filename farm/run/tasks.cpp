@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "farm/run/tasks.h"
+
+#include <algorithm>
+
+namespace vitrail {
+
+namespace {
+
+// Photons of the chunk that is open or next.
+void take_photons(const Locked&, RankState& s, std::uint64_t most, Task& task) {
+  const std::uint64_t chunk = s.share.items.back(), all = s.photons->photons_in(chunk);
+  const std::uint64_t first = s.share.at, end = std::min(all, first + most);
+  s.share.at = end == all ? 0 : end;
+  task.photons = true;
+  task.first = chunk * PhotonWork::chunk_photons + first;
+  task.end = chunk * PhotonWork::chunk_photons + end;
+  s.scheduler.begin_rays(end - first, end == all);
+  if (end == all) s.share.items.pop_back();
+}
+
+// Samples of the item that is open or next.
+void take_samples(const Locked&, RankState& s, std::uint64_t most, Task& task) {
+  const std::uint64_t item = s.share.items.back();
+  task.item = s.plan.item(item);
+  const std::uint64_t samples = s.plan.samples(task.item);
+  task.first = s.share.at;
+  task.end = std::min(samples, s.share.at + most);
+  s.share.at = task.end == samples ? 0 : task.end;
+  s.scheduler.begin_rays(task.end - task.first, task.end == samples);
+  if (task.end < samples) return;
+  s.share.items.pop_back();
+  s.done[item / 64] |= std::uint64_t{1} << (item % 64);
+}
+
+}  // namespace
+
+Task take_task(const Locked& locked, RankState& s) {
+  Task task;
+  task.table = s.domains.table();
+  if (s.photons && !s.photons->questions.empty()) {
+    task.work = Scheduler::Work::trace;
+    task.batch = std::move(s.photons->questions.back());
+    s.photons->questions.pop_back();
+    return task;
+  }
+  const Scheduler::Task next = s.scheduler.next_task();
+  task.work = next.work;
+  if (next.work == Scheduler::Work::trace) {
+    task.batch = s.queues.pop(next.domain);
+    s.scheduler.begin_batch(next.domain, task.batch.count());
+  } else if (next.work == Scheduler::Work::generate) {
+    (s.photons_fly() ? take_photons : take_samples)(locked, s, next.rays, task);
+  }
+  return task;
+}
+
+}  // namespace vitrail

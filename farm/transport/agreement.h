@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// Steps that all ranks take together or not at all.
+#pragma once
+
+#include <functional>
+#include <stdexcept>
+
+#include "farm/transport/transport.h"
+
+namespace vitrail {
+
+// This rank did nothing wrong, but the job ends because another one failed, and said why.
+struct OtherRankFailed : std::runtime_error {
+  explicit OtherRankFailed(bool bad_input_there)
+      : std::runtime_error("another rank failed"), bad_input(bad_input_there) {}
+  bool bad_input;
+};
+
+// Runs `step` on every rank and waits for all. If it failed anywhere, the ranks where it did throw what
+// happened, the others OtherRankFailed.
+void agree(Transport& transport, const std::function<void()>& step);
+
+// Throws `own` where it is set, OtherRankFailed elsewhere.
+[[noreturn]] void leave(std::exception_ptr own, const RoundSums& sums);
+
+// Whether it is an Error: exit status 3 rather than 4.
+bool is_bad_input(const std::exception_ptr& failure);
+
+}  // namespace vitrail

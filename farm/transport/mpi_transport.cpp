@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: Apache-2.0
+// The C interface only.
+#define OMPI_SKIP_MPICXX 1
+#include <mpi.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstdlib>
+#include <list>
+#include <thread>
+
+#include "farm/transport/transport.h"
+#include "scene/system/diagnostics.h"
+
+namespace vitrail {
+
+namespace {
+
+// Buffers of collectives are cut into parts, so that the library's own copies stay small.
+constexpr std::size_t collective_bytes = 2 << 20;
+template <class T>
+constexpr std::size_t collective_part = collective_bytes / sizeof(T);
+
+constexpr int tag_of_rays = 0, tag_of_words = 1;
+constexpr int report_values = sizeof(RankReport) / sizeof(std::int64_t);
+
+void add_wide_sums(void* from, void* to, int* count, MPI_Datatype*) {
+  for (int i = 0; i < *count; ++i) static_cast<WideSum*>(to)[i] += static_cast<const WideSum*>(from)[i];
+}
+
+class MpiTransport final : public Transport {
+ public:
+  MpiTransport(int* argc, char*** argv) {
+    // On machines with more ranks than cores a rank that spins takes the core from one that works.
+    ::setenv("OMPI_MCA_mpi_yield_when_idle", "1", 0);
+    int provided = 0;
+    MPI_Init_thread(argc, argv, MPI_THREAD_FUNNELED, &provided);
+    if (provided < MPI_THREAD_FUNNELED)
+      throw MachineError("this MPI does not allow threads beside the one that calls it");
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
+    MPI_Comm_size(MPI_COMM_WORLD, &size_);
+    reports_.resize(static_cast<std::size_t>(size_));
+    MPI_Type_contiguous(2, MPI_UINT64_T, &wide_sum_);
+    MPI_Type_commit(&wide_sum_);
+    MPI_Op_create(add_wide_sums, /*commute=*/1, &add_wide_sums_);
+  }
+  ~MpiTransport() override {
+    MPI_Op_free(&add_wide_sums_);
+    MPI_Type_free(&wide_sum_);
+    MPI_Finalize();
+  }
+
+  int rank() const override { return rank_; }
+  int size() const override { return size_; }
+
+  void send(int to, std::vector<std::byte> message) override {
+    complete_sends();
+    Sending& s = sending_.emplace_back(Sending{std::move(message), MPI_REQUEST_NULL});
+    MPI_Isend(s.message.data(), static_cast<int>(s.message.size()), MPI_BYTE, to, tag_of_rays, MPI_COMM_WORLD,
+              &s.request);
+  }
+
+  std::uint64_t sending_bytes() override {
+    complete_sends();
+    std::uint64_t bytes = 0;
+    for (const Sending& s : sending_) bytes += s.message.capacity();
+    return bytes;
+  }
+
+  std::optional<Message> receive() override {
+    complete_sends();
+    int arrived = 0;
+    MPI_Message message;
+    MPI_Status status;
+    MPI_Improbe(MPI_ANY_SOURCE, tag_of_rays, MPI_COMM_WORLD, &arrived, &message, &status);
+    if (!arrived) return std::nullopt;
+    int bytes = 0;
+    MPI_Get_count(&status, MPI_BYTE, &bytes);
+    std::vector<std::byte> buffer(static_cast<std::size_t>(bytes));
+    MPI_Mrecv(buffer.data(), bytes, MPI_BYTE, &message, MPI_STATUS_IGNORE);
+    return Message{status.MPI_SOURCE, std::move(buffer)};
+  }
+
+  void start_round(const RoundSums& mine, const RankReport& report) override {
+    mine_ = mine;
+    report_ = report;
+    MPI_Iallreduce(&mine_, &sums_, static_cast<int>(round_values), MPI_INT64_T, MPI_SUM, MPI_COMM_WORLD,
+                   &round_[0]);
+    MPI_Iallgather(&report_, report_values, MPI_INT64_T, reports_.data(), report_values, MPI_INT64_T,
+                   MPI_COMM_WORLD, &round_[1]);
+  }
+
+  std::optional<Round> finish_round() override {
+    int done = 0;
+    MPI_Testall(static_cast<int>(round_.size()), round_.data(), &done, MPI_STATUSES_IGNORE);
+    if (!done) return std::nullopt;
+    return Round{sums_, reports_};
+  }
+
+  void say(int to, Word word) override {
+    static constexpr Word words[] = {Word::are_you_there, Word::here};
+    MPI_Request request;
+    MPI_Isend(&words[static_cast<std::size_t>(word)], 1, MPI_BYTE, to, tag_of_words, MPI_COMM_WORLD,
+              &request);
+    MPI_Request_free(&request);
+  }
+
+  std::optional<std::pair<int, Word>> hear() override {
+    int arrived = 0;
+    MPI_Status status;
+    MPI_Iprobe(MPI_ANY_SOURCE, tag_of_words, MPI_COMM_WORLD, &arrived, &status);
+    if (!arrived) return std::nullopt;
+    Word word{};
+    MPI_Recv(&word, 1, MPI_BYTE, status.MPI_SOURCE, tag_of_words, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
+    return std::pair{status.MPI_SOURCE, word};
+  }
+
+  void abandon(int status) override {
+    MPI_Abort(MPI_COMM_WORLD, status);
+    std::_Exit(status);
+  }
+
+  void sum_to_root(std::span<std::int64_t> values) override { reduce(values, MPI_INT64_T, MPI_SUM); }
+  void sum_to_root(std::span<std::uint32_t> values) override { reduce(values, MPI_UINT32_T, MPI_SUM); }
+  void sum_to_root(std::span<double> values) override { reduce(values, MPI_DOUBLE, MPI_SUM); }
+  void sum_to_root(std::span<WideSum> values) override { reduce(values, wide_sum_, add_wide_sums_); }
+  void max_to_root(std::span<std::int64_t> values) override { reduce(values, MPI_INT64_T, MPI_MAX); }
+
+  void broadcast_from_root(std::span<std::uint64_t> values) override { broadcast(values, MPI_UINT64_T); }
+  void broadcast_from_root(std::span<std::uint32_t> values) override { broadcast(values, MPI_UINT32_T); }
+
+ private:
+  struct Sending {
+    std::vector<std::byte> message;
+    MPI_Request request;
+  };
+
+  void complete_sends() {
+    std::erase_if(sending_, [](Sending& s) {
+      int done = 0;
+      MPI_Test(&s.request, &done, MPI_STATUS_IGNORE);
+      return done != 0;
+    });
+  }
+
+  void wait(MPI_Request& request) const {
+    constexpr int quick_tests = 1000;
+    int done = 0;
+    for (int tests = 0;; ++tests) {
+      MPI_Test(&request, &done, MPI_STATUS_IGNORE);
+      if (done) return;
+      if (while_waiting) while_waiting();
+      if (tests > quick_tests) std::this_thread::sleep_for(std::chrono::microseconds(20));
+    }
+  }
+
+  template <class T>
+  void reduce(std::span<T> values, MPI_Datatype type, MPI_Op operation) {
+    constexpr std::size_t part = collective_part<T>;
+    for (std::size_t at = 0; at < values.size(); at += part) {
+      const int count = static_cast<int>(std::min(part, values.size() - at));
+      MPI_Request request;
+      MPI_Ireduce(rank_ == 0 ? MPI_IN_PLACE : values.data() + at, values.data() + at, count, type, operation,
+                  0, MPI_COMM_WORLD, &request);
+      wait(request);
+    }
+    // Pages that nothing was written to stay so.
+    if (rank_ != 0)
+      for (T& value : values)
+        if (!(value == T{})) value = T{};
+  }
+
+  template <class T>
+  void broadcast(std::span<T> values, MPI_Datatype type) {
+    constexpr std::size_t part = collective_part<T>;
+    for (std::size_t at = 0; at < values.size(); at += part) {
+      MPI_Request request;
+      MPI_Ibcast(values.data() + at, static_cast<int>(std::min(part, values.size() - at)), type, 0,
+                 MPI_COMM_WORLD, &request);
+      wait(request);
+    }
+  }
+
+  int rank_ = 0, size_ = 1;
+  std::list<Sending> sending_;
+  RoundSums mine_, sums_;
+  RankReport report_;
+  std::vector<RankReport> reports_;
+  std::array<MPI_Request, 2> round_{MPI_REQUEST_NULL, MPI_REQUEST_NULL};
+  MPI_Datatype wide_sum_ = MPI_DATATYPE_NULL;
+  MPI_Op add_wide_sums_ = MPI_OP_NULL;
+};
+
+}  // namespace
+
+std::unique_ptr<Transport> make_mpi_transport(int* argc, char*** argv) {
+  return std::make_unique<MpiTransport>(argc, argv);
+}
+
+}  // namespace vitrail

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <stdexcept>
+
+#include "farm/transport/transport.h"
+#include "scene/system/diagnostics.h"
+
+namespace vitrail {
+
+namespace {
+
+class SoloTransport final : public Transport {
+ public:
+  int rank() const override { return 0; }
+  int size() const override { return 1; }
+  void send(int, std::vector<std::byte>) override { throw std::logic_error("a single rank sent rays"); }
+  std::uint64_t sending_bytes() override { return 0; }
+  std::optional<Message> receive() override { return std::nullopt; }
+  void start_round(const RoundSums& mine, const RankReport& report) override { round_ = {mine, {report}}; }
+  std::optional<Round> finish_round() override { return round_; }
+  void say(int, Word) override {}
+  std::optional<std::pair<int, Word>> hear() override { return std::nullopt; }
+  void abandon(int status) override { std::_Exit(status); }
+  void sum_to_root(std::span<std::int64_t>) override {}
+  void sum_to_root(std::span<std::uint32_t>) override {}
+  void sum_to_root(std::span<double>) override {}
+  void sum_to_root(std::span<WideSum>) override {}
+  void max_to_root(std::span<std::int64_t>) override {}
+  void broadcast_from_root(std::span<std::uint64_t>) override {}
+  void broadcast_from_root(std::span<std::uint32_t>) override {}
+
+ private:
+  Round round_;
+};
+
+}  // namespace
+
+bool launched_by_mpi() {
+  constexpr const char* launchers[] = {"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK"};
+  return std::ranges::any_of(launchers, [](const char* name) { return std::getenv(name) != nullptr; });
+}
+
+namespace {
+
+// Of the step that srun started this process in; mpirun's ranks are not srun's tasks.
+int tasks_of_step() {
+  const char* tasks = std::getenv("SLURM_STEP_NUM_TASKS");
+  return tasks && !std::getenv("OMPI_COMM_WORLD_SIZE") ? std::atoi(tasks) : 1;
+}
+
+}  // namespace
+
+std::unique_ptr<Transport> make_transport(int* argc, char*** argv) {
+  std::unique_ptr<Transport> made;
+  if (launched_by_mpi())
+    made = make_mpi_transport(argc, argv);
+  else
+    made = std::make_unique<SoloTransport>();
+  if (const int tasks = tasks_of_step(); made->size() == 1 && tasks > 1)
+    throw UsageError(fmt::format(
+        "srun started {} tasks that do not know of each other, and each would render everything: start the "
+        "ranks with mpirun, or with srun --mpi=pmix where Slurm and Open MPI have it",
+        tasks));
+  return made;
+}
+
+}  // namespace vitrail
