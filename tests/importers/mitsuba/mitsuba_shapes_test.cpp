@@ -67,6 +67,7 @@ TEST_F(MitsubaOracle, GlassHasItsIndexBehindTheFront) {
 // What a ray finds of a quadric is what it finds of the same as triangles, to their distance from it.
 TEST_F(MitsubaOracle, QuadricsAreTheirTriangles) {
   Scene scene = empty_scene();
+  scene.files = {"cases"};
   Material one_sided;
   one_sided.two_sided = false;
   add_to(scene.textures, Texture{UvTexture{}, false});
@@ -101,6 +102,7 @@ TEST_F(MitsubaOracle, QuadricsAreTheirTriangles) {
     TriangleMesh mesh;
     mesh.quadric = c.quadric;
     scene.shapes.push_back({add_to(scene.meshes, mesh), material, light, 1.0f, there, i % 2 == 1});
+    scene.shapes.back().origin.line = static_cast<std::uint32_t>(i + 1);  // each is told by its place
     // From both sides of a point of it.
     const double phi = 1.1, z = c.quadric.kind == QuadricKind::disk ? 0 : 0.3,
                  rho = c.quadric.kind == QuadricKind::sphere     ? std::sqrt(1 - z * z)
