@@ -2,6 +2,7 @@
 #include "tracer/panes/pane_walk.h"
 
 #include "tracer/bsdf/local.h"
+#include "tracer/panes/parallel_faces.h"
 #include "tracer/rays/rounding.h"
 
 namespace vitrail {
@@ -27,10 +28,8 @@ ParallelWay parallel_way(Vector3d direction, bool back, Vector3d to_light, const
   // What a mirror's normal is off by counts twice.
   const double turned_by = back ? 2 * doubt_rad : 0;
   way.is_in = length(there - to_light) <= turned_by + doubt_rad + 2 * direction_rounding;
-  // The parts of index · direction along parallel faces are equal everywhere.
-  const Vector3d across = there - to_light * face.eta;  // along the normal
-  way.is_out = length(cross(across, normal)) <=
-               doubt_rad * length(across) + turned_by + direction_rounding * (1 + face.eta);
+  const OffNormal met = off_normal(there, to_light, face.eta, normal);
+  way.is_out = met.along_face <= doubt_rad * met.length + turned_by + direction_rounding * (1 + face.eta);
   if (!way.is_in && !way.is_out) {
     const Vector3d along = cross(to_light, normal);
     way.is_within = length(cross(there, normal) * face.near_index - along) <=
