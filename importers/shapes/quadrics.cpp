@@ -68,6 +68,8 @@ Profile profile_of(const Quadric& q) {
       return {0, 1, [](double t) { return Point2d{t, t}; }};
     case QuadricKind::paraboloid:
       return {std::sqrt(q.low), 1, [](double t) { return Point2d{2 * t * t, -t}; }};
+    case QuadricKind::curve:  // no surface of revolution
+      break;
   }
   return {};
 }

@@ -129,8 +129,8 @@ TEST_F(TessellateOption, PartitionAndRenderTakeIt) {
   EXPECT_EQ(input("input_triangles", " --tessellate 8"), 8 + 1100 * 48);
   EXPECT_EQ(input("input_triangles", ""), 0);
   EXPECT_EQ(input("quadrics", ""), 1101);
-  const auto hash = [&](const std::string& input, const std::string& more) {
-    const auto done = test::run(test::vitrail("render") + " " + input + " -o " + path("x.film") +
+  const auto hash = [&](const std::string& rendered, const std::string& more) {
+    const auto done = test::run(test::vitrail("render") + " " + rendered + " -o " + path("x.film") +
                                 " --force --spp 1 --stats " + path("x.json") + more);
     EXPECT_EQ(done.status, 0) << done.output;
     return test::read_json(path("x.json")).at("film_hash");

@@ -154,7 +154,9 @@ TEST(Rounds, NoneIsWithoutSamples) {
     goal.samples = static_cast<std::uint32_t>(film.samples() / film.pixels()) + 3;
     const auto next = next_round(film, goal);
     if (!next) ++over;
-    if (next) EXPECT_TRUE(std::ranges::any_of(next->more, [](std::uint32_t n) { return n > 0; })) << seed;
+    if (next) {
+      EXPECT_TRUE(std::ranges::any_of(next->more, [](std::uint32_t n) { return n > 0; })) << seed;
+    }
   }
   EXPECT_GT(over, 0) << "no film had too few samples left";
 }
@@ -307,7 +309,7 @@ TEST(Fullest, FindsMostAndFewest) {
     EXPECT_FALSE(fullest.most());
     EXPECT_FALSE(fullest.fewest());
     for (int step = 0; step < 3000; ++step) {
-      const std::uint32_t d = random() % domains;
+      const auto d = static_cast<std::uint32_t>(random() % domains);
       if (!in[d]) {
         fullest.insert(d, rays[d] = random() % 100);
         in[d] = true;

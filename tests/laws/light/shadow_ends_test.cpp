@@ -94,9 +94,10 @@ TEST(ShadowEnds, BehindGlassBeforeALamp) {
     for (const double gap : {2.5e-3, 2.5e-5, 2.5e-6}) {
       if (gap < distance * 0x1p-23) continue;
       // Nearer, the lamp, which faces the ray, would be met before the back of the glass.
-      if (gap > distance * 0x1p-20)
+      if (gap > distance * 0x1p-20) {
         EXPECT_NEAR(as_if_half_way(distance, gap, Material{DielectricMaterial{ConstantSpectrum{1.5f}}}, 0.01),
                     1, 0.05);
+      }
       EXPECT_NEAR(as_if_half_way(distance, gap, Material{thin}, 0), 1, 0.05);
     }
 }
