@@ -12,7 +12,6 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include "film/film_planes.h"
 #include "film/picture_fields.h"

@@ -3,12 +3,14 @@
 
 #include <set>
 #include <string>
+#include <tuple>
 
 #include "scene/records/scene.h"
+#include "scene/system/diagnostics.h"
 
 namespace vitrail {
 
-// What a written file does not say exactly of a scene, each message once a place.
+// What a written file does not say exactly of a scene, each message once a place and kind of record.
 class ConversionNotes {
  public:
   explicit ConversionNotes(const Scene& of) : scene(of) {}
@@ -33,7 +35,7 @@ class ConversionNotes {
 
  private:
   Diagnostics diagnostics_;
-  std::set<std::string> noted_;
+  std::set<std::tuple<std::string, std::string, RecordKind, Fidelity>> noted_;
 };
 
 }  // namespace vitrail

@@ -129,6 +129,33 @@ SheetColors colors_at_normal(const MeasuredSheet& sheet) {
   return {at_normal(sheet.reflectance), at_normal(sheet.transmittance)};
 }
 
+TabulatedSpectrum as_seen_at_whole_nm(const TabulatedSpectrum& table) {
+  if (table.samples.empty()) return table;
+  const auto first_not_below = [](double nm) { return [nm](const SpectrumSample& s) { return s[0] < nm; }; };
+  // Of two neighbours together, which share what lies between them: an end between them is none too many.
+  double off = 0, all = 0, before = 0;
+  for (std::size_t i = 0; i < table.values.size(); ++i) {
+    const double nm = lambda_min_nm + static_cast<double>(i), mean = static_cast<double>(table.values[i]);
+    const auto next = std::ranges::partition_point(table.samples, first_not_below(nm));
+    double there = 0;
+    if (next != table.samples.end() && (*next)[0] == nm)
+      there = (*next)[1];
+    else if (next != table.samples.end() && next != table.samples.begin()) {
+      const auto& [from, a] = *(next - 1);
+      const auto& [to, b] = *next;
+      there = a + (b - a) * (nm - from) / (to - from);
+    }
+    const double here = there * table.sample_factor - mean;
+    off += std::abs(before + here) / 2;
+    before = here;
+    all += std::abs(mean);
+  }
+  TabulatedSpectrum seen = table;
+  off += std::abs(before) / 2;
+  if (off > 1e-3 * all) seen.samples.clear();
+  return seen;
+}
+
 std::string digits_of(const TabulatedSpectrum& table, double sample) {
   return table.samples.empty() ? fmt::format("{}", static_cast<float>(sample)) : fmt::format("{}", sample);
 }

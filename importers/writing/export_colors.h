@@ -17,6 +17,10 @@ RGB factor_rgb(const Spectrum& factor);
 // Whether rgb gives the spectrum back: it was made of one, or is constant.
 bool is_rgb(const Spectrum& spectrum);
 
+// The table by the samples that were read, where whoever looks at them at whole nanometres alone, as pbrt
+// does of lights, finds the light that they have (within a part in a thousand); else by its values.
+TabulatedSpectrum as_seen_at_whole_nm(const TabulatedSpectrum& table);
+
 // The digits that a sample needs: a table's own values are floats.
 std::string digits_of(const TabulatedSpectrum& table, double sample);
 

@@ -48,9 +48,12 @@ void note_geometry_only(ConversionNotes& notes) {
 }
 
 void note_quadrics(const std::vector<FlatShape>& shapes, ConversionNotes& notes) {
-  for (const FlatShape& flat : shapes)
-    if (const std::optional<Quadric>& quadric = notes.scene.meshes.at(flat.shape.mesh.value).quadric)
+  std::unordered_set<const Shape*> noted;  // of many instances one shape
+  for (const FlatShape& flat : shapes) {
+    const std::optional<Quadric>& quadric = notes.scene.meshes.at(flat.shape.mesh.value).quadric;
+    if (quadric && noted.insert(&flat.shape).second)
       notes.approximated(as_triangles(*quadric), flat.shape.origin, RecordKind::shape);
+  }
 }
 
 }  // namespace vitrail

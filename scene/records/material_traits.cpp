@@ -32,7 +32,8 @@ struct Traits {
             .lobes = interface(m.roughness)};
   }
   MaterialTraits operator()(const PlasticMaterial& m) const {
-    return {.gathers = is_smooth(m.roughness), .lobes = coat(m.roughness)};
+    const bool smooth_coat = m.roughness.alpha_u == FloatParameter{0.0f};  // its only width: it is isotropic
+    return {.gathers = smooth_coat, .lobes = {smooth_coat, true}};
   }
   MaterialTraits operator()(const CoatedDiffuseMaterial& m) const {
     return {.disperses = !is_constant(m.eta),

@@ -98,7 +98,7 @@ EmittedPhoton Emission::of_light(LightRef light, double choice, const std::array
       return through_disc(-to_light, value.radiance * static_cast<float>(value.pdf > 0 ? 1 / value.pdf : 0),
                           place[0], place[1], way[2]);
     }
-    default: {
+    case LightKind::infinite: {
       const auto& record = lights_.scene.lights[lights_.infinite[light.index]];
       const auto& infinite = std::get<InfiniteLight>(record.model);
       return through_disc(uniform_direction(way[0], way[1]),
@@ -106,6 +106,7 @@ EmittedPhoton Emission::of_light(LightRef light, double choice, const std::array
                           place[1], way[2]);
     }
   }
+  return {};
 }
 
 Emission::Exit Emission::on_triangle(std::uint32_t triangle, double choice, const std::array<float, 4>& place,

@@ -11,7 +11,7 @@ namespace vitrail {
 
 // Surfaces, what shines from one point, what is infinitely far. The last has its light from everywhere alike.
 enum class LightKind : std::uint8_t { triangle, quadric, emitter, distant, environment, infinite };
-inline constexpr std::size_t light_kinds = 6;
+inline constexpr std::size_t light_kinds = static_cast<std::size_t>(LightKind::infinite) + 1;
 
 struct LightRef {
   LightKind kind = LightKind::triangle;

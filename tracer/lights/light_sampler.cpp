@@ -15,9 +15,14 @@ bool draw_slot(const LightQuery& query, const LightSampler::Slot& slot, double c
       return draw_triangle(query, slot, choice, sample);
     case LightKind::quadric:
       return draw_quadric(query, slot, sample);
-    default:
+    case LightKind::emitter:
       return draw_emitter(query, slot.light.index, sample);
+    case LightKind::distant:
+    case LightKind::environment:
+    case LightKind::infinite:
+      break;  // not in the tree
   }
+  return false;
 }
 
 bool draw_tree(const LightQuery& query, double choice, LightSample& sample) {

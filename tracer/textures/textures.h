@@ -39,8 +39,9 @@ struct TexturePoint {
 // many threads.
 class Textures {
  public:
-  // `textures` are the bundle's (partitioner/bake_textures.h) and outlive it. `budget_bytes` for tiles and
-  // the tables that find them. Throws Error for files that are damaged and textures that make no sense.
+  // `textures` are the bundle's (partitioner/appearance/bake_textures.h) and outlive it. `budget_bytes` for
+  // tiles and the tables that find them. Throws Error for files that are damaged and textures that make no
+  // sense.
   Textures(const std::vector<Texture>& textures, const std::filesystem::path& bundle,
            std::uint64_t budget_bytes);
   ~Textures();

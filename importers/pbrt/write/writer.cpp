@@ -155,7 +155,8 @@ Parameters& Parameters::texture(std::string_view name, std::string_view texture)
   return *this;
 }
 
-void Parameters::tabulated(std::string_view name, const TabulatedSpectrum& table) {
+void Parameters::tabulated(std::string_view name, const TabulatedSpectrum& read) {
+  const TabulatedSpectrum table = as_seen_at_whole_nm(read);
   list_ += fmt::format(" \"spectrum {}\" [", name);
   for (const auto& [lambda, value] : samples_of(table))
     list_ += fmt::format(" {} {}", lambda, digits_of(table, value));
@@ -209,7 +210,8 @@ Parameters& Parameters::emission(std::string_view name, const Spectrum& value) {
     return number("scale", hot->luminance);
   }
   // What was read, with the scale that gives it back: multiplied, its numbers would be others.
-  if (const auto* table = std::get_if<TabulatedSpectrum>(&value); table && !table->samples.empty()) {
+  const auto* table = std::get_if<TabulatedSpectrum>(&value);
+  if (table && !as_seen_at_whole_nm(*table).samples.empty()) {
     TabulatedSpectrum as_read = tabulate(table->samples, false);
     if (const double brightness = luminance(as_read); brightness > 0 && table->sample_factor > 0) {
       tabulated(name, as_read);

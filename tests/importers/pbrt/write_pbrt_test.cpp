@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // pbrt → Scene → pbrt → Scene gives an equal Scene: cameras, films, lights, media.
+#include <sstream>
+
 #include "images/image_files.h"
 #include "importers/images/environment_images.h"
 #include "scene/spectra/rgb_to_spectrum.h"
@@ -117,6 +119,25 @@ TEST(WritePbrt, Lights) {
         "\"float power\" 9",
         "Translate 1 2 3 LightSource \"goniometric\" \"string filename\" \"lamp.exr\" \"rgb I\" [3 2 1]"})
     expect_exact_world(light + std::string(" ") + triangle);
+}
+
+// pbrt looks at lights at whole nanometres: a line between them is written as what these have of it, a smooth
+// spectrum as it was read.
+TEST(WritePbrt, LinesOfLightsAreSeenAtWholeNanometres) {
+  const auto text_of = [](const std::vector<SpectrumSample>& samples) {
+    const TemporaryFolder folder;
+    Scene scene;
+    scene.lights.push_back(Light{PointLight{{0, 0, 0}, tabulate(samples, false)}, {}});
+    write_pbrt(scene, folder / "out.pbrt");
+    std::ostringstream text;
+    text << std::ifstream(folder / "out.pbrt").rdbuf();
+    return text.str();
+  };
+  const std::string line = text_of({{400, 0}, {546.1, 0}, {546.3, 1}, {546.5, 0}, {700, 0}});
+  EXPECT_THAT(line, testing::Not(testing::HasSubstr("546.3")));
+  EXPECT_THAT(line, testing::HasSubstr(" 545 0 546 0."));
+  EXPECT_THAT(text_of({{400.5, 1}, {550.5, 2}, {700.5, 1}}),
+              testing::HasSubstr("[ 400.5 1 550.5 2 700.5 1 ]"));
 }
 
 // pbrt-v4 reads equal-area maps alone: one bright patch stays where it is.

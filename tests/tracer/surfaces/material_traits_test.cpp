@@ -31,6 +31,8 @@ std::vector<MaterialModel> models() {
   const NormalReflectance silver{ConstantSpectrum{0.9f}};
   PlasticMaterial rough_plastic;
   rough_plastic.roughness = rough;
+  PlasticMaterial odd_plastic;  // isotropic, whatever its record says across
+  odd_plastic.roughness = {.alpha_u = 0.0f, .alpha_v = 0.2f};
   CoatedDiffuseMaterial rough_coat;
   rough_coat.roughness = rough;
   return {DiffuseMaterial{},
@@ -41,6 +43,7 @@ std::vector<MaterialModel> models() {
           ConductorMaterial{.metal = silver, .roughness = rough},
           PlasticMaterial{},
           rough_plastic,
+          odd_plastic,
           CoatedDiffuseMaterial{},
           rough_coat,
           CoatedConductorMaterial{.metal = silver},
