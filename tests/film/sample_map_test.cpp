@@ -147,8 +147,8 @@ TEST(Noise, WhatAnEdgeHidesIsUncertain) {
 // The ratio of two χ² of n degrees that is exceeded in 3 % of cases: for n = 2 it is (1 − q)/q itself, for
 // n = 1 tan²(π(½ − q/2)). Of many pixels it is less than 2.33 standard errors.
 TEST(Noise, OfFewPixelsIsHardlyKnown) {
-  const auto bound = [](int width) {
-    Film film = film_of(width, 1);
+  const auto bound = [](int count) {
+    Film film = film_of(count, 1);
     for (std::uint32_t p = 0; p < film.pixels(); ++p) put(film, p, 0.52, 0.48);
     const NoiseEstimate noise = relative_squared_error(film);
     return noise.upper() / noise.mean;
