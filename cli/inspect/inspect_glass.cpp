@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "cli/inspect/inspect.h"
+#include "scene/records/material_traits.h"
 #include "scene/shapes/deferred_mesh.h"
 #include "scene/shapes/mesh_parts.h"
 
@@ -21,13 +22,8 @@ bool is_solid_glass(const Material& material) {
 std::vector<bool> glasses_of(const Scene& scene) {
   std::vector<bool> glass;
   for (const Material& m : scene.materials) {
-    bool is = is_solid_glass(m);
-    if (const auto* blend = std::get_if<BlendMaterial>(&m.model))
-      is = glass[blend->first.value] || glass[blend->second.value];
-    if (const auto* mask = std::get_if<MaskMaterial>(&m.model)) is = glass[mask->material.value];
-    if (const auto* sides = std::get_if<TwoSidedMaterial>(&m.model))
-      is = glass[sides->front.value] || glass[sides->back.value];
-    glass.push_back(is);
+    const auto is_glass = [&](Id<Material> part) { return bool{glass[part.value]}; };
+    glass.push_back(is_solid_glass(m) || std::ranges::any_of(parts_of(m.model), is_glass));
   }
   return glass;
 }
