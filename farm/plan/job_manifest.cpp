@@ -128,8 +128,7 @@ JobManifest read_job_manifest(const RenderOptions& options) {
   set_sheets(options.picture.sheets, options.bundle, m);
   override_settings(m, options);
   if (!options.picture.sensors.empty()) read.replaced_camera = put_sensors(m, options.picture);
-  const bool whole_paths = !m.settings.direct_only && !m.settings.photons;
-  m.settings.max_depth = std::min(m.settings.max_depth, whole_paths ? max_path_depth : max_direct_depth);
+  m.settings.max_depth = std::min(m.settings.max_depth, max_path_depth);
   override_film(m, options.picture, options.bundle);
   return read;
 }

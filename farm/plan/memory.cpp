@@ -63,7 +63,7 @@ std::int64_t rays_allowed_a_rank(const MemoryPlan& plan) {
   // growing batch holds up to twice its rays, and while it is sent or received once more.
   constexpr std::uint64_t worth_the_disk_bytes = 128 * mib;
   return static_cast<std::int64_t>(std::max(plan.queue_bytes, worth_the_disk_bytes) /
-                                   (3 * sizeof(PathRecord)));
+                                   (3 * sizeof(RayRecord)));
 }
 
 }  // namespace vitrail

@@ -19,7 +19,7 @@ enum class RayKind : std::uint32_t { path, shadow, landed, question, item };
 
 template <class Record>
 constexpr RayKind kind_of() {
-  return std::is_same_v<Record, PathRecord>     ? RayKind::path
+  return std::is_same_v<Record, RayRecord>      ? RayKind::path
          : std::is_same_v<Record, ShadowRecord> ? RayKind::shadow
          : std::is_same_v<Record, Photon>       ? RayKind::landed
          : std::is_same_v<Record, Gather>       ? RayKind::question
@@ -48,7 +48,7 @@ class RayBatch {
     return bytes_.size() > header_bytes && domain() < domains && kind() <= RayKind::item &&
            (bytes_.size() - header_bytes) % record_bytes() == 0;
   }
-  bool full() const { return bytes_.size() + sizeof(PathRecord) > full_bytes; }
+  bool full() const { return bytes_.size() + sizeof(RayRecord) > full_bytes; }
 
   template <class Record>
   void append(const Record& record) {
@@ -70,7 +70,7 @@ class RayBatch {
   std::size_t record_bytes() const {
     switch (kind()) {
       case RayKind::path:
-        return sizeof(PathRecord);
+        return sizeof(RayRecord);
       case RayKind::shadow:
         return sizeof(ShadowRecord);
       case RayKind::landed:

@@ -47,7 +47,7 @@ void RayQueues::make_room() {
 void RayQueues::shuffle(RayBatch& batch) {
   switch (batch.kind()) {
     case RayKind::path:
-      std::ranges::shuffle(batch.records<PathRecord>(), *shuffle_);
+      std::ranges::shuffle(batch.records<RayRecord>(), *shuffle_);
       break;
     case RayKind::shadow:
       std::ranges::shuffle(batch.records<ShadowRecord>(), *shuffle_);

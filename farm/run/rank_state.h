@@ -14,7 +14,7 @@
 #include "farm/run/photon_work.h"
 #include "farm/run/resident_domains.h"
 #include "farm/scheduler/scheduler.h"
-#include "tracer/paths/path_tracer.h"
+#include "tracer/transport/tracer.h"
 
 namespace vitrail {
 

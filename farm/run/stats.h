@@ -5,7 +5,7 @@
 
 #include "farm/plan/rounds.h"
 #include "farm/transport/transport.h"
-#include "tracer/paths/path_tracer.h"
+#include "tracer/transport/tracing.h"
 
 namespace vitrail {
 

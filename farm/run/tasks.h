@@ -22,9 +22,10 @@ struct Task {
 // Empty task: nothing to do now.
 Task take_task(const Locked& locked, RankState& state);
 
-// `traced` is called behind every ray.
+// `traced` is called behind every ray that is given to the tracer; those that wait in it are traced in the
+// end.
 template <class Traced>
-void perform(Task& task, const WorkPlan& plan, PathTracer& tracer, const Traced& traced) {
+void perform(Task& task, const WorkPlan& plan, Tracer& tracer, const Traced& traced) {
   if (task.photons) {
     for (std::uint64_t i = task.first; i < task.end; ++i) {
       tracer.trace_photon(static_cast<std::uint32_t>(i));
@@ -47,7 +48,7 @@ void perform(Task& task, const WorkPlan& plan, PathTracer& tracer, const Traced&
     }
   };
   if (batch.kind() == RayKind::path)
-    resume_all(batch.records<PathRecord>());
+    resume_all(batch.records<RayRecord>());
   else if (batch.kind() == RayKind::question)
     for (const Gather& question : batch.records<Gather>()) {
       tracer.answer(question);

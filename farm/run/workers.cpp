@@ -44,14 +44,14 @@ void send_photons_and_questions(RankState& s, const Outbox& outbox, TraceCounter
 // Rays are counted as born before another thread or rank can see them, and as dead in the same step, so that
 // the sums of a round never miss one that is alive.
 void publish(const Locked&, RankState& s, Outbox& outbox, TraceCounters& counters) {
-  const bool more = !outbox.paths.empty() || !outbox.shadows.empty();
+  const bool more = !outbox.rays.empty() || !outbox.shadows.empty();
   send_photons_and_questions(s, outbox, counters);
   s.work.counters += counters;
   s.scheduler.count(counters.born, counters.died);
-  route(s, outbox.paths);
+  route(s, outbox.rays);
   route(s, outbox.shadows);
   counters = {};
-  outbox.paths.clear();
+  outbox.rays.clear();
   outbox.shadows.clear();
   outbox.photons.clear();
   outbox.questions.clear();
@@ -82,6 +82,7 @@ void note_idleness(const Locked&, RankState& s, int thread, std::optional<Clock:
 
 // What a worker has in hand, from task to task.
 struct Hands {
+  Wave wave;
   Outbox outbox;
   TraceCounters counters;
   std::optional<RayTraffic> traffic;
@@ -90,13 +91,15 @@ struct Hands {
 // Returns seconds of the processor.
 double trace(RankState& s, Task& task, Hands& hands) {
   const double start = thread_cpu_seconds();
-  PathTracer tracer(s.scene, task.table->views, s.film, hands.outbox, hands.counters,
-                    hands.traffic ? &*hands.traffic : nullptr, s.photons ? &s.photons->pass() : nullptr);
+  Tracer tracer({s.scene, task.table->views, s.film, hands.outbox, hands.counters,
+                 hands.traffic ? &*hands.traffic : nullptr, s.photons ? &s.photons->pass() : nullptr},
+                hands.wave);
   perform(task, s.plan, tracer, [&] {
     if (hands.outbox.size() < most_rays_in_hand) return;
     const Locked locked(s);
     publish(locked, s, hands.outbox, hands.counters);
   });
+  tracer.finish();
   task.table.reset();
   if (hands.traffic) hands.traffic->end();
   return thread_cpu_seconds() - start;

@@ -13,6 +13,7 @@
 #include "tests/support/command.h"
 #include "tests/support/render.h"
 #include "tests/support/temporary_directory.h"
+#include "tracer/transport/tracer.h"
 
 namespace vitrail::test {
 namespace {
@@ -80,11 +81,13 @@ double trace_all(const RenderScene& scene, const DomainView* view, const KernelF
   Film film(scene.manifest.film, {});
   Outbox outbox;
   TraceCounters counters;
-  PathTracer tracer(scene, ResidentViews(&view, 1), film, outbox, counters, {}, nullptr, kernel);
+  Wave wave;
+  Tracer tracer({scene, ResidentViews(&view, 1), film, outbox, counters, nullptr, nullptr, kernel}, wave);
   const double start = cpu_seconds();
   for (int y = 0; y < film.height(); ++y)
     for (int x = 0; x < film.width(); ++x)
       for (int s = 0; s < spp; ++s) tracer.trace_camera(x, y, static_cast<std::uint32_t>(s));
+  tracer.finish();
   return cpu_seconds() - start;
 }
 
@@ -166,5 +169,5 @@ int main(int argc, char** argv) {
   }
   against_the_bare_intersector(directory / "1.vit", std::min(spp, 8));
   domains_and_ranks(directory, spp);
-  fmt::print("wire: path {} B, shadow {} B\n", sizeof(PathRecord), sizeof(ShadowRecord));
+  fmt::print("wire: path {} B, shadow {} B\n", sizeof(RayRecord), sizeof(ShadowRecord));
 }

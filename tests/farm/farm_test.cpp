@@ -224,8 +224,8 @@ TEST(Queues, KeepEveryRayOfBothKinds) {
        {Case(plenty, {}), Case(plenty, 9), Case(200'000, {}), Case(200'000, 9), Case(0, 9)}) {
     RayQueues queues(3, most_bytes, seed);
     for (std::uint32_t i = 0; i < 5000; ++i) {
-      PathRecord path{};
-      path.pixel = i;
+      RayRecord path{};
+      path.path.sample.pixel = i;
       queues.push(1, path);
       ShadowRecord shadow{};
       shadow.pixel = i;
@@ -239,7 +239,7 @@ TEST(Queues, KeepEveryRayOfBothKinds) {
       EXPECT_LE(batch.bytes().size(), RayBatch::full_bytes);
       EXPECT_EQ(batch.domain(), 1u);
       if (batch.kind() == RayKind::path)
-        for (const PathRecord& r : batch.records<PathRecord>()) paths.insert(r.pixel);
+        for (const RayRecord& r : batch.records<RayRecord>()) paths.insert(r.path.sample.pixel);
       else
         for (const ShadowRecord& r : batch.records<ShadowRecord>()) shadows.insert(r.pixel);
     }
@@ -251,7 +251,7 @@ TEST(Queues, KeepEveryRayOfBothKinds) {
 
 TEST(WireSizes, FramingIncluded) {
   RayBatch paths(0, RayKind::path), shadows(0, RayKind::shadow);
-  while (!paths.full()) paths.append(PathRecord{});
+  while (!paths.full()) paths.append(RayRecord{});
   while (!shadows.full()) shadows.append(ShadowRecord{});
   EXPECT_LE(static_cast<double>(paths.bytes().size()) / static_cast<double>(paths.count()), 64);
   EXPECT_LE(static_cast<double>(shadows.bytes().size()) / static_cast<double>(shadows.count()), 48);
@@ -260,7 +260,7 @@ TEST(WireSizes, FramingIncluded) {
 TEST(Wire, WhatIsNoBatchIsSeen) {
   RayBatch batch(2, RayKind::path);
   EXPECT_FALSE(batch.is_whole(3)) << "without rays";
-  batch.append(PathRecord{});
+  batch.append(RayRecord{});
   EXPECT_TRUE(batch.is_whole(3));
   EXPECT_FALSE(batch.is_whole(2)) << "a domain that is none";
   std::vector<std::byte> bytes = batch.bytes();
@@ -272,13 +272,19 @@ TEST(Wire, WhatIsNoBatchIsSeen) {
   EXPECT_FALSE(RayBatch(std::vector<std::byte>(3)).is_whole(3));
 }
 
+RayRecord ray_of(std::uint32_t pixel) {
+  RayRecord record{};
+  record.path.sample.pixel = pixel;
+  return record;
+}
+
 TEST(Wire, AParcelHoldsItsBatches) {
   Parcel parcel;
   EXPECT_TRUE(parcel.empty());
   for (std::uint32_t domain = 0; domain < 3; ++domain) {
     RayBatch batch(domain, domain == 1 ? RayKind::shadow : RayKind::path);
     for (std::uint32_t i = 0; i <= domain; ++i)
-      domain == 1 ? batch.append(ShadowRecord{.pixel = i}) : batch.append(PathRecord{.pixel = i});
+      domain == 1 ? batch.append(ShadowRecord{.pixel = i}) : batch.append(ray_of(i));
     parcel.add(batch);
   }
   const std::vector<std::byte> message = parcel.take();

@@ -42,20 +42,20 @@ TEST(QueueBounds, DoNotDependOnDomains) {
 // A batch, even a ray, may be more than there is room for: it goes to the disk.
 TEST(QueueBounds, AreHeldWhereTheyAreSmallerThanABatch) {
   for (const std::uint64_t bytes :
-       {std::uint64_t{0}, std::uint64_t{1}, 2 * sizeof(PathRecord), std::uint64_t{RayBatch::full_bytes}}) {
+       {std::uint64_t{0}, std::uint64_t{1}, 2 * sizeof(RayRecord), std::uint64_t{RayBatch::full_bytes}}) {
     const std::uint64_t waiting = queue_bounds({0, bytes}, 2).waiting;
     RayQueues queues(1, waiting, {});
     constexpr std::uint32_t rays = 2000;
     for (std::uint32_t i = 0; i < rays; ++i) {
-      PathRecord path{};
-      path.pixel = i;
+      RayRecord path{};
+      path.path.sample.pixel = i;
       queues.push(0, path);
       ASSERT_LE(queues.held_bytes(), waiting);
     }
     std::uint64_t sum = 0, number = 0;
     while (!queues.empty(0)) {
       RayBatch batch = queues.pop(0);
-      for (const PathRecord& path : batch.records<PathRecord>()) sum += path.pixel, ++number;
+      for (const RayRecord& path : batch.records<RayRecord>()) sum += path.path.sample.pixel, ++number;
     }
     EXPECT_EQ(number, rays);
     EXPECT_EQ(sum, std::uint64_t{rays} * (rays - 1) / 2);
@@ -64,11 +64,11 @@ TEST(QueueBounds, AreHeldWhereTheyAreSmallerThanABatch) {
 
 TEST(RaysAllowed, FitThreeTimesIntoTheQueuesOrWhatTheDiskIsWorth) {
   const auto bytes = [](std::uint64_t queues) {
-    return 3 * sizeof(PathRecord) * static_cast<std::uint64_t>(rays_allowed_a_rank({0, queues}));
+    return 3 * sizeof(RayRecord) * static_cast<std::uint64_t>(rays_allowed_a_rank({0, queues}));
   };
   for (const std::uint64_t queues : {128 * mib + 1000, 200 * mib, 512 * mib, most}) {
     EXPECT_LE(bytes(queues), queues);
-    EXPECT_GT(bytes(queues), queues - 3 * sizeof(PathRecord));
+    EXPECT_GT(bytes(queues), queues - 3 * sizeof(RayRecord));
   }
   for (const std::uint64_t queues : {std::uint64_t{0}, std::uint64_t{1}, few_rays_bytes, 128 * mib})
     EXPECT_EQ(bytes(queues), bytes(128 * mib)) << "the others wait on the disk";

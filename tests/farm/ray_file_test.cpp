@@ -23,15 +23,15 @@ using ::testing::HasSubstr;
 RayBatch batch_of(std::uint32_t first, std::size_t rays, std::uint32_t domain = 0) {
   RayBatch batch(domain, RayKind::path);
   for (std::uint32_t i = 0; i < rays; ++i) {
-    PathRecord path{};
-    path.pixel = first + i;
+    RayRecord path{};
+    path.path.sample.pixel = first + i;
     batch.append(path);
   }
   return batch;
 }
 
 RayBatch full_batch(std::uint32_t first) {
-  RayBatch batch = batch_of(first, (RayBatch::full_bytes - RayBatch::header_bytes) / sizeof(PathRecord));
+  RayBatch batch = batch_of(first, (RayBatch::full_bytes - RayBatch::header_bytes) / sizeof(RayRecord));
   EXPECT_TRUE(batch.full());
   return batch;
 }

@@ -208,13 +208,13 @@ Background background(const LightSampler& sampler, Vector3d direction, const Sam
 // Radiance of the suns among the distant lights where a ray leaves the scene through their discs.
 SampledSpectrum discs(const LightSampler& sampler, Vector3d direction, const SampledWavelengths& wavelengths);
 
-// Whether `accept` any of the directions to distant lights whose numbers (LightSampler::Distant::light) end
-// on these 16 bits. `far` as of sample_light.
+// Whether `accept` any of the directions to distant lights whose numbers (LightSampler::Distant::light) are
+// `bits` where `mask` is set. `far` as of sample_light.
 template <class Accept>
-bool any_distant_light(const LightSampler& sampler, std::uint32_t bits, const std::array<float, 2>& far,
-                       Accept&& accept) {
+bool any_distant_light(const LightSampler& sampler, std::uint32_t bits, std::uint32_t mask,
+                       const std::array<float, 2>& far, Accept&& accept) {
   for (const LightSampler::Distant& d : sampler.distant)
-    if ((d.light & 0xffff) == bits && accept(d.to_light(far[0], far[1]))) return true;
+    if ((d.light & mask) == bits && accept(d.to_light(far[0], far[1]))) return true;
   return false;
 }
 

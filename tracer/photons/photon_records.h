@@ -2,6 +2,7 @@
 // What photon mapping keeps and sends beside rays. Packed, trivially copyable, little-endian.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <type_traits>
 
@@ -20,6 +21,10 @@ struct Photon {
   std::uint16_t depth = 0;  // scatterings before; with the bit of `dispersed` where only its hero is left
 
   static constexpr std::uint16_t most_depth = 0x7fff, dispersed = 0x8000;
+  static std::uint16_t code_of(std::uint32_t depth, bool is_dispersed) {
+    return static_cast<std::uint16_t>(std::min<std::uint32_t>(depth, most_depth) |
+                                      (is_dispersed ? dispersed : 0u));
+  }
 };
 
 // What light a point of a diffuse surface, or of one below a smooth coat, gets that photons bring, and what

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What connections carry beside what paths do: 20 bits where paths have their pdf and the face of a pane.
+// What connections to lights carry beside what every ray does.
 #pragma once
 
 #include <algorithm>
@@ -38,35 +38,40 @@ struct FaceDoubt {
 
 // Of a connection to a distant light that smooth interfaces refract: the light, and the faces' doubt.
 struct RefractedAim {
-  std::uint32_t light = 0;  // lowest 16 bits of its number
+  std::uint32_t light = 0;  // lowest bits of its number
   FaceDoubt doubt;
 
-  std::uint32_t bits() const { return (light & 0xffff) | doubt.code << 16; }
-  static RefractedAim of(std::uint32_t bits) { return {bits & 0xffff, {bits >> 16}}; }
+  static constexpr std::uint32_t light_mask = 0xfff;
+  std::uint16_t bits() const { return static_cast<std::uint16_t>((light & light_mask) | doubt.code << 12); }
+  static RefractedAim of(std::uint16_t bits) {
+    return {bits & light_mask, {static_cast<std::uint32_t>(bits) >> 12}};
+  }
 };
 
 // Of any other connection: how much earlier its ray meets the plane of its light for each length that it is
-// moved aside, the tangent of its angle to the light's normal. In the highest 4 bits.
+// moved aside, the tangent of its angle to the light's normal. In 4 bits.
 struct StraightAim {
   double slope = 0;  // rounded up, at most 2048
 
   using Slope = PowerCode<-3>;
-  std::uint32_t bits() const { return Slope::of(slope) << 16; }
-  static StraightAim of(std::uint32_t bits) { return {Slope::value(bits >> 16)}; }
+  std::uint32_t bits() const { return Slope::of(slope); }
+  static StraightAim of(std::uint32_t bits) { return {Slope::value(bits)}; }
 };
 
-// What such a connection has left, rounded down to 32 bits of mantissa, in 40 bits with 8 of exponent above
+// What such a connection has left, rounded down to 28 bits of mantissa, in 36 bits with 8 of exponent above
 // them. 0 of less than 2⁻¹²⁶; ∞, of lights infinitely far, stays ∞, and so does what is beyond 2¹²⁸.
-inline constexpr std::uint64_t endless_code = std::uint64_t{0xff} << 32;
+inline constexpr int end_code_length = 36;
+inline constexpr std::uint64_t end_code_mask = (std::uint64_t{1} << end_code_length) - 1;
+inline constexpr std::uint64_t endless_code = std::uint64_t{0xff} << 28;
 inline std::uint64_t end_code(double left) {
   if (!(left >= 0x1p-126)) return 0;
   if (!(left < 0x1p128)) return endless_code;
-  return (std::bit_cast<std::uint64_t>(left) - (std::uint64_t{1023 - 127} << 52)) >> 20;
+  return (std::bit_cast<std::uint64_t>(left) - (std::uint64_t{1023 - 127} << 52)) >> 24;
 }
 inline double end_value(std::uint64_t code) {
   if (code == 0) return 0;
   if (code >= endless_code) return std::numeric_limits<double>::infinity();
-  return std::bit_cast<double>((code << 20) + (std::uint64_t{1023 - 127} << 52));
+  return std::bit_cast<double>((code << 24) + (std::uint64_t{1023 - 127} << 52));
 }
 
 }  // namespace vitrail

@@ -67,6 +67,7 @@ inline Vector3f decode_direction(DirectionCode code) {
 // The orientation of a face, either side: two 10-bit octahedral coordinates, to 0.24°.
 struct FaceCode {
   std::uint32_t bits = 0;
+  static constexpr int length = 20;  // in bits
 };
 
 inline FaceCode encode_face(Vector3d normal) {

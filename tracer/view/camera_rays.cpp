@@ -79,7 +79,7 @@ const Sensor& sensor_of(const SensorCamera& camera, double x) {
   return camera.sensors[static_cast<std::size_t>(std::clamp(std::floor(x), 0.0, last))];
 }
 
-// What it looks along: its samples are of the whole hemisphere (PathTracer::leave_sensor).
+// What it looks along: its samples are of the whole hemisphere (transport/sensors.h).
 LocalRay local_ray(const SensorCamera& camera, const FilmSettings&, Point2d raster, Point2d) {
   const Sensor& sensor = sensor_of(camera, raster.x);
   return {sensor.position, sensor.normal};

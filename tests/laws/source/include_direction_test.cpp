@@ -66,7 +66,7 @@ const std::map<std::string, std::vector<std::string>>& floors() {
       {"scene", {"system", "geometry", "spectra", "shapes", "records", "daylight", "models"}},
       {"tracer",
        {"sampling", "rays", "quadrics", "bsdf", "textures", "intersect", "lights", "media", "surfaces",
-        "view", "prepared", "panes", "photons", "paths"}},
+        "view", "prepared", "panes", "photons", "transport"}},
       {"farm", {"scheduler", "transport", "rays", "files", "plan", "run", "conclude", "", "simulator"}},
       {"importers",
        {"bytes", "shapes", "spectra", "reading", "writing", "images", "ply/read", "ply/write", "obj/read",

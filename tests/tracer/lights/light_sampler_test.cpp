@@ -305,10 +305,10 @@ TEST(LightSampler, KnowsDistantLightsByTheirNumbers) {
   world.add(DistantLight{-along, ConstantSpectrum{1}});
   const LightSampler s = make(world);
   const auto is = [&](Vector3d wanted) { return [=](Vector3d to_light) { return to_light == wanted; }; };
-  EXPECT_FALSE(any_distant_light(s, 0, {}, is(-along)));
-  EXPECT_TRUE(any_distant_light(s, 1, {}, is(-along)));
-  EXPECT_FALSE(any_distant_light(s, 1, {}, is(along)));
-  EXPECT_TRUE(any_distant_light(s, 2, {}, is(along)));
+  EXPECT_FALSE(any_distant_light(s, 0, 0xfff, {}, is(-along)));
+  EXPECT_TRUE(any_distant_light(s, 1, 0xfff, {}, is(-along)));
+  EXPECT_FALSE(any_distant_light(s, 1, 0xfff, {}, is(along)));
+  EXPECT_TRUE(any_distant_light(s, 2, 0xfff, {}, is(along)));
 }
 
 // Nothing that a scene can hold makes a number that is not one.

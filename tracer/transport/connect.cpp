@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tracer/transport/connect.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "scene/geometry/portable_math.h"
+#include "tracer/media/phase.h"
+#include "tracer/quadrics/quadric_hits.h"
+#include "tracer/quadrics/quadric_surface.h"
+#include "tracer/rays/connection_code.h"
+#include "tracer/rays/rounding.h"
+#include "tracer/transport/connection.h"
+
+namespace vitrail {
+
+namespace {
+
+// A connection's ray: coded, and as far as it goes, in lengths of its direction; ∞ where its light is.
+struct Aimed {
+  DirectionCode direction;
+  Vector3f rounded = decode_direction(direction);
+  double end = std::numeric_limits<double>::infinity();
+  double cosine = 1;  // of its direction to the surface's normal there; of StraightAim's slope
+};
+
+double slope_of(double cosine) { return std::sqrt(std::max(0.0, 1 - cosine * cosine)) / std::abs(cosine); }
+
+// Where the ray meets the quadric, nearest to where it ended. Near its limb it may pass by.
+void end_on_quadric(const Ray& ray, const EmissiveQuadric& q, Aimed& aimed) {
+  const QuadricHits hits =
+      quadric_hits(prepare(ray), q.to_bundle, q.quadric.quadric, ray.exclude == q.triangle);
+  if (hits.count == 0) return;
+  const auto off = [&](int i) { return std::abs(hits.at[i].t - aimed.end); };
+  const auto& [t, local] = hits.at[hits.count == 2 && off(1) < off(0) ? 1 : 0];
+  const Vector3d direction = cast<double>(ray.direction);
+  aimed.end = t * (1 - 1e-12);
+  aimed.cosine = dot(direction, placed_quadric_normal(q.quadric, q.to_bundle, local));
+}
+
+// From where it departs, beside the point that the light was sampled for. It ends at the light, where it
+// meets the surface that was sampled, of triangles its plane: by its rounded direction, not quite where that
+// was. There an error of the direction counts by the inverse cosine.
+Aimed aim(const Departure& from, const LightSample& light) {
+  if (std::isinf(light.distance)) return {encode_direction(light.to_light)};
+  const Vector3d way = from.p + light.to_light * light.distance - cast<double>(from.origin);
+  Aimed aimed{encode_direction(dot(way, way) > 0 ? way : light.to_light)};
+  const Vector3d direction = cast<double>(aimed.rounded);
+  const double distance = length(way), there = dot(way, direction) / dot(direction, direction);
+  aimed.end = there;
+  if (light.quadric) {
+    end_on_quadric({from.origin, aimed.rounded, from.exclude}, *light.quadric, aimed);
+    return aimed;
+  }
+  const double height = dot(way, light.normal), cosine = dot(direction, light.normal);
+  if (!(height * cosine > 0)) return aimed;
+  // So much aside, a neighbour may stand out of the plane by its tilt.
+  const double aside = direction_rounding * distance / std::abs(cosine);
+  const double plane = (height / cosine) * (1 - 1e-12) - aside * light.tilt_rad / std::abs(cosine);
+  aimed.end = std::clamp(plane, 0.5 * there, 2 * there);
+  aimed.cosine = cosine;
+  return aimed;
+}
+
+float float_below(double x) {  // x ≥ 0
+  const auto nearest = static_cast<float>(x);
+  if (!(static_cast<double>(nearest) > x)) return nearest;
+  return std::bit_cast<float>(std::bit_cast<std::uint32_t>(nearest) - 1);
+}
+
+double sum_of(const SampledSpectrum& s) {
+  double sum = 0;
+  for (const float x : s.v) sum += static_cast<double>(x);
+  return sum;
+}
+
+// Of the numbers of a set, those of its candidate `k`: digits are flipped as in the first points of Sobol's
+// sequence, so that four candidates lie in different quarters of each dimension, 16 in different 16ths, and
+// each alone keeps the strata of the set.
+std::array<float, 4> numbers_of_candidate(std::array<float, 4> u, std::uint32_t k) {
+  constexpr std::array<std::uint32_t, most_light_candidates> straight{0, 8, 4, 12, 2, 10, 6, 14,
+                                                                      1, 9, 5, 13, 3, 11, 7, 15},
+      turned{0, 8, 12, 4, 10, 2, 6, 14, 15, 7, 3, 11, 5, 13, 9, 1};
+  const auto flipped = [](float x, std::uint32_t digits) {
+    return static_cast<float>(static_cast<std::uint32_t>(x * 0x1p24f) ^ digits << 20) * 0x1p-24f;
+  };
+  return {flipped(u[0], straight[k]), flipped(u[1], turned[k]), flipped(u[2], straight[k]),
+          flipped(u[3], turned[k])};
+}
+
+// One that `path` leaves for a light, with what it is to bring.
+void send_connection(Tracing& tracing, const CameraPath& path, const Departure& from,
+                     const LightSample& light, const SampledSpectrum& radiance, bool walks) {
+  Connection c;
+  c.key = path.key;
+  c.seed = path.seed;
+  c.time_s = path.time_s;
+  c.depth = path.depth;
+  c.dispersed = path.dispersed;
+  c.throughput = radiance;
+  c.wavelengths = path.wavelengths;
+  c.film = path.film;
+  c.walks = walks;
+  const Aimed aimed = aim(from, light);
+  depart(c, from, light.to_light);
+  turn(c, aimed.direction);
+  c.depth = walks ? 0 : path.depth + 1;
+  if (walks) {
+    c.refracted = {tracing.scene.lights.distant[light.light.index].light & RefractedAim::light_mask};
+  } else {
+    c.straight = StraightAim::of(StraightAim{slope_of(aimed.cosine)}.bits());
+    c.left = end_value(end_code(aimed.end));
+    c.hit.t = aimed.end;
+  }
+  trace(tracing, c);
+}
+
+void send_shadow_ray(const CameraPath& path, const Departure& from, const LightSample& light,
+                     const SampledSpectrum& radiance, ShadowRays& shadows) {
+  const Aimed aimed = aim(from, light);
+  ShadowRay& shadow = shadows.emplace_back();
+  shadow.ray = {from.origin, aimed.rounded, from.exclude};
+  shadow.direction = aimed.direction;
+  shadow.tmax = std::isinf(light.distance) ? std::numeric_limits<float>::max() : float_below(aimed.end);
+  for (std::size_t i = 0; i < hero_count; ++i)
+    shadow.radiance.v[i] = rounded_radiance(std::max(0.0f, radiance.v[i]));
+  shadow.pixel = path.film.pixel;
+  shadow.sample = path.film.sample;
+  shadow.time_s = path.time_s;
+  shadow.sensor = &path.film.sensor;
+}
+
+std::array<float, 4> numbers_for_light(const Tracing& tracing, const CameraPath& path) {
+  if (path.passed) return hashed_4d(stream_of(path, RayRandom::light));
+  return sample_4d(path.key, sample_set::light(path.numbered_depth()),
+                   tracing.scene.lights.three_numbers ? Wanted::three : Wanted::four);
+}
+
+// `scatter(direction)` gives the value and the density of scattering to there, `depart(direction)` where the
+// ray starts.
+template <class Scatter, class Depart>
+void connect(Tracing& tracing, const CameraPath& path, Point3d p, std::uint32_t count, const Scatter& scatter,
+             const Depart& depart, ShadowRays& shadows) {
+  const std::array<float, 4> numbers = numbers_for_light(tracing, path);
+  const std::array<float, 2> far = numbers_for_far_lights(tracing, path.key);
+  double choice = static_cast<double>(path.film.camera[3]);
+  std::optional<LightSample> light;
+  SampledSpectrum radiance;
+  double all = 0, chosen = 0;
+  for (std::uint32_t k = 0; k < count; ++k) {
+    const auto candidate =
+        sample_light(tracing.scene.lights, p, k > 0 ? numbers_of_candidate(numbers, k) : numbers, far,
+                     path.wavelengths, path.lamp);
+    if (!candidate) continue;
+    const BsdfValue scattered = scatter(candidate->to_light);
+    const double beside = candidate->is_delta ? 0 : static_cast<double>(density_beside(scattered.pdf, count));
+    const double weight = 1 / (candidate->pdf + beside);
+    const SampledSpectrum brought =
+        path.throughput * scattered.value * candidate->radiance * static_cast<float>(weight);
+    const double target = sum_of(brought);
+    if (target <= 0) continue;
+    all += target;
+    if (chosen > 0) {
+      // One number for all choices: what is left of it after one is as random as it was.
+      const double share = target / all;
+      if (choice >= share) {
+        choice = (choice - share) / (1 - share);
+        continue;
+      }
+      choice /= share;
+    }
+    light = candidate;
+    radiance = brought;
+    chosen = target;
+  }
+  if (all == 0) return;
+  if (count > 1) radiance = radiance * static_cast<float>(all / (count * chosen));
+  ++tracing.counters.rays_shadow;
+  const Departure from = depart(light->to_light);
+  const bool distant = std::isinf(light->distance);
+  const Requirements& r = tracing.requirements();
+  const bool straight = tracing.settings().direct_only;
+  const bool walks = distant && light->is_delta && tracing.scene.materials.have_panes() && !straight;
+  if (r.see_through || r.media || walks || (r.refraction && straight))
+    send_connection(tracing, path, from, *light, radiance, walks);
+  else
+    send_shadow_ray(path, from, *light, radiance, shadows);
+}
+
+}  // namespace
+
+std::uint32_t light_candidates(const Tracing& tracing, const CameraPath& path, Point3d p, bool diffuse) {
+  if (path.pdf > 0) return 1;
+  const std::uint32_t several = tracing.scene.sampling.light_candidates;
+  switch (variety(tracing.scene.lights, p)) {
+    case Variety::none:
+      return 1;
+    case Variety::little:
+      return diffuse ? 1 : several;
+    default:
+      return several;
+  }
+}
+
+void connect_surface(Tracing& tracing, const CameraPath& path, const Event& event,
+                     const Scattering& scattering, Vector3d out, std::uint32_t candidates,
+                     ShadowRays& shadows) {
+  const Interaction& at = event.at;
+  const auto scatter = [&](Vector3d direction) -> BsdfValue {
+    const Vector3d in = scattering.frame.to_local(direction);
+    // As for the samples of the BSDF: shading normals let no light leak.
+    if (!scattering.transmits &&
+        (dot(direction, at.geometric) > 0) != (dot(at.out, at.geometric) * out.z * in.z > 0))
+      return {};
+    BsdfValue scattered = eval(scattering.bsdf, out, in);
+    scattered.value =
+        scattered.value * static_cast<float>(scattering.bump_shadowing(dot(direction, at.shading)));
+    return scattered;
+  };
+  const auto depart = [&](Vector3d direction) {
+    return departure(tracing, path, at, event.surface, direction);
+  };
+  connect(tracing, path, at.p, candidates, scatter, depart, shadows);
+}
+
+void connect_medium(Tracing& tracing, const CameraPath& path, const Departure& from, double g, Vector3d out,
+                    std::uint32_t candidates, ShadowRays& shadows) {
+  const auto scatter = [&](Vector3d in) -> BsdfValue {
+    const double value = phase(g, out, in);
+    return {filled(static_cast<float>(value)), value};
+  };
+  connect(
+      tracing, path, from.p, candidates, scatter, [&](Vector3d) { return from; }, shadows);
+}
+
+void connect_sensor(Tracing& tracing, const CameraPath& path, const Departure& from, Vector3d normal,
+                    std::uint32_t candidates, ShadowRays& shadows) {
+  const auto scatter = [&](Vector3d in) -> BsdfValue {
+    const double value = std::max(0.0, dot(normal, in)) / pi;
+    return {filled(static_cast<float>(value)), value};
+  };
+  connect(
+      tracing, path, from.p, candidates, scatter, [&](Vector3d) { return from; }, shadows);
+}
+
+}  // namespace vitrail

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// Connections of a path to lights: which light, and the ray there.
+#pragma once
+
+#include "tracer/transport/scatterer.h"
+#include "tracer/transport/shadow_ray.h"
+
+namespace vitrail {
+
+// How many candidates for a light a path has at a point: several where the camera sees it, directly or
+// through mirrors and glass, and where they differ.
+std::uint32_t light_candidates(const Tracing& tracing, const CameraPath& path, Point3d p, bool diffuse);
+
+// Of `candidates` for a light one is connected to, chosen by what each would bring if nothing was in its way,
+// and brings their mean (resampling: Talbot, Cline & Egbert 2005). Their weights of multiple importance
+// sampling are of so many samples of the lights and one of the BSDF. Where nothing lets light through in part
+// it is a shadow ray, put behind the others of `shadows`; else it is traced at once.
+void connect_surface(Tracing& tracing, const CameraPath& path, const Event& event,
+                     const Scattering& scattering, Vector3d out, std::uint32_t candidates,
+                     ShadowRays& shadows);
+void connect_medium(Tracing& tracing, const CameraPath& path, const Departure& from, double g, Vector3d out,
+                    std::uint32_t candidates, ShadowRays& shadows);
+void connect_sensor(Tracing& tracing, const CameraPath& path, const Departure& from, Vector3d normal,
+                    std::uint32_t candidates, ShadowRays& shadows);
+
+}  // namespace vitrail

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// A connection to a light, where the scene has something that light passes: a ray that goes on behind what
+// lets it through, and deposits what it carries where its light is. It goes straight on, or, to a distant
+// light, through panes: smooth interfaces refract it by the hero's index, and what parallel faces reflect to
+// and fro is a part of it (pane_walk.h). All wavelengths leave a pane with parallel faces in the direction
+// they came, so all four stay unless it is thick.
+#pragma once
+
+#include "tracer/panes/pane_walk.h"
+#include "tracer/rays/connection_code.h"
+#include "tracer/transport/find_hit.h"
+
+namespace vitrail {
+
+// Its throughput is the radiance that it will deposit.
+struct Connection : Traveller {
+  FilmSample film;
+  bool walks = false;  // through panes, to a distant light
+  // One that goes straight:
+  StraightAim straight;
+  double left = 0;  // of its way, in lengths of its direction; rounded as it travels
+  // One that walks:
+  RefractedAim refracted;
+  std::uint32_t walk = 0;  // bits of a PaneWalk
+};
+
+// Traces one that begins here.
+void trace(Tracing& tracing, Connection& connection);
+// Goes on with one in `at`.
+void resume(Tracing& tracing, const ConnectionRecord& record, const Arrival& at);
+void pack(const Tracing& tracing, const Connection& connection, bool resolved, RayRecord& record);
+
+// At a smooth face or a sheet: one that walks goes on, or back. False where it ends.
+bool walk_interface(Tracing& tracing, Connection& connection, const Interaction& at, const Surface& surface);
+bool walk_sheet(const Tracing& tracing, Connection& connection, const Interaction& at,
+                const Surface& surface);
+// However many faces there are, and however often light goes to and fro: its mean is the same. False where it
+// ends.
+bool walks_on(Connection& connection);
+// What is absorbed on its way.
+void fade(Connection& connection, const SampledSpectrum& transmitted);
+// The point of the sun's disc that all of a sample's connections go to, so that one which glass has turned
+// can tell whether it has come there.
+std::array<float, 2> numbers_for_far_lights(const Tracing& tracing, const SampleKey& key);
+// What a surface lets straight through.
+SampledSpectrum straight_through(const Tracing& tracing, const Traveller& t, const Interaction& at,
+                                 const Surface& surface);
+
+}  // namespace vitrail

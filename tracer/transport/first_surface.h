@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the film keeps of the first surface that a camera ray meets.
+#pragma once
+
+#include "tracer/transport/scatterer.h"
+
+namespace vitrail {
+
+// Called where the path has decided that the surface is there, but for a mask of its material, which it will
+// decide alike.
+void record_first_surface(Tracing& tracing, CameraPath& path, const Event& event);
+
+}  // namespace vitrail

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+// What happens where a path from the camera arrives: in a medium, at a surface, outside of the scene.
+// Radiance that it meets is deposited, connections to lights are made (next-event estimation with multiple
+// importance sampling, Veach 1997), and it goes on by a sample of what scatters there.
+#pragma once
+
+#include "tracer/transport/scatterer.h"
+#include "tracer/transport/shadow_ray.h"
+
+namespace vitrail {
+
+// False when the path ends here. Shadow rays that it takes are put behind the others of `shadows`.
+bool shade(Tracing& tracing, CameraPath& path, ShadowRays& shadows);
+
+}  // namespace vitrail

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tracer/transport/shadow_ray.h"
+
+#include <optional>
+
+#include "tracer/rays/walk.h"
+
+namespace vitrail {
+
+namespace {
+
+void send(Tracing& tracing, const ShadowRay& s, std::uint32_t domain) {
+  ShadowRecord r;
+  r.origin[0] = s.ray.origin.x;
+  r.origin[1] = s.ray.origin.y;
+  r.origin[2] = s.ray.origin.z;
+  r.direction = s.direction;
+  r.exclude = s.ray.exclude;
+  r.tmax = s.tmax;
+  for (std::size_t i = 0; i < hero_count; ++i) pack_radiance(s.radiance.v[i], r.radiance[i]);
+  r.pixel = s.pixel;
+  r.sample = s.sample;
+  tracing.outbox.shadows.push_back({domain, r});
+  if (tracing.traffic) tracing.traffic->leave_for(domain);
+}
+
+enum class Way { free, blocked, elsewhere };
+
+// `at` is given for a ray that was born elsewhere or earlier.
+Way follow(Tracing& tracing, const ShadowRay& s, std::optional<std::uint32_t> at) {
+  const RayConstants constants = prepare(s.ray, s.time_s);
+  const auto is_blocked_in = [&](std::uint32_t domain) {
+    tracing.count_visit(domain);
+    return tracing.kernel.occluded(*tracing.resident[domain], constants, s.tmax);
+  };
+  DomainWalk walk(tracing.manifest(), s.ray, tracing.resident);
+  if (at) {
+    if (is_blocked_in(*at)) return Way::blocked;
+    walk.skip_past(*at);
+  }
+  bool first = !at;
+  for (DomainWalk::Visit visit; walk.next(static_cast<double>(s.tmax), visit);) {
+    if (!first) ++tracing.counters.crossings;
+    first = false;
+    if (!tracing.resident[visit.domain]) {
+      send(tracing, s, visit.domain);
+      return Way::elsewhere;
+    }
+    if (is_blocked_in(visit.domain)) return Way::blocked;
+  }
+  return Way::free;
+}
+
+}  // namespace
+
+void trace(Tracing& tracing, ShadowRays& rays) {
+  for (const ShadowRay& s : rays) {
+    const RayTraffic::Place here = tracing.traffic ? tracing.traffic->place() : RayTraffic::Place{};
+    const Way way = follow(tracing, s, std::nullopt);
+    if (tracing.traffic) tracing.traffic->set(here);
+    if (way == Way::elsewhere) ++tracing.counters.born;
+    if (way == Way::free) deposit(tracing, s.pixel, s.sample, *s.sensor, s.radiance);
+  }
+  rays.clear();
+}
+
+void resume(Tracing& tracing, const ShadowRecord& record, std::uint32_t domain) {
+  ShadowRay s{{{record.origin[0], record.origin[1], record.origin[2]},
+               decode_direction(record.direction),
+               record.exclude},
+              record.direction,
+              record.tmax,
+              {},
+              record.pixel,
+              record.sample};
+  for (std::size_t i = 0; i < hero_count; ++i) s.radiance.v[i] = unpack_radiance(record.radiance[i]);
+  const SampleKey key = key_of(tracing, s.pixel, s.sample);
+  s.time_s = time_of(tracing, key);
+  if (tracing.traffic) tracing.traffic->begin({domain, true});
+  const Way way = follow(tracing, s, domain);
+  if (way == Way::elsewhere) return;
+  ++tracing.counters.died;
+  if (way == Way::blocked) return;
+  const std::array<float, 4> u = camera_numbers(tracing, key);
+  deposit(tracing, s.pixel, s.sample, sensor_of(tracing, u, sample_wavelengths(u[2])), s.radiance);
+}
+
+}  // namespace vitrail

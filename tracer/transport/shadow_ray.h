@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// Rays to a point on a light, which nothing lets through in part: whether anything is in their way.
+#pragma once
+
+#include <vector>
+
+#include "tracer/transport/tracing.h"
+
+namespace vitrail {
+
+// Its values are rounded as those of its record.
+struct ShadowRay {
+  Ray ray;
+  DirectionCode direction;  // the ray's
+  float tmax = 0;
+  SampledSpectrum radiance;
+  std::uint32_t pixel = 0, sample = 0;
+  double time_s = 0;                      // its path's
+  const SensorWeights* sensor = nullptr;  // its path's, if that is at hand
+};
+using ShadowRays = std::vector<ShadowRay>;
+
+// Deposits what gets through of rays that begin here, and leaves none of them.
+void trace(Tracing& tracing, ShadowRays& rays);
+// Goes on with a ray in `domain`, which is resident.
+void resume(Tracing& tracing, const ShadowRecord& record, std::uint32_t domain);
+
+}  // namespace vitrail

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tracer/transport/tracing.h"
+
+namespace vitrail {
+
+TraceCounters& operator+=(TraceCounters& a, const TraceCounters& b) {
+  a.rays_camera += b.rays_camera;
+  a.rays_indirect += b.rays_indirect;
+  a.rays_shadow += b.rays_shadow;
+  a.crossings += b.crossings;
+  a.born += b.born;
+  a.died += b.died;
+  a.photons_emitted += b.photons_emitted;
+  a.gathers += b.gathers;
+  a.photons_gathered += b.photons_gathered;
+  a.connections_in_glass += b.connections_in_glass;
+  a.connections_in_wedges += b.connections_in_wedges;
+  a.widest_wedge_nrad = std::max(a.widest_wedge_nrad, b.widest_wedge_nrad);
+  return a;
+}
+
+SampleKey key_of(const Tracing& tracing, std::uint32_t pixel, std::uint32_t sample) {
+  const Film& film = tracing.film;
+  const auto width = static_cast<std::uint32_t>(film.width());
+  const auto x = static_cast<std::uint32_t>(film.crop().x0) + pixel % width;
+  const auto y = static_cast<std::uint32_t>(film.crop().y0) + pixel / width;
+  return {tracing.scene.seed, y * static_cast<std::uint32_t>(film.full_width()) + x, sample};
+}
+
+std::array<float, 4> camera_numbers(const Tracing& tracing, const SampleKey& key) {
+  std::array<float, 4> numbers = sample_4d(key, sample_set::camera);
+  if (tracing.photons) numbers[2] = tracing.photons->wavelength_number;
+  return numbers;
+}
+
+double time_of(const Tracing& tracing, const SampleKey& key) {
+  if (!tracing.requirements().motion) return 0;
+  const float number =
+      tracing.photons ? tracing.photons->time_number : sample_4d(key, sample_set::time, Wanted::two)[0];
+  const Shutter& shutter = tracing.manifest().shutter;
+  return shutter.open_s + static_cast<double>(number) * (shutter.close_s - shutter.open_s);
+}
+
+SensorWeights sensor_of(const Tracing& tracing, const std::array<float, 4>& camera,
+                        const SampledWavelengths& wavelengths) {
+  return sensor_weights(wavelengths, tracing.scene.filter.weight(camera[0], camera[1]), tracing.film.bins());
+}
+
+const Footprint* footprint_of(Tracing& tracing, std::uint32_t pixel, std::uint32_t sample) {
+  if (!tracing.scene.sampling.splat) return nullptr;
+  if (const std::uint64_t of = std::uint64_t{pixel} << 32 | sample; of != tracing.landed.of) {
+    const std::array<float, 4> u = camera_numbers(tracing, key_of(tracing, pixel, sample));
+    tracing.landed = {of, tracing.scene.filter.footprint(u[0], u[1])};
+  }
+  return &tracing.landed.footprint;
+}
+
+void deposit(Tracing& tracing, std::uint32_t pixel, std::uint32_t sample, const SensorWeights& sensor,
+             const SampledSpectrum& radiance) {
+  Film& film = tracing.film;
+  const XYZ light = sense(sensor, radiance);
+  const double left = film.clamp(pixel, sample, light);
+  const Footprint* const spread = footprint_of(tracing, pixel, sample);
+  if (!film.deposit(pixel, sample, {left * light.x, left * light.y, left * light.z}, spread) ||
+      film.bins().count == 0)
+    return;
+  for (std::size_t i = 0; i < hero_count; ++i) {
+    const double value = left * static_cast<double>(radiance.v[i]) * static_cast<double>(sensor.spectral[i]);
+    if (value != 0) film.deposit_bin(pixel, sample, sensor.bin[i], value, spread);
+  }
+}
+
+}  // namespace vitrail

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+// What one thread traces with: the scene, the domains that are at hand, where light and rays go. What the
+// functions of this room need beside the ray itself.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "film/film.h"
+#include "tracer/intersect/intersector.h"
+#include "tracer/photons/photon_pass.h"
+#include "tracer/photons/photon_records.h"
+#include "tracer/prepared/render_scene.h"
+#include "tracer/rays/ray_records.h"
+#include "tracer/rays/ray_traffic.h"
+#include "tracer/sampling/sampler.h"
+#include "tracer/sampling/wavelengths.h"
+
+namespace vitrail {
+
+// Rays that have to go on in a domain that is not resident.
+struct Outbox {
+  struct Ray {
+    std::uint32_t domain;
+    RayRecord record;
+  };
+  struct Shadow {
+    std::uint32_t domain;
+    ShadowRecord record;
+  };
+  struct Question {
+    std::uint32_t domain;  // in whose cell the point lies
+    Gather record;
+  };
+  std::vector<Ray> rays;
+  std::vector<Shadow> shadows;
+  std::vector<Photon> photons;      // that landed
+  std::vector<Question> questions;  // to the maps of other ranks
+
+  std::size_t size() const { return rays.size() + shadows.size() + photons.size() + questions.size(); }
+};
+
+struct TraceCounters {
+  // From the camera; further ones of paths and photons; to lights, each segment behind a surface one more.
+  std::uint64_t rays_camera = 0, rays_indirect = 0, rays_shadow = 0;
+  std::uint64_t crossings = 0;  // domains entered after the first one of a ray
+  // Rays alive: paths begun, and connections and shadow rays put into an outbox; the same when they end.
+  std::uint64_t born = 0, died = 0;
+  // Of photon mapping: sent from lights, questions answered, and photons found for them.
+  std::uint64_t photons_emitted = 0, gathers = 0, photons_gathered = 0;
+  // Connections to distant lights at faces where they leave glass, those that end there as the faces are not
+  // quite parallel, and the widest wedge of these in 10⁻⁹ rad.
+  std::uint64_t connections_in_glass = 0, connections_in_wedges = 0, widest_wedge_nrad = 0;
+
+  // What is further from parallel than this is no pane, but a prism or a lens.
+  static constexpr double widest_told_rad = 0.02;
+  void count_leaving(bool leaves, double wedge_rad) {
+    ++connections_in_glass;
+    if (leaves || wedge_rad > widest_told_rad) return;
+    ++connections_in_wedges;
+    widest_wedge_nrad = std::max(widest_wedge_nrad, static_cast<std::uint64_t>(1e9 * wedge_rad));
+  }
+};
+TraceCounters& operator+=(TraceCounters& a, const TraceCounters& b);
+
+// Indexed by domain; null: not resident.
+using ResidentViews = std::span<const DomainView* const>;
+
+// All that it refers to outlives it; the film is shared.
+struct Tracing {
+  const RenderScene& scene;
+  ResidentViews resident;
+  Film& film;
+  Outbox& outbox;
+  TraceCounters& counters;
+  RayTraffic* traffic = nullptr;        // told where the rays go, if any
+  const PhotonPass* photons = nullptr;  // of photon mapping
+  const KernelFunctions& kernel = best_kernel();
+  // Where the film splats: the pixels of the sample that was added to it last.
+  struct {
+    std::uint64_t of = ~std::uint64_t{0};  // pixel and sample
+    Footprint footprint;
+  } landed{};
+
+  const Manifest& manifest() const { return scene.manifest; }
+  const RenderSettings& settings() const { return scene.manifest.settings; }
+  const Requirements& requirements() const { return scene.manifest.requirements; }
+  void count_visit(std::uint32_t domain) {
+    if (traffic) traffic->visit(domain);
+  }
+};
+
+// A sample of a pixel, numbered in the crop, and how it sees.
+struct FilmSample {
+  std::uint32_t pixel = 0, sample = 0;
+  std::array<float, 4> camera{};  // its numbers for the camera; wavelengths follow from them
+  bool has_wavelengths = false;   // only what sees anything needs them and the sensor
+  SensorWeights sensor;
+};
+
+SampleKey key_of(const Tracing& tracing, std::uint32_t pixel, std::uint32_t sample);
+// Among photons all paths of an iteration have its wavelengths.
+std::array<float, 4> camera_numbers(const Tracing& tracing, const SampleKey& key);
+// When a sample sees the scene. Among photons all paths of an iteration see it at once.
+double time_of(const Tracing& tracing, const SampleKey& key);
+// Of a sample whose numbers for the camera are `camera`.
+SensorWeights sensor_of(const Tracing& tracing, const std::array<float, 4>& camera,
+                        const SampledWavelengths& wavelengths);
+// Where the film splats, the pixels of a sample; else null.
+const Footprint* footprint_of(Tracing& tracing, std::uint32_t pixel, std::uint32_t sample);
+
+void deposit(Tracing& tracing, std::uint32_t pixel, std::uint32_t sample, const SensorWeights& sensor,
+             const SampledSpectrum& radiance);
+inline void deposit(Tracing& tracing, const FilmSample& film, const SampledSpectrum& radiance) {
+  deposit(tracing, film.pixel, film.sample, film.sensor, radiance);
+}
+
+}  // namespace vitrail

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+// A ray on its way from event to event: what camera paths, connections to lights, photons and probes have in
+// common, and what can be done with any of them.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#include "tracer/surfaces/interaction.h"
+#include "tracer/transport/tracing.h"
+
+namespace vitrail {
+
+struct Traveller {
+  SampleKey key;
+  std::uint64_t seed = 0;      // sample_seed of it
+  std::uint64_t random = 0;    // a hash of the ray
+  double time_s = 0;           // when its sample sees the scene, where anything moves
+  std::uint32_t depth = 0;     // events so far that count
+  bool only_straight = false;  // it scatters no more, and goes straight on at most
+  bool dispersed = false;      // only the hero wavelength is left
+  std::uint8_t inside = 0;     // state of Interiors
+  DirectionCode direction;
+  Ray ray;
+  SampledSpectrum throughput;
+  SampledWavelengths wavelengths;
+  Hit hit;  // of a connection to a light not infinitely far, until it meets a surface: its end
+  std::uint32_t hit_domain = 0;
+
+  bool meets_surface() const { return hit.triangle != no_triangle; }
+  bool has_no_end() const { return std::isinf(hit.t); }
+  std::size_t active_wavelengths() const { return dispersed ? 1 : hero_count; }
+  // Ends the secondary wavelengths: their ways part from the hero's here.
+  void disperse() {
+    if (dispersed) return;
+    dispersed = true;
+    throughput = {{throughput[0] * hero_count, 0, 0, 0}};
+  }
+  // What its random numbers are a function of, beside the ray. As it travels: 17 bits.
+  static constexpr std::uint32_t only_straight_bit = 1u << 16;
+  std::uint32_t numbered_depth() const { return depth | (only_straight ? only_straight_bit : 0); }
+  void set_numbered_depth(std::uint32_t n) {
+    depth = n & (only_straight_bit - 1), only_straight = (n & only_straight_bit) != 0;
+  }
+};
+
+// What random numbers of a ray are for; those of different use are independent.
+enum class RayRandom : std::uint64_t {
+  flight,
+  choice,
+  scattering,
+  light,
+  layers,
+  throughput,
+  distance,
+  coverage
+};
+// A function of the ray and its depth.
+inline std::uint64_t stream_of(const Traveller& t, RayRandom use) {
+  return t.random +
+         (std::uint64_t{t.numbered_depth()} << 3 | static_cast<std::uint64_t>(use)) * 0xd1342543de82ef95u;
+}
+
+// A hash of its ray, the same wherever it is traced.
+std::uint64_t hash_of_ray(const Traveller& t);
+
+// Gives what belongs to a sample of the film its key, numbers and time.
+void begin(const Tracing& tracing, Traveller& t, FilmSample& film);
+void find_wavelengths(const Tracing& tracing, Traveller& t, FilmSample& film);
+
+// Where a ray starts.
+struct Departure {
+  Point3d p;       // what it leaves
+  Point3f origin;  // beside it
+  std::uint32_t exclude = no_triangle;
+  std::uint8_t inside = 0;  // state of Interiors
+};
+
+// Moves the hit along the normal, to the side of `direction`, by more than rounding to float can move it
+// back, and than it can part the surface from a copy of it: so it keeps from the neighbours of the triangle
+// that it leaves. Rounding moves it aside, too, which brings it behind neighbours that are not quite in one
+// plane; and the largest triangles, if there are any about, lie where doubles place them.
+Point3f offset_origin(const Tracing& tracing, const Interaction& at, Vector3d direction);
+Departure departure(const Tracing& tracing, const Traveller& t, const Interaction& at, const Surface& surface,
+                    Vector3d direction);
+// Starts the next ray. The triangle it leaves is excluded by id. Throughput is rounded as it travels.
+void depart(Traveller& t, const Departure& from, Vector3d direction);
+// Gives the ray this direction, to the bit.
+void turn(Traveller& t, DirectionCode direction);
+void continue_from(const Tracing& tracing, Traveller& t, const Interaction& at, const Surface& surface,
+                   Vector3d direction);
+// Keeps the direction to the bit: encoding it once more might turn it. Null: what is there is a hole in a
+// surface, which bounds nothing.
+void continue_straight(const Tracing& tracing, Traveller& t, const Interaction& at, const Surface* surface);
+
+// How wide the cone of a ray is that its images are filtered by: where it starts, and by how much it widens.
+struct RayCone {
+  double width = 0, angle_rad = 0;
+  double at(double distance) const { return width + angle_rad * distance; }
+};
+// Between the rays of a pixel's samples, in rad: they lie the closer the more of them there are. A sample
+// does not know how many will follow, as a render may be resumed to have more, so each counts those before
+// it. Not less than an eighth of a pixel.
+double angle_between_rays(const Tracing& tracing, std::uint32_t sample);
+// Of connections and probes, which start as wide as a point.
+inline RayCone narrow_cone(const Tracing& tracing, std::uint32_t sample) {
+  if (!tracing.requirements().filtering) return {};
+  return {0, std::min(angle_between_rays(tracing, sample), 1.0)};
+}
+
+// Of a traveller that meets a surface.
+Interaction interaction_at(const Tracing& tracing, const Traveller& t, const RayCone& cone);
+const Surface& surface_at(const Tracing& tracing, const Traveller& t);
+// False for the face of an interior that lies in one of higher priority.
+bool is_there(const Tracing& tracing, const Traveller& t, const Surface& surface, Interaction& at);
+// How much of the surface there is at a point.
+double opacity_at(const Tracing& tracing, const Surface& surface, const Interaction& at);
+// Whether it meets nothing of a surface of which so much is there.
+bool misses(const Traveller& t, double opacity);
+// Of a smooth face whose normal, as it is shaded, is `normal`: how far it may be off, rad.
+double face_doubt(const Tracing& tracing, const Traveller& t, const Interaction& at, const Surface& surface,
+                  Vector3d normal);
+
+// Null: in vacuum.
+const PreparedMedium* medium_of(const Tracing& tracing, const Traveller& t);
+// To what it has met. A medium without end would let nothing through of the light from infinitely far: where
+// that is looked for, it comes through as much of it as the scene is wide, or as a sphere around its centre
+// on which the point lies (Mitsuba, where it chooses such a light).
+Flight flight_of(const Tracing& tracing, const Traveller& t, bool to_far_light);
+
+// As the camera stands when the traveller sees the scene.
+Transform bundle_to_camera(const Tracing& tracing, const Traveller& t);
+
+}  // namespace vitrail

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tracer/transport/wave.h"
+
+#include "tracer/transport/generate.h"
+#include "tracer/transport/shading.h"
+
+namespace vitrail {
+
+void Wave::trace(Tracing& tracing) {
+  vitrail::trace(tracing, shadows_);
+  while (!live_.empty()) {
+    find_hits(tracing);
+    shade_all(tracing);
+    vitrail::trace(tracing, shadows_);
+  }
+  next_ = 0;
+}
+
+void Wave::find_hits(Tracing& tracing) {
+  std::size_t kept = 0;
+  for (const std::uint32_t i : live_) {
+    CameraPath& path = paths_[i];
+    const auto elsewhere = find_hit(tracing, path, at_[i]);
+    at_[i].reset();
+    if (elsewhere)
+      send(tracing, path, *elsewhere);
+    else
+      live_[kept++] = i;
+  }
+  live_.resize(kept);
+}
+
+void Wave::shade_all(Tracing& tracing) {
+  std::size_t kept = 0;
+  for (const std::uint32_t i : live_)
+    if (shade(tracing, paths_[i], shadows_)) live_[kept++] = i;
+  tracing.counters.died += live_.size() - kept;
+  tracing.counters.rays_indirect += kept;
+  live_.resize(kept);
+}
+
+}  // namespace vitrail
