@@ -80,3 +80,20 @@ function(vitrail_test name)
   add_test(NAME ${name} COMMAND test_${name})
   set_tests_properties(${name} PROPERTIES LABELS ${arg_LABEL} TIMEOUT ${arg_TIMEOUT})
 endfunction()
+
+# vitrail_lanes(FILE FLAG …): how a file of tracer/lanes is compiled, for an instruction set: no comparison traps, so
+# that lanes need no branches, and the C++ ABI of wider vectors does not matter, as all functions are inlined.
+function(vitrail_lanes file)
+  set_source_files_properties(${file} PROPERTIES SKIP_PRECOMPILE_HEADERS ON
+    COMPILE_OPTIONS "-fno-trapping-math;-Wno-psabi;${ARGN}")
+endfunction()
+
+# vitrail_stays_inside(TARGET): a test that the TARGET's objects named *_avx* define no weak function. The linker keeps
+# one of each name, whichever instruction set it is compiled for. Only optimised builds inline all that they should.
+function(vitrail_stays_inside target)
+  if(CMAKE_BUILD_TYPE STREQUAL "Release" AND VITRAIL_TESTS)
+    add_test(NAME ${target}_stays_inside COMMAND ${CMAKE_COMMAND} -DNM=${CMAKE_NM}
+      "-DOBJECTS=$<JOIN:$<FILTER:$<TARGET_OBJECTS:${target}>,INCLUDE,_avx>,|>" -P ${PROJECT_SOURCE_DIR}/cmake/stays_inside.cmake)
+    set_tests_properties(${target}_stays_inside PROPERTIES LABELS unit)
+  endif()
+endfunction()

@@ -63,6 +63,10 @@ struct ShadingFrame {
   Vector3d to_local(Vector3d v) const { return {dot(v, tangent), dot(v, bitangent), dot(v, normal)}; }
 };
 
+// Around a unit normal: the tangent follows `along` where that has a part across n. `side`: −1 on such a
+// back, else 1.
+ShadingFrame frame_around(Vector3d n, Vector3d along, double side);
+
 struct Scattering {
   Bsdf bsdf;
   ShadingFrame frame;

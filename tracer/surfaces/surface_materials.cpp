@@ -72,6 +72,8 @@ RoughPlasticTables plastic_tables(double eta, const Microfacets& facets) {
   return smooth;
 }
 
+}  // namespace
+
 ShadingFrame frame_around(Vector3d n, Vector3d along, double side) {
   ShadingFrame frame;
   frame.tangent = along - n * dot(n, along);
@@ -86,8 +88,6 @@ ShadingFrame frame_around(Vector3d n, Vector3d along, double side) {
   frame.normal = n * side;
   return frame;
 }
-
-}  // namespace
 
 Materials::Materials(const Manifest& manifest, const Textures& textures)
     : manifest_(manifest),

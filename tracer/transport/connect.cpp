@@ -12,6 +12,7 @@
 #include "tracer/quadrics/quadric_surface.h"
 #include "tracer/rays/connection_code.h"
 #include "tracer/rays/rounding.h"
+#include "tracer/sampling/candidate_numbers.h"
 #include "tracer/transport/connection.h"
 
 namespace vitrail {
@@ -74,20 +75,6 @@ double sum_of(const SampledSpectrum& s) {
   double sum = 0;
   for (const float x : s.v) sum += static_cast<double>(x);
   return sum;
-}
-
-// Of the numbers of a set, those of its candidate `k`: digits are flipped as in the first points of Sobol's
-// sequence, so that four candidates lie in different quarters of each dimension, 16 in different 16ths, and
-// each alone keeps the strata of the set.
-std::array<float, 4> numbers_of_candidate(std::array<float, 4> u, std::uint32_t k) {
-  constexpr std::array<std::uint32_t, most_light_candidates> straight{0, 8, 4, 12, 2, 10, 6, 14,
-                                                                      1, 9, 5, 13, 3, 11, 7, 15},
-      turned{0, 8, 12, 4, 10, 2, 6, 14, 15, 7, 3, 11, 5, 13, 9, 1};
-  const auto flipped = [](float x, std::uint32_t digits) {
-    return static_cast<float>(static_cast<std::uint32_t>(x * 0x1p24f) ^ digits << 20) * 0x1p-24f;
-  };
-  return {flipped(u[0], straight[k]), flipped(u[1], turned[k]), flipped(u[2], straight[k]),
-          flipped(u[3], turned[k])};
 }
 
 // One that `path` leaves for a light, with what it is to bring.

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+// Each function of tracer/lanes by its name: what lanes_test.cpp holds to the scalar one.
+#pragma once
+
+#include "tests/tracer/lanes/lane_table.h"
+#include "tracer/lanes/codes.h"
+#include "tracer/lanes/directions.h"
+#include "tracer/lanes/scattering.h"
+
+namespace vitrail::lane_tests {
+namespace {
+
+// A struct for each: `name`, numbers in, numbers out, and what it does with In `in` and Out `out`.
+#define LANE_FUNCTION(name, ins_, outs_)                                                 \
+  struct name {                                                                          \
+    static constexpr int ins = ins_, outs = outs_;                                       \
+    template <int W>                                                                     \
+    VITRAIL_LANES static void run(const Context& context, const In<W>& in, Out<W>& out); \
+  };                                                                                     \
+  template <int W>                                                                       \
+  VITRAIL_LANES void name::run([[maybe_unused]] const Context& context, const In<W>& in, Out<W>& out)
+
+LANE_FUNCTION(stream_seed, 6, 2) { out.word64(lanes::stream_seed(in.l(0), in.l(2), in.l(4))); }
+LANE_FUNCTION(sample_seed, 3, 2) { out.word64(lanes::sample_seed(7, in.u(0), in.u(1))); }
+LANE_FUNCTION(random_bits, 2, 2) { out.word64(lanes::random_bits(in.l(0))); }
+LANE_FUNCTION(sample_4d, 3, 9) {
+  out.four(lanes::sample_4d(7, in.u(0), in.u(1), in.u(2)));
+  const auto three = lanes::sample_4d<Wanted::three>(7, in.u(0), in.u(1), in.u(2));
+  const auto two = lanes::sample_4d<Wanted::two>(7, in.u(0), in.u(1), in.u(2));
+  for (int i = 0; i < 3; ++i) out.number(three[i]);
+  for (int i = 0; i < 2; ++i) out.number(two[i]);
+}
+LANE_FUNCTION(numbers_of_candidate, 4, 16 * 4) {
+  const lanes::Four<lanes::Floats<W>> u{{in.f(0), in.f(1), in.f(2), in.f(3)}};
+  for (std::uint32_t k = 0; k < most_light_candidates; ++k) out.four(lanes::numbers_of_candidate(u, k));
+}
+LANE_FUNCTION(encode_direction, 3, 2) {
+  const auto code = lanes::encode_direction(in.vector(0));
+  out.number(code.first), out.number(code.second);
+}
+LANE_FUNCTION(decode_direction, 2, 3) {
+  out.vector(lanes::decode_direction(lanes::Code<lanes::Words<W>>{in.u(0), in.u(1)}));
+}
+LANE_FUNCTION(decode_normal, 1, 3) { out.vector(lanes::decode_normal(in.u(0))); }
+LANE_FUNCTION(normalize, 3, 3) { out.vector(lanes::normalize(in.vector(0))); }
+LANE_FUNCTION(frame_of, 3, 6) {
+  const auto frame = lanes::frame_of(in.vector(0));
+  out.vector(frame.tangent), out.vector(frame.bitangent);
+}
+LANE_FUNCTION(frame_around, 7, 15) {
+  const auto frame = lanes::frame_around(in.vector(0), in.vector(3), in.d(6));
+  out.vector(frame.tangent), out.vector(frame.bitangent), out.vector(frame.normal);
+  out.vector(frame.to_local(in.vector(3))), out.vector(frame.to_world(in.vector(3)));
+}
+LANE_FUNCTION(sample_cosine_hemisphere, 2, 3) {
+  out.vector(lanes::sample_cosine_hemisphere(in.f(0), in.f(1)));
+}
+LANE_FUNCTION(attainable, 1, 1) { out.number(lanes::attainable(in.d(0))); }
+LANE_FUNCTION(fresnel_dielectric, 2, 1) { out.number(lanes::fresnel_dielectric(in.d(0), in.d(1))); }
+LANE_FUNCTION(refract, 7, 4) {
+  lanes::Vector<lanes::Doubles<W>> refracted;
+  const auto goes = lanes::refract(in.vector(0), in.vector(3), in.d(6), refracted);
+  const auto nothing = lanes::fill<lanes::Doubles<W>>(Vector3d{});
+  out.mask(goes), out.vector(lanes::select<lanes::Doubles<W>>(goes, refracted, nothing));
+}
+LANE_FUNCTION(fresnel_conductor, 3, 1) { out.number(lanes::fresnel_conductor(in.d(0), in.d(1), in.d(2))); }
+LANE_FUNCTION(density_beside, 1, 2) {
+  out.number(lanes::density_beside(in.d(0), 1)), out.number(lanes::density_beside(in.d(0), 6));
+}
+LANE_FUNCTION(rounded_radiance, 1, 1) { out.number(lanes::rounded_radiance(in.f(0))); }
+LANE_FUNCTION(rounded_by_chance, 2, 1) { out.number(lanes::rounded_by_chance(in.f(0), in.u(1))); }
+LANE_FUNCTION(order_of_min_and_max, 2, 4) {
+  const auto a = in.d(0), b = in.d(1);
+  out.number(lanes::min(a, b)), out.number(lanes::max(a, b));
+  out.number(lanes::clamp(a, 0.0, 1.0)), out.number(lanes::safe_sqrt(a));
+}
+// Rounding to float, which an optimiser may lose between doubles.
+LANE_FUNCTION(rounding_to_float, 2, 1) {
+  using D = lanes::Doubles<W>;
+  const D rounded = lanes::to_doubles(lanes::to_floats(in.d(0)));
+  out.number(lanes::select<D>(in.d(1) > 0, rounded, D{}));
+}
+
+#undef LANE_FUNCTION
+
+template <int W>
+inline constexpr LaneFunction all_functions[] = {
+#define ENTRY(name) \
+  { #name, name::ins, name::outs, run < name, W> }
+    ENTRY(stream_seed),       ENTRY(sample_seed),          ENTRY(random_bits),
+    ENTRY(sample_4d),         ENTRY(numbers_of_candidate), ENTRY(encode_direction),
+    ENTRY(decode_direction),  ENTRY(decode_normal),        ENTRY(normalize),
+    ENTRY(frame_of),          ENTRY(frame_around),         ENTRY(sample_cosine_hemisphere),
+    ENTRY(attainable),        ENTRY(fresnel_dielectric),   ENTRY(refract),
+    ENTRY(fresnel_conductor), ENTRY(density_beside),       ENTRY(rounded_radiance),
+    ENTRY(rounded_by_chance), ENTRY(order_of_min_and_max), ENTRY(rounding_to_float),
+#undef ENTRY
+};
+
+template <int W>
+constexpr LaneFunctions functions_of(const char* set) {
+  return {set, W, all_functions<W>, sizeof(all_functions<W>) / sizeof(all_functions<W>[0])};
+}
+
+}  // namespace
+}  // namespace vitrail::lane_tests

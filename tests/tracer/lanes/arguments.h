@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// Arguments for the functions in lanes: all combinations of corner values, as many as there is room for, then
+// random ones.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <random>
+#include <vector>
+
+namespace vitrail::lane_tests {
+
+using Random = std::mt19937_64;
+
+// `size` numbers that belong together.
+struct Argument {
+  int size = 1;
+  std::vector<std::vector<double>> corners;
+  std::function<void(Random&, double*)> random;
+};
+
+// In [low, high].
+Argument number(double low, double high, std::vector<double> corners);
+// In [0, 1), of 24 bits.
+Argument unit_number();
+// > 0, of any magnitude between two powers of two.
+Argument magnitude(int low_exponent, int high_exponent, std::vector<double> corners);
+// The same, and as float.
+Argument float_magnitude(int low_exponent, int high_exponent, std::vector<double> corners);
+// Below `end`.
+Argument word(std::uint64_t end = std::uint64_t{1} << 32, std::vector<double> corners = {});
+// Two words.
+Argument long_word();
+// Unit vectors: poles, axes, beside axes, on the edges of octants.
+Argument direction();
+// Of any length.
+Argument vector();
+
+// [case][number], at least `random` of them random, a multiple of 8 in all.
+std::vector<double> cases_of(const std::vector<Argument>& arguments, int random, std::uint64_t seed);
+
+}  // namespace vitrail::lane_tests

@@ -1,0 +1,9 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/tracer/lanes/all_functions.h"
+
+namespace vitrail::lane_tests {
+
+constinit const LaneFunctions avx512_functions[4] = {functions_of<1>("avx512"), functions_of<2>("avx512"),
+                                                     functions_of<4>("avx512"), functions_of<8>("avx512")};
+
+}  // namespace vitrail::lane_tests

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the functions in lanes are held to, and with which arguments.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tests/tracer/lanes/arguments.h"
+#include "tests/tracer/lanes/lane_functions.h"
+
+namespace vitrail::lane_tests {
+
+struct ScalarFunction {
+  std::string name;
+  std::vector<Argument> arguments;
+  std::function<void(const Context&, const double* in, double* out)> run;
+};
+
+std::vector<ScalarFunction> sampling_functions();
+std::vector<ScalarFunction> geometry_functions();
+std::vector<ScalarFunction> scattering_functions();
+
+}  // namespace vitrail::lane_tests

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+// tracer/bsdf/local.h and fresnel.h in lanes.
+#pragma once
+
+#include "scene/geometry/portable_math.h"
+#include "tracer/lanes/vectors.h"
+
+namespace vitrail::lanes {
+namespace {
+
+namespace detail {
+
+template <class D>
+VITRAIL_LANES D sin_small(D x) {
+  const D x2 = x * x;
+  D sum = fill<D>(0);
+  for (int k = 17; k >= 3; k -= 2) sum = (1.0 + sum) * (x2 * (-1.0 / (k * (k - 1))));
+  return x * (1.0 + sum);
+}
+
+template <class D>
+VITRAIL_LANES D cos_small(D x) {
+  const D x2 = x * x;
+  D sum = fill<D>(0);
+  for (int k = 18; k >= 2; k -= 2) sum = (1.0 + sum) * (x2 * (-1.0 / (k * (k - 1))));
+  return 1.0 + sum;
+}
+
+}  // namespace detail
+
+template <class F>
+VITRAIL_LANES Vector<DoublesLike<F>> sample_cosine_hemisphere(F u, F v) {
+  using D = DoublesLike<F>;
+  const D a = 2.0 * to_doubles(u) - 1.0, b = 2.0 * to_doubles(v) - 1.0;
+  const Mask<D> middle = (a == 0) & (b == 0), wide = abs(a) > abs(b);
+  const D radius = select<D>(wide, a, b);
+  const D phi = (pi / 4) * (select<D>(wide, b, a) / select<D>(middle, fill<D>(1), radius));
+  const D along = radius * detail::cos_small(phi), across = radius * detail::sin_small(phi);
+  const D z = lanes::sqrt(1.0 - radius * radius);
+  return select<D>(middle, fill<D>(Vector3d{0, 0, 1}),
+                   {select<D>(wide, along, across), select<D>(wide, across, along), z});
+}
+
+// The arguments' order lets no NaN of an idle lane reach the conversion.
+template <class D>
+VITRAIL_LANES D attainable(D p) {
+  const D steps = ceil_of_few(lanes::min(fill<D>(1), lanes::max(fill<D>(0), p)) * 0x1p24);
+  const D inside = lanes::clamp<D>(steps, 1.0, 0x1p24 - 1) * 0x1p-24;
+  return select<D>(p > 0, select<D>(p < 1, inside, fill<D>(1)), fill<D>(0));
+}
+
+template <class D>
+VITRAIL_LANES D fresnel_dielectric(D cosine, D eta) {
+  const D sin2_transmitted = (1.0 - cosine * cosine) / (eta * eta);
+  const D transmitted = safe_sqrt(1.0 - sin2_transmitted);
+  const D s = (cosine - eta * transmitted) / (cosine + eta * transmitted);
+  const D p = (eta * cosine - transmitted) / (eta * cosine + transmitted);
+  const D partial = select<D>(sin2_transmitted >= 1, fill<D>(1), (s * s + p * p) / 2.0);
+  return select<D>(eta == 1, fill<D>(0), partial);
+}
+
+// Where false, under total internal reflection, `refracted` means nothing.
+template <class D>
+VITRAIL_LANES Mask<D> refract(Vector<D> out, Vector<D> normal, D eta, Vector<D>& refracted) {
+  const D cosine = dot(out, normal);
+  const D sin2_transmitted = lanes::max(fill<D>(0), 1.0 - cosine * cosine) / (eta * eta);
+  const D transmitted = safe_sqrt(1.0 - sin2_transmitted);
+  refracted = normalize(out * (-1.0 / eta) + normal * (cosine / eta - transmitted));
+  return no(sin2_transmitted >= 1);
+}
+
+// At one wavelength.
+template <class D>
+VITRAIL_LANES D fresnel_conductor(D cosine, D eta, D k) {
+  const D cos2 = cosine * cosine, sin2 = 1.0 - cos2;
+  const D real = eta * eta - k * k - sin2, imaginary = 2.0 * eta * k;
+  const D modulus = lanes::sqrt(real * real + imaginary * imaginary);
+  const D a = safe_sqrt((modulus + real) / 2.0);
+  const D s_sum = modulus + cos2, s_difference = 2.0 * a * cosine;
+  const D p_sum = modulus * cos2 + sin2 * sin2, p_difference = s_difference * sin2;
+  const D s = (s_sum - s_difference) / (s_sum + s_difference);
+  const D p_over_s =
+      select<D>(p_sum + p_difference > 0, (p_sum - p_difference) / (p_sum + p_difference), fill<D>(1));
+  return select<D>(s_sum + s_difference > 0, lanes::clamp<D>(s * (1.0 + p_over_s) / 2.0, 0.0, 1.0),
+                   fill<D>(1));
+}
+
+}  // namespace
+}  // namespace vitrail::lanes
