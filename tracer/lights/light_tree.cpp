@@ -9,17 +9,9 @@ namespace vitrail {
 
 namespace {
 
-// Nearer than this to the centre of a light counts as this far.
-constexpr float least_distance2 = 1e-12f;
-constexpr double farthest = 1e15;
-
 // By value and without branches, so that the compiler can take the lanes side by side.
 float larger(float a, float b) { return a > b ? a : b; }
 float smaller(float a, float b) { return a < b ? a : b; }
-
-// Lights are alike where cos θ exceeds this many times sin θ_o + sin θ_u: their 1/d² then differs by less
-// than a factor of 1.7 from the middle, the cosine by 25 %.
-constexpr float alike_ratio = 4;
 
 float lower_integer(std::uint32_t pair) {
   return static_cast<float>(static_cast<std::int32_t>(pair << 16) >> 16);
@@ -40,7 +32,7 @@ struct Weights {
   constexpr float of_unit = 1 / LightNode::unit;
   for (std::size_t i = 0; i < LightNode::width; ++i) {
     const float x = p.x - node.center_x[i], y = p.y - node.center_y[i], z = p.z - node.center_z[i];
-    const float d2 = larger(x * x + y * y + z * z, least_distance2);
+    const float d2 = larger(x * x + y * y + z * z, LightNode::least_distance2);
     const float inverse_d = 1 / std::sqrt(d2);
     const float scale = inverse_d * of_unit;
     const float along = (x * lower_integer(node.axis_xy[i]) + y * upper_integer(node.axis_xy[i]) +
@@ -67,7 +59,7 @@ struct Weights {
     const float cos_e = power < 0 ? 1 - 1e-4f : 0.0f;
     const float reached = cos2 > cos_e ? cos2 : 0.0f;
     result.lane[i] = std::abs(power) * reached / larger(d2, radius2);
-    result.alike[i] = cosine - alike_ratio * (sin_u + sin_o);
+    result.alike[i] = cosine - LightNode::alike_ratio * (sin_u + sin_o);
   }
 }
 

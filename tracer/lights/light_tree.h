@@ -31,6 +31,11 @@ struct alignas(64) LightNode {
   static constexpr int width = 8;
   static constexpr float unit = 32767;       // of the integers
   static constexpr std::uint8_t alike = 64;  // of `below`: see LightTree
+  // Nearer than this to the centre of a light counts as this far.
+  static constexpr float least_distance2 = 1e-12f;
+  // Lights are alike where cos θ exceeds this many times sin θ_o + sin θ_u: their 1/d² then differs by less
+  // than a factor of 1.7 from the middle, the cosine by 25 %.
+  static constexpr float alike_ratio = 4;
   using Lanes = std::array<float, width>;
   using Pairs = std::array<std::uint32_t, width>;
   Lanes center_x{}, center_y{}, center_z{};
@@ -69,15 +74,22 @@ class LightTree {
   double power() const { return power_; }  // of all lights
   std::size_t nodes() const { return nodes_.size(); }
 
- private:
-  friend class LightTreeBuilder;
+  // The parts of `choose`, for tracer/lanes. Its coordinates are (p − center)·scale, clamped to ±farthest.
+  static constexpr double farthest = 1e15;
   struct Slots {
     std::uint32_t begin = 0, end = 0;
   };
-  static constexpr std::uint32_t absent = ~0u;
   Slots all() const { return {0, static_cast<std::uint32_t>(order_.size())}; }
-  Point3f local(Point3d p) const;
+  LightChoice choice() const { return choice_; }
+  std::span<const LightNode> node_list() const { return nodes_; }  // 0 is the root
+  Point3d center() const { return center_; }
+  double scale() const { return scale_; }
   std::optional<Chosen> choose_by_power(Slots slots, double u) const;
+
+ private:
+  friend class LightTreeBuilder;
+  static constexpr std::uint32_t absent = ~0u;
+  Point3f local(Point3d p) const;
   double share_of_power(Slots slots, std::uint32_t slot) const;
 
   std::vector<LightNode> nodes_;  // 0 is the root

@@ -26,6 +26,7 @@ class GuideTable {
     const auto cell = static_cast<std::int32_t>(u * cells_);  // int32: one instruction
     return search(cumulative, first_[static_cast<std::size_t>(cell)], u);
   }
+  std::span<const std::uint32_t> first() const { return first_; }  // where the search begins, of each cell
 
  private:
   static std::size_t search(std::span<const double> cumulative, std::size_t bin, double u) {

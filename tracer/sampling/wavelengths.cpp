@@ -75,6 +75,12 @@ const std::array<SampledWavelengths, 4>& luminance_wavelengths() {
   return wavelengths;
 }
 
+WavelengthTables wavelength_tables() {
+  const Density& d = density();
+  return {d.pdf.data(), d.cumulative.data(), d.guide.first().data(),
+          static_cast<double>(d.guide.first().size())};
+}
+
 SampledWavelengths sample_wavelengths(float u) {
   const Density& d = density();
   SampledWavelengths result;

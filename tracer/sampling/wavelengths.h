@@ -16,6 +16,15 @@ namespace vitrail {
 // Radziszewski et al. 2009 for the density). u in [0,1).
 SampledWavelengths sample_wavelengths(float u);
 
+// What it reads: of each nanometre its density and the sum of those before, and where the search for u·cells
+// begins.
+struct WavelengthTables {
+  const double *pdf, *cumulative;
+  const std::uint32_t* first;
+  double cells;
+};
+WavelengthTables wavelength_tables();
+
 // Fixed ones, each the middle of a 16th of ∫ȳ: the mean of a spectrum over them is about its luminance.
 const std::array<SampledWavelengths, 4>& luminance_wavelengths();
 

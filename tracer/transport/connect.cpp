@@ -2,16 +2,12 @@
 #include "tracer/transport/connect.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
 
 #include "scene/geometry/portable_math.h"
 #include "tracer/media/phase.h"
-#include "tracer/quadrics/quadric_hits.h"
-#include "tracer/quadrics/quadric_surface.h"
 #include "tracer/rays/connection_code.h"
-#include "tracer/rays/rounding.h"
 #include "tracer/sampling/candidate_numbers.h"
 #include "tracer/transport/connection.h"
 
@@ -19,57 +15,7 @@ namespace vitrail {
 
 namespace {
 
-// A connection's ray: coded, and as far as it goes, in lengths of its direction; ∞ where its light is.
-struct Aimed {
-  DirectionCode direction;
-  Vector3f rounded = decode_direction(direction);
-  double end = std::numeric_limits<double>::infinity();
-  double cosine = 1;  // of its direction to the surface's normal there; of StraightAim's slope
-};
-
 double slope_of(double cosine) { return std::sqrt(std::max(0.0, 1 - cosine * cosine)) / std::abs(cosine); }
-
-// Where the ray meets the quadric, nearest to where it ended. Near its limb it may pass by.
-void end_on_quadric(const Ray& ray, const EmissiveQuadric& q, Aimed& aimed) {
-  const QuadricHits hits =
-      quadric_hits(prepare(ray), q.to_bundle, q.quadric.quadric, ray.exclude == q.triangle);
-  if (hits.count == 0) return;
-  const auto off = [&](int i) { return std::abs(hits.at[i].t - aimed.end); };
-  const auto& [t, local] = hits.at[hits.count == 2 && off(1) < off(0) ? 1 : 0];
-  const Vector3d direction = cast<double>(ray.direction);
-  aimed.end = t * (1 - 1e-12);
-  aimed.cosine = dot(direction, placed_quadric_normal(q.quadric, q.to_bundle, local));
-}
-
-// From where it departs, beside the point that the light was sampled for. It ends at the light, where it
-// meets the surface that was sampled, of triangles its plane: by its rounded direction, not quite where that
-// was. There an error of the direction counts by the inverse cosine.
-Aimed aim(const Departure& from, const LightSample& light) {
-  if (std::isinf(light.distance)) return {encode_direction(light.to_light)};
-  const Vector3d way = from.p + light.to_light * light.distance - cast<double>(from.origin);
-  Aimed aimed{encode_direction(dot(way, way) > 0 ? way : light.to_light)};
-  const Vector3d direction = cast<double>(aimed.rounded);
-  const double distance = length(way), there = dot(way, direction) / dot(direction, direction);
-  aimed.end = there;
-  if (light.quadric) {
-    end_on_quadric({from.origin, aimed.rounded, from.exclude}, *light.quadric, aimed);
-    return aimed;
-  }
-  const double height = dot(way, light.normal), cosine = dot(direction, light.normal);
-  if (!(height * cosine > 0)) return aimed;
-  // So much aside, a neighbour may stand out of the plane by its tilt.
-  const double aside = direction_rounding * distance / std::abs(cosine);
-  const double plane = (height / cosine) * (1 - 1e-12) - aside * light.tilt_rad / std::abs(cosine);
-  aimed.end = std::clamp(plane, 0.5 * there, 2 * there);
-  aimed.cosine = cosine;
-  return aimed;
-}
-
-float float_below(double x) {  // x ≥ 0
-  const auto nearest = static_cast<float>(x);
-  if (!(static_cast<double>(nearest) > x)) return nearest;
-  return std::bit_cast<float>(std::bit_cast<std::uint32_t>(nearest) - 1);
-}
 
 double sum_of(const SampledSpectrum& s) {
   double sum = 0;

@@ -9,12 +9,7 @@
 
 namespace vitrail {
 
-std::uint64_t hash_of_ray(const Traveller& t) {
-  const auto bits = [](float x) { return std::uint64_t{std::bit_cast<std::uint32_t>(x)}; };
-  const Point3f o = t.ray.origin;
-  return stream_seed(t.seed, bits(o.x) << 32 | bits(o.y),
-                     bits(o.z) << 32 ^ std::uint64_t{t.direction.first()} << 24 ^ t.direction.second());
-}
+std::uint64_t hash_of_ray(const Traveller& t) { return hash_of_ray(t.seed, t.ray.origin, t.direction); }
 
 void begin(const Tracing& tracing, Traveller& t, FilmSample& film) {
   t.key = key_of(tracing, film.pixel, film.sample);
@@ -31,11 +26,7 @@ void find_wavelengths(const Tracing& tracing, Traveller& t, FilmSample& film) {
 }
 
 Point3f offset_origin(const Tracing& tracing, const Interaction& at, Vector3d direction) {
-  const double aside = 1e-9 * std::max({std::abs(at.p.x), std::abs(at.p.y), std::abs(at.p.z)});
-  const double doubles = 0x1p-46 * static_cast<double>(tracing.manifest().scale);
-  const double distance = 3 * at.rounding + aside + doubles;
-  const double side = dot(direction, at.geometric) >= 0 ? 1 : -1;
-  return cast<float>(at.p + at.geometric * (side * distance));
+  return offset_origin(at.p, at.geometric, at.rounding, rounding_of_doubles(tracing.manifest().scale), direction);
 }
 
 Departure departure(const Tracing& tracing, const Traveller& t, const Interaction& at, const Surface& surface,

@@ -6,7 +6,9 @@
 #include <cmath>
 #include <cstdint>
 
+#include "tracer/rays/departing.h"
 #include "tracer/surfaces/interaction.h"
+#include "tracer/transport/aim.h"
 #include "tracer/transport/tracing.h"
 
 namespace vitrail {
@@ -44,21 +46,9 @@ struct Traveller {
   }
 };
 
-// What random numbers of a ray are for; those of different use are independent.
-enum class RayRandom : std::uint64_t {
-  flight,
-  choice,
-  scattering,
-  light,
-  layers,
-  throughput,
-  distance,
-  coverage
-};
 // A function of the ray and its depth.
 inline std::uint64_t stream_of(const Traveller& t, RayRandom use) {
-  return t.random +
-         (std::uint64_t{t.numbered_depth()} << 3 | static_cast<std::uint64_t>(use)) * 0xd1342543de82ef95u;
+  return t.random + stream_offset(t.numbered_depth(), use);
 }
 
 // A hash of its ray, the same wherever it is traced.
@@ -68,18 +58,7 @@ std::uint64_t hash_of_ray(const Traveller& t);
 void begin(const Tracing& tracing, Traveller& t, FilmSample& film);
 void find_wavelengths(const Tracing& tracing, Traveller& t, FilmSample& film);
 
-// Where a ray starts.
-struct Departure {
-  Point3d p;       // what it leaves
-  Point3f origin;  // beside it
-  std::uint32_t exclude = no_triangle;
-  std::uint8_t inside = 0;  // state of Interiors
-};
-
-// Moves the hit along the normal, to the side of `direction`, by more than rounding to float can move it
-// back, and than it can part the surface from a copy of it: so it keeps from the neighbours of the triangle
-// that it leaves. Rounding moves it aside, too, which brings it behind neighbours that are not quite in one
-// plane; and the largest triangles, if there are any about, lie where doubles place them.
+// Beside a hit, where rays start that leave it (rays/departing.h).
 Point3f offset_origin(const Tracing& tracing, const Interaction& at, Vector3d direction);
 Departure departure(const Tracing& tracing, const Traveller& t, const Interaction& at, const Surface& surface,
                     Vector3d direction);

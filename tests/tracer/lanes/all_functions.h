@@ -3,22 +3,13 @@
 #pragma once
 
 #include "tests/tracer/lanes/lane_table.h"
+#include "tests/tracer/lanes/stage_functions.h"
 #include "tracer/lanes/codes.h"
 #include "tracer/lanes/directions.h"
 #include "tracer/lanes/scattering.h"
 
 namespace vitrail::lane_tests {
 namespace {
-
-// A struct for each: `name`, numbers in, numbers out, and what it does with In `in` and Out `out`.
-#define LANE_FUNCTION(name, ins_, outs_)                                                 \
-  struct name {                                                                          \
-    static constexpr int ins = ins_, outs = outs_;                                       \
-    template <int W>                                                                     \
-    VITRAIL_LANES static void run(const Context& context, const In<W>& in, Out<W>& out); \
-  };                                                                                     \
-  template <int W>                                                                       \
-  VITRAIL_LANES void name::run([[maybe_unused]] const Context& context, const In<W>& in, Out<W>& out)
 
 LANE_FUNCTION(stream_seed, 6, 2) { out.word64(lanes::stream_seed(in.l(0), in.l(2), in.l(4))); }
 LANE_FUNCTION(sample_seed, 3, 2) { out.word64(lanes::sample_seed(7, in.u(0), in.u(1))); }
@@ -81,25 +72,20 @@ LANE_FUNCTION(rounding_to_float, 2, 1) {
   out.number(lanes::select<D>(in.d(1) > 0, rounded, D{}));
 }
 
-#undef LANE_FUNCTION
-
-template <int W>
-inline constexpr LaneFunction all_functions[] = {
-#define ENTRY(name) \
-  { #name, name::ins, name::outs, run < name, W> }
-    ENTRY(stream_seed),       ENTRY(sample_seed),          ENTRY(random_bits),
-    ENTRY(sample_4d),         ENTRY(numbers_of_candidate), ENTRY(encode_direction),
-    ENTRY(decode_direction),  ENTRY(decode_normal),        ENTRY(normalize),
-    ENTRY(frame_of),          ENTRY(frame_around),         ENTRY(sample_cosine_hemisphere),
-    ENTRY(attainable),        ENTRY(fresnel_dielectric),   ENTRY(refract),
-    ENTRY(fresnel_conductor), ENTRY(density_beside),       ENTRY(rounded_radiance),
-    ENTRY(rounded_by_chance), ENTRY(order_of_min_and_max), ENTRY(rounding_to_float),
-#undef ENTRY
-};
+template <int W, class... F>
+inline constexpr LaneFunction table[] = {{F::title, F::ins, F::outs, run<F, W>}...};
 
 template <int W>
 constexpr LaneFunctions functions_of(const char* set) {
-  return {set, W, all_functions<W>, sizeof(all_functions<W>) / sizeof(all_functions<W>[0])};
+  const auto& all =
+      table<W, stream_seed, sample_seed, random_bits, sample_4d, numbers_of_candidate, encode_direction,
+            decode_direction, decode_normal, normalize, frame_of, frame_around, sample_cosine_hemisphere,
+            attainable, fresnel_dielectric, refract, fresnel_conductor, density_beside, rounded_radiance,
+            rounded_by_chance, order_of_min_and_max, rounding_to_float, sigmoid, table_value, wavelengths,
+            plain_interaction, interaction_with_normals, interaction_with_uv, interaction_with_both,
+            offset_origin, depart, choose_of_few_lights, choose_of_many_lights, choose_by_power,
+            choose_of_none, aim, shadow_radiance, draw_triangle>;
+  return {set, W, all, sizeof all / sizeof all[0]};
 }
 
 }  // namespace

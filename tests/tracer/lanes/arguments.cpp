@@ -47,6 +47,13 @@ Argument number(double low, double high, std::vector<double> corners) {
   return {1, each_alone(corners), [=](Random& r, double* out) { *out = uniform(r, low, high); }};
 }
 
+Argument float_number(double low, double high, std::vector<double> corners) {
+  for (double& x : corners) x = static_cast<double>(static_cast<float>(x));
+  return {1, each_alone(corners), [=](Random& r, double* out) {
+            *out = static_cast<double>(static_cast<float>(uniform(r, low, high)));
+          }};
+}
+
 Argument unit_number() {
   return {1, each_alone({0, 0x1p-24, 0.25, 0.5, 0.5 + 0x1p-24, 0.75, 1 - 0x1p-24}),
           [](Random& r, double* out) { *out = static_cast<double>(r() >> 40) * 0x1p-24; }};
@@ -82,11 +89,30 @@ Argument direction() {
   return {3, corner_directions(), [](Random& r, double* out) { put(random_direction(r), out); }};
 }
 
+Argument float_direction() {
+  Argument result = direction();
+  const auto rounded = [](double* x) {
+    for (int i = 0; i < 3; ++i) x[i] = static_cast<double>(static_cast<float>(x[i]));
+  };
+  for (std::vector<double>& corner : result.corners) rounded(corner.data());
+  result.random = [exact = result.random, rounded](Random& r, double* out) {
+    exact(r, out);
+    rounded(out);
+  };
+  return result;
+}
+
 Argument vector() {
   std::vector<std::vector<double>> corners{
       {0, 0, 0}, {0, -0.0, 0}, {1e-200, 0, 0}, {1e200, 1e200, 0}, {3, 0, -0.0}};
   return {3, corners,
           [](Random& r, double* out) { put(random_direction(r) * std::exp2(uniform(r, -30, 30)), out); }};
+}
+
+Argument position() {
+  return {3, {{0, 0, 0}, {0, -0.0, 1}, {1000, 0, 0}, {-1e6, 1e6, 0.1}}, [](Random& r, double* out) {
+            put(random_direction(r) * std::exp2(uniform(r, -10, 20)), out);
+          }};
 }
 
 std::vector<double> cases_of(const std::vector<Argument>& arguments, int random, std::uint64_t seed) {

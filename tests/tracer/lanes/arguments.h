@@ -21,6 +21,7 @@ struct Argument {
 
 // In [low, high].
 Argument number(double low, double high, std::vector<double> corners);
+Argument float_number(double low, double high, std::vector<double> corners);
 // In [0, 1), of 24 bits.
 Argument unit_number();
 // > 0, of any magnitude between two powers of two.
@@ -33,8 +34,11 @@ Argument word(std::uint64_t end = std::uint64_t{1} << 32, std::vector<double> co
 Argument long_word();
 // Unit vectors: poles, axes, beside axes, on the edges of octants.
 Argument direction();
-// Of any length.
+// The same as floats.
+Argument float_direction();
+// Of any length, even one whose square is no number; and of lengths that scenes have.
 Argument vector();
+Argument position();
 
 // [case][number], at least `random` of them random, a multiple of 8 in all.
 std::vector<double> cases_of(const std::vector<Argument>& arguments, int random, std::uint64_t seed);

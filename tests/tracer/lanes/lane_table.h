@@ -67,5 +67,16 @@ void run(const Context& context, const double* in, double* out, int count) {
   }
 }
 
+// A function by its name, numbers in, numbers out, and what it does with In `in` and Out `out`.
+#define LANE_FUNCTION(name, ins_, outs_)                                                 \
+  struct name {                                                                          \
+    static constexpr const char* title = #name;                                          \
+    static constexpr int ins = ins_, outs = outs_;                                       \
+    template <int W>                                                                     \
+    VITRAIL_LANES static void run(const Context& context, const In<W>& in, Out<W>& out); \
+  };                                                                                     \
+  template <int W>                                                                       \
+  VITRAIL_LANES void name::run([[maybe_unused]] const Context& context, const In<W>& in, Out<W>& out)
+
 }  // namespace
 }  // namespace vitrail::lane_tests

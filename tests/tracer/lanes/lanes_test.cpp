@@ -7,11 +7,10 @@
 #include <cmath>
 #include <cstring>
 
+#include "tests/tracer/lanes/fixtures.h"
 #include "tests/tracer/lanes/scalar_functions.h"
 
 namespace vitrail::lane_tests {
-
-struct Context {};
 
 namespace {
 
@@ -55,7 +54,7 @@ void compare(const ScalarFunction& scalar, const std::vector<LaneFunctions>& set
   const std::vector<double> in = cases_of(scalar.arguments, 100'000, 1);
   const int count = static_cast<int>(in.size()) / ins;
   std::vector<double> expected(static_cast<std::size_t>(count * outs));
-  const Context context;
+  const Context& context = fixtures().context;
   for (int i = 0; i < count; ++i) {
     scalar.run(context, &in[static_cast<std::size_t>(i * ins)],
                &expected[static_cast<std::size_t>(i * outs)]);
@@ -83,11 +82,13 @@ TEST_P(Lanes, GiveTheBitsOfTheScalarFunction) { compare(GetParam(), all_that_run
 std::string name_of(const testing::TestParamInfo<ScalarFunction>& info) { return info.param.name; }
 INSTANTIATE_TEST_SUITE_P(Sampling, Lanes, testing::ValuesIn(sampling_functions()), name_of);
 INSTANTIATE_TEST_SUITE_P(Geometry, Lanes, testing::ValuesIn(geometry_functions()), name_of);
+INSTANTIATE_TEST_SUITE_P(Stages, Lanes, testing::ValuesIn(stage_functions()), name_of);
 INSTANTIATE_TEST_SUITE_P(Scattering, Lanes, testing::ValuesIn(scattering_functions()), name_of);
 
 TEST(LanesOfAll, AreComparedWithSomething) {
   std::size_t compared = 0;
-  for (const auto& list : {sampling_functions(), geometry_functions(), scattering_functions()})
+  for (const auto& list :
+       {sampling_functions(), geometry_functions(), scattering_functions(), stage_functions()})
     compared += list.size();
   for (const LaneFunctions& set : all_that_run()) EXPECT_EQ(static_cast<std::size_t>(set.count), compared);
 }

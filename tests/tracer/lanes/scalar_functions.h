@@ -2,6 +2,7 @@
 // What the functions in lanes are held to, and with which arguments.
 #pragma once
 
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -16,8 +17,11 @@ struct ScalarFunction {
   std::function<void(const Context&, const double* in, double* out)> run;
 };
 
+inline void PrintTo(const ScalarFunction& f, std::ostream* out) { *out << f.name; }
+
 std::vector<ScalarFunction> sampling_functions();
 std::vector<ScalarFunction> geometry_functions();
 std::vector<ScalarFunction> scattering_functions();
+std::vector<ScalarFunction> stage_functions();
 
 }  // namespace vitrail::lane_tests

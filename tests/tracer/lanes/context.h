@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the functions read that are given more than numbers.
+#pragma once
+
+#include "tracer/lanes/interaction.h"
+#include "tracer/lights/light_sampler.h"
+#include "tracer/sampling/wavelengths.h"
+
+namespace vitrail::lane_tests {
+
+inline constexpr std::uint32_t fixture_clusters = 64, fixture_lamps = 64, fixture_domains = 4,
+                               fixture_trees = 4;
+
+struct Context {
+  WavelengthTables wavelengths;
+  const float *observer, *d65;
+  const float* tables[2];                       // spectra
+  lanes::DomainTables domain[fixture_domains];  // with normals if 1, with (u, v) if 2 is set in the index
+  const LightSampler::Slot* slots;              // of triangles that emit
+  const LightSampler::Face* faces;              // of each slot
+  const bool* two_sided;
+  const LightTree* trees[fixture_trees];  // of few lights, of many, by power, of none
+};
+
+}  // namespace vitrail::lane_tests

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/tracer/lanes/fixtures.h"
+
+#include <cmath>
+
+#include "tests/tracer/lanes/arguments.h"
+
+namespace vitrail::lane_tests {
+
+namespace {
+
+double uniform(Random& random, double low, double high) {
+  return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53;
+}
+Point3f point(Random& random, double extent) {
+  const auto x = [&] { return static_cast<float>(uniform(random, -extent, extent)); };
+  return {x(), x(), x()};
+}
+
+// Small and large ones, near and far, some flat on an axis, one without area.
+void corners(Random& random, std::uint32_t number, Point3f p[3]) {
+  const Point3f center = point(random, std::exp2(uniform(random, -3, 12)));
+  const double extent = std::exp2(uniform(random, -8, 8));
+  for (int k = 0; k < 3; ++k) p[k] = center + (point(random, extent) - Point3f{});
+  if (number % 4 == 0)
+    for (int k = 0; k < 3; ++k) p[k][number / 4 % 3] = center[number / 4 % 3];
+  if (number == 5) p[2] = p[1];
+}
+
+DomainContent domain(bool normals, bool uvs) {
+  Random random(3);
+  DomainContent content;
+  content.clusters.resize(fixture_clusters);
+  if (normals) content.normals.resize(fixture_clusters);
+  if (uvs) content.uvs.resize(fixture_clusters);
+  for (std::uint32_t i = 0; i < fixture_clusters * cluster_width; ++i) {
+    const std::uint32_t cluster = i / cluster_width, lane = i % cluster_width;
+    Point3f p[3];
+    corners(random, i, p);
+    content.clusters[cluster].id[lane] = i;
+    const Vector3d across = cross(cast<double>(p[1] - p[0]), cast<double>(p[2] - p[0]));
+    for (int k = 0; k < 3; ++k) {
+      for (int axis = 0; axis < 3; ++axis) content.clusters[cluster].vertex[k][axis][lane] = p[k][axis];
+      const Vector3d n = normalize(normalize(across) + cast<double>(point(random, 0.7) - Point3f{}));
+      // None, all alike, or one a corner; some on the other side.
+      const std::uint32_t code = encode_normal(to_normal(i % 7 == 3 ? -n : n));
+      if (normals) {
+        std::uint32_t* const of_lane = content.normals[cluster].normal[lane];
+        of_lane[k] = cluster % 3 == 0 || i % 5 == 0 ? no_normal
+                     : cluster % 3 == 1 && k > 0    ? of_lane[0]
+                                                    : code;
+      }
+      if (uvs)  // some without extent
+        for (int c = 0; c < 2; ++c)
+          content.uvs[cluster].uv[lane][k][c] =
+              i % 6 == 0 ? 0.5f : static_cast<float>(uniform(random, -2, 2));
+    }
+  }
+  return content;
+}
+
+// Some far off in a bunch, which are alike from here.
+std::vector<LightBounds> light_bounds(std::size_t count) {
+  Random random(9);
+  std::vector<LightBounds> lights(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const bool bunch = i % 2 == 0;
+    Point3d center = cast<double>(point(random, bunch ? 1 : 20));
+    if (bunch) center = center + Vector3d{500, 0, 0};
+    extend(lights[i].box, center);
+    extend(lights[i].box, center + cast<double>(point(random, i % 3 == 0 ? 0.1 : 1) - Point3f{}));
+    lights[i].axis = bunch ? Vector3d{-1, 0, 0} : normalize(cast<double>(point(random, 1) - Point3f{}));
+    lights[i].theta_o_rad = i % 5 == 0 ? uniform(random, 0, 3) : 0;
+    lights[i].theta_e_rad = i % 7 == 0 ? 0 : 1.5707963;
+    lights[i].power = i % 11 == 0 ? 0 : uniform(random, 0.5, 2);
+    lights[i].two_sided = i % 4 == 1;
+  }
+  return lights;
+}
+
+}  // namespace
+
+Fixtures::Fixtures() {
+  Random random(5);
+  for (std::vector<float>& table : tables)
+    for (int i = 0; i < table_size; ++i) table.push_back(static_cast<float>(uniform(random, 0, 2)));
+  area_lights = {{.radiance = Spectrum{ConstantSpectrum{1}}},
+                 {.radiance = Spectrum{ConstantSpectrum{3}}, .two_sided = true}};
+  for (std::uint32_t i = 0; i < fixture_lamps; ++i) {
+    EmissiveTriangle t{.triangle = i, .area_light = i % 2};
+    do corners(random, i == 5 ? 6 : i, t.p);
+    while (length(cross(cast<double>(t.p[1] - t.p[0]), cast<double>(t.p[2] - t.p[0]))) == 0);
+    triangles.push_back(t);
+  }
+  LightScene scene;
+  scene.area_lights = area_lights;
+  scene.triangles = triangles;
+  lights = make_light_sampler(scene, ImageSource{});
+  for (const LightSampler::Slot& slot : lights.slots) {
+    two_sided[faces.size()] = area_lights[slot.area_light].two_sided;
+    faces.push_back(lights.face(slot.light.index));
+  }
+  for (std::uint32_t i = 0; i < fixture_domains; ++i) {
+    contents[i] = domain((i & 1) != 0, (i & 2) != 0);
+    views[i] = view_of(contents[i]);
+    context.domain[i] = lanes::tables_of(views[i]);
+  }
+  trees[0] = LightTree(light_bounds(7), LightChoice::tree);
+  trees[1] = LightTree(light_bounds(3000), LightChoice::tree);
+  trees[2] = LightTree(light_bounds(300), LightChoice::power);
+  for (std::uint32_t i = 0; i < fixture_trees; ++i) context.trees[i] = &trees[i];
+  context.wavelengths = wavelength_tables();
+  context.observer = cie_1931()[0].data();
+  context.d65 = cie_d65().data();
+  context.tables[0] = tables[0].data(), context.tables[1] = tables[1].data();
+  context.slots = lights.slots.data();
+  context.faces = faces.data();
+  context.two_sided = two_sided;
+}
+
+const Fixtures& fixtures() {
+  static const Fixtures all;
+  return all;
+}
+
+}  // namespace vitrail::lane_tests

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "tests/tracer/lanes/context.h"
+
+namespace vitrail::lane_tests {
+
+// What a Context shows.
+struct Fixtures {
+  Fixtures();
+  Fixtures(const Fixtures&) = delete;
+  std::vector<float> tables[2];
+  DomainContent contents[fixture_domains];
+  DomainView views[fixture_domains];
+  std::vector<EmissiveTriangle> triangles;
+  std::vector<AreaLight> area_lights;
+  LightSampler lights;
+  std::vector<LightSampler::Face> faces;
+  LightTree trees[fixture_trees];
+  bool two_sided[fixture_lamps] = {};
+  Context context{};
+};
+const Fixtures& fixtures();
+
+}  // namespace vitrail::lane_tests
