@@ -6,7 +6,7 @@
 
 namespace vitrail {
 
-// A connection that is asked for; members as the arguments of sample_light.
+// A connection that is asked for; members as the arguments of LightChooser.
 struct LightQuery {
   const LightSampler& lights;
   Point3d p;

@@ -25,18 +25,20 @@ bool draw_slot(const LightQuery& query, const LightSampler::Slot& slot, double c
   return false;
 }
 
-bool draw_tree(const LightQuery& query, double choice, LightSample& sample) {
-  const LightSampler& s = query.lights;
-  const auto chosen = s.tree.choose(query.p, choice);
+}  // namespace
+
+bool LightChooser::draw_from_tree(const LightQuery& query, double choice, LightSample& sample) {
+  const LightSampler& s = sampler_;
+  const auto chosen = tree_.choose(choice);
   if (!chosen) return false;
   const bool drawn = draw_slot(query, s.slots[chosen->slot], chosen->rest, sample);
   sample.pdf *= chosen->probability * s.share[LightNumbers::choice_of_tree];
   return drawn;
 }
 
-bool draw_light(const LightQuery& query, LightSample& sample) {
-  const LightSampler& s = query.lights;
-  if (s.three_numbers) return draw_tree(query, static_cast<double>(query.u[2]), sample);
+bool LightChooser::draw(const LightQuery& query, LightSample& sample) {
+  const LightSampler& s = sampler_;
+  if (s.three_numbers) return draw_from_tree(query, static_cast<double>(query.u[2]), sample);
   if (s.share.empty()) return false;
   double rest = static_cast<double>(query.u[3]);
   std::size_t choice = 0;
@@ -48,7 +50,7 @@ bool draw_light(const LightQuery& query, LightSample& sample) {
     // What is left of u[3] refines u[2]: 24 bits cannot reach every one of many lights.
     const double fine = std::clamp(rest / share, 0.0, 0x1.fffffp-1);
     const double in_tree = std::min(static_cast<double>(query.u[2]) + fine * 0x1p-24, 0x1.fffffffffffffp-1);
-    return draw_tree(query, in_tree, sample);
+    return draw_from_tree(query, in_tree, sample);
   }
   const LightRef light = s.numbers.single_light(choice);
   if (light.kind == LightKind::environment) return draw_environment(query, light.index, sample);
@@ -57,7 +59,11 @@ bool draw_light(const LightQuery& query, LightSample& sample) {
   return drawn;
 }
 
-}  // namespace
+std::optional<LightSample> LightChooser::sample(const std::array<float, 4>& u) {
+  std::optional<LightSample> sample(std::in_place);
+  if (!draw({sampler_, p_, u, far_, wavelengths_, last_}, *sample)) sample.reset();
+  return sample;
+}
 
 std::optional<LightSample> sample_light(const LightSampler& s, Point3d p, const std::array<float, 4>& u,
                                         const SampledWavelengths& wavelengths) {
@@ -68,9 +74,7 @@ std::optional<LightSample> sample_light(const LightSampler& s, Point3d p, const 
 std::optional<LightSample> sample_light(const LightSampler& s, Point3d p, const std::array<float, 4>& u,
                                         const std::array<float, 2>& far,
                                         const SampledWavelengths& wavelengths, LastLamp& last) {
-  std::optional<LightSample> sample(std::in_place);
-  if (!draw_light({s, p, u, far, wavelengths, last}, *sample)) sample.reset();
-  return sample;
+  return LightChooser(s, p, far, wavelengths, last).sample(u);
 }
 
 Variety variety(const LightSampler& s, Point3d p) {

@@ -167,12 +167,35 @@ struct LastLamp {
   SampledSpectrum radiance;
 };
 
-// A connection from p. u[0], u[1] are for the point, u[2], u[3] for the light; `far`: what distant lights
-// take for that, one pair for all of a path. Empty where nothing arrives. `last`: what a path keeps from one
-// to the next.
+struct LightQuery;
+
+// Connections from p, of several candidates one after the other: what is the same for all is found once. It
+// refers to all its arguments. `far`: what distant lights take for the point, one pair for all of a path.
+// `last`: what a path keeps from one connection to the next.
+class LightChooser {
+ public:
+  LightChooser(const LightSampler& sampler, Point3d p, const std::array<float, 2>& far,
+               const SampledWavelengths& wavelengths, LastLamp& last)
+      : sampler_(sampler), p_(p), far_(far), wavelengths_(wavelengths), last_(last), tree_(sampler.tree, p) {}
+  // u[0], u[1] are for the point, u[2], u[3] for the light. Empty where nothing arrives.
+  std::optional<LightSample> sample(const std::array<float, 4>& u);
+
+ private:
+  bool draw(const LightQuery& query, LightSample& sample);
+  bool draw_from_tree(const LightQuery& query, double choice, LightSample& sample);
+  const LightSampler& sampler_;
+  Point3d p_;
+  const std::array<float, 2>& far_;
+  const SampledWavelengths& wavelengths_;
+  LastLamp& last_;
+  LightTree::Point tree_;
+};
+
+// One connection, as of LightChooser.
 std::optional<LightSample> sample_light(const LightSampler& sampler, Point3d p, const std::array<float, 4>& u,
                                         const std::array<float, 2>& far,
                                         const SampledWavelengths& wavelengths, LastLamp& last);
+// `far` is u[0], u[1].
 std::optional<LightSample> sample_light(const LightSampler& sampler, Point3d p, const std::array<float, 4>& u,
                                         const SampledWavelengths& wavelengths);
 

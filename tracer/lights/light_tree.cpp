@@ -20,15 +20,10 @@ float upper_integer(std::uint32_t pair) { return static_cast<float>(static_cast<
 float lower_float(std::uint32_t pair) { return std::bit_cast<float>(pair << 16); }
 float upper_float(std::uint32_t pair) { return std::bit_cast<float>(pair & 0xffff0000u); }
 
-struct Weights {
-  LightNode::Lanes lane;
-  LightNode::Lanes alike;  // > 0: its lights are alike
-};
-
 // Power · cos θ′ / d², θ′ = θ − θ_o − θ_u the least angle between a normal of the child and the direction to
 // p, θ_u the half angle of its sphere from p; 0 where θ′ ≥ θ_e. All angles by cosines and sines.
 [[gnu::always_inline]] inline void weigh_lanes(const LightNode& __restrict node, Point3f p,
-                                               Weights& __restrict result) {
+                                               LightWeights& __restrict result) {
   constexpr float of_unit = 1 / LightNode::unit;
   for (std::size_t i = 0; i < LightNode::width; ++i) {
     const float x = p.x - node.center_x[i], y = p.y - node.center_y[i], z = p.z - node.center_z[i];
@@ -63,14 +58,14 @@ struct Weights {
   }
 }
 
-void weigh_portable(const LightNode& __restrict node, Point3f p, Weights& __restrict result) {
+void weigh_portable(const LightNode& __restrict node, Point3f p, LightWeights& __restrict result) {
   weigh_lanes(node, p, result);
 }
 
 // Eight lanes at once; the same bits.
 #if defined(__x86_64__)
 [[gnu::target("avx2")]] void weigh_avx2(const LightNode& __restrict node, Point3f p,
-                                        Weights& __restrict result) {
+                                        LightWeights& __restrict result) {
   weigh_lanes(node, p, result);
 }
 const auto weigh = __builtin_cpu_supports("avx2") ? weigh_avx2 : weigh_portable;
@@ -78,15 +73,13 @@ const auto weigh = __builtin_cpu_supports("avx2") ? weigh_avx2 : weigh_portable;
 constexpr auto weigh = weigh_portable;
 #endif
 
-using Sums = std::array<double, LightNode::width>;
-Sums sums_of(const LightNode::Lanes& weight) {
-  Sums sums;
+void set_sums(LightWeights& weights) {
   double sum = 0;
-  for (std::size_t i = 0; i < LightNode::width; ++i) sums[i] = sum += static_cast<double>(weight[i]);
-  return sums;
+  for (std::size_t i = 0; i < LightNode::width; ++i)
+    weights.sums[i] = sum += static_cast<double>(weights.lane[i]);
 }
 
-bool are_alike(const LightNode& node, const Weights& weights, std::size_t lane) {
+bool are_alike(const LightNode& node, const LightWeights& weights, std::size_t lane) {
   return (node.below[lane] & LightNode::alike) != 0 && weights.alike[lane] > 0;
 }
 
@@ -105,24 +98,22 @@ Point3f LightTree::local(Point3d p) const {
   return {coordinate(p.x, center_.x), coordinate(p.y, center_.y), coordinate(p.z, center_.z)};
 }
 
-std::optional<LightTree::Chosen> LightTree::choose(Point3d p, double u) const {
+template <class WeightsOf>
+std::optional<LightTree::Chosen> LightTree::choose_from_root(double u, const WeightsOf& weights_of) const {
   if (nodes_.empty()) return std::nullopt;
   if (choice_ == LightChoice::power) return choose_by_power(all(), u);
-  const Point3f at = local(p);
   double probability = 1;
   for (std::size_t n = 0;;) {
     const LightNode& node = nodes_[n];
-    Weights weights;
-    weigh(node, at, weights);
-    const Sums sums = sums_of(weights.lane);
-    const double total = sums.back();
+    const LightWeights& weights = weights_of(n);
+    const double total = weights.sums.back();
     if (!(total > 0)) return std::nullopt;
     const double target = u * total;
     std::size_t lane = 0;
-    for (std::size_t i = 0; i + 1 < LightNode::width; ++i) lane += target >= sums[i];
+    for (std::size_t i = 0; i + 1 < LightNode::width; ++i) lane += target >= weights.sums[i];
     while (!(weights.lane[lane] > 0)) --lane;  // by rounding, behind the last
     const auto w = static_cast<double>(weights.lane[lane]);
-    u = std::min((target - (lane > 0 ? sums[lane - 1] : 0)) / w, below_one);
+    u = std::min((target - (lane > 0 ? weights.sums[lane - 1] : 0)) / w, below_one);
     probability *= w / total;
     const Slots slots{node.first[lane], node.first[lane + 1]};
     if (slots.end - slots.begin == 1) return Chosen{slots.begin, probability, u};
@@ -135,6 +126,28 @@ std::optional<LightTree::Chosen> LightTree::choose(Point3d p, double u) const {
   }
 }
 
+std::optional<LightTree::Chosen> LightTree::choose(Point3d p, double u) const {
+  const Point3f at = local(p);
+  LightWeights weights;
+  return choose_from_root(u, [&](std::size_t n) -> const LightWeights& {
+    weigh(nodes_[n], at, weights);
+    set_sums(weights);
+    return weights;
+  });
+}
+
+std::optional<LightTree::Chosen> LightTree::Point::choose(double u) {
+  return tree_.choose_from_root(u, [&](std::size_t n) -> const LightWeights& {
+    const std::size_t place = n % places;
+    if (kept_[place] != n) {
+      kept_[place] = static_cast<std::uint32_t>(n);
+      weigh(tree_.nodes_[n], p_, weights_[place]);
+      set_sums(weights_[place]);
+    }
+    return weights_[place];
+  });
+}
+
 double LightTree::probability(Point3d p, std::uint32_t light) const {
   if (light >= slot_.size() || slot_[light] == absent) return 0;
   const std::uint32_t slot = slot_[light];
@@ -143,9 +156,10 @@ double LightTree::probability(Point3d p, std::uint32_t light) const {
   double probability = 1;
   for (std::size_t n = 0;;) {
     const LightNode& node = nodes_[n];
-    Weights weights;
+    LightWeights weights;
     weigh(node, at, weights);
-    const double total = sums_of(weights.lane).back();
+    set_sums(weights);
+    const double total = weights.sums.back();
     if (!(total > 0)) return 0;
     std::size_t lane = 0;
     for (std::size_t i = 1; i < LightNode::width; ++i) lane += slot >= node.first[i];

@@ -49,6 +49,13 @@ struct alignas(64) LightNode {
 };
 static_assert(sizeof(LightNode) == 256);
 
+// What the children of a node can send to one point.
+struct LightWeights {
+  LightNode::Lanes lane;
+  LightNode::Lanes alike;                     // > 0: the lights of the child are alike
+  std::array<double, LightNode::width> sums;  // of a child and those before it
+};
+
 // From the root down by what each child can send to the point, as far as the lights of a child are alike for
 // it: they are far away for their extent, turned to it, and none has less than 1e-12 of all power. Of these
 // one is chosen by power, by sums over the tree's order.
@@ -65,6 +72,7 @@ class LightTree {
   };
   // u in [0,1). Empty where no light reaches p, as far as the bounds can tell.
   std::optional<Chosen> choose(Point3d p, double u) const;
+  class Point;  // chooses several times
   // The probability with which `choose` would give that light.
   double probability(Point3d p, std::uint32_t light) const;
 
@@ -90,6 +98,9 @@ class LightTree {
   friend class LightTreeBuilder;
   static constexpr std::uint32_t absent = ~0u;
   Point3f local(Point3d p) const;
+  // weights_of(number of a node) → const LightWeights&, at most until the next call.
+  template <class WeightsOf>
+  std::optional<Chosen> choose_from_root(double u, const WeightsOf& weights_of) const;
   double share_of_power(Slots slots, std::uint32_t slot) const;
 
   std::vector<LightNode> nodes_;  // 0 is the root
@@ -100,6 +111,22 @@ class LightTree {
   double scale_ = 1;
   double power_ = 0;
   LightChoice choice_ = LightChoice::tree;
+};
+
+// A point that several lights are chosen for. It keeps what nodes weighed for it, as the choices after the
+// first mostly go by the same. The tree outlives it.
+class LightTree::Point {
+ public:
+  Point(const LightTree& tree, Point3d p) : tree_(tree), p_(tree.local(p)) { kept_.fill(absent); }
+  // As LightTree::choose, to the last bit.
+  std::optional<Chosen> choose(double u);
+
+ private:
+  static constexpr std::size_t places = 8;  // of nodes, by the last digits of their numbers
+  const LightTree& tree_;
+  Point3f p_;
+  std::array<std::uint32_t, places> kept_;    // the node in a place, or `absent`
+  std::array<LightWeights, places> weights_;  // of those
 };
 
 }  // namespace vitrail

@@ -150,6 +150,36 @@ TEST(LightSampler, PdfOfATriangleIsThatOfItsSamples) {
 }
 
 // Σ over triangles of ∫ pdf over the triangle, as seen from p, is the share of what can be reached.
+// What one candidate leaves behind changes nothing of the next.
+TEST(LightSampler, GivesEachOfSeveralCandidatesAsAlone) {
+  Random random(11);
+  World world = triangle_world(random, 200);
+  world.add(DistantLight{{0, 0, 1}, ConstantSpectrum{1}});
+  const LightSampler s = make(world);
+  const SampledWavelengths wavelengths = test::some_wavelengths();
+  int found = 0;
+  for (int i = 0; i < 50; ++i) {
+    const Point3d p = random.point(-4, 4);
+    const std::array<float, 2> far{0.25f, 0.75f};
+    LastLamp last;
+    LightChooser chooser(s, p, far, wavelengths, last);
+    for (int k = 0; k < 40; ++k) {
+      const std::array<float, 4> u = random.four();
+      LastLamp none;
+      const auto alone = sample_light(s, p, u, far, wavelengths, none), candidate = chooser.sample(u);
+      ASSERT_EQ(alone.has_value(), candidate.has_value());
+      if (!alone) continue;
+      ++found;
+      ASSERT_EQ(alone->light, candidate->light);
+      ASSERT_EQ(alone->to_light, candidate->to_light);
+      ASSERT_EQ(alone->distance, candidate->distance);
+      ASSERT_EQ(alone->pdf, candidate->pdf);
+      ASSERT_EQ(alone->radiance.v, candidate->radiance.v);
+    }
+  }
+  EXPECT_GT(found, 1000);
+}
+
 TEST(LightSampler, PdfsOfAllTrianglesIntegrateToOne) {
   Random random(3);
   World world = triangle_world(random, 40);

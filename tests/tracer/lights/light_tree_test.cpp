@@ -123,6 +123,28 @@ TEST(LightTree, ChoosesAmongLightsThatAreAlikeWithTheProbabilityThatItSays) {
   }
 }
 
+// More nodes than a point keeps, each of which it meets again after others.
+TEST(LightTree, ChoosesTheSameForAPointThatIsAskedAgain) {
+  Random random(6);
+  for (const LightChoice choice : {LightChoice::tree, LightChoice::power})
+    for (const std::size_t count : {0u, 1u, 7u, 60u, 3000u}) {
+      const LightTree tree(mixed_lights(count, random), choice);
+      for (int i = 0; i < 20; ++i) {
+        const Point3d p = random.point(-6, 8);
+        LightTree::Point point(tree, p);
+        for (int k = 0; k < 200; ++k) {
+          const double u = random();
+          const auto once = tree.choose(p, u), again = point.choose(u);
+          ASSERT_EQ(once.has_value(), again.has_value());
+          if (!once) continue;
+          ASSERT_EQ(once->slot, again->slot);
+          ASSERT_EQ(once->probability, again->probability);
+          ASSERT_EQ(once->rest, again->rest);
+        }
+      }
+    }
+}
+
 // What is lost in a sum of powers is found by the nodes.
 TEST(LightTree, KeepsCandlesBesideASun) {
   Random random(5);
