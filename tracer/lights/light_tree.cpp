@@ -141,7 +141,8 @@ std::optional<LightTree::Chosen> LightTree::Point::choose(double u) {
     const std::size_t place = n % places;
     if (kept_[place] != n) {
       kept_[place] = static_cast<std::uint32_t>(n);
-      weigh(tree_.nodes_[n], p_, weights_[place]);
+      if (n == 0) local_ = tree_.local(p_);
+      weigh(tree_.nodes_[n], local_, weights_[place]);
       set_sums(weights_[place]);
     }
     return weights_[place];

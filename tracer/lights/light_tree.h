@@ -117,14 +117,15 @@ class LightTree {
 // first mostly go by the same. The tree outlives it.
 class LightTree::Point {
  public:
-  Point(const LightTree& tree, Point3d p) : tree_(tree), p_(tree.local(p)) { kept_.fill(absent); }
+  Point(const LightTree& tree, Point3d p) : tree_(tree), p_(p) { kept_.fill(absent); }
   // As LightTree::choose, to the last bit.
   std::optional<Chosen> choose(double u);
 
  private:
   static constexpr std::size_t places = 8;  // of nodes, by the last digits of their numbers
   const LightTree& tree_;
-  Point3f p_;
+  Point3d p_;
+  Point3f local_;                             // of the tree, once the root is kept
   std::array<std::uint32_t, places> kept_;    // the node in a place, or `absent`
   std::array<LightWeights, places> weights_;  // of those
 };
