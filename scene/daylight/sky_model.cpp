@@ -14,6 +14,8 @@ namespace {
 constexpr double radian = pi / 180;
 // What the sun's data are of.
 constexpr double model_sun_radius_rad = 0.5358 / 2 * radian;
+// Of the sky's curves: so many that the rounding of floats is the greater part of what they are off by.
+constexpr int gradient_segments = 64, scattering_segments = 128;
 
 // Where x lies between whole numbers from 0 to `last`.
 struct Between {
@@ -30,9 +32,7 @@ double mix(double a, double b, double part) { return a + (b - a) * part; }
 
 double band_nm(std::size_t band) { return first_sky_band_nm + sky_band_step_nm * static_cast<double>(band); }
 
-Between between_bands(double lambda_nm) {
-  return {(lambda_nm - first_sky_band_nm) / sky_band_step_nm, sky_bands - 1};
-}
+double place_among_bands(double lambda_nm) { return (lambda_nm - first_sky_band_nm) / sky_band_step_nm; }
 
 // Weights of the Bézier points, of degree 5.
 std::array<double, 6> bezier(double t) {
@@ -52,6 +52,18 @@ std::size_t segment_of(double elevation_rad) {
     (elevation_rad < segment_begin_rad(middle) ? high : low) = middle;
   }
   return low;
+}
+
+// Of an angle by its cosine, in [0, 1]: smooth but in its middle at 90°, and as the angle near both ends,
+// where the glow and the exponential have no slope or one of the angle.
+double place_of_angle(double cosine) {
+  const double near = std::sqrt(1 - std::abs(cosine)) / 2;
+  return cosine < 0 ? 1 - near : near;
+}
+
+double cosine_of_place(double place) {
+  const double near = std::min(place, 1 - place), cosine = 1 - 4 * near * near;
+  return place > 0.5 ? -cosine : cosine;
 }
 
 }  // namespace
@@ -88,8 +100,17 @@ SkyModel::SkyModel(const SkyLight& light)
       bands_[b].shape[i] = interpolated(albedo, [&](std::size_t t, std::size_t a, std::size_t point) {
         return sky_tables::shape[t][a][point][b][i];
       });
-    bands_[b].radiance = interpolated(albedo, [&](std::size_t t, std::size_t a, std::size_t point) {
-      return sky_tables::radiance[t][a][point][b];
+    bands_[b].radiance =
+        sky_scale_ * interpolated(albedo, [&](std::size_t t, std::size_t a, std::size_t point) {
+          return sky_tables::radiance[t][a][point][b];
+        });
+    horizon_[b] = static_cast<float>(bands_[b].shape[7]);
+  }
+  if (has_sky()) {
+    gradient_ = BandCurves(gradient_segments,
+                           [&](double root, std::size_t b) { return bands_[b].gradient(root * root); });
+    scattering_ = BandCurves(scattering_segments, [&](double place, std::size_t b) {
+      return bands_[b].scattering(cosine_of_place(place));
     });
   }
   for (std::size_t s = 0; s < sky_tables::sun_segments; ++s)
@@ -111,21 +132,42 @@ SkyModel::SkyModel(const SkyLight& light)
   }
 }
 
-SkyModel::SkyDirection SkyModel::sky_direction(Vector3d d) const {
-  const double cosine = std::max(0.0, d.z), cos_gamma = std::clamp(dot(d, to_sun_), -1.0, 1.0);
-  return {std::sqrt(cosine), cosine, portable_acos(cos_gamma), cos_gamma};
+// Equation 8 of 2012, with √cos θ as the authors' program has it.
+double SkyModel::Band::gradient(double cosine) const {
+  return 1 + shape[0] * portable_exp(shape[1] / (cosine + 0.01));
 }
 
-// Equation 8 of 2012, with √cos θ as the authors' program has it.
-double SkyModel::sky(const SkyDirection& at, std::size_t band) const {
-  const auto& p = bands_[band].shape;
-  const double c2 = at.cos_gamma * at.cos_gamma;
-  const double base = 1 + p[8] * p[8] - 2 * p[8] * at.cos_gamma;
+double SkyModel::Band::scattering(double cos_gamma) const {
+  const double c2 = cos_gamma * cos_gamma;
+  const double base = 1 + shape[8] * shape[8] - 2 * shape[8] * cos_gamma;
   const double glow = (1 + c2) / (base * safe_sqrt(base));
-  const double gradient = 1 + p[0] * portable_exp(p[1] / (at.cosine + 0.01));
-  const double scattering =
-      p[2] + p[3] * portable_exp(p[4] * at.gamma_rad) + p[5] * c2 + p[6] * glow + p[7] * at.root_cosine;
-  return std::max(0.0, gradient * scattering * bands_[band].radiance * sky_scale_);
+  return shape[2] + shape[3] * portable_exp(shape[4] * portable_acos(cos_gamma)) + shape[5] * c2 +
+         shape[6] * glow;
+}
+
+std::array<double, sky_bands> SkyModel::sky_by_formula(Vector3d d) const {
+  std::array<double, sky_bands> result{};
+  if (!has_sky() || d.z < 0) return result;
+  const double cos_gamma = std::clamp(dot(d, to_sun_), -1.0, 1.0);
+  for (std::size_t b = 0; b < sky_bands; ++b) {
+    const Band& band = bands_[b];
+    const double scattering = band.scattering(cos_gamma) + band.shape[7] * std::sqrt(d.z);
+    result[b] = std::max(0.0, band.gradient(d.z) * scattering * band.radiance);
+  }
+  return result;
+}
+
+BandValues SkyModel::relative_sky(Vector3d d) const {
+  const double root_cosine = std::sqrt(std::max(0.0, d.z));
+  const BandValues gradient = gradient_.at(root_cosine);
+  const BandValues scattering = scattering_.at(place_of_angle(std::clamp(dot(d, to_sun_), -1.0, 1.0)));
+  const auto root = static_cast<float>(root_cosine);
+  BandValues values;
+  for (std::size_t b = 0; b < band_lanes; ++b) {
+    const float value = gradient[b] * (scattering[b] + horizon_[b] * root);
+    values[b] = value > 0 ? value : 0;
+  }
+  return values;
 }
 
 SkyModel::SunDirection SkyModel::sun_direction(Vector3d d) const {
@@ -149,10 +191,20 @@ namespace {
 // Of what `value(band)` gives, at the wavelengths.
 template <class F>
 SampledSpectrum sampled(const SampledWavelengths& wavelengths, F&& value) {
+  // Side by side, without branches that no one can foretell.
+  std::array<int, hero_count> low;
+  std::array<double, hero_count> part;
+  for (std::size_t i = 0; i < hero_count; ++i) {
+    const double x = place_among_bands(static_cast<double>(wavelengths.lambda_nm[i]));
+    const double above = x > 0 ? x : 0, held = above < sky_bands - 1 ? above : sky_bands - 1;
+    const int below = static_cast<int>(held);
+    low[i] = below < sky_bands - 2 ? below : sky_bands - 2;
+    part[i] = held - low[i];
+  }
   SampledSpectrum result;
   for (std::size_t i = 0; i < hero_count; ++i) {
-    const Between at = between_bands(static_cast<double>(wavelengths.lambda_nm[i]));
-    result.v[i] = static_cast<float>(mix(value(at.low), value(at.low + 1), at.part));
+    const auto b = static_cast<std::size_t>(low[i]);
+    result.v[i] = static_cast<float>(mix(value(b), value(b + 1), part[i]));
   }
   return result;
 }
@@ -172,14 +224,15 @@ void add(std::array<double, sky_bands>& sum, const std::array<double, sky_bands>
 
 SampledSpectrum SkyModel::sky(Vector3d d, const SampledWavelengths& wavelengths) const {
   if (!has_sky() || d.z < 0) return filled(0);
-  const SkyDirection at = sky_direction(d);
-  return sampled(wavelengths, [&](std::size_t b) { return sky(at, b); });
+  const BandValues values = relative_sky(d);
+  return sampled(wavelengths,
+                 [&](std::size_t b) { return static_cast<double>(values[b]) * bands_[b].radiance; });
 }
 
 std::array<double, sky_bands> SkyModel::sky(Vector3d d) const {
   if (!has_sky() || d.z < 0) return {};
-  const SkyDirection at = sky_direction(d);
-  return each_band([&](std::size_t b) { return sky(at, b); });
+  const BandValues values = relative_sky(d);
+  return each_band([&](std::size_t b) { return static_cast<double>(values[b]) * bands_[b].radiance; });
 }
 
 SampledSpectrum SkyModel::sun(Vector3d d, const SampledWavelengths& wavelengths) const {
@@ -238,7 +291,7 @@ std::array<double, sky_bands> SkyModel::sky_irradiance() const {
 TabulatedSpectrum spectrum_of_bands(const std::array<double, sky_bands>& values) {
   TabulatedSpectrum spectrum;
   for (int i = 0; i < table_size; ++i) {
-    const Between at = between_bands(lambda_min_nm + i);
+    const Between at(place_among_bands(lambda_min_nm + i), sky_bands - 1);
     spectrum.values.push_back(static_cast<float>(mix(values[at.low], values[at.low + 1], at.part)));
   }
   return spectrum;

@@ -3,7 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "scene/daylight/photometry.h"
+#include "scene/geometry/portable_math.h"
 
 namespace vitrail {
 namespace {
@@ -61,6 +65,39 @@ TEST(SkyModel, IsThatOfMitsuba) {
        {{1, 1, 0.3}, {1.885245e-01, 3.296218e-01, 2.773962e-01, 2.459078e-01, 2.053523e-01, 1.682019e-01}},
        {sun, {7.036357e+03, 1.631762e+04, 1.904059e+04, 1.955073e+04, 1.845139e+04, 1.731762e+04}}},
       1e-5, 1e-3);
+}
+
+// Over all of the sky, denser at the horizon and around the sun, in every band.
+TEST(SkyModel, CurvesAreThoseOfTheFormula) {
+  double worst = 0;
+  for (const float turbidity : {1.0f, 1.5f, 3.0f, 5.5f, 9.5f, 10.0f})
+    for (const float albedo : {0.0f, 0.5f, 1.0f})
+      for (const double elevation_deg : {0.0, 0.3, 2.0, 8.0, 20.0, 40.0, 70.0, 89.0, 90.0}) {
+        SkyLight light;
+        light.turbidity = turbidity;
+        light.albedo = ConstantSpectrum{albedo};
+        const double elevation = elevation_deg * pi / 180;
+        light.to_sun = {portable_cos(elevation), 0, portable_sin(elevation)};
+        const SkyModel model(light);
+        const auto irradiance = model.sky_irradiance();
+        const auto compare = [&](Vector3d d) {
+          const auto exact = model.sky_by_formula(d), curves = model.sky(d);
+          for (std::size_t b = 0; b < sky_bands; ++b)
+            worst = std::max(worst, std::abs(curves[b] - exact[b]) / (exact[b] + irradiance[b] / (100 * pi)));
+        };
+        for (int i = 0; i <= 50; ++i)
+          for (int j = 0; j <= 12; ++j) {
+            const double theta = pi / 2 * (1 - i * i / 2500.0), phi = pi * j / 12;
+            compare({portable_sin(theta) * portable_cos(phi), portable_sin(theta) * portable_sin(phi),
+                     std::max(0.0, portable_cos(theta))});
+          }
+        for (int i = -60; i <= 60; ++i) {
+          const double gamma = 0.5 * i * std::abs(i) / 3600.0, at = elevation + gamma;
+          if (at >= 0) compare({portable_cos(at), 0, portable_sin(at)});
+        }
+      }
+  EXPECT_LT(worst, 5e-6);
+  EXPECT_GT(worst, 0);
 }
 
 // The disc's mean radiance times its solid angle is its irradiance, darkened or uniform, of any diameter.
