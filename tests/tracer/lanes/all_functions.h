@@ -2,6 +2,7 @@
 // Each function of tracer/lanes by its name: what lanes_test.cpp holds to the scalar one.
 #pragma once
 
+#include "tests/tracer/lanes/glossy_functions.h"
 #include "tests/tracer/lanes/lane_table.h"
 #include "tests/tracer/lanes/stage_functions.h"
 #include "tracer/lanes/codes.h"
@@ -60,10 +61,11 @@ LANE_FUNCTION(density_beside, 1, 2) {
 }
 LANE_FUNCTION(rounded_radiance, 1, 1) { out.number(lanes::rounded_radiance(in.f(0))); }
 LANE_FUNCTION(rounded_by_chance, 2, 1) { out.number(lanes::rounded_by_chance(in.f(0), in.u(1))); }
-LANE_FUNCTION(order_of_min_and_max, 2, 4) {
+LANE_FUNCTION(order_of_min_and_max, 2, 5) {
   const auto a = in.d(0), b = in.d(1);
   out.number(lanes::min(a, b)), out.number(lanes::max(a, b));
   out.number(lanes::clamp(a, 0.0, 1.0)), out.number(lanes::safe_sqrt(a));
+  out.number(lanes::fill<lanes::Doubles<W>>(-0.0));
 }
 // Rounding to float, which an optimiser may lose between doubles.
 LANE_FUNCTION(rounding_to_float, 2, 1) {
@@ -84,7 +86,7 @@ constexpr LaneFunctions functions_of(const char* set) {
             rounded_by_chance, order_of_min_and_max, rounding_to_float, sigmoid, table_value, wavelengths,
             plain_interaction, interaction_with_normals, interaction_with_uv, interaction_with_both,
             offset_origin, depart, choose_of_few_lights, choose_of_many_lights, choose_by_power,
-            choose_of_none, aim, shadow_radiance, draw_triangle>;
+            choose_of_none, aim, shadow_radiance, draw_triangle, quick_math, microfacets, conductor, plastic>;
   return {set, W, all, sizeof all / sizeof all[0]};
 }
 

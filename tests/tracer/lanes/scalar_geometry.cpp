@@ -62,6 +62,7 @@ std::vector<ScalarFunction> geometry_functions() {
        [](const Context&, const double* in, double* out) {
          out[0] = std::min(in[0], in[1]), out[1] = std::max(in[0], in[1]);
          out[2] = std::clamp(in[0], 0.0, 1.0), out[3] = safe_sqrt(in[0]);
+         out[4] = -0.0;
        }},
       {"rounding_to_float",
        {number(-2, 2, {-0.0, 0, 1}), number(-1, 1, {0, 1})},

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/tracer/lanes/fixtures.h"
+#include "tests/tracer/lanes/results.h"
 #include "tests/tracer/lanes/scalar_functions.h"
 #include "tracer/lights/draw_light.h"
 #include "tracer/transport/aim.h"
@@ -15,26 +16,19 @@ Vector3d vector_of(const double* in) { return {in[0], in[1], in[2]}; }
 Point3d point_of(const double* in) { return {in[0], in[1], in[2]}; }
 Point3f float_point_of(const double* in) { return cast<float>(point_of(in)); }
 
-// Writes results one after the other.
-struct Results {
-  double* next;
-  Results& operator<<(double x) {
-    *next++ = x;
-    return *this;
-  }
-  template <class V>
-  requires requires(V v) { v.z; }
-  Results& operator<<(const V& v) {
-    return *this << static_cast<double>(v.x) << static_cast<double>(v.y) << static_cast<double>(v.z);
-  }
-  Results& operator<<(const std::array<float, 4>& v) {
-    for (const float x : v) *this << static_cast<double>(x);
-    return *this;
-  }
-  Results& operator<<(DirectionCode code) { return *this << code.first() << code.second(); }
-};
-
 Argument wavelength() { return float_number(350, 840, {360, 360.5, 829.5, 830, 400}); }
+
+// A triangle that emits, and a point, some in its plane.
+Argument lamp_and_point() {
+  return {4, {{0, 0, 0, 0}}, [point = position()](Random& random, double* out) {
+            const std::uint64_t slot = random() % fixture_lamps;
+            const Point3f corner = fixtures().lights.slots[slot].p[0];
+            out[0] = static_cast<double>(slot);
+            point.random(random, out + 1);
+            if (const auto axis = static_cast<int>(random() % 6); axis < 3)
+              out[1 + axis] = static_cast<double>(corner[axis]);
+          }};
+}
 
 ScalarFunction interaction(const char* name, std::size_t domain) {
   return {name,
@@ -147,7 +141,7 @@ std::vector<ScalarFunction> stage_functions() {
            out[i] = static_cast<double>(rounded_radiance(std::max(0.0f, static_cast<float>(in[i]))));
        }},
       {"draw_triangle",
-       {word(fixture_lamps), position(), unit_number(), unit_number()},
+       {lamp_and_point(), unit_number(), unit_number()},
        [](const Context&, const double* in, double* out) {
          const LightSampler& lights = fixtures().lights;
          const std::array<float, 4> u{static_cast<float>(in[4]), static_cast<float>(in[5]), 0, 0};

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+// Functions in lanes of microfacets and what is made of them.
+#pragma once
+
+#include "tests/tracer/lanes/context.h"
+#include "tests/tracer/lanes/lane_table.h"
+#include "tracer/lanes/glossy.h"
+
+namespace vitrail::lane_tests {
+namespace {
+
+// in[k …]: both widths, Beckmann's or not, separable or not.
+template <int W>
+VITRAIL_LANES lanes::Microfacets<lanes::Doubles<W>> microfacets_of(const In<W>& in, int k) {
+  return {in.d(k), in.d(k + 1), in.d(k + 2) > 0, in.d(k + 3) > 0};
+}
+template <int W>
+VITRAIL_LANES lanes::Four<lanes::Floats<W>> four_of(const In<W>& in, int k) {
+  return {{in.f(k), in.f(k + 1), in.f(k + 2), in.f(k + 3)}};
+}
+template <int W, class D>
+VITRAIL_LANES void put_sample(const lanes::BsdfSample<D>& s, Out<W>& out) {
+  const lanes::Mask<lanes::Floats<W>> narrow = lanes::mask_for<lanes::Floats<W>>(s.scatters);
+  const auto kept = [&](D x) { return lanes::select<D>(s.scatters, x, lanes::fill<D>(0)); };
+  out.mask(s.scatters), out.mask(s.scatters & s.specular);
+  out.number(kept(s.in.x)), out.number(kept(s.in.y)), out.number(kept(s.in.z)), out.number(kept(s.pdf));
+  for (int i = 0; i < 4; ++i)
+    out.number(lanes::select<lanes::Floats<W>>(narrow, s.weight[i], lanes::fill<lanes::Floats<W>>(0)));
+}
+
+LANE_FUNCTION(quick_math, 3, 6) {
+  out.number(lanes::quick_exp(in.d(0))), out.number(lanes::quick_log(in.d(1)));
+  out.number(lanes::quick_erf(in.d(1), in.d(2)));
+  const auto circle = lanes::quick_circle(in.d(2));
+  out.number(circle.cosine), out.number(circle.sine);
+  out.number(lanes::inverse_erf<lanes::Doubles<W>>(2.0 * in.d(2) - 1.0));
+}
+LANE_FUNCTION(microfacets, 12, 8) {
+  const auto mf = microfacets_of(in, 0);
+  const auto a = in.vector(4), b = in.vector(7);
+  const auto area = lanes::visible_area(mf, a);
+  out.number(lanes::normal_density(mf, b)), out.number(area), out.number(lanes::visible_area(mf, b));
+  out.number(lanes::shadowing_over_cosines(mf, a, area, b));
+  const auto m = lanes::sample_visible_normal(mf, a, in.f(10), in.f(11));
+  out.vector(m), out.number(lanes::normal_density(mf, m));
+}
+// Widths and kinds, four of eta, of k, of the factor, perfect or not, two directions, two numbers.
+LANE_FUNCTION(conductor, 25, 25) {
+  const lanes::Conductor<lanes::Doubles<W>> bsdf{microfacets_of(in, 0), four_of(in, 4), four_of(in, 8),
+                                                 four_of(in, 12), in.d(16) > 0};
+  const auto f = lanes::eval(bsdf, in.vector(17), in.vector(20));
+  out.four(f.value), out.number(f.pdf);
+  put_sample(lanes::sample(bsdf, in.vector(17), in.f(23), in.f(24)), out);
+  put_sample(lanes::sample_mirror(bsdf, in.vector(17)), out);
+}
+// Widths and kinds, diffuse and specular reflectances, index, inside reflectance, nonlinear or not, a table,
+// two directions, three numbers.
+LANE_FUNCTION(plastic, 25, 30) {
+  using D = lanes::Doubles<W>;
+  const lanes::Plastic<D> smooth{four_of(in, 4), four_of(in, 8), in.d(12), in.d(13), in.d(14) > 0};
+  const auto table = [&](int j) { return context.tables[static_cast<int>(lanes::lane(in.d(15), j))]; };
+  const lanes::RoughPlastic<D, decltype(table)> rough{smooth, microfacets_of(in, 0), table};
+  const auto put = [&](const auto& bsdf) {
+    const auto f = lanes::eval(bsdf, in.vector(16), in.vector(19));
+    out.four(f.value), out.number(f.pdf);
+    put_sample(lanes::sample(bsdf, in.vector(16), in.f(22), in.f(23), in.f(24)), out);
+  };
+  put(smooth), put(rough);
+}
+
+}  // namespace
+}  // namespace vitrail::lane_tests

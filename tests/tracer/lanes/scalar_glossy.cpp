@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/tracer/lanes/fixtures.h"
+#include "tests/tracer/lanes/results.h"
+#include "tests/tracer/lanes/scalar_functions.h"
+#include "tracer/bsdf/conductor.h"
+#include "tracer/bsdf/plastic.h"
+#include "tracer/bsdf/quick_math.h"
+
+namespace vitrail::lane_tests {
+
+namespace {
+
+Vector3d vector_of(const double* in) { return {in[0], in[1], in[2]}; }
+SampledSpectrum four_of(const double* in) {
+  return {{static_cast<float>(in[0]), static_cast<float>(in[1]), static_cast<float>(in[2]),
+           static_cast<float>(in[3])}};
+}
+Point2f numbers_of(const double* in) { return {static_cast<float>(in[0]), static_cast<float>(in[1])}; }
+
+Microfacets microfacets_of(const double* in) {
+  return {in[0], in[1], in[2] > 0 ? Roughness::Distribution::beckmann : Roughness::Distribution::ggx,
+          in[3] > 0 ? Masking::separable : Masking::correlated};
+}
+
+void add(std::vector<Argument>& all, const std::vector<Argument>& more) {
+  all.insert(all.end(), more.begin(), more.end());
+}
+std::vector<Argument> facets() {
+  const Argument width = magnitude(-13, 3, {1e-4, 1e-3, 0.1, 0.5, 1});
+  return {width, width, word(2), word(2)};
+}
+// Above the surface, but for some corners.
+Argument upper_direction() {
+  Argument up = direction();
+  up.random = [any = up.random](Random& random, double* out) {
+    any(random, out);
+    out[2] = std::abs(out[2]);
+  };
+  return up;
+}
+Argument direction_above() {
+  Argument above = upper_direction();
+  std::erase_if(above.corners, [](const std::vector<double>& corner) { return !(corner[2] > 0); });
+  return above;
+}
+std::vector<Argument> reflectances() { return std::vector<Argument>(4, float_number(0, 1, {0, 1, 0.5})); }
+
+void put(const std::optional<BsdfSample>& s, Results& results) {
+  const BsdfSample none{}, &x = s ? *s : none;
+  results << s.has_value() << x.specular << x.in << x.pdf << x.weight.v;
+}
+void put(const BsdfValue& f, Results& results) { results << f.value.v << f.pdf; }
+
+}  // namespace
+
+std::vector<ScalarFunction> glossy_functions() {
+  std::vector<Argument> microfacets = facets(), conductor = facets(), plastic = facets();
+  add(microfacets, {direction_above(), direction(), unit_number(), unit_number()});
+  add(conductor, std::vector<Argument>(4, float_number(0.05, 4, {0.2, 1})));
+  add(conductor, std::vector<Argument>(4, float_number(0, 8, {0.5, 3})));
+  add(conductor, reflectances());
+  add(conductor, {word(2), upper_direction(), upper_direction(), unit_number(), unit_number()});
+  add(plastic, reflectances());
+  add(plastic, reflectances());
+  add(plastic, {number(1.1, 2.5, {1.5, 1.0}), number(0, 0.9, {0, 0.6}), word(2), word(2), upper_direction(),
+                upper_direction(), unit_number(), unit_number(), unit_number()});
+  return {
+      {"quick_math",
+       {number(-720, 700, {-700, 0, -0.0, 1}), magnitude(-100, 100, {1, 0.5, 2, 0x1p-1022}), unit_number()},
+       [](const Context&, const double* in, double* out) {
+         const auto [cosine, sine] = quick_circle(in[2]);
+         Results{out} << quick_exp(in[0]) << quick_log(in[1]) << quick_erf(in[1], in[2]) << cosine << sine
+                      << inverse_erf(2 * in[2] - 1);
+       }},
+      {"microfacets", microfacets,
+       [](const Context&, const double* in, double* out) {
+         const Microfacets mf = microfacets_of(in);
+         const Vector3d a = vector_of(in + 4), b = vector_of(in + 7);
+         const double area = visible_area(mf, a);
+         const Vector3d m = sample_visible_normal(mf, a, numbers_of(in + 10));
+         Results{out} << normal_density(mf, b) << area << visible_area(mf, b)
+                      << shadowing_over_cosines(mf, a, area, b) << m << normal_density(mf, m);
+       }},
+      {"conductor", conductor,
+       [](const Context&, const double* in, double* out) {
+         ConductorBsdf bsdf{microfacets_of(in), four_of(in + 4), four_of(in + 8), four_of(in + 12),
+                            in[16] > 0};
+         const Vector3d from = vector_of(in + 17);
+         Results results{out};
+         put(eval(bsdf, from, vector_of(in + 20)), results);
+         put(sample(bsdf, from, 0, numbers_of(in + 23)), results);
+         bsdf.microfacets = {};
+         put(sample(bsdf, from, 0, {}), results);
+       }},
+      {"plastic", plastic,
+       [](const Context&, const double* in, double* out) {
+         const PlasticBsdf smooth{four_of(in + 4), four_of(in + 8), in[12], in[13], in[14] > 0};
+         RoughPlasticTables tables;
+         tables.internal_reflectance = in[13];
+         std::copy_n(fixtures().tables[static_cast<std::size_t>(in[15])].begin(), RoughPlasticTables::count,
+                     tables.external_transmittance.begin());
+         const RoughPlasticBsdf rough{smooth.diffuse_reflectance,
+                                      smooth.specular_reflectance,
+                                      smooth.eta,
+                                      microfacets_of(in),
+                                      &tables,
+                                      smooth.nonlinear};
+         Results results{out};
+         const auto both = [&](const auto& bsdf) {
+           put(eval(bsdf, vector_of(in + 16), vector_of(in + 19)), results);
+           put(sample(bsdf, vector_of(in + 16), static_cast<float>(in[22]), numbers_of(in + 23)), results);
+         };
+         both(smooth), both(rough);
+       }},
+  };
+}
+
+}  // namespace vitrail::lane_tests
