@@ -87,7 +87,7 @@ Fixtures::Fixtures() {
   area_lights = {{.radiance = Spectrum{ConstantSpectrum{1}}},
                  {.radiance = Spectrum{ConstantSpectrum{3}}, .two_sided = true}};
   for (std::uint32_t i = 0; i < fixture_lamps; ++i) {
-    EmissiveTriangle t{.triangle = i, .area_light = i % 2};
+    EmissiveTriangle t{.triangle = i, .area_light = i / 4 % 2};
     do corners(random, i == 5 ? 6 : i, t.p);
     while (length(cross(cast<double>(t.p[1] - t.p[0]), cast<double>(t.p[2] - t.p[0]))) == 0);
     triangles.push_back(t);
