@@ -62,8 +62,12 @@ const KernelFunctions& kernel_functions(Kernel kernel) {
   return portable_kernel;
 }
 
+Kernel best_kernel_kind() {
+  static const Kernel chosen = choose_kernel();
+  return chosen;
+}
 const KernelFunctions& best_kernel() {
-  static const KernelFunctions& chosen = kernel_functions(choose_kernel());
+  static const KernelFunctions& chosen = kernel_functions(best_kernel_kind());
   return chosen;
 }
 

@@ -48,6 +48,7 @@ const KernelFunctions& kernel_functions(Kernel kernel);
 // The fastest available, unless the environment's VITRAIL_KERNEL names another; a name that is unknown or
 // cannot be run here throws Error.
 const KernelFunctions& best_kernel();
+Kernel best_kernel_kind();
 
 // The same through Embree over user geometry: an independent traversal of the same clusters and instances,
 // built when the domain is loaded; within instances it tries every cluster. It refers to what the view shows,

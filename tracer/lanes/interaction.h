@@ -3,25 +3,13 @@
 // a cone's width or with attributes are for that.
 #pragma once
 
-#include "bundle/domain_file.h"
 #include "tracer/lanes/directions.h"
+#include "tracer/lanes/domain_tables.h"
 #include "tracer/rays/ray.h"
 
 namespace vitrail::lanes {
 
-// Of a DomainView. Where a table is empty, null.
-struct DomainTables {
-  const Cluster* clusters;
-  const ClusterNormals* normals;
-  const ClusterUvs* uvs;
-};
-
 namespace {
-
-VITRAIL_LANES DomainTables tables_of(const DomainView& view) {
-  return {view.clusters.data(), view.normals.empty() ? nullptr : view.normals.data(),
-          view.uvs.empty() ? nullptr : view.uvs.data()};
-}
 
 // vitrail::Interaction.
 template <class D>
@@ -53,13 +41,14 @@ VITRAIL_LANES D farthest_corner(D p0, D e1, D e2, D p, D away) {
   return lanes::min(corner, abs(p) + away);
 }
 
-template <class D, class HitOf>
-VITRAIL_LANES void find_shading_normal(const DomainTables& domain, const HitOf& hit, D u, D v,
+template <class D, class DomainOf, class HitOf>
+VITRAIL_LANES void find_shading_normal(const DomainOf& domain, const HitOf& hit, D u, D v,
                                        Interaction<D>& at) {
   using U = WordsLike<D>;
   const auto code = [&](int k) __attribute__((always_inline)) {
     return gather<U>([&](int j) __attribute__((always_inline)) {
-      return domain.normals[hit(j).cluster].normal[hit(j).lane][k];
+      const ClusterNormals* const normals = domain(j).normals;
+      return normals ? normals[hit(j).cluster].normal[hit(j).lane][k] : no_normal;
     });
   };
   const U first = code(0), second = code(1), third = code(2);
@@ -75,12 +64,13 @@ VITRAIL_LANES void find_shading_normal(const DomainTables& domain, const HitOf& 
   at.shading = select<D>(usable, n, at.shading);
 }
 
-template <class D, class HitOf>
-VITRAIL_LANES void find_uv(const DomainTables& domain, const HitOf& hit, D hit_u, D hit_v, Vector<D> e1,
+template <class D, class DomainOf, class HitOf>
+VITRAIL_LANES void find_uv(const DomainOf& domain, const HitOf& hit, D hit_u, D hit_v, Vector<D> e1,
                            Vector<D> e2, Interaction<D>& at) {
   const auto number = [&](int corner, int k) __attribute__((always_inline)) {
     return to_doubles(gather<FloatsLike<D>>([&](int j) __attribute__((always_inline)) {
-      return domain.uvs[hit(j).cluster].uv[hit(j).lane][corner][k];
+      const ClusterUvs* const uvs = domain(j).uvs;
+      return uvs ? uvs[hit(j).cluster].uv[hit(j).lane][corner][k] : 0;
     }));
   };
   const D u0 = number(0, 0), u1 = number(1, 0), u2 = number(2, 0);
@@ -95,14 +85,14 @@ VITRAIL_LANES void find_uv(const DomainTables& domain, const HitOf& hit, D hit_u
 
 }  // namespace detail
 
-// hit(j): the vitrail::Hit of lane j, of depth 0. `direction` of the rays, decoded.
-template <class D, class HitOf>
-VITRAIL_LANES Interaction<D> triangle_interaction(const DomainTables& domain, const HitOf& hit,
+// hit(j): the vitrail::Hit of lane j, of depth 0, in domain(j). `direction` of the rays, decoded.
+template <class D, class DomainOf, class HitOf>
+VITRAIL_LANES Interaction<D> triangle_interaction(const DomainOf& domain, const HitOf& hit,
                                                   Vector<FloatsLike<D>> direction) {
   const auto vertex = [&](int k) __attribute__((always_inline)) {
     const auto coordinate = [&](int axis) __attribute__((always_inline)) {
       return to_doubles(gather<FloatsLike<D>>([&](int j) __attribute__((always_inline)) {
-        return domain.clusters[hit(j).cluster].vertex[k][axis][hit(j).lane];
+        return domain(j).clusters[hit(j).cluster].vertex[k][axis][hit(j).lane];
       }));
     };
     return Vector<D>{coordinate(0), coordinate(1), coordinate(2)};
@@ -126,8 +116,13 @@ VITRAIL_LANES Interaction<D> triangle_interaction(const DomainTables& domain, co
   at.shading = at.geometric;
   at.dpdu = fill<D>(Vector3d{});
   at.u = at.v = fill<D>(0);
-  if (domain.normals) detail::find_shading_normal(domain, hit, u, v, at);
-  if (domain.uvs) detail::find_uv(domain, hit, u, v, e1, e2, at);
+  bool has_normals = false, has_uvs = false;
+  for (int j = 0; j < width<D>; ++j) {
+    has_normals |= domain(j).normals != nullptr;
+    has_uvs |= domain(j).uvs != nullptr;
+  }
+  if (has_normals) detail::find_shading_normal(domain, hit, u, v, at);
+  if (has_uvs) detail::find_uv(domain, hit, u, v, e1, e2, at);
   return at;
 }
 

@@ -134,6 +134,21 @@ template <class I, class T>
 VITRAIL_LANES Like<T, I> at(const T* table, I index) {
   return gather<Like<T, I>>([&](int j) __attribute__((always_inline)) { return table[lane(index, j)]; });
 }
+// Changes one lane; of masks, whether it is set.
+template <class V>
+VITRAIL_LANES void set_lane(V& v, int j, std::type_identity_t<Number<V>> x) {
+  if constexpr (width<V> == 1)
+    v = x;
+  else
+    v[j] = x;
+}
+template <class M>
+VITRAIL_LANES void set_mask(M& mask, int j, bool set) {
+  if constexpr (width<M> == 1)
+    mask = set;
+  else
+    mask[j] = set ? -1 : 0;
+}
 // The mask for which set(j).
 template <class V, class Get>
 VITRAIL_LANES Mask<V> gather_mask(const Get& get) {

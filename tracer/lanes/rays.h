@@ -39,11 +39,12 @@ struct Departed {
   Four<FloatsLike<D>> throughput;
 };
 
-// What depart (transport/traveller.h) does to a path with that sample_seed, whose depth is counted already; `stream` is
-// stream_offset(depth, RayRandom::throughput).
+// What depart (transport/traveller.h) does to a path with that sample_seed, whose depth is counted already;
+// `stream` is stream_offset(depth, RayRandom::throughput).
 template <class D>
-VITRAIL_LANES Departed<D> depart(LongsLike<D> seed, std::uint64_t stream, Vector<FloatsLike<D>> origin,
-                                 Vector<D> direction, Four<FloatsLike<D>> throughput) {
+VITRAIL_LANES Departed<D> depart(LongsLike<D> seed, std::type_identity_t<LongsLike<D>> stream,
+                                 Vector<FloatsLike<D>> origin, Vector<D> direction,
+                                 Four<FloatsLike<D>> throughput) {
   Departed<D> result;
   result.origin = origin;
   result.code = encode_direction(direction);

@@ -56,6 +56,13 @@ VITRAIL_LANES Vector3<Number<D>> lane(const Vector<D>& v, int j) {
   return {lane(v.x, j), lane(v.y, j), lane(v.z, j)};
 }
 
+template <class D>
+VITRAIL_LANES void set_lane(Vector<D>& v, int j, const Vector3<Number<D>>& x) {
+  set_lane(v.x, j, x.x);
+  set_lane(v.y, j, x.y);
+  set_lane(v.z, j, x.z);
+}
+
 // Unit; v itself where its length is zero or not finite.
 template <class D>
 VITRAIL_LANES Vector<D> normalize(Vector<D> v) {

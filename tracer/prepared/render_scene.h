@@ -8,6 +8,7 @@
 #include "bundle/interiors.h"
 #include "tracer/lights/light_sampler.h"
 #include "tracer/media/free_flight.h"
+#include "tracer/prepared/lane_scene.h"
 #include "tracer/prepared/sampling_choices.h"
 #include "tracer/surfaces/surface_materials.h"
 #include "tracer/view/camera_rays.h"
@@ -30,6 +31,7 @@ struct RenderScene {
   Materials materials;
   std::vector<PreparedMedium> media;
   LightSampler lights;
+  LaneScene lanes;
   Transform bundle_to_camera;
   // Where the camera is that sensors take the place of: what is known to be around it tells what is around
   // all. None: the camera's medium is around all.

@@ -46,8 +46,9 @@ enum class RayRandom : std::uint64_t {
   coverage
 };
 // What the seed of such numbers adds to the hash of the ray.
+inline constexpr std::uint64_t stream_factor = 0xd1342543de82ef95u;
 inline std::uint64_t stream_offset(std::uint32_t depth, RayRandom use) {
-  return (std::uint64_t{depth} << 3 | static_cast<std::uint64_t>(use)) * 0xd1342543de82ef95u;
+  return (std::uint64_t{depth} << 3 | static_cast<std::uint64_t>(use)) * stream_factor;
 }
 
 }  // namespace vitrail

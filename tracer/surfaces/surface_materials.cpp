@@ -169,8 +169,15 @@ SampledSpectrum Materials::mixed(std::uint32_t material, const Interaction& at, 
   return is_nothing(m, at.front) ? filled(of_nothing) : of_part(m);
 }
 
-BsdfMaker Materials::maker_at(const Interaction& at, const SampledWavelengths& wavelengths) const {
-  return {textures_, at.texture_point(), wavelengths, nullptr, nullptr, filled(1), 0, 1, {}};
+BsdfMaker Materials::maker_at(const TexturePoint& at, const SampledWavelengths& wavelengths) const {
+  return {textures_, at, wavelengths, nullptr, nullptr, filled(1), 0, 1, {}};
+}
+
+Bsdf Materials::bsdf_at(const Material& material, const TexturePoint& at,
+                        const SampledWavelengths& wavelengths) const {
+  BsdfMaker maker = maker_at(at, wavelengths);
+  if (!plastic_tables_.empty()) maker.plastic_tables = &plastic_tables_[plastic_table_[index_of(material)]];
+  return std::visit(maker, material.model);
 }
 
 SampledSpectrum Materials::passes_straight(std::uint32_t material, const Interaction& at,
@@ -180,9 +187,9 @@ SampledSpectrum Materials::passes_straight(std::uint32_t material, const Interac
     if (const auto* measured = std::get_if<MeasuredMaterial>(&m.model))
       return sheet_fractions(*measured->sheet, wavelengths, cosine).transmitted;
     if (const auto* thin = std::get_if<ThinDielectricMaterial>(&m.model))
-      return straight_transmittance(maker_at(at, wavelengths).thin(*thin), cosine);
+      return straight_transmittance(maker_at(at.texture_point(), wavelengths).thin(*thin), cosine);
     if (const auto* slab = std::get_if<SlabMaterial>(&m.model))
-      return straight_transmittance(maker_at(at, wavelengths).slab(*slab), cosine);
+      return straight_transmittance(maker_at(at.texture_point(), wavelengths).slab(*slab), cosine);
     return {};
   });
 }
@@ -194,10 +201,10 @@ SampledSpectrum Materials::mirrors(std::uint32_t material, const Interaction& at
     if (const auto* measured = std::get_if<MeasuredMaterial>(&m.model))
       return sheet_fractions(*measured->sheet, wavelengths, cosine).reflected;
     if (const auto* thin = std::get_if<ThinDielectricMaterial>(&m.model))
-      return mirrored_share(maker_at(at, wavelengths).thin(*thin), cosine);
+      return mirrored_share(maker_at(at.texture_point(), wavelengths).thin(*thin), cosine);
     const auto* metal = std::get_if<ConductorMaterial>(&m.model);
     if (!metal || !scatters(m, at)) return {};
-    const Bsdf bsdf = maker_at(at, wavelengths)(*metal);
+    const Bsdf bsdf = maker_at(at.texture_point(), wavelengths)(*metal);
     if (!is_specular(bsdf)) return {};
     const auto chosen = sample(bsdf, {safe_sqrt(1 - cosine * cosine), 0, cosine}, 0, {});
     return chosen ? chosen->weight : SampledSpectrum{};

@@ -56,6 +56,9 @@ class Materials {
   Scattering scattering_at(const Material& material, const Interaction& at,
                            const SampledWavelengths& wavelengths, const SampledSpectrum& throughput,
                            std::uint64_t event) const;
+  // What scatters at a point of a chosen material that depends on nothing but the point: it is one of those
+  // that LaneKind knows.
+  Bsdf bsdf_at(const Material& material, const TexturePoint& at, const SampledWavelengths& wavelengths) const;
   // The normal as bump and normal maps turn it; on the same side as at.geometric.
   Vector3d shading_normal(const Material& material, const Interaction& at) const;
 
@@ -66,7 +69,7 @@ class Materials {
   template <class OfPart>
   SampledSpectrum mixed(std::uint32_t material, const Interaction& at, float of_nothing,
                         const OfPart& of_part) const;
-  BsdfMaker maker_at(const Interaction& at, const SampledWavelengths& wavelengths) const;
+  BsdfMaker maker_at(const TexturePoint& at, const SampledWavelengths& wavelengths) const;
   const Manifest& manifest_;
   const Textures& textures_;
   std::vector<MaterialKind> kinds_;

@@ -53,7 +53,7 @@ void send_connection(Tracing& tracing, const CameraPath& path, const Departure& 
 void send_shadow_ray(const CameraPath& path, const Departure& from, const LightSample& light,
                      const SampledSpectrum& radiance, ShadowRays& shadows) {
   const Aimed aimed = aim(from, light);
-  ShadowRay& shadow = shadows.emplace_back();
+  ShadowRay& shadow = shadows.rays[shadows.count++];
   shadow.ray = {from.origin, aimed.rounded, from.exclude};
   shadow.direction = aimed.direction;
   shadow.tmax = std::isinf(light.distance) ? std::numeric_limits<float>::max() : float_below(aimed.end);
@@ -78,14 +78,13 @@ void connect(Tracing& tracing, const CameraPath& path, Point3d p, std::uint32_t 
              const Depart& depart, ShadowRays& shadows) {
   const std::array<float, 4> numbers = numbers_for_light(tracing, path);
   const std::array<float, 2> far = numbers_for_far_lights(tracing, path.key);
+  LightChooser lights(tracing.scene.lights, p, far, path.wavelengths, path.lamp);
   double choice = static_cast<double>(path.film.camera[3]);
   std::optional<LightSample> light;
   SampledSpectrum radiance;
   double all = 0, chosen = 0;
   for (std::uint32_t k = 0; k < count; ++k) {
-    const auto candidate =
-        sample_light(tracing.scene.lights, p, k > 0 ? numbers_of_candidate(numbers, k) : numbers, far,
-                     path.wavelengths, path.lamp);
+    const auto candidate = lights.sample(k > 0 ? numbers_of_candidate(numbers, k) : numbers);
     if (!candidate) continue;
     const BsdfValue scattered = scatter(candidate->to_light);
     const double beside = candidate->is_delta ? 0 : static_cast<double>(density_beside(scattered.pdf, count));

@@ -40,21 +40,6 @@ void add_environment(Tracing& tracing, const CameraPath& path) {
   deposit(tracing, path.film, path.throughput * radiance * static_cast<float>(weight));
 }
 
-void add_emission(Tracing& tracing, const CameraPath& path, const Interaction& at, std::uint32_t light) {
-  const LightSampler& lights = tracing.scene.lights;
-  const double cosine = dot(at.out, at.geometric);
-  const SampledSpectrum radiance =
-      emitted(lights, light, at.texture_point(), cosine, path.wavelengths, path.lamp);
-  if (is_black(radiance)) return;
-  double weight = 1;
-  if (path.pdf > 0) {
-    const double distance = path.travelled + path.hit.t * length(cast<double>(path.ray.direction));
-    weight = weight_of_finding(
-        path, triangle_pdf(lights, path.scattered_from(), at.triangle, at.p, distance, cosine));
-  }
-  deposit(tracing, path.film, path.throughput * radiance * static_cast<float>(weight));
-}
-
 bool scatter_in_medium(Tracing& tracing, CameraPath& path, double g, Point3d p, ShadowRays& shadows) {
   path.unrecorded = false;
   if (is_spent(tracing, path)) return false;
@@ -158,6 +143,21 @@ bool shade_surface(Tracing& tracing, CameraPath& path, ShadowRays& shadows) {
 }
 
 }  // namespace
+
+void add_emission(Tracing& tracing, const CameraPath& path, const Interaction& at, std::uint32_t light) {
+  const LightSampler& lights = tracing.scene.lights;
+  const double cosine = dot(at.out, at.geometric);
+  const SampledSpectrum radiance =
+      emitted(lights, light, at.texture_point(), cosine, path.wavelengths, path.lamp);
+  if (is_black(radiance)) return;
+  double weight = 1;
+  if (path.pdf > 0) {
+    const double distance = path.travelled + path.hit.t * length(cast<double>(path.ray.direction));
+    weight = weight_of_finding(
+        path, triangle_pdf(lights, path.scattered_from(), at.triangle, at.p, distance, cosine));
+  }
+  deposit(tracing, path.film, path.throughput * radiance * static_cast<float>(weight));
+}
 
 bool shade(Tracing& tracing, CameraPath& path, ShadowRays& shadows) {
   const PreparedMedium* medium = medium_of(tracing, path);

@@ -11,5 +11,7 @@ namespace vitrail {
 
 // False when the path ends here. Shadow rays that it takes are put behind the others of `shadows`.
 bool shade(Tracing& tracing, CameraPath& path, ShadowRays& shadows);
+// Light of a surface that emits, where a path has come to it.
+void add_emission(Tracing& tracing, const CameraPath& path, const Interaction& at, std::uint32_t area_light);
 
 }  // namespace vitrail

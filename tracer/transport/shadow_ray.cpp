@@ -54,14 +54,15 @@ Way follow(Tracing& tracing, const ShadowRay& s, std::optional<std::uint32_t> at
 }  // namespace
 
 void trace(Tracing& tracing, ShadowRays& rays) {
-  for (const ShadowRay& s : rays) {
+  for (std::size_t i = 0; i < rays.count; ++i) {
+    const ShadowRay& s = rays.rays[i];
     const RayTraffic::Place here = tracing.traffic ? tracing.traffic->place() : RayTraffic::Place{};
     const Way way = follow(tracing, s, std::nullopt);
     if (tracing.traffic) tracing.traffic->set(here);
     if (way == Way::elsewhere) ++tracing.counters.born;
     if (way == Way::free) deposit(tracing, s.pixel, s.sample, *s.sensor, s.radiance);
   }
-  rays.clear();
+  rays.count = 0;
 }
 
 void resume(Tracing& tracing, const ShadowRecord& record, std::uint32_t domain) {

@@ -2,7 +2,7 @@
 // Rays to a point on a light, which nothing lets through in part: whether anything is in their way.
 #pragma once
 
-#include <vector>
+#include <memory>
 
 #include "tracer/transport/tracing.h"
 
@@ -18,7 +18,12 @@ struct ShadowRay {
   double time_s = 0;                      // its path's
   const SensorWeights* sensor = nullptr;  // its path's, if that is at hand
 };
-using ShadowRays = std::vector<ShadowRay>;
+// Those that wait to be traced together: not more than `most`.
+struct ShadowRays {
+  static constexpr std::size_t most = 1024;
+  std::unique_ptr<ShadowRay[]> rays = std::make_unique<ShadowRay[]>(most);
+  std::size_t count = 0;
+};
 
 // Deposits what gets through of rays that begin here, and leaves none of them.
 void trace(Tracing& tracing, ShadowRays& rays);

@@ -69,6 +69,10 @@ TraceCounters& operator+=(TraceCounters& a, const TraceCounters& b);
 // Indexed by domain; null: not resident.
 using ResidentViews = std::span<const DomainView* const>;
 
+struct LaneStages;
+// Of the fastest kernel that runs here (lane_stages.h).
+const LaneStages& best_lane_stages();
+
 // All that it refers to outlives it; the film is shared.
 struct Tracing {
   const RenderScene& scene;
@@ -79,6 +83,7 @@ struct Tracing {
   RayTraffic* traffic = nullptr;        // told where the rays go, if any
   const PhotonPass* photons = nullptr;  // of photon mapping
   const KernelFunctions& kernel = best_kernel();
+  const LaneStages* stages = &best_lane_stages();  // null: every path by itself; the same picture
   // Where the film splats: the pixels of the sample that was added to it last.
   struct {
     std::uint64_t of = ~std::uint64_t{0};  // pixel and sample

@@ -26,7 +26,8 @@ void find_wavelengths(const Tracing& tracing, Traveller& t, FilmSample& film) {
 }
 
 Point3f offset_origin(const Tracing& tracing, const Interaction& at, Vector3d direction) {
-  return offset_origin(at.p, at.geometric, at.rounding, rounding_of_doubles(tracing.manifest().scale), direction);
+  return offset_origin(at.p, at.geometric, at.rounding, rounding_of_doubles(tracing.manifest().scale),
+                       direction);
 }
 
 Departure departure(const Tracing& tracing, const Traveller& t, const Interaction& at, const Surface& surface,

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "tracer/transport/find_hit.h"
+#include "tracer/transport/lane_lists.h"
 #include "tracer/transport/scatterer.h"
 #include "tracer/transport/shadow_ray.h"
 
@@ -37,11 +38,12 @@ class Wave {
 
  private:
   void find_hits(Tracing& tracing);
-  void shade_all(Tracing& tracing);
+  void shade_all(Tracing& tracing, bool in_lanes);
 
   std::unique_ptr<CameraPath[]> paths_;
   std::vector<std::optional<Arrival>> at_;
   std::vector<std::uint32_t> live_;  // places of those that go on
+  LaneLists lists_{most};
   ShadowRays shadows_;
   std::uint32_t next_ = 0;
 };

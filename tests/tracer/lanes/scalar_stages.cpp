@@ -3,10 +3,10 @@
 #include "tests/tracer/lanes/results.h"
 #include "tests/tracer/lanes/scalar_functions.h"
 #include "tracer/lights/draw_light.h"
-#include "tracer/transport/aim.h"
 #include "tracer/rays/departing.h"
 #include "tracer/rays/ray_records.h"
 #include "tracer/surfaces/interaction.h"
+#include "tracer/transport/aim.h"
 
 namespace vitrail::lane_tests {
 

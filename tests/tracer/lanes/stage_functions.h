@@ -36,7 +36,8 @@ VITRAIL_LANES void put_interaction(const Context& context, const In<W>& in, Out<
   }
   using D = lanes::Doubles<W>;
   const auto at = lanes::triangle_interaction<D>(
-      context.domain[domain], [&](int j) -> const Hit& { return hits[j]; }, lanes::to_floats(in.vector(5)));
+      [&](int) -> const lanes::DomainTables& { return context.domain[domain]; },
+      [&](int j) -> const Hit& { return hits[j]; }, lanes::to_floats(in.vector(5)));
   out.vector(at.p), out.vector(at.out), out.vector(at.geometric), out.vector(at.shading), out.vector(at.dpdu);
   out.number(at.u), out.number(at.v), out.number(at.rounding), out.number(at.side());
 }

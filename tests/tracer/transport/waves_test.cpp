@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Apache-2.0
+// A film is the same whether paths are traced several at a time, in lanes of any width, or each by itself.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cctype>
+#include <functional>
+#include <optional>
+
+#include "bundle/loaded_domain.h"
+#include "partitioner/partition.h"
+#include "scene/spectra/named_spectra.h"
+#include "scene/spectra/rgb_to_spectrum.h"
+#include "tests/support/render.h"
+#include "tests/support/temporary_directory.h"
+#include "tracer/transport/lane_stages.h"
+#include "tracer/transport/tracer.h"
+
+namespace vitrail::test {
+namespace {
+
+struct Case {
+  std::string name;
+  std::function<void(Scene&)> change = {};
+};
+
+Material material(MaterialModel model, bool two_sided = true) {
+  Material m{std::move(model)};
+  m.two_sided = two_sided;
+  return m;
+}
+
+void add_block(Scene& scene, const Material& m) {
+  add_shape(scene, add_quads(scene, box_faces({-0.6f, -1, -0.1f}, {0.1f, -0.3f, 0.6f})), m);
+}
+
+void add_ball(Scene& scene, const Material& m, const std::optional<AreaLight>& light = std::nullopt) {
+  scene.meshes.emplace_back().quadric = Quadric{.kind = QuadricKind::sphere};
+  add_shape(scene, {static_cast<std::uint32_t>(scene.meshes.size() - 1)}, m, light);
+  scene.shapes.back().object_to_world = translate({0.4, -0.5, 0.1}) * scale({0.35, 0.35, 0.35});
+}
+
+ComplexIndex gold_index() { return {*named_spectrum("metal-Au-eta"), *named_spectrum("metal-Au-k")}; }
+
+Material rough_gold(Roughness::Distribution distribution) {
+  ConductorMaterial gold{gold_index()};
+  gold.roughness.alpha_u = 0.2f, gold.roughness.alpha_v = 0.1f;
+  gold.roughness.distribution = distribution;
+  return material(gold);
+}
+
+Material plastic(float width) {
+  PlasticMaterial p;
+  p.diffuse_reflectance = Spectrum{reflectance_from_rgb({0.2f, 0.4f, 0.1f})};
+  p.roughness.alpha_u = p.roughness.alpha_v = width;
+  p.nonlinear = true;
+  return material(p);
+}
+
+std::vector<Case> cases() {
+  const auto block = [](const Material& m) { return [m](Scene& s) { add_block(s, m); }; };
+  const auto ball = [](const Material& m) { return [m](Scene& s) { add_ball(s, m); }; };
+  const auto light = [](const LightModel& l) {
+    return [l](Scene& s) {
+      add_block(s, material(DiffuseMaterial{}));
+      s.lights.push_back(Light{l});
+    };
+  };
+  return {
+      {"grey"},
+      {"a colour", block(material(DiffuseMaterial{reflectance_from_rgb({0.9f, 0.2f, 0.1f})}))},
+      {"black", block(material(DiffuseMaterial{reflectance_from_rgb({0, 0, 0})}))},
+      {"one-sided", block(material(DiffuseMaterial{}, false))},
+      {"grooves", block(material(DiffuseMaterial{ConstantSpectrum{0.5f}, 20.0f}))},
+      {"mirror", block(material(ConductorMaterial{PerfectReflector{}}))},
+      {"gold", block(material(ConductorMaterial{gold_index()}))},
+      {"rough gold", block(rough_gold(Roughness::Distribution::ggx))},
+      {"rough gold, Beckmann", block(rough_gold(Roughness::Distribution::beckmann))},
+      {"plastic", block(plastic(0))},
+      {"rough plastic", block(plastic(0.2f))},
+      {"glass", block(material(DielectricMaterial{ConstantSpectrum{1.5f}}))},
+      {"glass that disperses", block(material(DielectricMaterial{bk7()}))},
+      {"frosted glass", block(material([] {
+         DielectricMaterial d;
+         d.roughness.alpha_u = d.roughness.alpha_v = 0.2f;
+         return d;
+       }()))},
+      {"a ball of glass", ball(material(DielectricMaterial{ConstantSpectrum{1.5f}}))},
+      {"a ball of gold", ball(rough_gold(Roughness::Distribution::ggx))},
+      {"a ball of plastic", ball(plastic(0.1f))},
+      {"a lamp that is a ball",
+       [](Scene& s) { add_ball(s, material(DiffuseMaterial{}), AreaLight{ConstantSpectrum{4}}); }},
+      {"a point", light(PointLight{{0.3, 0.2, -0.4}, ConstantSpectrum{1}})},
+      {"no lamp", [](Scene& s) { s.shapes.pop_back(); }},
+      {"an open box under a sky",
+       [](Scene& s) {
+         s.meshes[0].triangles.resize(8);
+         s.lights.push_back(Light{InfiniteLight{ConstantSpectrum{0.5f}}});
+         s.lights.push_back(Light{DistantLight{{0.3, -0.5, 0.8}, ConstantSpectrum{1}}});
+       }},
+      {"a lens",
+       [](Scene& s) {
+         std::get<PerspectiveCamera>(s.camera).lens = {0.05, 1.2};
+       }},
+      {"to the end",
+       [](Scene& s) {
+         add_block(s, plastic(0.2f));
+         s.settings.max_depth = 300;
+       }},
+  };
+}
+
+class Waves : public ::testing::TestWithParam<Case> {
+ protected:
+  void SetUp() override {
+    Scene scene = lit_box(20);
+    scene.settings.max_depth = 6;
+    if (GetParam().change) GetParam().change(scene);
+    partition(scene, bundle_, {});
+    scene_.emplace(read_manifest(bundle_), bundle_, 1 << 20, 3);
+    domain_ = load_domain(scene_->manifest, bundle_, 0);
+  }
+
+  // Hash of the film, rays of each kind.
+  std::string trace(const LaneStages* stages) {
+    Film film(scene_->manifest.film, {});
+    Outbox outbox;
+    TraceCounters counters;
+    Wave wave;
+    const DomainView* const view = &domain_->view();
+    Tracer tracer({.scene = *scene_,
+                   .resident = ResidentViews(&view, 1),
+                   .film = film,
+                   .outbox = outbox,
+                   .counters = counters,
+                   .stages = stages},
+                  wave);
+    for (int y = 0; y < film.height(); ++y)
+      for (int x = 0; x < film.width(); ++x)
+        for (std::uint32_t s = 0; s < 6; ++s) tracer.trace_camera(x, y, s);
+    tracer.finish();
+    EXPECT_EQ(counters.born, counters.died);
+    EXPECT_EQ(film.refused(), Refused{});
+    return fmt::format("{:016x} {} {} {}", film.hash(), counters.rays_camera, counters.rays_indirect,
+                       counters.rays_shadow);
+  }
+
+  TemporaryDirectory directory_;
+  std::filesystem::path bundle_ = directory_ / "scene.vit";
+  std::optional<RenderScene> scene_;
+  std::shared_ptr<const LoadedDomain> domain_;
+};
+
+TEST_P(Waves, GiveTheFilmOfPathsByThemselves) {
+  EXPECT_TRUE(scene_->lanes.is_enabled);
+  const std::string alone = trace(nullptr);
+  for (const Kernel kernel : available_kernels())
+    EXPECT_EQ(trace(&lane_stages(kernel)), alone) << name(kernel);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, Waves, ::testing::ValuesIn(cases()), [](const auto& one) {
+  std::string name = one.param.name;
+  for (char& c : name)
+    if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';
+  return name;
+});
+
+}  // namespace
+}  // namespace vitrail::test

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tracer/prepared/lane_scene.h"
+
+#include <variant>
+
+namespace vitrail {
+
+namespace {
+
+bool is_one(const SpectrumParameter& p) { return p == SpectrumParameter{Spectrum{ConstantSpectrum{1}}}; }
+bool is_constant(const SpectrumParameter& p) { return std::holds_alternative<Spectrum>(p); }
+
+// Null where the widths are textured: they may be smooth in places.
+const float* width_of(const Roughness& r) {
+  return std::holds_alternative<float>(r.alpha_v) ? std::get_if<float>(&r.alpha_u) : nullptr;
+}
+bool is_smooth(const Roughness& r) {
+  return r.alpha_u == FloatParameter{0.0f} && r.alpha_v == FloatParameter{0.0f};
+}
+
+void set(const DiffuseMaterial& m, LaneSurface& s) {
+  if (m.sigma_deg != FloatParameter{0.0f}) return;
+  s.kind = LaneKind::diffuse;
+  s.is_textured = !is_constant(m.reflectance);
+  const auto* spectrum = std::get_if<Spectrum>(&m.reflectance);
+  if (const auto* sigmoid = spectrum ? std::get_if<SigmoidSpectrum>(spectrum) : nullptr)
+    s.is_sigmoid = true, s.sigmoid = *sigmoid;
+}
+
+void set(const ConductorMaterial& m, LaneSurface& s) {
+  if (!width_of(m.roughness)) return;
+  s.kind = is_smooth(m.roughness) ? LaneKind::mirror : LaneKind::metal;
+  s.is_textured = !is_constant(m.reflectance_factor);
+  if (const auto* index = std::get_if<ComplexIndex>(&m.metal))
+    s.is_textured = s.is_textured || !is_constant(index->eta) || !is_constant(index->k);
+  if (const auto* normal = std::get_if<NormalReflectance>(&m.metal))
+    s.is_textured = s.is_textured || !is_constant(normal->reflectance);
+}
+
+void set(const PlasticMaterial& m, LaneSurface& s) {
+  if (!width_of(m.roughness)) return;
+  s.kind = m.roughness.alpha_u == FloatParameter{0.0f} ? LaneKind::plastic : LaneKind::rough_plastic;
+  s.is_textured = !is_constant(m.diffuse_reflectance) || !is_constant(m.specular_reflectance);
+}
+
+void set(const DielectricMaterial& m, LaneSurface& s) {
+  const auto *behind = std::get_if<ConstantSpectrum>(&m.eta),
+             *before = std::get_if<ConstantSpectrum>(&m.exterior_eta);
+  if (!is_smooth(m.roughness) || !behind || !before || m.priority) return;
+  if (!is_one(m.reflectance_factor) || !is_one(m.transmittance_factor)) return;
+  s.kind = LaneKind::glass;
+  s.eta_behind = behind->value, s.eta_before = before->value;
+}
+
+LaneSurface lane_surface(const Manifest& manifest, const Surface& surface) {
+  const Material& material = manifest.materials[surface.material];
+  LaneSurface s;
+  s.two_sided = material.two_sided;
+  s.emits = surface.area_light >= 0;
+  if (material.displacement || material.normal_map || material.bump_shadowing) return s;
+  if (const auto* diffuse = std::get_if<DiffuseMaterial>(&material.model)) set(*diffuse, s);
+  if (const auto* metal = std::get_if<ConductorMaterial>(&material.model)) set(*metal, s);
+  if (const auto* plastic = std::get_if<PlasticMaterial>(&material.model)) set(*plastic, s);
+  if (const auto* glass = std::get_if<DielectricMaterial>(&material.model)) set(*glass, s);
+  return s;
+}
+
+bool is_plain(const LightSampler& lights, const LightSampler::Slot& slot) {
+  if (slot.light.kind != LightKind::triangle || lights.faces.empty()) return false;
+  const AreaLight& light = lights.scene.area_lights[slot.area_light];
+  return !light.directional && std::holds_alternative<Spectrum>(light.radiance) &&
+         slot.opacity == FloatParameter{1.0f} && !lights.parts_of_triangle(slot.light.index);
+}
+
+}  // namespace
+
+LaneBsdf lane_bsdf(const Bsdf& bsdf) {
+  LaneBsdf l;
+  if (const auto* lambert = std::get_if<LambertBsdf>(&bsdf)) {
+    l.a = lambert->reflectance;
+  } else if (const auto* metal = std::get_if<ConductorBsdf>(&bsdf)) {
+    l.a = metal->eta, l.b = metal->k, l.c = metal->factor;
+    l.microfacets = metal->microfacets;
+    l.is_perfect = metal->perfect;
+  } else if (const auto* plastic = std::get_if<PlasticBsdf>(&bsdf)) {
+    l.a = plastic->diffuse_reflectance, l.b = plastic->specular_reflectance;
+    l.eta = plastic->eta, l.internal_reflectance = plastic->internal_reflectance;
+    l.is_nonlinear = plastic->nonlinear;
+  } else if (const auto* rough = std::get_if<RoughPlasticBsdf>(&bsdf)) {
+    l.a = rough->diffuse_reflectance, l.b = rough->specular_reflectance;
+    l.eta = rough->eta, l.internal_reflectance = rough->tables->internal_reflectance;
+    l.microfacets = rough->microfacets;
+    l.external_transmittance = rough->tables->external_transmittance.data();
+    l.is_nonlinear = rough->nonlinear;
+  }
+  return l;
+}
+
+LaneScene::LaneScene(const Manifest& manifest, const Interiors& interiors, const Materials& materials,
+                     const LightSampler& lights) {
+  const Requirements& r = manifest.requirements;
+  bool sun_behind_panes = false;
+  if (materials.have_panes()) sun_behind_panes = !lights.distant.empty();
+  is_enabled = !r.see_through && !r.media && !manifest.settings.direct_only && !interiors.divide_space() &&
+               !sun_behind_panes;
+  for (const Surface& surface : manifest.surfaces) surfaces.push_back(lane_surface(manifest, surface));
+  for (const LightSampler::Slot& slot : lights.slots) is_plain_lamp.push_back(is_plain(lights, slot));
+}
+
+}  // namespace vitrail

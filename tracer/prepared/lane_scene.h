@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the stages that take several paths at a time (transport/lane_stages.h) read of a scene: which surfaces
+// and lamps are of a kind that they know.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "bundle/interiors.h"
+#include "bundle/manifest.h"
+#include "tracer/lights/light_sampler.h"
+#include "tracer/surfaces/surface_materials.h"
+
+namespace vitrail {
+
+enum class LaneKind : std::uint8_t {
+  none,     // for one path at a time
+  diffuse,  // LambertBsdf
+  mirror,   // ConductorBsdf, smooth
+  metal,    // and rough
+  plastic,  // PlasticBsdf
+  rough_plastic,
+  glass  // smooth, of one index
+};
+inline constexpr std::size_t lane_kinds = 7;
+
+struct LaneSurface {
+  LaneKind kind = LaneKind::none;
+  bool two_sided = false;
+  bool emits = false;
+  bool is_textured = false;  // its parameters depend on the point
+  bool is_sigmoid = false;   // of `diffuse`: the reflectance is this
+  SigmoidSpectrum sigmoid;
+  // Of `glass`: the indices on its back and on its front.
+  float eta_behind = 1, eta_before = 1;
+};
+
+// The parameters of a BSDF at a point, of all kinds but glass and sigmoids.
+struct LaneBsdf {
+  // Reflectance; index η and κ and a factor; diffuse and specular reflectance.
+  SampledSpectrum a, b, c;
+  Microfacets microfacets;
+  double eta = 1, internal_reflectance = 0;       // of plastics
+  const float* external_transmittance = nullptr;  // of rough ones: RoughPlasticTables'
+  bool is_nonlinear = false, is_perfect = false;
+};
+// Of a surface of that kind.
+LaneBsdf lane_bsdf(const Bsdf& bsdf);
+
+struct LaneScene {
+  // Nothing in the scene needs what the stages leave out: media and what bounds them, see-through surfaces,
+  // priorities, direct light alone, distant lights behind panes.
+  bool is_enabled = false;
+  std::vector<LaneSurface> surfaces;  // of all Manifest::surfaces
+  // Of each of LightSampler::slots: a triangle that is whole and shines to all sides, alike all over.
+  std::vector<std::uint8_t> is_plain_lamp;
+  // Stand for what a path does not have.
+  LightSampler::Slot no_slot;
+  LightSampler::Face no_face;
+
+  LaneScene(const Manifest& manifest, const Interiors& interiors, const Materials& materials,
+            const LightSampler& lights);
+};
+
+}  // namespace vitrail

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tracer/transport/lane_lists.h"
+
+#include "tracer/transport/shading.h"
+
+namespace vitrail {
+
+namespace {
+
+// Behind so many events mirrors and glass let go of paths by chance.
+constexpr std::uint32_t most_events = 250;
+
+float worth_of(Roulette roulette) {
+  if (roulette == Roulette::never) return 0;
+  return roulette == Roulette::usual ? 0.25f : 1.0f;
+}
+
+// Where a path has hit a triangle of a domain itself.
+Point3d hit_point(const DomainView& domain, const Hit& hit) {
+  const Cluster& cluster = domain.clusters[hit.cluster];
+  const auto corner = [&](std::size_t k) {
+    const auto& v = cluster.vertex[k];
+    return cast<double>(Point3f{v[0][hit.lane], v[1][hit.lane], v[2][hit.lane]});
+  };
+  const Point3d p0 = corner(0);
+  return p0 + (corner(1) - p0) * hit.u + (corner(2) - p0) * hit.v;
+}
+
+}  // namespace
+
+LaneLists::LaneLists(std::size_t most) : surface_(most), next_(most), bsdfs_(most), placed_(most) {
+  for (auto& kind : lists_)
+    for (auto& placing : kind)
+      for (List& list : placing) list.places.reserve(most);
+}
+
+bool LaneLists::apply_to(const Tracing& tracing) {
+  return tracing.stages && tracing.scene.lanes.is_enabled && !tracing.photons && !tracing.film.layers().any();
+}
+
+void LaneLists::begin(const Tracing& tracing) {
+  domains_.resize(tracing.resident.size());
+  for (std::size_t i = 0; i < domains_.size(); ++i)
+    domains_[i] = tracing.resident[i] ? lanes::tables_of(*tracing.resident[i]) : lanes::DomainTables{};
+}
+
+std::uint32_t LaneLists::candidates_of(const Tracing& tracing, const CameraPath& path, std::uint32_t place,
+                                       bool diffuse) const {
+  const LightSampler& lights = tracing.scene.lights;
+  const std::uint32_t several = tracing.scene.sampling.light_candidates;
+  if (path.pdf > 0 || lights.one_is_enough) return 1;
+  if (!(lights.lamp_radius2 > 0)) return several;
+  const Point3d p =
+      path.hit.depth > 0 ? placed_[place].p : hit_point(*tracing.resident[path.hit_domain], path.hit);
+  return variety(lights, p) == Variety::little && diffuse ? 1 : several;
+}
+
+bool LaneLists::take(Tracing& tracing, CameraPath& path, std::uint32_t place) {
+  const bool at_its_end = is_spent(tracing, path) || path.depth >= most_events;
+  if (!path.meets_surface() || at_its_end || path.passed || path.pane.parts || path.pane.owes) return false;
+  const Surface& surface = surface_at(tracing, path);
+  const auto index = static_cast<std::uint32_t>(&surface - tracing.manifest().surfaces.data());
+  const LaneSurface& of = tracing.scene.lanes.surfaces[index];
+  if (of.kind == LaneKind::none) return false;
+
+  find_wavelengths(tracing, path, path.film);
+  if (of.kind != LaneKind::glass) path.pane = {};
+  const bool is_placed = path.hit.depth > 0, has_parameters = !of.is_sigmoid && of.kind != LaneKind::glass;
+  const Material& material = tracing.manifest().materials[surface.material];
+  const Materials& materials = tracing.scene.materials;
+  if (is_placed || of.emits || of.is_textured) {
+    const Interaction at = interaction_at(tracing, path, cone_of(tracing, path, sample_of(path)));
+    if (of.emits) add_emission(tracing, path, at, static_cast<std::uint32_t>(surface.area_light));
+    placed_[place] = {at.p, at.geometric, at.shading, at.dpdu, at.rounding};
+    if (of.is_textured)
+      bsdfs_[place] = lane_bsdf(materials.bsdf_at(material, at.texture_point(), path.wavelengths));
+  }
+  if (has_parameters && !of.is_textured)
+    bsdfs_[place] = lane_bsdf(materials.bsdf_at(material, {}, path.wavelengths));
+  widen_cone(tracing, path, sample_of(path), path.hit.t);
+  surface_[place] = index;
+  const bool is_specular = of.kind == LaneKind::mirror || of.kind == LaneKind::glass;
+  const std::uint32_t candidates =
+      is_specular ? 1 : candidates_of(tracing, path, place, of.kind == LaneKind::diffuse);
+  lists_[static_cast<std::size_t>(of.kind)][is_placed][candidates > 1].places.push_back(place);
+  ++taken_;
+  return true;
+}
+
+void LaneLists::run(Tracing& tracing, CameraPath* paths, ShadowRays& shadows,
+                    std::vector<std::uint32_t>& live) {
+  if (taken_ == 0) return;
+  LaneWork work{.tracing = tracing,
+                .scene = tracing.scene.lanes,
+                .paths = paths,
+                .surface = surface_.data(),
+                .bsdfs = bsdfs_.data(),
+                .placed = placed_.data(),
+                .domains = domains_.data(),
+                .roulette_worth = worth_of(tracing.scene.sampling.roulette),
+                .rounding_of_doubles = rounding_of_doubles(tracing.manifest().scale),
+                .shadows = shadows,
+                .next = next_.data()};
+  for (std::size_t kind = 0; kind < lane_kinds; ++kind)
+    for (const bool is_placed : {false, true})
+      for (const bool several : {false, true}) {
+        std::vector<std::uint32_t>& places = lists_[kind][is_placed][several].places;
+        if (places.empty()) continue;
+        tracing.stages->stage[kind](work, {places.data(), places.size(), is_placed,
+                                           several ? tracing.scene.sampling.light_candidates : 1});
+        places.clear();
+      }
+  tracing.counters.rays_shadow += work.rays_shadow;
+  tracing.counters.rays_indirect += work.next_count;
+  tracing.counters.died += taken_ - work.next_count;
+  live.insert(live.end(), next_.begin(), next_.begin() + static_cast<std::ptrdiff_t>(work.next_count));
+  taken_ = 0;
+}
+
+}  // namespace vitrail

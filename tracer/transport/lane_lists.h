@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which of a wave's paths go by which stage in lanes.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "tracer/transport/lane_stages.h"
+
+namespace vitrail {
+
+class LaneLists {
+ public:
+  // Paths of a wave are at places below `most`.
+  explicit LaneLists(std::size_t most);
+
+  // Whether any of the scene's paths may be put into a list.
+  static bool apply_to(const Tracing& tracing);
+  // Of domains that are resident.
+  void begin(const Tracing& tracing);
+  // Puts a path, whose hit is found, into the list of its kind, as far as its stage can do all of what the
+  // event takes: light that it meets there is deposited. False: for `shade`.
+  bool take(Tracing& tracing, CameraPath& path, std::uint32_t place);
+  // Runs the stages over all that is in lists, and empties them. Those that go on are put behind `live`.
+  void run(Tracing& tracing, CameraPath* paths, ShadowRays& shadows, std::vector<std::uint32_t>& live);
+
+ private:
+  std::uint32_t candidates_of(const Tracing& tracing, const CameraPath& path, std::uint32_t place,
+                              bool diffuse) const;
+
+  // By kind, by whether the hit is placed, by whether there are several candidates for a light.
+  struct List {
+    std::vector<std::uint32_t> places;
+  };
+  std::array<std::array<std::array<List, 2>, 2>, lane_kinds> lists_;
+  std::vector<std::uint32_t> surface_, next_;  // by place; places
+  std::vector<LaneBsdf> bsdfs_;                // by place
+  std::vector<PlacedHit> placed_;              // by place
+  std::vector<lanes::DomainTables> domains_;
+  std::size_t taken_ = 0;
+};
+
+}  // namespace vitrail

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tracer/transport/lane_stages.h"
+
+#include "tracer/sampling/wavelengths.h"
+#include "tracer/transport/connection.h"
+
+namespace vitrail {
+
+const LaneStages& lane_stages(Kernel kernel) {
+#if defined(__x86_64__)
+  if (kernel == Kernel::avx2) return avx2_stages;
+  if (kernel == Kernel::avx512) return avx512_stages;
+#else
+  static_cast<void>(kernel);
+#endif
+  return portable_stages;
+}
+
+const LaneStages& best_lane_stages() {
+  static const LaneStages& chosen = lane_stages(best_kernel_kind());
+  return chosen;
+}
+
+namespace lane_by_lane {
+
+bool sample(const LaneWork& work, const CameraPath& path, Point3d p, const float (&u)[4],
+            LightSample& light) {
+  const std::array<float, 2> far = numbers_for_far_lights(work.tracing, path.key);
+  const auto sampled =
+      sample_light(work.tracing.scene.lights, p, {u[0], u[1], u[2], u[3]}, far, path.wavelengths, path.lamp);
+  if (sampled) light = *sampled;
+  return sampled.has_value();
+}
+
+void find_radiance(const LaneWork& work, const CameraPath& path, std::uint32_t area_light) {
+  const AreaLight& light = work.tracing.manifest().area_lights[area_light];
+  path.lamp = {area_light, evaluate(std::get<Spectrum>(light.radiance), path.wavelengths) * light.scale};
+}
+
+void aim(const CameraPath& path, Point3d p, Point3f origin, const LightSample& light, ShadowRay& shadow) {
+  const Aimed aimed = vitrail::aim({p, origin, path.hit.triangle, path.inside}, light);
+  shadow.ray.direction = aimed.rounded;
+  shadow.direction = aimed.direction;
+  shadow.tmax = float_below(aimed.end);
+}
+
+void cross_face(CameraPath& path, Vector3d normal, bool front, bool reflected) {
+  PaneState& pane = path.pane;
+  if (pane.within && !is_parallel(pane.entered_by, normal)) pane.within = false;
+  if (reflected) return;
+  const bool enters = !pane.within && front;
+  pane = {};
+  if (enters) pane = {true, false, false, encode_face(normal)};
+}
+
+}  // namespace lane_by_lane
+
+}  // namespace vitrail

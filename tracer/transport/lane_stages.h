@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+// Stages of a wave that take several paths at a time, one a lane: what scatters there is of one kind for all
+// of them. Each gives every path the bits that `shade` gives it. Compiled for each instruction set from one
+// text, lane_stages.inl.
+#pragma once
+
+#include <cstdint>
+
+#include "tracer/intersect/intersector.h"
+#include "tracer/lanes/domain_tables.h"
+#include "tracer/prepared/lane_scene.h"
+#include "tracer/transport/scatterer.h"
+#include "tracer/transport/shadow_ray.h"
+
+namespace vitrail {
+
+// Of a hit within an instance, or of a quadric: what of its Interaction the stages read.
+struct PlacedHit {
+  Point3d p;
+  Vector3d geometric, shading, dpdu;
+  double rounding;
+};
+
+// What the stages work on. Paths and what is kept of each are at their places in a wave.
+struct LaneWork {
+  const Tracing& tracing;
+  const LaneScene& scene;
+  CameraPath* paths;
+  const std::uint32_t* surface;        // of a path's hit, in LaneScene::surfaces
+  const LaneBsdf* bsdfs;               // of those whose surface is no sigmoid, and no glass
+  const PlacedHit* placed;             // of hits that are in a list of such
+  const lanes::DomainTables* domains;  // of hits' domains
+  float roulette_worth;                // what a path is worth going on for; 0: no roulette
+  double rounding_of_doubles;          // as of offset_origin
+
+  // What comes out: shadow rays behind those that are there, and the places of paths that go on.
+  ShadowRays& shadows;
+  std::uint32_t* next;
+  std::size_t next_count = 0;
+  std::uint64_t rays_shadow = 0;
+};
+
+// Places of paths that have come to surfaces of one kind, and are not to end there.
+struct LaneList {
+  const std::uint32_t* places;
+  std::size_t count;
+  bool is_placed;            // all have a PlacedHit, or none has
+  std::uint32_t candidates;  // for a light, of each
+};
+
+struct LaneStages {
+  int width;
+
+  // By kind, but `none`.
+  void (*stage[lane_kinds])(LaneWork& work, const LaneList& list);
+};
+
+// Of the instruction set of a kernel that runs here.
+const LaneStages& lane_stages(Kernel kernel);
+
+extern const LaneStages portable_stages;
+#if defined(__x86_64__)
+extern const LaneStages avx2_stages;
+extern const LaneStages avx512_stages;
+#endif
+
+// What the stages leave to one path at a time.
+namespace lane_by_lane {
+
+// sample_light for a path, with the numbers of a candidate. False where nothing arrives.
+bool sample(const LaneWork& work, const CameraPath& path, Point3d p, const float (&u)[4], LightSample& light);
+// The radiance of a plain lamp, kept in path.lamp.
+void find_radiance(const LaneWork& work, const CameraPath& path, std::uint32_t area_light);
+// Aims a shadow ray to a quadric.
+void aim(const CameraPath& path, Point3d p, Point3f origin, const LightSample& light, ShadowRay& shadow);
+// At a face of glass of one index, whose normal is on the path's side: whether the path is in a pane then.
+void cross_face(CameraPath& path, Vector3d normal, bool front, bool reflected);
+
+}  // namespace lane_by_lane
+
+}  // namespace vitrail

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tracer/lanes/glossy.h"
+#include "tracer/lanes/interaction.h"
+#include "tracer/lanes/lamps.h"
+#include "tracer/lanes/light_tree.h"
+#include "tracer/lanes/rays.h"
+#include "tracer/lanes/scattering.h"
+#include "tracer/lanes/spectra.h"
+#include "tracer/transport/lane_stages.h"
+
+namespace vitrail {
+namespace lanes {
+namespace {
+
+constexpr int W = 1;
+#include "tracer/transport/lane_stages.inl"
+
+}  // namespace
+}  // namespace lanes
+
+const LaneStages portable_stages = lanes::stages;
+
+}  // namespace vitrail
