@@ -160,23 +160,34 @@ bool occluded_in_quadric(const RayConstants& ray, const InstanceRay& outer, std:
   return hits.count > 0 && hits.at[0].t < end && seen_t_of(ray, outer, index, hits.at[0]) < end;
 }
 
-InstanceRay domain_ray(const DomainView& domain, const RayConstants& ray) {
-  InstanceRay r{};
-  r.domain = &domain;
-  r.unit = 1;
-  show(domain, r);
+void enter_domain(const DomainView& domain, InstanceRay& ray) {
+  ray.domain = &domain;
+  show(domain, ray);
+  ray.first_triangle = 0;
+  ray.depth = 0;
+  ray.has_origin = false;
+  ray.entry = 0;
+  ray.unit = 1;
+}
+
+namespace {
+
+void find_origin(const RayConstants& ray, InstanceRay& in_domain) {
   double d[3];
   find_direction(ray, d);
   for (int axis = 0; axis < 3; ++axis) {
-    r.origin[axis] = static_cast<double>(ray.origin[axis]);
-    r.inverse_direction[axis] = limited_inverse(d[axis]);
-    r.pad[axis] = 0x1p-50 * std::abs(r.origin[axis]);
+    in_domain.origin[axis] = static_cast<double>(ray.origin[axis]);
+    in_domain.inverse_direction[axis] = limited_inverse(d[axis]);
+    in_domain.pad[axis] = 0x1p-50 * std::abs(in_domain.origin[axis]);
   }
-  return r;
+  in_domain.has_origin = true;
 }
 
-bool enter_instance(const RayConstants& ray, const InstanceRay& outer, std::uint32_t index, float limit,
+}  // namespace
+
+bool enter_instance(const RayConstants& ray, InstanceRay& outer, std::uint32_t index, float limit,
                     InstanceRay& inner) {
+  if (!outer.has_origin) find_origin(ray, outer);
   double enter, leave;
   if (!cross_box(outer, outer.instances[index], (static_cast<double>(limit) - outer.entry) * outer.unit,
                  enter, leave))
@@ -204,6 +215,7 @@ bool enter_instance(const RayConstants& ray, const InstanceRay& outer, std::uint
     direction[axis] = row[0] * d[0] + row[1] * d[1] + row[2] * d[2];
     inner.pad[axis] = row_sum(row) * off;
   }
+  inner.has_origin = true;
   inner.unit = greatest(direction);
   for (int axis = 0; axis < 3; ++axis)
     inner.inverse_direction[axis] = limited_inverse(direction[axis] / inner.unit);

@@ -32,14 +32,16 @@ struct InstanceRay {
   std::uint32_t chain[max_instance_depth];
 
   // Points origin + s·direction, s = (ζ − entry)·unit ≥ 0; the greatest component of the direction is ±1. A
-  // point of the true ray lies within `pad` of it on each axis.
+  // point of the true ray lies within `pad` of it on each axis. In the domain itself `origin` and what
+  // follows are not there before an instance is entered: most rays meet none.
+  bool has_origin;
   double entry, unit;
   double exit;  // ζ where the ray leaves the instance
   double origin[3], inverse_direction[3], pad[3];
 };
 
-// The ray in the domain itself: a chain of none.
-InstanceRay domain_ray(const DomainView& domain, const RayConstants& ray);
+// The ray in the domain itself: a chain of none, that has instances.
+void enter_domain(const DomainView& domain, InstanceRay& ray);
 
 // Whether instance `index` of where `outer` is shows a quadric.
 inline bool is_quadric(const InstanceRay& outer, std::uint32_t index) {
@@ -54,7 +56,7 @@ bool occluded_in_quadric(const RayConstants& ray, const InstanceRay& outer, std:
 
 // The ray in instance `index` of where `outer` is. False where it misses the instance's box at ζ ≤ limit, or
 // where the chain is too long.
-bool enter_instance(const RayConstants& ray, const InstanceRay& outer, std::uint32_t index, float limit,
+bool enter_instance(const RayConstants& ray, InstanceRay& outer, std::uint32_t index, float limit,
                     InstanceRay& inner);
 
 }  // namespace vitrail

@@ -23,21 +23,20 @@ struct KernelFunctions {
   // Lowers `hit` to the least (t, triangle) among it and the domain's triangles; t in (0, hit.t]. Of equals
   // the one already there stays.
   void closest(const DomainView& domain, const RayConstants& ray, Hit& hit) const {
+    if (!domain.instance_nodes.empty()) return domain_closest(domain, ray, hit);
     if (!domain.nodes.empty()) tree_closest(domain.nodes.data(), domain.clusters.data(), ray, hit);
-    if (!domain.instance_nodes.empty()) instances_closest(domain, ray, hit);
   }
   // Whether any triangle is hit at t in (0, tmax).
   bool occluded(const DomainView& domain, const RayConstants& ray, float tmax) const {
-    if (!domain.nodes.empty() && tree_occluded(domain.nodes.data(), domain.clusters.data(), ray, tmax))
-      return true;
-    return !domain.instance_nodes.empty() && instances_occluded(domain, ray, tmax);
+    if (!domain.instance_nodes.empty()) return domain_occluded(domain, ray, tmax);
+    return !domain.nodes.empty() && tree_occluded(domain.nodes.data(), domain.clusters.data(), ray, tmax);
   }
 
   void (*tree_closest)(const BvhNode* nodes, const Cluster* clusters, const RayConstants& ray, Hit& hit);
   bool (*tree_occluded)(const BvhNode* nodes, const Cluster* clusters, const RayConstants& ray, float tmax);
-  // The same with a domain's instances, and those within their objects.
-  void (*instances_closest)(const DomainView& domain, const RayConstants& ray, Hit& hit);
-  bool (*instances_occluded)(const DomainView& domain, const RayConstants& ray, float tmax);
+  // The same of a domain that has instances, with these and those within their objects.
+  void (*domain_closest)(const DomainView& domain, const RayConstants& ray, Hit& hit);
+  bool (*domain_occluded)(const DomainView& domain, const RayConstants& ray, float tmax);
   // The same with one cluster alone, whose index the hit is to have.
   void (*cluster_closest)(const Cluster& cluster, std::uint32_t index, const RayConstants& ray, Hit& hit);
   bool (*cluster_occluded)(const Cluster& cluster, const RayConstants& ray, float tmax);

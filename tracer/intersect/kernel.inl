@@ -276,112 +276,28 @@ inline bool any_entered(const BvhNode* nodes, const Leaf* leaves, const Slabs& s
   }
 }
 
-void tree_closest(const BvhNode* nodes, const Cluster* clusters, const RayConstants& ray, Hit& hit) {
-  visit_nearest_first(nodes, clusters, Slabs(ray), zeta_limit(ray, hit.t), [&](std::uint32_t c, float limit) {
+void closest_in_tree(const BvhNode* nodes, const Cluster* clusters, const Slabs& slabs,
+                     const RayConstants& ray, Hit& hit) {
+  visit_nearest_first(nodes, clusters, slabs, zeta_limit(ray, hit.t), [&](std::uint32_t c, float limit) {
     return closest_in_cluster(clusters[c], c, ray, limit, hit);
   });
 }
 
-bool tree_occluded(const BvhNode* nodes, const Cluster* clusters, const RayConstants& ray, float tmax) {
-  return any_entered(nodes, clusters, Slabs(ray), zeta_limit(ray, tmax),
+bool occluded_in_tree(const BvhNode* nodes, const Cluster* clusters, const Slabs& slabs,
+                      const RayConstants& ray, float tmax) {
+  return any_entered(nodes, clusters, slabs, zeta_limit(ray, tmax),
                      [&](std::uint32_t c) { return occluded_in_cluster(clusters[c], ray, tmax); });
 }
 
-// ---- Instances ---------------------------------------------------------------------------
-
-typedef double EightDoubles __attribute__((vector_size(64)));
-typedef float EightFloats __attribute__((vector_size(32), may_alias));
-
-// A cluster of an object where it stands: `placed`, of eight vertices at a time.
-inline void place_cluster(const Cluster& local, const InstanceRay& at, Cluster& out) {
-  for (int k = 0; k < 3; ++k) {
-    const auto& from = local.vertex[at.mirrored && k > 0 ? 3 - k : k];
-    EightDoubles p[3];
-    for (int axis = 0; axis < 3; ++axis)
-      p[axis] = __builtin_convertvector(*reinterpret_cast<const EightFloats*>(from[axis]), EightDoubles);
-    for (int axis = 0; axis < 3; ++axis) {
-      const auto& row = at.to_bundle.m[axis];
-      const EightDoubles sum = row[0] * p[0] + row[1] * p[1] + row[2] * p[2] + row[3];
-      *reinterpret_cast<EightFloats*>(out.vertex[k][axis]) = __builtin_convertvector(sum, EightFloats) + 0.0f;
-    }
-  }
-  for (int lane = 0; lane < cluster_width; ++lane) out.id[lane] = local.id[lane] + at.first_triangle;
+void tree_closest(const BvhNode* nodes, const Cluster* clusters, const RayConstants& ray, Hit& hit) {
+  closest_in_tree(nodes, clusters, Slabs(ray), ray, hit);
 }
 
-// The limit on s in an object that a limit on ζ means, rounded up.
-inline float local_limit(const InstanceRay& ray, float limit) {
-  if (ray.depth == 0) return limit;
-  const double end = double{limit} < ray.exit ? double{limit} : ray.exit;
-  return static_cast<float>((end - ray.entry) * ray.unit * (1 + 1e-6));
+bool tree_occluded(const BvhNode* nodes, const Cluster* clusters, const RayConstants& ray, float tmax) {
+  return occluded_in_tree(nodes, clusters, Slabs(ray), ray, tmax);
 }
 
-inline float closest_in_placed(std::uint32_t index, const InstanceRay& at, const RayConstants& ray,
-                               float limit, Hit& hit) {
-  Cluster there;
-  place_cluster(at.clusters[index], at, there);
-  const double t = hit.t;
-  const std::uint32_t triangle = hit.triangle;
-  limit = closest_in_cluster(there, index, ray, limit, hit);
-  if (hit.t == t && hit.triangle == triangle) return limit;
-  hit.depth = at.depth;
-  for (std::uint32_t i = 0; i < at.depth; ++i) hit.chain[i] = at.chain[i];
-  return limit;
-}
-
-// In the instances of where `outer` is; `slabs` of the ray there.
-float closest_in_instances(const InstanceRay& outer, const Slabs& slabs, const RayConstants& ray, float limit,
-                           Hit& hit) {
-  const auto enter = [&](std::uint32_t index) {
-    if (is_quadric(outer, index)) {
-      if (closest_in_quadric(ray, outer, index, hit)) limit = zeta_limit(ray, hit.t);
-      return;
-    }
-    InstanceRay inner;
-    if (!enter_instance(ray, outer, index, limit, inner)) return;
-    const Slabs inner_slabs(inner);
-    if (inner.nodes)
-      visit_nearest_first(inner.nodes, inner.clusters, inner_slabs, local_limit(inner, limit),
-                          [&](std::uint32_t c, float) {
-                            limit = closest_in_placed(c, inner, ray, limit, hit);
-                            return local_limit(inner, limit);
-                          });
-    if (inner.instance_nodes) limit = closest_in_instances(inner, inner_slabs, ray, limit, hit);
-  };
-  visit_nearest_first(outer.instance_nodes, outer.instances, slabs, local_limit(outer, limit),
-                      [&](std::uint32_t index, float) {
-                        enter(index);
-                        return local_limit(outer, limit);
-                      });
-  return limit;
-}
-
-void instances_closest(const DomainView& domain, const RayConstants& ray, Hit& hit) {
-  closest_in_instances(domain_ray(domain, ray), Slabs(ray), ray, zeta_limit(ray, hit.t), hit);
-}
-
-bool occluded_in_instances(const InstanceRay& outer, const Slabs& slabs, const RayConstants& ray, float limit,
-                           float tmax) {
-  const auto enter = [&](std::uint32_t index) {
-    if (is_quadric(outer, index)) return occluded_in_quadric(ray, outer, index, tmax);
-    InstanceRay inner;
-    if (!enter_instance(ray, outer, index, limit, inner)) return false;
-    const Slabs inner_slabs(inner);
-    const auto in_cluster = [&](std::uint32_t c) {
-      Cluster there;
-      place_cluster(inner.clusters[c], inner, there);
-      return occluded_in_cluster(there, ray, tmax);
-    };
-    if (inner.nodes &&
-        any_entered(inner.nodes, inner.clusters, inner_slabs, local_limit(inner, limit), in_cluster))
-      return true;
-    return inner.instance_nodes && occluded_in_instances(inner, inner_slabs, ray, limit, tmax);
-  };
-  return any_entered(outer.instance_nodes, outer.instances, slabs, local_limit(outer, limit), enter);
-}
-
-bool instances_occluded(const DomainView& domain, const RayConstants& ray, float tmax) {
-  return occluded_in_instances(domain_ray(domain, ray), Slabs(ray), ray, zeta_limit(ray, tmax), tmax);
-}
+#include "tracer/intersect/kernel_instances.inl"
 
 // ---- Clusters by themselves ----------------------------------------------------------------
 
@@ -393,5 +309,5 @@ bool cluster_occluded(const Cluster& cluster, const RayConstants& ray, float tma
   return occluded_in_cluster(cluster, ray, tmax);
 }
 
-constexpr KernelFunctions functions{tree_closest,       tree_occluded,   instances_closest,
-                                    instances_occluded, cluster_closest, cluster_occluded};
+constexpr KernelFunctions functions{tree_closest,    tree_occluded,   domain_closest,
+                                    domain_occluded, cluster_closest, cluster_occluded};

@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
 #include <cstdlib>
 #include <random>
 
@@ -51,6 +53,39 @@ TEST(Intersect, OneTriangleFromBothSides) {
     EXPECT_TRUE(occluded(c, ray, infinity));
     EXPECT_FALSE(occluded(c, ray, 2));
     EXPECT_FALSE(occluded(c, ray, 1.5f));
+  }
+}
+
+// By what ray.h says of each number; of equal components the last is the greatest.
+TEST(Intersect, PreparesRaysWhateverTheirDirection) {
+  std::mt19937 random(5);
+  std::normal_distribution<float> normal;
+  const std::array<float, 9> special{0.0f, -0.0f, 1.0f, -1.0f, 2.0f, 1e-19f, -1e-19f, 1e-30f, 1e18f};
+  for (int i = 0; i < 3000; ++i) {
+    const auto component = [&] { return i % 3 == 0 ? normal(random) : special[random() % special.size()]; };
+    const Ray ray{{normal(random), normal(random), normal(random)},
+                  {component(), component(), component()},
+                  static_cast<std::uint32_t>(i)};
+    if (ray.direction.x == 0 && ray.direction.y == 0 && ray.direction.z == 0) continue;
+    const RayConstants r = prepare(ray, 0.5);
+    for (const std::uint32_t axis : {r.x, r.y})
+      EXPECT_TRUE(std::abs(ray.direction[axis]) < std::abs(ray.direction[r.z]) ||
+                  (std::abs(ray.direction[axis]) == std::abs(ray.direction[r.z]) && axis < r.z));
+    EXPECT_EQ(r.x, (r.z + 1) % 3);
+    EXPECT_EQ(r.y, (r.z + 2) % 3);
+    const float dz = ray.direction[r.z];
+    for (std::uint32_t axis = 0; axis < 3; ++axis) {
+      const float d = ray.direction[axis];
+      EXPECT_EQ(r.origin[axis], ray.origin[axis]);
+      EXPECT_EQ(r.near_row[axis], std::signbit(d) ? axis + 3 : axis);
+      EXPECT_EQ(r.inverse_direction[axis],
+                std::abs(d) * 1e18f > std::abs(dz) ? std::abs(dz) / d : std::copysign(1e18f, d));
+    }
+    EXPECT_EQ(r.exact_shear_x, double{ray.direction[r.x]} / double{dz});
+    EXPECT_EQ(r.exact_shear_y, double{ray.direction[r.y]} / double{dz});
+    EXPECT_EQ(r.sign_z, dz < 0 ? -1 : 1);
+    EXPECT_EQ(r.exclude, ray.exclude);
+    EXPECT_EQ(r.time_s, 0.5);
   }
 }
 
