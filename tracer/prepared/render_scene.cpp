@@ -63,7 +63,8 @@ RenderScene::RenderScene(Manifest the_manifest, const std::filesystem::path& bun
       pixel_angle(vitrail::pixel_angle(manifest)),
       pixel(pixel_of(manifest)),
       seed(the_seed),
-      sampling(the_sampling) {
+      sampling(the_sampling),
+      uvs_show(!manifest.textures.empty() || manifest.film.layers.has(Layer::uv)) {
   for (const TextureFileEntry& t : manifest.texture_files)
     check_texture(t, TextureFile(bundle / t.name), bundle / t.name);
 }

@@ -43,6 +43,7 @@ struct RenderScene {
   } pixel;
   std::uint64_t seed = 0;
   SamplingChoices sampling;
+  bool uvs_show = true;  // some texture or a layer of the film may read (u,v)
 };
 
 // The surface that the hit's triangle belongs to; `domain` holds the hit.

@@ -42,18 +42,20 @@ struct Chart {
   Vector3d du, dv;
 };
 
-Chart pbrt_chart(const Quadric& q, Point3d p) {
+Chart pbrt_chart(const Quadric& q, Point3d p, bool with_uv) {
   const double rho = std::sqrt(p.x * p.x + p.y * p.y);
   const double cosine = rho > 0 ? p.x / rho : 1, sine = rho > 0 ? p.y / rho : 0;
-  const double angle = portable_atan2(p.y, p.x), phi = angle < 0 ? angle + 2 * pi : angle;
   Chart chart;
-  chart.uv.x = std::min(phi / q.phi_max_rad, 1.0);
+  if (with_uv) {
+    const double angle = portable_atan2(p.y, p.x), phi = angle < 0 ? angle + 2 * pi : angle;
+    chart.uv.x = std::min(phi / q.phi_max_rad, 1.0);
+  }
   chart.du = Vector3d{-p.y, p.x, 0} * q.phi_max_rad;
   switch (q.kind) {
     case QuadricKind::sphere: {
       const double bottom = q.low <= -1 ? 0 : portable_acos(-q.low);
       const double range = (q.high >= 1 ? pi : portable_acos(-q.high)) - bottom;
-      chart.uv.y = (portable_atan2(rho, -p.z) - bottom) / range;
+      if (with_uv) chart.uv.y = (portable_atan2(rho, -p.z) - bottom) / range;
       chart.dv = Vector3d{-p.z * cosine, -p.z * sine, rho} * range;
       break;
     }
@@ -79,8 +81,8 @@ Chart pbrt_chart(const Quadric& q, Point3d p) {
   return chart;
 }
 
-Chart chart_of(const Quadric& q, Point3d p) {
-  Chart chart = pbrt_chart(q, p);
+Chart chart_of(const Quadric& q, Point3d p, bool with_uv) {
+  Chart chart = pbrt_chart(q, p, with_uv);
   if (q.uv == QuadricUv::pbrt) return chart;
   if (q.kind == QuadricKind::sphere) {
     chart.uv.y = 1 - chart.uv.y;
@@ -108,11 +110,12 @@ Vector3d placed_quadric_normal(const OrientedQuadric& quadric, const Affine& to_
   return mirrors(to_bundle) != quadric.inside_out ? -unit : unit;
 }
 
-QuadricPoint quadric_point(const OrientedQuadric& quadric, const Affine& to_bundle, Point3d local) {
+QuadricPoint quadric_point(const OrientedQuadric& quadric, const Affine& to_bundle, Point3d local,
+                           bool uvs_show) {
   if (is_curve(quadric.quadric))
     return curve_point(unpacked_curve(to_bundle.m), local, quadric.quadric.uv == QuadricUv::mitsuba,
                        quadric.inside_out);
-  const Chart chart = chart_of(quadric.quadric, local);
+  const Chart chart = chart_of(quadric.quadric, local, uvs_show);
   const Vector3d normal = placed_quadric_normal(quadric, to_bundle, local);
   return {placed_point(to_bundle, local),     normal,  normal, placed_vector(to_bundle, chart.du),
           placed_vector(to_bundle, chart.dv), chart.uv};

@@ -18,7 +18,9 @@ struct QuadricPoint {
 Point3d placed_point(const Affine& to_bundle, Point3d local);
 // Unit, of the front.
 Vector3d placed_quadric_normal(const OrientedQuadric& quadric, const Affine& to_bundle, Point3d local);
-// `local` on the surface, in the quadric's own space.
-QuadricPoint quadric_point(const OrientedQuadric& quadric, const Affine& to_bundle, Point3d local);
+// `local` on the surface, in the quadric's own space. (u,v) of what is no curve cost two arctangents, and are
+// left 0 unless they show.
+QuadricPoint quadric_point(const OrientedQuadric& quadric, const Affine& to_bundle, Point3d local,
+                           bool uvs_show = true);
 
 }  // namespace vitrail

@@ -107,8 +107,9 @@ double rounding_of(Vector3d normal, Point3d p0, Vector3d e1, Vector3d e2, Point3
 
 // A quadric has no mesh attributes: they are 0.
 Interaction quadric_interaction(const Holder& holder, const Hit& hit, Vector3f direction, double cone_width,
-                                std::uint32_t attributes) {
-  const QuadricPoint point = quadric_point(*holder.content.quadric, holder.to_bundle, {hit.u, hit.v, hit.w});
+                                std::uint32_t attributes, bool uvs_show) {
+  const QuadricPoint point =
+      quadric_point(*holder.content.quadric, holder.to_bundle, {hit.u, hit.v, hit.w}, uvs_show);
   Interaction at;
   at.p = point.p;
   at.out = back_along(direction);
@@ -161,9 +162,10 @@ Interaction triangle_interaction(const Holder& holder, const Hit& hit, Vector3f 
 }  // namespace
 
 Interaction make_interaction(const DomainView& domain, const Hit& hit, Vector3f direction, double cone_width,
-                             std::uint32_t attributes, double time_s) {
+                             std::uint32_t attributes, double time_s, bool uvs_show) {
   const Holder holder = holder_of(domain, hit, time_s);
-  if (holder.content.quadric) return quadric_interaction(holder, hit, direction, cone_width, attributes);
+  if (holder.content.quadric)
+    return quadric_interaction(holder, hit, direction, cone_width, attributes, uvs_show);
   return triangle_interaction(holder, hit, direction, cone_width, attributes);
 }
 

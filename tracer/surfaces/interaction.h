@@ -38,9 +38,10 @@ struct Interaction {
 };
 
 // `domain` holds the hit. `direction` of the ray, decoded, `cone_width` of its cone at the hit (0: none), and
-// its time, where anything moves.
+// its time, where anything moves. `uvs_show`: some texture or picture reads (u,v); else those of quadrics may
+// be 0.
 Interaction make_interaction(const DomainView& domain, const Hit& hit, Vector3f direction, double cone_width,
-                             std::uint32_t attributes, double time_s = 0);
+                             std::uint32_t attributes, double time_s = 0, bool uvs_show = true);
 
 // What rounding can turn its normal by, in rad: of what is stored of the shading normal, or of the surface,
 // whose vertices may stand `vertex_doubt` off beside (Surface). Decimals count up to `most_of_decimals_rad`.

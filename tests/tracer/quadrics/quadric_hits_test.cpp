@@ -307,6 +307,13 @@ TEST(QuadricSurface, DerivativesAreThoseOfThePoint) {
         const QuadricPoint at = quadric_point({q, false}, to_bundle, point(phi, v));
         EXPECT_LT(length(at.dpdu - du), 1e-6 * (1 + length(du)));
         EXPECT_LT(length(at.dpdv - dv), 1e-6 * (1 + length(dv)));
+        // All but (u,v) are the same where these do not show.
+        const QuadricPoint plain = quadric_point({q, false}, to_bundle, point(phi, v), false);
+        EXPECT_EQ(plain.p, at.p);
+        EXPECT_EQ(plain.normal, at.normal);
+        EXPECT_EQ(plain.dpdu, at.dpdu);
+        EXPECT_EQ(plain.dpdv, at.dpdv);
+        EXPECT_EQ(plain.uv, Point2d{});
       }
 }
 
