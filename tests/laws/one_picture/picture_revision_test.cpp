@@ -10,7 +10,7 @@
 namespace vitrail::test {
 namespace {
 
-constexpr std::uint32_t known_revision = 9;
+constexpr std::uint32_t known_revision = 10;
 constexpr const char* known_pictures = "ba3200daa08107fc";
 
 std::array<Point3f, 4> tile(float x, float z) {
