@@ -77,7 +77,7 @@ double angle_between_rays(const Tracing& tracing, std::uint32_t sample) {
 
 Interaction interaction_at(const Tracing& tracing, const Traveller& t, const RayCone& cone) {
   return make_interaction(*tracing.resident[t.hit_domain], t.hit, t.ray.direction, cone.at(t.hit.t),
-                          tracing.manifest().attributes, t.time_s);
+                          tracing.manifest().attributes, t.time_s, tracing.scene.uvs_show);
 }
 
 const Surface& surface_at(const Tracing& tracing, const Traveller& t) {
