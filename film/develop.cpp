@@ -51,7 +51,8 @@ Picture develop(const Film& film) {
   require_unsaturated(film.refused(), {});
   Picture picture;
   picture.rgb = black_image(film.width(), film.height(), 3);
-  picture.variance = black_image(film.width(), film.height(), 1);
+  const bool knows_variance = !film.key().one_sequence;
+  if (knows_variance) picture.variance = black_image(film.width(), film.height(), 1);
   picture.bins = film.bins();
   picture.spectrum = black_image(film.width(), film.height(), film.bins().count);
   if (film.bins().count == 0) picture.spectrum = {};
@@ -64,7 +65,7 @@ Picture develop(const Film& film) {
     const RGB c = xyz_to_srgb(film.mean(p));
     float* out = &picture.rgb.values[3 * std::size_t{p}];
     out[0] = static_cast<float>(c.r), out[1] = static_cast<float>(c.g), out[2] = static_cast<float>(c.b);
-    picture.variance.values[p] = static_cast<float>(film.variance_of_mean(p));
+    if (knows_variance) picture.variance.values[p] = static_cast<float>(film.variance_of_mean(p));
     const auto bins = static_cast<std::size_t>(film.bins().count);
     for (std::size_t b = 0; b < bins; ++b)
       picture.spectrum.values[bins * p + b] = static_cast<float>(film.mean_of_bin(p, b));

@@ -106,7 +106,8 @@ class Film {
   double mean_of_layer(std::uint32_t pixel, Layer layer, std::size_t plane) const;
   // Of a layer of ids: 1 + the id; 0 where no sample has one.
   std::uint32_t id(std::uint32_t pixel, Layer layer) const;
-  // Variance of the mean's Y, from the scatter of the groups; 0 where one has no samples. An estimate
+  // Variance of the mean's Y, from the scatter of the groups; 0 where one has no samples, or all are one
+  // sequence. An estimate
   // of one degree of freedom: of use where many are put together.
   double variance_of_mean(std::uint32_t pixel) const;
   // Of photon mapping: the standard error of the picture's mean Y, relative to it, by the scatter of the

@@ -29,7 +29,8 @@ struct FilmKey {
   // has room in a film's header (rounded_threshold).
   float threshold = 0;
   PhotonKey photons = {};
-  bool splats = false;  // samples add to several pixels
+  bool splats = false;        // samples add to several pixels
+  bool one_sequence = false;  // a pixel's samples are stratified together: their groups tell no variance
   bool operator==(const FilmKey&) const = default;
 };
 

@@ -56,6 +56,7 @@ double Film::weight(std::uint32_t pixel) const {
 // are as the numbers of samples.
 double Film::variance_of_mean(std::uint32_t pixel) const {
   static_assert(sample_groups == 2);
+  if (key_.one_sequence) return 0;
   const double n0 = weight(0, pixel), n1 = weight(1, pixel), n = n0 + n1;
   if (!(n0 > 0) || !(n1 > 0)) return 0;
   const double d = settings_.imaging_ratio * (value(y_planes, pixel) / n0 - value(y_planes + 1, pixel) / n1);

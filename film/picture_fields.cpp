@@ -38,6 +38,8 @@ std::vector<PictureField> picture_fields(const FilmKey& key, const FilmSettings&
            words(key.straight_counts), hidden},
           {"--splat", "samples of one add to several pixels, those of the other to their own",
            words(key.splats), hidden},
+          {"--one-sequence", "samples of one are one sequence a pixel, those of the other two",
+           words(key.one_sequence), hidden},
           {"number, radius or alpha of photons", "their photons differ", words(key.photons)},
           {"clamp", "their clamps differ", words(key.clamp)},
           {"spectral bins", "their spectral bins differ", words(film.spectrum)},

@@ -233,6 +233,8 @@ int main(int argc, char** argv) {
     if (a.spectral && picture.bins.count == 0)
       throw Error("the film keeps no spectra: render with --spectral N", {sum.file.string()});
     if (!a.spectral) picture.spectrum = {};
+    if (a.with_variance && sum.film.key().one_sequence)
+      throw Error("the film knows no variance: it was rendered with --one-sequence", {sum.file.string()});
     expose(picture, a.exposure_ev);
     if (a.white_balance_K > 0) balance_white(picture, a.white_balance_K);
     if (!a.with_variance) picture.variance = {};

@@ -52,6 +52,9 @@ void declare_sample_options(CLI::App& app, SampleArguments& a) {
   app.add_flag("--splat", a.splat,
                "each sample adds to all pixels that the filter reaches from it, by its values, instead of to "
                "one: less noise, and neighbours alike; the border of a crop has what falls inside");
+  app.add_flag("--one-sequence", a.one_sequence,
+               "the samples of a pixel are spread out together instead of in two groups: less noise, and the "
+               "film does not know how much");
   app.add_option("--texture-filter", a.texture_filter,
                  "none: images are as fine far away as near; nearest: their texels are seen as squares too; "
                  "default: as the scene says of each")
@@ -85,6 +88,7 @@ SampleChoices sample_choices(const SampleArguments& a) {
   if (!a.texture_filter.empty())
     choices.textures = a.texture_filter == "nearest" ? TextureChoice::nearest : TextureChoice::unfiltered;
   choices.sampling.splat = a.splat;
+  choices.sampling.one_sequence = a.one_sequence;
   SamplingChoices& s = choices.sampling;
   s.roulette = a.roulette == "early"   ? Roulette::early
                : a.roulette == "never" ? Roulette::never

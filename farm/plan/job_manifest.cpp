@@ -57,6 +57,13 @@ Point3d put_sensors(Manifest& m, const PictureSettings& picture) {
   return replaced;
 }
 
+void check_error_is_known(const PictureSettings& picture) {
+  if (picture.samples.sampling.one_sequence && (picture.adaptive || picture.target_error))
+    throw UsageError(
+        "--one-sequence leaves nothing that tells a picture's error, which --adaptive, --target-error and "
+        "--quality ask for: give --spp instead");
+}
+
 void check_splat(const Manifest& m, const PictureSettings& picture) {
   if (!picture.samples.sampling.splat) return;
   if (picture.adaptive || picture.target_error)
@@ -113,6 +120,7 @@ void override_film(Manifest& m, const PictureSettings& picture, const std::files
   if (picture.bins) m.film.spectrum = *picture.bins;
   override_layers(m, picture, bundle);
   apply(picture.samples, m);
+  check_error_is_known(picture);
   check_splat(m, picture);
   const PixelRect& c = m.film.crop;
   if (c.x0 < 0 || c.y0 < 0 || c.x1 > m.film.width || c.y1 > m.film.height || c.x0 >= c.x1 || c.y0 >= c.y1)
@@ -170,6 +178,7 @@ FilmKey key_of(const Manifest& m, const PictureSettings& picture) {
   key.straight_counts = m.settings.straight_counts;
   key.clamp = picture.clamp;
   key.splats = picture.samples.sampling.splat;
+  key.one_sequence = picture.samples.sampling.one_sequence;
   key.photons = photons_of(picture, m);
   return key;
 }

@@ -53,6 +53,7 @@ std::string words_of(const SampleChoices& c) {
   const auto add = [&](const std::string& word) { words += (words.empty() ? "" : " ") + word; };
   if (c.filter) add(words_of(*c.filter));
   if (c.sampling.splat) add("--splat");
+  if (c.sampling.one_sequence) add("--one-sequence");
   if (c.textures)
     add(fmt::format("--texture-filter {}", *c.textures == TextureChoice::nearest ? "nearest" : "none"));
   if (c.sampling.roulette != usual.roulette)

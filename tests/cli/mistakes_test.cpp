@@ -56,6 +56,7 @@ TEST_F(Mistakes, WaysToSampleThatAreNotThere) {
                                      {"--roulette 3", "early"},
                                      {"--texture-filter trilinear", "nearest"},
                                      {"--splat --adaptive", "give --spp instead"},
+                                     {"--one-sequence --target-error .1", "give --spp instead"},
                                      {"--splat --filter box:5", "up to 4.5 pixels"}}) {
     const CommandResult result = render(option);
     EXPECT_EQ(result.status, 2) << option;

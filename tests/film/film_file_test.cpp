@@ -132,6 +132,28 @@ TEST_F(FilmFile, OfSamplesThatSplatComesBackToo) {
   EXPECT_NE(difference(film, plain), "");
 }
 
+// Two groups of one sequence tell nothing of the error, also where they differ.
+TEST_F(FilmFile, OfOneSequenceComesBackToo) {
+  const auto filled = [](bool one) {
+    FilmSettings settings;
+    settings.width = settings.height = 1;
+    settings.crop = {0, 1, 0, 1};
+    Film film(settings, {.scene_hash = 2, .one_sequence = one});
+    for (std::uint32_t s = 0; s < 4; ++s) {
+      film.count_sample(0, s);
+      EXPECT_TRUE(film.deposit(0, s, {0, 1.0 + s % 2, 0}));
+    }
+    return film;
+  };
+  const Film film = filled(true), two = filled(false);
+  EXPECT_GT(two.variance_of_mean(0), 0);
+  write_film(file_, film, {1, 4, {1}, 1, {}, {}});
+  const Film read = read_film(file_, nullptr);
+  EXPECT_EQ(read.key(), film.key());
+  EXPECT_EQ(read.variance_of_mean(0), 0);
+  EXPECT_NE(difference(read, two).find("one sequence"), std::string::npos);
+}
+
 // Within an adaptive round a film has the round's map, and between rounds none.
 TEST_F(FilmFile, OfAdaptiveSamplesComesBackToo) {
   for (const bool open : {true, false}) {

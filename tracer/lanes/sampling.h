@@ -91,13 +91,16 @@ inline constexpr const std::uint32_t* sobol_table[3] = {
 
 // vitrail::sample_4d. Numbers that are not wanted are 0.
 template <Wanted wanted = Wanted::four, class U>
-VITRAIL_LANES Four<FloatsLike<U>> sample_4d(std::uint64_t seed, U pixel, U sample,
+VITRAIL_LANES Four<FloatsLike<U>> sample_4d(const PictureSeed& picture, U pixel, U sample,
                                             std::type_identity_t<U> set) {
   using L = LongsLike<U>;
-  const L group = convert<std::uint64_t>(sample % sample_groups), where = convert<std::uint64_t>(pixel) << 32;
+  static_assert(sample_groups == 2);
+  const std::uint32_t halves = picture.one_sequence ? 0 : 1;
+  const std::uint64_t seed = picture.value;
+  const L group = convert<std::uint64_t>(sample & halves), where = convert<std::uint64_t>(pixel) << 32;
   const L h = mix(((where | convert<std::uint64_t>(set)) ^ mix(seed + golden)) +
                   group * std::uint64_t{0x632be59bd9b4e019});
-  const U in_group = sample / sample_groups;
+  const U in_group = sample >> halves;
   const U index = detail::reverse_bits(
       detail::scramble_reversed(detail::reverse_bits(in_group), convert<std::uint32_t>(h)));
   const L h2 = mix(h + golden);

@@ -62,7 +62,7 @@ RenderScene::RenderScene(Manifest the_manifest, const std::filesystem::path& bun
       bundle_to_camera(inverse(camera_to_bundle(manifest))),
       pixel_angle(vitrail::pixel_angle(manifest)),
       pixel(pixel_of(manifest)),
-      seed(the_seed),
+      seed(the_seed, the_sampling.one_sequence),
       sampling(the_sampling),
       uvs_show(!manifest.textures.empty() || manifest.film.layers.has(Layer::uv)) {
   for (const TextureFileEntry& t : manifest.texture_files)

@@ -10,6 +10,7 @@
 #include "tracer/media/free_flight.h"
 #include "tracer/prepared/lane_scene.h"
 #include "tracer/prepared/sampling_choices.h"
+#include "tracer/sampling/sampler.h"
 #include "tracer/surfaces/surface_materials.h"
 #include "tracer/view/camera_rays.h"
 #include "tracer/view/pixel_filter.h"
@@ -41,7 +42,7 @@ struct RenderScene {
   struct Pixel {
     double width = 0, angle_rad = 0;
   } pixel;
-  std::uint64_t seed = 0;
+  PictureSeed seed;
   SamplingChoices sampling;
   bool uvs_show = true;  // some texture or a layer of the film may read (u,v)
 };

@@ -24,6 +24,8 @@ struct SamplingChoices {
   // Samples lie evenly in their pixels and add to all that the filter reaches from there, by its values; else
   // it chooses where they lie.
   bool splat = false;
+  // A pixel's samples are stratified together, not in two groups that tell how far they are off.
+  bool one_sequence = false;
   bool operator==(const SamplingChoices&) const = default;
 };
 

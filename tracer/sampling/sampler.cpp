@@ -31,14 +31,16 @@ std::array<float, 4> hashed_4d(std::uint64_t seed) {
 
 std::array<float, 4> sample_4d(const SampleKey& key, std::uint32_t set, Wanted wanted) {
   using namespace sobol;
-  const std::uint64_t group = group_of(key.sample);
+  const bool one = key.seed.one_sequence;
+  const std::uint64_t group = one ? 0 : group_of(key.sample);
+  const std::uint32_t place = one ? key.sample : index_in_group(key.sample);
   const std::uint64_t h =
       mix((mix(key.seed + 0x9e3779b97f4a7c15ull) ^ (static_cast<std::uint64_t>(key.pixel) << 32 | set)) +
           group * 0x632be59bd9b4e019ull);
   // Shuffling is an Owen scramble of the index: every power-of-two prefix stays one aligned, stratified
   // block.
-  const std::uint32_t index = reverse_bits(
-      scramble_reversed(reverse_bits(index_in_group(key.sample)), static_cast<std::uint32_t>(h)));
+  const std::uint32_t index =
+      reverse_bits(scramble_reversed(reverse_bits(place), static_cast<std::uint32_t>(h)));
   // Both reversed; the first dimension is the radical inverse.
   const auto point = [&](const ByteTable& t) {
     return t[0][index & 0xff] ^ t[1][index >> 8 & 0xff] ^ t[2][index >> 16 & 0xff] ^ t[3][index >> 24];

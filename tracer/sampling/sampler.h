@@ -9,8 +9,18 @@
 
 namespace vitrail {
 
+// What all samples of a picture have in common. A number alone is a seed whose samples know their error.
+struct PictureSeed {
+  std::uint64_t value = 0;
+  // A pixel's samples are one sequence, stratified together: less noise, and nothing tells how much there is.
+  // Else they are two (film/sample_groups.h).
+  bool one_sequence = false;
+  constexpr PictureSeed(std::uint64_t seed = 0, bool one = false) : value(seed), one_sequence(one) {}
+  constexpr operator std::uint64_t() const { return value; }
+};
+
 struct SampleKey {
-  std::uint64_t seed = 0;
+  PictureSeed seed;
   std::uint32_t pixel = 0;  // of the whole film, so that a crop samples as the full picture does
   std::uint32_t sample = 0;
 };
@@ -23,9 +33,9 @@ constexpr std::uint64_t mix(std::uint64_t x) {
 }
 
 // Four numbers in [0,1), the coordinates of a point of a scrambled Sobol' sequence of its own for each (seed,
-// pixel, set, group of samples): the samples of a group (film/sample_groups.h) are its points in turn. Sets
-// and groups are statistically independent of each other. Who wants but the first of them is spared the
-// others, which are 0 then.
+// pixel, set, group of samples): the samples of a group (film/sample_groups.h) are its points in turn; of one
+// sequence, all samples are one group. Sets and groups are statistically independent of each other. Who wants
+// but the first of them is spared the others, which are 0 then.
 enum class Wanted : std::uint8_t { two, three, four };
 std::array<float, 4> sample_4d(const SampleKey& key, std::uint32_t set, Wanted wanted = Wanted::four);
 

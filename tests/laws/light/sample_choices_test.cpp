@@ -84,6 +84,7 @@ TEST(SampleChoices, AgreeInTheMean) {
         Way{"never", {.roulette = Roulette::never}}, Way{"one wavelength", {.one_wavelength = true}},
         Way{"by power", {.lights = LightChoice::power}}, Way{"one candidate", {.light_candidates = 1}},
         Way{"many candidates", {.light_candidates = most_light_candidates}},
+        Way{"one sequence", {.one_sequence = true}},
         Way{"all", {Roulette::early, true, LightChoice::power, 7}}}) {
     const Film film = rendered(scene, 64, {{}, {}, way.sampling});
     const auto z = distances(film, usual);
@@ -152,6 +153,31 @@ TEST(SampleChoices, SplattingHasLessErrorAndSaysHowMuch) {
     return squares;
   };
   EXPECT_LT(errors(true), 0.6 * errors(false));
+}
+
+// Where light is smooth, samples that are stratified together have less error than those of two groups. Of it
+// their groups would say several times as much, so the film says nothing.
+TEST(SampleChoices, OneSequenceHasLessErrorAndDoesNotSayHowMuch) {
+  const Scene scene = lit_box(16);
+  const Film truth = rendered(scene, 2048, {}, 99);
+  const auto error = [&](bool one) {
+    double squares = 0;
+    for (std::uint64_t seed = 0; seed < 4; ++seed) {
+      const Film film = rendered(scene, 16, {{}, {}, {.one_sequence = one}}, seed);
+      EXPECT_EQ(develop(film).variance.pixels() == 0, one);
+      for (std::uint32_t p = 0; p < film.pixels(); ++p) {
+        const double off = film.mean(p).y - truth.mean(p).y;
+        squares += off * off;
+        if (one) {
+          EXPECT_EQ(film.variance_of_mean(p), 0);
+        }
+      }
+    }
+    return squares;
+  };
+  const double one = error(true), two = error(false);
+  fmt::print("one sequence: error {:.4g}, two: {:.4g}\n", one, two);
+  EXPECT_LT(one, 0.97 * two);
 }
 
 // How far a picture's mean is from the truth, against what compare and ztest say: over 60 seeds the standard
@@ -252,7 +278,8 @@ TEST_F(OnePictureOfSamples, PicturesSayThatNeighboursAreAlike) {
 
 TEST_F(OnePictureOfSamples, HoweverItIsRendered) {
   for (const std::string choices :
-       {"--filter mitchell:1 --roulette early --wavelengths 1 --light-sampling power --light-candidates 7",
+       {"--filter mitchell:1 --roulette early --wavelengths 1 --light-sampling power --light-candidates 7 "
+        "--one-sequence",
         "--splat --filter gaussian:1.5 --spectral 3 --clamp 1 --aov albedo,depth,normal"}) {
     ASSERT_EQ(render("a.film", 1, choices + " --force --threads 2").status, 0);
     for (const char* manner : {"--threads 1", "--threads 2 --domain-memory 1 --shuffle-delivery 5"}) {
@@ -272,8 +299,8 @@ TEST_F(OnePictureOfSamples, WaysDoNotMix) {
                 .status,
             0);
   EXPECT_EQ(hash("same.film"), hash("usual.film"));
-  for (const char* way : {"--filter box:0.25", "--splat", "--roulette never", "--wavelengths 1",
-                          "--light-sampling power", "--light-candidates 5"}) {
+  for (const char* way : {"--filter box:0.25", "--splat", "--one-sequence", "--roulette never",
+                          "--wavelengths 1", "--light-sampling power", "--light-candidates 5"}) {
     // A film is not gone on with in another way.
     CommandResult result = render("usual.film", 1, way);
     EXPECT_EQ(result.status, 3) << way;

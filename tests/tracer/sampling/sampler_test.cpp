@@ -51,6 +51,26 @@ TEST(Sampler, FirstPairIsANet) {
   }
 }
 
+// Of one sequence all samples of a pixel are that: each 2ᵏ from the first on fill every cell of their grids,
+// whatever their parity, as those of a group do else.
+TEST(Sampler, OneSequenceIsANetOfAllSamples) {
+  for (const bool one : {true, false}) {
+    bool is_net = true;
+    for (int m = 0; m <= 8; ++m)
+      for (int a = 0; a <= m; ++a) {
+        std::vector<int> hits(std::size_t{1} << m);
+        for (std::uint32_t i = 0; i < hits.size(); ++i) {
+          const auto u = sample_4d({{11, one}, 5, i}, 2);
+          const auto x = static_cast<std::size_t>(u[0] * static_cast<float>(1 << a));
+          const auto y = static_cast<std::size_t>(u[1] * static_cast<float>(1 << (m - a)));
+          ++hits[x << (m - a) | y];
+        }
+        is_net = is_net && std::ranges::all_of(hits, [](int n) { return n == 1; });
+      }
+    EXPECT_EQ(is_net, one);
+  }
+}
+
 // Pixels, seeds, sets and groups are independent: correlations vanish within 5 standard errors.
 TEST(Sampler, StreamsAreUncorrelated) {
   constexpr int n = 20000;
