@@ -94,8 +94,8 @@ VITRAIL_LANES Wavelengths<F> sample_wavelengths(const WavelengthTables& tables, 
 // The x, y and z of vitrail::sensor_weights. `observer`: &cie_1931()[0][0].
 template <class F>
 VITRAIL_LANES SensorXyz<F> sensor_weights(const float* observer, const Wavelengths<F>& wavelengths,
-                                          double scale) {
-  const auto all = static_cast<float>(scale / (hero_count * cie_y_integral_nm));
+                                          DoublesLike<F> scale) {
+  const F all = to_floats(scale / (hero_count * cie_y_integral_nm));
   SensorXyz<F> w;
   for (int i = 0; i < hero_count; ++i) {
     const detail::TablePlace<F> place(wavelengths.lambda_nm[i]);

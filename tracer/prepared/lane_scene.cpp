@@ -23,8 +23,11 @@ void set(const DiffuseMaterial& m, LaneSurface& s) {
   s.kind = LaneKind::diffuse;
   s.is_textured = !is_constant(m.reflectance);
   const auto* spectrum = std::get_if<Spectrum>(&m.reflectance);
-  if (const auto* sigmoid = spectrum ? std::get_if<SigmoidSpectrum>(spectrum) : nullptr)
-    s.is_sigmoid = true, s.sigmoid = *sigmoid;
+  if (!spectrum) return;
+  if (const auto* sigmoid = std::get_if<SigmoidSpectrum>(spectrum))
+    s.has_parameters = false, s.sigmoid = *sigmoid;
+  if (const auto* constant = std::get_if<ConstantSpectrum>(spectrum); constant && constant->value >= 0)
+    s.has_parameters = false, s.constant = constant->value;
 }
 
 void set(const ConductorMaterial& m, LaneSurface& s) {
@@ -49,6 +52,7 @@ void set(const DielectricMaterial& m, LaneSurface& s) {
   if (!is_smooth(m.roughness) || !behind || !before || m.priority) return;
   if (!is_one(m.reflectance_factor) || !is_one(m.transmittance_factor)) return;
   s.kind = LaneKind::glass;
+  s.has_parameters = false;
   s.eta_behind = behind->value, s.eta_before = before->value;
 }
 

@@ -28,14 +28,16 @@ struct LaneSurface {
   LaneKind kind = LaneKind::none;
   bool two_sided = false;
   bool emits = false;
-  bool is_textured = false;  // its parameters depend on the point
-  bool is_sigmoid = false;   // of `diffuse`: the reflectance is this
+  bool is_textured = false;    // its parameters depend on the point
+  bool has_parameters = true;  // a LaneBsdf; else they are these:
+  // Of `diffuse`: the reflectance, constant or, where that is < 0, a sigmoid.
+  float constant = -1;
   SigmoidSpectrum sigmoid;
   // Of `glass`: the indices on its back and on its front.
   float eta_behind = 1, eta_before = 1;
 };
 
-// The parameters of a BSDF at a point, of all kinds but glass and sigmoids.
+// The parameters of a BSDF at a point.
 struct LaneBsdf {
   // Reflectance; index η and κ and a factor; diffuse and specular reflectance.
   SampledSpectrum a, b, c;

@@ -42,10 +42,8 @@ std::array<double, 3> value_at(const Tracing& tracing, const CameraPath& path, c
     case Layer::uv:
       return {at.uv.x, at.uv.y};
     case Layer::depth: {
-      const auto width = static_cast<std::uint32_t>(tracing.film.width());
       const CameraRay ray =
-          camera_ray(tracing, path, tracing.film.crop().x0 + static_cast<int>(path.film.pixel % width),
-                     tracing.film.crop().y0 + static_cast<int>(path.film.pixel / width));
+          camera_ray(tracing, path, column_of(tracing, path.film), row_of(tracing, path.film));
       return {length(at.p - cast<double>(ray.origin))};
     }
     default:

@@ -16,13 +16,31 @@ CameraRay camera_ray(const Tracing& tracing, const CameraPath& path, int x, int 
   return scene.camera.ray({x + 0.5 + offset.x, y + 0.5 + offset.y}, lens, path.time_s);
 }
 
-bool begin(Tracing& tracing, CameraPath& path, int x, int y, std::uint32_t sample) {
+void set_sample(const Tracing& tracing, CameraPath& path, int x, int y, std::uint32_t sample) {
+  const Film& film = tracing.film;
+  path.film.pixel =
+      static_cast<std::uint32_t>(pixel_place(x - film.crop().x0, y - film.crop().y0, film.width()));
+  path.film.sample = sample;
+  path.key = key_of(tracing, path.film.pixel, sample);
+}
+
+int column_of(const Tracing& tracing, const FilmSample& film) {
+  return tracing.film.crop().x0 +
+         static_cast<int>(film.pixel % static_cast<std::uint32_t>(tracing.film.width()));
+}
+int row_of(const Tracing& tracing, const FilmSample& film) {
+  return tracing.film.crop().y0 +
+         static_cast<int>(film.pixel / static_cast<std::uint32_t>(tracing.film.width()));
+}
+
+bool begin(Tracing& tracing, CameraPath& path, bool has_numbers) {
   Film& film = tracing.film;
   FilmSample& of = path.film;
-  of.pixel = static_cast<std::uint32_t>(pixel_place(x - film.crop().x0, y - film.crop().y0, film.width()));
-  of.sample = sample;
-  begin(tracing, path, of);
-  const CameraRay ray = camera_ray(tracing, path, x, y);
+  if (has_numbers)
+    path.time_s = time_of(tracing, path.key);
+  else
+    begin(tracing, path, of);
+  const CameraRay ray = camera_ray(tracing, path, column_of(tracing, of), row_of(tracing, of));
   path.unrecorded = film.layers().any();
   path.throughput = filled(static_cast<float>(ray.weight));
   if (tracing.scene.sampling.one_wavelength) path.disperse();
@@ -30,7 +48,7 @@ bool begin(Tracing& tracing, CameraPath& path, int x, int y, std::uint32_t sampl
   path.direction = ray.direction;
   path.ray = {ray.origin, decode_direction(ray.direction), no_triangle};
   path.random = hash_of_ray(path);
-  film.count_sample(of.pixel, sample, footprint_of(tracing, of.pixel, sample));
+  film.count_sample(of.pixel, of.sample, footprint_of(tracing, of.pixel, of.sample));
   ++tracing.counters.rays_camera;
   return ray.weight > 0;
 }

@@ -9,9 +9,14 @@ namespace vitrail {
 
 // Of a path's sample through the pixel (x, y) of the whole film.
 CameraRay camera_ray(const Tracing& tracing, const CameraPath& path, int x, int y);
-// Sample `sample` of the pixel (x, y) of the whole film, which lies in the crop. False where it is dark: the
-// lens holds it up.
-bool begin(Tracing& tracing, CameraPath& path, int x, int y, std::uint32_t sample);
+// Makes it that of sample `sample` of the pixel (x, y) of the whole film, which lies in the crop.
+void set_sample(const Tracing& tracing, CameraPath& path, int x, int y, std::uint32_t sample);
+// Begins it. `has_numbers`: its numbers, wavelengths and sensor are there (LaneStages::begin). False where it
+// is dark: the lens holds it up.
+bool begin(Tracing& tracing, CameraPath& path, bool has_numbers);
+// The column of its pixel in the whole film, and the row.
+int column_of(const Tracing& tracing, const FilmSample& film);
+int row_of(const Tracing& tracing, const FilmSample& film);
 
 void pack(const Tracing& tracing, const CameraPath& path, bool resolved, RayRecord& record);
 void unpack(const Tracing& tracing, const PathRecord& record, CameraPath& path);

@@ -65,7 +65,7 @@ bool LaneLists::take(Tracing& tracing, CameraPath& path, std::uint32_t place) {
 
   find_wavelengths(tracing, path, path.film);
   if (of.kind != LaneKind::glass) path.pane = {};
-  const bool is_placed = path.hit.depth > 0, has_parameters = !of.is_sigmoid && of.kind != LaneKind::glass;
+  const bool is_placed = path.hit.depth > 0;
   const Material& material = tracing.manifest().materials[surface.material];
   const Materials& materials = tracing.scene.materials;
   if (is_placed || of.emits || of.is_textured) {
@@ -75,7 +75,7 @@ bool LaneLists::take(Tracing& tracing, CameraPath& path, std::uint32_t place) {
     if (of.is_textured)
       bsdfs_[place] = lane_bsdf(materials.bsdf_at(material, at.texture_point(), path.wavelengths));
   }
-  if (has_parameters && !of.is_textured)
+  if (of.has_parameters && !of.is_textured)
     bsdfs_[place] = lane_bsdf(materials.bsdf_at(material, {}, path.wavelengths));
   widen_cone(tracing, path, sample_of(path), path.hit.t);
   surface_[place] = index;

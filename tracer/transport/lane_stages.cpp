@@ -32,6 +32,8 @@ bool sample(const LaneWork& work, const CameraPath& path, Point3d p, const float
   return sampled.has_value();
 }
 
+double filter_weight(const Tracing& tracing, float u, float v) { return tracing.scene.filter.weight(u, v); }
+
 void find_radiance(const LaneWork& work, const CameraPath& path, std::uint32_t area_light) {
   const AreaLight& light = work.tracing.manifest().area_lights[area_light];
   path.lamp = {area_light, evaluate(std::get<Spectrum>(light.radiance), path.wavelengths) * light.scale};

@@ -27,7 +27,7 @@ struct LaneWork {
   const LaneScene& scene;
   CameraPath* paths;
   const std::uint32_t* surface;        // of a path's hit, in LaneScene::surfaces
-  const LaneBsdf* bsdfs;               // of those whose surface is no sigmoid, and no glass
+  const LaneBsdf* bsdfs;               // of those whose surface has one
   const PlacedHit* placed;             // of hits that are in a list of such
   const lanes::DomainTables* domains;  // of hits' domains
   float roulette_worth;                // what a path is worth going on for; 0: no roulette
@@ -50,6 +50,8 @@ struct LaneList {
 
 struct LaneStages {
   int width;
+  // Gives paths that begin their numbers for the camera, their wavelengths and what the sensor makes of them.
+  void (*begin)(const Tracing& tracing, CameraPath* paths, const std::uint32_t* places, std::size_t count);
 
   // By kind, but `none`.
   void (*stage[lane_kinds])(LaneWork& work, const LaneList& list);
@@ -69,6 +71,7 @@ namespace lane_by_lane {
 
 // sample_light for a path, with the numbers of a candidate. False where nothing arrives.
 bool sample(const LaneWork& work, const CameraPath& path, Point3d p, const float (&u)[4], LightSample& light);
+double filter_weight(const Tracing& tracing, float u, float v);
 // The radiance of a plain lamp, kept in path.lamp.
 void find_radiance(const LaneWork& work, const CameraPath& path, std::uint32_t area_light);
 // Aims a shadow ray to a quadric.

@@ -164,8 +164,10 @@ struct ReadLambert {
             c2 = to_doubles(gather<F>(VITRAIL_EACH(g.surface[j]->sigmoid.c2)));
     for (int i = 0; i < 4; ++i)
       bsdf.reflectance[i] = sigmoid(c0, c1, c2, gather<F>(VITRAIL_EACH(g.path[j]->wavelengths.lambda_nm[i])));
+    const F constant = gather<F>(VITRAIL_EACH(g.surface[j]->constant));
+    for (int i = 0; i < 4; ++i) bsdf.reflectance[i] = select<F>(constant >= 0, constant, bsdf.reflectance[i]);
     for (int j = 0; j < W; ++j)
-      if (!g.surface[j]->is_sigmoid)
+      if (g.surface[j]->has_parameters)
         for (int i = 0; i < 4; ++i) set_lane(bsdf.reflectance[i], j, work.bsdfs[g.place[j]].a.v[i]);
     return bsdf;
   }
@@ -484,6 +486,36 @@ void scatter_glass(LaneWork& work, const LaneList& list) {
   }
 }
 
+void begin(const Tracing& tracing, CameraPath* paths, const std::uint32_t* places, std::size_t count) {
+  const WavelengthTables tables = wavelength_tables();
+  const float* const observer = cie_1931()[0].data();
+  for (std::size_t first = 0; first < count; first += W) {
+    CameraPath* path[W];
+    for (std::size_t j = 0; j < W; ++j) path[j] = paths + places[first + j < count ? first + j : count - 1];
+    const U pixel = gather<U>(VITRAIL_EACH(path[j]->key.pixel)),
+            sample = gather<U>(VITRAIL_EACH(path[j]->key.sample));
+    const L seed = sample_seed(tracing.scene.seed.value, pixel, sample);
+    const Four<F> u = lanes::sample_4d(tracing.scene.seed, pixel, sample, pixel * 0u + sample_set::camera);
+    const Wavelengths<F> wavelengths = lanes::sample_wavelengths(tables, u[2]);
+    const D weight =
+        gather<D>(VITRAIL_EACH(lane_by_lane::filter_weight(tracing, lane(u[0], j), lane(u[1], j))));
+    const SensorXyz<F> sensor = lanes::sensor_weights(observer, wavelengths, weight);
+    for (int j = 0; j < W; ++j) {
+      CameraPath& p = *path[j];
+      p.seed = lane(seed, j);
+      p.film.has_wavelengths = true;
+      for (int i = 0; i < 4; ++i) {
+        p.film.camera.data()[i] = lane(u[i], j);
+        p.wavelengths.lambda_nm.data()[i] = lane(wavelengths.lambda_nm[i], j);
+        p.film.sensor.x.data()[i] = lane(sensor.x[i], j);
+        p.film.sensor.y.data()[i] = lane(sensor.y[i], j);
+        p.film.sensor.z.data()[i] = lane(sensor.z[i], j);
+      }
+    }
+  }
+}
+
 constexpr LaneStages stages{W,
+                            begin,
                             {nullptr, scatter<ReadLambert>, scatter<ReadMirror>, scatter<ReadMetal>,
                              scatter<ReadPlastic>, scatter<ReadRoughPlastic>, scatter_glass}};

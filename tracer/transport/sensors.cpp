@@ -4,6 +4,7 @@
 #include "scene/geometry/portable_math.h"
 #include "tracer/bsdf/local.h"
 #include "tracer/transport/connect.h"
+#include "tracer/transport/generate.h"
 
 namespace vitrail {
 
@@ -34,8 +35,7 @@ void seek(Probe& probe, Point3d from, Vector3d direction) {
 }
 
 Sensor sensor_of(const Tracing& tracing, const Probe& probe) {
-  const auto width = static_cast<std::uint32_t>(tracing.film.width());
-  return *tracing.scene.camera.sensor(tracing.film.crop().x0 + static_cast<int>(probe.film.pixel % width));
+  return *tracing.scene.camera.sensor(column_of(tracing, probe.film));
 }
 
 // At what it meets: whether it looks on.

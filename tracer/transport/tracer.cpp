@@ -11,28 +11,13 @@
 namespace vitrail {
 
 // Where the ways of rays are recorded, each is traced by itself: the recorder is told of one ray at a time.
-void Tracer::take(const std::optional<Arrival>& at) {
-  wave_.take(at);
-  if (wave_.size() == Wave::most || tracing_.traffic) finish();
+void Tracer::make_room() {
+  if (wave_.is_full() || tracing_.traffic) finish();
 }
 
 void Tracer::trace_camera(int x, int y, std::uint32_t sample) {
-  CameraPath& path = wave_.place();
-  if (!begin(tracing_, path, x, y, sample)) return;
-  if (tracing_.traffic) tracing_.traffic->begin({});
-  ++tracing_.counters.born;
-  if (const auto sensor = tracing_.scene.camera.sensor(x)) {
-    const Begun begun = begin_at(tracing_, path, *sensor, wave_.shadows());
-    if (!goes_on(begun)) return;
-  }
-  take(std::nullopt);
-}
-
-bool Tracer::goes_on(Begun begun) {
-  if (begun == Begun::goes_on) return true;
-  if (begun == Begun::ends) ++tracing_.counters.died;
-  trace(tracing_, wave_.shadows());  // its place is the next one's
-  return false;
+  make_room();
+  wave_.add(tracing_, x, y, sample);
 }
 
 void Tracer::trace_photon(std::uint32_t number) { vitrail::trace_photon(tracing_, number); }
@@ -40,12 +25,12 @@ void Tracer::trace_photon(std::uint32_t number) { vitrail::trace_photon(tracing_
 void Tracer::resume(const RayRecord& record, std::uint32_t domain) {
   const Arrival at{domain, record.head.is(ray_resolved)};
   switch (record.head.kind()) {
-    case RayRecordKind::path: {
-      unpack(tracing_, record.path, wave_.place());
+    case RayRecordKind::path:
+      make_room();
       if (tracing_.traffic) tracing_.traffic->begin({domain, true});
-      take(at);
+      unpack(tracing_, record.path, wave_.place());
+      wave_.resume(at);
       break;
-    }
     case RayRecordKind::connection:
       vitrail::resume(tracing_, record.connection, at);
       break;
@@ -53,9 +38,11 @@ void Tracer::resume(const RayRecord& record, std::uint32_t domain) {
       vitrail::resume(tracing_, record.photon, at);
       break;
     case RayRecordKind::probe: {
+      make_room();
       if (tracing_.traffic) tracing_.traffic->begin({domain, true});
-      if (goes_on(vitrail::resume(tracing_, record.probe, at, wave_.place(), wave_.shadows())))
-        take(std::nullopt);
+      const Begun begun = vitrail::resume(tracing_, record.probe, at, wave_.place(), wave_.shadows());
+      if (begun == Begun::goes_on) wave_.resume(std::nullopt);
+      if (begun == Begun::ends) ++tracing_.counters.died;
       break;
     }
   }

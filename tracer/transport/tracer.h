@@ -4,7 +4,6 @@
 // which ones were absent.
 #pragma once
 
-#include "tracer/transport/sensors.h"
 #include "tracer/transport/tracing.h"
 #include "tracer/transport/wave.h"
 
@@ -30,8 +29,7 @@ class Tracer {
   void finish() { wave_.trace(tracing_); }
 
  private:
-  void take(const std::optional<Arrival>& at);
-  bool goes_on(Begun begun);
+  void make_room();
 
   Tracing tracing_;
   Wave& wave_;

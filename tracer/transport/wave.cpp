@@ -2,13 +2,20 @@
 #include "tracer/transport/wave.h"
 
 #include "tracer/transport/generate.h"
+#include "tracer/transport/sensors.h"
 #include "tracer/transport/shading.h"
 
 namespace vitrail {
 
+void Wave::add(const Tracing& tracing, int x, int y, std::uint32_t sample) {
+  new_.push_back(static_cast<std::uint32_t>(next_));
+  set_sample(tracing, place(), x, y, sample);
+}
+
 void Wave::trace(Tracing& tracing) {
-  vitrail::trace(tracing, shadows_);
   const bool in_lanes = LaneLists::apply_to(tracing);
+  generate(tracing, in_lanes);
+  vitrail::trace(tracing, shadows_);
   if (in_lanes) lists_.begin(tracing);
   while (!live_.empty()) {
     find_hits(tracing);
@@ -16,6 +23,24 @@ void Wave::trace(Tracing& tracing) {
     vitrail::trace(tracing, shadows_);
   }
   next_ = 0;
+}
+
+void Wave::generate(Tracing& tracing, bool in_lanes) {
+  const bool has_numbers = in_lanes && tracing.film.bins().count == 0;
+  if (has_numbers) tracing.stages->begin(tracing, paths_.get(), new_.data(), new_.size());
+  for (const std::uint32_t i : new_) {
+    CameraPath& path = paths_[i];
+    if (!begin(tracing, path, has_numbers)) continue;
+    if (tracing.traffic) tracing.traffic->begin({});
+    ++tracing.counters.born;
+    at_[i].reset();
+    Begun begun = Begun::goes_on;
+    if (const auto sensor = tracing.scene.camera.sensor(column_of(tracing, path.film)))
+      begun = begin_at(tracing, path, *sensor, shadows_);
+    if (begun == Begun::goes_on) live_.push_back(i);
+    if (begun == Begun::ends) ++tracing.counters.died;
+  }
+  new_.clear();
 }
 
 void Wave::find_hits(Tracing& tracing) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Paths from the camera that are traced together, stage by stage: all look for their next hit, then all are
-// shaded, then their shadow rays are traced, until none is left. Nothing of the picture depends on which
-// paths these are.
+// Paths from the camera that are traced together, stage by stage: all begin, all look for their next hit,
+// then all are shaded, then their shadow rays are traced, until none is left. Nothing of the picture depends
+// on which paths these are.
 #pragma once
 
 #include <memory>
@@ -20,15 +20,17 @@ class Wave {
   // States of paths and what they are read for fit into a core's second cache.
   static constexpr std::size_t most = 512;
 
-  Wave() : paths_(std::make_unique<CameraPath[]>(most)), at_(most) { live_.reserve(most); }
+  Wave() : paths_(std::make_unique<CameraPath[]>(most)), at_(most) {}
 
-  std::size_t size() const { return live_.size(); }
-  // A place for one more, whose path is as new; `size` < most.
-  CameraPath& place() { return paths_[next_] = {}; }
-  // Takes in the path that has been made in that place. `at`: of one that comes from elsewhere.
-  void take(const std::optional<Arrival>& at) {
-    at_[next_] = at;
-    live_.push_back(next_++);
+  bool is_full() const { return next_ == most; }
+  // Takes in a sample of the pixel (x, y) of the whole film; not where it is full.
+  void add(const Tracing& tracing, int x, int y, std::uint32_t sample);
+  // A place for a path that has begun, as new; it goes on where `resume` says so. Not where it is full.
+  CameraPath& place() { return paths_[next_++] = {}; }
+  // Of the path in the place that was given last. `at`: of one that comes from elsewhere.
+  void resume(const std::optional<Arrival>& at) {
+    at_[next_ - 1] = at;
+    live_.push_back(static_cast<std::uint32_t>(next_ - 1));
   }
   // Of paths that begin in it.
   ShadowRays& shadows() { return shadows_; }
@@ -37,15 +39,16 @@ class Wave {
   void trace(Tracing& tracing);
 
  private:
+  void generate(Tracing& tracing, bool in_lanes);
   void find_hits(Tracing& tracing);
   void shade_all(Tracing& tracing, bool in_lanes);
 
   std::unique_ptr<CameraPath[]> paths_;
   std::vector<std::optional<Arrival>> at_;
-  std::vector<std::uint32_t> live_;  // places of those that go on
+  std::vector<std::uint32_t> new_, live_;  // places of those that are to begin, that go on
   LaneLists lists_{most};
   ShadowRays shadows_;
-  std::uint32_t next_ = 0;
+  std::size_t next_ = 0;
 };
 
 }  // namespace vitrail

@@ -21,7 +21,7 @@ LANE_FUNCTION(table_value, 2, 2) {
 LANE_FUNCTION(wavelengths, 2, 20) {
   const auto w = lanes::sample_wavelengths(context.wavelengths, in.f(0));
   out.four(w.lambda_nm), out.four(w.pdf);
-  const auto sensor = lanes::sensor_weights(context.observer, w, 1.5);
+  const auto sensor = lanes::sensor_weights(context.observer, w, lanes::fill<lanes::Doubles<W>>(1.5));
   out.four(sensor.x), out.four(sensor.y), out.four(sensor.z);
 }
 // Of triangle 8·in[0] + in[1] of a domain, met at (u, v) and t.
