@@ -21,6 +21,11 @@ void require_unsaturated(const Refused& refused, const std::filesystem::path& fi
       {file.string()});
 }
 
+void require_samples(const Film& film, const std::filesystem::path& file) {
+  if (film.samples() > 0) return;
+  throw Error("the film holds no sample yet: its picture would be black", {file.string()});
+}
+
 namespace {
 
 void add_sums(const Film& film, Layer layer, std::vector<PictureChannel>& out) {
@@ -47,24 +52,31 @@ void add_ids(const Film& film, Layer layer, std::vector<PictureChannel>& out) {
 
 }  // namespace
 
-Picture develop(const Film& film) {
+Picture develop_colors(const Film& film) {
   require_unsaturated(film.refused(), {});
   Picture picture;
   picture.rgb = black_image(film.width(), film.height(), 3);
+  picture.window = film.crop();
+  picture.full_width = film.full_width();
+  picture.full_height = film.full_height();
+  for (std::uint32_t p = 0; p < film.pixels(); ++p) {
+    const RGB c = xyz_to_srgb(film.mean(p));
+    float* out = &picture.rgb.values[3 * std::size_t{p}];
+    out[0] = static_cast<float>(c.r), out[1] = static_cast<float>(c.g), out[2] = static_cast<float>(c.b);
+  }
+  return picture;
+}
+
+Picture develop(const Film& film) {
+  Picture picture = develop_colors(film);
   const bool knows_variance = !film.key().one_sequence;
   if (knows_variance) picture.variance = black_image(film.width(), film.height(), 1);
   picture.bins = film.bins();
   picture.spectrum = black_image(film.width(), film.height(), film.bins().count);
   if (film.bins().count == 0) picture.spectrum = {};
-  picture.window = film.crop();
-  picture.full_width = film.full_width();
-  picture.full_height = film.full_height();
   picture.shared_error = film.shared_error();
   std::uint64_t most_samples = 0, least_samples = ~std::uint64_t{0};
   for (std::uint32_t p = 0; p < film.pixels(); ++p) {
-    const RGB c = xyz_to_srgb(film.mean(p));
-    float* out = &picture.rgb.values[3 * std::size_t{p}];
-    out[0] = static_cast<float>(c.r), out[1] = static_cast<float>(c.g), out[2] = static_cast<float>(c.b);
     if (knows_variance) picture.variance.values[p] = static_cast<float>(film.variance_of_mean(p));
     const auto bins = static_cast<std::size_t>(film.bins().count);
     for (std::size_t b = 0; b < bins; ++b)

@@ -46,8 +46,14 @@ struct Picture {
 // `samples_per_pixel` is the most that a pixel has. Throws Error if the film is saturated.
 Picture develop(const Film& film);
 
+// The same of the colours and their place alone.
+Picture develop_colors(const Film& film);
+
 // Throws Error where deposits were too large, and says what to do. `file`: the film's.
 void require_unsaturated(const Refused& refused, const std::filesystem::path& file);
+
+// Throws Error where nothing was rendered yet.
+void require_samples(const Film& film, const std::filesystem::path& file);
 
 // Brighter by `ev` stops: values and spectra times 2^ev, variances times 4^ev.
 void expose(Picture& picture, double ev);

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "film/image_io.h"
 
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 
 #include <fast_float/fast_float.h>
@@ -12,11 +10,14 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <cstdlib>
 #include <ctime>
-#include <limits>
 #include <optional>
+#include <span>
 
+#include "film/fixed_date.h"
+#include "film/png_file.h"
+#include "film/srgb_integers.h"
+#include "images/image_codec.h"
 #include "scene/system/atomic_file.h"
 #include "scene/system/diagnostics.h"
 #include "scene/system/input_files.h"
@@ -25,37 +26,30 @@ namespace vitrail {
 
 namespace {
 
-std::string fixed_date() {
-  const char* epoch = std::getenv("SOURCE_DATE_EPOCH");
-  const std::time_t seconds = epoch ? std::strtoll(epoch, nullptr, 10) : 0;
-  std::tm utc{};
-  gmtime_r(&seconds, &utc);
+std::string date_as_text() {
+  const std::tm utc = fixed_date();
   char text[32];
   std::strftime(text, sizeof text, "%Y:%m:%d %H:%M:%S", &utc);
   return text;
 }
 
-OIIO::ImageSpec spec_of(const Picture& picture, int channels, OIIO::TypeDesc type) {
-  OIIO::ImageSpec spec(picture.rgb.width, picture.rgb.height, channels, type);
-  spec.x = picture.window.x0;
-  spec.y = picture.window.y0;
-  spec.full_x = spec.full_y = 0;
-  spec.full_width = std::max(picture.full_width, picture.rgb.width);
-  spec.full_height = std::max(picture.full_height, picture.rgb.height);
-  spec.attribute("DateTime", fixed_date());
-  return spec;
+PictureFile file_of(const Picture& picture) {
+  return {.width = picture.rgb.width,
+          .height = picture.rgb.height,
+          .x = picture.window.x0,
+          .y = picture.window.y0,
+          .full_width = std::max(picture.full_width, picture.rgb.width),
+          .full_height = std::max(picture.full_height, picture.rgb.height),
+          .attributes = {{"DateTime", date_as_text()}}};
 }
 
-// `format` of `pixels`; UNKNOWN: each channel's own.
-void write_file(const std::filesystem::path& file, const OIIO::ImageSpec& spec, OIIO::TypeDesc format,
-                const void* pixels) {
-  OIIO::Filesystem::IOVecOutput memory;
-  const auto out = OIIO::ImageOutput::create(file.string(), &memory);
-  if (!out || !out->open(file.string(), spec) || !out->write_image(format, pixels) || !out->close())
-    throw MachineError(
-        fmt::format("cannot write {}: {}", file.string(), out ? out->geterror() : OIIO::geterror()));
+void write_file(const std::filesystem::path& file, const PictureFile& picture, const void* pixels) {
+  std::vector<std::byte> bytes;
+  if (const std::string problem = image_codec().encode_picture(file.string(), picture, pixels, bytes);
+      !problem.empty())
+    throw MachineError(fmt::format("cannot write {}: {}", file.string(), problem));
   AtomicFile target(file);
-  target.write(std::as_bytes(std::span(memory.buffer())));
+  target.write(bytes);
   target.commit();
 }
 
@@ -105,18 +99,18 @@ std::vector<Plane> planes_of(const Picture& picture) {
 }
 
 // OpenEXR's matrices take rows.
-void put_matrix(OIIO::ImageSpec& spec, const char* name, const std::vector<float>& columns) {
+void put_matrix(PictureFile& file, const char* name, const std::vector<float>& columns) {
   if (columns.size() != 16) return;
   std::array<float, 16> rows{};
   for (std::size_t i = 0; i < 4; ++i)
     for (std::size_t j = 0; j < 4; ++j) rows[4 * j + i] = columns[4 * i + j];
-  spec.attribute(name, OIIO::TypeDesc::TypeMatrix, rows.data());
+  file.attributes.emplace_back(name, rows);
 }
 
 // The names of OpenEXR and pbrt where they have one.
-void put_origin(OIIO::ImageSpec& spec, const PictureOrigin& origin) {
+void put_origin(PictureFile& file, const PictureOrigin& origin) {
   const auto put = [&](const char* name, const std::string& value) {
-    if (!value.empty()) spec.attribute(name, value);
+    if (!value.empty()) file.attributes.emplace_back(name, value);
   };
   put("Software", origin.software);
   put("scene", origin.scene);
@@ -125,51 +119,41 @@ void put_origin(OIIO::ImageSpec& spec, const PictureOrigin& origin) {
   put("sampling", origin.sampling);
   put("seed", origin.seeds);
   put("filmHash", origin.film_hash);
-  if (origin.least_samples > 0) spec.attribute("samplesPerPixelLeast", origin.least_samples);
-  put_matrix(spec, "worldToCamera", origin.world_to_camera);
-  put_matrix(spec, "worldToNDC", origin.world_to_ndc);
+  if (origin.least_samples > 0) file.attributes.emplace_back("samplesPerPixelLeast", origin.least_samples);
+  put_matrix(file, "worldToCamera", origin.world_to_camera);
+  put_matrix(file, "worldToNDC", origin.world_to_ndc);
 }
 
-constexpr const char *of_mean_name = "neighboursOfMean", *of_variances_name = "neighboursOfVariances";
+constexpr const char *samples_name = "samplesPerPixel", *time_name = "renderTimeSeconds",
+                     *of_mean_name = "neighboursOfMean", *of_variances_name = "neighboursOfVariances";
 
-void put_neighbours(OIIO::ImageSpec& spec, const Neighbours& neighbours) {
-  if (neighbours == Neighbours{}) return;
-  spec.attribute(of_mean_name, static_cast<float>(neighbours.of_mean));
-  spec.attribute(of_variances_name, static_cast<float>(neighbours.of_variances));
-}
-
-Neighbours neighbours_of(const OIIO::ImageSpec& spec) {
-  const auto number = [&](const char* name) {
-    const double v = static_cast<double>(spec.get_float_attribute(name, 1));
-    return std::isfinite(v) ? std::max(v, 1.0) : 1;
+void put_numbers(PictureFile& file, const Picture& picture) {
+  const auto put = [&](const char* name, double value) {
+    file.attributes.emplace_back(name, static_cast<float>(value));
   };
-  return {number(of_mean_name), number(of_variances_name)};
+  if (picture.samples_per_pixel > 0) file.attributes.emplace_back(samples_name, picture.samples_per_pixel);
+  if (picture.render_time_s > 0) put(time_name, picture.render_time_s);
+  if (picture.neighbours == Neighbours{}) return;
+  put(of_mean_name, picture.neighbours.of_mean);
+  put(of_variances_name, picture.neighbours.of_variances);
 }
 
-void write_exr(const std::filesystem::path& file, const Picture& picture) {
+void write_exr(const std::filesystem::path& path, const Picture& picture) {
   const std::vector<Plane> planes = planes_of(picture);
-  OIIO::ImageSpec spec = spec_of(picture, static_cast<int>(planes.size()), OIIO::TypeDesc::FLOAT);
-  spec.attribute("compression", "zip");
-  if (picture.samples_per_pixel > 0) spec.attribute("samplesPerPixel", picture.samples_per_pixel);
-  if (picture.render_time_s > 0)
-    spec.attribute("renderTimeSeconds", static_cast<float>(picture.render_time_s));
-  put_origin(spec, picture.origin);
-  put_neighbours(spec, picture.neighbours);
+  PictureFile file = file_of(picture);
+  file.attributes.emplace_back("compression", "zip");
+  put_numbers(file, picture);
+  put_origin(file, picture.origin);
   if (picture.spectrum.pixels() > 0) {
-    spec.attribute("spectralLayoutVersion", "1.0");
-    spec.attribute("emissiveUnits", "W.m^-2.sr^-1");
+    file.attributes.emplace_back("spectralLayoutVersion", "1.0");
+    file.attributes.emplace_back("emissiveUnits", "W.m^-2.sr^-1");
   }
-  spec.channelnames.clear();
-  for (const Plane& plane : planes) {
-    spec.channelnames.push_back(plane.name);
-    spec.channelformats.push_back(plane.is_id() ? OIIO::TypeDesc::UINT32 : OIIO::TypeDesc::FLOAT);
-  }
-  spec.alpha_channel = spec.z_channel = -1;
+  for (const Plane& plane : planes) file.channels.push_back({plane.name, plane.is_id()});
   std::vector<std::uint32_t> pixels;  // both formats have 32 bits
   pixels.reserve(planes.size() * picture.rgb.pixels());
   for (std::size_t p = 0; p < picture.rgb.pixels(); ++p)
     for (const Plane& plane : planes) pixels.push_back(plane.bits(p));
-  write_file(file, spec, OIIO::TypeDesc::UNKNOWN, pixels.data());
+  write_file(path, file, pixels.data());
 }
 
 bool is_tiff(const std::filesystem::path& file) {
@@ -177,44 +161,49 @@ bool is_tiff(const std::filesystem::path& file) {
 }
 
 template <class Integer>
-void write_integers(const std::filesystem::path& file, const Picture& picture, OIIO::TypeDesc type) {
-  constexpr double most = std::numeric_limits<Integer>::max();
+void write_integers(const std::filesystem::path& path, const Picture& picture) {
   std::vector<Integer> pixels(picture.rgb.values.size());
-  std::transform(picture.rgb.values.begin(), picture.rgb.values.end(), pixels.begin(), [](float linear) {
-    return static_cast<Integer>(
-        std::lround(most * srgb_encode(std::clamp(static_cast<double>(linear), 0.0, 1.0))));
-  });
-  OIIO::ImageSpec spec = spec_of(picture, 3, type);
+  to_srgb_integers<Integer>(picture.rgb.values, pixels.data());
+  PictureFile file = file_of(picture);
+  file.are_integers = true;
+  file.bits = static_cast<int>(8 * sizeof(Integer));
+  file.channels = {{"R"}, {"G"}, {"B"}};
   // OpenImageIO 2.4 would say it in a second directory, and in memory that one becomes the file's only one.
-  if (!is_tiff(file)) spec.attribute("oiio:ColorSpace", "sRGB");
-  spec.attribute("CompressionQuality", 95);
-  write_file(file, spec, spec.format, pixels.data());
+  if (!is_tiff(path)) file.attributes.emplace_back("oiio:ColorSpace", "sRGB");
+  file.attributes.emplace_back("CompressionQuality", 95);
+  write_file(path, file, pixels.data());
+}
+
+// −1: none has it.
+int channel_named(const PictureFile& file, const char* name) {
+  const auto found = std::ranges::find(file.channels, std::string_view(name),
+                                       [](const auto& c) -> std::string_view { return c.name; });
+  return found == file.channels.end() ? -1 : static_cast<int>(found - file.channels.begin());
 }
 
 // The channels that hold R, G and B, by name, else by position; all the same one for grey.
-std::array<int, 3> color_channels(const OIIO::ImageSpec& spec) {
-  const std::array<int, 3> named{spec.channelindex("R"), spec.channelindex("G"), spec.channelindex("B")};
+std::array<int, 3> color_channels(const PictureFile& file) {
+  const std::array<int, 3> named{channel_named(file, "R"), channel_named(file, "G"),
+                                 channel_named(file, "B")};
   if (*std::min_element(named.begin(), named.end()) >= 0) return named;
-  if (spec.nchannels >= 3) return {0, 1, 2};
+  if (file.channels.size() >= 3) return {0, 1, 2};
   return {0, 0, 0};
 }
 
-Image select_channels(const OIIO::ImageSpec& spec, const std::vector<float>& values,
+Image select_channels(const PictureFile& file, const std::vector<float>& values,
                       std::span<const int> channels) {
-  Image image = black_image(spec.width, spec.height, static_cast<int>(channels.size()));
+  Image image = black_image(file.width, file.height, static_cast<int>(channels.size()));
   float* out = image.values.data();
   for (std::size_t p = 0; p < image.pixels(); ++p)
-    for (const int c : channels)
-      *out++ = values[p * static_cast<std::size_t>(spec.nchannels) + static_cast<std::size_t>(c)];
+    for (const int c : channels) *out++ = values[p * file.channels.size() + static_cast<std::size_t>(c)];
   return image;
 }
 
 // Channels of a spectral layout, by ascending wavelength, taken for equal bins around them.
-void read_spectrum(Picture& picture, const OIIO::ImageSpec& spec, const std::vector<float>& values) {
+void read_spectrum(Picture& picture, const PictureFile& file, const std::vector<float>& values) {
   std::vector<std::pair<double, int>> found;
-  for (int c = 0; c < spec.nchannels; ++c)
-    if (const auto nm = wavelength_of(spec.channelnames[static_cast<std::size_t>(c)]))
-      found.emplace_back(*nm, c);
+  for (std::size_t c = 0; c < file.channels.size(); ++c)
+    if (const auto nm = wavelength_of(file.channels[c].name)) found.emplace_back(*nm, static_cast<int>(c));
   if (found.size() < 2) return;
   std::sort(found.begin(), found.end());
   std::vector<int> channels;
@@ -222,7 +211,7 @@ void read_spectrum(Picture& picture, const OIIO::ImageSpec& spec, const std::vec
   const double width = (found.back().first - found.front().first) / static_cast<double>(found.size() - 1);
   picture.bins = {static_cast<int>(found.size()), found.front().first - width / 2,
                   found.back().first + width / 2};
-  picture.spectrum = select_channels(spec, values, channels);
+  picture.spectrum = select_channels(file, values, channels);
 }
 
 }  // namespace
@@ -237,32 +226,35 @@ void write_picture(const std::filesystem::path& file, const Picture& picture, in
   if (chosen != usual && (format == ".exr" || jpeg || (chosen != 8 && chosen != 16)))
     throw UsageError(fmt::format("{} has {} bits, not {}", format.string(), usual, chosen));
   if (chosen == 32) return write_exr(file, picture);
-  if (chosen == 16) return write_integers<std::uint16_t>(file, picture, OIIO::TypeDesc::UINT16);
-  write_integers<std::uint8_t>(file, picture, OIIO::TypeDesc::UINT8);
+  if (format == ".png") return write_png(file, picture, chosen);
+  if (chosen == 16) return write_integers<std::uint16_t>(file, picture);
+  write_integers<std::uint8_t>(file, picture);
 }
 
-Picture read_picture(const std::filesystem::path& file) {
-  check_input(file);
-  const auto in = OIIO::ImageInput::open(file.string());
-  if (!in) throw Error(fmt::format("cannot read the image: {}", OIIO::geterror()), {file.string()});
-  const OIIO::ImageSpec& spec = in->spec();
-  if (spec.depth > 1) throw Error("volumes are not images", {file.string()});
-  std::vector<float> values(spec.image_pixels() * static_cast<std::size_t>(spec.nchannels));
-  if (!in->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, values.data()))
-    throw Error(fmt::format("cannot read the image: {}", in->geterror()), {file.string()});
+Picture read_picture(const std::filesystem::path& path) {
+  check_input(path);
+  PictureFile file;
+  file.attributes = {{samples_name, 0}, {time_name, 0.0f}, {of_mean_name, 1.0f}, {of_variances_name, 1.0f}};
+  std::vector<float> values;
+  if (const std::string problem = image_codec().decode_picture(path.string(), file, values); !problem.empty())
+    throw Error(fmt::format("cannot read the image: {}", problem), {path.string()});
+  const auto number = [&](std::size_t at) {
+    return static_cast<double>(std::get<float>(file.attributes[at].second));
+  };
+  const auto at_least_1 = [](double v) { return std::isfinite(v) ? std::max(v, 1.0) : 1; };
   Picture picture;
-  picture.rgb = select_channels(spec, values, color_channels(spec));
-  if (!spec.format.is_floating_point())
+  picture.rgb = select_channels(file, values, color_channels(file));
+  if (file.are_integers)
     for (float& v : picture.rgb.values) v = static_cast<float>(srgb_decode(static_cast<double>(v)));
-  if (const int variance = spec.channelindex("Variance.Y"); variance >= 0)
-    picture.variance = select_channels(spec, values, std::span(&variance, 1));
-  read_spectrum(picture, spec, values);
-  picture.window = {spec.x, spec.x + spec.width, spec.y, spec.y + spec.height};
-  picture.full_width = spec.full_width;
-  picture.full_height = spec.full_height;
-  picture.samples_per_pixel = spec.get_int_attribute("samplesPerPixel");
-  picture.render_time_s = static_cast<double>(spec.get_float_attribute("renderTimeSeconds"));
-  picture.neighbours = neighbours_of(spec);
+  if (const int variance = channel_named(file, "Variance.Y"); variance >= 0)
+    picture.variance = select_channels(file, values, std::span(&variance, 1));
+  read_spectrum(picture, file, values);
+  picture.window = {file.x, file.x + file.width, file.y, file.y + file.height};
+  picture.full_width = file.full_width;
+  picture.full_height = file.full_height;
+  picture.samples_per_pixel = std::get<int>(file.attributes[0].second);
+  picture.render_time_s = number(1);
+  picture.neighbours = {at_least_1(number(2)), at_least_1(number(3))};
   return picture;
 }
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From the light of a scene to that of a screen. In the library of image files, because it brings
-// OpenColorIO.
+// From the light of a scene to that of a screen. Loads OpenColorIO (images/image_codec.h).
 #pragma once
 
 #include "scene/records/image.h"

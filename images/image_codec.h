@@ -1,16 +1,36 @@
 // SPDX-License-Identifier: Apache-2.0
-// What speaks OpenImageIO. With the 260 libraries that hang on it, it takes 0.3 s and 130 MB to load, so it
-// is a module of its own (openimageio.cpp), which image_files.cpp loads with the first image.
+// What speaks OpenImageIO and OpenColorIO. With the 260 libraries that hang on them, it takes 0.3 s and
+// 130 MB to load, so it is a module of its own, which is loaded with the first image that needs it.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <functional>
 #include <string>
+#include <utility>
+#include <variant>
 #include <vector>
 
 #include "images/image_files.h"
 
 namespace vitrail {
+
+// A picture as a file holds it, but for its pixels: those are interleaved, the top left one first.
+struct PictureFile {
+  struct Channel {
+    std::string name;
+    bool is_id = false;
+  };
+  // A matrix has 16 numbers, row by row.
+  using Value = std::variant<int, float, std::string, std::array<float, 16>>;
+
+  int width = 0, height = 0;
+  int x = 0, y = 0, full_width = 0, full_height = 0;  // the place in a larger whole
+  bool are_integers = false;                          // else floats, and 32-bit integers where they are ids
+  int bits = 32;                                      // a channel
+  std::vector<Channel> channels;
+  std::vector<std::pair<std::string, Value>> attributes;
+};
 
 // All return what went wrong, or nothing.
 struct ImageCodec {
@@ -21,9 +41,20 @@ struct ImageCodec {
                            const std::function<void(Image)>& visit);
   // The bytes of an EXR file.
   std::string (*encode_exr)(const Image& image, std::vector<std::byte>& bytes);
+  // The bytes of the format that the file's extension names.
+  std::string (*encode_picture)(const std::string& file, const PictureFile& picture, const void* pixels,
+                                std::vector<std::byte>& bytes);
+  // Any picture, integers taken to [0,1]. The caller names the attributes, ints and floats, and what they are
+  // where the file has none.
+  std::string (*decode_picture)(const std::string& file, PictureFile& picture, std::vector<float>& values);
+  // ACES' output transform 1.x of colours whose 3 × 3 matrix to XYZ is given row by row (tone_map.h).
+  std::string (*map_tones)(Image& rgb, const std::array<double, 9>& to_xyz);
 };
 
 inline constexpr const char* image_codec_module = "vitrail-openimageio.so";
 inline constexpr const char* image_codec_symbol = "vitrail_image_codec";
+
+// Loads it. Throws MachineError where it cannot be.
+const ImageCodec& image_codec();
 
 }  // namespace vitrail

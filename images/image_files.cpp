@@ -32,11 +32,6 @@ const ImageCodec& load_codec() {
   return *static_cast<const ImageCodec*>(codec);
 }
 
-const ImageCodec& codec() {
-  static const ImageCodec& only = load_codec();
-  return only;
-}
-
 // Whether they span the plane: else they say nothing.
 bool are_primaries(const Chromaticities& c) {
   for (const RGB& p : primaries_in_srgb(c))
@@ -77,19 +72,24 @@ ImageLayout checked_layout(const std::filesystem::path& file) {
     throw Error(fmt::format("cannot read the image: a GIF has at most {} pixels here", most_pixels_of_gif),
                 {file.string()});
   ImageLayout layout;
-  check(file, codec().read(file.string(), layout, nullptr));
+  check(file, image_codec().read(file.string(), layout, nullptr));
   require_size(file, layout);
   return layout;
 }
 
 ImageLayout read(const std::filesystem::path& file, Image* image) {
   ImageLayout layout = checked_layout(file);
-  if (image) check(file, codec().read(file.string(), layout, image));
+  if (image) check(file, image_codec().read(file.string(), layout, image));
   if (layout.chromaticities && !are_primaries(*layout.chromaticities)) layout.chromaticities.reset();
   return layout;
 }
 
 }  // namespace
+
+const ImageCodec& image_codec() {
+  static const ImageCodec& only = load_codec();
+  return only;
+}
 
 bool image_library_is_loaded() { return loaded; }
 
@@ -106,7 +106,7 @@ StoredImage read_stored_image(const std::filesystem::path& file) {
 void read_stored_rows(const std::filesystem::path& file, const std::function<void(StoredImage)>& visit) {
   ImageLayout layout = read_image_layout(file);
   const StoredImage as_the_whole{{}, layout.integer, layout.chromaticities};
-  check(file, codec().read_rows(file.string(), layout, [&](Image rows) {
+  check(file, image_codec().read_rows(file.string(), layout, [&](Image rows) {
     StoredImage stored = as_the_whole;
     stored.image = std::move(rows);
     visit(std::move(stored));
@@ -119,7 +119,7 @@ Image read_linear_image(const std::filesystem::path& file) {
 
 void write_exr_image(const std::filesystem::path& file, const Image& image) {
   std::vector<std::byte> bytes;
-  if (const std::string problem = codec().encode_exr(image, bytes); !problem.empty())
+  if (const std::string problem = image_codec().encode_exr(image, bytes); !problem.empty())
     throw MachineError(fmt::format("cannot write {}: {}", file.string(), problem));
   AtomicFile target(file);
   target.write(bytes);

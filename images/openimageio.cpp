@@ -11,7 +11,7 @@
 #include <span>
 #include <string_view>
 
-#include "images/image_codec.h"
+#include "images/codec_parts.h"
 
 namespace vitrail {
 
@@ -214,6 +214,6 @@ std::string encode_exr(const Image& image, std::vector<std::byte>& bytes) {
 }  // namespace
 
 extern "C" const ImageCodec vitrail_image_codec;
-const ImageCodec vitrail_image_codec{read, read_rows, encode_exr};
+const ImageCodec vitrail_image_codec{read, read_rows, encode_exr, encode_picture, decode_picture, map_tones};
 
 }  // namespace vitrail

@@ -220,8 +220,7 @@ int main(int argc, char** argv) {
     require_agreement(a);
     require_place(a.output);
     const Exposed sum = merge_all(a.films, a.manner);
-    if (sum.film.samples() == 0)
-      throw Error("the film holds no sample yet: its picture would be black", {sum.file.string()});
+    require_samples(sum.film, sum.file);
     if (a.writes(".csv")) {
       write_table(a.output, sum);
       return exit_done;

@@ -32,7 +32,7 @@ TEST(Everyday, SceneToPictureInOneStep) {
 
 // OpenImageIO and what hangs on it take 0.3 s to load: only what reads or writes images waits for that.
 TEST(Everyday, ProgramsStartWithFewLibraries) {
-  for (const char* verb : {"convert", "inspect", "partition", "render", "verify"}) {
+  for (const char* verb : {"compare", "convert", "develop", "inspect", "partition", "render", "verify"}) {
     std::string program = vitrail(verb);
     program.replace(program.find("' "), 2, "-").push_back('\'');
     const CommandResult loaded = run("LD_TRACE_LOADED_OBJECTS=1 " + program);

@@ -126,6 +126,40 @@ TEST_F(Pictures, AreWrittenInOtherFormats) {
   EXPECT_EQ(render("a.jpg", "").status, 0);
 }
 
+// The usual picture starts no second program and no library of images.
+TEST_F(Pictures, ARenderWritesPngItself) {
+  ASSERT_EQ(run(vitrail("partition") + " " + path("in.pbrt") + " -o " + path("in.vit") + " --quiet").status,
+            0);
+  std::filesystem::create_directory(directory_ / "alone");
+  std::filesystem::copy_file(std::filesystem::path(VITRAIL_BIN_DIR) / "vitrail-render",
+                             directory_ / "alone/vitrail-render");
+  const auto alone = [&](const std::string& out) {
+    return run(fmt::format("{} {} -o {} --spp 2 --crop 5,30,2,20 --quiet", path("alone/vitrail-render"),
+                           path("in.vit"), path(out)));
+  };
+  const CommandResult png = alone("a.png");
+  EXPECT_EQ(png.status, 0) << png.output;
+  EXPECT_EQ(png.output, "");
+  const CommandResult exr = alone("b.exr");
+  EXPECT_EQ(exr.status, 4) << exr.output;
+  EXPECT_THAT(exr.output, HasSubstr("vitrail-develop is missing"));
+  EXPECT_EQ(spec("a.png").x, 5);
+  EXPECT_EQ(spec("a.png").width, 25);
+  const CommandResult loaded =
+      run("LD_DEBUG=files " + vitrail("develop") + " " + path("a.film") + " -o " + path("c.png"));
+  EXPECT_EQ(loaded.status, 0);
+  EXPECT_THAT(loaded.output, AllOf(HasSubstr("libpng"), ::testing::Not(HasSubstr("OpenImageIO"))));
+  EXPECT_EQ(run(fmt::format("cmp {} {}", path("a.png"), path("c.png"))).status, 0);
+}
+
+TEST_F(Pictures, APngThatCannotBeWrittenIsAnError) {
+  const CommandResult nowhere = render("no/such/folder/a.png", "");
+  EXPECT_EQ(nowhere.status, 4) << nowhere.output;
+  EXPECT_THAT(nowhere.output, HasSubstr("no/such/folder"));
+  std::filesystem::create_directory(directory_ / "folder.png");
+  EXPECT_NE(render("folder.png", "").status, 0);
+}
+
 TEST_F(Pictures, OfMitsubaTakeParameters) {
   write("in.xml",
         "<scene version=\"3.0.0\"><default name=\"res\" value=\"40\"/><integrator type=\"path\"/>"

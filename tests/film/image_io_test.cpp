@@ -2,11 +2,15 @@
 #include "film/image_io.h"
 
 #include <OpenImageIO/imageio.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include <cmath>
 #include <fstream>
 #include <iterator>
 
+#include "scene/spectra/color.h"
 #include "scene/system/diagnostics.h"
 #include "tests/support/temporary_directory.h"
 
@@ -115,6 +119,76 @@ TEST(ImageIo, PngIsEncodedAndDecodedAsSrgb) {
   for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(back.rgb.values[i], expected[i], 1e-6);
 }
 
+// What a reader finds in a PNG, but for the text that says once more that it is sRGB.
+struct PngContent {
+  std::vector<std::uint16_t> values;
+  std::string format, about;
+  bool operator==(const PngContent&) const = default;
+};
+
+PngContent content(const std::filesystem::path& file) {
+  const auto in = OIIO::ImageInput::open(file.string());
+  if (!in) return {};
+  const OIIO::ImageSpec& spec = in->spec();
+  PngContent found{std::vector<std::uint16_t>(spec.image_pixels() * static_cast<std::size_t>(spec.nchannels)),
+                   spec.format.c_str(),
+                   {}};
+  in->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::UINT16, found.values.data());
+  found.about = spec.serialize(OIIO::ImageSpec::SerialText, OIIO::ImageSpec::SerialDetailed);
+  return found;
+}
+
+// OpenImageIO's own writer, given what a picture has.
+template <class Integer>
+void write_by_openimageio(const std::filesystem::path& file, const Picture& p, OIIO::TypeDesc type) {
+  std::vector<Integer> values;
+  for (const float v : p.rgb.values)
+    values.push_back(static_cast<Integer>(
+        std::lround(std::numeric_limits<Integer>::max() * srgb_encode(std::clamp(double{v}, 0.0, 1.0)))));
+  OIIO::ImageSpec spec(p.rgb.width, p.rgb.height, 3, type);
+  spec.x = p.window.x0, spec.y = p.window.y0;
+  spec.attribute("DateTime", "1970:01:01 00:00:00");
+  spec.attribute("oiio:ColorSpace", "sRGB");
+  const auto out = OIIO::ImageOutput::create(file.string());
+  ASSERT_TRUE(out->open(file.string(), spec) && out->write_image(type, values.data()) && out->close());
+}
+
+TEST(ImageIo, PngHoldsWhatOpenImageIoWouldWrite) {
+  const test::TemporaryDirectory directory;
+  Picture p = picture();
+  p.rgb = black_image(37, 300, 3);
+  for (std::size_t i = 0; i < p.rgb.values.size(); ++i)
+    p.rgb.values[i] = static_cast<float>(std::fmod(0.7548776662 * static_cast<double>(i), 1.2) - 0.1);
+  p.window = {3, 40, 1, 301};
+  for (const int bits : {8, 16}) {
+    write_picture(directory / "ours.png", p, bits);
+    if (bits == 8)
+      write_by_openimageio<std::uint8_t>(directory / "theirs.png", p, OIIO::TypeDesc::UINT8);
+    else
+      write_by_openimageio<std::uint16_t>(directory / "theirs.png", p, OIIO::TypeDesc::UINT16);
+    const PngContent ours = content(directory / "ours.png"), theirs = content(directory / "theirs.png");
+    EXPECT_EQ(ours.values, theirs.values) << bits;
+    EXPECT_EQ(ours.format, bits == 8 ? "uint8" : "uint16");
+    EXPECT_EQ(ours.about, theirs.about);
+    EXPECT_THAT(ours.about, ::testing::HasSubstr("1970:01:01"));
+  }
+}
+
+// Rows leave the encoder while it works: what cannot be written is said, and nothing is left.
+TEST(ImageIo, PngOnAFullDisk) {
+  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
+  const test::TemporaryDirectory directory;
+  std::filesystem::create_symlink("/dev/full", directory / ("a.png.tmp" + std::to_string(::getpid())));
+  try {
+    write_picture(directory / "a.png", picture());
+    ADD_FAILURE();
+  } catch (const MachineError& e) {
+    EXPECT_THAT(e.what(),
+                ::testing::AllOf(::testing::HasSubstr("a.png"), ::testing::HasSubstr("No space left")));
+  }
+  EXPECT_TRUE(std::filesystem::is_empty(directory.path()));
+}
+
 TEST(ImageIo, WhatCannotBeReadIsNamed) {
   const test::TemporaryDirectory directory;
   std::ofstream(directory / "a.exr") << "no image";
@@ -126,6 +200,7 @@ TEST(ImageIo, WhatCannotBeReadIsNamed) {
   }
   EXPECT_THROW(write_picture(directory / "a.txt", picture()), UsageError);
   EXPECT_THROW(write_picture(directory / "nowhere/a.exr", picture()), MachineError);
+  EXPECT_THROW(write_picture(directory / "nowhere/a.png", picture()), MachineError);
 }
 
 }  // namespace
