@@ -4,9 +4,9 @@
 
 mitsuba_timing.py SCENE.xml VARIANT
 
-Reads lines "SPP SEED OUT.npy"; writes the picture (float32, height × width × (r, g, b), linear sRGB) and prints the seconds of
-processors that it took. Before the first line it prints those that it took to start, the scene included. The first picture of
-a number of samples includes its kernels: ask for one that is not counted.
+Reads lines "SENSOR SPP SEED OUT.npy", SENSOR counting from 0; writes the picture (float32, height × width × (r, g, b), linear sRGB)
+and prints the seconds of processors that it took. Before the first line it prints those that it took to start, the scene included.
+The first picture of a sensor and a number of samples includes its kernels: ask for one that is not counted.
 """
 import os
 import sys
@@ -27,9 +27,9 @@ dr.set_thread_count(1)  # with one, loading an image waits for ever
 print(time.process_time(), flush=True)
 
 for line in sys.stdin:
-    spp, seed, out = line.split()
+    sensor, spp, seed, out = line.split()
     start = time.process_time()
-    picture = np.array(mi.render(scene, spp=int(spp), seed=int(seed)))
+    picture = np.array(mi.render(scene, sensor=int(sensor), spp=int(spp), seed=int(seed)))
     seconds = time.process_time() - start
     np.save(out, picture[..., :3].astype(np.float32))
     print(seconds, flush=True)

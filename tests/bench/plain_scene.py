@@ -52,3 +52,20 @@ def plain_scene(source, out, size, max_depth=None):
         if node.get("id") in gone and gone or (node.get("type") == "instance" and reference.get("id") in gone):
             plain.remove(node)
     xml.ElementTree(plain).write(out)
+
+
+def with_samplers(source, out, kinds):
+    """Writes `source` to `out`, which lies beside it: its first sensor, and one more for each kind of sampler. Returns `out`."""
+    scene = xml.parse(source).getroot()
+    own = scene.find("sensor")
+    for sensor in scene.findall("sensor")[1:]:
+        scene.remove(sensor)
+    for kind in kinds:
+        sensor = copy.deepcopy(own)
+        sensor.attrib.pop("id", None)
+        for sampler in sensor.findall("sampler"):
+            sensor.remove(sampler)
+        xml.SubElement(xml.SubElement(sensor, "sampler", type=kind), "integer", name="sample_count", value="16")
+        scene.append(sensor)
+    xml.ElementTree(scene).write(out)
+    return out

@@ -2,26 +2,35 @@
 """What speed.py measured as docs/speed.md and two plots."""
 import math
 
-COLOURS = {"vitrail": "#1b6f8a", "llvm_ad_spectral": "#d1762c", "scalar_spectral": "#8f8f8f"}
-LABELS = {"vitrail": "Vitrail", "llvm_ad_spectral": "Mitsuba, llvm_ad_spectral", "scalar_spectral": "Mitsuba, scalar_spectral"}
+COLOURS = {"vitrail": "#1b6f8a", "llvm_ad_spectral": "#d1762c", "scalar_spectral": "#8f8f8f", "cycles": "#5b8c3a", "pbrt": "#8a4f9e"}
+LABELS = {"vitrail": "Vitrail", "llvm_ad_spectral": "Mitsuba, llvm_ad_spectral", "scalar_spectral": "Mitsuba, scalar_spectral",
+          "cycles": "Cycles", "pbrt": "pbrt-v4"}
+COLUMNS = LABELS | {"llvm_ad_spectral": "Mitsuba, llvm", "scalar_spectral": "Mitsuba, scalar"}
 
 TEXT = """# Speed
 
 Written by `tests/bench/speed.py` from what it measured: the numbers are of one sitting, on one machine; ratios are what to read.
 
-## To a given error, beside Mitsuba {version}
+## To a given error, beside each peer's best
 
 One thread each, start-up left out, pictures of {size} × {size} pixels. A renderer's *noise* is the relative mean square error between two
-seeds, so that differences of models do not count; its *time* is that of the processor. Noise falls as 1/time, or faster, so that
-time × noise measures a renderer; the table has that of Mitsuba over that of Vitrail, at {spp} samples a pixel: **above 1, Vitrail is
-sooner at the same error; below, Mitsuba is**. `llvm_ad_spectral` traces whole pictures as streams of lanes, `scalar_spectral` a path at
-a time. Scenes of Mitsuba's format are one file to both; those of PBRT are handed over by `vitrail convert`.
+seeds, so that differences of models do not count; its *time* is that of the processor, the lesser of the two. Noise falls as 1/time, or faster, so that
+time × noise measures a renderer; the table has that of the peer over that of Vitrail, at {spp} samples a pixel: **above 1, Vitrail is
+sooner at the same error; below, the peer is**. Vitrail runs with its defaults.
+
+{peers}
 
 {table}
 
 {verdict}
 
+{missing}
+
 ![ratios](images/speed-ratios.svg)
+
+What each took, Vitrail with its defaults and each peer at its best: nanoseconds a sample · noise. {marks}
+
+{details}
 
 Each panel is one scene: noise against nanoseconds a pixel, from {least} to {spp} samples a pixel.
 
@@ -29,21 +38,24 @@ Each panel is one scene: noise against nanoseconds a pixel, from {least} to {spp
 
 ### What else one may choose
 
-The same comparison, of path tracing by Mitsuba, where a scene asks for something else than path tracing with the usual samples:
-`--integrator photon --photons N` with a photon a pixel and iteration for light that glass and white walls gather, `--splat` where the scene's
-filter is wider than a pixel. Photons have a bias, so what counts of them is no noise: it is the error to 4096 paths a pixel of Mitsuba, less the noise of those. The
-last row has the better of the two for each scene.
+The same comparison, of path tracing by the peers at their best, where a scene asks for something else than path tracing with the usual
+samples: `--integrator photon --photons N` with a photon a pixel and iteration for light that glass and white walls gather, `--splat` where the
+scene's filter is wider than a pixel. Photons have a bias, so what counts of them is no noise: it is the error to 4096 paths a pixel of Mitsuba, less the
+noise of those. The last row has the better of the two for each scene.
 
 {ways}
 
 What to know of the rows:
 
-- *hotel room*: Mitsuba's path tracer cannot connect through the panes to the sun, so its picture lacks the sunlight in the room (the
+- *hotel room*, *city*: Mitsuba's path tracer cannot connect through panes to the sun, so its picture lacks the sunlight in the rooms (the
   means show it) and what makes ours noisy. The two do not solve the same problem there.
-- Its pixel filter is a Gaussian, too: Mitsuba adds each sample to several pixels, as Vitrail does with `--splat`; else that chooses the sample's place by the filter. The
-  first makes neighbouring pixels alike, which this measure counts as less noise.
+- The pixel filters of these two, of *killeroo-simple* and of *Cornell of Tungsten* are wider than a pixel: Mitsuba adds each sample to several
+  pixels, as Vitrail does with `--splat`; without it Vitrail chooses the sample's place by the filter. The first makes neighbouring pixels
+  alike, which this measure counts as less noise.
 - *killeroo-simple*: Mitsuba gets what `vitrail convert` writes of the lamps, spheres of PBRT.
 - Means that differ by more than the noise are said in the table: a model is then not the same, and its row says less.
+- Spheres are meshes to Cycles, of 131,000 triangles; to the others they are spheres. Its lamps let light through, so that it sees the ceiling behind them: its
+  means are 1 % higher. It computes in RGB; the others sample wavelengths.
 
 ## Beside its own intersector
 
@@ -60,46 +72,102 @@ On a room of 1.06 million triangles (`bench_render`), seconds of processors:
 
 ```
 pip install mitsuba numpy && apt-get install libllvm19     # Debian's LLVM 14 and 15 crash on recent processors
-tests/bench/speed.py --bin build/release/bin               # {minutes:.0f} minutes where others compute too; writes this page
+python3.11 -m venv VENV && VENV/bin/pip install bpy==4.5.15 # Cycles: 350 MB, GPL-3.0; a Python of its own, for its numpy is older
+tests/bench/speed.py --bin build/release/bin --bpy VENV/bin/python [--pbrt PBRT]  # {minutes:.0f} minutes; writes this page
+tests/bench/speed.py --quick --bpy VENV/bin/python         # smaller and with fewer samples; prints the table
+tests/bench/speed.py --also crown=crown.pbrt               # a scene that the corpus has not
 ```
 """
 
 
-def table(results, ratios):
-    lines = ["| | llvm_ad_spectral | scalar_spectral | ns a sample: Vitrail · llvm · scalar | noise: Vitrail · llvm · scalar | means |",
-             "|---|---|---|---|---|---|"]
-    for name, result in results.items():
-        last = [rows[-1] for rows in result["rows"].values()]
-        each = lambda values: " · ".join(values)
-        mean = last[0]["mean"]
-        apart = max(abs(row["mean"] / mean - 1) for row in last)
-        peers = [f"**{ratios[p][name]:.2f}**" if ratios[p][name] < 1 else f"{ratios[p][name]:.2f}" for p in ratios]
-        lines.append(f"| {name} | {' | '.join(peers)} | "
-                     + each(f"{1e9 * row['seconds'] / result['pixels'] / row['spp']:.0f}" for row in last) + " | "
-                     + each(f"{row['noise']:.2g}" for row in last) + f" | within {100 * apart:.1f} % |")
-    means = " | ".join(f"{math.prod(r.values()) ** (1 / len(r)):.2f}" for r in ratios.values())
-    return "\n".join(lines + [f"| geometric mean | {means} | | | |"])
+def bold(r):
+    return f"**{r:.2f}**" if r < 1 else f"{r:.2f}"
 
 
-def table_of_ways(results, ratios, by_ways):
-    bold = lambda r: f"**{r:.2f}**" if r < 1 else f"{r:.2f}"
-    lines = ["| | llvm_ad_spectral | scalar_spectral | ns a sample | noise | error | mean ÷ that of paths |", "|---|---|---|---|---|---|---|"]
+def mean_of(ratios):
+    return f"{math.prod(ratios) ** (1 / len(ratios)):.2f}" if ratios else "—"
+
+
+def rows_of(result, best):
+    """Renderer → its rows at its best; those alone that have some."""
+    return {"vitrail": result["rows"]["vitrail", ""]} | {p: result["rows"][p, way] for p, way in best.items() if way is not None}
+
+
+def ns_of(row, result):
+    return f"{1e9 * row['seconds'] / result['pixels'] / row['spp']:.0f}"
+
+
+def table(found):
+    """The ratios; what a peer cannot be given is a dash."""
+    ratios = found["ratios"]
+    lines = [f"| | {' | '.join(COLUMNS[p] for p in ratios)} | means |", "|---" * (len(ratios) + 2) + "|"]
+    for name, result in found["results"].items():
+        means = [rows[-1]["mean"] for rows in rows_of(result, found["best"][name]).values()]
+        apart = max(abs(mean / means[0] - 1) for mean in means)
+        lines.append(f"| {name} | {' | '.join(bold(of[name]) if name in of else '—' for of in ratios.values())} | within {100 * apart:.1f} % |")
+    return "\n".join([*lines, f"| geometric mean | {' | '.join(mean_of(list(of.values())) for of in ratios.values())} | |"])
+
+
+# Of the peers' ways, in the table of details.
+MARKS = {"multijitter": "ᵐ", "uniform": "ᵘ"}
+
+
+def details(found):
+    renderers = ["vitrail", *found["ratios"]]
+    lines = [f"| | {' | '.join(COLUMNS[r] for r in renderers)} |", "|---" * (len(renderers) + 1) + "|"]
+    for name, result in found["results"].items():
+        rows, best = rows_of(result, found["best"][name]), found["best"][name]
+        cell = lambda r: f"{ns_of(rows[r][-1], result)} · {rows[r][-1]['noise']:.2g}{MARKS.get(best.get(r), '')}" if r in rows else "—"
+        lines.append(f"| {name} | {' | '.join(cell(r) for r in renderers)} |")
+    return "\n".join(lines)
+
+
+def table_of_ways(found):
+    results, ratios, by_ways = found["results"], found["ratios"], found["by_ways"]
+    lines = [f"| | {' | '.join(COLUMNS[p] for p in ratios)} | ns a sample | noise | error | mean ÷ that of paths |",
+             "|---" * (len(ratios) + 5) + "|"]
     for name, result in results.items():
-        paths = result["rows"]["vitrail"][-1]
+        paths = result["rows"]["vitrail", ""][-1]
         for way, row in result["ways"].items():
             err = f"{row['error']:.2g}" if "error" in row else ""
-            lines.append(f"| {name}, {way} | {' | '.join(bold(of[name, way]) for of in by_ways.values())} | "
-                         f"{1e9 * row['seconds'] / result['pixels'] / paths['spp']:.0f} | {row['noise']:.2g} | {err} | "
-                         f"{row['mean'] / paths['mean']:.4f} |")
-    best = [math.prod(max([r, *(v for (n, _), v in by_ways[p].items() if n == name)]) for name, r in of.items()) ** (1 / len(of))
-            for p, of in ratios.items()]
-    return "\n".join(lines + [f"| geometric mean of all scenes | {' | '.join(f'{b:.2f}' for b in best)} | | | | |"])
+            each = " | ".join(bold(of[name, way]) if (name, way) in of else "—" for of in by_ways.values())
+            lines.append(f"| {name}, {way} | {each} | {1e9 * row['seconds'] / result['pixels'] / paths['spp']:.0f} | {row['noise']:.2g} | "
+                         f"{err} | {row['mean'] / paths['mean']:.4f} |")
+    better = [mean_of([max([r, *(v for (n, _), v in by_ways[p].items() if n == name)]) for name, r in of.items()])
+              for p, of in ratios.items()]
+    return "\n".join([*lines, f"| geometric mean of all scenes | {' | '.join(better)} | | | | |"])
 
 
 def verdict(ratios):
-    lost = {p: [name for name, r in of.items() if r < 1] for p, of in ratios.items()}
-    say = lambda p: f"to `{p}` on " + ("; ".join(lost[p]) if lost[p] else "none")
-    return f"Bold: lost. Of {len(next(iter(ratios.values())))} scenes Vitrail loses " + ", and ".join(say(p) for p in ratios) + "."
+    words = []
+    for p, of in ratios.items():
+        lost = [name for name, r in of.items() if r < 1]
+        words.append(f"to {LABELS[p]} on {len(lost)} of {len(of)}" + (f" ({'; '.join(lost)})" if lost else ""))
+    return "Bold: lost. Vitrail loses " + "; ".join(words) + "."
+
+
+PEERS = {
+    "llvm_ad_spectral": "- *Mitsuba {version}*: `llvm_ad_spectral` traces whole pictures as streams of lanes, `scalar_spectral` a path at a time. Each has "
+                        "the sampler of the scene, `independent` in nearly all, and `multijitter`; the better one counts. Scenes of Mitsuba's format are one "
+                        "file to both; those of PBRT are handed over by `vitrail convert`.",
+    "cycles": "- *Cycles*, of Blender's `bpy`, in RGB: on its CPU device, with its default sampler and light tree; adaptive sampling as by default, "
+              "and off; the better one counts. Off, too, is what changes the picture: denoiser, clamps, the blur of caustics. It gets the scenes that "
+              "`cycles_timing.py` can build.",
+    "pbrt": "- *pbrt-v4*, with `zsobol`, its default. All scenes are handed over by `vitrail convert`.",
+}
+
+
+def missing(options, found):
+    words = [f"{LABELS[p]} is left out: {why}." for p, why in options.missing.items()]
+    refused = {}
+    for name, result in found["results"].items():
+        for p, why in result["refused"].items():
+            refused.setdefault((p, why), []).append(name)
+    words += [f"{LABELS[p]} has no {'; '.join(names)}: {why}." for (p, why), names in refused.items()]
+    absent = {}
+    for name, why in found["absent"].items():
+        absent.setdefault(why, []).append(name)
+    return " ".join(words + [f"Not measured, {why}: {'; '.join(names)}." for why, names in absent.items()])
 
 
 def svg(width, height, parts):
@@ -118,13 +186,14 @@ def legend(names, y):
 
 def ratios_plot(ratios):
     """Bars from 1, on a logarithmic axis."""
-    names = list(next(iter(ratios.values())))
+    names = list(dict.fromkeys(name for of in ratios.values() for name in of))
     values = [r for of in ratios.values() for r in of.values()]
     low, high = min(.5, *values) / 1.15, max(2, *values) * 1.25
     left, width, row = 170, 480, 34
     x = lambda r: left + width * math.log(r / low) / math.log(high / low)
     bottom = 40 + row * len(names)
     parts = legend(ratios, 18)
+    bar = 26 / len(ratios)
     for tick in (.1, .2, .5, 1, 2, 5, 10):
         if low < tick < high:
             parts += [f'<line x1="{x(tick):.1f}" y1="32" x2="{x(tick):.1f}" y2="{bottom}" stroke="{"#000" if tick == 1 else "#ddd"}"/>',
@@ -133,17 +202,19 @@ def ratios_plot(ratios):
         y = 40 + row * i
         parts.append(text(left - 8, y + 16, name, "end"))
         for k, (p, of) in enumerate(ratios.items()):
+            if name not in of:
+                continue
             a, b = sorted((x(1), x(of[name])))
-            top = y + 2 + 13 * k
-            parts += [f'<rect x="{a:.1f}" y="{top}" width="{b - a:.1f}" height="11" fill="{COLOURS[p]}"/>',
-                      text(x(of[name]) + (4 if of[name] > 1 else -4), top + 9, f"{of[name]:.2f}", "start" if of[name] > 1 else "end")]
-    parts += [text(x(1) + 6, bottom + 30, "Vitrail is sooner →"), text(x(1) - 6, bottom + 30, "← Mitsuba is sooner", "end")]
+            top = y + 2 + bar * k
+            parts += [f'<rect x="{a:.1f}" y="{top}" width="{b - a:.1f}" height="{bar - 2:.1f}" fill="{COLOURS[p]}"/>',
+                      text(x(of[name]) + (4 if of[name] > 1 else -4), top + bar / 2 + 2.5, f"{of[name]:.2f}", "start" if of[name] > 1 else "end")]
+    parts += [text(x(1) + 6, bottom + 30, "Vitrail is sooner →"), text(x(1) - 6, bottom + 30, "← the peer is sooner", "end")]
     return svg(left + width + 40, bottom + 40, parts)
 
 
-def panel(name, result, left, top, side=190):
+def panel(name, result, best, left, top, side=190):
     """Noise against time of the renderers on one scene; both axes logarithmic, decades marked."""
-    points = {r: [(1e9 * row["seconds"] / result["pixels"], row["noise"]) for row in rows] for r, rows in result["rows"].items()}
+    points = {r: [(1e9 * row["seconds"] / result["pixels"], row["noise"]) for row in rows] for r, rows in rows_of(result, best).items()}
     every = [p for of in points.values() for p in of]
     bounds = [(min(v) / 1.3, max(v) * 1.3) for v in zip(*every)]
     part = lambda v, k: math.log(v / bounds[k][0]) / math.log(bounds[k][1] / bounds[k][0])
@@ -165,17 +236,22 @@ def panel(name, result, left, top, side=190):
     return out
 
 
-def noise_plot(results, columns=4):
-    parts = legend(COLOURS, 18)
-    for i, (name, result) in enumerate(results.items()):
-        parts += panel(name, result, 50 + 240 * (i % columns), 50 + 240 * (i // columns))
-    return svg(240 * columns + 20, 50 + 240 * math.ceil(len(results) / columns), parts)
+def noise_plot(found, columns=4):
+    parts = legend(["vitrail", *found["ratios"]], 18)
+    for i, (name, result) in enumerate(found["results"].items()):
+        parts += panel(name, result, found["best"][name], 50 + 240 * (i % columns), 50 + 240 * (i // columns))
+    return svg(240 * columns + 20, 50 + 240 * math.ceil(len(found["results"]) / columns), parts)
 
 
-def write_page(folder, options, results, ratios, by_ways, own, seconds, version):
+def write_page(options, found, seconds, version):
+    folder, own = options.out, found["own"] or dict.fromkeys(("bare", "domains", "start_scene", "start_bundle"), math.nan)
     (folder / "images").mkdir(parents=True, exist_ok=True)
-    (folder / "images/speed-ratios.svg").write_text(ratios_plot(ratios))
-    (folder / "images/speed-noise.svg").write_text(noise_plot(results))
-    page = TEXT.format(version=version, size=options.size, spp=options.spp[-1], least=options.spp[0], table=table(results, ratios), ways=table_of_ways(results, ratios, by_ways),
-                       verdict=verdict(ratios), minutes=math.ceil(seconds / 60), **own)
+    (folder / "images/speed-ratios.svg").write_text(ratios_plot(found["ratios"]))
+    (folder / "images/speed-noise.svg").write_text(noise_plot(found))
+    used = {way for best in found["best"].values() for way in best.values()}
+    marks = ["multijitter ᵐ"] * ("multijitter" in used) + ["without adaptive sampling ᵘ"] * ("uniform" in used)
+    page = TEXT.format(size=options.size, spp=options.spp[-1], least=options.spp[0], table=table(found), ways=table_of_ways(found),
+                       peers="\n".join(PEERS[p].format(version=version) for p in PEERS if p in options.peers),
+                       details=details(found), marks="Marked: " + ", ".join(marks) + "." if marks else "",
+                       verdict=verdict(found["ratios"]), missing=missing(options, found), minutes=math.ceil(seconds / 60), **own)
     (folder / "speed.md").write_text(page)

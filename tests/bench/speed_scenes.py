@@ -5,7 +5,6 @@ import math
 import pathlib
 import random
 import re
-import shutil
 import subprocess
 import sys
 
@@ -146,30 +145,58 @@ def converted(bin_folder, source, folder, name):
 
 
 def pbrt_scene(bin_folder, source, folder, name, size):
-    """A copy with square pictures of that size."""
+    """Square pictures of that size: a text in place of `source`, what lies beside it through links."""
     text = source.read_text()
     for axis in "xy":
-        text = re.sub(rf'"integer {axis}resolution" \[\s*\d+\s*\]', f'"integer {axis}resolution" [{size}]', text)
-    source.write_text(text)
-    return source, converted(bin_folder, source, folder, name)
+        text = re.sub(rf'"integer {axis}resolution"\s*(\[\s*\d+\s*\]|\d+)', f'"integer {axis}resolution" [{size}]', text)
+    mine = folder / f"{name}-{size}"
+    mine.mkdir(exist_ok=True)
+    for beside in source.resolve().parent.iterdir():
+        if beside.name != source.name and not (mine / beside.name).exists():
+            (mine / beside.name).symlink_to(beside)
+    (mine / source.name).write_text(text)
+    return mine / source.name, converted(bin_folder, mine / source.name, folder, name)
 
 
-def killeroo(bin_folder, folder, corpus, size):
-    shutil.copytree(corpus / "pbrt/killeroo-simple", folder / "killeroo", dirs_exist_ok=True)
-    for file in (folder / "killeroo").rglob("*"):
-        file.chmod(0o755)
-    return pbrt_scene(bin_folder, folder / "killeroo/killeroo-simple.pbrt", folder, "killeroo", size)
+def of_pbrt(name):
+    def make(bin_folder, folder, corpus, size):
+        return pbrt_scene(bin_folder, corpus / name, folder, pathlib.Path(name).stem, size)
+    return make
 
 
 def hotel_room(bin_folder, folder, corpus, size):
     subprocess.run([sys.executable, str(ROOT / "examples/hotel-room/generate.py"), "-o", str(folder / "hotel"), "--detail", ".3"],
                    check=True, stdout=subprocess.DEVNULL)
-    return pbrt_scene(bin_folder, folder / "hotel/hotel-room.pbrt", folder, "hotel", size)
+    return pbrt_scene(bin_folder, folder / "hotel/hotel-room.pbrt", folder, "hotel-room", size)
+
+
+def city(bin_folder, folder, corpus, size):
+    """Every triangle in a mesh: where trees and cars are instances, llvm_ad_spectral takes 45 s a picture, whatever its samples."""
+    subprocess.run([sys.executable, str(ROOT / "examples/city/generate.py"), "-o", str(folder / "city"), "--trees", "flattened"],
+                   check=True, stdout=subprocess.DEVNULL)
+    return pbrt_scene(bin_folder, folder / "city/city.pbrt", folder, "city-million", size)
+
+
+def veach_plates(bin_folder, folder, corpus, size):
+    """The geometry and the lamps of Nori's version of Veach's scene (1997, fig. 9.2); its spheres are spheres."""
+    meshes = corpus / "nori/pa5/veach_mi/meshes"
+    if not meshes.is_dir():
+        raise FileNotFoundError(meshes)
+    lamps = ((.1, -1.25, 0, 0, 100), (.03333, -3.75, 0, 0, 901.803), (.3, 1.25, 0, 0, 11.1111), (.9, 3.75, 0, 0, 1.23457), (1, 0, 4, 3, 100))
+    body = "".join(shape("sphere", placed(x, y, z, radius), "black", lamp(f"{radiance} {radiance} {radiance}"))
+                   for radius, x, y, z, radiance in lamps)
+    surfaces = [(f"plate{i + 1}", f'<bsdf type="roughplastic"><float name="alpha" value="{alpha}"/>'
+                 f'{rgb("diffuse_reflectance", ".0175 .0225 .0325")}</bsdf>') for i, alpha in enumerate((.005, .02, .05, .1))]
+    for name, bsdf in [*surfaces, ("floor", f'<bsdf type="diffuse">{rgb("reflectance", ".1 .1 .1")}</bsdf>')]:
+        body += shape("obj", "", bsdf, f'<string name="filename" value="{(meshes / name).resolve()}.obj"/>')
+    file = folder / "veach.xml"
+    file.write_text(scene(6, size, body, eye="0,6,27.5", target="0,-1.5,2.5", fov=25))
+    return file, file
 
 
 def of_mitsuba(name):
     def make(bin_folder, folder, corpus, size):
-        source = corpus / "mitsuba-data/tests/scenes" / name
+        source = corpus / "mitsuba-data" / name
         plain_scene(source, folder / source.name, size)
         return folder / source.name, folder / source.name
     return make
@@ -183,17 +210,35 @@ def written(make_text):
     return make
 
 
+def of_file(source):
+    """A scene from elsewhere."""
+    def make(bin_folder, folder, corpus, size):
+        if source.suffix == ".pbrt":
+            return pbrt_scene(bin_folder, source, folder, source.stem, size)
+        plain_scene(source, folder / source.name, size)
+        return folder / source.name, folder / source.name
+    return make
+
+
 # Name → (bin folder, folder, corpus, size) → (file for Vitrail, file for Mitsuba)
 SCENES = {
-    "arealight": of_mitsuba("bsdf_spheres/test_arealight_path.xml"),
-    "envmap": of_mitsuba("bsdf_spheres/test_envmap_path.xml"),
-    "various shapes": of_mitsuba("various_shapes/test_various_shapes_path.xml"),
+    "arealight": of_mitsuba("tests/scenes/bsdf_spheres/test_arealight_path.xml"),
+    "envmap": of_mitsuba("tests/scenes/bsdf_spheres/test_envmap_path.xml"),
+    "various shapes": of_mitsuba("tests/scenes/various_shapes/test_various_shapes_path.xml"),
     "box, diffuse": written(cornell_diffuse),
     "box, spheres": written(cornell_spheres),
+    "cbox of Mitsuba": of_mitsuba("scenes/cbox/cbox-spectral.xml"),
+    "Cornell of Tungsten": of_pbrt("pbrt/cornell-box/scene.pbrt"),
     "glass": written(glass),
     "medium": written(medium),
     "four lamps": written(four_lamps),
+    "Veach's plates": veach_plates,
     "10⁶ triangles, 100 lamps": written(million_room),
-    "killeroo-simple": killeroo,
+    "killeroo-simple": of_pbrt("pbrt/killeroo-simple/killeroo-simple.pbrt"),
     "hotel room": hotel_room,
+    "city, 10⁶ triangles": city,
 }
+# Those that cycles_timing.py can build.
+FOR_CYCLES = ("box, diffuse", "box, spheres", "10⁶ triangles, 100 lamps")
+# Those that one would like beside them, and that the corpus has not: --also takes them.
+ELSEWHERE = ("lego, 2 million triangles", "staircase", "dining-room", "killeroo-gold", "crown")
