@@ -7,8 +7,6 @@
 
 namespace vitrail {
 
-namespace {
-
 bool draw_slot(const LightQuery& query, const LightSampler::Slot& slot, double choice, LightSample& sample) {
   switch (slot.light.kind) {
     case LightKind::triangle:
@@ -24,8 +22,6 @@ bool draw_slot(const LightQuery& query, const LightSampler::Slot& slot, double c
   }
   return false;
 }
-
-}  // namespace
 
 bool LightChooser::draw_from_tree(const LightQuery& query, double choice, LightSample& sample) {
   const LightSampler& s = sampler_;

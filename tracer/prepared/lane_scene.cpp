@@ -56,12 +56,13 @@ void set(const DielectricMaterial& m, LaneSurface& s) {
   s.eta_behind = behind->value, s.eta_before = before->value;
 }
 
-LaneSurface lane_surface(const Manifest& manifest, const Surface& surface) {
+LaneSurface lane_surface(const Manifest& manifest, const Interiors& interiors, const Surface& surface) {
   const Material& material = manifest.materials[surface.material];
   LaneSurface s;
   s.two_sided = material.two_sided;
   s.emits = surface.area_light >= 0;
   if (material.displacement || material.normal_map || material.bump_shadowing) return s;
+  if (surface.opacity != FloatParameter{1.0f} || interiors.has_priority(surface)) return s;
   if (const auto* diffuse = std::get_if<DiffuseMaterial>(&material.model)) set(*diffuse, s);
   if (const auto* metal = std::get_if<ConductorMaterial>(&material.model)) set(*metal, s);
   if (const auto* plastic = std::get_if<PlasticMaterial>(&material.model)) set(*plastic, s);
@@ -103,11 +104,11 @@ LaneBsdf lane_bsdf(const Bsdf& bsdf) {
 LaneScene::LaneScene(const Manifest& manifest, const Interiors& interiors, const Materials& materials,
                      const LightSampler& lights) {
   const Requirements& r = manifest.requirements;
-  bool sun_behind_panes = false;
-  if (materials.have_panes()) sun_behind_panes = !lights.distant.empty();
-  is_enabled = !r.see_through && !r.media && !manifest.settings.direct_only && !interiors.divide_space() &&
-               !sun_behind_panes;
-  for (const Surface& surface : manifest.surfaces) surfaces.push_back(lane_surface(manifest, surface));
+  is_enabled = !manifest.settings.direct_only;
+  has_connections = r.see_through || r.media || (materials.have_panes() && !lights.distant.empty());
+  divides_space = interiors.divide_space();
+  for (const Surface& surface : manifest.surfaces)
+    surfaces.push_back(lane_surface(manifest, interiors, surface));
   for (const LightSampler::Slot& slot : lights.slots) is_plain_lamp.push_back(is_plain(lights, slot));
 }
 

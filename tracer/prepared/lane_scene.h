@@ -50,9 +50,9 @@ struct LaneBsdf {
 LaneBsdf lane_bsdf(const Bsdf& bsdf);
 
 struct LaneScene {
-  // Nothing in the scene needs what the stages leave out: media and what bounds them, see-through surfaces,
-  // priorities, direct light alone, distant lights behind panes.
-  bool is_enabled = false;
+  bool is_enabled = false;       // all but where direct light alone is asked for
+  bool has_connections = false;  // light may pass something straight on: a connection may be no shadow ray
+  bool divides_space = false;    // as Interiors
   std::vector<LaneSurface> surfaces;  // of all Manifest::surfaces
   // Of each of LightSampler::slots: a triangle that is whole and shines to all sides, alike all over.
   std::vector<std::uint8_t> is_plain_lamp;

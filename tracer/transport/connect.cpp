@@ -110,18 +110,22 @@ void connect(Tracing& tracing, const CameraPath& path, Point3d p, std::uint32_t 
   if (all == 0) return;
   if (count > 1) radiance = radiance * static_cast<float>(all / (count * chosen));
   ++tracing.counters.rays_shadow;
-  const Departure from = depart(light->to_light);
-  const bool distant = std::isinf(light->distance);
-  const Requirements& r = tracing.requirements();
-  const bool straight = tracing.settings().direct_only;
-  const bool walks = distant && light->is_delta && tracing.scene.materials.have_panes() && !straight;
-  if (r.see_through || r.media || walks || (r.refraction && straight))
-    send_connection(tracing, path, from, *light, radiance, walks);
-  else
-    send_shadow_ray(path, from, *light, radiance, shadows);
+  send(tracing, path, depart(light->to_light), *light, radiance, shadows);
 }
 
 }  // namespace
+
+void send(Tracing& tracing, const CameraPath& path, const Departure& from, const LightSample& light,
+          const SampledSpectrum& radiance, ShadowRays& shadows) {
+  const bool distant = std::isinf(light.distance);
+  const Requirements& r = tracing.requirements();
+  const bool straight = tracing.settings().direct_only;
+  const bool walks = distant && light.is_delta && tracing.scene.materials.have_panes() && !straight;
+  if (r.see_through || r.media || walks || (r.refraction && straight))
+    send_connection(tracing, path, from, light, radiance, walks);
+  else
+    send_shadow_ray(path, from, light, radiance, shadows);
+}
 
 std::uint32_t light_candidates(const Tracing& tracing, const CameraPath& path, Point3d p, bool diffuse) {
   if (path.pdf > 0) return 1;

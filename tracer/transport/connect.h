@@ -23,4 +23,8 @@ void connect_medium(Tracing& tracing, const CameraPath& path, const Departure& f
 void connect_sensor(Tracing& tracing, const CameraPath& path, const Departure& from, Vector3d normal,
                     std::uint32_t candidates, ShadowRays& shadows);
 
+// To a light that is chosen, with what it is to bring.
+void send(Tracing& tracing, const CameraPath& path, const Departure& from, const LightSample& light,
+          const SampledSpectrum& radiance, ShadowRays& shadows);
+
 }  // namespace vitrail

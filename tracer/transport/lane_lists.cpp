@@ -58,6 +58,7 @@ std::uint32_t LaneLists::candidates_of(const Tracing& tracing, const CameraPath&
 bool LaneLists::take(Tracing& tracing, CameraPath& path, std::uint32_t place) {
   const bool at_its_end = is_spent(tracing, path) || path.depth >= most_events;
   if (!path.meets_surface() || at_its_end || path.passed || path.pane.parts || path.pane.owes) return false;
+  if (medium_of(tracing, path)) return false;
   const Surface& surface = surface_at(tracing, path);
   const auto index = static_cast<std::uint32_t>(&surface - tracing.manifest().surfaces.data());
   const LaneSurface& of = tracing.scene.lanes.surfaces[index];

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tracer/transport/lane_stages.h"
 
+#include "tracer/lights/draw_light.h"
 #include "tracer/sampling/wavelengths.h"
+#include "tracer/transport/connect.h"
 #include "tracer/transport/connection.h"
 
 namespace vitrail {
@@ -32,11 +34,35 @@ bool sample(const LaneWork& work, const CameraPath& path, Point3d p, const float
   return sampled.has_value();
 }
 
+bool draw(const LaneWork& work, const CameraPath& path, Point3d p, const float (&u)[4],
+          const ChosenLight& chosen, LightSample& light) {
+  const LightSampler& lights = work.tracing.scene.lights;
+  const std::array<float, 4> numbers{u[0], u[1], u[2], u[3]};
+  const std::array<float, 2> far{};
+  const bool drawn = draw_slot({lights, p, numbers, far, path.wavelengths, path.lamp},
+                               lights.slots[chosen.slot], chosen.rest, light);
+  light.pdf *= chosen.probability * lights.share[LightNumbers::choice_of_tree];
+  return drawn;
+}
+
 double filter_weight(const Tracing& tracing, float u, float v) { return tracing.scene.filter.weight(u, v); }
 
 void find_radiance(const LaneWork& work, const CameraPath& path, std::uint32_t area_light) {
   const AreaLight& light = work.tracing.manifest().area_lights[area_light];
   path.lamp = {area_light, evaluate(std::get<Spectrum>(light.radiance), path.wavelengths) * light.scale};
+}
+
+std::uint8_t inside(const LaneWork& work, const CameraPath& path, const SurfaceSide& side) {
+  const Surface& surface = work.tracing.manifest().surfaces[work.surface[side.place]];
+  return work.tracing.scene.interiors.beside(path.inside, surface, side.front_side,
+                                             side.front_side != side.from_front);
+}
+
+void send(LaneWork& work, const CameraPath& path, const SurfaceSide& side, Point3d p, Point3f origin,
+          const LightSample& light, const float (&radiance)[4]) {
+  const Departure from{p, origin, path.hit.triangle, inside(work, path, side)};
+  vitrail::send(work.tracing, path, from, light, {{radiance[0], radiance[1], radiance[2], radiance[3]}},
+                work.shadows);
 }
 
 void aim(const CameraPath& path, Point3d p, Point3f origin, const LightSample& light, ShadowRay& shadow) {

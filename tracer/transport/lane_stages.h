@@ -23,7 +23,7 @@ struct PlacedHit {
 
 // What the stages work on. Paths and what is kept of each are at their places in a wave.
 struct LaneWork {
-  const Tracing& tracing;
+  Tracing& tracing;
   const LaneScene& scene;
   CameraPath* paths;
   const std::uint32_t* surface;        // of a path's hit, in LaneScene::surfaces
@@ -71,9 +71,25 @@ namespace lane_by_lane {
 
 // sample_light for a path, with the numbers of a candidate. False where nothing arrives.
 bool sample(const LaneWork& work, const CameraPath& path, Point3d p, const float (&u)[4], LightSample& light);
+// The same where a light of the tree is chosen: what is left of the number for that, and its probability.
+struct ChosenLight {
+  std::uint32_t slot;
+  double rest, probability;
+};
+bool draw(const LaneWork& work, const CameraPath& path, Point3d p, const float (&u)[4],
+          const ChosenLight& chosen, LightSample& light);
 double filter_weight(const Tracing& tracing, float u, float v);
 // The radiance of a plain lamp, kept in path.lamp.
 void find_radiance(const LaneWork& work, const CameraPath& path, std::uint32_t area_light);
+// Where light may pass something: goes to a light by whatever ray it takes. `front_side`: it leaves there.
+struct SurfaceSide {
+  std::uint32_t place;
+  bool from_front, front_side;
+};
+void send(LaneWork& work, const CameraPath& path, const SurfaceSide& side, Point3d p, Point3f origin,
+          const LightSample& light, const float (&radiance)[4]);
+// State of Interiors there.
+std::uint8_t inside(const LaneWork& work, const CameraPath& path, const SurfaceSide& side);
 // Aims a shadow ray to a quadric.
 void aim(const CameraPath& path, Point3d p, Point3f origin, const LightSample& light, ShadowRay& shadow);
 // At a face of glass of one index, whose normal is on the path's side: whether the path is in a pane then.

@@ -98,9 +98,13 @@ VITRAIL_LANES void go_on(LaneWork& work, const Group& g, const Carried& carried,
   const L stream = (convert<std::uint64_t>(depth) << 3 | static_cast<std::uint64_t>(RayRandom::throughput)) *
                    stream_factor;
   const Departed<D> ray = depart<D>(seed, stream, origin_of(work, at, direction), direction, throughput);
+  const Mask<D> front_side = dot(direction, at.geometric) > 0;
   for (int j = 0; j < g.valid; ++j) {
     if (!is_set(on, j)) continue;
     CameraPath& path = *g.path[j];
+    if (work.scene.divides_space)
+      path.inside =
+          lane_by_lane::inside(work, path, {g.place[j], is_set(at.front, j), is_set(front_side, j)});
     path.depth = lane(depth, j);
     path.passed = false;
     path.connected |= is_set(connected, j);
@@ -233,6 +237,7 @@ struct Candidate {
   D pdf;
   Four<F> radiance;
   const EmissiveQuadric* quadric[W];
+  LightRef ref[W];
 };
 
 // Which of the lights of the tree, and where on it. `root`: what choose_lights keeps.
@@ -296,7 +301,10 @@ VITRAIL_LANES Candidate candidate_of(const LaneWork& work, const Group& g, Vecto
     if (!alone[j]) continue;
     const float numbers[4] = {lane(u[0], j), lane(u[1], j), lane(u[2], j), lane(u[3], j)};
     LightSample s;
-    const bool arrives = lane_by_lane::sample(work, *g.path[j], point_of(p, j), numbers, s);
+    const bool arrives = is_set(of_tree, j)
+                             ? lane_by_lane::draw(work, *g.path[j], point_of(p, j), numbers,
+                                                  {chosen.slot[j], chosen.rest[j], chosen.probability[j]}, s)
+                             : lane_by_lane::sample(work, *g.path[j], point_of(p, j), numbers, s);
     set_mask(c.arrives, j, arrives);
     if (!arrives) continue;
     set_mask(c.is_delta, j, s.is_delta);
@@ -307,8 +315,37 @@ VITRAIL_LANES Candidate candidate_of(const LaneWork& work, const Group& g, Vecto
     set_lane(c.pdf, j, s.pdf);
     for (int i = 0; i < 4; ++i) set_lane(c.radiance[i], j, s.radiance.v[i]);
     c.quadric[j] = s.quadric;
+    c.ref[j] = s.light;
   }
   return c;
+}
+
+VITRAIL_LANES LightSample light_of(const Candidate& chosen, int j) {
+  LightSample light;
+  light.to_light = lane(chosen.light.to_light, j);
+  light.normal = lane(chosen.light.normal, j);
+  light.distance = lane(chosen.light.distance, j);
+  light.tilt_rad = lane(chosen.light.tilt_rad, j);
+  light.is_delta = is_set(chosen.is_delta, j);
+  light.quadric = chosen.quadric[j];
+  light.light = chosen.ref[j];
+  return light;
+}
+
+// One by one, by whatever ray it takes.
+VITRAIL_LANES void send_connections(LaneWork& work, const Group& g, const Interaction<D>& at, Mask<D> on,
+                                    const Candidate& chosen, const Four<F>& radiance) {
+  const Vector<F> origin = origin_of(work, at, chosen.light.to_light);
+  const Mask<D> front_side = dot(chosen.light.to_light, at.geometric) > 0;
+  for (int j = 0; j < g.valid; ++j) {
+    if (!is_set(on, j)) continue;
+    ++work.rays_shadow;
+    const float brings[4] = {lane(radiance[0], j), lane(radiance[1], j), lane(radiance[2], j),
+                             lane(radiance[3], j)};
+    lane_by_lane::send(work, *g.path[j], {g.place[j], is_set(at.front, j), is_set(front_side, j)},
+                       point_of(at.p, j), {lane(origin.x, j), lane(origin.y, j), lane(origin.z, j)},
+                       light_of(chosen, j), brings);
+  }
 }
 
 VITRAIL_LANES void send_shadow_rays(LaneWork& work, const Group& g, const Interaction<D>& at, Mask<D> on,
@@ -341,11 +378,7 @@ VITRAIL_LANES void send_shadow_rays(LaneWork& work, const Group& g, const Intera
     shadow.time_s = path.time_s;
     shadow.sensor = &path.film.sensor;
     if (!chosen.quadric[j]) continue;
-    LightSample light;
-    light.to_light = lane(chosen.light.to_light, j);
-    light.distance = lane(chosen.light.distance, j);
-    light.quadric = chosen.quadric[j];
-    lane_by_lane::aim(path, point_of(at.p, j), shadow.ray.origin, light, shadow);
+    lane_by_lane::aim(path, point_of(at.p, j), shadow.ray.origin, light_of(chosen, j), shadow);
   }
 }
 
@@ -394,14 +427,18 @@ VITRAIL_LANES void connect(LaneWork& work, const Group& g, const Carried& carrie
     best.light.normal = select<D>(takes, c.light.normal, best.light.normal);
     best.light.distance = select<D>(takes, c.light.distance, best.light.distance);
     best.light.tilt_rad = select<D>(takes, c.light.tilt_rad, best.light.tilt_rad);
+    best.is_delta = (takes & c.is_delta) | (no(takes) & best.is_delta);
     for (int j = 0; j < W; ++j)
-      if (is_set(takes, j)) best.quadric[j] = c.quadric[j];
+      if (is_set(takes, j)) best.quadric[j] = c.quadric[j], best.ref[j] = c.ref[j];
   }
   if (count > 1) {
     const F mean = to_floats(all / (static_cast<double>(count) * chosen));
     for (int i = 0; i < 4; ++i) radiance[i] = radiance[i] * mean;
   }
-  send_shadow_rays(work, g, at, all != 0, best, radiance);
+  if (work.scene.has_connections)
+    send_connections(work, g, at, all != 0, best, radiance);
+  else
+    send_shadow_rays(work, g, at, all != 0, best, radiance);
 }
 
 // ---- stages

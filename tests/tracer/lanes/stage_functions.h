@@ -51,8 +51,8 @@ LANE_FUNCTION(offset_origin, 10, 3) {
 LANE_FUNCTION(depart, 12, 14) {
   using D = lanes::Doubles<W>;
   const lanes::Four<lanes::Floats<W>> throughput{{in.f(8), in.f(9), in.f(10), in.f(11)}};
-  const auto ray =
-      lanes::depart<D>(in.l(0), lanes::fill<lanes::Longs<W>>(0x1234567),  lanes::to_floats(in.vector(2)), in.vector(5), throughput);
+  const auto ray = lanes::depart<D>(in.l(0), lanes::fill<lanes::Longs<W>>(0x1234567),
+                                    lanes::to_floats(in.vector(2)), in.vector(5), throughput);
   out.vector(ray.origin), out.vector(ray.direction), out.number(ray.code.first), out.number(ray.code.second);
   out.word64(ray.random), out.four(ray.throughput);
 }
