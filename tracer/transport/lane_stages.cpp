@@ -74,11 +74,11 @@ void aim(const CameraPath& path, Point3d p, Point3f origin, const LightSample& l
 
 void cross_face(CameraPath& path, Vector3d normal, bool front, bool reflected) {
   PaneState& pane = path.pane;
-  if (pane.within && !is_parallel(pane.entered_by, normal)) pane.within = false;
+  // Only the far face of a pane is one of it.
+  if (front || !is_parallel(pane.entered_by, normal)) pane.within = false;
   if (reflected) return;
-  const bool enters = !pane.within && front;
   pane = {};
-  if (enters) pane = {true, false, false, encode_face(normal)};
+  if (front) pane = {true, false, false, encode_face(normal)};
 }
 
 }  // namespace lane_by_lane

@@ -85,6 +85,18 @@ std::vector<Case> cases() {
          d.roughness.alpha_u = d.roughness.alpha_v = 0.2f;
          return d;
        }()))},
+      {"glass in glass",
+       [](Scene& s) {
+         const auto add = [&](Point3f low, Point3f high, float eta) {
+           add_shape(s, add_quads(s, box_faces(low, high)),
+                     material(DielectricMaterial{ConstantSpectrum{eta}}));
+         };
+         add({-0.6f, -0.9f, -0.1f}, {0.6f, 0.5f, 0.6f}, 1.5f);
+         add({-0.5f, -0.8f, 0}, {0.5f, 0.4f, 0.5f}, 1.3f);
+         s.meshes[0].triangles.resize(2);
+         s.lights.push_back(Light{InfiniteLight{ConstantSpectrum{0.5f}}});
+         s.settings.max_depth = 2;
+       }},
       {"a ball of glass", ball(material(DielectricMaterial{ConstantSpectrum{1.5f}}))},
       {"a ball of gold", ball(rough_gold(Roughness::Distribution::ggx))},
       {"a ball of plastic", ball(plastic(0.1f))},
