@@ -38,12 +38,6 @@ bool LaneLists::apply_to(const Tracing& tracing) {
   return tracing.stages && tracing.scene.lanes.is_enabled && !tracing.photons && !tracing.film.layers().any();
 }
 
-void LaneLists::begin(const Tracing& tracing) {
-  domains_.resize(tracing.resident.size());
-  for (std::size_t i = 0; i < domains_.size(); ++i)
-    domains_[i] = tracing.resident[i] ? lanes::tables_of(*tracing.resident[i]) : lanes::DomainTables{};
-}
-
 std::uint32_t LaneLists::candidates_of(const Tracing& tracing, const CameraPath& path, std::uint32_t place,
                                        bool diffuse) const {
   const LightSampler& lights = tracing.scene.lights;
@@ -57,7 +51,8 @@ std::uint32_t LaneLists::candidates_of(const Tracing& tracing, const CameraPath&
 
 bool LaneLists::take(Tracing& tracing, CameraPath& path, std::uint32_t place) {
   const bool at_its_end = is_spent(tracing, path) || path.depth >= most_events;
-  if (!path.meets_surface() || at_its_end || path.passed || path.pane.parts || path.pane.owes) return false;
+  const bool by_its_pane = path.pane.within && (path.pane.parts || path.pane.owes);
+  if (!path.meets_surface() || at_its_end || path.passed || by_its_pane) return false;
   if (medium_of(tracing, path)) return false;
   const Surface& surface = surface_at(tracing, path);
   const auto index = static_cast<std::uint32_t>(&surface - tracing.manifest().surfaces.data());
@@ -80,6 +75,8 @@ bool LaneLists::take(Tracing& tracing, CameraPath& path, std::uint32_t place) {
     bsdfs_[place] = lane_bsdf(materials.bsdf_at(material, {}, path.wavelengths));
   widen_cone(tracing, path, sample_of(path), path.hit.t);
   surface_[place] = index;
+  if (domains_.size() < tracing.resident.size()) domains_.resize(tracing.resident.size());
+  domains_[path.hit_domain] = lanes::tables_of(*tracing.resident[path.hit_domain]);
   const bool is_specular = of.kind == LaneKind::mirror || of.kind == LaneKind::glass;
   const std::uint32_t candidates =
       is_specular ? 1 : candidates_of(tracing, path, place, of.kind == LaneKind::diffuse);

@@ -16,8 +16,6 @@ class LaneLists {
 
   // Whether any of the scene's paths may be put into a list.
   static bool apply_to(const Tracing& tracing);
-  // Of domains that are resident.
-  void begin(const Tracing& tracing);
   // Puts a path, whose hit is found, into the list of its kind, as far as its stage can do all of what the
   // event takes: light that it meets there is deposited. False: for `shade`.
   bool take(Tracing& tracing, CameraPath& path, std::uint32_t place);
@@ -36,7 +34,7 @@ class LaneLists {
   std::vector<std::uint32_t> surface_, next_;  // by place; places
   std::vector<LaneBsdf> bsdfs_;                // by place
   std::vector<PlacedHit> placed_;              // by place
-  std::vector<lanes::DomainTables> domains_;
+  std::vector<lanes::DomainTables> domains_;   // by number; of those where paths in lists have hits
   std::size_t taken_ = 0;
 };
 

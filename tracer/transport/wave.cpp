@@ -16,7 +16,6 @@ void Wave::trace(Tracing& tracing) {
   const bool in_lanes = LaneLists::apply_to(tracing);
   generate(tracing, in_lanes);
   vitrail::trace(tracing, shadows_);
-  if (in_lanes) lists_.begin(tracing);
   while (!live_.empty()) {
     find_hits(tracing);
     shade_all(tracing, in_lanes);
