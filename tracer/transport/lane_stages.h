@@ -49,7 +49,6 @@ struct LaneList {
 };
 
 struct LaneStages {
-  int width;
   // Gives paths that begin their numbers for the camera, their wavelengths and what the sensor makes of them.
   void (*begin)(const Tracing& tracing, CameraPath* paths, const std::uint32_t* places, std::size_t count);
 

@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of lane_stages.inl: connections to lights.
+#include "tracer/transport/lane_group.inl"
+
+// A candidate for a light, of each lane.
+struct Candidate {
+  Mask<D> arrives, is_delta;
+  Connected<D> light;
+  D pdf;
+  Four<F> radiance;
+  const EmissiveQuadric* quadric[W];
+  LightRef ref[W];
+};
+
+// Which of the lights of the tree, and where on it. `root`: what choose_lights keeps.
+struct TreeRoot {
+  NodeWeights weights[W];
+  bool is_known = false;
+};
+
+// Those that are not for lanes.
+VITRAIL_LANES void sample_alone(const LaneWork& work, const Group& g, Vector<D> p, const Four<F>& u,
+                                const bool (&alone)[W], Mask<D> of_tree, const ChosenLights<W>& chosen,
+                                Candidate& c) {
+  for (int j = 0; j < W; ++j) {
+    if (!alone[j]) continue;
+    const float numbers[4] = {lane(u[0], j), lane(u[1], j), lane(u[2], j), lane(u[3], j)};
+    LightSample s;
+    const bool arrives = is_set(of_tree, j)
+                             ? lane_by_lane::draw(work, *g.path[j], point_of(p, j), numbers,
+                                                  {chosen.slot[j], chosen.rest[j], chosen.probability[j]}, s)
+                             : lane_by_lane::sample(work, *g.path[j], point_of(p, j), numbers, s);
+    set_mask(c.arrives, j, arrives);
+    if (!arrives) continue;
+    set_mask(c.is_delta, j, s.is_delta);
+    set_lane(c.light.to_light, j, s.to_light);
+    set_lane(c.light.normal, j, s.normal);
+    set_lane(c.light.distance, j, s.distance);
+    set_lane(c.light.tilt_rad, j, s.tilt_rad);
+    set_lane(c.pdf, j, s.pdf);
+    for (int i = 0; i < 4; ++i) set_lane(c.radiance[i], j, s.radiance.v[i]);
+    c.quadric[j] = s.quadric;
+    c.ref[j] = s.light;
+  }
+}
+
+VITRAIL_LANES Candidate candidate_of(const LaneWork& work, const Group& g, Vector<D> p, const Four<F>& u,
+                                     Mask<D> on, TreeRoot& root) {
+  const LightSampler& lights = work.tracing.scene.lights;
+  constexpr double below_one = 0x1.fffffffffffffp-1;
+  const double share = lights.share.data()[0];
+  D in_tree = to_doubles(u[2]);
+  Mask<D> of_tree = on;
+  if (!lights.three_numbers) {
+    const D rest = to_doubles(u[3]);
+    const D fine = lanes::clamp<D>(rest / share, 0.0, 0x1.fffffp-1);
+    in_tree = lanes::min(in_tree + fine * 0x1p-24, fill<D>(below_one));
+    if (lights.share.size() > 1) of_tree = on & (rest < share);
+    if (!(share > 0)) of_tree = on & (rest < rest);
+  }
+  ChosenLights<W> chosen;
+  choose_lights(lights.tree, p, in_tree, of_tree, root.weights, root.is_known, chosen);
+  root.is_known |= any(of_tree);
+
+  const LightSampler::Slot* slot[W];
+  const LightSampler::Face* face[W];
+  bool in_lanes[W], alone[W], some_alone = false;
+  for (int j = 0; j < W; ++j) {
+    const bool from_tree = is_set(of_tree, j);
+    const bool plain = chosen.any[j] && work.scene.is_plain_lamp.data()[chosen.slot[j]];
+    slot[j] = plain ? lights.slots.data() + chosen.slot[j] : &work.scene.no_slot;
+    face[j] = plain ? lights.faces.data() + slot[j]->light.index : &work.scene.no_face;
+    in_lanes[j] = from_tree && plain;
+    alone[j] = is_set(on, j) && (!from_tree || (chosen.any[j] && !plain));
+    some_alone |= alone[j];
+  }
+
+  Candidate c;
+  const AreaLight* const area_lights = work.tracing.scene.manifest.area_lights.data();
+  const LampSample<D> lamp = draw_triangle<D>(
+      p, u[0],
+      u[1], [&](int j) __attribute__((always_inline))->const LightSampler::Slot& { return *slot[j]; },
+      [&](int j) __attribute__((always_inline))->const LightSampler::Face& { return *face[j]; },
+      VITRAIL_EACH(in_lanes[j] && area_lights[slot[j]->area_light].two_sided));
+  c.arrives = lamp.arrives & gather_mask<D>(VITRAIL_EACH(in_lanes[j]));
+  c.is_delta = gather_mask<D>([](int) __attribute__((always_inline)) { return false; });
+  c.light = {lamp.to_light, lamp.distance, lamp.normal, lamp.tilt_rad};
+  c.pdf = lamp.pdf * (gather<D>(VITRAIL_EACH(chosen.probability[j])) * share);
+  for (int j = 0; j < W; ++j) {
+    c.quadric[j] = nullptr;
+    if (!is_set(c.arrives, j)) continue;
+    if (g.path[j]->lamp.area_light != slot[j]->area_light)
+      lane_by_lane::find_radiance(work, *g.path[j], slot[j]->area_light);
+  }
+  for (int i = 0; i < 4; ++i) c.radiance[i] = gather<F>(VITRAIL_EACH(g.path[j]->lamp.radiance.v[i]));
+  if (some_alone) sample_alone(work, g, p, u, alone, of_tree, chosen, c);
+  return c;
+}
+
+VITRAIL_LANES LightSample light_of(const Candidate& chosen, int j) {
+  LightSample light;
+  light.to_light = lane(chosen.light.to_light, j);
+  light.normal = lane(chosen.light.normal, j);
+  light.distance = lane(chosen.light.distance, j);
+  light.tilt_rad = lane(chosen.light.tilt_rad, j);
+  light.is_delta = is_set(chosen.is_delta, j);
+  light.quadric = chosen.quadric[j];
+  light.light = chosen.ref[j];
+  return light;
+}
+
+// One by one, by whatever ray it takes.
+VITRAIL_LANES void send_connections(LaneWork& work, const Group& g, const Interaction<D>& at, Mask<D> on,
+                                    const Candidate& chosen, const Four<F>& radiance) {
+  const Vector<F> origin = origin_of(work, at, chosen.light.to_light);
+  const Mask<D> front_side = dot(chosen.light.to_light, at.geometric) > 0;
+  for (int j = 0; j < g.valid; ++j) {
+    if (!is_set(on, j)) continue;
+    ++work.rays_shadow;
+    const float brings[4] = {lane(radiance[0], j), lane(radiance[1], j), lane(radiance[2], j),
+                             lane(radiance[3], j)};
+    lane_by_lane::send(work, *g.path[j], {g.place[j], is_set(at.front, j), is_set(front_side, j)},
+                       point_of(at.p, j), {lane(origin.x, j), lane(origin.y, j), lane(origin.z, j)},
+                       light_of(chosen, j), brings);
+  }
+}
+
+VITRAIL_LANES void send_shadow_rays(LaneWork& work, const Group& g, const Interaction<D>& at, Mask<D> on,
+                                    const Candidate& chosen, Four<F> radiance) {
+  const Vector<F> origin = origin_of(work, at, chosen.light.to_light);
+  const Aimed<D> aimed = aim(at.p, origin, chosen.light);
+  const F end = shadow_end(aimed.end);
+  radiance = shadow_radiance(radiance);
+  for (int j = 0; j < g.valid; ++j) {
+    if (!is_set(on, j)) continue;
+    const CameraPath& path = *g.path[j];
+    ShadowRay& shadow = work.shadows.rays[work.shadows.count++];
+    ++work.rays_shadow;
+    shadow.ray.origin.x = lane(origin.x, j);
+    shadow.ray.origin.y = lane(origin.y, j);
+    shadow.ray.origin.z = lane(origin.z, j);
+    shadow.ray.direction.x = lane(aimed.direction.x, j);
+    shadow.ray.direction.y = lane(aimed.direction.y, j);
+    shadow.ray.direction.z = lane(aimed.direction.z, j);
+    shadow.ray.exclude = path.hit.triangle;
+    const std::uint32_t first = lane(aimed.code.first, j), second = lane(aimed.code.second, j);
+    for (int i = 0; i < 3; ++i) {
+      shadow.direction.byte[i] = static_cast<std::uint8_t>(first >> 8 * i);
+      shadow.direction.byte[3 + i] = static_cast<std::uint8_t>(second >> 8 * i);
+    }
+    shadow.tmax = lane(end, j);
+    for (int i = 0; i < 4; ++i) shadow.radiance.v[i] = lane(radiance[i], j);
+    shadow.pixel = path.film.pixel;
+    shadow.sample = path.film.sample;
+    shadow.time_s = path.time_s;
+    shadow.sensor = &path.film.sensor;
+    if (!chosen.quadric[j]) continue;
+    lane_by_lane::aim(path, point_of(at.p, j), shadow.ray.origin, light_of(chosen, j), shadow);
+  }
+}
+
+// As connect.cpp has it.
+template <class Bsdf>
+VITRAIL_LANES void connect(LaneWork& work, const Group& g, const Carried& carried, const Interaction<D>& at,
+                           const Bsdf& bsdf, const Frame<D>& frame, Vector<D> out, Mask<D> on,
+                           std::uint32_t count) {
+  const Four<F> u =
+      lanes::sample_4d(work.tracing.scene.seed, carried.pixel, carried.sample, 2u + 2u * carried.depth);
+  D choice = to_doubles(gather<F>(VITRAIL_EACH(g.path[j]->film.camera.data()[3])));
+  D all = fill<D>(0), chosen = fill<D>(0);
+  Candidate best{};
+  Four<F> radiance{};
+  TreeRoot root;
+  for (std::uint32_t k = 0; k < count; ++k) {
+    const Candidate c = candidate_of(work, g, at.p, k > 0 ? numbers_of_candidate(u, k) : u, on, root);
+    const Vector<D> in = frame.to_local(c.light.to_light);
+    // Shading normals let no light leak.
+    const Mask<D> same_side = (dot(c.light.to_light, at.geometric) > 0) == (at.cosine * out.z * in.z > 0);
+    const BsdfValue<D> scattered = eval(bsdf, out, in);
+    const D beside =
+        select<D>(c.is_delta, fill<D>(0), to_doubles(lanes::density_beside(scattered.pdf, count)));
+    const F weight = to_floats(1.0 / (c.pdf + beside));
+    Four<F> brought;
+    D target = fill<D>(0);
+    for (int i = 0; i < 4; ++i) {
+      brought[i] = carried.throughput[i] * scattered.value[i] * c.radiance[i] * weight;
+      target = target + to_doubles(brought[i]);
+    }
+    const Mask<D> brings = on & c.arrives & same_side & (target > 0);
+    all = select<D>(brings, all + target, all);
+    // One number for all choices: what is left of it after one is as random as it was.
+    const Mask<D> had = chosen > 0;
+    const D share = target / all;
+    const Mask<D> stays = brings & had & (choice >= share), takes = brings & no(stays);
+    choice =
+        select<D>(stays, (choice - share) / (1.0 - share), select<D>(brings & had, choice / share, choice));
+    chosen = select<D>(takes, target, chosen);
+    for (int i = 0; i < 4; ++i) radiance[i] = select<F>(mask_for<F>(takes), brought[i], radiance[i]);
+    if (k == 0) {
+      best = c;
+      continue;
+    }
+    best.light.to_light = select<D>(takes, c.light.to_light, best.light.to_light);
+    best.light.normal = select<D>(takes, c.light.normal, best.light.normal);
+    best.light.distance = select<D>(takes, c.light.distance, best.light.distance);
+    best.light.tilt_rad = select<D>(takes, c.light.tilt_rad, best.light.tilt_rad);
+    best.is_delta = (takes & c.is_delta) | (no(takes) & best.is_delta);
+    for (int j = 0; j < W; ++j)
+      if (is_set(takes, j)) best.quadric[j] = c.quadric[j], best.ref[j] = c.ref[j];
+  }
+  if (count > 1) {
+    const F mean = to_floats(all / (static_cast<double>(count) * chosen));
+    for (int i = 0; i < 4; ++i) radiance[i] = radiance[i] * mean;
+  }
+  if (work.scene.has_connections)
+    send_connections(work, g, at, all != 0, best, radiance);
+  else
+    send_shadow_rays(work, g, at, all != 0, best, radiance);
+}

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of lane_stages.inl: W paths side by side, where they are and how they go on.
+
+// W paths of a list; behind its end the last one again.
+struct Group {
+  CameraPath* path[W];
+  const LaneSurface* surface[W];
+  std::uint32_t place[W];
+  int valid;
+};
+
+VITRAIL_LANES Group group_of(const LaneWork& work, const LaneList& list, std::size_t first) {
+  Group g;
+  g.valid = list.count - first < W ? static_cast<int>(list.count - first) : W;
+  for (int j = 0; j < W; ++j) {
+    g.place[j] = list.places[first + static_cast<std::size_t>(j < g.valid ? j : g.valid - 1)];
+    g.path[j] = work.paths + g.place[j];
+    g.surface[j] = work.scene.surfaces.data() + work.surface[g.place[j]];
+  }
+  return g;
+}
+
+// What a path carries, and what its random numbers are functions of.
+struct Carried {
+  Four<F> throughput;
+  F brightness;  // 1, or 1/hero_count of a path that has its hero wavelength alone
+  U pixel, sample, depth;
+
+  VITRAIL_LANES explicit Carried(const Group& g) {
+    for (int i = 0; i < 4; ++i) throughput[i] = gather<F>(VITRAIL_EACH(g.path[j]->throughput.v[i]));
+    brightness = gather<F>(VITRAIL_EACH(g.path[j]->dispersed ? 1.0f / hero_count : 1.0f));
+    pixel = gather<U>(VITRAIL_EACH(g.path[j]->key.pixel));
+    sample = gather<U>(VITRAIL_EACH(g.path[j]->key.sample));
+    depth = gather<U>(VITRAIL_EACH(g.path[j]->depth));
+  }
+};
+
+VITRAIL_LANES Four<F> scatter_numbers(const LaneWork& work, const Carried& carried) {
+  return lanes::sample_4d(work.tracing.scene.seed, carried.pixel, carried.sample, 1u + 2u * carried.depth);
+}
+
+VITRAIL_LANES Interaction<D> interaction_of(const LaneWork& work, const Group& g, bool is_placed) {
+  const Vector<F> direction = gather_vector<F>([&](int j) __attribute__((always_inline))->const Vector3f& {
+    return g.path[j]->ray.direction;
+  });
+  if (!is_placed)
+    return triangle_interaction<D>(
+        [&](int j) __attribute__((always_inline))->const DomainTables& {
+          return work.domains[g.path[j]->hit_domain];
+        },
+        [&](int j) __attribute__((always_inline))->const Hit& { return g.path[j]->hit; }, direction);
+  const auto of = [&](int j) __attribute__((always_inline))->const PlacedHit& {
+    return work.placed[g.place[j]];
+  };
+  const Vector<D> d = to_doubles(direction);
+  Interaction<D> at;
+  at.p = gather_vector<D>([&](int j) __attribute__((always_inline))->const Point3d& { return of(j).p; });
+  at.geometric = gather_vector<D>([&](int j) __attribute__((always_inline))->const Vector3d& {
+    return of(j).geometric;
+  });
+  at.shading =
+      gather_vector<D>([&](int j) __attribute__((always_inline))->const Vector3d& { return of(j).shading; });
+  at.dpdu =
+      gather_vector<D>([&](int j) __attribute__((always_inline))->const Vector3d& { return of(j).dpdu; });
+  at.rounding = gather<D>(VITRAIL_EACH(of(j).rounding));
+  at.out = d * (0.5 * dot(d, d) - 1.5);
+  at.cosine = dot(at.out, at.geometric);
+  at.front = at.cosine > 0;
+  return at;
+}
+
+VITRAIL_LANES Vector<F> origin_of(const LaneWork& work, const Interaction<D>& at, Vector<D> direction) {
+  return offset_origin(at.p, at.geometric, at.rounding, work.rounding_of_doubles, direction);
+}
+
+VITRAIL_LANES Point3d point_of(Vector<D> p, int j) { return {lane(p.x, j), lane(p.y, j), lane(p.z, j)}; }
+
+VITRAIL_LANES F greatest(const Four<F>& s) {
+  return lanes::max(lanes::max(lanes::max(s[0], s[1]), s[2]), s[3]);
+}
+
+// Those of `on` go on from the surface.
+VITRAIL_LANES void go_on(LaneWork& work, const Group& g, const Carried& carried, const Interaction<D>& at,
+                         Mask<F> on, Vector<D> direction, const Four<F>& throughput, F pdf,
+                         Mask<F> connected) {
+  const L seed = gather<L>(VITRAIL_EACH(g.path[j]->seed));
+  const U depth = carried.depth + 1u;
+  const L stream = (convert<std::uint64_t>(depth) << 3 | static_cast<std::uint64_t>(RayRandom::throughput)) *
+                   stream_factor;
+  const Departed<D> ray = depart<D>(seed, stream, origin_of(work, at, direction), direction, throughput);
+  const Mask<D> front_side = dot(direction, at.geometric) > 0;
+  for (int j = 0; j < g.valid; ++j) {
+    if (!is_set(on, j)) continue;
+    CameraPath& path = *g.path[j];
+    if (work.scene.divides_space)
+      path.inside =
+          lane_by_lane::inside(work, path, {g.place[j], is_set(at.front, j), is_set(front_side, j)});
+    path.depth = lane(depth, j);
+    path.passed = false;
+    path.connected |= is_set(connected, j);
+    path.pdf = lane(pdf, j);
+    path.travelled = 0;
+    path.ray.exclude = path.hit.triangle;
+    path.ray.origin.x = lane(ray.origin.x, j);
+    path.ray.origin.y = lane(ray.origin.y, j);
+    path.ray.origin.z = lane(ray.origin.z, j);
+    path.ray.direction.x = lane(ray.direction.x, j);
+    path.ray.direction.y = lane(ray.direction.y, j);
+    path.ray.direction.z = lane(ray.direction.z, j);
+    const std::uint32_t first = lane(ray.code.first, j), second = lane(ray.code.second, j);
+    for (int i = 0; i < 3; ++i) {
+      path.direction.byte[i] = static_cast<std::uint8_t>(first >> 8 * i);
+      path.direction.byte[3 + i] = static_cast<std::uint8_t>(second >> 8 * i);
+    }
+    path.random = lane(ray.random, j);
+    for (int i = 0; i < 4; ++i) path.throughput.v[i] = lane(ray.throughput[i], j);
+    path.hit.t = __builtin_inf();
+    path.hit.triangle = no_triangle;
+    path.hit.depth = 0;
+    work.next[work.next_count++] = g.place[j];
+  }
+}
