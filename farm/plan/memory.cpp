@@ -13,8 +13,8 @@ namespace vitrail {
 namespace {
 
 constexpr std::uint64_t mib = 1 << 20;
-// Stacks, outboxes, buffers in flight, what the allocator keeps.
-constexpr std::uint64_t slack_bytes = 4 * mib, slack_a_thread = mib;
+// Stacks, waves of paths (half a MiB), outboxes, buffers in flight, what the allocator keeps.
+constexpr std::uint64_t slack_bytes = 4 * mib, slack_a_thread = mib + mib / 2;
 constexpr std::uint64_t least_queue_bytes = 2 * mib, most_queue_bytes = 512 * mib;
 
 }  // namespace

@@ -18,9 +18,9 @@ struct ShadowRay {
   double time_s = 0;                      // its path's
   const SensorWeights* sensor = nullptr;  // its path's, if that is at hand
 };
-// Those that wait to be traced together: not more than `most`.
+// Those that wait to be traced together: not more than `most`, one of each path of a wave.
 struct ShadowRays {
-  static constexpr std::size_t most = 1024;
+  static constexpr std::size_t most = 512;
   std::unique_ptr<ShadowRay[]> rays = std::make_unique<ShadowRay[]>(most);
   std::size_t count = 0;
 };

@@ -19,6 +19,7 @@ class Wave {
  public:
   // States of paths and what they are read for fit into a core's second cache.
   static constexpr std::size_t most = 512;
+  static_assert(most <= ShadowRays::most);
 
   Wave() : paths_(std::make_unique<CameraPath[]>(most)), at_(most) {}
 
