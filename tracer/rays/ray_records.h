@@ -140,7 +140,7 @@ struct ShadowRecord {
   DirectionCode direction;
   float tmax;
   std::uint32_t exclude;
-  std::uint8_t radiance[hero_count][3];  // as radiance_code
+  std::uint8_t radiance[hero_count][3];  // as pack_radiance
   std::uint32_t pixel;
   std::uint32_t sample;
 };

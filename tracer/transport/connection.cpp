@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tracer/transport/connection.h"
 
+#include <algorithm>
 #include <cmath>
 
-#include "scene/geometry/portable_math.h"
 #include "tracer/bsdf/local.h"
 #include "tracer/transport/find_hit.h"
 

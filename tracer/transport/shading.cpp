@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tracer/transport/shading.h"
 
-#include "tracer/bsdf/local.h"
 #include "tracer/media/phase.h"
 #include "tracer/surfaces/scattered_direction.h"
 #include "tracer/transport/connect.h"

@@ -2,7 +2,7 @@
 #include "tracer/transport/traveller.h"
 
 #include <algorithm>
-#include <bit>
+#include <cmath>
 
 #include "tracer/panes/parallel_faces.h"
 #include "tracer/rays/rounding.h"

@@ -130,7 +130,7 @@ TEST(StackedSheets, OfMasksAndMixtures) {
 }
 
 // A light and a matt floor with sheets between that are not there: whichever way a sheet is passed, the two
-// ways to find the light weigh 1 together. With a filtered image the distance travelled has fewer bits.
+// ways to find the light weigh 1 together.
 TEST(StackedSheets, LeaveTheWeightsOfLightAlone) {
   const TemporaryDirectory directory;
   std::ofstream(directory / "white.pgm", std::ios::binary) << "P5 2 2 255\n\xff\xff\xff\xff";
