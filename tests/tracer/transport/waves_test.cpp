@@ -97,6 +97,11 @@ std::vector<Case> cases() {
          s.lights.push_back(Light{InfiniteLight{ConstantSpectrum{0.5f}}});
          s.settings.max_depth = 2;
        }},
+      {"a ball of glass behind one that disperses",
+       [](Scene& s) {
+         add_block(s, material(DielectricMaterial{bk7()}));
+         add_ball(s, material(DielectricMaterial{ConstantSpectrum{1.3f}}));
+       }},
       {"a ball of glass", ball(material(DielectricMaterial{ConstantSpectrum{1.5f}}))},
       {"a ball of gold", ball(rough_gold(Roughness::Distribution::ggx))},
       {"a ball of plastic", ball(plastic(0.1f))},
