@@ -32,14 +32,46 @@ struct KernelFunctions {
     return !domain.nodes.empty() && tree_occluded(domain.nodes.data(), domain.clusters.data(), ray, tmax);
   }
 
+  // The same of many rays, each with its hit.
+  void closest_of_many(const DomainView& domain, const RayConstants* rays, Hit* const* hits,
+                       std::size_t count) const {
+    if (domain.nodes.size() != 1) {
+      for (std::size_t i = 0; i < count; ++i) closest(domain, rays[i], *hits[i]);
+      return;
+    }
+    node_closest(domain.nodes.front(), domain.clusters.data(), rays, hits, count);
+    if (domain.instance_nodes.empty()) return;
+    for (std::size_t i = 0; i < count; ++i) instances_closest(domain, rays[i], *hits[i]);
+  }
+  // Of each whether it is blocked.
+  void occluded_of_many(const DomainView& domain, const RayConstants* rays, const float* tmax, bool* blocked,
+                        std::size_t count) const {
+    if (domain.nodes.size() != 1) {
+      for (std::size_t i = 0; i < count; ++i) blocked[i] = occluded(domain, rays[i], tmax[i]);
+      return;
+    }
+    node_occluded(domain.nodes.front(), domain.clusters.data(), rays, tmax, blocked, count);
+    if (domain.instance_nodes.empty()) return;
+    for (std::size_t i = 0; i < count; ++i)
+      if (!blocked[i]) blocked[i] = instances_occluded(domain, rays[i], tmax[i]);
+  }
+
   void (*tree_closest)(const BvhNode* nodes, const Cluster* clusters, const RayConstants& ray, Hit& hit);
   bool (*tree_occluded)(const BvhNode* nodes, const Cluster* clusters, const RayConstants& ray, float tmax);
   // The same of a domain that has instances, with these and those within their objects.
   void (*domain_closest)(const DomainView& domain, const RayConstants& ray, Hit& hit);
   bool (*domain_occluded)(const DomainView& domain, const RayConstants& ray, float tmax);
+  // The same of the instances alone.
+  void (*instances_closest)(const DomainView& domain, const RayConstants& ray, Hit& hit);
+  bool (*instances_occluded)(const DomainView& domain, const RayConstants& ray, float tmax);
   // The same with one cluster alone, whose index the hit is to have.
   void (*cluster_closest)(const Cluster& cluster, std::uint32_t index, const RayConstants& ray, Hit& hit);
   bool (*cluster_occluded)(const Cluster& cluster, const RayConstants& ray, float tmax);
+  // Of many rays and the clusters of one node, whose children are clusters all.
+  void (*node_closest)(const BvhNode& node, const Cluster* clusters, const RayConstants* rays,
+                       Hit* const* hits, std::size_t count);
+  void (*node_occluded)(const BvhNode& node, const Cluster* clusters, const RayConstants* rays,
+                        const float* tmax, bool* blocked, std::size_t count);
 };
 
 // Throws Error when this CPU cannot run the kernel.

@@ -298,6 +298,7 @@ bool tree_occluded(const BvhNode* nodes, const Cluster* clusters, const RayConst
 }
 
 #include "tracer/intersect/kernel_instances.inl"
+#include "tracer/intersect/kernel_many.inl"
 
 // ---- Clusters by themselves ----------------------------------------------------------------
 
@@ -309,5 +310,6 @@ bool cluster_occluded(const Cluster& cluster, const RayConstants& ray, float tma
   return occluded_in_cluster(cluster, ray, tmax);
 }
 
-constexpr KernelFunctions functions{tree_closest,    tree_occluded,   domain_closest,
-                                    domain_occluded, cluster_closest, cluster_occluded};
+constexpr KernelFunctions functions{tree_closest,      tree_occluded,      domain_closest,  domain_occluded,
+                                    instances_closest, instances_occluded, cluster_closest, cluster_occluded,
+                                    node_closest,      node_occluded};

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <immintrin.h>
-
 #include "tracer/intersect/exact_test.h"
 #include "tracer/intersect/instance_ray.h"
 #include "tracer/intersect/kernels.h"
+#include "tracer/lanes/lanes.h"
 
 namespace vitrail {
 namespace {

@@ -103,3 +103,15 @@ bool domain_occluded(const DomainView& domain, const RayConstants& ray, float tm
   if (outer.nodes && occluded_in_tree(outer.nodes, outer.clusters, slabs, ray, tmax)) return true;
   return occluded_in_instances(outer, slabs, ray, zeta_limit(ray, tmax), tmax);
 }
+
+void instances_closest(const DomainView& domain, const RayConstants& ray, Hit& hit) {
+  InstanceRay outer;
+  enter_domain(domain, outer);
+  closest_in_instances(outer, Slabs(ray), ray, zeta_limit(ray, hit.t), hit);
+}
+
+bool instances_occluded(const DomainView& domain, const RayConstants& ray, float tmax) {
+  InstanceRay outer;
+  enter_domain(domain, outer);
+  return occluded_in_instances(outer, Slabs(ray), ray, zeta_limit(ray, tmax), tmax);
+}

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#if defined(__SSE__)
-#include <immintrin.h>
-#endif
-
 #include "tracer/intersect/exact_test.h"
 #include "tracer/intersect/instance_ray.h"
 #include "tracer/intersect/kernels.h"
+#include "tracer/lanes/lanes.h"
 
 namespace vitrail {
 namespace {

@@ -24,3 +24,20 @@ inline Lanes either(Lanes a, Lanes b) { return _mm256_or_ps(a, b); }
 inline unsigned bits(Lanes a) { return static_cast<unsigned>(_mm256_movemask_ps(a)); }
 // row[i] of the lowest set bit i.
 inline std::uint32_t first_of(const std::uint32_t* row, unsigned bits) { return row[__builtin_ctz(bits)]; }
+// Not below 1/a, and hardly above it. a in [1e-30, 1e30].
+inline Floats reciprocal_above(Floats a) { return mul(_mm256_rcp_ps(a), fill(1.0005f)); }
+inline Floats choose(Lanes lanes, Floats a, Floats b) {
+  return _mm256_blendv_ps(b, a, lanes);
+}  // a where set
+inline float least(Floats a) {
+  const __m128 four = _mm_min_ps(_mm256_castps256_ps128(a), _mm256_extractf128_ps(a, 1));
+  const __m128 two = _mm_min_ps(four, _mm_movehl_ps(four, four));
+  return _mm_cvtss_f32(_mm_min_ss(two, _mm_movehdup_ps(two)));
+}
+// Lanes whose number in the row is another.
+inline Lanes unlike(const std::uint32_t* row, std::uint32_t number) {
+  const __m256i all = _mm256_load_si256(reinterpret_cast<const __m256i*>(row));
+  const __m256i same = _mm256_cmpeq_epi32(all, _mm256_set1_epi32(static_cast<int>(number)));
+  return _mm256_castsi256_ps(_mm256_xor_si256(same, _mm256_set1_epi32(-1)));
+}
+constexpr int exact_parts = 2;  // of 64 bytes, that a register of doubles is

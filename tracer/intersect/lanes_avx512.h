@@ -29,3 +29,19 @@ inline std::uint32_t first_of(const std::uint32_t* row, unsigned bits) {
   const __m256i chosen = _mm256_maskz_compress_epi32(static_cast<__mmask8>(bits), all);
   return static_cast<std::uint32_t>(_mm256_cvtsi256_si32(chosen));
 }
+// Not below 1/a, and hardly above it. a in [1e-30, 1e30].
+inline Floats reciprocal_above(Floats a) { return mul(_mm256_rcp_ps(a), fill(1.0005f)); }
+inline Floats choose(Lanes lanes, Floats a, Floats b) {
+  return _mm256_mask_blend_ps(lanes, b, a);
+}  // a where set
+inline float least(Floats a) {
+  const __m128 four = _mm_min_ps(_mm256_castps256_ps128(a), _mm256_extractf128_ps(a, 1));
+  const __m128 two = _mm_min_ps(four, _mm_movehl_ps(four, four));
+  return _mm_cvtss_f32(_mm_min_ss(two, _mm_movehdup_ps(two)));
+}
+// Lanes whose number in the row is another.
+inline Lanes unlike(const std::uint32_t* row, std::uint32_t number) {
+  const __m256i all = _mm256_load_si256(reinterpret_cast<const __m256i*>(row));
+  return _mm256_cmpneq_epi32_mask(all, _mm256_set1_epi32(static_cast<int>(number)));
+}
+constexpr int exact_parts = 1;  // of 64 bytes, that a register of doubles is

@@ -56,3 +56,27 @@ inline Lanes either(Lanes a, Lanes b) { return {a.low | b.low, a.high | b.high};
 inline unsigned bits(Lanes a) { return bits(a.low) | bits(a.high) << 4; }
 // row[i] of the lowest set bit i.
 inline std::uint32_t first_of(const std::uint32_t* row, unsigned bits) { return row[__builtin_ctz(bits)]; }
+// Not below 1/a, and hardly above it. a in [1e-30, 1e30].
+inline Floats reciprocal_above(Floats a) {
+  constexpr float above = 1.000001f;
+  return {Quad{above, above, above, above} / a.low, Quad{above, above, above, above} / a.high};
+}
+inline Quad choose(QuadBits lanes, Quad a, Quad b) {
+  return as_floats((as_bits(a) & lanes) | (as_bits(b) & ~lanes));
+}
+inline Floats choose(Lanes lanes, Floats a, Floats b) {  // a where set
+  return {choose(lanes.low, a.low, b.low), choose(lanes.high, a.high, b.high)};
+}
+inline float least(Floats a) {
+  const Quad four = a.low < a.high ? a.low : a.high;
+  const float low = four[0] < four[1] ? four[0] : four[1], high = four[2] < four[3] ? four[2] : four[3];
+  return low < high ? low : high;
+}
+// Lanes whose number in the row is another.
+inline Lanes unlike(const std::uint32_t* row, std::uint32_t number) {
+  const auto n = static_cast<std::int32_t>(number);
+  const QuadBits all = {n, n, n, n};
+  const auto* four = reinterpret_cast<const QuadBits*>(row);
+  return {four[0] != all, four[1] != all};
+}
+constexpr int exact_parts = 4;  // of 64 bytes, that a register of doubles is

@@ -26,8 +26,21 @@ class DomainWalk {
   DomainWalk(const Manifest& manifest, const Ray& ray, std::span<const DomainView* const> resident = {})
       : manifest_(manifest), resident_(resident) {
     if (!starts_near(ray.origin)) return;
-    only_one_ = resident.size() == 1 && resident[0] && !manifest.domains[0].tight_bounds.empty();
+    only_one_ = has_one(manifest, resident);
     if (!only_one_) begin(ray);
+  }
+
+  // Whether the one domain of a scene is at hand, so that the walk of a ray that `starts_near` visits it
+  // alone.
+  static bool has_one(const Manifest& manifest, std::span<const DomainView* const> resident) {
+    return resident.size() == 1 && resident[0] && !manifest.domains[0].tight_bounds.empty();
+  }
+  // Of a ray's start from the scene's centre, of which no scene reaches 10¹⁵: its square and its product with
+  // 10¹⁸ (ray.h) are still floats. What starts beyond meets nothing. False for NaN.
+  static bool starts_near(Point3f origin) {
+    constexpr double farthest = 1e18;
+    const Point3d o = cast<double>(origin);
+    return std::abs(o.x) <= farthest && std::abs(o.y) <= farthest && std::abs(o.z) <= farthest;
   }
 
   // The next domain whose tight bounds and marked cells the ray enters before tmax; false at the end.
@@ -45,13 +58,6 @@ class DomainWalk {
     std::uint32_t reference;
     double t0, t1;
   };
-  // Of a ray's start from the scene's centre, of which no scene reaches 10¹⁵: its square and its product with
-  // 10¹⁸ (ray.h) are still floats. What starts beyond meets nothing. False for NaN.
-  static bool starts_near(Point3f origin) {
-    constexpr double farthest = 1e18;
-    const Point3d o = cast<double>(origin);
-    return std::abs(o.x) <= farthest && std::abs(o.y) <= farthest && std::abs(o.z) <= farthest;
-  }
   void begin(const Ray& ray);
   bool next_of_many(double tmax, Visit& visit);
   bool next_leaf(double tmax, Pending& leaf);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tracer/transport/shadow_ray.h"
 
+#include <algorithm>
 #include <optional>
 
 #include "tracer/rays/walk.h"
@@ -51,9 +52,34 @@ Way follow(Tracing& tracing, const ShadowRay& s, std::optional<std::uint32_t> at
   return Way::free;
 }
 
+// The scene's only domain is resident.
+void trace_in_one(Tracing& tracing, ShadowRays& waiting) {
+  constexpr std::size_t most_at_once = 32;  // what the kernel reads of them stays in the first cache
+  RayConstants rays[most_at_once] = {};
+  float ends[most_at_once];
+  bool blocked[most_at_once];
+  for (std::size_t first = 0; first < waiting.count; first += most_at_once) {
+    const std::size_t count = std::min(waiting.count - first, most_at_once);
+    for (std::size_t i = 0; i < count; ++i) {
+      const ShadowRay& s = waiting.rays[first + i];
+      rays[i] = prepare(s.ray, s.time_s);
+      // What starts too far away meets nothing.
+      ends[i] = DomainWalk::starts_near(s.ray.origin) ? s.tmax : 0;
+    }
+    tracing.kernel.occluded_of_many(*tracing.resident[0], rays, ends, blocked, count);
+    for (std::size_t i = 0; i < count; ++i) {
+      const ShadowRay& s = waiting.rays[first + i];
+      if (!blocked[i]) deposit(tracing, s.pixel, s.sample, *s.sensor, s.radiance);
+    }
+  }
+  waiting.count = 0;
+}
+
 }  // namespace
 
 void trace(Tracing& tracing, ShadowRays& rays) {
+  if (DomainWalk::has_one(tracing.manifest(), tracing.resident) && !tracing.traffic)
+    return trace_in_one(tracing, rays);
   for (std::size_t i = 0; i < rays.count; ++i) {
     const ShadowRay& s = rays.rays[i];
     const RayTraffic::Place here = tracing.traffic ? tracing.traffic->place() : RayTraffic::Place{};

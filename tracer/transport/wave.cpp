@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tracer/transport/wave.h"
 
+#include "tracer/rays/walk.h"
 #include "tracer/transport/generate.h"
 #include "tracer/transport/sensors.h"
 #include "tracer/transport/shading.h"
@@ -43,6 +44,8 @@ void Wave::generate(Tracing& tracing, bool in_lanes) {
 }
 
 void Wave::find_hits(Tracing& tracing) {
+  if (DomainWalk::has_one(tracing.manifest(), tracing.resident) && !tracing.traffic)
+    return find_in_one(tracing);
   std::size_t kept = 0;
   for (const std::uint32_t i : live_) {
     CameraPath& path = paths_[i];
@@ -54,6 +57,29 @@ void Wave::find_hits(Tracing& tracing) {
       live_[kept++] = i;
   }
   live_.resize(kept);
+}
+
+// The scene's only domain is resident.
+void Wave::find_in_one(Tracing& tracing) {
+  constexpr std::size_t most_at_once = 32;  // what the kernel reads of them stays in the first cache
+  RayConstants rays[most_at_once] = {};
+  Hit* hits[most_at_once] = {};
+  std::size_t count = 0;
+  for (const std::uint32_t i : live_) {
+    CameraPath& path = paths_[i];
+    if (at_[i]) {  // of one domain nothing goes on elsewhere
+      find_hit(tracing, path, at_[i]);
+      at_[i].reset();
+    } else if (DomainWalk::starts_near(path.ray.origin)) {
+      rays[count] = prepare(path.ray, path.time_s);
+      hits[count++] = &path.hit;
+      path.hit_domain = 0;
+    }
+    if (count < most_at_once) continue;
+    tracing.kernel.closest_of_many(*tracing.resident[0], rays, hits, count);
+    count = 0;
+  }
+  tracing.kernel.closest_of_many(*tracing.resident[0], rays, hits, count);
 }
 
 void Wave::shade_all(Tracing& tracing, bool in_lanes) {

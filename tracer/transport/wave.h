@@ -42,6 +42,7 @@ class Wave {
  private:
   void generate(Tracing& tracing, bool in_lanes);
   void find_hits(Tracing& tracing);
+  void find_in_one(Tracing& tracing);
   void shade_all(Tracing& tracing, bool in_lanes);
 
   std::unique_ptr<CameraPath[]> paths_;

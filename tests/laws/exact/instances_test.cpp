@@ -144,8 +144,14 @@ void expect_equal(const Parts& parts, std::size_t ray_count, bool reference = tr
     for (const Kernel kernel : kernels) {
       const KernelFunctions& f = kernel_functions(kernel);
       Hit hit;
-      f.closest(scene.domain, prepare(ray), hit);
-      check(hit, f.occluded(scene.domain, prepare(ray), tmax));
+      const RayConstants constants = prepare(ray);
+      f.closest(scene.domain, constants, hit);
+      check(hit, f.occluded(scene.domain, constants, tmax));
+      Hit* const again = &(hit = {});
+      bool blocked = !shadowed;
+      f.closest_of_many(scene.domain, &constants, &again, 1);
+      f.occluded_of_many(scene.domain, &constants, &tmax, &blocked, 1);
+      check(hit, blocked);
     }
     if (!reference || i % 20 != 1) return;
     Hit hit;

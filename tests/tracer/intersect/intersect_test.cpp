@@ -27,6 +27,10 @@ Hit closest(const ClusteredTriangles& clustered, const Ray& ray, const Hit& befo
     EXPECT_TRUE(same(hit, reference)) << name(kernel);
     EXPECT_EQ(hit.cluster, reference.cluster);
     EXPECT_EQ(hit.lane, reference.lane);
+    const RayConstants constants = prepare(ray);
+    Hit* const again = &(hit = before);
+    kernel_functions(kernel).closest_of_many(domain, &constants, &again, 1);
+    EXPECT_TRUE(same(hit, reference)) << name(kernel);
   }
   return reference;
 }
@@ -35,7 +39,11 @@ bool occluded(const ClusteredTriangles& clustered, const Ray& ray, float tmax) {
   const DomainView domain = view_of(clustered);
   const bool reference = EmbreeDomain(domain).occluded(ray, tmax);
   for (const Kernel kernel : available_kernels()) {
-    EXPECT_EQ(kernel_functions(kernel).occluded(domain, prepare(ray), tmax), reference) << name(kernel);
+    const RayConstants constants = prepare(ray);
+    EXPECT_EQ(kernel_functions(kernel).occluded(domain, constants, tmax), reference) << name(kernel);
+    bool blocked = !reference;
+    kernel_functions(kernel).occluded_of_many(domain, &constants, &tmax, &blocked, 1);
+    EXPECT_EQ(blocked, reference) << name(kernel);
   }
   return reference;
 }
