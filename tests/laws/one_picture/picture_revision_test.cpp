@@ -11,7 +11,7 @@ namespace vitrail::test {
 namespace {
 
 constexpr std::uint32_t known_revision = 10;
-constexpr const char* known_pictures = "ba3200daa08107fc";
+constexpr const char* known_pictures = "842a9f287a5cfe72";
 
 std::array<Point3f, 4> tile(float x, float z) {
   return {{{x, 0, z}, {x + 1, 0, z}, {x + 1, 1, z + 0.2f}, {x, 1, z + 0.2f}}};

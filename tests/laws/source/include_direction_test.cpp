@@ -65,8 +65,8 @@ const std::map<std::string, std::vector<std::string>>& floors() {
   static const std::map<std::string, std::vector<std::string>> rooms{
       {"scene", {"system", "geometry", "spectra", "shapes", "records", "daylight", "models"}},
       {"tracer",
-       {"sampling", "rays", "quadrics", "bsdf", "textures", "intersect", "lights", "media", "surfaces",
-        "view", "prepared", "panes", "photons", "transport"}},
+       {"sampling", "rays", "quadrics", "bsdf", "textures", "intersect", "lights", "lanes", "media",
+        "surfaces", "view", "prepared", "panes", "photons", "transport"}},
       {"farm", {"scheduler", "transport", "rays", "files", "plan", "run", "conclude", "", "simulator"}},
       {"importers",
        {"bytes", "shapes", "spectra", "reading", "writing", "images", "ply/read", "ply/write", "obj/read",

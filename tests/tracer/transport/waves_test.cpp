@@ -119,6 +119,40 @@ std::vector<Case> cases() {
        [](Scene& s) {
          std::get<PerspectiveCamera>(s.camera).lens = {0.05, 1.2};
        }},
+      {"a sheet with holes",
+       [](Scene& s) {
+         add_block(s, plastic(0.1f));
+         s.shapes.back().opacity = 0.4f;
+         add_ball(s, rough_gold(Roughness::Distribution::ggx));
+       }},
+      {"a sheet of glass and a sun",
+       [](Scene& s) {
+         add_block(s, material(ThinDielectricMaterial{}));
+         s.meshes[0].triangles.resize(8);
+         s.lights.push_back(Light{DistantLight{{0.3, -0.5, 0.8}, ConstantSpectrum{1}}});
+       }},
+      {"a pane and a sun",
+       [](Scene& s) {
+         add_block(s, material(DielectricMaterial{ConstantSpectrum{1.5f}}));
+         s.meshes[0].triangles.resize(8);
+         s.lights.push_back(Light{DistantLight{{0.3, -0.5, 0.8}, ConstantSpectrum{1}}});
+       }},
+      {"a ball of fog",
+       [](Scene& s) {
+         Medium mist;
+         mist.coefficients = AbsorptionScattering{ConstantSpectrum{0.3f}, ConstantSpectrum{2}};
+         s.media.push_back(mist);
+         add_ball(s, material(DielectricMaterial{ConstantSpectrum{1.3f}}));
+         s.shapes.back().interior = Id<Medium>{0};
+         add_block(s, plastic(0));
+       }},
+      {"two liquids, one before the other",
+       [](Scene& s) {
+         DielectricMaterial water{ConstantSpectrum{1.3f}}, glass{ConstantSpectrum{1.5f}};
+         water.priority = 1, glass.priority = 2;
+         add_block(s, material(water));
+         add_ball(s, material(glass));
+       }},
       {"to the end",
        [](Scene& s) {
          add_block(s, plastic(0.2f));
