@@ -117,8 +117,12 @@ QuadricPoint quadric_point(const OrientedQuadric& quadric, const Affine& to_bund
                        quadric.inside_out);
   const Chart chart = chart_of(quadric.quadric, local, uvs_show);
   const Vector3d normal = placed_quadric_normal(quadric, to_bundle, local);
-  return {placed_point(to_bundle, local),     normal,  normal, placed_vector(to_bundle, chart.du),
-          placed_vector(to_bundle, chart.dv), chart.uv};
+  return {placed_point(to_bundle, local),
+          normal,
+          normal,
+          placed_vector(to_bundle, chart.du),
+          placed_vector(to_bundle, chart.dv),
+          uvs_show ? chart.uv : Point2d{}};
 }
 
 }  // namespace vitrail
