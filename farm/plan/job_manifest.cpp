@@ -102,6 +102,7 @@ void choose_integrator(const PictureSettings& picture, RenderSettings& s) {
 void override_settings(Manifest& m, const RenderOptions& options) {
   const PictureSettings& picture = options.picture;
   RenderSettings& s = m.settings;
+  check_error_is_known(picture);
   choose_integrator(picture, s);
   s.samples_per_pixel = static_cast<int>(goal_of(options, s).samples);
   if (picture.max_depth) s.max_depth = *picture.max_depth;
@@ -120,7 +121,6 @@ void override_film(Manifest& m, const PictureSettings& picture, const std::files
   if (picture.bins) m.film.spectrum = *picture.bins;
   override_layers(m, picture, bundle);
   apply(picture.samples, m);
-  check_error_is_known(picture);
   check_splat(m, picture);
   const PixelRect& c = m.film.crop;
   if (c.x0 < 0 || c.y0 < 0 || c.x1 > m.film.width || c.y1 > m.film.height || c.x0 >= c.x1 || c.y0 >= c.y1)

@@ -2,7 +2,7 @@
 #include "tracer/intersect/exact_test.h"
 #include "tracer/intersect/instance_ray.h"
 #include "tracer/intersect/kernels.h"
-#include "tracer/lanes/lanes.h"
+#include "tracer/simd/lanes.h"
 
 namespace vitrail {
 namespace {

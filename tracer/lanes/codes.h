@@ -2,7 +2,7 @@
 // What values are rounded to on a path (tracer/rays/ray_records.h), in lanes.
 #pragma once
 
-#include "tracer/lanes/lanes.h"
+#include "tracer/simd/lanes.h"
 
 namespace vitrail::lanes {
 namespace {

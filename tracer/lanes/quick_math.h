@@ -2,7 +2,7 @@
 // tracer/bsdf/quick_math.h in lanes.
 #pragma once
 
-#include "tracer/lanes/lanes.h"
+#include "tracer/simd/lanes.h"
 
 namespace vitrail::lanes {
 namespace {

@@ -3,10 +3,10 @@
 #pragma once
 
 #include "film/sample_groups.h"
-#include "tracer/lanes/lanes.h"
 #include "tracer/sampling/candidate_numbers.h"
 #include "tracer/sampling/sampler.h"
 #include "tracer/sampling/sobol_tables.h"
+#include "tracer/simd/lanes.h"
 
 namespace vitrail::lanes {
 namespace {

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "scene/geometry/vec.h"
-#include "tracer/lanes/lanes.h"
+#include "tracer/simd/lanes.h"
 
 namespace vitrail::lanes {
 namespace {

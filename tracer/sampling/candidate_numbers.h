@@ -7,15 +7,14 @@
 #include <array>
 #include <cstdint>
 
-#include "tracer/prepared/sampling_choices.h"
-
 namespace vitrail {
 
 // The digits that are flipped: the highest four of 24 bits, of the first and third number and of the others.
 struct CandidateDigits {
   std::uint32_t straight, turned;
 };
-inline constexpr CandidateDigits candidate_digits[most_light_candidates]{
+inline constexpr std::uint32_t most_candidates = 16;
+inline constexpr CandidateDigits candidate_digits[most_candidates]{
     {0, 0},  {8, 8}, {4, 12}, {12, 4},  {2, 10}, {10, 2},  {6, 6}, {14, 14},
     {1, 15}, {9, 7}, {5, 3},  {13, 11}, {3, 5},  {11, 13}, {7, 9}, {15, 1}};
 

@@ -17,6 +17,8 @@ namespace {
 
 double slope_of(double cosine) { return std::sqrt(std::max(0.0, 1 - cosine * cosine)) / std::abs(cosine); }
 
+static_assert(most_light_candidates == most_candidates);
+
 double sum_of(const SampledSpectrum& s) {
   double sum = 0;
   for (const float x : s.v) sum += static_cast<double>(x);

@@ -22,7 +22,7 @@ const std::map<std::string, std::set<std::string>>& allowed() {
       {"importers", {"scene", "glazing", "images"}},
       {"bundle", {"scene"}},
       {"partitioner", {"scene", "images", "bundle"}},
-      {"film", {"scene"}},
+      {"film", {"scene", "images"}},
       {"tracer", {"scene", "bundle", "film"}},
       {"farm", {"scene", "bundle", "film", "tracer"}},
       {"compare", {"scene", "film"}},
@@ -65,7 +65,7 @@ const std::map<std::string, std::vector<std::string>>& floors() {
   static const std::map<std::string, std::vector<std::string>> rooms{
       {"scene", {"system", "geometry", "spectra", "shapes", "records", "daylight", "models"}},
       {"tracer",
-       {"sampling", "rays", "quadrics", "bsdf", "textures", "intersect", "lights", "lanes", "media",
+       {"simd", "sampling", "rays", "quadrics", "bsdf", "textures", "intersect", "lights", "lanes", "media",
         "surfaces", "view", "prepared", "panes", "photons", "transport"}},
       {"farm", {"scheduler", "transport", "rays", "files", "plan", "run", "conclude", "", "simulator"}},
       {"importers",

@@ -24,7 +24,7 @@ LANE_FUNCTION(sample_4d, 3, 9) {
 }
 LANE_FUNCTION(numbers_of_candidate, 4, 16 * 4) {
   const lanes::Four<lanes::Floats<W>> u{{in.f(0), in.f(1), in.f(2), in.f(3)}};
-  for (std::uint32_t k = 0; k < most_light_candidates; ++k) out.four(lanes::numbers_of_candidate(u, k));
+  for (std::uint32_t k = 0; k < most_candidates; ++k) out.four(lanes::numbers_of_candidate(u, k));
 }
 LANE_FUNCTION(encode_direction, 3, 2) {
   const auto code = lanes::encode_direction(in.vector(0));

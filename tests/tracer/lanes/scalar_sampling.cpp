@@ -52,7 +52,7 @@ std::vector<ScalarFunction> sampling_functions() {
        [](const Context&, const double* in, double* out) {
          const std::array<float, 4> u{static_cast<float>(in[0]), static_cast<float>(in[1]),
                                       static_cast<float>(in[2]), static_cast<float>(in[3])};
-         for (std::uint32_t k = 0; k < most_light_candidates; ++k)
+         for (std::uint32_t k = 0; k < most_candidates; ++k)
            out = put_all(numbers_of_candidate(u, k), out, 4);
        }},
       {"density_beside",
