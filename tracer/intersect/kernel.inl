@@ -225,6 +225,13 @@ inline std::uint32_t push_but_nearest(const BvhNode* nodes, const Leaf* leaves, 
   return reference_of(nearest);
 }
 
+// Whether another node's children might not fit. No tree is so deep: but a file that is cut short while it is
+// mapped reads as zeros, nodes that are their own children, until the job sees that it was changed.
+template <class Entry>
+inline bool is_full(const Entry* top, const Entry (&stack)[stack_size]) {
+  return top > stack + (stack_size - 8);
+}
+
 // The leaves that the ray enters at ζ ≤ limit, nearest first. `visit(index, limit)` returns the limit that
 // holds afterwards.
 template <class Leaf, class Visit>
@@ -239,6 +246,8 @@ inline void visit_nearest_first(const BvhNode* nodes, const Leaf* leaves, const 
     } else {
       Floats entry;
       const unsigned children = entered_children(nodes[at], slabs, limit, entry);
+      if (is_full(top, stack)) [[unlikely]]
+        return;
       if (children) {
         at = push_but_nearest(nodes, leaves, nodes[at], children, entry, top);
         continue;
@@ -266,6 +275,8 @@ inline bool any_entered(const BvhNode* nodes, const Leaf* leaves, const Slabs& s
       const BvhNode& node = nodes[at];
       Floats entry;
       unsigned children = entered_children(node, slabs, limit, entry);
+      if (is_full(top, stack)) [[unlikely]]
+        return false;
       for (; children; children &= children - 1) {
         *top = node.child[__builtin_ctz(children)];
         prefetch(nodes, leaves, *top++);
