@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tracer/transport/lane_lists.h"
 
+#include "tracer/transport/connect.h"
 #include "tracer/transport/shading.h"
 
 namespace vitrail {
@@ -40,13 +41,10 @@ bool LaneLists::apply_to(const Tracing& tracing) {
 
 std::uint32_t LaneLists::candidates_of(const Tracing& tracing, const CameraPath& path, std::uint32_t place,
                                        bool diffuse) const {
-  const LightSampler& lights = tracing.scene.lights;
-  const std::uint32_t several = tracing.scene.sampling.light_candidates;
-  if (path.pdf > 0 || lights.one_is_enough) return 1;
-  if (!(lights.lamp_radius2 > 0)) return several;
+  if (path.pdf > 0) return 1;
   const Point3d p =
       path.hit.depth > 0 ? placed_[place].p : hit_point(*tracing.resident[path.hit_domain], path.hit);
-  return variety(lights, p) == Variety::little && diffuse ? 1 : several;
+  return light_candidates(tracing, path, p, diffuse);
 }
 
 bool LaneLists::take(Tracing& tracing, CameraPath& path, std::uint32_t place) {

@@ -46,6 +46,17 @@ bool lives_on(const Tracing& tracing, Scatterer& s, float u, bool specular, bool
   return true;
 }
 
+// Takes it out of a pane, if it is in one. Whether it owed a scattering for entering, which is counted now.
+bool owed_for_pane(Scatterer& s) {
+  if (!s.pane.within) return false;
+  s.pane.within = false;
+  if (s.pane.parts) s.disperse();
+  if (!s.pane.owes) return false;
+  s.pane.owes = false;
+  ++s.depth;
+  return true;
+}
+
 // Null where chance chooses nothing of the surface.
 const Material* chosen_at(const Tracing& tracing, const Scatterer& s, const Event& event) {
   RandomStream chance(stream_of(s, RayRandom::choice));
@@ -64,23 +75,9 @@ std::array<float, 4> numbers_for_scattering(const Scatterer& s, Wanted wanted) {
   return sample_4d(s.key, sample_set::scatter(s.numbered_depth()), wanted);
 }
 
-bool leave_pane(CameraPath& path) {
-  if (!path.pane.within) return true;
-  path.pane.within = false;
-  if (path.pane.parts) path.disperse();
-  if (!path.pane.owes) return true;
-  path.pane.owes = false;
-  ++path.depth;
-  return false;
-}
+bool leave_pane(CameraPath& path) { return !owed_for_pane(path); }
 bool leave_pane(PhotonPath& photon) {
-  if (!photon.pane.within) return true;
-  photon.pane.within = false;
-  if (photon.pane.parts) photon.disperse();
-  if (!photon.pane.owes) return true;
-  photon.pane.owes = false;
-  ++photon.depth;
-  photon.counted = true;
+  if (owed_for_pane(photon)) photon.counted = true;
   return true;
 }
 
