@@ -3,6 +3,8 @@
 
 #include <variant>
 
+#include "scene/records/material_traits.h"
+
 namespace vitrail {
 
 namespace {
@@ -13,9 +15,6 @@ bool is_constant(const SpectrumParameter& p) { return std::holds_alternative<Spe
 // Null where the widths are textured: they may be smooth in places.
 const float* width_of(const Roughness& r) {
   return std::holds_alternative<float>(r.alpha_v) ? std::get_if<float>(&r.alpha_u) : nullptr;
-}
-bool is_smooth(const Roughness& r) {
-  return r.alpha_u == FloatParameter{0.0f} && r.alpha_v == FloatParameter{0.0f};
 }
 
 void set(const DiffuseMaterial& m, LaneSurface& s) {
