@@ -11,6 +11,7 @@
 #include "tests/laws/light/flat_scenes.h"
 #include "tracer/bsdf/fresnel.h"
 #include "tracer/media/free_flight.h"
+#include "tracer/rays/ray_records.h"
 
 namespace vitrail::test {
 namespace {
@@ -356,7 +357,7 @@ TEST(InfiniteMedium, GlowsAsAGeometricSeries) {
 // What is lost at each scattering is less than half a step of the throughput as it travels: rounding it to
 // the nearest, all would live on, and glow by 0.3 instead of 0.26.
 TEST(InfiniteMedium, AtAlbedosNearOneAndGreatDepth) {
-  constexpr int depth = 100000;
+  constexpr int depth = max_path_depth;
   for (const auto& [sigma_a, pixels] : {std::pair{3e-6f, 8}, std::pair{1e-7f, 4}}) {
     const double albedo = 1 / (1 + static_cast<double>(sigma_a));
     expect_luminance(glow_of_infinite_medium(sigma_a, depth, pixels, 2), 1 - std::pow(albedo, depth + 1),
