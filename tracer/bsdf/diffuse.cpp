@@ -2,11 +2,14 @@
 #include "tracer/bsdf/diffuse.h"
 
 #include "scene/geometry/portable_math.h"
+#include "tracer/bsdf/diffuse_lanes.h"
 #include "tracer/bsdf/local.h"
 
 namespace vitrail {
 
 namespace {
+
+lanes::Lambert<double> in_one_lane(const LambertBsdf& bsdf) { return {lanes::fill<float>(bsdf.reflectance)}; }
 
 bool reflects(Vector3d out, Vector3d in) { return out.z > 0 && in.z > 0; }
 
@@ -42,17 +45,13 @@ double reflection_probability(const DiffuseTransmissionBsdf& bsdf) {
 }  // namespace
 
 BsdfValue eval(const LambertBsdf& bsdf, Vector3d out, Vector3d in) {
-  if (!reflects(out, in)) return {};
-  const double density = in.z / pi;
-  return {bsdf.reflectance * static_cast<float>(density), density};
+  return lanes::lane(lanes::eval(in_one_lane(bsdf), lanes::fill<double>(out), lanes::fill<double>(in)), 0);
 }
 
 double pdf(const LambertBsdf&, Vector3d out, Vector3d in) { return reflects(out, in) ? in.z / pi : 0; }
 
 std::optional<BsdfSample> sample(const LambertBsdf& bsdf, Vector3d out, float, Point2f u) {
-  const Vector3d in = sample_cosine_hemisphere(u.x, u.y);
-  if (!reflects(out, in)) return std::nullopt;
-  return BsdfSample{.in = in, .weight = bsdf.reflectance, .pdf = in.z / pi};
+  return lanes::lane(lanes::sample(in_one_lane(bsdf), lanes::fill<double>(out), u.x, u.y), 0);
 }
 
 BsdfValue eval(const OrenNayarBsdf& bsdf, Vector3d out, Vector3d in) {

@@ -5,23 +5,13 @@
 #include <cmath>
 
 #include "scene/geometry/portable_math.h"
+#include "tracer/bsdf/fresnel_lanes.h"
 #include "tracer/bsdf/local.h"
 
 namespace vitrail {
 
 double fresnel_conductor(double cosine, double eta, double k) {
-  const double cos2 = cosine * cosine, sin2 = 1 - cos2;
-  // (a + i·b)² = (eta + i·k)² − sin²θ: the index times the cosine of the complex angle of refraction.
-  const double real = eta * eta - k * k - sin2, imaginary = 2 * eta * k;
-  const double modulus = std::sqrt(real * real + imaginary * imaginary);  // a² + b²
-  const double a = safe_sqrt((modulus + real) / 2);
-  const double s_sum = modulus + cos2, s_difference = 2 * a * cosine;
-  const double p_sum = modulus * cos2 + sin2 * sin2, p_difference = s_difference * sin2;
-  if (!(s_sum + s_difference > 0)) return 1;  // cosine = 0 where the indices match
-  const double s = (s_sum - s_difference) / (s_sum + s_difference);
-  // At normal incidence both polarisations agree, and p_sum may vanish only with cosine.
-  const double p_over_s = p_sum + p_difference > 0 ? (p_sum - p_difference) / (p_sum + p_difference) : 1;
-  return std::clamp(s * (1 + p_over_s) / 2, 0.0, 1.0);
+  return lanes::fresnel_conductor(cosine, eta, k);
 }
 
 SampledSpectrum fresnel_conductor(double cosine, const SampledSpectrum& eta, const SampledSpectrum& k,

@@ -7,7 +7,7 @@
 #include "scene/geometry/portable_math.h"
 #include "scene/models/hair_color.h"
 #include "tracer/bsdf/local.h"
-#include "tracer/bsdf/quick_math.h"
+#include "tracer/simd/quick_math.h"
 
 namespace vitrail {
 
@@ -63,7 +63,7 @@ std::array<SampledSpectrum, lobe_count> attenuations(double fresnel, const Sampl
 SampledSpectrum transmittance(const SampledSpectrum& sigma_a, double length) {
   SampledSpectrum t;
   for (std::size_t i = 0; i < hero_count; ++i)
-    t.v[i] = static_cast<float>(quick_exp(-static_cast<double>(sigma_a.v[i]) * length));
+    t.v[i] = static_cast<float>(lanes::quick_exp(-static_cast<double>(sigma_a.v[i]) * length));
   return t;
 }
 
@@ -111,19 +111,19 @@ Fibre fibre_of(const HairBsdf& bsdf, Vector3d out) {
 //   e^(−sin θ_out sin θ_in/v) I₀(cos θ_out cos θ_in/v) / (2v sinh(1/v)).
 double longitudinal(const Lobe& lobe, SinCos in) {
   const double inverse = 1 / lobe.variance, bessel_at = lobe.theta.cos * in.cos * inverse;
-  return quick_exp(bessel_at - (lobe.theta.sin * in.sin + 1) * inverse) * scaled_bessel_i0(bessel_at) *
-         inverse / (1 - quick_exp(-2 * inverse));
+  return lanes::quick_exp(bessel_at - (lobe.theta.sin * in.sin + 1) * inverse) * scaled_bessel_i0(bessel_at) *
+         inverse / (1 - lanes::quick_exp(-2 * inverse));
 }
 
 // The logistic distribution about 0, cut at ±π.
 double logistic(double x, double scale) {
-  const double e = quick_exp(-std::abs(x) / scale), end = quick_exp(-pi / scale);
+  const double e = lanes::quick_exp(-std::abs(x) / scale), end = lanes::quick_exp(-pi / scale);
   return e * (1 + end) / (scale * (1 + e) * (1 + e) * (1 - end));
 }
 double sample_logistic(double u, double scale) {
-  const double end = quick_exp(-pi / scale), below = end / (1 + end);  // of what is cut off
+  const double end = lanes::quick_exp(-pi / scale), below = end / (1 + end);  // of what is cut off
   const double y = std::clamp(below + u * (1 - 2 * below), 1e-12, 1 - 1e-12);
-  return std::clamp(scale * quick_log(y / (1 - y)), -pi, pi);
+  return std::clamp(scale * lanes::quick_log(y / (1 - y)), -pi, pi);
 }
 
 double wrapped(double angle) { return angle - 2 * pi * std::nearbyint(angle / (2 * pi)); }
@@ -148,10 +148,10 @@ BsdfValue eval(const HairBsdf& bsdf, const Fibre& fibre, Vector3d in) {
 double scaled_bessel_i0(double x) {  // Abramowitz & Stegun 1964, 9.8.1 and 9.8.2
   const double t = x / 3.75;
   if (t < 1)
-    return quick_exp(-x) *
-           polynomial(t * t, 1, 3.5156229, 3.0899424, 1.2067492, 0.2659732, 0.0360768, 0.0045813);
-  return polynomial(1 / t, 0.39894228, 0.01328592, 0.00225319, -0.00157565, 0.00916281, -0.02057706,
-                    0.02635537, -0.01647633, 0.00392377) /
+    return lanes::quick_exp(-x) *
+           lanes::polynomial(t * t, 1, 3.5156229, 3.0899424, 1.2067492, 0.2659732, 0.0360768, 0.0045813);
+  return lanes::polynomial(1 / t, 0.39894228, 0.01328592, 0.00225319, -0.00157565, 0.00916281, -0.02057706,
+                           0.02635537, -0.01647633, 0.00392377) /
          std::sqrt(x);
 }
 
@@ -175,7 +175,7 @@ SampledSpectrum hair_absorption(const SampledSpectrum& color, double beta_n) {
   SampledSpectrum sigma_a;
   for (std::size_t i = 0; i < hero_count; ++i) {
     const double c = std::clamp(static_cast<double>(color.v[i]), 1e-30, 1.0);
-    const double root = quick_log(c) / scale;
+    const double root = lanes::quick_log(c) / scale;
     sigma_a.v[i] = static_cast<float>(root * root);
   }
   return sigma_a;
@@ -199,9 +199,9 @@ std::optional<BsdfSample> sample(const HairBsdf& bsdf, Vector3d out, float u_lob
   // θ about −θ_out (d'Eon, Marschner & Hanika, "Importance Sampling for Physically-Based Hair Fiber Models",
   // 2013).
   const double x = 1 - static_cast<double>(u.x);  // above 0
-  const double cosine =
-      std::max(1 + lobe.variance * quick_log(x + (1 - x) * quick_exp(-2 / lobe.variance)), -1.0);
-  const double sine = safe_sqrt(1 - cosine * cosine) * quick_circle(static_cast<double>(u.y)).first;
+  const double cosine = std::max(
+      1 + lobe.variance * lanes::quick_log(x + (1 - x) * lanes::quick_exp(-2 / lobe.variance)), -1.0);
+  const double sine = safe_sqrt(1 - cosine * cosine) * lanes::quick_circle(static_cast<double>(u.y)).cosine;
   const double sin_theta = std::clamp(sine * lobe.theta.cos - cosine * lobe.theta.sin, -1.0, 1.0);
   const double cos_theta = safe_sqrt(1 - sin_theta * sin_theta);
   const double phi = fibre.phi_out + (p + 1 < lobe_count ? lobe.turn + sample_logistic(azimuth, bsdf.spread)

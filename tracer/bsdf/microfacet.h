@@ -51,7 +51,4 @@ double visible_normal_pdf(const Microfacets& microfacets, Vector3d v, Vector3d m
 // `out` mirrored by a facet of normal m.
 inline Vector3d mirror(Vector3d out, Vector3d m) { return m * (2 * dot(out, m)) - out; }
 
-// x with erf x = y for |y| < 1, to 2e-7 of its value (Giles 2012).
-double inverse_erf(double y);
-
 }  // namespace vitrail

@@ -2,8 +2,8 @@
 // Codes of directions (tracer/rays/direction.h) and of normals (bundle/domain_file.h) in lanes.
 #pragma once
 
-#include "tracer/lanes/vectors.h"
 #include "tracer/rays/direction.h"
+#include "tracer/simd/vectors.h"
 
 namespace vitrail::lanes {
 namespace {

@@ -4,8 +4,8 @@
 // caller. Directional lights, parts and quadrics are left to sample_light.
 #pragma once
 
-#include "tracer/lanes/vectors.h"
 #include "tracer/lights/light_sampler.h"
+#include "tracer/simd/vectors.h"
 
 namespace vitrail::lanes {
 namespace {

@@ -3,70 +3,11 @@
 // by side, and no branch lies between the points.
 #pragma once
 
-#include "tracer/lanes/vectors.h"
-#include "tracer/lights/light_tree.h"
+#include "tracer/lights/light_weights_lanes.h"
+#include "tracer/simd/vectors.h"
 
 namespace vitrail::lanes {
 namespace {
-
-// What a node's children can send to a point.
-struct alignas(64) NodeWeights {
-  Floats<8> child;
-  Floats<8> alike;  // > 0: the lights of the child are alike
-  double up_to[8];  // sums of the children's weights up to each
-};
-
-namespace detail {
-
-VITRAIL_LANES Floats<8> load(const LightNode::Lanes& x) { return std::bit_cast<Floats<8>>(x); }
-VITRAIL_LANES Words<8> load(const LightNode::Pairs& x) { return std::bit_cast<Words<8>>(x); }
-VITRAIL_LANES Floats<8> lower_integer(Words<8> pair) {
-  return to_floats(cast_bits<std::int32_t>(pair << 16) >> 16);
-}
-VITRAIL_LANES Floats<8> upper_integer(Words<8> pair) {
-  return to_floats(cast_bits<std::int32_t>(pair) >> 16);
-}
-
-// The operations of light_tree.cpp's weigh, in its order.
-VITRAIL_LANES void weigh(const LightNode& node, Point3f p, NodeWeights& result) {
-  using F = Floats<8>;
-  constexpr float of_unit = 1 / LightNode::unit, least_distance2 = LightNode::least_distance2;
-  const auto larger = [](F a, F b) __attribute__((always_inline)) { return select<F>(a > b, a, b); };
-  const auto one = fill<F>(1), zero = fill<F>(0);
-  const F x = p.x - load(node.center_x), y = p.y - load(node.center_y), z = p.z - load(node.center_z);
-  const F d2 = larger(x * x + y * y + z * z, fill<F>(least_distance2));
-  const F inverse_d = 1.0f / lanes::sqrt(d2), scale = inverse_d * of_unit;
-  const Words<8> axis_xy = load(node.axis_xy), axis_z_cos_o = load(node.axis_z_cos_o),
-                 radius2_power = load(node.radius2_power);
-  const F along =
-      (x * lower_integer(axis_xy) + y * upper_integer(axis_xy) + z * lower_integer(axis_z_cos_o)) * scale;
-  const F signed_radius2 = cast_bits<float>(radius2_power << 16),
-          power = cast_bits<float>(radius2_power & 0xffff0000u);
-  const F radius2 = abs(signed_radius2);
-  const F turned = select<F>(signed_radius2 < 0, -along, along);
-  const F cosine = larger(along, turned);
-  const F sine = lanes::sqrt(larger(zero, 1.0f - cosine * cosine));
-  const F share = radius2 * inverse_d * inverse_d, sin2_u = select<F>(one < share, one, share);
-  const F sin_u = lanes::sqrt(sin2_u), cos_u = lanes::sqrt(1.0f - sin2_u);
-  const F cos_o = upper_integer(axis_z_cos_o) * of_unit;
-  const F sin_o = lanes::sqrt(larger(zero, 1.0f - cos_o * cos_o));
-
-  const F cos_beyond_o = cosine * cos_o + sine * sin_o;
-  const F sin_beyond_o = sine * cos_o - cosine * sin_o;
-  const F cos1 = select<F>(cosine >= cos_o, one, cos_beyond_o);
-  const F sin1 = select<F>(cosine >= cos_o, zero, sin_beyond_o);
-  const F cos_beyond_u = cos1 * cos_u + sin1 * sin_u;
-  const F cos_outside = select<F>(cos1 >= cos_u, one, cos_beyond_u);
-  const F cos2 = select<F>(radius2 >= d2, one, cos_outside);
-  const F cos_e = select<F>(power < 0, fill<F>(1 - 1e-4f), zero);
-  const F reached = select<F>(cos2 > cos_e, cos2, zero);
-  result.child = abs(power) * reached / larger(d2, radius2);
-  result.alike = cosine - LightNode::alike_ratio * (sin_u + sin_o);
-  double sum = 0;
-  for (int i = 0; i < 8; ++i) result.up_to[i] = sum += static_cast<double>(result.child[i]);
-}
-
-}  // namespace detail
 
 // Of each lane that chose a light: LightTree::Chosen.
 template <int W>
@@ -80,7 +21,7 @@ struct ChosenLights {
 // where a call for the same points has left it there.
 template <class D>
 VITRAIL_LANES void choose_lights(const LightTree& tree, Vector<D> p, D u, Mask<D> wanted,
-                                 NodeWeights (&root)[width<D>], bool root_known,
+                                 LightWeights (&root)[width<D>], bool root_known,
                                  ChosenLights<width<D>>& chosen) {
   constexpr int W = width<D>;
   constexpr double below_one = 0x1.fffffffffffffp-1;
@@ -116,15 +57,15 @@ VITRAIL_LANES void choose_lights(const LightTree& tree, Vector<D> p, D u, Mask<D
                       z = coordinate(p.z, tree.center().z);
   for (int j = 0; j < W; ++j) at[j] = {lane(x, j), lane(y, j), lane(z, j)};
 
-  NodeWeights below[W];
+  LightWeights below[W];
   for (bool first = true; open != 0; first = false) {
-    NodeWeights* const weights = first ? root : below;
+    LightWeights* const weights = first ? root : below;
     if (!first || !root_known)
-      for (int j = 0; j < W; ++j) detail::weigh(*node[j], at[j], weights[j]);
+      for (int j = 0; j < W; ++j) lanes::weigh(*node[j], at[j], weights[j]);
     double target[W];
     std::uint32_t child[W];
     for (int j = 0; j < W; ++j) {
-      const NodeWeights& w = weights[j];
+      const LightWeights& w = weights[j];
       target[j] = rest[j] * w.up_to[7];
       child[j] = 0;
       for (int i = 0; i < 7; ++i) child[j] += target[j] >= w.up_to[i];
@@ -132,7 +73,7 @@ VITRAIL_LANES void choose_lights(const LightTree& tree, Vector<D> p, D u, Mask<D
     for (int j = 0; j < W; ++j) {
       if (!(open >> j & 1)) continue;
       open &= ~(1u << j);
-      const NodeWeights& w = weights[j];
+      const LightWeights& w = weights[j];
       const double total = w.up_to[7];
       if (!(total > 0)) continue;
       std::uint32_t i = child[j];

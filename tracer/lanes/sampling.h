@@ -6,18 +6,10 @@
 #include "tracer/sampling/candidate_numbers.h"
 #include "tracer/sampling/sampler.h"
 #include "tracer/sampling/sobol_tables.h"
-#include "tracer/simd/lanes.h"
+#include "tracer/simd/vectors.h"
 
 namespace vitrail::lanes {
 namespace {
-
-// Four values a path: random numbers, or values at its wavelengths.
-template <class F>
-struct Four {
-  F v[4];
-  VITRAIL_LANES F& operator[](int i) { return v[i]; }
-  VITRAIL_LANES const F& operator[](int i) const { return v[i]; }
-};
 
 inline constexpr std::uint64_t golden = 0x9e3779b97f4a7c15ull;
 

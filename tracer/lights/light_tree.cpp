@@ -2,82 +2,11 @@
 #include "tracer/lights/light_tree.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 namespace vitrail {
 
 namespace {
-
-// By value and without branches, so that the compiler can take the lanes side by side.
-float larger(float a, float b) { return a > b ? a : b; }
-float smaller(float a, float b) { return a < b ? a : b; }
-
-float lower_integer(std::uint32_t pair) {
-  return static_cast<float>(static_cast<std::int32_t>(pair << 16) >> 16);
-}
-float upper_integer(std::uint32_t pair) { return static_cast<float>(static_cast<std::int32_t>(pair) >> 16); }
-float lower_float(std::uint32_t pair) { return std::bit_cast<float>(pair << 16); }
-float upper_float(std::uint32_t pair) { return std::bit_cast<float>(pair & 0xffff0000u); }
-
-// Power · cos θ′ / d², θ′ = θ − θ_o − θ_u the least angle between a normal of the child and the direction to
-// p, θ_u the half angle of its sphere from p; 0 where θ′ ≥ θ_e. All angles by cosines and sines.
-[[gnu::always_inline]] inline void weigh_lanes(const LightNode& __restrict node, Point3f p,
-                                               LightWeights& __restrict result) {
-  constexpr float of_unit = 1 / LightNode::unit;
-  for (std::size_t i = 0; i < LightNode::width; ++i) {
-    const float x = p.x - node.center_x[i], y = p.y - node.center_y[i], z = p.z - node.center_z[i];
-    const float d2 = larger(x * x + y * y + z * z, LightNode::least_distance2);
-    const float inverse_d = 1 / std::sqrt(d2);
-    const float scale = inverse_d * of_unit;
-    const float along = (x * lower_integer(node.axis_xy[i]) + y * upper_integer(node.axis_xy[i]) +
-                         z * lower_integer(node.axis_z_cos_o[i])) *
-                        scale;
-    const float signed_radius2 = lower_float(node.radius2_power[i]),
-                power = upper_float(node.radius2_power[i]);
-    const float radius2 = std::abs(signed_radius2);
-    const float turned = signed_radius2 < 0 ? -along : along;
-    const float cosine = larger(along, turned);
-    const float sine = std::sqrt(larger(0, 1 - cosine * cosine));
-    const float sin2_u = smaller(1, radius2 * inverse_d * inverse_d);
-    const float sin_u = std::sqrt(sin2_u), cos_u = std::sqrt(1 - sin2_u);
-    const float cos_o = upper_integer(node.axis_z_cos_o[i]) * of_unit;
-    const float sin_o = std::sqrt(larger(0, 1 - cos_o * cos_o));
-
-    const float cos_beyond_o = cosine * cos_o + sine * sin_o;
-    const float sin_beyond_o = sine * cos_o - cosine * sin_o;
-    const float cos1 = cosine >= cos_o ? 1.0f : cos_beyond_o;
-    const float sin1 = cosine >= cos_o ? 0.0f : sin_beyond_o;
-    const float cos_beyond_u = cos1 * cos_u + sin1 * sin_u;
-    const float cos_outside = cos1 >= cos_u ? 1.0f : cos_beyond_u;
-    const float cos2 = radius2 >= d2 ? 1.0f : cos_outside;
-    const float cos_e = power < 0 ? 1 - 1e-4f : 0.0f;
-    const float reached = cos2 > cos_e ? cos2 : 0.0f;
-    result.lane[i] = std::abs(power) * reached / larger(d2, radius2);
-    result.alike[i] = cosine - LightNode::alike_ratio * (sin_u + sin_o);
-  }
-}
-
-void weigh_portable(const LightNode& __restrict node, Point3f p, LightWeights& __restrict result) {
-  weigh_lanes(node, p, result);
-}
-
-// Eight lanes at once; the same bits.
-#if defined(__x86_64__)
-[[gnu::target("avx2")]] void weigh_avx2(const LightNode& __restrict node, Point3f p,
-                                        LightWeights& __restrict result) {
-  weigh_lanes(node, p, result);
-}
-const auto weigh = __builtin_cpu_supports("avx2") ? weigh_avx2 : weigh_portable;
-#else
-constexpr auto weigh = weigh_portable;
-#endif
-
-void set_sums(LightWeights& weights) {
-  double sum = 0;
-  for (std::size_t i = 0; i < LightNode::width; ++i)
-    weights.sums[i] = sum += static_cast<double>(weights.lane[i]);
-}
 
 bool are_alike(const LightNode& node, const LightWeights& weights, std::size_t lane) {
   return (node.below[lane] & LightNode::alike) != 0 && weights.alike[lane] > 0;
@@ -106,14 +35,14 @@ std::optional<LightTree::Chosen> LightTree::choose_from_root(double u, const Wei
   for (std::size_t n = 0;;) {
     const LightNode& node = nodes_[n];
     const LightWeights& weights = weights_of(n);
-    const double total = weights.sums.back();
+    const double total = weights.up_to[LightNode::width - 1];
     if (!(total > 0)) return std::nullopt;
     const double target = u * total;
     std::size_t lane = 0;
-    for (std::size_t i = 0; i + 1 < LightNode::width; ++i) lane += target >= weights.sums[i];
-    while (!(weights.lane[lane] > 0)) --lane;  // by rounding, behind the last
-    const auto w = static_cast<double>(weights.lane[lane]);
-    u = std::min((target - (lane > 0 ? weights.sums[lane - 1] : 0)) / w, below_one);
+    for (std::size_t i = 0; i + 1 < LightNode::width; ++i) lane += target >= weights.up_to[i];
+    while (!(weights.child[lane] > 0)) --lane;  // by rounding, behind the last
+    const auto w = static_cast<double>(weights.child[lane]);
+    u = std::min((target - (lane > 0 ? weights.up_to[lane - 1] : 0)) / w, below_one);
     probability *= w / total;
     const Slots slots{node.first[lane], node.first[lane + 1]};
     if (slots.end - slots.begin == 1) return Chosen{slots.begin, probability, u};
@@ -131,7 +60,6 @@ std::optional<LightTree::Chosen> LightTree::choose(Point3d p, double u) const {
   LightWeights weights;
   return choose_from_root(u, [&](std::size_t n) -> const LightWeights& {
     weigh(nodes_[n], at, weights);
-    set_sums(weights);
     return weights;
   });
 }
@@ -143,7 +71,6 @@ std::optional<LightTree::Chosen> LightTree::Point::choose(double u) {
       kept_[place] = static_cast<std::uint32_t>(n);
       if (n == 0) local_ = tree_.local(p_);
       weigh(tree_.nodes_[n], local_, weights_[place]);
-      set_sums(weights_[place]);
     }
     return weights_[place];
   });
@@ -159,12 +86,11 @@ double LightTree::probability(Point3d p, std::uint32_t light) const {
     const LightNode& node = nodes_[n];
     LightWeights weights;
     weigh(node, at, weights);
-    set_sums(weights);
-    const double total = weights.sums.back();
+    const double total = weights.up_to[LightNode::width - 1];
     if (!(total > 0)) return 0;
     std::size_t lane = 0;
     for (std::size_t i = 1; i < LightNode::width; ++i) lane += slot >= node.first[i];
-    probability *= static_cast<double>(weights.lane[lane]) / total;
+    probability *= static_cast<double>(weights.child[lane]) / total;
     const Slots slots{node.first[lane], node.first[lane + 1]};
     if (slots.end - slots.begin == 1) return probability;
     if (are_alike(node, weights, lane)) return probability * share_of_power(slots, slot);

@@ -51,10 +51,12 @@ static_assert(sizeof(LightNode) == 256);
 
 // What the children of a node can send to one point.
 struct LightWeights {
-  LightNode::Lanes lane;
-  LightNode::Lanes alike;                     // > 0: the lights of the child are alike
-  std::array<double, LightNode::width> sums;  // of a child and those before it
+  alignas(64) float child[LightNode::width];
+  float alike[LightNode::width];   // > 0: the lights of the child are alike
+  double up_to[LightNode::width];  // of a child and those before it
 };
+// p in the tree's coordinates.
+void weigh(const LightNode& node, Point3f p, LightWeights& result);
 
 // From the root down by what each child can send to the point, as far as the lights of a child are alike for
 // it: they are far away for their extent, turned to it, and none has less than 1e-12 of all power. Of these

@@ -14,7 +14,7 @@ struct Candidate {
 
 // Which of the lights of the tree, and where on it. `root`: what choose_lights keeps.
 struct TreeRoot {
-  NodeWeights weights[W];
+  LightWeights weights[W];
   bool is_known = false;
 };
 

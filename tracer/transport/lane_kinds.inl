@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of lane_stages.inl: how each kind reads its parameters. `eval` and `sample` are those of
-// lanes/glossy.h.
+// tracer/bsdf/*_lanes.h.
 
 VITRAIL_LANES Four<F> spectrum_of(const LaneWork& work, const Group& g,
                                   SampledSpectrum LaneBsdf::*parameter) {
@@ -9,20 +9,8 @@ VITRAIL_LANES Four<F> spectrum_of(const LaneWork& work, const Group& g,
   return s;
 }
 
-struct Lambert {
-  Four<F> reflectance;
-};
-VITRAIL_LANES BsdfValue<D> eval(const Lambert& bsdf, Vector<D> out, Vector<D> in) {
-  const D density = in.z / pi;
-  const F scale = to_floats(density);
-  BsdfValue<D> f{bsdf.reflectance, density};
-  for (int i = 0; i < 4; ++i) f.value[i] = f.value[i] * scale;
-  return detail::where<D>((out.z > 0) & (in.z > 0), f);
-}
-VITRAIL_LANES BsdfSample<D> sample(const Lambert& bsdf, Vector<D> out, F, F u_x, F u_y) {
-  const Vector<D> in = sample_cosine_hemisphere(u_x, u_y);
-  const Mask<D> scatters = (out.z > 0) & (in.z > 0);
-  return {scatters, in, bsdf.reflectance, in.z / pi, Mask<D>{}};
+VITRAIL_LANES BsdfSample<D> sample(const Lambert<D>& bsdf, Vector<D> out, F, F u_x, F u_y) {
+  return sample(bsdf, out, u_x, u_y);
 }
 VITRAIL_LANES BsdfSample<D> sample(const Conductor<D>& bsdf, Vector<D> out, F, F u_x, F u_y) {
   return sample(bsdf, out, u_x, u_y);
@@ -30,8 +18,8 @@ VITRAIL_LANES BsdfSample<D> sample(const Conductor<D>& bsdf, Vector<D> out, F, F
 
 struct ReadLambert {
   static constexpr bool is_specular = false;
-  VITRAIL_LANES static Lambert read(const LaneWork& work, const Group& g) {
-    Lambert bsdf;
+  VITRAIL_LANES static Lambert<D> read(const LaneWork& work, const Group& g) {
+    Lambert<D> bsdf;
     const D c0 = to_doubles(gather<F>(VITRAIL_EACH(g.surface[j]->sigmoid.c0))),
             c1 = to_doubles(gather<F>(VITRAIL_EACH(g.surface[j]->sigmoid.c1))),
             c2 = to_doubles(gather<F>(VITRAIL_EACH(g.surface[j]->sigmoid.c2)));

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tracer/lanes/glossy.h"
+#include "tracer/bsdf/conductor_lanes.h"
+#include "tracer/bsdf/diffuse_lanes.h"
+#include "tracer/bsdf/plastic_lanes.h"
 #include "tracer/lanes/interaction.h"
 #include "tracer/lanes/lamps.h"
 #include "tracer/lanes/light_tree.h"
 #include "tracer/lanes/rays.h"
-#include "tracer/lanes/scattering.h"
 #include "tracer/lanes/spectra.h"
 #include "tracer/transport/lane_stages.h"
 

@@ -5,9 +5,10 @@
 #include "tests/tracer/lanes/glossy_functions.h"
 #include "tests/tracer/lanes/lane_table.h"
 #include "tests/tracer/lanes/stage_functions.h"
+#include "tracer/bsdf/fresnel_lanes.h"
+#include "tracer/bsdf/local_lanes.h"
 #include "tracer/lanes/codes.h"
 #include "tracer/lanes/directions.h"
-#include "tracer/lanes/scattering.h"
 
 namespace vitrail::lane_tests {
 namespace {

@@ -4,7 +4,8 @@
 
 #include "tests/tracer/lanes/context.h"
 #include "tests/tracer/lanes/lane_table.h"
-#include "tracer/lanes/glossy.h"
+#include "tracer/bsdf/conductor_lanes.h"
+#include "tracer/bsdf/plastic_lanes.h"
 
 namespace vitrail::lane_tests {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "tests/tracer/lanes/lane_functions.h"
 #include "tracer/lanes/sampling.h"
-#include "tracer/lanes/vectors.h"
+#include "tracer/simd/vectors.h"
 
 namespace vitrail::lane_tests {
 namespace {

@@ -4,7 +4,7 @@
 #include "tests/tracer/lanes/scalar_functions.h"
 #include "tracer/bsdf/conductor.h"
 #include "tracer/bsdf/plastic.h"
-#include "tracer/bsdf/quick_math.h"
+#include "tracer/simd/quick_math.h"
 
 namespace vitrail::lane_tests {
 
@@ -68,9 +68,9 @@ std::vector<ScalarFunction> glossy_functions() {
       {"quick_math",
        {number(-720, 700, {-700, 0, -0.0, 1}), magnitude(-100, 100, {1, 0.5, 2, 0x1p-1022}), unit_number()},
        [](const Context&, const double* in, double* out) {
-         const auto [cosine, sine] = quick_circle(in[2]);
-         Results{out} << quick_exp(in[0]) << quick_log(in[1]) << quick_erf(in[1], in[2]) << cosine << sine
-                      << inverse_erf(2 * in[2] - 1);
+         const auto [cosine, sine] = lanes::quick_circle(in[2]);
+         Results{out} << lanes::quick_exp(in[0]) << lanes::quick_log(in[1]) << lanes::quick_erf(in[1], in[2])
+                      << cosine << sine << lanes::inverse_erf(2 * in[2] - 1);
        }},
       {"microfacets", microfacets,
        [](const Context&, const double* in, double* out) {

@@ -60,7 +60,7 @@ LANE_FUNCTION(depart, 12, 14) {
 template <int W>
 VITRAIL_LANES void put_chosen(const LightTree& tree, const In<W>& in, Out<W>& out) {
   using D = lanes::Doubles<W>;
-  lanes::NodeWeights root[W];
+  LightWeights root[W];
   for (int again = 0; again < 2; ++again) {
     lanes::ChosenLights<W> chosen;
     lanes::choose_lights<D>(tree, in.vector(0), in.d(3 + again), in.d(5) > 0, root, again > 0, chosen);

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Points and directions of W paths, each coordinate in lanes, with the operations of scene/geometry/vec.h.
+// Points, directions and spectra of W paths, each coordinate in lanes, with the operations of
+// scene/geometry/vec.h.
 #pragma once
 
 #include "scene/geometry/vec.h"
+#include "scene/spectra/sampled_spectrum.h"
 #include "tracer/simd/lanes.h"
 
 namespace vitrail::lanes {
@@ -69,6 +71,24 @@ VITRAIL_LANES Vector<D> normalize(Vector<D> v) {
   const D l = length(v);
   const Mask<D> usable = (l > 0) & (l <= std::numeric_limits<double>::max());
   return select<D>(usable, v * (1.0 / l), v);
+}
+
+// Four values a path: random numbers, or values at its wavelengths.
+template <class F>
+struct Four {
+  F v[4];
+  VITRAIL_LANES F& operator[](int i) { return v[i]; }
+  VITRAIL_LANES const F& operator[](int i) const { return v[i]; }
+};
+// The same in all lanes.
+template <class F>
+VITRAIL_LANES Four<F> fill(const SampledSpectrum& s) {
+  return {{fill<F>(s.v[0]), fill<F>(s.v[1]), fill<F>(s.v[2]), fill<F>(s.v[3])}};
+}
+// Of a lane.
+template <class F>
+VITRAIL_LANES SampledSpectrum lane(const Four<F>& s, int j) {
+  return {{lane(s[0], j), lane(s[1], j), lane(s[2], j), lane(s[3], j)}};
 }
 
 // As ShadingFrame.

@@ -1,103 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rough conductors and Mitsuba's plastics in lanes: tracer/bsdf/conductor.h and plastic.h.
+// What plastic.h declares, for any number of lanes.
 #pragma once
 
+#include "tracer/bsdf/bsdf_lanes.h"
+#include "tracer/bsdf/local_lanes.h"
+#include "tracer/bsdf/microfacet_lanes.h"
 #include "tracer/bsdf/plastic.h"
-#include "tracer/lanes/microfacets.h"
-#include "tracer/lanes/sampling.h"
-#include "tracer/lanes/scattering.h"
 
 namespace vitrail::lanes {
 namespace {
-
-// vitrail::BsdfValue; both 0 where nothing is scattered.
-template <class D>
-struct BsdfValue {
-  Four<FloatsLike<D>> value;
-  D pdf;
-};
-
-// vitrail::BsdfSample, where `scatters`.
-template <class D>
-struct BsdfSample {
-  Mask<D> scatters;
-  Vector<D> in;
-  Four<FloatsLike<D>> weight;
-  D pdf;
-  Mask<D> specular;
-};
-
-namespace detail {
-
-template <class D>
-VITRAIL_LANES BsdfValue<D> where(Mask<D> mask, BsdfValue<D> f) {
-  using F = FloatsLike<D>;
-  const Mask<F> narrow = mask_for<F>(mask);
-  for (int i = 0; i < 4; ++i) f.value[i] = select<F>(narrow, f.value[i], fill<F>(0));
-  f.pdf = select<D>(mask, f.pdf, fill<D>(0));
-  return f;
-}
-
-template <class D>
-VITRAIL_LANES D mean(const Four<FloatsLike<D>>& s) {
-  return (((fill<D>(0) + to_doubles(s[0])) + to_doubles(s[1])) + to_doubles(s[2]) + to_doubles(s[3])) / 4.0;
-}
-
-}  // namespace detail
-
-// vitrail::ConductorBsdf that is rough, or, to sample_mirror, smooth.
-template <class D>
-struct Conductor {
-  Microfacets<D> microfacets;
-  Four<FloatsLike<D>> eta, k, factor;
-  Mask<D> perfect;
-};
-
-template <class D>
-VITRAIL_LANES Four<FloatsLike<D>> reflectance(const Conductor<D>& bsdf, D cosine) {
-  using F = FloatsLike<D>;
-  Four<F> result = bsdf.factor;
-  if (all(bsdf.perfect)) return result;
-  const D c = lanes::min(cosine, fill<D>(1));
-  const Mask<F> perfect = mask_for<F>(bsdf.perfect);
-  for (int i = 0; i < 4; ++i) {
-    const F metal = to_floats(fresnel_conductor<D>(c, to_doubles(bsdf.eta[i]), to_doubles(bsdf.k[i])));
-    result[i] = select<F>(perfect, result[i], result[i] * metal);
-  }
-  return result;
-}
-
-template <class D>
-VITRAIL_LANES BsdfValue<D> eval(const Conductor<D>& bsdf, Vector<D> out, Vector<D> in) {
-  const Vector<D> m = normalize(out + in);
-  const D facets = normal_density(bsdf.microfacets, m), area = visible_area(bsdf.microfacets, out);
-  const D value = facets * shadowing_over_cosines(bsdf.microfacets, out, area, in) * in.z / 4.0;
-  BsdfValue<D> f{reflectance(bsdf, dot(out, m)), facets / (4.0 * area)};
-  for (int i = 0; i < 4; ++i) f.value[i] = f.value[i] * to_floats(value);
-  return detail::where<D>((out.z > 0) & (in.z > 0) & (facets > 0), f);
-}
-
-template <class D>
-VITRAIL_LANES BsdfSample<D> sample(const Conductor<D>& bsdf, Vector<D> out, FloatsLike<D> u_x,
-                                   FloatsLike<D> u_y) {
-  const Microfacets<D>& mf = bsdf.microfacets;
-  BsdfSample<D> s;
-  const Vector<D> m = sample_visible_normal(mf, out, u_x, u_y);
-  s.in = mirror(out, m);
-  const D area = visible_area(mf, out), out_m = dot(out, m);
-  s.pdf = normal_density(mf, m) / (4.0 * area);
-  const D seen = shadowing_over_cosines(mf, out, area, s.in) * s.in.z * area;
-  s.weight = reflectance(bsdf, out_m);
-  for (int i = 0; i < 4; ++i) s.weight[i] = s.weight[i] * to_floats(seen);
-  s.scatters = (out.z > 0) & (s.in.z > 0) & (out_m > 0) & (s.pdf > 0);
-  s.specular = Mask<D>{};
-  return s;
-}
-
-template <class D>
-VITRAIL_LANES BsdfSample<D> sample_mirror(const Conductor<D>& bsdf, Vector<D> out) {
-  return {out.z > 0, {-out.x, -out.y, out.z}, reflectance(bsdf, out.z), fill<D>(0), out.z > 0};
-}
 
 // What vitrail::PlasticBsdf and RoughPlasticBsdf share.
 template <class D>
@@ -118,6 +29,11 @@ struct RoughPlastic {
 namespace detail {
 
 template <class D>
+VITRAIL_LANES D mean(const Four<FloatsLike<D>>& s) {
+  return (((fill<D>(0) + to_doubles(s[0])) + to_doubles(s[1])) + to_doubles(s[2]) + to_doubles(s[3])) / 4.0;
+}
+
+template <class D>
 VITRAIL_LANES D transmittance(const Plastic<D>& bsdf, D cosine) {
   return 1.0 - fresnel_dielectric<D>(lanes::min(cosine, fill<D>(1)), bsdf.eta);
 }
@@ -136,12 +52,14 @@ VITRAIL_LANES D transmittance(const RoughPlastic<D, TableOf>& bsdf, D cosine) {
   return here + (x - to_doubles(i)) * (value(1) - here);
 }
 
+// Of sampling the coat's reflection rather than the base, where it reflects `reflectance` (Mitsuba's choice).
 template <class D>
 VITRAIL_LANES D specular_probability(const Plastic<D>& bsdf, D reflectance) {
   const D s = reflectance * mean<D>(bsdf.specular), d = (1.0 - reflectance) * mean<D>(bsdf.diffuse);
   return select<D>(s + d > 0, attainable(s / (s + d)), fill<D>(1));
 }
 
+// f/(T(out)·T(in)) of the base, times π.
 template <class D>
 VITRAIL_LANES Four<FloatsLike<D>> base(const Plastic<D>& bsdf) {
   using F = FloatsLike<D>;

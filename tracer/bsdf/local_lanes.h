@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// tracer/bsdf/local.h and fresnel.h in lanes.
+// What local.h declares, for any number of lanes.
 #pragma once
 
 #include "scene/geometry/portable_math.h"
-#include "tracer/lanes/vectors.h"
+#include "tracer/simd/vectors.h"
 
 namespace vitrail::lanes {
 namespace {
 
 namespace detail {
 
+// portable_math.h's.
 template <class D>
 VITRAIL_LANES D sin_small(D x) {
   const D x2 = x * x;
@@ -56,6 +57,7 @@ VITRAIL_LANES D fresnel_dielectric(D cosine, D eta) {
   const D s = (cosine - eta * transmitted) / (cosine + eta * transmitted);
   const D p = (eta * cosine - transmitted) / (eta * cosine + transmitted);
   const D partial = select<D>(sin2_transmitted >= 1, fill<D>(1), (s * s + p * p) / 2.0);
+  // Also at grazing incidence, where both cosines vanish.
   return select<D>(eta == 1, fill<D>(0), partial);
 }
 
@@ -67,22 +69,6 @@ VITRAIL_LANES Mask<D> refract(Vector<D> out, Vector<D> normal, D eta, Vector<D>&
   const D transmitted = safe_sqrt(1.0 - sin2_transmitted);
   refracted = normalize(out * (-1.0 / eta) + normal * (cosine / eta - transmitted));
   return no(sin2_transmitted >= 1);
-}
-
-// At one wavelength.
-template <class D>
-VITRAIL_LANES D fresnel_conductor(D cosine, D eta, D k) {
-  const D cos2 = cosine * cosine, sin2 = 1.0 - cos2;
-  const D real = eta * eta - k * k - sin2, imaginary = 2.0 * eta * k;
-  const D modulus = lanes::sqrt(real * real + imaginary * imaginary);
-  const D a = safe_sqrt((modulus + real) / 2.0);
-  const D s_sum = modulus + cos2, s_difference = 2.0 * a * cosine;
-  const D p_sum = modulus * cos2 + sin2 * sin2, p_difference = s_difference * sin2;
-  const D s = (s_sum - s_difference) / (s_sum + s_difference);
-  const D p_over_s =
-      select<D>(p_sum + p_difference > 0, (p_sum - p_difference) / (p_sum + p_difference), fill<D>(1));
-  return select<D>(s_sum + s_difference > 0, lanes::clamp<D>(s * (1.0 + p_over_s) / 2.0, 0.0, 1.0),
-                   fill<D>(1));
 }
 
 }  // namespace

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// tracer/bsdf/microfacet.h in lanes. Distributions and maskings may differ from lane to lane.
+// What microfacet.h declares, for any number of lanes. Distributions and maskings may differ from lane to
+// lane.
 #pragma once
 
 #include "scene/geometry/portable_math.h"
 #include "tracer/bsdf/microfacet.h"
-#include "tracer/lanes/quick_math.h"
-#include "tracer/lanes/vectors.h"
+#include "tracer/simd/quick_math.h"
+#include "tracer/simd/vectors.h"
 
 namespace vitrail::lanes {
 namespace {
@@ -30,14 +31,22 @@ VITRAIL_LANES Microfacets<D> gather_microfacets(const Get& get) {
           })};
 }
 
+// In one lane.
+VITRAIL_LANES Microfacets<double> fill(const vitrail::Microfacets& mf) {
+  return gather_microfacets<double>([&](int) -> const vitrail::Microfacets& { return mf; });
+}
+
 namespace detail {
 
 inline constexpr double sqrt_pi = 1.77245385090551602730;
 
+// Beckmann's σ from v.z = z and the length s of v's horizontal part stretched by α (Walter et al. 2007,
+// Eq. 26's exact form; Heitz 2014, Eq. 66).
 template <class D>
 VITRAIL_LANES D beckmann_area(D z, D s) {
   const D a = abs(z) / s, gauss = quick_exp<D>(-a * a), erf = quick_erf(a, gauss);
   const D grazing = (z * (1.0 + select<D>(z < 0, -erf, erf)) + s / sqrt_pi * gauss) / 2.0;
+  // 1 − erf 6 < 3e-17; s may be 0 there, and only there.
   return select<D>(abs(z) >= 6.0 * s, lanes::max(z, fill<D>(0)), grazing);
 }
 
@@ -52,35 +61,23 @@ VITRAIL_LANES Vector<D> sample_ggx(const Microfacets<D>& mf, Vector<D> v, D u_x,
   const Circle<D> circle = quick_circle(u_x);
   const D z = (1.0 - u_y) * (1.0 + w.z) - w.z;
   const D s = safe_sqrt(1.0 - z * z);
+  // Its z is (1 − u_y)·(1 + w.z) > 0.
   const Vector<D> h = w + Vector<D>{s * circle.cosine, s * circle.sine, z};
   return normalize(Vector<D>{mf.alpha_u * h.x, mf.alpha_v * h.y, h.z});
 }
 
-}  // namespace detail
-
-template <class D>
-VITRAIL_LANES D inverse_erf(D y) {
-  const D w = -quick_log(lanes::max((1.0 - y) * (1.0 + y), fill<D>(1e-15)));
-  const D middle = polynomial(w - 2.5, 1.50140941, 0.246640727, -0.00417768164, -0.00125372503, 0.00021858087,
-                              -4.39150654e-06, -3.5233877e-06, 3.43273939e-07, 2.81022636e-08);
-  const Mask<D> near = w < 5;
-  if (all(near)) return y * middle;
-  const D end = polynomial(lanes::sqrt(w) - 3.0, 2.83297682, 1.00167406, 0.00943887047, -0.0076224613,
-                           0.00573950773, -0.00367342844, 0.00134934322, 0.000100950558, -0.000200214257);
-  return y * select<D>(near, middle, end);
-}
-
-namespace detail {
-
+// Slope towards the viewer at polar angle θ on a surface of unit width: its density is in proportion to
+// max(0, cosθ + x·sinθ)·exp(−x²). Solved for t = erf(−x), in which the cumulative distribution
+// cosθ·(1 + t)/2 + sinθ·exp(−x²)/(2√π) is concave, by Halley's method kept within a bracket.
 template <class D>
 VITRAIL_LANES D sample_beckmann_slope(D cosine, D sine, D u) {
   const D cotangent = select<D>(cosine < 6.0 * sine, cosine / sine, fill<D>(6));
   const D gauss = quick_exp<D>(-cotangent * cotangent), limit = quick_erf(cotangent, gauss);
   const D share = lanes::max(u, fill<D>(1e-9));
   const D target = share * (cosine * (1.0 + limit) + sine / sqrt_pi * gauss) / 2.0;
-  const D grazing = lanes::sqrt(-quick_log(share));
+  const D grazing = lanes::sqrt(-quick_log(share));  // −x where sinθ = 1
   D low = fill<D>(-1), high = limit, t = limit - (1.0 + limit) * quick_erf(grazing, share);
-  constexpr int most_steps = 12;
+  constexpr int most_steps = 12;  // two are usual
   Mask<D> goes_on = low < 0;
   for (int step = 0; step < most_steps && any(goes_on); ++step) {
     const D x = inverse_erf(t), bell = quick_exp<D>(-x * x);
@@ -88,7 +85,7 @@ VITRAIL_LANES D sample_beckmann_slope(D cosine, D sine, D u) {
     const Mask<D> above = error > 0;
     high = select<D>(goes_on & above, t, high);
     low = select<D>(goes_on & no(above), t, low);
-    const Mask<D> close = abs(error) < 1e-3 * target;
+    const Mask<D> close = abs(error) < 1e-3 * target;  // and 1e-5 a step later
     const D slope = (cosine - x * sine) / 2.0, curvature = -sine * sqrt_pi / (4.0 * bell);
     const D denominator = 2.0 * slope * slope - error * curvature;
     const D next = select<D>(denominator > 0, t - 2.0 * error * slope / denominator, low);
@@ -153,7 +150,7 @@ template <class D>
 VITRAIL_LANES D shadowing_over_cosines(const Microfacets<D>& mf, Vector<D> a, D area_a, Vector<D> b) {
   b = select<D>(b.z < 0, -b, b);
   const D area_b = visible_area(mf, b);
-  const D product = area_a * b.z + area_b * a.z - a.z * b.z;
+  const D product = area_a * b.z + area_b * a.z - a.z * b.z;  // ≥ a.z·b.z, as σ(v) ≥ v.z
   const D correlated = select<D>(product > 0, 1.0 / product, fill<D>(0));
   return select<D>(mf.separable, 1.0 / (area_a * area_b), correlated);
 }
