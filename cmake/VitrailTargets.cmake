@@ -86,7 +86,7 @@ endfunction()
 # bools is meant. GCC 12 takes registers of its own header for uninitialized.
 function(vitrail_lanes file)
   set_source_files_properties(${file} PROPERTIES SKIP_PRECOMPILE_HEADERS ON
-    COMPILE_OPTIONS "-fno-trapping-math;-Wno-psabi;-Wno-maybe-uninitialized;$<$<CXX_COMPILER_ID:Clang>:-Wno-bitwise-instead-of-logical>;${ARGN}")
+    COMPILE_OPTIONS "-fno-trapping-math;-Wno-psabi;-Wno-maybe-uninitialized;-Wno-uninitialized;$<$<CXX_COMPILER_ID:Clang>:-Wno-bitwise-instead-of-logical>;${ARGN}")
 endfunction()
 
 # vitrail_stays_inside(TARGET): a test that the TARGET's objects named *_avx* define no weak function. The linker keeps

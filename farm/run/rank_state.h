@@ -14,7 +14,7 @@
 #include "farm/run/photon_work.h"
 #include "farm/run/resident_domains.h"
 #include "farm/scheduler/scheduler.h"
-#include "tracer/transport/tracer.h"
+#include "tracer/transport/waves/tracer.h"
 
 namespace vitrail {
 

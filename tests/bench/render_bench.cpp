@@ -13,7 +13,7 @@
 #include "tests/support/command.h"
 #include "tests/support/render.h"
 #include "tests/support/temporary_directory.h"
-#include "tracer/transport/tracer.h"
+#include "tracer/transport/waves/tracer.h"
 
 namespace vitrail::test {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the stages that take several paths at a time (transport/lane_stages.h) read of a scene: which surfaces
-// and lamps are of a kind that they know.
+// What the stages that take several paths at a time (transport/waves/lane_stages.h) read of a scene: which
+// surfaces and lamps are of a kind that they know.
 #pragma once
 
 #include <cstdint>

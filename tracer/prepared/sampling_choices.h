@@ -12,6 +12,8 @@ namespace vitrail {
 // camera ray does, less than a quarter of it, or only after 254 events; one that never did would go on for
 // ever between white walls.
 enum class Roulette : std::uint32_t { early, usual, never };
+// Paths that carry less than this, of 1 at first, end by chance.
+constexpr float worth_going_on(Roulette roulette) { return roulette == Roulette::usual ? 0.25f : 1.0f; }
 
 inline constexpr std::uint32_t most_light_candidates = 16;
 

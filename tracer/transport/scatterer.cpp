@@ -122,8 +122,7 @@ float survival(const Tracing& tracing, const Scatterer& s) {
   const Roulette roulette = tracing.scene.sampling.roulette;
   if (roulette == Roulette::never && s.depth < longest) return 1;
   const float brightest = max_value(s.throughput) * (s.dispersed ? 1.0f / hero_count : 1.0f);
-  const float worth = roulette == Roulette::usual ? 0.25f : 1.0f;
-  return static_cast<float>(attainable(static_cast<double>(brightest / worth)));
+  return static_cast<float>(attainable(static_cast<double>(brightest / worth_going_on(roulette))));
 }
 
 bool go_on(const Tracing& tracing, CameraPath& path, float u, bool specular, bool no_more) {

@@ -66,7 +66,7 @@ const std::map<std::string, std::vector<std::string>>& floors() {
       {"scene", {"system", "geometry", "spectra", "shapes", "records", "daylight", "models"}},
       {"tracer",
        {"simd", "sampling", "rays", "quadrics", "bsdf", "textures", "intersect", "lights", "lanes", "media",
-        "surfaces", "view", "prepared", "panes", "photons", "transport"}},
+        "surfaces", "view", "prepared", "panes", "photons", "transport", "transport/waves"}},
       {"farm", {"scheduler", "transport", "rays", "files", "plan", "run", "conclude", "", "simulator"}},
       {"importers",
        {"bytes", "shapes", "spectra", "reading", "writing", "images", "ply/read", "ply/write", "obj/read",

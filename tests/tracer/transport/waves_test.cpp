@@ -13,8 +13,8 @@
 #include "scene/spectra/rgb_to_spectrum.h"
 #include "tests/support/render.h"
 #include "tests/support/temporary_directory.h"
-#include "tracer/transport/lane_stages.h"
-#include "tracer/transport/tracer.h"
+#include "tracer/transport/waves/lane_stages.h"
+#include "tracer/transport/waves/tracer.h"
 
 namespace vitrail::test {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of lane_stages.inl: connections to lights.
-#include "tracer/transport/lane_group.inl"
+#include "tracer/transport/waves/lane_group.inl"
 
 // A candidate for a light, of each lane.
 struct Candidate {

@@ -5,7 +5,7 @@
 #pragma once
 
 #include "tracer/transport/tracing.h"
-#include "tracer/transport/wave.h"
+#include "tracer/transport/waves/wave.h"
 
 namespace vitrail {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tracer/transport/wave.h"
+#include "tracer/transport/waves/wave.h"
 
 #include "tracer/rays/walk.h"
 #include "tracer/transport/generate.h"

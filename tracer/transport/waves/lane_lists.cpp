@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tracer/transport/lane_lists.h"
+#include "tracer/transport/waves/lane_lists.h"
 
 #include "tracer/transport/connect.h"
 #include "tracer/transport/shading.h"
@@ -10,11 +10,6 @@ namespace {
 
 // Behind so many events mirrors and glass let go of paths by chance.
 constexpr std::uint32_t most_events = 250;
-
-float worth_of(Roulette roulette) {
-  if (roulette == Roulette::never) return 0;
-  return roulette == Roulette::usual ? 0.25f : 1.0f;
-}
 
 // Where a path has hit a triangle of a domain itself.
 Point3d hit_point(const DomainView& domain, const Hit& hit) {
@@ -32,7 +27,7 @@ Point3d hit_point(const DomainView& domain, const Hit& hit) {
 LaneLists::LaneLists(std::size_t most) : surface_(most), next_(most), bsdfs_(most), placed_(most) {
   for (auto& kind : lists_)
     for (auto& placing : kind)
-      for (List& list : placing) list.places.reserve(most);
+      for (auto& list : placing) list.reserve(most);
 }
 
 bool LaneLists::apply_to(const Tracing& tracing) {
@@ -78,7 +73,7 @@ bool LaneLists::take(Tracing& tracing, CameraPath& path, std::uint32_t place) {
   const bool is_specular = of.kind == LaneKind::mirror || of.kind == LaneKind::glass;
   const std::uint32_t candidates =
       is_specular ? 1 : candidates_of(tracing, path, place, of.kind == LaneKind::diffuse);
-  lists_[static_cast<std::size_t>(of.kind)][is_placed][candidates > 1].places.push_back(place);
+  lists_[static_cast<std::size_t>(of.kind)][is_placed][candidates > 1].push_back(place);
   ++taken_;
   return true;
 }
@@ -86,6 +81,7 @@ bool LaneLists::take(Tracing& tracing, CameraPath& path, std::uint32_t place) {
 void LaneLists::run(Tracing& tracing, CameraPath* paths, ShadowRays& shadows,
                     std::vector<std::uint32_t>& live) {
   if (taken_ == 0) return;
+  const Roulette roulette = tracing.scene.sampling.roulette;
   LaneWork work{.tracing = tracing,
                 .scene = tracing.scene.lanes,
                 .paths = paths,
@@ -93,14 +89,14 @@ void LaneLists::run(Tracing& tracing, CameraPath* paths, ShadowRays& shadows,
                 .bsdfs = bsdfs_.data(),
                 .placed = placed_.data(),
                 .domains = domains_.data(),
-                .roulette_worth = worth_of(tracing.scene.sampling.roulette),
+                .roulette_worth = roulette == Roulette::never ? 0 : worth_going_on(roulette),
                 .rounding_of_doubles = rounding_of_doubles(tracing.manifest().scale),
                 .shadows = shadows,
                 .next = next_.data()};
   for (std::size_t kind = 0; kind < lane_kinds; ++kind)
     for (const bool is_placed : {false, true})
       for (const bool several : {false, true}) {
-        std::vector<std::uint32_t>& places = lists_[kind][is_placed][several].places;
+        std::vector<std::uint32_t>& places = lists_[kind][is_placed][several];
         if (places.empty()) continue;
         tracing.stages->stage[kind](work, {places.data(), places.size(), is_placed,
                                            several ? tracing.scene.sampling.light_candidates : 1});

@@ -5,7 +5,7 @@
 #include <array>
 #include <vector>
 
-#include "tracer/transport/lane_stages.h"
+#include "tracer/transport/waves/lane_stages.h"
 
 namespace vitrail {
 
@@ -26,11 +26,8 @@ class LaneLists {
   std::uint32_t candidates_of(const Tracing& tracing, const CameraPath& path, std::uint32_t place,
                               bool diffuse) const;
 
-  // By kind, by whether the hit is placed, by whether there are several candidates for a light.
-  struct List {
-    std::vector<std::uint32_t> places;
-  };
-  std::array<std::array<std::array<List, 2>, 2>, lane_kinds> lists_;
+  // Places by kind, by whether the hit is placed, by whether there are several candidates for a light.
+  std::array<std::array<std::array<std::vector<std::uint32_t>, 2>, 2>, lane_kinds> lists_;
   std::vector<std::uint32_t> surface_, next_;  // by place; places
   std::vector<LaneBsdf> bsdfs_;                // by place
   std::vector<PlacedHit> placed_;              // by place

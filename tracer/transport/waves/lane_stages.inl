@@ -10,8 +10,8 @@ using L = Longs<W>;
 
 #define VITRAIL_EACH(value) ([&](int j) __attribute__((always_inline)) { return value; })
 
-#include "tracer/transport/lane_connections.inl"
-#include "tracer/transport/lane_kinds.inl"
+#include "tracer/transport/waves/lane_connections.inl"
+#include "tracer/transport/waves/lane_kinds.inl"
 
 // As scatter_path has it, of a BSDF that does not transmit.
 template <class Read>

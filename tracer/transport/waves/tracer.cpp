@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tracer/transport/tracer.h"
+#include "tracer/transport/waves/tracer.h"
 
 #include "tracer/transport/connection.h"
 #include "tracer/transport/gathering.h"

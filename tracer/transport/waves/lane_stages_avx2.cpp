@@ -7,18 +7,18 @@
 #include "tracer/lanes/light_tree.h"
 #include "tracer/lanes/rays.h"
 #include "tracer/lanes/spectra.h"
-#include "tracer/transport/lane_stages.h"
+#include "tracer/transport/waves/lane_stages.h"
 
 namespace vitrail {
 namespace lanes {
 namespace {
 
-constexpr int W = 1;
-#include "tracer/transport/lane_stages.inl"
+constexpr int W = 4;
+#include "tracer/transport/waves/lane_stages.inl"
 
 }  // namespace
 }  // namespace lanes
 
-const LaneStages portable_stages = lanes::stages;
+const LaneStages avx2_stages = lanes::stages;
 
 }  // namespace vitrail

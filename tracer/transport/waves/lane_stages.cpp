@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tracer/transport/lane_stages.h"
+#include "tracer/transport/waves/lane_stages.h"
 
 #include "tracer/lights/draw_light.h"
 #include "tracer/sampling/wavelengths.h"

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "tracer/transport/find_hit.h"
-#include "tracer/transport/lane_lists.h"
 #include "tracer/transport/scatterer.h"
 #include "tracer/transport/shadow_ray.h"
+#include "tracer/transport/waves/lane_lists.h"
 
 namespace vitrail {
 
