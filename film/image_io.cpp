@@ -119,6 +119,7 @@ void put_origin(PictureFile& file, const PictureOrigin& origin) {
   put("sampling", origin.sampling);
   put("seed", origin.seeds);
   put("filmHash", origin.film_hash);
+  put("denoiser", origin.denoiser);
   if (origin.least_samples > 0) file.attributes.emplace_back("samplesPerPixelLeast", origin.least_samples);
   put_matrix(file, "worldToCamera", origin.world_to_camera);
   put_matrix(file, "worldToNDC", origin.world_to_ndc);
@@ -171,6 +172,8 @@ void write_integers(const std::filesystem::path& path, const Picture& picture) {
   // OpenImageIO 2.4 would say it in a second directory, and in memory that one becomes the file's only one.
   if (!is_tiff(path)) file.attributes.emplace_back("oiio:ColorSpace", "sRGB");
   file.attributes.emplace_back("CompressionQuality", 95);
+  if (const std::string comment = comment_on(picture.origin); !comment.empty())
+    file.attributes.emplace_back("ImageDescription", comment);
   write_file(path, file, pixels.data());
 }
 

@@ -34,7 +34,11 @@ class PngEncoder {
   PngEncoder(const PngEncoder&) = delete;
   PngEncoder& operator=(const PngEncoder&) = delete;
 
-  bool begin(const Picture& picture, int bits, const png_time& date) {
+  bool begin(const Picture& picture, int bits, const png_time& date, std::string& comment) {
+    char keyword[] = "Comment";
+    png_text text{};
+    text.compression = PNG_TEXT_COMPRESSION_NONE;
+    text.key = keyword, text.text = comment.data();
     if (!info_ || setjmp(png_jmpbuf(png_))) return false;
     ::png_set_write_fn(png_, this, append, nullptr);
     ::png_set_IHDR(png_, info_, static_cast<png_uint_32>(picture.rgb.width),
@@ -43,6 +47,7 @@ class PngEncoder {
     ::png_set_sRGB_gAMA_and_cHRM(png_, info_, PNG_sRGB_INTENT_ABSOLUTE);
     ::png_set_oFFs(png_, info_, picture.window.x0, picture.window.y0, PNG_OFFSET_PIXEL);
     ::png_set_tIME(png_, info_, &date);
+    if (!comment.empty()) ::png_set_text(png_, info_, &text, 1);
     ::png_write_info(png_, info_);
     if (bits == 16 && std::endian::native == std::endian::little) ::png_set_swap(png_);
     return true;
@@ -111,7 +116,8 @@ void write_rows(const std::filesystem::path& file, const Picture& picture) {
     target.write(encoder.bytes());
     encoder.bytes().clear();
   };
-  require(encoder.begin(picture, static_cast<int>(8 * sizeof(Integer)), png_date()));
+  std::string comment = comment_on(picture.origin);
+  require(encoder.begin(picture, static_cast<int>(8 * sizeof(Integer)), png_date(), comment));
   const std::size_t values = 3 * static_cast<std::size_t>(picture.rgb.width);
   std::vector<Integer> row(values);
   for (std::size_t at = 0; at < picture.rgb.values.size(); at += values) {
@@ -124,6 +130,10 @@ void write_rows(const std::filesystem::path& file, const Picture& picture) {
 }
 
 }  // namespace
+
+std::string comment_on(const PictureOrigin& origin) {
+  return origin.denoiser.empty() ? "" : "denoised by " + origin.denoiser;
+}
 
 void write_png(const std::filesystem::path& file, const Picture& picture, int bits) {
   if (bits == 16) return write_rows<std::uint16_t>(file, picture);

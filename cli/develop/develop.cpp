@@ -4,14 +4,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "cli/common/main_guard.h"
+#include "cli/develop/develop_arguments.h"
+#include "denoise/denoise_picture.h"
 #include "film/false_color.h"
 #include "film/film_progress.h"
 #include "film/image_io.h"
@@ -35,40 +36,25 @@ struct Exposed {
   std::string about, seeds;
 };
 
-struct Manner {
-  bool quiet = false, strict = false;
-};
-
-struct DevelopArguments {
-  std::vector<std::string> films;
-  std::string output, tone = "none", false_color;
-  double exposure_ev = 0, white_balance_K = 0;
-  int bits = 0;
-  bool with_variance = false, spectral = false, logarithmic = false;
-  Manner manner;
-
-  bool writes(const char* extension) const { return std::filesystem::path(output).extension() == extension; }
-};
-
-Exposed load(const std::string& file, const Manner& manner) {
+Exposed load(const std::string& file, const DevelopArguments& a) {
   note_input(file);
   FilmProgress progress;
   Exposed e{file, read_film(file, &progress), 0, {}, {}};
   e.about = progress.about;
   e.seeds = fmt::format("{}", e.film.key().seed);
   e.render_time_s = progress.render_time_s;
-  if (!progress.complete() && manner.strict) throw Error("the film is not finished", {file});
-  if (!progress.complete() && !manner.quiet)
+  if (!progress.complete() && a.strict) throw Error("the film is not finished", {file});
+  if (!progress.complete() && !a.quiet)
     say("vitrail: {}: the film is not finished; pixels may have unequal numbers of samples\n", file);
   return e;
 }
 
 // In the order of their seeds, so that the order on the command line does not matter.
-Exposed merge_all(const std::vector<std::string>& files, const Manner& manner) {
+Exposed merge_all(const DevelopArguments& a) {
   std::vector<Exposed> films;
-  for (const std::string& file : files) films.push_back(load(file, manner));
+  for (const std::string& file : a.films) films.push_back(load(file, a));
   std::sort(films.begin(), films.end(),
-            [](const Exposed& a, const Exposed& b) { return a.film.key().seed < b.film.key().seed; });
+            [](const Exposed& x, const Exposed& y) { return x.film.key().seed < y.film.key().seed; });
   for (const Exposed& film : films)
     if (const std::string what = difference(films.front().film, film.film); !what.empty())
       throw Error(fmt::format("cannot merge with {}: {}", films.front().file.string(), what),
@@ -109,18 +95,6 @@ void put_about(PictureOrigin& origin, const std::string& about) {
   origin.world_to_ndc = matrix("world_to_ndc");
 }
 
-// "auto" or luminance in cd/m².
-FalseColor parse_false_color(const std::string& word, bool logarithmic) {
-  FalseColor manner{0, logarithmic};
-  if (word == "auto") return manner;
-  const auto [end, failed] = std::from_chars(word.data(), word.data() + word.size(), manner.most);
-  if (failed != std::errc() || end != word.data() + word.size() || !(manner.most > 0) ||
-      !std::isfinite(manner.most))
-    throw UsageError("--false-color takes auto or the luminance of the scale's end in cd/m², above 0: " +
-                     word);
-  return manner;
-}
-
 // Where the sensors are, as the render wrote it; as many as the film has columns.
 nlohmann::json sensors_of(const Exposed& film) {
   const nlohmann::json about = nlohmann::json::parse(film.about, nullptr, false);
@@ -150,47 +124,6 @@ void write_table(const std::string& output, const Exposed& film) {
   file.commit();
 }
 
-void declare(CLI::App& app, DevelopArguments& a) {
-  app.add_option("FILM", a.films, "films of one scene, each of its own seed")->required();
-  app.add_option("-o,--output", a.output,
-                 "image to write: .exr (linear), .png, .jpg or .tif (sRGB); .csv of sensors")
-      ->required();
-  app.add_option("--bits", a.bits, "a channel: 8 or 16; default: 8, and 16 for .tif; .exr has 32")
-      ->check(CLI::IsMember({8, 16}));
-  app.add_option("--exposure", a.exposure_ev, "brighten by this many stops")->capture_default_str();
-  app.add_option(
-         "--white-balance", a.white_balance_K,
-         "show colours as if they had been under D65 and not under daylight of this temperature in K, "
-         "as the `whitebalance` of pbrt's films does")
-      ->check(CLI::PositiveNumber);
-  app.add_option("--tone", a.tone,
-                 "none: what is brighter than white is white; aces: the output transform of ACES 1.x, after "
-                 "--exposure; not for .exr")
-      ->check(CLI::IsMember({"none", "aces"}))
-      ->capture_default_str();
-  app.add_option("--false-color", a.false_color,
-                 "luminance as colours with a scale, up to this in cd/m², or auto; not for .exr");
-  app.add_flag("--log", a.logarithmic, "with --false-color: three decades, by their logarithm");
-  app.add_flag("--variance", a.with_variance,
-               "add the channel Variance.Y: variance of each pixel's mean luminance");
-  app.add_flag("--spectral", a.spectral,
-               "add the spectrum of each pixel, for films of render --spectral; .exr only");
-  app.add_flag("--strict", a.manner.strict, "refuse films that are not finished");
-  app.add_flag("--quiet", a.manner.quiet, "say nothing but what is wrong");
-}
-
-// Throws UsageError where options do not go together.
-void require_agreement(const DevelopArguments& a) {
-  const bool is_exr = a.writes(".exr");
-  if (a.spectral && !is_exr) throw UsageError("spectra are written as .exr only");
-  if (a.tone != "none" && is_exr)
-    throw UsageError("--tone is for screens; an .exr holds the light of the scene");
-  if (!a.false_color.empty() && (a.tone != "none" || a.exposure_ev != 0 || a.white_balance_K > 0 || is_exr))
-    throw UsageError(
-        "--false-color shows luminances: not with --tone, --exposure or --white-balance, and not as .exr");
-  if (a.logarithmic && a.false_color.empty()) throw UsageError("--log belongs to --false-color");
-}
-
 Picture picture_of(const Exposed& sum) {
   Picture picture = develop(sum.film);
   picture.render_time_s = sum.render_time_s;
@@ -200,11 +133,17 @@ Picture picture_of(const Exposed& sum) {
   return picture;
 }
 
+void denoise_by_guides(Picture& picture, const Denoiser& denoiser, bool quiet) {
+  if (guides_of(picture).albedo.pixels() == 0 && !quiet)
+    say("vitrail: no albedo guides the denoiser; films of render --aov albedo,normal have one\n");
+  denoise(picture, denoiser);
+}
+
 void show_false_colors(Picture& picture, const Exposed& sum, const DevelopArguments& a) {
   const double ratio = sum.film.imaging_ratio();  // of the scene's camera: its exposure is not light
   if (!(ratio > 0)) throw Error("an exposure of 0 leaves no luminances", {sum.file.string()});
   for (float& value : picture.rgb.values) value = static_cast<float>(static_cast<double>(value) / ratio);
-  picture.rgb = false_colored(picture.rgb, parse_false_color(a.false_color, a.logarithmic));
+  picture.rgb = false_colored(picture.rgb, false_color_of(a));
   picture.window = {0, picture.rgb.width, 0, picture.rgb.height};
   picture.full_width = picture.rgb.width, picture.full_height = picture.rgb.height;
   picture.variance = {};
@@ -219,14 +158,16 @@ int main(int argc, char** argv) {
   return run_guarded(app, argc, argv, [&] {
     require_agreement(a);
     require_place(a.output);
-    const Exposed sum = merge_all(a.films, a.manner);
+    std::optional<Denoiser> denoiser;
+    if (a.denoised) denoiser.emplace();
+    const Exposed sum = merge_all(a);
     require_samples(sum.film, sum.file);
     if (a.writes(".csv")) {
       write_table(a.output, sum);
       return exit_done;
     }
     Picture picture = picture_of(sum);
-    if (sum.film.key().clamp > 0 && !a.manner.quiet)
+    if (sum.film.key().clamp > 0 && !a.quiet)
       say("vitrail: rendered with --clamp {}, which took {:.3g} % of the light\n", sum.film.key().clamp,
           100 * sum.film.clamped_share());
     if (a.spectral && picture.bins.count == 0)
@@ -234,6 +175,7 @@ int main(int argc, char** argv) {
     if (!a.spectral) picture.spectrum = {};
     if (a.with_variance && sum.film.key().one_sequence)
       throw Error("the film knows no variance: it was rendered with --one-sequence", {sum.file.string()});
+    if (denoiser) denoise_by_guides(picture, *denoiser, a.quiet);
     expose(picture, a.exposure_ev);
     if (a.white_balance_K > 0) balance_white(picture, a.white_balance_K);
     if (!a.with_variance) picture.variance = {};

@@ -48,6 +48,12 @@ void declare_samples(CLI::App& app, RenderArguments& a) {
       ->check(CLI::IsMember(qualities()));
 }
 
+void declare_denoiser(CLI::App& app, RenderArguments& a) {
+  app.add_flag("--denoise", a.denoised,
+               "estimate the noise of the picture away, by develop --denoise; without --aov the film also "
+               "keeps the albedo and normals that guide it, and else stays what it is");
+}
+
 // What of the scene is seen, and by which paths.
 void declare_picture(CLI::App& app, RenderArguments& a) {
   RenderOptions& o = a.options;
@@ -209,6 +215,7 @@ void declare_tests(CLI::App& app, RenderOptions& o) {
 
 void declare(CLI::App& app, RenderArguments& a) {
   declare_files(app, a);
+  declare_denoiser(app, a);
   under_heading(app, "How many samples", [&] { declare_samples(app, a); });
   under_heading(app, "The picture", [&] { declare_picture(app, a); });
   under_heading(app, "Photon mapping", [&] { declare_photons(app, a.options); });
@@ -278,6 +285,13 @@ TargetError parse_target_error(const std::string& text) {
   return target;
 }
 
+std::uint32_t guiding_layers() {
+  FilmLayers layers;
+  layers.add(Layer::albedo);
+  layers.add(Layer::shading_normal);
+  return layers.bits;
+}
+
 ProgressMode progress_mode(const RenderArguments& a) {
   if (a.progress == "json") return ProgressMode::json;
   if (a.quiet || a.progress == "none") return ProgressMode::none;
@@ -297,11 +311,14 @@ void interpret(const CLI::App& app, RenderArguments& a) {
     throw UsageError("what sensors measure is written as .csv or kept as .film: " + a.output.string());
   if (!is_table && std::ranges::find(known, extension) == std::end(known))
     throw UsageError("the output must end in .exr, .png, .jpg, .tif or .film: " + a.output.string());
+  if (a.denoised && (is_table || extension == ".film"))
+    throw UsageError("--denoise is of pictures, not of what sensors or films measure: " + a.output.string());
   RenderOptions& o = a.options;
   if (!a.memory.empty()) o.resources.memory_bytes = parse_bytes(a.memory);
   if (!a.crop.empty()) o.picture.crop = parse_rectangle("--crop", a.crop);
   if (a.bins > 0) o.picture.bins = SpectralBins{a.bins};
   if (!a.aov.empty()) o.picture.layers = parse_layers(a.aov).bits;
+  if (a.denoised && a.aov.empty()) o.picture.more_layers = guiding_layers();
   if (!a.aov_space.empty()) o.picture.layers_in_camera_space = a.aov_space == "camera";
   if (app.count("--max-depth") > 0) o.picture.max_depth = a.max_depth < 0 ? unlimited_depth : a.max_depth;
   if (!a.integrator.empty())

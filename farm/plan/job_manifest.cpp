@@ -20,6 +20,7 @@ namespace {
 void override_layers(Manifest& m, const PictureSettings& picture, const std::filesystem::path& bundle) {
   const FilmLayers kept = m.film.layers;
   if (picture.layers) m.film.layers.bits = *picture.layers;
+  m.film.layers.bits |= picture.more_layers;
   if (picture.layers_in_camera_space) m.film.layers.in_camera_space = *picture.layers_in_camera_space;
   const auto require = [&](Layer layer, bool there, const char* what) {
     if (m.film.layers.has(layer) && !there)
@@ -38,7 +39,7 @@ Point3d place_of(const Camera& camera) {
 // In the place of the camera, whose own is returned. They belong to what the film is of.
 Point3d put_sensors(Manifest& m, const PictureSettings& picture) {
   if (picture.width || picture.height || picture.scale != 1 || picture.crop || picture.bins ||
-      picture.layers || picture.samples.filter)
+      picture.layers || picture.more_layers || picture.samples.filter)
     throw UsageError(
         "--sensors has no picture whose size, crop, filter, spectrum or channels could be given");
   if (picture.clamp > 0)

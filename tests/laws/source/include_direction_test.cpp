@@ -23,13 +23,14 @@ const std::map<std::string, std::set<std::string>>& allowed() {
       {"bundle", {"scene"}},
       {"partitioner", {"scene", "images", "bundle"}},
       {"film", {"scene", "images"}},
+      {"denoise", {"scene", "film"}},
       {"tracer", {"scene", "bundle", "film"}},
       {"farm", {"scene", "bundle", "film", "tracer"}},
       {"compare", {"scene", "film"}},
       {"measure", {"scene", "film", "compare"}},
       {"cli",
        {"scene", "glazing", "images", "importers", "bundle", "partitioner", "film", "tracer", "farm",
-        "compare", "measure"}}};
+        "denoise", "compare", "measure"}}};
   return folders;
 }
 
@@ -112,8 +113,8 @@ TEST(IncludeDirection, OnlyTheFarmSpeaksMpi) {
 TEST(Sources, CarryTheirLicence) {
   const std::filesystem::path root = VITRAIL_SOURCE_DIR;
   for (const char* folder :
-       {"scene", "glazing", "images", "importers", "bundle", "partitioner", "film", "tracer", "farm",
-        "compare", "measure", "cli", "tests", "scripts", "examples", "cmake"})
+       {"scene", "glazing", "images", "importers", "bundle", "partitioner", "film", "denoise", "tracer",
+        "farm", "compare", "measure", "cli", "tests", "scripts", "examples", "cmake"})
     for (const auto& entry : std::filesystem::recursive_directory_iterator(root / folder)) {
       const std::string extension = entry.path().extension().string();
       constexpr const char* kinds[] = {".h", ".cpp", ".inl", ".py", ".cmake"};

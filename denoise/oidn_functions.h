@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is called of Intel Open Image Denoise 2.x, as its programming interface for C defines it
+// (openimagedenoise.org/documentation). Declared here, because the library is loaded at run time, and the
+// packages of it that are easy to have come without headers.
+#pragma once
+
+#include <cstddef>
+
+namespace vitrail::oidn {
+
+using Device = struct DeviceObject*;
+using Filter = struct FilterObject*;
+
+inline constexpr int device_cpu = 1;     // OIDN_DEVICE_TYPE_CPU: reads and writes the memory of programs
+inline constexpr int format_float3 = 3;  // OIDN_FORMAT_FLOAT3
+inline constexpr int no_error = 0;       // OIDN_ERROR_NONE
+
+// A member is the function "oidn" + its name.
+struct Functions {
+  Device (*NewDevice)(int type);
+  void (*SetDeviceBool)(Device, const char* name, bool value);
+  int (*GetDeviceInt)(Device, const char* name);
+  void (*CommitDevice)(Device);
+  // The first error since the last call, and what it is in words, which stay until the next one. Of no device:
+  // why there is none.
+  int (*GetDeviceError)(Device, const char** message);
+  void (*ReleaseDevice)(Device);
+  Filter (*NewFilter)(Device, const char* type);
+  // Pixels that stay the caller's. Strides in bytes; 0: without gaps.
+  void (*SetSharedFilterImage)(Filter, const char* name, void* pixels, int format, std::size_t width,
+                               std::size_t height, std::size_t offset, std::size_t pixel_stride,
+                               std::size_t row_stride);
+  void (*SetFilterBool)(Filter, const char* name, bool value);
+  void (*CommitFilter)(Filter);
+  void (*ExecuteFilter)(Filter);
+  void (*ReleaseFilter)(Filter);
+};
+
+}  // namespace vitrail::oidn
