@@ -6,9 +6,6 @@
 
 namespace vitrail {
 
-// The part of a picture in `window`, which lies within its own.
-void cut_to(Picture& picture, const PixelRect& window);
-
 // Cuts both to what both show of the same whole picture; those of other wholes have to have the same size,
 // and are compared pixel by pixel. Throws Error where there is nothing to compare.
 void align(Picture& image, Picture& reference);

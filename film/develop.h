@@ -33,14 +33,14 @@ struct Picture {
   Image variance;  // of the mean luminance of each pixel, one channel; 0 × 0 where unknown
   Image spectrum;  // mean radiance of each bin, one channel a bin; 0 × 0 where unknown
   SpectralBins bins;
-  std::vector<PictureChannel> layers;  // written as .exr, not read
+  std::vector<PictureChannel> layers;  // of an .exr; its ids are not read
   PixelRect window;
   int full_width = 0, full_height = 0;
   int samples_per_pixel = 0;
   double render_time_s = 0;
   double shared_error = 0;  // Film's
   Neighbours neighbours;
-  PictureOrigin origin;  // written, not read
+  PictureOrigin origin;  // of an .exr
 };
 
 // The means of the film in linear sRGB, not clamped, and the variances of their luminance;

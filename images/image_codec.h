@@ -44,8 +44,8 @@ struct ImageCodec {
   // The bytes of the format that the file's extension names.
   std::string (*encode_picture)(const std::string& file, const PictureFile& picture, const void* pixels,
                                 std::vector<std::byte>& bytes);
-  // Any picture, integers taken to [0,1]. The caller names the attributes, ints and floats, and what they are
-  // where the file has none.
+  // Any picture, integers taken to [0,1]. The caller names the attributes, and what they are where the file
+  // has none.
   std::string (*decode_picture)(const std::string& file, PictureFile& picture, std::vector<float>& values);
   // ACES' output transform 1.x of colours whose 3 × 3 matrix to XYZ is given row by row (tone_map.h).
   std::string (*map_tones)(Image& rgb, const std::array<double, 9>& to_xyz);

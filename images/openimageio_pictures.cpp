@@ -77,6 +77,9 @@ std::string decode_picture(const std::string& file, PictureFile& picture, std::v
   for (auto& [name, value] : picture.attributes) {
     if (float* number = std::get_if<float>(&value)) *number = spec.get_float_attribute(name, *number);
     if (int* number = std::get_if<int>(&value)) *number = spec.get_int_attribute(name, *number);
+    if (std::string* text = std::get_if<std::string>(&value)) *text = spec.get_string_attribute(name, *text);
+    if (auto* matrix = std::get_if<std::array<float, 16>>(&value))
+      spec.getattribute(name, OIIO::TypeDesc::TypeMatrix, matrix->data());
   }
   return {};
 }

@@ -15,6 +15,7 @@
 #include "compare/mask.h"
 #include "film/film_progress.h"
 #include "film/image_io.h"
+#include "film/picture_extent.h"
 #include "scene/system/diagnostics.h"
 #include "scene/system/input_files.h"
 #include "scene/system/output_place.h"

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "compare/alignment.h"
 #include "compare/metrics.h"
 #include "compare/variance.h"
 #include "film/image_io.h"
+#include "film/picture_extent.h"
 #include "scene/system/diagnostics.h"
 
 namespace vitrail {

@@ -3,97 +3,32 @@
 // exactly.
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "cli/common/main_guard.h"
+#include "cli/common/rectangle.h"
 #include "cli/develop/develop_arguments.h"
+#include "cli/develop/exposed_films.h"
 #include "denoise/denoise_picture.h"
 #include "film/false_color.h"
-#include "film/film_progress.h"
 #include "film/image_io.h"
+#include "film/layer_picture.h"
+#include "film/picture_extent.h"
 #include "film/sensor_readings.h"
+#include "film/tone_curves.h"
 #include "film/tone_map.h"
 #include "film/white_balance.h"
 #include "scene/system/atomic_file.h"
 #include "scene/system/diagnostics.h"
-#include "scene/system/input_files.h"
 #include "scene/system/output_place.h"
 #include "scene/system/say.h"
 
 using namespace vitrail;
 
 namespace {
-
-struct Exposed {
-  std::filesystem::path file;
-  Film film;
-  double render_time_s = 0;
-  std::string about, seeds;
-};
-
-Exposed load(const std::string& file, const DevelopArguments& a) {
-  note_input(file);
-  FilmProgress progress;
-  Exposed e{file, read_film(file, &progress), 0, {}, {}};
-  e.about = progress.about;
-  e.seeds = fmt::format("{}", e.film.key().seed);
-  e.render_time_s = progress.render_time_s;
-  if (!progress.complete() && a.strict) throw Error("the film is not finished", {file});
-  if (!progress.complete() && !a.quiet)
-    say("vitrail: {}: the film is not finished; pixels may have unequal numbers of samples\n", file);
-  return e;
-}
-
-// In the order of their seeds, so that the order on the command line does not matter.
-Exposed merge_all(const DevelopArguments& a) {
-  std::vector<Exposed> films;
-  for (const std::string& file : a.films) films.push_back(load(file, a));
-  std::sort(films.begin(), films.end(),
-            [](const Exposed& x, const Exposed& y) { return x.film.key().seed < y.film.key().seed; });
-  for (const Exposed& film : films)
-    if (const std::string what = difference(films.front().film, film.film); !what.empty())
-      throw Error(fmt::format("cannot merge with {}: {}", films.front().file.string(), what),
-                  {film.file.string()});
-  Exposed sum = std::move(films.front());
-  for (std::size_t i = 1; i < films.size(); ++i) {
-    if (films[i].film.key().seed == films[i - 1].film.key().seed)
-      throw Error(fmt::format("it has seed {}, as {} has: only films of different seeds are independent",
-                              films[i].film.key().seed, films[i - 1].file.string()),
-                  {films[i].file.string()});
-    try {
-      sum.film.merge(films[i].film);
-    } catch (const Error& e) {
-      throw Error(fmt::format("cannot merge with {}: {}", sum.file.string(), e.what()),
-                  {films[i].file.string()});
-    }
-    sum.render_time_s += films[i].render_time_s;
-    sum.seeds += "," + films[i].seeds;
-  }
-  return sum;
-}
-
-// What the render knew of scene and camera.
-void put_about(PictureOrigin& origin, const std::string& about) {
-  const nlohmann::json json = nlohmann::json::parse(about, nullptr, false);
-  if (!json.is_object()) return;
-  origin.scene = json.value("scene", "");
-  origin.glazing = json.value("glazing", "");
-  origin.sampling = json.value("sampling", "");
-  const auto matrix = [&](const char* name) {
-    std::vector<float> numbers;
-    if (const auto found = json.find(name); found != json.end() && found->is_array())
-      for (const nlohmann::json& number : *found)
-        if (number.is_number()) numbers.push_back(number.get<float>());
-    return numbers;
-  };
-  origin.world_to_camera = matrix("world_to_camera");
-  origin.world_to_ndc = matrix("world_to_ndc");
-}
 
 // Where the sensors are, as the render wrote it; as many as the film has columns.
 nlohmann::json sensors_of(const Exposed& film) {
@@ -124,15 +59,6 @@ void write_table(const std::string& output, const Exposed& film) {
   file.commit();
 }
 
-Picture picture_of(const Exposed& sum) {
-  Picture picture = develop(sum.film);
-  picture.render_time_s = sum.render_time_s;
-  picture.origin.seeds = sum.seeds;
-  put_about(picture.origin, sum.about);
-  picture.neighbours = neighbours_of(sum.about);
-  return picture;
-}
-
 void denoise_by_guides(Picture& picture, const Denoiser& denoiser, bool quiet) {
   if (guides_of(picture).albedo.pixels() == 0 && !quiet)
     say("vitrail: no albedo guides the denoiser; films of render --aov albedo,normal have one\n");
@@ -149,6 +75,84 @@ void show_false_colors(Picture& picture, const Exposed& sum, const DevelopArgume
   picture.variance = {};
 }
 
+// Of films.
+Picture measured_picture(const Exposed& sum, const DevelopArguments& a) {
+  if (sum.film.key().clamp > 0 && !a.quiet)
+    say("vitrail: rendered with --clamp {}, which took {:.3g} % of the light\n", sum.film.key().clamp,
+        100 * sum.film.clamped_share());
+  if (a.with_variance && sum.film.key().one_sequence)
+    throw Error("the film knows no variance: it was rendered with --one-sequence", {sum.file.string()});
+  return picture_of(sum);
+}
+
+void require_parts(const Picture& picture, const DevelopArguments& a) {
+  if (a.spectral && picture.spectrum.pixels() == 0)
+    throw Error("no spectra are kept here: render with --spectral N", {a.films.front()});
+  if (a.with_variance && picture.variance.pixels() == 0)
+    throw Error("the picture has no channel Variance.Y", {a.films.front()});
+}
+
+void cut_and_resize(Picture& picture, const DevelopArguments& a) {
+  if (!a.crop.empty()) {
+    const PixelRect part = parse_rectangle("--crop", a.crop), &own = picture.window;
+    if (part.x0 >= part.x1 || part.y0 >= part.y1 || part.x0 < own.x0 || part.x1 > own.x1 ||
+        part.y0 < own.y0 || part.y1 > own.y1)
+      throw UsageError(fmt::format("--crop is not within the picture, which is {},{},{},{}: {}", own.x0,
+                                   own.x1, own.y0, own.y1, a.crop));
+    cut_to(picture, part);
+  }
+  if (a.size.empty()) return;
+  if (a.with_variance) throw UsageError("--resize mixes pixels, whose variances are then not known");
+  const auto [width, height] = parse_size("--resize", a.size, {picture.rgb.width, picture.rgb.height});
+  resize(picture, width, height);
+}
+
+// Returns the stops that the picture was brightened by.
+double expose_for_screen(Picture& picture, const DevelopArguments& a) {
+  const double ev = exposure_ev(a).value_or(automatic_exposure_ev(picture.rgb));
+  expose(picture, ev);
+  if (a.white_balance_K > 0) balance_white(picture, a.white_balance_K);
+  if (a.tone == "aces") picture.rgb = aces_tone_mapped(picture.rgb);
+  if (a.tone == "agx") picture.rgb = agx_tone_mapped(picture.rgb);
+  if (a.tone == "filmic") picture.rgb = filmic_tone_mapped(picture.rgb);
+  return ev;
+}
+
+void say_what_is_written(const Picture& picture, const DevelopArguments& a, double ev) {
+  std::string words = fmt::format("vitrail: {}: {} × {} pixels of {} bits", a.output, picture.rgb.width,
+                                  picture.rgb.height, a.bits > 0 ? a.bits : usual_bits(a.output));
+  if (picture.samples_per_pixel > 0) words += fmt::format(", {} samples each", picture.samples_per_pixel);
+  if (!a.layer.empty()) words += ", layer " + a.layer;
+  if (ev != 0) words += fmt::format(", exposure {:+.2f}", ev);
+  if (a.tone != "none") words += ", tone " + a.tone;
+  if (!picture.origin.denoiser.empty()) words += ", denoised by " + picture.origin.denoiser;
+  say("{}\n", words);
+}
+
+int develop_all(const DevelopArguments& a) {
+  std::optional<Denoiser> denoiser;
+  if (a.denoised) denoiser.emplace();
+  std::optional<Exposed> sum;
+  if (!a.reads_picture()) {
+    sum = merge_all(a);
+    require_samples(sum->film, sum->file);
+    if (a.writes(".csv")) return write_table(a.output, *sum), exit_done;
+    if (a.writes(".film")) return write_merged(a.output, *sum), exit_done;
+  }
+  Picture picture = sum ? measured_picture(*sum, a) : read_picture(a.films.front());
+  require_parts(picture, a);
+  if (!a.spectral) picture.spectrum = {};
+  if (!a.with_variance) picture.variance = {};
+  if (denoiser) denoise_by_guides(picture, *denoiser, a.quiet);
+  cut_and_resize(picture, a);
+  if (!a.layer.empty()) show_layer(picture, a.layer, !a.writes_light());
+  const double ev = expose_for_screen(picture, a);
+  if (!a.false_color.empty()) show_false_colors(picture, *sum, a);
+  write_picture(a.output, picture, a.bits);
+  if (!a.quiet) say_what_is_written(picture, a, ev);
+  return exit_done;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -158,30 +162,6 @@ int main(int argc, char** argv) {
   return run_guarded(app, argc, argv, [&] {
     require_agreement(a);
     require_place(a.output);
-    std::optional<Denoiser> denoiser;
-    if (a.denoised) denoiser.emplace();
-    const Exposed sum = merge_all(a);
-    require_samples(sum.film, sum.file);
-    if (a.writes(".csv")) {
-      write_table(a.output, sum);
-      return exit_done;
-    }
-    Picture picture = picture_of(sum);
-    if (sum.film.key().clamp > 0 && !a.quiet)
-      say("vitrail: rendered with --clamp {}, which took {:.3g} % of the light\n", sum.film.key().clamp,
-          100 * sum.film.clamped_share());
-    if (a.spectral && picture.bins.count == 0)
-      throw Error("the film keeps no spectra: render with --spectral N", {sum.file.string()});
-    if (!a.spectral) picture.spectrum = {};
-    if (a.with_variance && sum.film.key().one_sequence)
-      throw Error("the film knows no variance: it was rendered with --one-sequence", {sum.file.string()});
-    if (denoiser) denoise_by_guides(picture, *denoiser, a.quiet);
-    expose(picture, a.exposure_ev);
-    if (a.white_balance_K > 0) balance_white(picture, a.white_balance_K);
-    if (!a.with_variance) picture.variance = {};
-    if (a.tone == "aces") picture.rgb = aces_tone_mapped(picture.rgb);
-    if (!a.false_color.empty()) show_false_colors(picture, sum, a);
-    write_picture(a.output, picture, a.bits);
-    return exit_done;
+    return develop_all(a);
   });
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/develop/develop_arguments.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
@@ -11,22 +12,33 @@
 namespace vitrail {
 
 void declare(CLI::App& app, DevelopArguments& a) {
-  app.add_option("FILM", a.films, "films of one scene, each of its own seed")->required();
-  app.add_option("-o,--output", a.output,
-                 "image to write: .exr (linear), .png, .jpg or .tif (sRGB); .csv of sensors")
+  app.add_option("FILM", a.films,
+                 "films of one scene, each of its own seed; or an .exr or .hdr in their place")
       ->required();
-  app.add_option("--bits", a.bits, "a channel: 8 or 16; default: 8, and 16 for .tif; .exr has 32")
+  app.add_option("-o,--output", a.output,
+                 "image to write: .exr or .hdr (linear), .png, .jpg, .tif or .webp (sRGB); .csv of sensors; "
+                 ".film: the films as one")
+      ->required();
+  app.add_option("--bits", a.bits, "a channel: 8 or 16; default: 8, and 16 for .tif; .exr and .hdr have 32")
       ->check(CLI::IsMember({8, 16}));
-  app.add_option("--exposure", a.exposure_ev, "brighten by this many stops")->capture_default_str();
+  app.add_option("--crop", a.crop, "x0,x1,y0,y1 in pixels from the whole picture's top left");
+  app.add_option("--resize", a.size,
+                 "to WIDTHxHEIGHT in pixels, to a WIDTH and the height in proportion, or to PERCENT%");
+  app.add_option("--layer", a.layer,
+                 "show this layer of the first surfaces, as render --aov names it, in place of the colours");
+  app.add_option("--exposure", a.exposure,
+                 "brighten by this many stops; auto: the log-average of the luminances becomes 0.18")
+      ->capture_default_str();
   app.add_option(
          "--white-balance", a.white_balance_K,
          "show colours as if they had been under D65 and not under daylight of this temperature in K, "
          "as the `whitebalance` of pbrt's films does")
       ->check(CLI::PositiveNumber);
   app.add_option("--tone", a.tone,
-                 "none: what is brighter than white is white; aces: the output transform of ACES 1.x, after "
-                 "--exposure; not for .exr")
-      ->check(CLI::IsMember({"none", "aces"}))
+                 "none: what is brighter than white is white; aces: the output transform of ACES 1.x; agx: "
+                 "Sobotka's AgX, where bright colours pale; filmic: Hable's curve; after --exposure, and not "
+                 "for .exr and .hdr")
+      ->check(CLI::IsMember({"none", "aces", "agx", "filmic"}))
       ->capture_default_str();
   app.add_option("--false-color", a.false_color,
                  "luminance as colours with a scale, up to this in cd/m², or auto; not for .exr");
@@ -49,17 +61,44 @@ void declare(CLI::App& app, DevelopArguments& a) {
   app.add_flag("--quiet", a.quiet, "say nothing but what is wrong");
 }
 
+bool DevelopArguments::reads_picture() const {
+  return std::ranges::any_of(films, [](const std::filesystem::path& file) {
+    return file.extension() == ".exr" || file.extension() == ".hdr";
+  });
+}
+
+std::optional<double> exposure_ev(const DevelopArguments& a) {
+  if (a.exposure == "auto") return std::nullopt;
+  double ev = 0;
+  const char* const end_of_word = a.exposure.data() + a.exposure.size();
+  const auto [end, failed] =
+      std::from_chars(a.exposure.data() + a.exposure.starts_with('+'), end_of_word, ev);
+  if (failed != std::errc() || end != end_of_word || !std::isfinite(ev))
+    throw UsageError("--exposure takes auto or a number of stops, such as 1 or -0.5: " + a.exposure);
+  return ev;
+}
+
 void require_agreement(const DevelopArguments& a) {
-  const bool is_exr = a.writes(".exr");
-  if (a.spectral && !is_exr) throw UsageError("spectra are written as .exr only");
-  if (a.tone != "none" && is_exr)
-    throw UsageError("--tone is for screens; an .exr holds the light of the scene");
-  if (!a.false_color.empty() && (a.tone != "none" || a.exposure_ev != 0 || a.white_balance_K > 0 || is_exr))
+  if (a.spectral && !a.writes(".exr")) throw UsageError("spectra are written as .exr only");
+  if (a.tone != "none" && a.writes_light())
+    throw UsageError("--tone is for screens; an .exr or .hdr holds the light of the scene");
+  const bool is_exposed = a.tone != "none" || exposure_ev(a) != 0.0 || a.white_balance_K > 0;
+  if (!a.false_color.empty() && (is_exposed || a.writes_light()))
     throw UsageError(
         "--false-color shows luminances: not with --tone, --exposure or --white-balance, and not as .exr");
   if (a.denoised && (!a.false_color.empty() || a.with_variance || a.writes(".csv")))
     throw UsageError(
         "--denoise estimates what was not measured: not with --false-color or --variance, and not as .csv");
+  if (!a.layer.empty() &&
+      (is_exposed || a.denoised || a.with_variance || a.spectral || !a.false_color.empty()))
+    throw UsageError("--layer shows numbers as they are: only --crop, --resize and --bits go with it");
+  if (a.reads_picture() && a.films.size() > 1)
+    throw UsageError("pictures do not merge as films do: give one");
+  if (a.reads_picture() && (a.writes(".csv") || a.writes(".film") || !a.false_color.empty()))
+    throw UsageError("a picture is no film: .csv, .film and --false-color are made of what films measure");
+  if (a.writes(".film") &&
+      (is_exposed || a.denoised || !a.layer.empty() || !a.crop.empty() || !a.size.empty()))
+    throw UsageError("a .film holds what was rendered: no option changes it");
   if (a.logarithmic && a.false_color.empty()) throw UsageError("--log belongs to --false-color");
 }
 

@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,19 +14,25 @@ namespace vitrail {
 
 struct DevelopArguments {
   std::vector<std::string> films;
-  std::string output, tone = "none", false_color;
-  double exposure_ev = 0, white_balance_K = 0;
+  std::string output, tone = "none", false_color, exposure = "0", crop, size, layer;
+  double white_balance_K = 0;
   int bits = 0;
   bool with_variance = false, spectral = false, logarithmic = false, denoised = false;
   bool quiet = false, strict = false;
 
   bool writes(const char* extension) const { return std::filesystem::path(output).extension() == extension; }
+  // Formats that hold the light of the scene, not that of a screen.
+  bool writes_light() const { return writes(".exr") || writes(".hdr"); }
+  bool reads_picture() const;  // in place of films
 };
 
 void declare(CLI::App& app, DevelopArguments& arguments);
 
 // Throws UsageError where options do not go together.
 void require_agreement(const DevelopArguments& arguments);
+
+// Of --exposure, in stops; none: by the picture. Throws UsageError.
+std::optional<double> exposure_ev(const DevelopArguments& arguments);
 
 // Of --false-color: "auto", or luminance in cd/m². Throws UsageError.
 FalseColor false_color_of(const DevelopArguments& arguments);

@@ -5,9 +5,9 @@
 
 #include <fstream>
 
-#include "compare/alignment.h"
 #include "film/film_progress.h"
 #include "film/image_io.h"
+#include "film/picture_extent.h"
 #include "tests/support/command.h"
 #include "tests/support/temporary_directory.h"
 

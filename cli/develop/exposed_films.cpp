@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/develop/exposed_films.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "film/film_progress.h"
+#include "scene/system/diagnostics.h"
+#include "scene/system/input_files.h"
+#include "scene/system/say.h"
+
+namespace vitrail {
+
+namespace {
+
+// Of a merged film those that write_merged put there.
+std::vector<std::uint64_t> seeds_of(const Film& film, const std::string& about) {
+  std::vector<std::uint64_t> seeds;
+  const nlohmann::json json = nlohmann::json::parse(about, nullptr, false);
+  if (json.is_object())
+    for (const nlohmann::json& seed : json.value("seeds", nlohmann::json::array()))
+      if (seed.is_number_unsigned()) seeds.push_back(seed.get<std::uint64_t>());
+  if (seeds.empty()) return {film.key().seed};
+  std::ranges::sort(seeds);
+  return seeds;
+}
+
+Exposed load(const std::string& file, const DevelopArguments& a) {
+  note_input(file);
+  FilmProgress progress;
+  Exposed e{.file = file, .film = read_film(file, &progress)};
+  e.seeds = seeds_of(e.film, progress.about);
+  e.about = std::move(progress.about);
+  e.render_time_s = progress.render_time_s;
+  e.samples_per_pixel = progress.samples_per_pixel;
+  e.adaptive = progress.adaptive;
+  e.complete = progress.complete();
+  if (!e.complete && a.strict) throw Error("the film is not finished", {file});
+  if (!e.complete && !a.quiet)
+    say("vitrail: {}: the film is not finished; pixels may have unequal numbers of samples\n", file);
+  return e;
+}
+
+// Throws Error where a seed is in both.
+void add_seeds(Exposed& sum, const Exposed& film) {
+  for (const std::uint64_t seed : film.seeds)
+    if (std::ranges::binary_search(sum.seeds, seed))
+      throw Error(fmt::format("it has seed {}, as {} has: only films of different seeds are independent",
+                              seed, sum.file.string()),
+                  {film.file.string()});
+  sum.seeds.insert(sum.seeds.end(), film.seeds.begin(), film.seeds.end());
+  std::ranges::sort(sum.seeds);
+}
+
+// Above all that people choose.
+std::uint64_t seed_of(const std::vector<std::uint64_t>& seeds) {
+  std::uint64_t hash = 0;
+  for (const std::uint64_t seed : seeds) {
+    hash = (hash ^ seed) * 0x9e3779b97f4a7c15u;
+    hash ^= hash >> 32;
+  }
+  return hash | std::uint64_t{1} << 63;
+}
+
+// What the render knew of scene and camera.
+void put_about(PictureOrigin& origin, const std::string& about) {
+  const nlohmann::json json = nlohmann::json::parse(about, nullptr, false);
+  if (!json.is_object()) return;
+  origin.scene = json.value("scene", "");
+  origin.glazing = json.value("glazing", "");
+  origin.sampling = json.value("sampling", "");
+  const auto matrix = [&](const char* name) {
+    std::vector<float> numbers;
+    if (const auto found = json.find(name); found != json.end() && found->is_array())
+      for (const nlohmann::json& number : *found)
+        if (number.is_number()) numbers.push_back(number.get<float>());
+    return numbers;
+  };
+  origin.world_to_camera = matrix("world_to_camera");
+  origin.world_to_ndc = matrix("world_to_ndc");
+}
+
+}  // namespace
+
+Exposed merge_all(const DevelopArguments& a) {
+  std::vector<Exposed> films;
+  for (const std::string& file : a.films) films.push_back(load(file, a));
+  std::ranges::sort(films, {}, [](const Exposed& film) { return film.seeds.front(); });
+  for (const Exposed& film : films)
+    if (const std::string what = difference(films.front().film, film.film); !what.empty())
+      throw Error(fmt::format("cannot merge with {}: {}", films.front().file.string(), what),
+                  {film.file.string()});
+  Exposed sum = std::move(films.front());
+  for (std::size_t i = 1; i < films.size(); ++i) {
+    add_seeds(sum, films[i]);
+    try {
+      sum.film.merge(films[i].film);
+    } catch (const Error& e) {
+      throw Error(fmt::format("cannot merge with {}: {}", sum.file.string(), e.what()),
+                  {films[i].file.string()});
+    }
+    sum.render_time_s += films[i].render_time_s;
+    sum.samples_per_pixel += films[i].samples_per_pixel;
+    sum.adaptive |= films[i].adaptive;
+    if (sum.complete && !films[i].complete) sum.complete = false, sum.file = films[i].file;
+  }
+  return sum;
+}
+
+void write_merged(const std::filesystem::path& file, const Exposed& film) {
+  if (!film.complete)
+    throw Error("a film is made of finished ones, and this is not: render it first", {film.file.string()});
+  FilmKey key = film.film.key();
+  key.seed = film.seeds.size() == 1 ? film.seeds.front() : seed_of(film.seeds);
+  Film merged(film.film.settings(), key, film.film.exponent(), film.film.length_exponent());
+  merged.merge(film.film);
+  nlohmann::json about = nlohmann::json::parse(film.about, nullptr, false);
+  if (!about.is_object()) about = nlohmann::json::object();
+  about["seeds"] = film.seeds;
+  write_film(file, merged,
+             {.samples_per_pixel = film.samples_per_pixel,
+              .render_time_s = film.render_time_s,
+              .about = about.dump(),
+              .adaptive = film.adaptive});
+}
+
+Picture picture_of(const Exposed& sum) {
+  Picture picture = develop(sum.film);
+  picture.render_time_s = sum.render_time_s;
+  picture.origin.seeds = fmt::format("{}", fmt::join(sum.seeds, ","));
+  put_about(picture.origin, sum.about);
+  picture.neighbours = neighbours_of(sum.about);
+  return picture;
+}
+
+}  // namespace vitrail
