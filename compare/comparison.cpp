@@ -5,12 +5,13 @@
 #include <cmath>
 
 #include "compare/flip.h"
+#include "compare/ssim.h"
 
 namespace vitrail {
 
 const std::vector<std::string>& metric_names() {
-  static const std::vector<std::string> names{"relmse", "mse",  "rmse",  "mae",    "psnr",
-                                              "smape",  "flip", "ztest", "bitwise"};
+  static const std::vector<std::string> names{"relmse", "mse",   "rmse",    "mae",  "psnr", "smape",
+                                              "flip",   "ztest", "bitwise", "ssim", "welch"};
   return names;  // in the order of Metric
 }
 
@@ -54,6 +55,16 @@ void measure(Comparison& c, const ZTestInput& input) {
       c.value = mean_of_valid(c.error_map);
       if (!c.threshold) c.threshold = 0;
       return;
+    case Metric::ssim:
+      c.error_map = ssim_map(*input.image, *input.reference);
+      c.value = mean_of_valid(c.error_map);
+      for (double& v : c.error_map) v = v > 1 ? 0 : 1 - v;
+      return;
+    case Metric::welch:
+      c.error_map = welch_map(*c.welch, input.image->width, input.image->height);
+      c.value = c.welch->distance;
+      if (!c.threshold) c.threshold = c.welch->allowed_distance;
+      return;
     case Metric::ztest:
       c.test = ztest(input);
       c.error_map = std::move(c.test->z);
@@ -72,9 +83,11 @@ bool means_agree(const Comparison& c) {
 }  // namespace
 
 Comparison compare(const ZTestInput& input, Metric metric, std::optional<double> threshold,
-                   std::optional<double> mean_within, std::vector<double> flip_map) {
+                   std::optional<double> mean_within, std::vector<double> flip_map,
+                   std::optional<WelchTest> welch) {
   Comparison c;
   c.error_map = std::move(flip_map);
+  c.welch = std::move(welch);
   c.metric = metric;
   c.threshold = threshold;
   c.mean_within = mean_within;

@@ -8,11 +8,12 @@
 #include <vector>
 
 #include "compare/metrics.h"
+#include "compare/welch.h"
 #include "compare/ztest.h"
 
 namespace vitrail {
 
-enum class Metric { relmse, mse, rmse, mae, psnr, smape, flip, ztest, bitwise };
+enum class Metric { relmse, mse, rmse, mae, psnr, smape, flip, ztest, bitwise, ssim, welch };
 
 // Empty for an unknown name.
 std::optional<Metric> metric_of(const std::string& name);
@@ -26,7 +27,9 @@ struct WorstPixel {
 
 struct Comparison {
   Metric metric = Metric::relmse;
-  double value = 0;  // for ztest the fraction of values that fail, for bitwise of pixels that differ
+  // For ztest the fraction of values that fail, for bitwise of pixels that differ, for welch the distance of
+  // its p-values from evenly spread ones.
+  double value = 0;
   std::optional<double> threshold, mean_within;
   // value ≤ threshold, the means of X, Y and Z differ by no more than the fraction mean_within (without one,
   // ztest tests the means too), and every pixel is finite in both images. Nothing was asked where there is
@@ -37,16 +40,19 @@ struct Comparison {
   MeanRatios ratios;
   double luminance_ratio_error =
       0;  // standard error of ratios.luminance, from the scatter of the pixels, and what they share
-  std::optional<ZTest> test;      // its map moved to error_map
+  std::optional<ZTest> test;  // its map moved to error_map
+  std::optional<WelchTest> welch;
   std::vector<WorstPixel> worst;  // greatest error first
   std::vector<double> error_map;  // one value a pixel, ≥ 0; NaN where not finite
 };
 
 // The images of `input` by a metric; its variances are needed by ztest alone. Without a threshold, ztest has
-// ztest_tolerated, bitwise 0, and the others pass. FLIP looks at a pixel's neighbours: where pixels are left
-// out, `flip_map` is that of the whole images without them (flip.h); empty: hdr_flip of the images given.
+// ztest_tolerated, bitwise 0, welch its allowed distance, and the others pass. FLIP looks at a pixel's
+// neighbours: where pixels are left out, `flip_map` is that of the whole images without them (flip.h); empty:
+// hdr_flip of the images given. `welch`: the test of that name, which is not made here.
 Comparison compare(const ZTestInput& input, Metric metric, std::optional<double> threshold,
-                   std::optional<double> mean_within = std::nullopt, std::vector<double> flip_map = {});
+                   std::optional<double> mean_within = std::nullopt, std::vector<double> flip_map = {},
+                   std::optional<WelchTest> welch = std::nullopt);
 
 // A few lines for people; one JSON object for programs (numbers that are not finite become null).
 std::string to_text(const Comparison& comparison);

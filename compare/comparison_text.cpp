@@ -23,6 +23,12 @@ std::string about_noise(const ZTest& t) {
                      t.noise_rms, bias);
 }
 
+std::string about_tiles(const WelchTest& t) {
+  return fmt::format(
+      "p-values of {} tiles of {} × {} pixels, by tenths: {}; evenly spread where nothing differs\n",
+      t.tested, welch_tile, welch_tile, fmt::join(t.histogram, " "));
+}
+
 }  // namespace
 
 std::string to_text(const Comparison& c) {
@@ -41,6 +47,7 @@ std::string to_text(const Comparison& c) {
                         : c.test->means_differ ? ": too many"
                                                : "");
   }
+  if (c.welch) text += about_tiles(*c.welch);
   if (c.nonfinite_image + c.nonfinite_reference > 0)
     text += fmt::format("pixels that are not finite: {} of the image, {} of the reference\n",
                         c.nonfinite_image, c.nonfinite_reference);
@@ -77,6 +84,10 @@ std::string to_json(const Comparison& c) {
     json["mean_sigmas"] = c.test->mean_sigmas;
     json["noise_rms"] = c.test->noise_rms;
     json["difference_rms"] = c.test->difference_rms;
+  }
+  if (c.welch) {
+    json["tiles"] = c.welch->tested;
+    json["histogram"] = c.welch->histogram;
   }
   for (const WorstPixel& w : c.worst)
     json["worst"].push_back(

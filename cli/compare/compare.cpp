@@ -66,13 +66,26 @@ Mask mask_of(const CompareArguments& options, const Picture& image) {
   return make_mask(image.rgb.width, image.rgb.height, ignored, kept.rgb);
 }
 
+// In its place.
+void resize_to(Picture& image, const Picture& reference) {
+  const Image& size = reference.rgb;
+  if (image.rgb.width != size.width || image.rgb.height != size.height)
+    resize(image, size.width, size.height);
+  image.window = reference.window;
+  image.full_width = reference.full_width, image.full_height = reference.full_height;
+}
+
 int run(const CompareArguments& options) {
   const std::optional<Metric> metric = metric_of(options.metric);
-  if (metric == Metric::psnr && options.fail_above)
-    throw UsageError("psnr grows as images get closer: use --metric mse with --fail-above");
+  if ((metric == Metric::psnr || metric == Metric::ssim) && options.fail_above)
+    throw UsageError(fmt::format("{} grows as images get closer: use --metric mse or flip with --fail-above",
+                                 options.metric));
+  if (metric == Metric::welch && (!options.ignored.empty() || !options.mask.empty()))
+    throw UsageError("welch tests tiles of pixels that lie together: not with --ignore or --mask");
   for (const std::filesystem::path& file : {options.heatmap, options.signed_map, options.html})
     if (!file.empty()) require_place(file);
   Picture image = load(options.image, options), reference = load(options.reference, options);
+  if (options.resized) resize_to(image, reference);
   align(image, reference);
   const Mask mask = mask_of(options, image);
   ZTestInput test{&image.rgb, &reference.rgb, {}, {}, 0, 1};
@@ -85,8 +98,10 @@ int run(const CompareArguments& options) {
           without(test.degrees_of_freedom, mask),
           std::hypot(image.shared_error, reference.shared_error),
           neighbours_of_mean(image, reference)};
-  Comparison comparison = compare(test, *metric, options.fail_above, options.mean_within,
-                                  without(flip_map(options, image.rgb, reference.rgb), mask));
+  Comparison comparison =
+      compare(test, *metric, options.fail_above, options.mean_within,
+              without(flip_map(options, image.rgb, reference.rgb), mask),
+              metric == Metric::welch ? std::optional(welch_test_of(image, reference)) : std::nullopt);
   const std::size_t compared = comparison.error_map.size();
   const std::vector<double> map = spread(comparison.error_map, mask);
   comparison.worst =

@@ -12,7 +12,9 @@ namespace vitrail {
 void declare(CLI::App& app, CompareArguments& o) {
   app.add_option("IMAGE", o.image, "image or .film")->required();
   app.add_option("REFERENCE", o.reference, "image or .film")->required();
-  app.add_option("--metric", o.metric, "relmse, mse, rmse, mae, psnr, smape, flip, ztest or bitwise")
+  app.add_option("--metric", o.metric,
+                 "relmse, mse, rmse, mae, psnr, smape, flip, ssim, ztest or bitwise; welch: whether two "
+                 "films could have the same expectation, by t-tests of tiles")
       ->check(CLI::IsMember(metric_names()))
       ->capture_default_str();
   app.add_option(
@@ -28,6 +30,7 @@ void declare(CLI::App& app, CompareArguments& o) {
       ->allow_extra_args(false);
   app.add_option("--mask", o.mask, "an image; pixels that are black in it are left out");
   app.add_option("--fail-above", o.fail_above, "exit with 1 if the value is greater");
+  app.add_flag("--resize", o.resized, "take IMAGE to the size of REFERENCE where it has another");
   app.add_flag("--json", o.json, "print one JSON object");
   app.add_flag("--strict", o.strict, "refuse films that are not finished");
   app.add_flag("--quiet", o.quiet, "say nothing; the exit status does");
@@ -35,7 +38,7 @@ void declare(CLI::App& app, CompareArguments& o) {
   app.add_option(
       "--heatmap", o.heatmap,
       "write the error of each pixel: as numbers (.exr), or as colours from black (0) over red and "
-      "yellow to white, of flip those of magma (.png)");
+      "yellow to white, of flip those of magma (.png); of ssim it is 1 - ssim, of welch 1 - p");
   app.add_option(
       "--html", o.html,
       "write a page for a browser, which needs no other file: both images and their errors, to flip, "
@@ -58,7 +61,7 @@ void declare(CLI::App& app, CompareArguments& o) {
   app.add_option(
          "--map-scale", o.map_scale,
          "the error that is shown as white, or as full blue and red; default: the 99th percentile, of "
-         "flip 1")
+         "flip and welch 1")
       ->check(more_than_0);
 }
 

@@ -19,6 +19,7 @@ struct CompareArguments {
   std::optional<double> variance_samples, fail_above, mean_within, map_scale;
   double pixels_per_degree = flip_pixels_per_degree;
   std::size_t worst = 3;
+  bool resized = false;
   bool json = false, quiet = false, strict = false;
 };
 

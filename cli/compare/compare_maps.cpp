@@ -33,7 +33,8 @@ void write_maps(const CompareArguments& options, const Comparison& c, const Pict
   if (!options.heatmap.empty()) {
     const bool flip = c.metric == Metric::flip;
     const Palette palette = flip ? Palette::magma : Palette::heat;
-    const double scale = options.map_scale.value_or(flip ? 1 : hottest(c.error_map));
+    const double scale =
+        options.map_scale.value_or(flip || c.metric == Metric::welch ? 1 : hottest(c.error_map));
     write_map(options.heatmap, error_image(c.error_map, a.width, a.height),
               heatmap(c.error_map, a.width, a.height, scale, palette), scale, palette);
   }

@@ -53,6 +53,16 @@ double neighbours_of_mean(const Picture& image, const Picture& reference) {
   return of_a > 0 && of_b > 0 ? (a * of_a + b * of_b) / (of_a + of_b) : std::max(a, b);
 }
 
+WelchTest welch_test_of(const Picture& image, const Picture& reference) {
+  const auto tested = [](const Picture& picture) {
+    if (picture.variance.pixels() == 0)
+      throw UsageError("welch needs the variances of both: give films, or images of develop --variance");
+    const EstimatedVariance v = estimated_variance(picture);
+    return WelchPicture{&picture.rgb, v.variance, picture.neighbours.of_mean, v.neighbours_of_variances};
+  };
+  return welch_test(tested(image), tested(reference));
+}
+
 void find_variances(ZTestInput& test, const Picture& image, const Picture& reference, const std::string& file,
                     std::optional<double> samples) {
   if (image.variance.pixels() + reference.variance.pixels() == 0 && file.empty())

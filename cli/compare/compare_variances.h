@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "compare/welch.h"
 #include "compare/ztest.h"
 #include "film/develop.h"
 
@@ -17,5 +18,8 @@ void find_variances(ZTestInput& test, const Picture& image, const Picture& refer
 
 // Of the difference of two pictures: by the noise of each where both know it, else the greater.
 double neighbours_of_mean(const Picture& image, const Picture& reference);
+
+// Throws UsageError unless both know the variances of their pixels.
+WelchTest welch_test_of(const Picture& image, const Picture& reference);
 
 }  // namespace vitrail

@@ -126,6 +126,27 @@ TEST_F(ImagePrograms, CompareTakesFilmsAndImages) {
   EXPECT_THAT(json.output, HasSubstr("\"value\":0.0"));
 }
 
+TEST_F(ImagePrograms, CompareResizesWhereItIsAsked) {
+  const std::string a = film("a.film", 1);
+  ASSERT_EQ(develop(a + " -o " + quoted("half.exr") + " --resize 50%").status, 0);
+  EXPECT_EQ(compare(quoted("half.exr") + ' ' + a).status, 3);
+  EXPECT_EQ(compare(quoted("half.exr") + ' ' + a + " --resize --fail-above 1e-6").status, 0);
+  EXPECT_EQ(compare(a + ' ' + quoted("half.exr") + " --resize --fail-above 1e-6").status, 0);
+}
+
+TEST_F(ImagePrograms, CompareByStructureAndByTiles) {
+  const std::string a = film("a.film", 1), b = film("b.film", 2);
+  EXPECT_THAT(compare(a + ' ' + a + " --metric ssim").output, HasSubstr("ssim 1\n"));
+  EXPECT_EQ(compare(a + ' ' + a + " --metric ssim --fail-above 1").status, 2);
+  const CommandResult same = compare(a + ' ' + b + " --metric welch --heatmap " + quoted("p.exr"));
+  EXPECT_EQ(same.status, 0) << same.output;
+  EXPECT_THAT(same.output, HasSubstr("p-values of 1 tiles of 8 × 8 pixels"));
+  EXPECT_EQ(read_picture(directory_ / "p.exr").rgb.width, 8);
+  ASSERT_EQ(develop(a + " -o " + quoted("a.exr")).status, 0);
+  EXPECT_EQ(compare(a + ' ' + quoted("a.exr") + " --metric welch").status, 2) << "it knows no variance";
+  EXPECT_EQ(compare(a + ' ' + b + " --metric welch --ignore 0,1,0,1").status, 2);
+}
+
 TEST_F(ImagePrograms, CompareFailsAboveTheThresholdAndShowsWhere) {
   ASSERT_EQ(develop(film("a.film", 1) + " -o " + quoted("a.exr")).status, 0);
   ASSERT_EQ(develop(film("a.film", 1) + " -o " + quoted("b.exr") + " --exposure 0.1").status, 0);
