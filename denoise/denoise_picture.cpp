@@ -20,8 +20,8 @@ Image layer_of(const Picture& picture, Layer layer) {
   return image;
 }
 
-// Each bin by itself, as a grey picture: the bins at the ends of the spectrum have few samples, and their noise
-// would be taken for light of their neighbours.
+// Each bin by itself, as a grey picture: the bins at the ends of the spectrum have few samples, and their
+// noise would be taken for light of their neighbours.
 void denoise_spectrum(Image& spectrum, const Denoiser& denoiser, const DenoiserGuides& guides) {
   const auto bins = static_cast<std::size_t>(spectrum.channels);
   Image grey = black_image(spectrum.width, spectrum.height, 3);

@@ -23,7 +23,8 @@ Denoiser::Denoiser()
 void Denoiser::require_no_error() const {
   const char* message = nullptr;
   if (oidn_.GetDeviceError(device_.get(), &message) != oidn::no_error)
-    throw MachineError(fmt::format("cannot denoise: Open Image Denoise: {}", message ? message : "it failed"));
+    throw MachineError(
+        fmt::format("cannot denoise: Open Image Denoise: {}", message ? message : "it failed"));
 }
 
 Image Denoiser::run(std::initializer_list<Input> inputs, bool of_light) const {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Intel Open Image Denoise (Áfra 2019–), a convolutional network trained on path-traced pictures, on the cores
-// of this machine. Equal machines give equal images; others may differ in the last bits, as instruction sets
-// do: law 1 is one of films, not of what is estimated of them.
+// Intel Open Image Denoise (Áfra 2019–), a convolutional network trained on path-traced pictures, on the
+// cores of this machine. Equal machines give equal images; others may differ in the last bits, as instruction
+// sets do: law 1 is one of films, not of what is estimated of them.
 #pragma once
 
 #include <initializer_list>
@@ -29,8 +29,8 @@ class Denoiser {
 
   // Guides without their own noise, of lenses, motion and textures.
   DenoiserGuides denoised(const DenoiserGuides& guides) const;
-  // Three channels of linear light without bound; below 0 counts as 0. `guides`: denoised ones. All images are
-  // of one size. Throws MachineError.
+  // Three channels of linear light without bound; below 0 counts as 0. `guides`: denoised ones. All images
+  // are of one size. Throws MachineError.
   Image denoised(const Image& colors, const DenoiserGuides& guides) const;
 
  private:

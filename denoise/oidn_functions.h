@@ -21,8 +21,8 @@ struct Functions {
   void (*SetDeviceBool)(Device, const char* name, bool value);
   int (*GetDeviceInt)(Device, const char* name);
   void (*CommitDevice)(Device);
-  // The first error since the last call, and what it is in words, which stay until the next one. Of no device:
-  // why there is none.
+  // The first error since the last call, and what it is in words, which stay until the next one. Of no
+  // device: why there is none.
   int (*GetDeviceError)(Device, const char** message);
   void (*ReleaseDevice)(Device);
   Filter (*NewFilter)(Device, const char* type);

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "film/film_progress.h"
+#include "film/film_seeds.h"
 #include "scene/system/diagnostics.h"
 #include "scene/system/input_files.h"
 #include "scene/system/say.h"
@@ -14,18 +15,6 @@
 namespace vitrail {
 
 namespace {
-
-// Of a merged film those that write_merged put there.
-std::vector<std::uint64_t> seeds_of(const Film& film, const std::string& about) {
-  std::vector<std::uint64_t> seeds;
-  const nlohmann::json json = nlohmann::json::parse(about, nullptr, false);
-  if (json.is_object())
-    for (const nlohmann::json& seed : json.value("seeds", nlohmann::json::array()))
-      if (seed.is_number_unsigned()) seeds.push_back(seed.get<std::uint64_t>());
-  if (seeds.empty()) return {film.key().seed};
-  std::ranges::sort(seeds);
-  return seeds;
-}
 
 Exposed load(const std::string& file, const DevelopArguments& a) {
   note_input(file);
@@ -52,16 +41,6 @@ void add_seeds(Exposed& sum, const Exposed& film) {
                   {film.file.string()});
   sum.seeds.insert(sum.seeds.end(), film.seeds.begin(), film.seeds.end());
   std::ranges::sort(sum.seeds);
-}
-
-// Above all that people choose.
-std::uint64_t seed_of(const std::vector<std::uint64_t>& seeds) {
-  std::uint64_t hash = 0;
-  for (const std::uint64_t seed : seeds) {
-    hash = (hash ^ seed) * 0x9e3779b97f4a7c15u;
-    hash ^= hash >> 32;
-  }
-  return hash | std::uint64_t{1} << 63;
 }
 
 // What the render knew of scene and camera.
@@ -113,16 +92,13 @@ void write_merged(const std::filesystem::path& file, const Exposed& film) {
   if (!film.complete)
     throw Error("a film is made of finished ones, and this is not: render it first", {film.file.string()});
   FilmKey key = film.film.key();
-  key.seed = film.seeds.size() == 1 ? film.seeds.front() : seed_of(film.seeds);
+  key.seed = merged_seed(film.seeds);
   Film merged(film.film.settings(), key, film.film.exponent(), film.film.length_exponent());
   merged.merge(film.film);
-  nlohmann::json about = nlohmann::json::parse(film.about, nullptr, false);
-  if (!about.is_object()) about = nlohmann::json::object();
-  about["seeds"] = film.seeds;
   write_film(file, merged,
              {.samples_per_pixel = film.samples_per_pixel,
               .render_time_s = film.render_time_s,
-              .about = about.dump(),
+              .about = with_seeds(film.about, film.seeds),
               .adaptive = film.adaptive});
 }
 

@@ -9,6 +9,7 @@
 #include "cli/common/quadric_counts.h"
 #include "cli/inspect/inspect.h"
 #include "film/film_progress.h"
+#include "film/film_seeds.h"
 #include "importers/import.h"
 #include "partitioner/appearance/appearance.h"
 #include "partitioner/placing/flatten.h"
@@ -245,7 +246,7 @@ Report inspect_film(const std::filesystem::path& file) {
           {"nonfinite_samples", film.refused().nonfinite},
           {"saturated_samples", film.refused().too_large},
           {"render_time_s", progress.render_time_s},
-          {"seed", film.key().seed},
+          {"seeds", seeds_of(film, progress.about)},
           {"scene_hash", fmt::format("{:016x}", film.key().scene_hash)},
           {"glazing", asked_of(progress, "glazing", "as the scene says")},
           {"sampling", asked_of(progress, "sampling", "as usual")},

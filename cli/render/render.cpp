@@ -73,8 +73,12 @@ void develop_film(const RenderArguments& a, const RenderStats& stats) {
   std::error_code none;
   const auto developed = fs::last_write_time(a.output, none);
   if (stats.finished_before && !a.options.outputs.force && !none &&
-      developed >= fs::last_write_time(a.options.outputs.film))
+      developed >= fs::last_write_time(a.options.outputs.film)) {
+    if (a.denoised && !a.quiet)
+      say("vitrail: {} is newer than its film and stays; vitrail develop {} -o {} --denoise replaces it\n",
+          a.output.string(), a.options.outputs.film.string(), a.output.string());
     return;
+  }
   if (is_png(a.output) && !a.denoised) return write_png_of(a.options.outputs.film, a.output);
   std::vector<std::string> arguments{a.options.outputs.film.string(), "-o", a.output.string(), "--quiet"};
   if (stats.spectral_bins > 0 && a.output.extension() == ".exr") arguments.push_back("--spectral");

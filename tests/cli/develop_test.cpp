@@ -129,6 +129,7 @@ TEST_F(Develop, MergesFilmsIntoOne) {
   EXPECT_EQ(picture("all.exr").rgb, picture("three.exr").rgb);
   EXPECT_EQ(picture("all.exr").origin.seeds, "0,1,2");
   EXPECT_EQ(picture("all.exr").samples_per_pixel, 12);
+  EXPECT_THAT(run(vitrail("inspect") + " " + path("01.film")).output, HasSubstr("seeds: 0 1\n"));
   const CommandResult twice = develop(path("01.film") + " " + path("1.film"), "b.exr");
   EXPECT_EQ(twice.status, 3);
   EXPECT_THAT(twice.output, HasSubstr("it has seed 1"));

@@ -32,6 +32,8 @@ TEST(ToneCurves, AgxIsASigmoidOfStops) {
   const auto encoded = [](double light) { return std::pow(grey(agx_tone_mapped, light), 1 / 2.2); };
   EXPECT_NEAR(encoded(0.18), 0.5, 1e-6);
   EXPECT_NEAR(encoded(0.18 * std::exp2(0.05)) - encoded(0.18 * std::exp2(-0.05)), 2 * 0.1 / 16.5, 1e-5);
+  EXPECT_NEAR(encoded(0.18 * std::exp2(3)), 0.837510, 1e-5);
+  EXPECT_NEAR(encoded(0.18 * std::exp2(-5)), 0.062365, 1e-5);
   EXPECT_NEAR(encoded(0.18 * std::exp2(6.5)), 1, 1e-5);
   EXPECT_EQ(encoded(0.18 * std::exp2(-10.5)), 0);
   EXPECT_EQ(grey(agx_tone_mapped, 0), 0);
