@@ -96,8 +96,8 @@ void require_agreement(const DevelopArguments& a) {
     throw UsageError("pictures do not merge as films do: give one");
   if (a.reads_picture() && (a.writes(".csv") || a.writes(".film") || !a.false_color.empty()))
     throw UsageError("a picture is no film: .csv, .film and --false-color are made of what films measure");
-  if (a.writes(".film") &&
-      (is_exposed || a.denoised || !a.layer.empty() || !a.crop.empty() || !a.size.empty()))
+  if (a.writes(".film") && (is_exposed || a.denoised || a.with_variance || a.spectral || a.bits > 0 ||
+                            !a.false_color.empty() || !a.layer.empty() || !a.crop.empty() || !a.size.empty()))
     throw UsageError("a .film holds what was rendered: no option changes it");
   if (a.logarithmic && a.false_color.empty()) throw UsageError("--log belongs to --false-color");
 }

@@ -91,6 +91,9 @@ Exposed merge_all(const DevelopArguments& a) {
 void write_merged(const std::filesystem::path& file, const Exposed& film) {
   if (!film.complete)
     throw Error("a film is made of finished ones, and this is not: render it first", {film.file.string()});
+  if (std::filesystem::exists(file))
+    throw Error("it is there already, and may hold other work: take another name, or remove it",
+                {file.string()});
   FilmKey key = film.film.key();
   key.seed = merged_seed(film.seeds);
   Film merged(film.film.settings(), key, film.film.exponent(), film.film.length_exponent());

@@ -26,7 +26,7 @@ Picture picture_of(const Exposed& film);
 
 // As a film of its own, whose seed is a number made of all seeds, so that no render goes on from it; its
 // description has the seeds themselves, and it merges with films of others. Throws Error where it is not
-// finished.
+// finished, or the file is there.
 void write_merged(const std::filesystem::path& file, const Exposed& film);
 
 }  // namespace vitrail

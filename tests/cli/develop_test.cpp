@@ -133,13 +133,15 @@ TEST_F(Develop, MergesFilmsIntoOne) {
   const CommandResult twice = develop(path("01.film") + " " + path("1.film"), "b.exr");
   EXPECT_EQ(twice.status, 3);
   EXPECT_THAT(twice.output, HasSubstr("it has seed 1"));
+  EXPECT_EQ(develop(path("2.film"), "01.film").status, 3) << "it holds other work";
   const CommandResult resumed = render("01.film", "--spp 8");
   EXPECT_EQ(resumed.status, 3) << resumed.output;
   ASSERT_EQ(render("deep.film", "--spp 4 --seed 3 --max-depth 2").status, 0);
   const CommandResult other = develop(path("0.film") + " " + path("deep.film"), "b.film");
   EXPECT_EQ(other.status, 3);
   EXPECT_THAT(other.output, HasSubstr("their depths differ"));
-  EXPECT_EQ(develop(path("0.film"), "b.film", "--exposure 1").status, 2);
+  for (const char* option : {"--exposure 1", "--variance", "--bits 8", "--crop 0,1,0,1"})
+    EXPECT_EQ(develop(path("0.film"), "b.film", option).status, 2) << option;
 }
 
 }  // namespace
