@@ -1,73 +1,111 @@
 // SPDX-License-Identifier: Apache-2.0
 // The front program: `vitrail VERB …` becomes `vitrail-VERB …` beside it.
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
-#include <cstdio>
 #include <cstring>
-#include <filesystem>
 #include <string>
 #include <vector>
 
+#include "cli/common/main_guard.h"
+#include "cli/common/run_program.h"
+#include "cli/help/completion.h"
+#include "cli/help/help_text.h"
+#include "cli/help/man_page.h"
 #include "scene/system/diagnostics.h"
+#include "scene/system/say.h"
 
+namespace vitrail {
 namespace {
 
-constexpr const char* usage = R"(usage: vitrail VERB ...
+constexpr const char* version = "vitrail " VITRAIL_VERSION "\n";
 
-  convert     a scene from one format to another
-  inspect     what is in a scene, a bundle, one of its files or a film, and what it needs
-  partition   a scene into a bundle of sub-domains, one file each
-  verify      every byte of a bundle
-  render      a bundle or a scene, alone or under mpirun
-  plan        what a cluster would do with a bundle
-  develop     films into a picture
-  compare     a picture with a reference
-  measure     what speed costs on a scene, and which settings to take
-  glazing     transmittance, reflectance and colour of panes
-  sky         where the sun stands, and what sun and sky give
-  spectrum    reflectances made from RGB, evaluated
+std::string usage() {
+  constexpr std::size_t column = 17;
+  const std::size_t width = help_width();
+  std::string text =
+      "usage: vitrail VERB ...\n\nStart here:\n" + example_text(first_steps(), width) + "\nVerbs:\n";
+  for (const Verb& verb : verbs()) text += entry_text(verb.name, verb.summary, column, width);
+  text += "\nMore:\n";
+  text += entry_text("help VERB", "all that a verb can do", column, width);
+  text += entry_text("completion",
+                     "bash, zsh or fish: what the shell needs to complete words, as in: "
+                     "source <(vitrail completion bash)",
+                     column, width);
+  return text + entry_text("-V, --version", "which version this is", column, width);
+}
 
-`vitrail help VERB` says more.
-)";
-
-const std::vector<std::string> verbs{"convert", "inspect", "partition", "verify",  "render", "plan",
-                                     "develop", "compare", "measure",   "glazing", "sky",    "spectrum"};
+// For its man page.
+Command front_command() {
+  CommandGroup group{"Verbs", {}};
+  for (const Verb& verb : verbs()) {
+    CommandOption told;
+    told.is_argument = true;
+    told.value = verb.name;
+    told.text = verb.summary;
+    group.options.push_back(told);
+  }
+  const std::span<const Example> steps = first_steps();
+  return {"vitrail",
+          "convert scenes and render them spectrally, on a laptop or a cluster",
+          {group},
+          {steps.begin(), steps.end()}};
+}
 
 int no_such(const std::string& verb) {
-  const std::string meant = vitrail::closest_word(verb, verbs);
-  std::fprintf(stderr, "vitrail: there is no verb '%s'%s%s%s\n\n%s", verb.c_str(),
-               meant.empty() ? "" : "; did you mean ", meant.c_str(), meant.empty() ? "" : "?", usage);
-  return 2;
+  std::vector<std::string> names;
+  for (const Verb& known : verbs()) names.emplace_back(known.name);
+  const std::string meant = closest_word(verb, names);
+  say("vitrail: there is no verb '{}'{}\n\n{}", verb, meant.empty() ? "" : "; did you mean " + meant + "?",
+      usage());
+  return exit_usage;
 }
 
-int answer(const char* text) {
-  if (std::fputs(text, stdout) >= 0 && std::fflush(stdout) == 0) return 0;
-  std::fprintf(stderr, "vitrail: cannot write to standard output: %s\n", std::strerror(errno));
-  return 4;
+int complete(const std::string& shell) {
+  if (std::ranges::find(completed_shells, shell) == completed_shells.end())
+    throw UsageError("completion is for bash, zsh or fish, not for '" + shell + "'");
+  show_text(completion_head(shell));
+  flush_shown();
+  for (const Verb& verb : verbs()) run_program("vitrail-" + std::string(verb.name), {"--describe", shell});
+  show_text(completion_tail(shell));
+  return exit_done;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  std::vector<std::string> words(argv + 1, argv + argc);
-  if (words.size() > 1 && words[0] == "help") words = {words[1], "--help"};
-  const std::string verb = words.empty() ? "" : words[0];
-  if (verb == "--help" || verb == "-h" || verb == "help") return answer(usage);
-  if (verb == "--version") return answer("vitrail " VITRAIL_VERSION "\n");
-  if (verb.empty()) {
-    std::fputs(usage, stderr);
-    return 2;
-  }
-  if (std::find(verbs.begin(), verbs.end(), verb) == verbs.end()) return no_such(verb);
+int become(std::vector<std::string> words) {
+  const std::string program = (program_folder() / ("vitrail-" + words[0])).string();
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
-  const std::filesystem::path program =
-      std::filesystem::read_symlink("/proc/self/exe").parent_path() / ("vitrail-" + verb);
   ::execv(program.c_str(), arguments.data());
-  std::fprintf(stderr, "vitrail: cannot run %s: %s; the programs of vitrail have to lie in one folder\n",
-               program.c_str(), std::strerror(errno));
-  return 4;
+  throw MachineError(fmt::format("cannot run {}: {}; the programs of vitrail have to lie in one folder",
+                                 program, std::strerror(errno)));
+}
+
+int answer(const std::string& text) {
+  show_text(text);
+  return exit_done;
+}
+
+int run(std::vector<std::string> words) {
+  if (words.size() > 1 && words[0] == "help") words = {words[1], "--help"};
+  const std::string verb = words.empty() ? "" : words[0];
+  if (verb == "--help" || verb == "-h" || verb == "help") return answer(usage());
+  if (verb == "--version" || verb == "-V") return answer(version);
+  if (verb.empty()) {
+    say_text(usage());
+    return exit_usage;
+  }
+  if (verb == "completion") return complete(words.size() > 1 ? words[1] : "");
+  if (verb == "--describe" && words.size() == 2 && words[1] == "man")
+    return answer(man_page(front_command(), VITRAIL_VERSION));
+  return find_verb(verb) ? become(words) : no_such(verb);
+}
+
+}  // namespace
+}  // namespace vitrail
+
+int main(int argc, char** argv) {
+  return vitrail::run_guarded([&] { return vitrail::run({argv + 1, argv + argc}); });
 }

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
@@ -12,6 +13,10 @@
 #include <string>
 
 #include "cli/common/unknown_options.h"
+#include "cli/help/completion.h"
+#include "cli/help/describe.h"
+#include "cli/help/help_text.h"
+#include "cli/help/man_page.h"
 #include "scene/system/diagnostics.h"
 #include "scene/system/input_files.h"
 #include "scene/system/say.h"
@@ -86,6 +91,19 @@ std::string first_input(const CLI::App& app) {
   return {};
 }
 
+// Of the hidden `--describe man|bash|zsh|fish`, which the build asks for; empty of another word.
+std::string description(const CLI::App& app, const std::string& writer) {
+  if (writer == "man") return man_page(describe(app), VITRAIL_VERSION);
+  const bool is_shell = std::ranges::find(completed_shells, writer) != completed_shells.end();
+  return is_shell ? completion_of(writer, describe(app)) : "";
+}
+
+int answer(const std::string& text) {
+  show("{}", text);
+  flush_shown();
+  return exit_done;
+}
+
 }  // namespace
 
 int run_guarded(const std::function<int()>& body) { return run({}, body); }
@@ -101,12 +119,19 @@ int end_with(int status) {
 
 int run_guarded(CLI::App& app, int argc, char** argv, const std::function<int()>& body) {
   std::string input;
+  app.set_version_flag("-V,--version", "vitrail " VITRAIL_VERSION, "say which version this is");
+  app.set_help_flag("-h,--help", "say all this");
+  let_the_last_count(app);
   return run(input, [&] {
     try {
+      if (argc == 3 && std::string(argv[1]) == "--describe")
+        if (const std::string text = description(app, argv[2]); !text.empty()) return answer(text);
       app.parse(argc, argv);
       input = first_input(app);
-    } catch (const CLI::Success& e) {  // --help, --version
-      return app.exit(e);
+    } catch (const CLI::CallForHelp&) {
+      return answer(help_text(describe(app), help_width()));
+    } catch (const CLI::CallForVersion& e) {
+      return answer(std::string(e.what()) + '\n');
     } catch (const CLI::ExtrasError&) {
       throw UsageError(fmt::format("{} (see {} --help)", about_unexpected(app), app.get_name()));
     } catch (const CLI::ParseError& e) {

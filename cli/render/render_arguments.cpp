@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <functional>
 #include <iterator>
 
 #include "cli/common/default_output.h"
@@ -197,14 +196,6 @@ void declare_words(CLI::App& app, RenderArguments& a) {
   app.add_flag("--quiet", a.quiet, "say nothing but what is wrong");
 }
 
-// What `declare_them` declares stands under the heading in --help.
-void under_heading(CLI::App& app, const char* heading, const std::function<void()>& declare_them) {
-  const std::size_t before = app.get_options().size();
-  declare_them();
-  const std::vector<CLI::Option*> all = app.get_options();
-  for (std::size_t i = before; i < all.size(); ++i) all[i]->group(heading);
-}
-
 // For tests: not in the help.
 void declare_tests(CLI::App& app, RenderOptions& o) {
   app.add_option("--shuffle-delivery", o.resources.shuffle_seed)->group("");
@@ -216,19 +207,17 @@ void declare_tests(CLI::App& app, RenderOptions& o) {
 void declare(CLI::App& app, RenderArguments& a) {
   declare_files(app, a);
   declare_denoiser(app, a);
-  under_heading(app, "How many samples", [&] { declare_samples(app, a); });
-  under_heading(app, "The picture", [&] { declare_picture(app, a); });
-  under_heading(app, "Photon mapping", [&] { declare_photons(app, a.options); });
-  under_heading(app, "The machine", [&] { declare_resources(app, a); });
-  under_heading(app, "What the film keeps", [&] { declare_film(app, a); });
-  under_heading(app, "The job", [&] { declare_job(app, a); });
-  under_heading(app, "What else is written", [&] { declare_outputs(app, a); });
-  under_heading(app, "A scene in place of a bundle", [&] {
-    declare_import_options(app, a.imports);
-    declare_rgb_option(app, a.rgb);
-    declare_mesh_options(app, a.meshes);
-  });
-  under_heading(app, "What is said", [&] { declare_words(app, a); });
+  declare_samples(app, a);
+  declare_picture(app, a);
+  declare_photons(app, a.options);
+  declare_resources(app, a);
+  declare_film(app, a);
+  declare_job(app, a);
+  declare_outputs(app, a);
+  declare_import_options(app, a.imports);
+  declare_rgb_option(app, a.rgb);
+  declare_mesh_options(app, a.meshes);
+  declare_words(app, a);
   declare_tests(app, a.options);
 }
 

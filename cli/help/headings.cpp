@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/help/headings.h"
+
+namespace vitrail {
+
+namespace {
+
+constexpr Heading scene{"How the scene is read",
+                        "define=NAME=VALUE camera sky=SKY rgb missing root=FOLDER include-limit=SIZE strict"};
+constexpr Heading meshes{"What becomes of its meshes",
+                         "tessellate=SEGMENTS repair orient subdivide=LEVELS decimate=FRACTION"};
+
+const std::vector<Heading> of_render{
+    {"What to render",
+     "input=SCENE|BUNDLE width=PIXELS height=PIXELS scale=FACTOR crop=X0,X1,Y0,Y1 max-depth integrator "
+     "sensors=FILE set=NAME.state=X"},
+    {"How good", "quality spp target-error=ERROR adaptive seed clamp=RADIANCE"},
+    {"How long",
+     "time=SECONDS dry-run checkpoint-every=SECONDS resume force restarts=TIMES launcher=COMMAND"},
+    {"On how many", "threads distribution homes=FILE patience=SECONDS"},
+    {"In how much memory", "memory=SIZE"},
+    {"What to write",
+     "output=FILE preview=FILE aov=LAYERS aov-space spectral=BINS stats=FILE profile=FILE trace=FILE "
+     "progress quiet"},
+    {"How to sample",
+     "filter=NAME[:RADIUS] splat one-sequence texture-filter roulette wavelengths light-sampling "
+     "light-candidates threshold=SHARE"},
+    {"Photon mapping", "photons photon-radius=LENGTH photon-alpha"},
+    scene,
+    meshes,
+};
+
+const std::vector<Heading> of_partition{
+    {"What to cut, and into how many", "input=SCENE domains domain-bytes=SIZE profile=FILE flatten"},
+    {"With what", "memory=SIZE threads"},
+    {"What to write", "output=BUNDLE aov=LAYERS stats=FILE no-sync force progress quiet"},
+    scene,
+    meshes,
+    {"To measure what partitioning saves", "require-everything median-cuts"},
+};
+
+const std::vector<Heading> of_convert{
+    {"What to convert", "files=FILE to jobs again"},
+    {"What to write", "output=FILE report=FILE check quiet"},
+    scene,
+    meshes,
+};
+
+const std::vector<Heading> of_compare{
+    {"What to compare", "IMAGE=IMAGE REFERENCE=REFERENCE ignore=X0,X1,Y0,Y1 mask=IMAGE strict"},
+    {"By what", "metric flip-range pixels-per-degree variance=FILE variance-samples"},
+    {"When to fail", "fail-above=VALUE mean-within=FRACTION"},
+    {"What to write", "heatmap=FILE signed-map=FILE map-scale=ERROR html=FILE worst json quiet"},
+};
+
+const std::vector<Heading> of_develop{
+    {"What to develop", "FILM=FILM strict"},
+    {"How it looks", "exposure=STOPS white-balance=KELVIN tone false-color=MAXIMUM log"},
+    {"What to write", "output=FILE bits variance spectral quiet"},
+};
+
+const std::vector<Heading> of_inspect{
+    {"What to inspect", "file=FILE strict"},
+    {"How it is said", "json quiet"},
+    {"In how much memory", "memory=SIZE"},
+    scene,
+};
+
+const std::vector<Heading> of_measure{
+    {"What to measure", "input=SCENE|BUNDLE axes=NAMES every-combination"},
+    {"What to recommend", "error=RELMSE seconds=SECONDS bias=SHARE ranks threads"},
+    {"How thoroughly", "budget=SECONDS width=PIXELS seeds spp reference-spp"},
+    {"What to write", "output=FOLDER quiet"},
+};
+
+const std::vector<Heading> of_plan{
+    {"What to simulate", "bundle=BUNDLE profile=FILE times"},
+    {"On which cluster",
+     "ranks threads memory=SIZE latency=MICROSECONDS network=SIZE disk=SIZE disk-latency=MILLISECONDS "
+     "scratch=SIZE "
+     "ranks-a-disk distribution homes=FILE"},
+    {"What to write", "svg=FILE json"},
+};
+
+const std::vector<Heading> of_glazing{
+    {"Which panes", "files=FILE flip=PANE state temperature=CELSIUS"},
+    {"How to evaluate them", "theta=DEGREES standard=FILE sampling polarised"},
+    {"What to write", "csv=FILE json"},
+};
+
+const std::vector<Heading> of_sky{{"Where and when", "SKY=SKY"},
+                                  {"What to write", "output=FILE height=PIXELS json"}};
+
+const std::vector<Heading> of_spectrum{
+    {"Which colours", "rgb=R,G,B cube=SIDE picture=FILE"},
+    {"What to write", "csv=FILE plot=FILE json"},
+};
+
+const std::vector<Heading> of_verify{{"What to read", "bundle=BUNDLE threads strict"},
+                                     {"How it is said", "json quiet"}};
+
+}  // namespace
+
+std::span<const Heading> headings(std::string_view verb) {
+  if (verb == "compare") return of_compare;
+  if (verb == "convert") return of_convert;
+  if (verb == "develop") return of_develop;
+  if (verb == "glazing") return of_glazing;
+  if (verb == "inspect") return of_inspect;
+  if (verb == "measure") return of_measure;
+  if (verb == "partition") return of_partition;
+  if (verb == "plan") return of_plan;
+  if (verb == "render") return of_render;
+  if (verb == "sky") return of_sky;
+  if (verb == "spectrum") return of_spectrum;
+  if (verb == "verify") return of_verify;
+  return {};
+}
+
+}  // namespace vitrail

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// What --help prints.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "cli/help/command.h"
+
+namespace vitrail {
+
+// Lines of at most `width` columns, broken between words.
+std::string help_text(const Command& command, std::size_t width);
+
+// Commands with what they do, one below the other.
+std::string example_text(std::span<const Example> examples, std::size_t width);
+
+// `label`, then `text` from `column` on, on the next line where the label reaches it.
+std::string entry_text(std::string_view label, std::string_view text, std::size_t column, std::size_t width);
+
+// Columns of the terminal that standard output is; else of the variable COLUMNS; else 80. Between 40 and 120.
+std::size_t help_width();
+
+}  // namespace vitrail

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "cli/help/command.h"
+
+namespace vitrail {
+
+// A page of section 1 in the macros of man(7), UTF-8. The same version gives the same bytes.
+std::string man_page(const Command& command, const std::string& version);
+
+}  // namespace vitrail

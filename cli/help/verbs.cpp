@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/help/verbs.h"
+
+#include <algorithm>
+
+namespace vitrail {
+
+std::span<const Verb> verbs() {
+  static const std::vector<Verb> all{
+      {"render",
+       "render a scene or a bundle, alone or under mpirun",
+       {{"vitrail render room.pbrt -o room.png --quality draft", "a first picture"},
+        {"vitrail render room.pbrt -o room.exr --spp 256 --memory 4G",
+         "a linear picture; add samples by typing it again with more"},
+        {"mpirun -np 8 vitrail render room.vit -o room.exr --time 3600",
+         "the best picture of 8 ranks in an hour"}}},
+      {"inspect",
+       "say what a scene, a bundle or a film holds, and what it needs",
+       {{"vitrail inspect room.pbrt", "what is in it, and what is approximated"},
+        {"vitrail inspect room.vit --json", "the same of a bundle, for programs"},
+        {"vitrail inspect room.film", "how many samples it has, and with which options it was rendered"}}},
+      {"convert",
+       "write a scene in another format",
+       {{"vitrail convert room.pbrt room.xml", "from PBRT to Mitsuba 3"},
+        {"vitrail convert room.pbrt room.xml --report room.json",
+         "what is exact, approximated or dropped, item by item"},
+        {"vitrail convert scenes/ --to xml -o converted --check",
+         "a whole folder; says which scenes look different"}}},
+      {"develop",
+       "make a picture of films",
+       {{"vitrail develop room.film -o room.png --exposure 1", "one stop brighter"},
+        {"vitrail develop a.film b.film -o both.exr", "films of different seeds, merged"},
+        {"vitrail develop room.film -o light.png --false-color auto", "luminance in cd/m², with a scale"}}},
+      {"compare",
+       "compare a picture with a reference",
+       {{"vitrail compare room.exr reference.exr", "the relative mean squared error"},
+        {"vitrail compare room.exr reference.exr --fail-above 0.01", "exit status 1 where it is greater"},
+        {"vitrail compare room.exr reference.exr --html page.html", "both and their errors in a browser"}}},
+      {"partition",
+       "cut a scene into sub-domains, one file each: a bundle",
+       {{"vitrail partition city.pbrt -o city.vit", "sub-domains of 64 MiB"},
+        {"vitrail partition city.pbrt -o city.vit --domains 64 --memory 4G",
+         "64 of them, of a scene that may be larger than memory"},
+        {"vitrail partition city.pbrt -o city.vit --profile rays.json",
+         "cut where the rays of an earlier render went"}}},
+      {"verify",
+       "read every byte of a bundle and say what is damaged",
+       {{"vitrail verify city.vit", "after a copy, for example"},
+        {"vitrail verify city.vit --json", "for programs"},
+        {"vitrail verify city.vit --strict --quiet",
+         "for scripts: the exit status says it, warnings count"}}},
+      {"plan",
+       "simulate what a cluster would do with a bundle",
+       {{"vitrail plan city.vit --profile rays.json", "seconds and efficiency of 1 to 1024 ranks"},
+        {"vitrail plan city.vit --profile rays.json --threads 32 --memory 64G", "ranks as large as a node"},
+        {"vitrail plan city.vit --profile rays.json --svg plan.svg", "as a plot"}}},
+      {"measure",
+       "measure what each setting costs on a scene, and recommend",
+       {{"vitrail measure room.pbrt -o measured", "writes measured/index.html"},
+        {"vitrail measure room.pbrt -o measured --error 0.01", "the cheapest setting of that error"},
+        {"vitrail measure room.pbrt -o measured --seconds 60", "the most accurate setting of that time"}}},
+      {"glazing",
+       "print transmittance, reflectance and colour of panes",
+       {{"vitrail glazing clear.dat", "one pane, at normal incidence"},
+        {"vitrail glazing low-e.json clear.dat --theta 0 60", "two panes from outside, at two angles"},
+        {"vitrail glazing low-e.json clear.dat --csv spectra.csv", "their spectra as a table"}}},
+      {"sky",
+       "print where the sun stands, and what sun and sky give",
+       {{"vitrail sky 48.86,2.35,2026-06-21T12:00+02:00", "Paris at noon"},
+        {"vitrail sky 48.86,2.35,2026-06-21T12:00+02:00 -o sky.exr", "the sky as a picture"},
+        {"vitrail sky 48.86,2.35,2026-12-21T12:00+01:00,turbidity=5 --json", "hazy air, for programs"}}},
+      {"spectrum",
+       "print reflectances made from RGB, and how well they stand for it",
+       {{"vitrail spectrum", "two methods against measured patches"},
+        {"vitrail spectrum --rgb 0.8,0.2,0.1", "one colour as a table"},
+        {"vitrail spectrum --picture photo.png --plot patches.svg", "the colours of a picture, and a plot"}}},
+  };
+  return all;
+}
+
+const Verb* find_verb(std::string_view name) {
+  const auto found = std::ranges::find(verbs(), name, &Verb::name);
+  return found == verbs().end() ? nullptr : &*found;
+}
+
+std::span<const Example> first_steps() {
+  static const std::vector<Example> steps{
+      {"vitrail render scene.pbrt -o picture.png --quality draft", "a first picture"},
+      {"vitrail inspect scene.pbrt", "what is in a scene"},
+      {"vitrail convert scene.pbrt scene.xml", "the scene in another format"},
+      {"vitrail help render", "all options of a verb, by purpose"},
+  };
+  return steps;
+}
+
+}  // namespace vitrail

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// The verbs of vitrail, with what each one does and how it is typed.
+#pragma once
+
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace vitrail {
+
+struct Example {
+  std::string_view command;
+  std::string_view effect;
+};
+
+struct Verb {
+  std::string_view name;
+  std::string_view summary;  // a phrase without a full stop
+  std::vector<Example> examples;
+};
+
+std::span<const Verb> verbs();
+
+// nullptr where there is no such verb.
+const Verb* find_verb(std::string_view name);
+
+// For somebody who types `vitrail help` for the first time.
+std::span<const Example> first_steps();
+
+}  // namespace vitrail
