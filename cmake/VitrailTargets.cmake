@@ -4,9 +4,12 @@
 add_library(vitrail_options INTERFACE)
 add_library(vitrail::options ALIAS vitrail_options)
 target_compile_features(vitrail_options INTERFACE cxx_std_20)
-target_include_directories(vitrail_options INTERFACE ${PROJECT_SOURCE_DIR})
+set_target_properties(vitrail_options PROPERTIES EXPORT_NAME options)
+target_include_directories(vitrail_options INTERFACE
+  $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/vitrail>)
 target_compile_options(vitrail_options INTERFACE
-  -Wall -Wextra -Wno-missing-field-initializers -Wconversion -Wshadow
+  $<BUILD_INTERFACE:-Wall> $<BUILD_INTERFACE:-Wextra> $<BUILD_INTERFACE:-Wno-missing-field-initializers>
+  $<BUILD_INTERFACE:-Wconversion> $<BUILD_INTERFACE:-Wshadow>
   # The picture has to have the same bits on every machine and in every build: a fused multiply-add rounds once where
   # a multiply and an add round twice, and the compiler would choose.
   -ffp-contract=off
@@ -17,7 +20,7 @@ target_compile_options(vitrail_options INTERFACE
   $<$<CXX_COMPILER_ID:GNU>:-fno-tree-slp-vectorize>
   # GCC 12 warns of what std::string does in its own headers (its bug 105651) where these are precompiled; clang and
   # sanitizers still look.
-  $<$<CXX_COMPILER_ID:GNU>:-Wno-array-bounds -Wno-restrict -Wno-stringop-overflow -Wno-stringop-overread>)
+  $<BUILD_INTERFACE:$<$<CXX_COMPILER_ID:GNU>:-Wno-array-bounds -Wno-restrict -Wno-stringop-overflow -Wno-stringop-overread>>)
 target_link_libraries(vitrail_options INTERFACE fmt::fmt)
 
 # vitrail_precompile(NAME HEADER …): headers that are read once for all targets that reuse them. Reading them is a third of what
@@ -35,13 +38,15 @@ function(vitrail_without_precompiled_headers)
   set_target_properties(${ARGN} PROPERTIES DISABLE_PRECOMPILE_HEADERS ON)
 endfunction()
 
-# vitrail_library(NAME SOURCES … LIBRARIES …): the library vitrail::NAME.
+# vitrail_library(NAME SOURCES … LIBRARIES …): the library vitrail::NAME. The global property VITRAIL_LIBRARIES lists all targets.
 function(vitrail_library name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;LIBRARIES")
   add_library(vitrail_${name} STATIC ${arg_SOURCES})
   add_library(vitrail::${name} ALIAS vitrail_${name})
   target_link_libraries(vitrail_${name} PUBLIC vitrail::options ${arg_LIBRARIES})
   target_precompile_headers(vitrail_${name} REUSE_FROM vitrail_precompiled)
+  set_target_properties(vitrail_${name} PROPERTIES EXPORT_NAME ${name})
+  set_property(GLOBAL APPEND PROPERTY VITRAIL_LIBRARIES vitrail_${name})
 endfunction()
 
 # vitrail_embed(TARGET FILE NAME): the file's text as `vitrail::NAME` in the header FOLDER/NAME.h, FOLDER being the caller's.
@@ -55,7 +60,8 @@ function(vitrail_embed target file name)
   target_include_directories(${target} PRIVATE ${root})
 endfunction()
 
-# vitrail_program(VERB SOURCES … LIBRARIES …): the program vitrail-VERB. The target `programs` builds all of them.
+# vitrail_program(VERB SOURCES … LIBRARIES …): the program vitrail-VERB. The target `programs` builds all of them, the
+# global property VITRAIL_VERBS names them.
 add_custom_target(programs)
 function(vitrail_program verb)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;LIBRARIES")
@@ -63,6 +69,7 @@ function(vitrail_program verb)
   target_link_libraries(vitrail-${verb} PRIVATE ${arg_LIBRARIES})
   target_precompile_headers(vitrail-${verb} REUSE_FROM vitrail_precompiled_cli)
   add_dependencies(programs vitrail-${verb})
+  set_property(GLOBAL APPEND PROPERTY VITRAIL_VERBS ${verb})
 endfunction()
 
 # vitrail_test(NAME LABEL l SOURCES … LIBRARIES … [TIMEOUT s]): one GoogleTest program, registered with ctest. The limit

@@ -23,9 +23,17 @@ std::atomic<bool> loaded = false;
 
 constexpr std::uint64_t most_pixels_of_gif = 1 << 26;  // of which its reader holds several copies
 
+// Beside this program; of programs that are not ours, where ours are installed.
+std::filesystem::path codec_file() {
+  const auto beside = std::filesystem::read_symlink("/proc/self/exe").parent_path() / image_codec_module;
+  const auto installed = std::filesystem::path(VITRAIL_PROGRAM_FOLDER) / image_codec_module;
+  std::error_code unknown;
+  return !std::filesystem::exists(beside, unknown) && std::filesystem::exists(installed, unknown) ? installed
+                                                                                                  : beside;
+}
+
 const ImageCodec& load_codec() {
-  const auto folder = std::filesystem::read_symlink("/proc/self/exe").parent_path();
-  void* module = ::dlopen((folder / image_codec_module).c_str(), RTLD_LAZY | RTLD_LOCAL);
+  void* module = ::dlopen(codec_file().c_str(), RTLD_LAZY | RTLD_LOCAL);
   const void* codec = module ? ::dlsym(module, image_codec_symbol) : nullptr;
   if (!codec) throw MachineError(fmt::format("cannot read or write images: {}", ::dlerror()));
   loaded = true;
