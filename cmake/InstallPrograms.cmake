@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
-# `cmake --install BUILD --component programs`. The programs find each other, and what reads images, beside themselves: all lie
+# `cmake --install BUILD --component programs`, and images. The programs find each other, and what reads images, beside themselves: all lie
 # in one folder of their own, and bin/ has a link to the first.
 get_property(verbs GLOBAL PROPERTY VITRAIL_VERBS)
 set(folder ${CMAKE_INSTALL_LIBEXECDIR}/vitrail)
 set(documents ${CMAKE_INSTALL_DATADIR}/doc/vitrail)
 list(TRANSFORM verbs PREPEND vitrail- OUTPUT_VARIABLE programs)
 install(TARGETS vitrail ${programs} RUNTIME DESTINATION ${folder} COMPONENT programs)
-install(TARGETS vitrail_openimageio LIBRARY DESTINATION ${folder} COMPONENT programs)
+# Apart, as the libraries behind it are many.
+install(TARGETS vitrail_openimageio LIBRARY DESTINATION ${folder} COMPONENT images)
 file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/link)
 file(RELATIVE_PATH from_bin ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBEXECDIR}/vitrail/vitrail)
 file(CREATE_LINK ${from_bin} ${CMAKE_BINARY_DIR}/link/vitrail SYMBOLIC)

@@ -10,6 +10,7 @@
 #include <ctime>
 #include <span>
 
+#include "film/exr_bytes.h"
 #include "film/fixed_date.h"
 #include "film/picture_attributes.h"
 #include "film/png_file.h"
@@ -39,14 +40,18 @@ PictureFile file_of(const Picture& picture) {
           .attributes = {{"DateTime", date_as_text()}}};
 }
 
+void write_whole(const std::filesystem::path& file, std::span<const std::byte> bytes) {
+  AtomicFile target(file);
+  target.write(bytes);
+  target.commit();
+}
+
 void write_file(const std::filesystem::path& file, const PictureFile& picture, const void* pixels) {
   std::vector<std::byte> bytes;
   if (const std::string problem = image_codec().encode_picture(file.string(), picture, pixels, bytes);
       !problem.empty())
     throw MachineError(fmt::format("cannot write {}: {}", file.string(), problem));
-  AtomicFile target(file);
-  target.write(bytes);
-  target.commit();
+  write_whole(file, bytes);
 }
 
 // The layout of Fichet, Pacanowski & Wilkie 2021: the wavelength of a bin's centre, with a decimal comma.
@@ -106,7 +111,6 @@ void put_numbers(PictureFile& file, const Picture& picture) {
 void write_exr(const std::filesystem::path& path, const Picture& picture) {
   const std::vector<Plane> planes = planes_of(picture);
   PictureFile file = file_of(picture);
-  file.attributes.emplace_back("compression", "zip");
   put_numbers(file, picture);
   put_origin(file, picture.origin);
   if (picture.spectrum.pixels() > 0) {
@@ -118,7 +122,7 @@ void write_exr(const std::filesystem::path& path, const Picture& picture) {
   pixels.reserve(planes.size() * picture.rgb.pixels());
   for (std::size_t p = 0; p < picture.rgb.pixels(); ++p)
     for (const Plane& plane : planes) pixels.push_back(plane.bits(p));
-  write_file(path, file, pixels.data());
+  write_whole(path, exr_bytes(file, pixels));
 }
 
 bool is_tiff(const std::filesystem::path& file) {

@@ -33,7 +33,13 @@ std::filesystem::path codec_file() {
 }
 
 const ImageCodec& load_codec() {
-  void* module = ::dlopen(codec_file().c_str(), RTLD_LAZY | RTLD_LOCAL);
+  const std::filesystem::path file = codec_file();
+  if (std::error_code unknown; !std::filesystem::exists(file, unknown))
+    throw MachineError(fmt::format(
+        "{} is missing, which reads images, and writes others than .exr and .png: the package vitrail-images "
+        "has it",
+        file.string()));
+  void* module = ::dlopen(file.c_str(), RTLD_LAZY | RTLD_LOCAL);
   const void* codec = module ? ::dlsym(module, image_codec_symbol) : nullptr;
   if (!codec) throw MachineError(fmt::format("cannot read or write images: {}", ::dlerror()));
   loaded = true;

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
+#include <random>
 
 #include "scene/spectra/color.h"
 #include "scene/system/diagnostics.h"
@@ -49,6 +50,38 @@ TEST(ImageIo, ExrKeepsEveryBitAndTheMetadata) {
   splatted.neighbours = {3.5, 1.75};
   write_picture(directory / "a.exr", splatted);
   EXPECT_EQ(read_picture(directory / "a.exr").neighbours, splatted.neighbours);
+}
+
+// More blocks than one, the last not full; noise, which no compression makes smaller, beside what it does;
+// ids.
+TEST(ImageIo, ExrHoldsBlocksOfEveryKind) {
+  constexpr int width = 37, height = 53;
+  Picture p;
+  p.rgb = black_image(width, height, 3);
+  p.window = {100, 100 + width, 50, 50 + height};
+  p.full_width = 200, p.full_height = 150;
+  PictureChannel id{.name = "a channel with a name of more than 31 letters", .is_id = true};
+  std::mt19937 random(1);
+  for (std::size_t i = 0; i < p.rgb.pixels(); ++i) {
+    id.ids.push_back(static_cast<std::uint32_t>(random()));
+    const bool is_noise = i < 20 * width;
+    for (std::size_t c = 0; c < 3 && is_noise; ++c)
+      p.rgb.values[3 * i + c] =
+          std::ldexp(static_cast<float>(random()), static_cast<int>(random() % 200) - 100);
+  }
+  p.layers = {id};
+  const test::TemporaryDirectory directory;
+  const std::filesystem::path file = directory / "a.exr";
+  write_picture(file, p);
+  EXPECT_EQ(read_picture(file).rgb, p.rgb);
+  EXPECT_EQ(read_picture(file).window, p.window);
+  const auto in = OIIO::ImageInput::open(file.string());
+  ASSERT_TRUE(in);
+  const int channel = in->spec().channelindex(id.name);
+  ASSERT_GE(channel, 0);
+  std::vector<std::uint32_t> ids(p.rgb.pixels());
+  ASSERT_TRUE(in->read_image(0, 0, channel, channel + 1, OIIO::TypeUInt32, ids.data()));
+  EXPECT_EQ(ids, id.ids);
 }
 
 TEST(ImageIo, ExrWithoutVariance) {
