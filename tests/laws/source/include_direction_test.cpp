@@ -30,7 +30,8 @@ const std::map<std::string, std::set<std::string>>& allowed() {
       {"measure", {"scene", "film", "compare"}},
       {"cli",
        {"scene", "glazing", "images", "importers", "bundle", "partitioner", "film", "tracer", "farm",
-        "denoise", "compare", "measure"}}};
+        "denoise", "compare", "measure"}},
+      {"python", {"scene", "bundle", "film"}}};
   return folders;
 }
 
@@ -114,7 +115,7 @@ TEST(Sources, CarryTheirLicence) {
   const std::filesystem::path root = VITRAIL_SOURCE_DIR;
   for (const char* folder :
        {"scene", "glazing", "images", "importers", "bundle", "partitioner", "film", "denoise", "tracer",
-        "farm", "compare", "measure", "cli", "tests", "scripts", "examples", "cmake"})
+        "farm", "compare", "measure", "cli", "python", "tests", "scripts", "examples", "cmake"})
     for (const auto& entry : std::filesystem::recursive_directory_iterator(root / folder)) {
       const std::string extension = entry.path().extension().string();
       constexpr const char* kinds[] = {".h", ".cpp", ".inl", ".py", ".cmake"};
