@@ -43,12 +43,15 @@ constexpr std::string_view zsh_tail = R"(
 _vitrail() {
   if ((CURRENT == 2)); then
     _describe -t verbs verb vitrail_verbs
+    compadd help completion
     return
   fi
   local verb=$words[2]
   shift words
   ((CURRENT--))
-  if [[ $verb == help ]]; then
+  if [[ $verb == completion ]]; then
+    compadd bash zsh fish
+  elif [[ $verb == help ]]; then
     _describe -t verbs verb vitrail_verbs
   elif (($+functions[_vitrail_$verb])); then
     _vitrail_$verb
@@ -59,6 +62,11 @@ if [[ $funcstack[1] == _vitrail ]]; then
 else
   compdef _vitrail vitrail
 fi
+)";
+
+constexpr std::string_view fish_tail =
+    R"(complete -c vitrail -f -n '__fish_seen_subcommand_from completion' -a 'bash zsh fish'
+complete -c vitrail -f -n __fish_use_subcommand -a 'help completion'
 )";
 
 // The first of a text's clauses, at most about a line's rest.
@@ -168,10 +176,12 @@ std::string completion_of(std::string_view shell, const Command& command) {
 }
 
 std::string completion_tail(std::string_view shell) {
-  if (shell == "fish") return "";
   if (shell == "zsh") return std::string(zsh_tail);
   std::string names;
   for (const Verb& verb : verbs()) names += (names.empty() ? "" : " ") + std::string(verb.name);
+  if (shell == "fish")
+    return "complete -c vitrail -f -n '__fish_seen_subcommand_from help' -a '" + names + "'\n" +
+           std::string(fish_tail);
   return "\n_vitrail_verbs='" + names + "'\n" + std::string(bash_tail);
 }
 

@@ -171,6 +171,18 @@ TEST(Completion, OfBash) {
   EXPECT_EQ(offered("vitrail develop --to"), "--tone\n");
 }
 
+TEST(Completion, OfFish) {
+  if (run("command -v fish").status != 0) GTEST_SKIP() << "there is no fish";
+  const auto offer = [](const char* line) {
+    return run(fmt::format("{} | fish -c 'source - ; complete -C \"{}\"'", vitrail("completion fish"), line))
+        .output;
+  };
+  EXPECT_THAT(offer("vitrail ren"), HasSubstr("render\trender a scene"));
+  EXPECT_THAT(offer("vitrail help conv"), HasSubstr("convert"));
+  EXPECT_THAT(offer("vitrail render --targ"), HasSubstr("--target-error\t"));
+  EXPECT_THAT(offer("vitrail render --quality "), HasSubstr("draft"));
+}
+
 TEST(Completion, OfOtherShellsIsTheirLanguage) {
   for (const std::string shell : {"zsh", "fish"}) {
     const TemporaryDirectory directory;
