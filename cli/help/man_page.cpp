@@ -13,7 +13,8 @@ namespace {
 std::string escaped(std::string_view text) {
   std::string out;
   if (text.starts_with('.') || text.starts_with('\'')) out += "\\&";
-  for (const char c : text) {
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
     if (c == '\\')
       out += "\\e";
     else if (c == '-')
@@ -30,6 +31,8 @@ std::string escaped(std::string_view text) {
       out += "\\(dq";
     else
       out += c;
+    // A long word may end a line after a comma.
+    if (c == ',' && i + 1 < text.size() && text[i + 1] != ' ') out += "\\:";
   }
   return out;
 }
@@ -92,6 +95,7 @@ std::string see_also(const Command& command) {
 std::string man_page(const Command& command, const std::string& version) {
   std::string page = fmt::format(".TH \"{}\" 1 \"\" \"vitrail {}\" \"User Commands\"\n",
                                  upper(escaped(command.program())), version);
+  page += ".nh\n.ad l\n";  // words stay whole, lines as long as they are
   page += ".SH NAME\n" + escaped(command.program()) + " \\- " + escaped(command.summary) + "\n";
   page += ".SH SYNOPSIS\n\\fB" + escaped(command.name) + "\\fR" +
           escaped(command.usage().substr(command.name.size())) + "\n";

@@ -128,10 +128,13 @@ std::string described(const std::string& verb, const std::string& writer) {
 
 TEST_P(ManPage, IsSetWithoutWarnings) {
   if (run("command -v groff").status != 0) GTEST_SKIP() << "there is no groff";
-  const CommandResult set =
-      run(described(GetParam(), "man") + " | groff -Tutf8 -Kutf8 -man -ww -rLL=78n -P-c 2>&1 >/dev/null");
-  EXPECT_EQ(set.status, 0);
-  EXPECT_EQ(set.output, "");
+  for (const int columns : {60, 78, 100}) {
+    const CommandResult set =
+        run(described(GetParam(), "man") +
+            fmt::format(" | groff -Tutf8 -Kutf8 -man -ww -rLL={}n -P-c 2>&1 >/dev/null", columns));
+    EXPECT_EQ(set.status, 0);
+    EXPECT_EQ(set.output, "");
+  }
   const std::string page = run(described(GetParam(), "man") + " | groff -Tutf8 -Kutf8 -man -P-cbou").output;
   EXPECT_THAT(page, HasSubstr("SYNOPSIS"));
   EXPECT_THAT(page, HasSubstr("EXIT STATUS"));
