@@ -26,6 +26,11 @@ class Mistakes : public ::testing::Test {
   void write(const std::string& name, const std::string& text) const {
     std::ofstream(directory_ / name) << text;
   }
+  void copy_programs(std::initializer_list<const char*> names) const {
+    const std::string quoted = vitrail("");
+    const std::filesystem::path front = quoted.substr(1, quoted.find('\'', 1) - 1);
+    for (const char* name : names) std::filesystem::copy(front.parent_path() / name, directory_ / name);
+  }
   CommandResult verb(const std::string& verb, const std::string& arguments) const {
     return run(vitrail(verb) + " " + arguments);
   }
@@ -134,16 +139,24 @@ TEST_F(Mistakes, FilesAreCalledWhatTheyAre) {
 }
 
 TEST_F(Mistakes, AProgramWithoutItsSiblingsSaysSo) {
-  std::string front = vitrail("");
-  front = front.substr(1, front.find('\'', 1) - 1);
-  for (const char* program : {"vitrail", "vitrail-render"})
-    std::filesystem::copy(std::filesystem::path(front).parent_path() / program, directory_ / program);
+  copy_programs({"vitrail", "vitrail-render"});
   const CommandResult alone = run(path("vitrail") + " render " + path("in.pbrt") + " -o " + path("a.film"));
   EXPECT_EQ(alone.status, 4);
   EXPECT_THAT(alone.output, AllOf(HasSubstr("vitrail-partition is missing"), HasSubstr("one folder")));
   const CommandResult front_alone = run(path("vitrail") + " convert a b");
   EXPECT_EQ(front_alone.status, 4);
   EXPECT_THAT(front_alone.output, HasSubstr("have to lie in one folder"));
+}
+
+// As where the package vitrail-images is not installed.
+TEST_F(Mistakes, WithoutImagesLinearPicturesAreWritten) {
+  copy_programs({"vitrail", "vitrail-develop"});
+  ASSERT_EQ(render("").status, 0);
+  const std::string develop = path("vitrail") + " develop " + path("a.film") + " -o ";
+  for (const char* picture : {"a.exr", "a.png"}) EXPECT_EQ(run(develop + path(picture)).status, 0) << picture;
+  const CommandResult other = run(develop + path("a.jpg"));
+  EXPECT_EQ(other.status, 4);
+  EXPECT_THAT(other.output, HasSubstr("the package vitrail-images has it"));
 }
 
 TEST_F(Mistakes, DarknessIsAnnounced) {
