@@ -5,8 +5,9 @@ namespace vitrail {
 
 namespace {
 
-constexpr Heading scene{"How the scene is read",
-                        "define=NAME=VALUE camera sky=SKY rgb missing root=FOLDER include-limit=SIZE strict"};
+constexpr Heading scene{
+    "How the scene is read",
+    "define=NAME=VALUE camera sky=SKY rgb missing root=FOLDER include-limit=SIZE no-cache strict"};
 constexpr Heading meshes{"What becomes of its meshes",
                          "tessellate=SEGMENTS repair orient subdivide=LEVELS decimate=FRACTION"};
 
@@ -14,13 +15,14 @@ const std::vector<Heading> of_render{
     {"What to render",
      "input=SCENE|BUNDLE width=PIXELS height=PIXELS scale=FACTOR crop=X0,X1,Y0,Y1 max-depth integrator "
      "sensors=FILE set=NAME.state=X"},
-    {"How good", "quality spp target-error=ERROR adaptive seed clamp=RADIANCE"},
+    {"How good", "quality spp target-error=ERROR adaptive seed clamp=RADIANCE denoise find-denoiser"},
     {"How long",
      "time=SECONDS dry-run checkpoint-every=SECONDS resume force restarts=TIMES launcher=COMMAND"},
     {"On how many", "threads distribution homes=FILE patience=SECONDS"},
     {"In how much memory", "memory=SIZE"},
     {"What to write",
-     "output=FILE preview=FILE aov=LAYERS aov-space spectral=BINS stats=FILE profile=FILE trace=FILE "
+     "output=FILE film=FILE preview=FILE display-server=HOST:PORT aov=LAYERS aov-space spectral=BINS "
+     "stats=FILE profile=FILE trace=FILE "
      "progress quiet"},
     {"How to sample",
      "filter=NAME[:RADIUS] splat one-sequence texture-filter roulette wavelengths light-sampling "
@@ -47,15 +49,16 @@ const std::vector<Heading> of_convert{
 };
 
 const std::vector<Heading> of_compare{
-    {"What to compare", "IMAGE=IMAGE REFERENCE=REFERENCE ignore=X0,X1,Y0,Y1 mask=IMAGE strict"},
+    {"What to compare", "IMAGE=IMAGE REFERENCE=REFERENCE resize ignore=X0,X1,Y0,Y1 mask=IMAGE strict"},
     {"By what", "metric flip-range pixels-per-degree variance=FILE variance-samples"},
     {"When to fail", "fail-above=VALUE mean-within=FRACTION"},
     {"What to write", "heatmap=FILE signed-map=FILE map-scale=ERROR html=FILE worst json quiet"},
 };
 
 const std::vector<Heading> of_develop{
-    {"What to develop", "FILM=FILM strict"},
-    {"How it looks", "exposure=STOPS white-balance=KELVIN tone false-color=MAXIMUM log"},
+    {"What to develop", "FILM=FILM layer=NAME crop=X0,X1,Y0,Y1 resize=SIZE strict"},
+    {"How it looks",
+     "exposure=STOPS white-balance=KELVIN tone false-color=MAXIMUM log denoise find-denoiser"},
     {"What to write", "output=FILE bits variance spectral quiet"},
 };
 

@@ -11,7 +11,8 @@ namespace vitrail {
 struct Heading {
   std::string_view title;
   // Longest names without dashes, in the order of the help, with spaces between: "output=FILE quiet". Without
-  // =VALUE the value is called as CLI11 calls its type, or lists its choices.
+  // =VALUE the value is called as CLI11 calls its type, or lists its choices. What a verb has not is passed
+  // over: several share a list.
   std::string_view options;
 };
 

@@ -11,7 +11,7 @@ std::span<const Verb> verbs() {
        "render a scene or a bundle, alone or under mpirun",
        {{"vitrail render room.pbrt -o room.png --quality draft", "a first picture"},
         {"vitrail render room.pbrt -o room.exr --spp 256 --memory 4G",
-         "a linear picture; add samples by typing it again with more"},
+         "a linear picture, with 4 GiB of memory at most"},
         {"mpirun -np 8 vitrail render room.vit -o room.exr --time 3600",
          "the best picture of 8 ranks in an hour"}}},
       {"inspect",

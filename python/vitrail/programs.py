@@ -75,15 +75,19 @@ def partition(scene, bundle, **options):
 
 
 def render(scene, output, *, progress=None, **options):
-    """Renders a scene or a bundle to a picture or film, and returns the Film.
+    """Renders a scene or a bundle, and returns the Film, which is kept beside the output as NAME.film.
 
-    `progress` is called with a dict as often as `render --progress json` says something, the last time with
-    "event": "end". What it raises stops the render, which leaves a checkpoint: the same call goes on.
+    `output` is a picture, or the film itself. `progress` is called with a dict as often as
+    `render --progress json` says something, the last time with "event": "end". What it raises stops the
+    render, which leaves a checkpoint: the same call goes on.
     """
     report = (lambda line: progress(json.loads(line))) if progress else None
+    film = pathlib.Path(output).with_suffix(".film")
     way = ["--progress", "json" if progress else "none"]
-    _run(["render", os.fspath(scene), "-o", os.fspath(output), *way, *_words(options)], report)
-    return Film(pathlib.Path(output).with_suffix(".film"))
+    _run(["render", os.fspath(scene), "-o", os.fspath(film), *way, *_words(options)], report)
+    if film != pathlib.Path(output):
+        _run(["develop", os.fspath(film), "-o", os.fspath(output)])
+    return Film(film)
 
 
 def statistics(file):
