@@ -20,6 +20,9 @@ std::vector<std::byte> encode_lights(const Manifest& manifest);
 void decode_materials(std::vector<std::byte> payload, const std::filesystem::path& file, Manifest& manifest);
 void decode_lights(std::vector<std::byte> payload, const std::filesystem::path& file, Manifest& manifest);
 
+// Of the payload of either file, as its header has it: read_manifest has compared it.
+std::uint64_t checksum_of_records(const std::filesystem::path& file);
+
 // Throws Error (with `file`) unless every index in the manifest is in range, every number finite and the
 // kd-tree a tree.
 void check_manifest(const Manifest& manifest, const std::filesystem::path& file);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <fstream>
 #include <span>
 
 #include "bundle/binary_records.h"
@@ -172,6 +173,14 @@ std::uint64_t bytes_needed(const Manifest& manifest, std::uint32_t domain) {
 
 void check_records_file(const std::filesystem::path& file) {
   read_records(file, file.filename() == "lights.bin" ? lights_magic : materials_magic, "");
+}
+
+std::uint64_t checksum_of_records(const std::filesystem::path& file) {
+  RecordsHeader header{};
+  std::ifstream in(file, std::ios::binary);
+  if (!in.read(reinterpret_cast<char*>(&header), sizeof header))
+    throw Error("damaged file: its header is cut short", {file.string()});
+  return header.payload_checksum;
 }
 
 void write_manifest(const std::filesystem::path& bundle, const Manifest& manifest) {

@@ -62,12 +62,13 @@ RenderStats render(Transport& transport, const RenderOptions& options) {
   agree(transport, [&] { job = set_up(options, {transport.rank(), transport.size()}); });
   const Manifest& manifest = job.scene->manifest;
   expect_same_job(transport, manifest, job.plan.key, job.plan.goal, job.plan.homes, options);
-  EarlierWork earlier = read_earlier_work(transport, options, job.film, job.plan.goal);
+  const std::string words = about(manifest, options);
+  EarlierWork earlier = read_earlier_work(transport, options, job.film, job.plan.goal, words);
   const std::uint64_t samples_before = job.film.samples();  // on rank 0
   // Run.
   RankState state(*job.scene, job.film, std::move(earlier.plan), job.plan, options);
   const bool finished_before = earlier.finished;
-  Rank rank(transport, state, options, job, std::move(earlier), about(manifest, options));
+  Rank rank(transport, state, options, job, std::move(earlier), words);
   RenderStats stats = run(transport, options, job, state, rank, finished_before);
   stats.peak_rss_bytes = peak_resident_bytes();
   stats.cpu_s = cpu_seconds();

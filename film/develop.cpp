@@ -55,6 +55,7 @@ void add_ids(const Film& film, Layer layer, std::vector<PictureChannel>& out) {
 Picture develop_colors(const Film& film) {
   require_unsaturated(film.refused(), {});
   Picture picture;
+  picture.origin.software = to_string(film.key().renderer);
   picture.rgb = black_image(film.width(), film.height(), 3);
   picture.window = film.crop();
   picture.full_width = film.full_width();

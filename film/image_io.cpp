@@ -151,6 +151,7 @@ void write_integers(const std::filesystem::path& path, const Picture& picture) {
   file.attributes.emplace_back("CompressionQuality", 95);
   if (const std::string comment = comment_on(picture.origin); !comment.empty())
     file.attributes.emplace_back("ImageDescription", comment);
+  if (!picture.origin.software.empty()) file.attributes.emplace_back("Software", picture.origin.software);
   write_file(path, file, pixels.data());
 }
 

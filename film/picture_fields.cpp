@@ -17,25 +17,30 @@ std::string words(const PhotonKey& p) {
 }
 std::string words(const RendererVersion& renderer) { return to_string(renderer); }
 std::string words(const FilmLayers& layers) { return layers.any() ? names_of(layers) : "none"; }
+std::string words(bool with) { return with ? "yes" : "no"; }
 std::string words(const auto& number) { return fmt::format("{}", number); }
 
 }  // namespace
+
+std::string words_of_depth(int depth) {
+  return depth >= no_limit_of_depth ? "no limit" : fmt::format("{}", depth);
+}
 
 std::vector<PictureField> picture_fields(const FilmKey& key, const FilmSettings& film) {
   constexpr bool hidden = false;
   return {{"bundle, state of its glass (--set) or way to sample",
            "they are of different scenes or of glass in different states, or sampled in different ways",
-           words(key.scene_hash), hidden},
+           fmt::format("{:016x}", key.scene_hash), hidden},
           {"build", "they were made by different programs", words(key.renderer)},
           {"width", "their widths differ", words(film.width)},
           {"height", "their heights differ", words(film.height)},
           {"crop", "their crops differ", words(film.crop)},
-          {"depth", "their depths differ", words(key.max_depth)},
-          {"integrator", "one has direct light only", words(key.direct_only), hidden},
+          {"depth", "their depths differ", words_of_depth(key.max_depth)},
+          {"integrator", "one has direct light only", key.direct_only ? "direct" : "path", hidden},
           {"threshold", "their thresholds differ", words(key.threshold)},
           {"way to count what light goes straight through",
            "one counts going straight through a sheet as scattering, the other does not",
-           words(key.straight_counts), hidden},
+           key.straight_counts ? "as scattering" : "not at all", hidden},
           {"--splat", "samples of one add to several pixels, those of the other to their own",
            words(key.splats), hidden},
           {"--one-sequence", "samples of one are one sequence a pixel, those of the other two",
@@ -47,7 +52,7 @@ std::vector<PictureField> picture_fields(const FilmKey& key, const FilmSettings&
           {"layers", "they keep different layers of the first surfaces", words(film.layers)},
           {"space of positions and normals",
            "one has positions and normals in camera space, the other in the world's",
-           words(film.layers.in_camera_space), hidden}};
+           film.layers.in_camera_space ? "camera" : "world", hidden}};
 }
 
 }  // namespace vitrail

@@ -9,6 +9,12 @@
 
 namespace vitrail {
 
+// As great as a path can have it (max_path_depth): a depth from here on limits nothing.
+inline constexpr int no_limit_of_depth = (1 << 16) - 1;
+
+// "5", "no limit".
+std::string words_of_depth(int depth);
+
 struct PictureField {
   const char* name;        // "depth"
   const char* difference;  // of two films, a sentence: "their depths differ"
@@ -16,7 +22,8 @@ struct PictureField {
   bool is_shown = true;    // the values say more than the sentence
 };
 
-// All but the seed, which films of one picture may differ in. The filter is in the scene's hash.
+// The scene first. All but the seed, which films of one picture may differ in. The filter is in the scene's
+// hash.
 std::vector<PictureField> picture_fields(const FilmKey& key, const FilmSettings& film);
 
 }  // namespace vitrail

@@ -35,10 +35,11 @@ class PngEncoder {
   PngEncoder& operator=(const PngEncoder&) = delete;
 
   bool begin(const Picture& picture, int bits, const png_time& date, std::string& comment) {
-    char keyword[] = "Comment";
-    png_text text{};
-    text.compression = PNG_TEXT_COMPRESSION_NONE;
-    text.key = keyword, text.text = comment.data();
+    char comment_key[] = "Comment", software_key[] = "Software";
+    png_text text{}, software{};
+    text.compression = software.compression = PNG_TEXT_COMPRESSION_NONE;
+    text.key = comment_key, text.text = comment.data();
+    software.key = software_key, software.text = const_cast<char*>(picture.origin.software.c_str());
     if (!info_ || setjmp(png_jmpbuf(png_))) return false;
     ::png_set_write_fn(png_, this, append, nullptr);
     ::png_set_IHDR(png_, info_, static_cast<png_uint_32>(picture.rgb.width),
@@ -48,6 +49,7 @@ class PngEncoder {
     ::png_set_oFFs(png_, info_, picture.window.x0, picture.window.y0, PNG_OFFSET_PIXEL);
     ::png_set_tIME(png_, info_, &date);
     if (!comment.empty()) ::png_set_text(png_, info_, &text, 1);
+    if (!picture.origin.software.empty()) ::png_set_text(png_, info_, &software, 1);
     ::png_write_info(png_, info_);
     if (bits == 16 && std::endian::native == std::endian::little) ::png_set_swap(png_);
     return true;

@@ -59,8 +59,11 @@ int run(const std::string& input, const std::function<int()>& body) {
   protect_inputs();
   try {
     const int status = body();
+    close_line();
     flush_shown();
     return status;
+  } catch (const AlreadySaid& e) {
+    return e.status;
   } catch (const Error& e) {
     return fail(e);
   } catch (const UsageError& e) {
@@ -78,7 +81,8 @@ int run(const std::string& input, const std::function<int()>& body) {
   } catch (const std::out_of_range& e) {
     return fail_in_library(input, e.what());
   } catch (const nlohmann::json::exception& e) {
-    return fail_in_library(input, e.what());
+    const std::string words = e.what();
+    return fail_in_library(input, words.substr(words.starts_with('[') ? words.find(']') + 2 : 0));
   } catch (const std::exception& e) {  // MachineError among them
     return fail(exit_machine, e.what());
   }

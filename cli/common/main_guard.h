@@ -6,6 +6,8 @@
 #include <CLI/CLI.hpp>
 #include <functional>
 
+#include "scene/system/diagnostics.h"
+
 namespace vitrail {
 
 // The exit status of every program.
@@ -16,6 +18,19 @@ inline constexpr int exit_done = 0, exit_differs = 1, exit_usage = 2, exit_bad_i
 struct Interrupted : std::runtime_error {
   Interrupted(int number, const std::string& message) : std::runtime_error(message), signal(number) {}
   int signal;
+};
+
+// Another program of the suite ended with that status, and has said itself why: nothing is added.
+struct AlreadySaid {
+  int status;
+};
+struct RefusalAlreadySaid : Error, AlreadySaid {
+  RefusalAlreadySaid(const std::string& program, int with)
+      : Error(program + " refused its input"), AlreadySaid{with} {}
+};
+struct FailureAlreadySaid : MachineError, AlreadySaid {
+  FailureAlreadySaid(const std::string& program, int with)
+      : MachineError(program + " failed"), AlreadySaid{with} {}
 };
 
 // For the end of main: dies of the signal that such a status speaks of, because shells end a loop or a list

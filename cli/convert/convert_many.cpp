@@ -15,12 +15,11 @@
 #include <thread>
 
 #include "cli/common/main_guard.h"
-#include "cli/common/progress_line.h"
 #include "cli/common/run_program.h"
-#include "cli/common/terminal.h"
 #include "cli/convert/check_conversion.h"
 #include "cli/convert/scene_search.h"
 #include "scene/system/diagnostics.h"
+#include "scene/system/progress_line.h"
 #include "scene/system/say.h"
 
 namespace vitrail {
@@ -60,7 +59,7 @@ std::string in_words(const Json& report) {
 // What became of the scenes so far.
 class Outcomes {
  public:
-  Outcomes(std::size_t scenes, bool quiet) : line_(!quiet && on_terminal()), scenes_(scenes), quiet_(quiet) {}
+  Outcomes(std::size_t scenes, bool quiet) : line_(progress_manner(quiet)), scenes_(scenes), quiet_(quiet) {}
 
   void add(const Conversion& c, int status, const std::string& what) {
     const std::lock_guard lock(mutex_);

@@ -8,13 +8,12 @@
 
 #include "cli/common/main_guard.h"
 #include "cli/common/number_checks.h"
-#include "cli/common/progress_line.h"
 #include "cli/common/run_program.h"
-#include "cli/common/terminal.h"
 #include "measure/report.h"
 #include "measure/words.h"
 #include "scene/system/diagnostics.h"
 #include "scene/system/output_place.h"
+#include "scene/system/progress_line.h"
 #include "scene/system/say.h"
 
 using namespace vitrail;
@@ -34,7 +33,7 @@ int run(const MeasureOptions& options, bool quiet) {
   require_own_page(options.folder);
   std::filesystem::create_directories(options.folder);
   catch_signals();
-  ProgressLine line(!quiet && on_terminal());
+  ProgressLine line(progress_manner(quiet));
   MeasureNews news;
   news.say = [&](const std::string& text) {
     line.clear();

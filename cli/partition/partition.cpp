@@ -13,10 +13,8 @@
 #include "cli/common/layer_names.h"
 #include "cli/common/main_guard.h"
 #include "cli/common/mesh_options.h"
-#include "cli/common/progress_line.h"
 #include "cli/common/sizes.h"
 #include "cli/common/switching_glazing.h"
-#include "cli/common/terminal.h"
 #include "cli/common/within_memory.h"
 #include "cli/partition/partition_arguments.h"
 #include "cli/partition/partition_report.h"
@@ -25,6 +23,7 @@
 #include "partitioner/meshes/edit_meshes.h"
 #include "scene/system/input_files.h"
 #include "scene/system/output_place.h"
+#include "scene/system/progress_line.h"
 #include "scene/system/say.h"
 
 namespace vitrail {
@@ -43,7 +42,7 @@ void catch_signals() {
 // Stops the work on a signal; on a terminal shows where it stands.
 class Watch {
  public:
-  Watch(bool visible, Stage& stage) : line_(visible), stage_(stage) {}
+  Watch(ProgressManner manner, Stage& stage) : line_(manner), stage_(stage) {}
 
   void operator()(double fraction, const char* what) {
     if (stop_signal) throw Interrupted(stop_signal, "interrupted; nothing is left of the bundle");
@@ -109,8 +108,10 @@ void interpret(PartitionArguments& a) {
 int run(PartitionArguments& a, Stage& stage) {
   const std::uint64_t kept_bytes =
       a.options.domains_at_once > 0 ? 0 : mesh_bytes_within(a.options.memory_bytes);
-  const bool visible = !a.quiet && (a.progress == "bar" || (a.progress == "auto" && on_terminal()));
-  Watch reading(visible, stage);
+  const ProgressManner manner = a.progress == "bar"    ? ProgressManner::line
+                                : a.progress == "none" ? ProgressManner::silent
+                                                       : progress_manner(a.quiet);
+  Watch reading(manner, stage);
   tbb::task_arena arena(a.options.threads > 0 ? a.options.threads : tbb::task_arena::automatic);
   ImportedScene imported = arena.execute([&] {
     return import_scene(
@@ -136,7 +137,7 @@ int run(PartitionArguments& a, Stage& stage) {
   if (!a.quiet) say("{}", summarise(edits));
   a.options.glazings = switching_glazings(imported.scene);
   catch_signals();
-  Watch watch(visible, stage);
+  Watch watch(manner, stage);
   const PartitionStats stats = partition(imported.scene, a.output, a.options, std::ref(watch));
   if (a.summary) write_bundle_origin(a.output, origin_of(a));
   if (!a.stats.empty()) write_stats(a.stats, stats);

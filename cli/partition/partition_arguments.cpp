@@ -39,7 +39,7 @@ void declare(CLI::App& app, PartitionArguments& a) {
   declare_mesh_options(app, a.meshes);
   app.add_flag("--force", a.force, "replace a bundle of another scene");
   app.add_flag("--strict", a.strict, "fail if anything in the scene is not imported exactly");
-  app.add_option("--progress", a.progress, "bar, none, or auto: a bar on a terminal")
+  app.add_option("--progress", a.progress, "bar, none, or auto: a bar on a terminal, else lines")
       ->check(CLI::IsMember({"auto", "bar", "none"}))
       ->capture_default_str();
   app.add_flag("--no-summary{false}", a.summary)->group("");

@@ -12,8 +12,9 @@
 
 namespace vitrail {
 
-Preview::~Preview() {
+void Preview::finish() {
   if (developing_ > 0) ::waitpid(developing_, nullptr, 0);
+  developing_ = 0;
 }
 
 bool Preview::busy() {

@@ -13,11 +13,12 @@ namespace vitrail {
 class Preview {
  public:
   explicit Preview(std::filesystem::path picture) : picture_(std::move(picture)) {}
-  ~Preview();
+  ~Preview() { finish(); }
   Preview(const Preview&) = delete;
   Preview& operator=(const Preview&) = delete;
 
   void develop(const std::filesystem::path& film);
+  void finish();
 
  private:
   bool busy();

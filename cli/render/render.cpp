@@ -1,14 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
 #include <csignal>
 #include <new>
 #include <optional>
+#include <span>
+#include <string>
+#include <string_view>
 
 #include "cli/common/main_guard.h"
 #include "cli/common/run_program.h"
 #include "cli/common/switching_glazing.h"
+#include "cli/render/display_server.h"
 #include "cli/render/job_limits.h"
+#include "cli/render/picture_output.h"
 #include "cli/render/preview.h"
 #include "cli/render/render_arguments.h"
 #include "cli/render/supervise.h"
@@ -17,13 +24,10 @@
 #include "farm/files/signals.h"
 #include "farm/render.h"
 #include "farm/run/checkpoint.h"
+#include "farm/run/progress.h"
 #include "farm/transport/agreement.h"
 #include "film/develop.h"
-#include "film/film_progress.h"
-#include "film/png_file.h"
 #include "scene/system/atomic_file.h"
-#include "scene/system/input_files.h"
-#include "scene/system/output_place.h"
 #include "scene/system/say.h"
 
 namespace vitrail {
@@ -31,70 +35,27 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool is_film(const fs::path& output) { return output.extension() == ".film"; }
-bool is_png(const fs::path& output) { return output.extension() == ".png"; }
-
-// A picture is known by the film beside it. Without one it may be anybody's.
-void require_own_picture(const RenderArguments& a, const fs::path& picture) {
-  if (a.options.outputs.force || !fs::exists(picture) || fs::exists(a.options.outputs.film) ||
-      fs::exists(checkpoint_path(a.options.outputs.film)))
-    return;
-  throw Error(fmt::format("it is there already, and there is no {} to say that this render made it; --force "
-                          "replaces it, and another name keeps it",
-                          a.options.outputs.film.filename().string()),
-              {picture.string()});
-}
-
-void check_outputs(const RenderArguments& a) {
-  note_input(a.input);
-  for (const fs::path& file : {a.output, a.options.outputs.film, a.options.outputs.stats,
-                               a.options.outputs.profile, a.options.outputs.trace, a.preview})
-    if (!file.empty()) require_place(file);
-  if (!is_film(a.output)) require_own_picture(a, a.output);
-  if (!a.preview.empty()) require_own_picture(a, a.preview);
-  // Before hours of rendering.
-  if (a.denoised) run_program("vitrail-develop", {"--find-denoiser"}, nullptr, "/dev/null");
-}
-
 void set_glazing(RenderArguments& a) {
   const fs::path& bundle = a.options.bundle;
   a.options.picture.sheets = sheets_under(parse_settings(a.settings), bundle, read_manifest(bundle));
 }
 
-void write_png_of(const fs::path& file, const fs::path& output) {
-  const Film film = read_film(file, nullptr);
-  require_samples(film, file);
-  write_png(output, develop_colors(film));
-}
-
-// Formats other than PNG need a library that takes 0.3 s and 130 MB to load: another program writes them.
-void develop_film(const RenderArguments& a, const RenderStats& stats) {
-  // One that is newer than its finished film was made of it, and perhaps worked on since.
-  std::error_code none;
-  const auto developed = fs::last_write_time(a.output, none);
-  if (stats.finished_before && !a.options.outputs.force && !none &&
-      developed >= fs::last_write_time(a.options.outputs.film)) {
-    if (a.denoised && !a.quiet)
-      say("vitrail: {} is newer than its film and stays; vitrail develop {} -o {} --denoise replaces it\n",
-          a.output.string(), a.options.outputs.film.string(), a.output.string());
-    return;
-  }
-  if (is_png(a.output) && !a.denoised) return write_png_of(a.options.outputs.film, a.output);
-  std::vector<std::string> arguments{a.options.outputs.film.string(), "-o", a.output.string(), "--quiet"};
-  if (stats.spectral_bins > 0 && a.output.extension() == ".exr") arguments.push_back("--spectral");
-  if (a.denoised) arguments.push_back("--denoise");
-  run_program("vitrail-develop", arguments);
-}
-
-// Measured on one core (docs/adaptive.md): the image library is loaded; the film is read, converted, packed.
-AfterFilm developing(const fs::path& output, bool denoised) {
-  if (is_film(output)) return {};
-  if (denoised) return {0.7, 1.2e-7};  // docs/denoising.md
-  return {is_png(output) ? 0 : 0.19, 4e-9};
-}
-
 int number_of(Ending ending) {
   return ending == Ending::terminated ? SIGTERM : ending == Ending::interrupted ? SIGINT : 0;
+}
+
+fs::path written_film(const RenderArguments& a, const RenderStats& stats) {
+  const fs::path& film = a.options.outputs.film;
+  return writes_film(stats.ending) ? film : checkpoint_path(film);
+}
+
+// Says where the work is, once the picture so far is written.
+std::string words_at_stop(const RenderArguments& a, const RenderStats& stats) {
+  if (a.options.outputs.dry_run) return "stopped";
+  const fs::path shown = write_picture_so_far(a, stats);
+  return fmt::format("stopped; {} holds what was done, and the same command goes on{}",
+                     checkpoint_path(a.options.outputs.film).string(),
+                     shown.empty() ? "" : fmt::format("; {} shows it", shown.string()));
 }
 
 int render_job(const CLI::App& app, Transport& transport, RenderArguments& a) {
@@ -121,23 +82,26 @@ int render_job(const CLI::App& app, Transport& transport, RenderArguments& a) {
     if (stop_signal()) throw Interrupted(stop_signal(), "interrupted before rendering began");
   });
   std::optional<Preview> preview;
-  if (first && !a.preview.empty()) {
-    preview.emplace(a.preview);
-    a.options.outputs.after_checkpoint = [&](const fs::path& checkpoint) { preview->develop(checkpoint); };
-  }
-  a.options.resources.after_film = developing(a.output, a.denoised);
+  std::optional<DisplayServer> display;
+  const bool is_shown = first && !a.options.outputs.dry_run;
+  if (is_shown && !a.preview.empty()) preview.emplace(a.preview);
+  if (is_shown && !a.display_server.empty())
+    display.emplace(parse_display_address(a.display_server), a.output.filename().string());
+  const auto show = [&](const fs::path& film) {
+    if (preview) preview->develop(film);
+    if (display) display->show(film);
+  };
+  if (preview || display) a.options.outputs.after_checkpoint = show;
+  a.options.resources.after_film = developing(a);
   const RenderStats stats = render(transport, a.options);
-  preview.reset();  // the picture is the last
   agree(transport, [&] { require_unsaturated(stats.refused, a.options.outputs.film); });
   const int signal = number_of(stats.ending);
   if (!first) return signal ? 128 + signal : exit_done;
-  if (signal)
-    throw Interrupted(signal,
-                      a.options.outputs.dry_run
-                          ? "stopped"
-                          : fmt::format("stopped; {} holds what was done, and the same command goes on",
-                                        checkpoint_path(a.options.outputs.film).string()));
-  if (!is_film(a.output) && !a.options.outputs.dry_run) develop_film(a, stats);
+  if (preview) preview->finish();  // the picture is the last
+  if (display) display->finish(), display->show(written_film(a, stats)), display->finish();
+  if (signal) throw Interrupted(signal, words_at_stop(a, stats));
+  write_picture_of_film(a, stats);
+  print_end(a.options, stats);
   return exit_done;
 }
 
@@ -152,6 +116,8 @@ int guarded_job(const CLI::App& app, Transport& transport, RenderArguments& a) {
     return failed.bad_input ? exit_bad_input : exit_machine;
   } catch (const Interrupted&) {
     throw;
+  } catch (const AlreadySaid&) {
+    throw;
   } catch (const Error& error) {
     throw Error(who + error.what(), error.location, error.excerpt);
   } catch (const UsageError& error) {
@@ -161,6 +127,21 @@ int guarded_job(const CLI::App& app, Transport& transport, RenderArguments& a) {
   } catch (const std::exception& error) {
     throw MachineError(who + error.what());
   }
+}
+
+// As a shell takes it: words with other characters than these are quoted.
+std::string typed_command(int argc, char** argv) {
+  std::string line = "vitrail render";
+  for (const std::string word : std::span(argv, static_cast<std::size_t>(argc)).subspan(1)) {
+    const bool plain = !word.empty() && std::ranges::all_of(word, [](unsigned char c) {
+      return std::isalnum(c) != 0 ||
+             std::string_view("_-+=./:,@%").find(static_cast<char>(c)) != std::string_view::npos;
+    });
+    std::string quoted;
+    for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    line += plain ? " " + word : fmt::format(" '{}'", quoted);
+  }
+  return line;
 }
 
 int supervise_job(RenderArguments& a, int argc, char** argv) {
@@ -181,6 +162,7 @@ int main(int argc, char** argv) {
   using namespace vitrail;
   CLI::App app("renders a bundle or a scene, alone or as the ranks of an MPI job", "vitrail render");
   RenderArguments arguments;
+  arguments.options.outputs.command = typed_command(argc, argv);
   declare(app, arguments);
   const int status = run_guarded(app, argc, argv, [&] {
     if (arguments.restarts > 0 || !arguments.launcher.empty()) return supervise_job(arguments, argc, argv);

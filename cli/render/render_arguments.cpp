@@ -15,9 +15,10 @@
 #include "cli/common/rectangle.h"
 #include "cli/common/sizes.h"
 #include "cli/common/switching_glazing.h"
-#include "cli/common/terminal.h"
+#include "cli/render/display_server.h"
 #include "cli/render/quality.h"
 #include "scene/system/diagnostics.h"
+#include "scene/system/terminal.h"
 
 namespace vitrail {
 
@@ -28,6 +29,9 @@ void declare_files(CLI::App& app, RenderArguments& a) {
   app.add_option("-o,--output,--outfile", a.output,
                  "picture (.exr, .png, .jpg, .tif) or film (.film); default: as the scene's film says, else "
                  "the input's name with .exr, here");
+  app.add_option(
+      "--film", a.film,
+      "keep the film of the picture under this name (.film): more samples can be added to it later");
 }
 
 // How many samples.
@@ -151,8 +155,9 @@ void declare_job(CLI::App& app, RenderArguments& a) {
       "--resume", o.outputs.resume,
       "say so where there is nothing to go on from; going on with a render that was begun, or adding "
       "samples to a finished one, needs no option");
-  app.add_flag("--force", o.outputs.force,
-               "replace the film, checkpoint or picture that has the output's name");
+  app.add_flag(
+      "--force", o.outputs.force,
+      "begin anew, and replace the film, checkpoint or picture of others that has the output's name");
   app.add_option("--time", o.resources.time_limit_s,
                  "end after this many seconds, partitioning and the picture's file included, with what there "
                  "is, and without --spp not before; the same command then goes on. Tracing has half of them "
@@ -175,8 +180,12 @@ void declare_outputs(CLI::App& app, RenderArguments& a) {
       "--sensors", o.picture.sensors,
       "measure irradiance instead of a picture: a text of x y z nx ny nz lines, or plane O U V NXxNY; "
       "each sensor gets 16 times --spp samples; develop writes the .csv");
-  app.add_option("--preview", a.preview,
-                 "a picture of each checkpoint, .png or another, while the render goes on");
+  app.add_option(
+      "--preview", a.preview,
+      "a picture of what is done, .png or another: at once, after twice the time and so on, and where "
+      "the render is stopped");
+  app.add_option("--display-server", a.display_server,
+                 "HOST:PORT of a viewer that shows what is done as often as that, tev for example");
   app.add_option("--stats", o.outputs.stats, "write statistics as JSON");
   app.add_option("--profile", o.outputs.profile,
                  "write where rays went, for `partition --profile` and `plan`");
@@ -188,7 +197,8 @@ void declare_outputs(CLI::App& app, RenderArguments& a) {
 // What is said, and what is refused.
 void declare_words(CLI::App& app, RenderArguments& a) {
   app.add_option("--progress", a.progress,
-                 "bar; lines: one a minute; json: lines of it on standard output, the last with the event "
+                 "bar; lines: soon one, at last one a minute; json: lines of it on standard output, the last "
+                 "with the event "
                  "\"end\"; none; auto: a bar on a terminal, else lines")
       ->check(CLI::IsMember({"auto", "bar", "lines", "json", "none"}))
       ->capture_default_str();
@@ -223,7 +233,10 @@ void declare(CLI::App& app, RenderArguments& a) {
 
 void RenderArguments::name_outputs() {
   if (output.empty()) output = default_output(input);
-  options.outputs.film = std::filesystem::path(output).replace_extension(".film");
+  JobOutputs& o = options.outputs;
+  o.keeps_film = output.extension() == ".film" || !film.empty();
+  if (output.extension() != ".film") o.picture = output;
+  o.film = !film.empty() ? film : o.picture.empty() ? output : std::filesystem::path(output) += ".work";
 }
 
 bool RenderArguments::is_bundle() const {
@@ -302,6 +315,8 @@ void interpret(const CLI::App& app, RenderArguments& a) {
     throw UsageError("the output must end in .exr, .png, .jpg, .tif or .film: " + a.output.string());
   if (a.denoised && (is_table || extension == ".film"))
     throw UsageError("--denoise is of pictures, not of what sensors or films measure: " + a.output.string());
+  if (!a.film.empty() && (extension == ".film" || a.film.extension() != ".film"))
+    throw UsageError("--film NAME.film keeps the film beside a picture that --output names");
   RenderOptions& o = a.options;
   if (!a.memory.empty()) o.resources.memory_bytes = parse_bytes(a.memory);
   if (!a.crop.empty()) o.picture.crop = parse_rectangle("--crop", a.crop);
@@ -321,6 +336,7 @@ void interpret(const CLI::App& app, RenderArguments& a) {
   o.outputs.quiet = a.quiet;
   if (o.outputs.dry_run) prepare_dry_run(o);
   parse_settings(a.settings);
+  if (!a.display_server.empty()) parse_display_address(a.display_server);
   o.picture.glazing = fmt::format("{}", fmt::join(a.settings, " "));
   o.outputs.scene_name = a.input.string();
 }
@@ -334,7 +350,9 @@ std::vector<std::string> partition_arguments(const RenderArguments& a) {
   if (a.strict) arguments.push_back("--strict");
   if (!a.aov.empty()) arguments.insert(arguments.end(), {"--aov", a.aov});
   arguments.insert(arguments.end(),
-                   {"--progress", a.options.outputs.progress == ProgressMode::bar ? "bar" : "none"});
+                   {"--progress", a.options.outputs.progress == ProgressMode::bar     ? "bar"
+                                  : a.options.outputs.progress == ProgressMode::lines ? "auto"
+                                                                                      : "none"});
   // It may have to load what reads images, of more than 100 MiB, and is gone when rendering begins.
   constexpr std::uint64_t least = 256u << 20;
   if (!a.memory.empty())

@@ -12,7 +12,7 @@
 namespace vitrail {
 
 struct RenderArguments {
-  std::filesystem::path input, output;
+  std::filesystem::path input, output, film;
   int bins = 0, max_depth = 0;
   std::string memory, crop, integrator, aov, aov_space, target_error, quality, progress = "auto";
   std::vector<std::string> settings;  // of --set
@@ -25,9 +25,10 @@ struct RenderArguments {
   int restarts = 0;
   std::string launcher;  // empty: this process alone
   std::filesystem::path preview;
+  std::string display_server;  // HOST:PORT; empty: none
 
   bool is_bundle() const;
-  void name_outputs();  // the picture where the user names none, and its film
+  void name_outputs();  // the picture where the user names none, and its film or work file
 };
 
 void declare(CLI::App& app, RenderArguments& arguments);

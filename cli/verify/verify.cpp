@@ -8,8 +8,8 @@
 #include <set>
 
 #include "cli/common/main_guard.h"
-#include "cli/common/progress_line.h"
 #include "cli/common/sizes.h"
+#include "scene/system/progress_line.h"
 #include "scene/system/say.h"
 
 namespace vitrail {
@@ -71,7 +71,7 @@ int main(int argc, char** argv) {
   app.add_flag("--quiet", quiet, "print problems only");
   app.add_option("--threads", options.threads, "threads; default: all cores")->check(CLI::Range(1, 4096));
   return run_guarded(app, argc, argv, [&] {
-    ProgressLine line(!quiet && ::isatty(STDERR_FILENO));
+    ProgressLine line(progress_manner(quiet));
     options.progress = [&](double fraction) { line.show(fraction, "read"); };
     const VerifyResult result = verify_bundle(bundle, options);
     line.clear();

@@ -80,6 +80,7 @@ void add_plan(RenderStats& stats, const Job& job, const RenderOptions& options, 
   stats.spectral_bins = manifest.film.spectrum.count;
   stats.spp = static_cast<std::uint64_t>(manifest.settings.samples_per_pixel);
   stats.seed = options.picture.seed;
+  stats.command = options.outputs.command;
   stats.adaptive = job.plan.goal.adaptive;
   stats.domains_total = manifest.domains.size();
   stats.memory_budget_bytes = options.resources.memory_bytes;
@@ -102,7 +103,7 @@ void conclude(Job& job, const RenderOptions& options, std::uint64_t samples_befo
   say_what_is_wrong(film, goal, options, stats);
   if (job.plan.key.photons.photons == 0) print_wedges(options, stats.traced);
   stats.film_hash = film.hash();
-  print_end(options, stats, film.pixels());
+  stats.pixels = film.pixels();
   // The film holds all that the checkpoint does.
   if (writes_film(stats.ending)) std::filesystem::remove(checkpoint_path(options.outputs.film));
   if (!options.outputs.stats.empty()) write_stats(options.outputs.stats, stats);

@@ -9,6 +9,7 @@
 #include "bundle/manifest_json.h"
 #include "farm/plan/film_size.h"
 #include "farm/plan/rounds.h"
+#include "film/picture_fields.h"
 #include "scene/models/sensor_file.h"
 #include "tracer/photons/progressive.h"
 #include "tracer/rays/ray_records.h"
@@ -137,6 +138,7 @@ JobManifest read_job_manifest(const RenderOptions& options) {
   set_sheets(options.picture.sheets, options.bundle, m);
   override_settings(m, options);
   if (!options.picture.sensors.empty()) read.replaced_camera = put_sensors(m, options.picture);
+  static_assert(no_limit_of_depth == max_path_depth);
   m.settings.max_depth = std::min(m.settings.max_depth, max_path_depth);
   override_film(m, options.picture, options.bundle);
   return read;

@@ -77,13 +77,18 @@ struct JobResources {
 
 // What a job writes, and says.
 struct JobOutputs {
-  std::filesystem::path film;  // where the finished film goes; the checkpoint lies beside it as FILM.partial
-  std::string scene_name;      // what the picture says that it is of; empty: nothing
-  bool dry_run = false;        // renders until the time limit, writes nothing and says what all would take
-  bool resume = false;         // says where there is nothing to go on from; going on needs no asking
-  bool force = false;          // replaces what lies under the names of film and checkpoint, whatever it is
+  std::filesystem::path
+      film;  // where the finished film goes; the checkpoint lies beside it (checkpoint_path)
+  std::filesystem::path picture;  // made of the film once that is written; empty: the film is the output
+  bool keeps_film =
+      true;  // false: a work file, worth nothing once the picture is written that was made of it
+  std::string scene_name;  // what the picture says that it is of; empty: nothing
+  bool dry_run = false;    // renders until the time limit, writes nothing and says what all would take
+  bool resume = false;     // says where there is nothing to go on from; going on needs no asking
+  bool force = false;      // replaces what lies under the names of film and checkpoint, whatever it is
   // On rank 0, of each checkpoint while the render goes on; empty: nothing.
   std::function<void(const std::filesystem::path&)> after_checkpoint;
+  std::string command;            // that was typed, for the statistics
   std::filesystem::path stats;    // empty: none
   std::filesystem::path profile;  // where a RayProfile of a whole picture goes; empty: none
   std::filesystem::path trace;    // where what all threads did when goes (trace_events.h); empty: nowhere

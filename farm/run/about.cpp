@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "farm/run/scene_parts.h"
 #include "scene/records/kinds.h"
 #include "tracer/view/pixel_filter.h"
 
@@ -46,7 +47,8 @@ std::string about(const Manifest& m, const RenderOptions& options) {
   const Transform world_to_camera = inverse(translate(m.offset) * camera_to_bundle);
   Json about{{"scene", options.outputs.scene_name},
              {"camera", kind_of(m.camera)},
-             {"world_to_camera", numbers_of(world_to_camera)}};
+             {"world_to_camera", numbers_of(world_to_camera)},
+             {"parts", scene_parts(m, options.bundle)}};
   if (!options.picture.glazing.empty()) about["glazing"] = options.picture.glazing;
   if (const std::string sampling = words_of(options.picture.samples); !sampling.empty())
     about["sampling"] = sampling;

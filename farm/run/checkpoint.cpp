@@ -7,8 +7,10 @@
 #include <array>
 #include <cstdio>
 
+#include "farm/run/scene_parts.h"
 #include "farm/transport/agreement.h"
 #include "film/film_progress.h"
+#include "film/picture_fields.h"
 #include "scene/records/pixel_place.h"
 #include "scene/system/say.h"
 
@@ -16,8 +18,7 @@ namespace vitrail {
 
 std::filesystem::path checkpoint_path(const std::filesystem::path& film) {
   std::filesystem::path path = film;
-  path += ".partial";
-  return path;
+  return film.extension() == ".work" ? path.replace_extension(".partial") : path += ".partial";
 }
 
 FilmProgress progress_of(const WorkPlan& plan, const std::vector<std::uint64_t>& done, double render_time_s,
@@ -97,23 +98,50 @@ bool makes_sense(const Held& held) {
                         .items();
 }
 
-// Why this is not work of the job whose film is `film`; "" where it is.
-std::string mismatch(const Held& held, const Film& film, const Goal& goal) {
-  const FilmProgress& p = held.progress;
-  const std::string what = difference(held.film, film);
-  if (!what.empty()) return "its picture is not that of this render: " + what;
-  if (held.film.key().seed != film.key().seed)
-    return fmt::format("its seed is {}, not {}", held.film.key().seed, film.key().seed);
-  if (p.samples_per_pixel > goal.samples)
-    return fmt::format("it holds more work: it is a render of {} samples a pixel, not {}, and {}",
-                       p.samples_per_pixel, goal.samples, p.complete() ? "finished" : "begun");
-  if (p.adaptive && !goal.adaptive) return "its samples are adaptive: --adaptive goes on with it";
-  if (!makes_sense(held)) return "it does not say which samples it holds";
-  return {};
+double samples_of_a_pixel(const Film& film) {
+  return static_cast<double>(film.samples()) / static_cast<double>(film.pixels());
 }
 
-std::optional<Held> held_by(const std::filesystem::path& file, const char* kind, const Film& film,
-                            const Goal& goal) {
+// The job that is begun; its film is empty.
+struct Asked {
+  const RenderOptions& options;
+  const Film& film;
+  const Goal& goal;
+  const std::string& about;
+};
+
+// In what this is other work than what is asked for: "depth: 3, asked for is 4; …"; "" where it is the same.
+std::string differences(const Held& held, const Asked& asked) {
+  std::string text;
+  const auto add = [&](const std::string& what) { text += (text.empty() ? "" : "; ") + what; };
+  const auto compare = [&](const char* name, const std::string& has, const std::string& wanted) {
+    if (has != wanted) add(fmt::format("{}: {}, asked for is {}", name, has, wanted));
+  };
+  const FilmProgress& p = held.progress;
+  const FilmKey &key = held.film.key(), &wanted = asked.film.key();
+  if (key.scene_hash != wanted.scene_hash) add(differences_of_scenes(p.about, asked.about));
+  const std::vector<PictureField> mine = picture_fields(key, held.film.settings()),
+                                  theirs = picture_fields(wanted, asked.film.settings());
+  for (std::size_t i = 1; i < mine.size(); ++i) compare(mine[i].name, mine[i].value, theirs[i].value);
+  compare("seed", std::to_string(key.seed), std::to_string(wanted.seed));
+  if (text.empty()) text = difference(held.film, asked.film);
+  if (p.samples_per_pixel > asked.goal.samples)
+    compare("samples a pixel", std::to_string(p.samples_per_pixel), std::to_string(asked.goal.samples));
+  if (p.adaptive && !asked.goal.adaptive)
+    add("samples: adaptive, asked for is the same number everywhere (--adaptive goes on with it)");
+  if (text.empty() && !makes_sense(held)) text = "it does not say which samples it holds";
+  return text;
+}
+
+// Whether the film is a work file that is worth nothing any more.
+bool picture_was_written(const std::filesystem::path& file, const JobOutputs& o) {
+  std::error_code none, no_film;
+  const auto written = std::filesystem::last_write_time(o.picture, none);
+  return !o.keeps_film && file == o.film && !none &&
+         written >= std::filesystem::last_write_time(file, no_film);
+}
+
+std::optional<Held> held_by(const std::filesystem::path& file, const char* kind, const Asked& asked) {
   if (!std::filesystem::exists(file)) return std::nullopt;
   constexpr const char* ways_out = "; --force replaces it, and another name for the output keeps it";
   Held held{file, {}, {}};
@@ -122,14 +150,13 @@ std::optional<Held> held_by(const std::filesystem::path& file, const char* kind,
   } catch (const Error& e) {
     throw Error(std::string(e.what()) + ways_out, e.location);
   }
-  const std::string reason = mismatch(held, film, goal);
-  if (!reason.empty())
-    throw Error(fmt::format("this {} cannot be resumed: {}{}", kind, reason, ways_out), {file.string()});
-  return held;
-}
-
-double samples_of_a_pixel(const Film& film) {
-  return static_cast<double>(film.samples()) / static_cast<double>(film.pixels());
+  const std::string reason = differences(held, asked);
+  if (reason.empty()) return held;
+  const JobOutputs& o = asked.options.outputs;
+  if (held.film.samples() == 0 || o.dry_run || picture_was_written(file, o)) return std::nullopt;
+  throw Error(fmt::format("this {} cannot be resumed, and its {:.4g} samples a pixel would be lost: {}{}",
+                          kind, samples_of_a_pixel(held.film), reason, ways_out),
+              {file.string()});
 }
 
 // The plan that a film's items are of, with what is to be added at once.
@@ -159,10 +186,10 @@ bool finished(const Held& held, const RenderOptions& options, const Goal& goal) 
 void say_what_is_held(const EarlierWork& work, const Held& held, const RenderOptions& options,
                       const Goal& goal) {
   const double samples = samples_of_a_pixel(held.film);
-  if (work.finished)
+  if (work.finished && options.outputs.keeps_film)
     say("vitrail: {} is finished already, with {:.4g} samples a pixel; --force renders it again\n",
         options.outputs.film.string(), samples);
-  else
+  else if (!work.finished)
     say("vitrail: going on from {}, with {:.4g} of {} samples a pixel\n", held.file.string(), samples,
         goal.samples);
 }
@@ -193,7 +220,7 @@ void broadcast(Transport& transport, EarlierWork& work, const Goal& goal) {
 }  // namespace
 
 EarlierWork read_earlier_work(Transport& transport, const RenderOptions& options, Film& film,
-                              const Goal& goal) {
+                              const Goal& goal, const std::string& about) {
   EarlierWork work;
   work.plan = make_work_plan(film.crop(), goal.first_samples(film.pixels()), {}, goal.one_by_one);
   if (options.outputs.force) return work;
@@ -201,14 +228,15 @@ EarlierWork read_earlier_work(Transport& transport, const RenderOptions& options
     if (transport.rank() != 0) return;
     const std::filesystem::path checkpoint = checkpoint_path(options.outputs.film);
     // One of them in memory at a time.
-    std::optional<Held> held = held_by(checkpoint, "checkpoint", film, goal);
+    const Asked asked{options, film, goal, about};
+    std::optional<Held> held = held_by(checkpoint, "checkpoint", asked);
     if (std::filesystem::exists(options.outputs.film)) {
       const std::uint64_t samples = held ? held->film.samples() : 0;
       held.reset();
-      held = held_by(options.outputs.film, "film", film, goal);
-      if (held->film.samples() < samples) {
+      held = held_by(options.outputs.film, "film", asked);
+      if (!held || held->film.samples() < samples) {
         held.reset();
-        held = held_by(checkpoint, "checkpoint", film, goal);
+        held = held_by(checkpoint, "checkpoint", asked);
       }
     }
     if (!held) {

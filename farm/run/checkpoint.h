@@ -10,6 +10,7 @@
 
 namespace vitrail {
 
+// NAME.film.partial of NAME.film; NAME.partial of NAME.work, the work file of a picture.
 std::filesystem::path checkpoint_path(const std::filesystem::path& film);
 
 // Gathers all ranks' films and item bits on rank 0, whose film then holds everything and the others' nothing.
@@ -32,9 +33,10 @@ struct EarlierWork {
 
 // Rank 0 adds to `film` what lies under the job's two names, the one that holds more; every rank learns what
 // it is, and what is to be done first. Throws Error where either is of another picture or seed, was made by
-// another program, or aims at more than the goal's samples a pixel: it would be lost. With
-// options.outputs.force nothing is looked at.
+// another program, or aims at more than the goal's samples a pixel, and names each difference: its samples
+// would be lost. Left aside is what has no samples, and a work file whose picture was written. With
+// options.outputs.force nothing is looked at. `about`: FilmProgress's, of this job.
 EarlierWork read_earlier_work(Transport& transport, const RenderOptions& options, Film& film,
-                              const Goal& goal);
+                              const Goal& goal, const std::string& about);
 
 }  // namespace vitrail

@@ -57,6 +57,7 @@ void Checkpointing::watch_clock() {
   if (take_checkpoint_signal() && !options_.outputs.dry_run) wanted_ = true;
   if (transport_.rank() != 0) return;
   if (due_after_s_ > 0 && seconds_since(last_) >= due_after_s_) wanted_ = true;
+  if (options_.outputs.after_checkpoint && has_gained_ && state_.elapsed_s() >= next_look_s_) wanted_ = true;
   if (options_.resources.time_limit_s > 0 && has_gained_ &&
       seconds_since(limit_start_) + ending_s_ >= options_.resources.time_limit_s)
     time_is_up_ = true;
@@ -112,6 +113,7 @@ void Checkpointing::work_goes_on(bool written) {
     longest_checkpoint_s_ = std::max(longest_checkpoint_s_, pause_s);
     pause_.reset();
   }
+  while (next_look_s_ <= state_.elapsed_s()) next_look_s_ *= 2;
   wanted_ = false;
   last_ = Clock::now();
   due_after_s_ = interval_s(options_);

@@ -52,7 +52,9 @@ class Checkpointing {
   // On rank 0, where time is limited: what is left for the film, of which the first is but for gathering.
   double write_s_ = 0, ending_s_ = 0;
   RankState::Clock::time_point limit_start_, last_;
-  double due_after_s_;                                   // since the last one; 0: never
+  double due_after_s_;  // since the last one; 0: never
+  // Since the start, where somebody looks at checkpoints: soon, then after twice the time and so on.
+  double next_look_s_ = 0.25;
   std::optional<RankState::Clock::time_point> pause_;    // since when the job empties
   std::uint64_t checkpoints_ = 0;                        // written or tried
   double checkpoints_s_ = 0, longest_checkpoint_s_ = 0;  // from the pause until work goes on

@@ -19,17 +19,10 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::chrono::milliseconds interval_of(ProgressMode mode) {
-  using namespace std::chrono_literals;
-  return mode == ProgressMode::bar ? 100ms : mode == ProgressMode::json ? 1000ms : 60000ms;
-}
-
-std::string duration(double s) {
-  if (s < 10) return fmt::format("{:.1f} s", s);
-  if (s < 90) return fmt::format("{:.0f} s", s);
-  const auto minutes = static_cast<long>(s / 60 + 0.5);
-  return minutes < 90 ? fmt::format("{} min", minutes)
-                      : fmt::format("{} h {} min", minutes / 60, minutes % 60);
+ProgressManner manner_of(ProgressMode mode) {
+  return mode == ProgressMode::bar     ? ProgressManner::line
+         : mode == ProgressMode::lines ? ProgressManner::lines
+                                       : ProgressManner::silent;
 }
 
 // Standard output, which nothing else of a render writes to. Lost where that is full or nobody reads it.
@@ -42,7 +35,7 @@ void print_json(const Json& event) {
 std::string waiting_text(const std::vector<RankReport>& ranks) {
   if (ranks.size() < 2) return {};
   const auto [least, most] = std::ranges::minmax(ranks | std::views::transform(&RankReport::waiting));
-  return fmt::format("{} to {} krays wait on a rank, ", least / 1000, most / 1000);
+  return fmt::format("{} to {} krays wait on a rank", least / 1000, most / 1000);
 }
 
 std::vector<std::int64_t> by_rank(const Round& round, std::int64_t RankReport::*number) {
@@ -67,12 +60,13 @@ Progress::Progress(const RenderOptions& options, int rank, const Film& film, dou
       samples_before_(static_cast<double>(film.samples()) / pixels_),
       start_(std::chrono::steady_clock::now()),
       limit_start_(limit_start(options, start_)),
-      last_(start_) {}
+      last_(start_),
+      line_(manner_of(mode_)) {}
 
 void Progress::show(const Round& round) {
-  if (mode_ == ProgressMode::none) return;
+  constexpr std::chrono::seconds between_events(1);
   const auto now = std::chrono::steady_clock::now();
-  if (now - last_ < interval_of(mode_)) return;
+  if (mode_ == ProgressMode::json ? now - last_ < between_events : !line_.is_due()) return;
   last_ = now;
   print(round, std::chrono::duration<double>(now - start_).count());
 }
@@ -103,25 +97,15 @@ void Progress::print(const Round& round, double elapsed_s) {
                        {"rays_waiting_by_rank", by_rank(round, &RankReport::waiting)},
                        {"resident_domains_by_rank", by_rank(round, &RankReport::resident)},
                        {"domain_loads", sums.domain_loads}});
-  if (mode_ == ProgressMode::lines) {
-    say("vitrail: {:.1f} % after {}, {:.4g} of {} samples a pixel, {:.2f} Mray/s, {}{} left\n", 100 * done,
-        duration(elapsed_s), samples_ * done, samples_, rate * 1e-6, waiting_text(round.ranks),
-        duration(left_s));
-    return;
-  }
-  constexpr int width = 32;
-  const int filled = static_cast<int>(done * width);
-  say_over("render [{}{}] {:5.1f} %  {:.2f} Mray/s  {}{} left",
-           std::string(static_cast<std::size_t>(filled), '#'),
-           std::string(static_cast<std::size_t>(width - filled), ' '), 100 * done, rate * 1e-6,
-           waiting_text(round.ranks), duration(left_s));
-  line_open_ = true;
+  ProgressNews news{done, "render", left_s, {}};
+  news.details = {fmt::format("{:.4g} of {} samples a pixel", samples_ * done, samples_),
+                  fmt::format("{:.2f} Mray/s", rate * 1e-6)};
+  if (const std::string waiting = waiting_text(round.ranks); !waiting.empty())
+    news.details.push_back(waiting);
+  line_.show(news);
 }
 
-void Progress::finish() {
-  if (line_open_) say_over("");
-  line_open_ = false;
-}
+void Progress::finish() { line_.clear(); }
 
 namespace {
 
@@ -145,7 +129,7 @@ void print_start(const RenderOptions& options, const Manifest& m, const Goal& go
       limit_start(options, now) > options.resources.start)
     say("vitrail: {} of --time {} went by before tracing began: tracing has half of it all the same; "
         "partition once, and render the bundle, to spare that time\n",
-        duration(std::chrono::duration<double>(now - options.resources.start).count()),
+        duration_in_words(std::chrono::duration<double>(now - options.resources.start).count()),
         options.resources.time_limit_s);
   if (options.outputs.progress != ProgressMode::lines) return;
   const PixelRect& c = m.film.crop;
@@ -153,30 +137,35 @@ void print_start(const RenderOptions& options, const Manifest& m, const Goal& go
       text_of(goal), m.domains.size(), ranks, threads);
 }
 
-void print_end(const RenderOptions& options, const RenderStats& s, std::uint64_t pixels) {
-  if (options.outputs.progress == ProgressMode::none) return;
-  const double samples = static_cast<double>(s.samples) / static_cast<double>(pixels);
+void print_end(const RenderOptions& options, const RenderStats& s) {
+  const JobOutputs& o = options.outputs;
+  if (o.progress == ProgressMode::none || o.dry_run) return;
+  const double samples = static_cast<double>(s.samples) / static_cast<double>(s.pixels);
   const double progress = s.ending == Ending::finished ? 1 : samples / static_cast<double>(s.spp);
   const std::uint64_t rays = s.traced.rays_camera + s.traced.rays_indirect + s.traced.rays_shadow;
-  if (options.outputs.progress == ProgressMode::json)
-    return print_json({{"event", "end"},
-                       {"ending", word(s.ending)},
-                       {"progress", progress},
-                       {"samples_per_pixel", samples},
-                       {"elapsed_s", s.wall_s},
-                       {"remaining_s", 0},
-                       {"rays", rays},
-                       {"film", options.outputs.film.string()},
-                       {"film_hash", fmt::format("{:016x}", s.film_hash)}});
-  if (s.finished_before || !writes_film(s.ending)) return;
-  say("vitrail: {}: {:.4g} of {} samples a pixel after {}, {:.2f} Mray/s, {:.0f} MiB a rank{}\n",
-      options.outputs.film.string(), samples, s.spp, duration(s.wall_s),
-      static_cast<double>(rays) / s.wall_s * 1e-6, static_cast<double>(s.peak_rss_bytes) / 0x1p20,
-      s.ending == Ending::time_is_up ? "; the same command goes on" : "");
-  if (options.picture.target_error)
-    say("vitrail: {}: error {:.3g}, in all likelihood below {:.3g}, where {} was asked for\n",
-        options.outputs.film.string(), s.reached.estimate, s.reached.upper,
-        text_of(*options.picture.target_error));
+  if (o.progress == ProgressMode::json) {
+    Json end{{"event", "end"},        {"ending", word(s.ending)},
+             {"progress", progress},  {"samples_per_pixel", samples},
+             {"elapsed_s", s.wall_s}, {"remaining_s", 0},
+             {"rays", rays}};
+    if (!o.picture.empty()) end["picture"] = o.picture.string();
+    if (o.keeps_film) end["film"] = o.film.string();
+    end["film_hash"] = fmt::format("{:016x}", s.film_hash);
+    return print_json(end);
+  }
+  if (!writes_film(s.ending)) return;
+  const std::string name = (o.picture.empty() ? o.film : o.picture).string();
+  if (options.picture.target_error && !s.finished_before)
+    say("vitrail: error {:.3g}, in all likelihood below {:.3g}, where {} was asked for\n", s.reached.estimate,
+        s.reached.upper, text_of(*options.picture.target_error));
+  if (s.finished_before && o.picture.empty()) return;  // read_earlier_work has said so
+  if (s.finished_before)
+    say("vitrail: {}: {:.4g} samples a pixel, rendered before\n", name, samples);
+  else
+    say("vitrail: {}: {:.4g} of {} samples a pixel after {}, {:.2f} Mray/s, {:.0f} MiB a rank{}\n", name,
+        samples, s.spp, duration_in_words(s.wall_s), static_cast<double>(rays) / s.wall_s * 1e-6,
+        static_cast<double>(s.peak_rss_bytes) / 0x1p20,
+        s.ending == Ending::time_is_up ? "; the same command goes on" : "");
 }
 
 void print_wedges(const RenderOptions& options, const TraceCounters& traced) {

@@ -10,6 +10,7 @@
 #include "farm/run/stats.h"
 #include "farm/transport/transport.h"
 #include "film/film.h"
+#include "scene/system/progress_line.h"
 
 namespace vitrail {
 
@@ -31,13 +32,14 @@ class Progress {
   double time_limit_s_;  // 0: none
   double pixels_, samples_, samples_before_;
   std::chrono::steady_clock::time_point start_, limit_start_, last_;
-  bool line_open_ = false;
+  ProgressLine line_;
 };
 
-// Before the first ray and after the last, on rank 0.
+// On rank 0, before the first ray, and once all is written: that line is a render's last, and names the
+// picture, or the film where that is the output.
 void print_start(const RenderOptions& options, const Manifest& manifest, const Goal& goal, int ranks,
                  int threads);
-void print_end(const RenderOptions& options, const RenderStats& stats, std::uint64_t pixels);
+void print_end(const RenderOptions& options, const RenderStats& stats);
 // Where more than a hundredth of the sunlight in glass met faces that are not quite parallel, which only
 // photons pass.
 void print_wedges(const RenderOptions& options, const TraceCounters& traced);

@@ -5,12 +5,15 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <set>
 
+#include "film/renderer_version.h"
 #include "tracer/photons/photon_map.h"
 
 namespace vitrail {
 
 void gather_stats(Transport& transport, RenderStats& s, const std::vector<bool>& touched) {
+  s.by_rank = gather_by_rank(transport, s);
   std::uint64_t* const summed[] = {&s.traced.rays_camera,
                                    &s.traced.rays_indirect,
                                    &s.traced.rays_shadow,
@@ -61,7 +64,12 @@ void gather_stats(Transport& transport, RenderStats& s, const std::vector<bool>&
 }
 
 std::string to_json(const RenderStats& s) {
-  nlohmann::ordered_json json = {{"ranks", s.ranks},
+  std::set<std::string> hosts;
+  for (const RankStats& rank : s.by_rank) hosts.insert(rank.host);
+  nlohmann::ordered_json json = {{"command", s.command},
+                                 {"version", to_string(this_renderer())},
+                                 {"hosts", hosts},
+                                 {"ranks", s.ranks},
                                  {"threads", s.threads},
                                  {"spp", s.spp},
                                  {"seed", s.seed},
@@ -98,6 +106,7 @@ std::string to_json(const RenderStats& s) {
                                  {"saturated_samples", s.refused.too_large},
                                  {"clamped_share", s.clamped_share},
                                  {"film_hash", fmt::format("{:016x}", s.film_hash)}};
+  json["by_rank"] = to_json(s.by_rank);
   json["photons_emitted"] = s.traced.photons_emitted;
   json["photons_landed"] = s.photons_landed;
   json["photon_gathers"] = s.traced.gathers;

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "farm/plan/rounds.h"
+#include "farm/run/rank_stats.h"
 #include "farm/transport/transport.h"
 #include "tracer/transport/tracing.h"
 
@@ -41,13 +42,16 @@ struct RenderStats {
   std::uint64_t memory_budget_bytes = 0, peak_rss_bytes = 0, base_rss_bytes = 0, setup_peak_rss_bytes = 0;
   std::uint64_t film_hash = 0;
   Ending ending = Ending::none;
+  std::uint64_t pixels = 0;  // of the film
+  std::string command;       // that was typed; empty: unknown
+  std::vector<RankStats> by_rank;
   bool finished_before = false;  // nothing was left to do
 };
 
 // All ranks together; the job's on rank 0. `touched`: a bit a domain, of this rank.
 void gather_stats(Transport& transport, RenderStats& stats, const std::vector<bool>& touched);
 
-// One flat JSON object with the keys of the stats contract.
+// One JSON object with the keys of the stats contract; flat but for "hosts" and "by_rank".
 std::string to_json(const RenderStats& stats);
 
 }  // namespace vitrail

@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cerrno>
 #include <cstdint>
 #include <cstdio>
@@ -28,6 +29,9 @@ bool is_control(std::uint32_t code) {
                      (code >= 0x2066 && code <= 0x2069);
   return code < 0x20 || (code >= 0x7f && code < 0xa0) || turns;
 }
+
+std::atomic<bool> line_is_open = false;
+constexpr const char* clear_line = "\r\033[K";
 
 void write_to_terminal(const std::string& text) { std::fwrite(text.data(), 1, text.size(), stderr); }
 
@@ -69,14 +73,21 @@ std::string for_terminal(std::string_view text, bool lines) {
   return shown;
 }
 
-void say_text(const std::string& text) { write_to_terminal(for_terminal(text)); }
+void say_text(const std::string& text) {
+  write_to_terminal((line_is_open.exchange(false) ? clear_line : "") + for_terminal(text));
+}
 
-void say_over_text(const std::string& text) {
-  write_to_terminal("\r\033[K" + for_terminal(text));
-  std::fflush(stderr);
+void say_over_shown(const std::string& shown) {
+  line_is_open = true;
+  write_to_terminal(clear_line + shown);
+}
+
+void close_line() {
+  if (line_is_open.exchange(false)) write_to_terminal(clear_line);
 }
 
 void show_text(const std::string& text) {
+  close_line();
   const std::string shown = for_terminal(text);
   if (std::fwrite(shown.data(), 1, shown.size(), stdout) != shown.size()) fail_output(errno);
 }

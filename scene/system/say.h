@@ -18,8 +18,8 @@ std::size_t utf8_size(std::string_view text);
 // line feeds and tabs stay as they are.
 std::string for_terminal(std::string_view text, bool lines = true);
 
-// One write to standard error, for_terminal. Where that is full or closed the words are lost: no work ends
-// for their sake.
+// One write to standard error, in place of the line that is open, for_terminal. Where that is full or closed
+// the words are lost: no work ends for their sake.
 void say_text(const std::string& text);
 
 template <class... Values>
@@ -27,13 +27,12 @@ void say(fmt::format_string<Values...> format, Values&&... values) {
   say_text(fmt::format(format, std::forward<Values>(values)...));
 }
 
-// The same in place of the terminal's line that is open.
-void say_over_text(const std::string& text);
+// Opens a line of the terminal, or writes over the one that is open; what is said next takes its place.
+// `shown` is for_terminal already, and may be coloured.
+void say_over_shown(const std::string& shown);
 
-template <class... Values>
-void say_over(fmt::format_string<Values...> format, Values&&... values) {
-  say_over_text(fmt::format(format, std::forward<Values>(values)...));
-}
+// For the end of a program, and before another one speaks: the line that is open is gone.
+void close_line();
 
 // What a program was asked for, on standard output, for_terminal. Throws MachineError where it cannot be
 // written; what is still on its way shows in flush_shown.

@@ -25,8 +25,7 @@ TEST(Everyday, SceneToPictureInOneStep) {
       run(fmt::format("{} '{}' -o '{}' --spp 4 --crop 0,64,0,64", vitrail("render"), scene, out.string()));
   EXPECT_EQ(made.status, 0) << made.output;
   EXPECT_TRUE(std::filesystem::exists(out));
-  EXPECT_TRUE(std::filesystem::exists(directory / "picture.film"));
-  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(directory.path()), {}), 2)
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(directory.path()), {}), 1)
       << "something was left over";
 }
 
@@ -225,6 +224,11 @@ TEST(Everyday, StatisticsKeepTheirContract) {
        {"input_triangles", "cut_triangles", "pieces", "domains", "triangles_min", "triangles_mean",
         "triangles_max", "bundle_bytes", "duplicates", "area_error", "wall_s", "cpu_s", "peak_rss_bytes"})
     EXPECT_TRUE(read_json(p).contains(key)) << key;
+  EXPECT_THAT(read_json(r)["command"].get<std::string>(),
+              testing::EndsWith(" --spp 1 --stats " + r.string()));
+  EXPECT_THAT(read_json(r)["version"].get<std::string>(), HasSubstr("vitrail "));
+  EXPECT_EQ(read_json(r)["by_rank"].size(), 1u);
+  EXPECT_EQ(read_json(r)["by_rank"][0]["host"], read_json(r)["hosts"][0]);
   for (const char* key : {"ranks",
                           "threads",
                           "spp",

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/render/picture_output.h"
+
+#include "cli/common/run_program.h"
+#include "farm/run/checkpoint.h"
+#include "film/develop.h"
+#include "film/film_progress.h"
+#include "film/own_picture.h"
+#include "film/png_file.h"
+#include "scene/system/diagnostics.h"
+#include "scene/system/input_files.h"
+#include "scene/system/output_place.h"
+#include "scene/system/say.h"
+
+namespace vitrail {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+bool is_png(const fs::path& picture) { return picture.extension() == ".png"; }
+
+void require_own_picture(const fs::path& picture, bool force) {
+  if (force || picture.empty() || !fs::exists(picture) || is_own_picture(picture)) return;
+  throw Error(
+      "it is there already, and does not say that vitrail made it; --force replaces it, and another name "
+      "keeps "
+      "it",
+      {picture.string()});
+}
+
+// Other formats than PNG, and denoising, need libraries that take time and memory to load: another program
+// writes them.
+void develop_film(const RenderArguments& a, const fs::path& file, const fs::path& picture, int spectral_bins) {
+  if (is_png(picture) && !a.denoised) {
+    const Film film = read_film(file, nullptr);
+    require_samples(film, file);
+    return write_png(picture, develop_colors(film));
+  }
+  std::vector<std::string> arguments{file.string(), "-o", picture.string(), "--quiet"};
+  if (spectral_bins > 0 && picture.extension() == ".exr") arguments.push_back("--spectral");
+  if (a.denoised) arguments.push_back("--denoise");
+  run_program("vitrail-develop", arguments);
+}
+
+// It was made of the film, and perhaps worked on since.
+bool is_newer(const fs::path& picture, const fs::path& film) {
+  std::error_code none;
+  const auto developed = fs::last_write_time(picture, none);
+  return !none && developed >= fs::last_write_time(film);
+}
+
+}  // namespace
+
+void check_outputs(const RenderArguments& a) {
+  const JobOutputs& o = a.options.outputs;
+  note_input(a.input);
+  for (const fs::path& file : {o.picture, o.film, o.stats, o.profile, o.trace, a.preview})
+    if (!file.empty()) require_place(file);
+  // A film that is kept speaks for the picture beside it.
+  if (!o.keeps_film || !fs::exists(o.film)) require_own_picture(o.picture, o.force);
+  require_own_picture(a.preview, o.force);
+  // Before hours of rendering.
+  if (a.denoised) run_program("vitrail-develop", {"--find-denoiser"}, nullptr, "/dev/null");
+}
+
+AfterFilm developing(const RenderArguments& a) {
+  const fs::path& picture = a.options.outputs.picture;
+  if (picture.empty()) return {};
+  if (a.denoised) return {0.7, 1.2e-7};  // docs/denoising.md
+  return {is_png(picture) ? 0 : 0.19, 4e-9};  // the image library is loaded; the film read, converted, packed
+}
+
+void write_picture_of_film(const RenderArguments& a, const RenderStats& stats) {
+  const JobOutputs& o = a.options.outputs;
+  if (o.picture.empty() || o.dry_run) return;
+  if (!(o.keeps_film && stats.finished_before && !o.force && is_newer(o.picture, o.film)))
+    develop_film(a, o.film, o.picture, stats.spectral_bins);
+  else if (a.denoised && !a.quiet)
+    say("vitrail: {} is newer than its film and stays; vitrail develop {} -o {} --denoise replaces it\n",
+        o.picture.string(), o.film.string(), o.picture.string());
+  if (!o.keeps_film && stats.ending == Ending::finished) fs::remove(o.film);
+}
+
+fs::path write_picture_so_far(const RenderArguments& a, const RenderStats& stats) {
+  const JobOutputs& o = a.options.outputs;
+  const fs::path& picture = a.preview.empty() ? o.picture : a.preview;
+  if (picture.empty() || o.dry_run || stats.samples == 0) return {};
+  if (a.preview.empty() && fs::exists(picture)) return {};
+  develop_film(a, checkpoint_path(o.film), picture, stats.spectral_bins);
+  return picture;
+}
+
+}  // namespace vitrail
