@@ -63,7 +63,8 @@ struct MtlSurface {
 //   Ks > 0, illum ≥ 2                           PlasticMaterial: Ks times the Fresnel reflection of a coat of
 //                                               index Ni (1.5 if not above 1), α = √(2/(Ns + 2)) (Beckmann;
 //                                               Ns is 1 if not given)
-//   the same, illum 3 or 5 and Kd black         ConductorMaterial that reflects Ks
+//   the same, illum 3 or 5 and Kd black, or     ConductorMaterial that reflects Ks
+//   half of Ks at most, both up to 1 together
 //   otherwise                                   DiffuseMaterial: Kd, clamped to [0,1]; 0 if not given
 //   map_Kd, map_Ks                              times the colour; alone where that is black or not given
 //   d = 0 (or Tr = 1) without Ni > 1            InterfaceMaterial

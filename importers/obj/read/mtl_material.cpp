@@ -211,13 +211,22 @@ class Builder {
     return material;
   }
 
+  // Not where both together would reflect more than comes: there Ks is a highlight.
+  bool is_mostly_mirror() const {
+    const auto greatest = [](const std::optional<RGB>& c) { return c ? std::max({c->r, c->g, c->b}) : 0; };
+    return is_black(mtl_.kd) ||
+           (greatest(mtl_.ks) >= 2 * greatest(mtl_.kd) && greatest(mtl_.ks) + greatest(mtl_.kd) <= 1);
+  }
+
   MaterialModel shiny() {
     Roughness roughness;
     roughness.alpha_u = roughness.alpha_v = alpha();
     roughness.distribution = Roughness::Distribution::beckmann;
     const bool reflects = mtl_.illum == 3 || mtl_.illum == 5;
-    if (reflects && is_black(mtl_.kd) && !find("map_Kd")) {
-      note(Fidelity::approximated, "Ks and Ns: a metal of that reflectance");
+    if (reflects && is_mostly_mirror() && !find("map_Kd")) {
+      note(Fidelity::approximated, is_black(mtl_.kd)
+                                       ? "Ks and Ns: a metal of that reflectance"
+                                       : "Ks and Ns: a metal of that reflectance, without its Kd");
       return ConductorMaterial{NormalReflectance{ks()}, roughness};
     }
     note(Fidelity::approximated, "Ks and Ns: the Fresnel reflection of a coat, times Ks");

@@ -343,6 +343,8 @@ TEST_F(Obj, Conductor) {
   EXPECT_EQ(std::get<NormalReflectance>(metal.metal).reflectance,
             SpectrumParameter(Spectrum(reflectance_from_rgb({.9, .8, .1}))));
   EXPECT_EQ(metal.roughness.alpha_u, FloatParameter(.1f));
+  EXPECT_TRUE(std::holds_alternative<ConductorMaterial>(material("Kd .1 .1 .1\nKs .9 .9 .9\nillum 3\n")));
+  EXPECT_TRUE(std::holds_alternative<PlasticMaterial>(material("Kd .1 .1 .1\nKs .9 .9 .9\nillum 2\n")));
   EXPECT_TRUE(std::holds_alternative<PlasticMaterial>(material("Kd 1 0 0\nKs .9 .8 .1\nillum 3\n")));
 }
 
