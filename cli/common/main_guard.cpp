@@ -25,14 +25,24 @@ namespace vitrail {
 
 namespace {
 
+// What the JSON library throws begins with its own number, "[json.exception.out_of_range.403] ".
+std::string without_numbers(std::string message) {
+  constexpr const char* begin = "[json.exception.";
+  for (std::size_t at; (at = message.find(begin)) != std::string::npos;) {
+    const std::size_t end = message.find("] ", at);
+    message.erase(at, end == std::string::npos ? end : end + 2 - at);
+  }
+  return message;
+}
+
 int fail(int status, const std::string& message) {
-  say("vitrail: {}\n", message);
+  say("vitrail: {}\n", without_numbers(message));
   return status;
 }
 
 int fail(const Error& e) {
   const std::string place = for_terminal(to_string(e.location), false);
-  say("vitrail: {}{}{}\n", place, place.empty() ? "" : ": ", e.what());
+  say("vitrail: {}{}{}\n", place, place.empty() ? "" : ": ", without_numbers(e.what()));
   if (!e.excerpt.empty()) say("  | {}\n", for_terminal(e.excerpt, false));
   return exit_bad_input;
 }
@@ -81,8 +91,7 @@ int run(const std::string& input, const std::function<int()>& body) {
   } catch (const std::out_of_range& e) {
     return fail_in_library(input, e.what());
   } catch (const nlohmann::json::exception& e) {
-    const std::string words = e.what();
-    return fail_in_library(input, words.substr(words.starts_with('[') ? words.find(']') + 2 : 0));
+    return fail_in_library(input, e.what());
   } catch (const std::exception& e) {  // MachineError among them
     return fail(exit_machine, e.what());
   }

@@ -59,10 +59,10 @@ int run_program(const std::string& name, const std::vector<std::string>& argumen
     return WEXITSTATUS(status);
   if (WIFSIGNALED(status) && (WTERMSIG(status) == SIGINT || WTERMSIG(status) == SIGTERM))
     throw Interrupted(WTERMSIG(status), name + " was interrupted");
-  if (WIFEXITED(status) && WEXITSTATUS(status) == exit_usage)
-    throw UsageError(name + " was given wrong options");
-  if (WIFEXITED(status) && WEXITSTATUS(status) == exit_bad_input) throw Error(name + " refused its input");
-  throw MachineError(name + " failed");
+  if (WIFEXITED(status) && (WEXITSTATUS(status) == exit_usage || WEXITSTATUS(status) == exit_bad_input))
+    throw RefusalAlreadySaid(name, WEXITSTATUS(status));
+  if (WIFEXITED(status)) throw FailureAlreadySaid(name, WEXITSTATUS(status));
+  throw MachineError(fmt::format("{} was ended by signal {}", name, WTERMSIG(status)));
 }
 
 }  // namespace vitrail

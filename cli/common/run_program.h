@@ -11,8 +11,8 @@ namespace vitrail {
 std::filesystem::path program_folder();
 
 // Runs a program of the suite and waits. Returns exit_done, or exit_differs of `compare` and `convert
-// --check`. If it ends with another status, throws Error (status 3) or MachineError: it has said itself what
-// was wrong. It is terminated once `stopped()`. If INT or TERM ended it, throws Interrupted.
+// --check`. If it ends with another status, throws Error or MachineError that is AlreadySaid too
+// (main_guard.h). It is terminated once `stopped()`. If INT or TERM ended it, throws Interrupted.
 int run_program(const std::string& name, const std::vector<std::string>& arguments,
                 bool (*stopped)() = nullptr, const std::filesystem::path& standard_output = {});
 

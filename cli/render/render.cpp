@@ -99,9 +99,10 @@ int render_job(const CLI::App& app, Transport& transport, RenderArguments& a) {
   if (!first) return signal ? 128 + signal : exit_done;
   if (preview) preview->finish();  // the picture is the last
   if (display) display->finish(), display->show(written_film(a, stats)), display->finish();
-  if (signal) throw Interrupted(signal, words_at_stop(a, stats));
-  write_picture_of_film(a, stats);
+  const std::string stopped = signal ? words_at_stop(a, stats) : "";
+  if (!signal) write_picture_of_film(a, stats);
   print_end(a.options, stats);
+  if (signal) throw Interrupted(signal, stopped);
   return exit_done;
 }
 

@@ -50,8 +50,9 @@ Json measured(const Bands& bands) {
 }
 
 void print(const char* name, const Json& j) {
-  show("{:26} {:10.0f} lx {:10.0f} lx melanopic EDI {:8.1f} W/m2", name, j["illuminance_lx"].get<double>(),
-       j["melanopic_edi_lx"].get<double>(), j["irradiance_w_m2"].get<double>());
+  show("{:26} {:10.0f} lx {:10.0f} lx melanopic EDI {:8.1f} W/m² (360 to 830 nm)", name,
+       j["illuminance_lx"].get<double>(), j["melanopic_edi_lx"].get<double>(),
+       j["irradiance_w_m2"].get<double>());
   if (j.contains("x"))
     show("  x {:.4f} y {:.4f} {:6.0f} K", j["x"].get<double>(), j["y"].get<double>(),
          j["color_temperature_k"].get<double>());

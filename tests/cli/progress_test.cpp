@@ -91,6 +91,18 @@ TEST(Progress, TheReportOfPartitionBeginsALine) {
   EXPECT_EQ(line.find('%'), std::string::npos) << line;
 }
 
+TEST(Progress, TheLastEventSaysThatTheRenderWasStopped) {
+  const TemporaryDirectory directory;
+  const CommandResult stopped =
+      run(fmt::format("timeout --preserve-status -s INT 3 {} '{}/examples/cornell-box/cornell-box.pbrt' -o "
+                      "'{}' --spp 1000000 "
+                      "--progress json --quiet 2>&1 | tail -n 2",
+                      vitrail("render"), VITRAIL_SOURCE_DIR, (directory / "x.png").string()));
+  EXPECT_THAT(stopped.output, AllOf(HasSubstr("\"event\":\"end\""), HasSubstr("\"ending\":\"interrupted\"")));
+  EXPECT_THAT(stopped.output,
+              AllOf(HasSubstr("x.png.partial holds what was done"), HasSubstr("x.png shows it")));
+}
+
 TEST(Progress, ALogHasALineSoon) {
   const TemporaryDirectory directory;
   const CommandResult done = run(fmt::format(
