@@ -25,7 +25,8 @@ Report inspect(const std::filesystem::path& file, const ImportOptions& options) 
   if (file.extension() == ".dom" || begins_with(file, "VITRDOM\n")) return inspect_domain(file);
   if (file.extension() == ".tex" || begins_with(file, "VITRTEX\n")) return inspect_texture(file);
   // A checkpoint is a film too.
-  if (file.extension() == ".film" || file.extension() == ".partial") return inspect_film(file);
+  if (file.extension() == ".film" || file.extension() == ".partial" || file.extension() == ".work")
+    return inspect_film(file);
   return inspect_scene(file, options);
 }
 
@@ -37,6 +38,11 @@ int status_of(const Report& report, bool strict) {
 
 std::string as_json(const Report& report) {
   return report.dump(1, ' ', false, Report::error_handler_t::replace) + "\n";
+}
+
+// Of the scene, with which its own files begin.
+std::filesystem::path folder_of(const std::filesystem::path& file) {
+  return std::filesystem::is_directory(file) ? std::filesystem::path() : file.parent_path();
 }
 
 }  // namespace
@@ -54,14 +60,14 @@ int main(int argc, char** argv) {
                  "scene file, bundle (NAME.vit), sub-domain or object (.dom), texture (.tex) or film (.film)")
       ->required();
   declare_import_options(app, imports);
-  app.add_flag("--json", json, "print JSON");
+  app.add_flag("--json", json, "print JSON, as docs/inspect.md lists it");
   app.add_option("--memory", memory, "never have more resident, such as 2G; default: no limit");
   app.add_flag("--strict", strict, "exit with 3 where something of a scene is not read or rendered exactly");
   app.add_flag("--quiet", quiet, "say nothing but what is wrong; the exit status does");
   return run_guarded(app, argc, argv, [&] {
     const auto body = [&] {
       const Report report = inspect(file, import_options(imports));
-      if (!quiet) show("{}", json ? as_json(report) : to_text(report));
+      if (!quiet) show("{}", json ? as_json(report) : to_text(report, folder_of(file)));
       return status_of(report, strict);
     };
     return memory.empty() ? body() : within_memory(parse_bytes(memory), {"inspecting"}, body);

@@ -34,7 +34,18 @@ Report describe_open_glass(const Scene& scene);
 // Of all meshes, each once.
 std::uint64_t mesh_bytes(const Scene& scene);
 
-// "key: value" lines, nested by indentation; lists of records as tables.
-std::string to_text(const Report& report);
+// What it takes to render it, and how large it is: "summary" of a scene or a bundle (summary.cpp).
+// `scene_bytes`: of its shapes and images in memory. The time is that of a scene of its size among those
+// measured: a guess.
+Report summary_of(const Manifest& manifest, std::uint64_t scene_bytes);
+// Sentences for people, a line each.
+std::string summary_text(const Report& summary);
+
+// {"needed": …, "why": …}: "yes: why" in text. Empty: not needed.
+Report need(const std::string& why);
+
+// The summary, if there is one, then "key: value" lines, nested by indentation; lists of records as tables.
+// Paths of `folder` without that.
+std::string to_text(const Report& report, const std::filesystem::path& folder = {});
 
 }  // namespace vitrail

@@ -21,17 +21,22 @@ std::string file_of(const Texture& texture) {
   return "";
 }
 
-std::string pixels_of(const Texture& texture) {
+// Of an image, or the faces of a Ptex file; null where it is none of these, or cannot be read.
+Report size_of(const Texture& texture) {
+  Report size{{"width", nullptr}, {"height", nullptr}, {"channels", nullptr}, {"faces", nullptr}};
   const std::string file = file_of(texture);
-  if (file.empty()) return "-";
+  if (file.empty()) return size;
   try {
-    if (std::holds_alternative<PtexTexture>(texture.model))
-      return fmt::format("{} faces", PtexFile(file).faces().size());
+    if (std::holds_alternative<PtexTexture>(texture.model)) {
+      size["faces"] = PtexFile(file).faces().size();
+      return size;
+    }
     const ImageLayout layout = read_image_layout(file);
-    return fmt::format("{} × {} × {}", layout.width, layout.height, layout.channels);
+    size["width"] = layout.width, size["height"] = layout.height, size["channels"] = layout.channels;
   } catch (const Error&) {
-    return "not readable";
+    // Said when the scene is rendered.
   }
+  return size;
 }
 
 std::uint64_t bytes_of(const TriangleMesh& mesh) {
@@ -56,19 +61,21 @@ std::string kinds_beyond(const Records& records, KindOf&& kind_of,
   return text;
 }
 
-Report yes_or_no(const std::string& why) { return why.empty() ? "no" : "yes: " + why; }
+Report or_null(const std::string& text) { return text.empty() ? Report(nullptr) : Report(text); }
 
 }  // namespace
+
+Report need(const std::string& why) { return {{"needed", !why.empty()}, {"why", why}}; }
 
 Report describe_materials(const Scene& scene) {
   Report table = Report::array();
   const std::vector<MaterialTraits> traits = traits_of(scene.materials);
   for (std::size_t i = 0; i < traits.size(); ++i) {
     const Material& m = scene.materials[i];
-    table.push_back({{"name", m.name.empty() ? "-" : m.name},
+    table.push_back({{"name", or_null(m.name)},
                      {"kind", kind_of(m.model)},
                      {"sides", m.two_sided || traits[i].transmits ? "both" : "front"},
-                     {"bumps", m.displacement || m.normal_map ? "yes" : "no"},
+                     {"bumps", m.displacement.has_value() || m.normal_map.has_value()},
                      {"where", to_string(location(scene, m.origin))}});
   }
   return table;
@@ -77,12 +84,12 @@ Report describe_materials(const Scene& scene) {
 Report describe_textures(const Scene& scene) {
   Report table = Report::array();
   for (const Texture& t : scene.textures) {
-    const std::string file = file_of(t);
-    table.push_back({{"name", t.name.empty() ? "-" : t.name},
-                     {"kind", kind_of(t.model)},
-                     {"values", t.is_float ? "numbers" : "colours"},
-                     {"pixels", pixels_of(t)},
-                     {"file", file.empty() ? "-" : file}});
+    Report row{{"name", or_null(t.name)},
+               {"kind", kind_of(t.model)},
+               {"values", t.is_float ? "numbers" : "colours"}};
+    row.update(size_of(t));
+    row["file"] = or_null(file_of(t));
+    table.push_back(std::move(row));
   }
   return table;
 }
@@ -95,35 +102,34 @@ Report describe_media(const Scene& scene) {
                               : m.density.index() == 1 ? "grid"
                                                        : "cloud"},
                      {"g", m.g},
-                     {"emits", m.emission || m.temperature ? "yes" : "no"}});
+                     {"emits", m.emission.has_value() || m.temperature.has_value()}});
   return table;
 }
 
 Report describe_needs(const Scene& scene) {
   Report needs;
   needs["materials_beyond_diffuse_and_smooth_glass"] =
-      yes_or_no(kinds_beyond(scene.materials, [](const Material& m) { return kind_of(m.model); },
-                             {"diffuse", "dielectric", "interface"}));
+      need(kinds_beyond(scene.materials, [](const Material& m) { return kind_of(m.model); },
+                        {"diffuse", "dielectric", "interface"}));
   needs["textures"] =
-      yes_or_no(kinds_beyond(scene.textures, [](const Texture& t) { return kind_of(t.model); }, {}));
-  needs["lights_beyond_point_distant_and_constant"] = yes_or_no(kinds_beyond(
+      need(kinds_beyond(scene.textures, [](const Texture& t) { return kind_of(t.model); }, {}));
+  needs["lights_beyond_point_distant_and_constant"] = need(kinds_beyond(
       scene.lights, [](const Light& l) { return kind_of(l.model); }, {"point", "distant", "infinite"}));
-  needs["media"] = yes_or_no(scene.media.empty() ? "" : fmt::format("{} of them", scene.media.size()));
-  needs["instances"] =
-      yes_or_no(scene.instances.empty()
-                    ? ""
-                    : fmt::format("{} of {} objects", scene.instances.size(), scene.prototypes.size()));
+  needs["media"] = need(scene.media.empty() ? "" : fmt::format("{} of them", scene.media.size()));
+  needs["instances"] = need(scene.instances.empty() ? ""
+                                                    : fmt::format("{} of {} objects", scene.instances.size(),
+                                                                  scene.prototypes.size()));
   std::string moves = scene.camera_motion.moves() ? "of the camera" : "";
   if (!scene.motions.empty())
     moves += fmt::format("{}{} of objects", moves.empty() ? "" : " and ", scene.motions.size());
-  needs["motion"] = yes_or_no(moves);
+  needs["motion"] = need(moves);
   const auto* perspective = std::get_if<PerspectiveCamera>(&scene.camera);
   const auto* orthographic = std::get_if<OrthographicCamera>(&scene.camera);
   const double radius = perspective ? perspective->lens.radius : orthographic ? orthographic->lens.radius : 0;
   const auto* realistic = std::get_if<RealisticCamera>(&scene.camera);
-  needs["lens"] = yes_or_no(radius > 0  ? fmt::format("of radius {:.4g}", radius)
-                            : realistic ? fmt::format("of {} surfaces", realistic->surfaces.size())
-                                        : "");
+  needs["lens"] = need(radius > 0  ? fmt::format("of radius {:.4g}", radius)
+                       : realistic ? fmt::format("of {} surfaces", realistic->surfaces.size())
+                                   : "");
   return needs;
 }
 

@@ -4,7 +4,6 @@
 #include "bundle/manifest.h"
 #include "bundle/verify.h"
 #include "cli/common/bundle_origin.h"
-#include "cli/common/sizes.h"
 #include "cli/common/switching_glazing.h"
 #include "cli/inspect/inspect.h"
 #include "glazing/kept_system.h"
@@ -19,7 +18,7 @@ Report domain_line(std::uint32_t index, const DomainInfo& d) {
           {"triangles", d.triangles},
           {"pieces", d.pieces},
           {"bytes", d.bytes},
-          {"extent", fmt::format("{:.4g} × {:.4g} × {:.4g}", size.x, size.y, size.z)}};
+          {"extent", {size.x, size.y, size.z}}};
 }
 
 // Glass that can be set.
@@ -28,7 +27,7 @@ Report describe_glazing(const std::filesystem::path& bundle, const Manifest& m) 
   for (const KeptGlazing& g : read_glazings(bundle, m)) {
     const GlazingSystem system = kept_system(g.system, glazing_path(bundle).string());
     table.push_back({{"name", g.name},
-                     {"system", system.name.empty() ? "-" : system.name},
+                     {"system", system.name.empty() ? Report(nullptr) : Report(system.name)},
                      {"panes", system.layers.size()},
                      {"set", describe_setting(system)},
                      {"can_be_set", names_of_quantities(system)}});
@@ -41,7 +40,8 @@ Report describe_glazing(const std::filesystem::path& bundle, const Manifest& m) 
 Report inspect_bundle(const std::filesystem::path& bundle) {
   const Manifest m = read_manifest(bundle);
   const VerifyResult found = verify_bundle(bundle);
-  Report r{{"file", bundle.string()}, {"kind", "bundle"}, {"size", format_bytes(found.bytes)}};
+  Report r{{"file", bundle.string()}, {"kind", "bundle"}, {"bytes", found.bytes}};
+  r["summary"] = summary_of(m, found.bytes);
   const BundleOrigin origin = read_bundle_origin(bundle);
   if (!origin.scene.empty()) {
     r["made_of"] = origin.scene;

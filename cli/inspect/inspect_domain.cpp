@@ -6,7 +6,6 @@
 
 #include "bundle/domain_layout.h"
 #include "bundle/texture_file.h"
-#include "cli/common/sizes.h"
 #include "cli/inspect/inspect.h"
 
 namespace vitrail {
@@ -62,7 +61,6 @@ Report inspect_domain(const std::filesystem::path& file) {
           {"required_features", required_names(features.required)},
           {"optional_features", optional_names(features.optional)},
           {"bytes", mapped.bytes()},
-          {"size", format_bytes(mapped.bytes())},
           {"hash", hexadecimal(mapped.hash())},
           {"triangles", triangles},
           {"pieces", pieces.size()},
@@ -102,7 +100,6 @@ Report inspect_texture(const std::filesystem::path& file) {
           {"required_features", required_names(texture.features().required)},
           {"optional_features", optional_names(texture.features().optional)},
           {"bytes", texture.layout().file_bytes},
-          {"size", format_bytes(texture.layout().file_bytes)},
           {"hash", hexadecimal(texture.hash())},
           {"format", names[static_cast<std::size_t>(info.format)]},
           {"width", info.width},

@@ -49,7 +49,7 @@ void add_open_parts(const Scene& scene, const std::vector<Shape>& shapes, const 
     if (part.kind == MeshPart::Kind::closed) continue;
     const Shape& shape = *used[part.triangles.front().mesh];
     const std::string& name = scene.materials[shape.material.value].name;
-    table.push_back({{"material", name.empty() ? "-" : name},
+    table.push_back({{"material", name.empty() ? Report(nullptr) : Report(name)},
                      {"is", words_for(part.kind)},
                      {"area", part.area},
                      {"centre", {part.centre.x, part.centre.y, part.centre.z}},

@@ -10,12 +10,14 @@
 #include "cli/inspect/inspect.h"
 #include "film/film_progress.h"
 #include "film/film_seeds.h"
+#include "film/picture_fields.h"
 #include "importers/import.h"
 #include "partitioner/appearance/appearance.h"
 #include "partitioner/placing/flatten.h"
 #include "scene/daylight/sky_model.h"
 #include "scene/records/kinds.h"
 #include "scene/records/material_traits.h"
+#include "tracer/lights/quadric_light.h"
 
 namespace vitrail {
 
@@ -23,20 +25,25 @@ namespace {
 
 Report triple(const auto& v) { return {v.x, v.y, v.z}; }
 
-// Where a spectrum lies: its values at blue, green and red.
-std::string in_words(const Spectrum& s) {
-  if (const auto* constant = std::get_if<ConstantSpectrum>(&s)) return fmt::format("{:.4g}", constant->value);
-  return fmt::format("{}: {:.4g} at 450 nm, {:.4g} at 550 nm, {:.4g} at 650 nm", kind_of(s), evaluate(s, 450),
-                     evaluate(s, 550), evaluate(s, 650));
+// Its kind and its values at blue, green and red; null where there is none.
+Report values_of(const Spectrum* s) {
+  Report values{{"spectrum", s ? Report(kind_of(*s)) : Report(nullptr)}};
+  for (const int nm : {450, 550, 650})
+    values[fmt::format("at_{}_nm", nm)] = s ? Report(evaluate(*s, nm)) : Report(nullptr);
+  return values;
 }
 
-Report describe(const Material& material) {
-  Report value = nullptr;
+// `number`: of the list, from 1, as the channel Id.material has it.
+Report describe(const Material& material, std::size_t number) {
+  const Spectrum* spectrum = nullptr;
+  Report of = nullptr;
   if (const auto* diffuse = std::get_if<DiffuseMaterial>(&material.model))
-    if (const auto* spectrum = std::get_if<Spectrum>(&diffuse->reflectance)) value = in_words(*spectrum);
+    if ((spectrum = std::get_if<Spectrum>(&diffuse->reflectance))) of = "reflectance";
   if (const auto* dielectric = std::get_if<DielectricMaterial>(&material.model))
-    value = in_words(dielectric->eta);
-  return {{"kind", kind_of(material.model)}, {"reflectance or index", value}};
+    spectrum = &dielectric->eta, of = "index";
+  Report row{{"number", number}, {"kind", kind_of(material.model)}, {"spectrum_of", of}};
+  row.update(values_of(spectrum));
+  return row;
 }
 
 // Emitting area of each area light, scene units².
@@ -45,6 +52,8 @@ std::vector<double> emitting_areas(const Manifest& m) {
   for (const EmissiveTriangle& t : m.emissive_triangles)
     areas[t.area_light] +=
         polygon_area(std::array{cast<double>(t.p[0]), cast<double>(t.p[1]), cast<double>(t.p[2])});
+  for (const EmissiveQuadric& q : m.emissive_quadrics)
+    areas[q.area_light] += QuadricLight(q, false, 1).area();
   return areas;
 }
 
@@ -82,13 +91,14 @@ Report describe_lights(const Manifest& m) {
     const Report y = luminance_of(l.radiance);
     const double sides = l.two_sided ? 2 : 1;
     lights.push_back(
-        {{"kind", l.two_sided ? "area, both sides" : "area"},
+        {{"number", lights.size() + 1},
+         {"kind", l.two_sided ? "area, both sides" : "area"},
          {"luminance", y},
          {"area", areas[i]},
          {"power", y.is_null() ? y : Report(std::numbers::pi * areas[i] * y.get<double>() * sides)}});
   }
   for (const Light& light : m.lights) {
-    Report described{{"kind", kind_of(light.model)}};
+    Report described{{"number", lights.size() + 1}, {"kind", kind_of(light.model)}};
     described.update(std::visit(LightDescriber{}, light.model));
     lights.push_back(std::move(described));
   }
@@ -100,8 +110,8 @@ std::string materials_that(const Manifest& m, const char* what, Condition condit
   std::size_t count = 0, first = 0;
   for (std::size_t i = 0; i < m.materials.size(); ++i)
     if (condition(m.materials[i]) && count++ == 0) first = i;
-  return fmt::format("yes: {} of {} materials {}, the first is number {}", count, m.materials.size(), what,
-                     first);
+  return fmt::format("{} of {} materials {}, the first is number {}", count, m.materials.size(), what,
+                     first + 1);
 }
 
 template <class Model>
@@ -117,7 +127,7 @@ std::string why_see_through(const Manifest& m) {
   };
   const auto partly =
       std::ranges::count_if(m.surfaces, [](const Surface& s) { return s.opacity != FloatParameter{1.0f}; });
-  if (partly > 0) return fmt::format("yes: {} of {} surfaces are there in part", partly, m.surfaces.size());
+  if (partly > 0) return fmt::format("{} of {} surfaces are there in part", partly, m.surfaces.size());
   return materials_that(m, "let light straight through", sheer);
 }
 
@@ -129,36 +139,40 @@ Report describe_requirements(const Manifest& m) {
     return d && !(is_constant(d->eta) && is_constant(d->exterior_eta));
   };
   return {
-      {"shading_normals", r.shading_normals ? "yes: a mesh in use has normals at its vertices" : "no"},
-      {"uv", r.uv ? "yes: a texture, a tangent or a bump is looked up by (u,v)" : "no"},
-      {"filtering", r.filtering ? "yes: an image asks for it" : "no"},
-      {"textures", m.texture_files.empty() ? "no" : fmt::format("yes: {} images", m.texture_files.size())},
-      {"mesh_attributes", m.attributes == 0 ? "no" : fmt::format("yes: {} values a vertex", m.attributes)},
-      {"refraction", r.refraction ? materials_that(m, "are dielectric", is<DielectricMaterial>) : "no"},
-      {"dispersion", r.dispersion ? materials_that(m, "refract by wavelength", disperses) : "no"},
-      {"see_through", r.see_through ? why_see_through(m) : "no"},
-      {"media", r.media ? fmt::format("yes: {}", m.media.size()) : "no"}};
+      {"shading_normals", need(r.shading_normals ? "a mesh in use has normals at its vertices" : "")},
+      {"uv", need(r.uv ? "a texture, a tangent or a bump is looked up by (u,v)" : "")},
+      {"filtering", need(r.filtering ? "an image asks for it" : "")},
+      {"textures", need(m.texture_files.empty() ? "" : fmt::format("{} images", m.texture_files.size()))},
+      {"mesh_attributes", need(m.attributes == 0 ? "" : fmt::format("{} values a vertex", m.attributes))},
+      {"refraction", need(r.refraction ? materials_that(m, "are dielectric", is<DielectricMaterial>) : "")},
+      {"dispersion", need(r.dispersion ? materials_that(m, "refract by wavelength", disperses) : "")},
+      {"see_through", need(r.see_through ? why_see_through(m) : "")},
+      {"media", need(r.media ? fmt::format("{} of them", m.media.size()) : "")}};
 }
 
-std::string integrator_of(const RenderSettings& s) {
-  if (s.direct_only) return "direct";
-  if (!s.photons) return "path";
-  const PhotonSettings& p = *s.photons;
-  return fmt::format("photon: {} an iteration, first radius {}, alpha {}",
-                     p.photons ? fmt::to_string(*p.photons) : "as many as pixels",
-                     p.first_radius ? fmt::to_string(*p.first_radius) : "by the extent",
-                     p.alpha.value_or(2.0 / 3));
+template <class Value>
+Report or_null(const std::optional<Value>& value) {
+  return value ? Report(*value) : Report(nullptr);
 }
+
+// Null: no limit.
+Report depth_or_null(int depth) { return depth >= no_limit_of_depth ? Report(nullptr) : Report(depth); }
 
 Report describe_view(const Manifest& m) {
   const FilmSettings& f = m.film;
+  const PhotonSettings photons = m.settings.photons.value_or(PhotonSettings{});
   return {{"camera", kind_of(m.camera)},
-          {"pixels", fmt::format("{} × {}", f.width, f.height)},
+          {"pixels", {f.width, f.height}},
           {"crop", {f.crop.x0, f.crop.x1, f.crop.y0, f.crop.y1}},
           {"layers", names_of(f.layers)},
           {"samples_per_pixel", m.settings.samples_per_pixel},
-          {"max_depth", m.settings.max_depth},
-          {"integrator", integrator_of(m.settings)},
+          {"max_depth", depth_or_null(m.settings.max_depth)},
+          {"integrator", m.settings.direct_only ? "direct"
+                         : m.settings.photons   ? "photon"
+                                                : "path"},
+          {"photons", or_null(photons.photons)},
+          {"photon_radius", or_null(photons.first_radius)},
+          {"photon_alpha", or_null(photons.alpha)},
           {"rgb", m.settings.rgb == RgbMethod::matrix_r ? "matrix-r" : "jakob-hanika"}};
 }
 
@@ -191,17 +205,32 @@ Report describe(const Manifest& m) {
   }
   r["requires"] = describe_requirements(m);
   r["materials"] = Report::array();
-  for (const Material& material : m.materials) r["materials"].push_back(describe(material));
+  for (const Material& material : m.materials)
+    r["materials"].push_back(describe(material, r["materials"].size() + 1));
   r["emissive_triangles"] = m.emissive_triangles.size();
   r["lights"] = describe_lights(m);
   r["view"] = describe_view(m);
   return r;
 }
 
+namespace {
+
+// About what its bundle would take: triangles with their hierarchy (docs/partitioning.md), and images.
+std::uint64_t bundle_bytes(const Manifest& m, const Scene& scene) {
+  std::uint64_t bytes = (m.requirements.shading_normals ? 78 : 62) * m.triangles;
+  for (const Report& t : describe_textures(scene))
+    if (t["width"].is_number())
+      bytes += 4 * t["width"].get<std::uint64_t>() * t["height"].get<std::uint64_t>();
+  return bytes;
+}
+
+}  // namespace
+
 Report inspect_scene(const std::filesystem::path& file, const ImportOptions& options) {
   const ImportedScene imported = import_scene(file, MeshMemory{}, {}, options);
   const Scene& s = imported.scene;
-  Report r{{"file", file.string()}, {"kind", "scene"}};
+  const Manifest manifest = flatten(s, {}, {.keep_instances = true}).manifest;
+  Report r{{"file", file.string()}, {"kind", "scene"}, {"summary", nullptr}};
   r["meshes"] = s.meshes.size();
   r["shapes"] = s.shapes.size();
   r["quadrics"] = quadric_counts(s);
@@ -213,9 +242,12 @@ Report inspect_scene(const std::filesystem::path& file, const ImportOptions& opt
   r["textures"] = describe_textures(s);
   r["media"] = describe_media(s);
   r["open_glass"] = describe_open_glass(s);
-  r.update(describe(flatten(s, {}, {.keep_instances = true}).manifest));
+  r.update(describe(manifest));
   r["not_exact"] = describe_diagnostics(imported.diagnostics);
   r["not_rendered_exactly"] = describe_diagnostics(appearance_of(s, {}).diagnostics);
+  r["summary"] = summary_of(manifest, bundle_bytes(manifest, s));
+  r["summary"]["not_exact"] = r["not_exact"].size();
+  r["summary"]["not_rendered_exactly"] = r["not_rendered_exactly"].size();
   return r;
 }
 
@@ -234,7 +266,7 @@ Report inspect_film(const std::filesystem::path& file) {
   const PixelRect& crop = film.crop();
   return {{"file", file.string()},
           {"kind", "film"},
-          {"pixels", fmt::format("{} × {}", film.full_width(), film.full_height())},
+          {"pixels", {film.full_width(), film.full_height()}},
           {"crop", {crop.x0, crop.x1, crop.y0, crop.y1}},
           {"complete", progress.complete()},
           {"adaptive", progress.adaptive},
@@ -251,7 +283,7 @@ Report inspect_film(const std::filesystem::path& file) {
           {"glazing", asked_of(progress, "glazing", "as the scene says")},
           {"sampling", asked_of(progress, "sampling", "as usual")},
           {"made_by", to_string(film.key().renderer)},
-          {"max_depth", film.key().max_depth},
+          {"max_depth", depth_or_null(film.key().max_depth)},
           {"integrator", film.key().direct_only           ? "direct"
                          : film.key().photons.photons > 0 ? "photon"
                                                           : "path"},
@@ -266,7 +298,7 @@ Report inspect_film(const std::filesystem::path& file) {
           {"layers", names_of(film.layers())},
           {"layers_in_camera_space", film.layers().in_camera_space},
           {"imaging_ratio", film.imaging_ratio()},
-          {"quantum", fmt::format("2^{}", film.exponent())},
+          {"quantum_exponent", film.exponent()},
           {"film_hash", fmt::format("{:016x}", film.hash())}};
 }
 

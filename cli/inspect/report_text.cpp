@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "cli/common/sizes.h"
 #include "cli/inspect/inspect.h"
 
 namespace vitrail {
@@ -17,14 +18,31 @@ std::string words(std::string key) {
 
 bool is_table(const Report& j) { return j.is_array() && !j.empty() && j[0].is_object(); }
 
-std::string scalar(const Report& j) {
-  if (j.is_string()) return j.get<std::string>();
+// Paths in the scene's folder are shorter without it.
+struct Words {
+  std::string folder;  // with its last slash; empty: none
+  std::string shortened(std::string text) const {
+    if (!folder.empty())
+      for (std::size_t at; (at = text.find(folder)) != std::string::npos;) text.erase(at, folder.size());
+    return text;
+  }
+  std::string of(const std::string& key, const Report& j) const;
+};
+
+std::string Words::of(const std::string& key, const Report& j) const {
+  if (j == "") return "none";
+  if (j.is_string()) return shortened(j.get<std::string>());
   if (j.is_boolean()) return j.get<bool>() ? "yes" : "no";
+  if (j.is_number_integer() && (key == "bytes" || key.ends_with("_bytes")))
+    return format_bytes(j.get<std::uint64_t>());
   if (j.is_number_float()) return fmt::format("{:.6g}", j.get<double>());
-  if (j.is_null()) return "none";
+  if (j.is_null()) return key == "max_depth" ? "no limit" : "-";
+  if (j.is_object() && j.contains("needed"))
+    return j["needed"].get<bool>() ? "yes: " + j["why"].get<std::string>() : "no";
   if (!j.is_array()) return j.dump();
+  const char* between = key == "pixels" || key == "extent" ? " × " : " ";
   std::string all;
-  for (const Report& item : j) all += fmt::format("{}{}", all.empty() ? "" : " ", scalar(item));
+  for (const Report& item : j) all += (all.empty() ? "" : between) + of("", item);
   return j.empty() ? "none" : all;
 }
 
@@ -35,12 +53,12 @@ std::size_t width_of(const std::string& s) {
 }
 
 // Records with the keys of the first one, as columns.
-std::string table(const Report& rows, const std::string& indent) {
+std::string table(const Report& rows, const std::string& indent, const Words& in_words) {
   std::vector<std::vector<std::string>> cells(1);
   for (const auto& [key, value] : rows[0].items()) cells[0].push_back(words(key));
   for (const Report& row : rows) {
     auto& line = cells.emplace_back();
-    for (const auto& [key, value] : row.items()) line.push_back(scalar(value));
+    for (const auto& [key, value] : row.items()) line.push_back(in_words.of(key, value));
   }
   std::vector<std::size_t> width(cells[0].size(), 0);
   for (const auto& line : cells)
@@ -58,17 +76,18 @@ std::string table(const Report& rows, const std::string& indent) {
   return text;
 }
 
-std::string nested(const Report& report, const std::string& indent) {
+std::string nested(const Report& report, const std::string& indent, const Words& in_words) {
   std::string text;
   const std::string deeper(indent.size() + 2, ' ');
   for (const auto& [key, value] : report.items()) {
+    if (key == "summary") continue;  // comes first
     text += fmt::format("{}{}:", indent, words(key));
-    if (value.is_object()) {
-      text += fmt::format("\n{}", nested(value, deeper));
+    if (value.is_object() && !value.contains("needed")) {
+      text += fmt::format("\n{}", nested(value, deeper, in_words));
     } else if (is_table(value)) {
-      text += fmt::format("\n{}", table(value, deeper));
+      text += fmt::format("\n{}", table(value, deeper, in_words));
     } else {
-      text += fmt::format(" {}\n", scalar(value));
+      text += fmt::format(" {}\n", in_words.of(key, value));
     }
   }
   return text;
@@ -76,6 +95,11 @@ std::string nested(const Report& report, const std::string& indent) {
 
 }  // namespace
 
-std::string to_text(const Report& report) { return nested(report, ""); }
+std::string to_text(const Report& report, const std::filesystem::path& folder) {
+  std::string text;
+  if (const auto summary = report.find("summary"); summary != report.end())
+    text = summary_text(*summary) + "\n";
+  return text + nested(report, "", {folder.empty() ? "" : folder.string() + "/"});
+}
 
 }  // namespace vitrail
