@@ -49,10 +49,15 @@ fs::path written_film(const RenderArguments& a, const RenderStats& stats) {
   return writes_film(stats.ending) ? film : checkpoint_path(film);
 }
 
-// Says where the work is, once the picture so far is written.
+// Says where the work is, once the picture so far is written. The work is in order without that picture, too.
 std::string words_at_stop(const RenderArguments& a, const RenderStats& stats) {
   if (a.options.outputs.dry_run) return "stopped";
-  const fs::path shown = write_picture_so_far(a, stats);
+  fs::path shown;
+  try {
+    shown = write_picture_so_far(a, stats);
+  } catch (const std::exception& e) {
+    say("vitrail: there is no picture so far: {}\n", e.what());
+  }
   return fmt::format("stopped; {} holds what was done, and the same command goes on{}",
                      checkpoint_path(a.options.outputs.film).string(),
                      shown.empty() ? "" : fmt::format("; {} shows it", shown.string()));

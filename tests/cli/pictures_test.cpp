@@ -85,7 +85,7 @@ TEST_F(Pictures, AreCalledAsTheSceneSays) {
 }
 
 TEST_F(Pictures, SayWhereTheyComeFrom) {
-  ASSERT_EQ(render("a.exr", "--seed 3").status, 0);
+  ASSERT_EQ(render("a.exr", "--seed 3 --film " + path("a.film")).status, 0);
   const OIIO::ImageSpec s = spec("a.exr");
   EXPECT_THAT(s.get_string_attribute("Software"), HasSubstr("vitrail 0."));
   EXPECT_THAT(s.get_string_attribute("scene"), HasSubstr("in.pbrt"));
@@ -135,12 +135,12 @@ TEST_F(Pictures, ARenderWritesPngItself) {
                              directory_ / "alone/vitrail-render");
   const auto alone = [&](const std::string& out) {
     return run(fmt::format("{} {} -o {} --spp 2 --crop 5,30,2,20 --quiet", path("alone/vitrail-render"),
-                           path("in.vit"), path(out)));
+                           path("in.vit"), out));
   };
-  const CommandResult png = alone("a.png");
+  const CommandResult png = alone(path("a.png") + " --film " + path("a.film"));
   EXPECT_EQ(png.status, 0) << png.output;
   EXPECT_EQ(png.output, "");
-  const CommandResult exr = alone("b.exr");
+  const CommandResult exr = alone(path("b.exr"));
   EXPECT_EQ(exr.status, 4) << exr.output;
   EXPECT_THAT(exr.output, HasSubstr("vitrail-develop is missing"));
   EXPECT_EQ(spec("a.png").x, 5);
@@ -220,7 +220,7 @@ TEST_F(Pictures, ADryRunWritesNothing) {
       fmt::format("{} {} -o {} --spp 100000 --dry-run", vitrail("render"), path("in.pbrt"), path("a.exr")));
   EXPECT_EQ(dry.status, 0) << dry.output;
   EXPECT_THAT(dry.output, AllOf(HasSubstr("memory of a rank"), HasSubstr("time: about")));
-  for (const char* file : {"a.exr", "a.film", "a.film.partial", "a.film.lock", "a.tmp.vit"})
+  for (const char* file : {"a.exr", "a.exr.work", "a.exr.partial", "a.exr.work.lock", "a.exr.tmp.vit"})
     EXPECT_FALSE(std::filesystem::exists(directory_ / file)) << file;
 }
 
