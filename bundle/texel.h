@@ -2,6 +2,7 @@
 // How the texels of a baked image are stored: as 1, 2 or 3 words of 32 bits.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -62,9 +63,9 @@ inline constexpr float real21_max = 131070;
 inline std::uint32_t encode_real21(float value) {
   if (!(value == value)) return 0;
   const std::uint32_t sign = std::signbit(value) ? 1u << 20 : 0;
-  float magnitude = std::fmin(std::fabs(value), real21_max);
+  float magnitude = std::min(std::fabs(value), real21_max);
   if (magnitude < 0x1p-15f) return 0;  // the processor may be set to take subnormal numbers for 0
-  magnitude = std::fmax(magnitude, 0x1p-14f);
+  magnitude = std::max(magnitude, 0x1p-14f);
   // 2⁻¹¹² moves the exponent's bias from 127 to 15.
   const auto bits = std::bit_cast<std::uint32_t>(magnitude * 0x1p-112f);
   return sign | ((bits + 0x7f + ((bits >> 8) & 1)) >> 8);

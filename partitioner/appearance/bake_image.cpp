@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "bundle/texture_writer.h"
+#include "partitioner/appearance/reflectance_table.h"
 #include "partitioner/appearance/row_halver.h"
 #include "scene/spectra/matrix_r.h"
 
@@ -47,6 +48,12 @@ bool is_grey(const Image& image) {
 struct Survey {
   bool grey = true, of_255 = true, of_65535 = true;
   float greatest = 0;
+
+  // Whether more rows change no format.
+  bool is_settled(TextureUse use) const {
+    if (use == TextureUse::vector) return !of_255 && !of_65535;
+    return !grey && (use != TextureUse::unbounded || greatest > 1);
+  }
 
   void add(const Image& image, TextureUse use) {
     if (use == TextureUse::vector) {
@@ -104,20 +111,23 @@ TexelWords matrix_r_words(const Color& c, TexelFormat format) {
   return pack(texel);
 }
 
-// As reflectance_from_rgb, unbounded_from_rgb and emission_from_rgb.
-TexelWords spectral_words(const Color& c, TexelFormat format, const ReflectanceFitter& fitter) {
+// What the components are divided by, as in unbounded_from_rgb and emission_from_rgb.
+float scale_of(const Color& c, TexelFormat format) {
+  const float greatest = std::max({c[0], c[1], c[2]});
+  const bool scaled = format == TexelFormat::illuminant || (format == TexelFormat::unbounded && greatest > 1);
+  return scaled ? 2 * greatest : 1;
+}
+
+TexelWords fitted_words(const Color& c, TexelFormat format, const ReflectanceFitter& fitter) {
   if (by_matrix_r(format)) return matrix_r_words(c, format);
-  const double greatest = static_cast<double>(std::max({c[0], c[1], c[2]}));
-  double scale = 1;
-  if (format == TexelFormat::illuminant || (format == TexelFormat::unbounded && greatest > 1))
-    scale = 2 * greatest;
+  const double scale = static_cast<double>(scale_of(c, format));
   if (!(scale > 0)) return pack({{}, 0});
   return pack({fitter({static_cast<double>(c[0]) / scale, static_cast<double>(c[1]) / scale,
                        static_cast<double>(c[2]) / scale}),
                static_cast<float>(scale)});
 }
 
-// Makes the words of texels. Colours come again, among neighbours and in coarser levels.
+// Makes the words of texels. What is fitted comes again, among neighbours and in coarser levels.
 class TexelMaker {
  public:
   TexelMaker(const TextureFileInfo& info, const ReflectanceFitter& fitter)
@@ -130,6 +140,7 @@ class TexelMaker {
     std::vector<TexelWords> words(image.pixels());
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, words.size(), 1 << 14), [&](const auto& range) {
       std::vector<Known>& known = known_.local();
+      known.resize(most_known_);
       for (std::size_t p = range.begin(); p != range.end(); ++p) words[p] = word(color_at(image, p), known);
     });
     return words;
@@ -144,16 +155,20 @@ class TexelMaker {
   TexelWords word(const Color& c, std::vector<Known>& known) const {
     if (format_ == TexelFormat::number) return {std::bit_cast<std::uint32_t>(c[0])};
     if (format_ <= TexelFormat::vector_float) return vector_words(c, format_);
-    known.resize(most_known_);
+    if (!by_matrix_r(format_)) {
+      const float scale = scale_of(c, format_);
+      if (const auto nodes = table_({c[0] / scale, c[1] / scale, c[2] / scale})) return pack({*nodes, scale});
+    }
     std::uint32_t hash = 0;
     for (const float v : c) hash = (hash ^ std::bit_cast<std::uint32_t>(v)) * 0x9e3779b1u;
     Known& k = known[hash >> 16 & (most_known_ - 1)];
-    if (k.color != c) k = {c, spectral_words(c, format_, fitter_)};
+    if (k.color != c) k = {c, fitted_words(c, format_, fitter_)};
     return k.words;
   }
 
   TexelFormat format_;
   const ReflectanceFitter& fitter_;
+  ReflectanceTable table_;
   std::size_t most_known_;
   tbb::enumerable_thread_specific<std::vector<Known>> known_;
 };
@@ -217,13 +232,25 @@ Image sane(Image values, TextureUse use) {
   return values;
 }
 
+// Reads no further than it has to.
+Survey survey_of(const ImageRows& rows, TextureUse use) {
+  struct Settled {};
+  Survey survey;
+  try {
+    rows.read([&](Image values) {
+      survey.add(sane(std::move(values), use), use);
+      if (survey.is_settled(use)) throw Settled();
+    });
+  } catch (const Settled&) {
+  }
+  return survey;
+}
+
 }  // namespace
 
 WrittenTextureFile write_baked_image(const std::filesystem::path& file, const ImageRows& rows, TextureUse use,
                                      bool all_levels, const ReflectanceFitter& fitter, RgbMethod method) {
-  Survey survey;
-  if (use != TextureUse::number)
-    rows.read([&](Image values) { survey.add(sane(std::move(values), use), use); });
+  const Survey survey = use == TextureUse::number ? Survey{} : survey_of(rows, use);
   const auto width = static_cast<std::uint32_t>(rows.width), height = static_cast<std::uint32_t>(rows.height);
   const TextureFileInfo info{format_for(survey, use, method), width, height,
                              all_levels ? texture_level_count(width, height) : 1};

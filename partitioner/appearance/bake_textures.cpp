@@ -64,6 +64,7 @@ ImageRows rows_of(const ImageTexture& texture, const ImageLayout& layout, Textur
               for (const Image& rows : kept->rows) visit(rows);
               return;
             }
+            kept->rows.clear(), kept->values = 0;
             read_stored_rows(texture.filename, [&](StoredImage stored) {
               Image values = texture_values(texture, std::move(stored), image_use(use));
               kept->values += values.values.size();
@@ -326,16 +327,14 @@ std::string TextureBaker::write_file(const ImageTexture& image, TextureUse use, 
                             where,
                             {}});
   ImageRows rows = rows_of(use == TextureUse::number ? without_choice(image) : image, layout, use);
-  std::size_t broken = 0;
-  bool counted = false;  // in the first reading
+  std::size_t broken = 0;  // in the last reading, which is of all rows
   rows.read = [&, read = rows.read](const std::function<void(Image)>& visit) {
+    broken = 0;
     read([&](Image values) {
-      if (!counted)
-        broken += static_cast<std::size_t>(std::count_if(values.values.begin(), values.values.end(),
-                                                         [](float v) { return !std::isfinite(v); }));
+      broken += static_cast<std::size_t>(std::count_if(values.values.begin(), values.values.end(),
+                                                       [](float v) { return !std::isfinite(v); }));
       visit(std::move(values));
     });
-    counted = true;
   };
   if (bundle_.empty()) rows.read([](const Image&) {});
   const std::string name = write_image(rows, use, all_levels);

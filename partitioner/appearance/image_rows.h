@@ -12,7 +12,8 @@ namespace vitrail {
 
 struct ImageRows {
   int width = 0, height = 0;
-  // Calls with all rows from the top, some at a time: images of that width.
+  // Calls with all rows from the top, some at a time: images of that width. What the function throws stops
+  // the reading.
   std::function<void(const std::function<void(Image)>&)> read;
 };
 
