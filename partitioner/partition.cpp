@@ -125,7 +125,7 @@ class Partitioner {
       : bundle_(std::move(bundle)),
         median_(options.median),
         phases_(progress),
-        world_(world_of(scene, bundle_, {!options.flatten, options.everything})) {
+        world_(world_of(scene, bundle_, {!options.flatten, options.everything, options.cache})) {
     MemoryNeeds needs{.budget_bytes = options.memory_bytes,
                       .triangles = world_.own_triangles,
                       .scene_bytes = ledger_of(scene).all(),

@@ -25,6 +25,7 @@ struct PartitionOptions {
   std::vector<KeptGlazing> glazings;  // that render can set, by materials of the scene
   bool durable = false;               // on the disk before it returns, also after a power failure
   bool median = false;                // cuts in the middle, for comparison
+  std::filesystem::path cache;        // of baked images (FileCache); empty: none
   bool everything = false;            // as if the scene required all that there is, for measuring
 };
 

@@ -20,6 +20,7 @@
 #include "cli/partition/partition_report.h"
 #include "importers/import.h"
 #include "partitioner/appearance/appearance.h"
+#include "partitioner/caching/file_cache.h"
 #include "partitioner/meshes/edit_meshes.h"
 #include "scene/system/input_files.h"
 #include "scene/system/output_place.h"
@@ -102,6 +103,7 @@ void interpret(PartitionArguments& a) {
   if (!a.stats.empty()) require_place(a.stats);
   if (!a.profile.empty()) a.options.profile = read_ray_profile(a.profile);
   if (!a.aov.empty()) a.layers = parse_layers(a.aov);
+  if (a.cached) a.options.cache = cache_folder();
   a.options.memory_bytes = a.memory.empty() ? default_memory_bytes() : parse_bytes(a.memory);
 }
 
@@ -125,7 +127,9 @@ int run(PartitionArguments& a, Stage& stage) {
   imported.scene.settings.rgb = rgb_method(a.rgb);
   stage = {"preparing the scene", 0, to_string(ledger_of(imported.scene))};
   Diagnostics diagnostics = std::move(imported.diagnostics);
-  std::ranges::copy(appearance_of(imported.scene, {}).diagnostics, std::back_inserter(diagnostics));
+  std::ranges::copy(
+      appearance_of(imported.scene, {}, {.cache = a.options.cache, .trust_integers = true}).diagnostics,
+      std::back_inserter(diagnostics));
   if (!a.quiet) say("{}", summarise(diagnostics));
   if (a.strict) require_exact(diagnostics);
   require_sense(a, imported.scene);

@@ -16,7 +16,7 @@ struct RenderArguments {
   int bins = 0, max_depth = 0;
   std::string memory, crop, integrator, aov, aov_space, target_error, quality, progress = "auto";
   std::vector<std::string> settings;  // of --set
-  bool quiet = false, strict = false, denoised = false;
+  bool quiet = false, strict = false, denoised = false, cached = true;
   ImportArguments imports;
   std::string rgb = usual_rgb;
   MeshOptions meshes;

@@ -206,10 +206,10 @@ void report_endless_medium(const Scene& scene, const Light& light, Notes& report
 
 }  // namespace
 
-Appearance appearance_of(const Scene& scene, const std::filesystem::path& bundle) {
+Appearance appearance_of(const Scene& scene, const std::filesystem::path& bundle, const ImageBaking& images) {
   Appearance result;
   Notes report(scene, result.diagnostics);
-  TextureBaker textures(scene, bundle, result.diagnostics);
+  TextureBaker textures(scene, bundle, result.diagnostics, images);
   const Used used = used_in(scene);
   bake_media(scene, used, result, report);
   bake_materials(scene, used, textures, result, report);

@@ -31,6 +31,7 @@ struct Appearance {
 
 // Writes textures/ into the bundle where images are in use; nothing where `bundle` is empty. Throws Error for
 // images and volumes that cannot be read.
-Appearance appearance_of(const Scene& scene, const std::filesystem::path& bundle);
+Appearance appearance_of(const Scene& scene, const std::filesystem::path& bundle,
+                         const ImageBaking& images = {});
 
 }  // namespace vitrail

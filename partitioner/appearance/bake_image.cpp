@@ -141,7 +141,11 @@ class TexelMaker {
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, words.size(), 1 << 14), [&](const auto& range) {
       std::vector<Known>& known = known_.local();
       known.resize(most_known_);
-      for (std::size_t p = range.begin(); p != range.end(); ++p) words[p] = word(color_at(image, p), known);
+      if (format_ <= TexelFormat::vector_float || by_matrix_r(format_))
+        for (std::size_t p = range.begin(); p != range.end(); ++p) words[p] = word(color_at(image, p), known);
+      else
+        for (std::size_t p = range.begin(); p < range.end(); p += 4)
+          sigmoid_words(image, p, std::min(p + 4, range.end()), words, known);
     });
     return words;
   }
@@ -155,15 +159,28 @@ class TexelMaker {
   TexelWords word(const Color& c, std::vector<Known>& known) const {
     if (format_ == TexelFormat::number) return {std::bit_cast<std::uint32_t>(c[0])};
     if (format_ <= TexelFormat::vector_float) return vector_words(c, format_);
-    if (!by_matrix_r(format_)) {
-      const float scale = scale_of(c, format_);
-      if (const auto nodes = table_({c[0] / scale, c[1] / scale, c[2] / scale})) return pack({*nodes, scale});
-    }
     std::uint32_t hash = 0;
     for (const float v : c) hash = (hash ^ std::bit_cast<std::uint32_t>(v)) * 0x9e3779b1u;
     Known& k = known[hash >> 16 & (most_known_ - 1)];
     if (k.color != c) k = {c, fitted_words(c, format_, fitter_)};
     return k.words;
+  }
+
+  // Of four pixels, or of fewer at the end.
+  void sigmoid_words(const Image& image, std::size_t first, std::size_t end, std::vector<TexelWords>& words,
+                     std::vector<Known>& known) const {
+    std::array<Color, 4> colors, scaled;
+    std::array<float, 4> scales;
+    for (std::size_t l = 0; l < 4; ++l) {
+      colors[l] = color_at(image, std::min(first + l, end - 1));
+      scales[l] = scale_of(colors[l], format_);
+      for (std::size_t k = 0; k < 3; ++k) scaled[l][k] = colors[l][k] / scales[l];
+    }
+    const auto nodes = table_.of_four(scaled);
+    for (std::size_t p = first; p < end; ++p) {
+      const std::size_t l = p - first;
+      words[p] = nodes[l] ? pack({*nodes[l], scales[l]}) : word(colors[l], known);
+    }
   }
 
   TexelFormat format_;

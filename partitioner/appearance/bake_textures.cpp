@@ -9,10 +9,12 @@
 
 #include "images/ptex_means.h"
 #include "images/texture_values.h"
+#include "partitioner/caching/content_hash.h"
 #include "scene/records/pixel_place.h"
 #include "scene/records/texture_inputs.h"
 #include "scene/spectra/matrix_r.h"
 #include "scene/spectra/rgb_to_spectrum.h"
+#include "scene/system/input_files.h"
 
 namespace vitrail {
 
@@ -82,6 +84,31 @@ bool needs_levels(TextureFilter filter) {
   return filter == TextureFilter::trilinear || filter == TextureFilter::anisotropic;
 }
 
+// To be raised where equal images are baked to other texels than before.
+constexpr int baking_revision = 1;
+
+// Of a baked image: what is in the file, and all that is asked of it. Empty for small files, which are baked
+// as soon as they are looked for.
+std::string key_of(const ImageTexture& image, TextureUse use, bool all_levels, RgbMethod method) {
+  constexpr std::uint64_t least_bytes = 1 << 15;
+  const std::filesystem::path file = image.filename;
+  check_input(file);
+  std::error_code none;
+  if (const auto bytes = std::filesystem::file_size(file, none); none || bytes < least_bytes) return "";
+  ContentHash hash;
+  hash.add(fmt::format(
+      "{} {} {} {} {} {} {} {} {} {} {}", baking_revision, texture_version, static_cast<int>(image.encoding),
+      image.gamma, image.scale, image.invert, use == TextureUse::number ? static_cast<int>(image.number) : -1,
+      static_cast<int>(image.primaries), static_cast<int>(use), all_levels, static_cast<int>(method)));
+  hash.add(file.extension().string());  // tells the kind of some files
+  hash.add_content(file);
+  return hash.hex() + ".tex";
+}
+
+bool keeps_integers_finite(const ImageTexture& image) {
+  return std::isfinite(image.scale) && (image.encoding != Encoding::gamma || image.gamma >= 0);
+}
+
 // The colours (s,t,0) of pbrt-v3's uv, as an image.
 Image uv_image() {
   constexpr int size = 128;
@@ -97,8 +124,13 @@ Image uv_image() {
 
 }  // namespace
 
-TextureBaker::TextureBaker(const Scene& scene, std::filesystem::path bundle, Diagnostics& diagnostics)
-    : scene_(scene), bundle_(std::move(bundle)), diagnostics_(diagnostics) {}
+TextureBaker::TextureBaker(const Scene& scene, std::filesystem::path bundle, Diagnostics& diagnostics,
+                           ImageBaking images)
+    : scene_(scene),
+      bundle_(std::move(bundle)),
+      diagnostics_(diagnostics),
+      trust_integers_(images.trust_integers),
+      cache_(std::move(images.cache)) {}
 
 SpectrumParameter TextureBaker::bake(const SpectrumParameter& parameter, TextureUse use) {
   if (const auto* texture = std::get_if<Id<Texture>>(&parameter)) return bake_texture(*texture, use);
@@ -315,55 +347,80 @@ std::string TextureBaker::bake_file(const ImageTexture& image, TextureUse use, b
 
 std::string TextureBaker::write_file(const ImageTexture& image, TextureUse use, bool all_levels,
                                      const SourceLocation& where) {
+  const std::string key = cache_.is_on() ? key_of(image, use, all_levels, scene_.settings.rgb) : "";
+  if (!key.empty()) {
+    const std::string name = next_file();
+    const auto kept = bundle_.empty() ? cache_.note(key) : cache_.take(key, bundle_ / name);
+    if (kept) {
+      report(image, {(*kept)[2] != 0, (*kept)[3]}, where);
+      files_.push_back({name, (*kept)[0], (*kept)[1]});
+      return name;
+    }
+  }
   const ImageLayout layout = read_image_layout(image.filename);
   const auto size = static_cast<std::uint32_t>(std::max(layout.width, layout.height));
   if (std::min(layout.width, layout.height) <= 0 || size > max_texture_size)
     throw Error(fmt::format("{} × {} pixels are not an image for a texture", layout.width, layout.height));
-  if (use != TextureUse::number && use != TextureUse::vector && ignores_primaries(image, layout))
+  ImageFacts facts;
+  facts.other_primaries =
+      use != TextureUse::number && use != TextureUse::vector && ignores_primaries(image, layout);
+  ImageRows rows = rows_of(use == TextureUse::number ? without_choice(image) : image, layout, use);
+  rows.read = [&, read = rows.read](const std::function<void(Image)>& visit) {
+    facts.broken = 0;  // the last reading is of all rows
+    read([&](Image values) {
+      facts.broken += static_cast<std::size_t>(std::count_if(values.values.begin(), values.values.end(),
+                                                             [](float v) { return !std::isfinite(v); }));
+      visit(std::move(values));
+    });
+  };
+  if (bundle_.empty() && !(trust_integers_ && layout.integer && keeps_integers_finite(image)))
+    rows.read([](const Image&) {});
+  const std::string name = write_image(rows, use, all_levels);
+  report(image, facts, where);
+  if (!key.empty() && !bundle_.empty())
+    cache_.keep(key, bundle_ / name,
+                {files_.back().bytes, files_.back().hash, facts.other_primaries ? 1u : 0u, facts.broken});
+  return name;
+}
+
+void TextureBaker::report(const ImageTexture& image, const ImageFacts& facts, const SourceLocation& where) {
+  if (facts.other_primaries)
     diagnostics_.push_back({Fidelity::approximated,
                             fmt::format("texture {}: its file states other primaries than sRGB's, which its "
                                         "renderer does not look at: its colours count as sRGB's",
                                         image.filename),
                             where,
                             {}});
-  ImageRows rows = rows_of(use == TextureUse::number ? without_choice(image) : image, layout, use);
-  std::size_t broken = 0;  // in the last reading, which is of all rows
-  rows.read = [&, read = rows.read](const std::function<void(Image)>& visit) {
-    broken = 0;
-    read([&](Image values) {
-      broken += static_cast<std::size_t>(std::count_if(values.values.begin(), values.values.end(),
-                                                       [](float v) { return !std::isfinite(v); }));
-      visit(std::move(values));
-    });
-  };
-  if (bundle_.empty()) rows.read([](const Image&) {});
-  const std::string name = write_image(rows, use, all_levels);
-  if (broken > 0)
+  if (facts.broken > 0)
     diagnostics_.push_back(
         {Fidelity::approximated,
-         fmt::format("texture {}: {} values are not finite and count as 0", image.filename, broken),
+         fmt::format("texture {}: {} values are not finite and count as 0", image.filename, facts.broken),
          where,
          {}});
-  return name;
 }
 
 std::string TextureBaker::write_image(const ImageRows& rows, TextureUse use, bool all_levels) {
-  const std::string name = fmt::format("textures/{:06}.tex", files_.size());
+  const std::string name = next_file();
   if (bundle_.empty()) {
     files_.push_back({name, 0, 0});
     return name;
   }
-  if (files_.empty()) {
+  const WrittenTextureFile written =
+      write_baked_image(bundle_ / name, rows, use, all_levels, fitter_, scene_.settings.rgb);
+  files_.push_back({name, written.bytes, written.hash});
+  return name;
+}
+
+// The name of a file in the bundle, whose folder is there.
+std::string TextureBaker::next_file() {
+  if (files_.empty() && !bundle_.empty()) {
     std::error_code failure;
     std::filesystem::create_directories(bundle_ / "textures", failure);
     if (failure)
       throw MachineError(
           fmt::format("cannot create {}: {}", (bundle_ / "textures").string(), failure.message()));
   }
-  const WrittenTextureFile written =
-      write_baked_image(bundle_ / name, rows, use, all_levels, fitter_, scene_.settings.rgb);
-  files_.push_back({name, written.bytes, written.hash});
-  return name;
+  return fmt::format("textures/{:06}.tex", files_.size());
 }
 
 void move(std::vector<Texture>& textures, Vector3d by) {

@@ -14,9 +14,16 @@
 #include "partitioner/appearance/bake_image.h"
 #include "partitioner/appearance/bake_ptex.h"
 #include "partitioner/appearance/texture_mean.h"
+#include "partitioner/caching/file_cache.h"
 #include "scene/records/scene.h"
 
 namespace vitrail {
+
+struct ImageBaking {
+  std::filesystem::path cache;  // of baked images, kept by their content; empty: none
+  // Where nothing is written, images of integers are not read: their pixels are looked at when they are.
+  bool trust_integers = false;
+};
 
 // A texture serves each use (a reflectance, a number …) by a clone of its own. In the clones constants are
 // `resolved`; images keep mapping, wrap and filter, and name a file of the bundle: "textures/000003.tex".
@@ -24,7 +31,8 @@ class TextureBaker {
  public:
   // Where `bundle` is empty nothing is written. Makes `bundle`/textures where there is something to put in
   // it. What cannot be said exactly is added to the diagnostics. The scene and the diagnostics outlive it.
-  TextureBaker(const Scene& scene, std::filesystem::path bundle, Diagnostics& diagnostics);
+  TextureBaker(const Scene& scene, std::filesystem::path bundle, Diagnostics& diagnostics,
+               ImageBaking images = {});
 
   // These throw Error, with the texture's place in the scene file, for images that cannot be read, and
   // MachineError.
@@ -54,6 +62,10 @@ class TextureBaker {
 
  private:
   struct Clone;
+  struct ImageFacts {
+    bool other_primaries = false;  // the file states some, which do not count
+    std::uint64_t broken = 0;      // values that are not finite
+  };
   SpectrumParameter bake_input(const SpectrumParameter& parameter, TextureUse use);
   SpectrumParameter bake_texture(Id<Texture> texture, TextureUse use);
   SpectrumParameter bake_ptex(Id<Texture> texture, const PtexTexture& ptex, TextureUse use);
@@ -62,6 +74,8 @@ class TextureBaker {
   std::string write_file(const ImageTexture& image, TextureUse use, bool all_levels,
                          const SourceLocation& where);
   std::string write_image(const ImageRows& rows, TextureUse use, bool all_levels);
+  std::string next_file();
+  void report(const ImageTexture& image, const ImageFacts& facts, const SourceLocation& where);
   Id<Texture> add(TextureModel model, TextureUse use);
   std::string slot_of(const Attribute& wanted);
   bool is_number(const SpectrumParameter& parameter) const;
@@ -69,6 +83,8 @@ class TextureBaker {
   const Scene& scene_;
   std::filesystem::path bundle_;
   Diagnostics& diagnostics_;
+  bool trust_integers_;
+  FileCache cache_;
   ReflectanceFitter fitter_;
   std::vector<Texture> textures_;
   std::vector<Attribute> attributes_;

@@ -55,21 +55,47 @@ struct Place {
   }
 };
 
-Place place_of(const std::array<float, 3>& c) {
-  Place place;
-  place.chart = c[0] >= c[1] ? (c[0] >= c[2] ? 0 : 2) : (c[1] >= c[2] ? 1 : 2);
-  const auto of = static_cast<std::size_t>(place.chart);
-  const float alpha = std::min(c[of], greatest_alpha), below = 1 - alpha;
-  const float r = std::sqrt(alpha / below), each = 1 / c[of];
-  place.unscale = 1 / (r * below);
-  const std::array<float, 3> at{(r / (1 + r) - static_cast<float>(first_w)) * static_cast<float>(1 / cell_w),
-                                std::sqrt(std::min(c[(of + 1) % 3] * each, 1.0f)) * ratio_cells,
-                                std::sqrt(std::min(c[(of + 2) % 3] * each, 1.0f)) * ratio_cells};
-  for (std::size_t k = 0; k < 3; ++k) {
-    place.cell[k] = std::clamp(static_cast<int>(at[k]), 0, (k == 0 ? alpha_cells : ratio_cells) - 1);
-    place.part[k] = at[k] - static_cast<float>(place.cell[k]);
+// Of four colours, which the compiler takes together: what is not within the charts has some place too.
+void find_places(const std::array<Float4, 3>& c, std::array<Place, 4>& places) {
+  std::array<Float4, 3> at;
+  Float4 unscale;
+  std::array<int, 4> charts;
+  const auto middle = [](float v, float least, float most) {
+    return v > least ? (v < most ? v : most) : least;
+  };
+  for (std::size_t l = 0; l < 4; ++l) {
+    const float r = c[0][l], g = c[1][l], b = c[2][l];
+    const bool red = r >= g && r >= b, green = !red && g >= b;
+    charts[l] = red ? 0 : green ? 1 : 2;
+    at[0][l] = red     ? r
+               : green ? g
+                       : b,
+    at[1][l] = red     ? g
+               : green ? b
+                       : r,
+    at[2][l] = red     ? b
+               : green ? r
+                       : g;
   }
-  return place;
+  for (std::size_t l = 0; l < 4; ++l) {
+    const float alpha = middle(at[0][l], least_alpha, greatest_alpha), below = 1 - alpha;
+    const float root = std::sqrt(alpha / below), each = 1 / middle(at[0][l], least_alpha, 1);
+    unscale[l] = 1 / (root * below);
+    at[0][l] = (root / (1 + root) - static_cast<float>(first_w)) * static_cast<float>(1 / cell_w);
+    at[1][l] = std::sqrt(middle(at[1][l] * each, 0, 1)) * ratio_cells;
+    at[2][l] = std::sqrt(middle(at[2][l] * each, 0, 1)) * ratio_cells;
+  }
+  for (std::size_t l = 0; l < 4; ++l) {
+    Place& place = places[l];
+    place.chart = charts[l];
+    place.unscale = unscale[l];
+    for (std::size_t k = 0; k < 3; ++k) {
+      const int cells = k == 0 ? alpha_cells : ratio_cells;
+      const float in_cells = middle(at[k][l], 0, static_cast<float>(cells));
+      place.cell[k] = std::min(static_cast<int>(in_cells), cells - 1);
+      place.part[k] = in_cells - static_cast<float>(place.cell[k]);
+    }
+  }
 }
 
 // Of the vertices of a cell: by value, and by each slope. At the distance d along an axis a cubic with given
@@ -199,9 +225,9 @@ struct ReflectanceTable::Charts {
     Column3 at;
     for (std::size_t k = 0; k < 3; ++k) at[k] = place.cell[k] + static_cast<double>(part[k]);
     const RGB color = color_at(place.chart, at);
-    Place there =
-        place_of({static_cast<float>(color.r), static_cast<float>(color.g), static_cast<float>(color.b)});
+    Place there;
     there.chart = place.chart, there.cell = place.cell, there.part = part;
+    there.unscale = static_cast<float>(1 / scale_at(at));
     const Column3 x = column(interpolated(&vertices[place.index()], there));
     const XYZ xyz = srgb_to_xyz(color);
     const auto fit = refined_sigmoid(x, {xyz.x, xyz.y, xyz.z});
@@ -244,18 +270,34 @@ ReflectanceTable::ReflectanceTable()
         return shared;
       }()) {}
 
-std::optional<SigmoidNodes> ReflectanceTable::operator()(const std::array<float, 3>& c) const {
-  if (c[0] == c[1] && c[1] == c[2]) return std::nullopt;
-  const bool bright = c[0] + c[1] + c[2] > 1.5f;  // 1 − S has the colour 1 − c, and −x
-  const std::array<float, 3> dark = bright ? std::array{1 - c[0], 1 - c[1], 1 - c[2]} : c;
-  const float least = std::min(std::min(dark[0], dark[1]), dark[2]);
-  const float greatest = std::max(std::max(dark[0], dark[1]), dark[2]);
-  if (!(least >= 0 && greatest >= least_alpha && greatest <= 1)) return std::nullopt;
-  const Place place = place_of(dark);
-  if (charts_.trust_in(place) != Trust::trusted) return std::nullopt;
-  Float4 x = interpolated(&charts_.vertices[place.index()], place);
-  if (bright) x = -x;
-  return SigmoidNodes{x[0], x[1], x[2]};
+std::array<std::optional<SigmoidNodes>, 4> ReflectanceTable::of_four(
+    const std::array<std::array<float, 3>, 4>& colors) const {
+  std::array<Float4, 3> dark;
+  std::array<bool, 4> bright, inside;
+  for (std::size_t l = 0; l < 4; ++l) {
+    const auto& c = colors[l];
+    bright[l] = c[0] + c[1] + c[2] > 1.5f;  // 1 − S has the colour 1 − c, and −x
+    const float r = bright[l] ? 1 - c[0] : c[0], g = bright[l] ? 1 - c[1] : c[1],
+                b = bright[l] ? 1 - c[2] : c[2];
+    const bool grey = c[0] == c[1] && c[1] == c[2];
+    inside[l] = !grey && r >= 0 && g >= 0 && b >= 0 && r <= 1 && g <= 1 && b <= 1 &&
+                (r >= least_alpha || g >= least_alpha || b >= least_alpha);
+    dark[0][l] = r, dark[1][l] = g, dark[2][l] = b;
+  }
+  std::array<Place, 4> places;
+  find_places(dark, places);
+  std::array<std::optional<SigmoidNodes>, 4> nodes;
+  for (std::size_t l = 0; l < 4; ++l) {
+    if (!inside[l] || charts_.trust_in(places[l]) != Trust::trusted) continue;
+    Float4 x = interpolated(&charts_.vertices[places[l].index()], places[l]);
+    if (bright[l]) x = -x;
+    nodes[l] = {x[0], x[1], x[2]};
+  }
+  return nodes;
+}
+
+std::optional<SigmoidNodes> ReflectanceTable::operator()(const std::array<float, 3>& color) const {
+  return of_four({color, color, color, color})[0];
 }
 
 }  // namespace vitrail

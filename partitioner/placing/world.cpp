@@ -97,7 +97,7 @@ World world_of(const Scene& scene, const std::filesystem::path& bundle, const Wo
   World world;
   Manifest& m = world.manifest;
   m.film = scene.film;
-  Appearance appearance = appearance_of(scene, bundle);
+  Appearance appearance = appearance_of(scene, bundle, {.cache = options.cache});
   ScenePlan plan = plan_scene(scene);
   m.triangles = plan.scene.triangles;
   m.offset = plan.scene.centre;

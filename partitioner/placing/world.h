@@ -15,6 +15,7 @@ namespace vitrail {
 struct WorldOptions {
   bool keep_instances = false;  // else they are copied
   bool everything = false;      // as if the scene required all that there is, for measuring
+  std::filesystem::path cache;  // of baked images; empty: none
 };
 
 struct WorldObject {
