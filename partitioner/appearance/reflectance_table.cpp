@@ -212,8 +212,8 @@ struct ReflectanceTable::Charts {
     for (int corner = 0; corner < 8; ++corner)
       make_vertex(place.chart, {place.cell[0] + (corner >> 2), place.cell[1] + (corner >> 1 & 1),
                                 place.cell[2] + (corner & 1)});
-    constexpr std::array<std::array<float, 3>, 3> places{
-        {{0.5f, 0.5f, 0.5f}, {0.25f, 0.75f, 0.25f}, {0.75f, 0.25f, 0.75f}}};
+    constexpr std::array<std::array<float, 3>, 5> places{
+        {{0.5f, 0.5f, 0.5f}, {0.2f, 0.2f, 0.2f}, {0.2f, 0.8f, 0.8f}, {0.8f, 0.2f, 0.8f}, {0.8f, 0.8f, 0.2f}}};
     bool close = true;
     for (std::size_t k = 0; k < places.size() && close; ++k) close = is_close(place, places[k]);
     const Trust found = close ? Trust::trusted : Trust::refused;

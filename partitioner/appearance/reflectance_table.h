@@ -13,8 +13,8 @@ namespace vitrail {
 // to it, spaced evenly in w = r/(1 + r) with r = √(α/(1 − α)), and in √ρ. A vertex holds √(α(1 − α))·x at
 // 360, 595 and 830 nm, and its slopes. Cells interpolate with cubics (Hermite's, without mixed derivatives).
 //
-// S differs from that of reflectance_from_rgb by less than 5e-4, and by 1e-5 in the mean: a cell is only used
-// where it agrees with a fit at three places within `trusted_difference`. Bright colours are looked up by
+// S differs from that of reflectance_from_rgb by less than 5e-4, and by 5e-6 in the mean: a cell is only used
+// where it agrees with fits at five places within `trusted_difference`. Bright colours are looked up by
 // their complement: 1 − S has the colour 1 − c, and −x. Cells very near black, white and some edges of the
 // gamut are not used.
 //

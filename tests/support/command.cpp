@@ -10,6 +10,9 @@
 
 namespace vitrail::test {
 
+// Programs keep nothing for the next time, unless the command names another folder: none can be there.
+[[maybe_unused]] static const int without_cache = ::setenv("XDG_CACHE_HOME", "/dev/null", 1);
+
 CommandResult run(const std::string& command) {
   CommandResult result;
   FILE* pipe = ::popen((command + " 2>&1").c_str(), "r");

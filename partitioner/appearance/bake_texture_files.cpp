@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: Apache-2.0
+// The files of baked textures: from images, or from the cache.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "images/texture_values.h"
+#include "partitioner/appearance/bake_textures.h"
+#include "partitioner/caching/content_hash.h"
+#include "scene/system/input_files.h"
+
+namespace vitrail {
+
+namespace {
+
+ImageUse image_use(TextureUse use) {
+  if (use == TextureUse::number) return ImageUse::number;
+  if (use == TextureUse::vector) return ImageUse::vector;
+  return use == TextureUse::illuminant ? ImageUse::light : ImageUse::color;
+}
+
+// The values of the texture, from its file. What has few of them is read but once.
+ImageRows rows_of(const ImageTexture& texture, const ImageLayout& layout, TextureUse use) {
+  constexpr std::size_t most_kept = 1 << 22;  // values
+  struct Kept {
+    std::vector<Image> rows;
+    std::size_t values = 0;
+    bool whole = false;
+  };
+  const auto kept = std::make_shared<Kept>();
+  return {layout.width, layout.height, [=](const std::function<void(Image)>& visit) {
+            if (kept->whole) {
+              for (const Image& rows : kept->rows) visit(rows);
+              return;
+            }
+            kept->rows.clear(), kept->values = 0;
+            read_stored_rows(texture.filename, [&](StoredImage stored) {
+              Image values = texture_values(texture, std::move(stored), image_use(use));
+              kept->values += values.values.size();
+              if (kept->values <= most_kept)
+                kept->rows.push_back(values);
+              else
+                kept->rows.clear();
+              visit(std::move(values));
+            });
+            kept->whole = kept->values <= most_kept;
+          }};
+}
+
+// To be raised where equal images are baked to other texels than before.
+constexpr int baking_revision = 1;
+
+// Of a baked image: what is in the file, and all that is asked of it. Empty for small files, which are baked
+// as soon as they are looked for.
+std::string key_of(const ImageTexture& image, TextureUse use, bool all_levels, RgbMethod method) {
+  constexpr std::uint64_t least_bytes = 1 << 15;
+  const std::filesystem::path file = image.filename;
+  check_input(file);
+  std::error_code none;
+  if (const auto bytes = std::filesystem::file_size(file, none); none || bytes < least_bytes) return "";
+  ContentHash hash;
+  hash.add(fmt::format(
+      "{} {} {} {} {} {} {} {} {} {} {}", baking_revision, texture_version, static_cast<int>(image.encoding),
+      image.gamma, image.scale, image.invert, use == TextureUse::number ? static_cast<int>(image.number) : -1,
+      static_cast<int>(image.primaries), static_cast<int>(use), all_levels, static_cast<int>(method)));
+  hash.add(file.extension().string());  // tells the kind of some files
+  hash.add_content(file);
+  return hash.hex() + ".tex";
+}
+
+bool keeps_integers_finite(const ImageTexture& image) {
+  return std::isfinite(image.scale) && (image.encoding != Encoding::gamma || image.gamma >= 0);
+}
+
+}  // namespace
+
+std::string TextureBaker::bake_image(const ImageTexture& image, TextureUse use, const SourceLocation& where) {
+  return bake_file(image, use, true, where);
+}
+
+std::string TextureBaker::bake_file(const ImageTexture& image, TextureUse use, bool all_levels,
+                                    const SourceLocation& where) {
+  const ImageNumber number = use == TextureUse::number ? image.number : ImageNumber{};
+  const ImageKey key{image.filename, image.encoding,  image.gamma, image.scale, image.invert,
+                     number,         image.primaries, use,         all_levels};
+  if (const auto known = images_.find(key); known != images_.end()) return known->second;
+  try {
+    return images_[key] = write_file(image, use, all_levels, where);
+  } catch (const Error& error) {
+    throw Error(fmt::format("texture {}: {}", image.filename, error.what()), where);
+  }
+}
+
+std::string TextureBaker::write_file(const ImageTexture& image, TextureUse use, bool all_levels,
+                                     const SourceLocation& where) {
+  const std::string key = cache_.is_on() ? key_of(image, use, all_levels, scene_.settings.rgb) : "";
+  if (!key.empty()) {
+    const std::string name = next_file();
+    const auto kept = bundle_.empty() ? cache_.note(key) : cache_.take(key, bundle_ / name);
+    if (kept) {
+      report(image, {(*kept)[2] != 0, (*kept)[3]}, where);
+      files_.push_back({name, (*kept)[0], (*kept)[1]});
+      return name;
+    }
+  }
+  const ImageLayout layout = read_image_layout(image.filename);
+  const auto size = static_cast<std::uint32_t>(std::max(layout.width, layout.height));
+  if (std::min(layout.width, layout.height) <= 0 || size > max_texture_size)
+    throw Error(fmt::format("{} × {} pixels are not an image for a texture", layout.width, layout.height));
+  ImageFacts facts;
+  facts.other_primaries =
+      use != TextureUse::number && use != TextureUse::vector && ignores_primaries(image, layout);
+  ImageRows rows = rows_of(use == TextureUse::number ? without_choice(image) : image, layout, use);
+  rows.read = [&, read = rows.read](const std::function<void(Image)>& visit) {
+    facts.broken = 0;  // the last reading is of all rows
+    read([&](Image values) {
+      facts.broken += static_cast<std::size_t>(std::count_if(values.values.begin(), values.values.end(),
+                                                             [](float v) { return !std::isfinite(v); }));
+      visit(std::move(values));
+    });
+  };
+  if (bundle_.empty() && !(trust_integers_ && layout.integer && keeps_integers_finite(image)))
+    rows.read([](const Image&) {});
+  const std::string name = write_image(rows, use, all_levels);
+  report(image, facts, where);
+  if (!key.empty() && !bundle_.empty())
+    cache_.keep(key, bundle_ / name,
+                {files_.back().bytes, files_.back().hash, facts.other_primaries ? 1u : 0u, facts.broken});
+  return name;
+}
+
+void TextureBaker::report(const ImageTexture& image, const ImageFacts& facts, const SourceLocation& where) {
+  if (facts.other_primaries)
+    diagnostics_.push_back({Fidelity::approximated,
+                            fmt::format("texture {}: its file states other primaries than sRGB's, which its "
+                                        "renderer does not look at: its colours count as sRGB's",
+                                        image.filename),
+                            where,
+                            {}});
+  if (facts.broken > 0)
+    diagnostics_.push_back(
+        {Fidelity::approximated,
+         fmt::format("texture {}: {} values are not finite and count as 0", image.filename, facts.broken),
+         where,
+         {}});
+}
+
+std::string TextureBaker::write_image(const ImageRows& rows, TextureUse use, bool all_levels) {
+  const std::string name = next_file();
+  if (bundle_.empty()) {
+    files_.push_back({name, 0, 0});
+    return name;
+  }
+  const WrittenTextureFile written =
+      write_baked_image(bundle_ / name, rows, use, all_levels, fitter_, scene_.settings.rgb);
+  files_.push_back({name, written.bytes, written.hash});
+  return name;
+}
+
+// The name of a file in the bundle, whose folder is there.
+std::string TextureBaker::next_file() {
+  if (files_.empty() && !bundle_.empty()) {
+    std::error_code failure;
+    std::filesystem::create_directories(bundle_ / "textures", failure);
+    if (failure)
+      throw MachineError(
+          fmt::format("cannot create {}: {}", (bundle_ / "textures").string(), failure.message()));
+  }
+  return fmt::format("textures/{:06}.tex", files_.size());
+}
+
+}  // namespace vitrail
