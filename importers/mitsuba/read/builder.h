@@ -2,7 +2,9 @@
 // Makes the records of the Scene from the objects of a file. Each kind of object has its file.
 #pragma once
 
+#include <array>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -25,6 +27,7 @@ struct Builder {
   Scene& scene;
   Report& report;
   std::map<const Object*, Id<Material>> materials;
+  std::array<std::optional<Id<Material>>, 2> default_materials{};  // of shapes without a bsdf; 1: that shine
   // One for each of the scene's materials (scene/records/material_traits.h).
   std::vector<MaterialTraits> traits;
   std::vector<bool> sided;

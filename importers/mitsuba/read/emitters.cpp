@@ -5,12 +5,14 @@
 #include <cmath>
 #include <numbers>
 
+#include "images/image_files.h"
 #include "importers/mitsuba/read/builder.h"
 #include "importers/mitsuba/read/properties.h"
 #include "importers/mitsuba/read/sun_and_sky.h"
 #include "importers/reading/suggestion.h"
 #include "scene/spectra/flat_emission.h"
 #include "scene/spectra/rgb_to_spectrum.h"
+#include "scene/system/diagnostics.h"
 
 namespace vitrail::mitsuba {
 
@@ -97,8 +99,26 @@ LightModel spot(Builder& builder, const Object& emitter) {
   return light;
 }
 
-// On the image's width. 50 mm and the diagonal of a film of 36 × 24 mm are Mitsuba's defaults.
-double read_projector_fov(Builder& builder, const Object& emitter) {
+// Width ÷ height of an image; 1 of one colour, and of what cannot be read, which is told where it is baked.
+double aspect_of(const Scene& scene, const SpectrumParameter& image) {
+  const auto* id = std::get_if<Id<Texture>>(&image);
+  if (!id) return 1;
+  const TextureModel* model = &scene.textures[id->value].model;
+  if (const auto* product = std::get_if<ProductTexture>(model))
+    if (const auto* first = std::get_if<Id<Texture>>(&product->first))
+      model = &scene.textures[first->value].model;
+  const auto* texture = std::get_if<ImageTexture>(model);
+  if (!texture) return 1;
+  try {
+    const ImageLayout layout = read_image_layout(texture->filename);
+    return static_cast<double>(layout.width) / layout.height;
+  } catch (const Error&) {
+    return 1;
+  }
+}
+
+// On the image's width, in degrees. 50 mm and the diagonal of a film of 36 × 24 mm are Mitsuba's defaults.
+double read_projector_fov(Builder& builder, const Object& emitter, double aspect) {
   Report& report = builder.report;
   const bool given = emitter.has("fov");
   const double diagonal_deg = 2 * std::atan(std::hypot(36, 24) / (2 * 50.0)) * 180 / std::numbers::pi;
@@ -107,12 +127,11 @@ double read_projector_fov(Builder& builder, const Object& emitter) {
   if (!(fov > 0 && fov < 180))
     report.fail(fmt::format("the field of view is {} degrees, which is not between 0 and 180", fov),
                 place_of(emitter, "fov"));
-  if (axis == "x") return fov;
-  report.approximated(fmt::format("the fov_axis \"{}\" of a projector: its image counts as a square", axis),
-                      place_of(emitter, "fov_axis"));
-  if (axis != "diagonal") return fov;
-  return 2 * std::atan(std::tan(fov / 2 * std::numbers::pi / 180) / std::numbers::sqrt2) * 180 /
-         std::numbers::pi;
+  double wider = 1;  // the width is so many times what the angle is measured along
+  if (axis == "y" || (axis == "smaller" && aspect > 1) || (axis == "larger" && aspect < 1)) wider = aspect;
+  if (axis == "diagonal") wider = aspect / std::hypot(aspect, 1);
+  if (wider == 1) return fov;
+  return 2 * std::atan(wider * std::tan(fov / 2 * std::numbers::pi / 180)) * 180 / std::numbers::pi;
 }
 
 // Mitsuba's projector is a camera, whose +x is on the left.
@@ -122,7 +141,8 @@ LightModel projector(Builder& builder, const Object& emitter) {
   const Image image = image_of(builder, emitter, "irradiance");
   light.image = image.colors;
   light.scale = scaled(image.scale, emitter.number("scale", 1, builder.report));
-  light.fov_deg = static_cast<float>(read_projector_fov(builder, emitter));
+  light.fov_deg =
+      static_cast<float>(read_projector_fov(builder, emitter, aspect_of(builder.scene, light.image)));
   light.irradiance = true;
   return light;
 }

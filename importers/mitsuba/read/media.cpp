@@ -112,16 +112,18 @@ VolumeParameter read_volume(MediumReader& reader, std::string_view name, Quantit
   return value;
 }
 
-// A heterogeneous medium is where the volume of its extinction is: a constant one fills the unit cube of its
-// own space.
+// A heterogeneous medium is where the volume of its extinction is: what is constant, or not given, fills the
+// unit cube of its own space.
 void bound_by_volume(MediumReader& reader) {
   const Object* volume = object_of(reader.object, "sigma_t");
-  if (!volume || volume->tag != "volume" || volume->type != "constvolume") return;
+  const bool is_volume = volume && volume->tag == "volume";
+  if (is_volume && volume->type != "constvolume") return;
   Grid cell;
   cell.nx = cell.ny = cell.nz = 1;
   cell.values = {1};
   cell.bounds = unit_cube;
-  place_grid(reader, cell, volume->transform("to_world", reader.builder.report), volume->origin);
+  place_grid(reader, cell, is_volume ? volume->transform("to_world", reader.builder.report) : Transform{},
+             reader.object.origin);
   reader.medium.density = cell;
 }
 

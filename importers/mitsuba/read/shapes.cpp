@@ -25,20 +25,26 @@ const std::vector<std::string> parameters{"to_world",    "bsdf",         "emitte
 // What the programs that write Mitsuba's files call records without a name.
 std::string name_of(const Object& object) { return object.id.starts_with("_unnamed_") ? "" : object.id; }
 
+// Mitsuba's lamps reflect nothing unless they are given a bsdf.
+Id<Material> default_material(Builder& builder, const Object& shape) {
+  const bool shines = !shape.children("emitter").empty();
+  std::optional<Id<Material>>& known = builder.default_materials[shines];
+  if (!known) {
+    Material material;
+    material.model = shines ? DiffuseMaterial{.reflectance = ConstantSpectrum{0}} : DiffuseMaterial{};
+    material.two_sided = false;
+    material.origin = shape.origin;
+    known = append(builder, std::move(material));
+  }
+  return *known;
+}
+
 Id<Material> material_of(Builder& builder, const Object& shape) {
   const auto bsdfs = shape.children("bsdf");
   if (bsdfs.size() > 1)
     builder.report.dropped("more than one bsdf of a shape: the first counts", bsdfs[1]->origin);
-  if (!bsdfs.empty()) return add_material(builder, *std::get<ObjectPtr>(bsdfs.front()->value));
-  const auto [known, is_new] = builder.materials.try_emplace(nullptr);
-  if (is_new) {
-    Material material;
-    material.model = DiffuseMaterial{};
-    material.two_sided = false;
-    material.origin = shape.origin;
-    known->second = append(builder, std::move(material));
-  }
-  return known->second;
+  if (bsdfs.empty()) return default_material(builder, shape);
+  return add_material(builder, *std::get<ObjectPtr>(bsdfs.front()->value));
 }
 
 void add_media(Builder& builder, const Object& object, Shape& shape) {

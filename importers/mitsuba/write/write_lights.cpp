@@ -113,14 +113,14 @@ void write_intensity(Context& context, Element root, const ProjectionLight& ligh
     const std::filesystem::path file = context.images.write(image->image, ImageUse::light, change);
     const std::string name = context.relative(std::filesystem::absolute(file).string());
     const double fov_deg = std::atan(half.x) * 360 / std::numbers::pi;
-    Element lit =
-        add(add_projector(root, light, static_cast<float>(fov_deg)), "texture", "d65", "irradiance");
+    const Element element = add_projector(root, light, static_cast<float>(fov_deg));
+    const Element lit = add(element, "texture", "d65", "irradiance");
     add_string(add(lit, "texture", "bitmap", "nested"), "filename", name);
     double factor = brightest / std::numbers::pi;
     if (light.power)
       if (const double flux = brightest * flux_of(file, half); flux > 0)
         factor *= static_cast<double>(*light.power) * luminance(light.scale) / flux;
-    add_float(lit, "scale", static_cast<float>(factor));
+    add_float(element, "scale", static_cast<float>(factor));  // rgb variants know none of a d65
     context.approximated(
         fmt::format("Mitsuba's projector has an image of irradiance: it is written as {}", name));
   } catch (const Error& error) {
@@ -264,6 +264,10 @@ void write_area_light(Context& context, Element shape, const AreaLight& light) {
     add_parameter(context, element, "radiance", *flat, Meaning::emission);
   } else {
     add_lit_image(context, element, "radiance", light.radiance, light.scale);
+    if (light.scale != 1)
+      context.approximated(fmt::format(
+          "Mitsuba's rgb variants leave out the scale of a lamp's image: there it is 1/{:g} as bright",
+          light.scale));
   }
 }
 

@@ -165,6 +165,17 @@ bool write_density(Context& context, Element root, const Medium& medium, const E
   return true;
 }
 
+// Mitsuba's rgb variants cut coefficients that are no plain numbers at 1, and its scales are free: what is
+// above 1 goes there.
+double greatest_above_one(const VolumeParameter& sigma_t) {
+  const auto* spectrum = std::get_if<Spectrum>(&sigma_t);
+  if (!spectrum || is_constant(*spectrum)) return 1;
+  const Spectrum values = resolved(*spectrum);
+  double greatest = 1;
+  for (int i = 0; i < table_size; ++i) greatest = std::max(greatest, evaluate(values, lambda_min_nm + i));
+  return greatest;
+}
+
 void write_medium(Context& context, Element root, const Medium& medium, const std::string& id) {
   report_rest(context, medium);
   const ExtinctionAlbedo coefficients = extinction_and_albedo(context, medium);
@@ -172,9 +183,12 @@ void write_medium(Context& context, Element root, const Medium& medium, const st
   const bool varies =
       std::holds_alternative<Grid>(coefficients.sigma_t) || std::holds_alternative<Grid>(coefficients.albedo);
   Element element = add(root, "medium", varies ? "heterogeneous" : "homogeneous", "", id);
-  add_volume(context, element, "sigma_t", coefficients.sigma_t, medium.medium_to_world);
+  const double greatest = greatest_above_one(coefficients.sigma_t);
+  VolumeParameter sigma_t = coefficients.sigma_t;
+  if (greatest > 1) sigma_t = scaled(std::get<Spectrum>(sigma_t), 1 / greatest);
+  add_volume(context, element, "sigma_t", sigma_t, medium.medium_to_world);
   add_volume(context, element, "albedo", coefficients.albedo, medium.medium_to_world);
-  add_float(element, "scale", medium.scale);
+  add_float(element, "scale", static_cast<float>(greatest * static_cast<double>(medium.scale)));
   add_phase(element, medium.g);
 }
 

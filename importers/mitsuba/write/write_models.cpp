@@ -54,8 +54,21 @@ void write(Context& context, Element parent, ElementId id, const DiffuseMaterial
                 Meaning::reflectance);
 }
 
+// Mitsuba refuses rough interfaces between equal indices: light goes straight through them.
+void write_no_interface(Context& context, Element parent, ElementId id, const DielectricMaterial& m,
+                        float eta) {
+  Element element = add(parent, "bsdf", "thindielectric", "", id);
+  add_float(element, "int_ior", eta);
+  add_float(element, "ext_ior", eta);
+  add_parameter(context, element, "specular_transmittance", m.transmittance_factor, Meaning::unbounded);
+}
+
 void write(Context& context, Element parent, ElementId id, const DielectricMaterial& m) {
-  const char* type = is_smooth(context, m.roughness) ? "dielectric" : "roughdielectric";
+  const bool smooth = is_smooth(context, m.roughness);
+  if (!smooth && is_constant(m.eta) && is_constant(m.exterior_eta) &&
+      evaluate(m.eta, 550) == evaluate(m.exterior_eta, 550))
+    return write_no_interface(context, parent, id, m, static_cast<float>(evaluate(m.eta, 550)));
+  const char* type = smooth ? "dielectric" : "roughdielectric";
   Element element = add(parent, "bsdf", type, "", id);
   add_index(context, element, "int_ior", m.eta);
   add_index(context, element, "ext_ior", m.exterior_eta);
@@ -73,7 +86,8 @@ void write(Context& context, Element parent, ElementId id, const ThinDielectricM
   add_parameter(context, element, "specular_transmittance", m.transmittance_factor, Meaning::unbounded);
 }
 
-// "Cu" where the spectra are metal-Cu-eta and metal-Cu-k of the tables, which are Mitsuba's.
+// "Cu" where the spectra are metal-Cu-eta and metal-Cu-k of the tables, which are Mitsuba's but for pbrt's
+// brass.
 std::string named_metal(const ComplexIndex& metal) {
   const auto name = [](const SpectrumParameter& value) {
     const auto* spectrum = std::get_if<Spectrum>(&value);
@@ -81,7 +95,8 @@ std::string named_metal(const ComplexIndex& metal) {
     return named ? named->name : std::string();
   };
   for (const MetalTable& table : metal_tables())
-    if (name(metal.eta) == fmt::format("metal-{}-eta", table.name) &&
+    if (table.name != std::string_view("CuZn") &&
+        name(metal.eta) == fmt::format("metal-{}-eta", table.name) &&
         name(metal.k) == fmt::format("metal-{}-k", table.name))
       return std::string(table.name);
   return "";
@@ -150,6 +165,9 @@ void add_averaged(Context& context, Element element, const char* name, const Spe
 
 void write(Context& context, Element parent, ElementId id, const PlasticMaterial& m) {
   const bool smooth = is_smooth(context, m.roughness);
+  // Which Mitsuba refuses: a coat that nobody sees.
+  if (!smooth && m.eta == m.exterior_eta)
+    return write(context, parent, id, DiffuseMaterial{.reflectance = m.diffuse_reflectance});
   Element element = add(parent, "bsdf", smooth ? "plastic" : "roughplastic", "", id);
   add_averaged(context, element, "diffuse_reflectance", m.diffuse_reflectance, Meaning::reflectance);
   add_averaged(context, element, "specular_reflectance", m.specular_reflectance, Meaning::unbounded);

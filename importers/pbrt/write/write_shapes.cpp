@@ -102,11 +102,23 @@ std::string extent_parameters(const Quadric& q, double height) {
   return text;
 }
 
+// The same surface by a transform that does not mirror, of a quadric that goes all the way round; φ runs the
+// other way.
+PlacedQuadric unmirrored(PlacedQuadric placed) {
+  placed.to_world = placed.to_world * scale({1, -1, 1});
+  placed.flip_orientation = !placed.flip_orientation;
+  return placed;
+}
+
 // pbrt measures lights, and looks for their points, before the transform, and does not know that they may be
-// partial. Nothing where it would go wrong, and for what v4 does not have.
-std::optional<Written> written(const PlacedQuadric& placed, bool shines) {
-  const Quadric& q = placed.quadric;
+// partial; where a transform mirrors, the points that it looks for shine to one side and those that it sees
+// to the other. Nothing where it would go wrong, and for what v4 does not have.
+std::optional<Written> written(const PlacedQuadric& given, bool shines, bool uvs_show) {
+  const Quadric& q = given.quadric;
   if (q.kind == QuadricKind::cone || q.kind == QuadricKind::paraboloid) return std::nullopt;
+  const bool turns = shines && swaps_handedness(given.to_world);
+  if (turns && (uvs_show || !is_whole_turn(q))) return std::nullopt;
+  const PlacedQuadric placed = turns ? unmirrored(given) : given;
   const Sizes sizes = sizes_of(q, placed.to_world);
   const bool is_rigid =
       (q.kind == QuadricKind::cylinder || is_whole(q)) && axes_of(sizes.rest).keep_spheres();
@@ -116,9 +128,7 @@ std::optional<Written> written(const PlacedQuadric& placed, bool shines) {
   const std::string text =
       fmt::format("Shape \"{}\" \"float radius\" [ {} ]{}", kind_of(q.kind), sized ? sizes.radius : 1,
                   extent_parameters(q, sized ? sizes.height : 1));
-  // A mirror turns quadrics inside out, but not their light.
-  return Written{text, sized ? sizes.rest : placed.to_world,
-                 placed.flip_orientation != (shines && swaps_handedness(placed.to_world))};
+  return Written{text, sized ? sizes.rest : placed.to_world, placed.flip_orientation};
 }
 
 class ShapeWriter {
@@ -188,7 +198,7 @@ class ShapeWriter {
 
   Written surface_written(const Shape& shape, Parameters& p) {
     if (const auto quadric = placed_quadric(w_.scene, shape, QuadricUv::pbrt, uv_uses_))
-      if (auto as = written(*quadric, shape.area_light.has_value())) return *as;
+      if (auto as = written(*quadric, shape.area_light.has_value(), uvs_show_[shape.mesh.value])) return *as;
     return {mesh(shape, p), shape.object_to_world,
             shape.flip_orientation != swaps_handedness(shape.object_to_world)};
   }

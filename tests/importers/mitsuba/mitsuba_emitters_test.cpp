@@ -2,8 +2,10 @@
 // Lights from Mitsuba's emitters: by definition, and back from what write_mitsuba writes.
 #include <gmock/gmock.h>
 
+#include <numbers>
 #include <random>
 
+#include "images/image_files.h"
 #include "importers/mitsuba/write/write_mitsuba.h"
 #include "scene/spectra/flat_emission.h"
 #include "scene/spectra/rgb_to_spectrum.h"
@@ -157,9 +159,34 @@ TEST_F(MitsubaEmitters, SpotsFallOffLinearlyFromThreeQuarters) {
 TEST_F(MitsubaEmitters, ProjectorsFieldOfView) {
   const auto square = light<ProjectionLight>("<emitter type='projector'/>");  // 50 mm
   EXPECT_NEAR(square.fov_deg, 34.0221, 1e-4);                                 // Mitsuba 3.9.1's x_fov
-  EXPECT_THAT(diagnostics_, says("counts as a square"));
-  light<ProjectionLight>("<emitter type='projector'><float name='fov' value='30'/></emitter>");
+  EXPECT_EQ(
+      light<ProjectionLight>("<emitter type='projector'><float name='fov' value='30'/></emitter>").fov_deg,
+      30);
+  // The angle is measured along an axis of the image, here twice as wide as it is high.
+  write_exr_image(folder_ / "wide.exr", black_image(4, 2, 3));
+  const auto width_deg = [&](const std::string& axis) {
+    return light<ProjectionLight>(
+               "<emitter type='projector'><float name='fov' value='30'/><string name='fov_axis' value='" +
+               axis + "'/><texture type='bitmap' name='irradiance'><string name='filename' value='" +
+               (folder_ / "wide.exr").string() + "'/></texture></emitter>")
+        .fov_deg;
+  };
+  const double half = std::tan(15 * std::numbers::pi / 180), degrees = 2 * 180 / std::numbers::pi;
+  for (const char* along_width : {"x", "larger"}) EXPECT_EQ(width_deg(along_width), 30);
+  for (const char* along_height : {"y", "smaller"})
+    EXPECT_NEAR(width_deg(along_height), degrees * std::atan(2 * half), 1e-4);
+  EXPECT_NEAR(width_deg("diagonal"), degrees * std::atan(2 / std::sqrt(5.0) * half), 1e-4);
   EXPECT_THAT(diagnostics_, IsEmpty());
+}
+
+TEST_F(MitsubaEmitters, ReflectNothingWithoutABsdf) {
+  read_text("<shape type='rectangle'><emitter type='area'/></shape><shape type='rectangle'/>");
+  const auto reflectance = [&](std::size_t shape) {
+    return std::get<DiffuseMaterial>(scene_.materials.at(scene_.shapes.at(shape).material.value).model)
+        .reflectance;
+  };
+  EXPECT_EQ(reflectance(0), SpectrumParameter{Spectrum{ConstantSpectrum{0}}});
+  EXPECT_EQ(reflectance(1), SpectrumParameter{Spectrum{ConstantSpectrum{0.5f}}});
 }
 
 // Mitsuba's map has its centre at −z... its zenith at +y: u = atan2(x, −z)/2π, v = acos(y)/π.

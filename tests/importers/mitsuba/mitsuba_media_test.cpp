@@ -160,6 +160,16 @@ TEST_F(MitsubaMedia, OlderForms) {
   EXPECT_THAT(diagnostics_, IsEmpty());
 }
 
+// As Mitsuba 3.9.1 shows them.
+TEST_F(MitsubaMedia, WhatIsConstantInAHeterogeneousOneFillsTheUnitCube) {
+  for (const char* extinction : {"", "<float name='sigma_t' value='2'/>"}) {
+    const Medium filled = medium(extinction, "heterogeneous");
+    EXPECT_EQ(std::get<Grid>(filled.density).bounds, (Bounds3d{{0, 0, 0}, {1, 1, 1}})) << extinction;
+    EXPECT_EQ(filled.medium_to_world, Transform{});
+  }
+  EXPECT_FALSE(std::holds_alternative<Grid>(medium("", "homogeneous").density));
+}
+
 TEST_F(MitsubaMedia, GridsLieInTheUnitCubeOrTheirBox) {
   folder_.write("a.vol", volume({2, 3, 4, 1}, 24));
   const auto bounds = [&](const Medium& m) {

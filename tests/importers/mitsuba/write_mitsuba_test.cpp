@@ -13,6 +13,7 @@
 #include "images/image_files.h"
 #include "importers/mitsuba/read/mitsuba.h"
 #include "importers/mitsuba/write/write_camera.h"
+#include "importers/mitsuba/write/write_spectra.h"
 #include "tests/importers/curve_records.h"
 #include "tests/importers/temporary_folder.h"
 #include "tests/importers/written_scenes.h"
@@ -455,6 +456,50 @@ TEST_F(WriteMitsuba, CurvesThatMitsubaDoesNotHave) {
   bent.flip_orientation = true;  // its front is inside
   scene.materials[0].two_sided = false;
   EXPECT_EQ(written(bent, scene, "tubes of triangles"), "ply");
+}
+
+// Mitsuba 3.9.1 refuses rough interfaces between equal indices, and has no brass.
+TEST_F(WriteMitsuba, WhatMitsubaRefusesIsWrittenOtherwise) {
+  const Roughness rough{0.3f, 0.3f};
+  const auto bsdf = [&](MaterialModel model) {
+    Material material;
+    material.model = std::move(model);
+    auto written = write(square_scene(material)).child("bsdf");
+    return written.child("bsdf") ? written.child("bsdf") : written;
+  };
+  const auto type = [&](MaterialModel model) {
+    return std::string(bsdf(std::move(model)).attribute("type").value());
+  };
+  DielectricMaterial water{
+      .eta = ConstantSpectrum{1.33f}, .exterior_eta = ConstantSpectrum{1.33f}, .roughness = rough};
+  EXPECT_EQ(type(water), "thindielectric");
+  water.exterior_eta = ConstantSpectrum{1.0f};
+  EXPECT_EQ(type(water), "roughdielectric");
+  PlasticMaterial plastic{.eta = 1.2f, .exterior_eta = 1.2f, .roughness = rough};
+  EXPECT_EQ(type(plastic), "diffuse");
+  plastic.exterior_eta = 1;
+  EXPECT_EQ(type(plastic), "roughplastic");
+  for (const std::string metal : {"Cu", "CuZn"}) {
+    const ComplexIndex index{Spectrum{NamedSpectrum{"metal-" + metal + "-eta"}},
+                             Spectrum{NamedSpectrum{"metal-" + metal + "-k"}}};
+    EXPECT_EQ(value(bsdf(ConductorMaterial{.metal = index}), "material").empty(), metal == "CuZn") << metal;
+  }
+}
+
+// Mitsuba's rgb variants cut spectra at 1.
+TEST_F(WriteMitsuba, ExtinctionsAboveOneAreScaled) {
+  Scene scene = square_scene({});
+  Medium medium;
+  medium.coefficients =
+      ExtinctionAlbedo{Spectrum{mitsuba_writer::tabulated([](double lambda) { return lambda / 100; })}};
+  medium.scale = 3;
+  scene.media = {medium};
+  scene.shapes[0].exterior = Id<Medium>{0};
+  const auto written = write(scene).child("medium");
+  EXPECT_NEAR(std::stod(value(written, "scale")), 3 * 8.3, 1e-5);
+  const std::string values = value(written, "sigma_t");  // 360:0.4337…, … 830:1
+  EXPECT_NEAR(std::stod(values.substr(values.rfind(':') + 1)), 1, 1e-6);
+  EXPECT_NEAR(std::stod(values.substr(values.find(':') + 1)), 3.6 / 8.3, 1e-6);
 }
 
 TEST_F(WriteMitsuba, Media) {

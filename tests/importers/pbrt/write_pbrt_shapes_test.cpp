@@ -140,6 +140,26 @@ TEST(WritePbrt, ShiningQuadricsHaveTheirOwnSize) {
   }
 }
 
+// pbrt lets the points that it looks for on a mirrored light shine to one side and those that it meets to the
+// other: such lights are written without the mirror.
+TEST(WritePbrt, ShiningQuadricsAreNotMirrored) {
+  for (const std::string shape : {"\"sphere\"", "\"disk\"", "\"cylinder\""})
+    for (const std::string side : {"", "ReverseOrientation "}) {
+      const RoundTrip trip =
+          round_trip("Film \"rgb\"\nWorldBegin\nAreaLightSource \"diffuse\" Scale 1 1 -1 Rotate 30 1 2 3 " +
+                     side + "Shape " + shape);
+      const Shape &before = trip.first.scene.shapes.at(0), &after = trip.second.scene.shapes.at(0);
+      EXPECT_FALSE(swaps_handedness(after.object_to_world)) << shape;
+      EXPECT_EQ(after.flip_orientation, !before.flip_orientation) << shape;
+      // Where the middle and the top of the quadric are has not changed.
+      for (const Point3d p : {Point3d{0, 0, 0}, Point3d{0, 0, 1}})
+        EXPECT_LT(
+            length(transform_point(before.object_to_world, p) - transform_point(after.object_to_world, p)),
+            1e-6)
+            << shape;
+    }
+}
+
 TEST(WritePbrt, ConesAndParaboloidsBecomeTriangles) {
   const RoundTrip trip =
       round_trip("Film \"rgb\"\nWorldBegin\nShape \"cone\" Scale 2 2 2 Shape \"cone\" Shape \"paraboloid\"");
