@@ -65,4 +65,30 @@ int run_program(const std::string& name, const std::vector<std::string>& argumen
   throw MachineError(fmt::format("{} was ended by signal {}", name, WTERMSIG(status)));
 }
 
+ForeignEnd run_foreign(const std::vector<std::string>& words, const std::filesystem::path& standard_output,
+                       const std::filesystem::path& standard_error) {
+  std::vector<std::string> own = words;
+  std::vector<char*> argv;
+  for (std::string& word : own) argv.push_back(word.data());
+  argv.push_back(nullptr);
+  posix_spawn_file_actions_t actions;
+  ::posix_spawn_file_actions_init(&actions);
+  const auto send = [&](int descriptor, const std::filesystem::path& file) {
+    ::posix_spawn_file_actions_addopen(&actions, descriptor, file.c_str(), O_WRONLY | O_CREAT | O_TRUNC,
+                                       0666);
+  };
+  send(STDOUT_FILENO, standard_output), send(STDERR_FILENO, standard_error);
+  pid_t child = 0;
+  const int error = ::posix_spawnp(&child, argv.front(), &actions, nullptr, argv.data(), environ);
+  ::posix_spawn_file_actions_destroy(&actions);
+  if (error == ENOENT) return {};
+  if (error != 0) throw MachineError("cannot run " + words.front() + ": " + std::strerror(error));
+  int status = 0;
+  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  if (WIFSIGNALED(status) && (WTERMSIG(status) == SIGINT || WTERMSIG(status) == SIGTERM))
+    throw Interrupted(WTERMSIG(status), words.front() + " was interrupted");
+  return {true, WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status)};
+}
+
 }  // namespace vitrail

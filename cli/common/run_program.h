@@ -16,4 +16,13 @@ std::filesystem::path program_folder();
 int run_program(const std::string& name, const std::vector<std::string>& arguments,
                 bool (*stopped)() = nullptr, const std::filesystem::path& standard_output = {});
 
+// The end of a program of others.
+struct ForeignEnd {
+  bool found = false;  // it is on the path
+  int status = 0;      // 128 + signal where one ended it
+};
+// Runs one and waits: words[0] is looked for on the path. What it says goes into the two files.
+ForeignEnd run_foreign(const std::vector<std::string>& words, const std::filesystem::path& standard_output,
+                       const std::filesystem::path& standard_error);
+
 }  // namespace vitrail

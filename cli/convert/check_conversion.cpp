@@ -2,15 +2,14 @@
 #include "cli/convert/check_conversion.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
-#include <cstring>
 #include <fstream>
 #include <optional>
 
 #include "cli/common/run_program.h"
+#include "cli/common/temporary_folder.h"
 #include "scene/system/diagnostics.h"
 
 namespace vitrail {
@@ -34,25 +33,6 @@ std::optional<double> number(const nlohmann::ordered_json& pictures, const char*
 double error_of(const nlohmann::ordered_json& pictures) {
   return two_sided_95 * number(pictures, "luminance_ratio_error").value_or(0);
 }
-
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string name = (fs::temp_directory_path() / "vitrail-check-XXXXXX").string();
-    if (!::mkdtemp(name.data())) throw MachineError("cannot make " + name + ": " + std::strerror(errno));
-    path_ = name;
-  }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  std::string file(const std::string& name) const { return (path_ / name).string(); }
-
- private:
-  fs::path path_;
-};
 
 }  // namespace
 

@@ -161,13 +161,14 @@ ConversionCounts count(const std::vector<ConversionItem>& items) {
 
 void write_conversion_report(const std::filesystem::path& file, const std::filesystem::path& in,
                              const std::filesystem::path& out, const std::string& quadrics,
-                             const std::vector<std::string>& options, const nlohmann::ordered_json& pictures,
+                             const std::vector<std::string>& options, const ConversionChecks& checks,
                              const std::vector<ConversionItem>& items) {
   const ConversionCounts counts = count(items);
   Json report{{"input", in.string()},     {"output", out.string()}, {"options", options},
               {"quadrics", quadrics},     {"exact", counts.exact},  {"approximated", counts.approximated},
               {"dropped", counts.dropped}};
-  if (!pictures.is_null()) report["pictures"] = pictures;
+  if (!checks.pictures.is_null()) report["pictures"] = checks.pictures;
+  if (!checks.peer.is_null()) report["peer"] = checks.peer;
   report["items"] = Json::array();
   for (const ConversionItem& item : items) {
     Json entry{{"item", item.what}, {"fidelity", item.notes.empty() ? "exact" : word(worst(item.notes))}};

@@ -28,12 +28,18 @@ struct ConversionCounts {
 };
 ConversionCounts count(const std::vector<ConversionItem>& items);
 
-// {input, output, options, quadrics, pictures (of check_conversion.h, where there are some), exact,
-// approximated, dropped, items: [{item, fidelity, file, line, column, notes:
+// What was looked at; null where nothing was.
+struct ConversionChecks {
+  nlohmann::ordered_json pictures;  // check_conversion.h
+  nlohmann::ordered_json peer;      // peer_check.h
+};
+
+// {input, output, options, quadrics, pictures, peer (where there are some), exact, approximated, dropped,
+// items: [{item, fidelity, file, line, column, notes:
 // [{fidelity, what, file, line, column}]}]}. Throws MachineError.
 void write_conversion_report(const std::filesystem::path& file, const std::filesystem::path& in,
                              const std::filesystem::path& out, const std::string& quadrics,
-                             const std::vector<std::string>& options, const nlohmann::ordered_json& pictures,
+                             const std::vector<std::string>& options, const ConversionChecks& checks,
                              const std::vector<ConversionItem>& items);
 
 }  // namespace vitrail

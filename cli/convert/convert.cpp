@@ -13,6 +13,7 @@
 #include "cli/convert/check_conversion.h"
 #include "cli/convert/conversion_report.h"
 #include "cli/convert/convert_many.h"
+#include "cli/convert/peer_check.h"
 #include "importers/export.h"
 #include "importers/import.h"
 #include "partitioner/meshes/edit_meshes.h"
@@ -26,9 +27,9 @@ namespace {
 struct Arguments {
   std::vector<std::filesystem::path> files;
   std::filesystem::path input, output, report;
-  std::string format;
+  std::string format, check, peer;
   int at_once = 0;
-  bool strict = false, quiet = false, check = false, again = false;
+  bool strict = false, quiet = false, again = false;
   ImportArguments imports;
   MeshOptions meshes;
 };
@@ -47,8 +48,13 @@ void declare(CLI::App& app, Arguments& a) {
   app.add_option("-j,--jobs", a.at_once, "with --to: so many at once; default: all cores")
       ->check(CLI::Range(1, 4096));
   app.add_flag("--again", a.again, "with --to: also those that are done already");
-  app.add_flag("--check", a.check,
-               "render the scene before and after, small, and exit with status 1 if they look different");
+  app.add_flag("--check{ours}", a.check,
+               "render the scene before and after, small, and exit with status 1 if they look different; "
+               "--check=peer: in the program that it is written for as well (Mitsuba, POV-Ray or pbrt)")
+      ->check(CLI::IsMember({"ours", "peer"}));
+  app.add_option(
+      "--peer", a.peer,
+      "of --check=peer: the Python that has Mitsuba, or povray, or pbrt; default: the one on the path");
   app.add_option("--report", a.report, "write what became of each item as JSON");
   declare_import_options(app, a.imports);
   declare_mesh_options(app, a.meshes);
@@ -81,10 +87,17 @@ std::vector<std::string> reading_options(const Arguments& a) {
   return words;
 }
 
+bool is_checked_by_us(const Arguments& a, const std::filesystem::path& out) {
+  return a.check == "ours" || (a.check == "peer" && out.extension() != ".pov");
+}
+
+bool passed(const nlohmann::ordered_json& check) { return check.is_null() || check.value("passed", true); }
+
 // With --strict nothing is written where the input is not read exactly already.
 int run(const Arguments& a) {
   require_export_format(a.output);
-  if (a.check) require_checkable(a.output);
+  const bool by_us = is_checked_by_us(a, a.output);
+  if (by_us) require_checkable(a.output);
   note_input(a.input);
   require_outputs(a);
   ImportedScene imported = import_scene(a.input, MeshMemory{}, {}, import_options(a.imports));
@@ -101,28 +114,32 @@ int run(const Arguments& a) {
   const bool exact = diagnostics.empty();
   std::ranges::move(edits, std::back_inserter(diagnostics));
   const std::vector<ConversionItem> items = conversion_items(imported.scene, diagnostics);
-  nlohmann::ordered_json pictures;
-  if (a.check && !refused)
+  nlohmann::ordered_json pictures, peer;
+  if (by_us && !refused)
     pictures = compare_pictures(a.input, reading_options(a), a.output, imported.scene.film);
+  if (a.check == "peer" && !refused)
+    peer = check_in_peer({a.input, a.output, reading_options(a), a.peer}, imported.scene.film);
   if (!a.report.empty())
-    write_conversion_report(a.report, a.input, a.output, quadrics, reading_options(a), pictures, items);
+    write_conversion_report(a.report, a.input, a.output, quadrics, reading_options(a), {pictures, peer},
+                            items);
   if (!a.quiet) {
     say("{}", summarise(diagnostics));
     const ConversionCounts counts = count(items);
     show("{}: {} items exact, {} approximated, {} dropped\n", refused ? "not written" : a.output.string(),
          counts.exact, counts.approximated, counts.dropped);
     if (!pictures.is_null()) show("{}\n", pictures_in_words(pictures));
+    if (!peer.is_null()) show("{}\n", peer_in_words(peer));
   }
   if (a.strict && !exact) require_exact(diagnostics);
-  return pictures.is_null() || pictures.at("passed").get<bool>() ? exit_done : exit_differs;
+  return passed(pictures) && passed(peer) ? exit_done : exit_differs;
 }
 
 int run_many(const Arguments& a) {
   if (a.output.empty()) throw UsageError("--to needs the folder for all: -o FOLDER");
-  if (a.check) require_checkable("scene." + a.format);
+  if (is_checked_by_us(a, "scene." + a.format)) require_checkable("scene." + a.format);
   if (!a.report.empty()) throw UsageError("--to gives every scene its report: leave --report out");
-  ManyConversions many{a.files, a.output, a.format, a.at_once,         a.again,
-                       a.check, a.strict, a.quiet,  reading_options(a)};
+  ManyConversions many{a.files, a.output, a.format, a.at_once, a.again,
+                       a.check, a.peer,   a.strict, a.quiet,   reading_options(a)};
   if (many.at_once == 0) many.at_once = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   return convert_many(many);
 }
@@ -133,6 +150,7 @@ int run_one(Arguments a) {
   if (a.files.size() > most)
     throw UsageError(fmt::format("'{}' is one argument too many; many scenes take --to FORMAT and -o FOLDER",
                                  a.files[most].string()));
+  if (!a.peer.empty() && a.check != "peer") throw UsageError("--peer belongs to --check=peer");
   if (a.output.empty() && a.files.size() == 1) throw UsageError("takes a scene and what it becomes");
   if (a.output.empty()) a.output = a.files.back();
   a.input = a.files.front();

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cstdio>
 #include <exception>
@@ -17,6 +18,7 @@
 #include "cli/common/main_guard.h"
 #include "cli/common/run_program.h"
 #include "cli/convert/check_conversion.h"
+#include "cli/convert/peer_check.h"
 #include "cli/convert/scene_search.h"
 #include "scene/system/diagnostics.h"
 #include "scene/system/progress_line.h"
@@ -40,12 +42,15 @@ std::optional<Json> report_of(const Conversion& c, const ManyConversions& many) 
   const auto written = fs::last_write_time(c.report, missing);
   if (missing || !fs::exists(c.output) || written <= fs::last_write_time(c.input)) return {};
   Json report = Json::parse(std::ifstream(c.report));
-  if (report.at("options") != Json(many.options) || (many.check && !report.contains("pictures"))) return {};
+  if (report.at("options") != Json(many.options)) return {};
+  if (!many.check.empty() && !report.contains(many.check == "peer" ? "peer" : "pictures")) return {};
   return report;
 }
 
 bool looks_different(const Json& report) {
-  return report.contains("pictures") && !report.at("pictures").at("passed").get<bool>();
+  return std::ranges::any_of(std::array{"pictures", "peer"}, [&](const char* check) {
+    return report.contains(check) && !report.at(check).value("passed", true);
+  });
 }
 
 std::string in_words(const Json& report) {
@@ -53,6 +58,7 @@ std::string in_words(const Json& report) {
       fmt::format("{} items exact, {} approximated, {} dropped", report.at("exact").get<int>(),
                   report.at("approximated").get<int>(), report.at("dropped").get<int>());
   if (report.contains("pictures")) words += "; " + pictures_in_words(report.at("pictures"));
+  if (report.contains("peer")) words += "; " + peer_in_words(report.at("peer"));
   return words;
 }
 
@@ -92,7 +98,8 @@ void convert(const Conversion& c, const ManyConversions& many, Outcomes& outcome
   std::vector<std::string> words{c.input.string(), c.output.string(), "--report", c.report.string(),
                                  "--quiet"};
   words.insert(words.end(), many.options.begin(), many.options.end());
-  if (many.check) words.push_back("--check");
+  if (!many.check.empty()) words.push_back("--check=" + many.check);
+  if (!many.peer.empty()) words.insert(words.end(), {"--peer", many.peer});
   if (many.strict) words.push_back("--strict");
   try {
     std::optional<Json> report;

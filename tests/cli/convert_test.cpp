@@ -2,6 +2,8 @@
 // vitrail convert as a user runs it: the report, --strict, the exit status.
 #include <gmock/gmock.h>
 
+#include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <map>
 
@@ -102,6 +104,45 @@ TEST_F(Convert, StrictIsForWhatIsExact) {
   EXPECT_EQ(result.status, 3) << result.output;
   EXPECT_FALSE(std::filesystem::exists(path("curve.xml")))
       << "nothing is written of what is not read exactly";
+}
+
+// A stand-in for the Python that has Mitsuba.
+TEST_F(Convert, AsksThePeer) {
+  const std::string in =
+      write("in.pbrt",
+            "LookAt 0 0 5 0 0 0 0 1 0 Camera \"perspective\" Film \"rgb\" \"integer xresolution\" 16 "
+            "\"integer yresolution\" 8 WorldBegin LightSource \"infinite\" " +
+                triangle_);
+  const auto ask = [&](const std::string& says) {
+    const std::string peer = write("python", "#!/bin/sh\ncat <<'END'\n" + says + "\nEND\n");
+    std::filesystem::permissions(peer, std::filesystem::perms::owner_all);
+    return convert(in + " " + path("out.xml") + " --check=peer --peer " + peer + " --report " +
+                   path("report.json"));
+  };
+  const auto refused = ask(
+      R"({"variants": [{"variant": "scalar_rgb", "loads": false, "passed": false, "said": "two meshes"}]})");
+  EXPECT_EQ(refused.status, 1) << refused.output;
+  EXPECT_THAT(refused.output, HasSubstr("Mitsuba scalar_rgb refuses it: two meshes"));
+  EXPECT_EQ(test::read_json(path("report.json")).at("peer").at("passed"), false);
+  const auto shown = ask(
+      R"({"variants": [{"variant": "scalar_rgb", "loads": true, "passed": true, "compared_with": "vitrail", "luminance_ratio": 1.0, "worst_pixel": 0.01}]})");
+  EXPECT_EQ(shown.status, 0) << shown.output;
+  EXPECT_THAT(shown.output, HasSubstr("Mitsuba scalar_rgb shows it as vitrail shows the input"));
+  const auto missing = convert(in + " " + path("out.xml") + " --check=peer --peer " + path("nowhere"));
+  EXPECT_EQ(missing.status, 2) << missing.output;
+  EXPECT_EQ(convert(in + " " + path("out.xml") + " --peer " + path("python")).status, 2);
+  EXPECT_EQ(convert(in + " " + path("out.ply") + " --check=peer").status, 2);
+}
+
+TEST_F(Convert, PovRayTakesWhatIsWritten) {
+  if (std::system("povray --version >/dev/null 2>&1") != 0) GTEST_SKIP() << "no povray on the path";
+  const std::string in = write("in.pbrt",
+                               "LookAt 0 0 5 0 0 0 0 1 0 Camera \"perspective\" Film \"rgb\" WorldBegin "
+                               "LightSource \"point\" " +
+                                   triangle_);
+  const auto result = convert(in + " " + path("out.pov") + " --check=peer");
+  EXPECT_EQ(result.status, 0) << result.output;
+  EXPECT_THAT(result.output, HasSubstr("POV-Ray renders it"));
 }
 
 TEST_F(Convert, InspectKnowsEverySpectrum) {

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/common/temporary_folder.h"
+
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+
+#include "scene/system/diagnostics.h"
+
+namespace vitrail {
+
+TemporaryFolder::TemporaryFolder() {
+  std::string name = (std::filesystem::temp_directory_path() / "vitrail-check-XXXXXX").string();
+  if (!::mkdtemp(name.data())) throw MachineError("cannot make " + name + ": " + std::strerror(errno));
+  path_ = name;
+}
+
+TemporaryFolder::~TemporaryFolder() {
+  std::error_code ignored;
+  std::filesystem::remove_all(path_, ignored);
+}
+
+}  // namespace vitrail

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/convert/peer_check.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+#include "cli/common/run_program.h"
+#include "cli/common/temporary_folder.h"
+#include "scene/system/diagnostics.h"
+
+namespace vitrail {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr const char* mitsuba_script =
+#include "cli/convert/mitsuba_peer.inc"
+    ;
+
+struct Peer {
+  const char *extension, *name, *program;
+};
+constexpr std::array peers{Peer{".xml", "Mitsuba", "python3"}, Peer{".pov", "POV-Ray", "povray"},
+                           Peer{".pbrt", "pbrt", "pbrt"}};
+
+const Peer& peer_of(const fs::path& out) {
+  const auto found = std::ranges::find(peers, out.extension().string(), &Peer::extension);
+  if (found == peers.end())
+    throw UsageError("--check=peer has no program that renders " + out.extension().string());
+  return *found;
+}
+
+struct Extent {
+  int width, height;
+};
+// 64 pixels, or about.
+Extent small(const FilmSettings& film) {
+  const double scale = 8 / std::sqrt(static_cast<double>(film.width) * film.height);
+  const auto of = [&](int side) { return std::max(1, static_cast<int>(std::lround(scale * side))); };
+  return {of(film.width), of(film.height)};
+}
+
+std::string text_of(const std::string& file) {
+  std::ostringstream text;
+  text << std::ifstream(file).rdbuf();
+  return text.str();
+}
+
+// The line that says what is wrong: the last that has the word, else the last.
+std::string last_words(const std::string& text) {
+  std::istringstream lines(text);
+  std::string last, wrong;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.find_first_not_of(' ') == std::string::npos) continue;
+    last = line;
+    if (line.find("Error") != std::string::npos) wrong = line;
+  }
+  if (!wrong.empty()) return wrong;
+  return last.empty() ? "nothing was said" : last;
+}
+
+// The input as vitrail shows it, for a peer that does not read it.
+std::string picture_of_input(const PeerCheck& check, const FilmSettings& film,
+                             const TemporaryFolder& folder) {
+  const std::string exact = folder.file("before.film"), picture = folder.file("before.exr");
+  const double scale = 8 / std::sqrt(static_cast<double>(film.width) * film.height);
+  std::vector<std::string> words = check.options;
+  words.insert(words.end(), {check.in.string(), "-o", exact, "--spp", "1024", "--scale",
+                             fmt::format("{}", std::min(scale, 1.0)), "--aov", "none", "--quiet"});
+  run_program("vitrail-render", words);
+  run_program("vitrail-develop", {exact, "-o", picture, "--quiet"});
+  return picture;
+}
+
+Json in_mitsuba(const PeerCheck& check, const std::string& python, const FilmSettings& film,
+                const TemporaryFolder& folder) {
+  const std::string script = folder.file("peer.py"), said = folder.file("said.json"),
+                    errors = folder.file("errors");
+  std::ofstream(script) << mitsuba_script;
+  const bool reads_input = check.in.extension() == ".xml" && check.options.empty();
+  const Extent size = small(film);
+  const std::string reference =
+      reads_input ? fs::absolute(check.in).string() : picture_of_input(check, film, folder);
+  const ForeignEnd end = run_foreign({python, script, fs::absolute(check.out).string(), reference,
+                                      std::to_string(size.width), std::to_string(size.height)},
+                                     said, errors);
+  if (!end.found) return {{"missing", python + " is not there"}};
+  const Json result = Json::parse(text_of(said), nullptr, false);
+  if (end.status == 0 && result.is_object()) return result;
+  return {
+      {"variants",
+       {{{"variant", "any"}, {"loads", false}, {"passed", false}, {"said", last_words(text_of(errors))}}}}};
+}
+
+// Programs whose exit status says whether they take a scene.
+Json in_program(const std::vector<std::string>& words, const TemporaryFolder& folder) {
+  const std::string said = folder.file("said"), errors = folder.file("errors");
+  const ForeignEnd end = run_foreign(words, said, errors);
+  if (!end.found) return {{"missing", words.front() + " is not there"}};
+  Json variant{{"variant", "any"}, {"loads", end.status == 0}, {"passed", end.status == 0}};
+  if (end.status != 0) variant["said"] = last_words(text_of(errors));
+  return {{"variants", {variant}}};
+}
+
+std::string variant_in_words(const std::string& name, const Json& v) {
+  if (!v.at("loads").get<bool>())
+    return fmt::format("{} refuses it: {}", name, v.at("said").get<std::string>());
+  if (v.contains("said")) return fmt::format("{} ruins it: {}", name, v.at("said").get<std::string>());
+  if (v.contains("not_compared"))
+    return fmt::format("{} renders it; it refuses the input: {}", name,
+                       v.at("not_compared").get<std::string>());
+  if (!v.contains("luminance_ratio")) return fmt::format("{} renders it", name);
+  return fmt::format(
+      "{} shows it {} {} shows the input: luminance {:+.2f} %, a pixel of 64 by up to {:.1f} %", name,
+      v.at("passed").get<bool>() ? "as" : "otherwise than",
+      v.at("compared_with") == "itself" ? "it" : "vitrail", 100 * (v.at("luminance_ratio").get<double>() - 1),
+      100 * v.at("worst_pixel").get<double>());
+}
+
+}  // namespace
+
+Json check_in_peer(const PeerCheck& check, const FilmSettings& film) {
+  const Peer& peer = peer_of(check.out);
+  const std::string program = check.program.empty() ? peer.program : check.program;
+  const TemporaryFolder folder;
+  const std::string out = fs::absolute(check.out).string();
+  Json found{{"name", peer.name}};
+  if (std::string_view(peer.name) == "Mitsuba")
+    found.update(in_mitsuba(check, program, film, folder));
+  else if (std::string_view(peer.name) == "POV-Ray")
+    found.update(
+        in_program({program, "+I" + out, "+W8", "+H8", "-D", "+O" + folder.file("picture.png")}, folder));
+  else
+    found.update(in_program({program, "--spp", "1", "--outfile", folder.file("picture.exr"), out}, folder));
+  if (found.contains("missing")) {
+    if (!check.program.empty()) throw UsageError("--peer: " + found.at("missing").get<std::string>());
+    return found;
+  }
+  found["passed"] =
+      std::ranges::all_of(found.at("variants"), [](const Json& v) { return v.at("passed").get<bool>(); });
+  return found;
+}
+
+std::string peer_in_words(const Json& peer) {
+  const std::string name = peer.at("name");
+  if (peer.contains("missing"))
+    return fmt::format("not looked at in {}: {}", name, peer.at("missing").get<std::string>());
+  std::string words;
+  for (const Json& v : peer.at("variants")) {
+    const std::string variant = v.at("variant");
+    words +=
+        (words.empty() ? "" : "\n") + variant_in_words(variant == "any" ? name : name + " " + variant, v);
+  }
+  return words;
+}
+
+}  // namespace vitrail

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// convert --check=peer: what was written, in the program that it was written for.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "scene/records/film_settings.h"
+
+namespace vitrail {
+
+struct PeerCheck {
+  std::filesystem::path in, out;
+  std::vector<std::string> options;  // of reading `in`
+  std::string program;               // Python with Mitsuba, povray or pbrt; empty: the usual one on the path
+};
+
+// Loads `out` there: Mitsuba in each common variant, which renders 64 pixels and compares them with those of
+// `in`, by itself where it reads that too, else by vitrail; POV-Ray and pbrt render without a comparison.
+//
+//   {"name": "Mitsuba", "version": "3.9.1", "passed": true, "variants": [{"variant": "scalar_rgb", "loads":
+//    true, "compared_with": "itself", "luminance_ratio": 1.0003, "worst_pixel": 0.004, "passed": true}]}
+//   {"name": "Mitsuba", "missing": "python3 has no module mitsuba …"}
+//
+// "said": the peer's own words, where it refuses. Throws UsageError for formats without a peer, and where
+// `program` was named and is not there.
+nlohmann::ordered_json check_in_peer(const PeerCheck& check, const FilmSettings& film);
+
+// A line for each variant.
+std::string peer_in_words(const nlohmann::ordered_json& peer);
+
+}  // namespace vitrail
