@@ -31,7 +31,8 @@ void require_own_picture(const fs::path& picture, bool force) {
 
 // Other formats than PNG, and denoising, need libraries that take time and memory to load: another program
 // writes them.
-void develop_film(const RenderArguments& a, const fs::path& file, const fs::path& picture, int spectral_bins) {
+void develop_film(const RenderArguments& a, const fs::path& file, const fs::path& picture,
+                  int spectral_bins) {
   if (is_png(picture) && !a.denoised) {
     const Film film = read_film(file, nullptr);
     require_samples(film, file);
@@ -67,7 +68,7 @@ void check_outputs(const RenderArguments& a) {
 AfterFilm developing(const RenderArguments& a) {
   const fs::path& picture = a.options.outputs.picture;
   if (picture.empty()) return {};
-  if (a.denoised) return {0.7, 1.2e-7};  // docs/denoising.md
+  if (a.denoised) return {0.7, 1.2e-7};       // docs/denoising.md
   return {is_png(picture) ? 0 : 0.19, 4e-9};  // the image library is loaded; the film read, converted, packed
 }
 
