@@ -23,6 +23,12 @@ namespace vitrail::mitsuba {
 // luminance v).
 enum class Quantity { reflectance, unbounded, emission };
 
+// What Mitsuba's camera cuts away, by the depth in front of it.
+struct Clipping {
+  double near_clip = 1e-2, far_clip = 1e4;
+  std::optional<Origin> place;  // where it is given
+};
+
 struct Builder {
   Scene& scene;
   Report& report;
@@ -42,6 +48,7 @@ struct Builder {
   AskedIntegrator integrator{};
   std::optional<int> passes{};  // of its photons, each a sample of every pixel; empty: as the sampler says
   double shutter_open = 0, shutter_close = 0;  // of the sensor
+  Clipping clipping{};
   MeshMemory mesh_memory{};
   bool replace_missing = false;               // leave out shapes whose file is not there
   std::set<std::uint32_t> smoothed_meshes{};  // whose normals were made here
@@ -58,6 +65,11 @@ FloatParameter float_parameter(Builder& builder, const Object& object, std::stri
 Spectrum spectrum_value(Builder& builder, const Object& object, std::string_view name, Quantity quantity,
                         const Spectrum& otherwise);
 Id<Texture> add_texture(Builder& builder, const Object& texture, bool as_float);
+
+// ---- clipping.cpp
+// Says where the planes cut something away: they are not kept. Looks at vertices that are read, but of
+// instances.
+void report_clipping(Builder& builder);
 
 // ---- bsdfs.cpp
 // Adds a record that is made here; those that it refers to have been added.
