@@ -46,6 +46,12 @@ Image sky_image(const SkyLight& light, EnvironmentLight::Projection projection, 
   return image;
 }
 
+DistantLight sun_of(const SkyLight& light) {
+  const SkyModel model(light);
+  return {normalize(transform_vector(light.light_to_world, light.to_sun)) * -1.0,
+          spectrum_of_bands(model.sun_irradiance(model.to_sun()))};
+}
+
 std::vector<LightModel> sky_as_image(const SkyLight& light, EnvironmentLight::Projection projection,
                                      const std::filesystem::path& file) {
   const SkyModel model(light);
@@ -58,9 +64,7 @@ std::vector<LightModel> sky_as_image(const SkyLight& light, EnvironmentLight::Pr
     sky.projection = projection;
     parts.push_back(sky);
   }
-  if (model.has_sun())
-    parts.push_back(DistantLight{normalize(transform_vector(light.light_to_world, light.to_sun)) * -1.0,
-                                 spectrum_of_bands(model.sun_irradiance(model.to_sun()))});
+  if (model.has_sun()) parts.push_back(sun_of(light));
   return parts;
 }
 

@@ -16,6 +16,9 @@ inline constexpr int sky_image_height = 512;
 // latitude and longitude, square by equal area.
 Image sky_image(const SkyLight& light, EnvironmentLight::Projection projection, int height);
 
+// The sun alone as parallel light of its irradiance.
+DistantLight sun_of(const SkyLight& light);
+
 // The sky as an image, which is written to `file` (.exr), and the sun as parallel light of its irradiance;
 // what is dark is left out.
 std::vector<LightModel> sky_as_image(const SkyLight& light, EnvironmentLight::Projection projection,

@@ -8,7 +8,7 @@
 
 #include "images/image_files.h"
 #include "importers/images/environment_images.h"
-#include "importers/mitsuba/write/write_surroundings.h"
+#include "importers/images/joined_surroundings.h"
 #include "importers/writing/export_colors.h"
 #include "importers/writing/spot_falloff.h"
 #include "scene/spectra/flat_emission.h"
@@ -238,17 +238,10 @@ void write(Context&, Element root, const SkyLight& light) {
 }  // namespace
 
 void write_lights(Context& context, Element root) {
-  const auto write_model = [&](const LightModel& light) {
-    std::visit([&](const auto& model) { write(context, root, model); }, light);
-  };
-  std::optional<LightModel> around = joined_surroundings(context);
-  const bool joined = around.has_value();
+  join_surroundings(context, context.exposed.lights, "Mitsuba", context.images, context.file.parent_path());
   for (const Light& light : context.exposed.lights) {
     context.begin(RecordKind::light, light.origin);
-    if (!joined || !is_around(light))
-      write_model(light.model);
-    else if (around)
-      write_model(*std::exchange(around, std::nullopt));
+    std::visit([&](const auto& model) { write(context, root, model); }, light.model);
   }
 }
 

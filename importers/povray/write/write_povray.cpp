@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <set>
 
+#include "importers/images/joined_surroundings.h"
 #include "importers/povray/write/material_uses.h"
 #include "importers/povray/write/units.h"
 #include "importers/povray/write/write_camera.h"
@@ -44,6 +45,7 @@ class Writer {
              std::holds_alternative<SpotLight>(light.model) ||
              std::holds_alternative<DistantLight>(light.model);
     });
+    join_surroundings(context_, context_.exposed.lights, "POV-Ray", context_.images, context_.directory);
     std::string body = camera_text(context_);
     for (const Light& light : context_.exposed.lights) body += light_text(context_, light);
     body += materials();

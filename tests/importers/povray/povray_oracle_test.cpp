@@ -592,5 +592,22 @@ TEST_F(PovrayOracle, EnvironmentsFaceTheRightWay) {
     }
 }
 
+// POV-Ray shows one background or sky sphere, the last.
+TEST_F(PovrayOracle, LightsFromAllAroundAreSummed) {
+  Scene scene = empty_scene();
+  scene.settings.max_depth = 0;
+  scene.lights.push_back({InfiniteLight{emission_from_rgb({.2, .4, .1})}});
+  scene.lights.push_back({InfiniteLight{emission_from_rgb({.3, .1, .5})}});
+  expect_plane(scene, [](double, double) -> std::array<double, 3> { return {.5, .5, .6}; });
+
+  folder_.write("dim.ppm", "P3\n2 1\n255\n 0 64 0  0 64 0\n");
+  EnvironmentLight image;
+  image.filename = (folder_ / "dim.ppm").string();
+  image.projection = EnvironmentLight::Projection::latitude_longitude;
+  const double level = std::pow((64 / 255.0 + .055) / 1.055, 2.4);
+  scene.lights.push_back({image});
+  expect_plane(scene, [&](double, double) -> std::array<double, 3> { return {.5, .5 + level, .6}; });
+}
+
 }  // namespace
 }  // namespace vitrail
