@@ -16,14 +16,15 @@ bool is_black(const Scene& scene, Id<Material> material) {
 
 }  // namespace
 
-std::string use_of(Context& context, const Shape& shape, const Surface& surface) {
+std::string use_of(Context& context, const Shape& shape, const Surface& surface, bool inside_out) {
   const auto there = [&](const char* name) {
     return weighted(context, shape.opacity, "Clear", fmt::format("{}_{}", name, shape.material.value),
                     shape.origin);
   };
   std::string text = there("Material");
   if (!surface.back.empty()) text += "interior_" + there("Back");
-  if (!surface.interior.empty()) text += fmt::format("interior {{ Interior_{} }}\n", shape.material.value);
+  if (!surface.interior.empty())
+    text += fmt::format("interior {{ {}_{} }}\n", inside_out ? "Turned" : "Interior", shape.material.value);
   return text;
 }
 

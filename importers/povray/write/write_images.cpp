@@ -4,7 +4,6 @@
 
 #include "importers/povray/write/write_pigments.h"
 #include "importers/writing/mesh_files.h"
-#include "scene/system/input_files.h"
 
 namespace vitrail::povray {
 
@@ -14,14 +13,6 @@ std::string suffix_of(const std::string& filename) {
   std::string suffix = std::filesystem::path(filename).extension().string();
   std::ranges::transform(suffix, suffix.begin(), [](unsigned char c) { return std::tolower(c); });
   return suffix;
-}
-
-// By the header of a PNG file; the depth of others is taken as 8.
-bool has_16_bits(const std::string& filename) {
-  std::ifstream file = open_input(filename);
-  constexpr std::streamoff depth = 24;
-  file.seekg(depth);
-  return file.get() == 16;
 }
 
 const std::map<std::string, std::string>& kinds() {
@@ -34,8 +25,7 @@ const std::map<std::string, std::string>& kinds() {
 
 std::string words_of(const Context& context, const std::string& filename, Encoding encoding, float gamma) {
   const std::string suffix = suffix_of(filename);
-  const bool is_linear_kind =
-      suffix == ".exr" || suffix == ".hdr" || (suffix == ".png" && has_16_bits(filename));
+  const bool is_linear_kind = suffix == ".exr" || suffix == ".hdr";
   std::string text =
       fmt::format("{} {}", kinds().at(suffix), quoted(relative_name(filename, context.directory)));
   if (encoding == Encoding::gamma) return text + fmt::format(" gamma {}", gamma);
@@ -73,26 +63,32 @@ bool is_seen_as_meant(const ImageTexture& texture, ImageUse use) {
 
 std::optional<std::string> image_of(Context& context, const ImageTexture& texture, ImageUse use,
                                     const Origin& origin) {
+  // POV-Ray's spheres have s around and t along the axis: there at (s,t) is the image's (t,s).
+  const bool exchanged = std::holds_alternative<SphericalMapping>(texture.mapping);
+  const UvMapping mapping = exchanged ? UvMapping{0, 1, 0, 1, 0, 0} : UvMapping{};
   ImageTexture plain = texture;
   plain.scale = 1, plain.invert = false;
   try {
-    if (is_seen_as_meant(plain, use))
+    const bool same_values = is_seen_as_meant(plain, use);
+    if (same_values && !exchanged)
       return words_of(context, texture.filename, texture.encoding, texture.gamma);
-    const std::string file = context.images.write(plain, use, {{1, 1, 1}, {}, true}).string();
-    context.approximated(fmt::format("POV-Ray takes other values from the image {}: they are written as {}",
-                                     texture.filename, relative_name(file, context.directory)),
-                         origin);
+    const std::string file = context.images.write(plain, use, {{1, 1, 1}, mapping, true}).string();
+    if (!same_values)
+      context.approximated(fmt::format("POV-Ray takes other values from the image {}: they are written as {}",
+                                       texture.filename, relative_name(file, context.directory)),
+                           origin);
     return words_of(context, file, Encoding::linear, 1);
   } catch (const Error& error) {
     std::error_code ignored;
     const bool is_there = std::filesystem::is_regular_file(texture.filename, ignored);
-    if (is_there && kinds().contains(suffix_of(texture.filename))) {
+    if (is_there && !exchanged && kinds().contains(suffix_of(texture.filename))) {
       context.approximated(fmt::format("{}: referred to as it is", error.what()), origin);
       return words_of(context, texture.filename, texture.encoding, texture.gamma);
     }
-    context.dropped(fmt::format("image {}: {}; 0.5 is written", texture.filename,
-                                is_there ? "POV-Ray 3.7 does not read this kind" : "there is no such file"),
-                    origin);
+    const char* const why = !is_there   ? "there is no such file"
+                            : exchanged ? "it cannot be read"
+                                        : "POV-Ray 3.7 does not read this kind";
+    context.dropped(fmt::format("image {}: {}; 0.5 is written", texture.filename, why), origin);
     return {};
   }
 }

@@ -140,11 +140,12 @@ class Builder {
     const Pigment through = pigment(m.transmittance_factor);
     approximated("dielectric: light of sources passes straight through it, without caustics");
     const double ratio = dispersion_ratio(m.eta);
-    std::string dispersion;
-    if (std::abs(ratio - 1) > 1e-4) {
-      approximated("dispersion: POV-Ray's seven colours between n(700 nm) and n(400 nm)");
-      dispersion = fmt::format(" dispersion {} dispersion_samples 7", ratio);
-    }
+    const bool disperses = std::abs(ratio - 1) > 1e-4;
+    if (disperses) approximated("dispersion: POV-Ray's seven colours between n(700 nm) and n(400 nm)");
+    const auto interior = [&](double n, double n_ratio) {
+      return fmt::format("interior {{ ior {}{} }}\n", n,
+                         disperses ? fmt::format(" dispersion {} dispersion_samples 7", n_ratio) : "");
+    };
     const std::string finish =
         fmt::format("diffuse 0 reflection {{ rgb 0, {} fresnel on }} conserve_energy{}", color(reflected),
                     highlight(alpha, 0.04, false));
@@ -153,8 +154,8 @@ class Builder {
       approximated("texture of the transmitted light: clear");
       filter = "rgb 1 filter 1";
     }
-    return {layer(filter, finish, rough_normal(alpha)), "",
-            fmt::format("interior {{ ior {}{} }}\n", eta, dispersion)};
+    return {layer(filter, finish, rough_normal(alpha)), "", interior(eta, ratio),
+            interior(1 / eta, 1 / ratio)};
   }
 
   Surface surface_of(const ThinDielectricMaterial& m) {

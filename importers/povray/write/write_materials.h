@@ -12,10 +12,11 @@ struct Surface {
   std::string texture;  // one or more layers: texture { … } texture { … }
   std::string back;     // of the inside, where it differs
   std::string interior;
+  std::string turned;  // the interior of shapes whose front is inside: there the index is 1/n
 };
 
 // What the names stand for that other materials, meshes and emitters use: `Material_3`, and where there is
-// such a thing `Back_3` (the texture of the inside) and `Interior_3`.
+// such a thing `Back_3` (the texture of the inside), `Interior_3` and `Turned_3`.
 Surface surface_of(Context& context, Id<Material> material);
 
 // "texture { … }" of two textures (their names, or what stands in them) in the proportion of `amount`: 0 is
@@ -24,7 +25,8 @@ std::string weighted(Context& context, const FloatParameter& amount, const std::
                      const std::string& at_1, const Origin& user);
 
 // The texture and interior of a shape: "texture { Material_3 } interior { Interior_3 }".
-std::string use_of(Context& context, const Shape& shape, const Surface& surface);
+// `inside_out` is the shape, whose front is inside.
+std::string use_of(Context& context, const Shape& shape, const Surface& surface, bool inside_out);
 
 // The same for a shape that shines.
 std::string emitter_of(Context& context, const Shape& shape, const Surface& surface, const AreaLight& light);

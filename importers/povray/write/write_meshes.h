@@ -30,6 +30,9 @@ bool has_sweeps(const MeshText& text);
 // They are the hulls of balls along the curves. Returns whether all end round, as sweeps do.
 bool put_sweeps(const MeshText& text, TextSink& out);
 
+// Whether the surface is closed and its front looks inwards.
+bool is_inside_out(const MeshText& text);
+
 // False where no triangle has an area: POV-Ray refuses such a mesh.
 bool has_area(const MeshText& text);
 std::string mesh_text(const MeshText& text);

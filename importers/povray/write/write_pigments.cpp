@@ -68,12 +68,13 @@ Placement place(Context& context, const TextureMapping& mapping, const Origin& o
   std::string map_type = "map_type 0 ";
   if (const auto* m = std::get_if<SphericalMapping>(&mapping)) {
     t = inverse(m->texture_to_world);
-    // POV-Ray: around +y, from +x towards +z, the image's lower edge at −y. Ours: t = 0 at +z.
+    // POV-Ray: s = 0 at +x, s = 1/4 at +z, t = 0 at −y. image_of exchanges s and t.
     to_image.m = {{{1, 0, 0, 0}, {0, 0, -1, 0}, {0, 1, 0, 0}, {0, 0, 0, 1}}};
     map_type = "map_type 1 ";
   } else if (const auto* c = std::get_if<CylindricalMapping>(&mapping)) {
     t = inverse(c->texture_to_world);
-    to_image.m = {{{1, 0, 0, 0}, {0, 0, 1, 0}, {0, 1, 0, 0}, {0, 0, 0, 1}}};
+    // POV-Ray: t = y, and s as on its spheres. Ours: s = 0 at −x.
+    to_image.m = {{{-1, 0, 0, 0}, {0, 0, 1, 0}, {0, -1, 0, 0}, {0, 0, 0, 1}}};
     map_type = "map_type 2 ";
   } else {
     const auto& p = std::get<PlanarMapping>(mapping);

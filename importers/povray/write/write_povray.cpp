@@ -47,7 +47,8 @@ class Writer {
     });
     join_surroundings(context_, context_.exposed.lights, "POV-Ray", context_.images, context_.directory);
     std::string body = camera_text(context_);
-    for (const Light& light : context_.exposed.lights) body += light_text(context_, light);
+    for (const Light& light : context_.exposed.lights)
+      if (shows_reflection() || traits_of(light.model).surrounds) body += light_text(context_, light);
     body += materials();
     for (const Prototype& prototype : scene().prototypes) body += prototype_text(prototype);
     for (const Shape& shape : scene().shapes) body += world_shape(shape);
@@ -61,6 +62,8 @@ class Writer {
 
  private:
   const Scene& scene() const { return context_.scene; }
+  // At depth 0 emission alone is seen: no source of light may reach a surface.
+  bool shows_reflection() const { return scene().settings.max_depth > 0; }
 
   // OUT-images/000000.exr and so on.
   static std::function<std::filesystem::path()> images_beside(const std::filesystem::path& out) {
@@ -142,6 +145,7 @@ class Writer {
       text += fmt::format("#declare Material_{} = {}", i, surface.texture);
       if (!surface.back.empty()) text += fmt::format("#declare Back_{} = {}", i, surface.back);
       if (!surface.interior.empty()) text += fmt::format("#declare Interior_{} = {}", i, surface.interior);
+      if (!surface.turned.empty()) text += fmt::format("#declare Turned_{} = {}", i, surface.turned);
     }
     return text;
   }
@@ -169,7 +173,7 @@ class Writer {
     }
     AreaLight source = *light;
     if (!is_unseen) source.scale *= *share;
-    const std::string text = rectangle_light_text(context_, *rectangle, source);
+    const std::string text = shows_reflection() ? rectangle_light_text(context_, *rectangle, source) : "";
     // The source stands for the mesh: it must not be in its light's way, nor be counted a second time.
     return is_unseen ? text : text + shape_text(shape, mesh, "no_shadow no_radiosity ");
   }
@@ -199,7 +203,8 @@ class Writer {
     text += geometry;
     Shape shining = shape;
     if (is_gone(shape)) shining.opacity = 1.0f;  // of a light that nothing meets
-    text += light ? emitter_of(context_, shining, surface, *light) : use_of(context_, shape, surface);
+    text += light ? emitter_of(context_, shining, surface, *light)
+                  : use_of(context_, shape, surface, !surface.turned.empty() && is_inside_out(mesh));
     return text + flags + "}\n";
   }
 

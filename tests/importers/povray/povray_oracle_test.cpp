@@ -7,53 +7,13 @@
 
 #include "scene/shapes/tessellate.h"
 #include "tests/importers/curve_records.h"
-#include "tests/importers/povray/povray_render.h"
+#include "tests/importers/povray/povray_oracle.h"
 #include "tests/support/png.h"
 
 namespace vitrail {
 namespace {
 
 using std::numbers::pi;
-
-class PovrayOracle : public testing::Test {
- protected:
-  void SetUp() override {
-    if (!has_povray()) GTEST_SKIP() << "povray is not installed: nothing was rendered";
-  }
-
-  // `expected(x, y)` is the radiance at a point of the plane z = 0, in one channel or three.
-  template <class Expected>
-  void expect_plane(const Scene& scene, Expected&& expected, double tolerance = 0.005) {
-    const PovPicture picture = render_povray(scene, folder_);
-    ASSERT_FALSE(picture.values.empty());
-    for (const int x : {2, 9, 16, 24, 30})
-      for (const int y : {1, 12, 17, 29}) {
-        const std::array<double, 3> seen = picture.at(x, y), wanted = expected(plane_x(x), plane_y(y));
-        for (std::size_t c = 0; c < 3; ++c)
-          EXPECT_NEAR(seen[c], wanted[c], tolerance * wanted[c] + 2e-5) << x << ' ' << y << ' ' << c;
-      }
-  }
-
-  // The colours at the middles of the four quarters: upper left, upper right, lower left, lower right.
-  std::vector<std::array<double, 3>> quarters(const Scene& scene) {
-    const PovPicture picture = render_povray(scene, folder_);
-    if (picture.values.empty()) return {};
-    const int w = picture.width, h = picture.height;
-    return {picture.at(w / 4, h / 4), picture.at(3 * w / 4, h / 4), picture.at(w / 4, 3 * h / 4),
-            picture.at(3 * w / 4, 3 * h / 4)};
-  }
-
-  TemporaryFolder folder_;
-};
-
-using Colors = std::vector<std::array<double, 3>>;
-const std::array<double, 3> black{0, 0, 0}, red{1, 0, 0}, green{0, 1, 0}, blue{0, 0, 1}, white{1, 1, 1};
-
-Scene plane(RGB reflectance = {.8, .5, .25}) {
-  Scene scene = empty_scene();
-  add(scene, square(-5, 5, -5, 5, 0), diffuse(reflectance));
-  return scene;
-}
 
 // ---- Radiometry ---------------------------------------------------------------------------------
 
@@ -590,23 +550,6 @@ TEST_F(PovrayOracle, EnvironmentsFaceTheRightWay) {
               << is_map << ' ' << view.x << ' ' << view.y << ' ' << view.z << ' ' << c;
       }
     }
-}
-
-// POV-Ray shows one background or sky sphere, the last.
-TEST_F(PovrayOracle, LightsFromAllAroundAreSummed) {
-  Scene scene = empty_scene();
-  scene.settings.max_depth = 0;
-  scene.lights.push_back({InfiniteLight{emission_from_rgb({.2, .4, .1})}});
-  scene.lights.push_back({InfiniteLight{emission_from_rgb({.3, .1, .5})}});
-  expect_plane(scene, [](double, double) -> std::array<double, 3> { return {.5, .5, .6}; });
-
-  folder_.write("dim.ppm", "P3\n2 1\n255\n 0 64 0  0 64 0\n");
-  EnvironmentLight image;
-  image.filename = (folder_ / "dim.ppm").string();
-  image.projection = EnvironmentLight::Projection::latitude_longitude;
-  const double level = std::pow((64 / 255.0 + .055) / 1.055, 2.4);
-  scene.lights.push_back({image});
-  expect_plane(scene, [&](double, double) -> std::array<double, 3> { return {.5, .5 + level, .6}; });
 }
 
 }  // namespace

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+// What POV-Ray means by words that sound alike: backgrounds, depths, gammas, maps, insides.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "tests/importers/povray/povray_oracle.h"
+#include "tests/support/png.h"
+
+namespace vitrail {
+namespace {
+
+using std::numbers::pi;
+
+class PovrayAppearance : public PovrayOracle {
+ protected:
+  // The plane z = 0 of that reflectance, in light of irradiance π.
+  Scene lit(const ImageTexture& reflectance) {
+    Scene scene = empty_scene();
+    scene.textures.push_back({reflectance});
+    add(scene, square(-5, 5, -5, 5, 0), DiffuseMaterial{Id<Texture>{0}});
+    scene.lights.push_back({DistantLight{{0, 0, -1}, emission_from_rgb({pi, pi, pi})}});
+    return scene;
+  }
+
+  // Red is s, green is t, in linear numbers.
+  ImageTexture ramp() {
+    constexpr std::uint32_t n = 128;
+    std::vector<std::uint8_t> bytes;
+    const auto put = [&](double value) {
+      const auto number = static_cast<unsigned>(value * 65535);
+      bytes.push_back(static_cast<std::uint8_t>(number >> 8));
+      bytes.push_back(static_cast<std::uint8_t>(number & 255));
+    };
+    for (std::uint32_t y = 0; y < n; ++y)
+      for (std::uint32_t x = 0; x < n; ++x) put((x + .5) / n), put(1 - (y + .5) / n), put(.5);
+    test::write_png(folder_ / "ramp.png", n, n, 3, bytes, 16);
+    ImageTexture image{(folder_ / "ramp.png").string()};
+    image.encoding = Encoding::linear;
+    return image;
+  }
+};
+
+// POV-Ray shows one background or sky sphere, the last.
+TEST_F(PovrayAppearance, LightsFromAllAroundAreSummed) {
+  Scene scene = empty_scene();
+  scene.settings.max_depth = 0;
+  scene.lights.push_back({InfiniteLight{emission_from_rgb({.2, .4, .1})}});
+  scene.lights.push_back({InfiniteLight{emission_from_rgb({.3, .1, .5})}});
+  expect_plane(scene, [](double, double) -> std::array<double, 3> { return {.5, .5, .6}; });
+
+  folder_.write("dim.ppm", "P3\n2 1\n255\n 0 64 0  0 64 0\n");
+  EnvironmentLight image;
+  image.filename = (folder_ / "dim.ppm").string();
+  image.projection = EnvironmentLight::Projection::latitude_longitude;
+  const double level = std::pow((64 / 255.0 + .055) / 1.055, 2.4);
+  scene.lights.push_back({image});
+  expect_plane(scene, [&](double, double) -> std::array<double, 3> { return {.5, .5 + level, .6}; });
+}
+
+TEST_F(PovrayAppearance, DepthZeroShowsEmissionAlone) {
+  Scene scene = plane();
+  scene.settings.max_depth = 0;
+  scene.lights.push_back({PointLight{{.5, -.25, 1.5}, emission_from_rgb({4, 3, 2})}});
+  add_emitter(scene, square(2.5f, 3.5f, -.5f, .5f, 1), {1, 1, 1}).flip_orientation = true;
+  expect_plane(scene, [](double, double) -> std::array<double, 3> { return {0, 0, 0}; });
+}
+
+TEST_F(PovrayAppearance, IntegersAreSrgbWhateverTheirBits) {
+  const std::vector<std::uint8_t> bytes{0xff, 0xff, 0x80, 0x80, 0x40, 0x40};
+  test::write_png(folder_ / "deep.png", 1, 1, 3, bytes, 16);
+  const auto decoded = [](int byte) { return std::pow((byte / 255.0 + .055) / 1.055, 2.4); };
+  expect_plane(lit(ImageTexture{(folder_ / "deep.png").string()}),
+               [&](double, double) -> std::array<double, 3> {
+                 return {1, decoded(0x80), decoded(0x40)};
+               });
+}
+
+const Transform placed = translate({.3, -4, -1.5}) * rotate(.4, {1, 2, 3}) * rotate(-pi / 2, {0, 0, 1});
+
+TEST_F(PovrayAppearance, SphericalMapping) {
+  ImageTexture image = ramp();
+  image.mapping = SphericalMapping{placed};
+  expect_plane(
+      lit(image),
+      [](double x, double y) -> std::array<double, 3> {
+        const Point3d q = transform_point(inverse(placed), {x, y, 0});
+        const double turn = std::atan2(q.y, q.x) / (2 * pi);
+        return {std::acos(q.z / length(q - Point3d{})) / pi, turn < 0 ? turn + 1 : turn, .5};
+      },
+      0.02);
+}
+
+TEST_F(PovrayAppearance, CylindricalMapping) {
+  // An axis below the plane: s is 0.68 … 0.90 there, t 0.27 … 0.70.
+  const Transform high =
+      translate({.3, -.2, -3}) * rotate(1.2, {1, .3, .2}) * translate({0, 0, -4}) * scale({1, 1, 10});
+  ImageTexture image = ramp();
+  image.mapping = CylindricalMapping{high};
+  expect_plane(
+      lit(image),
+      [&](double x, double y) -> std::array<double, 3> {
+        const Point3d q = transform_point(inverse(high), {x, y, 0});
+        return {.5 + std::atan2(q.y, q.x) / (2 * pi), q.z, .5};
+      },
+      0.02);
+}
+
+// A ball, or a box, of glass before stripes that shine.
+Scene before_stripes(bool box, bool inside_out, float eta) {
+  Scene scene = empty_scene();
+  scene.settings.max_depth = 8;
+  for (int i = -2; i < 3; ++i) {
+    const auto x = static_cast<float>(i);
+    add_emitter(scene, square(x, x + .5f, -9, 9, -3), {.2 + .1 * i + .1, .5, .7 - .1 * i});
+  }
+  TriangleMesh mesh;
+  if (box) {
+    mesh.positions = {{-1, -1, -1}, {1, -1, -1}, {-1, 1, -1}, {1, 1, -1},
+                      {-1, -1, 1},  {1, -1, 1},  {-1, 1, 1},  {1, 1, 1}};
+    mesh.triangles = {{0, 3, 1}, {0, 2, 3}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
+                      {2, 7, 3}, {2, 6, 7}, {0, 6, 2}, {0, 4, 6}, {1, 7, 5}, {1, 3, 7}};
+  } else {
+    mesh.quadric = Quadric{.kind = QuadricKind::sphere};
+  }
+  add(scene, mesh, DielectricMaterial{ConstantSpectrum{eta}}).flip_orientation = inside_out;
+  scene.shapes.back().object_to_world = rotate(.4, {1, 2, 0});
+  return scene;
+}
+
+// The front of a surface is outside of the glass: behind it, n and 1 change places.
+TEST_F(PovrayAppearance, GlassInsideOutHasTheInverseIndex) {
+  for (const bool box : {false, true}) {
+    const auto turned = render_povray(before_stripes(box, true, 1.5f), folder_).values;
+    const auto inverse = render_povray(before_stripes(box, false, 1 / 1.5f), folder_).values;
+    const auto plain = render_povray(before_stripes(box, false, 1.5f), folder_).values;
+    ASSERT_EQ(turned.size(), inverse.size());
+    ASSERT_EQ(turned.size(), plain.size());
+    double from_inverse = 0, from_plain = 0;
+    for (std::size_t i = 0; i < turned.size(); ++i) {
+      from_inverse += std::abs(turned[i] - inverse[i]);
+      from_plain += std::abs(turned[i] - plain[i]);
+    }
+    EXPECT_LT(from_inverse, 0.01 * from_plain) << box;
+  }
+}
+
+}  // namespace
+}  // namespace vitrail
