@@ -16,6 +16,7 @@
 #include "cli/convert/peer_check.h"
 #include "importers/export.h"
 #include "importers/import.h"
+#include "importers/reading/missing_files.h"
 #include "partitioner/meshes/edit_meshes.h"
 #include "scene/system/input_files.h"
 #include "scene/system/output_place.h"
@@ -101,6 +102,7 @@ int run(const Arguments& a) {
   note_input(a.input);
   require_outputs(a);
   ImportedScene imported = import_scene(a.input, MeshMemory{}, {}, import_options(a.imports));
+  require_images(imported.scene);
   note_referenced_files(imported.scene);
   require_outputs(a);  // other than all that was read
   Diagnostics& diagnostics = imported.diagnostics;

@@ -5,6 +5,8 @@
 
 #include <filesystem>
 #include <set>
+#include <utility>
+#include <vector>
 
 #include "scene/spectra/rgb_to_spectrum.h"
 
@@ -76,6 +78,28 @@ class Replacer {
 };
 
 }  // namespace
+
+void require_images(const Scene& scene) {
+  std::vector<std::pair<std::string, Origin>> missing;
+  const auto look_at = [&](const auto* model, const Origin& origin) {
+    if (model && is_missing(model->filename)) missing.emplace_back(model->filename, origin);
+  };
+  for (const Texture& texture : scene.textures)
+    look_at(std::get_if<ImageTexture>(&texture.model), texture.origin);
+  for (const Material& material : scene.materials)
+    look_at(std::get_if<TabulatedMaterial>(&material.model), material.origin);
+  for (const Light& light : scene.lights) {
+    look_at(std::get_if<EnvironmentLight>(&light.model), light.origin);
+    look_at(std::get_if<GoniometricLight>(&light.model), light.origin);
+  }
+  if (missing.empty()) return;
+  const auto& [file, origin] = missing.front();
+  std::string message = fmt::format("cannot find the file \"{}\"", file);
+  for (std::size_t i = 1; i < missing.size(); ++i)
+    message +=
+        fmt::format(", nor \"{}\" of {}", missing[i].first, to_string(location(scene, missing[i].second)));
+  throw Error(message + how_to_replace_missing, location(scene, origin));
+}
 
 void replace_missing_images(ImportedScene& imported) {
   Replacer replacer(imported);

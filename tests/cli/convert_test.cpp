@@ -53,6 +53,29 @@ TEST_F(Convert, SaysWhatBecameOfEachItem) {
   EXPECT_TRUE(found) << report.dump(1);
 }
 
+// One rule for all formats, and inspect's too.
+TEST_F(Convert, LostImagesAreRefused) {
+  const std::string in = write("in.pbrt",
+                               "WorldBegin\nLightSource \"infinite\"\n"
+                               "Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"lost.png\"\n"
+                               "Material \"diffuse\" \"texture reflectance\" \"t\"\n" +
+                                   triangle_);
+  const auto names_the_place = ::testing::AllOf(HasSubstr("in.pbrt:3:1: cannot find the file"),
+                                                HasSubstr("lost.png"), HasSubstr("--missing=replace"));
+  for (const char* name : {"out.pbrt", "out.xml", "out.pov", "out.obj"}) {
+    const auto refused = convert(in + " " + path(name));
+    EXPECT_EQ(refused.status, 3) << name;
+    EXPECT_THAT(refused.output, names_the_place);
+    EXPECT_FALSE(std::filesystem::exists(path(name)));
+    const auto replaced = convert(in + " " + path(name) + " --missing=replace");
+    EXPECT_EQ(replaced.status, 0) << replaced.output;
+    EXPECT_THAT(replaced.output, HasSubstr("grey 0.5 stands for it"));
+  }
+  const auto inspected = test::run(test::vitrail("inspect") + " " + in);
+  EXPECT_EQ(inspected.status, 3);
+  EXPECT_THAT(inspected.output, names_the_place);
+}
+
 TEST_F(Convert, RecordsOfOnePlaceAreTwoItems) {
   write("in.mtl", "newmtl wood\nKd 1 1 1\nKs 1 1 1\nillum 2\nmap_Kd -t 1 1 1 wood.png\n");
   write("wood.png", "");

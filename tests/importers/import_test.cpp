@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "importers/reading/default_view.h"
+#include "importers/reading/missing_files.h"
 #include "scene/spectra/color.h"
 #include "scene/spectra/spectrum.h"
 #include "tests/importers/pbrt/pbrt_text.h"
@@ -106,6 +107,27 @@ TEST(ImportScene, AddsNoSkyWhereSomethingShines) {
       read_pbrt(folder.write("part.pbrt", "AreaLightSource \"diffuse\" " + triangle));
   EXPECT_TRUE(imported.scene.lights.empty());
   EXPECT_FALSE(mentions(imported.diagnostics, "no light"));
+}
+
+TEST(ImportScene, NamesAllLostImages) {
+  const TemporaryFolder folder;
+  const auto file =
+      folder.write("scene.pbrt",
+                   "Camera \"perspective\" Film \"rgb\" WorldBegin LightSource \"infinite\" \"string "
+                   "filename\" \"sky.exr\"\n"
+                   "Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"wood.png\" "
+                   "Material \"diffuse\" \"texture reflectance\" \"t\" Shape \"sphere\"");
+  try {
+    require_images(import_scene(file).scene);
+    ADD_FAILURE() << "it has lost images";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.location.line, 2);
+    const std::string what = error.what();
+    for (const char* part : {"wood.png\", nor", "sky.exr\" of ", "scene.pbrt:1:", "; --missing=replace"})
+      EXPECT_NE(what.find(part), std::string::npos) << what;
+  }
+  EXPECT_NO_THROW(require_images(
+      import_scene(file, MeshMemory{}, {}, {.definitions = {}, .replace_missing = true}).scene));
 }
 
 // A scene with lost files can be seen where the user asks for it, and is refused with a hint where not.
