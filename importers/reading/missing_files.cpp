@@ -94,7 +94,10 @@ void require_images(const Scene& scene) {
   }
   if (missing.empty()) return;
   const auto& [file, origin] = missing.front();
-  std::string message = fmt::format("cannot find the file \"{}\"", file);
+  std::error_code ignored;
+  std::string message = std::filesystem::exists(file, ignored)
+                            ? fmt::format("\"{}\" is not a file", file)
+                            : fmt::format("cannot find the file \"{}\"", file);
   for (std::size_t i = 1; i < missing.size(); ++i)
     message +=
         fmt::format(", nor \"{}\" of {}", missing[i].first, to_string(location(scene, missing[i].second)));

@@ -11,7 +11,7 @@ namespace vitrail {
 inline constexpr const char* how_to_replace_missing = "; --missing=replace goes on without it";
 
 // Throws Error, with the place of the first and the names and places of the others in its message, where an
-// image or table of the scene is not there: those that replace_missing_images replaces.
+// image or table of the scene is not there or no file: those that replace_missing_images replaces.
 void require_images(const Scene& scene);
 
 // Textures whose image is not there become 0.5, normal maps nothing, materials by a table diffuse, lights
