@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <unordered_map>
 
 #include "importers/obj/write/write_mtl.h"
 #include "importers/writing/flat_shapes.h"
@@ -35,7 +36,6 @@ void put_vertices(const TriangleMesh& mesh, const Transform& to_world, TextSink&
       out.put(FMT_COMPILE("v {} {} {}\n"), q.x, q.y, q.z);
     }
   }
-  for (const Point2f& uv : mesh.uvs) out.put(FMT_COMPILE("vt {} {}\n"), uv.x, uv.y);
   const bool is_still = is_translation(to_world);
   for (const Normal3f& n : mesh.normals) {
     const Normal3f moved =
@@ -45,7 +45,7 @@ void put_vertices(const TriangleMesh& mesh, const Transform& to_world, TextSink&
   }
 }
 
-// Corners v/vt/vn whose three indices agree but for where the mesh starts.
+// Corners v/vt/vn whose three indices agree but for where the mesh's positions, (u,v) and normals start.
 void put_faces(const TriangleMesh& mesh, bool flip, const Counts& before, TextSink& out) {
   const std::uint64_t v = before.positions + 1, t = before.uvs + 1, n = before.normals + 1;
   for (const auto& triangle : mesh.triangles) {
@@ -79,6 +79,7 @@ void put_geometry(const Scene& scene, const std::vector<FlatShape>& shapes, cons
                   TextSink& out) {
   const std::vector<bool> uvs_show = meshes_whose_uvs_show(scene);
   Counts counts;
+  std::unordered_map<std::uint32_t, std::uint64_t> first_uvs;  // of meshes: instances share them
   std::string material;
   for (std::size_t i = 0; i < shapes.size(); ++i) {
     const Shape& shape = shapes[i].shape;
@@ -89,12 +90,15 @@ void put_geometry(const Scene& scene, const std::vector<FlatShape>& shapes, cons
     const TriangleMesh& mesh = lacking ? apart : shared;
     out.put(FMT_COMPILE("o {}\n"), object_name(shape, i));
     put_vertices(mesh, shapes[i].object_to_world, out);
+    const auto [first_uv, is_new] = first_uvs.emplace(shape.mesh.value, counts.uvs);
+    if (is_new)
+      for (const Point2f& uv : mesh.uvs) out.put(FMT_COMPILE("vt {} {}\n"), uv.x, uv.y);
     const std::string& name = names.at(surface_key(shape));
     if (name != material) out.put(FMT_COMPILE("usemtl {}\n"), name);
     material = name;
-    put_faces(mesh, shapes[i].flip, counts, out);
+    put_faces(mesh, shapes[i].flip, {counts.positions, first_uv->second, counts.normals}, out);
     counts.positions += mesh.positions.size();
-    counts.uvs += mesh.uvs.size();
+    if (is_new) counts.uvs += mesh.uvs.size();
     counts.normals += mesh.normals.size();
   }
 }

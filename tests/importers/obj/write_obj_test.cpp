@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include <cstdlib>
+#include <fstream>
 
 #include "importers/obj/read/obj.h"
 #include "scene/shapes/deferred_mesh.h"
@@ -163,6 +164,26 @@ TEST_F(WriteObj, TransformsFlipsAndInstances) {
   EXPECT_EQ(at(1), (Point3d{2, 0, 5}));
   EXPECT_EQ(at(2), (Point3d{0, -1, 5}));
   EXPECT_THAT(diagnostics_, says("1 instances"));
+}
+
+TEST_F(WriteObj, InstancesShareTheirUvs) {
+  Scene scene = triangle();
+  scene.meshes[0].uvs = {{0, 0}, {.25f, 0}, {0, .75f}};
+  scene.shapes.push_back(scene.shapes[0]);
+  scene.prototypes.push_back({"p", {scene.shapes[0]}});
+  for (const double z : {1.0, 2.0}) scene.instances.push_back({{0}, translate({0, 0, z})});
+  const Scene again = written(scene);
+  std::ifstream file(folder_ / "out.obj");
+  int lines = 0;
+  for (std::string line; std::getline(file, line);) lines += line.starts_with("vt ");
+  EXPECT_EQ(lines, 3);
+  std::size_t triangles = 0;
+  for (const TriangleMesh& mesh : again.meshes)
+    for (const auto& t : mesh.triangles) {
+      ++triangles;
+      for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(mesh.uvs.at(t[k]), scene.meshes[0].uvs[k]);
+    }
+  EXPECT_EQ(triangles, 4u);
 }
 
 TEST_F(WriteObj, QuadricsAreWrittenAsTriangles) {
