@@ -304,7 +304,9 @@ TEST_F(OnePictureOfSamples, WaysDoNotMix) {
     // A film is not gone on with in another way.
     CommandResult result = render("usual.film", 1, way);
     EXPECT_EQ(result.status, 3) << way;
-    EXPECT_THAT(result.output, testing::HasSubstr("or sampled in different ways")) << way;
+    EXPECT_THAT(result.output,
+                testing::HasSubstr(std::string("way to sample: as usual, asked for is ") + way))
+        << way;
     ASSERT_EQ(render("other.film", 1, std::string("--force --seed 1 ") + way).status, 0);
     result = run(fmt::format("{} '{}' '{}' -o '{}'", vitrail("develop"), path("usual.film"),
                              path("other.film"), path("both.exr")));
