@@ -6,6 +6,7 @@
 #include <random>
 
 #include "images/image_files.h"
+#include "importers/mitsuba/read/mitsuba.h"
 #include "importers/mitsuba/write/write_mitsuba.h"
 #include "scene/spectra/flat_emission.h"
 #include "scene/spectra/rgb_to_spectrum.h"
@@ -180,9 +181,14 @@ TEST_F(MitsubaEmitters, ProjectorsFieldOfView) {
 }
 
 TEST_F(MitsubaEmitters, ReflectNothingWithoutABsdf) {
-  read_text("<shape type='rectangle'><emitter type='area'/></shape><shape type='rectangle'/>");
+  const Scene scene =
+      read_mitsuba(
+          folder_.write("lamp.xml",
+                        "<scene version='3.0.0'><shape type='rectangle'><emitter type='area'/></shape>"
+                        "<shape type='rectangle'/></scene>"))
+          .scene;
   const auto reflectance = [&](std::size_t shape) {
-    return std::get<DiffuseMaterial>(scene_.materials.at(scene_.shapes.at(shape).material.value).model)
+    return std::get<DiffuseMaterial>(scene.materials.at(scene.shapes.at(shape).material.value).model)
         .reflectance;
   };
   EXPECT_EQ(reflectance(0), SpectrumParameter{Spectrum{ConstantSpectrum{0}}});
