@@ -58,7 +58,7 @@ std::string in_words(const Json& report) {
       fmt::format("{} items exact, {} approximated, {} dropped", report.at("exact").get<int>(),
                   report.at("approximated").get<int>(), report.at("dropped").get<int>());
   if (report.contains("pictures")) words += "; " + pictures_in_words(report.at("pictures"));
-  if (report.contains("peer")) words += "; " + peer_in_words(report.at("peer"));
+  if (report.contains("peer")) words += "; " + peer_in_words(report.at("peer"), "; ");
   return words;
 }
 

@@ -148,7 +148,7 @@ Json check_in_peer(const PeerCheck& check, const FilmSettings& film) {
   return found;
 }
 
-std::string peer_in_words(const Json& peer) {
+std::string peer_in_words(const Json& peer, const char* between) {
   const std::string name = peer.at("name");
   if (peer.contains("missing"))
     return fmt::format("not looked at in {}: {}", name, peer.at("missing").get<std::string>());
@@ -156,7 +156,7 @@ std::string peer_in_words(const Json& peer) {
   for (const Json& v : peer.at("variants")) {
     const std::string variant = v.at("variant");
     words +=
-        (words.empty() ? "" : "\n") + variant_in_words(variant == "any" ? name : name + " " + variant, v);
+        (words.empty() ? "" : between) + variant_in_words(variant == "any" ? name : name + " " + variant, v);
   }
   return words;
 }

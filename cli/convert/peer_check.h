@@ -28,7 +28,7 @@ struct PeerCheck {
 // `program` was named and is not there.
 nlohmann::ordered_json check_in_peer(const PeerCheck& check, const FilmSettings& film);
 
-// A line for each variant.
-std::string peer_in_words(const nlohmann::ordered_json& peer);
+// A line for each variant, or what is between them.
+std::string peer_in_words(const nlohmann::ordered_json& peer, const char* between = "\n");
 
 }  // namespace vitrail
