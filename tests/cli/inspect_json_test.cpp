@@ -66,7 +66,7 @@ class InspectJson : public PartitionedBox {
   InspectJson() : PartitionedBox(2) {}
   const std::string scene_ = VITRAIL_SOURCE_DIR "/examples/cornell-box/cornell-box.pbrt";
   nlohmann::json json(const std::string& file) const {
-    const CommandResult done = run(fmt::format("{} '{}' --json", vitrail("inspect"), file));
+    const CommandResult done = run(fmt::format("{} '{}' --json --missing=replace", vitrail("inspect"), file));
     EXPECT_EQ(done.status, 0) << done.output;
     return nlohmann::json::parse(done.output);
   }
