@@ -70,10 +70,11 @@ std::string last_words(const std::string& text) {
 std::string picture_of_input(const PeerCheck& check, const FilmSettings& film,
                              const TemporaryFolder& folder) {
   const std::string exact = folder.file("before.film"), picture = folder.file("before.exr");
-  const double scale = 8 / std::sqrt(static_cast<double>(film.width) * film.height);
+  const Extent size = small(film);
   std::vector<std::string> words = check.options;
-  words.insert(words.end(), {check.in.string(), "-o", exact, "--spp", "1024", "--scale",
-                             fmt::format("{}", std::min(scale, 1.0)), "--aov", "none", "--quiet"});
+  words.insert(words.end(), {check.in.string(), "-o", exact, "--spp", "1024", "--width",
+                             std::to_string(size.width), "--height", std::to_string(size.height), "--crop",
+                             fmt::format("0,{},0,{}", size.width, size.height), "--aov", "none", "--quiet"});
   run_program("vitrail-render", words);
   run_program("vitrail-develop", {exact, "-o", picture, "--quiet"});
   return picture;

@@ -2,6 +2,11 @@
 #include "importers/mitsuba/write/write_images.h"
 
 #include <algorithm>
+#include <array>
+#include <cctype>
+#include <fstream>
+
+#include "scene/system/input_files.h"
 
 namespace vitrail::mitsuba_writer {
 
@@ -18,7 +23,39 @@ ImageTexture taken_by_mitsuba(const ImageTexture& texture, bool raw) {
   return taken;
 }
 
+// Byte 1 of a Targa file says whether it has a palette.
+bool has_palette(const std::string& filename) {
+  std::ifstream file = open_input(filename);
+  file.seekg(1);
+  return file.get() == 1;
+}
+
+// Of a JPEG file, by its frame header (T.81, B.2.2); 0 where there is none.
+int jpeg_components(const std::string& filename) {
+  std::ifstream file = open_input(filename);
+  std::array<unsigned char, 4> segment{};  // its marker and length
+  file.seekg(2);
+  while (file.read(reinterpret_cast<char*>(segment.data()), segment.size()) && segment[0] == 0xff) {
+    const int marker = segment[1], length = segment[2] << 8 | segment[3];
+    const bool is_frame =
+        marker >= 0xc0 && marker <= 0xcf && marker != 0xc4 && marker != 0xc8 && marker != 0xcc;
+    file.seekg(is_frame ? 5 : length - 2, std::ios::cur);
+    if (is_frame) return std::max(0, file.get());
+  }
+  return 0;
+}
+
 }  // namespace
+
+bool is_read_by_mitsuba(const std::string& filename) {
+  constexpr std::array kinds{".exr",  ".png", ".jpg", ".jpeg", ".hdr",
+                             ".rgbe", ".pfm", ".ppm", ".bmp",  ".tga"};
+  std::string suffix = std::filesystem::path(filename).extension().string();
+  for (char& c : suffix) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  if (std::ranges::find(kinds, suffix) == kinds.end()) return false;
+  if (suffix == ".tga") return !has_palette(filename);
+  return !suffix.starts_with(".jp") || jpeg_components(filename) != 4;
+}
 
 MitsubaImage image_for_mitsuba(Context& context, const ImageTexture& texture, bool is_float,
                                bool is_normal_map, RGB tint) {
@@ -36,15 +73,17 @@ MitsubaImage image_for_mitsuba(Context& context, const ImageTexture& texture, bo
       const ImageLayout layout = read_image_layout(texture.filename);
       if (layout.channels >= 3) raw = !layout.integer, refused = layout.integer;
     }
-    if (!refused && tint == RGB{1, 1, 1} && have_same_values(texture, taken_by_mitsuba(texture, raw), use))
+    const bool unread = !is_read_by_mitsuba(texture.filename);
+    if (!refused && !unread && tint == RGB{1, 1, 1} &&
+        have_same_values(texture, taken_by_mitsuba(texture, raw), use))
       return {own, raw};
     const std::filesystem::path file = context.images.write(texture, use, {tint, {}, false});
     const std::string name = context.relative(std::filesystem::absolute(file).string());
-    context.approximated(
-        refused ? fmt::format("Mitsuba's spectral variants take no number from three "
-                              "channels: the values are written as {}",
-                              name)
-                : fmt::format("Mitsuba takes other values from its image: they are written as {}", name));
+    const char* const why = unread ? "Mitsuba does not read this kind of image: its values"
+                            : refused
+                                ? "Mitsuba's spectral variants take no number from three channels: the values"
+                                : "Mitsuba takes other values from its image: they";
+    context.approximated(fmt::format("{} are written as {}", why, name));
     return {name, is_float};
   } catch (const Error& error) {
     context.approximated(fmt::format("{}: referred to as it is", error.what()));

@@ -26,4 +26,8 @@ std::optional<MitsubaImage> image_for_mitsuba(Context& context, const ImagePair&
 // The mean of the texture's values; grey ½ where the file cannot be read.
 RGB mean_color(const ImageTexture& texture);
 
+// By the kind of file, as Mitsuba 3.9.1's bitmaps: no .gif, .tif or .webp, no JPEG of four channels, no Targa
+// with a palette. Throws Error where the file cannot be opened.
+bool is_read_by_mitsuba(const std::string& filename);
+
 }  // namespace vitrail::mitsuba_writer

@@ -9,6 +9,7 @@
 #include "images/image_files.h"
 #include "importers/images/environment_images.h"
 #include "importers/images/joined_surroundings.h"
+#include "importers/mitsuba/write/write_images.h"
 #include "importers/writing/export_colors.h"
 #include "importers/writing/spot_falloff.h"
 #include "scene/spectra/flat_emission.h"
@@ -180,7 +181,8 @@ WrittenEnvironment environment(Context& context, const EnvironmentLight& light) 
   const ImageTexture texture = image_of(light);
   ImageTexture taken;
   taken.filename = light.filename;
-  const bool decoded_alike = have_same_values(texture, taken, ImageUse::light);
+  const bool decoded_alike =
+      is_read_by_mitsuba(light.filename) && have_same_values(texture, taken, ImageUse::light);
   const bool as_is = light.projection == latitude_longitude && is_grey(color) && decoded_alike;
   if (as_is && !light.illuminance) return {context.relative(light.filename), color.r};
   Image image = texture_values(texture, read_stored_image(light.filename), ImageUse::light);

@@ -2,11 +2,14 @@
 // What Mitsuba takes from an image is what the Scene says.
 #include <gmock/gmock.h>
 
+#include <fstream>
+
 #include <cmath>
 #include <numbers>
 
 #include "images/texture_values.h"
 #include "importers/mitsuba/read/mitsuba.h"
+#include "importers/mitsuba/write/write_images.h"
 #include "importers/mitsuba/write/write_mitsuba.h"
 #include "tests/importers/temporary_folder.h"
 #include "tests/importers/written_scenes.h"
@@ -121,6 +124,25 @@ TEST_F(MitsubaImages, ATintedImageKeepsItsImage) {
   ASSERT_EQ(tinted.size(), plain.size());
   constexpr std::array tint{.5f, 1.0f, .25f};
   for (std::size_t i = 0; i < tinted.size(); ++i) EXPECT_NEAR(tinted[i], plain[i] * tint[i % 3], 1e-6) << i;
+}
+
+// By Mitsuba 3.9.1's bitmaps.
+TEST_F(MitsubaImages, KindsThatMitsubaReads) {
+  for (const char* name : {"a.png", "a.PNG", "a.exr", "a.hdr", "a.bmp"})
+    EXPECT_TRUE(mitsuba_writer::is_read_by_mitsuba(name)) << name;
+  for (const char* name : {"a.gif", "a.tif", "a.webp", "a"})
+    EXPECT_FALSE(mitsuba_writer::is_read_by_mitsuba(name)) << name;
+  std::ofstream(folder_ / "plain.tga") << std::string{0, 0, 2};
+  std::ofstream(folder_ / "palette.tga") << std::string{0, 1, 1};
+  for (const char components : {1, 3, 4}) {
+    // A comment of two bytes, then the frame: 8 bits, 1 × 1.
+    const std::string jpeg = "\xff\xd8\xff\xfe" + std::string{0, 4, 'h', 'i'} + "\xff\xc0" +
+                             std::string{0, 8, 8, 0, 1, 0, 1, components};
+    std::ofstream(folder_ / "a.jpg", std::ios::binary) << jpeg;
+    EXPECT_EQ(mitsuba_writer::is_read_by_mitsuba((folder_ / "a.jpg").string()), components < 4);
+  }
+  EXPECT_TRUE(mitsuba_writer::is_read_by_mitsuba((folder_ / "plain.tga").string()));
+  EXPECT_FALSE(mitsuba_writer::is_read_by_mitsuba((folder_ / "palette.tga").string()));
 }
 
 TEST_F(MitsubaImages, AProductOfTwoIsOne) {
