@@ -110,13 +110,17 @@ Json in_program(const std::vector<std::string>& words, const TemporaryFolder& fo
   return {{"variants", {variant}}};
 }
 
+// Programs go on to print all that they were given.
+std::string first_line(const Json& v, const char* key) {
+  const std::string text = v.at(key);
+  return text.substr(0, text.find('\n'));
+}
+
 std::string variant_in_words(const std::string& name, const Json& v) {
-  if (!v.at("loads").get<bool>())
-    return fmt::format("{} refuses it: {}", name, v.at("said").get<std::string>());
-  if (v.contains("said")) return fmt::format("{} ruins it: {}", name, v.at("said").get<std::string>());
+  if (!v.at("loads").get<bool>()) return fmt::format("{} refuses it: {}", name, first_line(v, "said"));
+  if (v.contains("said")) return fmt::format("{} ruins it: {}", name, first_line(v, "said"));
   if (v.contains("not_compared"))
-    return fmt::format("{} renders it; it refuses the input: {}", name,
-                       v.at("not_compared").get<std::string>());
+    return fmt::format("{} renders it; it refuses the input: {}", name, first_line(v, "not_compared"));
   if (!v.contains("luminance_ratio")) return fmt::format("{} renders it", name);
   return fmt::format(
       "{} shows it {} {} shows the input: luminance {:+.2f} %, a pixel of 64 by up to {:.1f} %", name,

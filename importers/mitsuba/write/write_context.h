@@ -64,7 +64,8 @@ struct Context : ConversionNotes {
   MeshFiles meshes;
   SideFiles side_files;
   TextureRoles roles;
-  std::vector<bool> sided;  // with_sides
+  std::vector<bool> sided;               // with_sides
+  std::vector<bool> turned_both_ways{};  // of materials: shapes of it face both ways
   std::vector<MaterialTraits> traits;
   std::vector<mitsuba::MaterialParts> parts;
   std::vector<bool> uvs_show;  // of each mesh

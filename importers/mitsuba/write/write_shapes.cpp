@@ -46,7 +46,11 @@ Element add_mesh(Context& context, Element parent, const Shape& shape, const Mes
   add_string(element, "filename", file.filename);
   add_transform(element, shape.object_to_world);
   add_boolean(element, "face_normals", mesh.normals.empty() && !mesh.quadric);
-  add_boolean(element, "flip_normals", file.flip_normals);
+  // Mitsuba joins meshes of one bsdf, and refuses those of which some are turned and some are not: where
+  // nobody sees the side, all are as they are.
+  const bool is_turned =
+      file.flip_normals && (sides_matter(context, shape) || !context.turned_both_ways[shape.material.value]);
+  add_boolean(element, "flip_normals", is_turned);
   add_reference(element, bsdf_of(context, shape), "bsdf");
   return element;
 }
@@ -206,8 +210,26 @@ void write_instance(Context& context, Element root, const Instance& instance, co
 
 }  // namespace
 
+namespace {
+
+// Of each material: whether shapes of it face both ways.
+std::vector<bool> turned_both_ways(const Scene& scene) {
+  std::vector<bool> turned(scene.materials.size()), plain(turned), both(turned);
+  const auto look_at = [&](const Shape& shape) {
+    const std::size_t material = shape.material.value;
+    (shape.flip_orientation ? turned : plain)[material] = true;
+    both[material] = turned[material] && plain[material];
+  };
+  std::ranges::for_each(scene.shapes, look_at);
+  for (const Prototype& prototype : scene.prototypes) std::ranges::for_each(prototype.shapes, look_at);
+  return both;
+}
+
+}  // namespace
+
 void write_shapes(Context& context, Element root) {
   const Scene& scene = context.scene;
+  context.turned_both_ways = turned_both_ways(scene);
   for (const Shape& shape : scene.shapes) write_mask(context, root, shape);
   for (const Prototype& prototype : scene.prototypes)
     for (const Shape& shape : prototype.shapes) write_mask(context, root, shape);

@@ -458,6 +458,22 @@ TEST_F(WriteMitsuba, CurvesThatMitsubaDoesNotHave) {
   EXPECT_EQ(written(bent, scene, "tubes of triangles"), "ply");
 }
 
+// Mitsuba joins meshes of one bsdf, and refuses those of which one is turned.
+TEST_F(WriteMitsuba, MeshesOfOneMaterialAreTurnedAlikeWhereNobodySeesIt) {
+  Material material;
+  for (const bool two_sided : {true, false}) {
+    material.two_sided = two_sided;
+    Scene scene = square_scene(material);
+    scene.shapes.push_back(scene.shapes[0]);
+    scene.shapes[1].flip_orientation = true;
+    const auto root = write(scene);
+    for (const auto shape : root.children("shape"))
+      if (two_sided) EXPECT_NE(value(shape, "flip_normals"), "true");
+    scene.shapes.erase(scene.shapes.begin());
+    EXPECT_EQ(value(write(scene).child("shape"), "flip_normals"), "true") << "alone";
+  }
+}
+
 // Mitsuba 3.9.1 refuses rough interfaces between equal indices, and has no brass.
 TEST_F(WriteMitsuba, WhatMitsubaRefusesIsWrittenOtherwise) {
   const Roughness rough{0.3f, 0.3f};
