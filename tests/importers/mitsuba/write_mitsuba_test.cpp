@@ -13,8 +13,8 @@
 #include "images/image_files.h"
 #include "importers/mitsuba/read/mitsuba.h"
 #include "importers/mitsuba/write/write_camera.h"
-#include "importers/mitsuba/write/write_spectra.h"
 #include "tests/importers/curve_records.h"
+#include "tests/importers/mitsuba/write_mitsuba_fixture.h"
 #include "tests/importers/temporary_folder.h"
 #include "tests/importers/written_scenes.h"
 
@@ -28,41 +28,6 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::SizeIs;
 using testing::StartsWith;
-
-class WriteMitsuba : public testing::Test {
- protected:
-  pugi::xml_node write(const Scene& scene) {
-    diagnostics_ = write_mitsuba(scene, folder_ / "scene.xml");
-    std::ifstream file(folder_ / "scene.xml");
-    text_.assign(std::istreambuf_iterator<char>(file), {});
-    EXPECT_TRUE(document_.load_string(text_.c_str()));
-    return document_.child("scene");
-  }
-  // The element of a material's model, inside of its adapters.
-  pugi::xml_node write_material(MaterialModel model, bool two_sided = false) {
-    Material material;
-    material.model = std::move(model);
-    material.two_sided = two_sided;
-    return write(square_scene(material)).child("bsdf");
-  }
-  static std::string value(pugi::xml_node element, const char* name) {
-    return element.find_child_by_attribute("name", name).attribute("value").value();
-  }
-  static std::string reference(pugi::xml_node element, const char* name) {
-    return element.find_child_by_attribute("ref", "name", name).attribute("id").value();
-  }
-  static auto says(Fidelity fidelity, const std::string& text) {
-    return Contains(
-        testing::AllOf(Field(&Diagnostic::fidelity, fidelity), Field(&Diagnostic::message, HasSubstr(text))));
-  }
-  static auto approximates(const std::string& text) { return says(Fidelity::approximated, text); }
-  static auto drops(const std::string& text) { return says(Fidelity::dropped, text); }
-
-  TemporaryFolder folder_;
-  pugi::xml_document document_;
-  std::string text_;
-  Diagnostics diagnostics_;
-};
 
 // ---- The file
 
@@ -456,66 +421,6 @@ TEST_F(WriteMitsuba, CurvesThatMitsubaDoesNotHave) {
   bent.flip_orientation = true;  // its front is inside
   scene.materials[0].two_sided = false;
   EXPECT_EQ(written(bent, scene, "tubes of triangles"), "ply");
-}
-
-// Mitsuba joins meshes of one bsdf, and refuses those of which one is turned.
-TEST_F(WriteMitsuba, MeshesOfOneMaterialAreTurnedAlikeWhereNobodySeesIt) {
-  Material material;
-  for (const bool two_sided : {true, false}) {
-    material.two_sided = two_sided;
-    Scene scene = square_scene(material);
-    scene.shapes.push_back(scene.shapes[0]);
-    scene.shapes[1].flip_orientation = true;
-    const auto root = write(scene);
-    for (const auto shape : root.children("shape"))
-      if (two_sided) EXPECT_NE(value(shape, "flip_normals"), "true");
-    scene.shapes.erase(scene.shapes.begin());
-    EXPECT_EQ(value(write(scene).child("shape"), "flip_normals"), "true") << "alone";
-  }
-}
-
-// Mitsuba 3.9.1 refuses rough interfaces between equal indices, and has no brass.
-TEST_F(WriteMitsuba, WhatMitsubaRefusesIsWrittenOtherwise) {
-  const Roughness rough{0.3f, 0.3f};
-  const auto bsdf = [&](MaterialModel model) {
-    Material material;
-    material.model = std::move(model);
-    auto written = write(square_scene(material)).child("bsdf");
-    return written.child("bsdf") ? written.child("bsdf") : written;
-  };
-  const auto type = [&](MaterialModel model) {
-    return std::string(bsdf(std::move(model)).attribute("type").value());
-  };
-  DielectricMaterial water{
-      .eta = ConstantSpectrum{1.33f}, .exterior_eta = ConstantSpectrum{1.33f}, .roughness = rough};
-  EXPECT_EQ(type(water), "thindielectric");
-  water.exterior_eta = ConstantSpectrum{1.0f};
-  EXPECT_EQ(type(water), "roughdielectric");
-  PlasticMaterial plastic{.eta = 1.2f, .exterior_eta = 1.2f, .roughness = rough};
-  EXPECT_EQ(type(plastic), "diffuse");
-  plastic.exterior_eta = 1;
-  EXPECT_EQ(type(plastic), "roughplastic");
-  for (const std::string metal : {"Cu", "CuZn"}) {
-    const ComplexIndex index{Spectrum{NamedSpectrum{"metal-" + metal + "-eta"}},
-                             Spectrum{NamedSpectrum{"metal-" + metal + "-k"}}};
-    EXPECT_EQ(value(bsdf(ConductorMaterial{.metal = index}), "material").empty(), metal == "CuZn") << metal;
-  }
-}
-
-// Mitsuba's rgb variants cut spectra at 1.
-TEST_F(WriteMitsuba, ExtinctionsAboveOneAreScaled) {
-  Scene scene = square_scene({});
-  Medium medium;
-  medium.coefficients =
-      ExtinctionAlbedo{Spectrum{mitsuba_writer::tabulated([](double lambda) { return lambda / 100; })}};
-  medium.scale = 3;
-  scene.media = {medium};
-  scene.shapes[0].exterior = Id<Medium>{0};
-  const auto written = write(scene).child("medium");
-  EXPECT_NEAR(std::stod(value(written, "scale")), 3 * 8.3, 1e-5);
-  const std::string values = value(written, "sigma_t");  // 360:0.4337…, … 830:1
-  EXPECT_NEAR(std::stod(values.substr(values.rfind(':') + 1)), 1, 1e-6);
-  EXPECT_NEAR(std::stod(values.substr(values.find(':') + 1)), 3.6 / 8.3, 1e-6);
 }
 
 TEST_F(WriteMitsuba, Media) {

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+// What Mitsuba 3.9.1 would refuse or cut is written otherwise.
+#include "importers/mitsuba/write/write_spectra.h"
+#include "tests/importers/mitsuba/write_mitsuba_fixture.h"
+
+namespace vitrail {
+namespace {
+
+class RefusedByMitsuba : public WriteMitsuba {};
+
+// Mitsuba joins meshes of one bsdf, and refuses those of which one is turned.
+TEST_F(RefusedByMitsuba, MeshesOfOneMaterialAreTurnedAlikeWhereNobodySeesIt) {
+  Material material;
+  for (const bool two_sided : {true, false}) {
+    material.two_sided = two_sided;
+    Scene scene = square_scene(material);
+    scene.shapes.push_back(scene.shapes[0]);
+    scene.shapes[1].flip_orientation = true;
+    const auto root = write(scene);
+    if (two_sided) {
+      for (const auto shape : root.children("shape")) EXPECT_NE(value(shape, "flip_normals"), "true");
+    }
+    scene.shapes.erase(scene.shapes.begin());
+    EXPECT_EQ(value(write(scene).child("shape"), "flip_normals"), "true") << "alone";
+  }
+}
+
+// Mitsuba 3.9.1 refuses rough interfaces between equal indices, and has no brass.
+TEST_F(RefusedByMitsuba, WhatMitsubaRefusesIsWrittenOtherwise) {
+  const Roughness rough{0.3f, 0.3f};
+  const auto bsdf = [&](MaterialModel model) {
+    Material material;
+    material.model = std::move(model);
+    auto written = write(square_scene(material)).child("bsdf");
+    return written.child("bsdf") ? written.child("bsdf") : written;
+  };
+  const auto type = [&](MaterialModel model) {
+    return std::string(bsdf(std::move(model)).attribute("type").value());
+  };
+  DielectricMaterial water{
+      .eta = ConstantSpectrum{1.33f}, .exterior_eta = ConstantSpectrum{1.33f}, .roughness = rough};
+  EXPECT_EQ(type(water), "thindielectric");
+  water.exterior_eta = ConstantSpectrum{1.0f};
+  EXPECT_EQ(type(water), "roughdielectric");
+  PlasticMaterial plastic{.eta = 1.2f, .exterior_eta = 1.2f, .roughness = rough};
+  EXPECT_EQ(type(plastic), "diffuse");
+  plastic.exterior_eta = 1;
+  EXPECT_EQ(type(plastic), "roughplastic");
+  for (const std::string metal : {"Cu", "CuZn"}) {
+    const ComplexIndex index{Spectrum{NamedSpectrum{"metal-" + metal + "-eta"}},
+                             Spectrum{NamedSpectrum{"metal-" + metal + "-k"}}};
+    EXPECT_EQ(value(bsdf(ConductorMaterial{.metal = index}), "material").empty(), metal == "CuZn") << metal;
+  }
+}
+
+// Mitsuba's rgb variants cut spectra at 1.
+TEST_F(RefusedByMitsuba, ExtinctionsAboveOneAreScaled) {
+  Scene scene = square_scene({});
+  Medium medium;
+  medium.coefficients =
+      ExtinctionAlbedo{Spectrum{mitsuba_writer::tabulated([](double lambda) { return lambda / 100; })}};
+  medium.scale = 3;
+  scene.media = {medium};
+  scene.shapes[0].exterior = Id<Medium>{0};
+  const auto written = write(scene).child("medium");
+  EXPECT_NEAR(std::stod(value(written, "scale")), 3 * 8.3, 1e-5);
+  const std::string values = value(written, "sigma_t");  // 360:0.4337…, … 830:1
+  EXPECT_NEAR(std::stod(values.substr(values.rfind(':') + 1)), 1, 1e-6);
+  EXPECT_NEAR(std::stod(values.substr(values.find(':') + 1)), 3.6 / 8.3, 1e-6);
+}
+
+// Mitsuba's rgb variants know no scale of a d65: said of lamps, which have none of their own.
+TEST_F(RefusedByMitsuba, ScalesOfLampsImages) {
+  Scene scene = square_scene({});
+  ImageTexture image;
+  image.filename = (folder_ / "none.png").string();
+  const Id<Texture> slide = add_to(scene.textures, Texture{image, false, "", {}});
+  for (const float scale : {1.0f, 2.5f}) {
+    scene.area_lights = {AreaLight{slide, scale, false, false, {}}};
+    scene.shapes[0].area_light = Id<AreaLight>{0};
+    write(scene);
+    const auto said = approximates("there it is 1/2.5 as bright");
+    if (scale == 1) {
+      EXPECT_THAT(diagnostics_, testing::Not(said));
+    } else {
+      EXPECT_THAT(diagnostics_, said);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace vitrail
