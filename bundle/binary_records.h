@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The binary records of a bundle: materials.bin (surfaces, materials, textures, media) and lights.bin (area
-// lights, the triangles that emit, other lights). See docs/bundle-format.md.
+// lights, the triangles that emit, other lights). See docs/reference/bundle-format.md.
 #pragma once
 
 #include <cstddef>

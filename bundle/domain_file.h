@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // One sub-domain on disk: an 8-wide BVH over clusters of at most 8 triangles, ready to be mapped and traced.
-// An object has a file of the same form. The byte layout is described in docs/bundle-format.md.
+// An object has a file of the same form. The byte layout is described in docs/reference/bundle-format.md.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The bytes of a domain file: header, section table, sections. See docs/bundle-format.md.
+// The bytes of a domain file: header, section table, sections. See docs/reference/bundle-format.md.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The glazing systems of a bundle that switch, so that render can set them: BUNDLE/glazing.json
-// (docs/bundle-format.md). A bundle without such glass has no such file.
+// (docs/reference/bundle-format.md). A bundle without such glass has no such file.
 #pragma once
 
 #include <cstdint>

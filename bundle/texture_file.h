@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A baked image: its MIP levels, each in tiles that are read one by one. The byte layout and its reasons are
-// in docs/textures.md.
+// in docs/why/textures.md.
 #pragma once
 
 #include <array>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The film file, little-endian: a header with the checksum of what comes before it, then six arrays, each
 // followed by its xxh3: FilmProgress's earlier_ends, about and done, the sums, the counts, the ids; and of a
-// film within an adaptive round a seventh, `more`. docs/color-and-film.md has the header byte by byte.
+// film within an adaptive round a seventh, `more`. docs/why/color-and-film.md has the header byte by byte.
 #include <fmt/format.h>
 
 #define XXH_INLINE_ALL

@@ -14,7 +14,7 @@ namespace vitrail {
 
 // Which wavelengths a spectrum is taken at before it is weighted.
 enum class Sampling {
-  full,       // all that the panes have; then as WinCalc's "full" (docs/glazing.md says where it differs)
+  full,       // all that the panes have; then as WinCalc's "full" (docs/why/glazing.md says where it differs)
   condensed,  // WinCalc's 17 for sun, light and colour
   standard,   // each method's own, as Optics and the IGSDB
 };

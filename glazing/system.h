@@ -43,7 +43,7 @@ bool set(GlazingSystem& system, Quantity quantity, double value);
 std::optional<double> value_of(const GlazingSystem& system, Quantity quantity);
 
 // What polarisation is to light between panes. WINDOW takes the mean of both at each pane; the exact series
-// keeps them apart, which matters beyond 45° or so (docs/glazing.md has the difference).
+// keeps them apart, which matters beyond 45° or so (docs/why/glazing.md has the difference).
 enum class Polarisation { mixed_at_panes, apart };
 
 // T, front and back reflectance of the whole by the sum over all reflections between its panes. Light stays

@@ -16,7 +16,7 @@ struct ReadSystem {
 
 // Panes from outside, each "FILE" or "FILE#NAME" of a product (glazing/product.h), with "#state=0.6" or
 // "#temperature=40" behind it where it switches (each at most once), or a system file, whose layers take its
-// place. A system file is JSON (docs/glazing.md):
+// place. A system file is JSON (docs/why/glazing.md):
 //   {"name": "…", "layers": [{"pane": "low-e.json", "flipped": true}, {"gap_mm": 12.7},
 //                            {"stack": [{"index": "glass.txt", "thickness_mm": 4},
 //                                       {"index": "silver.txt", "thickness_nm": 12}, …]}]}

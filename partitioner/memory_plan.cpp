@@ -30,7 +30,7 @@ constexpr double piece_bytes = 300;
 // a domain is made.
 constexpr double quadric_bytes = 170, quadric_held = 230, quadric_built = 400;
 
-// Bytes a triangle: measured, docs/partitioning.md.
+// Bytes a triangle: measured, docs/why/partitioning.md.
 struct Costs {
   double placed, built;
 };

@@ -31,7 +31,7 @@ struct MemoryNeeds {
   int threads = 1;
 };
 
-// In a file, with its share of the tree: measured, docs/partitioning.md.
+// In a file, with its share of the tree: measured, docs/why/partitioning.md.
 double bytes_of_a_triangle(const Manifest& manifest);
 
 // Of the budget, for triangles; less than 0 where nothing is.

@@ -17,6 +17,7 @@
 #include "cli/help/describe.h"
 #include "cli/help/help_text.h"
 #include "cli/help/man_page.h"
+#include "cli/help/markdown_page.h"
 #include "scene/system/diagnostics.h"
 #include "scene/system/input_files.h"
 #include "scene/system/say.h"
@@ -104,9 +105,11 @@ std::string first_input(const CLI::App& app) {
   return {};
 }
 
-// Of the hidden `--describe man|bash|zsh|fish`, which the build asks for; empty of another word.
+// Of the hidden `--describe man|markdown|bash|zsh|fish`, which the build and the documentation's test ask for;
+// empty of another word.
 std::string description(const CLI::App& app, const std::string& writer) {
   if (writer == "man") return man_page(describe(app), VITRAIL_VERSION);
+  if (writer == "markdown") return markdown_page(describe(app));
   const bool is_shell = std::ranges::find(completed_shells, writer) != completed_shells.end();
   return is_shell ? completion_of(writer, describe(app)) : "";
 }

@@ -70,7 +70,7 @@ ReadSystem read(const Arguments& a) {
     read.system.layers[pane - 1].flipped = !read.system.layers[pane - 1].flipped;
   }
   if (a.state && !set(read.system, Quantity::state, *a.state))
-    throw UsageError("--state: no pane has states; a system file says them (docs/glazing.md)");
+    throw UsageError("--state: no pane has states; a system file says them (docs/why/glazing.md)");
   if (a.temperature_c && !set(read.system, Quantity::temperature, *a.temperature_c))
     throw UsageError("--temperature: no pane is thermochromic or photochromic");
   return read;

@@ -60,7 +60,7 @@ int main(int argc, char** argv) {
                  "scene file, bundle (NAME.vit), sub-domain or object (.dom), texture (.tex) or film (.film)")
       ->required();
   declare_import_options(app, imports);
-  app.add_flag("--json", json, "print JSON, as docs/inspect.md lists it");
+  app.add_flag("--json", json, "print JSON, as docs/reference/inspect.md lists it");
   app.add_option("--memory", memory, "never have more resident, such as 2G; default: no limit");
   app.add_flag("--strict", strict, "exit with 3 where something of a scene is not read or rendered exactly");
   app.add_flag("--quiet", quiet, "say nothing but what is wrong; the exit status does");

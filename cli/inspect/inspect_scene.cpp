@@ -216,7 +216,7 @@ Report describe(const Manifest& m) {
 
 namespace {
 
-// About what its bundle would take: triangles with their hierarchy (docs/partitioning.md), and images.
+// About what its bundle would take: triangles with their hierarchy (docs/why/partitioning.md), and images.
 std::uint64_t bundle_bytes(const Manifest& m, const Scene& scene) {
   std::uint64_t bytes = (m.requirements.shading_normals ? 78 : 62) * m.triangles;
   for (const Report& t : describe_textures(scene))

@@ -68,7 +68,7 @@ void check_outputs(const RenderArguments& a) {
 AfterFilm developing(const RenderArguments& a) {
   const fs::path& picture = a.options.outputs.picture;
   if (picture.empty()) return {};
-  if (a.denoised) return {0.7, 1.2e-7};       // docs/denoising.md
+  if (a.denoised) return {0.7, 1.2e-7};       // docs/why/denoising.md
   return {is_png(picture) ? 0 : 0.19, 4e-9};  // the image library is loaded; the film read, converted, packed
 }
 

@@ -11,7 +11,7 @@ namespace vitrail {
 // where a picture that this suite did not make lies there (is_own_picture); not so with --force.
 void check_outputs(const RenderArguments& arguments);
 
-// What the picture takes once the film is written, measured on one core (docs/adaptive.md).
+// What the picture takes once the film is written, measured on one core (docs/why/adaptive.md).
 AfterFilm developing(const RenderArguments& arguments);
 
 // Once the film is written: the picture, unless a kept film was finished before and its picture is newer. A

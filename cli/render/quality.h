@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `render --quality`: what a picture is to be good for, as the options that get it there. docs/adaptive.md
+// `render --quality`: what a picture is to be good for, as the options that get it there. docs/why/adaptive.md
 // has the measurements that the numbers come from.
 #pragma once
 

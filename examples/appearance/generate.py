@@ -17,7 +17,7 @@ import mitsuba_scene
 import pbrt3_scene
 import pbrt_scene
 
-# A coated pane: what it reflects and lets through by wavelength and angle (docs/measured-glass.md).
+# A coated pane: what it reflects and lets through by wavelength and angle (docs/why/measured-glass.md).
 SHEET = [(400, 0.30, 0.42), (500, 0.14, 0.70), (600, 0.22, 0.62), (700, 0.46, 0.34)]
 
 

@@ -14,7 +14,7 @@ Clock::time_point limit_start(const RenderOptions& options, Clock::time_point tr
 
 double ending_time_s(const RenderOptions& options, std::uint64_t film_bytes, int ranks, double write_s,
                      double gather_s) {
-  // Measured, see docs/adaptive.md: sums are hashed, checked and freed; of another rank's they are added.
+  // Measured, see docs/why/adaptive.md: sums are hashed, checked and freed; of another rank's they are added.
   constexpr double own_s_per_byte = 1.5e-9, gather_s_per_byte = 2e-9;
   const auto bytes = static_cast<double>(film_bytes);
   const double gathering_s = gather_s > 0 ? gather_s : ranks > 1 ? gather_s_per_byte * bytes : 0;

@@ -172,7 +172,7 @@ void print_wedges(const RenderOptions& options, const TraceCounters& traced) {
   const double share =
       static_cast<double>(traced.connections_in_wedges) / static_cast<double>(traced.connections_in_glass);
   if (options.outputs.quiet || !(share > 0.01)) return;
-  say("vitrail: {:.3g} % of the sunlight behind glass is missing: faces of panes are up to {:.2g} rad off "
+  say("vitrail: {:.3g} % of the sunlight through solid glass is missing: its faces are up to {:.2g} rad off "
       "parallel; --integrator photon finds it\n",
       100 * share, 1e-9 * static_cast<double>(traced.widest_wedge_nrad));
 }

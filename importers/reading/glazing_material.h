@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A glazing system as the material of one surface (docs/glazing.md).
+// A glazing system as the material of one surface (docs/why/glazing.md).
 #pragma once
 
 #include <functional>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tables of measured glass: docs/measured-glass.md says what is in them.
+// Tables of measured glass: docs/why/measured-glass.md says what is in them.
 #pragma once
 
 #include <filesystem>

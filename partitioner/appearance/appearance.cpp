@@ -181,7 +181,7 @@ bool is_refracting(const std::vector<Material>& baked) {
   });
 }
 
-// Paths find the light of the sun behind panes alone (docs/one-picture.md).
+// Paths find the light of the sun behind panes alone (docs/why/one-picture.md).
 void report_wedges(const Scene& scene, Notes& report) {
   const WedgedPanes found = wedged_panes(scene);
   if (found.count > 0)

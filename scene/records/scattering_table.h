@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How a surface scatters light, by tables as their files have them (docs/scattering-tables.md).
+// How a surface scatters light, by tables as their files have them (docs/why/scattering-tables.md).
 #pragma once
 
 #include <array>

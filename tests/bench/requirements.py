@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """What it costs to have, store and send what a scene does not require: four small scenes, each partitioned as
-its requirements say and with --require-everything. Prints a table for docs/measurements.md. The two pictures differ
+its requirements say and with --require-everything. Prints a table for docs/why/measurements.md. The two pictures differ
 by noise alone: tangents follow (u, v) where a bundle has them, and samples turn with them. Instructions are those of
 valgrind's callgrind on the middle of the picture, one thread, all of the process but for what a render of one sample a
 pixel takes: other work on the machine does not show in them.

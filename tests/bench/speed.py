@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Vitrail against Mitsuba 3, Cycles and pbrt-v4, each at its best, and against its own intersector: writes docs/speed.md and its plots.
+"""Vitrail against Mitsuba 3, Cycles and pbrt-v4, each at its best, and against its own intersector: writes docs/why/speed.md and its plots.
 
   tests/bench/speed.py [--bin build/release/bin] [--bpy VENV/bin/python] [--pbrt PBRT] [--out docs] [--size 96] [--spp 4 16 64] [SCENE…]
   tests/bench/speed.py --quick         smaller, fewer samples; prints, and writes a page only with --out
@@ -172,13 +172,13 @@ def said(name, result, peers):
 
 
 def options_of_command():
-    parser = argparse.ArgumentParser(description="Compares the speed of Vitrail, Mitsuba 3, Cycles and pbrt-v4; writes docs/speed.md.")
+    parser = argparse.ArgumentParser(description="Compares the speed of Vitrail, Mitsuba 3, Cycles and pbrt-v4; writes docs/why/speed.md.")
     parser.add_argument("scenes", nargs="*", metavar="SCENE", help="; ".join(SCENES))
     parser.add_argument("--also", action="append", default=[], metavar="NAME=FILE", help="a scene of pbrt or Mitsuba from elsewhere")
     parser.add_argument("--bin", type=pathlib.Path, default=HERE.parents[1] / "build/release/bin")
     parser.add_argument("--bpy", type=pathlib.Path, metavar="PYTHON", help="a Python that has PyPI's bpy, for Cycles")
     parser.add_argument("--pbrt", type=pathlib.Path, help="the program of pbrt-v4")
-    parser.add_argument("--out", type=pathlib.Path, help="where speed.md goes; default: docs, and nowhere with --quick")
+    parser.add_argument("--out", type=pathlib.Path, help="the folder of why/speed.md and images/; default: docs, and nowhere with --quick")
     parser.add_argument("--keep", type=pathlib.Path, metavar="FILE", help="what was measured goes there, too")
     parser.add_argument("--kept", type=pathlib.Path, metavar="FILE", help="write the page of what --keep kept, and measure nothing")
     parser.add_argument("--quick", action="store_true", help="64 pixels, 4 and 16 samples, and nothing but the table")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What speed.py measured as docs/speed.md and two plots."""
+"""What speed.py measured as docs/why/speed.md and two plots."""
 import math
 
 COLOURS = {"vitrail": "#1b6f8a", "llvm_ad_spectral": "#d1762c", "scalar_spectral": "#8f8f8f", "cycles": "#5b8c3a", "pbrt": "#8a4f9e"}
@@ -26,7 +26,7 @@ sooner at the same error; below, the peer is**. Vitrail runs with its defaults.
 
 {missing}
 
-![ratios](images/speed-ratios.svg)
+![ratios](../images/speed-ratios.svg)
 
 What each took, Vitrail with its defaults and each peer at its best: nanoseconds a sample · noise. {marks}
 
@@ -34,7 +34,7 @@ What each took, Vitrail with its defaults and each peer at its best: nanoseconds
 
 Each panel is one scene: noise against nanoseconds a pixel, from {least} to {spp} samples a pixel.
 
-![noise against time](images/speed-noise.svg)
+![noise against time](../images/speed-noise.svg)
 
 ### What else one may choose
 
@@ -254,4 +254,5 @@ def write_page(options, found, seconds, version):
                        peers="\n".join(PEERS[p].format(version=version) for p in PEERS if p in options.peers),
                        details=details(found), marks="Marked: " + ", ".join(marks) + "." if marks else "",
                        verdict=verdict(found["ratios"]), missing=missing(options, found), minutes=math.ceil(seconds / 60), **own)
-    (folder / "speed.md").write_text(page)
+    (folder / "why").mkdir(exist_ok=True)
+    (folder / "why/speed.md").write_text(page)

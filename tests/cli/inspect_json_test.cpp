@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// docs/inspect.md lists each key of `inspect --json`, and its type.
+// docs/reference/inspect.md lists each key of `inspect --json`, and its type.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ using Types = std::map<std::string, std::string>;
 
 // By heading: rows of "| `key` `key` | type | what |".
 std::map<std::string, Types> documented() {
-  std::ifstream in(VITRAIL_SOURCE_DIR "/docs/inspect.md");
+  std::ifstream in(VITRAIL_SOURCE_DIR "/docs/reference/inspect.md");
   std::map<std::string, Types> sections;
   std::string heading;
   static const std::regex row(R"(\| ((?:`[^`]+` ?)+)\| ([a-z ]+) \|.*)"), key(R"(`([^`]+)`)");

@@ -51,7 +51,7 @@ class DenoisedBox : public ::testing::Test {
   TemporaryDirectory directory_;
 };
 
-// Measured: the error falls to a thirtieth (docs/denoising.md), and the mean of all light stays.
+// Measured: the error falls to a thirtieth (docs/why/denoising.md), and the mean of all light stays.
 TEST_F(DenoisedBox, HasItsLightAndLittleOfItsError) {
   ASSERT_EQ(render("box.film", 16, "--aov albedo,normal").status, 0);
   ASSERT_EQ(render("many.film", 512, "--seed 1").status, 0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The rows of docs/extremes.md: each is printed as it is measured, and held to its limit.
+// The rows of docs/why/extremes.md: each is printed as it is measured, and held to its limit.
 #pragma once
 
 #include <string>

@@ -50,7 +50,7 @@ bool exactly_hit(const Triangles& triangles, const Ray& ray, std::uint32_t trian
 }
 
 // Against the nearest crossing of all. A needle that is too narrow, as the ray sees it, for its distance to
-// be known is refused: docs/exact-intersection.md says when.
+// be known is refused: docs/why/exact-intersection.md says when.
 Judgement judge(const Triangles& triangles, SoupRandom& random, std::size_t rays) {
   const ExactOracle oracle(triangles);
   const ClusteredTriangles clustered = cluster(triangles);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Small inputs that fuzzing starts from: fuzz_seeds FOLDER writes FOLDER/FORMAT/*. Scenes are those of
-// docs/formats.md: every plugin and parameter.
+// docs/reference/formats.md: every plugin and parameter.
 #include <bit>
 #include <cstdint>
 #include <fstream>

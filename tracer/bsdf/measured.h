@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A sheet of glass by its measured reflectance and transmittance (docs/measured-glass.md): deltas only.
+// A sheet of glass by its measured reflectance and transmittance (docs/why/measured-glass.md): deltas only.
 #pragma once
 
 #include <optional>

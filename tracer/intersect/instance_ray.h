@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A ray in the space of an object that a chain of instances led to. It only culls: boxes of the object are
 // widened by what rounding may have moved. Compiled once, for all kernels.
-// docs/exact-intersection.md has the bounds.
+// docs/why/exact-intersection.md has the bounds.
 #pragma once
 
 #include "bundle/instance.h"

@@ -2,7 +2,7 @@
 // The kernel's text, over the eight lanes (Floats, Lanes) that the including file has defined. Included
 // inside a namespace without a name, after kernels.h and exact_test.h: nothing here may be seen by code that
 // is compiled for another instruction set. Bounds of the rounding errors are derived in
-// docs/exact-intersection.md.
+// docs/why/exact-intersection.md.
 
 constexpr float unit_roundoff = 0x1p-24f;
 // Below it floats begin to lose bits: no less counts as known.

@@ -2,7 +2,7 @@
 // The test that decides hits of curves, and what is at a hit: as for quadrics a pure function of ray and
 // record, in double and without FMA. A segment is cut into 2ᵏ equal parts in its parameter, each the convex
 // hull of the balls at its ends. What a line has of a hull is one interval by closed forms; those that
-// overlap are one, and a ray meets the curve where one begins. docs/hair.md has the why.
+// overlap are one, and a ray meets the curve where one begins. docs/why/hair.md has the why.
 #pragma once
 
 #include "scene/shapes/curve.h"

@@ -198,7 +198,7 @@ class RayJudge {
     expect(embree.occluded(ray_, tmax_), "shadow, Embree");
   }
 
-  // docs/exact-intersection.md states by how much a hit may deviate.
+  // docs/why/exact-intersection.md states by how much a hit may deviate.
   void by_oracle(const Triangles& triangles) {
     ++findings_.oracle_rays;
     constexpr double u = 0x1p-53;

@@ -15,7 +15,7 @@ double error(RGB a, RGB b) {
   return std::max({std::abs(a.r - b.r), std::abs(a.g - b.g), std::abs(a.b - b.b)});
 }
 
-// VITRAIL_LONG_TESTS: a million colours, as docs/color-and-film.md has them.
+// VITRAIL_LONG_TESTS: a million colours, as docs/why/color-and-film.md has them.
 TEST(MatrixR, EveryColorComesBackFromAReflectance) {
   const int n = std::getenv("VITRAIL_LONG_TESTS") ? 100 : 25;
   double worst = 0, least = 0, greatest = 0;
