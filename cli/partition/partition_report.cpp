@@ -50,9 +50,9 @@ void write_stats(const std::filesystem::path& file, const PartitionStats& s) {
 }
 
 void print_summary(const PartitionStats& s, const std::filesystem::path& bundle) {
-  show("{}: {} triangles{} in {} domains, {}\n", bundle.string(), s.input_triangles,
+  show("{}: {} triangles{} in {} domain{}, {}\n", bundle.string(), s.input_triangles,
        s.quadrics > 0 ? fmt::format(" and {} quadrics", s.quadrics) : "", s.domains,
-       format_bytes(s.bundle_bytes));
+       s.domains == 1 ? "" : "s", format_bytes(s.bundle_bytes));
   if (s.domains < s.domains_planned)
     show("  these are fewer domains than {}: more would part nothing, only cut triangles into more pieces\n",
          s.domains_planned);

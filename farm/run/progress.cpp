@@ -133,8 +133,11 @@ void print_start(const RenderOptions& options, const Manifest& m, const Goal& go
         options.resources.time_limit_s);
   if (options.outputs.progress != ProgressMode::lines) return;
   const PixelRect& c = m.film.crop;
-  say("vitrail: rendering {} × {} pixels, {}, {} domains, {} × {} threads\n", c.x1 - c.x0, c.y1 - c.y0,
-      text_of(goal), m.domains.size(), ranks, threads);
+  const std::string domains = m.domains.size() == 1 ? "" : fmt::format(", {} domains", m.domains.size());
+  const std::string workers = fmt::format("{}{} thread{}", ranks == 1 ? "" : fmt::format("{} ranks × ", ranks),
+                                          threads, threads == 1 ? "" : "s");
+  say("vitrail: rendering {} × {} pixels, {}{}, {}\n", c.x1 - c.x0, c.y1 - c.y0, text_of(goal), domains,
+      workers);
 }
 
 void print_end(const RenderOptions& options, const RenderStats& s) {
