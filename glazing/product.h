@@ -36,8 +36,8 @@ struct Product {
 };
 
 // Every product of a file, told by its content: IGSDB or CGDB JSON, Optics text (.dat, .oag, .txt),
-// EnergyPlus IDF or epJSON, or a table whose header names its columns (docs/why/glazing.md). Wavelengths are in
-// nm afterwards. Throws Error with the file and the line, or the place in the JSON; of EnergyPlus where no
+// EnergyPlus IDF or epJSON, or a table whose header names its columns (docs/why/glazing.md). Wavelengths are
+// in nm afterwards. Throws Error with the file and the line, or the place in the JSON; of EnergyPlus where no
 // pane can be read, and else keeps those that cannot as `refused`.
 std::vector<Product> read_products(const std::filesystem::path& file);
 

@@ -105,8 +105,8 @@ std::string first_input(const CLI::App& app) {
   return {};
 }
 
-// Of the hidden `--describe man|markdown|bash|zsh|fish`, which the build and the documentation's test ask for;
-// empty of another word.
+// Of the hidden `--describe man|markdown|bash|zsh|fish`, which the build and the documentation's test ask
+// for; empty of another word.
 std::string description(const CLI::App& app, const std::string& writer) {
   if (writer == "man") return man_page(describe(app), VITRAIL_VERSION);
   if (writer == "markdown") return markdown_page(describe(app));

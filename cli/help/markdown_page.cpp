@@ -20,8 +20,7 @@ std::string cell(const std::string& text) {
 std::string choices_of(const CommandOption& option) {
   if (option.choices.empty()) return "";
   std::string text;
-  for (const std::string& choice : option.choices)
-    text += (text.empty() ? "One of `" : ", `") + choice + "`";
+  for (const std::string& choice : option.choices) text += (text.empty() ? "One of `" : ", `") + choice + "`";
   return text + ". ";
 }
 

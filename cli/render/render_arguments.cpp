@@ -332,7 +332,7 @@ void interpret(const CLI::App& app, RenderArguments& a) {
                                                       : Integrator::path;
   o.picture.samples = sample_choices(a.samples);
   if (!a.target_error.empty()) o.picture.target_error = parse_target_error(a.target_error);
-  if (!a.quality.empty()) apply_quality(a.quality, app.count("--adaptive") > 0, o);
+  if (!a.quality.empty()) apply_quality(a.quality, app.count("--adaptive") > 0, a.denoised, o);
   o.outputs.progress = progress_mode(a);
   o.outputs.quiet = a.quiet;
   if (o.outputs.dry_run) prepare_dry_run(o);

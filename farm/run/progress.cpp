@@ -134,8 +134,8 @@ void print_start(const RenderOptions& options, const Manifest& m, const Goal& go
   if (options.outputs.progress != ProgressMode::lines) return;
   const PixelRect& c = m.film.crop;
   const std::string domains = m.domains.size() == 1 ? "" : fmt::format(", {} domains", m.domains.size());
-  const std::string workers = fmt::format("{}{} thread{}", ranks == 1 ? "" : fmt::format("{} ranks × ", ranks),
-                                          threads, threads == 1 ? "" : "s");
+  const std::string workers = fmt::format(
+      "{}{} thread{}", ranks == 1 ? "" : fmt::format("{} ranks × ", ranks), threads, threads == 1 ? "" : "s");
   say("vitrail: rendering {} × {} pixels, {}{}, {}\n", c.x1 - c.x0, c.y1 - c.y0, text_of(goal), domains,
       workers);
 }

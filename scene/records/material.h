@@ -170,8 +170,8 @@ struct HairMaterial {
   bool operator==(const HairMaterial&) const = default;
 };
 
-// A sheet of glass by its table (docs/why/measured-glass.md), or, without a sheet, what only Mitsuba can show:
-// its polarised measurements.
+// A sheet of glass by its table (docs/why/measured-glass.md), or, without a sheet, what only Mitsuba can
+// show: its polarised measurements.
 struct MeasuredMaterial {
   std::string filename;  // absolute; of the table
   std::optional<MeasuredSheet> sheet{};

@@ -106,6 +106,17 @@ TEST_F(DenoisedBox, HasItsSpectra) {
   }
 }
 
+// Its quality is that of the picture, so the film has fewer samples.
+TEST_F(DenoisedBox, MayHaveANoisierFilm) {
+  const auto error_asked_for = [&](const std::string& name, const std::string& options) {
+    EXPECT_EQ(render(name, 32, fmt::format("--stats {} {}", path("s.json"), options)).status, 0);
+    return read_json(directory_ / "s.json")["target_error"].get<double>();
+  };
+  EXPECT_EQ(error_asked_for("a.png", "--quality good"), 1);
+  EXPECT_EQ(error_asked_for("b.png", "--quality good --denoise"), 1.6);
+  EXPECT_EQ(error_asked_for("c.png", "--quality final --denoise"), 0.25);
+}
+
 TEST_F(DenoisedBox, IsNamedAsSuch) {
   ASSERT_EQ(render("box.png", 2, "--denoise").status, 0);
   EXPECT_THAT(bytes("box.png"), HasSubstr("denoised by Intel Open Image Denoise 2."));

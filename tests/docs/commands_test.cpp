@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The documentation's commands are the programs': every option that it names is there, and the pages of options
-// are what the programs say of themselves.
+// The documentation's commands are the programs': every option that it names is there, and the pages of
+// options are what the programs say of themselves.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -77,7 +77,8 @@ std::vector<PageLine> commands_of(const fs::path& page) {
 }
 
 TEST(Commands, NameOptionsThatAreThere) {
-  static const std::regex call(R"((?:^|[ (])vitrail ([a-z]+) ([^|;]*))"), option(R"((?:^| )(--?[a-z][a-z-]*))");
+  static const std::regex call(R"((?:^|[ (])vitrail ([a-z]+) ([^|;]*))"),
+      option(R"((?:^| )(--?[a-z][a-z-]*))");
   const auto options = options_by_verb();
   int count = 0;
   for (const fs::path& page : pages())

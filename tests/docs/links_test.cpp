@@ -36,8 +36,7 @@ std::set<std::string> anchors_of(const fs::path& page) {
 
 void expect_target(const fs::path& page, int line, const std::string& link) {
   const std::size_t hash = link.find('#');
-  const fs::path target =
-      hash == 0 ? page : (page.parent_path() / link.substr(0, hash)).lexically_normal();
+  const fs::path target = hash == 0 ? page : (page.parent_path() / link.substr(0, hash)).lexically_normal();
   EXPECT_TRUE(fs::exists(target)) << name_of(page) << ":" << line << ": " << link;
   if (hash == std::string::npos || target.extension() != ".md") return;
   EXPECT_TRUE(anchors_of(target).contains(link.substr(hash + 1)))
@@ -66,7 +65,8 @@ TEST(Links, LeadToEveryPageFromTheIndex) {
   for (const PageLine& line : lines_of(index)) text += line.text + "\n";
   for (const fs::path& page : pages())
     if (name_of(page).starts_with("docs/") && page != index) {
-      EXPECT_NE(text.find("(" + page.lexically_relative(index.parent_path()).string() + ")"), std::string::npos)
+      EXPECT_NE(text.find("(" + page.lexically_relative(index.parent_path()).string() + ")"),
+                std::string::npos)
           << name_of(page);
     }
 }
@@ -74,8 +74,8 @@ TEST(Links, LeadToEveryPageFromTheIndex) {
 TEST(Lines, OfPagesForUsersAreShort) {
   for (const fs::path& page : pages()) {
     const std::string name = name_of(page);
-    if (!name.starts_with("docs/tutorial") && !name.starts_with("docs/how-to") && name != "docs/glossary.md" &&
-        name != "docs/README.md")
+    if (!name.starts_with("docs/tutorial") && !name.starts_with("docs/how-to") &&
+        name != "docs/glossary.md" && name != "docs/README.md")
       continue;
     if (name == "docs/how-to/adding.md") continue;  // for developers, as wide as the code's comments may be
     for (const PageLine& line : lines_of(page)) {

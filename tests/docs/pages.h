@@ -11,7 +11,7 @@ namespace vitrail::test {
 struct PageLine {
   std::string text;
   int number = 0;
-  bool is_code = false;  // indented by four columns after an empty line, or between fences
+  bool is_code = false;   // indented by four columns after an empty line, or between fences
   bool is_typed = false;  // between ```sh and ```
 };
 

@@ -151,8 +151,8 @@ IndexRows metal(const char* name) {
   return rows;
 }
 
-// What the curves of clear and bronze glass make of coatings whose layers are known. docs/why/glazing.md has the
-// numbers.
+// What the curves of clear and bronze glass make of coatings whose layers are known. docs/why/glazing.md has
+// the numbers.
 TEST(Pane, CoatedModelIsNearThinFilmTheory) {
   const IndexRows glass{{550, 1.52, 2e-7}}, oxide{{550, 2.0, 0}}, titania{{550, 2.4, 0}};
   const auto coated = [&](std::vector<FilmLayer> films) {

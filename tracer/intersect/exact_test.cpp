@@ -46,8 +46,8 @@ double greatest_coordinate(const Cluster& cluster, unsigned lane) {
 // Whether det is great enough for t to be trusted: of vertices up to m from the origin, w away and s beside
 // the ray, |det| > s·w·(5e-9·depth/m + 6e-15). The first term keeps t so near to the true triangle's that the
 // padding of the boxes, 2e-6·m at least, makes up for the rest; the second is the rounding of det itself, so
-// that a triangle without area is never hit. docs/why/exact-intersection.md has the derivation. What holds for
-// one vertex' m holds for the greatest, and mostly does.
+// that a triangle without area is never hit. docs/why/exact-intersection.md has the derivation. What holds
+// for one vertex' m holds for the greatest, and mostly does.
 bool well_conditioned(double det, Sheared a, Sheared b, Sheared c, const Cluster& cluster, unsigned lane) {
   const double s = max3(lateral(a), lateral(b), lateral(c));
   const double w = s + max3(std::abs(a.z), std::abs(b.z), std::abs(c.z));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// docs/reference/formats.md: made from what the readers, the partitioner and the writers say of each plugin and
-// parameter. The test fails where the page is not what they say now; VITRAIL_WRITE_DOCS=1 writes it anew.
+// docs/reference/formats.md: made from what the readers, the partitioner and the writers say of each plugin
+// and parameter. The test fails where the page is not what they say now; VITRAIL_WRITE_DOCS=1 writes it anew.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
