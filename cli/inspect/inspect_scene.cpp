@@ -65,7 +65,9 @@ Report luminance_of(const SpectrumParameter& p) {
 }
 
 struct LightDescriber {
-  Report operator()(const PointLight& l) const { return of(l.intensity, 4 * std::numbers::pi); }
+  Report operator()(const PointLight& l) const {
+    return of(l.intensity, l.fading ? 0 : 4 * std::numbers::pi);
+  }
   Report operator()(const SpotLight& l) const { return of(l.intensity); }
   Report operator()(const ProjectionLight& l) const { return of(l.scale); }
   Report operator()(const GoniometricLight& l) const { return of(l.intensity); }
