@@ -20,7 +20,8 @@ struct HalfSpace {
   double distance = 0;
 };
 
-// A set that no closed mesh encloses: its part in a box that is asked for, closed by `unseen` triangles.
+// A set that no closed mesh encloses: at least its part in the box that is asked for, closed by `unseen`
+// triangles that are not in its faces.
 using Unbounded = std::function<Solid(const Bounds3d& within)>;
 
 // A tree of sets. What it holds depends on the kind; build it by the functions below.

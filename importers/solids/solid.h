@@ -57,6 +57,8 @@ Solid inverted(Solid solid);
 void append(Solid& solid, const Solid& other);
 
 Bounds3d bounds_of(const Solid& solid);
+// Neither is empty, and they have a point in common.
+bool boxes_meet(const Bounds3d& a, const Bounds3d& b);
 
 // Positive where fronts are outside; the sum of its bodies.
 double volume(const Solid& solid);
