@@ -3,7 +3,6 @@
 #pragma once
 
 #include <span>
-#include <string>
 #include <vector>
 
 #include "scene/geometry/vec.h"
@@ -17,10 +16,11 @@ enum class SplineKind {
   bezier,     // four points a segment
 };
 
-// A point of a curve, with the directions in which it arrives there and leaves: equal where it is smooth.
+// A point of a curve, with the unit vectors along which the curve arrives there and leaves: equal where it is
+// smooth.
 struct CurvePoint {
   Point2d place;
-  Vector3d arriving, leaving;  // unit vectors; z is 0
+  Point2d arriving, leaving;
 };
 
 struct PlaneCurve {
@@ -28,14 +28,15 @@ struct PlaneCurve {
   bool closed = false;
 };
 
-// Chords are at most `tolerance` from the curve. Throws Error where there are too few points.
+// Chords are at most `tolerance` from the curve, which is closed if it ends where it begins. Throws Error
+// where points are too few or not finite.
 PlaneCurve plane_curve(SplineKind kind, std::span<const Point2d> points, double tolerance);
 
 // The contours of a prism: one ends where its first point (of quadratic and cubic splines, its second) comes
-// again. Throws Error where one does not end.
+// again. The last is closed by a line if it does not. Throws Error as `plane_curve` does.
 std::vector<PlaneCurve> contours(SplineKind kind, std::span<const Point2d> points, double tolerance);
 
-// Whether a set of contours encloses a point: `even_odd` counts crossings, `non_zero` turns.
-enum class FillRule { even_odd, non_zero };
+// The greatest edge of the points' box, by which a tolerance is taken.
+double greatest_edge(std::span<const Point2d> points);
 
 }  // namespace vitrail::solids
