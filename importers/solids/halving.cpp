@@ -18,17 +18,18 @@ struct Edge {
 
 std::uint64_t key(std::uint64_t a, std::uint64_t b) { return a < b ? a << 32 | b : b << 32 | a; }
 
-class Round {
+// The edges of all rounds: each is checked once.
+class Edges {
  public:
-  Round(std::vector<Point3d>& positions, const Projection& project, double tolerance)
+  Edges(std::vector<Point3d>& positions, const Projection& project, double tolerance)
       : positions_(positions), project_(project), tolerance_(tolerance) {}
 
   void add(const Triangle& t, Lies lies) {
     for (std::size_t i = 0; i < 3; ++i) edges_[key(t[i], t[(i + 1) % 3])].on |= lies;
   }
 
-  // Whether it is to be halved by one of its own edges; if not and its centre is too far, its longest is.
-  void check(const Triangle& t, Lies lies) {
+  // Halves edges that are too far, or the longest if the centre is. Says whether the triangle is near enough.
+  bool check(const Triangle& t, Lies lies) {
     bool halved = false;
     std::size_t longest = 0;
     double greatest = -1;
@@ -39,17 +40,15 @@ class Round {
       if (!edge.is_checked) check(edge, t[i], t[(i + 1) % 3]);
       halved = halved || edge.is_halved;
     }
-    if (halved) return;
+    if (halved) return false;
     const Point3d a = positions_[t[0]];
     const Point3d middle = a + ((positions_[t[1]] - a) + (positions_[t[2]] - a)) * (1.0 / 3);
     const auto on = project_(middle, lies);
-    if (on && is_far(middle, *on, greatest)) {
-      Edge& edge = edges_[key(t[longest], t[(longest + 1) % 3])];
-      halve_edge(edge, t[longest], t[(longest + 1) % 3]);
-    }
+    if (!on || !is_far(middle, *on, greatest)) return true;
+    Edge& edge = edges_[key(t[longest], t[(longest + 1) % 3])];
+    halve_edge(edge, t[longest], t[(longest + 1) % 3]);
+    return false;
   }
-
-  bool any() const { return any_; }
 
   std::uint32_t middle_of(std::uint32_t a, std::uint32_t b) const {
     const auto found = edges_.find(key(a, b));
@@ -87,7 +86,7 @@ class Round {
   }
 
   void add_middle(Edge& edge, const Point3d& p) {
-    edge.is_halved = any_ = true;
+    edge.is_halved = true;
     edge.middle = static_cast<std::uint32_t>(positions_.size());
     positions_.push_back(p);
   }
@@ -95,16 +94,15 @@ class Round {
   std::vector<Point3d>& positions_;
   const Projection& project_;
   double tolerance_;
-  bool any_ = false;
   std::unordered_map<std::uint64_t, Edge> edges_;
 };
 
 // The parts of a triangle whose edges have these middles, `none` where they are whole.
 template <class Add>
-void parts(const Round& round, Triangle t, Add&& add) {
+void parts(const Edges& edges, Triangle t, Add&& add) {
   std::array<std::uint32_t, 3> m{};
   std::size_t halved = 0;
-  for (std::size_t i = 0; i < 3; ++i) halved += (m[i] = round.middle_of(t[i], t[(i + 1) % 3])) != none;
+  for (std::size_t i = 0; i < 3; ++i) halved += (m[i] = edges.middle_of(t[i], t[(i + 1) % 3])) != none;
   // Turned so that one halved edge is the first, or two the first and the second.
   const auto turn = [&] {
     t = {t[1], t[2], t[0]};
@@ -121,7 +119,7 @@ void parts(const Round& round, Triangle t, Add&& add) {
   }
   if (halved == 2) {
     add({m[0], t[1], m[1]});
-    if (round.square(t[0], m[1]) < round.square(m[0], t[2])) {
+    if (edges.square(t[0], m[1]) < edges.square(m[0], t[2])) {
       add({t[0], m[0], m[1]});
       add({t[0], m[1], t[2]});
     } else {
@@ -141,20 +139,27 @@ void parts(const Round& round, Triangle t, Add&& add) {
 
 void halve(std::vector<Point3d>& positions, std::vector<Triangle>& triangles, std::vector<Lies>& lies,
            const Projection& project, const Halving& halving) {
+  Edges edges(positions, project, halving.tolerance);
+  std::vector<bool> is_near(triangles.size());
   for (int i = 0; i < halving.rounds && triangles.size() < halving.most_triangles; ++i) {
-    Round round(positions, project, halving.tolerance);
-    for (std::size_t t = 0; t < triangles.size(); ++t) round.add(triangles[t], lies[t]);
-    for (std::size_t t = 0; t < triangles.size(); ++t) round.check(triangles[t], lies[t]);
-    if (!round.any()) return;
+    for (std::size_t t = 0; t < triangles.size(); ++t)
+      if (!is_near[t]) edges.add(triangles[t], lies[t]);
+    const std::size_t before = positions.size();
+    for (std::size_t t = 0; t < triangles.size(); ++t)
+      if (!is_near[t]) is_near[t] = edges.check(triangles[t], lies[t]);
+    if (positions.size() == before) return;
     std::vector<Triangle> next;
     std::vector<Lies> next_lies;
+    std::vector<bool> next_near;
     for (std::size_t t = 0; t < triangles.size(); ++t)
-      parts(round, triangles[t], [&](const Triangle& part) {
+      parts(edges, triangles[t], [&](const Triangle& part) {
         next.push_back(part);
         next_lies.push_back(lies[t]);
+        next_near.push_back(is_near[t] && part == triangles[t]);
       });
     triangles = std::move(next);
     lies = std::move(next_lies);
+    is_near = std::move(next_near);
   }
 }
 

@@ -28,7 +28,7 @@ class Zero {
     for (int i = 0; i < 6; ++i) {
       if (sphere && on & on_sphere) p = on_surface(*sphere, p);
       const double f = implicit_.field(p);
-      Vector3d g = gradient(p);
+      Vector3d g = slope_at(p, f);
       if (!sphere) keep_to_sides(g, on);
       const double slope = dot(g, g);
       if (!std::isfinite(f) || !std::isfinite(slope) || !(slope > 0)) return std::nullopt;
@@ -56,6 +56,15 @@ class Zero {
   }
 
  private:
+  // By differences to one side of a value.
+  Vector3d slope_at(const Point3d& p, double f) const {
+    const auto along = [&](int axis) {
+      Point3d high = p;
+      high[axis] += step_;
+      return (implicit_.field(high) - f) / step_;
+    };
+    return {along(0), along(1), along(2)};
+  }
   static Point3d on_surface(const ContainingSphere& sphere, const Point3d& p) {
     const Vector3d v = p - sphere.center;
     const double size = length(v);
@@ -111,7 +120,8 @@ Solid implicit(const Implicit& implicit, const Tessellation& tessellation) {
     for (const std::uint32_t v : made.triangles[t]) on[v] |= made.lies[t];
   for (std::size_t v = 0; v < on.size(); ++v)
     if (on[v] & on_zero) solid.positions[v] = zero(solid.positions[v], on[v]).value_or(solid.positions[v]);
-  halve(solid.positions, made.triangles, made.lies, zero, {.tolerance = tolerance, .rounds = 4});
+  halve(solid.positions, made.triangles, made.lies, zero,
+        {.tolerance = tolerance, .rounds = implicit.most_halvings});
   solid.triangles = std::move(made.triangles);
 
   std::vector<Vector3d> gradients(solid.positions.size());

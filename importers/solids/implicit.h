@@ -27,10 +27,11 @@ struct Implicit {
   bool open = false;        // what the container closes is `unseen`
   double max_gradient = 0;  // a bound of |∇field|: cells that cannot hold a zero are skipped. 0: unknown
   int cells = 48;           // along the greatest edge: what is thinner than a cell may be lost
+  int most_halvings = 4;    // of a triangle's edges, to come near enough to the zero
 };
 
 // Triangles are cut of tetrahedra (Doi and Koide 1991) and then halved until edges are as near to the zero as
-// the tessellation asks, at most `most_halvings` times. An empty solid where the field has no zero.
+// the tessellation asks. An empty solid where the field has no zero.
 Solid implicit(const Implicit& implicit, const Tessellation& tessellation = {});
 
 // Coefficients as POV-Ray lists them: xⁱyʲzᵏ with i + j + k ≤ order, highest i first, then j, then k; of

@@ -52,7 +52,8 @@ Solid julia_fractal(const JuliaFractal& fractal, const Tessellation& tessellatio
                          return field(fractal, {p.x, p.y, p.z, w});
                        },
                    .container = ContainingSphere{{0, 0, 0}, 2},
-                   .cells = 120},
+                   .cells = 80,
+                   .most_halvings = 1},
                   tessellation);
 }
 

@@ -43,6 +43,46 @@ class RoundCone {
   double size_ = 0, radius_, sine_ = 0, tangent_ = 0;
 };
 
+// Cones one after the other, in runs that a sphere encloses.
+class Runs {
+ public:
+  explicit Runs(const std::vector<Along>& knots) {
+    for (std::size_t i = 1; i < knots.size(); ++i) {
+      if (runs_.empty() || runs_.back().cones.size() == 8) runs_.push_back({});
+      Run& run = runs_.back();
+      run.cones.emplace_back(knots[i - 1], knots[i]);
+      for (const Along& k : {knots[i - 1], knots[i]}) {
+        const Vector3d r{k.radius, k.radius, k.radius};
+        extend(run.bounds, k.center - r);
+        extend(run.bounds, k.center + r);
+      }
+    }
+    for (Run& run : runs_) {
+      run.center = center(run.bounds);
+      run.radius = length(extent(run.bounds)) / 2;
+    }
+  }
+
+  double distance(const Point3d& p) const {
+    double nearest = 1e300;
+    for (const Run& run : runs_) {
+      const double reach = nearest + run.radius;
+      if (reach < 1e150 && (reach < 0 || dot(p - run.center, p - run.center) > reach * reach)) continue;
+      for (const RoundCone& c : run.cones) nearest = std::min(nearest, c.distance(p));
+    }
+    return nearest;
+  }
+
+ private:
+  struct Run {
+    std::vector<RoundCone> cones;
+    Bounds3d bounds;
+    Point3d center;
+    double radius = 0;
+  };
+  std::vector<Run> runs_;
+};
+
 // Of four knots, at 0 ≤ t ≤ 1.
 Along at(SweepKind kind, const SweptSphere* knots, double t) {
   const double s = t * t, c = s * t;
@@ -83,7 +123,6 @@ Solid sphere_sweep(const SphereSweep& sweep, const Tessellation& tessellation) {
       throw Error("a sphere of a sweep has no finite place or radius");
   const std::vector<Along> knots = knots_of(sweep);
   if (knots.size() < 2) throw Error("a sphere sweep has too few spheres");
-  auto cones = std::make_shared<std::vector<RoundCone>>();
   Bounds3d bounds;
   double smallest = 1e300, greatest = 0;
   for (std::size_t i = 0; i < knots.size(); ++i) {
@@ -92,7 +131,6 @@ Solid sphere_sweep(const SphereSweep& sweep, const Tessellation& tessellation) {
     extend(bounds, knots[i].center + r);
     greatest = std::max(greatest, knots[i].radius);
     smallest = std::min(smallest, knots[i].radius);
-    if (i > 0) cones->emplace_back(knots[i - 1], knots[i]);
   }
   if (!(greatest > 0)) throw Error("a sphere sweep has no radius");
   smallest = std::max(smallest, greatest / 8);  // a point at an end needs no finer cells
@@ -100,12 +138,8 @@ Solid sphere_sweep(const SphereSweep& sweep, const Tessellation& tessellation) {
   const double edge = std::max({size.x, size.y, size.z}), margin = 0.02 * edge;
   bounds.lower = bounds.lower - Vector3d{margin, margin, margin};
   bounds.upper = bounds.upper + Vector3d{margin, margin, margin};
-  return implicit({.field =
-                       [cones](const Point3d& p) {
-                         double nearest = 1e300;
-                         for (const RoundCone& c : *cones) nearest = std::min(nearest, c.distance(p));
-                         return nearest;
-                       },
+  const auto runs = std::make_shared<Runs>(knots);
+  return implicit({.field = [runs](const Point3d& p) { return runs->distance(p); },
                    .container = bounds,
                    .max_gradient = 1.001,
                    .cells = static_cast<int>(std::clamp(1.6 * edge / smallest, 32.0, 512.0))},
