@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+// Triangles that enclose a volume: what all shapes of this room are made as.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "scene/geometry/bounds.h"
+#include "scene/geometry/transform.h"
+#include "scene/shapes/mesh.h"
+
+namespace vitrail::solids {
+
+// How near triangles are to the shape's true surface: a fraction of the greatest edge of its bounding box.
+struct Tessellation {
+  double deviation = 5e-4;
+};
+
+// The number of a surface whose triangles close a solid but are not to be seen: the caps of an open cylinder,
+// the sides of a cube that stands for infinity. `mesh_of` leaves them out.
+inline constexpr std::uint32_t unseen = 0xffffffff;
+
+// Vertices are shared by place alone: each edge of a closed solid has two triangles that run along it in
+// opposite directions, counter-clockwise seen from outside (cross products of right-handed axes). Normals are
+// those of the true surface, a unit vector a corner of a triangle, and point outwards.
+struct Solid {
+  std::vector<Point3d> positions;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  std::vector<std::array<Normal3f, 3>> normals;  // as many as triangles
+  std::vector<std::uint32_t> surfaces;  // as many as triangles: a number that the caller gives, or `unseen`
+  bool closed = true;
+
+  bool empty() const { return triangles.empty(); }
+};
+
+// All triangles of the surfaces that are seen, or of one of them. Corners share a vertex where place and
+// normal are equal. Throws Error where a position is not finite in single precision.
+TriangleMesh mesh_of(const Solid& solid);
+TriangleMesh mesh_of(const Solid& solid, std::uint32_t surface);
+
+// The numbers of the surfaces that are seen, in ascending order.
+std::vector<std::uint32_t> surfaces_of(const Solid& solid);
+
+// Gives a number to all surfaces that are seen.
+void set_surface(Solid& solid, std::uint32_t surface);
+
+// Mirrors keep fronts outside. A transform without an inverse throws Error.
+Solid transformed(Solid solid, const Transform& to);
+
+// The complement: fronts and normals turned round.
+Solid inverted(Solid solid);
+
+// Both as bodies of one solid, which may overlap.
+void append(Solid& solid, const Solid& other);
+
+Bounds3d bounds_of(const Solid& solid);
+// Neither is empty, and they have a point in common.
+bool boxes_meet(const Bounds3d& a, const Bounds3d& b);
+
+// Positive where fronts are outside; the sum of its bodies.
+double volume(const Solid& solid);
+
+// Whether each edge has two triangles, in opposite directions.
+bool is_watertight(const Solid& solid);
+
+}  // namespace vitrail::solids
