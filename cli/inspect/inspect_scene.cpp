@@ -95,7 +95,9 @@ Report describe_lights(const Manifest& m) {
     const double sides = l.two_sided ? 2 : 1;
     lights.push_back(
         {{"number", lights.size() + 1},
-         {"kind", !l.sampled ? "glow" : l.two_sided ? "area, both sides" : "area"},
+         {"kind", !l.sampled    ? "glow"
+                  : l.two_sided ? "area, both sides"
+                                : "area"},
          {"luminance", y},
          {"area", areas[i]},
          {"power", y.is_null() ? y : Report(std::numbers::pi * areas[i] * y.get<double>() * sides)}});

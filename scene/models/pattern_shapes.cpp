@@ -36,13 +36,16 @@ std::size_t hexagon(Point3d p) {
   return static_cast<std::size_t>(turn - 3 * std::floor(turn / 3));
 }
 
-// Mortar lies at the end of each brick. Every other layer of y is half a brick on along x.
+// Mortar lies at the end of each brick. Layers of y are half a brick on along x and along z in turn.
 std::size_t brick(const PatternBrick& b, Point3d p) {
   const auto mortar = static_cast<double>(b.mortar);
-  const double y = (p.y + mortar) / b.size.y, z = (p.z + mortar) / b.size.z;
-  if (rest(y) * b.size.y < mortar || rest(z) * b.size.z < mortar) return 0;
-  const double x = (p.x + mortar) / b.size.x + (is_odd(std::floor(y)) ? 0.5 : 0);
-  return rest(x) * b.size.x < mortar ? 0 : 1;
+  const double y = (p.y + mortar) / b.size.y;
+  const bool odd = is_odd(std::floor(y));
+  const double x = (p.x + mortar) / b.size.x + (odd ? 0.5 : 0),
+               z = (p.z + mortar) / b.size.z + (odd ? 0 : 0.5);
+  const bool is_mortar =
+      rest(x) * b.size.x < mortar || rest(y) * b.size.y < mortar || rest(z) * b.size.z < mortar;
+  return is_mortar ? 0 : 1;
 }
 
 Octaves octaves_of(const PatternTurbulence& t) {

@@ -20,7 +20,7 @@ struct PatternTurbulence {
   bool operator==(const PatternTurbulence&) const = default;
 };
 
-// `brick_size`, `mortar`: bricks repeat by their size; so much of the beginning of each is mortar.
+// `brick_size`, `mortar`: bricks repeat by their size from 0 on; so much of the end of each is mortar.
 struct PatternBrick {
   Vector3d size{8, 3, 4.5};
   float mortar = 0.5f;
@@ -45,9 +45,9 @@ struct PatternStop {
   bool operator==(const PatternStop&) const = default;
 };
 
-// The value v of a pattern at a point p of its space: noises are of our own, with POV-Ray's mean and
-// deviation, as its tables are not free. Between the stops of the map values are mixed linearly; the first
-// and the last hold beyond.
+// The value v of a pattern at a point p of its space. Noises are of our own, with POV-Ray's mean and
+// deviation, as its tables are not free (scene/models/pattern.h). Between the stops of the map values are
+// mixed linearly; the first and the last hold beyond.
 struct PatternTexture {
   enum class Kind : std::uint8_t {
     // A value of the map by its place in it: `at` is not looked at, nor the wave.
@@ -64,7 +64,7 @@ struct PatternTexture {
     leopard,      // ((sin x + sin y + sin z)/3)²
     marble,       // x; turbulence moves it along x
     onion,        // |p|: what is beyond whole numbers
-    radial,       // by the angle around y, a turn is 1: ¼ at +x, ½ at −z … (+z: 0)
+    radial,       // by the angle around y: 0 at +x, ¼ at −z, ½ at −x, ¾ at +z
     spiral1,      // `arms` around z, that turn by one arm a unit of the distance to it and of z
     wood,         // √(x² + y²), turbulence moves it in x and y
 

@@ -107,13 +107,17 @@ TEST(Patterns, ThoseOfPlaces) {
   // Just within the corner of the first, and beyond it.
   EXPECT_EQ(place(Kind::hexagon, {0.99, 0, 0}), 0u);
   EXPECT_NE(place(Kind::hexagon, {1.01, 0, 0.1}), 0u);
-  // Bricks of 8 × 3 × 4.5 that end in mortar of ½, every other layer half a brick on.
+  // Bricks of 8 × 3 × 4.5 that end in mortar of ½; layers are half a brick on along x and along z in turn, as
+  // in POV-Ray's pictures.
   EXPECT_EQ(place(Kind::brick, {3, 1, 1}), 1u);
   EXPECT_EQ(place(Kind::brick, {-0.25, 1, 1}), 0u);
   EXPECT_EQ(place(Kind::brick, {3, -0.25, 1}), 0u);
-  EXPECT_EQ(place(Kind::brick, {3, 1, -0.25}), 0u);
+  EXPECT_EQ(place(Kind::brick, {3, 1, -0.25}), 1u);
+  EXPECT_EQ(place(Kind::brick, {3, 1, 2}), 0u);
   EXPECT_EQ(place(Kind::brick, {-0.25, 4, 1}), 1u);
   EXPECT_EQ(place(Kind::brick, {3.75, 4, 1}), 0u);
+  EXPECT_EQ(place(Kind::brick, {2, 4, -0.25}), 0u);
+  EXPECT_EQ(place(Kind::brick, {2, 4, 2}), 1u);
 }
 
 TEST(Patterns, MapsAreMixedBetweenTheirStops) {
