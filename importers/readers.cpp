@@ -7,6 +7,7 @@
 #include <cctype>
 #include <fstream>
 
+#include "importers/gltf/read/gltf.h"
 #include "importers/mitsuba/read/mitsuba.h"
 #include "importers/obj/read/obj.h"
 #include "importers/pbrt/read/pbrt.h"
@@ -78,6 +79,14 @@ const std::vector<Reader>& readers() {
        .read = [](ReadRequest r) { return read_mitsuba(r.file, std::move(r.memory), r.options); },
        .adds_view = true,
        .has_definitions = true,
+       .has_many_cameras = true},
+      {.name = "glTF",
+       .suffixes = {".gltf", ".glb"},
+       .gzipped = false,
+       .sniff = is_gltf,
+       .read = [](ReadRequest r) { return read_gltf(r.file, std::move(r.memory), r.options); },
+       .adds_view = true,
+       .has_definitions = false,
        .has_many_cameras = true},
       {.name = "Wavefront OBJ",
        .suffixes = {".obj"},
