@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <functional>
+#include <span>
 #include <string>
 #include <utility>
 #include <variant>
@@ -32,12 +33,18 @@ struct PictureFile {
   std::vector<std::pair<std::string, Value>> attributes;
 };
 
+// A file by its name, or the bytes of one where there are any: `file` then is a name that ends in its kind.
+struct PictureSource {
+  std::string file;
+  std::span<const std::byte> bytes{};
+};
+
 // All return what went wrong, or nothing.
 struct ImageCodec {
   // Without `image`, the layout alone.
-  std::string (*read)(const std::string& file, ImageLayout& layout, Image* image);
+  std::string (*read)(const PictureSource& source, ImageLayout& layout, Image* image);
   // What `visit` throws passes through.
-  std::string (*read_rows)(const std::string& file, ImageLayout& layout,
+  std::string (*read_rows)(const PictureSource& source, ImageLayout& layout,
                            const std::function<void(Image)>& visit);
   // The bytes of an EXR file.
   std::string (*encode_exr)(const Image& image, std::vector<std::byte>& bytes);

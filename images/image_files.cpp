@@ -4,11 +4,13 @@
 #include <dlfcn.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cmath>
 #include <fstream>
 
+#include "images/file_part.h"
 #include "images/image_codec.h"
 #include "images/texture_values.h"
 #include "scene/system/atomic_file.h"
@@ -79,21 +81,43 @@ void require_size(const std::filesystem::path& file, const ImageLayout& layout) 
                 {file.string()});
 }
 
+// What the library is to read, with the bytes of what lies within another file.
+class Source {
+ public:
+  explicit Source(const std::filesystem::path& file) : source_{file.string(), {}} {
+    const std::optional<FilePart> part = file_part(source_.file);
+    if (!part) {
+      check_input(file);
+      return;
+    }
+    bytes_ = read_part(*part);
+    const std::string suffix = picture_suffix(bytes_);
+    constexpr std::array known{".png", ".jpg", ".webp"};  // and as many decoders that strangers' bytes meet
+    if (std::ranges::find(known, suffix) == known.end())
+      throw Error("cannot read the image: within other files they are PNG, JPEG or WebP", {source_.file});
+    source_ = {"picture" + suffix, bytes_};
+  }
+  const PictureSource& get() const { return source_; }
+
+ private:
+  std::vector<std::byte> bytes_;
+  PictureSource source_;
+};
+
 // By what the file states, before there is room for it.
-ImageLayout checked_layout(const std::filesystem::path& file) {
-  check_input(file);
-  if (is_large_gif(file))
+ImageLayout checked_layout(const std::filesystem::path& file, const PictureSource& source) {
+  if (source.bytes.empty() && is_large_gif(file))
     throw Error(fmt::format("cannot read the image: a GIF has at most {} pixels here", most_pixels_of_gif),
                 {file.string()});
   ImageLayout layout;
-  check(file, image_codec().read(file.string(), layout, nullptr));
+  check(file, image_codec().read(source, layout, nullptr));
   require_size(file, layout);
   return layout;
 }
 
-ImageLayout read(const std::filesystem::path& file, Image* image) {
-  ImageLayout layout = checked_layout(file);
-  if (image) check(file, image_codec().read(file.string(), layout, image));
+ImageLayout read(const std::filesystem::path& file, const PictureSource& source, Image* image) {
+  ImageLayout layout = checked_layout(file, source);
+  if (image) check(file, image_codec().read(source, layout, image));
   if (layout.chromaticities && !are_primaries(*layout.chromaticities)) layout.chromaticities.reset();
   return layout;
 }
@@ -107,20 +131,23 @@ const ImageCodec& image_codec() {
 
 bool image_library_is_loaded() { return loaded; }
 
-ImageLayout read_image_layout(const std::filesystem::path& file) { return read(file, nullptr); }
+ImageLayout read_image_layout(const std::filesystem::path& file) {
+  return read(file, Source(file).get(), nullptr);
+}
 
 StoredImage read_stored_image(const std::filesystem::path& file) {
   StoredImage stored;
-  const ImageLayout layout = read(file, &stored.image);
+  const ImageLayout layout = read(file, Source(file).get(), &stored.image);
   stored.integer = layout.integer;
   stored.chromaticities = layout.chromaticities;
   return stored;
 }
 
 void read_stored_rows(const std::filesystem::path& file, const std::function<void(StoredImage)>& visit) {
-  ImageLayout layout = read_image_layout(file);
+  const Source source(file);
+  ImageLayout layout = read(file, source.get(), nullptr);
   const StoredImage as_the_whole{{}, layout.integer, layout.chromaticities};
-  check(file, image_codec().read_rows(file.string(), layout, [&](Image rows) {
+  check(file, image_codec().read_rows(source.get(), layout, [&](Image rows) {
     StoredImage stored = as_the_whole;
     stored.image = std::move(rows);
     visit(std::move(stored));

@@ -99,15 +99,32 @@ std::optional<Chromaticities> chromaticities_of(const OIIO::ImageSpec& spec) {
   return Chromaticities{{v[0], v[1]}, {v[2], v[3]}, {v[4], v[5]}, {v[6], v[7]}};
 }
 
-// Colours are as stored: OpenImageIO would multiply alpha into them.
-std::unique_ptr<OIIO::ImageInput> open(const std::string& file) {
-  OIIO::ImageSpec wanted;
-  wanted.attribute("oiio:UnassociatedAlpha", 1);
-  return OIIO::ImageInput::open(file, &wanted);
-}
+// A picture that is open, with the bytes that it is read from where it has no file.
+class OpenPicture {
+ public:
+  // Colours are as stored: OpenImageIO would multiply alpha into them.
+  explicit OpenPicture(const PictureSource& source) {
+    OIIO::ImageSpec wanted;
+    wanted.attribute("oiio:UnassociatedAlpha", 1);
+    if (!source.bytes.empty()) {
+      memory_ = std::make_unique<OIIO::Filesystem::IOMemReader>(const_cast<std::byte*>(source.bytes.data()),
+                                                                source.bytes.size());
+      OIIO::Filesystem::IOProxy* proxy = memory_.get();
+      wanted.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
+    }
+    in_ = OIIO::ImageInput::open(source.file, &wanted);
+  }
+  explicit operator bool() const { return in_ != nullptr; }
+  OIIO::ImageInput& operator*() const { return *in_; }
+  OIIO::ImageInput* operator->() const { return in_.get(); }
 
-std::string read_picture(const std::string& file, ImageLayout& layout, Image* image) {
-  const auto in = open(file);
+ private:
+  std::unique_ptr<OIIO::Filesystem::IOMemReader> memory_;  // outlives what reads it
+  std::unique_ptr<OIIO::ImageInput> in_;
+};
+
+std::string read_picture(const PictureSource& source, ImageLayout& layout, Image* image) {
+  const OpenPicture in(source);
   if (!in) return reason(OIIO::geterror());
   if (std::string fault = fault_of(*in); !fault.empty()) return fault;
   const OIIO::ImageSpec& spec = in->spec();
@@ -127,10 +144,10 @@ std::string read_picture(const std::string& file, ImageLayout& layout, Image* im
 // Rows of tiles, or as many scan lines as take about so much.
 constexpr std::size_t band_bytes = std::size_t{4} << 20;
 
-std::string read_picture_rows(const std::string& file, ImageLayout& layout,
+std::string read_picture_rows(const PictureSource& source, ImageLayout& layout,
                               const std::function<void(Image)>& visit) {
-  if (std::string problem = read_picture(file, layout, nullptr); !problem.empty()) return problem;
-  const auto in = open(file);
+  if (std::string problem = read_picture(source, layout, nullptr); !problem.empty()) return problem;
+  const OpenPicture in(source);
   if (!in) return reason(OIIO::geterror());
   const OIIO::ImageSpec& spec = in->spec();
   const std::vector<int> channels = channels_of(spec);
@@ -170,9 +187,9 @@ std::string read_picture_rows(const std::string& file, ImageLayout& layout,
 }
 
 // Exceptions of the library say what is wrong with a file; lack of memory, and what `visit` throws, pass.
-std::string read(const std::string& file, ImageLayout& layout, Image* image) {
+std::string read(const PictureSource& source, ImageLayout& layout, Image* image) {
   try {
-    return read_picture(file, layout, image);
+    return read_picture(source, layout, image);
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& error) {
@@ -180,10 +197,11 @@ std::string read(const std::string& file, ImageLayout& layout, Image* image) {
   }
 }
 
-std::string read_rows(const std::string& file, ImageLayout& layout, const std::function<void(Image)>& visit) {
+std::string read_rows(const PictureSource& source, ImageLayout& layout,
+                      const std::function<void(Image)>& visit) {
   bool is_of_visit = false;
   try {
-    return read_picture_rows(file, layout, [&](Image rows) {
+    return read_picture_rows(source, layout, [&](Image rows) {
       is_of_visit = true;
       visit(std::move(rows));
       is_of_visit = false;

@@ -6,12 +6,15 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <optional>
 
+#include "importers/gltf/write/write_gltf.h"
 #include "importers/mitsuba/write/write_mitsuba.h"
 #include "importers/obj/write/write_obj.h"
 #include "importers/pbrt/write/write_pbrt.h"
 #include "importers/ply/write/write_ply_scene.h"
 #include "importers/povray/write/write_povray.h"
+#include "importers/writing/embedded_images.h"
 #include "scene/records/nesting.h"
 
 namespace vitrail {
@@ -21,10 +24,13 @@ namespace {
 struct Format {
   std::string_view extension;
   Diagnostics (*write)(const Scene&, const std::filesystem::path&);
+  bool holds_images = false;  // in the file itself
 };
-constexpr std::array<Format, 5> formats{{{".pbrt", write_pbrt},
+constexpr std::array<Format, 7> formats{{{".pbrt", write_pbrt},
                                          {".xml", write_mitsuba},
                                          {".pov", write_povray},
+                                         {".glb", write_gltf, true},
+                                         {".gltf", write_gltf, true},
                                          {".obj", write_obj},
                                          {".ply", write_ply_scene}}};
 
@@ -34,9 +40,9 @@ const Format& format_of(const std::filesystem::path& out) {
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   for (const Format& format : formats)
     if (format.extension == extension) return format;
-  throw UsageError(
-      fmt::format("{}: the name of what is written has to end in .pbrt, .xml (Mitsuba), .pov, .obj or .ply",
-                  out.string()));
+  throw UsageError(fmt::format(
+      "{}: the name of what is written has to end in .pbrt, .xml (Mitsuba), .pov, .glb, .gltf, .obj or .ply",
+      out.string()));
 }
 
 void note_nested_instances(const Scene& scene, Diagnostics& diagnostics) {
@@ -75,7 +81,14 @@ void note_motion(const Scene& scene, const Format& format, Diagnostics& diagnost
 Diagnostics export_scene(const Scene& scene, const std::filesystem::path& out) {
   const Format& format = format_of(out);
   const bool nested = has_nested_instances(scene);
-  Diagnostics diagnostics = format.write(nested ? without_nested_instances(scene) : scene, out);
+  const bool embedded = !format.holds_images && has_embedded_images(scene);
+  std::optional<Scene> changed;
+  if (nested) changed = without_nested_instances(scene);
+  if (embedded) {
+    if (!changed) changed = scene;
+    extract_images(*changed, out);
+  }
+  Diagnostics diagnostics = format.write(changed ? *changed : scene, out);
   if (nested) note_nested_instances(scene, diagnostics);
   note_motion(scene, format, diagnostics);
   return diagnostics;

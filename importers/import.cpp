@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "importers/import.h"
 
-#include <algorithm>
-#include <cctype>
+#include <fmt/format.h>
+
 #include <optional>
 
-#include "importers/mitsuba/read/mitsuba.h"
-#include "importers/obj/read/obj.h"
-#include "importers/pbrt/read/pbrt.h"
-#include "importers/ply/read/ply.h"
+#include "importers/readers.h"
 #include "importers/reading/coincident_lamps.h"
 #include "importers/reading/default_view.h"
 #include "importers/reading/foreign_text.h"
@@ -23,60 +20,25 @@ namespace vitrail {
 
 namespace {
 
-// ".pbrt" of "a.pbrt" and of "a.PBRT.gz".
-std::string format_of(std::filesystem::path file) {
-  const auto lower = [](std::string word) {
-    std::transform(word.begin(), word.end(), word.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return word;
-  };
-  const std::string extension = lower(file.extension().string());
-  return extension == ".gz" ? lower(file.stem().extension().string()) : extension;
+// "Mitsuba", or "Mitsuba and glTF": the formats that have it.
+std::string formats_with(bool Reader::*feature) {
+  std::string names;
+  for (const Reader& reader : readers())
+    if (reader.*feature) names += (names.empty() ? "" : " and ") + std::string(reader.name);
+  return names;
 }
-
-ImportedScene mesh_alone(const std::filesystem::path& file, MeshMemory& memory) {
-  ImportedScene imported;
-  Scene& scene = imported.scene;
-  TriangleMesh mesh = read_ply(file, &imported.diagnostics, PlyAttributes::colors);
-  scene.materials.push_back({DiffuseMaterial{}});
-  if (!mesh.attributes.empty()) {
-    scene.textures.push_back({MeshAttributeTexture{mesh.attributes.front().name}});
-    scene.materials.front().model = DiffuseMaterial{Id<Texture>{0}};
-  }
-  scene.meshes.push_back(
-      memory.keep(std::move(mesh), [file] { return read_ply(file, nullptr, PlyAttributes::colors); }));
-  imported.scene.shapes.push_back({});
-  return imported;
-}
-
-}  // namespace
-
-namespace {
 
 ImportedScene read_scene(const std::filesystem::path& file, MeshMemory memory,
                          std::function<void(double)> progress, const ImportOptions& options) {
-  const std::string format = format_of(file);
-  if (!options.definitions.empty() && format != ".xml")
-    throw UsageError(file.string() + ": only scenes of Mitsuba have parameters that -D could set");
-  if (options.camera != 0 && format != ".xml")
-    throw UsageError(file.string() + ": only scenes of Mitsuba have more than one camera");
-  ImportedScene imported;
-  if (format == ".pbrt" || format == ".xml") {
-    imported = format == ".xml" ? read_mitsuba(file, std::move(memory), options)
-                                : read_pbrt(file, std::move(memory), std::move(progress), options);
-    if (options.replace_missing) replace_missing_images(imported);
-    return imported;
-  }
-  if (format == ".obj") {
-    imported = read_obj(file);
-    for (TriangleMesh& mesh : imported.scene.meshes) mesh = memory.keep(std::move(mesh), {});
-  } else if (format == ".ply") {
-    imported = mesh_alone(file, memory);
-  } else {
-    throw Error("unknown format: the name has to end in .pbrt, .xml, .obj or .ply; .gz may follow",
-                {file.string()});
-  }
-  add_default_view(imported, file);
+  const Reader& reader = reader_of(file);
+  if (!options.definitions.empty() && !reader.has_definitions)
+    throw UsageError(fmt::format("{}: only scenes of {} have parameters that -D could set", file.string(),
+                                 formats_with(&Reader::has_definitions)));
+  if (options.camera != 0 && !reader.has_many_cameras)
+    throw UsageError(fmt::format("{}: only scenes of {} have more than one camera", file.string(),
+                                 formats_with(&Reader::has_many_cameras)));
+  ImportedScene imported = reader.read({file, std::move(memory), std::move(progress), options});
+  if (!reader.adds_view) add_default_view(imported, file);
   if (options.replace_missing) replace_missing_images(imported);
   return imported;
 }

@@ -11,12 +11,12 @@
 
 namespace vitrail {
 
-// Reads a scene in the format that the file name says (.pbrt, .pbrt.gz, .obj, .ply). Bad input throws Error
-// with its place. A file of geometry alone gets a camera that sees all of it and a constant sky, and
-// diagnostics that say so. Meshes with files of their own are in memory up to the limit; the others are read
-// and stay in their files (scene/shapes/deferred_mesh.h).
-// `progress`, if given, gets the fraction that is read, of a pbrt scene; what it throws stops the reading.
-// Other `options` than the usual ones throw UsageError but for a Mitsuba scene.
+// Reads a scene in the format that the file's name says, or else its first bytes (readers.h). Bad input
+// throws Error with its place. A file of geometry alone gets a camera that sees all of it and a constant sky,
+// and diagnostics that say so. Meshes with files of their own are in memory up to the limit; the others are
+// read and stay in their files (scene/shapes/deferred_mesh.h). `progress`, if given, gets the fraction that
+// is read, of a pbrt scene; what it throws stops the reading. Options that the format has no use for throw
+// UsageError.
 ImportedScene import_scene(const std::filesystem::path& file, MeshMemory memory = MeshMemory{},
                            std::function<void(double)> progress = {}, const ImportOptions& options = {});
 

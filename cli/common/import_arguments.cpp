@@ -14,7 +14,7 @@ void declare_import_options(CLI::App& app, ImportArguments& a) {
         const std::size_t at = word.find('=');
         return at == std::string::npos || at == 0 ? "takes name=value, not '" + word + "'" : std::string();
       });
-  app.add_option("--camera", a.camera, "which sensor of a Mitsuba scene, from 0")
+  app.add_option("--camera", a.camera, "which sensor of a Mitsuba scene, or camera of a glTF, from 0")
       ->check(CLI::Range(0, 999'999))
       ->capture_default_str();
   app.add_option(

@@ -38,14 +38,15 @@ struct Arguments {
 void declare(CLI::App& app, Arguments& a) {
   app.add_option(
          "files", a.files,
-         "a scene (.pbrt, .xml, .obj, .ply) and what it becomes (.pbrt: v4, .xml: Mitsuba 3, .pov, .obj, "
-         ".ply); with --to: scenes, and folders that are searched for them")
+         "a scene (.pbrt, .xml, .glb, .gltf, .obj, .ply) and what it becomes (.pbrt: v4, .xml: Mitsuba 3, "
+         ".pov, .glb, .gltf, .obj, .ply); with --to: scenes, and folders that are searched for them")
       ->required();
   app.add_option("-o,--output", a.output, "what the scene becomes; with --to: the folder for all");
   app.add_option("--to", a.format,
-                 "pbrt, xml, pov, obj or ply: convert many, each with NAME.report.json beside it; those that "
+                 "pbrt, xml, pov, glb, gltf, obj or ply: convert many, each with NAME.report.json beside it; "
+                 "those that "
                  "are done already are left out")
-      ->check(CLI::IsMember({"pbrt", "xml", "pov", "obj", "ply"}));
+      ->check(CLI::IsMember({"pbrt", "xml", "pov", "glb", "gltf", "obj", "ply"}));
   app.add_option("-j,--jobs", a.at_once, "with --to: so many at once; default: all cores")
       ->check(CLI::Range(1, 4096));
   app.add_flag("--again", a.again, "with --to: also those that are done already");

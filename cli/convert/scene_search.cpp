@@ -33,6 +33,7 @@ bool has_any_of(const fs::path& file, const std::vector<std::string>& words) {
 
 bool is_whole_scene(const fs::path& file) {
   if (file.extension() == ".pbrt") return has_any_of(file, {"WorldBegin"});
+  if (file.extension() == ".glb" || file.extension() == ".gltf") return has_any_of(file, {"\"asset\""});
   return file.extension() == ".xml" && has_any_of(file, {"<sensor", "<camera"});
 }
 

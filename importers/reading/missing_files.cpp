@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "images/file_part.h"
 #include "scene/spectra/rgb_to_spectrum.h"
 
 namespace vitrail {
@@ -16,7 +17,7 @@ namespace {
 
 bool is_missing(const std::string& file) {
   std::error_code ignored;
-  return !std::filesystem::is_regular_file(file, ignored);
+  return !std::filesystem::is_regular_file(whole_file(file), ignored);
 }
 
 class Replacer {

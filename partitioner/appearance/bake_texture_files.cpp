@@ -6,6 +6,7 @@
 #include <cmath>
 #include <memory>
 
+#include "images/file_part.h"
 #include "images/texture_values.h"
 #include "partitioner/appearance/bake_textures.h"
 #include "partitioner/caching/content_hash.h"
@@ -56,6 +57,7 @@ constexpr int baking_revision = 1;
 // as soon as they are looked for.
 std::string key_of(const ImageTexture& image, TextureUse use, bool all_levels, RgbMethod method) {
   constexpr std::uint64_t least_bytes = 1 << 15;
+  if (file_part(image.filename)) return "";  // the content would be looked up in the file as a whole
   const std::filesystem::path file = image.filename;
   check_input(file);
   std::error_code none;

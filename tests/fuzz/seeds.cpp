@@ -49,6 +49,7 @@ void add_scenes(Seeds& seeds) {
   add("pbrt", SceneFormat::pbrt_v4, "pbrt-v4.txt");
   add("mitsuba", SceneFormat::mitsuba_06, "mitsuba-0.6.txt");
   add("mitsuba", SceneFormat::mitsuba_3, "mitsuba-3.txt");
+  add("gltf", SceneFormat::gltf, "gltf.txt");
 }
 
 void add_meshes(Seeds& seeds) {
@@ -95,6 +96,31 @@ void add_meshes(Seeds& seeds) {
                               std::string(24, '\0') + corners + triangle);
   seeds.add("serialized",
             "\4" + bytes_of(0x2000) + std::string("n\0", 2) + counts + std::string(72, '\0') + triangle);
+}
+
+// With something of all that is read, and a .glb around it.
+void add_gltf(Seeds& seeds) {
+  const std::string text = R"gltf({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0,1,2,3]}],
+"extensionsUsed":["KHR_lights_punctual","EXT_mesh_gpu_instancing"],
+"extensions":{"KHR_lights_punctual":{"lights":[{"type":"spot","intensity":9,"color":[1,0.5,0],"range":3,"spot":{"innerConeAngle":0.1}}]}},
+"nodes":[{"mesh":0,"translation":[1,2,3],"rotation":[0,0,0,1],"scale":[1,-1,1],"children":[4]},{"camera":0,"matrix":[1,0,0,0,0,1,0,0,0,0,1,0,0,0,9,1]},
+{"mesh":0,"extensions":{"EXT_mesh_gpu_instancing":{"attributes":{"TRANSLATION":0,"SCALE":0}}}},{"mesh":1,"skin":0,"weights":[0.5]},{"extensions":{"KHR_lights_punctual":{"light":0}}}],
+"skins":[{"joints":[0,4]}],"animations":[],
+"cameras":[{"type":"perspective","perspective":{"yfov":1,"aspectRatio":1.5,"znear":0.1}}],
+"meshes":[{"primitives":[{"attributes":{"POSITION":0,"TEXCOORD_0":2},"indices":1,"material":0}]},
+{"primitives":[{"attributes":{"POSITION":0,"NORMAL":0,"COLOR_0":3,"JOINTS_0":4,"WEIGHTS_0":3},"mode":5,"targets":[{"POSITION":0}],"material":1}]}],
+"images":[{"uri":"data:image/png;base64,iVBORw0KGgo="},{"bufferView":0,"mimeType":"image/png"}],"samplers":[{"wrapS":33071,"magFilter":9728}],
+"textures":[{"source":0,"sampler":0},{"source":1}],
+"materials":[{"pbrMetallicRoughness":{"baseColorFactor":[1,0.5,0.25,0.5],"metallicFactor":0.5,"roughnessFactor":0.3,"baseColorTexture":{"index":0,"extensions":{"KHR_texture_transform":{"offset":[0,1],"rotation":1,"scale":[2,2]}}},"metallicRoughnessTexture":{"index":1,"texCoord":1}},
+"normalTexture":{"index":0,"scale":2},"occlusionTexture":{"index":0},"emissiveTexture":{"index":1},"emissiveFactor":[1,1,1],"alphaMode":"MASK","alphaCutoff":0.3,"doubleSided":true},
+{"alphaMode":"BLEND","extensions":{"KHR_materials_transmission":{"transmissionFactor":0.5,"transmissionTexture":{"index":0}},"KHR_materials_volume":{"thicknessFactor":1,"attenuationDistance":2,"attenuationColor":[1,0.5,0.2]},"KHR_materials_ior":{"ior":1.4},"KHR_materials_clearcoat":{"clearcoatFactor":1,"clearcoatRoughnessFactor":0.1},"KHR_materials_sheen":{"sheenColorFactor":[1,0,0]},"KHR_materials_specular":{"specularFactor":0.5},"KHR_materials_anisotropy":{"anisotropyStrength":0.5},"KHR_materials_dispersion":{"dispersion":1},"KHR_materials_emissive_strength":{"emissiveStrength":3},"KHR_materials_unlit":{}}}],
+"buffers":[{"byteLength":92,"uri":"data:application/octet-stream;base64,AACAvwAAAAAAAIA/AACAPwAAAAAAAIA/AACAPwAAAAAAAIC/AACAvwAAAAAAAIC/AAABAAIAAAACAAMAAAAAAAAAgD8AAIA/AACAPwAAgD8AAAAAAAAAAAAAAAA="}],
+"bufferViews":[{"buffer":0,"byteLength":48},{"buffer":0,"byteOffset":48,"byteLength":12},{"buffer":0,"byteOffset":60,"byteLength":32},{"buffer":0,"byteLength":64}],
+"accessors":[{"bufferView":0,"componentType":5126,"type":"VEC3","count":4},{"bufferView":1,"componentType":5123,"type":"SCALAR","count":6},{"bufferView":2,"componentType":5126,"type":"VEC2","count":4},
+{"bufferView":3,"componentType":5126,"type":"VEC4","count":4},{"componentType":5121,"type":"VEC4","count":4,"sparse":{"count":1,"indices":{"bufferView":1,"componentType":5121},"values":{"bufferView":0}}}]})gltf";
+  seeds.add("gltf", text);
+  const auto length = static_cast<std::uint32_t>(text.size());
+  seeds.add("gltf", "glTF" + bytes_of(std::uint32_t{2}, 20 + length, length) + "JSON" + text);
 }
 
 // A table of two nodes, and one of four and three channels.
@@ -205,6 +231,7 @@ int main(int argc, char** argv) {
   vitrail::test::Seeds seeds(argv[1]);
   vitrail::test::add_scenes(seeds);
   vitrail::test::add_meshes(seeds);
+  vitrail::test::add_gltf(seeds);
   vitrail::test::add_tables(seeds);
   vitrail::test::add_images(seeds);
   vitrail::test::add_bundle_seeds(

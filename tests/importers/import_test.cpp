@@ -4,6 +4,7 @@
 
 #include <numbers>
 
+#include "importers/readers.h"
 #include "importers/reading/default_view.h"
 #include "importers/reading/missing_files.h"
 #include "scene/spectra/color.h"
@@ -32,8 +33,34 @@ TEST(ImportScene, GoesByTheNameOfTheFile) {
   EXPECT_EQ(import_scene(folder.write("a.ply.gz", ply)).scene.shapes.size(), 1u);
   EXPECT_EQ(import_scene(folder.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")).scene.shapes.size(),
             1u);
-  EXPECT_THROW(import_scene(folder.write("a.blend", ply)), Error);
+  EXPECT_THROW(import_scene(folder.write("a.blend", "BLENDER-v300")), Error);
   EXPECT_THROW(import_scene(folder.path() / "none.pbrt"), Error);
+}
+
+TEST(ImportScene, KnowsFilesWithoutASuffixByTheirFirstBytes) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(import_scene(folder.write("mesh", ply)).scene.shapes.size(), 1u);
+  EXPECT_EQ(
+      import_scene(folder.write("scene.txt", "<scene version=\"3.0.0\"><shape type=\"sphere\"/></scene>"))
+          .scene.shapes.size(),
+      1u);
+  try {
+    import_scene(folder.write("what", "neither"));
+    FAIL();
+  } catch (const Error& error) {
+    for (const Reader& reader : readers())
+      EXPECT_NE(std::string(error.what()).find(reader.suffixes.front()), std::string::npos) << reader.name;
+  }
+}
+
+TEST(ImportScene, RefusesOptionsThatTheFormatHasNoUseFor) {
+  const TemporaryFolder folder;
+  ImportOptions camera;
+  camera.camera = 1;
+  EXPECT_THROW(import_scene(folder.write("a.ply", ply), MeshMemory{}, {}, camera), UsageError);
+  ImportOptions definitions;
+  definitions.definitions["a"] = "1";
+  EXPECT_THROW(import_scene(folder.write("a.ply", ply), MeshMemory{}, {}, definitions), UsageError);
 }
 
 TEST(ImportScene, SaysWhichCurvesBecomeTubes) {

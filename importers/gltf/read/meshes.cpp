@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "importers/gltf/read/meshes.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "importers/gltf/read/primitive.h"
+
+namespace vitrail::gltf {
+
+namespace {
+
+template <class T>
+std::vector<T> triples(const std::vector<float>& values) {
+  std::vector<T> out(values.size() / 3);
+  for (std::size_t i = 0; i < out.size(); ++i) out[i] = {values[3 * i], values[3 * i + 1], values[3 * i + 2]};
+  return out;
+}
+
+bool are_finite(const std::vector<float>& values) {
+  return std::ranges::all_of(values, [](float v) { return std::isfinite(v); });
+}
+
+// Where (u,v) run the other way round than on the surface: there the third axis of a normal map is turned.
+bool has_mirrored_uvs(const TriangleMesh& mesh) {
+  if (mesh.uvs.empty() || mesh.normals.empty()) return false;
+  return std::ranges::any_of(mesh.triangles, [&](const auto& t) {
+    const Point2f a = mesh.uvs[t[0]], b = mesh.uvs[t[1]], c = mesh.uvs[t[2]];
+    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x) >
+           0;  // v runs down: a map as it is turns left
+  });
+}
+
+}  // namespace
+
+void Meshes::note(Fidelity fidelity, int mesh, const std::string& what) {
+  const SourceLocation place = document_.place("meshes", mesh);
+  diagnostics_.push_back({fidelity, what, place, place, RecordKind::shape});
+}
+
+const std::vector<Part>& Meshes::parts(int mesh) {
+  const auto [at, is_new] = known_.try_emplace(mesh);
+  if (is_new) at->second = posed_parts(mesh, {});
+  return at->second;
+}
+
+std::vector<Part> Meshes::posed_parts(int index, const Pose& pose) {
+  const tinygltf::Mesh& mesh = document_.model().meshes[static_cast<std::size_t>(index)];
+  Pose own = pose;
+  if (own.weights.empty()) own.weights = mesh.weights;
+  std::vector<Part> parts;
+  for (const tinygltf::Primitive& primitive : mesh.primitives) add_part(index, primitive, own, parts);
+  return parts;
+}
+
+void Meshes::add_part(int index, const tinygltf::Primitive& primitive, const Pose& pose,
+                      std::vector<Part>& parts) {
+  const PrimitiveReader reader(document_, index, primitive);
+  for (const char* packed : {"KHR_draco_mesh_compression"})
+    if (primitive.extensions.contains(packed) && !reader.has("POSITION"))
+      reader.fail(fmt::format("{}: export without compression", packed));
+  if (!reader.has("POSITION")) return note(Fidelity::dropped, index, "a primitive without positions");
+  TriangleMesh mesh;
+  mesh.triangles = reader.triangles();
+  if (mesh.triangles.empty()) {
+    if (primitive.mode >= 0 && primitive.mode < TINYGLTF_MODE_TRIANGLES)
+      note(Fidelity::dropped, index, primitive.mode == TINYGLTF_MODE_POINTS ? "points" : "lines");
+    return;
+  }
+  std::vector<float> positions = reader.attribute("POSITION", 3), normals;
+  if (reader.has("NORMAL")) normals = reader.attribute("NORMAL", 3);
+  reader.morph("POSITION", pose.weights, positions);
+  if (!normals.empty()) reader.morph("NORMAL", pose.weights, normals);
+  mesh.positions = triples<Point3f>(positions), mesh.normals = triples<Normal3f>(normals);
+  if (!pose.joints.empty() && reader.has("JOINTS_0")) {
+    const std::vector<Transform> of_vertex = reader.skin(pose.joints);
+    for (std::size_t i = 0; i < of_vertex.size(); ++i) {
+      mesh.positions[i] = cast<float>(transform_point(of_vertex[i], cast<double>(mesh.positions[i])));
+      if (!normals.empty())
+        mesh.normals[i] = cast<float>(
+            to_normal(normalize(to_vector(transform_normal(of_vertex[i], cast<double>(mesh.normals[i]))))));
+    }
+  }
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i)
+    if (!is_finite(mesh.positions[i])) reader.fail(fmt::format("the position of vertex {} is not finite", i));
+  if (!std::ranges::all_of(mesh.normals, [](Normal3f n) { return is_finite(Point3f{n.x, n.y, n.z}); })) {
+    note(Fidelity::dropped, index, "normals that are not finite");
+    mesh.normals.clear();
+  }
+
+  const int channels = reader.color_channels();
+  const Surface& surface = materials_.surface(primitive.material, channels, index);
+  mesh.missing_uv = MissingUv::zero;
+  if (const std::string set = fmt::format("TEXCOORD_{}", surface.uv_set); reader.has(set)) {
+    const std::vector<float> uv = reader.attribute(set, 2);
+    if (are_finite(uv))
+      for (std::size_t i = 0; i < uv.size(); i += 2) mesh.uvs.push_back({uv[i], uv[i + 1]});
+    else
+      note(Fidelity::dropped, index, set + ", which is not finite");
+  }
+  if (channels > 0) {
+    const std::vector<float> colors = reader.attribute("COLOR_0", channels);
+    MeshAttribute color{vertex_color, false, 3, {}}, alpha{vertex_alpha, false, 1, {}};
+    for (std::size_t i = 0; i < colors.size(); ++i) {
+      const float value = std::isfinite(colors[i]) ? std::clamp(colors[i], 0.0f, 1.0f) : 0;
+      (channels == 4 && i % 4 == 3 ? alpha : color).values.push_back(value);
+    }
+    mesh.attributes.push_back(std::move(color));
+    if (channels == 4) mesh.attributes.push_back(std::move(alpha));
+  }
+  if (surface.has_normal_map && has_mirrored_uvs(mesh))
+    note(Fidelity::approximated, index,
+         "its normal map counts, where (u,v) are mirrored, as if they were not");
+  scene_.meshes.push_back(memory_.keep(std::move(mesh), {}));
+  parts.push_back({{static_cast<std::uint32_t>(scene_.meshes.size() - 1)}, surface});
+}
+
+}  // namespace vitrail::gltf

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// The primitives of glTF's meshes.
+#pragma once
+
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "importers/gltf/read/materials.h"
+#include "scene/geometry/transform.h"
+#include "scene/shapes/deferred_mesh.h"
+
+namespace vitrail::gltf {
+
+// A primitive as a mesh and what it looks like.
+struct Part {
+  Id<TriangleMesh> mesh;
+  Surface surface;
+};
+
+// What bends a mesh where a node uses it.
+struct Pose {
+  std::vector<double> weights;    // of morph targets; none: the mesh's own
+  std::vector<Transform> joints;  // from the mesh at rest to the world; none: it has no skin
+};
+
+class Meshes {
+ public:
+  Meshes(const Document& document, Scene& scene, Diagnostics& diagnostics, MeshMemory& memory)
+      : document_(document),
+        scene_(scene),
+        diagnostics_(diagnostics),
+        memory_(memory),
+        materials_(document, scene, diagnostics) {}
+
+  // Triangles, strips and fans of them; points and lines are reported and left out. A mesh without normals
+  // has flat ones. Wrong indices, and attributes of another length than the positions, throw Error.
+  const std::vector<Part>& parts(int mesh);
+  std::vector<Part> posed_parts(int mesh, const Pose& pose);
+
+  const Materials& materials() const { return materials_; }
+
+ private:
+  void add_part(int mesh, const tinygltf::Primitive& primitive, const Pose& pose, std::vector<Part>& parts);
+  void note(Fidelity fidelity, int mesh, const std::string& what);
+
+  const Document& document_;
+  Scene& scene_;
+  Diagnostics& diagnostics_;
+  MeshMemory& memory_;
+  Materials materials_;
+  std::map<int, std::vector<Part>> known_;
+};
+
+}  // namespace vitrail::gltf

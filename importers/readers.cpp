@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "importers/readers.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <fstream>
+
+#include "importers/gltf/read/gltf.h"
+#include "importers/mitsuba/read/mitsuba.h"
+#include "importers/obj/read/obj.h"
+#include "importers/pbrt/read/pbrt.h"
+#include "importers/ply/read/ply.h"
+#include "scene/system/diagnostics.h"
+#include "scene/system/input_files.h"
+
+namespace vitrail {
+
+namespace {
+
+ImportedScene read_obj_scene(ReadRequest request) {
+  ImportedScene imported = read_obj(request.file);
+  for (TriangleMesh& mesh : imported.scene.meshes) mesh = request.memory.keep(std::move(mesh), {});
+  return imported;
+}
+
+ImportedScene read_ply_scene(ReadRequest request) {
+  const std::filesystem::path& file = request.file;
+  ImportedScene imported;
+  Scene& scene = imported.scene;
+  TriangleMesh mesh = read_ply(file, &imported.diagnostics, PlyAttributes::colors);
+  scene.materials.push_back({DiffuseMaterial{}});
+  if (!mesh.attributes.empty()) {
+    scene.textures.push_back({MeshAttributeTexture{mesh.attributes.front().name}});
+    scene.materials.front().model = DiffuseMaterial{Id<Texture>{0}};
+  }
+  scene.meshes.push_back(request.memory.keep(
+      std::move(mesh), [file] { return read_ply(file, nullptr, PlyAttributes::colors); }));
+  scene.shapes.push_back({});
+  return imported;
+}
+
+bool is_ply(std::string_view bytes) { return bytes.starts_with("ply\n") || bytes.starts_with("ply\r"); }
+bool is_mitsuba(std::string_view bytes) {
+  return bytes.starts_with("<?xml") || bytes.starts_with("<scene") || bytes.starts_with("<!--");
+}
+
+std::string lower(std::string word) {
+  std::ranges::transform(word, word.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return word;
+}
+
+std::string first_bytes(const std::filesystem::path& file) {
+  std::string bytes(256, '\0');
+  std::ifstream in = open_input(file);
+  in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  bytes.resize(static_cast<std::size_t>(in.gcount()));
+  return bytes;
+}
+
+}  // namespace
+
+const std::vector<Reader>& readers() {
+  static const std::vector<Reader> rows{
+      {.name = "pbrt",
+       .suffixes = {".pbrt"},
+       .gzipped = true,
+       .sniff = nullptr,
+       .read = [](ReadRequest r) { return read_pbrt(r.file, std::move(r.memory), r.progress, r.options); },
+       .adds_view = true,
+       .has_definitions = false,
+       .has_many_cameras = false},
+      {.name = "Mitsuba",
+       .suffixes = {".xml"},
+       .gzipped = true,
+       .sniff = is_mitsuba,
+       .read = [](ReadRequest r) { return read_mitsuba(r.file, std::move(r.memory), r.options); },
+       .adds_view = true,
+       .has_definitions = true,
+       .has_many_cameras = true},
+      {.name = "glTF",
+       .suffixes = {".gltf", ".glb"},
+       .gzipped = false,
+       .sniff = is_gltf,
+       .read = [](ReadRequest r) { return read_gltf(r.file, std::move(r.memory), r.options); },
+       .adds_view = true,
+       .has_definitions = false,
+       .has_many_cameras = true},
+      {.name = "Wavefront OBJ",
+       .suffixes = {".obj"},
+       .gzipped = true,
+       .sniff = nullptr,
+       .read = read_obj_scene,
+       .adds_view = false,
+       .has_definitions = false,
+       .has_many_cameras = false},
+      {.name = "PLY",
+       .suffixes = {".ply"},
+       .gzipped = true,
+       .sniff = is_ply,
+       .read = read_ply_scene,
+       .adds_view = false,
+       .has_definitions = false,
+       .has_many_cameras = false},
+  };
+  return rows;
+}
+
+const Reader& reader_of(const std::filesystem::path& file) {
+  const std::string last = lower(file.extension().string());
+  const bool gzipped = last == ".gz";
+  const std::string suffix = gzipped ? lower(file.stem().extension().string()) : last;
+  for (const Reader& reader : readers())
+    if ((!gzipped || reader.gzipped) && std::ranges::count(reader.suffixes, suffix) > 0) return reader;
+  const std::string bytes = first_bytes(file);
+  for (const Reader& reader : readers())
+    if (reader.sniff && reader.sniff(bytes)) return reader;
+  std::string known, zipped;
+  for (const Reader& reader : readers())
+    for (const std::string_view each : reader.suffixes) {
+      fmt::format_to(std::back_inserter(known), "{}{}", known.empty() ? "" : ", ", each);
+      if (reader.gzipped)
+        fmt::format_to(std::back_inserter(zipped), "{}{}", zipped.empty() ? "" : ", ", each);
+    }
+  throw Error(
+      fmt::format("unknown format: the name has to end in one of {}; .gz may follow {}", known, zipped),
+      {file.string()});
+}
+
+}  // namespace vitrail
