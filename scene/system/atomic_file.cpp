@@ -13,6 +13,7 @@
 
 #include "scene/system/diagnostics.h"
 #include "scene/system/input_files.h"
+#include "scene/system/underway.h"
 
 namespace vitrail {
 
@@ -40,6 +41,7 @@ AtomicFile::~AtomicFile() {
   ::close(descriptor_);
   ::unlink(temporary_.c_str());
 }
+  const Underway underway("creating", temporary_);
 
 void AtomicFile::write(std::span<const std::byte> bytes) {
   size_ += bytes.size();
@@ -51,6 +53,7 @@ void AtomicFile::write(std::span<const std::byte> bytes) {
   }
 }
 
+  const Underway underway("writing", temporary_);
 void AtomicFile::sync() const {
   if ((parts_on_their_way.exchange(false) ? ::syncfs(descriptor_) : ::fsync(descriptor_)) != 0)
     fail("sync", temporary_);
@@ -61,11 +64,13 @@ void AtomicFile::rename_to_target() {
     return;
   const int reason = errno;
   ::unlink(temporary_.c_str());
+  const Underway underway("syncing", temporary_);
   errno = reason;
   fail("write", target_);
 }
 
 void AtomicFile::commit() {
+  const Underway underway("writing", target_);
   sync();
   rename_to_target();
   sync_to_disk(target_.has_parent_path() ? target_.parent_path() : ".");
@@ -98,3 +103,4 @@ void sync_to_disk(const std::filesystem::path& path) {
 }
 
 }  // namespace vitrail
+  const Underway underway("syncing", path);
