@@ -8,6 +8,7 @@
 #include "farm/plan/ending_time.h"
 #include "farm/run/checkpoint.h"
 #include "farm/transport/agreement.h"
+#include "farm/transport/doing.h"
 #include "film/film_progress.h"
 
 namespace vitrail {
@@ -30,11 +31,10 @@ double interval_s(const RenderOptions& options) {
 }  // namespace
 
 Checkpointing::Checkpointing(Transport& transport, RankState& state, const RenderOptions& options,
-                             Patience& patience, FilmKeeper* keeper, std::string about, double time_before_s)
+                             FilmKeeper* keeper, std::string about, double time_before_s)
     : transport_(transport),
       state_(state),
       options_(options),
-      patience_(patience),
       keeper_(keeper),
       about_(std::move(about)),
       time_before_s_(time_before_s),
@@ -68,6 +68,7 @@ void Checkpointing::watch_clock() {
 
 void Checkpointing::gather() {
   const Clock::time_point begin = Clock::now();
+  now_doing("putting the film together");
   gather_film(transport_, state_.film, state_.done);
   expect_ending(seconds_since(begin));
 }
@@ -76,18 +77,19 @@ void Checkpointing::gather() {
 bool Checkpointing::write(const std::filesystem::path& file, bool last) {
   const Clock::time_point begin = Clock::now();
   const double render_time_s = time_before_s_ + state_.elapsed_s();
+  now_doing("looking whether files have changed");
   agree(transport_, require_unchanged_files);
+  now_doing("putting the film together");
   gather_film(transport_, state_.film, state_.done);
+  now_doing(last ? "writing the film" : "writing a checkpoint");
   bool written = true;
   agree(transport_, [&] {
     if (transport_.rank() != 0) return;
     const FilmProgress progress = progress_of(state_.plan, state_.done, render_time_s, about_);
-    patience_.answer_during([&] {
-      if (last)
-        keeper_->write_last(file, state_.film, progress);
-      else
-        written = keeper_->write_checkpoint(file, state_.film, progress);
-    });
+    if (last)
+      keeper_->write_last(file, state_.film, progress);
+    else
+      written = keeper_->write_checkpoint(file, state_.film, progress);
     if (!last && written && options_.outputs.after_checkpoint && state_.film.samples() > 0)
       options_.outputs.after_checkpoint(file);
   });

@@ -6,8 +6,9 @@
 #include <string>
 
 #include "farm/files/film_keeper.h"
-#include "farm/run/patience.h"
+#include "farm/run/rank_state.h"
 #include "farm/run/stats.h"
+#include "farm/transport/transport.h"
 
 namespace vitrail {
 
@@ -15,8 +16,8 @@ class Checkpointing {
  public:
   // `about`: FilmProgress's. `keeper`: on rank 0, unless it is a dry run. `time_before_s`: render time of
   // earlier runs.
-  Checkpointing(Transport& transport, RankState& state, const RenderOptions& options, Patience& patience,
-                FilmKeeper* keeper, std::string about, double time_before_s);
+  Checkpointing(Transport& transport, RankState& state, const RenderOptions& options, FilmKeeper* keeper,
+                std::string about, double time_before_s);
 
   // Asks for a checkpoint or an end where one is due.
   void watch_clock();
@@ -44,7 +45,6 @@ class Checkpointing {
   Transport& transport_;
   RankState& state_;
   const RenderOptions& options_;
-  Patience& patience_;
   FilmKeeper* keeper_;
   std::string about_;
   double time_before_s_;
