@@ -138,6 +138,7 @@ void Rank::watch_for_stall(const RoundSums& sums) {
 Rank::Decision Rank::decide(const Round& round) {
   const RoundSums& sums = round.sums;
   if (phases_.any_done(sums)) checkpointing_.has_gained();
+  checkpointing_.rays_are_alive(sums.born - sums.died);
   if (sums.pause > 0) checkpointing_.pause_begins();
   if (sums.bad_input + sums.machine_failure > 0) leave_failed(sums);
   auto quiet = Scheduler::Decision::go_on;
