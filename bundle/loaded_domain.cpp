@@ -2,6 +2,7 @@
 #include "bundle/loaded_domain.h"
 
 #include "bundle/watched_files.h"
+#include "scene/system/underway.h"
 
 namespace vitrail {
 
@@ -39,6 +40,7 @@ std::uint64_t bytes_loaded(const Manifest& manifest, std::uint32_t domain) {
 
 SharedDomain map_domain(const Manifest& manifest, const std::filesystem::path& bundle, std::uint32_t domain) {
   const std::filesystem::path file = domain_path(bundle, domain);
+  const Underway underway("reading", file);
   watch(file);
   auto mapped = std::make_shared<const MappedDomain>(file);
   check_domain(manifest, domain, *mapped, file);
@@ -47,6 +49,7 @@ SharedDomain map_domain(const Manifest& manifest, const std::filesystem::path& b
 
 SharedDomain map_object(const Manifest& manifest, const std::filesystem::path& bundle, std::uint32_t object) {
   const std::filesystem::path file = object_path(bundle, object);
+  const Underway underway("reading", file);
   watch(file);
   auto mapped = std::make_shared<const MappedDomain>(file);
   check_object(manifest, object, *mapped, file);

@@ -7,11 +7,13 @@
 
 #include "scene/system/diagnostics.h"
 #include "scene/system/input_files.h"
+#include "scene/system/underway.h"
 
 namespace vitrail {
 
 std::vector<std::byte> read_file(const std::filesystem::path& file) {
   note_input(file);
+  const Underway underway("reading", file);
   const RegularFile in(file);
   if (!in.is_open())
     throw MachineError(fmt::format("cannot open {}: {}", file.string(), std::strerror(in.reason())));

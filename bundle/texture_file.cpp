@@ -11,6 +11,7 @@
 #include "bundle/texture_layout.h"
 #include "scene/system/diagnostics.h"
 #include "scene/system/input_files.h"
+#include "scene/system/underway.h"
 
 namespace vitrail {
 
@@ -118,6 +119,7 @@ TextureFile::Tile TextureFile::read_tile(std::uint32_t level, std::uint32_t tile
   const TextureLevel& of = layout_.levels.at(level);
   const TilePlace place = place_of(info_.format, of, tile_x, tile_y);
   const OpenFile in(file_);
+  const Underway underway("reading", file_);
   if (!in.read(words.data(), place.words * 4, place.offset)) fail(file_, "it has become shorter");
   const std::uint64_t tile = of.first_tile + static_cast<std::uint64_t>(tile_y) * of.tiles_x + tile_x;
   if (checksum(std::as_bytes(words.first(place.words))) != checksums_.at(tile))

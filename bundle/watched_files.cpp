@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "scene/system/diagnostics.h"
+#include "scene/system/underway.h"
 
 namespace vitrail {
 
@@ -56,6 +57,8 @@ void watch(const std::filesystem::path& file) {
 void require_unchanged_files() {
   const std::lock_guard lock(registry().mutex);
   for (const auto& [file, then] : registry().files) {
+    const std::filesystem::path path = file;
+    const Underway underway("looking at", path);
     struct stat status {};
     if (::stat(file.c_str(), &status) != 0) continue;
     if (same_file(then, of(status)) && !unchanged(then, of(status)))

@@ -16,6 +16,7 @@
 #include "farm/run/rank.h"
 #include "farm/run/workers.h"
 #include "farm/transport/agreement.h"
+#include "farm/transport/doing.h"
 #include "scene/system/resource_usage.h"
 #include "scene/system/say.h"
 
@@ -58,6 +59,7 @@ RenderStats render(Transport& transport, const RenderOptions& options) {
   ::mallopt(M_ARENA_MAX, 2);  // an arena a thread would keep memory that the budget does not know of
   catch_signals();
   // Plan.
+  now_doing("reading the scene");
   Job job;
   agree(transport, [&] { job = set_up(options, {transport.rank(), transport.size()}); });
   const Manifest& manifest = job.scene->manifest;
@@ -66,6 +68,7 @@ RenderStats render(Transport& transport, const RenderOptions& options) {
   EarlierWork earlier = read_earlier_work(transport, options, job.film, job.plan.goal, words);
   const std::uint64_t samples_before = job.film.samples();  // on rank 0
   // Run.
+  now_doing("beginning to render");
   RankState state(*job.scene, job.film, std::move(earlier.plan), job.plan, options);
   const bool finished_before = earlier.finished;
   Rank rank(transport, state, options, job, std::move(earlier), words);
@@ -74,6 +77,7 @@ RenderStats render(Transport& transport, const RenderOptions& options) {
   stats.cpu_s = cpu_seconds();
   stats.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   // Conclude.
+  now_doing("writing the statistics");
   gather_stats(transport, stats, state.domains.touched());
   std::optional<RayProfile> profile;
   if (state.work.traffic) profile = gather_profile(transport, manifest, *state.work.traffic, stats);

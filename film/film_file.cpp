@@ -20,6 +20,7 @@
 #include "scene/system/atomic_file.h"
 #include "scene/system/diagnostics.h"
 #include "scene/system/input_files.h"
+#include "scene/system/underway.h"
 
 namespace vitrail {
 
@@ -81,7 +82,8 @@ void write_array(AtomicFile& out, const T& array) {
 
 class Reader {
  public:
-  explicit Reader(const std::filesystem::path& file) : file_(file.string()), in_(open_regular(file)) {
+  explicit Reader(const std::filesystem::path& file)
+      : file_(file.string()), path_(file), in_(open_regular(file)) {
     std::error_code unreadable;
     size_ = std::filesystem::file_size(file, unreadable);
     if (!in_ || unreadable) throw Error("cannot open the film", {file_});
@@ -108,6 +110,8 @@ class Reader {
 
  private:
   std::string file_;
+  std::filesystem::path path_;
+  Underway underway_{"reading", path_};
   std::ifstream in_;
   std::uint64_t size_ = 0;
 };

@@ -56,7 +56,8 @@ bool is_newer(const fs::path& picture, const fs::path& film) {
 void check_outputs(const RenderArguments& a) {
   const JobOutputs& o = a.options.outputs;
   note_input(a.input);
-  for (const fs::path& file : {o.picture, o.film, o.stats, o.profile, o.trace, a.preview})
+  for (const fs::path& file :
+       {o.picture, o.film, checkpoint_path(o.film), o.stats, o.profile, o.trace, a.preview})
     if (!file.empty()) require_place(file);
   // A film that is kept speaks for the picture beside it.
   if (!o.keeps_film || !fs::exists(o.film)) require_own_picture(o.picture, o.force);

@@ -24,8 +24,11 @@
 #include "farm/files/signals.h"
 #include "farm/render.h"
 #include "farm/run/checkpoint.h"
+#include "farm/run/patience.h"
 #include "farm/run/progress.h"
+#include "farm/run/watchdog.h"
 #include "farm/transport/agreement.h"
+#include "farm/transport/doing.h"
 #include "film/develop.h"
 #include "scene/system/atomic_file.h"
 #include "scene/system/say.h"
@@ -102,10 +105,16 @@ int render_job(const CLI::App& app, Transport& transport, RenderArguments& a) {
   agree(transport, [&] { require_unsaturated(stats.refused, a.options.outputs.film); });
   const int signal = number_of(stats.ending);
   if (!first) return signal ? 128 + signal : exit_done;
-  if (preview) preview->finish();  // the picture is the last
-  if (display) display->finish(), display->show(written_film(a, stats)), display->finish();
-  const std::string stopped = signal ? words_at_stop(a, stats) : "";
-  if (!signal) write_picture_of_film(a, stats);
+  std::string stopped;
+  now_doing("writing the picture");
+  beside(transport, [&] {
+    if (preview) preview->finish();  // the picture is the last
+    if (display) display->finish(), display->show(written_film(a, stats)), display->finish();
+    if (signal)
+      stopped = words_at_stop(a, stats);
+    else
+      write_picture_of_film(a, stats);
+  });
   print_end(a.options, stats);
   if (signal) throw Interrupted(signal, stopped);
   return exit_done;
@@ -172,8 +181,15 @@ int main(int argc, char** argv) {
   declare(app, arguments);
   const int status = run_guarded(app, argc, argv, [&] {
     if (arguments.restarts > 0 || !arguments.launcher.empty()) return supervise_job(arguments, argc, argv);
+    const double patience_s = arguments.options.resources.patience_s;
+    Watchdog watchdog(patience_s);
+    now_doing("starting MPI");
+    if (launched_by_mpi()) watchdog.expect_reports();
     const auto transport = make_transport(&argc, &argv);
-    return run_guarded([&] { return guarded_job(app, *transport, arguments); });
+    Patience patience(*transport, watchdog, patience_s);
+    const int end = run_guarded([&] { return guarded_job(app, *transport, arguments); });
+    patience.leave(/*failed=*/end == exit_usage || end == exit_bad_input || end == exit_machine);
+    return end;
   });
   // mpirun takes a rank that dies of a signal for a failure of the job.
   return launched_by_mpi() ? status : end_with(status);

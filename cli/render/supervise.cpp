@@ -41,27 +41,62 @@ void pass_signals_on() {
   for (const int number : {SIGTERM, SIGINT, SIGUSR1}) ::sigaction(number, &action, nullptr);
 }
 
-// The status of waitpid. Of Open MPI 4.1 with PMIx 4.2 one mpirun in twenty-five never ends once a rank
-// of its was killed: its end waits for a lock in memory that it has freed.
-int status_at_end(pid_t process, const std::filesystem::path& film, double patience_s) {
-  using Clock = std::chrono::steady_clock;
-  std::optional<Clock::time_point> last_written;
-  int status = 0;
-  while (::waitpid(process, &status, WNOHANG) == 0) {
+using Clock = std::chrono::steady_clock;
+
+// A process of the render that is stopped: where it is the only one nobody else misses it.
+class StoppedWriter {
+ public:
+  StoppedWriter(const std::filesystem::path& film, double patience_s)
+      : film_(film), patience_s_(patience_s) {}
+
+  void kill_where_it_stays_so() {
+    const std::optional<pid_t> process = stopped_writer(film_);
+    if (!process || process != stopped_) since_ = Clock::now();
+    stopped_ = process;
+    const std::chrono::duration<double> stands = Clock::now() - since_;
+    if (!process || patience_s_ == 0 || stands.count() < 2 * patience_s_) return;
+    say("vitrail: process {} of the render is stopped since {:.0f} s: it is killed\n", *process,
+        stands.count());
+    ::kill(*process, SIGKILL);
+  }
+
+ private:
+  const std::filesystem::path& film_;
+  double patience_s_;
+  std::optional<pid_t> stopped_;
+  Clock::time_point since_;
+};
+
+struct End {
+  int status = 0;          // of waitpid, then of the process
+  bool had_begun = false;  // the render that it started
+};
+
+// Of Open MPI 4.1 with PMIx 4.2 one mpirun in twenty-five never ends once a rank of its was killed: its end
+// waits for a lock in memory that it has freed.
+End wait_for_end(pid_t process, const std::filesystem::path& film, double patience_s) {
+  bool is_missed = false;  // it was written, and is not any more
+  Clock::time_point last_written;
+  StoppedWriter writer(film, patience_s);
+  End end;
+  while (::waitpid(process, &end.status, WNOHANG) == 0) {
+    writer.kill_where_it_stays_so();
     if (is_being_written(film)) {
+      end.had_begun = true;
+      is_missed = true;
       last_written = Clock::now();
-    } else if (patience_s > 0 && last_written &&
-               Clock::now() - *last_written > std::chrono::duration<double>(patience_s)) {
+    } else if (patience_s > 0 && is_missed &&
+               Clock::now() - last_written > std::chrono::duration<double>(patience_s)) {
       say("vitrail: the launcher does not end though its render has: it is killed\n");
       ::kill(process, SIGKILL);
-      last_written.reset();
+      is_missed = false;
     }
     std::this_thread::sleep_for(100ms);
   }
-  return status;
+  return end;
 }
 
-int run_once(const std::vector<std::string>& command, const std::filesystem::path& film, double patience_s) {
+End run_once(const std::vector<std::string>& command, const std::filesystem::path& film, double patience_s) {
   std::vector<std::string> words = command;
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());
@@ -83,9 +118,15 @@ int run_once(const std::vector<std::string>& command, const std::filesystem::pat
   if (process < 0) throw MachineError("no process can be made");
   child = process;
   ::sigprocmask(SIG_SETMASK, &before, nullptr);
-  const int status = status_at_end(process, film, patience_s);
+  End end = wait_for_end(process, film, patience_s);
   child = 0;
-  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  end.status = WIFEXITED(end.status) ? WEXITSTATUS(end.status) : 128 + WTERMSIG(end.status);
+  return end;
+}
+
+// A launcher's own mistake: a render ends with 4, or with what its launcher makes of a signal.
+bool is_of_launcher(const End& end) {
+  return !end.had_begun && end.status != exit_machine && end.status < 128;
 }
 
 bool may_be_better(int status) {
@@ -100,8 +141,15 @@ bool may_be_better(int status) {
 int supervise(const std::vector<std::string>& command, const std::filesystem::path& film, int restarts,
               double patience_s) {
   pass_signals_on();
+  int mistakes = 0;
   for (int done = 0;; ++done) {
-    const int status = run_once(command, film, patience_s);
+    const End end = run_once(command, film, patience_s);
+    const int status = end.status;
+    mistakes = is_of_launcher(end) ? mistakes + 1 : 0;
+    if (mistakes == 2 && !stopped)
+      say("vitrail: {} ended with status {} twice, before a render began: it is not started again\n",
+          command.front(), status);
+    if (mistakes == 2) return status;
     if (stopped || !may_be_better(status) || done == restarts) return status;
     const auto wait = std::min(60, 1 << std::min(done, 6)) * 1s;
     say("vitrail: the render ended with status {}; started again in {} s, {} of {} times\n", status,

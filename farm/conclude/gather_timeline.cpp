@@ -29,7 +29,7 @@ Meetings meet(Transport& transport) {
     m.came_ns = in_ns(Timeline::Clock::now());
     transport.start_round({}, {});
     while (!transport.finish_round()) {
-      if (transport.while_waiting) transport.while_waiting();
+      transport.goes_on();
       std::this_thread::yield();
     }
     m.left_ns = in_ns(Timeline::Clock::now());

@@ -12,10 +12,12 @@
 #include <cstdio>
 #include <cstring>
 #include <fstream>
+#include <optional>
 #include <string>
 #include <utility>
 
 #include "scene/system/diagnostics.h"
+#include "scene/system/underway.h"
 
 namespace vitrail {
 
@@ -40,23 +42,40 @@ std::string this_process() {
   return fmt::format("process {} on {}", ::getpid(), host.data());
 }
 
-// What has ended and is not waited for by its parent has given its locks back.
-bool lives(int process) {
+// The letter of /proc; 0 where there is no such process.
+char state_of(int process) {
   std::ifstream status(fmt::format("/proc/{}/stat", process));
   std::string text;
   std::getline(status, text);
   const std::size_t name_end = text.rfind(')');
-  return name_end != std::string::npos && text.size() > name_end + 2 && text[name_end + 2] != 'Z';
+  return name_end != std::string::npos && text.size() > name_end + 2 ? text[name_end + 2] : '\0';
+}
+
+// What has ended and is not waited for by its parent has given its locks back.
+bool lives(int process) {
+  const char state = state_of(process);
+  return state != '\0' && state != 'Z';
+}
+
+struct Holder {
+  int process = 0;
+  bool is_here = false;  // on this host
+};
+
+std::optional<Holder> parse_holder(const std::string& who) {
+  Holder found;
+  std::array<char, 128> host{}, own{};
+  ::gethostname(own.data(), own.size() - 1);
+  if (std::sscanf(who.c_str(), "process %d on %127s", &found.process, host.data()) != 2) return std::nullopt;
+  found.is_here = std::strcmp(host.data(), own.data()) == 0;
+  return found;
 }
 
 // Where the file system has no locks there is only what the file says: of this host's processes it is known
 // whether they live, others are believed to.
 bool holder_may_live(const std::string& who) {
-  int process = 0;
-  std::array<char, 128> host{}, own{};
-  ::gethostname(own.data(), own.size() - 1);
-  if (std::sscanf(who.c_str(), "process %d on %127s", &process, host.data()) != 2) return false;
-  return std::strcmp(host.data(), own.data()) != 0 || (process != ::getpid() && lives(process));
+  const std::optional<Holder> found = parse_holder(who);
+  return found && (!found->is_here || (found->process != ::getpid() && lives(found->process)));
 }
 
 std::filesystem::path lock_of(std::filesystem::path output) { return output += ".lock"; }
@@ -71,6 +90,7 @@ Taken try_to_lock(int descriptor) {
 }  // namespace
 
 OutputLock::OutputLock(const std::filesystem::path& output) : file_(lock_of(output)) {
+  const Underway underway("locking", file_);
   while (descriptor_ < 0) {
     descriptor_ = ::open(file_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
     if (descriptor_ < 0)
@@ -103,12 +123,26 @@ OutputLock::~OutputLock() {
   ::close(descriptor_);
 }
 
-bool is_being_written(const std::filesystem::path& output) {
+namespace {
+
+// What the lock's file says; "" where there is none.
+std::string written_holder(const std::filesystem::path& output) {
   const int descriptor = ::open(lock_of(output).c_str(), O_RDONLY | O_CLOEXEC);
-  if (descriptor < 0) return false;
+  if (descriptor < 0) return {};
   const std::string who = holder(descriptor);
   ::close(descriptor);
-  return holder_may_live(who);
+  return who;
+}
+
+}  // namespace
+
+bool is_being_written(const std::filesystem::path& output) { return holder_may_live(written_holder(output)); }
+
+std::optional<int> stopped_writer(const std::filesystem::path& output) {
+  const std::optional<Holder> found = parse_holder(written_holder(output));
+  if (!found || !found->is_here) return std::nullopt;
+  const char state = state_of(found->process);
+  return state == 'T' || state == 't' ? std::optional(found->process) : std::nullopt;
 }
 
 }  // namespace vitrail

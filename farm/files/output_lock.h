@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 
 namespace vitrail {
 
@@ -23,5 +24,8 @@ class OutputLock {
 // Whether a job has that lock, as far as this host can know: not where the process in the file is of this
 // host and has ended.
 bool is_being_written(const std::filesystem::path& output);
+
+// The process that has it, where that is of this host and stopped (SIGSTOP, a debugger).
+std::optional<int> stopped_writer(const std::filesystem::path& output);
 
 }  // namespace vitrail

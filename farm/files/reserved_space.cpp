@@ -16,6 +16,7 @@
 
 #include "scene/system/diagnostics.h"
 #include "scene/system/output_place.h"
+#include "scene/system/underway.h"
 
 namespace vitrail {
 
@@ -35,6 +36,7 @@ void ReservedSpace::release() {
 
 // The reason stays in errno.
 bool ReservedSpace::renew() {
+  const Underway underway("reserving room for", beside_);
   release();
   std::string name = beside_.string() + ".room-XXXXXX";
   descriptor_ = ::mkostemp(name.data(), O_CLOEXEC);
@@ -50,6 +52,7 @@ bool ReservedSpace::renew() {
 double ReservedSpace::time_to_write_s() const {
   constexpr std::size_t most_tried = 8 << 20;
   constexpr double slow_disk_s_per_byte = 1e-8;
+  const Underway underway("trying the disk of", beside_);
   const auto all = static_cast<double>(bytes_);
   if (descriptor_ < 0) return slow_disk_s_per_byte * all;
   // Nothing that a file system could pack.

@@ -10,6 +10,7 @@
 #include <system_error>
 
 #include "scene/system/diagnostics.h"
+#include "scene/system/underway.h"
 
 namespace vitrail {
 
@@ -44,6 +45,7 @@ void RayFile::open() {
 }
 
 RayFile::Place RayFile::write(const RayBatch& batch) {
+  const Underway underway("writing rays to the folder for temporary files");
   if (descriptor_ < 0) open();
   Place place{slots_, static_cast<std::uint32_t>(batch.bytes().size())};
   if (free_.empty()) {
@@ -64,6 +66,7 @@ RayFile::Place RayFile::write(const RayBatch& batch) {
 }
 
 RayBatch RayFile::read(Place place) {
+  const Underway underway("reading rays from the folder for temporary files");
   std::vector<std::byte> bytes(place.bytes);
   for (std::size_t at = 0; at < place.bytes;) {
     const ssize_t got =

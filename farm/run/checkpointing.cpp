@@ -8,6 +8,7 @@
 #include "farm/plan/ending_time.h"
 #include "farm/run/checkpoint.h"
 #include "farm/transport/agreement.h"
+#include "farm/transport/doing.h"
 #include "film/film_progress.h"
 
 namespace vitrail {
@@ -30,11 +31,10 @@ double interval_s(const RenderOptions& options) {
 }  // namespace
 
 Checkpointing::Checkpointing(Transport& transport, RankState& state, const RenderOptions& options,
-                             Patience& patience, FilmKeeper* keeper, std::string about, double time_before_s)
+                             FilmKeeper* keeper, std::string about, double time_before_s)
     : transport_(transport),
       state_(state),
       options_(options),
-      patience_(patience),
       keeper_(keeper),
       about_(std::move(about)),
       time_before_s_(time_before_s),
@@ -53,21 +53,40 @@ void Checkpointing::expect_ending(double gather_s) {
                        ending_time_s(options_, bytes, transport_.size(), write_s_, gather_s));
 }
 
+// From the job's start; 0: there is none.
+double Checkpointing::time_limit_s() const {
+  const JobResources& r = options_.resources;
+  return r.time_limit_s > 0 ? r.time_limit_s : r.stop_after_s;
+}
+
+// Half of the time at most: what is there in the end has samples.
+double Checkpointing::drain_s() const { return std::min(time_limit_s() / 2, drain_.expected_s(rays_alive_)); }
+
+bool Checkpointing::drain_is_to_be_tried() const {
+  constexpr double tried_at = 1. / 16;  // of the time
+  if (wanted_ || drain_.known() || !keeper_ || time_limit_s() == 0) return false;
+  if (state_.elapsed_s() < tried_at * time_limit_s()) return false;
+  const Locked locked(state_);
+  return state_.scheduler.residency().evictions() > 0;
+}
+
 void Checkpointing::watch_clock() {
   if (take_checkpoint_signal() && !options_.outputs.dry_run) wanted_ = true;
   if (transport_.rank() != 0) return;
   if (due_after_s_ > 0 && seconds_since(last_) >= due_after_s_) wanted_ = true;
   if (options_.outputs.after_checkpoint && has_gained_ && state_.elapsed_s() >= next_look_s_) wanted_ = true;
+  if (drain_is_to_be_tried()) wanted_ = true;
   if (options_.resources.time_limit_s > 0 && has_gained_ &&
-      seconds_since(limit_start_) + ending_s_ >= options_.resources.time_limit_s)
+      seconds_since(limit_start_) + ending_s_ + drain_s() >= options_.resources.time_limit_s)
     time_is_up_ = true;
   if (options_.resources.stop_after_s > 0 &&
-      seconds_since(options_.resources.start) >= options_.resources.stop_after_s)
+      seconds_since(options_.resources.start) + drain_s() >= options_.resources.stop_after_s)
     ask_to_stop();
 }
 
 void Checkpointing::gather() {
   const Clock::time_point begin = Clock::now();
+  now_doing("putting the film together");
   gather_film(transport_, state_.film, state_.done);
   expect_ending(seconds_since(begin));
 }
@@ -75,19 +94,21 @@ void Checkpointing::gather() {
 // Returns false where a checkpoint could not be written, which the keeper has told.
 bool Checkpointing::write(const std::filesystem::path& file, bool last) {
   const Clock::time_point begin = Clock::now();
+  if (pause_) drain_.measured(seconds_since(*pause_), alive_at_pause_);
   const double render_time_s = time_before_s_ + state_.elapsed_s();
+  now_doing("looking whether files have changed");
   agree(transport_, require_unchanged_files);
+  now_doing("putting the film together");
   gather_film(transport_, state_.film, state_.done);
+  now_doing(last ? "writing the film" : "writing a checkpoint");
   bool written = true;
   agree(transport_, [&] {
     if (transport_.rank() != 0) return;
     const FilmProgress progress = progress_of(state_.plan, state_.done, render_time_s, about_);
-    patience_.answer_during([&] {
-      if (last)
-        keeper_->write_last(file, state_.film, progress);
-      else
-        written = keeper_->write_checkpoint(file, state_.film, progress);
-    });
+    if (last)
+      keeper_->write_last(file, state_.film, progress);
+    else
+      written = keeper_->write_checkpoint(file, state_.film, progress);
     if (!last && written && options_.outputs.after_checkpoint && state_.film.samples() > 0)
       options_.outputs.after_checkpoint(file);
   });

@@ -6,8 +6,10 @@
 #include <string>
 
 #include "farm/files/film_keeper.h"
-#include "farm/run/patience.h"
+#include "farm/run/drain_time.h"
+#include "farm/run/rank_state.h"
 #include "farm/run/stats.h"
+#include "farm/transport/transport.h"
 
 namespace vitrail {
 
@@ -15,18 +17,22 @@ class Checkpointing {
  public:
   // `about`: FilmProgress's. `keeper`: on rank 0, unless it is a dry run. `time_before_s`: render time of
   // earlier runs.
-  Checkpointing(Transport& transport, RankState& state, const RenderOptions& options, Patience& patience,
-                FilmKeeper* keeper, std::string about, double time_before_s);
+  Checkpointing(Transport& transport, RankState& state, const RenderOptions& options, FilmKeeper* keeper,
+                std::string about, double time_before_s);
 
-  // Asks for a checkpoint or an end where one is due.
+  // Asks for a checkpoint or an end where one is due. Where domains come and go and time is limited, an early
+  // checkpoint measures how long the rays alive take to end; that is left before the limit.
   void watch_clock();
+  void rays_are_alive(std::int64_t rays) { rays_alive_ = rays; }
   // Items are done that were not when this run began: before that no time limit ends it.
   void has_gained() { has_gained_ = true; }
   bool wanted() const { return wanted_; }
   bool time_is_up() const { return time_is_up_; }
   // From now on the job empties, so that it can be written.
   void pause_begins() {
-    if (!pause_) pause_ = RankState::Clock::now();
+    if (pause_) return;
+    pause_ = RankState::Clock::now();
+    alive_at_pause_ = rays_alive_;
   }
   // All ranks together, while no ray is alive; no worker begins before it is written.
   void write_checkpoint();
@@ -40,11 +46,13 @@ class Checkpointing {
   bool write(const std::filesystem::path& file, bool last);
   void expect_ending(double gather_s);
   void work_goes_on(bool written);
+  double time_limit_s() const;
+  double drain_s() const;
+  bool drain_is_to_be_tried() const;
 
   Transport& transport_;
   RankState& state_;
   const RenderOptions& options_;
-  Patience& patience_;
   FilmKeeper* keeper_;
   std::string about_;
   double time_before_s_;
@@ -55,7 +63,9 @@ class Checkpointing {
   double due_after_s_;  // since the last one; 0: never
   // Since the start, where somebody looks at checkpoints: soon, then after twice the time and so on.
   double next_look_s_ = 0.25;
-  std::optional<RankState::Clock::time_point> pause_;    // since when the job empties
+  std::optional<RankState::Clock::time_point> pause_;  // since when the job empties
+  DrainTime drain_;
+  std::int64_t rays_alive_ = 0, alive_at_pause_ = 0;
   std::uint64_t checkpoints_ = 0;                        // written or tried
   double checkpoints_s_ = 0, longest_checkpoint_s_ = 0;  // from the pause until work goes on
 };

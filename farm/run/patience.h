@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// How long ranks wait for each other: who does not answer is named, and the job ends.
+// How long ranks wait for each other: who does not answer is named, and the job ends. From the start of the
+// job to its end, whatever ranks do meanwhile.
 #pragma once
 
-#include <functional>
+#include <chrono>
+#include <string>
+#include <vector>
 
-#include "farm/run/rank_state.h"
+#include "farm/run/watchdog.h"
 #include "farm/scheduler/watch.h"
 #include "farm/transport/transport.h"
 
@@ -12,27 +15,35 @@ namespace vitrail {
 
 class Patience {
  public:
-  // While it lives the transport's own waits are watched too.
-  Patience(Transport& transport, const RankState& state, double patience_s);
+  // To be made by all ranks together. Words are heard, and answered, in every wait of the transport; what
+  // takes a while is done beside it (transport/agreement.h).
+  Patience(Transport& transport, Watchdog& watchdog, double patience_s);
   ~Patience();
   Patience(const Patience&) = delete;
   Patience& operator=(const Patience&) = delete;
 
-  // A round, or a step that all take together.
-  void round_begins() { watch_.round_begins(state_.elapsed_s()); }
-  void round_ends() { watch_.round_ends(); }
-  // Answers those that ask whether this rank is well, and asks itself where a round does not end.
-  void watch();
-  // Does what may take longer than the others have patience with a rank, and answers them meanwhile.
-  void answer_during(const std::function<void()>& work);
+  // The last step of a rank: waits for the others. One that has `failed`, and told nobody else, is not waited
+  // for by those that still work: they end the job.
+  void leave(bool failed);
 
  private:
+  void watch();
+  void answer();
+  double now_s();
+  void learn_names();
+  std::string name(int rank) const;
   void give_up();
+  void end_job();
 
   Transport& transport_;
-  const RankState& state_;
+  Watchdog& watchdog_;
   double patience_s_;
   Watch watch_;
+  bool leaving_ = false, failed_ = false;
+  std::vector<std::string> names_;  // "node7, process 1234", by rank; empty until all have told theirs
+  // A clock that stands still while this rank does: where all of a job was suspended nobody is missing.
+  double now_s_ = 0;
+  std::chrono::steady_clock::time_point looked_ = std::chrono::steady_clock::now();
 };
 
 }  // namespace vitrail

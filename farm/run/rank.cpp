@@ -7,6 +7,8 @@
 
 #include "farm/files/signals.h"
 #include "farm/transport/agreement.h"
+#include "farm/transport/doing.h"
+#include "scene/system/say.h"
 
 namespace vitrail {
 
@@ -64,19 +66,19 @@ Rank::Rank(Transport& transport, RankState& state, const RenderOptions& options,
       progress_(options, transport.rank(), state.film, expected_samples(state.film, goal_)),
       phases_(state, {transport.rank(), transport.size()}, std::move(earlier.done)),
       exchange_(transport, state, phases_, job.plan.queues.being_sent),
-      patience_(transport, state, options.resources.patience_s),
-      checkpointing_(transport, state, options, patience_, job.keeper.get(), std::move(about),
-                     earlier.render_time_s) {}
+      checkpointing_(transport, state, options, job.keeper.get(), std::move(about), earlier.render_time_s),
+      stall_(options.resources.patience_s) {}
 
 Ending Rank::run() {
   Nap nap;
   const std::chrono::duration<double> round_interval(round_interval_s(transport_.size()));
   Clock::time_point last_round;
   bool in_round = false;
+  now_doing("tracing rays");
   for (;;) {
     bool moved = exchange_.move();
     checkpointing_.watch_clock();
-    patience_.watch();
+    transport_.goes_on();
     if (in_round) {
       if (const auto round = transport_.finish_round()) {
         in_round = false;
@@ -100,31 +102,43 @@ void Rank::join_round() {
   mine.interrupted = stop_signal() == SIGINT;
   mine.terminated = stop_signal() == SIGTERM;
   mine.time_is_up = checkpointing_.time_is_up();
+  mine.working = !state_.scheduler.all_workers_wait() || state_.loads_under_way > 0;
   if (state_.failure) (is_bad_input(state_.failure) ? mine.bad_input : mine.machine_failure) = 1;
   const TraceCounters& c = state_.work.counters;
   mine.samples = static_cast<std::int64_t>(c.rays_camera);
   mine.items_done += phases_.items_done_before();
   mine.rays_traced = static_cast<std::int64_t>(c.rays_camera + c.rays_indirect + c.rays_shadow);
   transport_.start_round(mine, report);
-  patience_.round_begins();
 }
 
 // How the render ends, where it does.
 std::optional<Ending> Rank::after_round(const Round& round) {
-  patience_.round_ends();
   progress_.show(round);
   const Decision decision = decide(round);
-  if (decision == Decision::go_on) return std::nullopt;
-  patience_.round_begins();  // what follows is done by all together
+  if (decision == Decision::go_on) {
+    watch_for_stall(round.sums);
+    return std::nullopt;
+  }
   const std::optional<Ending> ending = act_on(decision, round.sums);
-  patience_.round_ends();
+  now_doing("tracing rays");
   return ending;
+}
+
+void Rank::watch_for_stall(const RoundSums& sums) {
+  if (!stall_.seen(sums, state_.elapsed_s()) || transport_.rank() != 0) return;
+  say("vitrail: no rank has had anything to do for {} s (--patience), while {} rays are alive: what was sent "
+      "does not arrive; the job ends: its last checkpoint is not lost, and the same command goes on from "
+      "there\n",
+      options_.resources.patience_s, sums.born - sums.died);
+  constexpr int machine_failed = 4;
+  transport_.abandon(machine_failed);
 }
 
 // The same on every rank, since the sums are.
 Rank::Decision Rank::decide(const Round& round) {
   const RoundSums& sums = round.sums;
   if (phases_.any_done(sums)) checkpointing_.has_gained();
+  checkpointing_.rays_are_alive(sums.born - sums.died);
   if (sums.pause > 0) checkpointing_.pause_begins();
   if (sums.bad_input + sums.machine_failure > 0) leave_failed(sums);
   auto quiet = Scheduler::Decision::go_on;
@@ -191,14 +205,12 @@ void Rank::leave_failed(const RoundSums& failures) {
     mine.born = static_cast<std::int64_t>(exchange_.messages());
     mine.died = static_cast<std::int64_t>(exchange_.received());
     transport_.start_round(mine, {});
-    patience_.round_begins();
     std::optional<Round> round;
     while (!(round = transport_.finish_round())) {
-      patience_.watch();
+      transport_.goes_on();
       exchange_.drop_arrivals();
       std::this_thread::sleep_for(Nap::shortest);
     }
-    patience_.round_ends();
     all_arrived = round->sums.born == round->sums.died;
   }
   std::exception_ptr own;

@@ -6,9 +6,9 @@
 #include "farm/plan/job.h"
 #include "farm/run/checkpointing.h"
 #include "farm/run/exchange.h"
-#include "farm/run/patience.h"
 #include "farm/run/phases.h"
 #include "farm/run/progress.h"
+#include "farm/scheduler/stall.h"
 
 namespace vitrail {
 
@@ -34,6 +34,7 @@ class Rank {
   Decision decide(const Round& round);
   std::optional<Ending> act_on(Decision decision, const RoundSums& sums);
   std::optional<Ending> begin_next_round(Ending stop);
+  void watch_for_stall(const RoundSums& sums);
   [[noreturn]] void leave_failed(const RoundSums& sums);
   Ending ending_of(const RoundSums& sums) const;
 
@@ -44,8 +45,8 @@ class Rank {
   Progress progress_;
   Phases phases_;
   Exchange exchange_;
-  Patience patience_;
   Checkpointing checkpointing_;
+  Stall stall_;
   RankState::Clock::time_point last_counters_;
 };
 

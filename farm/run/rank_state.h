@@ -56,6 +56,7 @@ struct RankState {
   std::vector<std::uint64_t> done;
   std::optional<PhotonWork> photons;  // while they fly, the share is of their chunks
   RankWork work;
+  int loads_under_way = 0;
   bool finished = false;
   std::exception_ptr failure;
 

@@ -10,6 +10,7 @@
 #include "farm/run/tasks.h"
 #include "scene/system/diagnostics.h"
 #include "scene/system/resource_usage.h"
+#include "scene/system/underway.h"
 
 namespace vitrail {
 
@@ -131,6 +132,7 @@ void work(RankState& s, int thread) {
     Clock::time_point begin;
     double busy_s = 0;
     locked.without([&] {
+      const Underway underway("tracing rays");
       begin = Clock::now();
       busy_s = trace(s, task, hands);
     });
@@ -161,7 +163,9 @@ void load(RankState& s, int thread) {
     }
     Clock::time_point start, end;
     std::shared_ptr<const LoadedDomain> loaded;
+    ++s.loads_under_way;
     locked.without([&] {
+      const Underway underway("loading a domain");
       start = Clock::now();
       loaded = s.domains.load(*reservation);
       end = Clock::now();
@@ -170,6 +174,7 @@ void load(RankState& s, int thread) {
     if (s.work.timeline)
       s.work.timeline->add(Timeline::Kind::load, thread, start, end,
                            {reservation->load.domain, bytes_of(reservation->load, s.scene.manifest)});
+    --s.loads_under_way;
     s.domains.insert(reservation->load.domain, std::move(loaded));
     s.scheduler.loaded(reservation->load.domain);
     s.work_available.notify_all();

@@ -23,7 +23,8 @@ struct RoundSums {
   std::int64_t samples = 0;
   std::int64_t rays_traced = 0;
   std::int64_t domain_loads = 0;
-  std::int64_t idle = 0;  // 1: has nothing to do, and no item left
+  std::int64_t idle = 0;     // 1: has nothing to do, and no item left
+  std::int64_t working = 0;  // 1: a worker or a loader has something in hand
 };
 // What each rank tells all others beside.
 struct RankReport {

@@ -54,6 +54,7 @@ class Scheduler {
   void worker_waits() { ++workers_waiting_; }
   void worker_wakes() { --workers_waiting_; }
   int workers_waiting() const { return workers_waiting_; }
+  bool all_workers_wait() const { return workers_waiting_ == job_.workers; }
 
   // --- Rays. `true`: they wait here, else for being sent to the domain's home.
   bool route(std::uint32_t domain, std::uint64_t rays);

@@ -8,12 +8,14 @@
 namespace vitrail {
 
 struct SimulationEvent {
-  // Those behind `message` alone bring nothing on.
+  // Those behind `wants_rest` alone bring nothing on.
   enum class Kind {
     task_done,
     load_done,
     message,
-    items,  // that another rank gave
+    head,        // of a message in two parts
+    wants_rest,  // of it: the sender hears that the head came
+    items,       // that another rank gave
     round_begins,
     round_ends,
     watch,
@@ -23,7 +25,7 @@ struct SimulationEvent {
   };
   Kind kind = Kind::task_done;
   int rank = 0;
-  // Of the message, the domain that was loaded, or the worker of the task; or how many items.
+  // Of the message or its head, the domain that was loaded, or the worker of the task; or how many items.
   std::uint64_t number = 0;
   double time = 0;
   std::uint64_t order = 0;  // of events at one time

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The simulation itself, over any scheduler, watch and spill, so that tests can put broken ones in their
-// place: ranks (simulated_rank.h) in a world that they share (simulated_world.h), to which one event after
-// the other happens. After each it is looked for what may never happen (invariants.h).
+// The simulation itself, over any scheduler, watch, spill and way to receive, so that tests can put broken
+// ones in their place: ranks (simulated_rank.h) in a world that they share (simulated_world.h), to which one
+// event after the other happens. After each it is looked for what may never happen (invariants.h).
 #pragma once
 
 #include <fmt/format.h>
@@ -9,19 +9,31 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "farm/scheduler/spill.h"
+#include "farm/scheduler/stall.h"
 #include "farm/simulator/simulated_rank.h"
 #include "farm/simulator/simulated_rounds.h"
 
 namespace vitrail {
 
-template <class SchedulerType, class WatchType = Watch, class SpillType = Spill>
+// How a rank receives a message whose head has come: it goes on meanwhile, or waits for the rest.
+struct ReceivesBeside {
+  static constexpr bool waits = false;
+};
+
+template <class SchedulerType, class WatchType = Watch, class SpillType = Spill,
+          class ReceiveType = ReceivesBeside>
 class SimulatedJob {
  public:
   SimulatedJob(const Workload& workload, const Machine& machine, const Mishaps& mishaps, std::uint64_t seed)
-      : world_(workload, machine, mishaps, seed), rounds_(machine.ranks), kept_(mishaps.kept) {
+      : world_(workload, machine, mishaps, seed),
+        rounds_(machine.ranks),
+        stall_(machine.patience_s),
+        waiting_(static_cast<std::size_t>(machine.ranks)),
+        kept_(mishaps.kept) {
     const Homes homes = machine.homes ? *machine.homes : homes_by_bytes(workload.manifest, machine.ranks);
     const auto ranks = static_cast<std::uint64_t>(machine.ranks);
     ranks_.reserve(ranks);
@@ -43,7 +55,7 @@ class SimulatedJob {
   SimulationResult run() {
     try {
       start();
-      while (ended_ < ranks_.size() && world_.result.silent.empty()) take_event();
+      while (ended_ < ranks_.size() && world_.result.silent.empty() && !world_.result.stalled) take_event();
       return conclude();
     } catch (const InvariantBroken& what) {
       throw InvariantBroken(fmt::format("at {:.6f} s, event {}: {}", world_.machine.now_s(),
@@ -77,9 +89,27 @@ class SimulatedJob {
       if (std::isfinite(r.silence.to_s)) world_.events.at(r.silence.to_s, e);
       return;
     }
+    if (ReceiveType::waits && waits(e)) return;
     happen(r, e);
     r.check();
     check_progress(e);
+  }
+
+  // Whether the rank is inside a receive: what comes for it waits too.
+  bool waits(const Event& e) {
+    Waiting& w = waiting_[static_cast<std::size_t>(e.rank)];
+    if (!w.message) {
+      if (e.kind == Event::Kind::head) w.message = e.number;
+      return false;
+    }
+    if (e.kind == Event::Kind::wants_rest) return false;  // MPI sends while it waits
+    if (e.kind != Event::Kind::message || e.number != *w.message) {
+      w.events.push_back(e);
+      return true;
+    }
+    w.message.reset();
+    for (const Event& held : std::exchange(w.events, {})) world_.events.at(e.time, held);
+    return false;
   }
 
   void happen(Rank& r, const Event& e) {
@@ -93,6 +123,10 @@ class SimulatedJob {
         return r.finish_load(static_cast<std::uint32_t>(e.number));
       case Event::Kind::message:
         return r.receive(world_.messages.extract(e.number).mapped());
+      case Event::Kind::head:
+        return r.ask_for_rest(e.number);
+      case Event::Kind::wants_rest:
+        return r.send_rest(e.number);
       case Event::Kind::items:
         return r.take_items(e.number);
       case Event::Kind::round_begins:
@@ -113,7 +147,7 @@ class SimulatedJob {
 
   // A message, a load or a task always leads to another event; only rounds can go on for ever.
   void check_progress(const Event& e) {
-    if (e.kind <= Event::Kind::message) ++progress_;
+    if (e.kind <= Event::Kind::wants_rest) ++progress_;
     if (e.kind != Event::Kind::round_ends || e.rank != 0) return;
     rounds_without_progress_ = progress_ == progress_then_ ? rounds_without_progress_ + 1 : 0;
     progress_then_ = progress_;
@@ -128,6 +162,7 @@ class SimulatedJob {
     mine.items_done += static_cast<std::int64_t>(r.items_before);
     mine.pause = r.wants_checkpoint;
     mine.machine_failure = r.failed;
+    mine.working = r.is_working();
     r.watch.round_begins();
     if (!rounds_.join(r.round, r.number(), mine, r.scheduler.report())) return;
     ++world_.result.rounds;
@@ -146,9 +181,10 @@ class SimulatedJob {
       ++failed_[r.round];
       return end(r);
     }
-    if (r.scheduler.decide(sums) != Scheduler::Decision::all_quiet)
+    if (r.scheduler.decide(sums) != Scheduler::Decision::all_quiet) {
+      if (r.number() == 0) world_.result.stalled = stall_.seen(sums, world_.machine.now_s());
       r.give_items();
-    else if (!goes_on_after_quiet(r, sums))
+    } else if (!goes_on_after_quiet(r, sums))
       return end(r);
     r.wake_workers();
     world_.events.at(world_.machine.now_s() + world_.machine.costs().round_interval_s * world_.machine.late(),
@@ -204,6 +240,11 @@ class SimulatedJob {
       invariant::check_silent(rank, ranks_[static_cast<std::size_t>(rank)].silence, world_.mishaps,
                               world_.machine);
     if (!world_.result.silent.empty()) return world_.result;
+    if (world_.result.stalled) {
+      if (!world_.mishaps.lost_message || *world_.mishaps.lost_message >= world_.result.messages)
+        invariant::broken("nothing was lost, and it was given up as if something were");
+      return world_.result;
+    }
     if (world_.result.failed) {
       invariant::check_agreement(failed_, ranks_.size(), "ended because of a disk");
       return world_.result;
@@ -241,7 +282,13 @@ class SimulatedJob {
   SimulatedWorld world_;
   std::vector<Rank> ranks_;
   SimulatedRounds rounds_;
-  std::size_t ended_ = 0;  // ranks
+  Stall stall_;
+  struct Waiting {
+    std::optional<std::uint64_t> message;
+    std::vector<Event> events;
+  };
+  std::vector<Waiting> waiting_;  // by rank
+  std::size_t ended_ = 0;         // ranks
   std::uint64_t progress_ = 0, progress_then_ = 0, rounds_without_progress_ = 0;
   KeptWork kept_;                                // what a checkpoint holds that is being written
   std::optional<std::uint64_t> quiet_round_;     // the last that found that all was quiet

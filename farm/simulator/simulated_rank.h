@@ -99,6 +99,14 @@ class SimulatedRank {
     wake_workers();
   }
 
+  // Of a message in two parts.
+  void ask_for_rest(std::uint64_t message) {
+    world_.send({SimulationEvent::Kind::wants_rest, world_.routes.at(message).from, message});
+  }
+  void send_rest(std::uint64_t message) {
+    world_.send({SimulationEvent::Kind::message, world_.routes.extract(message).mapped().to, message});
+  }
+
   void give_items() {
     for (const auto& [to, count] : scheduler.give_items())
       world_.send({SimulationEvent::Kind::items, to, count});
@@ -121,6 +129,7 @@ class SimulatedRank {
   }
 
   int number() const { return number_; }
+  bool is_working() const { return !scheduler.all_workers_wait() || !memory_.loads().empty(); }
   bool has_open_item() const { return item_at_ != 0; }
   const Busy& busy() const { return busy_; }
   std::uint64_t most_bytes() const { return memory_.most_bytes(); }
@@ -233,7 +242,12 @@ class SimulatedRank {
     const double until_s = world_.machine.send(number_, rays);
     const std::uint64_t number = world_.result.messages++;
     world_.messages.emplace(number, std::move(message));
-    world_.events.at(until_s + world_.machine.latency_s(), {SimulationEvent::Kind::message, to, number});
+    const double arrives_s = until_s + world_.machine.latency_s();
+    if (number == world_.mishaps.lost_message) return;
+    if (world_.mishaps.in_two_parts) world_.routes.emplace(number, SimulatedWorld::Route{number_, to});
+    world_.events.at(arrives_s, {world_.mishaps.in_two_parts ? SimulationEvent::Kind::head
+                                                             : SimulationEvent::Kind::message,
+                                 to, number});
   }
 
   void note_most() { world_.result.most_on_a_rank = std::max(world_.result.most_on_a_rank, rays_); }

@@ -14,6 +14,7 @@ void add(RoundSums& to, const RoundSums& from) {
   to.died += from.died;
   to.quiet += from.quiet;
   to.idle += from.idle;
+  to.working += from.working;
   to.machine_failure += from.machine_failure;
   to.pause += from.pause;
   to.items_done += from.items_done;

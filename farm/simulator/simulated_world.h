@@ -30,8 +30,12 @@ struct SimulatedWorld {
   RayFlow flow;
   EventQueue events;
   std::map<std::uint64_t, SimulatedMessage> messages;  // under way, by number
-  std::uint64_t alive = 0;                             // rays
-  std::uint64_t generated = 0;                         // camera rays, of tasks that are done
+  struct Route {
+    int from = 0, to = 0;
+  };
+  std::map<std::uint64_t, Route> routes;  // of those in two parts
+  std::uint64_t alive = 0;                // rays
+  std::uint64_t generated = 0;            // camera rays, of tasks that are done
   SimulationResult result;
 };
 

@@ -65,6 +65,10 @@ struct Mishaps {
   double slow_rank = 1;           // a rank whose work takes so many times as long
   std::vector<Silence> silences;  // at most one a rank
   DiskError disk_error;
+  // Messages come in two parts: the head, and when the sender has heard that it came, the rest.
+  bool in_two_parts = false;
+  // The number of a message, from 0, that never arrives.
+  std::optional<std::uint64_t> lost_message;
   KeptWork kept;  // of an earlier run: this one goes on from there
 };
 
@@ -89,6 +93,7 @@ struct SimulationResult {
   std::uint64_t most_on_a_rank = 0;  // rays that wait on one
   std::vector<int> silent;           // the job ended because these did not answer
   bool failed = false;               // it ended because of a disk
+  bool stalled = false;              // it ended because nobody had anything to do
   KeptWork kept;                     // in its last checkpoint
 };
 

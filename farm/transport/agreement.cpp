@@ -1,29 +1,48 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "farm/transport/agreement.h"
 
-#include "scene/system/diagnostics.h"
-
 #include <chrono>
+#include <future>
 #include <thread>
 
+#include "farm/transport/doing.h"
+#include "scene/system/diagnostics.h"
+#include "scene/system/underway.h"
+
 namespace vitrail {
+
+void beside(Transport& transport, const std::function<void()>& step) {
+  using namespace std::chrono_literals;
+  const auto watched = [&] {
+    const Underway underway(doing());
+    step();
+  };
+  if (transport.size() == 1) return watched();
+  std::future<void> working = std::async(std::launch::async, watched);
+  while (working.wait_for(1ms) != std::future_status::ready) transport.goes_on();
+  working.get();
+}
+
+Round wait_for_round(Transport& transport) {
+  std::optional<Round> round;
+  while (!(round = transport.finish_round())) {
+    transport.goes_on();
+    std::this_thread::sleep_for(std::chrono::microseconds(100));
+  }
+  return *round;
+}
 
 void agree(Transport& transport, const std::function<void()>& step) {
   std::exception_ptr failure;
   try {
-    step();
+    beside(transport, step);
   } catch (...) {
     failure = std::current_exception();
   }
   RoundSums mine;
   if (failure) (is_bad_input(failure) ? mine.bad_input : mine.machine_failure) = 1;
   transport.start_round(mine, {});
-  std::optional<Round> round;
-  while (!(round = transport.finish_round())) {
-    if (transport.while_waiting) transport.while_waiting();
-    std::this_thread::sleep_for(std::chrono::microseconds(100));
-  }
-  const RoundSums& sums = round->sums;
+  const RoundSums sums = wait_for_round(transport).sums;
   if (sums.bad_input + sums.machine_failure > 0) leave(failure, sums);
 }
 

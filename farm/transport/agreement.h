@@ -16,8 +16,15 @@ struct OtherRankFailed : std::runtime_error {
   bool bad_input;
 };
 
-// Runs `step` on every rank and waits for all. If it failed anywhere, the ranks where it did throw what
-// happened, the others OtherRankFailed.
+// Runs what may take longer than others have patience, in a thread of its own where there are other ranks:
+// the transport's words are heard meanwhile. It must not use the transport.
+void beside(Transport& transport, const std::function<void()>& step);
+
+// Waits for the round that this rank has joined.
+Round wait_for_round(Transport& transport);
+
+// Runs `step` on every rank, beside the transport, and waits for all. If it failed anywhere, the ranks where
+// it did throw what happened, the others OtherRankFailed.
 void agree(Transport& transport, const std::function<void()>& step);
 
 // Throws `own` where it is set, OtherRankFailed elsewhere.

@@ -44,8 +44,11 @@ class MpiTransport final : public Transport {
     MPI_Type_contiguous(2, MPI_UINT64_T, &wide_sum_);
     MPI_Type_commit(&wide_sum_);
     MPI_Op_create(add_wide_sums, /*commute=*/1, &add_wide_sums_);
+    listen();
   }
   ~MpiTransport() override {
+    MPI_Cancel(&hearing_);
+    MPI_Request_free(&hearing_);
     MPI_Op_free(&add_wide_sums_);
     MPI_Type_free(&wide_sum_);
     MPI_Finalize();
@@ -68,18 +71,20 @@ class MpiTransport final : public Transport {
     return bytes;
   }
 
+  // A message that begins to arrive is received beside others: its sender may take long to send the rest, or
+  // be stopped before it does.
   std::optional<Message> receive() override {
     complete_sends();
-    int arrived = 0;
-    MPI_Message message;
-    MPI_Status status;
-    MPI_Improbe(MPI_ANY_SOURCE, tag_of_rays, MPI_COMM_WORLD, &arrived, &message, &status);
-    if (!arrived) return std::nullopt;
-    int bytes = 0;
-    MPI_Get_count(&status, MPI_BYTE, &bytes);
-    std::vector<std::byte> buffer(static_cast<std::size_t>(bytes));
-    MPI_Mrecv(buffer.data(), bytes, MPI_BYTE, &message, MPI_STATUS_IGNORE);
-    return Message{status.MPI_SOURCE, std::move(buffer)};
+    begin_to_receive();
+    for (auto r = receiving_.begin(); r != receiving_.end(); ++r) {
+      int done = 0;
+      MPI_Test(&r->request, &done, MPI_STATUS_IGNORE);
+      if (!done) continue;
+      Message message{r->from, std::move(r->bytes)};
+      receiving_.erase(r);
+      return message;
+    }
+    return std::nullopt;
   }
 
   void start_round(const RoundSums& mine, const RankReport& report) override {
@@ -99,7 +104,7 @@ class MpiTransport final : public Transport {
   }
 
   void say(int to, Word word) override {
-    static constexpr Word words[] = {Word::are_you_there, Word::here};
+    static constexpr Word words[] = {Word::are_you_there, Word::here, Word::failed};
     MPI_Request request;
     MPI_Isend(&words[static_cast<std::size_t>(word)], 1, MPI_BYTE, to, tag_of_words, MPI_COMM_WORLD,
               &request);
@@ -109,16 +114,22 @@ class MpiTransport final : public Transport {
   std::optional<std::pair<int, Word>> hear() override {
     int arrived = 0;
     MPI_Status status;
-    MPI_Iprobe(MPI_ANY_SOURCE, tag_of_words, MPI_COMM_WORLD, &arrived, &status);
+    MPI_Test(&hearing_, &arrived, &status);
     if (!arrived) return std::nullopt;
-    Word word{};
-    MPI_Recv(&word, 1, MPI_BYTE, status.MPI_SOURCE, tag_of_words, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
-    return std::pair{status.MPI_SOURCE, word};
+    const std::pair heard{status.MPI_SOURCE, word_};
+    listen();
+    return heard;
   }
 
   void abandon(int status) override {
     MPI_Abort(MPI_COMM_WORLD, status);
     std::_Exit(status);
+  }
+
+  void leave() override {
+    MPI_Request request;
+    MPI_Ibarrier(MPI_COMM_WORLD, &request);
+    wait(request);
   }
 
   void sum_to_root(std::span<std::int64_t> values) override { reduce(values, MPI_INT64_T, MPI_SUM); }
@@ -136,6 +147,34 @@ class MpiTransport final : public Transport {
     MPI_Request request;
   };
 
+  struct Receiving {
+    int from;
+    std::vector<std::byte> bytes;
+    MPI_Request request;
+  };
+
+  // So much at a time, and what was begun last: their memory would not be bounded otherwise.
+  void begin_to_receive() {
+    constexpr std::size_t most_bytes = 2 << 20;
+    std::size_t held = 0;
+    for (const Receiving& r : receiving_) held += r.bytes.size();
+    while (held < most_bytes) {
+      int arrived = 0;
+      MPI_Message message;
+      MPI_Status status;
+      MPI_Improbe(MPI_ANY_SOURCE, tag_of_rays, MPI_COMM_WORLD, &arrived, &message, &status);
+      if (!arrived) return;
+      int bytes = 0;
+      MPI_Get_count(&status, MPI_BYTE, &bytes);
+      Receiving& r = receiving_.emplace_back(Receiving{
+          status.MPI_SOURCE, std::vector<std::byte>(static_cast<std::size_t>(bytes)), MPI_REQUEST_NULL});
+      held += r.bytes.size();
+      MPI_Imrecv(r.bytes.data(), bytes, MPI_BYTE, &message, &r.request);
+    }
+  }
+
+  void listen() { MPI_Irecv(&word_, 1, MPI_BYTE, MPI_ANY_SOURCE, tag_of_words, MPI_COMM_WORLD, &hearing_); }
+
   void complete_sends() {
     std::erase_if(sending_, [](Sending& s) {
       int done = 0;
@@ -144,13 +183,13 @@ class MpiTransport final : public Transport {
     });
   }
 
-  void wait(MPI_Request& request) const {
+  void wait(MPI_Request& request) {
     constexpr int quick_tests = 1000;
     int done = 0;
     for (int tests = 0;; ++tests) {
       MPI_Test(&request, &done, MPI_STATUS_IGNORE);
       if (done) return;
-      if (while_waiting) while_waiting();
+      goes_on();
       if (tests > quick_tests) std::this_thread::sleep_for(std::chrono::microseconds(20));
     }
   }
@@ -184,6 +223,9 @@ class MpiTransport final : public Transport {
 
   int rank_ = 0, size_ = 1;
   std::list<Sending> sending_;
+  std::list<Receiving> receiving_;  // as they came
+  Word word_{};                     // the next that is heard
+  MPI_Request hearing_ = MPI_REQUEST_NULL;
   RoundSums mine_, sums_;
   RankReport report_;
   std::vector<RankReport> reports_;

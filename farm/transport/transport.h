@@ -35,14 +35,21 @@ class Transport {
   virtual std::optional<Round> finish_round() = 0;
 
   // Beside rays and rounds; `hear` gives who said it. What nobody hears is lost without harm.
-  enum class Word : std::uint8_t { are_you_there, here };
+  enum class Word : std::uint8_t { are_you_there, here, failed };
   virtual void say(int to, Word word) = 0;
   virtual std::optional<std::pair<int, Word>> hear() = 0;
   // Ends all ranks at once, however they are, with this status.
-  virtual void abandon(int status) = 0;
+  [[noreturn]] virtual void abandon(int status) = 0;
 
-  // Called again and again while the following wait, so that words are heard; what it throws ends the wait.
+  // Called again and again while the following wait, and by whoever waits for a round or for work of its own,
+  // so that words are heard.
   std::function<void()> while_waiting;
+  void goes_on() const {
+    if (while_waiting) while_waiting();
+  }
+
+  // Waits until all ranks have come to it; nothing but the end follows.
+  virtual void leave() = 0;
 
   // These wait for all ranks; called when no ray is alive.
   // Elementwise sums, or maxima, into rank 0's buffer; the others' become zero.

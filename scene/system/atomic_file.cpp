@@ -13,6 +13,7 @@
 
 #include "scene/system/diagnostics.h"
 #include "scene/system/input_files.h"
+#include "scene/system/underway.h"
 
 namespace vitrail {
 
@@ -24,13 +25,23 @@ std::atomic<bool> parts_on_their_way{false};  // to the disk
   throw MachineError(fmt::format("cannot {} {}: {}", what, file.string(), std::strerror(errno)));
 }
 
+// The file that a symbolic link stands for, there or not; another file itself.
+std::filesystem::path behind_links(std::filesystem::path file) {
+  constexpr int most_links = 40;  // as Linux follows
+  std::error_code none;
+  for (int links = 0; links < most_links && std::filesystem::is_symlink(file, none); ++links)
+    file = file.parent_path() / std::filesystem::read_symlink(file);
+  return file;
+}
+
 }  // namespace
 
-AtomicFile::AtomicFile(std::filesystem::path target) : target_(std::move(target)) {
+AtomicFile::AtomicFile(std::filesystem::path target) : target_(behind_links(std::move(target))) {
   if (is_input(target_))
     throw UsageError(fmt::format("{} is read by this command, and would be written over", target_.string()));
   temporary_ = target_;
   temporary_ += fmt::format(".tmp{}", ::getpid());
+  const Underway underway("creating", temporary_);
   descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
   if (descriptor_ < 0) fail("create", temporary_);
 }
@@ -42,6 +53,7 @@ AtomicFile::~AtomicFile() {
 }
 
 void AtomicFile::write(std::span<const std::byte> bytes) {
+  const Underway underway("writing", temporary_);
   size_ += bytes.size();
   while (!bytes.empty()) {
     const ssize_t n = ::write(descriptor_, bytes.data(), bytes.size());
@@ -52,11 +64,13 @@ void AtomicFile::write(std::span<const std::byte> bytes) {
 }
 
 void AtomicFile::sync() const {
+  const Underway underway("syncing", temporary_);
   if ((parts_on_their_way.exchange(false) ? ::syncfs(descriptor_) : ::fsync(descriptor_)) != 0)
     fail("sync", temporary_);
 }
 
 void AtomicFile::rename_to_target() {
+  const Underway underway("writing", target_);
   if (::close(std::exchange(descriptor_, -1)) == 0 && std::rename(temporary_.c_str(), target_.c_str()) == 0)
     return;
   const int reason = errno;
@@ -76,7 +90,8 @@ void AtomicFile::commit_part() {
   parts_on_their_way = true;
 }
 
-void remove_temporaries(const std::filesystem::path& target) {
+void remove_temporaries(const std::filesystem::path& named) {
+  const std::filesystem::path target = behind_links(named);
   const std::string prefix = target.filename().string() + ".tmp";
   std::error_code ignored;
   const auto folder = std::filesystem::absolute(target).parent_path();
@@ -88,6 +103,7 @@ void remove_temporaries(const std::filesystem::path& target) {
 }
 
 void sync_to_disk(const std::filesystem::path& path) {
+  const Underway underway("syncing", path);
   const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (descriptor < 0) fail("open", path);
   const bool synced = ::fsync(descriptor) == 0 || errno == EINVAL;  // EINVAL: there is nothing to sync there

@@ -14,7 +14,7 @@ namespace vitrail {
 // in the same file system that speaks of them, first waits for all of them together (16,000 meshes on a busy
 // disk: 22 s in place of 150). Without a commit the destructor removes it. Every failure (no space, no
 // permission) throws MachineError with the file and the reason. A target that the program has read
-// (input_files.h) throws UsageError.
+// (input_files.h) throws UsageError. Of a symbolic link the file behind it is replaced; the link stays.
 class AtomicFile {
  public:
   explicit AtomicFile(std::filesystem::path target);

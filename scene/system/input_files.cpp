@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "scene/system/diagnostics.h"
+#include "scene/system/underway.h"
 
 namespace vitrail {
 
@@ -49,8 +50,9 @@ const char* kind_of(mode_t mode) {
 }  // namespace
 
 // A pipe would be waited for, but for O_NONBLOCK, which changes nothing of a regular file.
-RegularFile::RegularFile(const std::filesystem::path& file)
-    : descriptor_(::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY)) {
+RegularFile::RegularFile(const std::filesystem::path& file) {
+  const Underway underway("opening", file);
+  descriptor_ = ::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
   struct stat status = {};
   if (descriptor_ < 0 || ::fstat(descriptor_, &status) != 0) {
     reason_ = errno;

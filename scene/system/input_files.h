@@ -28,7 +28,7 @@ class RegularFile {
   bool read(std::span<std::byte> to, std::uint64_t offset) const;
 
  private:
-  int descriptor_, reason_ = 0;
+  int descriptor_ = -1, reason_ = 0;
   std::uint64_t size_ = 0;
 };
 

@@ -21,8 +21,25 @@ void require_folder_of(const fs::path& file) {
         fmt::format("cannot write {}: {}: {}", file.string(), folder.string(), std::strerror(errno)));
 }
 
+namespace {
+
+// A file is first written under a name that ends with the process's number (atomic_file.h).
+constexpr const char* longest_ending = ".tmp4194304";
+
+void require_short_name(const fs::path& file) {
+  const std::string name = file.filename().string() + longest_ending;
+  const long most = ::pathconf(fs::absolute(file).parent_path().c_str(), _PC_NAME_MAX);
+  if (most < 0 || name.size() <= static_cast<std::size_t>(most)) return;
+  throw UsageError(
+      fmt::format("cannot write {}: its name is {} characters too long, as it is first written as {}",
+                  file.string(), name.size() - static_cast<std::size_t>(most), name));
+}
+
+}  // namespace
+
 void require_place(const fs::path& file) {
   require_folder_of(file);
+  require_short_name(file);
   std::error_code ignored;
   if (fs::is_directory(file, ignored))
     throw MachineError(fmt::format("cannot write {}: it is a folder", file.string()));

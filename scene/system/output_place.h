@@ -11,7 +11,8 @@ namespace vitrail {
 // for) or cannot be written to.
 void require_folder_of(const std::filesystem::path& file);
 
-// The same, and where the name is a folder's. Throws UsageError where it was read (is_input).
+// The same, and where the name is a folder's. Throws UsageError where it was read (is_input), and where the
+// name leaves no room for that of the temporary file.
 void require_place(const std::filesystem::path& file);
 
 // Throws MachineError where the disk of `file` has less than that left.

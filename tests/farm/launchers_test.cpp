@@ -141,6 +141,26 @@ TEST_F(Launchers, ALauncherThatDoesNotEndIsKilled) {
   EXPECT_EQ(hash("a.film"), hash("whole.film"));
 }
 
+// Nobody else misses a rank that is alone.
+TEST_F(Launchers, AStoppedRenderIsKilledAndBroughtBack) {
+  ASSERT_EQ(run(alone("whole.film")).status, 0);
+  Background job(alone("a.film", "--restarts 2 --patience 1"));
+  wait_for_checkpoint(job, "a.film");
+  const std::vector<pid_t> ranks = ranks_of("a.film");
+  ASSERT_EQ(ranks.size(), 1u);
+  ASSERT_EQ(::kill(ranks[0], SIGSTOP), 0);
+  EXPECT_EQ(job.wait(), 0);
+  EXPECT_EQ(hash("a.film"), hash("whole.film"));
+}
+
+TEST_F(Launchers, ALauncherThatCannotBeginIsStartedTwice) {
+  const CommandResult failed = run(alone("a.film", "--restarts 9 --launcher false"));
+  EXPECT_EQ(failed.status, 1);
+  EXPECT_THAT(failed.output, HasSubstr("started again in 1 s, 1 of 9"));
+  EXPECT_THAT(failed.output, ::testing::Not(HasSubstr("2 of 9")));
+  EXPECT_THAT(failed.output, HasSubstr("false ended with status 1 twice"));
+}
+
 TEST_F(Launchers, WhatCannotBecomeBetterIsNotStartedAgain) {
   const CommandResult bad = run(vitrail("render") + " no-such.pbrt --restarts 5");
   EXPECT_EQ(bad.status, 3);

@@ -66,6 +66,8 @@ struct Case {
           workload.manifest,
           RayProfile(workload.manifest, std::vector<std::uint64_t>(domains), seconds, {}, {}), machine.ranks);
     }
+    mishaps.in_two_parts = among(2) == 0;
+    if (among(10) == 0) mishaps.lost_message = among(30);
   }
 
   // Dead, or silent for a moment up to half again the patience.
@@ -83,14 +85,17 @@ struct Case {
 };
 
 // A job that ended because of silent ranks, or a disk, goes on from its last checkpoint without them.
-template <class SchedulerType, class WatchType = Watch, class SpillType = Spill>
+template <class SchedulerType, class WatchType = Watch, class SpillType = Spill,
+          class ReceiveType = ReceivesBeside>
 SimulationResult run(Case c, std::uint64_t seed) {
   for (;;) {
     const auto result =
-        SimulatedJob<SchedulerType, WatchType, SpillType>(c.workload, c.machine, c.mishaps, seed).run();
-    if (result.silent.empty() && !result.failed) return result;
+        SimulatedJob<SchedulerType, WatchType, SpillType, ReceiveType>(c.workload, c.machine, c.mishaps, seed)
+            .run();
+    if (result.silent.empty() && !result.failed && !result.stalled) return result;
     c.mishaps.kept = result.kept;
     c.mishaps.silences.clear();
+    c.mishaps.lost_message.reset();
     if (result.failed) c.mishaps.disk_error = {};
   }
 }
@@ -230,12 +235,13 @@ TEST(Simulation, WhoWaitsForWorkGeneratesIt) {
 }
 
 // Deliberately wrong ones: what they do is found out.
-template <class SchedulerType, class WatchType = Watch, class SpillType = Spill>
+template <class SchedulerType, class WatchType = Watch, class SpillType = Spill,
+          class ReceiveType = ReceivesBeside>
 bool is_caught(int jobs) {
   for (int seed = 1; seed <= jobs; ++seed) {
     try {
-      run<SchedulerType, WatchType, SpillType>(Case(static_cast<std::uint64_t>(seed)),
-                                               static_cast<std::uint64_t>(seed));
+      run<SchedulerType, WatchType, SpillType, ReceiveType>(Case(static_cast<std::uint64_t>(seed)),
+                                                            static_cast<std::uint64_t>(seed));
     } catch (const InvariantBroken&) {
       return true;
     }
@@ -393,6 +399,30 @@ TEST(Simulation, CatchesBrokenWatches) {
   EXPECT_TRUE((is_caught<Scheduler, WaitsForEver>(300)));
   EXPECT_TRUE((is_caught<Scheduler, AsksNobody>(2000)));
   EXPECT_TRUE((is_caught<Scheduler, ForgetsAnswers>(2000)));
+}
+
+// A rank that waits for the rest of a message does not answer, though it is well, while the sender does not.
+struct WaitsForTheRest {
+  static constexpr bool waits = true;
+};
+
+TEST(Simulation, CatchesReceivesThatWait) {
+  EXPECT_TRUE((is_caught<Scheduler, Watch, Spill, WaitsForTheRest>(2000)));
+}
+
+TEST(Simulation, ALostMessageEndsTheJob) {
+  int stalled = 0;
+  for (std::uint64_t seed = 1; seed <= 300; ++seed) {
+    Case c(seed);
+    c.mishaps.silences.clear();
+    c.mishaps.disk_error = {};
+    c.mishaps.lost_message = 0;
+    const SimulationResult result = SimulatedJob<Scheduler>(c.workload, c.machine, c.mishaps, seed).run();
+    EXPECT_EQ(result.stalled, result.messages > 0) << "VITRAIL_SIMULATION_SEED=" << seed;
+    EXPECT_EQ(result.silent, std::vector<int>{}) << "VITRAIL_SIMULATION_SEED=" << seed;
+    stalled += result.stalled;
+  }
+  EXPECT_GT(stalled, 50);
 }
 
 TEST(Simulation, CatchesBrokenSchedulers) {

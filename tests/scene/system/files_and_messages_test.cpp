@@ -11,6 +11,7 @@
 #include "scene/system/atomic_file.h"
 #include "scene/system/diagnostics.h"
 #include "scene/system/input_files.h"
+#include "scene/system/output_place.h"
 #include "scene/system/say.h"
 #include "tests/support/temporary_directory.h"
 
@@ -47,6 +48,29 @@ TEST(AtomicFile, AppearsOnCommitAlone) {
     file.commit();
   }
   EXPECT_EQ(content(directory / "a"), "new text");
+}
+
+// As redirecting a shell's output does. The first is not there before, the second is.
+TEST(AtomicFile, ReplacesWhatALinkStandsFor) {
+  const test::TemporaryDirectory directory;
+  std::filesystem::create_directory(directory / "disk");
+  std::filesystem::create_symlink("disk/film", directory / "link");
+  for (const char* text : {"first", "second"}) {
+    AtomicFile out(directory / "link");
+    write(out, text);
+    out.commit();
+    EXPECT_TRUE(std::filesystem::is_symlink(directory / "link"));
+    EXPECT_EQ(content(directory / "disk/film"), text);
+  }
+  std::ofstream(directory / "disk/film.tmp12") << "of a killed run";
+  remove_temporaries(directory / "link");
+  EXPECT_FALSE(std::filesystem::exists(directory / "disk/film.tmp12"));
+}
+
+TEST(OutputPlace, HasRoomForTheTemporaryFilesName) {
+  const test::TemporaryDirectory directory;
+  EXPECT_NO_THROW(require_place(directory / std::string(200, 'n')));
+  EXPECT_THROW(require_place(directory / std::string(250, 'n')), UsageError);
 }
 
 TEST(AtomicFile, LeavesNothingWithoutCommit) {

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "farm/run/watchdog.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <thread>
+
+#include "scene/system/underway.h"
+
+namespace vitrail {
+namespace {
+
+using namespace std::chrono_literals;
+using ::testing::ExitedWithCode;
+
+TEST(Watchdog, EndsAProcessWhoseDiskDoesNotAnswer) {
+  const std::filesystem::path file = "/scene.vit/manifest.json";
+  const auto hang = [&] {
+    Watchdog watchdog(.4);
+    watchdog.call_it("rank 1 of 4 (node7)");
+    const Underway underway("opening", file);
+    std::this_thread::sleep_for(60s);
+  };
+  EXPECT_EXIT(hang(), ExitedWithCode(4),
+              "rank 1 of 4 \\(node7\\): opening /scene.vit/manifest.json has not gone on");
+}
+
+TEST(Watchdog, EndsAProcessThatWaitsInsideMpi) {
+  const auto hang = [] {
+    Watchdog watchdog(.4);
+    watchdog.expect_reports();
+    for (;;) {  // as MPI does
+    }
+  };
+  EXPECT_EXIT(hang(), ExitedWithCode(4), "starting has not gone on for .* waits inside MPI");
+}
+
+TEST(Watchdog, WaitsForWhoGoesOn) {
+  Watchdog watchdog(.1);
+  watchdog.expect_reports();
+  const std::filesystem::path file = "/slow";
+  for (int i = 0; i < 30; ++i) {
+    const Underway underway("opening", file);
+    std::this_thread::sleep_for(10ms);
+    watchdog.report();
+  }
+  EXPECT_FALSE(watchdog.has_given_up());
+}
+
+}  // namespace
+}  // namespace vitrail
