@@ -176,7 +176,11 @@ std::filesystem::path ConvertedImages::write(const ImageTexture& texture, ImageU
   if (change.tint != RGB{1, 1, 1}) multiply(values, change.tint);
   if (change.mapping != UvMapping{}) values = mapped(values, texture, change.mapping);
   if (change.spot) values = under_spot(std::move(values), texture, *change.spot);
-  if (change.cosine_power != 0) multiply_by_cosine(values, change.cosine_power, change.half);
+  if (change.cosine_power != 0) {
+    const int finer = (511 + std::max(values.width, values.height)) / std::max(values.width, values.height);
+    if (finer > 1) values = resized(std::move(values), texture, finer * values.width, finer * values.height);
+    multiply_by_cosine(values, change.cosine_power, change.half);
+  }
   const std::filesystem::path file = new_file_();
   write_exr_image(file, values);
   return written_[key] = file;

@@ -19,7 +19,8 @@ struct ImageChange {
   UvMapping mapping;  // at (s,t) is what the texture has at mapping(s,t): turned, mirrored, repeated
   bool three_channels = false;  // also for greys
   // Times cosⁿθ of the angle from the axis at which a point of the axis sees each texel: the image is
-  // ±half.x, ±half.y wide and high at distance 1. n = 0: nothing.
+  // ±half.x, ±half.y wide and high at distance 1, with at least 512 texels along its longer side. n = 0:
+  // nothing.
   int cosine_power = 0;
   Point2d half;
   // Times this light's falloff, over the square frame of its cutoff, of at least 512 × 512 texels.

@@ -44,8 +44,6 @@ Point2d equal_area_point(Vector3d d) {
 std::size_t pixel_index(const Image& image, EnvironmentProjection projection, int x, int y) {
   const int w = image.width, h = image.height;
   if (projection == latitude_longitude) {
-    if (y < 0 || y >= h) x += w / 2;  // over the pole
-    y = y < 0 ? -1 - y : y >= h ? 2 * h - 1 - y : y;
     x = ((x % w) + w) % w;
   } else {  // each edge is folded onto itself about its middle
     if (x < 0 || x >= w) {
@@ -68,7 +66,11 @@ struct Neighbours {
 };
 
 Neighbours neighbours(const Image& image, EnvironmentProjection projection, Point2d point) {
-  const double x = point.x * image.width - 0.5, y = point.y * image.height - 0.5;
+  if (projection == equal_area) {  // the pixel that it lies in
+    const auto index = [](double at, int count) { return static_cast<int>(std::floor(at * count)); };
+    return {{pixel_index(image, projection, index(point.x, image.width), index(point.y, image.height))}, {1}};
+  }
+  const double x = point.x * image.width - 0.5, y = point.y * (image.height - 1);
   const double left = std::floor(x), top = std::floor(y), fx = x - left, fy = y - top;
   const int x0 = static_cast<int>(left), y0 = static_cast<int>(top);
   const auto pixel = [&](int dx, int dy) { return pixel_index(image, projection, x0 + dx, y0 + dy); };
@@ -79,9 +81,10 @@ Neighbours neighbours(const Image& image, EnvironmentProjection projection, Poin
 double value_at(const Image& image, const Neighbours& near, std::size_t channel) {
   double sum = 0;
   for (std::size_t i = 0; i < 4; ++i)
-    sum += near.shares[i] *
-           static_cast<double>(
-               image.values[near.pixels[i] * static_cast<std::size_t>(image.channels) + channel]);
+    if (near.shares[i] > 0)
+      sum += near.shares[i] *
+             static_cast<double>(
+                 image.values[near.pixels[i] * static_cast<std::size_t>(image.channels) + channel]);
   return sum;
 }
 
@@ -98,6 +101,11 @@ Vector3d direction_of(EnvironmentProjection projection, Point2d point) {
   return {std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)};
 }
 
+Point2d pixel_point(EnvironmentProjection projection, int width, int height, double x, double y) {
+  if (projection == equal_area) return {(x + 0.5) / width, (y + 0.5) / height};
+  return {(x + 0.5) / width, height > 1 ? std::clamp(y / (height - 1), 0.0, 1.0) : 0.5};
+}
+
 Point2d point_of(EnvironmentProjection projection, Vector3d d) {
   if (projection == equal_area) return equal_area_point(d);
   const double u = std::atan2(d.y, d.x) / (2 * pi);
@@ -110,7 +118,9 @@ double environment_lookup(const Image& image, EnvironmentProjection projection, 
 
 Image reproject(const Image& image, EnvironmentProjection from, EnvironmentProjection to) {
   constexpr int side = 4;  // samples across a pixel
-  const int height = image.height;
+  // Twice as fine: the pixels of the one lie askew on those of the other.
+  constexpr int least = 256, most = 4096;
+  const int height = std::max(std::clamp(2 * image.height, least, most), image.height);
   Image result = black_image(to == latitude_longitude ? 2 * height : height, height, image.channels);
   const auto channels = static_cast<std::size_t>(image.channels);
   std::vector<double> sum(channels);
@@ -119,9 +129,10 @@ Image reproject(const Image& image, EnvironmentProjection from, EnvironmentProje
     std::fill(sum.begin(), sum.end(), 0.0);
     double weights = 0;
     for (int s = 0; s < side * side; ++s) {
-      const Point2d point{(static_cast<double>(pixel % width) + (s % side + 0.5) / side) / result.width,
-                          (static_cast<double>(pixel / width) + (s / side + 0.5) / side) / height};
-      const double weight = density(to, point);
+      const double dx = (s % side + 0.5) / side - 0.5, dy = (s / side + 0.5) / side - 0.5;
+      const Point2d point = pixel_point(to, result.width, height, static_cast<double>(pixel % width) + dx,
+                                        static_cast<double>(pixel / width) + dy);
+      const double weight = density(to, point) + 1e-12;  // on a pole
       const Neighbours near = neighbours(image, from, point_of(from, direction_of(to, point)));
       weights += weight;
       for (std::size_t c = 0; c < channels; ++c) sum[c] += weight * value_at(image, near, c);
@@ -132,23 +143,35 @@ Image reproject(const Image& image, EnvironmentProjection from, EnvironmentProje
   return result;
 }
 
-double upward_illuminance(const Image& image, EnvironmentProjection projection) {
+namespace {
+
+// The mean of f(luminance, direction) over the sphere.
+template <class F>
+double mean_over_sphere(const Image& image, EnvironmentProjection projection, F&& f) {
   constexpr int side = 4;  // samples across a pixel
   double sum = 0, weights = 0;
-  for (std::size_t pixel = 0; pixel < image.pixels(); ++pixel) {
-    const auto width = static_cast<std::size_t>(image.width);
-    const float* rgb = &image.values[pixel * static_cast<std::size_t>(image.channels)];
-    const double y =
-        srgb_to_xyz(image.channels < 3 ? RGB{rgb[0], rgb[0], rgb[0]} : RGB{rgb[0], rgb[1], rgb[2]}).y;
-    for (int s = 0; s < side * side; ++s) {
-      const Point2d point{(static_cast<double>(pixel % width) + (s % side + 0.5) / side) / image.width,
-                          (static_cast<double>(pixel / width) + (s / side + 0.5) / side) / image.height};
+  for (int y = 0; y < side * image.height; ++y)
+    for (int x = 0; x < side * image.width; ++x) {
+      const Point2d point{(x + 0.5) / (side * image.width), (y + 0.5) / (side * image.height)};
+      const Neighbours near = neighbours(image, projection, point);
+      const auto channel = [&](std::size_t c) { return value_at(image, near, image.channels < 3 ? 0 : c); };
       const double weight = density(projection, point);
       weights += weight;
-      sum += weight * y * std::max(0.0, direction_of(projection, point).z);
+      sum += weight * f(srgb_to_xyz({channel(0), channel(1), channel(2)}).y, direction_of(projection, point));
     }
-  }
-  return weights > 0 ? 4 * pi * sum / weights : 0;
+  return weights > 0 ? sum / weights : 0;
+}
+
+}  // namespace
+
+double upward_illuminance(const Image& image, EnvironmentProjection projection) {
+  return 4 * pi * mean_over_sphere(image, projection, [](double luminance, Vector3d d) {
+           return luminance * std::max(0.0, d.z);
+         });
+}
+
+double total_flux(const Image& image, EnvironmentProjection projection) {
+  return 4 * pi * mean_over_sphere(image, projection, [](double luminance, Vector3d) { return luminance; });
 }
 
 }  // namespace vitrail

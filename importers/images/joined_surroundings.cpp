@@ -55,7 +55,7 @@ Image summed(const std::vector<Radiance>& lights, int height) {
   Image image = black_image(2 * height, height, 3);
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < image.width; ++x) {
-      const Vector3d direction = direction_of(map, {(x + 0.5) / image.width, (y + 0.5) / height});
+      const Vector3d direction = direction_of(map, pixel_point(map, image.width, height, x, y));
       float* pixel = &image.values[3 * pixel_place(x, y, image.width)];
       for (const Radiance& light : lights) {
         const RGB radiance = light(direction);

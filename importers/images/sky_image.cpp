@@ -31,7 +31,7 @@ Image sky_image(const SkyLight& light, EnvironmentLight::Projection projection, 
   Image image = black_image(width, height, 3);
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
-      const auto bands = model.sky(direction_of(projection, {(x + 0.5) / width, (y + 0.5) / height}));
+      const auto bands = model.sky(direction_of(projection, pixel_point(projection, width, height, x, y)));
       XYZ sum;
       for (std::size_t b = 0; b < sky_bands; ++b) {
         sum.x += bands[b] * colors[b].x;

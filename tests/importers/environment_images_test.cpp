@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "images/image_files.h"
+#include "importers/images/cube_faces.h"
 #include "scene/system/diagnostics.h"
 #include "tests/importers/temporary_folder.h"
 
@@ -22,14 +23,14 @@ Image image_of(EnvironmentProjection projection, int height, F&& f) {
   Image image = black_image(projection == EnvironmentProjection::equal_area ? height : 2 * height, height, 1);
   for (std::size_t pixel = 0; pixel < image.pixels(); ++pixel) {
     const auto width = static_cast<std::size_t>(image.width);
-    image.values[pixel] = static_cast<float>(
-        f(direction_of(projection, {(static_cast<double>(pixel % width) + 0.5) / image.width,
-                                    (static_cast<double>(pixel / width) + 0.5) / height})));
+    image.values[pixel] = static_cast<float>(f(direction_of(
+        projection, pixel_point(projection, image.width, height, static_cast<double>(pixel % width),
+                                static_cast<double>(pixel / width)))));
   }
   return image;
 }
 
-// ∫ L dω of what a renderer sees, which looks the image up bilinearly: over 6 × 6 points of each pixel.
+// ∫ L dω of what a renderer sees, which looks the image up: over 6 × 6 points of each pixel.
 double total(const Image& image, EnvironmentProjection projection) {
   constexpr int side = 6;
   double sum = 0, weights = 0;
@@ -75,7 +76,7 @@ TEST(EnvironmentImages, TheSquareIsOfEqualArea) {
 TEST(EnvironmentImages, LookupsGoOnAcrossTheEdges) {
   const auto smooth = [](Vector3d d) { return 2 + d.x + 0.5 * d.y * d.z; };
   for (const auto projection : projections) {
-    const Image image = image_of(projection, 64, smooth);
+    const Image image = image_of(projection, 128, smooth);
     for (int i = 0; i <= 100; ++i) {
       const double a = i / 100.0;
       for (const Point2d p : {Point2d{a, 0}, Point2d{a, 1}, Point2d{0, a}, Point2d{1, a}, Point2d{a, a}})
@@ -90,10 +91,10 @@ TEST(EnvironmentImages, ReprojectionKeepsValuesAndEnergy) {
   for (int i = 0; i < 2; ++i) {
     const auto from = projections[i], to = projections[1 - i];
     const Image source = image_of(from, 128, smooth), result = reproject(source, from, to);
-    EXPECT_EQ(result.width, to == EnvironmentProjection::equal_area ? 128 : 256);
-    const Image expected = image_of(to, 128, smooth);
+    EXPECT_EQ(result.width, to == EnvironmentProjection::equal_area ? 256 : 512);
+    const Image expected = image_of(to, 256, smooth);
     for (std::size_t p = 0; p < expected.values.size(); ++p)
-      ASSERT_NEAR(result.values[p], expected.values[p], 0.03) << p;
+      ASSERT_NEAR(result.values[p], expected.values[p], 0.04) << p;
     EXPECT_NEAR(total(result, to) / total(source, from), 1, 5e-3);
   }
 }
@@ -120,6 +121,25 @@ TEST(EnvironmentImages, Illuminance) {
                 2 * pi, 5e-3);
     EXPECT_NEAR(upward_illuminance(image_of(projection, 64, [](Vector3d d) { return 1 + d.z; }), projection),
                 pi + 2 * pi / 3, 5e-3);
+  }
+}
+
+// Every texel of every face is what the picture has there; five faces of a light that shines upwards.
+TEST(EnvironmentImages, FacesOfACube) {
+  const auto smooth = [](Vector3d d) { return 2 + d.x + 0.5 * d.y * d.z; };
+  for (const auto projection : projections) {
+    const Image picture = image_of(projection, 256, smooth);
+    const std::vector<CubeFace> faces = cube_faces(picture, projection, 3);
+    ASSERT_EQ(faces.size(), 6u);
+    for (const CubeFace& face : faces)
+      for (const auto& [x, y] : {std::pair{0, 0}, {255, 0}, {10, 240}, {128, 128}}) {
+        const Vector3d local{2 * (x + 0.5) / 256 - 1, 1 - 2 * (y + 0.5) / 256, 1};
+        EXPECT_NEAR(face.image.values.at(static_cast<std::size_t>(y * 256 + x)),
+                    smooth(normalize(transform_vector(face.to_picture, local))) / std::pow(length(local), 3),
+                    0.02);
+      }
+    const Image up = image_of(projection, 64, [](Vector3d d) { return d.z > 0.1 ? 1.0 : 0.0; });
+    EXPECT_EQ(cube_faces(up, projection, 3).size(), 5u);
   }
 }
 

@@ -10,6 +10,7 @@
 #include "importers/images/environment_images.h"
 #include "importers/images/joined_surroundings.h"
 #include "importers/mitsuba/write/write_images.h"
+#include "importers/mitsuba/write/write_projectors.h"
 #include "importers/writing/export_colors.h"
 #include "importers/writing/physical_light.h"
 #include "importers/writing/spot_falloff.h"
@@ -19,14 +20,6 @@ namespace vitrail::mitsuba_writer {
 
 namespace {
 
-// The colours of an image under D65: Mitsuba would take white for a flat spectrum.
-void add_lit_image(Context& context, Element emitter, const char* name, const SpectrumParameter& image,
-                   float scale) {
-  Element lit = add(emitter, "texture", "d65", name);
-  add_parameter(context, lit, "nested", image, Meaning::emission);
-  add_float(lit, "scale", scale);
-}
-
 // The texture that shines by itself, without D65 (scene/spectra/flat_emission.h).
 std::optional<SpectrumParameter> flat_image(const Scene& scene, const AreaLight& light) {
   const auto* id = std::get_if<Id<Texture>>(&light.radiance);
@@ -35,8 +28,6 @@ std::optional<SpectrumParameter> flat_image(const Scene& scene, const AreaLight&
   if (!factor || light.scale != 1 || multiple_of_inverse_d65(*factor) != 1.0) return std::nullopt;
   return product->first;
 }
-
-constexpr const char* brightness = "the brightness of this light";
 
 Spectrum intensity_of(Context& context, const auto& light, Point3d position) {
   const PhysicalLight physical = physical_light(context.scene, light.fading, position);
@@ -71,90 +62,12 @@ void write(Context& context, Element root, const SpotLight& light) {
   add_parameter(context, element, "texture", texture, Meaning::reflectance);
 }
 
-// The image of a light, its width ÷ height; 1 where it cannot be read.
-double aspect_of(const TintedImage& image) {
-  try {
-    const ImageLayout layout = read_image_layout(image.image.filename);
-    return static_cast<double>(layout.width) / layout.height;
-  } catch (const Error&) {
-    return 1;
-  }
-}
-
-double greatest_value(const ImageTexture& texture) {
-  const Image values = texture_values(texture, read_stored_image(texture.filename), ImageUse::light);
-  return values.values.empty() ? 0 : static_cast<double>(*std::ranges::max_element(values.values));
-}
-
-// ∫ Y dω of an image of cos³θ times the radiance, dω = cos³θ dA, over ±half at distance 1.
-double flux_of(const std::filesystem::path& file, Point2d half) {
-  const Image image = read_linear_image(file);
-  double sum = 0;
-  for (std::size_t i = 0; i + 2 < image.values.size(); i += 3)
-    sum += srgb_to_xyz({image.values[i], image.values[i + 1], image.values[i + 2]}).y;
-  return 4 * half.x * half.y * sum / static_cast<double>(std::max<std::size_t>(image.pixels(), 1));
-}
-
-// Mitsuba's projector is a camera: u = 0 on the left, at +x, and v = 0 at the top, at +y.
-Element add_projector(Element root, const ProjectionLight& light, float fov_deg) {
-  Element element = add(root, "emitter", "projector");
-  add_transform(element, light.light_to_world * scale({-1, 1, 1}));
-  add_float(element, "fov", fov_deg);
-  add_string(element, "fov_axis", "x");
-  return element;
-}
-
-// pbrt's: u = 0 at −x, and the image's upper row at +y. Mitsuba's image times π is the irradiance on a plane
-// at distance 1: the intensity times cos³θ.
-void write_intensity(Context& context, Element root, const ProjectionLight& light) {
-  const auto* texture = std::get_if<Id<Texture>>(&light.image);
-  const auto image = texture ? tinted_image(context.scene, *texture) : std::nullopt;
-  const auto* mapping = image ? std::get_if<UvMapping>(&image->image.mapping) : nullptr;
-  if (!mapping) return context.dropped("a projection light without an image");
-  const Point2d half = half_size(light, aspect_of(*image));
-  const RGB color = factor_rgb(light.scale);
-  RGB tint{image->tint.r * color.r, image->tint.g * color.g, image->tint.b * color.b};
-  try {
-    // Mitsuba cuts images at 1.
-    const double brightest = std::max({tint.r, tint.g, tint.b}) * greatest_value(image->image);
-    if (!(brightest > 0)) return context.dropped("a projection light that is black");
-    tint = {tint.r / brightest, tint.g / brightest, tint.b / brightest};
-    const ImageChange change{tint, *mapping, true, 3, half};
-    const std::filesystem::path file = context.images.write(image->image, ImageUse::light, change);
-    const std::string name = context.relative(std::filesystem::absolute(file).string());
-    const double fov_deg = std::atan(half.x) * 360 / std::numbers::pi;
-    const Element element = add_projector(root, light, static_cast<float>(fov_deg));
-    const Element lit = add(element, "texture", "d65", "irradiance");
-    add_string(add(lit, "texture", "bitmap", "nested"), "filename", name);
-    double factor = brightest / std::numbers::pi;
-    if (light.power)
-      if (const double flux = brightest * flux_of(file, half); flux > 0)
-        factor *= static_cast<double>(*light.power) * luminance(light.scale) / flux;
-    add_float(element, "scale", static_cast<float>(factor));  // rgb variants know none of a d65
-    context.approximated(
-        fmt::format("Mitsuba's projector has an image of irradiance: it is written as {}", name));
-  } catch (const Error& error) {
-    context.dropped(fmt::format("a projection light: {}", error.what()));
-  }
-}
-
 void write(Context& context, Element root, const ProjectionLight& light) {
-  if (!light.irradiance) return write_intensity(context, root, light);
-  const bool is_image = !value_of(context, light.image);
-  Element element = add_projector(root, light, light.fov_deg);
-  const auto flat = multiple_of_inverse_d65(light.scale);
-  if (is_image && !flat)
-    add_lit_image(context, element, "irradiance", light.image, 1);
-  else
-    add_parameter(context, element, "irradiance", light.image, Meaning::emission);
-  add_float(element, "scale", static_cast<float>(flat ? *flat : number_of(context, light.scale, brightness)));
+  write_projector(context, root, light);
 }
 
 void write(Context& context, Element root, const GoniometricLight& light) {
-  context.approximated("Mitsuba has no goniometric light: the same intensity in all directions");
-  if (light.power) context.dropped("the power of a goniometric light");
-  const auto& m = light.light_to_world.m;
-  write(context, root, PointLight{{m[0][3], m[1][3], m[2][3]}, light.intensity});
+  write_goniometric(context, root, light);
 }
 
 void write(Context&, Element root, const DistantLight& light) {

@@ -292,4 +292,11 @@ float constant_of(Context& context, const FloatParameter& value, const char* wha
   return static_cast<float>(mean_of(context, value));
 }
 
+void add_lit_image(Context& context, Element emitter, const char* name, const SpectrumParameter& image,
+                   float scale) {
+  Element lit = add(emitter, "texture", "d65", name);
+  add_parameter(context, lit, "nested", image, Meaning::emission);
+  add_float(lit, "scale", scale);
+}
+
 }  // namespace vitrail::mitsuba_writer

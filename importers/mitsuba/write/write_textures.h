@@ -20,4 +20,8 @@ float constant_of(Context& context, const FloatParameter& value, const char* wha
 std::optional<Spectrum> value_of(const Context& context, const SpectrumParameter& value);
 std::optional<float> value_of(const Context& context, const FloatParameter& value);
 
+// The colours of an image under D65: Mitsuba would take white for a flat spectrum.
+void add_lit_image(Context& context, Element emitter, const char* name, const SpectrumParameter& image,
+                   float scale);
+
 }  // namespace vitrail::mitsuba_writer

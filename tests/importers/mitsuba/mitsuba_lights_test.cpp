@@ -214,6 +214,39 @@ TEST_F(MitsubaLight, ProjectorsStandUpright) {
   expect_near(dark, values(emission_from_rgb({0.1, 0.1, 0.1}), pi * std::sqrt(1.5)), 5e-3);
 }
 
+// The light of all projectors is the map's in that direction, also beside the cube's edges; 5 lm/4π on the
+// mean.
+TEST_F(MitsubaLight, AGoniometricLightIsACubeOfProjectors) {
+  const auto value = [](Vector3d map) { return 1 + 0.6 * map.x + 0.3 * map.y * map.z; };  // mean 1
+  Image map = black_image(256, 128, 1);
+  constexpr auto projection = EnvironmentProjection::latitude_longitude;
+  for (int y = 0; y < map.height; ++y)
+    for (int x = 0; x < map.width; ++x)
+      map.values[static_cast<std::size_t>(y * map.width + x)] =
+          static_cast<float>(value(direction_of(projection, pixel_point(projection, 256, 128, x, y))));
+  write_exr_image(folder_ / "map.exr", map);
+  GoniometricLight light;
+  light.light_to_world = translate({0.5, 1, 2}) * rotate(1, {1, 2, 3});
+  light.filename = (folder_ / "map.exr").string();
+  light.latitude_longitude = true;
+  light.power = 5;
+  light.intensity = emission_from_rgb({0.8, 0.8, 0.8});
+  const double mean = 5 / (4 * pi);
+  for (const Vector3d d : {Vector3d{0, 0, 1}, Vector3d{0.3, -1, 0.2}, Vector3d{1, 0.98, 0.2},
+                           Vector3d{-1, 0.1, 0.97}, Vector3d{-0.2, 0.3, -1}, Vector3d{0.1, 1, -0.9}}) {
+    const Point3d p = transform_point(light.light_to_world, {d.x, d.y, d.z});
+    Json queries = Json::array();
+    for (int i = 0; i < 6; ++i)
+      queries.push_back(
+          {{"op", "light"}, {"index", i}, {"p", {p.x, p.y, p.z}}, {"wavelengths", wavelengths_nm}});
+    std::vector<double> sum(4);
+    for (const Json& one : ask(lit(light), queries))
+      for (std::size_t c = 0; c < 4; ++c) sum[c] += one["weight"][c].get<double>();
+    const Vector3d way = normalize(d);
+    expect_near(sum, values(light.intensity, mean * value({way.x, way.z, way.y}) / dot(d, d)), 1e-2);
+  }
+}
+
 // Mitsuba takes one light from all around.
 TEST_F(MitsubaLight, SeveralFromAllAroundBecomeOne) {
   Scene scene = lit(InfiniteLight{emission_from_rgb({0.6, 0.3, 0.2})});
