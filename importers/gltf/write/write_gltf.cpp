@@ -32,7 +32,7 @@ class Writer {
     note_settings();
     if (const int camera = write_camera(model_, notes_, mirror_); camera >= 0) add_root(camera);
     for (const Light& light : exposed_.lights)
-      if (const int node = write_light(model_, notes_, light, mirror_); node >= 0) add_root(node);
+      if (const int node = write_light(model_, notes_, scene_, light, mirror_); node >= 0) add_root(node);
     for (const auto& group : groups(scene_.shapes)) add_shapes(group, mirror_);
     for (const Instance& instance : scene_.instances) add_instance(instance);
     if (model_.buffers.front().data.empty()) model_.buffers.clear();

@@ -7,6 +7,7 @@
 #include "importers/gltf/write/values.h"
 #include "importers/reading/sensor_view.h"
 #include "importers/writing/export_colors.h"
+#include "importers/writing/physical_light.h"
 
 namespace vitrail::gltf {
 
@@ -37,11 +38,12 @@ Transform along(Vector3d direction) {
 }
 
 struct Punctual {
+  const Scene& scene;
   ConversionNotes& notes;
   using Result = std::optional<PunctualLight>;
 
   Result operator()(const PointLight& l) const {
-    return PunctualLight{"point", l.intensity, translate(l.position - Point3d{})};
+    return PunctualLight{"point", intensity_of(l, l.position), translate(l.position - Point3d{})};
   }
   Result operator()(const DistantLight& l) const {
     return PunctualLight{"directional", l.irradiance, along(l.direction)};
@@ -50,7 +52,9 @@ struct Punctual {
     constexpr double radians = std::numbers::pi / 180;
     notes.approximated("a spot: programs fall off between its cones as they like");
     if (l.texture) notes.dropped("the texture of a spot");
-    return PunctualLight{"spot", l.intensity, l.light_to_world * scale({1, -1, -1}),
+    const Spectrum intensity = intensity_of(l, transform_point(l.light_to_world, {0, 0, 0}));
+    if (l.tightness != 0) notes.dropped("the tightness of a spot");
+    return PunctualLight{"spot", intensity, l.light_to_world * scale({1, -1, -1}),
                          static_cast<double>(l.beam_deg) * radians,
                          std::min(static_cast<double>(l.cutoff_deg), 90.0) * radians};
   }
@@ -65,6 +69,11 @@ struct Punctual {
   Result operator()(const SkyLight&) const { return lost("a sky"); }
 
  private:
+  Spectrum intensity_of(const auto& light, Point3d position) const {
+    const PhysicalLight physical = physical_light(scene, light.fading, position);
+    if (!physical.note.empty()) notes.approximated(physical.note);
+    return physical.factor == 1 ? light.intensity : scaled(light.intensity, physical.factor);
+  }
   Result lost(const char* what) const {
     notes.dropped(std::string(what) + ": glTF has none");
     return {};
@@ -123,9 +132,10 @@ int write_camera(tinygltf::Model& model, ConversionNotes& notes, const Transform
   return add(model, std::move(node));
 }
 
-int write_light(tinygltf::Model& model, ConversionNotes& notes, const Light& light, const Transform& mirror) {
+int write_light(tinygltf::Model& model, ConversionNotes& notes, const Scene& scene, const Light& light,
+                const Transform& mirror) {
   notes.begin(RecordKind::light, light.origin);
-  const auto punctual = std::visit(Punctual{notes}, light.model);
+  const auto punctual = std::visit(Punctual{scene, notes}, light.model);
   if (!punctual) return -1;
   if (!is_rgb(punctual->emission)) notes.approximated("spectrum of a light: its colour in linear sRGB");
   const RGB c = emission_rgb(punctual->emission);

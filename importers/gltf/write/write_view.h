@@ -15,6 +15,7 @@ tinygltf::Node node_at(const Transform& to_parent);
 // Each adds a node to the model and gives its index, or −1 where glTF has no such thing. `mirror`: from the
 // Scene's world to the file's.
 int write_camera(tinygltf::Model& model, ConversionNotes& notes, const Transform& mirror);
-int write_light(tinygltf::Model& model, ConversionNotes& notes, const Light& light, const Transform& mirror);
+int write_light(tinygltf::Model& model, ConversionNotes& notes, const Scene& scene, const Light& light,
+                const Transform& mirror);
 
 }  // namespace vitrail::gltf

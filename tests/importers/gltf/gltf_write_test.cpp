@@ -131,5 +131,12 @@ TEST_F(WriteGltf, SaysWhatIsLost) {
   EXPECT_TRUE(mentions(said, "displacement"));
 }
 
+TEST_F(WriteGltf, FadingLampsAreAsBrightAtTheMiddle) {
+  Scene scene = read().scene;
+  std::get<PointLight>(scene.lights.at(0).model).fading = Fading{};
+  const Diagnostics said = write_gltf(scene, folder_ / "out.glb");
+  EXPECT_TRUE(mentions(said, "it weakens as 1/d² and not as POV-Ray's"));
+}
+
 }  // namespace
 }  // namespace vitrail::test
