@@ -4,7 +4,7 @@ include(CMakeFindDependencyMacro)
 foreach(package Threads TBB fmt nlohmann_json FastFloat pugixml ZLIB PNG OpenMesh)
   find_dependency(${package})
 endforeach()
-# Of single libraries: vitrail::tracer needs Embree, vitrail::farm MPI (and the language C), vitrail::meshes CGAL.
+# Of single libraries: vitrail::tracer needs Embree, vitrail::farm MPI (and the language C), vitrail::meshes and vitrail::solids CGAL.
 find_package(embree 3 QUIET)
 find_package(CGAL QUIET)
 get_property(vitrail_languages GLOBAL PROPERTY ENABLED_LANGUAGES)
