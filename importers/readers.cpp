@@ -12,6 +12,7 @@
 #include "importers/obj/read/obj.h"
 #include "importers/pbrt/read/pbrt.h"
 #include "importers/ply/read/ply.h"
+#include "importers/stl/read/stl.h"
 #include "scene/system/diagnostics.h"
 #include "scene/system/input_files.h"
 
@@ -38,6 +39,15 @@ ImportedScene read_ply_scene(ReadRequest request) {
   scene.meshes.push_back(request.memory.keep(
       std::move(mesh), [file] { return read_ply(file, nullptr, PlyAttributes::colors); }));
   scene.shapes.push_back({});
+  return imported;
+}
+
+ImportedScene read_stl_scene(ReadRequest request) {
+  const std::filesystem::path& file = request.file;
+  ImportedScene imported;
+  imported.scene.materials.push_back({DiffuseMaterial{}});
+  imported.scene.meshes.push_back(request.memory.keep(read_stl(file), [file] { return read_stl(file); }));
+  imported.scene.shapes.push_back({});
   return imported;
 }
 
@@ -101,6 +111,14 @@ const std::vector<Reader>& readers() {
        .gzipped = true,
        .sniff = is_ply,
        .read = read_ply_scene,
+       .adds_view = false,
+       .has_definitions = false,
+       .has_many_cameras = false},
+      {.name = "STL",
+       .suffixes = {".stl"},
+       .gzipped = true,
+       .sniff = nullptr,
+       .read = read_stl_scene,
        .adds_view = false,
        .has_definitions = false,
        .has_many_cameras = false},

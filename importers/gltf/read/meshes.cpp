@@ -58,9 +58,8 @@ std::vector<Part> Meshes::posed_parts(int index, const Pose& pose) {
 void Meshes::add_part(int index, const tinygltf::Primitive& primitive, const Pose& pose,
                       std::vector<Part>& parts) {
   const PrimitiveReader reader(document_, index, primitive);
-  for (const char* packed : {"KHR_draco_mesh_compression"})
-    if (primitive.extensions.contains(packed) && !reader.has("POSITION"))
-      reader.fail(fmt::format("{}: export without compression", packed));
+  if (primitive.extensions.contains("KHR_draco_mesh_compression") && !reader.has_data("POSITION"))
+    reader.fail("its triangles are packed by Draco alone: export without compression");
   if (!reader.has("POSITION")) return note(Fidelity::dropped, index, "a primitive without positions");
   TriangleMesh mesh;
   mesh.triangles = reader.triangles();

@@ -7,6 +7,13 @@
 
 namespace vitrail::gltf {
 
+bool PrimitiveReader::has_data(const std::string& name) const {
+  const auto& accessors = document_.model().accessors;
+  const auto at = primitive_.attributes.find(name);
+  return at != primitive_.attributes.end() &&
+         document_.element(accessors, at->second, "accessors", "meshes", mesh_).bufferView >= 0;
+}
+
 int PrimitiveReader::color_channels() const {
   const auto color = primitive_.attributes.find("COLOR_0");
   if (color == primitive_.attributes.end()) return 0;

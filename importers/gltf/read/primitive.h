@@ -17,6 +17,8 @@ class PrimitiveReader {
       : document_(document), mesh_(mesh), primitive_(primitive) {}
 
   bool has(const std::string& attribute) const { return primitive_.attributes.contains(attribute); }
+  // Whether there are numbers for it, plain ones.
+  bool has_data(const std::string& attribute) const;
   // Of COLOR_0: 3 or 4, or 0 without it.
   int color_channels() const;
 

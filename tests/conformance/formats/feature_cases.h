@@ -19,11 +19,14 @@ std::vector<PluginCase> read_cases(const std::filesystem::path& file);
 // What a table calls a parameter: "float fov".
 std::string parameter_name(const std::string& parameter);
 
-enum class SceneFormat { pbrt_v3, pbrt_v4, mitsuba_06, mitsuba_3 };
+enum class SceneFormat { pbrt_v3, pbrt_v4, mitsuba_06, mitsuba_3, gltf };
 
 // A scene in which a plugin with `parameters` is seen: a sphere of its material, or with its texture, medium,
 // light …; of "", the scene around it.
 std::string host_scene(SceneFormat format, const PluginCase& plugin, const std::string& parameters);
+
+// The same of glTF; host_scene calls it.
+std::string gltf_scene(const PluginCase& plugin, const std::string& parameters);
 
 // The files that the cases name, images apart; those of them that a reader of scenes opens.
 void write_case_files(const std::filesystem::path& folder);

@@ -32,8 +32,8 @@ enum class Verdict { exact, no_effect, approximated, dropped, refused };
 // What one step says of a scene: each message with its weight.
 using Said = std::map<std::string, Verdict>;
 
-constexpr std::array steps{"read", "rendered", "PBRT", "Mitsuba", "POV-Ray"};
-constexpr std::array<const char*, steps.size()> files{"", "", "out.pbrt", "out.xml", "out.pov"};
+constexpr std::array steps{"read", "rendered", "PBRT", "Mitsuba", "POV-Ray", "glTF"};
+constexpr std::array<const char*, steps.size()> files{"", "", "out.pbrt", "out.xml", "out.pov", "out.glb"};
 using Outcome = std::array<Said, steps.size()>;
 
 struct Tried {
@@ -50,7 +50,8 @@ class Trials {
 
   Tried of(SceneFormat format, const PluginCase& plugin, const std::string& parameters) {
     const bool pbrt = format == SceneFormat::pbrt_v3 || format == SceneFormat::pbrt_v4;
-    const fs::path file = folder_ / (pbrt ? "in.pbrt" : "in.xml");
+    const bool gltf = format == SceneFormat::gltf;
+    const fs::path file = folder_ / (pbrt ? "in.pbrt" : gltf ? "in.gltf" : "in.xml");
     std::ofstream(file) << host_scene(format, plugin, parameters);
     Tried tried;
     guard(tried.said[0], [&] {
@@ -153,7 +154,8 @@ std::string row(const std::string& name, const Tried& tried, const Tried& withou
 std::string table_of(SceneFormat format, const std::string& cases, Trials& trials, Counts& counts) {
   const Tried host = trials.of(format, {}, "");
   EXPECT_TRUE(host.scene) << "the scene around the plugins is refused: " << host.said[0].begin()->first;
-  std::string table = "| | read | rendered | → PBRT | → Mitsuba | → POV-Ray |\n|---|---|---|---|---|---|\n";
+  std::string table =
+      "| | read | rendered | → PBRT | → Mitsuba | → POV-Ray | → glTF |\n|---|---|---|---|---|---|---|\n";
   Notes notes;
   for (const PluginCase& plugin : read_cases(VITRAIL_FORMATS_DIR "/" + cases)) {
     const Tried alone = trials.of(format, plugin, "");
@@ -173,11 +175,12 @@ std::string count_line(const char* step, const std::map<Verdict, int>& counts) {
 }
 
 std::string page() {
-  constexpr std::array<std::tuple<const char*, const char*, SceneFormat>, 4> formats{{
+  constexpr std::array<std::tuple<const char*, const char*, SceneFormat>, 5> formats{{
       {"PBRT v4", "pbrt-v4.txt", SceneFormat::pbrt_v4},
       {"PBRT v3", "pbrt-v3.txt", SceneFormat::pbrt_v3},
       {"Mitsuba 3", "mitsuba-3.txt", SceneFormat::mitsuba_3},
       {"Mitsuba 0.6", "mitsuba-0.6.txt", SceneFormat::mitsuba_06},
+      {"glTF 2.0", "gltf.txt", SceneFormat::gltf},
   }};
   Trials trials;
   std::string sections, summary;

@@ -99,6 +99,8 @@ std::string host_scene(SceneFormat format, const PluginCase& plugin, const std::
       return mitsuba_scene("0.6.0", plugin, parameters);
     case SceneFormat::mitsuba_3:
       return mitsuba_scene("3.0.0", plugin, parameters);
+    case SceneFormat::gltf:
+      return gltf_scene(plugin, parameters);
   }
   return "";
 }

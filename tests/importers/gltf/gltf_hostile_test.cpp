@@ -121,6 +121,17 @@ TEST(GltfHostile, ExtensionsThatAreNeededAreRefusedByName) {
                        "VENDOR_wonder"));
 }
 
+TEST(GltfHostile, PackedMeshesAreNotReadAsZeros) {
+  GltfText file;
+  file.view("draco");
+  file.accessor(R"("componentType":5126,"type":"VEC3","count":3)");
+  EXPECT_SAYS(
+      error_of(file.text(
+          R"("meshes":[{"primitives":[{"attributes":{"POSITION":0},"extensions":{"KHR_draco_mesh_compression":{}}}]}],)" +
+          one_node)),
+      "without compression");
+}
+
 TEST(GltfHostile, BuffersThatAreMissing) {
   EXPECT_SAYS(error_of(R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":4,"uri":"none.bin"}]})"),
               "cannot open");
