@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
+#include <memory>
 
 #include "partitioner/writing/write_objects.h"
 #include "scene/system/diagnostics.h"
@@ -24,18 +26,19 @@ bool meet(const Bounds3f& a, const Bounds3f& b) {
   return true;
 }
 
+struct Closer {
+  void operator()(std::FILE* file) const { std::fclose(file); }
+};
+using Stream = std::unique_ptr<std::FILE, Closer>;
+
 }  // namespace
 
 InstanceSpill::InstanceSpill(const std::filesystem::path& directory, const std::vector<Bounds3f>& cells,
                              const Bounds3f& root, std::uint64_t buffer_bytes)
-    : parts_(cells.size()) {
+    : most_waiting_(std::max<std::uint64_t>(buffer_bytes, 4096) / sizeof(InstanceRef)), parts_(cells.size()) {
   for (std::size_t i = 0; i < cells.size(); ++i) {
-    Part& part = parts_[i];
-    part.cell = opened(cells[i], root);
-    part.file = directory / fmt::format("{:06}.instances", i);
-    part.stream.reset(std::fopen(part.file.c_str(), "w+b"));
-    if (!part.stream) fail("open", part.file);
-    std::setvbuf(part.stream.get(), nullptr, _IOFBF, std::max<std::uint64_t>(buffer_bytes, 4096));
+    parts_[i].cell = opened(cells[i], root);
+    parts_[i].file = directory / fmt::format("{:06}.instances", i);
   }
 }
 
@@ -43,22 +46,38 @@ void InstanceSpill::add(const InstanceRef& instance) {
   const Bounds3f box = padded_box(instance);
   for (Part& part : parts_) {
     if (!meet(part.cell, box)) continue;
-    if (std::fwrite(&instance, sizeof instance, 1, part.stream.get()) != 1) fail("write", part.file);
-    ++part.count;
+    part.waiting.reserve(most_waiting_);
+    part.waiting.push_back(instance);
     bytes_ += sizeof instance;
+    if (part.waiting.size() >= most_waiting_) write(part);
   }
+}
+
+void InstanceSpill::write(Part& part) {
+  const Stream out(std::fopen(part.file.c_str(), "ab"));
+  if (!out) fail("open", part.file);
+  if (std::fwrite(part.waiting.data(), sizeof(InstanceRef), part.waiting.size(), out.get()) !=
+          part.waiting.size() ||
+      std::fflush(out.get()) != 0)
+    fail("write", part.file);
+  part.in_file += part.waiting.size();
+  part.waiting.clear();
 }
 
 std::vector<InstanceRef> InstanceSpill::take(std::size_t index) {
   Part& part = parts_[index];
-  std::vector<InstanceRef> instances(part.count);
-  if (std::fflush(part.stream.get()) != 0) fail("write", part.file);
-  std::rewind(part.stream.get());
-  if (std::fread(instances.data(), sizeof(InstanceRef), part.count, part.stream.get()) != part.count)
-    fail("read", part.file);
-  part.stream.reset();
+  std::vector<InstanceRef> instances(part.in_file);
+  if (part.in_file > 0) {
+    const Stream in(std::fopen(part.file.c_str(), "rb"));
+    if (!in) fail("open", part.file);
+    if (std::fread(instances.data(), sizeof(InstanceRef), part.in_file, in.get()) != part.in_file)
+      fail("read", part.file);
+  }
+  instances.insert(instances.end(), part.waiting.begin(), part.waiting.end());
   std::error_code ignored;
   std::filesystem::remove(part.file, ignored);
+  part.waiting = {};
+  part.in_file = 0;
   return instances;
 }
 

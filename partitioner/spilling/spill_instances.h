@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Instances on their way to disk and back: a file for each part of the kd-tree that is to be in memory at
-// once.
+// once. None stays open, so there may be more parts than files that a process may have open.
 #pragma once
 
-#include <cstdio>
+#include <cstddef>
 #include <filesystem>
-#include <memory>
 #include <vector>
 
 #include "bundle/instance.h"
@@ -27,15 +26,15 @@ class InstanceSpill {
   std::uint64_t bytes() const { return bytes_; }
 
  private:
-  struct Closer {
-    void operator()(std::FILE* file) const { std::fclose(file); }
-  };
   struct Part {
     Bounds3f cell;
     std::filesystem::path file;
-    std::unique_ptr<std::FILE, Closer> stream;
-    std::uint64_t count = 0;
+    std::vector<InstanceRef> waiting;  // the last, behind those in the file
+    std::uint64_t in_file = 0;
   };
+  void write(Part& part);
+
+  std::size_t most_waiting_;  // of a part
   std::vector<Part> parts_;
   std::uint64_t bytes_ = 0;
 };

@@ -88,8 +88,9 @@ class Job:
 def named(text):
     """The ranks that messages name as those that stand still."""
     ranks = set()
-    for names in re.findall(r": ranks? (.*?) ha(?:s|ve) not answered", text):
-        ranks |= {int(r) for r in re.findall(r"(\d+) \(", names)}
+    one = r"\d+(?: \([^)]*\))?"
+    for names in re.findall(rf": ranks? ({one}(?:, {one})*) ha(?:s|ve) not answered", text):
+        ranks |= {int(r) for r in re.sub(r"\([^)]*\)", "", names).split(", ")}
     ranks |= {int(r) for r in re.findall(r"vitrail: rank (\d+) of \d+ \([^)]*\): (?!.* is stopped).* has not gone on", text)}
     for names in re.findall(r"of this host's ranks ([\d, ]+) (?:is|are) stopped", text):
         ranks |= {int(r) for r in names.split(",")}
