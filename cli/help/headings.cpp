@@ -21,8 +21,8 @@ const std::vector<Heading> of_render{
     {"On how many", "threads distribution homes=FILE patience=SECONDS"},
     {"In how much memory", "memory=SIZE"},
     {"What to write",
-     "output=FILE film=FILE preview=FILE display-server=HOST:PORT aov=LAYERS aov-space spectral=BINS "
-     "stats=FILE profile=FILE trace=FILE "
+     "output=FILE film=FILE preview=FILE display-server=HOST:PORT aov=LAYERS aov-space light-groups "
+     "light-group=NAME=LIGHTS spectral=BINS stats=FILE profile=FILE trace=FILE "
      "progress quiet"},
     {"How to sample",
      "filter=NAME[:RADIUS] splat one-sequence texture-filter roulette wavelengths light-sampling "
@@ -58,7 +58,8 @@ const std::vector<Heading> of_compare{
 const std::vector<Heading> of_develop{
     {"What to develop", "FILM=FILM layer=NAME crop=X0,X1,Y0,Y1 resize=SIZE strict"},
     {"How it looks",
-     "exposure=STOPS white-balance=KELVIN tone false-color=MAXIMUM log denoise find-denoiser"},
+     "groups=NAME=WEIGHT,… exposure=STOPS white-balance=KELVIN tone false-color=MAXIMUM log denoise "
+     "find-denoiser"},
     {"What to write", "output=FILE bits variance spectral quiet"},
 };
 

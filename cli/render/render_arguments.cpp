@@ -138,6 +138,14 @@ void declare_film(CLI::App& app, RenderArguments& a) {
   app.add_option("--aov-space", a.aov_space,
                  "world or camera: of positions and normals of --aov; default: as the scene says, else world")
       ->check(CLI::IsMember({"world", "camera"}));
+  app.add_flag("--light-groups", o.picture.light_groups.each,
+               "keep the light of each lamp apart in the film, by the names that inspect lists; develop "
+               "--groups weighs them; takes 48 bytes a pixel each");
+  app.add_option(
+         "--light-group", a.light_groups,
+         "NAME=LIGHT,LIGHT…: keep the light of these apart, together under this name; * stands for any "
+         "characters; lights in no group are \"others\"; may repeat")
+      ->allow_extra_args(false);
 }
 
 // How long the job takes, and how it ends and goes on.
@@ -324,6 +332,8 @@ void interpret(const CLI::App& app, RenderArguments& a) {
   if (a.bins > 0) o.picture.bins = SpectralBins{a.bins};
   if (!a.aov.empty()) o.picture.layers = parse_layers(a.aov).bits;
   if (a.denoised && a.aov.empty()) o.picture.more_layers = guiding_layers();
+  for (const std::string& text : a.light_groups)
+    o.picture.light_groups.groups.push_back(parse_light_group(text));
   if (!a.aov_space.empty()) o.picture.layers_in_camera_space = a.aov_space == "camera";
   if (app.count("--max-depth") > 0) o.picture.max_depth = a.max_depth < 0 ? unlimited_depth : a.max_depth;
   if (!a.integrator.empty())

@@ -15,7 +15,8 @@ struct RenderArguments {
   std::filesystem::path input, output, film;
   int bins = 0, max_depth = 0;
   std::string memory, crop, integrator, aov, aov_space, target_error, quality, progress = "auto";
-  std::vector<std::string> settings;  // of --set
+  std::vector<std::string> settings;      // of --set
+  std::vector<std::string> light_groups;  // of --light-group
   bool quiet = false, strict = false, denoised = false, cached = true;
   ImportArguments imports;
   std::string rgb = usual_rgb;

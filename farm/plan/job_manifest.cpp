@@ -40,9 +40,9 @@ Point3d place_of(const Camera& camera) {
 // In the place of the camera, whose own is returned. They belong to what the film is of.
 Point3d put_sensors(Manifest& m, const PictureSettings& picture) {
   if (picture.width || picture.height || picture.scale != 1 || picture.crop || picture.bins ||
-      picture.layers || picture.more_layers || picture.samples.filter)
+      picture.layers || picture.more_layers || picture.samples.filter || picture.light_groups.any())
     throw UsageError(
-        "--sensors has no picture whose size, crop, filter, spectrum or channels could be given");
+        "--sensors has no picture whose size, crop, filter, spectrum, channels or lights could be given");
   if (picture.clamp > 0)
     throw UsageError("--clamp is of pictures: it would take light from what --sensors measures");
   SensorCamera camera{translate(-m.offset), read_sensors(picture.sensors)};
@@ -183,6 +183,10 @@ FilmKey key_of(const Manifest& m, const PictureSettings& picture) {
   key.splats = picture.samples.sampling.splat;
   key.one_sequence = picture.samples.sampling.one_sequence;
   key.photons = photons_of(picture, m);
+  key.groups = group_lights(picture.light_groups, m).groups;
+  if (key.groups.any() && key.photons.photons > 0)
+    throw UsageError(
+        "photons do not tell whose light they are, which --light-groups asks for: --integrator path");
   return key;
 }
 

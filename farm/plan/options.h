@@ -6,6 +6,7 @@
 #include <functional>
 #include <optional>
 
+#include "farm/plan/grouping.h"
 #include "farm/plan/sample_choices.h"
 #include "farm/plan/set_sheets.h"
 #include "farm/scheduler/residency.h"
@@ -47,6 +48,7 @@ struct PictureSettings {
   std::optional<std::uint32_t> layers;  // bits of FilmLayers
   std::uint32_t more_layers = 0;        // the same, kept beside those
   std::optional<bool> layers_in_camera_space;
+  LightGrouping light_groups;
   std::uint64_t seed = 0;
   SampleChoices samples;
   bool adaptive = false;                    // samples go where the picture is noisy

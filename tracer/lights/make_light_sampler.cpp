@@ -93,9 +93,13 @@ struct Sorter {
   void add(Environment e) {
     if (!(e.mean_luminance > 0)) return;
     environment_power.push_back(4 * pi * e.mean_luminance * cross_section);
+    e.light = light;
     s.environments.push_back(std::move(e));
   }
-  void add(PointEmitter e) { s.emitters.push_back(std::move(e)); }
+  void add(PointEmitter e) {
+    e.light = light;
+    s.emitters.push_back(std::move(e));
+  }
 };
 
 void find_variety(std::span<const LightBounds> lights, LightSampler& s) {
