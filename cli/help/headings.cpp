@@ -14,7 +14,7 @@ constexpr Heading meshes{"What becomes of its meshes",
 const std::vector<Heading> of_render{
     {"What to render",
      "input=SCENE|BUNDLE width=PIXELS height=PIXELS scale=FACTOR crop=X0,X1,Y0,Y1 max-depth integrator "
-     "sensors=FILE set=NAME.state=X"},
+     "look-at=X,Y,Z,X,Y,Z fov=DEGREES frames=FILE sensors=FILE set=NAME.PROPERTY=VALUE"},
     {"How good", "quality spp target-error=ERROR adaptive seed clamp=RADIANCE denoise find-denoiser"},
     {"How long",
      "time=SECONDS dry-run checkpoint-every=SECONDS resume force restarts=TIMES launcher=COMMAND"},

@@ -43,7 +43,10 @@ Report describe(const Material& material, std::size_t number) {
     if ((spectrum = std::get_if<Spectrum>(&diffuse->reflectance))) of = "reflectance";
   if (const auto* dielectric = std::get_if<DielectricMaterial>(&material.model))
     spectrum = &dielectric->eta, of = "index";
-  Report row{{"number", number}, {"kind", kind_of(material.model)}, {"spectrum_of", of}};
+  Report row{{"number", number},
+             {"name", material.name.empty() ? Report(nullptr) : Report(material.name)},
+             {"kind", kind_of(material.model)},
+             {"spectrum_of", of}};
   row.update(values_of(spectrum));
   return row;
 }

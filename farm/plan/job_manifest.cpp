@@ -136,6 +136,8 @@ JobManifest read_job_manifest(const RenderOptions& options) {
   Manifest& m = read.manifest;
   if (m.domains.size() > max_domains) throw Error("more than 65535 domains", {options.bundle.string()});
   set_sheets(options.picture.sheets, options.bundle, m);
+  edit_scene(options.picture.edits, m);
+  edit_view(options.picture.view, m);
   override_settings(m, options);
   if (!options.picture.sensors.empty()) read.replaced_camera = put_sensors(m, options.picture);
   static_assert(no_limit_of_depth == max_path_depth);
