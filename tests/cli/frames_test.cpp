@@ -42,13 +42,12 @@ class Frames : public ::testing::Test {
 
 TEST_F(Frames, AreThePicturesOfTheirOptions) {
   write_frames(
-      "# a lamp, and an eye\n--set area-1.scale=.5\n\n--look-at=100,273,-800,278,273,280  # aside\n--seed 3 "
+      "# a lamp, and an eye\n--set area-1.scale=.5\n\n--look-at=.5,1.5,-2.9,0,1,0  # aside\n--seed 3 "
       "--fov 60\n");
   for (const int ranks : {1, 2}) {
     const CommandResult all = render_frames("--force", ranks);
     ASSERT_EQ(all.status, 0) << all.output;
-    const char* options[] = {"--set area-1.scale=.5", "--look-at=100,273,-800,278,273,280",
-                             "--seed 3 --fov 60"};
+    const char* options[] = {"--set area-1.scale=.5", "--look-at=.5,1.5,-2.9,0,1,0", "--seed 3 --fov 60"};
     for (int i = 0; i < 3; ++i) {
       const CommandResult one = render(fmt::format("{} -o {} --force", options[i], path("one.png")));
       ASSERT_EQ(one.status, 0) << one.output;
@@ -95,7 +94,7 @@ TEST_F(Frames, WhatIsWrongIsSaidWithItsLine) {
 
 TEST_F(Frames, OfTheExamplesAreFrames) {
   const CommandResult turned =
-      run(fmt::format("/usr/bin/python3 {}/examples/frames/turntable.py --around 278,273,280 --radius 1000 "
+      run(fmt::format("/usr/bin/python3 {}/examples/frames/turntable.py --around 0,1,0 --radius 0.9 "
                       "--up y --frames 3 > {}",
                       VITRAIL_SOURCE_DIR, path("frames.txt")));
   ASSERT_EQ(turned.status, 0) << turned.output;
